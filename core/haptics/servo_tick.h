@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/haptics/spring_law.h"
+#include "core/haptics/wrench.h"
+#include "core/math/rigid_transform.h"
+#include "core/proximity/lmd.h"
+#include "core/proximity/lmd_query.h"
+#include "core/scene/scene.h"
+
+namespace nearfit {
+
+/// What the servo thread needs of a scene: immutable, made off the servo thread, shared with no one who writes.
+/// Holds the geometry alive; must be destroyed off the servo thread.
+struct ServoScene {
+  struct Body {
+    PartId id{};
+    PartGeometryPtr geometry;
+    RigidTransform worldFromPart;
+  };
+  std::vector<Body> bodies;    ///< Visible parts other than the moving one.
+  Body moving;                 ///< geometry is null when nothing is in hand.
+  glm::dvec3 centreInPart{0.0};  ///< Centre of mass of the moving part, in its frame [m].
+};
+
+/// Throws UsageError when the scene has no moving part.
+std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene);
+
+/// Limits of what is sent to a device.
+struct WrenchLimits {
+  double maxForce = 10.0;   ///< [N]
+  double maxTorque = 1.0;   ///< [N m]
+};
+
+struct ServoParameters {
+  SpringParameters springs;
+  WrenchLimits limits;
+};
+
+enum class ServoFault : std::uint8_t { None, PoseNotFinite, WrenchNotFinite };
+
+/// Which part a minimum belongs to; the rest is in world coordinates.
+struct SnapshotLmd {
+  Lmd lmd;
+  PartId other{};
+};
+
+/// One tick as others see it; trivially copyable. All in the world frame.
+struct ServoSnapshot {
+  static constexpr std::size_t kMaxLmds = 512;
+
+  std::uint64_t tick = 0;
+  double time = 0.0;             ///< Since the servo started [s].
+  RigidTransform handle;         ///< worldFromHandle: where the device wants the part's frame.
+  RigidTransform proxy;          ///< worldFromPart: where the part is. In the direct mode the same.
+  Wrench wrench;                 ///< As sent: about the part's centre of mass, clamped.
+  Wrench unclampedWrench;
+  glm::dvec3 centre{0.0};        ///< The part's centre of mass [m].
+  double distance = 0.0;         ///< Least distance [m]; infinity when nothing is within the cutoff.
+  double queryTime = 0.0, tickTime = 0.0;  ///< [s]
+  std::uint32_t lmdCount = 0;    ///< All minima within the cutoff, also those that are not in `lmds`.
+  std::uint32_t storedLmds = 0;  ///< Entries of `lmds` in use, nearest first for each part.
+  bool isTruncated = false;
+  bool isClamped = false;
+  ServoFault fault = ServoFault::None;  ///< Latched: the wrench is zero until the servo is started anew.
+  PartId moving{};
+  std::array<SnapshotLmd, kMaxLmds> lmds{};
+};
+
+/// One servo tick: handle pose in, wrench and snapshot out. A pure function of its inputs and of the last pose
+/// (for the velocity). No clock, thread or device in here.
+class ServoTick {
+ public:
+  ServoTick();
+
+  /// Forgets velocity and fault.
+  void reset() noexcept;
+
+  /// @param scene     What to feel; stays alive during the call.
+  /// @param handle    worldFromPart wanted by the hand.
+  /// @param period    Time since the last tick [s]; > 0.
+  /// @param snapshot  Filled, but for `tick`, `time` and `tickTime`, which are the caller's.
+  /// Real-time safe.
+  void run(const ServoScene& scene, const ServoParameters& parameters, const RigidTransform& handle, double period,
+           ServoSnapshot& snapshot) noexcept;
+
+ private:
+  LmdScratch scratch_;
+  std::vector<Lmd> lmds_;
+  RigidTransform lastPose_;
+  bool hasLastPose_ = false;
+  ServoFault fault_ = ServoFault::None;
+};
+
+}  // namespace nearfit

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+
+namespace nearfit {
+
+/// Axis-aligned bounding box [m]; empty (lower > upper) until a point is added.
+struct Aabb {
+  glm::dvec3 lower{std::numeric_limits<double>::infinity()};
+  glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
+
+  void add(const glm::dvec3& p) noexcept {
+    lower = glm::min(lower, p);
+    upper = glm::max(upper, p);
+  }
+  bool isEmpty() const noexcept { return !(lower.x <= upper.x); }
+  glm::dvec3 centre() const noexcept { return lower + 0.5 * (upper - lower); }
+  /// Length of the diagonal [m]; 0 when empty.
+  double diagonal() const noexcept { return isEmpty() ? 0.0 : glm::length(upper - lower); }
+};
+
+}  // namespace nearfit

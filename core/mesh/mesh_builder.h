@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace nearfit {
+
+/// Polygons as a file has them: before welding, triangulation and cleaning. In the file's units.
+struct PolygonSoup {
+  std::vector<glm::dvec3> vertices;
+  std::vector<std::uint32_t> corners;       ///< Vertex indices of all polygons, one polygon after the other.
+  std::vector<std::uint32_t> firstCorner{0};  ///< Polygon i has corners [firstCorner[i], firstCorner[i + 1]).
+};
+
+struct MeshBuildOptions {
+  double metresPerUnit = 1.0;
+  /// Vertices closer than this fraction of the bounding box's diagonal become one. 0 welds only equal ones.
+  double weldTolerance = 1e-9;
+};
+
+/// What was done to a soup to make a mesh of it, and what is left wrong with the mesh.
+struct MeshBuildReport {
+  std::uint64_t weldedVertices = 0;
+  std::uint64_t degenerateFaces = 0;   ///< Dropped: no area, or a corner repeated.
+  std::uint64_t duplicateFaces = 0;    ///< Dropped: same corners in the same sense as another face.
+  std::uint64_t nonFiniteFaces = 0;    ///< Dropped: they use a vertex that is not finite.
+  bool turnedInsideOut = false;        ///< The closed mesh had negative volume; all its faces were turned.
+  std::vector<std::string> warnings;   ///< A sentence for each thing a user should know, with counts.
+};
+
+/// A mesh from a soup: scaled to metres, welded, polygons triangulated (concave ones too), cleaned, turned.
+/// Throws Error when nothing is left, an index is out of range, or a limit is passed.
+TriangleMesh buildMesh(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report);
+
+}  // namespace nearfit

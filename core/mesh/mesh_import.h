@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "core/mesh/mesh_builder.h"
+
+namespace nearfit {
+
+/// Called now and then during long work with the fraction done, 0 to 1. Returns false to stop the work,
+/// which then throws Cancelled. May be empty.
+using ProgressCallback = std::function<bool(double fraction)>;
+
+struct ImportedMesh {
+  TriangleMesh mesh;
+  MeshBuildReport report;
+  std::string sha256;  ///< Of the file's bytes, 64 lower-case hexadecimal digits.
+};
+
+/// Reads STL (ASCII, binary), OBJ, PLY or OFF; the format is told by content where it can be, else by name.
+/// Nothing that the file says is trusted. Memory stays within a few times the file's size.
+/// Throws FileError naming the file, the line or byte, and the remedy; Cancelled.
+ImportedMesh importMesh(const std::filesystem::path& file, const MeshBuildOptions& options,
+                        const ProgressCallback& progress = {});
+
+/// File name endings that importMesh knows, lower case without the dot.
+const std::vector<std::string>& importableExtensions();
+
+}  // namespace nearfit

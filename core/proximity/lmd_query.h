@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/math/rigid_transform.h"
+#include "core/proximity/lmd.h"
+
+namespace nearfit {
+
+class NormalConeTree;
+
+enum class QueryStatus : std::uint8_t {
+  Complete,   ///< The exact set.
+  Truncated,  ///< More minima than the caller's storage or the scratch holds: the nearest found are there.
+};
+
+struct LmdResult {
+  std::size_t count = 0;  ///< Entries of the caller's storage that were filled.
+  QueryStatus status = QueryStatus::Complete;
+  std::uint64_t nodePairs = 0;  ///< Node pairs visited.
+  std::uint64_t leafPairs = 0;  ///< Feature pairs tested exactly.
+};
+
+/// Work space of a query, allocated once; one per thread.
+class LmdScratch {
+ public:
+  LmdScratch();
+  ~LmdScratch();
+  LmdScratch(LmdScratch&&) noexcept;
+  LmdScratch& operator=(LmdScratch&&) noexcept;
+
+  struct Data;
+  Data& data() noexcept { return *data_; }
+
+ private:
+  std::unique_ptr<Data> data_;
+};
+
+/// Local minimum distances between two bodies, nearest first.
+///
+/// @param scene, part    Hierarchies of the two meshes.
+/// @param sceneFromPart  Pose of `part` in the frame of `scene`; unit quaternion.
+/// @param cutoff         Ignore pairs farther apart than this [m]; finite, > 0.
+/// @param scratch        Preallocated work space, one per thread.
+/// @param out            Caller's storage; keeps the nearest if it fills, and the result says Truncated.
+/// Points are in scene's frame. Real-time safe: no allocation, lock or throw.
+/// Source: Johnson & Willemsen 2003, 4.2; exact leaf conditions instead of vertex-normal spans.
+LmdResult findLmds(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
+                   double cutoff, LmdScratch& scratch, std::span<Lmd> out) noexcept;
+
+}  // namespace nearfit

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <type_traits>
+
+namespace nearfit {
+
+/// The newest value from one writer thread to one reader thread, without locks: neither ever waits.
+template <class T>
+class TripleBuffer {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  explicit TripleBuffer(const T& initial = T{}) { slots_.fill(initial); }
+
+  /// Writer: the slot to fill; its content is some old value.
+  T& back() noexcept { return slots_[back_]; }
+  /// Writer: makes the filled slot the newest.
+  void publish() noexcept {
+    back_ = middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel) & kIndex;
+  }
+  void publish(const T& value) noexcept {
+    back() = value;
+    publish();
+  }
+
+  /// Reader: takes the newest over; false when it has that already.
+  bool update() noexcept {
+    if ((middle_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
+    front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;
+    return true;
+  }
+  /// Reader: what the last update took; the initial value before that.
+  const T& front() const noexcept { return slots_[front_]; }
+
+ private:
+  static constexpr std::uint8_t kIndex = 3, kFresh = 4;
+  std::array<T, 3> slots_;
+  alignas(64) std::uint8_t back_ = 0;
+  alignas(64) std::atomic<std::uint8_t> middle_{1};
+  alignas(64) std::uint8_t front_ = 2;
+};
+
+}  // namespace nearfit
