@@ -1,0 +1,1 @@
+#include "core/proximity/normal_cone_tree.h"
