@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -10,20 +13,26 @@
 
 namespace nearfit {
 
-/// The open scene and the commands that change it, shared by GUI, CLI and scripts. Every command is one step of
-/// undo, and either happens whole or throws UsageError and changes nothing. One thread only.
+/// The open scene and the commands that change it, shared by GUI, CLI and scripts. Every command is one step
+/// of undo, and either happens whole or throws UsageError and changes nothing. A command that would leave
+/// everything as it is is no step. One thread only.
 class Session {
  public:
+  /// States that undo can go back through; older ones are forgotten.
+  static constexpr std::size_t kMaxUndo = 1000;
+
   const Scene& scene() const noexcept { return current_.scene; }
 
-  /// A part for a loaded mesh, at the identity pose with the next colour of the palette.
-  PartId addPart(PartGeometryPtr geometry, const std::string& name);
-  PartId addPart(PartGeometryPtr geometry, const std::string& name, const RigidTransform& worldFromPart);
+  /// A part for a loaded mesh, with the next colour of the palette; at the identity pose unless given.
+  /// A name that is taken gets a number behind it.
+  PartId addPart(PartGeometryPtr geometry, const std::string& name, const RigidTransform& worldFromPart = {});
+  /// A copy in the same place, unlocked, of the next colour, its name with a number behind it.
   PartId duplicatePart(PartId id);
   void deletePart(PartId id);
   void renamePart(PartId id, const std::string& name);
   void movePart(PartId id, const RigidTransform& worldFromPart);
   void setColour(PartId id, const Colour& colour);
+  /// Also for locked parts: what is shown is no property of the part.
   void setVisible(PartId id, bool visible);
   void setLocked(PartId id, bool locked);
   void setMovingPart(std::optional<PartId> id);
@@ -34,13 +43,15 @@ class Session {
   /// Writes the scene and takes that file as its own. Throws FileError.
   void save(const std::filesystem::path& file);
   const std::filesystem::path& file() const noexcept { return file_; }
-  bool isModified() const noexcept;
+  /// Whether the scene differs from what was last saved or reset; undo back to there makes it false again.
+  bool isModified() const noexcept { return current_.serial != savedSerial_; }
 
   bool canUndo() const noexcept { return !past_.empty(); }
   bool canRedo() const noexcept { return !future_.empty(); }
   /// What undo would take back, as a short phrase ("Move Peg"); empty when there is nothing.
   std::string undoText() const { return past_.empty() ? std::string() : current_.label; }
   std::string redoText() const { return future_.empty() ? std::string() : future_.back().label; }
+  /// Does nothing when there is nothing to undo; so does redo.
   void undo();
   void redo();
 
@@ -50,15 +61,20 @@ class Session {
  private:
   struct State {
     Scene scene;
-    std::string label;          ///< What led to this state.
-    std::uint64_t serial = 0;   ///< Different for each state, so that the saved one is recognised.
+    std::string label;         ///< What led to this state.
+    std::uint64_t serial = 0;  ///< Different for each state, so that the saved one is recognised.
   };
   void commit(Scene scene, std::string label);
+  void commitReplaced(Part part, std::string label);
+  /// A copy to change. Throws UsageError when there is no such part.
+  Part existingPart(PartId id) const;
+  /// As existingPart; also throws when it is locked.
   Part unlockedPart(PartId id) const;
   void notify() const;
 
   State current_;
-  std::vector<State> past_, future_;
+  std::deque<State> past_;     ///< Oldest first.
+  std::vector<State> future_;  ///< The next to redo last.
   std::uint64_t savedSerial_ = 0, nextSerial_ = 1;
   std::filesystem::path file_;
   std::vector<std::function<void()>> listeners_;

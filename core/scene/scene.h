@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -22,17 +23,25 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
+/// Longest name of a part [bytes of UTF-8].
+constexpr std::size_t kMaxPartNameBytes = 200;
+/// Farthest from the origin that a part may stand on each axis [m]. Beyond it double precision is coarser
+/// than a nanometre, and the number is a slip of the unit.
+constexpr double kMaxPosition = 1e6;
+
 struct Part {
   PartId id{};
-  std::string name;  ///< Unique in its scene, not empty.
+  std::string name;  ///< Unique in its scene, not empty; UTF-8 without control characters.
   PartGeometryPtr geometry;
   RigidTransform worldFromPart;
   Colour colour;
   bool isVisible = true;  ///< An invisible part is not felt either.
-  bool isLocked = false;  ///< A locked part cannot be moved, renamed, deleted, or be the moving part.
+  /// A locked part cannot be moved, renamed, recoloured, deleted, or be the moving part; it can be hidden.
+  bool isLocked = false;
 };
 
-/// Parts and settings, as a value: copying it is cheap (parts are shared) and is how undo and threads keep one.
+/// Parts and settings, as a value: copying it is cheap (parts are shared) and is how undo and threads keep
+/// one. Each change happens whole or throws UsageError and changes nothing.
 class Scene {
  public:
   using PartPtr = std::shared_ptr<const Part>;
@@ -43,23 +52,41 @@ class Scene {
   std::optional<PartId> movingPart() const noexcept { return movingPart_; }
   const SpringParameters& springs() const noexcept { return springs_; }
 
-  /// Adds a copy of `part` with a fresh id; its name gets a number behind it when it is taken. Returns the id.
+  /// Adds a copy of `part` with a fresh id; its name gets a number behind it when it is taken, its quaternion
+  /// is normalised. Returns the id. Throws UsageError when name, pose or colour are none (see checkedPose).
   PartId add(Part part);
-  /// Replaces the part of the same id. Throws UsageError when there is none or its new name is empty or taken.
+  /// Replaces the part of the same id. Throws UsageError when there is none, its new name is taken, it is the
+  /// moving part and would be locked, or as add does.
   void replace(Part part);
+  /// The moving part, when it is this one, becomes none. Throws UsageError when there is no such part.
   void remove(PartId id);
   /// Throws UsageError when the part is unknown or locked.
   void setMovingPart(std::optional<PartId> id);
   /// Throws UsageError when a value is not finite or out of its limits (see spring_limits.h).
   void setSprings(const SpringParameters& springs);
 
+  /// A colour for the next part: the one of the palette that the fewest parts have.
+  Colour nextColour() const noexcept;
+  /// From now on gives no id that `other` may have given: undo must not bring back the id of another part.
+  void retireIdsOf(const Scene& other) noexcept;
+
  private:
   std::string freeName(const std::string& wanted) const;
+  std::size_t indexOf(PartId id) const;
 
   std::vector<PartPtr> parts_;
   std::optional<PartId> movingPart_;
   SpringParameters springs_;
   std::uint32_t nextId_ = 1;
 };
+
+/// The pose with its quaternion normalised. Throws UsageError when a number is not finite, a coordinate is
+/// beyond kMaxPosition, or the quaternion's length is off 1 by more than kQuaternionSlack.
+RigidTransform checkedPose(const RigidTransform& pose);
+/// How far off 1 a quaternion's length may be: covers numbers typed or printed with four digits, not slips.
+constexpr double kQuaternionSlack = 1e-3;
+
+/// Throws UsageError naming the value when one is not finite or out of its limits (see spring_limits.h).
+void checkSprings(const SpringParameters& springs);
 
 }  // namespace nearfit

@@ -1,0 +1,16 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+/// Each adds one subcommand with its help to `program`; the subcommand runs while the arguments are parsed.
+/// Results go to stdout; failures are thrown: UsageError (exit code 2) or anything else (exit code 1).
+namespace nearfit::cli {
+
+void addInfoCommand(CLI::App& program);
+void addLmdCommand(CLI::App& program);
+void addSceneCommand(CLI::App& program);
+void addPlaceCommand(CLI::App& program);
+
+}  // namespace nearfit::cli

@@ -1,0 +1,43 @@
+#include "app/cli/output.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <iostream>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/text/utf8.h"
+
+namespace nearfit::cli {
+namespace {
+
+[[noreturn]] void failOutput(int error) {
+  throw Error("standard output", "it cannot be written: " + std::system_category().message(error));
+}
+
+}  // namespace
+
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) failOutput(errno);
+}
+
+void flushOutput() {
+  errno = 0;
+  // Help goes through std::cout.
+  const bool hasArrived = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (!hasArrived) failOutput(errno != 0 ? errno : EIO);
+}
+
+std::string oneLine(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    const bool isBreak = c == '\n' || c == '\r';
+    if (!isBreak) line += c;
+    if (isBreak && !line.empty() && line.back() != ' ') line += ' ';
+  }
+  while (!line.empty() && line.back() == ' ')
+    line.pop_back();
+  return printableText(line);
+}
+
+}  // namespace nearfit::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace nearfit::cli {
+
+/// Writes to stdout. Throws Error when it takes no more (disk full, reader gone).
+void print(std::string_view text);
+
+/// Throws Error when something that was printed did not arrive.
+void flushOutput();
+
+/// Text on one line: each run of line breaks a space, other control characters and bytes that are not UTF-8
+/// as
+/// `\xNN`, so that no file name can play with the terminal.
+std::string oneLine(std::string_view text);
+
+}  // namespace nearfit::cli

@@ -1,0 +1,67 @@
+#include <system_error>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files/atomic_write.h"
+#include "core/scene/scene_file.h"
+#include "core/text/json_text.h"
+#include "core/text/utf8.h"
+
+namespace nearfit {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The mesh's path from the scene file's folder, with `/` between names.
+std::string meshPath(const std::filesystem::path& mesh, const std::filesystem::path& sceneFile) {
+  std::error_code failure;
+  const std::filesystem::path folder = std::filesystem::weakly_canonical(sceneFile, failure).parent_path();
+  std::filesystem::path path = mesh.lexically_relative(folder);
+  if (failure || path.empty()) path = mesh;
+  std::string text = path.generic_string();
+  // A path may hold control characters, which JSON can say; but JSON is UTF-8.
+  if (!isUtf8(text)) {
+    throw FileError(printableText(text), "the name of this mesh file or of a folder above it is not UTF-8",
+                    "rename it, then load it anew");
+  }
+  return text;
+}
+
+Json partJson(const Part& part, const std::filesystem::path& sceneFile) {
+  const glm::dvec3& t = part.worldFromPart.translation;
+  const glm::dquat& q = part.worldFromPart.rotation;
+  Json json;
+  json["name"] = part.name;
+  json["mesh"] = meshPath(part.geometry->file, sceneFile);
+  json["sha256"] = part.geometry->sha256;
+  json["metresPerUnit"] = part.geometry->metresPerUnit;
+  json["position"] = {t.x, t.y, t.z};
+  json["quaternion"] = {q.w, q.x, q.y, q.z};
+  json["colour"] = {shortestDouble(part.colour.r), shortestDouble(part.colour.g),
+                    shortestDouble(part.colour.b)};
+  json["visible"] = part.isVisible;
+  json["locked"] = part.isLocked;
+  return json;
+}
+
+}  // namespace
+
+void writeSceneFile(const Scene& scene, const std::filesystem::path& file) {
+  Json json;
+  json["nearfit"] = kSceneFileVersion;
+  json["units"] = {{"length", "m"}, {"force", "N"}, {"time", "s"}};
+  const SpringParameters& springs = scene.springs();
+  json["springs"] = {{"cutoff", springs.cutoff},
+                     {"stiffness", springs.stiffness},
+                     {"damping", springs.damping},
+                     {"law", springs.law == SpringLaw::Printed ? "printed" : "linear"}};
+  json["moving"] = scene.movingPart() ? Json(scene.find(*scene.movingPart())->name) : Json();
+  json["parts"] = Json::array();
+  for (const Scene::PartPtr& part : scene.parts())
+    json["parts"].push_back(partJson(*part, file));
+  atomicWrite(file, prettyJson(json));
+}
+
+}  // namespace nearfit

@@ -1,0 +1,195 @@
+#include "core/scene/scene.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/scene/palette.h"
+#include "core/scene/spring_limits.h"
+
+namespace nearfit {
+namespace {
+
+Part named(const std::string& name) {
+  Part part;
+  part.name = name;
+  return part;
+}
+
+Part posed(const RigidTransform& pose) {
+  Part part = named("Peg");
+  part.worldFromPart = pose;
+  return part;
+}
+
+TEST(Scene, AddedPartsKeepTheirOrderAndGetIdsOfTheirOwn) {
+  Scene scene;
+  const PartId peg = scene.add(named("Peg")), hole = scene.add(named("Hole"));
+  EXPECT_NE(peg, hole);
+  ASSERT_EQ(scene.parts().size(), 2U);
+  EXPECT_EQ(scene.parts()[0]->name, "Peg");
+  EXPECT_EQ(scene.find(hole)->name, "Hole");
+  EXPECT_EQ(scene.findByName("Peg")->id, peg);
+  EXPECT_EQ(scene.findByName("peg"), nullptr);
+}
+
+TEST(Scene, TakenNameGetsTheNextFreeNumber) {
+  Scene scene;
+  for (int i = 0; i < 3; ++i)
+    scene.add(named("Peg"));
+  scene.add(named("Peg 2"));
+  scene.add(named("M8"));
+  scene.add(named("M8"));
+  std::vector<std::string> names;
+  for (const auto& part : scene.parts())
+    names.push_back(part->name);
+  EXPECT_EQ(names, (std::vector<std::string>{"Peg", "Peg 2", "Peg 3", "Peg 4", "M8", "M8 2"}));
+}
+
+TEST(Scene, NumberedLongNameKeepsWithinTheLimitAndCutsNoCharacter) {
+  Scene scene;
+  std::string longest(kMaxPartNameBytes - 2, 'a');
+  longest += "\xC3\xA9";
+  scene.add(named(longest));
+  const PartId second = scene.add(named(longest));
+  EXPECT_EQ(scene.find(second)->name, std::string(kMaxPartNameBytes - 2, 'a') + " 2");
+}
+
+TEST(Scene, NamesThatAreNoneAreRefused) {
+  Scene scene;
+  for (const std::string& name : {std::string(), std::string("a\nb"), std::string("a\0b", 3),
+                                  std::string("\xFF"), std::string(kMaxPartNameBytes + 1, 'a')}) {
+    EXPECT_THROW(scene.add(named(name)), UsageError);
+  }
+  EXPECT_TRUE(scene.parts().empty());
+}
+
+TEST(Scene, IdOfADeletedPartIsNotGivenAgain) {
+  Scene scene;
+  const PartId first = scene.add(named("Peg"));
+  scene.remove(first);
+  EXPECT_NE(scene.add(named("Peg")), first);
+  EXPECT_EQ(scene.find(first), nullptr);
+  EXPECT_THROW(scene.remove(first), UsageError);
+}
+
+TEST(Scene, DeletingTheMovingPartLeavesNone) {
+  Scene scene;
+  const PartId peg = scene.add(named("Peg")), hole = scene.add(named("Hole"));
+  scene.setMovingPart(peg);
+  scene.remove(hole);
+  EXPECT_EQ(scene.movingPart(), peg);
+  scene.remove(peg);
+  EXPECT_EQ(scene.movingPart(), std::nullopt);
+}
+
+TEST(Scene, ReplacingRefusesTakenNamesAndUnknownParts) {
+  Scene scene;
+  const PartId peg = scene.add(named("Peg"));
+  scene.add(named("Hole"));
+  Part part = *scene.find(peg);
+  part.name = "Hole";
+  EXPECT_THROW(scene.replace(part), UsageError);
+  part.name = "Pin";
+  scene.replace(part);
+  EXPECT_EQ(scene.find(peg)->name, "Pin");
+  part.id = PartId{99};
+  EXPECT_THROW(scene.replace(part), UsageError);
+}
+
+TEST(Scene, LockedPartAndMovingPartExcludeEachOther) {
+  Scene scene;
+  Part peg = named("Peg");
+  peg.isLocked = true;
+  peg.id = scene.add(peg);
+  EXPECT_THROW(scene.setMovingPart(peg.id), UsageError);
+  peg.isLocked = false;
+  scene.replace(peg);
+  scene.setMovingPart(peg.id);
+  peg.isLocked = true;
+  EXPECT_THROW(scene.replace(peg), UsageError);
+  EXPECT_THROW(scene.setMovingPart(PartId{99}), UsageError);
+  EXPECT_EQ(scene.movingPart(), peg.id);
+}
+
+TEST(Scene, PosesThatAreNoneAreRefused) {
+  Scene scene;
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  const glm::dquat unit{1, 0, 0, 0};
+  for (const RigidTransform& pose :
+       {RigidTransform{unit, {0, nan, 0}}, RigidTransform{unit, {0, 0, infinity}},
+        RigidTransform{unit, {2e6, 0, 0}}, RigidTransform{{nan, 0, 0, 0}, {}},
+        RigidTransform{{0, 0, 0, 0}, {}}, RigidTransform{{1, 1, 0, 0}, {}},
+        RigidTransform{{1.0021, 0, 0, 0}, {}}}) {
+    EXPECT_THROW(scene.add(posed(pose)), UsageError);
+  }
+}
+
+TEST(Scene, NearlyUnitQuaternionIsNormalised) {
+  Scene scene;
+  const PartId id = scene.add(posed({{0.7071, 0.7071, 0, 0}, {1, 2, 3}}));
+  const RigidTransform& pose = scene.find(id)->worldFromPart;
+  EXPECT_NEAR(pose.rotation.w, std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(pose.rotation.x, std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(pose.translation, glm::dvec3(1, 2, 3));
+}
+
+TEST(Scene, ColourOutOfRangeIsRefused) {
+  Scene scene;
+  Part part = named("Peg");
+  part.colour.g = 1.5F;
+  EXPECT_THROW(scene.add(part), UsageError);
+  part.colour.g = std::nanf("");
+  EXPECT_THROW(scene.add(part), UsageError);
+}
+
+TEST(Scene, SpringsOutOfTheirLimitsAreRefusedByName) {
+  Scene scene;
+  const auto problemWith = [&](SpringParameters springs) -> std::string {
+    try {
+      scene.setSprings(springs);
+    } catch (const UsageError& e) {
+      return e.where();
+    }
+    return "none";
+  };
+  EXPECT_EQ(problemWith({.cutoff = 0.0}), "cutoff");
+  EXPECT_EQ(problemWith({.cutoff = std::nan("")}), "cutoff");
+  EXPECT_EQ(problemWith({.stiffness = -1.0}), "stiffness");
+  EXPECT_EQ(problemWith({.stiffness = 10 * kMaxStiffness}), "stiffness");
+  EXPECT_EQ(problemWith({.stiffness = 10 * kMaxStiffness, .law = SpringLaw::Printed}), "none");
+  EXPECT_EQ(problemWith({.damping = std::numeric_limits<double>::infinity()}), "damping");
+  EXPECT_EQ(problemWith({.cutoff = kMaxCutoff, .stiffness = 0.0}), "none");
+}
+
+TEST(Scene, NewPartsGoThroughThePaletteAndReuseWhatIsFreed) {
+  Scene scene;
+  std::set<std::array<float, 3>> seen;
+  for (std::size_t i = 0; i < kPartPalette.size(); ++i) {
+    Part part = named("Part");
+    part.colour = scene.nextColour();
+    seen.insert({part.colour.r, part.colour.g, part.colour.b});
+    scene.add(part);
+  }
+  EXPECT_EQ(seen.size(), kPartPalette.size());
+  EXPECT_EQ(scene.nextColour(), kPartPalette[0]);
+  scene.remove(scene.parts()[3]->id);
+  EXPECT_EQ(scene.nextColour(), kPartPalette[3]);
+}
+
+TEST(Scene, CopyIsIndependentButSharesItsParts) {
+  Scene scene;
+  const PartId peg = scene.add(named("Peg"));
+  const Scene copy = scene;
+  EXPECT_EQ(copy.parts()[0], scene.parts()[0]);
+  Part pin = *scene.find(peg);
+  pin.name = "Pin";
+  scene.replace(pin);
+  EXPECT_EQ(copy.find(peg)->name, "Peg");
+}
+
+}  // namespace
+}  // namespace nearfit

@@ -1,0 +1,269 @@
+#include "core/session.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/scene/palette.h"
+
+namespace nearfit {
+namespace {
+
+const RigidTransform kAside{{1, 0, 0, 0}, {0.1, 0.2, 0.3}};
+
+/// Everything of a scene that a user sees, as text.
+std::string describe(const Scene& scene) {
+  std::string text;
+  for (const auto& part : scene.parts()) {
+    const RigidTransform& pose = part->worldFromPart;
+    text += part->name + " " + std::to_string(static_cast<unsigned>(part->id)) + " " +
+            std::to_string(pose.translation.x) + " " + std::to_string(pose.rotation.w) + " " +
+            std::to_string(part->colour.r) + (part->isVisible ? " visible" : "") +
+            (part->isLocked ? " locked" : "") + (scene.movingPart() == part->id ? " moving" : "") + "\n";
+  }
+  return text + std::to_string(scene.springs().cutoff);
+}
+
+TEST(Session, EveryCommandIsOneStepOfUndo) {
+  Session session;
+  std::vector<std::string> states{describe(session.scene())};
+  const auto step = [&] { states.push_back(describe(session.scene())); };
+  const PartId peg = session.addPart({}, "Peg");
+  step();
+  session.duplicatePart(peg);
+  step();
+  session.renamePart(peg, "Pin");
+  step();
+  session.movePart(peg, kAside);
+  step();
+  session.setColour(peg, {1, 0, 0});
+  step();
+  session.setMovingPart(peg);
+  step();
+  session.setSprings({.cutoff = 0.02});
+  step();
+  session.setVisible(peg, false);
+  step();
+  session.setMovingPart(std::nullopt);
+  step();
+  session.setLocked(peg, true);
+  step();
+  session.setLocked(peg, false);
+  step();
+  session.deletePart(peg);
+  step();
+  for (std::size_t i = 1; i < states.size(); ++i)
+    EXPECT_NE(states[i], states[i - 1]) << "step " << i;
+
+  for (std::size_t i = states.size() - 1; i > 0; --i) {
+    ASSERT_TRUE(session.canUndo());
+    session.undo();
+    EXPECT_EQ(describe(session.scene()), states[i - 1]) << "after undoing step " << i;
+  }
+  EXPECT_FALSE(session.canUndo());
+  session.undo();
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    session.redo();
+    EXPECT_EQ(describe(session.scene()), states[i]) << "after redoing step " << i;
+  }
+  EXPECT_FALSE(session.canRedo());
+}
+
+TEST(Session, SettingTheSameValueIsNoStep) {
+  Session session;
+  const PartId peg = session.addPart({}, "Peg", kAside);
+  session.undo();
+  session.redo();
+  session.undo();
+  session.redo();
+  const Part part = *session.scene().find(peg);
+  session.renamePart(peg, "Peg");
+  session.movePart(peg, kAside);
+  session.setColour(peg, part.colour);
+  session.setVisible(peg, true);
+  session.setLocked(peg, false);
+  session.setMovingPart(std::nullopt);
+  session.setSprings(session.scene().springs());
+  EXPECT_EQ(session.undoText(), "Add Peg");
+  session.undo();
+  EXPECT_FALSE(session.canUndo());
+}
+
+TEST(Session, RefusedCommandChangesNothingAndKeepsRedo) {
+  Session session;
+  const PartId peg = session.addPart({}, "Peg");
+  const PartId hole = session.addPart({}, "Hole");
+  session.setLocked(peg, true);
+  session.setSprings({.cutoff = 0.5});
+  session.undo();
+  const std::string before = describe(session.scene());
+  EXPECT_THROW(session.movePart(peg, kAside), UsageError);
+  EXPECT_THROW(session.renamePart(peg, "Pin"), UsageError);
+  EXPECT_THROW(session.deletePart(peg), UsageError);
+  EXPECT_THROW(session.setColour(peg, {}), UsageError);
+  EXPECT_THROW(session.setMovingPart(peg), UsageError);
+  EXPECT_THROW(session.renamePart(hole, "Peg"), UsageError);
+  EXPECT_THROW(session.renamePart(hole, ""), UsageError);
+  EXPECT_THROW(session.movePart(hole, {{0, 0, 0, 0}, {}}), UsageError);
+  EXPECT_THROW(session.addPart({}, ""), UsageError);
+  EXPECT_THROW(session.duplicatePart(PartId{99}), UsageError);
+  EXPECT_THROW(session.setVisible(PartId{99}, false), UsageError);
+  EXPECT_THROW(session.setSprings({.cutoff = -1.0}), UsageError);
+  EXPECT_EQ(describe(session.scene()), before);
+  EXPECT_EQ(session.undoText(), "Lock Peg");
+  EXPECT_TRUE(session.canRedo());
+}
+
+TEST(Session, MessageOfALockedPartNamesItAndTheRemedy) {
+  Session session;
+  const PartId peg = session.addPart({}, "Peg");
+  session.setLocked(peg, true);
+  try {
+    session.deletePart(peg);
+    FAIL() << "a locked part was deleted";
+  } catch (const UsageError& e) {
+    EXPECT_STREQ(e.what(), "part \"Peg\": it is locked; unlock it first");
+  }
+}
+
+TEST(Session, LockedPartCanBeHiddenAndDuplicatedAndItsCopyIsFree) {
+  Session session;
+  const PartId peg = session.addPart({}, "Peg");
+  session.setLocked(peg, true);
+  session.setVisible(peg, false);
+  EXPECT_FALSE(session.scene().find(peg)->isVisible);
+  const PartId copy = session.duplicatePart(peg);
+  EXPECT_EQ(session.scene().find(copy)->name, "Peg 2");
+  session.movePart(copy, kAside);
+  EXPECT_EQ(session.scene().find(copy)->worldFromPart.translation, kAside.translation);
+}
+
+TEST(Session, NewCommandForgetsRedo) {
+  Session session;
+  session.addPart({}, "Peg");
+  session.undo();
+  session.addPart({}, "Hole");
+  EXPECT_FALSE(session.canRedo());
+  session.redo();
+  EXPECT_EQ(session.scene().parts().size(), 1U);
+}
+
+TEST(Session, IdOfAnUndonePartIsNotGivenToAnother) {
+  Session session;
+  const PartId peg = session.addPart({}, "Peg");
+  session.undo();
+  EXPECT_NE(session.addPart({}, "Hole"), peg);
+}
+
+TEST(Session, TextsSayWhatUndoAndRedoWouldDo) {
+  Session session;
+  EXPECT_EQ(session.undoText(), "");
+  const PartId peg = session.addPart({}, "Peg");
+  session.movePart(peg, kAside);
+  EXPECT_EQ(session.undoText(), "Move Peg");
+  session.undo();
+  EXPECT_EQ(session.undoText(), "Add Peg");
+  EXPECT_EQ(session.redoText(), "Move Peg");
+}
+
+TEST(Session, UndoGoesBackAtLeastItsBoundAndNoFarther) {
+  Session session;
+  const PartId peg = session.addPart({}, "Peg");
+  for (std::size_t i = 1; i <= Session::kMaxUndo + 5; ++i) {
+    session.movePart(peg, {{1, 0, 0, 0}, {static_cast<double>(i), 0, 0}});
+  }
+  std::size_t steps = 0;
+  for (; session.canUndo(); ++steps)
+    session.undo();
+  EXPECT_EQ(steps, Session::kMaxUndo);
+  EXPECT_EQ(session.scene().find(peg)->worldFromPart.translation.x, 5.0);
+}
+
+TEST(Session, ModifiedMarkFollowsTheSavedState) {
+  Session session;
+  EXPECT_FALSE(session.isModified());
+  session.addPart({}, "Peg");
+  EXPECT_TRUE(session.isModified());
+  session.undo();
+  EXPECT_FALSE(session.isModified());
+  session.addPart({}, "Peg");
+  EXPECT_TRUE(session.isModified());
+  session.reset(session.scene(), "/somewhere/peg.nearfit");
+  EXPECT_FALSE(session.isModified());
+  EXPECT_FALSE(session.canUndo());
+  EXPECT_EQ(session.file(), "/somewhere/peg.nearfit");
+}
+
+TEST(Session, ListenersHearOfEachChangeOnce) {
+  Session session;
+  int calls = 0;
+  session.onChange([&] { ++calls; });
+  const PartId peg = session.addPart({}, "Peg");
+  EXPECT_EQ(calls, 1);
+  session.renamePart(peg, "Peg");
+  EXPECT_THROW(session.renamePart(peg, ""), UsageError);
+  EXPECT_EQ(calls, 1);
+  session.undo();
+  session.undo();
+  session.redo();
+  session.redo();
+  EXPECT_EQ(calls, 3);
+  session.reset();
+  EXPECT_EQ(calls, 4);
+}
+
+TEST(Session, RandomCommandsUndoneInFullGiveBackTheBeginning) {
+  std::mt19937 random(7);
+  Session session;
+  const auto anyPart = [&] {
+    const auto& parts = session.scene().parts();
+    return parts.empty() ? PartId{0} : parts[random() % parts.size()]->id;
+  };
+  std::vector<std::string> states{describe(session.scene())};
+  for (int i = 0; i < 900; ++i) {
+    const std::string before = describe(session.scene());
+    const std::string undoText = session.undoText();
+    try {
+      switch (random() % 8) {
+        case 0:
+          session.addPart({}, "Part");
+          break;
+        case 1:
+          session.duplicatePart(anyPart());
+          break;
+        case 2:
+          session.deletePart(anyPart());
+          break;
+        case 3:
+          session.movePart(anyPart(), {{1, 0, 0, 0}, {static_cast<double>(random() % 5), 0, 0}});
+          break;
+        case 4:
+          session.setLocked(anyPart(), random() % 4 == 0);
+          break;
+        case 5:
+          session.setMovingPart(anyPart());
+          break;
+        case 6:
+          session.setVisible(anyPart(), random() % 2 == 0);
+          break;
+        default:
+          session.renamePart(anyPart(), "Name " + std::to_string(random() % 9));
+          break;
+      }
+    } catch (const UsageError&) {
+      EXPECT_EQ(describe(session.scene()), before);
+    }
+    if (describe(session.scene()) != before) states.push_back(describe(session.scene()));
+  }
+  ASSERT_GT(states.size(), 300U);
+  while (states.size() > 1) {
+    states.pop_back();
+    session.undo();
+    ASSERT_EQ(describe(session.scene()), states.back());
+  }
+  EXPECT_FALSE(session.canUndo());
+}
+
+}  // namespace
+}  // namespace nearfit
