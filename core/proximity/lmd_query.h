@@ -27,7 +27,11 @@ struct LmdResult {
 /// Work space of a query, allocated once; one per thread.
 class LmdScratch {
  public:
-  LmdScratch();
+  /// Room for the minima of a servo tick: a query that finds more keeps the nearest and says Truncated.
+  static constexpr std::size_t kDefaultCapacity = 16384;
+
+  /// @param capacity  Minima, and pieces of flat regions, that a query can hold; about 250 bytes each.
+  explicit LmdScratch(std::size_t capacity = kDefaultCapacity);
   ~LmdScratch();
   LmdScratch(LmdScratch&&) noexcept;
   LmdScratch& operator=(LmdScratch&&) noexcept;
@@ -48,7 +52,8 @@ class LmdScratch {
 /// @param out            Caller's storage; keeps the nearest if it fills, and the result says Truncated.
 /// Points are in scene's frame. Real-time safe: no allocation, lock or throw.
 /// Source: Johnson & Willemsen 2003, 4.2; exact leaf conditions instead of vertex-normal spans.
-LmdResult findLmds(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
-                   double cutoff, LmdScratch& scratch, std::span<Lmd> out) noexcept;
+LmdResult findLmds(const NormalConeTree& scene, const NormalConeTree& part,
+                   const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
+                   std::span<Lmd> out) noexcept;
 
 }  // namespace nearfit

@@ -1,8 +1,15 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "core/mesh/triangle_mesh.h"
+#include "core/proximity/lmd.h"
 
 namespace nearfit {
 
@@ -12,18 +19,93 @@ struct FeatureCounts {
   std::size_t total() const noexcept { return vertices + edges + faces; }
 };
 
-/// Spatialized normal cone hierarchy over the features of one mesh that can carry a minimum.
-/// Built once for a mesh; immutable, so that any number of threads and parts share it.
+/// Spatialized normal cone hierarchy over the features of one mesh that can carry a minimum, each in one
+/// leaf. Built once for a mesh; immutable, so that any number of threads and parts share it.
+///
+/// Coordinates are relative to `centre()`, so that a mesh far from its origin loses no precision. Nodes have
+/// eight children in single precision, structure of arrays; every bound is padded outward beyond its
+/// rounding. Source: Johnson & Cohen 2001; cones bound the polar cones of features, not the normals of
+/// triangles.
 class NormalConeTree {
  public:
+  static constexpr std::size_t kWidth = 8;
+
+  /// A sphere and a normal cone in single precision.
+  struct Bound {
+    float x, y, z, radius;
+    float axisX, axisY, axisZ, cosAngle, sinAngle;
+  };
+
+  /// Bounds of up to eight children, lane by lane, and what the children are.
+  struct alignas(64) Node {
+    std::array<float, kWidth> x, y, z, radius;
+    std::array<float, kWidth> axisX, axisY, axisZ, cosAngle, sinAngle;
+    std::array<std::uint32_t, kWidth> child;  ///< See isLeaf().
+    std::uint32_t childCount;
+
+    Bound bound(std::size_t lane) const noexcept {
+      return {x[lane],     y[lane],     z[lane],        radius[lane],  axisX[lane],
+              axisY[lane], axisZ[lane], cosAngle[lane], sinAngle[lane]};
+    }
+  };
+
+  /// What a leaf child refers to.
+  struct VertexLeaf {
+    std::uint32_t vertex, firstNeighbour, neighbourCount;
+  };
+  struct EdgeLeaf {
+    std::uint32_t edge, v0, v1;
+    std::array<std::uint32_t, 2> opposite;  ///< Corners of the faces that bound the polar arc.
+  };
+  struct FaceLeaf {
+    std::uint32_t face;
+    Triangle corners;
+  };
+
   explicit NormalConeTree(const TriangleMesh& mesh);
 
-  FeatureCounts keptFeatures() const noexcept { return kept_; }
+  /// Children are node indices, or leaves: kind in two bits and index into vertices(), edges() or faces().
+  static constexpr std::uint32_t kLeafBit = 0x80000000U;
+  static bool isLeaf(std::uint32_t child) noexcept { return (child & kLeafBit) != 0; }
+  static FeatureKind leafKind(std::uint32_t child) noexcept {
+    return static_cast<FeatureKind>(child >> 29 & 3U);
+  }
+  static std::uint32_t leafIndex(std::uint32_t child) noexcept { return child & 0x1FFFFFFFU; }
+
+  bool isEmpty() const noexcept { return nodes_.empty(); }
+  std::span<const Node> nodes() const noexcept { return nodes_; }
+  /// Bound of everything; meaningless when empty.
+  const Bound& rootBound() const noexcept { return root_; }
+  std::span<const glm::dvec3> positions() const noexcept { return positions_; }
+  std::span<const VertexLeaf> vertices() const noexcept { return vertices_; }
+  std::span<const EdgeLeaf> edges() const noexcept { return edges_; }
+  std::span<const FaceLeaf> faces() const noexcept { return faces_; }
+  std::span<const std::uint32_t> neighbours(const VertexLeaf& v) const noexcept {
+    return std::span(neighbours_).subspan(v.firstNeighbour, v.neighbourCount);
+  }
+
+  /// Middle of the mesh's bounding box in its frame [m]; positions and nodes are relative to it.
+  const glm::dvec3& centre() const noexcept { return centre_; }
+  /// Diagonal of the bounding box [m].
+  double size() const noexcept { return size_; }
+
+  FeatureCounts keptFeatures() const noexcept { return {vertices_.size(), edges_.size(), faces_.size()}; }
   FeatureCounts allFeatures() const noexcept { return all_; }
   std::size_t byteSize() const noexcept;
 
  private:
-  FeatureCounts kept_, all_;
+  friend class NormalConeTreeBuilder;
+
+  glm::dvec3 centre_{0.0};
+  double size_ = 0.0;
+  Bound root_{};
+  std::vector<Node> nodes_;
+  std::vector<glm::dvec3> positions_;
+  std::vector<VertexLeaf> vertices_;
+  std::vector<EdgeLeaf> edges_;
+  std::vector<FaceLeaf> faces_;
+  std::vector<std::uint32_t> neighbours_;
+  FeatureCounts all_;
 };
 
 }  // namespace nearfit

@@ -1,0 +1,259 @@
+#include "core/mesh/features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
+#include "core/math/min_norm_point.h"
+#include "core/math/tolerances.h"
+
+namespace nearfit {
+namespace {
+
+/// Dihedral angles within this of straight count as flat [rad]. What a dropped flat edge leaves uncovered
+/// between its faces is this times the distance: below the slack that leaf tests allow.
+constexpr double kFlat = 1e-11;
+
+/// A triangle lower than this fraction of its longest side has no normal worth the name in double precision.
+constexpr double kNoArea = 1e-14;
+
+/// Cosine below which two directions may pass for perpendicular where only a bound is built.
+constexpr double kSquare = 1e-6;
+
+std::optional<glm::dvec3> unit(const glm::dvec3& v) {
+  const double length = glm::length(v);
+  if (!(length > 0.0)) return std::nullopt;
+  return v / length;
+}
+
+class FeatureFinder {
+ public:
+  explicit FeatureFinder(const TriangleMesh& mesh)
+      : mesh_(mesh), x_(mesh.vertices()), normals_(mesh.triangles().size()) {}
+
+  MeshFeatures find() {
+    for (std::uint32_t f = 0; f < mesh_.triangles().size(); ++f)
+      addFace(f);
+    for (std::uint32_t e = 0; e < mesh_.edges().size(); ++e)
+      addEdge(e);
+    for (std::uint32_t v = 0; v < mesh_.vertices().size(); ++v)
+      addVertex(v);
+    return std::move(out_);
+  }
+
+ private:
+  /// In-face direction perpendicular to an edge, pointing into the face, and the face's third corner.
+  struct Wing {
+    glm::dvec3 inward;
+    std::uint32_t opposite;
+    std::uint32_t face;
+  };
+
+  bool hasArea(std::uint32_t f) const { return normals_[f] != glm::dvec3(0.0); }
+
+  void addFace(std::uint32_t f) {
+    const Triangle& t = mesh_.triangles()[f];
+    const glm::dvec3 e0 = x_[t[1]] - x_[t[0]], e1 = x_[t[2]] - x_[t[1]], e2 = x_[t[0]] - x_[t[2]];
+    const glm::dvec3 normal = glm::cross(e0, -e2);
+    const double longest = std::max({glm::dot(e0, e0), glm::dot(e1, e1), glm::dot(e2, e2)});
+    const double length = glm::length(normal);
+    if (!(length > kNoArea * longest)) return;
+    normals_[f] = normal / length;
+    out_.faces.push_back({f, {normals_[f], 0.0}});
+  }
+
+  std::vector<Wing> wingsOf(std::uint32_t e, const glm::dvec3& along) const {
+    std::vector<Wing> wings;
+    const MeshEdge& edge = mesh_.edges()[e];
+    for (const std::uint32_t f : mesh_.facesOfEdge(e)) {
+      if (!hasArea(f)) continue;
+      for (const std::uint32_t corner : mesh_.triangles()[f]) {
+        if (corner == edge.v0 || corner == edge.v1) continue;
+        const glm::dvec3 w = x_[corner] - x_[edge.v0];
+        if (const auto inward = unit(w - glm::dot(w, along) * along)) wings.push_back({*inward, corner, f});
+      }
+    }
+    return wings;
+  }
+
+  /// The two wings between which all others lie, if all fit in less than half a turn: the widest gap's two
+  /// sides.
+  static std::optional<std::array<Wing, 2>> boundingWings(std::vector<Wing>& wings, const glm::dvec3& along) {
+    const glm::dvec3 u = wings[0].inward, v = glm::cross(along, u);
+    const auto angle = [&](const Wing& w) {
+      return std::atan2(glm::dot(w.inward, v), glm::dot(w.inward, u));
+    };
+    std::sort(wings.begin(), wings.end(), [&](const Wing& a, const Wing& b) { return angle(a) < angle(b); });
+    double widest = -1.0;
+    std::array<Wing, 2> sides{wings[0], wings[0]};
+    for (std::size_t i = 0; i < wings.size(); ++i) {
+      const Wing& next = wings[(i + 1) % wings.size()];
+      const double wrap = i + 1 == wings.size() ? 2.0 * std::numbers::pi : 0.0;
+      const double gap = angle(next) + wrap - angle(wings[i]);
+      if (gap > widest) {
+        widest = gap;
+        sides = {next, wings[i]};
+      }
+    }
+    if (widest <= std::numbers::pi + kFlat) return std::nullopt;
+    return sides;
+  }
+
+  void addEdge(std::uint32_t e) {
+    const MeshEdge& edge = mesh_.edges()[e];
+    const auto along = unit(x_[edge.v1] - x_[edge.v0]);
+    if (!along) return;
+    std::vector<Wing> wings = wingsOf(e, *along);
+    if (wings.empty()) return;
+    const bool hasSide = wings.size() == 2 && mesh_.isEdgeConsistent(e);
+    if (hasSide) {
+      const double rise = glm::dot(wings[1].inward, normals_[wings[0].face]);
+      const bool isFolded = glm::dot(wings[0].inward, wings[1].inward) > 0.0;
+      if (isFolded ? rise > kFlat : rise > -kFlat) return;  // Reflex or flat.
+    }
+    const auto sides = boundingWings(wings, *along);
+    if (!sides) return;
+    const auto& [a, b] = *sides;
+    const double between = angleBetween(a.inward, b.inward);
+    const auto axis = unit(-(a.inward + b.inward));
+    if (!axis) return;
+    out_.edges.push_back({e, {a.opposite, b.opposite}, {*axis, 0.5 * (std::numbers::pi - between)}});
+  }
+
+  /// Angle-weighted pseudonormal of a vertex around which the surface has a side; none elsewhere.
+  std::optional<glm::dvec3> pseudonormal(std::uint32_t v) const {
+    const auto edges = mesh_.edgesOfVertex(v);
+    for (const std::uint32_t e : edges) {
+      if (!mesh_.isEdgeConsistent(e)) return std::nullopt;
+    }
+    // Walk once around: a vertex where two fans touch has no side.
+    glm::dvec3 normal(0.0);
+    std::uint32_t edge = edges[0], face = mesh_.facesOfEdge(edge)[0];
+    std::size_t walked = 0;
+    do {
+      normal += cornerAngle(face, v) * normals_[face];
+      edge = otherEdgeAt(v, face, edge);
+      const auto faces = mesh_.facesOfEdge(edge);
+      face = faces[0] == face ? faces[1] : faces[0];
+      ++walked;
+    } while (edge != edges[0] && walked <= edges.size());
+    if (walked != edges.size()) return std::nullopt;
+    return normal;
+  }
+
+  std::uint32_t otherEdgeAt(std::uint32_t v, std::uint32_t face, std::uint32_t edge) const {
+    for (const std::uint32_t e : mesh_.edgesOfTriangle(face)) {
+      const MeshEdge& candidate = mesh_.edges()[e];
+      if (e != edge && (candidate.v0 == v || candidate.v1 == v)) return e;
+    }
+    return edge;
+  }
+
+  double cornerAngle(std::uint32_t face, std::uint32_t v) const {
+    if (!hasArea(face)) return 0.0;
+    const Triangle& t = mesh_.triangles()[face];
+    const std::size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+    const auto a = unit(x_[t[(k + 1) % 3]] - x_[v]), b = unit(x_[t[(k + 2) % 3]] - x_[v]);
+    return a && b ? angleBetween(*a, *b) : 0.0;
+  }
+
+  void addVertex(std::uint32_t v) {
+    directions_.clear();
+    neighbours_.clear();
+    for (const std::uint32_t e : mesh_.edgesOfVertex(v)) {
+      const std::uint32_t other = mesh_.edges()[e].v0 == v ? mesh_.edges()[e].v1 : mesh_.edges()[e].v0;
+      if (const auto direction = unit(x_[other] - x_[v])) {
+        directions_.push_back(*direction);
+        neighbours_.push_back(other);
+      }
+    }
+    if (directions_.empty()) return;
+    // Inside the polar cone, as far from its walls as can be.
+    const auto inside = unit(-minNormPoint(directions_));
+    if (!inside) return;
+    for (const glm::dvec3& e : directions_) {
+      if (glm::dot(*inside, e) >= -kAngularTolerance) return;  // No interior.
+    }
+    const auto normal = pseudonormal(v);
+    if (normal && glm::dot(*normal, *inside) < 0.0) return;  // A pit: the polar cone is in the material.
+
+    const std::vector<std::size_t> extreme = extremeDirections(*inside);
+    VertexFeature feature{v, static_cast<std::uint32_t>(out_.neighbours.size()),
+                          static_cast<std::uint32_t>(extreme.size()), polarCone(*inside, extreme)};
+    for (const std::size_t i : extreme)
+      out_.neighbours.push_back(neighbours_[i]);
+    out_.vertices.push_back(feature);
+  }
+
+  /// Those of directions_ that bound their convex cone, in cyclic order: the hull of where they pierce a
+  /// plane across `-inside`, by Andrew's monotone chain.
+  std::vector<std::size_t> extremeDirections(const glm::dvec3& inside) const {
+    const glm::dvec3 helper = std::abs(inside.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(inside, helper)), v = glm::cross(inside, u);
+    struct Pierced {
+      double x, y;
+      std::size_t index;
+    };
+    std::vector<Pierced> points;
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      const double depth = -glm::dot(directions_[i], inside);
+      points.push_back({glm::dot(directions_[i], u) / depth, glm::dot(directions_[i], v) / depth, i});
+    }
+    std::sort(points.begin(), points.end(), [](const Pierced& a, const Pierced& b) {
+      return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.index < b.index;
+    });
+    const auto turnsLeft = [](const Pierced& a, const Pierced& b, const Pierced& c) {
+      return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0.0;
+    };
+    std::vector<Pierced> hull;
+    const auto chain = [&](auto first, auto last) {
+      const std::size_t base = hull.size();
+      for (auto it = first; it != last; ++it) {
+        while (hull.size() >= base + 2 && !turnsLeft(hull[hull.size() - 2], hull.back(), *it))
+          hull.pop_back();
+        hull.push_back(*it);
+      }
+      hull.pop_back();
+    };
+    if (points.size() == 1) return {points[0].index};
+    chain(points.begin(), points.end());
+    chain(points.rbegin(), points.rend());
+    std::vector<std::size_t> indices;
+    for (const Pierced& p : hull)
+      indices.push_back(p.index);
+    return indices;
+  }
+
+  NormalCone polarCone(const glm::dvec3& inside, const std::vector<std::size_t>& extreme) const {
+    // No polar direction is farther than a right angle from `inside`, which is minus a sum of the edges.
+    const NormalCone widest{inside, 0.5 * std::numbers::pi};
+    if (extreme.size() < 3) return widest;
+    std::vector<NormalCone> rays;
+    for (std::size_t i = 0; i < extreme.size(); ++i) {
+      const glm::dvec3 &a = directions_[extreme[i]], &b = directions_[extreme[(i + 1) % extreme.size()]];
+      const auto ray = unit(glm::cross(a, b));
+      // A ray square to `inside` has no sure sign.
+      if (!ray || std::abs(glm::dot(*ray, inside)) < kSquare) return widest;
+      rays.push_back({glm::dot(*ray, inside) < 0.0 ? -*ray : *ray, 0.0});
+    }
+    const NormalCone bound = boundingCone(rays);
+    return bound.halfAngle < widest.halfAngle ? bound : widest;
+  }
+
+  const TriangleMesh& mesh_;
+  std::span<const glm::dvec3> x_;
+  std::vector<glm::dvec3> normals_;  ///< Zero for faces without area.
+  MeshFeatures out_;
+  std::vector<glm::dvec3> directions_;
+  std::vector<std::uint32_t> neighbours_;
+};
+
+}  // namespace
+
+MeshFeatures findFeatures(const TriangleMesh& mesh) {
+  return FeatureFinder(mesh).find();
+}
+
+}  // namespace nearfit

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/math/rigid_transform.h"
+#include "core/proximity/minimum.h"
+#include "core/proximity/normal_cone_tree.h"
+
+namespace nearfit {
+
+/// Exact conditions on pairs of features, in double precision, closed by the tolerances of tolerances.h.
+/// Coordinates are those of the trees (relative to their centres). Real-time safe.
+class LeafTests {
+ public:
+  /// @param sceneFromPart  Between the trees' centred frames.
+  LeafTests(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
+            double cutoff) noexcept;
+
+  LeafTests(const LeafTests&) = delete;
+  LeafTests& operator=(const LeafTests&) = delete;
+
+  /// Whether the pair of leaf children carries a minimum, or a piece of a flat region; fills `out` if so.
+  bool test(std::uint32_t sceneLeaf, std::uint32_t partLeaf, Minimum& out) const noexcept;
+
+ private:
+  /// One of the two bodies and how to get from its frame to the other's.
+  struct Side {
+    const NormalConeTree& tree;
+    const RigidTransform& otherFromThis;
+    const RigidTransform& thisFromOther;
+  };
+  struct Edge {
+    glm::dvec3 start, along;  ///< `along` is unit.
+    double length;
+  };
+
+  /// A point minimum with p on one side and q on the other, both in `frame`'s coordinates.
+  bool accept(const Side& frame, const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& direction,
+              double distance, Minimum& out) const noexcept;
+
+  bool vertexFace(const Side& v, std::uint32_t vertex, const Side& f, std::uint32_t face,
+                  Minimum& out) const noexcept;
+  bool vertexEdge(const Side& v, std::uint32_t vertex, const Side& e, std::uint32_t edge,
+                  Minimum& out) const noexcept;
+  bool vertexVertex(std::uint32_t a, std::uint32_t b, Minimum& out) const noexcept;
+  bool edgeEdge(std::uint32_t a, std::uint32_t b, Minimum& out) const noexcept;
+  bool edgeFace(const Side& e, std::uint32_t edge, const Side& f, std::uint32_t face,
+                Minimum& out) const noexcept;
+  bool faceFace(std::uint32_t a, std::uint32_t b, Minimum& out) const noexcept;
+  bool parallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb,
+                     Minimum& out) const noexcept;
+
+  /// Whether direction `d` (unit, the side's frame) lies in the closed polar cone of the feature.
+  bool isPolarOfVertex(const NormalConeTree& tree, std::uint32_t vertex, const glm::dvec3& d,
+                       double slack) const noexcept;
+  bool isPolarOfEdge(const NormalConeTree& tree, std::uint32_t edge, const Edge& e, const glm::dvec3& d,
+                     double slack) const noexcept;
+  static Edge edgeOf(const NormalConeTree& tree, std::uint32_t edge) noexcept;
+
+  double lengthSlack(double distance) const noexcept {
+    return lengthTolerance_ + angularSlackBase_ * distance;
+  }
+  double angularSlack(double distance) const noexcept {
+    return angularSlackBase_ + pointRounding_ / distance;
+  }
+
+  RigidTransform sceneFromPart_, partFromScene_;
+  Side scene_, part_;
+  double cutoff_;
+  double lengthTolerance_, angularSlackBase_, pointRounding_;
+};
+
+}  // namespace nearfit

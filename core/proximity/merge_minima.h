@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/proximity/minimum.h"
+
+namespace nearfit {
+
+/// Makes one minimum of each set of entries that touch each other at one distance: neighbouring features that
+/// claim a minimum at their common boundary, and the pieces of a flat region with the points at its rim. The
+/// first `return value` entries of `order` then name the results in `minima`, nearest first, regions as their
+/// centroids.
+///
+/// @param order, parent  Work space, as long as `minima`.
+/// @param size           Of the scene [m], for tolerances.
+/// Real-time safe. Linear, plus a sort, plus the square of the number of entries at one distance.
+std::size_t mergeMinima(std::span<Minimum> minima, std::span<std::uint32_t> order,
+                        std::span<std::uint32_t> parent, double size) noexcept;
+
+}  // namespace nearfit

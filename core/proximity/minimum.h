@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include "core/proximity/lmd.h"
+
+namespace nearfit {
+
+/// What the leaf tests find before neighbours that claim the same minimum are merged: a point of minima, or a
+/// piece of a flat region (a segment or a convex polygon of them, all at one distance and direction).
+struct Minimum {
+  static constexpr std::size_t kMaxCorners = 6;  ///< Two triangles overlap in a hexagon at most.
+
+  Lmd lmd;                     ///< In the query's frame; for a piece, its centroid.
+  double weight = 0.0;         ///< Length or area of a piece; 0 for a point.
+  std::uint8_t dimension = 0;  ///< 0 point, 1 segment, 2 polygon.
+  std::uint8_t cornerCount = 0;
+  std::array<glm::dvec3, kMaxCorners> corners{};  ///< Of a piece, scene side.
+};
+
+}  // namespace nearfit
