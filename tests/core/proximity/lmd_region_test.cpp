@@ -209,10 +209,10 @@ TEST(LmdQuery, SenselessArgumentsGiveAnEmptySet) {
 }
 
 TEST(LmdQuery, QuaternionAMillionthOffUnitIsTakenAsItsRotation) {
-  const NormalConeTree a(test::starMesh(1, 1.0, 2, 0.3)), b(test::starMesh(2, 1.0, 2, 0.3));
+  const NormalConeTree a(test::starMesh(1, 1.0, 3, 0.3)), b(test::starMesh(2, 1.0, 3, 0.3));
   LmdScratch scratch;
   std::vector<Lmd> exact(512), off(512);
-  RigidTransform pose = turnedBy(0.7, glm::normalize(glm::dvec3(1, 2, 3)), {0.9, 0.2, 0.1});
+  RigidTransform pose = turnedBy(0.7, glm::normalize(glm::dvec3(1, 2, 3)), {1.2, 0.3, 0.1});
   const std::size_t count = findLmds(a, b, pose, 0.5, scratch, exact).count;
   pose.rotation *= 1.000001;
   ASSERT_EQ(findLmds(a, b, pose, 0.5, scratch, off).count, count);
