@@ -7,6 +7,7 @@
 
 #include "core/haptics/spring_law.h"
 #include "core/haptics/wrench.h"
+#include "core/haptics/wrench_limiter.h"
 #include "core/math/rigid_transform.h"
 #include "core/proximity/lmd.h"
 #include "core/proximity/lmd_query.h"
@@ -14,34 +15,36 @@
 
 namespace nearfit {
 
-/// What the servo thread needs of a scene: immutable, made off the servo thread, shared with no one who writes.
-/// Holds the geometry alive; must be destroyed off the servo thread.
+/// What the servo thread needs of a scene: immutable, made off the servo thread, shared with no one who
+/// writes. Holds the geometry alive; must be destroyed off the servo thread.
 struct ServoScene {
   struct Body {
     PartId id{};
     PartGeometryPtr geometry;
     RigidTransform worldFromPart;
   };
-  std::vector<Body> bodies;    ///< Visible parts other than the moving one.
-  Body moving;                 ///< geometry is null when nothing is in hand.
+  std::vector<Body> bodies;      ///< Visible parts other than the moving one.
+  Body moving;                   ///< geometry is null when nothing is in hand.
   glm::dvec3 centreInPart{0.0};  ///< Centre of mass of the moving part, in its frame [m].
 };
 
-/// Throws UsageError when the scene has no moving part.
+/// Nothing is felt while the moving part is invisible. Throws UsageError when the scene has no moving part.
 std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene);
-
-/// Limits of what is sent to a device.
-struct WrenchLimits {
-  double maxForce = 10.0;   ///< [N]
-  double maxTorque = 1.0;   ///< [N m]
-};
 
 struct ServoParameters {
   SpringParameters springs;
   WrenchLimits limits;
 };
 
-enum class ServoFault : std::uint8_t { None, PoseNotFinite, WrenchNotFinite };
+enum class ServoFault : std::uint8_t {
+  None,
+  PoseNotFinite,      ///< Of the handle or of a part; also a rotation far from unit length.
+  WrenchNotFinite,    ///< Overflow or NaN in the sum of the springs.
+  ParametersInvalid,  ///< Springs, limits or period that are not finite or out of range.
+};
+
+/// What happened and what to do, as a sentence without a full stop; empty for None.
+const char* faultReason(ServoFault fault) noexcept;
 
 /// Which part a minimum belongs to; the rest is in world coordinates.
 struct SnapshotLmd {
@@ -53,14 +56,14 @@ struct SnapshotLmd {
 struct ServoSnapshot {
   static constexpr std::size_t kMaxLmds = 512;
 
-  std::uint64_t tick = 0;
-  double time = 0.0;             ///< Since the servo started [s].
-  RigidTransform handle;         ///< worldFromHandle: where the device wants the part's frame.
-  RigidTransform proxy;          ///< worldFromPart: where the part is. In the direct mode the same.
-  Wrench wrench;                 ///< As sent: about the part's centre of mass, clamped.
+  std::uint64_t tick = 0;  ///< Ticks run so far with this one; 0 before the first.
+  double time = 0.0;       ///< Since the servo started [s].
+  RigidTransform handle;   ///< worldFromHandle: where the device wants the part's frame.
+  RigidTransform proxy;    ///< worldFromPart: where the part is. In the direct mode the same.
+  Wrench wrench;           ///< As sent: about the part's centre of mass, clamped.
   Wrench unclampedWrench;
-  glm::dvec3 centre{0.0};        ///< The part's centre of mass [m].
-  double distance = 0.0;         ///< Least distance [m]; infinity when nothing is within the cutoff.
+  glm::dvec3 centre{0.0};  ///< The part's centre of mass [m].
+  double distance = 0.0;   ///< Least distance [m]; infinity when nothing is within the cutoff.
   double queryTime = 0.0, tickTime = 0.0;  ///< [s]
   std::uint32_t lmdCount = 0;    ///< All minima within the cutoff, also those that are not in `lmds`.
   std::uint32_t storedLmds = 0;  ///< Entries of `lmds` in use, nearest first for each part.
@@ -71,27 +74,49 @@ struct ServoSnapshot {
   std::array<SnapshotLmd, kMaxLmds> lmds{};
 };
 
-/// One servo tick: handle pose in, wrench and snapshot out. A pure function of its inputs and of the last pose
-/// (for the velocity). No clock, thread or device in here.
+/// One servo tick: handle pose in, wrench and snapshot out. A pure function of its inputs and of the poses
+/// before (for the velocity). No thread or device in here; the clock is read for `queryTime` alone.
 class ServoTick {
  public:
+  /// Long enough to smooth encoder steps, short enough (80 Hz) not to turn damping into its opposite [s].
+  static constexpr double kVelocityTimeConstant = 2e-3;
+  /// Minima kept for each body; beyond it the nearest are summed and the snapshot says truncated.
+  static constexpr std::size_t kMaxLmdsPerBody = 4096;
+
   ServoTick();
 
   /// Forgets velocity and fault.
   void reset() noexcept;
 
+  /// A body whose bounding sphere is farther than the cutoff from the moving part's costs no query.
+  /// Velocities, for damping, come from pose differences through a first-order low-pass of
+  /// `kVelocityTimeConstant`. NaN, infinity or a senseless parameter anywhere: zero wrench, the part stays
+  /// where it was, the fault is latched.
+  ///
   /// @param scene     What to feel; stays alive during the call.
-  /// @param handle    worldFromPart wanted by the hand.
+  /// @param handle    worldFromPart wanted by the hand; its quaternion is scaled to unit length.
   /// @param period    Time since the last tick [s]; > 0.
   /// @param snapshot  Filled, but for `tick`, `time` and `tickTime`, which are the caller's.
   /// Real-time safe.
-  void run(const ServoScene& scene, const ServoParameters& parameters, const RigidTransform& handle, double period,
-           ServoSnapshot& snapshot) noexcept;
+  void run(const ServoScene& scene, const ServoParameters& parameters, const RigidTransform& handle,
+           double period, ServoSnapshot& snapshot) noexcept;
 
  private:
+  void updateTwist(const ServoScene& scene, const RigidTransform& pose, double period) noexcept;
+  Wrench feel(const ServoScene& scene, const SpringParameters& springs, ServoSnapshot& snapshot) noexcept;
+  Wrench feelBody(const ServoScene::Body& body, const ServoScene& scene, const SpringParameters& springs,
+                  ServoSnapshot& snapshot) noexcept;
+  void keepForDisplay(PartId other, std::size_t count) noexcept;
+  void writeDisplay(ServoSnapshot& snapshot) noexcept;
+
   LmdScratch scratch_;
-  std::vector<Lmd> lmds_;
+  std::vector<Lmd> lmds_;             ///< Minima of one body.
+  std::vector<SnapshotLmd> display_;  ///< Nearest minima of all bodies so far; first displayCount_ in use.
+  std::size_t displayCount_ = 0;
+  bool displayWasCut_ = false;
   RigidTransform lastPose_;
+  PartId lastMoving_{};
+  Twist twist_;  ///< Of the moving part, world frame, filtered.
   bool hasLastPose_ = false;
   ServoFault fault_ = ServoFault::None;
 };

@@ -5,8 +5,9 @@
 
 namespace nearfit {
 
-/// Counts durations in logarithmic bins (1 % wide at least as fine) from 0.1 us to 100 s. Fixed size, trivially copyable; recording is
-/// real-time safe. Percentiles are upper bounds of the bin, so never too good.
+/// Counts durations in logarithmic bins (1 % wide at least as fine) from 0.1 us to 100 s. Fixed size,
+/// trivially copyable; recording is real-time safe. Percentiles are upper bounds of the bin, so never too
+/// good.
 class LatencyHistogram {
  public:
   void record(double seconds) noexcept;

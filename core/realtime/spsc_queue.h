@@ -7,7 +7,8 @@
 
 namespace nearfit {
 
-/// Bounded queue from one producer thread to one consumer thread, without locks; counts what it drops when full.
+/// Bounded queue from one producer thread to one consumer thread, without locks; counts what it drops when
+/// full.
 template <class T, std::size_t kCapacity>
 class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -1,0 +1,23 @@
+#include "core/error.h"
+#include "core/haptics/servo_tick.h"
+
+namespace nearfit {
+
+std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene) {
+  const Part* moving = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
+  if (moving == nullptr || moving->geometry == nullptr) {
+    throw UsageError("scene", "no part is in hand", "choose the moving part first");
+  }
+  auto result = std::make_unique<ServoScene>();
+  result->moving = {moving->id, moving->geometry, moving->worldFromPart};
+  result->centreInPart = moving->geometry->mass.centre;
+  if (!moving->isVisible) return result;
+  result->bodies.reserve(scene.parts().size());
+  for (const Scene::PartPtr& part : scene.parts()) {
+    if (part->id == moving->id || !part->isVisible || part->geometry == nullptr) continue;
+    result->bodies.push_back({part->id, part->geometry, part->worldFromPart});
+  }
+  return result;
+}
+
+}  // namespace nearfit

@@ -1,0 +1,217 @@
+#include "core/haptics/servo_tick.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace nearfit {
+namespace {
+
+bool isFinite(const glm::dvec3& v) noexcept {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool isFiniteAtLeast(double value, double lower) noexcept {
+  return std::isfinite(value) && value >= lower;
+}
+
+bool isPose(const RigidTransform& pose) noexcept {
+  const double lengthSquared = glm::dot(pose.rotation, pose.rotation);
+  return pose.isFinite() && lengthSquared > 0.25 && lengthSquared < 4.0;
+}
+
+ServoFault faultOfInput(const ServoParameters& p, const RigidTransform& handle, double period) noexcept {
+  const bool parametersAreValid =
+      isFiniteAtLeast(p.springs.cutoff, std::numeric_limits<double>::min()) &&
+      isFiniteAtLeast(p.springs.stiffness, 0.0) && isFiniteAtLeast(p.springs.damping, 0.0) &&
+      isFiniteAtLeast(p.limits.maxForce, 0.0) && isFiniteAtLeast(p.limits.maxTorque, 0.0) &&
+      isFiniteAtLeast(period, std::numeric_limits<double>::min());
+  if (!parametersAreValid) return ServoFault::ParametersInvalid;
+  return isPose(handle) ? ServoFault::None : ServoFault::PoseNotFinite;
+}
+
+/// Axis times angle [rad], the shorter way round.
+glm::dvec3 rotationVector(glm::dquat q) noexcept {
+  if (q.w < 0.0) q = -q;
+  const glm::dvec3 sine(q.x, q.y, q.z);
+  const double length = glm::length(sine);
+  // Below this sin(x) = x to the last bit, and the quotient would be 0/0 at rest.
+  if (length < 1e-9) return 2.0 * sine;
+  return sine * (2.0 * std::atan2(length, q.w) / length);
+}
+
+/// A velocity that decays at rest would end, for good, among the denormals, where arithmetic is slow.
+glm::dvec3 withoutTraces(const glm::dvec3& velocity) noexcept {
+  return glm::length(velocity) < 1e-100 ? glm::dvec3(0.0) : velocity;
+}
+
+struct Sphere {
+  glm::dvec3 centre;
+  double radius;
+};
+
+Sphere worldBounds(const ServoScene::Body& body, const RigidTransform& worldFromBody) noexcept {
+  const Aabb& box = body.geometry->mesh.bounds();
+  return {worldFromBody.applyToPoint(box.centre()), 0.5 * box.diagonal()};
+}
+
+bool areApart(const Sphere& a, const Sphere& b, double cutoff) noexcept {
+  const double distance = glm::length(a.centre - b.centre);
+  // Padded: at large offsets the centres themselves are rounded.
+  const double rounding = 1e-12 * (glm::length(a.centre) + glm::length(b.centre) + a.radius + b.radius);
+  return distance - a.radius - b.radius > cutoff + rounding;
+}
+
+bool isNearer(const SnapshotLmd& a, const SnapshotLmd& b) noexcept {
+  return a.lmd.distance < b.lmd.distance;
+}
+
+void clearOutputs(ServoSnapshot& snapshot) noexcept {
+  snapshot.wrench = snapshot.unclampedWrench = Wrench{};
+  snapshot.distance = std::numeric_limits<double>::infinity();
+  snapshot.queryTime = 0.0;
+  snapshot.lmdCount = snapshot.storedLmds = 0;
+  snapshot.isTruncated = snapshot.isClamped = false;
+}
+
+}  // namespace
+
+const char* faultReason(ServoFault fault) noexcept {
+  switch (fault) {
+    case ServoFault::None:
+      return "";
+    case ServoFault::PoseNotFinite:
+      return "a pose was not finite or not a rotation; check the device, then start the servo anew";
+    case ServoFault::WrenchNotFinite:
+      return "the force was not finite; lower stiffness or damping, then start the servo anew";
+    case ServoFault::ParametersInvalid:
+      return "cutoff, stiffness, damping, limits or period made no sense; set them, then start the servo "
+             "anew";
+  }
+  return "unknown fault; start the servo anew";
+}
+
+ServoTick::ServoTick() : lmds_(kMaxLmdsPerBody), display_(2 * ServoSnapshot::kMaxLmds) {}
+
+void ServoTick::reset() noexcept {
+  hasLastPose_ = false;
+  twist_ = Twist{};
+  fault_ = ServoFault::None;
+}
+
+void ServoTick::run(const ServoScene& scene, const ServoParameters& parameters, const RigidTransform& handle,
+                    double period, ServoSnapshot& snapshot) noexcept {
+  clearOutputs(snapshot);
+  snapshot.moving = scene.moving.id;
+  if (scene.moving.id != lastMoving_) hasLastPose_ = false;
+  lastMoving_ = scene.moving.id;
+
+  if (fault_ == ServoFault::None) fault_ = faultOfInput(parameters, handle, period);
+  if (fault_ == ServoFault::None) {
+    const RigidTransform pose = handle.normalized();
+    updateTwist(scene, pose, period);
+  } else if (!hasLastPose_) {
+    lastPose_ = scene.moving.worldFromPart;
+  }
+  snapshot.handle = snapshot.proxy = lastPose_;
+  snapshot.centre = lastPose_.applyToPoint(scene.centreInPart);
+
+  if (fault_ == ServoFault::None) {
+    const Wrench wrench = feel(scene, parameters.springs, snapshot);
+    const bool wrenchIsFinite = isFinite(wrench.force) && isFinite(wrench.torque);
+    if (fault_ == ServoFault::None && !wrenchIsFinite) fault_ = ServoFault::WrenchNotFinite;
+    if (fault_ == ServoFault::None) {
+      const LimitedWrench limited = limitWrench(wrench, parameters.limits);
+      snapshot.unclampedWrench = wrench;
+      snapshot.wrench = limited.wrench;
+      snapshot.isClamped = limited.isClamped;
+    }
+  }
+  snapshot.fault = fault_;
+}
+
+void ServoTick::updateTwist(const ServoScene& scene, const RigidTransform& pose, double period) noexcept {
+  if (hasLastPose_) {
+    const glm::dvec3 step =
+        pose.applyToPoint(scene.centreInPart) - lastPose_.applyToPoint(scene.centreInPart);
+    const glm::dvec3 turn = rotationVector(pose.rotation * glm::conjugate(lastPose_.rotation));
+    const double share = period / (kVelocityTimeConstant + period);
+    twist_.linear = withoutTraces(twist_.linear + share * (step / period - twist_.linear));
+    twist_.angular = withoutTraces(twist_.angular + share * (turn / period - twist_.angular));
+  } else {
+    twist_ = Twist{};
+  }
+  lastPose_ = pose;
+  hasLastPose_ = true;
+}
+
+Wrench ServoTick::feel(const ServoScene& scene, const SpringParameters& springs,
+                       ServoSnapshot& snapshot) noexcept {
+  using Clock = std::chrono::steady_clock;
+  Wrench sum;
+  displayCount_ = 0;
+  displayWasCut_ = false;
+  if (scene.moving.geometry == nullptr) return sum;
+  const Sphere movingBounds = worldBounds(scene.moving, snapshot.proxy);
+  const Clock::time_point begin = Clock::now();
+  for (const ServoScene::Body& body : scene.bodies) {
+    if (body.geometry == nullptr) continue;
+    if (areApart(movingBounds, worldBounds(body, body.worldFromPart), springs.cutoff)) continue;
+    const Wrench wrench = feelBody(body, scene, springs, snapshot);
+    sum.force += wrench.force;
+    sum.torque += wrench.torque;
+  }
+  writeDisplay(snapshot);
+  snapshot.queryTime = std::chrono::duration<double>(Clock::now() - begin).count();
+  return sum;
+}
+
+Wrench ServoTick::feelBody(const ServoScene::Body& body, const ServoScene& scene,
+                           const SpringParameters& springs, ServoSnapshot& snapshot) noexcept {
+  const RigidTransform bodyFromPart = (body.worldFromPart.inverse() * snapshot.proxy).normalized();
+  if (!isPose(body.worldFromPart) || !bodyFromPart.isFinite()) {
+    fault_ = ServoFault::PoseNotFinite;
+    return {};
+  }
+  const LmdResult result = findLmds(body.geometry->tree, scene.moving.geometry->tree, bodyFromPart,
+                                    springs.cutoff, scratch_, lmds_);
+  const std::span<Lmd> found = std::span(lmds_).first(result.count);
+  for (Lmd& lmd : found) {
+    lmd.scenePoint = body.worldFromPart.applyToPoint(lmd.scenePoint);
+    lmd.partPoint = body.worldFromPart.applyToPoint(lmd.partPoint);
+    lmd.direction = body.worldFromPart.applyToVector(lmd.direction);
+    snapshot.distance = std::min(snapshot.distance, lmd.distance);
+  }
+  snapshot.lmdCount += static_cast<std::uint32_t>(result.count);
+  if (result.status == QueryStatus::Truncated) snapshot.isTruncated = true;
+  keepForDisplay(body.id, result.count);
+  return springWrench(found, springs, snapshot.centre, twist_);
+}
+
+void ServoTick::keepForDisplay(PartId other, std::size_t count) noexcept {
+  const std::size_t added = std::min(count, ServoSnapshot::kMaxLmds);
+  for (std::size_t i = 0; i < added; ++i)
+    display_[displayCount_ + i] = {lmds_[i], other};
+  displayCount_ += added;
+  if (displayCount_ <= ServoSnapshot::kMaxLmds) return;
+  const auto begin = display_.begin();
+  std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(ServoSnapshot::kMaxLmds),
+                   begin + static_cast<std::ptrdiff_t>(displayCount_), isNearer);
+  displayCount_ = ServoSnapshot::kMaxLmds;
+  displayWasCut_ = true;
+}
+
+void ServoTick::writeDisplay(ServoSnapshot& snapshot) noexcept {
+  const std::span<SnapshotLmd> kept = std::span(display_).first(displayCount_);
+  if (displayWasCut_) {
+    std::sort(kept.begin(), kept.end(), [](const SnapshotLmd& a, const SnapshotLmd& b) {
+      return a.other != b.other ? a.other < b.other : isNearer(a, b);
+    });
+  }
+  std::copy(kept.begin(), kept.end(), snapshot.lmds.begin());
+  snapshot.storedLmds = static_cast<std::uint32_t>(displayCount_);
+}
+
+}  // namespace nearfit

@@ -1,0 +1,34 @@
+#include "core/haptics/spring_law.h"
+
+#include <glm/geometric.hpp>
+
+namespace nearfit {
+namespace {
+
+/// Push of one minimum along its direction [N], >= 0; NaN when an input is.
+double pushOf(const Lmd& lmd, const SpringParameters& p, const glm::dvec3& velocity) noexcept {
+  const double compression = p.cutoff - lmd.distance;
+  if (compression <= 0.0) return 0.0;
+  double push = p.stiffness * compression;
+  if (p.law == SpringLaw::Printed) push *= lmd.distance;
+  push -= p.damping * glm::dot(lmd.direction, velocity);
+  // Written so that NaN passes through: the caller must see it, not a force that looks right.
+  return push < 0.0 ? 0.0 : push;
+}
+
+}  // namespace
+
+Wrench springWrench(std::span<const Lmd> lmds, const SpringParameters& parameters,
+                    const glm::dvec3& centreOfMass, const Twist& twist) noexcept {
+  Wrench sum;
+  for (const Lmd& lmd : lmds) {
+    const glm::dvec3 arm = lmd.partPoint - centreOfMass;
+    const glm::dvec3 velocity = twist.linear + glm::cross(twist.angular, arm);
+    const glm::dvec3 force = pushOf(lmd, parameters, velocity) * lmd.direction;
+    sum.force += force;
+    sum.torque += glm::cross(arm, force);
+  }
+  return sum;
+}
+
+}  // namespace nearfit

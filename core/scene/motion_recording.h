@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/haptics/servo_tick.h"
+#include "core/realtime/spsc_queue.h"
+
+namespace nearfit {
+
+/// What is kept of one tick; trivially copyable. World frame.
+struct MotionRow {
+  double time = 0.0;      ///< Since the servo started [s].
+  RigidTransform handle;  ///< worldFromHandle
+  RigidTransform proxy;   ///< worldFromPart
+  Wrench wrench;          ///< As sent, about the part's centre of mass.
+  std::uint32_t lmds = 0;
+  double distance = 0.0;  ///< Least distance [m]; infinity when nothing is within the cutoff.
+  double queryTime = 0.0, tickTime = 0.0;  ///< [s]
+  bool isTruncated = false, isClamped = false;
+  ServoFault fault = ServoFault::None;
+};
+
+/// Real-time safe.
+MotionRow motionRow(const ServoSnapshot& snapshot) noexcept;
+
+/// From the servo thread to the thread that writes: sixteen seconds at 1 kHz.
+using MotionQueue = SpscQueue<MotionRow, 16384>;
+
+/// First line of a recording: t_s, handle_tx ... handle_qz, proxy_tx ... proxy_qz, force_x ... torque_z,
+/// lmds, distance, query_us, tick_us. Poses are tx ty tz qw qx qy qz.
+std::string_view motionHeader() noexcept;
+
+/// One line without its end, in the columns of motionHeader. Numbers are the shortest that read back the
+/// same; `distance` is `inf` when nothing is within the cutoff.
+std::string formatMotionRow(const MotionRow& row);
+
+/// Writes a recording as CSV, row by row, to a temporary file beside the target that takes its name only when
+/// it is whole. Not for the servo thread. Throws FileError.
+class MotionWriter {
+ public:
+  explicit MotionWriter(std::filesystem::path file);
+  /// Drops what was written unless finish() was called.
+  ~MotionWriter();
+  MotionWriter(const MotionWriter&) = delete;
+  MotionWriter& operator=(const MotionWriter&) = delete;
+
+  void write(const MotionRow& row);
+  /// Flushes to disk and puts the recording in place.
+  void finish();
+
+ private:
+  [[noreturn]] void fail(const std::string& problem, int error);
+  void writeLine(std::string_view line);
+  void discard() noexcept;
+
+  std::filesystem::path file_;
+  std::string temporary_;
+  std::FILE* stream_ = nullptr;
+};
+
+}  // namespace nearfit

@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/haptics/servo_tick.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/part_geometries.h"
+
+namespace nearfit {
+namespace {
+
+class ServoSceneOfThree : public testing::Test {
+ protected:
+  ServoSceneOfThree() {
+    first_ = scene_.add(test::partOf(geometry_, "First", {glm::dquat(1, 0, 0, 0), {1.0, 0.0, 0.0}}));
+    second_ = scene_.add(test::partOf(geometry_, "Second", {glm::dquat(1, 0, 0, 0), {2.0, 0.0, 0.0}}));
+    third_ = scene_.add(test::partOf(geometry_, "Third", {glm::dquat(1, 0, 0, 0), {3.0, 0.0, 0.0}}));
+  }
+  void hide(PartId id) {
+    Part part = *scene_.find(id);
+    part.isVisible = false;
+    scene_.replace(part);
+  }
+
+  const PartGeometryPtr geometry_ = test::geometryOf(test::boxMesh({1.0, 1.0, 1.0}), {0.1, 0.2, 0.3});
+  Scene scene_;
+  PartId first_{}, second_{}, third_{};
+};
+
+TEST_F(ServoSceneOfThree, HoldsTheMovingPartAndAllOthersWhereTheyAre) {
+  scene_.setMovingPart(second_);
+  const auto servo = makeServoScene(scene_);
+  EXPECT_EQ(servo->moving.id, second_);
+  EXPECT_EQ(servo->moving.geometry, geometry_);
+  EXPECT_EQ(servo->moving.worldFromPart.translation.x, 2.0);
+  EXPECT_EQ(servo->centreInPart, glm::dvec3(0.1, 0.2, 0.3));
+  ASSERT_EQ(servo->bodies.size(), 2U);
+  EXPECT_EQ(servo->bodies[0].id, first_);
+  EXPECT_EQ(servo->bodies[1].id, third_);
+  EXPECT_EQ(servo->bodies[1].worldFromPart.translation.x, 3.0);
+}
+
+TEST_F(ServoSceneOfThree, HiddenPartsAreNotFelt) {
+  scene_.setMovingPart(second_);
+  hide(first_);
+  const auto servo = makeServoScene(scene_);
+  ASSERT_EQ(servo->bodies.size(), 1U);
+  EXPECT_EQ(servo->bodies[0].id, third_);
+}
+
+TEST_F(ServoSceneOfThree, AHiddenPartInHandFeelsNothing) {
+  scene_.setMovingPart(second_);
+  hide(second_);
+  const auto servo = makeServoScene(scene_);
+  EXPECT_TRUE(servo->bodies.empty());
+  EXPECT_EQ(servo->moving.id, second_);
+}
+
+TEST_F(ServoSceneOfThree, NoPartInHandIsRefused) {
+  EXPECT_THROW(makeServoScene(scene_), UsageError);
+}
+
+}  // namespace
+}  // namespace nearfit

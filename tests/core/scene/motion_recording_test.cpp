@@ -1,0 +1,133 @@
+#include "core/scene/motion_recording.h"
+
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, separator);)
+    parts.push_back(part);
+  return parts;
+}
+
+MotionRow sampleRow() {
+  MotionRow row;
+  row.time = 0.001;
+  row.handle = {glm::dquat(0.1, 0.2, 0.3, 0.4), {1.0, 2.0, 3.0}};
+  row.proxy = {glm::dquat(0.5, 0.6, 0.7, 0.8), {4.0, 5.0, 6.0}};
+  row.wrench = {{-1.0, -2.0, -3.0}, {-4.0, -5.0, -6.0}};
+  row.lmds = 17;
+  row.distance = 1.0 / 3.0;
+  row.queryTime = 12.3456e-6;
+  row.tickTime = 20e-6;
+  return row;
+}
+
+TEST(MotionRecording, TheHeaderNamesTheColumnsInOrder) {
+  const std::vector<std::string> expected{"t_s",       "handle_tx", "handle_ty", "handle_tz", "handle_qw",
+                                          "handle_qx", "handle_qy", "handle_qz", "proxy_tx",  "proxy_ty",
+                                          "proxy_tz",  "proxy_qw",  "proxy_qx",  "proxy_qy",  "proxy_qz",
+                                          "force_x",   "force_y",   "force_z",   "torque_x",  "torque_y",
+                                          "torque_z",  "lmds",      "distance",  "query_us",  "tick_us"};
+  EXPECT_EQ(split(std::string(motionHeader()), ','), expected);
+}
+
+TEST(MotionRecording, ARowHasItsValuesUnderTheirColumns) {
+  const std::vector<std::string> columns = split(formatMotionRow(sampleRow()), ',');
+  const std::vector<double> expected{0.001, 1,   2,  3,  0.1, 0.2, 0.3, 0.4, 4,  5,         6,      0.5, 0.6,
+                                     0.7,   0.8, -1, -2, -3,  -4,  -5,  -6,  17, 1.0 / 3.0, 12.346, 20};
+  ASSERT_EQ(columns.size(), expected.size());
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    EXPECT_EQ(std::stod(columns[i]), expected[i]) << i;
+}
+
+TEST(MotionRecording, NothingWithinTheCutoffIsAnInfiniteDistance) {
+  MotionRow row = sampleRow();
+  row.distance = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(split(formatMotionRow(row), ',').at(22), "inf");
+}
+
+TEST(MotionRecording, ARowIsTakenFromASnapshot) {
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  snapshot->time = 1.5;
+  snapshot->handle.translation.x = 2.5;
+  snapshot->proxy.translation.x = 3.5;
+  snapshot->wrench.force.x = 4.5;
+  snapshot->unclampedWrench.force.x = 99.0;
+  snapshot->lmdCount = 700;
+  snapshot->storedLmds = 512;
+  snapshot->distance = 5.5;
+  snapshot->queryTime = 6.5;
+  snapshot->tickTime = 7.5;
+  snapshot->isClamped = true;
+  snapshot->fault = ServoFault::WrenchNotFinite;
+  const MotionRow row = motionRow(*snapshot);
+  EXPECT_EQ(row.time, 1.5);
+  EXPECT_EQ(row.handle.translation.x, 2.5);
+  EXPECT_EQ(row.proxy.translation.x, 3.5);
+  EXPECT_EQ(row.wrench.force.x, 4.5) << "as sent";
+  EXPECT_EQ(row.lmds, 700U);
+  EXPECT_EQ(row.distance, 5.5);
+  EXPECT_EQ(row.queryTime, 6.5);
+  EXPECT_EQ(row.tickTime, 7.5);
+  EXPECT_TRUE(row.isClamped);
+  EXPECT_FALSE(row.isTruncated);
+  EXPECT_EQ(row.fault, ServoFault::WrenchNotFinite);
+}
+
+TEST(MotionWriter, TheFileAppearsWholeWhenFinished) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "record.csv";
+  MotionWriter writer(file);
+  writer.write(sampleRow());
+  writer.write(sampleRow());
+  EXPECT_FALSE(std::filesystem::exists(file));
+  writer.finish();
+  const std::vector<std::string> lines = split(test::readBytes(file), '\n');
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[0], motionHeader());
+  EXPECT_EQ(lines[1], formatMotionRow(sampleRow()));
+  const auto entries = std::distance(std::filesystem::directory_iterator(folder.path()), {});
+  EXPECT_EQ(entries, 1) << "no temporary file is left";
+}
+
+TEST(MotionWriter, AnUnfinishedRecordingLeavesTheOldFileAndNothingElse) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("record.csv", "old");
+  {
+    MotionWriter writer(file);
+    writer.write(sampleRow());
+  }
+  EXPECT_EQ(test::readBytes(file), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(MotionWriter, AMissingFolderIsNamed) {
+  const test::TemporaryFolder folder;
+  try {
+    MotionWriter writer(folder.path() / "missing" / "record.csv");
+    FAIL() << "no error";
+  } catch (const FileError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("missing/record.csv"));
+    EXPECT_THAT(e.what(), HasSubstr("No such file or directory"));
+  }
+  EXPECT_THROW(MotionWriter{folder.path()}, FileError);
+}
+
+}  // namespace
+}  // namespace nearfit

@@ -1,0 +1,31 @@
+#include "tests/support/part_geometries.h"
+
+#include <utility>
+
+namespace nearfit::test {
+
+PartGeometryPtr geometryOf(TriangleMesh mesh, const glm::dvec3& centre) {
+  NormalConeTree tree(mesh);
+  MassProperties mass;
+  mass.volume = 1.0;
+  mass.centre = centre;
+  mass.inertia = glm::dmat3(1.0);
+  mass.basis = MassBasis::VolumeIntegrals;
+  return std::make_shared<const PartGeometry>(PartGeometry{.file = "/generated.obj",
+                                                           .sha256 = std::string(64, '0'),
+                                                           .metresPerUnit = 1.0,
+                                                           .mesh = std::move(mesh),
+                                                           .report = {},
+                                                           .tree = std::move(tree),
+                                                           .mass = mass});
+}
+
+Part partOf(PartGeometryPtr geometry, const char* name, const RigidTransform& worldFromPart) {
+  Part part;
+  part.name = name;
+  part.geometry = std::move(geometry);
+  part.worldFromPart = worldFromPart;
+  return part;
+}
+
+}  // namespace nearfit::test
