@@ -13,7 +13,7 @@ enum class DeviceState : std::uint8_t { Absent, Ready, Running, Fault };
 
 struct DeviceInfo {
   std::string name;
-  int forceAxes = 0;   ///< 0, 3 or 6.
+  int forceAxes = 0;  ///< 0, 3 or 6.
   WrenchLimits limits;
 };
 
@@ -30,8 +30,8 @@ class HapticDevice {
   virtual void start(const RigidTransform& worldFromPart) = 0;
   virtual void stop() noexcept = 0;
 
-  /// The newest handle pose in world coordinates. False when the device has ended or been lost: `pose` is left
-  /// as it was.
+  /// The newest handle pose in world coordinates. False when the device has ended or been lost: `pose` is
+  /// left as it was.
   virtual bool readPose(RigidTransform& pose) noexcept = 0;
   /// Takes a wrench that is finite and within the limits.
   virtual void sendWrench(const Wrench& wrench) noexcept = 0;

@@ -1,25 +1,22 @@
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <string>
-#include <thread>
 
 #include "core/haptics/servo_tick.h"
 #include "core/realtime/latency_histogram.h"
-#include "core/realtime/spsc_queue.h"
-#include "core/realtime/triple_buffer.h"
+#include "core/scene/motion_recording.h"
 #include "device/haptic_device.h"
 
 namespace nearfit {
 
 /// Timing of a servo since its start; trivially copyable.
 struct ServoStatistics {
-  LatencyHistogram lateness;   ///< Wake-up behind its deadline.
-  LatencyHistogram tickTime;   ///< Work in a tick.
+  LatencyHistogram lateness;  ///< Wake-up behind its deadline.
+  LatencyHistogram tickTime;  ///< Work in a tick, from the device's pose to its wrench.
   LatencyHistogram queryTime;
   std::uint64_t ticks = 0;
-  std::uint64_t overruns = 0;  ///< Ticks that were skipped because the one before took too long.
+  std::uint64_t overruns = 0;  ///< Ticks that were skipped because the one before ended too late.
 };
 
 /// Ticks a device against a scene at a fixed rate on absolute deadlines, in a thread of its own.
@@ -33,29 +30,35 @@ class ServoLoop {
   ServoLoop(const ServoLoop&) = delete;
   ServoLoop& operator=(const ServoLoop&) = delete;
 
-  /// Starts ticking. The device stays the caller's, alive until stop(). Throws UsageError, Error.
-  void start(HapticDevice& device, std::unique_ptr<const ServoScene> scene, const ServoParameters& parameters);
-  /// Stops within a tick or two; sends a zero wrench last. Harmless when stopped.
+  /// Starts the device and the ticking. The device stays the caller's, alive until stop(); forces are clamped
+  /// to its limits and to those of `parameters`, whichever are lower.
+  /// @param record  Takes a row of every tick until stop(), in order; counts what finds it full. May be null.
+  /// Throws UsageError (running already, no scene), Error (from the device, or no thread to be had).
+  void start(HapticDevice& device, std::unique_ptr<const ServoScene> scene, const ServoParameters& parameters,
+             MotionQueue* record = nullptr);
+  /// Stops within a tick or two; sends a zero wrench last, stops the device. Harmless when stopped. Snapshot,
+  /// statistics and note stay readable until the next start().
   void stop() noexcept;
-  /// False also once the device has ended by itself.
+  /// False also once the device has ended by itself; stop() is due then too.
   bool isRunning() const noexcept;
 
-  /// Puts another scene in place at the next tick; the old one is freed on this thread, later.
+  /// Puts another scene in place at the next tick; the old one is freed on this thread, later. Throws
+  /// UsageError when `scene` is null.
   void setScene(std::unique_ptr<const ServoScene> scene);
   void setParameters(const ServoParameters& parameters);
 
   /// The newest snapshot; true when it is another than at the last call. One reader.
   bool pollSnapshot();
+  /// What the last pollSnapshot() took; valid until the next one, or the next start().
   const ServoSnapshot& snapshot() const noexcept;
-  /// Copies the statistics as of the last tick or so.
+  /// Copies the statistics as of a tenth of a second ago at most; after stop(), of all ticks.
   ServoStatistics statistics() const;
-  /// What real-time service the system granted ("SCHED_FIFO 70, memory locked", or why not), for the user.
+  /// What real-time service the system granted ("SCHED_FIFO 70, memory locked", or why not and the remedy).
   std::string schedulingNote() const;
 
  private:
   struct Shared;
   std::unique_ptr<Shared> shared_;
-  std::thread thread_;
 };
 
 }  // namespace nearfit

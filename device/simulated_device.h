@@ -9,10 +9,13 @@
 
 namespace nearfit {
 
-/// Follows a list of poses, one a tick, then ends. Deterministic: no clock in it.
+/// Follows a list of poses, one a tick, then ends. Deterministic: no clock in it. Takes any wrench, feels
+/// none.
 class PathDevice final : public HapticDevice {
  public:
-  /// @param path  worldFromPart for each tick; not empty.
+  /// @param path     worldFromPart for each tick, whatever pose start() is given.
+  /// @param repeats  Begins again after the last pose instead of ending.
+  /// Throws UsageError when the path is empty.
   explicit PathDevice(std::vector<RigidTransform> path, bool repeats = false);
 
   DeviceInfo info() const override;
@@ -22,6 +25,9 @@ class PathDevice final : public HapticDevice {
   bool readPose(RigidTransform& pose) noexcept override;
   void sendWrench(const Wrench& wrench) noexcept override;
 
+  /// What was sent last; to be read while no servo runs.
+  const Wrench& lastWrench() const noexcept { return lastWrench_; }
+
  private:
   std::vector<RigidTransform> path_;
   bool repeats_;
@@ -30,10 +36,11 @@ class PathDevice final : public HapticDevice {
   std::atomic<DeviceState> state_{DeviceState::Ready};
 };
 
-/// A pose that another thread (the window: numbers, dragging) sets; the part follows at once.
+/// A pose that the controlling thread (the window: numbers, dragging) sets; the part follows at once. There
+/// is no hand to push: wrenches are for the picture alone.
 class ManualDevice final : public HapticDevice {
  public:
-  /// From one thread other than the servo's. The pose must be finite.
+  /// From the thread that calls start(), and from no other. The pose must be finite.
   void setPose(const RigidTransform& worldFromPart) noexcept { pose_.publish(worldFromPart); }
 
   DeviceInfo info() const override;
@@ -48,13 +55,23 @@ class ManualDevice final : public HapticDevice {
   std::atomic<DeviceState> state_{DeviceState::Ready};
 };
 
-/// A scripted hand: from where the part is, a smooth sweep (approach, slide, wobble, retreat) of the given reach,
-/// again and again, the same each time. One pose a tick of `period`.
+/// A scripted hand: one smooth sweep of approach (by `reach` along `approach`), slide (a circle across it),
+/// wobble (turning about the part's origin by a few degrees) and retreat to where it began. At rest at both
+/// ends, so that it can be repeated without a jolt. The same arguments give the same path.
+///
+/// @param worldFromPart  Where the part is: the first pose and the last.
+/// @param approach       Direction of the approach in the world; any length but zero.
+/// @param reach          How far the approach goes [m]; > 0.
+/// @param seconds        Duration of the whole sweep [s].
+/// @param period         Of a tick [s]; one pose for each.
+/// Throws UsageError for arguments that are not finite or out of range.
 std::vector<RigidTransform> scriptedHandPath(const RigidTransform& worldFromPart, const glm::dvec3& approach,
                                              double reach, double seconds, double period);
 
-/// Reads poses from CSV: `tx,ty,tz,qw,qx,qy,qz` a row, `#` starts a comment line; a header line is allowed.
-/// Quaternions are normalised; one that is off unit by more than 1e-3 is refused. Throws FileError with the line.
+/// Reads poses from CSV: `tx,ty,tz,qw,qx,qy,qz` a row (metres, then a unit quaternion), `#` starts a comment
+/// line, blank lines are skipped, one header line is allowed. Quaternions are normalised; one that is off
+/// unit by more than 1e-3 is refused. Throws FileError with file, line and remedy; memory is that of the
+/// poses.
 std::vector<RigidTransform> readPosePath(const std::filesystem::path& file);
 
 }  // namespace nearfit

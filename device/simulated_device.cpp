@@ -1,0 +1,67 @@
+#include "device/simulated_device.h"
+
+#include <utility>
+
+#include "core/error.h"
+
+namespace nearfit {
+
+PathDevice::PathDevice(std::vector<RigidTransform> path, bool repeats)
+    : path_(std::move(path)), repeats_(repeats) {
+  if (path_.empty()) throw UsageError("path", "it has no poses", "give at least one");
+}
+
+DeviceInfo PathDevice::info() const {
+  return {"Simulated hand on a path", 6, WrenchLimits{}};
+}
+
+void PathDevice::start(const RigidTransform&) {
+  next_ = 0;
+  lastWrench_ = Wrench{};
+  state_.store(DeviceState::Running, std::memory_order_relaxed);
+}
+
+void PathDevice::stop() noexcept {
+  state_.store(DeviceState::Ready, std::memory_order_relaxed);
+}
+
+bool PathDevice::readPose(RigidTransform& pose) noexcept {
+  if (state() != DeviceState::Running) return false;
+  if (next_ == path_.size()) {
+    if (!repeats_) {
+      state_.store(DeviceState::Ready, std::memory_order_relaxed);
+      return false;
+    }
+    next_ = 0;
+  }
+  pose = path_[next_++];
+  return true;
+}
+
+void PathDevice::sendWrench(const Wrench& wrench) noexcept {
+  lastWrench_ = wrench;
+}
+
+DeviceInfo ManualDevice::info() const {
+  return {"Mouse and numbers", 0, WrenchLimits{}};
+}
+
+void ManualDevice::start(const RigidTransform& worldFromPart) {
+  pose_.publish(worldFromPart);
+  state_.store(DeviceState::Running, std::memory_order_relaxed);
+}
+
+void ManualDevice::stop() noexcept {
+  state_.store(DeviceState::Ready, std::memory_order_relaxed);
+}
+
+bool ManualDevice::readPose(RigidTransform& pose) noexcept {
+  if (state() != DeviceState::Running) return false;
+  pose_.update();
+  pose = pose_.front();
+  return true;
+}
+
+void ManualDevice::sendWrench(const Wrench&) noexcept {}
+
+}  // namespace nearfit
