@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <string>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "core/mesh/triangle_mesh.h"
 
@@ -12,8 +13,12 @@ namespace nearfit {
 /// Polygons as a file has them: before welding, triangulation and cleaning. In the file's units.
 struct PolygonSoup {
   std::vector<glm::dvec3> vertices;
-  std::vector<std::uint32_t> corners;       ///< Vertex indices of all polygons, one polygon after the other.
+  std::vector<std::uint32_t> corners;  ///< Vertex indices of all polygons, one polygon after the other.
   std::vector<std::uint32_t> firstCorner{0};  ///< Polygon i has corners [firstCorner[i], firstCorner[i + 1]).
+
+  std::size_t polygonCount() const noexcept { return firstCorner.size() - 1; }
+  /// Makes a polygon of the corners added since the last one. Throws Error when there are too many corners.
+  void closePolygon();
 };
 
 struct MeshBuildOptions {
@@ -25,11 +30,11 @@ struct MeshBuildOptions {
 /// What was done to a soup to make a mesh of it, and what is left wrong with the mesh.
 struct MeshBuildReport {
   std::uint64_t weldedVertices = 0;
-  std::uint64_t degenerateFaces = 0;   ///< Dropped: no area, or a corner repeated.
-  std::uint64_t duplicateFaces = 0;    ///< Dropped: same corners in the same sense as another face.
-  std::uint64_t nonFiniteFaces = 0;    ///< Dropped: they use a vertex that is not finite.
-  bool turnedInsideOut = false;        ///< The closed mesh had negative volume; all its faces were turned.
-  std::vector<std::string> warnings;   ///< A sentence for each thing a user should know, with counts.
+  std::uint64_t degenerateFaces = 0;  ///< Dropped: no area, or a corner repeated.
+  std::uint64_t duplicateFaces = 0;   ///< Dropped: same corners in the same sense as another face.
+  std::uint64_t nonFiniteFaces = 0;   ///< Dropped: they use a vertex that is not finite.
+  bool turnedInsideOut = false;       ///< The closed mesh had negative volume; all its faces were turned.
+  std::vector<std::string> warnings;  ///< A sentence for each thing a user should know, with counts.
 };
 
 /// A mesh from a soup: scaled to metres, welded, polygons triangulated (concave ones too), cleaned, turned.

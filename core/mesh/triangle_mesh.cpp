@@ -12,7 +12,8 @@ namespace {
 
 void validate(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles) {
   if (triangles.size() > TriangleMesh::kMaxTriangles || vertices.size() > TriangleMesh::kMaxTriangles) {
-    throw Error("mesh", "it has more than " + std::to_string(TriangleMesh::kMaxTriangles) + " triangles or vertices",
+    throw Error("mesh",
+                "it has more than " + std::to_string(TriangleMesh::kMaxTriangles) + " triangles or vertices",
                 "decimate it first");
   }
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -56,7 +57,8 @@ TriangleMesh::TriangleMesh(std::vector<glm::dvec3> vertices, std::vector<Triangl
     : vertices_(std::move(vertices)), triangles_(std::move(triangles)) {
   validate(vertices_, triangles_);
   for (const Triangle& t : triangles_) {
-    for (const std::uint32_t v : t) bounds_.add(vertices_[v]);
+    for (const std::uint32_t v : t)
+      bounds_.add(vertices_[v]);
   }
   buildEdges();
   countTopology();
@@ -79,8 +81,8 @@ void TriangleMesh::buildEdges() {
   edgeFaces_.reserve(sides.size());
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (i == 0 || sides[i].edge != sides[i - 1].edge) {
-      edges_.push_back({static_cast<std::uint32_t>(sides[i].edge >> 32), static_cast<std::uint32_t>(sides[i].edge),
-                        static_cast<std::uint32_t>(i), 0});
+      edges_.push_back({static_cast<std::uint32_t>(sides[i].edge >> 32),
+                        static_cast<std::uint32_t>(sides[i].edge), static_cast<std::uint32_t>(i), 0});
     }
     ++edges_.back().faceCount;
     edgeFaces_.push_back(sides[i].index / 3);
@@ -123,15 +125,18 @@ void TriangleMesh::countTopology() {
     if (faces.size() == 1) ++topology_.openEdges;
     if (faces.size() > 2) ++topology_.nonManifoldEdges;
     if (faces.size() == 2 && !isEdgeConsistent(e)) ++topology_.inconsistentEdges;
-    for (const std::uint32_t face : faces) parent[findRoot(parent, face)] = findRoot(parent, faces[0]);
+    for (const std::uint32_t face : faces)
+      parent[findRoot(parent, face)] = findRoot(parent, faces[0]);
   }
-  for (std::uint32_t t = 0; t < triangles_.size(); ++t) topology_.components += findRoot(parent, t) == t ? 1 : 0;
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+    topology_.components += findRoot(parent, t) == t ? 1 : 0;
 }
 
 std::size_t TriangleMesh::byteSize() const noexcept {
   return vertices_.capacity() * sizeof(vertices_[0]) + triangles_.capacity() * sizeof(triangles_[0]) +
          edges_.capacity() * sizeof(edges_[0]) + edgeFaces_.capacity() * sizeof(edgeFaces_[0]) +
-         triangleEdges_.capacity() * sizeof(triangleEdges_[0]) + vertexEdges_.capacity() * sizeof(vertexEdges_[0]) +
+         triangleEdges_.capacity() * sizeof(triangleEdges_[0]) +
+         vertexEdges_.capacity() * sizeof(vertexEdges_[0]) +
          vertexFirstEdge_.capacity() * sizeof(vertexFirstEdge_[0]);
 }
 

@@ -2,9 +2,10 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "core/math/aabb.h"
 

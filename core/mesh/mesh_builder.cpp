@@ -1,0 +1,270 @@
+#include "core/mesh/mesh_builder.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "core/error.h"
+#include "core/mesh/polygon_triangulation.h"
+#include "core/mesh/vertex_welding.h"
+
+namespace nearfit {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// No part is larger [m]; beyond this a number is damaged or its unit wrong, and products of lengths lose
+/// meaning.
+constexpr double kMaxExtent = 1e9;
+
+bool isFinite(const glm::dvec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+void checkOptions(const MeshBuildOptions& options) {
+  if (!std::isfinite(options.metresPerUnit) || !(options.metresPerUnit > 0.0)) {
+    throw UsageError("unit", fmt::format("{} metres per unit make no sense", options.metresPerUnit),
+                     "give a finite number greater than 0");
+  }
+  if (!(options.weldTolerance >= 0.0) || options.weldTolerance > 0.1) {
+    throw UsageError("weld tolerance",
+                     fmt::format("{} of the diagonal makes no sense", options.weldTolerance),
+                     "give a number from 0 to 0.1");
+  }
+}
+
+void checkSoup(const PolygonSoup& soup) {
+  if (soup.vertices.size() > TriangleMesh::kMaxTriangles ||
+      soup.polygonCount() > TriangleMesh::kMaxTriangles) {
+    throw Error("", fmt::format("it has more than {} vertices or faces", TriangleMesh::kMaxTriangles),
+                "reduce the mesh first");
+  }
+  if (soup.firstCorner.empty() || soup.firstCorner.front() != 0 ||
+      soup.firstCorner.back() != soup.corners.size() || !std::ranges::is_sorted(soup.firstCorner)) {
+    throw Error("", "its list of faces contradicts itself", "export the part again");
+  }
+  for (std::size_t i = 0; i < soup.polygonCount(); ++i) {
+    for (std::uint32_t k = soup.firstCorner[i]; k < soup.firstCorner[i + 1]; ++k) {
+      if (soup.corners[k] < soup.vertices.size()) continue;
+      throw Error(fmt::format("face {}", i),
+                  fmt::format("it names vertex {} of {}", soup.corners[k], soup.vertices.size()),
+                  "export the part again");
+    }
+  }
+}
+
+/// The work of buildMesh, step by step.
+class Builder {
+ public:
+  Builder(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report)
+      : soup_(soup), options_(options), report_(report) {}
+
+  TriangleMesh build() {
+    gatherVertices();
+    weld();
+    gatherTriangles();
+    dropTrianglesWithoutArea();
+    dropDuplicates();
+    if (triangles_.empty()) throw Error("", "none of its faces has an area", "export the part again");
+    dropUnusedVertices();
+    return {std::move(vertices_), std::move(triangles_)};
+  }
+
+ private:
+  std::span<const std::uint32_t> polygon(std::size_t i) const {
+    return std::span(soup_.corners)
+        .subspan(soup_.firstCorner[i], soup_.firstCorner[i + 1] - soup_.firstCorner[i]);
+  }
+  bool isFinitePolygon(std::span<const std::uint32_t> corners) const {
+    return std::ranges::all_of(
+        corners, [&](std::uint32_t v) { return isFinite(options_.metresPerUnit * soup_.vertices[v]); });
+  }
+
+  /// In metres, those only that faces use: the others must not count for the bounding box.
+  void gatherVertices() {
+    newIndex_.assign(soup_.vertices.size(), kNone);
+    Aabb box;
+    for (std::size_t i = 0; i < soup_.polygonCount(); ++i) {
+      if (!isFinitePolygon(polygon(i))) continue;
+      for (const std::uint32_t v : polygon(i)) {
+        if (newIndex_[v] != kNone) continue;
+        newIndex_[v] = static_cast<std::uint32_t>(vertices_.size());
+        vertices_.push_back(options_.metresPerUnit * soup_.vertices[v]);
+        box.add(vertices_.back());
+      }
+    }
+    if (vertices_.empty())
+      throw Error("", "none of its faces has finite coordinates", "export the part again");
+    const glm::dvec3 reach = glm::max(glm::abs(box.lower), glm::abs(box.upper));
+    if (const double farthest = std::max({reach.x, reach.y, reach.z}); farthest > kMaxExtent) {
+      throw Error("", fmt::format("a coordinate is {:.3g} m from the origin", farthest),
+                  "check the unit, or export the part again");
+    }
+    tolerance_ = options_.weldTolerance * box.diagonal();
+  }
+
+  void weld() {
+    const std::vector<std::uint32_t> representative = weldPoints(vertices_, tolerance_);
+    for (std::uint32_t& index : newIndex_) {
+      if (index != kNone) index = representative[index];
+    }
+    for (std::uint32_t i = 0; i < representative.size(); ++i)
+      report_.weldedVertices += representative[i] != i ? 1 : 0;
+  }
+
+  void gatherTriangles() {
+    PolygonTriangulator triangulator;
+    std::vector<std::uint32_t> corners;
+    triangles_.reserve(soup_.polygonCount());
+    for (std::size_t i = 0; i < soup_.polygonCount(); ++i) {
+      if (!isFinitePolygon(polygon(i))) {
+        ++report_.nonFiniteFaces;
+        continue;
+      }
+      corners.clear();
+      for (const std::uint32_t v : polygon(i)) {
+        if (corners.empty() || corners.back() != newIndex_[v]) corners.push_back(newIndex_[v]);
+      }
+      while (corners.size() > 1 && corners.front() == corners.back())
+        corners.pop_back();
+      const bool isUsable =
+          corners.size() >= 3 && triangulator.triangulate(vertices_, corners, triangles_) > 0;
+      report_.degenerateFaces += isUsable ? 0 : 1;
+    }
+    newIndex_ = {};
+  }
+
+  void dropTrianglesWithoutArea() {
+    const std::size_t before = triangles_.size();
+    std::erase_if(triangles_, [&](const Triangle& t) {
+      const glm::dvec3 a = vertices_[t[0]], b = vertices_[t[1]], c = vertices_[t[2]];
+      return glm::cross(b - a, c - a) == glm::dvec3(0.0);
+    });
+    report_.degenerateFaces += before - triangles_.size();
+  }
+
+  void dropDuplicates() {
+    std::vector<std::uint32_t> slots(std::bit_ceil(2 * triangles_.size() + 1), kNone);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      const Triangle t = triangles_[i];
+      std::size_t slot = slotOf(t) & (slots.size() - 1);
+      while (slots[slot] != kNone && startingAtLowest(triangles_[slots[slot]]) != startingAtLowest(t)) {
+        slot = (slot + 1) & (slots.size() - 1);
+      }
+      if (slots[slot] != kNone) continue;
+      slots[slot] = static_cast<std::uint32_t>(kept);
+      triangles_[kept++] = t;
+    }
+    report_.duplicateFaces = triangles_.size() - kept;
+    triangles_.resize(kept);
+  }
+  static Triangle startingAtLowest(Triangle t) {
+    std::ranges::rotate(t, std::ranges::min_element(t));
+    return t;
+  }
+  static std::uint64_t slotOf(const Triangle& t) {
+    std::uint64_t h = 0;
+    for (const std::uint32_t v : startingAtLowest(t)) {
+      h = (h ^ v) * 0x9E3779B97F4A7C15U;
+      h ^= h >> 32;
+    }
+    return h;
+  }
+
+  void dropUnusedVertices() {
+    std::vector<std::uint32_t> index(vertices_.size(), kNone);
+    std::vector<glm::dvec3> used;
+    used.reserve(vertices_.size() - report_.weldedVertices);
+    for (Triangle& t : triangles_) {
+      for (std::uint32_t& v : t) {
+        if (index[v] == kNone) {
+          index[v] = static_cast<std::uint32_t>(used.size());
+          used.push_back(vertices_[v]);
+        }
+        v = index[v];
+      }
+    }
+    vertices_ = std::move(used);
+  }
+
+  const PolygonSoup& soup_;
+  const MeshBuildOptions& options_;
+  MeshBuildReport& report_;
+  double tolerance_ = 0.0;            ///< [m]
+  std::vector<glm::dvec3> vertices_;  ///< [m]
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> newIndex_;  ///< By vertex of the soup.
+};
+
+/// "1 edge is", "2 edges are"
+std::string counted(std::uint64_t count, std::string_view noun, std::string_view singular,
+                    std::string_view plural) {
+  return fmt::format("{} {}{} {}", count, noun, count == 1 ? "" : "s", count == 1 ? singular : plural);
+}
+
+void addWarnings(const MeshTopology& topology, MeshBuildReport& report) {
+  const auto warn = [&](std::uint64_t count, std::string_view noun, std::string_view singular,
+                        std::string_view plural) {
+    if (count > 0) report.warnings.push_back(counted(count, noun, singular, plural));
+  };
+  warn(report.nonFiniteFaces, "face", "has coordinates that are not finite and was left out.",
+       "have coordinates that are not finite and were left out.");
+  warn(report.degenerateFaces, "face", "has no area and was left out.", "have no area and were left out.");
+  warn(report.duplicateFaces, "face", "repeats another and was left out.",
+       "repeat others and were left out.");
+  warn(topology.openEdges, "edge", "is open (one face only).", "are open (one face only).");
+  warn(topology.nonManifoldEdges, "edge", "is non-manifold (three faces or more).",
+       "are non-manifold (three faces or more).");
+  warn(topology.inconsistentEdges, "edge", "is inconsistent (its two faces have opposite senses).",
+       "are inconsistent (their two faces have opposite senses).");
+  if (report.turnedInsideOut)
+    report.warnings.emplace_back("The mesh was inside out; all its faces were turned.");
+}
+
+/// Six times the volume, by tetrahedra from the box's centre.
+double signedVolume(const TriangleMesh& mesh) {
+  const glm::dvec3 centre = mesh.bounds().centre();
+  double sum = 0.0;
+  for (const Triangle& t : mesh.triangles()) {
+    const glm::dvec3 a = mesh.vertices()[t[0]] - centre, b = mesh.vertices()[t[1]] - centre,
+                     c = mesh.vertices()[t[2]] - centre;
+    sum += glm::dot(a, glm::cross(b, c));
+  }
+  return sum;
+}
+
+TriangleMesh turnedMesh(const TriangleMesh& mesh) {
+  std::vector<Triangle> triangles(mesh.triangles().begin(), mesh.triangles().end());
+  for (Triangle& t : triangles)
+    std::swap(t[1], t[2]);
+  return {{mesh.vertices().begin(), mesh.vertices().end()}, std::move(triangles)};
+}
+
+}  // namespace
+
+void PolygonSoup::closePolygon() {
+  if (corners.size() >= kNone) throw Error("", "its faces have too many corners", "reduce the mesh first");
+  firstCorner.push_back(static_cast<std::uint32_t>(corners.size()));
+}
+
+TriangleMesh buildMesh(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report) {
+  checkOptions(options);
+  checkSoup(soup);
+  report = {};
+  TriangleMesh mesh = Builder(soup, options, report).build();
+  if (mesh.topology().isClosed() && mesh.topology().isOriented() && signedVolume(mesh) < 0.0) {
+    mesh = turnedMesh(mesh);
+    report.turnedInsideOut = true;
+  }
+  addWarnings(mesh.topology(), report);
+  return mesh;
+}
+
+}  // namespace nearfit

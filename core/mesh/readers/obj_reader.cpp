@@ -1,0 +1,86 @@
+// Read here, because the libraries at hand misread this format (tried on hostile and odd files):
+// OpenMesh 9 keeps single precision only, takes a vertex line that it cannot parse as not being there (all
+// later indices then name other vertices), removes repeated corners from bridged polygons, passes indices out
+// of range on, and opens whatever file `mtllib` names. CGAL 5.5 refuses line continuations, takes index 0 for
+// 2^64 - 1. Neither says which line is at fault.
+#include "core/mesh/readers/obj_reader.h"
+
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "core/mesh/readers/text_cursor.h"
+
+namespace nearfit {
+namespace {
+
+constexpr TextCursor::Syntax kSyntax{.comment = '#', .hasContinuations = true};
+
+struct Counts {
+  std::size_t vertices = 0, faces = 0;
+};
+
+/// Faces may name vertices that follow, so the number of vertices has to be known first.
+Counts countElements(const ReaderInput& input) {
+  const ReaderInput silent{input.name, input.bytes, {}};
+  TextCursor cursor(silent, kSyntax);
+  Counts counts;
+  do {
+    const std::string_view keyword = cursor.token();
+    if (keyword == "v") ++counts.vertices;
+    if (keyword == "f" || keyword == "fo") ++counts.faces;
+    cursor.skipRest();
+  } while (cursor.nextLine());
+  return counts;
+}
+
+/// The vertex of a corner like 7, 7/1, 7//3 or 7/1/3, counted from 0.
+std::uint32_t cornerVertex(const TextCursor& cursor, std::string_view corner, std::size_t vertices,
+                           std::size_t verticesSoFar) {
+  const std::optional<std::int64_t> index = parseInteger(corner.substr(0, corner.find('/')));
+  if (!index) {
+    cursor.fail(fmt::format("a vertex number should stand here, but {} is none", quoted(corner)),
+                "correct the line or export the file again");
+  }
+  const auto before = static_cast<std::int64_t>(verticesSoFar);
+  const std::int64_t fromZero = *index < 0 ? before + *index : *index - 1;
+  if (*index == 0 || fromZero < 0 || fromZero >= static_cast<std::int64_t>(vertices)) {
+    cursor.fail(fmt::format("the face names vertex {} of {}", *index, vertices),
+                *index == 0 ? "vertices count from 1: export the file again" : "export the file again");
+  }
+  return static_cast<std::uint32_t>(fromZero);
+}
+
+}  // namespace
+
+ReaderResult readObj(const ReaderInput& input) {
+  const Counts counts = countElements(input);
+  ReaderResult result;
+  PolygonSoup& soup = result.soup;
+  soup.vertices.reserve(counts.vertices);
+  soup.firstCorner.reserve(counts.faces + 1);
+  soup.corners.reserve(3 * counts.faces);
+
+  TextCursor cursor(input, kSyntax);
+  do {
+    const std::string_view keyword = cursor.token();
+    if (keyword == "v") {
+      glm::dvec3 p;
+      for (int i = 0; i < 3; ++i) {
+        const std::string_view token = cursor.token();
+        if (token.empty()) cursor.fail("a vertex has fewer than three coordinates", "export the file again");
+        p[i] = cursor.asNumber(token, "a coordinate");
+      }
+      soup.vertices.push_back(p);
+    } else if (keyword == "f" || keyword == "fo") {
+      for (std::string_view corner = cursor.token(); !corner.empty(); corner = cursor.token()) {
+        soup.corners.push_back(cornerVertex(cursor, corner, counts.vertices, soup.vertices.size()));
+      }
+      soup.closePolygon();
+    }
+    cursor.skipRest();
+  } while (cursor.nextLine());
+  return result;
+}
+
+}  // namespace nearfit

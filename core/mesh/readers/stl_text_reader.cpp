@@ -1,0 +1,93 @@
+// Read here, because the libraries at hand misread this dialect (tried on hostile and odd files): OpenMesh 9
+// keeps single precision only, finds "outer" in a solid's name, takes text that is no number for 0, and takes
+// a file that is cut off, or has CR line ends, for a shorter or empty one. CGAL 5.5 reads a file that begins
+// with a comment as a binary one, facets of noise included. Neither says which line is at fault.
+#include "core/mesh/readers/stl_text_reader.h"
+
+#include <fmt/format.h>
+#include <strings.h>
+
+#include "core/mesh/readers/text_cursor.h"
+
+namespace nearfit {
+namespace {
+
+constexpr const char* kExportAgain = "correct the line or export the file again";
+
+bool isWord(std::string_view token, std::string_view word) {
+  return token.size() == word.size() && ::strncasecmp(token.data(), word.data(), word.size()) == 0;
+}
+
+void expect(TextCursor& cursor, std::string_view word) {
+  const std::string_view token = cursor.tokenAcrossLines();
+  if (token.empty()) cursor.failAtEnd(quoted(word));
+  if (!isWord(token, word)) {
+    cursor.fail(fmt::format("{} should stand here, but {} does", quoted(word), quoted(token)), kExportAgain);
+  }
+}
+
+/// Goes past "normal x y z" and "outer". Some programs leave the numbers out or write what is none.
+void skipToOuter(TextCursor& cursor) {
+  constexpr int kMostTokens = 5;
+  for (int i = 0; i < kMostTokens; ++i) {
+    const std::string_view token = cursor.tokenAcrossLines();
+    if (token.empty()) cursor.failAtEnd("'outer'");
+    if (isWord(token, "outer")) return;
+  }
+  cursor.fail("a facet has no 'outer loop'", kExportAgain);
+}
+
+/// A facet behind the word "facet", to "endfacet".
+void readFacet(TextCursor& cursor, PolygonSoup& soup) {
+  skipToOuter(cursor);
+  expect(cursor, "loop");
+  int corners = 0;
+  for (std::string_view token = cursor.tokenAcrossLines(); !isWord(token, "endloop");
+       token = cursor.tokenAcrossLines(), ++corners) {
+    if (token.empty()) cursor.failAtEnd("'endloop'");
+    if (!isWord(token, "vertex")) {
+      cursor.fail(fmt::format("'vertex' or 'endloop' should stand here, but {} does", quoted(token)),
+                  kExportAgain);
+    }
+    glm::dvec3 p;
+    for (int i = 0; i < 3; ++i)
+      p[i] = cursor.number("a coordinate");
+    soup.corners.push_back(static_cast<std::uint32_t>(soup.vertices.size()));
+    soup.vertices.push_back(p);
+  }
+  if (corners < 3) cursor.fail("a facet has fewer than three vertices", kExportAgain);
+  expect(cursor, "endfacet");
+  soup.closePolygon();
+}
+
+}  // namespace
+
+ReaderResult readStlText(const ReaderInput& input) {
+  // As little as a facet can take; one allocation instead of many.
+  constexpr std::string_view kShortestFacet =
+      "facet outer loop vertex 0 0 0 vertex 0 0 0 vertex 0 0 0 endloop endfacet ";
+  // Facets as programs write them take some 250 bytes.
+  constexpr std::size_t kUsualFacetBytes = 3 * kShortestFacet.size();
+  ReaderResult result;
+  result.soup.vertices.reserve(3 * (input.bytes.size() / kUsualFacetBytes));
+
+  TextCursor cursor(input, {});
+  bool isSolidOpen = false;
+  for (;;) {
+    const std::string_view token = cursor.tokenAcrossLines();
+    if (token.empty()) break;
+    if (isWord(token, "solid") || isWord(token, "endsolid")) {
+      isSolidOpen = isWord(token, "solid");
+      cursor.skipRest();  // A name.
+    } else if (isWord(token, "facet")) {
+      readFacet(cursor, result.soup);
+    } else {
+      cursor.fail(fmt::format("'facet' or 'endsolid' should stand here, but {} does", quoted(token)),
+                  kExportAgain);
+    }
+  }
+  if (isSolidOpen) result.warnings.emplace_back("The file ends without 'endsolid': it may be cut off.");
+  return result;
+}
+
+}  // namespace nearfit

@@ -1,0 +1,232 @@
+#include "core/mesh/mesh_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/mesh/mass_properties.h"
+#include "tests/support/mesh_files.h"
+#include "tests/support/mesh_generators.h"
+
+namespace nearfit {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+PolygonSoup soupOf(std::vector<glm::dvec3> vertices,
+                   const std::vector<std::vector<std::uint32_t>>& polygons) {
+  PolygonSoup soup;
+  soup.vertices = std::move(vertices);
+  for (const auto& polygon : polygons) {
+    soup.corners.insert(soup.corners.end(), polygon.begin(), polygon.end());
+    soup.closePolygon();
+  }
+  return soup;
+}
+
+/// Every triangle with three vertices of its own, as STL has them.
+PolygonSoup shatteredSoup(const TriangleMesh& mesh) {
+  PolygonSoup soup;
+  for (const Triangle& t : mesh.triangles()) {
+    for (const std::uint32_t v : t) {
+      soup.corners.push_back(static_cast<std::uint32_t>(soup.vertices.size()));
+      soup.vertices.push_back(mesh.vertices()[v]);
+    }
+    soup.closePolygon();
+  }
+  return soup;
+}
+
+TriangleMesh build(const PolygonSoup& soup, const MeshBuildOptions& options = {}) {
+  MeshBuildReport report;
+  return buildMesh(soup, options, report);
+}
+
+const std::vector<glm::dvec3> kSquare{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+
+TEST(MeshBuilder, ShatteredBoxIsWeldedToEightVertices) {
+  MeshBuildReport report;
+  const TriangleMesh mesh = buildMesh(shatteredSoup(test::boxMesh({1, 2, 3})), {}, report);
+  EXPECT_EQ(mesh.vertices().size(), 8U);
+  EXPECT_TRUE(mesh.topology().isClosed());
+  EXPECT_EQ(report.weldedVertices, 36U - 8U);
+  EXPECT_THAT(report.warnings, SizeIs(0));
+}
+
+TEST(MeshBuilder, UnitScalesToMetres) {
+  const TriangleMesh mesh = build(test::soupOf(test::boxMesh({10, 20, 30})), {.metresPerUnit = 1e-3});
+  EXPECT_NEAR(mesh.bounds().upper.z, 0.015, 1e-17);
+  EXPECT_NEAR(mesh.bounds().diagonal(), 1e-3 * std::sqrt(1400.0), 1e-16);
+}
+
+TEST(MeshBuilder, UnitThatIsNotFiniteAndPositiveIsRefused) {
+  const PolygonSoup soup = test::soupOf(test::boxMesh({1, 1, 1}));
+  for (const double unit : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(build(soup, {.metresPerUnit = unit}), UsageError) << unit;
+  }
+  for (const double tolerance : {-1e-9, std::nan(""), 0.5}) {
+    EXPECT_THROW(build(soup, {.weldTolerance = tolerance}), UsageError) << tolerance;
+  }
+}
+
+TEST(MeshBuilder, VerticesWithinTheToleranceAreWeldedAndNoOthers) {
+  // The diagonal is 5, so that a tolerance of 0.01 is 0.05.
+  const std::vector<glm::dvec3> vertices{{0, 0, 0},     {3, 0, 0}, {3, 4, 0},
+                                         {0, 0.049, 0}, {3, 4, 0}, {0, 4, 0}};
+  MeshBuildReport report;
+  const TriangleMesh joined =
+      buildMesh(soupOf(vertices, {{0, 1, 2}, {3, 4, 5}}), {.weldTolerance = 0.01}, report);
+  EXPECT_EQ(joined.vertices().size(), 4U);
+  EXPECT_EQ(report.weldedVertices, 2U);
+  const TriangleMesh apart =
+      buildMesh(soupOf(vertices, {{0, 1, 2}, {3, 4, 5}}), {.weldTolerance = 0.0097}, report);
+  EXPECT_EQ(apart.vertices().size(), 5U);
+}
+
+TEST(MeshBuilder, WeldingFollowsTheUnitAndTheOffset) {
+  for (const double scale : {1e-6, 1.0, 1e3}) {
+    for (const double offset : {0.0, 1e4}) {
+      const RigidTransform motion{{1, 0, 0, 0}, glm::dvec3(offset * scale)};
+      PolygonSoup soup = shatteredSoup(test::transformed(test::starMesh(5, 1, 2, 0.2), scale, motion));
+      double shift = 1e-10 * scale;
+      for (glm::dvec3& p : soup.vertices)
+        p.x += (shift = -shift);
+      const TriangleMesh mesh = build(soup);
+      EXPECT_EQ(mesh.vertices().size(), 162U) << scale << " " << offset;
+      EXPECT_TRUE(mesh.topology().isClosed());
+    }
+  }
+}
+
+TEST(MeshBuilder, ChainOfCloseVerticesDoesNotCollapse) {
+  // Each of the points on the chain is within the tolerance of the next, not of the one after that.
+  std::vector<glm::dvec3> vertices{{0, 0, 0}, {0, 10, 0}};
+  std::vector<std::vector<std::uint32_t>> polygons;
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    vertices.emplace_back(0.08 * (i + 1), 0, 0);
+    if (i > 0) polygons.push_back({i + 1, i + 2, 1});
+  }
+  const TriangleMesh mesh = build(soupOf(vertices, polygons), {.weldTolerance = 0.01});
+  EXPECT_NEAR(mesh.bounds().upper.x, 0.8, 0.101);
+  EXPECT_EQ(mesh.vertices().size(), 6U);  // Every second one stays, and the tip.
+}
+
+TEST(MeshBuilder, ToleranceOfZeroWeldsEqualVerticesOnly) {
+  PolygonSoup soup = shatteredSoup(test::boxMesh({1, 1, 1}));
+  EXPECT_EQ(build(soup, {.weldTolerance = 0.0}).vertices().size(), 8U);
+  soup.vertices[0].x = std::nextafter(soup.vertices[0].x, 9.0);
+  EXPECT_EQ(build(soup, {.weldTolerance = 0.0}).vertices().size(), 9U);
+}
+
+TEST(MeshBuilder, NegativeZeroIsZero) {
+  const PolygonSoup soup =
+      soupOf({{0.0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0, 0, 0}, {-1, 0, 0}}, {{0, 1, 2}, {3, 2, 4}});
+  EXPECT_EQ(build(soup, {.weldTolerance = 0.0}).vertices().size(), 4U);
+}
+
+TEST(MeshBuilder, InsideOutCubeIsTurned) {
+  MeshBuildReport report;
+  const TriangleMesh mesh = buildMesh(test::soupOf(test::turned(test::boxMesh({1, 1, 1}))), {}, report);
+  EXPECT_TRUE(report.turnedInsideOut);
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("inside out")));
+  EXPECT_NEAR(massProperties(mesh).volume, 1.0, 1e-15);
+}
+
+TEST(MeshBuilder, CavityIsNotTurned) {
+  const TriangleMesh hollow = test::joined(test::boxMesh({2, 2, 2}), test::turned(test::boxMesh({1, 1, 1})));
+  MeshBuildReport report;
+  const TriangleMesh mesh = buildMesh(test::soupOf(hollow), {}, report);
+  EXPECT_FALSE(report.turnedInsideOut);
+  EXPECT_NEAR(massProperties(mesh).volume, 7.0, 1e-14);
+}
+
+TEST(MeshBuilder, RepeatedCornersAndLinesAreLeftOut) {
+  MeshBuildReport report;
+  const TriangleMesh mesh = buildMesh(soupOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}},
+                                             {{0, 1, 2}, {0, 0, 1}, {0, 1}, {}, {0, 1, 3}, {1, 2, 1}}),
+                                      {}, report);
+  EXPECT_EQ(mesh.triangles().size(), 1U);
+  EXPECT_EQ(mesh.vertices().size(), 3U);
+  EXPECT_EQ(report.degenerateFaces, 5U);
+  EXPECT_THAT(report.warnings, Contains("5 faces have no area and were left out."));
+}
+
+TEST(MeshBuilder, DuplicatesInTheSameSenseAreLeftOutTheOthersStay) {
+  MeshBuildReport report;
+  const TriangleMesh mesh =
+      buildMesh(soupOf(kSquare, {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {0, 2, 3}}), {}, report);
+  EXPECT_EQ(mesh.triangles().size(), 3U);
+  EXPECT_EQ(report.duplicateFaces, 2U);
+  EXPECT_THAT(report.warnings, Contains("2 faces repeat others and were left out."));
+}
+
+TEST(MeshBuilder, FacesWithoutFiniteCoordinatesAreLeftOutAndDoNotCountForTheBox) {
+  const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
+  MeshBuildReport report;
+  const TriangleMesh mesh = buildMesh(soupOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {nan, 0, 0}, {0, inf, 0}},
+                                             {{0, 1, 2}, {0, 1, 3}, {0, 4, 1, 2}}),
+                                      {}, report);
+  EXPECT_EQ(mesh.triangles().size(), 1U);
+  EXPECT_EQ(report.nonFiniteFaces, 2U);
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("2 faces have coordinates that are not finite")));
+}
+
+TEST(MeshBuilder, NothingLeftAndBadIndicesAreRefusedWithARemedy) {
+  const double nan = std::nan("");
+  const std::vector<PolygonSoup> soups{soupOf({{nan, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}),
+                                       soupOf(kSquare, {{0, 1, 1}}), soupOf(kSquare, {}),
+                                       soupOf(kSquare, {{0, 1, 7}}),
+                                       soupOf({{0, 0, 0}, {1e300, 0, 0}, {0, 1e300, 0}}, {{0, 1, 2}})};
+  for (std::size_t i = 0; i < soups.size(); ++i) {
+    try {
+      build(soups[i]);
+      ADD_FAILURE() << i;
+    } catch (const Error& error) {
+      EXPECT_FALSE(error.remedy().empty()) << i;
+    }
+  }
+}
+
+TEST(MeshBuilder, SoupThatContradictsItselfIsRefused) {
+  PolygonSoup soup = test::soupOf(test::boxMesh({1, 1, 1}));
+  soup.firstCorner[3] = 1000;
+  EXPECT_THROW(build(soup), Error);
+  soup.firstCorner.clear();
+  EXPECT_THROW(build(soup), Error);
+}
+
+TEST(MeshBuilder, EachKindOfEdgeIsWarnedOfWithItsCount) {
+  MeshBuildReport report;
+  // Three faces meet on 0-1; both faces of 2-0 run from 2 to 0; the other seven edges have one face.
+  buildMesh(soupOf({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}},
+                   {{0, 1, 2}, {0, 3, 2}, {0, 1, 4}, {0, 1, 5}}),
+            {}, report);
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("1 edge is non-manifold")));
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("1 edge is inconsistent")));
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("7 edges are open")));
+}
+
+TEST(MeshBuilder, SameSoupGivesTheSameMesh) {
+  const PolygonSoup soup = shatteredSoup(test::starMesh(9, 1, 3, 0.4));
+  const TriangleMesh a = build(soup), b = build(soup);
+  EXPECT_TRUE(std::ranges::equal(a.vertices(), b.vertices()));
+  EXPECT_TRUE(std::ranges::equal(a.triangles(), b.triangles()));
+}
+
+TEST(MeshBuilder, BuildingABuiltMeshChangesNothing) {
+  const TriangleMesh a = build(shatteredSoup(test::torusMesh(2, 0.5, 40, 20)));
+  const TriangleMesh b = build(test::soupOf(a));
+  EXPECT_TRUE(std::ranges::equal(a.vertices(), b.vertices()));
+  EXPECT_TRUE(std::ranges::equal(a.triangles(), b.triangles()));
+}
+
+}  // namespace
+}  // namespace nearfit
