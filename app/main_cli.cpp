@@ -1,6 +1,8 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -13,10 +15,24 @@ namespace {
 
 constexpr int kFailure = 1, kUsage = 2;
 
-/// One line for stderr, whatever the message holds.
-int report(const std::string& message, int exitCode) {
-  fmt::print(stderr, "nearfit-cli: {}\n", nearfit::cli::oneLine(message));
+constexpr const char* kFooter =
+    "nearfit-cli COMMAND --help tells what a command takes and prints.\n"
+    "Lengths are in metres, forces in newtons, times in seconds unless said otherwise; quaternions are w, x, "
+    "y, z.\n"
+    "Exit code: 0 when all went well, 2 for wrong usage, 1 for anything else, with one line on stderr.";
+
+int report(const char* message, int exitCode) {
+  nearfit::cli::printError(message);
   return exitCode;
+}
+
+int reportUsage(const CLI::App& program, const CLI::ParseError& e) {
+  // The parser complains of a missing command where a wrong one was given.
+  const std::vector<std::string> unknown = program.remaining();
+  const bool isUnknownCommand = program.get_subcommands().empty() && !unknown.empty();
+  const std::string problem =
+      isUnknownCommand ? fmt::format("there is no command or option \"{}\"", unknown.front()) : e.what();
+  return report((problem + "; see nearfit-cli --help").c_str(), kUsage);
 }
 
 int run(int argc, char** argv) {
@@ -25,14 +41,15 @@ int run(int argc, char** argv) {
   program.name("nearfit-cli");
   program.set_version_flag("--version", "nearfit-cli " NEARFIT_VERSION);
   program.require_subcommand(1);
-  program.footer(
-      "Exit code: 0 when all went well, 2 for wrong usage, 1 for anything else, with one line on stderr.\n"
-      "Lengths are in metres, angles in radians, forces in newtons; quaternions are w, x, y, z.");
+  program.footer(kFooter);
+  nearfit::cli::addInfoCommand(program);
+  nearfit::cli::addLmdCommand(program);
+  nearfit::cli::addSceneCommand(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     // Help and version end the parsing by an exception too.
-    if (e.get_exit_code() != 0) return report(fmt::format("{}; see nearfit-cli --help", e.what()), kUsage);
+    if (e.get_exit_code() != 0) return reportUsage(program, e);
     program.exit(e);
   }
   nearfit::cli::flushOutput();
@@ -46,6 +63,8 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   try {
     return run(argc, argv);
+  } catch (const nearfit::cli::ReportedFailure&) {
+    return kFailure;
   } catch (const nearfit::UsageError& e) {
     return report(e.what(), kUsage);
   } catch (const std::exception& e) {

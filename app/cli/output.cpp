@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <iostream>
+#include <new>
 #include <system_error>
 
 #include "core/error.h"
@@ -26,6 +27,15 @@ void flushOutput() {
   // Help goes through std::cout.
   const bool hasArrived = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (!hasArrived) failOutput(errno != 0 ? errno : EIO);
+}
+
+void printError(std::string_view message) noexcept {
+  try {
+    const std::string line = "nearfit-cli: " + oneLine(message) + "\n";
+    std::fwrite(line.data(), 1, line.size(), stderr);
+  } catch (const std::bad_alloc&) {
+    std::fputs("nearfit-cli: out of memory\n", stderr);
+  }
 }
 
 std::string oneLine(std::string_view text) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,15 @@ void print(std::string_view text);
 
 /// Throws Error when something that was printed did not arrive.
 void flushOutput();
+
+/// Writes one line to stderr: the program's name and the message.
+void printError(std::string_view message) noexcept;
+
+/// Thrown by a command that has failed and has said so on stderr already: exit code 1, no further line.
+class ReportedFailure : public std::exception {
+ public:
+  const char* what() const noexcept override { return "the command failed"; }
+};
 
 /// Text on one line: each run of line breaks a space, other control characters and bytes that are not UTF-8
 /// as

@@ -5,15 +5,52 @@
 
 #include "core/scene/scene.h"
 
+/// The placement export, JSON in UTF-8:
+///
+///     {
+///       "placement": 1,                                    version of this format
+///       "program": "Nearfit 0.1.0",
+///       "date": "2026-01-31T12:00:00Z",                    UTC, ISO 8601
+///       "units": {"length": "m", "volume": "m^3"},
+///       "moving": "Peg",                                   a part's name, or null
+///       "parts": [{
+///         "name": "Peg",
+///         "mesh": "/home/me/peg.stl",                      absolute
+///         "sha256": "9f86d0...",                           of the mesh file's bytes
+///         "metresPerUnit": 0.001,                          of the mesh file's coordinates
+///         "visible": true,
+///         "matrix": [[...], [...], [...], [0, 0, 0, 1]],   worldFromPart by rows; translation in the last
+///         column "position": [0, 0, 0.05],                        worldFromPart "quaternion": [1, 0, 0, 0]
+///         worldFromPart, w x y z, unit
+///       }],
+///       "clearance": {                                     null when there is no moving part
+///         "cutoff": 0.01,                                  nothing farther than this is looked for
+///         "distance": 0.002,                               the least of all below; null when nothing is that
+///         near "mass": {"basis": "volume integrals", "volume": 1e-6, "centre": [0, 0, 0.05]},   or "oriented
+///         box" "to": [{                                         each other visible part
+///           "part": "Hole",
+///           "distance": 0.002,                             null when nothing is within the cutoff
+///           "complete": true,                              false when there are more minima than the search
+///           holds "lmds": [{"distance": 0.002, "moving": [x, y, z], "other": [x, y, z],
+///                     "features": ["vertex", "face"], "region": false}]
+///         }]
+///       }
+///     }
+///
+/// All points and poses are in the world frame; "features" are the moving part's, then the other's; a region
+/// is a flat set of equal minima, for which its centroid stands. The mass centre is in the world frame.
+/// Distances are between surfaces. Numbers have as many digits as it takes to read the same double again.
 namespace nearfit {
 
-/// Where every part is, as JSON: version, date, units; for each part name, mesh path and SHA-256, 4x4 row-major
-/// matrix, position and quaternion; for the moving part the least distance and the LMDs to each other visible
-/// part within the scene's cutoff. The same program and scene give the same text but for the date.
 /// @param worldFromMoving  Where the moving part is (it may be in hand, away from its pose in the scene).
+/// Unused
+///                         when the scene has no moving part. Throws UsageError when it is no pose
+///                         (checkedPose).
+/// The same program and scene give the same text but for the date.
 std::string placementJson(const Scene& scene, const RigidTransform& worldFromMoving);
 
 /// Writes placementJson atomically. Throws FileError.
-void exportPlacement(const Scene& scene, const RigidTransform& worldFromMoving, const std::filesystem::path& file);
+void exportPlacement(const Scene& scene, const RigidTransform& worldFromMoving,
+                     const std::filesystem::path& file);
 
 }  // namespace nearfit

@@ -13,17 +13,6 @@
 namespace nearfit {
 namespace {
 
-void checkName(const std::string& name) {
-  if (name.empty()) throw UsageError("name", "a part's name is empty", "give it one");
-  if (name.size() > kMaxPartNameBytes) {
-    throw UsageError("name", fmt::format("a part's name is longer than {} bytes", kMaxPartNameBytes),
-                     "shorten it");
-  }
-  if (!isPrintableUtf8(name)) {
-    throw UsageError("name", "a part's name holds control characters or is not UTF-8", "use printable text");
-  }
-}
-
 void checkColour(const Colour& colour) {
   for (const float channel : {colour.r, colour.g, colour.b}) {
     if (!(channel >= 0.0F && channel <= 1.0F)) {
@@ -48,6 +37,17 @@ std::string withoutNumber(const std::string& name) {
 
 }  // namespace
 
+void checkPartName(const std::string& name) {
+  if (name.empty()) throw UsageError("name", "a part's name is empty", "give it one");
+  if (name.size() > kMaxPartNameBytes) {
+    throw UsageError("name", fmt::format("a part's name is longer than {} bytes", kMaxPartNameBytes),
+                     "shorten it");
+  }
+  if (!isPrintableUtf8(name)) {
+    throw UsageError("name", "a part's name holds control characters or is not UTF-8", "use printable text");
+  }
+}
+
 RigidTransform checkedPose(const RigidTransform& pose) {
   const glm::dvec3& t = pose.translation;
   for (const double coordinate : {t.x, t.y, t.z}) {
@@ -61,7 +61,7 @@ RigidTransform checkedPose(const RigidTransform& pose) {
                      "give a unit quaternion in the order w, x, y, z");
   }
   // One that is unit up to rounding stays as it is, so that saving and loading changes no digit.
-  return std::abs(length - 1.0) <= 4e-16 ? pose : pose.normalized();
+  return std::abs(length - 1.0) <= 1e-15 ? pose : pose.normalized();
 }
 
 void checkSprings(const SpringParameters& springs) {
@@ -103,7 +103,7 @@ std::string Scene::freeName(const std::string& wanted) const {
 }
 
 PartId Scene::add(Part part) {
-  checkName(part.name);
+  checkPartName(part.name);
   checkColour(part.colour);
   part.worldFromPart = checkedPose(part.worldFromPart);
   part.name = freeName(part.name);
@@ -114,7 +114,7 @@ PartId Scene::add(Part part) {
 
 void Scene::replace(Part part) {
   const std::size_t index = indexOf(part.id);
-  checkName(part.name);
+  checkPartName(part.name);
   checkColour(part.colour);
   part.worldFromPart = checkedPose(part.worldFromPart);
   const Part* namesake = findByName(part.name);

@@ -80,6 +80,9 @@ class Scene {
   std::uint32_t nextId_ = 1;
 };
 
+/// Throws UsageError when the name is empty, too long, not UTF-8 or holds control characters.
+void checkPartName(const std::string& name);
+
 /// The pose with its quaternion normalised. Throws UsageError when a number is not finite, a coordinate is
 /// beyond kMaxPosition, or the quaternion's length is off 1 by more than kQuaternionSlack.
 RigidTransform checkedPose(const RigidTransform& pose);

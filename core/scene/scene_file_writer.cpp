@@ -1,4 +1,3 @@
-#include <system_error>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -16,10 +15,8 @@ using Json = nlohmann::ordered_json;
 
 /// The mesh's path from the scene file's folder, with `/` between names.
 std::string meshPath(const std::filesystem::path& mesh, const std::filesystem::path& sceneFile) {
-  std::error_code failure;
-  const std::filesystem::path folder = std::filesystem::weakly_canonical(sceneFile, failure).parent_path();
-  std::filesystem::path path = mesh.lexically_relative(folder);
-  if (failure || path.empty()) path = mesh;
+  std::filesystem::path path = mesh.lexically_relative(meshFolder(sceneFile));
+  if (path.empty()) path = mesh;
   std::string text = path.generic_string();
   // A path may hold control characters, which JSON can say; but JSON is UTF-8.
   if (!isUtf8(text)) {

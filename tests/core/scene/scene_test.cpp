@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -135,6 +136,16 @@ TEST(Scene, NearlyUnitQuaternionIsNormalised) {
   EXPECT_NEAR(pose.rotation.w, std::sqrt(0.5), 1e-15);
   EXPECT_NEAR(pose.rotation.x, std::sqrt(0.5), 1e-15);
   EXPECT_EQ(pose.translation, glm::dvec3(1, 2, 3));
+}
+
+TEST(Scene, NormalisingAgainChangesNoDigit) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int i = 0; i < 100'000; ++i) {
+    const RigidTransform raw{{uniform(random), uniform(random), uniform(random), uniform(random)}, {}};
+    const RigidTransform once = checkedPose(raw.normalized());
+    ASSERT_EQ(checkedPose(once).rotation, once.rotation) << "pose " << i;
+  }
 }
 
 TEST(Scene, ColourOutOfRangeIsRefused) {

@@ -1,0 +1,78 @@
+#include "app/cli/arguments.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/scene/part_geometry.h"
+#include "core/scene/scene.h"
+
+namespace nearfit::cli {
+namespace {
+
+std::optional<double> parseNumber(std::string_view text) {
+  while (!text.empty() && text.front() == ' ')
+    text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ')
+    text.remove_suffix(1);
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+double parseUnit(const std::string& text) {
+  constexpr std::array<std::pair<std::string_view, double>, 6> kUnits{
+      {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"um", 1e-6}, {"in", 0.0254}, {"ft", 0.3048}}};
+  for (const auto& [name, metres] : kUnits) {
+    if (text == name) return metres;
+  }
+  const std::optional<double> metres = parseNumber(text);
+  if (!metres) {
+    throw UsageError("--unit", fmt::format("\"{}\" is no unit", text),
+                     "give m, cm, mm, um, in, ft, or a number of metres");
+  }
+  checkMetresPerUnit(*metres);
+  return *metres;
+}
+
+std::optional<RigidTransform> parsePoseIfAny(const std::string& text) {
+  std::array<double, 7> n{};
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    const std::size_t comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (i + 1 == n.size())) return std::nullopt;
+    const std::optional<double> number = parseNumber(rest.substr(0, comma));
+    if (!number) return std::nullopt;
+    n[i] = *number;
+    if (comma != std::string_view::npos) rest.remove_prefix(comma + 1);
+  }
+  if (!std::isfinite(n[0]) || !std::isfinite(n[1]) || !std::isfinite(n[2])) {
+    throw UsageError(fmt::format("pose \"{}\"", text), "a number is not finite", "give finite numbers");
+  }
+  // The scene's limits on positions are not for queries, which work anywhere.
+  return RigidTransform{checkedPose({{n[3], n[4], n[5], n[6]}, {}}).rotation, {n[0], n[1], n[2]}};
+}
+
+RigidTransform parsePose(const std::string& option, const std::string& text) {
+  const std::optional<RigidTransform> pose = parsePoseIfAny(text);
+  if (!pose)
+    throw UsageError(option, fmt::format("\"{}\" is no pose", text), std::string("give ") + kPoseHelp);
+  return *pose;
+}
+
+void checkPositive(const std::string& option, double value, bool orZero) {
+  if (std::isfinite(value) && (value > 0.0 || (orZero && value == 0.0))) return;
+  throw UsageError(option, fmt::format("{} is out of range", value),
+                   orZero ? "give a finite number that is not negative" : "give a finite number above zero");
+}
+
+}  // namespace nearfit::cli

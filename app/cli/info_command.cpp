@@ -1,0 +1,166 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/arguments.h"
+#include "app/cli/commands.h"
+#include "app/cli/output.h"
+#include "core/error.h"
+#include "core/report/lmd_set.h"
+#include "core/scene/part_geometry.h"
+#include "core/text/utf8.h"
+
+namespace nearfit::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InfoOptions {
+  std::vector<std::string> meshes;
+  std::string unit = "m";
+  bool isJson = false;
+};
+
+const char* yesNo(bool value) {
+  return value ? "yes" : "no";
+}
+
+std::string pointText(const glm::dvec3& p) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+}
+
+std::string topologyText(const MeshTopology& topology, std::size_t edges) {
+  return fmt::format(
+      "  closed      {}\n"
+      "  oriented    {}\n"
+      "  components  {}\n"
+      "  edges       {}: {} open, {} non-manifold, {} inconsistent\n",
+      yesNo(topology.isClosed()), yesNo(topology.isOriented()), topology.components, edges,
+      topology.openEdges, topology.nonManifoldEdges, topology.inconsistentEdges);
+}
+
+std::string featureText(const NormalConeTree& tree) {
+  const FeatureCounts kept = tree.keptFeatures(), all = tree.allFeatures();
+  return fmt::format("  features    {} kept of {}: {} of {} vertices, {} of {} edges, {} of {} faces\n",
+                     kept.total(), all.total(), kept.vertices, all.vertices, kept.edges, all.edges,
+                     kept.faces, all.faces);
+}
+
+std::string sizeText(const PartGeometry& geometry) {
+  const Aabb& bounds = geometry.mesh.bounds();
+  const MassProperties& mass = geometry.mass;
+  return fmt::format(
+      "  bounds      {} to {} m, diagonal {:.6g} m\n"
+      "  mass        by {}: volume {:.6g} m^3, centre {} m\n",
+      pointText(bounds.lower), pointText(bounds.upper), bounds.diagonal(), nameOf(mass.basis), mass.volume,
+      pointText(mass.centre));
+}
+
+std::string infoText(const std::string& name, const PartGeometry& geometry) {
+  const TriangleMesh& mesh = geometry.mesh;
+  std::string text = fmt::format("{}\n  triangles   {}\n  vertices    {}\n", oneLine(name),
+                                 mesh.triangles().size(), mesh.vertices().size());
+  text +=
+      topologyText(mesh.topology(), mesh.edges().size()) + featureText(geometry.tree) + sizeText(geometry);
+  text += fmt::format(
+      "  build time  {:.3g} ms for the hierarchy\n"
+      "  bytes       {}: {} mesh, {} hierarchy\n"
+      "  SHA-256     {}\n",
+      1e3 * geometry.treeBuildTime, mesh.byteSize() + geometry.tree.byteSize(), mesh.byteSize(),
+      geometry.tree.byteSize(), geometry.sha256);
+  for (const std::string& warning : geometry.report.warnings)
+    text += "  warning     " + oneLine(warning) + "\n";
+  return text;
+}
+
+Json countsJson(const FeatureCounts& counts) {
+  return {{"vertices", counts.vertices},
+          {"edges", counts.edges},
+          {"faces", counts.faces},
+          {"total", counts.total()}};
+}
+
+Json pointJson(const glm::dvec3& p) {
+  return {p.x, p.y, p.z};
+}
+
+Json infoJson(const std::string& name, const PartGeometry& geometry) {
+  const TriangleMesh& mesh = geometry.mesh;
+  const MeshTopology& topology = mesh.topology();
+  Json json;
+  json["file"] = isUtf8(name) ? name : printableText(name);
+  json["sha256"] = geometry.sha256;
+  json["metresPerUnit"] = geometry.metresPerUnit;
+  json["triangles"] = mesh.triangles().size();
+  json["vertices"] = mesh.vertices().size();
+  json["closed"] = topology.isClosed();
+  json["oriented"] = topology.isOriented();
+  json["components"] = topology.components;
+  json["edges"] = {{"total", mesh.edges().size()},
+                   {"open", topology.openEdges},
+                   {"nonManifold", topology.nonManifoldEdges},
+                   {"inconsistent", topology.inconsistentEdges}};
+  json["features"] = {{"kept", countsJson(geometry.tree.keptFeatures())},
+                      {"all", countsJson(geometry.tree.allFeatures())}};
+  json["bounds"] = {{"lower", pointJson(mesh.bounds().lower)}, {"upper", pointJson(mesh.bounds().upper)}};
+  json["mass"] = {{"basis", nameOf(geometry.mass.basis)},
+                  {"volume", geometry.mass.volume},
+                  {"centre", pointJson(geometry.mass.centre)}};
+  json["buildTime"] = geometry.treeBuildTime;
+  json["bytes"] = {{"mesh", mesh.byteSize()}, {"hierarchy", geometry.tree.byteSize()}};
+  json["turnedInsideOut"] = geometry.report.turnedInsideOut;
+  json["warnings"] = geometry.report.warnings;
+  return json;
+}
+
+void runInfo(const InfoOptions& options) {
+  const double metresPerUnit = parseUnit(options.unit);
+  bool hasFailed = false;
+  for (const std::string& name : options.meshes) {
+    try {
+      const PartGeometryPtr geometry = loadPartGeometry(name, metresPerUnit);
+      print(options.isJson ? infoJson(name, *geometry).dump() + "\n" : infoText(name, *geometry));
+    } catch (const FileError& e) {
+      // The others are still worth reporting.
+      flushOutput();
+      printError(e.what());
+      hasFailed = true;
+    }
+  }
+  if (hasFailed) throw ReportedFailure();
+}
+
+}  // namespace
+
+void addInfoCommand(CLI::App& program) {
+  const auto options = std::make_shared<InfoOptions>();
+  CLI::App* command =
+      program.add_subcommand("info", "Says what meshes hold and how they depart from closed bodies.");
+  command->add_option("mesh", options->meshes, "Mesh files: STL, OBJ, PLY or OFF")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
+  command->add_flag("--json", options->isJson, "Print one JSON object a mesh, each on a line of its own");
+  command->footer(
+      "closed       Every edge has two faces; open edges have one, non-manifold ones three or more.\n"
+      "oriented     The two faces of each edge agree on which side is outside (else: inconsistent).\n"
+      "components   Sets of faces that hang together through edges.\n"
+      "features     Vertices, edges and faces that can carry a local minimum distance, of all there are;\n"
+      "             the others are left out of the hierarchy.\n"
+      "mass         By volume integrals where the mesh is closed and oriented, else by its oriented\n"
+      "             bounding box.\n"
+      "build time   Of the hierarchy that distance queries search; in JSON in seconds.\n"
+      "bytes        Of memory.\n"
+      "Lengths are in metres. A mesh that cannot be read gets a line on stderr, the others are still "
+      "reported,\n"
+      "and the exit code is 1.\n"
+      "Example: nearfit-cli info --unit mm peg.stl hole.stl");
+  command->callback([options] { runInfo(*options); });
+}
+
+}  // namespace nearfit::cli

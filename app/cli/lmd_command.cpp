@@ -1,0 +1,150 @@
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/arguments.h"
+#include "app/cli/commands.h"
+#include "app/cli/output.h"
+#include "core/error.h"
+#include "core/haptics/spring_law.h"
+#include "core/report/lmd_set.h"
+#include "core/scene/part_geometry.h"
+#include "device/simulated_device.h"
+
+namespace nearfit::cli {
+namespace {
+
+/// Minima of a pose; bounds memory at some gigabytes.
+constexpr std::size_t kMaxLmds = 4'000'000;
+
+struct LmdOptions {
+  std::string sceneMesh, partMesh, pose, poses, law = "linear", unit = "m";
+  SpringParameters springs;
+};
+
+std::string numberText(double value) {
+  return fmt::format("{:.17g}", value);
+}
+
+std::string vectorText(const glm::dvec3& v) {
+  return fmt::format("[{:.17g},{:.17g},{:.17g}]", v.x, v.y, v.z);
+}
+
+std::string lmdText(const Lmd& lmd) {
+  return fmt::format(R"({{"distance":{},"scene":{},"part":{},"features":["{}","{}"],"region":{}}})",
+                     numberText(lmd.distance), vectorText(lmd.scenePoint), vectorText(lmd.partPoint),
+                     nameOf(lmd.sceneFeature), nameOf(lmd.partFeature), lmd.isRegion);
+}
+
+bool isFinite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// One line for the pose of that number.
+std::string poseLine(std::size_t pose, const LmdSet& set, const Wrench& wrench) {
+  const std::string where = fmt::format("pose {}", pose);
+  if (!set.isComplete) {
+    throw Error(where, fmt::format("there are more than {} minima within the cutoff", kMaxLmds),
+                "give a smaller cutoff");
+  }
+  if (!isFinite(wrench.force) || !isFinite(wrench.torque)) {
+    throw Error(where, "the force is beyond what a number holds", "give a smaller stiffness");
+  }
+  std::string text = fmt::format(R"({{"pose":{},"lmds":[)", pose);
+  for (std::size_t i = 0; i < set.lmds.size(); ++i)
+    text += (i == 0 ? "" : ",") + lmdText(set.lmds[i]);
+  return text + fmt::format("],\"force\":{},\"torque\":{},\"query_us\":{}}}\n", vectorText(wrench.force),
+                            vectorText(wrench.torque), numberText(1e6 * set.queryTime));
+}
+
+SpringParameters springsOf(const LmdOptions& options) {
+  SpringParameters springs = options.springs;
+  checkPositive("--cutoff", springs.cutoff);
+  checkPositive("--stiffness", springs.stiffness, true);
+  springs.law = options.law == "printed" ? SpringLaw::Printed : SpringLaw::Linear;
+  return springs;
+}
+
+void runLmd(const LmdOptions& options) {
+  const SpringParameters springs = springsOf(options);
+  const double metresPerUnit = parseUnit(options.unit);
+  const std::vector<RigidTransform> poses =
+      options.poses.empty() ? std::vector{parsePose("--pose", options.pose)} : readPosePath(options.poses);
+  const PartGeometryPtr scene = loadPartGeometry(options.sceneMesh, metresPerUnit);
+  const bool isSameFile = normalisedPath(options.partMesh) == scene->file;
+  const PartGeometryPtr part = isSameFile ? scene : loadPartGeometry(options.partMesh, metresPerUnit);
+  LmdCollector collector(kMaxLmds);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const LmdSet set = collector.collect(scene->tree, part->tree, poses[i], springs.cutoff);
+    const glm::dvec3 centre = poses[i].applyToPoint(part->mass.centre);
+    print(poseLine(i, set, springWrench(set.lmds, springs, centre, {})));
+  }
+}
+
+constexpr const char* kFooter =
+    "Prints one JSON object a pose, each on a line of its own:\n"
+    "  "
+    "{\"pose\":0,\"lmds\":[{\"distance\":d,\"scene\":[x,y,z],\"part\":[x,y,z],\"features\":[\"vertex\","
+    "\"face\"],\n"
+    "   \"region\":false}],\"force\":[x,y,z],\"torque\":[x,y,z],\"query_us\":t}\n"
+    "lmds      All local minimum distances within the cutoff, nearest first. \"scene\" and \"part\" are the "
+    "two\n"
+    "          points, both in the scene mesh's frame [m]; \"features\" what carries them (vertex, edge, "
+    "face),\n"
+    "          the scene's first; \"region\" whether the pair stands, as centroid, for a flat set of equal "
+    "minima.\n"
+    "force     Sum of the springs on the part [N], in the scene mesh's frame; torque [N m] about the part's\n"
+    "          centre of mass. Nothing moves, so nothing is damped.\n"
+    "query_us  Time of the query alone [us].\n"
+    "Poses are scene from part: p_scene = R(q) p_part + t. Cutoff and translations are in metres whatever\n"
+    "the unit of the meshes is. A quaternion is normalised; one that is off unit length by more than 0.001 "
+    "is\n"
+    "refused.\n"
+    "Example: nearfit-cli lmd --unit mm hole.stl peg.stl --cutoff 0.002 --pose 0,0,0.01,1,0,0,0";
+
+}  // namespace
+
+void addLmdCommand(CLI::App& program) {
+  const auto options = std::make_shared<LmdOptions>();
+  CLI::App* command = program.add_subcommand(
+      "lmd",
+      "Finds all local minimum distances between two meshes at one pose or many, and the force they make.");
+  command->add_option("scene_mesh", options->sceneMesh, "Mesh that stays: STL, OBJ, PLY or OFF")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("part_mesh", options->partMesh, "Mesh of the part that the poses move")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--cutoff", options->springs.cutoff, "Farthest distance to look for [m]")
+      ->required()
+      ->type_name("METRES");
+  CLI::Option_group* where = command->add_option_group("Poses");
+  where->add_option("--pose", options->pose, kPoseHelp)->type_name("POSE");
+  where
+      ->add_option("--poses", options->poses,
+                   "CSV file of poses, one a row; lines that start with # are comments, a header is allowed")
+      ->type_name("FILE");
+  where->require_option(1);
+  command
+      ->add_option("--stiffness", options->springs.stiffness,
+                   "Of each spring [N/m], or [N/m^2] in the printed law")
+      ->capture_default_str()
+      ->type_name("K");
+  command
+      ->add_option("--law", options->law,
+                   "Force of a minimum at distance d: linear is K (cutoff - d); printed, as in the paper, is "
+                   "K (cutoff - d) d")
+      ->check(CLI::IsMember({"linear", "printed"}))
+      ->capture_default_str();
+  command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
+  command->footer(kFooter);
+  command->callback([options] { runLmd(*options); });
+}
+
+}  // namespace nearfit::cli

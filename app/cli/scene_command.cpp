@@ -1,0 +1,146 @@
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/arguments.h"
+#include "app/cli/commands.h"
+#include "app/cli/output.h"
+#include "core/error.h"
+#include "core/scene/scene_file.h"
+
+namespace nearfit::cli {
+namespace {
+
+struct SceneNewOptions {
+  std::string out, moving, unit = "m", law = "linear";
+  std::vector<std::string> parts;
+  SpringParameters springs;
+};
+
+struct PartArgument {
+  std::string name, file;
+  RigidTransform worldFromPart;
+};
+
+/// NAME=FILE[@POSE]. What follows the last @ belongs to the file's name unless it is a pose.
+PartArgument parsePart(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+    throw UsageError("--part", fmt::format("\"{}\" is no part", text), "give NAME=FILE or NAME=FILE@POSE");
+  }
+  PartArgument part{text.substr(0, equals), text.substr(equals + 1), {}};
+  const std::size_t at = part.file.rfind('@');
+  if (at == std::string::npos || at == 0) return part;
+  const std::string tail = part.file.substr(at + 1);
+  if (const auto pose = parsePoseIfAny(tail)) {
+    part.worldFromPart = *pose;
+    part.file.resize(at);
+    return part;
+  }
+  std::error_code failure;
+  const bool looksLikePose =
+      !tail.empty() && tail.find_first_not_of("0123456789+-.,eE ") == std::string::npos;
+  if (looksLikePose && !std::filesystem::exists(part.file, failure)) {
+    throw UsageError("--part", fmt::format("\"{}\" is no pose", tail), std::string("give ") + kPoseHelp);
+  }
+  return part;
+}
+
+Scene makeScene(const SceneNewOptions& options) {
+  SpringParameters springs = options.springs;
+  springs.law = options.law == "printed" ? SpringLaw::Printed : SpringLaw::Linear;
+  const double metresPerUnit = parseUnit(options.unit);
+  std::vector<PartArgument> arguments;
+  for (const std::string& text : options.parts)
+    arguments.push_back(parsePart(text));
+
+  Scene scene;
+  scene.setSprings(springs);
+  std::map<std::filesystem::path, PartGeometryPtr> geometries;
+  for (const PartArgument& argument : arguments) {
+    if (scene.findByName(argument.name) != nullptr) {
+      throw UsageError("--part", fmt::format("two parts are named \"{}\"", argument.name),
+                       "give each its own name");
+    }
+    PartGeometryPtr& geometry = geometries[normalisedPath(argument.file)];
+    if (!geometry) geometry = loadPartGeometry(argument.file, metresPerUnit);
+    Part part;
+    part.name = argument.name;
+    part.geometry = geometry;
+    part.worldFromPart = argument.worldFromPart;
+    part.colour = scene.nextColour();
+    scene.add(part);
+  }
+  if (!options.moving.empty()) {
+    const Part* moving = scene.findByName(options.moving);
+    if (moving == nullptr) {
+      throw UsageError("--moving", fmt::format("there is no part \"{}\"", options.moving),
+                       "name one that --part adds");
+    }
+    scene.setMovingPart(moving->id);
+  }
+  return scene;
+}
+
+void runSceneNew(const SceneNewOptions& options) {
+  const Scene scene = makeScene(options);
+  writeSceneFile(scene, options.out);
+  const std::string moving = options.moving.empty() ? "none" : options.moving;
+  print(oneLine(fmt::format("wrote {}: {} part{}, moving: {}", options.out, scene.parts().size(),
+                            scene.parts().size() == 1 ? "" : "s", moving)) +
+        "\n");
+}
+
+constexpr const char* kFooter =
+    "A part is NAME=FILE[@POSE]: its name (without =), its mesh file, and where it stands in the world,\n"
+    "tx,ty,tz,qw,qx,qy,qz: translation [m] and unit quaternion, without which it stands at the origin.\n"
+    "A file name may hold @ where what follows the last one is no pose.\n"
+    "The scene file names each mesh by its path from the scene file's folder and by its SHA-256. A file of "
+    "that\n"
+    "name is replaced.\n"
+    "Example: nearfit-cli scene new fit.nearfit --unit mm --part Hole=hole.stl\n"
+    "             --part Peg=peg.stl@0,0,0.05,1,0,0,0 --moving Peg --cutoff 0.005";
+
+void addSceneNew(CLI::App& scene) {
+  const auto options = std::make_shared<SceneNewOptions>();
+  CLI::App* command = scene.add_subcommand("new", "Makes a scene file of meshes.");
+  command->add_option("out", options->out, "Scene file to write (*.nearfit)")->required()->type_name("OUT");
+  command->add_option("--part", options->parts, "A part; once for each")
+      ->required()
+      ->allow_extra_args(false)
+      ->type_name("NAME=FILE[@POSE]");
+  command->add_option("--moving", options->moving, "The part that the hand moves")->type_name("NAME");
+  command->add_option("--cutoff", options->springs.cutoff, "Range and rest length of the springs [m]")
+      ->capture_default_str()
+      ->type_name("METRES");
+  command
+      ->add_option("--stiffness", options->springs.stiffness,
+                   "Of each spring [N/m], or [N/m^2] in the printed law")
+      ->capture_default_str()
+      ->type_name("K");
+  command->add_option("--damping", options->springs.damping, "Of each spring [N s/m]")
+      ->capture_default_str()
+      ->type_name("B");
+  command->add_option("--law", options->law, "Force law of the springs")
+      ->check(CLI::IsMember({"linear", "printed"}))
+      ->capture_default_str();
+  command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
+  command->footer(kFooter);
+  command->callback([options] { runSceneNew(*options); });
+}
+
+}  // namespace
+
+void addSceneCommand(CLI::App& program) {
+  CLI::App* scene = program.add_subcommand("scene", "Works with scene files.");
+  scene->require_subcommand(1);
+  addSceneNew(*scene);
+}
+
+}  // namespace nearfit::cli

@@ -1,0 +1,224 @@
+#include <cmath>
+#include <regex>
+
+#include <glm/gtc/quaternion.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/mesh_generators.h"
+#include "tests/support/mesh_text.h"
+#include "tests/support/run_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit::test {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+void expectPoint(const Json& json, const glm::dvec3& expected, double tolerance = 1e-12) {
+  ASSERT_EQ(json.size(), 3U);
+  for (glm::length_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(json[static_cast<std::size_t>(i)].get<double>(), expected[i], tolerance);
+  }
+}
+
+/// The scene mesh is a block whose top is the square [-1, 1]^2 at z = 0.5; the part is a cube of side 1.
+class LmdCommand : public ::testing::Test {
+ protected:
+  ProcessResult run(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"lmd", block_, cube_});
+    return runCli(options);
+  }
+  Json only(const std::vector<std::string>& options) const {
+    const ProcessResult result = run(options);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(linesOf(result.out).size(), 1U);
+    return Json::parse(result.out);
+  }
+
+  TemporaryFolder folder_;
+  std::string block_ = folder_.write("block.obj", objText(boxMesh({2, 2, 1}))).string();
+  std::string cube_ = folder_.write("cube.obj", objText(boxMesh({1, 1, 1}))).string();
+};
+
+TEST_F(LmdCommand, CubeAboveBlockIsOneRegionAndPushesUp) {
+  const Json json = only({"--cutoff", "0.5", "--pose", "0,0,1.25,1,0,0,0"});
+  EXPECT_EQ(json["pose"], 0);
+  ASSERT_EQ(json["lmds"].size(), 1U);
+  const Json& lmd = json["lmds"][0];
+  EXPECT_NEAR(lmd["distance"].get<double>(), 0.25, 1e-12);
+  expectPoint(lmd["scene"], {0, 0, 0.5});
+  expectPoint(lmd["part"], {0, 0, 0.75});
+  EXPECT_EQ(lmd["region"], true);
+  // 200 N/m (0.5 m - 0.25 m)
+  expectPoint(json["force"], {0, 0, 50}, 1e-9);
+  expectPoint(json["torque"], {0, 0, 0}, 1e-9);
+  EXPECT_GT(json["query_us"].get<double>(), 0.0);
+}
+
+TEST_F(LmdCommand, OverhangingCubeIsTurnedAboutItsCentreOfMass) {
+  // The faces overlap in x from 0.5 to 1, so that the region's centroid is 0.25 behind the centre at x = 1.
+  const Json json = only({"--cutoff", "0.5", "--stiffness", "1000", "--pose", "1,0,1.25,1,0,0,0"});
+  expectPoint(json["lmds"][0]["part"], {0.75, 0, 0.75});
+  expectPoint(json["force"], {0, 0, 250}, 1e-9);
+  expectPoint(json["torque"], {0, 62.5, 0}, 1e-9);
+}
+
+TEST_F(LmdCommand, PrintedLawMultipliesByTheDistance) {
+  const Json json =
+      only({"--cutoff", "0.5", "--law", "printed", "--stiffness", "16", "--pose", "0,0,1.25,1,0,0,0"});
+  expectPoint(json["force"], {0, 0, 16 * 0.25 * 0.25}, 1e-12);
+}
+
+TEST_F(LmdCommand, CubeOnItsCornerHasAVertexOverAFace) {
+  // A turn about (1, -1, 0) that stands the cube's diagonal upright; the corner is half of sqrt(3) below its
+  // centre.
+  const double halfAngle = 0.5 * std::acos(1.0 / std::sqrt(3.0)), s = std::sin(halfAngle) / std::sqrt(2.0);
+  char pose[200];
+  std::snprintf(pose, sizeof pose, "0.1,0.2,%.17g,%.17g,%.17g,%.17g,0", 0.75 + 0.5 * std::sqrt(3.0),
+                std::cos(halfAngle), s, -s);
+  const Json json = only({"--cutoff", "0.5", "--pose", pose});
+  ASSERT_EQ(json["lmds"].size(), 1U);
+  const Json& lmd = json["lmds"][0];
+  EXPECT_EQ(lmd["features"], Json({"face", "vertex"}));
+  EXPECT_EQ(lmd["region"], false);
+  expectPoint(lmd["scene"], {0.1, 0.2, 0.5});
+  expectPoint(lmd["part"], {0.1, 0.2, 0.75});
+}
+
+TEST_F(LmdCommand, CornersThatFaceEachOtherAreVertices) {
+  // From (1, 1, 0.5) to (1.3, 1.4, 1.7): sides 0.3, 0.4 and 1.2.
+  const Json json = only({"--cutoff", "2", "--pose", "1.8,1.9,2.2,1,0,0,0"});
+  ASSERT_EQ(json["lmds"].size(), 1U);
+  const Json& lmd = json["lmds"][0];
+  EXPECT_EQ(lmd["features"], Json({"vertex", "vertex"}));
+  EXPECT_NEAR(lmd["distance"].get<double>(), 1.3, 1e-12);
+  expectPoint(lmd["scene"], {1, 1, 0.5});
+  expectPoint(lmd["part"], {1.3, 1.4, 1.7});
+}
+
+TEST_F(LmdCommand, NothingWithinTheCutoffIsAnEmptySetWithoutForce) {
+  const Json json = only({"--cutoff", "0.2", "--pose", "0,0,1.25,1,0,0,0"});
+  EXPECT_TRUE(json["lmds"].empty());
+  expectPoint(json["force"], {0, 0, 0});
+  expectPoint(json["torque"], {0, 0, 0});
+}
+
+TEST_F(LmdCommand, SeveralMinimaComeNearestFirst) {
+  // Two cubes in one part, 0.25 and 0.375 above the block.
+  cube_ = folder_
+              .write("two.obj", objText(joined(boxMesh({0.5, 0.5, 0.5}, {0.6, 0, 0.375}),
+                                               boxMesh({0.5, 0.5, 0.5}, {-0.6, 0, 0.25}))))
+              .string();
+  const Json json = only({"--cutoff", "0.5", "--pose", "0,0,0.75,1,0,0,0"});
+  ASSERT_EQ(json["lmds"].size(), 2U);
+  EXPECT_NEAR(json["lmds"][0]["distance"].get<double>(), 0.25, 1e-12);
+  EXPECT_NEAR(json["lmds"][1]["distance"].get<double>(), 0.375, 1e-12);
+  expectPoint(json["force"], {0, 0, 200 * (0.25 + 0.125)}, 1e-9);
+}
+
+TEST_F(LmdCommand, LineHasExactlyThePromisedForm) {
+  const ProcessResult result = run({"--cutoff", "0.5", "--pose", "0.1,0,1.25,1,0,0,0"});
+  const std::string n = "-?[0-9.]+(e[-+][0-9]+)?", v = "\\[" + n + "," + n + "," + n + "\\]";
+  const std::regex line(
+      "\\{\"pose\":0,\"lmds\":\\[\\{\"distance\":" + n + ",\"scene\":" + v + ",\"part\":" + v +
+      ",\"features\":\\[\"(vertex|edge|face)\",\"(vertex|edge|face)\"\\],\"region\":true\\}\\]," +
+      "\"force\":" + v + ",\"torque\":" + v + ",\"query_us\":" + n + "\\}\n");
+  EXPECT_TRUE(std::regex_match(result.out, line)) << result.out;
+}
+
+TEST_F(LmdCommand, NumbersCarrySeventeenDigits) {
+  // 1.3 is no double: its seventeen digits are not the two that print it shortest.
+  const ProcessResult result = run({"--cutoff", "0.5", "--pose", "0,0,1.3,1,0,0,0"});
+  const double bottom = Json::parse(result.out)["lmds"][0]["part"][2].get<double>();
+  char digits[40];
+  std::snprintf(digits, sizeof digits, "%.17g", bottom);
+  EXPECT_GE(std::string(digits).size(), 18U);
+  EXPECT_THAT(result.out, HasSubstr(std::string(",") + digits + "]"));
+}
+
+TEST_F(LmdCommand, PosesComeFromAFileInItsOrder) {
+  const auto csv = folder_.write("poses.csv",
+                                 "# distances 0.25, none, 0.125\n"
+                                 "tx,ty,tz,qw,qx,qy,qz\n"
+                                 "0,0,1.25,1,0,0,0\n"
+                                 "# a remark in between\n"
+                                 "0,0,5,1,0,0,0\n"
+                                 "0,0,1.125,0.99995,0,0,0\n");
+  const ProcessResult result = run({"--cutoff", "0.5", "--poses", csv.string()});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const std::vector<std::string> lines = linesOf(result.out);
+  ASSERT_EQ(lines.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(Json::parse(lines[i])["pose"], i);
+  EXPECT_NEAR(Json::parse(lines[0])["lmds"][0]["distance"].get<double>(), 0.25, 1e-12);
+  EXPECT_TRUE(Json::parse(lines[1])["lmds"].empty());
+  EXPECT_NEAR(Json::parse(lines[2])["lmds"][0]["distance"].get<double>(), 0.125, 1e-12);
+}
+
+TEST_F(LmdCommand, UnitScalesTheMeshesButNotPoseAndCutoff) {
+  const Json json = only({"--unit", "mm", "--cutoff", "0.0005", "--pose", "0,0,0.00125,1,0,0,0"});
+  ASSERT_EQ(json["lmds"].size(), 1U);
+  EXPECT_NEAR(json["lmds"][0]["distance"].get<double>(), 0.00025, 1e-15);
+}
+
+TEST_F(LmdCommand, FirstNumberOfAPoseMayBeNegative) {
+  for (const char* pose : {"-0.5,0,1.25,1,0,0,0", "-.5,0,1.25,1,0,0,0"}) {
+    expectPoint(only({"--cutoff", "0.5", "--pose", pose})["lmds"][0]["part"], {-0.5, 0, 0.75});
+  }
+}
+
+TEST_F(LmdCommand, MeshAgainstItselfWorks) {
+  cube_ = block_;
+  EXPECT_NEAR(only({"--cutoff", "0.5", "--pose", "0,0,1.25,1,0,0,0"})["lmds"][0]["distance"].get<double>(),
+              0.25, 1e-12);
+}
+
+TEST_F(LmdCommand, WrongUsageIsToldInOneLine) {
+  const std::string pose = "0,0,1.25,1,0,0,0";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"--pose", pose}, "--cutoff"},
+      {{"--cutoff", "0.5"}, "--pose"},
+      {{"--cutoff", "0.5", "--pose", pose, "--poses", "x.csv"}, "--pose"},
+      {{"--cutoff", "0", "--pose", pose}, "--cutoff"},
+      {{"--cutoff", "-1", "--pose", pose}, "--cutoff"},
+      {{"--cutoff", "nan", "--pose", pose}, "--cutoff"},
+      {{"--cutoff", "inf", "--pose", pose}, "--cutoff"},
+      {{"--cutoff", "1mm", "--pose", pose}, "--cutoff"},
+      {{"--cutoff", "1", "--pose", "0,0,1.25"}, "no pose"},
+      {{"--cutoff", "1", "--pose", "0,0,1.25,1,0,0,0,0"}, "no pose"},
+      {{"--cutoff", "1", "--pose", "0,0,1.25,1,0,0,x"}, "no pose"},
+      {{"--cutoff", "1", "--pose", "nan,0,1.25,1,0,0,0"}, "not finite"},
+      {{"--cutoff", "1", "--pose", "0,0,1.25,2,0,0,0"}, "quaternion"},
+      {{"--cutoff", "1", "--pose", "0,0,1.25,0,0,0,0"}, "quaternion"},
+      {{"--cutoff", "1", "--pose", pose, "--stiffness", "-1"}, "--stiffness"},
+      {{"--cutoff", "1", "--pose", pose, "--law", "cubic"}, "--law"},
+      {{"--cutoff", "1", "--pose", pose, "--unit", "mile"}, "--unit"},
+  };
+  for (const auto& [options, problem] : wrong) {
+    const ProcessResult result = run(options);
+    EXPECT_EQ(result.exitCode, 2) << ::testing::PrintToString(options);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(linesOf(result.err).size(), 1U) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(problem));
+  }
+}
+
+TEST_F(LmdCommand, FilesThatFailAreToldInOneLine) {
+  const auto csv = folder_.write("poses.csv", "0,0,1,1,0,0,0\n0,0,1,1,0,0\n");
+  ProcessResult result = run({"--cutoff", "1", "--poses", csv.string()});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_THAT(result.err, HasSubstr("poses.csv:2"));
+  EXPECT_EQ(linesOf(result.err).size(), 1U) << result.err;
+  cube_ = (folder_.path() / "none.stl").string();
+  result = run({"--cutoff", "1", "--pose", "0,0,1.25,1,0,0,0"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_THAT(result.err, HasSubstr("none.stl"));
+  EXPECT_EQ(linesOf(result.err).size(), 1U) << result.err;
+}
+
+}  // namespace
+}  // namespace nearfit::test

@@ -1,0 +1,131 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/scene/scene_file.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/mesh_text.h"
+#include "tests/support/run_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class SceneNewCommand : public ::testing::Test {
+ protected:
+  SceneNewCommand() {
+    std::filesystem::create_directory(folder_.path() / "meshes");
+    folder_.write("meshes/hole.obj", objText(boxMesh({20, 20, 10})));
+    folder_.write("meshes/peg@2.obj", objText(boxMesh({10, 10, 10})));
+    folder_.write("meshes/v@1,2.obj", objText(boxMesh({10, 10, 10})));
+    options_.workingFolder = folder_.path();
+  }
+  ProcessResult run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"scene", "new"});
+    return runCli(arguments, options_);
+  }
+  Scene scene() const { return readSceneFile(folder_.path() / "fit.nearfit"); }
+
+  TemporaryFolder folder_;
+  ProcessOptions options_;
+};
+
+TEST_F(SceneNewCommand, SceneHasThePartsPosesAndSettingsThatWereAsked) {
+  const ProcessResult result =
+      run({"fit.nearfit", "--part", "Hole=meshes/hole.obj", "--part",
+           "Peg=meshes/peg@2.obj@0.01,-0.02,3e-2,0.5,0.5,0.5,-0.5", "--moving", "Peg", "--cutoff", "0.005",
+           "--unit", "mm", "--stiffness", "350", "--damping", "1.5", "--law", "printed"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("fit.nearfit"));
+  const Scene made = scene();
+  ASSERT_EQ(made.parts().size(), 2U);
+  const Part &hole = *made.parts()[0], &peg = *made.parts()[1];
+  EXPECT_EQ(hole.name, "Hole");
+  EXPECT_EQ(hole.worldFromPart.translation, glm::dvec3(0.0));
+  EXPECT_EQ(hole.geometry->metresPerUnit, 0.001);
+  EXPECT_NEAR(hole.geometry->mesh.bounds().upper.x, 0.01, 1e-15);
+  EXPECT_EQ(peg.name, "Peg");
+  EXPECT_EQ(peg.worldFromPart.translation, glm::dvec3(0.01, -0.02, 0.03));
+  EXPECT_EQ(peg.worldFromPart.rotation, glm::dquat(0.5, 0.5, 0.5, -0.5));
+  EXPECT_FALSE(hole.colour == peg.colour);
+  EXPECT_EQ(made.movingPart(), peg.id);
+  EXPECT_EQ(made.springs().cutoff, 0.005);
+  EXPECT_EQ(made.springs().stiffness, 350.0);
+  EXPECT_EQ(made.springs().damping, 1.5);
+  EXPECT_EQ(made.springs().law, SpringLaw::Printed);
+}
+
+TEST_F(SceneNewCommand, MeshPathsAreRelativeToTheSceneFile) {
+  ASSERT_EQ(run({"fit.nearfit", "--part", "Hole=meshes/hole.obj"}).exitCode, 0);
+  const auto json = nlohmann::json::parse(readBytes(folder_.path() / "fit.nearfit"));
+  EXPECT_EQ(json["parts"][0]["mesh"], "meshes/hole.obj");
+  EXPECT_TRUE(json["moving"].is_null());
+}
+
+TEST_F(SceneNewCommand, OutMayComeLast) {
+  EXPECT_EQ(run({"--part", "Hole=meshes/hole.obj", "fit.nearfit"}).exitCode, 0);
+  EXPECT_EQ(scene().parts().size(), 1U);
+}
+
+TEST_F(SceneNewCommand, AtSignInAFileNameIsNoPose) {
+  const ProcessResult result =
+      run({"fit.nearfit", "--part", "A=meshes/peg@2.obj", "--part", "B=meshes/v@1,2.obj"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(scene().parts()[0]->geometry->file.filename(), "peg@2.obj");
+  EXPECT_EQ(scene().parts()[1]->geometry->file.filename(), "v@1,2.obj");
+}
+
+TEST_F(SceneNewCommand, FileNameMayHoldAnEqualsSign) {
+  folder_.write("meshes/a=b.obj", objText(boxMesh({1, 1, 1})));
+  ASSERT_EQ(run({"fit.nearfit", "--part", "A=meshes/a=b.obj"}).exitCode, 0);
+  EXPECT_EQ(scene().parts()[0]->name, "A");
+}
+
+TEST_F(SceneNewCommand, WrongUsageIsToldInOneLineAndWritesNothing) {
+  const std::string hole = "Hole=meshes/hole.obj";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{}, "out"},
+      {{"fit.nearfit"}, "--part"},
+      {{"fit.nearfit", "--part", "meshes/hole.obj"}, "NAME=FILE"},
+      {{"fit.nearfit", "--part", "=meshes/hole.obj"}, "NAME=FILE"},
+      {{"fit.nearfit", "--part", "Hole="}, "NAME=FILE"},
+      {{"fit.nearfit", "--part", hole, "--part", hole}, "two parts are named \"Hole\""},
+      {{"fit.nearfit", "--part", hole, "--moving", "Peg"}, "there is no part \"Peg\""},
+      {{"fit.nearfit", "--part", hole + "@0,0,1"}, "\"0,0,1\" is no pose"},
+      {{"fit.nearfit", "--part", hole + "@0,0,1,1,1,0,0"}, "quaternion"},
+      {{"fit.nearfit", "--part", hole + "@0,0,1e9,1,0,0,0"}, "position"},
+      {{"fit.nearfit", "--part", hole, "--cutoff", "0"}, "cutoff"},
+      {{"fit.nearfit", "--part", hole, "--cutoff", "1e9"}, "cutoff"},
+      {{"fit.nearfit", "--part", hole, "--stiffness", "-3"}, "stiffness"},
+      {{"fit.nearfit", "--part", hole, "--unit", "0"}, "unit"},
+      {{"fit.nearfit", "--part", "A\nB=meshes/hole.obj"}, "name"},
+  };
+  for (const auto& [arguments, problem] : wrong) {
+    const ProcessResult result = run(arguments);
+    EXPECT_EQ(result.exitCode, 2) << ::testing::PrintToString(arguments);
+    EXPECT_EQ(linesOf(result.err).size(), 1U) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(problem));
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "fit.nearfit"));
+  }
+}
+
+TEST_F(SceneNewCommand, FilesThatFailAreToldInOneLine) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> failing = {
+      {{"fit.nearfit", "--part", "Hole=meshes/none.obj"}, "none.obj"},
+      {{"fit.nearfit", "--part", "Hole=meshes"}, "meshes"},
+      {{"none/fit.nearfit", "--part", "Hole=meshes/hole.obj"}, "none/fit.nearfit"},
+  };
+  for (const auto& [arguments, problem] : failing) {
+    const ProcessResult result = run(arguments);
+    EXPECT_EQ(result.exitCode, 1) << ::testing::PrintToString(arguments);
+    EXPECT_EQ(linesOf(result.err).size(), 1U) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(problem));
+  }
+}
+
+}  // namespace
+}  // namespace nearfit::test

@@ -1,0 +1,16 @@
+#include "tests/support/mesh_text.h"
+
+#include <fmt/format.h>
+
+namespace nearfit::test {
+
+std::string objText(const TriangleMesh& mesh) {
+  std::string text;
+  for (const glm::dvec3& v : mesh.vertices())
+    text += fmt::format("v {:.17g} {:.17g} {:.17g}\n", v.x, v.y, v.z);
+  for (const Triangle& t : mesh.triangles())
+    text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  return text;
+}
+
+}  // namespace nearfit::test
