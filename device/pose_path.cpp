@@ -12,13 +12,13 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/scene/scene.h"
 #include "device/simulated_device.h"
 
 namespace nearfit {
 namespace {
 
 constexpr std::size_t kColumns = 7;
-constexpr double kUnitTolerance = 1e-3;
 
 /// Seven numbers need a tenth of it. A binary file without line ends must not fill memory.
 constexpr std::streamsize kMaxLineBytes = 4096;
@@ -91,11 +91,15 @@ RigidTransform parseRow(std::string_view row, const Place& place) {
     if (!std::isfinite(*value)) {
       place.fail(fmt::format("column {}: \"{}\" is not finite", i + 1, columns[i]), kRowRemedy);
     }
+    if (i < 3 && std::abs(*value) > kMaxPosition) {
+      place.fail(fmt::format("column {}: {} m is too far away", i + 1, *value),
+                 fmt::format("give metres, within {} of the origin", kMaxPosition));
+    }
     v[i] = *value;
   }
   const RigidTransform pose{glm::dquat(v[3], v[4], v[5], v[6]), glm::dvec3(v[0], v[1], v[2])};
   const double length = std::hypot(std::hypot(v[3], v[4]), std::hypot(v[5], v[6]));
-  if (!(std::abs(length - 1.0) <= kUnitTolerance)) {
+  if (!(std::abs(length - 1.0) <= kQuaternionSlack)) {
     place.fail(fmt::format("the quaternion has length {:.6g}, not 1", length),
                "normalise it; its order is qw,qx,qy,qz");
   }

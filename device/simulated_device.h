@@ -70,8 +70,8 @@ std::vector<RigidTransform> scriptedHandPath(const RigidTransform& worldFromPart
 
 /// Reads poses from CSV: `tx,ty,tz,qw,qx,qy,qz` a row (metres, then a unit quaternion), `#` starts a comment
 /// line, blank lines are skipped, one header line is allowed. Quaternions are normalised; one that is off
-/// unit by more than 1e-3 is refused. Throws FileError with file, line and remedy; memory is that of the
-/// poses.
+/// unit by more than kQuaternionSlack is refused, and so is a position beyond kMaxPosition. Throws FileError
+/// with file, line and remedy; memory is that of the poses.
 std::vector<RigidTransform> readPosePath(const std::filesystem::path& file);
 
 }  // namespace nearfit

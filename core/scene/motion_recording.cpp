@@ -54,7 +54,7 @@ MotionWriter::MotionWriter(std::filesystem::path file) : file_(std::move(file)) 
     throw FileError(file_.string(), "this is a directory, not a file to record to", "give a file name");
   }
   // In the same directory, since a rename is atomic only within one file system.
-  temporary_ = (file_.parent_path() / ("." + file_.filename().string() + ".XXXXXX")).string();
+  temporary_ = (file_.parent_path() / fmt::format(".{}.XXXXXX", file_.filename().string())).string();
   const int descriptor = ::mkostemp(temporary_.data(), O_CLOEXEC);
   if (descriptor < 0) {
     const int error = errno;
