@@ -25,9 +25,9 @@ struct Colour {
 
 /// Longest name of a part [bytes of UTF-8].
 constexpr std::size_t kMaxPartNameBytes = 200;
-/// Farthest from the origin that a part may stand on each axis [m]. Beyond it double precision is coarser
-/// than a nanometre, and the number is a slip of the unit.
-constexpr double kMaxPosition = 1e6;
+/// Farthest from the origin that a part may stand on each axis [m]: to the moon and back. Beyond it double
+/// precision is coarser than a tenth of a micrometre, and the number is a slip of the unit.
+constexpr double kMaxPosition = 1e9;
 
 struct Part {
   PartId id{};

@@ -76,7 +76,7 @@ TEST_F(PosePath, InfinityOverflowAndNotANumberAreRefused) {
 }
 
 TEST_F(PosePath, PositionsThatCanOnlyBeAWrongUnitAreRefused) {
-  EXPECT_THAT(refusal("0,1e6,0,1,0,0,0\n0,0,-1.1e6,1,0,0,0\n"), HasSubstr(":2: column 3"));
+  EXPECT_THAT(refusal("0,1e9,0,1,0,0,0\n0,0,-1.1e9,1,0,0,0\n"), HasSubstr(":2: column 3"));
 }
 
 TEST_F(PosePath, NumbersTooSmallForADoubleAreZero) {

@@ -97,7 +97,7 @@ TEST_F(SceneNewCommand, WrongUsageIsToldInOneLineAndWritesNothing) {
       {{"fit.nearfit", "--part", hole, "--moving", "Peg"}, "there is no part \"Peg\""},
       {{"fit.nearfit", "--part", hole + "@0,0,1"}, "\"0,0,1\" is no pose"},
       {{"fit.nearfit", "--part", hole + "@0,0,1,1,1,0,0"}, "quaternion"},
-      {{"fit.nearfit", "--part", hole + "@0,0,1e9,1,0,0,0"}, "position"},
+      {{"fit.nearfit", "--part", hole + "@0,0,1e10,1,0,0,0"}, "position"},
       {{"fit.nearfit", "--part", hole, "--cutoff", "0"}, "cutoff"},
       {{"fit.nearfit", "--part", hole, "--cutoff", "1e9"}, "cutoff"},
       {{"fit.nearfit", "--part", hole, "--stiffness", "-3"}, "stiffness"},

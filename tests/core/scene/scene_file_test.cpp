@@ -242,7 +242,7 @@ TEST_F(SceneFile, EveryFieldIsCheckedAndNamed) {
       {"/parts/1/metresPerUnit", 0, "parts[1].metresPerUnit: 0 metres to the unit is out of range"},
       {"/parts/1/position", {0, 0}, "parts[1].position: it has 2 numbers where 3 are wanted"},
       {"/parts/1/position", {0, 0, "1"}, "parts[1].position[2]: it is of type string"},
-      {"/parts/1/position", {0, 0, 1e7}, "parts[1].position: a coordinate is 10000000 m"},
+      {"/parts/1/position", {0, 0, 1e10}, "parts[1].position: a coordinate is 10000000000 m"},
       {"/parts/1/quaternion", {0, 0, 0, 0}, "parts[1].quaternion: its length is 0, not 1"},
       {"/parts/1/quaternion", {1, 1, 0, 0}, "parts[1].quaternion: its length is 1.414"},
       {"/parts/1/quaternion", {1e200, 0, 0, 0}, "parts[1].quaternion: its length is inf"},

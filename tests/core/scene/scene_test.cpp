@@ -122,7 +122,7 @@ TEST(Scene, PosesThatAreNoneAreRefused) {
   const glm::dquat unit{1, 0, 0, 0};
   for (const RigidTransform& pose :
        {RigidTransform{unit, {0, nan, 0}}, RigidTransform{unit, {0, 0, infinity}},
-        RigidTransform{unit, {2e6, 0, 0}}, RigidTransform{{nan, 0, 0, 0}, {}},
+        RigidTransform{unit, {2e9, 0, 0}}, RigidTransform{{nan, 0, 0, 0}, {}},
         RigidTransform{{0, 0, 0, 0}, {}}, RigidTransform{{1, 1, 0, 0}, {}},
         RigidTransform{{1.0021, 0, 0, 0}, {}}}) {
     EXPECT_THROW(scene.add(posed(pose)), UsageError);
