@@ -92,8 +92,9 @@ std::string RealtimeGrant::describe() const {
   std::string text = scheduling + ", " + memory;
   if (priority == 0 || !isMemoryLocked) {
     text +=
-        "; to allow it put \"@realtime - rtprio 70\" and \"@realtime - memlock unlimited\" in "
-        "/etc/security/limits.d/nearfit.conf, join the group realtime and log in anew";
+        "; to allow it put \"USER - rtprio 70\" and \"USER - memlock unlimited\", with your own name for "
+        "USER, in "
+        "/etc/security/limits.d/nearfit.conf and log in anew";
   }
   return text;
 }
