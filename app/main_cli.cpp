@@ -45,6 +45,7 @@ int run(int argc, char** argv) {
   nearfit::cli::addInfoCommand(program);
   nearfit::cli::addLmdCommand(program);
   nearfit::cli::addSceneCommand(program);
+  nearfit::cli::addPlaceCommand(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -1,0 +1,133 @@
+#include "app/cli/place_run.h"
+
+#include <atomic>
+#include <chrono>
+#include <limits>
+#include <thread>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <signal.h>
+
+#include "device/servo_loop.h"
+#include "device/simulated_device.h"
+
+namespace nearfit::cli {
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers may touch nothing else");
+
+void onInterrupt(int) {
+  interrupted.store(true);
+}
+
+/// Turns the first interrupt into a flag; the second one kills as usual.
+class InterruptGuard {
+ public:
+  InterruptGuard() {
+    interrupted.store(false);
+    struct sigaction action {};
+    action.sa_handler = onInterrupt;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    ::sigaction(SIGINT, &action, &oldInt_);
+    ::sigaction(SIGTERM, &action, &oldTerm_);
+  }
+  ~InterruptGuard() {
+    ::sigaction(SIGINT, &oldInt_, nullptr);
+    ::sigaction(SIGTERM, &oldTerm_, nullptr);
+  }
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+ private:
+  struct sigaction oldInt_ {
+  }, oldTerm_{};
+};
+
+void raise(Peak& peak, const glm::dvec3& vector, double time) {
+  const double length = glm::length(vector);
+  if (length > peak.value) peak = {length, time};
+}
+
+void take(const MotionRow& row, PlaceResult& result, MotionWriter* writer) {
+  if (writer != nullptr) writer->write(row);
+  result.clampedTicks += row.isClamped ? 1 : 0;
+  result.truncatedTicks += row.isTruncated ? 1 : 0;
+  result.maxLmds = std::max(result.maxLmds, row.lmds);
+  if (row.distance < result.leastDistance) {
+    result.leastDistance = row.distance;
+    result.leastDistanceTime = row.time;
+  }
+  raise(result.force, row.wrench.force, row.time);
+  raise(result.torque, row.wrench.torque, row.time);
+  if (result.fault == ServoFault::None) result.fault = row.fault;
+}
+
+PlaceResult beginning(const PlaceJob& job) {
+  PlaceResult result;
+  result.leastDistance = std::numeric_limits<double>::infinity();
+  result.end = job.scene->moving.worldFromPart;
+  return result;
+}
+
+}  // namespace
+
+PlaceResult placeFast(PlaceJob job) {
+  using Clock = std::chrono::steady_clock;
+  const InterruptGuard guard;
+  PlaceResult result = beginning(job);
+  PathDevice device(std::move(job.path));
+  ServoTick tick;
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  RigidTransform handle;
+  device.start(result.end);
+  while (!interrupted.load() && device.readPose(handle)) {
+    const Clock::time_point begin = Clock::now();
+    tick.run(*job.scene, job.parameters, handle, ServoLoop::kPeriod, *snapshot);
+    device.sendWrench(snapshot->wrench);
+    snapshot->tickTime = std::chrono::duration<double>(Clock::now() - begin).count();
+    snapshot->time = static_cast<double>(result.ticks) * ServoLoop::kPeriod;
+    snapshot->tick = ++result.ticks;
+    result.queryTime.record(snapshot->queryTime);
+    result.tickTime.record(snapshot->tickTime);
+    result.end = snapshot->proxy;
+    take(motionRow(*snapshot), result, job.writer);
+  }
+  result.isInterrupted = device.state() == DeviceState::Running;
+  device.stop();
+  return result;
+}
+
+PlaceResult placeInRealTime(PlaceJob job) {
+  const InterruptGuard guard;
+  PlaceResult result = beginning(job);
+  PathDevice device(std::move(job.path));
+  const auto rows = std::make_unique<MotionQueue>();
+  const auto takeRows = [&] {
+    for (MotionRow row; rows->pop(row);)
+      take(row, result, job.writer);
+  };
+  ServoLoop loop;
+  loop.start(device, std::move(job.scene), job.parameters, rows.get());
+  while (loop.isRunning() && !interrupted.load()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    takeRows();
+  }
+  // The path may end at the very moment of the interrupt: the device knows.
+  result.isInterrupted = interrupted.load() && device.state() == DeviceState::Running;
+  loop.stop();
+  takeRows();
+  result.lostRows = rows->dropped();
+  if (loop.pollSnapshot()) result.end = loop.snapshot().proxy;
+  const ServoStatistics statistics = loop.statistics();
+  result.ticks = statistics.ticks;
+  result.overruns = statistics.overruns;
+  result.lateness = statistics.lateness;
+  result.queryTime = statistics.queryTime;
+  result.tickTime = statistics.tickTime;
+  result.schedulingNote = loop.schedulingNote();
+  return result;
+}
+
+}  // namespace nearfit::cli

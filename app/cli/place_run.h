@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/haptics/servo_tick.h"
+#include "core/realtime/latency_histogram.h"
+#include "core/scene/motion_recording.h"
+
+namespace nearfit::cli {
+
+/// A part to be led along a path, one pose a tick.
+struct PlaceJob {
+  std::unique_ptr<const ServoScene> scene;
+  ServoParameters parameters;
+  std::vector<RigidTransform> path;  ///< worldFromPart; not empty.
+  MotionWriter* writer = nullptr;    ///< Gets a row of every tick; may be null.
+};
+
+/// Largest length of a vector so far, and when.
+struct Peak {
+  double value = 0.0;
+  double time = 0.0;  ///< [s]
+};
+
+struct PlaceResult {
+  std::uint64_t ticks = 0;
+  std::uint64_t clampedTicks = 0, truncatedTicks = 0;
+  std::uint64_t lostRows = 0;  ///< Ticks that are missing in the record and in everything below but `end`.
+  std::uint32_t maxLmds = 0;
+  double leastDistance = 0.0;  ///< [m]; infinity when nothing ever came within the cutoff.
+  double leastDistanceTime = 0.0;
+  Peak force, torque;  ///< As sent [N], [N m].
+  ServoFault fault = ServoFault::None;
+  RigidTransform end;                              ///< worldFromPart after the last tick.
+  LatencyHistogram lateness, queryTime, tickTime;  ///< `lateness` is empty when it did not run in real time.
+  std::uint64_t overruns = 0;
+  std::string schedulingNote;  ///< Empty when it did not run in real time.
+  bool isInterrupted = false;  ///< The user stopped it before the path's end.
+};
+
+/// The servo with the simulated device as fast as it goes, in this thread. Everything but the times taken is
+/// the same each time. Interrupts (SIGINT, SIGTERM) end it early. Throws FileError from the writer.
+PlaceResult placeFast(PlaceJob job);
+
+/// The same at 1 kHz in the servo thread; this thread writes the rows.
+PlaceResult placeInRealTime(PlaceJob job);
+
+}  // namespace nearfit::cli

@@ -1,0 +1,105 @@
+#include "app/cli/place_summary.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/output.h"
+#include "device/servo_loop.h"
+
+namespace nearfit::cli {
+namespace {
+
+double microseconds(double seconds) {
+  return seconds * 1e6;
+}
+
+std::string timesText(const LatencyHistogram& h) {
+  return fmt::format("p50 {:.1f}, p99 {:.1f}, p99.9 {:.1f}, max {:.1f} us", microseconds(h.percentile(0.5)),
+                     microseconds(h.percentile(0.99)), microseconds(h.percentile(0.999)),
+                     microseconds(h.max()));
+}
+
+nlohmann::ordered_json timesJson(const LatencyHistogram& h) {
+  return {{"p50", microseconds(h.percentile(0.5))},
+          {"p99", microseconds(h.percentile(0.99))},
+          {"p99.9", microseconds(h.percentile(0.999))},
+          {"max", microseconds(h.max())}};
+}
+
+std::string paceText(const PlaceResult& result) {
+  if (result.schedulingNote.empty()) return ", as fast as it goes";
+  const double seconds = static_cast<double>(result.ticks + result.overruns) * ServoLoop::kPeriod;
+  return fmt::format(" in {:.3f} s", seconds);
+}
+
+std::string overrunsText(std::uint64_t overruns) {
+  return overruns == 0 ? "none"
+                       : fmt::format("{} periods of 1 ms were skipped, since ticks ended too late", overruns);
+}
+
+std::string distanceText(const PlaceResult& result) {
+  if (!std::isfinite(result.leastDistance)) return "nothing came within the cutoff";
+  return fmt::format("least {:.6g} m at {:.3f} s", result.leastDistance, result.leastDistanceTime);
+}
+
+std::string line(const char* name, const std::string& text) {
+  return fmt::format("{:<12}{}\n", name, text);
+}
+
+}  // namespace
+
+std::string summaryText(const PlaceSummary& s) {
+  const PlaceResult& r = s.result;
+  std::string text =
+      line("part", fmt::format("{} against {} other{}", oneLine(s.part), s.others, s.others == 1 ? "" : "s"));
+  text += line("ticks", fmt::format("{} of {}{}", r.ticks, s.poses, paceText(r)));
+  text += line("minima", fmt::format("{} at once at most", r.maxLmds));
+  text += line("distance", distanceText(r));
+  text += line("force", fmt::format("peak {:.6g} N at {:.3f} s", r.force.value, r.force.time));
+  text += line("torque", fmt::format("peak {:.6g} N m at {:.3f} s", r.torque.value, r.torque.time));
+  if (r.clampedTicks > 0) text += line("clamped", fmt::format("force or torque in {} ticks", r.clampedTicks));
+  if (r.truncatedTicks > 0) {
+    text += line("truncated", fmt::format("more minima than can be held in {} ticks", r.truncatedTicks));
+  }
+  text += line("query", timesText(r.queryTime));
+  text += line("tick", timesText(r.tickTime));
+  if (!r.schedulingNote.empty()) {
+    text += line("lateness", timesText(r.lateness));
+    text += line("overruns", overrunsText(r.overruns));
+    text += line("scheduling", r.schedulingNote);
+  }
+  if (!s.record.empty()) {
+    text += line("record",
+                 fmt::format("{} ({} rows, {} lost)", oneLine(s.record), r.ticks - r.lostRows, r.lostRows));
+  }
+  if (!s.exportFile.empty()) text += line("export", oneLine(s.exportFile));
+  return text;
+}
+
+std::string summaryJson(const PlaceSummary& s) {
+  const PlaceResult& r = s.result;
+  nlohmann::ordered_json json{{"part", s.part},
+                              {"others", s.others},
+                              {"poses", s.poses},
+                              {"ticks", r.ticks},
+                              {"max_lmds", r.maxLmds},
+                              {"least_distance", nullptr},
+                              {"peak_force", r.force.value},
+                              {"peak_torque", r.torque.value},
+                              {"clamped_ticks", r.clampedTicks},
+                              {"truncated_ticks", r.truncatedTicks},
+                              {"query_us", timesJson(r.queryTime)},
+                              {"tick_us", timesJson(r.tickTime)}};
+  if (std::isfinite(r.leastDistance)) json["least_distance"] = r.leastDistance;
+  if (!r.schedulingNote.empty()) {
+    json["lateness_us"] = timesJson(r.lateness);
+    json["overruns"] = r.overruns;
+    json["scheduling"] = r.schedulingNote;
+  }
+  json["lost_rows"] = r.lostRows;
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace nearfit::cli

@@ -1,0 +1,315 @@
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/scene/motion_recording.h"
+#include "core/scene/scene_file.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/mesh_text.h"
+#include "tests/support/run_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A recording by columns.
+class Record {
+ public:
+  explicit Record(const std::filesystem::path& file) {
+    const std::vector<std::string> lines = linesOf(readBytes(file));
+    std::istringstream names(lines.at(0));
+    header_ = lines[0];
+    for (std::string name; std::getline(names, name, ',');)
+      names_.push_back(name);
+    for (std::size_t i = 1; i < lines.size(); ++i)
+      addRow(lines[i]);
+  }
+  const std::string& header() const { return header_; }
+  std::size_t rows() const { return rows_; }
+  const std::vector<double>& operator[](const std::string& name) const { return columns_.at(name); }
+
+ private:
+  void addRow(const std::string& line) {
+    std::istringstream cells(line);
+    for (const std::string& name : names_) {
+      std::string cell;
+      if (!std::getline(cells, cell, ',')) throw std::runtime_error("a row is short: " + line);
+      columns_[name].push_back(std::stod(cell));
+    }
+    ++rows_;
+  }
+
+  std::string header_;
+  std::vector<std::string> names_;
+  std::map<std::string, std::vector<double>> columns_;
+  std::size_t rows_ = 0;
+};
+
+/// A cone, tip down, over a floor with its top in z = 0, and a path on which the tip sinks.
+class PlaceCommand : public ::testing::Test {
+ protected:
+  static constexpr int kTicks = 400;
+
+  PlaceCommand() {
+    const RigidTransform upsideDown{glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 1.0}};
+    folder_.write("cone.obj", objText(transformed(coneMesh(0.2, 1.0, 12), 1.0, upsideDown)));
+    folder_.write("floor.obj", objText(boxMesh({2.0, 2.0, 1.0}, {0.0, 0.0, -0.5})));
+    options_.workingFolder = folder_.path();
+    const ProcessResult made =
+        runCli({"scene", "new", "fit.nearfit", "--part", "Floor=floor.obj", "--part",
+                "Cone=cone.obj@0.3,0.1,0.5,1,0,0,0", "--cutoff", "0.1", "--stiffness", "50"},
+               options_);
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+    folder_.write("path.csv", pathText(kTicks));
+  }
+
+  /// Height of the tip in the i-th tick.
+  static double heightAt(int i) { return 0.12 - 0.1 * (i + 0.5) / kTicks; }
+  static std::string pathText(int ticks) {
+    std::string text = "# sinking\ntx,ty,tz,qw,qx,qy,qz\n";
+    for (int i = 0; i < ticks; ++i)
+      text += fmt::format("0.3,0.1,{},1,0,0,0\n", heightAt(i % kTicks));
+    return text;
+  }
+  ProcessResult place(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"place", "fit.nearfit"});
+    return runCli(arguments, options_);
+  }
+  ProcessResult placeCone(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"--part", "Cone", "--path", "path.csv"});
+    return place(more);
+  }
+  std::filesystem::path file(const std::string& name) const { return folder_.path() / name; }
+  void changePart(const std::string& name, const std::function<void(Part&)>& change) const {
+    Scene scene = readSceneFile(file("fit.nearfit"));
+    Part part = *scene.findByName(name);
+    change(part);
+    scene.replace(part);
+    writeSceneFile(scene, file("fit.nearfit"));
+  }
+
+  TemporaryFolder folder_;
+  ProcessOptions options_;
+};
+
+void expectTheFallOnTheFloor(const Record& record, int ticks, const std::function<double(int)>& heightAt) {
+  ASSERT_EQ(record.rows(), static_cast<std::size_t>(ticks));
+  for (int i = 0; i < ticks; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    const double height = heightAt(i);
+    for (const char* const pose : {"handle", "proxy"}) {
+      const std::string name(pose);
+      ASSERT_EQ(record[name + "_tx"][row], 0.3);
+      ASSERT_EQ(record[name + "_tz"][row], height);
+      ASSERT_EQ(record[name + "_qw"][row], 1.0);
+    }
+    const bool isFelt = height < 0.1;
+    ASSERT_EQ(record["lmds"][row], isFelt ? 1.0 : 0.0) << i;
+    ASSERT_NEAR(record["force_z"][row], isFelt ? 50.0 * (0.1 - height) : 0.0, 1e-9) << i;
+    ASSERT_NEAR(record["force_x"][row], 0.0, 1e-9);
+    // The centre of mass is right above the tip.
+    ASSERT_NEAR(record["torque_y"][row], 0.0, 1e-9);
+    const double distance = record["distance"][row];
+    ASSERT_TRUE(isFelt ? std::abs(distance - height) < 1e-12 : std::isinf(distance)) << distance;
+    ASSERT_GE(record["tick_us"][row], record["query_us"][row]);
+  }
+}
+
+TEST_F(PlaceCommand, FastRecordsWhatTheSpringsSayInEveryTick) {
+  const ProcessResult result = placeCone({"--fast", "--record", "out.csv"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("400 of 400"));
+  const Record record(file("out.csv"));
+  EXPECT_EQ(record.header(), motionHeader());
+  expectTheFallOnTheFloor(record, kTicks, heightAt);
+  for (std::size_t i = 0; i < record.rows(); ++i) {
+    EXPECT_NEAR(record["t_s"][i], 1e-3 * static_cast<double>(i), 1e-12);
+  }
+}
+
+TEST_F(PlaceCommand, FastGivesTheSameEachTimeButForTheTimesTaken) {
+  ASSERT_EQ(placeCone({"--fast", "--record", "a.csv"}).exitCode, 0);
+  ASSERT_EQ(placeCone({"--fast", "--record", "b.csv"}).exitCode, 0);
+  const auto withoutTimes = [&](const std::string& name) {
+    std::string text;
+    for (std::string line : linesOf(readBytes(file(name)))) {
+      for (int i = 0; i < 2; ++i)
+        line.resize(line.rfind(','));
+      text += line + "\n";
+    }
+    return text;
+  };
+  EXPECT_EQ(withoutTimes("a.csv"), withoutTimes("b.csv"));
+}
+
+TEST_F(PlaceCommand, InRealTimeEveryTickIsRecordedAndTheLatenessTold) {
+  const auto begin = std::chrono::steady_clock::now();
+  const ProcessResult result = placeCone({"--record", "out.csv"});
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_GE(seconds, 1e-3 * (kTicks - 1));
+  EXPECT_THAT(result.out, HasSubstr("lateness"));
+  EXPECT_THAT(result.out, HasSubstr("overruns"));
+  EXPECT_THAT(result.out, HasSubstr("SCHED_FIFO"));
+  expectTheFallOnTheFloor(Record(file("out.csv")), kTicks, heightAt);
+}
+
+TEST_F(PlaceCommand, TheSummaryHoldsPeaksAndLeastDistance) {
+  const ProcessResult result = placeCone({"--fast", "--json"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["ticks"], kTicks);
+  EXPECT_EQ(json["max_lmds"], 1);
+  EXPECT_NEAR(json["least_distance"].get<double>(), heightAt(kTicks - 1), 1e-12);
+  EXPECT_NEAR(json["peak_force"].get<double>(), 50.0 * (0.1 - heightAt(kTicks - 1)), 1e-9);
+  EXPECT_GT(json["query_us"]["p50"], 0.0);
+  EXPECT_GE(json["tick_us"]["max"], json["tick_us"]["p99.9"]);
+}
+
+TEST_F(PlaceCommand, TheExportHasThePartWhereThePathEnds) {
+  ASSERT_EQ(placeCone({"--fast", "--export", "out.json"}).exitCode, 0);
+  const auto json = nlohmann::json::parse(readBytes(file("out.json")));
+  EXPECT_EQ(json["moving"], "Cone");
+  EXPECT_NEAR(json["clearance"]["distance"].get<double>(), heightAt(kTicks - 1), 1e-12);
+  for (const auto& part : json["parts"]) {
+    if (part["name"] != "Cone") continue;
+    EXPECT_NEAR(part["position"][2].get<double>(), heightAt(kTicks - 1), 1e-15);
+  }
+}
+
+TEST_F(PlaceCommand, APartThatIsUnknownLockedOrHiddenIsRefused) {
+  const ProcessResult unknown = place({"--part", "Peg", "--path", "path.csv", "--fast"});
+  EXPECT_EQ(unknown.exitCode, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("there is no part \"Peg\"; its parts are Floor, Cone"));
+  changePart("Cone", [](Part& part) { part.isVisible = false; });
+  const ProcessResult hidden = placeCone({"--fast"});
+  EXPECT_EQ(hidden.exitCode, 2);
+  EXPECT_THAT(hidden.err, HasSubstr("hidden"));
+  changePart("Cone", [](Part& part) { part.isLocked = true; });
+  const ProcessResult locked = placeCone({"--fast"});
+  EXPECT_EQ(locked.exitCode, 2);
+  EXPECT_THAT(locked.err, HasSubstr("locked"));
+}
+
+TEST_F(PlaceCommand, BadInputIsNamedBeforeAnythingIsWritten) {
+  folder_.write("path.csv", "0,0,0,1,0,0,0\n0,0,0,1,0,0\n");
+  const ProcessResult badRow = placeCone({"--fast", "--record", "out.csv"});
+  EXPECT_EQ(badRow.exitCode, 1);
+  EXPECT_THAT(badRow.err, HasSubstr("path.csv:2: 6 values where 7 belong"));
+  folder_.write("path.csv", pathText(3));
+  const ProcessResult noFolder = placeCone({"--fast", "--record", "out.csv", "--export", "missing/out.json"});
+  EXPECT_EQ(noFolder.exitCode, 1);
+  EXPECT_THAT(noFolder.err, HasSubstr("missing"));
+  EXPECT_EQ(placeCone({"--fast", "--record", "same", "--export", "same"}).exitCode, 2);
+  EXPECT_EQ(place({"--path", "path.csv"}).exitCode, 2);
+  EXPECT_EQ(place({"--part", "Cone"}).exitCode, 2);
+  EXPECT_EQ(runCli({"place", "missing.nearfit", "--part", "A", "--path", "path.csv"}, options_).exitCode, 1);
+  EXPECT_FALSE(std::filesystem::exists(file("out.csv")));
+  EXPECT_FALSE(std::filesystem::exists(file("same")));
+}
+
+TEST_F(PlaceCommand, HelpTellsTheOptions) {
+  const ProcessResult help = runCli({"place", "--help"});
+  EXPECT_EQ(help.exitCode, 0);
+  for (const char* const option : {"--part", "--path", "--fast", "--record", "--export"}) {
+    EXPECT_THAT(help.out, HasSubstr(option));
+  }
+}
+
+/// Starts nearfit-cli, waits until a file shows up in its folder whose name begins so, then interrupts it.
+int interruptOnce(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                  const std::string& prefix) {
+  std::vector<char*> argv;
+  for (const std::string& a : arguments)
+    argv.push_back(const_cast<char*>(a.c_str()));
+  argv.push_back(nullptr);
+  const std::string err = (folder / "err.txt").string(), directory = folder.string();
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::chdir(directory.c_str()) != 0 || std::freopen(err.c_str(), "w", stderr) == nullptr) ::_exit(99);
+    ::execv(argv[0], argv.data());
+    ::_exit(98);
+  }
+  const auto hasBegun = [&] {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().filename().string().starts_with(prefix)) return true;
+    }
+    return false;
+  };
+  for (int i = 0; i < 10000 && !hasBegun(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  ::kill(child, SIGINT);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+TEST_F(PlaceCommand, AnInterruptStopsItAndKeepsWhatWasDone) {
+  constexpr int kLong = 60000;
+  folder_.write("long.csv", pathText(kLong));
+  const int exitCode = interruptOnce({NEARFIT_CLI, "place", "fit.nearfit", "--part", "Cone", "--path",
+                                      "long.csv", "--record", "out.csv", "--export", "out.json"},
+                                     folder_.path(), ".out.csv.");
+  EXPECT_EQ(exitCode, 1);
+  EXPECT_THAT(readBytes(file("err.txt")), HasSubstr("interrupted after"));
+  const Record record(file("out.csv"));
+  ASSERT_GT(record.rows(), 10U);
+  ASSERT_LT(record.rows(), static_cast<std::size_t>(kLong));
+  const auto json = nlohmann::json::parse(readBytes(file("out.json")));
+  EXPECT_EQ(json["parts"][1]["position"][2].get<double>(), record["proxy_tz"].back());
+}
+
+TEST_F(PlaceCommand, ARoundPegGoesDownItsHoleWithTheGapItWasMadeWith) {
+  // Pegs run z 0..50 mm, holes z 0..9 mm, both on the z axis; the radial gap is 0.26 mm.
+  const std::filesystem::path shared = std::filesystem::path(NEARFIT_SHARED_DIR) / "models/public/peghole";
+  std::string hole = (shared / "factory_round_hole_16mm_subdiv_3x.obj").string();
+  std::string peg = (shared / "factory_round_peg_16mm_loose.obj").string();
+  if (!std::filesystem::exists(hole) || !std::filesystem::exists(peg)) {
+    const RigidTransform holeUp{glm::dquat(1.0, 0.0, 0.0, 0.0), {0.0, 0.0, 0.0045}};
+    const RigidTransform pegUp{glm::dquat(1.0, 0.0, 0.0, 0.0), {0.0, 0.0, 0.025}};
+    hole = folder_.write("hole.obj", objText(transformed(tubeMesh(8.26e-3, 0.02, 9e-3, 64), 1.0, holeUp)))
+               .string();
+    peg = folder_.write("peg.obj", objText(transformed(cylinderMesh(8e-3, 0.05, 64), 1.0, pegUp))).string();
+  }
+  ASSERT_EQ(runCli({"scene", "new", "fit.nearfit", "--part", "Hole=" + hole, "--part",
+                    "Peg=" + peg + "@0,0,0.02,1,0,0,0", "--cutoff", "0.001"},
+                   options_)
+                .exitCode,
+            0);
+  std::string path;
+  for (int i = 0; i <= 200; ++i)
+    path += fmt::format("0,0,{},1,0,0,0\n", 0.02 - 1e-4 * i);
+  folder_.write("path.csv", path);
+  const ProcessResult result =
+      place({"--part", "Peg", "--path", "path.csv", "--fast", "--record", "out.csv", "--export", "out.json"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const Record record(file("out.csv"));
+  ASSERT_EQ(record.rows(), 201U);
+  EXPECT_EQ(record["lmds"].front(), 0.0) << "11 mm above the hole";
+  for (std::size_t i = 130; i < record.rows(); ++i) {
+    // Tessellation takes a little off the gap between the true cylinders, and gives a little where corners
+    // face sides.
+    ASSERT_GT(record["distance"][i], 0.15e-3) << i;
+    ASSERT_LT(record["distance"][i], 0.35e-3) << i;
+    ASSERT_GT(record["lmds"][i], 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace nearfit::test
