@@ -1,0 +1,18 @@
+#pragma once
+
+#include <QString>
+
+namespace nearfit::ui {
+
+/// A length as an engineer writes it: "12.34 mm", "850 um" with the micro sign, "1.20 m"; three to four figures.
+/// "-" when it is not finite.
+/// @param metres  [m]
+QString formatLength(double metres);
+/// "3.42 N"; `newtons` in [N].
+QString formatForce(double newtons);
+/// "12.3 mN·m" or "1.20 N·m"; `newtonMetres` in [N m].
+QString formatTorque(double newtonMetres);
+/// "12 µs", "1.3 ms"; `seconds` in [s].
+QString formatDuration(double seconds);
+
+}  // namespace nearfit::ui

@@ -1,0 +1,74 @@
+#include "ui/lmd_overlay.h"
+
+#include <vtkCellArray.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+
+#include "ui/distance_colours.h"
+
+namespace nearfit::ui {
+namespace {
+
+constexpr double kRim[3] = {0.08, 0.10, 0.12};
+
+/// Sizes are in pixels, so that a gap of micrometres between metre-long parts is still seen.
+void setUp(vtkActor& actor, vtkPolyData& data, bool isColoured, float lineWidth, float pointSize) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(&data);
+  mapper->SetScalarVisibility(isColoured);
+  if (isColoured) {
+    mapper->SetLookupTable(distanceLookupTable());
+    mapper->SetScalarRange(0.0, 1.0);
+  }
+  actor.SetMapper(mapper);
+  actor.PickableOff();
+  vtkProperty* property = actor.GetProperty();
+  property->LightingOff();
+  property->SetColor(kRim[0], kRim[1], kRim[2]);
+  property->SetLineWidth(lineWidth);
+  property->SetPointSize(pointSize);
+  property->SetRenderPointsAsSpheres(true);
+}
+
+}  // namespace
+
+LmdOverlay::LmdOverlay(vtkRenderer& renderer) {
+  // Later actors win where depths are equal: dark rims first, colours over them.
+  setUp(*halo_, *segments_.Get(), false, 4.5F, 1.0F);
+  setUp(*lines_, *segments_.Get(), true, 2.5F, 1.0F);
+  setUp(*rims_, *points_.Get(), false, 1.0F, 9.0F);
+  setUp(*dots_, *points_.Get(), true, 1.0F, 6.5F);
+  for (vtkActor* actor : {halo_.Get(), lines_.Get(), rims_.Get(), dots_.Get()}) renderer.AddActor(actor);
+}
+
+void LmdOverlay::show(std::span<const SnapshotLmd> lmds, double cutoff) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> lines, vertices;
+  vtkNew<vtkDoubleArray> fractions;
+  for (const SnapshotLmd& entry : lmds) {
+    const Lmd& lmd = entry.lmd;
+    vtkIdType ends[2];
+    int end = 0;
+    for (const glm::dvec3& p : {lmd.scenePoint, lmd.partPoint}) {
+      ends[end] = points->InsertNextPoint(p.x, p.y, p.z);
+      vertices->InsertNextCell(1, &ends[end++]);
+      fractions->InsertNextValue(lmd.distance / cutoff);
+    }
+    lines->InsertNextCell(2, ends);
+  }
+  segments_->SetPoints(points);
+  segments_->SetLines(lines);
+  segments_->GetPointData()->SetScalars(fractions);
+  points_->SetPoints(points);
+  points_->SetVerts(vertices);
+  points_->GetPointData()->SetScalars(fractions);
+}
+
+void LmdOverlay::setVisible(bool isVisible) {
+  for (vtkActor* actor : {halo_.Get(), lines_.Get(), rims_.Get(), dots_.Get()}) actor->SetVisibility(isVisible);
+}
+
+}  // namespace nearfit::ui

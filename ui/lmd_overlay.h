@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vtkActor.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+
+#include <span>
+
+#include "core/haptics/servo_tick.h"
+
+namespace nearfit::ui {
+
+/// Draws each minimum as a segment with its two points, coloured by distance.
+class LmdOverlay {
+ public:
+  /// @param renderer  Outlives this.
+  explicit LmdOverlay(vtkRenderer& renderer);
+
+  /// @param lmds    In world coordinates [m].
+  /// @param cutoff  Distance that gets the last colour [m]; > 0.
+  void show(std::span<const SnapshotLmd> lmds, double cutoff);
+  void clear() { show({}, 1.0); }
+  void setVisible(bool isVisible);
+
+ private:
+  vtkNew<vtkPolyData> segments_, points_;
+  vtkNew<vtkActor> halo_, lines_, rims_, dots_;
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vtkActor.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+#include <vtkStaticCellLocator.h>
+
+#include <memory>
+
+#include "core/scene/scene.h"
+#include "ui/part_shape.h"
+
+namespace nearfit::ui {
+
+/// How a part is drawn besides its own colour.
+struct PartLook {
+  bool isMoving = false;
+  bool isSelected = false;
+  bool isTranslucent = false;
+  bool hasEdges = true;
+  bool operator==(const PartLook&) const = default;
+};
+
+/// One part in the view: surface and edge lines. In the renderer from construction to destruction.
+class PartActor {
+ public:
+  PartActor(vtkRenderer& renderer, std::shared_ptr<const PartShape> shape);
+  ~PartActor();
+  PartActor(const PartActor&) = delete;
+  PartActor& operator=(const PartActor&) = delete;
+
+  void setPose(const RigidTransform& worldFromPart);
+  void setAppearance(const Colour& colour, bool isVisible, const PartLook& look);
+
+  const PartShape* shape() const noexcept { return shape_.get(); }
+  vtkActor* surface() const noexcept { return surface_; }
+  /// Search structure for picking, built at the first call.
+  vtkStaticCellLocator* locator();
+
+ private:
+  vtkRenderer& renderer_;
+  std::shared_ptr<const PartShape> shape_;
+  vtkNew<vtkActor> surface_, edges_;
+  vtkNew<vtkMatrix4x4> pose_;
+  vtkSmartPointer<vtkStaticCellLocator> locator_;
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "core/scene/scene.h"
+#include "ui/part_actor.h"
+
+namespace nearfit::ui {
+
+/// Keeps one actor for each part of the scene that is shown. Knows no widget and renders nothing itself.
+class SceneRenderer {
+ public:
+  /// @param renderer  Outlives this.
+  SceneRenderer(vtkRenderer& renderer, std::shared_ptr<PartShapeCache> shapes);
+
+  void setScene(const Scene& scene);
+  void setSelected(std::optional<PartId> part);
+  /// All parts but the moving one become see-through, so that what lies between parts can be seen.
+  void setSeeThrough(bool isSeeThrough);
+  void setEdgesVisible(bool isVisible);
+  /// Shows the part away from its pose in the scene, where the hand has it; nothing puts it back.
+  void setPoseInHand(std::optional<RigidTransform> worldFromMoving);
+
+  /// Bounds of all visible parts as VTK has them (xmin, xmax, ...) [m]; false when there are none.
+  bool visibleBounds(double bounds[6]) const;
+  /// The part under a point of the view, in display coordinates from the lower left.
+  std::optional<PartId> pick(double x, double y);
+
+ private:
+  PartActor& actorOf(const Part& part);
+  void applyAppearance(const Part& part);
+  void applyAll();
+
+  vtkRenderer& renderer_;
+  std::shared_ptr<PartShapeCache> shapes_;
+  Scene scene_;
+  std::map<PartId, std::unique_ptr<PartActor>> actors_;
+  std::optional<PartId> selected_;
+  std::optional<RigidTransform> poseInHand_;
+  bool isSeeThrough_ = false;
+  bool hasEdges_ = true;
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <QColor>
+#include <QIcon>
+#include <QString>
+
+class QApplication;
+
+namespace nearfit::ui {
+
+/// Colours that mean something, the same in widgets and in the 3-D view.
+namespace colours {
+inline const QColor kAccent(0x1f, 0x73, 0xd0);
+inline const QColor kForce(0xd8, 0x2c, 0x20);
+inline const QColor kTorque(0x7b, 0x2f, 0xbe);
+inline const QColor kMoving(0xe2, 0x71, 0x1d);
+inline const QColor kMutedText(0x5d, 0x68, 0x74);
+}  // namespace colours
+
+/// Makes the compiled-in icons of this library known; harmless when repeated.
+void loadResources();
+/// Style, palette, window icon and style sheet of the whole application.
+void applyTheme(QApplication& application);
+/// An icon of resources/icons by its file name without ending.
+QIcon icon(const QString& name);
+
+}  // namespace nearfit::ui

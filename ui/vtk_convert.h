@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vtkMatrix4x4.h>
+
+#include <glm/vec3.hpp>
+
+#include "core/math/rigid_transform.h"
+#include "core/scene/scene.h"
+
+namespace nearfit::ui {
+
+/// Writes a pose into a VTK matrix (row-major, acting on columns); marks it modified only when it changed.
+inline void setMatrix(vtkMatrix4x4& matrix, const RigidTransform& pose) {
+  const glm::dmat4 m = pose.toMatrix();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) matrix.SetElement(row, column, m[column][row]);
+  }
+}
+
+}  // namespace nearfit::ui
