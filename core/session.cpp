@@ -89,11 +89,11 @@ void Session::renamePart(PartId id, const std::string& name) {
   commitReplaced(std::move(part), label);
 }
 
-void Session::movePart(PartId id, const RigidTransform& worldFromPart) {
+void Session::movePart(PartId id, const RigidTransform& worldFromPart, const std::string& verb) {
   Part part = unlockedPart(id);
   const RigidTransform pose = checkedPose(worldFromPart);
   if (isSame(part.worldFromPart, pose)) return;
-  const std::string label = "Move " + part.name;
+  const std::string label = verb + " " + part.name;
   part.worldFromPart = pose;
   commitReplaced(std::move(part), label);
 }

@@ -30,7 +30,8 @@ class Session {
   PartId duplicatePart(PartId id);
   void deletePart(PartId id);
   void renamePart(PartId id, const std::string& name);
-  void movePart(PartId id, const RigidTransform& worldFromPart);
+  /// @param verb  What undo calls the step, before the part's name.
+  void movePart(PartId id, const RigidTransform& worldFromPart, const std::string& verb = "Move");
   void setColour(PartId id, const Colour& colour);
   /// Also for locked parts: what is shown is no property of the part.
   void setVisible(PartId id, bool visible);

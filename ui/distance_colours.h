@@ -1,9 +1,9 @@
 #pragma once
 
+#include <QColor>
+
 #include <vtkLookupTable.h>
 #include <vtkSmartPointer.h>
-
-#include <QColor>
 
 namespace nearfit::ui {
 

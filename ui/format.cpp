@@ -25,7 +25,9 @@ QString formatLength(double metres) {
   return figures(metres * 1e6) + QChar(' ') + kMicro + QChar('m');
 }
 
-QString formatForce(double newtons) { return figures(newtons) + QStringLiteral(" N"); }
+QString formatForce(double newtons) {
+  return figures(newtons) + QStringLiteral(" N");
+}
 
 QString formatTorque(double newtonMetres) {
   const bool isSmall = std::abs(newtonMetres) < 1.0;

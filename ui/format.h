@@ -4,7 +4,8 @@
 
 namespace nearfit::ui {
 
-/// A length as an engineer writes it: "12.34 mm", "850 um" with the micro sign, "1.20 m"; three to four figures.
+/// A length as an engineer writes it: "12.34 mm", "850 um" with the micro sign, "1.20 m"; three to four
+/// figures.
 /// "-" when it is not finite.
 /// @param metres  [m]
 QString formatLength(double metres);

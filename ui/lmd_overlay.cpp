@@ -40,7 +40,8 @@ LmdOverlay::LmdOverlay(vtkRenderer& renderer) {
   setUp(*lines_, *segments_.Get(), true, 2.5F, 1.0F);
   setUp(*rims_, *points_.Get(), false, 1.0F, 9.0F);
   setUp(*dots_, *points_.Get(), true, 1.0F, 6.5F);
-  for (vtkActor* actor : {halo_.Get(), lines_.Get(), rims_.Get(), dots_.Get()}) renderer.AddActor(actor);
+  for (vtkActor* actor : {halo_.Get(), lines_.Get(), rims_.Get(), dots_.Get()})
+    renderer.AddActor(actor);
 }
 
 void LmdOverlay::show(std::span<const SnapshotLmd> lmds, double cutoff) {
@@ -68,7 +69,8 @@ void LmdOverlay::show(std::span<const SnapshotLmd> lmds, double cutoff) {
 }
 
 void LmdOverlay::setVisible(bool isVisible) {
-  for (vtkActor* actor : {halo_.Get(), lines_.Get(), rims_.Get(), dots_.Get()}) actor->SetVisibility(isVisible);
+  for (vtkActor* actor : {halo_.Get(), lines_.Get(), rims_.Get(), dots_.Get()})
+    actor->SetVisibility(isVisible);
 }
 
 }  // namespace nearfit::ui

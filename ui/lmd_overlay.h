@@ -1,12 +1,12 @@
 #pragma once
 
+#include <span>
+
 #include <vtkActor.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
-
-#include <span>
 
 #include "core/haptics/servo_tick.h"
 

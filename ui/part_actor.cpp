@@ -1,9 +1,9 @@
 #include "ui/part_actor.h"
 
+#include <utility>
+
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-
-#include <utility>
 
 #include "ui/theme.h"
 #include "ui/vtk_convert.h"
@@ -15,7 +15,9 @@ constexpr double kTranslucentOpacity = 0.28;
 
 void setEdgeColour(vtkProperty& property, const PartLook& look) {
   const QColor dark(0x1a, 0x22, 0x2b);
-  const QColor colour = look.isSelected ? colours::kAccent : look.isMoving ? colours::kMoving.darker(150) : dark;
+  const QColor colour = look.isSelected ? colours::kAccent
+                        : look.isMoving ? colours::kMoving.darker(150)
+                                        : dark;
   property.SetColor(colour.redF(), colour.greenF(), colour.blueF());
   property.SetLineWidth(look.isSelected ? 2.4F : 1.3F);
   property.SetOpacity(look.isTranslucent && !look.isSelected ? 0.55 : 1.0);
@@ -28,7 +30,8 @@ PartActor::PartActor(vtkRenderer& renderer, std::shared_ptr<const PartShape> sha
   vtkNew<vtkPolyDataMapper> surfaceMapper;
   surfaceMapper->SetInputData(shape_->surface);
   surfaceMapper->ScalarVisibilityOff();
-  // Surfaces step back a little, so that edge lines and the shapes they bound do not fight for the same depth.
+  // Surfaces step back a little, so that edge lines and the shapes they bound do not fight for the same
+  // depth.
   surfaceMapper->SetResolveCoincidentTopologyToPolygonOffset();
   surfaceMapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(1.0, 1.0);
   surface_->SetMapper(surfaceMapper);
@@ -57,13 +60,16 @@ PartActor::~PartActor() {
   renderer_.RemoveActor(edges_);
 }
 
-void PartActor::setPose(const RigidTransform& worldFromPart) { setMatrix(*pose_, worldFromPart); }
+void PartActor::setPose(const RigidTransform& worldFromPart) {
+  setMatrix(*pose_, worldFromPart);
+}
 
 void PartActor::setAppearance(const Colour& colour, bool isVisible, const PartLook& look) {
   surface_->SetVisibility(isVisible);
   edges_->SetVisibility(isVisible && look.hasEdges);
   vtkProperty* property = surface_->GetProperty();
-  property->SetColor(static_cast<double>(colour.r), static_cast<double>(colour.g), static_cast<double>(colour.b));
+  property->SetColor(static_cast<double>(colour.r), static_cast<double>(colour.g),
+                     static_cast<double>(colour.b));
   property->SetOpacity(look.isTranslucent ? kTranslucentOpacity : 1.0);
   setEdgeColour(*edges_->GetProperty(), look);
 }

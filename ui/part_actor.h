@@ -1,11 +1,11 @@
 #pragma once
 
+#include <memory>
+
 #include <vtkActor.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 #include <vtkStaticCellLocator.h>
-
-#include <memory>
 
 #include "core/scene/scene.h"
 #include "ui/part_shape.h"

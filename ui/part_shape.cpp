@@ -18,7 +18,8 @@ vtkSmartPointer<vtkPolyData> trianglesOf(const TriangleMesh& mesh) {
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.vertices().size()));
   vtkIdType index = 0;
-  for (const glm::dvec3& p : mesh.vertices()) points->SetPoint(index++, p.x, p.y, p.z);
+  for (const glm::dvec3& p : mesh.vertices())
+    points->SetPoint(index++, p.x, p.y, p.z);
 
   vtkNew<vtkCellArray> triangles;
   triangles->AllocateExact(static_cast<vtkIdType>(mesh.triangles().size()),

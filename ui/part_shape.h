@@ -1,11 +1,11 @@
 #pragma once
 
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-
 #include <map>
 #include <memory>
 #include <mutex>
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 
 #include "core/scene/part_geometry.h"
 
@@ -19,7 +19,8 @@ struct PartShape {
 
 PartShape makePartShape(const TriangleMesh& mesh);
 
-/// One shape for each geometry while anyone holds that geometry. Any thread: loading fills it ahead of drawing.
+/// One shape for each geometry while anyone holds that geometry. Any thread: loading fills it ahead of
+/// drawing.
 class PartShapeCache {
  public:
   /// Makes the shape at the first call for a geometry: seconds for millions of triangles.

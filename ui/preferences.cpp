@@ -12,7 +12,9 @@ QVariant value(const char* key, const QVariant& fallback = {}) {
   return QSettings().value(QLatin1String(key), fallback);
 }
 
-void setValue(const char* key, const QVariant& value) { QSettings().setValue(QLatin1String(key), value); }
+void setValue(const char* key, const QVariant& value) {
+  QSettings().setValue(QLatin1String(key), value);
+}
 
 }  // namespace
 
@@ -22,16 +24,24 @@ double Preferences::metresPerUnit() {
   return isNumber && unit > 0.0 ? unit : kMillimetre;
 }
 
-void Preferences::setMetresPerUnit(double metresPerUnit) { setValue("mesh/metresPerUnit", metresPerUnit); }
+void Preferences::setMetresPerUnit(double metresPerUnit) {
+  setValue("mesh/metresPerUnit", metresPerUnit);
+}
 
-QString Preferences::lastFolder() { return value("files/folder").toString(); }
+QString Preferences::lastFolder() {
+  return value("files/folder").toString();
+}
 
 void Preferences::rememberFolderOf(const QString& file) {
   setValue("files/folder", QFileInfo(file).absolutePath());
 }
 
-QByteArray Preferences::windowGeometry() { return value("window/geometry").toByteArray(); }
+QByteArray Preferences::windowGeometry() {
+  return value("window/geometry").toByteArray();
+}
 
-void Preferences::setWindowGeometry(const QByteArray& geometry) { setValue("window/geometry", geometry); }
+void Preferences::setWindowGeometry(const QByteArray& geometry) {
+  setValue("window/geometry", geometry);
+}
 
 }  // namespace nearfit::ui

@@ -1,9 +1,9 @@
 #include "ui/scene_renderer.h"
 
+#include <utility>
+
 #include <vtkBoundingBox.h>
 #include <vtkCellPicker.h>
-
-#include <utility>
 
 namespace nearfit::ui {
 
@@ -59,7 +59,8 @@ void SceneRenderer::applyAppearance(const Part& part) {
 }
 
 void SceneRenderer::applyAll() {
-  for (const Scene::PartPtr& part : scene_.parts()) applyAppearance(*part);
+  for (const Scene::PartPtr& part : scene_.parts())
+    applyAppearance(*part);
 }
 
 bool SceneRenderer::visibleBounds(double bounds[6]) const {

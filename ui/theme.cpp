@@ -5,7 +5,9 @@
 #include <QStyleFactory>
 
 // Q_INIT_RESOURCE declares a function and so must stand outside of any namespace.
-static void initResources() { Q_INIT_RESOURCE(nearfit); }
+static void initResources() {
+  Q_INIT_RESOURCE(nearfit);
+}
 
 namespace nearfit::ui {
 namespace {
@@ -36,7 +38,9 @@ QToolTip { background: #2c3640; color: #ffffff; border: none; padding: 4px; }
 
 }  // namespace
 
-void loadResources() { initResources(); }
+void loadResources() {
+  initResources();
+}
 
 void applyTheme(QApplication& application) {
   loadResources();
@@ -57,6 +61,8 @@ void applyTheme(QApplication& application) {
   QApplication::setWindowIcon(icon(QStringLiteral("nearfit")));
 }
 
-QIcon icon(const QString& name) { return QIcon(QStringLiteral(":/icons/%1.svg").arg(name)); }
+QIcon icon(const QString& name) {
+  return QIcon(QStringLiteral(":/icons/%1.svg").arg(name));
+}
 
 }  // namespace nearfit::ui

@@ -1,5 +1,10 @@
 #include "ui/wrench_arrows.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
 #include <vtkAppendPolyData.h>
 #include <vtkConeSource.h>
 #include <vtkLineSource.h>
@@ -8,11 +13,6 @@
 #include <vtkPolyLineSource.h>
 #include <vtkProperty.h>
 #include <vtkTubeFilter.h>
-
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <numbers>
 
 #include "ui/theme.h"
 
@@ -39,8 +39,8 @@ void setUp(vtkActor& actor, vtkPolyData& data, const QColor& colour) {
 }
 
 /// A tube along a path with a cone at its end that points along `direction`.
-void buildArrow(vtkPolyData& out, vtkPolyLineSource& path, const glm::dvec3& headStart, const glm::dvec3& direction,
-                double size, double headLength) {
+void buildArrow(vtkPolyData& out, vtkPolyLineSource& path, const glm::dvec3& headStart,
+                const glm::dvec3& direction, double size, double headLength) {
   vtkNew<vtkTubeFilter> shaft;
   shaft->SetInputConnection(path.GetOutputPort());
   shaft->SetRadius(kShaft * size);
@@ -127,8 +127,8 @@ void WrenchArrows::showTorque(const glm::dvec3& centre, const glm::dvec3& torque
   }
   const glm::dvec3 headStart = centre + radius * (std::cos(shaftSweep) * u + std::sin(shaftSweep) * v);
   const double tangent = shaftSweep + 0.5 * headLength / radius;
-  buildArrow(*torqueShape_.Get(), *path.Get(), headStart, -std::sin(tangent) * u + std::cos(tangent) * v, size,
-             headLength);
+  buildArrow(*torqueShape_.Get(), *path.Get(), headStart, -std::sin(tangent) * u + std::cos(tangent) * v,
+             size, headLength);
 }
 
 void WrenchArrows::applyVisibility() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -14,8 +15,8 @@ inline glm::dquat rotationFromEulerAngles(const glm::dvec3& angles) noexcept {
          glm::angleAxis(angles.x, glm::dvec3(1, 0, 0));
 }
 
-/// The inverse of rotationFromEulerAngles for a unit quaternion [rad]: x and z in (-pi, pi], y in [-pi/2, pi/2].
-/// Where y is a right angle, x and z turn about one axis: z is then 0 and x carries the whole turn.
+/// The inverse of rotationFromEulerAngles for a unit quaternion [rad]: x and z in (-pi, pi], y in [-pi/2,
+/// pi/2]. Where y is a right angle, x and z turn about one axis: z is then 0 and x carries the whole turn.
 inline glm::dvec3 eulerAnglesOf(const glm::dquat& rotation) noexcept {
   const glm::dmat3 m = glm::mat3_cast(rotation);  // m[column][row]
   const double sinY = std::clamp(-m[0][2], -1.0, 1.0);

@@ -1,8 +1,8 @@
 #include "core/math/euler_angles.h"
 
-#include <gtest/gtest.h>
-
 #include <numbers>
+
+#include <gtest/gtest.h>
 
 namespace nearfit {
 namespace {
@@ -10,7 +10,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 void expectNear(const glm::dvec3& a, const glm::dvec3& b) {
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], 1e-12) << "component " << i;
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(a[i], b[i], 1e-12) << "component " << i;
 }
 
 TEST(EulerAngles, QuarterTurnAboutEachAxisMovesTheOtherAxes) {
@@ -27,7 +28,8 @@ TEST(EulerAngles, TurnsAboutXFirstAndZLast) {
 TEST(EulerAngles, ComeBackFromTheirRotation) {
   for (double x = -3.0; x <= 3.0; x += 0.75) {
     for (double y = -1.5; y <= 1.5; y += 0.5) {
-      for (double z = -3.0; z <= 3.0; z += 0.75) expectNear(eulerAnglesOf(rotationFromEulerAngles({x, y, z})), {x, y, z});
+      for (double z = -3.0; z <= 3.0; z += 0.75)
+        expectNear(eulerAnglesOf(rotationFromEulerAngles({x, y, z})), {x, y, z});
     }
   }
 }

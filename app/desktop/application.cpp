@@ -1,0 +1,48 @@
+#include "app/desktop/application.h"
+
+#include <QApplication>
+#include <QSettings>
+
+#include "app/desktop/resource_files.h"
+#include "ui/theme.h"
+#include "ui/viewport.h"
+
+namespace nearfit::desktop {
+
+void Application::prepare() {
+  ui::Viewport::setDefaultSurfaceFormat();
+  QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
+  QCoreApplication::setOrganizationName(QStringLiteral("Nearfit"));
+  QCoreApplication::setApplicationName(QStringLiteral("nearfit"));
+  QCoreApplication::setApplicationVersion(QStringLiteral(NEARFIT_VERSION));
+  QSettings::setDefaultFormat(QSettings::IniFormat);
+}
+
+void Application::configure() {
+  ui::applyTheme(*qApp);
+}
+
+Application::Application() : servo_(session_), window_(session_) {
+  wire();
+  window_.setDemoScene(resourceFile(QStringLiteral("demo/piston.nearfit")));
+  window_.setAboutText(
+      tr("<h3>Nearfit %1</h3><p>Virtual prototyping by touch: feel one part against the others "
+         "before any of them exists.</p><p>Method: Johnson and Willemsen, <i>Six degree-of-freedom "
+         "haptic rendering of complex polygonal models</i>, 2003.</p><p>GNU General Public License, "
+         "version 3 or later.</p>")
+          .arg(QCoreApplication::applicationVersion()));
+}
+
+Application::~Application() = default;
+
+void Application::wire() {
+  connect(&window_, &ui::MainWindow::servoStartRequested, &servo_, &ServoController::start);
+  connect(&window_, &ui::MainWindow::servoStopRequested, &servo_, &ServoController::stop);
+  connect(&window_, &ui::MainWindow::poseInHandRequested, &servo_, &ServoController::commitPose);
+  connect(&window_, &ui::MainWindow::handMoved, &servo_, &ServoController::moveHand);
+  connect(&servo_, &ServoController::statusChanged, &window_, &ui::MainWindow::showServoStatus);
+  connect(&servo_, &ServoController::snapshotArrived, &window_, &ui::MainWindow::showSnapshot);
+  connect(&servo_, &ServoController::failed, &window_, &ui::MainWindow::showFailure);
+}
+
+}  // namespace nearfit::desktop

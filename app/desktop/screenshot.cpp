@@ -1,0 +1,76 @@
+#include "app/desktop/screenshot.h"
+
+#include <QCoreApplication>
+#include <QPixmap>
+#include <QTimer>
+#include <cstdio>
+#include <utility>
+
+#include "ui/document.h"
+
+namespace nearfit::desktop {
+namespace {
+
+constexpr int kSettleMs = 400;       ///< For layout and first pictures.
+constexpr double kFeelFor = 1.6;     ///< Into the scripted hand's sweep, where it pushes [s].
+constexpr int kPatienceMs = 20'000;  ///< Written then even if no servo ever ticked.
+
+}  // namespace
+
+Screenshot::Screenshot(Application& application, QString output)
+    : application_(application), output_(std::move(output)) {
+  ui::MainWindow& window = application_.window();
+  window.setFailureSink(
+      [this](const ui::Failure& failure) { fail(failure.summary + QChar('\n') + failure.details); });
+  connect(&window.document(), &ui::Document::loaded, this, &Screenshot::arrange);
+}
+
+void Screenshot::take(const QStringList& files) {
+  ui::MainWindow& window = application_.window();
+  window.resize(1280, 800);
+  window.show();
+  if (files.isEmpty()) {
+    QTimer::singleShot(kSettleMs, this, &Screenshot::write);
+  } else {
+    QTimer::singleShot(0, this, [this, files] { application_.window().document().openFiles(files); });
+  }
+}
+
+void Screenshot::arrange(bool isComplete) {
+  if (!isComplete) {
+    fail(tr("the files could not be opened"));
+    return;
+  }
+  if (!application_.session().scene().movingPart()) {
+    QTimer::singleShot(kSettleMs, this, &Screenshot::write);
+    return;
+  }
+  connect(&application_.servo(), &ServoController::snapshotArrived, this, &Screenshot::waitForMinima);
+  QTimer::singleShot(kPatienceMs, this, &Screenshot::write);
+  application_.servo().start(ui::Hand::Scripted);
+}
+
+void Screenshot::waitForMinima(const ServoSnapshot& snapshot) {
+  if (snapshot.time < kFeelFor) return;
+  disconnect(&application_.servo(), &ServoController::snapshotArrived, this, nullptr);
+  // After the figures of this very snapshot are in the view.
+  QTimer::singleShot(0, this, &Screenshot::write);
+}
+
+void Screenshot::write() {
+  if (std::exchange(isWriting_, true) || hasFailed_) return;
+  const QPixmap picture = application_.window().grab();
+  if (!picture.save(output_, "PNG")) {
+    fail(tr("%1: the picture could not be written; choose a folder that can be written to").arg(output_));
+    return;
+  }
+  QCoreApplication::exit(0);
+}
+
+void Screenshot::fail(const QString& message) {
+  if (!hasFailed_) std::fprintf(stderr, "nearfit: %s\n", message.toLocal8Bit().constData());
+  hasFailed_ = true;
+  QCoreApplication::exit(1);
+}
+
+}  // namespace nearfit::desktop

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <QObject>
+#include <QString>
+
+#include "app/desktop/application.h"
+
+namespace nearfit::desktop {
+
+/// Opens files in the window, takes the moving part in hand if there is one, and writes a picture of it all.
+class Screenshot : public QObject {
+  Q_OBJECT
+
+ public:
+  /// @param application  Outlives this.
+  Screenshot(Application& application, QString output);
+
+  /// Begins; the event loop then ends with 0, or with 1 after a message on stderr.
+  void take(const QStringList& files);
+
+ private:
+  void arrange(bool isComplete);
+  void waitForMinima(const ServoSnapshot& snapshot);
+  void write();
+  void fail(const QString& message);
+
+  Application& application_;
+  QString output_;
+  bool hasFailed_ = false, isWriting_ = false;
+};
+
+}  // namespace nearfit::desktop

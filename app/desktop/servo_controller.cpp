@@ -1,0 +1,127 @@
+#include "app/desktop/servo_controller.h"
+
+#include <exception>
+
+#include "app/desktop/hands.h"
+#include "device/simulated_device.h"
+
+namespace nearfit::desktop {
+namespace {
+
+constexpr int kPollMs = 16;         ///< A look at the newest snapshot for each picture of a 60 Hz display.
+constexpr qint64 kMeasureMs = 500;  ///< Rate and percentiles are read this often.
+
+}  // namespace
+
+ServoController::ServoController(Session& session) : session_(session) {
+  timer_.setTimerType(Qt::PreciseTimer);
+  timer_.setInterval(kPollMs);
+  connect(&timer_, &QTimer::timeout, this, &ServoController::poll);
+  session_.onChange([this] { followSession(); });
+}
+
+ServoController::~ServoController() {
+  loop_.stop();
+}
+
+void ServoController::start(ui::Hand hand) {
+  if (isRunning()) return;
+  try {
+    const Scene& scene = session_.scene();
+    auto servoScene = makeServoScene(scene);
+    moving_ = servoScene->moving.id;
+    const RigidTransform worldFromPart = servoScene->moving.worldFromPart;
+    auto device = makeHand(hand, *servoScene, scene.springs().cutoff);
+    device->start(worldFromPart);
+    loop_.start(*device, std::move(servoScene), {scene.springs(), device->info().limits});
+    device_ = std::move(device);
+  } catch (...) {
+    emit failed(ui::describe(tr("The part could not be taken in hand."), std::current_exception()));
+    return;
+  }
+  status_ = {};
+  status_.isRunning = true;
+  status_.hand = hand;
+  status_.scheduling = QString::fromStdString(loop_.schedulingNote());
+  ticksMeasured_ = 0;
+  sinceMeasured_.start();
+  timer_.start();
+  emit statusChanged(status_);
+}
+
+void ServoController::stop() {
+  if (!isRunning()) return;
+  loop_.stop();
+  commitPose();
+  halt();
+}
+
+void ServoController::halt() {
+  timer_.stop();
+  loop_.stop();
+  device_->stop();
+  device_.reset();
+  status_ = {};
+  emit statusChanged(status_);
+}
+
+void ServoController::commitPose() {
+  if (!isRunning()) return;
+  loop_.pollSnapshot();
+  const ServoSnapshot& snapshot = loop_.snapshot();
+  if (snapshot.tick == 0 || !snapshot.proxy.isFinite()) return;
+  isCommitting_ = true;
+  try {
+    session_.movePart(moving_, snapshot.proxy, "Feel");
+  } catch (...) {
+    emit failed(ui::describe(tr("The part's place could not be kept."), std::current_exception()));
+  }
+  isCommitting_ = false;
+}
+
+void ServoController::moveHand(const RigidTransform& worldFromPart) {
+  if (auto* manual = dynamic_cast<ManualDevice*>(device_.get())) manual->setPose(worldFromPart);
+}
+
+void ServoController::followSession() {
+  if (!isRunning() || isCommitting_) return;
+  const Scene& scene = session_.scene();
+  const Part* part = scene.find(moving_);
+  // What was in hand is gone or no longer what moves: there is no pose to keep.
+  if (part == nullptr || scene.movingPart() != moving_) {
+    halt();
+    return;
+  }
+  try {
+    loop_.setScene(makeServoScene(scene));
+    loop_.setParameters({scene.springs(), device_->info().limits});
+  } catch (...) {
+    halt();
+    emit failed(ui::describe(tr("The servo was stopped."), std::current_exception()));
+  }
+}
+
+void ServoController::poll() {
+  if (loop_.pollSnapshot()) emit snapshotArrived(loop_.snapshot());
+  if (!loop_.isRunning()) {
+    stop();
+    return;
+  }
+  if (sinceMeasured_.elapsed() >= kMeasureMs) measure();
+}
+
+void ServoController::measure() {
+  const double seconds = static_cast<double>(sinceMeasured_.restart()) * 1e-3;
+  const ServoStatistics statistics = loop_.statistics();
+  status_.rate = static_cast<double>(statistics.ticks - ticksMeasured_) / seconds;
+  ticksMeasured_ = statistics.ticks;
+  status_.ticks = statistics.ticks;
+  status_.overruns = statistics.overruns;
+  status_.latenessP99 = statistics.lateness.percentile(0.99);
+  status_.latenessMax = statistics.lateness.max();
+  status_.tickP99 = statistics.tickTime.percentile(0.99);
+  status_.queryP99 = statistics.queryTime.percentile(0.99);
+  emit statusChanged(status_);
+}
+
+}  // namespace nearfit::desktop

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QTimer>
+#include <memory>
+#include <optional>
+
+#include "core/session.h"
+#include "device/servo_loop.h"
+#include "ui/dialogs/error_box.h"
+#include "ui/servo_status.h"
+
+namespace nearfit::desktop {
+
+/// Runs the servo for the session's moving part: makes the device, keeps the servo's scene and parameters as
+/// the session has them, and puts the part's last pose into the session when it is put down.
+class ServoController : public QObject {
+  Q_OBJECT
+
+ public:
+  /// @param session  Outlives this.
+  explicit ServoController(Session& session);
+  ~ServoController() override;
+
+  bool isRunning() const noexcept { return device_ != nullptr; }
+
+ public slots:
+  /// Takes the moving part in hand; does nothing while it is.
+  void start(nearfit::ui::Hand hand);
+  /// Stops and puts the part down where it is, as one step of undo.
+  void stop();
+  /// Puts the pose in hand into the session and goes on.
+  void commitPose();
+  /// Where the manual hand wants the part; ignored for other hands.
+  void moveHand(const nearfit::RigidTransform& worldFromPart);
+
+ signals:
+  void statusChanged(const nearfit::ui::ServoStatus& status);
+  void snapshotArrived(const nearfit::ServoSnapshot& snapshot);
+  void failed(const nearfit::ui::Failure& failure);
+
+ private:
+  void followSession();
+  void poll();
+  void measure();
+  void halt();
+
+  Session& session_;
+  std::unique_ptr<HapticDevice> device_;
+  ServoLoop loop_;
+  QTimer timer_;
+  QElapsedTimer sinceMeasured_;
+  std::uint64_t ticksMeasured_ = 0;
+  PartId moving_{};
+  bool isCommitting_ = false;
+  ui::ServoStatus status_;
+};
+
+}  // namespace nearfit::desktop

@@ -1,0 +1,80 @@
+#include <QApplication>
+#include <QFile>
+#include <QOpenGLContext>
+#include <QTimer>
+#include <cstdio>
+#include <exception>
+#include <optional>
+
+#include "app/desktop/application.h"
+#include "app/desktop/command_line.h"
+#include "app/desktop/screenshot.h"
+#include "core/error.h"
+#include "ui/document.h"
+
+namespace {
+
+using namespace nearfit;
+
+/// Qt and VTK end the process where they find no display or no OpenGL: looked for before they do.
+void requireDisplay() {
+  if (!qEnvironmentVariableIsEmpty("DISPLAY") || !qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY") ||
+      !qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) {
+    return;
+  }
+  throw Error("", "there is no display", "set DISPLAY, or use nearfit-cli, which needs none");
+}
+
+void requireOpenGl() {
+  QOpenGLContext context;
+  const bool isUsable = context.create() && context.format().version() >= std::make_pair(3, 2);
+  if (!isUsable) {
+    throw Error("", "there is no OpenGL 3.2 on this display",
+                "install a graphics driver, or Mesa's software one (libgl1-mesa-dri)");
+  }
+}
+
+QStringList fileNames(const std::vector<std::string>& files) {
+  QStringList names;
+  for (const std::string& file : files)
+    names << QFile::decodeName(QByteArray::fromStdString(file));
+  return names;
+}
+
+int run(int argc, char** argv) {
+  const auto parsed = desktop::parseCommandLine(argc, argv);
+  if (const int* code = std::get_if<int>(&parsed)) return *code;
+  const auto& options = std::get<desktop::Options>(parsed);
+  requireDisplay();
+  desktop::Application::prepare();
+  QApplication qt(argc, argv);
+  desktop::Application::configure();
+  requireOpenGl();
+
+  desktop::Application application;
+  const QStringList files = fileNames(options.files);
+  std::optional<desktop::Screenshot> screenshot;
+  if (!options.screenshot.empty()) {
+    screenshot.emplace(application, fileNames({options.screenshot}).first());
+    screenshot->take(files);
+  } else {
+    application.window().show();
+    if (!files.isEmpty()) {
+      QTimer::singleShot(0, &application, [&] { application.window().document().openFiles(files); });
+    }
+  }
+  return QApplication::exec();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "nearfit: %s\n", error.what());
+  } catch (...) {
+    std::fprintf(stderr, "nearfit: an unknown error ended the program\n");
+  }
+  return 1;
+}

@@ -1,0 +1,136 @@
+#include "ui/actions.h"
+
+#include <QAction>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QToolBar>
+#include <QToolButton>
+
+#include "core/session.h"
+#include "ui/theme.h"
+
+namespace nearfit::ui {
+
+Actions::Actions(QMainWindow* window) : QObject(window) {
+  newScene = make("newScene", tr("&New scene"), "new", QKeySequence::New);
+  open = make("open", tr("&Open scene…"), "open", QKeySequence::Open);
+  openDemo = make("openDemo", tr("Open &demo"), "demo");
+  addParts = make("addParts", tr("&Add parts…"), "add", QKeySequence(Qt::CTRL | Qt::Key_I));
+  save = make("save", tr("&Save"), "save", QKeySequence::Save);
+  saveAs = make("saveAs", tr("Save &as…"), "save-as", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S));
+  exportPlacement =
+      make("exportPlacement", tr("&Export placement…"), "export", QKeySequence(Qt::CTRL | Qt::Key_E));
+  quit = make("quit", tr("&Quit"), {}, QKeySequence(Qt::CTRL | Qt::Key_Q));
+
+  undo = make("undo", tr("&Undo"), "undo", QKeySequence::Undo);
+  redo = make("redo", tr("&Redo"), "redo");
+  redo->setShortcuts({QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z), QKeySequence(Qt::CTRL | Qt::Key_Y)});
+  duplicate = make("duplicate", tr("&Duplicate"), "duplicate", QKeySequence(Qt::CTRL | Qt::Key_D));
+  rename = make("rename", tr("Re&name"), "rename");
+  recolour = make("recolour", tr("&Colour…"), {});
+  takeInHand = make("takeInHand", tr("&Take in hand"), "hand", QKeySequence(Qt::CTRL | Qt::Key_H));
+  takeInHand->setToolTip(tr("Make the selected part the moving part"));
+  remove = make("remove", tr("De&lete"), "delete", QKeySequence::Delete);
+
+  start = make("start", tr("&Feel"), "start", QKeySequence(Qt::Key_F5));
+  start->setToolTip(tr("Start the servo: feel the moving part against the others (F5)"));
+  stop = make("stop", tr("S&top"), "stop", QKeySequence(Qt::Key_F6));
+  stop->setToolTip(tr("Stop the servo and leave the part where it is (F6)"));
+  springs = make("springs", tr("&Springs…"), "springs");
+  springs->setToolTip(tr("Cutoff, stiffness and damping"));
+
+  fit = make("fit", tr("&Fit all"), "fit", QKeySequence(Qt::Key_F));
+  viewIso = make("viewIso", tr("&Isometric"), "view-iso", QKeySequence(Qt::Key_0));
+  viewFront = make("viewFront", tr("F&ront"), "view-front", QKeySequence(Qt::Key_1));
+  viewRight = make("viewRight", tr("Ri&ght"), "view-right", QKeySequence(Qt::Key_2));
+  viewTop = make("viewTop", tr("&Top"), "view-top", QKeySequence(Qt::Key_3));
+  seeThrough = makeSwitch("seeThrough", tr("&See through fixed parts"), "translucent", true);
+  edges = makeSwitch("edges", tr("&Edges"), "edges", true);
+  minima = makeSwitch("minima", tr("&Minima"), "minima", true);
+  wrench = makeSwitch("wrench", tr("Force and torque &arrows"), "wrench-arrows", true);
+  about = make("about", tr("&About Nearfit"), "about");
+  panelsMenu = new QMenu(tr("&Panels"), window);
+}
+
+QAction* Actions::make(const char* name, const QString& text, const QString& iconName,
+                       const QKeySequence& keys) {
+  auto* action = new QAction(text, this);
+  action->setObjectName(QLatin1String(name));
+  if (!iconName.isEmpty()) action->setIcon(icon(iconName));
+  action->setShortcut(keys);
+  return action;
+}
+
+QAction* Actions::makeSwitch(const char* name, const QString& text, const QString& iconName, bool isOn) {
+  QAction* action = make(name, text, iconName);
+  action->setCheckable(true);
+  action->setChecked(isOn);
+  return action;
+}
+
+void Actions::setUpMenus(QMainWindow& window) {
+  QMenu* file = window.menuBar()->addMenu(tr("&File"));
+  file->addActions({newScene, open, openDemo, file->addSeparator(), addParts, file->addSeparator(), save,
+                    saveAs, exportPlacement, file->addSeparator(), quit});
+  QMenu* edit = window.menuBar()->addMenu(tr("&Edit"));
+  edit->addActions({undo, redo, edit->addSeparator(), takeInHand, duplicate, rename, recolour, remove});
+  QMenu* view = window.menuBar()->addMenu(tr("&View"));
+  view->addActions({fit, viewIso, viewFront, viewRight, viewTop, view->addSeparator(), seeThrough, edges,
+                    minima, wrench, view->addSeparator()});
+  view->addMenu(panelsMenu);
+  QMenu* feel = window.menuBar()->addMenu(tr("F&eel"));
+  feel->addActions({start, stop, feel->addSeparator(), springs});
+  window.menuBar()->addMenu(tr("&Help"))->addAction(about);
+}
+
+void Actions::setUpToolBar(QMainWindow& window) {
+  QToolBar* bar = window.addToolBar(tr("Tools"));
+  bar->setObjectName(QStringLiteral("toolBar"));
+  bar->setMovable(false);
+  bar->setIconSize(QSize(24, 24));
+  const auto addGroup = [bar](const QList<QAction*>& group) {
+    if (!bar->actions().isEmpty()) bar->addSeparator();
+    bar->addActions(group);
+  };
+  addGroup({newScene, open, save});
+  addGroup({addParts, duplicate, remove});
+  addGroup({undo, redo});
+  addGroup({takeInHand, start, stop, springs});
+  addGroup({fit, viewIso, viewFront, viewRight, viewTop});
+  addGroup({seeThrough, edges, minima, wrench});
+  addGroup({exportPlacement});
+  for (QAction* action : {addParts, start, stop}) {
+    auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action));
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  }
+  window.setContextMenuPolicy(Qt::NoContextMenu);
+}
+
+void Actions::update(const Session& session, const Availability& availability) {
+  const bool isFree = !availability.isBusy;
+  for (QAction* action : {newScene, open, openDemo, addParts})
+    action->setEnabled(isFree);
+  const bool hasParts = !session.scene().parts().empty();
+  save->setEnabled(isFree && (session.isModified() || availability.isServoRunning));
+  for (QAction* action : {saveAs, exportPlacement})
+    action->setEnabled(isFree && hasParts);
+  undo->setEnabled(isFree && session.canUndo());
+  redo->setEnabled(isFree && session.canRedo());
+  const auto withLabel = [](const QString& verb, const std::string& label) {
+    return label.empty() ? verb : verb + QChar(' ') + QString::fromStdString(label);
+  };
+  undo->setText(withLabel(tr("&Undo"), session.undoText()));
+  redo->setText(withLabel(tr("&Redo"), session.redoText()));
+
+  const bool canChange = isFree && availability.hasSelection && !availability.isSelectionLocked;
+  duplicate->setEnabled(isFree && availability.hasSelection);
+  for (QAction* action : {rename, recolour, remove, takeInHand})
+    action->setEnabled(canChange);
+  start->setEnabled(isFree && availability.canStart && !availability.isServoRunning);
+  stop->setEnabled(availability.isServoRunning);
+  for (QAction* action : {fit, viewIso, viewFront, viewRight, viewTop})
+    action->setEnabled(hasParts);
+}
+
+}  // namespace nearfit::ui

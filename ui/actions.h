@@ -1,0 +1,50 @@
+#pragma once
+
+#include <QObject>
+
+class QAction;
+class QMainWindow;
+class QMenu;
+
+namespace nearfit {
+class Session;
+}
+
+namespace nearfit::ui {
+
+/// Every action of the main window, its menus and its toolbar. Knows what the actions look like, not what
+/// they do.
+class Actions : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit Actions(QMainWindow* window);
+
+  QAction *newScene, *open, *openDemo, *addParts, *save, *saveAs, *exportPlacement, *quit;
+  QAction *undo, *redo, *duplicate, *rename, *recolour, *takeInHand, *remove;
+  QAction *start, *stop, *springs;
+  QAction *fit, *viewIso, *viewFront, *viewRight, *viewTop;
+  QAction *seeThrough, *edges, *minima, *wrench;
+  QAction* about;
+  QMenu* panelsMenu;  ///< For the docks' own switches.
+
+  void setUpMenus(QMainWindow& window);
+  void setUpToolBar(QMainWindow& window);
+
+  /// What can be done now.
+  struct Availability {
+    bool isBusy = false;  ///< Something is being loaded.
+    bool hasSelection = false;
+    bool isSelectionLocked = false;
+    bool canStart = false;
+    bool isServoRunning = false;
+  };
+  void update(const Session& session, const Availability& availability);
+
+ private:
+  QAction* make(const char* name, const QString& text, const QString& iconName,
+                const QKeySequence& keys = {});
+  QAction* makeSwitch(const char* name, const QString& text, const QString& iconName, bool isOn);
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+
+#include <vtkRenderer.h>
+
+namespace nearfit::ui {
+
+/// Directions to look from; z is up, front looks along +y, top shows x to the right.
+enum class StandardView : std::uint8_t { Isometric, Front, Right, Top };
+
+/// Turns the camera to look from there at the bounds (VTK's order) and fits them into the view.
+void setStandardView(vtkRenderer& renderer, StandardView view, const double bounds[6]);
+
+/// Moves the camera along its direction so that the bounds just fill the view.
+void fitView(vtkRenderer& renderer, const double bounds[6]);
+
+}  // namespace nearfit::ui

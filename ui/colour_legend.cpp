@@ -1,0 +1,93 @@
+#include "ui/colour_legend.h"
+
+#include <QPainter>
+
+#include <glm/geometric.hpp>
+
+#include "ui/distance_colours.h"
+#include "ui/format.h"
+#include "ui/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+constexpr int kWidth = 226, kHeight = 124, kMargin = 14;
+constexpr int kBarTop = 34, kBarHeight = 11;
+
+}  // namespace
+
+ColourLegend::ColourLegend(QWidget* parent) : QWidget(parent) {
+  setAttribute(Qt::WA_TransparentForMouseEvents);
+  setObjectName(QStringLiteral("colourLegend"));
+  setWrench({});
+  resize(sizeHint());
+}
+
+void ColourLegend::setCutoff(double cutoff) {
+  if (cutoff == cutoff_) return;
+  cutoff_ = cutoff;
+  update();
+}
+
+void ColourLegend::setWrench(const Wrench& wrench) {
+  force_ = formatForce(glm::length(wrench.force));
+  torque_ = formatTorque(glm::length(wrench.torque));
+  update();
+}
+
+QSize ColourLegend::sizeHint() const {
+  return {kWidth, kHeight};
+}
+
+void ColourLegend::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(QColor(0, 0, 0, 36), 1.0));
+  painter.setBrush(QColor(255, 255, 255, 228));
+  painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 7.0, 7.0);
+  paintScale(painter);
+  paintArrowRow(painter, 86, colours::kForce, tr("Force"), force_);
+  paintArrowRow(painter, 108, colours::kTorque, tr("Torque"), torque_);
+}
+
+void ColourLegend::paintScale(QPainter& painter) {
+  QFont bold = font();
+  bold.setBold(true);
+  painter.setFont(bold);
+  painter.setPen(QColor(0x2b, 0x35, 0x3f));
+  painter.drawText(kMargin, 23, tr("Local minimum distance"));
+  painter.setFont(font());
+
+  const QRectF bar(kMargin, kBarTop, kWidth - 2 * kMargin, kBarHeight);
+  QLinearGradient gradient(bar.topLeft(), bar.topRight());
+  constexpr int kSteps = 16;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double fraction = static_cast<double>(i) / kSteps;
+    gradient.setColorAt(fraction, distanceColour(fraction));
+  }
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(gradient);
+  painter.drawRoundedRect(bar, 2.5, 2.5);
+
+  painter.setPen(colours::kMutedText);
+  const QRect labels(kMargin, kBarTop + kBarHeight + 3, kWidth - 2 * kMargin, 18);
+  painter.drawText(labels, Qt::AlignLeft, tr("contact"));
+  painter.drawText(labels, Qt::AlignHCenter, formatLength(0.5 * cutoff_));
+  painter.drawText(labels, Qt::AlignRight, formatLength(cutoff_));
+}
+
+void ColourLegend::paintArrowRow(QPainter& painter, int y, const QColor& colour, const QString& name,
+                                 const QString& value) {
+  painter.setPen(QPen(colour, 2.6, Qt::SolidLine, Qt::FlatCap));
+  painter.drawLine(QPointF(kMargin, y - 4.5), QPointF(kMargin + 18, y - 4.5));
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(colour);
+  painter.drawPolygon(QPolygonF(
+      {QPointF(kMargin + 16, y - 9.5), QPointF(kMargin + 25, y - 4.5), QPointF(kMargin + 16, y + 0.5)}));
+  painter.setPen(QColor(0x2b, 0x35, 0x3f));
+  painter.drawText(kMargin + 34, y, name);
+  painter.drawText(QRect(kMargin, y - 13, kWidth - 2 * kMargin, 18), Qt::AlignRight | Qt::AlignVCenter,
+                   value);
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,130 @@
+#include "ui/panels/feel_panel.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include <glm/geometric.hpp>
+
+#include "ui/format.h"
+#include "ui/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+const QString kNothing = QStringLiteral("–");
+
+QString muted() {
+  return QStringLiteral("color: %1").arg(colours::kMutedText.name());
+}
+
+}  // namespace
+
+FeelPanel::FeelPanel(QWidget* springsButton, QWidget* parent)
+    : QWidget(parent), hand_(new QComboBox(this)), startStop_(new QPushButton(this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(12, 10, 12, 12);
+  layout->setSpacing(6);
+  hand_->setObjectName(QStringLiteral("hand"));
+  hand_->addItem(icon(QStringLiteral("hand")), tr("Scripted hand"), QVariant::fromValue(Hand::Scripted));
+  hand_->addItem(icon(QStringLiteral("rename")), tr("Manual: numbers and arrow keys"),
+                 QVariant::fromValue(Hand::Manual));
+  hand_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  hand_->setToolTip(tr("Who holds the moving part while the servo runs"));
+  startStop_->setObjectName(QStringLiteral("startStop"));
+  startStop_->setMinimumHeight(34);
+  startStop_->setIconSize(QSize(20, 20));
+  layout->addWidget(hand_);
+  layout->addWidget(startStop_);
+  layout->addWidget(springsButton);
+
+  addHeading(*layout, tr("Felt"));
+  force_ = addReadout(*layout, tr("Force"), QStringLiteral("force"));
+  torque_ = addReadout(*layout, tr("Torque"), QStringLiteral("torque"));
+  distance_ = addReadout(*layout, tr("Least distance"), QStringLiteral("distance"));
+  minima_ = addReadout(*layout, tr("Local minima"), QStringLiteral("minima"));
+  clamped_ = new QLabel(this);
+  clamped_->setWordWrap(true);
+  clamped_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kForce.name()));
+  layout->addWidget(clamped_);
+  addHeading(*layout, tr("Servo"));
+  rate_ = addReadout(*layout, tr("Rate"), QStringLiteral("rate"));
+  lateness_ = addReadout(*layout, tr("Lateness, p99"), QStringLiteral("lateness"));
+  tick_ = addReadout(*layout, tr("Tick, p99"), QStringLiteral("tick"));
+  overruns_ = addReadout(*layout, tr("Overruns"), QStringLiteral("overruns"));
+  scheduling_ = new QLabel(this);
+  scheduling_->setWordWrap(true);
+  scheduling_->setStyleSheet(muted());
+  layout->addWidget(scheduling_);
+  layout->addStretch(1);
+
+  connect(startStop_, &QPushButton::clicked, this,
+          [this] { emit(isRunning_ ? stopRequested() : startRequested()); });
+  connect(hand_, QOverload<int>::of(&QComboBox::activated), this, &FeelPanel::handChanged);
+  showStatus({});
+  clearSnapshot();
+}
+
+void FeelPanel::addHeading(QVBoxLayout& layout, const QString& text) {
+  auto* heading = new QLabel(text, this);
+  heading->setStyleSheet(QStringLiteral("font-weight: bold; color: #3b4754; padding-top: 10px"));
+  layout.addWidget(heading);
+}
+
+QLabel* FeelPanel::addReadout(QVBoxLayout& layout, const QString& name, const QString& objectName) {
+  auto* row = new QHBoxLayout;
+  auto* label = new QLabel(name, this);
+  label->setStyleSheet(muted());
+  auto* value = new QLabel(kNothing, this);
+  value->setObjectName(objectName);
+  value->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  row->addWidget(label);
+  row->addWidget(value, 1);
+  layout.addLayout(row);
+  return value;
+}
+
+Hand FeelPanel::hand() const {
+  return hand_->currentData().value<Hand>();
+}
+
+void FeelPanel::setStartable(bool isStartable) {
+  isStartable_ = isStartable;
+  startStop_->setEnabled(isStartable_ || isRunning_);
+}
+
+void FeelPanel::showStatus(const ServoStatus& status) {
+  isRunning_ = status.isRunning;
+  startStop_->setText(isRunning_ ? tr("Stop") : tr("Feel"));
+  startStop_->setIcon(icon(isRunning_ ? QStringLiteral("stop") : QStringLiteral("start")));
+  setStartable(isStartable_);
+  const bool hasTimes = status.isRunning && status.ticks > 0;
+  rate_->setText(hasTimes ? QStringLiteral("%1 Hz").arg(status.rate, 0, 'f', 0) : kNothing);
+  lateness_->setText(hasTimes ? formatDuration(status.latenessP99) : kNothing);
+  tick_->setText(hasTimes ? formatDuration(status.tickP99) : kNothing);
+  overruns_->setText(hasTimes ? QString::number(status.overruns) : kNothing);
+  scheduling_->setText(status.scheduling);
+}
+
+void FeelPanel::showSnapshot(const ServoSnapshot& snapshot) {
+  force_->setText(formatForce(glm::length(snapshot.wrench.force)));
+  torque_->setText(formatTorque(glm::length(snapshot.wrench.torque)));
+  distance_->setText(formatLength(snapshot.distance));
+  minima_->setText(QString::number(snapshot.lmdCount) +
+                   (snapshot.isTruncated ? QStringLiteral("+") : QString()));
+  QString note;
+  if (snapshot.isClamped) note = tr("Held at the device's limit.");
+  if (snapshot.fault != ServoFault::None)
+    note = tr("The servo met a number that is not finite and sends no force.");
+  clamped_->setText(note);
+}
+
+void FeelPanel::clearSnapshot() {
+  for (QLabel* label : {force_, torque_, distance_, minima_})
+    label->setText(kNothing);
+  clamped_->clear();
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,255 @@
+#include "ui/viewport.h"
+
+#include <QApplication>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QSurfaceFormat>
+#include <QTimer>
+#include <algorithm>
+
+#include <vtkBoundingBox.h>
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkInteractorStyleTrackballCamera.h>
+#include <vtkLightKit.h>
+#include <vtkObjectFactory.h>
+#include <vtkRenderWindowInteractor.h>
+
+#include "ui/colour_legend.h"
+
+namespace nearfit::ui {
+namespace {
+
+/// VTK's style without its letter keys, some of which end the program or switch to stereo.
+class CameraStyle : public vtkInteractorStyleTrackballCamera {
+ public:
+  static CameraStyle* New();
+  vtkTypeMacro(CameraStyle, vtkInteractorStyleTrackballCamera);
+  void OnChar() override {}
+  void OnKeyPress() override {}
+};
+vtkStandardNewMacro(CameraStyle);
+
+bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
+  return a.rotation == b.rotation && a.translation == b.translation;
+}
+
+/// Whether two snapshots give the same picture.
+bool looksTheSame(const ServoSnapshot& a, const ServoSnapshot& b) {
+  if (a.moving != b.moving || !isSamePose(a.proxy, b.proxy) || a.storedLmds != b.storedLmds) return false;
+  if (a.wrench.force != b.wrench.force || a.wrench.torque != b.wrench.torque) return false;
+  return std::equal(a.lmds.begin(), a.lmds.begin() + a.storedLmds, b.lmds.begin(),
+                    [](const SnapshotLmd& p, const SnapshotLmd& q) {
+                      return p.other == q.other && p.lmd.scenePoint == q.lmd.scenePoint &&
+                             p.lmd.partPoint == q.lmd.partPoint;
+                    });
+}
+
+}  // namespace
+
+void Viewport::setDefaultSurfaceFormat() {
+  QSurfaceFormat format = QVTKOpenGLNativeWidget::defaultFormat();
+  format.setSamples(0);
+  QSurfaceFormat::setDefaultFormat(format);
+}
+
+Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, QWidget* parent)
+    : QVTKOpenGLNativeWidget(parent),
+      parts_(*renderer_.Get(), std::move(shapes)),
+      minima_(*overlay_.Get()),
+      arrows_(*overlay_.Get()),
+      legend_(new ColourLegend(this)) {
+  setObjectName(QStringLiteral("viewport"));
+  setFocusPolicy(Qt::StrongFocus);
+  setMinimumSize(320, 240);
+  setUpRenderers();
+  setUpInteraction();
+  legend_->hide();
+}
+
+Viewport::~Viewport() = default;
+
+void Viewport::setUpRenderers() {
+  // Software OpenGL has no cheap multisampling; FXAA smooths there too.
+  window_->SetMultiSamples(0);
+  setRenderWindow(window_);
+  window_->SetNumberOfLayers(2);
+  window_->AddRenderer(renderer_);
+  window_->AddRenderer(overlay_);
+
+  renderer_->SetLayer(0);
+  renderer_->GradientBackgroundOn();
+  renderer_->SetBackground(0.72, 0.78, 0.85);
+  renderer_->SetBackground2(0.955, 0.968, 0.98);
+  renderer_->UseFXAAOn();
+  renderer_->GetActiveCamera()->SetViewAngle(24.0);
+  vtkNew<vtkLightKit> lights;
+  lights->SetKeyLightIntensity(0.95);
+  lights->SetKeyToFillRatio(2.4);
+  lights->AddLightsToRenderer(renderer_);
+
+  // Minima lie in the gaps between parts: drawn over everything, or the parts would hide them.
+  overlay_->SetLayer(1);
+  overlay_->SetActiveCamera(renderer_->GetActiveCamera());
+  overlay_->InteractiveOff();
+  overlay_->UseFXAAOn();
+}
+
+void Viewport::setUpInteraction() {
+  vtkNew<CameraStyle> style;
+  interactor()->SetInteractorStyle(style);
+  style->SetDefaultRenderer(renderer_);
+  style->AutoAdjustCameraClippingRangeOff();
+  marker_->SetParentRenderer(renderer_);
+  marker_->On();
+  renderer_->AddObserver(vtkCommand::StartEvent, this, &Viewport::adjustClipping);
+  window_->AddObserver(vtkCommand::EndEvent, this, &Viewport::countPicture);
+}
+
+void Viewport::countPicture() {
+  ++pictureCount_;
+}
+
+void Viewport::adjustClipping() {
+  vtkBoundingBox box;
+  double bounds[6];
+  if (parts_.visibleBounds(bounds)) box.AddBounds(bounds);
+  // Arrows stand out of the parts.
+  overlay_->ComputeVisiblePropBounds(bounds);
+  if (bounds[0] <= bounds[1]) box.AddBounds(bounds);
+  if (box.IsValid() == 0) return;
+  box.GetBounds(bounds);
+  renderer_->ResetCameraClippingRange(bounds);
+}
+
+void Viewport::requestRender() {
+  if (hasRequest_) return;
+  hasRequest_ = true;
+  QTimer::singleShot(0, this, [this] {
+    hasRequest_ = false;
+    if (isVisible()) window_->Render();
+  });
+}
+
+void Viewport::setScene(const Scene& scene) {
+  const bool wasEmpty = scene_.parts().empty();
+  scene_ = scene;
+  parts_.setScene(scene);
+  legend_->setCutoff(scene.springs().cutoff);
+  if (scene.parts().empty()) needsFit_ = true;
+  if ((wasEmpty || needsFit_) && !scene.parts().empty()) setView(StandardView::Isometric);
+  requestRender();
+}
+
+void Viewport::setSelected(std::optional<PartId> part) {
+  parts_.setSelected(part);
+  requestRender();
+}
+
+void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
+  if (shown_ != nullptr && looksTheSame(*shown_, snapshot)) return;
+  if (shown_ == nullptr) shown_ = std::make_unique<ServoSnapshot>();
+  *shown_ = snapshot;
+  parts_.setPoseInHand(snapshot.proxy);
+  const double cutoff = scene_.springs().cutoff;
+  minima_.show(std::span(snapshot.lmds).first(snapshot.storedLmds), cutoff);
+  const Part* moving = scene_.find(snapshot.moving);
+  const double size = moving != nullptr ? moving->geometry->mesh.bounds().diagonal() : 0.0;
+  arrows_.show(snapshot.centre, snapshot.wrench, size);
+  legend_->setWrench(snapshot.wrench);
+  legend_->show();
+  requestRender();
+}
+
+void Viewport::clearSnapshot() {
+  shown_.reset();
+  parts_.setPoseInHand(std::nullopt);
+  minima_.clear();
+  arrows_.clear();
+  legend_->hide();
+  requestRender();
+}
+
+void Viewport::fit() {
+  double bounds[6];
+  if (!parts_.visibleBounds(bounds)) return;
+  fitView(*renderer_, bounds);
+  requestRender();
+}
+
+void Viewport::setView(StandardView view) {
+  double bounds[6];
+  if (!parts_.visibleBounds(bounds)) return;
+  needsFit_ = false;
+  setStandardView(*renderer_, view, bounds);
+  requestRender();
+}
+
+void Viewport::setSeeThrough(bool isSeeThrough) {
+  parts_.setSeeThrough(isSeeThrough);
+  requestRender();
+}
+
+void Viewport::setEdgesVisible(bool isVisible) {
+  parts_.setEdgesVisible(isVisible);
+  requestRender();
+}
+
+void Viewport::setMinimaVisible(bool isVisible) {
+  minima_.setVisible(isVisible);
+  requestRender();
+}
+
+void Viewport::setWrenchVisible(bool isVisible) {
+  arrows_.setVisible(isVisible);
+  requestRender();
+}
+
+void Viewport::mousePressEvent(QMouseEvent* event) {
+  pressedAt_ = event->pos();
+  QVTKOpenGLNativeWidget::mousePressEvent(event);
+}
+
+void Viewport::mouseReleaseEvent(QMouseEvent* event) {
+  QVTKOpenGLNativeWidget::mouseReleaseEvent(event);
+  const bool isClick = (event->pos() - pressedAt_).manhattanLength() < QApplication::startDragDistance() / 2;
+  if (event->button() == Qt::LeftButton && isClick) pickAt(event->pos());
+}
+
+void Viewport::pickAt(const QPoint& position) {
+  const double scale = devicePixelRatioF();
+  emit partPicked(parts_.pick(position.x() * scale, (height() - 1 - position.y()) * scale));
+}
+
+void Viewport::keyPressEvent(QKeyEvent* event) {
+  switch (event->key()) {
+    case Qt::Key_Left:
+      emit nudged(-1, 0, 0);
+      return;
+    case Qt::Key_Right:
+      emit nudged(1, 0, 0);
+      return;
+    case Qt::Key_Up:
+      emit nudged(0, 1, 0);
+      return;
+    case Qt::Key_Down:
+      emit nudged(0, -1, 0);
+      return;
+    case Qt::Key_PageUp:
+      emit nudged(0, 0, 1);
+      return;
+    case Qt::Key_PageDown:
+      emit nudged(0, 0, -1);
+      return;
+    default:
+      QVTKOpenGLNativeWidget::keyPressEvent(event);
+  }
+}
+
+void Viewport::resizeEvent(QResizeEvent* event) {
+  QVTKOpenGLNativeWidget::resizeEvent(event);
+  constexpr int kMargin = 14;
+  legend_->move(kMargin, height() - legend_->height() - kMargin);
+}
+
+}  // namespace nearfit::ui
