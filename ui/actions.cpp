@@ -16,20 +16,20 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   newScene = make("newScene", tr("&New scene"), "new", QKeySequence::New);
   open = make("open", tr("&Open scene…"), "open", QKeySequence::Open);
   openDemo = make("openDemo", tr("Open &demo"), "demo");
-  addParts = make("addParts", tr("&Add parts…"), "add", QKeySequence(Qt::CTRL | Qt::Key_I));
+  addParts = make("addParts", tr("&Add parts…"), "add", QKeySequence(QStringLiteral("Ctrl+I")));
   save = make("save", tr("&Save"), "save", QKeySequence::Save);
-  saveAs = make("saveAs", tr("Save &as…"), "save-as", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S));
+  saveAs = make("saveAs", tr("Save &as…"), "save-as", QKeySequence(QStringLiteral("Ctrl+Shift+S")));
   exportPlacement =
-      make("exportPlacement", tr("&Export placement…"), "export", QKeySequence(Qt::CTRL | Qt::Key_E));
-  quit = make("quit", tr("&Quit"), {}, QKeySequence(Qt::CTRL | Qt::Key_Q));
+      make("exportPlacement", tr("&Export placement…"), "export", QKeySequence(QStringLiteral("Ctrl+E")));
+  quit = make("quit", tr("&Quit"), {}, QKeySequence(QStringLiteral("Ctrl+Q")));
 
   undo = make("undo", tr("&Undo"), "undo", QKeySequence::Undo);
   redo = make("redo", tr("&Redo"), "redo");
-  redo->setShortcuts({QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z), QKeySequence(Qt::CTRL | Qt::Key_Y)});
-  duplicate = make("duplicate", tr("&Duplicate"), "duplicate", QKeySequence(Qt::CTRL | Qt::Key_D));
+  redo->setShortcuts({QKeySequence(QStringLiteral("Ctrl+Shift+Z")), QKeySequence(QStringLiteral("Ctrl+Y"))});
+  duplicate = make("duplicate", tr("&Duplicate"), "duplicate", QKeySequence(QStringLiteral("Ctrl+D")));
   rename = make("rename", tr("Re&name"), "rename");
   recolour = make("recolour", tr("&Colour…"), {});
-  takeInHand = make("takeInHand", tr("&Take in hand"), "hand", QKeySequence(Qt::CTRL | Qt::Key_H));
+  takeInHand = make("takeInHand", tr("&Take in hand"), "hand", QKeySequence(QStringLiteral("Ctrl+H")));
   takeInHand->setToolTip(tr("Make the selected part the moving part"));
   remove = make("remove", tr("De&lete"), "delete", QKeySequence::Delete);
 

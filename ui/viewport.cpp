@@ -23,12 +23,10 @@ namespace {
 /// VTK's style without its letter keys, some of which end the program or switch to stereo.
 class CameraStyle : public vtkInteractorStyleTrackballCamera {
  public:
-  static CameraStyle* New();
-  vtkTypeMacro(CameraStyle, vtkInteractorStyleTrackballCamera);
+  static CameraStyle* New() { VTK_STANDARD_NEW_BODY(CameraStyle); }
   void OnChar() override {}
   void OnKeyPress() override {}
 };
-vtkStandardNewMacro(CameraStyle);
 
 bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
   return a.rotation == b.rotation && a.translation == b.translation;
