@@ -39,7 +39,7 @@ void setStandardView(vtkRenderer& renderer, StandardView view, const double boun
 void fitView(vtkRenderer& renderer, const double bounds[6]) {
   renderer.ResetCamera(bounds);
   // VTK leaves room for the bounding sphere; most assemblies are slimmer than it.
-  constexpr double kFill = 1.25;
+  constexpr double kFill = 1.15;
   renderer.GetActiveCamera()->Dolly(kFill);
 }
 

@@ -11,7 +11,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr double kRim[3] = {0.08, 0.10, 0.12};
+constexpr double kHalo[3] = {0.08, 0.10, 0.12};
 
 /// Sizes are in pixels, so that a gap of micrometres between metre-long parts is still seen.
 void setUp(vtkActor& actor, vtkPolyData& data, bool isColoured, float lineWidth, float pointSize) {
@@ -26,21 +26,24 @@ void setUp(vtkActor& actor, vtkPolyData& data, bool isColoured, float lineWidth,
   actor.PickableOff();
   vtkProperty* property = actor.GetProperty();
   property->LightingOff();
-  property->SetColor(kRim[0], kRim[1], kRim[2]);
+  property->SetColor(kHalo[0], kHalo[1], kHalo[2]);
   property->SetLineWidth(lineWidth);
   property->SetPointSize(pointSize);
-  property->SetRenderPointsAsSpheres(true);
 }
 
 }  // namespace
 
 LmdOverlay::LmdOverlay(vtkRenderer& renderer) {
-  // Later actors win where depths are equal: dark rims first, colours over them.
+  // Later actors win where depths are equal: the dark halo first, colours over it.
   setUp(*halo_, *segments_.Get(), false, 4.5F, 1.0F);
   setUp(*lines_, *segments_.Get(), true, 2.5F, 1.0F);
-  setUp(*rims_, *points_.Get(), false, 1.0F, 9.0F);
-  setUp(*dots_, *points_.Get(), true, 1.0F, 6.5F);
-  for (vtkActor* actor : {halo_.Get(), lines_.Get(), rims_.Get(), dots_.Get()})
+  setUp(*dots_, *points_.Get(), true, 1.0F, 8.0F);
+  vtkProperty* dots = dots_->GetProperty();
+  dots->SetRenderPointsAsSpheres(true);
+  dots->LightingOn();
+  dots->SetAmbient(0.45);
+  dots->SetDiffuse(0.65);
+  for (vtkActor* actor : {halo_.Get(), lines_.Get(), dots_.Get()})
     renderer.AddActor(actor);
 }
 
@@ -69,7 +72,7 @@ void LmdOverlay::show(std::span<const SnapshotLmd> lmds, double cutoff) {
 }
 
 void LmdOverlay::setVisible(bool isVisible) {
-  for (vtkActor* actor : {halo_.Get(), lines_.Get(), rims_.Get(), dots_.Get()})
+  for (vtkActor* actor : {halo_.Get(), lines_.Get(), dots_.Get()})
     actor->SetVisibility(isVisible);
 }
 

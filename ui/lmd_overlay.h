@@ -26,7 +26,7 @@ class LmdOverlay {
 
  private:
   vtkNew<vtkPolyData> segments_, points_;
-  vtkNew<vtkActor> halo_, lines_, rims_, dots_;
+  vtkNew<vtkActor> halo_, lines_, dots_;
 };
 
 }  // namespace nearfit::ui

@@ -27,6 +27,7 @@ void MainWindow::connectFileActions() {
   connect(actions_->about, &QAction::triggered, this, &MainWindow::showAbout);
   connect(document_.get(), &Document::failed, this, &MainWindow::showFailure);
   connect(document_.get(), &Document::noted, this, &MainWindow::showNote);
+  connect(document_.get(), &Document::loaded, viewport_, &Viewport::fit);
   connect(document_.get(), &Document::busyChanged, this, &MainWindow::updateActions);
   connect(document_.get(), &Document::sceneNeeded, this, &MainWindow::poseInHandRequested);
 }

@@ -9,6 +9,7 @@
 
 #include <vtkBoundingBox.h>
 #include <vtkCamera.h>
+#include <vtkCameraOrientationRepresentation.h>
 #include <vtkCommand.h>
 #include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkLightKit.h>
@@ -99,6 +100,8 @@ void Viewport::setUpInteraction() {
   style->SetDefaultRenderer(renderer_);
   style->AutoAdjustCameraClippingRangeOff();
   marker_->SetParentRenderer(renderer_);
+  auto* shape = vtkCameraOrientationRepresentation::SafeDownCast(marker_->GetRepresentation());
+  shape->SetSize(100, 100);
   marker_->On();
   renderer_->AddObserver(vtkCommand::StartEvent, this, &Viewport::adjustClipping);
   window_->AddObserver(vtkCommand::EndEvent, this, &Viewport::countPicture);
@@ -130,12 +133,13 @@ void Viewport::requestRender() {
 }
 
 void Viewport::setScene(const Scene& scene) {
-  const bool wasEmpty = scene_.parts().empty();
+  const bool isAnotherScene =
+      std::none_of(scene.parts().begin(), scene.parts().end(),
+                   [this](const Scene::PartPtr& part) { return scene_.find(part->id) != nullptr; });
   scene_ = scene;
   parts_.setScene(scene);
   legend_->setCutoff(scene.springs().cutoff);
-  if (scene.parts().empty()) needsFit_ = true;
-  if ((wasEmpty || needsFit_) && !scene.parts().empty()) setView(StandardView::Isometric);
+  if (isAnotherScene) setView(StandardView::Isometric);
   requestRender();
 }
 
@@ -178,7 +182,6 @@ void Viewport::fit() {
 void Viewport::setView(StandardView view) {
   double bounds[6];
   if (!parts_.visibleBounds(bounds)) return;
-  needsFit_ = false;
   setStandardView(*renderer_, view, bounds);
   requestRender();
 }

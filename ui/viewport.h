@@ -82,7 +82,6 @@ class Viewport : public QVTKOpenGLNativeWidget {
   Scene scene_;
   QPoint pressedAt_;
   bool hasRequest_ = false;
-  bool needsFit_ = true;
   int pictureCount_ = 0;
 };
 

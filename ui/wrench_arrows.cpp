@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kSides = 20;
 /// Thickness of shafts and length of heads, as parts of the size.
-constexpr double kShaft = 0.016, kHeadRadius = 0.045, kHeadLength = 0.13;
+constexpr double kShaft = 0.018, kHeadRadius = 0.05, kHeadLength = 0.14;
 /// Wrenches smaller than this part of the limit are not drawn.
 constexpr double kLeast = 1e-4;
 

@@ -30,14 +30,14 @@ PosePanel::PosePanel(QWidget* parent) : QWidget(parent), heading_(new QLabel(thi
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
     fields_[i] = makeField(QStringLiteral("position") + axes[axis], kMaxPosition, 4, tr(" mm"), 1.0);
-    fields_[i + 3] = makeField(QStringLiteral("rotation") + axes[axis], 360.0, 4, QString(QChar(0xB0)), 1.0);
+    fields_[i + 3] = makeField(QStringLiteral("rotation") + axes[axis], 360.0, 3, QString(QChar(0xB0)), 1.0);
     layout->addWidget(new QLabel(axes[axis], this), axis + 1, 0);
     layout->addWidget(fields_[i], axis + 1, 1);
     layout->addWidget(new QLabel(QStringLiteral("R") + axes[axis].toLower(), this), axis + 1, 2);
     layout->addWidget(fields_[i + 3], axis + 1, 3);
   }
-  step_ = makeField(QStringLiteral("nudgeStep"), 1e4, 4, tr(" mm"), 0.1);
-  step_->setMinimum(1e-4);
+  step_ = makeField(QStringLiteral("nudgeStep"), 1e4, 3, tr(" mm"), 0.1);
+  step_->setMinimum(1e-3);
   step_->setValue(0.1);
   step_->setToolTip(tr("How far the arrow and page keys move the part while the 3-D view has the focus"));
   layout->addWidget(new QLabel(tr("Key step"), this), 4, 0, 1, 3, Qt::AlignRight | Qt::AlignVCenter);
