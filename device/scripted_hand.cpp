@@ -12,8 +12,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 /// Shares of the sweep: approach, slide, wobble, and the retreat has the rest.
 constexpr double kSlideBegins = 0.25, kWobbleBegins = 0.5, kRetreatBegins = 0.75;
-constexpr double kSlideRadius = 0.15;               ///< Of the reach.
-constexpr double kWobbleAngle = 3.0 * kPi / 180.0;  ///< [rad]
+constexpr double kSlideRadius = 0.15;  ///< Of the reach.
 
 /// More would not fit in memory, and is a slip of the unit.
 constexpr double kMaxPoses = 1e8;
@@ -39,7 +38,8 @@ Frame frameAlong(const glm::dvec3& direction) {
   return {along, across, glm::cross(along, across)};
 }
 
-RigidTransform poseAt(const RigidTransform& rest, const Frame& frame, double reach, double x) {
+RigidTransform poseAt(const RigidTransform& rest, const Frame& frame, double reach, double wobbleAngle,
+                      double x) {
   const double advance = easeBetween(x, 0.0, kSlideBegins) - easeBetween(x, kRetreatBegins, 1.0);
   // A circle that starts and ends at its own rim point, so that the slide leaves no offset.
   const double turn = 2.0 * kPi * easeBetween(x, kSlideBegins, kWobbleBegins);
@@ -47,7 +47,7 @@ RigidTransform poseAt(const RigidTransform& rest, const Frame& frame, double rea
       kSlideRadius * ((std::cos(turn) - 1.0) * frame.across + std::sin(turn) * frame.aside);
   const double phase = 2.0 * kPi * easeBetween(x, kWobbleBegins, kRetreatBegins);
   const glm::dvec3 tilt =
-      kWobbleAngle * (std::sin(phase) * frame.across + std::sin(2.0 * phase) * frame.along);
+      wobbleAngle * (std::sin(phase) * frame.across + std::sin(2.0 * phase) * frame.along);
   const double angle = glm::length(tilt);
   const glm::dquat wobble =
       angle > 0.0 ? glm::angleAxis(angle, tilt / angle) : glm::dquat(1.0, 0.0, 0.0, 0.0);
@@ -58,14 +58,16 @@ RigidTransform poseAt(const RigidTransform& rest, const Frame& frame, double rea
 }  // namespace
 
 std::vector<RigidTransform> scriptedHandPath(const RigidTransform& worldFromPart, const glm::dvec3& approach,
-                                             double reach, double seconds, double period) {
+                                             double reach, double seconds, double period,
+                                             double wobbleAngle) {
   const double directionLength = glm::length(approach);
   if (!worldFromPart.isFinite() || !std::isfinite(directionLength) || !(directionLength > 0.0)) {
     throw UsageError("scripted hand", "its pose or direction is not finite, or the direction is zero",
                      "give a pose and a direction");
   }
   if (!std::isfinite(reach) || !(reach > 0.0) || !std::isfinite(seconds) || !(seconds > 0.0) ||
-      !std::isfinite(period) || !(period > 0.0) || seconds / period > kMaxPoses) {
+      !std::isfinite(wobbleAngle) || !std::isfinite(period) || !(period > 0.0) ||
+      seconds / period > kMaxPoses) {
     throw UsageError("scripted hand", "reach, duration or period is not a sensible positive number",
                      "give metres and seconds above zero");
   }
@@ -75,7 +77,8 @@ std::vector<RigidTransform> scriptedHandPath(const RigidTransform& worldFromPart
   std::vector<RigidTransform> path;
   path.reserve(steps + 1);
   for (std::size_t i = 0; i <= steps; ++i) {
-    path.push_back(poseAt(rest, frame, reach, static_cast<double>(i) / static_cast<double>(steps)));
+    path.push_back(
+        poseAt(rest, frame, reach, wobbleAngle, static_cast<double>(i) / static_cast<double>(steps)));
   }
   return path;
 }

@@ -55,8 +55,11 @@ class ManualDevice final : public HapticDevice {
   std::atomic<DeviceState> state_{DeviceState::Ready};
 };
 
+/// Of a scripted hand that has no reason for another: three degrees [rad].
+constexpr double kScriptedWobble = 0.052359877559829887;
+
 /// A scripted hand: one smooth sweep of approach (by `reach` along `approach`), slide (a circle across it),
-/// wobble (turning about the part's origin by a few degrees) and retreat to where it began. At rest at both
+/// wobble (turning about the part's origin to and fro) and retreat to where it began. At rest at both
 /// ends, so that it can be repeated without a jolt. The same arguments give the same path.
 ///
 /// @param worldFromPart  Where the part is: the first pose and the last.
@@ -64,9 +67,11 @@ class ManualDevice final : public HapticDevice {
 /// @param reach          How far the approach goes [m]; > 0.
 /// @param seconds        Duration of the whole sweep [s].
 /// @param period         Of a tick [s]; one pose for each.
+/// @param wobbleAngle    Amplitude of the wobble [rad].
 /// Throws UsageError for arguments that are not finite or out of range.
 std::vector<RigidTransform> scriptedHandPath(const RigidTransform& worldFromPart, const glm::dvec3& approach,
-                                             double reach, double seconds, double period);
+                                             double reach, double seconds, double period,
+                                             double wobbleAngle = kScriptedWobble);
 
 /// Reads poses from CSV: `tx,ty,tz,qw,qx,qy,qz` a row (metres, then a unit quaternion), `#` starts a comment
 /// line, blank lines are skipped, one header line is allowed. Quaternions are normalised; one that is off
