@@ -1,8 +1,10 @@
 #include "app/desktop/hands.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -15,7 +17,9 @@ namespace {
 
 constexpr double kSweepSeconds = 4.0;
 /// Part of the gap to the nearest part that the scripted hand closes: near enough to feel, never through.
-constexpr double kCloses = 0.8;
+constexpr double kCloses = 0.75;
+/// How far the wobble moves the part's ends, as a part of the approach's reach.
+constexpr double kWobble = 0.2;
 
 struct Approach {
   glm::dvec3 direction{0.0};
@@ -39,6 +43,21 @@ std::optional<Approach> approachOfNearest(const ServoScene& scene, double cutoff
   return approach;
 }
 
+/// The sweep turns about the part's centre of mass, wherever the file put the origin, and so little that the
+/// part's ends move less than the approach leaves of the gap.
+std::vector<RigidTransform> sweepAboutCentre(const ServoScene& scene, const Approach& approach) {
+  const RigidTransform partFromCentre{{1.0, 0.0, 0.0, 0.0}, scene.centreInPart};
+  const double radius = 0.5 * scene.moving.geometry->mesh.bounds().diagonal();
+  const double wobble = std::min(kScriptedWobble, kWobble * approach.reach / radius);
+  std::vector<RigidTransform> path =
+      scriptedHandPath(scene.moving.worldFromPart * partFromCentre, approach.direction, approach.reach,
+                       kSweepSeconds, ServoLoop::kPeriod, wobble);
+  const RigidTransform centreFromPart = partFromCentre.inverse();
+  for (RigidTransform& pose : path)
+    pose = pose * centreFromPart;
+  return path;
+}
+
 /// Towards the middle of the other parts, when nothing is near.
 Approach approachOfMiddle(const ServoScene& scene, double cutoff) {
   glm::dvec3 middle(0.0);
@@ -57,9 +76,7 @@ std::unique_ptr<HapticDevice> makeHand(ui::Hand hand, const ServoScene& scene, d
   if (hand == ui::Hand::Manual) return std::make_unique<ManualDevice>();
   const std::optional<Approach> nearest = approachOfNearest(scene, cutoff);
   const Approach approach = nearest ? *nearest : approachOfMiddle(scene, cutoff);
-  return std::make_unique<PathDevice>(scriptedHandPath(scene.moving.worldFromPart, approach.direction,
-                                                       approach.reach, kSweepSeconds, ServoLoop::kPeriod),
-                                      true);
+  return std::make_unique<PathDevice>(sweepAboutCentre(scene, approach), true);
 }
 
 }  // namespace nearfit::desktop

@@ -30,9 +30,7 @@ void ServoController::start(ui::Hand hand) {
     const Scene& scene = session_.scene();
     auto servoScene = makeServoScene(scene);
     moving_ = servoScene->moving.id;
-    const RigidTransform worldFromPart = servoScene->moving.worldFromPart;
     auto device = makeHand(hand, *servoScene, scene.springs().cutoff);
-    device->start(worldFromPart);
     loop_.start(*device, std::move(servoScene), {scene.springs(), device->info().limits});
     device_ = std::move(device);
   } catch (...) {
@@ -59,7 +57,6 @@ void ServoController::stop() {
 void ServoController::halt() {
   timer_.stop();
   loop_.stop();
-  device_->stop();
   device_.reset();
   status_ = {};
   emit statusChanged(status_);

@@ -116,8 +116,7 @@ void FeelPanel::showSnapshot(const ServoSnapshot& snapshot) {
                    (snapshot.isTruncated ? QStringLiteral("+") : QString()));
   QString note;
   if (snapshot.isClamped) note = tr("Held at the device's limit.");
-  if (snapshot.fault != ServoFault::None)
-    note = tr("The servo met a number that is not finite and sends no force.");
+  if (snapshot.fault != ServoFault::None) note = QString::fromUtf8(faultReason(snapshot.fault));
   clamped_->setText(note);
 }
 
