@@ -27,7 +27,7 @@ void requireDisplay() {
 
 void requireOpenGl() {
   QOpenGLContext context;
-  const bool isUsable = context.create() && context.format().version() >= std::make_pair(3, 2);
+  const bool isUsable = context.create() && context.format().version() >= qMakePair(3, 2);
   if (!isUsable) {
     throw Error("", "there is no OpenGL 3.2 on this display",
                 "install a graphics driver, or Mesa's software one (libgl1-mesa-dri)");

@@ -123,6 +123,20 @@ TEST_F(ScriptedHand, MovesSmoothlyAndRestsAtBothEnds) {
   EXPECT_LT(glm::length(before), 1e-6 * kReach);
 }
 
+TEST_F(ScriptedHand, WobblesNoFartherThanTheCallerSays) {
+  constexpr double kWobble = 0.001;
+  const auto path = scriptedHandPath(rest_, glm::dvec3(0.0, 0.0, -2.0), kReach, kSeconds, kPeriod, kWobble);
+  double largestTurn = 0.0;
+  for (const RigidTransform& pose : path) {
+    // From the vector part: the cosine of so small an angle has lost its digits.
+    const glm::dquat turn = pose.rotation * glm::conjugate(rest_.rotation);
+    largestTurn = std::max(largestTurn, 2.0 * std::asin(glm::length(glm::dvec3(turn.x, turn.y, turn.z))));
+  }
+  // Two turns about perpendicular axes, sin(phase) and sin(2 phase) of the amplitude: together they reach
+  // sqrt(max(s + 4 s (1 - s))) of it over s = sin^2, which is 5/4 at s = 5/8.
+  EXPECT_NEAR(largestTurn, 1.25 * kWobble, 1e-6);
+}
+
 TEST_F(ScriptedHand, TheSameArgumentsGiveTheSamePath) {
   const auto again = scriptedHandPath(rest_, glm::dvec3(0.0, 0.0, -2.0), kReach, kSeconds, kPeriod);
   ASSERT_EQ(again.size(), path_.size());
