@@ -1,0 +1,109 @@
+#include <QImage>
+#include <QProcess>
+#include <set>
+
+#include "tests/app/desktop/desktop_driver.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+struct Outcome {
+  int code = -1;
+  QString out, err;
+};
+
+Outcome run(const QStringList& arguments,
+            const QProcessEnvironment& environment = QProcessEnvironment::systemEnvironment()) {
+  const TemporaryFolder home;
+  QProcessEnvironment own = environment;
+  own.insert(QStringLiteral("XDG_CONFIG_HOME"), QString::fromStdString(home.path().string()));
+  QProcess process;
+  process.setProcessEnvironment(own);
+  process.start(QStringLiteral(NEARFIT_DESKTOP), arguments);
+  if (!process.waitForFinished(60'000)) return {};
+  const int code = process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -1;
+  return {code, QString::fromLocal8Bit(process.readAllStandardOutput()),
+          QString::fromLocal8Bit(process.readAllStandardError())};
+}
+
+QProcessEnvironment withoutDisplay() {
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"})
+    environment.remove(QLatin1String(name));
+  return environment;
+}
+
+}  // namespace
+
+class DesktopCommandLineTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void helpAndVersionNeedNoDisplay();
+  void unknownOptionIsAUsageError();
+  void saysThatThereIsNoDisplay();
+  void writesAPictureOfTheFilesAndEnds();
+  void brokenFileEndsWithAMessage();
+  void picturePathThatCannotBeWrittenEndsWithAMessage();
+};
+
+void DesktopCommandLineTest::helpAndVersionNeedNoDisplay() {
+  const Outcome help = run({QStringLiteral("--help")}, withoutDisplay());
+  QCOMPARE(help.code, 0);
+  QVERIFY(help.out.contains(QStringLiteral("--screenshot")));
+  const Outcome version = run({QStringLiteral("--version")}, withoutDisplay());
+  QCOMPARE(version.code, 0);
+  QVERIFY(version.out.startsWith(QStringLiteral("nearfit ")));
+}
+
+void DesktopCommandLineTest::unknownOptionIsAUsageError() {
+  QCOMPARE(run({QStringLiteral("--frobnicate")}).code, 2);
+}
+
+void DesktopCommandLineTest::saysThatThereIsNoDisplay() {
+  const Outcome outcome = run({}, withoutDisplay());
+  QCOMPARE(outcome.code, 1);
+  QVERIFY(outcome.err.contains(QStringLiteral("display")));
+}
+
+void DesktopCommandLineTest::writesAPictureOfTheFilesAndEnds() {
+  const TemporaryFolder folder;
+  const QString box = writeOff(folder.path() / "box.off", boxMesh(glm::dvec3(0.04)));
+  const QString picture = QString::fromStdString((folder.path() / "window.png").string());
+  const Outcome outcome = run({box, QStringLiteral("--screenshot"), picture});
+  QVERIFY2(outcome.code == 0, qPrintable(outcome.err));
+  const QImage image(picture);
+  QCOMPARE(image.size(), QSize(1280, 800));
+  // A lit box on a gradient: the middle of the window is anything but one colour.
+  std::set<QRgb> tones;
+  for (int x = 400; x < 900; x += 5) {
+    for (int y = 200; y < 600; y += 5)
+      tones.insert(image.pixel(x, y));
+  }
+  QVERIFY2(tones.size() > 40, qPrintable(QString::number(tones.size())));
+}
+
+void DesktopCommandLineTest::brokenFileEndsWithAMessage() {
+  const TemporaryFolder folder;
+  const auto broken = folder.write("broken.stl", "this is no mesh");
+  const QString picture = QString::fromStdString((folder.path() / "window.png").string());
+  const Outcome outcome =
+      run({QString::fromStdString(broken.string()), QStringLiteral("--screenshot"), picture});
+  QCOMPARE(outcome.code, 1);
+  QVERIFY(outcome.err.contains(QStringLiteral("broken.stl")));
+  QVERIFY(!QFile::exists(picture));
+}
+
+void DesktopCommandLineTest::picturePathThatCannotBeWrittenEndsWithAMessage() {
+  const TemporaryFolder folder;
+  const QString box = writeOff(folder.path() / "box.off", boxMesh(glm::dvec3(0.04)));
+  const Outcome outcome =
+      run({box, QStringLiteral("--screenshot"), QStringLiteral("/no/such/folder/window.png")});
+  QCOMPARE(outcome.code, 1);
+  QVERIFY(outcome.err.contains(QStringLiteral("/no/such/folder/window.png")));
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopCommandLineTest)
+#include "desktop_command_line_test.moc"

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <QAbstractItemModel>
+#include <QAction>
+#include <QApplication>
+#include <QFileDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSettings>
+#include <QTimer>
+#include <QTreeView>
+#include <QtTest>
+#include <fstream>
+#include <functional>
+
+#include "app/desktop/application.h"
+#include "core/mesh/triangle_mesh.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/document.h"
+#include "ui/viewport.h"
+
+/// Drives the desktop application as a user does: by its widgets, with real events.
+namespace nearfit::test {
+
+/// Runs a Qt Test object with the QApplication set up as the program does; settings go to a temporary folder.
+template <class Test>
+int runDesktopTest(int argc, char** argv) {
+  const TemporaryFolder settings;
+  desktop::Application::prepare();
+  QSettings::setPath(QSettings::IniFormat, QSettings::UserScope,
+                     QString::fromStdString(settings.path().string()));
+  QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+  QApplication qt(argc, argv);
+  desktop::Application::configure();
+  Test test;
+  return QTest::qExec(&test, argc, argv);
+}
+
+/// A mesh as an OFF file, its numbers in millimetres.
+inline QString writeOff(const std::filesystem::path& file, const TriangleMesh& mesh) {
+  std::ofstream out(file);
+  out.precision(17);
+  out << "OFF\n" << mesh.vertices().size() << ' ' << mesh.triangles().size() << " 0\n";
+  for (const glm::dvec3& p : mesh.vertices())
+    out << p.x * 1e3 << ' ' << p.y * 1e3 << ' ' << p.z * 1e3 << '\n';
+  for (const Triangle& t : mesh.triangles())
+    out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+  return QString::fromStdString(file.string());
+}
+
+/// Waits for a modal dialog of a type, from inside the call that opens it, and hands it to `act`.
+template <class Dialog>
+void whenModal(std::function<void(Dialog*)> act) {
+  auto* timer = new QTimer(qApp);
+  timer->setInterval(20);
+  QObject::connect(timer, &QTimer::timeout, timer, [timer, act = std::move(act)] {
+    auto* dialog = qobject_cast<Dialog*>(QApplication::activeModalWidget());
+    if (dialog == nullptr || !dialog->isVisible()) return;
+    timer->stop();
+    timer->deleteLater();
+    act(dialog);
+  });
+  timer->start();
+}
+
+/// Types a path into a file dialog and accepts it.
+inline void chooseFile(QFileDialog* dialog, const QString& file) {
+  auto* name = dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
+  name->selectAll();
+  QTest::keyClicks(name, file);
+  QTest::keyClick(name, Qt::Key_Return);
+}
+
+/// The application with a fixed cube of 40 mm about the origin and a moving cube of 20 mm whose lower face is
+/// 5 mm above it: their one minimum is the region between the two faces.
+class DesktopDriver {
+ public:
+  DesktopDriver() {
+    QWidget& w = application.window();
+    w.resize(1200, 760);
+    w.show();
+    (void)QTest::qWaitForWindowExposed(&w);
+    QApplication::setActiveWindow(&w);
+    fixedFile = writeOff(folder.path() / "fixed.off", boxMesh(glm::dvec3(0.04)));
+    movingFile =
+        writeOff(folder.path() / "moving.off", boxMesh(glm::dvec3(0.02), glm::dvec3(0.0, 0.0, 0.035)));
+  }
+
+  /// Adds both cubes without dialogs and makes the second the moving part.
+  void addCubes() {
+    add({fixedFile, movingFile});
+    QTRY_COMPARE(session().scene().parts().size(), std::size_t{2});
+    session().setMovingPart(partId("moving"));
+  }
+  void add(const QStringList& files) { application.window().document().addParts(files, 1e-3); }
+
+  Session& session() { return application.session(); }
+  ui::MainWindow& window() { return application.window(); }
+  PartId partId(const char* name) { return session().scene().findByName(name)->id; }
+  const Part& part(const char* name) { return *session().scene().findByName(name); }
+
+  QAction* action(const char* name) { return window().findChild<QAction*>(QLatin1String(name)); }
+  template <class Widget>
+  Widget* widget(const char* name) {
+    return window().findChild<Widget*>(QLatin1String(name));
+  }
+  QString text(const char* label) { return widget<QLabel>(label)->text(); }
+  QTreeView* partsView() { return widget<QTreeView>("partsView"); }
+
+  /// Clicks a cell of the parts list.
+  void clickPart(int row, int column) {
+    QTreeView* view = partsView();
+    QTest::mouseClick(view->viewport(), Qt::LeftButton, {},
+                      view->visualRect(view->model()->index(row, column)).center());
+  }
+  /// Replaces a spin box's text as a user types it, and leaves it by Return.
+  template <class Field>
+  void type(const char* name, const char* number) {
+    auto* field = widget<Field>(name);
+    field->setFocus();
+    field->selectAll();
+    QTest::keyClicks(field, QLatin1String(number));
+    QTest::keyClick(field, Qt::Key_Return);
+  }
+
+  TemporaryFolder folder;
+  QString fixedFile, movingFile;
+  desktop::Application application;
+};
+
+}  // namespace nearfit::test
+
+#define NEARFIT_DESKTOP_TEST_MAIN(Test)                     \
+  int main(int argc, char** argv) {                         \
+    return nearfit::test::runDesktopTest<Test>(argc, argv); \
+  }

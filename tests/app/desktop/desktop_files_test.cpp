@@ -1,0 +1,167 @@
+#include <QDoubleSpinBox>
+#include <QMessageBox>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/desktop/desktop_driver.h"
+#include "ui/parts_model.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+/// Answers the question about unsaved changes.
+void answerUnsaved(QMessageBox::StandardButton answer, bool& wasAsked) {
+  wasAsked = false;
+  whenModal<QMessageBox>([answer, &wasAsked](QMessageBox* box) {
+    QCOMPARE(box->objectName(), QStringLiteral("unsavedBox"));
+    wasAsked = true;
+    QTest::mouseClick(box->button(answer), Qt::LeftButton);
+  });
+}
+
+}  // namespace
+
+class DesktopFilesTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void emptySceneOffersTheDemo();
+  void savesAndOpensTheSameScene();
+  void savingKeepsThePoseInHand();
+  void malformedSceneLosesNothingThatIsOpen();
+  void closingAsksAboutChanges();
+  void openingAsksAboutChanges();
+  void exportsThePlacementInHand();
+  void demoSceneOpensAndIsFelt();
+};
+
+void DesktopFilesTest::emptySceneOffersTheDemo() {
+  DesktopDriver d;
+  QVERIFY(d.widget<QWidget>("welcome")->isVisible());
+  QVERIFY(d.widget<QPushButton>("openDemoButton")->isEnabled());
+  d.addCubes();
+  QVERIFY(!d.widget<QWidget>("welcome")->isVisible());
+}
+
+void DesktopFilesTest::savesAndOpensTheSameScene() {
+  DesktopDriver d;
+  d.addCubes();
+  const RigidTransform pose{glm::angleAxis(0.4, glm::normalize(glm::dvec3(1, 2, 3))), {0.01, -0.02, 0.5}};
+  d.session().movePart(d.partId("fixed"), pose);
+  const QString file = QString::fromStdString((d.folder.path() / "pair.nearfit").string());
+  whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, file); });
+  QTest::keyClick(&d.window(), Qt::Key_S, Qt::ControlModifier);
+  QTRY_VERIFY(QFile::exists(file));
+  QVERIFY(!d.window().isWindowModified());
+  QVERIFY(d.window().windowTitle().contains(QStringLiteral("pair.nearfit")));
+
+  QTest::keyClick(&d.window(), Qt::Key_N, Qt::ControlModifier);
+  QVERIFY(d.session().scene().parts().empty());
+  whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, file); });
+  QTest::keyClick(&d.window(), Qt::Key_O, Qt::ControlModifier);
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QVERIFY(glm::distance(d.part("fixed").worldFromPart.translation, pose.translation) < 1e-15);
+  QVERIFY(std::abs(glm::dot(d.part("fixed").worldFromPart.rotation, pose.rotation)) > 1.0 - 1e-14);
+  QCOMPARE(d.session().scene().movingPart(), std::optional(d.partId("moving")));
+  QVERIFY(!d.window().isWindowModified());
+}
+
+void DesktopFilesTest::savingKeepsThePoseInHand() {
+  DesktopDriver d;
+  d.addCubes();
+  const auto file = d.folder.path() / "held.nearfit";
+  d.session().save(file);
+  d.application.servo().start(ui::Hand::Manual);
+  d.clickPart(1, ui::PartsModel::Name);
+  d.type<QDoubleSpinBox>("positionX", "2");
+  QTest::qWait(50);
+  d.action("save")->trigger();
+  QVERIFY(d.application.servo().isRunning());
+  QVERIFY(std::abs(d.part("moving").worldFromPart.translation.x - 0.002) < 1e-12);
+  QVERIFY(!d.window().isWindowModified());
+}
+
+void DesktopFilesTest::malformedSceneLosesNothingThatIsOpen() {
+  DesktopDriver d;
+  d.addCubes();
+  d.session().save(d.folder.path() / "good.nearfit");
+  const auto broken = d.folder.write("broken.nearfit", "{\"format\": ");
+  bool wasShown = false;
+  whenModal<QMessageBox>([&](QMessageBox* box) {
+    wasShown = true;
+    QVERIFY(box->informativeText().contains(QStringLiteral("broken.nearfit")));
+    QTest::keyClick(box, Qt::Key_Return);
+  });
+  d.window().document().openScene(QString::fromStdString(broken.string()));
+  QTRY_VERIFY(wasShown);
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QVERIFY(d.window().windowTitle().contains(QStringLiteral("good.nearfit")));
+}
+
+void DesktopFilesTest::closingAsksAboutChanges() {
+  DesktopDriver d;
+  QVERIFY2(d.window().close(), "nothing to lose, nothing to ask");
+  d.window().show();
+  d.addCubes();
+  bool wasAsked = false;
+  answerUnsaved(QMessageBox::Cancel, wasAsked);
+  QVERIFY(!d.window().close());
+  QVERIFY(wasAsked);
+  QVERIFY(d.window().isVisible());
+  answerUnsaved(QMessageBox::Discard, wasAsked);
+  QVERIFY(d.window().close());
+  QVERIFY(wasAsked);
+}
+
+void DesktopFilesTest::openingAsksAboutChanges() {
+  DesktopDriver d;
+  d.addCubes();
+  const auto file = d.folder.path() / "two.nearfit";
+  d.session().save(file);
+  d.session().deletePart(d.partId("fixed"));
+  bool wasAsked = false;
+  answerUnsaved(QMessageBox::Cancel, wasAsked);
+  d.window().document().openScene(QString::fromStdString(file.string()));
+  QVERIFY(wasAsked);
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{1});
+  answerUnsaved(QMessageBox::Discard, wasAsked);
+  d.window().document().openScene(QString::fromStdString(file.string()));
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+}
+
+void DesktopFilesTest::exportsThePlacementInHand() {
+  DesktopDriver d;
+  d.addCubes();
+  d.application.servo().start(ui::Hand::Manual);
+  d.clickPart(1, ui::PartsModel::Name);
+  d.type<QDoubleSpinBox>("positionZ", "1.5");
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 6.50 mm"));
+  const auto file = d.folder.path() / "placement.json";
+  whenModal<QFileDialog>(
+      [&](QFileDialog* dialog) { chooseFile(dialog, QString::fromStdString(file.string())); });
+  QTest::keyClick(&d.window(), Qt::Key_E, Qt::ControlModifier);
+  QTRY_VERIFY(std::filesystem::exists(file));
+  const auto json = nlohmann::json::parse(readBytes(file));
+  QVERIFY(json.contains("version"));
+  bool found = false;
+  for (const auto& part : json.at("parts")) {
+    if (part.at("name") != "moving") continue;
+    found = true;
+    QVERIFY(std::abs(part.at("position").at(2).get<double>() - 0.0015) < 1e-12);
+  }
+  QVERIFY(found);
+}
+
+void DesktopFilesTest::demoSceneOpensAndIsFelt() {
+  DesktopDriver d;
+  QTest::mouseClick(d.widget<QPushButton>("openDemoButton"), Qt::LeftButton);
+  QTRY_COMPARE_WITH_TIMEOUT(d.session().scene().parts().size(), std::size_t{4}, 10'000);
+  QVERIFY(d.session().scene().movingPart());
+  QTest::keyClick(&d.window(), Qt::Key_F5);
+  QTRY_VERIFY(d.text("statusMinima").mid(5).toInt() > 10);
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopFilesTest)
+#include "desktop_files_test.moc"

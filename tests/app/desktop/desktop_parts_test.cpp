@@ -1,0 +1,195 @@
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDoubleSpinBox>
+#include <QMessageBox>
+
+#include "tests/app/desktop/desktop_driver.h"
+#include "ui/parts_model.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+class DesktopPartsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void addsAPartThroughTheDialogsInTheUnitChosen();
+  void cancellingTheUnitAddsNothing();
+  void refusedFileIsNamedAndNothingIsLost();
+  void iconsOfTheListSwitchHandVisibilityAndLock();
+  void renamesInPlace();
+  void movesByNumbersAndTakesItBackByKeys();
+  void numbersLeftAloneStayExact();
+  void deletesAndDuplicatesTheSelectedPart();
+  void clickInTheViewSelectsThePart();
+  void arrowKeysMoveTheSelectedPart();
+  void idleViewDrawsNothing();
+};
+
+void DesktopPartsTest::addsAPartThroughTheDialogsInTheUnitChosen() {
+  DesktopDriver d;
+  whenModal<QFileDialog>([&](QFileDialog* dialog) {
+    whenModal<QDialog>([](QDialog* question) {
+      QCOMPARE(question->objectName(), QStringLiteral("unitDialog"));
+      auto* unit = question->findChild<QComboBox*>(QStringLiteral("unit"));
+      QCOMPARE(unit->currentData().toDouble(), 1e-3);
+      unit->setCurrentIndex(unit->findData(1e-2));
+      QTest::mouseClick(question->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok),
+                        Qt::LeftButton);
+    });
+    chooseFile(dialog, d.fixedFile);
+  });
+  QTest::keyClick(&d.window(), Qt::Key_I, Qt::ControlModifier);
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
+  const Part& part = d.part("fixed");
+  // 40 units of a centimetre.
+  QVERIFY(std::abs(part.geometry->mesh.bounds().upper.x - 0.2) < 1e-12);
+  QCOMPARE(d.partsView()->model()->rowCount(), 1);
+  QVERIFY(d.window().isWindowModified());
+}
+
+void DesktopPartsTest::cancellingTheUnitAddsNothing() {
+  DesktopDriver d;
+  whenModal<QFileDialog>([&](QFileDialog* dialog) {
+    whenModal<QDialog>([](QDialog* question) {
+      // The unit chosen by the test before is offered again.
+      QCOMPARE(question->findChild<QComboBox*>(QStringLiteral("unit"))->currentData().toDouble(), 1e-2);
+      QTest::keyClick(question, Qt::Key_Escape);
+    });
+    chooseFile(dialog, d.fixedFile);
+  });
+  d.action("addParts")->trigger();
+  QTest::qWait(100);
+  QVERIFY(!d.window().document().isBusy());
+  QVERIFY(d.session().scene().parts().empty());
+}
+
+void DesktopPartsTest::refusedFileIsNamedAndNothingIsLost() {
+  DesktopDriver d;
+  const auto broken = d.folder.write("broken.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
+  bool wasShown = false;
+  whenModal<QMessageBox>([&](QMessageBox* box) {
+    wasShown = true;
+    QVERIFY(box->informativeText().contains(QStringLiteral("broken.off")));
+    QTest::keyClick(box, Qt::Key_Return);
+  });
+  d.add({d.fixedFile, QString::fromStdString(broken.string())});
+  QTRY_VERIFY(wasShown);
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{1});
+  QVERIFY(d.session().scene().findByName("fixed") != nullptr);
+}
+
+void DesktopPartsTest::iconsOfTheListSwitchHandVisibilityAndLock() {
+  DesktopDriver d;
+  d.addCubes();
+  d.clickPart(0, ui::PartsModel::Moving);
+  QCOMPARE(d.session().scene().movingPart(), std::optional(d.partId("fixed")));
+  d.clickPart(0, ui::PartsModel::Moving);
+  QVERIFY(!d.session().scene().movingPart());
+  d.clickPart(1, ui::PartsModel::Visible);
+  QVERIFY(!d.part("moving").isVisible);
+  d.clickPart(1, ui::PartsModel::Locked);
+  QVERIFY(d.part("moving").isLocked);
+  QVERIFY(!d.action("remove")->isEnabled());
+  d.clickPart(1, ui::PartsModel::Locked);
+  QVERIFY(!d.part("moving").isLocked);
+}
+
+void DesktopPartsTest::renamesInPlace() {
+  DesktopDriver d;
+  d.addCubes();
+  d.clickPart(1, ui::PartsModel::Name);
+  d.action("rename")->trigger();
+  auto* editor = d.partsView()->findChild<QLineEdit*>();
+  QVERIFY(editor != nullptr);
+  editor->selectAll();
+  QTest::keyClicks(editor, QStringLiteral("peg"));
+  QTest::keyClick(editor, Qt::Key_Return);
+  QTRY_VERIFY(d.session().scene().findByName("peg") != nullptr);
+}
+
+void DesktopPartsTest::movesByNumbersAndTakesItBackByKeys() {
+  DesktopDriver d;
+  d.addCubes();
+  d.clickPart(0, ui::PartsModel::Name);
+  d.type<QDoubleSpinBox>("positionX", "12.5");
+  QVERIFY(std::abs(d.part("fixed").worldFromPart.translation.x - 0.0125) < 1e-15);
+  d.type<QDoubleSpinBox>("rotationZ", "90");
+  const glm::dvec3 turned = d.part("fixed").worldFromPart.applyToVector({1, 0, 0});
+  QVERIFY(glm::distance(turned, glm::dvec3(0, 1, 0)) < 1e-12);
+  QVERIFY(d.action("undo")->text().contains(QStringLiteral("Move fixed")));
+  // The number field still has the focus: the keys reach the scene all the same.
+  QTest::keyClick(d.widget<QDoubleSpinBox>("rotationZ"), Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(d.part("fixed").worldFromPart.rotation.z, 0.0);
+  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(d.part("fixed").worldFromPart.translation.x, 0.0);
+  QCOMPARE(d.widget<QDoubleSpinBox>("positionX")->value(), 0.0);
+  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  QVERIFY(std::abs(d.widget<QDoubleSpinBox>("positionX")->value() - 12.5) < 1e-9);
+}
+
+void DesktopPartsTest::numbersLeftAloneStayExact() {
+  DesktopDriver d;
+  d.addCubes();
+  const RigidTransform pose{glm::angleAxis(0.123456789, glm::dvec3(0, 0, 1)), {1.0 / 3.0, 0.1, 0.2}};
+  d.session().movePart(d.partId("fixed"), pose);
+  d.clickPart(0, ui::PartsModel::Name);
+  d.type<QDoubleSpinBox>("positionZ", "7");
+  QCOMPARE(d.part("fixed").worldFromPart.translation.x, pose.translation.x);
+  QCOMPARE(d.part("fixed").worldFromPart.rotation.z, pose.rotation.z);
+  QVERIFY(std::abs(d.part("fixed").worldFromPart.translation.z - 0.007) < 1e-15);
+}
+
+void DesktopPartsTest::deletesAndDuplicatesTheSelectedPart() {
+  DesktopDriver d;
+  d.addCubes();
+  d.clickPart(0, ui::PartsModel::Name);
+  QTest::keyClick(&d.window(), Qt::Key_D, Qt::ControlModifier);
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{3});
+  d.clickPart(0, ui::PartsModel::Name);
+  QTest::keyClick(&d.window(), Qt::Key_Delete);
+  QVERIFY(d.session().scene().findByName("fixed") == nullptr);
+  QCOMPARE(d.partsView()->model()->rowCount(), 2);
+  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  QVERIFY(d.session().scene().findByName("fixed") != nullptr);
+}
+
+void DesktopPartsTest::clickInTheViewSelectsThePart() {
+  DesktopDriver d;
+  d.addCubes();
+  d.session().setVisible(d.partId("moving"), false);
+  ui::Viewport& view = d.window().viewport();
+  d.action("viewTop")->trigger();
+  QTest::qWait(100);
+  QTest::mouseClick(&view, Qt::LeftButton, {}, view.rect().center());
+  QCOMPARE(d.partsView()->currentIndex().row(), 0);
+  QTest::mouseClick(&view, Qt::LeftButton, {}, QPoint(5, 60));
+  QVERIFY(d.partsView()->selectionModel()->selectedRows().isEmpty());
+}
+
+void DesktopPartsTest::arrowKeysMoveTheSelectedPart() {
+  DesktopDriver d;
+  d.addCubes();
+  d.clickPart(1, ui::PartsModel::Name);
+  d.type<QDoubleSpinBox>("nudgeStep", "2");
+  ui::Viewport& view = d.window().viewport();
+  view.setFocus();
+  QTest::keyClick(&view, Qt::Key_Right);
+  QTest::keyClick(&view, Qt::Key_Up);
+  QTest::keyClick(&view, Qt::Key_PageDown);
+  const glm::dvec3 moved = d.part("moving").worldFromPart.translation;
+  QVERIFY(glm::distance(moved, glm::dvec3(0.002, 0.002, -0.002)) < 1e-12);
+}
+
+void DesktopPartsTest::idleViewDrawsNothing() {
+  DesktopDriver d;
+  d.addCubes();
+  QTest::qWait(400);
+  const int before = d.window().viewport().pictureCount();
+  QVERIFY(before > 0);
+  QTest::qWait(500);
+  QCOMPARE(d.window().viewport().pictureCount(), before);
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopPartsTest)
+#include "desktop_parts_test.moc"

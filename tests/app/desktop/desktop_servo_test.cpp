@@ -1,0 +1,176 @@
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QMessageBox>
+
+#include "tests/app/desktop/desktop_driver.h"
+#include "ui/parts_model.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+/// Chooses a hand in the list as a user does and starts the servo by its button.
+void startWith(DesktopDriver& d, ui::Hand hand) {
+  auto* box = d.widget<QComboBox>("hand");
+  box->setFocus();
+  for (int i = 0; i < box->count() && box->currentData().value<ui::Hand>() != hand; ++i) {
+    QTest::keyClick(box, Qt::Key_Down);
+  }
+  QCOMPARE(box->currentData().value<ui::Hand>(), hand);
+  QTest::mouseClick(d.widget<QPushButton>("startStop"), Qt::LeftButton);
+  QVERIFY(d.application.servo().isRunning());
+}
+
+}  // namespace
+
+class DesktopServoTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void needsAMovingPart();
+  void showsTheOneMinimumBetweenTwoFaces();
+  void manualHandFollowsKeysAndNumbers();
+  void scriptedHandClosesThreeQuartersOfTheGap();
+  void stoppingIsOneStepOfUndo();
+  void springsChangeWhileItRuns();
+  void partsComeAndGoWhileItRuns();
+  void deletingThePartInHandStops();
+  void restingServoDrawsNothing();
+};
+
+void DesktopServoTest::needsAMovingPart() {
+  DesktopDriver d;
+  d.addCubes();
+  d.session().setMovingPart(std::nullopt);
+  QVERIFY(!d.widget<QPushButton>("startStop")->isEnabled());
+  d.clickPart(1, ui::PartsModel::Name);
+  QTest::keyClick(&d.window(), Qt::Key_H, Qt::ControlModifier);
+  QVERIFY(d.widget<QPushButton>("startStop")->isEnabled());
+}
+
+void DesktopServoTest::showsTheOneMinimumBetweenTwoFaces() {
+  DesktopDriver d;
+  d.addCubes();
+  QCOMPARE(d.text("statusRate"), QStringLiteral("Servo off"));
+  startWith(d, ui::Hand::Manual);
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QCOMPARE(d.text("statusDistance"), QStringLiteral("Least distance 5.00 mm"));
+  // 200 N/m over the 5 mm that are left to the cutoff of 10 mm.
+  QCOMPARE(d.text("force"), QStringLiteral("1.00 N"));
+  QTRY_VERIFY(d.text("statusRate").startsWith(QStringLiteral("Servo ")) &&
+              d.text("statusRate") != "Servo 0 Hz");
+  QVERIFY(d.text("statusLateness").contains(QStringLiteral("p99")));
+  QTest::keyClick(&d.window(), Qt::Key_F6);
+  QVERIFY(!d.application.servo().isRunning());
+  QCOMPARE(d.text("statusRate"), QStringLiteral("Servo off"));
+}
+
+void DesktopServoTest::manualHandFollowsKeysAndNumbers() {
+  DesktopDriver d;
+  d.addCubes();
+  d.clickPart(1, ui::PartsModel::Name);
+  d.type<QDoubleSpinBox>("nudgeStep", "0.5");
+  startWith(d, ui::Hand::Manual);
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 5.00 mm"));
+  ui::Viewport& view = d.window().viewport();
+  view.setFocus();
+  for (int i = 0; i < 4; ++i)
+    QTest::keyClick(&view, Qt::Key_PageDown);
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 3.00 mm"));
+  d.type<QDoubleSpinBox>("positionZ", "1");
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 6.00 mm"));
+  // Until it is put down, the scene has the part where it was.
+  QCOMPARE(d.part("moving").worldFromPart.translation.z, 0.0);
+  QTest::mouseClick(d.widget<QPushButton>("startStop"), Qt::LeftButton);
+  QVERIFY(std::abs(d.part("moving").worldFromPart.translation.z - 0.001) < 1e-12);
+}
+
+void DesktopServoTest::scriptedHandClosesThreeQuartersOfTheGap() {
+  DesktopDriver d;
+  d.addCubes();
+  double least = 1.0;
+  connect(&d.application.servo(), &desktop::ServoController::snapshotArrived, this,
+          [&](const ServoSnapshot& snapshot) { least = std::min(least, snapshot.distance); });
+  startWith(d, ui::Hand::Scripted);
+  QTRY_VERIFY_WITH_TIMEOUT(least < 0.0014, 8000);
+  QTest::qWait(500);
+  QVERIFY2(least > 0.0008, "the wobble must not reach contact");
+}
+
+void DesktopServoTest::stoppingIsOneStepOfUndo() {
+  DesktopDriver d;
+  d.addCubes();
+  startWith(d, ui::Hand::Manual);
+  d.clickPart(1, ui::PartsModel::Name);
+  d.type<QDoubleSpinBox>("positionX", "3");
+  d.type<QDoubleSpinBox>("positionX", "4");
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTest::qWait(50);
+  QTest::keyClick(&d.window(), Qt::Key_F6);
+  QCOMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Feel moving"));
+  QVERIFY(std::abs(d.part("moving").worldFromPart.translation.x - 0.004) < 1e-12);
+  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(d.part("moving").worldFromPart.translation.x, 0.0);
+}
+
+void DesktopServoTest::springsChangeWhileItRuns() {
+  DesktopDriver d;
+  d.addCubes();
+  startWith(d, ui::Hand::Manual);
+  QTRY_COMPARE(d.text("force"), QStringLiteral("1.00 N"));
+  QTest::mouseClick(d.widget<QPushButton>("springsButton"), Qt::LeftButton);
+  QVERIFY(d.widget<QDialog>("springDialog")->isVisible());
+  d.type<QDoubleSpinBox>("stiffness", "400");
+  QTRY_COMPARE(d.text("force"), QStringLiteral("2.00 N"));
+  d.type<QDoubleSpinBox>("cutoff", "7");
+  // 400 N/m over 2 mm.
+  QTRY_COMPARE(d.text("force"), QStringLiteral("0.80 N"));
+  auto* law = d.widget<QComboBox>("law");
+  law->setFocus();
+  QTest::keyClick(law, Qt::Key_Down);
+  QTRY_COMPARE(d.text("force"), QStringLiteral("0.00 N"));
+  QCOMPARE(d.session().scene().springs().law, SpringLaw::Printed);
+  d.session().undo();
+  QTRY_COMPARE(d.text("force"), QStringLiteral("0.80 N"));
+}
+
+void DesktopServoTest::partsComeAndGoWhileItRuns() {
+  DesktopDriver d;
+  d.addCubes();
+  startWith(d, ui::Hand::Manual);
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  const auto ceiling = writeOff(d.folder.path() / "ceiling.off",
+                                boxMesh(glm::dvec3(0.04, 0.04, 0.01), glm::dvec3(0, 0, 0.052)));
+  // Its lower face is 2 mm above the moving cube.
+  d.add({ceiling});
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 2"));
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 2.00 mm"));
+  d.clickPart(2, ui::PartsModel::Visible);
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QVERIFY(d.application.servo().isRunning());
+}
+
+void DesktopServoTest::deletingThePartInHandStops() {
+  DesktopDriver d;
+  d.addCubes();
+  startWith(d, ui::Hand::Manual);
+  d.clickPart(1, ui::PartsModel::Name);
+  QTest::keyClick(&d.window(), Qt::Key_Delete);
+  QVERIFY(!d.application.servo().isRunning());
+  QVERIFY(d.session().scene().findByName("moving") == nullptr);
+}
+
+void DesktopServoTest::restingServoDrawsNothing() {
+  DesktopDriver d;
+  d.addCubes();
+  startWith(d, ui::Hand::Manual);
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTest::qWait(300);
+  const int before = d.window().viewport().pictureCount();
+  QTest::qWait(1000);
+  QCOMPARE(d.window().viewport().pictureCount(), before);
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopServoTest)
+#include "desktop_servo_test.moc"
