@@ -27,7 +27,10 @@ void MainWindow::connectFileActions() {
   connect(actions_->about, &QAction::triggered, this, &MainWindow::showAbout);
   connect(document_.get(), &Document::failed, this, &MainWindow::showFailure);
   connect(document_.get(), &Document::noted, this, &MainWindow::showNote);
-  connect(document_.get(), &Document::loaded, viewport_, &Viewport::fit);
+  connect(document_.get(), &Document::loaded, this, [this] {
+    viewport_->fit();
+    if (!selected()) partsPanel_->select(session_.scene().movingPart());
+  });
   connect(document_.get(), &Document::busyChanged, this, &MainWindow::updateActions);
   connect(document_.get(), &Document::sceneNeeded, this, &MainWindow::poseInHandRequested);
 }

@@ -3,6 +3,7 @@
 #include <QAbstractItemModel>
 #include <QAction>
 #include <QApplication>
+#include <QDialogButtonBox>
 #include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
@@ -50,14 +51,16 @@ inline QString writeOff(const std::filesystem::path& file, const TriangleMesh& m
   return QString::fromStdString(file.string());
 }
 
-/// Waits for a modal dialog of a type, from inside the call that opens it, and hands it to `act`.
+/// Waits for a modal dialog of a type and, if given, a name, from inside the call that opens it, and hands it
+/// to `act`.
 template <class Dialog>
-void whenModal(std::function<void(Dialog*)> act) {
+void whenModal(std::function<void(Dialog*)> act, const QString& name = {}) {
   auto* timer = new QTimer(qApp);
   timer->setInterval(20);
-  QObject::connect(timer, &QTimer::timeout, timer, [timer, act = std::move(act)] {
+  QObject::connect(timer, &QTimer::timeout, timer, [timer, name, act = std::move(act)] {
     auto* dialog = qobject_cast<Dialog*>(QApplication::activeModalWidget());
     if (dialog == nullptr || !dialog->isVisible()) return;
+    if (!name.isEmpty() && dialog->objectName() != name) return;
     timer->stop();
     timer->deleteLater();
     act(dialog);
@@ -65,12 +68,12 @@ void whenModal(std::function<void(Dialog*)> act) {
   timer->start();
 }
 
-/// Types a path into a file dialog and accepts it.
+/// Puts a path into a file dialog and accepts it by its button.
 inline void chooseFile(QFileDialog* dialog, const QString& file) {
-  auto* name = dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
-  name->selectAll();
-  QTest::keyClicks(name, file);
-  QTest::keyClick(name, Qt::Key_Return);
+  dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))->setText(file);
+  const auto accept =
+      dialog->acceptMode() == QFileDialog::AcceptSave ? QDialogButtonBox::Save : QDialogButtonBox::Open;
+  QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(accept), Qt::LeftButton);
 }
 
 /// The application with a fixed cube of 40 mm about the origin and a moving cube of 20 mm whose lower face is

@@ -29,14 +29,15 @@ class DesktopPartsTest : public QObject {
 void DesktopPartsTest::addsAPartThroughTheDialogsInTheUnitChosen() {
   DesktopDriver d;
   whenModal<QFileDialog>([&](QFileDialog* dialog) {
-    whenModal<QDialog>([](QDialog* question) {
-      QCOMPARE(question->objectName(), QStringLiteral("unitDialog"));
-      auto* unit = question->findChild<QComboBox*>(QStringLiteral("unit"));
-      QCOMPARE(unit->currentData().toDouble(), 1e-3);
-      unit->setCurrentIndex(unit->findData(1e-2));
-      QTest::mouseClick(question->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok),
-                        Qt::LeftButton);
-    });
+    whenModal<QDialog>(
+        [](QDialog* question) {
+          auto* unit = question->findChild<QComboBox*>(QStringLiteral("unit"));
+          QCOMPARE(unit->currentData().toDouble(), 1e-3);
+          unit->setCurrentIndex(unit->findData(1e-2));
+          QTest::mouseClick(question->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok),
+                            Qt::LeftButton);
+        },
+        QStringLiteral("unitDialog"));
     chooseFile(dialog, d.fixedFile);
   });
   QTest::keyClick(&d.window(), Qt::Key_I, Qt::ControlModifier);
@@ -51,11 +52,13 @@ void DesktopPartsTest::addsAPartThroughTheDialogsInTheUnitChosen() {
 void DesktopPartsTest::cancellingTheUnitAddsNothing() {
   DesktopDriver d;
   whenModal<QFileDialog>([&](QFileDialog* dialog) {
-    whenModal<QDialog>([](QDialog* question) {
-      // The unit chosen by the test before is offered again.
-      QCOMPARE(question->findChild<QComboBox*>(QStringLiteral("unit"))->currentData().toDouble(), 1e-2);
-      QTest::keyClick(question, Qt::Key_Escape);
-    });
+    whenModal<QDialog>(
+        [](QDialog* question) {
+          // The unit chosen by the test before is offered again.
+          QCOMPARE(question->findChild<QComboBox*>(QStringLiteral("unit"))->currentData().toDouble(), 1e-2);
+          QTest::keyClick(question, Qt::Key_Escape);
+        },
+        QStringLiteral("unitDialog"));
     chooseFile(dialog, d.fixedFile);
   });
   d.action("addParts")->trigger();
