@@ -31,7 +31,8 @@ std::vector<Include> includesBelow(const std::string& folder) {
   return includes;
 }
 
-void expectNoInclude(const std::string& folder, const std::string& forbidden, const std::string& onlyIn = "") {
+void expectNoInclude(const std::string& folder, const std::string& forbidden,
+                     const std::string& onlyIn = "") {
   const std::regex pattern(forbidden);
   const std::vector<Include> includes = includesBelow(folder);
   EXPECT_FALSE(includes.empty()) << folder << " has no sources";
@@ -69,11 +70,13 @@ TEST(DependencyDirection, ForeignGeometryStaysInSourceFiles) {
   expectNoInclude("core", "^(OpenMesh|CGAL|openssl)/", ".h");
   // OpenCASCADE's headers carry its package in their names.
   expectNoInclude("core", "^(BRep|TopoDS|STEP|Standard_|gp_|TDF|XCAF|Poly_)", ".h");
-  for (const char* folder : {"app", "device", "ui"}) expectNoInclude(folder, "^(OpenMesh|CGAL|openssl)/");
+  for (const char* folder : {"app", "device", "ui"})
+    expectNoInclude(folder, "^(OpenMesh|CGAL|openssl)/");
 }
 
 TEST(DependencyDirection, IncludesOfOursAreRooted) {
-  for (const char* folder : {"app", "core", "device", "ui"}) expectNoInclude(folder, "^\\.\\.?/");
+  for (const char* folder : {"app", "core", "device", "ui"})
+    expectNoInclude(folder, "^\\.\\.?/");
 }
 
 }  // namespace
