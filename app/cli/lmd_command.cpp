@@ -79,6 +79,9 @@ void runLmd(const LmdOptions& options) {
   const PartGeometryPtr scene = loadPartGeometry(options.sceneMesh, metresPerUnit);
   const bool isSameFile = normalisedPath(options.partMesh) == scene->file;
   const PartGeometryPtr part = isSameFile ? scene : loadPartGeometry(options.partMesh, metresPerUnit);
+  // Once nothing can fail but the output, so that a failure is one line.
+  printWarnings(*scene);
+  if (!isSameFile) printWarnings(*part);
   LmdCollector collector(kMaxLmds);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const LmdSet set = collector.collect(scene->tree, part->tree, poses[i], springs.cutoff);

@@ -38,6 +38,12 @@ void printError(std::string_view message) noexcept {
   }
 }
 
+void printWarnings(const PartGeometry& geometry) {
+  for (const std::string& warning : geometry.report.warnings) {
+    printError("warning: " + geometry.file.string() + ": " + warning);
+  }
+}
+
 std::string oneLine(std::string_view text) {
   std::string line;
   for (const char c : text) {

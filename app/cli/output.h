@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/scene/part_geometry.h"
+
 namespace nearfit::cli {
 
 /// Writes to stdout. Throws Error when it takes no more (disk full, reader gone).
@@ -14,6 +16,9 @@ void flushOutput();
 
 /// Writes one line to stderr: the program's name and the message.
 void printError(std::string_view message) noexcept;
+
+/// Writes a line to stderr for each warning that loading the mesh gave.
+void printWarnings(const PartGeometry& geometry);
 
 /// Thrown by a command that has failed and has said so on stderr already: exit code 1, no further line.
 class ReportedFailure : public std::exception {

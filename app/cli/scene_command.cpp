@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -91,6 +92,10 @@ Scene makeScene(const SceneNewOptions& options) {
 void runSceneNew(const SceneNewOptions& options) {
   const Scene scene = makeScene(options);
   writeSceneFile(scene, options.out);
+  std::set<PartGeometryPtr> meshes;
+  for (const Scene::PartPtr& part : scene.parts()) {
+    if (meshes.insert(part->geometry).second) printWarnings(*part->geometry);
+  }
   const std::string moving = options.moving.empty() ? "none" : options.moving;
   print(oneLine(fmt::format("wrote {}: {} part{}, moving: {}", options.out, scene.parts().size(),
                             scene.parts().size() == 1 ? "" : "s", moving)) +
