@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -45,8 +46,19 @@ RigidTransform poseNearContact(const BodyPair& pair, double reach, std::mt19937_
   };
   std::uniform_real_distribution<double> offset(-reach, reach);
   RigidTransform pose = randomRotation(random);
+  const bool isSeparated = random() % 2 == 0;
   pose.translation = pick(pair.scene) - pose.rotation * pick(pair.part) +
                      glm::dvec3(offset(random), offset(random), offset(random));
+  if (!isSeparated) return pose;
+
+  // Along a random direction to where the hulls are within reach of each other.
+  const glm::dvec3 u = randomRotation(random).rotation * glm::dvec3(0, 0, 1);
+  double sceneEnd = -std::numeric_limits<double>::infinity(), partStart = -sceneEnd;
+  for (const glm::dvec3& x : pair.scene.vertices())
+    sceneEnd = std::max(sceneEnd, glm::dot(u, x));
+  for (const glm::dvec3& x : pair.part.vertices())
+    partStart = std::min(partStart, glm::dot(u, pose.applyToPoint(x)));
+  pose.translation += (sceneEnd - partStart + 0.5 * offset(random)) * u;
   return pose;
 }
 

@@ -20,6 +20,13 @@ struct BodyPair {
   TriangleMesh scene, part;
 };
 
+/// Sanitized builds, many times slower, take this share of the poses: what they look for shows in few.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::size_t kPoseShare = 20;
+#else
+constexpr std::size_t kPoseShare = 1;
+#endif
+
 /// Counts of a comparison, so that a test can ask that it compared anything.
 struct LmdTally {
   std::size_t poses = 0;

@@ -177,11 +177,16 @@ std::vector<OracleMinimum> bruteForceMinima(const OracleBody& scene, const Oracl
     all.add(entries.back().box.lower);
     all.add(entries.back().box.upper);
   }
-  std::sort(entries.begin(), entries.end(), [](auto& a, auto& b) { return a.box.lower.x < b.box.lower.x; });
-  // Longest extent in x: entries that begin farther left than this cannot reach.
-  double widest = 0.0;
+  // Sorted along the axis on which boxes are shortest for the whole; entries that begin farther left than the
+  // widest of them cannot reach.
+  glm::dvec3 longest(0.0);
   for (const Entry& e : entries)
-    widest = std::max(widest, e.box.upper.x - e.box.lower.x);
+    longest = glm::max(longest, e.box.upper - e.box.lower);
+  const glm::dvec3 window = (longest + cutoff) / glm::max(all.upper - all.lower, glm::dvec3(cutoff));
+  const int axis = window.x <= window.y && window.x <= window.z ? 0 : window.y <= window.z ? 1 : 2;
+  const double widest = longest[axis];
+  std::sort(entries.begin(), entries.end(),
+            [axis](const Entry& l, const Entry& r) { return l.box.lower[axis] < r.box.lower[axis]; });
 
   const double size = scene.size() + part.size();
   std::vector<OracleMinimum> found;
@@ -194,9 +199,9 @@ std::vector<OracleMinimum> bruteForceMinima(const OracleBody& scene, const Oracl
     moved.outward = sceneFromPart.applyToVector(moved.outward);
     const Box box = boxOf(moved);
     if (apart(box, all, cutoff)) continue;
-    auto it = std::lower_bound(entries.begin(), entries.end(), box.lower.x - cutoff - widest,
-                               [](const Entry& e, double x) { return e.box.lower.x < x; });
-    for (; it != entries.end() && it->box.lower.x <= box.upper.x + cutoff; ++it) {
+    auto it = std::lower_bound(entries.begin(), entries.end(), box.lower[axis] - cutoff - widest,
+                               [axis](const Entry& e, double x) { return e.box.lower[axis] < x; });
+    for (; it != entries.end() && it->box.lower[axis] <= box.upper[axis] + cutoff; ++it) {
       if (apart(it->box, box, cutoff)) continue;
       OracleMinimum m;
       double inside;
