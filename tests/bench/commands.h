@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace nearfit::bench {
+
+void addQueryCommand(CLI::App& program);
+void addBuildCommand(CLI::App& program);
+
+}  // namespace nearfit::bench
