@@ -60,8 +60,9 @@ std::vector<SceneEntry> generatedScenes() {
          return discInBore("gear-disc", gearMesh(kGearTeeth), kGearBoreRadius,
                            test::cylinderMesh(1.0, 0.2, 128));
        }},
-      generatedPair("sphere-star", "128-triangle sphere, 2,000-triangle jagged star", sphere,
-                    [] { return test::starMesh(7, 1.0, 3, 0.08); }),
+      generatedPair(
+          "organic-sphere", "smooth body of 2,000 triangles, 128-triangle sphere",
+          [] { return organicMesh(10, 3); }, sphere),
       generatedPair("teapot-spring", "5,632-triangle teapot, 23,544-triangle spring", teapotMesh,
                     [] { return springMesh(980, 12); }),
       generatedPair("crankshaft-gear", "12,852-triangle crankshaft, 6,300-triangle gear", crankshaft, gear),

@@ -40,7 +40,7 @@ using CoalBodiesPtr = std::shared_ptr<const CoalBodies>;
 
 coal::Transform3s toCoal(const RigidTransform& pose) {
   const glm::dquat& q = pose.rotation;
-  return {coal::Quats(q.w, q.x, q.y, q.z),
+  return {coal::Quatf(q.w, q.x, q.y, q.z),
           coal::Vec3s(pose.translation.x, pose.translation.y, pose.translation.z)};
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
+#include <ctime>
 #include <memory>
 
 #include <fmt/format.h>
@@ -31,6 +31,12 @@ long preemptionsOfThread() {
   return usage.ru_nivcsw;
 }
 
+double secondsBy(BenchClock clock) {
+  timespec now{};
+  clock_gettime(clock == BenchClock::Wall ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 /// One method with its state and what it has measured.
 struct Lane {
   std::unique_ptr<QueryMethod> query;
@@ -38,24 +44,28 @@ struct Lane {
   MethodRun run;
 };
 
-void walkBlock(Lane& lane, std::span<const RigidTransform> path, std::size_t begin, std::size_t end,
-               std::size_t warmUp, bool isFirstRound) {
-  begin = (begin + lane.stride - 1) / lane.stride * lane.stride;
-  if (begin >= end) return;
-  // A pair-lister has no memory to warm but that of the machine: one pose will do.
-  const std::size_t lead = lane.stride > 1 ? 1 : std::min(warmUp, std::max<std::size_t>(begin, 1));
-  for (std::size_t i = 0; i < lead && warmUp > 0; ++i)
-    lane.query->query(path[begin >= lead ? begin - lead + i : i]);
+/// Poses [begin, end) of a path, in one go.
+struct Block {
+  std::span<const RigidTransform> path;
+  std::size_t begin, end;
+  bool isFirstRound;
+};
+
+void walkBlock(Lane& lane, const Block& block, const RunOptions& options) {
+  const std::size_t begin = (block.begin + lane.stride - 1) / lane.stride * lane.stride;
+  if (begin >= block.end) return;
+  // A method that lists pairs remembers nothing: one pose will do to warm the caches.
+  const std::size_t warmUp = lane.stride > 1 ? std::min<std::size_t>(options.warmUp, 1) : options.warmUp;
+  for (std::size_t i = begin - std::min(begin, warmUp); i < begin; ++i)
+    lane.query->query(block.path[i]);
   const long before = preemptionsOfThread();
-  for (std::size_t i = begin; i < end; i += lane.stride) {
-    const auto start = std::chrono::steady_clock::now();
-    const Answer answer = lane.query->query(path[i]);
-    const auto stop = std::chrono::steady_clock::now();
-    lane.run.times.push_back(std::chrono::duration<double>(stop - start).count());
-    if (isFirstRound) {
-      lane.run.poses.push_back(i);
-      lane.run.answers.push_back(answer);
-    }
+  for (std::size_t i = begin; i < block.end; i += lane.stride) {
+    const double start = secondsBy(options.clock);
+    const Answer answer = lane.query->query(block.path[i]);
+    lane.run.times.push_back(secondsBy(options.clock) - start);
+    if (!block.isFirstRound) continue;
+    lane.run.poses.push_back(i);
+    lane.run.answers.push_back(answer);
   }
   lane.run.preemptions += preemptionsOfThread() - before;
 }
@@ -78,7 +88,7 @@ std::vector<MethodRun> runInterleaved(std::span<const MethodEntry> methods, cons
     for (std::size_t begin = 0; begin < path.size(); begin += options.block) {
       const std::size_t end = std::min(begin + options.block, path.size());
       for (std::size_t i = 0; i < lanes.size(); ++i)
-        walkBlock(lanes[(i + round) % lanes.size()], path, begin, end, options.warmUp, round == 0);
+        walkBlock(lanes[(i + round) % lanes.size()], {path, begin, end, round == 0}, options);
     }
   }
   std::vector<MethodRun> runs;

@@ -9,7 +9,13 @@
 
 namespace nearfit::bench {
 
+enum class BenchClock {
+  Wall,    ///< What a user waits for.
+  Thread,  ///< Time on a processor alone, for a machine that others use; reading it costs some 0.2 us.
+};
+
 struct RunOptions {
+  BenchClock clock = BenchClock::Wall;
   std::size_t block = 100;       ///< Poses that a method answers before the next has its turn.
   std::size_t warmUp = 5;        ///< Poses before each block that are answered but not timed.
   std::size_t rounds = 1;        ///< Times the whole path is walked.

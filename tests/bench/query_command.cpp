@@ -177,6 +177,10 @@ void addRunOptions(CLI::App& command, QueryOptions& o) {
       .add_option("--pairs-stride", o.run.pairsStride, "Methods of pairs answer each so-many-th pose only")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command
+      .add_option("--clock", o.run.clock, "wall, or thread: time on the processor alone, whatever others do")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, BenchClock>{{"wall", BenchClock::Wall}, {"thread", BenchClock::Thread}}));
   command.add_option("--pin", o.run.cpu, "Processor to stay on");
   command.add_option("--csv", o.csv, "File for the table");
   command.add_option("--samples", o.samples, "File for every time measured");
