@@ -22,7 +22,8 @@ struct EntryPair {
 };
 
 struct LmdScratch::Data {
-  explicit Data(std::size_t capacity) : minima(capacity), order(capacity), parent(capacity) {}
+  Data(std::size_t capacity, SimdLevel simd)
+      : minima(capacity), order(capacity), parent(capacity), cull(cullKernel(simd)) {}
 
   /// Each opened node leaves at most seven siblings waiting, and a tree of 2^29 features is at most 12 deep
   /// when median splits share them out; two trees.
@@ -30,10 +31,11 @@ struct LmdScratch::Data {
   std::array<EntryPair, kMaxStack> stack;
   std::vector<Minimum> minima;
   std::vector<std::uint32_t> order, parent;
+  CullKernel cull;
 };
 
-LmdScratch::LmdScratch(std::size_t capacity)
-    : data_(std::make_unique<Data>(std::max<std::size_t>(capacity, 1))) {}
+LmdScratch::LmdScratch(std::size_t capacity, SimdLevel simd)
+    : data_(std::make_unique<Data>(std::max<std::size_t>(capacity, 1), simd)) {}
 LmdScratch::~LmdScratch() = default;
 LmdScratch::LmdScratch(LmdScratch&&) noexcept = default;
 LmdScratch& LmdScratch::operator=(LmdScratch&&) noexcept = default;
@@ -55,8 +57,7 @@ class Traversal {
         scratch_(scratch),
         result_(result) {
     const double reach = scene.size() + part.size() + glm::length(sceneFromPart.translation);
-    cutoff_ = static_cast<float>(cutoff * (1.0 + kPosePadding));
-    padding_ = static_cast<float>(kPosePadding * reach);
+    limits_ = {static_cast<float>(cutoff * (1.0 + kPosePadding)), static_cast<float>(kPosePadding * reach)};
   }
 
   /// Returns the number of minima found, unmerged.
@@ -80,7 +81,7 @@ class Traversal {
  private:
   void openScene(const EntryPair& pair) noexcept {
     const NormalConeTree::Node& node = scene_.nodes()[pair.scene];
-    std::uint32_t lanes = survivingChildren(node, sceneFromPart_.apply(pair.partBound), cutoff_, padding_);
+    std::uint32_t lanes = scratch_.cull(node, sceneFromPart_.apply(pair.partBound), limits_);
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
       descend({node.child[lane], pair.part, node.bound(lane), pair.partBound});
@@ -89,7 +90,7 @@ class Traversal {
 
   void openPart(const EntryPair& pair) noexcept {
     const NormalConeTree::Node& node = part_.nodes()[pair.part];
-    std::uint32_t lanes = survivingChildren(node, partFromScene_.apply(pair.sceneBound), cutoff_, padding_);
+    std::uint32_t lanes = scratch_.cull(node, partFromScene_.apply(pair.sceneBound), limits_);
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
       descend({pair.scene, node.child[lane], pair.sceneBound, node.bound(lane)});
@@ -131,7 +132,7 @@ class Traversal {
   const NormalConeTree &scene_, &part_;
   LeafTests tests_;
   SinglePose sceneFromPart_, partFromScene_;
-  float cutoff_, padding_;
+  CullLimits limits_;
   LmdScratch::Data& scratch_;
   LmdResult& result_;
   std::size_t stackSize_ = 0, found_ = 0;

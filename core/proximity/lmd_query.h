@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/math/rigid_transform.h"
+#include "core/proximity/cull_kernel.h"
 #include "core/proximity/lmd.h"
 
 namespace nearfit {
@@ -31,7 +32,8 @@ class LmdScratch {
   static constexpr std::size_t kDefaultCapacity = 16384;
 
   /// @param capacity  Minima, and pieces of flat regions, that a query can hold; about 250 bytes each.
-  explicit LmdScratch(std::size_t capacity = kDefaultCapacity);
+  /// @param simd      Instruction set to cull with; the sets are the same with each.
+  explicit LmdScratch(std::size_t capacity = kDefaultCapacity, SimdLevel simd = defaultSimdLevel());
   ~LmdScratch();
   LmdScratch(LmdScratch&&) noexcept;
   LmdScratch& operator=(LmdScratch&&) noexcept;

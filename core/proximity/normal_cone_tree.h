@@ -42,6 +42,8 @@ class NormalConeTree {
     std::array<float, kWidth> axisX, axisY, axisZ, cosAngle, sinAngle;
     std::array<std::uint32_t, kWidth> child;  ///< See isLeaf().
     std::uint32_t childCount;
+    /// Kernels read the nine arrays of bounds as one.
+    static_assert(sizeof(x) == kWidth * sizeof(float));
 
     Bound bound(std::size_t lane) const noexcept {
       return {x[lane],     y[lane],     z[lane],        radius[lane],  axisX[lane],
