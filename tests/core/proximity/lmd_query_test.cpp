@@ -97,5 +97,29 @@ TEST(LmdQuery, MovingBothBodiesTogetherChangesNothing) {
   }
 }
 
+TEST(LmdQuery, EachInstructionSetGivesTheSameSet) {
+  const BodyPair pair{"stars", test::starMesh(11, 1.0, 4, 0.2), test::starMesh(12, 0.7, 3, 0.3)};
+  const NormalConeTree scene(pair.scene), part(pair.part);
+  std::mt19937_64 random(7);
+  std::vector<Lmd> expected(4096), found(4096);
+  LmdScratch portable(LmdScratch::kDefaultCapacity, SimdLevel::Portable);
+  ASSERT_EQ(availableSimdLevels().front(), SimdLevel::Portable);
+  std::size_t compared = 0;
+  for (int i = 0; i < 60; ++i) {
+    const RigidTransform pose = test::poseNearContact(pair, 0.1, random);
+    const std::size_t count = findLmds(scene, part, pose, 0.15, portable, expected).count;
+    for (const SimdLevel level : availableSimdLevels()) {
+      LmdScratch scratch(LmdScratch::kDefaultCapacity, level);
+      ASSERT_EQ(findLmds(scene, part, pose, 0.15, scratch, found).count, count);
+      for (std::size_t k = 0; k < count; ++k) {
+        EXPECT_EQ(found[k].scenePoint, expected[k].scenePoint);
+        EXPECT_EQ(found[k].partPoint, expected[k].partPoint);
+      }
+      compared += count;
+    }
+  }
+  EXPECT_GT(compared, 100U);
+}
+
 }  // namespace
 }  // namespace nearfit
