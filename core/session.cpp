@@ -175,11 +175,10 @@ void Session::onChange(std::function<void()> listener) {
 }
 
 void Session::notify() const {
-  // By index: a listener may add another.
-  for (std::size_t i = 0; i < listeners_.size(); ++i) {
-    const std::function<void()> listener = listeners_[i];
+  // Copied: a listener may add another.
+  const std::vector<std::function<void()>> listeners = listeners_;
+  for (const std::function<void()>& listener : listeners)
     listener();
-  }
 }
 
 }  // namespace nearfit

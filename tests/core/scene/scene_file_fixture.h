@@ -1,0 +1,68 @@
+#pragma once
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/scene/scene_file.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/mesh_text.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit::test {
+
+/// A scene of three parts, the last two of one mesh, written to `file_`; and ways to damage what was written.
+class SceneFileFixture : public ::testing::Test {
+ protected:
+  SceneFileFixture() {
+    std::filesystem::create_directory(folder_.path() / "meshes");
+    const auto hole = folder_.write("meshes/hole.obj", objText(boxMesh({2, 2, 1})));
+    const auto peg = folder_.write("meshes/peg.obj", objText(tetrahedronMesh(1)));
+    Part part;
+    part.geometry = loadPartGeometry(hole, 0.001);
+    part.name = "Hole \xC3\xA4";
+    part.isLocked = true;
+    scene_.add(part);
+    part.geometry = loadPartGeometry(peg, 0.0254);
+    part.name = "Peg";
+    part.isLocked = false;
+    part.colour = {0.1F, 0.2F, 0.3F};
+    part.worldFromPart = {{0.5, -0.5, 0.5, 0.5}, {0.1, -1e-17, 123456.789012345}};
+    scene_.setMovingPart(scene_.add(part));
+    part.isVisible = false;
+    scene_.add(part);
+    scene_.setSprings({0.1 + 0.2, 1e6 / 3, 0.7, SpringLaw::Linear});
+    writeSceneFile(scene_, file_);
+    json_ = nlohmann::json::parse(readBytes(file_));
+  }
+
+  /// What reading the file gives when it holds this; "" when it is a scene.
+  std::string errorOf(const std::string& text) {
+    folder_.write("fit.nearfit", text);
+    try {
+      readSceneFile(file_);
+    } catch (const FileError& e) {
+      return e.what();
+    }
+    return "";
+  }
+  std::string errorWith(const std::string& pointer, const nlohmann::json& value) {
+    nlohmann::json json = json_;
+    json[nlohmann::json::json_pointer(pointer)] = value;
+    return errorOf(json.dump());
+  }
+  std::string errorWithout(const std::string& pointer, const std::string& key) {
+    nlohmann::json json = json_;
+    json[nlohmann::json::json_pointer(pointer)].erase(key);
+    return errorOf(json.dump());
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "fit.nearfit";
+  Scene scene_;
+  nlohmann::json json_;
+};
+
+}  // namespace nearfit::test
