@@ -37,17 +37,19 @@ Agreement compare(const MethodRun& run, const MethodRun& reference, const Method
   for (std::size_t i = 0; i < run.poses.size(); ++i) {
     const std::size_t pose = run.poses[i];
     const Answer& answer = run.answers[i];
-    const double d = difference(answer.distance, answerAt(reference, pose).distance, cutoff, tolerance);
+    const double expected = answerAt(reference, pose).distance;
+    const double d = difference(answer.distance, expected, cutoff, tolerance);
     if (d > agreement.worstDistance) {
       agreement.worstDistance = d;
       agreement.worstPose = pose;
     }
+    if (!(expected > 0.0)) ++agreement.touching;
     if (!answer.isComplete) ++agreement.incomplete;
     if (run.method->kind == AnswerKind::FullSet && answer.count != answerAt(firstSet, pose).count)
       ++agreement.differentCounts;
   }
-  agreement.holds =
-      agreement.worstDistance <= tolerance && agreement.incomplete == 0 && agreement.differentCounts == 0;
+  agreement.holds = agreement.worstDistance <= tolerance && agreement.touching == 0 &&
+                    agreement.incomplete == 0 && agreement.differentCounts == 0;
   return agreement;
 }
 

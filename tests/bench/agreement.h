@@ -14,6 +14,7 @@ struct Agreement {
   /// the other clearly does not.
   double worstDistance = 0.0;
   std::size_t worstPose = 0;
+  std::size_t touching = 0;         ///< Poses at which the reference says that the bodies touch.
   std::size_t incomplete = 0;       ///< Answers that say they are not complete.
   std::size_t differentCounts = 0;  ///< Poses with another number of minima, where both list all.
   bool holds = true;                ///< Whether the two answer the same question alike.

@@ -49,6 +49,12 @@ TEST(CompareRuns, AMissedContactIsReported) {
   EXPECT_TRUE(std::isinf(agreement.worstDistance));
 }
 
+TEST(CompareRuns, APathThatTouchesIsReported) {
+  const Agreement agreement = compared({0.0, 1, true}, 0.0);
+  EXPECT_FALSE(agreement.holds);
+  EXPECT_EQ(agreement.touching, 1U);
+}
+
 TEST(CompareRuns, AnIncompleteSetIsReported) {
   EXPECT_FALSE(compared({0.01, 3, false}, 0.01).holds);
 }

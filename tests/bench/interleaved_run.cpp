@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
-#include <ctime>
 #include <memory>
+#include <thread>
 
 #include <fmt/format.h>
 #include <sched.h>
@@ -31,17 +32,29 @@ long preemptionsOfThread() {
   return usage.ru_nivcsw;
 }
 
-double secondsBy(BenchClock clock) {
-  timespec now{};
-  clock_gettime(clock == BenchClock::Wall ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// One method with its state and what it has measured.
 struct Lane {
   std::unique_ptr<QueryMethod> query;
   std::size_t stride;
   MethodRun run;
+};
+
+/// Waits for each of evenly spaced times; those that are missed are not made up for.
+class Ticks {
+ public:
+  explicit Ticks(double period)
+      : period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(period))) {}
+
+  void wait() {
+    if (period_ == Clock::duration::zero()) return;
+    next_ = std::max(next_ + period_, Clock::now());
+    std::this_thread::sleep_until(next_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::duration period_;
+  Clock::time_point next_ = Clock::now();
 };
 
 /// Poses [begin, end) of a path, in one go.
@@ -59,7 +72,9 @@ void walkBlock(Lane& lane, const Block& block, const RunOptions& options) {
   for (std::size_t i = begin - std::min(begin, warmUp); i < begin; ++i)
     lane.query->query(block.path[i]);
   const long before = preemptionsOfThread();
+  Ticks ticks(options.period);
   for (std::size_t i = begin; i < block.end; i += lane.stride) {
+    ticks.wait();
     const double start = secondsBy(options.clock);
     const Answer answer = lane.query->query(block.path[i]);
     lane.run.times.push_back(secondsBy(options.clock) - start);

@@ -5,14 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "tests/bench/bench_clock.h"
 #include "tests/bench/query_method.h"
 
 namespace nearfit::bench {
-
-enum class BenchClock {
-  Wall,    ///< What a user waits for.
-  Thread,  ///< Time on a processor alone, for a machine that others use; reading it costs some 0.2 us.
-};
 
 struct RunOptions {
   BenchClock clock = BenchClock::Wall;
@@ -20,7 +16,10 @@ struct RunOptions {
   std::size_t warmUp = 5;        ///< Poses before each block that are answered but not timed.
   std::size_t rounds = 1;        ///< Times the whole path is walked.
   std::size_t pairsStride = 40;  ///< Methods that list pairs answer each so-many-th pose only.
-  std::optional<int> cpu;        ///< The measuring thread stays on this one.
+  /// Time from one query to the next [s], as a servo has it, so that a method's other threads have theirs; 0:
+  /// back to back.
+  double period = 0.0;
+  std::optional<int> cpu;  ///< The measuring thread stays on this one.
 };
 
 /// What was measured of one method.

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 struct QueryOptions {
   std::vector<std::string> scenes{"all"}, methods;
   fs::path sharedFolder, sceneFile, partFile, poses, writePoses, csv, samples;
-  double metresPerUnit = 1.0, cutoffFraction = 0.05, turnDegrees = 0.2;
+  double metresPerUnit = 1.0, cutoffFraction = 0.05, turnDegrees = 0.2, tickMicros = 0.0;
   HandPathOptions path;
   RunOptions run;
   std::string baseline = "fcl-seeded";
@@ -75,6 +75,21 @@ std::vector<RigidTransform> pathOf(const PreparedScene& scene, const QueryOption
   return path;
 }
 
+/// How the figures came about, as comment lines.
+std::string settingsComment(const QueryOptions& o) {
+  const std::string path = o.poses.empty()
+                               ? fmt::format("{} poses, seed {}, step {} of the diagonal, turn {} degrees",
+                                             o.path.poses, o.path.seed, o.path.step, o.turnDegrees)
+                               : "read from files";
+  return fmt::format("# path: {}; cutoff {} of the diagonal\n", path, o.cutoffFraction) +
+         fmt::format(
+             "# times: {} clock, {} of {} rounds, turns of {} poses after {} to warm up, tick {} us, {}\n",
+             o.run.clock == BenchClock::Wall ? "wall" : "thread", o.isBest ? "least" : "all", o.run.rounds,
+             o.run.block, o.run.warmUp, o.tickMicros,
+             o.run.cpu ? fmt::format("on processor {}", *o.run.cpu) : "not pinned") +
+         fmt::format("# ratios: to {}\n", o.baseline);
+}
+
 /// What a run over all scenes has gathered so far.
 struct Results {
   std::string csv, samples;
@@ -99,7 +114,7 @@ void measureScene(const SceneEntry& entry, const std::vector<MethodEntry>& metho
 void runQuery(const QueryOptions& options) {
   if (options.isList) return printLists(options);
   const std::vector<MethodEntry> methods = methodsOf(options);
-  const std::string machine = machineComment();
+  const std::string machine = machineComment() + settingsComment(options);
   fmt::print("{}", machine);
   Results results;
   for (const SceneEntry& scene : scenesOf(options))
@@ -181,6 +196,11 @@ void addRunOptions(CLI::App& command, QueryOptions& o) {
       .add_option("--clock", o.run.clock, "wall, or thread: time on the processor alone, whatever others do")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, BenchClock>{{"wall", BenchClock::Wall}, {"thread", BenchClock::Thread}}));
+  command
+      .add_option("--tick", o.tickMicros,
+                  "Time from one query to the next [us], as a servo has it; 0: back to back")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command.add_option("--pin", o.run.cpu, "Processor to stay on");
   command.add_option("--csv", o.csv, "File for the table");
   command.add_option("--samples", o.samples, "File for every time measured");
@@ -197,6 +217,7 @@ void addQueryCommand(CLI::App& program) {
   addRunOptions(*command, *options);
   command->callback([options] {
     options->path.turn = options->turnDegrees * std::numbers::pi / 180.0;
+    options->run.period = 1e-6 * options->tickMicros;
     runQuery(*options);
   });
 }

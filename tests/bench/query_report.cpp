@@ -119,10 +119,10 @@ std::vector<std::string> disagreements(std::span<const ReportRow> rows) {
   for (const ReportRow& r : rows) {
     if (r.agreement.holds) continue;
     sentences.push_back(fmt::format(
-        "{}: {} differs from the reference by {:.3g} m at pose {}, is incomplete at {} poses and has another "
-        "number of minima at {}",
+        "{}: {} differs from the reference by {:.3g} m at pose {}, is incomplete at {} poses, has another "
+        "number of minima at {}; the bodies touch at {}",
         r.scene, r.method, r.agreement.worstDistance, r.agreement.worstPose, r.agreement.incomplete,
-        r.agreement.differentCounts));
+        r.agreement.differentCounts, r.agreement.touching));
   }
   return sentences;
 }
