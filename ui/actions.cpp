@@ -50,6 +50,9 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   minima = makeSwitch("minima", tr("&Minima"), "minima", true);
   wrench = makeSwitch("wrench", tr("Force and torque &arrows"), "wrench-arrows", true);
   about = make("about", tr("&About Nearfit"), "about");
+  // Also from the spring dialog, which stays open beside the window.
+  for (QAction* action : {undo, redo, start, stop})
+    action->setShortcutContext(Qt::ApplicationShortcut);
   panelsMenu = new QMenu(tr("&Panels"), window);
 }
 

@@ -12,7 +12,7 @@ enum class StandardView : std::uint8_t { Isometric, Front, Right, Top };
 /// Turns the camera to look from there at the bounds (VTK's order) and fits them into the view.
 void setStandardView(vtkRenderer& renderer, StandardView view, const double bounds[6]);
 
-/// Moves the camera along its direction so that the bounds just fill the view.
+/// Moves the camera, without turning it, so that the bounds just fill the view with a margin around them.
 void fitView(vtkRenderer& renderer, const double bounds[6]);
 
 }  // namespace nearfit::ui

@@ -12,6 +12,18 @@
 namespace nearfit::ui {
 namespace {
 
+/// Else the style tints pictures in selected rows until they look disabled.
+QIcon sameWhenSelected(const QPixmap& pixmap) {
+  QIcon result(pixmap);
+  result.addPixmap(pixmap, QIcon::Selected);
+  return result;
+}
+
+QIcon listIcon(const QString& name) {
+  constexpr int kSize = 36;
+  return sameWhenSelected(icon(name).pixmap(kSize, kSize));
+}
+
 QIcon swatch(const Colour& colour) {
   constexpr int kSize = 32;
   QPixmap pixmap(kSize, kSize);
@@ -23,7 +35,7 @@ QIcon swatch(const Colour& colour) {
   painter.setPen(QPen(fill.darker(150), 2.0));
   painter.setBrush(fill);
   painter.drawRoundedRect(QRectF(4, 4, 24, 24), 6, 6);
-  return QIcon(pixmap);
+  return sameWhenSelected(pixmap);
 }
 
 }  // namespace
@@ -94,11 +106,11 @@ QVariant PartsModel::decoration(const Part& part, int column) const {
     case Name:
       return swatch(part.colour);
     case Moving:
-      return icon(scene_.movingPart() == part.id ? QStringLiteral("hand") : QStringLiteral("hand-off"));
+      return listIcon(scene_.movingPart() == part.id ? QStringLiteral("hand") : QStringLiteral("hand-off"));
     case Visible:
-      return icon(part.isVisible ? QStringLiteral("eye") : QStringLiteral("eye-off"));
+      return listIcon(part.isVisible ? QStringLiteral("eye") : QStringLiteral("eye-off"));
     case Locked:
-      return icon(part.isLocked ? QStringLiteral("lock") : QStringLiteral("unlock"));
+      return listIcon(part.isLocked ? QStringLiteral("lock") : QStringLiteral("unlock"));
     default:
       return {};
   }

@@ -16,11 +16,15 @@ enum class Hand : std::uint8_t {
 struct ServoStatus {
   bool isRunning = false;
   Hand hand = Hand::Scripted;
-  double rate = 0.0;  ///< Ticks per second over the last half second or so [Hz].
+  double rate = 0.0;         ///< Ticks per second over the last half second or so [Hz].
+  double nominalRate = 0.0;  ///< What the rate should be [Hz].
   double latenessP99 = 0.0, latenessMax = 0.0;
   double tickP99 = 0.0, queryP99 = 0.0;
   std::uint64_t ticks = 0, overruns = 0;
   QString scheduling;  ///< What real-time service the system granted.
+
+  /// Whether ticks are lost: what is felt then is softer and later than the springs say.
+  bool isTooSlow() const { return isRunning && rate > 0.0 && rate < 0.95 * nominalRate; }
 };
 
 }  // namespace nearfit::ui

@@ -4,15 +4,21 @@
 #include <QStatusBar>
 
 #include "ui/format.h"
+#include "ui/theme.h"
 
 namespace nearfit::ui {
 namespace {
+
+void setColour(QLabel& label, const QColor& colour) {
+  label.setStyleSheet(
+      QStringLiteral("border-left: 1px solid #d5dbe1; padding-left: 8px; color: %1").arg(colour.name()));
+}
 
 QLabel* addLabel(QStatusBar* bar, const QString& objectName, const QString& widest) {
   auto* label = new QLabel(bar);
   label->setObjectName(objectName);
   label->setMinimumWidth(label->fontMetrics().horizontalAdvance(widest) + 14);
-  label->setStyleSheet(QStringLiteral("border-left: 1px solid #d5dbe1; padding-left: 8px; color: #3b4754"));
+  setColour(*label, colours::kMutedText);
   bar->addPermanentWidget(label);
   return label;
 }
@@ -31,6 +37,11 @@ StatusReadout::StatusReadout(QStatusBar* bar)
 
 void StatusReadout::showStatus(const ServoStatus& status) {
   rate_->setText(status.isRunning ? tr("Servo %1 Hz").arg(status.rate, 0, 'f', 0) : tr("Servo off"));
+  setColour(*rate_, status.isTooSlow() ? colours::kWarning : colours::kMutedText);
+  rate_->setToolTip(status.isTooSlow()
+                        ? tr("Ticks are lost: contact feels softer than the springs say. Use a "
+                             "smaller cutoff, or hide parts that do not matter.")
+                        : QString());
   lateness_->setText(status.isRunning ? tr("Late %1 (p99)").arg(formatDuration(status.latenessP99))
                                       : tr("Late –"));
 }

@@ -33,6 +33,7 @@ QTreeView { border: none; background: #ffffff; outline: none; }
 QTreeView::item { height: 28px; border: none; padding-left: 4px; }
 QTreeView::item:hover { background: #f0f5fa; }
 QTreeView::item:selected { background: #d3e5f8; color: #16202a; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QToolTip { background: #2c3640; color: #ffffff; border: none; padding: 4px; }
 )";
 

@@ -15,6 +15,7 @@ inline const QColor kForce(0xd8, 0x2c, 0x20);
 inline const QColor kTorque(0x7b, 0x2f, 0xbe);
 inline const QColor kMoving(0xe2, 0x71, 0x1d);
 inline const QColor kMutedText(0x5d, 0x68, 0x74);
+inline const QColor kWarning(0xb3, 0x4a, 0x00);
 }  // namespace colours
 
 /// Makes the compiled-in icons of this library known; harmless when repeated.

@@ -83,8 +83,9 @@ void Viewport::setUpRenderers() {
   renderer_->UseFXAAOn();
   renderer_->GetActiveCamera()->SetViewAngle(24.0);
   vtkNew<vtkLightKit> lights;
-  lights->SetKeyLightIntensity(0.95);
-  lights->SetKeyToFillRatio(2.4);
+  lights->SetKeyLightIntensity(0.92);
+  lights->SetKeyToFillRatio(2.0);
+  lights->SetKeyToHeadRatio(2.2);
   lights->AddLightsToRenderer(renderer_);
 
   // Minima lie in the gaps between parts: drawn over everything, or the parts would hide them.

@@ -11,8 +11,9 @@
 namespace nearfit::desktop {
 namespace {
 
-constexpr int kSettleMs = 400;       ///< For layout and first pictures.
-constexpr double kFeelFor = 1.6;     ///< Into the scripted hand's sweep, where it pushes [s].
+constexpr int kSettleMs = 400;  ///< For layout and first pictures.
+/// Into the scripted hand's sweep, where it pushes; in ticks, so that each picture shows the same pose.
+constexpr std::uint64_t kFeelFor = 1600;
 constexpr int kPatienceMs = 20'000;  ///< Written then even if no servo ever ticked.
 
 }  // namespace
@@ -51,7 +52,7 @@ void Screenshot::arrange(bool isComplete) {
 }
 
 void Screenshot::waitForMinima(const ServoSnapshot& snapshot) {
-  if (snapshot.time < kFeelFor) return;
+  if (snapshot.tick < kFeelFor) return;
   disconnect(&application_.servo(), &ServoController::snapshotArrived, this, nullptr);
   // After the figures of this very snapshot are in the view.
   QTimer::singleShot(0, this, &Screenshot::write);

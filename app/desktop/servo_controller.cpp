@@ -40,6 +40,7 @@ void ServoController::start(ui::Hand hand) {
   status_ = {};
   status_.isRunning = true;
   status_.hand = hand;
+  status_.nominalRate = 1.0 / ServoLoop::kPeriod;
   status_.scheduling = QString::fromStdString(loop_.schedulingNote());
   ticksMeasured_ = 0;
   sinceMeasured_.start();

@@ -102,6 +102,8 @@ void FeelPanel::showStatus(const ServoStatus& status) {
   setStartable(isStartable_);
   const bool hasTimes = status.isRunning && status.ticks > 0;
   rate_->setText(hasTimes ? QStringLiteral("%1 Hz").arg(status.rate, 0, 'f', 0) : kNothing);
+  rate_->setStyleSheet(status.isTooSlow() ? QStringLiteral("color: %1").arg(colours::kWarning.name())
+                                          : QString());
   lateness_->setText(hasTimes ? formatDuration(status.latenessP99) : kNothing);
   tick_->setText(hasTimes ? formatDuration(status.tickP99) : kNothing);
   overruns_->setText(hasTimes ? QString::number(status.overruns) : kNothing);

@@ -1,0 +1,48 @@
+#include "ui/format.h"
+
+#include <QtTest>
+#include <limits>
+
+using namespace nearfit::ui;
+
+class FormatTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void lengthsTakeTheUnitOfTheirSize();
+  void lengthsKeepThreeFigures();
+  void noLengthIsADash();
+  void smallTorquesAreInMillinewtonMetres();
+  void durationsTakeTheUnitOfTheirSize();
+};
+
+void FormatTest::lengthsTakeTheUnitOfTheirSize() {
+  QCOMPARE(formatLength(1.5), QStringLiteral("1.50 m"));
+  QCOMPARE(formatLength(0.0015), QStringLiteral("1.50 mm"));
+  QCOMPARE(formatLength(0.0), QStringLiteral("0.00 mm"));
+  QCOMPARE(formatLength(2.5e-6), QStringLiteral("2.50 µm"));
+}
+
+void FormatTest::lengthsKeepThreeFigures() {
+  QCOMPARE(formatLength(0.01234), QStringLiteral("12.3 mm"));
+  QCOMPARE(formatLength(0.1234), QStringLiteral("123 mm"));
+  QCOMPARE(formatLength(0.009996), QStringLiteral("10.0 mm"));
+}
+
+void FormatTest::noLengthIsADash() {
+  QCOMPARE(formatLength(std::numeric_limits<double>::infinity()), QStringLiteral("–"));
+}
+
+void FormatTest::smallTorquesAreInMillinewtonMetres() {
+  QCOMPARE(formatTorque(0.0123), QStringLiteral("12.3 mN·m"));
+  QCOMPARE(formatTorque(1.5), QStringLiteral("1.50 N·m"));
+}
+
+void FormatTest::durationsTakeTheUnitOfTheirSize() {
+  QCOMPARE(formatDuration(1.2e-5), QStringLiteral("12.0 µs"));
+  QCOMPARE(formatDuration(3.92e-3), QStringLiteral("3.92 ms"));
+  QCOMPARE(formatDuration(2.0), QStringLiteral("2.00 s"));
+}
+
+QTEST_GUILESS_MAIN(FormatTest)
+#include "format_test.moc"
