@@ -104,6 +104,7 @@ void Viewport::setUpInteraction() {
   auto* shape = vtkCameraOrientationRepresentation::SafeDownCast(marker_->GetRepresentation());
   shape->SetSize(100, 100);
   marker_->On();
+  marker_->SquareResize();
   renderer_->AddObserver(vtkCommand::StartEvent, this, &Viewport::adjustClipping);
   window_->AddObserver(vtkCommand::EndEvent, this, &Viewport::countPicture);
 }

@@ -10,11 +10,11 @@ using namespace nearfit;
 
 namespace {
 
-Part cube(const char* name) {
+Part cube(std::string name) {
   TriangleMesh mesh = test::boxMesh(glm::dvec3(0.02));
   NormalConeTree tree(mesh);
   Part part;
-  part.name = name;
+  part.name = std::move(name);
   part.geometry =
       std::make_shared<PartGeometry>(PartGeometry{"", "", 1.0, std::move(mesh), {}, std::move(tree), {}});
   return part;
@@ -54,7 +54,7 @@ void PartsModelTest::changeOfAPartKeepsTheRows() {
   const QSignalSpy resets(&model, &QAbstractItemModel::modelReset);
   const QPersistentModelIndex index = model.indexOf(id);
   Part renamed = *scene.find(id);
-  renamed.name = "b";
+  renamed.name = std::string("b");
   scene.replace(renamed);
   model.setScene(scene);
   QCOMPARE(resets.count(), 0);
