@@ -51,7 +51,7 @@ void SceneRenderer::applyAppearance(const Part& part) {
   PartLook look;
   look.isMoving = scene_.movingPart() == part.id;
   look.isSelected = selected_ == part.id;
-  look.isTranslucent = isSeeThrough_ && !look.isMoving;
+  look.isTranslucent = isSeeThrough_ && scene_.movingPart().has_value() && !look.isMoving;
   look.hasEdges = hasEdges_;
   PartActor& actor = actorOf(part);
   actor.setAppearance(part.colour, part.isVisible, look);

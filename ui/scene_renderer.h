@@ -17,7 +17,7 @@ class SceneRenderer {
 
   void setScene(const Scene& scene);
   void setSelected(std::optional<PartId> part);
-  /// All parts but the moving one become see-through, so that what lies between parts can be seen.
+  /// While there is a moving part, all others become see-through, so that what lies between can be seen.
   void setSeeThrough(bool isSeeThrough);
   void setEdgesVisible(bool isVisible);
   /// Shows the part away from its pose in the scene, where the hand has it; nothing puts it back.
