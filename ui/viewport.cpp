@@ -104,13 +104,18 @@ void Viewport::setUpInteraction() {
   auto* shape = vtkCameraOrientationRepresentation::SafeDownCast(marker_->GetRepresentation());
   shape->SetSize(100, 100);
   marker_->On();
-  marker_->SquareResize();
-  renderer_->AddObserver(vtkCommand::StartEvent, this, &Viewport::adjustClipping);
+  renderer_->AddObserver(vtkCommand::StartEvent, this, &Viewport::prepareRender);
   window_->AddObserver(vtkCommand::EndEvent, this, &Viewport::countPicture);
 }
 
 void Viewport::countPicture() {
   ++pictureCount_;
+}
+
+void Viewport::prepareRender() {
+  // The marker learns of the window's first size from nobody.
+  marker_->SquareResize();
+  adjustClipping();
 }
 
 void Viewport::adjustClipping() {

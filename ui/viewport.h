@@ -66,6 +66,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
  private:
   void setUpRenderers();
   void setUpInteraction();
+  void prepareRender();
   void adjustClipping();
   void countPicture();
   void requestRender();
