@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/error.h"
+#include "core/mesh/flat_triangles.h"
 #include "core/mesh/polygon_triangulation.h"
 #include "core/mesh/vertex_welding.h"
 
@@ -69,8 +70,9 @@ class Builder {
     gatherVertices();
     weld();
     gatherTriangles();
-    dropTrianglesWithoutArea();
     dropDuplicates();
+    report_.swappedFaces = swapFlatTriangles(vertices_, triangles_, tolerance_);
+    dropTrianglesWithoutArea();
     if (triangles_.empty()) throw Error("", "none of its faces has an area", "export the part again");
     dropUnusedVertices();
     return {std::move(vertices_), std::move(triangles_)};

@@ -33,6 +33,7 @@ struct MeshBuildReport {
   std::uint64_t degenerateFaces = 0;  ///< Dropped: no area, or a corner repeated.
   std::uint64_t duplicateFaces = 0;   ///< Dropped: same corners in the same sense as another face.
   std::uint64_t nonFiniteFaces = 0;   ///< Dropped: they use a vertex that is not finite.
+  std::uint64_t swappedFaces = 0;     ///< Lines (T-junctions), swapped with a neighbour for faces with area.
   bool turnedInsideOut = false;       ///< The closed mesh had negative volume; all its faces were turned.
   std::vector<std::string> warnings;  ///< A sentence for each thing a user should know, with counts.
 };
