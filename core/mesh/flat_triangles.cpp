@@ -31,12 +31,15 @@ class Swapper {
     matchSides();
   }
 
-  /// Swaps what can be swapped. A swap leaves no triangle flat that was not, so that this ends; it may free a
-  /// flat neighbour to be swapped next.
+  /// Swaps what can be swapped. A swap may free a flat neighbour to be swapped next. Each makes the thinner
+  /// triangle fatter, or an edge shorter at no loss; the limit is for meshes so damaged that this goes round
+  /// in circles.
   std::uint64_t run(std::vector<std::uint32_t> flat) {
+    constexpr std::uint64_t kMostSwapsEach = 20;
+    const std::uint64_t mostSwaps = kMostSwapsEach * flat.size();
     std::uint64_t swapped = 0;
     std::ranges::reverse(flat);
-    while (!flat.empty()) {
+    while (!flat.empty() && swapped < mostSwaps) {
       const std::uint32_t t = flat.back();
       flat.pop_back();
       if (!isFlat(triangles_[t])) continue;
@@ -129,7 +132,8 @@ class Swapper {
         glm::dot(normal, doubleArea(vertices_, second)) > 0.0) {
       return true;
     }
-    return isFlat(face) && longestSide(behind / 3) == behind && isShorter(first, second, behind);
+    return isFlat(face) && after >= before && longestSide(behind / 3) == behind &&
+           isShorter(first, second, behind);
   }
   /// Whether the edge that the new triangles abd and bcd share is shorter than a side.
   bool isShorter(const Triangle& first, const Triangle& second, Side side) const {

@@ -22,6 +22,8 @@ TemporaryFolder::~TemporaryFolder() {
 std::filesystem::path TemporaryFolder::write(const std::filesystem::path& name,
                                              std::string_view content) const {
   const std::filesystem::path file = path_ / name;
+  // Some file systems flush a file that is written over to disk, which takes milliseconds; not a new one.
+  std::filesystem::remove(file);
   std::ofstream out(file, std::ios::binary);
   out.write(content.data(), static_cast<std::streamsize>(content.size()));
   if (!out.flush()) throw std::runtime_error("cannot write " + file.string());

@@ -121,6 +121,21 @@ TEST(FlatTriangles, SwapThatWouldDoubleAnEdgeIsLeftAlone) {
   EXPECT_EQ(TriangleMesh(points, triangles).topology().nonManifoldEdges, 0U);
 }
 
+// A damaged file with one vertex very far off: the tolerance was larger than all triangles but a few, and
+// swapping went round in circles for ever.
+TEST(FlatTriangles, ToleranceLargerThanTheTrianglesEnds) {
+  const TriangleMesh mesh = test::starMesh(1, 1.0, 0, 0.3);
+  for (std::size_t far = 0; far < mesh.vertices().size(); ++far) {
+    Points points(mesh.vertices().begin(), mesh.vertices().end());
+    points[far].z = 999999990.0;
+    for (const double tolerance : {0.1, 1.0, 1e9}) {
+      std::vector<Triangle> triangles(mesh.triangles().begin(), mesh.triangles().end());
+      swapFlatTriangles(points, triangles, tolerance);
+      EXPECT_TRUE(TriangleMesh(points, triangles).topology().isClosed());
+    }
+  }
+}
+
 TEST(FlatTriangles, ManyLinesThroughOneVertexTakeLittleTime) {
   Points points{{0, 0, 0}};
   std::vector<Triangle> triangles;
