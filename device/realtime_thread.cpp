@@ -22,7 +22,7 @@ namespace {
 constexpr int kPriority = 70;
 
 /// More than a tick and a query use of it.
-constexpr std::size_t kStackBytes = 256 * 1024;
+constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
 
 /// Locking is of the process: the last servo that ends unlocks it.
 std::atomic<int> memoryLocks{0};

@@ -22,7 +22,8 @@ namespace {
 
 using Nanoseconds = std::int64_t;
 constexpr Nanoseconds kSecond = 1'000'000'000;
-constexpr Nanoseconds kPeriodNs = static_cast<Nanoseconds>(ServoLoop::kPeriod * 1e9 + 0.5);
+constexpr Nanoseconds kPeriodNs = 1'000'000;
+static_assert(ServoLoop::kPeriod * 1e9 == static_cast<double>(kPeriodNs));
 
 /// Statistics are some 25 KB: copying them every tick would cost more than a tick's bookkeeping.
 constexpr std::uint64_t kTicksPerStatistics = 100;
