@@ -10,26 +10,29 @@
 namespace nearfit {
 
 /// A pose in single precision, for bounds only.
-struct SinglePose {
-  std::array<std::array<float, 4>, 4>
-      columns;  ///< Three of the rotation, then the translation; fourth entry 0.
-
+class SinglePose {
+ public:
   explicit SinglePose(const RigidTransform& pose) noexcept;
   NormalConeTree::Bound apply(const NormalConeTree::Bound& b) const noexcept;
+
+ private:
+  std::array<std::array<float, 4>, 4>
+      columns_;  ///< Three of the rotation, then the translation; fourth entry 0.
 };
 
 /// What a pair of bounds is held against besides the bounds themselves.
 struct CullLimits {
   float cutoff;   ///< [m]
-  float padding;  ///< What the spheres may be off by through rounding of the pose [m]; added to both.
+  float padding;  ///< What a box may be off by through rounding of the pose [m].
 };
 
 /// Which children of a node can hold a minimum together with features inside `other`: bit per lane.
 ///
-/// Culls by distance, by cones that cannot oppose each other, and by directions between the spheres that
-/// neither cone allows. Never culls a pair that holds a minimum.
+/// A minimum's d joins a point of one box to a point of the other, is no longer than the cutoff, and its
+/// direction is within the limits of both. Culls where the projections on the axes of either box rule that
+/// out. Never culls a pair that holds a minimum.
 /// @param other  A bound of the other body in the node's frame.
-/// Real-time safe. Source: Johnson & Cohen 2001.
+/// Real-time safe. Source: Johnson & Cohen 2001, with oriented boxes in place of spheres.
 using CullKernel = std::uint32_t (*)(const NormalConeTree::Node& node, const NormalConeTree::Bound& other,
                                      const CullLimits& limits) noexcept;
 

@@ -202,6 +202,7 @@ bool LeafTests::parallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, 
   out.cornerCount = 2;
   out.corners[0] = ea.start + from * ea.along;
   out.corners[1] = ea.start + to * ea.along;
+  out.radius = 0.5 * out.weight;
   return true;
 }
 
@@ -229,6 +230,7 @@ bool LeafTests::edgeFace(const Side& e, std::uint32_t edge, const Side& f, std::
   const glm::dvec3 half = 0.5 * (to - from) * (&f == &scene_ ? along : sceneFromPart_.applyToVector(along));
   out.corners[0] = out.lmd.scenePoint - half;
   out.corners[1] = out.lmd.scenePoint + half;
+  out.radius = 0.5 * out.weight;
   return true;
 }
 
@@ -254,8 +256,11 @@ bool LeafTests::faceFace(std::uint32_t a, std::uint32_t b, Minimum& out) const n
   out.dimension = 2;
   out.weight = area;
   out.cornerCount = static_cast<std::uint8_t>(overlap.count);
-  for (std::size_t k = 0; k < overlap.count; ++k)
+  out.radius = 0.0;
+  for (std::size_t k = 0; k < overlap.count; ++k) {
     out.corners[k] = overlap.corners[k] - distance * n;
+    out.radius = std::max(out.radius, glm::distance(out.corners[k], out.lmd.scenePoint));
+  }
   return true;
 }
 

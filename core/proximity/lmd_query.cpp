@@ -15,10 +15,11 @@
 
 namespace nearfit {
 
-/// A child of each tree that may hold a minimum together: node index or leaf, with its bound.
+/// A child of each tree that may hold a minimum together, and where its bound stands.
 struct EntryPair {
-  std::uint32_t scene, part;
-  NormalConeTree::Bound sceneBound, partBound;
+  std::uint32_t scene, part;          ///< Children, as in NormalConeTree::Node.
+  std::uint32_t sceneLane, partLane;  ///< 8 * node + lane of their bounds.
+  float sceneSize, partSize;
 };
 
 struct LmdScratch::Data {
@@ -62,13 +63,12 @@ class Traversal {
 
   /// Returns the number of minima found, unmerged.
   std::size_t run() noexcept {
-    push({0, 0, scene_.rootBound(), part_.rootBound()});
+    descend(firstPair());
     while (stackSize_ > 0) {
       const EntryPair pair = scratch_.stack[--stackSize_];
       ++result_.nodePairs;
-      const bool opensScene =
-          NormalConeTree::isLeaf(pair.part) ||
-          (!NormalConeTree::isLeaf(pair.scene) && pair.sceneBound.radius >= pair.partBound.radius);
+      const bool opensScene = NormalConeTree::isLeaf(pair.part) ||
+                              (!NormalConeTree::isLeaf(pair.scene) && pair.sceneSize >= pair.partSize);
       if (opensScene) {
         openScene(pair);
       } else {
@@ -79,21 +79,32 @@ class Traversal {
   }
 
  private:
+  EntryPair firstPair() const noexcept {
+    return {scene_.nodes()[0].child[0], part_.nodes()[0].child[0], 0, 0,
+            scene_.nodes()[0].size(0),  part_.nodes()[0].size(0)};
+  }
+
+  static NormalConeTree::Bound boundAt(const NormalConeTree& tree, std::uint32_t lane) noexcept {
+    return tree.nodes()[lane / NormalConeTree::kWidth].bound(lane % NormalConeTree::kWidth);
+  }
+
   void openScene(const EntryPair& pair) noexcept {
     const NormalConeTree::Node& node = scene_.nodes()[pair.scene];
-    std::uint32_t lanes = scratch_.cull(node, sceneFromPart_.apply(pair.partBound), limits_);
+    std::uint32_t lanes = scratch_.cull(node, sceneFromPart_.apply(boundAt(part_, pair.partLane)), limits_);
     for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      descend({node.child[lane], pair.part, node.bound(lane), pair.partBound});
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
+      descend({node.child[lane], pair.part, pair.scene * 8 + lane, pair.partLane, node.size(lane),
+               pair.partSize});
     }
   }
 
   void openPart(const EntryPair& pair) noexcept {
     const NormalConeTree::Node& node = part_.nodes()[pair.part];
-    std::uint32_t lanes = scratch_.cull(node, partFromScene_.apply(pair.sceneBound), limits_);
+    std::uint32_t lanes = scratch_.cull(node, partFromScene_.apply(boundAt(scene_, pair.sceneLane)), limits_);
     for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      descend({pair.scene, node.child[lane], pair.sceneBound, node.bound(lane)});
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
+      descend({pair.scene, node.child[lane], pair.sceneLane, pair.part * 8 + lane, pair.sceneSize,
+               node.size(lane)});
     }
   }
 

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/math/aabb.h"
 #include "core/math/tolerances.h"
 
 namespace nearfit {
@@ -55,13 +56,8 @@ class Piece {
     }
     return left || right;
   }
-  double radius() const noexcept {
-    double r = 0.0;
-    for (std::size_t i = 0; i < m_.cornerCount && m_.dimension > 0; ++i) {
-      r = std::max(r, glm::distance(m_.corners[i], m_.lmd.scenePoint));
-    }
-    return r;
-  }
+  /// Of a sphere about the scene point that holds it.
+  double radius() const noexcept { return m_.dimension == 0 ? 0.0 : m_.radius; }
 
  private:
   const Minimum& m_;
@@ -114,23 +110,33 @@ void absorb(Minimum& root, const Minimum& piece) noexcept {
 std::size_t mergeMinima(std::span<Minimum> minima, std::span<std::uint32_t> order,
                         std::span<std::uint32_t> parent, double size) noexcept {
   const auto count = static_cast<std::uint32_t>(minima.size());
-  for (std::uint32_t i = 0; i < count; ++i)
+  if (count == 0) return 0;
+  Aabb box;
+  for (std::uint32_t i = 0; i < count; ++i) {
     order[i] = parent[i] = i;
-  const auto isNearer = [&](std::uint32_t a, std::uint32_t b) {
-    return minima[a].lmd.distance != minima[b].lmd.distance ? minima[a].lmd.distance < minima[b].lmd.distance
-                                                            : a < b;
+    box.add(minima[i].lmd.scenePoint);
+  }
+  // Sweep along the axis on which they are spread most: what touches overlaps there.
+  const glm::dvec3 spread = box.upper - box.lower;
+  const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
+  const auto start = [&](std::uint32_t i) {
+    return minima[i].lmd.scenePoint[axis] - Piece(minima[i]).radius();
   };
-  std::sort(order.begin(), order.begin() + count, isNearer);
-
+  std::sort(order.begin(), order.begin() + count, [&](std::uint32_t a, std::uint32_t b) {
+    const double sa = start(a), sb = start(b);
+    return sa != sb ? sa < sb : a < b;
+  });
   for (std::uint32_t i = 0; i < count; ++i) {
     const Minimum& a = minima[order[i]];
     const double tolerance = kMergeFactor * (kLengthTolerance * size + kAngularTolerance * a.lmd.distance);
     // Across a region that is tilted by no more than the angular tolerance the distance still varies.
     const double window = tolerance + kAngularTolerance * size;
-    for (std::uint32_t j = i + 1; j < count && minima[order[j]].lmd.distance - a.lmd.distance <= window;
-         ++j) {
+    const double end = a.lmd.scenePoint[axis] + Piece(a).radius() + tolerance;
+    for (std::uint32_t j = i + 1; j < count && start(order[j]) <= end; ++j) {
+      const Minimum& b = minima[order[j]];
+      if (std::abs(b.lmd.distance - a.lmd.distance) > window) continue;
       const std::uint32_t ra = findRoot(parent, order[i]), rb = findRoot(parent, order[j]);
-      if (ra != rb && touch(a, minima[order[j]], tolerance)) parent[std::max(ra, rb)] = std::min(ra, rb);
+      if (ra != rb && touch(a, b, tolerance)) parent[std::max(ra, rb)] = std::min(ra, rb);
     }
   }
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -141,6 +147,10 @@ std::size_t mergeMinima(std::span<Minimum> minima, std::span<std::uint32_t> orde
   for (std::uint32_t i = 0; i < count; ++i) {
     if (parent[i] == i) order[kept++] = i;
   }
+  const auto isNearer = [&](std::uint32_t a, std::uint32_t b) {
+    return minima[a].lmd.distance != minima[b].lmd.distance ? minima[a].lmd.distance < minima[b].lmd.distance
+                                                            : a < b;
+  };
   std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(kept), isNearer);
   return kept;
 }

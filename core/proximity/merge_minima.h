@@ -15,7 +15,8 @@ namespace nearfit {
 ///
 /// @param order, parent  Work space, as long as `minima`.
 /// @param size           Of the scene [m], for tolerances.
-/// Real-time safe. Linear, plus a sort, plus the square of the number of entries at one distance.
+/// Real-time safe. A sort and a sweep: entries that overlap along the axis of the sweep are held against each
+/// other.
 std::size_t mergeMinima(std::span<Minimum> minima, std::span<std::uint32_t> order,
                         std::span<std::uint32_t> parent, double size) noexcept;
 

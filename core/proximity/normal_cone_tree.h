@@ -22,34 +22,36 @@ struct FeatureCounts {
 /// Spatialized normal cone hierarchy over the features of one mesh that can carry a minimum, each in one
 /// leaf. Built once for a mesh; immutable, so that any number of threads and parts share it.
 ///
-/// Coordinates are relative to `centre()`, so that a mesh far from its origin loses no precision. Nodes have
-/// eight children in single precision, structure of arrays; every bound is padded outward beyond its
-/// rounding. Source: Johnson & Cohen 2001; cones bound the polar cones of features, not the normals of
-/// triangles.
+/// Each child has an oriented box around its features, and limits in the same axes on the directions in which
+/// they can carry a minimum. Long thin features of CAD meshes have long thin boxes, and an edge has no
+/// direction along itself: a sphere and a cone would know neither. Coordinates are relative to `centre()`, so
+/// that a mesh far from its origin loses no precision. Nodes have eight children in single precision,
+/// structure of arrays; every bound is padded outward beyond its rounding. Source: Johnson & Cohen 2001;
+/// directions are bounded by the polar cones of features, not by triangle normals.
 class NormalConeTree {
  public:
   static constexpr std::size_t kWidth = 8;
 
-  /// A sphere and a normal cone in single precision.
+  /// An oriented box and the directions of the minima that it can hold, in single precision.
   struct Bound {
-    float x, y, z, radius;
-    float axisX, axisY, axisZ, cosAngle, sinAngle;
+    std::array<float, 3> centre;
+    std::array<float, 3> n, u, v;  ///< Axes, unit and square: n along the mean direction, u along the box.
+    std::array<float, 3> half;     ///< Half extents along n, u, v.
+    float leastN;                  ///< A minimum's direction d (unit, outward) has d.n >= leastN,
+    float mostU, mostV;            ///< |d.u| <= mostU and |d.v| <= mostV.
   };
 
-  /// Bounds of up to eight children, lane by lane, and what the children are.
+  /// Bounds of up to eight children, lane by lane, and what the children are. The v axis is n x u.
   struct alignas(64) Node {
-    std::array<float, kWidth> x, y, z, radius;
-    std::array<float, kWidth> axisX, axisY, axisZ, cosAngle, sinAngle;
-    std::array<std::uint32_t, kWidth> child;  ///< See isLeaf().
-    std::uint32_t childCount;
-    /// Kernels read the nine arrays of bounds as one.
-    static_assert(sizeof(x) == kWidth * sizeof(float));
+    std::array<std::array<float, kWidth>, 3> centre, n, u, half;
+    std::array<float, kWidth> leastN, mostU, mostV;
+    std::array<std::uint32_t, kWidth> child;  ///< See isLeaf(). Unused lanes lie out of everything's reach.
 
-    Bound bound(std::size_t lane) const noexcept {
-      return {x[lane],     y[lane],     z[lane],        radius[lane],  axisX[lane],
-              axisY[lane], axisZ[lane], cosAngle[lane], sinAngle[lane]};
-    }
+    Bound bound(std::size_t lane) const noexcept;
+    /// Half the diagonal of a child's box.
+    float size(std::size_t lane) const noexcept;
   };
+  static_assert(sizeof(Node) == 512);
 
   /// What a leaf child refers to.
   struct VertexLeaf {
@@ -68,6 +70,7 @@ class NormalConeTree {
 
   /// Children are node indices, or leaves: kind in two bits and index into vertices(), edges() or faces().
   static constexpr std::uint32_t kLeafBit = 0x80000000U;
+  static constexpr std::uint32_t kNoChild = 0xFFFFFFFFU;
   static bool isLeaf(std::uint32_t child) noexcept { return (child & kLeafBit) != 0; }
   static FeatureKind leafKind(std::uint32_t child) noexcept {
     return static_cast<FeatureKind>(child >> 29 & 3U);
@@ -75,9 +78,8 @@ class NormalConeTree {
   static std::uint32_t leafIndex(std::uint32_t child) noexcept { return child & 0x1FFFFFFFU; }
 
   bool isEmpty() const noexcept { return nodes_.empty(); }
+  /// The first node has one child: everything.
   std::span<const Node> nodes() const noexcept { return nodes_; }
-  /// Bound of everything; meaningless when empty.
-  const Bound& rootBound() const noexcept { return root_; }
   std::span<const glm::dvec3> positions() const noexcept { return positions_; }
   std::span<const VertexLeaf> vertices() const noexcept { return vertices_; }
   std::span<const EdgeLeaf> edges() const noexcept { return edges_; }
@@ -100,7 +102,6 @@ class NormalConeTree {
 
   glm::dvec3 centre_{0.0};
   double size_ = 0.0;
-  Bound root_{};
   std::vector<Node> nodes_;
   std::vector<glm::dvec3> positions_;
   std::vector<VertexLeaf> vertices_;

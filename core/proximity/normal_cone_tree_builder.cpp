@@ -1,0 +1,273 @@
+#include "core/proximity/normal_cone_tree_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "core/error.h"
+#include "core/math/symmetric_eigen.h"
+
+namespace nearfit {
+namespace {
+
+/// Added to each half extent as a fraction of the mesh's size: ten roundings of a single precision
+/// coordinate.
+constexpr double kExtentPadding = 1e-6;
+
+/// Added to each limit on directions: some roundings of a single precision axis.
+constexpr double kDirectionPadding = 2e-6;
+
+/// What a right angle between normals counts, in units of the diagonal of the positions, when a part is split
+/// along its widest dimension: two sheets back to back part before each is cut in two.
+constexpr float kNormalWeight = 0.5F;
+
+/// Centre of the lanes that have no child: out of reach of any mesh, and its square still finite.
+constexpr float kOutOfReach = 1e18F;
+
+/// Parts larger than this are not worth exact limits of direction: they hold about every direction, and are
+/// opened.
+constexpr std::size_t kLargePart = 4096;
+
+constexpr std::size_t kWidth = NormalConeTree::kWidth;
+
+std::array<float, 3> toSingle(const glm::dvec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// How many features a child of a node over `count` features holds when it is full: the least power of eight
+/// that eight children need.
+std::size_t fullChild(std::size_t count) {
+  std::size_t size = 1;
+  while (size * kWidth < count)
+    size *= kWidth;
+  return size;
+}
+
+}  // namespace
+
+void NormalConeTreeBuilder::build() {
+  constexpr std::size_t kMaxLeaves = (std::size_t{1} << 29) - 1;
+  if (mesh_.edges().size() > kMaxLeaves) {
+    throw Error("mesh", "it has more edges than the hierarchy can name", "decimate it first");
+  }
+  tree_.centre_ = mesh_.bounds().isEmpty() ? glm::dvec3(0.0) : mesh_.bounds().centre();
+  tree_.size_ = mesh_.bounds().diagonal();
+  tree_.all_ = {mesh_.vertices().size(), mesh_.edges().size(), mesh_.triangles().size()};
+  tree_.positions_.reserve(mesh_.vertices().size());
+  for (const glm::dvec3& p : mesh_.vertices())
+    tree_.positions_.push_back(p - tree_.centre_);
+  features_ = findFeatures(mesh_);
+  geometry_.emplace(mesh_, features_, tree_.positions_);
+  fillLeaves();
+  std::vector<Item> items = makeItems();
+  if (!items.empty()) buildRoot(items);
+  tree_.nodes_.shrink_to_fit();
+  tree_.neighbours_ = std::move(features_.neighbours);
+}
+
+void NormalConeTreeBuilder::fillLeaves() {
+  tree_.vertices_.reserve(features_.vertices.size());
+  for (const VertexFeature& f : features_.vertices) {
+    tree_.vertices_.push_back({f.vertex, f.firstNeighbour, f.neighbourCount});
+  }
+  tree_.edges_.reserve(features_.edges.size());
+  for (const EdgeFeature& f : features_.edges) {
+    const MeshEdge& e = mesh_.edges()[f.edge];
+    tree_.edges_.push_back({f.edge, e.v0, e.v1, f.opposite});
+  }
+  tree_.faces_.reserve(features_.faces.size());
+  for (const FaceFeature& f : features_.faces)
+    tree_.faces_.push_back({f.face, mesh_.triangles()[f.face]});
+}
+
+std::vector<NormalConeTreeBuilder::Item> NormalConeTreeBuilder::makeItems() const {
+  std::vector<Item> items(geometry_->size());
+  for (std::uint32_t i = 0; i < items.size(); ++i) {
+    const FeatureGeometry::Corners c = geometry_->corners(i);
+    Aabb box;
+    for (std::size_t k = 0; k < c.count; ++k)
+      box.add(c.points[k]);
+    const glm::dvec3 centre = box.centre(), normal = geometry_->cone(i).axis;
+    for (std::size_t k = 0; k < 3; ++k) {
+      items[i].key[k] = static_cast<float>(centre[static_cast<int>(k)]);
+      items[i].key[k + 3] = static_cast<float>(normal[static_cast<int>(k)]);
+    }
+    items[i].feature = i;
+  }
+  return items;
+}
+
+std::uint32_t NormalConeTreeBuilder::leafChild(std::uint32_t feature) const {
+  const bool isVertex = feature < geometry_->edgeBase(),
+             isEdge = !isVertex && feature < geometry_->faceBase();
+  const FeatureKind kind = isVertex ? FeatureKind::Vertex : isEdge ? FeatureKind::Edge : FeatureKind::Face;
+  const std::uint32_t base = isVertex ? 0 : isEdge ? geometry_->edgeBase() : geometry_->faceBase();
+  return NormalConeTree::kLeafBit | static_cast<std::uint32_t>(kind) << 29 | (feature - base);
+}
+
+void NormalConeTreeBuilder::buildRoot(Items items) {
+  tree_.nodes_.reserve(items.size() / (kWidth - 1) + items.size() / 64 + 8);
+  tree_.nodes_.emplace_back();
+  for (std::size_t lane = 0; lane < kWidth; ++lane)
+    setLane(tree_.nodes_[0], lane, lane == 0 ? items : Items{});
+  const std::uint32_t child =
+      items.size() == 1 ? leafChild(items[0].feature) : buildNode(items, tree_.nodes_);
+  tree_.nodes_[0].child[0] = child;
+}
+
+/// Of six dimensions, three of position and three of weighted normal, the one in which the items spread most.
+std::size_t NormalConeTreeBuilder::widestDimension(Items items) {
+  std::array<float, 6> lower, upper;
+  lower.fill(std::numeric_limits<float>::infinity());
+  upper.fill(-std::numeric_limits<float>::infinity());
+  for (const Item& item : items) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      lower[k] = std::min(lower[k], item.key[k]);
+      upper[k] = std::max(upper[k], item.key[k]);
+    }
+  }
+  float diagonal = 0.0F;
+  for (std::size_t k = 0; k < 3; ++k)
+    diagonal = std::hypot(diagonal, upper[k] - lower[k]);
+  std::array<float, 6> width;
+  for (std::size_t k = 0; k < 6; ++k)
+    width[k] = (upper[k] - lower[k]) * (k < 3 ? 1.0F : kNormalWeight * diagonal);
+  return static_cast<std::size_t>(std::max_element(width.begin(), width.end()) - width.begin());
+}
+
+/// Halves the items along their widest dimension, the first part a multiple of `unit`; returns its size.
+std::size_t NormalConeTreeBuilder::split(Items items, std::size_t unit) {
+  const std::size_t cut = std::max<std::size_t>(1, (items.size() / 2 + unit / 2) / unit) * unit;
+  const std::size_t k = widestDimension(items);
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(cut), items.end(),
+                   [k](const Item& a, const Item& b) {
+                     return a.key[k] != b.key[k] ? a.key[k] < b.key[k] : a.feature < b.feature;
+                   });
+  return cut;
+}
+
+std::uint32_t NormalConeTreeBuilder::buildNode(Items items, std::vector<NormalConeTree::Node>& nodes) const {
+  const std::size_t full = fullChild(items.size());
+  std::array<Items, kWidth> parts{items};
+  std::size_t count = 1;
+  for (;;) {
+    Items& largest = *std::max_element(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count),
+                                       [](const Items& a, const Items& b) { return a.size() < b.size(); });
+    if (largest.size() <= full || count == kWidth) break;
+    const std::size_t cut = split(largest, full);
+    parts[count++] = largest.subspan(cut);
+    largest = largest.first(cut);
+  }
+
+  const auto index = static_cast<std::uint32_t>(nodes.size());
+  nodes.emplace_back();
+  for (std::size_t lane = 0; lane < kWidth; ++lane)
+    setLane(nodes[index], lane, parts[lane]);
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    const std::uint32_t child =
+        parts[lane].size() == 1 ? leafChild(parts[lane][0].feature) : buildNode(parts[lane], nodes);
+    nodes[index].child[lane] = child;
+  }
+  return index;
+}
+
+void NormalConeTreeBuilder::setLane(NormalConeTree::Node& node, std::size_t lane, Items items) const {
+  NormalConeTree::Bound b{};
+  if (items.empty()) {
+    b.centre = {kOutOfReach, kOutOfReach, kOutOfReach};
+    b.n = {1.0F, 0.0F, 0.0F};
+    b.u = {0.0F, 1.0F, 0.0F};
+  } else {
+    b = bound(items);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    node.centre[k][lane] = b.centre[k];
+    node.n[k][lane] = b.n[k];
+    node.u[k][lane] = b.u[k];
+    node.half[k][lane] = b.half[k];
+  }
+  node.leastN[lane] = b.leastN;
+  node.mostU[lane] = b.mostU;
+  node.mostV[lane] = b.mostV;
+  node.child[lane] = NormalConeTree::kNoChild;
+}
+
+/// u where the features are long and their normals are not, n along the mean normal, v square to both.
+std::array<glm::dvec3, 3> NormalConeTreeBuilder::axes(Items items) const {
+  glm::dmat3 positions(0.0), normals(0.0);
+  glm::dvec3 mean(0.0), meanNormal(0.0);
+  double points = 0.0;
+  for (const Item& item : items) {
+    const FeatureGeometry::Corners c = geometry_->corners(item.feature);
+    for (std::size_t k = 0; k < c.count; ++k) {
+      mean += c.points[k];
+      positions += glm::outerProduct(c.points[k], c.points[k]);
+      points += 1.0;
+    }
+    const NormalCone& cone = geometry_->cone(item.feature);
+    meanNormal += cone.axis;
+    // An arc spreads across its edge too, a wide cone about its axis.
+    normals += glm::outerProduct(cone.axis, cone.axis);
+    if (item.feature >= geometry_->edgeBase() && item.feature < geometry_->faceBase()) {
+      const glm::dvec3 across = glm::normalize(glm::cross(cone.axis, c.points[1] - c.points[0]));
+      normals += std::sin(cone.halfAngle) * glm::outerProduct(across, across);
+    }
+  }
+  mean /= points;
+  positions = positions / points - glm::outerProduct(mean, mean);
+  const auto trace = [](const glm::dmat3& m) { return m[0][0] + m[1][1] + m[2][2]; };
+  const double spread = trace(positions), least = 1e-30 * tree_.size_ * tree_.size_;
+  glm::dmat3 shape = normals / -trace(normals);
+  if (spread > least) shape += positions / spread;
+  const SymmetricEigen eigen = symmetricEigen(shape);
+  const glm::dvec3 u = eigen.vectors[2];
+  glm::dvec3 n = meanNormal - glm::dot(meanNormal, u) * u;
+  const double length = glm::length(n);
+  constexpr double kNoMean = 1e-3;
+  n = length > kNoMean * static_cast<double>(items.size()) ? n / length : eigen.vectors[0];
+  return {n, u, glm::cross(n, u)};
+}
+
+NormalConeTree::Bound NormalConeTreeBuilder::bound(Items items) const {
+  const std::array<glm::dvec3, 3> frame = axes(items);
+  glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper(-lower);
+  double leastN = 1.0, mostU = 0.0, mostV = 0.0;
+  for (const Item& item : items) {
+    const FeatureGeometry::Corners c = geometry_->corners(item.feature);
+    for (std::size_t k = 0; k < c.count; ++k) {
+      const glm::dvec3 p(glm::dot(c.points[k], frame[0]), glm::dot(c.points[k], frame[1]),
+                         glm::dot(c.points[k], frame[2]));
+      lower = glm::min(lower, p);
+      upper = glm::max(upper, p);
+    }
+    if (items.size() > kLargePart) continue;
+    if (leastN > -1.0) leastN = std::min(leastN, -geometry_->support(item.feature, -frame[0]));
+    if (mostU < 1.0)
+      mostU = std::max(
+          {mostU, geometry_->support(item.feature, frame[1]), geometry_->support(item.feature, -frame[1])});
+    if (mostV < 1.0)
+      mostV = std::max(
+          {mostV, geometry_->support(item.feature, frame[2]), geometry_->support(item.feature, -frame[2])});
+  }
+  if (items.size() > kLargePart) {
+    leastN = -1.0;
+    mostU = mostV = 1.0;
+  }
+  const glm::dvec3 middle = 0.5 * (lower + upper);
+  const glm::dvec3 half = 0.5 * (upper - lower) + kExtentPadding * tree_.size_;
+  NormalConeTree::Bound b{};
+  b.centre = toSingle(middle.x * frame[0] + middle.y * frame[1] + middle.z * frame[2]);
+  b.n = toSingle(frame[0]);
+  b.u = toSingle(frame[1]);
+  b.v = toSingle(frame[2]);
+  b.half = toSingle(half);
+  b.leastN = static_cast<float>(leastN - kDirectionPadding);
+  b.mostU = static_cast<float>(mostU + kDirectionPadding);
+  b.mostV = static_cast<float>(mostV + kDirectionPadding);
+  return b;
+}
+
+}  // namespace nearfit

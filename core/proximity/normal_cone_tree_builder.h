@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/mesh/features.h"
+#include "core/proximity/feature_geometry.h"
+#include "core/proximity/normal_cone_tree.h"
+
+namespace nearfit {
+
+/// Builds a NormalConeTree: splits the features by position and normal until each stands alone, in nodes that
+/// are full but for the last few, and bounds each part by a box along its own axes.
+class NormalConeTreeBuilder {
+ public:
+  NormalConeTreeBuilder(NormalConeTree& tree, const TriangleMesh& mesh) : tree_(tree), mesh_(mesh) {}
+  void build();
+
+ private:
+  /// One feature on its way into the tree; single precision suffices to sort by.
+  struct Item {
+    std::array<float, 6> key;  ///< Centre of its box, then the axis of its cone.
+    std::uint32_t feature;
+  };
+  using Items = std::span<Item>;
+
+  void fillLeaves();
+  std::vector<Item> makeItems() const;
+  static std::size_t widestDimension(Items items);
+  static std::size_t split(Items items, std::size_t unit);
+  std::uint32_t buildNode(Items items, std::vector<NormalConeTree::Node>& nodes) const;
+  void buildRoot(Items items);
+  void setLane(NormalConeTree::Node& node, std::size_t lane, Items items) const;
+  NormalConeTree::Bound bound(Items items) const;
+  std::array<glm::dvec3, 3> axes(Items items) const;
+  std::uint32_t leafChild(std::uint32_t feature) const;
+
+  NormalConeTree& tree_;
+  const TriangleMesh& mesh_;
+  MeshFeatures features_;
+  std::optional<FeatureGeometry> geometry_;
+};
+
+}  // namespace nearfit
