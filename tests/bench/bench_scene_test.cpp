@@ -38,7 +38,8 @@ TEST(BenchShapes, AreClosedOrientedOutwardAndOfTheCountsTheySay) {
 
 TEST(BenchShapes, GearHasItsBore) {
   double least = 10.0, greatest = 0.0;
-  for (const glm::dvec3& p : gearMesh(25).vertices()) {
+  const TriangleMesh gear = gearMesh(25);
+  for (const glm::dvec3& p : gear.vertices()) {
     least = std::min(least, std::hypot(p.x, p.y));
     greatest = std::max(greatest, std::hypot(p.x, p.y));
   }
