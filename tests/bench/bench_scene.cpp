@@ -27,18 +27,22 @@ TriangleMesh unitSized(const TriangleMesh& mesh) {
 }
 
 BenchScene unitPair(std::string name, const TriangleMesh& scene, const TriangleMesh& part) {
-  return {std::move(name), unitSized(scene), unitSized(part), std::nullopt};
+  return {std::move(name), unitSized(scene), unitSized(part), std::nullopt, std::nullopt};
 }
 
-/// A disc, given with radius 1 about the origin and its axis on z, at the centre of a bore along z.
-/// @param gear  Its bore's axis is the middle of its bounding box.
-BenchScene discInBore(std::string name, const TriangleMesh& gear, double boreRadius,
+struct Bore {
+  double radius, length;
+};
+
+/// A disc, given with radius 1 about the origin and its axis on z, in a bore along z, which it does not
+/// leave.
+/// @param gear  The bore is about the middle of its bounding box.
+BenchScene discInBore(std::string name, const TriangleMesh& gear, const Bore& bore,
                       const TriangleMesh& unitDisc) {
-  constexpr double kFill = 0.9;
+  constexpr double kFill = 0.9, kRange = 0.35;
   const double scale = 1.0 / gear.bounds().diagonal();
-  RigidTransform atCentre;
-  return {std::move(name), unitSized(gear), test::transformed(unitDisc, kFill * boreRadius * scale),
-          atCentre};
+  return {std::move(name), unitSized(gear), test::transformed(unitDisc, kFill * bore.radius * scale),
+          RigidTransform(), kRange * bore.length * scale};
 }
 
 SceneEntry generatedPair(const char* name, const char* description, std::function<TriangleMesh()> scene,
@@ -57,7 +61,7 @@ std::vector<SceneEntry> generatedScenes() {
   return {
       {"gear-disc", "512-triangle disc in the bore of a 6,300-triangle gear",
        [] {
-         return discInBore("gear-disc", gearMesh(kGearTeeth), kGearBoreRadius,
+         return discInBore("gear-disc", gearMesh(kGearTeeth), {kGearBoreRadius, kGearLength},
                            test::cylinderMesh(1.0, 0.2, 128));
        }},
       generatedPair(
@@ -88,14 +92,14 @@ std::vector<SceneEntry> sharedScenes(const fs::path& folder) {
   const fs::path gear = paper / "gear_6302.ply", crankshaft = paper / "crankshaft_12802.ply",
                  sphere = paper / "sphere_128.obj";
   // Of gear_6302.ply [m].
-  constexpr double kBoreRadius = 0.005;
+  constexpr Bore kBore{0.005, 0.02};
   return {
       pair("paper-bunny-sphere", "2,204 and 128 triangles", paper / "bunny_2204.ply", sphere),
       pair("paper-spring-teapot", "23,578 and 5,648 triangles", paper / "spring_23578.ply",
            paper / "teapot_5648.ply"),
       {"paper-gear-disc", "6,302 triangles, 512 in its bore",
        [=] {
-         return discInBore("paper-gear-disc", importedMesh(gear), kBoreRadius,
+         return discInBore("paper-gear-disc", importedMesh(gear), kBore,
                            importedMesh(paper / "disc_512.stl"));
        }},
       pair("paper-gear-gear", "6,302 triangles each", gear, gear),
@@ -108,7 +112,7 @@ std::vector<SceneEntry> sharedScenes(const fs::path& folder) {
 
 BenchScene sceneFromFiles(const fs::path& scene, const fs::path& part, double metresPerUnit) {
   return {scene.stem().string() + "-" + part.stem().string(), importedMesh(scene, metresPerUnit),
-          importedMesh(part, metresPerUnit), std::nullopt};
+          importedMesh(part, metresPerUnit), std::nullopt, std::nullopt};
 }
 
 std::vector<MeshEntry> generatedMeshes() {

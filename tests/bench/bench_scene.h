@@ -18,6 +18,8 @@ struct BenchScene {
   TriangleMesh scene, part;
   /// sceneFromPart of the first pose; without it the part comes in from outside.
   std::optional<RigidTransform> start;
+  /// Farthest that the part's centre goes from where it starts [m]: what keeps it in a bore.
+  std::optional<double> range;
 
   /// The larger body's diagonal [m]: what the cutoff and the steps are fractions of.
   double size() const { return std::max(scene.bounds().diagonal(), part.bounds().diagonal()); }

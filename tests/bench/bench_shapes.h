@@ -9,7 +9,7 @@
 namespace nearfit::bench {
 
 /// A spur gear about z from -0.5 to 0.5 with a round bore of radius 0.5, tip radius 2; 28 * 9 * teeth faces.
-inline constexpr double kGearBoreRadius = 0.5;
+inline constexpr double kGearBoreRadius = 0.5, kGearLength = 1.0;
 TriangleMesh gearMesh(std::uint32_t teeth);
 
 /// A helical spring about z with closed ends: coil radius 1, wire radius 0.2.

@@ -33,6 +33,7 @@ class Hand {
 
   std::vector<RigidTransform> walk() {
     options_.start ? begin(*options_.start) : approach();
+    home_ = centre();
     std::vector<RigidTransform> path{pose_};
     while (path.size() < options_.poses) {
       takeStep(path.size());
@@ -113,6 +114,7 @@ class Hand {
   bool tryMotion(const HandMotion& motion, double scale, double bound) {
     const RigidTransform before = pose_;
     const glm::dvec3 target = centre() + scale * stepLength_ * motion.direction;
+    if (options_.range && glm::distance(target, home_) > *options_.range) return false;
     pose_.rotation = glm::normalize(glm::angleAxis(scale * options_.turn, motion.axis) * pose_.rotation);
     place(target);
     const std::optional<Nearest> nearest = probe_(pose_);
@@ -147,6 +149,7 @@ class Hand {
   double stepLength_ = 0.0;
   RigidTransform pose_;
   HandMotion motion_{};
+  glm::dvec3 home_{0.0};
   double distance_ = 0.0;           ///< At the pose, or the reach when it is farther.
   glm::dvec3 away_{0.0, 0.0, 1.0};  ///< Unit, from what is nearest.
 };

@@ -36,6 +36,8 @@ struct HandPathOptions {
   double reach = 0.0;        ///< Of the probe [m]; > cutoff.
   std::uint64_t seed = 1;
   std::optional<RigidTransform> start;  ///< Else the part comes in from outside, at any orientation.
+  /// Farthest that the part's centre goes from where the path begins [m].
+  std::optional<double> range;
 };
 
 /// A path as a hand moves a part near a scene: directions of motion change smoothly, the distance comes and

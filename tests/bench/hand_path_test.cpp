@@ -80,6 +80,18 @@ TEST(HandPath, DirectionsChangeSmoothlyWhereNothingIsInTheWay) {
   EXPECT_LT(sharp, path.size() / 50);
 }
 
+TEST(HandPath, StaysWithinItsRange) {
+  HandPathOptions options = optionsOf(5);
+  options.range = 0.1;
+  const std::vector<RigidTransform> path = handPath(kSpheres, probeSpheres, options);
+  const glm::dvec3 home = path.front().applyToPoint(kSpheres.partCentre);
+  double farthest = 0.0;
+  for (const RigidTransform& pose : path)
+    farthest = std::max(farthest, glm::distance(home, pose.applyToPoint(kSpheres.partCentre)));
+  EXPECT_LE(farthest, 0.1 + 1e-12);
+  EXPECT_GT(farthest, 0.05);
+}
+
 TEST(HandPath, SameSeedGivesTheSamePathAndAnotherAnother) {
   const auto walk = [](std::uint64_t seed) { return handPath(kSpheres, probeSpheres, optionsOf(seed)); };
   const std::vector<RigidTransform> first = walk(6), again = walk(6), other = walk(7);

@@ -41,7 +41,7 @@ std::vector<RigidTransform> pathOf(int count) {
 }
 
 const PreparedScene& anyScene() {
-  static const PreparedScene scene({"any", test::tetrahedronMesh(), test::tetrahedronMesh(), {}}, 0.05);
+  static const PreparedScene scene({"any", test::tetrahedronMesh(), test::tetrahedronMesh(), {}, {}}, 0.05);
   return scene;
 }
 

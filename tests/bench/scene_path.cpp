@@ -32,6 +32,7 @@ std::vector<RigidTransform> makePath(const PreparedScene& scene, HandPathOptions
   options.cutoff = scene.cutoff;
   options.reach = 1.5 * scene.cutoff;
   options.start = scene.meshes.start;
+  options.range = scene.meshes.range;
   LmdScratch scratch;
   const DistanceProbe probe = [&](const RigidTransform& pose) -> std::optional<Nearest> {
     std::array<Lmd, 1> nearest;

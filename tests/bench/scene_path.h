@@ -10,7 +10,7 @@
 namespace nearfit::bench {
 
 /// A hand's path for a scene. Distances come from Nearfit's cold query, whose answers the run then compares
-/// with those of the other methods; `options`'s cutoff, reach and start are filled in.
+/// with those of the other methods; `options`'s cutoff, reach, start and range are filled in.
 std::vector<RigidTransform> makePath(const PreparedScene& scene, HandPathOptions options);
 
 /// The bodies of a scene as a path asks for them.
