@@ -23,9 +23,12 @@ using Floats = float __attribute__((vector_size(32)));
 using Ints = std::int32_t __attribute__((vector_size(32)));
 static_assert(sizeof(Floats) == NormalConeTree::kWidth * sizeof(float));
 
-struct Vectors {
-  Floats x, y, z;
+/// Three numbers, or three times eight.
+template <class T>
+struct Triple {
+  T x, y, z;
 };
+using Vectors = Triple<Floats>;
 
 NEARFIT_INLINE Floats load(const std::array<float, NormalConeTree::kWidth>& lanes) {
   Floats out;
@@ -48,72 +51,123 @@ NEARFIT_INLINE Floats magnitude(Floats a) {
   const Ints bits = reinterpret_cast<Ints>(a) & 0x7FFFFFFF;
   return reinterpret_cast<Floats>(bits);
 }
-NEARFIT_INLINE Floats dot(const Vectors& a, const std::array<float, 3>& b) {
-  return a.x * b[0] + a.y * b[1] + a.z * b[2];
-}
-NEARFIT_INLINE Floats dot(const Vectors& a, const Vectors& b) {
+template <class T>
+NEARFIT_INLINE Floats dot(const Vectors& a, const Triple<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+NEARFIT_INLINE Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 /// Limits on the directions of a body's minima, in its axes.
+template <class T>
 struct Limits {
-  Floats leastN, mostU, mostV;
+  T leastN, mostU, mostV;
 };
+
+/// One bound for all lanes, or one for each.
+template <class T>
+struct Box {
+  Triple<T> centre, n, u, v, half;
+  Limits<T> limits;
+};
+
+NEARFIT_INLINE Box<Floats> boxes(const NormalConeTree::Node& node) {
+  const Vectors n = load(node.n), u = load(node.u);
+  return {load(node.centre),
+          n,
+          u,
+          cross(n, u),
+          load(node.half),
+          {load(node.leastN), load(node.mostU), load(node.mostV)}};
+}
+
+NEARFIT_INLINE Box<float> box(const NormalConeTree::Bound& b) {
+  return {{b.centre[0], b.centre[1], b.centre[2]},
+          {b.n[0], b.n[1], b.n[2]},
+          {b.u[0], b.u[1], b.u[2]},
+          {b.v[0], b.v[1], b.v[2]},
+          {b.half[0], b.half[1], b.half[2]},
+          {b.leastN, b.mostU, b.mostV}};
+}
 
 /// Whether directions d within limits `a` and -d within limits `b` can be the same: b's projected on a's
 /// axes. The rows hold the product of each of a's axes with b's n, u and v.
-NEARFIT_INLINE Ints canFace(const Limits& a, const Limits& b, const Vectors& n, const Vectors& u,
-                            const Vectors& v) {
-  const auto side = [&b](const Vectors& row) __attribute__((always_inline)) {
-    return magnitude(row.y) * b.mostU + magnitude(row.z) * b.mostV + kDirectionSlack;
-  };
+template <class A, class B>
+NEARFIT_INLINE Ints canFace(const Limits<A>& a, const Limits<B>& b, const Vectors& n, const Vectors& u,
+                            const Vectors& v, float turn) {
   const Floats nEnd = -n.x, uEnd = -u.x, vEnd = -v.x;
   const Floats nLeast = nEnd * b.leastN, uLeast = uEnd * b.leastN, vLeast = vEnd * b.leastN;
-  const Floats uSide = side(u), vSide = side(v);
-  return (most(nEnd, nLeast) + side(n) >= a.leastN) & (least(uEnd, uLeast) - uSide <= a.mostU) &
+  const Floats nSide = magnitude(n.y) * b.mostU + magnitude(n.z) * b.mostV + turn;
+  const Floats uSide = magnitude(u.y) * b.mostU + magnitude(u.z) * b.mostV + turn;
+  const Floats vSide = magnitude(v.y) * b.mostU + magnitude(v.z) * b.mostV + turn;
+  return (most(nEnd, nLeast) + nSide >= a.leastN) & (least(uEnd, uLeast) - uSide <= a.mostU) &
          (most(uEnd, uLeast) + uSide >= -a.mostU) & (least(vEnd, vLeast) - vSide <= a.mostV) &
          (most(vEnd, vLeast) + vSide >= -a.mostV);
 }
 
+/// Half extent of a box along a direction whose products with the box's axes are given.
+template <class T>
+NEARFIT_INLINE Floats extent(const Triple<T>& half, const Floats& byN, const Floats& byU, const Floats& byV) {
+  return magnitude(byN) * half.x + magnitude(byU) * half.y + magnitude(byV) * half.z;
+}
+
 /// All bits set in the lanes that survive.
-NEARFIT_INLINE Ints cull(const NormalConeTree::Node& node, const NormalConeTree::Bound& other,
-                         const CullLimits& limits) {
-  const Vectors n = load(node.n), u = load(node.u), half = load(node.half), centre = load(node.centre);
-  const Vectors v{n.y * u.z - n.z * u.y, n.z * u.x - n.x * u.z, n.x * u.y - n.y * u.x};
-  const Limits own{load(node.leastN), load(node.mostU), load(node.mostV)};
-  const Limits its{all(other.leastN), all(other.mostU), all(other.mostV)};
-  const Vectors d{other.centre[0] - centre.x, other.centre[1] - centre.y, other.centre[2] - centre.z};
-
+template <class T>
+NEARFIT_INLINE Ints cull(const Box<Floats>& own, const Box<T>& its, const CullLimits& limits) {
+  const Vectors d{its.centre.x - own.centre.x, its.centre.y - own.centre.y, its.centre.z - own.centre.z};
   // Products of axes, own by row, the other's by column.
-  const Vectors cn{dot(n, other.n), dot(n, other.u), dot(n, other.v)};
-  const Vectors cu{dot(u, other.n), dot(u, other.u), dot(u, other.v)};
-  const Vectors cv{dot(v, other.n), dot(v, other.u), dot(v, other.v)};
+  const Vectors cn{dot(own.n, its.n), dot(own.n, its.u), dot(own.n, its.v)};
+  const Vectors cu{dot(own.u, its.n), dot(own.u, its.u), dot(own.u, its.v)};
+  const Vectors cv{dot(own.v, its.n), dot(own.v, its.u), dot(own.v, its.v)};
 
-  // d lies within `extent` of the centres' difference along each axis of either box, and points outward of
-  // both.
-  const auto ownExtent = [&](Floats h, const Vectors& row) __attribute__((always_inline)) {
-    return h + magnitude(row.x) * other.half[0] + magnitude(row.y) * other.half[1] +
-           magnitude(row.z) * other.half[2] + limits.padding;
-  };
-  const auto itsExtent = [&](float h, Floats byN, Floats byU, Floats byV) __attribute__((always_inline)) {
-    return magnitude(byN) * half.x + magnitude(byU) * half.y + magnitude(byV) * half.z + (h + limits.padding);
-  };
+  // Along each axis of either box a minimum's d lies within the sum of extents of the centres' difference,
+  // and it points outward of both.
   const Floats zero = all(0.0F), cutoff = all(limits.cutoff);
-  const Floats tn = dot(n, d), en = ownExtent(half.x, cn);
-  const Floats sn = -dot(d, other.n), fn = itsExtent(other.half[0], cn.x, cu.x, cv.x);
-  Ints alive = (tn - en <= cutoff) & (tn + en >= least(zero, own.leastN * cutoff)) & (sn - fn <= cutoff) &
-               (sn + fn >= least(zero, its.leastN * cutoff));
+  const Floats tn = dot(d, own.n), en = own.half.x + extent(its.half, cn.x, cn.y, cn.z) + limits.padding;
+  const Floats sn = -dot(d, its.n), fn = extent(own.half, cn.x, cu.x, cv.x) + (its.half.x + limits.padding);
+  Ints alive = (tn - en <= cutoff) & (tn + en >= least(zero, own.limits.leastN * cutoff)) &
+               (sn - fn <= cutoff) & (sn + fn >= least(zero, its.limits.leastN * cutoff));
 
   // What d can reach along n bounds its length, and that what it can reach sideways.
-  Floats reach = least(cutoff, own.leastN > kLeastSlope ? (tn + en) / own.leastN : cutoff);
-  reach = least(reach, its.leastN > kLeastSlope ? (sn + fn) / its.leastN : cutoff);
-  alive &= (magnitude(dot(u, d)) - ownExtent(half.y, cu) <= own.mostU * reach) &
-           (magnitude(dot(v, d)) - ownExtent(half.z, cv) <= own.mostV * reach) &
-           (magnitude(dot(d, other.u)) - itsExtent(other.half[1], cn.y, cu.y, cv.y) <= its.mostU * reach) &
-           (magnitude(dot(d, other.v)) - itsExtent(other.half[2], cn.z, cu.z, cv.z) <= its.mostV * reach);
+  const Floats itsLeastN = zero + its.limits.leastN;
+  Floats reach = least(cutoff, own.limits.leastN > kLeastSlope ? (tn + en) / own.limits.leastN : cutoff);
+  reach = least(reach, itsLeastN > kLeastSlope ? (sn + fn) / itsLeastN : cutoff);
+  const Floats tu = dot(d, own.u), eu = own.half.y + extent(its.half, cu.x, cu.y, cu.z) + limits.padding;
+  const Floats tv = dot(d, own.v), ev = own.half.z + extent(its.half, cv.x, cv.y, cv.z) + limits.padding;
+  const Floats su = dot(d, its.u), fu = extent(own.half, cn.y, cu.y, cv.y) + (its.half.y + limits.padding);
+  const Floats sv = dot(d, its.v), fv = extent(own.half, cn.z, cu.z, cv.z) + (its.half.z + limits.padding);
+  alive &=
+      (magnitude(tu) - eu <= own.limits.mostU * reach) & (magnitude(tv) - ev <= own.limits.mostV * reach) &
+      (magnitude(su) - fu <= its.limits.mostU * reach) & (magnitude(sv) - fv <= its.limits.mostV * reach);
 
-  return alive & canFace(own, its, cn, cu, cv) &
-         canFace(its, own, {cn.x, cu.x, cv.x}, {cn.y, cu.y, cv.y}, {cn.z, cu.z, cv.z});
+  return alive & canFace(own.limits, its.limits, cn, cu, cv, limits.turn) &
+         canFace(its.limits, own.limits, {cn.x, cu.x, cv.x}, {cn.y, cu.y, cv.y}, {cn.z, cu.z, cv.z},
+                 limits.turn);
+}
+
+NEARFIT_INLINE Ints cullChildren(const NormalConeTree::Node& node, const NormalConeTree::Bound& other,
+                                 const CullLimits& limits) {
+  return cull(boxes(node), box(other), limits);
+}
+
+NEARFIT_INLINE Ints cullPairs(const BoundPairs& pairs, const SinglePose& pose, const CullLimits& limits) {
+  const auto& m = pose.columns();
+  Box<Floats> part = boxes(pairs.part);
+  const auto turned = [&m](const Vectors& a) __attribute__((always_inline)) {
+    return Vectors{m[0][0] * a.x + m[1][0] * a.y + m[2][0] * a.z,
+                   m[0][1] * a.x + m[1][1] * a.y + m[2][1] * a.z,
+                   m[0][2] * a.x + m[1][2] * a.y + m[2][2] * a.z};
+  };
+  part.n = turned(part.n);
+  part.u = turned(part.u);
+  part.v = turned(part.v);
+  part.centre = turned(part.centre);
+  part.centre.x += m[3][0];
+  part.centre.y += m[3][1];
+  part.centre.z += m[3][2];
+  return cull(boxes(pairs.scene), part, limits);
 }
 
 NEARFIT_INLINE std::uint32_t bitsOf(Ints lanes) {
@@ -125,21 +179,34 @@ NEARFIT_INLINE std::uint32_t bitsOf(Ints lanes) {
 
 std::uint32_t cullPortable(const NormalConeTree::Node& node, const NormalConeTree::Bound& other,
                            const CullLimits& limits) noexcept {
-  return bitsOf(cull(node, other, limits));
+  return bitsOf(cullChildren(node, other, limits));
+}
+std::uint32_t cullPairsPortable(const BoundPairs& pairs, const SinglePose& pose,
+                                const CullLimits& limits) noexcept {
+  return bitsOf(cullPairs(pairs, pose, limits));
 }
 
 #if defined(__x86_64__)
-__attribute__((target("avx2,fma"))) std::uint32_t cullAvx2(const NormalConeTree::Node& node,
-                                                           const NormalConeTree::Bound& other,
-                                                           const CullLimits& limits) noexcept {
-  return static_cast<std::uint32_t>(
-      __builtin_ia32_movmskps256(reinterpret_cast<Floats>(cull(node, other, limits))));
-}
+#define NEARFIT_AVX2 __attribute__((target("avx2,fma")))
+#define NEARFIT_AVX512 __attribute__((target("avx512f,avx512vl,avx512dq,fma")))
+#define NEARFIT_BITS(lanes) \
+  static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats>(lanes)))
 
-__attribute__((target("avx512f,avx512vl,avx512dq,fma"))) std::uint32_t cullAvx512(
-    const NormalConeTree::Node& node, const NormalConeTree::Bound& other, const CullLimits& limits) noexcept {
-  return static_cast<std::uint32_t>(
-      __builtin_ia32_movmskps256(reinterpret_cast<Floats>(cull(node, other, limits))));
+NEARFIT_AVX2 std::uint32_t cullAvx2(const NormalConeTree::Node& node, const NormalConeTree::Bound& other,
+                                    const CullLimits& limits) noexcept {
+  return NEARFIT_BITS(cullChildren(node, other, limits));
+}
+NEARFIT_AVX2 std::uint32_t cullPairsAvx2(const BoundPairs& pairs, const SinglePose& pose,
+                                         const CullLimits& limits) noexcept {
+  return NEARFIT_BITS(cullPairs(pairs, pose, limits));
+}
+NEARFIT_AVX512 std::uint32_t cullAvx512(const NormalConeTree::Node& node, const NormalConeTree::Bound& other,
+                                        const CullLimits& limits) noexcept {
+  return NEARFIT_BITS(cullChildren(node, other, limits));
+}
+NEARFIT_AVX512 std::uint32_t cullPairsAvx512(const BoundPairs& pairs, const SinglePose& pose,
+                                             const CullLimits& limits) noexcept {
+  return NEARFIT_BITS(cullPairs(pairs, pose, limits));
 }
 #endif
 
@@ -197,6 +264,15 @@ CullKernel cullKernel(SimdLevel level) noexcept {
 #endif
   static_cast<void>(level);
   return cullPortable;
+}
+
+PairCullKernel pairCullKernel(SimdLevel level) noexcept {
+#if defined(__x86_64__)
+  if (level == SimdLevel::Avx512) return cullPairsAvx512;
+  if (level == SimdLevel::Avx2) return cullPairsAvx2;
+#endif
+  static_cast<void>(level);
+  return cullPairsPortable;
 }
 
 SimdLevel defaultSimdLevel() noexcept {

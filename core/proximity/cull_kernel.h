@@ -15,15 +15,18 @@ class SinglePose {
   explicit SinglePose(const RigidTransform& pose) noexcept;
   NormalConeTree::Bound apply(const NormalConeTree::Bound& b) const noexcept;
 
+  /// Three of the rotation, then the translation; fourth entries 0.
+  const std::array<std::array<float, 4>, 4>& columns() const noexcept { return columns_; }
+
  private:
-  std::array<std::array<float, 4>, 4>
-      columns_;  ///< Three of the rotation, then the translation; fourth entry 0.
+  std::array<std::array<float, 4>, 4> columns_;
 };
 
 /// What a pair of bounds is held against besides the bounds themselves.
 struct CullLimits {
   float cutoff;   ///< [m]
-  float padding;  ///< What a box may be off by through rounding of the pose [m].
+  float padding;  ///< What a box may be off by through rounding of the pose, or motion to come [m].
+  float turn;     ///< What directions may be off by through rounding, or turning to come [rad].
 };
 
 /// Which children of a node can hold a minimum together with features inside `other`: bit per lane.
@@ -36,6 +39,15 @@ struct CullLimits {
 using CullKernel = std::uint32_t (*)(const NormalConeTree::Node& node, const NormalConeTree::Bound& other,
                                      const CullLimits& limits) noexcept;
 
+/// Eight pairs of bounds, each side in its own frame, lane by lane.
+struct alignas(64) BoundPairs {
+  NormalConeTree::Node scene, part;  ///< Of each, the bounds; the children are the leaves.
+};
+
+/// Which of eight pairs of bounds can hold a minimum, by the same test.
+using PairCullKernel = std::uint32_t (*)(const BoundPairs& pairs, const SinglePose& sceneFromPart,
+                                         const CullLimits& limits) noexcept;
+
 enum class SimdLevel : std::uint8_t { Portable, Avx2, Avx512 };
 
 /// Levels that this machine runs, best last.
@@ -43,6 +55,7 @@ std::span<const SimdLevel> availableSimdLevels() noexcept;
 
 /// The kernel for a level that the machine has.
 CullKernel cullKernel(SimdLevel level) noexcept;
+PairCullKernel pairCullKernel(SimdLevel level) noexcept;
 
 /// The level that queries use: the best, unless the environment variable NEARFIT_SIMD (portable, avx2,
 /// avx512) names a lower one.

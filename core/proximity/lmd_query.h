@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -54,8 +55,11 @@ class LmdScratch {
 /// @param out            Caller's storage; keeps the nearest if it fills, and the result says Truncated.
 /// Points are in scene's frame. Real-time safe: no allocation, lock or throw.
 /// Source: Johnson & Willemsen 2003, 4.2; exact leaf conditions instead of vertex-normal spans.
+/// @param maxNodePairs  Bound on the work: when it is reached the result says Truncated and holds what was
+/// found.
 LmdResult findLmds(const NormalConeTree& scene, const NormalConeTree& part,
                    const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
-                   std::span<Lmd> out) noexcept;
+                   std::span<Lmd> out,
+                   std::uint64_t maxNodePairs = std::numeric_limits<std::uint64_t>::max()) noexcept;
 
 }  // namespace nearfit

@@ -1,0 +1,73 @@
+#include "core/proximity/query_workspace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "core/proximity/merge_minima.h"
+
+namespace nearfit {
+namespace {
+
+/// The hierarchy's rounding, and the pose's in single precision, as a fraction of the lengths involved.
+constexpr double kPosePadding = 1e-6;
+
+/// Rounding of projected limits on directions: some thirty roundings of single precision.
+constexpr float kDirectionSlack = 4e-6F;
+
+bool isNearer(const Minimum& a, const Minimum& b) noexcept {
+  return a.lmd.distance < b.lmd.distance;
+}
+
+}  // namespace
+
+void MinimaCollector::add() noexcept {
+  std::vector<Minimum>& minima = workspace_.minima;
+  if (count_ < minima.size()) {
+    ++count_;
+    return;
+  }
+  // Full: the farthest makes room.
+  result_.status = QueryStatus::Truncated;
+  if (!isHeap_) std::make_heap(minima.begin(), minima.end(), isNearer);
+  isHeap_ = true;
+  if (spare_.lmd.distance >= minima.front().lmd.distance) return;
+  std::pop_heap(minima.begin(), minima.end(), isNearer);
+  minima.back() = spare_;
+  std::push_heap(minima.begin(), minima.end(), isNearer);
+}
+
+void MinimaCollector::finish(const NormalConeTree& scene, double size, std::span<Lmd> out) noexcept {
+  const std::size_t kept =
+      mergeMinima(std::span(workspace_.minima).first(count_), workspace_.order, workspace_.parent, size);
+  if (kept > out.size()) result_.status = QueryStatus::Truncated;
+  result_.count = std::min(kept, out.size());
+  for (std::size_t i = 0; i < result_.count; ++i) {
+    out[i] = workspace_.minima[workspace_.order[i]].lmd;
+    out[i].scenePoint += scene.centre();
+    out[i].partPoint += scene.centre();
+  }
+}
+
+RigidTransform centredPose(const NormalConeTree& scene, const NormalConeTree& part,
+                           const RigidTransform& sceneFromPart) noexcept {
+  RigidTransform pose = sceneFromPart.normalized();
+  pose.translation += pose.rotation * part.centre() - scene.centre();
+  return pose;
+}
+
+CullLimits cullLimits(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& centred,
+                      double cutoff) noexcept {
+  const double reach = scene.size() + part.size() + glm::length(centred.translation);
+  return {static_cast<float>(cutoff * (1.0 + kPosePadding)), static_cast<float>(kPosePadding * reach),
+          kDirectionSlack};
+}
+
+bool isQueryValid(const NormalConeTree& scene, const NormalConeTree& part,
+                  const RigidTransform& sceneFromPart, double cutoff) noexcept {
+  return !scene.isEmpty() && !part.isEmpty() && cutoff > 0.0 && std::isfinite(cutoff) &&
+         sceneFromPart.isFinite();
+}
+
+}  // namespace nearfit

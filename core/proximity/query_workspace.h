@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/proximity/cull_kernel.h"
+#include "core/proximity/lmd_query.h"
+#include "core/proximity/minimum.h"
+#include "core/proximity/tree_traversal.h"
+
+namespace nearfit {
+
+/// What an LmdScratch holds: the stack of a traversal, and the minima found until they are merged.
+struct LmdScratch::Data {
+  Data(std::size_t capacity, SimdLevel simd)
+      : minima(capacity),
+        order(capacity),
+        parent(capacity),
+        cull(cullKernel(simd)),
+        pairCull(pairCullKernel(simd)) {}
+
+  TraversalStack stack;
+  std::vector<Minimum> minima;
+  std::vector<std::uint32_t> order, parent;
+  CullKernel cull;
+  PairCullKernel pairCull;
+};
+
+/// Takes minima in as they are found, keeps the nearest when the workspace is full, and merges them in the
+/// end.
+class MinimaCollector {
+ public:
+  MinimaCollector(LmdScratch::Data& workspace, LmdResult& result) noexcept
+      : workspace_(workspace), result_(result) {}
+
+  /// Where to write the next one; add() takes it in.
+  Minimum& slot() noexcept { return count_ < workspace_.minima.size() ? workspace_.minima[count_] : spare_; }
+  void add() noexcept;
+
+  /// Merges, sorts nearest first, and writes to `out` in the frame of the scene's mesh.
+  void finish(const NormalConeTree& scene, double size, std::span<Lmd> out) noexcept;
+
+ private:
+  LmdScratch::Data& workspace_;
+  LmdResult& result_;
+  Minimum spare_;
+  std::size_t count_ = 0;
+  bool isHeap_ = false;
+};
+
+/// A pose between the trees' centred frames from one between the meshes' frames, its quaternion normalised.
+RigidTransform centredPose(const NormalConeTree& scene, const NormalConeTree& part,
+                           const RigidTransform& sceneFromPart) noexcept;
+
+/// Cutoff and padding in single precision for a pose between centred frames.
+CullLimits cullLimits(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& centred,
+                      double cutoff) noexcept;
+
+/// Whether a query with these arguments makes sense; it has no minima otherwise.
+bool isQueryValid(const NormalConeTree& scene, const NormalConeTree& part,
+                  const RigidTransform& sceneFromPart, double cutoff) noexcept;
+
+}  // namespace nearfit

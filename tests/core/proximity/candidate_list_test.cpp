@@ -1,0 +1,158 @@
+#include "core/proximity/candidate_list.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "core/proximity/normal_cone_tree.h"
+#include "tests/support/lmd_comparison.h"
+#include "tests/support/mesh_generators.h"
+
+namespace nearfit {
+namespace {
+
+using test::BodyPair;
+
+constexpr double kCutoff = 0.1;
+const MotionBudget kBudget{0.02, 0.03};
+
+class Stars {
+ public:
+  const BodyPair pair{"stars", test::starMesh(21, 1.0, 3, 0.25), test::starMesh(22, 0.7, 3, 0.25)};
+  const NormalConeTree scene{pair.scene}, part{pair.part};
+  LmdScratch scratch;
+
+  std::vector<Lmd> cold(const RigidTransform& pose, double cutoff = kCutoff) {
+    std::vector<Lmd> out(4096);
+    out.resize(findLmds(scene, part, pose, cutoff, scratch, out).count);
+    return out;
+  }
+  std::vector<Lmd> listed(const CandidateList& list, const RigidTransform& pose, double cutoff = kCutoff) {
+    std::vector<Lmd> out(4096);
+    out.resize(list.query(pose, cutoff, scratch, out).count);
+    return out;
+  }
+};
+
+void expectSame(const std::vector<Lmd>& a, const std::vector<Lmd>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].scenePoint, b[i].scenePoint);
+    EXPECT_EQ(a[i].partPoint, b[i].partPoint);
+    EXPECT_EQ(a[i].direction, b[i].direction);
+  }
+}
+
+/// A pose as far from another as the budget allows, in a random sense.
+RigidTransform movedWithin(const RigidTransform& pose, const MotionBudget& budget, double radius,
+                           double share, std::mt19937_64& random) {
+  const glm::dvec3 axis = test::randomRotation(random).rotation * glm::dvec3(1, 0, 0);
+  const glm::dvec3 way = test::randomRotation(random).rotation * glm::dvec3(1, 0, 0);
+  const double angle = share * std::min(budget.turn, budget.travel / (2.0 * radius));
+  const double travel = share * budget.travel - 2.0 * std::sin(0.5 * angle) * radius;
+  return {glm::normalize(glm::angleAxis(angle, axis) * pose.rotation),
+          pose.translation + std::max(0.0, travel) * way};
+}
+
+TEST(CandidateList, HoldsTheExactSetAtEveryPoseWithinItsBudget) {
+  Stars stars;
+  std::mt19937_64 random(1);
+  CandidateList list(1 << 16);
+  const double radius = 0.5 * stars.part.size();
+  std::size_t compared = 0;
+  for (int i = 0; i < 40; ++i) {
+    const RigidTransform start = test::poseNearContact(stars.pair, kCutoff, random);
+    list.build(stars.scene, stars.part, start, kCutoff, kBudget, stars.scratch);
+    for (int k = 0; k < 25; ++k) {
+      const RigidTransform pose = movedWithin(start, kBudget, radius, 0.999, random);
+      ASSERT_TRUE(list.covers(pose, kCutoff));
+      const std::vector<Lmd> expected = stars.cold(pose);
+      expectSame(stars.listed(list, pose), expected);
+      expectSame(stars.listed(list, pose, 0.5 * kCutoff), stars.cold(pose, 0.5 * kCutoff));
+      compared += expected.size();
+    }
+  }
+  EXPECT_GT(compared, 1000U);
+}
+
+TEST(CandidateList, RotationAloneSpendsTheBudgetToo) {
+  Stars stars;
+  std::mt19937_64 random(2);
+  CandidateList list(1 << 16);
+  const MotionBudget turnOnly{0.5, 0.2};
+  for (int i = 0; i < 10; ++i) {
+    const RigidTransform start = test::poseNearContact(stars.pair, kCutoff, random);
+    list.build(stars.scene, stars.part, start, kCutoff, turnOnly, stars.scratch);
+    const glm::dvec3 axis = test::randomRotation(random).rotation * glm::dvec3(0, 1, 0);
+    for (const double angle : {0.05, -0.1, 0.15, -0.199}) {
+      // About the part's own origin, which is not where its box is centred.
+      const RigidTransform pose{glm::angleAxis(angle, axis) * start.rotation, start.translation};
+      ASSERT_TRUE(list.covers(pose, kCutoff));
+      expectSame(stars.listed(list, pose), stars.cold(pose));
+    }
+    const RigidTransform tooFar{glm::angleAxis(0.21, axis) * start.rotation, start.translation};
+    EXPECT_FALSE(list.covers(tooFar, kCutoff));
+  }
+}
+
+TEST(CandidateList, CoversNothingBeyondItsBudgetItsCutoffOrItsRoom) {
+  Stars stars;
+  CandidateList list(1 << 16), small(8);
+  RigidTransform pose{{1, 0, 0, 0}, {1.3, 0.3, 0.2}};
+  EXPECT_FALSE(list.covers(pose, kCutoff));  // Nothing was built.
+  list.build(stars.scene, stars.part, pose, kCutoff, kBudget, stars.scratch);
+  ASSERT_GT(list.size(), 8U);
+  EXPECT_TRUE(list.covers(pose, kCutoff));
+  EXPECT_FALSE(list.covers(pose, 1.01 * kCutoff));
+  RigidTransform moved = pose;
+  moved.translation.x += 0.999 * kBudget.travel;
+  EXPECT_TRUE(list.covers(moved, kCutoff));
+  moved.translation.x = pose.translation.x + 1.001 * kBudget.travel;
+  EXPECT_FALSE(list.covers(moved, kCutoff));
+  moved.translation.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(list.covers(moved, kCutoff));
+  small.build(stars.scene, stars.part, pose, kCutoff, kBudget, stars.scratch);
+  EXPECT_FALSE(small.covers(pose, kCutoff));
+}
+
+TEST(CandidateList, FlatContactIsOneRegionFromTheListToo) {
+  const TriangleMesh floor = test::squareMesh(2.0, 8), box = test::boxMesh({0.5, 0.5, 0.5});
+  const NormalConeTree scene(floor), part(box);
+  LmdScratch scratch;
+  CandidateList list(4096);
+  std::vector<Lmd> out(64);
+  list.build(scene, part, {{1, 0, 0, 0}, {0.1, 0.2, 0.31}}, kCutoff, {0.05, 0.01}, scratch);
+  const LmdResult result = list.query({{1, 0, 0, 0}, {0.13, 0.2, 0.3}}, kCutoff, scratch, out);
+  ASSERT_EQ(result.count, 1U);
+  EXPECT_TRUE(out[0].isRegion);
+  EXPECT_NEAR(out[0].distance, 0.05, 1e-12);
+  EXPECT_LT(glm::distance(out[0].scenePoint, glm::dvec3(0.13, 0.2, 0.0)), 1e-9);
+}
+
+TEST(MotionBetween, BoundsTheMotionOfEveryPointWithinTheRadius) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  constexpr double kRadius = 0.7;
+  for (int i = 0; i < 500; ++i) {
+    RigidTransform a = test::randomRotation(random), b = test::randomRotation(random);
+    if (i % 2 == 0)
+      b.rotation = glm::normalize(glm::angleAxis(0.01 * unit(random), glm::dvec3(0, 0, 1)) * a.rotation);
+    a.translation = {unit(random), unit(random), unit(random)};
+    b.translation = {unit(random), unit(random), unit(random)};
+    const MotionBudget motion = motionBetween(a, b, kRadius);
+    for (int k = 0; k < 20; ++k) {
+      const glm::dvec3 p = kRadius * (test::randomRotation(random).rotation * glm::dvec3(1, 0, 0));
+      EXPECT_LE(glm::distance(a.applyToPoint(p), b.applyToPoint(p)), motion.travel + 1e-12);
+      const glm::dvec3 d = test::randomRotation(random).rotation * glm::dvec3(1, 0, 0);
+      const double angle = std::acos(std::clamp(glm::dot(a.rotation * d, b.rotation * d), -1.0, 1.0));
+      EXPECT_LE(angle, motion.turn + 1e-7);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nearfit
