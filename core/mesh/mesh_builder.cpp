@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/mesh/flat_triangles.h"
 #include "core/mesh/polygon_triangulation.h"
+#include "core/mesh/shell_orientation.h"
 #include "core/mesh/vertex_welding.h"
 
 namespace nearfit {
@@ -63,22 +64,32 @@ void checkSoup(const PolygonSoup& soup) {
 /// The work of buildMesh, step by step.
 class Builder {
  public:
-  Builder(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report)
-      : soup_(soup), options_(options), report_(report) {}
+  Builder(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report,
+          const std::function<void(double)>& onProgress)
+      : soup_(soup), options_(options), report_(report), onProgress_(onProgress) {}
 
   TriangleMesh build() {
     gatherVertices();
+    report(0.1);
     weld();
+    report(0.3);
     gatherTriangles();
+    report(0.4);
     dropDuplicates();
+    report(0.5);
     report_.swappedFaces = swapFlatTriangles(vertices_, triangles_, tolerance_);
     dropTrianglesWithoutArea();
     if (triangles_.empty()) throw Error("", "none of its faces has an area", "export the part again");
     dropUnusedVertices();
+    report(0.6);
     return {std::move(vertices_), std::move(triangles_)};
   }
 
  private:
+  /// The fractions are those of the time that a plain mesh takes.
+  void report(double fraction) const {
+    if (onProgress_) onProgress_(fraction);
+  }
   std::span<const std::uint32_t> polygon(std::size_t i) const {
     return std::span(soup_.corners)
         .subspan(soup_.firstCorner[i], soup_.firstCorner[i + 1] - soup_.firstCorner[i]);
@@ -199,6 +210,7 @@ class Builder {
   const PolygonSoup& soup_;
   const MeshBuildOptions& options_;
   MeshBuildReport& report_;
+  const std::function<void(double)>& onProgress_;
   double tolerance_ = 0.0;            ///< [m]
   std::vector<glm::dvec3> vertices_;  ///< [m]
   std::vector<Triangle> triangles_;
@@ -230,23 +242,17 @@ void addWarnings(const MeshTopology& topology, MeshBuildReport& report) {
     report.warnings.emplace_back("The mesh was inside out; all its faces were turned.");
 }
 
-/// Six times the volume, by tetrahedra from the box's centre.
-double signedVolume(const TriangleMesh& mesh) {
-  const glm::dvec3 centre = mesh.bounds().centre();
-  double sum = 0.0;
-  for (const Triangle& t : mesh.triangles()) {
-    const glm::dvec3 a = mesh.vertices()[t[0]] - centre, b = mesh.vertices()[t[1]] - centre,
-                     c = mesh.vertices()[t[2]] - centre;
-    sum += glm::dot(a, glm::cross(b, c));
-  }
-  return sum;
-}
-
-TriangleMesh turnedMesh(const TriangleMesh& mesh) {
-  std::vector<Triangle> triangles(mesh.triangles().begin(), mesh.triangles().end());
-  for (Triangle& t : triangles)
-    std::swap(t[1], t[2]);
-  return {{mesh.vertices().begin(), mesh.vertices().end()}, std::move(triangles)};
+/// Turns what is inside out. Most meshes have nothing to turn and are not built twice.
+TriangleMesh outsideOut(TriangleMesh mesh, MeshBuildReport& report) {
+  OrientedShells shells = orientShells(mesh);
+  if (shells.turnedPieces == 0) return mesh;
+  report.turnedInsideOut = true;
+  report.warnings.push_back(shells.closedPieces == 1
+                                ? "The mesh was inside out; its faces were turned."
+                                : fmt::format("{} of {} closed pieces {} inside out and turned.",
+                                              shells.turnedPieces, shells.closedPieces,
+                                              shells.turnedPieces == 1 ? "was" : "were"));
+  return {{mesh.vertices().begin(), mesh.vertices().end()}, std::move(shells.triangles)};
 }
 
 }  // namespace
@@ -256,17 +262,14 @@ void PolygonSoup::closePolygon() {
   firstCorner.push_back(static_cast<std::uint32_t>(corners.size()));
 }
 
-TriangleMesh buildMesh(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report) {
+TriangleMesh buildMesh(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report,
+                       const std::function<void(double)>& onProgress) {
   checkOptions(options);
   checkSoup(soup);
   report = {};
-  TriangleMesh mesh = Builder(soup, options, report).build();
-  if (mesh.topology().isClosed() && mesh.topology().isOriented() && signedVolume(mesh) < 0.0) {
-    mesh = turnedMesh(mesh);
-    report.turnedInsideOut = true;
-  }
+  TriangleMesh mesh = Builder(soup, options, report, onProgress).build();
   addWarnings(mesh.topology(), report);
-  return mesh;
+  return outsideOut(std::move(mesh), report);
 }
 
 }  // namespace nearfit

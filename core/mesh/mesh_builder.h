@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,12 +35,17 @@ struct MeshBuildReport {
   std::uint64_t duplicateFaces = 0;   ///< Dropped: same corners in the same sense as another face.
   std::uint64_t nonFiniteFaces = 0;   ///< Dropped: they use a vertex that is not finite.
   std::uint64_t swappedFaces = 0;     ///< Lines (T-junctions), swapped with a neighbour for faces with area.
-  bool turnedInsideOut = false;       ///< The closed mesh had negative volume; all its faces were turned.
+  bool turnedInsideOut = false;       ///< Closed pieces of negative volume were turned (cavities were not).
   std::vector<std::string> warnings;  ///< A sentence for each thing a user should know, with counts.
 };
 
 /// A mesh from a soup: scaled to metres, welded, polygons triangulated (concave ones too), cleaned, turned.
-/// Throws Error when nothing is left, an index is out of range, or a limit is passed.
-TriangleMesh buildMesh(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report);
+/// Welding moves no vertex farther than the tolerance, so that chains of close vertices do not run together;
+/// the first of those that become one stays where it is. The same soup gives the same mesh.
+/// @param onProgress  Called now and then with the fraction done; may throw to stop the work. May be empty.
+/// Throws Error when nothing is left, an index is out of range, or a limit is passed; UsageError for options
+/// that make no sense.
+TriangleMesh buildMesh(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report,
+                       const std::function<void(double fraction)>& onProgress = {});
 
 }  // namespace nearfit

@@ -82,7 +82,8 @@ ImportedMesh importUnguarded(const std::filesystem::path& file, const MeshBuildO
   std::vector<char>().swap(bytes);
   requireFaces(file, read.soup);
   progress.report(kReadFraction, kParsedFraction, 1.0);
-  imported.mesh = buildMesh(read.soup, options, imported.report);
+  imported.mesh = buildMesh(read.soup, options, imported.report,
+                            [&](double done) { progress.report(kParsedFraction, 1.0, done); });
   imported.report.warnings.insert(imported.report.warnings.begin(), read.warnings.begin(),
                                   read.warnings.end());
   progress.report(kParsedFraction, 1.0, 1.0);

@@ -148,6 +148,32 @@ TEST(MeshBuilder, CavityIsNotTurned) {
   EXPECT_NEAR(massProperties(mesh).volume, 7.0, 1e-14);
 }
 
+TEST(MeshBuilder, HollowBodyThatIsInsideOutIsTurnedWithItsCavity) {
+  const TriangleMesh hollow = test::joined(test::boxMesh({2, 2, 2}), test::turned(test::boxMesh({1, 1, 1})));
+  const TriangleMesh mesh = build(test::soupOf(test::turned(hollow)));
+  EXPECT_NEAR(massProperties(mesh).volume, 7.0, 1e-14);
+}
+
+TEST(MeshBuilder, PieceThatIsInsideOutIsTurnedBesideOthersThatAreNot) {
+  const TriangleMesh large = test::boxMesh({2, 2, 2}), small = test::boxMesh({1, 1, 1}, {5, 0, 0});
+  for (const TriangleMesh& both :
+       {test::joined(large, test::turned(small)), test::joined(test::turned(large), small)}) {
+    MeshBuildReport report;
+    const TriangleMesh mesh = buildMesh(test::soupOf(both), {}, report);
+    EXPECT_NEAR(massProperties(mesh).volume, 9.0, 1e-14);
+    EXPECT_THAT(report.warnings, Contains("1 of 2 closed pieces was inside out and turned."));
+  }
+}
+
+TEST(MeshBuilder, ClosedPieceIsTurnedThoughAnotherPieceIsOpen) {
+  const TriangleMesh both =
+      test::joined(test::squareMesh(9, 1), test::turned(test::boxMesh({1, 1, 1}, {5, 0, 3})));
+  MeshBuildReport report;
+  const TriangleMesh mesh = buildMesh(test::soupOf(both), {}, report);
+  EXPECT_TRUE(report.turnedInsideOut);
+  EXPECT_EQ(mesh.triangles()[0], (Triangle{0, 1, 2}));  // The open piece stays as it is.
+}
+
 TEST(MeshBuilder, RepeatedCornersAndLinesAreLeftOut) {
   MeshBuildReport report;
   const TriangleMesh mesh = buildMesh(soupOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}},
