@@ -20,15 +20,11 @@ constexpr double kExtentPadding = 1e-6;
 /// Added to each limit on directions: some roundings of a single precision axis.
 constexpr double kDirectionPadding = 2e-6;
 
-/// What a right angle between normals counts, in units of the diagonal of the positions, when a part is split
-/// along its widest dimension: two sheets back to back part before each is cut in two.
-constexpr float kNormalWeight = 0.5F;
-
 /// Centre of the lanes that have no child: out of reach of any mesh, and its square still finite.
 constexpr float kOutOfReach = 1e18F;
 
-/// Parts larger than this are not worth exact limits of direction: they hold about every direction, and are
-/// opened.
+/// Parts larger than this are opened whatever they hold: they get no exact limits of direction, and are split
+/// along their widest axis untried.
 constexpr std::size_t kLargePart = 4096;
 
 constexpr std::size_t kWidth = NormalConeTree::kWidth;
@@ -90,11 +86,7 @@ std::vector<NormalConeTreeBuilder::Item> NormalConeTreeBuilder::makeItems() cons
     Aabb box;
     for (std::size_t k = 0; k < c.count; ++k)
       box.add(c.points[k]);
-    const glm::dvec3 centre = box.centre(), normal = geometry_->cone(i).axis;
-    for (std::size_t k = 0; k < 3; ++k) {
-      items[i].key[k] = static_cast<float>(centre[static_cast<int>(k)]);
-      items[i].key[k + 3] = static_cast<float>(normal[static_cast<int>(k)]);
-    }
+    items[i].centre = toSingle(box.centre());
     items[i].feature = i;
   }
   return items;
@@ -118,34 +110,52 @@ void NormalConeTreeBuilder::buildRoot(Items items) {
   tree_.nodes_[0].child[0] = child;
 }
 
-/// Of six dimensions, three of position and three of weighted normal, the one in which the items spread most.
-std::size_t NormalConeTreeBuilder::widestDimension(Items items) {
-  std::array<float, 6> lower, upper;
-  lower.fill(std::numeric_limits<float>::infinity());
-  upper.fill(-std::numeric_limits<float>::infinity());
-  for (const Item& item : items) {
-    for (std::size_t k = 0; k < 6; ++k) {
-      lower[k] = std::min(lower[k], item.key[k]);
-      upper[k] = std::max(upper[k], item.key[k]);
-    }
-  }
-  float diagonal = 0.0F;
-  for (std::size_t k = 0; k < 3; ++k)
-    diagonal = std::hypot(diagonal, upper[k] - lower[k]);
-  std::array<float, 6> width;
-  for (std::size_t k = 0; k < 6; ++k)
-    width[k] = (upper[k] - lower[k]) * (k < 3 ? 1.0F : kNormalWeight * diagonal);
-  return static_cast<std::size_t>(std::max_element(width.begin(), width.end()) - width.begin());
+/// Orders the items so that the first `cut` are lowest along an axis.
+void NormalConeTreeBuilder::partition(Items items, std::size_t cut, std::size_t axis) {
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(cut), items.end(),
+                   [axis](const Item& a, const Item& b) {
+                     return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis]
+                                                             : a.feature < b.feature;
+                   });
 }
 
-/// Halves the items along their widest dimension, the first part a multiple of `unit`; returns its size.
-std::size_t NormalConeTreeBuilder::split(Items items, std::size_t unit) {
+/// Number of features times the diagonal of their box: what a part costs a query, roughly.
+double NormalConeTreeBuilder::cost(Items items) const {
+  Aabb box;
+  for (const Item& item : items) {
+    const FeatureGeometry::Corners c = geometry_->corners(item.feature);
+    for (std::size_t k = 0; k < c.count; ++k)
+      box.add(c.points[k]);
+  }
+  return static_cast<double>(items.size()) * box.diagonal();
+}
+
+/// Halves the items, the first part a multiple of `unit`, along the axis that leaves the cheaper parts;
+/// returns its size. Normals have no say: splits that weigh them were measured to make queries slower, as
+/// they make parts wider.
+std::size_t NormalConeTreeBuilder::split(Items items, std::size_t unit) const {
   const std::size_t cut = std::max<std::size_t>(1, (items.size() / 2 + unit / 2) / unit) * unit;
-  const std::size_t k = widestDimension(items);
-  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(cut), items.end(),
-                   [k](const Item& a, const Item& b) {
-                     return a.key[k] != b.key[k] ? a.key[k] < b.key[k] : a.feature < b.feature;
-                   });
+  std::size_t best = 0, last = 0;
+  if (items.size() > kLargePart) {
+    Aabb box;
+    for (const Item& item : items)
+      box.add({item.centre[0], item.centre[1], item.centre[2]});
+    const glm::dvec3 width = box.upper - box.lower;
+    best = width.x >= width.y && width.x >= width.z ? 0 : width.y >= width.z ? 1 : 2;
+    last = 3;
+  } else {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      partition(items, cut, axis);
+      const double parts = cost(items.first(cut)) + cost(items.subspan(cut));
+      if (parts < least) {
+        least = parts;
+        best = axis;
+      }
+      last = axis;
+    }
+  }
+  if (last != best) partition(items, cut, best);
   return cut;
 }
 

@@ -14,7 +14,7 @@
 
 namespace nearfit {
 
-/// Builds a NormalConeTree: splits the features by position and normal until each stands alone, in nodes that
+/// Builds a NormalConeTree: splits the features by position until each stands alone, in nodes that
 /// are full but for the last few, and bounds each part by a box along its own axes.
 class NormalConeTreeBuilder {
  public:
@@ -24,15 +24,16 @@ class NormalConeTreeBuilder {
  private:
   /// One feature on its way into the tree; single precision suffices to sort by.
   struct Item {
-    std::array<float, 6> key;  ///< Centre of its box, then the axis of its cone.
+    std::array<float, 3> centre;  ///< Of its box.
     std::uint32_t feature;
   };
   using Items = std::span<Item>;
 
   void fillLeaves();
   std::vector<Item> makeItems() const;
-  static std::size_t widestDimension(Items items);
-  static std::size_t split(Items items, std::size_t unit);
+  static void partition(Items items, std::size_t cut, std::size_t axis);
+  double cost(Items items) const;
+  std::size_t split(Items items, std::size_t unit) const;
   std::uint32_t buildNode(Items items, std::vector<NormalConeTree::Node>& nodes) const;
   void buildRoot(Items items);
   void setLane(NormalConeTree::Node& node, std::size_t lane, Items items) const;
