@@ -32,6 +32,7 @@ void MainWindow::connectFileActions() {
     if (!selected()) partsPanel_->select(session_.scene().movingPart());
   });
   connect(document_.get(), &Document::busyChanged, this, &MainWindow::updateActions);
+  connect(document_.get(), &Document::sceneNeeded, posePanel_, &PosePanel::commit);
   connect(document_.get(), &Document::sceneNeeded, this, &MainWindow::poseInHandRequested);
 }
 
@@ -107,6 +108,7 @@ void MainWindow::attempt(const QString& what, const std::function<void()>& comma
 }
 
 void MainWindow::requestStart() {
+  posePanel_->commit();
   emit servoStartRequested(feelPanel_->hand());
 }
 
@@ -173,6 +175,7 @@ void MainWindow::moveHand(const RigidTransform& worldFromPart) {
 }
 
 void MainWindow::exportPlacement() {
+  posePanel_->commit();
   const std::optional<PartId> moving = session_.scene().movingPart();
   const Part* part = moving ? session_.scene().find(*moving) : nullptr;
   document_->askAndExport(part != nullptr ? poseOf(*part) : RigidTransform{});

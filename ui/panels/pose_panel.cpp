@@ -7,6 +7,8 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QSignalBlocker>
+#include <algorithm>
+#include <iterator>
 #include <numbers>
 
 #include "core/math/euler_angles.h"
@@ -18,6 +20,18 @@ namespace {
 constexpr double kMillimetresPerMetre = 1e3;
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr double kMaxPosition = 1e7;  ///< [mm]
+
+/// Whether a key is one of the window's commands, such as Ctrl+S, that a line editor has no use for here. It
+/// claims some of them all the same: Ctrl+E to go to the end of the line, Ctrl+D to delete.
+bool isCommand(const QKeyEvent& key) {
+  const Qt::KeyboardModifiers modifiers = key.modifiers() & ~Qt::ShiftModifier;
+  if (modifiers != Qt::ControlModifier || key.key() < Qt::Key_A || key.key() > Qt::Key_Z) return false;
+  const QKeySequence::StandardKey editing[] = {QKeySequence::Copy,  QKeySequence::Cut,
+                                               QKeySequence::Paste, QKeySequence::Undo,
+                                               QKeySequence::Redo,  QKeySequence::SelectAll};
+  return std::none_of(std::begin(editing), std::end(editing),
+                      [&](QKeySequence::StandardKey k) { return key.matches(k); });
+}
 
 }  // namespace
 
@@ -74,6 +88,11 @@ bool PosePanel::eventFilter(QObject* watched, QEvent* event) {
     auto* key = static_cast<QKeyEvent*>(event);
     auto* editor = qobject_cast<QLineEdit*>(watched);
     if (editor == nullptr) editor = watched->findChild<QLineEdit*>();
+    if (isCommand(*key)) {
+      commit();
+      event->ignore();
+      return true;
+    }
     const bool isUndo = key->matches(QKeySequence::Undo) || key->matches(QKeySequence::Redo);
     if (isUndo && editor != nullptr && !editor->isModified()) {
       event->ignore();
@@ -100,6 +119,12 @@ void PosePanel::showPose(const RigidTransform& worldFromPart) {
 
 double PosePanel::step() const {
   return step_->value() / kMillimetresPerMetre;
+}
+
+void PosePanel::commit() {
+  for (QDoubleSpinBox* field : fields_) {
+    if (field->findChild<QLineEdit*>()->isModified()) field->interpretText();
+  }
 }
 
 void PosePanel::edit(int field) {

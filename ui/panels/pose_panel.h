@@ -23,6 +23,8 @@ class PosePanel : public QWidget {
   /// @param name  Of the part, for the heading; empty when no part is chosen, then nothing can be edited.
   void showPart(const QString& name, bool isEditable);
   void showPose(const RigidTransform& worldFromPart);
+  /// Takes over a number that is still being typed, as leaving its field does.
+  void commit();
   /// How far an arrow key moves a part [m].
   double step() const;
 

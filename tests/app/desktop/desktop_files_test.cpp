@@ -30,6 +30,7 @@ class DesktopFilesTest : public QObject {
   void emptySceneOffersTheDemo();
   void savesAndOpensTheSameScene();
   void savingKeepsThePoseInHand();
+  void savingKeepsANumberThatIsStillBeingTyped();
   void malformedSceneLosesNothingThatIsOpen();
   void closingAsksAboutChanges();
   void openingAsksAboutChanges();
@@ -81,6 +82,29 @@ void DesktopFilesTest::savingKeepsThePoseInHand() {
   QVERIFY(d.application.servo().isRunning());
   QVERIFY(std::abs(d.part("moving").worldFromPart.translation.x - 0.002) < 1e-12);
   QVERIFY(!d.window().isWindowModified());
+}
+
+void DesktopFilesTest::savingKeepsANumberThatIsStillBeingTyped() {
+  DesktopDriver d;
+  d.addCubes();
+  d.session().save(d.folder.path() / "typed.nearfit");
+  d.clickPart(0, ui::PartsModel::Name);
+  auto* field = d.widget<QDoubleSpinBox>("positionX");
+  field->setFocus();
+  field->selectAll();
+  QTest::keyClicks(field, QStringLiteral("2.5"));
+  QTest::keyClick(field, Qt::Key_S, Qt::ControlModifier);
+  QVERIFY(std::abs(d.part("fixed").worldFromPart.translation.x - 0.0025) < 1e-15);
+  QVERIFY(!d.window().isWindowModified());
+  const auto json = nlohmann::json::parse(readBytes(d.folder.path() / "typed.nearfit"));
+  QVERIFY(std::abs(json.at("parts").at(0).at("position").at(0).get<double>() - 0.0025) < 1e-15);
+  // Nor is it lost without a question when the window is closed.
+  field->selectAll();
+  QTest::keyClicks(field, QStringLiteral("3.5"));
+  bool wasAsked = false;
+  answerUnsaved(QMessageBox::Cancel, wasAsked);
+  QVERIFY(!d.window().close());
+  QVERIFY(wasAsked);
 }
 
 void DesktopFilesTest::malformedSceneLosesNothingThatIsOpen() {

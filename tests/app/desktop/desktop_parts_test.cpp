@@ -19,6 +19,7 @@ class DesktopPartsTest : public QObject {
   void iconsOfTheListSwitchHandVisibilityAndLock();
   void renamesInPlace();
   void movesByNumbersAndTakesItBackByKeys();
+  void commandKeysWorkInANumberField();
   void numbersLeftAloneStayExact();
   void deletesAndDuplicatesTheSelectedPart();
   void clickInTheViewSelectsThePart();
@@ -129,6 +130,23 @@ void DesktopPartsTest::movesByNumbersAndTakesItBackByKeys() {
   QCOMPARE(d.widget<QDoubleSpinBox>("positionX")->value(), 0.0);
   QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   QVERIFY(std::abs(d.widget<QDoubleSpinBox>("positionX")->value() - 12.5) < 1e-9);
+}
+
+void DesktopPartsTest::commandKeysWorkInANumberField() {
+  DesktopDriver d;
+  d.addCubes();
+  d.clickPart(0, ui::PartsModel::Name);
+  auto* field = d.widget<QDoubleSpinBox>("positionX");
+  field->setFocus();
+  // A line editor claims Ctrl+D for itself, to delete, and the number is not left by Return.
+  field->selectAll();
+  QTest::keyClicks(field, QStringLiteral("12.5"));
+  QTest::keyClick(field, Qt::Key_D, Qt::ControlModifier);
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{3});
+  for (const auto& part : d.session().scene().parts()) {
+    const double expected = part->id == d.partId("moving") ? 0.0 : 0.0125;
+    QVERIFY2(std::abs(part->worldFromPart.translation.x - expected) < 1e-15, part->name.c_str());
+  }
 }
 
 void DesktopPartsTest::numbersLeftAloneStayExact() {
