@@ -100,7 +100,14 @@ void ServoController::followSession() {
 }
 
 void ServoController::poll() {
-  if (loop_.pollSnapshot()) emit snapshotArrived(loop_.snapshot());
+  if (loop_.pollSnapshot()) {
+    const ServoSnapshot& snapshot = loop_.snapshot();
+    if (ticksMeasured_ == 0) {
+      ticksMeasured_ = snapshot.tick;
+      timeMeasured_ = snapshot.time;
+    }
+    emit snapshotArrived(snapshot);
+  }
   if (!loop_.isRunning()) {
     stop();
     return;
@@ -109,10 +116,14 @@ void ServoController::poll() {
 }
 
 void ServoController::measure() {
-  const double seconds = static_cast<double>(sinceMeasured_.restart()) * 1e-3;
+  sinceMeasured_.restart();
   const ServoStatistics statistics = loop_.statistics();
-  status_.rate = static_cast<double>(statistics.ticks - ticksMeasured_) / seconds;
-  ticksMeasured_ = statistics.ticks;
+  // From snapshots: the statistics come in steps of many ticks, a tenth of what half a second holds.
+  const ServoSnapshot& snapshot = loop_.snapshot();
+  const double seconds = snapshot.time - timeMeasured_;
+  status_.rate = seconds > 0.0 ? static_cast<double>(snapshot.tick - ticksMeasured_) / seconds : 0.0;
+  ticksMeasured_ = snapshot.tick;
+  timeMeasured_ = snapshot.time;
   status_.ticks = statistics.ticks;
   status_.overruns = statistics.overruns;
   status_.latenessP99 = statistics.lateness.percentile(0.99);

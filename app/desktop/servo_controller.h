@@ -51,7 +51,8 @@ class ServoController : public QObject {
   ServoLoop loop_;
   QTimer timer_;
   QElapsedTimer sinceMeasured_;
-  std::uint64_t ticksMeasured_ = 0;
+  std::uint64_t ticksMeasured_ = 0;  ///< The tick since which the rate is measured; 0 before the first.
+  double timeMeasured_ = 0.0;        ///< Of that tick, by the servo's clock [s].
   PartId moving_{};
   bool isCommitting_ = false;
   ui::ServoStatus status_;

@@ -30,6 +30,7 @@ class DesktopServoTest : public QObject {
  private slots:
   void needsAMovingPart();
   void showsTheOneMinimumBetweenTwoFaces();
+  void rateCountsTheTicksOfTheServosOwnTime();
   void manualHandFollowsKeysAndNumbers();
   void scriptedHandClosesThreeQuartersOfTheGap();
   void stoppingIsOneStepOfUndo();
@@ -64,6 +65,29 @@ void DesktopServoTest::showsTheOneMinimumBetweenTwoFaces() {
   QTest::keyClick(&d.window(), Qt::Key_F6);
   QVERIFY(!d.application.servo().isRunning());
   QCOMPARE(d.text("statusRate"), QStringLiteral("Servo off"));
+}
+
+void DesktopServoTest::rateCountsTheTicksOfTheServosOwnTime() {
+  DesktopDriver d;
+  d.addCubes();
+  ServoSnapshot newest, before;
+  int measured = 0;
+  connect(&d.application.servo(), &desktop::ServoController::snapshotArrived, this,
+          [&](const ServoSnapshot& snapshot) { newest = snapshot; });
+  connect(&d.application.servo(), &desktop::ServoController::statusChanged, this,
+          [&](const ui::ServoStatus& status) {
+            if (before.tick > 0 && newest.tick > before.tick) {
+              const double rate =
+                  static_cast<double>(newest.tick - before.tick) / (newest.time - before.time);
+              QVERIFY2(std::abs(status.rate - rate) < 1e-6, qPrintable(QString::number(status.rate)));
+              // A period is a millisecond: skipped ones make the rate lower, nothing makes it higher.
+              QVERIFY2(status.rate < 1000.001, qPrintable(QString::number(status.rate)));
+              ++measured;
+            }
+            before = newest;
+          });
+  startWith(d, ui::Hand::Manual);
+  QTRY_VERIFY_WITH_TIMEOUT(measured >= 3, 10'000);
 }
 
 void DesktopServoTest::manualHandFollowsKeysAndNumbers() {
