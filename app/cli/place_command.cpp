@@ -17,6 +17,17 @@
 namespace nearfit::cli {
 namespace {
 
+constexpr const char* kFooter =
+    R"(The part starts at the path's first pose; the scene file stays as it is.
+--record  CSV with a header and a row a tick, in the world frame: t_s; handle_tx ... handle_qz and
+          proxy_tx ... proxy_qz (tx ty tz qw qx qy qz each; here the proxy is the handle); force_x ...
+          force_z [N] and torque_x ... torque_z [N m] about the part's centre of mass, as sent to the device
+          and so within its limits; lmds; distance, the least [m], "inf" when nothing is within the cutoff;
+          query_us; tick_us.
+--export  JSON: each part's pose and mesh, and the minima left between the part that was led and each other.
+A tick that ends too late skips periods instead of rows: the path then takes longer, and the summary says so.
+Example: nearfit-cli place fit.nearfit --part Peg --path hand.csv --record felt.csv --export placed.json)";
+
 struct PlaceOptions {
   std::string scene, part, path, record, exportFile;
   bool isFast = false, isJson = false;
@@ -114,6 +125,7 @@ void addPlaceCommand(CLI::App& program) {
                       "Write poses, wrench and minima of every tick to this CSV file");
   command->add_option("--export", options->exportFile, "Write the placement at the end to this JSON file");
   command->add_flag("--json", options->isJson, "Print the summary as one JSON object");
+  command->footer(kFooter);
   command->callback([options] { runPlace(*options); });
 }
 

@@ -1,5 +1,7 @@
 #include "app/desktop/command_line.h"
 
+#include <cstdio>
+
 #include <CLI/CLI.hpp>
 
 namespace nearfit::desktop {
@@ -24,7 +26,7 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& error) {
-    program.exit(error);
+    std::fprintf(stderr, "nearfit: %s; see nearfit --help\n", error.what());
     return kUsage;
   }
   return options;

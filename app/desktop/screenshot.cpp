@@ -69,7 +69,7 @@ void Screenshot::write() {
 }
 
 void Screenshot::fail(const QString& message) {
-  if (!hasFailed_) std::fprintf(stderr, "nearfit: %s\n", message.toLocal8Bit().constData());
+  if (!hasFailed_) std::fprintf(stderr, "nearfit: %s\n", message.simplified().toLocal8Bit().constData());
   hasFailed_ = true;
   QCoreApplication::exit(1);
 }

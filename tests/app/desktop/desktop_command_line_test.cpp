@@ -59,7 +59,11 @@ void DesktopCommandLineTest::helpAndVersionNeedNoDisplay() {
 }
 
 void DesktopCommandLineTest::unknownOptionIsAUsageError() {
-  QCOMPARE(run({QStringLiteral("--frobnicate")}).code, 2);
+  const Outcome outcome = run({QStringLiteral("--frobnicate")}, withoutDisplay());
+  QCOMPARE(outcome.code, 2);
+  QVERIFY(outcome.err.startsWith(QStringLiteral("nearfit: ")));
+  QVERIFY(outcome.err.contains(QStringLiteral("--frobnicate")));
+  QCOMPARE(outcome.err.count(QLatin1Char('\n')), 1);
 }
 
 void DesktopCommandLineTest::saysThatThereIsNoDisplay() {
@@ -92,7 +96,9 @@ void DesktopCommandLineTest::brokenFileEndsWithAMessage() {
   const Outcome outcome =
       run({QString::fromStdString(broken.string()), QStringLiteral("--screenshot"), picture});
   QCOMPARE(outcome.code, 1);
-  QVERIFY(outcome.err.contains(QStringLiteral("broken.stl")));
+  const QString line = outcome.err.mid(outcome.err.indexOf(QStringLiteral("nearfit: ")));
+  QVERIFY2(line.contains(QStringLiteral("broken.stl")), qPrintable(outcome.err));
+  QCOMPARE(line.count(QLatin1Char('\n')), 1);
   QVERIFY(!QFile::exists(picture));
 }
 
