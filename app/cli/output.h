@@ -1,6 +1,8 @@
 #pragma once
 
 #include <exception>
+#include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -19,6 +21,10 @@ void printError(std::string_view message) noexcept;
 
 /// Writes a line to stderr for each warning that loading the mesh gave.
 void printWarnings(const PartGeometry& geometry);
+
+/// Throws UsageError when a file that is to be written is one of those that the command reads, by whatever
+/// path or link.
+void checkTarget(const std::filesystem::path& target, std::span<const std::filesystem::path> inputs);
 
 /// Thrown by a command that has failed and has said so on stderr already: exit code 1, no further line.
 class ReportedFailure : public std::exception {

@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -73,6 +74,15 @@ void checkTargets(const PlaceOptions& options) {
   }
 }
 
+/// Neither output may take the place of an input.
+void checkInputsAreKept(const Scene& scene, const PlaceOptions& options) {
+  std::vector<std::filesystem::path> inputs = {options.scene, options.path};
+  for (const Scene::PartPtr& part : scene.parts())
+    inputs.push_back(part->geometry->file);
+  checkTarget(options.record, inputs);
+  checkTarget(options.exportFile, inputs);
+}
+
 void throwIfIncomplete(const PlaceResult& result, std::size_t poses) {
   if (result.fault != ServoFault::None) throw Error("servo", faultReason(result.fault));
   if (result.isInterrupted) {
@@ -92,6 +102,7 @@ void runPlace(const PlaceOptions& options) {
   PlaceJob job;
   job.path = readPosePath(options.path);
   Scene scene = readSceneFile(options.scene);
+  checkInputsAreKept(scene, options);
   takeInHand(scene, options);
   job.scene = makeServoScene(scene);
   job.parameters.springs = scene.springs();

@@ -2,6 +2,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -91,6 +92,8 @@ Scene makeScene(const SceneNewOptions& options) {
 
 void runSceneNew(const SceneNewOptions& options) {
   const Scene scene = makeScene(options);
+  for (const Scene::PartPtr& part : scene.parts())
+    checkTarget(options.out, std::span(&part->geometry->file, 1));
   writeSceneFile(scene, options.out);
   std::set<PartGeometryPtr> meshes;
   for (const Scene::PartPtr& part : scene.parts()) {

@@ -223,6 +223,19 @@ TEST_F(PlaceCommand, BadInputIsNamedBeforeAnythingIsWritten) {
   EXPECT_FALSE(std::filesystem::exists(file("same")));
 }
 
+TEST_F(PlaceCommand, NoInputIsOverwritten) {
+  folder_.write("path.csv", pathText(3));
+  for (const std::string input : {"fit.nearfit", "path.csv", "floor.obj"}) {
+    const std::string before = readBytes(file(input));
+    for (const char* option : {"--record", "--export"}) {
+      const ProcessResult result = placeCone({"--fast", option, "./" + input});
+      EXPECT_EQ(result.exitCode, 2) << input;
+      EXPECT_THAT(result.err, HasSubstr(input));
+      EXPECT_EQ(readBytes(file(input)), before);
+    }
+  }
+}
+
 TEST_F(PlaceCommand, HelpTellsTheOptions) {
   const ProcessResult help = runCli({"place", "--help"});
   EXPECT_EQ(help.exitCode, 0);

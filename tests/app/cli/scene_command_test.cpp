@@ -113,6 +113,13 @@ TEST_F(SceneNewCommand, WrongUsageIsToldInOneLineAndWritesNothing) {
   }
 }
 
+TEST_F(SceneNewCommand, AMeshIsNotOverwritten) {
+  const std::filesystem::path mesh = folder_.path() / "meshes/hole.obj";
+  const std::string before = readBytes(mesh);
+  EXPECT_EQ(run({"./meshes/hole.obj", "--part", "Hole=meshes/hole.obj"}).exitCode, 2);
+  EXPECT_EQ(readBytes(mesh), before);
+}
+
 TEST_F(SceneNewCommand, FilesThatFailAreToldInOneLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> failing = {
       {{"fit.nearfit", "--part", "Hole=meshes/none.obj"}, "none.obj"},
