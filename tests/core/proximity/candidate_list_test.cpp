@@ -47,28 +47,29 @@ void expectSame(const std::vector<Lmd>& a, const std::vector<Lmd>& b) {
   }
 }
 
-/// A pose as far from another as the budget allows, in a random sense.
-RigidTransform movedWithin(const RigidTransform& pose, const MotionBudget& budget, double radius,
+/// A pose as far from another as the budget allows, in a random sense: turned about the part's middle, then
+/// moved.
+RigidTransform movedWithin(const RigidTransform& pose, const NormalConeTree& part, const MotionBudget& budget,
                            double share, std::mt19937_64& random) {
+  const double radius = 0.5 * part.size();
   const glm::dvec3 axis = test::randomRotation(random).rotation * glm::dvec3(1, 0, 0);
   const glm::dvec3 way = test::randomRotation(random).rotation * glm::dvec3(1, 0, 0);
   const double angle = share * std::min(budget.turn, budget.travel / (2.0 * radius));
   const double travel = share * budget.travel - 2.0 * std::sin(0.5 * angle) * radius;
-  return {glm::normalize(glm::angleAxis(angle, axis) * pose.rotation),
-          pose.translation + std::max(0.0, travel) * way};
+  const glm::dquat turned = glm::normalize(glm::angleAxis(angle, axis) * pose.rotation);
+  return {turned, pose.applyToPoint(part.centre()) + travel * way - turned * part.centre()};
 }
 
 TEST(CandidateList, HoldsTheExactSetAtEveryPoseWithinItsBudget) {
   Stars stars;
   std::mt19937_64 random(1);
   CandidateList list(1 << 16);
-  const double radius = 0.5 * stars.part.size();
   std::size_t compared = 0;
   for (int i = 0; i < 40; ++i) {
     const RigidTransform start = test::poseNearContact(stars.pair, kCutoff, random);
     list.build(stars.scene, stars.part, start, kCutoff, kBudget, stars.scratch);
     for (int k = 0; k < 25; ++k) {
-      const RigidTransform pose = movedWithin(start, kBudget, radius, 0.999, random);
+      const RigidTransform pose = movedWithin(start, stars.part, kBudget, 0.999, random);
       ASSERT_TRUE(list.covers(pose, kCutoff));
       const std::vector<Lmd> expected = stars.cold(pose);
       expectSame(stars.listed(list, pose), expected);

@@ -55,7 +55,7 @@ void expectPaperPairAgrees(const BodyPair& pair, std::size_t poses) {
   poses /= test::kPoseShare;
   const LmdTally tally = test::compareWithOracle(pair, poses, 0.05, 2003);
   EXPECT_EQ(tally.poses, poses);
-  EXPECT_GT(tally.minima, poses / 4);  // The poses are near contact: there is something to compare.
+  EXPECT_GT(tally.minima, poses / 8);  // The poses are near contact: there is something to compare.
   EXPECT_LT(tally.marginal, tally.minima / 1000 + 5);
 }
 
