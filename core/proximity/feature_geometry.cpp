@@ -10,9 +10,10 @@ namespace {
 
 /// Largest cosine between w and the directions within a cone.
 double coneSupport(const NormalCone& cone, const glm::dvec3& w) noexcept {
-  const double cosine = glm::dot(cone.axis, w);
-  const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
-  return angle <= cone.halfAngle ? 1.0 : std::cos(angle - cone.halfAngle);
+  const double cosine = glm::dot(cone.axis, w), edge = std::cos(cone.halfAngle);
+  if (cosine >= edge) return 1.0;
+  const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  return cosine * edge + sine * std::sin(cone.halfAngle);
 }
 
 /// Largest cosine between w and the shorter arc from a to b, all unit.

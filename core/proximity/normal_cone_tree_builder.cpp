@@ -1,8 +1,11 @@
 #include "core/proximity/normal_cone_tree_builder.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <future>
 #include <limits>
+#include <thread>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -105,9 +108,40 @@ void NormalConeTreeBuilder::buildRoot(Items items) {
   tree_.nodes_.emplace_back();
   for (std::size_t lane = 0; lane < kWidth; ++lane)
     setLane(tree_.nodes_[0], lane, lane == 0 ? items : Items{});
+  std::vector<Subtree> subtrees;
   const std::uint32_t child =
-      items.size() == 1 ? leafChild(items[0].feature) : buildNode(items, tree_.nodes_);
+      items.size() == 1 ? leafChild(items[0].feature) : buildNode(items, tree_.nodes_, &subtrees);
   tree_.nodes_[0].child[0] = child;
+  buildSubtrees(subtrees);
+}
+
+/// Builds what was put off, on all processors; the same tree whoever builds which part.
+void NormalConeTreeBuilder::buildSubtrees(std::vector<Subtree>& subtrees) {
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < subtrees.size(); i = next++) {
+      buildNode(subtrees[i].items, subtrees[i].nodes, nullptr);
+    }
+  };
+  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::future<void>> helpers;
+  for (std::size_t i = 1; i < std::min(processors, subtrees.size()); ++i) {
+    helpers.push_back(std::async(std::launch::async, work));
+  }
+  work();
+  for (std::future<void>& helper : helpers)
+    helper.get();
+
+  for (Subtree& subtree : subtrees) {
+    const auto offset = static_cast<std::uint32_t>(tree_.nodes_.size());
+    for (NormalConeTree::Node& node : subtree.nodes) {
+      for (std::uint32_t& child : node.child)
+        child += NormalConeTree::isLeaf(child) ? 0 : offset;
+    }
+    tree_.nodes_[subtree.parent].child[subtree.lane] = offset;
+    tree_.nodes_.insert(tree_.nodes_.end(), subtree.nodes.begin(), subtree.nodes.end());
+    subtree.nodes = {};
+  }
 }
 
 /// Orders the items so that the first `cut` are lowest along an axis.
@@ -159,7 +193,11 @@ std::size_t NormalConeTreeBuilder::split(Items items, std::size_t unit) const {
   return cut;
 }
 
-std::uint32_t NormalConeTreeBuilder::buildNode(Items items, std::vector<NormalConeTree::Node>& nodes) const {
+/// Returns the index of a new node over the items.
+/// @param putOff  Where to leave subtrees that are small enough to be built by one thread; null: none is
+/// left.
+std::uint32_t NormalConeTreeBuilder::buildNode(Items items, std::vector<NormalConeTree::Node>& nodes,
+                                               std::vector<Subtree>* putOff) const {
   const std::size_t full = fullChild(items.size());
   std::array<Items, kWidth> parts{items};
   std::size_t count = 1;
@@ -177,9 +215,14 @@ std::uint32_t NormalConeTreeBuilder::buildNode(Items items, std::vector<NormalCo
   for (std::size_t lane = 0; lane < kWidth; ++lane)
     setLane(nodes[index], lane, parts[lane]);
   for (std::size_t lane = 0; lane < count; ++lane) {
-    const std::uint32_t child =
-        parts[lane].size() == 1 ? leafChild(parts[lane][0].feature) : buildNode(parts[lane], nodes);
-    nodes[index].child[lane] = child;
+    if (parts[lane].size() == 1) {
+      nodes[index].child[lane] = leafChild(parts[lane][0].feature);
+    } else if (putOff != nullptr && parts[lane].size() <= kLargePart) {
+      putOff->push_back({index, lane, parts[lane], {}});
+    } else {
+      const std::uint32_t child = buildNode(parts[lane], nodes, putOff);
+      nodes[index].child[lane] = child;
+    }
   }
   return index;
 }
@@ -205,8 +248,25 @@ void NormalConeTreeBuilder::setLane(NormalConeTree::Node& node, std::size_t lane
   node.child[lane] = NormalConeTree::kNoChild;
 }
 
+/// n along the axis of the feature's cone, u along its longest side.
+std::array<glm::dvec3, 3> NormalConeTreeBuilder::axesOfOne(std::uint32_t feature) const {
+  const glm::dvec3 n = geometry_->cone(feature).axis;
+  const FeatureGeometry::Corners c = geometry_->corners(feature);
+  glm::dvec3 side(0.0);
+  for (std::size_t k = 0; k < c.count; ++k) {
+    const glm::dvec3 s = c.points[(k + 1) % c.count] - c.points[k];
+    if (glm::dot(s, s) > glm::dot(side, side)) side = s;
+  }
+  side -= glm::dot(side, n) * n;
+  const double length = glm::length(side);
+  if (!(length > 0.0)) side = std::abs(n.x) < 0.5 ? glm::dvec3(0.0, n.z, -n.y) : glm::dvec3(-n.z, 0.0, n.x);
+  const glm::dvec3 u = glm::normalize(side);
+  return {n, u, glm::cross(n, u)};
+}
+
 /// u where the features are long and their normals are not, n along the mean normal, v square to both.
 std::array<glm::dvec3, 3> NormalConeTreeBuilder::axes(Items items) const {
+  if (items.size() == 1) return axesOfOne(items[0].feature);
   glm::dmat3 positions(0.0), normals(0.0);
   glm::dvec3 mean(0.0), meanNormal(0.0);
   double points = 0.0;

@@ -29,16 +29,27 @@ class NormalConeTreeBuilder {
   };
   using Items = std::span<Item>;
 
+  /// A part of the tree that is built by itself and put in its place afterwards.
+  struct Subtree {
+    std::uint32_t parent;
+    std::size_t lane;
+    Items items;
+    std::vector<NormalConeTree::Node> nodes;
+  };
+
   void fillLeaves();
   std::vector<Item> makeItems() const;
   static void partition(Items items, std::size_t cut, std::size_t axis);
   double cost(Items items) const;
   std::size_t split(Items items, std::size_t unit) const;
-  std::uint32_t buildNode(Items items, std::vector<NormalConeTree::Node>& nodes) const;
+  std::uint32_t buildNode(Items items, std::vector<NormalConeTree::Node>& nodes,
+                          std::vector<Subtree>* putOff) const;
+  void buildSubtrees(std::vector<Subtree>& subtrees);
   void buildRoot(Items items);
   void setLane(NormalConeTree::Node& node, std::size_t lane, Items items) const;
   NormalConeTree::Bound bound(Items items) const;
   std::array<glm::dvec3, 3> axes(Items items) const;
+  std::array<glm::dvec3, 3> axesOfOne(std::uint32_t feature) const;
   std::uint32_t leafChild(std::uint32_t feature) const;
 
   NormalConeTree& tree_;
