@@ -3,9 +3,9 @@
 nearfit_packages=(
   g++ cmake ninja-build pkg-config ccache
   libvtk9-qt-dev qtbase5-dev libqt5svg5-dev libopenmesh-dev libglm-dev
-  libfmt-dev nlohmann-json3-dev libcli11-dev libssl-dev libgtest-dev libgmock-dev
+  libfmt-dev nlohmann-json3-dev libcli11-dev libssl-dev libgtest-dev libgmock-dev libfcl-dev
 )
-nearfit_test_packages=(xvfb xauth libgl1-mesa-dri libfcl-dev)
+nearfit_test_packages=(xvfb xauth libgl1-mesa-dri)
 
 # missing_packages NAME... : prints those that are not installed.
 missing_packages() {
