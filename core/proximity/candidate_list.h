@@ -41,10 +41,8 @@ class CandidateList {
                   std::span<Lmd> out) const noexcept;
 
   std::size_t size() const noexcept { return count_; }
-  const MotionBudget& budget() const noexcept { return budget_; }
   /// Motion since the list was built as a fraction of its budget; above 1 where it covers no longer.
   double spent(const RigidTransform& sceneFromPart) const noexcept;
-  double cutoff() const noexcept { return cutoff_; }
 
  private:
   void addPair(std::uint32_t sceneLane, std::uint32_t partLane) noexcept;

@@ -16,7 +16,7 @@ class NormalConeTree;
 
 enum class QueryStatus : std::uint8_t {
   Complete,   ///< The exact set.
-  Truncated,  ///< More minima than the caller's storage or the scratch holds: the nearest found are there.
+  Truncated,  ///< More minima than there was room for, or more work than allowed: the nearest found are there.
 };
 
 struct LmdResult {
@@ -53,10 +53,9 @@ class LmdScratch {
 /// @param cutoff         Ignore pairs farther apart than this [m]; finite, > 0.
 /// @param scratch        Preallocated work space, one per thread.
 /// @param out            Caller's storage; keeps the nearest if it fills, and the result says Truncated.
+/// @param maxNodePairs   Bound on the work: at it the result says Truncated and holds what was found.
 /// Points are in scene's frame. Real-time safe: no allocation, lock or throw.
 /// Source: Johnson & Willemsen 2003, 4.2; exact leaf conditions instead of vertex-normal spans.
-/// @param maxNodePairs  Bound on the work: when it is reached the result says Truncated and holds what was
-/// found.
 LmdResult findLmds(const NormalConeTree& scene, const NormalConeTree& part,
                    const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
                    std::span<Lmd> out,
