@@ -28,54 +28,6 @@ namespace fs = std::filesystem;
                               : "check the disk and try again");
 }
 
-/// A new file in the target's folder; it is removed again unless it was renamed.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const fs::path& target) : target_(target) {
-    static std::atomic<unsigned> serial{0};
-    do {
-      // A short name of its own: the target's may already be as long as names can be.
-      path_ =
-          target.parent_path() / (".nearfit-" + std::to_string(::getpid()) + "-" + std::to_string(serial++));
-      descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (descriptor_ < 0 && errno == EEXIST);
-    if (descriptor_ < 0) fail(target_, "it cannot be written", errno);
-  }
-  ~TemporaryFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (!path_.empty()) ::unlink(path_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  void keepPermissionsOfTarget() {
-    struct stat status = {};
-    if (::stat(target_.c_str(), &status) != 0) return;
-    if (S_ISDIR(status.st_mode)) throw FileError(target_.string(), "it is a folder", "choose another name");
-    if (::fchmod(descriptor_, status.st_mode & 07777) != 0)
-      fail(target_, "its permissions cannot be kept", errno);
-  }
-  void write(std::string_view content) {
-    while (!content.empty()) {
-      const ::ssize_t count = ::write(descriptor_, content.data(), content.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) fail(target_, "writing it failed", errno);
-      content.remove_prefix(static_cast<std::size_t>(count));
-    }
-    if (::fsync(descriptor_) != 0) fail(target_, "writing it to disk failed", errno);
-  }
-  void rename() {
-    // Network file systems report late write errors here.
-    if (::close(std::exchange(descriptor_, -1)) != 0) fail(target_, "writing it failed", errno);
-    if (::rename(path_.c_str(), target_.c_str()) != 0) fail(target_, "it cannot be replaced", errno);
-    path_.clear();
-  }
-
- private:
-  fs::path target_, path_;
-  int descriptor_ = -1;
-};
-
 void flushFolder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;  // A folder that may be written but not read: the file itself is safe on disk.
@@ -98,15 +50,66 @@ fs::path followLinks(const fs::path& file) {
 
 }  // namespace
 
-void atomicWrite(const fs::path& file, std::string_view content) {
+AtomicFile::AtomicFile(const fs::path& file) {
   if (file.filename().empty())
     throw FileError(file.string(), "it names no file", "add a file name to the path");
-  const fs::path target = followLinks(file);
-  TemporaryFile temporary(target);
-  temporary.keepPermissionsOfTarget();
-  temporary.write(content);
-  temporary.rename();
-  flushFolder(target.parent_path());
+  target_ = followLinks(file);
+  static std::atomic<unsigned> serial{0};
+  do {
+    // A short name of its own: the target's may already be as long as names can be.
+    path_ =
+        target_.parent_path() / (".nearfit-" + std::to_string(::getpid()) + "-" + std::to_string(serial++));
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor_ < 0 && errno == EEXIST);
+  if (descriptor_ < 0) fail(target_, "it cannot be written", errno);
+  try {
+    keepPermissionsOfTarget();
+  } catch (...) {
+    discard();
+    throw;
+  }
+}
+
+AtomicFile::~AtomicFile() {
+  discard();
+}
+
+void AtomicFile::discard() noexcept {
+  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+  if (!path_.empty()) ::unlink(path_.c_str());
+  path_.clear();
+}
+
+void AtomicFile::keepPermissionsOfTarget() {
+  struct stat status = {};
+  if (::stat(target_.c_str(), &status) != 0) return;
+  if (S_ISDIR(status.st_mode)) throw FileError(target_.string(), "it is a folder", "choose another name");
+  if (::fchmod(descriptor_, status.st_mode & 07777) != 0)
+    fail(target_, "its permissions cannot be kept", errno);
+}
+
+void AtomicFile::write(std::string_view content) {
+  while (!content.empty()) {
+    const ::ssize_t count = ::write(descriptor_, content.data(), content.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail(target_, "writing it failed", errno);
+    content.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+void AtomicFile::commit() {
+  if (::fsync(descriptor_) != 0) fail(target_, "writing it to disk failed", errno);
+  // Network file systems report late write errors here.
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail(target_, "writing it failed", errno);
+  if (::rename(path_.c_str(), target_.c_str()) != 0) fail(target_, "it cannot be replaced", errno);
+  path_.clear();
+  flushFolder(target_.parent_path());
+}
+
+void atomicWrite(const fs::path& file, std::string_view content) {
+  AtomicFile replacement(file);
+  replacement.write(content);
+  replacement.commit();
 }
 
 }  // namespace nearfit

@@ -5,10 +5,32 @@
 
 namespace nearfit {
 
-/// Replaces a file's content as one step: a crash, a full disk or an error leaves either the old file whole
-/// or the new one whole. The content goes to a temporary file beside the target, is flushed to disk and
-/// renamed; then the folder is flushed. A symbolic link is followed, so that it stays a link; an existing
-/// file keeps its permissions. Throws FileError naming the target, with nothing left behind.
+/// A file's new content, written piece by piece, that replaces the old one as one step: a crash, a full disk
+/// or an error leaves either the old file whole or the new one whole. The content goes to a temporary file
+/// beside the target; a symbolic link is followed, so that it stays a link; an existing file keeps its
+/// permissions. Each call throws FileError naming the target; nothing is left behind unless commit() has
+/// returned.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& file);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Appends; unbuffered.
+  void write(std::string_view content);
+  /// Flushes the content to disk, puts it in place, and flushes the folder.
+  void commit();
+
+ private:
+  void keepPermissionsOfTarget();
+  void discard() noexcept;
+
+  std::filesystem::path target_, path_;
+  int descriptor_ = -1;
+};
+
+/// Replaces a file's content by `content`, as AtomicFile does.
 void atomicWrite(const std::filesystem::path& file, std::string_view content);
 
 }  // namespace nearfit

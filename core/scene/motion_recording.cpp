@@ -1,17 +1,8 @@
 #include "core/scene/motion_recording.h"
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <iterator>
-#include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include "core/error.h"
 
 namespace nearfit {
 namespace {
@@ -48,39 +39,8 @@ std::string formatMotionRow(const MotionRow& row) {
   return line;
 }
 
-MotionWriter::MotionWriter(std::filesystem::path file) : file_(std::move(file)) {
-  std::error_code ignored;
-  if (file_.filename().empty() || std::filesystem::is_directory(file_, ignored)) {
-    throw FileError(file_.string(), "this is a directory, not a file to record to", "give a file name");
-  }
-  // In the same directory, since a rename is atomic only within one file system.
-  temporary_ = (file_.parent_path() / fmt::format(".{}.XXXXXX", file_.filename().string())).string();
-  const int descriptor = ::mkostemp(temporary_.data(), O_CLOEXEC);
-  if (descriptor < 0) {
-    const int error = errno;
-    temporary_.clear();
-    fail("cannot be created", error);
-  }
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  ::fchmod(descriptor, 0666 & ~mask);
-  stream_ = ::fdopen(descriptor, "w");
-  if (stream_ == nullptr) {
-    const int error = errno;
-    ::close(descriptor);
-    discard();
-    fail("cannot be created", error);
-  }
-  try {
-    writeLine(motionHeader());
-  } catch (...) {
-    discard();
-    throw;
-  }
-}
-
-MotionWriter::~MotionWriter() {
-  discard();
+MotionWriter::MotionWriter(const std::filesystem::path& file) : file_(file) {
+  writeLine(motionHeader());
 }
 
 void MotionWriter::write(const MotionRow& row) {
@@ -88,28 +48,19 @@ void MotionWriter::write(const MotionRow& row) {
 }
 
 void MotionWriter::finish() {
-  if (std::fflush(stream_) != 0 || ::fsync(::fileno(stream_)) != 0) fail("cannot be written", errno);
-  const int closed = std::fclose(std::exchange(stream_, nullptr));
-  if (closed != 0) fail("cannot be written", errno);
-  if (std::rename(temporary_.c_str(), file_.c_str()) != 0) fail("cannot be put in place", errno);
-  temporary_.clear();
+  file_.write(buffer_);
+  buffer_.clear();
+  file_.commit();
 }
 
 void MotionWriter::writeLine(std::string_view line) {
-  if (std::fwrite(line.data(), 1, line.size(), stream_) != line.size() || std::fputc('\n', stream_) == EOF) {
-    fail("cannot be written", errno);
-  }
-}
-
-void MotionWriter::fail(const std::string& problem, int error) {
-  throw FileError(file_.string(), fmt::format("the recording {} ({})", problem, std::strerror(error)),
-                  "choose a directory that exists, can be written and has room");
-}
-
-void MotionWriter::discard() noexcept {
-  if (stream_ != nullptr) std::fclose(std::exchange(stream_, nullptr));
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  temporary_.clear();
+  // Some hundred rows for each call of the system.
+  constexpr std::size_t kBlock = 1 << 16;
+  buffer_ += line;
+  buffer_ += '\n';
+  if (buffer_.size() < kBlock) return;
+  file_.write(buffer_);
+  buffer_.clear();
 }
 
 }  // namespace nearfit

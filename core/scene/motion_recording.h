@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
+#include "core/files/atomic_write.h"
 #include "core/haptics/servo_tick.h"
 #include "core/realtime/spsc_queue.h"
 
@@ -42,24 +42,17 @@ std::string formatMotionRow(const MotionRow& row);
 /// it is whole. Not for the servo thread. Throws FileError.
 class MotionWriter {
  public:
-  explicit MotionWriter(std::filesystem::path file);
-  /// Drops what was written unless finish() was called.
-  ~MotionWriter();
-  MotionWriter(const MotionWriter&) = delete;
-  MotionWriter& operator=(const MotionWriter&) = delete;
+  explicit MotionWriter(const std::filesystem::path& file);
 
   void write(const MotionRow& row);
-  /// Flushes to disk and puts the recording in place.
+  /// Flushes to disk and puts the recording in place; without it nothing is left of what was written.
   void finish();
 
  private:
-  [[noreturn]] void fail(const std::string& problem, int error);
   void writeLine(std::string_view line);
-  void discard() noexcept;
 
-  std::filesystem::path file_;
-  std::string temporary_;
-  std::FILE* stream_ = nullptr;
+  AtomicFile file_;
+  std::string buffer_;  ///< Lines that are not in the file yet.
 };
 
 }  // namespace nearfit
