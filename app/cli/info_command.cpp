@@ -66,13 +66,13 @@ std::string infoText(const std::string& name, const PartGeometry& geometry) {
   std::string text = fmt::format("{}\n  triangles   {}\n  vertices    {}\n", oneLine(name),
                                  mesh.triangles().size(), mesh.vertices().size());
   text +=
-      topologyText(mesh.topology(), mesh.edges().size()) + featureText(geometry.tree) + sizeText(geometry);
+      topologyText(mesh.topology(), mesh.edges().size()) + featureText(geometry.tree()) + sizeText(geometry);
   text += fmt::format(
       "  build time  {:.3g} ms for the hierarchy\n"
       "  bytes       {}: {} mesh, {} hierarchy\n"
       "  SHA-256     {}\n",
-      1e3 * geometry.treeBuildTime, mesh.byteSize() + geometry.tree.byteSize(), mesh.byteSize(),
-      geometry.tree.byteSize(), geometry.sha256);
+      1e3 * geometry.hierarchy->buildTime(), mesh.byteSize() + geometry.tree().byteSize(), mesh.byteSize(),
+      geometry.tree().byteSize(), geometry.sha256);
   for (const std::string& warning : geometry.report.warnings)
     text += "  warning     " + oneLine(warning) + "\n";
   return text;
@@ -105,14 +105,14 @@ Json infoJson(const std::string& name, const PartGeometry& geometry) {
                    {"open", topology.openEdges},
                    {"nonManifold", topology.nonManifoldEdges},
                    {"inconsistent", topology.inconsistentEdges}};
-  json["features"] = {{"kept", countsJson(geometry.tree.keptFeatures())},
-                      {"all", countsJson(geometry.tree.allFeatures())}};
+  json["features"] = {{"kept", countsJson(geometry.tree().keptFeatures())},
+                      {"all", countsJson(geometry.tree().allFeatures())}};
   json["bounds"] = {{"lower", pointJson(mesh.bounds().lower)}, {"upper", pointJson(mesh.bounds().upper)}};
   json["mass"] = {{"basis", nameOf(geometry.mass.basis)},
                   {"volume", geometry.mass.volume},
                   {"centre", pointJson(geometry.mass.centre)}};
-  json["buildTime"] = geometry.treeBuildTime;
-  json["bytes"] = {{"mesh", mesh.byteSize()}, {"hierarchy", geometry.tree.byteSize()}};
+  json["buildTime"] = geometry.hierarchy->buildTime();
+  json["bytes"] = {{"mesh", mesh.byteSize()}, {"hierarchy", geometry.tree().byteSize()}};
   json["turnedInsideOut"] = geometry.report.turnedInsideOut;
   json["warnings"] = geometry.report.warnings;
   return json;

@@ -84,7 +84,7 @@ void runLmd(const LmdOptions& options) {
   if (!isSameFile) printWarnings(*part);
   LmdCollector collector(kMaxLmds);
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const LmdSet set = collector.collect(scene->tree, part->tree, poses[i], springs.cutoff);
+    const LmdSet set = collector.collect(scene->tree(), part->tree(), poses[i], springs.cutoff);
     const glm::dvec3 centre = poses[i].applyToPoint(part->mass.centre);
     print(poseLine(i, set, springWrench(set.lmds, springs, centre, {})));
   }

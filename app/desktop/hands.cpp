@@ -35,7 +35,7 @@ std::optional<Approach> approachOfNearest(const ServoScene& scene, double cutoff
   for (const ServoScene::Body& body : scene.bodies) {
     const RigidTransform bodyFromPart = body.worldFromPart.inverse() * scene.moving.worldFromPart;
     const LmdResult result =
-        findLmds(body.geometry->tree, scene.moving.geometry->tree, bodyFromPart, cutoff, scratch, lmds);
+        findLmds(body.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart, cutoff, scratch, lmds);
     if (result.count == 0 || lmds[0].distance >= least) continue;
     least = lmds[0].distance;
     approach = Approach{-body.worldFromPart.applyToVector(lmds[0].direction), kCloses * least};

@@ -175,7 +175,7 @@ Wrench ServoTick::feelBody(const ServoScene::Body& body, const ServoScene& scene
     fault_ = ServoFault::PoseNotFinite;
     return {};
   }
-  const LmdResult result = findLmds(body.geometry->tree, scene.moving.geometry->tree, bodyFromPart,
+  const LmdResult result = findLmds(body.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart,
                                     springs.cutoff, scratch_, lmds_);
   const std::span<Lmd> found = std::span(lmds_).first(result.count);
   for (Lmd& lmd : found) {

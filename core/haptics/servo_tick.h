@@ -28,7 +28,9 @@ struct ServoScene {
   glm::dvec3 centreInPart{0.0};  ///< Centre of mass of the moving part, in its frame [m].
 };
 
-/// Nothing is felt while the moving part is invisible. Throws UsageError when the scene has no moving part.
+/// Nothing is felt while the moving part is invisible. Builds the hierarchies that are missing, which takes
+/// seconds for millions of triangles: prepareHierarchies() does so with progress before. Throws UsageError
+/// when the scene has no moving part.
 std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene);
 
 struct ServoParameters {

@@ -69,8 +69,8 @@ Json leastDistance(const LmdSet& set) {
 
 Json clearanceTo(const Part& other, const Part& moving, double cutoff, LmdCollector& collector) {
   const RigidTransform otherFromMoving = other.worldFromPart.inverse() * moving.worldFromPart;
-  const LmdSet set =
-      collector.collect(other.geometry->tree, moving.geometry->tree, otherFromMoving.normalized(), cutoff);
+  const LmdSet set = collector.collect(other.geometry->tree(), moving.geometry->tree(),
+                                       otherFromMoving.normalized(), cutoff);
   Json json;
   json["part"] = other.name;
   json["distance"] = leastDistance(set);

@@ -1,6 +1,5 @@
 #include "core/scene/part_geometry.h"
 
-#include <chrono>
 #include <system_error>
 #include <utility>
 
@@ -11,9 +10,8 @@
 namespace nearfit {
 namespace {
 
-/// Reading and building the mesh against deriving the rest: about the share of time on meshes of 10^5
-/// triangles.
-constexpr double kImportShare = 0.6;
+/// Reading and building the mesh, against deriving its mass properties: about the share of time.
+constexpr double kImportShare = 0.9;
 
 }  // namespace
 
@@ -40,15 +38,21 @@ PartGeometryPtr loadPartGeometry(const std::filesystem::path& file, double metre
   if (progress) importProgress = [&](double fraction) { return progress(kImportShare * fraction); };
   ImportedMesh imported = importMesh(file, options, importProgress);
   if (progress && !progress(kImportShare)) throw Cancelled();
-  const auto start = std::chrono::steady_clock::now();
-  NormalConeTree tree(imported.mesh);
-  const double treeBuildTime =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const MassProperties mass = massProperties(imported.mesh);
   if (progress && !progress(1.0)) throw Cancelled();
-  return std::make_shared<const PartGeometry>(
-      PartGeometry{normalisedPath(file), std::move(imported.sha256), metresPerUnit, std::move(imported.mesh),
-                   std::move(imported.report), std::move(tree), mass, treeBuildTime});
+  return std::make_shared<const PartGeometry>(PartGeometry{normalisedPath(file), std::move(imported.sha256),
+                                                           metresPerUnit, std::move(imported.mesh),
+                                                           std::move(imported.report), mass});
+}
+
+void prepareHierarchies(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress) {
+  const auto count = static_cast<double>(geometries.size());
+  for (std::size_t i = 0; i < geometries.size(); ++i) {
+    ProgressCallback part;
+    if (progress)
+      part = [&, i](double fraction) { return progress((static_cast<double>(i) + fraction) / count); };
+    geometries[i]->hierarchy->get(geometries[i]->mesh, part);
+  }
 }
 
 }  // namespace nearfit

@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "core/mesh/mass_properties.h"
 #include "core/mesh/mesh_import.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/proximity/normal_cone_tree.h"
+#include "core/scene/hierarchy_on_demand.h"
 
 namespace nearfit {
 
@@ -16,17 +18,20 @@ constexpr double kMinMetresPerUnit = 1e-9, kMaxMetresPerUnit = 1e4;
 /// Throws UsageError when the unit is not finite or out of these limits.
 void checkMetresPerUnit(double metresPerUnit);
 
-/// A mesh file with everything that is derived from it once: hierarchy and mass properties.
-/// Immutable; shared by every part that shows the same file in the same unit.
+/// A mesh file with everything that is derived from it once: mass properties at once, the hierarchy when it
+/// is first needed. Immutable but for that; shared by every part that shows the same file in the same unit.
 struct PartGeometry {
   std::filesystem::path file;  ///< As normalisedPath gives it.
   std::string sha256;          ///< Of the file's bytes, hexadecimal.
   double metresPerUnit = 1.0;
   TriangleMesh mesh;
   MeshBuildReport report;
-  NormalConeTree tree;
   MassProperties mass;
-  double treeBuildTime = 0.0;  ///< How long building the hierarchy took [s].
+  std::shared_ptr<HierarchyOnDemand> hierarchy = std::make_shared<HierarchyOnDemand>();
+
+  /// What queries search; built now where it has not been (seconds for millions of triangles: call
+  /// prepareHierarchies first where nobody may wait). Any thread. Real-time safe once hierarchy->isReady().
+  const NormalConeTree& tree() const { return hierarchy->get(mesh); }
 };
 
 /// The path from the root, with links among its folders resolved, so that paths to one file compare equal.
@@ -34,9 +39,13 @@ std::filesystem::path normalisedPath(const std::filesystem::path& file);
 
 using PartGeometryPtr = std::shared_ptr<const PartGeometry>;
 
-/// Imports a mesh and derives what queries need. `progress` may stop it between its stages. Blocking: call it
-/// off the GUI and servo threads. Throws FileError, UsageError (the unit), Cancelled.
+/// Imports a mesh and derives its mass properties. `progress` may stop it between its stages. Blocking: call
+/// it off the GUI and servo threads. Throws FileError, UsageError (the unit), Cancelled.
 PartGeometryPtr loadPartGeometry(const std::filesystem::path& file, double metresPerUnit,
                                  const ProgressCallback& progress = {});
+
+/// Makes every hierarchy that is not there yet, so that tree() of each answers at once. Blocking, as
+/// loadPartGeometry. Throws Cancelled; what is done by then stays, the rest is made when needed.
+void prepareHierarchies(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress = {});
 
 }  // namespace nearfit

@@ -5,7 +5,6 @@
 namespace nearfit::test {
 
 PartGeometryPtr geometryOf(TriangleMesh mesh, const glm::dvec3& centre) {
-  NormalConeTree tree(mesh);
   MassProperties mass;
   mass.volume = 1.0;
   mass.centre = centre;
@@ -16,7 +15,6 @@ PartGeometryPtr geometryOf(TriangleMesh mesh, const glm::dvec3& centre) {
                                                            .metresPerUnit = 1.0,
                                                            .mesh = std::move(mesh),
                                                            .report = {},
-                                                           .tree = std::move(tree),
                                                            .mass = mass});
 }
 

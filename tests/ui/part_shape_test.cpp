@@ -14,8 +14,7 @@ using namespace nearfit;
 namespace {
 
 PartGeometryPtr geometryOf(TriangleMesh mesh) {
-  NormalConeTree tree(mesh);
-  return std::make_shared<PartGeometry>(PartGeometry{"", "", 1.0, std::move(mesh), {}, std::move(tree), {}});
+  return std::make_shared<PartGeometry>(PartGeometry{"", "", 1.0, std::move(mesh), {}, {}});
 }
 
 }  // namespace

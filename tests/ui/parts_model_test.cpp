@@ -12,11 +12,9 @@ namespace {
 
 Part cube(std::string name) {
   TriangleMesh mesh = test::boxMesh(glm::dvec3(0.02));
-  NormalConeTree tree(mesh);
   Part part;
   part.name = std::move(name);
-  part.geometry =
-      std::make_shared<PartGeometry>(PartGeometry{"", "", 1.0, std::move(mesh), {}, std::move(tree), {}});
+  part.geometry = std::make_shared<PartGeometry>(PartGeometry{"", "", 1.0, std::move(mesh), {}, {}});
   return part;
 }
 

@@ -26,9 +26,9 @@ TEST(PartGeometry, BoxInMillimetresIsLoadedInMetresWithItsMassAndHierarchy) {
   EXPECT_NEAR(geometry->mass.centre.x, 0.1, 1e-12);
   EXPECT_EQ(geometry->mass.basis, MassBasis::VolumeIntegrals);
   // All 8 corners, the 12 edges that are not diagonals of a face, and all triangles can carry a minimum.
-  EXPECT_EQ(geometry->tree.keptFeatures().vertices, 8U);
-  EXPECT_EQ(geometry->tree.keptFeatures().edges, 12U);
-  EXPECT_EQ(geometry->tree.allFeatures().edges, 18U);
+  EXPECT_EQ(geometry->tree().keptFeatures().vertices, 8U);
+  EXPECT_EQ(geometry->tree().keptFeatures().edges, 12U);
+  EXPECT_EQ(geometry->tree().allFeatures().edges, 18U);
 }
 
 TEST(PartGeometry, UnitsOutOfRangeAreRefused) {
