@@ -20,6 +20,8 @@ class InputFile {
 
   /// Bytes in the file when it was opened.
   std::uint64_t size() const noexcept { return size_; }
+  /// For system calls that take one; stays this object's.
+  int descriptor() const noexcept { return descriptor_; }
   /// Fills `buffer` as far as the file goes; returns the bytes read, 0 at the end. Throws FileError.
   std::size_t read(std::span<char> buffer);
 

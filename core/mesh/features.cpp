@@ -22,6 +22,11 @@ constexpr double kNoArea = 1e-14;
 /// Cosine below which two directions may pass for perpendicular where only a bound is built.
 constexpr double kSquare = 1e-6;
 
+/// How far the work is once the faces and the edges are done, about, and features between two reports (some
+/// milliseconds).
+constexpr double kFacesDone = 0.05, kEdgesDone = 0.5;
+constexpr std::uint32_t kBetweenReports = 8192;
+
 std::optional<glm::dvec3> unit(const glm::dvec3& v) {
   const double length = glm::length(v);
   if (!(length > 0.0)) return std::nullopt;
@@ -30,16 +35,13 @@ std::optional<glm::dvec3> unit(const glm::dvec3& v) {
 
 class FeatureFinder {
  public:
-  explicit FeatureFinder(const TriangleMesh& mesh)
-      : mesh_(mesh), x_(mesh.vertices()), normals_(mesh.triangles().size()) {}
+  FeatureFinder(const TriangleMesh& mesh, const std::function<void(double)>& onProgress)
+      : mesh_(mesh), onProgress_(onProgress), x_(mesh.vertices()), normals_(mesh.triangles().size()) {}
 
   MeshFeatures find() {
-    for (std::uint32_t f = 0; f < mesh_.triangles().size(); ++f)
-      addFace(f);
-    for (std::uint32_t e = 0; e < mesh_.edges().size(); ++e)
-      addEdge(e);
-    for (std::uint32_t v = 0; v < mesh_.vertices().size(); ++v)
-      addVertex(v);
+    forAll(mesh_.triangles().size(), 0.0, kFacesDone, [this](std::uint32_t f) { addFace(f); });
+    forAll(mesh_.edges().size(), kFacesDone, kEdgesDone, [this](std::uint32_t e) { addEdge(e); });
+    forAll(mesh_.vertices().size(), kEdgesDone, 1.0, [this](std::uint32_t v) { addVertex(v); });
     return std::move(out_);
   }
 
@@ -50,6 +52,16 @@ class FeatureFinder {
     std::uint32_t opposite;
     std::uint32_t face;
   };
+
+  template <class Add>
+  void forAll(std::size_t count, double from, double to, Add add) const {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (i % kBetweenReports == 0 && onProgress_)
+        onProgress_(from + (to - from) * static_cast<double>(i) / static_cast<double>(count));
+      add(i);
+    }
+    if (onProgress_) onProgress_(to);
+  }
 
   bool hasArea(std::uint32_t f) const { return normals_[f] != glm::dvec3(0.0); }
 
@@ -243,6 +255,7 @@ class FeatureFinder {
   }
 
   const TriangleMesh& mesh_;
+  const std::function<void(double)>& onProgress_;
   std::span<const glm::dvec3> x_;
   std::vector<glm::dvec3> normals_;  ///< Zero for faces without area.
   MeshFeatures out_;
@@ -252,8 +265,8 @@ class FeatureFinder {
 
 }  // namespace
 
-MeshFeatures findFeatures(const TriangleMesh& mesh) {
-  return FeatureFinder(mesh).find();
+MeshFeatures findFeatures(const TriangleMesh& mesh, const std::function<void(double)>& onProgress) {
+  return FeatureFinder(mesh, onProgress).find();
 }
 
 }  // namespace nearfit

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -45,6 +46,8 @@ struct MeshFeatures {
   std::vector<std::uint32_t> neighbours;
 };
 
-MeshFeatures findFeatures(const TriangleMesh& mesh);
+/// @param onProgress  Called now and then with the fraction done; may throw to stop the work. May be empty.
+MeshFeatures findFeatures(const TriangleMesh& mesh,
+                          const std::function<void(double fraction)>& onProgress = {});
 
 }  // namespace nearfit

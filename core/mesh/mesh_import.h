@@ -1,16 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 
 #include "core/mesh/mesh_builder.h"
+#include "core/progress.h"
 
 namespace nearfit {
-
-/// Called now and then during long work with the fraction done, 0 to 1. Returns false to stop the work,
-/// which then throws Cancelled. May be empty.
-using ProgressCallback = std::function<bool(double fraction)>;
 
 struct ImportedMesh {
   TriangleMesh mesh;

@@ -53,23 +53,26 @@ std::uint32_t findRoot(std::vector<std::uint32_t>& parent, std::uint32_t i) {
 
 }  // namespace
 
-TriangleMesh::TriangleMesh(std::vector<glm::dvec3> vertices, std::vector<Triangle> triangles)
-    : vertices_(std::move(vertices)), triangles_(std::move(triangles)) {
-  validate(vertices_, triangles_);
-  for (const Triangle& t : triangles_) {
+TriangleMesh::TriangleMesh(std::vector<glm::dvec3> vertices, std::vector<Triangle> triangles) {
+  validate(vertices, triangles);
+  for (const Triangle& t : triangles) {
     for (const std::uint32_t v : t)
-      bounds_.add(vertices_[v]);
+      arrays_.bounds.add(vertices[v]);
   }
+  arrays_.vertices = std::move(vertices);
+  arrays_.triangles = std::move(triangles);
   buildEdges();
+  buildEdgesOfVertices();
   countTopology();
 }
 
 void TriangleMesh::buildEdges() {
+  const std::span<const Triangle> triangles = arrays_.triangles;
   std::vector<Side> sides;
-  sides.reserve(3 * triangles_.size());
-  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+  sides.reserve(3 * triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint64_t a = triangles_[t][k], b = triangles_[t][(k + 1) % 3];
+      const std::uint64_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
       sides.push_back({std::min(a, b) << 32 | std::max(a, b), 3 * t + k});
     }
   }
@@ -77,67 +80,75 @@ void TriangleMesh::buildEdges() {
     return a.edge != b.edge ? a.edge < b.edge : a.index < b.index;
   });
 
-  triangleEdges_.resize(triangles_.size());
-  edgeFaces_.reserve(sides.size());
+  std::vector<MeshEdge> edges;
+  std::vector<std::uint32_t> edgeFaces;
+  std::vector<std::array<std::uint32_t, 3>> triangleEdges(triangles.size());
+  edgeFaces.reserve(sides.size());
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (i == 0 || sides[i].edge != sides[i - 1].edge) {
-      edges_.push_back({static_cast<std::uint32_t>(sides[i].edge >> 32),
-                        static_cast<std::uint32_t>(sides[i].edge), static_cast<std::uint32_t>(i), 0});
+      edges.push_back({static_cast<std::uint32_t>(sides[i].edge >> 32),
+                       static_cast<std::uint32_t>(sides[i].edge), static_cast<std::uint32_t>(i), 0});
     }
-    ++edges_.back().faceCount;
-    edgeFaces_.push_back(sides[i].index / 3);
-    triangleEdges_[sides[i].index / 3][sides[i].index % 3] = static_cast<std::uint32_t>(edges_.size() - 1);
+    ++edges.back().faceCount;
+    edgeFaces.push_back(sides[i].index / 3);
+    triangleEdges[sides[i].index / 3][sides[i].index % 3] = static_cast<std::uint32_t>(edges.size() - 1);
   }
-  edges_.shrink_to_fit();
+  edges.shrink_to_fit();
+  arrays_.edges = std::move(edges);
+  arrays_.edgeFaces = std::move(edgeFaces);
+  arrays_.triangleEdges = std::move(triangleEdges);
+}
 
-  vertexFirstEdge_.assign(vertices_.size() + 1, 0);
-  for (const MeshEdge& e : edges_) {
-    ++vertexFirstEdge_[e.v0 + 1];
-    ++vertexFirstEdge_[e.v1 + 1];
+void TriangleMesh::buildEdgesOfVertices() {
+  const std::span<const MeshEdge> edges = arrays_.edges;
+  std::vector<std::uint32_t> firstEdge(arrays_.vertices.size() + 1, 0);
+  for (const MeshEdge& e : edges) {
+    ++firstEdge[e.v0 + 1];
+    ++firstEdge[e.v1 + 1];
   }
-  std::partial_sum(vertexFirstEdge_.begin(), vertexFirstEdge_.end(), vertexFirstEdge_.begin());
-  vertexEdges_.resize(2 * edges_.size());
-  std::vector<std::uint32_t> next(vertexFirstEdge_.begin(), vertexFirstEdge_.end() - 1);
-  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-    vertexEdges_[next[edges_[e].v0]++] = e;
-    vertexEdges_[next[edges_[e].v1]++] = e;
+  std::partial_sum(firstEdge.begin(), firstEdge.end(), firstEdge.begin());
+  std::vector<std::uint32_t> vertexEdges(2 * edges.size());
+  std::vector<std::uint32_t> next(firstEdge.begin(), firstEdge.end() - 1);
+  for (std::uint32_t e = 0; e < edges.size(); ++e) {
+    vertexEdges[next[edges[e].v0]++] = e;
+    vertexEdges[next[edges[e].v1]++] = e;
   }
+  arrays_.vertexEdges = std::move(vertexEdges);
+  arrays_.vertexFirstEdge = std::move(firstEdge);
 }
 
 bool TriangleMesh::isEdgeConsistent(std::uint32_t edge) const noexcept {
-  const MeshEdge& e = edges_[edge];
+  const MeshEdge& e = arrays_.edges[edge];
   if (e.faceCount != 2) return false;
   const auto runsForward = [&](std::uint32_t face) {
-    const Triangle& t = triangles_[face];
+    const Triangle& t = arrays_.triangles[face];
     for (std::uint32_t k = 0; k < 3; ++k) {
       if (t[k] == e.v0 && t[(k + 1) % 3] == e.v1) return true;
     }
     return false;
   };
-  return runsForward(edgeFaces_[e.firstFace]) != runsForward(edgeFaces_[e.firstFace + 1]);
+  return runsForward(arrays_.edgeFaces[e.firstFace]) != runsForward(arrays_.edgeFaces[e.firstFace + 1]);
 }
 
 void TriangleMesh::countTopology() {
-  std::vector<std::uint32_t> parent(triangles_.size());
+  std::vector<std::uint32_t> parent(arrays_.triangles.size());
   std::iota(parent.begin(), parent.end(), 0U);
-  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+  for (std::uint32_t e = 0; e < arrays_.edges.size(); ++e) {
     const std::span<const std::uint32_t> faces = facesOfEdge(e);
-    if (faces.size() == 1) ++topology_.openEdges;
-    if (faces.size() > 2) ++topology_.nonManifoldEdges;
-    if (faces.size() == 2 && !isEdgeConsistent(e)) ++topology_.inconsistentEdges;
+    if (faces.size() == 1) ++arrays_.topology.openEdges;
+    if (faces.size() > 2) ++arrays_.topology.nonManifoldEdges;
+    if (faces.size() == 2 && !isEdgeConsistent(e)) ++arrays_.topology.inconsistentEdges;
     for (const std::uint32_t face : faces)
       parent[findRoot(parent, face)] = findRoot(parent, faces[0]);
   }
-  for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-    topology_.components += findRoot(parent, t) == t ? 1 : 0;
+  for (std::uint32_t t = 0; t < arrays_.triangles.size(); ++t)
+    arrays_.topology.components += findRoot(parent, t) == t ? 1 : 0;
 }
 
 std::size_t TriangleMesh::byteSize() const noexcept {
-  return vertices_.capacity() * sizeof(vertices_[0]) + triangles_.capacity() * sizeof(triangles_[0]) +
-         edges_.capacity() * sizeof(edges_[0]) + edgeFaces_.capacity() * sizeof(edgeFaces_[0]) +
-         triangleEdges_.capacity() * sizeof(triangleEdges_[0]) +
-         vertexEdges_.capacity() * sizeof(vertexEdges_[0]) +
-         vertexFirstEdge_.capacity() * sizeof(vertexFirstEdge_[0]);
+  return arrays_.vertices.byteSize() + arrays_.triangles.byteSize() + arrays_.edges.byteSize() +
+         arrays_.edgeFaces.byteSize() + arrays_.triangleEdges.byteSize() + arrays_.vertexEdges.byteSize() +
+         arrays_.vertexFirstEdge.byteSize();
 }
 
 }  // namespace nearfit

@@ -27,14 +27,12 @@ float NormalConeTree::Node::size(std::size_t lane) const noexcept {
                    half[2][lane] * half[2][lane]);
 }
 
-NormalConeTree::NormalConeTree(const TriangleMesh& mesh) {
-  NormalConeTreeBuilder(*this, mesh).build();
-}
+NormalConeTree::NormalConeTree(const TriangleMesh& mesh, const ProgressCallback& progress)
+    : arrays_(NormalConeTreeBuilder(mesh, progress).build()) {}
 
 std::size_t NormalConeTree::byteSize() const noexcept {
-  return nodes_.capacity() * sizeof(Node) + positions_.capacity() * sizeof(glm::dvec3) +
-         vertices_.capacity() * sizeof(VertexLeaf) + edges_.capacity() * sizeof(EdgeLeaf) +
-         faces_.capacity() * sizeof(FaceLeaf) + neighbours_.capacity() * sizeof(std::uint32_t);
+  return arrays_.nodes.byteSize() + arrays_.positions.byteSize() + arrays_.vertices.byteSize() +
+         arrays_.edges.byteSize() + arrays_.faces.byteSize() + arrays_.neighbours.byteSize();
 }
 
 }  // namespace nearfit

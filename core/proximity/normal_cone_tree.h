@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
+#include <utility>
 
 #include <glm/vec3.hpp>
 
 #include "core/mesh/triangle_mesh.h"
+#include "core/progress.h"
 #include "core/proximity/lmd.h"
+#include "core/shared_array.h"
 
 namespace nearfit {
 
@@ -20,7 +22,8 @@ struct FeatureCounts {
 };
 
 /// Spatialized normal cone hierarchy over the features of one mesh that can carry a minimum, each in one
-/// leaf. Built once for a mesh; immutable, so that any number of threads and parts share it.
+/// leaf. Built once for a mesh, or mapped from a file (tree_cache.h); immutable, so that any number of
+/// threads and parts share it. Copies share the arrays.
 ///
 /// Each child has an oriented box around its features, and limits in the same axes on the directions in which
 /// they can carry a minimum. Long thin features of CAD meshes have long thin boxes, and an edge has no
@@ -31,6 +34,10 @@ struct FeatureCounts {
 class NormalConeTree {
  public:
   static constexpr std::size_t kWidth = 8;
+  /// Nodes from the first to any leaf: as nodes are full, 2^29 features need no more. Traversals rely on it.
+  static constexpr std::size_t kMaxDepth = 12;
+  /// Centre of the lanes that have no child: out of reach of any mesh, and its square still finite.
+  static constexpr float kOutOfReach = 1e18F;
 
   /// An oriented box and the directions of the minima that it can hold, in single precision.
   struct Bound {
@@ -66,7 +73,23 @@ class NormalConeTree {
     Triangle corners;
   };
 
-  explicit NormalConeTree(const TriangleMesh& mesh);
+  /// All that a hierarchy is.
+  struct Arrays {
+    glm::dvec3 centre{0.0};
+    double size = 0.0;
+    FeatureCounts all;
+    SharedArray<Node> nodes;
+    SharedArray<glm::dvec3> positions;
+    SharedArray<VertexLeaf> vertices;
+    SharedArray<EdgeLeaf> edges;
+    SharedArray<FaceLeaf> faces;
+    SharedArray<std::uint32_t> neighbours;
+  };
+
+  /// Builds on all processors (see parallelFor). Throws Cancelled, and Error when the mesh is too large.
+  explicit NormalConeTree(const TriangleMesh& mesh, const ProgressCallback& progress = {});
+  /// Takes arrays that another hierarchy was made of; nothing is checked.
+  explicit NormalConeTree(Arrays arrays) : arrays_(std::move(arrays)) {}
 
   /// Children are node indices, or leaves: kind in two bits and index into vertices(), edges() or faces().
   static constexpr std::uint32_t kLeafBit = 0x80000000U;
@@ -77,38 +100,32 @@ class NormalConeTree {
   }
   static std::uint32_t leafIndex(std::uint32_t child) noexcept { return child & 0x1FFFFFFFU; }
 
-  bool isEmpty() const noexcept { return nodes_.empty(); }
+  bool isEmpty() const noexcept { return arrays_.nodes.empty(); }
   /// The first node has one child: everything.
-  std::span<const Node> nodes() const noexcept { return nodes_; }
-  std::span<const glm::dvec3> positions() const noexcept { return positions_; }
-  std::span<const VertexLeaf> vertices() const noexcept { return vertices_; }
-  std::span<const EdgeLeaf> edges() const noexcept { return edges_; }
-  std::span<const FaceLeaf> faces() const noexcept { return faces_; }
+  std::span<const Node> nodes() const noexcept { return arrays_.nodes; }
+  std::span<const glm::dvec3> positions() const noexcept { return arrays_.positions; }
+  std::span<const VertexLeaf> vertices() const noexcept { return arrays_.vertices; }
+  std::span<const EdgeLeaf> edges() const noexcept { return arrays_.edges; }
+  std::span<const FaceLeaf> faces() const noexcept { return arrays_.faces; }
   std::span<const std::uint32_t> neighbours(const VertexLeaf& v) const noexcept {
-    return std::span(neighbours_).subspan(v.firstNeighbour, v.neighbourCount);
+    return arrays_.neighbours.view().subspan(v.firstNeighbour, v.neighbourCount);
   }
 
   /// Middle of the mesh's bounding box in its frame [m]; positions and nodes are relative to it.
-  const glm::dvec3& centre() const noexcept { return centre_; }
+  const glm::dvec3& centre() const noexcept { return arrays_.centre; }
   /// Diagonal of the bounding box [m].
-  double size() const noexcept { return size_; }
+  double size() const noexcept { return arrays_.size; }
 
-  FeatureCounts keptFeatures() const noexcept { return {vertices_.size(), edges_.size(), faces_.size()}; }
-  FeatureCounts allFeatures() const noexcept { return all_; }
+  FeatureCounts keptFeatures() const noexcept {
+    return {arrays_.vertices.size(), arrays_.edges.size(), arrays_.faces.size()};
+  }
+  FeatureCounts allFeatures() const noexcept { return arrays_.all; }
+  const Arrays& arrays() const noexcept { return arrays_; }
+  /// Memory held by the arrays, or mapped [bytes].
   std::size_t byteSize() const noexcept;
 
  private:
-  friend class NormalConeTreeBuilder;
-
-  glm::dvec3 centre_{0.0};
-  double size_ = 0.0;
-  std::vector<Node> nodes_;
-  std::vector<glm::dvec3> positions_;
-  std::vector<VertexLeaf> vertices_;
-  std::vector<EdgeLeaf> edges_;
-  std::vector<FaceLeaf> faces_;
-  std::vector<std::uint32_t> neighbours_;
-  FeatureCounts all_;
+  Arrays arrays_;
 };
 
 }  // namespace nearfit

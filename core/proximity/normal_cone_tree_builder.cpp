@@ -1,17 +1,15 @@
 #include "core/proximity/normal_cone_tree_builder.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <future>
 #include <limits>
-#include <thread>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 #include "core/error.h"
 #include "core/math/symmetric_eigen.h"
+#include "core/parallel/parallel_for.h"
 
 namespace nearfit {
 namespace {
@@ -23,12 +21,13 @@ constexpr double kExtentPadding = 1e-6;
 /// Added to each limit on directions: some roundings of a single precision axis.
 constexpr double kDirectionPadding = 2e-6;
 
-/// Centre of the lanes that have no child: out of reach of any mesh, and its square still finite.
-constexpr float kOutOfReach = 1e18F;
-
 /// Parts larger than this are opened whatever they hold: they get no exact limits of direction, and are split
 /// along their widest axis untried.
 constexpr std::size_t kLargePart = 4096;
+
+/// Shares of the time that building takes, about, for the report of progress: looking for features, splitting
+/// what one thread splits, and building the rest on all processors.
+constexpr double kFeaturesShare = 0.3, kSplitsShare = 0.2, kSubtreesShare = 0.5;
 
 constexpr std::size_t kWidth = NormalConeTree::kWidth;
 
@@ -47,39 +46,53 @@ std::size_t fullChild(std::size_t count) {
 
 }  // namespace
 
-void NormalConeTreeBuilder::build() {
+NormalConeTree::Arrays NormalConeTreeBuilder::build() {
   constexpr std::size_t kMaxLeaves = (std::size_t{1} << 29) - 1;
   if (mesh_.edges().size() > kMaxLeaves) {
     throw Error("mesh", "it has more edges than the hierarchy can name", "decimate it first");
   }
-  tree_.centre_ = mesh_.bounds().isEmpty() ? glm::dvec3(0.0) : mesh_.bounds().centre();
-  tree_.size_ = mesh_.bounds().diagonal();
-  tree_.all_ = {mesh_.vertices().size(), mesh_.edges().size(), mesh_.triangles().size()};
-  tree_.positions_.reserve(mesh_.vertices().size());
+  tree_.centre = mesh_.bounds().isEmpty() ? glm::dvec3(0.0) : mesh_.bounds().centre();
+  tree_.size = mesh_.bounds().diagonal();
+  tree_.positions.reserve(mesh_.vertices().size());
   for (const glm::dvec3& p : mesh_.vertices())
-    tree_.positions_.push_back(p - tree_.centre_);
-  features_ = findFeatures(mesh_);
-  geometry_.emplace(mesh_, features_, tree_.positions_);
+    tree_.positions.push_back(p - tree_.centre);
+  findFeaturesOfMesh();
+  geometry_.emplace(mesh_, features_, tree_.positions);
   fillLeaves();
   std::vector<Item> items = makeItems();
   if (!items.empty()) buildRoot(items);
-  tree_.nodes_.shrink_to_fit();
-  tree_.neighbours_ = std::move(features_.neighbours);
+  return {tree_.centre,
+          tree_.size,
+          {mesh_.vertices().size(), mesh_.edges().size(), mesh_.triangles().size()},
+          std::move(tree_.nodes),
+          std::move(tree_.positions),
+          std::move(tree_.vertices),
+          std::move(tree_.edges),
+          std::move(tree_.faces),
+          std::move(features_.neighbours)};
+}
+
+void NormalConeTreeBuilder::findFeaturesOfMesh() {
+  double reported = 0.0;
+  features_ = findFeatures(mesh_, [&](double fraction) {
+    progress_.add(kFeaturesShare * (fraction - reported));
+    reported = fraction;
+  });
 }
 
 void NormalConeTreeBuilder::fillLeaves() {
-  tree_.vertices_.reserve(features_.vertices.size());
+  tree_.vertices.reserve(features_.vertices.size());
   for (const VertexFeature& f : features_.vertices) {
-    tree_.vertices_.push_back({f.vertex, f.firstNeighbour, f.neighbourCount});
+    tree_.vertices.push_back({f.vertex, f.firstNeighbour, f.neighbourCount});
   }
-  tree_.edges_.reserve(features_.edges.size());
+  tree_.edges.reserve(features_.edges.size());
   for (const EdgeFeature& f : features_.edges) {
     const MeshEdge& e = mesh_.edges()[f.edge];
-    tree_.edges_.push_back({f.edge, e.v0, e.v1, f.opposite});
+    tree_.edges.push_back({f.edge, e.v0, e.v1, f.opposite});
   }
-  tree_.faces_.reserve(features_.faces.size());
+  tree_.faces.reserve(features_.faces.size());
   for (const FaceFeature& f : features_.faces)
-    tree_.faces_.push_back({f.face, mesh_.triangles()[f.face]});
+    tree_.faces.push_back({f.face, mesh_.triangles()[f.face]});
 }
 
 std::vector<NormalConeTreeBuilder::Item> NormalConeTreeBuilder::makeItems() const {
@@ -104,42 +117,34 @@ std::uint32_t NormalConeTreeBuilder::leafChild(std::uint32_t feature) const {
 }
 
 void NormalConeTreeBuilder::buildRoot(Items items) {
-  tree_.nodes_.reserve(items.size() / (kWidth - 1) + items.size() / 64 + 8);
-  tree_.nodes_.emplace_back();
+  tree_.nodes.reserve(items.size() / (kWidth - 1) + items.size() / 64 + 8);
+  tree_.nodes.emplace_back();
   for (std::size_t lane = 0; lane < kWidth; ++lane)
-    setLane(tree_.nodes_[0], lane, lane == 0 ? items : Items{});
+    setLane(tree_.nodes[0], lane, lane == 0 ? items : Items{});
   std::vector<Subtree> subtrees;
   const std::uint32_t child =
-      items.size() == 1 ? leafChild(items[0].feature) : buildNode(items, tree_.nodes_, &subtrees);
-  tree_.nodes_[0].child[0] = child;
+      items.size() == 1 ? leafChild(items[0].feature) : buildNode(items, tree_.nodes, &subtrees);
+  tree_.nodes[0].child[0] = child;
   buildSubtrees(subtrees);
 }
 
 /// Builds what was put off, on all processors; the same tree whoever builds which part.
 void NormalConeTreeBuilder::buildSubtrees(std::vector<Subtree>& subtrees) {
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < subtrees.size(); i = next++) {
-      buildNode(subtrees[i].items, subtrees[i].nodes, nullptr);
-    }
-  };
-  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
-  std::vector<std::future<void>> helpers;
-  for (std::size_t i = 1; i < std::min(processors, subtrees.size()); ++i) {
-    helpers.push_back(std::async(std::launch::async, work));
-  }
-  work();
-  for (std::future<void>& helper : helpers)
-    helper.get();
+  parallelFor(subtrees.size(), [&](std::size_t i) {
+    Subtree& subtree = subtrees[i];
+    buildNode(subtree.items, subtree.nodes, nullptr);
+    progress_.add(kSubtreesShare * static_cast<double>(subtree.items.size()) /
+                  static_cast<double>(geometry_->size()));
+  });
 
   for (Subtree& subtree : subtrees) {
-    const auto offset = static_cast<std::uint32_t>(tree_.nodes_.size());
+    const auto offset = static_cast<std::uint32_t>(tree_.nodes.size());
     for (NormalConeTree::Node& node : subtree.nodes) {
       for (std::uint32_t& child : node.child)
         child += NormalConeTree::isLeaf(child) ? 0 : offset;
     }
-    tree_.nodes_[subtree.parent].child[subtree.lane] = offset;
-    tree_.nodes_.insert(tree_.nodes_.end(), subtree.nodes.begin(), subtree.nodes.end());
+    tree_.nodes[subtree.parent].child[subtree.lane] = offset;
+    tree_.nodes.insert(tree_.nodes.end(), subtree.nodes.begin(), subtree.nodes.end());
     subtree.nodes = {};
   }
 }
@@ -193,11 +198,19 @@ std::size_t NormalConeTreeBuilder::split(Items items, std::size_t unit) const {
   return cut;
 }
 
+/// Counts a split that one thread makes for all, as a part of the halvings of everything down to what is put
+/// off.
+void NormalConeTreeBuilder::reportSplit(std::size_t items) {
+  const auto all = static_cast<double>(geometry_->size());
+  const double halvings = std::max(1.0, std::log2(all / static_cast<double>(kLargePart)));
+  progress_.add(kSplitsShare * static_cast<double>(items) / (all * halvings));
+}
+
 /// Returns the index of a new node over the items.
 /// @param putOff  Where to leave subtrees that are small enough to be built by one thread; null: none is
 /// left.
 std::uint32_t NormalConeTreeBuilder::buildNode(Items items, std::vector<NormalConeTree::Node>& nodes,
-                                               std::vector<Subtree>* putOff) const {
+                                               std::vector<Subtree>* putOff) {
   const std::size_t full = fullChild(items.size());
   std::array<Items, kWidth> parts{items};
   std::size_t count = 1;
@@ -206,6 +219,7 @@ std::uint32_t NormalConeTreeBuilder::buildNode(Items items, std::vector<NormalCo
                                        [](const Items& a, const Items& b) { return a.size() < b.size(); });
     if (largest.size() <= full || count == kWidth) break;
     const std::size_t cut = split(largest, full);
+    if (putOff != nullptr) reportSplit(largest.size());
     parts[count++] = largest.subspan(cut);
     largest = largest.first(cut);
   }
@@ -230,7 +244,7 @@ std::uint32_t NormalConeTreeBuilder::buildNode(Items items, std::vector<NormalCo
 void NormalConeTreeBuilder::setLane(NormalConeTree::Node& node, std::size_t lane, Items items) const {
   NormalConeTree::Bound b{};
   if (items.empty()) {
-    b.centre = {kOutOfReach, kOutOfReach, kOutOfReach};
+    b.centre.fill(NormalConeTree::kOutOfReach);
     b.n = {1.0F, 0.0F, 0.0F};
     b.u = {0.0F, 1.0F, 0.0F};
   } else {
@@ -289,7 +303,7 @@ std::array<glm::dvec3, 3> NormalConeTreeBuilder::axes(Items items) const {
   mean /= points;
   positions = positions / points - glm::outerProduct(mean, mean);
   const auto trace = [](const glm::dmat3& m) { return m[0][0] + m[1][1] + m[2][2]; };
-  const double spread = trace(positions), least = 1e-30 * tree_.size_ * tree_.size_;
+  const double spread = trace(positions), least = 1e-30 * tree_.size * tree_.size;
   glm::dmat3 shape = normals / -trace(normals);
   if (spread > least) shape += positions / spread;
   const SymmetricEigen eigen = symmetricEigen(shape);
@@ -327,7 +341,7 @@ NormalConeTree::Bound NormalConeTreeBuilder::bound(Items items) const {
     mostU = mostV = 1.0;
   }
   const glm::dvec3 middle = 0.5 * (lower + upper);
-  const glm::dvec3 half = 0.5 * (upper - lower) + kExtentPadding * tree_.size_;
+  const glm::dvec3 half = 0.5 * (upper - lower) + kExtentPadding * tree_.size;
   NormalConeTree::Bound b{};
   b.centre = toSingle(middle.x * frame[0] + middle.y * frame[1] + middle.z * frame[2]);
   b.n = toSingle(frame[0]);

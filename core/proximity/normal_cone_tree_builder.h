@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/mesh/features.h"
+#include "core/parallel/shared_progress.h"
 #include "core/proximity/feature_geometry.h"
 #include "core/proximity/normal_cone_tree.h"
 
@@ -18,8 +19,10 @@ namespace nearfit {
 /// are full but for the last few, and bounds each part by a box along its own axes.
 class NormalConeTreeBuilder {
  public:
-  NormalConeTreeBuilder(NormalConeTree& tree, const TriangleMesh& mesh) : tree_(tree), mesh_(mesh) {}
-  void build();
+  NormalConeTreeBuilder(const TriangleMesh& mesh, const ProgressCallback& progress)
+      : mesh_(mesh), progress_(progress, 1.0) {}
+  /// Once. Throws Cancelled, and Error when the mesh is too large.
+  NormalConeTree::Arrays build();
 
  private:
   /// One feature on its way into the tree; single precision suffices to sort by.
@@ -37,14 +40,27 @@ class NormalConeTreeBuilder {
     std::vector<NormalConeTree::Node> nodes;
   };
 
+  /// The hierarchy while it grows.
+  struct Growing {
+    glm::dvec3 centre{0.0};
+    double size = 0.0;
+    std::vector<NormalConeTree::Node> nodes;
+    std::vector<glm::dvec3> positions;
+    std::vector<NormalConeTree::VertexLeaf> vertices;
+    std::vector<NormalConeTree::EdgeLeaf> edges;
+    std::vector<NormalConeTree::FaceLeaf> faces;
+  };
+
+  void findFeaturesOfMesh();
   void fillLeaves();
   std::vector<Item> makeItems() const;
   static void partition(Items items, std::size_t cut, std::size_t axis);
   double cost(Items items) const;
   std::size_t split(Items items, std::size_t unit) const;
   std::uint32_t buildNode(Items items, std::vector<NormalConeTree::Node>& nodes,
-                          std::vector<Subtree>* putOff) const;
+                          std::vector<Subtree>* putOff);
   void buildSubtrees(std::vector<Subtree>& subtrees);
+  void reportSplit(std::size_t items);
   void buildRoot(Items items);
   void setLane(NormalConeTree::Node& node, std::size_t lane, Items items) const;
   NormalConeTree::Bound bound(Items items) const;
@@ -52,8 +68,9 @@ class NormalConeTreeBuilder {
   std::array<glm::dvec3, 3> axesOfOne(std::uint32_t feature) const;
   std::uint32_t leafChild(std::uint32_t feature) const;
 
-  NormalConeTree& tree_;
   const TriangleMesh& mesh_;
+  SharedProgress progress_;
+  Growing tree_;
   MeshFeatures features_;
   std::optional<FeatureGeometry> geometry_;
 };

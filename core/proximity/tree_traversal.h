@@ -17,9 +17,8 @@ struct EntryPair {
   float sceneSize, partSize;
 };
 
-/// Each opened node leaves at most seven siblings waiting, and a tree of 2^29 features is at most 11 deep, as
-/// its nodes are full; two trees.
-using TraversalStack = std::array<EntryPair, 7 * 2 * 12 + 1>;
+/// Each opened node leaves at most seven siblings waiting; two trees.
+using TraversalStack = std::array<EntryPair, 7 * 2 * NormalConeTree::kMaxDepth + 1>;
 
 /// Goes down two trees together and visits the pairs of leaves that survive the culls.
 class TreeTraversal {

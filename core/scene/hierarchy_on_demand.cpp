@@ -41,7 +41,7 @@ void HierarchyOnDemand::build(const TriangleMesh& mesh, const ProgressCallback& 
   try {
     if (progress && !progress(0.0)) throw Cancelled();
     const auto start = std::chrono::steady_clock::now();
-    auto tree = std::make_unique<const NormalConeTree>(mesh);
+    auto tree = std::make_unique<const NormalConeTree>(mesh, progress);
     buildTime_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (progress && !progress(1.0)) throw Cancelled();
     tree_ = std::move(tree);

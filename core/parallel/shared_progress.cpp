@@ -1,0 +1,20 @@
+#include "core/parallel/shared_progress.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace nearfit {
+
+void SharedProgress::add(double work) {
+  const double done = done_.fetch_add(work) + work;
+  if (!callback_) return;
+  // Whoever finds another thread reporting leaves it at that: the next report will tell.
+  if (const std::unique_lock lock(mutex_, std::try_to_lock); lock && !isCancelled_) {
+    reported_ = std::max(reported_, std::clamp(done / total_, 0.0, 1.0));
+    if (!callback_(reported_)) isCancelled_ = true;
+  }
+  if (isCancelled_) throw Cancelled();
+}
+
+}  // namespace nearfit
