@@ -12,6 +12,8 @@ namespace nearfit::ui {
 namespace {
 
 constexpr double kHalo[3] = {0.08, 0.10, 0.12};
+/// Opacity of what is blocked: seen when it is looked for.
+constexpr double kFaint = 0.35;
 
 /// Sizes are in pixels, so that a gap of micrometres between metre-long parts is still seen.
 void setUp(vtkActor& actor, vtkPolyData& data, bool isColoured, float lineWidth, float pointSize) {
@@ -31,6 +33,33 @@ void setUp(vtkActor& actor, vtkPolyData& data, bool isColoured, float lineWidth,
   property->SetPointSize(pointSize);
 }
 
+/// What is drawn of a set of minima.
+struct Glyphs {
+  Glyphs() { points->SetDataTypeToDouble(); }
+
+  void add(const Lmd& lmd, double cutoff) {
+    vtkIdType ends[2];
+    int end = 0;
+    for (const glm::dvec3& p : {lmd.scenePoint, lmd.partPoint}) {
+      ends[end] = points->InsertNextPoint(p.x, p.y, p.z);
+      vertices->InsertNextCell(1, &ends[end++]);
+      fractions->InsertNextValue(lmd.distance / cutoff);
+    }
+    lines->InsertNextCell(2, ends);
+  }
+
+  void fill(vtkPolyData& data, vtkCellArray* lineCells, vtkCellArray* vertexCells) const {
+    data.SetPoints(points);
+    if (lineCells != nullptr) data.SetLines(lineCells);
+    if (vertexCells != nullptr) data.SetVerts(vertexCells);
+    data.GetPointData()->SetScalars(fractions);
+  }
+
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines, vertices;
+  vtkNew<vtkDoubleArray> fractions;
+};
+
 }  // namespace
 
 LmdOverlay::LmdOverlay(vtkRenderer& renderer) {
@@ -43,36 +72,23 @@ LmdOverlay::LmdOverlay(vtkRenderer& renderer) {
   dots->LightingOn();
   dots->SetAmbient(0.45);
   dots->SetDiffuse(0.65);
-  for (vtkActor* actor : {halo_.Get(), lines_.Get(), dots_.Get()})
+  setUp(*faint_, *blocked_.Get(), true, 1.5F, 1.0F);
+  faint_->GetProperty()->SetOpacity(kFaint);
+  for (vtkActor* actor : {halo_.Get(), lines_.Get(), dots_.Get(), faint_.Get()})
     renderer.AddActor(actor);
 }
 
 void LmdOverlay::show(std::span<const SnapshotLmd> lmds, double cutoff) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkCellArray> lines, vertices;
-  vtkNew<vtkDoubleArray> fractions;
-  for (const SnapshotLmd& entry : lmds) {
-    const Lmd& lmd = entry.lmd;
-    vtkIdType ends[2];
-    int end = 0;
-    for (const glm::dvec3& p : {lmd.scenePoint, lmd.partPoint}) {
-      ends[end] = points->InsertNextPoint(p.x, p.y, p.z);
-      vertices->InsertNextCell(1, &ends[end++]);
-      fractions->InsertNextValue(lmd.distance / cutoff);
-    }
-    lines->InsertNextCell(2, ends);
-  }
-  segments_->SetPoints(points);
-  segments_->SetLines(lines);
-  segments_->GetPointData()->SetScalars(fractions);
-  points_->SetPoints(points);
-  points_->SetVerts(vertices);
-  points_->GetPointData()->SetScalars(fractions);
+  Glyphs open, blocked;
+  for (const SnapshotLmd& entry : lmds)
+    (entry.lmd.isBlocked ? blocked : open).add(entry.lmd, cutoff);
+  open.fill(*segments_, open.lines, nullptr);
+  open.fill(*points_, nullptr, open.vertices);
+  blocked.fill(*blocked_, blocked.lines, nullptr);
 }
 
 void LmdOverlay::setVisible(bool isVisible) {
-  for (vtkActor* actor : {halo_.Get(), lines_.Get(), dots_.Get()})
+  for (vtkActor* actor : {halo_.Get(), lines_.Get(), dots_.Get(), faint_.Get()})
     actor->SetVisibility(isVisible);
 }
 

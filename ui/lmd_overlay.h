@@ -12,7 +12,8 @@
 
 namespace nearfit::ui {
 
-/// Draws each minimum as a segment with its two points, coloured by distance.
+/// Draws each minimum as a segment with its two points, coloured by distance; a blocked one, which exerts no
+/// force, as a faint line alone.
 class LmdOverlay {
  public:
   /// @param renderer  Outlives this.
@@ -25,8 +26,8 @@ class LmdOverlay {
   void setVisible(bool isVisible);
 
  private:
-  vtkNew<vtkPolyData> segments_, points_;
-  vtkNew<vtkActor> halo_, lines_, dots_;
+  vtkNew<vtkPolyData> segments_, points_, blocked_;
+  vtkNew<vtkActor> halo_, lines_, dots_, faint_;
 };
 
 }  // namespace nearfit::ui

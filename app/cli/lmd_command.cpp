@@ -37,9 +37,10 @@ std::string vectorText(const glm::dvec3& v) {
 }
 
 std::string lmdText(const Lmd& lmd) {
-  return fmt::format(R"({{"distance":{},"scene":{},"part":{},"features":["{}","{}"],"region":{}}})",
-                     numberText(lmd.distance), vectorText(lmd.scenePoint), vectorText(lmd.partPoint),
-                     nameOf(lmd.sceneFeature), nameOf(lmd.partFeature), lmd.isRegion);
+  return fmt::format(
+      R"({{"distance":{},"scene":{},"part":{},"features":["{}","{}"],"region":{},"blocked":{}}})",
+      numberText(lmd.distance), vectorText(lmd.scenePoint), vectorText(lmd.partPoint),
+      nameOf(lmd.sceneFeature), nameOf(lmd.partFeature), lmd.isRegion, lmd.isBlocked);
 }
 
 bool isFinite(const glm::dvec3& v) {
@@ -95,14 +96,16 @@ constexpr const char* kFooter =
     "  "
     "{\"pose\":0,\"lmds\":[{\"distance\":d,\"scene\":[x,y,z],\"part\":[x,y,z],\"features\":[\"vertex\","
     "\"face\"],\n"
-    "   \"region\":false}],\"force\":[x,y,z],\"torque\":[x,y,z],\"query_us\":t}\n"
+    "   \"region\":false,\"blocked\":false}],\"force\":[x,y,z],\"torque\":[x,y,z],\"query_us\":t}\n"
     "lmds      All local minimum distances within the cutoff, nearest first. \"scene\" and \"part\" are the "
     "two\n"
     "          points, both in the scene mesh's frame [m]; \"features\" what carries them (vertex, edge, "
     "face),\n"
     "          the scene's first; \"region\" whether the pair stands, as centroid, for a flat set of equal "
-    "minima.\n"
-    "force     Sum of the springs on the part [N], in the scene mesh's frame; torque [N m] about the part's\n"
+    "minima;\n"
+    "          \"blocked\" whether the way between the points is barred by another part of either surface.\n"
+    "force     Sum of the springs on the part [N], those of blocked minima left out, in the scene mesh's "
+    "frame; torque [N m] about the part's\n"
     "          centre of mass. Nothing moves, so nothing is damped.\n"
     "query_us  Time of the query alone [us].\n"
     "Poses are scene from part: p_scene = R(q) p_part + t. Cutoff and translations are in metres whatever\n"

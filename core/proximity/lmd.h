@@ -22,6 +22,9 @@ struct Lmd {
   FeatureKind partFeature = FeatureKind::Vertex;
   /// One representative of a connected flat set of equal minima (parallel faces or edges): its centroid.
   bool isRegion = false;
+  /// The segment passes through a surface on its way, so that nothing can move along it: set by markBlocked
+  /// alone. No force comes of such a minimum.
+  bool isBlocked = false;
 };
 
 }  // namespace nearfit

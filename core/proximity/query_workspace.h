@@ -7,6 +7,7 @@
 #include "core/proximity/cull_kernel.h"
 #include "core/proximity/lmd_query.h"
 #include "core/proximity/minimum.h"
+#include "core/proximity/segment_kernel.h"
 #include "core/proximity/tree_traversal.h"
 
 namespace nearfit {
@@ -18,13 +19,15 @@ struct LmdScratch::Data {
         order(capacity),
         parent(capacity),
         cull(cullKernel(simd)),
-        pairCull(pairCullKernel(simd)) {}
+        pairCull(pairCullKernel(simd)),
+        segmentCull(segmentKernel(simd)) {}
 
   TraversalStack stack;
   std::vector<Minimum> minima;
   std::vector<std::uint32_t> order, parent;
   CullKernel cull;
   PairCullKernel pairCull;
+  SegmentKernel segmentCull;
 };
 
 /// Takes minima in as they are found, keeps the nearest when the workspace is full, and merges them in the

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "core/proximity/blocked_minima.h"
+
 namespace nearfit {
 namespace {
 
@@ -22,6 +24,8 @@ LmdSet LmdCollector::collect(const NormalConeTree& scene, const NormalConeTree& 
     set.isComplete = result.status == QueryStatus::Complete;
     if (set.isComplete || capacity_ / kHeadroom >= limit_) {
       set.lmds.resize(result.count);
+      // The pose may be any: where bodies interpenetrate nothing is known of the least distance.
+      markBlocked(scene, part, sceneFromPart, set.lmds, 0.0, scratch_);
       return set;
     }
     capacity_ *= 4;

@@ -10,7 +10,7 @@ namespace nearfit {
 
 /// All minima of one query.
 struct LmdSet {
-  std::vector<Lmd> lmds;   ///< Nearest first, points in the scene mesh's frame.
+  std::vector<Lmd> lmds;   ///< Nearest first, points in the scene mesh's frame; blocked ones are marked.
   bool isComplete = true;  ///< False when there are more than the collector's limit: its nearest are there.
   double queryTime = 0.0;  ///< Of the query that gave this set alone [s].
 };
@@ -23,7 +23,7 @@ class LmdCollector {
   explicit LmdCollector(std::size_t limit, std::size_t capacity = LmdScratch::kDefaultCapacity)
       : limit_(limit), capacity_(capacity), scratch_(capacity) {}
 
-  /// As findLmds; storage that proves too small is grown, and the query run again.
+  /// As findLmds, and marks what is blocked; storage that proves too small is grown, and the query run again.
   LmdSet collect(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
                  double cutoff);
 

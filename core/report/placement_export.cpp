@@ -60,7 +60,8 @@ Json lmdJson(const Lmd& lmd, const RigidTransform& worldFromOther) {
           {"moving", pointJson(worldFromOther.applyToPoint(lmd.partPoint))},
           {"other", pointJson(worldFromOther.applyToPoint(lmd.scenePoint))},
           {"features", {nameOf(lmd.partFeature), nameOf(lmd.sceneFeature)}},
-          {"region", lmd.isRegion}};
+          {"region", lmd.isRegion},
+          {"blocked", lmd.isBlocked}};
 }
 
 Json leastDistance(const LmdSet& set) {

@@ -32,7 +32,7 @@
 ///           "distance": 0.002,                             null when nothing is within the cutoff
 ///           "complete": true,                              false when there are more minima than the search
 ///           holds "lmds": [{"distance": 0.002, "moving": [x, y, z], "other": [x, y, z],
-///                     "features": ["vertex", "face"], "region": false}]
+///                     "features": ["vertex", "face"], "region": false, "blocked": false}]
 ///         }]
 ///       }
 ///     }

@@ -1,5 +1,7 @@
 #include <limits>
+#include <span>
 
+#include "core/proximity/blocked_minima.h"
 #include "core/proximity/lmd_query.h"
 #include "tests/bench/query_method.h"
 
@@ -12,17 +14,27 @@ constexpr std::size_t kCapacity = 65536;
 /// The full set at each pose, from nothing.
 class ColdQuery : public QueryMethod {
  public:
-  explicit ColdQuery(const PreparedScene& scene) : scene_(scene), scratch_(kCapacity), lmds_(kCapacity) {}
+  /// Whether minima are then marked that are blocked, and what is known of the bodies when they are.
+  enum class Marking { None, AnyPose, BodiesApart };
+
+  ColdQuery(const PreparedScene& scene, Marking marking)
+      : scene_(scene), marking_(marking), scratch_(kCapacity), lmds_(kCapacity) {}
 
   Answer query(const RigidTransform& sceneFromPart) override {
     const LmdResult result =
         findLmds(scene_.sceneTree, scene_.partTree, sceneFromPart, scene_.cutoff, scratch_, lmds_);
-    return {result.count > 0 ? lmds_.front().distance : std::numeric_limits<double>::infinity(), result.count,
-            result.status == QueryStatus::Complete};
+    const double distance =
+        result.count > 0 ? lmds_.front().distance : std::numeric_limits<double>::infinity();
+    if (marking_ != Marking::None) {
+      markBlocked(scene_.sceneTree, scene_.partTree, sceneFromPart, std::span(lmds_).first(result.count),
+                  marking_ == Marking::BodiesApart ? distance : 0.0, scratch_);
+    }
+    return {distance, result.count, result.status == QueryStatus::Complete};
   }
 
  private:
   const PreparedScene& scene_;
+  Marking marking_;
   LmdScratch scratch_;
   std::vector<Lmd> lmds_;
 };
@@ -32,8 +44,16 @@ constexpr double kTolerance = 1e-9;
 }  // namespace
 
 std::vector<MethodEntry> nearfitMethods() {
+  const auto cold = [](ColdQuery::Marking marking) {
+    return [marking](const PreparedScene& scene) { return std::make_unique<ColdQuery>(scene, marking); };
+  };
   return {{"nearfit-cold", AnswerKind::FullSet, "all local minimum distances within the cutoff, no memory",
-           kTolerance, [](const PreparedScene& scene) { return std::make_unique<ColdQuery>(scene); }}};
+           kTolerance, cold(ColdQuery::Marking::None)},
+          {"nearfit-cold-blocked", AnswerKind::FullSet, "the same, each marked if it is blocked", kTolerance,
+           cold(ColdQuery::Marking::AnyPose)},
+          {"nearfit-cold-blocked-apart", AnswerKind::FullSet,
+           "the same, where the bodies are known not to interpenetrate", kTolerance,
+           cold(ColdQuery::Marking::BodiesApart)}};
 }
 
 std::vector<BuildEntry> nearfitBuilds() {

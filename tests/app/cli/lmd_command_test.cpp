@@ -89,6 +89,20 @@ TEST_F(LmdCommand, CubeOnItsCornerHasAVertexOverAFace) {
   expectPoint(lmd["part"], {0.1, 0.2, 0.75});
 }
 
+TEST_F(LmdCommand, MinimumThroughAnotherPartOfTheMeshIsBlockedAndPushesNothing) {
+  // A thin plate floats 0.1 above the block; the cube is 0.05 above the plate.
+  block_ =
+      folder_.write("plated.obj", objText(joined(boxMesh({2, 2, 1}), boxMesh({2, 2, 0.01}, {0, 0, 0.605}))))
+          .string();
+  const Json json = only({"--cutoff", "0.5", "--pose", "0,0,1.16,1,0,0,0"});
+  ASSERT_EQ(json["lmds"].size(), 2U);
+  EXPECT_NEAR(json["lmds"][0]["distance"].get<double>(), 0.05, 1e-12);
+  EXPECT_EQ(json["lmds"][0]["blocked"], false);
+  EXPECT_NEAR(json["lmds"][1]["distance"].get<double>(), 0.16, 1e-12);
+  EXPECT_EQ(json["lmds"][1]["blocked"], true);
+  expectPoint(json["force"], {0, 0, 200 * (0.5 - 0.05)}, 1e-9);
+}
+
 TEST_F(LmdCommand, CornersThatFaceEachOtherAreVertices) {
   // From (1, 1, 0.5) to (1.3, 1.4, 1.7): sides 0.3, 0.4 and 1.2.
   const Json json = only({"--cutoff", "2", "--pose", "1.8,1.9,2.2,1,0,0,0"});
@@ -123,10 +137,11 @@ TEST_F(LmdCommand, SeveralMinimaComeNearestFirst) {
 TEST_F(LmdCommand, LineHasExactlyThePromisedForm) {
   const ProcessResult result = run({"--cutoff", "0.5", "--pose", "0.1,0,1.25,1,0,0,0"});
   const std::string n = "-?[0-9.]+(e[-+][0-9]+)?", v = "\\[" + n + "," + n + "," + n + "\\]";
-  const std::string line =
-      "\\{\"pose\":0,\"lmds\":\\[\\{\"distance\":" + n + ",\"scene\":" + v + ",\"part\":" + v +
-      ",\"features\":\\[\"(vertex|edge|face)\",\"(vertex|edge|face)\"\\],\"region\":true\\}\\]," +
-      "\"force\":" + v + ",\"torque\":" + v + ",\"query_us\":" + n + "\\}\n";
+  const std::string line = "\\{\"pose\":0,\"lmds\":\\[\\{\"distance\":" + n + ",\"scene\":" + v +
+                           ",\"part\":" + v +
+                           ",\"features\":\\[\"(vertex|edge|face)\",\"(vertex|edge|face)\"\\],\"region\":"
+                           "true,\"blocked\":false\\}\\]," +
+                           "\"force\":" + v + ",\"torque\":" + v + ",\"query_us\":" + n + "\\}\n";
   EXPECT_THAT(result.out, MatchesRegex(line));
 }
 

@@ -111,6 +111,14 @@ TEST(SpringLaw, DampingNeverPullsAndOneMinimumDoesNotBorrowFromAnother) {
   expectNear(w.force, {0.0, 0.0, -100.4});
 }
 
+TEST(SpringLaw, BlockedMinimaGiveNothing) {
+  Lmd blocked = lmdAt({1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 0.002);
+  blocked.isBlocked = true;
+  const Wrench w = wrenchOf({lmdAt({0.1, 0.0, 0.0}, {0.0, 0.0, 1.0}, 0.004), blocked}, kUndamped);
+  expectNear(w.force, {0.0, 0.0, 1.2});
+  expectNear(w.torque, {0.0, -0.12, 0.0});
+}
+
 TEST(SpringLaw, NotANumberInAnyInputShowsInTheWrench) {
   const auto isVisible = [](const Wrench& w) {
     return std::isnan(w.force.x + w.force.y + w.force.z + w.torque.x + w.torque.y + w.torque.z);

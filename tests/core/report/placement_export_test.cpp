@@ -114,6 +114,7 @@ TEST_F(PlacementExport, ClearanceToEachVisiblePartIsInTheWorldFrame) {
   expectPoint(lmd["other"], {10.5, 0, 0});
   expectPoint(lmd["moving"], {10.75, 0, 0});
   EXPECT_EQ(lmd["region"], true);
+  EXPECT_EQ(lmd["blocked"], false);
   EXPECT_EQ(lmd["features"].size(), 2U);
 
   const Json& far = clearance["to"][1];
@@ -133,6 +134,23 @@ TEST_F(PlacementExport, FeaturesAreTheMovingPartsFirst) {
   EXPECT_EQ(lmd["features"], Json({"vertex", "face"}));
   EXPECT_EQ(lmd["region"], false);
   EXPECT_NEAR(lmd["distance"].get<double>(), 0.1, 1e-12);
+}
+
+TEST_F(PlacementExport, MinimumThroughAnotherPartOfTheMeshIsBlocked) {
+  // Two plates in one mesh, facing the cube one behind the other.
+  Part plates;
+  plates.geometry = load("plates.obj", test::joined(test::boxMesh({0.1, 2, 2}, {0.05, 0, 0}),
+                                                    test::boxMesh({0.1, 2, 2}, {-0.15, 0, 0})));
+  plates.name = "Plates";
+  plates.worldFromPart = {{1, 0, 0, 0}, {20, 0, 0}};
+  scene_.add(plates);
+  const Json json = Json::parse(placementJson(scene_, at(20.1 + 0.05 + 0.5)));
+  const Json& lmds = json["clearance"]["to"].back()["lmds"];
+  ASSERT_EQ(lmds.size(), 2U);
+  EXPECT_NEAR(lmds[0]["distance"].get<double>(), 0.05, 1e-12);
+  EXPECT_EQ(lmds[0]["blocked"], false);
+  EXPECT_NEAR(lmds[1]["distance"].get<double>(), 0.25, 1e-12);
+  EXPECT_EQ(lmds[1]["blocked"], true);
 }
 
 TEST_F(PlacementExport, NothingWithinTheCutoffIsNull) {

@@ -1,0 +1,108 @@
+#include "core/proximity/blocked_minima.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "core/proximity/normal_cone_tree.h"
+#include "core/proximity/query_workspace.h"
+#include "core/proximity/segment_passage.h"
+
+namespace nearfit {
+namespace {
+
+/// How close to its ends, and to its side, a surface only touches a segment, as a fraction of the sizes of
+/// the bodies. A thousand times the tolerance by which points of minima may lie off their features, far below
+/// what coordinates in single precision can mean (1e-7).
+constexpr double kTouch = 1e-9;
+
+/// Rounding of a segment to single precision, as a fraction of the lengths involved: some ten roundings.
+constexpr double kSinglePadding = 1e-6;
+
+/// What of a segment counts, as distances from its start [m].
+struct Stretch {
+  double from, to;
+};
+
+/// One body and its hierarchy, asked for what lies across a segment in the frame of the hierarchy.
+class Obstacle {
+ public:
+  Obstacle(const NormalConeTree& tree, SegmentKernel kernel, double clearance) noexcept
+      : tree_(tree), kernel_(kernel), clearance_(clearance) {}
+
+  bool blocks(const glm::dvec3& start, const glm::dvec3& direction, const Stretch& stretch) const noexcept {
+    if (!(stretch.from < stretch.to)) return false;
+    const SegmentBound bound = boundOf(start, direction, stretch);
+    SegmentPassage passage(start, direction, stretch.from, stretch.to, clearance_);
+    // Siblings that wait on the way down, as in TraversalStack, of one tree.
+    std::array<std::uint32_t, 7 * 12 + 1> stack;
+    std::size_t size = 0;
+    stack[size++] = 0;
+    while (size > 0) {
+      const NormalConeTree::Node& node = tree_.nodes()[stack[--size]];
+      for (std::uint32_t lanes = kernel_(node, bound); lanes != 0; lanes &= lanes - 1) {
+        const std::uint32_t child = node.child[static_cast<std::size_t>(std::countr_zero(lanes))];
+        if (!NormalConeTree::isLeaf(child)) {
+          stack[size++] = child;
+        } else if (NormalConeTree::leafKind(child) == FeatureKind::Face) {
+          addFace(NormalConeTree::leafIndex(child), passage);
+          if (passage.isClosed()) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  SegmentBound boundOf(const glm::dvec3& start, const glm::dvec3& direction,
+                       const Stretch& stretch) const noexcept {
+    const glm::dvec3 middle = start + 0.5 * (stretch.from + stretch.to) * direction;
+    const double halfLength = 0.5 * (stretch.to - stretch.from);
+    SegmentBound bound;
+    for (glm::length_t i = 0; i < 3; ++i) {
+      bound.middle[static_cast<std::size_t>(i)] = static_cast<float>(middle[i]);
+      bound.half[static_cast<std::size_t>(i)] = static_cast<float>(halfLength * direction[i]);
+    }
+    const double reach = tree_.size() + glm::length(middle) + halfLength;
+    bound.padding = static_cast<float>(kSinglePadding * reach + clearance_);
+    return bound;
+  }
+
+  void addFace(std::uint32_t face, SegmentPassage& passage) const noexcept {
+    const Triangle& t = tree_.faces()[face].corners;
+    passage.add(tree_.positions()[t[0]], tree_.positions()[t[1]], tree_.positions()[t[2]]);
+  }
+
+  const NormalConeTree& tree_;
+  SegmentKernel kernel_;
+  double clearance_;
+};
+
+}  // namespace
+
+void markBlocked(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
+                 std::span<Lmd> lmds, double leastDistance, LmdScratch& scratch) noexcept {
+  if (scene.isEmpty() || part.isEmpty() || !sceneFromPart.isFinite()) return;
+  const double touch = kTouch * (scene.size() + part.size());
+  const SegmentKernel kernel = scratch.data().segmentCull;
+  const Obstacle sceneObstacle(scene, kernel, touch), partObstacle(part, kernel, touch);
+  const RigidTransform partFromScene = centredPose(scene, part, sceneFromPart).inverse();
+  for (Lmd& lmd : lmds) {
+    const glm::dvec3 start = lmd.scenePoint - scene.centre();
+    const Stretch open{touch, lmd.distance - touch};
+    // Where the segment crosses the scene, the rest of it joins the scene to its end on the part: that rest
+    // is no shorter than the least distance. Likewise the part, seen from the other end. So the nearest
+    // minimum of bodies that do not interpenetrate is never blocked, and little is left of those not much
+    // longer.
+    const Stretch byScene{open.from, std::min(open.to, lmd.distance - leastDistance + touch)};
+    const Stretch byPart{std::max(open.from, leastDistance - touch), open.to};
+    lmd.isBlocked = sceneObstacle.blocks(start, lmd.direction, byScene) ||
+                    partObstacle.blocks(partFromScene.applyToPoint(start),
+                                        partFromScene.applyToVector(lmd.direction), byPart);
+  }
+}
+
+}  // namespace nearfit

@@ -1,0 +1,100 @@
+#include "core/proximity/segment_passage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+namespace nearfit {
+namespace {
+
+/// Whether the origin lies left of the line from a to b: the exact sign of a.x b.y - a.y b.x. On the line, as
+/// if it had been moved by next to nothing along x, and by next to nothing of that along y: never on both
+/// sides of an edge, nor on neither.
+bool isLeft(const glm::dvec2& a, const glm::dvec2& b) noexcept {
+  const double ab = a.x * b.y, ba = a.y * b.x;
+  if (ab != ba) return ab > ba;  // Rounding keeps the order.
+  const double abRest = std::fma(a.x, b.y, -ab), baRest = std::fma(a.y, b.x, -ba);
+  if (abRest != baRest) return abRest > baRest;
+  return a.y != b.y ? a.y > b.y : b.x > a.x;
+}
+
+bool holdsOrigin(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) noexcept {
+  const bool side = isLeft(a, b);
+  return isLeft(b, c) == side && isLeft(c, a) == side;
+}
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) noexcept {
+  return a.x * b.y - a.y * b.x;
+}
+
+}  // namespace
+
+SegmentPassage::SegmentPassage(const glm::dvec3& start, const glm::dvec3& direction, double from, double to,
+                               double clearance) noexcept
+    : start_(start), z_(direction), from_(from), to_(to), clearance_(clearance) {
+  // Any axes across will do: those of Duff et al. 2017.
+  const double sign = std::copysign(1.0, z_.z), a = -1.0 / (sign + z_.z), b = z_.x * z_.y * a;
+  x_ = {1.0 + sign * z_.x * z_.x * a, sign * b, -sign * z_.x};
+  y_ = {b, sign + z_.y * z_.y * a, -z_.y};
+}
+
+glm::dvec3 SegmentPassage::local(const glm::dvec3& p) const noexcept {
+  const glm::dvec3 w = p - start_;
+  return {glm::dot(w, x_), glm::dot(w, y_), glm::dot(w, z_)};
+}
+
+std::uint32_t SegmentPassage::linesAcross(const glm::dvec2& a, const glm::dvec2& b,
+                                          const glm::dvec2& c) const noexcept {
+  static constexpr double kDiagonal = 0.5 * std::numbers::sqrt2;
+  static constexpr std::array<glm::dvec2, kLines> kAround{{{1.0, 0.0},
+                                                           {kDiagonal, kDiagonal},
+                                                           {0.0, 1.0},
+                                                           {-kDiagonal, kDiagonal},
+                                                           {-1.0, 0.0},
+                                                           {-kDiagonal, -kDiagonal},
+                                                           {0.0, -1.0},
+                                                           {kDiagonal, -kDiagonal}}};
+  std::uint32_t lines = 0;
+  for (std::uint32_t i = 0; i < kLines; ++i) {
+    const glm::dvec2 line = clearance_ * kAround[i];
+    if (holdsOrigin(a - line, b - line, c - line)) lines |= 1U << i;
+  }
+  return lines;
+}
+
+void SegmentPassage::add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) noexcept {
+  const glm::dvec3 la = local(a), lb = local(b), lc = local(c);
+  const glm::dvec3 lower = glm::min(la, glm::min(lb, lc)), upper = glm::max(la, glm::max(lb, lc));
+  if (lower.x > clearance_ || lower.y > clearance_ || upper.x < -clearance_ || upper.y < -clearance_) return;
+  if (lower.z > to_ || upper.z < from_) return;
+  const glm::dvec2 pa(la), pb(lb), pc(lc);
+
+  // All eight lines are on one side of an edge when the segment is farther from it than they are from the
+  // segment; the sum of its extents is no less than its length.
+  const std::array<double, 3> areas{cross(pb, pc), cross(pc, pa), cross(pa, pb)};
+  const auto reach = [this](const glm::dvec2& from, const glm::dvec2& to) {
+    constexpr double kRounding = 1.0 + 1e-9;
+    return kRounding * clearance_ * (std::abs(to.x - from.x) + std::abs(to.y - from.y));
+  };
+  const std::array<double, 3> reaches{reach(pb, pc), reach(pc, pa), reach(pa, pb)};
+  bool isClear = true, isLeftOfAll = true, isRightOfAll = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    isClear = isClear && std::abs(areas[k]) > reaches[k];
+    isLeftOfAll = isLeftOfAll && areas[k] > -reaches[k];
+    isRightOfAll = isRightOfAll && areas[k] < reaches[k];
+  }
+  if (!isLeftOfAll && !isRightOfAll) return;
+  const std::uint32_t lines = isClear ? kAll : linesAcross(pa, pb, pc);
+  if (lines == 0) return;
+
+  const double sum = areas[0] + areas[1] + areas[2];
+  const double weighted = areas[0] * la.z + areas[1] * lb.z + areas[2] * lc.z;
+  // A face that is all but parallel to the segment is crossed somewhere along its height.
+  const double at = sum != 0.0 ? std::clamp(weighted / sum, lower.z, upper.z) : 0.5 * (lower.z + upper.z);
+  if (at > from_ && at < to_) barred_ |= lines;
+}
+
+}  // namespace nearfit
