@@ -36,11 +36,18 @@ std::string vectorText(const glm::dvec3& v) {
   return fmt::format("[{:.17g},{:.17g},{:.17g}]", v.x, v.y, v.z);
 }
 
+std::string extentText(const RegionExtent& extent) {
+  return fmt::format(R"({{"dimension":{},"measure":{},"axis":{},"half":[{},{}]}})", extent.dimension,
+                     numberText(extent.measure), vectorText(extent.axis), numberText(extent.halfLength),
+                     numberText(extent.halfWidth));
+}
+
 std::string lmdText(const Lmd& lmd) {
+  const std::string extent = lmd.isRegion ? ",\"extent\":" + extentText(lmd.extent) : "";
   return fmt::format(
-      R"({{"distance":{},"scene":{},"part":{},"features":["{}","{}"],"region":{},"blocked":{}}})",
+      R"({{"distance":{},"scene":{},"part":{},"features":["{}","{}"],"region":{}{},"blocked":{}}})",
       numberText(lmd.distance), vectorText(lmd.scenePoint), vectorText(lmd.partPoint),
-      nameOf(lmd.sceneFeature), nameOf(lmd.partFeature), lmd.isRegion, lmd.isBlocked);
+      nameOf(lmd.sceneFeature), nameOf(lmd.partFeature), lmd.isRegion, extent, lmd.isBlocked);
 }
 
 bool isFinite(const glm::dvec3& v) {
@@ -91,28 +98,29 @@ void runLmd(const LmdOptions& options) {
   }
 }
 
+// clang-format off
 constexpr const char* kFooter =
-    "Prints one JSON object a pose, each on a line of its own:\n"
-    "  "
-    "{\"pose\":0,\"lmds\":[{\"distance\":d,\"scene\":[x,y,z],\"part\":[x,y,z],\"features\":[\"vertex\","
-    "\"face\"],\n"
-    "   \"region\":false,\"blocked\":false}],\"force\":[x,y,z],\"torque\":[x,y,z],\"query_us\":t}\n"
-    "lmds      All local minimum distances within the cutoff, nearest first. \"scene\" and \"part\" are the "
-    "two\n"
-    "          points, both in the scene mesh's frame [m]; \"features\" what carries them (vertex, edge, "
-    "face),\n"
-    "          the scene's first; \"region\" whether the pair stands, as centroid, for a flat set of equal "
-    "minima;\n"
-    "          \"blocked\" whether the way between the points is barred by another part of either surface.\n"
-    "force     Sum of the springs on the part [N], those of blocked minima left out, in the scene mesh's "
-    "frame; torque [N m] about the part's\n"
-    "          centre of mass. Nothing moves, so nothing is damped.\n"
-    "query_us  Time of the query alone [us].\n"
-    "Poses are scene from part: p_scene = R(q) p_part + t. Cutoff and translations are in metres whatever\n"
-    "the unit of the meshes is. A quaternion is normalised; one that is off unit length by more than 0.001 "
-    "is\n"
-    "refused.\n"
-    "Example: nearfit-cli lmd --unit mm hole.stl peg.stl --cutoff 0.002 --pose 0,0,0.01,1,0,0,0";
+    R"(Prints one JSON object a pose, each on a line of its own:
+  {"pose":0,"lmds":[{"distance":d,"scene":[x,y,z],"part":[x,y,z],"features":["vertex","face"],
+   "region":false,"blocked":false}],"force":[x,y,z],"torque":[x,y,z],"query_us":t}
+lmds      All local minimum distances within the cutoff, nearest first. "scene" and "part" are the two
+          points, both in the scene mesh's frame [m]; "features" what carries them (vertex, edge, face),
+          the scene's first; "region" whether the pair stands for a flat set of equal minima (faces or
+          edges that are parallel to a microradian): the points are then at its centroid, which may lie
+          beside it, as that of a ring does; "blocked" whether the way between the points is barred by
+          another part of either surface.
+          A region has "extent":{"dimension":2,"measure":m,"axis":[x,y,z],"half":[a,b]} besides:
+          dimension 2 and its area [m^2] where faces face each other, 1 and its length [m] where an edge
+          faces an edge or a face; half lengths [m] along the axis and across it, of the rectangle that
+          has the same area's second moments.
+force     Sum of the springs on the part [N], those of blocked minima left out, in the scene mesh's frame;
+          torque [N m] about the part's centre of mass. Nothing moves, so nothing is damped.
+query_us  Time of the query alone [us].
+Poses are scene from part: p_scene = R(q) p_part + t. Cutoff and translations are in metres whatever
+the unit of the meshes is. A quaternion is normalised; one that is off unit length by more than 0.001 is
+refused.
+Example: nearfit-cli lmd --unit mm hole.stl peg.stl --cutoff 0.002 --pose 0,0,0.01,1,0,0,0)";
+// clang-format on
 
 }  // namespace
 

@@ -6,6 +6,20 @@ namespace nearfit {
 /// normals of all but the thinnest slivers, far below what a mesh in single precision can mean (1e-7).
 constexpr double kAngularTolerance = 1e-10;
 
+/// Faces and edges that are parallel to this touch in a flat region [rad]: what single precision leaves of
+/// the parallelism of faces that were drawn parallel (coordinates rounded by 6e-8 of the mesh's size, over
+/// faces some fifteenth of it), and of poses that were typed. The error that this allows is below the mesh's
+/// own.
+constexpr double kFlatTolerance = 1e-6;
+
+/// Pieces of flat regions that are no farther apart than this fraction of the smaller body are connected:
+/// what that rounding can open between faces that were drawn in one plane without sharing vertices.
+constexpr double kFlatGap = 2e-7;
+
+/// How far directions may differ within what counts as one flat region [rad]: those of points at its rim do
+/// where edges cross at a small angle.
+constexpr double kRegionDirection = 1e-3;
+
 /// Two lengths that differ by less, as a fraction of the scene's size, count as one. Some thousand roundings
 /// of coordinates of that size.
 constexpr double kLengthTolerance = 1e-12;

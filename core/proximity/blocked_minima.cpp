@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/math/tolerances.h"
 #include "core/proximity/normal_cone_tree.h"
 #include "core/proximity/query_workspace.h"
 #include "core/proximity/segment_passage.h"
@@ -91,14 +92,16 @@ void markBlocked(const NormalConeTree& scene, const NormalConeTree& part, const 
   const Obstacle sceneObstacle(scene, kernel, touch), partObstacle(part, kernel, touch);
   const RigidTransform partFromScene = centredPose(scene, part, sceneFromPart).inverse();
   for (Lmd& lmd : lmds) {
-    const glm::dvec3 start = lmd.scenePoint - scene.centre();
-    const Stretch open{touch, lmd.distance - touch};
+    const glm::dvec3 start = scenePointInside(lmd) - scene.centre();
+    // Away from its centroid a region that is not quite flat lies a little off the segment's ends.
+    const double off = kFlatTolerance * (2.0 * lmd.extent.halfLength + glm::length(lmd.extent.inside));
+    const Stretch open{touch + off, lmd.distance - touch - off};
     // Where the segment crosses the scene, the rest of it joins the scene to its end on the part: that rest
     // is no shorter than the least distance. Likewise the part, seen from the other end. So the nearest
     // minimum of bodies that do not interpenetrate is never blocked, and little is left of those not much
     // longer.
-    const Stretch byScene{open.from, std::min(open.to, lmd.distance - leastDistance + touch)};
-    const Stretch byPart{std::max(open.from, leastDistance - touch), open.to};
+    const Stretch byScene{open.from, std::min(open.to, lmd.distance - leastDistance + touch + off)};
+    const Stretch byPart{std::max(open.from, leastDistance - touch - off), open.to};
     lmd.isBlocked = sceneObstacle.blocks(start, lmd.direction, byScene) ||
                     partObstacle.blocks(partFromScene.applyToPoint(start),
                                         partFromScene.applyToVector(lmd.direction), byPart);

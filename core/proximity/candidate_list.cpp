@@ -119,7 +119,7 @@ LmdResult CandidateList::query(const RigidTransform& sceneFromPart, double cutof
       if (tests.test(block.scene.child[lane], block.part.child[lane], collector.slot())) collector.add();
     }
   }
-  collector.finish(*scene_, scene_->size() + part_->size(), out);
+  collector.finish(*scene_, *part_, out);
   return result;
 }
 

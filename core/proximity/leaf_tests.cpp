@@ -94,6 +94,9 @@ bool LeafTests::accept(const Side& frame, const glm::dvec3& p, const glm::dvec3&
   out.dimension = 0;
   out.cornerCount = 0;
   out.weight = 0.0;
+  out.isOverlapping = false;
+  out.least = distance;
+  out.lmd.extent = {};
   out.lmd.distance = distance;
   const bool isSceneFrame = &frame == &scene_;
   // p belongs to the body in whose frame we are.
@@ -157,7 +160,10 @@ bool LeafTests::edgeEdge(std::uint32_t a, std::uint32_t b, Minimum& out) const n
                 partEdge.length};
   const glm::dvec3 across = glm::cross(ea.along, eb.along);
   const double sine = glm::length(across);
-  if (sine <= kAngularTolerance) return parallelEdges(a, b, ea, eb, out);
+  if (sine <= kFlatTolerance) {
+    const Overlap overlap = overlapOf(ea, eb);
+    if (sine <= kAngularTolerance || isFlat(sine, overlap)) return parallelEdges(a, b, ea, eb, overlap, out);
+  }
 
   const glm::dvec3 w = eb.start - ea.start;
   glm::dvec3 direction = across / sine;
@@ -180,30 +186,56 @@ bool LeafTests::edgeEdge(std::uint32_t a, std::uint32_t b, Minimum& out) const n
   return accept(scene_, p, p + distance * direction, direction, distance, out);
 }
 
+LeafTests::Overlap LeafTests::overlapOf(const Edge& a, const Edge& b) noexcept {
+  const double s0 = glm::dot(b.start - a.start, a.along), s1 = s0 + b.length * glm::dot(b.along, a.along);
+  Overlap overlap{std::max(0.0, std::min(s0, s1)), std::min(a.length, std::max(s0, s1)), {}, {}};
+  overlap.onA = a.start + 0.5 * (overlap.from + overlap.to) * a.along;
+  overlap.onB = b.start + glm::dot(overlap.onA - b.start, b.along) * b.along;
+  return overlap;
+}
+
+double LeafTests::leastDistance(const Edge& a, const Edge& b, const Overlap& overlap) noexcept {
+  // Along a, from the middle, the way to b changes by this.
+  const glm::dvec3 change = glm::dot(a.along, b.along) * b.along - a.along;
+  const glm::dvec3 middle = overlap.onB - overlap.onA;
+  const double half = 0.5 * (overlap.to - overlap.from), square = glm::dot(change, change);
+  const double s = square > 0.0 ? std::clamp(-glm::dot(middle, change) / square, -half, half) : 0.0;
+  return glm::length(middle + s * change);
+}
+
+bool LeafTests::isFlat(double sine, const Overlap& overlap) noexcept {
+  // Nearer to each other, edges that are not quite parallel face each other in directions that differ along
+  // them: then it matters where they come nearest.
+  return 0.5 * sine * (overlap.to - overlap.from) <=
+         kRegionDirection * glm::distance(overlap.onA, overlap.onB);
+}
+
 bool LeafTests::parallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb,
-                              Minimum& out) const noexcept {
-  const glm::dvec3 w = eb.start - ea.start;
-  const double s0 = glm::dot(w, ea.along), s1 = glm::dot(w + eb.length * eb.along, ea.along);
-  const double from = std::max(0.0, std::min(s0, s1)), to = std::min(ea.length, std::max(s0, s1));
-  if (!(to - from > lengthTolerance_)) return false;  // Ends that face each other are found as vertices.
-  const glm::dvec3 d = w - s0 * ea.along;
-  const double distance = glm::length(d);
-  if (!(distance > 0.0) || distance > cutoff_) return false;
+                              const Overlap& overlap, Minimum& out) const noexcept {
+  // Ends that face each other are found as vertices.
+  if (!(overlap.to - overlap.from > lengthTolerance_)) return false;
+  const glm::dvec3 d = overlap.onB - overlap.onA;
+  const double distance = glm::length(d), least = leastDistance(ea, eb, overlap);
+  if (!(distance > 0.0) || least > cutoff_) return false;
   const glm::dvec3 direction = d / distance;
   const double angular = angularSlack(distance);
   if (!isPolarOfEdge(scene_.tree, a, ea, direction, angular)) return false;
   const Edge partEdge = edgeOf(part_.tree, b);
   if (!isPolarOfEdge(part_.tree, b, partEdge, partFromScene_.applyToVector(-direction), angular))
     return false;
-  const glm::dvec3 p = ea.start + 0.5 * (from + to) * ea.along;
-  accept(scene_, p, p + d, direction, distance, out);
-  out.dimension = 1;
-  out.weight = to - from;
-  out.cornerCount = 2;
-  out.corners[0] = ea.start + from * ea.along;
-  out.corners[1] = ea.start + to * ea.along;
-  out.radius = 0.5 * out.weight;
+  accept(scene_, overlap.onA, overlap.onB, direction, distance, out);
+  setSegment(ea.start + overlap.from * ea.along, ea.start + overlap.to * ea.along, out);
+  out.least = least;
   return true;
+}
+
+void LeafTests::setSegment(const glm::dvec3& from, const glm::dvec3& to, Minimum& out) noexcept {
+  out.dimension = 1;
+  out.weight = glm::distance(from, to);
+  out.cornerCount = 2;
+  out.corners[0] = from;
+  out.corners[1] = to;
+  out.radius = 0.5 * out.weight;
 }
 
 bool LeafTests::edgeFace(const Side& e, std::uint32_t edge, const Side& f, std::uint32_t face,
@@ -214,23 +246,30 @@ bool LeafTests::edgeFace(const Side& e, std::uint32_t edge, const Side& f, std::
   const glm::dvec3 n = faceNormal(corners[0], corners[1], corners[2]);
   const Edge local = edgeOf(e.tree, edge);
   const glm::dvec3 along = e.otherFromThis.applyToVector(local.along);
-  if (std::abs(glm::dot(along, n)) > kAngularTolerance) return false;
+  const double rise = glm::dot(along, n);
+  if (std::abs(rise) > kFlatTolerance) return false;
   const glm::dvec3 start = e.otherFromThis.applyToPoint(local.start);
-  const double distance = glm::dot(n, start + 0.5 * local.length * along - corners[0]);
-  if (!(distance > 0.0) || distance > cutoff_) return false;
+  const double startHeight = glm::dot(n, start - corners[0]);
+  // Before anything that costs: how high the edge's lower end is.
+  if (startHeight + std::min(0.0, local.length * rise) > cutoff_) return false;
   double from = 0.0, to = local.length;
-  if (!clipLine(corners, n, start, along, lengthSlack(distance), from, to) || !(to - from > lengthTolerance_))
+  if (!clipLine(corners, n, start, along, lengthSlack(std::abs(startHeight)), from, to) ||
+      !(to - from > lengthTolerance_)) {
     return false;
+  }
+  const double distance = startHeight + 0.5 * (from + to) * rise;
+  const double least = startHeight + std::min(from * rise, to * rise);
+  if (!(distance > 0.0) || least > cutoff_) return false;
   if (!isPolarOfEdge(e.tree, edge, local, e.thisFromOther.applyToVector(-n), angularSlackBase_)) return false;
   const glm::dvec3 q = start + 0.5 * (from + to) * along;
   accept(f, q - distance * n, q, n, distance, out);
-  out.dimension = 1;
-  out.weight = to - from;
-  out.cornerCount = 2;
-  const glm::dvec3 half = 0.5 * (to - from) * (&f == &scene_ ? along : sceneFromPart_.applyToVector(along));
-  out.corners[0] = out.lmd.scenePoint - half;
-  out.corners[1] = out.lmd.scenePoint + half;
-  out.radius = 0.5 * out.weight;
+  const glm::dvec3 first = start + from * along, last = start + to * along;
+  if (&f == &scene_) {
+    setSegment(first - (startHeight + from * rise) * n, last - (startHeight + to * rise) * n, out);
+  } else {
+    setSegment(sceneFromPart_.applyToPoint(first), sceneFromPart_.applyToPoint(last), out);
+  }
+  out.least = least;
   return true;
 }
 
@@ -240,28 +279,33 @@ bool LeafTests::faceFace(std::uint32_t a, std::uint32_t b, Minimum& out) const n
   const std::array<glm::dvec3, 3> pa{xa[ta[0]], xa[ta[1]], xa[ta[2]]};
   const glm::dvec3 n = faceNormal(pa[0], pa[1], pa[2]);
   const glm::dvec3 nb = sceneFromPart_.applyToVector(faceNormal(xb[tb[0]], xb[tb[1]], xb[tb[2]]));
-  if (glm::dot(n, nb) >= 0.0 || glm::length(n + nb) > kAngularTolerance) return false;
+  if (glm::dot(n, nb) >= 0.0 || glm::length(n + nb) > kFlatTolerance) return false;
   ConvexPolygon overlap;
   overlap.count = 3;
   for (std::size_t k = 0; k < 3; ++k)
     overlap.corners[k] = sceneFromPart_.applyToPoint(xb[tb[k]]);
-  const double distance =
-      glm::dot(n, (overlap.corners[0] + overlap.corners[1] + overlap.corners[2]) / 3.0 - pa[0]);
-  if (!(distance > 0.0) || distance > cutoff_) return false;
+  const auto height = [&](const glm::dvec3& p) { return glm::dot(n, p - pa[0]); };
+  const double first = height(overlap.corners[0]);
+  const double spread = kFlatTolerance * part_.tree.size();
+  if (first < -spread || first > cutoff_ + spread) return false;
   clipPolygon(pa, n, overlap);
   glm::dvec3 centroid;
   const double area = polygonArea(overlap, n, centroid);
   if (!(area > lengthTolerance_ * lengthTolerance_)) return false;
+  const double distance = height(centroid);
+  if (!(distance > 0.0) || distance > cutoff_ + spread) return false;
   accept(scene_, centroid - distance * n, centroid, n, distance, out);
   out.dimension = 2;
   out.weight = area;
   out.cornerCount = static_cast<std::uint8_t>(overlap.count);
   out.radius = 0.0;
   for (std::size_t k = 0; k < overlap.count; ++k) {
-    out.corners[k] = overlap.corners[k] - distance * n;
+    const double above = height(overlap.corners[k]);
+    out.least = std::min(out.least, above);
+    out.corners[k] = overlap.corners[k] - above * n;
     out.radius = std::max(out.radius, glm::distance(out.corners[k], out.lmd.scenePoint));
   }
-  return true;
+  return out.least <= cutoff_;
 }
 
 }  // namespace nearfit

@@ -33,6 +33,17 @@ class LeafTests {
     glm::dvec3 start, along;  ///< `along` is unit.
     double length;
   };
+  /// Where two edges that are nearly parallel run beside each other: along the first, and in the middle of
+  /// that the point of each.
+  struct Overlap {
+    double from, to;
+    glm::dvec3 onA, onB;
+  };
+  static Overlap overlapOf(const Edge& a, const Edge& b) noexcept;
+  /// Whether the edges face each other in one direction all along.
+  static bool isFlat(double sine, const Overlap& overlap) noexcept;
+  static double leastDistance(const Edge& a, const Edge& b, const Overlap& overlap) noexcept;
+  static void setSegment(const glm::dvec3& from, const glm::dvec3& to, Minimum& out) noexcept;
 
   /// A point minimum with p on one side and q on the other, both in `frame`'s coordinates.
   bool accept(const Side& frame, const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& direction,
@@ -47,7 +58,7 @@ class LeafTests {
   bool edgeFace(const Side& e, std::uint32_t edge, const Side& f, std::uint32_t face,
                 Minimum& out) const noexcept;
   bool faceFace(std::uint32_t a, std::uint32_t b, Minimum& out) const noexcept;
-  bool parallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb,
+  bool parallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb, const Overlap& overlap,
                      Minimum& out) const noexcept;
 
   /// Whether direction `d` (unit, the side's frame) lies in the closed polar cone of the feature.

@@ -32,7 +32,7 @@ LmdResult findLmds(const NormalConeTree& scene, const NormalConeTree& part,
       maxNodePairs);
   result.nodePairs = traversal.nodePairs();
   if (!isDone) result.status = QueryStatus::Truncated;
-  collector.finish(scene, scene.size() + part.size(), out);
+  collector.finish(scene, part, out);
   return result;
 }
 

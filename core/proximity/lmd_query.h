@@ -16,7 +16,8 @@ class NormalConeTree;
 
 enum class QueryStatus : std::uint8_t {
   Complete,   ///< The exact set.
-  Truncated,  ///< More minima than there was room for, or more work than allowed: the nearest found are there.
+  Truncated,  ///< More minima than there was room for, or more work than allowed: the nearest found are
+              ///< there.
 };
 
 struct LmdResult {

@@ -7,6 +7,7 @@
 
 #include "core/math/aabb.h"
 #include "core/math/tolerances.h"
+#include "core/proximity/flat_region.h"
 
 namespace nearfit {
 namespace {
@@ -62,16 +63,33 @@ class Piece {
   const Minimum& m_;
 };
 
+/// What counts as one length, for points and for pieces of flat regions.
+struct Closeness {
+  double base, gap;  ///< [m]
+
+  /// Of two points of the scene that belong to minima whose directions differ.
+  double of(const Minimum& a, const Minimum& b) const noexcept {
+    const double distance = std::max(a.lmd.distance, b.lmd.distance);
+    if (a.dimension == 0 && b.dimension == 0) return kMergeFactor * (base + kAngularTolerance * distance);
+    const double turn = kMergeFactor * kFlatTolerance + glm::distance(a.lmd.direction, b.lmd.direction);
+    return kMergeFactor * base + gap + turn * distance;
+  }
+  /// By how much neighbouring pieces may overlap that only lie in planes which differ a little.
+  double ofOverlap(double distance) const noexcept {
+    return kMergeFactor * (base + kFlatTolerance * distance);
+  }
+  /// Of the distances of minima that may be one: over a region that is not quite flat they differ.
+  static double ofDistances(const Minimum& a, const Minimum& b, double lengths) noexcept {
+    return lengths + 2.0 * kFlatTolerance * (Piece(a).radius() + Piece(b).radius());
+  }
+};
+
 bool touch(const Minimum& a, const Minimum& b, double tolerance) noexcept {
   if (a.dimension == 0 && b.dimension == 0) {
     return glm::distance(a.lmd.scenePoint, b.lmd.scenePoint) <= tolerance &&
            glm::distance(a.lmd.partPoint, b.lmd.partPoint) <= tolerance;
   }
   const Piece pa(a), pb(b);
-  if (glm::distance(a.lmd.scenePoint, b.lmd.scenePoint) > pa.radius() + pb.radius() + tolerance) return false;
-  // Different directions are different minima, even from one point. Coarse: the points decide.
-  constexpr double kSameDirection = 1e-6;
-  if (glm::dot(a.lmd.direction, b.lmd.direction) < 1.0 - kSameDirection) return false;
   if (pa.contains(b.lmd.scenePoint) || pb.contains(a.lmd.scenePoint)) return true;
   for (std::size_t i = 0; i < pa.sides(); ++i) {
     for (std::size_t j = 0; j < pb.sides(); ++j) {
@@ -81,76 +99,112 @@ bool touch(const Minimum& a, const Minimum& b, double tolerance) noexcept {
   return false;
 }
 
+/// Whether a piece and another entry can be of one region at all.
+bool canTouch(const Minimum& a, const Minimum& b, double tolerance) noexcept {
+  if (a.dimension == 0 && b.dimension == 0) return true;
+  if (glm::distance(a.lmd.direction, b.lmd.direction) > kRegionDirection) return false;
+  const double reach = Piece(a).radius() + Piece(b).radius() + tolerance;
+  const glm::dvec3 apart = a.lmd.scenePoint - b.lmd.scenePoint;
+  return glm::dot(apart, apart) <= reach * reach;
+}
+
 std::uint32_t findRoot(std::span<std::uint32_t> parent, std::uint32_t i) noexcept {
   while (parent[i] != i)
     i = parent[i] = parent[parent[i]];
   return i;
 }
 
-/// Folds `piece` into `root`: the higher dimension wins, equal ones add up by weight, and the largest piece's
-/// features stay.
-void absorb(Minimum& root, const Minimum& piece) noexcept {
-  if (piece.dimension > root.dimension) {
-    root = piece;
-    return;
+/// Finds which entries belong together: `parent` then leads from each to the first of its set.
+class Grouping {
+ public:
+  Grouping(std::span<Minimum> minima, std::span<std::uint32_t> order, std::span<std::uint32_t> parent,
+           const Closeness& closeness) noexcept
+      : minima_(minima),
+        order_(order.first(minima.size())),
+        parent_(parent.first(minima.size())),
+        closeness_(closeness) {}
+
+  /// A sweep along the axis on which they are spread most: what touches overlaps there.
+  void sweep() noexcept {
+    Aabb box;
+    for (std::uint32_t i = 0; i < minima_.size(); ++i) {
+      order_[i] = parent_[i] = i;
+      box.add(minima_[i].lmd.scenePoint);
+    }
+    const glm::dvec3 spread = box.upper - box.lower;
+    axis_ = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
+    std::sort(order_.begin(), order_.end(), [this](std::uint32_t a, std::uint32_t b) {
+      const double sa = start(a), sb = start(b);
+      return sa != sb ? sa < sb : a < b;
+    });
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      const Minimum& a = minima_[order_[i]];
+      // No pair is allowed more than a point at a region's rim.
+      const double most = kMergeFactor * closeness_.base + closeness_.gap +
+                          (kMergeFactor * kFlatTolerance + kRegionDirection) * a.lmd.distance;
+      const double end = a.lmd.scenePoint[axis_] + Piece(a).radius() + 2.0 * most;
+      for (std::size_t j = i + 1; j < order_.size() && start(order_[j]) <= end; ++j)
+        join(order_[i], order_[j]);
+    }
   }
-  if (piece.dimension < root.dimension || root.dimension == 0) return;
-  const double total = root.weight + piece.weight, share = piece.weight / total;
-  Lmd merged = piece.weight > root.weight ? piece.lmd : root.lmd;
-  merged.scenePoint = glm::mix(root.lmd.scenePoint, piece.lmd.scenePoint, share);
-  merged.partPoint = glm::mix(root.lmd.partPoint, piece.lmd.partPoint, share);
-  merged.distance = (1.0 - share) * root.lmd.distance + share * piece.lmd.distance;
-  root.lmd = merged;
-  root.weight = total;
-}
+
+  std::uint32_t root(std::uint32_t i) const noexcept { return findRoot(parent_, i); }
+
+ private:
+  double start(std::uint32_t i) const noexcept {
+    return minima_[i].lmd.scenePoint[axis_] - Piece(minima_[i]).radius();
+  }
+
+  void join(std::uint32_t i, std::uint32_t j) noexcept {
+    Minimum &a = minima_[i], &b = minima_[j];
+    const double tolerance = closeness_.of(a, b);
+    if (std::abs(b.lmd.distance - a.lmd.distance) > Closeness::ofDistances(a, b, tolerance)) return;
+    if (!canTouch(a, b, tolerance)) return;
+    const std::uint32_t ra = root(i), rb = root(j);
+    const bool overlap = markIfOverlapping(a, b, closeness_.ofOverlap(a.lmd.distance));
+    if (ra != rb && (overlap || touch(a, b, tolerance))) parent_[std::max(ra, rb)] = std::min(ra, rb);
+  }
+
+  std::span<Minimum> minima_;
+  std::span<std::uint32_t> order_, parent_;
+  const Closeness closeness_;
+  int axis_ = 0;
+};
 
 }  // namespace
 
 std::size_t mergeMinima(std::span<Minimum> minima, std::span<std::uint32_t> order,
-                        std::span<std::uint32_t> parent, double size) noexcept {
+                        std::span<std::uint32_t> parent, double size, double smallerSize) noexcept {
   const auto count = static_cast<std::uint32_t>(minima.size());
   if (count == 0) return 0;
-  Aabb box;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    order[i] = parent[i] = i;
-    box.add(minima[i].lmd.scenePoint);
-  }
-  // Sweep along the axis on which they are spread most: what touches overlaps there.
-  const glm::dvec3 spread = box.upper - box.lower;
-  const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
-  const auto start = [&](std::uint32_t i) {
-    return minima[i].lmd.scenePoint[axis] - Piece(minima[i]).radius();
-  };
-  std::sort(order.begin(), order.begin() + count, [&](std::uint32_t a, std::uint32_t b) {
-    const double sa = start(a), sb = start(b);
-    return sa != sb ? sa < sb : a < b;
+  const Closeness closeness{kLengthTolerance * size, kFlatGap * smallerSize};
+  Grouping grouping(minima, order, parent, closeness);
+  grouping.sweep();
+
+  const std::span<std::uint32_t> sorted = order.first(count);
+  std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t ra = grouping.root(a), rb = grouping.root(b);
+    return ra != rb ? ra < rb : a < b;
   });
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Minimum& a = minima[order[i]];
-    const double tolerance = kMergeFactor * (kLengthTolerance * size + kAngularTolerance * a.lmd.distance);
-    // Across a region that is tilted by no more than the angular tolerance the distance still varies.
-    const double window = tolerance + kAngularTolerance * size;
-    const double end = a.lmd.scenePoint[axis] + Piece(a).radius() + tolerance;
-    for (std::uint32_t j = i + 1; j < count && start(order[j]) <= end; ++j) {
-      const Minimum& b = minima[order[j]];
-      if (std::abs(b.lmd.distance - a.lmd.distance) > window) continue;
-      const std::uint32_t ra = findRoot(parent, order[i]), rb = findRoot(parent, order[j]);
-      if (ra != rb && touch(a, b, tolerance)) parent[std::max(ra, rb)] = std::min(ra, rb);
-    }
-  }
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t root = findRoot(parent, i);
-    if (root != i) absorb(minima[root], minima[i]);
-  }
   std::size_t kept = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (parent[i] == i) order[kept++] = i;
+  for (std::size_t i = 0; i < count;) {
+    const std::uint32_t root = sorted[i];  // The least index of its set is its root.
+    std::size_t end = i;
+    bool isRegion = false;
+    for (; end < count && grouping.root(sorted[end]) == root; ++end)
+      isRegion = isRegion || minima[sorted[end]].dimension > 0;
+    if (isRegion) {
+      const double tolerance = closeness.ofOverlap(minima[root].lmd.distance);
+      minima[root].lmd = uniteRegion(minima, sorted.subspan(i, end - i), tolerance);
+    }
+    order[kept++] = root;
+    i = end;
   }
-  const auto isNearer = [&](std::uint32_t a, std::uint32_t b) {
-    return minima[a].lmd.distance != minima[b].lmd.distance ? minima[a].lmd.distance < minima[b].lmd.distance
-                                                            : a < b;
-  };
-  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(kept), isNearer);
+  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(kept),
+            [&](std::uint32_t a, std::uint32_t b) {
+              const double da = minima[a].lmd.distance, db = minima[b].lmd.distance;
+              return da != db ? da < db : a < b;
+            });
   return kept;
 }
 

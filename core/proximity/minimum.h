@@ -15,7 +15,9 @@ struct Minimum {
   static constexpr std::size_t kMaxCorners = 6;  ///< Two triangles overlap in a hexagon at most.
 
   Lmd lmd;                     ///< In the query's frame; for a piece, its centroid.
+  bool isOverlapping = false;  ///< With another piece: see markIfOverlapping.
   double radius = 0.0;         ///< Of a sphere about scenePoint that holds a piece [m].
+  double least = 0.0;          ///< Distance where a piece is nearest; at its centroid it is lmd.distance [m].
   double weight = 0.0;         ///< Length or area of a piece; 0 for a point.
   std::uint8_t dimension = 0;  ///< 0 point, 1 segment, 2 polygon.
   std::uint8_t cornerCount = 0;

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/math/tolerances.h"
 #include "core/proximity/merge_minima.h"
 
 namespace nearfit {
@@ -38,9 +39,11 @@ void MinimaCollector::add() noexcept {
   std::push_heap(minima.begin(), minima.end(), isNearer);
 }
 
-void MinimaCollector::finish(const NormalConeTree& scene, double size, std::span<Lmd> out) noexcept {
+void MinimaCollector::finish(const NormalConeTree& scene, const NormalConeTree& part,
+                             std::span<Lmd> out) noexcept {
   const std::size_t kept =
-      mergeMinima(std::span(workspace_.minima).first(count_), workspace_.order, workspace_.parent, size);
+      mergeMinima(std::span(workspace_.minima).first(count_), workspace_.order, workspace_.parent,
+                  scene.size() + part.size(), std::min(scene.size(), part.size()));
   if (kept > out.size()) result_.status = QueryStatus::Truncated;
   result_.count = std::min(kept, out.size());
   for (std::size_t i = 0; i < result_.count; ++i) {
@@ -60,8 +63,10 @@ RigidTransform centredPose(const NormalConeTree& scene, const NormalConeTree& pa
 CullLimits cullLimits(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& centred,
                       double cutoff) noexcept {
   const double reach = scene.size() + part.size() + glm::length(centred.translation);
-  return {static_cast<float>(cutoff * (1.0 + kPosePadding)), static_cast<float>(kPosePadding * reach),
-          kDirectionSlack};
+  // Regions are found in features that are parallel to a tolerance, at any place of theirs.
+  return {static_cast<float>(cutoff * (1.0 + kPosePadding)),
+          static_cast<float>(kPosePadding * reach + kFlatTolerance * (cutoff + reach)),
+          kDirectionSlack + static_cast<float>(kFlatTolerance)};
 }
 
 bool isQueryValid(const NormalConeTree& scene, const NormalConeTree& part,

@@ -42,7 +42,7 @@ class MinimaCollector {
   void add() noexcept;
 
   /// Merges, sorts nearest first, and writes to `out` in the frame of the scene's mesh.
-  void finish(const NormalConeTree& scene, double size, std::span<Lmd> out) noexcept;
+  void finish(const NormalConeTree& scene, const NormalConeTree& part, std::span<Lmd> out) noexcept;
 
  private:
   LmdScratch::Data& workspace_;

@@ -56,12 +56,20 @@ Json massJson(const Part& part) {
 }
 
 Json lmdJson(const Lmd& lmd, const RigidTransform& worldFromOther) {
-  return {{"distance", lmd.distance},
-          {"moving", pointJson(worldFromOther.applyToPoint(lmd.partPoint))},
-          {"other", pointJson(worldFromOther.applyToPoint(lmd.scenePoint))},
-          {"features", {nameOf(lmd.partFeature), nameOf(lmd.sceneFeature)}},
-          {"region", lmd.isRegion},
-          {"blocked", lmd.isBlocked}};
+  const Lmd inWorld = transformed(lmd, worldFromOther);
+  Json json = {{"distance", lmd.distance},
+               {"moving", pointJson(inWorld.partPoint)},
+               {"other", pointJson(inWorld.scenePoint)},
+               {"features", {nameOf(lmd.partFeature), nameOf(lmd.sceneFeature)}},
+               {"region", lmd.isRegion},
+               {"blocked", lmd.isBlocked}};
+  if (lmd.isRegion) {
+    json["extent"] = {{"dimension", lmd.extent.dimension},
+                      {"measure", lmd.extent.measure},
+                      {"axis", pointJson(inWorld.extent.axis)},
+                      {"half", {lmd.extent.halfLength, lmd.extent.halfWidth}}};
+  }
+  return json;
 }
 
 Json leastDistance(const LmdSet& set) {

@@ -53,6 +53,10 @@ TEST_F(LmdCommand, CubeAboveBlockIsOneRegionAndPushesUp) {
   expectPoint(lmd["scene"], {0, 0, 0.5});
   expectPoint(lmd["part"], {0, 0, 0.75});
   EXPECT_EQ(lmd["region"], true);
+  EXPECT_EQ(lmd["extent"]["dimension"], 2);
+  EXPECT_NEAR(lmd["extent"]["measure"].get<double>(), 1.0, 1e-12);
+  EXPECT_NEAR(lmd["extent"]["half"][0].get<double>(), 0.5, 1e-12);
+  EXPECT_NEAR(lmd["extent"]["half"][1].get<double>(), 0.5, 1e-12);
   // 200 N/m (0.5 m - 0.25 m)
   expectPoint(json["force"], {0, 0, 50}, 1e-9);
   expectPoint(json["torque"], {0, 0, 0}, 1e-9);
@@ -85,6 +89,7 @@ TEST_F(LmdCommand, CubeOnItsCornerHasAVertexOverAFace) {
   const Json& lmd = json["lmds"][0];
   EXPECT_EQ(lmd["features"], Json({"face", "vertex"}));
   EXPECT_EQ(lmd["region"], false);
+  EXPECT_FALSE(lmd.contains("extent"));
   expectPoint(lmd["scene"], {0.1, 0.2, 0.5});
   expectPoint(lmd["part"], {0.1, 0.2, 0.75});
 }
@@ -137,10 +142,12 @@ TEST_F(LmdCommand, SeveralMinimaComeNearestFirst) {
 TEST_F(LmdCommand, LineHasExactlyThePromisedForm) {
   const ProcessResult result = run({"--cutoff", "0.5", "--pose", "0.1,0,1.25,1,0,0,0"});
   const std::string n = "-?[0-9.]+(e[-+][0-9]+)?", v = "\\[" + n + "," + n + "," + n + "\\]";
+  const std::string extent =
+      "\\{\"dimension\":2,\"measure\":" + n + ",\"axis\":" + v + ",\"half\":\\[" + n + "," + n + "\\]\\}";
   const std::string line = "\\{\"pose\":0,\"lmds\":\\[\\{\"distance\":" + n + ",\"scene\":" + v +
                            ",\"part\":" + v +
-                           ",\"features\":\\[\"(vertex|edge|face)\",\"(vertex|edge|face)\"\\],\"region\":"
-                           "true,\"blocked\":false\\}\\]," +
+                           ",\"features\":\\[\"(vertex|edge|face)\",\"(vertex|edge|face)\"\\]," +
+                           "\"region\":true,\"extent\":" + extent + ",\"blocked\":false\\}\\]," +
                            "\"force\":" + v + ",\"torque\":" + v + ",\"query_us\":" + n + "\\}\n";
   EXPECT_THAT(result.out, MatchesRegex(line));
 }

@@ -114,6 +114,10 @@ TEST_F(PlacementExport, ClearanceToEachVisiblePartIsInTheWorldFrame) {
   expectPoint(lmd["other"], {10.5, 0, 0});
   expectPoint(lmd["moving"], {10.75, 0, 0});
   EXPECT_EQ(lmd["region"], true);
+  EXPECT_EQ(lmd["extent"]["dimension"], 2);
+  EXPECT_NEAR(lmd["extent"]["measure"].get<double>(), 1.0, 1e-12);
+  EXPECT_NEAR(lmd["extent"]["axis"][0].get<double>(), 0.0, 1e-12);  // Square to the world's x.
+  EXPECT_NEAR(lmd["extent"]["half"][1].get<double>(), 0.5, 1e-12);
   EXPECT_EQ(lmd["blocked"], false);
   EXPECT_EQ(lmd["features"].size(), 2U);
 

@@ -1,0 +1,314 @@
+#include "core/proximity/flat_region.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+namespace nearfit {
+namespace {
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) noexcept {
+  return a.x * b.y - a.y * b.x;
+}
+
+/// A plane across a direction, about a point of it.
+class Plane {
+ public:
+  Plane(const glm::dvec3& origin, const glm::dvec3& normal) noexcept : origin_(origin), normal_(normal) {
+    const glm::dvec3 helper = std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    x_ = glm::normalize(glm::cross(helper, normal));
+    y_ = glm::cross(normal, x_);
+  }
+  glm::dvec2 map(const glm::dvec3& p) const noexcept {
+    return {glm::dot(p - origin_, x_), glm::dot(p - origin_, y_)};
+  }
+  double height(const glm::dvec3& p) const noexcept { return glm::dot(p - origin_, normal_); }
+  glm::dvec3 along(const glm::dvec2& v) const noexcept { return v.x * x_ + v.y * y_; }
+  glm::dvec3 point(const glm::dvec2& p, double height) const noexcept {
+    return origin_ + along(p) + height * normal_;
+  }
+
+ private:
+  glm::dvec3 origin_, normal_, x_, y_;
+};
+
+/// A piece in a plane: a segment, or a convex polygon that runs anticlockwise.
+struct Outline {
+  Outline(const Minimum& piece, const Plane& plane) noexcept : count(piece.cornerCount) {
+    double area = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+      corners[i] = plane.map(piece.corners[i]);
+    for (std::size_t i = 1; i + 1 < count; ++i)
+      area += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+    if (area < 0.0) std::reverse(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+  std::size_t sides() const noexcept { return count == 2 ? 1 : count; }
+  const glm::dvec2& from(std::size_t i) const noexcept { return corners[i]; }
+  const glm::dvec2& to(std::size_t i) const noexcept { return corners[(i + 1) % count]; }
+
+  bool contains(const glm::dvec2& p, double tolerance) const noexcept {
+    if (count == 2) {
+      const glm::dvec2 e = corners[1] - corners[0];
+      const double s = std::clamp(glm::dot(p - corners[0], e) / glm::dot(e, e), 0.0, 1.0);
+      return glm::distance(p, corners[0] + s * e) <= tolerance;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const glm::dvec2 e = to(i) - from(i);
+      if (cross(e, p - from(i)) < -tolerance * glm::length(e)) return false;
+    }
+    return true;
+  }
+
+  std::array<glm::dvec2, Minimum::kMaxCorners> corners;
+  std::size_t count;
+};
+
+/// What of a way from 0 to 1 is covered.
+struct Interval {
+  double from = 0.0, to = 1.0;
+};
+
+/// Where the way from a to b runs through the interior of a polygon. Along one of its sides, in its sense, it
+/// counts as covered for the one of two pieces that comes later.
+Interval coveredByPolygon(const glm::dvec2& a, const glm::dvec2& b, const Outline& polygon, bool isEarlier,
+                          double tolerance) noexcept {
+  Interval covered;
+  const glm::dvec2 way = b - a;
+  for (std::size_t k = 0; k < polygon.count; ++k) {
+    const glm::dvec2 side = polygon.to(k) - polygon.from(k);
+    const double length = glm::length(side);
+    if (!(length > tolerance)) continue;
+    const double start = cross(side, a - polygon.from(k)) / length,
+                 end = cross(side, b - polygon.from(k)) / length;
+    if (std::abs(start) <= tolerance && std::abs(end) <= tolerance) {
+      if (isEarlier && glm::dot(side, way) > 0.0) continue;
+      return {0.0, 0.0};
+    }
+    if (start <= 0.0 && end <= 0.0) return {0.0, 0.0};
+    if (start < 0.0) covered.from = std::max(covered.from, start / (start - end));
+    if (end < 0.0) covered.to = std::min(covered.to, start / (start - end));
+  }
+  return covered;
+}
+
+/// Where the way from a to b runs along a segment.
+Interval coveredBySegment(const glm::dvec2& a, const glm::dvec2& b, const Outline& segment,
+                          double tolerance) noexcept {
+  const glm::dvec2 way = b - a;
+  const double length = glm::length(way);
+  if (!(length > 0.0)) return {};
+  const auto isOff = [&](const glm::dvec2& p) { return std::abs(cross(way, p - a)) > tolerance * length; };
+  if (isOff(segment.corners[0]) || isOff(segment.corners[1])) return {0.0, 0.0};
+  const auto share = [&](const glm::dvec2& p) { return glm::dot(p - a, way) / (length * length); };
+  const double s = share(segment.corners[0]), t = share(segment.corners[1]);
+  return {std::max(0.0, std::min(s, t)), std::min(1.0, std::max(s, t))};
+}
+
+/// Measure of a plane set, and its first and second moments about the plane's origin.
+struct Moments {
+  double measure = 0.0;
+  glm::dvec2 first{0.0};
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+
+  void addSegment(const glm::dvec2& a, const glm::dvec2& b) noexcept {
+    const double length = glm::distance(a, b);
+    measure += length;
+    first += 0.5 * length * (a + b);
+    xx += length / 3.0 * (a.x * a.x + a.x * b.x + b.x * b.x);
+    yy += length / 3.0 * (a.y * a.y + a.y * b.y + b.y * b.y);
+    xy += length / 6.0 * (2.0 * a.x * a.y + a.x * b.y + b.x * a.y + 2.0 * b.x * b.y);
+  }
+  /// A part of the set's outline, anticlockwise about it: Green's theorem.
+  void addBoundary(const glm::dvec2& a, const glm::dvec2& b) noexcept {
+    const double c = cross(a, b);
+    measure += c / 2.0;
+    first += c / 6.0 * (a + b);
+    xx += c / 12.0 * (a.x * a.x + a.x * b.x + b.x * b.x);
+    yy += c / 12.0 * (a.y * a.y + a.y * b.y + b.y * b.y);
+    xy += c / 24.0 * (2.0 * a.x * a.y + a.x * b.y + b.x * a.y + 2.0 * b.x * b.y);
+  }
+};
+
+class RegionUnion {
+ public:
+  RegionUnion(std::span<const Minimum> minima, std::span<const std::uint32_t> group,
+              double tolerance) noexcept
+      : minima_(minima),
+        group_(group),
+        tolerance_(tolerance),
+        largest_(largestPiece(minima, group)),
+        direction_(meanDirection()),
+        plane_(largest_.lmd.scenePoint, direction_) {}
+
+  Lmd unite() const noexcept {
+    Moments moments;
+    double weight = 0.0, height = 0.0, distance = 0.0, least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < group_.size(); ++i) {
+      const Minimum& piece = minima_[group_[i]];
+      least = std::min(least, piece.least);
+      if (!isPiece(piece)) continue;
+      addPiece(i, moments);
+      weight += piece.weight;
+      height += piece.weight * plane_.height(piece.lmd.scenePoint);
+      distance += piece.weight * piece.lmd.distance;
+    }
+    Lmd lmd = largest_.lmd;
+    const glm::dvec2 centroid = moments.first / moments.measure;
+    // A corner of a tilted region may be beyond contact, as exact tests see it.
+    lmd.distance = std::max(least, std::numeric_limits<double>::min());
+    lmd.direction = direction_;
+    lmd.scenePoint = plane_.point(centroid, height / weight);
+    lmd.partPoint = lmd.scenePoint + distance / weight * lmd.direction;
+    setExtent(moments, centroid, lmd.extent);
+    return lmd;
+  }
+
+ private:
+  static const Minimum& largestPiece(std::span<const Minimum> minima,
+                                     std::span<const std::uint32_t> group) noexcept {
+    return minima[*std::max_element(group.begin(), group.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return minima[a].dimension != minima[b].dimension ? minima[a].dimension < minima[b].dimension
+                                                        : minima[a].weight < minima[b].weight;
+    })];
+  }
+  bool isPiece(const Minimum& m) const noexcept { return m.dimension == largest_.dimension; }
+  glm::dvec3 meanDirection() const noexcept {
+    glm::dvec3 sum(0.0);
+    for (const std::uint32_t i : group_) {
+      if (isPiece(minima_[i])) sum += minima_[i].weight * minima_[i].lmd.direction;
+    }
+    return glm::normalize(sum);
+  }
+
+  void addPiece(std::size_t at, Moments& moments) const noexcept {
+    const Minimum& piece = minima_[group_[at]];
+    const Outline outline(piece, plane_);
+    const auto add = [&](const glm::dvec2& a, const glm::dvec2& b) {
+      piece.dimension == 2 ? moments.addBoundary(a, b) : moments.addSegment(a, b);
+    };
+    for (std::size_t k = 0; k < outline.sides(); ++k) {
+      if (piece.isOverlapping) {
+        addUncovered(at, outline.from(k), outline.to(k), add);
+      } else {
+        add(outline.from(k), outline.to(k));
+      }
+    }
+  }
+
+  /// Adds what no other piece covers of the way from a to b, part by part.
+  template <class Add>
+  void addUncovered(std::size_t at, const glm::dvec2& a, const glm::dvec2& b, Add& add) const noexcept {
+    double done = 0.0;
+    while (done < 1.0) {
+      double reach = done, next = 1.0;
+      for (std::size_t i = 0; i < group_.size(); ++i) {
+        if (i == at) continue;
+        const Interval covered = coveredBy(i, at, a, b);
+        if (!(covered.to > covered.from)) continue;
+        if (covered.from <= done) reach = std::max(reach, covered.to);
+        if (covered.from > done) next = std::min(next, covered.from);
+      }
+      if (reach > done) {
+        done = reach;
+      } else {
+        add(a + done * (b - a), a + next * (b - a));
+        done = next;
+      }
+    }
+  }
+
+  Interval coveredBy(std::size_t other, std::size_t at, const glm::dvec2& a,
+                     const glm::dvec2& b) const noexcept {
+    const Minimum &piece = minima_[group_[at]], &cover = minima_[group_[other]];
+    const double reach = piece.radius + cover.radius;
+    const glm::dvec3 apart = piece.lmd.scenePoint - cover.lmd.scenePoint;
+    const bool isNear = isPiece(cover) && cover.isOverlapping && glm::dot(apart, apart) <= reach * reach;
+    if (!isNear) return {0.0, 0.0};
+    const Outline outline(cover, plane_);
+    if (piece.dimension == 2) return coveredByPolygon(a, b, outline, other < at, tolerance_);
+    return other < at ? coveredBySegment(a, b, outline, tolerance_) : Interval{0.0, 0.0};
+  }
+
+  void setExtent(const Moments& m, const glm::dvec2& centroid, RegionExtent& extent) const noexcept {
+    const double xx = m.xx / m.measure - centroid.x * centroid.x,
+                 yy = m.yy / m.measure - centroid.y * centroid.y,
+                 xy = m.xy / m.measure - centroid.x * centroid.y;
+    const double mean = 0.5 * (xx + yy), spread = std::hypot(0.5 * (xx - yy), xy);
+    // As wide as long but for rounding: any axis will do, if it is the same one always.
+    constexpr double kRound = 1e-9;
+    const double angle = spread > kRound * mean ? 0.5 * std::atan2(2.0 * xy, xx - yy) : 0.0;
+    const glm::dvec2 axis(std::cos(angle), std::sin(angle)), across(-axis.y, axis.x);
+    extent.dimension = largest_.dimension;
+    extent.measure = m.measure;
+    extent.axis = plane_.along(axis);
+    // The second moment of a rectangle is a third of its half length squared.
+    extent.halfLength = std::sqrt(3.0 * std::max(0.0, mean + spread));
+    extent.halfWidth = largest_.dimension == 2 ? std::sqrt(3.0 * std::max(0.0, mean - spread)) : 0.0;
+    const glm::dvec2 inside = pointInside(centroid) - centroid;
+    extent.inside = {glm::dot(inside, axis), glm::dot(inside, across)};
+  }
+
+  /// The centroid where a piece holds it, else the largest piece's.
+  glm::dvec2 pointInside(const glm::dvec2& centroid) const noexcept {
+    const bool isInside = std::any_of(group_.begin(), group_.end(), [&](std::uint32_t i) {
+      return isPiece(minima_[i]) && Outline(minima_[i], plane_).contains(centroid, tolerance_);
+    });
+    return isInside ? centroid : plane_.map(largest_.lmd.scenePoint);
+  }
+
+  std::span<const Minimum> minima_;
+  std::span<const std::uint32_t> group_;
+  double tolerance_;
+  const Minimum& largest_;
+  glm::dvec3 direction_;
+  Plane plane_;
+};
+
+/// Whether a line along a side of `a` has `b` on its other side.
+bool isApartAlongSide(const Minimum& a, const Minimum& b, double tolerance) noexcept {
+  for (std::size_t i = 0; i < a.cornerCount; ++i) {
+    const glm::dvec3& from = a.corners[i];
+    glm::dvec3 inward = glm::cross(a.lmd.direction, a.corners[(i + 1) % a.cornerCount] - from);
+    const double length = glm::length(inward);
+    if (!(length > tolerance)) continue;
+    inward *= (glm::dot(inward, a.lmd.scenePoint - from) < 0.0 ? -1.0 : 1.0) / length;
+    bool isBeyond = true;
+    for (std::size_t k = 0; k < b.cornerCount && isBeyond; ++k)
+      isBeyond = glm::dot(inward, b.corners[k] - from) <= tolerance;
+    if (isBeyond) return true;
+  }
+  return false;
+}
+
+bool segmentsOverlap(const Minimum& a, const Minimum& b, double tolerance) noexcept {
+  const glm::dvec3 along = (a.corners[1] - a.corners[0]) / a.weight;
+  std::array<double, 2> s;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const glm::dvec3 w = b.corners[k] - a.corners[0];
+    s[k] = glm::dot(w, along);
+    if (glm::distance(w, s[k] * along) > tolerance) return false;
+  }
+  return std::min(a.weight, std::max(s[0], s[1])) - std::max(0.0, std::min(s[0], s[1])) > tolerance;
+}
+
+}  // namespace
+
+bool markIfOverlapping(Minimum& a, Minimum& b, double tolerance) noexcept {
+  if (a.dimension != b.dimension || a.dimension == 0) return false;
+  const bool overlap = a.dimension == 1
+                           ? segmentsOverlap(a, b, tolerance)
+                           : !isApartAlongSide(a, b, tolerance) && !isApartAlongSide(b, a, tolerance);
+  if (overlap) a.isOverlapping = b.isOverlapping = true;
+  return overlap;
+}
+
+Lmd uniteRegion(std::span<const Minimum> minima, std::span<const std::uint32_t> group,
+                double tolerance) noexcept {
+  return RegionUnion(minima, group, tolerance).unite();
+}
+
+}  // namespace nearfit

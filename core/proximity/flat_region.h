@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/proximity/minimum.h"
+
+namespace nearfit {
+
+/// Marks a pair of pieces of one dimension as overlapping where they cover more than a line (faces) or a
+/// point (edges) together, as those of coplanar faces of one mesh do. They lie in one plane but for
+/// tolerances.
+bool markIfOverlapping(Minimum& a, Minimum& b, double tolerance) noexcept;
+
+/// The representative of a flat region: what its pieces of the highest dimension cover, counted once, has its
+/// centroid and extent there: area (or length) means, which do not depend on how the bodies are meshed. The
+/// distance is the least of all, the features are the largest piece's.
+///
+/// @param group      Indices of the pieces, and points at their rims, in `minima`; at least one piece.
+/// @param tolerance  Lengths that differ by less are one [m].
+/// Real-time safe. Linear, but for pieces that are marked as overlapping: those are held against each other.
+Lmd uniteRegion(std::span<const Minimum> minima, std::span<const std::uint32_t> group,
+                double tolerance) noexcept;
+
+}  // namespace nearfit
