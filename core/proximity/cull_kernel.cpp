@@ -13,9 +13,6 @@
 namespace nearfit {
 namespace {
 
-/// Added to every projection of limits on directions: some thirty roundings of single precision.
-constexpr float kDirectionSlack = 4e-6F;
-
 /// Directions that are nearly square to n say nothing of how far they reach along it.
 constexpr float kLeastSlope = 1e-2F;
 
@@ -92,25 +89,39 @@ NEARFIT_INLINE Box<float> box(const NormalConeTree::Bound& b) {
           {b.leastN, b.mostU, b.mostV}};
 }
 
-/// Whether directions d within limits `a` and -d within limits `b` can be the same: b's projected on a's
-/// axes. The rows hold the product of each of a's axes with b's n, u and v.
+/// What the components of a minimum's d / |d| along three axes can be.
+struct Ranges {
+  Vectors low, high;
+};
+
+/// Along a's axes, of directions d within limits `a` with -d within limits `b`. The rows hold the product of
+/// each of a's axes with b's n, u and v. -d = x n + y u + z v in b's axes, x within [leastN, 1], |y| and |z|
+/// at most mostU and mostV: its product with an axis of a's is linear in each, so that the ends bound it.
 template <class A, class B>
-NEARFIT_INLINE Ints canFace(const Limits<A>& a, const Limits<B>& b, const Vectors& n, const Vectors& u,
-                            const Vectors& v, float turn) {
+NEARFIT_INLINE Ranges ranges(const Limits<A>& a, const Limits<B>& b, const Vectors& n, const Vectors& u,
+                             const Vectors& v, float turn) {
   const Floats nEnd = -n.x, uEnd = -u.x, vEnd = -v.x;
   const Floats nLeast = nEnd * b.leastN, uLeast = uEnd * b.leastN, vLeast = vEnd * b.leastN;
   const Floats nSide = magnitude(n.y) * b.mostU + magnitude(n.z) * b.mostV + turn;
   const Floats uSide = magnitude(u.y) * b.mostU + magnitude(u.z) * b.mostV + turn;
   const Floats vSide = magnitude(v.y) * b.mostU + magnitude(v.z) * b.mostV + turn;
-  return (most(nEnd, nLeast) + nSide >= a.leastN) & (least(uEnd, uLeast) - uSide <= a.mostU) &
-         (most(uEnd, uLeast) + uSide >= -a.mostU) & (least(vEnd, vLeast) - vSide <= a.mostV) &
-         (most(vEnd, vLeast) + vSide >= -a.mostV);
+  const Floats zero = all(0.0F), leastN = zero + a.leastN, mostU = zero + a.mostU, mostV = zero + a.mostV;
+  return {{most(leastN, least(nEnd, nLeast) - nSide), most(-mostU, least(uEnd, uLeast) - uSide),
+           most(-mostV, least(vEnd, vLeast) - vSide)},
+          {most(nEnd, nLeast) + nSide, least(mostU, most(uEnd, uLeast) + uSide),
+           least(mostV, most(vEnd, vLeast) + vSide)}};
 }
 
 /// Half extent of a box along a direction whose products with the box's axes are given.
 template <class T>
 NEARFIT_INLINE Floats extent(const Triple<T>& half, const Floats& byN, const Floats& byU, const Floats& byV) {
   return magnitude(byN) * half.x + magnitude(byU) * half.y + magnitude(byV) * half.z;
+}
+
+/// Whether d can reach along an axis what the boxes ask: t give or take e. |d| is within [gap, reach], and
+/// its share along the axis within [low, high]: the product is greatest and least at ends of both.
+NEARFIT_INLINE Ints meets(Floats t, Floats e, Floats low, Floats high, Floats gap, Floats reach) {
+  return (low <= high) & (t - e <= most(high * reach, high * gap)) & (t + e >= least(low * reach, low * gap));
 }
 
 /// All bits set in the lanes that survive.
@@ -121,30 +132,28 @@ NEARFIT_INLINE Ints cull(const Box<Floats>& own, const Box<T>& its, const CullLi
   const Vectors cn{dot(own.n, its.n), dot(own.n, its.u), dot(own.n, its.v)};
   const Vectors cu{dot(own.u, its.n), dot(own.u, its.u), dot(own.u, its.v)};
   const Vectors cv{dot(own.v, its.n), dot(own.v, its.u), dot(own.v, its.v)};
+  const Ranges a = ranges(own.limits, its.limits, cn, cu, cv, limits.turn);
+  const Ranges b =
+      ranges(its.limits, own.limits, {cn.x, cu.x, cv.x}, {cn.y, cu.y, cv.y}, {cn.z, cu.z, cv.z}, limits.turn);
 
-  // Along each axis of either box a minimum's d lies within the sum of extents of the centres' difference,
-  // and it points outward of both.
-  const Floats zero = all(0.0F), cutoff = all(limits.cutoff);
+  // Along each axis of either box a minimum's d, out of that box, lies within the sum of extents of the
+  // centres' difference.
   const Floats tn = dot(d, own.n), en = own.half.x + extent(its.half, cn.x, cn.y, cn.z) + limits.padding;
-  const Floats sn = -dot(d, its.n), fn = extent(own.half, cn.x, cu.x, cv.x) + (its.half.x + limits.padding);
-  Ints alive = (tn - en <= cutoff) & (tn + en >= least(zero, own.limits.leastN * cutoff)) &
-               (sn - fn <= cutoff) & (sn + fn >= least(zero, its.limits.leastN * cutoff));
-
-  // What d can reach along n bounds its length, and that what it can reach sideways.
-  const Floats itsLeastN = zero + its.limits.leastN;
-  Floats reach = least(cutoff, own.limits.leastN > kLeastSlope ? (tn + en) / own.limits.leastN : cutoff);
-  reach = least(reach, itsLeastN > kLeastSlope ? (sn + fn) / itsLeastN : cutoff);
   const Floats tu = dot(d, own.u), eu = own.half.y + extent(its.half, cu.x, cu.y, cu.z) + limits.padding;
   const Floats tv = dot(d, own.v), ev = own.half.z + extent(its.half, cv.x, cv.y, cv.z) + limits.padding;
-  const Floats su = dot(d, its.u), fu = extent(own.half, cn.y, cu.y, cv.y) + (its.half.y + limits.padding);
-  const Floats sv = dot(d, its.v), fv = extent(own.half, cn.z, cu.z, cv.z) + (its.half.z + limits.padding);
-  alive &=
-      (magnitude(tu) - eu <= own.limits.mostU * reach) & (magnitude(tv) - ev <= own.limits.mostV * reach) &
-      (magnitude(su) - fu <= its.limits.mostU * reach) & (magnitude(sv) - fv <= its.limits.mostV * reach);
+  const Floats sn = -dot(d, its.n), fn = extent(own.half, cn.x, cu.x, cv.x) + (its.half.x + limits.padding);
+  const Floats su = -dot(d, its.u), fu = extent(own.half, cn.y, cu.y, cv.y) + (its.half.y + limits.padding);
+  const Floats sv = -dot(d, its.v), fv = extent(own.half, cn.z, cu.z, cv.z) + (its.half.z + limits.padding);
 
-  return alive & canFace(own.limits, its.limits, cn, cu, cv, limits.turn) &
-         canFace(its.limits, own.limits, {cn.x, cu.x, cv.x}, {cn.y, cu.y, cv.y}, {cn.z, cu.z, cv.z},
-                 limits.turn);
+  // |d| is at least what it is along an axis, and at most that by the least share that it has along it.
+  const Floats cutoff = all(limits.cutoff);
+  const Floats gap = most(all(0.0F), most(tn - en, sn - fn));
+  const Floats reach = least(least(cutoff, a.low.x > kLeastSlope ? (tn + en) / a.low.x : cutoff),
+                             b.low.x > kLeastSlope ? (sn + fn) / b.low.x : cutoff);
+  return (gap <= reach) & meets(tn, en, a.low.x, a.high.x, gap, reach) &
+         meets(tu, eu, a.low.y, a.high.y, gap, reach) & meets(tv, ev, a.low.z, a.high.z, gap, reach) &
+         meets(sn, fn, b.low.x, b.high.x, gap, reach) & meets(su, fu, b.low.y, b.high.y, gap, reach) &
+         meets(sv, fv, b.low.z, b.high.z, gap, reach);
 }
 
 NEARFIT_INLINE Ints cullChildren(const NormalConeTree::Node& node, const NormalConeTree::Bound& other,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -70,33 +71,74 @@ double FeatureGeometry::edgeSupport(const EdgeFeature& e, const glm::dvec3& w) c
   return length * coneSupport(e.cone, inPlane / length);
 }
 
-double FeatureGeometry::vertexSupport(const VertexFeature& v, const glm::dvec3& w) const noexcept {
-  const double byCone = coneSupport(v.cone, w);
+void FeatureGeometry::rays(std::uint32_t feature, Rays& out) const noexcept {
+  const NormalCone& axis = cone(feature);
+  bool isSpanned = true;
+  out.count = 0;
+  if (feature < edgeBase_) {
+    isSpanned = raysOfVertex(features_.vertices[feature], out);
+  } else if (feature < faceBase_) {
+    raysOfEdge(features_.edges[feature - edgeBase_], out);
+  } else {
+    out.rays[out.count++] = axis.axis;
+  }
+  // d is a sum of rays r with weights w >= 0: d.a <= 1 and d.a >= least r.a times the sum of w; and
+  // |d| <= the sum of w, as each r is unit.
+  double least = 1.0;
+  for (std::size_t i = 0; i < out.count; ++i)
+    least = std::min(least, glm::dot(out.rays[i], axis.axis));
+  out.stretch = isSpanned && least > 0.0 ? 1.0 / least : std::numeric_limits<double>::infinity();
+  if (!isSpanned) {
+    out.count = 1;
+    out.rays[0] = axis.axis;
+  }
+}
+
+/// The ends of the polar arc.
+void FeatureGeometry::raysOfEdge(const EdgeFeature& e, Rays& out) const noexcept {
+  const MeshEdge& edge = mesh_.edges()[e.edge];
+  const glm::dvec3 across = glm::normalize(glm::cross(x_[edge.v1] - x_[edge.v0], e.cone.axis));
+  const double cosine = std::cos(e.cone.halfAngle), sine = std::sin(e.cone.halfAngle);
+  out.rays[out.count++] = cosine * e.cone.axis + sine * across;
+  out.rays[out.count++] = cosine * e.cone.axis - sine * across;
+}
+
+/// The extreme rays of a vertex's polar cone, each square to two neighbouring walls; false when they cannot
+/// be told.
+bool FeatureGeometry::raysOfVertex(const VertexFeature& v, Rays& out) const noexcept {
   const std::span<const std::uint32_t> neighbours =
       std::span(features_.neighbours).subspan(v.firstNeighbour, v.neighbourCount);
-  // A wedge has no apex to walk around; of a thousand walls the cone says enough.
-  constexpr std::size_t kManyWalls = 32;
-  if (neighbours.size() < 3 || neighbours.size() > kManyWalls) return byCone;
+  // A wedge has no apex to walk around.
+  if (neighbours.size() < 3 || neighbours.size() > kMaxRays) return false;
   const glm::dvec3& x = x_[v.vertex];
-  bool isInside = true;
-  std::array<glm::dvec3, kManyWalls> rays;
   glm::dvec3 previous = x_[neighbours.back()] - x;
-  for (std::size_t i = 0; i < neighbours.size(); ++i) {
-    const glm::dvec3 e = x_[neighbours[i]] - x;
-    isInside = isInside && glm::dot(w, e) <= 0.0;
+  for (const std::uint32_t neighbour : neighbours) {
+    const glm::dvec3 e = x_[neighbour] - x;
     const glm::dvec3 ray = glm::cross(previous, e);
     const double length = glm::length(ray);
-    if (!(length > 0.0)) return byCone;
+    if (!(length > 0.0)) return false;
     // Extreme rays lie within a right angle of the cone's axis; nearly square to it the sign is not sure.
     const double side = glm::dot(ray, v.cone.axis) / length;
-    if (std::abs(side) < 1e-3) return byCone;
-    rays[i] = ray / (side < 0.0 ? -length : length);
+    if (std::abs(side) < 1e-3) return false;
+    out.rays[out.count++] = ray / (side < 0.0 ? -length : length);
     previous = e;
+  }
+  return true;
+}
+
+double FeatureGeometry::vertexSupport(const VertexFeature& v, const glm::dvec3& w) const noexcept {
+  const double byCone = coneSupport(v.cone, w);
+  Rays walls;
+  if (!raysOfVertex(v, walls)) return byCone;
+  bool isInside = true;
+  const glm::dvec3& x = x_[v.vertex];
+  for (std::uint32_t i = 0; i < v.neighbourCount; ++i) {
+    isInside = isInside && glm::dot(w, x_[features_.neighbours[v.firstNeighbour + i]] - x) <= 0.0;
   }
   if (isInside) return 1.0;
   double most = -1.0;
-  for (std::size_t i = 0; i < neighbours.size(); ++i) {
-    most = std::max(most, arcSupport(rays[i], rays[(i + 1) % neighbours.size()], w));
+  for (std::size_t i = 0; i < walls.count; ++i) {
+    most = std::max(most, arcSupport(walls.rays[i], walls.rays[(i + 1) % walls.count], w));
   }
   return std::min(most, byCone);
 }

@@ -35,7 +35,22 @@ class FeatureGeometry {
   /// but by rounding.
   double support(std::uint32_t feature, const glm::dvec3& direction) const noexcept;
 
+  /// A vertex with more walls than this has no rays: its cone says enough.
+  static constexpr std::size_t kMaxRays = 32;
+
+  /// The unit rays that a polar cone is spanned by.
+  struct Rays {
+    std::array<glm::dvec3, kMaxRays> rays;
+    std::size_t count = 0;
+    /// A unit direction of the polar cone is a sum of rays with weights >= 0 that add up to at least 1 and at
+    /// most this; infinity when the rays do not span it.
+    double stretch;
+  };
+  void rays(std::uint32_t feature, Rays& out) const noexcept;
+
  private:
+  bool raysOfVertex(const VertexFeature& v, Rays& out) const noexcept;
+  void raysOfEdge(const EdgeFeature& e, Rays& out) const noexcept;
   double vertexSupport(const VertexFeature& v, const glm::dvec3& w) const noexcept;
   double edgeSupport(const EdgeFeature& e, const glm::dvec3& w) const noexcept;
 

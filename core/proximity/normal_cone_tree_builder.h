@@ -12,11 +12,13 @@
 #include "core/parallel/shared_progress.h"
 #include "core/proximity/feature_geometry.h"
 #include "core/proximity/normal_cone_tree.h"
+#include "core/proximity/part_bounds.h"
+#include "core/proximity/part_splitter.h"
 
 namespace nearfit {
 
-/// Builds a NormalConeTree: splits the features by position until each stands alone, in nodes that
-/// are full but for the last few, and bounds each part by a box along its own axes.
+/// Builds a NormalConeTree: halves the features until each stands alone, in nodes that are full but for the
+/// last few, and bounds each part by a box along its own axes. See PartSplitter and PartBounds.
 class NormalConeTreeBuilder {
  public:
   NormalConeTreeBuilder(const TriangleMesh& mesh, const ProgressCallback& progress)
@@ -32,11 +34,13 @@ class NormalConeTreeBuilder {
   };
   using Items = std::span<Item>;
 
-  /// A part of the tree that is built by itself and put in its place afterwards.
+  /// A part of the tree that is built by itself, with the lane that holds it, and put in its place
+  /// afterwards.
   struct Subtree {
     std::uint32_t parent;
     std::size_t lane;
     Items items;
+    NormalConeTree::Bound bound;
     std::vector<NormalConeTree::Node> nodes;
   };
 
@@ -54,18 +58,13 @@ class NormalConeTreeBuilder {
   void findFeaturesOfMesh();
   void fillLeaves();
   std::vector<Item> makeItems() const;
-  static void partition(Items items, std::size_t cut, std::size_t axis);
-  double cost(Items items) const;
-  std::size_t split(Items items, std::size_t unit) const;
-  std::uint32_t buildNode(Items items, std::vector<NormalConeTree::Node>& nodes,
-                          std::vector<Subtree>* putOff);
+  static void halveLarge(Items items, std::size_t cut);
+  NormalConeTree::Bound boundOfMany(Items items) const;
+  std::uint32_t buildLarge(Items items, std::vector<Subtree>& putOff);
+  void buildSubtree(Subtree& subtree) const;
   void buildSubtrees(std::vector<Subtree>& subtrees);
   void reportSplit(std::size_t items);
   void buildRoot(Items items);
-  void setLane(NormalConeTree::Node& node, std::size_t lane, Items items) const;
-  NormalConeTree::Bound bound(Items items) const;
-  std::array<glm::dvec3, 3> axes(Items items) const;
-  std::array<glm::dvec3, 3> axesOfOne(std::uint32_t feature) const;
   std::uint32_t leafChild(std::uint32_t feature) const;
 
   const TriangleMesh& mesh_;

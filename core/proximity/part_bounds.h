@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/proximity/feature_geometry.h"
+#include "core/proximity/normal_cone_tree.h"
+
+namespace nearfit {
+
+/// How far features reach along the axes of a part, and their directions of minima likewise: of position and
+/// then of direction along n, u and v, the negated least and the most. The last four are nothing. The
+/// extents of several features are the most of each.
+struct alignas(64) Extents {
+  static constexpr std::size_t kCount = 12;
+  std::array<float, 16> most;
+
+  float middle(std::size_t axis) const noexcept { return 0.5F * (most[2 * axis + 1] - most[2 * axis]); }
+  float half(std::size_t axis) const noexcept { return 0.5F * (most[2 * axis + 1] + most[2 * axis]); }
+  void add(const Extents& other) noexcept {
+    for (std::size_t i = 0; i < most.size(); ++i)
+      most[i] = most[i] < other.most[i] ? other.most[i] : most[i];
+  }
+  static Extents none() noexcept;
+};
+
+/// Bounds parts of a mesh by boxes and limits of direction along axes of their own. Keeps its work space from
+/// one part to the next; one per thread.
+class PartBounds {
+ public:
+  /// @param geometry  Kept by reference.
+  /// @param size      The mesh's diagonal [m].
+  PartBounds(const FeatureGeometry& geometry, double size) : geometry_(geometry), size_(size) {}
+
+  /// Takes in the features that parts are made of from now on, which name them by their index in `features`.
+  void load(std::span<const std::uint32_t> features);
+
+  /// A box and limits of direction that hold all features of a part; not none.
+  NormalConeTree::Bound bound(std::span<const std::uint32_t> part);
+
+  /// Of each feature loaded, along the axes of the last part with it that was bounded.
+  std::span<const Extents> extents() const noexcept { return extents_; }
+
+  /// A box without limits of direction, for very many features. Leaves some of them loaded.
+  NormalConeTree::Bound boundOfMany(std::span<const std::uint32_t> features);
+
+ private:
+  using Frame = std::array<glm::dvec3, 3>;  ///< n, u, v.
+
+  /// Vectors by coordinate; a multiple of eight after close().
+  struct Vectors {
+    std::array<std::vector<float>, 3> c;
+    std::size_t count = 0;
+    void clear() noexcept;
+    void add(const glm::dvec3& v);
+    void add(const Vectors& from, std::size_t first, std::size_t end);
+    void close();
+    std::array<float, 3> at(std::size_t i) const noexcept { return {c[0][i], c[1][i], c[2][i]}; }
+  };
+  struct Loaded {
+    std::uint32_t feature, firstPoint, firstRay, endPoint, endRay;
+    float stretch;
+  };
+  /// Corners and rays of some features.
+  struct Cloud {
+    Vectors points, rays;
+  };
+  struct Range {
+    float low, high;
+  };
+
+  void gather(std::span<const std::uint32_t> part);
+  static Range range(const Vectors& vectors, const glm::dvec3& along) noexcept;
+  Frame axes() const;
+  Frame axesOfOne(std::uint32_t feature) const;
+  void centreDirections(Frame& frame) const noexcept;
+  double cost(const Frame& frame) const noexcept;
+  Frame best(const Frame& start) const noexcept;
+  Extents extentsOf(const Loaded& feature, const Frame& frame) const noexcept;
+  NormalConeTree::Bound boundOf(const Extents& all, const Frame& frame) const noexcept;
+
+  const FeatureGeometry& geometry_;
+  double size_;
+  Cloud loaded_, part_;
+  std::vector<Loaded> features_;
+  std::vector<Extents> extents_;
+  FeatureGeometry::Rays raysOfFeature_;
+};
+
+}  // namespace nearfit
