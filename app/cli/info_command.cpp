@@ -61,18 +61,26 @@ std::string sizeText(const PartGeometry& geometry) {
       pointText(mass.centre));
 }
 
+/// Of its hierarchy, made now where it is not there yet.
+HierarchyOrigin originOf(const PartGeometry& geometry) {
+  geometry.tree();
+  return *geometry.hierarchy->origin();
+}
+
 std::string infoText(const std::string& name, const PartGeometry& geometry) {
   const TriangleMesh& mesh = geometry.mesh;
   std::string text = fmt::format("{}\n  triangles   {}\n  vertices    {}\n", oneLine(name),
                                  mesh.triangles().size(), mesh.vertices().size());
   text +=
       topologyText(mesh.topology(), mesh.edges().size()) + featureText(geometry.tree()) + sizeText(geometry);
+  const HierarchyOrigin origin = originOf(geometry);
   text += fmt::format(
-      "  build time  {:.3g} ms for the hierarchy\n"
+      "  hierarchy   {} in {:.3g} ms\n"
       "  bytes       {}: {} mesh, {} hierarchy\n"
       "  SHA-256     {}\n",
-      1e3 * geometry.hierarchy->buildTime(), mesh.byteSize() + geometry.tree().byteSize(), mesh.byteSize(),
-      geometry.tree().byteSize(), geometry.sha256);
+      origin.isFromCache ? "from the cache" : "built", 1e3 * origin.seconds,
+      mesh.byteSize() + geometry.tree().byteSize(), mesh.byteSize(), geometry.tree().byteSize(),
+      geometry.sha256);
   for (const std::string& warning : geometry.report.warnings)
     text += "  warning     " + oneLine(warning) + "\n";
   return text;
@@ -111,7 +119,8 @@ Json infoJson(const std::string& name, const PartGeometry& geometry) {
   json["mass"] = {{"basis", nameOf(geometry.mass.basis)},
                   {"volume", geometry.mass.volume},
                   {"centre", pointJson(geometry.mass.centre)}};
-  json["buildTime"] = geometry.hierarchy->buildTime();
+  const HierarchyOrigin origin = originOf(geometry);
+  json["hierarchy"] = {{"from", origin.isFromCache ? "cache" : "building"}, {"seconds", origin.seconds}};
   json["bytes"] = {{"mesh", mesh.byteSize()}, {"hierarchy", geometry.tree().byteSize()}};
   json["turnedInsideOut"] = geometry.report.turnedInsideOut;
   json["warnings"] = geometry.report.warnings;
@@ -154,7 +163,8 @@ void addInfoCommand(CLI::App& program) {
       "             the others are left out of the hierarchy.\n"
       "mass         By volume integrals where the mesh is closed and oriented, else by its oriented\n"
       "             bounding box.\n"
-      "build time   Of the hierarchy that distance queries search; in JSON in seconds.\n"
+      "hierarchy    What distance queries search: built now, or taken from the cache (see nearfit-cli "
+      "cache).\n"
       "bytes        Of memory.\n"
       "Lengths are in metres. A mesh that cannot be read gets a line on stderr, the others are still "
       "reported,\n"

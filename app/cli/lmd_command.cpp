@@ -1,8 +1,10 @@
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -79,17 +81,29 @@ SpringParameters springsOf(const LmdOptions& options) {
   return springs;
 }
 
+/// Scene and part, the same one when both are one file, with their hierarchies.
+std::pair<PartGeometryPtr, PartGeometryPtr> loadBodies(const LmdOptions& options, double metresPerUnit) {
+  std::vector<MeshSource> sources{{options.sceneMesh, metresPerUnit, {}}};
+  if (normalisedPath(options.partMesh) != normalisedPath(options.sceneMesh))
+    sources.push_back({options.partMesh, metresPerUnit, {}});
+  std::vector<PartGeometryPtr> bodies;
+  for (const LoadedPart& loaded : loadPartGeometries(sources)) {
+    if (loaded.problem) std::rethrow_exception(loaded.problem);
+    bodies.push_back(loaded.geometry);
+  }
+  prepareHierarchies(bodies);
+  return {bodies.front(), bodies.back()};
+}
+
 void runLmd(const LmdOptions& options) {
   const SpringParameters springs = springsOf(options);
   const double metresPerUnit = parseUnit(options.unit);
   const std::vector<RigidTransform> poses =
       options.poses.empty() ? std::vector{parsePose("--pose", options.pose)} : readPosePath(options.poses);
-  const PartGeometryPtr scene = loadPartGeometry(options.sceneMesh, metresPerUnit);
-  const bool isSameFile = normalisedPath(options.partMesh) == scene->file;
-  const PartGeometryPtr part = isSameFile ? scene : loadPartGeometry(options.partMesh, metresPerUnit);
+  const auto [scene, part] = loadBodies(options, metresPerUnit);
   // Once nothing can fail but the output, so that a failure is one line.
   printWarnings(*scene);
-  if (!isSameFile) printWarnings(*part);
+  if (part != scene) printWarnings(*part);
   LmdCollector collector(kMaxLmds);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const LmdSet set = collector.collect(scene->tree(), part->tree(), poses[i], springs.cutoff);

@@ -97,13 +97,13 @@ void AtomicFile::write(std::string_view content) {
   }
 }
 
-void AtomicFile::commit() {
-  if (::fsync(descriptor_) != 0) fail(target_, "writing it to disk failed", errno);
+void AtomicFile::commit(Flush flush) {
+  if (flush == Flush::ToDisk && ::fsync(descriptor_) != 0) fail(target_, "writing it to disk failed", errno);
   // Network file systems report late write errors here.
   if (::close(std::exchange(descriptor_, -1)) != 0) fail(target_, "writing it failed", errno);
   if (::rename(path_.c_str(), target_.c_str()) != 0) fail(target_, "it cannot be replaced", errno);
   path_.clear();
-  flushFolder(target_.parent_path());
+  if (flush == Flush::ToDisk) flushFolder(target_.parent_path());
 }
 
 void atomicWrite(const fs::path& file, std::string_view content) {

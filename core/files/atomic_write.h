@@ -19,8 +19,12 @@ class AtomicFile {
 
   /// Appends; unbuffered.
   void write(std::string_view content);
-  /// Flushes the content to disk, puts it in place, and flushes the folder.
-  void commit();
+  enum class Flush {
+    ToDisk,  ///< Content, then folder: from then on it survives a crash of the machine.
+    Later,   ///< When the system likes; after a crash the file may hold anything.
+  };
+  /// Flushes the content and puts it in place.
+  void commit(Flush flush = Flush::ToDisk);
 
  private:
   void keepPermissionsOfTarget();

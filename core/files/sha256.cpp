@@ -1,5 +1,6 @@
 #include "core/files/sha256.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <stdexcept>
@@ -45,14 +46,19 @@ class Sha256 {
 
 }  // namespace
 
-std::string sha256OfFile(const std::filesystem::path& file) {
+std::string sha256OfFile(const std::filesystem::path& file,
+                         const std::function<void(double fraction)>& onBlock) {
   InputFile input(file);
   Sha256 digest;
   std::vector<char> block(kBlockBytes);
+  double done = 0.0;
   for (;;) {
     const std::size_t count = input.read(block);
     if (count == 0) return digest.finish();
     digest.update({block.data(), count});
+    done += static_cast<double>(count);
+    // A file that grows meanwhile is read to its end all the same.
+    if (onBlock) onBlock(std::min(1.0, done / static_cast<double>(std::max<std::uint64_t>(1, input.size()))));
   }
 }
 

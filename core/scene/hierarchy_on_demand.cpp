@@ -10,47 +10,63 @@ namespace {
 /// How long one who waits for another's work may take to see that it was cancelled itself.
 constexpr std::chrono::milliseconds kPatience{20};
 
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 }  // namespace
 
-const NormalConeTree& HierarchyOnDemand::get(const TriangleMesh& mesh, const ProgressCallback& progress) {
-  if (const NormalConeTree* tree = ready_.load(std::memory_order_acquire)) return *tree;
+std::optional<HierarchyOrigin> HierarchyOnDemand::origin() const {
+  return isReady() ? std::optional(origin_) : std::nullopt;
+}
+
+const NormalConeTree& HierarchyOnDemand::make(const TriangleMesh& mesh, const ProgressCallback& progress) {
   waitForTurn(progress);
-  // From here on this thread is the only one that builds, or the hierarchy is there.
-  if (!isReady()) build(mesh, progress);
-  return *ready_.load(std::memory_order_acquire);
-}
-
-void HierarchyOnDemand::waitForTurn(const ProgressCallback& progress) {
-  std::unique_lock lock(mutex_);
-  while (isBuilding_) {
-    ended_.wait_for(lock, kPatience);
-    if (!isBuilding_ || !progress) continue;
-    lock.unlock();
-    if (!progress(0.0)) throw Cancelled();
-    lock.lock();
-  }
-  isBuilding_ = !isReady();
-}
-
-void HierarchyOnDemand::build(const TriangleMesh& mesh, const ProgressCallback& progress) {
+  // From here on this thread is the only one at it, or the hierarchy is there.
+  if (const NormalConeTree* tree = ready_.load(std::memory_order_acquire)) return *tree;
   const auto end = [this] {
     const std::lock_guard lock(mutex_);
-    isBuilding_ = false;
+    isMaking_ = false;
     ended_.notify_all();
   };
   try {
-    if (progress && !progress(0.0)) throw Cancelled();
-    const auto start = std::chrono::steady_clock::now();
-    auto tree = std::make_unique<const NormalConeTree>(mesh, progress);
-    buildTime_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (progress && !progress(1.0)) throw Cancelled();
-    tree_ = std::move(tree);
-    ready_.store(tree_.get(), std::memory_order_release);
+    findOrBuild(mesh, progress);
   } catch (...) {
     end();
     throw;
   }
   end();
+  return *tree_;
+}
+
+void HierarchyOnDemand::waitForTurn(const ProgressCallback& progress) {
+  std::unique_lock lock(mutex_);
+  while (isMaking_) {
+    ended_.wait_for(lock, kPatience);
+    if (!isMaking_ || !progress) continue;
+    lock.unlock();
+    if (!progress(0.0)) throw Cancelled();
+    lock.lock();
+  }
+  isMaking_ = !isReady();
+}
+
+void HierarchyOnDemand::findOrBuild(const TriangleMesh& mesh, const ProgressCallback& progress) {
+  if (progress && !progress(0.0)) throw Cancelled();
+  const auto start = std::chrono::steady_clock::now();
+  std::optional<NormalConeTree> found = find_ ? find_() : std::nullopt;
+  if (found) {
+    tree_.emplace(std::move(*found));
+  } else {
+    tree_.emplace(mesh, progress);
+  }
+  origin_ = {found.has_value(), secondsSince(start)};
+  ready_.store(&*tree_, std::memory_order_release);
+  if (!found && keep_) keep_(*tree_);
+  // Neither is asked again; what they hold, such as a mapped file, may go.
+  find_ = nullptr;
+  keep_ = nullptr;
+  if (progress) progress(1.0);
 }
 
 }  // namespace nearfit

@@ -1,17 +1,102 @@
 #include "core/scene/part_geometry.h"
 
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/files/sha256.h"
+#include "core/parallel/parallel_for.h"
+#include "core/parallel/shared_progress.h"
+#include "core/proximity/tree_cache.h"
 
 namespace nearfit {
 namespace {
 
-/// Reading and building the mesh, against deriving its mass properties: about the share of time.
-constexpr double kImportShare = 0.9;
+/// How far loading is once the file's hash is known, and once the mesh is built; mass properties follow.
+/// About the shares of time.
+constexpr double kHashed = 0.05, kImported = 0.95;
+
+/// Passes the progress of a stretch of work on; throws Cancelled when the user wants to stop.
+std::function<void(double)> stretch(const ProgressCallback& progress, double from, double to) {
+  return [&progress, from, to](double fraction) {
+    if (progress && !progress(from + (to - from) * fraction)) throw Cancelled();
+  };
+}
+
+/// One task's share of the progress of many: counts only what is new, whatever the task says.
+class TaskProgress {
+ public:
+  TaskProgress(SharedProgress& all, double weight) : all_(all), weight_(weight) {}
+  ProgressCallback callback() {
+    return [this](double fraction) {
+      const double from = std::exchange(done_, std::max(done_, fraction));
+      all_.add(weight_ * (done_ - from));
+      return true;
+    };
+  }
+
+ private:
+  SharedProgress& all_;
+  const double weight_;
+  double done_ = 0.0;
+};
+
+PartGeometryPtr makeGeometry(const MeshSource& source, std::string sha256, CachedMesh&& loaded) {
+  // Looked up again when the hierarchy is needed: another process may have kept it by then.
+  const TreeCacheKey key{sha256, source.metresPerUnit};
+  const auto find = [key]() -> std::optional<NormalConeTree> {
+    const std::optional<TreeCacheFile> kept = TreeCache().find(key);
+    return kept ? kept->tree() : std::nullopt;
+  };
+  const auto keep = [key, loaded](const NormalConeTree& tree) { TreeCache().store(key, loaded, &tree); };
+  return std::make_shared<const PartGeometry>(PartGeometry{
+      normalisedPath(source.file), std::move(sha256), source.metresPerUnit, std::move(loaded.mesh),
+      std::move(loaded.report), loaded.mass, std::make_shared<HierarchyOnDemand>(find, keep)});
+}
+
+/// Null when the file is not the one that is wanted.
+PartGeometryPtr load(const MeshSource& source, const ProgressCallback& progress) {
+  checkMetresPerUnit(source.metresPerUnit);
+  const TreeCache cache;
+  const auto isWanted = [&](const std::string& sha256) {
+    return source.sha256.empty() || sha256 == source.sha256;
+  };
+  std::string sha256 = sha256OfFile(source.file, stretch(progress, 0.0, kHashed));
+  if (!isWanted(sha256)) return nullptr;
+  std::optional<CachedMesh> kept;
+  if (const auto file = cache.find({sha256, source.metresPerUnit})) kept = file->mesh();
+  if (!kept) {
+    MeshBuildOptions options;
+    options.metresPerUnit = source.metresPerUnit;
+    const auto report = stretch(progress, kHashed, kImported);
+    const ProgressCallback import = [&](double fraction) {
+      report(fraction);
+      return true;
+    };
+    ImportedMesh imported = importMesh(source.file, options, import);
+    // It may have been replaced since it was hashed: what counts is what was read.
+    sha256 = std::move(imported.sha256);
+    if (!isWanted(sha256)) return nullptr;
+    kept = CachedMesh{std::move(imported.mesh), std::move(imported.report), {}};
+    kept->mass = massProperties(kept->mesh);
+    cache.store({sha256, source.metresPerUnit}, *kept, nullptr);
+  }
+  stretch(progress, kImported, 1.0)(1.0);
+  return makeGeometry(source, std::move(sha256), std::move(*kept));
+}
+
+/// What loading the file costs, roughly.
+double weightOf(const std::filesystem::path& file) {
+  std::error_code failure;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
+  return failure ? 1.0 : 1.0 + static_cast<double>(bytes);
+}
 
 }  // namespace
 
@@ -31,28 +116,56 @@ void checkMetresPerUnit(double metresPerUnit) {
 
 PartGeometryPtr loadPartGeometry(const std::filesystem::path& file, double metresPerUnit,
                                  const ProgressCallback& progress) {
-  checkMetresPerUnit(metresPerUnit);
-  MeshBuildOptions options;
-  options.metresPerUnit = metresPerUnit;
-  ProgressCallback importProgress;
-  if (progress) importProgress = [&](double fraction) { return progress(kImportShare * fraction); };
-  ImportedMesh imported = importMesh(file, options, importProgress);
-  if (progress && !progress(kImportShare)) throw Cancelled();
-  const MassProperties mass = massProperties(imported.mesh);
-  if (progress && !progress(1.0)) throw Cancelled();
-  return std::make_shared<const PartGeometry>(PartGeometry{normalisedPath(file), std::move(imported.sha256),
-                                                           metresPerUnit, std::move(imported.mesh),
-                                                           std::move(imported.report), mass});
+  return load({file, metresPerUnit, {}}, progress);
+}
+
+std::vector<LoadedPart> loadPartGeometries(std::span<const MeshSource> sources,
+                                           const ProgressCallback& progress) {
+  std::vector<double> weights;
+  for (const MeshSource& source : sources)
+    weights.push_back(weightOf(source.file));
+  SharedProgress all(progress, std::max(1.0, std::accumulate(weights.begin(), weights.end(), 0.0)));
+  std::vector<LoadedPart> loaded(sources.size());
+  parallelFor(sources.size(), [&](std::size_t i) {
+    TaskProgress own(all, weights[i]);
+    try {
+      loaded[i].geometry = load(sources[i], own.callback());
+    } catch (const Cancelled&) {
+      throw;
+    } catch (...) {
+      loaded[i].problem = std::current_exception();
+    }
+    own.callback()(1.0);
+  });
+  return loaded;
 }
 
 void prepareHierarchies(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress) {
-  const auto count = static_cast<double>(geometries.size());
-  for (std::size_t i = 0; i < geometries.size(); ++i) {
-    ProgressCallback part;
-    if (progress)
-      part = [&, i](double fraction) { return progress((static_cast<double>(i) + fraction) / count); };
-    geometries[i]->hierarchy->get(geometries[i]->mesh, part);
+  std::vector<PartGeometryPtr> missing;
+  for (const PartGeometryPtr& geometry : geometries) {
+    if (!geometry->hierarchy->isReady()) missing.push_back(geometry);
   }
+  // Many parts may share one; the largest begins first, so that the others fill the gaps that it leaves.
+  const auto weight = [](const PartGeometryPtr& geometry) {
+    return 1.0 + static_cast<double>(geometry->mesh.triangles().size());
+  };
+  std::ranges::sort(missing);
+  const auto repeated = std::ranges::unique(missing);
+  missing.erase(repeated.begin(), repeated.end());
+  std::ranges::stable_sort(missing, std::greater<>(), weight);
+  double total = 0.0;
+  for (const PartGeometryPtr& geometry : missing)
+    total += weight(geometry);
+  SharedProgress all(progress, std::max(1.0, total));
+  parallelFor(missing.size(), [&](std::size_t i) {
+    TaskProgress own(all, weight(missing[i]));
+    missing[i]->hierarchy->get(missing[i]->mesh, own.callback());
+  });
+  if (progress) progress(1.0);
+}
+
+bool areHierarchiesReady(std::span<const PartGeometryPtr> geometries) noexcept {
+  return std::ranges::all_of(geometries, [](const auto& geometry) { return geometry->hierarchy->isReady(); });
 }
 
 }  // namespace nearfit

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/mesh/mass_properties.h"
 #include "core/mesh/mesh_import.h"
@@ -39,13 +41,33 @@ std::filesystem::path normalisedPath(const std::filesystem::path& file);
 
 using PartGeometryPtr = std::shared_ptr<const PartGeometry>;
 
-/// Imports a mesh and derives its mass properties. `progress` may stop it between its stages. Blocking: call
-/// it off the GUI and servo threads. Throws FileError, UsageError (the unit), Cancelled.
+/// Imports a mesh and derives its mass properties, or takes both from the cache where the file is known there
+/// (tree_cache.h). Blocking: call it off the GUI and servo threads. Throws FileError, UsageError (the unit),
+/// Cancelled.
 PartGeometryPtr loadPartGeometry(const std::filesystem::path& file, double metresPerUnit,
                                  const ProgressCallback& progress = {});
 
-/// Makes every hierarchy that is not there yet, so that tree() of each answers at once. Blocking, as
-/// loadPartGeometry. Throws Cancelled; what is done by then stays, the rest is made when needed.
+struct MeshSource {
+  std::filesystem::path file;
+  double metresPerUnit = 1.0;
+  std::string sha256;  ///< That the file must have; empty: any.
+};
+
+struct LoadedPart {
+  PartGeometryPtr geometry;    ///< Null when there was a problem, or the file has another SHA-256.
+  std::exception_ptr problem;  ///< As loadPartGeometry throws it.
+};
+
+/// Loads each source as loadPartGeometry does, in parallel. Throws Cancelled only.
+std::vector<LoadedPart> loadPartGeometries(std::span<const MeshSource> sources,
+                                           const ProgressCallback& progress = {});
+
+/// Makes every hierarchy that is not there yet, so that tree() of each answers at once; in parallel, across
+/// parts and inside one, on as many threads as there are processors. Blocking, as loadPartGeometry. Throws
+/// Cancelled, also in the middle of one; what is done by then stays, the rest is made when needed.
 void prepareHierarchies(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress = {});
+
+/// Whether tree() of each answers at once.
+bool areHierarchiesReady(std::span<const PartGeometryPtr> geometries) noexcept;
 
 }  // namespace nearfit

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/files/sha256.h"
 #include "core/scene/scene_file.h"
 #include "core/text/json_file.h"
 #include "core/text/utf8.h"
@@ -163,57 +162,38 @@ std::optional<std::size_t> readMovingPart(const JsonField& field, const std::vec
 /// Loads meshes, each file and unit once.
 class GeometryLoader {
  public:
-  GeometryLoader(const std::vector<PartEntry>& entries, const ProgressCallback& progress)
-      : progress_(progress) {
+  /// Throws FileError when a mesh file is missing, Cancelled.
+  GeometryLoader(const std::vector<PartEntry>& entries, const ProgressCallback& progress) {
+    std::vector<MeshSource> sources;
     for (const PartEntry& entry : entries) {
-      if (geometries_.emplace(keyOf(entry), nullptr).second) totalBytes_ += bytesOf(entry.mesh);
+      if (!indices_.emplace(keyOf(entry), sources.size()).second) continue;
+      checkExists(entry);
+      sources.push_back({entry.mesh, entry.metresPerUnit, entry.sha256});
     }
+    loaded_ = loadPartGeometries(sources, progress);
   }
 
-  PartGeometryPtr load(const PartEntry& entry) {
-    PartGeometryPtr& geometry = geometries_.at(keyOf(entry));
-    if (!geometry) geometry = loadNow(entry);
-    if (geometry->sha256 != entry.sha256) failChanged(entry);
-    return geometry;
+  PartGeometryPtr geometryOf(const PartEntry& entry) const {
+    const LoadedPart& loaded = loaded_[indices_.at(keyOf(entry))];
+    try {
+      if (loaded.problem) std::rethrow_exception(loaded.problem);
+    } catch (const Error& e) {
+      entry.field.at("mesh").fail(e.where() + ": " + e.problem(), e.remedy());
+    }
+    if (!loaded.geometry || loaded.geometry->sha256 != entry.sha256) failChanged(entry);
+    return loaded.geometry;
   }
 
  private:
   using Key = std::pair<fs::path, double>;
   static Key keyOf(const PartEntry& entry) { return {entry.mesh, entry.metresPerUnit}; }
 
-  static double bytesOf(const fs::path& mesh) {
+  static void checkExists(const PartEntry& entry) {
     std::error_code failure;
-    const std::uintmax_t bytes = fs::file_size(mesh, failure);
-    return failure ? 0.0 : static_cast<double>(bytes);
-  }
-
-  PartGeometryPtr loadNow(const PartEntry& entry) {
-    const JsonField field = entry.field.at("mesh");
-    std::error_code failure;
-    if (!fs::exists(entry.mesh, failure)) {
-      field.fail(fmt::format("the mesh file {} is missing", printableText(entry.mesh.string())),
-                 "put it back there, or make the scene anew with the mesh that you have");
-    }
-    const double bytes = bytesOf(entry.mesh);
-    ProgressCallback overall;
-    if (progress_)
-      overall = [&](double fraction) {
-        return progress_((doneBytes_ + fraction * bytes) / std::max(totalBytes_, 1.0));
-      };
-    PartGeometryPtr geometry;
-    bool isSame = true;
-    try {
-      // Before the mesh is read: one that was changed may well be no mesh any more.
-      isSame = sha256OfFile(entry.mesh) == entry.sha256;
-      if (isSame) geometry = loadPartGeometry(entry.mesh, entry.metresPerUnit, overall);
-    } catch (const Cancelled&) {
-      throw;
-    } catch (const Error& e) {
-      field.fail(e.where() + ": " + e.problem(), e.remedy());
-    }
-    if (!isSame) failChanged(entry);
-    doneBytes_ += bytes;
-    return geometry;
+    if (fs::exists(entry.mesh, failure)) return;
+    entry.field.at("mesh").fail(
+        fmt::format("the mesh file {} is missing", printableText(entry.mesh.string())),
+        "put it back there, or make the scene anew with the mesh that you have");
   }
 
   [[noreturn]] static void failChanged(const PartEntry& entry) {
@@ -223,9 +203,8 @@ class GeometryLoader {
         "put the old file back, or make the scene anew with the changed one");
   }
 
-  const ProgressCallback& progress_;
-  std::map<Key, PartGeometryPtr> geometries_;
-  double totalBytes_ = 0.0, doneBytes_ = 0.0;
+  std::map<Key, std::size_t> indices_;
+  std::vector<LoadedPart> loaded_;
 };
 
 }  // namespace
@@ -248,9 +227,9 @@ Scene readSceneFile(const fs::path& file, const ProgressCallback& progress) {
   scene.setSprings(readSprings(root.at("springs")));
   std::vector<PartEntry> entries = readParts(root.at("parts"), meshFolder(file));
   const std::optional<std::size_t> moving = readMovingPart(root.at("moving"), entries);
-  GeometryLoader loader(entries, progress);
+  const GeometryLoader loader(entries, progress);
   for (PartEntry& entry : entries) {
-    entry.part.geometry = loader.load(entry);
+    entry.part.geometry = loader.geometryOf(entry);
     scene.add(std::move(entry.part));
   }
   if (moving) scene.setMovingPart(scene.parts()[*moving]->id);
