@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
   nearfit::cli::addLmdCommand(program);
   nearfit::cli::addSceneCommand(program);
   nearfit::cli::addPlaceCommand(program);
+  nearfit::cli::addCacheCommand(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

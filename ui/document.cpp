@@ -61,8 +61,34 @@ void Document::load(const QString& text, BackgroundTask::Job job,
     delete progress_;
     emit busyChanged();
     done(error);
+    prepareNext();
   });
   emit busyChanged();
+}
+
+void Document::prepareHierarchies(std::function<void(bool)> done) {
+  waiting_.push_back(std::move(done));
+  prepareNext();
+}
+
+void Document::prepareNext() {
+  if (isBusy() || waiting_.empty()) return;
+  const auto answer = [this](bool isReady) {
+    for (const auto& done : std::exchange(waiting_, {}))
+      done(isReady);
+  };
+  const std::vector<PartGeometryPtr> geometries = session_.scene().geometries();
+  if (areHierarchiesReady(geometries)) {
+    answer(true);
+    return;
+  }
+  const auto job = [geometries](const ProgressCallback& progress) {
+    nearfit::prepareHierarchies(geometries, progress);
+  };
+  load(tr("Preparing the parts to be felt"), job, [this, answer](const std::exception_ptr& error) {
+    if (error && !isCancelled(error)) emit failed(describe(tr("The parts could not be prepared."), error));
+    answer(!error);
+  });
 }
 
 bool Document::mayLeaveScene() {
@@ -140,15 +166,15 @@ void Document::addParts(const QStringList& files, double metresPerUnit) {
   };
   auto outcome = std::make_shared<Outcome>();
   const auto job = [outcome, files, metresPerUnit, shapes = shapes_](const ProgressCallback& progress) {
-    for (int i = 0; i < files.size(); ++i) {
-      const ProgressCallback part = [&](double fraction) { return progress((i + fraction) / files.size()); };
-      try {
-        outcome->geometries.push_back(loadPartGeometry(toPath(files[i]), metresPerUnit, part));
-        shapes->shapeOf(outcome->geometries.back());
-      } catch (const Cancelled&) {
-        throw;
-      } catch (...) {
-        outcome->problems << describe({}, std::current_exception()).details;
+    std::vector<MeshSource> sources;
+    for (const QString& file : files)
+      sources.push_back({toPath(file), metresPerUnit, {}});
+    for (const LoadedPart& loaded : loadPartGeometries(sources, progress)) {
+      if (loaded.problem) {
+        outcome->problems << describe({}, loaded.problem).details;
+      } else {
+        outcome->geometries.push_back(loaded.geometry);
+        shapes->shapeOf(loaded.geometry);
       }
     }
   };

@@ -3,7 +3,9 @@
 #include <QObject>
 #include <QPointer>
 #include <QStringList>
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "core/session.h"
 #include "ui/background_task.h"
@@ -39,6 +41,10 @@ class Document : public QObject {
   void addParts(const QStringList& files, double metresPerUnit);
   /// Any mixture of meshes and at most one scene, which is opened first; meshes in the unit used last.
   void openFiles(const QStringList& files);
+  /// Makes the hierarchies of all parts ready in another thread, and calls `done` with whether they are: at
+  /// once when nothing is missing, else when it is done or the user has stopped it. Waits for what is being
+  /// loaded.
+  void prepareHierarchies(std::function<void(bool isReady)> done);
   /// False when nothing was written.
   bool save();
   bool askAndSaveAs();
@@ -57,6 +63,7 @@ class Document : public QObject {
 
  private:
   void load(const QString& text, BackgroundTask::Job job, std::function<void(std::exception_ptr)> done);
+  void prepareNext();
   void loadScene(const QString& file, const QStringList& partsAfter);
   bool saveTo(const QString& file);
   void finishParts(const std::vector<PartGeometryPtr>& geometries, const QStringList& problems);
@@ -66,6 +73,7 @@ class Document : public QObject {
   QWidget* window_;
   BackgroundTask task_;
   QPointer<ProgressDialog> progress_;
+  std::vector<std::function<void(bool isReady)>> waiting_;  ///< For hierarchies.
 };
 
 }  // namespace nearfit::ui

@@ -47,10 +47,14 @@ class MainWindow : public QMainWindow {
   void showSnapshot(const nearfit::ServoSnapshot& snapshot);
   void showFailure(const nearfit::ui::Failure& failure);
   void showNote(const QString& text);
+  /// Makes the hierarchies of the scene's parts ready, showing progress, and says so by hierarchiesReady;
+  /// stops the servo when the user does not want to wait.
+  void prepareHierarchies();
 
  signals:
   void servoStartRequested(nearfit::ui::Hand hand);
   void servoStopRequested();
+  void hierarchiesReady();
   /// Put the pose in hand into the session, and go on.
   void poseInHandRequested();
   /// The manual hand goes there.
@@ -86,6 +90,7 @@ class MainWindow : public QMainWindow {
   void nudge(const glm::dvec3& direction);
   void moveHand(const RigidTransform& worldFromPart);
   void exportPlacement();
+  void exportPreparedPlacement();
   void showAbout();
 
   Session& session_;

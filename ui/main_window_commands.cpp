@@ -109,7 +109,20 @@ void MainWindow::attempt(const QString& what, const std::function<void()>& comma
 
 void MainWindow::requestStart() {
   posePanel_->commit();
-  emit servoStartRequested(feelPanel_->hand());
+  // In another thread, as it may take seconds: only then can the servo start at once.
+  document_->prepareHierarchies([this](bool isReady) {
+    if (isReady) emit servoStartRequested(feelPanel_->hand());
+  });
+}
+
+void MainWindow::prepareHierarchies() {
+  document_->prepareHierarchies([this](bool isReady) {
+    if (isReady) {
+      emit hierarchiesReady();
+    } else {
+      emit servoStopRequested();
+    }
+  });
 }
 
 void MainWindow::takeInHand(std::optional<PartId> part) {
@@ -176,6 +189,13 @@ void MainWindow::moveHand(const RigidTransform& worldFromPart) {
 
 void MainWindow::exportPlacement() {
   posePanel_->commit();
+  // The report measures, which needs the hierarchies.
+  document_->prepareHierarchies([this](bool isReady) {
+    if (isReady) exportPreparedPlacement();
+  });
+}
+
+void MainWindow::exportPreparedPlacement() {
   const std::optional<PartId> moving = session_.scene().movingPart();
   const Part* part = moving ? session_.scene().find(*moving) : nullptr;
   document_->askAndExport(part != nullptr ? poseOf(*part) : RigidTransform{});

@@ -12,5 +12,6 @@ void addInfoCommand(CLI::App& program);
 void addLmdCommand(CLI::App& program);
 void addSceneCommand(CLI::App& program);
 void addPlaceCommand(CLI::App& program);
+void addCacheCommand(CLI::App& program);
 
 }  // namespace nearfit::cli

@@ -42,6 +42,8 @@ void Application::wire() {
   connect(&window_, &ui::MainWindow::handMoved, &servo_, &ServoController::moveHand);
   connect(&servo_, &ServoController::statusChanged, &window_, &ui::MainWindow::showServoStatus);
   connect(&servo_, &ServoController::snapshotArrived, &window_, &ui::MainWindow::showSnapshot);
+  connect(&servo_, &ServoController::hierarchiesNeeded, &window_, &ui::MainWindow::prepareHierarchies);
+  connect(&window_, &ui::MainWindow::hierarchiesReady, &servo_, &ServoController::followSession);
   connect(&servo_, &ServoController::failed, &window_, &ui::MainWindow::showFailure);
 }
 

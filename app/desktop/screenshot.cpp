@@ -48,7 +48,9 @@ void Screenshot::arrange(bool isComplete) {
   }
   connect(&application_.servo(), &ServoController::snapshotArrived, this, &Screenshot::waitForMinima);
   QTimer::singleShot(kPatienceMs, this, &Screenshot::write);
-  application_.servo().start(ui::Hand::Scripted);
+  application_.window().document().prepareHierarchies([this](bool isReady) {
+    if (isReady) application_.servo().start(ui::Hand::Scripted);
+  });
 }
 
 void Screenshot::waitForMinima(const ServoSnapshot& snapshot) {

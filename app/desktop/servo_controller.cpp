@@ -90,6 +90,10 @@ void ServoController::followSession() {
     halt();
     return;
   }
+  if (!areHierarchiesReady(scene.geometries())) {
+    emit hierarchiesNeeded();
+    return;
+  }
   try {
     loop_.setScene(makeServoScene(scene));
     loop_.setParameters({scene.springs(), device_->info().limits});

@@ -26,12 +26,16 @@ class ServoController : public QObject {
   bool isRunning() const noexcept { return device_ != nullptr; }
 
  public slots:
-  /// Takes the moving part in hand; does nothing while it is.
+  /// Takes the moving part in hand; does nothing while it is. Waits for hierarchies that are not ready: see
+  /// Document::prepareHierarchies.
   void start(nearfit::ui::Hand hand);
   /// Stops and puts the part down where it is, as one step of undo.
   void stop();
   /// Puts the pose in hand into the session and goes on.
   void commitPose();
+  /// Gives the servo the scene as the session has it, once all its hierarchies are ready; until then the
+  /// servo keeps what it has.
+  void followSession();
   /// Where the manual hand wants the part; ignored for other hands.
   void moveHand(const nearfit::RigidTransform& worldFromPart);
 
@@ -39,9 +43,10 @@ class ServoController : public QObject {
   void statusChanged(const nearfit::ui::ServoStatus& status);
   void snapshotArrived(const nearfit::ServoSnapshot& snapshot);
   void failed(const nearfit::ui::Failure& failure);
+  /// The session's scene has parts that cannot be felt yet; followSession wants to be called when they can.
+  void hierarchiesNeeded();
 
  private:
-  void followSession();
   void poll();
   void measure();
   void halt();

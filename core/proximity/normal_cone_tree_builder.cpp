@@ -114,6 +114,7 @@ void NormalConeTreeBuilder::buildRoot(Items items) {
 
 /// Builds what was put off, on all processors; the same tree whoever builds which part.
 void NormalConeTreeBuilder::buildSubtrees(std::vector<Subtree>& subtrees) {
+  progress_.add(kSplitsShare - splitsReported_);
   parallelFor(subtrees.size(), [&](std::size_t i) {
     Subtree& subtree = subtrees[i];
     buildSubtree(subtree);
@@ -154,7 +155,10 @@ void NormalConeTreeBuilder::halveLarge(Items items, std::size_t cut) {
 void NormalConeTreeBuilder::reportSplit(std::size_t items) {
   const auto all = static_cast<double>(geometry_->size());
   const double halvings = std::max(1.0, std::log2(all / static_cast<double>(kLargePart)));
-  progress_.add(kSplitsShare * static_cast<double>(items) / (all * halvings));
+  const double part =
+      std::min(kSplitsShare * static_cast<double>(items) / (all * halvings), kSplitsShare - splitsReported_);
+  splitsReported_ += part;
+  progress_.add(part);
 }
 
 NormalConeTree::Bound NormalConeTreeBuilder::boundOfMany(Items items) const {

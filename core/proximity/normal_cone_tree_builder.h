@@ -69,6 +69,7 @@ class NormalConeTreeBuilder {
 
   const TriangleMesh& mesh_;
   SharedProgress progress_;
+  double splitsReported_ = 0.0;
   Growing tree_;
   MeshFeatures features_;
   std::optional<FeatureGeometry> geometry_;

@@ -149,6 +149,14 @@ void Scene::setSprings(const SpringParameters& springs) {
   springs_ = springs;
 }
 
+std::vector<PartGeometryPtr> Scene::geometries() const {
+  std::vector<PartGeometryPtr> geometries;
+  for (const PartPtr& part : parts_) {
+    if (part->geometry != nullptr) geometries.push_back(part->geometry);
+  }
+  return geometries;
+}
+
 Colour Scene::nextColour() const noexcept {
   const auto uses = [this](const Colour& colour) {
     return std::count_if(parts_.begin(), parts_.end(), [&](const PartPtr& p) { return p->colour == colour; });

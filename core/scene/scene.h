@@ -65,6 +65,9 @@ class Scene {
   /// Throws UsageError when a value is not finite or out of its limits (see spring_limits.h).
   void setSprings(const SpringParameters& springs);
 
+  /// Of all parts that have one, in their order; one that parts share stands there once for each.
+  std::vector<PartGeometryPtr> geometries() const;
+
   /// A colour for the next part: the one of the palette that the fewest parts have.
   Colour nextColour() const noexcept;
   /// From now on gives no id that `other` may have given: undo must not bring back the id of another part.

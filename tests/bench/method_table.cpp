@@ -40,6 +40,7 @@ std::vector<MethodEntry> allMethods() {
 
 std::vector<BuildEntry> allBuilds() {
   std::vector<BuildEntry> all = nearfitBuilds();
+  append(all, nearfitCacheUses());
 #ifdef NEARFIT_BENCH_FCL
   append(all, fclBuilds());
 #endif

@@ -68,13 +68,17 @@ struct BuiltHierarchy {
   std::size_t bytes;  ///< That it holds, a copy of the mesh included where it keeps one.
 };
 
-/// One way to build a hierarchy; the call to `build` is what is timed.
+/// One way to build a hierarchy, or to have one without building it.
 struct BuildEntry {
   std::string name;
+  /// The call to this is what is timed.
   std::function<BuiltHierarchy(const TriangleMesh&)> build;
+  /// Instead, where something must be there before: makes it, and returns what is timed.
+  std::function<std::function<BuiltHierarchy()>(const TriangleMesh&)> prepare = {};
 };
 
 std::vector<BuildEntry> nearfitBuilds();
+std::vector<BuildEntry> nearfitCacheUses();
 std::vector<BuildEntry> fclBuilds();
 std::vector<BuildEntry> coalBuilds();
 std::vector<BuildEntry> allBuilds();

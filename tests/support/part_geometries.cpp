@@ -4,7 +4,7 @@
 
 namespace nearfit::test {
 
-PartGeometryPtr geometryOf(TriangleMesh mesh, const glm::dvec3& centre) {
+PartGeometryPtr freshGeometryOf(TriangleMesh mesh, const glm::dvec3& centre) {
   MassProperties mass;
   mass.volume = 1.0;
   mass.centre = centre;
@@ -16,6 +16,12 @@ PartGeometryPtr geometryOf(TriangleMesh mesh, const glm::dvec3& centre) {
                                                            .mesh = std::move(mesh),
                                                            .report = {},
                                                            .mass = mass});
+}
+
+PartGeometryPtr geometryOf(TriangleMesh mesh, const glm::dvec3& centre) {
+  PartGeometryPtr geometry = freshGeometryOf(std::move(mesh), centre);
+  geometry->tree();
+  return geometry;
 }
 
 Part partOf(PartGeometryPtr geometry, const char* name, const RigidTransform& worldFromPart) {

@@ -19,7 +19,7 @@ void startWith(DesktopDriver& d, ui::Hand hand) {
   }
   QCOMPARE(box->currentData().value<ui::Hand>(), hand);
   QTest::mouseClick(d.widget<QPushButton>("startStop"), Qt::LeftButton);
-  QVERIFY(d.application.servo().isRunning());
+  QTRY_VERIFY(d.application.servo().isRunning());
 }
 
 }  // namespace
@@ -29,6 +29,7 @@ class DesktopServoTest : public QObject {
 
  private slots:
   void needsAMovingPart();
+  void hierarchiesAreBuiltInTheBackgroundBeforeItStarts();
   void showsTheOneMinimumBetweenTwoFaces();
   void rateCountsTheTicksOfTheServosOwnTime();
   void manualHandFollowsKeysAndNumbers();
@@ -48,6 +49,25 @@ void DesktopServoTest::needsAMovingPart() {
   d.clickPart(1, ui::PartsModel::Name);
   QTest::keyClick(&d.window(), Qt::Key_H, Qt::ControlModifier);
   QVERIFY(d.widget<QPushButton>("startStop")->isEnabled());
+}
+
+void DesktopServoTest::hierarchiesAreBuiltInTheBackgroundBeforeItStarts() {
+  DesktopDriver d;
+  d.addCubes();
+  // Showing, naming and moving parts needs none.
+  d.clickPart(1, ui::PartsModel::Name);
+  d.type<QDoubleSpinBox>("positionX", "1");
+  QVERIFY(!areHierarchiesReady(d.session().scene().geometries()));
+  QTest::mouseClick(d.widget<QPushButton>("startStop"), Qt::LeftButton);
+  QVERIFY(d.window().document().isBusy());
+  QVERIFY(!d.application.servo().isRunning());
+  QTRY_VERIFY(d.application.servo().isRunning());
+  QVERIFY(areHierarchiesReady(d.session().scene().geometries()));
+  // A part that comes later is built in the background too, and felt once it is there.
+  d.add({writeOff(d.folder.path() / "ball.off", icosphereMesh(0.02, 3))});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
+  QTRY_VERIFY(areHierarchiesReady(d.session().scene().geometries()));
+  QVERIFY(d.application.servo().isRunning());
 }
 
 void DesktopServoTest::showsTheOneMinimumBetweenTwoFaces() {

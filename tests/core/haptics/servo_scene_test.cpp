@@ -55,6 +55,14 @@ TEST_F(ServoSceneOfThree, AHiddenPartInHandFeelsNothing) {
   EXPECT_EQ(servo->moving.id, second_);
 }
 
+TEST_F(ServoSceneOfThree, HierarchiesThatAreMissingAreBuiltBeforeTheServoHasTheScene) {
+  const PartGeometryPtr fresh = test::freshGeometryOf(test::boxMesh({1.0, 1.0, 1.0}));
+  scene_.setMovingPart(scene_.add(test::partOf(fresh, "fresh")));
+  EXPECT_FALSE(fresh->hierarchy->isReady());
+  makeServoScene(scene_);
+  EXPECT_TRUE(fresh->hierarchy->isReady());
+}
+
 TEST_F(ServoSceneOfThree, NoPartInHandIsRefused) {
   EXPECT_THROW(makeServoScene(scene_), UsageError);
 }

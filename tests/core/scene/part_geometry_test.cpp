@@ -2,13 +2,20 @@
 
 #include <cmath>
 #include <fstream>
+#include <numbers>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/files/sha256.h"
+#include "tests/support/cached_meshes.h"
+#include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"
+#include "tests/support/part_geometries.h"
+#include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit {
@@ -50,6 +57,139 @@ TEST(PartGeometry, ProgressRisesToOneAndCanStopTheWork) {
   });
   EXPECT_EQ(last, 1.0);
   EXPECT_THROW(loadPartGeometry(file, 1.0, [](double) { return false; }), Cancelled);
+}
+
+TEST(PartGeometry, HierarchyIsBuiltWhenFirstNeeded) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("ball.obj", test::objText(test::icosphereMesh(1, 3)));
+  const PartGeometryPtr geometry = loadPartGeometry(file, 1.0);
+  EXPECT_FALSE(geometry->hierarchy->isReady());
+  EXPECT_FALSE(areHierarchiesReady(std::span(&geometry, 1)));
+  EXPECT_TRUE(test::areSame(geometry->tree(), NormalConeTree(geometry->mesh)));
+  EXPECT_TRUE(areHierarchiesReady(std::span(&geometry, 1)));
+}
+
+TEST(PartGeometry, ManyAreLoadedAtOnceEachWithItsOwnResult) {
+  const test::TemporaryFolder folder;
+  const auto ball = folder.write("ball.stl", test::stlBinary(test::icosphereMesh(1, 3)));
+  const auto broken = folder.write("broken.off", "OFF\n1 1 0\n");
+  double last = 0.0;
+  const auto loaded = loadPartGeometries(std::vector<MeshSource>{{ball, 1.0, {}},
+                                                                 {broken, 1.0, {}},
+                                                                 {ball, 0.001, sha256OfFile(ball)},
+                                                                 {ball, 0.001, std::string(64, '0')},
+                                                                 {ball, -1.0, {}}},
+                                         [&](double fraction) {
+                                           EXPECT_GE(fraction, last);
+                                           last = fraction;
+                                           return true;
+                                         });
+  ASSERT_EQ(loaded.size(), 5U);
+  EXPECT_NEAR(loaded[0].geometry->mesh.bounds().upper.z, 1.0, 1e-6);
+  EXPECT_THROW(std::rethrow_exception(loaded[1].problem), FileError);
+  EXPECT_NEAR(loaded[2].geometry->mesh.bounds().upper.z, 0.001, 1e-9);
+  EXPECT_TRUE(loaded[3].geometry == nullptr && loaded[3].problem == nullptr);
+  EXPECT_THROW(std::rethrow_exception(loaded[4].problem), UsageError);
+  EXPECT_NEAR(last, 1.0, 1e-9);
+  EXPECT_THROW(loadPartGeometries(std::vector<MeshSource>{{ball, 1.0, {}}}, [](double) { return false; }),
+               Cancelled);
+}
+
+TEST(PartGeometry, HierarchiesOfManyArePreparedWithOneProgress) {
+  std::vector<PartGeometryPtr> geometries;
+  for (std::uint64_t i = 0; i < 5; ++i)
+    geometries.push_back(test::freshGeometryOf(test::starMesh(i, 1.0, static_cast<std::uint32_t>(i), 0.2)));
+  // Parts of one file share a geometry.
+  geometries.insert(geometries.end(), 100, geometries.back());
+  double last = 0.0;
+  prepareHierarchies(geometries, [&](double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+    return true;
+  });
+  EXPECT_EQ(last, 1.0);
+  EXPECT_TRUE(areHierarchiesReady(geometries));
+  for (const PartGeometryPtr& geometry : std::span(geometries).first(5))
+    EXPECT_TRUE(test::areSame(geometry->tree(), NormalConeTree(geometry->mesh)));
+}
+
+TEST(PartGeometry, StoppedPreparationLeavesWhatIsMissingForLater) {
+  std::vector<PartGeometryPtr> geometries;
+  for (std::uint64_t i = 0; i < 4; ++i)
+    geometries.push_back(test::freshGeometryOf(test::starMesh(i, 1.0, 4, 0.2)));
+  EXPECT_THROW(prepareHierarchies(geometries, [](double fraction) { return fraction < 0.4; }), Cancelled);
+  EXPECT_FALSE(areHierarchiesReady(geometries));
+  prepareHierarchies(geometries);
+  for (const PartGeometryPtr& geometry : geometries)
+    EXPECT_TRUE(test::areSame(geometry->tree(), NormalConeTree(geometry->mesh)));
+}
+
+/// A mesh file large enough to be kept, and a cache of its own.
+class CachedPartGeometry : public testing::Test {
+ protected:
+  PartGeometryPtr load() const { return loadPartGeometry(file_, 0.001); }
+
+  test::TemporaryFolder folder_, cache_;
+  const test::ScopedVariable variable_{"NEARFIT_CACHE", cache_.path().string()};
+  const std::filesystem::path file_ =
+      folder_.write("star.stl", test::stlBinary(test::starMesh(4, 1.0, 4, 0.3)));
+};
+
+void expectSame(const PartGeometry& a, const PartGeometry& b) {
+  EXPECT_EQ(a.file, b.file);
+  EXPECT_EQ(a.sha256, b.sha256);
+  EXPECT_EQ(a.metresPerUnit, b.metresPerUnit);
+  EXPECT_TRUE(test::areSame(CachedMesh{a.mesh, a.report, a.mass}, CachedMesh{b.mesh, b.report, b.mass}));
+  EXPECT_TRUE(test::areSame(a.tree(), b.tree()));
+}
+
+TEST_F(CachedPartGeometry, SecondLoadReadsNoMeshAndBuildsNoHierarchy) {
+  const PartGeometryPtr first = load();
+  EXPECT_FALSE(TreeCache().find({first->sha256, 0.001})->hasTree());
+  first->tree();
+  EXPECT_FALSE(first->hierarchy->origin()->isFromCache);
+  EXPECT_TRUE(TreeCache().find({first->sha256, 0.001})->hasTree());
+  const PartGeometryPtr second = load();
+  EXPECT_FALSE(second->hierarchy->isReady());
+  expectSame(*second, *first);
+  EXPECT_TRUE(second->hierarchy->origin()->isFromCache);
+  EXPECT_EQ(loadPartGeometry(file_, 1.0)->mesh.bounds().upper, 1000.0 * first->mesh.bounds().upper);
+}
+
+TEST_F(CachedPartGeometry, HierarchyThatAnotherKeptMeanwhileIsTaken) {
+  const PartGeometryPtr early = load(), other = load();
+  other->tree();
+  early->tree();
+  EXPECT_TRUE(early->hierarchy->origin()->isFromCache);
+}
+
+TEST_F(CachedPartGeometry, DamagedFileIsMadeAnewWithoutAWord) {
+  const PartGeometryPtr expected = load();
+  expected->tree();
+  const test::CacheImage image(test::onlyFileIn(cache_.path()));
+  std::vector<std::size_t> places{8, 12, 100, image.bytes.size() - 100};
+  for (std::size_t i = 0; i < kTreeCacheSections; ++i) {
+    if (image.layout().bytes[i] > 0)
+      places.push_back(image.layout().offsets[i] + image.layout().bytes[i] / 2);
+  }
+  for (const std::size_t place : places) {
+    std::string bytes = image.bytes;
+    bytes[place] = static_cast<char>(bytes[place] ^ 0x10);
+    cache_.write(test::onlyFileIn(cache_.path()).filename(), bytes);
+    expectSame(*load(), *expected);
+    EXPECT_EQ(test::readBytes(test::onlyFileIn(cache_.path())), image.bytes) << place;
+  }
+  for (const std::size_t length : {std::size_t{0}, std::size_t{200}, image.bytes.size() / 2}) {
+    cache_.write(test::onlyFileIn(cache_.path()).filename(), image.bytes.substr(0, length));
+    expectSame(*load(), *expected);
+    EXPECT_EQ(test::readBytes(test::onlyFileIn(cache_.path())), image.bytes) << length;
+  }
+}
+
+TEST_F(CachedPartGeometry, ChangedMeshFileIsReadAnew) {
+  load()->tree();
+  folder_.write("star.stl", test::stlBinary(test::icosphereMesh(1.0, 4)));
+  EXPECT_NEAR(load()->mass.volume, 4.0 / 3.0 * std::numbers::pi * 1e-9, 1e-11);
 }
 
 TEST(PartGeometry, PathsToOneFileCompareEqual) {

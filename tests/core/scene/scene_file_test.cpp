@@ -35,6 +35,28 @@ void expectSameScene(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.springs().law, b.springs().law);
 }
 
+TEST_F(SceneFile, TenThousandPartsOfOneMeshHaveOneGeometry) {
+  Json json = json_;
+  Json part = json["parts"][1];
+  json["parts"] = Json::array();
+  json["moving"] = nullptr;
+  for (int i = 0; i < 10'000; ++i) {
+    part["name"] = "Peg " + std::to_string(i);
+    json["parts"].push_back(part);
+  }
+  folder_.write("fit.nearfit", json.dump());
+  int reports = 0;
+  const Scene scene = readSceneFile(file_, [&](double) { return ++reports > 0; });
+  const std::vector<PartGeometryPtr> geometries = scene.geometries();
+  ASSERT_EQ(geometries.size(), 10'000U);
+  for (const PartGeometryPtr& geometry : geometries)
+    ASSERT_EQ(geometry, geometries.front());
+  // One mesh of four faces was read, and its hierarchy is built once: tens of reports, not tens of thousands.
+  prepareHierarchies(geometries, [&](double) { return ++reports > 0; });
+  EXPECT_LT(reports, 1000);
+  EXPECT_TRUE(areHierarchiesReady(geometries));
+}
+
 TEST_F(SceneFile, SceneComesBackAsItWas) {
   expectSameScene(readSceneFile(file_), scene_);
 }

@@ -1,0 +1,93 @@
+#include "core/parallel/parallel_for.h"
+
+#include <algorithm>
+#include <atomic>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/parallel/shared_progress.h"
+
+namespace nearfit {
+namespace {
+
+TEST(ParallelFor, EachIndexIsWorkedOnOnce) {
+  for (const std::size_t count : {0U, 1U, 2U, 1000U}) {
+    std::vector<std::atomic<int>> calls(count);
+    parallelFor(count, [&](std::size_t i) { ++calls[i]; });
+    EXPECT_TRUE(std::ranges::all_of(calls, [](const auto& n) { return n == 1; })) << count;
+  }
+}
+
+TEST(ParallelFor, CallsWithinCallsUseNoMoreThreadsThanProcessors) {
+  std::atomic<int> now{0}, most{0};
+  parallelFor(8, [&](std::size_t) {
+    parallelFor(50, [&](std::size_t) {
+      const int running = ++now;
+      int seen = most;
+      while (running > seen && !most.compare_exchange_weak(seen, running)) {
+      }
+      std::this_thread::yield();
+      --now;
+    });
+  });
+  EXPECT_GE(most, 1);
+  EXPECT_LE(most, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+}
+
+TEST(ParallelFor, ExceptionEndsTheWorkAndComesOut) {
+  std::atomic<int> calls{0};
+  const auto fail = [&](std::size_t i) {
+    ++calls;
+    if (i == 3) throw std::runtime_error("three");
+  };
+  EXPECT_THROW(parallelFor(1'000'000, fail), std::runtime_error);
+  EXPECT_LT(calls, 1'000'000);
+  // Threads that had been hired are free again.
+  std::atomic<int> after{0};
+  parallelFor(100, [&](std::size_t) { ++after; });
+  EXPECT_EQ(after, 100);
+}
+
+TEST(SharedProgress, RisesToOneHoweverManyReport) {
+  double last = 0.0;
+  bool isBusy = false, wasTwoAtOnce = false;
+  const ProgressCallback callback = [&](double fraction) {
+    wasTwoAtOnce |= std::exchange(isBusy, true);
+    EXPECT_GE(fraction, last);
+    last = fraction;
+    isBusy = false;
+    return true;
+  };
+  SharedProgress progress(callback, 1000.0);
+  parallelFor(1000, [&](std::size_t) { progress.add(1.0); });
+  progress.add(0.0);
+  EXPECT_EQ(last, 1.0);
+  EXPECT_FALSE(wasTwoAtOnce);
+}
+
+TEST(SharedProgress, AllHearOnceThatItIsToStop) {
+  int calls = 0;
+  const ProgressCallback callback = [&](double fraction) {
+    ++calls;
+    return fraction < 0.5;
+  };
+  SharedProgress progress(callback, 10.0);
+  int stopped = 0;
+  for (int i = 0; i < 10; ++i) {
+    try {
+      progress.add(1.0);
+    } catch (const Cancelled&) {
+      ++stopped;
+    }
+  }
+  EXPECT_EQ(stopped, 6);
+  EXPECT_EQ(calls, 5);
+}
+
+}  // namespace
+}  // namespace nearfit
