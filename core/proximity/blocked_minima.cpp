@@ -41,7 +41,9 @@ class Obstacle {
     // Siblings that wait on the way down, as in TraversalStack, of one tree.
     std::array<std::uint32_t, 7 * 12 + 1> stack;
     std::size_t size = 0;
-    stack[size++] = 0;
+    // The first node has one child: everything. A tree of a single feature has no other node.
+    const std::uint32_t top = tree_.nodes()[0].child[0];
+    stack[size++] = NormalConeTree::isLeaf(top) ? 0 : top;
     while (size > 0) {
       const NormalConeTree::Node& node = tree_.nodes()[stack[--size]];
       for (std::uint32_t lanes = kernel_(node, bound); lanes != 0; lanes &= lanes - 1) {

@@ -41,11 +41,6 @@ SegmentPassage::SegmentPassage(const glm::dvec3& start, const glm::dvec3& direct
   y_ = {b, sign + z_.y * z_.y * a, -z_.y};
 }
 
-glm::dvec3 SegmentPassage::local(const glm::dvec3& p) const noexcept {
-  const glm::dvec3 w = p - start_;
-  return {glm::dot(w, x_), glm::dot(w, y_), glm::dot(w, z_)};
-}
-
 std::uint32_t SegmentPassage::linesAcross(const glm::dvec2& a, const glm::dvec2& b,
                                           const glm::dvec2& c) const noexcept {
   static constexpr double kDiagonal = 0.5 * std::numbers::sqrt2;
@@ -66,11 +61,16 @@ std::uint32_t SegmentPassage::linesAcross(const glm::dvec2& a, const glm::dvec2&
 }
 
 void SegmentPassage::add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) noexcept {
-  const glm::dvec3 la = local(a), lb = local(b), lc = local(c);
-  const glm::dvec3 lower = glm::min(la, glm::min(lb, lc)), upper = glm::max(la, glm::max(lb, lc));
-  if (lower.x > clearance_ || lower.y > clearance_ || upper.x < -clearance_ || upper.y < -clearance_) return;
-  if (lower.z > to_ || upper.z < from_) return;
-  const glm::dvec2 pa(la), pb(lb), pc(lc);
+  const glm::dvec3 wa = a - start_, wb = b - start_, wc = c - start_;
+  // Most triangles near an end lie wholly behind it, and most others off to one side.
+  const glm::dvec3 z(glm::dot(wa, z_), glm::dot(wb, z_), glm::dot(wc, z_));
+  const double lowest = std::min({z.x, z.y, z.z}), highest = std::max({z.x, z.y, z.z});
+  if (lowest > to_ || highest < from_) return;
+  const glm::dvec3 x(glm::dot(wa, x_), glm::dot(wb, x_), glm::dot(wc, x_));
+  if (std::min({x.x, x.y, x.z}) > clearance_ || std::max({x.x, x.y, x.z}) < -clearance_) return;
+  const glm::dvec3 y(glm::dot(wa, y_), glm::dot(wb, y_), glm::dot(wc, y_));
+  if (std::min({y.x, y.y, y.z}) > clearance_ || std::max({y.x, y.y, y.z}) < -clearance_) return;
+  const glm::dvec2 pa(x.x, y.x), pb(x.y, y.y), pc(x.z, y.z);
 
   // All eight lines are on one side of an edge when the segment is farther from it than they are from the
   // segment; the sum of its extents is no less than its length.
@@ -91,9 +91,9 @@ void SegmentPassage::add(const glm::dvec3& a, const glm::dvec3& b, const glm::dv
   if (lines == 0) return;
 
   const double sum = areas[0] + areas[1] + areas[2];
-  const double weighted = areas[0] * la.z + areas[1] * lb.z + areas[2] * lc.z;
+  const double weighted = areas[0] * z.x + areas[1] * z.y + areas[2] * z.z;
   // A face that is all but parallel to the segment is crossed somewhere along its height.
-  const double at = sum != 0.0 ? std::clamp(weighted / sum, lower.z, upper.z) : 0.5 * (lower.z + upper.z);
+  const double at = sum != 0.0 ? std::clamp(weighted / sum, lowest, highest) : 0.5 * (lowest + highest);
   if (at > from_ && at < to_) barred_ |= lines;
 }
 

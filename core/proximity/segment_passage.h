@@ -32,8 +32,6 @@ class SegmentPassage {
  private:
   static constexpr std::uint32_t kLines = 8, kAll = (1U << kLines) - 1U;
 
-  /// Across the segment, then along it.
-  glm::dvec3 local(const glm::dvec3& p) const noexcept;
   std::uint32_t linesAcross(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) const noexcept;
 
   glm::dvec3 start_, x_, y_, z_;
