@@ -103,9 +103,12 @@ bool touch(const Minimum& a, const Minimum& b, double tolerance) noexcept {
 bool canTouch(const Minimum& a, const Minimum& b, double tolerance) noexcept {
   if (a.dimension == 0 && b.dimension == 0) return true;
   if (glm::distance(a.lmd.direction, b.lmd.direction) > kRegionDirection) return false;
-  const double reach = Piece(a).radius() + Piece(b).radius() + tolerance;
+  const double radii = Piece(a).radius() + Piece(b).radius(), reach = radii + tolerance;
   const glm::dvec3 apart = a.lmd.scenePoint - b.lmd.scenePoint;
-  return glm::dot(apart, apart) <= reach * reach;
+  if (glm::dot(apart, apart) > reach * reach) return false;
+  // Two steps of the scene may face two steps of the part at one distance: regions one behind the other.
+  const glm::dvec3& across = a.dimension > b.dimension ? a.lmd.direction : b.lmd.direction;
+  return std::abs(glm::dot(apart, across)) <= tolerance + 2.0 * kFlatTolerance * radii;
 }
 
 std::uint32_t findRoot(std::span<std::uint32_t> parent, std::uint32_t i) noexcept {

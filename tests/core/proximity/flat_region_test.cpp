@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include <fmt/format.h>
@@ -283,6 +285,39 @@ TEST(FlatRegion, CandidateListHoldsTiltedRegionsToo) {
       EXPECT_EQ(out[0].distance, cold[0].distance);
     }
   }
+}
+
+TEST(FlatRegion, StepsThatFaceStepsAtOneDistanceAreTwoRegions) {
+  // The upper step of the scene under the upper step of the part, overlapping in plan with what is beside it.
+  const TriangleMesh scene =
+      test::joined(test::boxMesh({2, 1, 1}, {0, 0, -0.5}), test::boxMesh({1, 0.5, 0.5}, {0.5, 0, 0.25}));
+  const TriangleMesh part =
+      test::joined(test::boxMesh({2, 1, 1}, {0, 0, 1.1}), test::boxMesh({1.4, 0.5, 0.6}, {-0.3, 0, 0.4}));
+  const auto found = query(scene, part, at({0, 0, 0}));
+  const auto regions = std::count_if(found.begin(), found.end(),
+                                     [](const Lmd& lmd) { return std::abs(lmd.distance - 0.1) < 1e-12; });
+  EXPECT_EQ(regions, 2);
+}
+
+TEST(FlatRegion, PosesOfParallelFacesHaveTheBruteForceSet) {
+  const std::vector<test::BodyPair> pairs{
+      {"boxes", test::boxMesh({1, 0.7, 0.5}), test::boxMesh({0.4, 0.6, 0.3})},
+      {"tube on box", test::boxMesh({1, 0.7, 0.5}), test::tubeMesh(0.2, 0.3, 0.4, 11)},
+      {"overlapping boxes",
+       test::joined(test::boxMesh({1, 0.3, 0.5}), test::boxMesh({0.3, 1, 0.5}, {0.1, 0.2, 0.0})),
+       test::joined(test::boxMesh({0.5, 0.2, 0.1}), test::boxMesh({0.2, 0.5, 0.1}, {0.1, 0.0, 0.0}))},
+      {"fine squares", test::squareMesh(1.0, 6), test::turned(test::squareMesh(0.7, 4))}};
+  std::mt19937_64 random(11);
+  test::LmdTally tally;
+  for (const test::BodyPair& pair : pairs) {
+    for (std::size_t i = 0; i < 160 / test::kPoseShare; ++i) {
+      constexpr std::array<double, 5> kTilts{0.0, 1e-12, 1e-9, 1e-8, 1e-7};
+      const RigidTransform pose = test::poseWithParallelFaces(pair, 0.1, kTilts[i % 5], random);
+      test::compareAtPose(pair, pose, 0.15, tally);
+    }
+  }
+  EXPECT_GT(tally.regions, tally.poses / 2);
+  EXPECT_GT(tally.minima, 0U);
 }
 
 TEST(FlatRegion, InAnotherFrameItsAxesTurnAlong) {
