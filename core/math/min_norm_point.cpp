@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
@@ -83,13 +84,16 @@ glm::dvec3 minNormPoint(std::span<const glm::dvec3> points) {
   glm::dvec3 nearest = points[0];
   // A few iterations suffice; the bound only ends a cycle of rounding.
   constexpr int kMaxIterations = 128;
+  // How much nearer the hull may still come, as a length: a few roundings of the points' own. As a fraction of
+  // the squared norm it would stop early at hulls that pass the origin closely, by up to its square root.
   constexpr double kConverged = 1e-14;
   for (int i = 0; i < kMaxIterations && simplex.size < 4; ++i) {
     const auto support = std::min_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {
       return glm::dot(a, nearest) < glm::dot(b, nearest);
     });
     const double squared = glm::dot(nearest, nearest);
-    if (squared - glm::dot(*support, nearest) <= kConverged * (squared + glm::dot(*support, *support))) break;
+    const double norm = std::sqrt(squared), reach = std::max(norm, glm::length(*support));
+    if (squared - glm::dot(*support, nearest) <= kConverged * norm * reach) break;
     simplex.points[simplex.size++] = *support;
     const glm::dvec3 next = reduce(simplex);
     if (glm::dot(next, next) >= squared) break;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include <glm/geometric.hpp>
@@ -19,6 +20,13 @@ constexpr double kFlat = 1e-11;
 /// A triangle lower than this fraction of its longest side has no normal worth the name in double precision.
 constexpr double kNoArea = 1e-14;
 
+/// Thinner triangles than this get their directions in extended precision, where the edges around them would
+/// turn convex or reflex by rounding otherwise.
+constexpr double kThin = 1e-3;
+
+/// What the axis of a polar cone as narrow as the angular tolerance can be off by [rad].
+constexpr double kAxisRounding = 1e-5;
+
 /// Cosine below which two directions may pass for perpendicular where only a bound is built.
 constexpr double kSquare = 1e-6;
 
@@ -31,6 +39,16 @@ std::optional<glm::dvec3> unit(const glm::dvec3& v) {
   const double length = glm::length(v);
   if (!(length > 0.0)) return std::nullopt;
   return v / length;
+}
+
+using Extended = glm::tvec3<long double>;
+
+/// The direction from an edge's start to a point, less what lies along the edge; unit, or none.
+std::optional<glm::dvec3> squareToEdge(const glm::dvec3& edge, const glm::dvec3& along, const glm::dvec3& w) {
+  const glm::dvec3 t = w - glm::dot(w, along) * along;
+  if (glm::dot(t, t) > kThin * kThin * glm::dot(w, w)) return unit(t);
+  const Extended e(edge), x(w);
+  return unit(glm::dvec3(x - e * (glm::dot(x, e) / glm::dot(e, e))));
 }
 
 class FeatureFinder {
@@ -65,6 +83,11 @@ class FeatureFinder {
 
   bool hasArea(std::uint32_t f) const { return normals_[f] != glm::dvec3(0.0); }
 
+  /// Whether any face at an edge has an area: what only faces without one join is not there.
+  bool isSurface(std::uint32_t edge) const {
+    return std::ranges::any_of(mesh_.facesOfEdge(edge), [this](std::uint32_t f) { return hasArea(f); });
+  }
+
   void addFace(std::uint32_t f) {
     const Triangle& t = mesh_.triangles()[f];
     const glm::dvec3 e0 = x_[t[1]] - x_[t[0]], e1 = x_[t[2]] - x_[t[1]], e2 = x_[t[0]] - x_[t[2]];
@@ -83,8 +106,8 @@ class FeatureFinder {
       if (!hasArea(f)) continue;
       for (const std::uint32_t corner : mesh_.triangles()[f]) {
         if (corner == edge.v0 || corner == edge.v1) continue;
-        const glm::dvec3 w = x_[corner] - x_[edge.v0];
-        if (const auto inward = unit(w - glm::dot(w, along) * along)) wings.push_back({*inward, corner, f});
+        const auto inward = squareToEdge(x_[edge.v1] - x_[edge.v0], along, x_[corner] - x_[edge.v0]);
+        if (inward) wings.push_back({*inward, corner, f});
       }
     }
     return wings;
@@ -113,6 +136,12 @@ class FeatureFinder {
     return sides;
   }
 
+  bool runsAlong(std::uint32_t face, const MeshEdge& edge) const {
+    const Triangle& t = mesh_.triangles()[face];
+    return (t[0] == edge.v0 && t[1] == edge.v1) || (t[1] == edge.v0 && t[2] == edge.v1) ||
+           (t[2] == edge.v0 && t[0] == edge.v1);
+  }
+
   void addEdge(std::uint32_t e) {
     const MeshEdge& edge = mesh_.edges()[e];
     const auto along = unit(x_[edge.v1] - x_[edge.v0]);
@@ -121,7 +150,10 @@ class FeatureFinder {
     if (wings.empty()) return;
     const bool hasSide = wings.size() == 2 && mesh_.isEdgeConsistent(e);
     if (hasSide) {
-      const double rise = glm::dot(wings[1].inward, normals_[wings[0].face]);
+      // Not by the face's normal, which is worse known than its side where the face is thin.
+      const glm::dvec3 outward =
+          (runsAlong(wings[0].face, edge) ? 1.0 : -1.0) * glm::cross(*along, wings[0].inward);
+      const double rise = glm::dot(wings[1].inward, outward);
       const bool isFolded = glm::dot(wings[0].inward, wings[1].inward) > 0.0;
       if (isFolded ? rise > kFlat : rise > -kFlat) return;  // Reflex or flat.
     }
@@ -175,6 +207,7 @@ class FeatureFinder {
     directions_.clear();
     neighbours_.clear();
     for (const std::uint32_t e : mesh_.edgesOfVertex(v)) {
+      if (!isSurface(e)) continue;
       const std::uint32_t other = mesh_.edges()[e].v0 == v ? mesh_.edges()[e].v1 : mesh_.edges()[e].v0;
       if (const auto direction = unit(x_[other] - x_[v])) {
         directions_.push_back(*direction);
@@ -182,21 +215,28 @@ class FeatureFinder {
       }
     }
     if (directions_.empty()) return;
-    // Inside the polar cone, as far from its walls as can be.
-    const auto inside = unit(-minNormPoint(directions_));
-    if (!inside) return;
-    for (const glm::dvec3& e : directions_) {
-      if (glm::dot(*inside, e) >= -kAngularTolerance) return;  // No interior.
-    }
+    // Inside the polar cone, as far from its walls as can be: as far as the hull of edges is from the origin.
+    const glm::dvec3 nearest = minNormPoint(directions_);
+    const double width = glm::length(nearest);
+    if (!(width > kAngularTolerance)) return;  // No interior.
+    const glm::dvec3 inside = nearest / -width;
     const auto normal = pseudonormal(v);
-    if (normal && glm::dot(*normal, *inside) < 0.0) return;  // A pit: the polar cone is in the material.
+    // A pit: the polar cone is in the material. A sheet folded back on itself has no normal but rounding.
+    if (normal && glm::dot(*normal, inside) < -kAngularTolerance) return;
 
-    const std::vector<std::size_t> extreme = extremeDirections(*inside);
-    VertexFeature feature{v, static_cast<std::uint32_t>(out_.neighbours.size()),
-                          static_cast<std::uint32_t>(extreme.size()), polarCone(*inside, extreme)};
-    for (const std::size_t i : extreme)
+    double depth = 1.0;
+    for (const glm::dvec3& e : directions_)
+      depth = std::min(depth, -glm::dot(e, inside));
+    // In the narrowest cones rounding leaves no direction that is surely inside, to see the walls from.
+    const bool isInsideSure = depth > 0.5 * width;
+    std::vector<std::size_t> walls(directions_.size());
+    std::iota(walls.begin(), walls.end(), std::size_t{0});
+    if (isInsideSure) walls = extremeDirections(inside);
+    const auto count = static_cast<std::uint32_t>(walls.size());
+    out_.vertices.push_back({v, static_cast<std::uint32_t>(out_.neighbours.size()), count,
+                             isInsideSure ? count : 0, polarCone(inside, walls, isInsideSure)});
+    for (const std::size_t i : walls)
       out_.neighbours.push_back(neighbours_[i]);
-    out_.vertices.push_back(feature);
   }
 
   /// Those of directions_ that bound their convex cone, in cyclic order: the hull of where they pierce a
@@ -238,8 +278,10 @@ class FeatureFinder {
     return indices;
   }
 
-  NormalCone polarCone(const glm::dvec3& inside, const std::vector<std::size_t>& extreme) const {
+  NormalCone polarCone(const glm::dvec3& inside, const std::vector<std::size_t>& extreme,
+                       bool isInsideSure) const {
     // No polar direction is farther than a right angle from `inside`, which is minus a sum of the edges.
+    if (!isInsideSure) return {inside, 0.5 * std::numbers::pi + kAxisRounding};
     const NormalCone widest{inside, 0.5 * std::numbers::pi};
     if (extreme.size() < 3) return widest;
     std::vector<NormalCone> rays;

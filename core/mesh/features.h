@@ -19,7 +19,9 @@ struct VertexFeature {
   std::uint32_t vertex;
   std::uint32_t firstNeighbour,
       neighbourCount;  ///< In MeshFeatures::neighbours: those that bound the polar cone.
-  NormalCone cone;     ///< Holds the polar cone.
+  std::uint32_t
+      hullCount;    ///< Of those in cyclic order around the cone: all, or none where it is too narrow to say.
+  NormalCone cone;  ///< Holds the polar cone.
 };
 
 /// A convex edge, or one where the surface has no side (open, non-manifold, inconsistently oriented).

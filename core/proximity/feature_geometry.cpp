@@ -107,7 +107,7 @@ void FeatureGeometry::raysOfEdge(const EdgeFeature& e, Rays& out) const noexcept
 /// be told.
 bool FeatureGeometry::raysOfVertex(const VertexFeature& v, Rays& out) const noexcept {
   const std::span<const std::uint32_t> neighbours =
-      std::span(features_.neighbours).subspan(v.firstNeighbour, v.neighbourCount);
+      std::span(features_.neighbours).subspan(v.firstNeighbour, v.hullCount);
   // A wedge has no apex to walk around.
   if (neighbours.size() < 3 || neighbours.size() > kMaxRays) return false;
   const glm::dvec3& x = x_[v.vertex];
