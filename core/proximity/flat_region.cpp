@@ -133,6 +133,9 @@ struct Moments {
   }
 };
 
+/// A union measures no less than its largest piece; half allows for rounding.
+constexpr double kLeastShare = 0.5;
+
 class RegionUnion {
  public:
   RegionUnion(std::span<const Minimum> minima, std::span<const std::uint32_t> group,
@@ -156,7 +159,13 @@ class RegionUnion {
       height += piece.weight * plane_.height(piece.lmd.scenePoint);
       distance += piece.weight * piece.lmd.distance;
     }
+    // Of slivers that cover each other rounding may leave nothing, or less.
+    if (!(moments.measure > kLeastShare * largest_.weight)) {
+      moments = {};
+      addOutline(moments);
+    }
     Lmd lmd = largest_.lmd;
+    if (!(moments.measure > 0.0)) return lmd;
     const glm::dvec2 centroid = moments.first / moments.measure;
     // A corner of a tilted region may be beyond contact, as exact tests see it.
     lmd.distance = std::max(least, std::numeric_limits<double>::min());
@@ -182,6 +191,15 @@ class RegionUnion {
       if (isPiece(minima_[i])) sum += minima_[i].weight * minima_[i].lmd.direction;
     }
     return glm::normalize(sum);
+  }
+
+  /// The whole of the largest piece.
+  void addOutline(Moments& moments) const noexcept {
+    const Outline outline(largest_, plane_);
+    for (std::size_t k = 0; k < outline.sides(); ++k) {
+      largest_.dimension == 2 ? moments.addBoundary(outline.from(k), outline.to(k))
+                              : moments.addSegment(outline.from(k), outline.to(k));
+    }
   }
 
   void addPiece(std::size_t at, Moments& moments) const noexcept {

@@ -16,6 +16,13 @@ glm::dvec3 faceNormal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
   return glm::normalize(glm::cross(b - a, c - a));
 }
 
+/// Height of a triangle over its longest side.
+double leastHeight(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) noexcept {
+  const glm::dvec3 u = b - a, v = c - b, w = a - c;
+  const double longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
+  return glm::length(glm::cross(u, w)) / std::sqrt(longest);
+}
+
 }  // namespace
 
 LeafTests::LeafTests(const NormalConeTree& scene, const NormalConeTree& part,
@@ -73,7 +80,7 @@ bool LeafTests::isPolarOfVertex(const NormalConeTree& tree, std::uint32_t vertex
   for (const std::uint32_t n : tree.neighbours(leaf)) {
     const glm::dvec3 e = tree.positions()[n] - v;
     const double along = glm::dot(d, e);
-    if (along > 0.0 && along > slack * glm::length(e)) return false;
+    if (along > 0.0 && along > slack * glm::length(e) + pointRounding_) return false;
   }
   return true;
 }
@@ -84,7 +91,7 @@ bool LeafTests::isPolarOfEdge(const NormalConeTree& tree, std::uint32_t edge, co
     const glm::dvec3 w = tree.positions()[corner] - e.start;
     const glm::dvec3 inward = w - glm::dot(w, e.along) * e.along;
     const double along = glm::dot(d, inward);
-    if (along > 0.0 && along > slack * glm::length(inward)) return false;
+    if (along > 0.0 && along > slack * glm::length(inward) + pointRounding_) return false;
   }
   return true;
 }
@@ -114,13 +121,16 @@ bool LeafTests::vertexFace(const Side& v, std::uint32_t vertex, const Side& f, s
   const glm::dvec3 n = faceNormal(x[t[0]], x[t[1]], x[t[2]]);
   const double distance = glm::dot(n, q - x[t[0]]);
   if (!(distance > 0.0) || distance > cutoff_) return false;
-  const double slack = lengthSlack(distance);
+  // The normal of a thin face is known to a rounding over its height.
+  const double tilt = pointRounding_ / leastHeight(x[t[0]], x[t[1]], x[t[2]]);
+  const double slack = lengthSlack(distance) + tilt * distance;
   for (std::size_t k = 0; k < 3; ++k) {
     const glm::dvec3 &a = x[t[k]], &b = x[t[(k + 1) % 3]];
     const glm::dvec3 inward = glm::cross(n, b - a);
     if (glm::dot(inward, q - a) < -slack * glm::length(inward)) return false;
   }
-  if (!isPolarOfVertex(v.tree, vertex, v.thisFromOther.applyToVector(-n), angularSlackBase_)) return false;
+  if (!isPolarOfVertex(v.tree, vertex, v.thisFromOther.applyToVector(-n), angularSlackBase_ + tilt))
+    return false;
   return accept(f, q - distance * n, q, n, distance, out);
 }
 
@@ -136,9 +146,11 @@ bool LeafTests::vertexEdge(const Side& v, std::uint32_t vertex, const Side& e, s
   const double slack = lengthSlack(distance);
   if (s < -slack || s > line.length + slack) return false;
   const glm::dvec3 direction = d / distance;
-  const double angular = angularSlack(distance);
-  if (!isPolarOfEdge(e.tree, edge, line, direction, angular)) return false;
-  if (!isPolarOfVertex(v.tree, vertex, v.thisFromOther.applyToVector(-direction), angular)) return false;
+  if (!isPolarOfEdge(e.tree, edge, line, direction, angularSlack(distance))) return false;
+  if (!isPolarOfVertex(v.tree, vertex, v.thisFromOther.applyToVector(-direction),
+                       directionRounding(distance))) {
+    return false;
+  }
   return accept(e, q - d, q, direction, distance, out);
 }
 
@@ -148,94 +160,10 @@ bool LeafTests::vertexVertex(std::uint32_t a, std::uint32_t b, Minimum& out) con
   const double distance = glm::distance(p, q);
   if (!(distance > 0.0) || distance > cutoff_) return false;
   const glm::dvec3 direction = (q - p) / distance;
-  const double angular = angularSlack(distance);
+  const double angular = directionRounding(distance);
   if (!isPolarOfVertex(scene_.tree, a, direction, angular)) return false;
   if (!isPolarOfVertex(part_.tree, b, partFromScene_.applyToVector(-direction), angular)) return false;
   return accept(scene_, p, q, direction, distance, out);
-}
-
-bool LeafTests::edgeEdge(std::uint32_t a, std::uint32_t b, Minimum& out) const noexcept {
-  const Edge ea = edgeOf(scene_.tree, a), partEdge = edgeOf(part_.tree, b);
-  const Edge eb{sceneFromPart_.applyToPoint(partEdge.start), sceneFromPart_.applyToVector(partEdge.along),
-                partEdge.length};
-  const glm::dvec3 across = glm::cross(ea.along, eb.along);
-  const double sine = glm::length(across);
-  if (sine <= kFlatTolerance) {
-    const Overlap overlap = overlapOf(ea, eb);
-    if (sine <= kAngularTolerance || isFlat(sine, overlap)) return parallelEdges(a, b, ea, eb, overlap, out);
-  }
-
-  const glm::dvec3 w = eb.start - ea.start;
-  glm::dvec3 direction = across / sine;
-  double distance = glm::dot(w, direction);
-  if (distance < 0.0) {
-    direction = -direction;
-    distance = -distance;
-  }
-  if (!(distance > 0.0) || distance > cutoff_) return false;
-  const double slack = lengthSlack(distance);
-  const double s = glm::dot(glm::cross(w, eb.along), across) / (sine * sine);
-  if (s < -slack || s > ea.length + slack) return false;
-  const double t = glm::dot(glm::cross(w, ea.along), across) / (sine * sine);
-  if (t < -slack || t > eb.length + slack) return false;
-  if (!isPolarOfEdge(scene_.tree, a, ea, direction, angularSlackBase_)) return false;
-  if (!isPolarOfEdge(part_.tree, b, partEdge, partFromScene_.applyToVector(-direction), angularSlackBase_)) {
-    return false;
-  }
-  const glm::dvec3 p = ea.start + s * ea.along;
-  return accept(scene_, p, p + distance * direction, direction, distance, out);
-}
-
-LeafTests::Overlap LeafTests::overlapOf(const Edge& a, const Edge& b) noexcept {
-  const double s0 = glm::dot(b.start - a.start, a.along), s1 = s0 + b.length * glm::dot(b.along, a.along);
-  Overlap overlap{std::max(0.0, std::min(s0, s1)), std::min(a.length, std::max(s0, s1)), {}, {}};
-  overlap.onA = a.start + 0.5 * (overlap.from + overlap.to) * a.along;
-  overlap.onB = b.start + glm::dot(overlap.onA - b.start, b.along) * b.along;
-  return overlap;
-}
-
-double LeafTests::leastDistance(const Edge& a, const Edge& b, const Overlap& overlap) noexcept {
-  // Along a, from the middle, the way to b changes by this.
-  const glm::dvec3 change = glm::dot(a.along, b.along) * b.along - a.along;
-  const glm::dvec3 middle = overlap.onB - overlap.onA;
-  const double half = 0.5 * (overlap.to - overlap.from), square = glm::dot(change, change);
-  const double s = square > 0.0 ? std::clamp(-glm::dot(middle, change) / square, -half, half) : 0.0;
-  return glm::length(middle + s * change);
-}
-
-bool LeafTests::isFlat(double sine, const Overlap& overlap) noexcept {
-  // Nearer to each other, edges that are not quite parallel face each other in directions that differ along
-  // them: then it matters where they come nearest.
-  return 0.5 * sine * (overlap.to - overlap.from) <=
-         kRegionDirection * glm::distance(overlap.onA, overlap.onB);
-}
-
-bool LeafTests::parallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb,
-                              const Overlap& overlap, Minimum& out) const noexcept {
-  // Ends that face each other are found as vertices.
-  if (!(overlap.to - overlap.from > lengthTolerance_)) return false;
-  const glm::dvec3 d = overlap.onB - overlap.onA;
-  const double distance = glm::length(d), least = leastDistance(ea, eb, overlap);
-  if (!(distance > 0.0) || least > cutoff_) return false;
-  const glm::dvec3 direction = d / distance;
-  const double angular = angularSlack(distance);
-  if (!isPolarOfEdge(scene_.tree, a, ea, direction, angular)) return false;
-  const Edge partEdge = edgeOf(part_.tree, b);
-  if (!isPolarOfEdge(part_.tree, b, partEdge, partFromScene_.applyToVector(-direction), angular))
-    return false;
-  accept(scene_, overlap.onA, overlap.onB, direction, distance, out);
-  setSegment(ea.start + overlap.from * ea.along, ea.start + overlap.to * ea.along, out);
-  out.least = least;
-  return true;
-}
-
-void LeafTests::setSegment(const glm::dvec3& from, const glm::dvec3& to, Minimum& out) noexcept {
-  out.dimension = 1;
-  out.weight = glm::distance(from, to);
-  out.cornerCount = 2;
-  out.corners[0] = from;
-  out.corners[1] = to;
-  out.radius = 0.5 * out.weight;
 }
 
 bool LeafTests::edgeFace(const Side& e, std::uint32_t edge, const Side& f, std::uint32_t face,

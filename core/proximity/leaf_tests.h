@@ -61,16 +61,27 @@ class LeafTests {
   bool parallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb, const Overlap& overlap,
                      Minimum& out) const noexcept;
 
-  /// Whether direction `d` (unit, the side's frame) lies in the closed polar cone of the feature.
+  /// Whether direction `d` (unit, the side's frame) lies in the closed polar cone of the feature: to `slack`,
+  /// and to the rounding of the points that span it, which is more of an angle the shorter they are.
   bool isPolarOfVertex(const NormalConeTree& tree, std::uint32_t vertex, const glm::dvec3& d,
                        double slack) const noexcept;
   bool isPolarOfEdge(const NormalConeTree& tree, std::uint32_t edge, const Edge& e, const glm::dvec3& d,
                      double slack) const noexcept;
+  /// The rest of edgeEdge where edges are so nearly parallel that the normal of both is not known.
+  bool nearlyParallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb, double s,
+                           Minimum& out) const noexcept;
+  /// Where edges cross at so small an angle that the end of one, too, is a minimum to rounding, they share a
+  /// piece of a region with it: so that they become one.
+  void widenAtEnd(const Edge& ea, const Edge& eb, double s, double sine, Minimum& out) const noexcept;
   static Edge edgeOf(const NormalConeTree& tree, std::uint32_t edge) noexcept;
 
   double lengthSlack(double distance) const noexcept {
     return lengthTolerance_ + angularSlackBase_ * distance;
   }
+  /// What a direction between two points can be off by. Two features that share an end and both claim it
+  /// there say the same, so no more is needed; more would let both ends of an edge claim what is nearest
+  /// between them, over an edge that is nearly parallel to it.
+  double directionRounding(double distance) const noexcept { return 2.0 * pointRounding_ / distance; }
   double angularSlack(double distance) const noexcept {
     return angularSlackBase_ + pointRounding_ / distance;
   }

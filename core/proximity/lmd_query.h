@@ -56,7 +56,13 @@ class LmdScratch {
 /// @param out            Caller's storage; keeps the nearest if it fills, and the result says Truncated.
 /// @param maxNodePairs   Bound on the work: at it the result says Truncated and holds what was found.
 /// Points are in scene's frame. Real-time safe: no allocation, lock or throw.
-/// Source: Johnson & Willemsen 2003, 4.2; exact leaf conditions instead of vertex-normal spans.
+///
+/// Promised: each minimum of the exact geometry is there, once; each entry meets the exact conditions to the
+/// tolerances of tolerances.h (directions to 1e-10 rad, lengths to 1e-12 of the bodies' size, both no better
+/// than the rounding of coordinates allows; faces and edges parallel to 1e-6 rad are one region). For bodies
+/// of 1e-6 to 1e6 m, up to a million sizes from the origin, slivers of up to 1e6, distances from 1e-13 of the
+/// size: resources/docs/accuracy.md. Beyond that, and for arguments that are no numbers, the set may be wrong
+/// or empty. Source: Johnson & Willemsen 2003, 4.2; exact leaf conditions instead of vertex-normal spans.
 LmdResult findLmds(const NormalConeTree& scene, const NormalConeTree& part,
                    const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
                    std::span<Lmd> out,

@@ -14,6 +14,9 @@ namespace {
 /// The hierarchy's rounding, and the pose's in single precision, as a fraction of the lengths involved.
 constexpr double kPosePadding = 1e-6;
 
+/// Coordinates up to this many sizes from the origin lose nothing in double precision that matters.
+constexpr double kNear = 100.0;
+
 /// Rounding of projected limits on directions: some thirty roundings of single precision.
 constexpr float kDirectionSlack = 4e-6F;
 
@@ -55,17 +58,28 @@ void MinimaCollector::finish(const NormalConeTree& scene, const NormalConeTree& 
 
 RigidTransform centredPose(const NormalConeTree& scene, const NormalConeTree& part,
                            const RigidTransform& sceneFromPart) noexcept {
-  RigidTransform pose = sceneFromPart.normalized();
-  pose.translation += pose.rotation * part.centre() - scene.centre();
-  return pose;
+  const RigidTransform pose = sceneFromPart.normalized();
+  if (glm::length(pose.translation) + glm::length(part.centre()) + glm::length(scene.centre()) <=
+      kNear * (scene.size() + part.size())) {
+    return {pose.rotation, pose.translation + pose.rotation * part.centre() - scene.centre()};
+  }
+  // Far from the origin what is left of these numbers is lost in their rounding.
+  using Extended = glm::tvec3<long double>;
+  const glm::qua<long double> given(sceneFromPart.rotation);
+  const long double length = std::sqrt(glm::dot(given, given));
+  const Extended turned =
+      length > 0.0L ? (given / length) * Extended(part.centre()) : Extended(part.centre());
+  return {pose.rotation, glm::dvec3(Extended(pose.translation) + turned - Extended(scene.centre()))};
 }
 
 CullLimits cullLimits(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& centred,
                       double cutoff) noexcept {
   const double reach = scene.size() + part.size() + glm::length(centred.translation);
+  // Nothing is farther apart than the reach; a cutoff far beyond it would be infinite in single precision.
+  const double within = std::min(cutoff, reach);
   // Regions are found in features that are parallel to a tolerance, at any place of theirs.
-  return {static_cast<float>(cutoff * (1.0 + kPosePadding)),
-          static_cast<float>(kPosePadding * reach + kFlatTolerance * (cutoff + reach)),
+  return {static_cast<float>(within * (1.0 + kPosePadding)),
+          static_cast<float>(kPosePadding * reach + kFlatTolerance * (within + reach)),
           kDirectionSlack + static_cast<float>(kFlatTolerance)};
 }
 
