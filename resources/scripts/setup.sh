@@ -4,6 +4,7 @@ nearfit_packages=(
   g++ cmake ninja-build pkg-config ccache
   libvtk9-qt-dev qtbase5-dev libqt5svg5-dev libopenmesh-dev libglm-dev
   libfmt-dev nlohmann-json3-dev libcli11-dev libssl-dev libxxhash-dev libgtest-dev libgmock-dev libfcl-dev
+  libcgal-dev
 )
 nearfit_test_packages=(xvfb xauth libgl1-mesa-dri)
 
