@@ -38,7 +38,7 @@ class Obstacle {
     if (!(stretch.from < stretch.to)) return false;
     const SegmentBound bound = boundOf(start, direction, stretch);
     SegmentPassage passage(start, direction, stretch.from, stretch.to, clearance_);
-    // Siblings that wait on the way down, as in TraversalStack, of one tree.
+    // Siblings that wait on the way down, of one tree.
     std::array<std::uint32_t, 7 * 12 + 1> stack;
     std::size_t size = 0;
     // The first node has one child: everything. A tree of a single feature has no other node.

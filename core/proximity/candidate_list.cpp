@@ -61,7 +61,7 @@ void CandidateList::build(const NormalConeTree& scene, const NormalConeTree& par
   limits.turn += static_cast<float>(budget.turn);
   limits.padding *= 1.0F + 1e-6F;
   limits.turn *= 1.0F + 1e-6F;
-  TreeTraversal traversal(scene, part, pose_, limits, scratch.data().cull, scratch.data().stack);
+  TreeTraversal traversal(scene, part, pose_, limits, scratch.data().open, scratch.data().traversal);
   traversal.run([this](const EntryPair& pair) {
     if (count_ == blocks_.size() * kWidth) {
       isUsable_ = false;

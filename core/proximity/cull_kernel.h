@@ -13,7 +13,6 @@ namespace nearfit {
 class SinglePose {
  public:
   explicit SinglePose(const RigidTransform& pose) noexcept;
-  NormalConeTree::Bound apply(const NormalConeTree::Bound& b) const noexcept;
 
   /// Three of the rotation, then the translation; fourth entries 0.
   const std::array<std::array<float, 4>, 4>& columns() const noexcept { return columns_; }
@@ -29,22 +28,17 @@ struct CullLimits {
   float turn;     ///< What directions may be off by through rounding, or turning to come [rad].
 };
 
-/// Which children of a node can hold a minimum together with features inside `other`: bit per lane.
-///
-/// A minimum's d joins a point of one box to a point of the other, is no longer than the cutoff, and its
-/// direction is within the limits of both. Culls where the projections on the axes of either box rule that
-/// out. Never culls a pair that holds a minimum.
-/// @param other  A bound of the other body in the node's frame.
-/// Real-time safe. Source: Johnson & Cohen 2001, with oriented boxes in place of spheres.
-using CullKernel = std::uint32_t (*)(const NormalConeTree::Node& node, const NormalConeTree::Bound& other,
-                                     const CullLimits& limits) noexcept;
-
 /// Eight pairs of bounds, each side in its own frame, lane by lane.
 struct alignas(64) BoundPairs {
   NormalConeTree::Node scene, part;  ///< Of each, the bounds; the children are the leaves.
 };
 
-/// Which of eight pairs of bounds can hold a minimum, by the same test.
+/// Which of eight pairs of bounds can hold a minimum: bit per lane.
+///
+/// A minimum's d joins a point of one box to a point of the other, is no longer than the cutoff, and its
+/// direction is within the limits of both. Culls where the projections on the axes of either box rule that
+/// out. Never culls a pair that holds a minimum.
+/// Real-time safe. Source: Johnson & Cohen 2001, with oriented boxes in place of spheres.
 using PairCullKernel = std::uint32_t (*)(const BoundPairs& pairs, const SinglePose& sceneFromPart,
                                          const CullLimits& limits) noexcept;
 
@@ -54,7 +48,6 @@ enum class SimdLevel : std::uint8_t { Portable, Avx2, Avx512 };
 std::span<const SimdLevel> availableSimdLevels() noexcept;
 
 /// The kernel for a level that the machine has.
-CullKernel cullKernel(SimdLevel level) noexcept;
 PairCullKernel pairCullKernel(SimdLevel level) noexcept;
 
 /// The level that queries use: the best, unless the environment variable NEARFIT_SIMD (portable, avx2,

@@ -22,8 +22,8 @@ LmdResult findLmds(const NormalConeTree& scene, const NormalConeTree& part,
   LmdScratch::Data& workspace = scratch.data();
   const LeafTests tests(scene, part, pose, cutoff);
   MinimaCollector collector(workspace, result);
-  TreeTraversal traversal(scene, part, pose, cullLimits(scene, part, pose, cutoff), workspace.cull,
-                          workspace.stack);
+  TreeTraversal traversal(scene, part, pose, cullLimits(scene, part, pose, cutoff), workspace.open,
+                          workspace.traversal);
   const bool isDone = traversal.run(
       [&](const EntryPair& pair) {
         ++result.leafPairs;

@@ -1,6 +1,5 @@
 #include "core/proximity/normal_cone_tree.h"
 
-#include <cmath>
 
 #include "core/proximity/normal_cone_tree_builder.h"
 
@@ -22,9 +21,8 @@ NormalConeTree::Bound NormalConeTree::Node::bound(std::size_t lane) const noexce
   return b;
 }
 
-float NormalConeTree::Node::size(std::size_t lane) const noexcept {
-  return std::sqrt(half[0][lane] * half[0][lane] + half[1][lane] * half[1][lane] +
-                   half[2][lane] * half[2][lane]);
+float NormalConeTree::Node::sizeSquared(std::size_t lane) const noexcept {
+  return half[0][lane] * half[0][lane] + half[1][lane] * half[1][lane] + half[2][lane] * half[2][lane];
 }
 
 NormalConeTree::NormalConeTree(const TriangleMesh& mesh, const ProgressCallback& progress)

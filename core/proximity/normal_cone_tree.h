@@ -55,8 +55,8 @@ class NormalConeTree {
     std::array<std::uint32_t, kWidth> child;  ///< See isLeaf(). Unused lanes lie out of everything's reach.
 
     Bound bound(std::size_t lane) const noexcept;
-    /// Half the diagonal of a child's box.
-    float size(std::size_t lane) const noexcept;
+    /// Square of half the diagonal of a child's box [m^2].
+    float sizeSquared(std::size_t lane) const noexcept;
   };
   static_assert(sizeof(Node) == 512);
 

@@ -18,14 +18,14 @@ struct LmdScratch::Data {
       : minima(capacity),
         order(capacity),
         parent(capacity),
-        cull(cullKernel(simd)),
+        open(opener(simd)),
         pairCull(pairCullKernel(simd)),
         segmentCull(segmentKernel(simd)) {}
 
-  TraversalStack stack;
+  TraversalWork traversal;
   std::vector<Minimum> minima;
   std::vector<std::uint32_t> order, parent;
-  CullKernel cull;
+  Opener open;
   PairCullKernel pairCull;
   SegmentKernel segmentCull;
 };

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -12,97 +12,75 @@ namespace nearfit {
 
 /// A child of each tree that may hold a minimum together, and where its bound stands.
 struct EntryPair {
-  std::uint32_t scene, part;          ///< Children, as in NormalConeTree::Node.
-  std::uint32_t sceneLane, partLane;  ///< kWidth * node + lane of their bounds.
-  float sceneSize, partSize;
+  std::uint32_t scene, part;                ///< Children, as in NormalConeTree::Node.
+  std::uint32_t sceneLane, partLane;        ///< kWidth * node + lane of their bounds.
+  float sceneSizeSquared, partSizeSquared;  ///< Of half diagonals [m^2].
 };
 
-/// Each opened node leaves at most seven siblings waiting; two trees.
-using TraversalStack = std::array<EntryPair, 7 * 2 * NormalConeTree::kMaxDepth + 1>;
+/// What a traversal has before it: pairs to open, and pairs of leaves that it came to.
+struct TraversalWork {
+  /// Pairs waiting up to which two are opened at once. Each alone leaves at most seven siblings waiting a
+  /// level, of two trees: the room beyond is never used up.
+  static constexpr std::size_t kOpenTwo = 256;
+  static constexpr std::size_t kRoom = kOpenTwo + 16 + 7 * 2 * NormalConeTree::kMaxDepth + 1;
+  static constexpr std::size_t kLeaves = 64;
+
+  std::array<EntryPair, kRoom> waiting;
+  std::array<EntryPair, kLeaves + 16> leaves;
+  std::size_t waitingCount, leafCount;
+  std::uint64_t nodePairs, maxNodePairs;
+  const NormalConeTree::Node *scene, *part;
+  SinglePose sceneFromPart{RigidTransform{}}, partFromScene{RigidTransform{}};
+  CullLimits limits;
+};
+
+/// Opens pairs, nearest the leaves first, until there are about kLeaves pairs of leaves, nothing is waiting,
+/// or maxNodePairs are opened. Never drops a pair of leaves that holds a minimum. Real-time safe.
+using Opener = void (*)(TraversalWork& work) noexcept;
+
+/// The opener for a level that the machine has.
+Opener opener(SimdLevel level) noexcept;
 
 /// Goes down two trees together and visits the pairs of leaves that survive the culls.
 class TreeTraversal {
  public:
   /// @param sceneFromPart  Between the trees' centred frames.
   TreeTraversal(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
-                const CullLimits& limits, CullKernel cull, TraversalStack& stack) noexcept
-      : scene_(scene),
-        part_(part),
-        sceneFromPart_(sceneFromPart),
-        partFromScene_(sceneFromPart.inverse()),
-        limits_(limits),
-        cull_(cull),
-        stack_(stack) {}
+                const CullLimits& limits, Opener open, TraversalWork& work) noexcept
+      : open_(open), work_(work) {
+    work.scene = scene.nodes().data();
+    work.part = part.nodes().data();
+    work.sceneFromPart = SinglePose(sceneFromPart);
+    work.partFromScene = SinglePose(sceneFromPart.inverse());
+    work.limits = limits;
+  }
 
   /// Calls visit(EntryPair of two leaves) for each; stops after `maxNodePairs` and says false then.
   template <class Visit>
   bool run(Visit&& visit, std::uint64_t maxNodePairs = std::numeric_limits<std::uint64_t>::max()) noexcept {
-    const NormalConeTree::Node &sceneRoot = scene_.nodes()[0], &partRoot = part_.nodes()[0];
-    descend({sceneRoot.child[0], partRoot.child[0], 0, 0, sceneRoot.size(0), partRoot.size(0)}, visit);
-    while (size_ > 0) {
-      if (nodePairs_ == maxNodePairs) return false;
-      ++nodePairs_;
-      const EntryPair pair = stack_[--size_];
-      const bool opensScene = NormalConeTree::isLeaf(pair.part) ||
-                              (!NormalConeTree::isLeaf(pair.scene) && pair.sceneSize >= pair.partSize);
-      if (opensScene) {
-        openScene(pair, visit);
-      } else {
-        openPart(pair, visit);
-      }
+    const std::uint32_t scene = work_.scene->child[0], part = work_.part->child[0];
+    const EntryPair first{scene, part, 0, 0, work_.scene->sizeSquared(0), work_.part->sizeSquared(0)};
+    const bool isLeaves = NormalConeTree::isLeaf(scene) && NormalConeTree::isLeaf(part);
+    work_.waiting[0] = work_.leaves[0] = first;
+    work_.waitingCount = isLeaves ? 0 : 1;
+    work_.leafCount = isLeaves ? 1 : 0;
+    work_.nodePairs = 0;
+    work_.maxNodePairs = maxNodePairs;
+    for (;;) {
+      open_(work_);
+      for (std::size_t i = 0; i < work_.leafCount; ++i)
+        visit(work_.leaves[i]);
+      work_.leafCount = 0;
+      if (work_.waitingCount == 0) return true;
+      if (work_.nodePairs == maxNodePairs) return false;
     }
-    return true;
   }
 
-  std::uint64_t nodePairs() const noexcept { return nodePairs_; }
+  std::uint64_t nodePairs() const noexcept { return work_.nodePairs; }
 
  private:
-  static constexpr auto kWidth = static_cast<std::uint32_t>(NormalConeTree::kWidth);
-
-  static NormalConeTree::Bound boundAt(const NormalConeTree& tree, std::uint32_t lane) noexcept {
-    return tree.nodes()[lane / kWidth].bound(lane % kWidth);
-  }
-
-  template <class Visit>
-  void openScene(const EntryPair& pair, Visit& visit) noexcept {
-    const NormalConeTree::Node& node = scene_.nodes()[pair.scene];
-    std::uint32_t lanes = cull_(node, sceneFromPart_.apply(boundAt(part_, pair.partLane)), limits_);
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
-      descend({node.child[lane], pair.part, pair.scene * kWidth + lane, pair.partLane, node.size(lane),
-               pair.partSize},
-              visit);
-    }
-  }
-
-  template <class Visit>
-  void openPart(const EntryPair& pair, Visit& visit) noexcept {
-    const NormalConeTree::Node& node = part_.nodes()[pair.part];
-    std::uint32_t lanes = cull_(node, partFromScene_.apply(boundAt(scene_, pair.sceneLane)), limits_);
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
-      descend({pair.scene, node.child[lane], pair.sceneLane, pair.part * kWidth + lane, pair.sceneSize,
-               node.size(lane)},
-              visit);
-    }
-  }
-
-  template <class Visit>
-  void descend(const EntryPair& pair, Visit& visit) noexcept {
-    if (NormalConeTree::isLeaf(pair.scene) && NormalConeTree::isLeaf(pair.part)) {
-      visit(pair);
-    } else {
-      stack_[size_++] = pair;
-    }
-  }
-
-  const NormalConeTree &scene_, &part_;
-  const SinglePose sceneFromPart_, partFromScene_;
-  const CullLimits limits_;
-  const CullKernel cull_;
-  TraversalStack& stack_;
-  std::size_t size_ = 0;
-  std::uint64_t nodePairs_ = 0;
+  Opener open_;
+  TraversalWork& work_;
 };
 
 }  // namespace nearfit

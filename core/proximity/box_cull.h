@@ -1,0 +1,179 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/proximity/cull_kernel.h"
+#include "core/proximity/normal_cone_tree.h"
+
+// The test of two bounds, written once, on eight or sixteen numbers at a time, and compiled for each
+// instruction set. Everything here is forced inline: a function of its own compiled for AVX could be the copy
+// that the linker keeps for all.
+#define NEARFIT_INLINE inline __attribute__((always_inline))
+
+#if defined(__x86_64__)
+#define NEARFIT_AVX2 __attribute__((target("avx2,fma")))
+#define NEARFIT_AVX512 __attribute__((target("avx512f,avx512vl,avx512dq,fma")))
+#endif
+
+namespace nearfit::simd {
+
+/// Directions that are nearly square to n say nothing of how far they reach along it.
+constexpr float kLeastSlope = 1e-2F;
+
+using Floats8 = float __attribute__((vector_size(32)));
+using Floats16 = float __attribute__((vector_size(64)));
+static_assert(sizeof(Floats8) == NormalConeTree::kWidth * sizeof(float));
+
+/// Three times eight numbers, or sixteen.
+template <class F>
+struct Triple {
+  F x, y, z;
+};
+
+NEARFIT_INLINE Floats8 load(const std::array<float, NormalConeTree::kWidth>& lanes) {
+  Floats8 out;
+  __builtin_memcpy(&out, &lanes, sizeof out);
+  return out;
+}
+NEARFIT_INLINE Triple<Floats8> load(const std::array<std::array<float, NormalConeTree::kWidth>, 3>& lanes) {
+  return {load(lanes[0]), load(lanes[1]), load(lanes[2])};
+}
+template <class F>
+NEARFIT_INLINE F least(const F& a, const F& b) {
+  return a < b ? a : b;
+}
+template <class F>
+NEARFIT_INLINE F most(const F& a, const F& b) {
+  return a > b ? a : b;
+}
+template <class F>
+NEARFIT_INLINE F magnitude(const F& a) {
+  using Ints = decltype(a < a);
+  const Ints bits = reinterpret_cast<Ints>(a) & 0x7FFFFFFF;
+  return reinterpret_cast<F>(bits);
+}
+template <class F>
+NEARFIT_INLINE F dot(const Triple<F>& a, const Triple<F>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class F>
+NEARFIT_INLINE Triple<F> cross(const Triple<F>& a, const Triple<F>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Limits on the directions of a body's minima, in its axes.
+template <class F>
+struct Limits {
+  F leastN, mostU, mostV;
+};
+
+template <class F>
+struct Box {
+  Triple<F> centre, n, u, half;  ///< v is n x u.
+  Limits<F> limits;
+};
+
+/// The bounds of a node's lanes.
+NEARFIT_INLINE Box<Floats8> boxes(const NormalConeTree::Node& node) {
+  return {load(node.centre),
+          load(node.n),
+          load(node.u),
+          load(node.half),
+          {load(node.leastN), load(node.mostU), load(node.mostV)}};
+}
+
+/// A pose for each lane: three columns of the rotation, then the translation.
+template <class F>
+struct Poses {
+  Triple<F> x, y, z, translation;
+  NEARFIT_INLINE Triple<F> turned(const Triple<F>& a) const {
+    return {x.x * a.x + y.x * a.y + z.x * a.z, x.y * a.x + y.y * a.y + z.y * a.z,
+            x.z * a.x + y.z * a.y + z.z * a.z};
+  }
+};
+
+/// Boxes seen from the frame that the poses lead to.
+template <class F>
+NEARFIT_INLINE void move(Box<F>& box, const Poses<F>& poses) {
+  box.n = poses.turned(box.n);
+  box.u = poses.turned(box.u);
+  const Triple<F> c = poses.turned(box.centre);
+  box.centre = {c.x + poses.translation.x, c.y + poses.translation.y, c.z + poses.translation.z};
+}
+
+/// What the components of a minimum's d / |d| along three axes can be.
+template <class F>
+struct Ranges {
+  Triple<F> low, high;
+};
+
+/// Along a's axes, of directions d within limits `a` with -d within limits `b`. The rows hold the product of
+/// each of a's axes with b's n, u and v. -d = x n + y u + z v in b's axes, x within [leastN, 1], |y| and |z|
+/// at most mostU and mostV: its product with an axis of a's is linear in each, so that the ends bound it.
+template <class F>
+NEARFIT_INLINE Ranges<F> ranges(const Limits<F>& a, const Limits<F>& b, const Triple<F>& n,
+                                const Triple<F>& u, const Triple<F>& v, float turn) {
+  const F nEnd = -n.x, uEnd = -u.x, vEnd = -v.x;
+  const F nLeast = nEnd * b.leastN, uLeast = uEnd * b.leastN, vLeast = vEnd * b.leastN;
+  const F nSide = magnitude(n.y) * b.mostU + magnitude(n.z) * b.mostV + turn;
+  const F uSide = magnitude(u.y) * b.mostU + magnitude(u.z) * b.mostV + turn;
+  const F vSide = magnitude(v.y) * b.mostU + magnitude(v.z) * b.mostV + turn;
+  return {{most(a.leastN, least(nEnd, nLeast) - nSide), most(-a.mostU, least(uEnd, uLeast) - uSide),
+           most(-a.mostV, least(vEnd, vLeast) - vSide)},
+          {most(nEnd, nLeast) + nSide, least(a.mostU, most(uEnd, uLeast) + uSide),
+           least(a.mostV, most(vEnd, vLeast) + vSide)}};
+}
+
+/// Half extent of a box along a direction whose products with the box's axes are given.
+template <class F>
+NEARFIT_INLINE F extent(const Triple<F>& half, const F& byN, const F& byU, const F& byV) {
+  return magnitude(byN) * half.x + magnitude(byU) * half.y + magnitude(byV) * half.z;
+}
+
+/// At least 0 when d can reach along an axis what the boxes ask: t give or take e. |d| is within [gap,
+/// reach], and its share along the axis within [low, high]: the product is greatest and least at ends of
+/// both.
+template <class F>
+NEARFIT_INLINE F meets(const F& t, const F& e, const F& low, const F& high, const F& gap, const F& reach) {
+  const F above = most(high * reach, high * gap) - (t - e), below = (t + e) - least(low * reach, low * gap);
+  return least(high - low, least(above, below));
+}
+
+/// At least 0 in the lanes where the two boxes can hold a minimum together, less in the others: where the
+/// projections on the axes of either box rule it out.
+template <class F>
+NEARFIT_INLINE F cull(const Box<F>& own, const Box<F>& its, const CullLimits& limits) {
+  const Triple<F> ownV = cross(own.n, own.u), itsV = cross(its.n, its.u);
+  const Triple<F> d{its.centre.x - own.centre.x, its.centre.y - own.centre.y, its.centre.z - own.centre.z};
+  // Products of axes, own by row, the other's by column.
+  const Triple<F> cn{dot(own.n, its.n), dot(own.n, its.u), dot(own.n, itsV)};
+  const Triple<F> cu{dot(own.u, its.n), dot(own.u, its.u), dot(own.u, itsV)};
+  const Triple<F> cv{dot(ownV, its.n), dot(ownV, its.u), dot(ownV, itsV)};
+  const Ranges<F> a = ranges(own.limits, its.limits, cn, cu, cv, limits.turn);
+  const Ranges<F> b = ranges(its.limits, own.limits, Triple<F>{cn.x, cu.x, cv.x}, Triple<F>{cn.y, cu.y, cv.y},
+                             Triple<F>{cn.z, cu.z, cv.z}, limits.turn);
+
+  // Along each axis of either box a minimum's d, out of that box, lies within the sum of extents of the
+  // centres' difference.
+  const F tn = dot(d, own.n), en = own.half.x + extent(its.half, cn.x, cn.y, cn.z) + limits.padding;
+  const F tu = dot(d, own.u), eu = own.half.y + extent(its.half, cu.x, cu.y, cu.z) + limits.padding;
+  const F tv = dot(d, ownV), ev = own.half.z + extent(its.half, cv.x, cv.y, cv.z) + limits.padding;
+  const F sn = -dot(d, its.n), fn = extent(own.half, cn.x, cu.x, cv.x) + (its.half.x + limits.padding);
+  const F su = -dot(d, its.u), fu = extent(own.half, cn.y, cu.y, cv.y) + (its.half.y + limits.padding);
+  const F sv = -dot(d, itsV), fv = extent(own.half, cn.z, cu.z, cv.z) + (its.half.z + limits.padding);
+
+  // |d| is at least what it is along an axis, and at most that by the least share that it has along it.
+  const F cutoff = F{} + limits.cutoff;
+  const F gap = most(F{}, most(tn - en, sn - fn));
+  const F reach = least(least(cutoff, a.low.x > kLeastSlope ? (tn + en) / a.low.x : cutoff),
+                        b.low.x > kLeastSlope ? (sn + fn) / b.low.x : cutoff);
+  F margin = least(reach - gap, meets(tn, en, a.low.x, a.high.x, gap, reach));
+  margin = least(margin, meets(tu, eu, a.low.y, a.high.y, gap, reach));
+  margin = least(margin, meets(tv, ev, a.low.z, a.high.z, gap, reach));
+  margin = least(margin, meets(sn, fn, b.low.x, b.high.x, gap, reach));
+  margin = least(margin, meets(su, fu, b.low.y, b.high.y, gap, reach));
+  return least(margin, meets(sv, fv, b.low.z, b.high.z, gap, reach));
+}
+
+}  // namespace nearfit::simd

@@ -1,0 +1,170 @@
+#include "core/proximity/tree_traversal.h"
+
+#include "core/proximity/box_cull.h"
+
+namespace nearfit {
+namespace {
+
+using Node = NormalConeTree::Node;
+using simd::Box;
+using simd::Floats16;
+using simd::Floats8;
+using simd::Poses;
+using simd::Triple;
+
+constexpr std::uint32_t kWidth = NormalConeTree::kWidth;
+
+/// A node that is opened against a bound of the other tree.
+struct Opening {
+  EntryPair pair;
+  const Node *opened, *other;
+  std::uint32_t otherLane;
+  bool isScene;  ///< Whether the node that is opened is the scene's.
+};
+
+NEARFIT_INLINE Opening take(TraversalWork& work) {
+  Opening o;
+  o.pair = work.waiting[--work.waitingCount];
+  ++work.nodePairs;
+  const EntryPair& p = o.pair;
+  o.isScene = NormalConeTree::isLeaf(p.part) ||
+              (!NormalConeTree::isLeaf(p.scene) && p.sceneSizeSquared >= p.partSizeSquared);
+  const std::uint32_t otherAt = o.isScene ? p.partLane : p.sceneLane;
+  o.opened = o.isScene ? work.scene + p.scene : work.part + p.part;
+  o.other = (o.isScene ? work.part : work.scene) + otherAt / kWidth;
+  o.otherLane = otherAt % kWidth;
+  return o;
+}
+
+/// The bound that a node is opened against, in all lanes.
+NEARFIT_INLINE Box<Floats8> otherOf(const Opening& o) {
+  const Node& n = *o.other;
+  const std::uint32_t lane = o.otherLane;
+  const auto spread = [lane](const auto& v) __attribute__((always_inline)) {
+    return Triple<Floats8>{Floats8{} + v[0][lane], Floats8{} + v[1][lane], Floats8{} + v[2][lane]};
+  };
+  return {spread(n.centre),
+          spread(n.n),
+          spread(n.u),
+          spread(n.half),
+          {Floats8{} + n.leastN[lane], Floats8{} + n.mostU[lane], Floats8{} + n.mostV[lane]}};
+}
+
+NEARFIT_INLINE Poses<Floats8> posesOf(const SinglePose& pose) {
+  const auto& m = pose.columns();
+  const auto column = [&m](std::size_t k) __attribute__((always_inline)) {
+    return Triple<Floats8>{Floats8{} + m[k][0], Floats8{} + m[k][1], Floats8{} + m[k][2]};
+  };
+  return {column(0), column(1), column(2), column(3)};
+}
+
+NEARFIT_INLINE Floats8 test(const TraversalWork& work, const Opening& o) {
+  Box<Floats8> other = otherOf(o);
+  simd::move(other, posesOf(o.isScene ? work.sceneFromPart : work.partFromScene));
+  return simd::cull(simd::boxes(*o.opened), other, work.limits);
+}
+
+/// Takes in the lanes that survive: pairs of leaves, and pairs that wait to be opened.
+NEARFIT_INLINE void keep(TraversalWork& work, const Opening& o, std::uint32_t lanes) {
+  const EntryPair& p = o.pair;
+  const std::uint32_t node = kWidth * (o.isScene ? p.scene : p.part);
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
+    EntryPair e = p;
+    const std::uint32_t child = o.opened->child[lane];
+    const float h0 = o.opened->half[0][lane], h1 = o.opened->half[1][lane], h2 = o.opened->half[2][lane];
+    const float size = h0 * h0 + h1 * h1 + h2 * h2;
+    (o.isScene ? e.scene : e.part) = child;
+    (o.isScene ? e.sceneLane : e.partLane) = node + lane;
+    (o.isScene ? e.sceneSizeSquared : e.partSizeSquared) = size;
+    // Written to both lists: a branch that cannot be foretold costs more.
+    const bool isLeaves = NormalConeTree::isLeaf(e.scene) && NormalConeTree::isLeaf(e.part);
+    work.waiting[work.waitingCount] = e;
+    work.leaves[work.leafCount] = e;
+    work.waitingCount += isLeaves ? 0 : 1;
+    work.leafCount += isLeaves ? 1 : 0;
+  }
+}
+
+NEARFIT_INLINE bool isBusy(const TraversalWork& work) {
+  return work.waitingCount > 0 && work.leafCount < TraversalWork::kLeaves &&
+         work.nodePairs < work.maxNodePairs;
+}
+
+NEARFIT_INLINE bool mayOpenTwo(const TraversalWork& work) {
+  return work.waitingCount > 1 && work.waitingCount <= TraversalWork::kOpenTwo &&
+         work.maxNodePairs - work.nodePairs > 1;
+}
+
+void openPortable(TraversalWork& work) noexcept {
+  while (isBusy(work)) {
+    const Opening o = take(work);
+    const Floats8 margin = test(work, o);
+    std::uint32_t bits = 0;
+    for (std::uint32_t i = 0; i < kWidth; ++i)
+      bits |= (margin[i] >= 0.0F ? 1U : 0U) << i;
+    keep(work, o, bits);
+  }
+}
+
+#if defined(__x86_64__)
+NEARFIT_AVX2 void openAvx2(TraversalWork& work) noexcept {
+  while (isBusy(work)) {
+    const Opening o = take(work);
+    const auto alive = test(work, o) >= 0.0F;
+    keep(work, o, static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats8>(alive))));
+  }
+}
+
+/// Two bounds side by side.
+NEARFIT_INLINE Floats16 join(const Floats8& a, const Floats8& b) {
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+NEARFIT_INLINE Triple<Floats16> join(const Triple<Floats8>& a, const Triple<Floats8>& b) {
+  return {join(a.x, b.x), join(a.y, b.y), join(a.z, b.z)};
+}
+NEARFIT_INLINE Box<Floats16> join(const Box<Floats8>& a, const Box<Floats8>& b) {
+  return {join(a.centre, b.centre),
+          join(a.n, b.n),
+          join(a.u, b.u),
+          join(a.half, b.half),
+          {join(a.limits.leastN, b.limits.leastN), join(a.limits.mostU, b.limits.mostU),
+           join(a.limits.mostV, b.limits.mostV)}};
+}
+
+NEARFIT_INLINE Poses<Floats16> join(const Poses<Floats8>& a, const Poses<Floats8>& b) {
+  return {join(a.x, b.x), join(a.y, b.y), join(a.z, b.z), join(a.translation, b.translation)};
+}
+
+NEARFIT_AVX512 void openAvx512(TraversalWork& work) noexcept {
+  // By whether the first node that is opened is the scene's, and the second.
+  const Poses<Floats8> ofPart = posesOf(work.partFromScene), ofScene = posesOf(work.sceneFromPart);
+  const Poses<Floats16> poses[2][2] = {{join(ofPart, ofPart), join(ofPart, ofScene)},
+                                       {join(ofScene, ofPart), join(ofScene, ofScene)}};
+  while (isBusy(work)) {
+    const Opening first = take(work);
+    const bool isTwo = mayOpenTwo(work);
+    const Opening second = isTwo ? take(work) : first;
+    Box<Floats16> other = join(otherOf(first), otherOf(second));
+    simd::move(other, poses[first.isScene ? 1 : 0][second.isScene ? 1 : 0]);
+    const Floats16 margin =
+        simd::cull(join(simd::boxes(*first.opened), simd::boxes(*second.opened)), other, work.limits);
+    const auto bits = static_cast<std::uint32_t>(__builtin_ia32_cvtd2mask512(margin >= 0.0F));
+    keep(work, first, bits & 0xFFU);
+    if (isTwo) keep(work, second, bits >> 8 & 0xFFU);
+  }
+}
+#endif
+
+}  // namespace
+
+Opener opener(SimdLevel level) noexcept {
+#if defined(__x86_64__)
+  if (level == SimdLevel::Avx512) return openAvx512;
+  if (level == SimdLevel::Avx2) return openAvx2;
+#endif
+  static_cast<void>(level);
+  return openPortable;
+}
+
+}  // namespace nearfit
