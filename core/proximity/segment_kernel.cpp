@@ -52,12 +52,15 @@ NEARFIT_INLINE Ints meets(const NormalConeTree::Node& node, const SegmentBound& 
          (magnitude(dn * hu - du * hn) <= en * au + eu * an + slack);
 }
 
-std::uint32_t segmentPortable(const NormalConeTree::Node& node, const SegmentBound& segment) noexcept {
-  const Ints lanes = meets(node, segment);
+NEARFIT_INLINE std::uint32_t bitsOf(Ints lanes) {
   std::uint32_t bits = 0;
   for (std::uint32_t i = 0; i < NormalConeTree::kWidth; ++i)
     bits |= (lanes[i] != 0 ? 1U : 0U) << i;
   return bits;
+}
+
+std::uint32_t segmentPortable(const NormalConeTree::Node& node, const SegmentBound& segment) noexcept {
+  return bitsOf(meets(node, segment));
 }
 
 #if defined(__x86_64__)
