@@ -13,7 +13,6 @@
 #include "tests/support/cached_meshes.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"
-#include "tests/support/mesh_text.h"
 #include "tests/support/part_geometries.h"
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
