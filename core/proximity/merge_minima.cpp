@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <glm/geometric.hpp>
 
@@ -62,6 +63,15 @@ class Piece {
  private:
   const Minimum& m_;
 };
+
+/// An order that does not depend on when entries were found, and so not on the instruction set or a candidate
+/// list: results are then the same to the last bit.
+bool comesBefore(const Lmd& a, const Lmd& b) noexcept {
+  const auto key = [](const Lmd& l) {
+    return std::tuple(l.sceneFeature, l.sceneIndex, l.partFeature, l.partIndex);
+  };
+  return key(a) < key(b);
+}
 
 /// What counts as one length, for points and for pieces of flat regions.
 struct Closeness {
@@ -138,7 +148,7 @@ class Grouping {
     axis_ = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
     std::sort(order_.begin(), order_.end(), [this](std::uint32_t a, std::uint32_t b) {
       const double sa = start(a), sb = start(b);
-      return sa != sb ? sa < sb : a < b;
+      return sa != sb ? sa < sb : comesBefore(minima_[a].lmd, minima_[b].lmd);
     });
     for (std::size_t i = 0; i < order_.size(); ++i) {
       const Minimum& a = minima_[order_[i]];
@@ -187,26 +197,26 @@ std::size_t mergeMinima(std::span<Minimum> minima, std::span<std::uint32_t> orde
   const std::span<std::uint32_t> sorted = order.first(count);
   std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
     const std::uint32_t ra = grouping.root(a), rb = grouping.root(b);
-    return ra != rb ? ra < rb : a < b;
+    return ra != rb ? ra < rb : comesBefore(minima[a].lmd, minima[b].lmd);
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count;) {
-    const std::uint32_t root = sorted[i];  // The least index of its set is its root.
+    const std::uint32_t first = sorted[i], root = grouping.root(first);
     std::size_t end = i;
     bool isRegion = false;
     for (; end < count && grouping.root(sorted[end]) == root; ++end)
       isRegion = isRegion || minima[sorted[end]].dimension > 0;
     if (isRegion) {
-      const double tolerance = closeness.ofOverlap(minima[root].lmd.distance);
-      minima[root].lmd = uniteRegion(minima, sorted.subspan(i, end - i), tolerance);
+      const double tolerance = closeness.ofOverlap(minima[first].lmd.distance);
+      minima[first].lmd = uniteRegion(minima, sorted.subspan(i, end - i), tolerance);
     }
-    order[kept++] = root;
+    order[kept++] = first;
     i = end;
   }
   std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(kept),
             [&](std::uint32_t a, std::uint32_t b) {
               const double da = minima[a].lmd.distance, db = minima[b].lmd.distance;
-              return da != db ? da < db : a < b;
+              return da != db ? da < db : comesBefore(minima[a].lmd, minima[b].lmd);
             });
   return kept;
 }
