@@ -79,14 +79,18 @@ void NormalConeTreeBuilder::fillLeaves() {
 
 std::vector<NormalConeTreeBuilder::Item> NormalConeTreeBuilder::makeItems() const {
   std::vector<Item> items(geometry_->size());
-  for (std::uint32_t i = 0; i < items.size(); ++i) {
-    const FeatureGeometry::Corners c = geometry_->corners(i);
-    Aabb box;
-    for (std::size_t k = 0; k < c.count; ++k)
-      box.add(c.points[k]);
-    items[i].centre = toSingle(box.centre());
-    items[i].feature = i;
-  }
+  constexpr std::size_t kChunk = 65536;
+  parallelFor((items.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    const std::size_t end = std::min(items.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end; ++i) {
+      const auto feature = static_cast<std::uint32_t>(i);
+      const FeatureGeometry::Corners c = geometry_->corners(feature);
+      Aabb box;
+      for (std::size_t k = 0; k < c.count; ++k)
+        box.add(c.points[k]);
+      items[i] = {toSingle(box.centre()), feature};
+    }
+  });
   return items;
 }
 
@@ -105,7 +109,7 @@ void NormalConeTreeBuilder::buildRoot(Items items) {
   if (items.size() <= kLargePart) {
     subtrees.push_back({0, 0, items, {}, {}});
   } else {
-    setLane(tree_.nodes[0], 0, boundOfMany(items));
+    subtrees.push_back({0, 0, items, {}, {}});
     const std::uint32_t child = buildLarge(items, subtrees);
     tree_.nodes[0].child[0] = child;
   }
@@ -117,6 +121,10 @@ void NormalConeTreeBuilder::buildSubtrees(std::vector<Subtree>& subtrees) {
   progress_.add(kSplitsShare - splitsReported_);
   parallelFor(subtrees.size(), [&](std::size_t i) {
     Subtree& subtree = subtrees[i];
+    if (subtree.items.size() > kLargePart) {
+      subtree.bound = boundOfMany(subtree.items);
+      return;
+    }
     buildSubtree(subtree);
     progress_.add(kSubtreesShare * static_cast<double>(subtree.items.size()) /
                   static_cast<double>(geometry_->size()));
@@ -126,6 +134,7 @@ void NormalConeTreeBuilder::buildSubtrees(std::vector<Subtree>& subtrees) {
     NormalConeTree::Node& parent = tree_.nodes[subtree.parent];
     const auto offset = static_cast<std::uint32_t>(tree_.nodes.size());
     setLane(parent, subtree.lane, subtree.bound);
+    if (subtree.items.size() > kLargePart) continue;
     parent.child[subtree.lane] = subtree.nodes.empty() ? leafChild(subtree.items[0].feature) : offset;
     for (NormalConeTree::Node& node : subtree.nodes) {
       for (std::uint32_t& child : node.child)
@@ -169,8 +178,8 @@ NormalConeTree::Bound NormalConeTreeBuilder::boundOfMany(Items items) const {
   return PartBounds(*geometry_, tree_.size).boundOfMany(features);
 }
 
-/// Returns the index of a new node over more items than a thread is given. Parts that are small enough are
-/// put off.
+/// Returns the index of a new node over more items than a thread is given. Bounds, and parts that are
+/// small enough, are put off.
 std::uint32_t NormalConeTreeBuilder::buildLarge(Items items, std::vector<Subtree>& putOff) {
   const std::vector<Items> parts = pieces(items, [this](Items whole, std::size_t cut) {
     halveLarge(whole, cut);
@@ -179,11 +188,8 @@ std::uint32_t NormalConeTreeBuilder::buildLarge(Items items, std::vector<Subtree
   const auto index = static_cast<std::uint32_t>(tree_.nodes.size());
   tree_.nodes.push_back(emptyNode());
   for (std::size_t lane = 0; lane < parts.size(); ++lane) {
-    if (parts[lane].size() <= kLargePart) {
-      putOff.push_back({index, lane, parts[lane], {}, {}});
-      continue;
-    }
-    setLane(tree_.nodes[index], lane, boundOfMany(parts[lane]));
+    putOff.push_back({index, lane, parts[lane], {}, {}});
+    if (parts[lane].size() <= kLargePart) continue;
     const std::uint32_t child = buildLarge(parts[lane], putOff);
     tree_.nodes[index].child[lane] = child;
   }

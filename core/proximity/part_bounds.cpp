@@ -42,10 +42,6 @@ std::array<float, 3> toSingle(const glm::dvec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-double dot(const std::array<float, 3>& v, const glm::dvec3& w) {
-  return static_cast<double>(v[0]) * w.x + static_cast<double>(v[1]) * w.y + static_cast<double>(v[2]) * w.z;
-}
-
 }  // namespace
 
 Extents Extents::none() noexcept {
@@ -132,12 +128,11 @@ PartBounds::Range PartBounds::range(const Vectors& vectors, const glm::dvec3& al
 }
 
 /// n along the axis of the feature's cone, u along its longest side.
-PartBounds::Frame PartBounds::axesOfOne(std::uint32_t feature) const {
-  const glm::dvec3 n = geometry_.cone(feature).axis;
-  const FeatureGeometry::Corners c = geometry_.corners(feature);
+PartBounds::Frame PartBounds::axesOfOne(const Loaded& f) const {
+  const glm::dvec3 n = geometry_.cone(f.feature).axis;
   glm::dvec3 side(0.0);
-  for (std::size_t k = 0; k < c.count; ++k) {
-    const glm::dvec3 s = c.points[(k + 1) % c.count] - c.points[k];
+  for (std::size_t i = f.firstPoint; i < f.endPoint; ++i) {
+    const glm::dvec3 s = loaded_.points.at(i + 1 < f.endPoint ? i + 1 : f.firstPoint) - loaded_.points.at(i);
     if (glm::dot(s, s) > glm::dot(side, side)) side = s;
   }
   side -= glm::dot(side, n) * n;
@@ -149,19 +144,16 @@ PartBounds::Frame PartBounds::axesOfOne(std::uint32_t feature) const {
 
 /// u where the features are long and their normals are not, n along the mean normal, v square to both.
 PartBounds::Frame PartBounds::axes() const {
-  const auto vectorAt = [](const Vectors& v, std::size_t i) {
-    return glm::dvec3(v.c[0][i], v.c[1][i], v.c[2][i]);
-  };
   glm::dmat3 positions(0.0), normals(0.0);
   glm::dvec3 mean(0.0), meanNormal(0.0);
-  const glm::dvec3 origin = vectorAt(part_.points, 0);
+  const glm::dvec3 origin = part_.points.at(0);
   for (std::size_t i = 0; i < part_.points.count; ++i) {
-    const glm::dvec3 p = vectorAt(part_.points, i) - origin;
+    const glm::dvec3 p = part_.points.at(i) - origin;
     mean += p;
     positions += glm::outerProduct(p, p);
   }
   for (std::size_t i = 0; i < part_.rays.count; ++i) {
-    const glm::dvec3 r = vectorAt(part_.rays, i);
+    const glm::dvec3 r = part_.rays.at(i);
     meanNormal += r;
     normals += glm::outerProduct(r, r);
   }
@@ -245,7 +237,7 @@ Extents PartBounds::extentsOf(const Loaded& f, const Frame& frame) const noexcep
   };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t i = f.firstPoint; i < f.endPoint; ++i) {
-      const double t = dot(loaded_.points.at(i), frame[axis]);
+      const double t = glm::dot(loaded_.points.at(i), frame[axis]);
       add(axis, t, t);
     }
     if (f.stretch > kLittleStretch) {
@@ -255,7 +247,7 @@ Extents PartBounds::extentsOf(const Loaded& f, const Frame& frame) const noexcep
     // Weights that add up to something between 1 and the stretch reach farther out, never less far in.
     const auto stretch = static_cast<double>(f.stretch);
     for (std::size_t i = f.firstRay; i < f.endRay; ++i) {
-      const double t = dot(loaded_.rays.at(i), frame[axis]);
+      const double t = glm::dot(loaded_.rays.at(i), frame[axis]);
       add(3 + axis, t < 0.0 ? stretch * t : t, t > 0.0 ? stretch * t : t);
     }
   }
@@ -283,7 +275,7 @@ NormalConeTree::Bound PartBounds::boundOf(const Extents& all, const Frame& frame
 NormalConeTree::Bound PartBounds::bound(std::span<const std::uint32_t> part) {
   const bool isOne = part.size() == 1;
   Frame frame;
-  if (isOne) frame = axesOfOne(features_[part[0]].feature);
+  if (isOne) frame = axesOfOne(features_[part[0]]);
   // Of a face or an edge that is the best frame.
   if (!isOne || features_[part[0]].feature < geometry_.edgeBase()) {
     gather(part);

@@ -60,7 +60,7 @@ class PartBounds {
     void add(const glm::dvec3& v);
     void add(const Vectors& from, std::size_t first, std::size_t end);
     void close();
-    std::array<float, 3> at(std::size_t i) const noexcept { return {c[0][i], c[1][i], c[2][i]}; }
+    glm::dvec3 at(std::size_t i) const noexcept { return {c[0][i], c[1][i], c[2][i]}; }
   };
   struct Loaded {
     std::uint32_t feature, firstPoint, firstRay, endPoint, endRay;
@@ -77,7 +77,7 @@ class PartBounds {
   void gather(std::span<const std::uint32_t> part);
   static Range range(const Vectors& vectors, const glm::dvec3& along) noexcept;
   Frame axes() const;
-  Frame axesOfOne(std::uint32_t feature) const;
+  Frame axesOfOne(const Loaded& f) const;
   void centreDirections(Frame& frame) const noexcept;
   double cost(const Frame& frame) const noexcept;
   Frame best(const Frame& start) const noexcept;
