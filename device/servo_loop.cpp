@@ -13,9 +13,9 @@
 #include <time.h>
 
 #include "core/error.h"
-#include "core/realtime/spsc_queue.h"
 #include "core/realtime/triple_buffer.h"
 #include "device/realtime_thread.h"
+#include "device/scene_refresher.h"
 
 namespace nearfit {
 namespace {
@@ -52,27 +52,17 @@ double toSeconds(Nanoseconds t) noexcept {
 /// The floating-point mode is left as it is (no flush to zero): the same pose must give the same minima here
 /// as in any other thread, and ServoTick keeps its filter out of the denormals.
 struct ServoLoop::Shared {
-  Shared(HapticDevice& d, const ServoParameters& p, MotionQueue* r)
-      : device(d), deviceLimits(d.info().limits), record(r), parameters(p) {}
-  ~Shared() { freeScenes(); }
+  Shared(HapticDevice& d, std::shared_ptr<const ServoScene> scene, const ServoParameters& p, MotionQueue* r)
+      : device(d),
+        deviceLimits(d.info().limits),
+        record(r),
+        refresher(std::in_place, std::move(scene), p.springs.cutoff),
+        parameters(p) {}
 
   static void* threadMain(void* self) noexcept;
   void spawn();
   void serve() noexcept;
   bool tickOnce(Nanoseconds sinceStart, Nanoseconds sinceLast) noexcept;
-  void takeScene() noexcept;
-  void freeRetired() noexcept {
-    for (const ServoScene* scene = nullptr; retired.pop(scene);)
-      delete scene;
-  }
-
-  /// Only while no servo thread runs.
-  void freeScenes() noexcept {
-    freeRetired();
-    delete std::exchange(unreturned, nullptr);
-    delete pending.exchange(nullptr);
-    delete std::exchange(current, nullptr);
-  }
 
   HapticDevice& device;
   const WrenchLimits deviceLimits;
@@ -85,18 +75,16 @@ struct ServoLoop::Shared {
   std::atomic<bool> stopRequested{false};
   std::atomic<bool> isRunning{false};
 
-  std::atomic<const ServoScene*> pending{
-      nullptr};  ///< Put by the controller, taken by the servo; whoever holds it owns it.
-  SpscQueue<const ServoScene*, 64> retired;  ///< From the servo, to be freed by the controller.
+  std::optional<SceneRefresher> refresher;  ///< Gone, with the scenes that it holds, once stopped.
   TripleBuffer<ServoParameters> parameters;
   TripleBuffer<ServoSnapshot> snapshots;
   TripleBuffer<ServoStatistics> published;
 
   // The servo thread's own while it runs.
-  const ServoScene* current = nullptr;
-  const ServoScene* unreturned = nullptr;  ///< Let go of, but `retired` was full.
   ServoTick tick;
   ServoStatistics statistics;
+
+  LatencyHistogram lastRefreshTimes;  ///< Once stopped; the controlling thread's.
 };
 
 void* ServoLoop::Shared::threadMain(void* self) noexcept {
@@ -154,7 +142,6 @@ bool ServoLoop::Shared::tickOnce(Nanoseconds sinceStart, Nanoseconds sinceLast) 
   const Nanoseconds begin = now();
   RigidTransform handle;
   if (!device.readPose(handle)) return false;
-  takeScene();
   parameters.update();
   ServoParameters limited = parameters.front();
   // Not a number on either side stays one, for the tick to refuse.
@@ -162,10 +149,12 @@ bool ServoLoop::Shared::tickOnce(Nanoseconds sinceStart, Nanoseconds sinceLast) 
   if (deviceLimits.maxTorque < limited.limits.maxTorque) limited.limits.maxTorque = deviceLimits.maxTorque;
 
   ServoSnapshot& snapshot = snapshots.back();
-  tick.run(*current, limited, handle, toSeconds(sinceLast), snapshot);
+  tick.run(refresher->latest(), limited, handle, toSeconds(sinceLast), snapshot);
   device.sendWrench(snapshot.wrench);
 
   snapshot.tick = ++statistics.ticks;
+  refresher->report(snapshot.proxy, limited.springs.cutoff, snapshot.tick);
+  if (snapshot.lateBodies > 0) ++statistics.lateTicks;
   snapshot.time = toSeconds(sinceStart);
   snapshot.tickTime = toSeconds(now() - begin);
   statistics.tickTime.record(snapshot.tickTime);
@@ -173,17 +162,6 @@ bool ServoLoop::Shared::tickOnce(Nanoseconds sinceStart, Nanoseconds sinceLast) 
   if (record != nullptr) record->push(motionRow(snapshot));
   snapshots.publish();
   return true;
-}
-
-void ServoLoop::Shared::takeScene() noexcept {
-  if (unreturned != nullptr) {
-    if (!retired.push(unreturned)) return;
-    unreturned = nullptr;
-  }
-  const ServoScene* next = pending.exchange(nullptr, std::memory_order_acq_rel);
-  if (next == nullptr) return;
-  if (!retired.push(current)) unreturned = current;
-  current = next;
 }
 
 ServoLoop::ServoLoop() = default;
@@ -196,10 +174,11 @@ void ServoLoop::start(HapticDevice& device, std::unique_ptr<const ServoScene> sc
                       const ServoParameters& parameters, MotionQueue* record) {
   if (shared_ && shared_->isJoinable) throw UsageError("servo", "it is running already", "stop it first");
   if (!scene) throw UsageError("servo", "there is no scene to feel", "open one first");
-  auto shared = std::make_unique<Shared>(device, parameters, record);
-  device.start(scene->moving.worldFromPart);
-  shared->current = scene.release();
+  const RigidTransform worldFromPart = scene->moving.worldFromPart;
+  auto shared = std::make_unique<Shared>(device, std::move(scene), parameters, record);
+  device.start(worldFromPart);
   try {
+    shared->refresher->start();
     shared->spawn();
   } catch (...) {
     device.stop();
@@ -214,8 +193,9 @@ void ServoLoop::stop() noexcept {
   ::pthread_join(shared_->thread, nullptr);
   shared_->isJoinable = false;
   shared_->memoryLock.reset();
+  shared_->lastRefreshTimes = shared_->refresher->refreshTimes();
+  shared_->refresher.reset();
   shared_->device.stop();
-  shared_->freeScenes();
 }
 
 bool ServoLoop::isRunning() const noexcept {
@@ -225,8 +205,7 @@ bool ServoLoop::isRunning() const noexcept {
 void ServoLoop::setScene(std::unique_ptr<const ServoScene> scene) {
   if (!scene) throw UsageError("servo", "there is no scene to feel", "open one first");
   if (!shared_ || !shared_->isJoinable) return;
-  shared_->freeRetired();
-  delete shared_->pending.exchange(scene.release(), std::memory_order_acq_rel);
+  shared_->refresher->setScene(std::move(scene));
 }
 
 void ServoLoop::setParameters(const ServoParameters& parameters) {
@@ -235,7 +214,6 @@ void ServoLoop::setParameters(const ServoParameters& parameters) {
 
 bool ServoLoop::pollSnapshot() {
   if (!shared_) return false;
-  shared_->freeRetired();
   return shared_->snapshots.update();
 }
 
@@ -247,7 +225,10 @@ const ServoSnapshot& ServoLoop::snapshot() const noexcept {
 ServoStatistics ServoLoop::statistics() const {
   if (!shared_) return {};
   shared_->published.update();
-  return shared_->published.front();
+  ServoStatistics statistics = shared_->published.front();
+  statistics.refreshTime =
+      shared_->refresher ? shared_->refresher->refreshTimes() : shared_->lastRefreshTimes;
+  return statistics;
 }
 
 std::string ServoLoop::schedulingNote() const {

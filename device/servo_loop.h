@@ -15,7 +15,10 @@ struct ServoStatistics {
   LatencyHistogram lateness;  ///< Wake-up behind its deadline.
   LatencyHistogram tickTime;  ///< Work in a tick, from the device's pose to its wrench.
   LatencyHistogram queryTime;
+  LatencyHistogram refreshTime;  ///< Of the thread beside that searches ahead, a time a search.
   std::uint64_t ticks = 0;
+  /// Ticks that searched for themselves, as the thread beside had not caught up with the motion.
+  std::uint64_t lateTicks = 0;
   std::uint64_t overruns = 0;  ///< Ticks that were skipped because the one before ended too late.
 };
 
@@ -42,8 +45,8 @@ class ServoLoop {
   /// False also once the device has ended by itself; stop() is due then too.
   bool isRunning() const noexcept;
 
-  /// Puts another scene in place at the next tick; the old one is freed on this thread, later. Throws
-  /// UsageError when `scene` is null.
+  /// Puts another scene in place, once the thread beside the servo has searched it: a few milliseconds. The
+  /// old one is freed off the servo thread, later. Throws UsageError when `scene` is null.
   void setScene(std::unique_ptr<const ServoScene> scene);
   void setParameters(const ServoParameters& parameters);
 

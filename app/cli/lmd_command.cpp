@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t kMaxLmds = 4'000'000;
 
 struct LmdOptions {
-  std::string sceneMesh, partMesh, pose, poses, law = "linear", unit = "m";
+  std::string sceneMesh, partMesh, pose, poses, law = "linear", mode = "cold", unit = "m";
   SpringParameters springs;
 };
 
@@ -106,7 +106,9 @@ void runLmd(const LmdOptions& options) {
   if (part != scene) printWarnings(*part);
   LmdCollector collector(kMaxLmds);
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const LmdSet set = collector.collect(scene->tree(), part->tree(), poses[i], springs.cutoff);
+    const LmdSet set = options.mode == "tracked"
+                           ? collector.collectTracked(scene->tree(), part->tree(), poses[i], springs.cutoff)
+                           : collector.collect(scene->tree(), part->tree(), poses[i], springs.cutoff);
     const glm::dvec3 centre = poses[i].applyToPoint(part->mass.centre);
     print(poseLine(i, set, springWrench(set.lmds, springs, centre, {})));
   }
@@ -129,7 +131,8 @@ lmds      All local minimum distances within the cutoff, nearest first. "scene" 
           has the same area's second moments.
 force     Sum of the springs on the part [N], those of blocked minima left out, in the scene mesh's frame;
           torque [N m] about the part's centre of mass. Nothing moves, so nothing is damped.
-query_us  Time of the query alone [us].
+query_us  Time of the query alone [us]; with --mode tracked without that of the search ahead, which in
+          the servo is another thread's.
 Poses are scene from part: p_scene = R(q) p_part + t. Cutoff and translations are in metres whatever
 the unit of the meshes is. A quaternion is normalised; one that is off unit length by more than 0.001 is
 refused.
@@ -169,6 +172,13 @@ void addLmdCommand(CLI::App& program) {
                    "Force of a minimum at distance d: linear is K (cutoff - d); printed, as in the paper, is "
                    "K (cutoff - d) d")
       ->check(CLI::IsMember({"linear", "printed"}))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--mode", options->mode,
+          "cold searches anew for each pose; tracked follows the part from pose to pose, as the servo "
+          "does. The sets are the same")
+      ->check(CLI::IsMember({"cold", "tracked"}))
       ->capture_default_str();
   command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
   command->footer(kFooter);

@@ -24,7 +24,7 @@ constexpr const char* kFooter =
           proxy_tx ... proxy_qz (tx ty tz qw qx qy qz each; here the proxy is the handle); force_x ...
           force_z [N] and torque_x ... torque_z [N m] about the part's centre of mass, as sent to the device
           and so within its limits; lmds; distance, the least [m], "inf" when nothing is within the cutoff;
-          query_us; tick_us.
+          query_us; tick_us; late_bodies, those that the tick searched anew as the lists were not ready.
 --export  JSON: each part's pose and mesh, and the minima left between the part that was led and each other.
 A tick that ends too late skips periods instead of rows: the path then takes longer, and the summary says so.
 Example: nearfit-cli place fit.nearfit --part Peg --path hand.csv --record felt.csv --export placed.json)";

@@ -28,7 +28,8 @@ struct Peak {
 struct PlaceResult {
   std::uint64_t ticks = 0;
   std::uint64_t clampedTicks = 0, truncatedTicks = 0;
-  std::uint64_t lostRows = 0;  ///< Ticks that are missing in the record and in everything below but `end`.
+  std::uint64_t lateTicks = 0;  ///< That searched for themselves, as the lists were not ready.
+  std::uint64_t lostRows = 0;   ///< Ticks that are missing in the record and in everything below but `end`.
   std::uint32_t maxLmds = 0;
   double leastDistance = 0.0;  ///< [m]; infinity when nothing ever came within the cutoff.
   double leastDistanceTime = 0.0;
@@ -36,6 +37,7 @@ struct PlaceResult {
   ServoFault fault = ServoFault::None;
   RigidTransform end;                              ///< worldFromPart after the last tick.
   LatencyHistogram lateness, queryTime, tickTime;  ///< `lateness` is empty when it did not run in real time.
+  LatencyHistogram refreshTime;                    ///< Of the searches ahead, in the thread beside.
   std::uint64_t overruns = 0;
   std::string schedulingNote;  ///< Empty when it did not run in real time.
   bool isInterrupted = false;  ///< The user stopped it before the path's end.

@@ -61,8 +61,15 @@ std::string summaryText(const PlaceSummary& s) {
   text += line("torque", fmt::format("peak {:.6g} N m at {:.3f} s", r.torque.value, r.torque.time));
   if (r.clampedTicks > 0) text += line("clamped", fmt::format("force or torque in {} ticks", r.clampedTicks));
   if (r.truncatedTicks > 0) {
-    text += line("truncated", fmt::format("more minima than can be held in {} ticks", r.truncatedTicks));
+    text += line("truncated",
+                 fmt::format("more minima or more work than a tick allows in {} ticks", r.truncatedTicks));
   }
+  if (r.lateTicks > 0) {
+    text += line("late", fmt::format("{} ticks searched for themselves: the motion was ahead of the lists",
+                                     r.lateTicks));
+  }
+  text +=
+      line("refresh", fmt::format("{} searches ahead, {}", r.refreshTime.count(), timesText(r.refreshTime)));
   text += line("query", timesText(r.queryTime));
   text += line("tick", timesText(r.tickTime));
   if (!r.schedulingNote.empty()) {
@@ -90,6 +97,9 @@ std::string summaryJson(const PlaceSummary& s) {
                               {"peak_torque", r.torque.value},
                               {"clamped_ticks", r.clampedTicks},
                               {"truncated_ticks", r.truncatedTicks},
+                              {"late_ticks", r.lateTicks},
+                              {"refreshes", r.refreshTime.count()},
+                              {"refresh_us", timesJson(r.refreshTime)},
                               {"query_us", timesJson(r.queryTime)},
                               {"tick_us", timesJson(r.tickTime)}};
   if (std::isfinite(r.leastDistance)) json["least_distance"] = r.leastDistance;

@@ -1,5 +1,6 @@
+#include "core/haptics/servo_scene.h"
+
 #include "core/error.h"
-#include "core/haptics/servo_tick.h"
 
 namespace nearfit {
 

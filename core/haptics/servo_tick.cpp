@@ -4,7 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
+
+#include "core/math/rotation_vector.h"
+#include "core/proximity/blocked_minima.h"
 
 namespace nearfit {
 namespace {
@@ -32,36 +36,9 @@ ServoFault faultOfInput(const ServoParameters& p, const RigidTransform& handle, 
   return isPose(handle) ? ServoFault::None : ServoFault::PoseNotFinite;
 }
 
-/// Axis times angle [rad], the shorter way round.
-glm::dvec3 rotationVector(glm::dquat q) noexcept {
-  if (q.w < 0.0) q = -q;
-  const glm::dvec3 sine(q.x, q.y, q.z);
-  const double length = glm::length(sine);
-  // Below this sin(x) = x to the last bit, and the quotient would be 0/0 at rest.
-  if (length < 1e-9) return 2.0 * sine;
-  return sine * (2.0 * std::atan2(length, q.w) / length);
-}
-
 /// A velocity that decays at rest would end, for good, among the denormals, where arithmetic is slow.
 glm::dvec3 withoutTraces(const glm::dvec3& velocity) noexcept {
   return glm::length(velocity) < 1e-100 ? glm::dvec3(0.0) : velocity;
-}
-
-struct Sphere {
-  glm::dvec3 centre;
-  double radius;
-};
-
-Sphere worldBounds(const ServoScene::Body& body, const RigidTransform& worldFromBody) noexcept {
-  const Aabb& box = body.geometry->mesh.bounds();
-  return {worldFromBody.applyToPoint(box.centre()), 0.5 * box.diagonal()};
-}
-
-bool areApart(const Sphere& a, const Sphere& b, double cutoff) noexcept {
-  const double distance = glm::length(a.centre - b.centre);
-  // Padded: at large offsets the centres themselves are rounded.
-  const double rounding = 1e-12 * (glm::length(a.centre) + glm::length(b.centre) + a.radius + b.radius);
-  return distance - a.radius - b.radius > cutoff + rounding;
 }
 
 bool isNearer(const SnapshotLmd& a, const SnapshotLmd& b) noexcept {
@@ -72,7 +49,7 @@ void clearOutputs(ServoSnapshot& snapshot) noexcept {
   snapshot.wrench = snapshot.unclampedWrench = Wrench{};
   snapshot.distance = std::numeric_limits<double>::infinity();
   snapshot.queryTime = 0.0;
-  snapshot.lmdCount = snapshot.storedLmds = 0;
+  snapshot.lmdCount = snapshot.storedLmds = snapshot.lateBodies = 0;
   snapshot.isTruncated = snapshot.isClamped = false;
 }
 
@@ -101,8 +78,9 @@ void ServoTick::reset() noexcept {
   fault_ = ServoFault::None;
 }
 
-void ServoTick::run(const ServoScene& scene, const ServoParameters& parameters, const RigidTransform& handle,
-                    double period, ServoSnapshot& snapshot) noexcept {
+void ServoTick::run(const TrackedScene& tracked, const ServoParameters& parameters,
+                    const RigidTransform& handle, double period, ServoSnapshot& snapshot) noexcept {
+  const ServoScene& scene = *tracked.scene;
   clearOutputs(snapshot);
   snapshot.moving = scene.moving.id;
   if (scene.moving.id != lastMoving_) hasLastPose_ = false;
@@ -119,7 +97,7 @@ void ServoTick::run(const ServoScene& scene, const ServoParameters& parameters, 
   snapshot.centre = lastPose_.applyToPoint(scene.centreInPart);
 
   if (fault_ == ServoFault::None) {
-    const Wrench wrench = feel(scene, parameters.springs, snapshot);
+    const Wrench wrench = feel(tracked, parameters.springs, snapshot);
     const bool wrenchIsFinite = isFinite(wrench.force) && isFinite(wrench.torque);
     if (fault_ == ServoFault::None && !wrenchIsFinite) fault_ = ServoFault::WrenchNotFinite;
     if (fault_ == ServoFault::None) {
@@ -147,37 +125,53 @@ void ServoTick::updateTwist(const ServoScene& scene, const RigidTransform& pose,
   hasLastPose_ = true;
 }
 
-Wrench ServoTick::feel(const ServoScene& scene, const SpringParameters& springs,
+Wrench ServoTick::feel(const TrackedScene& tracked, const SpringParameters& springs,
                        ServoSnapshot& snapshot) noexcept {
   using Clock = std::chrono::steady_clock;
   Wrench sum;
   displayCount_ = 0;
   displayWasCut_ = false;
-  if (scene.moving.geometry == nullptr) return sum;
-  const Sphere movingBounds = worldBounds(scene.moving, snapshot.proxy);
+  nodePairsLeft_ = kMaxNodePairs;
+  const ServoScene::Body& moving = tracked.scene->moving;
+  if (moving.geometry == nullptr) return sum;
   const Clock::time_point begin = Clock::now();
-  for (const ServoScene::Body& body : scene.bodies) {
-    if (body.geometry == nullptr) continue;
-    if (areApart(movingBounds, worldBounds(body, body.worldFromPart), springs.cutoff)) continue;
-    const Wrench wrench = feelBody(body, scene, springs, snapshot);
+  tracked.visitNear(snapshot.proxy, springs.cutoff, [&](std::uint32_t body, const CandidateList* list) {
+    const Wrench wrench = feelBody({tracked.scene->bodies[body], moving, list}, springs, snapshot);
     sum.force += wrench.force;
     sum.torque += wrench.torque;
-  }
+  });
   writeDisplay(snapshot);
   snapshot.queryTime = std::chrono::duration<double>(Clock::now() - begin).count();
   return sum;
 }
 
-Wrench ServoTick::feelBody(const ServoScene::Body& body, const ServoScene& scene,
-                           const SpringParameters& springs, ServoSnapshot& snapshot) noexcept {
+LmdResult ServoTick::findMinima(const BodyTask& task, const RigidTransform& bodyFromPart, double cutoff,
+                                ServoSnapshot& snapshot) noexcept {
+  if (task.list != nullptr) {
+    const std::optional<LmdResult> listed = task.list->query(bodyFromPart, cutoff, scratch_, lmds_);
+    if (listed) return *listed;
+  }
+  ++snapshot.lateBodies;
+  const LmdResult result = findNearestLmds(task.body.geometry->tree(), task.moving.geometry->tree(),
+                                           bodyFromPart, cutoff, scratch_, lmds_, nodePairsLeft_);
+  nodePairsLeft_ -= std::min(nodePairsLeft_, result.nodePairs);
+  return result;
+}
+
+Wrench ServoTick::feelBody(const BodyTask& task, const SpringParameters& springs,
+                           ServoSnapshot& snapshot) noexcept {
+  const ServoScene::Body& body = task.body;
   const RigidTransform bodyFromPart = (body.worldFromPart.inverse() * snapshot.proxy).normalized();
   if (!isPose(body.worldFromPart) || !bodyFromPart.isFinite()) {
     fault_ = ServoFault::PoseNotFinite;
     return {};
   }
-  const LmdResult result = findLmds(body.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart,
-                                    springs.cutoff, scratch_, lmds_);
+  const LmdResult result = findMinima(task, bodyFromPart, springs.cutoff, snapshot);
   const std::span<Lmd> found = std::span(lmds_).first(result.count);
+  // Nothing keeps the part from going through: no distance can be taken for granted.
+  constexpr double kMayInterpenetrate = 0.0;
+  markBlocked(body.geometry->tree(), task.moving.geometry->tree(), bodyFromPart, found, kMayInterpenetrate,
+              scratch_);
   for (Lmd& lmd : found) {
     lmd.scenePoint = body.worldFromPart.applyToPoint(lmd.scenePoint);
     lmd.partPoint = body.worldFromPart.applyToPoint(lmd.partPoint);

@@ -2,36 +2,18 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
+#include "core/haptics/servo_scene.h"
 #include "core/haptics/spring_law.h"
+#include "core/haptics/tracked_scene.h"
 #include "core/haptics/wrench.h"
 #include "core/haptics/wrench_limiter.h"
 #include "core/math/rigid_transform.h"
 #include "core/proximity/lmd.h"
 #include "core/proximity/lmd_query.h"
-#include "core/scene/scene.h"
 
 namespace nearfit {
-
-/// What the servo thread needs of a scene: immutable, made off the servo thread, shared with no one who
-/// writes. Holds the geometry alive; must be destroyed off the servo thread.
-struct ServoScene {
-  struct Body {
-    PartId id{};
-    PartGeometryPtr geometry;
-    RigidTransform worldFromPart;
-  };
-  std::vector<Body> bodies;      ///< Visible parts other than the moving one.
-  Body moving;                   ///< geometry is null when nothing is in hand.
-  glm::dvec3 centreInPart{0.0};  ///< Centre of mass of the moving part, in its frame [m].
-};
-
-/// Nothing is felt while the moving part is invisible. Builds the hierarchies that are missing, which takes
-/// seconds for millions of triangles: prepareHierarchies() does so with progress before. Throws UsageError
-/// when the scene has no moving part.
-std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene);
 
 struct ServoParameters {
   SpringParameters springs;
@@ -69,6 +51,8 @@ struct ServoSnapshot {
   double queryTime = 0.0, tickTime = 0.0;  ///< [s]
   std::uint32_t lmdCount = 0;    ///< All minima within the cutoff, also those that are not in `lmds`.
   std::uint32_t storedLmds = 0;  ///< Entries of `lmds` in use, nearest first for each part.
+  /// Bodies that were searched anew in this tick, as what is known of them did not cover the pose.
+  std::uint32_t lateBodies = 0;
   bool isTruncated = false;
   bool isClamped = false;
   ServoFault fault = ServoFault::None;  ///< Latched: the wrench is zero until the servo is started anew.
@@ -84,30 +68,40 @@ class ServoTick {
   static constexpr double kVelocityTimeConstant = 2e-3;
   /// Minima kept for each body; beyond it the nearest are summed and the snapshot says truncated.
   static constexpr std::size_t kMaxLmdsPerBody = 4096;
+  /// Work of a tick on bodies that are searched anew: some 1.5 ms on a slow core. Beyond it the nearest
+  /// minima of a body are kept, and the snapshot says truncated.
+  static constexpr std::uint64_t kMaxNodePairs = 1U << 15;
 
   ServoTick();
 
   /// Forgets velocity and fault.
   void reset() noexcept;
 
-  /// A body whose bounding sphere is farther than the cutoff from the moving part's costs no query.
+  /// Minima come from the lists of the tracked scene where they cover the pose, and from a search bounded by
+  /// kMaxNodePairs where they do not (`lateBodies`); bodies that are far away cost nothing.
   /// Velocities, for damping, come from pose differences through a first-order low-pass of
   /// `kVelocityTimeConstant`. NaN, infinity or a senseless parameter anywhere: zero wrench, the part stays
   /// where it was, the fault is latched.
   ///
-  /// @param scene     What to feel; stays alive during the call.
+  /// @param tracked   What to feel; stays alive and unchanged during the call.
   /// @param handle    worldFromPart wanted by the hand; its quaternion is scaled to unit length.
   /// @param period    Time since the last tick [s]; > 0.
   /// @param snapshot  Filled, but for `tick`, `time` and `tickTime`, which are the caller's.
   /// Real-time safe.
-  void run(const ServoScene& scene, const ServoParameters& parameters, const RigidTransform& handle,
+  void run(const TrackedScene& tracked, const ServoParameters& parameters, const RigidTransform& handle,
            double period, ServoSnapshot& snapshot) noexcept;
 
  private:
+  struct BodyTask {
+    const ServoScene::Body &body, &moving;
+    const CandidateList* list;  ///< May be null.
+  };
+
   void updateTwist(const ServoScene& scene, const RigidTransform& pose, double period) noexcept;
-  Wrench feel(const ServoScene& scene, const SpringParameters& springs, ServoSnapshot& snapshot) noexcept;
-  Wrench feelBody(const ServoScene::Body& body, const ServoScene& scene, const SpringParameters& springs,
-                  ServoSnapshot& snapshot) noexcept;
+  Wrench feel(const TrackedScene& tracked, const SpringParameters& springs, ServoSnapshot& snapshot) noexcept;
+  Wrench feelBody(const BodyTask& task, const SpringParameters& springs, ServoSnapshot& snapshot) noexcept;
+  LmdResult findMinima(const BodyTask& task, const RigidTransform& bodyFromPart, double cutoff,
+                       ServoSnapshot& snapshot) noexcept;
   void keepForDisplay(PartId other, std::size_t count) noexcept;
   void writeDisplay(ServoSnapshot& snapshot) noexcept;
 
@@ -115,6 +109,7 @@ class ServoTick {
   std::vector<Lmd> lmds_;             ///< Minima of one body.
   std::vector<SnapshotLmd> display_;  ///< Nearest minima of all bodies so far; first displayCount_ in use.
   std::size_t displayCount_ = 0;
+  std::uint64_t nodePairsLeft_ = 0;
   bool displayWasCut_ = false;
   RigidTransform lastPose_;
   PartId lastMoving_{};

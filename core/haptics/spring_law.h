@@ -27,8 +27,8 @@ struct SpringParameters {
 /// @param lmds          Minima; points and directions in one frame F.
 /// @param centreOfMass  Of the moving part, in F [m]. Torque is about it.
 /// @param twist         Of the moving part relative to the scene, in F.
-/// Minima at the cutoff or beyond, and blocked ones, give nothing. NaN or infinity in any input that counts comes out in the
-/// wrench. Real-time safe. Source: Johnson & Willemsen 2003, 4.3; rest length = cutoff.
+/// Minima at the cutoff or beyond, and blocked ones, give nothing. NaN or infinity in any input that counts
+/// comes out in the wrench. Real-time safe. Source: Johnson & Willemsen 2003, 4.3; rest length = cutoff.
 Wrench springWrench(std::span<const Lmd> lmds, const SpringParameters& parameters,
                     const glm::dvec3& centreOfMass, const Twist& twist) noexcept;
 

@@ -140,10 +140,64 @@ NEARFIT_INLINE F meets(const F& t, const F& e, const F& low, const F& high, cons
   return least(high - low, least(above, below));
 }
 
+/// What is allowed for along the axes of either box.
+template <class F>
+struct Paddings {
+  Triple<F> own, its;
+};
+
+template <class F>
+NEARFIT_INLINE Paddings<F> still(const CullLimits& limits) {
+  const F padding = F{} + limits.padding;
+  return {{padding, padding, padding}, {padding, padding, padding}};
+}
+
+/// A CullSweep for each lane.
+template <class F>
+struct Sweeps {
+  Triple<F> shift, spin, about;
+  F spinLength;
+};
+
+NEARFIT_INLINE Triple<Floats8> spread(const std::array<float, 3>& v) {
+  return {Floats8{} + v[0], Floats8{} + v[1], Floats8{} + v[2]};
+}
+NEARFIT_INLINE Sweeps<Floats8> spread(const CullSweep& s) {
+  return {spread(s.shift), spread(s.spin), spread(s.about), Floats8{} + s.spinLength};
+}
+
+/// A box that a sweep moves: where its middle is, and how far its points are from there at most.
+template <class F>
+struct Swept {
+  Triple<F> centre;
+  F radius;
+};
+template <class F>
+NEARFIT_INLINE Swept<F> sweptOf(const Box<F>& box) {
+  return {box.centre, box.half.x + box.half.y + box.half.z};
+}
+
+/// How far the middle of the box that moves goes along each axis, and how much farther a point beside the
+/// middle may, as the spin carries it.
+template <class F>
+NEARFIT_INLINE Paddings<F> along(const Box<F>& own, const Box<F>& its, const Swept<F>& moving,
+                                 const Sweeps<F>& sweep, const CullLimits& limits) {
+  const Triple<F> arm{moving.centre.x - sweep.about.x, moving.centre.y - sweep.about.y,
+                      moving.centre.z - sweep.about.z};
+  const Triple<F> turn = cross(sweep.spin, arm);
+  const Triple<F> way{sweep.shift.x + turn.x, sweep.shift.y + turn.y, sweep.shift.z + turn.z};
+  const F aside = sweep.spinLength * moving.radius + limits.padding;
+  return {{magnitude(dot(way, own.n)) + aside, magnitude(dot(way, own.u)) + aside,
+           magnitude(dot(way, cross(own.n, own.u))) + aside},
+          {magnitude(dot(way, its.n)) + aside, magnitude(dot(way, its.u)) + aside,
+           magnitude(dot(way, cross(its.n, its.u))) + aside}};
+}
+
 /// At least 0 in the lanes where the two boxes can hold a minimum together, less in the others: where the
 /// projections on the axes of either box rule it out.
 template <class F>
-NEARFIT_INLINE F cull(const Box<F>& own, const Box<F>& its, const CullLimits& limits) {
+NEARFIT_INLINE F cull(const Box<F>& own, const Box<F>& its, const CullLimits& limits,
+                      const Paddings<F>& padding) {
   const Triple<F> ownV = cross(own.n, own.u), itsV = cross(its.n, its.u);
   const Triple<F> d{its.centre.x - own.centre.x, its.centre.y - own.centre.y, its.centre.z - own.centre.z};
   // Products of axes, own by row, the other's by column.
@@ -156,12 +210,12 @@ NEARFIT_INLINE F cull(const Box<F>& own, const Box<F>& its, const CullLimits& li
 
   // Along each axis of either box a minimum's d, out of that box, lies within the sum of extents of the
   // centres' difference.
-  const F tn = dot(d, own.n), en = own.half.x + extent(its.half, cn.x, cn.y, cn.z) + limits.padding;
-  const F tu = dot(d, own.u), eu = own.half.y + extent(its.half, cu.x, cu.y, cu.z) + limits.padding;
-  const F tv = dot(d, ownV), ev = own.half.z + extent(its.half, cv.x, cv.y, cv.z) + limits.padding;
-  const F sn = -dot(d, its.n), fn = extent(own.half, cn.x, cu.x, cv.x) + (its.half.x + limits.padding);
-  const F su = -dot(d, its.u), fu = extent(own.half, cn.y, cu.y, cv.y) + (its.half.y + limits.padding);
-  const F sv = -dot(d, itsV), fv = extent(own.half, cn.z, cu.z, cv.z) + (its.half.z + limits.padding);
+  const F tn = dot(d, own.n), en = own.half.x + extent(its.half, cn.x, cn.y, cn.z) + padding.own.x;
+  const F tu = dot(d, own.u), eu = own.half.y + extent(its.half, cu.x, cu.y, cu.z) + padding.own.y;
+  const F tv = dot(d, ownV), ev = own.half.z + extent(its.half, cv.x, cv.y, cv.z) + padding.own.z;
+  const F sn = -dot(d, its.n), fn = extent(own.half, cn.x, cu.x, cv.x) + (its.half.x + padding.its.x);
+  const F su = -dot(d, its.u), fu = extent(own.half, cn.y, cu.y, cv.y) + (its.half.y + padding.its.y);
+  const F sv = -dot(d, itsV), fv = extent(own.half, cn.z, cu.z, cv.z) + (its.half.z + padding.its.z);
 
   // |d| is at least what it is along an axis, and at most that by the least share that it has along it.
   const F cutoff = F{} + limits.cutoff;

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
-
-#include <glm/geometric.hpp>
 
 #include "core/proximity/leaf_tests.h"
 #include "core/proximity/query_workspace.h"
@@ -14,9 +11,6 @@ namespace nearfit {
 namespace {
 
 constexpr std::size_t kWidth = NormalConeTree::kWidth;
-
-/// Budgets are spent to this fraction only, so that rounding of the motion does not overdraw them.
-constexpr double kBudgetUse = 1.0 - 1e-9;
 
 void copyLane(const NormalConeTree::Node& from, std::size_t lane, NormalConeTree::Node& to,
               std::size_t at) noexcept {
@@ -32,87 +26,160 @@ void copyLane(const NormalConeTree::Node& from, std::size_t lane, NormalConeTree
   to.child[at] = from.child[lane];
 }
 
-}  // namespace
+constexpr float kUp = 1.0F + 1e-6F;  // Sums and conversions below round by less.
 
-MotionBudget motionBetween(const RigidTransform& from, const RigidTransform& to, double radius) noexcept {
-  const glm::dquat turn = glm::conjugate(from.rotation) * to.rotation;
-  const double sine = glm::length(glm::dvec3(turn.x, turn.y, turn.z));
-  const double angle = 2.0 * std::atan2(sine, std::abs(turn.w));
-  // A point at the radius moves along a chord.
-  return {glm::distance(from.translation, to.translation) + 2.0 * std::min(sine, 1.0) * radius, angle};
+std::array<float, 3> single(const glm::dvec3& v) noexcept {
+  return {kUp * static_cast<float>(v.x), kUp * static_cast<float>(v.y), kUp * static_cast<float>(v.z)};
 }
 
-CandidateList::CandidateList(std::size_t capacity) : blocks_((capacity + kWidth - 1) / kWidth) {}
+/// Limits that hold at every pose of a range. The sweep moves the part's points as it says but for the
+/// curvature of their arcs; they go aside of it by the budget; and seen from the part, where half of the axes
+/// are, d turns besides.
+RangeLimits rangeLimits(const BodyPairQuery& query, const RigidTransform& centred,
+                        const MotionRange& range) noexcept {
+  const double radius = 0.5 * query.part.size();
+  const double spin = glm::length(range.stretch.spin), turn = spin + range.budget.turn;
+  const double arc = 0.5 * spin * spin * radius;
+  const double travel = range.budget.travel + arc + glm::length(range.stretch.shift) + spin * radius;
+  // Nothing gets farther apart than this; beyond it a cutoff would be infinite in single precision.
+  const double reach = query.scene.size() + query.part.size() + glm::length(centred.translation) + travel;
+  const double within = std::min(query.cutoff, reach);
+  CullLimits limits = cullLimits(query.scene, query.part, centred, query.cutoff);
+  limits.cutoff = std::max(limits.cutoff, kUp * static_cast<float>(within));
+  limits.padding =
+      kUp * (limits.padding + static_cast<float>(range.budget.travel + arc + turn * (within + travel)));
+  limits.turn = kUp * (limits.turn + static_cast<float>(turn));
+  const MotionRange inPart = turned(glm::conjugate(centred.rotation), range);
+  const auto spinLength = kUp * static_cast<float>(spin);
+  return {limits,
+          {single(range.stretch.shift), single(range.stretch.spin), single(centred.translation), spinLength},
+          {single(inPart.stretch.shift), single(inPart.stretch.spin), {0.0F, 0.0F, 0.0F}, spinLength}};
+}
 
-void CandidateList::build(const NormalConeTree& scene, const NormalConeTree& part,
-                          const RigidTransform& sceneFromPart, double cutoff, const MotionBudget& budget,
-                          LmdScratch& scratch) noexcept {
-  scene_ = &scene;
-  part_ = &part;
-  cutoff_ = cutoff;
-  budget_ = budget;
-  count_ = 0;
+}  // namespace
+
+RangeLimits CandidateList::limitsWithin(double share) const noexcept {
+  return rangeLimits({*scene_, *part_, {}, cutoff_}, pose_, share * range_);
+}
+
+void CandidateList::build(const BodyPairQuery& query, const MotionRange& range, LmdScratch& scratch,
+                          const Bounds& bounds) {
+  scene_ = &query.scene;
+  part_ = &query.part;
+  cutoff_ = query.cutoff;
+  range_ = range;
   isUsable_ = true;
-  pose_ = centredPose(scene, part, sceneFromPart);
-  if (!isQueryValid(scene, part, sceneFromPart, cutoff)) return;
-  CullLimits limits = cullLimits(scene, part, pose_, cutoff);
-  // Seen from the part, the scene's points move by as much and d turns besides.
-  limits.padding += static_cast<float>(budget.travel + budget.turn * (cutoff + budget.travel));
-  limits.turn += static_cast<float>(budget.turn);
-  limits.padding *= 1.0F + 1e-6F;
-  limits.turn *= 1.0F + 1e-6F;
-  TreeTraversal traversal(scene, part, pose_, limits, scratch.data().open, scratch.data().traversal);
-  traversal.run([this](const EntryPair& pair) {
-    if (count_ == blocks_.size() * kWidth) {
-      isUsable_ = false;
-    } else {
-      addPair(pair.sceneLane, pair.partLane);
+  found_.clear();
+  levelEnds_.fill(0);
+  if (!isQueryValid(query.scene, query.part, query.sceneFromPart, query.cutoff)) return;
+  pose_ = centredPose(query.scene, query.part, query.sceneFromPart);
+  LmdScratch::Data& workspace = scratch.data();
+  const RangeLimits limits = limitsWithin(1.0);
+  TreeTraversal traversal(*scene_, *part_, pose_, limits.still, workspace.openSwept, workspace.traversal);
+  traversal.setSweep(limits.inScene, limits.inPart);
+  isUsable_ = traversal.run(
+      [&](const EntryPair& pair) {
+        if (found_.size() <= bounds.pairs)
+          found_.push_back({pair.sceneLane, pair.partLane, kLevels.size() - 1});
+      },
+      bounds.nodePairs);
+  isUsable_ = isUsable_ && found_.size() <= bounds.pairs;
+  if (!isUsable_) {
+    found_.clear();
+    return;
+  }
+  findLevels(workspace);
+  pack();
+}
+
+void CandidateList::findLevels(const LmdScratch::Data& workspace) noexcept {
+  const SinglePose pose(pose_);
+  std::array<RangeLimits, kLevels.size()> limits;
+  for (std::size_t level = 0; level < kLevels.size(); ++level)
+    limits[level] = limitsWithin(kLevels[level]);
+  BoundPairs block;
+  for (std::size_t base = 0; base < found_.size(); base += kWidth) {
+    const std::size_t count = std::min(kWidth, found_.size() - base);
+    // Lanes that are left over repeat the first.
+    for (std::size_t i = 0; i < kWidth; ++i)
+      copyPair(found_[base + (i < count ? i : 0)], block, i);
+    for (std::size_t level = kLevels.size() - 1; level-- > 0;) {
+      const std::uint32_t alive =
+          workspace.sweptPairCull(block, pose, limits[level].still, limits[level].inScene);
+      for (std::size_t i = 0; i < count; ++i) {
+        LanePair& pair = found_[base + i];
+        if (pair.level == level + 1 && (alive >> i & 1U) != 0) pair.level = static_cast<std::uint8_t>(level);
+      }
     }
-  });
+  }
+}
+
+void CandidateList::pack() {
+  for (const LanePair& pair : found_)
+    ++levelEnds_[pair.level];
+  std::array<std::size_t, kLevels.size()> next{};
+  for (std::size_t level = 0, sum = 0; level < kLevels.size(); ++level) {
+    next[level] = sum;
+    sum += levelEnds_[level];
+    levelEnds_[level] = sum;
+  }
+  blocks_.resize(std::max(blocks_.size(), (found_.size() + kWidth - 1) / kWidth));
+  for (const LanePair& pair : found_) {
+    const std::size_t at = next[pair.level]++;
+    copyPair(pair, blocks_[at / kWidth], at % kWidth);
+  }
   // Lanes of the last block that are left over repeat its first: never counted, never far from its data.
-  for (std::size_t i = count_; i % kWidth != 0; ++i) {
+  for (std::size_t i = found_.size(); i % kWidth != 0; ++i) {
     BoundPairs& block = blocks_[i / kWidth];
     copyLane(block.scene, 0, block.scene, i % kWidth);
     copyLane(block.part, 0, block.part, i % kWidth);
   }
 }
 
-void CandidateList::addPair(std::uint32_t sceneLane, std::uint32_t partLane) noexcept {
-  BoundPairs& block = blocks_[count_ / kWidth];
-  copyLane(scene_->nodes()[sceneLane / kWidth], sceneLane % kWidth, block.scene, count_ % kWidth);
-  copyLane(part_->nodes()[partLane / kWidth], partLane % kWidth, block.part, count_ % kWidth);
-  ++count_;
+void CandidateList::copyPair(const LanePair& pair, BoundPairs& block, std::size_t at) const noexcept {
+  copyLane(scene_->nodes()[pair.sceneLane / kWidth], pair.sceneLane % kWidth, block.scene, at);
+  copyLane(part_->nodes()[pair.partLane / kWidth], pair.partLane % kWidth, block.part, at);
+}
+
+double CandidateList::spentAt(const RigidTransform& centred) const noexcept {
+  return spentShare(range_, pose_, centred, 0.5 * part_->size());
 }
 
 double CandidateList::spent(const RigidTransform& sceneFromPart) const noexcept {
-  const double never = std::numeric_limits<double>::infinity();
-  if (!isUsable_ || !sceneFromPart.isFinite()) return never;
-  const MotionBudget motion =
-      motionBetween(pose_, centredPose(*scene_, *part_, sceneFromPart), 0.5 * part_->size());
-  const auto share = [&](double used, double available) {
-    return available > 0.0 ? used / (kBudgetUse * available) : used > 0.0 ? never : 0.0;
-  };
-  return std::max(share(motion.travel, budget_.travel), share(motion.turn, budget_.turn));
+  if (!isUsable_ || !sceneFromPart.isFinite()) return std::numeric_limits<double>::infinity();
+  return spentAt(centredPose(*scene_, *part_, sceneFromPart));
 }
 
 bool CandidateList::covers(const RigidTransform& sceneFromPart, double cutoff) const noexcept {
-  return isUsable_ && cutoff <= cutoff_ && spent(sceneFromPart) <= 1.0;
+  return cutoff <= cutoff_ && spent(sceneFromPart) <= 1.0;
 }
 
-LmdResult CandidateList::query(const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
-                               std::span<Lmd> out) const noexcept {
-  LmdResult result;
-  if (count_ == 0 || !isQueryValid(*scene_, *part_, sceneFromPart, cutoff)) return result;
+std::size_t CandidateList::countFor(double share) const noexcept {
+  for (std::size_t level = 0; level < kLevels.size(); ++level) {
+    if (share <= kLevels[level]) return levelEnds_[level];
+  }
+  return levelEnds_.back();
+}
+
+std::optional<LmdResult> CandidateList::query(const RigidTransform& sceneFromPart, double cutoff,
+                                              LmdScratch& scratch, std::span<Lmd> out) const noexcept {
+  if (!isUsable_ || !(cutoff <= cutoff_) || !sceneFromPart.isFinite()) return std::nullopt;
   const RigidTransform pose = centredPose(*scene_, *part_, sceneFromPart);
+  const double share = spentAt(pose);
+  if (!(share <= 1.0)) return std::nullopt;
+  LmdResult result;
+  result.completeTo = cutoff;
+  const std::size_t count = countFor(share);
+  if (count == 0 || !isQueryValid(*scene_, *part_, sceneFromPart, cutoff)) return result;
   const CullLimits limits = cullLimits(*scene_, *part_, pose, cutoff);
-  const SinglePose single(pose);
+  const SinglePose inSingle(pose);
   const LeafTests tests(*scene_, *part_, pose, cutoff);
   LmdScratch::Data& workspace = scratch.data();
   MinimaCollector collector(workspace, result);
-  for (std::size_t base = 0; base < count_; base += kWidth) {
+  for (std::size_t base = 0; base < count; base += kWidth) {
     const BoundPairs& block = blocks_[base / kWidth];
-    std::uint32_t lanes = workspace.pairCull(block, single, limits);
-    if (count_ - base < kWidth) lanes &= (1U << (count_ - base)) - 1U;
+    std::uint32_t lanes = workspace.pairCull(block, inSingle, limits);
+    if (count - base < kWidth) lanes &= (1U << (count - base)) - 1U;
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
       ++result.leafPairs;
@@ -121,6 +188,17 @@ LmdResult CandidateList::query(const RigidTransform& sceneFromPart, double cutof
   }
   collector.finish(*scene_, *part_, out);
   return result;
+}
+
+bool isClearWithin(const BodyPairQuery& query, const MotionBudget& budget, LmdScratch& scratch,
+                   std::uint64_t maxNodePairs) noexcept {
+  if (!isQueryValid(query.scene, query.part, query.sceneFromPart, query.cutoff)) return true;
+  const RigidTransform pose = centredPose(query.scene, query.part, query.sceneFromPart);
+  LmdScratch::Data& workspace = scratch.data();
+  const CullLimits limits = rangeLimits(query, pose, {{}, budget}).still;
+  TreeTraversal traversal(query.scene, query.part, pose, limits, workspace.open, workspace.traversal);
+  bool isClear = true;
+  return traversal.run([&](const EntryPair&) { isClear = false; }, maxNodePairs) && isClear;
 }
 
 }  // namespace nearfit

@@ -1,59 +1,98 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/math/rigid_transform.h"
 #include "core/proximity/cull_kernel.h"
 #include "core/proximity/lmd_query.h"
+#include "core/proximity/motion_budget.h"
 
 namespace nearfit {
 
-/// How far a pose may move before what was found for it no longer holds.
-struct MotionBudget {
-  double travel = 0.0;  ///< Of any point of the part [m].
-  double turn = 0.0;    ///< [rad]
+/// Between two bodies: where one stands in the frame of the other, and what is looked for there.
+struct BodyPairQuery {
+  const NormalConeTree &scene, &part;
+  RigidTransform sceneFromPart;
+  double cutoff;  ///< [m]
 };
 
-/// The motion between two poses of a part: the farthest that a point of it can have moved, and the angle.
-/// @param radius  Of a sphere about the part's centre that holds it [m].
-MotionBudget motionBetween(const RigidTransform& from, const RigidTransform& to, double radius) noexcept;
+/// What bounds are held against for a whole range of motion.
+struct RangeLimits {
+  CullLimits still;
+  CullSweep inScene, inPart;  ///< The stretch, in the frame of either tree.
+};
 
-/// The pairs of features that can carry a minimum at a pose, or at any other within a motion budget of it:
-/// testing those alone is exact there. Room for them is allocated once.
+/// The pairs of features that can carry a minimum at any pose within a range of motion: testing those alone
+/// is exact there.
+///
+/// Pairs are sorted by the share of the range from which on they matter: near its middle, only those are
+/// looked at that matter there.
 class CandidateList {
  public:
-  /// @param capacity  Pairs; about 128 bytes each.
-  explicit CandidateList(std::size_t capacity);
+  /// How much a list may be: by default some 4 MB, with more of which a tick would take as long as a cold
+  /// query, and some 5 ms of search, longer than which comes too late.
+  struct Bounds {
+    std::size_t pairs = 1U << 15;
+    std::uint64_t nodePairs = 1U << 17;
+  };
 
-  /// Searches both trees. Real-time safe but for its unbounded work: for a thread that can take its time.
-  /// The list is unusable afterwards when there are more pairs than it has room for.
-  void build(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
-             double cutoff, const MotionBudget& budget, LmdScratch& scratch) noexcept;
+  /// Searches both trees. For a thread that can take its time: allocates. The trees stay alive as long as the
+  /// list is used. Unusable afterwards when it would be beyond the bounds.
+  /// @param query  Its pose is the middle of the range.
+  /// @param range  In the frame of the scene's mesh.
+  void build(const BodyPairQuery& query, const MotionRange& range, LmdScratch& scratch, const Bounds& bounds);
+  void build(const BodyPairQuery& query, const MotionRange& range, LmdScratch& scratch) {
+    build(query, range, scratch, Bounds{});
+  }
+
+  /// Share of the range that a pose has spent; above 1 the list does not hold.
+  double spent(const RigidTransform& sceneFromPart) const noexcept;
 
   /// Whether the list is exact for a pose and cutoff.
   bool covers(const RigidTransform& sceneFromPart, double cutoff) const noexcept;
 
-  /// The exact set at a pose that the list covers, as findLmds gives it. Real-time safe.
-  LmdResult query(const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
-                  std::span<Lmd> out) const noexcept;
+  /// The exact set at a pose, as findLmds gives it; none when the list does not cover it. Real-time safe.
+  std::optional<LmdResult> query(const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
+                                 std::span<Lmd> out) const noexcept;
 
-  std::size_t size() const noexcept { return count_; }
-  /// Motion since the list was built as a fraction of its budget; above 1 where it covers no longer.
-  double spent(const RigidTransform& sceneFromPart) const noexcept;
+  std::size_t size() const noexcept { return levelEnds_.back(); }
+  bool isUsable() const noexcept { return isUsable_; }
+  double cutoff() const noexcept { return cutoff_; }
 
  private:
-  void addPair(std::uint32_t sceneLane, std::uint32_t partLane) noexcept;
+  struct LanePair {
+    std::uint32_t sceneLane, partLane;
+    std::uint8_t level;
+  };
+
+  /// Shares of the range up to which the pairs of a level and those before it are enough.
+  static constexpr std::array<double, 4> kLevels{0.25, 0.5, 0.75, 1.0};
+
+  RangeLimits limitsWithin(double share) const noexcept;
+  double spentAt(const RigidTransform& centred) const noexcept;
+  void findLevels(const LmdScratch::Data& workspace) noexcept;
+  void pack();
+  void copyPair(const LanePair& pair, BoundPairs& block, std::size_t at) const noexcept;
+  std::size_t countFor(double share) const noexcept;
 
   std::vector<BoundPairs> blocks_;
-  std::size_t count_ = 0;
+  std::vector<LanePair> found_;
+  std::array<std::size_t, kLevels.size()> levelEnds_{};
   bool isUsable_ = false;
   const NormalConeTree *scene_ = nullptr, *part_ = nullptr;
-  RigidTransform pose_;
+  RigidTransform pose_;  ///< Between the trees' centred frames.
   double cutoff_ = 0.0;
-  MotionBudget budget_;
+  MotionRange range_;  ///< About pose_, in the scene's frame.
 };
+
+/// Whether no pair of features can carry a minimum within a budget of the query's pose, as far as
+/// `maxNodePairs` of work tell: false when it takes more.
+bool isClearWithin(const BodyPairQuery& query, const MotionBudget& budget, LmdScratch& scratch,
+                   std::uint64_t maxNodePairs) noexcept;
 
 }  // namespace nearfit

@@ -11,38 +11,64 @@ namespace {
 
 using simd::Floats8;
 
-/// At least 0 in the lanes that survive.
-NEARFIT_INLINE Floats8 cullPairs(const BoundPairs& pairs, const SinglePose& pose, const CullLimits& limits) {
-  simd::Poses<Floats8> poses;
+/// The part's bounds in the scene's frame.
+NEARFIT_INLINE simd::Box<Floats8> partBoxes(const BoundPairs& pairs, const SinglePose& pose) {
   const auto& m = pose.columns();
   const auto column = [&m](std::size_t k) __attribute__((always_inline)) {
     return simd::Triple<Floats8>{Floats8{} + m[k][0], Floats8{} + m[k][1], Floats8{} + m[k][2]};
   };
-  poses = {column(0), column(1), column(2), column(3)};
+  const simd::Poses<Floats8> poses{column(0), column(1), column(2), column(3)};
   simd::Box<Floats8> part = simd::boxes(pairs.part);
   simd::move(part, poses);
-  return simd::cull(simd::boxes(pairs.scene), part, limits);
+  return part;
 }
 
-std::uint32_t cullPairsPortable(const BoundPairs& pairs, const SinglePose& pose,
-                                const CullLimits& limits) noexcept {
-  const Floats8 margin = cullPairs(pairs, pose, limits);
+/// At least 0 in the lanes that survive.
+NEARFIT_INLINE Floats8 cullPairs(const BoundPairs& pairs, const SinglePose& pose, const CullLimits& limits) {
+  return simd::cull(simd::boxes(pairs.scene), partBoxes(pairs, pose), limits, simd::still<Floats8>(limits));
+}
+NEARFIT_INLINE Floats8 cullSwept(const BoundPairs& pairs, const SinglePose& pose, const CullLimits& limits,
+                                 const CullSweep& sweep) {
+  const simd::Box<Floats8> scene = simd::boxes(pairs.scene), part = partBoxes(pairs, pose);
+  return simd::cull(scene, part, limits,
+                    simd::along(scene, part, simd::sweptOf(part), simd::spread(sweep), limits));
+}
+
+NEARFIT_INLINE std::uint32_t bitsOf(const Floats8& margin) {
   std::uint32_t bits = 0;
   for (std::uint32_t i = 0; i < NormalConeTree::kWidth; ++i)
     bits |= (margin[i] >= 0.0F ? 1U : 0U) << i;
   return bits;
 }
 
+std::uint32_t cullPairsPortable(const BoundPairs& pairs, const SinglePose& pose,
+                                const CullLimits& limits) noexcept {
+  return bitsOf(cullPairs(pairs, pose, limits));
+}
+std::uint32_t cullSweptPortable(const BoundPairs& pairs, const SinglePose& pose, const CullLimits& limits,
+                                const CullSweep& sweep) noexcept {
+  return bitsOf(cullSwept(pairs, pose, limits, sweep));
+}
+
 #if defined(__x86_64__)
+#define NEARFIT_BITS(margin) \
+  static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats8>((margin) >= 0.0F)))
+
 NEARFIT_AVX2 std::uint32_t cullPairsAvx2(const BoundPairs& pairs, const SinglePose& pose,
                                          const CullLimits& limits) noexcept {
-  const Floats8 margin = cullPairs(pairs, pose, limits);
-  return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats8>(margin >= 0.0F)));
+  return NEARFIT_BITS(cullPairs(pairs, pose, limits));
+}
+NEARFIT_AVX2 std::uint32_t cullSweptAvx2(const BoundPairs& pairs, const SinglePose& pose,
+                                         const CullLimits& limits, const CullSweep& sweep) noexcept {
+  return NEARFIT_BITS(cullSwept(pairs, pose, limits, sweep));
 }
 NEARFIT_AVX512 std::uint32_t cullPairsAvx512(const BoundPairs& pairs, const SinglePose& pose,
                                              const CullLimits& limits) noexcept {
-  const Floats8 margin = cullPairs(pairs, pose, limits);
-  return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats8>(margin >= 0.0F)));
+  return NEARFIT_BITS(cullPairs(pairs, pose, limits));
+}
+NEARFIT_AVX512 std::uint32_t cullSweptAvx512(const BoundPairs& pairs, const SinglePose& pose,
+                                             const CullLimits& limits, const CullSweep& sweep) noexcept {
+  return NEARFIT_BITS(cullSwept(pairs, pose, limits, sweep));
 }
 #endif
 
@@ -81,6 +107,15 @@ PairCullKernel pairCullKernel(SimdLevel level) noexcept {
 #endif
   static_cast<void>(level);
   return cullPairsPortable;
+}
+
+SweptPairCullKernel sweptPairCullKernel(SimdLevel level) noexcept {
+#if defined(__x86_64__)
+  if (level == SimdLevel::Avx512) return cullSweptAvx512;
+  if (level == SimdLevel::Avx2) return cullSweptAvx2;
+#endif
+  static_cast<void>(level);
+  return cullSweptPortable;
 }
 
 SimdLevel defaultSimdLevel() noexcept {

@@ -28,6 +28,13 @@ struct CullLimits {
   float turn;     ///< What directions may be off by through rounding, or turning to come [rad].
 };
 
+/// A motion of the part that bounds must allow for besides: each of its points x goes from where it is by up
+/// to shift + spin x (x - about), either way.
+struct CullSweep {
+  std::array<float, 3> shift{}, spin{}, about{};
+  float spinLength = 0.0F;
+};
+
 /// Eight pairs of bounds, each side in its own frame, lane by lane.
 struct alignas(64) BoundPairs {
   NormalConeTree::Node scene, part;  ///< Of each, the bounds; the children are the leaves.
@@ -42,13 +49,18 @@ struct alignas(64) BoundPairs {
 using PairCullKernel = std::uint32_t (*)(const BoundPairs& pairs, const SinglePose& sceneFromPart,
                                          const CullLimits& limits) noexcept;
 
+/// The same for every pose along a sweep, in the scene's frame.
+using SweptPairCullKernel = std::uint32_t (*)(const BoundPairs& pairs, const SinglePose& sceneFromPart,
+                                              const CullLimits& limits, const CullSweep& sweep) noexcept;
+
 enum class SimdLevel : std::uint8_t { Portable, Avx2, Avx512 };
 
 /// Levels that this machine runs, best last.
 std::span<const SimdLevel> availableSimdLevels() noexcept;
 
-/// The kernel for a level that the machine has.
+/// The kernels for a level that the machine has.
 PairCullKernel pairCullKernel(SimdLevel level) noexcept;
+SweptPairCullKernel sweptPairCullKernel(SimdLevel level) noexcept;
 
 /// The level that queries use: the best, unless the environment variable NEARFIT_SIMD (portable, avx2,
 /// avx512) names a lower one.

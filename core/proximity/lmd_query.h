@@ -23,6 +23,8 @@ enum class QueryStatus : std::uint8_t {
 struct LmdResult {
   std::size_t count = 0;  ///< Entries of the caller's storage that were filled.
   QueryStatus status = QueryStatus::Complete;
+  /// Every minimum nearer than this is there [m]: the cutoff when Complete, less when Truncated.
+  double completeTo = 0.0;
   std::uint64_t nodePairs = 0;  ///< Node pairs visited.
   std::uint64_t leafPairs = 0;  ///< Feature pairs tested exactly.
 };
@@ -67,5 +69,11 @@ LmdResult findLmds(const NormalConeTree& scene, const NormalConeTree& part,
                    const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
                    std::span<Lmd> out,
                    std::uint64_t maxNodePairs = std::numeric_limits<std::uint64_t>::max()) noexcept;
+
+/// The same with bounded work, however near the bodies are: when the whole set takes more, the result is
+/// Truncated to the set within a smaller radius, `completeTo`, and so keeps the nearest.
+LmdResult findNearestLmds(const NormalConeTree& scene, const NormalConeTree& part,
+                          const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
+                          std::span<Lmd> out, std::uint64_t maxNodePairs) noexcept;
 
 }  // namespace nearfit

@@ -1,6 +1,5 @@
 #include "core/proximity/normal_cone_tree.h"
 
-
 #include "core/proximity/normal_cone_tree_builder.h"
 
 namespace nearfit {

@@ -33,7 +33,6 @@ void MinimaCollector::add() noexcept {
     return;
   }
   // Full: the farthest makes room.
-  result_.status = QueryStatus::Truncated;
   if (!isHeap_) std::make_heap(minima.begin(), minima.end(), isNearer);
   isHeap_ = true;
   if (spare_.lmd.distance >= minima.front().lmd.distance) return;
@@ -47,8 +46,13 @@ void MinimaCollector::finish(const NormalConeTree& scene, const NormalConeTree& 
   const std::size_t kept =
       mergeMinima(std::span(workspace_.minima).first(count_), workspace_.order, workspace_.parent,
                   scene.size() + part.size(), std::min(scene.size(), part.size()));
-  if (kept > out.size()) result_.status = QueryStatus::Truncated;
   result_.count = std::min(kept, out.size());
+  if (kept > out.size() || isHeap_) {
+    result_.status = QueryStatus::Truncated;
+    const double farthest =
+        result_.count > 0 ? workspace_.minima[workspace_.order[result_.count - 1]].lmd.distance : 0.0;
+    result_.completeTo = std::min(result_.completeTo, farthest);
+  }
   for (std::size_t i = 0; i < result_.count; ++i) {
     out[i] = workspace_.minima[workspace_.order[i]].lmd;
     out[i].scenePoint += scene.centre();

@@ -19,14 +19,17 @@ struct LmdScratch::Data {
         order(capacity),
         parent(capacity),
         open(opener(simd)),
+        openSwept(sweptOpener(simd)),
         pairCull(pairCullKernel(simd)),
+        sweptPairCull(sweptPairCullKernel(simd)),
         segmentCull(segmentKernel(simd)) {}
 
   TraversalWork traversal;
   std::vector<Minimum> minima;
   std::vector<std::uint32_t> order, parent;
-  Opener open;
+  Opener open, openSwept;
   PairCullKernel pairCull;
+  SweptPairCullKernel sweptPairCull;
   SegmentKernel segmentCull;
 };
 

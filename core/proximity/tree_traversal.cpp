@@ -58,10 +58,19 @@ NEARFIT_INLINE Poses<Floats8> posesOf(const SinglePose& pose) {
   return {column(0), column(1), column(2), column(3)};
 }
 
+/// @tparam isSwept  For all poses of the work's sweep.
+template <bool isSwept>
 NEARFIT_INLINE Floats8 test(const TraversalWork& work, const Opening& o) {
+  const Box<Floats8> own = simd::boxes(*o.opened);
   Box<Floats8> other = otherOf(o);
   simd::move(other, posesOf(o.isScene ? work.sceneFromPart : work.partFromScene));
-  return simd::cull(simd::boxes(*o.opened), other, work.limits);
+  if constexpr (!isSwept) {
+    return simd::cull(own, other, work.limits, simd::still<Floats8>(work.limits));
+  } else {
+    const simd::Sweeps<Floats8> sweep = simd::spread(o.isScene ? work.inScene : work.inPart);
+    const simd::Swept<Floats8> moving = simd::sweptOf(o.isScene ? other : own);
+    return simd::cull(own, other, work.limits, simd::along(own, other, moving, sweep, work.limits));
+  }
 }
 
 /// Takes in the lanes that survive: pairs of leaves, and pairs that wait to be opened.
@@ -102,10 +111,11 @@ NEARFIT_INLINE bool mayOpenTwo(const TraversalWork& work) {
          work.maxNodePairs - work.nodePairs > 1;
 }
 
+template <bool isSwept>
 void openPortable(TraversalWork& work) noexcept {
   while (isBusy(work)) {
     const Opening o = take(work);
-    const Floats8 margin = test(work, o);
+    const Floats8 margin = test<isSwept>(work, o);
     std::uint32_t bits = 0;
     for (std::uint32_t i = 0; i < kWidth; ++i)
       bits |= (margin[i] >= 0.0F ? 1U : 0U) << i;
@@ -114,10 +124,11 @@ void openPortable(TraversalWork& work) noexcept {
 }
 
 #if defined(__x86_64__)
+template <bool isSwept>
 NEARFIT_AVX2 void openAvx2(TraversalWork& work) noexcept {
   while (isBusy(work)) {
     const Opening o = take(work);
-    const auto alive = test(work, o) >= 0.0F;
+    const auto alive = test<isSwept>(work, o) >= 0.0F;
     keep(work, o, static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats8>(alive))));
   }
 }
@@ -142,6 +153,42 @@ NEARFIT_INLINE Poses<Floats16> join(const Poses<Floats8>& a, const Poses<Floats8
   return {join(a.x, b.x), join(a.y, b.y), join(a.z, b.z), join(a.translation, b.translation)};
 }
 
+NEARFIT_INLINE simd::Sweeps<Floats16> join(const simd::Sweeps<Floats8>& a, const simd::Sweeps<Floats8>& b) {
+  return {join(a.shift, b.shift), join(a.spin, b.spin), join(a.about, b.about),
+          join(a.spinLength, b.spinLength)};
+}
+NEARFIT_INLINE simd::Swept<Floats16> join(const simd::Swept<Floats8>& a, const simd::Swept<Floats8>& b) {
+  return {join(a.centre, b.centre), join(a.radius, b.radius)};
+}
+
+NEARFIT_INLINE Floats8 firstHalf(const Floats16& x) {
+  return __builtin_shufflevector(x, x, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+NEARFIT_INLINE Floats8 secondHalf(const Floats16& x) {
+  return __builtin_shufflevector(x, x, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+NEARFIT_INLINE simd::Swept<Floats8> firstHalf(const simd::Swept<Floats16>& s) {
+  return {{firstHalf(s.centre.x), firstHalf(s.centre.y), firstHalf(s.centre.z)}, firstHalf(s.radius)};
+}
+NEARFIT_INLINE simd::Swept<Floats8> secondHalf(const simd::Swept<Floats16>& s) {
+  return {{secondHalf(s.centre.x), secondHalf(s.centre.y), secondHalf(s.centre.z)}, secondHalf(s.radius)};
+}
+
+/// The paddings of two openings at once, for all poses of the sweep.
+NEARFIT_INLINE simd::Paddings<Floats16> paddings(const TraversalWork& work, const Opening& first,
+                                                 const Opening& second, const Box<Floats16>& own,
+                                                 const Box<Floats16>& other) {
+  const auto sweepOf = [&work](const Opening& o) __attribute__((always_inline)) {
+    return simd::spread(o.isScene ? work.inScene : work.inPart);
+  };
+  // The part's boxes move: of each opening the other box, or its own.
+  const simd::Swept<Floats16> byOther = simd::sweptOf(other), byOwn = simd::sweptOf(own);
+  const simd::Swept<Floats16> moving =
+      join(firstHalf(first.isScene ? byOther : byOwn), secondHalf(second.isScene ? byOther : byOwn));
+  return simd::along(own, other, moving, join(sweepOf(first), sweepOf(second)), work.limits);
+}
+
+template <bool isSwept>
 NEARFIT_AVX512 void openAvx512(TraversalWork& work) noexcept {
   // By whether the first node that is opened is the scene's, and the second.
   const Poses<Floats8> ofPart = posesOf(work.partFromScene), ofScene = posesOf(work.sceneFromPart);
@@ -153,8 +200,13 @@ NEARFIT_AVX512 void openAvx512(TraversalWork& work) noexcept {
     const Opening second = isTwo ? take(work) : first;
     Box<Floats16> other = join(otherOf(first), otherOf(second));
     simd::move(other, poses[first.isScene ? 1 : 0][second.isScene ? 1 : 0]);
-    const Floats16 margin =
-        simd::cull(join(simd::boxes(*first.opened), simd::boxes(*second.opened)), other, work.limits);
+    const Box<Floats16> own = join(simd::boxes(*first.opened), simd::boxes(*second.opened));
+    Floats16 margin;
+    if constexpr (isSwept) {
+      margin = simd::cull(own, other, work.limits, paddings(work, first, second, own, other));
+    } else {
+      margin = simd::cull(own, other, work.limits, simd::still<Floats16>(work.limits));
+    }
     const auto bits = static_cast<std::uint32_t>(__builtin_ia32_cvtd2mask512(margin >= 0.0F));
     keep(work, first, bits & 0xFFU);
     if (isTwo) keep(work, second, bits >> 8 & 0xFFU);
@@ -166,11 +218,20 @@ NEARFIT_AVX512 void openAvx512(TraversalWork& work) noexcept {
 
 Opener opener(SimdLevel level) noexcept {
 #if defined(__x86_64__)
-  if (level == SimdLevel::Avx512) return openAvx512;
-  if (level == SimdLevel::Avx2) return openAvx2;
+  if (level == SimdLevel::Avx512) return openAvx512<false>;
+  if (level == SimdLevel::Avx2) return openAvx2<false>;
 #endif
   static_cast<void>(level);
-  return openPortable;
+  return openPortable<false>;
+}
+
+Opener sweptOpener(SimdLevel level) noexcept {
+#if defined(__x86_64__)
+  if (level == SimdLevel::Avx512) return openAvx512<true>;
+  if (level == SimdLevel::Avx2) return openAvx2<true>;
+#endif
+  static_cast<void>(level);
+  return openPortable<true>;
 }
 
 }  // namespace nearfit

@@ -8,12 +8,13 @@
 namespace nearfit {
 
 /// The newest value from one writer thread to one reader thread, without locks: neither ever waits.
+///
+/// What is not trivially copyable is made and freed in place, by the writer alone: the reader only looks.
 template <class T>
 class TripleBuffer {
-  static_assert(std::is_trivially_copyable_v<T>);
-
  public:
-  explicit TripleBuffer(const T& initial = T{}) { slots_.fill(initial); }
+  TripleBuffer() = default;
+  explicit TripleBuffer(const T& initial) { slots_.fill(initial); }
 
   /// Writer: the slot to fill; its content is some old value.
   T& back() noexcept { return slots_[back_]; }
@@ -21,7 +22,7 @@ class TripleBuffer {
   void publish() noexcept {
     back_ = middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel) & kIndex;
   }
-  void publish(const T& value) noexcept {
+  void publish(const T& value) noexcept requires std::is_trivially_copyable_v<T> {
     back() = value;
     publish();
   }
@@ -37,7 +38,7 @@ class TripleBuffer {
 
  private:
   static constexpr std::uint8_t kIndex = 3, kFresh = 4;
-  std::array<T, 3> slots_;
+  std::array<T, 3> slots_{};
   alignas(64) std::uint8_t back_ = 0;
   alignas(64) std::atomic<std::uint8_t> middle_{1};
   alignas(64) std::uint8_t front_ = 2;

@@ -13,24 +13,47 @@ constexpr std::size_t kHeadroom = 4;
 
 }  // namespace
 
-LmdSet LmdCollector::collect(const NormalConeTree& scene, const NormalConeTree& part,
-                             const RigidTransform& sceneFromPart, double cutoff) {
+template <class Find>
+LmdSet LmdCollector::grow(const BodyPairQuery& query, Find&& find) {
   LmdSet set;
   for (;;) {
     set.lmds.resize(std::min(capacity_, limit_));
     const auto start = std::chrono::steady_clock::now();
-    const LmdResult result = findLmds(scene, part, sceneFromPart, cutoff, scratch_, set.lmds);
+    const LmdResult result = find(scratch_, std::span(set.lmds));
     set.queryTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     set.isComplete = result.status == QueryStatus::Complete;
     if (set.isComplete || capacity_ / kHeadroom >= limit_) {
       set.lmds.resize(result.count);
       // The pose may be any: where bodies interpenetrate nothing is known of the least distance.
-      markBlocked(scene, part, sceneFromPart, set.lmds, 0.0, scratch_);
+      markBlocked(query.scene, query.part, query.sceneFromPart, set.lmds, 0.0, scratch_);
       return set;
     }
     capacity_ *= 4;
     scratch_ = LmdScratch(capacity_);
   }
+}
+
+LmdSet LmdCollector::collect(const NormalConeTree& scene, const NormalConeTree& part,
+                             const RigidTransform& sceneFromPart, double cutoff) {
+  return grow({scene, part, sceneFromPart, cutoff}, [&](LmdScratch& scratch, std::span<Lmd> out) {
+    return findLmds(scene, part, sceneFromPart, cutoff, scratch, out);
+  });
+}
+
+LmdSet LmdCollector::collectTracked(const NormalConeTree& scene, const NormalConeTree& part,
+                                    const RigidTransform& sceneFromPart, double cutoff) {
+  if (followedScene_ != &scene || followedPart_ != &part) {
+    tracker_.emplace(scene, part);
+    list_ = {};
+    followedScene_ = &scene;
+    followedPart_ = &part;
+  }
+  tracker_->observe(sceneFromPart, 1.0);
+  if (tracker_->isDue(list_, cutoff)) tracker_->refresh(list_, cutoff, scratch_);
+  return grow({scene, part, sceneFromPart, cutoff}, [&](LmdScratch& scratch, std::span<Lmd> out) {
+    const std::optional<LmdResult> listed = list_.query(sceneFromPart, cutoff, scratch, out);
+    return listed ? *listed : findLmds(scene, part, sceneFromPart, cutoff, scratch, out);
+  });
 }
 
 const char* nameOf(FeatureKind kind) noexcept {

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/mesh/mass_properties.h"
+#include "core/proximity/candidate_list.h"
 #include "core/proximity/lmd_query.h"
+#include "core/proximity/lmd_tracker.h"
 
 namespace nearfit {
 
@@ -27,10 +30,22 @@ class LmdCollector {
   LmdSet collect(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
                  double cutoff);
 
+  /// The same by following the part from pose to pose: what can become a minimum near a pose is searched
+  /// ahead, and the time of that is no part of `queryTime`.
+  LmdSet collectTracked(const NormalConeTree& scene, const NormalConeTree& part,
+                        const RigidTransform& sceneFromPart, double cutoff);
+
  private:
+  /// @param find  (LmdScratch&, std::span<Lmd>) to LmdResult.
+  template <class Find>
+  LmdSet grow(const BodyPairQuery& query, Find&& find);
+
   std::size_t limit_;
   std::size_t capacity_;
   LmdScratch scratch_;
+  std::optional<LmdTracker> tracker_;  ///< Of the trees last followed.
+  CandidateList list_;
+  const NormalConeTree *followedScene_ = nullptr, *followedPart_ = nullptr;
 };
 
 /// "vertex", "edge" or "face".

@@ -16,8 +16,8 @@ void appendPose(std::string& line, const RigidTransform& pose) {
 }  // namespace
 
 MotionRow motionRow(const ServoSnapshot& s) noexcept {
-  return {s.time,      s.handle,   s.proxy,       s.wrench,    s.lmdCount, s.distance,
-          s.queryTime, s.tickTime, s.isTruncated, s.isClamped, s.fault};
+  return {s.time,      s.handle,   s.proxy,      s.wrench,      s.lmdCount,  s.distance,
+          s.queryTime, s.tickTime, s.lateBodies, s.isTruncated, s.isClamped, s.fault};
 }
 
 std::string_view motionHeader() noexcept {
@@ -25,7 +25,7 @@ std::string_view motionHeader() noexcept {
          "handle_tx,handle_ty,handle_tz,handle_qw,handle_qx,handle_qy,handle_qz,"
          "proxy_tx,proxy_ty,proxy_tz,proxy_qw,proxy_qx,proxy_qy,proxy_qz,"
          "force_x,force_y,force_z,torque_x,torque_y,torque_z,"
-         "lmds,distance,query_us,tick_us";
+         "lmds,distance,query_us,tick_us,late_bodies";
 }
 
 std::string formatMotionRow(const MotionRow& row) {
@@ -34,8 +34,8 @@ std::string formatMotionRow(const MotionRow& row) {
   appendPose(line, row.proxy);
   const glm::dvec3& f = row.wrench.force;
   const glm::dvec3& t = row.wrench.torque;
-  fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{},{:.3f},{:.3f}", f.x, f.y, f.z, t.x, t.y,
-                 t.z, row.lmds, row.distance, row.queryTime * 1e6, row.tickTime * 1e6);
+  fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{},{:.3f},{:.3f},{}", f.x, f.y, f.z, t.x,
+                 t.y, t.z, row.lmds, row.distance, row.queryTime * 1e6, row.tickTime * 1e6, row.lateBodies);
   return line;
 }
 

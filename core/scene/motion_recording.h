@@ -20,6 +20,7 @@ struct MotionRow {
   std::uint32_t lmds = 0;
   double distance = 0.0;  ///< Least distance [m]; infinity when nothing is within the cutoff.
   double queryTime = 0.0, tickTime = 0.0;  ///< [s]
+  std::uint32_t lateBodies = 0;            ///< Searched anew in this tick.
   bool isTruncated = false, isClamped = false;
   ServoFault fault = ServoFault::None;
 };
@@ -31,7 +32,7 @@ MotionRow motionRow(const ServoSnapshot& snapshot) noexcept;
 using MotionQueue = SpscQueue<MotionRow, 16384>;
 
 /// First line of a recording: t_s, handle_tx ... handle_qz, proxy_tx ... proxy_qz, force_x ... torque_z,
-/// lmds, distance, query_us, tick_us. Poses are tx ty tz qw qx qy qz.
+/// lmds, distance, query_us, tick_us, late_bodies. Poses are tx ty tz qw qx qy qz.
 std::string_view motionHeader() noexcept;
 
 /// One line without its end, in the columns of motionHeader. Numbers are the shortest that read back the

@@ -15,7 +15,7 @@ const MethodEntry kOtherSet{"other set", AnswerKind::FullSet, "", 1e-9, {}};
 const MethodEntry kDistance{"distance", AnswerKind::Distance, "", 1e-9, {}};
 
 MethodRun runOf(const MethodEntry& method, std::vector<Answer> answers) {
-  MethodRun run{&method, {}, {}, std::move(answers)};
+  MethodRun run{&method, {}, {}, std::move(answers), {}};
   for (std::size_t i = 0; i < run.answers.size(); ++i)
     run.poses.push_back(i);
   return run;

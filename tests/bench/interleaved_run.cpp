@@ -69,8 +69,10 @@ void walkBlock(Lane& lane, const Block& block, const RunOptions& options) {
   if (begin >= block.end) return;
   // A method that lists pairs remembers nothing: one pose will do to warm the caches.
   const std::size_t warmUp = lane.stride > 1 ? std::min<std::size_t>(options.warmUp, 1) : options.warmUp;
-  for (std::size_t i = begin - std::min(begin, warmUp); i < begin; ++i)
+  for (std::size_t i = begin - std::min(begin, warmUp); i < begin; ++i) {
     lane.query->query(block.path[i]);
+    lane.query->workAside(block.path[i]);
+  }
   const long before = preemptionsOfThread();
   Ticks ticks(options.period);
   for (std::size_t i = begin; i < block.end; i += lane.stride) {
@@ -78,6 +80,7 @@ void walkBlock(Lane& lane, const Block& block, const RunOptions& options) {
     const double start = secondsBy(options.clock);
     const Answer answer = lane.query->query(block.path[i]);
     lane.run.times.push_back(secondsBy(options.clock) - start);
+    lane.query->workAside(block.path[i]);
     if (!block.isFirstRound) continue;
     lane.run.poses.push_back(i);
     lane.run.answers.push_back(answer);
@@ -92,7 +95,7 @@ std::vector<MethodRun> runInterleaved(std::span<const MethodEntry> methods, cons
   std::vector<Lane> lanes;
   for (const MethodEntry& method : methods) {
     const std::size_t stride = method.kind == AnswerKind::Pairs ? options.pairsStride : 1;
-    lanes.push_back({method.make(scene), stride, MethodRun{&method, {}, {}, {}}});
+    lanes.push_back({method.make(scene), stride, MethodRun{&method, {}, {}, {}, {}}});
     lanes.back().run.times.reserve(path.size() * options.rounds);
     lanes.back().run.answers.reserve(path.size());
     lanes.back().run.poses.reserve(path.size());
@@ -107,8 +110,10 @@ std::vector<MethodRun> runInterleaved(std::span<const MethodEntry> methods, cons
     }
   }
   std::vector<MethodRun> runs;
-  for (Lane& lane : lanes)
+  for (Lane& lane : lanes) {
+    lane.run.remark = lane.query->remark();
     runs.push_back(std::move(lane.run));
+  }
   return runs;
 }
 

@@ -28,6 +28,7 @@ struct MethodRun {
   std::vector<std::size_t> poses;  ///< Indices of the poses answered in a round.
   std::vector<double> times;       ///< [s]; round after round, each as `poses`.
   std::vector<Answer> answers;     ///< Of the first round, as `poses`.
+  std::string remark;              ///< The method's own, see QueryMethod.
   long preemptions = 0;  ///< Times that the thread lost its core to another during the timed blocks.
 };
 

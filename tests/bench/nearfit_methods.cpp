@@ -4,6 +4,7 @@
 #include "core/proximity/blocked_minima.h"
 #include "core/proximity/lmd_query.h"
 #include "tests/bench/query_method.h"
+#include "tests/bench/tracked_query.h"
 
 namespace nearfit::bench {
 namespace {
@@ -53,7 +54,10 @@ std::vector<MethodEntry> nearfitMethods() {
            cold(ColdQuery::Marking::AnyPose)},
           {"nearfit-cold-blocked-apart", AnswerKind::FullSet,
            "the same, where the bodies are known not to interpenetrate", kTolerance,
-           cold(ColdQuery::Marking::BodiesApart)}};
+           cold(ColdQuery::Marking::BodiesApart)},
+          {"nearfit-tracked", AnswerKind::FullSet,
+           "the full set from lists that another thread renews; its time is not counted, its delay is",
+           kTolerance, [](const PreparedScene& scene) { return std::make_unique<TrackedQuery>(scene); }}};
 }
 
 std::vector<BuildEntry> nearfitBuilds() {

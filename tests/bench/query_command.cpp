@@ -103,6 +103,9 @@ void measureScene(const SceneEntry& entry, const std::vector<MethodEntry>& metho
   const std::vector<MethodRun> runs = runInterleaved(methods, scene, path, options.run);
   const std::vector<ReportRow> rows = reportRows(scene, runs, options.baseline, options.isBest);
   fmt::print("{}{}", tableOf(scene, rows, options.baseline), describePath(scene, runs));
+  for (const MethodRun& run : runs) {
+    if (!run.remark.empty()) fmt::print("{}: {}.\n", run.method->name, run.remark);
+  }
   std::fflush(stdout);
   for (const ReportRow& row : rows)
     results.csv += csvLine(row);

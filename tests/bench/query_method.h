@@ -44,6 +44,11 @@ class QueryMethod {
 
   /// This call is what is timed. Poses come in the order of the path, with a jump now and then.
   virtual Answer query(const RigidTransform& sceneFromPart) = 0;
+
+  /// What another thread does between two ticks; not timed. Comes after each query.
+  virtual void workAside(const RigidTransform&) {}
+  /// What to say of that work under the table; empty for nothing.
+  virtual std::string remark() const { return {}; }
 };
 
 /// A row of the table of methods. To add a method, add a row to one of the functions below.

@@ -43,10 +43,12 @@ class WatchedDevice final : public HapticDevice {
   int ticks = 0;
 };
 
-/// Counts where scenes are freed, by means of a geometry that only they hold.
+/// Counts scenes that are freed, by means of a geometry that only they hold.
 struct FreedScenes {
-  std::atomic<int> here{0}, elsewhere{0};
-  const std::thread::id thread = std::this_thread::get_id();
+  explicit FreedScenes(const WatchedDevice& watched) : device(watched) {}
+
+  const WatchedDevice& device;
+  std::atomic<int> onServoThread{0}, elsewhere{0};
 
   std::unique_ptr<ServoScene> make(std::uint32_t bodies) {
     auto scene = test::coneOverFloor();
@@ -56,16 +58,16 @@ struct FreedScenes {
       scene->bodies.push_back({PartId{10 + i}, floor.geometry, {}});
     const PartGeometryPtr cone = scene->moving.geometry;
     scene->moving.geometry = PartGeometryPtr(cone.get(), [this, cone](const PartGeometry*) {
-      (std::this_thread::get_id() == thread ? here : elsewhere).fetch_add(1);
+      (std::this_thread::get_id() == device.servoThread.load() ? onServoThread : elsewhere).fetch_add(1);
     });
     return scene;
   }
 };
 
-TEST(ServoLoopThreads, PartsComeAndGoByTheThousandAndAreFreedByTheirOwner) {
+TEST(ServoLoopThreads, PartsComeAndGoByTheThousandAndAreFreedOffTheServoThread) {
   constexpr int kSwaps = 4000;
-  FreedScenes freed;
   WatchedDevice device;
+  FreedScenes freed(device);
   {
     ServoLoop loop;
     loop.start(device, freed.make(1), softSprings());
@@ -85,16 +87,16 @@ TEST(ServoLoopThreads, PartsComeAndGoByTheThousandAndAreFreedByTheirOwner) {
     }
     EXPECT_TRUE(loop.isRunning());
     EXPECT_GT(lastTick, 100U);
-    EXPECT_GT(freed.here.load(), kSwaps / 2) << "freed as it goes, not hoarded";
+    EXPECT_GT(freed.elsewhere.load(), kSwaps / 2) << "freed as it goes, not hoarded";
     loop.stop();
-    EXPECT_EQ(freed.here.load(), kSwaps + 1) << "nothing of a stopped servo is kept";
+    EXPECT_EQ(freed.elsewhere.load(), kSwaps + 1) << "nothing of a stopped servo is kept";
   }
-  EXPECT_EQ(freed.elsewhere.load(), 0);
+  EXPECT_EQ(freed.onServoThread.load(), 0);
 }
 
 TEST(ServoLoopThreads, AControllerThatNeverPollsLosesNoScene) {
-  FreedScenes freed;
   WatchedDevice device;
+  FreedScenes freed(device);
   {
     ServoLoop loop;
     loop.start(device, freed.make(1), softSprings());
@@ -103,8 +105,8 @@ TEST(ServoLoopThreads, AControllerThatNeverPollsLosesNoScene) {
       std::this_thread::sleep_for(2ms);
     }
   }
-  EXPECT_EQ(freed.here.load(), 101);
-  EXPECT_EQ(freed.elsewhere.load(), 0);
+  EXPECT_EQ(freed.elsewhere.load(), 101);
+  EXPECT_EQ(freed.onServoThread.load(), 0);
 }
 
 TEST(ServoLoopThreads, TheServoThreadAsksNothingOfTheHeapToItsVeryEnd) {
@@ -153,8 +155,8 @@ TEST(ServoLoopThreads, EveryTickIsRecordedOnceInOrder) {
 }
 
 TEST(ServoLoopThreads, StartingAndStoppingManyTimesIsClean) {
-  FreedScenes freed;
-  PathDevice device({test::tipAt(0.05)}, true);
+  WatchedDevice device;
+  FreedScenes freed(device);
   ServoLoop loop;
   for (int i = 0; i < 50; ++i) {
     loop.start(device, freed.make(1), softSprings());
@@ -162,8 +164,8 @@ TEST(ServoLoopThreads, StartingAndStoppingManyTimesIsClean) {
     loop.setScene(freed.make(2));
     loop.stop();
   }
-  EXPECT_EQ(freed.here.load(), 100);
-  EXPECT_EQ(freed.elsewhere.load(), 0);
+  EXPECT_EQ(freed.elsewhere.load(), 100);
+  EXPECT_EQ(freed.onServoThread.load(), 0);
 }
 
 }  // namespace

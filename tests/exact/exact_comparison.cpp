@@ -149,14 +149,14 @@ void ExactComparison::checkVariants(const RigidTransform& pose, double cutoff,
     expectSame(findLmds(scene_, part_, pose, cutoff, scratch, other), other, "instruction set");
   }
   LmdScratch scratch(4096);
-  constexpr std::size_t kRoom = 1 << 16;
-  CandidateList list(kRoom);
+  CandidateList list;
   RigidTransform start = pose;
   start.translation += glm::dvec3(0.3, -0.2, 0.1) * cutoff;
-  list.build(scene_, part_, start, cutoff, {0.5 * cutoff, 1e-3}, scratch);
-  if (list.size() == kRoom) return;  // Thousands of features at one place; it says that it covers nothing.
-  ASSERT_TRUE(list.covers(pose, cutoff)) << list.size() << " pairs, " << describe(pose);
-  expectSame(list.query(pose, cutoff, scratch, other), other, "candidate list");
+  list.build({scene_, part_, start, cutoff}, {{}, {0.5 * cutoff, 1e-3}}, scratch, {1U << 16, 1U << 22});
+  if (!list.isUsable()) return;  // Thousands of features at one place; it says that it covers nothing.
+  const std::optional<LmdResult> listed = list.query(pose, cutoff, scratch, other);
+  ASSERT_TRUE(listed) << list.size() << " pairs, " << describe(pose);
+  expectSame(*listed, other, "candidate list");
 }
 
 void ExactComparison::checkPose(const RigidTransform& pose, double cutoff) {

@@ -26,4 +26,8 @@ std::unique_ptr<ServoScene> coneOverFloor() {
   return scene;
 }
 
+TrackedScene untrackedView(const ServoScene& scene) {
+  return untracked(std::shared_ptr<const ServoScene>(std::shared_ptr<void>(), &scene));
+}
+
 }  // namespace nearfit::test

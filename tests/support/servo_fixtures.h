@@ -19,4 +19,7 @@ RigidTransform tipAt(double height);
 /// A scene of that cone in hand over that slab. The geometries are made once.
 std::unique_ptr<ServoScene> coneOverFloor();
 
+/// A scene of which nothing is known yet. Looks at `scene`, which stays alive and as it is.
+TrackedScene untrackedView(const ServoScene& scene);
+
 }  // namespace nearfit::test

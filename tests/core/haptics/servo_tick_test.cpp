@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/haptics/scene_tracker.h"
 #include "tests/support/allocation_hook.h"
 #include "tests/support/servo_fixtures.h"
 
@@ -49,8 +50,20 @@ class ServoTickOnFloor : public testing::Test {
   /// One tick with the tip at that height above z = 0.
   const ServoSnapshot& tickAt(double height) { return tickAt(moved(kAside + glm::dvec3(0.0, 0.0, height))); }
   const ServoSnapshot& tickAt(const RigidTransform& handle) {
-    tick_.run(scene_, parameters_, handle, kPeriod, *snapshot_);
+    return tickOf(test::untrackedView(scene_), handle);
+  }
+  const ServoSnapshot& tickOf(const TrackedScene& tracked, const RigidTransform& handle) {
+    tick_.run(tracked, parameters_, handle, kPeriod, *snapshot_);
     return *snapshot_;
+  }
+  /// The scene with lists for around that pose.
+  TrackedScene trackedAt(const RigidTransform& pose) {
+    SceneTracker tracker;
+    tracker.setScene(test::untrackedView(scene_).scene);
+    tracker.observe(pose, 1.0);
+    TrackedScene tracked;
+    tracker.refresh(parameters_.springs.cutoff, tracked);
+    return tracked;
   }
 
   const PartGeometryPtr floor_ = test::floorSlab();
@@ -221,7 +234,7 @@ TEST_F(ServoTickOnFloor, SenselessParametersAreAFault) {
   EXPECT_EQ(faultWith([](ServoParameters& p) { p.springs.cutoff = 0.0; }), ServoFault::ParametersInvalid);
   for (const double badPeriod : {0.0, -1e-3, kNan}) {
     ServoTick tick;
-    tick.run(scene_, good, moved({0.0, 0.0, 1.0}), badPeriod, *snapshot_);
+    tick.run(test::untrackedView(scene_), good, moved({0.0, 0.0, 1.0}), badPeriod, *snapshot_);
     EXPECT_EQ(snapshot_->fault, ServoFault::ParametersInvalid);
   }
 }
@@ -253,11 +266,13 @@ TEST_F(ServoTickOnFloor, OfTooManyMinimaTheNearestAreShownGroupedByPartAndAllAre
     addFloor(PartId{100 + i}, moved({0.0, 0.0, 1e-5 * i}));
   parameters_.limits = {1e6, 1e6};
   const double height = 0.05;
-  const ServoSnapshot& s = tickAt(height);
+  const RigidTransform pose = moved(kAside + glm::dvec3(0.0, 0.0, height));
+  const ServoSnapshot& s = tickOf(trackedAt(pose), pose);
   double expectedForce = 0.0;
   for (std::uint32_t i = 0; i < kFloors; ++i)
     expectedForce += 50.0 * (0.1 - (height - 1e-5 * i));
   EXPECT_NEAR(s.wrench.force.z, expectedForce, 1e-6);
+  EXPECT_EQ(s.lateBodies, 0U);
   EXPECT_EQ(s.lmdCount, kFloors);
   ASSERT_EQ(s.storedLmds, ServoSnapshot::kMaxLmds);
   for (std::uint32_t k = 0; k < s.storedLmds; ++k) {
@@ -273,7 +288,7 @@ TEST_F(ServoTickOnFloor, TheSamePosesGiveTheSameWrenchToTheLastBit) {
   for (int n = 0; n < 50; ++n) {
     const RigidTransform pose = moved(kAside + glm::dvec3(0.0, 0.0, 0.05 + 0.03 * std::sin(0.3 * n)));
     tickAt(pose);
-    other.run(scene_, parameters_, pose, kPeriod, *second);
+    other.run(test::untrackedView(scene_), parameters_, pose, kPeriod, *second);
     EXPECT_EQ(snapshot_->wrench.force, second->wrench.force);
     EXPECT_EQ(snapshot_->wrench.torque, second->wrench.torque);
   }
@@ -282,14 +297,21 @@ TEST_F(ServoTickOnFloor, TheSamePosesGiveTheSameWrenchToTheLastBit) {
 TEST_F(ServoTickOnFloor, ATickAllocatesNothing) {
   for (std::uint32_t i = 0; i < 700; ++i)
     addFloor(PartId{100 + i}, moved({0.0, 0.0, -1e-5 * i}));
+  const auto tip = [this](double height) { return moved(kAside + glm::dvec3(0.0, 0.0, height)); };
+  const TrackedScene untracked = test::untrackedView(scene_), tracked = trackedAt(tip(0.04));
+  std::uint32_t lateTicks = 0, listedTicks = 0;
   test::resetAllocationCount();
   test::startCountingAllocations();
-  for (int n = 0; n < 20; ++n)
-    tickAt(0.03 + 0.001 * n);
-  tickAt(moved({kNan, 0.0, 0.0}));
+  for (int n = 0; n < 20; ++n) {
+    lateTicks += tickOf(untracked, tip(0.03 + 0.001 * n)).lateBodies > 0 ? 1 : 0;
+    listedTicks += tickOf(tracked, tip(0.03 + 0.001 * n)).lateBodies == 0 ? 1 : 0;
+  }
+  tickOf(tracked, moved({kNan, 0.0, 0.0}));
   tick_.reset();
-  tickAt(0.04);
+  tickOf(tracked, tip(0.04));
   test::stopCountingAllocations();
+  EXPECT_EQ(lateTicks, 20U);
+  EXPECT_GT(listedTicks, 0U);
   EXPECT_EQ(test::countedAllocations(), 0U);
 }
 

@@ -19,6 +19,7 @@ using test::BodyPair;
 
 constexpr double kCutoff = 0.1;
 const MotionBudget kBudget{0.02, 0.03};
+constexpr CandidateList::Bounds kNoBounds{1U << 20, 1U << 30};
 
 class Stars {
  public:
@@ -33,7 +34,7 @@ class Stars {
   }
   std::vector<Lmd> listed(const CandidateList& list, const RigidTransform& pose, double cutoff = kCutoff) {
     std::vector<Lmd> out(4096);
-    out.resize(list.query(pose, cutoff, scratch, out).count);
+    out.resize(list.query(pose, cutoff, scratch, out).value().count);
     return out;
   }
 };
@@ -63,11 +64,11 @@ RigidTransform movedWithin(const RigidTransform& pose, const NormalConeTree& par
 TEST(CandidateList, HoldsTheExactSetAtEveryPoseWithinItsBudget) {
   Stars stars;
   std::mt19937_64 random(1);
-  CandidateList list(1 << 16);
+  CandidateList list;
   std::size_t compared = 0;
   for (int i = 0; i < 40; ++i) {
     const RigidTransform start = test::poseNearContact(stars.pair, kCutoff, random);
-    list.build(stars.scene, stars.part, start, kCutoff, kBudget, stars.scratch);
+    list.build({stars.scene, stars.part, start, kCutoff}, {{}, kBudget}, stars.scratch, kNoBounds);
     for (int k = 0; k < 25; ++k) {
       const RigidTransform pose = movedWithin(start, stars.part, kBudget, 0.999, random);
       ASSERT_TRUE(list.covers(pose, kCutoff));
@@ -83,11 +84,11 @@ TEST(CandidateList, HoldsTheExactSetAtEveryPoseWithinItsBudget) {
 TEST(CandidateList, RotationAloneSpendsTheBudgetToo) {
   Stars stars;
   std::mt19937_64 random(2);
-  CandidateList list(1 << 16);
+  CandidateList list;
   const MotionBudget turnOnly{0.5, 0.2};
   for (int i = 0; i < 10; ++i) {
     const RigidTransform start = test::poseNearContact(stars.pair, kCutoff, random);
-    list.build(stars.scene, stars.part, start, kCutoff, turnOnly, stars.scratch);
+    list.build({stars.scene, stars.part, start, kCutoff}, {{}, turnOnly}, stars.scratch, kNoBounds);
     const glm::dvec3 axis = test::randomRotation(random).rotation * glm::dvec3(0, 1, 0);
     for (const double angle : {0.05, -0.1, 0.15, -0.199}) {
       // About the part's own origin, which is not where its box is centred.
@@ -102,10 +103,10 @@ TEST(CandidateList, RotationAloneSpendsTheBudgetToo) {
 
 TEST(CandidateList, CoversNothingBeyondItsBudgetItsCutoffOrItsRoom) {
   Stars stars;
-  CandidateList list(1 << 16), small(8);
+  CandidateList list, small;
   RigidTransform pose{{1, 0, 0, 0}, {1.3, 0.3, 0.2}};
   EXPECT_FALSE(list.covers(pose, kCutoff));  // Nothing was built.
-  list.build(stars.scene, stars.part, pose, kCutoff, kBudget, stars.scratch);
+  list.build({stars.scene, stars.part, pose, kCutoff}, {{}, kBudget}, stars.scratch, kNoBounds);
   ASSERT_GT(list.size(), 8U);
   EXPECT_TRUE(list.covers(pose, kCutoff));
   EXPECT_FALSE(list.covers(pose, 1.01 * kCutoff));
@@ -116,7 +117,7 @@ TEST(CandidateList, CoversNothingBeyondItsBudgetItsCutoffOrItsRoom) {
   EXPECT_FALSE(list.covers(moved, kCutoff));
   moved.translation.x = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(list.covers(moved, kCutoff));
-  small.build(stars.scene, stars.part, pose, kCutoff, kBudget, stars.scratch);
+  small.build({stars.scene, stars.part, pose, kCutoff}, {{}, kBudget}, stars.scratch, {.pairs = 8});
   EXPECT_FALSE(small.covers(pose, kCutoff));
 }
 
@@ -124,11 +125,12 @@ TEST(CandidateList, FlatContactIsOneRegionFromTheListToo) {
   const TriangleMesh floor = test::squareMesh(2.0, 8), box = test::boxMesh({0.5, 0.5, 0.5});
   const NormalConeTree scene(floor), part(box);
   LmdScratch scratch;
-  CandidateList list(4096);
+  CandidateList list;
   std::vector<Lmd> out(64);
-  list.build(scene, part, {{1, 0, 0, 0}, {0.1, 0.2, 0.31}}, kCutoff, {0.05, 0.01}, scratch);
-  const LmdResult result = list.query({{1, 0, 0, 0}, {0.13, 0.2, 0.3}}, kCutoff, scratch, out);
-  ASSERT_EQ(result.count, 1U);
+  list.build({scene, part, {{1, 0, 0, 0}, {0.1, 0.2, 0.31}}, kCutoff}, {{}, {0.05, 0.01}}, scratch);
+  const std::optional<LmdResult> result = list.query({{1, 0, 0, 0}, {0.13, 0.2, 0.3}}, kCutoff, scratch, out);
+  ASSERT_TRUE(result);
+  ASSERT_EQ(result->count, 1U);
   EXPECT_TRUE(out[0].isRegion);
   EXPECT_NEAR(out[0].distance, 0.05, 1e-12);
   EXPECT_LT(glm::distance(out[0].scenePoint, glm::dvec3(0.13, 0.2, 0.0)), 1e-9);

@@ -35,22 +35,23 @@ MotionRow sampleRow() {
   row.distance = 1.0 / 3.0;
   row.queryTime = 12.3456e-6;
   row.tickTime = 20e-6;
+  row.lateBodies = 3;
   return row;
 }
 
 TEST(MotionRecording, TheHeaderNamesTheColumnsInOrder) {
-  const std::vector<std::string> expected{"t_s",       "handle_tx", "handle_ty", "handle_tz", "handle_qw",
-                                          "handle_qx", "handle_qy", "handle_qz", "proxy_tx",  "proxy_ty",
-                                          "proxy_tz",  "proxy_qw",  "proxy_qx",  "proxy_qy",  "proxy_qz",
-                                          "force_x",   "force_y",   "force_z",   "torque_x",  "torque_y",
-                                          "torque_z",  "lmds",      "distance",  "query_us",  "tick_us"};
+  const std::vector<std::string> expected{
+      "t_s",       "handle_tx", "handle_ty", "handle_tz", "handle_qw",  "handle_qx", "handle_qy",
+      "handle_qz", "proxy_tx",  "proxy_ty",  "proxy_tz",  "proxy_qw",   "proxy_qx",  "proxy_qy",
+      "proxy_qz",  "force_x",   "force_y",   "force_z",   "torque_x",   "torque_y",  "torque_z",
+      "lmds",      "distance",  "query_us",  "tick_us",   "late_bodies"};
   EXPECT_EQ(split(std::string(motionHeader()), ','), expected);
 }
 
 TEST(MotionRecording, ARowHasItsValuesUnderTheirColumns) {
   const std::vector<std::string> columns = split(formatMotionRow(sampleRow()), ',');
   const std::vector<double> expected{0.001, 1,   2,  3,  0.1, 0.2, 0.3, 0.4, 4,  5,         6,      0.5, 0.6,
-                                     0.7,   0.8, -1, -2, -3,  -4,  -5,  -6,  17, 1.0 / 3.0, 12.346, 20};
+                                     0.7,   0.8, -1, -2, -3,  -4,  -5,  -6,  17, 1.0 / 3.0, 12.346, 20,  3};
   ASSERT_EQ(columns.size(), expected.size());
   for (std::size_t i = 0; i < columns.size(); ++i)
     EXPECT_EQ(std::stod(columns[i]), expected[i]) << i;

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/haptics/tracked_scene.h"
+#include "core/proximity/lmd_query.h"
+#include "core/proximity/motion_forecast.h"
+
+namespace nearfit {
+
+/// Keeps a TrackedScene ahead of the motion of its moving part. For a thread beside the servo: it allocates,
+/// and its work is not bounded.
+///
+/// Each near body has a list of its own and is searched anew only when that will soon not do any more; the
+/// others are looked at again when the motion could have brought one near. A search that comes late
+/// costs the servo a cold query, never the exactness of the set.
+class SceneTracker {
+ public:
+  SceneTracker() = default;
+
+  /// Another scene: lists of bodies whose geometry, like that of the moving part, is the same stay of use.
+  void setScene(std::shared_ptr<const ServoScene> scene);
+
+  /// Takes note of where the moving part is now.
+  /// @param ticks  Servo ticks since the last call; > 0.
+  void observe(const RigidTransform& worldFromPart, double ticks) noexcept {
+    forecast_.observe(worldFromPart, ticks);
+  }
+  /// As MotionForecast::setLead().
+  void setLead(double ticks) noexcept { forecast_.setLead(ticks); }
+
+  /// Whether what is known will not do any more by the time that a search from now has ended.
+  bool isDue(double cutoff) const noexcept;
+
+  /// Renews what is due for the time to come, and writes the whole to `out`.
+  void refresh(double cutoff, TrackedScene& out);
+
+ private:
+  bool willServe(const TrackedScene::Near& entry, double cutoff) const noexcept;
+  bool isClearOf(const BodyPairQuery& query) noexcept;
+  bool isAllClear(double cutoff) noexcept;
+  void findNear(double cutoff, const std::vector<TrackedScene::Near>& former);
+  std::shared_ptr<const CandidateList> buildList(std::uint32_t body, double cutoff);
+  std::shared_ptr<CandidateList> spareList();
+  BodyPairQuery queryOf(std::uint32_t body, const RigidTransform& worldFromPart,
+                        double cutoff) const noexcept;
+
+  TrackedScene current_;
+  MotionForecast forecast_;
+  LmdScratch scratch_;
+  /// Lists that come back here when the last TrackedScene that shows them is overwritten, with their storage.
+  std::vector<std::shared_ptr<CandidateList>> pool_;
+};
+
+}  // namespace nearfit

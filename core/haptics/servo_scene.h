@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/math/rigid_transform.h"
+#include "core/scene/scene.h"
+
+namespace nearfit {
+
+/// What the servo thread needs of a scene: immutable, made off the servo thread, shared with no one who
+/// writes. Holds the geometry alive; must be destroyed off the servo thread.
+struct ServoScene {
+  struct Body {
+    PartId id{};
+    PartGeometryPtr geometry;
+    RigidTransform worldFromPart;
+  };
+  std::vector<Body> bodies;      ///< Visible parts other than the moving one.
+  Body moving;                   ///< geometry is null when nothing is in hand.
+  glm::dvec3 centreInPart{0.0};  ///< Centre of mass of the moving part, in its frame [m].
+};
+
+/// Nothing is felt while the moving part is invisible. Builds the hierarchies that are missing, which takes
+/// seconds for millions of triangles: prepareHierarchies() does so with progress before. Throws UsageError
+/// when the scene has no moving part.
+std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene);
+
+}  // namespace nearfit
