@@ -47,7 +47,7 @@ ExactTally check(const std::string& name, const TriangleMesh& mesh, std::size_t 
           fmt::format("{}{}{}", name, isBuilt ? ", built" : "", isSelf ? ", with itself" : ""), scene,
           isSelf ? scene : probe};
       ExactComparison comparison(pair);
-      comparison.checkPoses(std::max<std::size_t>(poses / test::kPoseShare, 3), 0.1, seed);
+      comparison.checkPoses(std::max<std::size_t>(poses / test::kPoseShare, 5), 0.1, seed);
       sum.minima += comparison.tally().minima;
       sum.marginal += comparison.tally().marginal;
       sum.found += comparison.tally().found;
