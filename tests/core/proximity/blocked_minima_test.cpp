@@ -73,7 +73,7 @@ Agreement compare(const BodyPair& pair, std::size_t poses, double cutoff, std::u
   const NormalConeTree sceneTree(pair.scene), partTree(pair.part);
   std::mt19937_64 random(seed);
   Agreement tally;
-  for (std::size_t i = 0; i < poses / test::kPoseShare; ++i) {
+  for (std::size_t i = 0; i < poses; ++i) {
     const RigidTransform pose = test::poseNearContact(pair, 0.5 * cutoff, random);
     const test::PassageOracle scene(pair.scene, {}), part(pair.part, pose);
     std::vector<Lmd> lmds = test::allLmds(sceneTree, partTree, pose, cutoff);
@@ -110,8 +110,8 @@ Agreement compare(const BodyPair& pair, std::size_t poses, double cutoff, std::u
 /// The poses have minima of either kind to compare.
 void expectAgreement(const BodyPair& pair, std::size_t poses, double cutoff, std::uint64_t seed) {
   const Agreement tally = compare(pair, poses, cutoff, seed);
-  EXPECT_GT(tally.free, poses / (4 * test::kPoseShare)) << pair.name;
-  EXPECT_GT(tally.blocked, poses / (10 * test::kPoseShare)) << pair.name;
+  EXPECT_GT(tally.free, poses / 4) << pair.name;
+  EXPECT_GT(tally.blocked, poses / 10) << pair.name;
   EXPECT_LT(tally.marginal, (tally.free + tally.blocked) / 200 + 5) << pair.name;
 }
 
