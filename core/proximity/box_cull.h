@@ -39,6 +39,17 @@ NEARFIT_INLINE Floats8 load(const std::array<float, NormalConeTree::kWidth>& lan
 NEARFIT_INLINE Triple<Floats8> load(const std::array<std::array<float, NormalConeTree::kWidth>, 3>& lanes) {
   return {load(lanes[0]), load(lanes[1]), load(lanes[2])};
 }
+/// Lanes that are at least 0, bit by bit. By way of memory: where vectors are indexed by a variable, GCC 12
+/// loses the variable under -fsanitize=undefined.
+NEARFIT_INLINE std::uint32_t notNegative(const Floats8& lanes) {
+  float numbers[NormalConeTree::kWidth];
+  __builtin_memcpy(numbers, &lanes, sizeof numbers);
+  std::uint32_t bits = 0;
+  for (std::uint32_t i = 0; i < NormalConeTree::kWidth; ++i)
+    bits |= (numbers[i] >= 0.0F ? 1U : 0U) << i;
+  return bits;
+}
+
 template <class F>
 NEARFIT_INLINE F least(const F& a, const F& b) {
   return a < b ? a : b;

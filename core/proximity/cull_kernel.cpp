@@ -34,20 +34,13 @@ NEARFIT_INLINE Floats8 cullSwept(const BoundPairs& pairs, const SinglePose& pose
                     simd::along(scene, part, simd::sweptOf(part), simd::spread(sweep), limits));
 }
 
-NEARFIT_INLINE std::uint32_t bitsOf(const Floats8& margin) {
-  std::uint32_t bits = 0;
-  for (std::uint32_t i = 0; i < NormalConeTree::kWidth; ++i)
-    bits |= (margin[i] >= 0.0F ? 1U : 0U) << i;
-  return bits;
-}
-
 std::uint32_t cullPairsPortable(const BoundPairs& pairs, const SinglePose& pose,
                                 const CullLimits& limits) noexcept {
-  return bitsOf(cullPairs(pairs, pose, limits));
+  return simd::notNegative(cullPairs(pairs, pose, limits));
 }
 std::uint32_t cullSweptPortable(const BoundPairs& pairs, const SinglePose& pose, const CullLimits& limits,
                                 const CullSweep& sweep) noexcept {
-  return bitsOf(cullSwept(pairs, pose, limits, sweep));
+  return simd::notNegative(cullSwept(pairs, pose, limits, sweep));
 }
 
 #if defined(__x86_64__)

@@ -29,10 +29,13 @@ NEARFIT_INLINE Ints8 meets(const NormalConeTree::Node& node, const SegmentBound&
          (magnitude(dn * hu - du * hn) <= en * au + eu * an + slack);
 }
 
-NEARFIT_INLINE std::uint32_t bitsOf(Ints8 lanes) {
+/// By way of memory, as simd::notNegative().
+NEARFIT_INLINE std::uint32_t bitsOf(const Ints8& lanes) {
+  std::int32_t numbers[NormalConeTree::kWidth];
+  __builtin_memcpy(numbers, &lanes, sizeof numbers);
   std::uint32_t bits = 0;
   for (std::uint32_t i = 0; i < NormalConeTree::kWidth; ++i)
-    bits |= (lanes[i] != 0 ? 1U : 0U) << i;
+    bits |= (numbers[i] != 0 ? 1U : 0U) << i;
   return bits;
 }
 

@@ -115,11 +115,7 @@ template <bool isSwept>
 void openPortable(TraversalWork& work) noexcept {
   while (isBusy(work)) {
     const Opening o = take(work);
-    const Floats8 margin = test<isSwept>(work, o);
-    std::uint32_t bits = 0;
-    for (std::uint32_t i = 0; i < kWidth; ++i)
-      bits |= (margin[i] >= 0.0F ? 1U : 0U) << i;
-    keep(work, o, bits);
+    keep(work, o, simd::notNegative(test<isSwept>(work, o)));
   }
 }
 
