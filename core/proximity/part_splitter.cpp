@@ -11,6 +11,9 @@ namespace {
 /// how far their directions spread. Measured to be best on the bodies of the benchmark, and no sharp optimum.
 constexpr float kOtherSize = 0.25F, kOtherSpread = 0.6F;
 
+/// Directions that reach no farther, beside kOtherSpread, are no reason to split by them.
+constexpr float kLittleSpread = 0.25F;
+
 /// Features that the choice is made by, in a larger part.
 constexpr std::size_t kSample = 256;
 
@@ -23,8 +26,9 @@ void PartSplitter::load(std::span<const std::array<float, 3>> centres, std::span
   extents_ = extents;
 }
 
-void PartSplitter::begin(float size) noexcept {
+void PartSplitter::begin(float size, float spread) noexcept {
   reach_ = kOtherSize * size;
+  keysTried_ = spread < kLittleSpread ? kPositionKeys : kKeys;
 }
 
 /// Orders by value, then by feature: one comparison of integers.
@@ -63,7 +67,7 @@ void PartSplitter::split(std::span<std::uint32_t> features, std::size_t cut) {
   const std::size_t sampledCut = std::clamp<std::size_t>(cut / stride, 1, sampled - 1);
   float least = 0.0F;
   std::size_t best = 0;
-  for (std::size_t kind = 0; kind < kKeys; ++kind) {
+  for (std::size_t kind = 0; kind < keysTried_; ++kind) {
     sort(kind, features, stride, sampledCut);
     const float pieces =
         cost(std::span(keys_).first(sampledCut)) + cost(std::span(keys_).subspan(sampledCut));

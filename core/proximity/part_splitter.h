@@ -20,15 +20,16 @@ class PartSplitter {
   /// @param extents  Along the axes of a part; those of its features must be right when it is split.
   void load(std::span<const std::array<float, 3>> centres, std::span<const Extents> extents);
 
-  /// @param size  Half the diagonal of the box of the part that is split from now on [m].
-  void begin(float size) noexcept;
+  /// @param size    Half the diagonal of the box of the part that is split from now on [m].
+  /// @param spread  How far its directions reach to the sides: mostU or mostV.
+  void begin(float size, float spread) noexcept;
 
   /// Puts the first piece's `cut` features first. Takes time in proportion to the number of features.
   void split(std::span<std::uint32_t> features, std::size_t cut);
 
  private:
   /// Three axes of the mesh and three of the part for position, three of the part for direction.
-  static constexpr std::size_t kKeys = 9;
+  static constexpr std::size_t kKeys = 9, kPositionKeys = 6;
 
   /// What a feature is sorted by, and below that the feature.
   using Key = std::uint64_t;
@@ -41,6 +42,7 @@ class PartSplitter {
   std::span<const Extents> extents_;
   std::span<const std::array<float, 3>> centres_;
   float reach_ = 0.0F;
+  std::size_t keysTried_ = kKeys;
   std::vector<Key> keys_, best_;
 };
 

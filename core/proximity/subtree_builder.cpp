@@ -1,5 +1,6 @@
 #include "core/proximity/subtree_builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -52,7 +53,7 @@ void SubtreeBuilder::build(NormalConeTree::Bound& bound, std::vector<NormalConeT
 /// Returns the index of a new node over a part that has just been bounded.
 std::uint32_t SubtreeBuilder::buildNode(std::span<std::uint32_t> part, const NormalConeTree::Bound& bound,
                                         std::vector<NormalConeTree::Node>& nodes) {
-  splitter_.begin(sizeOf(bound));
+  splitter_.begin(sizeOf(bound), std::max(bound.mostU, bound.mostV));
   const auto parts =
       pieces(part, [this](std::span<std::uint32_t> whole, std::size_t cut) { splitter_.split(whole, cut); });
   const auto index = static_cast<std::uint32_t>(nodes.size());
