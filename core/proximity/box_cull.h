@@ -177,31 +177,28 @@ NEARFIT_INLINE Sweeps<Floats8> spread(const CullSweep& s) {
   return {spread(s.shift), spread(s.spin), spread(s.about), Floats8{} + s.spinLength};
 }
 
-/// A box that a sweep moves: where its middle is, and how far its points are from there at most.
+/// How far the points of a box go along axes as a sweep moves them: its middle, and how much farther a point
+/// beside the middle may, as the spin carries it.
 template <class F>
-struct Swept {
-  Triple<F> centre;
-  F radius;
-};
-template <class F>
-NEARFIT_INLINE Swept<F> sweptOf(const Box<F>& box) {
-  return {box.centre, box.half.x + box.half.y + box.half.z};
-}
-
-/// How far the middle of the box that moves goes along each axis, and how much farther a point beside the
-/// middle may, as the spin carries it.
-template <class F>
-NEARFIT_INLINE Paddings<F> along(const Box<F>& own, const Box<F>& its, const Swept<F>& moving,
-                                 const Sweeps<F>& sweep, const CullLimits& limits) {
+NEARFIT_INLINE Triple<F> along(const Box<F>& moving, const Box<F>& axes, const Triple<F>& axesV,
+                               const Sweeps<F>& sweep, const CullLimits& limits) {
   const Triple<F> arm{moving.centre.x - sweep.about.x, moving.centre.y - sweep.about.y,
                       moving.centre.z - sweep.about.z};
   const Triple<F> turn = cross(sweep.spin, arm);
   const Triple<F> way{sweep.shift.x + turn.x, sweep.shift.y + turn.y, sweep.shift.z + turn.z};
-  const F aside = sweep.spinLength * moving.radius + limits.padding;
-  return {{magnitude(dot(way, own.n)) + aside, magnitude(dot(way, own.u)) + aside,
-           magnitude(dot(way, cross(own.n, own.u))) + aside},
-          {magnitude(dot(way, its.n)) + aside, magnitude(dot(way, its.u)) + aside,
-           magnitude(dot(way, cross(its.n, its.u))) + aside}};
+  const F radius = moving.half.x + moving.half.y + moving.half.z;
+  const F aside = sweep.spinLength * radius + limits.padding;
+  return {magnitude(dot(way, axes.n)) + aside, magnitude(dot(way, axes.u)) + aside,
+          magnitude(dot(way, axesV)) + aside};
+}
+
+/// For all poses of a sweep. Seen from either box the other moves: the part's along the sweep, or the scene's
+/// against it.
+template <class F>
+NEARFIT_INLINE Paddings<F> swept(const Box<F>& own, const Box<F>& its, const Sweeps<F>& sweep,
+                                 const CullLimits& limits) {
+  return {along(its, own, cross(own.n, own.u), sweep, limits),
+          along(own, its, cross(its.n, its.u), sweep, limits)};
 }
 
 /// At least 0 in the lanes where the two boxes can hold a minimum together, less in the others: where the

@@ -32,23 +32,28 @@ std::array<float, 3> single(const glm::dvec3& v) noexcept {
   return {kUp * static_cast<float>(v.x), kUp * static_cast<float>(v.y), kUp * static_cast<float>(v.z)};
 }
 
-/// Limits that hold at every pose of a range. The sweep moves the part's points as it says but for the
-/// curvature of their arcs; they go aside of it by the budget; and seen from the part, where half of the axes
-/// are, d turns besides.
+/// Limits that hold at every pose of a range.
+///
+/// A pair that carries a minimum at a pose X is within the cutoff there. X is within the budget of a pose P
+/// on the stretch. Seen from the scene, a point q of the part goes from where it is in the middle to P by t
+/// (shift + spin x (q - o)), o the part's centre, but for the curvature of its arc, |spin|^2 |q - o| / 2;
+/// seen from the part, a point a of the scene by the opposite with a for q, but for an arc about o as well
+/// and for the shift's turning, |spin| |shift|. From P to X it is the budget's travel, and seen from the part
+/// its turn times the distance of the two points besides.
 RangeLimits rangeLimits(const BodyPairQuery& query, const RigidTransform& centred,
                         const MotionRange& range) noexcept {
   const double radius = 0.5 * query.part.size();
-  const double spin = glm::length(range.stretch.spin), turn = spin + range.budget.turn;
-  const double arc = 0.5 * spin * spin * radius;
-  const double travel = range.budget.travel + arc + glm::length(range.stretch.shift) + spin * radius;
+  const double spin = glm::length(range.stretch.spin), shift = glm::length(range.stretch.shift);
+  const double travel = range.budget.travel + shift + spin * radius;
   // Nothing gets farther apart than this; beyond it a cutoff would be infinite in single precision.
   const double reach = query.scene.size() + query.part.size() + glm::length(centred.translation) + travel;
   const double within = std::min(query.cutoff, reach);
+  const double arc = 0.5 * spin * spin * (radius + within + travel) + spin * shift;
+  const double aside = range.budget.travel + range.budget.turn * (within + travel);
   CullLimits limits = cullLimits(query.scene, query.part, centred, query.cutoff);
   limits.cutoff = std::max(limits.cutoff, kUp * static_cast<float>(within));
-  limits.padding =
-      kUp * (limits.padding + static_cast<float>(range.budget.travel + arc + turn * (within + travel)));
-  limits.turn = kUp * (limits.turn + static_cast<float>(turn));
+  limits.padding = kUp * (limits.padding + static_cast<float>(aside + arc));
+  limits.turn = kUp * (limits.turn + static_cast<float>(spin + range.budget.turn));
   const MotionRange inPart = turned(glm::conjugate(centred.rotation), range);
   const auto spinLength = kUp * static_cast<float>(spin);
   return {limits,

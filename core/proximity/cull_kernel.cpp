@@ -30,8 +30,7 @@ NEARFIT_INLINE Floats8 cullPairs(const BoundPairs& pairs, const SinglePose& pose
 NEARFIT_INLINE Floats8 cullSwept(const BoundPairs& pairs, const SinglePose& pose, const CullLimits& limits,
                                  const CullSweep& sweep) {
   const simd::Box<Floats8> scene = simd::boxes(pairs.scene), part = partBoxes(pairs, pose);
-  return simd::cull(scene, part, limits,
-                    simd::along(scene, part, simd::sweptOf(part), simd::spread(sweep), limits));
+  return simd::cull(scene, part, limits, simd::swept(scene, part, simd::spread(sweep), limits));
 }
 
 std::uint32_t cullPairsPortable(const BoundPairs& pairs, const SinglePose& pose,

@@ -18,15 +18,17 @@ constexpr double kMemoryPerTick = 0.98;
 constexpr double kProbeTicks = 6.0;
 /// A part gets off its way by a growing velocity, which adds up over time: between steadily (2) and at random
 /// (1.5).
-constexpr double kErrorGrowth = 1.5;
+constexpr double kErrorGrowth = 2.0;
 
-/// How much of the newest velocity counts: smooths the steps of encoders over some three ticks.
-constexpr double kVelocityShare = 0.4;
+/// How much of the newest velocity counts, and of the newest change of it: smooths the steps of encoders over
+/// some two and some four ticks (Holt's double exponential smoothing, which does not lag behind a steady
+/// change as simple smoothing does).
+constexpr double kVelocityShare = 0.5, kTrendShare = 0.25;
 
 /// How long what is found must serve, in ticks: while the next search waits for its turn and runs, and one
 /// more. The shorter, the shorter the lists.
 double windowOf(double lead) noexcept {
-  return lead > 0.0 ? 2.0 * lead + 1.0 : 6.0;
+  return lead > 0.0 ? lead + 1.5 : 6.0;
 }
 
 /// A longer lead asks for wider lists, and those take longer to search: beyond this it would never end.
@@ -56,6 +58,22 @@ MotionBudget greater(const MotionBudget& a, const MotionBudget& b) noexcept {
   return {std::max(a.travel, b.travel), std::max(a.turn, b.turn)};
 }
 
+/// Brings a velocity and its trend up to date with one that was measured over some ticks.
+void smooth(glm::dvec3& velocity, glm::dvec3& trend, const glm::dvec3& measured, double ticks) noexcept {
+  const glm::dvec3 expected = velocity + ticks * trend;
+  const glm::dvec3 next = expected + (1.0 - std::pow(1.0 - kVelocityShare, ticks)) * (measured - expected);
+  trend += (1.0 - std::pow(1.0 - kTrendShare, ticks)) * ((next - velocity) / ticks - trend);
+  velocity = next;
+}
+
+/// Where a velocity that grows by a trend leads in some ticks; frames have their origin in the part's centre.
+RigidTransform ahead(const RigidTransform& from, const MotionStretch& velocity, const MotionStretch& trend,
+                     double ticks) noexcept {
+  const double growth = 0.5 * ticks * (ticks + 1.0);
+  return poseOn({ticks * velocity.shift + growth * trend.shift, ticks * velocity.spin + growth * trend.spin},
+                from, 1.0);
+}
+
 /// A vector, shortened where it is longer than a limit.
 glm::dvec3 limited(const glm::dvec3& vector, double limit) noexcept {
   const double length = glm::length(vector);
@@ -77,13 +95,14 @@ void MotionForecast::observe(const RigidTransform& pose, double ticks) noexcept 
     lead_ *= memory;
     const bool isJump = motion.travel > std::max(kJump * fastest_.travel, kJumpOfRadius * radius_);
     if (!isJump || wasJump_) {
-      const double share = 1.0 - std::pow(1.0 - kVelocityShare, ticks);
-      step_ += share * ((to.translation - from.translation) / ticks - step_);
-      turn_ += share * (rotationVector(to.rotation * glm::conjugate(from.rotation)) / ticks - turn_);
+      const MotionStretch now{(to.translation - from.translation) / ticks,
+                              rotationVector(to.rotation * glm::conjugate(from.rotation)) / ticks};
+      smooth(velocity_.shift, trend_.shift, now.shift, ticks);
+      smooth(velocity_.spin, trend_.spin, now.spin, ticks);
       fastest_ = greater(motion, fastest_);
       checkProbe(to, ticks);
     }
-    if (isJump || probe_.age >= kProbeTicks) probe_ = {to, {step_, turn_}, 0.0};
+    if (isJump || probe_.age >= kProbeTicks) probe_ = {to, velocity_, trend_, 0.0};
     wasJump_ = isJump;
   }
   pose_ = next;
@@ -92,9 +111,10 @@ void MotionForecast::observe(const RigidTransform& pose, double ticks) noexcept 
 
 void MotionForecast::checkProbe(const RigidTransform& centred, double ticks) noexcept {
   probe_.age += ticks;
-  const MotionStretch way{probe_.age * probe_.perTick.shift, probe_.age * probe_.perTick.spin};
-  const double time = nearestTime(way, probe_.from, centred, radius_);
-  const MotionBudget off = motionBetween(poseOn(way, probe_.from, time), centred, radius_);
+  const RigidTransform foretold = ahead(probe_.from, probe_.velocity, probe_.trend, probe_.age);
+  // What it is early or late by does not count: a stretch reaches farther than it must.
+  const double time = nearestTime(probe_.velocity, foretold, centred, radius_);
+  const MotionBudget off = motionBetween(poseOn(probe_.velocity, foretold, time), centred, radius_);
   error_ = greater(std::pow(probe_.age, -kErrorGrowth) * off, error_);
 }
 
@@ -104,8 +124,9 @@ void MotionForecast::setLead(double ticks) noexcept {
 }
 
 RigidTransform MotionForecast::poseAhead(double ticks) const noexcept {
-  const glm::dquat rotation = glm::normalize(rotationOf(ticks * turn_) * pose_.rotation);
-  return {rotation, pose_.applyToPoint(centre_) + ticks * step_ - rotation * centre_};
+  const RigidTransform centred{pose_.rotation, pose_.applyToPoint(centre_)};
+  const RigidTransform to = ahead(centred, velocity_, trend_, ticks);
+  return {to.rotation, to.translation - to.rotation * centre_};
 }
 
 RigidTransform MotionForecast::poseWhenReady() const noexcept {
@@ -114,15 +135,17 @@ RigidTransform MotionForecast::poseWhenReady() const noexcept {
 
 SearchPlan MotionForecast::plan(double cutoff, double share) const noexcept {
   const double window = share * windowOf(lead_), half = 0.5 * kMargin * window;
-  const double ahead = std::pow(lead_ + window, kErrorGrowth);
+  const double growth = std::pow(lead_ + window, kErrorGrowth);
   const auto aside = [&](double fastest, double error) {
-    return generosity_ * std::min(ahead * error, kMostAside * half * fastest);
+    return generosity_ * std::min(growth * error, kMostAside * half * fastest);
   };
   // Part of the travel comes from turning: the least turn must not be out of reach of the least travel.
   const double leastTravel = kLeastTravel * cutoff + kLeastTurn * radius_;
   const double mostTravel = std::max(leastTravel, kMostTravel * cutoff);
   SearchPlan plan{poseAhead(lead_ + 0.5 * window), {}};
-  plan.range.stretch = {limited(half * step_, mostTravel), limited(half * turn_, kMostTurn)};
+  const double middle = lead_ + 0.5 * window;
+  plan.range.stretch = {limited(half * (velocity_.shift + middle * trend_.shift), mostTravel),
+                        limited(half * (velocity_.spin + middle * trend_.spin), kMostTurn)};
   plan.range.budget = {share * std::clamp(aside(fastest_.travel, error_.travel), leastTravel, mostTravel),
                        share * std::clamp(aside(fastest_.turn, error_.turn), kLeastTurn, kMostTurn)};
   return plan;

@@ -49,13 +49,13 @@ class MotionForecast {
   RigidTransform pose_;
   bool hasPose_ = false;
   bool wasJump_ = false;
-  glm::dvec3 step_{0.0};  ///< Of the centre in a tick [m].
-  glm::dvec3 turn_{0.0};  ///< Axis times angle of a tick [rad].
+  /// Of the centre in a tick, and what it grows by from tick to tick.
+  MotionStretch velocity_, trend_;
   MotionBudget fastest_;  ///< Of late, in a tick.
   /// A way that was foretold some ticks ago, to be compared with the one taken.
   struct Probe {
     RigidTransform from;  ///< Of the centre.
-    MotionStretch perTick;
+    MotionStretch velocity, trend;
     double age = 0.0;  ///< [ticks]
   };
   Probe probe_;

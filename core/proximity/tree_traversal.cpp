@@ -68,8 +68,7 @@ NEARFIT_INLINE Floats8 test(const TraversalWork& work, const Opening& o) {
     return simd::cull(own, other, work.limits, simd::still<Floats8>(work.limits));
   } else {
     const simd::Sweeps<Floats8> sweep = simd::spread(o.isScene ? work.inScene : work.inPart);
-    const simd::Swept<Floats8> moving = simd::sweptOf(o.isScene ? other : own);
-    return simd::cull(own, other, work.limits, simd::along(own, other, moving, sweep, work.limits));
+    return simd::cull(own, other, work.limits, simd::swept(own, other, sweep, work.limits));
   }
 }
 
@@ -153,43 +152,15 @@ NEARFIT_INLINE simd::Sweeps<Floats16> join(const simd::Sweeps<Floats8>& a, const
   return {join(a.shift, b.shift), join(a.spin, b.spin), join(a.about, b.about),
           join(a.spinLength, b.spinLength)};
 }
-NEARFIT_INLINE simd::Swept<Floats16> join(const simd::Swept<Floats8>& a, const simd::Swept<Floats8>& b) {
-  return {join(a.centre, b.centre), join(a.radius, b.radius)};
-}
-
-NEARFIT_INLINE Floats8 firstHalf(const Floats16& x) {
-  return __builtin_shufflevector(x, x, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-NEARFIT_INLINE Floats8 secondHalf(const Floats16& x) {
-  return __builtin_shufflevector(x, x, 8, 9, 10, 11, 12, 13, 14, 15);
-}
-NEARFIT_INLINE simd::Swept<Floats8> firstHalf(const simd::Swept<Floats16>& s) {
-  return {{firstHalf(s.centre.x), firstHalf(s.centre.y), firstHalf(s.centre.z)}, firstHalf(s.radius)};
-}
-NEARFIT_INLINE simd::Swept<Floats8> secondHalf(const simd::Swept<Floats16>& s) {
-  return {{secondHalf(s.centre.x), secondHalf(s.centre.y), secondHalf(s.centre.z)}, secondHalf(s.radius)};
-}
-
-/// The paddings of two openings at once, for all poses of the sweep.
-NEARFIT_INLINE simd::Paddings<Floats16> paddings(const TraversalWork& work, const Opening& first,
-                                                 const Opening& second, const Box<Floats16>& own,
-                                                 const Box<Floats16>& other) {
-  const auto sweepOf = [&work](const Opening& o) __attribute__((always_inline)) {
-    return simd::spread(o.isScene ? work.inScene : work.inPart);
-  };
-  // The part's boxes move: of each opening the other box, or its own.
-  const simd::Swept<Floats16> byOther = simd::sweptOf(other), byOwn = simd::sweptOf(own);
-  const simd::Swept<Floats16> moving =
-      join(firstHalf(first.isScene ? byOther : byOwn), secondHalf(second.isScene ? byOther : byOwn));
-  return simd::along(own, other, moving, join(sweepOf(first), sweepOf(second)), work.limits);
-}
-
 template <bool isSwept>
 NEARFIT_AVX512 void openAvx512(TraversalWork& work) noexcept {
   // By whether the first node that is opened is the scene's, and the second.
   const Poses<Floats8> ofPart = posesOf(work.partFromScene), ofScene = posesOf(work.sceneFromPart);
   const Poses<Floats16> poses[2][2] = {{join(ofPart, ofPart), join(ofPart, ofScene)},
                                        {join(ofScene, ofPart), join(ofScene, ofScene)}};
+  const simd::Sweeps<Floats8> inPart = simd::spread(work.inPart), inScene = simd::spread(work.inScene);
+  const simd::Sweeps<Floats16> sweeps[2][2] = {{join(inPart, inPart), join(inPart, inScene)},
+                                               {join(inScene, inPart), join(inScene, inScene)}};
   while (isBusy(work)) {
     const Opening first = take(work);
     const bool isTwo = mayOpenTwo(work);
@@ -199,7 +170,8 @@ NEARFIT_AVX512 void openAvx512(TraversalWork& work) noexcept {
     const Box<Floats16> own = join(simd::boxes(*first.opened), simd::boxes(*second.opened));
     Floats16 margin;
     if constexpr (isSwept) {
-      margin = simd::cull(own, other, work.limits, paddings(work, first, second, own, other));
+      const simd::Sweeps<Floats16>& sweep = sweeps[first.isScene ? 1 : 0][second.isScene ? 1 : 0];
+      margin = simd::cull(own, other, work.limits, simd::swept(own, other, sweep, work.limits));
     } else {
       margin = simd::cull(own, other, work.limits, simd::still<Floats16>(work.limits));
     }
