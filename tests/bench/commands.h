@@ -8,5 +8,6 @@ namespace nearfit::bench {
 
 void addQueryCommand(CLI::App& program);
 void addBuildCommand(CLI::App& program);
+void addSceneCommand(CLI::App& program);
 
 }  // namespace nearfit::bench

@@ -16,16 +16,6 @@
 namespace nearfit::bench {
 namespace {
 
-void pinTo(int cpu) {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  CPU_SET(static_cast<std::size_t>(cpu), &set);
-  if (sched_setaffinity(0, sizeof set, &set) != 0) {
-    throw UsageError("--pin", fmt::format("processor {} cannot be had ({})", cpu, std::strerror(errno)),
-                     "choose one that this process may use");
-  }
-}
-
 long preemptionsOfThread() {
   rusage usage{};
   getrusage(RUSAGE_THREAD, &usage);
@@ -89,6 +79,16 @@ void walkBlock(Lane& lane, const Block& block, const RunOptions& options) {
 }
 
 }  // namespace
+
+void pinTo(int cpu) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(static_cast<std::size_t>(cpu), &set);
+  if (sched_setaffinity(0, sizeof set, &set) != 0) {
+    throw UsageError("--pin", fmt::format("processor {} cannot be had ({})", cpu, std::strerror(errno)),
+                     "choose one that this process may use");
+  }
+}
 
 std::vector<MethodRun> runInterleaved(std::span<const MethodEntry> methods, const PreparedScene& scene,
                                       std::span<const RigidTransform> path, const RunOptions& options) {

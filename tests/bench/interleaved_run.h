@@ -32,6 +32,10 @@ struct MethodRun {
   long preemptions = 0;  ///< Times that the thread lost its core to another during the timed blocks.
 };
 
+/// Keeps the calling thread, and those that it makes, on one processor. Throws UsageError when it cannot be
+/// had.
+void pinTo(int cpu);
+
 /// Measures methods on a path in turns of a block each, so that a drift of the machine's speed hits all
 /// alike; each round begins with the next method. Throws Error when the thread cannot be pinned.
 std::vector<MethodRun> runInterleaved(std::span<const MethodEntry> methods, const PreparedScene& scene,

@@ -22,6 +22,7 @@ int run(int argc, char** argv) {
   program.footer(kFooter);
   nearfit::bench::addQueryCommand(program);
   nearfit::bench::addBuildCommand(program);
+  nearfit::bench::addSceneCommand(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
