@@ -173,9 +173,7 @@ Wrench ServoTick::feelBody(const BodyTask& task, const SpringParameters& springs
   markBlocked(body.geometry->tree(), task.moving.geometry->tree(), bodyFromPart, found, kMayInterpenetrate,
               scratch_);
   for (Lmd& lmd : found) {
-    lmd.scenePoint = body.worldFromPart.applyToPoint(lmd.scenePoint);
-    lmd.partPoint = body.worldFromPart.applyToPoint(lmd.partPoint);
-    lmd.direction = body.worldFromPart.applyToVector(lmd.direction);
+    lmd = transformed(lmd, body.worldFromPart);
     snapshot.distance = std::min(snapshot.distance, lmd.distance);
   }
   snapshot.lmdCount += static_cast<std::uint32_t>(result.count);

@@ -1,9 +1,9 @@
 #include "core/proximity/broad_phase.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace nearfit {
 namespace {
@@ -37,8 +37,7 @@ bool BroadPhase::isFarther(const Aabb& box, const glm::dvec3& centre, double rad
 
 BroadPhase::BroadPhase(std::span<const Aabb> boxes) : boxes_(boxes.begin(), boxes.end()) {
   for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
-    const glm::dvec3 ends = boxes_[i].lower + boxes_[i].upper;
-    if (std::isnan(ends.x + ends.y + ends.z)) {
+    if (glm::any(glm::isnan(boxes_[i].lower)) || glm::any(glm::isnan(boxes_[i].upper))) {
       boundless_.push_back(i);
     } else if (!boxes_[i].isEmpty()) {
       order_.push_back(i);

@@ -81,6 +81,34 @@ TEST(CandidateList, HoldsTheExactSetAtEveryPoseWithinItsBudget) {
   EXPECT_GT(compared, 1000U);
 }
 
+TEST(CandidateList, HoldsTheExactSetAlongAStretchOfAWayAndAsideOfIt) {
+  Stars stars;
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> time(-1.0, 1.0), share(0.0, 1.0);
+  const auto vector = [&](double length) {
+    return length * (test::randomRotation(random).rotation * glm::dvec3(1, 0, 0));
+  };
+  CandidateList list;
+  std::size_t compared = 0;
+  for (int i = 0; i < 30; ++i) {
+    const RigidTransform middle = test::poseNearContact(stars.pair, kCutoff, random);
+    const MotionRange range{{vector(0.03), vector(0.04)}, {0.005, 0.01}};
+    list.build({stars.scene, stars.part, middle, kCutoff}, range, stars.scratch, kNoBounds);
+    const glm::dvec3 centre = stars.part.centre();
+    for (int k = 0; k < 25; ++k) {
+      const RigidTransform on =
+          poseOn(range.stretch, {middle.rotation, middle.applyToPoint(centre)}, time(random));
+      const RigidTransform back{on.rotation, on.translation - on.rotation * centre};
+      const RigidTransform pose = movedWithin(back, stars.part, range.budget, 0.9 * share(random), random);
+      if (!list.covers(pose, kCutoff)) continue;
+      const std::vector<Lmd> expected = stars.cold(pose);
+      expectSame(stars.listed(list, pose), expected);
+      compared += expected.size();
+    }
+  }
+  EXPECT_GT(compared, 1000U);
+}
+
 TEST(CandidateList, RotationAloneSpendsTheBudgetToo) {
   Stars stars;
   std::mt19937_64 random(2);
