@@ -14,13 +14,6 @@
 
 namespace nearfit {
 
-/// Between two bodies: where one stands in the frame of the other, and what is looked for there.
-struct BodyPairQuery {
-  const NormalConeTree &scene, &part;
-  RigidTransform sceneFromPart;
-  double cutoff;  ///< [m]
-};
-
 /// What bounds are held against for a whole range of motion.
 struct RangeLimits {
   CullLimits still;

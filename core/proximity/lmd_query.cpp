@@ -1,6 +1,7 @@
 #include "core/proximity/lmd_query.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/proximity/leaf_tests.h"
 #include "core/proximity/query_workspace.h"
@@ -13,52 +14,88 @@ LmdScratch::~LmdScratch() = default;
 LmdScratch::LmdScratch(LmdScratch&&) noexcept = default;
 LmdScratch& LmdScratch::operator=(LmdScratch&&) noexcept = default;
 
+namespace {
+
+/// One search, which may be narrowed on its way.
+class Search {
+ public:
+  Search(const BodyPairQuery& query, LmdScratch::Data& workspace) noexcept
+      : query_(query),
+        pose_(centredPose(query.scene, query.part, query.sceneFromPart)),
+        tests_(query.scene, query.part, pose_, query.cutoff),
+        collector_(workspace, result_),
+        traversal_(query.scene, query.part, pose_, cullLimits(query.scene, query.part, pose_, query.cutoff),
+                   workspace.open, workspace.traversal) {
+    result_.completeTo = query.cutoff;
+  }
+
+  /// Everything within the cutoff, unless that is too much work.
+  bool all(std::uint64_t maxNodePairs) noexcept {
+    return traversal_.run([this](const EntryPair& pair) { test(pair); }, maxNodePairs);
+  }
+
+  /// Goes on, from now on only for what is nearer than the nearest so far.
+  bool nearest(std::uint64_t maxNodePairs) noexcept {
+    // The culls round: what is as near must not be lost.
+    constexpr double kSlack = 1.0 + 1e-6;
+    const auto tighten = [this] { traversal_.tighten(static_cast<float>(kSlack * nearest_)); };
+    if (nearest_ < query_.cutoff) tighten();
+    return traversal_.goOn(
+        [&](const EntryPair& pair) {
+          if (test(pair)) tighten();
+        },
+        maxNodePairs);
+  }
+
+  /// @param completeTo  Every minimum nearer than that was found.
+  LmdResult finish(std::span<Lmd> out, double completeTo) noexcept {
+    result_.nodePairs = traversal_.nodePairs();
+    result_.completeTo = completeTo;
+    if (completeTo < query_.cutoff) result_.status = QueryStatus::Truncated;
+    collector_.finish(query_.scene, query_.part, out);
+    return result_;
+  }
+
+  double nearestSoFar() const noexcept { return nearest_; }
+
+ private:
+  /// Whether it is the nearest so far.
+  bool test(const EntryPair& pair) noexcept {
+    ++result_.leafPairs;
+    Minimum& slot = collector_.slot();
+    if (!tests_.test(pair.scene, pair.part, slot)) return false;
+    const bool isNearest = slot.lmd.distance < nearest_;
+    if (isNearest) nearest_ = slot.lmd.distance;
+    collector_.add();
+    return isNearest;
+  }
+
+  const BodyPairQuery query_;
+  const RigidTransform pose_;
+  const LeafTests tests_;
+  LmdResult result_;
+  MinimaCollector collector_;
+  TreeTraversal traversal_;
+  double nearest_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
 LmdResult findLmds(const NormalConeTree& scene, const NormalConeTree& part,
                    const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
                    std::span<Lmd> out, std::uint64_t maxNodePairs) noexcept {
-  LmdResult result;
-  result.completeTo = cutoff;
-  if (!isQueryValid(scene, part, sceneFromPart, cutoff)) return result;
-  const RigidTransform pose = centredPose(scene, part, sceneFromPart);
-  LmdScratch::Data& workspace = scratch.data();
-  const LeafTests tests(scene, part, pose, cutoff);
-  MinimaCollector collector(workspace, result);
-  TreeTraversal traversal(scene, part, pose, cullLimits(scene, part, pose, cutoff), workspace.open,
-                          workspace.traversal);
-  const bool isDone = traversal.run(
-      [&](const EntryPair& pair) {
-        ++result.leafPairs;
-        if (tests.test(pair.scene, pair.part, collector.slot())) collector.add();
-      },
-      maxNodePairs);
-  result.nodePairs = traversal.nodePairs();
-  if (!isDone) {
-    result.status = QueryStatus::Truncated;
-    result.completeTo = 0.0;
-  }
-  collector.finish(scene, part, out);
-  return result;
+  if (!isQueryValid(scene, part, sceneFromPart, cutoff)) return LmdResult{.completeTo = cutoff};
+  Search search({scene, part, sceneFromPart, cutoff}, scratch.data());
+  return search.finish(out, search.all(maxNodePairs) ? cutoff : 0.0);
 }
 
 LmdResult findNearestLmds(const NormalConeTree& scene, const NormalConeTree& part,
                           const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
                           std::span<Lmd> out, std::uint64_t maxNodePairs) noexcept {
-  // The first try gets half of the work, and each next one half of what is left, at a quarter of the radius:
-  // what lies within a radius falls faster than that.
-  constexpr int kTries = 4;
-  constexpr double kRadiusRatio = 0.25;
-  std::uint64_t left = maxNodePairs, nodePairs = 0, leafPairs = 0;
-  LmdResult result;
-  double radius = cutoff;
-  for (int i = 1; i <= kTries; ++i, radius *= kRadiusRatio) {
-    result = findLmds(scene, part, sceneFromPart, radius, scratch, out, i == kTries ? left : left / 2);
-    left -= std::min(left, result.nodePairs);
-    result.nodePairs = nodePairs += result.nodePairs;
-    result.leafPairs = leafPairs += result.leafPairs;
-    if (result.completeTo > 0.0) break;
-  }
-  if (result.completeTo < cutoff) result.status = QueryStatus::Truncated;
-  return result;
+  if (!isQueryValid(scene, part, sceneFromPart, cutoff)) return LmdResult{.completeTo = cutoff};
+  Search search({scene, part, sceneFromPart, cutoff}, scratch.data());
+  if (search.all(maxNodePairs / 2)) return search.finish(out, cutoff);
+  return search.finish(out, search.nearest(maxNodePairs) ? std::min(search.nearestSoFar(), cutoff) : 0.0);
 }
 
 }  // namespace nearfit

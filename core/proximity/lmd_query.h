@@ -14,6 +14,13 @@ namespace nearfit {
 
 class NormalConeTree;
 
+/// Between two bodies: where one stands in the frame of the other, and what is looked for there.
+struct BodyPairQuery {
+  const NormalConeTree &scene, &part;
+  RigidTransform sceneFromPart;
+  double cutoff;  ///< [m]
+};
+
 enum class QueryStatus : std::uint8_t {
   Complete,   ///< The exact set.
   Truncated,  ///< More minima than there was room for, or more work than allowed: the nearest found are
@@ -70,8 +77,9 @@ LmdResult findLmds(const NormalConeTree& scene, const NormalConeTree& part,
                    std::span<Lmd> out,
                    std::uint64_t maxNodePairs = std::numeric_limits<std::uint64_t>::max()) noexcept;
 
-/// The same with bounded work, however near the bodies are: when the whole set takes more, the result is
-/// Truncated to the set within a smaller radius, `completeTo`, and so keeps the nearest.
+/// The same with bounded work, however near the bodies are: when the whole set takes more than half of it,
+/// the rest is for what is nearest. The result is then Truncated: it holds the nearest minimum (`completeTo`
+/// is its distance, or 0 when even that took too long) and others that were found.
 LmdResult findNearestLmds(const NormalConeTree& scene, const NormalConeTree& part,
                           const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
                           std::span<Lmd> out, std::uint64_t maxNodePairs) noexcept;

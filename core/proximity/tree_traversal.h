@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -74,6 +75,12 @@ class TreeTraversal {
     work_.waitingCount = isLeaves ? 0 : 1;
     work_.leafCount = isLeaves ? 1 : 0;
     work_.nodePairs = 0;
+    return goOn(visit, maxNodePairs);
+  }
+
+  /// Goes on after run() said false, up to so many node pairs in all.
+  template <class Visit>
+  bool goOn(Visit&& visit, std::uint64_t maxNodePairs) noexcept {
     work_.maxNodePairs = maxNodePairs;
     for (;;) {
       open_(work_);
@@ -81,9 +88,12 @@ class TreeTraversal {
         visit(work_.leaves[i]);
       work_.leafCount = 0;
       if (work_.waitingCount == 0) return true;
-      if (work_.nodePairs == maxNodePairs) return false;
+      if (work_.nodePairs >= maxNodePairs) return false;
     }
   }
+
+  /// From the next batch of leaves on, leaves out what is farther.
+  void tighten(float cutoff) noexcept { work_.limits.cutoff = std::min(work_.limits.cutoff, cutoff); }
 
   std::uint64_t nodePairs() const noexcept { return work_.nodePairs; }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -92,6 +93,31 @@ TEST_F(LmdCommand, CubeOnItsCornerHasAVertexOverAFace) {
   EXPECT_FALSE(lmd.contains("extent"));
   expectPoint(lmd["scene"], {0.1, 0.2, 0.5});
   expectPoint(lmd["part"], {0.1, 0.2, 0.75});
+}
+
+TEST_F(LmdCommand, FollowingThePartFindsTheSameSetsAsSearchingAnewForEachPose) {
+  std::string poses;
+  for (int i = 0; i < 200; ++i) {
+    const double angle = 0.005 * i, jump = i / 50;
+    poses += fmt::format("{},{},{},{:.17g},0,{:.17g},0\n", 0.01 * i - 0.7 * jump, 0.3 * std::sin(0.05 * i),
+                         1.6 - 0.002 * i, std::cos(angle), std::sin(angle));
+  }
+  const std::string file = folder_.write("poses.csv", poses).string();
+  const auto setsBy = [&](const std::string& mode) {
+    const ProcessResult result = run({"--cutoff", "0.5", "--poses", file, "--mode", mode});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    std::vector<Json> lines;
+    for (const std::string& line : linesOf(result.out)) {
+      lines.push_back(Json::parse(line));
+      lines.back().erase("query_us");
+    }
+    return lines;
+  };
+  const std::vector<Json> cold = setsBy("cold");
+  ASSERT_EQ(cold.size(), 200U);
+  EXPECT_FALSE(cold[60]["lmds"].empty());
+  EXPECT_EQ(setsBy("tracked"), cold);
+  EXPECT_NE(run({"--cutoff", "0.5", "--poses", file, "--mode", "warm"}).exitCode, 0);
 }
 
 TEST_F(LmdCommand, MinimumThroughAnotherPartOfTheMeshIsBlockedAndPushesNothing) {
