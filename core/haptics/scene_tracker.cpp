@@ -75,7 +75,7 @@ void SceneTracker::refresh(double cutoff, TrackedScene& out) {
     const auto wide =
         std::find_if(std::begin(kWideClearances), std::end(kWideClearances), [&](double factor) {
           current_.clear = clearance(factor, plan, radius);
-          return isAllClear(cutoff);
+          return isAllClear(cutoff, former);
         });
     if (wide == std::end(kWideClearances)) {
       current_.clear = clearance(kClearance, plan, radius);
@@ -91,14 +91,15 @@ bool SceneTracker::isClearOf(const BodyPairQuery& query) noexcept {
   return query.sceneFromPart.isFinite() && isClearWithin(query, current_.clear, scratch_, kClearNodePairs);
 }
 
-bool SceneTracker::isAllClear(double cutoff) noexcept {
+bool SceneTracker::isAllClear(double cutoff, const std::vector<TrackedScene::Near>& former) noexcept {
+  const auto isClear = [&](std::uint32_t body) {
+    return isClearOf(queryOf(body, current_.worldFromPart, cutoff));
+  };
+  // What was near most likely still is, and is asked before the thousands that so wide a sphere may hold.
+  if (!std::all_of(former.begin(), former.end(), [&](const auto& entry) { return isClear(entry.body); }))
+    return false;
   const MovingBounds moving = movingBounds(*current_.scene, current_.worldFromPart);
-  bool isClear = true;
-  current_.bounds->visitNear(moving.centre, moving.radius + cutoff + current_.clear.travel,
-                             [&](std::uint32_t body) {
-                               isClear = isClear && isClearOf(queryOf(body, current_.worldFromPart, cutoff));
-                             });
-  return isClear;
+  return current_.bounds->isEachNear(moving.centre, moving.radius + cutoff + current_.clear.travel, isClear);
 }
 
 void SceneTracker::findNear(double cutoff, const std::vector<TrackedScene::Near>& former) {

@@ -40,7 +40,7 @@ class SceneTracker {
  private:
   bool willServe(const TrackedScene::Near& entry, double cutoff) const noexcept;
   bool isClearOf(const BodyPairQuery& query) noexcept;
-  bool isAllClear(double cutoff) noexcept;
+  bool isAllClear(double cutoff, const std::vector<TrackedScene::Near>& former) noexcept;
   void findNear(double cutoff, const std::vector<TrackedScene::Near>& former);
   std::shared_ptr<const CandidateList> buildList(std::uint32_t body, double cutoff);
   std::shared_ptr<CandidateList> spareList();

@@ -26,9 +26,20 @@ class BroadPhase {
   /// Real-time safe.
   template <class Visit>
   void visitNear(const glm::dvec3& centre, double radius, Visit&& visit) const noexcept {
-    for (const std::uint32_t i : boundless_)
+    isEachNear(centre, radius, [&](std::uint32_t i) {
       visit(i);
-    if (nodes_.empty()) return;
+      return true;
+    });
+  }
+
+  /// Whether holds(index) is true of each of these; the first of which it is not is the last to be asked.
+  /// Real-time safe.
+  template <class Holds>
+  bool isEachNear(const glm::dvec3& centre, double radius, Holds&& holds) const noexcept {
+    for (const std::uint32_t i : boundless_) {
+      if (!holds(i)) return false;
+    }
+    if (nodes_.empty()) return true;
     // Halves are a median apart: the tree is no deeper than the index has bits, and two wait at each level.
     std::array<std::uint32_t, 66> stack;
     std::size_t size = 0;
@@ -42,9 +53,10 @@ class BroadPhase {
         continue;
       }
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        if (!isFarther(boxes_[order_[i]], centre, radius)) visit(order_[i]);
+        if (!isFarther(boxes_[order_[i]], centre, radius) && !holds(order_[i])) return false;
       }
     }
+    return true;
   }
 
  private:

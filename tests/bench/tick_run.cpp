@@ -23,6 +23,13 @@ class Digest {
     add(v.y);
     add(v.z);
   }
+  void add(const RegionExtent& extent) noexcept {
+    add(extent.axis);
+    for (const double length :
+         {extent.measure, extent.halfLength, extent.halfWidth, extent.inside.x, extent.inside.y})
+      add(length);
+    add(std::uint64_t{extent.dimension});
+  }
   void add(const Lmd& lmd) noexcept {
     add(lmd.scenePoint);
     add(lmd.partPoint);
@@ -31,6 +38,7 @@ class Digest {
     add(std::uint64_t{lmd.sceneIndex} << 32 | lmd.partIndex);
     add(static_cast<std::uint64_t>(lmd.sceneFeature) << 8 | static_cast<std::uint64_t>(lmd.partFeature) << 4 |
         (lmd.isRegion ? 2U : 0U) | (lmd.isBlocked ? 1U : 0U));
+    if (lmd.isRegion) add(lmd.extent);
   }
   std::uint64_t value() const noexcept { return value_; }
 

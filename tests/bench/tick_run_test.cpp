@@ -51,7 +51,18 @@ TEST(DigestOf, OneBitOfAForceAMinimumOrAnIdMakesAnother) {
   expectOther(snapshot->lmds[0].lmd.isBlocked, true);
   expectOther(snapshot->lmds[0].lmd.partIndex, 1U);
   expectOther(snapshot->lmds[0].other, PartId{9});
+  expectOther(snapshot->lmds[0].lmd.isRegion, true);
   expectOther(snapshot->distance, 0.5);
+}
+
+TEST(DigestOf, TheExtentOfARegionCounts) {
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  snapshot->storedLmds = 1;
+  Lmd& lmd = snapshot->lmds[0].lmd;
+  lmd.isRegion = true;
+  const std::uint64_t before = digestOf(*snapshot);
+  lmd.extent.halfWidth = 1e-300;
+  EXPECT_NE(digestOf(*snapshot), before);
 }
 
 TEST(DigestOf, TimesAndMinimaThatAreNotInUseDoNotCount) {

@@ -26,6 +26,16 @@ double distanceTo(const Aabb& box, const glm::dvec3& p) {
   return glm::distance(p, glm::clamp(p, box.lower, box.upper));
 }
 
+/// Unit cubes with lower corners at x = 0, 2, 4, ...
+std::vector<Aabb> cubesInARow(int count) {
+  std::vector<Aabb> boxes(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    boxes[static_cast<std::size_t>(i)].add({2.0 * i, 0.0, 0.0});
+    boxes[static_cast<std::size_t>(i)].add({2.0 * i + 1.0, 1.0, 1.0});
+  }
+  return boxes;
+}
+
 TEST(BroadPhase, FindsTheBoxesWithinARadiusAndNoOthers) {
   std::mt19937_64 random(31);
   std::uniform_real_distribution<double> place(-10.0, 10.0), side(0.0, 1.0);
@@ -67,6 +77,23 @@ TEST(BroadPhase, EmptyBoxesAreNeverNearAndThoseThatAreNoNumbersAlways) {
   EXPECT_EQ(found(phase, glm::dvec3(0.0), kInfinity), (std::vector<std::uint32_t>{1, 2}));
   EXPECT_EQ(found(phase, glm::dvec3(1e300), 1.0), std::vector<std::uint32_t>{1});
   EXPECT_TRUE(found(BroadPhase(), glm::dvec3(0.0), kInfinity).empty());
+}
+
+TEST(BroadPhase, AsksNoFurtherBoxAfterOneOfWhichItIsNotTrue) {
+  const BroadPhase bounds(cubesInARow(1000));
+  int asked = 0;
+  const auto isAnother = [&](std::uint32_t i) {
+    ++asked;
+    return i != 50;
+  };
+  EXPECT_FALSE(bounds.isEachNear({100.5, 0.5, 0.5}, 2.0, isAnother));
+  EXPECT_LE(asked, 3);
+  asked = 0;
+  EXPECT_FALSE(bounds.isEachNear({0.0, 0.0, 0.0}, 1e6, [&](std::uint32_t) { return ++asked < 10; }));
+  EXPECT_EQ(asked, 10);
+  asked = 0;
+  EXPECT_TRUE(bounds.isEachNear({200.5, 0.5, 0.5}, 2.0, isAnother));
+  EXPECT_EQ(asked, 3);
 }
 
 TEST(BoundsOf, HoldTheCornersOfATurnedBoxTightly) {
