@@ -16,8 +16,7 @@ constexpr double kMemoryPerTick = 0.98;
 
 /// A way foretold is followed for so many ticks, to see how far off it was.
 constexpr double kProbeTicks = 6.0;
-/// A part gets off its way by a growing velocity, which adds up over time: between steadily (2) and at random
-/// (1.5).
+/// A part gets off its way by a change of its velocity that goes on: the square of the time.
 constexpr double kErrorGrowth = 2.0;
 
 /// How much of the newest velocity counts, and of the newest change of it: smooths the steps of encoders over
@@ -25,8 +24,9 @@ constexpr double kErrorGrowth = 2.0;
 /// change as simple smoothing does).
 constexpr double kVelocityShare = 0.5, kTrendShare = 0.25;
 
-/// How long what is found must serve, in ticks: while the next search waits for its turn and runs, and one
-/// more. The shorter, the shorter the lists.
+/// How long what is found must serve, in ticks: while the next search waits for its turn and runs, and a
+/// little more; the shorter, the shorter the lists. Where ticks wait for the search, long enough that they
+/// seldom do.
 double windowOf(double lead) noexcept {
   return lead > 0.0 ? lead + 1.5 : 6.0;
 }
@@ -85,9 +85,11 @@ glm::dvec3 limited(const glm::dvec3& vector, double limit) noexcept {
 void MotionForecast::observe(const RigidTransform& pose, double ticks) noexcept {
   if (!pose.isFinite()) return;
   const RigidTransform next = pose.normalized();
-  if (hasPose_) {
+  const RigidTransform to{next.rotation, next.applyToPoint(centre_)};
+  if (!hasPose_) {
+    probe_.from = to;
+  } else {
     const RigidTransform from{pose_.rotation, pose_.applyToPoint(centre_)};
-    const RigidTransform to{next.rotation, next.applyToPoint(centre_)};
     const MotionBudget motion = (1.0 / ticks) * motionBetween(from, to, radius_);
     const double memory = std::pow(kMemoryPerTick, ticks);
     fastest_ = memory * fastest_;

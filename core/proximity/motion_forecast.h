@@ -26,7 +26,6 @@ class MotionForecast {
   /// Takes note of where the part is now.
   /// @param ticks  Since the last call; > 0.
   void observe(const RigidTransform& pose, double ticks) noexcept;
-  bool hasPose() const noexcept { return hasPose_; }
   const RigidTransform& pose() const noexcept { return pose_; }
 
   /// How many ticks it takes from the start of a search until a tick has what it found; 0 when the tick
