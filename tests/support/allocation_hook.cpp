@@ -53,6 +53,14 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
   if (::posix_memalign(&memory, wanted < least ? least : wanted, size) != 0) throw std::bad_alloc();
   return memory;
 }
+// As std::stable_sort asks for its buffer: without these the sanitizer's own would answer, and not ours free.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  nearfit::test::countAllocation();
+  return std::malloc(size == 0 ? 1 : size);
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept {
+  operator delete(memory);
+}
 void operator delete(void* memory) noexcept {
   if (memory != nullptr) nearfit::test::countAllocation();
   std::free(memory);
