@@ -57,6 +57,19 @@ class Piece {
     }
     return left || right;
   }
+  /// Ends along an axis.
+  double low(int axis) const noexcept {
+    double least = from(0)[axis];
+    for (std::size_t i = 1; i < m_.cornerCount; ++i)
+      least = std::min(least, m_.corners[i][axis]);
+    return least;
+  }
+  double high(int axis) const noexcept {
+    double most = from(0)[axis];
+    for (std::size_t i = 1; i < m_.cornerCount; ++i)
+      most = std::max(most, m_.corners[i][axis]);
+    return most;
+  }
   /// Of a sphere about the scene point that holds it.
   double radius() const noexcept { return m_.dimension == 0 ? 0.0 : m_.radius; }
 
@@ -137,15 +150,17 @@ class Grouping {
         parent_(parent.first(minima.size())),
         closeness_(closeness) {}
 
-  /// A sweep along the axis on which they are spread most: what touches overlaps there.
+  /// A sweep along the axis on which they overlap least: what touches overlaps there.
   void sweep() noexcept {
     Aabb box;
+    glm::dvec3 lengths(0.0);
     for (std::uint32_t i = 0; i < minima_.size(); ++i) {
       order_[i] = parent_[i] = i;
+      for (int axis = 0; axis < 3; ++axis)
+        lengths[axis] += Piece(minima_[i]).high(axis) - Piece(minima_[i]).low(axis);
       box.add(minima_[i].lmd.scenePoint);
     }
-    const glm::dvec3 spread = box.upper - box.lower;
-    axis_ = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
+    axis_ = leastCovered(lengths, box.upper - box.lower);
     std::sort(order_.begin(), order_.end(), [this](std::uint32_t a, std::uint32_t b) {
       const double sa = start(a), sb = start(b);
       return sa != sb ? sa < sb : comesBefore(minima_[a].lmd, minima_[b].lmd);
@@ -155,7 +170,7 @@ class Grouping {
       // No pair is allowed more than a point at a region's rim.
       const double most = kMergeFactor * closeness_.base + closeness_.gap +
                           (kMergeFactor * kFlatTolerance + kRegionDirection) * a.lmd.distance;
-      const double end = a.lmd.scenePoint[axis_] + Piece(a).radius() + 2.0 * most;
+      const double end = Piece(a).high(axis_) + 2.0 * most;
       for (std::size_t j = i + 1; j < order_.size() && start(order_[j]) <= end; ++j)
         join(order_[i], order_[j]);
     }
@@ -164,8 +179,18 @@ class Grouping {
   std::uint32_t root(std::uint32_t i) const noexcept { return findRoot(parent_, i); }
 
  private:
-  double start(std::uint32_t i) const noexcept {
-    return minima_[i].lmd.scenePoint[axis_] - Piece(minima_[i]).radius();
+  double start(std::uint32_t i) const noexcept { return Piece(minima_[i]).low(axis_); }
+
+  /// The axis that pieces cover with the smallest share of their spread: long edges side by side, as in a
+  /// bore, lie apart across their direction.
+  static int leastCovered(const glm::dvec3& lengths, const glm::dvec3& spread) noexcept {
+    const auto isLess = [&](int a, int b) {
+      if (lengths[a] * spread[b] != lengths[b] * spread[a])
+        return lengths[a] * spread[b] < lengths[b] * spread[a];
+      return spread[a] > spread[b];
+    };
+    const int first = isLess(1, 0) ? 1 : 0;
+    return isLess(2, first) ? 2 : first;
   }
 
   void join(std::uint32_t i, std::uint32_t j) noexcept {
