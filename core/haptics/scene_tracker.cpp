@@ -4,8 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "core/proximity/lmd_tracker.h"
-
 namespace nearfit {
 namespace {
 
@@ -41,17 +39,13 @@ void SceneTracker::setScene(std::shared_ptr<const ServoScene> scene) {
   current_ = std::move(next);
 }
 
-BodyPairQuery SceneTracker::queryOf(std::uint32_t index, const RigidTransform& worldFromPart,
-                                    double cutoff) const noexcept {
+TrackedPair SceneTracker::pairOf(std::uint32_t index) const noexcept {
   const ServoScene::Body& body = current_.scene->bodies[index];
-  return {body.geometry->tree(), current_.scene->moving.geometry->tree(),
-          (body.worldFromPart.inverse() * worldFromPart).normalized(), cutoff};
+  return {body.geometry->tree(), current_.scene->moving.geometry->tree(), body.worldFromPart};
 }
 
 bool SceneTracker::willServe(const TrackedScene::Near& entry, double cutoff) const noexcept {
-  if (entry.list->cutoff() != cutoff) return false;
-  return entry.list->covers(queryOf(entry.body, forecast_.pose(), cutoff).sceneFromPart, cutoff) &&
-         entry.list->covers(queryOf(entry.body, forecast_.poseWhenReady(), cutoff).sceneFromPart, cutoff);
+  return nearfit::willServe(*entry.list, pairOf(entry.body), forecast_, cutoff);
 }
 
 bool SceneTracker::isDue(double cutoff) const noexcept {
@@ -93,7 +87,7 @@ bool SceneTracker::isClearOf(const BodyPairQuery& query) noexcept {
 
 bool SceneTracker::isAllClear(double cutoff, const std::vector<TrackedScene::Near>& former) noexcept {
   const auto isClear = [&](std::uint32_t body) {
-    return isClearOf(queryOf(body, current_.worldFromPart, cutoff));
+    return isClearOf(pairOf(body).queryAt(current_.worldFromPart, cutoff));
   };
   // What was near most likely still is, and is asked before the thousands that so wide a sphere may hold.
   if (!std::all_of(former.begin(), former.end(), [&](const auto& entry) { return isClear(entry.body); }))
@@ -115,23 +109,13 @@ void SceneTracker::findNear(double cutoff, const std::vector<TrackedScene::Near>
       entry.list = old->list;
       return false;
     }
-    const BodyPairQuery query = queryOf(entry.body, current_.worldFromPart, cutoff);
-    if (isClearOf(query)) return true;
-    entry.list = buildList(entry.body, cutoff);
+    const TrackedPair pair = pairOf(entry.body);
+    if (isClearOf(pair.queryAt(current_.worldFromPart, cutoff))) return true;
+    const std::shared_ptr<CandidateList> list = spareList();
+    buildForPlan(*list, pair, forecast_, cutoff, scratch_);
+    if (list->isUsable()) entry.list = list;
     return false;
   });
-}
-
-std::shared_ptr<const CandidateList> SceneTracker::buildList(std::uint32_t body, double cutoff) {
-  const std::shared_ptr<CandidateList> list = spareList();
-  const glm::dquat bodyFromWorld = glm::conjugate(current_.scene->bodies[body].worldFromPart.rotation);
-  for (const double share : kPlanShares) {
-    const SearchPlan plan = forecast_.plan(cutoff, share);
-    list->build(queryOf(body, plan.pose, cutoff), turned(bodyFromWorld, plan.range), scratch_,
-                share == 1.0 ? kWorthwhile : CandidateList::Bounds{});
-    if (list->isUsable()) return list;
-  }
-  return nullptr;
 }
 
 std::shared_ptr<CandidateList> SceneTracker::spareList() {

@@ -6,6 +6,7 @@
 
 #include "core/haptics/tracked_scene.h"
 #include "core/proximity/lmd_query.h"
+#include "core/proximity/lmd_tracker.h"
 #include "core/proximity/motion_forecast.h"
 
 namespace nearfit {
@@ -42,10 +43,8 @@ class SceneTracker {
   bool isClearOf(const BodyPairQuery& query) noexcept;
   bool isAllClear(double cutoff, const std::vector<TrackedScene::Near>& former) noexcept;
   void findNear(double cutoff, const std::vector<TrackedScene::Near>& former);
-  std::shared_ptr<const CandidateList> buildList(std::uint32_t body, double cutoff);
   std::shared_ptr<CandidateList> spareList();
-  BodyPairQuery queryOf(std::uint32_t body, const RigidTransform& worldFromPart,
-                        double cutoff) const noexcept;
+  TrackedPair pairOf(std::uint32_t body) const noexcept;
 
   TrackedScene current_;
   MotionForecast forecast_;

@@ -25,9 +25,7 @@ class Search {
         tests_(query.scene, query.part, pose_, query.cutoff),
         collector_(workspace, result_),
         traversal_(query.scene, query.part, pose_, cullLimits(query.scene, query.part, pose_, query.cutoff),
-                   workspace.open, workspace.traversal) {
-    result_.completeTo = query.cutoff;
-  }
+                   workspace.open, workspace.traversal) {}
 
   /// Everything within the cutoff, unless that is too much work.
   bool all(std::uint64_t maxNodePairs) noexcept {

@@ -12,6 +12,9 @@ namespace {
 /// Beyond this turn the limits on directions say nothing any more [rad].
 constexpr double kMostClearTurn = 0.5;
 
+/// What takes longer than about half a tick is worth a shorter plan.
+constexpr CandidateList::Bounds kWorthwhile{1U << 14, 1U << 14};
+
 }  // namespace
 
 MotionBudget clearance(double factor, const SearchPlan& plan, double radius) noexcept {
@@ -21,26 +24,35 @@ MotionBudget clearance(double factor, const SearchPlan& plan, double radius) noe
           std::min(factor * (range.budget.turn + spin), kMostClearTurn)};
 }
 
-bool LmdTracker::isDue(const CandidateList& list, double cutoff) const noexcept {
-  return list.cutoff() != cutoff || !(list.spent(forecast_.pose()) <= 1.0) ||
-         !(list.spent(forecast_.poseWhenReady()) <= 1.0);
+bool willServe(const CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast,
+               double cutoff) noexcept {
+  const auto covers = [&](const RigidTransform& pose) {
+    return list.covers(pair.queryAt(pose, cutoff).sceneFromPart, cutoff);
+  };
+  return list.cutoff() == cutoff && covers(forecast.pose()) && covers(forecast.poseWhenReady());
+}
+
+void buildForPlan(CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast, double cutoff,
+                  LmdScratch& scratch) {
+  const glm::dquat sceneFromWorld = glm::conjugate(pair.worldFromScene.rotation);
+  for (const double share : {1.0, 0.5, 0.25, 0.1}) {
+    const SearchPlan plan = forecast.plan(cutoff, share);
+    list.build(pair.queryAt(plan.pose, cutoff), turned(sceneFromWorld, plan.range), scratch,
+               share == 1.0 ? kWorthwhile : CandidateList::Bounds{});
+    if (list.isUsable()) return;
+  }
 }
 
 void LmdTracker::refresh(CandidateList& list, double cutoff, LmdScratch& scratch) const {
   const SearchPlan plan = forecast_.plan(cutoff);
-  const BodyPairQuery query{scene_, part_, plan.pose, cutoff};
+  const BodyPairQuery query = pair_.queryAt(plan.pose, cutoff);
   for (const double factor : kWideClearances) {
-    const MotionBudget wide = clearance(factor, plan, 0.5 * part_.size());
+    const MotionBudget wide = clearance(factor, plan, 0.5 * pair_.part.size());
     if (!isClearWithin(query, wide, scratch, kClearNodePairs)) continue;
     list.build(query, {{}, wide}, scratch);
     return;
   }
-  for (const double share : kPlanShares) {
-    const SearchPlan part = forecast_.plan(cutoff, share);
-    list.build({scene_, part_, part.pose, cutoff}, part.range, scratch,
-               share == 1.0 ? kWorthwhile : CandidateList::Bounds{});
-    if (list.isUsable()) return;
-  }
+  buildForPlan(list, pair_, forecast_, cutoff, scratch);
 }
 
 }  // namespace nearfit

@@ -18,13 +18,26 @@ constexpr double kWideClearances[] = {512.0, 64.0};
 /// limits on directions still say something.
 MotionBudget clearance(double factor, const SearchPlan& plan, double radius) noexcept;
 
-/// Shares of a plan that a list is tried for: all of it while that takes half a tick, and less where it would
-/// be too long.
-constexpr double kPlanShares[] = {1.0, 0.5, 0.25, 0.1};
+/// A body that stands, and the part that moves: their trees, and where the body is in the frame that the
+/// part's poses are given in.
+struct TrackedPair {
+  const NormalConeTree &scene, &part;
+  RigidTransform worldFromScene;
 
-/// What a list may be at the first of these shares: what takes longer than about half a tick is worth a
-/// shorter plan, which is found sooner.
-constexpr CandidateList::Bounds kWorthwhile{1U << 14, 1U << 14};
+  BodyPairQuery queryAt(const RigidTransform& worldFromPart, double cutoff) const noexcept {
+    return {scene, part, (worldFromScene.inverse() * worldFromPart).normalized(), cutoff};
+  }
+};
+
+/// Whether a list is made for that cutoff, and will do now and in the first tick after a search from now.
+bool willServe(const CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast,
+               double cutoff) noexcept;
+
+/// Builds a list for a plan: for all of it while that takes about half a tick, and for less, which is found
+/// sooner, where it would take longer or the list would be too long. Unusable when even the least is too
+/// much. For a thread that can take its time.
+void buildForPlan(CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast, double cutoff,
+                  LmdScratch& scratch);
 
 /// When to renew the list of two bodies, where to search, and how far around. SceneTracker does the same for
 /// a scene.
@@ -32,7 +45,7 @@ class LmdTracker {
  public:
   /// The trees outlive this.
   LmdTracker(const NormalConeTree& scene, const NormalConeTree& part) noexcept
-      : scene_(scene), part_(part), forecast_(part.centre(), 0.5 * part.size()) {}
+      : pair_{scene, part, {}}, forecast_(part.centre(), 0.5 * part.size()) {}
 
   /// As MotionForecast has them.
   void observe(const RigidTransform& sceneFromPart, double ticks) noexcept {
@@ -41,13 +54,15 @@ class LmdTracker {
   void setLead(double ticks) noexcept { forecast_.setLead(ticks); }
 
   /// Whether a list will not do any more by the time that another would be there.
-  bool isDue(const CandidateList& list, double cutoff) const noexcept;
+  bool isDue(const CandidateList& list, double cutoff) const noexcept {
+    return !willServe(list, pair_, forecast_, cutoff);
+  }
 
   /// Renews a list for the time to come. For a thread that can take its time.
   void refresh(CandidateList& list, double cutoff, LmdScratch& scratch) const;
 
  private:
-  const NormalConeTree &scene_, &part_;
+  TrackedPair pair_;
   MotionForecast forecast_;
 };
 

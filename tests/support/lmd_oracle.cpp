@@ -163,6 +163,16 @@ OracleBody::OracleBody(const TriangleMesh& mesh) {
   }
 }
 
+OracleBody::Feature moved(const OracleBody::Feature& feature, const RigidTransform& pose) {
+  OracleBody::Feature out = feature;
+  for (glm::dvec3& corner : out.corners)
+    corner = pose.applyToPoint(corner);
+  for (glm::dvec3& tangent : out.tangents)
+    tangent = pose.applyToVector(tangent);
+  out.outward = pose.applyToVector(out.outward);
+  return out;
+}
+
 std::vector<OracleMinimum> bruteForceMinima(const OracleBody& scene, const OracleBody& part,
                                             const RigidTransform& sceneFromPart, double cutoff,
                                             double margin) {
@@ -191,13 +201,8 @@ std::vector<OracleMinimum> bruteForceMinima(const OracleBody& scene, const Oracl
   const double size = scene.size() + part.size();
   std::vector<OracleMinimum> found;
   for (const Feature& local : part.features()) {
-    Feature moved = local;
-    for (glm::dvec3& c : moved.corners)
-      c = sceneFromPart.applyToPoint(c);
-    for (glm::dvec3& t : moved.tangents)
-      t = sceneFromPart.applyToVector(t);
-    moved.outward = sceneFromPart.applyToVector(moved.outward);
-    const Box box = boxOf(moved);
+    const Feature b = moved(local, sceneFromPart);
+    const Box box = boxOf(b);
     if (apart(box, all, cutoff)) continue;
     auto it = std::lower_bound(entries.begin(), entries.end(), box.lower[axis] - cutoff - widest,
                                [axis](const Entry& e, double x) { return e.box.lower[axis] < x; });
@@ -205,7 +210,7 @@ std::vector<OracleMinimum> bruteForceMinima(const OracleBody& scene, const Oracl
       if (apart(it->box, box, cutoff)) continue;
       OracleMinimum m;
       double inside;
-      if (!criticalPoints(*it->feature, moved, m.scenePoint, m.partPoint, inside)) continue;
+      if (!criticalPoints(*it->feature, b, m.scenePoint, m.partPoint, inside)) continue;
       m.slack = inside / size;
       if (m.slack <= -margin) continue;
       m.distance = glm::distance(m.scenePoint, m.partPoint);
@@ -213,13 +218,13 @@ std::vector<OracleMinimum> bruteForceMinima(const OracleBody& scene, const Oracl
       const glm::dvec3 d = (m.partPoint - m.scenePoint) / m.distance;
       for (const glm::dvec3& t : it->feature->tangents)
         m.slack = std::min(m.slack, -glm::dot(d, t));
-      for (const glm::dvec3& t : moved.tangents)
+      for (const glm::dvec3& t : b.tangents)
         m.slack = std::min(m.slack, glm::dot(d, t));
       if (m.slack <= -margin) continue;
-      const glm::dvec3 &out = it->feature->outward, &partOut = moved.outward;
+      const glm::dvec3 &out = it->feature->outward, &partOut = b.outward;
       if (out != glm::dvec3(0.0) && glm::dot(d, out) <= 0.0) continue;
       if (partOut != glm::dvec3(0.0) && glm::dot(-d, partOut) <= 0.0) continue;
-      m.features = {it->feature->kind, moved.kind};
+      m.features = {it->feature->kind, b.kind};
       found.push_back(m);
     }
   }

@@ -44,6 +44,9 @@ class OracleBody {
   double size_ = 0.0;
 };
 
+/// A feature at a pose.
+OracleBody::Feature moved(const OracleBody::Feature& feature, const RigidTransform& pose);
+
 /// All isolated minima within the cutoff whose slack is above `-margin`, in the scene's frame, in no order.
 /// One point can appear several times when its slack is within the margin (found by neighbours).
 std::vector<OracleMinimum> bruteForceMinima(const OracleBody& scene, const OracleBody& part,

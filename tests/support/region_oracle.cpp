@@ -180,7 +180,8 @@ double pointPieceDistance(const glm::dvec3& p, const Points& piece, const glm::d
   return left || right ? std::min(nearest, std::abs(glm::dot(p - piece[0], direction))) : nearest;
 }
 
-/// At one distance and in one plane, all but: they touch where a corner of one is on the other, or sides cross.
+/// At one distance and in one plane, all but: they touch where a corner of one is on the other, or sides
+/// cross.
 bool touches(const Piece& a, const Piece& b, double tolerance) {
   if (glm::distance(a.direction, b.direction) > 1e-4 || std::abs(a.least - b.least) > 1e-5) return false;
   const auto reaches = [&](const Piece& from, const Piece& to) {
@@ -336,12 +337,7 @@ std::vector<Piece> findPieces(const OracleBody& scene, const OracleBody& part,
   std::vector<Piece> pieces;
   for (const Feature& local : part.features()) {
     if (local.kind == 'v') continue;
-    Feature b = local;
-    for (glm::dvec3& c : b.corners)
-      c = sceneFromPart.applyToPoint(c);
-    for (glm::dvec3& t : b.tangents)
-      t = sceneFromPart.applyToVector(t);
-    b.outward = sceneFromPart.applyToVector(b.outward);
+    const Feature b = moved(local, sceneFromPart);
     const auto along = [](const Feature& e) { return glm::normalize(e.corners[1] - e.corners[0]); };
     for (const Feature& a : scene.features()) {
       const char kinds[3] = {a.kind, b.kind, '\0'};
