@@ -3,7 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/haptics/servo_tick.h"
+#include "core/haptics/device_limits.h"
+#include "core/haptics/handle_input.h"
 #include "core/haptics/wrench.h"
 #include "core/math/rigid_transform.h"
 
@@ -14,11 +15,11 @@ enum class DeviceState : std::uint8_t { Absent, Ready, Running, Fault };
 struct DeviceInfo {
   std::string name;
   int forceAxes = 0;  ///< 0, 3 or 6.
-  WrenchLimits limits;
+  DeviceLimits limits;
 };
 
 /// Something that a hand holds: gives the pose that the hand wants for the moving part, takes the wrench.
-/// `start`, `stop` and `info` on the controlling thread; `readPose` and `sendWrench` on the servo thread,
+/// `start`, `stop` and `info` on the controlling thread; `readHandle` and `sendWrench` on the servo thread,
 /// real-time safe. Every driver implements every call: there are no defaults to fall into.
 class HapticDevice {
  public:
@@ -30,9 +31,9 @@ class HapticDevice {
   virtual void start(const RigidTransform& worldFromPart) = 0;
   virtual void stop() noexcept = 0;
 
-  /// The newest handle pose in world coordinates. False when the device has ended or been lost: `pose` is
-  /// left as it was.
-  virtual bool readPose(RigidTransform& pose) noexcept = 0;
+  /// The newest pose of the handle, from which the workspace mapping makes one in the world, and its age.
+  /// False when the device has ended or been lost: `handle` is left as it was.
+  virtual bool readHandle(HandleInput& handle) noexcept = 0;
   /// Takes a wrench that is finite and within the limits.
   virtual void sendWrench(const Wrench& wrench) noexcept = 0;
 };

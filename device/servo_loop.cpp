@@ -56,7 +56,7 @@ struct ServoLoop::Shared {
       : device(d),
         deviceLimits(d.info().limits),
         record(r),
-        refresher(std::in_place, std::move(scene), p.springs.cutoff),
+        refresher(std::in_place, std::move(scene), p.haptics.springs.cutoff),
         parameters(p) {}
 
   static void* threadMain(void* self) noexcept;
@@ -65,7 +65,7 @@ struct ServoLoop::Shared {
   bool tickOnce(Nanoseconds sinceStart, Nanoseconds sinceLast) noexcept;
 
   HapticDevice& device;
-  const WrenchLimits deviceLimits;
+  const DeviceLimits deviceLimits;
   MotionQueue* const record;
   RealtimeGrant grant;
   std::optional<MemoryLock> memoryLock;
@@ -140,8 +140,8 @@ void ServoLoop::Shared::serve() noexcept {
 
 bool ServoLoop::Shared::tickOnce(Nanoseconds sinceStart, Nanoseconds sinceLast) noexcept {
   const Nanoseconds begin = now();
-  RigidTransform handle;
-  if (!device.readPose(handle)) return false;
+  HandleInput handle;
+  if (!device.readHandle(handle)) return false;
   parameters.update();
   ServoParameters limited = parameters.front();
   // Not a number on either side stays one, for the tick to refuse.
@@ -149,11 +149,11 @@ bool ServoLoop::Shared::tickOnce(Nanoseconds sinceStart, Nanoseconds sinceLast) 
   if (deviceLimits.maxTorque < limited.limits.maxTorque) limited.limits.maxTorque = deviceLimits.maxTorque;
 
   ServoSnapshot& snapshot = snapshots.back();
-  tick.run(refresher->latest(), limited, handle, toSeconds(sinceLast), snapshot);
+  tick.run(refresher->latest(), limited, handle.pose, toSeconds(sinceLast), snapshot);
   device.sendWrench(snapshot.wrench);
 
   snapshot.tick = ++statistics.ticks;
-  refresher->report(snapshot.proxy, limited.springs.cutoff, snapshot.tick);
+  refresher->report(snapshot.proxy, limited.haptics.springs.cutoff, snapshot.tick);
   if (snapshot.lateBodies > 0) ++statistics.lateTicks;
   snapshot.time = toSeconds(sinceStart);
   snapshot.tickTime = toSeconds(now() - begin);

@@ -12,7 +12,7 @@ PathDevice::PathDevice(std::vector<RigidTransform> path, bool repeats)
 }
 
 DeviceInfo PathDevice::info() const {
-  return {"Simulated hand on a path", 6, WrenchLimits{}};
+  return {"Simulated hand on a path", 6, DeviceLimits{}};
 }
 
 void PathDevice::start(const RigidTransform&) {
@@ -25,7 +25,7 @@ void PathDevice::stop() noexcept {
   state_.store(DeviceState::Ready, std::memory_order_relaxed);
 }
 
-bool PathDevice::readPose(RigidTransform& pose) noexcept {
+bool PathDevice::readHandle(HandleInput& handle) noexcept {
   if (state() != DeviceState::Running) return false;
   if (next_ == path_.size()) {
     if (!repeats_) {
@@ -34,7 +34,7 @@ bool PathDevice::readPose(RigidTransform& pose) noexcept {
     }
     next_ = 0;
   }
-  pose = path_[next_++];
+  handle = {.pose = path_[next_++]};
   return true;
 }
 
@@ -43,7 +43,7 @@ void PathDevice::sendWrench(const Wrench& wrench) noexcept {
 }
 
 DeviceInfo ManualDevice::info() const {
-  return {"Mouse and numbers", 0, WrenchLimits{}};
+  return {"Mouse and numbers", 0, DeviceLimits{}};
 }
 
 void ManualDevice::start(const RigidTransform& worldFromPart) {
@@ -55,10 +55,10 @@ void ManualDevice::stop() noexcept {
   state_.store(DeviceState::Ready, std::memory_order_relaxed);
 }
 
-bool ManualDevice::readPose(RigidTransform& pose) noexcept {
+bool ManualDevice::readHandle(HandleInput& handle) noexcept {
   if (state() != DeviceState::Running) return false;
   pose_.update();
-  pose = pose_.front();
+  handle = {.pose = pose_.front()};
   return true;
 }
 

@@ -22,7 +22,7 @@ class PathDevice final : public HapticDevice {
   DeviceState state() const noexcept override { return state_.load(std::memory_order_relaxed); }
   void start(const RigidTransform& worldFromPart) override;
   void stop() noexcept override;
-  bool readPose(RigidTransform& pose) noexcept override;
+  bool readHandle(HandleInput& handle) noexcept override;
   void sendWrench(const Wrench& wrench) noexcept override;
 
   /// What was sent last; to be read while no servo runs.
@@ -47,7 +47,7 @@ class ManualDevice final : public HapticDevice {
   DeviceState state() const noexcept override { return state_.load(std::memory_order_relaxed); }
   void start(const RigidTransform& worldFromPart) override;
   void stop() noexcept override;
-  bool readPose(RigidTransform& pose) noexcept override;
+  bool readHandle(HandleInput& handle) noexcept override;
   void sendWrench(const Wrench& wrench) noexcept override;
 
  private:

@@ -92,7 +92,7 @@ void WrenchArrows::setVisible(bool isVisible) {
 }
 
 void WrenchArrows::showForce(const glm::dvec3& centre, const glm::dvec3& force, double size) {
-  const double fraction = glm::length(force) / WrenchLimits{}.maxForce;
+  const double fraction = glm::length(force) / DeviceLimits{}.maxForce;
   hasForce_ = std::isfinite(fraction) && fraction > kLeast && size > 0.0;
   if (!hasForce_) return;
   const glm::dvec3 direction = glm::normalize(force);
@@ -107,7 +107,7 @@ void WrenchArrows::showForce(const glm::dvec3& centre, const glm::dvec3& force, 
 }
 
 void WrenchArrows::showTorque(const glm::dvec3& centre, const glm::dvec3& torque, double size) {
-  const double fraction = glm::length(torque) / WrenchLimits{}.maxTorque;
+  const double fraction = glm::length(torque) / DeviceLimits{}.maxTorque;
   hasTorque_ = std::isfinite(fraction) && fraction > kLeast && size > 0.0;
   if (!hasTorque_) return;
   const glm::dvec3 axis = glm::normalize(torque);

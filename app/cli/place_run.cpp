@@ -85,19 +85,19 @@ PlaceResult placeFast(PlaceJob job) {
   TrackedScene tracked;
   ServoTick tick;
   const auto snapshot = std::make_unique<ServoSnapshot>();
-  RigidTransform handle;
-  const double cutoff = job.parameters.springs.cutoff;
+  HandleInput handle;
+  const double cutoff = job.parameters.haptics.springs.cutoff;
   device.start(result.end);
-  while (!interrupted.load() && device.readPose(handle)) {
+  while (!interrupted.load() && device.readHandle(handle)) {
     // No thread beside: where the hand wants the part is looked at before the tick, and nothing is late.
-    tracker.observe(handle, 1.0);
+    tracker.observe(handle.pose, 1.0);
     if (result.ticks == 0 || tracker.isDue(cutoff)) {
       const Clock::time_point begin = Clock::now();
       tracker.refresh(cutoff, tracked);
       result.refreshTime.record(std::chrono::duration<double>(Clock::now() - begin).count());
     }
     const Clock::time_point begin = Clock::now();
-    tick.run(tracked, job.parameters, handle, ServoLoop::kPeriod, *snapshot);
+    tick.run(tracked, job.parameters, handle.pose, ServoLoop::kPeriod, *snapshot);
     device.sendWrench(snapshot->wrench);
     snapshot->tickTime = std::chrono::duration<double>(Clock::now() - begin).count();
     snapshot->time = static_cast<double>(result.ticks) * ServoLoop::kPeriod;

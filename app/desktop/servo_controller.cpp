@@ -31,7 +31,7 @@ void ServoController::start(ui::Hand hand) {
     auto servoScene = makeServoScene(scene);
     moving_ = servoScene->moving.id;
     auto device = makeHand(hand, *servoScene, scene.springs().cutoff);
-    loop_.start(*device, std::move(servoScene), {scene.springs(), device->info().limits});
+    loop_.start(*device, std::move(servoScene), {{.springs = scene.springs()}, device->info().limits});
     device_ = std::move(device);
   } catch (...) {
     emit failed(ui::describe(tr("The part could not be taken in hand."), std::current_exception()));
@@ -96,7 +96,7 @@ void ServoController::followSession() {
   }
   try {
     loop_.setScene(makeServoScene(scene));
-    loop_.setParameters({scene.springs(), device_->info().limits});
+    loop_.setParameters({{.springs = scene.springs()}, device_->info().limits});
   } catch (...) {
     halt();
     emit failed(ui::describe(tr("The servo was stopped."), std::current_exception()));

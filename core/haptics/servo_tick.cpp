@@ -28,8 +28,8 @@ bool isPose(const RigidTransform& pose) noexcept {
 
 ServoFault faultOfInput(const ServoParameters& p, const RigidTransform& handle, double period) noexcept {
   const bool parametersAreValid =
-      isFiniteAtLeast(p.springs.cutoff, std::numeric_limits<double>::min()) &&
-      isFiniteAtLeast(p.springs.stiffness, 0.0) && isFiniteAtLeast(p.springs.damping, 0.0) &&
+      isFiniteAtLeast(p.haptics.springs.cutoff, std::numeric_limits<double>::min()) &&
+      isFiniteAtLeast(p.haptics.springs.stiffness, 0.0) && isFiniteAtLeast(p.haptics.springs.damping, 0.0) &&
       isFiniteAtLeast(p.limits.maxForce, 0.0) && isFiniteAtLeast(p.limits.maxTorque, 0.0) &&
       isFiniteAtLeast(period, std::numeric_limits<double>::min());
   if (!parametersAreValid) return ServoFault::ParametersInvalid;
@@ -97,7 +97,7 @@ void ServoTick::run(const TrackedScene& tracked, const ServoParameters& paramete
   snapshot.centre = lastPose_.applyToPoint(scene.centreInPart);
 
   if (fault_ == ServoFault::None) {
-    const Wrench wrench = feel(tracked, parameters.springs, snapshot);
+    const Wrench wrench = feel(tracked, parameters.haptics.springs, snapshot);
     const bool wrenchIsFinite = isFinite(wrench.force) && isFinite(wrench.torque);
     if (fault_ == ServoFault::None && !wrenchIsFinite) fault_ = ServoFault::WrenchNotFinite;
     if (fault_ == ServoFault::None) {

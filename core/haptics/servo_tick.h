@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/haptics/device_limits.h"
+#include "core/haptics/handle_input.h"
+#include "core/haptics/haptic_settings.h"
 #include "core/haptics/servo_scene.h"
 #include "core/haptics/spring_law.h"
 #include "core/haptics/tracked_scene.h"
@@ -16,8 +19,8 @@
 namespace nearfit {
 
 struct ServoParameters {
-  SpringParameters springs;
-  WrenchLimits limits;
+  HapticSettings haptics;
+  DeviceLimits limits;
 };
 
 enum class ServoFault : std::uint8_t {
@@ -36,9 +39,25 @@ struct SnapshotLmd {
   PartId other{};
 };
 
+/// Where the proxy presses on another part; world coordinates.
+struct SnapshotContact {
+  glm::dvec3 point{0.0};      ///< On the moving part [m].
+  glm::dvec3 direction{0.0};  ///< From the other part to the moving one; unit.
+  double force = 0.0;         ///< Its share of the force that the hand feels, along `direction` [N].
+  PartId other{};
+};
+
+/// Stiffness and damping in force between hand and part.
+struct CouplingState {
+  double stiffness = 0.0, damping = 0.0;                      ///< [N/m], [N s/m]
+  double rotationalStiffness = 0.0, rotationalDamping = 0.0;  ///< [N m/rad], [N m s/rad]
+  bool isHeldToBound = false;                                 ///< Less than was wished, for stability.
+};
+
 /// One tick as others see it; trivially copyable. All in the world frame.
 struct ServoSnapshot {
   static constexpr std::size_t kMaxLmds = 512;
+  static constexpr std::size_t kMaxContacts = 16, kMaxReleased = 8;
 
   std::uint64_t tick = 0;  ///< Ticks run so far with this one; 0 before the first.
   double time = 0.0;       ///< Since the servo started [s].
@@ -57,6 +76,23 @@ struct ServoSnapshot {
   bool isClamped = false;
   ServoFault fault = ServoFault::None;  ///< Latched: the wrench is zero until the servo is started anew.
   PartId moving{};
+
+  HapticMode mode = HapticMode::Proxy;
+  CouplingState coupling;             ///< Proxy mode only, as all that follows but for the energy.
+  double energyToHand = 0.0;          ///< Given to the hand since the start, less what came back [J].
+  double proxyTime = 0.0;             ///< Of the tick, for the proxy without its queries [s].
+  std::uint32_t subSteps = 0;         ///< Steps that the proxy took in this tick.
+  std::uint32_t shortenedSteps = 0;   ///< Cut short, so that nothing is met on the way.
+  std::uint32_t refusedSteps = 0;     ///< Not taken at all, for the same reason.
+  std::uint32_t constraintCount = 0;  ///< Pairs of features in the last step's program.
+  std::uint32_t contactCount = 0;     ///< Of them, those that hold the part.
+  std::uint32_t storedContacts = 0;   ///< Entries of `contacts` in use.
+  /// Parts that the moving one overlaps and so cannot feel until they are apart; `released` holds the first.
+  std::uint32_t releasedCount = 0;
+  /// The proxy waits, for a few ticks, until what it overlaps is known.
+  bool isWaiting = false;
+  std::array<SnapshotContact, kMaxContacts> contacts{};
+  std::array<PartId, kMaxReleased> released{};
   std::array<SnapshotLmd, kMaxLmds> lmds{};
 };
 

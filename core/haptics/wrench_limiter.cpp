@@ -15,7 +15,7 @@ bool limitLength(glm::dvec3& v, double limit) noexcept {
 
 }  // namespace
 
-LimitedWrench limitWrench(const Wrench& wrench, const WrenchLimits& limits) noexcept {
+LimitedWrench limitWrench(const Wrench& wrench, const DeviceLimits& limits) noexcept {
   LimitedWrench result{wrench, false};
   const bool forceClamped = limitLength(result.wrench.force, limits.maxForce);
   const bool torqueClamped = limitLength(result.wrench.torque, limits.maxTorque);

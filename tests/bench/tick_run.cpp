@@ -50,8 +50,8 @@ class Digest {
 class Lane {
  public:
   Lane(const TickScene& scene, double cutoff, const RunOptions& options) : options_(options) {
-    parameters_.springs.cutoff = cutoff;
-    parameters_.springs.damping = 1.0;
+    parameters_.haptics.springs.cutoff = cutoff;
+    parameters_.haptics.springs.damping = 1.0;
     run_.name = scene.name;
     run_.parts = scene.scene->bodies.size();
     tracker_.setScene(scene.scene);
@@ -75,7 +75,7 @@ class Lane {
 
  private:
   void keepAhead(const RigidTransform& pose, bool isTimed) {
-    const double cutoff = parameters_.springs.cutoff;
+    const double cutoff = parameters_.haptics.springs.cutoff;
     tracker_.observe(pose, 1.0);
     if (tracked_.scene && !tracker_.isDue(cutoff)) return;
     const double start = secondsBy(options_.clock);

@@ -43,11 +43,11 @@ class TestDevice final : public HapticDevice {
     ++starts;
   }
   void stop() noexcept override { ++stops; }
-  bool readPose(RigidTransform& pose) noexcept override {
+  bool readHandle(HandleInput& handle) noexcept override {
     ++reads;
-    pose = pose_;
+    handle = {.pose = pose_};
     if (reads == slowTick) std::this_thread::sleep_for(slowness);
-    if (reads == badTick) pose.translation.x = std::numeric_limits<double>::quiet_NaN();
+    if (reads == badTick) handle.pose.translation.x = std::numeric_limits<double>::quiet_NaN();
     return true;
   }
   void sendWrench(const Wrench& wrench) noexcept override {
@@ -57,7 +57,7 @@ class TestDevice final : public HapticDevice {
   }
 
   // Set before start.
-  WrenchLimits limits{100.0, 100.0};
+  DeviceLimits limits{100.0, 100.0};
   bool failsToStart = false;
   int slowTick = 0, badTick = 0;
   std::chrono::microseconds slowness{0};
@@ -72,7 +72,7 @@ class TestDevice final : public HapticDevice {
 
 ServoParameters softSprings() {
   ServoParameters p;
-  p.springs = {.cutoff = 0.1, .stiffness = 50.0, .damping = 0.0, .law = SpringLaw::Linear};
+  p.haptics.springs = {.cutoff = 0.1, .stiffness = 50.0, .damping = 0.0, .law = SpringLaw::Linear};
   p.limits = {100.0, 100.0};
   return p;
 }
@@ -193,7 +193,7 @@ TEST(ServoLoop, ParametersChangeWhileItRuns) {
   ASSERT_TRUE(hasTicked(loop, 2));
   EXPECT_EQ(loop.snapshot().distance, std::numeric_limits<double>::infinity());
   ServoParameters wide = softSprings();
-  wide.springs.cutoff = 0.6;
+  wide.haptics.springs.cutoff = 0.6;
   loop.setParameters(wide);
   EXPECT_TRUE(eventually([&] {
     loop.pollSnapshot();

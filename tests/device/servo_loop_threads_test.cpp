@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 ServoParameters softSprings() {
   ServoParameters p;
-  p.springs = {.cutoff = 0.1, .stiffness = 50.0, .damping = 1.0, .law = SpringLaw::Linear};
+  p.haptics.springs = {.cutoff = 0.1, .stiffness = 50.0, .damping = 1.0, .law = SpringLaw::Linear};
   p.limits = {100.0, 100.0};
   return p;
 }
@@ -30,10 +30,10 @@ class WatchedDevice final : public HapticDevice {
   DeviceState state() const noexcept override { return DeviceState::Running; }
   void start(const RigidTransform&) override {}
   void stop() noexcept override {}
-  bool readPose(RigidTransform& pose) noexcept override {
+  bool readHandle(HandleInput& handle) noexcept override {
     test::startCountingAllocations();
     servoThread.store(std::this_thread::get_id());
-    pose = test::tipAt(0.03 + 0.02 * std::sin(0.05 * ++ticks));
+    handle = {.pose = test::tipAt(0.03 + 0.02 * std::sin(0.05 * ++ticks))};
     return ticks < lastTick;
   }
   void sendWrench(const Wrench&) noexcept override {}

@@ -18,39 +18,39 @@ RigidTransform at(double x) {
 
 TEST(PathDevice, GivesEachPoseOnceThenEnds) {
   PathDevice device({at(1.0), at(2.0)});
-  RigidTransform pose = at(9.0);
+  HandleInput handle{.pose = at(9.0)};
   EXPECT_EQ(device.state(), DeviceState::Ready);
-  EXPECT_FALSE(device.readPose(pose)) << "not started";
+  EXPECT_FALSE(device.readHandle(handle)) << "not started";
   device.start(at(0.0));
   EXPECT_EQ(device.state(), DeviceState::Running);
-  ASSERT_TRUE(device.readPose(pose));
-  EXPECT_EQ(pose.translation.x, 1.0);
-  ASSERT_TRUE(device.readPose(pose));
-  EXPECT_EQ(pose.translation.x, 2.0);
-  EXPECT_FALSE(device.readPose(pose));
-  EXPECT_EQ(pose.translation.x, 2.0) << "left as it was";
+  ASSERT_TRUE(device.readHandle(handle));
+  EXPECT_EQ(handle.pose.translation.x, 1.0);
+  ASSERT_TRUE(device.readHandle(handle));
+  EXPECT_EQ(handle.pose.translation.x, 2.0);
+  EXPECT_FALSE(device.readHandle(handle));
+  EXPECT_EQ(handle.pose.translation.x, 2.0) << "left as it was";
   EXPECT_EQ(device.state(), DeviceState::Ready);
 }
 
 TEST(PathDevice, StartBeginsThePathAnew) {
   PathDevice device({at(1.0), at(2.0)});
-  RigidTransform pose;
+  HandleInput handle;
   for (int run = 0; run < 2; ++run) {
     device.start(at(0.0));
-    ASSERT_TRUE(device.readPose(pose));
-    EXPECT_EQ(pose.translation.x, 1.0);
+    ASSERT_TRUE(device.readHandle(handle));
+    EXPECT_EQ(handle.pose.translation.x, 1.0);
     device.stop();
-    EXPECT_FALSE(device.readPose(pose));
+    EXPECT_FALSE(device.readHandle(handle));
   }
 }
 
 TEST(PathDevice, ARepeatingPathNeverEnds) {
   PathDevice device({at(1.0), at(2.0), at(3.0)}, true);
   device.start(at(0.0));
-  RigidTransform pose;
+  HandleInput handle;
   for (int i = 0; i < 10; ++i) {
-    ASSERT_TRUE(device.readPose(pose));
-    EXPECT_EQ(pose.translation.x, 1.0 + i % 3);
+    ASSERT_TRUE(device.readHandle(handle));
+    EXPECT_EQ(handle.pose.translation.x, 1.0 + i % 3);
   }
 }
 
@@ -60,19 +60,19 @@ TEST(PathDevice, AnEmptyPathIsRefused) {
 
 TEST(ManualDevice, StartsWhereThePartIsAndFollowsTheNewestPose) {
   ManualDevice device;
-  RigidTransform pose;
-  EXPECT_FALSE(device.readPose(pose)) << "not started";
+  HandleInput handle;
+  EXPECT_FALSE(device.readHandle(handle)) << "not started";
   device.start(at(5.0));
-  ASSERT_TRUE(device.readPose(pose));
-  EXPECT_EQ(pose.translation.x, 5.0);
+  ASSERT_TRUE(device.readHandle(handle));
+  EXPECT_EQ(handle.pose.translation.x, 5.0);
   device.setPose(at(6.0));
   device.setPose(at(7.0));
   for (int i = 0; i < 3; ++i) {
-    ASSERT_TRUE(device.readPose(pose));
-    EXPECT_EQ(pose.translation.x, 7.0);
+    ASSERT_TRUE(device.readHandle(handle));
+    EXPECT_EQ(handle.pose.translation.x, 7.0);
   }
   device.stop();
-  EXPECT_FALSE(device.readPose(pose));
+  EXPECT_FALSE(device.readHandle(handle));
 }
 
 class ScriptedHand : public testing::Test {

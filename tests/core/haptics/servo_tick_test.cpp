@@ -37,7 +37,7 @@ class ServoTickOnFloor : public testing::Test {
   const glm::dvec3 kCentre{-0.5, 0.0, 0.75};  ///< In the cone's frame.
 
   ServoTickOnFloor() {
-    parameters_.springs = {.cutoff = 0.1, .stiffness = 50.0, .damping = 0.0, .law = SpringLaw::Linear};
+    parameters_.haptics.springs = {.cutoff = 0.1, .stiffness = 50.0, .damping = 0.0, .law = SpringLaw::Linear};
     parameters_.limits = {100.0, 100.0};
     scene_.moving = {PartId{7}, test::tipDownCone(kCentre), moved({5.0, 5.0, 5.0})};
     scene_.centreInPart = kCentre;
@@ -62,7 +62,7 @@ class ServoTickOnFloor : public testing::Test {
     tracker.setScene(test::untrackedView(scene_).scene);
     tracker.observe(pose, 1.0);
     TrackedScene tracked;
-    tracker.refresh(parameters_.springs.cutoff, tracked);
+    tracker.refresh(parameters_.haptics.springs.cutoff, tracked);
     return tracked;
   }
 
@@ -140,7 +140,7 @@ TEST_F(ServoTickOnFloor, ForceAndTorqueAreClampedByTheirLength) {
 }
 
 TEST_F(ServoTickOnFloor, DampingFollowsTheFilteredVelocityOfTheDescent) {
-  parameters_.springs.damping = 10.0;
+  parameters_.haptics.springs.damping = 10.0;
   constexpr double kSpeed = 0.2;
   // The share of each new velocity is 1 ms / (2 ms + 1 ms): after n steps the filter holds 1 - (2/3)^n of it.
   for (int n = 0; n < 40; ++n) {
@@ -151,7 +151,7 @@ TEST_F(ServoTickOnFloor, DampingFollowsTheFilteredVelocityOfTheDescent) {
 }
 
 TEST_F(ServoTickOnFloor, TurningAboutTheCentreMovesTheTip) {
-  parameters_.springs.damping = 10.0;
+  parameters_.haptics.springs.damping = 10.0;
   constexpr double kRate =
       0.05;  // rad/s about y: the tip, half a metre in x from the centre, sinks by 0.025 m/s.
   const glm::dvec3 centre = kAside + kCentre + glm::dvec3(0.0, 0.0, 0.05);
@@ -167,7 +167,7 @@ TEST_F(ServoTickOnFloor, TurningAboutTheCentreMovesTheTip) {
 }
 
 TEST_F(ServoTickOnFloor, AnotherPartInHandHasNoVelocityFromTheLast) {
-  parameters_.springs.damping = 10.0;
+  parameters_.haptics.springs.damping = 10.0;
   tickAt(0.09);
   scene_.moving.id = PartId{8};
   EXPECT_NEAR(tickAt(0.04).wrench.force.z, 3.0, 1e-9);
@@ -223,15 +223,15 @@ TEST_F(ServoTickOnFloor, SenselessParametersAreAFault) {
     return fault;
   };
   for (const double bad : {kNan, kInfinity, -1.0}) {
-    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.springs.cutoff = bad; }), ServoFault::ParametersInvalid);
-    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.springs.stiffness = bad; }),
+    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.haptics.springs.cutoff = bad; }), ServoFault::ParametersInvalid);
+    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.haptics.springs.stiffness = bad; }),
               ServoFault::ParametersInvalid);
-    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.springs.damping = bad; }), ServoFault::ParametersInvalid);
+    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.haptics.springs.damping = bad; }), ServoFault::ParametersInvalid);
     EXPECT_EQ(faultWith([&](ServoParameters& p) { p.limits.maxForce = bad; }), ServoFault::ParametersInvalid);
     EXPECT_EQ(faultWith([&](ServoParameters& p) { p.limits.maxTorque = bad; }),
               ServoFault::ParametersInvalid);
   }
-  EXPECT_EQ(faultWith([](ServoParameters& p) { p.springs.cutoff = 0.0; }), ServoFault::ParametersInvalid);
+  EXPECT_EQ(faultWith([](ServoParameters& p) { p.haptics.springs.cutoff = 0.0; }), ServoFault::ParametersInvalid);
   for (const double badPeriod : {0.0, -1e-3, kNan}) {
     ServoTick tick;
     tick.run(test::untrackedView(scene_), good, moved({0.0, 0.0, 1.0}), badPeriod, *snapshot_);
@@ -240,13 +240,13 @@ TEST_F(ServoTickOnFloor, SenselessParametersAreAFault) {
 }
 
 TEST_F(ServoTickOnFloor, AnOverflowingForceIsAFaultAndSendsNothing) {
-  parameters_.springs.stiffness = 1e308;
-  parameters_.springs.damping = 1e308;
+  parameters_.haptics.springs.stiffness = 1e308;
+  parameters_.haptics.springs.damping = 1e308;
   tickAt(0.09);
   const ServoSnapshot& s = tickAt(0.01);
   EXPECT_EQ(s.fault, ServoFault::WrenchNotFinite);
   expectNear(s.wrench.force, {0.0, 0.0, 0.0}, 0.0);
-  parameters_.springs = {};
+  parameters_.haptics.springs = {};
   EXPECT_EQ(tickAt(0.04).fault, ServoFault::WrenchNotFinite) << "latched";
 }
 
@@ -282,7 +282,7 @@ TEST_F(ServoTickOnFloor, OfTooManyMinimaTheNearestAreShownGroupedByPartAndAllAre
 }
 
 TEST_F(ServoTickOnFloor, TheSamePosesGiveTheSameWrenchToTheLastBit) {
-  parameters_.springs.damping = 3.0;
+  parameters_.haptics.springs.damping = 3.0;
   ServoTick other;
   const auto second = std::make_unique<ServoSnapshot>();
   for (int n = 0; n < 50; ++n) {
