@@ -132,7 +132,7 @@ void Session::setMovingPart(std::optional<PartId> id) {
 }
 
 void Session::setSprings(const SpringParameters& springs) {
-  if (isSame(scene().springs(), springs)) return;
+  if (isSame(scene().haptics().springs, springs)) return;
   Scene next = scene();
   next.setSprings(springs);
   commit(std::move(next), "Change the springs");

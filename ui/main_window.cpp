@@ -103,7 +103,7 @@ void MainWindow::showScene() {
   setWindowModified(session_.isModified());
   viewport_->setScene(scene);
   partsPanel_->setScene(scene);
-  springDialog_->showSprings(scene.springs());
+  springDialog_->showSprings(scene.haptics().springs);
   welcome_->setVisible(scene.parts().empty());
   showSelection();
 }

@@ -145,7 +145,7 @@ void Viewport::setScene(const Scene& scene) {
                    [this](const Scene::PartPtr& part) { return scene_.find(part->id) != nullptr; });
   scene_ = scene;
   parts_.setScene(scene);
-  legend_->setCutoff(scene.springs().cutoff);
+  legend_->setCutoff(scene.haptics().springs.cutoff);
   if (isAnotherScene) setView(StandardView::Isometric);
   requestRender();
 }
@@ -160,7 +160,7 @@ void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
   if (shown_ == nullptr) shown_ = std::make_unique<ServoSnapshot>();
   *shown_ = snapshot;
   parts_.setPoseInHand(snapshot.proxy);
-  const double cutoff = scene_.springs().cutoff;
+  const double cutoff = scene_.haptics().springs.cutoff;
   minima_.show(std::span(snapshot.lmds).first(snapshot.storedLmds), cutoff);
   const Part* moving = scene_.find(snapshot.moving);
   const double size = moving != nullptr ? moving->geometry->mesh.bounds().diagonal() : 0.0;

@@ -105,7 +105,7 @@ void runPlace(const PlaceOptions& options) {
   checkInputsAreKept(scene, options);
   takeInHand(scene, options);
   job.scene = makeServoScene(scene);
-  job.parameters.haptics.springs = scene.springs();
+  job.parameters.haptics = scene.haptics();
   std::optional<MotionWriter> writer;
   if (!options.record.empty()) job.writer = &writer.emplace(options.record);
 

@@ -30,8 +30,8 @@ void ServoController::start(ui::Hand hand) {
     const Scene& scene = session_.scene();
     auto servoScene = makeServoScene(scene);
     moving_ = servoScene->moving.id;
-    auto device = makeHand(hand, *servoScene, scene.springs().cutoff);
-    loop_.start(*device, std::move(servoScene), {{.springs = scene.springs()}, device->info().limits});
+    auto device = makeHand(hand, *servoScene, scene.haptics().springs.cutoff);
+    loop_.start(*device, std::move(servoScene), {scene.haptics(), device->info().limits});
     device_ = std::move(device);
   } catch (...) {
     emit failed(ui::describe(tr("The part could not be taken in hand."), std::current_exception()));
@@ -96,7 +96,7 @@ void ServoController::followSession() {
   }
   try {
     loop_.setScene(makeServoScene(scene));
-    loop_.setParameters({{.springs = scene.springs()}, device_->info().limits});
+    loop_.setParameters({scene.haptics(), device_->info().limits});
   } catch (...) {
     halt();
     emit failed(ui::describe(tr("The servo was stopped."), std::current_exception()));

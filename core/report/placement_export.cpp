@@ -91,7 +91,7 @@ Json clearanceTo(const Part& other, const Part& moving, double cutoff, LmdCollec
 }
 
 Json clearanceJson(const Scene& scene, const Part& moving) {
-  const double cutoff = scene.springs().cutoff;
+  const double cutoff = scene.haptics().springs.cutoff;
   LmdCollector collector(kMaxLmds);
   Json least, others = Json::array();
   for (const Scene::PartPtr& other : scene.parts()) {

@@ -146,7 +146,7 @@ void Scene::setMovingPart(std::optional<PartId> id) {
 
 void Scene::setSprings(const SpringParameters& springs) {
   checkSprings(springs);
-  springs_ = springs;
+  haptics_.springs = springs;
 }
 
 std::vector<PartGeometryPtr> Scene::geometries() const {

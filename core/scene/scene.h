@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/haptics/spring_law.h"
+#include "core/haptics/haptic_settings.h"
 #include "core/math/rigid_transform.h"
 #include "core/scene/part_geometry.h"
 
@@ -50,7 +50,7 @@ class Scene {
   const Part* find(PartId id) const noexcept;
   const Part* findByName(std::string_view name) const noexcept;
   std::optional<PartId> movingPart() const noexcept { return movingPart_; }
-  const SpringParameters& springs() const noexcept { return springs_; }
+  const HapticSettings& haptics() const noexcept { return haptics_; }
 
   /// Adds a copy of `part` with a fresh id; its name gets a number behind it when it is taken, its quaternion
   /// is normalised. Returns the id. Throws UsageError when name, pose or colour are none (see checkedPose).
@@ -79,7 +79,7 @@ class Scene {
 
   std::vector<PartPtr> parts_;
   std::optional<PartId> movingPart_;
-  SpringParameters springs_;
+  HapticSettings haptics_;
   std::uint32_t nextId_ = 1;
 };
 

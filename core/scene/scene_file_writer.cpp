@@ -49,7 +49,7 @@ void writeSceneFile(const Scene& scene, const std::filesystem::path& file) {
   Json json;
   json["nearfit"] = kSceneFileVersion;
   json["units"] = {{"length", "m"}, {"force", "N"}, {"time", "s"}};
-  const SpringParameters& springs = scene.springs();
+  const SpringParameters& springs = scene.haptics().springs;
   json["springs"] = {{"cutoff", springs.cutoff},
                      {"stiffness", springs.stiffness},
                      {"damping", springs.damping},

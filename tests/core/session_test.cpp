@@ -22,7 +22,7 @@ std::string describe(const Scene& scene) {
             std::to_string(part->colour.r) + (part->isVisible ? " visible" : "") +
             (part->isLocked ? " locked" : "") + (scene.movingPart() == part->id ? " moving" : "") + "\n";
   }
-  return text + std::to_string(scene.springs().cutoff);
+  return text + std::to_string(scene.haptics().springs.cutoff);
 }
 
 TEST(Session, EveryCommandIsOneStepOfUndo) {
@@ -84,7 +84,7 @@ TEST(Session, SettingTheSameValueIsNoStep) {
   session.setVisible(peg, true);
   session.setLocked(peg, false);
   session.setMovingPart(std::nullopt);
-  session.setSprings(session.scene().springs());
+  session.setSprings(session.scene().haptics().springs);
   EXPECT_EQ(session.undoText(), "Add Peg");
   session.undo();
   EXPECT_FALSE(session.canUndo());

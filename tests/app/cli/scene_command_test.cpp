@@ -53,10 +53,10 @@ TEST_F(SceneNewCommand, SceneHasThePartsPosesAndSettingsThatWereAsked) {
   EXPECT_EQ(peg.worldFromPart.rotation, glm::dquat(0.5, 0.5, 0.5, -0.5));
   EXPECT_FALSE(hole.colour == peg.colour);
   EXPECT_EQ(made.movingPart(), peg.id);
-  EXPECT_EQ(made.springs().cutoff, 0.005);
-  EXPECT_EQ(made.springs().stiffness, 350.0);
-  EXPECT_EQ(made.springs().damping, 1.5);
-  EXPECT_EQ(made.springs().law, SpringLaw::Printed);
+  EXPECT_EQ(made.haptics().springs.cutoff, 0.005);
+  EXPECT_EQ(made.haptics().springs.stiffness, 350.0);
+  EXPECT_EQ(made.haptics().springs.damping, 1.5);
+  EXPECT_EQ(made.haptics().springs.law, SpringLaw::Printed);
 }
 
 TEST_F(SceneNewCommand, MeshPathsAreRelativeToTheSceneFile) {

@@ -174,7 +174,7 @@ void DesktopServoTest::springsChangeWhileItRuns() {
   law->setFocus();
   QTest::keyClick(law, Qt::Key_Down);
   QTRY_COMPARE(d.text("force"), QStringLiteral("0.00 N"));
-  QCOMPARE(d.session().scene().springs().law, SpringLaw::Printed);
+  QCOMPARE(d.session().scene().haptics().springs.law, SpringLaw::Printed);
   d.session().undo();
   QTRY_COMPARE(d.text("force"), QStringLiteral("0.80 N"));
 }

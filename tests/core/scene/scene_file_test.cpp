@@ -29,10 +29,10 @@ void expectSameScene(const Scene& a, const Scene& b) {
     EXPECT_EQ(p.geometry->metresPerUnit, q.geometry->metresPerUnit);
     EXPECT_EQ(a.movingPart() == p.id, b.movingPart() == q.id);
   }
-  EXPECT_EQ(a.springs().cutoff, b.springs().cutoff);
-  EXPECT_EQ(a.springs().stiffness, b.springs().stiffness);
-  EXPECT_EQ(a.springs().damping, b.springs().damping);
-  EXPECT_EQ(a.springs().law, b.springs().law);
+  EXPECT_EQ(a.haptics().springs.cutoff, b.haptics().springs.cutoff);
+  EXPECT_EQ(a.haptics().springs.stiffness, b.haptics().springs.stiffness);
+  EXPECT_EQ(a.haptics().springs.damping, b.haptics().springs.damping);
+  EXPECT_EQ(a.haptics().springs.law, b.haptics().springs.law);
 }
 
 TEST_F(SceneFile, TenThousandPartsOfOneMeshHaveOneGeometry) {
