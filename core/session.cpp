@@ -14,8 +14,11 @@ bool isSame(const RigidTransform& a, const RigidTransform& b) {
   return a.rotation == b.rotation && a.translation == b.translation;
 }
 
-bool isSame(const SpringParameters& a, const SpringParameters& b) {
-  return a.cutoff == b.cutoff && a.stiffness == b.stiffness && a.damping == b.damping && a.law == b.law;
+const char* labelOfChange(const HapticSettings& from, const HapticSettings& to) {
+  if (from.mode != to.mode) return "Change the mode";
+  HapticSettings withNewSprings = from;
+  withNewSprings.springs = to.springs;
+  return withNewSprings == to ? "Change the springs" : "Change how contact feels";
 }
 
 }  // namespace
@@ -131,11 +134,12 @@ void Session::setMovingPart(std::optional<PartId> id) {
   commit(std::move(next), label);
 }
 
-void Session::setSprings(const SpringParameters& springs) {
-  if (isSame(scene().haptics().springs, springs)) return;
+void Session::setHaptics(const HapticSettings& haptics) {
   Scene next = scene();
-  next.setSprings(springs);
-  commit(std::move(next), "Change the springs");
+  next.setHaptics(haptics);
+  if (next.haptics() == scene().haptics()) return;
+  const char* label = labelOfChange(scene().haptics(), next.haptics());
+  commit(std::move(next), label);
 }
 
 void Session::reset(Scene scene, const std::filesystem::path& file) {

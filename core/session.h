@@ -37,7 +37,8 @@ class Session {
   void setVisible(PartId id, bool visible);
   void setLocked(PartId id, bool locked);
   void setMovingPart(std::optional<PartId> id);
-  void setSprings(const SpringParameters& springs);
+  /// Undo calls it by what changes: the mode, the springs, or how contact feels.
+  void setHaptics(const HapticSettings& haptics);
 
   /// Replaces everything, forgets undo. `file` is empty for a new, unnamed scene.
   void reset(Scene scene = {}, const std::filesystem::path& file = {});

@@ -94,7 +94,9 @@ void MainWindow::connectPanels() {
     springDialog_->raise();
   });
   connect(springDialog_, &SpringDialog::springsEdited, this, [this](const SpringParameters& springs) {
-    attempt(tr("The springs could not be changed."), [&] { session_.setSprings(springs); });
+    HapticSettings next = session_.scene().haptics();
+    next.springs = springs;
+    attempt(tr("The springs could not be changed."), [&] { session_.setHaptics(next); });
   });
 }
 

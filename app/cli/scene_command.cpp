@@ -14,6 +14,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
 #include "core/error.h"
+#include "core/scene/haptic_limits.h"
 #include "core/scene/scene_file.h"
 
 namespace nearfit::cli {
@@ -63,7 +64,10 @@ Scene makeScene(const SceneNewOptions& options) {
     arguments.push_back(parsePart(text));
 
   Scene scene;
-  scene.setSprings(springs);
+  HapticSettings haptics;
+  haptics.springs = springs;
+  haptics.proxy.margin = defaultMargin(springs.cutoff);
+  scene.setHaptics(haptics);
   std::map<std::filesystem::path, PartGeometryPtr> geometries;
   for (const PartArgument& argument : arguments) {
     if (scene.findByName(argument.name) != nullptr) {

@@ -21,6 +21,7 @@ struct ProxySettings {
   /// less far in a tick.
   double margin = 1e-4;
   double friction = 0.0;  ///< Coulomb's coefficient; 0 is none.
+  bool operator==(const ProxySettings&) const = default;
 };
 
 /// Spring and damper between hand and part in the proxy mode, as wished: what is felt is held to the bound
@@ -32,6 +33,7 @@ struct CouplingSettings {
   double damping = 0.0;              ///< [N s/m]
   double rotationalStiffness = 1.0;  ///< About the part's axis of most inertia [N m/rad].
   double rotationalDamping = 0.0;    ///< [N m s/rad]
+  bool operator==(const CouplingSettings&) const = default;
 };
 
 /// Weight and inertia that are felt, on request.
@@ -39,6 +41,7 @@ struct WeightSettings {
   bool hasWeight = false;                  ///< The part hangs in the hand.
   bool hasInertia = false;                 ///< The part resists being accelerated (proxy mode).
   glm::dvec3 gravity{0.0, 0.0, -9.80665};  ///< World frame [m/s^2].
+  bool operator==(const WeightSettings&) const = default;
 };
 
 /// How motion of a device becomes motion of the handle in the scene.
@@ -47,6 +50,7 @@ struct WorkspaceMapping {
   glm::dquat orientationOffset{1.0, 0.0, 0.0, 0.0};  ///< Turns the device's frame into the world's; unit.
   std::array<bool, 3> translationLocks{};            ///< World axes along which the handle stays.
   std::array<bool, 3> rotationLocks{};               ///< World axes about which the handle stays.
+  bool operator==(const WorkspaceMapping&) const = default;
 };
 
 /// What a user sets about feeling; belongs to a scene. Limits: haptic_limits.h.
@@ -57,6 +61,7 @@ struct HapticSettings {
   CouplingSettings coupling;
   WeightSettings weight;
   WorkspaceMapping mapping;
+  bool operator==(const HapticSettings&) const = default;
 };
 
 }  // namespace nearfit

@@ -18,6 +18,7 @@ struct SpringParameters {
   double stiffness = 200.0;  ///< [N/m] (Linear), [N/m^2] (Printed); >= 0.
   double damping = 0.0;      ///< Along each minimum's direction [N s/m]; >= 0; never pulls.
   SpringLaw law = SpringLaw::Linear;
+  bool operator==(const SpringParameters&) const = default;
 };
 
 /// Sum of the springs of all minima on the moving part: at each minimum the spring's push along its direction

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/scene/haptic_limits.h"
 #include "core/scene/palette.h"
-#include "core/scene/spring_limits.h"
 #include "core/text/utf8.h"
 
 namespace nearfit {
@@ -20,12 +20,6 @@ void checkColour(const Colour& colour) {
                        "give each of r, g and b from 0 to 1");
     }
   }
-}
-
-void checkWithin(const char* what, double value, double lower, double upper, const char* unit) {
-  if (value >= lower && value <= upper) return;
-  throw UsageError(what, fmt::format("{} {} is out of range", value, unit),
-                   fmt::format("give a value from {} to {} {}", lower, upper, unit));
 }
 
 /// "Peg 12" without its number: "Peg".
@@ -62,14 +56,6 @@ RigidTransform checkedPose(const RigidTransform& pose) {
   }
   // One that is unit up to rounding stays as it is, so that saving and loading changes no digit.
   return std::abs(length - 1.0) <= 1e-15 ? pose : pose.normalized();
-}
-
-void checkSprings(const SpringParameters& springs) {
-  const bool isPrinted = springs.law == SpringLaw::Printed;
-  checkWithin("cutoff", springs.cutoff, kMinCutoff, kMaxCutoff, "m");
-  checkWithin("stiffness", springs.stiffness, kMinStiffness, isPrinted ? kMaxPrintedStiffness : kMaxStiffness,
-              isPrinted ? "N/m^2" : "N/m");
-  checkWithin("damping", springs.damping, kMinDamping, kMaxDamping, "N s/m");
 }
 
 const Part* Scene::find(PartId id) const noexcept {
@@ -144,9 +130,10 @@ void Scene::setMovingPart(std::optional<PartId> id) {
   movingPart_ = id;
 }
 
-void Scene::setSprings(const SpringParameters& springs) {
-  checkSprings(springs);
-  haptics_.springs = springs;
+void Scene::setHaptics(const HapticSettings& haptics) {
+  checkHaptics(haptics);
+  haptics_ = haptics;
+  haptics_.mapping.orientationOffset = checkedPose({haptics.mapping.orientationOffset, {}}).rotation;
 }
 
 std::vector<PartGeometryPtr> Scene::geometries() const {

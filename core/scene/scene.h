@@ -62,8 +62,8 @@ class Scene {
   void remove(PartId id);
   /// Throws UsageError when the part is unknown or locked.
   void setMovingPart(std::optional<PartId> id);
-  /// Throws UsageError when a value is not finite or out of its limits (see spring_limits.h).
-  void setSprings(const SpringParameters& springs);
+  /// Throws UsageError as checkHaptics does (haptic_limits.h); the orientation is normalised.
+  void setHaptics(const HapticSettings& haptics);
 
   /// Of all parts that have one, in their order; one that parts share stands there once for each.
   std::vector<PartGeometryPtr> geometries() const;
@@ -91,8 +91,5 @@ void checkPartName(const std::string& name);
 RigidTransform checkedPose(const RigidTransform& pose);
 /// How far off 1 a quaternion's length may be: covers numbers typed or printed with four digits, not slips.
 constexpr double kQuaternionSlack = 1e-3;
-
-/// Throws UsageError naming the value when one is not finite or out of its limits (see spring_limits.h).
-void checkSprings(const SpringParameters& springs);
 
 }  // namespace nearfit

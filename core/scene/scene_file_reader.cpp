@@ -3,12 +3,14 @@
 #include <cctype>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/scene/haptic_limits.h"
 #include "core/scene/scene_file.h"
 #include "core/text/json_file.h"
 #include "core/text/utf8.h"
@@ -71,8 +73,17 @@ void checkUnits(const JsonField& units) {
   }
 }
 
-SpringParameters readSprings(const JsonField& field) {
-  SpringParameters springs;
+/// The field below `field` that a path such as "springs.cutoff" names.
+JsonField fieldOf(JsonField field, std::string_view path) {
+  for (std::size_t dot; (dot = path.find('.')) != std::string_view::npos; path.remove_prefix(dot + 1))
+    field = field.at(std::string(path.substr(0, dot)));
+  return field.at(std::string(path));
+}
+
+HapticSettings readHaptics(const JsonField& root) {
+  const JsonField field = root.at("springs");
+  HapticSettings haptics;
+  SpringParameters& springs = haptics.springs;
   const JsonField law = field.at("law");
   const std::string name = law.text(16);
   if (name != "linear" && name != "printed")
@@ -81,12 +92,13 @@ SpringParameters readSprings(const JsonField& field) {
   springs.cutoff = field.at("cutoff").number();
   springs.stiffness = field.at("stiffness").number();
   springs.damping = field.at("damping").number();
+  haptics.proxy.margin = defaultMargin(springs.cutoff);
   try {
-    checkSprings(springs);
+    checkHaptics(haptics);
   } catch (const UsageError& e) {
-    field.at(e.where()).fail(e.problem(), e.remedy());
+    fieldOf(root, e.where()).fail(e.problem(), e.remedy());
   }
-  return springs;
+  return haptics;
 }
 
 RigidTransform readPose(const JsonField& field) {
@@ -224,7 +236,7 @@ Scene readSceneFile(const fs::path& file, const ProgressCallback& progress) {
   checkVersion(root);
   checkUnits(root.at("units"));
   Scene scene;
-  scene.setSprings(readSprings(root.at("springs")));
+  scene.setHaptics(readHaptics(root));
   std::vector<PartEntry> entries = readParts(root.at("parts"), meshFolder(file));
   const std::optional<std::size_t> moving = readMovingPart(root.at("moving"), entries);
   const GeometryLoader loader(entries, progress);

@@ -12,6 +12,12 @@ namespace {
 
 const RigidTransform kAside{{1, 0, 0, 0}, {0.1, 0.2, 0.3}};
 
+HapticSettings withCutoff(double cutoff) {
+  HapticSettings haptics;
+  haptics.springs.cutoff = cutoff;
+  return haptics;
+}
+
 /// Everything of a scene that a user sees, as text.
 std::string describe(const Scene& scene) {
   std::string text;
@@ -41,7 +47,7 @@ TEST(Session, EveryCommandIsOneStepOfUndo) {
   step();
   session.setMovingPart(peg);
   step();
-  session.setSprings({.cutoff = 0.02});
+  session.setHaptics(withCutoff(0.02));
   step();
   session.setVisible(peg, false);
   step();
@@ -84,7 +90,7 @@ TEST(Session, SettingTheSameValueIsNoStep) {
   session.setVisible(peg, true);
   session.setLocked(peg, false);
   session.setMovingPart(std::nullopt);
-  session.setSprings(session.scene().haptics().springs);
+  session.setHaptics(session.scene().haptics());
   EXPECT_EQ(session.undoText(), "Add Peg");
   session.undo();
   EXPECT_FALSE(session.canUndo());
@@ -95,7 +101,7 @@ TEST(Session, RefusedCommandChangesNothingAndKeepsRedo) {
   const PartId peg = session.addPart({}, "Peg");
   const PartId hole = session.addPart({}, "Hole");
   session.setLocked(peg, true);
-  session.setSprings({.cutoff = 0.5});
+  session.setHaptics(withCutoff(0.5));
   session.undo();
   const std::string before = describe(session.scene());
   EXPECT_THROW(session.movePart(peg, kAside), UsageError);
@@ -109,7 +115,7 @@ TEST(Session, RefusedCommandChangesNothingAndKeepsRedo) {
   EXPECT_THROW(session.addPart({}, ""), UsageError);
   EXPECT_THROW(session.duplicatePart(PartId{99}), UsageError);
   EXPECT_THROW(session.setVisible(PartId{99}, false), UsageError);
-  EXPECT_THROW(session.setSprings({.cutoff = -1.0}), UsageError);
+  EXPECT_THROW(session.setHaptics(withCutoff(-1.0)), UsageError);
   EXPECT_EQ(describe(session.scene()), before);
   EXPECT_EQ(session.undoText(), "Lock Peg");
   EXPECT_TRUE(session.canRedo());
@@ -165,6 +171,24 @@ TEST(Session, TextsSayWhatUndoAndRedoWouldDo) {
   session.undo();
   EXPECT_EQ(session.undoText(), "Add Peg");
   EXPECT_EQ(session.redoText(), "Move Peg");
+}
+
+TEST(Session, UndoSaysWhatOfTheFeelChanged) {
+  Session session;
+  HapticSettings haptics = withCutoff(0.02);
+  session.setHaptics(haptics);
+  EXPECT_EQ(session.undoText(), "Change the springs");
+  haptics.proxy.margin = 1e-3;
+  session.setHaptics(haptics);
+  EXPECT_EQ(session.undoText(), "Change how contact feels");
+  haptics.mode = HapticMode::Springs;
+  session.setHaptics(haptics);
+  EXPECT_EQ(session.undoText(), "Change the mode");
+  haptics.mapping.translationLocks[1] = true;
+  session.setHaptics(haptics);
+  EXPECT_TRUE(session.scene().haptics() == haptics);
+  session.undo();
+  EXPECT_FALSE(session.scene().haptics().mapping.translationLocks[1]);
 }
 
 TEST(Session, UndoGoesBackAtLeastItsBoundAndNoFarther) {

@@ -4,7 +4,7 @@
 #include <QtTest>
 #include <optional>
 
-#include "core/scene/spring_limits.h"
+#include "core/scene/haptic_limits.h"
 
 using namespace nearfit;
 

@@ -8,7 +8,7 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
-#include "core/scene/spring_limits.h"
+#include "core/scene/haptic_limits.h"
 #include "ui/theme.h"
 
 namespace nearfit::ui {

@@ -46,7 +46,9 @@ class PlacementExport : public ::testing::Test {
     part.worldFromPart.translation = {100, 0, 0};
     part.isVisible = true;
     scene_.add(part);
-    scene_.setSprings({.cutoff = 0.5});
+    HapticSettings haptics;
+    haptics.springs.cutoff = 0.5;
+    scene_.setHaptics(haptics);
   }
   PartGeometryPtr load(const std::string& name, const TriangleMesh& mesh) {
     return loadPartGeometry(folder_.write(name, test::objText(mesh)), 1.0);

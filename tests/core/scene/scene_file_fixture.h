@@ -33,7 +33,9 @@ class SceneFileFixture : public ::testing::Test {
     scene_.setMovingPart(scene_.add(part));
     part.isVisible = false;
     scene_.add(part);
-    scene_.setSprings({0.1 + 0.2, 1e6 / 3, 0.7, SpringLaw::Linear});
+    HapticSettings haptics;
+    haptics.springs = {0.1 + 0.2, 1e6 / 3, 0.7, SpringLaw::Linear};
+    scene_.setHaptics(haptics);
     writeSceneFile(scene_, file_);
     json_ = nlohmann::json::parse(readBytes(file_));
   }

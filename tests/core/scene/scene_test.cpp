@@ -9,7 +9,6 @@
 
 #include "core/error.h"
 #include "core/scene/palette.h"
-#include "core/scene/spring_limits.h"
 
 namespace nearfit {
 namespace {
@@ -155,25 +154,6 @@ TEST(Scene, ColourOutOfRangeIsRefused) {
   EXPECT_THROW(scene.add(part), UsageError);
   part.colour.g = std::nanf("");
   EXPECT_THROW(scene.add(part), UsageError);
-}
-
-TEST(Scene, SpringsOutOfTheirLimitsAreRefusedByName) {
-  Scene scene;
-  const auto problemWith = [&](SpringParameters springs) -> std::string {
-    try {
-      scene.setSprings(springs);
-    } catch (const UsageError& e) {
-      return e.where();
-    }
-    return "none";
-  };
-  EXPECT_EQ(problemWith({.cutoff = 0.0}), "cutoff");
-  EXPECT_EQ(problemWith({.cutoff = std::nan("")}), "cutoff");
-  EXPECT_EQ(problemWith({.stiffness = -1.0}), "stiffness");
-  EXPECT_EQ(problemWith({.stiffness = 10 * kMaxStiffness}), "stiffness");
-  EXPECT_EQ(problemWith({.stiffness = 10 * kMaxStiffness, .law = SpringLaw::Printed}), "none");
-  EXPECT_EQ(problemWith({.damping = std::numeric_limits<double>::infinity()}), "damping");
-  EXPECT_EQ(problemWith({.cutoff = kMaxCutoff, .stiffness = 0.0}), "none");
 }
 
 TEST(Scene, NewPartsGoThroughThePaletteAndReuseWhatIsFreed) {
