@@ -10,6 +10,7 @@
 #include "core/haptics/servo_scene.h"
 #include "core/haptics/spring_law.h"
 #include "core/haptics/tracked_scene.h"
+#include "core/haptics/virtual_coupling.h"
 #include "core/haptics/wrench.h"
 #include "core/haptics/wrench_limiter.h"
 #include "core/math/rigid_transform.h"
@@ -45,13 +46,6 @@ struct SnapshotContact {
   glm::dvec3 direction{0.0};  ///< From the other part to the moving one; unit.
   double force = 0.0;         ///< Its share of the force that the hand feels, along `direction` [N].
   PartId other{};
-};
-
-/// Stiffness and damping in force between hand and part.
-struct CouplingState {
-  double stiffness = 0.0, damping = 0.0;                      ///< [N/m], [N s/m]
-  double rotationalStiffness = 0.0, rotationalDamping = 0.0;  ///< [N m/rad], [N m s/rad]
-  bool isHeldToBound = false;                                 ///< Less than was wished, for stability.
 };
 
 /// One tick as others see it; trivially copyable. All in the world frame.

@@ -1,0 +1,50 @@
+#include "core/haptics/mass_metric.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "core/math/symmetric_eigen.h"
+
+namespace nearfit {
+namespace {
+
+/// Of the vertices that a triangle uses; others are no part of the surface.
+double farthestVertex(const TriangleMesh& mesh, const glm::dvec3& centre) {
+  double farthest = 0.0;
+  for (const Triangle& triangle : mesh.triangles()) {
+    for (const std::uint32_t vertex : triangle)
+      farthest = std::max(farthest, glm::distance(mesh.vertices()[vertex], centre));
+  }
+  return farthest;
+}
+
+/// Axes as they come may be left-handed, and then are no rotation.
+glm::dquat rotationFromAxes(const std::array<glm::dvec3, 3>& axes) {
+  return glm::normalize(glm::quat_cast(glm::dmat3(axes[0], axes[1], glm::cross(axes[0], axes[1]))));
+}
+
+/// Sums over surfaces that are partly inside out can give moments that no body has, negative ones included.
+double safeGyration(double momentOverMass, double radius) {
+  const double gyration = momentOverMass > 0.0 ? std::sqrt(momentOverMass) : 0.0;
+  return std::clamp(gyration, kLeastGyration * radius, radius);
+}
+
+}  // namespace
+
+MassMetric massMetric(const MassProperties& mass, const TriangleMesh& mesh) {
+  MassMetric metric;
+  metric.radius = farthestVertex(mesh, mass.centre);
+  if (!(metric.radius > 0.0)) return metric;
+  // Divided first, since products of the moments of a body of micrometres would underflow.
+  const glm::dmat3 inertiaOverMass = mass.volume > 0.0 ? mass.inertia / mass.volume : glm::dmat3(0.0);
+  const SymmetricEigen principal = symmetricEigen(inertiaOverMass);
+  metric.partFromPrincipal = rotationFromAxes(principal.vectors);
+  for (int i = 0; i < 3; ++i)
+    metric.gyration[i] = safeGyration(principal.values[static_cast<std::size_t>(i)], metric.radius);
+  return metric;
+}
+
+}  // namespace nearfit
