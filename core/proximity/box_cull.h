@@ -238,4 +238,31 @@ NEARFIT_INLINE F cull(const Box<F>& own, const Box<F>& its, const CullLimits& li
   return least(margin, meets(sv, fv, b.low.z, b.high.z, gap, reach));
 }
 
+/// How far a box lies beyond a given half extent, squared.
+template <class F>
+NEARFIT_INLINE F squaredBeyond(const F& t, const F& extent) {
+  const F beyond = most(F{}, magnitude(t) - extent);
+  return beyond * beyond;
+}
+
+/// At least 0 in the lanes where the two boxes come within the cutoff as far as their own axes tell,
+/// whatever directions they hold.
+template <class F>
+NEARFIT_INLINE F cullByPlace(const Box<F>& own, const Box<F>& its, const CullLimits& limits) {
+  const Triple<F> ownV = cross(own.n, own.u), itsV = cross(its.n, its.u);
+  const Triple<F> d{its.centre.x - own.centre.x, its.centre.y - own.centre.y, its.centre.z - own.centre.z};
+  const Triple<F> cn{dot(own.n, its.n), dot(own.n, its.u), dot(own.n, itsV)};
+  const Triple<F> cu{dot(own.u, its.n), dot(own.u, its.u), dot(own.u, itsV)};
+  const Triple<F> cv{dot(ownV, its.n), dot(ownV, its.u), dot(ownV, itsV)};
+  const F padding = F{} + limits.padding, cutoff = F{} + limits.cutoff;
+  const F fromOwn = squaredBeyond(dot(d, own.n), own.half.x + extent(its.half, cn.x, cn.y, cn.z) + padding) +
+                    squaredBeyond(dot(d, own.u), own.half.y + extent(its.half, cu.x, cu.y, cu.z) + padding) +
+                    squaredBeyond(dot(d, ownV), own.half.z + extent(its.half, cv.x, cv.y, cv.z) + padding);
+  const F fromIts =
+      squaredBeyond(dot(d, its.n), extent(own.half, cn.x, cu.x, cv.x) + (its.half.x + padding)) +
+      squaredBeyond(dot(d, its.u), extent(own.half, cn.y, cu.y, cv.y) + (its.half.y + padding)) +
+      squaredBeyond(dot(d, itsV), extent(own.half, cn.z, cu.z, cv.z) + (its.half.z + padding));
+  return cutoff * cutoff - most(fromOwn, fromIts);
+}
+
 }  // namespace nearfit::simd

@@ -20,6 +20,7 @@ struct LmdScratch::Data {
         parent(capacity),
         open(opener(simd)),
         openSwept(sweptOpener(simd)),
+        openNear(nearOpener(simd)),
         pairCull(pairCullKernel(simd)),
         sweptPairCull(sweptPairCullKernel(simd)),
         segmentCull(segmentKernel(simd)) {}
@@ -27,7 +28,7 @@ struct LmdScratch::Data {
   TraversalWork traversal;
   std::vector<Minimum> minima;
   std::vector<std::uint32_t> order, parent;
-  Opener open, openSwept;
+  Opener open, openSwept, openNear;
   PairCullKernel pairCull;
   SweptPairCullKernel sweptPairCull;
   SegmentKernel segmentCull;

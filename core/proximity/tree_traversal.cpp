@@ -58,13 +58,17 @@ NEARFIT_INLINE Poses<Floats8> posesOf(const SinglePose& pose) {
   return {column(0), column(1), column(2), column(3)};
 }
 
-/// @tparam isSwept  For all poses of the work's sweep.
-template <bool isSwept>
+/// What an opener looks for: minima, minima at all poses of the work's sweep, or faces that are near.
+enum class Aim { Minima, SweptMinima, NearFaces };
+
+template <Aim kAim>
 NEARFIT_INLINE Floats8 test(const TraversalWork& work, const Opening& o) {
   const Box<Floats8> own = simd::boxes(*o.opened);
   Box<Floats8> other = otherOf(o);
   simd::move(other, posesOf(o.isScene ? work.sceneFromPart : work.partFromScene));
-  if constexpr (!isSwept) {
+  if constexpr (kAim == Aim::NearFaces) {
+    return simd::cullByPlace(own, other, work.limits);
+  } else if constexpr (kAim == Aim::Minima) {
     return simd::cull(own, other, work.limits, simd::still<Floats8>(work.limits));
   } else {
     const simd::Sweeps<Floats8> sweep = simd::spread(o.isScene ? work.inScene : work.inPart);
@@ -72,7 +76,13 @@ NEARFIT_INLINE Floats8 test(const TraversalWork& work, const Opening& o) {
   }
 }
 
+/// Whether a child is a leaf, but no face.
+NEARFIT_INLINE bool isPointOrEdge(std::uint32_t child) {
+  return NormalConeTree::isLeaf(child) && NormalConeTree::leafKind(child) != FeatureKind::Face;
+}
+
 /// Takes in the lanes that survive: pairs of leaves, and pairs that wait to be opened.
+template <Aim kAim>
 NEARFIT_INLINE void keep(TraversalWork& work, const Opening& o, std::uint32_t lanes) {
   const EntryPair& p = o.pair;
   const std::uint32_t node = kWidth * (o.isScene ? p.scene : p.part);
@@ -80,6 +90,9 @@ NEARFIT_INLINE void keep(TraversalWork& work, const Opening& o, std::uint32_t la
     const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
     EntryPair e = p;
     const std::uint32_t child = o.opened->child[lane];
+    if constexpr (kAim == Aim::NearFaces) {
+      if (isPointOrEdge(child)) continue;
+    }
     const float h0 = o.opened->half[0][lane], h1 = o.opened->half[1][lane], h2 = o.opened->half[2][lane];
     const float size = h0 * h0 + h1 * h1 + h2 * h2;
     (o.isScene ? e.scene : e.part) = child;
@@ -110,21 +123,22 @@ NEARFIT_INLINE bool mayOpenTwo(const TraversalWork& work) {
          work.maxNodePairs - work.nodePairs > 1;
 }
 
-template <bool isSwept>
+template <Aim kAim>
 void openPortable(TraversalWork& work) noexcept {
   while (isBusy(work)) {
     const Opening o = take(work);
-    keep(work, o, simd::notNegative(test<isSwept>(work, o)));
+    keep<kAim>(work, o, simd::notNegative(test<kAim>(work, o)));
   }
 }
 
 #if defined(__x86_64__)
-template <bool isSwept>
+template <Aim kAim>
 NEARFIT_AVX2 void openAvx2(TraversalWork& work) noexcept {
   while (isBusy(work)) {
     const Opening o = take(work);
-    const auto alive = test<isSwept>(work, o) >= 0.0F;
-    keep(work, o, static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats8>(alive))));
+    const auto alive = test<kAim>(work, o) >= 0.0F;
+    keep<kAim>(work, o,
+               static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats8>(alive))));
   }
 }
 
@@ -152,7 +166,7 @@ NEARFIT_INLINE simd::Sweeps<Floats16> join(const simd::Sweeps<Floats8>& a, const
   return {join(a.shift, b.shift), join(a.spin, b.spin), join(a.about, b.about),
           join(a.spinLength, b.spinLength)};
 }
-template <bool isSwept>
+template <Aim kAim>
 NEARFIT_AVX512 void openAvx512(TraversalWork& work) noexcept {
   // By whether the first node that is opened is the scene's, and the second.
   const Poses<Floats8> ofPart = posesOf(work.partFromScene), ofScene = posesOf(work.sceneFromPart);
@@ -169,37 +183,41 @@ NEARFIT_AVX512 void openAvx512(TraversalWork& work) noexcept {
     simd::move(other, poses[first.isScene ? 1 : 0][second.isScene ? 1 : 0]);
     const Box<Floats16> own = join(simd::boxes(*first.opened), simd::boxes(*second.opened));
     Floats16 margin;
-    if constexpr (isSwept) {
+    if constexpr (kAim == Aim::NearFaces) {
+      margin = simd::cullByPlace(own, other, work.limits);
+    } else if constexpr (kAim == Aim::SweptMinima) {
       const simd::Sweeps<Floats16>& sweep = sweeps[first.isScene ? 1 : 0][second.isScene ? 1 : 0];
       margin = simd::cull(own, other, work.limits, simd::swept(own, other, sweep, work.limits));
     } else {
       margin = simd::cull(own, other, work.limits, simd::still<Floats16>(work.limits));
     }
     const auto bits = static_cast<std::uint32_t>(__builtin_ia32_cvtd2mask512(margin >= 0.0F));
-    keep(work, first, bits & 0xFFU);
-    if (isTwo) keep(work, second, bits >> 8 & 0xFFU);
+    keep<kAim>(work, first, bits & 0xFFU);
+    if (isTwo) keep<kAim>(work, second, bits >> 8 & 0xFFU);
   }
 }
 #endif
 
+template <Aim kAim>
+Opener openerFor(SimdLevel level) noexcept {
+#if defined(__x86_64__)
+  if (level == SimdLevel::Avx512) return openAvx512<kAim>;
+  if (level == SimdLevel::Avx2) return openAvx2<kAim>;
+#endif
+  static_cast<void>(level);
+  return openPortable<kAim>;
+}
+
 }  // namespace
 
 Opener opener(SimdLevel level) noexcept {
-#if defined(__x86_64__)
-  if (level == SimdLevel::Avx512) return openAvx512<false>;
-  if (level == SimdLevel::Avx2) return openAvx2<false>;
-#endif
-  static_cast<void>(level);
-  return openPortable<false>;
+  return openerFor<Aim::Minima>(level);
 }
-
 Opener sweptOpener(SimdLevel level) noexcept {
-#if defined(__x86_64__)
-  if (level == SimdLevel::Avx512) return openAvx512<true>;
-  if (level == SimdLevel::Avx2) return openAvx2<true>;
-#endif
-  static_cast<void>(level);
-  return openPortable<true>;
+  return openerFor<Aim::SweptMinima>(level);
+}
+Opener nearOpener(SimdLevel level) noexcept {
+  return openerFor<Aim::NearFaces>(level);
 }
 
 }  // namespace nearfit

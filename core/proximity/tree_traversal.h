@@ -44,6 +44,9 @@ using Opener = void (*)(TraversalWork& work) noexcept;
 Opener opener(SimdLevel level) noexcept;
 /// The same for every pose along the sweep: about half as fast again.
 Opener sweptOpener(SimdLevel level) noexcept;
+/// For what comes within the cutoff of each other, whatever its direction: comes to pairs of faces only, and
+/// drops none of those. For surfaces without a side, and to tell whether bodies meet.
+Opener nearOpener(SimdLevel level) noexcept;
 
 /// Goes down two trees together and visits the pairs of leaves that survive the culls.
 class TreeTraversal {
