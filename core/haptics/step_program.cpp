@@ -1,0 +1,92 @@
+#include "core/haptics/step_program.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "core/haptics/trust_search.h"
+
+namespace nearfit {
+namespace {
+
+/// A step that was shortened to the reach ends below it, whatever is rounded.
+constexpr double kInside = 1.0 - 1e-12;
+
+void collectActive(const ActiveRows& active, StepSolution& out) noexcept {
+  out.activeCount = 0;
+  out.floorMultiplier = 0.0;
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const double multiplier = std::max(0.0, active.multiplier(i));
+    if (active.id(i) == DualStepSolver::kFloor)
+      out.floorMultiplier = multiplier;
+    else
+      out.active[out.activeCount++] = {active.id(i), multiplier};
+  }
+}
+
+/// Shortens the way from standing still, which all rows allow, since they allow both its ends.
+void shortenToReach(StepSolution& step, const DualStepSolver::Point& still, double reach) noexcept {
+  if (step.displacement <= reach) return;
+  const double factor = kInside * reach / step.displacement;
+  for (double& y : step.y)
+    y *= factor;
+  step.t = still.t + factor * (step.t - still.t);
+  step.displacement *= factor;
+  step.share = factor;
+}
+
+}  // namespace
+
+double displacementOf(const StepVector& y, const StepGoal& goal) noexcept {
+  const glm::dvec3 v(y[0], y[1], y[2]);
+  const glm::dvec3 w = glm::dvec3(y[3], y[4], y[5]) / goal.gyration;
+  return glm::length(v) + goal.radius * glm::length(w);
+}
+
+bool isUsable(const StepGoal& goal) noexcept {
+  const auto isShort = [](double value) { return std::abs(value) <= kLongestStep; };
+  const ClearanceCost& cost = goal.cost;
+  const bool isCostUsable =
+      isShort(cost.margin) && cost.weight > 0.0 && std::isfinite(cost.weight) && cost.floor <= kLongestStep;
+  const auto isRadius = [&](double value) { return value >= kLeastGyration && isShort(value); };
+  const bool isBodyUsable = goal.radius >= 0.0 && isShort(goal.radius) && isRadius(goal.gyration.x) &&
+                            isRadius(goal.gyration.y) && isRadius(goal.gyration.z);
+  return isCostUsable && isBodyUsable && goal.reach >= 0.0 &&
+         std::all_of(goal.wanted.begin(), goal.wanted.end(), isShort);
+}
+
+StepSolution StepProgram::solve(const StepRows& rows, const StepGoal& goal) noexcept {
+  StepSolution best;
+  if (!isUsable(goal)) {
+    best.t = rows.size() > 0 ? rows.leastClearance({}).clearance : 0.0;
+    return best;
+  }
+  solver_.begin(rows, goal.cost, kMostChanges);
+  unsigned solves = 0;
+  bool isFound = false;
+  for (TrustSearch search(goal.reach, kMostSolves); !search.isDone();) {
+    StepSolution here;
+    here.scale = search.scale();
+    StepVector wanted = goal.wanted;
+    for (double& y : wanted)
+      y *= here.scale;
+    const DualStepSolver::Point point = solver_.solve(wanted);
+    ++solves;
+    here.y = point.y;
+    here.t = point.t;
+    here.isExact = point.isExact;
+    here.displacement = displacementOf(here.y, goal);
+    collectActive(solver_.active(), here);
+    const bool isBetter = search.report(here.displacement);
+    // Without one within the reach, the last is shortened.
+    if (isBetter || !isFound) best = here;
+    isFound = isFound || isBetter;
+  }
+  shortenToReach(best, solver_.standing(), goal.reach);
+  best.solves = solves;
+  best.changes = solver_.changes();
+  return best;
+}
+
+}  // namespace nearfit

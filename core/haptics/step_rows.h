@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace nearfit {
+
+/// A motion of the part in its mass metric [m]: translation of the centre of mass, then rotation about each
+/// principal axis times the radius of gyration about it. Half its squared length is kinetic energy for a unit
+/// mass and a unit of time.
+using StepVector = std::array<double, 6>;
+
+/// Near pairs of points, linearised: after the step y pair i is a_i . y + d_i apart, to first order.
+///
+/// Kept in blocks whose columns lie side by side, so that the scan over all rows runs in vectors.
+class StepRows {
+ public:
+  static constexpr std::size_t kDefaultCapacity = 512;
+
+  /// Numbers beyond this are refused, so that no product of two overflows.
+  static constexpr double kLargest = 1e12;
+
+  /// @param capacity  Rows that can be held; allocates, as nothing after it does.
+  explicit StepRows(std::size_t capacity = kDefaultCapacity);
+
+  void clear() noexcept;
+
+  /// @param a  Of a pair with direction u (unit, scene to part) and arm r from the centre of mass: u, then
+  ///           r x u in principal axes over the radii of gyration.
+  /// @param d  Its distance [m].
+  /// False, and nothing is added, when there is no room or a number is not finite or beyond `kLargest`: the
+  /// part may then not be moved by what the program says, since it does not know of this pair.
+  /// Real-time safe.
+  bool add(const StepVector& a, double d) noexcept;
+
+  std::size_t size() const noexcept { return size_; }
+  std::size_t capacity() const noexcept { return capacity_; }
+
+  StepVector row(std::size_t i) const noexcept;
+  double distance(std::size_t i) const noexcept;
+
+  /// Greatest |a_i|, at least 1.
+  double largestNorm() const noexcept { return largestNorm_; }
+
+  struct Least {
+    double clearance;  ///< [m]; beyond kLargest without rows.
+    std::size_t row;   ///< The first of the rows that have it.
+  };
+
+  /// The least of a_i . y + d_i. The same on every machine. Real-time safe; linear in the rows.
+  Least leastClearance(const StepVector& y) const noexcept;
+
+ private:
+  static constexpr std::size_t kLanes = 16;
+  struct alignas(64) Block {
+    std::array<std::array<double, kLanes>, 6> a{};
+    std::array<double, kLanes> d{};
+  };
+  static void clearances(const Block& block, const StepVector& y, std::array<double, kLanes>& out) noexcept;
+  static double least(std::array<double, kLanes> values) noexcept;
+
+  std::vector<Block> blocks_;
+  std::size_t capacity_, size_ = 0;
+  double largestNorm_ = 1.0;
+};
+
+}  // namespace nearfit
