@@ -109,6 +109,14 @@ void Session::setColour(PartId id, const Colour& colour) {
   commitReplaced(std::move(part), label);
 }
 
+void Session::setDensity(PartId id, double density) {
+  Part part = unlockedPart(id);
+  if (part.density == density) return;
+  const std::string label = "Change the density of " + part.name;
+  part.density = density;
+  commitReplaced(std::move(part), label);
+}
+
 void Session::setVisible(PartId id, bool visible) {
   Part part = existingPart(id);
   if (part.isVisible == visible) return;

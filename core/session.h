@@ -33,6 +33,7 @@ class Session {
   /// @param verb  What undo calls the step, before the part's name.
   void movePart(PartId id, const RigidTransform& worldFromPart, const std::string& verb = "Move");
   void setColour(PartId id, const Colour& colour);
+  void setDensity(PartId id, double density);
   /// Also for locked parts: what is shown is no property of the part.
   void setVisible(PartId id, bool visible);
   void setLocked(PartId id, bool locked);

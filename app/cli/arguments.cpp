@@ -44,17 +44,26 @@ double parseUnit(const std::string& text) {
   return *metres;
 }
 
+bool parseNumbersIfAny(std::string_view text, std::span<double> numbers) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::size_t comma = text.find(',');
+    if ((comma == std::string_view::npos) != (i + 1 == numbers.size())) return false;
+    const std::optional<double> number = parseNumber(text.substr(0, comma));
+    if (!number) return false;
+    numbers[i] = *number;
+    if (comma != std::string_view::npos) text.remove_prefix(comma + 1);
+  }
+  return true;
+}
+
+void failNumbers(const std::string& option, const std::string& text, std::size_t count) {
+  throw UsageError(option, fmt::format("\"{}\" is not what it takes", text),
+                   count == 1 ? "give a number" : fmt::format("give {} numbers with commas between", count));
+}
+
 std::optional<RigidTransform> parsePoseIfAny(const std::string& text) {
   std::array<double, 7> n{};
-  std::string_view rest = text;
-  for (std::size_t i = 0; i < n.size(); ++i) {
-    const std::size_t comma = rest.find(',');
-    if ((comma == std::string_view::npos) != (i + 1 == n.size())) return std::nullopt;
-    const std::optional<double> number = parseNumber(rest.substr(0, comma));
-    if (!number) return std::nullopt;
-    n[i] = *number;
-    if (comma != std::string_view::npos) rest.remove_prefix(comma + 1);
-  }
+  if (!parseNumbersIfAny(text, n)) return std::nullopt;
   if (!std::isfinite(n[0]) || !std::isfinite(n[1]) || !std::isfinite(n[2])) {
     throw UsageError(fmt::format("pose \"{}\"", text), "a number is not finite", "give finite numbers");
   }

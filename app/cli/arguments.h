@@ -1,7 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "core/math/rigid_transform.h"
 
@@ -22,6 +26,17 @@ double parseUnit(const std::string& text);
 std::optional<RigidTransform> parsePoseIfAny(const std::string& text);
 /// As parsePoseIfAny; throws UsageError also when the text is no pose.
 RigidTransform parsePose(const std::string& option, const std::string& text);
+
+[[noreturn]] void failNumbers(const std::string& option, const std::string& text, std::size_t count);
+/// As many numbers as `numbers` takes, with commas between them; false when the text is anything else.
+bool parseNumbersIfAny(std::string_view text, std::span<double> numbers);
+/// That many numbers. Throws UsageError naming the option when the text is anything else.
+template <std::size_t Count>
+std::array<double, Count> parseNumbers(const std::string& option, const std::string& text) {
+  std::array<double, Count> numbers{};
+  if (!parseNumbersIfAny(text, numbers)) failNumbers(option, text, Count);
+  return numbers;
+}
 
 /// Throws UsageError when the value of an option is not finite or not above (or, with `orZero`, below) zero.
 void checkPositive(const std::string& option, double value, bool orZero = false);

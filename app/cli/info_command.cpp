@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "core/error.h"
 #include "core/report/lmd_set.h"
 #include "core/scene/part_geometry.h"
+#include "core/scene/scene.h"
 #include "core/text/utf8.h"
 
 namespace nearfit::cli {
@@ -23,6 +25,7 @@ using Json = nlohmann::ordered_json;
 struct InfoOptions {
   std::vector<std::string> meshes;
   std::string unit = "m";
+  std::optional<double> density;  ///< [kg/m^3]
   bool isJson = false;
 };
 
@@ -61,18 +64,30 @@ std::string sizeText(const PartGeometry& geometry) {
       pointText(mass.centre));
 }
 
+std::string massText(const MassProperties& mass, double density) {
+  std::string text =
+      fmt::format("  weighs      {:.6g} kg at {:.6g} kg/m^3\n", density * mass.volume, density);
+  const glm::dmat3 inertia = density * mass.inertia;
+  // By rows; glm's matrices are columns, but this one is symmetric.
+  for (int i = 0; i < 3; ++i) {
+    text += fmt::format("  {}{} kg m^2\n", i == 0 ? "inertia     " : "            ", pointText(inertia[i]));
+  }
+  return text;
+}
+
 /// Of its hierarchy, made now where it is not there yet.
 HierarchyOrigin originOf(const PartGeometry& geometry) {
   geometry.tree();
   return *geometry.hierarchy->origin();
 }
 
-std::string infoText(const std::string& name, const PartGeometry& geometry) {
+std::string infoText(const std::string& name, const PartGeometry& geometry, std::optional<double> density) {
   const TriangleMesh& mesh = geometry.mesh;
   std::string text = fmt::format("{}\n  triangles   {}\n  vertices    {}\n", oneLine(name),
                                  mesh.triangles().size(), mesh.vertices().size());
   text +=
       topologyText(mesh.topology(), mesh.edges().size()) + featureText(geometry.tree()) + sizeText(geometry);
+  if (density) text += massText(geometry.mass, *density);
   const HierarchyOrigin origin = originOf(geometry);
   text += fmt::format(
       "  hierarchy   {} in {:.3g} ms\n"
@@ -97,7 +112,17 @@ Json pointJson(const glm::dvec3& p) {
   return {p.x, p.y, p.z};
 }
 
-Json infoJson(const std::string& name, const PartGeometry& geometry) {
+Json massJson(const MassProperties& mass, std::optional<double> density) {
+  Json json = {{"basis", nameOf(mass.basis)}, {"volume", mass.volume}, {"centre", pointJson(mass.centre)}};
+  if (!density) return json;
+  const glm::dmat3 inertia = *density * mass.inertia;
+  json["density"] = *density;
+  json["mass"] = *density * mass.volume;
+  json["inertia"] = {pointJson(inertia[0]), pointJson(inertia[1]), pointJson(inertia[2])};
+  return json;
+}
+
+Json infoJson(const std::string& name, const PartGeometry& geometry, std::optional<double> density) {
   const TriangleMesh& mesh = geometry.mesh;
   const MeshTopology& topology = mesh.topology();
   Json json;
@@ -116,9 +141,7 @@ Json infoJson(const std::string& name, const PartGeometry& geometry) {
   json["features"] = {{"kept", countsJson(geometry.tree().keptFeatures())},
                       {"all", countsJson(geometry.tree().allFeatures())}};
   json["bounds"] = {{"lower", pointJson(mesh.bounds().lower)}, {"upper", pointJson(mesh.bounds().upper)}};
-  json["mass"] = {{"basis", nameOf(geometry.mass.basis)},
-                  {"volume", geometry.mass.volume},
-                  {"centre", pointJson(geometry.mass.centre)}};
+  json["mass"] = massJson(geometry.mass, density);
   const HierarchyOrigin origin = originOf(geometry);
   json["hierarchy"] = {{"from", origin.isFromCache ? "cache" : "building"}, {"seconds", origin.seconds}};
   json["bytes"] = {{"mesh", mesh.byteSize()}, {"hierarchy", geometry.tree().byteSize()}};
@@ -129,11 +152,13 @@ Json infoJson(const std::string& name, const PartGeometry& geometry) {
 
 void runInfo(const InfoOptions& options) {
   const double metresPerUnit = parseUnit(options.unit);
+  if (options.density) checkDensity(*options.density);
   bool hasFailed = false;
   for (const std::string& name : options.meshes) {
     try {
       const PartGeometryPtr geometry = loadPartGeometry(name, metresPerUnit);
-      print(options.isJson ? infoJson(name, *geometry).dump() + "\n" : infoText(name, *geometry));
+      print(options.isJson ? infoJson(name, *geometry, options.density).dump() + "\n"
+                           : infoText(name, *geometry, options.density));
     } catch (const FileError& e) {
       // The others are still worth reporting.
       flushOutput();
@@ -154,6 +179,10 @@ void addInfoCommand(CLI::App& program) {
       ->required()
       ->type_name("FILE");
   command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
+  command
+      ->add_option("--density", options->density,
+                   "Say mass and inertia too, of a body of this density [kg/m^3]")
+      ->type_name("D");
   command->add_flag("--json", options->isJson, "Print one JSON object a mesh, each on a line of its own");
   command->footer(
       "closed       Every edge has two faces; open edges have one, non-manifold ones three or more.\n"
@@ -163,6 +192,7 @@ void addInfoCommand(CLI::App& program) {
       "             the others are left out of the hierarchy.\n"
       "mass         By volume integrals where the mesh is closed and oriented, else by its oriented\n"
       "             bounding box.\n"
+      "inertia      About the centre, in the mesh's frame, by rows; of the density given.\n"
       "hierarchy    What distance queries search: built now, or taken from the cache (see nearfit-cli "
       "cache).\n"
       "bytes        Of memory.\n"

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/commands.h"
+#include "app/cli/haptic_options.h"
 #include "app/cli/output.h"
 #include "app/cli/place_run.h"
 #include "app/cli/place_summary.h"
@@ -19,18 +20,25 @@ namespace nearfit::cli {
 namespace {
 
 constexpr const char* kFooter =
-    R"(The part starts at the path's first pose; the scene file stays as it is.
+    R"(The part starts at the path's first pose; the scene file stays as it is. Options of the feel count for this
+run, instead of what the scene says.
 --record  CSV with a header and a row a tick, in the world frame: t_s; handle_tx ... handle_qz and
-          proxy_tx ... proxy_qz (tx ty tz qw qx qy qz each; here the proxy is the handle); force_x ...
+          proxy_tx ... proxy_qz (tx ty tz qw qx qy qz each; the proxy is where the part is); force_x ...
           force_z [N] and torque_x ... torque_z [N m] about the part's centre of mass, as sent to the device
           and so within its limits; lmds; distance, the least [m], "inf" when nothing is within the cutoff;
-          query_us; tick_us; late_bodies, those that the tick searched anew as the lists were not ready.
+          query_us; tick_us; late_bodies, those that the tick searched anew as the lists were not ready;
+          energy, given to the hand since the start, less what came back [J]; sub_steps, of the proxy in
+          this tick; shortened and refused, those of them that would have met something; constraints and
+          contacts, minima that its last step kept in mind and those that held it; released, parts that are
+          overlapped and not felt; proxy_us, of tick_us without queries; clamped, 0 or 1; fault, 0 for none
+          (the summary says which).
 --export  JSON: each part's pose and mesh, and the minima left between the part that was led and each other.
 A tick that ends too late skips periods instead of rows: the path then takes longer, and the summary says so.
 Example: nearfit-cli place fit.nearfit --part Peg --path hand.csv --record felt.csv --export placed.json)";
 
 struct PlaceOptions {
   std::string scene, part, path, record, exportFile;
+  HapticOptions haptics;
   bool isFast = false, isJson = false;
 };
 
@@ -105,7 +113,8 @@ void runPlace(const PlaceOptions& options) {
   checkInputsAreKept(scene, options);
   takeInHand(scene, options);
   job.scene = makeServoScene(scene);
-  job.parameters.haptics = scene.haptics();
+  const HapticSettings haptics = withOptions(scene.haptics(), options.haptics);
+  job.parameters.haptics = haptics;
   std::optional<MotionWriter> writer;
   if (!options.record.empty()) job.writer = &writer.emplace(options.record);
 
@@ -114,7 +123,8 @@ void runPlace(const PlaceOptions& options) {
   if (writer) writer->finish();
   if (!options.exportFile.empty()) exportPlacement(scene, result.end, options.exportFile);
 
-  const PlaceSummary summary{options.part, others, poses, result, options.record, options.exportFile};
+  const PlaceSummary summary{options.part,      others, poses, haptics, result, options.record,
+                             options.exportFile};
   print(options.isJson ? summaryJson(summary) : summaryText(summary));
   throwIfIncomplete(result, poses);
 }
@@ -136,6 +146,7 @@ void addPlaceCommand(CLI::App& program) {
                       "Write poses, wrench and minima of every tick to this CSV file");
   command->add_option("--export", options->exportFile, "Write the placement at the end to this JSON file");
   command->add_flag("--json", options->isJson, "Print the summary as one JSON object");
+  addHapticOptions(*command, options->haptics);
   command->footer(kFooter);
   command->callback([options] { runPlace(*options); });
 }

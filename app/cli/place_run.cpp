@@ -63,7 +63,18 @@ void take(const MotionRow& row, PlaceResult& result, MotionWriter* writer) {
   }
   raise(result.force, row.wrench.force, row.time);
   raise(result.torque, row.wrench.torque, row.time);
+  result.maxEnergyToHand = std::max(result.maxEnergyToHand, row.energyToHand);
+  result.maxSubSteps = std::max(result.maxSubSteps, row.subSteps);
+  result.shortenedSteps += row.shortenedSteps;
+  result.refusedSteps += row.refusedSteps;
+  result.releasedTicks += row.released > 0 ? 1 : 0;
+  result.proxyTime.record(row.proxyTime);
   if (result.fault == ServoFault::None) result.fault = row.fault;
+}
+
+void takeLast(const ServoSnapshot& snapshot, PlaceResult& result) {
+  result.end = snapshot.proxy;
+  result.coupling = snapshot.coupling;
 }
 
 PlaceResult beginning(const PlaceJob& job) {
@@ -104,7 +115,7 @@ PlaceResult placeFast(PlaceJob job) {
     snapshot->tick = ++result.ticks;
     result.queryTime.record(snapshot->queryTime);
     result.tickTime.record(snapshot->tickTime);
-    result.end = snapshot->proxy;
+    takeLast(*snapshot, result);
     take(motionRow(*snapshot), result, job.writer);
   }
   result.isInterrupted = device.state() == DeviceState::Running;
@@ -132,7 +143,7 @@ PlaceResult placeInRealTime(PlaceJob job) {
   loop.stop();
   takeRows();
   result.lostRows = rows->dropped();
-  if (loop.pollSnapshot()) result.end = loop.snapshot().proxy;
+  if (loop.pollSnapshot()) takeLast(loop.snapshot(), result);
   const ServoStatistics statistics = loop.statistics();
   result.ticks = statistics.ticks;
   result.overruns = statistics.overruns;

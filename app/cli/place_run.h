@@ -33,10 +33,16 @@ struct PlaceResult {
   std::uint32_t maxLmds = 0;
   double leastDistance = 0.0;  ///< [m]; infinity when nothing ever came within the cutoff.
   double leastDistanceTime = 0.0;
-  Peak force, torque;  ///< As sent [N], [N m].
+  Peak force, torque;            ///< As sent [N], [N m].
+  double maxEnergyToHand = 0.0;  ///< Most that the hand had been given at any time [J].
+  std::uint32_t maxSubSteps = 0;
+  std::uint64_t shortenedSteps = 0, refusedSteps = 0;
+  std::uint64_t releasedTicks = 0;  ///< With parts that were overlapped and so not felt.
+  CouplingState coupling;           ///< In force in the last tick.
   ServoFault fault = ServoFault::None;
   RigidTransform end;                              ///< worldFromPart after the last tick.
   LatencyHistogram lateness, queryTime, tickTime;  ///< `lateness` is empty when it did not run in real time.
+  LatencyHistogram proxyTime;                      ///< Of the proxy without its queries.
   LatencyHistogram refreshTime;                    ///< Of the searches ahead, in the thread beside.
   std::uint64_t overruns = 0;
   std::string schedulingNote;  ///< Empty when it did not run in real time.

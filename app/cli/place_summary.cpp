@@ -44,8 +44,56 @@ std::string distanceText(const PlaceResult& result) {
   return fmt::format("least {:.6g} m at {:.3f} s", result.leastDistance, result.leastDistanceTime);
 }
 
+const char* modeName(const HapticSettings& haptics) {
+  if (haptics.mode == HapticMode::Proxy) return "proxy";
+  return haptics.springs.law == SpringLaw::Printed ? "printed" : "spring";
+}
+
+std::string modeText(const HapticSettings& haptics) {
+  if (haptics.mode == HapticMode::Proxy) {
+    return fmt::format("proxy, margin {:.6g} m, friction {:.6g}", haptics.proxy.margin,
+                       haptics.proxy.friction);
+  }
+  const SpringParameters& springs = haptics.springs;
+  const bool isPrinted = springs.law == SpringLaw::Printed;
+  return fmt::format("{}, {:.6g} {} and {:.6g} N s/m within {:.6g} m", modeName(haptics), springs.stiffness,
+                     isPrinted ? "N/m^2" : "N/m", springs.damping, springs.cutoff);
+}
+
 std::string line(const char* name, const std::string& text) {
   return fmt::format("{:<12}{}\n", name, text);
+}
+
+std::string couplingText(const CouplingState& c) {
+  return fmt::format("{:.6g} N/m, {:.6g} N s/m; {:.6g} N m/rad, {:.6g} N m s/rad{}", c.stiffness, c.damping,
+                     c.rotationalStiffness, c.rotationalDamping,
+                     c.isHeldToBound ? " (held to the bound of stability)" : "");
+}
+
+/// What only the proxy has to tell.
+std::string proxyText(const PlaceResult& r) {
+  std::string text = line("coupling", couplingText(r.coupling));
+  text += line("steps", fmt::format("{} in a tick at most, {} shortened, {} refused", r.maxSubSteps,
+                                    r.shortenedSteps, r.refusedSteps));
+  if (r.releasedTicks > 0) {
+    text += line("released", fmt::format("{} ticks overlapped a part, which is not felt until they are apart",
+                                         r.releasedTicks));
+  }
+  return text + line("proxy", timesText(r.proxyTime));
+}
+
+nlohmann::ordered_json proxyJson(const PlaceResult& r) {
+  return {{"coupling",
+           {{"stiffness", r.coupling.stiffness},
+            {"damping", r.coupling.damping},
+            {"rotational_stiffness", r.coupling.rotationalStiffness},
+            {"rotational_damping", r.coupling.rotationalDamping},
+            {"held_to_bound", r.coupling.isHeldToBound}}},
+          {"max_sub_steps", r.maxSubSteps},
+          {"shortened_steps", r.shortenedSteps},
+          {"refused_steps", r.refusedSteps},
+          {"released_ticks", r.releasedTicks},
+          {"proxy_us", timesJson(r.proxyTime)}};
 }
 
 }  // namespace
@@ -55,10 +103,13 @@ std::string summaryText(const PlaceSummary& s) {
   std::string text =
       line("part", fmt::format("{} against {} other{}", oneLine(s.part), s.others, s.others == 1 ? "" : "s"));
   text += line("ticks", fmt::format("{} of {}{}", r.ticks, s.poses, paceText(r)));
+  text += line("mode", modeText(s.haptics));
   text += line("minima", fmt::format("{} at once at most", r.maxLmds));
   text += line("distance", distanceText(r));
   text += line("force", fmt::format("peak {:.6g} N at {:.3f} s", r.force.value, r.force.time));
   text += line("torque", fmt::format("peak {:.6g} N m at {:.3f} s", r.torque.value, r.torque.time));
+  text += line("energy", fmt::format("{:.6g} J given to the hand at most", r.maxEnergyToHand));
+  if (s.haptics.mode == HapticMode::Proxy) text += proxyText(r);
   if (r.clampedTicks > 0) text += line("clamped", fmt::format("force or torque in {} ticks", r.clampedTicks));
   if (r.truncatedTicks > 0) {
     text += line("truncated",
@@ -91,10 +142,13 @@ std::string summaryJson(const PlaceSummary& s) {
                               {"others", s.others},
                               {"poses", s.poses},
                               {"ticks", r.ticks},
+                              {"mode", modeName(s.haptics)},
                               {"max_lmds", r.maxLmds},
                               {"least_distance", nullptr},
                               {"peak_force", r.force.value},
                               {"peak_torque", r.torque.value},
+                              {"max_energy_to_hand", r.maxEnergyToHand},
+                              {"proxy", nullptr},
                               {"clamped_ticks", r.clampedTicks},
                               {"truncated_ticks", r.truncatedTicks},
                               {"late_ticks", r.lateTicks},
@@ -103,6 +157,7 @@ std::string summaryJson(const PlaceSummary& s) {
                               {"query_us", timesJson(r.queryTime)},
                               {"tick_us", timesJson(r.tickTime)}};
   if (std::isfinite(r.leastDistance)) json["least_distance"] = r.leastDistance;
+  if (s.haptics.mode == HapticMode::Proxy) json["proxy"] = proxyJson(r);
   if (!r.schedulingNote.empty()) {
     json["lateness_us"] = timesJson(r.lateness);
     json["overruns"] = r.overruns;

@@ -10,8 +10,9 @@ namespace nearfit::cli {
 /// What `place` tells of a run.
 struct PlaceSummary {
   const std::string& part;
-  std::size_t others;  ///< Parts that could be felt.
-  std::size_t poses;   ///< Of the path.
+  std::size_t others;             ///< Parts that could be felt.
+  std::size_t poses;              ///< Of the path.
+  const HapticSettings& haptics;  ///< That it ran with.
   const PlaceResult& result;
   const std::string& record;      ///< Empty when none was written.
   const std::string& exportFile;  ///< Empty when none was written.

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +13,7 @@
 
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
+#include "app/cli/haptic_options.h"
 #include "app/cli/output.h"
 #include "core/error.h"
 #include "core/scene/haptic_limits.h"
@@ -21,9 +23,9 @@ namespace nearfit::cli {
 namespace {
 
 struct SceneNewOptions {
-  std::string out, moving, unit = "m", law = "linear";
-  std::vector<std::string> parts;
-  SpringParameters springs;
+  std::string out, moving, unit = "m";
+  std::vector<std::string> parts, densities;
+  HapticOptions haptics;
 };
 
 struct PartArgument {
@@ -55,19 +57,36 @@ PartArgument parsePart(const std::string& text) {
   return part;
 }
 
+/// NAME=VALUE, of a part that is there.
+void setDensity(Scene& scene, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw UsageError("--density", fmt::format("\"{}\" is no density of a part", text), "give NAME=VALUE");
+  }
+  const Part* known = scene.findByName(text.substr(0, equals));
+  if (known == nullptr) {
+    throw UsageError("--density", fmt::format("there is no part \"{}\"", text.substr(0, equals)),
+                     "name one that --part adds");
+  }
+  Part part = *known;
+  part.density = parseNumbers<1>("--density", text.substr(equals + 1))[0];
+  scene.replace(std::move(part));
+}
+
+HapticSettings newSettings(const HapticOptions& options) {
+  HapticSettings settings;
+  settings.proxy.margin = defaultMargin(options.cutoff.value_or(settings.springs.cutoff));
+  return withOptions(settings, options);
+}
+
 Scene makeScene(const SceneNewOptions& options) {
-  SpringParameters springs = options.springs;
-  springs.law = options.law == "printed" ? SpringLaw::Printed : SpringLaw::Linear;
   const double metresPerUnit = parseUnit(options.unit);
   std::vector<PartArgument> arguments;
   for (const std::string& text : options.parts)
     arguments.push_back(parsePart(text));
 
   Scene scene;
-  HapticSettings haptics;
-  haptics.springs = springs;
-  haptics.proxy.margin = defaultMargin(springs.cutoff);
-  scene.setHaptics(haptics);
+  scene.setHaptics(newSettings(options.haptics));
   std::map<std::filesystem::path, PartGeometryPtr> geometries;
   for (const PartArgument& argument : arguments) {
     if (scene.findByName(argument.name) != nullptr) {
@@ -83,6 +102,8 @@ Scene makeScene(const SceneNewOptions& options) {
     part.colour = scene.nextColour();
     scene.add(part);
   }
+  for (const std::string& text : options.densities)
+    setDensity(scene, text);
   if (!options.moving.empty()) {
     const Part* moving = scene.findByName(options.moving);
     if (moving == nullptr) {
@@ -117,7 +138,7 @@ constexpr const char* kFooter =
     "that\n"
     "name is replaced.\n"
     "Example: nearfit-cli scene new fit.nearfit --unit mm --part Hole=hole.stl\n"
-    "             --part Peg=peg.stl@0,0,0.05,1,0,0,0 --moving Peg --cutoff 0.005";
+    "             --part Peg=peg.stl@0,0,0.05,1,0,0,0 --moving Peg --cutoff 0.005 --density Peg=7850";
 
 void addSceneNew(CLI::App& scene) {
   const auto options = std::make_shared<SceneNewOptions>();
@@ -128,21 +149,15 @@ void addSceneNew(CLI::App& scene) {
       ->allow_extra_args(false)
       ->type_name("NAME=FILE[@POSE]");
   command->add_option("--moving", options->moving, "The part that the hand moves")->type_name("NAME");
-  command->add_option("--cutoff", options->springs.cutoff, "Range and rest length of the springs [m]")
-      ->capture_default_str()
-      ->type_name("METRES");
   command
-      ->add_option("--stiffness", options->springs.stiffness,
-                   "Of each spring [N/m], or [N/m^2] in the printed law")
-      ->capture_default_str()
-      ->type_name("K");
-  command->add_option("--damping", options->springs.damping, "Of each spring [N s/m]")
-      ->capture_default_str()
-      ->type_name("B");
-  command->add_option("--law", options->law, "Force law of the springs")
-      ->check(CLI::IsMember({"linear", "printed"}))
-      ->capture_default_str();
+      ->add_option(
+          "--density", options->densities,
+          fmt::format("Of a part, by its name [kg/m^3]; {} without it; once for each", kDefaultDensity))
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE");
   command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
+  const HapticSettings defaults;
+  addHapticOptions(*command, options->haptics, &defaults);
   command->footer(kFooter);
   command->callback([options] { runSceneNew(*options); });
 }

@@ -12,6 +12,8 @@ std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene) {
   auto result = std::make_unique<ServoScene>();
   result->moving = {moving->id, moving->geometry, moving->worldFromPart};
   result->centreInPart = moving->geometry->mass.centre;
+  result->mass = massOf(*moving);
+  result->inertia = moving->density * moving->geometry->mass.inertia;
   if (!moving->isVisible) return result;
   result->bodies.reserve(scene.parts().size());
   for (const Scene::PartPtr& part : scene.parts()) {

@@ -3,6 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
+
 #include "core/math/rigid_transform.h"
 #include "core/scene/scene.h"
 
@@ -19,6 +21,8 @@ struct ServoScene {
   std::vector<Body> bodies;      ///< Visible parts other than the moving one.
   Body moving;                   ///< geometry is null when nothing is in hand.
   glm::dvec3 centreInPart{0.0};  ///< Centre of mass of the moving part, in its frame [m].
+  double mass = 1.0;             ///< Of the moving part [kg]; > 0.
+  glm::dmat3 inertia{1.0};       ///< Of the moving part about its centre, in its frame [kg m^2].
 };
 
 /// Nothing is felt while the moving part is invisible. Builds the hierarchies that are missing, which takes

@@ -16,8 +16,17 @@ void appendPose(std::string& line, const RigidTransform& pose) {
 }  // namespace
 
 MotionRow motionRow(const ServoSnapshot& s) noexcept {
-  return {s.time,      s.handle,   s.proxy,      s.wrench,      s.lmdCount,  s.distance,
-          s.queryTime, s.tickTime, s.lateBodies, s.isTruncated, s.isClamped, s.fault};
+  MotionRow row{s.time,      s.handle,   s.proxy,      s.wrench,      s.lmdCount,  s.distance,
+                s.queryTime, s.tickTime, s.lateBodies, s.isTruncated, s.isClamped, s.fault};
+  row.energyToHand = s.energyToHand;
+  row.proxyTime = s.proxyTime;
+  row.subSteps = s.subSteps;
+  row.shortenedSteps = s.shortenedSteps;
+  row.refusedSteps = s.refusedSteps;
+  row.constraints = s.constraintCount;
+  row.contacts = s.contactCount;
+  row.released = s.releasedCount;
+  return row;
 }
 
 std::string_view motionHeader() noexcept {
@@ -25,7 +34,8 @@ std::string_view motionHeader() noexcept {
          "handle_tx,handle_ty,handle_tz,handle_qw,handle_qx,handle_qy,handle_qz,"
          "proxy_tx,proxy_ty,proxy_tz,proxy_qw,proxy_qx,proxy_qy,proxy_qz,"
          "force_x,force_y,force_z,torque_x,torque_y,torque_z,"
-         "lmds,distance,query_us,tick_us,late_bodies";
+         "lmds,distance,query_us,tick_us,late_bodies,"
+         "energy,sub_steps,shortened,refused,constraints,contacts,released,proxy_us,clamped,fault";
 }
 
 std::string formatMotionRow(const MotionRow& row) {
@@ -36,6 +46,9 @@ std::string formatMotionRow(const MotionRow& row) {
   const glm::dvec3& t = row.wrench.torque;
   fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{},{:.3f},{:.3f},{}", f.x, f.y, f.z, t.x,
                  t.y, t.z, row.lmds, row.distance, row.queryTime * 1e6, row.tickTime * 1e6, row.lateBodies);
+  fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{:.3f},{:d},{:d}", row.energyToHand,
+                 row.subSteps, row.shortenedSteps, row.refusedSteps, row.constraints, row.contacts,
+                 row.released, row.proxyTime * 1e6, row.isClamped, static_cast<int>(row.fault));
   return line;
 }
 

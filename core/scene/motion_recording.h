@@ -23,6 +23,11 @@ struct MotionRow {
   std::uint32_t lateBodies = 0;            ///< Searched anew in this tick.
   bool isTruncated = false, isClamped = false;
   ServoFault fault = ServoFault::None;
+  double energyToHand = 0.0;  ///< Since the start, less what came back [J].
+  double proxyTime = 0.0;     ///< Of the tick, for the proxy without its queries [s].
+  std::uint32_t subSteps = 0, shortenedSteps = 0, refusedSteps = 0;  ///< Of the proxy in this tick.
+  std::uint32_t constraints = 0, contacts = 0;                       ///< In its last step.
+  std::uint32_t released = 0;  ///< Parts that are overlapped and not felt.
 };
 
 /// Real-time safe.
@@ -32,11 +37,13 @@ MotionRow motionRow(const ServoSnapshot& snapshot) noexcept;
 using MotionQueue = SpscQueue<MotionRow, 16384>;
 
 /// First line of a recording: t_s, handle_tx ... handle_qz, proxy_tx ... proxy_qz, force_x ... torque_z,
-/// lmds, distance, query_us, tick_us, late_bodies. Poses are tx ty tz qw qx qy qz.
+/// lmds, distance, query_us, tick_us, late_bodies, energy, sub_steps, shortened, refused, constraints,
+/// contacts, released, proxy_us, clamped, fault. Poses are tx ty tz qw qx qy qz.
 std::string_view motionHeader() noexcept;
 
 /// One line without its end, in the columns of motionHeader. Numbers are the shortest that read back the
-/// same; `distance` is `inf` when nothing is within the cutoff.
+/// same; `distance` is `inf` when nothing is within the cutoff, `clamped` 0 or 1, `fault` the number of the
+/// ServoFault.
 std::string formatMotionRow(const MotionRow& row);
 
 /// Writes a recording as CSV, row by row, to a temporary file beside the target that takes its name only when

@@ -31,6 +31,16 @@ std::string withoutNumber(const std::string& name) {
 
 }  // namespace
 
+double massOf(const Part& part) noexcept {
+  return part.geometry != nullptr ? part.density * part.geometry->mass.volume : 0.0;
+}
+
+void checkDensity(double density) {
+  if (density >= kMinDensity && density <= kMaxDensity) return;
+  throw UsageError("density", fmt::format("{} kg/m^3 is out of range", density),
+                   fmt::format("give a value from {} to {} kg/m^3", kMinDensity, kMaxDensity));
+}
+
 void checkPartName(const std::string& name) {
   if (name.empty()) throw UsageError("name", "a part's name is empty", "give it one");
   if (name.size() > kMaxPartNameBytes) {
@@ -91,6 +101,7 @@ std::string Scene::freeName(const std::string& wanted) const {
 PartId Scene::add(Part part) {
   checkPartName(part.name);
   checkColour(part.colour);
+  checkDensity(part.density);
   part.worldFromPart = checkedPose(part.worldFromPart);
   part.name = freeName(part.name);
   part.id = PartId{nextId_};
@@ -102,6 +113,7 @@ void Scene::replace(Part part) {
   const std::size_t index = indexOf(part.id);
   checkPartName(part.name);
   checkColour(part.colour);
+  checkDensity(part.density);
   part.worldFromPart = checkedPose(part.worldFromPart);
   const Part* namesake = findByName(part.name);
   if (namesake != nullptr && namesake->id != part.id) {

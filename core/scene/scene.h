@@ -29,14 +29,21 @@ constexpr std::size_t kMaxPartNameBytes = 200;
 /// precision is coarser than a tenth of a micrometre, and the number is a slip of the unit.
 constexpr double kMaxPosition = 1e9;
 
+/// Of a part of which nobody has said what it is made of: water's, and most plastics' [kg/m^3].
+constexpr double kDefaultDensity = 1000.0;
+/// From a gas to fifty times the densest metal [kg/m^3]; beyond them a number is a slip of the unit.
+constexpr double kMinDensity = 1e-3, kMaxDensity = 1e6;
+
 struct Part {
   PartId id{};
   std::string name;  ///< Unique in its scene, not empty; UTF-8 without control characters.
   PartGeometryPtr geometry;
   RigidTransform worldFromPart;
   Colour colour;
-  bool isVisible = true;  ///< An invisible part is not felt either.
-  /// A locked part cannot be moved, renamed, recoloured, deleted, or be the moving part; it can be hidden.
+  double density = kDefaultDensity;  ///< [kg/m^3]
+  bool isVisible = true;             ///< An invisible part is not felt either.
+  /// A locked part cannot be moved, renamed, recoloured, made of another density, deleted, or be the
+  /// moving part; it can be hidden.
   bool isLocked = false;
 };
 
@@ -53,7 +60,8 @@ class Scene {
   const HapticSettings& haptics() const noexcept { return haptics_; }
 
   /// Adds a copy of `part` with a fresh id; its name gets a number behind it when it is taken, its quaternion
-  /// is normalised. Returns the id. Throws UsageError when name, pose or colour are none (see checkedPose).
+  /// is normalised. Returns the id. Throws UsageError when name, pose, colour or density are none (see
+  /// checkedPose).
   PartId add(Part part);
   /// Replaces the part of the same id. Throws UsageError when there is none, its new name is taken, it is the
   /// moving part and would be locked, or as add does.
@@ -82,6 +90,12 @@ class Scene {
   HapticSettings haptics_;
   std::uint32_t nextId_ = 1;
 };
+
+/// Of the part, from its density and the volume of its mesh [kg]; 0 when it has no geometry.
+double massOf(const Part& part) noexcept;
+
+/// Throws UsageError when it is not finite or out of its limits.
+void checkDensity(double density);
 
 /// Throws UsageError when the name is empty, too long, not UTF-8 or holds control characters.
 void checkPartName(const std::string& name);

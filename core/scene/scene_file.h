@@ -8,9 +8,22 @@
 /// The scene file `*.nearfit`, JSON in UTF-8:
 ///
 ///     {
-///       "nearfit": 1,                                        version of this format
+///       "nearfit": 2,                                        version of this format
 ///       "units": {"length": "m", "force": "N", "time": "s"}, those and no others
-///       "springs": {"cutoff": 0.01, "stiffness": 200, "damping": 0, "law": "linear"},   or "printed"
+///       "haptics": {
+///         "mode": "proxy",                                   or "springs": the part goes where the hand is
+///         "springs": {"cutoff": 0.01, "stiffness": 200, "damping": 0, "law": "linear"},   or "printed"
+///         "proxy": {"margin": 1e-4, "friction": 0},
+///         "coupling": {"automatic": true,                    the rest is not used, but kept, while it is
+///         true
+///                      "stiffness": 1000, "damping": 0, "rotationalStiffness": 1, "rotationalDamping": 0},
+///         "weight": {"weight": false, "inertia": false,      whether they are felt
+///                    "gravity": [0, 0, -9.80665]},           world frame [m/s^2]
+///         "mapping": {"scale": 1,
+///                     "orientation": [1, 0, 0, 0],           worldFromDevice, w x y z, unit
+///                     "translationLocks": [false, false, false],   along the world's x, y, z
+///                     "rotationLocks": [false, false, false]}      about them
+///       },
 ///       "moving": "Peg",                                     a part's name, or null
 ///       "parts": [{
 ///         "name": "Peg",                                     unique, not empty
@@ -20,17 +33,22 @@
 ///         "position": [0, 0, 0.05],                          worldFromPart [m]
 ///         "quaternion": [1, 0, 0, 0],                        worldFromPart, w x y z, unit
 ///         "colour": [0.62, 0.69, 0.76],                      sRGB, each 0 to 1
+///         "density": 1000,                                   [kg/m^3]
 ///         "visible": true,
 ///         "locked": false
 ///       }]
 ///     }
 ///
 /// Every key is needed. Keys that this version does not know are ignored, and are gone when the scene is
-/// saved. Numbers are written with as many digits as it takes to read the same double again.
+/// saved. Numbers are written with as many digits as it takes to read the same double again. Meanings and
+/// limits of the settings: haptic_settings.h, haptic_limits.h.
+///
+/// Version 1 is still read: it has no "haptics" and no "density", and its "springs" stand where "haptics" do.
+/// What it does not say is as in a new scene, the margin a hundredth of its cutoff.
 namespace nearfit {
 
-/// Version of the scene file format that this program writes, and the only one it reads.
-constexpr int kSceneFileVersion = 1;
+/// Version of the scene file format that this program writes, and the oldest that it reads.
+constexpr int kSceneFileVersion = 2, kOldestSceneFileVersion = 1;
 constexpr std::size_t kMaxSceneFileBytes = 8U << 20U;
 constexpr std::size_t kMaxSceneFileParts = 10'000;
 

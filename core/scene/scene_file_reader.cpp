@@ -3,15 +3,14 @@
 #include <cctype>
 #include <map>
 #include <optional>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/scene/haptic_limits.h"
 #include "core/scene/scene_file.h"
+#include "core/scene/scene_file_haptics.h"
 #include "core/text/json_file.h"
 #include "core/text/utf8.h"
 
@@ -44,22 +43,23 @@ auto checked(const JsonField& field, Check check) {
 
 template <std::size_t Count>
 std::array<double, Count> numbers(const JsonField& field) {
-  if (field.size() != Count)
-    field.fail(fmt::format("it has {} numbers where {} are wanted", field.size(), Count));
+  field.requireSize(Count);
   std::array<double, Count> values{};
   for (std::size_t i = 0; i < Count; ++i)
     values[i] = field.at(i).number();
   return values;
 }
 
-void checkVersion(const JsonField& root) {
+int readVersion(const JsonField& root) {
   if (!root.has("nearfit"))
     root.fail("it is no Nearfit scene: the key \"nearfit\" is missing", "open a *.nearfit file");
   const JsonField field = root.at("nearfit");
   const double version = field.number();
-  if (version == kSceneFileVersion) return;
-  field.fail(fmt::format("this is version {} of the scene format, and this program reads version {}", version,
-                         kSceneFileVersion),
+  for (int known = kOldestSceneFileVersion; known <= kSceneFileVersion; ++known) {
+    if (version == known) return known;
+  }
+  field.fail(fmt::format("this is version {} of the scene format, and this program reads versions {} to {}",
+                         version, kOldestSceneFileVersion, kSceneFileVersion),
              version > kSceneFileVersion ? "open it with a newer Nearfit"
                                          : "save it again with the Nearfit that made it");
 }
@@ -73,34 +73,6 @@ void checkUnits(const JsonField& units) {
   }
 }
 
-/// The field below `field` that a path such as "springs.cutoff" names.
-JsonField fieldOf(JsonField field, std::string_view path) {
-  for (std::size_t dot; (dot = path.find('.')) != std::string_view::npos; path.remove_prefix(dot + 1))
-    field = field.at(std::string(path.substr(0, dot)));
-  return field.at(std::string(path));
-}
-
-HapticSettings readHaptics(const JsonField& root) {
-  const JsonField field = root.at("springs");
-  HapticSettings haptics;
-  SpringParameters& springs = haptics.springs;
-  const JsonField law = field.at("law");
-  const std::string name = law.text(16);
-  if (name != "linear" && name != "printed")
-    law.fail("this law is not known", "say \"linear\" or \"printed\"");
-  springs.law = name == "printed" ? SpringLaw::Printed : SpringLaw::Linear;
-  springs.cutoff = field.at("cutoff").number();
-  springs.stiffness = field.at("stiffness").number();
-  springs.damping = field.at("damping").number();
-  haptics.proxy.margin = defaultMargin(springs.cutoff);
-  try {
-    checkHaptics(haptics);
-  } catch (const UsageError& e) {
-    fieldOf(root, e.where()).fail(e.problem(), e.remedy());
-  }
-  return haptics;
-}
-
 RigidTransform readPose(const JsonField& field) {
   const auto [x, y, z] = numbers<3>(field.at("position"));
   const auto [qw, qx, qy, qz] = numbers<4>(field.at("quaternion"));
@@ -111,7 +83,7 @@ RigidTransform readPose(const JsonField& field) {
 }
 
 Colour readColour(const JsonField& field) {
-  if (field.size() != 3) field.fail(fmt::format("it has {} numbers where 3 are wanted", field.size()));
+  field.requireSize(3);
   const auto channel = [&](std::size_t i) { return static_cast<float>(field.at(i).numberWithin(0.0, 1.0)); };
   return {channel(0), channel(1), channel(2)};
 }
@@ -127,7 +99,7 @@ std::string readSha256(const JsonField& field) {
   return digits;
 }
 
-PartEntry readPart(const JsonField& field, const fs::path& folder) {
+PartEntry readPart(const JsonField& field, const fs::path& folder, int version) {
   PartEntry entry{field, {}, {}, readSha256(field.at("sha256")), field.at("metresPerUnit").number()};
   checked(field.at("metresPerUnit"), [&] { checkMetresPerUnit(entry.metresPerUnit); });
   const std::string mesh = field.at("mesh").text(kMaxPathBytes);
@@ -137,18 +109,22 @@ PartEntry readPart(const JsonField& field, const fs::path& folder) {
   checked(field.at("name"), [&] { checkPartName(entry.part.name); });
   entry.part.worldFromPart = readPose(field);
   entry.part.colour = readColour(field.at("colour"));
+  if (version >= 2) {
+    entry.part.density = field.at("density").number();
+    checked(field.at("density"), [&] { checkDensity(entry.part.density); });
+  }
   entry.part.isVisible = field.at("visible").isTrue();
   entry.part.isLocked = field.at("locked").isTrue();
   return entry;
 }
 
-std::vector<PartEntry> readParts(const JsonField& field, const fs::path& folder) {
+std::vector<PartEntry> readParts(const JsonField& field, const fs::path& folder, int version) {
   const std::size_t count = field.size();
   if (count > kMaxSceneFileParts) field.fail(fmt::format("there are more than {} parts", kMaxSceneFileParts));
   std::vector<PartEntry> entries;
   std::map<std::string, std::size_t> indexOfName;
   for (std::size_t i = 0; i < count; ++i) {
-    entries.push_back(readPart(field.at(i), folder));
+    entries.push_back(readPart(field.at(i), folder, version));
     const auto [known, isNew] = indexOfName.emplace(entries.back().part.name, i);
     if (!isNew)
       field.at(i).at("name").fail(fmt::format("parts[{}] has the same name", known->second),
@@ -233,11 +209,11 @@ Scene readSceneFile(const fs::path& file, const ProgressCallback& progress) {
   limits.maxBytes = kMaxSceneFileBytes;
   const nlohmann::json json = readJsonFile(file, limits);
   const JsonField root(json, file);
-  checkVersion(root);
+  const int version = readVersion(root);
   checkUnits(root.at("units"));
   Scene scene;
-  scene.setHaptics(readHaptics(root));
-  std::vector<PartEntry> entries = readParts(root.at("parts"), meshFolder(file));
+  scene.setHaptics(version >= 2 ? readHaptics(root.at("haptics")) : readHapticsOfVersion1(root));
+  std::vector<PartEntry> entries = readParts(root.at("parts"), meshFolder(file), version);
   const std::optional<std::size_t> moving = readMovingPart(root.at("moving"), entries);
   const GeometryLoader loader(entries, progress);
   for (PartEntry& entry : entries) {

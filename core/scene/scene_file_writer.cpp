@@ -1,10 +1,10 @@
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/files/atomic_write.h"
 #include "core/scene/scene_file.h"
+#include "core/scene/scene_file_haptics.h"
 #include "core/text/json_text.h"
 #include "core/text/utf8.h"
 
@@ -38,6 +38,7 @@ Json partJson(const Part& part, const std::filesystem::path& sceneFile) {
   json["quaternion"] = {q.w, q.x, q.y, q.z};
   json["colour"] = {shortestDouble(part.colour.r), shortestDouble(part.colour.g),
                     shortestDouble(part.colour.b)};
+  json["density"] = part.density;
   json["visible"] = part.isVisible;
   json["locked"] = part.isLocked;
   return json;
@@ -49,11 +50,7 @@ void writeSceneFile(const Scene& scene, const std::filesystem::path& file) {
   Json json;
   json["nearfit"] = kSceneFileVersion;
   json["units"] = {{"length", "m"}, {"force", "N"}, {"time", "s"}};
-  const SpringParameters& springs = scene.haptics().springs;
-  json["springs"] = {{"cutoff", springs.cutoff},
-                     {"stiffness", springs.stiffness},
-                     {"damping", springs.damping},
-                     {"law", springs.law == SpringLaw::Printed ? "printed" : "linear"}};
+  json["haptics"] = hapticsJson(scene.haptics());
   json["moving"] = scene.movingPart() ? Json(scene.find(*scene.movingPart())->name) : Json();
   json["parts"] = Json::array();
   for (const Scene::PartPtr& part : scene.parts())

@@ -123,6 +123,10 @@ std::size_t JsonField::size() const {
   return value_->size();
 }
 
+void JsonField::requireSize(std::size_t count) const {
+  if (size() != count) fail(fmt::format("it has {} elements where {} are wanted", size(), count));
+}
+
 double JsonField::number() const {
   require(value_->is_number(), "a number");
   const double number = value_->get<double>();

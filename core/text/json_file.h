@@ -34,6 +34,8 @@ class JsonField {
   JsonField at(std::size_t index) const;
   /// Elements of an array.
   std::size_t size() const;
+  /// Fails unless it is an array of `count` elements.
+  void requireSize(std::size_t count) const;
   bool isNull() const noexcept { return value_->is_null(); }
   /// A finite number.
   double number() const;

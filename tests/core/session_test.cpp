@@ -25,8 +25,9 @@ std::string describe(const Scene& scene) {
     const RigidTransform& pose = part->worldFromPart;
     text += part->name + " " + std::to_string(static_cast<unsigned>(part->id)) + " " +
             std::to_string(pose.translation.x) + " " + std::to_string(pose.rotation.w) + " " +
-            std::to_string(part->colour.r) + (part->isVisible ? " visible" : "") +
-            (part->isLocked ? " locked" : "") + (scene.movingPart() == part->id ? " moving" : "") + "\n";
+            std::to_string(part->colour.r) + " " + std::to_string(part->density) +
+            (part->isVisible ? " visible" : "") + (part->isLocked ? " locked" : "") +
+            (scene.movingPart() == part->id ? " moving" : "") + "\n";
   }
   return text + std::to_string(scene.haptics().springs.cutoff);
 }
@@ -44,6 +45,8 @@ TEST(Session, EveryCommandIsOneStepOfUndo) {
   session.movePart(peg, kAside);
   step();
   session.setColour(peg, {1, 0, 0});
+  step();
+  session.setDensity(peg, 7850.0);
   step();
   session.setMovingPart(peg);
   step();
@@ -87,6 +90,7 @@ TEST(Session, SettingTheSameValueIsNoStep) {
   session.renamePart(peg, "Peg");
   session.movePart(peg, kAside);
   session.setColour(peg, part.colour);
+  session.setDensity(peg, part.density);
   session.setVisible(peg, true);
   session.setLocked(peg, false);
   session.setMovingPart(std::nullopt);
@@ -108,6 +112,8 @@ TEST(Session, RefusedCommandChangesNothingAndKeepsRedo) {
   EXPECT_THROW(session.renamePart(peg, "Pin"), UsageError);
   EXPECT_THROW(session.deletePart(peg), UsageError);
   EXPECT_THROW(session.setColour(peg, {}), UsageError);
+  EXPECT_THROW(session.setDensity(peg, 500.0), UsageError);
+  EXPECT_THROW(session.setDensity(hole, 0.0), UsageError);
   EXPECT_THROW(session.setMovingPart(peg), UsageError);
   EXPECT_THROW(session.renamePart(hole, "Peg"), UsageError);
   EXPECT_THROW(session.renamePart(hole, ""), UsageError);

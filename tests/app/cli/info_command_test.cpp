@@ -62,6 +62,31 @@ TEST_F(InfoCommand, TextSaysTheSame) {
                     HasSubstr("by volume integrals: volume 1 m^3")));
 }
 
+TEST_F(InfoCommand, DensityGivesMassAndInertiaAboutTheCentre) {
+  // Of 20 x 30 x 40 mm in steel: 24 cm^3, and m (b^2 + c^2) / 12 about each axis.
+  const std::string file = write("box.obj", boxMesh({20, 30, 40}, {100, 0, 0}));
+  const ProcessResult result = runCli({"info", "--json", "--unit", "mm", "--density", "7850", file});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const Json mass = Json::parse(result.out)["mass"];
+  constexpr double kMass = 7850 * 24e-6;
+  EXPECT_EQ(mass["density"], 7850.0);
+  EXPECT_NEAR(mass["mass"].get<double>(), kMass, 1e-12);
+  const std::vector<double> expected{kMass / 12 * (9e-4 + 16e-4), kMass / 12 * (4e-4 + 16e-4),
+                                     kMass / 12 * (4e-4 + 9e-4)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j)
+      EXPECT_NEAR(mass["inertia"][i][j].get<double>(), i == j ? expected[i] : 0.0, 1e-15);
+  }
+  EXPECT_FALSE(Json::parse(runCli({"info", "--json", file}).out)["mass"].contains("mass"));
+  EXPECT_THAT(runCli({"info", "--unit", "mm", "--density", "1000", file}).out,
+              AllOf(HasSubstr("weighs      0.024 kg at 1000 kg/m^3\n"), HasSubstr("inertia     (5e-06, ")));
+  for (const char* density : {"0", "-1", "nan", "1e9", "steel"}) {
+    const ProcessResult refused = runCli({"info", "--density=" + std::string(density), file});
+    EXPECT_EQ(refused.exitCode, 2) << density;
+    EXPECT_THAT(refused.err, HasSubstr("density"));
+  }
+}
+
 TEST_F(InfoCommand, OpenMeshSaysItsEdgesAndItsMassBasis) {
   // A square of two triangles: four open edges and the diagonal.
   const ProcessResult result = runCli({"info", "--json", write("square.obj", squareMesh(1, 1))});

@@ -23,18 +23,25 @@
 namespace nearfit::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
+
+std::vector<std::string> cellsOf(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream text(line);
+  for (std::string cell; std::getline(text, cell, ',');)
+    cells.push_back(cell);
+  return cells;
+}
 
 /// A recording by columns.
 class Record {
  public:
   explicit Record(const std::filesystem::path& file) {
     const std::vector<std::string> lines = linesOf(readBytes(file));
-    std::istringstream names(lines.at(0));
-    header_ = lines[0];
-    for (std::string name; std::getline(names, name, ',');)
-      names_.push_back(name);
+    header_ = lines.at(0);
+    names_ = cellsOf(header_);
     for (std::size_t i = 1; i < lines.size(); ++i)
       addRow(lines[i]);
   }
@@ -44,12 +51,10 @@ class Record {
 
  private:
   void addRow(const std::string& line) {
-    std::istringstream cells(line);
-    for (const std::string& name : names_) {
-      std::string cell;
-      if (!std::getline(cells, cell, ',')) throw std::runtime_error("a row is short: " + line);
-      columns_[name].push_back(std::stod(cell));
-    }
+    const std::vector<std::string> cells = cellsOf(line);
+    if (cells.size() != names_.size()) throw std::runtime_error("a row is short or long: " + line);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      columns_[names_[i]].push_back(std::stod(cells[i]));
     ++rows_;
   }
 
@@ -69,10 +74,10 @@ class PlaceCommand : public ::testing::Test {
     folder_.write("cone.obj", objText(transformed(coneMesh(0.2, 1.0, 12), 1.0, upsideDown)));
     folder_.write("floor.obj", objText(boxMesh({2.0, 2.0, 1.0}, {0.0, 0.0, -0.5})));
     options_.workingFolder = folder_.path();
-    const ProcessResult made =
-        runCli({"scene", "new", "fit.nearfit", "--part", "Floor=floor.obj", "--part",
-                "Cone=cone.obj@0.3,0.1,0.5,1,0,0,0", "--cutoff", "0.1", "--stiffness", "50"},
-               options_);
+    const ProcessResult made = runCli(
+        {"scene", "new", "fit.nearfit", "--part", "Floor=floor.obj", "--part",
+         "Cone=cone.obj@0.3,0.1,0.5,1,0,0,0", "--cutoff", "0.1", "--stiffness", "50", "--mode", "spring"},
+        options_);
     EXPECT_EQ(made.exitCode, 0) << made.err;
     folder_.write("path.csv", pathText(kTicks));
   }
@@ -147,10 +152,12 @@ TEST_F(PlaceCommand, FastGivesTheSameEachTimeButForTheTimesTaken) {
   ASSERT_EQ(placeCone({"--fast", "--record", "b.csv"}).exitCode, 0);
   const auto withoutTimes = [&](const std::string& name) {
     std::string text;
-    for (std::string line : linesOf(readBytes(file(name)))) {
-      const std::size_t late = line.rfind(','), tick = line.rfind(',', late - 1);
-      line.erase(line.rfind(',', tick - 1), late - line.rfind(',', tick - 1));
-      text += line + "\n";
+    const std::vector<std::string> lines = linesOf(readBytes(file(name)));
+    const std::vector<std::string> names = cellsOf(lines.at(0));
+    for (const std::string& line : lines) {
+      const std::vector<std::string> cells = cellsOf(line);
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        text += names.at(i).ends_with("_us") ? "" : cells[i] + ",";
     }
     return text;
   };
@@ -179,6 +186,64 @@ TEST_F(PlaceCommand, TheSummaryHoldsPeaksAndLeastDistance) {
   EXPECT_NEAR(json["peak_force"].get<double>(), 50.0 * (0.1 - heightAt(kTicks - 1)), 1e-9);
   EXPECT_GT(json["query_us"]["p50"], 0.0);
   EXPECT_GE(json["tick_us"]["max"], json["tick_us"]["p99.9"]);
+}
+
+TEST_F(PlaceCommand, OptionsOfTheFeelCountForThisRunAlone) {
+  const std::string before = readBytes(file("fit.nearfit"));
+  const auto peakWith = [&](std::vector<std::string> options) {
+    options.insert(options.end(), {"--fast", "--json"});
+    const ProcessResult result = placeCone(options);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    return std::pair(json["mode"].get<std::string>(), json["peak_force"].get<double>());
+  };
+  const double deepest = heightAt(kTicks - 1), felt = 0.1 - deepest;
+  const auto [mode, peak] = peakWith({"--stiffness", "20"});
+  EXPECT_EQ(mode, "spring");
+  EXPECT_NEAR(peak, 20.0 * felt, 1e-9);
+  // As printed, the force is most where height and compression are equal, at half the cutoff.
+  const auto [printedMode, printedPeak] = peakWith({"--mode", "printed", "--stiffness", "1000"});
+  EXPECT_EQ(printedMode, "printed");
+  EXPECT_NEAR(printedPeak, 1000.0 * 0.05 * 0.05, 1e-3);
+  EXPECT_NEAR(peakWith({}).second, 50.0 * felt, 1e-9);
+  EXPECT_EQ(readBytes(file("fit.nearfit")), before);
+}
+
+TEST_F(PlaceCommand, OptionsOfTheFeelThatMakeNoSenseAreRefused) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"--mode", "soft"}, "--mode"},
+      {{"--margin", "0.2"}, "--margin: 0.2 m is more than the cutoff, 0.1 m"},
+      {{"--scale", "1e4"}, "--scale: 10000 is out of range"},
+      {{"--lock", "up"}, "--lock: \"up\" is no list of axes"},
+  };
+  for (const auto& [options, problem] : wrong) {
+    std::vector<std::string> arguments = options;
+    arguments.insert(arguments.end(), {"--fast", "--record", "out.csv"});
+    const ProcessResult result = placeCone(arguments);
+    EXPECT_EQ(result.exitCode, 2) << problem;
+    EXPECT_EQ(linesOf(result.err).size(), 1U) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(problem));
+    EXPECT_FALSE(std::filesystem::exists(file("out.csv")));
+  }
+}
+
+TEST_F(PlaceCommand, TheSummaryTellsTheModeAndItsNumbers) {
+  EXPECT_THAT(placeCone({"--fast"}).out,
+              AllOf(HasSubstr("mode        spring, 50 N/m and 0 N s/m within 0.1 m\n"),
+                    HasSubstr("J given to the hand at most\n"), Not(HasSubstr("coupling"))));
+  EXPECT_THAT(placeCone({"--fast", "--mode", "printed"}).out, HasSubstr("printed, 50 N/m^2 and"));
+  EXPECT_THAT(
+      placeCone({"--fast", "--mode", "proxy", "--margin", "0.002", "--friction", "0.25"}).out,
+      AllOf(HasSubstr("mode        proxy, margin 0.002 m, friction 0.25\n"), HasSubstr("\ncoupling    "),
+            HasSubstr(" in a tick at most, "), HasSubstr("\nproxy       p50 ")));
+  const auto springs = nlohmann::json::parse(placeCone({"--fast", "--json"}).out);
+  EXPECT_TRUE(springs["proxy"].is_null());
+  EXPECT_TRUE(springs["max_energy_to_hand"].is_number());
+  const auto proxy = nlohmann::json::parse(placeCone({"--fast", "--json", "--mode", "proxy"}).out)["proxy"];
+  for (const char* key :
+       {"coupling", "max_sub_steps", "shortened_steps", "refused_steps", "released_ticks", "proxy_us"}) {
+    EXPECT_TRUE(proxy.contains(key)) << key;
+  }
 }
 
 TEST_F(PlaceCommand, TheExportHasThePartWhereThePathEnds) {
@@ -239,7 +304,8 @@ TEST_F(PlaceCommand, NoInputIsOverwritten) {
 TEST_F(PlaceCommand, HelpTellsTheOptions) {
   const ProcessResult help = runCli({"place", "--help"});
   EXPECT_EQ(help.exitCode, 0);
-  for (const char* const option : {"--part", "--path", "--fast", "--record", "--export"}) {
+  for (const char* const option :
+       {"--part", "--path", "--fast", "--record", "--export", "--mode", "--margin", "--lock"}) {
     EXPECT_THAT(help.out, HasSubstr(option));
   }
 }
@@ -301,7 +367,7 @@ TEST_F(PlaceCommand, ARoundPegGoesDownItsHoleWithTheGapItWasMadeWith) {
     peg = folder_.write("peg.obj", objText(transformed(cylinderMesh(8e-3, 0.05, 64), 1.0, pegUp))).string();
   }
   ASSERT_EQ(runCli({"scene", "new", "fit.nearfit", "--part", "Hole=" + hole, "--part",
-                    "Peg=" + peg + "@0,0,0.02,1,0,0,0", "--cutoff", "0.001"},
+                    "Peg=" + peg + "@0,0,0.02,1,0,0,0", "--cutoff", "0.001", "--mode", "spring"},
                    options_)
                 .exitCode,
             0);

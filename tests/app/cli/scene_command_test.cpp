@@ -37,7 +37,7 @@ TEST_F(SceneNewCommand, SceneHasThePartsPosesAndSettingsThatWereAsked) {
   const ProcessResult result =
       run({"fit.nearfit", "--part", "Hole=meshes/hole.obj", "--part",
            "Peg=meshes/peg@2.obj@0.01,-0.02,3e-2,0.5,0.5,0.5,-0.5", "--moving", "Peg", "--cutoff", "0.005",
-           "--unit", "mm", "--stiffness", "350", "--damping", "1.5", "--law", "printed"});
+           "--unit", "mm", "--stiffness", "350", "--damping", "1.5", "--mode", "printed"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_THAT(result.out, HasSubstr("fit.nearfit"));
@@ -57,6 +57,81 @@ TEST_F(SceneNewCommand, SceneHasThePartsPosesAndSettingsThatWereAsked) {
   EXPECT_EQ(made.haptics().springs.stiffness, 350.0);
   EXPECT_EQ(made.haptics().springs.damping, 1.5);
   EXPECT_EQ(made.haptics().springs.law, SpringLaw::Printed);
+  EXPECT_EQ(made.haptics().mode, HapticMode::Springs);
+}
+
+TEST_F(SceneNewCommand, WithoutOptionsTheFeelIsThatOfANewSceneAndTheMarginSuitsTheCutoff) {
+  ASSERT_EQ(run({"fit.nearfit", "--part", "Hole=meshes/hole.obj"}).exitCode, 0);
+  EXPECT_TRUE(scene().haptics() == HapticSettings{});
+  EXPECT_EQ(scene().haptics().mode, HapticMode::Proxy);
+  ASSERT_EQ(run({"fit.nearfit", "--part", "Hole=meshes/hole.obj", "--cutoff", "0.005"}).exitCode, 0);
+  EXPECT_DOUBLE_EQ(scene().haptics().proxy.margin, 5e-5);
+  ASSERT_EQ(run({"fit.nearfit", "--part", "Hole=meshes/hole.obj", "--cutoff", "0.005", "--margin", "1e-3"})
+                .exitCode,
+            0);
+  EXPECT_EQ(scene().haptics().proxy.margin, 1e-3);
+}
+
+TEST_F(SceneNewCommand, EveryOptionOfTheFeelArrives) {
+  const ProcessResult result = run({"fit.nearfit",
+                                    "--part",
+                                    "Hole=meshes/hole.obj",
+                                    "--mode",
+                                    "spring",
+                                    "--cutoff",
+                                    "0.02",
+                                    "--stiffness",
+                                    "300",
+                                    "--damping",
+                                    "2",
+                                    "--margin",
+                                    "3e-4",
+                                    "--friction",
+                                    "0.4",
+                                    "--coupling-stiffness",
+                                    "1500",
+                                    "--coupling-damping",
+                                    "0.6",
+                                    "--rotational-stiffness",
+                                    "2.5",
+                                    "--rotational-damping",
+                                    "0.01",
+                                    "--weight",
+                                    "--inertia",
+                                    "--gravity",
+                                    "-1,0,9.5",
+                                    "--scale",
+                                    "20",
+                                    "--orientation",
+                                    "0.5,-0.5,0.5,0.5",
+                                    "--lock",
+                                    "tz,rx,ry"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  HapticSettings expected;
+  expected.mode = HapticMode::Springs;
+  expected.springs = {0.02, 300.0, 2.0, SpringLaw::Linear};
+  expected.proxy = {3e-4, 0.4};
+  expected.coupling = {false, 1500.0, 0.6, 2.5, 0.01};
+  expected.weight = {true, true, {-1.0, 0.0, 9.5}};
+  expected.mapping = {20.0, {0.5, -0.5, 0.5, 0.5}, {false, false, true}, {true, true, false}};
+  EXPECT_TRUE(scene().haptics() == expected);
+}
+
+TEST_F(SceneNewCommand, AnyNumberForTheCouplingTurnsItsAutomaticChoiceOff) {
+  for (const char* option :
+       {"--coupling-stiffness", "--coupling-damping", "--rotational-stiffness", "--rotational-damping"}) {
+    ASSERT_EQ(run({"fit.nearfit", "--part", "Hole=meshes/hole.obj", option, "0.5"}).exitCode, 0);
+    EXPECT_FALSE(scene().haptics().coupling.isAutomatic) << option;
+  }
+}
+
+TEST_F(SceneNewCommand, DensitiesGoToTheirParts) {
+  const ProcessResult result = run({"fit.nearfit", "--part", "Hole=meshes/hole.obj", "--part",
+                                    "Peg=meshes/peg@2.obj", "--density", "Peg=7850", "--unit", "mm"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(scene().findByName("Hole")->density, 1000.0);
+  EXPECT_EQ(scene().findByName("Peg")->density, 7850.0);
+  EXPECT_NEAR(massOf(*scene().findByName("Peg")), 7850.0 * 1e-6, 1e-15);
 }
 
 TEST_F(SceneNewCommand, MeshPathsAreRelativeToTheSceneFile) {
@@ -98,7 +173,26 @@ TEST_F(SceneNewCommand, WrongUsageIsToldInOneLineAndWritesNothing) {
       {{"fit.nearfit", "--part", hole + "@0,0,1"}, "\"0,0,1\" is no pose"},
       {{"fit.nearfit", "--part", hole + "@0,0,1,1,1,0,0"}, "quaternion"},
       {{"fit.nearfit", "--part", hole + "@0,0,1e10,1,0,0,0"}, "position"},
-      {{"fit.nearfit", "--part", hole, "--cutoff", "0"}, "cutoff"},
+      {{"fit.nearfit", "--part", hole, "--cutoff", "0"}, "--cutoff: 0 m is out of range"},
+      {{"fit.nearfit", "--part", hole, "--mode", "soft"}, "--mode"},
+      {{"fit.nearfit", "--part", hole, "--margin", "0.02"}, "--margin: 0.02 m is more than the cutoff"},
+      {{"fit.nearfit", "--part", hole, "--margin", "nan"}, "--margin"},
+      {{"fit.nearfit", "--part", hole, "--friction", "2.5"}, "--friction: 2.5 is out of range"},
+      {{"fit.nearfit", "--part", hole, "--coupling-stiffness", "-1"}, "--coupling-stiffness"},
+      {{"fit.nearfit", "--part", hole, "--coupling-damping", "1e5"}, "--coupling-damping"},
+      {{"fit.nearfit", "--part", hole, "--rotational-stiffness", "inf"}, "--rotational-stiffness"},
+      {{"fit.nearfit", "--part", hole, "--rotational-damping", "-0.1"}, "--rotational-damping"},
+      {{"fit.nearfit", "--part", hole, "--gravity", "0,0"}, "--gravity: \"0,0\" is not what it takes"},
+      {{"fit.nearfit", "--part", hole, "--gravity", "0,0,2000"}, "--gravity: 2000 m/s^2 is out of range"},
+      {{"fit.nearfit", "--part", hole, "--scale", "0"}, "--scale"},
+      {{"fit.nearfit", "--part", hole, "--orientation", "1,1,0,0"}, "--orientation: its length is 1.4"},
+      {{"fit.nearfit", "--part", hole, "--lock", "tx,tw"}, "--lock: \"tx,tw\" is no list of axes"},
+      {{"fit.nearfit", "--part", hole, "--lock", "tx,"}, "--lock"},
+      {{"fit.nearfit", "--part", hole, "--lock", ""}, "--lock"},
+      {{"fit.nearfit", "--part", hole, "--density", "7850"}, "NAME=VALUE"},
+      {{"fit.nearfit", "--part", hole, "--density", "Peg=7850"}, "there is no part \"Peg\""},
+      {{"fit.nearfit", "--part", hole, "--density", "Hole=heavy"}, "--density: \"heavy\""},
+      {{"fit.nearfit", "--part", hole, "--density", "Hole=0"}, "density: 0 kg/m^3 is out of range"},
       {{"fit.nearfit", "--part", hole, "--cutoff", "1e9"}, "cutoff"},
       {{"fit.nearfit", "--part", hole, "--stiffness", "-3"}, "stiffness"},
       {{"fit.nearfit", "--part", hole, "--unit", "0"}, "unit"},

@@ -2,8 +2,11 @@
 
 #include "core/error.h"
 #include "core/haptics/servo_tick.h"
+#include "core/math/symmetric_eigen.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/mesh_text.h"
 #include "tests/support/part_geometries.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nearfit {
 namespace {
@@ -37,6 +40,34 @@ TEST_F(ServoSceneOfThree, HoldsTheMovingPartAndAllOthersWhereTheyAre) {
   EXPECT_EQ(servo->bodies[0].id, first_);
   EXPECT_EQ(servo->bodies[1].id, third_);
   EXPECT_EQ(servo->bodies[1].worldFromPart.translation.x, 3.0);
+}
+
+TEST_F(ServoSceneOfThree, MassAndInertiaAreTheMovingPartsOfItsDensity) {
+  // A box of 1 x 2 x 3 m: its inertia about x is m (2^2 + 3^2) / 12, and so on.
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("box.obj", test::objText(test::boxMesh({1.0, 2.0, 3.0}, {5.0, 0.0, 0.0})));
+  Part part = test::partOf(loadPartGeometry(file, 1.0), "Box");
+  part.density = 200.0;
+  scene_.setMovingPart(scene_.add(part));
+  const auto servo = makeServoScene(scene_);
+  constexpr double kMass = 1200.0;
+  EXPECT_NEAR(servo->mass, kMass, 1e-9);
+  const glm::dvec3 expected = kMass / 12.0 * glm::dvec3(4.0 + 9.0, 1.0 + 9.0, 1.0 + 4.0);
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row)
+      EXPECT_NEAR(servo->inertia[column][row], column == row ? expected[row] : 0.0, 1e-8);
+  }
+  EXPECT_NEAR(servo->centreInPart.x, 5.0, 1e-12);
+}
+
+TEST_F(ServoSceneOfThree, ASheetHasAMassAndAnInertiaThatCanBeInverted) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("sheet.obj", test::objText(test::squareMesh(1, 1)));
+  scene_.setMovingPart(scene_.add(test::partOf(loadPartGeometry(file, 0.01), "Sheet")));
+  const auto servo = makeServoScene(scene_);
+  EXPECT_GT(servo->mass, 0.0);
+  const SymmetricEigen eigen = symmetricEigen(servo->inertia);
+  EXPECT_GT(eigen.values[0], 1e-6 * eigen.values[2]);
 }
 
 TEST_F(ServoSceneOfThree, HiddenPartsAreNotFelt) {

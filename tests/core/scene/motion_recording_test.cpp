@@ -36,22 +36,35 @@ MotionRow sampleRow() {
   row.queryTime = 12.3456e-6;
   row.tickTime = 20e-6;
   row.lateBodies = 3;
+  row.energyToHand = -2.5e-4;
+  row.subSteps = 4;
+  row.shortenedSteps = 5;
+  row.refusedSteps = 6;
+  row.constraints = 7;
+  row.contacts = 8;
+  row.released = 9;
+  row.proxyTime = 1.2341e-6;
+  row.isClamped = true;
+  row.fault = ServoFault::WrenchNotFinite;
   return row;
 }
 
 TEST(MotionRecording, TheHeaderNamesTheColumnsInOrder) {
   const std::vector<std::string> expected{
-      "t_s",       "handle_tx", "handle_ty", "handle_tz", "handle_qw",  "handle_qx", "handle_qy",
-      "handle_qz", "proxy_tx",  "proxy_ty",  "proxy_tz",  "proxy_qw",   "proxy_qx",  "proxy_qy",
-      "proxy_qz",  "force_x",   "force_y",   "force_z",   "torque_x",   "torque_y",  "torque_z",
-      "lmds",      "distance",  "query_us",  "tick_us",   "late_bodies"};
+      "t_s",         "handle_tx",   "handle_ty", "handle_tz", "handle_qw", "handle_qx",
+      "handle_qy",   "handle_qz",   "proxy_tx",  "proxy_ty",  "proxy_tz",  "proxy_qw",
+      "proxy_qx",    "proxy_qy",    "proxy_qz",  "force_x",   "force_y",   "force_z",
+      "torque_x",    "torque_y",    "torque_z",  "lmds",      "distance",  "query_us",
+      "tick_us",     "late_bodies", "energy",    "sub_steps", "shortened", "refused",
+      "constraints", "contacts",    "released",  "proxy_us",  "clamped",   "fault"};
   EXPECT_EQ(split(std::string(motionHeader()), ','), expected);
 }
 
 TEST(MotionRecording, ARowHasItsValuesUnderTheirColumns) {
   const std::vector<std::string> columns = split(formatMotionRow(sampleRow()), ',');
-  const std::vector<double> expected{0.001, 1,   2,  3,  0.1, 0.2, 0.3, 0.4, 4,  5,         6,      0.5, 0.6,
-                                     0.7,   0.8, -1, -2, -3,  -4,  -5,  -6,  17, 1.0 / 3.0, 12.346, 20,  3};
+  const std::vector<double> expected{
+      0.001, 1,  2,  3,  0.1,       0.2,    0.3, 0.4, 4,       5, 6, 0.5, 0.6, 0.7, 0.8, -1,    -2, -3,
+      -4,    -5, -6, 17, 1.0 / 3.0, 12.346, 20,  3,   -2.5e-4, 4, 5, 6,   7,   8,   9,   1.234, 1,  2};
   ASSERT_EQ(columns.size(), expected.size());
   for (std::size_t i = 0; i < columns.size(); ++i)
     EXPECT_EQ(std::stod(columns[i]), expected[i]) << i;
@@ -76,6 +89,15 @@ TEST(MotionRecording, ARowIsTakenFromASnapshot) {
   snapshot->queryTime = 6.5;
   snapshot->tickTime = 7.5;
   snapshot->isClamped = true;
+  snapshot->energyToHand = 8.5;
+  snapshot->proxyTime = 9.5;
+  snapshot->subSteps = 11;
+  snapshot->shortenedSteps = 12;
+  snapshot->refusedSteps = 13;
+  snapshot->constraintCount = 14;
+  snapshot->contactCount = 15;
+  snapshot->storedContacts = 1;
+  snapshot->releasedCount = 16;
   snapshot->fault = ServoFault::WrenchNotFinite;
   const MotionRow row = motionRow(*snapshot);
   EXPECT_EQ(row.time, 1.5);
@@ -89,6 +111,14 @@ TEST(MotionRecording, ARowIsTakenFromASnapshot) {
   EXPECT_TRUE(row.isClamped);
   EXPECT_FALSE(row.isTruncated);
   EXPECT_EQ(row.fault, ServoFault::WrenchNotFinite);
+  EXPECT_EQ(row.energyToHand, 8.5);
+  EXPECT_EQ(row.proxyTime, 9.5);
+  EXPECT_EQ(row.subSteps, 11U);
+  EXPECT_EQ(row.shortenedSteps, 12U);
+  EXPECT_EQ(row.refusedSteps, 13U);
+  EXPECT_EQ(row.constraints, 14U);
+  EXPECT_EQ(row.contacts, 15U);
+  EXPECT_EQ(row.released, 16U);
 }
 
 TEST(MotionWriter, TheFileAppearsWholeWhenFinished) {

@@ -22,8 +22,11 @@ TEST_F(SceneFileFaults, MissingFileIsToldByName) {
 }
 
 TEST_F(SceneFileFaults, UnknownVersionSaysWhichOneThisProgramReads) {
-  EXPECT_THAT(errorWith("/nearfit", 2), AllOf(HasSubstr("fit.nearfit: nearfit: "), HasSubstr("version 2"),
-                                              HasSubstr("reads version 1"), HasSubstr("newer Nearfit")));
+  EXPECT_THAT(errorWith("/nearfit", 3),
+              AllOf(HasSubstr("fit.nearfit: nearfit: "), HasSubstr("version 3"),
+                    HasSubstr("reads versions 1 to 2"), HasSubstr("newer Nearfit")));
+  EXPECT_THAT(errorWith("/nearfit", 0), HasSubstr("with the Nearfit that made it"));
+  EXPECT_THAT(errorWith("/nearfit", 1.5), HasSubstr("this is version 1.5"));
   EXPECT_THAT(errorWith("/nearfit", "1"), HasSubstr("nearfit: it is of type string"));
   EXPECT_THAT(errorOf(R"({"asset": {"version": "2.0"}})"), HasSubstr("no Nearfit scene"));
   EXPECT_THAT(errorOf("[]"), HasSubstr("it is of type array where an object is wanted"));
@@ -61,11 +64,34 @@ TEST_F(SceneFileFaults, EveryFieldIsCheckedAndNamed) {
   const std::vector<std::tuple<std::string, Json, std::string>> faults = {
       {"/units", 1, "units: it is of type number"},
       {"/units/length", "mm", "units.length: this unit is not known; give values in m"},
-      {"/springs/cutoff", 0, "springs.cutoff: 0 m is out of range"},
-      {"/springs/cutoff", "1", "springs.cutoff: it is of type string"},
-      {"/springs/stiffness", -1, "springs.stiffness: -1 N/m is out of range"},
-      {"/springs/damping", 1e300, "springs.damping: 1e+300 N s/m is out of range"},
-      {"/springs/law", "cubic", "springs.law: this law is not known"},
+      {"/haptics", nullptr, "haptics: it is of type null where an object is wanted"},
+      {"/haptics/mode", "soft", "haptics.mode: this word is not known; say \"proxy\" or \"springs\""},
+      {"/haptics/springs", 1, "haptics.springs: it is of type number"},
+      {"/haptics/springs/cutoff", 0, "haptics.springs.cutoff: 0 m is out of range"},
+      {"/haptics/springs/cutoff", "1", "haptics.springs.cutoff: it is of type string"},
+      {"/haptics/springs/stiffness", -1, "haptics.springs.stiffness: -1 N/m^2 is out of range"},
+      {"/haptics/springs/damping", 1e300, "haptics.springs.damping: 1e+300 N s/m is out of range"},
+      {"/haptics/springs/law", "cubic", "haptics.springs.law: this word is not known; say \"linear\""},
+      {"/haptics/proxy/margin", 0,
+       "haptics.proxy.margin: 0 m is out of range; give a value from 1e-09 to 1 m"},
+      {"/haptics/proxy/margin", 0.5, "haptics.proxy.margin: 0.5 m is more than the cutoff"},
+      {"/haptics/proxy/friction", -0.1, "haptics.proxy.friction: -0.1 is out of range"},
+      {"/haptics/coupling/automatic", 1, "haptics.coupling.automatic: it is of type number"},
+      {"/haptics/coupling/stiffness", 1e7, "haptics.coupling.stiffness: 10000000 N/m is out of range"},
+      {"/haptics/coupling/damping", -1, "haptics.coupling.damping: -1 N s/m is out of range"},
+      {"/haptics/coupling/rotationalStiffness", -1,
+       "haptics.coupling.rotationalStiffness: -1 N m/rad is out"},
+      {"/haptics/coupling/rotationalDamping", "", "haptics.coupling.rotationalDamping: it is of type string"},
+      {"/haptics/weight/weight", 0, "haptics.weight.weight: it is of type number where true or false"},
+      {"/haptics/weight/inertia", nullptr, "haptics.weight.inertia: it is of type null"},
+      {"/haptics/weight/gravity", {0, 1}, "haptics.weight.gravity: it has 2 elements where 3 are wanted"},
+      {"/haptics/weight/gravity", {0, 0, 2000}, "haptics.weight.gravity: 2000 m/s^2 is out of range"},
+      {"/haptics/mapping/scale", 0, "haptics.mapping.scale: 0 is out of range"},
+      {"/haptics/mapping/orientation", {1, 1, 0, 0}, "haptics.mapping.orientation: its length is 1.414"},
+      {"/haptics/mapping/translationLocks", {true}, "haptics.mapping.translationLocks: it has 1 elements"},
+      {"/haptics/mapping/rotationLocks", {true, 1, true}, "haptics.mapping.rotationLocks[1]: it is of type"},
+      {"/parts/1/density", 0, "parts[1].density: 0 kg/m^3 is out of range; give a value from 0.001 to"},
+      {"/parts/1/density", "steel", "parts[1].density: it is of type string"},
       {"/moving", 3, "moving: it is of type number"},
       {"/moving", "Pin", "moving: there is no part \"Pin\""},
       {"/moving", "Hole \xC3\xA4", "moving: this part is locked"},
@@ -84,7 +110,7 @@ TEST_F(SceneFileFaults, EveryFieldIsCheckedAndNamed) {
       {"/parts/1/sha256", "abc", "parts[1].sha256: it is no SHA-256"},
       {"/parts/1/sha256", std::string(64, 'g'), "parts[1].sha256: it is no SHA-256"},
       {"/parts/1/metresPerUnit", 0, "parts[1].metresPerUnit: 0 metres to the unit is out of range"},
-      {"/parts/1/position", {0, 0}, "parts[1].position: it has 2 numbers where 3 are wanted"},
+      {"/parts/1/position", {0, 0}, "parts[1].position: it has 2 elements where 3 are wanted"},
       {"/parts/1/position", {0, 0, "1"}, "parts[1].position[2]: it is of type string"},
       {"/parts/1/position", {0, 0, 1e10}, "parts[1].position: a coordinate is 10000000000 m"},
       {"/parts/1/quaternion", {0, 0, 0, 0}, "parts[1].quaternion: its length is 0, not 1"},
@@ -106,12 +132,36 @@ TEST_F(SceneFileFaults, EveryFieldIsCheckedAndNamed) {
 TEST_F(SceneFileFaults, EveryKeyIsNeeded) {
   for (const auto& [key, value] : json_.items())
     EXPECT_NE(errorWithout("", key), "") << key;
-  for (const auto& [key, value] : json_["springs"].items()) {
-    EXPECT_THAT(errorWithout("/springs", key), HasSubstr("springs." + key + ": it is missing"));
+  for (const auto& [section, values] : json_["haptics"].items()) {
+    EXPECT_THAT(errorWithout("/haptics", section), HasSubstr("haptics." + section + ": it is missing"));
+    if (!values.is_object()) continue;
+    for (const auto& [key, value] : values.items()) {
+      EXPECT_THAT(errorWithout("/haptics/" + section, key),
+                  HasSubstr("haptics." + section + "." + key + ": it is missing"));
+    }
   }
   for (const auto& [key, value] : json_["parts"][2].items()) {
     EXPECT_THAT(errorWithout("/parts/2", key), HasSubstr("parts[2]." + key + ": it is missing"));
   }
+}
+
+TEST_F(SceneFileFaults, Version1IsCheckedAndNamedAsItSaysThings) {
+  json_ = version1();
+  EXPECT_THAT(errorWith("/springs/cutoff", 0), HasSubstr("fit.nearfit: springs.cutoff: 0 m is out of range"));
+  EXPECT_THAT(errorWith("/springs/law", "cubic"), HasSubstr("springs.law: this word is not known"));
+  EXPECT_THAT(errorWith("/springs/damping", nullptr), HasSubstr("springs.damping: it is of type null"));
+  for (const auto& [key, value] : json_["springs"].items())
+    EXPECT_THAT(errorWithout("/springs", key), HasSubstr("springs." + key + ": it is missing"));
+  EXPECT_THAT(errorWithout("", "springs"), HasSubstr("springs: it is missing"));
+  // What a version does not know is ignored in it.
+  EXPECT_EQ(errorWith("/haptics", "none"), "");
+  EXPECT_EQ(errorWith("/parts/0/density", -1), "");
+}
+
+TEST_F(SceneFileFaults, Version2WithTheSpringsOfVersion1SaysWhatIsMissing) {
+  json_ = version1();
+  json_["nearfit"] = 2;
+  EXPECT_THAT(errorOf(json_.dump()), HasSubstr("haptics: it is missing"));
 }
 
 TEST_F(SceneFileFaults, TooBigAFileIsRefused) {
@@ -147,7 +197,8 @@ TEST_F(SceneFileFaults, FlippedBytesGiveAnErrorOrAScene) {
 
 TEST_F(SceneFileFaults, HostileValuesInAnyPlaceGiveAnErrorOrAScene) {
   const Json flat = json_.flatten();
-  std::vector<std::string> places{"", "/parts", "/parts/1", "/units", "/springs", "/parts/1/position"};
+  std::vector<std::string> places{
+      "", "/parts", "/parts/1", "/units", "/haptics", "/haptics/coupling", "/parts/1/position"};
   for (const auto& [pointer, value] : flat.items())
     places.push_back(pointer);
   const std::vector<Json> hostile = {nullptr,
@@ -166,6 +217,8 @@ TEST_F(SceneFileFaults, HostileValuesInAnyPlaceGiveAnErrorOrAScene) {
                                      Json::array(),
                                      Json::object(),
                                      Json::array({Json::array()}),
+                                     Json::array({true, true, true}),
+                                     Json::array({1e308, 1e308, 1e308}),
                                      {{"nearfit", 1}}};
   for (const std::string& place : places) {
     for (const Json& value : hostile)

@@ -29,15 +29,37 @@ class SceneFileFixture : public ::testing::Test {
     part.name = "Peg";
     part.isLocked = false;
     part.colour = {0.1F, 0.2F, 0.3F};
+    part.density = 7850.1;
     part.worldFromPart = {{0.5, -0.5, 0.5, 0.5}, {0.1, -1e-17, 123456.789012345}};
     scene_.setMovingPart(scene_.add(part));
     part.isVisible = false;
     scene_.add(part);
-    HapticSettings haptics;
-    haptics.springs = {0.1 + 0.2, 1e6 / 3, 0.7, SpringLaw::Linear};
-    scene_.setHaptics(haptics);
+    scene_.setHaptics(unusualHaptics());
     writeSceneFile(scene_, file_);
     json_ = nlohmann::json::parse(readBytes(file_));
+  }
+
+  /// No value is the default.
+  static HapticSettings unusualHaptics() {
+    HapticSettings haptics;
+    haptics.mode = HapticMode::Springs;
+    haptics.springs = {0.1 + 0.2, 1e6 / 3, 0.7, SpringLaw::Printed};
+    haptics.proxy = {1e-3 / 3, 0.35};
+    haptics.coupling = {false, 1e3 / 7, 0.1, 0.1 + 0.7, 1e-3 / 3};
+    haptics.weight = {true, true, {0.1, -9.7, 1e-17}};
+    haptics.mapping = {12.5, {0.5, -0.5, 0.5, 0.5}, {true, false, true}, {false, true, false}};
+    return haptics;
+  }
+
+  /// The scene as version 1 of the format says it.
+  nlohmann::json version1() const {
+    nlohmann::json json = json_;
+    json["nearfit"] = 1;
+    json["springs"] = json["haptics"]["springs"];
+    json.erase("haptics");
+    for (nlohmann::json& part : json["parts"])
+      part.erase("density");
+    return json;
   }
 
   /// What reading the file gives when it holds this; "" when it is a scene.

@@ -22,6 +22,7 @@ void expectSameScene(const Scene& a, const Scene& b) {
     EXPECT_EQ(p.worldFromPart.rotation, q.worldFromPart.rotation);
     EXPECT_EQ(p.worldFromPart.translation, q.worldFromPart.translation);
     EXPECT_EQ(p.colour, q.colour);
+    EXPECT_EQ(p.density, q.density);
     EXPECT_EQ(p.isVisible, q.isVisible);
     EXPECT_EQ(p.isLocked, q.isLocked);
     EXPECT_EQ(p.geometry->file, q.geometry->file);
@@ -29,10 +30,7 @@ void expectSameScene(const Scene& a, const Scene& b) {
     EXPECT_EQ(p.geometry->metresPerUnit, q.geometry->metresPerUnit);
     EXPECT_EQ(a.movingPart() == p.id, b.movingPart() == q.id);
   }
-  EXPECT_EQ(a.haptics().springs.cutoff, b.haptics().springs.cutoff);
-  EXPECT_EQ(a.haptics().springs.stiffness, b.haptics().springs.stiffness);
-  EXPECT_EQ(a.haptics().springs.damping, b.haptics().springs.damping);
-  EXPECT_EQ(a.haptics().springs.law, b.haptics().springs.law);
+  EXPECT_TRUE(a.haptics() == b.haptics());
 }
 
 TEST_F(SceneFile, TenThousandPartsOfOneMeshHaveOneGeometry) {
@@ -68,7 +66,7 @@ TEST_F(SceneFile, SavingWhatWasReadGivesTheSameBytes) {
 }
 
 TEST_F(SceneFile, FileSaysVersionUnitsAndRelativePaths) {
-  EXPECT_EQ(json_["nearfit"], 1);
+  EXPECT_EQ(json_["nearfit"], 2);
   EXPECT_EQ(json_["units"]["length"], "m");
   EXPECT_EQ(json_["moving"], "Peg");
   EXPECT_EQ(json_["parts"][0]["mesh"], "meshes/hole.obj");
@@ -77,6 +75,56 @@ TEST_F(SceneFile, FileSaysVersionUnitsAndRelativePaths) {
   EXPECT_EQ(json_["parts"][1]["quaternion"], Json({0.5, -0.5, 0.5, 0.5}));
   EXPECT_EQ(json_["parts"][1]["colour"], Json({0.1, 0.2, 0.3}));
   EXPECT_EQ(json_["parts"][2]["name"], "Peg 2");
+  EXPECT_EQ(json_["parts"][0]["density"], 1000.0);
+  EXPECT_EQ(json_["parts"][1]["density"], 7850.1);
+}
+
+TEST_F(SceneFile, FileSaysEverySettingOfTheFeel) {
+  const Json expected = Json::parse(R"({
+    "mode": "springs",
+    "springs": {"cutoff": 0.30000000000000004, "stiffness": 333333.3333333333, "damping": 0.7, "law": "printed"},
+    "proxy": {"margin": 0.0003333333333333333, "friction": 0.35},
+    "coupling": {"automatic": false, "stiffness": 142.85714285714286, "damping": 0.1,
+                 "rotationalStiffness": 0.7999999999999999, "rotationalDamping": 0.0003333333333333333},
+    "weight": {"weight": true, "inertia": true, "gravity": [0.1, -9.7, 1e-17]},
+    "mapping": {"scale": 12.5, "orientation": [0.5, -0.5, 0.5, 0.5], "translationLocks": [true, false, true],
+                "rotationLocks": [false, true, false]}
+  })");
+  EXPECT_EQ(json_["haptics"], expected);
+}
+
+TEST_F(SceneFile, ProxyKeepsTheLawThatTheSpringsHaveBesideIt) {
+  // A stiffness that only the printed law allows must come back also while the springs are not in use.
+  HapticSettings haptics;
+  haptics.springs = {.cutoff = 0.01, .stiffness = 1e9, .damping = 0.0, .law = SpringLaw::Printed};
+  scene_.setHaptics(haptics);
+  writeSceneFile(scene_, file_);
+  expectSameScene(readSceneFile(file_), scene_);
+}
+
+TEST_F(SceneFile, Version1KeepsItsSpringsAndGetsTheRestOfANewScene) {
+  EXPECT_EQ(errorOf(version1().dump()), "");
+  const Scene scene = readSceneFile(file_);
+  HapticSettings expected;
+  expected.springs = scene_.haptics().springs;
+  expected.proxy.margin = 0.01 * expected.springs.cutoff;
+  EXPECT_TRUE(scene.haptics() == expected);
+  EXPECT_EQ(scene.haptics().mode, HapticMode::Proxy);
+  ASSERT_EQ(scene.parts().size(), 3U);
+  for (const Scene::PartPtr& part : scene.parts())
+    EXPECT_EQ(part->density, 1000.0);
+  EXPECT_EQ(scene.parts()[1]->worldFromPart.translation, scene_.parts()[1]->worldFromPart.translation);
+  writeSceneFile(scene, file_);
+  EXPECT_EQ(Json::parse(test::readBytes(file_))["nearfit"], 2);
+  expectSameScene(readSceneFile(file_), scene);
+}
+
+TEST_F(SceneFile, Version1OfAnyCutoffOpens) {
+  Json json = version1();
+  for (const double cutoff : {1e-7, 1e-3, 1e3}) {
+    json["springs"]["cutoff"] = cutoff;
+    EXPECT_EQ(errorOf(json.dump()), "") << cutoff;
+  }
 }
 
 TEST_F(SceneFile, RandomDoublesComeBackBitForBit) {

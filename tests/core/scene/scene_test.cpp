@@ -9,6 +9,9 @@
 
 #include "core/error.h"
 #include "core/scene/palette.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/mesh_text.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nearfit {
 namespace {
@@ -154,6 +157,34 @@ TEST(Scene, ColourOutOfRangeIsRefused) {
   EXPECT_THROW(scene.add(part), UsageError);
   part.colour.g = std::nanf("");
   EXPECT_THROW(scene.add(part), UsageError);
+}
+
+TEST(Scene, DensityOutOfItsLimitsIsRefused) {
+  Scene scene;
+  Part part = named("Peg");
+  part.id = scene.add(part);
+  EXPECT_EQ(scene.find(part.id)->density, 1000.0);
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double density : {0.0, -1.0, 9e-4, 1.1e6, infinity, std::nan("")}) {
+    part.density = density;
+    EXPECT_THROW(scene.add(part), UsageError) << density;
+    EXPECT_THROW(scene.replace(part), UsageError) << density;
+  }
+  for (const double density : {kMinDensity, 7850.0, kMaxDensity}) {
+    part.density = density;
+    scene.replace(part);
+    EXPECT_EQ(scene.find(part.id)->density, density);
+  }
+}
+
+TEST(Scene, MassIsDensityTimesTheVolumeOfTheMesh) {
+  const test::TemporaryFolder folder;
+  Part part = named("Block");
+  EXPECT_EQ(massOf(part), 0.0) << "nothing there to weigh";
+  part.geometry =
+      loadPartGeometry(folder.write("block.obj", test::objText(test::boxMesh({20, 30, 40}))), 1e-3);
+  part.density = 7850.0;
+  EXPECT_NEAR(massOf(part), 7850.0 * 0.02 * 0.03 * 0.04, 1e-12);
 }
 
 TEST(Scene, NewPartsGoThroughThePaletteAndReuseWhatIsFreed) {
