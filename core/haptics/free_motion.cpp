@@ -1,0 +1,70 @@
+#include "core/haptics/free_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "core/math/rotation_vector.h"
+
+namespace nearfit {
+namespace {
+
+/// Of a mass on a spring and a damper; in the same units as the vectors it is used with.
+struct Oscillator {
+  double inertia, stiffness, damping;
+
+  /// Velocity after the step.
+  /// @param offset  From the mass to the spring's other end, after that end has moved.
+  glm::dvec3 step(const glm::dvec3& velocity, const glm::dvec3& offset, const glm::dvec3& endVelocity,
+                  const glm::dvec3& load, double dt) const noexcept {
+    const glm::dvec3 impulse = dt * (stiffness * offset + damping * endVelocity + load);
+    return (inertia * velocity + impulse) / (inertia + dt * damping + dt * dt * stiffness);
+  }
+};
+
+glm::dvec3 sag(const glm::dvec3& weight, double stiffness) noexcept {
+  const glm::dvec3 result = weight / stiffness;
+  const bool isFinite = std::isfinite(result.x) && std::isfinite(result.y) && std::isfinite(result.z);
+  return isFinite ? result : glm::dvec3(0.0);
+}
+
+}  // namespace
+
+Felt feltBody(const WeightSettings& settings, double mass, double maxForce) noexcept {
+  Felt felt;
+  if (!std::isfinite(mass) || !(mass > 0.0)) return felt;
+  if (settings.hasInertia) felt.mass = mass;
+  if (!settings.hasWeight) return felt;
+  const double most = kMostWeightShare * maxForce, weight = mass * glm::length(settings.gravity);
+  felt.isLightened = weight > most;
+  felt.weight = settings.gravity * (felt.isLightened ? mass * (most / weight) : mass);
+  return felt;
+}
+
+BodyMotion freeStep(const Felt& felt, const CouplingState& coupling, const MassMetric& metric,
+                    const glm::dvec3& centreInPart, const BodyMotion& handle, const BodyMotion& part,
+                    double dt) noexcept {
+  if (!(felt.mass > 0.0)) {
+    BodyMotion hanging = handle;
+    if (felt.weight != glm::dvec3(0.0)) hanging.pose.translation += sag(felt.weight, coupling.stiffness);
+    return hanging;
+  }
+  const double gyration = std::max({metric.gyration.x, metric.gyration.y, metric.gyration.z});
+  const glm::dvec3 centre = part.pose.applyToPoint(centreInPart);
+  const Oscillator linear{felt.mass, coupling.stiffness, coupling.damping};
+  // Inertia, stiffness and damping all go with the square of each axis' gyration, which cancels: one
+  // oscillator serves all axes, whatever their directions.
+  const Oscillator angular{felt.mass * gyration * gyration, coupling.rotationalStiffness,
+                           coupling.rotationalDamping};
+  BodyMotion next;
+  next.twist.linear = linear.step(part.twist.linear, handle.pose.applyToPoint(centreInPart) - centre,
+                                  handle.twist.linear, felt.weight, dt);
+  next.twist.angular = angular.step(part.twist.angular, turnBetween(part.pose.rotation, handle.pose.rotation),
+                                    handle.twist.angular, glm::dvec3(0.0), dt);
+  next.pose.rotation = glm::normalize(rotationOf(dt * next.twist.angular) * part.pose.rotation);
+  next.pose.translation = centre + dt * next.twist.linear - next.pose.rotation * centreInPart;
+  return next;
+}
+
+}  // namespace nearfit

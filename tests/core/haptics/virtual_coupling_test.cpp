@@ -1,0 +1,263 @@
+#include "core/haptics/virtual_coupling.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "core/math/rotation_vector.h"
+
+namespace nearfit {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+MassMetric metricOf(const glm::dvec3& gyration, const glm::dquat& partFromPrincipal = {1, 0, 0, 0}) {
+  return {partFromPrincipal, gyration, 2.0 * gyration.z};
+}
+
+DeviceLimits deviceWithDamping(double damping, double rotationalDamping) {
+  DeviceLimits limits;
+  limits.damping = damping;
+  limits.rotationalDamping = rotationalDamping;
+  return limits;
+}
+
+CouplingSettings wishFor(double stiffness, double damping, double rotationalStiffness,
+                         double rotationalDamping) {
+  return {false, stiffness, damping, rotationalStiffness, rotationalDamping};
+}
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double in(double low, double high) { return std::uniform_real_distribution<>(low, high)(engine_); }
+  glm::dvec3 vector(double size) { return {in(-size, size), in(-size, size), in(-size, size)}; }
+  RigidTransform pose() { return {rotationOf(vector(3.0)), vector(0.5)}; }
+
+ private:
+  std::mt19937 engine_;
+};
+
+TEST(StiffnessBound, IsThatOfColgate) {
+  // K = 2 (b - |B|) / T, by hand.
+  EXPECT_DOUBLE_EQ(stiffnessBound(1.0, 0.0, 1e-3), 2000.0);
+  EXPECT_DOUBLE_EQ(stiffnessBound(2.0, 0.5, 5e-4), 6000.0);
+  EXPECT_DOUBLE_EQ(stiffnessBound(2.0, -0.5, 5e-4), 6000.0);
+}
+
+TEST(StiffnessBound, IsZeroWhereThereIsNone) {
+  EXPECT_EQ(stiffnessBound(1.0, 2.0, 1e-3), 0.0);
+  EXPECT_EQ(stiffnessBound(0.0, 0.0, 1e-3), 0.0);
+  EXPECT_EQ(stiffnessBound(1.0, 0.0, 0.0), 0.0);
+  EXPECT_EQ(stiffnessBound(1.0, 0.0, -1e-3), 0.0);
+  for (const double bad : {kNan, kInfinity}) {
+    EXPECT_EQ(stiffnessBound(bad, 0.0, 1e-3), 0.0);
+    EXPECT_EQ(stiffnessBound(1.0, bad, 1e-3), 0.0);
+    EXPECT_EQ(stiffnessBound(1.0, 0.0, bad), 0.0);
+  }
+  EXPECT_EQ(stiffnessBound(1e300, 0.0, 1e-300), 0.0);
+}
+
+TEST(BoundedCoupling, AutomaticIsAStatedPartOfTheBound) {
+  // Gyration of 10 mm: the rotation of the metric is far from its own bound.
+  const CouplingState c =
+      boundedCoupling({}, deviceWithDamping(1.0, 1.0), metricOf({0.005, 0.01, 0.01}), 1e-3);
+  const double damping = kAutomaticDampingShare * 1.0;
+  EXPECT_DOUBLE_EQ(c.damping, damping);
+  EXPECT_DOUBLE_EQ(c.stiffness, kAutomaticStiffnessShare * 2.0 * (1.0 - damping) / 1e-3);
+  EXPECT_DOUBLE_EQ(c.rotationalStiffness, c.stiffness * 0.01 * 0.01);
+  EXPECT_DOUBLE_EQ(c.rotationalDamping, c.damping * 0.01 * 0.01);
+  EXPECT_FALSE(c.isHeldToBound);
+}
+
+TEST(BoundedCoupling, AutomaticRotationStaysBelowItsOwnBound) {
+  const CouplingState c = boundedCoupling({}, deviceWithDamping(1.0, 1e-3), metricOf({0.1, 0.5, 1.0}), 1e-3);
+  EXPECT_DOUBLE_EQ(c.rotationalDamping, kAutomaticDampingShare * 1e-3);
+  EXPECT_DOUBLE_EQ(c.rotationalStiffness,
+                   kAutomaticStiffnessShare * 2.0 * (1.0 - kAutomaticDampingShare) * 1e-3 / 1e-3);
+}
+
+TEST(BoundedCoupling, WishWithinTheBoundIsGranted) {
+  const CouplingState c = boundedCoupling(wishFor(900.0, 0.25, 0.5, 2e-4), deviceWithDamping(1.0, 1e-3),
+                                          metricOf(glm::dvec3(0.01)), 1e-3);
+  EXPECT_EQ(c.stiffness, 900.0);
+  EXPECT_EQ(c.damping, 0.25);
+  EXPECT_EQ(c.rotationalStiffness, 0.5);
+  EXPECT_EQ(c.rotationalDamping, 2e-4);
+  EXPECT_FALSE(c.isHeldToBound);
+}
+
+TEST(BoundedCoupling, WishBeyondTheBoundIsHeldToItAndSaidToBe) {
+  const DeviceLimits device = deviceWithDamping(1.0, 1e-3);
+  const MassMetric metric = metricOf(glm::dvec3(0.01));
+  const CouplingState stiff = boundedCoupling(wishFor(5000.0, 0.25, 0.5, 0.0), device, metric, 1e-3);
+  EXPECT_DOUBLE_EQ(stiff.stiffness, 1500.0);
+  EXPECT_TRUE(stiff.isHeldToBound);
+  const CouplingState damped = boundedCoupling(wishFor(100.0, 50.0, 0.5, 0.0), device, metric, 1e-3);
+  EXPECT_DOUBLE_EQ(damped.damping, kMostDampingShare * 1.0);
+  EXPECT_DOUBLE_EQ(damped.stiffness, 100.0);
+  EXPECT_TRUE(damped.isHeldToBound);
+  const CouplingState turned = boundedCoupling(wishFor(100.0, 0.0, 9.0, 0.0), device, metric, 1e-3);
+  EXPECT_DOUBLE_EQ(turned.rotationalStiffness, 2.0);
+  EXPECT_TRUE(turned.isHeldToBound);
+}
+
+TEST(BoundedCoupling, SlowerServoMeansSofterCoupling) {
+  const DeviceLimits device = deviceWithDamping(1.0, 1e-3);
+  const MassMetric metric = metricOf(glm::dvec3(0.01));
+  const CouplingState fast = boundedCoupling({}, device, metric, 1e-3);
+  const CouplingState slow = boundedCoupling({}, device, metric, 4e-3);
+  EXPECT_NEAR(slow.stiffness, fast.stiffness / 4.0, 1e-9);
+}
+
+TEST(BoundedCoupling, MagnifiedMotionSoftensTheCoupling) {
+  // The device moves 1/3 of what the handle does and feels the force as it is: K times 3.
+  const DeviceLimits device = deviceWithDamping(1.0, 1.0);
+  const MassMetric metric = metricOf(glm::dvec3(0.01));
+  const CouplingState plain = boundedCoupling({}, device, metric, 1e-3);
+  const CouplingState magnified = boundedCoupling({}, device, metric, 1e-3, 3.0);
+  EXPECT_NEAR(magnified.stiffness * 3.0, plain.stiffness, 1e-9);
+  EXPECT_NEAR(magnified.damping * 3.0, plain.damping, 1e-12);
+}
+
+TEST(BoundedCoupling, SenselessNumbersGiveZeroStiffnessAndNeverNan) {
+  const double values[] = {kNan, kInfinity, -kInfinity, -1.0, 0.0, 1e-320, 1e-3, 1.0, 1e308};
+  for (const double damping : values)
+    for (const double period : values)
+      for (const double number : values)
+        for (const bool isAutomatic : {false, true}) {
+          const CouplingSettings wish{isAutomatic, number, number, number, number};
+          const CouplingState c = boundedCoupling(wish, deviceWithDamping(damping, damping),
+                                                  metricOf(glm::dvec3(number)), period, number);
+          for (const double result : {c.stiffness, c.damping, c.rotationalStiffness, c.rotationalDamping}) {
+            EXPECT_TRUE(std::isfinite(result) && result >= 0.0)
+                << damping << " " << period << " " << number << " " << isAutomatic;
+          }
+          if (!(period > 0.0) || !std::isfinite(period)) {
+            EXPECT_EQ(c.stiffness, 0.0);
+            EXPECT_EQ(c.rotationalStiffness, 0.0);
+          }
+        }
+}
+
+TEST(BoundedCoupling, RandomWishesNeverBreakTheBound) {
+  Random random(7);
+  for (int i = 0; i < 10'000; ++i) {
+    const DeviceLimits device = deviceWithDamping(random.in(0, 3), random.in(0, 0.01));
+    CouplingSettings wish = wishFor(random.in(0, 1e4), random.in(0, 3), random.in(0, 20), random.in(0, 0.01));
+    wish.isAutomatic = i % 2 == 0;
+    const double period = random.in(1e-4, 1e-2), scale = random.in(0.1, 10.0);
+    const CouplingState c = boundedCoupling(wish, device, metricOf(random.vector(0.1) + 0.11), period, scale);
+    // As the device feels it, with rounding of the sums allowed for.
+    EXPECT_LE(scale * (c.stiffness * period / 2.0 + c.damping), device.damping * (1.0 + 1e-12));
+    EXPECT_LE(c.rotationalStiffness * period / 2.0 + c.rotationalDamping,
+              device.rotationalDamping * (1.0 + 1e-12));
+  }
+}
+
+const CouplingState kCoupling{1000.0, 2.0, 0.8, 0.004, false};
+
+TEST(CouplingWrench, OnePoseAndTwistIsExactlyNoWrench) {
+  Random random(11);
+  for (int i = 0; i < 1000; ++i) {
+    const BodyMotion both{random.pose(), {random.vector(1.0), random.vector(1.0)}};
+    const MassMetric metric = metricOf({0.01, 0.02, 0.03}, rotationOf(random.vector(3.0)));
+    const Wrench w = couplingWrench(kCoupling, metric, random.vector(0.3), both, both);
+    EXPECT_EQ(w.force, glm::dvec3(0.0));
+    EXPECT_EQ(w.torque, glm::dvec3(0.0));
+  }
+}
+
+TEST(CouplingWrench, SpringPullsTheHandTowardsThePart) {
+  const BodyMotion handle{{{1, 0, 0, 0}, {0.5, 0, 0}}, {}}, part{{{1, 0, 0, 0}, {0.5, 0.003, 0}}, {}};
+  const Wrench w = couplingWrench(kCoupling, metricOf(glm::dvec3(0.02)), {0.1, 0.2, 0.3}, handle, part);
+  EXPECT_NEAR(w.force.y, 3.0, 1e-9);
+  EXPECT_NEAR(glm::length(w.force), 3.0, 1e-9);
+  EXPECT_EQ(w.torque, glm::dvec3(0.0));
+}
+
+TEST(CouplingWrench, DamperDragsTheHandAlong) {
+  BodyMotion handle, part;
+  handle.twist = {{0.5, 0, 0}, {0, 0, 2}};
+  const Wrench w = couplingWrench(kCoupling, metricOf(glm::dvec3(0.02)), {}, handle, part);
+  EXPECT_NEAR(glm::distance(w.force, {-1.0, 0, 0}), 0.0, 1e-15);
+  EXPECT_NEAR(glm::distance(w.torque, {0, 0, -0.008}), 0.0, 1e-15);
+}
+
+TEST(CouplingWrench, TurnAboutTheCentreOfMassIsTorqueAlone) {
+  // Turned by 0.1 rad about the centre, which is away from the part's origin.
+  const glm::dvec3 centre(0.1, -0.2, 0.3);
+  const glm::dquat turn = glm::angleAxis(0.1, glm::dvec3(0, 0, 1));
+  const BodyMotion handle, part{{turn, centre - turn * centre}, {}};
+  const Wrench w = couplingWrench(kCoupling, metricOf(glm::dvec3(0.02)), centre, handle, part);
+  EXPECT_NEAR(glm::length(w.force), 0.0, 1e-12);
+  EXPECT_NEAR(glm::distance(w.torque, {0, 0, 0.08}), 0.0, 1e-14);
+}
+
+TEST(CouplingWrench, TorqueAboutEachPrincipalAxisGoesWithItsGyrationSquared) {
+  const glm::dvec3 gyration(0.01, 0.02, 0.04);
+  const glm::dquat partFromPrincipal = rotationOf({0.3, -0.8, 1.1}),
+                   worldFromPart = rotationOf({1.0, 0.4, -0.2});
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 principal(0.0);
+    principal[axis] = 1.0;
+    const glm::dvec3 world = worldFromPart * (partFromPrincipal * principal);
+    const BodyMotion part{{worldFromPart, {}}, {}};
+    const BodyMotion handle{{glm::angleAxis(-0.2, world) * worldFromPart, {}}, {}};
+    const Wrench w = couplingWrench(kCoupling, metricOf(gyration, partFromPrincipal), {}, handle, part);
+    const double ratio = gyration[axis] / 0.04;
+    EXPECT_NEAR(glm::distance(w.torque, 0.8 * ratio * ratio * 0.2 * world), 0.0, 1e-14) << axis;
+  }
+}
+
+TEST(CouplingWrench, IsSquareToWhatTheMetricCallsFree) {
+  // The nearest pose on a constraint, in the metric, leaves a residual that is no motion along it: a wrench
+  // consistent with the metric does no work on motions that the contact allows. Contact at r with normal n:
+  // the allowed twists are those with n . (v + w x r) = 0; the residual is M^-1 (n, r x n).
+  Random random(13);
+  const double k = 1000.0;
+  for (int i = 0; i < 200; ++i) {
+    const glm::dvec3 gyration(0.01, 0.02, 0.03);
+    const MassMetric metric = metricOf(gyration, rotationOf(random.vector(3.0)));
+    const CouplingState consistent{k, 0.0, k * 0.03 * 0.03, 0.0, false};
+    const BodyMotion part{random.pose(), {}};
+    const glm::dvec3 n = glm::normalize(random.vector(1.0)), r = random.vector(0.05);
+    const glm::dquat worldFromPrincipal = part.pose.rotation * metric.partFromPrincipal;
+    const glm::dvec3 moment = glm::conjugate(worldFromPrincipal) * glm::cross(r, n);
+    const double depth = 1e-6;
+    const glm::dvec3 turn = worldFromPrincipal * (moment / (gyration * gyration)) * depth;
+    BodyMotion handle = part;
+    handle.pose.rotation = rotationOf(-turn) * part.pose.rotation;
+    handle.pose.translation -= depth * n;
+    const Wrench w = couplingWrench(consistent, metric, {}, handle, part);
+    const glm::dvec3 angular = random.vector(1.0), free = random.vector(0.02);
+    const glm::dvec3 linear = free - n * glm::dot(n, free + glm::cross(angular, r));
+    const double power = glm::dot(w.force, linear) + glm::dot(w.torque, angular);
+    EXPECT_NEAR(power, 0.0, 1e-12 * (glm::length(w.force) + glm::length(w.torque)) + 1e-12);
+  }
+}
+
+TEST(CouplingWrench, HalfATurnIsPulledTheShorterWay) {
+  using std::numbers::pi;
+  const auto torqueAt = [](double angle) {
+    const BodyMotion handle, part{{glm::angleAxis(angle, glm::dvec3(1, 0, 0)), {}}, {}};
+    return couplingWrench(kCoupling, metricOf(glm::dvec3(0.02)), {}, handle, part).torque.x;
+  };
+  EXPECT_NEAR(torqueAt(pi - 0.01), 0.8 * (pi - 0.01), 1e-12);
+  EXPECT_NEAR(torqueAt(pi + 0.01), -0.8 * (pi - 0.01), 1e-12);
+}
+
+TEST(TurnBetween, OppositeQuaternionsAreTheSameTurn) {
+  const glm::dquat q = rotationOf({0.3, -0.8, 1.1});
+  EXPECT_EQ(glm::length(turnBetween(q, -q)), 0.0);
+  const glm::dvec3 turn(0.02, -0.5, 0.7);
+  EXPECT_NEAR(glm::distance(turnBetween(q, -(rotationOf(turn) * q)), turn), 0.0, 1e-14);
+}
+
+}  // namespace
+}  // namespace nearfit
