@@ -12,7 +12,7 @@
 #include "core/haptics/tracked_scene.h"
 #include "core/haptics/virtual_coupling.h"
 #include "core/haptics/wrench.h"
-#include "core/haptics/wrench_limiter.h"
+#include "core/haptics/wrench_conditioner.h"
 #include "core/math/rigid_transform.h"
 #include "core/proximity/lmd.h"
 #include "core/proximity/lmd_query.h"

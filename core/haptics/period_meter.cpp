@@ -1,0 +1,30 @@
+#include "core/haptics/period_meter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearfit {
+namespace {
+
+/// What a servo keeps when nobody says otherwise [s].
+constexpr double kUsualPeriod = 1e-3;
+/// The shortest that counts as a period at all [s]; the processor's clock is no finer.
+constexpr double kShortestPeriod = 1e-9;
+
+}  // namespace
+
+PeriodMeter::PeriodMeter(double nominal) noexcept
+    : nominal_(std::isfinite(nominal) ? std::clamp(nominal, kShortestPeriod, kLongestPeriod) : kUsualPeriod),
+      period_(nominal_) {}
+
+void PeriodMeter::add(double elapsed) noexcept {
+  if (!std::isfinite(elapsed) || !(elapsed > 0.0)) return;
+  if (elapsed > period_) {
+    period_ = std::min({elapsed, period_ * (1.0 + kRise), kLongestPeriod});
+  } else {
+    constexpr double kFall = kRise * (1.0 - kQuantile) / kQuantile;
+    period_ = std::max(period_ * (1.0 - kFall), nominal_);
+  }
+}
+
+}  // namespace nearfit
