@@ -1,0 +1,114 @@
+#include "core/haptics/workspace_mapper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/quaternion.hpp>
+
+namespace nearfit {
+namespace {
+
+using Locks = std::array<bool, 3>;
+
+/// A twist is well defined while the square of what it leaves of the quaternion is above this: the square of
+/// the cosine of half a quarter turn.
+constexpr double kLeastTwistSquared = 0.5;
+/// Below this there is nothing left to define it, as after a jump of half a turn within one call.
+constexpr double kNoTwistSquared = 1e-12;
+
+bool isSame(const WorkspaceMapping& a, const WorkspaceMapping& b) noexcept {
+  return a.scale == b.scale && a.orientationOffset == b.orientationOffset &&
+         a.translationLocks == b.translationLocks && a.rotationLocks == b.rotationLocks;
+}
+
+bool changesNothing(const WorkspaceMapping& mapping) noexcept {
+  return isSame(mapping, WorkspaceMapping{});
+}
+
+glm::dvec3 withoutLocked(glm::dvec3 v, const Locks& locks) noexcept {
+  for (int i = 0; i < 3; ++i) {
+    if (locks[static_cast<std::size_t>(i)]) v[i] = 0.0;
+  }
+  return v;
+}
+
+struct FreeTurn {
+  glm::dquat turn;
+  bool isFar;      ///< Time for a new index.
+  bool isDefined;  ///< If not, `turn` means nothing.
+};
+
+/// What remains of a turn when no turning about the locked axes is allowed.
+FreeTurn freeTurn(const glm::dquat& turn, const Locks& locks) noexcept {
+  const auto locked = std::count(locks.begin(), locks.end(), true);
+  if (locked == 0) return {turn, false, true};
+  if (locked == 3) return {{1.0, 0.0, 0.0, 0.0}, false, true};
+  // The one axis that is locked, or the one that is free.
+  const auto axis = static_cast<int>(std::find(locks.begin(), locks.end(), locked == 1) - locks.begin());
+  const glm::dvec3 imaginary(turn.x, turn.y, turn.z);
+  glm::dvec3 along(0.0);
+  along[axis] = imaginary[axis];
+  const double squared = turn.w * turn.w + along[axis] * along[axis];
+  if (squared < kNoTwistSquared) return {turn, true, false};
+  const glm::dquat twist = glm::dquat(turn.w, along) / std::sqrt(squared);
+  return {locked == 1 ? turn * glm::conjugate(twist) : twist, squared < kLeastTwistSquared, true};
+}
+
+}  // namespace
+
+void WorkspaceMapper::engageAt(const RigidTransform& device, const RigidTransform& worldFromPart) noexcept {
+  setIndex(device, worldFromPart);
+  isDirect_ = device.rotation == worldFromPart.rotation && device.translation == worldFromPart.translation;
+  lastDevice_ = device;
+  lastHandle_ = worldFromPart;
+  hasMapping_ = false;
+  isEngaged_ = true;
+}
+
+void WorkspaceMapper::setIndex(const RigidTransform& device, const RigidTransform& handle) noexcept {
+  indexDevice_ = device.normalized();
+  indexHandle_ = handle.normalized();
+  isDirect_ = false;
+}
+
+RigidTransform WorkspaceMapper::sinceIndex(const RigidTransform& device, bool& isFarTurned) const noexcept {
+  const glm::dquat offset = glm::normalize(mapping_.orientationOffset);
+  const glm::dvec3 shift = mapping_.scale * (offset * (device.translation - indexDevice_.translation));
+  const glm::dquat turn = glm::normalize(offset * device.rotation * glm::conjugate(indexDevice_.rotation) *
+                                         glm::conjugate(offset));
+  const FreeTurn free = freeTurn(turn, mapping_.rotationLocks);
+  isFarTurned = free.isFar;
+  return {free.isDefined ? glm::normalize(free.turn * indexHandle_.rotation) : lastHandle_.rotation,
+          indexHandle_.translation + withoutLocked(shift, mapping_.translationLocks)};
+}
+
+RigidTransform WorkspaceMapper::map(const RigidTransform& device, bool isClutched,
+                                    const WorkspaceMapping& mapping) noexcept {
+  if (!device.isFinite()) return device;
+  if (!isEngaged_) engage(device);
+  // From the pose before, so that the motion of this tick counts under the new mapping.
+  if (hasMapping_ && !isSame(mapping, mapping_)) setIndex(lastDevice_, lastHandle_);
+  mapping_ = mapping;
+  hasMapping_ = true;
+  if (isClutched) {
+    setIndex(device, lastHandle_);
+    lastDevice_ = device;
+    return lastHandle_;
+  }
+  bool isFarTurned = false;
+  const RigidTransform handle =
+      isDirect_ && changesNothing(mapping) ? device : sinceIndex(device, isFarTurned);
+  if (!handle.isFinite()) return handle;
+  if (isFarTurned) setIndex(device, handle);
+  lastDevice_ = device;
+  lastHandle_ = handle;
+  return handle;
+}
+
+Wrench wrenchOnDevice(const Wrench& wrench, const WorkspaceMapping& mapping) noexcept {
+  const glm::dquat deviceFromWorld = glm::conjugate(glm::normalize(mapping.orientationOffset));
+  return {deviceFromWorld * withoutLocked(wrench.force, mapping.translationLocks),
+          deviceFromWorld * withoutLocked(wrench.torque, mapping.rotationLocks)};
+}
+
+}  // namespace nearfit

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "core/haptics/haptic_settings.h"
+#include "core/haptics/wrench.h"
+#include "core/math/rigid_transform.h"
+
+namespace nearfit {
+
+/// Turns motion of the device into motion of the handle in the scene. The handle's pose is that at the last
+/// *index* plus what the device has moved since, turned by the offset, scaled and freed of what is locked:
+///
+///     translation  t = t0 + lock(s O (d - d0))        rotation  R = lock(O (D D0^-1) O^-1) R0
+///
+/// with d, D the device's pose, O the offset. Engaging sets an index. So do, without moving the handle, the
+/// clutch and every change of the mapping.
+///
+/// Locked world axes: the handle stays where the index has it along them. Of the turn since the index, with
+/// two axes locked only the twist about the third counts, through any number of revolutions; with one locked,
+/// its twist about that axis is left out, and what remains is a turn about an axis square to it. Near half a
+/// turn away such a twist is not defined, so past a quarter turn the mapper sets an index. Turns do not
+/// commute: over two axes, tilts of more than that in a loop can bring the handle back turned a little, even
+/// about the locked axis.
+///
+/// Real-time safe throughout.
+class WorkspaceMapper {
+ public:
+  /// For devices whose poses are poses in the world: the handle begins at the device's pose itself.
+  void engage(const RigidTransform& device) noexcept { engageAt(device, device); }
+
+  /// For devices with a frame of their own: the handle begins at the part, wherever the device is.
+  void engageAt(const RigidTransform& device, const RigidTransform& worldFromPart) noexcept;
+
+  /// The handle's pose. After `engage`, with a mapping that changes nothing (scale 1, no offset, no locks)
+  /// and no clutch so far, it is the device's pose bit for bit. Without engaging, the first call does, at
+  /// the device's pose.
+  ///
+  /// @param device      As measured, in its own frame; unit quaternion.
+  /// @param isClutched  The handle stays, and goes on from there with the motion after release.
+  /// @param mapping     Scale > 0, unit offset.
+  /// A device pose that is not finite is returned as it is, for the caller to see, and leaves no trace.
+  RigidTransform map(const RigidTransform& device, bool isClutched, const WorkspaceMapping& mapping) noexcept;
+
+ private:
+  void setIndex(const RigidTransform& device, const RigidTransform& handle) noexcept;
+  RigidTransform sinceIndex(const RigidTransform& device, bool& isFarTurned) const noexcept;
+
+  bool isEngaged_ = false;
+  bool hasMapping_ = false;  ///< `mapping_` is from a call since engaging.
+  bool isDirect_ = false;    ///< Handle and device were one at the index.
+  WorkspaceMapping mapping_;
+  RigidTransform indexDevice_, indexHandle_;
+  RigidTransform lastDevice_, lastHandle_;
+};
+
+/// A wrench on the handle as the device is to render it, in the device's frame: what points along locked axes
+/// is left out (the device moves along them while the handle does not, and would be pushed for ever), the
+/// rest turned back by the offset. Force is not scaled: over a mapping of scale s the device feels s times
+/// the stiffness (boundedCoupling takes the scale for that). Real-time safe.
+Wrench wrenchOnDevice(const Wrench& wrench, const WorkspaceMapping& mapping) noexcept;
+
+}  // namespace nearfit
