@@ -1,6 +1,7 @@
 #include "core/exact/triangle_predicates.h"
 
 #include <algorithm>
+#include <array>
 #include <variant>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,18 +1,16 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
 
+#include "core/math/triangle_corners.h"
+
 namespace nearfit {
 
-/// Corners in one frame. Any three finite points: a triangle of no area is the segment or the point that it
-/// covers.
-using TriangleCorners = std::array<glm::dvec3, 3>;
-
-/// Whether the two have a point in common; touching counts. Decided exactly for the coordinates as given.
-/// Not for the servo thread: hard cases allocate.
+/// Whether the two have a point in common; touching counts. Decided exactly for the coordinates as given. Any
+/// three finite points will do: a triangle of no area is the segment or the point that it covers. Not for the
+/// servo thread: hard cases allocate.
 bool doTrianglesMeet(const TriangleCorners& a, const TriangleCorners& b);
 
 enum class Crossing : std::int8_t {

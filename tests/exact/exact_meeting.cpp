@@ -1,6 +1,8 @@
 #include "tests/exact/exact_meeting.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -71,6 +73,44 @@ Vector normalOf(const Corners& t) {
   return cross(difference(t[1], t[0]), difference(t[2], t[0]));
 }
 
+Number squared(const Vector& v) {
+  return dot(v, v);
+}
+Vector scaled(const Number& s, const Vector& v) {
+  return {s * v.x, s * v.y, s * v.z};
+}
+
+/// Squared distance of the origin from a segment.
+Number squaredToSegment(const Vector& a, const Vector& b) {
+  const Vector along = b - a;
+  const Number length = squared(along), share = -dot(a, along);
+  if (share <= 0 || length == 0) return squared(a);
+  if (share >= length) return squared(b);
+  return squared(a - scaled(-share / length, along));
+}
+
+/// Squared distance of the lines of two sides where it is reached inside both; else something greater than
+/// that of the triangles, or equal.
+Number squaredOfSides(const Vector& w, const Vector& u, const Vector& v) {
+  const Vector n = cross(u, v);
+  const Number nn = squared(n);
+  if (nn == 0) return squared(w);
+  const Number s = dot(cross(w, v), n) / nn, t = dot(cross(w, u), n) / nn;
+  if (s < 0 || s > 1 || t < 0 || t > 1) return squared(w);
+  const Number height = dot(w, n);
+  return height * height / nn;
+}
+
+/// Squared distance of a point from a face where its foot is inside; else of the point from a corner.
+Number squaredToFace(const glm::dvec3& p, const Corners& t) {
+  const Vector n = cross(difference(t[1], t[0]), difference(t[2], t[0])), w = difference(p, t[0]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (dot(cross(difference(t[(k + 1) % 3], t[k]), difference(p, t[k])), n) < 0) return squared(w);
+  }
+  const Number height = dot(w, n);
+  return height * height / squared(n);
+}
+
 Aabb boxOf(const Corners& t) {
   Aabb box;
   for (const glm::dvec3& p : t)
@@ -110,6 +150,43 @@ bool doMeetExactly(const Corners& a, const Corners& b) {
     }
   }
   return false;
+}
+
+double exactDistance(const Corners& a, const Corners& b) {
+  if (doMeetExactly(a, b)) return 0.0;
+  Number least = squared(difference(a[0], b[0]));
+  const auto take = [&](const Number& n) {
+    if (n < least) least = n;
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    take(squaredToFace(a[i], b));
+    take(squaredToFace(b[i], a));
+    const glm::dvec3 a0 = a[i], a1 = a[(i + 1) % 3];
+    for (std::size_t j = 0; j < 3; ++j) {
+      const glm::dvec3 b0 = b[j], b1 = b[(j + 1) % 3];
+      take(squaredToSegment(difference(b0, a0), difference(b1, a0)));
+      take(squaredToSegment(difference(a0, b0), difference(a1, b0)));
+      take(squaredOfSides(difference(b0, a0), difference(a1, a0), difference(b1, b0)));
+    }
+  }
+  return std::sqrt(CGAL::to_double(least));
+}
+
+double leastDistanceExactly(const TriangleMesh& scene, const TriangleMesh& part,
+                            const RigidTransform& sceneFromPart) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : part.triangles()) {
+    const Corners b = placed(part, t, &sceneFromPart);
+    const Aabb box = boxOf(b);
+    for (const Triangle& s : scene.triangles()) {
+      const Corners a = placed(scene, s, nullptr);
+      const Aabb other = boxOf(a);
+      const glm::dvec3 gap =
+          glm::max(glm::max(box.lower - other.upper, other.lower - box.upper), glm::dvec3(0.0));
+      if (glm::length(gap) < least) least = std::min(least, exactDistance(a, b));
+    }
+  }
+  return least;
 }
 
 bool doSurfacesMeetExactly(const TriangleMesh& scene, const TriangleMesh& part,

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <array>
+
+#include <glm/vec3.hpp>
+
+namespace nearfit {
+
+/// Corners in one frame [m].
+using TriangleCorners = std::array<glm::dvec3, 3>;
+
+}  // namespace nearfit

@@ -1,0 +1,57 @@
+#include "core/proximity/surface_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/proximity/near_faces.h"
+#include "core/proximity/triangle_distance.h"
+
+namespace nearfit {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Where bodies are, no two points are farther apart than this.
+double reachOf(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& pose) noexcept {
+  const RigidTransform centred = centredPose(scene, part, pose);
+  return scene.size() + part.size() + glm::length(centred.translation);
+}
+
+}  // namespace
+
+SurfaceDistance leastSurfaceDistance(const NormalConeTree& scene, const NormalConeTree& part,
+                                     const RigidTransform& sceneFromPart, double within, LmdScratch& scratch,
+                                     std::uint64_t maxNodePairs) noexcept {
+  SurfaceDistance result;
+  result.distance = kInfinity;
+  if (!sceneFromPart.isFinite() || !(within > 0.0)) return result;
+  if (scene.isEmpty() || part.isEmpty()) {
+    result.lowerBound = within;
+    result.isComplete = true;
+    return result;
+  }
+  NearFaces faces(scene, part, sceneFromPart, std::min(within, reachOf(scene, part, sceneFromPart)),
+                  scratch.data());
+  double least = kInfinity;
+  const auto visit = [&](const NormalConeTree::FaceLeaf& s, const NormalConeTree::FaceLeaf& p) {
+    ++result.trianglePairs;
+    const ClosestPoints found = closestOfTriangles(faces.sceneCorners(s), faces.partCorners(p));
+    if (!(found.distanceSquared < least)) return;
+    least = found.distanceSquared;
+    result.scenePoint = scene.centre() + found.a;
+    result.partPoint = scene.centre() + found.b;
+    faces.tighten(std::sqrt(least));
+  };
+  result.isComplete = faces.run(visit, maxNodePairs);
+  result.nodePairs = faces.nodePairs();
+  const double nearest = std::sqrt(least);
+  result.isFound = nearest <= within;
+  if (result.isFound) result.distance = nearest;
+  double bound = std::min(nearest, within);
+  if (!result.isComplete) bound = std::min(bound, faces.leastNotVisited());
+  result.lowerBound = std::max(0.0, bound - faces.rounding());
+  return result;
+}
+
+}  // namespace nearfit
