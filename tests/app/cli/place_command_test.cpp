@@ -1,9 +1,6 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <functional>
-#include <map>
-#include <sstream>
 #include <thread>
 
 #include <fmt/format.h>
@@ -15,6 +12,7 @@
 
 #include "core/scene/motion_recording.h"
 #include "core/scene/scene_file.h"
+#include "tests/app/cli/place_fixture.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"
 #include "tests/support/run_process.h"
@@ -23,93 +21,10 @@
 namespace nearfit::test {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::vector<std::string> cellsOf(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream text(line);
-  for (std::string cell; std::getline(text, cell, ',');)
-    cells.push_back(cell);
-  return cells;
-}
-
-/// A recording by columns.
-class Record {
- public:
-  explicit Record(const std::filesystem::path& file) {
-    const std::vector<std::string> lines = linesOf(readBytes(file));
-    header_ = lines.at(0);
-    names_ = cellsOf(header_);
-    for (std::size_t i = 1; i < lines.size(); ++i)
-      addRow(lines[i]);
-  }
-  const std::string& header() const { return header_; }
-  std::size_t rows() const { return rows_; }
-  const std::vector<double>& operator[](const std::string& name) const { return columns_.at(name); }
-
- private:
-  void addRow(const std::string& line) {
-    const std::vector<std::string> cells = cellsOf(line);
-    if (cells.size() != names_.size()) throw std::runtime_error("a row is short or long: " + line);
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      columns_[names_[i]].push_back(std::stod(cells[i]));
-    ++rows_;
-  }
-
-  std::string header_;
-  std::vector<std::string> names_;
-  std::map<std::string, std::vector<double>> columns_;
-  std::size_t rows_ = 0;
-};
-
-/// A cone, tip down, over a floor with its top in z = 0, and a path on which the tip sinks.
-class PlaceCommand : public ::testing::Test {
- protected:
-  static constexpr int kTicks = 400;
-
-  PlaceCommand() {
-    const RigidTransform upsideDown{glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 1.0}};
-    folder_.write("cone.obj", objText(transformed(coneMesh(0.2, 1.0, 12), 1.0, upsideDown)));
-    folder_.write("floor.obj", objText(boxMesh({2.0, 2.0, 1.0}, {0.0, 0.0, -0.5})));
-    options_.workingFolder = folder_.path();
-    const ProcessResult made = runCli(
-        {"scene", "new", "fit.nearfit", "--part", "Floor=floor.obj", "--part",
-         "Cone=cone.obj@0.3,0.1,0.5,1,0,0,0", "--cutoff", "0.1", "--stiffness", "50", "--mode", "spring"},
-        options_);
-    EXPECT_EQ(made.exitCode, 0) << made.err;
-    folder_.write("path.csv", pathText(kTicks));
-  }
-
-  /// Height of the tip in the i-th tick.
-  static double heightAt(int i) { return 0.12 - 0.1 * (i + 0.5) / kTicks; }
-  static std::string pathText(int ticks) {
-    std::string text = "# sinking\ntx,ty,tz,qw,qx,qy,qz\n";
-    for (int i = 0; i < ticks; ++i)
-      text += fmt::format("0.3,0.1,{},1,0,0,0\n", heightAt(i % kTicks));
-    return text;
-  }
-  ProcessResult place(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), {"place", "fit.nearfit"});
-    return runCli(arguments, options_);
-  }
-  ProcessResult placeCone(std::vector<std::string> more) const {
-    more.insert(more.begin(), {"--part", "Cone", "--path", "path.csv"});
-    return place(more);
-  }
-  std::filesystem::path file(const std::string& name) const { return folder_.path() / name; }
-  void changePart(const std::string& name, const std::function<void(Part&)>& change) const {
-    Scene scene = readSceneFile(file("fit.nearfit"));
-    Part part = *scene.findByName(name);
-    change(part);
-    scene.replace(part);
-    writeSceneFile(scene, file("fit.nearfit"));
-  }
-
-  TemporaryFolder folder_;
-  ProcessOptions options_;
-};
+using PlaceCommand = PlaceFixture;
 
 void expectTheFallOnTheFloor(const Record& record, int ticks, const std::function<double(int)>& heightAt) {
   ASSERT_EQ(record.rows(), static_cast<std::size_t>(ticks));
@@ -186,64 +101,6 @@ TEST_F(PlaceCommand, TheSummaryHoldsPeaksAndLeastDistance) {
   EXPECT_NEAR(json["peak_force"].get<double>(), 50.0 * (0.1 - heightAt(kTicks - 1)), 1e-9);
   EXPECT_GT(json["query_us"]["p50"], 0.0);
   EXPECT_GE(json["tick_us"]["max"], json["tick_us"]["p99.9"]);
-}
-
-TEST_F(PlaceCommand, OptionsOfTheFeelCountForThisRunAlone) {
-  const std::string before = readBytes(file("fit.nearfit"));
-  const auto peakWith = [&](std::vector<std::string> options) {
-    options.insert(options.end(), {"--fast", "--json"});
-    const ProcessResult result = placeCone(options);
-    EXPECT_EQ(result.exitCode, 0) << result.err;
-    const auto json = nlohmann::json::parse(result.out);
-    return std::pair(json["mode"].get<std::string>(), json["peak_force"].get<double>());
-  };
-  const double deepest = heightAt(kTicks - 1), felt = 0.1 - deepest;
-  const auto [mode, peak] = peakWith({"--stiffness", "20"});
-  EXPECT_EQ(mode, "spring");
-  EXPECT_NEAR(peak, 20.0 * felt, 1e-9);
-  // As printed, the force is most where height and compression are equal, at half the cutoff.
-  const auto [printedMode, printedPeak] = peakWith({"--mode", "printed", "--stiffness", "1000"});
-  EXPECT_EQ(printedMode, "printed");
-  EXPECT_NEAR(printedPeak, 1000.0 * 0.05 * 0.05, 1e-3);
-  EXPECT_NEAR(peakWith({}).second, 50.0 * felt, 1e-9);
-  EXPECT_EQ(readBytes(file("fit.nearfit")), before);
-}
-
-TEST_F(PlaceCommand, OptionsOfTheFeelThatMakeNoSenseAreRefused) {
-  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
-      {{"--mode", "soft"}, "--mode"},
-      {{"--margin", "0.2"}, "--margin: 0.2 m is more than the cutoff, 0.1 m"},
-      {{"--scale", "1e4"}, "--scale: 10000 is out of range"},
-      {{"--lock", "up"}, "--lock: \"up\" is no list of axes"},
-  };
-  for (const auto& [options, problem] : wrong) {
-    std::vector<std::string> arguments = options;
-    arguments.insert(arguments.end(), {"--fast", "--record", "out.csv"});
-    const ProcessResult result = placeCone(arguments);
-    EXPECT_EQ(result.exitCode, 2) << problem;
-    EXPECT_EQ(linesOf(result.err).size(), 1U) << result.err;
-    EXPECT_THAT(result.err, HasSubstr(problem));
-    EXPECT_FALSE(std::filesystem::exists(file("out.csv")));
-  }
-}
-
-TEST_F(PlaceCommand, TheSummaryTellsTheModeAndItsNumbers) {
-  EXPECT_THAT(placeCone({"--fast"}).out,
-              AllOf(HasSubstr("mode        spring, 50 N/m and 0 N s/m within 0.1 m\n"),
-                    HasSubstr("J given to the hand at most\n"), Not(HasSubstr("coupling"))));
-  EXPECT_THAT(placeCone({"--fast", "--mode", "printed"}).out, HasSubstr("printed, 50 N/m^2 and"));
-  EXPECT_THAT(
-      placeCone({"--fast", "--mode", "proxy", "--margin", "0.002", "--friction", "0.25"}).out,
-      AllOf(HasSubstr("mode        proxy, margin 0.002 m, friction 0.25\n"), HasSubstr("\ncoupling    "),
-            HasSubstr(" in a tick at most, "), HasSubstr("\nproxy       p50 ")));
-  const auto springs = nlohmann::json::parse(placeCone({"--fast", "--json"}).out);
-  EXPECT_TRUE(springs["proxy"].is_null());
-  EXPECT_TRUE(springs["max_energy_to_hand"].is_number());
-  const auto proxy = nlohmann::json::parse(placeCone({"--fast", "--json", "--mode", "proxy"}).out)["proxy"];
-  for (const char* key :
-       {"coupling", "max_sub_steps", "shortened_steps", "refused_steps", "released_ticks", "proxy_us"}) {
-    EXPECT_TRUE(proxy.contains(key)) << key;
-  }
 }
 
 TEST_F(PlaceCommand, TheExportHasThePartWhereThePathEnds) {
