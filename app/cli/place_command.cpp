@@ -113,8 +113,8 @@ void runPlace(const PlaceOptions& options) {
   checkInputsAreKept(scene, options);
   takeInHand(scene, options);
   job.scene = makeServoScene(scene);
-  const HapticSettings haptics = withOptions(scene.haptics(), options.haptics);
-  job.parameters.haptics = haptics;
+  job.parameters.haptics = withOptions(scene.haptics(), options.haptics);
+  const ServoParameters parameters = job.parameters;
   std::optional<MotionWriter> writer;
   if (!options.record.empty()) job.writer = &writer.emplace(options.record);
 
@@ -123,7 +123,7 @@ void runPlace(const PlaceOptions& options) {
   if (writer) writer->finish();
   if (!options.exportFile.empty()) exportPlacement(scene, result.end, options.exportFile);
 
-  const PlaceSummary summary{options.part,      others, poses, haptics, result, options.record,
+  const PlaceSummary summary{options.part,      others, poses, parameters, result, options.record,
                              options.exportFile};
   print(options.isJson ? summaryJson(summary) : summaryText(summary));
   throwIfIncomplete(result, poses);

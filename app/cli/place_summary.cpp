@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/output.h"
+#include "core/haptics/virtual_coupling.h"
 #include "device/servo_loop.h"
 
 namespace nearfit::cli {
@@ -67,12 +68,30 @@ std::string line(const char* name, const std::string& text) {
 std::string couplingText(const CouplingState& c) {
   return fmt::format("{:.6g} N/m, {:.6g} N s/m; {:.6g} N m/rad, {:.6g} N m s/rad{}", c.stiffness, c.damping,
                      c.rotationalStiffness, c.rotationalDamping,
-                     c.isHeldToBound ? " (held to the bound of stability)" : "");
+                     c.isHeldToBound ? " (less than was wished)" : "");
+}
+
+/// Stiffness up to which the coupling is passive in anyone's hand, at the servo's rate.
+struct StiffnessBounds {
+  double linear, rotational;  ///< [N/m], [N m/rad]
+};
+
+StiffnessBounds boundsOf(const PlaceSummary& s) {
+  const DeviceLimits& device = s.parameters.limits;
+  const CouplingState& coupling = s.result.coupling;
+  // A metre of the handle is 1 / scale of the device's.
+  const double damping = device.damping / s.parameters.haptics.mapping.scale;
+  return {stiffnessBound(damping, coupling.damping, ServoLoop::kPeriod),
+          stiffnessBound(device.rotationalDamping, coupling.rotationalDamping, ServoLoop::kPeriod)};
 }
 
 /// What only the proxy has to tell.
-std::string proxyText(const PlaceResult& r) {
+std::string proxyText(const PlaceSummary& s) {
+  const PlaceResult& r = s.result;
+  const StiffnessBounds bounds = boundsOf(s);
   std::string text = line("coupling", couplingText(r.coupling));
+  text += line("bound", fmt::format("{:.6g} N/m; {:.6g} N m/rad: passive at 1 kHz with the device's damping",
+                                    bounds.linear, bounds.rotational));
   text += line("steps", fmt::format("{} in a tick at most, {} shortened, {} refused", r.maxSubSteps,
                                     r.shortenedSteps, r.refusedSteps));
   if (r.releasedTicks > 0) {
@@ -82,12 +101,16 @@ std::string proxyText(const PlaceResult& r) {
   return text + line("proxy", timesText(r.proxyTime));
 }
 
-nlohmann::ordered_json proxyJson(const PlaceResult& r) {
+nlohmann::ordered_json proxyJson(const PlaceSummary& s) {
+  const PlaceResult& r = s.result;
+  const StiffnessBounds bounds = boundsOf(s);
   return {{"coupling",
            {{"stiffness", r.coupling.stiffness},
             {"damping", r.coupling.damping},
             {"rotational_stiffness", r.coupling.rotationalStiffness},
             {"rotational_damping", r.coupling.rotationalDamping},
+            {"stiffness_bound", bounds.linear},
+            {"rotational_stiffness_bound", bounds.rotational},
             {"held_to_bound", r.coupling.isHeldToBound}}},
           {"max_sub_steps", r.maxSubSteps},
           {"shortened_steps", r.shortenedSteps},
@@ -103,13 +126,13 @@ std::string summaryText(const PlaceSummary& s) {
   std::string text =
       line("part", fmt::format("{} against {} other{}", oneLine(s.part), s.others, s.others == 1 ? "" : "s"));
   text += line("ticks", fmt::format("{} of {}{}", r.ticks, s.poses, paceText(r)));
-  text += line("mode", modeText(s.haptics));
+  text += line("mode", modeText(s.parameters.haptics));
   text += line("minima", fmt::format("{} at once at most", r.maxLmds));
   text += line("distance", distanceText(r));
   text += line("force", fmt::format("peak {:.6g} N at {:.3f} s", r.force.value, r.force.time));
   text += line("torque", fmt::format("peak {:.6g} N m at {:.3f} s", r.torque.value, r.torque.time));
   text += line("energy", fmt::format("{:.6g} J given to the hand at most", r.maxEnergyToHand));
-  if (s.haptics.mode == HapticMode::Proxy) text += proxyText(r);
+  if (s.parameters.haptics.mode == HapticMode::Proxy) text += proxyText(s);
   if (r.clampedTicks > 0) text += line("clamped", fmt::format("force or torque in {} ticks", r.clampedTicks));
   if (r.truncatedTicks > 0) {
     text += line("truncated",
@@ -142,7 +165,7 @@ std::string summaryJson(const PlaceSummary& s) {
                               {"others", s.others},
                               {"poses", s.poses},
                               {"ticks", r.ticks},
-                              {"mode", modeName(s.haptics)},
+                              {"mode", modeName(s.parameters.haptics)},
                               {"max_lmds", r.maxLmds},
                               {"least_distance", nullptr},
                               {"peak_force", r.force.value},
@@ -157,7 +180,7 @@ std::string summaryJson(const PlaceSummary& s) {
                               {"query_us", timesJson(r.queryTime)},
                               {"tick_us", timesJson(r.tickTime)}};
   if (std::isfinite(r.leastDistance)) json["least_distance"] = r.leastDistance;
-  if (s.haptics.mode == HapticMode::Proxy) json["proxy"] = proxyJson(r);
+  if (s.parameters.haptics.mode == HapticMode::Proxy) json["proxy"] = proxyJson(s);
   if (!r.schedulingNote.empty()) {
     json["lateness_us"] = timesJson(r.lateness);
     json["overruns"] = r.overruns;

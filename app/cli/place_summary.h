@@ -10,9 +10,9 @@ namespace nearfit::cli {
 /// What `place` tells of a run.
 struct PlaceSummary {
   const std::string& part;
-  std::size_t others;             ///< Parts that could be felt.
-  std::size_t poses;              ///< Of the path.
-  const HapticSettings& haptics;  ///< That it ran with.
+  std::size_t others;                 ///< Parts that could be felt.
+  std::size_t poses;                  ///< Of the path.
+  const ServoParameters& parameters;  ///< That it ran with.
   const PlaceResult& result;
   const std::string& record;      ///< Empty when none was written.
   const std::string& exportFile;  ///< Empty when none was written.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/haptics/device_limits.h"
 #include "tests/app/cli/place_fixture.h"
 
 namespace nearfit::test {
@@ -68,6 +69,14 @@ TEST_F(PlaceFeel, TheSummaryTellsTheModeAndItsNumbers) {
   EXPECT_TRUE(springs["proxy"].is_null());
   EXPECT_TRUE(springs["max_energy_to_hand"].is_number());
   const auto proxy = nlohmann::json::parse(placeCone({"--fast", "--json", "--mode", "proxy"}).out)["proxy"];
+  // Colgate's bound at 1 kHz, from the damping of a device of which nothing else is known.
+  const auto& coupling = proxy["coupling"];
+  EXPECT_NEAR(coupling["stiffness_bound"].get<double>(),
+              2000.0 * (DeviceLimits{}.damping - coupling["damping"].get<double>()), 1e-9);
+  EXPECT_NEAR(coupling["rotational_stiffness_bound"].get<double>(),
+              2000.0 * (DeviceLimits{}.rotationalDamping - coupling["rotational_damping"].get<double>()),
+              1e-9);
+  EXPECT_LE(coupling["stiffness"], coupling["stiffness_bound"]);
   for (const char* key :
        {"coupling", "max_sub_steps", "shortened_steps", "refused_steps", "released_ticks", "proxy_us"}) {
     EXPECT_TRUE(proxy.contains(key)) << key;
