@@ -9,5 +9,6 @@ namespace nearfit::bench {
 void addQueryCommand(CLI::App& program);
 void addBuildCommand(CLI::App& program);
 void addSceneCommand(CLI::App& program);
+void addProgramCommand(CLI::App& program);
 
 }  // namespace nearfit::bench

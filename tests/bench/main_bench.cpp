@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
   nearfit::bench::addQueryCommand(program);
   nearfit::bench::addBuildCommand(program);
   nearfit::bench::addSceneCommand(program);
+  nearfit::bench::addProgramCommand(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
