@@ -3,102 +3,124 @@
 #include <cmath>
 
 namespace nearfit {
+namespace {
 
-double dot(const ProgramVector& a, const ProgramVector& b) noexcept {
-  // In halves, as vectors are added up.
-  ProgramVector sum;
-  for (std::size_t k = 0; k < 8; ++k)
-    sum[k] = a[k] * b[k];
-  for (std::size_t k = 0; k < 4; ++k)
-    sum[k] += sum[k + 4];
-  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+/// A vector of which this part of the squared length is left after a pass is orthogonal to a rounding or two.
+constexpr double kOnceIsEnough = 0.5;
+
+/// A number for each column: its product with v. Columns that are not in use are zero.
+template <class Matrix>
+inline ProgramVector products(const Matrix& byRow, const ProgramVector& v) noexcept {
+  ProgramVector out{};
+  for (std::size_t k = 0; k < ActiveRows::kMost; ++k)
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] += byRow[k][i] * v[k];
+  return out;
 }
 
-ProgramVector along(const ProgramVector& a, double factor, const ProgramVector& b) noexcept {
-  ProgramVector out;
-  for (std::size_t k = 0; k < 8; ++k)
-    out[k] = a[k] + factor * b[k];
-  return out;
+}  // namespace
+
+void ActiveRows::clear() noexcept {
+  size_ = 0;
+  nByRow_ = {};
+  qByRow_ = {};
 }
 
 bool ActiveRows::holds(std::size_t id) const noexcept {
   for (std::size_t i = 0; i < size_; ++i)
-    if (columns_[i].id == id) return true;
+    if (ids_[i] == id) return true;
   return false;
 }
 
 ActiveRows::Split ActiveRows::split(const ProgramVector& n) const noexcept {
   Split out;
   out.remainder = n;
-  for (int pass = 0; pass < 2; ++pass)
-    for (std::size_t i = 0; i < size_; ++i) {
-      const double part = dot(q_[i], out.remainder);
-      out.q[i] += part;
-      out.remainder = along(out.remainder, -part, q_[i]);
-    }
+  const double squared = dot(n, n);
+  out.remainderSquared = squared;
+  for (int pass = 0; pass < 2 && size_ > 0; ++pass) {
+    const ProgramVector part = products(qByRow_, out.remainder);
+    for (std::size_t i = 0; i < size_; ++i)
+      out.remainder = along(out.remainder, -part[i], q_[i]);
+    out.q = along(out.q, 1.0, part);
+    out.remainderSquared = dot(out.remainder, out.remainder);
+    // Little was taken away: little of that was rounding.
+    if (out.remainderSquared > kOnceIsEnough * squared) break;
+  }
   out.r = backSubstituted(out.q);
-  out.remainderSquared = dot(out.remainder, out.remainder);
-  out.isDependent = size_ == kMost || out.remainderSquared <= kDependence * kDependence * dot(n, n);
+  out.isDependent = size_ == kMost || out.remainderSquared <= kDependence * kDependence * squared;
   return out;
 }
 
-std::array<double, ActiveRows::kMost> ActiveRows::backSubstituted(
-    std::array<double, kMost> q) const noexcept {
+ProgramVector ActiveRows::backSubstituted(ProgramVector q) const noexcept {
+  // Apart from q: a number written into a vector would have to reach memory before the vector is read.
+  ProgramVector out{};
   for (std::size_t i = size_; i-- > 0;) {
-    q[i] /= r_[i][i];
-    for (std::size_t k = 0; k < i; ++k)
-      q[k] -= r_[i][k] * q[i];
+    out[i] = q[i] * inverseDiagonal_[i];
+    q = along(q, -out[i], r_[i]);
   }
-  return q;
+  return out;
 }
 
 void ActiveRows::setFactors(std::size_t i, const Split& split) noexcept {
   const double length = std::sqrt(split.remainderSquared);
-  q_[i] = along(ProgramVector{}, 1.0 / length, split.remainder);
-  r_[i] = split.q;
-  r_[i][i] = length;
+  inverseDiagonal_[i] = 1.0 / length;
+  q_[i] = along(ProgramVector{}, inverseDiagonal_[i], split.remainder);
+  for (std::size_t k = 0; k < q_[i].size(); ++k)
+    qByRow_[k][i] = q_[i][k];
+  // Above the diagonal by columns, right of it by rows; the rest is zero.
+  r_[i] = {};
+  rByRow_[i] = {};
+  for (std::size_t k = 0; k < i; ++k)
+    r_[i][k] = rByRow_[k][i] = split.q[k];
+}
+
+void ActiveRows::setColumn(std::size_t i, std::size_t id, const ProgramVector& n, double b) noexcept {
+  ids_[i] = id;
+  n_[i] = n;
+  b_[i] = b;
+  for (std::size_t k = 0; k < n.size(); ++k)
+    nByRow_[k][i] = n[k];
 }
 
 void ActiveRows::add(std::size_t id, const ProgramVector& n, double b, double multiplier,
                      const Split& split) noexcept {
-  columns_[size_] = {id, n, b};
+  setColumn(size_, id, n, b);
   multipliers_[size_] = multiplier;
   setFactors(size_, split);
   ++size_;
 }
 
 void ActiveRows::remove(std::size_t i) noexcept {
-  const std::size_t old = size_;
-  for (std::size_t k = i + 1; k < old; ++k) {
-    columns_[k - 1] = columns_[k];
-    multipliers_[k - 1] = multipliers_[k];
+  const std::size_t last = size_ - 1;
+  for (std::size_t k = i; k < last; ++k) {
+    setColumn(k, ids_[k + 1], n_[k + 1], b_[k + 1]);
+    multipliers_[k] = multipliers_[k + 1];
+  }
+  for (std::size_t k = 0; k < nByRow_.size(); ++k) {
+    nByRow_[k][last] = 0.0;
+    for (std::size_t c = i; c <= last; ++c)
+      qByRow_[k][c] = 0.0;
   }
   // Columns after it lose one that they were made orthogonal to; what they have of their own only grows.
-  for (size_ = i; size_ + 1 < old; ++size_)
-    setFactors(size_, split(columns_[size_].n));
+  for (size_ = i; size_ < last; ++size_)
+    setFactors(size_, split(n_[size_]));
 }
 
 void ActiveRows::correct(ProgramVector& z) noexcept {
-  std::array<double, kMost> q{};
+  ProgramVector missing = along(b_, -1.0, products(nByRow_, z)), q{};
   for (std::size_t i = 0; i < size_; ++i) {
-    double missing = columns_[i].b - dot(columns_[i].n, z);
-    for (std::size_t k = 0; k < i; ++k)
-      missing -= r_[i][k] * q[k];
-    q[i] = missing / r_[i][i];
+    q[i] = missing[i] * inverseDiagonal_[i];
+    missing = along(missing, -q[i], rByRow_[i]);
   }
   for (std::size_t i = 0; i < size_; ++i)
     z = along(z, q[i], q_[i]);
-  const std::array<double, kMost> change = backSubstituted(q);
-  for (std::size_t i = 0; i < size_; ++i)
-    multipliers_[i] += change[i];
+  multipliers_ = along(multipliers_, 1.0, backSubstituted(q));
 }
 
 ProgramVector ActiveRows::project(const ProgramVector& z0) noexcept {
-  multipliers_.fill(0.0);
+  multipliers_ = {};
   ProgramVector z = z0;
-  // Once more for what rounding left, where z0 is far away.
-  for (int pass = 0; pass < 2; ++pass)
-    correct(z);
+  correct(z);
   return z;
 }
 

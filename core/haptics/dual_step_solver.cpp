@@ -126,12 +126,21 @@ DualStepSolver::Point DualStepSolver::solve(const StepVector& y0) noexcept {
   ProgramVector z0{};
   std::copy(y0.begin(), y0.end(), z0.begin());
   ProgramVector z = restart(z0);
-  bool isExact = true;
-  for (Violation worst = mostViolated(z); worst.by > tolerance_; worst = mostViolated(z)) {
-    // An active row that is violated is beyond what rounding allows: nothing is gained by going on.
-    isExact = !active_.holds(worst.id) && enter(worst, z0, z);
-    if (!isExact) break;
+  bool isExact = true, isCorrected = false;
+  while (isExact) {
+    const Violation worst = mostViolated(z);
+    if (worst.by <= tolerance_) break;
+    if (active_.holds(worst.id)) {
+      // Rounding that correcting does not mend: nothing is gained by going on.
+      isExact = !isCorrected;
+      active_.correct(z);
+      isCorrected = true;
+    } else {
+      isExact = enter(worst, z0, z);
+      isCorrected = false;
+    }
   }
+  active_.correct(z);
   if (!isExact) return asFarAsAllowed(motionOf(z), clearanceOf(z));
   return {motionOf(z), clearanceOf(z), true};
 }

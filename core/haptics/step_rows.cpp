@@ -58,7 +58,10 @@ inline void StepRows::clearances(const Block& block, const StepVector& y,
 }
 
 inline double StepRows::least(std::array<double, kLanes> values) noexcept {
+  // Unrolled, so that the halves stay in registers.
+#pragma GCC unroll 4
   for (std::size_t half = kLanes / 2; half > 0; half /= 2)
+#pragma GCC unroll 8
     for (std::size_t i = 0; i < half; ++i)
       values[i] = values[i + half] < values[i] ? values[i + half] : values[i];
   return values[0];
