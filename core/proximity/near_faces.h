@@ -44,6 +44,8 @@ class NearFaces {
     traversal_.tighten(static_cast<float>(kSlack * within));
   }
 
+  /// Between the trees' centred frames.
+  const RigidTransform& pose() const noexcept { return pose_; }
   glm::dvec3 scenePosition(std::uint32_t vertex) const noexcept { return scene_.positions()[vertex]; }
   glm::dvec3 partPosition(std::uint32_t vertex) const noexcept {
     return pose_.applyToPoint(part_.positions()[vertex]);

@@ -103,9 +103,10 @@ TriangleFrame::Coordinates TriangleFrame::of(const glm::dvec3& point) const noex
   return {x, glm::dot(square, t_), glm::dot(square, n_)};
 }
 
-bool TriangleFrame::holds(double x, double y) const noexcept {
-  const double up = y / height_;
-  return up >= 0.0 && up <= 1.0 && x >= apex_ * up && x <= length_ + (apex_ - length_) * up;
+bool TriangleFrame::holds(double x, double y, double slack) const noexcept {
+  const double beyond = slack * length_, up = y / height_;
+  return y >= -beyond && y <= height_ + beyond && x >= apex_ * up - beyond &&
+         x <= length_ + (apex_ - length_) * up + beyond;
 }
 
 ClosestPoints closestOfTriangles(const TriangleCorners& a, const TriangleCorners& b) noexcept {

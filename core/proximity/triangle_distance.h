@@ -29,7 +29,8 @@ class TriangleFrame {
   };
   Coordinates of(const glm::dvec3& point) const noexcept;
   /// Whether a point over or under the triangle, at x and y, is within its sides.
-  bool holds(double x, double y) const noexcept;
+  /// @param slack  How far beyond them still counts, as a fraction of the longest side.
+  bool holds(double x, double y, double slack = 0.0) const noexcept;
   const glm::dvec3& normal() const noexcept { return n_; }
 
  private:

@@ -1,0 +1,264 @@
+#include "core/proximity/surface_contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "core/proximity/near_faces.h"
+#include "core/proximity/triangle_distance.h"
+
+namespace nearfit {
+namespace {
+
+using FaceLeaf = NormalConeTree::FaceLeaf;
+
+/// Contacts whose points are as close as this, as a fraction of the bodies' sizes, and whose directions
+/// differ by as little, are one: what neighbouring features find at their common boundary.
+constexpr double kSamePlace = 1e-9, kSameDirection = 1e-3;
+
+/// How far beyond a side a foot may stand and count as inside, as a fraction of the side: rounding must not
+/// lose it between two faces in one plane, whose edge is no feature.
+constexpr double kSide = 1e-9;
+
+const double kSineOfTilt = std::sin(kContactTilt);
+
+/// One body's features, asked for in the scene's centred frame.
+struct Side {
+  const UnsidedSurface& surface;
+  RigidTransform frameFromTree;
+
+  glm::dvec3 position(std::uint32_t v) const noexcept {
+    return frameFromTree.applyToPoint(surface.tree().positions()[v]);
+  }
+  glm::dvec3 direction(std::uint32_t from, std::uint32_t to) const noexcept {
+    const glm::dvec3 d = surface.tree().positions()[to] - surface.tree().positions()[from];
+    const double length = glm::length(d);
+    return length > 0.0 ? frameFromTree.applyToVector(d / length) : glm::dvec3(0.0);
+  }
+
+  /// Whether no edge at the vertex leads nearer along d, a unit vector away from it, but by the tilt.
+  bool allowsAtVertex(std::uint32_t v, const glm::dvec3& d) const noexcept {
+    for (const std::uint32_t e : surface.mesh().edgesOfVertex(v)) {
+      const MeshEdge& edge = surface.mesh().edges()[e];
+      if (glm::dot(d, direction(v, edge.v0 == v ? edge.v1 : edge.v0)) > kSineOfTilt) return false;
+    }
+    return true;
+  }
+  /// Whether no face at the edge leads nearer along d, which is square to it, but by the tilt.
+  bool allowsAtEdge(std::uint32_t e, const glm::dvec3& d) const noexcept {
+    const MeshEdge& edge = surface.mesh().edges()[e];
+    const glm::dvec3 along = direction(edge.v0, edge.v1);
+    for (const std::uint32_t f : surface.mesh().facesOfEdge(e)) {
+      const Triangle& t = surface.mesh().triangles()[f];
+      const glm::dvec3 third = direction(edge.v0, t[0] + t[1] + t[2] - edge.v0 - edge.v1);
+      const glm::dvec3 inward = third - glm::dot(third, along) * along;
+      if (glm::dot(d, inward) > kSineOfTilt * glm::length(inward)) return false;
+    }
+    return true;
+  }
+};
+
+/// Keeps the nearest contacts, each place and direction once, in rising order.
+class ContactList {
+ public:
+  ContactList(std::span<SurfaceContact> out, double samePlace) noexcept : out_(out), samePlace_(samePlace) {}
+
+  void add(const SurfaceContact& c) noexcept {
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!isSame(out_[i], c)) continue;
+      if (out_[i].distance <= c.distance) return;
+      std::move(out_.begin() + at(i + 1), out_.begin() + at(count_), out_.begin() + at(i));
+      --count_;
+      break;
+    }
+    if (count_ == out_.size()) {
+      isFull_ = true;
+      if (count_ == 0 || out_[count_ - 1].distance <= c.distance) return;
+      --count_;
+    }
+    std::size_t i = count_++;
+    for (; i > 0 && out_[i - 1].distance > c.distance; --i)
+      out_[i] = out_[i - 1];
+    out_[i] = c;
+  }
+
+  std::size_t count() const noexcept { return count_; }
+  bool isFull() const noexcept { return isFull_; }
+
+ private:
+  static std::ptrdiff_t at(std::size_t i) noexcept { return static_cast<std::ptrdiff_t>(i); }
+  bool isSame(const SurfaceContact& a, const SurfaceContact& b) const noexcept {
+    const glm::dvec3 turn = a.direction - b.direction, p = a.partPoint - b.partPoint,
+                     s = a.scenePoint - b.scenePoint;
+    return glm::dot(p, p) <= samePlace_ * samePlace_ && glm::dot(s, s) <= samePlace_ * samePlace_ &&
+           glm::dot(turn, turn) <= kSameDirection * kSameDirection;
+  }
+
+  std::span<SurfaceContact> out_;
+  double samePlace_;
+  std::size_t count_ = 0;
+  bool isFull_ = false;
+};
+
+/// The pairs of features that belong to a pair of triangles.
+class PairContacts {
+ public:
+  PairContacts(const Side& scene, const Side& part, double within, ContactList& list) noexcept
+      : scene_(scene), part_(part), within_(within), list_(list) {}
+
+  void test(const FaceLeaf& s, const TriangleCorners& a, const FaceLeaf& p,
+            const TriangleCorners& b) noexcept {
+    sceneTriangle_ = s.face;
+    partTriangle_ = p.face;
+    const TriangleFrame frameA(a), frameB(b);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (scene_.surface.hasVertex(s.face, i)) vertexFace(scene_, s.corners[i], a[i], frameB, 1.0);
+      if (part_.surface.hasVertex(p.face, i)) vertexFace(part_, p.corners[i], b[i], frameA, -1.0);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        edgeEdge(s, a, i, p, b, j);
+        vertexEdge(s, a, i, p, b, j);
+        edgeVertex(s, a, i, p, b, j);
+        vertexVertex(s, a, i, p, b, j);
+      }
+    }
+  }
+
+ private:
+  /// @param sign  1 when the vertex is the scene's.
+  void vertexFace(const Side& side, std::uint32_t v, const glm::dvec3& point, const TriangleFrame& face,
+                  double sign) noexcept {
+    const TriangleFrame::Coordinates c = face.of(point);
+    if (std::abs(c.z) > within_ || !(std::abs(c.z) > 0.0) || !face.holds(c.x, c.y, kSide)) return;
+    const glm::dvec3 away = c.z > 0.0 ? -face.normal() : face.normal();
+    if (!side.allowsAtVertex(v, away)) return;
+    const glm::dvec3 foot = point - c.z * face.normal();
+    sign > 0.0 ? add(point, foot, away, std::abs(c.z)) : add(foot, point, -away, std::abs(c.z));
+  }
+
+  void edgeEdge(const FaceLeaf& s, const TriangleCorners& a, std::size_t i, const FaceLeaf& p,
+                const TriangleCorners& b, std::size_t j) noexcept {
+    if (!scene_.surface.hasEdge(s.face, i) || !part_.surface.hasEdge(p.face, j)) return;
+    const glm::dvec3 u = a[(i + 1) % 3] - a[i], v = b[(j + 1) % 3] - b[j], w = b[j] - a[i];
+    const glm::dvec3 n = glm::cross(u, v);
+    const double nn = glm::dot(n, n);
+    // Parallel ones touch in a region, whose ends have contacts of their own.
+    constexpr double kParallel = 1e-12;
+    if (!(nn > kParallel * glm::dot(u, u) * glm::dot(v, v))) return;
+    const double x = glm::dot(glm::cross(w, v), n) / nn, y = glm::dot(glm::cross(w, u), n) / nn;
+    if (!isOnSide(x) || !isOnSide(y)) return;
+    const glm::dvec3 d = n * (glm::dot(w, n) / nn);
+    const double distance = glm::length(d);
+    if (!(distance > 0.0) || distance > within_) return;
+    const glm::dvec3 direction = d / distance;
+    if (!scene_.allowsAtEdge(scene_.surface.mesh().edgesOfTriangle(s.face)[i], direction) ||
+        !part_.allowsAtEdge(part_.surface.mesh().edgesOfTriangle(p.face)[j], -direction))
+      return;
+    const glm::dvec3 point = a[i] + x * u;
+    add(point, point + d, direction, distance);
+  }
+
+  /// A vertex against the inside of a side.
+  struct Foot {
+    glm::dvec3 point, direction;  ///< Direction from the vertex.
+    double distance = -1.0;
+  };
+  Foot footOn(const glm::dvec3& vertex, const glm::dvec3& start, const glm::dvec3& end) const noexcept {
+    const glm::dvec3 u = end - start;
+    const double share = glm::dot(vertex - start, u) / glm::dot(u, u);
+    Foot foot;
+    if (!isOnSide(share)) return foot;
+    foot.point = start + share * u;
+    const glm::dvec3 d = foot.point - vertex;
+    const double distance = glm::length(d);
+    if (!(distance > 0.0) || distance > within_) return foot;
+    foot.direction = d / distance;
+    foot.distance = distance;
+    return foot;
+  }
+
+  void vertexEdge(const FaceLeaf& s, const TriangleCorners& a, std::size_t i, const FaceLeaf& p,
+                  const TriangleCorners& b, std::size_t j) noexcept {
+    if (!scene_.surface.hasVertex(s.face, i) || !part_.surface.hasEdge(p.face, j)) return;
+    const Foot foot = footOn(a[i], b[j], b[(j + 1) % 3]);
+    if (foot.distance < 0.0 || !scene_.allowsAtVertex(s.corners[i], foot.direction) ||
+        !part_.allowsAtEdge(part_.surface.mesh().edgesOfTriangle(p.face)[j], -foot.direction))
+      return;
+    add(a[i], foot.point, foot.direction, foot.distance);
+  }
+
+  void edgeVertex(const FaceLeaf& s, const TriangleCorners& a, std::size_t i, const FaceLeaf& p,
+                  const TriangleCorners& b, std::size_t j) noexcept {
+    if (!scene_.surface.hasEdge(s.face, i) || !part_.surface.hasVertex(p.face, j)) return;
+    const Foot foot = footOn(b[j], a[i], a[(i + 1) % 3]);
+    if (foot.distance < 0.0 || !part_.allowsAtVertex(p.corners[j], foot.direction) ||
+        !scene_.allowsAtEdge(scene_.surface.mesh().edgesOfTriangle(s.face)[i], -foot.direction))
+      return;
+    add(foot.point, b[j], -foot.direction, foot.distance);
+  }
+
+  void vertexVertex(const FaceLeaf& s, const TriangleCorners& a, std::size_t i, const FaceLeaf& p,
+                    const TriangleCorners& b, std::size_t j) noexcept {
+    if (!scene_.surface.hasVertex(s.face, i) || !part_.surface.hasVertex(p.face, j)) return;
+    const glm::dvec3 d = b[j] - a[i];
+    const double distance = glm::length(d);
+    if (!(distance > 0.0) || distance > within_) return;
+    if (!scene_.allowsAtVertex(s.corners[i], d / distance) ||
+        !part_.allowsAtVertex(p.corners[j], -d / distance))
+      return;
+    add(a[i], b[j], d / distance, distance);
+  }
+
+  static bool isOnSide(double share) noexcept { return share >= -kSide && share <= 1.0 + kSide; }
+
+  void add(const glm::dvec3& scenePoint, const glm::dvec3& partPoint, const glm::dvec3& direction,
+           double distance) noexcept {
+    const glm::dvec3& centre = scene_.surface.tree().centre();
+    list_.add({centre + scenePoint, centre + partPoint, direction, distance, sceneTriangle_, partTriangle_});
+  }
+
+  const Side &scene_, &part_;
+  double within_;
+  ContactList& list_;
+  std::uint32_t sceneTriangle_ = 0, partTriangle_ = 0;
+};
+
+}  // namespace
+
+SurfaceContacts findSurfaceContacts(const UnsidedSurface& scene, const UnsidedSurface& part,
+                                    const RigidTransform& sceneFromPart, double within, LmdScratch& scratch,
+                                    std::span<SurfaceContact> out, std::uint64_t maxNodePairs) noexcept {
+  SurfaceContacts result;
+  if (!sceneFromPart.isFinite() || !(within > 0.0) || !std::isfinite(within)) return result;
+  if (scene.tree().isEmpty() || part.tree().isEmpty()) {
+    result.isComplete = true;
+    result.lowerBound = within;
+    return result;
+  }
+  NearFaces faces(scene.tree(), part.tree(), sceneFromPart, within, scratch.data());
+  const Side sceneSide{scene, {}}, partSide{part, faces.pose()};
+  ContactList list(out, kSamePlace * (scene.tree().size() + part.tree().size()));
+  PairContacts contacts(sceneSide, partSide, within, list);
+  double least = std::numeric_limits<double>::infinity();
+  const auto visit = [&](const FaceLeaf& s, const FaceLeaf& p) {
+    ++result.trianglePairs;
+    const TriangleCorners a = faces.sceneCorners(s), b = faces.partCorners(p);
+    const double squared = closestOfTriangles(a, b).distanceSquared;
+    least = std::min(least, squared);
+    if (squared <= within * within) contacts.test(s, a, p, b);
+  };
+  const bool isDone = faces.run(visit, maxNodePairs);
+  result.nodePairs = faces.nodePairs();
+  result.count = list.count();
+  result.isComplete = isDone && !list.isFull();
+  double bound = std::min(std::sqrt(least), within);
+  if (!isDone) bound = std::min(bound, faces.leastNotVisited());
+  result.lowerBound = std::max(0.0, bound - faces.rounding());
+  return result;
+}
+
+}  // namespace nearfit

@@ -1,0 +1,178 @@
+#include "core/proximity/surface_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/exact/exact_meeting.h"
+#include "tests/support/allocation_hook.h"
+#include "tests/support/degenerate_meshes.h"
+#include "tests/support/lmd_comparison.h"
+#include "tests/support/mesh_generators.h"
+
+namespace nearfit {
+namespace {
+
+using test::BodyPair;
+
+constexpr std::uint64_t kAnyWork = std::numeric_limits<std::uint64_t>::max();
+
+UnsidedSurface surfaceOf(const TriangleMesh& mesh) {
+  return {mesh, NormalConeTree(mesh)};
+}
+
+std::vector<SurfaceContact> contactsAt(const UnsidedSurface& scene, const UnsidedSurface& part,
+                                       const RigidTransform& pose, double within) {
+  static LmdScratch scratch;
+  std::vector<SurfaceContact> contacts(4096);
+  const SurfaceContacts found = findSurfaceContacts(scene, part, pose, within, scratch, contacts, kAnyWork);
+  EXPECT_TRUE(found.isComplete);
+  contacts.resize(found.count);
+  EXPECT_TRUE(std::ranges::is_sorted(contacts, {}, &SurfaceContact::distance));
+  for (const SurfaceContact& c : contacts) {
+    EXPECT_LE(c.distance, within);
+    EXPECT_LE(found.lowerBound, c.distance);
+    EXPECT_LT(glm::distance(c.scenePoint + c.distance * c.direction, c.partPoint),
+              1e-12 * (1.0 + glm::length(c.partPoint)));
+  }
+  return contacts;
+}
+
+/// Turned about y, then moved.
+RigidTransform tilted(double angle, const glm::dvec3& translation) {
+  return {glm::angleAxis(angle, glm::dvec3(0, 1, 0)), translation};
+}
+
+TEST(SurfaceContacts, FlatPartOverATessellatedSheetHasAContactAtEachCornerStraightAcross) {
+  const UnsidedSurface sheet = surfaceOf(test::squareMesh(1.0, 50)),
+                       part = surfaceOf(test::boxMesh({0.313, 0.217, 0.1}));
+  for (const double side : {-1.0, 1.0}) {
+    // A hundred squares of the sheet are within reach of each corner.
+    const auto contacts = contactsAt(sheet, part, tilted(0.0, {0.011, 0.003, side * 0.09}), 0.08);
+    ASSERT_EQ(contacts.size(), 4U);
+    for (const SurfaceContact& c : contacts) {
+      EXPECT_NEAR(c.direction.z, side, 1e-12);
+      EXPECT_NEAR(c.distance, 0.04, 1e-12);
+      EXPECT_NEAR(std::abs(c.partPoint.x - 0.011), 0.1565, 1e-12);
+      EXPECT_NEAR(std::abs(c.partPoint.y - 0.003), 0.1085, 1e-12);
+    }
+  }
+}
+
+TEST(SurfaceContacts, PartTiltedALittleKeepsItsFartherCorners) {
+  const UnsidedSurface sheet = surfaceOf(test::squareMesh(1.0, 7)),
+                       part = surfaceOf(test::boxMesh({0.4, 0.3, 0.1}));
+  const auto contacts = contactsAt(sheet, part, tilted(0.02, {0, 0, 0.09}), 0.08);
+  ASSERT_EQ(contacts.size(), 4U);
+  // By hand: corners at +-0.2 along x, 0.05 below the middle.
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double x = i < 2 ? 0.2 : -0.2;
+    EXPECT_NEAR(contacts[i].distance, 0.09 - 0.05 * std::cos(0.02) - x * std::sin(0.02), 1e-12);
+    EXPECT_NEAR(contacts[i].direction.z, 1.0, 1e-12);
+  }
+  // Tilted more than that, the farther corners are none.
+  EXPECT_EQ(contactsAt(sheet, part, tilted(0.1, {0, 0, 0.09}), 0.08).size(), 2U);
+}
+
+TEST(SurfaceContacts, OpenEdgesTouchEachOtherFromAnySide) {
+  const TriangleMesh strip({{-1, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 1, 2}});
+  const TriangleMesh across({{0, -1, 0}, {0, 1, 0}, {0, 0, -1}}, {{0, 1, 2}});
+  for (const TriangleMesh& a : {strip, test::turned(strip)}) {
+    const auto contacts = contactsAt(surfaceOf(a), surfaceOf(across), tilted(0.0, {0.2, 0.1, -0.25}), 0.5);
+    ASSERT_EQ(contacts.size(), 1U);
+    EXPECT_NEAR(contacts[0].distance, 0.25, 1e-15);
+    EXPECT_NEAR(contacts[0].direction.z, -1.0, 1e-15);
+    EXPECT_LT(glm::distance(contacts[0].partPoint, {0.2, 0.0, -0.25}), 1e-15);
+  }
+}
+
+/// All isolated minima must be contacts; the nearest contact must be as near as the surfaces are.
+void compare(const BodyPair& pair, std::size_t poses, double within, bool areClosed, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const UnsidedSurface scene = surfaceOf(pair.scene), part = surfaceOf(pair.part);
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < poses / test::kPoseShare; ++i) {
+    const RigidTransform pose = test::poseNearContact(pair, within, random);
+    const std::vector<SurfaceContact> contacts = contactsAt(scene, part, pose, within);
+    const double least = test::leastDistanceExactly(pair.scene, pair.part, pose);
+    if (least > 0.0 && least < within) {
+      ASSERT_FALSE(contacts.empty()) << pair.name;
+      EXPECT_NEAR(contacts[0].distance, least, 1e-12) << pair.name;
+      ++compared;
+    }
+    if (!areClosed) continue;
+    for (const Lmd& lmd : test::allLmds(scene.tree(), part.tree(), pose, within)) {
+      if (lmd.isRegion) continue;
+      EXPECT_TRUE(std::ranges::any_of(contacts,
+                                      [&](const SurfaceContact& c) {
+                                        return glm::distance(c.partPoint, lmd.partPoint) < 1e-7 &&
+                                               glm::distance(c.scenePoint, lmd.scenePoint) < 1e-7;
+                                      }))
+          << pair.name << " " << lmd.distance;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, poses / 8 / test::kPoseShare);
+}
+
+TEST(SurfaceContacts, HoldTheNearestPointsAndAllMinima) {
+  compare({"stars", test::starMesh(1, 1.0, 2, 0.4), test::starMesh(2, 0.3, 1, 0.4)}, 24, 0.2, true, 1);
+  compare({"boxes", test::boxMesh({1, 2, 3}), test::boxMesh({0.5, 0.5, 0.5})}, 24, 0.2, true, 2);
+  compare({"fans", test::jaggedFan(3, 40, 0.2), test::jaggedFan(4, 30, 0.4)}, 24, 0.4, false, 3);
+  compare({"soup", test::looseTriangles(3, 60), test::looseTriangles(4, 3)}, 24, 0.2, false, 4);
+  compare({"sheets", test::squareMesh(1.0, 6), test::coplanarFans(1, 4)}, 24, 0.4, false, 5);
+}
+
+TEST(SurfaceContacts, FullStorageKeepsTheNearest) {
+  const BodyPair pair{"stars", test::starMesh(1, 1.0, 3, 0.3), test::starMesh(2, 1.0, 3, 0.3)};
+  const UnsidedSurface scene = surfaceOf(pair.scene), part = surfaceOf(pair.part);
+  const RigidTransform pose{{1, 0, 0, 0}, {1.9, 0.1, 0.2}};
+  const std::vector<SurfaceContact> all = contactsAt(scene, part, pose, 0.5);
+  ASSERT_GT(all.size(), 6U);
+  LmdScratch scratch;
+  std::array<SurfaceContact, 4> few;
+  const SurfaceContacts found = findSurfaceContacts(scene, part, pose, 0.5, scratch, few, kAnyWork);
+  EXPECT_EQ(found.count, few.size());
+  EXPECT_FALSE(found.isComplete);
+  for (std::size_t i = 0; i < few.size(); ++i)
+    EXPECT_EQ(few[i].distance, all[i].distance);
+  EXPECT_EQ(findSurfaceContacts(scene, part, pose, 0.5, scratch, {}, kAnyWork).count, 0U);
+}
+
+TEST(SurfaceContacts, LowerBoundHoldsWhateverTheWork) {
+  const BodyPair pair{"stars", test::starMesh(1, 1.0, 2, 0.3), test::starMesh(2, 1.0, 2, 0.3)};
+  const UnsidedSurface scene = surfaceOf(pair.scene), part = surfaceOf(pair.part);
+  LmdScratch scratch;
+  std::array<SurfaceContact, 16> out;
+  for (const double x : {1.5, 2.1, 2.5}) {
+    const RigidTransform pose{{1, 0, 0, 0}, {x, 0, 0}};
+    const double least = test::leastDistanceExactly(pair.scene, pair.part, pose);
+    for (const std::uint64_t work : {0, 1, 5, 20, 100, 1000}) {
+      const SurfaceContacts found = findSurfaceContacts(scene, part, pose, 1.0, scratch, out, work);
+      EXPECT_LE(found.lowerBound, least);
+    }
+  }
+  const RigidTransform bad{{1, 0, 0, 0}, {std::numeric_limits<double>::quiet_NaN(), 0, 0}};
+  EXPECT_EQ(findSurfaceContacts(scene, part, bad, 1.0, scratch, out, kAnyWork).lowerBound, 0.0);
+}
+
+TEST(SurfaceContacts, FindingThemAllocatesNothing) {
+  const UnsidedSurface scene = surfaceOf(test::starMesh(1, 1.0, 3, 0.3)),
+                       part = surfaceOf(test::starMesh(2, 1.0, 3, 0.3));
+  LmdScratch scratch;
+  std::array<SurfaceContact, 64> out;
+  test::resetAllocationCount();
+  test::startCountingAllocations();
+  for (const double x : {0.5, 1.0, 1.8, 2.2})
+    findSurfaceContacts(scene, part, {{1, 0, 0, 0}, {x, 0, 0}}, 0.2, scratch, out, kAnyWork);
+  test::stopCountingAllocations();
+  EXPECT_EQ(test::countedAllocations(), 0U);
+}
+
+}  // namespace
+}  // namespace nearfit
