@@ -10,5 +10,6 @@ void addQueryCommand(CLI::App& program);
 void addBuildCommand(CLI::App& program);
 void addSceneCommand(CLI::App& program);
 void addProgramCommand(CLI::App& program);
+void addCertifyCommand(CLI::App& program);
 
 }  // namespace nearfit::bench

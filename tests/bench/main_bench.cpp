@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
   nearfit::bench::addBuildCommand(program);
   nearfit::bench::addSceneCommand(program);
   nearfit::bench::addProgramCommand(program);
+  nearfit::bench::addCertifyCommand(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
