@@ -67,4 +67,10 @@ BodyMotion freeStep(const Felt& felt, const CouplingState& coupling, const MassM
   return next;
 }
 
+double kineticEnergy(const Felt& felt, const MassMetric& metric, const BodyMotion& part) noexcept {
+  const glm::dquat principalFromWorld = glm::conjugate(part.pose.rotation * metric.partFromPrincipal);
+  const glm::dvec3 spin = metric.gyration * (principalFromWorld * part.twist.angular);
+  return 0.5 * felt.mass * (glm::dot(part.twist.linear, part.twist.linear) + glm::dot(spin, spin));
+}
+
 }  // namespace nearfit

@@ -35,4 +35,7 @@ BodyMotion freeStep(const Felt& felt, const CouplingState& coupling, const MassM
                     const glm::dvec3& centreInPart, const BodyMotion& handle, const BodyMotion& part,
                     double dt) noexcept;
 
+/// Of a part with mass that moves [J]; its inertia is that of the metric. Real-time safe.
+double kineticEnergy(const Felt& felt, const MassMetric& metric, const BodyMotion& part) noexcept;
+
 }  // namespace nearfit

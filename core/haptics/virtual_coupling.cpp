@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "core/math/rotation_vector.h"
 
 namespace nearfit {
@@ -45,6 +47,32 @@ CouplingState automatic(double damping, double rotationalDamping, double gyratio
           angular.damping, false};
 }
 
+/// From the handle to the part: of the centres, and of the turn; world frame.
+struct Stretch {
+  glm::dvec3 shift, turn;
+};
+
+Stretch stretchOf(const glm::dvec3& centreInPart, const RigidTransform& handle,
+                  const RigidTransform& part) noexcept {
+  return {part.applyToPoint(centreInPart) - handle.applyToPoint(centreInPart),
+          turnBetween(handle.rotation, part.rotation)};
+}
+
+/// Along each principal axis of the part by the square of its gyration, that of the largest being one.
+glm::dvec3 byGyration(const MassMetric& metric, const RigidTransform& part,
+                      const glm::dvec3& vector) noexcept {
+  const glm::dquat worldFromPrincipal = part.rotation * metric.partFromPrincipal;
+  const glm::dvec3 ratio = metric.gyration / largestGyration(metric);
+  return worldFromPrincipal * (ratio * ratio * (glm::conjugate(worldFromPrincipal) * vector));
+}
+
+/// Of a spring whose load is clamped at a limit: the integral of the clamped load.
+double storedIn(const glm::dvec3& load, const glm::dvec3& stretch, double limit) noexcept {
+  const double size = glm::length(load);
+  const double rendered = size > limit ? limit / size : 1.0;
+  return rendered * (1.0 - 0.5 * rendered) * glm::dot(load, stretch);
+}
+
 }  // namespace
 
 double stiffnessBound(double deviceDamping, double couplingDamping, double period) noexcept {
@@ -53,8 +81,8 @@ double stiffnessBound(double deviceDamping, double couplingDamping, double perio
 }
 
 CouplingState boundedCoupling(const CouplingSettings& wish, const DeviceLimits& device,
-                              const MassMetric& metric, double period, double scale) noexcept {
-  const double damping = finiteOrZero(device.damping / scale);
+                              const MassMetric& metric, double period) noexcept {
+  const double damping = finiteOrZero(device.damping);
   const double rotationalDamping = finiteOrZero(device.rotationalDamping);
   if (wish.isAutomatic) {
     return automatic(damping, rotationalDamping, largestGyration(metric), period);
@@ -76,14 +104,20 @@ glm::dvec3 turnBetween(const glm::dquat& from, const glm::dquat& to) noexcept {
 
 Wrench couplingWrench(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
                       const BodyMotion& handle, const BodyMotion& part) noexcept {
-  const glm::dvec3 stretch = part.pose.applyToPoint(centreInPart) - handle.pose.applyToPoint(centreInPart);
-  const glm::dvec3 turn = turnBetween(handle.pose.rotation, part.pose.rotation);
-  const glm::dvec3 twisting = coupling.rotationalStiffness * turn +
+  const Stretch stretch = stretchOf(centreInPart, handle.pose, part.pose);
+  const glm::dvec3 twisting = coupling.rotationalStiffness * stretch.turn +
                               coupling.rotationalDamping * (part.twist.angular - handle.twist.angular);
-  const glm::dquat worldFromPrincipal = part.pose.rotation * metric.partFromPrincipal;
-  const glm::dvec3 ratio = metric.gyration / largestGyration(metric);
-  return {coupling.stiffness * stretch + coupling.damping * (part.twist.linear - handle.twist.linear),
-          worldFromPrincipal * (ratio * ratio * (glm::conjugate(worldFromPrincipal) * twisting))};
+  return {coupling.stiffness * stretch.shift + coupling.damping * (part.twist.linear - handle.twist.linear),
+          byGyration(metric, part.pose, twisting)};
+}
+
+double storedEnergy(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
+                    const RigidTransform& handle, const RigidTransform& part,
+                    const DeviceLimits& limits) noexcept {
+  const Stretch stretch = stretchOf(centreInPart, handle, part);
+  const glm::dvec3 torque = byGyration(metric, part, coupling.rotationalStiffness * stretch.turn);
+  return storedIn(coupling.stiffness * stretch.shift, stretch.shift, limits.maxForce) +
+         storedIn(torque, stretch.turn, limits.maxTorque);
 }
 
 }  // namespace nearfit

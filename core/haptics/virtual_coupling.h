@@ -48,11 +48,10 @@ double stiffnessBound(double deviceDamping, double couplingDamping, double perio
 /// what holds the part, where its own bound allows. Not automatic: each number as wished, up to
 /// kMostDampingShare and to the bound.
 ///
-/// @param period  Measured (PeriodMeter) [s]. @param scale  Of the workspace mapping: the handle's metre is
-///                1/scale of the device's, which then feels a stiffness and damping `scale` times as large.
+/// @param device  As at the handle (limitsAtHandle).   @param period  Measured (PeriodMeter) [s].
 /// Any input: finite and >= 0; zero stiffness where the bound has no meaning. Real-time safe.
 CouplingState boundedCoupling(const CouplingSettings& wish, const DeviceLimits& device,
-                              const MassMetric& metric, double period, double scale = 1.0) noexcept;
+                              const MassMetric& metric, double period) noexcept;
 
 /// Spring and damper from the handle to the part, on the hand, about the centre of mass of the handle's
 /// pose; world frame. The force is `stiffness` times the distance of the centres; the torque that of a spring
@@ -66,6 +65,12 @@ CouplingState boundedCoupling(const CouplingSettings& wish, const DeviceLimits& 
 /// Source: Ortega, Redon & Coquillart 2007, 5; with damping.
 Wrench couplingWrench(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
                       const BodyMotion& handle, const BodyMotion& part) noexcept;
+
+/// Energy in the spring between the poses [J], less what it could not give back as its force and torque are
+/// clamped to the limits: from there on it grows with the distance, not with its square. Real-time safe.
+double storedEnergy(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
+                    const RigidTransform& handle, const RigidTransform& part,
+                    const DeviceLimits& limits) noexcept;
 
 /// The turn, as axis times angle in the common frame [rad], that takes `from` to `to` the shorter way; zero
 /// exactly for equal ones. Real-time safe.

@@ -32,6 +32,10 @@ glm::dvec3 withoutLocked(glm::dvec3 v, const Locks& locks) noexcept {
   return v;
 }
 
+double validScale(double scale) noexcept {
+  return std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
+}
+
 struct FreeTurn {
   glm::dquat turn;
   bool isFar;      ///< Time for a new index.
@@ -105,10 +109,22 @@ RigidTransform WorkspaceMapper::map(const RigidTransform& device, bool isClutche
   return handle;
 }
 
+DeviceLimits limitsAtHandle(const DeviceLimits& device, double scale) noexcept {
+  const double s = validScale(scale);
+  DeviceLimits limits = device;
+  limits.damping /= s;
+  limits.leastMass /= s;
+  limits.rotationalDamping *= s;
+  limits.leastInertia *= s;
+  limits.maxTorque *= s;
+  limits.torqueSlew *= s;
+  return limits;
+}
+
 Wrench wrenchOnDevice(const Wrench& wrench, const WorkspaceMapping& mapping) noexcept {
   const glm::dquat deviceFromWorld = glm::conjugate(glm::normalize(mapping.orientationOffset));
   return {deviceFromWorld * withoutLocked(wrench.force, mapping.translationLocks),
-          deviceFromWorld * withoutLocked(wrench.torque, mapping.rotationLocks)};
+          deviceFromWorld * withoutLocked(wrench.torque, mapping.rotationLocks) / validScale(mapping.scale)};
 }
 
 }  // namespace nearfit

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/haptics/device_limits.h"
 #include "core/haptics/haptic_settings.h"
 #include "core/haptics/wrench.h"
 #include "core/math/rigid_transform.h"
@@ -52,10 +53,18 @@ class WorkspaceMapper {
   RigidTransform lastDevice_, lastHandle_;
 };
 
+/// The device as it appears at the handle, over a mapping of scale s: the device moves by 1/s of the handle
+/// and renders force as it is and torque over s (wrenchOnDevice), so that all energies are those at the
+/// handle over s, and what is passive at the handle is so at the device. Its damping and mass against shifts
+/// are 1/s of the device's, those against turns, and the limits of torque, s times. Coupling, passivity and
+/// limits are to be reckoned with these. A scale that is not finite or <= 0 counts as 1. Real-time safe.
+DeviceLimits limitsAtHandle(const DeviceLimits& device, double scale) noexcept;
+
 /// A wrench on the handle as the device is to render it, in the device's frame: what points along locked axes
 /// is left out (the device moves along them while the handle does not, and would be pushed for ever), the
-/// rest turned back by the offset. Force is not scaled: over a mapping of scale s the device feels s times
-/// the stiffness (boundedCoupling takes the scale for that). Real-time safe.
+/// torque is divided by the scale (limitsAtHandle says why), all is turned back by the offset. Torque stays
+/// about the centre of mass: a device that turns about another point has to add the force's moment about it.
+/// Real-time safe.
 Wrench wrenchOnDevice(const Wrench& wrench, const WorkspaceMapping& mapping) noexcept;
 
 }  // namespace nearfit

@@ -150,6 +150,19 @@ TEST(FreeStep, NeverGainsEnergyWhateverTheNumbers) {
   }
 }
 
+TEST(KineticEnergy, IsThatOfTranslationAndOfTheSpinAboutThePrincipalAxes) {
+  const glm::dquat worldFromPart = rotationOf({1.0, 0.2, -0.4});
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 principal(0.0);
+    principal[axis] = 1.0;
+    const glm::dvec3 spin = worldFromPart * (kMetric.partFromPrincipal * principal);
+    const BodyMotion part{{worldFromPart, {}}, {{3, 0, 4}, 10.0 * spin}};
+    const double k = kMetric.gyration[axis];
+    EXPECT_NEAR(kineticEnergy({2.0, {}}, kMetric, part), 25.0 + 100.0 * k * k, 1e-12);
+    EXPECT_EQ(kineticEnergy({}, kMetric, part), 0.0);
+  }
+}
+
 TEST(FeltBody, IsNothingUnlessAskedFor) {
   const Felt felt = feltBody({}, 3.0, 10.0);
   EXPECT_EQ(felt.mass, 0.0);

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/haptics/wrench_conditioner.h"
 #include "core/math/rotation_vector.h"
 
 namespace nearfit {
@@ -115,16 +116,6 @@ TEST(BoundedCoupling, SlowerServoMeansSofterCoupling) {
   EXPECT_NEAR(slow.stiffness, fast.stiffness / 4.0, 1e-9);
 }
 
-TEST(BoundedCoupling, MagnifiedMotionSoftensTheCoupling) {
-  // The device moves 1/3 of what the handle does and feels the force as it is: K times 3.
-  const DeviceLimits device = deviceWithDamping(1.0, 1.0);
-  const MassMetric metric = metricOf(glm::dvec3(0.01));
-  const CouplingState plain = boundedCoupling({}, device, metric, 1e-3);
-  const CouplingState magnified = boundedCoupling({}, device, metric, 1e-3, 3.0);
-  EXPECT_NEAR(magnified.stiffness * 3.0, plain.stiffness, 1e-9);
-  EXPECT_NEAR(magnified.damping * 3.0, plain.damping, 1e-12);
-}
-
 TEST(BoundedCoupling, SenselessNumbersGiveZeroStiffnessAndNeverNan) {
   const double values[] = {kNan, kInfinity, -kInfinity, -1.0, 0.0, 1e-320, 1e-3, 1.0, 1e308};
   for (const double damping : values)
@@ -133,7 +124,7 @@ TEST(BoundedCoupling, SenselessNumbersGiveZeroStiffnessAndNeverNan) {
         for (const bool isAutomatic : {false, true}) {
           const CouplingSettings wish{isAutomatic, number, number, number, number};
           const CouplingState c = boundedCoupling(wish, deviceWithDamping(damping, damping),
-                                                  metricOf(glm::dvec3(number)), period, number);
+                                                  metricOf(glm::dvec3(number)), period);
           for (const double result : {c.stiffness, c.damping, c.rotationalStiffness, c.rotationalDamping}) {
             EXPECT_TRUE(std::isfinite(result) && result >= 0.0)
                 << damping << " " << period << " " << number << " " << isAutomatic;
@@ -151,10 +142,10 @@ TEST(BoundedCoupling, RandomWishesNeverBreakTheBound) {
     const DeviceLimits device = deviceWithDamping(random.in(0, 3), random.in(0, 0.01));
     CouplingSettings wish = wishFor(random.in(0, 1e4), random.in(0, 3), random.in(0, 20), random.in(0, 0.01));
     wish.isAutomatic = i % 2 == 0;
-    const double period = random.in(1e-4, 1e-2), scale = random.in(0.1, 10.0);
-    const CouplingState c = boundedCoupling(wish, device, metricOf(random.vector(0.1) + 0.11), period, scale);
-    // As the device feels it, with rounding of the sums allowed for.
-    EXPECT_LE(scale * (c.stiffness * period / 2.0 + c.damping), device.damping * (1.0 + 1e-12));
+    const double period = random.in(1e-4, 1e-2);
+    const CouplingState c = boundedCoupling(wish, device, metricOf(random.vector(0.1) + 0.11), period);
+    // Rounding of the sums allowed for.
+    EXPECT_LE(c.stiffness * period / 2.0 + c.damping, device.damping * (1.0 + 1e-12));
     EXPECT_LE(c.rotationalStiffness * period / 2.0 + c.rotationalDamping,
               device.rotationalDamping * (1.0 + 1e-12));
   }
@@ -250,6 +241,39 @@ TEST(CouplingWrench, HalfATurnIsPulledTheShorterWay) {
   };
   EXPECT_NEAR(torqueAt(pi - 0.01), 0.8 * (pi - 0.01), 1e-12);
   EXPECT_NEAR(torqueAt(pi + 0.01), -0.8 * (pi - 0.01), 1e-12);
+}
+
+/// Work that takes the handle away from the part along a straight way, against the clamped wrench.
+double workOfStretching(const MassMetric& metric, const glm::dvec3& shift, const glm::dvec3& turn,
+                        const DeviceLimits& limits) {
+  const int steps = 20'000;
+  double work = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double middle = (i + 0.5) / steps;
+    const BodyMotion part, handle{{rotationOf(middle * turn), middle * shift}, {}};
+    const Wrench w = limitWrench(couplingWrench(kCoupling, metric, {}, handle, part), limits).wrench;
+    work -= (glm::dot(w.force, shift) + glm::dot(w.torque, turn)) / steps;
+  }
+  return work;
+}
+
+TEST(StoredEnergy, IsTheWorkThatStretchesTheCoupling) {
+  const MassMetric metric = metricOf({0.01, 0.02, 0.04}, rotationOf({0.3, -0.8, 1.1}));
+  const glm::dvec3 shift(0.002, -0.003, 0.006), turn(0.3, 0.2, -0.5);
+  DeviceLimits wide, narrow;
+  wide.maxForce = wide.maxTorque = 1e3;
+  narrow.maxForce = 3.0;  // Reached at 3 of 7 mm, and the torque on the way.
+  narrow.maxTorque = 0.1;
+  for (const DeviceLimits& limits : {wide, narrow}) {
+    const RigidTransform handle{rotationOf(turn), shift};
+    const double work = workOfStretching(metric, shift, turn, limits);
+    EXPECT_NEAR(storedEnergy(kCoupling, metric, {}, handle, {}, limits), work, 1e-7 * work);
+  }
+}
+
+TEST(StoredEnergy, IsHalfTheStiffnessTimesTheSquareOfTheStretch) {
+  const RigidTransform handle{{1, 0, 0, 0}, {0.004, 0, 0}};
+  EXPECT_NEAR(storedEnergy(kCoupling, metricOf(glm::dvec3(0.02)), {}, handle, {}, {}), 0.008, 1e-15);
 }
 
 TEST(TurnBetween, OppositeQuaternionsAreTheSameTurn) {
