@@ -8,7 +8,6 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
-#include <glm/mat3x3.hpp>
 
 #include "core/parallel/parallel_for.h"
 #include "tests/exact/exact_meeting.h"
@@ -31,23 +30,14 @@ struct Box {
     }
     return true;
   }
-  double longest() const {
-    const glm::dvec3 d = upper - lower;
-    return std::max({d.x, d.y, d.z});
-  }
+  double size() const { return upper.x - lower.x + upper.y - lower.y + upper.z - lower.z; }
 };
 
-/// A box that holds another, turned and moved, whatever the rounding of both.
-Box placed(const Box& box, const glm::dmat3& turn, const RigidTransform& pose) {
-  const glm::dvec3 middle = 0.5 * (box.lower + box.upper), half = 0.5 * (box.upper - box.lower);
-  const glm::dvec3 centre = turn * middle + pose.translation;
-  glm::dvec3 reach(0.0);
-  for (glm::length_t i = 0; i < 3; ++i)
-    reach += half[i] * glm::abs(turn[i]);
-  constexpr double kRounding = 1e-14;
-  reach += kRounding *
-           (glm::length(centre) + glm::length(pose.translation) + glm::length(middle) + glm::length(half));
-  return {centre - reach, centre + reach};
+Box around(const Corners& corners) {
+  Box box;
+  for (const glm::dvec3& p : corners)
+    box.add(p);
+  return box;
 }
 
 /// Boxes over a mesh's triangles, halved along the longest side until a few are left.
@@ -71,14 +61,34 @@ class BoxTree {
     return std::span(order_).subspan(n.first, n.count);
   }
   bool isEmpty() const { return order_.empty(); }
-  Corners corners(std::uint32_t triangle) const {
+  Corners corners(std::uint32_t triangle) const { return corners(triangle, mesh_.vertices()); }
+  Corners corners(std::uint32_t triangle, std::span<const glm::dvec3> vertices) const {
     const Triangle& t = mesh_.triangles()[triangle];
-    return {mesh_.vertices()[t[0]], mesh_.vertices()[t[1]], mesh_.vertices()[t[2]]};
+    return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+  }
+  /// By node, around the same triangles with their vertices elsewhere.
+  std::vector<Box> boxesAround(std::span<const glm::dvec3> vertices) const {
+    std::vector<Box> boxes(nodes_.size());
+    // Children stand behind their parents.
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+      const Node& n = nodes_[i];
+      if (n.child != 0) {
+        boxes[i] = boxes[n.child];
+        boxes[i].add(boxes[n.child + 1].lower);
+        boxes[i].add(boxes[n.child + 1].upper);
+        continue;
+      }
+      for (const std::uint32_t t : triangles(n)) {
+        for (const glm::dvec3& p : corners(t, vertices))
+          boxes[i].add(p);
+      }
+    }
+    return boxes;
   }
 
  private:
   void build(std::uint32_t index, std::uint32_t first, std::uint32_t count) {
-    constexpr std::uint32_t kFew = 4;
+    constexpr std::uint32_t kFew = 1;
     Box box;
     for (std::uint32_t i = first; i < first + count; ++i) {
       for (const glm::dvec3& p : corners(order_[i]))
@@ -111,7 +121,26 @@ Kernel::Point_3 toPoint(const glm::dvec3& p) {
   return {p.x, p.y, p.z};
 }
 
+double largest(const glm::dvec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// Whether one triangle surely lies wholly on one side of the other's plane: by far more than rounding.
+bool isSurelyBeside(const Corners& plane, const Corners& t) {
+  constexpr double kRounding = 1e-13;
+  const glm::dvec3 u = plane[1] - plane[0], v = plane[2] - plane[0], n = glm::cross(u, v);
+  int above = 0, below = 0;
+  for (const glm::dvec3& p : t) {
+    const glm::dvec3 w = p - plane[0];
+    const double height = glm::dot(n, w), rounding = kRounding * largest(u) * largest(v) * largest(w);
+    above += height > rounding ? 1 : 0;
+    below += height < -rounding ? 1 : 0;
+  }
+  return above == 3 || below == 3;
+}
+
 bool doMeetByCgal(const Corners& a, const Corners& b) {
+  if (isSurelyBeside(a, b) || isSurelyBeside(b, a)) return false;
   const Kernel::Triangle_3 s(toPoint(a[0]), toPoint(a[1]), toPoint(a[2]));
   const Kernel::Triangle_3 t(toPoint(b[0]), toPoint(b[1]), toPoint(b[2]));
   // Those of no area are rare: the slow way takes them.
@@ -148,38 +177,38 @@ struct PoseCertifier::Bodies {
 
   bool doSurfacesMeet(const RigidTransform& pose) const {
     if (scene.isEmpty() || part.isEmpty()) return false;
-    const glm::dmat3 turn = glm::mat3_cast(pose.rotation);
+    std::vector<glm::dvec3> placed;
+    for (const glm::dvec3& p : part.mesh().vertices())
+      placed.push_back(pose.applyToPoint(p));
+    const std::vector<Box> boxes = part.boxesAround(placed);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> waiting{{0, 0}};
     while (!waiting.empty()) {
       const auto [s, p] = waiting.back();
       waiting.pop_back();
       const BoxTree::Node &a = scene.node(s), &b = part.node(p);
-      if (!a.box.meets(placed(b.box, turn, pose))) continue;
+      if (!a.box.meets(boxes[p])) continue;
       if (a.child == 0 && b.child == 0) {
-        if (doLeavesMeet(a, b, pose)) return true;
-      } else if (b.child == 0 || (a.child != 0 && a.box.longest() >= b.box.longest())) {
-        waiting.insert(waiting.end(), {{a.child, p}, {a.child + 1, p}});
+        if (doLeavesMeet(a, b, placed)) return true;
+      } else if (b.child == 0 || (a.child != 0 && a.box.size() >= boxes[p].size())) {
+        waiting.emplace_back(a.child, p);
+        waiting.emplace_back(a.child + 1, p);
       } else {
-        waiting.insert(waiting.end(), {{s, b.child}, {s, b.child + 1}});
+        waiting.emplace_back(s, b.child);
+        waiting.emplace_back(s, b.child + 1);
       }
     }
     return false;
   }
 
-  bool doLeavesMeet(const BoxTree::Node& a, const BoxTree::Node& b, const RigidTransform& pose) const {
+  bool doLeavesMeet(const BoxTree::Node& a, const BoxTree::Node& b,
+                    std::span<const glm::dvec3> placed) const {
     for (const std::uint32_t p : part.triangles(b)) {
-      Corners q = part.corners(p);
-      Box box;
-      for (glm::dvec3& x : q) {
-        x = pose.applyToPoint(x);
-        box.add(x);
-      }
+      const Corners q = part.corners(p, placed);
+      const Box box = around(q);
+      if (!a.box.meets(box)) continue;
       for (const std::uint32_t s : scene.triangles(a)) {
         const Corners c = scene.corners(s);
-        Box other;
-        for (const glm::dvec3& x : c)
-          other.add(x);
-        if (box.meets(other) && doMeetByCgal(c, q)) return true;
+        if (box.meets(around(c)) && doMeetByCgal(c, q)) return true;
       }
     }
     return false;
