@@ -60,7 +60,9 @@ FreeTurn freeTurn(const glm::dquat& turn, const Locks& locks) noexcept {
 
 }  // namespace
 
-void WorkspaceMapper::engageAt(const RigidTransform& device, const RigidTransform& worldFromPart) noexcept {
+void WorkspaceMapper::engageAt(const RigidTransform& device, const RigidTransform& worldFromPart,
+                               const glm::dvec3& pivotInPart) noexcept {
+  pivot_ = pivotInPart;
   setIndex(device, worldFromPart);
   isDirect_ = device.rotation == worldFromPart.rotation && device.translation == worldFromPart.translation;
   lastDevice_ = device;
@@ -82,8 +84,11 @@ RigidTransform WorkspaceMapper::sinceIndex(const RigidTransform& device, bool& i
                                          glm::conjugate(offset));
   const FreeTurn free = freeTurn(turn, mapping_.rotationLocks);
   isFarTurned = free.isFar;
-  return {free.isDefined ? glm::normalize(free.turn * indexHandle_.rotation) : lastHandle_.rotation,
-          indexHandle_.translation + withoutLocked(shift, mapping_.translationLocks)};
+  const glm::dquat rotation =
+      free.isDefined ? glm::normalize(free.turn * indexHandle_.rotation) : lastHandle_.rotation;
+  const glm::dvec3 pivot =
+      indexHandle_.applyToPoint(pivot_) + withoutLocked(shift, mapping_.translationLocks);
+  return {rotation, pivot - rotation * pivot_};
 }
 
 RigidTransform WorkspaceMapper::map(const RigidTransform& device, bool isClutched,

@@ -12,8 +12,8 @@ namespace nearfit {
 ///
 ///     translation  t = t0 + lock(s O (d - d0))        rotation  R = lock(O (D D0^-1) O^-1) R0
 ///
-/// with d, D the device's pose, O the offset. Engaging sets an index. So do, without moving the handle, the
-/// clutch and every change of the mapping.
+/// with d, D the device's pose, O the offset, t the place of the pivot. Engaging sets an index. So do,
+/// without moving the handle, the clutch and every change of the mapping.
 ///
 /// Locked world axes: the handle stays where the index has it along them. Of the turn since the index, with
 /// two axes locked only the twist about the third counts, through any number of revolutions; with one locked,
@@ -29,7 +29,11 @@ class WorkspaceMapper {
   void engage(const RigidTransform& device) noexcept { engageAt(device, device); }
 
   /// For devices with a frame of their own: the handle begins at the part, wherever the device is.
-  void engageAt(const RigidTransform& device, const RigidTransform& worldFromPart) noexcept;
+  /// @param pivotInPart  What the device's origin stands for [m]: turns of the device turn the part about it.
+  ///                     The centre of mass, as a rule: a part whose own origin is far off would else swing,
+  ///                     and force on that lever would count as stiffness against turning.
+  void engageAt(const RigidTransform& device, const RigidTransform& worldFromPart,
+                const glm::dvec3& pivotInPart = glm::dvec3(0.0)) noexcept;
 
   /// The handle's pose. After `engage`, with a mapping that changes nothing (scale 1, no offset, no locks)
   /// and no clutch so far, it is the device's pose bit for bit. Without engaging, the first call does, at
@@ -49,6 +53,7 @@ class WorkspaceMapper {
   bool hasMapping_ = false;  ///< `mapping_` is from a call since engaging.
   bool isDirect_ = false;    ///< Handle and device were one at the index.
   WorkspaceMapping mapping_;
+  glm::dvec3 pivot_{0.0};  ///< In the part's frame.
   RigidTransform indexDevice_, indexHandle_;
   RigidTransform lastDevice_, lastHandle_;
 };

@@ -81,6 +81,22 @@ TEST(WorkspaceMapper, DeviceWithItsOwnFrameBeginsAtThePart) {
              1e-14);
 }
 
+TEST(WorkspaceMapper, PartTurnsAboutThePivot) {
+  Random random(10);
+  const RigidTransform device = random.pose(), part = random.pose();
+  const glm::dvec3 pivot(2.0, -1.0, 0.5), shift(0.01, 0.02, 0.03);
+  WorkspaceMapping mapping;
+  mapping.scale = 2.0;
+  WorkspaceMapper mapper;
+  mapper.engageAt(device, part, pivot);
+  expectNear(mapper.map(device, false, mapping), part, 1e-14);
+  const glm::dquat turn = rotationOf({0.5, -0.2, 0.3});
+  const RigidTransform moved{turn * device.rotation, device.translation + shift};
+  const RigidTransform handle = mapper.map(moved, false, mapping);
+  EXPECT_NEAR(turnDistance(handle.rotation, turn * part.rotation), 0.0, 1e-14);
+  EXPECT_NEAR(glm::distance(handle.applyToPoint(pivot), part.applyToPoint(pivot) + 2.0 * shift), 0.0, 1e-14);
+}
+
 TEST(WorkspaceMapper, ScaleMagnifiesTranslationOnlyFromWhereItBegan) {
   WorkspaceMapping mapping;
   mapping.scale = 4.0;
@@ -209,7 +225,7 @@ TEST(WorkspaceMapper, ChangesOfTheMappingNeverMoveTheHandleOfADeviceAtRest) {
   Random random(7);
   WorkspaceMapper mapper;
   const RigidTransform start = random.pose();
-  mapper.engageAt(start, random.pose());
+  mapper.engageAt(start, random.pose(), random.vector(0.5));
   RigidTransform device = start;
   RigidTransform last = mapper.map(device, false, kPlain);
   for (int i = 0; i < 2000; ++i) {
