@@ -4,165 +4,29 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/haptics/virtual_coupling.h"
-#include "tests/support/simulated_hand.h"
+#include "tests/support/wall_encounter.h"
 
 namespace nearfit {
 namespace {
 
-constexpr double kPeriod = 1e-3;
+using test::leaningOn;
+using test::meetWall;
+using test::wallOf;
+using test::WallOutcome;
+using test::WallTrial;
 
-/// Whether the wall resists a force or is a hinge that resists a torque.
-enum class Along { Force, Torque };
-
-/// Beyond 0 it pushes back from the position `delay` ticks ago, sampled and held.
-struct Wall {
-  double stiffness = 0.0, damping = 0.0;
-  int delay = 0;
-};
-
-/// A hand is thrown at a wall and pushed against it.
-struct Trial {
-  Wall wall;
-  double mass = 0.2, damping = 1.0;  ///< Of the hand.
-  double position = -5e-4, velocity = 0.05, push = 1.0;
-  bool isControlled = false;
-  Along along = Along::Force;
-  int ticks = 4000;
-};
-
-struct Outcome {
-  double early = 0.0, late = 0.0;  ///< Fastest motion in the first and in the last quarter.
-  double largestDebt = 0.0, energyToHand = 0.0;
-  int paidTicks = 0;
-};
-
-DeviceLimits limitsFor(const Trial& trial) {
-  DeviceLimits limits;
-  limits.maxForce = limits.maxTorque = 1e3;
-  (trial.along == Along::Force ? limits.damping : limits.rotationalDamping) = trial.damping;
-  return limits;
-}
-
-/// The hand with its controller, one tick after the other.
-class Encounter {
- public:
-  explicit Encounter(const Trial& trial)
-      : trial_(trial),
-        limits_(limitsFor(trial)),
-        hand_(trial.mass, trial.damping, trial.position, trial.velocity),
-        positions_(static_cast<std::size_t>(trial.wall.delay) + 2, trial.position) {}
-
-  void tick() {
-    hand_.step(held_ + trial_.push, kPeriod);
-    HandInterval interval;
-    component(interval.held.force, interval.held.torque) = held_;
-    component(interval.shift, interval.turn) = hand_.position() - positions_.back();
-    interval.duration = kPeriod;
-    const double depth = std::max(hand_.position(), 0.0);
-    controller_.observe(interval, limits_, 0.5 * trial_.wall.stiffness * depth * depth);
-    positions_.push_back(hand_.position());
-    held_ = wallForce();
-    Wrench extra = controller_.damping(limits_, kPeriod);
-    paid_ = component(extra.force, extra.torque);
-    if (trial_.isControlled) held_ += paid_;
-  }
-
-  double speed() const { return std::abs(hand_.velocity()); }
-  double paid() const { return paid_; }
-  const PassivityController& controller() const { return controller_; }
-
- private:
-  double& component(glm::dvec3& linear, glm::dvec3& angular) const {
-    return (trial_.along == Along::Force ? linear : angular).x;
-  }
-
-  double wallForce() const {
-    const std::size_t seen = positions_.size() - 1 - static_cast<std::size_t>(trial_.wall.delay);
-    const double x = positions_[seen], v = (x - positions_[seen - 1]) / kPeriod;
-    return x > 0.0 ? -trial_.wall.stiffness * x - trial_.wall.damping * v : 0.0;
-  }
-
-  const Trial trial_;
-  const DeviceLimits limits_;
-  test::SimulatedHand hand_;
-  PassivityController controller_;
-  std::vector<double> positions_;
-  double held_ = 0.0, paid_ = 0.0;
-};
-
-Outcome meetWall(const Trial& trial) {
-  Encounter encounter(trial);
-  Outcome outcome;
-  for (int tick = 0; tick < trial.ticks; ++tick) {
-    encounter.tick();
-    outcome.paidTicks += encounter.paid() != 0.0;
-    outcome.largestDebt = std::max(outcome.largestDebt, encounter.controller().debt());
-    if (tick < trial.ticks / 4) outcome.early = std::max(outcome.early, encounter.speed());
-    if (tick >= trial.ticks * 3 / 4) outcome.late = std::max(outcome.late, encounter.speed());
-  }
-  outcome.energyToHand = encounter.controller().energyToHand();
-  return outcome;
-}
-
-Trial wallOf(double stiffness, int delay = 0) {
-  Trial trial;
-  trial.wall = {stiffness, 0.0, delay};
-  return trial;
-}
-
-/// Already leaning on the wall, at rest but for a nudge so small that it stays in contact.
-Trial leaningOn(double stiffness, double mass) {
-  Trial trial = wallOf(stiffness);
-  trial.mass = mass;
-  trial.position = trial.push / stiffness;
-  trial.velocity = 1e-4;
-  return trial;
-}
-
-TEST(ColgateBound, WallJustBelowItIsStableAndJustAboveItIsNot) {
-  // A mass large beside b T (1 g) is the hand for which the bound is also necessary, but for a term of b T /
-  // m.
-  for (const double mass : {0.05, 0.1, 0.2}) {
-    const double bound = stiffnessBound(1.0, 0.0, kPeriod);
-    const Outcome below = meetWall(leaningOn(0.9 * bound, mass));
-    const Outcome above = meetWall(leaningOn(1.1 * bound, mass));
-    EXPECT_LT(below.late, 0.7 * below.early) << mass;
-    EXPECT_GT(above.late, 1.3 * above.early) << mass;
-  }
-}
-
-TEST(ColgateBound, WallWithinItIsStableInHandsOfAnyMass) {
-  for (const double mass : {0.001, 0.003, 0.01, 0.03, 0.1, 0.3}) {
-    for (const double damping : {0.0, 0.2, 0.5}) {
-      Trial trial = leaningOn(0.9 * stiffnessBound(1.0, damping, kPeriod), mass);
-      trial.wall.damping = damping;
-      trial.ticks = 20'000;
-      const Outcome outcome = meetWall(trial);
-      EXPECT_LT(outcome.late, 0.1 * outcome.early) << mass << " " << damping;
-    }
-  }
-}
-
-TEST(ColgateBound, AutomaticCouplingCalmsAHandThatHitsIt) {
-  const CouplingState c = boundedCoupling({}, {}, {{1, 0, 0, 0}, glm::dvec3(0.01), 0.02}, kPeriod);
-  Trial trial = wallOf(c.stiffness);
-  trial.wall.damping = c.damping;
-  const Outcome outcome = meetWall(trial);
-  EXPECT_LT(outcome.late, 0.05 * outcome.early);
-  EXPECT_EQ(outcome.paidTicks, 0);
-}
+constexpr double kPeriod = WallTrial::kPeriod;
 
 TEST(PassivityController, NeverTouchesAWallWithinTheBound) {
   std::mt19937 engine(41);
   std::uniform_real_distribution<> unit(0.0, 1.0);
   for (int run = 0; run < 300; ++run) {
-    Trial trial;
+    WallTrial trial;
     trial.damping = 0.2 + 2.0 * unit(engine);
     trial.wall = {unit(engine) * stiffnessBound(trial.damping, 0.0, kPeriod), 0.0, 0};
     trial.mass = 0.02 + 0.5 * unit(engine);
@@ -176,7 +40,7 @@ TEST(PassivityController, NeverTouchesADampedWallWithinTheBound) {
   std::mt19937 engine(42);
   std::uniform_real_distribution<> unit(0.0, 1.0);
   for (int run = 0; run < 300; ++run) {
-    Trial trial;
+    WallTrial trial;
     trial.damping = 0.2 + 2.0 * unit(engine);
     const double damping = kAutomaticDampingShare * trial.damping * unit(engine);
     trial.wall = {unit(engine) * stiffnessBound(trial.damping, damping, kPeriod), damping, 0};
@@ -190,11 +54,11 @@ TEST(PassivityController, NeverTouchesADampedWallWithinTheBound) {
 
 TEST(PassivityController, DelayedStiffWallGrowsWithoutItAndDecaysWithIt) {
   for (const int delay : {1, 2}) {
-    Trial trial = wallOf(5000.0, delay);
-    const Outcome wild = meetWall(trial);
+    WallTrial trial = wallOf(5000.0, delay);
+    const WallOutcome wild = meetWall(trial);
     EXPECT_GT(wild.late, 1.05 * wild.early) << delay;
     trial.isControlled = true;
-    const Outcome tame = meetWall(trial);
+    const WallOutcome tame = meetWall(trial);
     // Half of the device's damping is left to calm the hand: exp(-b t / 4 m) in 3 s is 0.02.
     EXPECT_LT(tame.late, 0.1 * tame.early) << delay;
     // A few ticks' worth of what a wall of 5 N gives at 0.1 m/s.
@@ -205,7 +69,7 @@ TEST(PassivityController, DelayedStiffWallGrowsWithoutItAndDecaysWithIt) {
 }
 
 TEST(PassivityController, StiffWallBeyondTheBoundIsCalmedWithoutDelayToo) {
-  Trial trial = leaningOn(5000.0, 0.2);
+  WallTrial trial = leaningOn(5000.0, 0.2);
   trial.velocity = 0.01;
   EXPECT_GT(meetWall(trial).late, 10.0 * trial.velocity);
   trial.isControlled = true;
@@ -213,7 +77,7 @@ TEST(PassivityController, StiffWallBeyondTheBoundIsCalmedWithoutDelayToo) {
 }
 
 TEST(PassivityController, LightHandOnADelayedStiffWallIsCalmed) {
-  Trial trial = wallOf(5000.0, 1);
+  WallTrial trial = wallOf(5000.0, 1);
   trial.mass = DeviceLimits{}.leastMass;
   EXPECT_GT(meetWall(trial).late, 0.8);
   trial.isControlled = true;
@@ -221,17 +85,17 @@ TEST(PassivityController, LightHandOnADelayedStiffWallIsCalmed) {
 }
 
 TEST(PassivityController, DelayedStiffHingeIsCalmed) {
-  Trial trial = wallOf(5.0, 2);  // The bound is 2 N m/rad.
-  trial.along = Along::Torque;
+  WallTrial trial = wallOf(5.0, 2);  // The bound is 2 N m/rad.
+  trial.along = test::Along::Torque;
   trial.mass = 1e-4;
   trial.damping = 1e-3;
   trial.position = -0.01;
   trial.velocity = 0.5;
   trial.push = 0.01;
-  const Outcome wild = meetWall(trial);
+  const WallOutcome wild = meetWall(trial);
   EXPECT_GT(wild.late, 10.0 * trial.velocity);
   trial.isControlled = true;
-  const Outcome tame = meetWall(trial);
+  const WallOutcome tame = meetWall(trial);
   EXPECT_LT(tame.late, 0.1 * trial.velocity);
   EXPECT_LT(tame.largestDebt, 0.1 * wild.largestDebt);
 }
