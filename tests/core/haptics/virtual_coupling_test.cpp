@@ -3,16 +3,18 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/haptics/wrench_conditioner.h"
 #include "core/math/rotation_vector.h"
+#include "tests/support/random_values.h"
 
 namespace nearfit {
 namespace {
+
+using test::RandomValues;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -32,17 +34,6 @@ CouplingSettings wishFor(double stiffness, double damping, double rotationalStif
                          double rotationalDamping) {
   return {false, stiffness, damping, rotationalStiffness, rotationalDamping};
 }
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double in(double low, double high) { return std::uniform_real_distribution<>(low, high)(engine_); }
-  glm::dvec3 vector(double size) { return {in(-size, size), in(-size, size), in(-size, size)}; }
-  RigidTransform pose() { return {rotationOf(vector(3.0)), vector(0.5)}; }
-
- private:
-  std::mt19937 engine_;
-};
 
 TEST(StiffnessBound, IsThatOfColgate) {
   // K = 2 (b - |B|) / T, by hand.
@@ -137,7 +128,7 @@ TEST(BoundedCoupling, SenselessNumbersGiveZeroStiffnessAndNeverNan) {
 }
 
 TEST(BoundedCoupling, RandomWishesNeverBreakTheBound) {
-  Random random(7);
+  RandomValues random(7);
   for (int i = 0; i < 10'000; ++i) {
     const DeviceLimits device = deviceWithDamping(random.in(0, 3), random.in(0, 0.01));
     CouplingSettings wish = wishFor(random.in(0, 1e4), random.in(0, 3), random.in(0, 20), random.in(0, 0.01));
@@ -154,7 +145,7 @@ TEST(BoundedCoupling, RandomWishesNeverBreakTheBound) {
 const CouplingState kCoupling{1000.0, 2.0, 0.8, 0.004, false};
 
 TEST(CouplingWrench, OnePoseAndTwistIsExactlyNoWrench) {
-  Random random(11);
+  RandomValues random(11);
   for (int i = 0; i < 1000; ++i) {
     const BodyMotion both{random.pose(), {random.vector(1.0), random.vector(1.0)}};
     const MassMetric metric = metricOf({0.01, 0.02, 0.03}, rotationOf(random.vector(3.0)));
@@ -210,7 +201,7 @@ TEST(CouplingWrench, IsSquareToWhatTheMetricCallsFree) {
   // The nearest pose on a constraint, in the metric, leaves a residual that is no motion along it: a wrench
   // consistent with the metric does no work on motions that the contact allows. Contact at r with normal n:
   // the allowed twists are those with n . (v + w x r) = 0; the residual is M^-1 (n, r x n).
-  Random random(13);
+  RandomValues random(13);
   const double k = 1000.0;
   for (int i = 0; i < 200; ++i) {
     const glm::dvec3 gyration(0.01, 0.02, 0.03);

@@ -3,29 +3,18 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/math/rotation_vector.h"
+#include "tests/support/random_values.h"
 
 namespace nearfit {
 namespace {
 
 using std::numbers::pi;
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double in(double low, double high) { return std::uniform_real_distribution<>(low, high)(engine_); }
-  glm::dvec3 vector(double size) { return {in(-size, size), in(-size, size), in(-size, size)}; }
-  RigidTransform pose() { return {rotationOf(vector(3.0)), vector(0.5)}; }
-  bool flip(double probability) { return in(0.0, 1.0) < probability; }
-
- private:
-  std::mt19937 engine_;
-};
+using test::RandomValues;
 
 void expectSame(const RigidTransform& a, const RigidTransform& b) {
   EXPECT_EQ(a.rotation, b.rotation);
@@ -49,7 +38,7 @@ const WorkspaceMapping kPlain;
 const glm::dvec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
 
 TEST(WorkspaceMapper, PlainMappingIsTheDevicesPoseBitForBit) {
-  Random random(1);
+  RandomValues random(1);
   WorkspaceMapper mapper;
   mapper.engage(random.pose());
   for (int i = 0; i < 1000; ++i) {
@@ -59,7 +48,7 @@ TEST(WorkspaceMapper, PlainMappingIsTheDevicesPoseBitForBit) {
 }
 
 TEST(WorkspaceMapper, WithoutEngagingItBeginsAtTheDevicesPose) {
-  Random random(2);
+  RandomValues random(2);
   const RigidTransform device = random.pose();
   WorkspaceMapper mapper;
   expectSame(mapper.map(device, false, kPlain), device);
@@ -70,7 +59,7 @@ TEST(WorkspaceMapper, WithoutEngagingItBeginsAtTheDevicesPose) {
 }
 
 TEST(WorkspaceMapper, DeviceWithItsOwnFrameBeginsAtThePart) {
-  Random random(3);
+  RandomValues random(3);
   const RigidTransform device = random.pose(), part = random.pose();
   WorkspaceMapper mapper;
   mapper.engageAt(device, part);
@@ -82,7 +71,7 @@ TEST(WorkspaceMapper, DeviceWithItsOwnFrameBeginsAtThePart) {
 }
 
 TEST(WorkspaceMapper, PartTurnsAboutThePivot) {
-  Random random(10);
+  RandomValues random(10);
   const RigidTransform device = random.pose(), part = random.pose();
   const glm::dvec3 pivot(2.0, -1.0, 0.5), shift(0.01, 0.02, 0.03);
   WorkspaceMapping mapping;
@@ -118,7 +107,7 @@ TEST(WorkspaceMapper, OffsetTurnsBothTranslationAndRotation) {
 }
 
 TEST(WorkspaceMapper, ClutchHoldsTheHandleAndGoesOnWithoutAJump) {
-  Random random(4);
+  RandomValues random(4);
   WorkspaceMapper mapper;
   const RigidTransform start = random.pose();
   mapper.engage(start);
@@ -135,7 +124,7 @@ TEST(WorkspaceMapper, ClutchHoldsTheHandleAndGoesOnWithoutAJump) {
 }
 
 TEST(WorkspaceMapper, ClutchFromTheFirstTickHoldsWhereItWasEngaged) {
-  Random random(5);
+  RandomValues random(5);
   const RigidTransform part = random.pose();
   WorkspaceMapper mapper;
   mapper.engageAt(random.pose(), part);
@@ -168,7 +157,7 @@ TEST(WorkspaceMapper, LocksAreOfWorldAxesNotTheDevices) {
 }
 
 TEST(WorkspaceMapper, AllRotationsLockedKeepTheOrientation) {
-  Random random(6);
+  RandomValues random(6);
   WorkspaceMapping mapping;
   mapping.rotationLocks = {true, true, true};
   const RigidTransform start = random.pose();
@@ -222,7 +211,7 @@ TEST(WorkspaceMapper, OneLockedAxisFollowsAFullRevolutionAboutAnother) {
 }
 
 TEST(WorkspaceMapper, ChangesOfTheMappingNeverMoveTheHandleOfADeviceAtRest) {
-  Random random(7);
+  RandomValues random(7);
   WorkspaceMapper mapper;
   const RigidTransform start = random.pose();
   mapper.engageAt(start, random.pose(), random.vector(0.5));
@@ -247,7 +236,7 @@ TEST(WorkspaceMapper, ChangesOfTheMappingNeverMoveTheHandleOfADeviceAtRest) {
 
 TEST(WorkspaceMapper, SmallMotionsOfTheDeviceAreSmallOnesOfTheHandleUnderAnyLocks) {
   for (int locks = 0; locks < 8; ++locks) {
-    Random random(static_cast<unsigned>(100 + locks));
+    RandomValues random(static_cast<unsigned>(100 + locks));
     WorkspaceMapping mapping;
     mapping.rotationLocks = {(locks & 1) != 0, (locks & 2) != 0, (locks & 4) != 0};
     WorkspaceMapper mapper;
@@ -280,7 +269,7 @@ TEST(WorkspaceMapper, JumpOfHalfATurnAcrossALockedAxisLeavesTheHandleUpright) {
 }
 
 TEST(WorkspaceMapper, PoseThatIsNotFiniteIsPassedOnAndLeavesNoTrace) {
-  Random random(8);
+  RandomValues random(8);
   const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
   WorkspaceMapping mapping;
   mapping.scale = 2.0;
@@ -304,66 +293,6 @@ TEST(WorkspaceMapper, SenselessMappingIsShownAndForgotten) {
   mapper.engage({});
   EXPECT_FALSE(mapper.map({}, false, senseless).isFinite());
   expectNear(mapper.map({{1, 0, 0, 0}, {0.1, 0, 0}}, false, kPlain), {{1, 0, 0, 0}, {0.1, 0, 0}}, 1e-15);
-}
-
-TEST(WrenchOnDevice, IsTurnedBackAndFreedOfLockedAxes) {
-  WorkspaceMapping mapping;
-  mapping.orientationOffset = glm::angleAxis(pi / 2.0, kZ);  // Device x is world y, device y is world -x.
-  const Wrench world{{1, 2, 3}, {4, 5, 6}};
-  const Wrench all = wrenchOnDevice(world, mapping);
-  EXPECT_NEAR(glm::distance(all.force, {2, -1, 3}), 0.0, 1e-14);
-  EXPECT_NEAR(glm::distance(all.torque, {5, -4, 6}), 0.0, 1e-14);
-  mapping.translationLocks = {true, false, false};
-  mapping.rotationLocks = {false, true, true};
-  const Wrench some = wrenchOnDevice(world, mapping);
-  EXPECT_NEAR(glm::distance(some.force, {2, 0, 3}), 0.0, 1e-14);
-  EXPECT_NEAR(glm::distance(some.torque, {0, -4, 0}), 0.0, 1e-14);
-}
-
-TEST(WrenchOnDevice, DoesTheWorkOfTheHandleOverTheScale) {
-  Random random(9);
-  for (int i = 0; i < 100; ++i) {
-    WorkspaceMapping mapping;
-    mapping.scale = random.in(0.2, 5.0);
-    mapping.orientationOffset = rotationOf(random.vector(3.0));
-    mapping.translationLocks = {i % 2 == 0, i % 3 == 0, i % 5 == 0};
-    mapping.rotationLocks = {i % 4 == 0, i % 3 == 0, i % 7 == 0};
-    WorkspaceMapper mapper;
-    mapper.engage({});
-    const glm::dvec3 turn = random.vector(1e-7);  // So small that turns add as vectors.
-    const RigidTransform device{rotationOf(turn), random.vector(1e-7)};
-    const RigidTransform handle = mapper.map(device, false, mapping);
-    const Wrench world{random.vector(5.0), random.vector(5.0)}, sent = wrenchOnDevice(world, mapping);
-    const double work = glm::dot(sent.force, device.translation) + glm::dot(sent.torque, turn);
-    const double workAtHandle =
-        glm::dot(world.force, handle.translation) + glm::dot(world.torque, rotationVector(handle.rotation));
-    EXPECT_NEAR(work * mapping.scale, workAtHandle, 1e-11);
-  }
-}
-
-TEST(LimitsAtHandle, AreThoseThatTheDeviceKeepsOverTheMapping) {
-  // Scale 4: the handle at 0.4 m/s and 2 rad/s is the device at 0.1 m/s and 2 rad/s.
-  const DeviceLimits device;
-  const DeviceLimits limits = limitsAtHandle(device, 4.0);
-  WorkspaceMapping mapping;
-  mapping.scale = 4.0;
-  const Wrench damping{{-limits.damping * 0.4, 0, 0}, {0, -limits.rotationalDamping * 2.0, 0}};
-  const Wrench felt = wrenchOnDevice(damping, mapping);
-  EXPECT_NEAR(felt.force.x, -device.damping * 0.1, 1e-15);
-  EXPECT_NEAR(felt.torque.y, -device.rotationalDamping * 2.0, 1e-15);
-  const Wrench most = wrenchOnDevice({{limits.maxForce, 0, 0}, {limits.maxTorque, 0, 0}}, mapping);
-  EXPECT_NEAR(most.force.x, device.maxForce, 1e-15);
-  EXPECT_NEAR(most.torque.x, device.maxTorque, 1e-15);
-  // Force for an acceleration: 4 m/s^2 at the handle are 1 m/s^2 at the device.
-  EXPECT_NEAR(limits.leastMass * 4.0, device.leastMass * 1.0, 1e-15);
-  EXPECT_NEAR(limits.leastInertia * 3.0 / 4.0, device.leastInertia * 3.0, 1e-18);
-}
-
-TEST(LimitsAtHandle, SenselessScaleCountsAsOne) {
-  for (const double scale : {0.0, -2.0, std::numeric_limits<double>::quiet_NaN()}) {
-    EXPECT_EQ(limitsAtHandle({}, scale).damping, DeviceLimits{}.damping);
-    EXPECT_EQ(limitsAtHandle({}, scale).maxTorque, DeviceLimits{}.maxTorque);
-  }
 }
 
 }  // namespace
