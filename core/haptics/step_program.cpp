@@ -5,36 +5,13 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/haptics/trust_search.h"
+#include "core/haptics/step_search.h"
 
 namespace nearfit {
 namespace {
 
 /// A step that was shortened to the reach ends below it, whatever is rounded.
 constexpr double kInside = 1.0 - 1e-12;
-
-void collectActive(const ActiveRows& active, StepSolution& out) noexcept {
-  out.activeCount = 0;
-  out.floorMultiplier = 0.0;
-  for (std::size_t i = 0; i < active.size(); ++i) {
-    const double multiplier = std::max(0.0, active.multiplier(i));
-    if (active.id(i) == DualStepSolver::kFloor)
-      out.floorMultiplier = multiplier;
-    else
-      out.active[out.activeCount++] = {active.id(i), multiplier};
-  }
-}
-
-/// Shortens the way from standing still, which all rows allow, since they allow both its ends.
-void shortenToReach(StepSolution& step, const DualStepSolver::Point& still, double reach) noexcept {
-  if (step.displacement <= reach) return;
-  const double factor = kInside * reach / step.displacement;
-  for (double& y : step.y)
-    y *= factor;
-  step.t = still.t + factor * (step.t - still.t);
-  step.displacement *= factor;
-  step.share = factor;
-}
 
 }  // namespace
 
@@ -56,37 +33,47 @@ bool isUsable(const StepGoal& goal) noexcept {
          std::all_of(goal.wanted.begin(), goal.wanted.end(), isShort);
 }
 
+StepSolution describeStep(const DualStepSolver& solver, const DualStepSolver::Point& point,
+                          const StepGoal& goal, double scale) noexcept {
+  StepSolution out;
+  out.y = point.y;
+  out.t = point.t;
+  out.scale = scale;
+  out.isExact = point.isExact;
+  out.displacement = displacementOf(point.y, goal);
+  const ActiveRows& active = solver.active();
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const double multiplier = std::max(0.0, active.multiplier(i));
+    if (active.id(i) == DualStepSolver::kFloor)
+      out.floorMultiplier = multiplier;
+    else
+      out.active[out.activeCount++] = {active.id(i), multiplier};
+  }
+  return out;
+}
+
+void shortenToReach(StepSolution& step, const DualStepSolver::Point& still, double reach) noexcept {
+  if (step.displacement <= reach) return;
+  const double factor = kInside * reach / step.displacement;
+  for (double& y : step.y)
+    y *= factor;
+  step.t = still.t + factor * (step.t - still.t);
+  step.displacement *= factor;
+  step.share = factor;
+}
+
+StepSolution standStill(const StepRows& rows) noexcept {
+  StepSolution out;
+  out.t = rows.size() > 0 ? rows.leastClearance({}).clearance : 0.0;
+  return out;
+}
+
 StepSolution StepProgram::solve(const StepRows& rows, const StepGoal& goal) noexcept {
-  StepSolution best;
-  if (!isUsable(goal)) {
-    best.t = rows.size() > 0 ? rows.leastClearance({}).clearance : 0.0;
-    return best;
-  }
+  if (!isUsable(goal)) return standStill(rows);
   solver_.begin(rows, goal.cost, kMostChanges);
-  unsigned solves = 0;
-  bool isFound = false;
-  for (TrustSearch search(goal.reach, kMostSolves); !search.isDone();) {
-    StepSolution here;
-    here.scale = search.scale();
-    StepVector wanted = goal.wanted;
-    for (double& y : wanted)
-      y *= here.scale;
-    const DualStepSolver::Point point = solver_.solve(wanted);
-    ++solves;
-    here.y = point.y;
-    here.t = point.t;
-    here.isExact = point.isExact;
-    here.displacement = displacementOf(here.y, goal);
-    collectActive(solver_.active(), here);
-    const bool isBetter = search.report(here.displacement);
-    // Without one within the reach, the last is shortened.
-    if (isBetter || !isFound) best = here;
-    isFound = isFound || isBetter;
-  }
-  shortenToReach(best, solver_.standing(), goal.reach);
-  best.solves = solves;
-  best.changes = solver_.changes();
-  return best;
+  return searchStep(
+      solver_, goal, kMostSolves,
+      [this](const StepVector& wanted, double) noexcept { return solver_.solve(wanted); }, []() noexcept {});
 }
 
 }  // namespace nearfit

@@ -32,7 +32,10 @@ std::string settingsComment(const StepRunOptions& o) {
 
 void checkAll(const std::vector<StepRunRow>& rows) {
   for (const StepRunRow& row : rows) {
-    if (row.method == "gauss-seidel" || (row.differs <= kAgreement && row.settled == 1.0)) continue;
+    // Those may end before they have settled.
+    if (row.method == "gauss-seidel" || row.method == "nearfit-friction" ||
+        (row.differs <= kAgreement && row.settled == 1.0))
+      continue;
     throw Error(fmt::format("{}, {} rows", row.kind, row.rows),
                 fmt::format("\"{}\" and the program of the step differ, or one is not solved", row.method),
                 "find the problem, for its exactness is lost");

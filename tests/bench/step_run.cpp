@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/haptics/friction_program.h"
 #include "core/haptics/step_program.h"
 #include "tests/bench/gauss_seidel.h"
 #include "tests/bench/statistics.h"
@@ -22,6 +23,8 @@ constexpr StepProblemKind kKinds[] = {StepProblemKind::Ring, StepProblemKind::Fl
 /// give.
 constexpr double kGaussSeidelTolerance = 1e-6;
 constexpr unsigned kMostSweeps = 2000;
+
+constexpr double kFriction = 0.2;
 
 /// What one method did on one kind of problems.
 class Record {
@@ -71,6 +74,7 @@ class Measurement {
   void appendRows(std::vector<StepRunRow>& out) const {
     const std::string kind = test::nameOf(kind_);
     out.push_back(program_.row(kind, "nearfit", rows_));
+    out.push_back(friction_.row(kind, "nearfit-friction", rows_));
     out.push_back(once_.row(kind, "nearfit-once", rows_));
     out.push_back(gaussSeidel_.row(kind, "gauss-seidel", rows_));
     out.push_back(exact_.row(kind, "cgal-exact", rows_));
@@ -87,6 +91,11 @@ class Measurement {
     const double start = now();
     const StepSolution step = stepProgram_.solve(written_, problem.goal);
     program_.add(now() - start, step.solves, step.changes, step.isExact, 0.0);
+
+    const double startFriction = now();
+    const FrictionSolution rubbed =
+        frictionProgram_.solve(written_, {problem.goal, kFriction, problem.arms, glm::dmat3(1.0)});
+    friction_.add(now() - startFriction, rubbed.sweeps, rubbed.step.changes, rubbed.isSettled, 0.0);
 
     // The others get the goal that the search ended with, and no bound.
     for (double& y : problem.goal.wanted)
@@ -132,8 +141,9 @@ class Measurement {
   std::size_t rows_;
   StepRows written_;
   StepProgram stepProgram_;
+  FrictionProgram frictionProgram_;
   DualStepSolver solver_;
-  Record program_, once_, gaussSeidel_, exact_;
+  Record program_, friction_, once_, gaussSeidel_, exact_;
 };
 
 }  // namespace
@@ -150,12 +160,12 @@ std::vector<StepRunRow> runSteps(const StepRunOptions& options) {
 }
 
 std::string stepRunTable(const std::vector<StepRunRow>& rows) {
-  std::string out = fmt::format("{:<7}{:>5}  {:<13}{:>9}{:>10}{:>10}{:>10}{:>11}{:>8}{:>9}{:>9}{:>10}\n",
+  std::string out = fmt::format("{:<7}{:>5}  {:<17}{:>9}{:>10}{:>10}{:>10}{:>11}{:>8}{:>9}{:>9}{:>10}\n",
                                 "kind", "rows", "method", "problems", "p50", "p99", "p99.9", "max", "solves",
                                 "changes", "settled", "differs");
   for (const StepRunRow& r : rows)
     out += fmt::format(
-        "{:<7}{:>5}  {:<13}{:>9}{:>10.2f}{:>10.2f}{:>10.2f}{:>11.2f}{:>8.2f}{:>9.1f}{:>9.4f}{:>10.1e}\n",
+        "{:<7}{:>5}  {:<17}{:>9}{:>10.2f}{:>10.2f}{:>10.2f}{:>11.2f}{:>8.2f}{:>9.1f}{:>9.4f}{:>10.1e}\n",
         r.kind, r.rows, r.method, r.solved, r.p50, r.p99, r.p999, r.max, r.solves, r.changes, r.settled,
         r.differs);
   return out;

@@ -89,6 +89,7 @@ class Maker {
   void add(const glm::dvec3& u, const glm::dvec3& arm, double distance) {
     const glm::dvec3 turn = glm::cross(arm, u) / problem_.goal.gyration;
     problem_.rows.add({u.x, u.y, u.z, turn.x, turn.y, turn.z}, distance);
+    problem_.arms.push_back(arm);
   }
   glm::dvec3 arm() { return radius_ * uniform() * direction(); }
   double distance() { return margin_ * uniform(0.0, 4.0); }

@@ -11,6 +11,7 @@ namespace nearfit::test {
 /// A program of the proxy's step.
 struct StepProblem {
   StepRows rows{StepRows::kDefaultCapacity};
+  std::vector<glm::dvec3> arms;  ///< Of the rows, in principal axes [m].
   StepGoal goal;
 };
 
