@@ -16,6 +16,9 @@ constexpr double kBlocked = 1e-12;
 /// grow without bound.
 constexpr double kGrowth = 2.0;
 
+/// Disks of pushes below this are none [m]: their reciprocals would overflow.
+constexpr double kNoRadius = 1e-100;
+
 /// Newton steps for the push on the rim of its disk; some five reach rounding.
 constexpr int kRimSteps = 20;
 constexpr double kRimTolerance = 1e-15;
@@ -87,7 +90,7 @@ glm::dvec2 onRim(const glm::dvec2& answer, const glm::dvec2& target, double radi
 /// disk of pushes.
 glm::dvec2 locallySettled(const Local& local, const glm::dvec2& push, const glm::dvec2& slip,
                           double radius) noexcept {
-  if (!(radius > 0.0)) return glm::dvec2(0.0);
+  if (!(radius > kNoRadius)) return glm::dvec2(0.0);
   const glm::dvec2 old = into(local.direction, push), left = into(local.direction, slip);
   glm::dvec2 next = old;
   for (glm::length_t i = 0; i < 2; ++i)

@@ -53,6 +53,11 @@ StepSolution describeStep(const DualStepSolver& solver, const DualStepSolver::Po
 }
 
 void shortenToReach(StepSolution& step, const DualStepSolver::Point& still, double reach) noexcept {
+  if (!std::isfinite(step.displacement) || !std::isfinite(step.t)) {
+    step = {};
+    step.t = still.t;
+    return;
+  }
   if (step.displacement <= reach) return;
   const double factor = kInside * reach / step.displacement;
   for (double& y : step.y)

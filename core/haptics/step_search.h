@@ -10,7 +10,7 @@ StepSolution describeStep(const DualStepSolver& solver, const DualStepSolver::Po
                           const StepGoal& goal, double scale) noexcept;
 
 /// Shortens the way from standing still, which all rows allow since they allow both its ends, until the step
-/// is within the reach.
+/// is within the reach. A step that is not finite becomes standing still.
 void shortenToReach(StepSolution& step, const DualStepSolver::Point& still, double reach) noexcept;
 
 /// Standing still, for a goal that is not usable.

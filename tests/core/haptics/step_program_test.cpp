@@ -262,6 +262,24 @@ TEST(StepProgram, AGoalThatIsNotANumberOrOutOfBoundsLeavesThePartWhereItIs) {
   expectStill([](StepGoal& goal) { goal.gyration.x = 0.0; });
 }
 
+TEST(StepProgram, TheLargestNumbersAllowedGiveAFiniteStepWithinTheReach) {
+  StepProgram program;
+  for (const double size : {1e-300, 1e-12, 1e3, StepRows::kLargest}) {
+    StepProblem problem;
+    for (const double sign : {1.0, -1.0})
+      for (const double turn : {size, -size, 0.5 * size})
+        EXPECT_TRUE(problem.rows.add({0.0, 0.0, sign, turn, 0.0, -turn}, 1e-300 * size));
+    problem.goal.wanted.fill(kLongestStep);
+    problem.goal.cost = {kLongestStep, 1e6, 0.0};
+    problem.goal.gyration = glm::dvec3(kLeastGyration);
+    problem.goal.radius = kLongestStep;
+    problem.goal.reach = 1.0;
+    const StepSolution solution = program.solve(problem.rows, problem.goal);
+    EXPECT_TRUE(std::isfinite(distanceBetween(solution.y, {})) && std::isfinite(solution.t)) << size;
+    EXPECT_LE(displacementOf(solution.y, problem.goal), 1.0) << size;
+  }
+}
+
 TEST(StepProgram, WithoutReachNothingMoves) {
   StepProblem problem = makeStepProblem(StepProblemKind::Floor, 1, 16);
   problem.goal.reach = 0.0;
