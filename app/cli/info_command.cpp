@@ -137,7 +137,8 @@ Json infoJson(const std::string& name, const PartGeometry& geometry, std::option
   json["edges"] = {{"total", mesh.edges().size()},
                    {"open", topology.openEdges},
                    {"nonManifold", topology.nonManifoldEdges},
-                   {"inconsistent", topology.inconsistentEdges}};
+                   {"inconsistent", topology.inconsistentEdges},
+                   {"stitched", geometry.report.stitchedEdges}};
   json["features"] = {{"kept", countsJson(geometry.tree().keptFeatures())},
                       {"all", countsJson(geometry.tree().allFeatures())}};
   json["bounds"] = {{"lower", pointJson(mesh.bounds().lower)}, {"upper", pointJson(mesh.bounds().upper)}};

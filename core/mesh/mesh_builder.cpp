@@ -14,6 +14,7 @@
 #include "core/mesh/flat_triangles.h"
 #include "core/mesh/polygon_triangulation.h"
 #include "core/mesh/shell_orientation.h"
+#include "core/mesh/t_junctions.h"
 #include "core/mesh/vertex_welding.h"
 
 namespace nearfit {
@@ -233,6 +234,9 @@ void addWarnings(const MeshTopology& topology, MeshBuildReport& report) {
   warn(report.degenerateFaces, "face", "has no area and was left out.", "have no area and were left out.");
   warn(report.duplicateFaces, "face", "repeats another and was left out.",
        "repeat others and were left out.");
+  warn(report.stitchedEdges, "edge",
+       "was cracked (vertices of one face on the edge of another) and was stitched.",
+       "were cracked (vertices of one face on the edge of another) and were stitched.");
   warn(topology.openEdges, "edge", "is open (one face only).", "are open (one face only).");
   warn(topology.nonManifoldEdges, "edge", "is non-manifold (three faces or more).",
        "are non-manifold (three faces or more).");
@@ -240,6 +244,16 @@ void addWarnings(const MeshTopology& topology, MeshBuildReport& report) {
        "are inconsistent (their two faces have opposite senses).");
   if (report.turnedInsideOut)
     report.warnings.emplace_back("The mesh was inside out; all its faces were turned.");
+}
+
+/// Closes cracks. Most meshes have none and are not built twice.
+TriangleMesh stitched(TriangleMesh mesh, MeshBuildReport& report) {
+  std::vector<Triangle> triangles = stitchTJunctions(mesh);
+  if (triangles.empty()) return mesh;
+  const std::uint32_t before = mesh.topology().openEdges;
+  mesh = {{mesh.vertices().begin(), mesh.vertices().end()}, std::move(triangles)};
+  report.stitchedEdges = before - mesh.topology().openEdges;
+  return mesh;
 }
 
 /// Turns what is inside out. Most meshes have nothing to turn and are not built twice.
@@ -267,7 +281,7 @@ TriangleMesh buildMesh(const PolygonSoup& soup, const MeshBuildOptions& options,
   checkOptions(options);
   checkSoup(soup);
   report = {};
-  TriangleMesh mesh = Builder(soup, options, report, onProgress).build();
+  TriangleMesh mesh = stitched(Builder(soup, options, report, onProgress).build(), report);
   addWarnings(mesh.topology(), report);
   return outsideOut(std::move(mesh), report);
 }

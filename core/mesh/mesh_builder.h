@@ -35,11 +35,13 @@ struct MeshBuildReport {
   std::uint64_t duplicateFaces = 0;   ///< Dropped: same corners in the same sense as another face.
   std::uint64_t nonFiniteFaces = 0;   ///< Dropped: they use a vertex that is not finite.
   std::uint64_t swappedFaces = 0;     ///< Lines (T-junctions), swapped with a neighbour for faces with area.
+  std::uint64_t stitchedEdges = 0;    ///< Open edges that were closed (T-junctions): see t_junctions.h.
   bool turnedInsideOut = false;       ///< Closed pieces of negative volume were turned (cavities were not).
   std::vector<std::string> warnings;  ///< A sentence for each thing a user should know, with counts.
 };
 
-/// A mesh from a soup: scaled to metres, welded, polygons triangulated (concave ones too), cleaned, turned.
+/// A mesh from a soup: scaled to metres, welded, polygons triangulated (concave ones too), cleaned, cracks
+/// without width closed, turned.
 /// Welding moves no vertex farther than the tolerance, so that chains of close vertices do not run together;
 /// the first of those that become one stays where it is. The same soup gives the same mesh.
 /// @param onProgress  Called now and then with the fraction done; may throw to stop the work. May be empty.

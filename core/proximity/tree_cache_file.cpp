@@ -88,6 +88,7 @@ std::optional<MeshBuildReport> TreeCacheFile::report(const MeshFacts& facts) con
   report.duplicateFaces = facts.counts[2];
   report.nonFiniteFaces = facts.counts[3];
   report.swappedFaces = facts.counts[4];
+  report.stitchedEdges = facts.counts[5];
   report.turnedInsideOut = facts.turnedInsideOut != 0;
   const SharedArray<char> warnings = array<char>(Section::Warnings);
   if (!warnings.empty() && warnings[warnings.size() - 1] != '\0') return std::nullopt;

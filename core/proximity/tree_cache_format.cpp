@@ -89,8 +89,8 @@ MeshFacts meshFactsOf(const TriangleMesh& mesh, const MeshBuildReport& report, c
   for (int k = 0; k < 9; ++k)
     facts.mass[static_cast<std::size_t>(4 + k)] = mass.inertia[k / 3][k % 3];
   facts.massBasis = static_cast<std::uint32_t>(mass.basis);
-  facts.counts = {report.weldedVertices, report.degenerateFaces, report.duplicateFaces, report.nonFiniteFaces,
-                  report.swappedFaces};
+  facts.counts = {report.weldedVertices, report.degenerateFaces, report.duplicateFaces,
+                  report.nonFiniteFaces, report.swappedFaces,    report.stitchedEdges};
   facts.turnedInsideOut = report.turnedInsideOut ? 1 : 0;
   facts.topology = {topology.openEdges, topology.nonManifoldEdges, topology.inconsistentEdges,
                     topology.components};

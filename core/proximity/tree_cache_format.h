@@ -25,7 +25,7 @@ namespace nearfit {
 
 /// Goes up by one whenever this layout changes, or the meaning of a field. What import and building compute
 /// needs no number: the header carries a fingerprint of their sources (see core/CMakeLists.txt).
-constexpr std::uint32_t kTreeCacheVersion = 1;
+constexpr std::uint32_t kTreeCacheVersion = 2;
 
 /// Bytes of a section that share a checksum: enough work for a thread, enough threads for a large file.
 constexpr std::size_t kTreeCacheBlock = std::size_t{2} << 20;
@@ -56,11 +56,11 @@ constexpr std::size_t kTreeCacheSections = 16;
 struct MeshFacts {
   std::array<double, 6> bounds;         ///< Lower, upper.
   std::array<double, 13> mass;          ///< Volume, centre, inertia by columns.
-  std::array<std::uint64_t, 5> counts;  ///< Of MeshBuildReport, in its order.
+  std::array<std::uint64_t, 6> counts;  ///< Of MeshBuildReport, in its order.
   std::array<std::uint32_t, 4> topology;
   std::uint32_t massBasis, turnedInsideOut;
 };
-static_assert(sizeof(MeshFacts) == 216);
+static_assert(sizeof(MeshFacts) == 224);
 
 struct TreeFacts {
   std::array<double, 4> centreAndSize;

@@ -26,7 +26,7 @@ bool areSameArrays(const SharedArray<T>& a, const SharedArray<T>& b) {
 
 CachedMesh cachedMeshOf(TriangleMesh mesh) {
   const MassProperties mass = massProperties(mesh);
-  return {std::move(mesh), {1, 2, 3, 4, 5, true, {"One thing.", "", "Another, with \xC3\xBC."}}, mass};
+  return {std::move(mesh), {1, 2, 3, 4, 5, 6, true, {"One thing.", "", "Another, with \xC3\xBC."}}, mass};
 }
 
 bool areSame(const TriangleMesh& meshA, const TriangleMesh& meshB) {
@@ -51,9 +51,10 @@ bool areSame(const CachedMesh& a, const CachedMesh& b) {
   return areSame(a.mesh, b.mesh) && r.weldedVertices == s.weldedVertices &&
          r.degenerateFaces == s.degenerateFaces && r.duplicateFaces == s.duplicateFaces &&
          r.nonFiniteFaces == s.nonFiniteFaces && r.swappedFaces == s.swappedFaces &&
-         r.turnedInsideOut == s.turnedInsideOut && r.warnings == s.warnings &&
-         areSameBytes(a.mass.volume, b.mass.volume) && areSameBytes(a.mass.centre, b.mass.centre) &&
-         areSameBytes(a.mass.inertia, b.mass.inertia) && a.mass.basis == b.mass.basis;
+         r.stitchedEdges == s.stitchedEdges && r.turnedInsideOut == s.turnedInsideOut &&
+         r.warnings == s.warnings && areSameBytes(a.mass.volume, b.mass.volume) &&
+         areSameBytes(a.mass.centre, b.mass.centre) && areSameBytes(a.mass.inertia, b.mass.inertia) &&
+         a.mass.basis == b.mass.basis;
 }
 
 std::filesystem::path onlyFileIn(const std::filesystem::path& folder) {

@@ -36,7 +36,8 @@ TEST_F(InfoCommand, BoxIsDescribedInJson) {
   EXPECT_EQ(json["closed"], true);
   EXPECT_EQ(json["oriented"], true);
   EXPECT_EQ(json["components"], 1);
-  EXPECT_EQ(json["edges"], Json({{"total", 18}, {"open", 0}, {"nonManifold", 0}, {"inconsistent", 0}}));
+  EXPECT_EQ(json["edges"],
+            Json({{"total", 18}, {"open", 0}, {"nonManifold", 0}, {"inconsistent", 0}, {"stitched", 0}}));
   // The six diagonals of the faces are flat edges, which carry no minimum.
   EXPECT_EQ(json["features"]["kept"], Json({{"vertices", 8}, {"edges", 12}, {"faces", 12}, {"total", 32}}));
   EXPECT_EQ(json["features"]["all"], Json({{"vertices", 8}, {"edges", 18}, {"faces", 12}, {"total", 38}}));

@@ -91,6 +91,17 @@ const std::map<std::string, EdgeCounts> kOtherCounts{
     {"nasty/ply_big_endian_doubles.ply", {0, 0, 0}},
 };
 
+/// Files with cracks that importing closes, the manifest being of before: how many vertices lie on open edges
+/// (counted by a script of its own), each of which splits a triangle.
+const std::map<std::string, std::size_t> kStitched{
+    {"public/gears/factory_gear_base_loose_space_5e-4_subdiv_4x.obj", 60},
+    {"public/nutbolt/factory_nut_m16_loose_subdiv_3x.obj", 84},
+    {"public/peghole/factory_round_hole_16mm_subdiv_3x.obj", 28},
+    {"public/peghole/factory_rectangular_hole_12mm_subdiv_3x.obj", 56},
+};
+/// One that is torn besides, so that stitching leaves open edges.
+constexpr const char* kTorn = "public/unitree_dex1/meshes/base_link.STL";
+
 EdgeCounts expectedCounts(const ManifestEntry& entry) {
   if (const auto other = kOtherCounts.find(entry.at("path")); other != kOtherCounts.end())
     return other->second;
@@ -108,10 +119,19 @@ glm::dvec3 parsePoint(const std::string& text) {
 
 void expectAsInManifest(const ManifestEntry& entry, const ImportedMesh& imported) {
   const MeshBuildReport& report = imported.report;
-  EXPECT_EQ(imported.mesh.triangles().size() + report.degenerateFaces + report.duplicateFaces,
-            std::stoul(entry.at("triangles")));
   const MeshTopology& topology = imported.mesh.topology();
-  EXPECT_EQ((EdgeCounts{topology.openEdges, topology.nonManifoldEdges, topology.inconsistentEdges}),
+  const std::size_t faces = imported.mesh.triangles().size() + report.degenerateFaces + report.duplicateFaces;
+  const auto stitched = kStitched.find(entry.at("path"));
+  if (entry.at("path") == kTorn) {
+    EXPECT_GT(report.stitchedEdges, 0U);
+    EXPECT_GT(faces, std::stoul(entry.at("triangles")));
+  } else {
+    EXPECT_EQ(faces,
+              std::stoul(entry.at("triangles")) + (stitched != kStitched.end() ? stitched->second : 0));
+    EXPECT_EQ(report.stitchedEdges, stitched != kStitched.end() ? expectedCounts(entry).open : 0U);
+  }
+  EXPECT_EQ((EdgeCounts{topology.openEdges + static_cast<std::uint32_t>(report.stitchedEdges),
+                        topology.nonManifoldEdges, topology.inconsistentEdges}),
             expectedCounts(entry));
   EXPECT_EQ(imported.sha256, entry.at("sha256"));
   if (entry.at("path") == "nasty/ply_big_endian_doubles.ply") return;
