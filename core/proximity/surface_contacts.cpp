@@ -113,11 +113,12 @@ class PairContacts {
             const TriangleCorners& b) noexcept {
     sceneTriangle_ = s.face;
     partTriangle_ = p.face;
-    const TriangleFrame frameA(a), frameB(b);
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (scene_.surface.hasVertex(s.face, i)) vertexFace(scene_, s.corners[i], a[i], frameB, 1.0);
-      if (part_.surface.hasVertex(p.face, i)) vertexFace(part_, p.corners[i], b[i], frameA, -1.0);
-    }
+    const bool hasSceneVertex = scene_.surface.hasAnyVertex(s.face),
+               hasPartVertex = part_.surface.hasAnyVertex(p.face);
+    if (hasSceneVertex) verticesOverFace(scene_, s, a, TriangleFrame(b), 1.0);
+    if (hasPartVertex) verticesOverFace(part_, p, b, TriangleFrame(a), -1.0);
+    if (!hasSceneVertex && !scene_.surface.hasAnyEdge(s.face)) return;
+    if (!hasPartVertex && !part_.surface.hasAnyEdge(p.face)) return;
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {
         edgeEdge(s, a, i, p, b, j);
@@ -129,7 +130,14 @@ class PairContacts {
   }
 
  private:
-  /// @param sign  1 when the vertex is the scene's.
+  /// @param sign  1 when the vertices are the scene's.
+  void verticesOverFace(const Side& side, const FaceLeaf& owner, const TriangleCorners& corners,
+                        const TriangleFrame& face, double sign) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (side.surface.hasVertex(owner.face, i)) vertexFace(side, owner.corners[i], corners[i], face, sign);
+    }
+  }
+
   void vertexFace(const Side& side, std::uint32_t v, const glm::dvec3& point, const TriangleFrame& face,
                   double sign) noexcept {
     const TriangleFrame::Coordinates c = face.of(point);
@@ -149,9 +157,11 @@ class PairContacts {
     // Parallel ones touch in a region, whose ends have contacts of their own.
     constexpr double kParallel = 1e-12;
     if (!(nn > kParallel * glm::dot(u, u) * glm::dot(v, v))) return;
+    const double height = glm::dot(w, n);
+    if (height * height > within_ * within_ * nn) return;
     const double x = glm::dot(glm::cross(w, v), n) / nn, y = glm::dot(glm::cross(w, u), n) / nn;
     if (!isOnSide(x) || !isOnSide(y)) return;
-    const glm::dvec3 d = n * (glm::dot(w, n) / nn);
+    const glm::dvec3 d = n * (height / nn);
     const double distance = glm::length(d);
     if (!(distance > 0.0) || distance > within_) return;
     const glm::dvec3 direction = d / distance;
@@ -227,6 +237,10 @@ class PairContacts {
   std::uint32_t sceneTriangle_ = 0, partTriangle_ = 0;
 };
 
+double distanceOf(const TriangleCorners& a, const TriangleCorners& b) noexcept {
+  return std::sqrt(closestOfTriangles(a, b).distanceSquared);
+}
+
 }  // namespace
 
 SurfaceContacts findSurfaceContacts(const UnsidedSurface& scene, const UnsidedSurface& part,
@@ -243,21 +257,22 @@ SurfaceContacts findSurfaceContacts(const UnsidedSurface& scene, const UnsidedSu
   const Side sceneSide{scene, {}}, partSide{part, faces.pose()};
   ContactList list(out, kSamePlace * (scene.tree().size() + part.tree().size()));
   PairContacts contacts(sceneSide, partSide, within, list);
-  double least = std::numeric_limits<double>::infinity();
+  const double rounding = faces.rounding();
+  double least = within;
   const auto visit = [&](const FaceLeaf& s, const FaceLeaf& p) {
     ++result.trianglePairs;
     const TriangleCorners a = faces.sceneCorners(s), b = faces.partCorners(p);
-    const double squared = closestOfTriangles(a, b).distanceSquared;
-    least = std::min(least, squared);
-    if (squared <= within * within) contacts.test(s, a, p, b);
+    if (areSurelyBeyond(a, b, within + rounding)) return;
+    if (!areSurelyBeyond(a, b, least + rounding)) least = std::min(least, distanceOf(a, b));
+    contacts.test(s, a, p, b);
   };
   const bool isDone = faces.run(visit, maxNodePairs);
   result.nodePairs = faces.nodePairs();
   result.count = list.count();
   result.isComplete = isDone && !list.isFull();
-  double bound = std::min(std::sqrt(least), within);
+  double bound = least;
   if (!isDone) bound = std::min(bound, faces.leastNotVisited());
-  result.lowerBound = std::max(0.0, bound - faces.rounding());
+  result.lowerBound = std::max(0.0, bound - rounding);
   return result;
 }
 

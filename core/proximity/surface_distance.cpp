@@ -33,12 +33,16 @@ SurfaceDistance leastSurfaceDistance(const NormalConeTree& scene, const NormalCo
   }
   NearFaces faces(scene, part, sceneFromPart, std::min(within, reachOf(scene, part, sceneFromPart)),
                   scratch.data());
-  double least = kInfinity;
+  const double rounding = faces.rounding();
+  double least = kInfinity, reach = within + rounding;
   const auto visit = [&](const NormalConeTree::FaceLeaf& s, const NormalConeTree::FaceLeaf& p) {
     ++result.trianglePairs;
-    const ClosestPoints found = closestOfTriangles(faces.sceneCorners(s), faces.partCorners(p));
+    const TriangleCorners a = faces.sceneCorners(s), b = faces.partCorners(p);
+    if (areSurelyBeyond(a, b, reach)) return;
+    const ClosestPoints found = closestOfTriangles(a, b);
     if (!(found.distanceSquared < least)) return;
     least = found.distanceSquared;
+    reach = std::min(reach, std::sqrt(least) + rounding);
     result.scenePoint = scene.centre() + found.a;
     result.partPoint = scene.centre() + found.b;
     faces.tighten(std::sqrt(least));
@@ -50,7 +54,7 @@ SurfaceDistance leastSurfaceDistance(const NormalConeTree& scene, const NormalCo
   if (result.isFound) result.distance = nearest;
   double bound = std::min(nearest, within);
   if (!result.isComplete) bound = std::min(bound, faces.leastNotVisited());
-  result.lowerBound = std::max(0.0, bound - faces.rounding());
+  result.lowerBound = std::max(0.0, bound - rounding);
   return result;
 }
 

@@ -44,6 +44,16 @@ ClosestPoints closestToFace(const Against& t) noexcept {
   return best;
 }
 
+/// Whether the corners are farther apart along an axis of any length.
+bool areBeyondAlong(const glm::dvec3& axis, const std::array<glm::dvec3, 6>& corners, double reach) noexcept {
+  std::array<double, 6> at;
+  for (std::size_t i = 0; i < 6; ++i)
+    at[i] = glm::dot(axis, corners[i]);
+  const double gap = std::max(std::min({at[3], at[4], at[5]}) - std::max({at[0], at[1], at[2]}),
+                              std::min({at[0], at[1], at[2]}) - std::max({at[3], at[4], at[5]}));
+  return gap > 0.0 && gap * gap > reach * reach * glm::dot(axis, axis);
+}
+
 }  // namespace
 
 ClosestPoints closestOfSegments(const glm::dvec3& a0, const glm::dvec3& a1, const glm::dvec3& b0,
@@ -120,6 +130,22 @@ ClosestPoints closestOfTriangles(const TriangleCorners& a, const TriangleCorners
   const ClosestPoints turned = closestToFace({b, frameA});
   take({turned.b, turned.a, turned.distanceSquared}, best);
   return best;
+}
+
+bool areSurelyBeyond(const TriangleCorners& a, const TriangleCorners& b, double reach) noexcept {
+  const std::array<glm::dvec3, 6> corners{glm::dvec3(0.0), a[1] - a[0], a[2] - a[0],
+                                          b[0] - a[0],     b[1] - a[0], b[2] - a[0]};
+  for (std::size_t first = 0; first < 6; first += 3) {
+    const std::array<glm::dvec3, 3> sides{corners[first + 1] - corners[first],
+                                          corners[first + 2] - corners[first + 1],
+                                          corners[first] - corners[first + 2]};
+    const glm::dvec3 normal = glm::cross(sides[0], sides[1]);
+    if (areBeyondAlong(normal, corners, reach)) return true;
+    for (const glm::dvec3& side : sides) {
+      if (areBeyondAlong(glm::cross(side, normal), corners, reach)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace nearfit

@@ -44,4 +44,9 @@ class TriangleFrame {
 /// faces.
 ClosestPoints closestOfTriangles(const TriangleCorners& a, const TriangleCorners& b) noexcept;
 
+/// Whether two triangles are surely farther apart than `reach` [m], as the normals and the in-plane normals
+/// of their sides tell: far quicker than their distance. False where those do not tell. `reach` should hold
+/// some roundings of the coordinates.
+bool areSurelyBeyond(const TriangleCorners& a, const TriangleCorners& b, double reach) noexcept;
+
 }  // namespace nearfit

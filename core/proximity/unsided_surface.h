@@ -21,6 +21,8 @@ class UnsidedSurface {
   bool hasVertex(std::uint32_t triangle, std::size_t corner) const noexcept {
     return (owned_[triangle] >> corner & 1U) != 0;
   }
+  bool hasAnyVertex(std::uint32_t triangle) const noexcept { return (owned_[triangle] & 7U) != 0; }
+  bool hasAnyEdge(std::uint32_t triangle) const noexcept { return owned_[triangle] >> 3U != 0; }
   /// The side from a corner to the next.
   bool hasEdge(std::uint32_t triangle, std::size_t corner) const noexcept {
     return (owned_[triangle] >> (3 + corner) & 1U) != 0;

@@ -45,6 +45,23 @@ TEST(TriangleDistance, RandomTrianglesHaveTheExactDistance) {
   }
 }
 
+TEST(TriangleDistance, WhatIsSurelyBeyondIsBeyond) {
+  std::mt19937_64 random(6);
+  int beyond = 0, within = 0;
+  for (int i = 0; i < 500; ++i) {
+    const glm::dvec3 away = 2.0 * randomPoint(random);
+    // Every other one a sliver.
+    const double thin = i % 2 == 0 ? 1.0 : 1e-9;
+    const TriangleCorners a{randomPoint(random), randomPoint(random), randomPoint(random)};
+    const glm::dvec3 p = away + randomPoint(random), q = away + randomPoint(random);
+    const TriangleCorners b{p, q, 0.5 * (p + q) + thin * randomPoint(random)};
+    const double distance = test::exactDistance(a, b);
+    EXPECT_FALSE(areSurelyBeyond(a, b, distance * (1.0 + 1e-12) + 1e-14));
+    distance > 0.0 && areSurelyBeyond(a, b, 0.5 * distance) ? ++beyond : ++within;
+  }
+  EXPECT_GT(beyond, within);
+}
+
 TEST(TriangleDistance, SliversParallelSidesAndCommonCornersHaveTheExactDistance) {
   std::mt19937_64 random(2);
   for (const double thin : {1e-3, 1e-6, 1e-9, 1e-12}) {
@@ -100,10 +117,11 @@ void compareWithBruteForce(const BodyPair& pair, std::size_t poses, double reach
       EXPECT_LE(early.lowerBound, expected) << work;
       EXPECT_GE(early.distance, expected - 1e-13 * size);
     }
-    const SurfaceDistance none = leastAt(scene, part, pose, 0.5 * expected + 1e-9);
-    EXPECT_EQ(none.isFound, expected <= 0.5 * expected + 1e-9);
+    const double near = 0.5 * expected + 1e-9 * size;
+    const SurfaceDistance none = leastAt(scene, part, pose, near);
+    EXPECT_EQ(none.isFound, expected <= near);
     if (!none.isFound) {
-      EXPECT_NEAR(none.lowerBound, 0.5 * expected + 1e-9, 2e-12 * size);
+      EXPECT_NEAR(none.lowerBound, near, 2e-12 * size);
     }
   }
 }
@@ -122,6 +140,23 @@ TEST(SurfaceDistance, DegenerateMeshesHaveTheBruteForceDistance) {
                           8, 0.5, 4);
   }
   compareWithBruteForce({"coplanar", test::coplanarFans(1, 6), test::squareMesh(3.0, 4)}, 8, 1.0, 5);
+}
+
+TEST(SurfaceDistance, SmallLargeAndFarBodiesHaveTheBruteForceDistance) {
+  const TriangleMesh scene = test::starMesh(1, 1.0, 1, 0.4), part = test::starMesh(2, 0.3, 1, 0.4);
+  for (const double scale : {1e-5, 1e4}) {
+    const BodyPair pair{"scaled", test::transformed(scene, scale), test::transformed(part, scale)};
+    compareWithBruteForce(pair, 8, 0.5 * scale, 6);
+  }
+  const RigidTransform away{{1, 0, 0, 0}, {1e4, -2e4, 1.5e4}};
+  const TriangleMesh far = test::transformed(scene, 1.0, away);
+  const NormalConeTree farTree(far), partTree(part);
+  // Steps of double precision out there are 4e-12.
+  for (const double x : {0.5, 1.5, 3.0}) {
+    const RigidTransform pose = away * RigidTransform{{1, 0, 0, 0}, {x, 0.1, 0.2}};
+    EXPECT_NEAR(leastAt(farTree, partTree, pose).distance, test::leastDistanceExactly(far, part, pose),
+                2e-11);
+  }
 }
 
 TEST(SurfaceDistance, SheetIsAsFarFromBehindAsFromTheFront) {
