@@ -182,6 +182,20 @@ TEST(SurfaceDistance, BadArgumentsGiveNoDistance) {
   EXPECT_EQ(leastAt(box, box, {}, std::numeric_limits<double>::quiet_NaN()).lowerBound, 0.0);
 }
 
+TEST(SurfaceDistance, EachInstructionSetGivesTheSame) {
+  const BodyPair pair{"stars", test::starMesh(1, 1.0, 3, 0.3), test::starMesh(2, 0.5, 3, 0.3)};
+  const NormalConeTree scene(pair.scene), part(pair.part);
+  std::mt19937_64 random(9);
+  for (int i = 0; i < 20; ++i) {
+    const RigidTransform pose = test::poseNearContact(pair, 0.3, random);
+    const double expected = leastAt(scene, part, pose).distance;
+    for (const SimdLevel level : availableSimdLevels()) {
+      LmdScratch scratch(1, level);
+      EXPECT_EQ(leastSurfaceDistance(scene, part, pose, 1.0, scratch, kAnyWork).distance, expected);
+    }
+  }
+}
+
 TEST(SurfaceDistance, AllocatesNothing) {
   const NormalConeTree scene(test::starMesh(1, 1.0, 3, 0.3)), part(test::starMesh(2, 1.0, 3, 0.3));
   LmdScratch scratch;
