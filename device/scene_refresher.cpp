@@ -16,7 +16,8 @@ constexpr auto kRetryPeriod = std::chrono::milliseconds(100);
 
 }  // namespace
 
-SceneRefresher::SceneRefresher(std::shared_ptr<const ServoScene> scene, double cutoff) : cutoff_(cutoff) {
+SceneRefresher::SceneRefresher(std::shared_ptr<const ServoScene> scene, const SearchReach& reach)
+    : reach_(reach) {
   tracker_.setScene(std::move(scene));
   refresh();
 }
@@ -42,7 +43,7 @@ void SceneRefresher::run() noexcept {
       const bool hasMoved = takeReport();
       const bool hasNewScene = takeScene();
       const bool isToRenew = renewAfter_ != 0 && lastTick_ > renewAfter_;
-      if (hasNewScene || isToRenew || (hasMoved && tracker_.isDue(cutoff_))) {
+      if (hasNewScene || isToRenew || (hasMoved && tracker_.isDue(reach_))) {
         refresh();
         // The servo may still show the former scene in the next tick; the one after that is with this one.
         renewAfter_ = hasNewScene ? lastTick_ + 2 : isToRenew ? 0 : renewAfter_;
@@ -62,7 +63,7 @@ bool SceneRefresher::takeReport() noexcept {
     tracker_.observe(report.worldFromPart, static_cast<double>(report.tick - lastTick_));
     lastTick_ = report.tick;
   }
-  cutoff_ = report.cutoff;
+  reach_ = report.reach;
   return true;
 }
 
@@ -80,7 +81,7 @@ bool SceneRefresher::takeScene() {
 void SceneRefresher::refresh() {
   using Seconds = std::chrono::duration<double>;
   const auto start = std::chrono::steady_clock::now();
-  tracker_.refresh(cutoff_, tracked_.back());
+  tracker_.refresh(reach_, tracked_.back());
   tracked_.publish();
   const double time = Seconds(std::chrono::steady_clock::now() - start).count();
   tracker_.setLead(kWakeUp + time / kTick);

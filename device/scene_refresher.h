@@ -17,7 +17,7 @@ namespace nearfit {
 class SceneRefresher {
  public:
   /// The first TrackedScene is there when this returns. Not running yet.
-  SceneRefresher(std::shared_ptr<const ServoScene> scene, double cutoff);
+  SceneRefresher(std::shared_ptr<const ServoScene> scene, const SearchReach& reach);
   ~SceneRefresher() { stop(); }
   SceneRefresher(const SceneRefresher&) = delete;
   SceneRefresher& operator=(const SceneRefresher&) = delete;
@@ -35,8 +35,8 @@ class SceneRefresher {
     return tracked_.front();
   }
   /// Where the part is and how far is looked. Servo thread; real-time safe.
-  void report(const RigidTransform& worldFromPart, double cutoff, std::uint64_t tick) noexcept {
-    reports_.publish({worldFromPart, cutoff, tick});
+  void report(const RigidTransform& worldFromPart, const SearchReach& reach, std::uint64_t tick) noexcept {
+    reports_.publish({worldFromPart, reach, tick});
   }
 
   /// How long searches took, as of the last one. Controlling thread.
@@ -48,7 +48,7 @@ class SceneRefresher {
  private:
   struct Report {
     RigidTransform worldFromPart;
-    double cutoff = 0.0;
+    SearchReach reach;
     std::uint64_t tick = 0;
   };
 
@@ -62,7 +62,7 @@ class SceneRefresher {
   TripleBuffer<Report> reports_;
   TripleBuffer<LatencyHistogram> times_;
   LatencyHistogram refreshTimes_;
-  double cutoff_;
+  SearchReach reach_;
   std::uint64_t lastTick_ = 0;
   std::uint64_t renewAfter_ = 0;  ///< Tick after which the servo has let go of a former scene; 0 for none.
 

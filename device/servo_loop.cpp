@@ -56,7 +56,7 @@ struct ServoLoop::Shared {
       : device(d),
         deviceLimits(d.info().limits),
         record(r),
-        refresher(std::in_place, std::move(scene), p.haptics.springs.cutoff),
+        refresher(std::in_place, std::move(scene), searchReach(p.haptics)),
         parameters(p) {}
 
   static void* threadMain(void* self) noexcept;
@@ -153,7 +153,7 @@ bool ServoLoop::Shared::tickOnce(Nanoseconds sinceStart, Nanoseconds sinceLast) 
   device.sendWrench(snapshot.wrench);
 
   snapshot.tick = ++statistics.ticks;
-  refresher->report(snapshot.proxy, limited.haptics.springs.cutoff, snapshot.tick);
+  refresher->report(snapshot.proxy, searchReach(limited.haptics), snapshot.tick);
   if (snapshot.lateBodies > 0) ++statistics.lateTicks;
   snapshot.time = toSeconds(sinceStart);
   snapshot.tickTime = toSeconds(now() - begin);

@@ -102,9 +102,9 @@ PlaceResult placeFast(PlaceJob job) {
   while (!interrupted.load() && device.readHandle(handle)) {
     // No thread beside: where the hand wants the part is looked at before the tick, and nothing is late.
     tracker.observe(handle.pose, 1.0);
-    if (result.ticks == 0 || tracker.isDue(cutoff)) {
+    if (result.ticks == 0 || tracker.isDue({cutoff})) {
       const Clock::time_point begin = Clock::now();
-      tracker.refresh(cutoff, tracked);
+      tracker.refresh({cutoff}, tracked);
       result.refreshTime.record(std::chrono::duration<double>(Clock::now() - begin).count());
     }
     const Clock::time_point begin = Clock::now();

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include "core/haptics/overlap_check.h"
+
 namespace nearfit {
 namespace {
 
@@ -28,7 +30,8 @@ void SceneTracker::setScene(std::shared_ptr<const ServoScene> scene) {
       const auto found = std::find_if(next.scene->bodies.begin(), next.scene->bodies.end(),
                                       [&](const ServoScene::Body& b) { return isSame(b, body); });
       if (found == next.scene->bodies.end()) continue;
-      next.near.push_back({static_cast<std::uint32_t>(found - next.scene->bodies.begin()), entry.list});
+      next.near.push_back(
+          {static_cast<std::uint32_t>(found - next.scene->bodies.begin()), entry.list, entry.contacts});
     }
     std::sort(next.near.begin(), next.near.end(), isBefore);
   } else if (next.scene->moving.geometry) {
@@ -44,22 +47,49 @@ TrackedPair SceneTracker::pairOf(std::uint32_t index) const noexcept {
   return {body.geometry->tree(), current_.scene->moving.geometry->tree(), body.worldFromPart};
 }
 
-bool SceneTracker::willServe(const TrackedScene::Near& entry, double cutoff) const noexcept {
-  return nearfit::willServe(*entry.list, pairOf(entry.body), forecast_, cutoff);
+ListPurpose SceneTracker::forMinima(const SearchReach& reach) const noexcept {
+  return {.cutoff = reach.cutoff, .planCutoff = reach.cutoff};
 }
 
-bool SceneTracker::isDue(double cutoff) const noexcept {
+ListPurpose SceneTracker::forContacts(const SearchReach& reach) const noexcept {
+  const double turn = contactTurn(reach.contact, current_.scene->metric.radius);
+  // The proxy tries steps before it takes them: there must be room for some, also where it stands.
+  return {.cutoff = reach.contact,
+          .planCutoff = reach.widest(),
+          .relaxation = turn,
+          .leastRoom = {reach.contact, turn},
+          .roomToKeep = 0.5};
+}
+
+bool SceneTracker::willServe(const TrackedScene::Near& entry, const SearchReach& reach) const noexcept {
+  const TrackedPair pair = pairOf(entry.body);
+  return (!entry.list || nearfit::willServe(*entry.list, pair, forecast_, forMinima(reach))) &&
+         (!entry.contacts || nearfit::willServe(*entry.contacts, pair, forecast_, forContacts(reach)));
+}
+
+bool SceneTracker::isClearanceDue(const SearchReach& reach) const noexcept {
+  if (reach.contact <= 0.0) return false;
+  const Clearance& known = current_.clearance;
+  if (known.serial == 0) return true;
+  const RigidTransform &then = known.worldFromPart, &now = forecast_.pose();
+  const bool hasMoved = then.translation != now.translation || then.rotation != now.rotation;
+  // What overlaps may have come apart.
+  return isWaiting_ ? hasMoved || known.distance > 0.0 : hasMoved && !known.overlapping->empty();
+}
+
+bool SceneTracker::isDue(const SearchReach& reach) const noexcept {
   if (!current_.scene || !current_.scene->moving.geometry) return false;
-  if (current_.cutoff != cutoff || !(current_.spent(forecast_.pose(), cutoff) <= 1.0) ||
-      !(current_.spent(forecast_.poseWhenReady(), cutoff) <= 1.0)) {
+  if (isClearanceDue(reach)) return true;
+  if (current_.reach != reach || !(current_.spent(forecast_.pose(), reach.widest()) <= 1.0) ||
+      !(current_.spent(forecast_.poseWhenReady(), reach.widest()) <= 1.0)) {
     return true;
   }
-  return std::any_of(current_.near.begin(), current_.near.end(), [&](const TrackedScene::Near& entry) {
-    return entry.list && !willServe(entry, cutoff);
-  });
+  return std::any_of(current_.near.begin(), current_.near.end(),
+                     [&](const TrackedScene::Near& entry) { return !willServe(entry, reach); });
 }
 
-void SceneTracker::refresh(double cutoff, TrackedScene& out) {
+void SceneTracker::refresh(const SearchReach& reach, TrackedScene& out) {
+  const double cutoff = reach.widest();
   if (current_.scene->moving.geometry) {
     const SearchPlan plan = forecast_.plan(cutoff);
     const double radius = 0.5 * current_.scene->moving.geometry->mesh.bounds().diagonal();
@@ -73,9 +103,15 @@ void SceneTracker::refresh(double cutoff, TrackedScene& out) {
         });
     if (wide == std::end(kWideClearances)) {
       current_.clear = clearance(kClearance, plan, radius);
-      findNear(cutoff, former);
+      findNear(reach, former);
     }
     current_.cutoff = cutoff;
+    current_.reach = reach;
+    if (isClearanceDue(reach)) {
+      current_.clearance =
+          findClearance(*current_.scene, *current_.bounds, forecast_.pose(), reach.widest(), scratch_);
+      current_.clearance.serial = ++lastSerial_;
+    }
   }
   out = current_;
 }
@@ -96,26 +132,32 @@ bool SceneTracker::isAllClear(double cutoff, const std::vector<TrackedScene::Nea
   return current_.bounds->isEachNear(moving.centre, moving.radius + cutoff + current_.clear.travel, isClear);
 }
 
-void SceneTracker::findNear(double cutoff, const std::vector<TrackedScene::Near>& former) {
+void SceneTracker::findNear(const SearchReach& reach, const std::vector<TrackedScene::Near>& former) {
   const MovingBounds moving = movingBounds(*current_.scene, current_.worldFromPart);
+  const double cutoff = reach.widest();
   current_.bounds->visitNear(moving.centre, moving.radius + cutoff + current_.clear.travel,
                              [&](std::uint32_t body) {
-                               current_.near.push_back({body, nullptr});
+                               current_.near.push_back({body, nullptr, nullptr});
                              });
   std::sort(current_.near.begin(), current_.near.end(), isBefore);
   std::erase_if(current_.near, [&](TrackedScene::Near& entry) {
-    const auto old = std::lower_bound(former.begin(), former.end(), entry, isBefore);
-    if (old != former.end() && old->body == entry.body && old->list && willServe(*old, cutoff)) {
-      entry.list = old->list;
-      return false;
-    }
-    const TrackedPair pair = pairOf(entry.body);
-    if (isClearOf(pair.queryAt(current_.worldFromPart, cutoff))) return true;
-    const std::shared_ptr<CandidateList> list = spareList();
-    buildForPlan(*list, pair, forecast_, cutoff, scratch_);
-    if (list->isUsable()) entry.list = list;
+    TrackedScene::Near old{};
+    const auto found = std::lower_bound(former.begin(), former.end(), entry, isBefore);
+    if (found != former.end() && found->body == entry.body) old = *found;
+    const bool wasListed = old.list && willServe({entry.body, old.list, nullptr}, reach);
+    if (!wasListed && isClearOf(pairOf(entry.body).queryAt(current_.worldFromPart, cutoff))) return true;
+    entry.list = renewed(old.list, entry.body, forMinima(reach));
+    if (reach.contact > 0.0) entry.contacts = renewed(old.contacts, entry.body, forContacts(reach));
     return false;
   });
+}
+
+std::shared_ptr<const CandidateList> SceneTracker::renewed(const std::shared_ptr<const CandidateList>& former,
+                                                           std::uint32_t body, const ListPurpose& purpose) {
+  if (former && nearfit::willServe(*former, pairOf(body), forecast_, purpose)) return former;
+  const std::shared_ptr<CandidateList> list = spareList();
+  buildForPlan(*list, pairOf(body), forecast_, purpose, scratch_);
+  return list->isUsable() ? list : nullptr;
 }
 
 std::shared_ptr<CandidateList> SceneTracker::spareList() {

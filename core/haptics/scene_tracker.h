@@ -32,21 +32,31 @@ class SceneTracker {
   /// As MotionForecast::setLead().
   void setLead(double ticks) noexcept { forecast_.setLead(ticks); }
 
+  /// Whether the servo's proxy waits to know what it overlaps where it is now.
+  void setWaiting(bool isWaiting) noexcept { isWaiting_ = isWaiting; }
+
   /// Whether what is known will not do any more by the time that a search from now has ended.
-  bool isDue(double cutoff) const noexcept;
+  bool isDue(const SearchReach& reach) const noexcept;
 
   /// Renews what is due for the time to come, and writes the whole to `out`.
-  void refresh(double cutoff, TrackedScene& out);
+  void refresh(const SearchReach& reach, TrackedScene& out);
 
  private:
-  bool willServe(const TrackedScene::Near& entry, double cutoff) const noexcept;
+  bool willServe(const TrackedScene::Near& entry, const SearchReach& reach) const noexcept;
+  ListPurpose forMinima(const SearchReach& reach) const noexcept;
+  ListPurpose forContacts(const SearchReach& reach) const noexcept;
+  bool isClearanceDue(const SearchReach& reach) const noexcept;
   bool isClearOf(const BodyPairQuery& query) noexcept;
   bool isAllClear(double cutoff, const std::vector<TrackedScene::Near>& former) noexcept;
-  void findNear(double cutoff, const std::vector<TrackedScene::Near>& former);
+  void findNear(const SearchReach& reach, const std::vector<TrackedScene::Near>& former);
+  std::shared_ptr<const CandidateList> renewed(const std::shared_ptr<const CandidateList>& former,
+                                               std::uint32_t body, const ListPurpose& purpose);
   std::shared_ptr<CandidateList> spareList();
   TrackedPair pairOf(std::uint32_t body) const noexcept;
 
   TrackedScene current_;
+  std::uint64_t lastSerial_ = 0;  ///< Of a clearance.
+  bool isWaiting_ = false;
   MotionForecast forecast_;
   LmdScratch scratch_;
   /// Lists that come back here when the last TrackedScene that shows them is overwritten, with their storage.

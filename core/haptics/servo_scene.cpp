@@ -4,16 +4,21 @@
 
 namespace nearfit {
 
+void ServoScene::setMoving(const Body& body) {
+  moving = body;
+  if (!body.geometry) return;
+  centreInPart = body.geometry->mass.centre;
+  metric = massMetric(body.geometry->mass, body.geometry->mesh);
+}
+
 std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene) {
   const Part* moving = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
   if (moving == nullptr || moving->geometry == nullptr) {
     throw UsageError("scene", "no part is in hand", "choose the moving part first");
   }
   auto result = std::make_unique<ServoScene>();
-  result->moving = {moving->id, moving->geometry, moving->worldFromPart};
-  result->centreInPart = moving->geometry->mass.centre;
+  result->setMoving({moving->id, moving->geometry, moving->worldFromPart});
   result->mass = massOf(*moving);
-  result->inertia = moving->density * moving->geometry->mass.inertia;
   if (!moving->isVisible) return result;
   result->bodies.reserve(scene.parts().size());
   for (const Scene::PartPtr& part : scene.parts()) {

@@ -3,8 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include <glm/mat3x3.hpp>
-
+#include "core/haptics/mass_metric.h"
 #include "core/math/rigid_transform.h"
 #include "core/scene/scene.h"
 
@@ -22,7 +21,10 @@ struct ServoScene {
   Body moving;                   ///< geometry is null when nothing is in hand.
   glm::dvec3 centreInPart{0.0};  ///< Centre of mass of the moving part, in its frame [m].
   double mass = 1.0;             ///< Of the moving part [kg]; > 0.
-  glm::dmat3 inertia{1.0};       ///< Of the moving part about its centre, in its frame [kg m^2].
+  MassMetric metric;             ///< Of the moving part.
+
+  /// Puts a part in hand, with what belongs to it but for its mass.
+  void setMoving(const Body& body);
 };
 
 /// Nothing is felt while the moving part is invisible. Builds the hierarchies that are missing, which takes

@@ -135,7 +135,8 @@ Wrench ServoTick::feel(const TrackedScene& tracked, const SpringParameters& spri
   const ServoScene::Body& moving = tracked.scene->moving;
   if (moving.geometry == nullptr) return sum;
   const Clock::time_point begin = Clock::now();
-  tracked.visitNear(snapshot.proxy, springs.cutoff, [&](std::uint32_t body, const CandidateList* list) {
+  tracked.visitNear(snapshot.proxy, springs.cutoff, [&](std::uint32_t body, const TrackedScene::Near* known) {
+    const CandidateList* list = known != nullptr ? known->list.get() : nullptr;
     const Wrench wrench = feelBody({tracked.scene->bodies[body], moving, list}, springs, snapshot);
     sum.force += wrench.force;
     sum.torque += wrench.torque;

@@ -14,6 +14,11 @@ constexpr double kSpherePadding = 1e-12;
 
 }  // namespace
 
+SearchReach searchReach(const HapticSettings& settings) noexcept {
+  const bool isProxy = settings.mode == HapticMode::Proxy;
+  return {settings.springs.cutoff, isProxy ? kContactReach * settings.proxy.margin : 0.0};
+}
+
 MovingBounds movingBounds(const ServoScene& scene, const RigidTransform& worldFromPart) noexcept {
   const Aabb& box = scene.moving.geometry->mesh.bounds();
   const glm::dvec3 centre = worldFromPart.applyToPoint(box.centre());
@@ -42,10 +47,10 @@ double TrackedScene::spent(const RigidTransform& pose, double forCutoff) const n
   return spentShare(motionBetween(centred(worldFromPart), centred(pose), 0.5 * box.diagonal()), clear);
 }
 
-const CandidateList* TrackedScene::listOf(std::uint32_t body) const noexcept {
+const TrackedScene::Near* TrackedScene::findNear(std::uint32_t body) const noexcept {
   const auto found = std::lower_bound(near.begin(), near.end(), body,
                                       [](const Near& entry, std::uint32_t b) { return entry.body < b; });
-  return found != near.end() && found->body == body ? found->list.get() : nullptr;
+  return found != near.end() && found->body == body ? &*found : nullptr;
 }
 
 }  // namespace nearfit

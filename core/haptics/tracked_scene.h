@@ -1,15 +1,45 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "core/haptics/haptic_settings.h"
 #include "core/haptics/servo_scene.h"
 #include "core/proximity/broad_phase.h"
 #include "core/proximity/candidate_list.h"
 
 namespace nearfit {
+
+/// Contacts count this many margins away: a step of the proxy can close so much.
+constexpr double kContactReach = 3.5;
+
+/// How far is looked.
+struct SearchReach {
+  double cutoff = 0.0;   ///< For minima [m].
+  double contact = 0.0;  ///< For contacts [m]; 0 where none are wanted.
+
+  double widest() const noexcept { return cutoff < contact ? contact : cutoff; }
+  bool operator==(const SearchReach&) const = default;
+};
+
+/// What the settings ask for.
+SearchReach searchReach(const HapticSettings& settings) noexcept;
+
+/// Which bodies the part does not overlap, and how far from a pose that is sure.
+struct Clearance {
+  std::uint64_t serial = 0;  ///< Another each time that it is found out; 0: nothing is known.
+  RigidTransform worldFromPart;
+  double distance = 0.0;  ///< No body but the overlapping ones is nearer [m]; >= 0.
+  /// Bodies that the part meets or is inside of, by rising index.
+  std::shared_ptr<const std::vector<std::uint32_t>> overlapping;
+
+  bool overlaps(std::uint32_t body) const noexcept {
+    return overlapping && std::binary_search(overlapping->begin(), overlapping->end(), body);
+  }
+};
 
 /// A scene with what is known of it around a pose of the moving part: which bodies are near, and for each the
 /// pairs of features that can carry a minimum. Exact wherever it says that it holds; where it does not, a
@@ -17,8 +47,8 @@ namespace nearfit {
 struct TrackedScene {
   struct Near {
     std::uint32_t body = 0;  ///< Of scene->bodies.
-    /// Null when there were too many pairs to list.
-    std::shared_ptr<const CandidateList> list;
+    /// For minima, and for contacts; null when there were too many pairs to list, or none are wanted.
+    std::shared_ptr<const CandidateList> list, contacts;
   };
 
   std::shared_ptr<const ServoScene> scene;
@@ -29,17 +59,19 @@ struct TrackedScene {
   RigidTransform worldFromPart;
   MotionBudget clear;
   double cutoff = 0.0;     ///< [m]; 0 when nothing is known.
+  SearchReach reach;       ///< What the lists are made for.
   std::vector<Near> near;  ///< By rising body.
+  Clearance clearance;     ///< Known where contacts are wanted.
 
   /// Share of `clear` that is spent, or infinity when that does not help: above 1 other bodies may be near.
   double spent(const RigidTransform& pose, double forCutoff) const noexcept;
 
-  /// Calls visit(body index, list or null) for every body that may carry a minimum. Real-time safe.
+  /// Calls visit(body index, Near or null) for every body that may carry a minimum. Real-time safe.
   template <class Visit>
   void visitNear(const RigidTransform& pose, double forCutoff, Visit&& visit) const noexcept;
 
  private:
-  const CandidateList* listOf(std::uint32_t body) const noexcept;
+  const Near* findNear(std::uint32_t body) const noexcept;
 };
 
 /// The moving part's bounding sphere at a pose.
@@ -56,12 +88,12 @@ template <class Visit>
 void TrackedScene::visitNear(const RigidTransform& pose, double forCutoff, Visit&& visit) const noexcept {
   if (spent(pose, forCutoff) <= 1.0) {
     for (const Near& entry : near)
-      visit(entry.body, entry.list.get());
+      visit(entry.body, &entry);
     return;
   }
   const MovingBounds moving = movingBounds(*scene, pose);
   bounds->visitNear(moving.centre, moving.radius + forCutoff,
-                    [&](std::uint32_t body) { visit(body, listOf(body)); });
+                    [&](std::uint32_t body) { visit(body, findNear(body)); });
 }
 
 }  // namespace nearfit

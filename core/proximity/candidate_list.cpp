@@ -61,17 +61,26 @@ RangeLimits rangeLimits(const BodyPairQuery& query, const RigidTransform& centre
           {single(inPart.stretch.shift), single(inPart.stretch.spin), {0.0F, 0.0F, 0.0F}, spinLength}};
 }
 
+/// A contact's direction is off the limits by the relaxation at most, and its points off their features by as
+/// much of the distance.
+MotionRange relaxed(MotionRange range, double cutoff, double relaxation) noexcept {
+  range.budget.travel += relaxation * cutoff;
+  range.budget.turn += relaxation;
+  return range;
+}
+
 }  // namespace
 
 RangeLimits CandidateList::limitsWithin(double share) const noexcept {
-  return rangeLimits({*scene_, *part_, {}, cutoff_}, pose_, share * range_);
+  return rangeLimits({*scene_, *part_, {}, cutoff_}, pose_, relaxed(share * range_, cutoff_, relaxation_));
 }
 
 void CandidateList::build(const BodyPairQuery& query, const MotionRange& range, LmdScratch& scratch,
-                          const Bounds& bounds) {
+                          const Bounds& bounds, double relaxation) {
   scene_ = &query.scene;
   part_ = &query.part;
   cutoff_ = query.cutoff;
+  relaxation_ = relaxation;
   range_ = range;
   isUsable_ = true;
   found_.clear();
@@ -84,6 +93,7 @@ void CandidateList::build(const BodyPairQuery& query, const MotionRange& range, 
   traversal.setSweep(limits.inScene, limits.inPart);
   isUsable_ = traversal.run(
       [&](const EntryPair& pair) {
+        if (relaxation_ > 0.0 && !spansContact(pair.scene, pair.part)) return;
         if (found_.size() <= bounds.pairs)
           found_.push_back({pair.sceneLane, pair.partLane, kLevels.size() - 1});
       },
@@ -150,9 +160,20 @@ double CandidateList::spentAt(const RigidTransform& centred) const noexcept {
   return spentShare(range_, pose_, centred, 0.5 * part_->size());
 }
 
+MotionBudget CandidateList::asideOf(const RigidTransform& centred) const noexcept {
+  const double radius = 0.5 * part_->size();
+  const double time = nearestTime(range_.stretch, pose_, centred, radius);
+  return motionBetween(poseOn(range_.stretch, pose_, time), centred, radius);
+}
+
 double CandidateList::spent(const RigidTransform& sceneFromPart) const noexcept {
   if (!isUsable_ || !sceneFromPart.isFinite()) return std::numeric_limits<double>::infinity();
   return spentAt(centredPose(*scene_, *part_, sceneFromPart));
+}
+
+double CandidateList::roomLeft(const RigidTransform& sceneFromPart) const noexcept {
+  if (!isUsable_ || !sceneFromPart.isFinite()) return -std::numeric_limits<double>::infinity();
+  return 1.0 - spentShare(asideOf(centredPose(*scene_, *part_, sceneFromPart)), range_.budget);
 }
 
 bool CandidateList::covers(const RigidTransform& sceneFromPart, double cutoff) const noexcept {
@@ -166,33 +187,83 @@ std::size_t CandidateList::countFor(double share) const noexcept {
   return levelEnds_.back();
 }
 
-std::optional<LmdResult> CandidateList::query(const RigidTransform& sceneFromPart, double cutoff,
-                                              LmdScratch& scratch, std::span<Lmd> out) const noexcept {
+std::optional<CandidateList::CoveredPose> CandidateList::covered(const RigidTransform& sceneFromPart,
+                                                                 double cutoff) const noexcept {
   if (!isUsable_ || !(cutoff <= cutoff_) || !sceneFromPart.isFinite()) return std::nullopt;
   const RigidTransform pose = centredPose(*scene_, *part_, sceneFromPart);
   const double share = spentAt(pose);
   if (!(share <= 1.0)) return std::nullopt;
-  LmdResult result;
-  result.completeTo = cutoff;
-  const std::size_t count = countFor(share);
-  if (count == 0 || !isQueryValid(*scene_, *part_, sceneFromPart, cutoff)) return result;
-  const CullLimits limits = cullLimits(*scene_, *part_, pose, cutoff);
-  const SinglePose inSingle(pose);
-  const LeafTests tests(*scene_, *part_, pose, cutoff);
-  LmdScratch::Data& workspace = scratch.data();
-  MinimaCollector collector(workspace, result);
+  const bool isValid = isQueryValid(*scene_, *part_, sceneFromPart, cutoff);
+  return CoveredPose{pose, isValid ? countFor(share) : 0};
+}
+
+template <class Visit>
+void CandidateList::visitPairs(const RigidTransform& centred, std::size_t count, const CullLimits& limits,
+                               LmdScratch& scratch, Visit&& visit) const noexcept {
+  const SinglePose inSingle(centred);
   for (std::size_t base = 0; base < count; base += kWidth) {
     const BoundPairs& block = blocks_[base / kWidth];
-    std::uint32_t lanes = workspace.pairCull(block, inSingle, limits);
+    std::uint32_t lanes = scratch.data().pairCull(block, inSingle, limits);
     if (count - base < kWidth) lanes &= (1U << (count - base)) - 1U;
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      ++result.leafPairs;
-      if (tests.test(block.scene.child[lane], block.part.child[lane], collector.slot())) collector.add();
+      visit(block.scene.child[lane], block.part.child[lane]);
     }
   }
+}
+
+std::optional<LmdResult> CandidateList::query(const RigidTransform& sceneFromPart, double cutoff,
+                                              LmdScratch& scratch, std::span<Lmd> out) const noexcept {
+  const std::optional<CoveredPose> pose = covered(sceneFromPart, cutoff);
+  if (!pose) return std::nullopt;
+  LmdResult result;
+  result.completeTo = cutoff;
+  if (pose->count == 0) return result;
+  const LeafTests tests(*scene_, *part_, pose->centred, cutoff);
+  MinimaCollector collector(scratch.data(), result);
+  visitPairs(pose->centred, pose->count, cullLimits(*scene_, *part_, pose->centred, cutoff), scratch,
+             [&](std::uint32_t sceneLeaf, std::uint32_t partLeaf) {
+               ++result.leafPairs;
+               if (tests.test(sceneLeaf, partLeaf, collector.slot())) collector.add();
+             });
   collector.finish(*scene_, *part_, out);
   return result;
+}
+
+std::optional<NearbyPairs> CandidateList::nearbyPairs(const RigidTransform& sceneFromPart,
+                                                      const ContactReach& reach, const MotionBudget& slack,
+                                                      LmdScratch& scratch,
+                                                      std::span<LeafPair> out) const noexcept {
+  if (!(reach.turn <= relaxation_)) return std::nullopt;
+  const std::optional<CoveredPose> pose = covered(sceneFromPart, reach.distance);
+  if (!pose) return std::nullopt;
+  NearbyPairs result;
+  // Wherever on the stretch the pose is, what is left aside is left.
+  const MotionBudget aside = asideOf(pose->centred);
+  result.holds = {std::clamp(range_.budget.travel - aside.travel, 0.0, slack.travel),
+                  std::clamp(range_.budget.turn - aside.turn, 0.0, slack.turn)};
+  result.isComplete = true;
+  result.work = size() / kWidth;
+  if (pose->count == 0 && size() == 0) return result;
+  const BodyPairQuery within{*scene_, *part_, sceneFromPart, reach.distance};
+  visitPairs(pose->centred, size(), contactLimits(within, pose->centred, reach.turn, result.holds), scratch,
+             [&](std::uint32_t sceneLeaf, std::uint32_t partLeaf) {
+               if (result.count < out.size())
+                 out[result.count++] = {sceneLeaf, partLeaf};
+               else
+                 result.isComplete = false;
+             });
+  return result;
+}
+
+CullLimits contactLimits(const BodyPairQuery& query, const RigidTransform& centred, double relaxation,
+                         const MotionBudget& slack) noexcept {
+  return rangeLimits(query, centred, relaxed({{}, slack}, query.cutoff, relaxation)).still;
+}
+
+ContactPair contactOf(const Minimum& minimum, const NormalConeTree& scene) noexcept {
+  const Lmd& lmd = minimum.lmd;
+  return {lmd.partPoint + scene.centre(), lmd.direction, std::min(minimum.least, lmd.distance)};
 }
 
 bool isClearWithin(const BodyPairQuery& query, const MotionBudget& budget, LmdScratch& scratch,

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "core/math/rigid_transform.h"
+#include "core/proximity/contact_query.h"
 #include "core/proximity/cull_kernel.h"
 #include "core/proximity/lmd_query.h"
+#include "core/proximity/minimum.h"
 #include "core/proximity/motion_budget.h"
 
 namespace nearfit {
@@ -36,9 +38,11 @@ class CandidateList {
 
   /// Searches both trees. For a thread that can take its time: allocates. The trees stay alive as long as the
   /// list is used. Unusable afterwards when it would be beyond the bounds.
-  /// @param query  Its pose is the middle of the range.
-  /// @param range  In the frame of the scene's mesh.
-  void build(const BodyPairQuery& query, const MotionRange& range, LmdScratch& scratch, const Bounds& bounds);
+  /// @param query       Its pose is the middle of the range.
+  /// @param range       In the frame of the scene's mesh.
+  /// @param relaxation  For contacts(): the turn by which conditions are relaxed there [rad].
+  void build(const BodyPairQuery& query, const MotionRange& range, LmdScratch& scratch, const Bounds& bounds,
+             double relaxation = 0.0);
   void build(const BodyPairQuery& query, const MotionRange& range, LmdScratch& scratch) {
     build(query, range, scratch, Bounds{});
   }
@@ -46,12 +50,21 @@ class CandidateList {
   /// Share of the range that a pose has spent; above 1 the list does not hold.
   double spent(const RigidTransform& sceneFromPart) const noexcept;
 
+  /// Share of the range's room aside that is left at a pose; negative where the list does not hold.
+  double roomLeft(const RigidTransform& sceneFromPart) const noexcept;
+
   /// Whether the list is exact for a pose and cutoff.
   bool covers(const RigidTransform& sceneFromPart, double cutoff) const noexcept;
 
   /// The exact set at a pose, as findLmds gives it; none when the list does not cover it. Real-time safe.
   std::optional<LmdResult> query(const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
                                  std::span<Lmd> out) const noexcept;
+
+  /// As findNearbyPairs, from the list; it holds for as much of the slack as the list does. None when the
+  /// list does not cover the pose, was made for a shorter cutoff, or for less relaxation. Real-time safe.
+  std::optional<NearbyPairs> nearbyPairs(const RigidTransform& sceneFromPart, const ContactReach& reach,
+                                         const MotionBudget& slack, LmdScratch& scratch,
+                                         std::span<LeafPair> out) const noexcept;
 
   std::size_t size() const noexcept { return levelEnds_.back(); }
   bool isUsable() const noexcept { return isUsable_; }
@@ -66,8 +79,19 @@ class CandidateList {
   /// Shares of the range up to which the pairs of a level and those before it are enough.
   static constexpr std::array<double, 4> kLevels{0.25, 0.5, 0.75, 1.0};
 
+  /// A pose for which the list holds.
+  struct CoveredPose {
+    RigidTransform centred;
+    std::size_t count;  ///< Pairs that matter there.
+  };
+  std::optional<CoveredPose> covered(const RigidTransform& sceneFromPart, double cutoff) const noexcept;
+  /// Calls visit(scene leaf, part leaf) for those of the first `count` pairs that survive the culls.
+  template <class Visit>
+  void visitPairs(const RigidTransform& centred, std::size_t count, const CullLimits& limits,
+                  LmdScratch& scratch, Visit&& visit) const noexcept;
   RangeLimits limitsWithin(double share) const noexcept;
   double spentAt(const RigidTransform& centred) const noexcept;
+  MotionBudget asideOf(const RigidTransform& centred) const noexcept;
   void findLevels(const LmdScratch::Data& workspace) noexcept;
   void pack();
   void copyPair(const LanePair& pair, BoundPairs& block, std::size_t at) const noexcept;
@@ -79,9 +103,16 @@ class CandidateList {
   bool isUsable_ = false;
   const NormalConeTree *scene_ = nullptr, *part_ = nullptr;
   RigidTransform pose_;  ///< Between the trees' centred frames.
-  double cutoff_ = 0.0;
+  double cutoff_ = 0.0, relaxation_ = 0.0;
   MotionRange range_;  ///< About pose_, in the scene's frame.
 };
+
+/// What bounds are held against for contacts at a pose between centred frames.
+CullLimits contactLimits(const BodyPairQuery& query, const RigidTransform& centred, double relaxation,
+                         const MotionBudget& slack) noexcept;
+
+/// A contact in the frame of the scene's mesh from what a relaxed test found.
+ContactPair contactOf(const Minimum& minimum, const NormalConeTree& scene) noexcept;
 
 /// Whether no pair of features can carry a minimum within a budget of the query's pose, as far as
 /// `maxNodePairs` of work tell: false when it takes more.

@@ -26,14 +26,15 @@ double leastHeight(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
 }  // namespace
 
 LeafTests::LeafTests(const NormalConeTree& scene, const NormalConeTree& part,
-                     const RigidTransform& sceneFromPart, double cutoff) noexcept
+                     const RigidTransform& sceneFromPart, double cutoff, double relaxation) noexcept
     : sceneFromPart_(sceneFromPart),
       partFromScene_(sceneFromPart.inverse()),
       scene_{scene, partFromScene_, sceneFromPart_},
       part_{part, sceneFromPart_, partFromScene_},
       cutoff_(cutoff),
+      relaxation_(relaxation),
       lengthTolerance_(kLengthTolerance * (scene.size() + part.size())),
-      angularSlackBase_(kAngularTolerance),
+      angularSlackBase_(kAngularTolerance + relaxation),
       pointRounding_(kPointRounding * (scene.size() + part.size() + glm::length(sceneFromPart.translation))) {
 }
 

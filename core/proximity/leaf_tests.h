@@ -13,8 +13,10 @@ namespace nearfit {
 class LeafTests {
  public:
   /// @param sceneFromPart  Between the trees' centred frames.
+  /// @param relaxation     Directions may be off the conditions by so much, points off their features by so
+  ///                       much of the distance [rad].
   LeafTests(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
-            double cutoff) noexcept;
+            double cutoff, double relaxation = 0.0) noexcept;
 
   LeafTests(const LeafTests&) = delete;
   LeafTests& operator=(const LeafTests&) = delete;
@@ -81,14 +83,16 @@ class LeafTests {
   /// What a direction between two points can be off by. Two features that share an end and both claim it
   /// there say the same, so no more is needed; more would let both ends of an edge claim what is nearest
   /// between them, over an edge that is nearly parallel to it.
-  double directionRounding(double distance) const noexcept { return 2.0 * pointRounding_ / distance; }
+  double directionRounding(double distance) const noexcept {
+    return relaxation_ + 2.0 * pointRounding_ / distance;
+  }
   double angularSlack(double distance) const noexcept {
     return angularSlackBase_ + pointRounding_ / distance;
   }
 
   RigidTransform sceneFromPart_, partFromScene_;
   Side scene_, part_;
-  double cutoff_;
+  double cutoff_, relaxation_;
   double lengthTolerance_, angularSlackBase_, pointRounding_;
 };
 

@@ -12,6 +12,9 @@ namespace {
 /// Beyond this turn the limits on directions say nothing any more [rad].
 constexpr double kMostClearTurn = 0.5;
 
+/// Contacts are where the part moves slowly, so that a long list serves for long: some 15 MB, and 30 ms.
+constexpr CandidateList::Bounds kForContacts{1U << 17, 1U << 20};
+
 /// What takes longer than about half a tick is worth a shorter plan.
 constexpr CandidateList::Bounds kWorthwhile{1U << 14, 1U << 14};
 
@@ -25,20 +28,26 @@ MotionBudget clearance(double factor, const SearchPlan& plan, double radius) noe
 }
 
 bool willServe(const CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast,
-               double cutoff) noexcept {
+               const ListPurpose& purpose) noexcept {
   const auto covers = [&](const RigidTransform& pose) {
-    return list.covers(pair.queryAt(pose, cutoff).sceneFromPart, cutoff);
+    const RigidTransform at = pair.queryAt(pose, purpose.cutoff).sceneFromPart;
+    return list.spent(at) <= 1.0 && list.roomLeft(at) >= purpose.roomToKeep;
   };
-  return list.cutoff() == cutoff && covers(forecast.pose()) && covers(forecast.poseWhenReady());
+  return list.cutoff() == purpose.cutoff && covers(forecast.pose()) && covers(forecast.poseWhenReady());
 }
 
-void buildForPlan(CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast, double cutoff,
-                  LmdScratch& scratch) {
+void buildForPlan(CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast,
+                  const ListPurpose& purpose, LmdScratch& scratch) {
   const glm::dquat sceneFromWorld = glm::conjugate(pair.worldFromScene.rotation);
   for (const double share : {1.0, 0.5, 0.25, 0.1}) {
-    const SearchPlan plan = forecast.plan(cutoff, share);
-    list.build(pair.queryAt(plan.pose, cutoff), turned(sceneFromWorld, plan.range), scratch,
-               share == 1.0 ? kWorthwhile : CandidateList::Bounds{});
+    SearchPlan plan = forecast.plan(purpose.planCutoff, share);
+    plan.range.budget.travel = std::max(plan.range.budget.travel, share * purpose.leastRoom.travel);
+    plan.range.budget.turn = std::max(plan.range.budget.turn, share * purpose.leastRoom.turn);
+    list.build(pair.queryAt(plan.pose, purpose.cutoff), turned(sceneFromWorld, plan.range), scratch,
+               share == 1.0               ? kWorthwhile
+               : purpose.relaxation > 0.0 ? kForContacts
+                                          : CandidateList::Bounds{},
+               purpose.relaxation);
     if (list.isUsable()) return;
   }
 }
@@ -52,7 +61,7 @@ void LmdTracker::refresh(CandidateList& list, double cutoff, LmdScratch& scratch
     list.build(query, {{}, wide}, scratch);
     return;
   }
-  buildForPlan(list, pair_, forecast_, cutoff, scratch);
+  buildForPlan(list, pair_, forecast_, {cutoff, cutoff}, scratch);
 }
 
 }  // namespace nearfit

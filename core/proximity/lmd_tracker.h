@@ -29,15 +29,24 @@ struct TrackedPair {
   }
 };
 
+/// What a list is made for.
+struct ListPurpose {
+  double cutoff = 0.0;       ///< [m]
+  double planCutoff = 0.0;   ///< What the room for motion is measured by [m]: the cutoff, or a wider one.
+  double relaxation = 0.0;   ///< As CandidateList::build has it.
+  MotionBudget leastRoom{};  ///< For motion aside of what is foretold.
+  double roomToKeep = 0.0;   ///< Share of the room aside that must be left at a pose.
+};
+
 /// Whether a list is made for that cutoff, and will do now and in the first tick after a search from now.
 bool willServe(const CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast,
-               double cutoff) noexcept;
+               const ListPurpose& purpose) noexcept;
 
 /// Builds a list for a plan: for all of it while that takes about half a tick, and for less, which is found
 /// sooner, where it would take longer or the list would be too long. Unusable when even the least is too
 /// much. For a thread that can take its time.
-void buildForPlan(CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast, double cutoff,
-                  LmdScratch& scratch);
+void buildForPlan(CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast,
+                  const ListPurpose& purpose, LmdScratch& scratch);
 
 /// When to renew the list of two bodies, where to search, and how far around. SceneTracker does the same for
 /// a scene.
@@ -55,7 +64,7 @@ class LmdTracker {
 
   /// Whether a list will not do any more by the time that another would be there.
   bool isDue(const CandidateList& list, double cutoff) const noexcept {
-    return !willServe(list, pair_, forecast_, cutoff);
+    return !willServe(list, pair_, forecast_, {cutoff, cutoff});
   }
 
   /// Renews a list for the time to come. For a thread that can take its time.

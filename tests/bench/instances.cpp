@@ -52,7 +52,7 @@ void prepareServo(const Scene& scene, InstancesRow& row) {
   SceneTracker tracker;
   TrackedScene tracked;
   tracker.setScene(servoScene);
-  tracker.refresh(scene.haptics().springs.cutoff, tracked);
+  tracker.refresh({scene.haptics().springs.cutoff}, tracked);
   row.trackedSeconds = secondsSince(start);
 
   row.residentAfter = residentBytes();

@@ -77,9 +77,9 @@ class Lane {
   void keepAhead(const RigidTransform& pose, bool isTimed) {
     const double cutoff = parameters_.haptics.springs.cutoff;
     tracker_.observe(pose, 1.0);
-    if (tracked_.scene && !tracker_.isDue(cutoff)) return;
+    if (tracked_.scene && !tracker_.isDue({cutoff})) return;
     const double start = secondsBy(options_.clock);
-    tracker_.refresh(cutoff, tracked_);
+    tracker_.refresh({cutoff}, tracked_);
     if (isTimed) run_.refreshTimes.push_back(secondsBy(options_.clock) - start);
   }
 

@@ -21,7 +21,7 @@ RigidTransform tipAt(double height) {
 std::unique_ptr<ServoScene> coneOverFloor() {
   static const PartGeometryPtr cone = tipDownCone(), slab = floorSlab();
   auto scene = std::make_unique<ServoScene>();
-  scene->moving = {PartId{2}, cone, tipAt(0.5)};
+  scene->setMoving({PartId{2}, cone, tipAt(0.5)});
   scene->bodies.push_back({PartId{1}, slab, {}});
   return scene;
 }

@@ -59,7 +59,8 @@ Sets trackedSets(const TrackedScene& tracked, const RigidTransform& pose, std::s
   static LmdScratch scratch;
   static std::vector<Lmd> out(4096);
   Sets sets;
-  tracked.visitNear(pose, kCutoff, [&](std::uint32_t body, const CandidateList* list) {
+  tracked.visitNear(pose, kCutoff, [&](std::uint32_t body, const TrackedScene::Near* known) {
+    const CandidateList* list = known != nullptr ? known->list.get() : nullptr;
     const RigidTransform relative = bodyFromPart(*tracked.scene, body, pose);
     std::optional<LmdResult> result;
     if (list != nullptr) result = list->query(relative, kCutoff, scratch, out);
@@ -85,8 +86,8 @@ TEST(SceneTracker, NoMinimumOfAnyBodyIsMissedAlongAPathAndItsTeleports) {
     const double t = 0.004 * tick + (tick / 150);  // A jump every 150 ticks.
     const RigidTransform pose{glm::angleAxis(0.8 * t, glm::normalize(glm::dvec3(1, 1, 0))),
                               {0.9 * std::sin(t), 0.7 * std::sin(1.7 * t), 1.35 + 0.1 * std::cos(2.0 * t)}};
-    if (tick == 0 || tracker.isDue(kCutoff)) {
-      tracker.refresh(kCutoff, tracked);
+    if (tick == 0 || tracker.isDue({kCutoff})) {
+      tracker.refresh({kCutoff}, tracked);
       ++refreshes;
     }
     const Sets expected = coldSets(*scene, pose);
@@ -109,13 +110,13 @@ TEST(SceneTracker, ABodyThatIsMovedOrAddedIsFeltFromTheNextTrackedSceneOn) {
   const RigidTransform pose = at({0.0, 0.0, 1.5});
   tracker.observe(pose, 1.0);
   TrackedScene tracked;
-  tracker.refresh(kCutoff, tracked);
+  tracker.refresh({kCutoff}, tracked);
   auto next = std::make_shared<ServoScene>(*scene);
   next->bodies[3].worldFromPart = at({0.0, 0.9, 1.6});
   next->bodies.push_back({PartId{9}, next->bodies[1].geometry, at({-0.9, 0.0, 1.6})});
   next->bodies.erase(next->bodies.begin());
   tracker.setScene(next);
-  tracker.refresh(kCutoff, tracked);
+  tracker.refresh({kCutoff}, tracked);
   std::size_t late = 0;
   const Sets expected = coldSets(*next, pose);
   EXPECT_GE(expected.size(), 2U);
@@ -136,7 +137,7 @@ TEST(SceneTracker, BodiesFarAwayAreNotLookedAtInATick) {
   const RigidTransform pose = at({0.1, 0.0, 0.0});
   tracker.observe(pose, 1.0);
   TrackedScene tracked;
-  tracker.refresh(kCutoff, tracked);
+  tracker.refresh({kCutoff}, tracked);
   std::size_t visited = 0;
   tracked.visitNear(pose, kCutoff, [&](std::uint32_t, const CandidateList*) { ++visited; });
   EXPECT_GE(visited, 1U);
@@ -158,8 +159,8 @@ TEST(SceneTracker, WithNothingAnywhereNearThereIsNothingToDoForLong) {
   std::size_t refreshes = 0;
   for (int tick = 0; tick < 2000; ++tick) {
     tracker.observe(at({1e-3 * tick, 0.0, 0.0}), 1.0);
-    if (!tracker.isDue(kCutoff)) continue;
-    tracker.refresh(kCutoff, tracked);
+    if (!tracker.isDue({kCutoff})) continue;
+    tracker.refresh({kCutoff}, tracked);
     EXPECT_TRUE(tracked.near.empty());
     ++refreshes;
   }
@@ -171,9 +172,9 @@ TEST(SceneTracker, AnotherCutoffIsSearchedAnew) {
   tracker.setScene(starsAbout());
   tracker.observe(at({0.0, 0.0, 1.5}), 1.0);
   TrackedScene tracked;
-  tracker.refresh(kCutoff, tracked);
-  EXPECT_FALSE(tracker.isDue(kCutoff));
-  EXPECT_TRUE(tracker.isDue(2.0 * kCutoff));
+  tracker.refresh({kCutoff}, tracked);
+  EXPECT_FALSE(tracker.isDue({kCutoff}));
+  EXPECT_TRUE(tracker.isDue({2.0 * kCutoff}));
   EXPECT_GT(tracked.spent(at({0.0, 0.0, 1.5}), 2.0 * kCutoff), 1.0);
 }
 
@@ -184,7 +185,7 @@ TEST(SceneTracker, ABodyWhosePoseIsNoPoseStaysForTheTickToRefuse) {
   tracker.setScene(scene);
   tracker.observe(at({0.0, 0.0, 1.5}), 1.0);
   TrackedScene tracked;
-  tracker.refresh(kCutoff, tracked);
+  tracker.refresh({kCutoff}, tracked);
   std::vector<std::uint32_t> visited;
   tracked.visitNear(at({0.0, 0.0, 1.5}), kCutoff,
                     [&](std::uint32_t body, const CandidateList*) { visited.push_back(body); });

@@ -37,10 +37,10 @@ class ServoTickOnFloor : public testing::Test {
   const glm::dvec3 kCentre{-0.5, 0.0, 0.75};  ///< In the cone's frame.
 
   ServoTickOnFloor() {
-    parameters_.haptics.springs = {.cutoff = 0.1, .stiffness = 50.0, .damping = 0.0, .law = SpringLaw::Linear};
+    parameters_.haptics.springs = {
+        .cutoff = 0.1, .stiffness = 50.0, .damping = 0.0, .law = SpringLaw::Linear};
     parameters_.limits = {100.0, 100.0};
-    scene_.moving = {PartId{7}, test::tipDownCone(kCentre), moved({5.0, 5.0, 5.0})};
-    scene_.centreInPart = kCentre;
+    scene_.setMoving({PartId{7}, test::tipDownCone(kCentre), moved({5.0, 5.0, 5.0})});
     addFloor(PartId{1}, {});
   }
 
@@ -62,7 +62,7 @@ class ServoTickOnFloor : public testing::Test {
     tracker.setScene(test::untrackedView(scene_).scene);
     tracker.observe(pose, 1.0);
     TrackedScene tracked;
-    tracker.refresh(parameters_.haptics.springs.cutoff, tracked);
+    tracker.refresh({parameters_.haptics.springs.cutoff}, tracked);
     return tracked;
   }
 
@@ -223,15 +223,18 @@ TEST_F(ServoTickOnFloor, SenselessParametersAreAFault) {
     return fault;
   };
   for (const double bad : {kNan, kInfinity, -1.0}) {
-    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.haptics.springs.cutoff = bad; }), ServoFault::ParametersInvalid);
+    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.haptics.springs.cutoff = bad; }),
+              ServoFault::ParametersInvalid);
     EXPECT_EQ(faultWith([&](ServoParameters& p) { p.haptics.springs.stiffness = bad; }),
               ServoFault::ParametersInvalid);
-    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.haptics.springs.damping = bad; }), ServoFault::ParametersInvalid);
+    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.haptics.springs.damping = bad; }),
+              ServoFault::ParametersInvalid);
     EXPECT_EQ(faultWith([&](ServoParameters& p) { p.limits.maxForce = bad; }), ServoFault::ParametersInvalid);
     EXPECT_EQ(faultWith([&](ServoParameters& p) { p.limits.maxTorque = bad; }),
               ServoFault::ParametersInvalid);
   }
-  EXPECT_EQ(faultWith([](ServoParameters& p) { p.haptics.springs.cutoff = 0.0; }), ServoFault::ParametersInvalid);
+  EXPECT_EQ(faultWith([](ServoParameters& p) { p.haptics.springs.cutoff = 0.0; }),
+            ServoFault::ParametersInvalid);
   for (const double badPeriod : {0.0, -1e-3, kNan}) {
     ServoTick tick;
     tick.run(test::untrackedView(scene_), good, moved({0.0, 0.0, 1.0}), badPeriod, *snapshot_);

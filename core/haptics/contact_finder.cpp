@@ -1,0 +1,136 @@
+#include "core/haptics/contact_finder.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
+namespace nearfit {
+namespace {
+
+/// How far around a pose pairs are gathered, in reaches: a few steps of the proxy; more when a hand is fast.
+constexpr double kLeastSlack = 0.5, kMostSlack = 6.0;
+
+ContactPair inWorld(const ContactPair& pair, const RigidTransform& worldFromBody) noexcept {
+  return {worldFromBody.applyToPoint(pair.point), worldFromBody.applyToVector(pair.direction), pair.distance};
+}
+
+/// Motion of the part between two poses, about its centre of mass.
+MotionBudget motionOf(const ServoScene& scene, const RigidTransform& from,
+                      const RigidTransform& to) noexcept {
+  const auto centred = [&](const RigidTransform& pose) {
+    return RigidTransform{pose.rotation, pose.applyToPoint(scene.centreInPart)};
+  };
+  return motionBetween(centred(from), centred(to), scene.metric.radius);
+}
+
+}  // namespace
+
+// Contacts need none of the room that minima are merged in.
+ContactFinder::ContactFinder()
+    : scratch_(1), found_(ContactThinning::kMaxTaken), pairs_(std::size_t{1} << 17U) {}
+
+void ContactFinder::beginTick() noexcept {
+  workLeft_ = kMaxWork;
+  searchWorkLeft_ = kMaxSearchWork;
+  lateBodies_ = 0;
+}
+
+bool ContactFinder::holdsFor(const ServoScene& scene, const RigidTransform& worldFromPart,
+                             double reach) const noexcept {
+  return isHoldingPairs_ && reach == pairsReach_ &&
+         spentShare(motionOf(scene, pairsPose_, worldFromPart), holds_) <= 1.0;
+}
+
+bool ContactFinder::gatherOne(const TrackedScene& tracked, std::uint32_t body,
+                              const TrackedScene::Near* known, const RigidTransform& worldFromPart,
+                              const MotionBudget& slack) noexcept {
+  if (tracked.clearance.overlaps(body)) return true;
+  if (bodyCount_ == kMaxBodies) return false;
+  const ServoScene& scene = *tracked.scene;
+  const ServoScene::Body& other = scene.bodies[body];
+  const ContactReach within{pairsReach_, contactTurn(pairsReach_, scene.metric.radius)};
+  const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
+  const std::size_t first =
+      bodyCount_ == 0 ? 0 : bodies_[bodyCount_ - 1].first + bodies_[bodyCount_ - 1].count;
+  const std::span<LeafPair> room = std::span(pairs_).subspan(first);
+  std::optional<NearbyPairs> nearby;
+  if (known != nullptr && known->contacts)
+    nearby = known->contacts->nearbyPairs(bodyFromPart, within, slack, scratch_, room);
+  if (!nearby) {
+    ++lateBodies_;
+    nearby =
+        findNearbyPairs({other.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart, pairsReach_},
+                        within, slack, scratch_, room, searchWorkLeft_);
+    searchWorkLeft_ -= std::min(searchWorkLeft_, nearby->work);
+  }
+  spend(nearby->work + nearby->count);
+  bodies_[bodyCount_++] = {body, first, nearby->count};
+  holds_ = {std::min(holds_.travel, nearby->holds.travel), std::min(holds_.turn, nearby->holds.turn)};
+  return nearby->isComplete;
+}
+
+bool ContactFinder::gatherPairs(const TrackedScene& tracked, const RigidTransform& worldFromPart,
+                                double reach, double way) noexcept {
+  const double radius = tracked.scene->metric.radius;
+  const double turn = contactTurn(reach, radius);
+  for (const double travel :
+       {std::clamp(way, kLeastSlack * reach, kMostSlack * reach), kLeastSlack * reach, 0.0}) {
+    if (gatherWithin(tracked, worldFromPart, reach, {travel, std::min(travel / radius, turn)})) return true;
+  }
+  return false;
+}
+
+bool ContactFinder::gatherWithin(const TrackedScene& tracked, const RigidTransform& worldFromPart,
+                                 double reach, const MotionBudget& slack) noexcept {
+  bodyCount_ = 0;
+  pairsPose_ = worldFromPart;
+  pairsReach_ = reach;
+  holds_ = slack;
+  bool isComplete = true;
+  const double far = reach + slack.travel;
+  const double spent = tracked.spent(worldFromPart, far);
+  // What is said not to be near is so within what is left of the budget.
+  if (spent <= 1.0) {
+    const MotionBudget left = (1.0 - spent) * tracked.clear;
+    holds_ = {std::min(holds_.travel, left.travel), std::min(holds_.turn, left.turn)};
+  }
+  tracked.visitNear(worldFromPart, far, [&](std::uint32_t body, const TrackedScene::Near* known) {
+    isComplete = isComplete && gatherOne(tracked, body, known, worldFromPart, slack);
+  });
+  isHoldingPairs_ = isComplete;
+  return isComplete;
+}
+
+Surroundings ContactFinder::find(const TrackedScene& tracked, const RigidTransform& worldFromPart,
+                                 double reach, double way, std::span<BodyContact> out) noexcept {
+  const ServoScene& scene = *tracked.scene;
+  if (!holdsFor(scene, worldFromPart, reach)) {
+    if (!gatherPairs(tracked, worldFromPart, reach, way)) return {};
+  }
+  const ContactReach within{reach, contactTurn(reach, scene.metric.radius)};
+  Surroundings around{0, reach, reach};
+  thinning_.clear();
+  for (const HeldBody& held : std::span(bodies_).first(bodyCount_)) {
+    const ServoScene::Body& other = scene.bodies[held.body];
+    const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
+    const ContactResult result =
+        testContacts({other.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart, reach}, within,
+                     std::span<const LeafPair>(pairs_).subspan(held.first, held.count), found_);
+    spend(result.leafPairs);
+    around.distance = std::min(around.distance, result.distanceBound());
+    around.completeTo = std::min(around.completeTo, result.completeTo);
+    for (const ContactPair& pair : std::span(found_).first(result.count)) {
+      if (!thinning_.add({inWorld(pair, other.worldFromPart), held.body})) around.completeTo = 0.0;
+    }
+  }
+  const glm::dquat principalFromWorld =
+      glm::conjugate(worldFromPart.rotation * scene.metric.partFromPrincipal);
+  const ContactThinning::Kept kept =
+      thinning_.keep(worldFromPart.applyToPoint(scene.centreInPart), principalFromWorld, scene.metric, out);
+  around.count = kept.count;
+  around.completeTo = std::min(around.completeTo, kept.completeTo);
+  return around;
+}
+
+}  // namespace nearfit

@@ -1,0 +1,89 @@
+#include "core/haptics/contact_thinning.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+namespace nearfit {
+namespace {
+
+/// Side of a cell of the grid of directions, whose length is about 1.
+constexpr double kCell = 0.08;
+/// Slots of the table for each contact: half empty at the most.
+constexpr std::size_t kSlots = 2 * ContactThinning::kMaxTaken;
+
+bool isNearer(const BodyContact& a, const BodyContact& b) noexcept {
+  return a.pair.distance < b.pair.distance;
+}
+
+/// Spreads the bits of a number (the finaliser of SplitMix64).
+std::uint64_t mixed(std::uint64_t x) noexcept {
+  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
+  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
+  return x ^ (x >> 31U);
+}
+
+}  // namespace
+
+ContactThinning::ContactThinning() : taken_(kMaxTaken), cells_(kMaxTaken), table_(kSlots) {}
+
+bool ContactThinning::add(const BodyContact& contact) noexcept {
+  if (count_ == kMaxTaken) return false;
+  taken_[count_++] = contact;
+  return true;
+}
+
+std::uint64_t ContactThinning::cellOf(const ContactPair& pair, const glm::dvec3& centre,
+                                      const glm::dquat& principalFromWorld,
+                                      const MassMetric& metric) const noexcept {
+  const glm::dvec3& u = pair.direction;
+  const glm::dvec3 turn =
+      principalFromWorld * glm::cross(pair.point - centre, pair.direction) / metric.gyration;
+  std::uint64_t cell = 0;
+  for (const double x : {u.x, u.y, u.z, turn.x, turn.y, turn.z}) {
+    // Ten bits each: |turn| is at most the radius over the least gyration, some twenty.
+    const auto step = static_cast<std::int64_t>(std::floor(x / kCell)) & 0x3FF;
+    cell = cell << 10U | static_cast<std::uint64_t>(step);
+  }
+  return cell;
+}
+
+ContactThinning::Kept ContactThinning::keep(const glm::dvec3& centre, const glm::dquat& principalFromWorld,
+                                            const MassMetric& metric, std::span<BodyContact> out) noexcept {
+  Kept kept{count_, std::numeric_limits<double>::infinity()};
+  if (count_ <= std::min(kMaxKept, out.size())) {
+    std::copy_n(taken_.begin(), count_, out.begin());
+    return kept;
+  }
+  std::fill(table_.begin(), table_.end(), 0U);
+  std::size_t distinct = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const std::uint64_t cell = cellOf(taken_[i].pair, centre, principalFromWorld, metric);
+    std::size_t slot = mixed(cell) % kSlots;
+    while (table_[slot] != 0 && cells_[table_[slot] - 1] != cell)
+      slot = (slot + 1) % kSlots;
+    if (table_[slot] == 0) {
+      // What comes first of a cell moves to the front.
+      cells_[distinct] = cell;
+      std::swap(taken_[distinct], taken_[i]);
+      table_[slot] = static_cast<std::uint32_t>(++distinct);
+    } else if (isNearer(taken_[i], taken_[table_[slot] - 1])) {
+      taken_[table_[slot] - 1] = taken_[i];
+    }
+  }
+  kept.count = std::min({distinct, kMaxKept, out.size()});
+  const auto begin = taken_.begin();
+  const auto end = begin + static_cast<std::ptrdiff_t>(distinct);
+  if (kept.count < distinct) {
+    const auto last = begin + static_cast<std::ptrdiff_t>(kept.count);
+    std::nth_element(begin, last, end, isNearer);
+    kept.completeTo = last->pair.distance;
+  }
+  std::copy_n(begin, kept.count, out.begin());
+  return kept;
+}
+
+}  // namespace nearfit

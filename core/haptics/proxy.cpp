@@ -1,0 +1,217 @@
+#include "core/haptics/proxy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "core/math/rotation_vector.h"
+
+namespace nearfit {
+namespace {
+
+/// Nothing is in the way of a step that ends this many margins short of what is nearest.
+constexpr double kFree = 2.5;
+/// Share of what is proved free (the distances before and after) that a step is planned to use.
+constexpr double kPlanned = 0.8;
+/// Share of it that a step may use: the distances are rounded.
+constexpr double kProved = 1.0 - 1e-9;
+/// A step turns by this share of what contacts are relaxed by: all that it can bring nearer are there.
+constexpr double kTurnShare = 0.5;
+/// A step may halve the distance at most, and only down to this share of the margin: going on by halves would
+/// end in rounding.
+constexpr double kHalf = 0.5, kFloor = 1.0 / 64.0;
+/// A step may be this share of the distance at least.
+constexpr double kLeastStep = 0.5;
+/// How often a step is halved before it is refused.
+constexpr int kMaxHalvings = 3;
+/// What moves by less than this many margins rests: 0.1 um at a margin of 0.1 mm. The first step of a tick
+/// goes on below that, so that a slow hand does not drag.
+constexpr double kAtRest = 1e-3, kAtRestAtFirst = 1e-6;
+/// How hard the margin is held, against a way of so many margins into the contact: to a fiftieth of it.
+constexpr double kMarginWeight = 50.0, kMostMarginWeight = 1e6;
+
+/// The farthest that a point within `radius` of the centre moves.
+double travelOf(double shift, double spin, double radius) noexcept {
+  return shift + spin * radius;
+}
+
+}  // namespace
+
+Proxy::Proxy()
+    : around_(ContactFinder::kMaxContacts),
+      next_(ContactFinder::kMaxContacts),
+      rowContact_(ContactFinder::kMaxContacts) {}
+
+void Proxy::place(const RigidTransform& worldFromPart) noexcept {
+  pose_ = worldFromPart;
+  clearedSerial_ = 0;
+  isHereKnown_ = false;
+  holdingCount_ = 0;
+}
+
+void Proxy::noteDistance(double distance) noexcept {
+  if (isHereKnown_) here_.distance = std::max(here_.distance, distance);
+}
+
+std::span<const ProxyContact> Proxy::contacts() const noexcept {
+  return std::span(holding_).first(holdingCount_);
+}
+
+double Proxy::wayTo(const Tick& tick) const noexcept {
+  const Motion motion = motionTo(*tick.tracked.scene, tick.target);
+  return travelOf(glm::length(motion.shift), glm::length(motion.spin), tick.tracked.scene->metric.radius);
+}
+
+Proxy::Motion Proxy::motionTo(const ServoScene& scene, const RigidTransform& target) const noexcept {
+  return {target.applyToPoint(scene.centreInPart) - pose_.applyToPoint(scene.centreInPart),
+          rotationVector(target.rotation * glm::conjugate(pose_.rotation))};
+}
+
+RigidTransform Proxy::moved(const ServoScene& scene, const Motion& motion) const noexcept {
+  const glm::dquat rotation = glm::normalize(rotationOf(motion.spin) * pose_.rotation);
+  const glm::dvec3 centre = pose_.applyToPoint(scene.centreInPart) + motion.shift;
+  return {rotation, centre - rotation * scene.centreInPart};
+}
+
+bool Proxy::isCleared(const TrackedScene& tracked) noexcept {
+  const Clearance& clearance = tracked.clearance;
+  if (clearance.serial == 0) return false;
+  if (clearance.serial == clearedSerial_) return true;
+  const Motion since = motionTo(*tracked.scene, clearance.worldFromPart);
+  const double travel =
+      travelOf(glm::length(since.shift), glm::length(since.spin), tracked.scene->metric.radius);
+  if (!(travel < clearance.distance)) return false;
+  clearedSerial_ = clearance.serial;
+  isHereKnown_ = false;
+  finder_.forget();
+  return true;
+}
+
+void Proxy::follow(const TrackedScene& tracked, const RigidTransform& target,
+                   const ProxySettings& settings) noexcept {
+  account_ = {};
+  finder_.beginTick();
+  if (!isCleared(tracked)) {
+    account_.isWaiting = true;
+    holdingCount_ = 0;
+    return;
+  }
+  const Tick tick{tracked, target, settings};
+  // Where the work did not suffice, the lists may be ready by now.
+  if (!isHereKnown_ || margin_ != settings.margin || here_.completeTo == 0.0) {
+    margin_ = settings.margin;
+    here_ = finder_.find(tracked, pose_, kContactReach * margin_, wayTo(tick), around_);
+    isHereKnown_ = true;
+  }
+  holdingCount_ = 0;
+  while (account_.subSteps < kMaxSubSteps && step(tick)) {
+  }
+}
+
+bool Proxy::step(const Tick& tick) noexcept {
+  const Motion wanted = motionTo(*tick.tracked.scene, tick.target);
+  if (wanted.shift == glm::dvec3(0.0) && wanted.spin == glm::dvec3(0.0)) return false;
+  return here_.distance > kFree * margin_ ? freeStep(tick, wanted) : constrainedStep(tick, wanted);
+}
+
+bool Proxy::freeStep(const Tick& tick, const Motion& wanted) noexcept {
+  const ServoScene& scene = *tick.tracked.scene;
+  const double travel = travelOf(glm::length(wanted.shift), glm::length(wanted.spin), scene.metric.radius);
+  const double free = here_.distance - margin_;
+  if (travel <= free) {
+    // To the target to the last bit: a free part pulls at nothing.
+    take(tick, tick.target, travel);
+    return false;
+  }
+  const double share = free / travel;
+  return take(tick, moved(scene, {share * wanted.shift, share * wanted.spin}), free);
+}
+
+void Proxy::fillRows(const Tick& tick, double reach) noexcept {
+  const ServoScene& scene = *tick.tracked.scene;
+  const glm::dvec3 centre = pose_.applyToPoint(scene.centreInPart);
+  const glm::dquat principalFromWorld = glm::conjugate(pose_.rotation * scene.metric.partFromPrincipal);
+  rows_.clear();
+  for (std::size_t i = 0; i < here_.count; ++i) {
+    const ContactPair& pair = around_[i].pair;
+    if (pair.distance > reach) continue;
+    const glm::dvec3 turn =
+        principalFromWorld * glm::cross(pair.point - centre, pair.direction) / scene.metric.gyration;
+    const glm::dvec3& u = pair.direction;
+    rowContact_[rows_.size()] = static_cast<std::uint32_t>(i);
+    rows_.add({u.x, u.y, u.z, turn.x, turn.y, turn.z}, pair.distance);
+  }
+}
+
+bool Proxy::constrainedStep(const Tick& tick, const Motion& wanted) noexcept {
+  const ServoScene& scene = *tick.tracked.scene;
+  const MassMetric& metric = scene.metric;
+  const glm::dquat worldFromPrincipal = glm::normalize(pose_.rotation * metric.partFromPrincipal);
+  const double held = std::min(here_.distance, margin_);
+  // Where not all contacts are there, what the others would allow shows after the step.
+  const double known = std::max(here_.completeTo - held, kLeastStep * held);
+  const double farthest = std::min(kPlanned * (here_.distance + held), known);
+  fillRows(tick, margin_ + farthest);
+  account_.constraintCount = static_cast<std::uint32_t>(rows_.size());
+
+  const double mostTurn = kTurnShare * contactTurn(kContactReach * margin_, metric.radius);
+  StepGoal goal;
+  const glm::dvec3 turn = metric.gyration * (glm::conjugate(worldFromPrincipal) * wanted.spin);
+  goal.wanted = {wanted.shift.x, wanted.shift.y, wanted.shift.z, turn.x, turn.y, turn.z};
+  const double way = std::sqrt(glm::dot(wanted.shift, wanted.shift) + glm::dot(turn, turn));
+  goal.cost = {.margin = margin_,
+               .weight = std::clamp(kMarginWeight * way / margin_, kMarginWeight, kMostMarginWeight),
+               .floor = kHalf * held};
+  goal.gyration = metric.gyration;
+  goal.radius = std::max(metric.radius, farthest / mostTurn);
+  goal.reach = farthest;
+  const StepSolution solution = program_.solve(rows_, goal);
+  keepContacts(solution);
+  if (solution.activeCount == 0 && solution.scale == 1.0) {
+    take(tick, tick.target, wayTo(tick));
+    return false;
+  }
+  Motion motion{
+      {solution.y[0], solution.y[1], solution.y[2]},
+      worldFromPrincipal * (glm::dvec3(solution.y[3], solution.y[4], solution.y[5]) / metric.gyration)};
+  double travel = travelOf(glm::length(motion.shift), glm::length(motion.spin), metric.radius);
+  const bool isFirst = account_.subSteps == 0;
+  if (!(travel > (isFirst ? kAtRestAtFirst : kAtRest) * margin_)) return false;
+  for (int halvings = 0; halvings <= kMaxHalvings; ++halvings) {
+    if (take(tick, moved(scene, motion), travel)) return true;
+    ++account_.shortenedSteps;
+    motion = {kHalf * motion.shift, kHalf * motion.spin};
+    travel *= kHalf;
+  }
+  ++account_.refusedSteps;
+  return false;
+}
+
+void Proxy::keepContacts(const StepSolution& solution) noexcept {
+  holdingCount_ = 0;
+  for (const ActivePair& pair : solution.pairs())
+    holding_[holdingCount_++] = {around_[rowContact_[pair.row]], pair.multiplier};
+}
+
+bool Proxy::take(const Tick& tick, const RigidTransform& pose, double travel) noexcept {
+  if (finder_.isWorkSpent()) return false;
+  Surroundings there = finder_.find(tick.tracked, pose, kContactReach * margin_, wayTo(tick), next_);
+  if (there.completeTo == 0.0) return false;
+  // What was known here is known there but for the way.
+  there.distance = std::max(there.distance, here_.distance - travel);
+  const double held = std::min(here_.distance, margin_);
+  const bool isProved = travel < kProved * (here_.distance + there.distance);
+  const bool isAllowed =
+      there.distance >= here_.distance || there.distance >= std::max(kHalf * held, kFloor * margin_);
+  if (!isProved || !isAllowed) return false;
+  pose_ = pose;
+  here_ = there;
+  std::swap(around_, next_);
+  ++account_.subSteps;
+  return true;
+}
+
+}  // namespace nearfit

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/haptics/contact_finder.h"
+#include "core/haptics/haptic_settings.h"
+#include "core/haptics/step_program.h"
+#include "core/haptics/tracked_scene.h"
+
+namespace nearfit {
+
+/// How the proxy fared in a tick.
+struct ProxyAccount {
+  std::uint32_t subSteps = 0;
+  std::uint32_t shortenedSteps = 0;   ///< Halved, as less would not have been proved free.
+  std::uint32_t refusedSteps = 0;     ///< Not taken at all.
+  std::uint32_t constraintCount = 0;  ///< Of the last step's program.
+  bool isWaiting = false;             ///< For the clearance at its pose: it stands meanwhile.
+};
+
+/// Something that holds the proxy back.
+struct ProxyContact {
+  BodyContact contact;
+  /// What of the wanted way it takes away, along its direction [m] for a body of mass one.
+  double push = 0.0;
+};
+
+/// Where the moving part is: it follows a target as far as the other bodies let it, and never meets one.
+///
+/// A tick takes it there in steps. Each step is the shortest way, in the metric of the part's mass, that
+/// keeps every near pair of features a margin apart to first order (StepProgram); it is taken only where it
+/// is proved that nothing is met on the way. With d the distance before, d' after, and no point moving
+/// farther than mu < d + d', every pose between is nearer than d to the first or nearer than d' to the last:
+/// so no body is met. Standing still is always possible.
+/// Source: Ortega, Redon & Coquillart 2007, on local minimum distances; the proof of the way is conservative
+/// advancement from both ends.
+class Proxy {
+ public:
+  static constexpr std::uint32_t kMaxSubSteps = 24;
+
+  Proxy();
+
+  /// Puts it anywhere, which nothing is known of yet.
+  void place(const RigidTransform& worldFromPart) noexcept;
+  const RigidTransform& pose() const noexcept { return pose_; }
+
+  /// Takes note that no body but the overlapping ones is nearer than this at the present pose [m].
+  void noteDistance(double distance) noexcept;
+
+  /// One tick. Stands still while it is not known which bodies it overlaps (TrackedScene::clearance).
+  /// @param target  worldFromPart; finite, unit quaternion.
+  /// Real-time safe.
+  void follow(const TrackedScene& tracked, const RigidTransform& target,
+              const ProxySettings& settings) noexcept;
+
+  const ProxyAccount& account() const noexcept { return account_; }
+  /// What holds it now.
+  std::span<const ProxyContact> contacts() const noexcept;
+  /// The distance known at the present pose; a bound below [m].
+  double distance() const noexcept { return here_.distance; }
+  std::uint32_t lateBodies() const noexcept { return finder_.lateBodies(); }
+
+ private:
+  /// A small motion: of the centre of mass, and about it, in the world.
+  struct Motion {
+    glm::dvec3 shift{0.0};  ///< [m]
+    glm::dvec3 spin{0.0};   ///< Axis times angle [rad].
+  };
+  struct Tick {
+    const TrackedScene& tracked;
+    const RigidTransform& target;
+    const ProxySettings& settings;
+  };
+
+  bool isCleared(const TrackedScene& tracked) noexcept;
+  Motion motionTo(const ServoScene& scene, const RigidTransform& target) const noexcept;
+  /// The farthest that a point of the part is from where the target has it [m].
+  double wayTo(const Tick& tick) const noexcept;
+  RigidTransform moved(const ServoScene& scene, const Motion& motion) const noexcept;
+  bool step(const Tick& tick) noexcept;
+  bool freeStep(const Tick& tick, const Motion& wanted) noexcept;
+  bool constrainedStep(const Tick& tick, const Motion& wanted) noexcept;
+  void fillRows(const Tick& tick, double reach) noexcept;
+  void keepContacts(const StepSolution& solution) noexcept;
+  bool take(const Tick& tick, const RigidTransform& pose, double travel) noexcept;
+
+  ContactFinder finder_;
+  StepRows rows_;
+  StepProgram program_;
+  std::vector<BodyContact> around_, next_;  ///< Contacts here, and at a pose that is tried.
+  std::vector<std::uint32_t> rowContact_;   ///< Of each row, its contact in `around_`.
+  std::array<ProxyContact, ActiveRows::kMost> holding_;
+  std::size_t holdingCount_ = 0;
+
+  RigidTransform pose_;
+  Surroundings here_;
+  bool isHereKnown_ = false;
+  double margin_ = 0.0;  ///< That `here_` was found for.
+  std::uint64_t clearedSerial_ = 0;
+  ProxyAccount account_;
+};
+
+}  // namespace nearfit
