@@ -64,6 +64,7 @@ bool SceneRefresher::takeReport() noexcept {
     lastTick_ = report.tick;
   }
   reach_ = report.reach;
+  tracker_.setWaiting(report.isWaiting);
   return true;
 }
 

@@ -34,10 +34,14 @@ class SceneRefresher {
     tracked_.update();
     return tracked_.front();
   }
-  /// Where the part is and how far is looked. Servo thread; real-time safe.
-  void report(const RigidTransform& worldFromPart, const SearchReach& reach, std::uint64_t tick) noexcept {
-    reports_.publish({worldFromPart, reach, tick});
-  }
+  struct Report {
+    RigidTransform worldFromPart;  ///< Where the part is.
+    SearchReach reach;             ///< How far is looked.
+    std::uint64_t tick = 0;
+    bool isWaiting = false;  ///< The proxy stands until it is known what it overlaps there.
+  };
+  /// Servo thread; real-time safe.
+  void report(const Report& report) noexcept { reports_.publish(report); }
 
   /// How long searches took, as of the last one. Controlling thread.
   const LatencyHistogram& refreshTimes() noexcept {
@@ -46,12 +50,6 @@ class SceneRefresher {
   }
 
  private:
-  struct Report {
-    RigidTransform worldFromPart;
-    SearchReach reach;
-    std::uint64_t tick = 0;
-  };
-
   void run() noexcept;
   bool takeScene();
   bool takeReport() noexcept;

@@ -149,11 +149,11 @@ bool ServoLoop::Shared::tickOnce(Nanoseconds sinceStart, Nanoseconds sinceLast) 
   if (deviceLimits.maxTorque < limited.limits.maxTorque) limited.limits.maxTorque = deviceLimits.maxTorque;
 
   ServoSnapshot& snapshot = snapshots.back();
-  tick.run(refresher->latest(), limited, handle.pose, toSeconds(sinceLast), snapshot);
-  device.sendWrench(snapshot.wrench);
+  tick.run(refresher->latest(), limited, handle, toSeconds(sinceLast), snapshot);
+  device.sendWrench(snapshot.deviceWrench);
 
   snapshot.tick = ++statistics.ticks;
-  refresher->report(snapshot.proxy, searchReach(limited.haptics), snapshot.tick);
+  refresher->report({snapshot.proxy, searchReach(limited.haptics), snapshot.tick, snapshot.isWaiting});
   if (snapshot.lateBodies > 0) ++statistics.lateTicks;
   snapshot.time = toSeconds(sinceStart);
   snapshot.tickTime = toSeconds(now() - begin);

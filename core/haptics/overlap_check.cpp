@@ -3,25 +3,35 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/proximity/contact_query.h"
+#include "core/proximity/interference.h"
+#include "core/proximity/surface_distance.h"
 
 namespace nearfit {
 
 Clearance findClearance(const ServoScene& scene, const BroadPhase& bounds,
                         const RigidTransform& worldFromPart, double within, LmdScratch& scratch) {
+  constexpr std::uint64_t kUnbounded = std::numeric_limits<std::uint64_t>::max();
   Clearance result;
   result.worldFromPart = worldFromPart;
   result.distance = within;
   const auto overlapping = std::make_shared<std::vector<std::uint32_t>>();
+  const PartGeometry& part = *scene.moving.geometry;
   const MovingBounds moving = movingBounds(scene, worldFromPart);
-  std::vector<ContactPair> room(64);
-  bounds.visitNear(moving.centre, moving.radius + within, [&](std::uint32_t body) {
-    const ServoScene::Body& other = scene.bodies[body];
-    const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
-    const ContactResult found =
-        findContacts({other.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart, within},
-                     {within, 1e-9}, scratch, room, std::numeric_limits<std::uint64_t>::max());
-    result.distance = std::min(result.distance, found.least);
+  bounds.visitNear(moving.centre, moving.radius + within, [&](std::uint32_t index) {
+    const ServoScene::Body& body = scene.bodies[index];
+    const PartGeometry& other = *body.geometry;
+    const RigidTransform bodyFromPart = (body.worldFromPart.inverse() * worldFromPart).normalized();
+    // What has no pose is for the tick to refuse.
+    if (!bodyFromPart.isFinite()) return;
+    const Interference found =
+        findInterference({other.mesh, other.tree()}, {part.mesh, part.tree()}, bodyFromPart);
+    if (found.kind != InterferenceKind::Disjoint) {
+      overlapping->push_back(index);
+      return;
+    }
+    const SurfaceDistance distance =
+        leastSurfaceDistance(other.tree(), part.tree(), bodyFromPart, within, scratch, kUnbounded);
+    result.distance = std::min(result.distance, distance.lowerBound);
   });
   std::sort(overlapping->begin(), overlapping->end());
   result.overlapping = overlapping;

@@ -1,6 +1,7 @@
 #include "core/haptics/proxy.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -93,6 +94,7 @@ bool Proxy::isCleared(const TrackedScene& tracked) noexcept {
 void Proxy::follow(const TrackedScene& tracked, const RigidTransform& target,
                    const ProxySettings& settings) noexcept {
   account_ = {};
+  queryTime_ = 0.0;
   finder_.beginTick();
   if (!isCleared(tracked)) {
     account_.isWaiting = true;
@@ -103,7 +105,7 @@ void Proxy::follow(const TrackedScene& tracked, const RigidTransform& target,
   // Where the work did not suffice, the lists may be ready by now.
   if (!isHereKnown_ || margin_ != settings.margin || here_.completeTo == 0.0) {
     margin_ = settings.margin;
-    here_ = finder_.find(tracked, pose_, kContactReach * margin_, wayTo(tick), around_);
+    here_ = lookAround(tick, pose_, around_);
     isHereKnown_ = true;
   }
   holdingCount_ = 0;
@@ -170,7 +172,7 @@ bool Proxy::constrainedStep(const Tick& tick, const Motion& wanted) noexcept {
   goal.reach = farthest;
   const StepSolution solution = program_.solve(rows_, goal);
   keepContacts(solution);
-  if (solution.activeCount == 0 && solution.scale == 1.0) {
+  if (solution.activeCount == 0 && solution.scale == 1.0 && solution.share == 1.0) {
     take(tick, tick.target, wayTo(tick));
     return false;
   }
@@ -196,9 +198,18 @@ void Proxy::keepContacts(const StepSolution& solution) noexcept {
     holding_[holdingCount_++] = {around_[rowContact_[pair.row]], pair.multiplier};
 }
 
+Surroundings Proxy::lookAround(const Tick& tick, const RigidTransform& pose,
+                               std::span<BodyContact> out) noexcept {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  const Surroundings around = finder_.find(tick.tracked, pose, kContactReach * margin_, wayTo(tick), out);
+  queryTime_ += std::chrono::duration<double>(Clock::now() - begin).count();
+  return around;
+}
+
 bool Proxy::take(const Tick& tick, const RigidTransform& pose, double travel) noexcept {
   if (finder_.isWorkSpent()) return false;
-  Surroundings there = finder_.find(tick.tracked, pose, kContactReach * margin_, wayTo(tick), next_);
+  Surroundings there = lookAround(tick, pose, next_);
   if (there.completeTo == 0.0) return false;
   // What was known here is known there but for the way.
   there.distance = std::max(there.distance, here_.distance - travel);

@@ -61,6 +61,8 @@ class Proxy {
   /// The distance known at the present pose; a bound below [m].
   double distance() const noexcept { return here_.distance; }
   std::uint32_t lateBodies() const noexcept { return finder_.lateBodies(); }
+  /// Of the last tick, what the search for contacts took [s].
+  double queryTime() const noexcept { return queryTime_; }
 
  private:
   /// A small motion: of the centre of mass, and about it, in the world.
@@ -84,6 +86,7 @@ class Proxy {
   bool constrainedStep(const Tick& tick, const Motion& wanted) noexcept;
   void fillRows(const Tick& tick, double reach) noexcept;
   void keepContacts(const StepSolution& solution) noexcept;
+  Surroundings lookAround(const Tick& tick, const RigidTransform& pose, std::span<BodyContact> out) noexcept;
   bool take(const Tick& tick, const RigidTransform& pose, double travel) noexcept;
 
   ContactFinder finder_;
@@ -100,6 +103,7 @@ class Proxy {
   double margin_ = 0.0;  ///< That `here_` was found for.
   std::uint64_t clearedSerial_ = 0;
   ProxyAccount account_;
+  double queryTime_ = 0.0;
 };
 
 }  // namespace nearfit

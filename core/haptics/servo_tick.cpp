@@ -4,36 +4,24 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <span>
 
+#include <glm/geometric.hpp>
+
+#include "core/haptics/servo_faults.h"
+#include "core/haptics/spring_law.h"
 #include "core/math/rotation_vector.h"
-#include "core/proximity/blocked_minima.h"
 
 namespace nearfit {
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 bool isFinite(const glm::dvec3& v) noexcept {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-bool isFiniteAtLeast(double value, double lower) noexcept {
-  return std::isfinite(value) && value >= lower;
-}
-
-bool isPose(const RigidTransform& pose) noexcept {
-  const double lengthSquared = glm::dot(pose.rotation, pose.rotation);
-  return pose.isFinite() && lengthSquared > 0.25 && lengthSquared < 4.0;
-}
-
-ServoFault faultOfInput(const ServoParameters& p, const RigidTransform& handle, double period) noexcept {
-  const bool parametersAreValid =
-      isFiniteAtLeast(p.haptics.springs.cutoff, std::numeric_limits<double>::min()) &&
-      isFiniteAtLeast(p.haptics.springs.stiffness, 0.0) && isFiniteAtLeast(p.haptics.springs.damping, 0.0) &&
-      isFiniteAtLeast(p.limits.maxForce, 0.0) && isFiniteAtLeast(p.limits.maxTorque, 0.0) &&
-      isFiniteAtLeast(period, std::numeric_limits<double>::min());
-  if (!parametersAreValid) return ServoFault::ParametersInvalid;
-  return isPose(handle) ? ServoFault::None : ServoFault::PoseNotFinite;
+double secondsSince(Clock::time_point begin) noexcept {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 /// A velocity that decays at rest would end, for good, among the denormals, where arithmetic is slow.
@@ -41,170 +29,212 @@ glm::dvec3 withoutTraces(const glm::dvec3& velocity) noexcept {
   return glm::length(velocity) < 1e-100 ? glm::dvec3(0.0) : velocity;
 }
 
-bool isNearer(const SnapshotLmd& a, const SnapshotLmd& b) noexcept {
-  return a.lmd.distance < b.lmd.distance;
+/// Mean velocity from one pose to the next, of a point that both carry.
+Twist twistBetween(const RigidTransform& from, const RigidTransform& to, const glm::dvec3& centre,
+                   double period) noexcept {
+  return {(to.applyToPoint(centre) - from.applyToPoint(centre)) / period,
+          rotationVector(to.rotation * glm::conjugate(from.rotation)) / period};
 }
 
 void clearOutputs(ServoSnapshot& snapshot) noexcept {
-  snapshot.wrench = snapshot.unclampedWrench = Wrench{};
+  snapshot.wrench = snapshot.unclampedWrench = snapshot.deviceWrench = Wrench{};
   snapshot.distance = std::numeric_limits<double>::infinity();
-  snapshot.queryTime = 0.0;
+  snapshot.queryTime = snapshot.proxyTime = 0.0;
   snapshot.lmdCount = snapshot.storedLmds = snapshot.lateBodies = 0;
-  snapshot.isTruncated = snapshot.isClamped = false;
+  snapshot.subSteps = snapshot.shortenedSteps = snapshot.refusedSteps = 0;
+  snapshot.constraintCount = snapshot.contactCount = snapshot.storedContacts = snapshot.releasedCount = 0;
+  snapshot.isTruncated = snapshot.isClamped = snapshot.isWaiting = false;
+  snapshot.coupling = {};
 }
 
 }  // namespace
 
-const char* faultReason(ServoFault fault) noexcept {
-  switch (fault) {
-    case ServoFault::None:
-      return "";
-    case ServoFault::PoseNotFinite:
-      return "a pose was not finite or not a rotation; check the device, then start the servo anew";
-    case ServoFault::WrenchNotFinite:
-      return "the force was not finite; lower stiffness or damping, then start the servo anew";
-    case ServoFault::ParametersInvalid:
-      return "cutoff, stiffness, damping, limits or period made no sense; set them, then start the servo "
-             "anew";
-  }
-  return "unknown fault; start the servo anew";
-}
-
-ServoTick::ServoTick() : lmds_(kMaxLmdsPerBody), display_(2 * ServoSnapshot::kMaxLmds) {}
-
 void ServoTick::reset() noexcept {
-  hasLastPose_ = false;
-  twist_ = Twist{};
+  mapper_ = {};
+  periodMeter_ = PeriodMeter{};
+  passivity_.reset();
+  conditioner_ = {};
+  partStep_ = {};
+  held_ = {};
+  hasPose_ = false;
   fault_ = ServoFault::None;
 }
 
-void ServoTick::run(const TrackedScene& tracked, const ServoParameters& parameters,
-                    const RigidTransform& handle, double period, ServoSnapshot& snapshot) noexcept {
+void ServoTick::run(const TrackedScene& tracked, const ServoParameters& parameters, const HandleInput& input,
+                    double period, ServoSnapshot& snapshot) noexcept {
   const ServoScene& scene = *tracked.scene;
+  const HapticSettings& settings = parameters.haptics;
   clearOutputs(snapshot);
   snapshot.moving = scene.moving.id;
-  if (scene.moving.id != lastMoving_) hasLastPose_ = false;
-  lastMoving_ = scene.moving.id;
+  snapshot.mode = settings.mode;
+  if (scene.moving.id != moving_) hasPose_ = false;
+  moving_ = scene.moving.id;
+  if (fault_ == ServoFault::None) fault_ = faultOfInput(settings, parameters.limits, input.pose, period);
+  if (!hasPose_) handle_.pose = part_.pose = scene.moving.worldFromPart;
 
-  if (fault_ == ServoFault::None) fault_ = faultOfInput(parameters, handle, period);
+  const DeviceLimits limits = limitsAtHandle(parameters.limits, settings.mapping.scale);
+  const Tick tick{tracked, scene, settings, limits, period, snapshot};
   if (fault_ == ServoFault::None) {
-    const RigidTransform pose = handle.normalized();
-    updateTwist(scene, pose, period);
-  } else if (!hasLastPose_) {
-    lastPose_ = scene.moving.worldFromPart;
+    periodMeter_.add(period);
+    const RigidTransform handleBefore = handle_.pose, partBefore = part_.pose;
+    const bool hadPose = hasPose_;
+    takePose(tick, mapper_.map(input.pose.normalized(), input.isClutched, settings.mapping));
+    Wrench wrench = settings.mode == HapticMode::Proxy ? feelProxy(tick) : feelSprings(tick);
+    if (hadPose) keepPassive(tick, wrench, handleBefore, partBefore);
+    const bool isUsable = isFinite(wrench.force) && isFinite(wrench.torque);
+    if (fault_ == ServoFault::None && !isUsable) fault_ = ServoFault::WrenchNotFinite;
+    if (fault_ == ServoFault::None) send(tick, wrench, input.age);
   }
-  snapshot.handle = snapshot.proxy = lastPose_;
-  snapshot.centre = lastPose_.applyToPoint(scene.centreInPart);
-
-  if (fault_ == ServoFault::None) {
-    const Wrench wrench = feel(tracked, parameters.haptics.springs, snapshot);
-    const bool wrenchIsFinite = isFinite(wrench.force) && isFinite(wrench.torque);
-    if (fault_ == ServoFault::None && !wrenchIsFinite) fault_ = ServoFault::WrenchNotFinite;
-    if (fault_ == ServoFault::None) {
-      const LimitedWrench limited = limitWrench(wrench, parameters.limits);
-      snapshot.unclampedWrench = wrench;
-      snapshot.wrench = limited.wrench;
-      snapshot.isClamped = limited.isClamped;
-    }
+  if (fault_ != ServoFault::None) {
+    conditioner_ = {};
+    held_ = {};
   }
+  snapshot.handle = handle_.pose;
+  snapshot.proxy = part_.pose;
+  snapshot.centre = part_.pose.applyToPoint(scene.centreInPart);
+  snapshot.energyToHand = passivity_.energyToHand();
   snapshot.fault = fault_;
 }
 
-void ServoTick::updateTwist(const ServoScene& scene, const RigidTransform& pose, double period) noexcept {
-  if (hasLastPose_) {
-    const glm::dvec3 step =
-        pose.applyToPoint(scene.centreInPart) - lastPose_.applyToPoint(scene.centreInPart);
-    const glm::dvec3 turn = rotationVector(pose.rotation * glm::conjugate(lastPose_.rotation));
-    const double share = period / (kVelocityTimeConstant + period);
-    twist_.linear = withoutTraces(twist_.linear + share * (step / period - twist_.linear));
-    twist_.angular = withoutTraces(twist_.angular + share * (turn / period - twist_.angular));
-  } else {
-    twist_ = Twist{};
-  }
-  lastPose_ = pose;
-  hasLastPose_ = true;
+BodyMotion ServoTick::smoothed(const BodyMotion& before, const RigidTransform& pose, const glm::dvec3& centre,
+                               double period) const noexcept {
+  const Twist now = twistBetween(before.pose, pose, centre, period);
+  const double share = period / (kVelocityTimeConstant + period);
+  return {pose,
+          {withoutTraces(before.twist.linear + share * (now.linear - before.twist.linear)),
+           withoutTraces(before.twist.angular + share * (now.angular - before.twist.angular))}};
 }
 
-Wrench ServoTick::feel(const TrackedScene& tracked, const SpringParameters& springs,
-                       ServoSnapshot& snapshot) noexcept {
-  using Clock = std::chrono::steady_clock;
-  Wrench sum;
-  displayCount_ = 0;
-  displayWasCut_ = false;
-  nodePairsLeft_ = kMaxNodePairs;
-  const ServoScene::Body& moving = tracked.scene->moving;
-  if (moving.geometry == nullptr) return sum;
+void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcept {
+  const bool isProxy = tick.settings.mode == HapticMode::Proxy;
+  if (!hasPose_) {
+    handle_ = {handle, {}};
+    part_ = {isProxy ? tick.scene.moving.worldFromPart.normalized() : handle, {}};
+    partStep_ = {};
+    proxy_.place(part_.pose);
+    conditioner_.engage();
+    hasPose_ = true;
+  } else {
+    handle_ = smoothed(handle_, handle, tick.scene.centreInPart, tick.period);
+    // Springs let the part be anywhere: what it overlaps there is not known.
+    if (isProxy && mode_ != HapticMode::Proxy) proxy_.place(part_.pose);
+  }
+  mode_ = tick.settings.mode;
+}
+
+void ServoTick::movePart(const Tick& tick, const RigidTransform& pose) noexcept {
+  partStep_ = twistBetween(part_.pose, pose, tick.scene.centreInPart, tick.period);
+  part_ = smoothed(part_, pose, tick.scene.centreInPart, tick.period);
+}
+
+void ServoTick::findMinima(const Tick& tick, double apart, const SpringParameters* springs,
+                           Wrench& sum) noexcept {
   const Clock::time_point begin = Clock::now();
-  tracked.visitNear(snapshot.proxy, springs.cutoff, [&](std::uint32_t body, const TrackedScene::Near* known) {
-    const CandidateList* list = known != nullptr ? known->list.get() : nullptr;
-    const Wrench wrench = feelBody({tracked.scene->bodies[body], moving, list}, springs, snapshot);
-    sum.force += wrench.force;
-    sum.torque += wrench.torque;
-  });
-  writeDisplay(snapshot);
-  snapshot.queryTime = std::chrono::duration<double>(Clock::now() - begin).count();
+  const glm::dvec3 centre = part_.pose.applyToPoint(tick.scene.centreInPart);
+  const MinimaFinder::Result result = minima_.find(
+      tick.tracked, part_.pose, tick.settings.springs.cutoff, apart, [&](std::span<const Lmd> lmds) {
+        if (springs == nullptr) return;
+        const Wrench wrench = springWrench(lmds, *springs, centre, part_.twist);
+        sum.force += wrench.force;
+        sum.torque += wrench.torque;
+      });
+  if (result.isPoseBad) fault_ = ServoFault::PoseNotFinite;
+  minima_.write(tick.snapshot);
+  tick.snapshot.lateBodies += result.lateBodies;
+  tick.snapshot.queryTime += secondsSince(begin);
+  // Of bodies that are closed and apart, the nearest minimum is the distance.
+  proxy_.noteDistance(std::min({result.distance, result.completeTo, tick.settings.springs.cutoff}));
+}
+
+Wrench ServoTick::feelSprings(const Tick& tick) noexcept {
+  movePart(tick, handle_.pose);
+  felt_ = feltBody(tick.settings.weight, tick.scene.mass, tick.limits.maxForce);
+  felt_.mass = 0.0;
+  Wrench sum{felt_.weight, glm::dvec3(0.0)};
+  // Nothing keeps the part from going through: no distance can be taken for granted.
+  findMinima(tick, 0.0, &tick.settings.springs, sum);
   return sum;
 }
 
-LmdResult ServoTick::findMinima(const BodyTask& task, const RigidTransform& bodyFromPart, double cutoff,
-                                ServoSnapshot& snapshot) noexcept {
-  if (task.list != nullptr) {
-    const std::optional<LmdResult> listed = task.list->query(bodyFromPart, cutoff, scratch_, lmds_);
-    if (listed) return *listed;
+Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
+  const ServoScene& scene = tick.scene;
+  tick.snapshot.coupling =
+      boundedCoupling(tick.settings.coupling, tick.limits, scene.metric, periodMeter_.period());
+  felt_ = feltBody(tick.settings.weight, scene.mass, tick.limits.maxForce);
+  if (scene.moving.geometry == nullptr) {
+    movePart(tick, handle_.pose);
+  } else {
+    const BodyMotion target = freeStep(felt_, tick.snapshot.coupling, scene.metric, scene.centreInPart,
+                                       handle_, {part_.pose, partStep_}, tick.period);
+    const Clock::time_point begin = Clock::now();
+    if (isPose(target.pose))
+      proxy_.follow(tick.tracked, target.pose.normalized(), tick.settings.proxy);
+    else
+      fault_ = ServoFault::WrenchNotFinite;
+    tick.snapshot.proxyTime = secondsSince(begin) - proxy_.queryTime();
+    tick.snapshot.queryTime += proxy_.queryTime();
+    movePart(tick, proxy_.pose());
   }
-  ++snapshot.lateBodies;
-  const LmdResult result = findNearestLmds(task.body.geometry->tree(), task.moving.geometry->tree(),
-                                           bodyFromPart, cutoff, scratch_, lmds_, nodePairsLeft_);
-  nodePairsLeft_ -= std::min(nodePairsLeft_, result.nodePairs);
-  return result;
+  Wrench none;
+  findMinima(tick, proxy_.distance(), nullptr, none);
+  describeProxy(tick);
+  return couplingWrench(tick.snapshot.coupling, scene.metric, scene.centreInPart, handle_, part_);
 }
 
-Wrench ServoTick::feelBody(const BodyTask& task, const SpringParameters& springs,
-                           ServoSnapshot& snapshot) noexcept {
-  const ServoScene::Body& body = task.body;
-  const RigidTransform bodyFromPart = (body.worldFromPart.inverse() * snapshot.proxy).normalized();
-  if (!isPose(body.worldFromPart) || !bodyFromPart.isFinite()) {
-    fault_ = ServoFault::PoseNotFinite;
-    return {};
+void ServoTick::describeProxy(const Tick& tick) noexcept {
+  ServoSnapshot& snapshot = tick.snapshot;
+  const ProxyAccount& account = proxy_.account();
+  snapshot.subSteps = account.subSteps;
+  snapshot.shortenedSteps = account.shortenedSteps;
+  snapshot.refusedSteps = account.refusedSteps;
+  snapshot.constraintCount = account.constraintCount;
+  snapshot.isWaiting = account.isWaiting;
+  snapshot.lateBodies += proxy_.lateBodies();
+  snapshot.contactCount = static_cast<std::uint32_t>(proxy_.contacts().size());
+  for (const ProxyContact& holding : proxy_.contacts()) {
+    if (snapshot.storedContacts == ServoSnapshot::kMaxContacts) break;
+    const ContactPair& pair = holding.contact.pair;
+    snapshot.contacts[snapshot.storedContacts++] = {pair.point, pair.direction,
+                                                    snapshot.coupling.stiffness * holding.push,
+                                                    tick.scene.bodies[holding.contact.body].id};
   }
-  const LmdResult result = findMinima(task, bodyFromPart, springs.cutoff, snapshot);
-  const std::span<Lmd> found = std::span(lmds_).first(result.count);
-  // Nothing keeps the part from going through: no distance can be taken for granted.
-  constexpr double kMayInterpenetrate = 0.0;
-  markBlocked(body.geometry->tree(), task.moving.geometry->tree(), bodyFromPart, found, kMayInterpenetrate,
-              scratch_);
-  for (Lmd& lmd : found) {
-    lmd = transformed(lmd, body.worldFromPart);
-    snapshot.distance = std::min(snapshot.distance, lmd.distance);
-  }
-  snapshot.lmdCount += static_cast<std::uint32_t>(result.count);
-  if (result.status == QueryStatus::Truncated) snapshot.isTruncated = true;
-  keepForDisplay(body.id, result.count);
-  return springWrench(found, springs, snapshot.centre, twist_);
+  const Clearance& clearance = tick.tracked.clearance;
+  if (!clearance.overlapping) return;
+  snapshot.releasedCount = static_cast<std::uint32_t>(clearance.overlapping->size());
+  const std::size_t shown = std::min(clearance.overlapping->size(), ServoSnapshot::kMaxReleased);
+  for (std::size_t i = 0; i < shown; ++i)
+    snapshot.released[i] = tick.scene.bodies[(*clearance.overlapping)[i]].id;
 }
 
-void ServoTick::keepForDisplay(PartId other, std::size_t count) noexcept {
-  const std::size_t added = std::min(count, ServoSnapshot::kMaxLmds);
-  for (std::size_t i = 0; i < added; ++i)
-    display_[displayCount_ + i] = {lmds_[i], other};
-  displayCount_ += added;
-  if (displayCount_ <= ServoSnapshot::kMaxLmds) return;
-  const auto begin = display_.begin();
-  std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(ServoSnapshot::kMaxLmds),
-                   begin + static_cast<std::ptrdiff_t>(displayCount_), isNearer);
-  displayCount_ = ServoSnapshot::kMaxLmds;
-  displayWasCut_ = true;
+void ServoTick::keepPassive(const Tick& tick, Wrench& wrench, const RigidTransform& handleBefore,
+                            const RigidTransform& partBefore) noexcept {
+  const glm::dvec3& centre = tick.scene.centreInPart;
+  HandInterval interval;
+  interval.held = held_;
+  interval.shift = handle_.pose.applyToPoint(centre) - handleBefore.applyToPoint(centre);
+  interval.turn = rotationVector(handle_.pose.rotation * glm::conjugate(handleBefore.rotation));
+  interval.duration = tick.period;
+  interval.weight = felt_.weight;
+  interval.partShift = part_.pose.applyToPoint(centre) - partBefore.applyToPoint(centre);
+  double stored = PassivityController::kMostDebt;
+  if (tick.settings.mode == HapticMode::Proxy) {
+    stored = storedEnergy(tick.snapshot.coupling, tick.scene.metric, centre, handle_.pose, partBefore,
+                          tick.limits) +
+             kineticEnergy(felt_, tick.scene.metric, {part_.pose, partStep_});
+  }
+  passivity_.observe(interval, tick.limits, stored);
+  const Wrench damping = passivity_.damping(tick.limits, tick.period);
+  wrench.force += damping.force;
+  wrench.torque += damping.torque;
 }
 
-void ServoTick::writeDisplay(ServoSnapshot& snapshot) noexcept {
-  const std::span<SnapshotLmd> kept = std::span(display_).first(displayCount_);
-  if (displayWasCut_) {
-    std::sort(kept.begin(), kept.end(), [](const SnapshotLmd& a, const SnapshotLmd& b) {
-      return a.other != b.other ? a.other < b.other : isNearer(a, b);
-    });
-  }
-  std::copy(kept.begin(), kept.end(), snapshot.lmds.begin());
-  snapshot.storedLmds = static_cast<std::uint32_t>(displayCount_);
+void ServoTick::send(const Tick& tick, const Wrench& wrench, double age) noexcept {
+  const ConditionedWrench sent = conditioner_.condition(wrench, age, tick.period, tick.limits);
+  tick.snapshot.unclampedWrench = wrench;
+  tick.snapshot.wrench = sent.wrench;
+  tick.snapshot.isClamped = sent.isClamped;
+  tick.snapshot.deviceWrench = wrenchOnDevice(sent.wrench, tick.settings.mapping);
+  held_ = sent.wrench;
 }
 
 }  // namespace nearfit

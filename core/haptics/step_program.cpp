@@ -26,7 +26,7 @@ bool isUsable(const StepGoal& goal) noexcept {
   const ClearanceCost& cost = goal.cost;
   const bool isCostUsable =
       isShort(cost.margin) && cost.weight > 0.0 && std::isfinite(cost.weight) && cost.floor <= kLongestStep;
-  const auto isRadius = [&](double value) { return value >= kLeastGyration && isShort(value); };
+  const auto isRadius = [&](double value) { return value >= kShortestGyration && isShort(value); };
   const bool isBodyUsable = goal.radius >= 0.0 && isShort(goal.radius) && isRadius(goal.gyration.x) &&
                             isRadius(goal.gyration.y) && isRadius(goal.gyration.z);
   return isCostUsable && isBodyUsable && goal.reach >= 0.0 &&

@@ -17,7 +17,7 @@ struct StepGoal {
   StepVector wanted{};       ///< y0 [m]; at most `kLongestStep` long.
   ClearanceCost cost;        ///< Margin, its weight (50 to 1e6), and the least clearance.
   double radius = 0.0;       ///< Of a sphere about the centre of mass that holds the part [m]; >= 0.
-  glm::dvec3 gyration{1.0};  ///< Radii of gyration about the principal axes [m]; >= kLeastGyration.
+  glm::dvec3 gyration{1.0};  ///< Radii of gyration about the principal axes [m]; >= kShortestGyration.
   /// No point of the part may move farther than this in the step [m]; >= 0, infinity for no bound.
   double reach = std::numeric_limits<double>::infinity();
 };
@@ -26,7 +26,7 @@ struct StepGoal {
 inline constexpr double kLongestStep = 1e9;
 
 /// Less than any body's [m]; keeps a rotation finite.
-inline constexpr double kLeastGyration = 1e-12;
+inline constexpr double kShortestGyration = 1e-12;
 
 /// A pair that holds the part back.
 struct ActivePair {

@@ -139,12 +139,12 @@ TEST(SceneTracker, BodiesFarAwayAreNotLookedAtInATick) {
   TrackedScene tracked;
   tracker.refresh({kCutoff}, tracked);
   std::size_t visited = 0;
-  tracked.visitNear(pose, kCutoff, [&](std::uint32_t, const CandidateList*) { ++visited; });
+  tracked.visitNear(pose, kCutoff, [&](std::uint32_t, const TrackedScene::Near*) { ++visited; });
   EXPECT_GE(visited, 1U);
   EXPECT_LE(visited, 4U) << "the ball beside, and at most its own neighbours";
   // A tick that finds itself elsewhere looks no farther than the tree of boxes leads it.
   visited = 0;
-  tracked.visitNear(at({50.5, 50.5, 0.0}), kCutoff, [&](std::uint32_t, const CandidateList*) { ++visited; });
+  tracked.visitNear(at({50.5, 50.5, 0.0}), kCutoff, [&](std::uint32_t, const TrackedScene::Near*) { ++visited; });
   EXPECT_GE(visited, 4U);
   EXPECT_LE(visited, 16U);
 }
@@ -188,7 +188,7 @@ TEST(SceneTracker, ABodyWhosePoseIsNoPoseStaysForTheTickToRefuse) {
   tracker.refresh({kCutoff}, tracked);
   std::vector<std::uint32_t> visited;
   tracked.visitNear(at({0.0, 0.0, 1.5}), kCutoff,
-                    [&](std::uint32_t body, const CandidateList*) { visited.push_back(body); });
+                    [&](std::uint32_t body, const TrackedScene::Near*) { visited.push_back(body); });
   EXPECT_NE(std::find(visited.begin(), visited.end(), 3U), visited.end());
 }
 

@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "core/haptics/servo_tick.h"
-#include "core/math/symmetric_eigen.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"
 #include "tests/support/part_geometries.h"
@@ -52,11 +51,10 @@ TEST_F(ServoSceneOfThree, MassAndInertiaAreTheMovingPartsOfItsDensity) {
   const auto servo = makeServoScene(scene_);
   constexpr double kMass = 1200.0;
   EXPECT_NEAR(servo->mass, kMass, 1e-9);
-  const glm::dvec3 expected = kMass / 12.0 * glm::dvec3(4.0 + 9.0, 1.0 + 9.0, 1.0 + 4.0);
-  for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 3; ++row)
-      EXPECT_NEAR(servo->inertia[column][row], column == row ? expected[row] : 0.0, 1e-8);
-  }
+  // Radii of gyration, smallest first.
+  const glm::dvec3 expected = glm::sqrt(glm::dvec3(1.0 + 4.0, 1.0 + 9.0, 4.0 + 9.0) / 12.0);
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(servo->metric.gyration[axis], expected[axis], 1e-9);
   EXPECT_NEAR(servo->centreInPart.x, 5.0, 1e-12);
 }
 
@@ -66,8 +64,7 @@ TEST_F(ServoSceneOfThree, ASheetHasAMassAndAnInertiaThatCanBeInverted) {
   scene_.setMovingPart(scene_.add(test::partOf(loadPartGeometry(file, 0.01), "Sheet")));
   const auto servo = makeServoScene(scene_);
   EXPECT_GT(servo->mass, 0.0);
-  const SymmetricEigen eigen = symmetricEigen(servo->inertia);
-  EXPECT_GT(eigen.values[0], 1e-6 * eigen.values[2]);
+  EXPECT_GT(servo->metric.gyration[0], 1e-3 * servo->metric.gyration[2]);
 }
 
 TEST_F(ServoSceneOfThree, HiddenPartsAreNotFelt) {
