@@ -49,7 +49,8 @@ std::string knownNames(const Scene& scene) {
   return names.empty() ? "the scene has no parts" : "its parts are " + names;
 }
 
-void takeInHand(Scene& scene, const PlaceOptions& options) {
+/// The part starts where the path does.
+void takeInHand(Scene& scene, const PlaceOptions& options, const RigidTransform& start) {
   const Part* part = scene.findByName(options.part);
   if (part == nullptr) {
     throw UsageError(options.scene, "there is no part \"" + options.part + "\"", knownNames(scene));
@@ -62,7 +63,10 @@ void takeInHand(Scene& scene, const PlaceOptions& options) {
     throw UsageError(options.scene, "part \"" + options.part + "\" is hidden, so it would feel nothing",
                      "show it, or choose another");
   }
-  scene.setMovingPart(part->id);
+  Part placed = *part;
+  placed.worldFromPart = start;
+  scene.replace(placed);
+  scene.setMovingPart(placed.id);
 }
 
 /// Told before the run, not after it.
@@ -111,7 +115,7 @@ void runPlace(const PlaceOptions& options) {
   job.path = readPosePath(options.path);
   Scene scene = readSceneFile(options.scene);
   checkInputsAreKept(scene, options);
-  takeInHand(scene, options);
+  takeInHand(scene, options, job.path.front());
   job.scene = makeServoScene(scene);
   job.parameters.haptics = withOptions(scene.haptics(), options.haptics);
   const ServoParameters parameters = job.parameters;

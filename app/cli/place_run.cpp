@@ -97,19 +97,22 @@ PlaceResult placeFast(PlaceJob job) {
   ServoTick tick;
   const auto snapshot = std::make_unique<ServoSnapshot>();
   HandleInput handle;
-  const double cutoff = job.parameters.haptics.springs.cutoff;
+  const SearchReach reach = searchReach(job.parameters.haptics);
+  const bool isProxy = job.parameters.haptics.mode == HapticMode::Proxy;
   device.start(result.end);
   while (!interrupted.load() && device.readHandle(handle)) {
-    // No thread beside: where the hand wants the part is looked at before the tick, and nothing is late.
-    tracker.observe(handle.pose, 1.0);
-    if (result.ticks == 0 || tracker.isDue({cutoff})) {
+    // No thread beside: what is due is looked at before the tick, around where the part is; with springs that
+    // is where the hand wants it, and nothing is late.
+    tracker.observe(isProxy ? result.end : handle.pose, 1.0);
+    tracker.setWaiting(snapshot->isWaiting);
+    if (result.ticks == 0 || tracker.isDue(reach)) {
       const Clock::time_point begin = Clock::now();
-      tracker.refresh({cutoff}, tracked);
+      tracker.refresh(reach, tracked);
       result.refreshTime.record(std::chrono::duration<double>(Clock::now() - begin).count());
     }
     const Clock::time_point begin = Clock::now();
-    tick.run(tracked, job.parameters, handle.pose, ServoLoop::kPeriod, *snapshot);
-    device.sendWrench(snapshot->wrench);
+    tick.run(tracked, job.parameters, handle, ServoLoop::kPeriod, *snapshot);
+    device.sendWrench(snapshot->deviceWrench);
     snapshot->tickTime = std::chrono::duration<double>(Clock::now() - begin).count();
     snapshot->time = static_cast<double>(result.ticks) * ServoLoop::kPeriod;
     snapshot->tick = ++result.ticks;
