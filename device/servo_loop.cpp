@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <semaphore>
@@ -38,6 +39,19 @@ void sleepUntil(Nanoseconds deadline) noexcept {
   const timespec t{deadline / kSecond, deadline % kSecond};
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
   }
+}
+
+/// The lower of each limit; not a number on either side stays one, for the tick to refuse.
+DeviceLimits lower(const DeviceLimits& a, const DeviceLimits& b) noexcept {
+  const auto least = [](double x, double y) { return std::isnan(x) || x < y ? x : y; };
+  DeviceLimits result = a;
+  for (const auto limit :
+       {&DeviceLimits::maxForce, &DeviceLimits::maxTorque, &DeviceLimits::forceSlew,
+        &DeviceLimits::torqueSlew, &DeviceLimits::damping, &DeviceLimits::rotationalDamping,
+        &DeviceLimits::leastMass, &DeviceLimits::leastInertia}) {
+    result.*limit = least(a.*limit, b.*limit);
+  }
+  return result;
 }
 
 double toSeconds(Nanoseconds t) noexcept {
@@ -144,9 +158,7 @@ bool ServoLoop::Shared::tickOnce(Nanoseconds sinceStart, Nanoseconds sinceLast) 
   if (!device.readHandle(handle)) return false;
   parameters.update();
   ServoParameters limited = parameters.front();
-  // Not a number on either side stays one, for the tick to refuse.
-  if (deviceLimits.maxForce < limited.limits.maxForce) limited.limits.maxForce = deviceLimits.maxForce;
-  if (deviceLimits.maxTorque < limited.limits.maxTorque) limited.limits.maxTorque = deviceLimits.maxTorque;
+  limited.limits = lower(limited.limits, deviceLimits);
 
   ServoSnapshot& snapshot = snapshots.back();
   tick.run(refresher->latest(), limited, handle, toSeconds(sinceLast), snapshot);

@@ -9,7 +9,6 @@
 
 #include "core/haptics/servo_faults.h"
 #include "core/haptics/spring_law.h"
-#include "core/math/rotation_vector.h"
 
 namespace nearfit {
 namespace {
@@ -33,7 +32,7 @@ glm::dvec3 withoutTraces(const glm::dvec3& velocity) noexcept {
 Twist twistBetween(const RigidTransform& from, const RigidTransform& to, const glm::dvec3& centre,
                    double period) noexcept {
   return {(to.applyToPoint(centre) - from.applyToPoint(centre)) / period,
-          rotationVector(to.rotation * glm::conjugate(from.rotation)) / period};
+          turnBetween(from.rotation, to.rotation) / period};
 }
 
 void clearOutputs(ServoSnapshot& snapshot) noexcept {
@@ -76,11 +75,13 @@ void ServoTick::run(const TrackedScene& tracked, const ServoParameters& paramete
   const Tick tick{tracked, scene, settings, limits, period, snapshot};
   if (fault_ == ServoFault::None) {
     periodMeter_.add(period);
-    const RigidTransform handleBefore = handle_.pose, partBefore = part_.pose;
-    const bool hadPose = hasPose_;
     takePose(tick, mapper_.map(input.pose.normalized(), input.isClutched, settings.mapping));
+    if (input.isClutched == conditioner_.isEngaged())
+      input.isClutched ? conditioner_.disengage() : conditioner_.engage();
     Wrench wrench = settings.mode == HapticMode::Proxy ? feelProxy(tick) : feelSprings(tick);
-    if (hadPose) keepPassive(tick, wrench, handleBefore, partBefore);
+    const Wrench damping = passivity_.damping(limits, period);
+    wrench.force += damping.force;
+    wrench.torque += damping.torque;
     const bool isUsable = isFinite(wrench.force) && isFinite(wrench.torque);
     if (fault_ == ServoFault::None && !isUsable) fault_ = ServoFault::WrenchNotFinite;
     if (fault_ == ServoFault::None) send(tick, wrench, input.age);
@@ -107,6 +108,8 @@ BodyMotion ServoTick::smoothed(const BodyMotion& before, const RigidTransform& p
 
 void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcept {
   const bool isProxy = tick.settings.mode == HapticMode::Proxy;
+  coupling_ = boundedCoupling(tick.settings.coupling, tick.limits, tick.scene.metric, periodMeter_.period());
+  felt_ = feltBody(tick.settings.weight, tick.scene.mass, tick.limits.maxForce);
   if (!hasPose_) {
     handle_ = {handle, {}};
     part_ = {isProxy ? tick.scene.moving.worldFromPart.normalized() : handle, {}};
@@ -115,7 +118,9 @@ void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcep
     conditioner_.engage();
     hasPose_ = true;
   } else {
+    const RigidTransform before = handle_.pose;
     handle_ = smoothed(handle_, handle, tick.scene.centreInPart, tick.period);
+    account(tick, before);
     // Springs let the part be anywhere: what it overlaps there is not known.
     if (isProxy && mode_ != HapticMode::Proxy) proxy_.place(part_.pose);
   }
@@ -148,8 +153,6 @@ void ServoTick::findMinima(const Tick& tick, double apart, const SpringParameter
 
 Wrench ServoTick::feelSprings(const Tick& tick) noexcept {
   movePart(tick, handle_.pose);
-  felt_ = feltBody(tick.settings.weight, tick.scene.mass, tick.limits.maxForce);
-  felt_.mass = 0.0;
   Wrench sum{felt_.weight, glm::dvec3(0.0)};
   // Nothing keeps the part from going through: no distance can be taken for granted.
   findMinima(tick, 0.0, &tick.settings.springs, sum);
@@ -158,14 +161,12 @@ Wrench ServoTick::feelSprings(const Tick& tick) noexcept {
 
 Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
   const ServoScene& scene = tick.scene;
-  tick.snapshot.coupling =
-      boundedCoupling(tick.settings.coupling, tick.limits, scene.metric, periodMeter_.period());
-  felt_ = feltBody(tick.settings.weight, scene.mass, tick.limits.maxForce);
+  tick.snapshot.coupling = coupling_;
   if (scene.moving.geometry == nullptr) {
     movePart(tick, handle_.pose);
   } else {
-    const BodyMotion target = freeStep(felt_, tick.snapshot.coupling, scene.metric, scene.centreInPart,
-                                       handle_, {part_.pose, partStep_}, tick.period);
+    const BodyMotion target = freeStep(felt_, coupling_, scene.metric, scene.centreInPart, handle_,
+                                       {part_.pose, partStep_}, tick.period);
     const Clock::time_point begin = Clock::now();
     if (isPose(target.pose))
       proxy_.follow(tick.tracked, target.pose.normalized(), tick.settings.proxy);
@@ -178,7 +179,7 @@ Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
   Wrench none;
   findMinima(tick, proxy_.distance(), nullptr, none);
   describeProxy(tick);
-  return couplingWrench(tick.snapshot.coupling, scene.metric, scene.centreInPart, handle_, part_);
+  return couplingWrench(coupling_, scene.metric, scene.centreInPart, handle_, part_);
 }
 
 void ServoTick::describeProxy(const Tick& tick) noexcept {
@@ -195,7 +196,7 @@ void ServoTick::describeProxy(const Tick& tick) noexcept {
     if (snapshot.storedContacts == ServoSnapshot::kMaxContacts) break;
     const ContactPair& pair = holding.contact.pair;
     snapshot.contacts[snapshot.storedContacts++] = {pair.point, pair.direction,
-                                                    snapshot.coupling.stiffness * holding.push,
+                                                    coupling_.stiffness * holding.push,
                                                     tick.scene.bodies[holding.contact.body].id};
   }
   const Clearance& clearance = tick.tracked.clearance;
@@ -206,26 +207,21 @@ void ServoTick::describeProxy(const Tick& tick) noexcept {
     snapshot.released[i] = tick.scene.bodies[(*clearance.overlapping)[i]].id;
 }
 
-void ServoTick::keepPassive(const Tick& tick, Wrench& wrench, const RigidTransform& handleBefore,
-                            const RigidTransform& partBefore) noexcept {
+void ServoTick::account(const Tick& tick, const RigidTransform& handleBefore) noexcept {
   const glm::dvec3& centre = tick.scene.centreInPart;
   HandInterval interval;
   interval.held = held_;
   interval.shift = handle_.pose.applyToPoint(centre) - handleBefore.applyToPoint(centre);
-  interval.turn = rotationVector(handle_.pose.rotation * glm::conjugate(handleBefore.rotation));
+  interval.turn = turnBetween(handleBefore.rotation, handle_.pose.rotation);
   interval.duration = tick.period;
   interval.weight = felt_.weight;
-  interval.partShift = part_.pose.applyToPoint(centre) - partBefore.applyToPoint(centre);
+  interval.partShift = tick.period * partStep_.linear;
   double stored = PassivityController::kMostDebt;
   if (tick.settings.mode == HapticMode::Proxy) {
-    stored = storedEnergy(tick.snapshot.coupling, tick.scene.metric, centre, handle_.pose, partBefore,
-                          tick.limits) +
+    stored = storedEnergy(coupling_, tick.scene.metric, centre, handle_.pose, part_.pose, tick.limits) +
              kineticEnergy(felt_, tick.scene.metric, {part_.pose, partStep_});
   }
   passivity_.observe(interval, tick.limits, stored);
-  const Wrench damping = passivity_.damping(tick.limits, tick.period);
-  wrench.force += damping.force;
-  wrench.torque += damping.torque;
 }
 
 void ServoTick::send(const Tick& tick, const Wrench& wrench, double age) noexcept {

@@ -68,8 +68,8 @@ class ServoTick {
   void findMinima(const Tick& tick, double apart, const SpringParameters* springs, Wrench& sum) noexcept;
   void movePart(const Tick& tick, const RigidTransform& pose) noexcept;
   void describeProxy(const Tick& tick) noexcept;
-  void keepPassive(const Tick& tick, Wrench& wrench, const RigidTransform& handleBefore,
-                   const RigidTransform& partBefore) noexcept;
+  /// What the hand did since the last tick, before the part moves on.
+  void account(const Tick& tick, const RigidTransform& handleBefore) noexcept;
   void send(const Tick& tick, const Wrench& wrench, double age) noexcept;
   BodyMotion smoothed(const BodyMotion& before, const RigidTransform& pose, const glm::dvec3& centre,
                       double period) const noexcept;
@@ -85,6 +85,7 @@ class ServoTick {
   Twist partStep_;            ///< Of the part in the last tick, as it was.
   Wrench held_;               ///< As sent in the last tick.
   Felt felt_;
+  CouplingState coupling_;
   PartId moving_{};
   HapticMode mode_ = HapticMode::Proxy;
   bool hasPose_ = false;

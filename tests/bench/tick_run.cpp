@@ -50,6 +50,7 @@ class Digest {
 class Lane {
  public:
   Lane(const TickScene& scene, double cutoff, const RunOptions& options) : options_(options) {
+    parameters_.haptics.mode = HapticMode::Springs;
     parameters_.haptics.springs.cutoff = cutoff;
     parameters_.haptics.springs.damping = 1.0;
     run_.name = scene.name;
@@ -64,7 +65,7 @@ class Lane {
       if (!isTimed) --untimed;
       keepAhead(pose, isTimed);
       const double start = secondsBy(options_.clock);
-      tick_.run(tracked_, parameters_, pose, ServoLoop::kPeriod, *snapshot_);
+      tick_.run(tracked_, parameters_, {.pose = pose}, ServoLoop::kPeriod, *snapshot_);
       const double time = secondsBy(options_.clock) - start;
       if (isTimed) run_.tickTimes.push_back(time);
       note();

@@ -70,8 +70,13 @@ class TestDevice final : public HapticDevice {
   RigidTransform pose_;
 };
 
+/// Ticks after which what is felt is felt in full.
+constexpr std::size_t kTicksOfRamp = 201;
+static_assert(static_cast<double>(kTicksOfRamp) * ServoLoop::kPeriod > WrenchConditioner::kRampTime);
+
 ServoParameters softSprings() {
   ServoParameters p;
+  p.haptics.mode = HapticMode::Springs;
   p.haptics.springs = {.cutoff = 0.1, .stiffness = 50.0, .damping = 0.0, .law = SpringLaw::Linear};
   p.limits = {100.0, 100.0};
   return p;
@@ -90,7 +95,7 @@ TEST(ServoLoop, FeelsTheSceneAndSendsZeroLast) {
   EXPECT_FALSE(loop.isRunning());
   loop.start(device, test::coneOverFloor(), softSprings());
   EXPECT_TRUE(loop.isRunning());
-  ASSERT_TRUE(hasTicked(loop, 5));
+  ASSERT_TRUE(hasTicked(loop, kTicksOfRamp));
   EXPECT_NEAR(loop.snapshot().wrench.force.z, 50.0 * 0.06, 1e-9);
   EXPECT_EQ(loop.snapshot().moving, PartId{2});
   loop.stop();
@@ -149,23 +154,27 @@ TEST(ServoLoop, ASlowTickSkipsWholePeriodsAndIsFollowedByNoBurst) {
 }
 
 TEST(ServoLoop, EndsByItselfWithTheDevice) {
-  PathDevice device({test::tipAt(0.03), test::tipAt(0.02), test::tipAt(0.04)});
+  std::vector<RigidTransform> path(kTicksOfRamp, test::tipAt(0.03));
+  path.insert(path.end(), {test::tipAt(0.02), test::tipAt(0.04)});
+  PathDevice device(path);
   const auto rows = std::make_unique<MotionQueue>();
   ServoLoop loop;
   loop.start(device, test::coneOverFloor(), softSprings(), rows.get());
   ASSERT_TRUE(eventually([&] { return !loop.isRunning(); }));
   loop.stop();
-  EXPECT_EQ(loop.statistics().ticks, 3U);
+  EXPECT_EQ(loop.statistics().ticks, path.size());
   EXPECT_EQ(device.lastWrench().force, glm::dvec3(0.0));
   const double expected[] = {3.5, 4.0, 3.0};
   MotionRow row;
+  for (std::size_t i = 1; i < kTicksOfRamp; ++i)
+    ASSERT_TRUE(rows->pop(row));
   for (const double force : expected) {
     ASSERT_TRUE(rows->pop(row));
     EXPECT_NEAR(row.wrench.force.z, force, 1e-9);
   }
   EXPECT_FALSE(rows->pop(row));
   EXPECT_TRUE(loop.pollSnapshot());
-  EXPECT_EQ(loop.snapshot().tick, 3U);
+  EXPECT_EQ(loop.snapshot().tick, path.size());
   EXPECT_NEAR(loop.snapshot().proxy.translation.z, 0.04, 1e-15);
 }
 
@@ -174,7 +183,7 @@ TEST(ServoLoop, TheLowerOfDeviceAndParameterLimitsHolds) {
   device.limits = {1.0, 100.0};
   ServoLoop loop;
   loop.start(device, test::coneOverFloor(), softSprings());
-  ASSERT_TRUE(hasTicked(loop, 3));
+  ASSERT_TRUE(hasTicked(loop, kTicksOfRamp));
   EXPECT_NEAR(loop.snapshot().wrench.force.z, 1.0, 1e-12);
   ServoParameters lower = softSprings();
   lower.limits.maxForce = 0.5;
@@ -211,7 +220,7 @@ TEST(ServoLoop, APoseThatIsNoNumberSilencesItUntilItIsStartedAnew) {
   EXPECT_EQ(loop.snapshot().wrench.force, glm::dvec3(0.0));
   loop.stop();
   loop.start(device, test::coneOverFloor(), softSprings());
-  ASSERT_TRUE(hasTicked(loop, 3));
+  ASSERT_TRUE(hasTicked(loop, kTicksOfRamp));
   EXPECT_EQ(loop.snapshot().fault, ServoFault::None);
   EXPECT_NEAR(loop.snapshot().wrench.force.z, 3.0, 1e-9);
 }

@@ -144,7 +144,8 @@ TEST(SceneTracker, BodiesFarAwayAreNotLookedAtInATick) {
   EXPECT_LE(visited, 4U) << "the ball beside, and at most its own neighbours";
   // A tick that finds itself elsewhere looks no farther than the tree of boxes leads it.
   visited = 0;
-  tracked.visitNear(at({50.5, 50.5, 0.0}), kCutoff, [&](std::uint32_t, const TrackedScene::Near*) { ++visited; });
+  tracked.visitNear(at({50.5, 50.5, 0.0}), kCutoff,
+                    [&](std::uint32_t, const TrackedScene::Near*) { ++visited; });
   EXPECT_GE(visited, 4U);
   EXPECT_LE(visited, 16U);
 }

@@ -37,6 +37,7 @@ class ServoTickOnFloor : public testing::Test {
   const glm::dvec3 kCentre{-0.5, 0.0, 0.75};  ///< In the cone's frame.
 
   ServoTickOnFloor() {
+    parameters_.haptics.mode = HapticMode::Springs;
     parameters_.haptics.springs = {
         .cutoff = 0.1, .stiffness = 50.0, .damping = 0.0, .law = SpringLaw::Linear};
     parameters_.limits = {100.0, 100.0};
@@ -53,7 +54,7 @@ class ServoTickOnFloor : public testing::Test {
     return tickOf(test::untrackedView(scene_), handle);
   }
   const ServoSnapshot& tickOf(const TrackedScene& tracked, const RigidTransform& handle) {
-    tick_.run(tracked, parameters_, handle, kPeriod, *snapshot_);
+    tick_.run(tracked, parameters_, {.pose = handle}, kPeriod, *snapshot_);
     return *snapshot_;
   }
   /// The scene with lists for around that pose.
@@ -76,8 +77,8 @@ class ServoTickOnFloor : public testing::Test {
 TEST_F(ServoTickOnFloor, TheTipsSpringPushesUpAndTurnsAboutTheCentreOfMass) {
   const ServoSnapshot& s = tickAt(0.04);
   // 50 N/m * (0.1 - 0.04) m; arm from centre to tip is (0.5, 0, -0.75).
-  expectNear(s.wrench.force, {0.0, 0.0, 3.0});
-  expectNear(s.wrench.torque, {0.0, -1.5, 0.0});
+  expectNear(s.unclampedWrench.force, {0.0, 0.0, 3.0});
+  expectNear(s.unclampedWrench.torque, {0.0, -1.5, 0.0});
   expectNear(s.centre, kAside + kCentre + glm::dvec3(0.0, 0.0, 0.04));
   EXPECT_EQ(s.lmdCount, 1U);
   EXPECT_EQ(s.storedLmds, 1U);
@@ -97,8 +98,8 @@ TEST_F(ServoTickOnFloor, MovingTheWholeWorldMovesTheWrenchWithIt) {
                              {3.0, -4.0, 5.0}};
   scene_.bodies[0].worldFromPart = world;
   const ServoSnapshot& s = tickAt(world * moved(kAside + glm::dvec3(0.0, 0.0, 0.04)));
-  expectNear(s.wrench.force, world.applyToVector({0.0, 0.0, 3.0}));
-  expectNear(s.wrench.torque, world.applyToVector({0.0, -1.5, 0.0}));
+  expectNear(s.unclampedWrench.force, world.applyToVector({0.0, 0.0, 3.0}));
+  expectNear(s.unclampedWrench.torque, world.applyToVector({0.0, -1.5, 0.0}));
   expectNear(s.lmds[0].lmd.scenePoint, world.applyToPoint(kAside));
   expectNear(s.lmds[0].lmd.direction, world.applyToVector({0.0, 0.0, 1.0}));
 }
@@ -107,7 +108,7 @@ TEST_F(ServoTickOnFloor, NothingIsFeltBeyondTheCutoff) {
   const ServoSnapshot& s = tickAt(0.11);
   EXPECT_EQ(s.lmdCount, 0U);
   EXPECT_EQ(s.distance, kInfinity);
-  expectNear(s.wrench.force, {0.0, 0.0, 0.0}, 0.0);
+  expectNear(s.unclampedWrench.force, {0.0, 0.0, 0.0}, 0.0);
   EXPECT_EQ(tickAt(moved({1e6, 0.0, 0.0})).lmdCount, 0U);
   EXPECT_EQ(tickAt(moved({1e300, 0.0, 0.0})).fault, ServoFault::None);
 }
@@ -115,7 +116,7 @@ TEST_F(ServoTickOnFloor, NothingIsFeltBeyondTheCutoff) {
 TEST_F(ServoTickOnFloor, ForcesOfAllBodiesAddUpAndTheLeastDistanceIsTheirs) {
   addFloor(PartId{2}, moved({0.0, 0.0, 0.01}));
   const ServoSnapshot& s = tickAt(0.04);
-  expectNear(s.wrench.force, {0.0, 0.0, 50.0 * (0.06 + 0.07)});
+  expectNear(s.unclampedWrench.force, {0.0, 0.0, 50.0 * (0.06 + 0.07)});
   EXPECT_NEAR(s.distance, 0.03, 1e-12);
   EXPECT_EQ(s.lmdCount, 2U);
   EXPECT_EQ(s.lmds[1].other, PartId{2});
@@ -129,8 +130,11 @@ TEST_F(ServoTickOnFloor, NothingInHandFeelsNothing) {
   expectNear(s.handle.translation, kAside + glm::dvec3(0.0, 0.0, 0.04));
 }
 
-TEST_F(ServoTickOnFloor, ForceAndTorqueAreClampedByTheirLength) {
+TEST_F(ServoTickOnFloor, ForceAndTorqueRiseToTheirLimitsByLength) {
   parameters_.limits = {1.0, 0.25};
+  EXPECT_EQ(tickAt(0.04).wrench.force, glm::dvec3(0.0)) << "not at once";
+  for (double time = 0.0; time < WrenchConditioner::kRampTime; time += kPeriod)
+    tickAt(0.04);
   const ServoSnapshot& s = tickAt(0.04);
   EXPECT_TRUE(s.isClamped);
   expectNear(s.wrench.force, {0.0, 0.0, 1.0});
@@ -146,7 +150,7 @@ TEST_F(ServoTickOnFloor, DampingFollowsTheFilteredVelocityOfTheDescent) {
   for (int n = 0; n < 40; ++n) {
     const double height = 0.08 - kSpeed * kPeriod * n;
     const double velocity = kSpeed * (1.0 - std::pow(2.0 / 3.0, n));
-    EXPECT_NEAR(tickAt(height).wrench.force.z, 50.0 * (0.1 - height) + 10.0 * velocity, 1e-9) << n;
+    EXPECT_NEAR(tickAt(height).unclampedWrench.force.z, 50.0 * (0.1 - height) + 10.0 * velocity, 1e-9) << n;
   }
 }
 
@@ -163,14 +167,14 @@ TEST_F(ServoTickOnFloor, TurningAboutTheCentreMovesTheTip) {
     // The sign of a quaternion must not matter.
     tickAt(n % 2 == 0 ? pose : RigidTransform{-pose.rotation, pose.translation});
   }
-  EXPECT_NEAR(snapshot_->wrench.force.z, 50.0 * (0.1 - tip) + 10.0 * 0.5 * kRate, 2e-3);
+  EXPECT_NEAR(snapshot_->unclampedWrench.force.z, 50.0 * (0.1 - tip) + 10.0 * 0.5 * kRate, 2e-3);
 }
 
 TEST_F(ServoTickOnFloor, AnotherPartInHandHasNoVelocityFromTheLast) {
   parameters_.haptics.springs.damping = 10.0;
   tickAt(0.09);
   scene_.moving.id = PartId{8};
-  EXPECT_NEAR(tickAt(0.04).wrench.force.z, 3.0, 1e-9);
+  EXPECT_NEAR(tickAt(0.04).unclampedWrench.force.z, 3.0, 1e-9);
 }
 
 TEST_F(ServoTickOnFloor, TheHandlesQuaternionIsScaledToUnitLength) {
@@ -178,7 +182,7 @@ TEST_F(ServoTickOnFloor, TheHandlesQuaternionIsScaledToUnitLength) {
   handle.rotation = handle.rotation * 1.01;
   const ServoSnapshot& s = tickAt(handle);
   EXPECT_EQ(s.proxy.rotation.w, 1.0);
-  expectNear(s.wrench.force, {0.0, 0.0, 3.0});
+  expectNear(s.unclampedWrench.force, {0.0, 0.0, 3.0});
 }
 
 TEST_F(ServoTickOnFloor, ABadPoseStopsForceAndPartUntilReset) {
@@ -186,12 +190,12 @@ TEST_F(ServoTickOnFloor, ABadPoseStopsForceAndPartUntilReset) {
                                     RigidTransform{glm::dquat(kNan, 0.0, 0.0, 0.0), {}},
                                     RigidTransform{glm::dquat(0.0, 0.0, 0.0, 0.0), {}}}) {
     tick_.reset();
-    EXPECT_GT(tickAt(0.04).wrench.force.z, 0.0);
+    EXPECT_GT(tickAt(0.04).unclampedWrench.force.z, 0.0);
     for (int i = 0; i < 3; ++i) {
       const ServoSnapshot& s = i == 0 ? tickAt(bad) : tickAt(0.02);
       EXPECT_EQ(s.fault, ServoFault::PoseNotFinite) << "latched";
-      expectNear(s.wrench.force, {0.0, 0.0, 0.0}, 0.0);
-      expectNear(s.wrench.torque, {0.0, 0.0, 0.0}, 0.0);
+      expectNear(s.unclampedWrench.force, {0.0, 0.0, 0.0}, 0.0);
+      expectNear(s.unclampedWrench.torque, {0.0, 0.0, 0.0}, 0.0);
       EXPECT_EQ(s.lmdCount, 0U);
       EXPECT_NEAR(s.proxy.translation.z, 0.04, 1e-12) << "stays where it was";
     }
@@ -237,7 +241,7 @@ TEST_F(ServoTickOnFloor, SenselessParametersAreAFault) {
             ServoFault::ParametersInvalid);
   for (const double badPeriod : {0.0, -1e-3, kNan}) {
     ServoTick tick;
-    tick.run(test::untrackedView(scene_), good, moved({0.0, 0.0, 1.0}), badPeriod, *snapshot_);
+    tick.run(test::untrackedView(scene_), good, {.pose = moved({0.0, 0.0, 1.0})}, badPeriod, *snapshot_);
     EXPECT_EQ(snapshot_->fault, ServoFault::ParametersInvalid);
   }
 }
@@ -248,7 +252,7 @@ TEST_F(ServoTickOnFloor, AnOverflowingForceIsAFaultAndSendsNothing) {
   tickAt(0.09);
   const ServoSnapshot& s = tickAt(0.01);
   EXPECT_EQ(s.fault, ServoFault::WrenchNotFinite);
-  expectNear(s.wrench.force, {0.0, 0.0, 0.0}, 0.0);
+  expectNear(s.unclampedWrench.force, {0.0, 0.0, 0.0}, 0.0);
   parameters_.haptics.springs = {};
   EXPECT_EQ(tickAt(0.04).fault, ServoFault::WrenchNotFinite) << "latched";
 }
@@ -274,7 +278,7 @@ TEST_F(ServoTickOnFloor, OfTooManyMinimaTheNearestAreShownGroupedByPartAndAllAre
   double expectedForce = 0.0;
   for (std::uint32_t i = 0; i < kFloors; ++i)
     expectedForce += 50.0 * (0.1 - (height - 1e-5 * i));
-  EXPECT_NEAR(s.wrench.force.z, expectedForce, 1e-6);
+  EXPECT_NEAR(s.unclampedWrench.force.z, expectedForce, 1e-6);
   EXPECT_EQ(s.lateBodies, 0U);
   EXPECT_EQ(s.lmdCount, kFloors);
   ASSERT_EQ(s.storedLmds, ServoSnapshot::kMaxLmds);
@@ -291,7 +295,7 @@ TEST_F(ServoTickOnFloor, TheSamePosesGiveTheSameWrenchToTheLastBit) {
   for (int n = 0; n < 50; ++n) {
     const RigidTransform pose = moved(kAside + glm::dvec3(0.0, 0.0, 0.05 + 0.03 * std::sin(0.3 * n)));
     tickAt(pose);
-    other.run(test::untrackedView(scene_), parameters_, pose, kPeriod, *second);
+    other.run(test::untrackedView(scene_), parameters_, {.pose = pose}, kPeriod, *second);
     EXPECT_EQ(snapshot_->wrench.force, second->wrench.force);
     EXPECT_EQ(snapshot_->wrench.torque, second->wrench.torque);
   }
