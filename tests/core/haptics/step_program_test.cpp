@@ -271,7 +271,7 @@ TEST(StepProgram, TheLargestNumbersAllowedGiveAFiniteStepWithinTheReach) {
         EXPECT_TRUE(problem.rows.add({0.0, 0.0, sign, turn, 0.0, -turn}, 1e-300 * size));
     problem.goal.wanted.fill(kLongestStep);
     problem.goal.cost = {kLongestStep, 1e6, 0.0};
-    problem.goal.gyration = glm::dvec3(kLeastGyration);
+    problem.goal.gyration = glm::dvec3(kShortestGyration);
     problem.goal.radius = kLongestStep;
     problem.goal.reach = 1.0;
     const StepSolution solution = program.solve(problem.rows, problem.goal);
