@@ -28,7 +28,10 @@ MotionBudget motionOf(const ServoScene& scene, const RigidTransform& from,
 
 // Contacts need none of the room that minima are merged in.
 ContactFinder::ContactFinder()
-    : scratch_(1), found_(ContactThinning::kMaxTaken), pairs_(std::size_t{1} << 17U) {}
+    : scratch_(1),
+      found_(ContactThinning::kMaxTaken),
+      surfaceFound_(kMaxContacts),
+      pairs_(std::size_t{1} << 17U) {}
 
 void ContactFinder::beginTick() noexcept {
   workLeft_ = kMaxWork;
@@ -49,10 +52,15 @@ bool ContactFinder::gatherOne(const TrackedScene& tracked, std::uint32_t body,
   if (bodyCount_ == kMaxBodies) return false;
   const ServoScene& scene = *tracked.scene;
   const ServoScene::Body& other = scene.bodies[body];
+  if (other.surface) {
+    // Looked at anew at each pose.
+    bodies_[bodyCount_] = {body, nextPair(), 0};
+    ++bodyCount_;
+    return true;
+  }
   const ContactReach within{pairsReach_, contactTurn(pairsReach_, scene.metric.radius)};
   const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
-  const std::size_t first =
-      bodyCount_ == 0 ? 0 : bodies_[bodyCount_ - 1].first + bodies_[bodyCount_ - 1].count;
+  const std::size_t first = nextPair();
   const std::span<LeafPair> room = std::span(pairs_).subspan(first);
   std::optional<NearbyPairs> nearby;
   if (known != nullptr && known->contacts)
@@ -102,27 +110,59 @@ bool ContactFinder::gatherWithin(const TrackedScene& tracked, const RigidTransfo
   return isComplete;
 }
 
+std::size_t ContactFinder::nextPair() const noexcept {
+  return bodyCount_ == 0 ? 0 : bodies_[bodyCount_ - 1].first + bodies_[bodyCount_ - 1].count;
+}
+
+void ContactFinder::testPairs(const ServoScene& scene, const HeldBody& held,
+                              const RigidTransform& worldFromPart, Surroundings& around) noexcept {
+  const ServoScene::Body& other = scene.bodies[held.body];
+  const ContactReach within{pairsReach_, contactTurn(pairsReach_, scene.metric.radius)};
+  const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
+  const ContactResult result =
+      testContacts({other.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart, pairsReach_}, within,
+                   std::span<const LeafPair>(pairs_).subspan(held.first, held.count), found_);
+  spend(result.leafPairs);
+  around.distance = std::min(around.distance, result.distanceBound());
+  around.completeTo = std::min(around.completeTo, result.completeTo);
+  for (const ContactPair& pair : std::span(found_).first(result.count)) {
+    if (!thinning_.add({inWorld(pair, other.worldFromPart), held.body})) around.completeTo = 0.0;
+  }
+}
+
+void ContactFinder::testSurface(const ServoScene& scene, const HeldBody& held,
+                                const RigidTransform& worldFromPart, Surroundings& around) noexcept {
+  const ServoScene::Body& other = scene.bodies[held.body];
+  const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
+  const SurfaceContacts result = findSurfaceContacts(*other.surface, *scene.moving.surface, bodyFromPart,
+                                                     pairsReach_, scratch_, surfaceFound_, workLeft_);
+  spend(result.nodePairs + result.trianglePairs);
+  around.distance = std::min(around.distance, result.lowerBound);
+  if (!result.isComplete) {
+    const double farthest = result.count > 0 ? surfaceFound_[result.count - 1].distance : 0.0;
+    around.completeTo = std::min(around.completeTo, farthest);
+  }
+  for (const SurfaceContact& contact : std::span(surfaceFound_).first(result.count)) {
+    const ContactPair pair{contact.partPoint, contact.direction, contact.distance};
+    if (!thinning_.add({inWorld(pair, other.worldFromPart), held.body})) around.completeTo = 0.0;
+  }
+}
+
 Surroundings ContactFinder::find(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                                  double reach, double way, std::span<BodyContact> out) noexcept {
   const ServoScene& scene = *tracked.scene;
   if (!holdsFor(scene, worldFromPart, reach)) {
     if (!gatherPairs(tracked, worldFromPart, reach, way)) return {};
   }
-  const ContactReach within{reach, contactTurn(reach, scene.metric.radius)};
   Surroundings around{0, reach, reach};
+  // Where no body is about, none is nearer than was looked for.
+  if (bodyCount_ == 0) around.distance += holds_.travel - motionOf(scene, pairsPose_, worldFromPart).travel;
   thinning_.clear();
   for (const HeldBody& held : std::span(bodies_).first(bodyCount_)) {
-    const ServoScene::Body& other = scene.bodies[held.body];
-    const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
-    const ContactResult result =
-        testContacts({other.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart, reach}, within,
-                     std::span<const LeafPair>(pairs_).subspan(held.first, held.count), found_);
-    spend(result.leafPairs);
-    around.distance = std::min(around.distance, result.distanceBound());
-    around.completeTo = std::min(around.completeTo, result.completeTo);
-    for (const ContactPair& pair : std::span(found_).first(result.count)) {
-      if (!thinning_.add({inWorld(pair, other.worldFromPart), held.body})) around.completeTo = 0.0;
-    }
+    if (scene.bodies[held.body].surface)
+      testSurface(scene, held, worldFromPart, around);
+    else
+      testPairs(scene, held, worldFromPart, around);
   }
   const glm::dquat principalFromWorld =
       glm::conjugate(worldFromPart.rotation * scene.metric.partFromPrincipal);

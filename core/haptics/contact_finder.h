@@ -10,6 +10,7 @@
 #include "core/haptics/tracked_scene.h"
 #include "core/proximity/contact_query.h"
 #include "core/proximity/lmd_query.h"
+#include "core/proximity/surface_contacts.h"
 
 namespace nearfit {
 
@@ -60,7 +61,7 @@ class ContactFinder {
  private:
   struct HeldBody {
     std::uint32_t body = 0;
-    std::size_t first = 0, count = 0;  ///< Of pairs_.
+    std::size_t first = 0, count = 0;  ///< Of pairs_; none where the body is a surface without sides.
   };
 
   bool holdsFor(const ServoScene& scene, const RigidTransform& worldFromPart, double reach) const noexcept;
@@ -70,11 +71,17 @@ class ContactFinder {
                     const MotionBudget& slack) noexcept;
   bool gatherOne(const TrackedScene& tracked, std::uint32_t body, const TrackedScene::Near* known,
                  const RigidTransform& worldFromPart, const MotionBudget& slack) noexcept;
+  std::size_t nextPair() const noexcept;
+  void testPairs(const ServoScene& scene, const HeldBody& held, const RigidTransform& worldFromPart,
+                 Surroundings& around) noexcept;
+  void testSurface(const ServoScene& scene, const HeldBody& held, const RigidTransform& worldFromPart,
+                   Surroundings& around) noexcept;
   void spend(std::uint64_t work) noexcept { workLeft_ -= work < workLeft_ ? work : workLeft_; }
 
   LmdScratch scratch_;
   ContactThinning thinning_;
-  std::vector<ContactPair> found_;  ///< Of one body.
+  std::vector<ContactPair> found_;            ///< Of one body.
+  std::vector<SurfaceContact> surfaceFound_;  ///< Of one that is a surface without sides.
 
   /// Pairs that can be contacts within `holds_` of `pairsPose_`.
   std::vector<LeafPair> pairs_;

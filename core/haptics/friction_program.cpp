@@ -65,7 +65,7 @@ FrictionSolution FrictionProgram::solve(const StepRows& rows, const FrictionGoal
   solver_.begin(rows, goal.step.cost, kMostChanges);
   contacts_.clear();
   sweeps_ = 0;
-  Attempt attempt, best;
+  Kept attempts;
   double lastScale = 1.0;
   out.step = searchStep(
       solver_, goal.step, kMostScales,
@@ -73,9 +73,10 @@ FrictionSolution FrictionProgram::solve(const StepRows& rows, const FrictionGoal
         // Pushes grow with the goal, more or less.
         contacts_.scale(lastScale > 0.0 ? scale / lastScale : 0.0);
         lastScale = scale;
-        return alternate(rows, goal, wanted, attempt);
+        return alternate(rows, goal, wanted, attempts.last);
       },
-      [&]() noexcept { best = attempt; });
+      attempts);
+  const Attempt& best = attempts.chosen;
   for (std::size_t i = 0; i < best.applied.size(); ++i)
     out.pushes[out.pushCount++] = {best.applied[i].row, best.applied[i].pushVector()};
   out.sweeps = sweeps_;

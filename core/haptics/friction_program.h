@@ -83,6 +83,13 @@ class FrictionProgram {
     double unsettled = 0.0;
     bool isSettled = false;
   };
+  /// Attempts that searchStep may come back to.
+  struct Kept {
+    Attempt last, chosen, tooLong;
+    void best() noexcept { chosen = last; }
+    void above() noexcept { tooLong = last; }
+    void useAbove() noexcept { chosen = tooLong; }
+  };
 
   DualStepSolver::Point alternate(const StepRows& rows, const FrictionGoal& goal, const StepVector& wanted,
                                   Attempt& best) noexcept;

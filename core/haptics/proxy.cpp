@@ -21,18 +21,21 @@ constexpr double kPlanned = 0.8;
 constexpr double kProved = 1.0 - 1e-9;
 /// A step turns by this share of what contacts are relaxed by: all that it can bring nearer are there.
 constexpr double kTurnShare = 0.5;
-/// A step may halve the distance at most, and only down to this share of the margin: going on by halves would
-/// end in rounding.
-constexpr double kHalf = 0.5, kFloor = 1.0 / 64.0;
+/// A step may halve the distance at most, and only down to this share of the margin, or of the distance that
+/// it began with where that was less: going on by halves would end in rounding.
+constexpr double kHalf = 0.5, kFloor = 1.0 / 64.0, kFloorOfFirst = 0.25;
+/// Distances are not known better than this, as a fraction of the lengths involved.
+constexpr double kRounding = 1e-11;
 /// A step may be this share of the distance at least.
 constexpr double kLeastStep = 0.5;
 /// How often a step is halved before it is refused.
 constexpr int kMaxHalvings = 3;
-/// What moves by less than this many margins rests: 0.1 um at a margin of 0.1 mm. The first step of a tick
-/// goes on below that, so that a slow hand does not drag.
+/// What moves by less than this share of the margin (or of the clearance) rests: 0.1 um of 0.1 mm. The first
+/// step of a tick goes on below that, so that a slow hand does not drag.
 constexpr double kAtRest = 1e-3, kAtRestAtFirst = 1e-6;
-/// How hard the margin is held, against a way of so many margins into the contact: to a fiftieth of it.
-constexpr double kMarginWeight = 50.0, kMostMarginWeight = 1e6;
+/// How hard the margin is held, against a way of so many margins into the contact: to a hundredth of it for
+/// each direction that is pressed in.
+constexpr double kMarginWeight = 100.0, kMostMarginWeight = 1e6;
 
 /// The farthest that a point within `radius` of the centre moves.
 double travelOf(double shift, double spin, double radius) noexcept {
@@ -44,7 +47,8 @@ double travelOf(double shift, double spin, double radius) noexcept {
 Proxy::Proxy()
     : around_(ContactFinder::kMaxContacts),
       next_(ContactFinder::kMaxContacts),
-      rowContact_(ContactFinder::kMaxContacts) {}
+      rowContact_(ContactFinder::kMaxContacts),
+      rowArm_(ContactFinder::kMaxContacts) {}
 
 void Proxy::place(const RigidTransform& worldFromPart) noexcept {
   pose_ = worldFromPart;
@@ -87,6 +91,7 @@ bool Proxy::isCleared(const TrackedScene& tracked) noexcept {
   if (!(travel < clearance.distance)) return false;
   clearedSerial_ = clearance.serial;
   isHereKnown_ = false;
+  floor_ = 0.0;
   finder_.forget();
   return true;
 }
@@ -107,6 +112,7 @@ void Proxy::follow(const TrackedScene& tracked, const RigidTransform& target,
     margin_ = settings.margin;
     here_ = lookAround(tick, pose_, around_);
     isHereKnown_ = true;
+    raiseFloor(tick);
   }
   holdingCount_ = 0;
   while (account_.subSteps < kMaxSubSteps && step(tick)) {
@@ -132,7 +138,7 @@ bool Proxy::freeStep(const Tick& tick, const Motion& wanted) noexcept {
   return take(tick, moved(scene, {share * wanted.shift, share * wanted.spin}), free);
 }
 
-void Proxy::fillRows(const Tick& tick, double reach) noexcept {
+bool Proxy::fillRows(const Tick& tick, double reach) noexcept {
   const ServoScene& scene = *tick.tracked.scene;
   const glm::dvec3 centre = pose_.applyToPoint(scene.centreInPart);
   const glm::dquat principalFromWorld = glm::conjugate(pose_.rotation * scene.metric.partFromPrincipal);
@@ -140,12 +146,26 @@ void Proxy::fillRows(const Tick& tick, double reach) noexcept {
   for (std::size_t i = 0; i < here_.count; ++i) {
     const ContactPair& pair = around_[i].pair;
     if (pair.distance > reach) continue;
-    const glm::dvec3 turn =
-        principalFromWorld * glm::cross(pair.point - centre, pair.direction) / scene.metric.gyration;
+    const glm::dvec3 arm = pair.point - centre;
+    const glm::dvec3 turn = principalFromWorld * glm::cross(arm, pair.direction) / scene.metric.gyration;
     const glm::dvec3& u = pair.direction;
     rowContact_[rows_.size()] = static_cast<std::uint32_t>(i);
-    rows_.add({u.x, u.y, u.z, turn.x, turn.y, turn.z}, pair.distance);
+    rowArm_[rows_.size()] = arm;
+    if (!rows_.add({u.x, u.y, u.z, turn.x, turn.y, turn.z}, pair.distance)) return false;
   }
+  return true;
+}
+
+StepSolution Proxy::solve(const Tick& tick, const StepGoal& goal) noexcept {
+  if (!(tick.settings.friction > 0.0)) return program_.solve(rows_, goal);
+  const MassMetric& metric = tick.tracked.scene->metric;
+  const glm::dquat principalFromWorld = glm::conjugate(pose_.rotation * metric.partFromPrincipal);
+  return frictionProgram_
+      .solve(rows_, {.step = goal,
+                     .coefficient = tick.settings.friction,
+                     .arms = std::span<const glm::dvec3>(rowArm_).first(rows_.size()),
+                     .principalFromStep = glm::mat3_cast(principalFromWorld)})
+      .step;
 }
 
 bool Proxy::constrainedStep(const Tick& tick, const Motion& wanted) noexcept {
@@ -156,7 +176,7 @@ bool Proxy::constrainedStep(const Tick& tick, const Motion& wanted) noexcept {
   // Where not all contacts are there, what the others would allow shows after the step.
   const double known = std::max(here_.completeTo - held, kLeastStep * held);
   const double farthest = std::min(kPlanned * (here_.distance + held), known);
-  fillRows(tick, margin_ + farthest);
+  if (!fillRows(tick, margin_ + farthest)) return false;
   account_.constraintCount = static_cast<std::uint32_t>(rows_.size());
 
   const double mostTurn = kTurnShare * contactTurn(kContactReach * margin_, metric.radius);
@@ -170,7 +190,7 @@ bool Proxy::constrainedStep(const Tick& tick, const Motion& wanted) noexcept {
   goal.gyration = metric.gyration;
   goal.radius = std::max(metric.radius, farthest / mostTurn);
   goal.reach = farthest;
-  const StepSolution solution = program_.solve(rows_, goal);
+  const StepSolution solution = solve(tick, goal);
   keepContacts(solution);
   if (solution.activeCount == 0 && solution.scale == 1.0 && solution.share == 1.0) {
     take(tick, tick.target, wayTo(tick));
@@ -181,7 +201,7 @@ bool Proxy::constrainedStep(const Tick& tick, const Motion& wanted) noexcept {
       worldFromPrincipal * (glm::dvec3(solution.y[3], solution.y[4], solution.y[5]) / metric.gyration)};
   double travel = travelOf(glm::length(motion.shift), glm::length(motion.spin), metric.radius);
   const bool isFirst = account_.subSteps == 0;
-  if (!(travel > (isFirst ? kAtRestAtFirst : kAtRest) * margin_)) return false;
+  if (!(travel > (isFirst ? kAtRestAtFirst : kAtRest) * held)) return false;
   for (int halvings = 0; halvings <= kMaxHalvings; ++halvings) {
     if (take(tick, moved(scene, motion), travel)) return true;
     ++account_.shortenedSteps;
@@ -207,6 +227,12 @@ Surroundings Proxy::lookAround(const Tick& tick, const RigidTransform& pose,
   return around;
 }
 
+void Proxy::raiseFloor(const Tick& tick) noexcept {
+  const double lengths = tick.tracked.scene->metric.radius + glm::length(pose_.translation);
+  const double highest = kFloor * margin_;
+  floor_ = std::min(std::max({floor_, kFloorOfFirst * here_.distance, kRounding * lengths}), highest);
+}
+
 bool Proxy::take(const Tick& tick, const RigidTransform& pose, double travel) noexcept {
   if (finder_.isWorkSpent()) return false;
   Surroundings there = lookAround(tick, pose, next_);
@@ -215,11 +241,11 @@ bool Proxy::take(const Tick& tick, const RigidTransform& pose, double travel) no
   there.distance = std::max(there.distance, here_.distance - travel);
   const double held = std::min(here_.distance, margin_);
   const bool isProved = travel < kProved * (here_.distance + there.distance);
-  const bool isAllowed =
-      there.distance >= here_.distance || there.distance >= std::max(kHalf * held, kFloor * margin_);
+  const bool isAllowed = there.distance >= here_.distance || there.distance >= std::max(kHalf * held, floor_);
   if (!isProved || !isAllowed) return false;
   pose_ = pose;
   here_ = there;
+  raiseFloor(tick);
   std::swap(around_, next_);
   ++account_.subSteps;
   return true;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/haptics/contact_finder.h"
+#include "core/haptics/friction_program.h"
 #include "core/haptics/haptic_settings.h"
 #include "core/haptics/step_program.h"
 #include "core/haptics/tracked_scene.h"
@@ -84,16 +85,20 @@ class Proxy {
   bool step(const Tick& tick) noexcept;
   bool freeStep(const Tick& tick, const Motion& wanted) noexcept;
   bool constrainedStep(const Tick& tick, const Motion& wanted) noexcept;
-  void fillRows(const Tick& tick, double reach) noexcept;
+  bool fillRows(const Tick& tick, double reach) noexcept;
+  StepSolution solve(const Tick& tick, const StepGoal& goal) noexcept;
   void keepContacts(const StepSolution& solution) noexcept;
   Surroundings lookAround(const Tick& tick, const RigidTransform& pose, std::span<BodyContact> out) noexcept;
+  void raiseFloor(const Tick& tick) noexcept;
   bool take(const Tick& tick, const RigidTransform& pose, double travel) noexcept;
 
   ContactFinder finder_;
   StepRows rows_;
   StepProgram program_;
+  FrictionProgram frictionProgram_;
   std::vector<BodyContact> around_, next_;  ///< Contacts here, and at a pose that is tried.
   std::vector<std::uint32_t> rowContact_;   ///< Of each row, its contact in `around_`.
+  std::vector<glm::dvec3> rowArm_;          ///< Of each row, from the centre of mass to its point [m].
   std::array<ProxyContact, ActiveRows::kMost> holding_;
   std::size_t holdingCount_ = 0;
 
@@ -101,6 +106,7 @@ class Proxy {
   Surroundings here_;
   bool isHereKnown_ = false;
   double margin_ = 0.0;  ///< That `here_` was found for.
+  double floor_ = 0.0;   ///< No step may end nearer than this to a body, unless it leads away [m].
   std::uint64_t clearedSerial_ = 0;
   ProxyAccount account_;
   double queryTime_ = 0.0;

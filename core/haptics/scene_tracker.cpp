@@ -116,15 +116,16 @@ void SceneTracker::refresh(const SearchReach& reach, TrackedScene& out) {
   out = current_;
 }
 
-bool SceneTracker::isClearOf(const BodyPairQuery& query) noexcept {
+bool SceneTracker::isClearOf(std::uint32_t body, double cutoff) noexcept {
+  // A surface without sides is near where its box is: minima do not tell.
+  if (current_.scene->bodies[body].surface) return false;
+  const BodyPairQuery query = pairOf(body).queryAt(current_.worldFromPart, cutoff);
   // A pose that is no pose is for the tick to refuse.
   return query.sceneFromPart.isFinite() && isClearWithin(query, current_.clear, scratch_, kClearNodePairs);
 }
 
 bool SceneTracker::isAllClear(double cutoff, const std::vector<TrackedScene::Near>& former) noexcept {
-  const auto isClear = [&](std::uint32_t body) {
-    return isClearOf(pairOf(body).queryAt(current_.worldFromPart, cutoff));
-  };
+  const auto isClear = [&](std::uint32_t body) { return isClearOf(body, cutoff); };
   // What was near most likely still is, and is asked before the thousands that so wide a sphere may hold.
   if (!std::all_of(former.begin(), former.end(), [&](const auto& entry) { return isClear(entry.body); }))
     return false;
@@ -145,9 +146,10 @@ void SceneTracker::findNear(const SearchReach& reach, const std::vector<TrackedS
     const auto found = std::lower_bound(former.begin(), former.end(), entry, isBefore);
     if (found != former.end() && found->body == entry.body) old = *found;
     const bool wasListed = old.list && willServe({entry.body, old.list, nullptr}, reach);
-    if (!wasListed && isClearOf(pairOf(entry.body).queryAt(current_.worldFromPart, cutoff))) return true;
+    if (!wasListed && isClearOf(entry.body, cutoff)) return true;
     entry.list = renewed(old.list, entry.body, forMinima(reach));
-    if (reach.contact > 0.0) entry.contacts = renewed(old.contacts, entry.body, forContacts(reach));
+    if (reach.contact > 0.0 && !current_.scene->bodies[entry.body].surface)
+      entry.contacts = renewed(old.contacts, entry.body, forContacts(reach));
     return false;
   });
 }

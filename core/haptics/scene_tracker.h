@@ -46,7 +46,7 @@ class SceneTracker {
   ListPurpose forMinima(const SearchReach& reach) const noexcept;
   ListPurpose forContacts(const SearchReach& reach) const noexcept;
   bool isClearanceDue(const SearchReach& reach) const noexcept;
-  bool isClearOf(const BodyPairQuery& query) noexcept;
+  bool isClearOf(std::uint32_t body, double cutoff) noexcept;
   bool isAllClear(double cutoff, const std::vector<TrackedScene::Near>& former) noexcept;
   void findNear(const SearchReach& reach, const std::vector<TrackedScene::Near>& former);
   std::shared_ptr<const CandidateList> renewed(const std::shared_ptr<const CandidateList>& former,

@@ -11,6 +11,15 @@ void ServoScene::setMoving(const Body& body) {
   metric = massMetric(body.geometry->mass, body.geometry->mesh);
 }
 
+void ServoScene::prepareSurfaces() {
+  if (!moving.geometry) return;
+  for (Body& body : bodies) {
+    if (moving.geometry->isSolid() && body.geometry->isSolid()) continue;
+    body.surface = body.geometry->surface();
+    moving.surface = moving.geometry->surface();
+  }
+}
+
 std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene) {
   const Part* moving = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
   if (moving == nullptr || moving->geometry == nullptr) {
@@ -30,6 +39,7 @@ std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene) {
   for (const ServoScene::Body& body : result->bodies)
     geometries.push_back(body.geometry);
   prepareHierarchies(geometries);
+  result->prepareSurfaces();
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/haptics/mass_metric.h"
 #include "core/math/rigid_transform.h"
+#include "core/proximity/unsided_surface.h"
 #include "core/scene/scene.h"
 
 namespace nearfit {
@@ -16,6 +17,9 @@ struct ServoScene {
     PartId id{};
     PartGeometryPtr geometry;
     RigidTransform worldFromPart;
+    /// Where the part in hand or this one has no inside (open, or of no orientation): it is then kept out
+    /// whatever side it is seen from. Else null.
+    std::shared_ptr<const UnsidedSurface> surface{};
   };
   std::vector<Body> bodies;      ///< Visible parts other than the moving one.
   Body moving;                   ///< geometry is null when nothing is in hand.
@@ -25,6 +29,9 @@ struct ServoScene {
 
   /// Puts a part in hand, with what belongs to it but for its mass.
   void setMoving(const Body& body);
+  /// Gives bodies that have no inside, and what meets them, their surfaces. Called last.
+  void prepareSurfaces();
+  bool hasSurfaces() const noexcept { return moving.surface != nullptr; }
 };
 
 /// Nothing is felt while the moving part is invisible. Builds the hierarchies that are missing, which takes

@@ -147,8 +147,9 @@ void ServoTick::findMinima(const Tick& tick, double apart, const SpringParameter
   minima_.write(tick.snapshot);
   tick.snapshot.lateBodies += result.lateBodies;
   tick.snapshot.queryTime += secondsSince(begin);
-  // Of bodies that are closed and apart, the nearest minimum is the distance.
-  proxy_.noteDistance(std::min({result.distance, result.completeTo, tick.settings.springs.cutoff}));
+  // Of bodies that have an inside and are apart, the nearest minimum is the distance.
+  if (!tick.scene.hasSurfaces())
+    proxy_.noteDistance(std::min({result.distance, result.completeTo, tick.settings.springs.cutoff}));
 }
 
 Wrench ServoTick::feelSprings(const Tick& tick) noexcept {

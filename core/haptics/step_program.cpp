@@ -78,7 +78,7 @@ StepSolution StepProgram::solve(const StepRows& rows, const StepGoal& goal) noex
   solver_.begin(rows, goal.cost, kMostChanges);
   return searchStep(
       solver_, goal, kMostSolves,
-      [this](const StepVector& wanted, double) noexcept { return solver_.solve(wanted); }, []() noexcept {});
+      [this](const StepVector& wanted, double) noexcept { return solver_.solve(wanted); }, KeepNothing{});
 }
 
 }  // namespace nearfit

@@ -16,17 +16,29 @@ void shortenToReach(StepSolution& step, const DualStepSolver::Point& still, doub
 /// Standing still, for a goal that is not usable.
 StepSolution standStill(const StepRows& rows) noexcept;
 
+/// Where no scale was found at which a step uses as much of the reach, a step that is too long is shortened
+/// instead: while a part turns flat, its way depends on the scale only where the scale is next to nothing.
+inline constexpr double kLeastUse = 0.5;
+
+/// For those that keep nothing of a point but the step.
+struct KeepNothing {
+  void best() const noexcept {}
+  void above() const noexcept {}
+  void useAbove() const noexcept {}
+};
+
 /// Solves for one scale of the goal after another until the step fits the reach.
 /// @param solver  After begin().
 /// @param solve   Gives the Point for a scaled goal y0 and its scale.
 /// @param mostSolves  Scales that are tried at most.
-/// @param keep    Is told that the point given last is the best so far.
+/// @param keep    Is told of the point given last: best() that it is the best so far, above() that it is the
+///                last that is too long; and useAbove() that this one is taken after all.
 template <class Solve, class Keep>
 StepSolution searchStep(const DualStepSolver& solver, const StepGoal& goal, unsigned mostSolves, Solve solve,
-                        Keep keep) noexcept {
-  StepSolution best;
+                        Keep&& keep) noexcept {
+  StepSolution best, above;
   unsigned solves = 0;
-  bool isFound = false;
+  bool isFound = false, hasAbove = false;
   for (TrustSearch search(goal.reach, mostSolves); !search.isDone();) {
     const double scale = search.scale();
     StepVector wanted = goal.wanted;
@@ -38,9 +50,18 @@ StepSolution searchStep(const DualStepSolver& solver, const StepGoal& goal, unsi
     // Without one within the reach, the last is shortened.
     if (isWithin || !isFound) {
       best = here;
-      keep();
+      keep.best();
     }
     isFound = isFound || isWithin;
+    if (!isWithin) {
+      above = here;
+      hasAbove = true;
+      keep.above();
+    }
+  }
+  if (hasAbove && best.displacement < kLeastUse * goal.reach) {
+    best = above;
+    keep.useAbove();
   }
   shortenToReach(best, solver.standing(), goal.reach);
   best.solves = solves;

@@ -12,6 +12,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/proximity/normal_cone_tree.h"
 #include "core/scene/hierarchy_on_demand.h"
+#include "core/scene/surface_on_demand.h"
 
 namespace nearfit {
 
@@ -30,10 +31,16 @@ struct PartGeometry {
   MeshBuildReport report;
   MassProperties mass;
   std::shared_ptr<HierarchyOnDemand> hierarchy = std::make_shared<HierarchyOnDemand>();
+  std::shared_ptr<SurfaceOnDemand> surfaceOnDemand = std::make_shared<SurfaceOnDemand>();
 
   /// What queries search; built now where it has not been (seconds for millions of triangles: call
   /// prepareHierarchies first where nobody may wait). Any thread. Real-time safe once hierarchy->isReady().
   const NormalConeTree& tree() const { return hierarchy->get(mesh); }
+
+  /// Whether the mesh encloses its material: where it does not, distance is that of unsided surfaces.
+  bool isSolid() const noexcept { return mesh.topology().isClosed() && mesh.topology().isOriented(); }
+  /// The surface without sides, made when it is first asked for. Any thread.
+  std::shared_ptr<const UnsidedSurface> surface() const { return surfaceOnDemand->get(mesh, tree()); }
 };
 
 /// The path from the root, with links among its folders resolved, so that paths to one file compare equal.

@@ -1,0 +1,67 @@
+#include "tests/support/proxy_walk.h"
+
+#include "core/mesh/mass_properties.h"
+#include "core/scene/part_geometry.h"
+
+namespace nearfit::test {
+namespace {
+
+PartGeometryPtr solid(TriangleMesh mesh) {
+  const MassProperties mass = massProperties(mesh);
+  return std::make_shared<const PartGeometry>(PartGeometry{.file = "/generated.obj",
+                                                           .sha256 = std::string(64, '0'),
+                                                           .metresPerUnit = 1.0,
+                                                           .mesh = std::move(mesh),
+                                                           .report = {},
+                                                           .mass = mass});
+}
+
+}  // namespace
+
+ProxyWalk::ProxyWalk(std::vector<Fixed> bodies, TriangleMesh part, const RigidTransform& start,
+                     const ProxySettings& settings)
+    : settings_(settings) {
+  auto scene = std::make_shared<ServoScene>();
+  scene->setMoving({PartId{1}, solid(std::move(part)), start});
+  for (Fixed& body : bodies)
+    scene->bodies.push_back({PartId{nextId_++}, solid(std::move(body.mesh)), body.worldFromBody});
+  setScene(std::move(scene));
+  proxy_.place(start);
+}
+
+void ProxyWalk::setScene(std::shared_ptr<ServoScene> scene) {
+  scene->moving.geometry->tree();
+  for (const ServoScene::Body& body : scene->bodies)
+    body.geometry->tree();
+  scene->prepareSurfaces();
+  scene_ = scene;
+  tracker_.setScene(scene_);
+}
+
+const ProxyAccount& ProxyWalk::lead(const RigidTransform& hand) {
+  const SearchReach reach{20.0 * settings_.margin, kContactReach * settings_.margin};
+  tracker_.observe(proxy_.pose(), 1.0);
+  tracker_.setWaiting(proxy_.account().isWaiting);
+  if (tracker_.isDue(reach)) tracker_.refresh(reach, tracked_);
+  proxy_.follow(tracked_, hand, settings_);
+  return proxy_.account();
+}
+
+void ProxyWalk::hold(const RigidTransform& hand, int ticks) {
+  for (int i = 0; i < ticks; ++i)
+    lead(hand);
+}
+
+void ProxyWalk::moveBody(std::size_t index, const RigidTransform& worldFromBody) {
+  auto scene = std::make_shared<ServoScene>(*scene_);
+  scene->bodies[index].worldFromPart = worldFromBody;
+  setScene(std::move(scene));
+}
+
+void ProxyWalk::addBody(const Fixed& body) {
+  auto scene = std::make_shared<ServoScene>(*scene_);
+  scene->bodies.push_back({PartId{nextId_++}, solid(body.mesh), body.worldFromBody});
+  setScene(std::move(scene));
+}
+
+}  // namespace nearfit::test
