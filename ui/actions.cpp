@@ -37,8 +37,10 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   start->setToolTip(tr("Start the servo: feel the moving part against the others (F5)"));
   stop = make("stop", tr("S&top"), "stop", QKeySequence(Qt::Key_F6));
   stop->setToolTip(tr("Stop the servo and leave the part where it is (F6)"));
-  springs = make("springs", tr("&Springs…"), "springs");
-  springs->setToolTip(tr("Cutoff, stiffness and damping"));
+  letGo = make("letGo", tr("&Let go"), "hand-off", QKeySequence(Qt::Key_F7));
+  letGo->setToolTip(tr("The manual hand goes back to where the part is, and presses no more (F7)"));
+  feelSettings = make("feelSettings", tr("Feel s&ettings…"), "springs");
+  feelSettings->setToolTip(tr("Mode, cutoff, margin, stiffness, weight and workspace"));
 
   fit = make("fit", tr("&Fit all"), "fit", QKeySequence(Qt::Key_F));
   viewIso = make("viewIso", tr("&Isometric"), "view-iso", QKeySequence(Qt::Key_0));
@@ -48,10 +50,12 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   seeThrough = makeSwitch("seeThrough", tr("&See through fixed parts"), "translucent", true);
   edges = makeSwitch("edges", tr("&Edges"), "edges", true);
   minima = makeSwitch("minima", tr("&Minima"), "minima", true);
+  contacts = makeSwitch("contacts", tr("C&ontacts"), "contacts", true);
+  hand = makeSwitch("handGhost", tr("&Hand ahead of the part"), "ghost", true);
   wrench = makeSwitch("wrench", tr("Force and torque &arrows"), "wrench-arrows", true);
   about = make("about", tr("&About Nearfit"), "about");
-  // Also from the spring dialog, which stays open beside the window.
-  for (QAction* action : {undo, redo, start, stop})
+  // Also from the feel dialog, which stays open beside the window.
+  for (QAction* action : {undo, redo, start, stop, letGo})
     action->setShortcutContext(Qt::ApplicationShortcut);
   panelsMenu = new QMenu(tr("&Panels"), window);
 }
@@ -80,10 +84,10 @@ void Actions::setUpMenus(QMainWindow& window) {
   edit->addActions({undo, redo, edit->addSeparator(), takeInHand, duplicate, rename, recolour, remove});
   QMenu* view = window.menuBar()->addMenu(tr("&View"));
   view->addActions({fit, viewIso, viewFront, viewRight, viewTop, view->addSeparator(), seeThrough, edges,
-                    minima, wrench, view->addSeparator()});
+                    minima, contacts, hand, wrench, view->addSeparator()});
   view->addMenu(panelsMenu);
   QMenu* feel = window.menuBar()->addMenu(tr("F&eel"));
-  feel->addActions({start, stop, feel->addSeparator(), springs});
+  feel->addActions({start, stop, letGo, feel->addSeparator(), feelSettings});
   window.menuBar()->addMenu(tr("&Help"))->addAction(about);
 }
 
@@ -99,9 +103,9 @@ void Actions::setUpToolBar(QMainWindow& window) {
   addGroup({newScene, open, save});
   addGroup({addParts, duplicate, remove});
   addGroup({undo, redo});
-  addGroup({takeInHand, start, stop, springs});
+  addGroup({takeInHand, start, stop, feelSettings});
   addGroup({fit, viewIso, viewFront, viewRight, viewTop});
-  addGroup({seeThrough, edges, minima, wrench});
+  addGroup({seeThrough, edges, minima, contacts, hand, wrench});
   addGroup({exportPlacement});
   for (QAction* action : {addParts, start, stop}) {
     auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action));
@@ -132,6 +136,7 @@ void Actions::update(const Session& session, const Availability& availability) {
     action->setEnabled(canChange);
   start->setEnabled(isFree && availability.canStart && !availability.isServoRunning);
   stop->setEnabled(availability.isServoRunning);
+  letGo->setEnabled(availability.isServoRunning && availability.isHandManual);
   for (QAction* action : {fit, viewIso, viewFront, viewRight, viewTop})
     action->setEnabled(hasParts);
 }

@@ -23,9 +23,9 @@ class Actions : public QObject {
 
   QAction *newScene, *open, *openDemo, *addParts, *save, *saveAs, *exportPlacement, *quit;
   QAction *undo, *redo, *duplicate, *rename, *recolour, *takeInHand, *remove;
-  QAction *start, *stop, *springs;
+  QAction *start, *stop, *letGo, *feelSettings;
   QAction *fit, *viewIso, *viewFront, *viewRight, *viewTop;
-  QAction *seeThrough, *edges, *minima, *wrench;
+  QAction *seeThrough, *edges, *minima, *contacts, *hand, *wrench;
   QAction* about;
   QMenu* panelsMenu;  ///< For the docks' own switches.
 
@@ -39,6 +39,7 @@ class Actions : public QObject {
     bool isSelectionLocked = false;
     bool canStart = false;
     bool isServoRunning = false;
+    bool isHandManual = false;  ///< While the servo runs.
   };
   void update(const Session& session, const Availability& availability);
 

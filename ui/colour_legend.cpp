@@ -6,20 +6,45 @@
 
 #include "ui/distance_colours.h"
 #include "ui/format.h"
+#include "ui/hand_lead.h"
 #include "ui/theme.h"
 
 namespace nearfit::ui {
 namespace {
 
-constexpr int kWidth = 226, kHeight = 124, kMargin = 14;
+constexpr int kWidth = 226, kMargin = 14;
 constexpr int kBarTop = 34, kBarHeight = 11;
+constexpr int kFirstRow = 86, kRowHeight = 22, kBelowLastRow = 16;  ///< Rows by their baselines.
+constexpr int kGlyphWidth = 25;
+
+void paintArrow(QPainter& painter, int y, const QColor& colour) {
+  painter.setPen(QPen(colour, 2.6, Qt::SolidLine, Qt::FlatCap));
+  painter.drawLine(QPointF(kMargin, y - 4.5), QPointF(kMargin + 18, y - 4.5));
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(colour);
+  painter.drawPolygon(QPolygonF({QPointF(kMargin + 16, y - 9.5), QPointF(kMargin + kGlyphWidth, y - 4.5),
+                                 QPointF(kMargin + 16, y + 0.5)}));
+}
+
+void paintDisc(QPainter& painter, int y) {
+  painter.setPen(QPen(Qt::white, 1.5));
+  painter.setBrush(colours::kContact);
+  painter.drawEllipse(QPointF(kMargin + 0.5 * kGlyphWidth, y - 4.5), 8.0, 4.5);
+}
+
+void paintGhost(QPainter& painter, int y) {
+  painter.setPen(QPen(colours::kHand, 1.4));
+  QColor fill = colours::kHand;
+  fill.setAlphaF(0.2);
+  painter.setBrush(fill);
+  painter.drawRoundedRect(QRectF(kMargin + 4, y - 11, kGlyphWidth - 8, 13), 2.0, 2.0);
+}
 
 }  // namespace
 
 ColourLegend::ColourLegend(QWidget* parent) : QWidget(parent) {
   setAttribute(Qt::WA_TransparentForMouseEvents);
   setObjectName(QStringLiteral("colourLegend"));
-  setWrench({});
   resize(sizeHint());
 }
 
@@ -29,14 +54,19 @@ void ColourLegend::setCutoff(double cutoff) {
   update();
 }
 
-void ColourLegend::setWrench(const Wrench& wrench) {
-  force_ = formatForce(glm::length(wrench.force));
-  torque_ = formatTorque(glm::length(wrench.torque));
+void ColourLegend::showSnapshot(const ServoSnapshot& snapshot) {
+  force_ = formatForce(glm::length(snapshot.wrench.force));
+  torque_ = formatTorque(glm::length(snapshot.wrench.torque));
+  contacts_ = QString::number(snapshot.contactCount);
+  lead_ = formatLead(handLeadOf(snapshot));
+  hasProxy_ = snapshot.mode == HapticMode::Proxy;
+  resize(sizeHint());
   update();
 }
 
 QSize ColourLegend::sizeHint() const {
-  return {kWidth, kHeight};
+  const int rows = hasProxy_ ? 4 : 2;
+  return {kWidth, kFirstRow + (rows - 1) * kRowHeight + kBelowLastRow};
 }
 
 void ColourLegend::paintEvent(QPaintEvent*) {
@@ -46,8 +76,19 @@ void ColourLegend::paintEvent(QPaintEvent*) {
   painter.setBrush(QColor(255, 255, 255, 228));
   painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 7.0, 7.0);
   paintScale(painter);
-  paintArrowRow(painter, 86, colours::kForce, tr("Force"), force_);
-  paintArrowRow(painter, 108, colours::kTorque, tr("Torque"), torque_);
+  int y = kFirstRow;
+  paintArrow(painter, y, colours::kForce);
+  paintRow(painter, y, tr("Force"), force_);
+  y += kRowHeight;
+  paintArrow(painter, y, colours::kTorque);
+  paintRow(painter, y, tr("Torque"), torque_);
+  if (!hasProxy_) return;
+  y += kRowHeight;
+  paintDisc(painter, y);
+  paintRow(painter, y, tr("Contacts"), contacts_);
+  y += kRowHeight;
+  paintGhost(painter, y);
+  paintRow(painter, y, tr("Hand ahead"), lead_);
 }
 
 void ColourLegend::paintScale(QPainter& painter) {
@@ -76,14 +117,7 @@ void ColourLegend::paintScale(QPainter& painter) {
   painter.drawText(labels, Qt::AlignRight, formatLength(cutoff_));
 }
 
-void ColourLegend::paintArrowRow(QPainter& painter, int y, const QColor& colour, const QString& name,
-                                 const QString& value) {
-  painter.setPen(QPen(colour, 2.6, Qt::SolidLine, Qt::FlatCap));
-  painter.drawLine(QPointF(kMargin, y - 4.5), QPointF(kMargin + 18, y - 4.5));
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(colour);
-  painter.drawPolygon(QPolygonF(
-      {QPointF(kMargin + 16, y - 9.5), QPointF(kMargin + 25, y - 4.5), QPointF(kMargin + 16, y + 0.5)}));
+void ColourLegend::paintRow(QPainter& painter, int y, const QString& name, const QString& value) {
   painter.setPen(QColor(0x2b, 0x35, 0x3f));
   painter.drawText(kMargin + 34, y, name);
   painter.drawText(QRect(kMargin, y - 13, kWidth - 2 * kMargin, 18), Qt::AlignRight | Qt::AlignVCenter,

@@ -2,12 +2,12 @@
 
 #include <QWidget>
 
-#include "core/haptics/wrench.h"
+#include "core/haptics/servo_snapshot.h"
 
 namespace nearfit::ui {
 
 /// A card over the 3-D view that explains its glyphs: the colours of distances from contact to the cutoff,
-/// and the two arrows with their values.
+/// and the other glyphs with what they stand for in numbers.
 class ColourLegend : public QWidget {
   Q_OBJECT
 
@@ -16,8 +16,8 @@ class ColourLegend : public QWidget {
 
   /// @param cutoff  Distance of the last colour [m].
   void setCutoff(double cutoff);
-  /// Magnitudes beside the arrows' colours.
-  void setWrench(const Wrench& wrench);
+  /// The numbers beside the glyphs; takes the size that they need.
+  void showSnapshot(const ServoSnapshot& snapshot);
 
   QSize sizeHint() const override;
 
@@ -26,11 +26,11 @@ class ColourLegend : public QWidget {
 
  private:
   void paintScale(QPainter& painter);
-  void paintArrowRow(QPainter& painter, int y, const QColor& colour, const QString& name,
-                     const QString& value);
+  void paintRow(QPainter& painter, int y, const QString& name, const QString& value);
 
   double cutoff_ = 0.01;
-  QString force_, torque_;
+  QString force_, torque_, contacts_, lead_;
+  bool hasProxy_ = true;
 };
 
 }  // namespace nearfit::ui

@@ -1,5 +1,6 @@
 #include "ui/format.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nearfit::ui {
@@ -33,6 +34,32 @@ QString formatTorque(double newtonMetres) {
   const bool isSmall = std::abs(newtonMetres) < 1.0;
   const QString number = figures(isSmall ? newtonMetres * 1e3 : newtonMetres);
   return number + (isSmall ? QStringLiteral(" mN") : QStringLiteral(" N")) + kDot + QChar('m');
+}
+
+QString formatEnergy(double joules) {
+  if (std::abs(joules) >= 1.0) return figures(joules) + QStringLiteral(" J");
+  if (std::abs(joules) >= 1e-3 || joules == 0.0) return figures(joules * 1e3) + QStringLiteral(" mJ");
+  return figures(joules * 1e6) + QChar(' ') + kMicro + QChar('J');
+}
+
+QString formatMass(double kilograms) {
+  if (kilograms >= 1.0) return figures(kilograms) + QStringLiteral(" kg");
+  if (kilograms >= 1e-3) return figures(kilograms * 1e3) + QStringLiteral(" g");
+  return figures(kilograms * 1e6) + QStringLiteral(" mg");
+}
+
+QString formatNumber(double value) {
+  constexpr int kFigures = 4, kMostDecimals = 12;
+  if (!std::isfinite(value)) return QStringLiteral("–");
+  if (value == 0.0) return QStringLiteral("0");
+  const int before = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  const int decimals = std::clamp(kFigures - before, 0, kMostDecimals);
+  QString text = QString::number(value, 'f', decimals);
+  if (decimals == 0) return text;
+  while (text.endsWith(QChar('0')))
+    text.chop(1);
+  if (text.endsWith(QChar('.'))) text.chop(1);
+  return text;
 }
 
 QString formatDuration(double seconds) {

@@ -13,6 +13,12 @@ QString formatLength(double metres);
 QString formatForce(double newtons);
 /// "12.3 mN·m" or "1.20 N·m"; `newtonMetres` in [N m].
 QString formatTorque(double newtonMetres);
+/// "1.23 kg", "45.6 g", "0.50 mg"; `kilograms` in [kg].
+QString formatMass(double kilograms);
+/// Four figures at most, without exponent and without zeros behind the last: "1600", "0.2", "0.00005".
+QString formatNumber(double value);
+/// "1.23 mJ", "45.6 µJ"; `joules` in [J].
+QString formatEnergy(double joules);
 /// "12 µs", "1.3 ms"; `seconds` in [s].
 QString formatDuration(double seconds);
 

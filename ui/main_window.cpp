@@ -12,8 +12,9 @@
 
 #include "ui/actions.h"
 #include "ui/dialogs/error_box.h"
-#include "ui/dialogs/spring_dialog.h"
+#include "ui/dialogs/feel_dialog.h"
 #include "ui/document.h"
+#include "ui/feel_mode.h"
 #include "ui/panels/feel_panel.h"
 #include "ui/panels/parts_panel.h"
 #include "ui/panels/pose_panel.h"
@@ -38,7 +39,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   document_ = std::make_unique<Document>(session, shapes, this);
   setCentralWidget(viewport_);
   readout_ = new StatusReadout(statusBar());
-  springDialog_ = new SpringDialog(this);
+  feelDialog_ = new FeelDialog(this);
   setUpPanels();
   actions_->setUpMenus(*this);
   actions_->setUpToolBar(*this);
@@ -61,15 +62,16 @@ MainWindow::~MainWindow() = default;
 void MainWindow::setUpPanels() {
   partsPanel_ = new PartsPanel(this);
   posePanel_ = new PosePanel(this);
-  auto* springs = new QPushButton(actions_->springs->icon(), tr("Springs…"), this);
-  springs->setObjectName(QStringLiteral("springsButton"));
-  connect(springs, &QPushButton::clicked, actions_->springs, &QAction::trigger);
-  feelPanel_ = new FeelPanel(springs, this);
+  auto* settings = new QPushButton(actions_->feelSettings->icon(), tr("Feel settings…"), this);
+  settings->setObjectName(QStringLiteral("settingsButton"));
+  connect(settings, &QPushButton::clicked, actions_->feelSettings, &QAction::trigger);
+  feelPanel_ = new FeelPanel(settings, this);
   addDock(QStringLiteral("partsDock"), tr("Parts"), partsPanel_, Qt::LeftDockWidgetArea);
-  QDockWidget* pose = addDock(QStringLiteral("poseDock"), tr("Pose"), posePanel_, Qt::LeftDockWidgetArea);
+  QDockWidget* pose =
+      addDock(QStringLiteral("poseDock"), tr("Pose and mass"), posePanel_, Qt::LeftDockWidgetArea);
   QDockWidget* feel = addDock(QStringLiteral("feelDock"), tr("Feel"), feelPanel_, Qt::RightDockWidgetArea);
   resizeDocks({pose, feel}, {285, 235}, Qt::Horizontal);
-  resizeDocks({pose}, {210}, Qt::Vertical);
+  resizeDocks({pose}, {240}, Qt::Vertical);
   auto* separator = new QAction(this);
   separator->setSeparator(true);
   partsPanel_->setMenuActions({actions_->takeInHand, actions_->rename, actions_->recolour,
@@ -103,7 +105,8 @@ void MainWindow::showScene() {
   setWindowModified(session_.isModified());
   viewport_->setScene(scene);
   partsPanel_->setScene(scene);
-  springDialog_->showSprings(scene.haptics().springs);
+  feelDialog_->showScene(scene);
+  feelPanel_->showMode(feelModeOf(scene.haptics()));
   welcome_->setVisible(scene.parts().empty());
   showSelection();
 }
@@ -115,7 +118,12 @@ void MainWindow::showSelection() {
   const bool isInHand = holds(id);
   const bool isEditable = part != nullptr && !part->isLocked && (!isInHand || servo_.hand == Hand::Manual);
   posePanel_->showPart(part != nullptr ? QString::fromStdString(part->name) : QString(), isEditable);
-  if (part != nullptr) posePanel_->showPose(poseOf(*part));
+  posePanel_->showMass(part);
+  if (isInHand && servo_.hand == Hand::Manual) {
+    posePanel_->showPose(poseInHand_, handPose_);
+  } else if (part != nullptr) {
+    posePanel_->showPose(poseOf(*part));
+  }
   updateActions();
 }
 
@@ -129,6 +137,7 @@ void MainWindow::updateActions() {
   availability.isSelectionLocked = part != nullptr && part->isLocked;
   availability.canStart = scene.movingPart().has_value() && scene.parts().size() > 1;
   availability.isServoRunning = servo_.isRunning;
+  availability.isHandManual = servo_.isRunning && servo_.hand == Hand::Manual;
   actions_->update(session_, availability);
   actions_->openDemo->setEnabled(!document_->isBusy() && !demoScene_.isEmpty());
   feelPanel_->setStartable(actions_->start->isEnabled());
@@ -139,6 +148,7 @@ void MainWindow::showServoStatus(const ServoStatus& status) {
   servo_ = status;
   feelPanel_->showStatus(status);
   readout_->showStatus(status);
+  feelDialog_->setDevice(status.device);
   if (!hasChanged) return;
   if (status.isRunning) {
     const Part* part = session_.scene().find(session_.scene().movingPart().value_or(PartId{}));
@@ -146,6 +156,7 @@ void MainWindow::showServoStatus(const ServoStatus& status) {
   } else {
     viewport_->clearSnapshot();
     feelPanel_->clearSnapshot();
+    feelDialog_->clearSnapshot();
     readout_->clearSnapshot();
   }
   showSelection();
@@ -154,9 +165,11 @@ void MainWindow::showServoStatus(const ServoStatus& status) {
 void MainWindow::showSnapshot(const ServoSnapshot& snapshot) {
   poseInHand_ = snapshot.proxy;
   viewport_->showSnapshot(snapshot);
-  feelPanel_->showSnapshot(snapshot);
+  feelPanel_->showSnapshot(snapshot, session_.scene());
+  feelDialog_->showSnapshot(snapshot);
   readout_->showSnapshot(snapshot);
-  if (holds(selected())) posePanel_->showPose(poseInHand_);
+  if (!holds(selected())) return;
+  posePanel_->showPose(poseInHand_, servo_.hand == Hand::Manual ? handPose_ : poseInHand_);
 }
 
 void MainWindow::showFailure(const Failure& failure) {

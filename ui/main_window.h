@@ -15,10 +15,10 @@ namespace nearfit::ui {
 
 class Actions;
 class Document;
+class FeelDialog;
 class FeelPanel;
 class PartsPanel;
 class PosePanel;
-class SpringDialog;
 class StatusReadout;
 class Viewport;
 class WelcomeCard;
@@ -72,6 +72,7 @@ class MainWindow : public QMainWindow {
   void connectEditActions();
   void connectViewActions();
   void connectPanels();
+  void connectFeel();
 
   void showScene();
   void showSelection();
@@ -88,7 +89,11 @@ class MainWindow : public QMainWindow {
   void recolourSelected();
   void moveSelected(const RigidTransform& worldFromPart);
   void nudge(const glm::dvec3& direction);
+  /// Moves the manual hand, but for what the scene locks.
   void moveHand(const RigidTransform& worldFromPart);
+  void letGo();
+  void changeHaptics(const HapticSettings& settings);
+  void restartServo();
   void exportPlacement();
   void exportPreparedPlacement();
   void showAbout();
@@ -100,13 +105,14 @@ class MainWindow : public QMainWindow {
   PartsPanel* partsPanel_;
   PosePanel* posePanel_;
   FeelPanel* feelPanel_;
-  SpringDialog* springDialog_;
+  FeelDialog* feelDialog_;
   StatusReadout* readout_;
   WelcomeCard* welcome_;
   std::function<void(const Failure&)> failureSink_;
   QString demoScene_, aboutText_;
   ServoStatus servo_;
-  RigidTransform poseInHand_, handPose_;
+  RigidTransform poseInHand_;  ///< Of the part.
+  RigidTransform handPose_;    ///< Of the manual hand, which the part may stay behind.
 };
 
 }  // namespace nearfit::ui

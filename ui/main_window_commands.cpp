@@ -3,9 +3,11 @@
 #include <QColorDialog>
 #include <QMessageBox>
 
+#include "core/error.h"
+#include "core/haptics/workspace_mapper.h"
 #include "ui/actions.h"
 #include "ui/dialogs/error_box.h"
-#include "ui/dialogs/spring_dialog.h"
+#include "ui/dialogs/feel_dialog.h"
 #include "ui/document.h"
 #include "ui/main_window.h"
 #include "ui/panels/feel_panel.h"
@@ -61,6 +63,8 @@ void MainWindow::connectViewActions() {
   connect(actions_->seeThrough, &QAction::toggled, viewport_, &Viewport::setSeeThrough);
   connect(actions_->edges, &QAction::toggled, viewport_, &Viewport::setEdgesVisible);
   connect(actions_->minima, &QAction::toggled, viewport_, &Viewport::setMinimaVisible);
+  connect(actions_->contacts, &QAction::toggled, viewport_, &Viewport::setContactsVisible);
+  connect(actions_->hand, &QAction::toggled, viewport_, &Viewport::setHandVisible);
   connect(actions_->wrench, &QAction::toggled, viewport_, &Viewport::setWrenchVisible);
   viewport_->setSeeThrough(actions_->seeThrough->isChecked());
   connect(viewport_, &Viewport::partPicked, partsPanel_, &PartsPanel::select);
@@ -80,24 +84,48 @@ void MainWindow::connectPanels() {
     attempt(tr("The part could not be locked or unlocked."), [&] { session_.setLocked(part, isLocked); });
   });
   connect(posePanel_, &PosePanel::poseEdited, this, &MainWindow::moveSelected);
+  connect(posePanel_, &PosePanel::densityEdited, this, [this](double density) {
+    if (const std::optional<PartId> part = selected())
+      attempt(tr("The density could not be changed."), [&] { session_.setDensity(*part, density); });
+  });
+  connectFeel();
+}
+
+void MainWindow::connectFeel() {
   connect(feelPanel_, &FeelPanel::startRequested, actions_->start, &QAction::trigger);
   connect(feelPanel_, &FeelPanel::stopRequested, actions_->stop, &QAction::trigger);
   connect(feelPanel_, &FeelPanel::handChanged, this, [this] {
-    if (!servo_.isRunning || servo_.hand == feelPanel_->hand()) return;
-    emit servoStopRequested();
-    requestStart();
+    if (servo_.isRunning && servo_.hand != feelPanel_->hand()) restartServo();
   });
   connect(actions_->start, &QAction::triggered, this, &MainWindow::requestStart);
   connect(actions_->stop, &QAction::triggered, this, &MainWindow::servoStopRequested);
-  connect(actions_->springs, &QAction::triggered, this, [this] {
-    springDialog_->show();
-    springDialog_->raise();
+  connect(feelPanel_, &FeelPanel::restartRequested, this, &MainWindow::restartServo);
+  connect(feelPanel_, &FeelPanel::modeRequested, this,
+          [this](FeelMode mode) { changeHaptics(withMode(session_.scene().haptics(), mode)); });
+  connect(actions_->letGo, &QAction::triggered, this, &MainWindow::letGo);
+  connect(actions_->feelSettings, &QAction::triggered, this, [this] {
+    feelDialog_->show();
+    feelDialog_->raise();
   });
-  connect(springDialog_, &SpringDialog::springsEdited, this, [this](const SpringParameters& springs) {
-    HapticSettings next = session_.scene().haptics();
-    next.springs = springs;
-    attempt(tr("The springs could not be changed."), [&] { session_.setHaptics(next); });
-  });
+  connect(feelDialog_, &FeelDialog::settingsEdited, this, &MainWindow::changeHaptics);
+}
+
+void MainWindow::changeHaptics(const HapticSettings& settings) {
+  QString refusal;
+  try {
+    session_.setHaptics(settings);
+  } catch (const UsageError& error) {
+    refusal = tr("Not taken over: %1. To mend it, %2.")
+                  .arg(QString::fromStdString(error.problem()), QString::fromStdString(error.remedy()));
+  }
+  feelDialog_->showRefusal(refusal);
+  // Back to what counts.
+  if (!refusal.isEmpty()) showScene();
+}
+
+void MainWindow::restartServo() {
+  emit servoStopRequested();
+  requestStart();
 }
 
 void MainWindow::attempt(const QString& what, const std::function<void()>& command) {
@@ -185,8 +213,19 @@ void MainWindow::nudge(const glm::dvec3& direction) {
 }
 
 void MainWindow::moveHand(const RigidTransform& worldFromPart) {
-  handPose_ = worldFromPart;
-  emit handMoved(worldFromPart);
+  WorkspaceMapping locks;
+  locks.translationLocks = session_.scene().haptics().mapping.translationLocks;
+  locks.rotationLocks = session_.scene().haptics().mapping.rotationLocks;
+  WorkspaceMapper mapper;
+  mapper.engage(handPose_);
+  handPose_ = mapper.map(worldFromPart, false, locks);
+  emit handMoved(handPose_);
+}
+
+void MainWindow::letGo() {
+  if (!servo_.isRunning || servo_.hand != Hand::Manual) return;
+  handPose_ = poseInHand_;
+  emit handMoved(handPose_);
 }
 
 void MainWindow::exportPlacement() {

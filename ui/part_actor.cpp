@@ -11,13 +11,14 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr double kTranslucentOpacity = 0.28;
+constexpr double kTranslucentOpacity = 0.28, kWarningOpacity = 0.45;
 
 void setEdgeColour(vtkProperty& property, const PartLook& look) {
   const QColor dark(0x1a, 0x22, 0x2b);
-  const QColor colour = look.isSelected ? colours::kAccent
-                        : look.isMoving ? colours::kMoving.darker(150)
-                                        : dark;
+  const QColor colour = look.isSelected      ? colours::kAccent
+                        : look.isMoving      ? colours::kMoving.darker(150)
+                        : look.isOverlapping ? colours::kOverlap.darker(150)
+                                             : dark;
   property.SetColor(colour.redF(), colour.greenF(), colour.blueF());
   property.SetLineWidth(look.isSelected ? 2.4F : 1.3F);
   property.SetOpacity(look.isTranslucent && !look.isSelected ? 0.55 : 1.0);
@@ -68,9 +69,15 @@ void PartActor::setAppearance(const Colour& colour, bool isVisible, const PartLo
   surface_->SetVisibility(isVisible);
   edges_->SetVisibility(isVisible && look.hasEdges);
   vtkProperty* property = surface_->GetProperty();
-  property->SetColor(static_cast<double>(colour.r), static_cast<double>(colour.g),
-                     static_cast<double>(colour.b));
-  property->SetOpacity(look.isTranslucent ? kTranslucentOpacity : 1.0);
+  if (look.isOverlapping) {
+    property->SetColor(colours::kOverlap.redF(), colours::kOverlap.greenF(), colours::kOverlap.blueF());
+  } else {
+    property->SetColor(static_cast<double>(colour.r), static_cast<double>(colour.g),
+                       static_cast<double>(colour.b));
+  }
+  property->SetOpacity(!look.isTranslucent  ? 1.0
+                       : look.isOverlapping ? kWarningOpacity
+                                            : kTranslucentOpacity);
   setEdgeColour(*edges_->GetProperty(), look);
 }
 

@@ -17,6 +17,7 @@ struct PartLook {
   bool isMoving = false;
   bool isSelected = false;
   bool isTranslucent = false;
+  bool isOverlapping = false;  ///< With the moving part, which so cannot feel it.
   bool hasEdges = true;
   bool operator==(const PartLook&) const = default;
 };

@@ -1,5 +1,6 @@
 #include "ui/scene_renderer.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <vtkBoundingBox.h>
@@ -38,6 +39,12 @@ void SceneRenderer::setPoseInHand(std::optional<RigidTransform> worldFromMoving)
   if (part != nullptr) actorOf(*part).setPose(poseInHand_.value_or(part->worldFromPart));
 }
 
+void SceneRenderer::setOverlapping(std::span<const PartId> parts) {
+  if (std::equal(parts.begin(), parts.end(), overlapping_.begin(), overlapping_.end())) return;
+  overlapping_.assign(parts.begin(), parts.end());
+  applyAll();
+}
+
 PartActor& SceneRenderer::actorOf(const Part& part) {
   std::unique_ptr<PartActor>& actor = actors_[part.id];
   auto shape = shapes_->shapeOf(part.geometry);
@@ -52,6 +59,7 @@ void SceneRenderer::applyAppearance(const Part& part) {
   look.isMoving = scene_.movingPart() == part.id;
   look.isSelected = selected_ == part.id;
   look.isTranslucent = isSeeThrough_ && scene_.movingPart().has_value() && !look.isMoving;
+  look.isOverlapping = std::find(overlapping_.begin(), overlapping_.end(), part.id) != overlapping_.end();
   look.hasEdges = hasEdges_;
   PartActor& actor = actorOf(part);
   actor.setAppearance(part.colour, part.isVisible, look);

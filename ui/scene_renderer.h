@@ -3,6 +3,8 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/scene/scene.h"
 #include "ui/part_actor.h"
@@ -23,6 +25,9 @@ class SceneRenderer {
   /// Shows the part away from its pose in the scene, where the hand has it; nothing puts it back.
   void setPoseInHand(std::optional<RigidTransform> worldFromMoving);
 
+  /// Parts that the moving one overlaps are tinted.
+  void setOverlapping(std::span<const PartId> parts);
+
   /// Bounds of all visible parts as VTK has them (xmin, xmax, ...) [m]; false when there are none.
   bool visibleBounds(double bounds[6]) const;
   /// The part under a point of the view, in display coordinates from the lower left.
@@ -39,6 +44,7 @@ class SceneRenderer {
   std::map<PartId, std::unique_ptr<PartActor>> actors_;
   std::optional<PartId> selected_;
   std::optional<RigidTransform> poseInHand_;
+  std::vector<PartId> overlapping_;
   bool isSeeThrough_ = false;
   bool hasEdges_ = true;
 };

@@ -4,6 +4,8 @@
 #include <QString>
 #include <cstdint>
 
+#include "core/haptics/device_limits.h"
+
 namespace nearfit::ui {
 
 /// Who holds the moving part while the servo runs.
@@ -17,6 +19,7 @@ struct ServoStatus {
   bool isRunning = false;
   Hand hand = Hand::Scripted;
   double rate = 0.0;         ///< Ticks per second over the last half second or so [Hz].
+  DeviceLimits device;       ///< Of what is in hand, or the usual ones.
   double nominalRate = 0.0;  ///< What the rate should be [Hz].
   double latenessP99 = 0.0, latenessMax = 0.0;
   double tickP99 = 0.0, queryP99 = 0.0;

@@ -36,6 +36,15 @@ bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
 /// Whether two snapshots give the same picture.
 bool looksTheSame(const ServoSnapshot& a, const ServoSnapshot& b) {
   if (a.moving != b.moving || !isSamePose(a.proxy, b.proxy) || a.storedLmds != b.storedLmds) return false;
+  if (!isSamePose(a.handle, b.handle) || a.mode != b.mode || a.contactCount != b.contactCount) return false;
+  if (a.storedContacts != b.storedContacts || a.releasedCount != b.releasedCount || a.released != b.released)
+    return false;
+  const auto isSameContact = [](const SnapshotContact& p, const SnapshotContact& q) {
+    return p.point == q.point && p.direction == q.direction && p.force == q.force;
+  };
+  if (!std::equal(a.contacts.begin(), a.contacts.begin() + a.storedContacts, b.contacts.begin(),
+                  isSameContact))
+    return false;
   if (a.wrench.force != b.wrench.force || a.wrench.torque != b.wrench.torque) return false;
   return std::equal(a.lmds.begin(), a.lmds.begin() + a.storedLmds, b.lmds.begin(),
                     [](const SnapshotLmd& p, const SnapshotLmd& q) {
@@ -54,8 +63,11 @@ void Viewport::setDefaultSurfaceFormat() {
 
 Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, QWidget* parent)
     : QVTKOpenGLNativeWidget(parent),
-      parts_(*renderer_.Get(), std::move(shapes)),
+      shapes_(std::move(shapes)),
+      parts_(*renderer_.Get(), shapes_),
+      hand_(*renderer_.Get(), *overlay_.Get()),
       minima_(*overlay_.Get()),
+      contacts_(*overlay_.Get()),
       arrows_(*overlay_.Get()),
       legend_(new ColourLegend(this)) {
   setObjectName(QStringLiteral("viewport"));
@@ -122,6 +134,7 @@ void Viewport::adjustClipping() {
   vtkBoundingBox box;
   double bounds[6];
   if (parts_.visibleBounds(bounds)) box.AddBounds(bounds);
+  if (hand_.visibleBounds(bounds)) box.AddBounds(bounds);
   // Arrows stand out of the parts.
   overlay_->ComputeVisiblePropBounds(bounds);
   if (bounds[0] <= bounds[1]) box.AddBounds(bounds);
@@ -145,9 +158,15 @@ void Viewport::setScene(const Scene& scene) {
                    [this](const Scene::PartPtr& part) { return scene_.find(part->id) != nullptr; });
   scene_ = scene;
   parts_.setScene(scene);
+  showMovingPart();
   legend_->setCutoff(scene.haptics().springs.cutoff);
   if (isAnotherScene) setView(StandardView::Isometric);
   requestRender();
+}
+
+void Viewport::showMovingPart() {
+  const Part* part = scene_.movingPart() ? scene_.find(*scene_.movingPart()) : nullptr;
+  hand_.setShape(part != nullptr ? shapes_->shapeOf(part->geometry) : nullptr);
 }
 
 void Viewport::setSelected(std::optional<PartId> part) {
@@ -165,7 +184,12 @@ void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
   const Part* moving = scene_.find(snapshot.moving);
   const double size = moving != nullptr ? moving->geometry->mesh.bounds().diagonal() : 0.0;
   arrows_.show(snapshot.centre, snapshot.wrench, size);
-  legend_->setWrench(snapshot.wrench);
+  contacts_.show(std::span(snapshot.contacts).first(snapshot.storedContacts), size);
+  hand_.show(snapshot, size);
+  const std::size_t released = std::min<std::size_t>(snapshot.releasedCount, ServoSnapshot::kMaxReleased);
+  parts_.setOverlapping(std::span(snapshot.released).first(released));
+  legend_->showSnapshot(snapshot);
+  placeLegend();
   legend_->show();
   requestRender();
 }
@@ -175,6 +199,9 @@ void Viewport::clearSnapshot() {
   parts_.setPoseInHand(std::nullopt);
   minima_.clear();
   arrows_.clear();
+  contacts_.clear();
+  hand_.clear();
+  parts_.setOverlapping({});
   legend_->hide();
   requestRender();
 }
@@ -205,6 +232,16 @@ void Viewport::setEdgesVisible(bool isVisible) {
 
 void Viewport::setMinimaVisible(bool isVisible) {
   minima_.setVisible(isVisible);
+  requestRender();
+}
+
+void Viewport::setContactsVisible(bool isVisible) {
+  contacts_.setVisible(isVisible);
+  requestRender();
+}
+
+void Viewport::setHandVisible(bool isVisible) {
+  hand_.setVisible(isVisible);
   requestRender();
 }
 
@@ -256,6 +293,10 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
 
 void Viewport::resizeEvent(QResizeEvent* event) {
   QVTKOpenGLNativeWidget::resizeEvent(event);
+  placeLegend();
+}
+
+void Viewport::placeLegend() {
   constexpr int kMargin = 14;
   legend_->move(kMargin, height() - legend_->height() - kMargin);
 }

@@ -13,6 +13,8 @@
 #include "core/haptics/servo_tick.h"
 #include "core/scene/scene.h"
 #include "ui/camera_views.h"
+#include "ui/contact_glyphs.h"
+#include "ui/hand_ghost.h"
 #include "ui/lmd_overlay.h"
 #include "ui/scene_renderer.h"
 #include "ui/wrench_arrows.h"
@@ -21,7 +23,7 @@ namespace nearfit::ui {
 
 class ColourLegend;
 
-/// The 3-D view: the scene's parts, and over them the minima and the wrench of the newest servo snapshot.
+/// The 3-D view: the scene's parts, and over them what the newest servo snapshot tells.
 /// Draws only after a change. Left drag orbits, middle drag pans, wheel or right drag zooms, a click picks.
 class Viewport : public QVTKOpenGLNativeWidget {
   Q_OBJECT
@@ -35,7 +37,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
 
   void setScene(const Scene& scene);
   void setSelected(std::optional<PartId> part);
-  /// Shows the part in hand, its minima and its wrench; nothing is drawn when nothing of that has changed.
+  /// Shows the part in hand, where the hand wants it, its minima, contacts and wrench, and what it overlaps;
+  /// nothing is drawn when nothing of that has changed.
   void showSnapshot(const ServoSnapshot& snapshot);
   /// Back to the scene alone.
   void clearSnapshot();
@@ -45,6 +48,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void setSeeThrough(bool isSeeThrough);
   void setEdgesVisible(bool isVisible);
   void setMinimaVisible(bool isVisible);
+  void setContactsVisible(bool isVisible);
+  void setHandVisible(bool isVisible);
   void setWrenchVisible(bool isVisible);
 
   /// Pictures drawn since the start: tests check with it that an idle view stays idle.
@@ -70,13 +75,18 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void adjustClipping();
   void countPicture();
   void requestRender();
+  void showMovingPart();
+  void placeLegend();
   void pickAt(const QPoint& position);
 
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_, overlay_;
   vtkNew<vtkCameraOrientationWidget> marker_;
+  std::shared_ptr<PartShapeCache> shapes_;
   SceneRenderer parts_;
+  HandGhost hand_;
   LmdOverlay minima_;
+  ContactGlyphs contacts_;
   WrenchArrows arrows_;
   ColourLegend* legend_;
   std::unique_ptr<ServoSnapshot> shown_;

@@ -11,6 +11,13 @@ namespace {
 constexpr int kPollMs = 16;         ///< A look at the newest snapshot for each picture of a 60 Hz display.
 constexpr qint64 kMeasureMs = 500;  ///< Rate and percentiles are read this often.
 
+/// What counts for a hand: the manual one gives poses of the scene itself, already without what is locked.
+ServoParameters parametersFor(const Scene& scene, const HapticDevice& device, ui::Hand hand) {
+  ServoParameters parameters{scene.haptics(), device.info().limits};
+  if (hand == ui::Hand::Manual) parameters.haptics.mapping = {};
+  return parameters;
+}
+
 }  // namespace
 
 ServoController::ServoController(Session& session) : session_(session) {
@@ -31,7 +38,7 @@ void ServoController::start(ui::Hand hand) {
     auto servoScene = makeServoScene(scene);
     moving_ = servoScene->moving.id;
     auto device = makeHand(hand, *servoScene, scene.haptics().springs.cutoff);
-    loop_.start(*device, std::move(servoScene), {scene.haptics(), device->info().limits});
+    loop_.start(*device, std::move(servoScene), parametersFor(scene, *device, hand));
     device_ = std::move(device);
   } catch (...) {
     emit failed(ui::describe(tr("The part could not be taken in hand."), std::current_exception()));
@@ -40,6 +47,7 @@ void ServoController::start(ui::Hand hand) {
   status_ = {};
   status_.isRunning = true;
   status_.hand = hand;
+  status_.device = device_->info().limits;
   status_.nominalRate = 1.0 / ServoLoop::kPeriod;
   status_.scheduling = QString::fromStdString(loop_.schedulingNote());
   ticksMeasured_ = 0;
@@ -96,7 +104,7 @@ void ServoController::followSession() {
   }
   try {
     loop_.setScene(makeServoScene(scene));
-    loop_.setParameters({scene.haptics(), device_->info().limits});
+    loop_.setParameters(parametersFor(scene, *device_, status_.hand));
   } catch (...) {
     halt();
     emit failed(ui::describe(tr("The servo was stopped."), std::current_exception()));

@@ -62,6 +62,7 @@ struct ServoSnapshot {
   PartId moving{};
 
   HapticMode mode = HapticMode::Proxy;
+  double period = 0.0;                ///< Measured, that the coupling is reckoned with [s].
   CouplingState coupling;             ///< Proxy mode only, as all that follows but for the energy.
   double energyToHand = 0.0;          ///< Given to the hand since the start, less what came back [J].
   double proxyTime = 0.0;             ///< Of the tick, for the proxy without its queries [s].

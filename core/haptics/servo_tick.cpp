@@ -93,6 +93,7 @@ void ServoTick::run(const TrackedScene& tracked, const ServoParameters& paramete
   snapshot.handle = handle_.pose;
   snapshot.proxy = part_.pose;
   snapshot.centre = part_.pose.applyToPoint(scene.centreInPart);
+  snapshot.period = periodMeter_.period();
   snapshot.energyToHand = passivity_.energyToHand();
   snapshot.fault = fault_;
 }

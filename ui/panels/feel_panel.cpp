@@ -9,6 +9,8 @@
 #include <glm/geometric.hpp>
 
 #include "ui/format.h"
+#include "ui/hand_lead.h"
+#include "ui/panels/feel_notice.h"
 #include "ui/theme.h"
 
 namespace nearfit::ui {
@@ -22,49 +24,77 @@ QString muted() {
 
 }  // namespace
 
-FeelPanel::FeelPanel(QWidget* springsButton, QWidget* parent)
-    : QWidget(parent), hand_(new QComboBox(this)), startStop_(new QPushButton(this)) {
+FeelPanel::FeelPanel(QWidget* settingsButton, QWidget* parent)
+    : QWidget(parent),
+      hand_(new QComboBox(this)),
+      mode_(new QComboBox(this)),
+      startStop_(new QPushButton(this)),
+      notice_(new FeelNotice(this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(12, 10, 12, 12);
   layout->setSpacing(6);
-  hand_->setObjectName(QStringLiteral("hand"));
-  hand_->addItem(icon(QStringLiteral("hand")), tr("Scripted hand"), QVariant::fromValue(Hand::Scripted));
-  hand_->addItem(icon(QStringLiteral("rename")), tr("Manual: numbers and arrow keys"),
-                 QVariant::fromValue(Hand::Manual));
-  hand_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  hand_->setToolTip(tr("Who holds the moving part while the servo runs"));
-  startStop_->setObjectName(QStringLiteral("startStop"));
-  startStop_->setMinimumHeight(34);
-  startStop_->setIconSize(QSize(20, 20));
-  layout->addWidget(hand_);
-  layout->addWidget(startStop_);
-  layout->addWidget(springsButton);
-
-  addHeading(*layout, tr("Felt"));
-  force_ = addReadout(*layout, tr("Force"), QStringLiteral("force"));
-  torque_ = addReadout(*layout, tr("Torque"), QStringLiteral("torque"));
-  distance_ = addReadout(*layout, tr("Least distance"), QStringLiteral("distance"));
-  minima_ = addReadout(*layout, tr("Local minima"), QStringLiteral("minima"));
-  clamped_ = new QLabel(this);
-  clamped_->setWordWrap(true);
-  clamped_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kForce.name()));
-  layout->addWidget(clamped_);
-  addHeading(*layout, tr("Servo"));
-  rate_ = addReadout(*layout, tr("Rate"), QStringLiteral("rate"));
-  lateness_ = addReadout(*layout, tr("Lateness, p99"), QStringLiteral("lateness"));
-  tick_ = addReadout(*layout, tr("Tick, p99"), QStringLiteral("tick"));
-  overruns_ = addReadout(*layout, tr("Overruns"), QStringLiteral("overruns"));
-  scheduling_ = new QLabel(this);
-  scheduling_->setWordWrap(true);
-  scheduling_->setStyleSheet(muted());
-  layout->addWidget(scheduling_);
+  setUpChoices(*layout, settingsButton);
+  setUpReadouts(*layout);
   layout->addStretch(1);
 
   connect(startStop_, &QPushButton::clicked, this,
           [this] { emit(isRunning_ ? stopRequested() : startRequested()); });
   connect(hand_, QOverload<int>::of(&QComboBox::activated), this, &FeelPanel::handChanged);
+  connect(mode_, QOverload<int>::of(&QComboBox::activated), this,
+          [this] { emit modeRequested(mode_->currentData().value<FeelMode>()); });
+  connect(notice_, &FeelNotice::restartRequested, this, &FeelPanel::restartRequested);
   showStatus({});
   clearSnapshot();
+}
+
+void FeelPanel::setUpChoices(QVBoxLayout& layout, QWidget* settingsButton) {
+  hand_->setObjectName(QStringLiteral("hand"));
+  hand_->addItem(icon(QStringLiteral("hand")), tr("Scripted hand"), QVariant::fromValue(Hand::Scripted));
+  hand_->addItem(icon(QStringLiteral("rename")), tr("Manual: numbers and arrow keys"),
+                 QVariant::fromValue(Hand::Manual));
+  hand_->setToolTip(tr("Who holds the moving part while the servo runs"));
+  mode_->setObjectName(QStringLiteral("panelMode"));
+  mode_->setToolTip(tr("How contact feels; the settings explain it"));
+  addModes(*mode_);
+  for (QComboBox* box : {hand_, mode_})
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  startStop_->setObjectName(QStringLiteral("startStop"));
+  startStop_->setMinimumHeight(34);
+  startStop_->setIconSize(QSize(20, 20));
+  layout.addWidget(hand_);
+  layout.addWidget(mode_);
+  layout.addWidget(startStop_);
+  layout.addWidget(settingsButton);
+  layout.addWidget(notice_);
+}
+
+void FeelPanel::setUpReadouts(QVBoxLayout& layout) {
+  addHeading(layout, tr("Felt"));
+  force_ = addReadout(layout, tr("Force"), QStringLiteral("force"));
+  torque_ = addReadout(layout, tr("Torque"), QStringLiteral("torque"));
+  distance_ = addReadout(layout, tr("Least distance"), QStringLiteral("distance"));
+  minima_ = addReadout(layout, tr("Local minima"), QStringLiteral("minima"));
+  contacts_ = addReadout(layout, tr("Contacts"), QStringLiteral("contacts"));
+  contacts_->setToolTip(tr("Minima that hold the part"));
+  lead_ = addReadout(layout, tr("Hand ahead"), QStringLiteral("lead"));
+  lead_->setToolTip(tr("From the part to where the hand wants it"));
+  energy_ = addReadout(layout, tr("Energy to hand"), QStringLiteral("energy"));
+  energy_->setToolTip(tr("Given to the hand since the start, less what came back"));
+  clamped_ = new QLabel(this);
+  clamped_->setWordWrap(true);
+  clamped_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kForce.name()));
+  layout.addWidget(clamped_);
+  addHeading(layout, tr("Servo"));
+  rate_ = addReadout(layout, tr("Rate"), QStringLiteral("rate"));
+  lateness_ = addReadout(layout, tr("Lateness, p99"), QStringLiteral("lateness"));
+  tick_ = addReadout(layout, tr("Tick, p99"), QStringLiteral("tick"));
+  subSteps_ = addReadout(layout, tr("Sub-steps"), QStringLiteral("subSteps"));
+  subSteps_->setToolTip(tr("Steps of the proxy in a tick"));
+  overruns_ = addReadout(layout, tr("Overruns"), QStringLiteral("overruns"));
+  scheduling_ = new QLabel(this);
+  scheduling_->setWordWrap(true);
+  scheduling_->setStyleSheet(muted());
+  layout.addWidget(scheduling_);
 }
 
 void FeelPanel::addHeading(QVBoxLayout& layout, const QString& text) {
@@ -110,22 +140,34 @@ void FeelPanel::showStatus(const ServoStatus& status) {
   scheduling_->setText(status.scheduling);
 }
 
-void FeelPanel::showSnapshot(const ServoSnapshot& snapshot) {
+void FeelPanel::showMode(FeelMode mode) {
+  ui::showMode(*mode_, mode);
+}
+
+void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) {
   force_->setText(formatForce(glm::length(snapshot.wrench.force)));
   torque_->setText(formatTorque(glm::length(snapshot.wrench.torque)));
   distance_->setText(formatLength(snapshot.distance));
   minima_->setText(QString::number(snapshot.lmdCount) +
                    (snapshot.isTruncated ? QStringLiteral("+") : QString()));
-  QString note;
-  if (snapshot.isClamped) note = tr("Held at the device's limit.");
-  if (snapshot.fault != ServoFault::None) note = QString::fromUtf8(faultReason(snapshot.fault));
-  clamped_->setText(note);
+  energy_->setText(formatEnergy(snapshot.energyToHand));
+  clamped_->setText(snapshot.isClamped ? tr("Held at the device's limit.") : QString());
+  notice_->showSnapshot(snapshot, scene);
+  showProxy(snapshot);
+}
+
+void FeelPanel::showProxy(const ServoSnapshot& snapshot) {
+  const bool isProxy = snapshot.mode == HapticMode::Proxy;
+  contacts_->setText(isProxy ? QString::number(snapshot.contactCount) : kNothing);
+  lead_->setText(isProxy ? formatLead(handLeadOf(snapshot)) : kNothing);
+  subSteps_->setText(isProxy ? QString::number(snapshot.subSteps) : kNothing);
 }
 
 void FeelPanel::clearSnapshot() {
-  for (QLabel* label : {force_, torque_, distance_, minima_})
+  for (QLabel* label : {force_, torque_, distance_, minima_, contacts_, lead_, energy_, subSteps_})
     label->setText(kNothing);
   clamped_->clear();
+  notice_->clear();
 }
 
 }  // namespace nearfit::ui

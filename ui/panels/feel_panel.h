@@ -2,7 +2,8 @@
 
 #include <QWidget>
 
-#include "core/haptics/servo_tick.h"
+#include "core/haptics/servo_snapshot.h"
+#include "ui/feel_mode.h"
 #include "ui/servo_status.h"
 
 class QComboBox;
@@ -12,33 +13,44 @@ class QVBoxLayout;
 
 namespace nearfit::ui {
 
-/// Start and stop of the servo, whose hand it is, and what is felt: wrench, minima and timing in numbers.
+class FeelNotice;
+
+/// Start and stop of the servo, whose hand it is, the mode, and what is felt: wrench, minima, contact and
+/// timing in numbers.
 class FeelPanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// @param springsButton  Opens the springs; becomes part of this panel.
-  explicit FeelPanel(QWidget* springsButton, QWidget* parent = nullptr);
+  /// @param settingsButton  Opens the settings; becomes part of this panel.
+  explicit FeelPanel(QWidget* settingsButton, QWidget* parent = nullptr);
 
   Hand hand() const;
   void setStartable(bool isStartable);
   void showStatus(const ServoStatus& status);
-  void showSnapshot(const ServoSnapshot& snapshot);
+  void showMode(FeelMode mode);
+  /// @param scene  For the names of the parts.
+  void showSnapshot(const ServoSnapshot& snapshot, const Scene& scene);
   void clearSnapshot();
 
  signals:
   void startRequested();
   void stopRequested();
+  void restartRequested();
   void handChanged();
+  void modeRequested(nearfit::ui::FeelMode mode);
 
  private:
+  void setUpChoices(QVBoxLayout& layout, QWidget* settingsButton);
+  void setUpReadouts(QVBoxLayout& layout);
+  void showProxy(const ServoSnapshot& snapshot);
   QLabel* addReadout(QVBoxLayout& layout, const QString& name, const QString& objectName);
   void addHeading(QVBoxLayout& layout, const QString& text);
 
-  QComboBox* hand_;
+  QComboBox *hand_, *mode_;
   QPushButton* startStop_;
-  QLabel *force_, *torque_, *distance_, *minima_, *clamped_;
-  QLabel *rate_, *lateness_, *tick_, *overruns_, *scheduling_;
+  FeelNotice* notice_;
+  QLabel *force_, *torque_, *distance_, *minima_, *contacts_, *lead_, *energy_, *clamped_;
+  QLabel *rate_, *lateness_, *tick_, *subSteps_, *overruns_, *scheduling_;
   bool isRunning_ = false, isStartable_ = false;
 };
 

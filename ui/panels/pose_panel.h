@@ -7,13 +7,19 @@
 
 #include "core/math/rigid_transform.h"
 
-class QDoubleSpinBox;
+class QGridLayout;
 class QLabel;
+
+namespace nearfit {
+struct Part;
+}
 
 namespace nearfit::ui {
 
+class NumberField;
+
 /// The pose of one part in numbers: position in millimetres, rotation as angles about the fixed axes x, y, z
-/// in degrees. Numbers that the user leaves alone stay exactly what they were.
+/// in degrees; and its density. Numbers that the user leaves alone stay exactly what they were.
 class PosePanel : public QWidget {
   Q_OBJECT
 
@@ -22,29 +28,40 @@ class PosePanel : public QWidget {
 
   /// @param name  Of the part, for the heading; empty when no part is chosen, then nothing can be edited.
   void showPart(const QString& name, bool isEditable);
-  void showPose(const RigidTransform& worldFromPart);
+  void showPose(const RigidTransform& worldFromPart) { showPose(worldFromPart, worldFromPart); }
+  /// For a part that stays behind the hand: the numbers are the part's. One that is typed becomes the hand's,
+  /// a step moves the hand on from where it is, and the rest of the hand's pose stays.
+  void showPose(const RigidTransform& worldFromPart, const RigidTransform& worldFromHand);
+  /// Density and mass of the part; null when none is chosen.
+  void showMass(const Part* part);
   /// Takes over a number that is still being typed, as leaving its field does.
   void commit();
   /// How far an arrow key moves a part [m].
   double step() const;
 
  signals:
+  /// Of the part, or of the hand that holds it.
   void poseEdited(const nearfit::RigidTransform& worldFromPart);
+  /// [kg/m^3]
+  void densityEdited(double density);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  QDoubleSpinBox* makeField(const QString& name, double limit, int decimals, const QString& suffix,
-                            double step);
+  void setUpPose(QGridLayout& layout);
+  void setUpMass(QGridLayout& layout);
+  NumberField* makeField(const QString& name, double limit, int decimals, const QString& suffix, double step);
   void edit(int field);
   void refresh();
 
   QLabel* heading_;
-  std::array<QDoubleSpinBox*, 6> fields_{};
-  QDoubleSpinBox* step_ = nullptr;
-  RigidTransform pose_;
-  glm::dvec3 angles_{0.0};  ///< Of pose_ [rad].
+  std::array<NumberField*, 6> fields_{};
+  NumberField *step_ = nullptr, *density_ = nullptr;
+  QLabel* mass_ = nullptr;
+  RigidTransform pose_, hand_;
+  glm::dvec3 handAngles_{0.0};     ///< Of hand_ [rad].
+  std::array<double, 6> shown_{};  ///< What stands in the fields, in their units.
 };
 
 }  // namespace nearfit::ui

@@ -22,6 +22,13 @@ void startWith(DesktopDriver& d, ui::Hand hand) {
   QTRY_VERIFY(d.application.servo().isRunning());
 }
 
+/// The moving part goes where the hand is, and each minimum pushes: what the tests of springs are about.
+void useSprings(DesktopDriver& d) {
+  HapticSettings settings = d.session().scene().haptics();
+  settings.mode = HapticMode::Springs;
+  d.session().setHaptics(settings);
+}
+
 }  // namespace
 
 class DesktopServoTest : public QObject {
@@ -33,7 +40,7 @@ class DesktopServoTest : public QObject {
   void showsTheOneMinimumBetweenTwoFaces();
   void rateCountsTheTicksOfTheServosOwnTime();
   void manualHandFollowsKeysAndNumbers();
-  void scriptedHandClosesThreeQuartersOfTheGap();
+  void scriptedHandClosesThreeQuartersOfTheGapOfSprings();
   void stoppingIsOneStepOfUndo();
   void springsChangeWhileItRuns();
   void partsComeAndGoWhileItRuns();
@@ -73,12 +80,13 @@ void DesktopServoTest::hierarchiesAreBuiltInTheBackgroundBeforeItStarts() {
 void DesktopServoTest::showsTheOneMinimumBetweenTwoFaces() {
   DesktopDriver d;
   d.addCubes();
+  useSprings(d);
   QCOMPARE(d.text("statusRate"), QStringLiteral("Servo off"));
   startWith(d, ui::Hand::Manual);
   QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
   QCOMPARE(d.text("statusDistance"), QStringLiteral("Least distance 5.00 mm"));
-  // 200 N/m over the 5 mm that are left to the cutoff of 10 mm.
-  QCOMPARE(d.text("force"), QStringLiteral("1.00 N"));
+  // 200 N/m over the 5 mm that are left to the cutoff of 10 mm, once the force has been let in.
+  QTRY_COMPARE(d.text("force"), QStringLiteral("1.00 N"));
   QTRY_VERIFY(d.text("statusRate").startsWith(QStringLiteral("Servo ")) &&
               d.text("statusRate") != "Servo 0 Hz");
   QVERIFY(d.text("statusLateness").contains(QStringLiteral("p99")));
@@ -130,9 +138,10 @@ void DesktopServoTest::manualHandFollowsKeysAndNumbers() {
   QVERIFY(std::abs(d.part("moving").worldFromPart.translation.z - 0.001) < 1e-12);
 }
 
-void DesktopServoTest::scriptedHandClosesThreeQuartersOfTheGap() {
+void DesktopServoTest::scriptedHandClosesThreeQuartersOfTheGapOfSprings() {
   DesktopDriver d;
   d.addCubes();
+  useSprings(d);
   double least = 1.0;
   connect(&d.application.servo(), &desktop::ServoController::snapshotArrived, this,
           [&](const ServoSnapshot& snapshot) { least = std::min(least, snapshot.distance); });
@@ -161,19 +170,21 @@ void DesktopServoTest::stoppingIsOneStepOfUndo() {
 void DesktopServoTest::springsChangeWhileItRuns() {
   DesktopDriver d;
   d.addCubes();
+  useSprings(d);
   startWith(d, ui::Hand::Manual);
   QTRY_COMPARE(d.text("force"), QStringLiteral("1.00 N"));
-  QTest::mouseClick(d.widget<QPushButton>("springsButton"), Qt::LeftButton);
-  QVERIFY(d.widget<QDialog>("springDialog")->isVisible());
+  QTest::mouseClick(d.widget<QPushButton>("settingsButton"), Qt::LeftButton);
+  QVERIFY(d.widget<QDialog>("feelDialog")->isVisible());
   d.type<QDoubleSpinBox>("stiffness", "400");
   QTRY_COMPARE(d.text("force"), QStringLiteral("2.00 N"));
   d.type<QDoubleSpinBox>("cutoff", "7");
   // 400 N/m over 2 mm.
   QTRY_COMPARE(d.text("force"), QStringLiteral("0.80 N"));
-  auto* law = d.widget<QComboBox>("law");
-  law->setFocus();
-  QTest::keyClick(law, Qt::Key_Down);
-  QTRY_COMPARE(d.text("force"), QStringLiteral("0.00 N"));
+  auto* mode = d.widget<QComboBox>("mode");
+  mode->setFocus();
+  QTest::keyClick(mode, Qt::Key_Down);
+  // The greatest push, 400 N/m over 7 mm, is now at half the cutoff: k (c - d) d = 4 * 2.8 * 2/7 * 5/7 N.
+  QTRY_COMPARE(d.text("force"), QStringLiteral("2.29 N"));
   QCOMPARE(d.session().scene().haptics().springs.law, SpringLaw::Printed);
   d.session().undo();
   QTRY_COMPARE(d.text("force"), QStringLiteral("0.80 N"));

@@ -1,0 +1,160 @@
+#include "ui/dialogs/feel_dialog.h"
+
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QStackedWidget>
+#include <QTabWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "core/scene/haptic_limits.h"
+#include "ui/dialogs/feel_pages.h"
+#include "ui/feel_mode.h"
+#include "ui/number_field.h"
+#include "ui/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+constexpr double kMillimetresPerMetre = 1e3;
+
+/// The one number that counts in every mode.
+class CutoffPage : public FeelPage {
+ public:
+  explicit CutoffPage(QWidget* parent) : FeelPage(parent) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(
+        addNumber({"cutoff", tr("Minima are looked for up to this distance; also the rest length of springs"),
+                   tr(" mm"), kMinCutoff, kMaxCutoff, kMillimetresPerMetre, 4},
+                  [](HapticSettings& s) -> double& { return s.springs.cutoff; }));
+  }
+};
+
+}  // namespace
+
+FeelDialog::FeelDialog(QWidget* parent)
+    : QDialog(parent),
+      contact_(new QStackedWidget(this)),
+      proxy_(new ProxyPage(this)),
+      springs_(new SpringPage(this)),
+      weight_(new WeightPage(this)),
+      workspace_(new WorkspacePage(this)) {
+  setObjectName(QStringLiteral("feelDialog"));
+  setWindowTitle(tr("Feel settings"));
+  QWidget* head = makeHead();
+  contact_->addWidget(proxy_);
+  contact_->addWidget(springs_);
+  auto* tabs = new QTabWidget(this);
+  tabs->setObjectName(QStringLiteral("feelTabs"));
+  tabs->addTab(contact_, tr("Contact"));
+  tabs->addTab(weight_, tr("Weight"));
+  tabs->addTab(workspace_, tr("Workspace"));
+  refusal_ = new QLabel(this);
+  refusal_->setObjectName(QStringLiteral("refusal"));
+  refusal_->setWordWrap(true);
+  refusal_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kWarning.name()));
+  refusal_->hide();
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(head);
+  layout->addWidget(tabs, 1);
+  layout->addWidget(refusal_);
+  layout->addWidget(buttons);
+
+  for (FeelPage* page : {cutoff_, static_cast<FeelPage*>(proxy_), static_cast<FeelPage*>(springs_),
+                         static_cast<FeelPage*>(weight_), static_cast<FeelPage*>(workspace_)})
+    connect(page, &FeelPage::edited, this, &FeelDialog::edit);
+  connect(mode_, QOverload<int>::of(&QComboBox::activated), this,
+          [this] { edit(withMode(settings_, mode_->currentData().value<FeelMode>())); });
+  showScene({});
+}
+
+QWidget* FeelDialog::makeHead() {
+  auto* head = new QWidget(this);
+  mode_ = new QComboBox(head);
+  mode_->setObjectName(QStringLiteral("mode"));
+  addModes(*mode_);
+  explanation_ = new QLabel(head);
+  explanation_->setWordWrap(true);
+  constexpr int kLines = 3;
+  explanation_->setMinimumHeight(kLines * explanation_->fontMetrics().lineSpacing());
+  explanation_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  explanation_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
+  cutoff_ = new CutoffPage(head);
+  auto* form = new QFormLayout(head);
+  form->setContentsMargins(0, 0, 0, 0);
+  form->addRow(tr("Mode"), mode_);
+  form->addRow(explanation_);
+  form->addRow(tr("Cutoff"), cutoff_);
+  return head;
+}
+
+void FeelDialog::edit(const HapticSettings& settings) {
+  settings_ = settings;
+  refresh();
+  emit settingsEdited(settings);
+}
+
+void FeelDialog::showScene(const Scene& scene) {
+  settings_ = scene.haptics();
+  showMovingPart(scene);
+  refresh();
+}
+
+void FeelDialog::refresh() {
+  const FeelMode mode = feelModeOf(settings_);
+  showMode(*mode_, mode);
+  explanation_->setText(explanationOf(mode));
+  for (FeelPage* page : {cutoff_, static_cast<FeelPage*>(proxy_), static_cast<FeelPage*>(springs_),
+                         static_cast<FeelPage*>(weight_), static_cast<FeelPage*>(workspace_)})
+    page->showSettings(settings_);
+  contact_->setCurrentWidget(mode == FeelMode::Proxy ? static_cast<QWidget*>(proxy_) : springs_);
+}
+
+void FeelDialog::showMovingPart(const Scene& scene) {
+  const Part* part = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
+  weight_->showMass(part != nullptr ? QString::fromStdString(part->name) : QString(),
+                    part != nullptr ? massOf(*part) : 0.0);
+  const PartGeometryPtr geometry = part != nullptr ? part->geometry : nullptr;
+  if (geometry == moving_) return;
+  moving_ = geometry;
+  basis_.metric = geometry != nullptr ? massMetric(geometry->mass, geometry->mesh) : MassMetric{};
+  proxy_->showBasis(basis_);
+}
+
+void FeelDialog::showRefusal(const QString& why) {
+  refusal_->setText(why);
+  refusal_->setVisible(!why.isEmpty());
+  growToContent();
+}
+
+void FeelDialog::growToContent() {
+  layout()->activate();
+  resize(width(), std::max(height(), layout()->totalHeightForWidth(width())));
+}
+
+void FeelDialog::setDevice(const DeviceLimits& limits) {
+  basis_.device = limits;
+  proxy_->showBasis(basis_);
+}
+
+void FeelDialog::showSnapshot(const ServoSnapshot& snapshot) {
+  basis_.period = snapshot.period;
+  basis_.inForce.reset();
+  if (snapshot.mode == HapticMode::Proxy && snapshot.fault == ServoFault::None)
+    basis_.inForce = snapshot.coupling;
+  if (isVisible()) proxy_->showBasis(basis_);
+}
+
+void FeelDialog::clearSnapshot() {
+  const CouplingBasis usual;
+  basis_.period = usual.period;
+  basis_.inForce.reset();
+  proxy_->showBasis(basis_);
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <QDialog>
+
+#include "core/haptics/servo_snapshot.h"
+#include "ui/dialogs/proxy_page.h"
+
+class QComboBox;
+class QLabel;
+class QStackedWidget;
+
+namespace nearfit::ui {
+
+class SpringPage;
+class WeightPage;
+class WorkspacePage;
+
+/// How contact feels: mode, the mode's own numbers, weight, and the device's way into the scene. Each change
+/// counts at once; undo takes it back. Stays open beside the window.
+class FeelDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  explicit FeelDialog(QWidget* parent = nullptr);
+
+  /// The scene's settings, and what belongs to its moving part.
+  void showScene(const Scene& scene);
+  /// Says why a change was refused; empty when the last one was not.
+  void showRefusal(const QString& why);
+  /// Of the device in hand, or of the usual one.
+  void setDevice(const DeviceLimits& limits);
+  void showSnapshot(const ServoSnapshot& snapshot);
+  void clearSnapshot();
+
+ signals:
+  void settingsEdited(const nearfit::HapticSettings& settings);
+
+ private:
+  QWidget* makeHead();
+  void edit(const HapticSettings& settings);
+  void refresh();
+  /// Texts that wrap may need more room than the dialog has.
+  void growToContent();
+  void showMovingPart(const Scene& scene);
+
+  HapticSettings settings_;
+  CouplingBasis basis_;
+  PartGeometryPtr moving_;
+  QComboBox* mode_;
+  QLabel *explanation_, *refusal_;
+  FeelPage* cutoff_;
+  QStackedWidget* contact_;
+  ProxyPage* proxy_;
+  SpringPage* springs_;
+  WeightPage* weight_;
+  WorkspacePage* workspace_;
+};
+
+}  // namespace nearfit::ui

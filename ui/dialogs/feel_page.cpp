@@ -1,0 +1,79 @@
+#include "ui/dialogs/feel_page.h"
+
+#include <QCheckBox>
+#include <QLabel>
+#include <QSignalBlocker>
+
+#include "ui/format.h"
+#include "ui/number_field.h"
+#include "ui/theme.h"
+
+namespace nearfit::ui {
+
+QString limitsText(double lower, double upper, const QString& unit) {
+  return QObject::tr("From %1 to %2%3").arg(formatNumber(lower), formatNumber(upper), unit);
+}
+
+void FeelPage::showSettings(const HapticSettings& settings) {
+  if (hasShown_ && settings == settings_) return;
+  hasShown_ = true;
+  settings_ = settings;
+  for (const auto& show : showers_)
+    show();
+  refresh();
+}
+
+void FeelPage::change(const HapticSettings& next) {
+  settings_ = next;
+  refresh();
+  emit edited(next);
+}
+
+NumberField* FeelPage::addNumber(const Number& number, const NumberOf& valueOf) {
+  auto* field = new NumberField(this);
+  field->setObjectName(QLatin1String(number.name));
+  field->setTrimmed(true);
+  field->setDecimals(number.decimals);
+  field->setRange(number.lower * number.shownPerUnit, number.upper * number.shownPerUnit);
+  field->setSuffix(number.unit);
+  field->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  field->setToolTip(number.toolTip + QChar('\n') +
+                    limitsText(field->minimum(), field->maximum(), number.unit));
+  const double scale = number.shownPerUnit;
+  connect(field, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [=, this](double value) {
+    HapticSettings next = settings_;
+    valueOf(next) = value / scale;
+    change(next);
+  });
+  showers_.emplace_back([=, this] {
+    const QSignalBlocker blocker(field);
+    field->setValue(valueOf(settings_) * scale);
+  });
+  return field;
+}
+
+QCheckBox* FeelPage::addSwitch(const char* name, const QString& text, const QString& toolTip,
+                               const SwitchOf& valueOf) {
+  auto* box = new QCheckBox(text, this);
+  box->setObjectName(QLatin1String(name));
+  box->setToolTip(toolTip);
+  connect(box, &QCheckBox::toggled, this, [=, this](bool isOn) {
+    HapticSettings next = settings_;
+    valueOf(next) = isOn;
+    change(next);
+  });
+  showers_.emplace_back([=, this] {
+    const QSignalBlocker blocker(box);
+    box->setChecked(valueOf(settings_));
+  });
+  return box;
+}
+
+QLabel* FeelPage::addNote() {
+  auto* note = new QLabel(this);
+  note->setWordWrap(true);
+  note->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
+  return note;
+}
+
+}  // namespace nearfit::ui

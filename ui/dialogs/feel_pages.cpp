@@ -1,0 +1,173 @@
+#include "ui/dialogs/feel_pages.h"
+
+#include <QCheckBox>
+#include <QFormLayout>
+#include <QGridLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <numbers>
+
+#include "core/math/euler_angles.h"
+#include "core/scene/haptic_limits.h"
+#include "ui/format.h"
+#include "ui/number_field.h"
+
+namespace nearfit::ui {
+namespace {
+
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+const QStringList kAxes = {QStringLiteral("X"), QStringLiteral("Y"), QStringLiteral("Z")};
+
+/// A row of three fields, one for each axis, with their names before them.
+QHBoxLayout* axisRow(const std::array<NumberField*, 3>& fields) {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(4);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    row->addWidget(new QLabel(kAxes[static_cast<int>(axis)]));
+    row->addWidget(fields[axis], 1);
+    if (axis < 2) row->addSpacing(6);
+  }
+  return row;
+}
+
+}  // namespace
+
+SpringPage::SpringPage(QWidget* parent) : FeelPage(parent) {
+  const auto stiffness = [](HapticSettings& s) -> double& { return s.springs.stiffness; };
+  const QString toolTip = tr("How hard each spring pushes");
+  linear_ = addNumber({"stiffness", toolTip, tr(" N/m"), kMinStiffness, kMaxStiffness}, stiffness);
+  printed_ =
+      addNumber({"printedStiffness", toolTip, tr(" N/m²"), kMinStiffness, kMaxPrintedStiffness}, stiffness);
+  NumberField* damping = addNumber({"damping", tr("Resistance to approach along each minimum; never pulls"),
+                                    tr(" N·s/m"), kMinDamping, kMaxDamping},
+                                   [](HapticSettings& s) -> double& { return s.springs.damping; });
+  linearLabel_ = new QLabel(tr("Stiffness"), this);
+  printedLabel_ = new QLabel(tr("Stiffness"), this);
+  auto* form = new QFormLayout(this);
+  form->addRow(linearLabel_, linear_);
+  form->addRow(printedLabel_, printed_);
+  form->addRow(tr("Damping"), damping);
+}
+
+void SpringPage::refresh() {
+  const bool isLinear = settings().springs.law == SpringLaw::Linear;
+  for (QWidget* widget : {static_cast<QWidget*>(linear_), static_cast<QWidget*>(linearLabel_)})
+    widget->setVisible(isLinear);
+  for (QWidget* widget : {static_cast<QWidget*>(printed_), static_cast<QWidget*>(printedLabel_)})
+    widget->setVisible(!isLinear);
+}
+
+WeightPage::WeightPage(QWidget* parent) : FeelPage(parent) {
+  QCheckBox* weight = addSwitch("weight", tr("Weight: the part hangs in the hand"),
+                                tr("What the device cannot hold is left out"),
+                                [](HapticSettings& s) -> bool& { return s.weight.hasWeight; });
+  inertia_ = addSwitch("inertia", tr("Inertia: the part resists being accelerated"),
+                       tr("In the proxy mode alone: springs leave the part where the hand is"),
+                       [](HapticSettings& s) -> bool& { return s.weight.hasInertia; });
+  std::array<NumberField*, 3> gravity{};
+  const char* names[3] = {"gravityX", "gravityY", "gravityZ"};
+  for (int axis = 0; axis < 3; ++axis) {
+    gravity[static_cast<std::size_t>(axis)] =
+        addNumber({names[axis],
+                   tr("Gravity along the world's %1; its length may be up to %2 m/s²")
+                       .arg(kAxes[axis], formatNumber(kMaxGravity)),
+                   {},
+                   -kMaxGravity,
+                   kMaxGravity,
+                   1.0,
+                   5},
+                  [axis](HapticSettings& s) -> double& { return s.weight.gravity[axis]; });
+  }
+  mass_ = addNote();
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(weight);
+  layout->addWidget(inertia_);
+  layout->addSpacing(6);
+  layout->addWidget(new QLabel(tr("Gravity [m/s²]"), this));
+  layout->addLayout(axisRow(gravity));
+  layout->addSpacing(6);
+  layout->addWidget(mass_);
+  layout->addStretch(1);
+}
+
+void WeightPage::refresh() {
+  inertia_->setEnabled(settings().mode == HapticMode::Proxy);
+}
+
+void WeightPage::showMass(const QString& name, double mass) {
+  mass_->setText(
+      name.isEmpty()
+          ? tr("No part is in hand.")
+          : tr("%1 has a mass of %2; its density is set in the pose panel.").arg(name, formatMass(mass)));
+}
+
+WorkspacePage::WorkspacePage(QWidget* parent) : FeelPage(parent) {
+  NumberField* scale =
+      addNumber({"scale", tr("Metres in the scene to a metre of the device"), tr(" ×"), kMinScale, kMaxScale},
+                [](HapticSettings& s) -> double& { return s.mapping.scale; });
+  const char* names[3] = {"orientationX", "orientationY", "orientationZ"};
+  for (int axis = 0; axis < 3; ++axis) {
+    auto* field = new NumberField(this);
+    field->setObjectName(QLatin1String(names[axis]));
+    field->setTrimmed(true);
+    field->setRange(-360.0, 360.0);
+    field->setSuffix(QString(QChar(0xB0)));
+    field->setToolTip(tr("Turns the device's frame into the world's: about the fixed axes x, y, z in turn"));
+    connect(field, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+            [this, axis](double degrees) { turn(axis, degrees); });
+    angleFields_[static_cast<std::size_t>(axis)] = field;
+  }
+
+  auto* locks = new QGridLayout;
+  locks->setHorizontalSpacing(18);
+  locks->addWidget(new QLabel(tr("Moves along"), this), 0, 0);
+  locks->addWidget(new QLabel(tr("Turns about"), this), 1, 0);
+  const char* lockNames[6] = {"lockX", "lockY", "lockZ", "lockRx", "lockRy", "lockRz"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const QString name = kAxes[static_cast<int>(axis)];
+    QCheckBox* move =
+        addSwitch(lockNames[axis], name, tr("The hand stays where it is along %1").arg(name),
+                  [axis](HapticSettings& s) -> bool& { return s.mapping.translationLocks[axis]; });
+    QCheckBox* turn = addSwitch(lockNames[axis + 3], name, tr("The hand does not turn about %1").arg(name),
+                                [axis](HapticSettings& s) -> bool& { return s.mapping.rotationLocks[axis]; });
+    locks->addWidget(move, 0, static_cast<int>(axis) + 1);
+    locks->addWidget(turn, 1, static_cast<int>(axis) + 1);
+  }
+  locks->setColumnStretch(4, 1);
+
+  QLabel* note = addNote();
+  note->setText(tr("The manual hand takes numbers of the scene itself: for it only the locks count."));
+  auto* scaleRow = new QFormLayout;
+  scaleRow->addRow(tr("Scale"), scale);
+  auto* layout = new QVBoxLayout(this);
+  layout->addLayout(scaleRow);
+  layout->addWidget(new QLabel(tr("Orientation of the device"), this));
+  layout->addLayout(axisRow(angleFields_));
+  layout->addSpacing(6);
+  layout->addWidget(new QLabel(tr("Locked axes of the world"), this));
+  layout->addLayout(locks);
+  layout->addSpacing(6);
+  layout->addWidget(note);
+  layout->addStretch(1);
+}
+
+void WorkspacePage::turn(int axis, double degrees) {
+  angles_[axis] = degrees / kDegreesPerRadian;
+  HapticSettings next = settings();
+  next.mapping.orientationOffset = rotationFromEulerAngles(angles_);
+  change(next);
+}
+
+void WorkspacePage::refresh() {
+  // Angles that were typed stay, also where others turn the same way.
+  if (rotationFromEulerAngles(angles_) != settings().mapping.orientationOffset)
+    angles_ = eulerAnglesOf(settings().mapping.orientationOffset);
+  for (int axis = 0; axis < 3; ++axis) {
+    NumberField* field = angleFields_[static_cast<std::size_t>(axis)];
+    const QSignalBlocker blocker(field);
+    field->setValue(angles_[axis] * kDegreesPerRadian + 0.0);
+  }
+}
+
+}  // namespace nearfit::ui

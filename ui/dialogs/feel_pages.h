@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+
+#include <glm/vec3.hpp>
+
+#include "ui/dialogs/feel_page.h"
+
+class QCheckBox;
+class QLabel;
+
+namespace nearfit::ui {
+
+/// Stiffness and damping of the springs.
+class SpringPage : public FeelPage {
+  Q_OBJECT
+
+ public:
+  explicit SpringPage(QWidget* parent = nullptr);
+
+ protected:
+  void refresh() override;
+
+ private:
+  NumberField *linear_, *printed_;  ///< The stiffness has a unit and limits for each law.
+  QLabel *linearLabel_, *printedLabel_;
+};
+
+/// Weight and inertia, on request.
+class WeightPage : public FeelPage {
+  Q_OBJECT
+
+ public:
+  explicit WeightPage(QWidget* parent = nullptr);
+  /// @param name  Of the moving part; empty when there is none.
+  /// @param mass  [kg]
+  void showMass(const QString& name, double mass);
+
+ protected:
+  void refresh() override;
+
+ private:
+  QCheckBox* inertia_;
+  QLabel* mass_;
+};
+
+/// How the motion of a device becomes the hand's in the scene.
+class WorkspacePage : public FeelPage {
+  Q_OBJECT
+
+ public:
+  explicit WorkspacePage(QWidget* parent = nullptr);
+
+ protected:
+  void refresh() override;
+
+ private:
+  void turn(int axis, double degrees);
+
+  std::array<NumberField*, 3> angleFields_{};
+  glm::dvec3 angles_{0.0};  ///< Of the orientation offset [rad].
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,98 @@
+#include "ui/hand_ghost.h"
+
+#include <utility>
+
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+
+#include "ui/hand_lead.h"
+#include "ui/theme.h"
+#include "ui/vtk_convert.h"
+
+namespace nearfit::ui {
+namespace {
+
+constexpr double kOpacity = 0.2, kEdgeOpacity = 0.8;
+/// A lead smaller than this part of the size is not seen: two outlines would only flicker.
+constexpr double kLeastLead = 0.003;
+
+void setUp(vtkActor& actor, const QColor& colour, double opacity, float lineWidth) {
+  actor.PickableOff();
+  vtkProperty* property = actor.GetProperty();
+  property->SetColor(colour.redF(), colour.greenF(), colour.blueF());
+  property->SetOpacity(opacity);
+  property->SetLineWidth(lineWidth);
+}
+
+void setInput(vtkActor& actor, vtkPolyData* data) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->ScalarVisibilityOff();
+  actor.SetMapper(mapper);
+}
+
+}  // namespace
+
+HandGhost::HandGhost(vtkRenderer& parts, vtkRenderer& overlay) {
+  setUp(*surface_, colours::kHand, kOpacity, 1.0F);
+  setUp(*edges_, colours::kHand, kEdgeOpacity, 1.4F);
+  setUp(*halo_, Qt::white, 0.8, 5.0F);
+  setUp(*line_, colours::kHand, 1.0, 2.5F);
+  for (vtkActor* actor : {edges_.Get(), halo_.Get(), line_.Get()})
+    actor->GetProperty()->LightingOff();
+  for (vtkActor* actor : {surface_.Get(), edges_.Get()}) {
+    actor->SetUserMatrix(pose_);
+    parts.AddActor(actor);
+  }
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(lead_->GetOutputPort());
+  for (vtkActor* actor : {halo_.Get(), line_.Get()}) {
+    actor->SetMapper(mapper);
+    overlay.AddActor(actor);
+  }
+  applyVisibility();
+}
+
+void HandGhost::setShape(std::shared_ptr<const PartShape> shape) {
+  if (shape == shape_) return;
+  shape_ = std::move(shape);
+  if (shape_ != nullptr) {
+    setInput(*surface_, shape_->surface);
+    setInput(*edges_, shape_->edges);
+  }
+  applyVisibility();
+}
+
+void HandGhost::show(const ServoSnapshot& snapshot, double size) {
+  const HandLead lead = handLeadOf(snapshot);
+  isAhead_ = lead.distance + 0.5 * size * lead.angle > kLeastLead * size;
+  if (isAhead_) {
+    setMatrix(*pose_, snapshot.handle);
+    lead_->SetPoint1(lead.handCentre.x, lead.handCentre.y, lead.handCentre.z);
+    lead_->SetPoint2(snapshot.centre.x, snapshot.centre.y, snapshot.centre.z);
+  }
+  applyVisibility();
+}
+
+void HandGhost::clear() {
+  isAhead_ = false;
+  applyVisibility();
+}
+
+void HandGhost::setVisible(bool isVisible) {
+  isVisible_ = isVisible;
+  applyVisibility();
+}
+
+bool HandGhost::visibleBounds(double bounds[6]) const {
+  if (surface_->GetVisibility() == 0) return false;
+  surface_->GetBounds(bounds);
+  return true;
+}
+
+void HandGhost::applyVisibility() {
+  for (vtkActor* actor : {surface_.Get(), edges_.Get(), halo_.Get(), line_.Get()})
+    actor->SetVisibility(isVisible_ && isAhead_ && shape_ != nullptr);
+}
+
+}  // namespace nearfit::ui
