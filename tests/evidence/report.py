@@ -1,0 +1,120 @@
+"""Tables of what was found: text for the terminal, CSV and Markdown for keeping."""
+
+import csv
+import json
+import pathlib
+import platform
+import subprocess
+from dataclasses import dataclass
+
+import numpy as np
+
+import plots
+
+
+@dataclass
+class Result:
+    evidence: object
+    row: dict
+    findings: list
+    doubts: list
+
+    @property
+    def is_good(self):
+        return self.row["poses_met"] in (0, "") and all(f.is_met for f in self.findings)
+
+
+def revision(root):
+    def git(*words):
+        return subprocess.run(["git", "-C", str(root), *words], capture_output=True, text=True).stdout.strip()
+    return git("rev-parse", "--short", "HEAD") + (" with changes" if git("status", "--porcelain", "-uno") else "")
+
+
+def machine():
+    names = [line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
+    return f"{len(names)} cores of {names[0] if names else 'unknown'}, {platform.system()} {platform.release()}"
+
+
+def draw(evidence, recording, row, file):
+    met = "not certified" if row["poses_met"] == "" else (
+        f"{row['poses_met']} of {row['poses_certified']} poses meet the scene (exact predicates)")
+    subtitle = (f"{evidence.name}: margin {1e3 * evidence.margin:g} mm, cutoff {1e3 * evidence.cutoff:g} mm, "
+                f"{row['ticks']} ticks; {met}")
+    plots.draw(evidence, recording, subtitle, file)
+
+
+def number(value):
+    return str(value) if isinstance(value, (str, int)) else f"{value:.4g}"
+
+
+def text(result):
+    row = result.row
+    lines = [f"== {row['scene']}: {row['ticks']} ticks, met {row['poses_met']} of {row['poses_certified']}, "
+             f"least {row['least_distance_margins']:.3g} margins, shortened {row['ticks_shortened']}, refused "
+             f"{row['ticks_refused']}, tick p50 {row['tick_us_p50']:.1f} p99 {row['tick_us_p99']:.1f} us, proxy p50 "
+             f"{row['proxy_us_p50']:.1f}, noise at rest {row['rest_noise_N']:.2g} N {row['rest_noise_Nm']:.2g} N m"]
+    for f in result.findings:
+        lines.append(f"   {'ok ' if f.is_met else 'NOT'} {f.goal.text}: {f.value:.6g} "
+                     f"({f.goal.low:.6g} to {f.goal.high:.6g})")
+    kinds = {}
+    for what, tick, value in result.doubts:
+        kinds.setdefault(what, []).append((tick, value))
+    for what, hits in kinds.items():
+        worst = max(hits, key=lambda h: h[1])
+        lines.append(f"   ?   {what}: {len(hits)} times, first at {1e-3 * hits[0][0]:.3f} s, worst "
+                     f"{worst[1]:.3g} at {1e-3 * worst[0]:.3f} s")
+    return "\n".join(lines)
+
+
+def _merged(file, results):
+    """Rows that are kept of scenes that did not run this time."""
+    rows = {}
+    if file.exists():
+        with open(file, newline="") as old:
+            rows = {r["scene"]: r for r in csv.DictReader(line for line in old if not line.startswith("#"))}
+    rows.update({r.row["scene"]: {k: number(v) for k, v in r.row.items()} for r in results})
+    return rows
+
+
+def _goals(file, results):
+    kept = json.loads(file.read_text()) if file.exists() else {}
+    for r in results:
+        kept[r.row["scene"]] = [
+            {"what": f.goal.text, "value": float(f"{f.value:.6g}"), "met": bool(f.is_met)} for f in r.findings]
+    return kept
+
+
+def write(results, folder, programs):
+    from scenes import all_evidence
+    names = [e.name for e in all_evidence()]
+    rows = _merged(folder / "evidence.csv", results)
+    goals = _goals(folder / "goals.json", results)
+    order = [name for name in names if name in rows]
+    fields = list(results[0].row) if results else []
+    with open(folder / "evidence.csv", "w", newline="") as out:
+        out.write(f"# machine: {machine()}\n")
+        writer = csv.DictWriter(out, fields, extrasaction="ignore", restval="")
+        writer.writeheader()
+        writer.writerows(rows[name] for name in order)
+    (folder / "goals.json").write_text(json.dumps({n: goals[n] for n in order if n in goals}, indent=1) + "\n")
+    (folder / "README.md").write_text(markdown([rows[n] for n in order], goals, {e.name: e for e in all_evidence()}))
+
+
+def markdown(rows, goals, evidence):
+    lines = ["# What the proxy did", "",
+             "Written by `tests/evidence/run`, which says how; [../README.md](../README.md) tells what is shown.", "",
+             f"Machine: {machine()}. Revision and load (1 min) stand in [evidence.csv](evidence.csv), a row a scene.", "",
+             "| scene | ticks | poses that meet | margin [mm] | least distance [margins] | ticks shortened | refused | "
+             "noise at rest [N] | tick p50, p99 [us] | proxy p50, p99 [us] |",
+             "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"]
+    for r in rows:
+        lines.append(f"| [{r['scene']}]({r['scene']}.png) | {r['ticks']} | {r['poses_met']} of {r['poses_certified']} | "
+                     f"{1e3 * float(r['margin_m']):g} | {r['least_distance_margins']} | {r['ticks_shortened']} | "
+                     f"{r['ticks_refused']} | {r['rest_noise_N']} | {r['tick_us_p50']}, {r['tick_us_p99']} | "
+                     f"{r['proxy_us_p50']}, {r['proxy_us_p99']} |")
+    for r in rows:
+        lines += ["", f"## {evidence[r['scene']].title}", ""]
+        for goal in goals.get(r["scene"], []):
+            lines.append(f"- {'' if goal['met'] else '**not so:** '}{goal['what']}: {goal['value']:g}")
+        lines += ["", f"![{r['scene']}]({r['scene']}.png)"]
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,364 @@
+"""The scenes, their hands, and what must come of each.
+
+Poses and files are those of the shared models' README; lengths in metres, turns as axis times angle [rad].
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from paths import Hand, Home, adversary
+
+DEGREE = np.pi / 180
+NO_TURN = (0.0, 0.0, 0.0)
+
+
+@dataclass
+class Body:
+    name: str
+    file: str
+    metres_per_unit: float = 1.0
+    position: tuple = (0.0, 0.0, 0.0)
+    turn: tuple = NO_TURN
+
+
+@dataclass
+class Goal:
+    """A number that the recording must hold: see measures.py for how each kind is found."""
+    text: str
+    kind: str
+    phase: str
+    low: float = -np.inf
+    high: float = np.inf
+    axis: int = 2
+
+
+@dataclass
+class Evidence:
+    name: str
+    title: str
+    part: Body
+    others: list
+    margin: float
+    cutoff: float
+    hand: Hand
+    pivot: tuple = (0.0, 0.0, 0.0)  # In the part's coordinates, after scaling.
+    axis: int = 2                   # Of the world: what "twist" is about.
+    goals: list = field(default_factory=list)
+
+    @property
+    def home(self):
+        return Home(self.part.position, self.part.turn, self.pivot)
+
+
+HOLE_TOP = 0.009
+
+
+def _peg(name, title, peg, hole, margin, twist, shape):
+    """Home is the peg as drawn: through the hole, its lower end at z = 0."""
+    hand = Hand(shift=(0.003, -0.002, 0.016), turn=(3 * DEGREE, -2 * DEGREE, 3 * DEGREE))
+    hand.move("rim, off and tilted", 0.7, (0.003, -0.002, HOLE_TOP - 0.002))
+    hand.hold("still on the rim", 0.4)
+    hand.move("lifted, aligned", 0.5, (0.0, 0.0, HOLE_TOP + 0.0005), NO_TURN)
+    hand.move("slides in", 0.8, (0.0, 0.0, 0.0))
+    hand.hold("still inside", 0.3)
+    hand.wiggle("wiggles", 1.0, (0.001, 0.001, 0.0), (4 * DEGREE, 4 * DEGREE, 0), (3, 4, 3))
+    hand.move("pushed aside", 0.3, (0.003, 0.001, 0.0))
+    hand.hold("still aside", 0.4)
+    hand.glide("slides down aside", 0.3, (0.003, 0.001, -0.010))
+    hand.move("pushed other way", 0.3, (-0.003, -0.002, -0.010))
+    hand.move("twisted", 0.5, (0.0, 0.0, -0.010), (0, 0, twist))
+    hand.hold("still twisted", 0.3)
+    hand.move("back", 0.4, (0.0, 0.0, -0.010), NO_TURN)
+    hand.move("pulled out tilted", 0.8, (0.0005, 0.0, 0.016), (2 * DEGREE, 0, 0))
+    hand.hold("still outside", 0.3)
+    goals = [
+        Goal("rests on the rim, tilted", "end", "still on the rim", low=HOLE_TOP - 5e-4),
+        Goal("is inside", "end", "still inside", low=-1e-4, high=1e-4),
+        Goal("slides down with the hand while pushed aside: hand less part, axially", "lag", "slides down aside",
+             low=-5e-4, high=5e-4),
+        Goal("is out again, where the hand is: gap", "gap", "still outside", high=1e-6),
+    ]
+    turned = Goal("turns with the hand [rad]", "twist", "still twisted", low=twist - 0.02, high=twist + 0.02)
+    if shape == "rectangular":
+        turned = Goal("is kept from turning by the hole [rad]", "twist", "still twisted", high=0.2)
+    return Evidence(
+        name, title, Body("peg", f"peghole/{peg}.obj"), [Body("hole", f"peghole/{hole}.obj")], margin, 0.001,
+        hand, pivot=(0, 0, 0.025), goals=goals + [turned])
+
+
+def _peg_askew():
+    """Pressed while it is brought over the hole, an edge falls in first: it wedges, as pegs do, and must come free."""
+    hand = Hand(shift=(0.0006, -0.0004, 0.016), turn=(3 * DEGREE, -2 * DEGREE, 3 * DEGREE))
+    hand.move("rim, off and tilted", 0.7, (0.0006, -0.0004, HOLE_TOP - 0.002))
+    hand.move("aligned while pressed", 0.5, (0.0, 0.0, HOLE_TOP - 0.0015), NO_TURN)
+    hand.move("pressed", 0.6, (0.0, 0.0, 0.0))
+    hand.hold("still, pressed", 0.5)
+    hand.move("pressed askew", 0.6, (-0.003, -0.002, -0.010), (0, 0, 0.8))
+    hand.hold("still, askew", 0.5)
+    hand.move("pulled up", 0.6, (0.0, 0.0, 0.016), NO_TURN)
+    hand.hold("still outside", 0.3)
+    return Evidence(
+        "peg-askew", "Rectangular peg of 12 mm, pressed before it is aligned: wedges and comes free",
+        Body("peg", "peghole/factory_rectangular_peg_12mm_loose_subdiv_3x.obj"),
+        [Body("hole", "peghole/factory_rectangular_hole_12mm_subdiv_3x.obj")], 2e-5, 0.001, hand,
+        pivot=(0, 0, 0.025), goals=[Goal("comes free: gap", "gap", "still outside", high=1e-6)])
+
+
+def _pegs():
+    loose, tight = ("factory_rectangular_peg_12mm_loose_subdiv_3x", "factory_rectangular_peg_12mm_tight_subdiv_3x")
+    hole = "factory_rectangular_hole_12mm_subdiv_3x"
+    return [
+        _peg("peg-round", "Round peg of 16 mm in its hole, 0.26 mm gap", "factory_round_peg_16mm_loose",
+             "factory_round_hole_16mm_subdiv_3x", 5e-5, 0.8, "round"),
+        _peg("peg-rectangular-loose", "Rectangular peg of 12 mm, loose, gap about 0.1 mm", loose, hole, 2e-5, 0.8,
+             "rectangular"),
+        _peg("peg-rectangular-tight", "Rectangular peg of 12 mm, tight, gap about 0.07 mm", tight, hole, 1e-5, 0.8,
+             "rectangular"),
+        _peg_askew(),
+    ]
+
+
+NUT = Body("nut", "nutbolt/factory_nut_m16_loose_subdiv_3x.obj")
+BOLT = Body("bolt", "nutbolt/factory_bolt_m16_loose.obj")
+PITCH = 0.002
+
+
+def _nut_engaged():
+    """Home is the nut as drawn; 10 mm up it is engaged and free."""
+    def turns(n):
+        return (0, 0, 2 * np.pi * n)
+
+    hand = Hand(shift=(0, 0, 0.010))
+    hand.hold("still", 0.2)
+    hand.move("pushed 10 mm down", 0.5, (0, 0, 0.0))
+    hand.hold("still, pushed", 0.4)
+    hand.move("pulled 10 mm up", 0.6, (0, 0, 0.020))
+    hand.hold("still, pulled", 0.4)
+    hand.move("let go", 0.3, (0, 0, 0.010))
+    hand.glide("wound down 3 turns", 3.0, (0, 0, 0.010 - 3 * PITCH - 0.0003), turns(-3))
+    hand.hold("still, wound", 0.3)
+    hand.wiggle("wiggles", 0.8, (0.0015, 0.0015, 0.001), (3 * DEGREE, 3 * DEGREE, 0), (4, 5, 3))
+    hand.glide("wound up 2 turns", 2.0, (0, 0, 0.010 - PITCH + 0.0003), turns(-1))
+    hand.hold("still, wound up", 0.3)
+    return Evidence(
+        "nut-engaged", "M16 nut on its bolt: pushed, pulled, wound", NUT, [BOLT], 2e-5, 0.00015, hand,
+        pivot=(0, 0, 0.0225), goals=[
+            Goal("pushed axially it does not advance", "end", "still, pushed", low=0.0092, high=0.0101),
+            Goal("pulled axially it does not come off", "end", "still, pulled", low=0.0099, high=0.0108),
+            Goal("wound by 3 turns it advances by 6 mm", "end", "still, wound", low=0.0033, high=0.0042),
+            Goal("twist after 3 turns [rad]", "twist", "still, wound", low=-6.01 * np.pi, high=-5.99 * np.pi),
+            Goal("wound back by 2 turns it goes up by 4 mm", "end", "still, wound up", low=0.0078, high=0.0087),
+        ])
+
+
+def _nut_on():
+    """From off the bolt, tilted; found, wound on by five turns, off again."""
+    hand = Hand(shift=(0.0008, -0.0005, 0.028), turn=(2 * DEGREE, -1.5 * DEGREE, 0.0))
+    hand.move("onto the end, tilted", 0.6, (0.0008, -0.0005, 0.0235))
+    hand.move("aligned", 0.3, (0, 0, 0.0235), NO_TURN)
+    hand.hold("still on the end", 0.3)
+    hand.glide("wound on 5 turns", 4.0, (0, 0, 0.0235 - 4.5 * PITCH), (0, 0, -10 * np.pi))
+    hand.hold("still, wound on", 0.3)
+    hand.glide("wound off 6 turns", 4.0, (0, 0, 0.0280), (0, 0, 2 * np.pi))
+    hand.hold("still, off", 0.3)
+    return Evidence(
+        "nut-on", "M16 nut, from off the bolt: wound on and off", NUT, [BOLT], 2e-5, 0.00015, hand,
+        pivot=(0, 0, 0.0225), goals=[
+            Goal("rests on the bolt's end", "end", "still on the end", low=0.0235, high=0.0262),
+            Goal("winds in by the pitch: height by turn, over the last two turns [m]", "lead", "wound on 5 turns",
+                 low=0.97 * PITCH, high=1.03 * PITCH),
+            Goal("is off, where the hand is: gap", "gap", "still, off", high=1e-6),
+        ])
+
+
+def _gear():
+    """Home is the small gear as drawn, on its shaft and in mesh with the middle gear."""
+    hand = Hand(shift=(0.0008, 0.0005, 0.024), turn=(2 * DEGREE, -1.5 * DEGREE, 0.1))
+    hand.move("shaft's end, off and tilted", 0.6, (0.0003, 0.0003, 0.0185))
+    hand.hold("still on the end", 0.3)
+    hand.move("aligned", 0.4, (0, 0, 0.0185), (0, 0, 0.1))
+    hand.move("down to the teeth", 0.6, (0, 0, 0.0165), (0, 0, 0.1))
+    hand.hold("still on the teeth", 0.3)
+    hand.wiggle("searches", 1.0, (0.0002, 0.0002, 0), (0, 0, 0.3), (3, 4, 2))
+    hand.move("turned into mesh", 0.3, turn=NO_TURN)
+    hand.move("down", 1.0, (0, 0, -0.002))
+    hand.hold("still, seated", 0.4)
+    hand.wiggle("rocked between the flanks", 1.0, (0.0005, 0.0005, 0), (1 * DEGREE, 1 * DEGREE, 0.2), (3, 4, 2))
+    hand.move("turned hard", 0.3, turn=(0, 0, 0.5))
+    hand.hold("still, turned", 0.3)
+    hand.move("eased", 0.3, turn=NO_TURN)
+    hand.move("pulled off", 0.8, (0, 0, 0.024))
+    hand.hold("still, off", 0.3)
+    return Evidence(
+        "gear-base", "Small gear onto its shaft (13 um gap) and into mesh", Body(
+            "small gear", "gears/factory_gear_small_space_5e-4.obj"),
+        [Body("base", "gears/factory_gear_base_loose_space_5e-4_subdiv_4x.obj"),
+         Body("middle gear", "paper_counts/gear_6302.ply")], 5e-6, 0.00005, hand, pivot=(0.0505, 0, 0.015), goals=[
+            Goal("rests on the shaft's end", "end", "still on the end", low=0.0185),
+            Goal("is seated on the plate", "end", "still, seated", low=0.0, high=1e-4),
+            Goal("is kept from turning by the other gear [rad]", "twist", "still, turned", low=-0.1, high=0.1),
+            Goal("is off, where the hand is: gap", "gap", "still, off", high=1e-6),
+        ])
+
+
+PISTON_SCALE = 1e-4  # Of the millimetres that it is drawn in: a crank of 200 mm.
+
+
+def _piston_part(name, position=(0, 0, 0)):
+    return Body(name, f"piston/{name}.stl", PISTON_SCALE, position)
+
+
+def _piston_head():
+    """Home is the head as drawn; it comes along y, and the cylinder is open towards +y."""
+    hand = Hand(shift=(0.0020, 0.085, 0.0015), turn=(2 * DEGREE, 0, -2 * DEGREE))
+    hand.move("rim, off and tilted", 0.7, (0.0030, 0.073, 0.0025))
+    hand.hold("still on the rim", 0.4)
+    hand.move("aligned", 0.5, (0.0, 0.076, 0.0), NO_TURN)
+    hand.move("slides in", 1.0, (0.0, 0.0, 0.0))
+    hand.hold("still inside", 0.3)
+    hand.wiggle("wiggles", 1.0, (0.002, 0, 0.002), (3 * DEGREE, 0, 3 * DEGREE), (3, 4, 5))
+    hand.move("pushed aside", 0.3, (0.004, 0.0, 0.002))
+    hand.hold("still aside", 0.3)
+    hand.glide("slides aside at 0.5 m/s", 0.1, (0.004, 0.045, 0.002))
+    hand.glide("and back", 0.1, (0.004, 0.0, 0.002))
+    hand.move("twisted", 0.5, (0.0, 0.0, 0.0), (0, 1.5, 0))
+    hand.move("on to the other end", 0.6, (0.0, -0.070, 0.0), (0, 1.5, 0))
+    hand.hold("still at the other end", 0.3)
+    hand.move("pulled out", 0.9, (0.0, 0.085, 0.0), NO_TURN)
+    hand.hold("still outside", 0.3)
+    return Evidence(
+        "piston-head", "Piston head into its cylinder, 0.3 to 0.5 mm gap (at a tenth of its size)",
+        _piston_part("head"), [_piston_part("cylinder")], 5e-5, 0.002, hand, pivot=(0, -0.17, 0.023), axis=1, goals=[
+            Goal("rests on the rim", "end", "still on the rim", low=0.0745, axis=1),
+            Goal("is inside", "end", "still inside", low=-1e-4, high=1e-4, axis=1),
+            Goal("keeps up while sliding: hand less part, axially", "lag", "slides aside at 0.5 m/s", low=-2e-4,
+                 high=2e-4, axis=1),
+            Goal("turns with the hand [rad]", "twist", "twisted", low=1.48, high=1.52),
+            Goal("goes along with the hand to the other end", "end", "still at the other end", low=-0.0701, high=-0.0699,
+                 axis=1),
+            Goal("is out again, where the hand is: gap", "gap", "still outside", high=1e-6),
+        ])
+
+
+def _piston_cylinder():
+    """The cylinder in hand goes over the head, with rod and crank behind it: all four parts."""
+    hand = Hand(shift=(0.0008, -0.080, 0.0005), turn=(2 * DEGREE, 0, -2 * DEGREE))
+    hand.move("head, off and tilted", 0.6, (0.0012, -0.072, 0.0008))
+    hand.hold("still on the head", 0.3)
+    hand.move("aligned", 0.4, (0.0, -0.076, 0.0), NO_TURN)
+    hand.move("over the head", 1.0, (0.0, 0.0, 0.0))
+    hand.hold("still over it", 0.3)
+    hand.wiggle("wiggles", 1.0, (0.002, 0, 0.002), (3 * DEGREE, 0, 3 * DEGREE), (3, 4, 5))
+    hand.move("on towards the crank", 0.6, (0.001, 0.120, 0.001))
+    hand.hold("still on the crank", 0.3)
+    hand.move("pulled off", 1.0, (0.0, -0.080, 0.0))
+    hand.hold("still, off", 0.3)
+    return Evidence(
+        "piston-cylinder", "Cylinder over head, rod and crank (at a tenth of its size)", _piston_part("cylinder"),
+        [_piston_part("head"), _piston_part("connecting-rod"), _piston_part("crank")], 5e-5, 0.002, hand,
+        pivot=(0, -0.20, 0.023), axis=1, goals=[
+            Goal("rests on the head", "end", "still on the head", high=-0.0735, axis=1),
+            Goal("is over the head", "end", "still over it", low=-1e-4, high=1e-4, axis=1),
+            Goal("is off, where the hand is: gap", "gap", "still, off", high=1e-6),
+        ])
+
+
+# file, seated position, seated turn, approach, middle of the part in its own coordinates, how far beyond the seat it is
+# pressed
+ARIAC = {
+    "battery": ("battery_collision", (-0.15, 0.035, 0.043), (0, 0, np.pi / 2), (0, 1, 0), (0.001, 0, 0.02), 0.005),
+    "pump": ("pump_base", (0.14, 0, 0.02), (0, 0, -np.pi / 2), (0, 0, -1), (0, 0, 0.06), 0.012),
+    "sensor": ("sensor_collision", (-0.1, 0.395, 0.045), (0, 0, -np.pi / 2), (0, -1, 0), (0.005, 0.015, 0.035), 0.005),
+    "regulator": ("regulator_collision", (0.175, -0.223, 0.215), None, (0, 0, -1), (0.015, -0.0225, 0.035), 0.005),
+}
+
+
+def _roll_pitch_yaw(roll, pitch, yaw):
+    """Fixed axes x, y, z, as in URDF; as axis times angle."""
+    from paths import multiply, quaternion, rotation_vector
+    q = multiply(quaternion((0, 0, yaw)), multiply(quaternion((0, pitch, 0)), quaternion((roll, 0, 0))))
+    return tuple(rotation_vector(q)[0])
+
+
+def _ariac(name):
+    """Home is the seated pose. The part comes from 60 mm before it and is pressed in, then aside, then pulled."""
+    file, position, turn, approach, pivot, press = ARIAC[name]
+    turn = turn or _roll_pitch_yaw(np.pi / 2, 0, -np.pi / 2)
+    way = np.array(approach, float)
+    aside = np.roll(way, 1)
+    axis = int(np.argmax(np.abs(way)))
+    tilt = 3 * DEGREE * np.roll(way, 2)
+    hand = Hand(shift=-0.06 * way + 0.002 * aside, turn=tilt)
+    hand.move("comes, off and tilted", 0.8, -0.02 * way + 0.002 * aside)
+    hand.move("aligned", 0.4, -0.02 * way, NO_TURN)
+    hand.move("pressed in", 0.8, press * way)
+    hand.hold("still, pressed", 0.4)
+    hand.move("pushed aside", 0.3, press * way + press * aside)
+    hand.hold("still aside", 0.3)
+    hand.wiggle("wiggles", 1.0, 0.8 * press * (np.abs(aside) + np.roll(np.abs(aside), 1)), (0.05, 0.04, 0.03), (3, 4, 5))
+    hand.move("pulled out", 0.8, -0.06 * way, NO_TURN)
+    hand.hold("still outside", 0.3)
+    return Evidence(
+        f"ariac-{name}", f"ARIAC: {name} into the tray", Body(name, f"ariac/{file}.stl", 1.0, position, turn),
+        [Body("tray", "ariac/insert_collision.stl")], 1e-4, 0.003, hand, pivot=pivot, axis=axis, goals=[
+            Goal("is seated: along the approach, from the seated pose", "along", "still, pressed", low=-0.003,
+                 high=0.0065, axis=tuple(approach)),
+            Goal("is out again, where the hand is: gap", "gap", "still outside", high=1e-6),
+        ])
+
+
+PAIR_SIZE = 0.1  # Diagonal that the benchmark's bodies of diagonal 1 are given [m].
+
+
+def _pair(name, title, scene, part, seed, reach=0.06):
+    """Bodies of one size about the origin: scene = (file, least corner, greatest corner), in its own units."""
+    def body(role, file, low, high):
+        low, high = np.array(low, float), np.array(high, float)
+        scale = PAIR_SIZE / np.linalg.norm(high - low)
+        return Body(role, f"paper_counts/{file}", scale, tuple(-scale * (low + high) / 2)), scale * (low + high) / 2
+
+    fixed, _ = body("scene", *scene)
+    moved, centre = body("part", *part)
+    hand = adversary(seed, PAIR_SIZE, (0.11, 0.0, 0.0), (reach,) * 3)
+    return Evidence(name, title, moved, [fixed], PAIR_SIZE * 5e-4, PAIR_SIZE * 0.05, hand, pivot=tuple(centre),
+                    goals=[Goal("comes back to the hand when led away: gap", "gap", "away", high=1e-6)])
+
+
+BUNNY = ("bunny_2204.ply", (-0.09408163, 0.03340257, -0.06165008), (0.06105929, 0.18704361, 0.05912527))
+SPHERE = ("sphere_128.obj", (-1, -1, -1), (1, 1, 1))
+SPRING = ("spring_23578.ply", (-0.055, -0.055, 0.006137), (0.055, 0.055, 0.478957))
+TEAPOT = ("teapot_5648.ply", (-3, 0, -2), (3.434, 3.15, 2))
+GEAR = ("gear_6302.ply", (-0.00095821, -0.02095839, 0.00499486), (0.04095839, 0.02095839, 0.02500005))
+CRANKSHAFT = ("crankshaft_12802.ply", (-40, -50, -29.99795), (165, 50, 29.99745))
+
+
+def _gear_disc():
+    """The disc fills 0.9 of the bore, which it does not leave, as in the benchmark."""
+    file, low, high = GEAR
+    low, high = np.array(low), np.array(high)
+    scale = PAIR_SIZE / np.linalg.norm(high - low)
+    radius, length = 0.005 * scale, 0.02 * scale
+    gear = Body("gear", f"paper_counts/{file}", scale, tuple(-scale * (low + high) / 2))
+    disc = Body("disc", "paper_counts/disc_512.stl", 0.9 * radius)
+    hand = adversary(3, 4 * radius, (0.0, 0.0, 0.0), (2 * radius, 2 * radius, 0.3 * length))
+    return Evidence("pair-gear-disc", "Disc (512) in the bore of a gear (6,302), ill-meaning hand", disc, [gear],
+                    PAIR_SIZE * 5e-4, PAIR_SIZE * 0.05, hand,
+                    goals=[Goal("comes back to the hand when led home: gap", "gap", "away", high=1e-6)])
+
+
+def _pairs():
+    ill = "ill-meaning hand"
+    return [
+        _pair("pair-bunny-sphere", f"Sphere (128) on bunny (2,204), {ill}", BUNNY, SPHERE, 1),
+        _pair("pair-spring-teapot", f"Teapot (5,648) on spring (23,578), {ill}", SPRING, TEAPOT, 2),
+        _gear_disc(),
+        _pair("pair-gear-gear", f"Gear on gear (6,302 each), {ill}", GEAR, GEAR, 4),
+        _pair("pair-crankshaft-gear", f"Gear (6,302) on crankshaft (12,802), {ill}", CRANKSHAFT, GEAR, 5),
+        _pair("pair-crankshaft-sphere", f"Sphere (128) on crankshaft (12,802), {ill}", CRANKSHAFT, SPHERE, 6),
+    ]
+
+
+def all_evidence():
+    return (_pegs() + [_nut_engaged(), _nut_on(), _gear(), _piston_head(), _piston_cylinder()]
+            + [_ariac(name) for name in ARIAC] + _pairs())
