@@ -11,5 +11,6 @@ void addBuildCommand(CLI::App& program);
 void addSceneCommand(CLI::App& program);
 void addProgramCommand(CLI::App& program);
 void addCertifyCommand(CLI::App& program);
+void addFeelCommand(CLI::App& program);
 
 }  // namespace nearfit::bench

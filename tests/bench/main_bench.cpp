@@ -25,6 +25,7 @@ int run(int argc, char** argv) {
   nearfit::bench::addSceneCommand(program);
   nearfit::bench::addProgramCommand(program);
   nearfit::bench::addCertifyCommand(program);
+  nearfit::bench::addFeelCommand(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

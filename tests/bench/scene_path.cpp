@@ -29,8 +29,8 @@ PathBodies pathBodies(const BenchScene& scene) {
 }
 
 std::vector<RigidTransform> makePath(const PreparedScene& scene, HandPathOptions options) {
-  options.cutoff = scene.cutoff;
-  options.reach = 1.5 * scene.cutoff;
+  if (options.cutoff == 0.0) options.cutoff = scene.cutoff;
+  options.reach = 1.5 * options.cutoff;
   options.start = scene.meshes.start;
   options.range = scene.meshes.range;
   LmdScratch scratch;

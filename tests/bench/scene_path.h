@@ -10,7 +10,8 @@
 namespace nearfit::bench {
 
 /// A hand's path for a scene. Distances come from Nearfit's cold query, whose answers the run then compares
-/// with those of the other methods; `options`'s cutoff, reach, start and range are filled in.
+/// with those of the other methods; `options`'s reach, start and range are filled in, and its cutoff where it
+/// is 0.
 std::vector<RigidTransform> makePath(const PreparedScene& scene, HandPathOptions options);
 
 /// The bodies of a scene as a path asks for them.

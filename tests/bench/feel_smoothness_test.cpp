@@ -1,0 +1,104 @@
+#include "tests/bench/feel_smoothness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/quaternion.hpp>
+#include <gtest/gtest.h>
+
+#include "core/haptics/servo_tick.h"
+#include "tests/support/mesh_generators.h"
+
+namespace nearfit::bench {
+namespace {
+
+TEST(WrenchChanges, AreFromEachWrenchToTheNext) {
+  WrenchChanges changes;
+  changes.add({{3.0, 4.0, 0.0}, {0.0, 0.0, 1.0}});
+  changes.add({{3.0, 4.0, 12.0}, {0.0, 2.0, 1.0}});
+  changes.add({{0.0, 0.0, 12.0}, {0.0, 2.0, 1.0}});
+  EXPECT_EQ(changes.force, (std::vector{12.0, 5.0}));
+  EXPECT_EQ(changes.torque, (std::vector{2.0, 0.0}));
+  EXPECT_EQ(changes.size, (std::vector{5.0, 13.0, 12.0}));
+}
+
+/// A box on a floor, pressed down: the force is as smooth as the hand.
+FeelScene boxOnFloor() {
+  FeelScene feel;
+  feel.motion.start = {glm::dquat(1.0, 0.0, 0.0, 0.0), {0.0, 0.0, 5e-4}};
+  feel.scene = solidScene(test::boxMesh({1.0, 1.0, 0.1}, {0.0, 0.0, -0.05}),
+                          test::boxMesh({0.02, 0.02, 0.02}, {0.0, 0.0, 0.01}), feel.motion.start);
+  feel.motion.centreInPart = feel.scene->centreInPart;
+  feel.motion.axis = {1.0, 0.0, 0.0};
+  feel.motion.towards = {0.0, 0.0, -1.0};
+  feel.motion.press = 2e-3;
+  feel.motion.swing = 0.3;
+  feel.motion.slide = 5e-3;
+  feel.size = 1.5;
+  return feel;
+}
+
+SmoothnessOptions shortRun() {
+  SmoothnessOptions options;
+  options.seconds = 0.4;
+  options.refinement = 4;
+  return options;
+}
+
+double sumOf(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values)
+    sum += value;
+  return sum;
+}
+
+TEST(RunSmoothness, TheForceIsStiffnessTimesTheWayBeyondContact) {
+  const FeelScene feel = boxOnFloor();
+  const SmoothnessOptions options = shortRun();
+  const SmoothnessRun run = runSmoothness(feel, options, 1, Refinement::SamePeriod);
+  EXPECT_EQ(run.inContact, 1.0);
+  const ServoParameters parameters;
+  const double stiffness =
+      boundedCoupling(parameters.haptics.coupling, parameters.limits, feel.scene->metric, 1e-3).stiffness;
+  // The hand's lowest place is the press below the start; the part ends a margin above the floor.
+  const double most = stiffness * (feel.motion.press - 5e-4 + options.margin);
+  for (const double force : run.changes[0].size) {
+    EXPECT_LT(force, 1.05 * most);
+    EXPECT_GT(force, 0.5 * most);
+  }
+}
+
+TEST(RunSmoothness, RefinementKeepsTheWayAndSplitsItsSteps) {
+  const FeelScene feel = boxOnFloor();
+  for (const Refinement held : {Refinement::SamePeriod, Refinement::SameSpeed}) {
+    const SmoothnessRun plain = runSmoothness(feel, shortRun(), 1, held);
+    const SmoothnessRun refined = runSmoothness(feel, shortRun(), 4, held);
+    EXPECT_EQ(plain.changes[0].force.size(), 400U);
+    EXPECT_EQ(refined.changes[0].force.size(), 1600U);
+    const double way = sumOf(plain.changes[0].force);
+    EXPECT_NEAR(sumOf(refined.changes[0].force), way, 0.05 * way);
+  }
+}
+
+TEST(SmoothnessRows, RatiosAreOfThePlainToTheRefined) {
+  const std::vector<FeelRow> rows = smoothnessRows("box", boxOnFloor(), shortRun());
+  const auto find = [&](const std::string& run, const std::string& quantity) {
+    const auto found = std::ranges::find_if(
+        rows, [&](const FeelRow& row) { return row.run == run && row.quantity == quantity; });
+    EXPECT_NE(found, rows.end()) << run << ", " << quantity;
+    return found == rows.end() ? FeelRow() : *found;
+  };
+  for (const std::string mode : SmoothnessRun::kModes) {
+    const FeelRow plain = find(mode + " x1", "force change [N]"),
+                  fine = find(mode + " x4", "force change [N]");
+    const FeelRow ratio = find(mode + " x4", "force change ratio");
+    EXPECT_DOUBLE_EQ(ratio.p50 * fine.p50, plain.p50);
+    EXPECT_DOUBLE_EQ(ratio.max * fine.max, plain.max);
+  }
+  // On a flat floor nothing but the hand's way counts.
+  EXPECT_NEAR(find("proxy x4", "force change ratio").p50, 4.0, 0.2);
+  EXPECT_NEAR(find("proxy x4 same speed", "force change ratio").p50, 4.0, 0.2);
+}
+
+}  // namespace
+}  // namespace nearfit::bench
