@@ -33,7 +33,7 @@ class ContactFinder {
   /// Contacts that are kept for a pose; of more, those that say about the same as a nearer one are left out.
   static constexpr std::size_t kMaxContacts = ContactThinning::kMaxKept;
   /// Work of a tick: nodes opened, pairs listed and pairs tested, some 3 ms on a slow core.
-  static constexpr std::uint64_t kMaxWork = 1U << 17;
+  static constexpr std::uint64_t kMaxWork = 1U << 16;
   /// Of it, for searches anew, some 0.7 ms: where that does not suffice, a list will soon be there.
   static constexpr std::uint64_t kMaxSearchWork = 1U << 14;
   /// Bodies that can be in contact at a time; with more the part stands still.
@@ -91,6 +91,8 @@ class ContactFinder {
   double pairsReach_ = 0.0;
   MotionBudget holds_;
   bool isHoldingPairs_ = false;
+  std::size_t roomLevel_ = 0;  ///< Of the room for motion that pairs are gathered with: less at each level.
+  unsigned gatherings_ = 0;
 
   std::uint64_t workLeft_ = 0, searchWorkLeft_ = 0;
   std::uint32_t lateBodies_ = 0;

@@ -48,6 +48,11 @@ std::span<const Lmd> MinimaFinder::findOne(const Task& task, const RigidTransfor
     return {};
   }
   const LmdResult result = search(task, bodyFromPart, cutoff);
+  // A minimum is held against what may bar its way, and pieces of regions against each other: as much as
+  // several pairs, and an eighth.
+  constexpr std::uint64_t kWorkOfMinimum = 16, kPiecesOfWork = 8;
+  result_.work += result.nodePairs + result.leafPairs + kWorkOfMinimum * result.count +
+                  result.pieces * result.pieces / kPiecesOfWork;
   const std::span<Lmd> found = std::span(lmds_).first(result.count);
   markBlocked(body.geometry->tree(), task.scene.moving.geometry->tree(), bodyFromPart, found, task.apart,
               scratch_);

@@ -26,6 +26,7 @@ class MinimaFinder {
     bool isPoseBad = false;   ///< A body's pose is none.
     double distance = 0.0;    ///< Of the nearest [m]; infinity when there is none.
     double completeTo = 0.0;  ///< Every minimum nearer than this was found [m].
+    std::uint64_t work = 0;   ///< Pairs of nodes and features looked at, and minima merged.
   };
 
   MinimaFinder();

@@ -14,7 +14,7 @@ namespace nearfit {
 namespace {
 
 /// Nothing is in the way of a step that ends this many margins short of what is nearest.
-constexpr double kFree = 2.5;
+constexpr double kFree = 1.7;
 /// Share of what is proved free (the distances before and after) that a step is planned to use.
 constexpr double kPlanned = 0.8;
 /// Share of it that a step may use: the distances are rounded.
@@ -30,6 +30,9 @@ constexpr double kRounding = 1e-11;
 constexpr double kLeastStep = 0.5;
 /// How often a step is halved before it is refused.
 constexpr int kMaxHalvings = 3;
+/// Of the way to a target that it was kept from, a part that has come free goes this share in a tick, besides
+/// what the target moves: it does not leap.
+constexpr double kSnapShare = 0.3;
 /// What moves by less than this share of the margin (or of the clearance) rests: 0.1 um of 0.1 mm. The first
 /// step of a tick goes on below that, so that a slow hand does not drag.
 constexpr double kAtRest = 1e-3, kAtRestAtFirst = 1e-6;
@@ -52,6 +55,8 @@ Proxy::Proxy()
 
 void Proxy::place(const RigidTransform& worldFromPart) noexcept {
   pose_ = worldFromPart;
+  lastTarget_.reset();
+  rest_ = {};
   clearedSerial_ = 0;
   isHereKnown_ = false;
   holdingCount_ = 0;
@@ -92,6 +97,7 @@ bool Proxy::isCleared(const TrackedScene& tracked) noexcept {
   clearedSerial_ = clearance.serial;
   isHereKnown_ = false;
   floor_ = 0.0;
+  rest_ = {};
   finder_.forget();
   return true;
 }
@@ -107,6 +113,7 @@ void Proxy::follow(const TrackedScene& tracked, const RigidTransform& target,
     return;
   }
   const Tick tick{tracked, target, settings};
+  if (isResting(target, settings)) return;
   // Where the work did not suffice, the lists may be ready by now.
   if (!isHereKnown_ || margin_ != settings.margin || here_.completeTo == 0.0) {
     margin_ = settings.margin;
@@ -115,27 +122,45 @@ void Proxy::follow(const TrackedScene& tracked, const RigidTransform& target,
     raiseFloor(tick);
   }
   holdingCount_ = 0;
-  while (account_.subSteps < kMaxSubSteps && step(tick)) {
-  }
+  wayLeft_ = targetMotion(tick) + std::max(kSnapShare * wayTo(tick), margin_);
+  Outcome outcome = Outcome::Moved;
+  while (account_.subSteps < kMaxSubSteps && outcome == Outcome::Moved)
+    outcome = step(tick);
+  rest_ = {target, settings, outcome == Outcome::AtRest};
+  lastTarget_ = target;
 }
 
-bool Proxy::step(const Tick& tick) noexcept {
+bool Proxy::isResting(const RigidTransform& target, const ProxySettings& settings) const noexcept {
+  return rest_.isAtRest && isHereKnown_ && settings == rest_.settings &&
+         target.translation == rest_.target.translation && target.rotation == rest_.target.rotation;
+}
+
+double Proxy::targetMotion(const Tick& tick) const noexcept {
+  if (!lastTarget_) return wayTo(tick);
+  const glm::dvec3& centre = tick.tracked.scene->centreInPart;
+  return travelOf(glm::distance(tick.target.applyToPoint(centre), lastTarget_->applyToPoint(centre)),
+                  glm::length(rotationVector(tick.target.rotation * glm::conjugate(lastTarget_->rotation))),
+                  tick.tracked.scene->metric.radius);
+}
+
+Proxy::Outcome Proxy::step(const Tick& tick) noexcept {
   const Motion wanted = motionTo(*tick.tracked.scene, tick.target);
-  if (wanted.shift == glm::dvec3(0.0) && wanted.spin == glm::dvec3(0.0)) return false;
+  if (wanted.shift == glm::dvec3(0.0) && wanted.spin == glm::dvec3(0.0)) return Outcome::AtRest;
+  cost_.reset();
   return here_.distance > kFree * margin_ ? freeStep(tick, wanted) : constrainedStep(tick, wanted);
 }
 
-bool Proxy::freeStep(const Tick& tick, const Motion& wanted) noexcept {
+Proxy::Outcome Proxy::freeStep(const Tick& tick, const Motion& wanted) noexcept {
   const ServoScene& scene = *tick.tracked.scene;
-  const double travel = travelOf(glm::length(wanted.shift), glm::length(wanted.spin), scene.metric.radius);
-  const double free = here_.distance - margin_;
-  if (travel <= free) {
-    // To the target to the last bit: a free part pulls at nothing.
-    take(tick, tick.target, travel);
-    return false;
-  }
+  const double travel = wayTo(tick);
+  const double free = std::min(here_.distance - margin_, wayLeft_);
+  // To the target to the last bit: a free part pulls at nothing.
+  if (travel <= free)
+    return take(tick, tick.target, travel) == Verdict::Taken ? Outcome::AtRest : Outcome::Stuck;
+  if (!(free > kAtRest * margin_)) return Outcome::Stuck;
   const double share = free / travel;
-  return take(tick, moved(scene, {share * wanted.shift, share * wanted.spin}), free);
+  const RigidTransform pose = moved(scene, {share * wanted.shift, share * wanted.spin});
+  return take(tick, pose, free) == Verdict::Taken ? Outcome::Moved : Outcome::Stuck;
 }
 
 bool Proxy::fillRows(const Tick& tick, double reach) noexcept {
@@ -168,48 +193,62 @@ StepSolution Proxy::solve(const Tick& tick, const StepGoal& goal) noexcept {
       .step;
 }
 
-bool Proxy::constrainedStep(const Tick& tick, const Motion& wanted) noexcept {
-  const ServoScene& scene = *tick.tracked.scene;
-  const MassMetric& metric = scene.metric;
-  const glm::dquat worldFromPrincipal = glm::normalize(pose_.rotation * metric.partFromPrincipal);
+StepGoal Proxy::goalOf(const Tick& tick, const Motion& wanted) const noexcept {
+  const MassMetric& metric = tick.tracked.scene->metric;
+  const glm::dquat principalFromWorld = glm::conjugate(pose_.rotation * metric.partFromPrincipal);
   const double held = std::min(here_.distance, margin_);
   // Where not all contacts are there, what the others would allow shows after the step.
   const double known = std::max(here_.completeTo - held, kLeastStep * held);
-  const double farthest = std::min(kPlanned * (here_.distance + held), known);
-  if (!fillRows(tick, margin_ + farthest)) return false;
-  account_.constraintCount = static_cast<std::uint32_t>(rows_.size());
-
+  const glm::dvec3 turn = metric.gyration * (principalFromWorld * wanted.spin);
+  const double way = std::sqrt(glm::dot(wanted.shift, wanted.shift) + glm::dot(turn, turn));
   const double mostTurn = kTurnShare * contactTurn(kContactReach * margin_, metric.radius);
   StepGoal goal;
-  const glm::dvec3 turn = metric.gyration * (glm::conjugate(worldFromPrincipal) * wanted.spin);
   goal.wanted = {wanted.shift.x, wanted.shift.y, wanted.shift.z, turn.x, turn.y, turn.z};
-  const double way = std::sqrt(glm::dot(wanted.shift, wanted.shift) + glm::dot(turn, turn));
   goal.cost = {.margin = margin_,
                .weight = std::clamp(kMarginWeight * way / margin_, kMarginWeight, kMostMarginWeight),
                .floor = kHalf * held};
   goal.gyration = metric.gyration;
-  goal.radius = std::max(metric.radius, farthest / mostTurn);
-  goal.reach = farthest;
+  goal.reach = std::min({kPlanned * (here_.distance + held), known, wayLeft_});
+  goal.radius = std::max(metric.radius, goal.reach / mostTurn);
+  return goal;
+}
+
+Proxy::Outcome Proxy::constrainedStep(const Tick& tick, const Motion& wanted) noexcept {
+  const MassMetric& metric = tick.tracked.scene->metric;
+  const double held = std::min(here_.distance, margin_);
+  if (!(wayLeft_ > kAtRest * held)) return Outcome::Stuck;
+  const StepGoal goal = goalOf(tick, wanted);
+  if (!fillRows(tick, margin_ + goal.reach)) return Outcome::Stuck;
+  account_.constraintCount = static_cast<std::uint32_t>(rows_.size());
   const StepSolution solution = solve(tick, goal);
   keepContacts(solution);
-  if (solution.activeCount == 0 && solution.scale == 1.0 && solution.share == 1.0) {
-    take(tick, tick.target, wayTo(tick));
-    return false;
-  }
+  if (solution.activeCount == 0 && solution.scale == 1.0 && solution.share == 1.0)
+    return take(tick, tick.target, wayTo(tick)) == Verdict::Taken ? Outcome::AtRest : Outcome::Stuck;
+  const glm::dquat worldFromPrincipal = glm::normalize(pose_.rotation * metric.partFromPrincipal);
   Motion motion{
       {solution.y[0], solution.y[1], solution.y[2]},
       worldFromPrincipal * (glm::dvec3(solution.y[3], solution.y[4], solution.y[5]) / metric.gyration)};
   double travel = travelOf(glm::length(motion.shift), glm::length(motion.spin), metric.radius);
-  const bool isFirst = account_.subSteps == 0;
-  if (!(travel > (isFirst ? kAtRestAtFirst : kAtRest) * held)) return false;
+  if (!(travel > (account_.subSteps == 0 ? kAtRestAtFirst : kAtRest) * held)) return Outcome::AtRest;
+  return takeShortened(tick, goal, motion, travel);
+}
+
+Proxy::Outcome Proxy::takeShortened(const Tick& tick, const StepGoal& goal, Motion motion,
+                                    double travel) noexcept {
+  cost_ = goal.cost;
+  bool isProved = true;
   for (int halvings = 0; halvings <= kMaxHalvings; ++halvings) {
-    if (take(tick, moved(scene, motion), travel)) return true;
-    ++account_.shortenedSteps;
+    const Verdict verdict = take(tick, moved(*tick.tracked.scene, motion), travel);
+    if (verdict == Verdict::Taken) return Outcome::Moved;
+    if (verdict == Verdict::Unknown) return Outcome::Stuck;
+    isProved = verdict == Verdict::NoGain;
+    if (!isProved) ++account_.shortenedSteps;
     motion = {kHalf * motion.shift, kHalf * motion.spin};
     travel *= kHalf;
   }
+  if (isProved) return Outcome::AtRest;
   ++account_.refusedSteps;
-  return false;
+  return Outcome::Stuck;
 }
 
 void Proxy::keepContacts(const StepSolution& solution) noexcept {
@@ -233,22 +272,36 @@ void Proxy::raiseFloor(const Tick& tick) noexcept {
   floor_ = std::min(std::max({floor_, kFloorOfFirst * here_.distance, kRounding * lengths}), highest);
 }
 
-bool Proxy::take(const Tick& tick, const RigidTransform& pose, double travel) noexcept {
-  if (finder_.isWorkSpent()) return false;
+double Proxy::costAt(const Tick& tick, const RigidTransform& pose, double distance) const noexcept {
+  const ServoScene& scene = *tick.tracked.scene;
+  const glm::dvec3 shift =
+      tick.target.applyToPoint(scene.centreInPart) - pose.applyToPoint(scene.centreInPart);
+  const glm::dvec3 spin = rotationVector(tick.target.rotation * glm::conjugate(pose.rotation));
+  const glm::dvec3 turn =
+      scene.metric.gyration * (glm::conjugate(pose.rotation * scene.metric.partFromPrincipal) * spin);
+  const double lack = std::max(0.0, cost_->margin - distance);
+  return glm::dot(shift, shift) + glm::dot(turn, turn) + cost_->weight * lack * lack;
+}
+
+Proxy::Verdict Proxy::take(const Tick& tick, const RigidTransform& pose, double travel) noexcept {
+  if (finder_.isWorkSpent()) return Verdict::Unknown;
   Surroundings there = lookAround(tick, pose, next_);
-  if (there.completeTo == 0.0) return false;
+  if (there.completeTo == 0.0) return Verdict::Unknown;
   // What was known here is known there but for the way.
   there.distance = std::max(there.distance, here_.distance - travel);
   const double held = std::min(here_.distance, margin_);
   const bool isProved = travel < kProved * (here_.distance + there.distance);
   const bool isAllowed = there.distance >= here_.distance || there.distance >= std::max(kHalf * held, floor_);
-  if (!isProved || !isAllowed) return false;
+  if (!isProved || !isAllowed) return Verdict::NotProved;
+  if (cost_ && !(costAt(tick, pose, there.distance) < costAt(tick, pose_, here_.distance)))
+    return Verdict::NoGain;
   pose_ = pose;
   here_ = there;
+  wayLeft_ -= travel;
   raiseFloor(tick);
   std::swap(around_, next_);
   ++account_.subSteps;
-  return true;
+  return Verdict::Taken;
 }
 
 }  // namespace nearfit

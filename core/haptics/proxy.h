@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "core/haptics/contact_finder.h"
@@ -82,15 +84,35 @@ class Proxy {
   /// The farthest that a point of the part is from where the target has it [m].
   double wayTo(const Tick& tick) const noexcept;
   RigidTransform moved(const ServoScene& scene, const Motion& motion) const noexcept;
-  bool step(const Tick& tick) noexcept;
-  bool freeStep(const Tick& tick, const Motion& wanted) noexcept;
-  bool constrainedStep(const Tick& tick, const Motion& wanted) noexcept;
+  /// What became of a step of a tick.
+  enum class Outcome : std::uint8_t {
+    Moved,
+    AtRest,  ///< It is where it is best.
+    Stuck,   ///< It could not go on in this tick.
+  };
+  /// What is said to a pose that it is to move to.
+  enum class Verdict : std::uint8_t {
+    Taken,
+    NotProved,  ///< Something might be met on the way, or is too near there.
+    NoGain,     ///< No better than where it is.
+    Unknown,    ///< The work allowed did not suffice to tell.
+  };
+
+  bool isResting(const RigidTransform& target, const ProxySettings& settings) const noexcept;
+  double targetMotion(const Tick& tick) const noexcept;
+  Outcome step(const Tick& tick) noexcept;
+  Outcome freeStep(const Tick& tick, const Motion& wanted) noexcept;
+  Outcome constrainedStep(const Tick& tick, const Motion& wanted) noexcept;
+  Outcome takeShortened(const Tick& tick, const StepGoal& goal, Motion motion, double travel) noexcept;
+  StepGoal goalOf(const Tick& tick, const Motion& wanted) const noexcept;
+  /// What the program makes least, but with the true distance at a pose.
+  double costAt(const Tick& tick, const RigidTransform& pose, double distance) const noexcept;
   bool fillRows(const Tick& tick, double reach) noexcept;
   StepSolution solve(const Tick& tick, const StepGoal& goal) noexcept;
   void keepContacts(const StepSolution& solution) noexcept;
   Surroundings lookAround(const Tick& tick, const RigidTransform& pose, std::span<BodyContact> out) noexcept;
   void raiseFloor(const Tick& tick) noexcept;
-  bool take(const Tick& tick, const RigidTransform& pose, double travel) noexcept;
+  Verdict take(const Tick& tick, const RigidTransform& pose, double travel) noexcept;
 
   ContactFinder finder_;
   StepRows rows_;
@@ -105,6 +127,15 @@ class Proxy {
   RigidTransform pose_;
   Surroundings here_;
   bool isHereKnown_ = false;
+  double wayLeft_ = 0.0;               ///< That a point of it may still go in this tick [m].
+  std::optional<ClearanceCost> cost_;  ///< Of the step that is tried; none for a free one.
+  std::optional<RigidTransform> lastTarget_;
+  struct Rest {
+    RigidTransform target;
+    ProxySettings settings;
+    bool isAtRest = false;
+  };
+  Rest rest_;
   double margin_ = 0.0;  ///< That `here_` was found for.
   double floor_ = 0.0;   ///< No step may end nearer than this to a body, unless it leads away [m].
   std::uint64_t clearedSerial_ = 0;

@@ -48,7 +48,10 @@ TrackedPair SceneTracker::pairOf(std::uint32_t index) const noexcept {
 }
 
 ListPurpose SceneTracker::forMinima(const SearchReach& reach) const noexcept {
-  return {.cutoff = reach.cutoff, .planCutoff = reach.cutoff};
+  ListPurpose purpose{.cutoff = reach.cutoff, .planCutoff = reach.cutoff};
+  // Where minima are only to be seen, contacts must not wait for a search that is long.
+  if (reach.contact > 0.0) purpose.part = purpose.whole;
+  return purpose;
 }
 
 ListPurpose SceneTracker::forContacts(const SearchReach& reach) const noexcept {
@@ -58,6 +61,8 @@ ListPurpose SceneTracker::forContacts(const SearchReach& reach) const noexcept {
           .planCutoff = reach.widest(),
           .relaxation = turn,
           .leastRoom = {reach.contact, turn},
+          .whole = {1U << 15, 1U << 16},
+          .part = {1U << 17, 1U << 20},
           .roomToKeep = 0.5};
 }
 

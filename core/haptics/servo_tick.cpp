@@ -56,6 +56,7 @@ void ServoTick::reset() noexcept {
   partStep_ = {};
   held_ = {};
   hasPose_ = false;
+  minimaCredit_ = 0;
   fault_ = ServoFault::None;
 }
 
@@ -66,7 +67,10 @@ void ServoTick::run(const TrackedScene& tracked, const ServoParameters& paramete
   clearOutputs(snapshot);
   snapshot.moving = scene.moving.id;
   snapshot.mode = settings.mode;
-  if (scene.moving.id != moving_) hasPose_ = false;
+  if (scene.moving.id != moving_) {
+    hasPose_ = false;
+    minimaCredit_ = 0;
+  }
   moving_ = scene.moving.id;
   if (fault_ == ServoFault::None) fault_ = faultOfInput(settings, parameters.limits, input.pose, period);
   if (!hasPose_) handle_.pose = part_.pose = scene.moving.worldFromPart;
@@ -146,6 +150,7 @@ void ServoTick::findMinima(const Tick& tick, double apart, const SpringParameter
       });
   if (result.isPoseBad) fault_ = ServoFault::PoseNotFinite;
   minima_.write(tick.snapshot);
+  minimaCredit_ = result.work;
   tick.snapshot.lateBodies += result.lateBodies;
   tick.snapshot.queryTime += secondsSince(begin);
   // Of bodies that have an inside and are apart, the nearest minimum is the distance.
@@ -178,10 +183,21 @@ Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
     tick.snapshot.queryTime += proxy_.queryTime();
     movePart(tick, proxy_.pose());
   }
-  Wrench none;
-  findMinima(tick, proxy_.distance(), nullptr, none);
+  showMinima(tick);
   describeProxy(tick);
   return couplingWrench(coupling_, scene.metric, scene.centreInPart, handle_, part_);
+}
+
+void ServoTick::showMinima(const Tick& tick) noexcept {
+  if (minimaCredit_ > kMinimaWork) {
+    minimaCredit_ -= kMinimaWork;
+    minima_.write(tick.snapshot);
+    // Contacts know it better than minima of some ticks ago.
+    if (proxy_.distance() < tick.settings.springs.cutoff) tick.snapshot.distance = proxy_.distance();
+    return;
+  }
+  Wrench none;
+  findMinima(tick, proxy_.distance(), nullptr, none);
 }
 
 void ServoTick::describeProxy(const Tick& tick) noexcept {

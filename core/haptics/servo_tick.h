@@ -33,6 +33,9 @@ class ServoTick {
  public:
   /// Long enough to smooth encoder steps, short enough (80 Hz) not to turn damping into its opposite [s].
   static constexpr double kVelocityTimeConstant = 2e-3;
+  /// Work on minima that a tick has time for, some 0.2 ms. In the proxy mode, where nothing that is felt
+  /// depends on them, thousands of minima (a nut on its thread) are found once in several ticks.
+  static constexpr std::uint64_t kMinimaWork = 1U << 12;
 
   ServoTick() = default;
 
@@ -66,6 +69,7 @@ class ServoTick {
   Wrench feelSprings(const Tick& tick) noexcept;
   Wrench feelProxy(const Tick& tick) noexcept;
   void findMinima(const Tick& tick, double apart, const SpringParameters* springs, Wrench& sum) noexcept;
+  void showMinima(const Tick& tick) noexcept;
   void movePart(const Tick& tick, const RigidTransform& pose) noexcept;
   void describeProxy(const Tick& tick) noexcept;
   /// What the hand did since the last tick, before the part moves on.
@@ -86,6 +90,7 @@ class ServoTick {
   Wrench held_;               ///< As sent in the last tick.
   Felt felt_;
   CouplingState coupling_;
+  std::uint64_t minimaCredit_ = 0;  ///< Work on minima that was done ahead of its time.
   PartId moving_{};
   HapticMode mode_ = HapticMode::Proxy;
   bool hasPose_ = false;

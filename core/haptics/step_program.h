@@ -44,9 +44,9 @@ struct StepSolution {
   double displacement = 0.0;     ///< mu(y): no point of the part moves farther [m].
   unsigned changes = 0;          ///< Of the set of active rows, in all solves.
   unsigned solves = 0;
-  /// How much of the way from standing still to the optimum for s y0 is gone; below 1 where no scale was found
-  /// at which the step fits the reach and is worth while: the recovery of the margin alone (s = 0) would move
-  /// a point beyond the reach, or only next to nothing of the goal would not.
+  /// How much of the way from standing still to the optimum for s y0 is gone; below 1 where no scale was
+  /// found at which the step fits the reach and is worth while: the recovery of the margin alone (s = 0)
+  /// would move a point beyond the reach, or only next to nothing of the goal would not.
   double share = 1.0;
   /// Whether that optimum is one. Otherwise y and t still keep all rows, the floor and the reach.
   bool isExact = false;

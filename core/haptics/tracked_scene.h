@@ -14,7 +14,7 @@
 namespace nearfit {
 
 /// Contacts count this many margins away: a step of the proxy can close so much.
-constexpr double kContactReach = 3.5;
+constexpr double kContactReach = 2.6;
 
 /// How far is looked.
 struct SearchReach {

@@ -34,6 +34,7 @@ struct LmdResult {
   double completeTo = 0.0;
   std::uint64_t nodePairs = 0;  ///< Node pairs visited.
   std::uint64_t leafPairs = 0;  ///< Feature pairs tested exactly.
+  std::size_t pieces = 0;       ///< Minima and pieces of regions that were merged.
 };
 
 /// Work space of a query, allocated once; one per thread.

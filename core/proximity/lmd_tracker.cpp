@@ -12,12 +12,6 @@ namespace {
 /// Beyond this turn the limits on directions say nothing any more [rad].
 constexpr double kMostClearTurn = 0.5;
 
-/// Contacts are where the part moves slowly, so that a long list serves for long: some 15 MB, and 30 ms.
-constexpr CandidateList::Bounds kForContacts{1U << 17, 1U << 20};
-
-/// What takes longer than about half a tick is worth a shorter plan.
-constexpr CandidateList::Bounds kWorthwhile{1U << 14, 1U << 14};
-
 }  // namespace
 
 MotionBudget clearance(double factor, const SearchPlan& plan, double radius) noexcept {
@@ -44,10 +38,7 @@ void buildForPlan(CandidateList& list, const TrackedPair& pair, const MotionFore
     plan.range.budget.travel = std::max(plan.range.budget.travel, share * purpose.leastRoom.travel);
     plan.range.budget.turn = std::max(plan.range.budget.turn, share * purpose.leastRoom.turn);
     list.build(pair.queryAt(plan.pose, purpose.cutoff), turned(sceneFromWorld, plan.range), scratch,
-               share == 1.0               ? kWorthwhile
-               : purpose.relaxation > 0.0 ? kForContacts
-                                          : CandidateList::Bounds{},
-               purpose.relaxation);
+               share == 1.0 ? purpose.whole : purpose.part, purpose.relaxation);
     if (list.isUsable()) return;
   }
 }

@@ -35,7 +35,9 @@ struct ListPurpose {
   double planCutoff = 0.0;   ///< What the room for motion is measured by [m]: the cutoff, or a wider one.
   double relaxation = 0.0;   ///< As CandidateList::build has it.
   MotionBudget leastRoom{};  ///< For motion aside of what is foretold.
-  double roomToKeep = 0.0;   ///< Share of the room aside that must be left at a pose.
+  /// How much a list for the whole plan may be, and one for a part of it.
+  CandidateList::Bounds whole{1U << 14, 1U << 14}, part{};
+  double roomToKeep = 0.0;  ///< Share of the room aside that must be left at a pose.
 };
 
 /// Whether a list is made for that cutoff, and will do now and in the first tick after a search from now.

@@ -46,6 +46,7 @@ void MinimaCollector::finish(const NormalConeTree& scene, const NormalConeTree& 
   const std::size_t kept =
       mergeMinima(std::span(workspace_.minima).first(count_), workspace_.order, workspace_.parent,
                   scene.size() + part.size(), std::min(scene.size(), part.size()));
+  result_.pieces = count_;
   result_.count = std::min(kept, out.size());
   if (kept > out.size() || isHeap_) {
     result_.status = QueryStatus::Truncated;

@@ -211,7 +211,7 @@ TEST(Proxy, ABodyThatIsMovedIntoItLetsGoAndHoldsAgainOnceItIsAway) {
   ProxyWalk walk = cubeOverFloor(0.05);
   walk.hold(at({0.0, 0.0, 0.05}), 30);
   walk.moveBody(0, at({0.0, 0.0, 0.05}));
-  walk.hold(at({0.0, 0.0, 0.05}), 5);
+  walk.hold(at({0.0, 0.0, 0.05}), 40);
   EXPECT_EQ(walk.tracked().clearance.overlapping->size(), 1U);
   EXPECT_EQ(walk.pose().translation, glm::dvec3(0.0, 0.0, 0.05));
   walk.moveBody(0, at({0.0, 0.0, -0.1}));
