@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/files/atomic_write.h"
 #include "tests/bench/commands.h"
+#include "tests/bench/feel_certified.h"
 #include "tests/bench/feel_cost.h"
 #include "tests/bench/feel_sliding.h"
 #include "tests/bench/feel_smoothness.h"
@@ -112,6 +113,14 @@ std::string settingsComment(const FeelOptions& o) {
          fmt::format("# sliding: margin {} m, pressed {} m\n", o.sliding.margin, o.sliding.press);
 }
 
+void checkAll(const std::vector<FeelRow>& rows) {
+  for (const FeelRow& row : rows) {
+    if (row.quantity != kMeetings || row.max == 0.0) continue;
+    throw Error(row.scene, fmt::format("in \"{}\" the part meets a body", row.run),
+                "find the tick, for the proxy must never go through");
+  }
+}
+
 void runFeel(const FeelOptions& options) {
   if (options.cost.warmUp >= options.cost.block)
     throw UsageError("--warm-up", "no tick of a block would be timed", "give less than --block");
@@ -127,12 +136,14 @@ void runFeel(const FeelOptions& options) {
       say(rows, slidingRows(options.slidingSpeeds, options.sliding));
     }
   }
-  if (options.csv.empty()) return;
   std::string lines;
   for (const FeelRow& row : rows)
     lines += feelCsvLine(row);
-  atomicWrite(options.csv,
-              machine + fmt::format("# load at end: {}\n", loadAverages()) + feelCsvHeader() + lines);
+  if (!options.csv.empty()) {
+    atomicWrite(options.csv,
+                machine + fmt::format("# load at end: {}\n", loadAverages()) + feelCsvHeader() + lines);
+  }
+  checkAll(rows);
 }
 
 void addWhat(CLI::App& command, FeelOptions& o) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "device/servo_loop.h"
+#include "tests/bench/feel_certified.h"
 #include "tests/bench/feel_servo.h"
 
 namespace nearfit::bench {
@@ -52,6 +53,7 @@ CostRun runCost(const CostCase& scene, const CostOptions& options) {
     for (std::size_t i = begin; i < end; ++i) {
       const ServoSnapshot& snapshot = proxy.tick(scene.path[i], ServoLoop::kPeriod);
       way.push_back(snapshot.proxy);
+      if (i % options.posesStride == 0) run.poses.push_back(snapshot.proxy);
       if (i - begin >= options.warmUp) note(run, proxy, snapshot);
     }
     for (std::size_t i = 0; i < way.size(); ++i) {
@@ -78,10 +80,16 @@ std::vector<FeelRow> costRows(const CostCase& scene, const CostRun& run) {
   add("search beside [us]", run.refresh, kMicro);
   add("constraints", run.constraints, 1.0);
   add("contacts that hold", run.contacts, 1.0);
+  std::vector<double> inContact;
+  for (const double count : run.contacts)
+    inContact.push_back(count > 0.0 ? 1.0 : 0.0);
+  add("in contact", inContact, 1.0);
   add("sub-steps", run.subSteps, 1.0);
   add("late bodies", run.lateBodies, 1.0);
   add("shortened steps", run.shortened, 1.0);
   add("refused steps", run.refused, 1.0);
+  if (!run.poses.empty())
+    rows.push_back(certifiedRow("cost", scene.scene, scene.run, *scene.servoScene, run.poses));
   return rows;
 }
 

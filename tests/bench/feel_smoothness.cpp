@@ -1,28 +1,63 @@
 #include "tests/bench/feel_smoothness.h"
 
 #include <cmath>
-#include <optional>
+#include <memory>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "device/servo_loop.h"
+#include "tests/bench/feel_certified.h"
 #include "tests/bench/feel_servo.h"
 
 namespace nearfit::bench {
 namespace {
 
-/// After the approach, until the ramps of the first contact have gone [s].
+/// After the approach, until what it left in the filters has gone [s].
 constexpr double kSettling = 0.2;
 
-ServoParameters parametersOf(HapticMode mode, SpringLaw law, double cutoff, double margin) {
+ServoParameters parametersOf(HapticMode mode, SpringLaw law, const SmoothnessOptions& options) {
   ServoParameters parameters;
   parameters.haptics.mode = mode;
-  parameters.haptics.springs.cutoff = cutoff;
+  parameters.haptics.springs.cutoff = options.cutoff;
   parameters.haptics.springs.law = law;
-  parameters.haptics.proxy.margin = margin;
+  parameters.haptics.proxy.margin = options.margin;
   return parameters;
 }
+
+/// The three modes along one way.
+class ModesAbreast {
+ public:
+  ModesAbreast(const FeelScene& scene, const SmoothnessOptions& options, bool withDirect)
+      : motion_(scene.motion), withDirect_(withDirect) {
+    const std::array<ServoParameters, 3> parameters{
+        parametersOf(HapticMode::Proxy, SpringLaw::Linear, options),
+        parametersOf(HapticMode::Springs, SpringLaw::Linear, options),
+        parametersOf(HapticMode::Springs, SpringLaw::Printed, options)};
+    for (const ServoParameters& p : parameters)
+      servos_.push_back(std::make_unique<FeelServo>(scene.scene, p, ListArrival::AtOnce, BenchClock::Wall));
+  }
+
+  /// What the proxy mode shows.
+  const ServoSnapshot& tick(double time, double period) {
+    const ServoSnapshot& felt = servos_[0]->tick(handAt(motion_, time), period);
+    felt_[0] = felt.unclampedWrench;
+    for (std::size_t mode = 1; withDirect_ && mode < servos_.size(); ++mode)
+      felt_[mode] = servos_[mode]->tick(felt.proxy, period).unclampedWrench;
+    return felt;
+  }
+
+  void keep(std::array<WrenchChanges, 3>& changes) const {
+    for (std::size_t mode = 0; mode < (withDirect_ ? servos_.size() : 1); ++mode)
+      changes[mode].add(felt_[mode]);
+  }
+
+ private:
+  const PressingMotion& motion_;
+  bool withDirect_;
+  std::vector<std::unique_ptr<FeelServo>> servos_;
+  std::array<Wrench, 3> felt_;
+};
 
 double ratioOf(double plain, double refined) {
   return refined > 0.0 ? plain / refined : 0.0;
@@ -65,33 +100,24 @@ void WrenchChanges::add(const Wrench& wrench) {
 
 SmoothnessRun runSmoothness(const FeelScene& scene, const SmoothnessOptions& options, std::size_t refinement,
                             Refinement held) {
-  const auto servo = [&](HapticMode mode, SpringLaw law) {
-    return FeelServo(scene.scene, parametersOf(mode, law, options.cutoff, options.margin),
-                     ListArrival::AtOnce, BenchClock::Wall);
-  };
-  FeelServo proxy = servo(HapticMode::Proxy, SpringLaw::Linear);
-  FeelServo spring = servo(HapticMode::Springs, SpringLaw::Linear);
-  FeelServo printed = servo(HapticMode::Springs, SpringLaw::Printed);
+  ModesAbreast servos(scene, options, held == Refinement::SamePeriod);
+  const double begin = kApproachTime + kSettling;
+  const auto approach = static_cast<std::size_t>(std::llround(begin / ServoLoop::kPeriod));
+  for (std::size_t i = 0; i < approach; ++i)
+    servos.tick(ServoLoop::kPeriod * static_cast<double>(i), ServoLoop::kPeriod);
 
   const double step = ServoLoop::kPeriod / static_cast<double>(refinement);
   const double period = held == Refinement::SamePeriod ? ServoLoop::kPeriod : step;
-  const double begin = kApproachTime + kSettling;
-  const auto ticks = static_cast<std::size_t>(std::llround((begin + options.seconds) / step));
+  const auto ticks = static_cast<std::size_t>(std::llround(options.seconds / step));
   SmoothnessRun run;
-  std::size_t kept = 0, inContact = 0;
+  std::size_t inContact = 0;
   for (std::size_t i = 0; i <= ticks; ++i) {
-    const double time = step * static_cast<double>(i);
-    const ServoSnapshot& felt = proxy.tick(handAt(scene.motion, time), period);
-    const Wrench& ofSpring = spring.tick(felt.proxy, period).unclampedWrench;
-    const Wrench& ofPrinted = printed.tick(felt.proxy, period).unclampedWrench;
-    if (time < begin) continue;
-    run.changes[0].add(felt.unclampedWrench);
-    run.changes[1].add(ofSpring);
-    run.changes[2].add(ofPrinted);
-    ++kept;
+    const ServoSnapshot& felt = servos.tick(begin + step * static_cast<double>(i), period);
+    servos.keep(run.changes);
     inContact += felt.contactCount > 0 ? 1 : 0;
+    if (i % options.posesStride == 0) run.poses.push_back(felt.proxy);
   }
-  run.inContact = kept > 0 ? static_cast<double>(inContact) / static_cast<double>(kept) : 0.0;
+  run.inContact = static_cast<double>(inContact) / static_cast<double>(ticks + 1);
   return run;
 }
 
@@ -101,6 +127,7 @@ std::vector<FeelRow> smoothnessRows(const std::string& name, const FeelScene& sc
   const std::string times = fmt::format("x{}", options.refinement);
   std::vector<FeelRow> rows;
   rows.push_back(feelRow("smoothness", name, "proxy x1", "in contact", std::vector{plain.inContact}));
+  rows.push_back(certifiedRow("smoothness", name, "proxy x1", *scene.scene, plain.poses));
   for (const Refinement held : {Refinement::SamePeriod, Refinement::SameSpeed}) {
     const SmoothnessRun refined = runSmoothness(scene, options, options.refinement, held);
     for (std::size_t mode = 0; mode < SmoothnessRun::kModes.size(); ++mode) {

@@ -12,10 +12,11 @@
 namespace nearfit::bench {
 
 struct SmoothnessOptions {
-  double seconds = 8.0;         ///< Of the hand's motion, after its approach.
-  std::size_t refinement = 10;  ///< Ticks of the refined path to each of the plain one.
-  double margin = 1e-4;         ///< Of the proxy [m].
-  double cutoff = 1e-3;         ///< Rest length of the springs [m].
+  double seconds = 8.0;          ///< Of the hand's motion, after its approach.
+  std::size_t refinement = 10;   ///< Ticks of the refined path to each of the plain one.
+  double margin = 1e-4;          ///< Of the proxy [m].
+  double cutoff = 1e-3;          ///< Rest length of the springs [m].
+  std::size_t posesStride = 10;  ///< Of the proxy's poses, each so-many-th is certified.
 };
 
 /// What is held while the path is refined.
@@ -44,12 +45,14 @@ struct WrenchChanges {
 struct SmoothnessRun {
   static constexpr std::array<const char*, 3> kModes{"proxy", "spring", "printed"};
   std::array<WrenchChanges, 3> changes;
-  double inContact = 0.0;  ///< Share of the ticks in which something holds the proxy.
+  std::vector<RigidTransform> poses;  ///< Of the proxy's part, some of them.
+  double inContact = 0.0;             ///< Share of the ticks in which something holds the proxy.
 };
 
-/// Runs the three modes side by side along the hand's path, its approach left out of what is kept. The wrench
-/// is that before limits and ramps. In the direct modes the part is where the hand is, and springs mean
-/// nothing once it is inside: their hand takes the way that the proxy's part took.
+/// Runs the three modes side by side along the hand's path. The approach is neither refined nor kept, the
+/// direct modes run where the period is held. The wrench is that before limits and ramps. In the direct modes
+/// the part is where the hand is, and springs mean nothing once it is inside: their hand takes the way that
+/// the proxy's part took.
 SmoothnessRun runSmoothness(const FeelScene& scene, const SmoothnessOptions& options, std::size_t refinement,
                             Refinement held);
 
