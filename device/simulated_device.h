@@ -58,6 +58,9 @@ class ManualDevice final : public HapticDevice {
 /// Of a scripted hand that has no reason for another: three degrees [rad].
 constexpr double kScriptedWobble = 0.052359877559829887;
 
+/// Radius of its circle, as a part of the reach.
+constexpr double kScriptedSlide = 0.15;
+
 /// A scripted hand: one smooth sweep of approach (by `reach` along `approach`), slide (a circle across it),
 /// wobble (turning about the part's origin to and fro) and retreat to where it began. At rest at both
 /// ends, so that it can be repeated without a jolt. The same arguments give the same path.
@@ -68,10 +71,12 @@ constexpr double kScriptedWobble = 0.052359877559829887;
 /// @param seconds        Duration of the whole sweep [s].
 /// @param period         Of a tick [s]; one pose for each.
 /// @param wobbleAngle    Amplitude of the wobble [rad].
+/// @param slideShare     Radius of the circle, as a part of the reach; >= 0.
 /// Throws UsageError for arguments that are not finite or out of range.
 std::vector<RigidTransform> scriptedHandPath(const RigidTransform& worldFromPart, const glm::dvec3& approach,
                                              double reach, double seconds, double period,
-                                             double wobbleAngle = kScriptedWobble);
+                                             double wobbleAngle = kScriptedWobble,
+                                             double slideShare = kScriptedSlide);
 
 /// Reads poses from CSV: `tx,ty,tz,qw,qx,qy,qz` a row (metres, then a unit quaternion), `#` starts a comment
 /// line, blank lines are skipped, one header line is allowed. Quaternions are normalised; one that is off

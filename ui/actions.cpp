@@ -43,6 +43,8 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   feelSettings->setToolTip(tr("Mode, cutoff, margin, stiffness, weight and workspace"));
 
   fit = make("fit", tr("&Fit all"), "fit", QKeySequence(Qt::Key_F));
+  fitSelection =
+      make("fitSelection", tr("Fit s&elected part"), "fit", QKeySequence(QStringLiteral("Shift+F")));
   viewIso = make("viewIso", tr("&Isometric"), "view-iso", QKeySequence(Qt::Key_0));
   viewFront = make("viewFront", tr("F&ront"), "view-front", QKeySequence(Qt::Key_1));
   viewRight = make("viewRight", tr("Ri&ght"), "view-right", QKeySequence(Qt::Key_2));
@@ -83,8 +85,8 @@ void Actions::setUpMenus(QMainWindow& window) {
   QMenu* edit = window.menuBar()->addMenu(tr("&Edit"));
   edit->addActions({undo, redo, edit->addSeparator(), takeInHand, duplicate, rename, recolour, remove});
   QMenu* view = window.menuBar()->addMenu(tr("&View"));
-  view->addActions({fit, viewIso, viewFront, viewRight, viewTop, view->addSeparator(), seeThrough, edges,
-                    minima, contacts, hand, wrench, view->addSeparator()});
+  view->addActions({fit, fitSelection, viewIso, viewFront, viewRight, viewTop, view->addSeparator(),
+                    seeThrough, edges, minima, contacts, hand, wrench, view->addSeparator()});
   view->addMenu(panelsMenu);
   QMenu* feel = window.menuBar()->addMenu(tr("F&eel"));
   feel->addActions({start, stop, letGo, feel->addSeparator(), feelSettings});
@@ -134,6 +136,7 @@ void Actions::update(const Session& session, const Availability& availability) {
   duplicate->setEnabled(isFree && availability.hasSelection);
   for (QAction* action : {rename, recolour, remove, takeInHand})
     action->setEnabled(canChange);
+  fitSelection->setEnabled(availability.hasSelection);
   start->setEnabled(isFree && availability.canStart && !availability.isServoRunning);
   stop->setEnabled(availability.isServoRunning);
   letGo->setEnabled(availability.isServoRunning && availability.isHandManual);

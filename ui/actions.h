@@ -24,7 +24,7 @@ class Actions : public QObject {
   QAction *newScene, *open, *openDemo, *addParts, *save, *saveAs, *exportPlacement, *quit;
   QAction *undo, *redo, *duplicate, *rename, *recolour, *takeInHand, *remove;
   QAction *start, *stop, *letGo, *feelSettings;
-  QAction *fit, *viewIso, *viewFront, *viewRight, *viewTop;
+  QAction *fit, *fitSelection, *viewIso, *viewFront, *viewRight, *viewTop;
   QAction *seeThrough, *edges, *minima, *contacts, *hand, *wrench;
   QAction* about;
   QMenu* panelsMenu;  ///< For the docks' own switches.

@@ -88,7 +88,7 @@ void ColourLegend::paintEvent(QPaintEvent*) {
   paintRow(painter, y, tr("Contacts"), contacts_);
   y += kRowHeight;
   paintGhost(painter, y);
-  paintRow(painter, y, tr("Hand ahead"), lead_);
+  paintRow(painter, y, tr("Hand"), lead_);
 }
 
 void ColourLegend::paintScale(QPainter& painter) {

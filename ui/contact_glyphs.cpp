@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kSides = 28;
 /// As parts of the size: discs; arrows without force, and of the device's greatest force.
-constexpr double kDiscRadius = 0.022, kRimRadius = 0.028, kShortest = 0.09, kLongest = 0.36;
+constexpr double kDiscRadius = 0.026, kRimRadius = 0.033, kShortest = 0.11, kLongest = 0.45;
 constexpr const char *kDirection = "direction", *kDisc = "disc", *kArrow = "arrow";
 
 /// A flat round body across the x axis.

@@ -12,7 +12,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr double kOpacity = 0.2, kEdgeOpacity = 0.8;
+constexpr double kOpacity = 0.1, kEdgeOpacity = 0.9;
 /// A lead smaller than this part of the size is not seen: two outlines would only flicker.
 constexpr double kLeastLead = 0.003;
 
@@ -35,10 +35,13 @@ void setInput(vtkActor& actor, vtkPolyData* data) {
 
 HandGhost::HandGhost(vtkRenderer& parts, vtkRenderer& overlay) {
   setUp(*surface_, colours::kHand, kOpacity, 1.0F);
-  setUp(*edges_, colours::kHand, kEdgeOpacity, 1.4F);
-  setUp(*halo_, Qt::white, 0.8, 5.0F);
-  setUp(*line_, colours::kHand, 1.0, 2.5F);
-  for (vtkActor* actor : {edges_.Get(), halo_.Get(), line_.Get()})
+  setUp(*edges_, colours::kHand, kEdgeOpacity, 2.2F);
+  setUp(*line_, colours::kHand, 1.0, 3.0F);
+  line_->GetProperty()->VertexVisibilityOn();
+  line_->GetProperty()->SetVertexColor(colours::kHand.redF(), colours::kHand.greenF(),
+                                       colours::kHand.blueF());
+  line_->GetProperty()->SetPointSize(9.0F);
+  for (vtkActor* actor : {edges_.Get(), line_.Get()})
     actor->GetProperty()->LightingOff();
   for (vtkActor* actor : {surface_.Get(), edges_.Get()}) {
     actor->SetUserMatrix(pose_);
@@ -46,10 +49,8 @@ HandGhost::HandGhost(vtkRenderer& parts, vtkRenderer& overlay) {
   }
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(lead_->GetOutputPort());
-  for (vtkActor* actor : {halo_.Get(), line_.Get()}) {
-    actor->SetMapper(mapper);
-    overlay.AddActor(actor);
-  }
+  line_->SetMapper(mapper);
+  overlay.AddActor(line_);
   applyVisibility();
 }
 
@@ -91,7 +92,7 @@ bool HandGhost::visibleBounds(double bounds[6]) const {
 }
 
 void HandGhost::applyVisibility() {
-  for (vtkActor* actor : {surface_.Get(), edges_.Get(), halo_.Get(), line_.Get()})
+  for (vtkActor* actor : {surface_.Get(), edges_.Get(), line_.Get()})
     actor->SetVisibility(isVisible_ && isAhead_ && shape_ != nullptr);
 }
 

@@ -34,7 +34,7 @@ class HandGhost {
   void applyVisibility();
 
   std::shared_ptr<const PartShape> shape_;
-  vtkNew<vtkActor> surface_, edges_, halo_, line_;
+  vtkNew<vtkActor> surface_, edges_, line_;
   vtkNew<vtkMatrix4x4> pose_;
   vtkNew<vtkLineSource> lead_;
   bool isVisible_ = true, isAhead_ = false;

@@ -53,6 +53,9 @@ void MainWindow::connectEditActions() {
 
 void MainWindow::connectViewActions() {
   connect(actions_->fit, &QAction::triggered, viewport_, &Viewport::fit);
+  connect(actions_->fitSelection, &QAction::triggered, viewport_, [this] {
+    if (const std::optional<PartId> part = selected()) viewport_->fitPart(*part);
+  });
   const std::pair<QAction*, StandardView> views[] = {{actions_->viewIso, StandardView::Isometric},
                                                      {actions_->viewFront, StandardView::Front},
                                                      {actions_->viewRight, StandardView::Right},

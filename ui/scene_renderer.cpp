@@ -81,6 +81,13 @@ bool SceneRenderer::visibleBounds(double bounds[6]) const {
   return true;
 }
 
+bool SceneRenderer::boundsOf(PartId part, double bounds[6]) const {
+  const auto found = actors_.find(part);
+  if (found == actors_.end()) return false;
+  found->second->surface()->GetBounds(bounds);
+  return true;
+}
+
 std::optional<PartId> SceneRenderer::pick(double x, double y) {
   vtkNew<vtkCellPicker> picker;
   picker->SetTolerance(0.0005);

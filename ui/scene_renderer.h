@@ -30,6 +30,8 @@ class SceneRenderer {
 
   /// Bounds of all visible parts as VTK has them (xmin, xmax, ...) [m]; false when there are none.
   bool visibleBounds(double bounds[6]) const;
+  /// Of one part, visible or not; false when it is not in the scene.
+  bool boundsOf(PartId part, double bounds[6]) const;
   /// The part under a point of the view, in display coordinates from the lower left.
   std::optional<PartId> pick(double x, double y);
 

@@ -38,10 +38,9 @@ StatusReadout::StatusReadout(QStatusBar* bar)
 void StatusReadout::showStatus(const ServoStatus& status) {
   rate_->setText(status.isRunning ? tr("Servo %1 Hz").arg(status.rate, 0, 'f', 0) : tr("Servo off"));
   setColour(*rate_, status.isTooSlow() ? colours::kWarning : colours::kMutedText);
-  rate_->setToolTip(status.isTooSlow()
-                        ? tr("Ticks are lost: contact feels softer than the springs say. Use a "
-                             "smaller cutoff, or hide parts that do not matter.")
-                        : QString());
+  rate_->setToolTip(status.isTooSlow() ? tr("Ticks are lost: contact feels softer than it is set to. Use a "
+                                            "smaller cutoff, or hide parts that do not matter.")
+                                       : QString());
   lateness_->setText(status.isRunning ? tr("Late %1 (p99)").arg(formatDuration(status.latenessP99))
                                       : tr("Late –"));
 }

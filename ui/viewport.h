@@ -44,6 +44,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void clearSnapshot();
 
   void fit();
+  /// A part of the scene with what is around it.
+  void fitPart(PartId part);
   void setView(StandardView view);
   void setSeeThrough(bool isSeeThrough);
   void setEdgesVisible(bool isVisible);

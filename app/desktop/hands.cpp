@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/haptics/virtual_coupling.h"
 #include "core/proximity/lmd_query.h"
 #include "device/servo_loop.h"
 #include "device/simulated_device.h"
@@ -16,15 +17,33 @@ namespace nearfit::desktop {
 namespace {
 
 constexpr double kSweepSeconds = 4.0;
-/// Part of the gap to the nearest part that the scripted hand closes: near enough to feel, never through.
+/// Part of the gap to the nearest part that the scripted hand closes against springs: near enough to feel,
+/// never through.
 constexpr double kCloses = 0.75;
 /// How far the wobble moves the part's ends, as a part of the approach's reach.
 constexpr double kWobble = 0.2;
+/// What the scripted hand presses with against contact [N]: well felt, and with what sliding adds still what
+/// usual devices bear.
+constexpr double kPress = 7.0;
+/// Radius of its circle on contact, as a part of the way that it presses beyond.
+constexpr double kSlides = 0.5;
+/// It goes no farther beyond contact than this part of the moving part's diagonal.
+constexpr double kMostBeyond = 0.05;
 
+/// How the hand goes: straight on, and then in a circle across.
 struct Approach {
   glm::dvec3 direction{0.0};
-  double reach = 0.0;
+  double gap = 0.0;  ///< To what is nearest [m].
 };
+
+struct Sweep {
+  glm::dvec3 direction{0.0};
+  double reach, slide, wobble;  ///< [m], [m], [rad]
+};
+
+double sizeOf(const ServoScene& scene) {
+  return scene.moving.geometry->mesh.bounds().diagonal();
+}
 
 /// Towards the nearest other part within the cutoff.
 std::optional<Approach> approachOfNearest(const ServoScene& scene, double cutoff) {
@@ -38,24 +57,9 @@ std::optional<Approach> approachOfNearest(const ServoScene& scene, double cutoff
         findLmds(body.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart, cutoff, scratch, lmds);
     if (result.count == 0 || lmds[0].distance >= least) continue;
     least = lmds[0].distance;
-    approach = Approach{-body.worldFromPart.applyToVector(lmds[0].direction), kCloses * least};
+    approach = Approach{-body.worldFromPart.applyToVector(lmds[0].direction), least};
   }
   return approach;
-}
-
-/// The sweep turns about the part's centre of mass, wherever the file put the origin, and so little that the
-/// part's ends move less than the approach leaves of the gap.
-std::vector<RigidTransform> sweepAboutCentre(const ServoScene& scene, const Approach& approach) {
-  const RigidTransform partFromCentre{{1.0, 0.0, 0.0, 0.0}, scene.centreInPart};
-  const double radius = 0.5 * scene.moving.geometry->mesh.bounds().diagonal();
-  const double wobble = std::min(kScriptedWobble, kWobble * approach.reach / radius);
-  std::vector<RigidTransform> path =
-      scriptedHandPath(scene.moving.worldFromPart * partFromCentre, approach.direction, approach.reach,
-                       kSweepSeconds, ServoLoop::kPeriod, wobble);
-  const RigidTransform centreFromPart = partFromCentre.inverse();
-  for (RigidTransform& pose : path)
-    pose = pose * centreFromPart;
-  return path;
 }
 
 /// Towards the middle of the other parts, when nothing is near.
@@ -70,13 +74,44 @@ Approach approachOfMiddle(const ServoScene& scene, double cutoff) {
   return {length > 0.0 ? way / length : glm::dvec3(0.0, 0.0, -1.0), cutoff};
 }
 
+/// So little turning that the part's ends move less than the approach leaves of the gap.
+Sweep sweepOfSprings(const ServoScene& scene, const Approach& approach) {
+  const double reach = kCloses * approach.gap;
+  return {approach.direction, reach, kScriptedSlide * reach,
+          std::min(kScriptedWobble, kWobble * reach / (0.5 * sizeOf(scene)))};
+}
+
+/// Beyond contact, and round on it.
+Sweep sweepOfProxy(const ServoScene& scene, const Approach& approach, const CouplingSettings& wish) {
+  const CouplingState coupling = boundedCoupling(wish, DeviceLimits{}, scene.metric, ServoLoop::kPeriod);
+  const double most = kMostBeyond * sizeOf(scene);
+  const double beyond = coupling.stiffness > 0.0 ? std::min(kPress / coupling.stiffness, most) : most;
+  return {approach.direction, approach.gap + beyond, kSlides * beyond, kScriptedWobble};
+}
+
+/// Turns about the part's centre of mass, wherever the file put the origin.
+std::vector<RigidTransform> pathAboutCentre(const ServoScene& scene, const Sweep& sweep) {
+  const RigidTransform partFromCentre{{1.0, 0.0, 0.0, 0.0}, scene.centreInPart};
+  std::vector<RigidTransform> path =
+      scriptedHandPath(scene.moving.worldFromPart * partFromCentre, sweep.direction, sweep.reach,
+                       kSweepSeconds, ServoLoop::kPeriod, sweep.wobble, sweep.slide / sweep.reach);
+  const RigidTransform centreFromPart = partFromCentre.inverse();
+  for (RigidTransform& pose : path)
+    pose = pose * centreFromPart;
+  return path;
+}
+
 }  // namespace
 
-std::unique_ptr<HapticDevice> makeHand(ui::Hand hand, const ServoScene& scene, double cutoff) {
+std::unique_ptr<HapticDevice> makeHand(ui::Hand hand, const ServoScene& scene,
+                                       const HapticSettings& settings) {
   if (hand == ui::Hand::Manual) return std::make_unique<ManualDevice>();
+  const double cutoff = settings.springs.cutoff;
   const std::optional<Approach> nearest = approachOfNearest(scene, cutoff);
   const Approach approach = nearest ? *nearest : approachOfMiddle(scene, cutoff);
-  return std::make_unique<PathDevice>(sweepAboutCentre(scene, approach), true);
+  const Sweep sweep = settings.mode == HapticMode::Proxy ? sweepOfProxy(scene, approach, settings.coupling)
+                                                         : sweepOfSprings(scene, approach);
+  return std::make_unique<PathDevice>(pathAboutCentre(scene, sweep), true);
 }
 
 }  // namespace nearfit::desktop

@@ -8,9 +8,11 @@
 
 namespace nearfit::desktop {
 
-/// The device behind a choice of hand. The scripted hand pushes the moving part towards what is nearest to
-/// it, most of the way there, and slides it along.
-/// @param cutoff  Range in which the nearest is looked for [m].
-std::unique_ptr<HapticDevice> makeHand(ui::Hand hand, const ServoScene& scene, double cutoff);
+/// The device behind a choice of hand. The scripted hand takes the moving part to what is nearest to it and
+/// slides it along: in the proxy mode it presses beyond contact, by the way that a few newtons take; springs,
+/// which it could push through, it presses most of the way alone.
+/// @param settings  Of the scene; the nearest is looked for within the cutoff.
+std::unique_ptr<HapticDevice> makeHand(ui::Hand hand, const ServoScene& scene,
+                                       const HapticSettings& settings);
 
 }  // namespace nearfit::desktop

@@ -7,13 +7,15 @@
 #include <utility>
 
 #include "ui/document.h"
+#include "ui/viewport.h"
 
 namespace nearfit::desktop {
 namespace {
 
 constexpr int kSettleMs = 400;  ///< For layout and first pictures.
-/// Into the scripted hand's sweep, where it pushes; in ticks, so that each picture shows the same pose.
-constexpr std::uint64_t kFeelFor = 1600;
+/// Into the scripted hand's sweep, where it presses and turns; in ticks, so that each picture shows the same
+/// pose.
+constexpr std::uint64_t kFeelFor = 2450;
 constexpr int kPatienceMs = 20'000;  ///< Written then even if no servo ever ticked.
 
 }  // namespace
@@ -46,6 +48,7 @@ void Screenshot::arrange(bool isComplete) {
     QTimer::singleShot(kSettleMs, this, &Screenshot::write);
     return;
   }
+  application_.window().viewport().fitPart(*application_.session().scene().movingPart());
   connect(&application_.servo(), &ServoController::snapshotArrived, this, &Screenshot::waitForMinima);
   QTimer::singleShot(kPatienceMs, this, &Screenshot::write);
   application_.window().document().prepareHierarchies([this](bool isReady) {

@@ -34,12 +34,7 @@ ServoController::~ServoController() {
 void ServoController::start(ui::Hand hand) {
   if (isRunning()) return;
   try {
-    const Scene& scene = session_.scene();
-    auto servoScene = makeServoScene(scene);
-    moving_ = servoScene->moving.id;
-    auto device = makeHand(hand, *servoScene, scene.haptics().springs.cutoff);
-    loop_.start(*device, std::move(servoScene), parametersFor(scene, *device, hand));
-    device_ = std::move(device);
+    take(hand);
   } catch (...) {
     emit failed(ui::describe(tr("The part could not be taken in hand."), std::current_exception()));
     return;
@@ -50,10 +45,21 @@ void ServoController::start(ui::Hand hand) {
   status_.device = device_->info().limits;
   status_.nominalRate = 1.0 / ServoLoop::kPeriod;
   status_.scheduling = QString::fromStdString(loop_.schedulingNote());
-  ticksMeasured_ = 0;
   sinceMeasured_.start();
   timer_.start();
   emit statusChanged(status_);
+}
+
+void ServoController::take(ui::Hand hand) {
+  const Scene& scene = session_.scene();
+  auto servoScene = makeServoScene(scene);
+  moving_ = servoScene->moving.id;
+  mode_ = scene.haptics().mode;
+  auto device = makeHand(hand, *servoScene, scene.haptics());
+  loop_.stop();
+  loop_.start(*device, std::move(servoScene), parametersFor(scene, *device, hand));
+  device_ = std::move(device);
+  ticksMeasured_ = 0;
 }
 
 void ServoController::stop() {
@@ -103,6 +109,11 @@ void ServoController::followSession() {
     return;
   }
   try {
+    // What the scripted hand does in one mode would go through in the other: it begins again.
+    if (status_.hand == ui::Hand::Scripted && scene.haptics().mode != mode_) {
+      take(status_.hand);
+      return;
+    }
     loop_.setScene(makeServoScene(scene));
     loop_.setParameters(parametersFor(scene, *device_, status_.hand));
   } catch (...) {

@@ -47,6 +47,8 @@ class ServoController : public QObject {
   void hierarchiesNeeded();
 
  private:
+  /// Makes the device of a hand and lets the servo run on it. Throws Error.
+  void take(ui::Hand hand);
   void poll();
   void measure();
   void halt();
@@ -59,6 +61,7 @@ class ServoController : public QObject {
   std::uint64_t ticksMeasured_ = 0;  ///< The tick since which the rate is measured; 0 before the first.
   double timeMeasured_ = 0.0;        ///< Of that tick, by the servo's clock [s].
   PartId moving_{};
+  HapticMode mode_{};  ///< That the hand was made for.
   bool isCommitting_ = false;
   ui::ServoStatus status_;
 };

@@ -137,6 +137,19 @@ TEST_F(ScriptedHand, WobblesNoFartherThanTheCallerSays) {
   EXPECT_NEAR(largestTurn, 1.25 * kWobble, 1e-6);
 }
 
+TEST_F(ScriptedHand, SlidesInACircleOfTheGivenRadius) {
+  constexpr double kShare = 0.4;
+  const auto path =
+      scriptedHandPath(rest_, glm::dvec3(0.0, 0.0, -2.0), kReach, kSeconds, kPeriod, 0.0, kShare);
+  double farthestAside = 0.0;
+  for (const RigidTransform& pose : path) {
+    const glm::dvec3 d = pose.translation - rest_.translation;
+    farthestAside = std::max(farthestAside, std::hypot(d.x, d.y));
+  }
+  // The circle begins on the way of the approach: its far side is a diameter away.
+  EXPECT_NEAR(farthestAside, 2.0 * kShare * kReach, 1e-6 * kReach);
+}
+
 TEST_F(ScriptedHand, TheSameArgumentsGiveTheSamePath) {
   const auto again = scriptedHandPath(rest_, glm::dvec3(0.0, 0.0, -2.0), kReach, kSeconds, kPeriod);
   ASSERT_EQ(again.size(), path_.size());
@@ -156,6 +169,7 @@ TEST_F(ScriptedHand, SenselessArgumentsAreRefused) {
   EXPECT_THROW(scriptedHandPath(rest_, down, 0.0, kSeconds, kPeriod), UsageError);
   EXPECT_THROW(scriptedHandPath(rest_, down, kReach, kInfinity, kPeriod), UsageError);
   EXPECT_THROW(scriptedHandPath(rest_, down, kReach, kSeconds, 0.0), UsageError);
+  EXPECT_THROW(scriptedHandPath(rest_, down, kReach, kSeconds, kPeriod, 0.0, -1.0), UsageError);
   EXPECT_THROW(scriptedHandPath(rest_, down, kReach, 1e9, 1e-3), UsageError);
 }
 

@@ -31,6 +31,7 @@ class FeelDialogTest : public QObject {
   void automaticCouplingShowsWhatIsInForce();
   void anglesOfTheOrientationBecomeAQuaternion();
   void locksAreSixSwitches();
+  void returnInAFieldDoesNotClose();
   void refusedValuesGoBackWithTheReason();
   void fitsASmallScreen();
 
@@ -224,6 +225,13 @@ void FeelDialogTest::locksAreSixSwitches() {
   }
   widget<QCheckBox>("lockRy")->click();
   QVERIFY(edited_->mapping.rotationLocks == (std::array{true, false, true}));
+}
+
+void FeelDialogTest::returnInAFieldDoesNotClose() {
+  dialog_->show();
+  type("friction", "0.2");
+  QCOMPARE(edited_->proxy.friction, 0.2);
+  QVERIFY(dialog_->isVisible());
 }
 
 void FeelDialogTest::refusedValuesGoBackWithTheReason() {

@@ -13,6 +13,8 @@ class FormatTest : public QObject {
   void lengthsKeepThreeFigures();
   void noLengthIsADash();
   void smallTorquesAreInMillinewtonMetres();
+  void massesAndEnergiesTakeTheUnitOfTheirSize();
+  void numbersHaveNoZerosBehind();
   void durationsTakeTheUnitOfTheirSize();
 };
 
@@ -36,6 +38,24 @@ void FormatTest::noLengthIsADash() {
 void FormatTest::smallTorquesAreInMillinewtonMetres() {
   QCOMPARE(formatTorque(0.0123), QStringLiteral("12.3 mN·m"));
   QCOMPARE(formatTorque(1.5), QStringLiteral("1.50 N·m"));
+}
+
+void FormatTest::massesAndEnergiesTakeTheUnitOfTheirSize() {
+  QCOMPARE(formatMass(12.3), QStringLiteral("12.3 kg"));
+  QCOMPARE(formatMass(0.0628), QStringLiteral("62.8 g"));
+  QCOMPARE(formatMass(5e-7), QStringLiteral("0.50 mg"));
+  QCOMPARE(formatEnergy(-0.0368), QStringLiteral("-36.8 mJ"));
+  QCOMPARE(formatEnergy(0.0), QStringLiteral("0.00 mJ"));
+  QCOMPARE(formatEnergy(4e-6), QStringLiteral("4.00 µJ"));
+}
+
+void FormatTest::numbersHaveNoZerosBehind() {
+  QCOMPARE(formatNumber(1600.0), QStringLiteral("1600"));
+  QCOMPARE(formatNumber(1e6), QStringLiteral("1000000"));
+  QCOMPARE(formatNumber(0.2), QStringLiteral("0.2"));
+  QCOMPARE(formatNumber(5e-5), QStringLiteral("0.00005"));
+  QCOMPARE(formatNumber(-1.23456), QStringLiteral("-1.235"));
+  QCOMPARE(formatNumber(0.0), QStringLiteral("0"));
 }
 
 void FormatTest::durationsTakeTheUnitOfTheirSize() {

@@ -4,6 +4,7 @@
 #include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QLabel>
+#include <QPushButton>
 #include <QStackedWidget>
 #include <QTabWidget>
 #include <QVBoxLayout>
@@ -58,6 +59,8 @@ FeelDialog::FeelDialog(QWidget* parent)
   refusal_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kWarning.name()));
   refusal_->hide();
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+  // Return takes over a number; it must not press the button besides.
+  buttons->button(QDialogButtonBox::Close)->setAutoDefault(false);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(head);

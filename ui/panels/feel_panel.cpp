@@ -50,9 +50,10 @@ FeelPanel::FeelPanel(QWidget* settingsButton, QWidget* parent)
 void FeelPanel::setUpChoices(QVBoxLayout& layout, QWidget* settingsButton) {
   hand_->setObjectName(QStringLiteral("hand"));
   hand_->addItem(icon(QStringLiteral("hand")), tr("Scripted hand"), QVariant::fromValue(Hand::Scripted));
-  hand_->addItem(icon(QStringLiteral("rename")), tr("Manual: numbers and arrow keys"),
-                 QVariant::fromValue(Hand::Manual));
-  hand_->setToolTip(tr("Who holds the moving part while the servo runs"));
+  hand_->addItem(icon(QStringLiteral("rename")), tr("Manual hand"), QVariant::fromValue(Hand::Manual));
+  hand_->setToolTip(
+      tr("Who holds the moving part while the servo runs: a script that presses it against the nearest "
+         "part, or you by numbers and arrow keys"));
   mode_->setObjectName(QStringLiteral("panelMode"));
   mode_->setToolTip(tr("How contact feels; the settings explain it"));
   addModes(*mode_);

@@ -21,6 +21,7 @@ class DesktopPartsTest : public QObject {
   void movesByNumbersAndTakesItBackByKeys();
   void commandKeysWorkInANumberField();
   void numbersLeftAloneStayExact();
+  void densityMakesTheMass();
   void deletesAndDuplicatesTheSelectedPart();
   void clickInTheViewSelectsThePart();
   void arrowKeysMoveTheSelectedPart();
@@ -159,6 +160,23 @@ void DesktopPartsTest::numbersLeftAloneStayExact() {
   QCOMPARE(d.part("fixed").worldFromPart.translation.x, pose.translation.x);
   QCOMPARE(d.part("fixed").worldFromPart.rotation.z, pose.rotation.z);
   QVERIFY(std::abs(d.part("fixed").worldFromPart.translation.z - 0.007) < 1e-15);
+}
+
+void DesktopPartsTest::densityMakesTheMass() {
+  DesktopDriver d;
+  d.addCubes();
+  d.clickPart(1, ui::PartsModel::Name);
+  // A cube of 20 mm, of water at first.
+  QCOMPARE(d.text("mass"), QStringLiteral("8.00 g"));
+  d.type<QDoubleSpinBox>("density", "7850");
+  QCOMPARE(d.part("moving").density, 7850.0);
+  QCOMPARE(d.text("mass"), QStringLiteral("62.8 g"));
+  QCOMPARE(d.part("fixed").density, kDefaultDensity);
+  d.session().undo();
+  QCOMPARE(d.text("mass"), QStringLiteral("8.00 g"));
+  d.session().setLocked(d.partId("fixed"), true);
+  d.clickPart(0, ui::PartsModel::Name);
+  QVERIFY(!d.widget<QDoubleSpinBox>("density")->isEnabled());
 }
 
 void DesktopPartsTest::deletesAndDuplicatesTheSelectedPart() {

@@ -1,0 +1,258 @@
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFrame>
+
+#include "core/scene/haptic_limits.h"
+#include "tests/app/desktop/desktop_driver.h"
+#include "ui/feel_mode.h"
+#include "ui/parts_model.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+/// What the servo of a driver tells.
+class Watch : public QObject {
+ public:
+  explicit Watch(DesktopDriver& driver) {
+    connect(&driver.application.servo(), &desktop::ServoController::snapshotArrived, this,
+            [this](const ServoSnapshot& snapshot) {
+              newest = snapshot;
+              least = std::min(least, snapshot.distance);
+              if (snapshot.contactCount == 0) return;
+              most = std::max(most, glm::length(snapshot.wrench.force));
+              const double x = snapshot.proxy.translation.x;
+              lowest = std::min(lowest, x);
+              highest = std::max(highest, x);
+            });
+  }
+  ServoSnapshot newest;
+  double least = 1.0;                   ///< Distance [m].
+  double most = 0.0;                    ///< Force in contact [N].
+  double lowest = 1.0, highest = -1.0;  ///< Of the part along x, in contact [m].
+};
+
+void start(DesktopDriver& d, ui::Hand hand) {
+  auto* box = d.widget<QComboBox>("hand");
+  box->setFocus();
+  for (int i = 0; i < box->count() && box->currentData().value<ui::Hand>() != hand; ++i)
+    QTest::keyClick(box, Qt::Key_Down);
+  d.clickPart(1, ui::PartsModel::Name);
+  QTest::keyClick(&d.window(), Qt::Key_F5);
+  QTRY_VERIFY(d.application.servo().isRunning());
+}
+
+double value(DesktopDriver& d, const char* field) {
+  return d.widget<QDoubleSpinBox>(field)->value();
+}
+
+bool isNear(double a, double b, double tolerance) {
+  return std::abs(a - b) <= tolerance;
+}
+
+constexpr double kMargin = 1e-4;  ///< Of a new scene [m].
+
+}  // namespace
+
+/// The cubes of the driver: contact is 5 mm below where the moving one begins, less the margin.
+class DesktopProxyTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void partStopsAtContactWhileTheHandGoesOn();
+  void handThatPressesSlidesThePart();
+  void stepsMoveTheHandOnFromWhereItIs();
+  void lettingGoTakesTheHandBackToThePart();
+  void scriptedHandPressesAndSlides();
+  void partThatOverlapsIsNamed();
+  void faultIsToldAndAStartAnewOffered();
+  void modeIsChosenInThePanel();
+  void scriptedHandBeginsAgainInAnotherMode();
+  void marginBeyondTheCutoffIsExplained();
+  void lockedAxesHoldTheManualHand();
+};
+
+void DesktopProxyTest::partStopsAtContactWhileTheHandGoesOn() {
+  DesktopDriver d;
+  d.addCubes();
+  Watch watch(d);
+  start(d, ui::Hand::Manual);
+  d.type<QDoubleSpinBox>("positionZ", "-8");
+  // The part stops a margin above contact, at -4.9 mm; the hand is 3.1 mm ahead.
+  QTRY_VERIFY(isNear(value(d, "positionZ"), -4.9, 0.011));
+  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+  QVERIFY(d.text("contacts").toInt() >= 1);
+  const auto force = [&] { return glm::length(watch.newest.wrench.force); };
+  const auto pull = [&] { return watch.newest.coupling.stiffness * 3.1e-3; };
+  QTRY_VERIFY(force() > 0.98 * pull() && force() < 1.02 * pull());
+  QVERIFY(watch.least > 0.5 * kMargin);
+  QTest::keyClick(&d.window(), Qt::Key_F6);
+  // What is kept is where the part is, not the hand.
+  QVERIFY(isNear(d.part("moving").worldFromPart.translation.z, -0.0049, 1.1e-5));
+  QCOMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Feel moving"));
+}
+
+void DesktopProxyTest::handThatPressesSlidesThePart() {
+  DesktopDriver d;
+  d.addCubes();
+  start(d, ui::Hand::Manual);
+  d.type<QDoubleSpinBox>("positionZ", "-8");
+  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+  // One number is typed; the hand keeps the others, and so goes on pressing.
+  d.type<QDoubleSpinBox>("positionX", "2");
+  QTRY_VERIFY(isNear(value(d, "positionX"), 2.0, 1e-3));
+  QVERIFY(isNear(value(d, "positionZ"), -4.9, 0.011));
+  QVERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+}
+
+void DesktopProxyTest::stepsMoveTheHandOnFromWhereItIs() {
+  DesktopDriver d;
+  d.addCubes();
+  Watch watch(d);
+  start(d, ui::Hand::Manual);
+  d.type<QDoubleSpinBox>("positionZ", "-6");
+  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("1.1")));
+  // By the field's arrows: a millimetre each.
+  auto* field = d.widget<QDoubleSpinBox>("positionZ");
+  QTest::keyClick(field, Qt::Key_Down);
+  QTRY_VERIFY(isNear(watch.newest.handle.translation.z, -0.007, 1e-9));
+  // By the keys of the view.
+  d.type<QDoubleSpinBox>("nudgeStep", "0.5");
+  ui::Viewport& view = d.window().viewport();
+  view.setFocus();
+  QTest::keyClick(&view, Qt::Key_PageDown);
+  QTest::keyClick(&view, Qt::Key_PageDown);
+  QTRY_VERIFY(isNear(watch.newest.handle.translation.z, -0.008, 1e-9));
+  QVERIFY(isNear(watch.newest.proxy.translation.z, -0.0049, 1.1e-5));
+}
+
+void DesktopProxyTest::lettingGoTakesTheHandBackToThePart() {
+  DesktopDriver d;
+  d.addCubes();
+  QVERIFY(!d.action("letGo")->isEnabled());
+  start(d, ui::Hand::Manual);
+  d.type<QDoubleSpinBox>("positionZ", "-8");
+  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+  QTRY_VERIFY(d.text("force") != QStringLiteral("0.00 N"));
+  QTest::keyClick(&d.window(), Qt::Key_F7);
+  QTRY_COMPARE(d.text("lead"), QStringLiteral("0.00 mm"));
+  QTRY_COMPARE(d.text("force"), QStringLiteral("0.00 N"));
+  // From there it moves at once.
+  QVERIFY(isNear(value(d, "positionZ"), -4.9, 0.011));
+}
+
+void DesktopProxyTest::scriptedHandPressesAndSlides() {
+  DesktopDriver d;
+  d.addCubes();
+  Watch watch(d);
+  start(d, ui::Hand::Scripted);
+  // A sweep takes 4 s.
+  QTRY_VERIFY_WITH_TIMEOUT(watch.newest.tick > 3900, 15'000);
+  QVERIFY2(watch.most > 1.0, "it presses well");
+  QVERIFY2(watch.highest - watch.lowest > 1e-3, "it slides along contact");
+  QVERIFY2(watch.least > 0.25 * kMargin, qPrintable(QString::number(watch.least)));
+  QTest::keyClick(&d.window(), Qt::Key_F6);
+}
+
+void DesktopProxyTest::partThatOverlapsIsNamed() {
+  DesktopDriver d;
+  d.addCubes();
+  d.session().movePart(d.partId("moving"), {{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, -0.01}});
+  start(d, ui::Hand::Manual);
+  auto* notice = d.widget<QFrame>("feelNotice");
+  QTRY_VERIFY(notice->isVisible());
+  QCOMPARE(d.text("noticeText"), QStringLiteral("Overlaps fixed: not felt until they are apart."));
+  QVERIFY(!d.widget<QPushButton>("restart")->isVisible());
+  // Pulled out, it is felt again.
+  d.type<QDoubleSpinBox>("positionZ", "2");
+  QTRY_VERIFY(!notice->isVisible());
+  d.type<QDoubleSpinBox>("positionZ", "-8");
+  QTRY_VERIFY(isNear(value(d, "positionZ"), -4.9, 0.011));
+}
+
+void DesktopProxyTest::faultIsToldAndAStartAnewOffered() {
+  DesktopDriver d;
+  d.addCubes();
+  Watch watch(d);
+  start(d, ui::Hand::Manual);
+  QTRY_VERIFY(watch.newest.tick > 300);
+  ServoSnapshot faulty = watch.newest;
+  faulty.fault = ServoFault::PoseNotFinite;
+  d.window().showSnapshot(faulty);
+  QVERIFY(d.text("noticeText").contains(QStringLiteral("check the device")));
+  auto* restart = d.widget<QPushButton>("restart");
+  QVERIFY(restart->isVisible());
+  QTest::mouseClick(restart, Qt::LeftButton);
+  QTRY_VERIFY(d.application.servo().isRunning());
+  QTRY_VERIFY2(watch.newest.tick > 0 && watch.newest.tick < 300, "it has begun again");
+  QTRY_VERIFY(!d.widget<QFrame>("feelNotice")->isVisible());
+}
+
+void DesktopProxyTest::modeIsChosenInThePanel() {
+  DesktopDriver d;
+  d.addCubes();
+  auto* mode = d.widget<QComboBox>("panelMode");
+  QCOMPARE(mode->currentData().value<ui::FeelMode>(), ui::FeelMode::Proxy);
+  mode->setFocus();
+  QTest::keyClick(mode, Qt::Key_Down);
+  QCOMPARE(d.session().scene().haptics().mode, HapticMode::Springs);
+  QCOMPARE(d.widget<QComboBox>("mode")->currentData().value<ui::FeelMode>(), ui::FeelMode::LinearSprings);
+  d.session().undo();
+  QCOMPARE(mode->currentData().value<ui::FeelMode>(), ui::FeelMode::Proxy);
+}
+
+void DesktopProxyTest::scriptedHandBeginsAgainInAnotherMode() {
+  DesktopDriver d;
+  d.addCubes();
+  Watch watch(d);
+  start(d, ui::Hand::Scripted);
+  // It presses, with the hand beyond contact.
+  QTRY_VERIFY_WITH_TIMEOUT(watch.newest.handle.translation.z < -0.0055, 8000);
+  watch.least = 1.0;
+  auto* mode = d.widget<QComboBox>("panelMode");
+  mode->setFocus();
+  QTest::keyClick(mode, Qt::Key_Down);
+  QTRY_VERIFY(watch.newest.mode == HapticMode::Springs && watch.newest.tick < 1000);
+  QTRY_VERIFY_WITH_TIMEOUT(watch.newest.tick > 2000, 8000);
+  QVERIFY2(watch.newest.distance > 0.0008, "springs are not pushed through");
+  QCOMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Change the mode"));
+}
+
+void DesktopProxyTest::marginBeyondTheCutoffIsExplained() {
+  DesktopDriver d;
+  d.addCubes();
+  QTest::mouseClick(d.widget<QPushButton>("settingsButton"), Qt::LeftButton);
+  const std::string before = d.session().undoText();
+  // The cutoff is 10 mm.
+  d.type<QDoubleSpinBox>("margin", "20");
+  QVERIFY(d.text("refusal").contains(QStringLiteral("more than the cutoff")));
+  QVERIFY(d.widget<QLabel>("refusal")->isVisible());
+  QCOMPARE(d.session().scene().haptics().proxy.margin, kMargin);
+  QCOMPARE(value(d, "margin"), 0.1);
+  QCOMPARE(d.session().undoText(), before);
+  d.type<QDoubleSpinBox>("margin", "0.05");
+  QVERIFY(!d.widget<QLabel>("refusal")->isVisible());
+  QVERIFY(isNear(d.session().scene().haptics().proxy.margin, 5e-5, 1e-15));
+  d.session().undo();
+  QCOMPARE(value(d, "margin"), 0.1);
+}
+
+void DesktopProxyTest::lockedAxesHoldTheManualHand() {
+  DesktopDriver d;
+  d.addCubes();
+  HapticSettings settings = d.session().scene().haptics();
+  settings.mapping.translationLocks[0] = true;
+  // A device would be scaled; numbers of the scene are not.
+  settings.mapping.scale = 3.0;
+  d.session().setHaptics(settings);
+  Watch watch(d);
+  start(d, ui::Hand::Manual);
+  d.type<QDoubleSpinBox>("positionX", "4");
+  d.type<QDoubleSpinBox>("positionY", "3");
+  QTRY_VERIFY(isNear(watch.newest.proxy.translation.y, 0.003, 1e-6));
+  QVERIFY(isNear(watch.newest.proxy.translation.x, 0.0, 1e-9));
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopProxyTest)
+#include "desktop_proxy_test.moc"
