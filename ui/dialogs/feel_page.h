@@ -57,7 +57,7 @@ class FeelPage : public QWidget {
   std::vector<std::function<void()>> showers_;  ///< Each puts one value into its field.
 };
 
-/// "0.2 to 1e+06 N/m" without exponents: limits as a tool tip tells them.
+/// "From 0 to 1000000 N/m": limits as a tool tip tells them.
 QString limitsText(double lower, double upper, const QString& unit);
 
 }  // namespace nearfit::ui

@@ -106,6 +106,25 @@ WorkspacePage::WorkspacePage(QWidget* parent) : FeelPage(parent) {
   NumberField* scale =
       addNumber({"scale", tr("Metres in the scene to a metre of the device"), tr(" ×"), kMinScale, kMaxScale},
                 [](HapticSettings& s) -> double& { return s.mapping.scale; });
+  makeAngles();
+  QGridLayout* locks = makeLocks();
+  QLabel* note = addNote();
+  note->setText(tr("The manual hand takes numbers of the scene itself: for it only the locks count."));
+  auto* scaleRow = new QFormLayout;
+  scaleRow->addRow(tr("Scale"), scale);
+  auto* layout = new QVBoxLayout(this);
+  layout->addLayout(scaleRow);
+  layout->addWidget(new QLabel(tr("Orientation of the device"), this));
+  layout->addLayout(axisRow(angleFields_));
+  layout->addSpacing(6);
+  layout->addWidget(new QLabel(tr("Locked axes of the world"), this));
+  layout->addLayout(locks);
+  layout->addSpacing(6);
+  layout->addWidget(note);
+  layout->addStretch(1);
+}
+
+void WorkspacePage::makeAngles() {
   const char* names[3] = {"orientationX", "orientationY", "orientationZ"};
   for (int axis = 0; axis < 3; ++axis) {
     auto* field = new NumberField(this);
@@ -118,7 +137,9 @@ WorkspacePage::WorkspacePage(QWidget* parent) : FeelPage(parent) {
             [this, axis](double degrees) { turn(axis, degrees); });
     angleFields_[static_cast<std::size_t>(axis)] = field;
   }
+}
 
+QGridLayout* WorkspacePage::makeLocks() {
   auto* locks = new QGridLayout;
   locks->setHorizontalSpacing(18);
   locks->addWidget(new QLabel(tr("Moves along"), this), 0, 0);
@@ -135,21 +156,7 @@ WorkspacePage::WorkspacePage(QWidget* parent) : FeelPage(parent) {
     locks->addWidget(turn, 1, static_cast<int>(axis) + 1);
   }
   locks->setColumnStretch(4, 1);
-
-  QLabel* note = addNote();
-  note->setText(tr("The manual hand takes numbers of the scene itself: for it only the locks count."));
-  auto* scaleRow = new QFormLayout;
-  scaleRow->addRow(tr("Scale"), scale);
-  auto* layout = new QVBoxLayout(this);
-  layout->addLayout(scaleRow);
-  layout->addWidget(new QLabel(tr("Orientation of the device"), this));
-  layout->addLayout(axisRow(angleFields_));
-  layout->addSpacing(6);
-  layout->addWidget(new QLabel(tr("Locked axes of the world"), this));
-  layout->addLayout(locks);
-  layout->addSpacing(6);
-  layout->addWidget(note);
-  layout->addStretch(1);
+  return locks;
 }
 
 void WorkspacePage::turn(int axis, double degrees) {

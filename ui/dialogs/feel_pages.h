@@ -7,6 +7,7 @@
 #include "ui/dialogs/feel_page.h"
 
 class QCheckBox;
+class QGridLayout;
 class QLabel;
 
 namespace nearfit::ui {
@@ -55,6 +56,8 @@ class WorkspacePage : public FeelPage {
   void refresh() override;
 
  private:
+  void makeAngles();
+  QGridLayout* makeLocks();
   void turn(int axis, double degrees);
 
   std::array<NumberField*, 3> angleFields_{};

@@ -59,20 +59,7 @@ QWidget* ProxyPage::makeCoupling() {
   automatic_ = addSwitch("automaticCoupling", tr("As stiff as the device allows"),
                          tr("Chosen from the device's damping and the measured period of the servo"),
                          [](HapticSettings& s) -> bool& { return s.coupling.isAutomatic; });
-  rows_[0] = addRow(
-      {"couplingStiffness", tr("Pull between hand and part"), tr(" N/m"), kMinStiffness, kMaxStiffness, 1.0,
-       2},
-      [](HapticSettings& s) -> double& { return s.coupling.stiffness; },
-      {"couplingDamping", tr("Damping between hand and part"), tr(" N·s/m"), kMinDamping, kMaxDamping, 1.0,
-       4},
-      [](HapticSettings& s) -> double& { return s.coupling.damping; });
-  rows_[1] = addRow(
-      {"rotationalStiffness", tr("About the part's axis of most inertia"), tr(" N·m/rad"),
-       kMinRotationalStiffness, kMaxRotationalStiffness, 1.0, 5},
-      [](HapticSettings& s) -> double& { return s.coupling.rotationalStiffness; },
-      {"rotationalDamping", tr("About the part's axis of most inertia"), tr(" N·m·s/rad"),
-       kMinRotationalDamping, kMaxRotationalDamping, 1.0, 8},
-      [](HapticSettings& s) -> double& { return s.coupling.rotationalDamping; });
+  makeRows();
   reason_ = addNote();
   reason_->setObjectName(QStringLiteral("boundReason"));
 
@@ -97,6 +84,23 @@ QWidget* ProxyPage::makeCoupling() {
   layout->addLayout(grid);
   layout->addWidget(reason_);
   return group;
+}
+
+void ProxyPage::makeRows() {
+  rows_[0] = addRow(
+      {"couplingStiffness", tr("Pull between hand and part"), tr(" N/m"), kMinStiffness, kMaxStiffness, 1.0,
+       2},
+      [](HapticSettings& s) -> double& { return s.coupling.stiffness; },
+      {"couplingDamping", tr("Damping between hand and part"), tr(" N·s/m"), kMinDamping, kMaxDamping, 1.0,
+       4},
+      [](HapticSettings& s) -> double& { return s.coupling.damping; });
+  rows_[1] = addRow(
+      {"rotationalStiffness", tr("About the part's axis of most inertia"), tr(" N·m/rad"),
+       kMinRotationalStiffness, kMaxRotationalStiffness, 1.0, 5},
+      [](HapticSettings& s) -> double& { return s.coupling.rotationalStiffness; },
+      {"rotationalDamping", tr("About the part's axis of most inertia"), tr(" N·m·s/rad"),
+       kMinRotationalDamping, kMaxRotationalDamping, 1.0, 8},
+      [](HapticSettings& s) -> double& { return s.coupling.rotationalDamping; });
 }
 
 ProxyPage::Row ProxyPage::addRow(const Number& stiffness, const NumberOf& stiffnessOf, const Number& damping,

@@ -48,6 +48,7 @@ class ProxyPage : public FeelPage {
   };
 
   QWidget* makeCoupling();
+  void makeRows();
   Row addRow(const Number& stiffness, const NumberOf& stiffnessOf, const Number& damping,
              const NumberOf& dampingOf);
   void showRow(const Row& row, const Line& line);
