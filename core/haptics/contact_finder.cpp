@@ -10,6 +10,8 @@ namespace {
 
 /// How far around a pose pairs are gathered, in reaches: a few steps of the proxy; more when a hand is fast.
 constexpr double kLeastSlack = 0.5, kMostSlack = 6.0;
+/// Farther turned, nearly every pair of features is a candidate [rad].
+constexpr double kMostTurn = 0.1;
 /// Beyond so many pairs, testing those that only the room for motion adds costs more than gathering again.
 constexpr std::size_t kManyPairs = 2048;
 /// After so many with less room, more is tried.
@@ -84,14 +86,14 @@ bool ContactFinder::gatherOne(const TrackedScene& tracked, std::uint32_t body,
 
 bool ContactFinder::gatherPairs(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                                 double reach, double way) noexcept {
-  const double radius = tracked.scene->metric.radius, turn = contactTurn(reach, radius);
+  const double radius = tracked.scene->metric.radius;
   const std::array<double, 3> rooms{std::clamp(way, kLeastSlack * reach, kMostSlack * reach),
                                     kLeastSlack * reach, 0.0};
   // Where there were many pairs there still are, most likely.
   if (roomLevel_ > 0 && ++gatherings_ % kGatheringsBetweenTries == 0) --roomLevel_;
   for (; roomLevel_ < rooms.size(); ++roomLevel_) {
     const double travel = rooms[roomLevel_];
-    if (!gatherWithin(tracked, worldFromPart, reach, {travel, std::min(travel / radius, turn)})) continue;
+    if (!gatherWithin(tracked, worldFromPart, reach, {travel, std::min(travel / radius, kMostTurn)})) continue;
     if (nextPair() <= kManyPairs || roomLevel_ + 1 == rooms.size() || lateBodies_ > 0) return true;
   }
   roomLevel_ = rooms.size() - 1;

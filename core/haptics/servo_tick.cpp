@@ -175,8 +175,9 @@ Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
     const BodyMotion target = freeStep(felt_, coupling_, scene.metric, scene.centreInPart, handle_,
                                        {part_.pose, partStep_}, tick.period);
     const Clock::time_point begin = Clock::now();
+    // As it is: a free part must be where the hand is to the last bit, for there to be no force at all.
     if (isPose(target.pose))
-      proxy_.follow(tick.tracked, target.pose.normalized(), tick.settings.proxy);
+      proxy_.follow(tick.tracked, target.pose, tick.settings.proxy);
     else
       fault_ = ServoFault::WrenchNotFinite;
     tick.snapshot.proxyTime = secondsSince(begin) - proxy_.queryTime();
