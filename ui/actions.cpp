@@ -44,7 +44,7 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
 
   fit = make("fit", tr("&Fit all"), "fit", QKeySequence(Qt::Key_F));
   fitSelection =
-      make("fitSelection", tr("Fit s&elected part"), "fit", QKeySequence(QStringLiteral("Shift+F")));
+      make("fitSelection", tr("Fit se&lected part"), "fit", QKeySequence(QStringLiteral("Shift+F")));
   viewIso = make("viewIso", tr("&Isometric"), "view-iso", QKeySequence(Qt::Key_0));
   viewFront = make("viewFront", tr("F&ront"), "view-front", QKeySequence(Qt::Key_1));
   viewRight = make("viewRight", tr("Ri&ght"), "view-right", QKeySequence(Qt::Key_2));
