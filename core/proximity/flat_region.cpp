@@ -8,6 +8,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "core/math/tolerances.h"
+#include "core/proximity/touching.h"
+
 namespace nearfit {
 namespace {
 
@@ -139,9 +142,10 @@ constexpr double kLeastShare = 0.5;
 class RegionUnion {
  public:
   RegionUnion(std::span<const Minimum> minima, std::span<const std::uint32_t> group,
-              double tolerance) noexcept
+              const RegionNeighbours& neighbours, double tolerance) noexcept
       : minima_(minima),
         group_(group),
+        neighbours_(neighbours),
         tolerance_(tolerance),
         largest_(largestPiece(minima, group)),
         direction_(meanDirection()),
@@ -150,8 +154,8 @@ class RegionUnion {
   Lmd unite() const noexcept {
     Moments moments;
     double weight = 0.0, height = 0.0, distance = 0.0, least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < group_.size(); ++i) {
-      const Minimum& piece = minima_[group_[i]];
+    for (const std::uint32_t i : group_) {
+      const Minimum& piece = minima_[i];
       least = std::min(least, piece.least);
       if (!isPiece(piece)) continue;
       addPiece(i, moments);
@@ -202,8 +206,8 @@ class RegionUnion {
     }
   }
 
-  void addPiece(std::size_t at, Moments& moments) const noexcept {
-    const Minimum& piece = minima_[group_[at]];
+  void addPiece(std::uint32_t at, Moments& moments) const noexcept {
+    const Minimum& piece = minima_[at];
     const Outline outline(piece, plane_);
     const auto add = [&](const glm::dvec2& a, const glm::dvec2& b) {
       piece.dimension == 2 ? moments.addBoundary(a, b) : moments.addSegment(a, b);
@@ -219,17 +223,17 @@ class RegionUnion {
 
   /// Adds what no other piece covers of the way from a to b, part by part.
   template <class Add>
-  void addUncovered(std::size_t at, const glm::dvec2& a, const glm::dvec2& b, Add& add) const noexcept {
+  void addUncovered(std::uint32_t at, const glm::dvec2& a, const glm::dvec2& b, Add& add) const noexcept {
+    const Aabb box = boxOf(minima_[at], tolerance_ + kRegionDirection * minima_[at].radius);
     double done = 0.0;
     while (done < 1.0) {
       double reach = done, next = 1.0;
-      for (std::size_t i = 0; i < group_.size(); ++i) {
-        if (i == at) continue;
+      neighbours_.boxes.forEachAt(box, [&](std::uint32_t i) {
         const Interval covered = coveredBy(i, at, a, b);
-        if (!(covered.to > covered.from)) continue;
+        if (!(covered.to > covered.from)) return;
         if (covered.from <= done) reach = std::max(reach, covered.to);
         if (covered.from > done) next = std::min(next, covered.from);
-      }
+      });
       if (reach > done) {
         done = reach;
       } else {
@@ -239,16 +243,18 @@ class RegionUnion {
     }
   }
 
-  Interval coveredBy(std::size_t other, std::size_t at, const glm::dvec2& a,
+  Interval coveredBy(std::uint32_t other, std::uint32_t at, const glm::dvec2& a,
                      const glm::dvec2& b) const noexcept {
-    const Minimum &piece = minima_[group_[at]], &cover = minima_[group_[other]];
+    if (other == at || neighbours_.region[other] != neighbours_.region[at]) return {0.0, 0.0};
+    const Minimum &piece = minima_[at], &cover = minima_[other];
     const double reach = piece.radius + cover.radius;
     const glm::dvec3 apart = piece.lmd.scenePoint - cover.lmd.scenePoint;
     const bool isNear = isPiece(cover) && cover.isOverlapping && glm::dot(apart, apart) <= reach * reach;
     if (!isNear) return {0.0, 0.0};
     const Outline outline(cover, plane_);
-    if (piece.dimension == 2) return coveredByPolygon(a, b, outline, other < at, tolerance_);
-    return other < at ? coveredBySegment(a, b, outline, tolerance_) : Interval{0.0, 0.0};
+    const bool isEarlier = featureKey(cover) < featureKey(piece);
+    if (piece.dimension == 2) return coveredByPolygon(a, b, outline, isEarlier, tolerance_);
+    return isEarlier ? coveredBySegment(a, b, outline, tolerance_) : Interval{0.0, 0.0};
   }
 
   void setExtent(const Moments& m, const glm::dvec2& centroid, RegionExtent& extent) const noexcept {
@@ -273,13 +279,18 @@ class RegionUnion {
   /// The centroid where a piece holds it, else the largest piece's.
   glm::dvec2 pointInside(const glm::dvec2& centroid) const noexcept {
     const bool isInside = std::any_of(group_.begin(), group_.end(), [&](std::uint32_t i) {
-      return isPiece(minima_[i]) && Outline(minima_[i], plane_).contains(centroid, tolerance_);
+      const Minimum& m = minima_[i];
+      const double far = m.radius + tolerance_;
+      const glm::dvec2 apart = plane_.map(m.lmd.scenePoint) - centroid;
+      return isPiece(m) && glm::dot(apart, apart) <= far * far &&
+             Outline(m, plane_).contains(centroid, tolerance_);
     });
     return isInside ? centroid : plane_.map(largest_.lmd.scenePoint);
   }
 
   std::span<const Minimum> minima_;
   std::span<const std::uint32_t> group_;
+  const RegionNeighbours& neighbours_;
   double tolerance_;
   const Minimum& largest_;
   glm::dvec3 direction_;
@@ -325,8 +336,8 @@ bool markIfOverlapping(Minimum& a, Minimum& b, double tolerance) noexcept {
 }
 
 Lmd uniteRegion(std::span<const Minimum> minima, std::span<const std::uint32_t> group,
-                double tolerance) noexcept {
-  return RegionUnion(minima, group, tolerance).unite();
+                const RegionNeighbours& neighbours, double tolerance) noexcept {
+  return RegionUnion(minima, group, neighbours, tolerance).unite();
 }
 
 }  // namespace nearfit

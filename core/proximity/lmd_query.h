@@ -32,9 +32,10 @@ struct LmdResult {
   QueryStatus status = QueryStatus::Complete;
   /// Every minimum nearer than this is there [m]: the cutoff when Complete, less when Truncated.
   double completeTo = 0.0;
-  std::uint64_t nodePairs = 0;  ///< Node pairs visited.
-  std::uint64_t leafPairs = 0;  ///< Feature pairs tested exactly.
-  std::size_t pieces = 0;       ///< Minima and pieces of regions that were merged.
+  std::uint64_t nodePairs = 0;   ///< Node pairs visited.
+  std::uint64_t leafPairs = 0;   ///< Feature pairs tested exactly.
+  std::size_t pieces = 0;        ///< Minima and pieces of regions that were merged.
+  std::uint64_t piecePairs = 0;  ///< Of them, those near enough to be held against each other.
 };
 
 /// Work space of a query, allocated once; one per thread.
@@ -43,7 +44,7 @@ class LmdScratch {
   /// Room for the minima of a servo tick: a query that finds more keeps the nearest and says Truncated.
   static constexpr std::size_t kDefaultCapacity = 16384;
 
-  /// @param capacity  Minima, and pieces of flat regions, that a query can hold; about 250 bytes each.
+  /// @param capacity  Minima, and pieces of flat regions, that a query can hold; about 550 bytes each.
   /// @param simd      Instruction set to cull with; the sets are the same with each.
   explicit LmdScratch(std::size_t capacity = kDefaultCapacity, SimdLevel simd = defaultSimdLevel());
   ~LmdScratch();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -23,5 +24,19 @@ struct Minimum {
   std::uint8_t cornerCount = 0;
   std::array<glm::dvec3, kMaxCorners> corners{};  ///< Of a piece, scene side.
 };
+
+/// The two features of a minimum, as numbers: no two entries of a query have the same. Their order does not
+/// depend on when entries were found, and so not on the instruction set or a candidate list.
+struct FeatureKey {
+  std::uint64_t scene, part;
+  auto operator<=>(const FeatureKey&) const = default;
+};
+
+inline FeatureKey featureKey(const Minimum& m) noexcept {
+  const auto packed = [](FeatureKind kind, std::uint32_t index) {
+    return static_cast<std::uint64_t>(kind) << 32 | index;
+  };
+  return {packed(m.lmd.sceneFeature, m.lmd.sceneIndex), packed(m.lmd.partFeature, m.lmd.partIndex)};
+}
 
 }  // namespace nearfit

@@ -43,10 +43,12 @@ void MinimaCollector::add() noexcept {
 
 void MinimaCollector::finish(const NormalConeTree& scene, const NormalConeTree& part,
                              std::span<Lmd> out) noexcept {
-  const std::size_t kept =
-      mergeMinima(std::span(workspace_.minima).first(count_), workspace_.order, workspace_.parent,
+  const MergeResult merged =
+      mergeMinima(std::span(workspace_.minima).first(count_), workspace_.order, workspace_.merge,
                   scene.size() + part.size(), std::min(scene.size(), part.size()));
+  const std::size_t kept = merged.count;
   result_.pieces = count_;
+  result_.piecePairs = merged.pairs;
   result_.count = std::min(kept, out.size());
   if (kept > out.size() || isHeap_) {
     result_.status = QueryStatus::Truncated;

@@ -6,6 +6,7 @@
 
 #include "core/proximity/cull_kernel.h"
 #include "core/proximity/lmd_query.h"
+#include "core/proximity/merge_minima.h"
 #include "core/proximity/minimum.h"
 #include "core/proximity/segment_kernel.h"
 #include "core/proximity/tree_traversal.h"
@@ -17,7 +18,7 @@ struct LmdScratch::Data {
   Data(std::size_t capacity, SimdLevel simd)
       : minima(capacity),
         order(capacity),
-        parent(capacity),
+        merge(capacity),
         open(opener(simd)),
         openSwept(sweptOpener(simd)),
         openNear(nearOpener(simd)),
@@ -27,7 +28,8 @@ struct LmdScratch::Data {
 
   TraversalWork traversal;
   std::vector<Minimum> minima;
-  std::vector<std::uint32_t> order, parent;
+  std::vector<std::uint32_t> order;
+  MergeWork merge;
   Opener open, openSwept, openNear;
   PairCullKernel pairCull;
   SweptPairCullKernel sweptPairCull;

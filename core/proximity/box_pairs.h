@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/math/aabb.h"
+
+namespace nearfit {
+
+/// Boxes, and which of them overlap: a hierarchy of two children a node that is made anew for each set.
+///
+/// Real-time safe but for the constructor. Building and finding the pairs of n boxes of which each overlaps a
+/// few takes O(n log n).
+class BoxPairs {
+ public:
+  /// @param capacity  Boxes that a set can have.
+  explicit BoxPairs(std::size_t capacity);
+
+  void clear() noexcept { count_ = nodeCount_ = 0; }
+  /// The next box, which is known by its rank from 0 on; no more than the capacity, none of them empty.
+  void add(const Aabb& box) noexcept;
+  /// To be called when all are there, before anything is asked.
+  void build() noexcept;
+
+  /// Calls visit(i, j) once for each two boxes that overlap or touch, those that lie close together first.
+  template <class Visit>
+  void forEachPair(Visit&& visit) const noexcept {
+    if (nodeCount_ > 0) pairsWithin(0, visit);
+  }
+  /// Calls visit(i) for each box that overlaps or touches a given one.
+  template <class Visit>
+  void forEachAt(const Aabb& box, Visit&& visit) const noexcept {
+    if (nodeCount_ > 0) entriesAt(0, box, visit);
+  }
+
+ private:
+  struct Entry {
+    Aabb box;
+    std::uint32_t index;
+  };
+  struct Node {
+    Aabb box;
+    std::uint32_t begin, end;  ///< Of its entries.
+    std::uint32_t right;       ///< Second child, the first follows the node; 0 for a leaf.
+  };
+
+  static bool overlap(const Aabb& a, const Aabb& b) noexcept {
+    return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
+           b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+  }
+  std::uint32_t makeNode(std::uint32_t begin, std::uint32_t end) noexcept;
+  std::uint32_t split(std::uint32_t begin, std::uint32_t end) noexcept;
+  std::span<const Entry> entriesOf(const Node& node) const noexcept {
+    return {entries_.data() + node.begin, node.end - node.begin};
+  }
+
+  // These call themselves: as deep as the tree at most (twice that for two nodes), see kLeastShare.
+
+  template <class Visit>
+  void pairsWithin(std::uint32_t at, Visit& visit) const noexcept {
+    const Node& node = nodes_[at];
+    if (node.right != 0) {
+      pairsWithin(at + 1, visit);
+      pairsWithin(node.right, visit);
+      pairsBetween(at + 1, node.right, visit);
+      return;
+    }
+    const std::span<const Entry> entries = entriesOf(node);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      for (std::size_t j = i + 1; j < entries.size(); ++j) {
+        if (overlap(entries[i].box, entries[j].box)) visit(entries[i].index, entries[j].index);
+      }
+    }
+  }
+
+  template <class Visit>
+  void pairsBetween(std::uint32_t a, std::uint32_t b, Visit& visit) const noexcept {
+    const Node &na = nodes_[a], &nb = nodes_[b];
+    if (!overlap(na.box, nb.box)) return;
+    if (na.right == 0 && nb.right == 0) {
+      for (const Entry& entry : entriesOf(na)) {
+        if (!overlap(entry.box, nb.box)) continue;
+        for (const Entry& other : entriesOf(nb)) {
+          if (overlap(entry.box, other.box)) visit(entry.index, other.index);
+        }
+      }
+    } else if (nb.right == 0 || (na.right != 0 && na.end - na.begin > nb.end - nb.begin)) {
+      pairsBetween(a + 1, b, visit);
+      pairsBetween(na.right, b, visit);
+    } else {
+      pairsBetween(a, b + 1, visit);
+      pairsBetween(a, nb.right, visit);
+    }
+  }
+
+  template <class Visit>
+  void entriesAt(std::uint32_t at, const Aabb& box, Visit& visit) const noexcept {
+    const Node& node = nodes_[at];
+    if (!overlap(node.box, box)) return;
+    if (node.right != 0) {
+      entriesAt(at + 1, box, visit);
+      entriesAt(node.right, box, visit);
+      return;
+    }
+    for (const Entry& entry : entriesOf(node)) {
+      if (overlap(entry.box, box)) visit(entry.index);
+    }
+  }
+
+  std::vector<Entry> entries_;
+  std::vector<Node> nodes_;
+  std::uint32_t count_ = 0, nodeCount_ = 0;
+};
+
+}  // namespace nearfit

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "core/math/aabb.h"
+#include "core/proximity/minimum.h"
+
+namespace nearfit {
+
+/// What counts as one length, for points and for pieces of flat regions.
+class Closeness {
+ public:
+  /// @param size         Of both bodies together [m].
+  /// @param smallerSize  Of the smaller body [m].
+  Closeness(double size, double smallerSize) noexcept;
+
+  /// Of two points of the scene that belong to minima whose directions differ.
+  double of(const Minimum& a, const Minimum& b) const noexcept;
+  /// By how much neighbouring pieces may overlap that only lie in planes which differ a little.
+  double ofOverlap(double distance) const noexcept;
+  /// How far about an entry its box reaches: boxes of entries that touch or overlap have a point in common.
+  double margin(const Minimum& m) const noexcept;
+
+ private:
+  double base_, gap_;  ///< [m]
+};
+
+/// Whether two entries can be of one set at all: at one distance, and pieces in one plane near each other.
+bool canTouch(const Minimum& a, const Minimum& b, const Closeness& closeness) noexcept;
+
+/// Whether entries that can be of one set are: points that are one, pieces with a common point.
+bool touch(const Minimum& a, const Minimum& b, const Closeness& closeness) noexcept;
+
+/// What holds an entry's points on the scene, and `margin` about them [m].
+Aabb boxOf(const Minimum& m, double margin) noexcept;
+
+}  // namespace nearfit
