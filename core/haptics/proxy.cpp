@@ -36,6 +36,9 @@ constexpr double kSnapShare = 0.3;
 /// What moves by less than this share of the margin (or of the clearance) rests: 0.1 um of 0.1 mm. The first
 /// step of a tick goes on below that, so that a slow hand does not drag.
 constexpr double kAtRest = 1e-3, kAtRestAtFirst = 1e-6;
+/// After so many steps of a tick, one that brings less than this share of the first is left to the next tick.
+constexpr std::uint32_t kWorthwhileSteps = 3;
+constexpr double kWorthwhile = 0.05;
 /// How hard the margin is held, against a way of so many margins into the contact: to a hundredth of it for
 /// each direction that is pressed in.
 constexpr double kMarginWeight = 100.0, kMostMarginWeight = 1e6;
@@ -146,7 +149,6 @@ double Proxy::targetMotion(const Tick& tick) const noexcept {
 Proxy::Outcome Proxy::step(const Tick& tick) noexcept {
   const Motion wanted = motionTo(*tick.tracked.scene, tick.target);
   if (wanted.shift == glm::dvec3(0.0) && wanted.spin == glm::dvec3(0.0)) return Outcome::AtRest;
-  cost_.reset();
   return here_.distance > kFree * margin_ ? freeStep(tick, wanted) : constrainedStep(tick, wanted);
 }
 
@@ -230,25 +232,41 @@ Proxy::Outcome Proxy::constrainedStep(const Tick& tick, const Motion& wanted) no
       worldFromPrincipal * (glm::dvec3(solution.y[3], solution.y[4], solution.y[5]) / metric.gyration)};
   double travel = travelOf(glm::length(motion.shift), glm::length(motion.spin), metric.radius);
   if (!(travel > (account_.subSteps == 0 ? kAtRestAtFirst : kAtRest) * held)) return Outcome::AtRest;
-  return takeShortened(tick, goal, motion, travel);
+  if (account_.subSteps == 0) firstTravel_ = travel;
+  if (account_.subSteps >= kWorthwhileSteps && travel < kWorthwhile * firstTravel_) return Outcome::Stuck;
+  return takeShortened(tick, {goal.wanted, solution.y, goal.cost}, motion, travel);
 }
 
-Proxy::Outcome Proxy::takeShortened(const Tick& tick, const StepGoal& goal, Motion motion,
-                                    double travel) noexcept {
-  cost_ = goal.cost;
+Proxy::Outcome Proxy::takeShortened(const Tick& tick, Trial trial, Motion motion, double travel) noexcept {
   bool isProved = true;
   for (int halvings = 0; halvings <= kMaxHalvings; ++halvings) {
-    const Verdict verdict = take(tick, moved(*tick.tracked.scene, motion), travel);
+    // What rubs is held back by more than the program's cost.
+    const Trial* judged = tick.settings.friction > 0.0 ? nullptr : &trial;
+    const Verdict verdict = take(tick, moved(*tick.tracked.scene, motion), travel, judged);
     if (verdict == Verdict::Taken) return Outcome::Moved;
     if (verdict == Verdict::Unknown) return Outcome::Stuck;
     isProved = verdict == Verdict::NoGain;
     if (!isProved) ++account_.shortenedSteps;
     motion = {kHalf * motion.shift, kHalf * motion.spin};
+    for (double& y : trial.step)
+      y *= kHalf;
     travel *= kHalf;
   }
   if (isProved) return Outcome::AtRest;
   ++account_.refusedSteps;
   return Outcome::Stuck;
+}
+
+bool Proxy::isGain(const Trial& trial, double distance) const noexcept {
+  double gone = 0.0, left = 0.0;
+  for (std::size_t k = 0; k < trial.step.size(); ++k) {
+    const double rest = trial.wanted[k] - trial.step[k];
+    gone += trial.wanted[k] * trial.wanted[k];
+    left += rest * rest;
+  }
+  const double lackHere = std::max(0.0, trial.cost.margin - here_.distance);
+  const double lackThere = std::max(0.0, trial.cost.margin - distance);
+  return left + trial.cost.weight * lackThere * lackThere < gone + trial.cost.weight * lackHere * lackHere;
 }
 
 void Proxy::keepContacts(const StepSolution& solution) noexcept {
@@ -272,18 +290,8 @@ void Proxy::raiseFloor(const Tick& tick) noexcept {
   floor_ = std::min(std::max({floor_, kFloorOfFirst * here_.distance, kRounding * lengths}), highest);
 }
 
-double Proxy::costAt(const Tick& tick, const RigidTransform& pose, double distance) const noexcept {
-  const ServoScene& scene = *tick.tracked.scene;
-  const glm::dvec3 shift =
-      tick.target.applyToPoint(scene.centreInPart) - pose.applyToPoint(scene.centreInPart);
-  const glm::dvec3 spin = rotationVector(tick.target.rotation * glm::conjugate(pose.rotation));
-  const glm::dvec3 turn =
-      scene.metric.gyration * (glm::conjugate(pose.rotation * scene.metric.partFromPrincipal) * spin);
-  const double lack = std::max(0.0, cost_->margin - distance);
-  return glm::dot(shift, shift) + glm::dot(turn, turn) + cost_->weight * lack * lack;
-}
-
-Proxy::Verdict Proxy::take(const Tick& tick, const RigidTransform& pose, double travel) noexcept {
+Proxy::Verdict Proxy::take(const Tick& tick, const RigidTransform& pose, double travel,
+                           const Trial* trial) noexcept {
   if (finder_.isWorkSpent()) return Verdict::Unknown;
   Surroundings there = lookAround(tick, pose, next_);
   if (there.completeTo == 0.0) return Verdict::Unknown;
@@ -293,8 +301,7 @@ Proxy::Verdict Proxy::take(const Tick& tick, const RigidTransform& pose, double 
   const bool isProved = travel < kProved * (here_.distance + there.distance);
   const bool isAllowed = there.distance >= here_.distance || there.distance >= std::max(kHalf * held, floor_);
   if (!isProved || !isAllowed) return Verdict::NotProved;
-  if (cost_ && !(costAt(tick, pose, there.distance) < costAt(tick, pose_, here_.distance)))
-    return Verdict::NoGain;
+  if (trial != nullptr && !isGain(*trial, there.distance)) return Verdict::NoGain;
   pose_ = pose;
   here_ = there;
   wayLeft_ -= travel;

@@ -103,16 +103,22 @@ class Proxy {
   Outcome step(const Tick& tick) noexcept;
   Outcome freeStep(const Tick& tick, const Motion& wanted) noexcept;
   Outcome constrainedStep(const Tick& tick, const Motion& wanted) noexcept;
-  Outcome takeShortened(const Tick& tick, const StepGoal& goal, Motion motion, double travel) noexcept;
+  /// A step as the program has it.
+  struct Trial {
+    StepVector wanted, step;
+    ClearanceCost cost;
+  };
+  Outcome takeShortened(const Tick& tick, Trial trial, Motion motion, double travel) noexcept;
   StepGoal goalOf(const Tick& tick, const Motion& wanted) const noexcept;
-  /// What the program makes least, but with the true distance at a pose.
-  double costAt(const Tick& tick, const RigidTransform& pose, double distance) const noexcept;
+  /// Whether a step makes less what the program makes least, with the true distance at its end.
+  bool isGain(const Trial& trial, double distance) const noexcept;
   bool fillRows(const Tick& tick, double reach) noexcept;
   StepSolution solve(const Tick& tick, const StepGoal& goal) noexcept;
   void keepContacts(const StepSolution& solution) noexcept;
   Surroundings lookAround(const Tick& tick, const RigidTransform& pose, std::span<BodyContact> out) noexcept;
   void raiseFloor(const Tick& tick) noexcept;
-  Verdict take(const Tick& tick, const RigidTransform& pose, double travel) noexcept;
+  Verdict take(const Tick& tick, const RigidTransform& pose, double travel,
+               const Trial* trial = nullptr) noexcept;
 
   ContactFinder finder_;
   StepRows rows_;
@@ -127,8 +133,8 @@ class Proxy {
   RigidTransform pose_;
   Surroundings here_;
   bool isHereKnown_ = false;
-  double wayLeft_ = 0.0;               ///< That a point of it may still go in this tick [m].
-  std::optional<ClearanceCost> cost_;  ///< Of the step that is tried; none for a free one.
+  double wayLeft_ = 0.0;      ///< That a point of it may still go in this tick [m].
+  double firstTravel_ = 0.0;  ///< Of the tick's first step [m].
   std::optional<RigidTransform> lastTarget_;
   struct Rest {
     RigidTransform target;
