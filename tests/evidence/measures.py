@@ -91,10 +91,8 @@ def _value(goal, recording, first, end):
         apart = (recording.handle_shift - recording.proxy_shift)[first:end, goal.axis]
         return apart[np.argmax(np.abs(apart))]
     if goal.kind == "lead":
-        # Steady winding: the last two turns but one, as the hand slows down at the end.
         twist = recording.proxy_twist[first:end]
-        chosen = np.abs(twist - twist[-1]) < 6 * np.pi
-        chosen &= np.abs(twist - twist[-1]) > 2 * np.pi
+        chosen = np.abs(twist - twist[-1]) < 3 * np.pi
         slope = np.polyfit(twist[chosen], recording.proxy_shift[first:end, 2][chosen], 1)[0]
         return slope * 2 * np.pi
     raise ValueError(f"no goal is of kind {goal.kind}")

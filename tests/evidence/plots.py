@@ -133,4 +133,4 @@ def _shrink(file):
     except ImportError:
         return
     with Image.open(file) as image:
-        image.convert("RGB").quantize(64).save(file, optimize=True)
+        image.convert("RGB").quantize(160).save(file, optimize=True)

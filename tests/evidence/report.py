@@ -43,8 +43,13 @@ def draw(evidence, recording, row, file):
     plots.draw(evidence, recording, subtitle, file)
 
 
+NOTHING = 1e-9  # What is less is rounding: of lengths [m], forces [N] and torques [N m] alike.
+
+
 def number(value):
-    return str(value) if isinstance(value, (str, int)) else f"{value:.4g}"
+    if isinstance(value, (str, int)):
+        return str(value)
+    return "0" if abs(value) < NOTHING else f"{value:.4g}"
 
 
 def text(result):
@@ -52,9 +57,10 @@ def text(result):
     lines = [f"== {row['scene']}: {row['ticks']} ticks, met {row['poses_met']} of {row['poses_certified']}, "
              f"least {row['least_distance_margins']:.3g} margins, shortened {row['ticks_shortened']}, refused "
              f"{row['ticks_refused']}, tick p50 {row['tick_us_p50']:.1f} p99 {row['tick_us_p99']:.1f} us, proxy p50 "
-             f"{row['proxy_us_p50']:.1f}, noise at rest {row['rest_noise_N']:.2g} N {row['rest_noise_Nm']:.2g} N m"]
+             f"{row['proxy_us_p50']:.1f}, noise at rest {number(row['rest_noise_N'])} N, steps in "
+             f"{row['ticks_at_rest_that_step']} of {row['ticks_at_rest']} ticks at rest"]
     for f in result.findings:
-        lines.append(f"   {'ok ' if f.is_met else 'NOT'} {f.goal.text}: {f.value:.6g} "
+        lines.append(f"   {'ok ' if f.is_met else 'NOT'} {f.goal.text}: {number(f.value)} "
                      f"({f.goal.low:.6g} to {f.goal.high:.6g})")
     kinds = {}
     for what, tick, value in result.doubts:
@@ -80,7 +86,7 @@ def _goals(file, results):
     kept = json.loads(file.read_text()) if file.exists() else {}
     for r in results:
         kept[r.row["scene"]] = [
-            {"what": f.goal.text, "value": float(f"{f.value:.6g}"), "met": bool(f.is_met)} for f in r.findings]
+            {"what": f.goal.text, "value": float(number(f.value)), "met": bool(f.is_met)} for f in r.findings]
     return kept
 
 
@@ -105,12 +111,13 @@ def markdown(rows, goals, evidence):
              "Written by `tests/evidence/run`, which says how; [../README.md](../README.md) tells what is shown.", "",
              f"Machine: {machine()}. Revision and load (1 min) stand in [evidence.csv](evidence.csv), a row a scene.", "",
              "| scene | ticks | poses that meet | margin [mm] | least distance [margins] | ticks shortened | refused | "
-             "noise at rest [N] | tick p50, p99 [us] | proxy p50, p99 [us] |",
-             "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"]
+             "noise at rest [N] | ticks at rest that step | tick p50, p99 [us] | proxy p50, p99 [us] |",
+             "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"]
     for r in rows:
         lines.append(f"| [{r['scene']}]({r['scene']}.png) | {r['ticks']} | {r['poses_met']} of {r['poses_certified']} | "
                      f"{1e3 * float(r['margin_m']):g} | {r['least_distance_margins']} | {r['ticks_shortened']} | "
-                     f"{r['ticks_refused']} | {r['rest_noise_N']} | {r['tick_us_p50']}, {r['tick_us_p99']} | "
+                     f"{r['ticks_refused']} | {r['rest_noise_N']} | "
+                     f"{r['ticks_at_rest_that_step']} of {r['ticks_at_rest']} | {r['tick_us_p50']}, {r['tick_us_p99']} | "
                      f"{r['proxy_us_p50']}, {r['proxy_us_p99']} |")
     for r in rows:
         lines += ["", f"## {evidence[r['scene']].title}", ""]

@@ -136,39 +136,39 @@ def _nut_engaged():
     hand.move("pulled 10 mm up", 0.6, (0, 0, 0.020))
     hand.hold("still, pulled", 0.4)
     hand.move("let go", 0.3, (0, 0, 0.010))
-    hand.glide("wound down 3 turns", 3.0, (0, 0, 0.010 - 3 * PITCH - 0.0003), turns(-3))
+    hand.glide("wound down 2 turns", 4.0, (0, 0, 0.010 - 2 * PITCH - 0.0003), turns(-2))
     hand.hold("still, wound", 0.3)
-    hand.wiggle("wiggles", 0.8, (0.0015, 0.0015, 0.001), (3 * DEGREE, 3 * DEGREE, 0), (4, 5, 3))
-    hand.glide("wound up 2 turns", 2.0, (0, 0, 0.010 - PITCH + 0.0003), turns(-1))
+    hand.wiggle("wiggles", 0.6, (0.0015, 0.0015, 0.001), (3 * DEGREE, 3 * DEGREE, 0), (4, 5, 3))
+    hand.glide("wound up 1 turn", 2.0, (0, 0, 0.010 - PITCH + 0.0003), turns(-1))
     hand.hold("still, wound up", 0.3)
     return Evidence(
         "nut-engaged", "M16 nut on its bolt: pushed, pulled, wound", NUT, [BOLT], 2e-5, 0.00015, hand,
         pivot=(0, 0, 0.0225), goals=[
             Goal("pushed axially it does not advance", "end", "still, pushed", low=0.0092, high=0.0101),
             Goal("pulled axially it does not come off", "end", "still, pulled", low=0.0099, high=0.0108),
-            Goal("wound by 3 turns it advances by 6 mm", "end", "still, wound", low=0.0033, high=0.0042),
-            Goal("twist after 3 turns [rad]", "twist", "still, wound", low=-6.01 * np.pi, high=-5.99 * np.pi),
-            Goal("wound back by 2 turns it goes up by 4 mm", "end", "still, wound up", low=0.0078, high=0.0087),
+            Goal("wound by 2 turns it advances by 4 mm", "end", "still, wound", low=0.0057, high=0.0061),
+            Goal("twist after 2 turns [rad]", "twist", "still, wound", low=-4.01 * np.pi, high=-3.99 * np.pi),
+            Goal("wound back by a turn it goes up by 2 mm", "end", "still, wound up", low=0.0079, high=0.0083),
         ])
 
 
 def _nut_on():
-    """From off the bolt, tilted; found, wound on by five turns, off again."""
+    """From off the bolt, tilted; the thread is found, wound on, and holds when pulled."""
     hand = Hand(shift=(0.0008, -0.0005, 0.028), turn=(2 * DEGREE, -1.5 * DEGREE, 0.0))
     hand.move("onto the end, tilted", 0.6, (0.0008, -0.0005, 0.0235))
     hand.move("aligned", 0.3, (0, 0, 0.0235), NO_TURN)
     hand.hold("still on the end", 0.3)
-    hand.glide("wound on 5 turns", 4.0, (0, 0, 0.0235 - 4.5 * PITCH), (0, 0, -10 * np.pi))
+    hand.glide("wound on 3 turns", 6.0, (0, 0, 0.0235 - 2.5 * PITCH), (0, 0, -6 * np.pi))
     hand.hold("still, wound on", 0.3)
-    hand.glide("wound off 6 turns", 4.0, (0, 0, 0.0280), (0, 0, 2 * np.pi))
-    hand.hold("still, off", 0.3)
+    hand.move("pulled hard", 0.5, (0, 0, 0.0300))
+    hand.hold("still, pulled", 0.3)
     return Evidence(
-        "nut-on", "M16 nut, from off the bolt: wound on and off", NUT, [BOLT], 2e-5, 0.00015, hand,
+        "nut-on", "M16 nut, from off the bolt: wound on, pulled", NUT, [BOLT], 2e-5, 0.00015, hand,
         pivot=(0, 0, 0.0225), goals=[
             Goal("rests on the bolt's end", "end", "still on the end", low=0.0235, high=0.0262),
-            Goal("winds in by the pitch: height by turn, over the last two turns [m]", "lead", "wound on 5 turns",
+            Goal("winds in by the pitch: height by turn, over the last turn and a half [m]", "lead", "wound on 3 turns",
                  low=0.97 * PITCH, high=1.03 * PITCH),
-            Goal("is off, where the hand is: gap", "gap", "still, off", high=1e-6),
+            Goal("holds when pulled", "end", "still, pulled", low=0.0175, high=0.0225),
         ])
 
 
