@@ -92,7 +92,7 @@ def _value(goal, recording, first, end):
         return apart[np.argmax(np.abs(apart))]
     if goal.kind == "lead":
         twist = recording.proxy_twist[first:end]
-        chosen = np.abs(twist - twist[-1]) < 3 * np.pi
+        chosen = np.abs(twist - twist[-1]) < 2 * np.pi
         slope = np.polyfit(twist[chosen], recording.proxy_shift[first:end, 2][chosen], 1)[0]
         return slope * 2 * np.pi
     raise ValueError(f"no goal is of kind {goal.kind}")

@@ -1,5 +1,6 @@
 """Tables of what was found: text for the terminal, CSV and Markdown for keeping."""
 
+import collections
 import csv
 import json
 import pathlib
@@ -113,7 +114,8 @@ def markdown(rows, goals, evidence):
              "| scene | ticks | poses that meet | margin [mm] | least distance [margins] | ticks shortened | refused | "
              "noise at rest [N] | ticks at rest that step | tick p50, p99 [us] | proxy p50, p99 [us] |",
              "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"]
-    for r in rows:
+    for row in rows:
+        r = collections.defaultdict(str, row)  # An older row may lack a column.
         lines.append(f"| [{r['scene']}]({r['scene']}.png) | {r['ticks']} | {r['poses_met']} of {r['poses_certified']} | "
                      f"{1e3 * float(r['margin_m']):g} | {r['least_distance_margins']} | {r['ticks_shortened']} | "
                      f"{r['ticks_refused']} | {r['rest_noise_N']} | "

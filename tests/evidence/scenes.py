@@ -155,21 +155,24 @@ def _nut_engaged():
 def _nut_on():
     """From off the bolt, tilted; the thread is found, wound on, and holds when pulled."""
     hand = Hand(shift=(0.0008, -0.0005, 0.028), turn=(2 * DEGREE, -1.5 * DEGREE, 0.0))
-    hand.move("onto the end, tilted", 0.6, (0.0008, -0.0005, 0.0235))
-    hand.move("aligned", 0.3, (0, 0, 0.0235), NO_TURN)
+    hand.move("onto the end, tilted", 0.6, (0.0008, -0.0005, 0.0227))
+    hand.move("aligned", 0.3, (0, 0, 0.0227), NO_TURN)
     hand.hold("still on the end", 0.3)
-    hand.glide("wound on 3 turns", 6.0, (0, 0, 0.0235 - 2.5 * PITCH), (0, 0, -6 * np.pi))
+    hand.glide("wound on 3 turns", 6.0, (0, 0, 0.0227 - 2.5 * PITCH), (0, 0, -6 * np.pi))
     hand.hold("still, wound on", 0.3)
     hand.move("pulled hard", 0.5, (0, 0, 0.0300))
     hand.hold("still, pulled", 0.3)
     return Evidence(
         "nut-on", "M16 nut, from off the bolt: wound on, pulled", NUT, [BOLT], 2e-5, 0.00015, hand,
         pivot=(0, 0, 0.0225), goals=[
-            Goal("rests on the bolt's end", "end", "still on the end", low=0.0235, high=0.0262),
-            Goal("winds in by the pitch: height by turn, over the last turn and a half [m]", "lead", "wound on 3 turns",
-                 low=0.97 * PITCH, high=1.03 * PITCH),
+            Goal("rests on the bolt's end", "end", "still on the end", low=0.0228, high=0.0262),
+            Goal("winds in by the pitch: height by turn, over the last turn [m]", "lead", "wound on 3 turns",
+                 low=0.985 * PITCH, high=1.015 * PITCH),
             Goal("holds when pulled", "end", "still, pulled", low=0.0175, high=0.0225),
         ])
+
+
+TEETH = 0.010  # Height above the seat at which the teeth begin to mesh.
 
 
 def _gear():
@@ -178,11 +181,11 @@ def _gear():
     hand.move("shaft's end, off and tilted", 0.6, (0.0003, 0.0003, 0.0185))
     hand.hold("still on the end", 0.3)
     hand.move("aligned", 0.4, (0, 0, 0.0185), (0, 0, 0.1))
-    hand.move("down to the teeth", 0.6, (0, 0, 0.0165), (0, 0, 0.1))
+    hand.move("down to the teeth", 0.8, (0, 0, TEETH - 0.001), (0, 0, 0.15))
     hand.hold("still on the teeth", 0.3)
-    hand.wiggle("searches", 1.0, (0.0002, 0.0002, 0), (0, 0, 0.3), (3, 4, 2))
+    hand.wiggle("searches", 1.0, (0.0002, 0.0002, 0), (0, 0, 0.1), (3, 4, 2))
     hand.move("turned into mesh", 0.3, turn=NO_TURN)
-    hand.move("down", 1.0, (0, 0, -0.002))
+    hand.move("down", 0.8, (0, 0, -0.002))
     hand.hold("still, seated", 0.4)
     hand.wiggle("rocked between the flanks", 1.0, (0.0005, 0.0005, 0), (1 * DEGREE, 1 * DEGREE, 0.2), (3, 4, 2))
     hand.move("turned hard", 0.3, turn=(0, 0, 0.5))
@@ -196,6 +199,7 @@ def _gear():
         [Body("base", "gears/factory_gear_base_loose_space_5e-4_subdiv_4x.obj"),
          Body("middle gear", "paper_counts/gear_6302.ply")], 5e-6, 0.00005, hand, pivot=(0.0505, 0, 0.015), goals=[
             Goal("rests on the shaft's end", "end", "still on the end", low=0.0185),
+            Goal("rests on the other gear's teeth", "end", "still on the teeth", low=TEETH - 1e-4, high=TEETH + 5e-4),
             Goal("is seated on the plate", "end", "still, seated", low=0.0, high=1e-4),
             Goal("is kept from turning by the other gear [rad]", "twist", "still, turned", low=-0.1, high=0.1),
             Goal("is off, where the hand is: gap", "gap", "still, off", high=1e-6),
