@@ -26,9 +26,9 @@ class Result:
 
 
 def revision(root):
-    def git(*words):
-        return subprocess.run(["git", "-C", str(root), *words], capture_output=True, text=True).stdout.strip()
-    return git("rev-parse", "--short", "HEAD") + (" with changes" if git("status", "--porcelain", "-uno") else "")
+    """The last commit that touched what was run."""
+    command = ["git", "-C", str(root), "log", "-1", "--format=%h", "--", "core", "app", "device"]
+    return subprocess.run(command, capture_output=True, text=True).stdout.strip()
 
 
 def machine():
