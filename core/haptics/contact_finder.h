@@ -32,8 +32,8 @@ class ContactFinder {
  public:
   /// Contacts that are kept for a pose; of more, those that say about the same as a nearer one are left out.
   static constexpr std::size_t kMaxContacts = ContactThinning::kMaxKept;
-  /// Work of a tick: nodes opened, pairs listed and pairs tested, some 3 ms on a slow core.
-  static constexpr std::uint64_t kMaxWork = 1U << 16;
+  /// Work of a tick: nodes opened, pairs listed and pairs tested, some 1.5 ms on a slow core.
+  static constexpr std::uint64_t kMaxWork = 1U << 15;
   /// Of it, for searches anew, some 0.7 ms: where that does not suffice, a list will soon be there.
   static constexpr std::uint64_t kMaxSearchWork = 1U << 14;
   /// Bodies that can be in contact at a time; with more the part stands still.

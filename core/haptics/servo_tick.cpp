@@ -56,7 +56,7 @@ void ServoTick::reset() noexcept {
   partStep_ = {};
   held_ = {};
   hasPose_ = false;
-  minimaCredit_ = 0;
+  shownShare_ = 1.0;
   fault_ = ServoFault::None;
 }
 
@@ -69,7 +69,7 @@ void ServoTick::run(const TrackedScene& tracked, const ServoParameters& paramete
   snapshot.mode = settings.mode;
   if (scene.moving.id != moving_) {
     hasPose_ = false;
-    minimaCredit_ = 0;
+    shownShare_ = 1.0;
   }
   moving_ = scene.moving.id;
   if (fault_ == ServoFault::None) fault_ = faultOfInput(settings, parameters.limits, input.pose, period);
@@ -137,12 +137,15 @@ void ServoTick::movePart(const Tick& tick, const RigidTransform& pose) noexcept 
   part_ = smoothed(part_, pose, tick.scene.centreInPart, tick.period);
 }
 
-void ServoTick::findMinima(const Tick& tick, double apart, const SpringParameters* springs,
-                           Wrench& sum) noexcept {
+std::uint64_t ServoTick::findMinima(const Tick& tick, double share, const SpringParameters* springs,
+                                    Wrench& sum) noexcept {
   const Clock::time_point begin = Clock::now();
   const glm::dvec3 centre = part_.pose.applyToPoint(tick.scene.centreInPart);
-  const MinimaFinder::Result result = minima_.find(
-      tick.tracked, part_.pose, tick.settings.springs.cutoff, apart, [&](std::span<const Lmd> lmds) {
+  const double cutoff = share * tick.settings.springs.cutoff;
+  // With springs nothing keeps the part from going through: no distance can be taken for granted.
+  const double apart = springs == nullptr ? proxy_.distance() : 0.0;
+  const MinimaFinder::Result result =
+      minima_.find(tick.tracked, part_.pose, cutoff, apart, [&](std::span<const Lmd> lmds) {
         if (springs == nullptr) return;
         const Wrench wrench = springWrench(lmds, *springs, centre, part_.twist);
         sum.force += wrench.force;
@@ -150,19 +153,18 @@ void ServoTick::findMinima(const Tick& tick, double apart, const SpringParameter
       });
   if (result.isPoseBad) fault_ = ServoFault::PoseNotFinite;
   minima_.write(tick.snapshot);
-  minimaCredit_ = result.work;
+  if (share < 1.0) tick.snapshot.isTruncated = true;
   tick.snapshot.lateBodies += result.lateBodies;
   tick.snapshot.queryTime += secondsSince(begin);
   // Of bodies that have an inside and are apart, the nearest minimum is the distance.
-  if (!tick.scene.hasSurfaces())
-    proxy_.noteDistance(std::min({result.distance, result.completeTo, tick.settings.springs.cutoff}));
+  if (!tick.scene.hasSurfaces()) proxy_.noteDistance(std::min({result.distance, result.completeTo, cutoff}));
+  return result.work;
 }
 
 Wrench ServoTick::feelSprings(const Tick& tick) noexcept {
   movePart(tick, handle_.pose);
   Wrench sum{felt_.weight, glm::dvec3(0.0)};
-  // Nothing keeps the part from going through: no distance can be taken for granted.
-  findMinima(tick, 0.0, &tick.settings.springs, sum);
+  findMinima(tick, 1.0, &tick.settings.springs, sum);
   return sum;
 }
 
@@ -190,15 +192,20 @@ Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
 }
 
 void ServoTick::showMinima(const Tick& tick) noexcept {
-  if (minimaCredit_ > kMinimaWork) {
-    minimaCredit_ -= kMinimaWork;
-    minima_.write(tick.snapshot);
-    // Contacts know it better than minima of some ticks ago.
-    if (proxy_.distance() < tick.settings.springs.cutoff) tick.snapshot.distance = proxy_.distance();
-    return;
-  }
+  constexpr double kLess = 0.7, kMore = 1.1, kLeast = 1e-3, kLittle = 1.0 / 3.0;
   Wrench none;
-  findMinima(tick, proxy_.distance(), nullptr, none);
+  const std::uint64_t work = findMinima(tick, shownShare_, nullptr, none);
+  if (work > kMinimaWork) shownShare_ = std::max(kLeast, kLess * shownShare_);
+  if (static_cast<double>(work) < kLittle * static_cast<double>(kMinimaWork))
+    shownShare_ = std::min(1.0, kMore * shownShare_);
+  // Contacts reach farther than minima that are shown, then.
+  tick.snapshot.distance = std::min(tick.snapshot.distance, distanceOfContacts(tick));
+}
+
+double ServoTick::distanceOfContacts(const Tick& tick) const noexcept {
+  const double known = proxy_.distance();
+  const bool isShort = shownShare_ < 1.0 && known < kContactReach * tick.settings.proxy.margin;
+  return isShort ? known : std::numeric_limits<double>::infinity();
 }
 
 void ServoTick::describeProxy(const Tick& tick) noexcept {

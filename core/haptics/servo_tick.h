@@ -34,7 +34,8 @@ class ServoTick {
   /// Long enough to smooth encoder steps, short enough (80 Hz) not to turn damping into its opposite [s].
   static constexpr double kVelocityTimeConstant = 2e-3;
   /// Work on minima that a tick has time for, some 0.2 ms. In the proxy mode, where nothing that is felt
-  /// depends on them, thousands of minima (a nut on its thread) are found once in several ticks.
+  /// depends on them, the cutoff for them is made shorter as long as they take more (a nut on its thread has
+  /// thousands), and the snapshot says truncated.
   static constexpr std::uint64_t kMinimaWork = 1U << 12;
 
   ServoTick() = default;
@@ -68,8 +69,12 @@ class ServoTick {
   void takePose(const Tick& tick, const RigidTransform& handle) noexcept;
   Wrench feelSprings(const Tick& tick) noexcept;
   Wrench feelProxy(const Tick& tick) noexcept;
-  void findMinima(const Tick& tick, double apart, const SpringParameters* springs, Wrench& sum) noexcept;
+  /// Those within `share` of the cutoff. Gives the work that it took.
+  std::uint64_t findMinima(const Tick& tick, double share, const SpringParameters* springs,
+                           Wrench& sum) noexcept;
   void showMinima(const Tick& tick) noexcept;
+  /// The least distance as contacts tell it, where minima may not; else infinity [m].
+  double distanceOfContacts(const Tick& tick) const noexcept;
   void movePart(const Tick& tick, const RigidTransform& pose) noexcept;
   void describeProxy(const Tick& tick) noexcept;
   /// What the hand did since the last tick, before the part moves on.
@@ -90,7 +95,7 @@ class ServoTick {
   Wrench held_;               ///< As sent in the last tick.
   Felt felt_;
   CouplingState coupling_;
-  std::uint64_t minimaCredit_ = 0;  ///< Work on minima that was done ahead of its time.
+  double shownShare_ = 1.0;  ///< Of the cutoff, within which minima are shown in the proxy mode.
   PartId moving_{};
   HapticMode mode_ = HapticMode::Proxy;
   bool hasPose_ = false;
