@@ -45,6 +45,19 @@ BenchScene discInBore(std::string name, const TriangleMesh& gear, const Bore& bo
           RigidTransform(), kRange * bore.length * scale};
 }
 
+/// A square peg in a square hole, its walls and the peg's finely meshed and parallel.
+BenchScene pegInHole(std::string name, std::uint32_t fineness) {
+  const TriangleMesh hole = test::subdivided(test::tubeMesh(1.0, 2.0, 1.0, 4), fineness),
+                     peg = test::subdivided(test::cylinderMesh(0.95, 3.0, 4), fineness);
+  const double scale = 1.0 / hole.bounds().diagonal();
+  // Within reach of all four walls wherever the gap lets it go.
+  constexpr double kRange = 0.3;
+  BenchScene scene{std::move(name), test::transformed(hole, scale), test::transformed(peg, scale),
+                   RigidTransform(), kRange * scale};
+  scene.isStraight = true;
+  return scene;
+}
+
 SceneEntry generatedPair(const char* name, const char* description, std::function<TriangleMesh()> scene,
                          std::function<TriangleMesh()> part) {
   return {name, description, [=] { return unitPair(name, scene(), part()); }};
@@ -64,6 +77,8 @@ std::vector<SceneEntry> generatedScenes() {
          return discInBore("gear-disc", gearMesh(kGearTeeth), {kGearBoreRadius, kGearLength},
                            test::cylinderMesh(1.0, 0.2, 128));
        }},
+      {"peg-hole", "8,192-triangle hole, 4,096-triangle square peg in it that does not turn",
+       [] { return pegInHole("peg-hole", 4); }},
       generatedPair(
           "organic-sphere", "smooth body of 2,000 triangles, 128-triangle sphere",
           [] { return organicMesh(10, 3); }, sphere),

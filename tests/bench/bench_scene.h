@@ -20,6 +20,8 @@ struct BenchScene {
   std::optional<RigidTransform> start;
   /// Farthest that the part's centre goes from where it starts [m]: what keeps it in a bore.
   std::optional<double> range;
+  /// The part does not turn: what is parallel stays so.
+  bool isStraight = false;
 
   /// The larger body's diagonal [m]: what the cutoff and the steps are fractions of.
   double size() const { return std::max(scene.bounds().diagonal(), part.bounds().diagonal()); }

@@ -33,6 +33,7 @@ std::vector<RigidTransform> makePath(const PreparedScene& scene, HandPathOptions
   options.reach = 1.5 * options.cutoff;
   options.start = scene.meshes.start;
   options.range = scene.meshes.range;
+  if (scene.meshes.isStraight) options.turn = 0.0;
   LmdScratch scratch;
   const DistanceProbe probe = [&](const RigidTransform& pose) -> std::optional<Nearest> {
     std::array<Lmd, 1> nearest;

@@ -10,8 +10,8 @@
 namespace nearfit::bench {
 
 /// A hand's path for a scene. Distances come from Nearfit's cold query, whose answers the run then compares
-/// with those of the other methods; `options`'s reach, start and range are filled in, and its cutoff where it
-/// is 0.
+/// with those of the other methods; `options`'s reach, start and range are filled in, its cutoff where it is
+/// 0, and no turn where the scene says so.
 std::vector<RigidTransform> makePath(const PreparedScene& scene, HandPathOptions options);
 
 /// The bodies of a scene as a path asks for them.

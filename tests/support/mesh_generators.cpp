@@ -221,6 +221,26 @@ TriangleMesh transformed(const TriangleMesh& mesh, double scale, const RigidTran
   return {std::move(vertices), {mesh.triangles().begin(), mesh.triangles().end()}};
 }
 
+TriangleMesh subdivided(const TriangleMesh& mesh, std::uint32_t times) {
+  if (times == 0) return mesh;
+  Draft draft{{mesh.vertices().begin(), mesh.vertices().end()}, {}};
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto next = static_cast<std::uint32_t>(draft.vertices.size());
+    const auto [found, isNew] = middles.try_emplace(std::minmax(a, b), next);
+    if (isNew) draft.vertices.push_back(0.5 * (mesh.vertices()[a] + mesh.vertices()[b]));
+    return found->second;
+  };
+  for (const Triangle& t : mesh.triangles()) {
+    const std::uint32_t ab = middle(t[0], t[1]), bc = middle(t[1], t[2]), ca = middle(t[2], t[0]);
+    draft.addTriangle(t[0], ab, ca);
+    draft.addTriangle(ab, t[1], bc);
+    draft.addTriangle(ca, bc, t[2]);
+    draft.addTriangle(ab, bc, ca);
+  }
+  return subdivided(draft.finish(), times - 1);
+}
+
 TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b) {
   Draft draft{{a.vertices().begin(), a.vertices().end()}, {a.triangles().begin(), a.triangles().end()}};
   draft.vertices.insert(draft.vertices.end(), b.vertices().begin(), b.vertices().end());

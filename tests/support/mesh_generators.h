@@ -47,6 +47,9 @@ TriangleMesh starMesh(std::uint64_t seed, double radius, std::uint32_t subdivisi
 /// An open, flat square of side `size` in z = 0 about the origin facing +z; 2 * divisions^2 faces.
 TriangleMesh squareMesh(double size, std::uint32_t divisions);
 
+/// Each triangle split into four by the middles of its sides, `times` over: the same surface.
+TriangleMesh subdivided(const TriangleMesh& mesh, std::uint32_t times);
+
 /// Vertices scaled about the origin (scale > 0), then moved.
 TriangleMesh transformed(const TriangleMesh& mesh, double scale, const RigidTransform& motion = {});
 
