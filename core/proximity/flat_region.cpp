@@ -297,43 +297,7 @@ class RegionUnion {
   Plane plane_;
 };
 
-/// Whether a line along a side of `a` has `b` on its other side.
-bool isApartAlongSide(const Minimum& a, const Minimum& b, double tolerance) noexcept {
-  for (std::size_t i = 0; i < a.cornerCount; ++i) {
-    const glm::dvec3& from = a.corners[i];
-    glm::dvec3 inward = glm::cross(a.lmd.direction, a.corners[(i + 1) % a.cornerCount] - from);
-    const double length = glm::length(inward);
-    if (!(length > tolerance)) continue;
-    inward *= (glm::dot(inward, a.lmd.scenePoint - from) < 0.0 ? -1.0 : 1.0) / length;
-    bool isBeyond = true;
-    for (std::size_t k = 0; k < b.cornerCount && isBeyond; ++k)
-      isBeyond = glm::dot(inward, b.corners[k] - from) <= tolerance;
-    if (isBeyond) return true;
-  }
-  return false;
-}
-
-bool segmentsOverlap(const Minimum& a, const Minimum& b, double tolerance) noexcept {
-  const glm::dvec3 along = (a.corners[1] - a.corners[0]) / a.weight;
-  std::array<double, 2> s;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const glm::dvec3 w = b.corners[k] - a.corners[0];
-    s[k] = glm::dot(w, along);
-    if (glm::distance(w, s[k] * along) > tolerance) return false;
-  }
-  return std::min(a.weight, std::max(s[0], s[1])) - std::max(0.0, std::min(s[0], s[1])) > tolerance;
-}
-
 }  // namespace
-
-bool markIfOverlapping(Minimum& a, Minimum& b, double tolerance) noexcept {
-  if (a.dimension != b.dimension || a.dimension == 0) return false;
-  const bool overlap = a.dimension == 1
-                           ? segmentsOverlap(a, b, tolerance)
-                           : !isApartAlongSide(a, b, tolerance) && !isApartAlongSide(b, a, tolerance);
-  if (overlap) a.isOverlapping = b.isOverlapping = true;
-  return overlap;
-}
 
 Lmd uniteRegion(std::span<const Minimum> minima, std::span<const std::uint32_t> group,
                 const RegionNeighbours& neighbours, double tolerance) noexcept {

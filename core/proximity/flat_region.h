@@ -8,11 +8,6 @@
 
 namespace nearfit {
 
-/// Marks a pair of pieces of one dimension as overlapping where they cover more than a line (faces) or a
-/// point (edges) together, as those of coplanar faces of one mesh do. They lie in one plane but for
-/// tolerances.
-bool markIfOverlapping(Minimum& a, Minimum& b, double tolerance) noexcept;
-
 /// Where to find the pieces that may cover some of another.
 struct RegionNeighbours {
   const BoxPairs& boxes;  ///< Of all entries, by their index; pieces that overlap have a point

@@ -44,7 +44,7 @@ class LmdScratch {
   /// Room for the minima of a servo tick: a query that finds more keeps the nearest and says Truncated.
   static constexpr std::size_t kDefaultCapacity = 16384;
 
-  /// @param capacity  Minima, and pieces of flat regions, that a query can hold; about 550 bytes each.
+  /// @param capacity  Minima, and pieces of flat regions, that a query can hold; about 500 bytes each.
   /// @param simd      Instruction set to cull with; the sets are the same with each.
   explicit LmdScratch(std::size_t capacity = kDefaultCapacity, SimdLevel simd = defaultSimdLevel());
   ~LmdScratch();

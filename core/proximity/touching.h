@@ -29,6 +29,11 @@ bool canTouch(const Minimum& a, const Minimum& b, const Closeness& closeness) no
 /// Whether entries that can be of one set are: points that are one, pieces with a common point.
 bool touch(const Minimum& a, const Minimum& b, const Closeness& closeness) noexcept;
 
+/// Marks a pair of pieces of one dimension as overlapping where they cover more than a line (faces) or a
+/// point (edges) together, as those of coplanar faces of one mesh do. They lie in one plane but for
+/// tolerances.
+bool markIfOverlapping(Minimum& a, Minimum& b, double tolerance) noexcept;
+
 /// What holds an entry's points on the scene, and `margin` about them [m].
 Aabb boxOf(const Minimum& m, double margin) noexcept;
 

@@ -6,7 +6,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/proximity/flat_region.h"
 #include "core/proximity/leaf_tests.h"
 #include "core/proximity/query_workspace.h"
 
