@@ -7,10 +7,10 @@ import numpy as np
 
 from paths import conjugate, multiply, rotation_vector
 
-MOVED = 1e-9        # A part that moves less in a tick stands still [m].
-ASKED = 1e-4        # What a hand must move from one end of a window to the other to count as moving [m].
-WINDOW = 100        # Ticks for which a part must stand, while the hand moves, to be suspected of sticking.
-SETTLING = 150      # Ticks that noise at rest is given to die.
+WINDOW = 60    # Ticks for which a part must stand, while the hand moves on, to be looked at.
+STOOD = 1e-6   # What moves less in a window stands [m].
+LED = 2e-3     # What moves more in a window moves on [m].
+SETTLING = 150 # Ticks that noise at rest is given to die.
 
 
 class Recording:
@@ -109,12 +109,11 @@ def suspicions(recording, radius):
     proxy = np.concatenate([[0.0], _travel(recording.proxy_shift, recording.proxy_rotation, radius)])
     hand = np.concatenate([[0.0], _travel(recording.handle_shift, recording.handle_rotation, radius)])
 
-    # Sticks: stands for a while though the gap to the hand shrinks and its direction changes, as when it is led away.
-    stands = np.convolve(proxy > MOVED, np.ones(WINDOW), "valid") == 0
-    led = np.linalg.norm(recording.handle_shift[WINDOW - 1:] - recording.handle_shift[:1 - WINDOW], axis=1) > ASKED
-    refused = np.convolve(recording["refused"], np.ones(WINDOW), "valid") > 0
-    for k in _starts(stands & led & refused):
-        found.append(("stands while steps are refused and the hand moves", k, recording.lag[k]))
+    # Sticks: stands though the hand goes on. A straight push does that too: the plot tells.
+    stands = np.convolve(proxy, np.ones(WINDOW), "valid") < STOOD
+    led = np.convolve(hand, np.ones(WINDOW), "valid") > LED
+    for k in _starts(stands & led):
+        found.append(("stands for 60 ms while the hand moves on: pushed straight, or stuck [m]", k, recording.lag[k]))
 
     # Jumps: the part moves much farther than the hand did of late.
     of_late = np.convolve(hand, np.ones(20), "full")[:len(hand)]
