@@ -10,7 +10,7 @@ from paths import conjugate, multiply, rotation_vector
 WINDOW = 60    # Ticks for which a part must stand, while the hand moves on, to be looked at.
 STOOD = 1e-6   # What moves less in a window stands [m].
 LED = 2e-3     # What moves more in a window moves on [m].
-SETTLING = 150 # Ticks that noise at rest is given to die.
+SETTLING = 150  # Ticks that noise at rest is given to die.
 
 
 class Recording:
