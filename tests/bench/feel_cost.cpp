@@ -74,8 +74,8 @@ std::vector<FeelRow> costRows(const CostCase& scene, const CostRun& run) {
   add("tick [us]", run.tick, kMicro);
   add("query [us]", run.query, kMicro);
   add("proxy [us]", run.proxy, kMicro);
-  if (!run.proxyAt32.empty()) add("proxy, 24..40 rows [us]", run.proxyAt32, kMicro);
-  if (!run.proxyAt256.empty()) add("proxy, 192..320 rows [us]", run.proxyAt256, kMicro);
+  if (!run.proxyAt32.empty()) add("proxy of 24 to 40 rows [us]", run.proxyAt32, kMicro);
+  if (!run.proxyAt256.empty()) add("proxy of 192 to 320 rows [us]", run.proxyAt256, kMicro);
   add("springs' tick [us]", run.springs, kMicro);
   add("search beside [us]", run.refresh, kMicro);
   add("constraints", run.constraints, 1.0);

@@ -57,5 +57,14 @@ TEST(CostRows, HaveMicrosecondsForTimes) {
   EXPECT_DOUBLE_EQ(constraints->mean, 5.0);
 }
 
+TEST(CostRows, NamesDoNotPartColumnsOfTheCsvFile) {
+  CostRun run;
+  run.proxyAt32 = run.proxyAt256 = {1e-6};
+  for (const FeelRow& row : costRows({"scene", "run", nullptr, {}, 0.0, 0.0}, run)) {
+    const std::string line = feelCsvLine(row);
+    EXPECT_EQ(std::ranges::count(line, ','), 9) << line;
+  }
+}
+
 }  // namespace
 }  // namespace nearfit::bench
