@@ -65,6 +65,7 @@ bool SceneRefresher::takeReport() noexcept {
   }
   reach_ = report.reach;
   tracker_.setWaiting(report.isWaiting);
+  tracker_.setStarved(report.isStarved);
   return true;
 }
 

@@ -39,6 +39,7 @@ class SceneRefresher {
     SearchReach reach;             ///< How far is looked.
     std::uint64_t tick = 0;
     bool isWaiting = false;  ///< The proxy stands until it is known what it overlaps there.
+    bool isStarved = false;  ///< Lists of contacts do not reach where it would go.
   };
   /// Servo thread; real-time safe.
   void report(const Report& report) noexcept { reports_.publish(report); }

@@ -165,7 +165,8 @@ bool ServoLoop::Shared::tickOnce(Nanoseconds sinceStart, Nanoseconds sinceLast) 
   device.sendWrench(snapshot.deviceWrench);
 
   snapshot.tick = ++statistics.ticks;
-  refresher->report({snapshot.proxy, searchReach(limited.haptics), snapshot.tick, snapshot.isWaiting});
+  refresher->report(
+      {snapshot.proxy, searchReach(limited.haptics), snapshot.tick, snapshot.isWaiting, snapshot.isStarved});
   if (snapshot.lateBodies > 0) ++statistics.lateTicks;
   snapshot.time = toSeconds(sinceStart);
   snapshot.tickTime = toSeconds(now() - begin);

@@ -105,6 +105,7 @@ PlaceResult placeFast(PlaceJob job) {
     // is where the hand wants it, and nothing is late.
     tracker.observe(isProxy ? result.end : handle.pose, 1.0);
     tracker.setWaiting(snapshot->isWaiting);
+    tracker.setStarved(snapshot->isStarved);
     if (result.ticks == 0 || tracker.isDue(reach)) {
       const Clock::time_point begin = Clock::now();
       tracker.refresh(reach, tracked);

@@ -93,7 +93,8 @@ bool ContactFinder::gatherPairs(const TrackedScene& tracked, const RigidTransfor
   if (roomLevel_ > 0 && ++gatherings_ % kGatheringsBetweenTries == 0) --roomLevel_;
   for (; roomLevel_ < rooms.size(); ++roomLevel_) {
     const double travel = rooms[roomLevel_];
-    if (!gatherWithin(tracked, worldFromPart, reach, {travel, std::min(travel / radius, kMostTurn)})) continue;
+    if (!gatherWithin(tracked, worldFromPart, reach, {travel, std::min(travel / radius, kMostTurn)}))
+      continue;
     if (nextPair() <= kManyPairs || roomLevel_ + 1 == rooms.size() || lateBodies_ > 0) return true;
   }
   roomLevel_ = rooms.size() - 1;

@@ -26,10 +26,15 @@ constexpr double kTurnShare = 0.5;
 constexpr double kHalf = 0.5, kFloor = 1.0 / 64.0, kFloorOfFirst = 0.25;
 /// Distances are not known better than this, as a fraction of the lengths involved.
 constexpr double kRounding = 1e-11;
+/// Nearer than this share of the margin a part is pinched: pressing alone does not bring it there.
+constexpr double kPinched = 0.97;
 /// A step may be this share of the distance at least.
 constexpr double kLeastStep = 0.5;
-/// How often a step is halved before it is refused.
-constexpr int kMaxHalvings = 3;
+/// How often a step is shortened before it is given up. On an edge, whose rounding by the margin is far
+/// narrower than the hand is deep, the program's step is many times too long: where it is best tells a
+/// parabola.
+constexpr int kMaxShortenings = 3;
+constexpr double kLeastShare = 1.0 / 64.0;
 /// Of the way to a target that it was kept from, a part that has come free goes this share in a tick, besides
 /// what the target moves: it does not leap.
 constexpr double kSnapShare = 0.3;
@@ -216,57 +221,87 @@ StepGoal Proxy::goalOf(const Tick& tick, const Motion& wanted) const noexcept {
 }
 
 Proxy::Outcome Proxy::constrainedStep(const Tick& tick, const Motion& wanted) noexcept {
-  const MassMetric& metric = tick.tracked.scene->metric;
   const double held = std::min(here_.distance, margin_);
   if (!(wayLeft_ > kAtRest * held)) return Outcome::Stuck;
-  const StepGoal goal = goalOf(tick, wanted);
+  StepGoal goal = goalOf(tick, wanted);
   if (!fillRows(tick, margin_ + goal.reach)) return Outcome::Stuck;
   account_.constraintCount = static_cast<std::uint32_t>(rows_.size());
+  const Outcome outcome = programStep(tick, goal);
+  if (outcome != Outcome::AtRest || !(held < kPinched * margin_)) return outcome;
+  // Pinched, with no way back to the margin that is worth while: the clearance that there is will do, but
+  // not less.
+  goal.cost.margin = goal.cost.floor = held;
+  return programStep(tick, goal);
+}
+
+Proxy::Outcome Proxy::programStep(const Tick& tick, const StepGoal& goal) noexcept {
+  const MassMetric& metric = tick.tracked.scene->metric;
+  const double held = std::min(here_.distance, margin_);
   const StepSolution solution = solve(tick, goal);
   keepContacts(solution);
   if (solution.activeCount == 0 && solution.scale == 1.0 && solution.share == 1.0)
     return take(tick, tick.target, wayTo(tick)) == Verdict::Taken ? Outcome::AtRest : Outcome::Stuck;
   const glm::dquat worldFromPrincipal = glm::normalize(pose_.rotation * metric.partFromPrincipal);
-  Motion motion{
+  const Motion motion{
       {solution.y[0], solution.y[1], solution.y[2]},
       worldFromPrincipal * (glm::dvec3(solution.y[3], solution.y[4], solution.y[5]) / metric.gyration)};
-  double travel = travelOf(glm::length(motion.shift), glm::length(motion.spin), metric.radius);
+  const double travel = travelOf(glm::length(motion.shift), glm::length(motion.spin), metric.radius);
   if (!(travel > (account_.subSteps == 0 ? kAtRestAtFirst : kAtRest) * held)) return Outcome::AtRest;
   if (account_.subSteps == 0) firstTravel_ = travel;
   if (account_.subSteps >= kWorthwhileSteps && travel < kWorthwhile * firstTravel_) return Outcome::Stuck;
-  return takeShortened(tick, {goal.wanted, solution.y, goal.cost}, motion, travel);
+  return takeShortened(tick, trialOf(goal, solution), motion, travel);
+}
+
+Proxy::Trial Proxy::trialOf(const StepGoal& goal, const StepSolution& solution) const noexcept {
+  Trial trial{goal.wanted, solution.y, goal.cost, 0.0};
+  double along = 0.0;
+  for (std::size_t k = 0; k < trial.step.size(); ++k)
+    along += trial.wanted[k] * trial.step[k];
+  const double lack = std::max(0.0, goal.cost.margin - here_.distance);
+  const double lackAfter = std::max(0.0, goal.cost.margin - solution.t);
+  trial.slope = 2.0 * (goal.cost.weight * lack * (lackAfter - lack) - along);
+  return trial;
 }
 
 Proxy::Outcome Proxy::takeShortened(const Tick& tick, Trial trial, Motion motion, double travel) noexcept {
-  bool isProved = true;
-  for (int halvings = 0; halvings <= kMaxHalvings; ++halvings) {
+  Verdict verdict = Verdict::NoGain;
+  for (int shortenings = 0; shortenings <= kMaxShortenings; ++shortenings) {
     // What rubs is held back by more than the program's cost.
-    const Trial* judged = tick.settings.friction > 0.0 ? nullptr : &trial;
-    const Verdict verdict = take(tick, moved(*tick.tracked.scene, motion), travel, judged);
+    Trial* judged = tick.settings.friction > 0.0 ? nullptr : &trial;
+    verdict = take(tick, moved(*tick.tracked.scene, motion), travel, judged);
     if (verdict == Verdict::Taken) return Outcome::Moved;
-    if (verdict == Verdict::Unknown) return Outcome::Stuck;
-    isProved = verdict == Verdict::NoGain;
-    if (!isProved) ++account_.shortenedSteps;
-    motion = {kHalf * motion.shift, kHalf * motion.spin};
+    // What lists do not cover a shorter step may not leave.
+    if (finder_.isWorkSpent()) break;
+    if (verdict == Verdict::NotProved) ++account_.shortenedSteps;
+    const double share = verdict == Verdict::NoGain ? trial.bestShare : kHalf;
+    motion = {share * motion.shift, share * motion.spin};
     for (double& y : trial.step)
-      y *= kHalf;
-    travel *= kHalf;
+      y *= share;
+    trial.slope *= share;
+    travel *= share;
   }
-  if (isProved) return Outcome::AtRest;
-  ++account_.refusedSteps;
+  if (verdict == Verdict::NoGain) return Outcome::AtRest;
+  if (verdict == Verdict::NotProved) ++account_.refusedSteps;
+  account_.isStarved = verdict == Verdict::Unknown;
   return Outcome::Stuck;
 }
 
-bool Proxy::isGain(const Trial& trial, double distance) const noexcept {
-  double gone = 0.0, left = 0.0;
+bool Proxy::isGain(Trial& trial, double distance) const noexcept {
+  double before = 0.0, after = 0.0;
   for (std::size_t k = 0; k < trial.step.size(); ++k) {
     const double rest = trial.wanted[k] - trial.step[k];
-    gone += trial.wanted[k] * trial.wanted[k];
-    left += rest * rest;
+    before += trial.wanted[k] * trial.wanted[k];
+    after += rest * rest;
   }
   const double lackHere = std::max(0.0, trial.cost.margin - here_.distance);
   const double lackThere = std::max(0.0, trial.cost.margin - distance);
-  return left + trial.cost.weight * lackThere * lackThere < gone + trial.cost.weight * lackHere * lackHere;
+  before += trial.cost.weight * lackHere * lackHere;
+  after += trial.cost.weight * lackThere * lackThere;
+  // Least of the parabola through both, with the slope that the program knows here.
+  const double bend = after - before - trial.slope;
+  const double best = bend > 0.0 ? -trial.slope / (2.0 * bend) : kHalf;
+  trial.bestShare = std::clamp(best, kLeastShare, kHalf);
+  return after < before;
 }
 
 void Proxy::keepContacts(const StepSolution& solution) noexcept {
@@ -291,7 +326,7 @@ void Proxy::raiseFloor(const Tick& tick) noexcept {
 }
 
 Proxy::Verdict Proxy::take(const Tick& tick, const RigidTransform& pose, double travel,
-                           const Trial* trial) noexcept {
+                           Trial* trial) noexcept {
   if (finder_.isWorkSpent()) return Verdict::Unknown;
   Surroundings there = lookAround(tick, pose, next_);
   if (there.completeTo == 0.0) return Verdict::Unknown;

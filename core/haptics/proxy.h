@@ -17,10 +17,11 @@ namespace nearfit {
 /// How the proxy fared in a tick.
 struct ProxyAccount {
   std::uint32_t subSteps = 0;
-  std::uint32_t shortenedSteps = 0;   ///< Halved, as less would not have been proved free.
+  std::uint32_t shortenedSteps = 0;   ///< Halved, as more was not proved free.
   std::uint32_t refusedSteps = 0;     ///< Not taken at all.
   std::uint32_t constraintCount = 0;  ///< Of the last step's program.
   bool isWaiting = false;             ///< For the clearance at its pose: it stands meanwhile.
+  bool isStarved = false;             ///< Lists did not reach where it would go, nor the work of the tick.
 };
 
 /// Something that holds the proxy back.
@@ -103,22 +104,25 @@ class Proxy {
   Outcome step(const Tick& tick) noexcept;
   Outcome freeStep(const Tick& tick, const Motion& wanted) noexcept;
   Outcome constrainedStep(const Tick& tick, const Motion& wanted) noexcept;
+  Outcome programStep(const Tick& tick, const StepGoal& goal) noexcept;
   /// A step as the program has it.
   struct Trial {
     StepVector wanted, step;
     ClearanceCost cost;
+    double slope = 0.0;      ///< Of the cost along the step, at its start.
+    double bestShare = 1.0;  ///< Of the step, as the cost at its end tells.
   };
+  Trial trialOf(const StepGoal& goal, const StepSolution& solution) const noexcept;
   Outcome takeShortened(const Tick& tick, Trial trial, Motion motion, double travel) noexcept;
   StepGoal goalOf(const Tick& tick, const Motion& wanted) const noexcept;
   /// Whether a step makes less what the program makes least, with the true distance at its end.
-  bool isGain(const Trial& trial, double distance) const noexcept;
+  bool isGain(Trial& trial, double distance) const noexcept;
   bool fillRows(const Tick& tick, double reach) noexcept;
   StepSolution solve(const Tick& tick, const StepGoal& goal) noexcept;
   void keepContacts(const StepSolution& solution) noexcept;
   Surroundings lookAround(const Tick& tick, const RigidTransform& pose, std::span<BodyContact> out) noexcept;
   void raiseFloor(const Tick& tick) noexcept;
-  Verdict take(const Tick& tick, const RigidTransform& pose, double travel,
-               const Trial* trial = nullptr) noexcept;
+  Verdict take(const Tick& tick, const RigidTransform& pose, double travel, Trial* trial = nullptr) noexcept;
 
   ContactFinder finder_;
   StepRows rows_;

@@ -63,7 +63,8 @@ ListPurpose SceneTracker::forContacts(const SearchReach& reach) const noexcept {
           .leastRoom = {reach.contact, turn},
           .whole = {1U << 15, 1U << 16},
           .part = {1U << 17, 1U << 20},
-          .roomToKeep = 0.5};
+          // A part that stands gets a list around it; one that is at its middle cannot be bettered.
+          .roomToKeep = isStarved_ ? 0.98 : 0.5};
 }
 
 bool SceneTracker::willServe(const TrackedScene::Near& entry, const SearchReach& reach) const noexcept {

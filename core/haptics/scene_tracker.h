@@ -34,6 +34,9 @@ class SceneTracker {
 
   /// Whether the servo's proxy waits to know what it overlaps where it is now.
   void setWaiting(bool isWaiting) noexcept { isWaiting_ = isWaiting; }
+  /// Whether lists of contacts do not reach where the proxy would go from where it is: they are then renewed
+  /// around it, unless they were made there.
+  void setStarved(bool isStarved) noexcept { isStarved_ = isStarved; }
 
   /// Whether what is known will not do any more by the time that a search from now has ended.
   bool isDue(const SearchReach& reach) const noexcept;
@@ -56,7 +59,7 @@ class SceneTracker {
 
   TrackedScene current_;
   std::uint64_t lastSerial_ = 0;  ///< Of a clearance.
-  bool isWaiting_ = false;
+  bool isWaiting_ = false, isStarved_ = false;
   MotionForecast forecast_;
   LmdScratch scratch_;
   /// Lists that come back here when the last TrackedScene that shows them is overwritten, with their storage.

@@ -76,6 +76,7 @@ struct ServoSnapshot {
   std::uint32_t releasedCount = 0;
   /// The proxy waits, for a few ticks, until what it overlaps is known.
   bool isWaiting = false;
+  bool isStarved = false;  ///< What is known of contacts did not reach where the proxy would go.
   std::array<SnapshotContact, kMaxContacts> contacts{};
   std::array<PartId, kMaxReleased> released{};
   std::array<SnapshotLmd, kMaxLmds> lmds{};

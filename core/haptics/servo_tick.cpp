@@ -42,7 +42,7 @@ void clearOutputs(ServoSnapshot& snapshot) noexcept {
   snapshot.lmdCount = snapshot.storedLmds = snapshot.lateBodies = 0;
   snapshot.subSteps = snapshot.shortenedSteps = snapshot.refusedSteps = 0;
   snapshot.constraintCount = snapshot.contactCount = snapshot.storedContacts = snapshot.releasedCount = 0;
-  snapshot.isTruncated = snapshot.isClamped = snapshot.isWaiting = false;
+  snapshot.isTruncated = snapshot.isClamped = snapshot.isWaiting = snapshot.isStarved = false;
   snapshot.coupling = {};
 }
 
@@ -216,6 +216,7 @@ void ServoTick::describeProxy(const Tick& tick) noexcept {
   snapshot.refusedSteps = account.refusedSteps;
   snapshot.constraintCount = account.constraintCount;
   snapshot.isWaiting = account.isWaiting;
+  snapshot.isStarved = account.isStarved;
   snapshot.lateBodies += proxy_.lateBodies();
   snapshot.contactCount = static_cast<std::uint32_t>(proxy_.contacts().size());
   for (const ProxyContact& holding : proxy_.contacts()) {
