@@ -280,9 +280,10 @@ Proxy::Outcome Proxy::takeShortened(const Tick& tick, Trial trial, Motion motion
     trial.slope *= share;
     travel *= share;
   }
+  account_.isStarved = finder_.isWorkSpent() || verdict == Verdict::Unknown;
+  if (account_.isStarved) return Outcome::Stuck;
   if (verdict == Verdict::NoGain) return Outcome::AtRest;
-  if (verdict == Verdict::NotProved) ++account_.refusedSteps;
-  account_.isStarved = verdict == Verdict::Unknown;
+  ++account_.refusedSteps;
   return Outcome::Stuck;
 }
 
