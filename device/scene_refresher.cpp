@@ -1,6 +1,7 @@
 #include "device/scene_refresher.h"
 
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace nearfit {
@@ -63,7 +64,8 @@ bool SceneRefresher::takeReport() noexcept {
     tracker_.observe(report.worldFromPart, static_cast<double>(report.tick - lastTick_));
     lastTick_ = report.tick;
   }
-  reach_ = report.reach;
+  // Settings that are no numbers are for the tick to refuse.
+  if (std::isfinite(report.reach.cutoff) && std::isfinite(report.reach.contact)) reach_ = report.reach;
   tracker_.setWaiting(report.isWaiting);
   tracker_.setStarved(report.isStarved);
   return true;

@@ -76,7 +76,7 @@ struct ServoLoop::Shared {
   static void* threadMain(void* self) noexcept;
   void spawn();
   void serve() noexcept;
-  bool tickOnce(Nanoseconds sinceStart, Nanoseconds sinceLast) noexcept;
+  bool tickOnce(Nanoseconds sinceStart) noexcept;
 
   HapticDevice& device;
   const DeviceLimits deviceLimits;
@@ -97,6 +97,7 @@ struct ServoLoop::Shared {
   // The servo thread's own while it runs.
   ServoTick tick;
   ServoStatistics statistics;
+  Nanoseconds lastBegin = 0;  ///< Of a tick; 0 before the first.
 
   LatencyHistogram lastRefreshTimes;  ///< Once stopped; the controlling thread's.
 };
@@ -130,14 +131,13 @@ void ServoLoop::Shared::spawn() {
 
 void ServoLoop::Shared::serve() noexcept {
   const Nanoseconds start = now() + kPeriodNs;
-  Nanoseconds deadline = start, last = start - kPeriodNs;
+  Nanoseconds deadline = start;
   while (!stopRequested.load(std::memory_order_acquire)) {
     sleepUntil(deadline);
     statistics.lateness.record(toSeconds(now() - deadline));
-    if (!tickOnce(deadline - start, deadline - last)) break;
+    if (!tickOnce(deadline - start)) break;
     if (statistics.ticks % kTicksPerStatistics == 0) published.publish(statistics);
 
-    last = deadline;
     deadline += kPeriodNs;
     const Nanoseconds behind = now() - deadline;
     if (behind > 0) {
@@ -152,8 +152,11 @@ void ServoLoop::Shared::serve() noexcept {
   isRunning.store(false, std::memory_order_release);
 }
 
-bool ServoLoop::Shared::tickOnce(Nanoseconds sinceStart, Nanoseconds sinceLast) noexcept {
+bool ServoLoop::Shared::tickOnce(Nanoseconds sinceStart) noexcept {
   const Nanoseconds begin = now();
+  // What really passed between two looks at the hand, not between two deadlines.
+  const Nanoseconds sinceLast = lastBegin == 0 ? kPeriodNs : begin - lastBegin;
+  lastBegin = begin;
   HandleInput handle;
   if (!device.readHandle(handle)) return false;
   parameters.update();

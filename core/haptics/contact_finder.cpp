@@ -12,6 +12,8 @@ namespace {
 constexpr double kLeastSlack = 0.5, kMostSlack = 6.0;
 /// Farther turned, nearly every pair of features is a candidate [rad].
 constexpr double kMostTurn = 0.1;
+/// A pair of nodes leads to so many pairs of triangles, about, where surfaces are near.
+constexpr std::uint64_t kTrianglesOfNode = 8;
 /// Beyond so many pairs, testing those that only the room for motion adds costs more than gathering again.
 constexpr std::size_t kManyPairs = 2048;
 /// After so many with less room, more is tried.
@@ -146,13 +148,16 @@ void ContactFinder::testSurface(const ServoScene& scene, const HeldBody& held,
                                 const RigidTransform& worldFromPart, Surroundings& around) noexcept {
   const ServoScene::Body& other = scene.bodies[held.body];
   const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
-  const SurfaceContacts result = findSurfaceContacts(*other.surface, *scene.moving.surface, bodyFromPart,
-                                                     pairsReach_, scratch_, surfaceFound_, workLeft_);
+  const SurfaceContacts result =
+      findSurfaceContacts(*other.surface, *scene.moving.surface, bodyFromPart, pairsReach_, scratch_,
+                          surfaceFound_, workLeft_ / kTrianglesOfNode);
   spend(result.nodePairs + result.trianglePairs);
   around.distance = std::min(around.distance, result.lowerBound);
   if (!result.isComplete) {
     const double farthest = result.count > 0 ? surfaceFound_[result.count - 1].distance : 0.0;
-    around.completeTo = std::min(around.completeTo, farthest);
+    // Where it was full the nearest are there, else what was looked at first.
+    const bool isFull = result.count == surfaceFound_.size();
+    around.completeTo = std::min(around.completeTo, isFull ? farthest : result.lowerBound);
   }
   for (const SurfaceContact& contact : std::span(surfaceFound_).first(result.count)) {
     const ContactPair pair{contact.partPoint, contact.direction, contact.distance};
@@ -165,6 +170,10 @@ Surroundings ContactFinder::find(const TrackedScene& tracked, const RigidTransfo
   const ServoScene& scene = *tracked.scene;
   if (!holdsFor(scene, worldFromPart, reach)) {
     if (!gatherPairs(tracked, worldFromPart, reach, way)) return {};
+  }
+  if (nextPair() > workLeft_) {
+    workLeft_ = 0;
+    return {};
   }
   Surroundings around{0, reach, reach};
   // Where no body is about, none is nearer than was looked for.

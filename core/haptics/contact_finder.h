@@ -37,7 +37,7 @@ class ContactFinder {
   /// Of it, for searches anew, some 0.7 ms: where that does not suffice, a list will soon be there.
   static constexpr std::uint64_t kMaxSearchWork = 1U << 14;
   /// Bodies that can be in contact at a time; with more the part stands still.
-  static constexpr std::size_t kMaxBodies = 64;
+  static constexpr std::size_t kMaxBodies = 1024;
 
   ContactFinder();
 

@@ -31,6 +31,11 @@ Clearance findClearance(const ServoScene& scene, const BroadPhase& bounds,
     }
     const SurfaceDistance distance =
         leastSurfaceDistance(other.tree(), part.tree(), bodyFromPart, within, scratch, kUnbounded);
+    // Nearer than rounding can tell apart from touching.
+    if (!(distance.lowerBound > 0.0)) {
+      overlapping->push_back(index);
+      return;
+    }
     result.distance = std::min(result.distance, distance.lowerBound);
   });
   std::sort(overlapping->begin(), overlapping->end());

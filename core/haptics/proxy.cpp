@@ -15,9 +15,10 @@ namespace {
 
 /// Nothing is in the way of a step that ends this many margins short of what is nearest.
 constexpr double kFree = 1.7;
-/// Share of what is proved free (the distances before and after) that a step is planned to use.
-constexpr double kPlanned = 0.8;
-/// Share of it that a step may use: the distances are rounded.
+/// Share of the distance that a step is planned to use.
+constexpr double kPlanned = 0.95;
+/// Share of it that a step may use: distances are rounded. What lies at the step's end proves nothing: minima
+/// are the distance only where bodies do not overlap.
 constexpr double kProved = 1.0 - 1e-9;
 /// A step turns by this share of what contacts are relaxed by: all that it can bring nearer are there.
 constexpr double kTurnShare = 0.5;
@@ -118,6 +119,8 @@ void Proxy::follow(const TrackedScene& tracked, const RigidTransform& target,
   if (!isCleared(tracked)) {
     account_.isWaiting = true;
     holdingCount_ = 0;
+    here_ = {};
+    lastTarget_ = target;
     return;
   }
   const Tick tick{tracked, target, settings};
@@ -130,6 +133,11 @@ void Proxy::follow(const TrackedScene& tracked, const RigidTransform& target,
     raiseFloor(tick);
   }
   holdingCount_ = 0;
+  if (here_.completeTo == 0.0) {
+    account_.isStarved = true;
+    lastTarget_ = target;
+    return;
+  }
   wayLeft_ = targetMotion(tick) + std::max(kSnapShare * wayTo(tick), margin_);
   Outcome outcome = Outcome::Moved;
   while (account_.subSteps < kMaxSubSteps && outcome == Outcome::Moved)
@@ -139,7 +147,7 @@ void Proxy::follow(const TrackedScene& tracked, const RigidTransform& target,
 }
 
 bool Proxy::isResting(const RigidTransform& target, const ProxySettings& settings) const noexcept {
-  return rest_.isAtRest && isHereKnown_ && settings == rest_.settings &&
+  return rest_.isAtRest && isHereKnown_ && here_.completeTo > 0.0 && settings == rest_.settings &&
          target.translation == rest_.target.translation && target.rotation == rest_.target.rotation;
 }
 
@@ -215,7 +223,7 @@ StepGoal Proxy::goalOf(const Tick& tick, const Motion& wanted) const noexcept {
                .weight = std::clamp(kMarginWeight * way / margin_, kMarginWeight, kMostMarginWeight),
                .floor = kHalf * held};
   goal.gyration = metric.gyration;
-  goal.reach = std::min({kPlanned * (here_.distance + held), known, wayLeft_});
+  goal.reach = std::min({kPlanned * here_.distance, known, wayLeft_});
   goal.radius = std::max(metric.radius, goal.reach / mostTurn);
   return goal;
 }
@@ -334,7 +342,7 @@ Proxy::Verdict Proxy::take(const Tick& tick, const RigidTransform& pose, double 
   // What was known here is known there but for the way.
   there.distance = std::max(there.distance, here_.distance - travel);
   const double held = std::min(here_.distance, margin_);
-  const bool isProved = travel < kProved * (here_.distance + there.distance);
+  const bool isProved = travel < kProved * here_.distance;
   const bool isAllowed = there.distance >= here_.distance || there.distance >= std::max(kHalf * held, floor_);
   if (!isProved || !isAllowed) return Verdict::NotProved;
   if (trial != nullptr && !isGain(*trial, there.distance)) return Verdict::NoGain;

@@ -35,11 +35,10 @@ struct ProxyContact {
 ///
 /// A tick takes it there in steps. Each step is the shortest way, in the metric of the part's mass, that
 /// keeps every near pair of features a margin apart to first order (StepProgram); it is taken only where it
-/// is proved that nothing is met on the way. With d the distance before, d' after, and no point moving
-/// farther than mu < d + d', every pose between is nearer than d to the first or nearer than d' to the last:
-/// so no body is met. Standing still is always possible.
-/// Source: Ortega, Redon & Coquillart 2007, on local minimum distances; the proof of the way is conservative
-/// advancement from both ends.
+/// is proved that nothing is met on the way: no point of the part moves as far as the nearest body is away.
+/// The distance at the step's end is no part of the proof, since minima tell it only where bodies do not
+/// overlap. Standing still is always possible. Source: Ortega, Redon & Coquillart 2007, on local minimum
+/// distances; conservative advancement.
 class Proxy {
  public:
   static constexpr std::uint32_t kMaxSubSteps = 24;

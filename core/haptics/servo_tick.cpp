@@ -79,6 +79,8 @@ void ServoTick::run(const TrackedScene& tracked, const ServoParameters& paramete
   const Tick tick{tracked, scene, settings, limits, period, snapshot};
   if (fault_ == ServoFault::None) {
     periodMeter_.add(period);
+    // Turned about the centre of mass, about which torques are.
+    if (!hasPose_) mapper_.engageAt(input.pose.normalized(), input.pose.normalized(), scene.centreInPart);
     takePose(tick, mapper_.map(input.pose.normalized(), input.isClutched, settings.mapping));
     if (input.isClutched == conditioner_.isEngaged())
       input.isClutched ? conditioner_.disengage() : conditioner_.engage();
@@ -119,6 +121,7 @@ void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcep
     handle_ = {handle, {}};
     part_ = {isProxy ? tick.scene.moving.worldFromPart.normalized() : handle, {}};
     partStep_ = {};
+    partShift_ = glm::dvec3(0.0);
     proxy_.place(part_.pose);
     conditioner_.engage();
     hasPose_ = true;
@@ -134,6 +137,7 @@ void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcep
 
 void ServoTick::movePart(const Tick& tick, const RigidTransform& pose) noexcept {
   partStep_ = twistBetween(part_.pose, pose, tick.scene.centreInPart, tick.period);
+  partShift_ = tick.period * partStep_.linear;
   part_ = smoothed(part_, pose, tick.scene.centreInPart, tick.period);
 }
 
@@ -218,6 +222,8 @@ void ServoTick::describeProxy(const Tick& tick) noexcept {
   snapshot.isWaiting = account.isWaiting;
   snapshot.isStarved = account.isStarved;
   snapshot.lateBodies += proxy_.lateBodies();
+  // Contacts name bodies of the scene that they were found in.
+  if (tick.scene.moving.geometry == nullptr || fault_ != ServoFault::None) return;
   snapshot.contactCount = static_cast<std::uint32_t>(proxy_.contacts().size());
   for (const ProxyContact& holding : proxy_.contacts()) {
     if (snapshot.storedContacts == ServoSnapshot::kMaxContacts) break;
@@ -242,7 +248,7 @@ void ServoTick::account(const Tick& tick, const RigidTransform& handleBefore) no
   interval.turn = turnBetween(handleBefore.rotation, handle_.pose.rotation);
   interval.duration = tick.period;
   interval.weight = felt_.weight;
-  interval.partShift = tick.period * partStep_.linear;
+  interval.partShift = partShift_;
   double stored = PassivityController::kMostDebt;
   if (tick.settings.mode == HapticMode::Proxy) {
     stored = storedEnergy(coupling_, tick.scene.metric, centre, handle_.pose, part_.pose, tick.limits) +

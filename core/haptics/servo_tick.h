@@ -90,9 +90,10 @@ class ServoTick {
   PassivityController passivity_;
   WrenchConditioner conditioner_;
 
-  BodyMotion handle_, part_;  ///< Twists are filtered.
-  Twist partStep_;            ///< Of the part in the last tick, as it was.
-  Wrench held_;               ///< As sent in the last tick.
+  BodyMotion handle_, part_;   ///< Twists are filtered.
+  Twist partStep_;             ///< Of the part in the last tick, as it was.
+  glm::dvec3 partShift_{0.0};  ///< Of its centre in the last tick [m].
+  Wrench held_;                ///< As sent in the last tick.
   Felt felt_;
   CouplingState coupling_;
   double shownShare_ = 1.0;  ///< Of the cutoff, within which minima are shown in the proxy mode.

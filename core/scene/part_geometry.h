@@ -38,7 +38,7 @@ struct PartGeometry {
   const NormalConeTree& tree() const { return hierarchy->get(mesh); }
 
   /// Whether the mesh encloses its material: where it does not, distance is that of unsided surfaces.
-  bool isSolid() const noexcept { return mesh.topology().isClosed() && mesh.topology().isOriented(); }
+  bool isSolid() const { return surfaceOnDemand->isSolid(mesh); }
   /// The surface without sides, made when it is first asked for. Any thread.
   std::shared_ptr<const UnsidedSurface> surface() const { return surfaceOnDemand->get(mesh, tree()); }
 };

@@ -3,6 +3,7 @@
 #include <memory>
 #include <mutex>
 
+#include "core/mesh/solidity.h"
 #include "core/proximity/unsided_surface.h"
 
 namespace nearfit {
@@ -11,13 +12,20 @@ namespace nearfit {
 /// it, and what meets them. Any thread may ask; it waits for one that is making it.
 class SurfaceOnDemand {
  public:
+  /// As isSolidThroughout, found out once.
+  bool isSolid(const TriangleMesh& mesh) {
+    std::call_once(solidOnce_, [&] { isSolid_ = isSolidThroughout(mesh); });
+    return isSolid_;
+  }
+
   std::shared_ptr<const UnsidedSurface> get(const TriangleMesh& mesh, const NormalConeTree& tree) {
     std::call_once(once_, [&] { surface_ = std::make_shared<const UnsidedSurface>(mesh, tree); });
     return surface_;
   }
 
  private:
-  std::once_flag once_;
+  std::once_flag solidOnce_, once_;
+  bool isSolid_ = false;
   std::shared_ptr<const UnsidedSurface> surface_;
 };
 

@@ -278,6 +278,57 @@ TEST(Proxy, NeverMeetsJaggedBodiesUnderAHandThatJumpsShakesAndSpins) {
   EXPECT_EQ(std::count(meetsB.begin(), meetsB.end(), 1), 0);
 }
 
+TEST(Proxy, ARodDoesNotLeaveABoreThatIsCurvedAsTightlyAsTheMargin) {
+  // Beyond the wall's middle the nearest minimum is one of its outside: that a pose has none proves nothing.
+  for (const double rodRadius : {0.02, 0.1, 0.3}) {
+    const double boreRadius = rodRadius + 1.3;
+    ProxyWalk walk({{test::tubeMesh(boreRadius * kMargin, 7.5 * kMargin, 400.0 * kMargin, 180), {}}},
+                   test::boxMesh({rodRadius * kMargin, rodRadius * kMargin, 200.0 * kMargin}),
+                   at({0.5 * kMargin, 1e-6, 0.0}), {kMargin, 0.0});
+    walk.lead(walk.pose());
+    for (const double angle : {1.57, 0.4, 2.9, 4.4}) {
+      for (int i = 0; i < 20; ++i) {
+        walk.lead(at(40.0 * kMargin * glm::dvec3(std::cos(angle), std::sin(angle), 0.0)));
+        ASSERT_LT(std::hypot(walk.pose().translation.x, walk.pose().translation.y), boreRadius * kMargin)
+            << rodRadius << " towards " << angle;
+      }
+    }
+  }
+}
+
+TEST(Proxy, APieceThatIsInsideOutIsNotWalkedThrough) {
+  const TriangleMesh tube = test::tubeMesh(0.1, 0.2, 1.0, 32);
+  const TriangleMesh inner = test::turned(test::boxMesh({0.04, 0.04, 0.04}));
+  const TriangleMesh scene = test::joined(tube, inner), part = test::boxMesh({0.02, 0.02, 0.02});
+  ProxyWalk walk({{scene, {}}}, part, at({0.0, 0.0, 0.3}), {kMargin, 0.0});
+  for (int i = 0; i < 120; ++i) {
+    walk.lead(at({0.0, 0.0, 0.3 - 0.005 * i}));
+    ASSERT_GT(walk.pose().translation.z, 0.03) << i;
+  }
+}
+
+TEST(Proxy, AGapBelowRoundingIsLetGoLikeAnOverlap) {
+  for (const double gap : {1.4e-17, 1e-15, 1e-13}) {
+    ProxyWalk walk({{test::boxMesh({0.4, 0.4, 0.2}), {}}}, test::boxMesh({0.2, 0.2, 0.2}),
+                   at({0.0, 0.0, 0.2 + gap}), {kMargin, 0.0});
+    walk.hold(at({0.0, 0.0, 0.4}), 60);
+    EXPECT_NEAR(walk.pose().translation.z, 0.4, 1e-12) << gap;
+  }
+}
+
+TEST(Proxy, ManyBodiesInContactAtOnceHoldItAndLetItGo) {
+  std::vector<ProxyWalk::Fixed> pins;
+  const TriangleMesh pin = test::boxMesh({0.01, 0.01, 0.1}, {0.0, 0.0, -0.05});
+  for (int i = 0; i < 100; ++i)
+    pins.push_back({pin, at({0.02 * (i % 10), 0.02 * (i / 10), 0.0})});
+  ProxyWalk walk(std::move(pins), test::boxMesh({0.3, 0.3, 0.02}, {0.09, 0.09, 0.01}), at({0.0, 0.0, 0.01}),
+                 {kMargin, 0.0});
+  walk.hold(at({0.0, 0.0, -0.02}), 60);
+  EXPECT_NEAR(walk.pose().translation.z, kMargin, kSag);
+  walk.hold(at({0.0, 0.0, 0.1}), 60);
+  EXPECT_NEAR(walk.pose().translation.z, 0.1, 1e-12);
+}
+
 TEST(Proxy, FollowingAllocatesNothing) {
   ProxyWalk walk = cubeOverFloor(0.05, kMargin, 0.3);
   walk.hold(at({0.0, 0.0, 0.0}), 20);
