@@ -40,7 +40,7 @@ class CandidateList {
   /// list is used. Unusable afterwards when it would be beyond the bounds.
   /// @param query       Its pose is the middle of the range.
   /// @param range       In the frame of the scene's mesh.
-  /// @param relaxation  For contacts(): the turn by which conditions are relaxed there [rad].
+  /// @param relaxation  For nearbyPairs(): the turn by which conditions are relaxed there [rad].
   void build(const BodyPairQuery& query, const MotionRange& range, LmdScratch& scratch, const Bounds& bounds,
              double relaxation = 0.0);
   void build(const BodyPairQuery& query, const MotionRange& range, LmdScratch& scratch) {
