@@ -46,6 +46,9 @@ int run(int argc, char** argv) {
   nearfit::cli::addLmdCommand(program);
   nearfit::cli::addSceneCommand(program);
   nearfit::cli::addPlaceCommand(program);
+  nearfit::cli::addExportCommand(program);
+  nearfit::cli::addClearanceCommand(program);
+  nearfit::cli::addDevicesCommand(program);
   nearfit::cli::addCacheCommand(program);
   try {
     program.parse(argc, argv);

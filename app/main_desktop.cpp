@@ -8,8 +8,10 @@
 
 #include "app/desktop/application.h"
 #include "app/desktop/command_line.h"
+#include "app/desktop/led_session.h"
 #include "app/desktop/screenshot.h"
 #include "core/error.h"
+#include "core/recovery/recovery_folder.h"
 #include "ui/document.h"
 
 namespace {
@@ -54,7 +56,17 @@ int run(int argc, char** argv) {
   desktop::Application application;
   const QStringList files = fileNames(options.files);
   std::optional<desktop::Screenshot> screenshot;
-  if (!options.screenshot.empty()) {
+  std::optional<desktop::LedSession> led;
+  if (!options.record.empty()) application.servo().recordTo(fileNames({options.record}).first());
+  // A run that nobody watches, or that ends by itself, is asked nothing.
+  const std::filesystem::path recovery = userRecoveryFolder();
+  if (options.screenshot.empty() && !options.seconds && !recovery.empty())
+    application.window().protectWork(recovery);
+  if (options.device) {
+    led.emplace(application, desktop::LedOptions{QString::fromStdString(*options.device), options.isArming,
+                                                 options.seconds});
+    led->begin(files);
+  } else if (!options.screenshot.empty()) {
     screenshot.emplace(application, fileNames({options.screenshot}).first());
     screenshot->take(files);
   } else {

@@ -1,18 +1,14 @@
 #include "core/session.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
 #include "core/scene/scene_file.h"
 
 namespace nearfit {
 namespace {
-
-bool isSame(const RigidTransform& a, const RigidTransform& b) {
-  return a.rotation == b.rotation && a.translation == b.translation;
-}
 
 const char* labelOfChange(const HapticSettings& from, const HapticSettings& to) {
   if (from.mode != to.mode) return "Change the mode";
@@ -23,33 +19,11 @@ const char* labelOfChange(const HapticSettings& from, const HapticSettings& to) 
 
 }  // namespace
 
-Part Session::existingPart(PartId id) const {
-  const Part* part = scene().find(id);
-  if (part == nullptr) {
-    throw UsageError(fmt::format("part {}", static_cast<std::uint32_t>(id)), "the scene has no such part",
-                     "choose one that is in the scene");
-  }
-  return *part;
-}
-
-Part Session::unlockedPart(PartId id) const {
-  Part part = existingPart(id);
-  if (part.isLocked)
-    throw UsageError(fmt::format("part \"{}\"", part.name), "it is locked", "unlock it first");
-  return part;
-}
-
 void Session::commit(Scene scene, std::string label) {
   past_.push_back(std::exchange(current_, {std::move(scene), std::move(label), nextSerial_++}));
   if (past_.size() > kMaxUndo) past_.pop_front();
   future_.clear();
   notify();
-}
-
-void Session::commitReplaced(Part part, std::string label) {
-  Scene next = scene();
-  next.replace(std::move(part));
-  commit(std::move(next), std::move(label));
 }
 
 PartId Session::addPart(PartGeometryPtr geometry, const std::string& name,
@@ -64,73 +38,6 @@ PartId Session::addPart(PartGeometryPtr geometry, const std::string& name,
   const std::string label = "Add " + next.find(id)->name;
   commit(std::move(next), label);
   return id;
-}
-
-PartId Session::duplicatePart(PartId id) {
-  Scene next = scene();
-  Part part = existingPart(id);
-  const std::string label = "Duplicate " + part.name;
-  part.isLocked = false;
-  part.colour = next.nextColour();
-  const PartId copy = next.add(std::move(part));
-  commit(std::move(next), label);
-  return copy;
-}
-
-void Session::deletePart(PartId id) {
-  const Part part = unlockedPart(id);
-  Scene next = scene();
-  next.remove(id);
-  commit(std::move(next), "Delete " + part.name);
-}
-
-void Session::renamePart(PartId id, const std::string& name) {
-  Part part = unlockedPart(id);
-  if (part.name == name) return;
-  const std::string label = fmt::format("Rename {} to {}", part.name, name);
-  part.name = name;
-  commitReplaced(std::move(part), label);
-}
-
-void Session::movePart(PartId id, const RigidTransform& worldFromPart, const std::string& verb) {
-  Part part = unlockedPart(id);
-  const RigidTransform pose = checkedPose(worldFromPart);
-  if (isSame(part.worldFromPart, pose)) return;
-  const std::string label = verb + " " + part.name;
-  part.worldFromPart = pose;
-  commitReplaced(std::move(part), label);
-}
-
-void Session::setColour(PartId id, const Colour& colour) {
-  Part part = unlockedPart(id);
-  if (part.colour == colour) return;
-  const std::string label = "Recolour " + part.name;
-  part.colour = colour;
-  commitReplaced(std::move(part), label);
-}
-
-void Session::setDensity(PartId id, double density) {
-  Part part = unlockedPart(id);
-  if (part.density == density) return;
-  const std::string label = "Change the density of " + part.name;
-  part.density = density;
-  commitReplaced(std::move(part), label);
-}
-
-void Session::setVisible(PartId id, bool visible) {
-  Part part = existingPart(id);
-  if (part.isVisible == visible) return;
-  const std::string label = (visible ? "Show " : "Hide ") + part.name;
-  part.isVisible = visible;
-  commitReplaced(std::move(part), label);
-}
-
-void Session::setLocked(PartId id, bool locked) {
-  Part part = existingPart(id);
-  if (part.isLocked == locked) return;
-  const std::string label = (locked ? "Lock " : "Unlock ") + part.name;
-  part.isLocked = locked;
-  commitReplaced(std::move(part), label);
 }
 
 void Session::setMovingPart(std::optional<PartId> id) {
@@ -159,6 +66,15 @@ void Session::reset(Scene scene, const std::filesystem::path& file) {
   notify();
 }
 
+void Session::restore(Scene scene, const std::filesystem::path& file) {
+  current_ = {std::move(scene), {}, nextSerial_++};
+  savedSerial_ = nextSerial_++;  // Of no state.
+  past_.clear();
+  future_.clear();
+  file_ = file;
+  notify();
+}
+
 void Session::save(const std::filesystem::path& file) {
   writeSceneFile(scene(), file);
   file_ = file;
@@ -166,20 +82,58 @@ void Session::save(const std::filesystem::path& file) {
   notify();
 }
 
-void Session::undo() {
-  if (past_.empty()) return;
+void Session::stepBack() {
   future_.push_back(std::exchange(current_, std::move(past_.back())));
   past_.pop_back();
   current_.scene.retireIdsOf(future_.back().scene);
+}
+
+void Session::stepOn() {
+  past_.push_back(std::exchange(current_, std::move(future_.back())));
+  future_.pop_back();
+  current_.scene.retireIdsOf(past_.back().scene);
+}
+
+void Session::undo() {
+  if (past_.empty()) return;
+  stepBack();
   notify();
 }
 
 void Session::redo() {
   if (future_.empty()) return;
-  past_.push_back(std::exchange(current_, std::move(future_.back())));
-  future_.pop_back();
-  current_.scene.retireIdsOf(past_.back().scene);
+  stepOn();
   notify();
+}
+
+std::vector<std::string> Session::history() const {
+  std::vector<std::string> labels;
+  labels.reserve(past_.size() + 1 + future_.size());
+  for (const State& state : past_)
+    labels.push_back(state.label);
+  labels.push_back(current_.label);
+  for (auto state = future_.rbegin(); state != future_.rend(); ++state)
+    labels.push_back(state->label);
+  return labels;
+}
+
+void Session::goTo(std::size_t index) {
+  if (index == past_.size() || index > past_.size() + future_.size()) return;
+  while (past_.size() > index)
+    stepBack();
+  while (past_.size() < index)
+    stepOn();
+  notify();
+}
+
+std::size_t Session::changesSinceSave() const noexcept {
+  const auto isSaved = [this](const State& state) { return state.serial == savedSerial_; };
+  if (isSaved(current_)) return 0;
+  const auto before = std::find_if(past_.rbegin(), past_.rend(), isSaved);
+  if (before != past_.rend()) return static_cast<std::size_t>(before - past_.rbegin()) + 1;
+  const auto after = std::find_if(future_.rbegin(), future_.rend(), isSaved);
+  if (after != future_.rend()) return static_cast<std::size_t>(after - future_.rbegin()) + 1;
+  return past_.size() + 1;
 }
 
 void Session::onChange(std::function<void()> listener) {

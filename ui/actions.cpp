@@ -9,6 +9,7 @@
 
 #include "core/session.h"
 #include "ui/theme.h"
+#include "ui/unit_menu.h"
 
 namespace nearfit::ui {
 
@@ -19,8 +20,7 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   addParts = make("addParts", tr("&Add parts…"), "add", QKeySequence(QStringLiteral("Ctrl+I")));
   save = make("save", tr("&Save"), "save", QKeySequence::Save);
   saveAs = make("saveAs", tr("Save &as…"), "save-as", QKeySequence(QStringLiteral("Ctrl+Shift+S")));
-  exportPlacement =
-      make("exportPlacement", tr("&Export placement…"), "export", QKeySequence(QStringLiteral("Ctrl+E")));
+  exportPlacement = make("exportPlacement", tr("&Export…"), "export", QKeySequence(QStringLiteral("Ctrl+E")));
   quit = make("quit", tr("&Quit"), {}, QKeySequence(QStringLiteral("Ctrl+Q")));
 
   undo = make("undo", tr("&Undo"), "undo", QKeySequence::Undo);
@@ -31,6 +31,9 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   recolour = make("recolour", tr("&Colour…"), {});
   takeInHand = make("takeInHand", tr("&Take in hand"), "hand", QKeySequence(QStringLiteral("Ctrl+H")));
   takeInHand->setToolTip(tr("Make the selected part the moving part"));
+  selectAll = make("selectAll", tr("Select &all"), {}, QKeySequence::SelectAll);
+  selectAll->setToolTip(tr("Select all parts that are shown"));
+  selectNone = make("selectNone", tr("Select n&one"), {}, QKeySequence(QStringLiteral("Ctrl+Shift+A")));
   remove = make("remove", tr("De&lete"), "delete", QKeySequence::Delete);
 
   start = make("start", tr("&Feel"), "start", QKeySequence(Qt::Key_F5));
@@ -43,8 +46,7 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   feelSettings->setToolTip(tr("Mode, cutoff, margin, stiffness, weight and workspace"));
 
   fit = make("fit", tr("&Fit all"), "fit", QKeySequence(Qt::Key_F));
-  fitSelection =
-      make("fitSelection", tr("Fit se&lected part"), "fit", QKeySequence(QStringLiteral("Shift+F")));
+  fitSelection = make("fitSelection", tr("Fit se&lected"), "fit", QKeySequence(QStringLiteral("Shift+F")));
   viewIso = make("viewIso", tr("&Isometric"), "view-iso", QKeySequence(Qt::Key_0));
   viewFront = make("viewFront", tr("F&ront"), "view-front", QKeySequence(Qt::Key_1));
   viewRight = make("viewRight", tr("Ri&ght"), "view-right", QKeySequence(Qt::Key_2));
@@ -59,7 +61,10 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   // Also from the feel dialog, which stays open beside the window.
   for (QAction* action : {undo, redo, start, stop, letGo})
     action->setShortcutContext(Qt::ApplicationShortcut);
+  recentMenu = new QMenu(tr("Open &recent"), window);
+  reloadMenu = new QMenu(tr("Re&load"), window);
   panelsMenu = new QMenu(tr("&Panels"), window);
+  placeMenu = new QMenu(tr("&Place"), window);
 }
 
 QAction* Actions::make(const char* name, const QString& text, const QString& iconName,
@@ -79,18 +84,26 @@ QAction* Actions::makeSwitch(const char* name, const QString& text, const QStrin
 }
 
 void Actions::setUpMenus(QMainWindow& window) {
-  QMenu* file = window.menuBar()->addMenu(tr("&File"));
-  file->addActions({newScene, open, openDemo, file->addSeparator(), addParts, file->addSeparator(), save,
-                    saveAs, exportPlacement, file->addSeparator(), quit});
-  QMenu* edit = window.menuBar()->addMenu(tr("&Edit"));
-  edit->addActions({undo, redo, edit->addSeparator(), takeInHand, duplicate, rename, recolour, remove});
+  QMenu* file = fileMenu = window.menuBar()->addMenu(tr("&File"));
+  file->addActions({newScene, open});
+  file->addMenu(recentMenu);
+  file->addActions({openDemo, file->addSeparator(), addParts});
+  file->addMenu(reloadMenu);
+  file->addActions({file->addSeparator(), save, saveAs, exportPlacement, file->addSeparator(), quit});
+  QMenu* edit = editMenu = window.menuBar()->addMenu(tr("&Edit"));
+  edit->addActions({undo, redo, edit->addSeparator(), takeInHand, duplicate, rename, recolour, remove,
+                    edit->addSeparator(), selectAll, selectNone});
   QMenu* view = window.menuBar()->addMenu(tr("&View"));
   view->addActions({fit, fitSelection, viewIso, viewFront, viewRight, viewTop, view->addSeparator(),
                     seeThrough, edges, minima, contacts, hand, wrench, view->addSeparator()});
   view->addMenu(panelsMenu);
-  QMenu* feel = window.menuBar()->addMenu(tr("F&eel"));
+  view->addMenu(new UnitMenu(&window));
+  window.menuBar()->addMenu(placeMenu);
+  viewMenu = view;
+  QMenu* feel = feelMenu = window.menuBar()->addMenu(tr("F&eel"));
   feel->addActions({start, stop, letGo, feel->addSeparator(), feelSettings});
-  window.menuBar()->addMenu(tr("&Help"))->addAction(about);
+  helpMenu = window.menuBar()->addMenu(tr("&Help"));
+  helpMenu->addAction(about);
 }
 
 void Actions::setUpToolBar(QMainWindow& window) {
@@ -127,7 +140,9 @@ void Actions::update(const Session& session, const Availability& availability) {
   undo->setEnabled(isFree && session.canUndo());
   redo->setEnabled(isFree && session.canRedo());
   const auto withLabel = [](const QString& verb, const std::string& label) {
-    return label.empty() ? verb : verb + QChar(' ') + QString::fromStdString(label);
+    // An ampersand of a part's name is no key of the menu.
+    const QString name = QString::fromStdString(label).replace(QChar('&'), QStringLiteral("&&"));
+    return label.empty() ? verb : verb + QChar(' ') + name;
   };
   undo->setText(withLabel(tr("&Undo"), session.undoText()));
   redo->setText(withLabel(tr("&Redo"), session.redoText()));
@@ -140,6 +155,8 @@ void Actions::update(const Session& session, const Availability& availability) {
   start->setEnabled(isFree && availability.canStart && !availability.isServoRunning);
   stop->setEnabled(availability.isServoRunning);
   letGo->setEnabled(availability.isServoRunning && availability.isHandManual);
+  selectAll->setEnabled(hasParts);
+  selectNone->setEnabled(availability.hasSelection);
   for (QAction* action : {fit, viewIso, viewFront, viewRight, viewTop})
     action->setEnabled(hasParts);
 }

@@ -22,12 +22,17 @@ class Actions : public QObject {
   explicit Actions(QMainWindow* window);
 
   QAction *newScene, *open, *openDemo, *addParts, *save, *saveAs, *exportPlacement, *quit;
-  QAction *undo, *redo, *duplicate, *rename, *recolour, *takeInHand, *remove;
+  QAction *undo, *redo, *duplicate, *rename, *recolour, *takeInHand, *remove, *selectAll, *selectNone;
   QAction *start, *stop, *letGo, *feelSettings;
   QAction *fit, *fitSelection, *viewIso, *viewFront, *viewRight, *viewTop;
   QAction *seeThrough, *edges, *minima, *contacts, *hand, *wrench;
   QAction* about;
-  QMenu* panelsMenu;  ///< For the docks' own switches.
+  QMenu *fileMenu = nullptr, *viewMenu = nullptr, *feelMenu = nullptr,
+        *helpMenu = nullptr;       ///< Once setUpMenus has made them.
+  QMenu *recentMenu, *reloadMenu;  ///< Filled by those who know what belongs there.
+  QMenu* editMenu;                 ///< For what else is done with parts.
+  QMenu* panelsMenu;               ///< For the docks' own switches.
+  QMenu* placeMenu;                ///< For what places parts.
 
   void setUpMenus(QMainWindow& window);
   void setUpToolBar(QMainWindow& window);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include "core/mesh/mesh_import.h"
 
@@ -19,30 +20,37 @@ class BackgroundTask : public QObject {
   using Job = std::function<void(const ProgressCallback&)>;
 
   explicit BackgroundTask(QObject* parent = nullptr);
-  /// Cancels and waits.
+  /// Cancels and waits, also for jobs that were cancelled before.
   ~BackgroundTask() override;
 
-  bool isRunning() const noexcept { return isRunning_; }
-  /// @param job  Runs in the other thread; may throw.
+  bool isRunning() const noexcept { return current_ != nullptr; }
+  /// @param job  Runs in the other thread; may throw. It owns what it uses: once cancelled it may go on for
+  ///             a while when its end has been told, and beside the next job.
   /// @param done Runs on this object's thread after the job ended; gets what it threw, or null.
   /// Nothing may be running.
   void run(Job job, std::function<void(std::exception_ptr)> done);
 
  public slots:
-  /// Asks the job to stop; it then throws Cancelled at its next report of progress.
-  void cancel() noexcept { isCancelled_.store(true, std::memory_order_relaxed); }
+  /// Asks the job to stop, and tells its end, with Cancelled, without waiting until it looks: that may take
+  /// it a second.
+  void cancel();
 
  signals:
   /// 0 to 1; at most some fifty times a job.
   void progressed(double fraction);
 
  private:
-  void finish(const std::exception_ptr& error);
+  struct Running {
+    std::atomic<bool> isCancelled{false};
+    std::function<void(std::exception_ptr)> done;
+    std::thread thread;
+  };
+  using RunningPtr = std::shared_ptr<Running>;
+  void work(Running& running, const Job& job);
+  void finish(const Running* running, const std::exception_ptr& error);
 
-  std::thread thread_;
-  std::atomic<bool> isCancelled_{false};
-  bool isRunning_ = false;
-  std::function<void(std::exception_ptr)> done_;
+  RunningPtr current_;
+  std::vector<RunningPtr> abandoned_;  ///< Cancelled; each ends when it next reports progress.
 };
 
 }  // namespace nearfit::ui

@@ -40,6 +40,14 @@ void paintGhost(QPainter& painter, int y) {
   painter.drawRoundedRect(QRectF(kMargin + 4, y - 11, kGlyphWidth - 8, 13), 2.0, 2.0);
 }
 
+QColor textColour() {
+  return isThemeDark() ? QColor(0xe8, 0xed, 0xf2) : QColor(0x2b, 0x35, 0x3f);
+}
+
+QColor mutedColour() {
+  return isThemeDark() ? QColor(0x9b, 0xa7, 0xb3) : colours::kMutedText;
+}
+
 }  // namespace
 
 ColourLegend::ColourLegend(QWidget* parent) : QWidget(parent) {
@@ -72,8 +80,8 @@ QSize ColourLegend::sizeHint() const {
 void ColourLegend::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(QColor(0, 0, 0, 36), 1.0));
-  painter.setBrush(QColor(255, 255, 255, 228));
+  painter.setPen(QPen(isThemeDark() ? QColor(255, 255, 255, 40) : QColor(0, 0, 0, 36), 1.0));
+  painter.setBrush(isThemeDark() ? QColor(32, 38, 44, 228) : QColor(255, 255, 255, 228));
   painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 7.0, 7.0);
   paintScale(painter);
   int y = kFirstRow;
@@ -95,7 +103,7 @@ void ColourLegend::paintScale(QPainter& painter) {
   QFont bold = font();
   bold.setBold(true);
   painter.setFont(bold);
-  painter.setPen(QColor(0x2b, 0x35, 0x3f));
+  painter.setPen(textColour());
   painter.drawText(kMargin, 23, tr("Local minimum distance"));
   painter.setFont(font());
 
@@ -110,7 +118,7 @@ void ColourLegend::paintScale(QPainter& painter) {
   painter.setBrush(gradient);
   painter.drawRoundedRect(bar, 2.5, 2.5);
 
-  painter.setPen(colours::kMutedText);
+  painter.setPen(mutedColour());
   const QRect labels(kMargin, kBarTop + kBarHeight + 3, kWidth - 2 * kMargin, 18);
   painter.drawText(labels, Qt::AlignLeft, tr("contact"));
   painter.drawText(labels, Qt::AlignHCenter, formatLength(0.5 * cutoff_));
@@ -118,7 +126,7 @@ void ColourLegend::paintScale(QPainter& painter) {
 }
 
 void ColourLegend::paintRow(QPainter& painter, int y, const QString& name, const QString& value) {
-  painter.setPen(QColor(0x2b, 0x35, 0x3f));
+  painter.setPen(textColour());
   painter.drawText(kMargin + 34, y, name);
   painter.drawText(QRect(kMargin, y - 13, kWidth - 2 * kMargin, 18), Qt::AlignRight | Qt::AlignVCenter,
                    value);

@@ -6,10 +6,11 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/report/placement_export.h"
 #include "core/scene/scene_file.h"
 #include "ui/dialogs/progress_dialog.h"
 #include "ui/dialogs/unit_dialog.h"
+#include "ui/files/dropped_files.h"
+#include "ui/files/recent_files.h"
 #include "ui/paths.h"
 #include "ui/preferences.h"
 
@@ -31,9 +32,13 @@ QString sceneFilter() {
   return QObject::tr("Nearfit scenes (*.%1)").arg(kSceneSuffix);
 }
 
-bool isScene(const QString& file) {
-  return QFileInfo(file).suffix().toLower() == kSceneSuffix;
+/// What the question for the unit is about.
+QString describeMeshes(const QStringList& files) {
+  return files.size() == 1 ? QObject::tr("“%1”").arg(QFileInfo(files.first()).fileName())
+                           : QObject::tr("what these %n files hold", nullptr, files.size());
 }
+
+}  // namespace
 
 bool isCancelled(const std::exception_ptr& error) {
   try {
@@ -44,8 +49,6 @@ bool isCancelled(const std::exception_ptr& error) {
   }
   return false;
 }
-
-}  // namespace
 
 Document::Document(Session& session, std::shared_ptr<PartShapeCache> shapes, QWidget* window)
     : session_(session), shapes_(std::move(shapes)), window_(window) {}
@@ -121,26 +124,30 @@ void Document::askAndOpen() {
 
 void Document::openScene(const QString& file) {
   if (isBusy() || !mayLeaveScene()) return;
-  loadScene(file, {});
+  loadScene(file, {}, Preferences::metresPerUnit());
 }
 
-void Document::loadScene(const QString& file, const QStringList& partsAfter) {
-  Preferences::rememberFolderOf(file);
+void Document::readScene(const QString& file, const QString& name, std::function<void(Scene)> opened) {
   auto scene = std::make_shared<Scene>();
   const auto job = [scene, shapes = shapes_, path = toPath(file)](const ProgressCallback& progress) {
     *scene = readSceneFile(path, progress);
     for (const Scene::PartPtr& part : scene->parts())
       shapes->shapeOf(part->geometry);
   };
-  load(tr("Opening %1").arg(QFileInfo(file).fileName()), job, [=, this](const std::exception_ptr& error) {
-    if (error) {
-      if (!isCancelled(error)) emit failed(describe(tr("The scene could not be opened."), error));
-      emit loaded(false);
-      return;
-    }
-    session_.reset(std::move(*scene), toPath(file));
+  load(tr("Opening %1").arg(name), job, [=, this](const std::exception_ptr& error) {
+    if (!error) return opened(std::move(*scene));
+    if (!isCancelled(error)) emit failed(describe(tr("The scene could not be opened."), error));
+    emit loaded(false);
+  });
+}
+
+void Document::loadScene(const QString& file, const QStringList& partsAfter, double metresPerUnit) {
+  Preferences::rememberFolderOf(file);
+  readScene(file, QFileInfo(file).fileName(), [=, this](Scene scene) {
+    session_.reset(std::move(scene), toPath(file));
+    RecentFiles::remember(file);
     if (!partsAfter.isEmpty()) {
-      addParts(partsAfter, Preferences::metresPerUnit());
+      addParts(partsAfter, metresPerUnit);
       return;
     }
     emit noted(tr("Opened %1").arg(QFileInfo(file).fileName()));
@@ -148,13 +155,22 @@ void Document::loadScene(const QString& file, const QStringList& partsAfter) {
   });
 }
 
+void Document::openLost(const QString& journal, const std::filesystem::path& sceneFile,
+                        std::function<void()> restored) {
+  if (isBusy() || !mayLeaveScene()) return;
+  const QString name = sceneFile.empty() ? tr("lost work") : fromPath(sceneFile.filename());
+  readScene(journal, name, [=, this, restored = std::move(restored)](Scene scene) {
+    session_.restore(std::move(scene), sceneFile);
+    emit loaded(true);
+    restored();
+  });
+}
+
 void Document::askAndAddParts() {
   const QStringList files =
       QFileDialog::getOpenFileNames(window_, tr("Add parts"), Preferences::lastFolder(), meshFilter());
   if (files.isEmpty()) return;
-  const QString what = files.size() == 1 ? tr("“%1”").arg(QFileInfo(files.first()).fileName())
-                                         : tr("what these %n files hold", nullptr, files.size());
-  if (const std::optional<double> unit = askForUnit(what, window_)) addParts(files, *unit);
+  if (const std::optional<double> unit = askForUnit(describeMeshes(files), window_)) addParts(files, *unit);
 }
 
 void Document::addParts(const QStringList& files, double metresPerUnit) {
@@ -192,8 +208,9 @@ void Document::addParts(const QStringList& files, double metresPerUnit) {
 
 void Document::finishParts(const std::vector<PartGeometryPtr>& geometries, const QStringList& problems) {
   QStringList warnings;
+  std::vector<PartId> added;
   for (const PartGeometryPtr& geometry : geometries) {
-    session_.addPart(geometry, geometry->file.stem().string());
+    added.push_back(session_.addPart(geometry, geometry->file.stem().string()));
     for (const std::string& warning : geometry->report.warnings) {
       warnings << fromPath(geometry->file.filename()) + QStringLiteral(": ") +
                       QString::fromStdString(warning);
@@ -206,20 +223,42 @@ void Document::finishParts(const std::vector<PartGeometryPtr>& geometries, const
                                 : tr("%n parts could not be loaded.", nullptr, problems.size());
     emit failed({summary, problems.join(QStringLiteral("\n\n"))});
   }
+  if (!added.empty()) emit partsAdded(added);
   emit loaded(problems.isEmpty());
 }
 
 void Document::openFiles(const QStringList& files) {
-  QStringList scenes, meshes;
-  for (const QString& file : files)
-    (isScene(file) ? scenes : meshes) << file;
-  if (scenes.size() > 1) {
+  open(sortOut(files), Preferences::metresPerUnit());
+}
+
+void Document::dropFiles(const QStringList& filesAndFolders) {
+  if (isBusy()) return emit noted(tr("Something is being loaded; drop it again then."));
+  const DroppedFiles dropped = sortOut(filesAndFolders);
+  double metresPerUnit = Preferences::metresPerUnit();
+  if (!dropped.meshes.isEmpty() && dropped.scenes.size() <= 1) {
+    const std::optional<double> unit = askForUnit(describeMeshes(dropped.meshes), window_);
+    if (!unit) return;
+    metresPerUnit = *unit;
+  }
+  open(dropped, metresPerUnit);
+}
+
+void Document::open(const DroppedFiles& files, double metresPerUnit) {
+  if (files.isCutOff) {
+    emit failed({tr("There are too many files."),
+                 tr("More than %1 meshes are in these folders. Drop fewer at a time.").arg(kMostInFolders)});
+    emit loaded(false);
+    return;
+  }
+  if (!files.emptyFolders.isEmpty())
+    emit noted(tr("Nothing to open in %1").arg(files.emptyFolders.join(QStringLiteral(", "))));
+  if (files.scenes.size() > 1) {
     emit failed({tr("Only one scene can be open."), tr("Give one .nearfit file; parts can be added to it.")});
     emit loaded(false);
-  } else if (scenes.size() == 1) {
-    if (!isBusy() && mayLeaveScene()) loadScene(scenes.first(), meshes);
+  } else if (files.scenes.size() == 1) {
+    if (!isBusy() && mayLeaveScene()) loadScene(files.scenes.first(), files.meshes, metresPerUnit);
   } else {
-    addParts(meshes, Preferences::metresPerUnit());
+    addParts(files.meshes, metresPerUnit);
   }
 }
 
@@ -247,25 +286,9 @@ bool Document::saveTo(const QString& file) {
     return false;
   }
   Preferences::rememberFolderOf(file);
+  RecentFiles::remember(file);
   emit noted(tr("Saved %1").arg(QFileInfo(file).fileName()));
   return true;
-}
-
-void Document::askAndExport(const RigidTransform& worldFromMoving) {
-  QFileDialog dialog(window_, tr("Export placement"),
-                     Preferences::lastFolder() + QStringLiteral("/placement.json"), tr("Placement (*.json)"));
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(QStringLiteral("json"));
-  if (dialog.exec() != QDialog::Accepted) return;
-  const QString file = dialog.selectedFiles().first();
-  try {
-    exportPlacement(session_.scene(), worldFromMoving, toPath(file));
-  } catch (...) {
-    emit failed(describe(tr("The placement could not be exported."), std::current_exception()));
-    return;
-  }
-  Preferences::rememberFolderOf(file);
-  emit noted(tr("Exported %1").arg(QFileInfo(file).fileName()));
 }
 
 }  // namespace nearfit::ui

@@ -3,6 +3,7 @@
 #include <QObject>
 #include <QPointer>
 #include <QStringList>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -17,6 +18,7 @@ class QWidget;
 namespace nearfit::ui {
 
 class ProgressDialog;
+struct DroppedFiles;
 
 /// The session's way to and from files, with the dialogs that go with it. Loads in another thread; what is
 /// open stays open until the new is loaded whole.
@@ -28,6 +30,7 @@ class Document : public QObject {
   Document(Session& session, std::shared_ptr<PartShapeCache> shapes, QWidget* window);
   ~Document() override;
 
+  const std::shared_ptr<PartShapeCache>& shapes() const noexcept { return shapes_; }
   bool isBusy() const noexcept { return task_.isRunning(); }
   /// Asks what to do with changes that are not saved. False when the user wants to stay.
   bool mayLeaveScene();
@@ -36,11 +39,22 @@ class Document : public QObject {
   void askAndOpen();
   /// Opens a scene after asking about changes.
   void openScene(const QString& file);
+  /// Opens a scene that was lost before it was saved, after asking about changes.
+  /// @param journal    A scene file that it is read from.
+  /// @param sceneFile  That the scene has as its own; empty for none.
+  /// @param restored   Called once it is open.
+  void openLost(const QString& journal, const std::filesystem::path& sceneFile,
+                std::function<void()> restored);
   void askAndAddParts();
   /// @param metresPerUnit  Of the numbers in the files.
   void addParts(const QStringList& files, double metresPerUnit);
   /// Any mixture of meshes and at most one scene, which is opened first; meshes in the unit used last.
   void openFiles(const QStringList& files);
+  /// As openFiles, for what was dropped: folders are taken apart, and the unit of all meshes is asked once.
+  void dropFiles(const QStringList& filesAndFolders);
+  /// Runs a job in another thread, showing progress; `done` gets what it threw, or null. Nothing may be
+  /// running.
+  void load(const QString& text, BackgroundTask::Job job, std::function<void(std::exception_ptr)> done);
   /// Makes the hierarchies of all parts ready in another thread, and calls `done` with whether they are: at
   /// once when nothing is missing, else when it is done or the user has stopped it. Waits for what is being
   /// loaded.
@@ -48,8 +62,6 @@ class Document : public QObject {
   /// False when nothing was written.
   bool save();
   bool askAndSaveAs();
-  /// @param worldFromMoving  Where the moving part is.
-  void askAndExport(const RigidTransform& worldFromMoving);
 
  signals:
   /// The scene is about to be saved or left: whoever holds a part puts its pose into the session now.
@@ -58,13 +70,18 @@ class Document : public QObject {
   void failed(const nearfit::ui::Failure& failure);
   /// A short note for the status bar.
   void noted(const QString& text);
+  /// These came together.
+  void partsAdded(const std::vector<nearfit::PartId>& parts);
   /// Loading ended, well or not.
   void loaded(bool isComplete);
 
  private:
-  void load(const QString& text, BackgroundTask::Job job, std::function<void(std::exception_ptr)> done);
   void prepareNext();
-  void loadScene(const QString& file, const QStringList& partsAfter);
+  /// @param metresPerUnit  Of the parts that are added after.
+  void loadScene(const QString& file, const QStringList& partsAfter, double metresPerUnit);
+  /// @param opened  Puts the scene into the session.
+  void readScene(const QString& file, const QString& name, std::function<void(Scene)> opened);
+  void open(const DroppedFiles& files, double metresPerUnit);
   bool saveTo(const QString& file);
   void finishParts(const std::vector<PartGeometryPtr>& geometries, const QStringList& problems);
 
@@ -75,5 +92,8 @@ class Document : public QObject {
   QPointer<ProgressDialog> progress_;
   std::vector<std::function<void(bool isReady)>> waiting_;  ///< For hierarchies.
 };
+
+/// Whether that is what a job throws that the user has stopped.
+bool isCancelled(const std::exception_ptr& error);
 
 }  // namespace nearfit::ui

@@ -8,6 +8,7 @@
 #include <QMimeData>
 #include <QPushButton>
 #include <QStatusBar>
+#include <QTimer>
 #include <utility>
 
 #include "ui/actions.h"
@@ -15,13 +16,22 @@
 #include "ui/dialogs/feel_dialog.h"
 #include "ui/document.h"
 #include "ui/feel_mode.h"
+#include "ui/hand_drag.h"
+#include "ui/history/history_panel.h"
+#include "ui/manners/manners.h"
+#include "ui/manners/window_layout.h"
 #include "ui/panels/feel_panel.h"
 #include "ui/panels/parts_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/paths.h"
+#include "ui/placing/placing_tools.h"
 #include "ui/preferences.h"
+#include "ui/recovery/recovery.h"
+#include "ui/selection.h"
 #include "ui/status_readout.h"
+#include "ui/taking/taking_away.h"
 #include "ui/theme.h"
+#include "ui/tree/tree_actions.h"
 #include "ui/viewport.h"
 #include "ui/welcome_card.h"
 
@@ -33,21 +43,32 @@ constexpr int kNoteTime = 8000;  ///< [ms]
 }  // namespace
 
 MainWindow::MainWindow(Session& session, QWidget* parent)
-    : QMainWindow(parent), session_(session), actions_(new Actions(this)) {
+    : QMainWindow(parent),
+      session_(session),
+      selection_(new Selection(session, this)),
+      actions_(new Actions(this)) {
   const auto shapes = std::make_shared<PartShapeCache>();
-  viewport_ = new Viewport(shapes, this);
+  viewport_ = new Viewport(shapes, *selection_, this);
   document_ = std::make_unique<Document>(session, shapes, this);
   setCentralWidget(viewport_);
   readout_ = new StatusReadout(statusBar());
   feelDialog_ = new FeelDialog(this);
   setUpPanels();
   actions_->setUpMenus(*this);
+  treeActions_->addTo(*actions_->editMenu);
   actions_->setUpToolBar(*this);
-  welcome_ = new WelcomeCard(actions_->openDemo, actions_->addParts, actions_->open, viewport_);
+  placing_ = new PlacingTools(session_, *selection_, *viewport_, this);
+  placing_->addTo(*this, *actions_->placeMenu);
+  setUpAligning();
+  setUpTakingAway();
   setAcceptDrops(true);
   resize(1360, 860);
-  restoreGeometry(Preferences::windowGeometry());
+  manners_ = new Manners(this, actions_->viewMenu, actions_->helpMenu);
+  connect(manners_, &Manners::tourRequested, this, &MainWindow::beginTour);
+  welcome_ =
+      new WelcomeCard(actions_->openDemo, manners_->tour(), actions_->addParts, actions_->open, viewport_);
 
+  connectPlacing();
   connectFileActions();
   connectEditActions();
   connectViewActions();
@@ -55,18 +76,28 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   session_.onChange([this] { showScene(); });
   setDemoScene({});
   showScene();
+  manners_->settle();
 }
 
 MainWindow::~MainWindow() = default;
 
 void MainWindow::setUpPanels() {
-  partsPanel_ = new PartsPanel(this);
+  partsPanel_ = new PartsPanel(*selection_, this);
+  treeActions_ = new TreeActions(
+      session_, *selection_, [this](const QString& what, const auto& command) { attempt(what, command); },
+      this);
   posePanel_ = new PosePanel(this);
   auto* settings = new QPushButton(actions_->feelSettings->icon(), tr("Feel settings…"), this);
   settings->setObjectName(QStringLiteral("settingsButton"));
   connect(settings, &QPushButton::clicked, actions_->feelSettings, &QAction::trigger);
   feelPanel_ = new FeelPanel(settings, this);
-  addDock(QStringLiteral("partsDock"), tr("Parts"), partsPanel_, Qt::LeftDockWidgetArea);
+  QDockWidget* parts = addDock(QStringLiteral("partsDock"), tr("Parts"), partsPanel_, Qt::LeftDockWidgetArea);
+  auto* history = new HistoryPanel(session_, this);
+  tabifyDockWidget(parts,
+                   addDock(QStringLiteral("historyDock"), tr("History"), history, Qt::LeftDockWidgetArea));
+  parts->raise();
+  connect(document_.get(), &Document::busyChanged, history,
+          [this, history] { history->setEnabled(!document_->isBusy()); });
   QDockWidget* pose =
       addDock(QStringLiteral("poseDock"), tr("Pose and mass"), posePanel_, Qt::LeftDockWidgetArea);
   QDockWidget* feel = addDock(QStringLiteral("feelDock"), tr("Feel"), feelPanel_, Qt::RightDockWidgetArea);
@@ -74,8 +105,9 @@ void MainWindow::setUpPanels() {
   resizeDocks({pose}, {240}, Qt::Vertical);
   auto* separator = new QAction(this);
   separator->setSeparator(true);
-  partsPanel_->setMenuActions({actions_->takeInHand, actions_->rename, actions_->recolour,
-                               actions_->duplicate, separator, actions_->remove});
+  partsPanel_->setMenuActions(
+      QList<QAction*>{actions_->takeInHand, actions_->rename, actions_->recolour, actions_->duplicate} +
+      treeActions_->list() + QList<QAction*>{separator, actions_->remove});
 }
 
 QDockWidget* MainWindow::addDock(const QString& name, const QString& title, QWidget* content,
@@ -98,6 +130,18 @@ void MainWindow::setDemoScene(const QString& file) {
   updateActions();
 }
 
+void MainWindow::protectWork(const std::filesystem::path& recoveryFolder) {
+  const auto poseInHand = [this]() -> Autosave::PoseInHand {
+    const std::optional<PartId> moving = session_.scene().movingPart();
+    if (!servo_.isRunning || !moving) return std::nullopt;
+    return std::pair(*moving, poseInHand_);
+  };
+  recovery_ = new Recovery(recoveryFolder, session_, *document_, poseInHand, this);
+  connect(recovery_, &Recovery::noted, this, &MainWindow::showNote);
+  connect(recovery_, &Recovery::failed, this, &MainWindow::showFailure);
+  recovery_->offer();
+}
+
 void MainWindow::showScene() {
   const Scene& scene = session_.scene();
   const QString name = session_.file().empty() ? tr("Untitled") : fromPath(session_.file().filename());
@@ -113,12 +157,16 @@ void MainWindow::showScene() {
 
 void MainWindow::showSelection() {
   const std::optional<PartId> id = selected();
-  const Part* part = id ? session_.scene().find(*id) : nullptr;
-  viewport_->setSelected(id);
+  const Scene& scene = session_.scene();
+  const Part* part = id ? scene.find(*id) : nullptr;
   const bool isInHand = holds(id);
-  const bool isEditable = part != nullptr && !part->isLocked && (!isInHand || servo_.hand == Hand::Manual);
-  posePanel_->showPart(part != nullptr ? QString::fromStdString(part->name) : QString(), isEditable);
-  posePanel_->showMass(part);
+  const bool isEditable =
+      part != nullptr && !scene.isLocked(*part) && (!isInHand || servo_.hand == Hand::Manual);
+  QString heading = part != nullptr ? QString::fromStdString(part->name) : QString();
+  const auto others = static_cast<int>(selection_->parts().size()) - 1;
+  if (others > 0) heading = tr("%1 and %n more", nullptr, others).arg(heading);
+  posePanel_->showPart(heading, isEditable);
+  posePanel_->showMass(part, part != nullptr && scene.isLocked(*part));
   if (isInHand && servo_.hand == Hand::Manual) {
     posePanel_->showPose(poseInHand_, handPose_);
   } else if (part != nullptr) {
@@ -133,41 +181,57 @@ void MainWindow::updateActions() {
   const Part* part = id ? scene.find(*id) : nullptr;
   Actions::Availability availability;
   availability.isBusy = document_->isBusy();
-  availability.hasSelection = part != nullptr;
-  availability.isSelectionLocked = part != nullptr && part->isLocked;
+  availability.hasSelection = !selection_->isEmpty();
+  availability.isSelectionLocked = part != nullptr && scene.isLocked(*part);
   availability.canStart = scene.movingPart().has_value() && scene.parts().size() > 1;
-  availability.isServoRunning = servo_.isRunning;
+  availability.isServoRunning = servo_.isTaken();
   availability.isHandManual = servo_.isRunning && servo_.hand == Hand::Manual;
   actions_->update(session_, availability);
+  treeActions_->update(document_->isBusy());
   actions_->openDemo->setEnabled(!document_->isBusy() && !demoScene_.isEmpty());
   feelPanel_->setStartable(actions_->start->isEnabled());
+  updateAligning();
+}
+
+void MainWindow::showDevices(const QVector<DeviceChoice>& devices) {
+  feelPanel_->showDevices(devices);
 }
 
 void MainWindow::showServoStatus(const ServoStatus& status) {
-  const bool hasChanged = status.isRunning != servo_.isRunning || status.hand != servo_.hand;
+  const bool hasChanged = status.isRunning != servo_.isRunning || status.isOpening != servo_.isOpening ||
+                          status.hand != servo_.hand;
   servo_ = status;
   feelPanel_->showStatus(status);
   readout_->showStatus(status);
   feelDialog_->setDevice(status.device);
+  takingAway_->showTaken(status.isTaken());
   if (!hasChanged) return;
   if (status.isRunning) {
     const Part* part = session_.scene().find(session_.scene().movingPart().value_or(PartId{}));
     if (part != nullptr) handPose_ = poseInHand_ = part->worldFromPart;
   } else {
+    viewport_->handDrag().setPoint({});
     viewport_->clearSnapshot();
     feelPanel_->clearSnapshot();
     feelDialog_->clearSnapshot();
     readout_->clearSnapshot();
   }
+  showHeld();
   showSelection();
 }
 
 void MainWindow::showSnapshot(const ServoSnapshot& snapshot) {
   poseInHand_ = snapshot.proxy;
+  centreInPart_ = snapshot.proxy.inverse().applyToPoint(snapshot.centre);
+  viewport_->handDrag().setPoint(isHandManual() ? std::optional(handPose_.applyToPoint(centreInPart_))
+                                                : std::nullopt);
   viewport_->showSnapshot(snapshot);
   feelPanel_->showSnapshot(snapshot, session_.scene());
   feelDialog_->showSnapshot(snapshot);
   readout_->showSnapshot(snapshot);
+  showHeld();
+  if (recovery_ != nullptr) recovery_->autosave().noteMotion();
+  takingAway_->showSnapshot(snapshot);
   if (!holds(selected())) return;
   posePanel_->showPose(poseInHand_, servo_.hand == Hand::Manual ? handPose_ : poseInHand_);
 }
@@ -185,7 +249,7 @@ void MainWindow::showNote(const QString& text) {
 }
 
 std::optional<PartId> MainWindow::selected() const {
-  return partsPanel_->selected();
+  return selection_->current();
 }
 
 bool MainWindow::holds(std::optional<PartId> part) const {
@@ -193,6 +257,7 @@ bool MainWindow::holds(std::optional<PartId> part) const {
 }
 
 RigidTransform MainWindow::poseOf(const Part& part) const {
+  if (const std::optional<RigidTransform> dragged = placing_->draggedPose(part.id)) return *dragged;
   return holds(part.id) ? poseInHand_ : part.worldFromPart;
 }
 
@@ -202,7 +267,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     return;
   }
   emit servoStopRequested();
-  Preferences::setWindowGeometry(saveGeometry());
+  manners_->layout().remember();
   event->accept();
 }
 
@@ -215,7 +280,9 @@ void MainWindow::dropEvent(QDropEvent* event) {
   for (const QUrl& url : event->mimeData()->urls()) {
     if (url.isLocalFile()) files << url.toLocalFile();
   }
-  document_->openFiles(files);
+  // Asks: not while whoever is dragging waits for an answer.
+  if (!files.isEmpty()) QTimer::singleShot(0, this, [this, files] { document_->dropFiles(files); });
+  event->acceptProposedAction();
 }
 
 }  // namespace nearfit::ui

@@ -1,41 +1,65 @@
 // What the main window does for the user: the wiring of its actions and panels to the session's commands.
 #include <QAction>
 #include <QColorDialog>
+#include <QFileDialog>
 #include <QMessageBox>
+#include <QTimer>
+#include <QToolBar>
+#include <algorithm>
+#include <utility>
 
 #include "core/error.h"
-#include "core/haptics/workspace_mapper.h"
 #include "ui/actions.h"
 #include "ui/dialogs/error_box.h"
 #include "ui/dialogs/feel_dialog.h"
 #include "ui/document.h"
+#include "ui/files/notice_bar.h"
+#include "ui/files/part_files.h"
+#include "ui/files/recent_files.h"
 #include "ui/main_window.h"
+#include "ui/manners/manners.h"
 #include "ui/panels/feel_panel.h"
 #include "ui/panels/parts_panel.h"
 #include "ui/panels/pose_panel.h"
+#include "ui/preferences.h"
+#include "ui/selection.h"
+#include "ui/taking/taking_away.h"
 #include "ui/viewport.h"
 
 namespace nearfit::ui {
 
 void MainWindow::connectFileActions() {
+  setUpFiles();
   connect(actions_->newScene, &QAction::triggered, this, [this] { document_->newScene(); });
   connect(actions_->open, &QAction::triggered, this, [this] { document_->askAndOpen(); });
   connect(actions_->openDemo, &QAction::triggered, this, [this] { document_->openScene(demoScene_); });
   connect(actions_->addParts, &QAction::triggered, this, [this] { document_->askAndAddParts(); });
   connect(actions_->save, &QAction::triggered, this, [this] { document_->save(); });
   connect(actions_->saveAs, &QAction::triggered, this, [this] { document_->askAndSaveAs(); });
-  connect(actions_->exportPlacement, &QAction::triggered, this, &MainWindow::exportPlacement);
+  connect(actions_->exportPlacement, &QAction::triggered, takingAway_, &TakingAway::exportScene);
   connect(actions_->quit, &QAction::triggered, this, &QWidget::close);
   connect(actions_->about, &QAction::triggered, this, &MainWindow::showAbout);
   connect(document_.get(), &Document::failed, this, &MainWindow::showFailure);
   connect(document_.get(), &Document::noted, this, &MainWindow::showNote);
   connect(document_.get(), &Document::loaded, this, [this] {
     viewport_->fit();
-    if (!selected()) partsPanel_->select(session_.scene().movingPart());
+    if (!selected()) selection_->select(session_.scene().movingPart());
   });
   connect(document_.get(), &Document::busyChanged, this, &MainWindow::updateActions);
   connect(document_.get(), &Document::sceneNeeded, posePanel_, &PosePanel::commit);
   connect(document_.get(), &Document::sceneNeeded, this, &MainWindow::poseInHandRequested);
+}
+
+void MainWindow::setUpFiles() {
+  auto* recent = new RecentFiles(actions_->recentMenu, this);
+  connect(recent, &RecentFiles::openRequested, document_.get(), &Document::openScene);
+  connect(recent, &RecentFiles::missing, this, [this](const QString& file) {
+    showFailure({tr("This scene is not there any more."),
+                 tr("It was moved or deleted, and is no longer in the list.\n\nWhere: %1").arg(file)});
+  });
+  auto* parts = new PartFiles(session_, *document_, *new NoticeBar(viewport_), actions_->reloadMenu, this);
+  connect(parts, &PartFiles::noted, this, &MainWindow::showNote);
+  connect(parts, &PartFiles::failed, this, &MainWindow::showFailure);
 }
 
 void MainWindow::connectEditActions() {
@@ -44,17 +68,23 @@ void MainWindow::connectEditActions() {
   connect(actions_->remove, &QAction::triggered, this, &MainWindow::deleteSelected);
   connect(actions_->recolour, &QAction::triggered, this, &MainWindow::recolourSelected);
   connect(actions_->rename, &QAction::triggered, partsPanel_, &PartsPanel::editName);
-  connect(actions_->takeInHand, &QAction::triggered, this, [this] { takeInHand(selected()); });
+  connect(actions_->takeInHand, &QAction::triggered, this, [this] {
+    if (selected()) takeInHand(selected());
+  });
+  connect(actions_->selectAll, &QAction::triggered, selection_, &Selection::selectAllVisible);
+  connect(actions_->selectNone, &QAction::triggered, selection_, [this] { selection_->select({}); });
   connect(actions_->duplicate, &QAction::triggered, this, [this] {
-    attempt(tr("The part could not be duplicated."),
-            [this] { partsPanel_->select(session_.duplicatePart(*selected())); });
+    attempt(tr("The part could not be duplicated."), [this] {
+      const SceneNodes copies = session_.duplicate(selection_->nodes());
+      selection_->set(partsOf(session_.scene(), copies), copies.groups);
+    });
   });
 }
 
 void MainWindow::connectViewActions() {
   connect(actions_->fit, &QAction::triggered, viewport_, &Viewport::fit);
   connect(actions_->fitSelection, &QAction::triggered, viewport_, [this] {
-    if (const std::optional<PartId> part = selected()) viewport_->fitPart(*part);
+    if (!selection_->parts().empty()) viewport_->fitParts(selection_->parts());
   });
   const std::pair<QAction*, StandardView> views[] = {{actions_->viewIso, StandardView::Isometric},
                                                      {actions_->viewFront, StandardView::Front},
@@ -70,26 +100,36 @@ void MainWindow::connectViewActions() {
   connect(actions_->hand, &QAction::toggled, viewport_, &Viewport::setHandVisible);
   connect(actions_->wrench, &QAction::toggled, viewport_, &Viewport::setWrenchVisible);
   viewport_->setSeeThrough(actions_->seeThrough->isChecked());
-  connect(viewport_, &Viewport::partPicked, partsPanel_, &PartsPanel::select);
-  connect(viewport_, &Viewport::nudged, this, [this](int x, int y, int z) { nudge(glm::dvec3(x, y, z)); });
 }
 
 void MainWindow::connectPanels() {
-  connect(partsPanel_, &PartsPanel::selectionChanged, this, &MainWindow::showSelection);
+  connect(selection_, &Selection::changed, this, &MainWindow::showSelection);
   connect(partsPanel_, &PartsPanel::movingPartRequested, this, &MainWindow::takeInHand);
   connect(partsPanel_, &PartsPanel::renameRequested, this, [this](PartId part, const QString& name) {
     attempt(tr("The part could not be renamed."), [&] { session_.renamePart(part, name.toStdString()); });
   });
-  connect(partsPanel_, &PartsPanel::visibilityRequested, this, [this](PartId part, bool isVisible) {
-    attempt(tr("The part could not be hidden or shown."), [&] { session_.setVisible(part, isVisible); });
+  connect(partsPanel_, &PartsPanel::groupRenameRequested, this, [this](GroupId group, const QString& name) {
+    attempt(tr("The group could not be renamed."), [&] { session_.renameGroup(group, name.toStdString()); });
   });
-  connect(partsPanel_, &PartsPanel::lockRequested, this, [this](PartId part, bool isLocked) {
-    attempt(tr("The part could not be locked or unlocked."), [&] { session_.setLocked(part, isLocked); });
+  connect(partsPanel_, &PartsPanel::visibilityRequested, this,
+          [this](const std::vector<PartId>& parts, bool isVisible) {
+            attempt(tr("The part could not be hidden or shown."),
+                    [&] { session_.setVisible(parts, isVisible); });
+          });
+  connect(partsPanel_, &PartsPanel::lockRequested, this, [this](const SceneNodes& nodes, bool isLocked) {
+    attempt(tr("The part could not be locked or unlocked."), [&] { session_.setLocked(nodes, isLocked); });
   });
+  // Later: the view is still busy with the drop, which a changed model would disturb.
+  connect(partsPanel_, &PartsPanel::regroupRequested, this,
+          [this](const SceneNodes& nodes, std::optional<GroupId> target) {
+            QTimer::singleShot(0, this, [this, nodes, target] {
+              attempt(tr("The parts could not be put there."), [&] { session_.regroup(nodes, target); });
+            });
+          });
   connect(posePanel_, &PosePanel::poseEdited, this, &MainWindow::moveSelected);
   connect(posePanel_, &PosePanel::densityEdited, this, [this](double density) {
-    if (const std::optional<PartId> part = selected())
-      attempt(tr("The density could not be changed."), [&] { session_.setDensity(*part, density); });
+    attempt(tr("The density could not be changed."),
+            [&] { session_.setDensity(selection_->parts(), density); });
   });
   connectFeel();
 }
@@ -98,19 +138,33 @@ void MainWindow::connectFeel() {
   connect(feelPanel_, &FeelPanel::startRequested, actions_->start, &QAction::trigger);
   connect(feelPanel_, &FeelPanel::stopRequested, actions_->stop, &QAction::trigger);
   connect(feelPanel_, &FeelPanel::handChanged, this, [this] {
-    if (servo_.isRunning && servo_.hand != feelPanel_->hand()) restartServo();
+    const bool isSame = servo_.hand == feelPanel_->hand() && servo_.deviceId == feelPanel_->device();
+    if (wanted_) wanted_ = {feelPanel_->hand(), feelPanel_->device()};
+    // Whoever walks past the recorded hand is asked for no file: that waits for the button.
+    if (servo_.isTaken() && !isSame && !feelPanel_->isRecordingMissing()) restartServo();
   });
   connect(actions_->start, &QAction::triggered, this, &MainWindow::requestStart);
   connect(actions_->stop, &QAction::triggered, this, &MainWindow::servoStopRequested);
+  connect(feelPanel_, &FeelPanel::armRequested, this, &MainWindow::armRequested);
+  connect(feelPanel_, &FeelPanel::calibrateRequested, this, &MainWindow::calibrateRequested);
+  connect(feelPanel_, &FeelPanel::recordingWanted, this, [this] {
+    if (askForRecording() && servo_.isTaken()) restartServo();
+  });
+  connect(feelPanel_, &FeelPanel::resetRequested, this, &MainWindow::resetRequested);
   connect(feelPanel_, &FeelPanel::restartRequested, this, &MainWindow::restartServo);
   connect(feelPanel_, &FeelPanel::modeRequested, this,
           [this](FeelMode mode) { changeHaptics(withMode(session_.scene().haptics(), mode)); });
-  connect(actions_->letGo, &QAction::triggered, this, &MainWindow::letGo);
+  connectHand();
   connect(actions_->feelSettings, &QAction::triggered, this, [this] {
     feelDialog_->show();
     feelDialog_->raise();
   });
   connect(feelDialog_, &FeelDialog::settingsEdited, this, &MainWindow::changeHaptics);
+  feelDialog_->showRate(Preferences::rate());
+  connect(feelDialog_, &FeelDialog::rateEdited, this, [this](const RateSettings& settings) {
+    Preferences::setRate(settings);
+    emit rateChanged(settings);
+  });
 }
 
 void MainWindow::changeHaptics(const HapticSettings& settings) {
@@ -140,12 +194,30 @@ void MainWindow::attempt(const QString& what, const std::function<void()>& comma
   }
 }
 
+bool MainWindow::askForRecording() {
+  const QString file =
+      QFileDialog::getOpenFileName(this, tr("Recorded hand"), Preferences::lastFolder(),
+                                   tr("Recordings of nearfit and nearfit-cli (*.csv);;All files (*)"));
+  if (file.isEmpty()) return false;
+  Preferences::rememberFolderOf(file);
+  feelPanel_->chooseDevice(QStringLiteral("replay:") + file);
+  return true;
+}
+
 void MainWindow::requestStart() {
   posePanel_->commit();
+  if (feelPanel_->isRecordingMissing() && !askForRecording()) return;
+  wanted_ = {feelPanel_->hand(), feelPanel_->device()};
   // In another thread, as it may take seconds: only then can the servo start at once.
   document_->prepareHierarchies([this](bool isReady) {
-    if (isReady) emit servoStartRequested(feelPanel_->hand());
+    const std::optional<WantedHand> wanted = std::exchange(wanted_, std::nullopt);
+    if (isReady && wanted) emit servoStartRequested(wanted->hand, wanted->device);
   });
+}
+
+void MainWindow::feelWith(const QString& device) {
+  feelPanel_->chooseDevice(device);
+  requestStart();
 }
 
 void MainWindow::prepareHierarchies() {
@@ -161,17 +233,17 @@ void MainWindow::prepareHierarchies() {
 void MainWindow::takeInHand(std::optional<PartId> part) {
   if (session_.scene().movingPart() == part) return;
   // What was in hand is put down where it is first, so that nothing of what was felt is lost.
-  const bool wasRunning = servo_.isRunning;
+  const bool wasRunning = servo_.isTaken();
   emit servoStopRequested();
   attempt(tr("The part could not be taken in hand."), [&] { session_.setMovingPart(part); });
   if (wasRunning && actions_->start->isEnabled()) requestStart();
 }
 
 void MainWindow::deleteSelected() {
-  const std::optional<PartId> part = selected();
-  if (!part) return;
-  if (holds(part)) emit servoStopRequested();
-  attempt(tr("The part could not be deleted."), [&] { session_.deletePart(*part); });
+  const SceneNodes nodes = selection_->nodes();
+  if (std::ranges::any_of(nodes.parts, [this](PartId part) { return holds(part); }))
+    emit servoStopRequested();
+  attempt(tr("The part could not be deleted."), [&] { session_.deleteNodes(nodes); });
 }
 
 void MainWindow::recolourSelected() {
@@ -186,67 +258,37 @@ void MainWindow::recolourSelected() {
   if (!chosen.isValid()) return;
   const Colour colour{static_cast<float>(chosen.redF()), static_cast<float>(chosen.greenF()),
                       static_cast<float>(chosen.blueF())};
-  attempt(tr("The part could not be coloured."), [&] { session_.setColour(*id, colour); });
+  attempt(tr("The part could not be coloured."), [&] { session_.setColour(selection_->parts(), colour); });
 }
 
-void MainWindow::moveSelected(const RigidTransform& worldFromPart) {
-  const std::optional<PartId> part = selected();
-  if (!part) return;
-  if (holds(part)) {
-    moveHand(worldFromPart);
-  } else {
-    attempt(tr("The part could not be moved."), [&] { session_.movePart(*part, worldFromPart); });
-  }
-}
-
-void MainWindow::nudge(const glm::dvec3& direction) {
-  const glm::dvec3 step = direction * posePanel_->step();
-  if (servo_.isRunning && servo_.hand == Hand::Manual) {
-    moveHand({handPose_.rotation, handPose_.translation + step});
-    return;
-  }
-  const std::optional<PartId> id = selected();
-  const Part* part = id ? session_.scene().find(*id) : nullptr;
-  if (part == nullptr) return;
-  if (holds(id)) {
-    showNote(tr("The scripted hand holds this part."));
-  } else {
-    moveSelected({part->worldFromPart.rotation, part->worldFromPart.translation + step});
-  }
-}
-
-void MainWindow::moveHand(const RigidTransform& worldFromPart) {
-  WorkspaceMapping locks;
-  locks.translationLocks = session_.scene().haptics().mapping.translationLocks;
-  locks.rotationLocks = session_.scene().haptics().mapping.rotationLocks;
-  WorkspaceMapper mapper;
-  mapper.engage(handPose_);
-  handPose_ = mapper.map(worldFromPart, false, locks);
-  emit handMoved(handPose_);
-}
-
-void MainWindow::letGo() {
-  if (!servo_.isRunning || servo_.hand != Hand::Manual) return;
-  handPose_ = poseInHand_;
-  emit handMoved(handPose_);
-}
-
-void MainWindow::exportPlacement() {
-  posePanel_->commit();
-  // The report measures, which needs the hierarchies.
-  document_->prepareHierarchies([this](bool isReady) {
-    if (isReady) exportPreparedPlacement();
-  });
-}
-
-void MainWindow::exportPreparedPlacement() {
-  const std::optional<PartId> moving = session_.scene().movingPart();
-  const Part* part = moving ? session_.scene().find(*moving) : nullptr;
-  document_->askAndExport(part != nullptr ? poseOf(*part) : RigidTransform{});
+void MainWindow::setUpTakingAway() {
+  const auto poseOfMoving = [this] {
+    const std::optional<PartId> moving = session_.scene().movingPart();
+    const Part* part = moving ? session_.scene().find(*moving) : nullptr;
+    return part != nullptr ? poseOf(*part) : RigidTransform{};
+  };
+  takingAway_ = new TakingAway({*this, session_, *selection_, *viewport_, poseOfMoving});
+  takingAway_->addTo({actions_->fileMenu, actions_->feelMenu, actions_->panelsMenu,
+                      findChild<QToolBar*>(QStringLiteral("toolBar")), actions_->exportPlacement});
+  connect(takingAway_, &TakingAway::sceneNeeded, posePanel_, &PosePanel::commit);
+  connect(takingAway_, &TakingAway::failed, this, &MainWindow::showFailure);
+  connect(takingAway_, &TakingAway::noted, this, &MainWindow::showNote);
 }
 
 void MainWindow::showAbout() {
   QMessageBox::about(this, tr("About Nearfit"), aboutText_);
+}
+
+void MainWindow::beginTour() {
+  const bool isSomethingThere = !session_.scene().parts().empty() || demoScene_.isEmpty();
+  if (isSomethingThere || document_->isBusy()) return manners_->beginTour();
+  // Of an empty window there is little to say.
+  auto* once = new QObject(this);
+  connect(document_.get(), &Document::loaded, once, [this, once] {
+    once->deleteLater();
+    manners_->beginTour();
+  });
+  document_->openScene(demoScene_);
 }
 
 }  // namespace nearfit::ui

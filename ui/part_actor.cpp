@@ -12,6 +12,8 @@ namespace nearfit::ui {
 namespace {
 
 constexpr double kTranslucentOpacity = 0.28, kWarningOpacity = 0.45;
+/// Faint enough that what lies before a selected part keeps its shape and colour.
+constexpr double kVeilOpacity = 0.13, kVeilEdgeOpacity = 0.55;
 
 void setEdgeColour(vtkProperty& property, const PartLook& look) {
   const QColor dark(0x1a, 0x22, 0x2b);
@@ -26,8 +28,8 @@ void setEdgeColour(vtkProperty& property, const PartLook& look) {
 
 }  // namespace
 
-PartActor::PartActor(vtkRenderer& renderer, std::shared_ptr<const PartShape> shape)
-    : renderer_(renderer), shape_(std::move(shape)) {
+PartActor::PartActor(vtkRenderer& renderer, std::shared_ptr<const PartShape> shape, vtkRenderer* over)
+    : renderer_(renderer), shape_(std::move(shape)), over_(over) {
   vtkNew<vtkPolyDataMapper> surfaceMapper;
   surfaceMapper->SetInputData(shape_->surface);
   surfaceMapper->ScalarVisibilityOff();
@@ -57,6 +59,7 @@ PartActor::PartActor(vtkRenderer& renderer, std::shared_ptr<const PartShape> sha
 }
 
 PartActor::~PartActor() {
+  setThrough(false);
   renderer_.RemoveActor(surface_);
   renderer_.RemoveActor(edges_);
 }
@@ -75,10 +78,41 @@ void PartActor::setAppearance(const Colour& colour, bool isVisible, const PartLo
     property->SetColor(static_cast<double>(colour.r), static_cast<double>(colour.g),
                        static_cast<double>(colour.b));
   }
-  property->SetOpacity(!look.isTranslucent  ? 1.0
-                       : look.isOverlapping ? kWarningOpacity
-                                            : kTranslucentOpacity);
+  property->SetOpacity(look.opacity * (!look.isTranslucent  ? 1.0
+                                       : look.isOverlapping ? kWarningOpacity
+                                                            : kTranslucentOpacity));
   setEdgeColour(*edges_->GetProperty(), look);
+  setThrough(isVisible && look.isSelected);
+}
+
+void PartActor::setThrough(bool isThrough) {
+  if (over_ == nullptr || isThrough == (veil_ != nullptr)) return;
+  if (!isThrough) {
+    over_->RemoveActor(veil_);
+    over_->RemoveActor(veilEdges_);
+    veil_ = veilEdges_ = nullptr;
+    return;
+  }
+  const auto make = [this](vtkPolyData* data, double opacity) {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(data);
+    mapper->ScalarVisibilityOff();
+    auto actor = vtkSmartPointer<vtkActor>::New();
+    actor->SetMapper(mapper);
+    actor->SetUserMatrix(pose_);
+    actor->PickableOff();
+    vtkProperty* property = actor->GetProperty();
+    property->LightingOff();
+    property->SetColor(colours::kAccent.redF(), colours::kAccent.greenF(), colours::kAccent.blueF());
+    property->SetOpacity(opacity);
+    over_->AddActor(actor);
+    return actor;
+  };
+  veil_ = make(shape_->surface, kVeilOpacity);
+  // One layer of a closed surface, not two.
+  veil_->GetProperty()->BackfaceCullingOn();
+  veilEdges_ = make(shape_->edges, kVeilEdgeOpacity);
+  veilEdges_->GetProperty()->SetLineWidth(1.6F);
 }
 
 vtkStaticCellLocator* PartActor::locator() {

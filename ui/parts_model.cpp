@@ -1,94 +1,140 @@
 #include "ui/parts_model.h"
 
+#include <QCoreApplication>
+#include <QDataStream>
 #include <QFont>
-#include <QIcon>
-#include <QPainter>
-#include <QPixmap>
+#include <QMimeData>
 #include <algorithm>
+#include <map>
 
-#include "ui/format.h"
 #include "ui/theme.h"
+#include "ui/tree/part_cells.h"
 
 namespace nearfit::ui {
 namespace {
 
-/// Else the style tints pictures in selected rows until they look disabled.
-QIcon sameWhenSelected(const QPixmap& pixmap) {
-  QIcon result(pixmap);
-  result.addPixmap(pixmap, QIcon::Selected);
-  return result;
-}
-
-QIcon listIcon(const QString& name) {
-  constexpr int kSize = 36;
-  return sameWhenSelected(icon(name).pixmap(kSize, kSize));
-}
-
-QIcon swatch(const Colour& colour) {
-  constexpr int kSize = 32;
-  QPixmap pixmap(kSize, kSize);
-  pixmap.fill(Qt::transparent);
-  QPainter painter(&pixmap);
-  painter.setRenderHint(QPainter::Antialiasing);
-  const QColor fill = QColor::fromRgbF(static_cast<double>(colour.r), static_cast<double>(colour.g),
-                                       static_cast<double>(colour.b));
-  painter.setPen(QPen(fill.darker(150), 2.0));
-  painter.setBrush(fill);
-  painter.drawRoundedRect(QRectF(4, 4, 24, 24), 6, 6);
-  return sameWhenSelected(pixmap);
-}
+const QString kNodesType = QStringLiteral("application/x-nearfit-nodes");
 
 }  // namespace
 
-PartsModel::PartsModel(QObject* parent) : QAbstractTableModel(parent) {}
+PartsModel::PartsModel(QObject* parent) : QAbstractItemModel(parent), nodes_(1) {}
+
+std::vector<PartsModel::Node> PartsModel::treeOf(const Scene& scene) {
+  std::vector<Node> nodes(1);
+  std::map<std::optional<GroupId>, int> nodeOf{{std::nullopt, 0}};
+  const auto add = [&](std::optional<GroupId> parent, Node node) {
+    const auto number = static_cast<int>(nodes.size());
+    node.parent = nodeOf.at(parent);
+    Node& above = nodes[static_cast<std::size_t>(node.parent)];
+    node.row = static_cast<int>(above.children.size());
+    above.children.push_back(number);
+    if (node.group) nodeOf[node.group] = number;
+    nodes.push_back(std::move(node));
+  };
+  visitGroups(scene, [&](const Group& group, std::size_t) {
+    Node node;
+    node.group = group.id;
+    add(group.parent, std::move(node));
+  });
+  for (const Scene::PartPtr& part : scene.parts()) {
+    Node node;
+    node.part = part->id;
+    add(part->group, std::move(node));
+  }
+  return nodes;
+}
+
+bool PartsModel::isGeometrySame(const Scene& scene) const {
+  return std::ranges::equal(scene_.parts(), scene.parts(),
+                            [](const auto& a, const auto& b) { return a->geometry == b->geometry; });
+}
 
 void PartsModel::setScene(const Scene& scene) {
-  const bool sameParts =
-      std::equal(scene_.parts().begin(), scene_.parts().end(), scene.parts().begin(), scene.parts().end(),
-                 [](const Scene::PartPtr& a, const Scene::PartPtr& b) {
-                   return a->id == b->id && a->geometry == b->geometry;
-                 });
-  if (!sameParts) beginResetModel();
-  scene_ = scene;
-  if (!sameParts) {
+  std::vector<Node> nodes = treeOf(scene);
+  if (nodes != nodes_ || !isGeometrySame(scene)) {
+    beginResetModel();
+    scene_ = scene;
+    nodes_ = std::move(nodes);
     endResetModel();
-  } else if (rowCount() > 0) {
-    emit dataChanged(index(0, 0), index(rowCount() - 1, ColumnCount - 1));
+    return;
   }
+  scene_ = scene;
+  for (std::size_t node = 0; node < nodes_.size(); ++node) {
+    const QModelIndex above = indexOfNode(static_cast<int>(node), Name);
+    const int rows = rowCount(above);
+    if (rows > 0) emit dataChanged(index(0, 0, above), index(rows - 1, ColumnCount - 1, above));
+  }
+}
+
+const PartsModel::Node* PartsModel::nodeAt(const QModelIndex& index) const {
+  return index.isValid() ? &nodes_[static_cast<std::size_t>(index.internalId())] : nullptr;
+}
+
+QModelIndex PartsModel::indexOfNode(int node, int column) const {
+  if (node <= 0) return {};
+  return createIndex(nodes_[static_cast<std::size_t>(node)].row, column, static_cast<quintptr>(node));
 }
 
 std::optional<PartId> PartsModel::partAt(const QModelIndex& index) const {
-  const auto row = static_cast<std::size_t>(index.row());
-  if (!index.isValid() || row >= scene_.parts().size()) return std::nullopt;
-  return scene_.parts()[row]->id;
+  const Node* node = nodeAt(index);
+  return node != nullptr ? node->part : std::nullopt;
+}
+
+std::optional<GroupId> PartsModel::groupAt(const QModelIndex& index) const {
+  const Node* node = nodeAt(index);
+  return node != nullptr ? node->group : std::nullopt;
 }
 
 QModelIndex PartsModel::indexOf(PartId part) const {
-  for (int row = 0; row < rowCount(); ++row) {
-    if (scene_.parts()[static_cast<std::size_t>(row)]->id == part) return index(row, Name);
-  }
-  return {};
+  const auto found = std::ranges::find(nodes_, std::optional(part), &Node::part);
+  return found == nodes_.end() ? QModelIndex() : indexOfNode(static_cast<int>(found - nodes_.begin()), Name);
+}
+
+QModelIndex PartsModel::indexOf(GroupId group) const {
+  const auto found = std::ranges::find(nodes_, std::optional(group), &Node::group);
+  return found == nodes_.end() ? QModelIndex() : indexOfNode(static_cast<int>(found - nodes_.begin()), Name);
+}
+
+QModelIndex PartsModel::index(int row, int column, const QModelIndex& parent) const {
+  if (!hasIndex(row, column, parent)) return {};
+  const Node& above = parent.isValid() ? *nodeAt(parent) : nodes_.front();
+  return indexOfNode(above.children[static_cast<std::size_t>(row)], column);
+}
+
+QModelIndex PartsModel::parent(const QModelIndex& index) const {
+  const Node* node = nodeAt(index);
+  return node != nullptr ? indexOfNode(node->parent, Name) : QModelIndex();
 }
 
 int PartsModel::rowCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : static_cast<int>(scene_.parts().size());
+  if (parent.column() > 0) return 0;
+  const Node& above = parent.isValid() ? *nodeAt(parent) : nodes_.front();
+  return static_cast<int>(above.children.size());
 }
 
-int PartsModel::columnCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : ColumnCount;
+int PartsModel::columnCount(const QModelIndex&) const {
+  return ColumnCount;
 }
 
 QVariant PartsModel::data(const QModelIndex& index, int role) const {
-  if (!index.isValid() || index.row() >= rowCount()) return {};
-  const Part& part = *scene_.parts()[static_cast<std::size_t>(index.row())];
+  const Node* node = nodeAt(index);
+  if (node == nullptr) return {};
+  if (node->part) return partData(*scene_.find(*node->part), index.column(), role);
+  return groupData(*scene_.findGroup(*node->group), index.column(), role);
+}
+
+QVariant PartsModel::partData(const Part& part, int column, int role) const {
+  const PartCell cell(scene_, part);
   switch (role) {
     case Qt::DisplayRole:
     case Qt::EditRole:
-      return index.column() == Name ? QVariant(QString::fromStdString(part.name)) : QVariant();
+      return column == Name ? QVariant(QString::fromStdString(part.name)) : QVariant();
     case Qt::DecorationRole:
-      return decoration(part, index.column());
+      return cell.picture(column);
     case Qt::ToolTipRole:
-      return toolTip(part, index.column());
+      return cell.toolTip(column);
+    case Qt::AccessibleTextRole:
+      return column == Name ? QString::fromStdString(part.name) : cell.toolTip(column);
     case Qt::ForegroundRole:
       return part.isVisible ? QVariant() : QVariant(colours::kMutedText);
     case Qt::FontRole: {
@@ -101,42 +147,21 @@ QVariant PartsModel::data(const QModelIndex& index, int role) const {
   }
 }
 
-QVariant PartsModel::decoration(const Part& part, int column) const {
-  switch (column) {
-    case Name:
-      return swatch(part.colour);
-    case Moving:
-      return listIcon(scene_.movingPart() == part.id ? QStringLiteral("hand") : QStringLiteral("hand-off"));
-    case Visible:
-      return listIcon(part.isVisible ? QStringLiteral("eye") : QStringLiteral("eye-off"));
-    case Locked:
-      return listIcon(part.isLocked ? QStringLiteral("lock") : QStringLiteral("unlock"));
+QVariant PartsModel::groupData(const Group& group, int column, int role) const {
+  const GroupCell cell(scene_, group);
+  switch (role) {
+    case Qt::DisplayRole:
+    case Qt::EditRole:
+      return column == Name ? QVariant(QString::fromStdString(group.name)) : QVariant();
+    case Qt::DecorationRole:
+      return cell.picture(column);
+    case Qt::ToolTipRole:
+      return cell.toolTip(column);
+    case Qt::AccessibleTextRole:
+      return column == Name ? tr("Group %1").arg(QString::fromStdString(group.name)) : cell.toolTip(column);
     default:
       return {};
   }
-}
-
-QString PartsModel::toolTip(const Part& part, int column) const {
-  switch (column) {
-    case Moving:
-      return scene_.movingPart() == part.id ? tr("In hand") : tr("Take in hand: make it the moving part");
-    case Visible:
-      return part.isVisible ? tr("Shown and felt: hide it") : tr("Hidden and not felt: show it");
-    case Locked:
-      return part.isLocked ? tr("Locked: unlock it") : tr("Lock it against changes");
-    default:
-      break;
-  }
-  const TriangleMesh& mesh = part.geometry->mesh;
-  const glm::dvec3 size = mesh.bounds().upper - mesh.bounds().lower;
-  QString text =
-      tr("%1\n%2\n%L3 triangles, %4 × %5 × %6")
-          .arg(QString::fromStdString(part.name), QString::fromStdString(part.geometry->file.string()))
-          .arg(mesh.triangles().size())
-          .arg(formatLength(size.x), formatLength(size.y), formatLength(size.z));
-  for (const std::string& warning : part.geometry->report.warnings)
-    text += '\n' + QString::fromStdString(warning);
-  return text;
 }
 
 QVariant PartsModel::headerData(int section, Qt::Orientation orientation, int role) const {
@@ -145,16 +170,65 @@ QVariant PartsModel::headerData(int section, Qt::Orientation orientation, int ro
 }
 
 Qt::ItemFlags PartsModel::flags(const QModelIndex& index) const {
-  Qt::ItemFlags result = QAbstractTableModel::flags(index);
+  // At the top, too, something can be dropped.
+  if (!index.isValid()) return Qt::ItemIsDropEnabled;
+  Qt::ItemFlags result = QAbstractItemModel::flags(index) | Qt::ItemIsDragEnabled;
   if (index.column() == Name) result |= Qt::ItemIsEditable;
+  if (groupAt(index)) result |= Qt::ItemIsDropEnabled;
   return result;
 }
 
 bool PartsModel::setData(const QModelIndex& index, const QVariant& value, int role) {
-  const std::optional<PartId> part = partAt(index);
-  if (!part || role != Qt::EditRole || index.column() != Name) return false;
-  emit renameRequested(*part, value.toString().trimmed());
+  if (role != Qt::EditRole || index.column() != Name) return false;
+  const QString name = value.toString().trimmed();
+  if (const std::optional<PartId> part = partAt(index)) {
+    emit renameRequested(*part, name);
+  } else if (const std::optional<GroupId> group = groupAt(index)) {
+    emit groupRenameRequested(*group, name);
+  } else {
+    return false;
+  }
   return true;
+}
+
+QStringList PartsModel::mimeTypes() const {
+  return {kNodesType};
+}
+
+QMimeData* PartsModel::mimeData(const QModelIndexList& indexes) const {
+  QByteArray bytes;
+  QDataStream out(&bytes, QIODevice::WriteOnly);
+  out << QCoreApplication::applicationPid();
+  for (const QModelIndex& index : indexes) {
+    if (index.column() != Name) continue;
+    const std::optional<PartId> part = partAt(index);
+    out << part.has_value()
+        << (part ? static_cast<quint32>(*part) : static_cast<quint32>(groupAt(index).value_or(GroupId{})));
+  }
+  auto* data = new QMimeData;
+  data->setData(kNodesType, bytes);
+  return data;
+}
+
+bool PartsModel::dropMimeData(const QMimeData* data, Qt::DropAction, int, int, const QModelIndex& parent) {
+  QByteArray bytes = data->data(kNodesType);
+  QDataStream in(&bytes, QIODevice::ReadOnly);
+  qint64 process = 0;
+  in >> process;
+  // The numbers of another program's scene mean other things here.
+  if (process != QCoreApplication::applicationPid()) return false;
+  SceneNodes nodes;
+  while (!in.atEnd()) {
+    bool isPart = false;
+    quint32 id = 0;
+    in >> isPart >> id;
+    if (in.status() != QDataStream::Ok) break;
+    if (isPart && scene_.find(PartId{id}) != nullptr) nodes.parts.push_back(PartId{id});
+    if (!isPart && scene_.findGroup(GroupId{id}) != nullptr) nodes.groups.push_back(GroupId{id});
+  }
+  if (!nodes.isEmpty()) emit regroupRequested(nodes, groupAt(parent));
+  // The scene moves them, not the view: that would take the rows away.
+  return false;
 }
 
 }  // namespace nearfit::ui

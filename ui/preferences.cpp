@@ -3,6 +3,8 @@
 #include <QFileInfo>
 #include <QSettings>
 
+#include "core/error.h"
+
 namespace nearfit::ui {
 namespace {
 
@@ -34,6 +36,53 @@ QString Preferences::lastFolder() {
 
 void Preferences::rememberFolderOf(const QString& file) {
   setValue("files/folder", QFileInfo(file).absolutePath());
+}
+
+RateSettings Preferences::rate() {
+  const RateSettings usual;
+  RateSettings kept;
+  kept.deadZone = value("spaceMouse/deadZone", usual.deadZone).toDouble();
+  kept.exponent = value("spaceMouse/curve", usual.exponent).toDouble();
+  kept.fullSpeed = value("spaceMouse/speed", usual.fullSpeed).toDouble();
+  kept.fullTurn = value("spaceMouse/turnSpeed", usual.fullTurn).toDouble();
+  const QStringList off = value("spaceMouse/off").toStringList();
+  const QStringList reversed = value("spaceMouse/reversed").toStringList();
+  for (std::size_t i = 0; i < kRateAxes.size(); ++i) {
+    kept.isEnabled[i] = !off.contains(QLatin1String(kRateAxes[i]));
+    kept.isInverted[i] = reversed.contains(QLatin1String(kRateAxes[i]));
+  }
+  try {
+    checkRateSettings(kept);
+  } catch (const UsageError&) {
+    return usual;  // A file that somebody has edited.
+  }
+  return kept;
+}
+
+void Preferences::setRate(const RateSettings& settings) {
+  QStringList off, reversed;
+  for (std::size_t i = 0; i < kRateAxes.size(); ++i) {
+    if (!settings.isEnabled[i]) off << QLatin1String(kRateAxes[i]);
+    if (settings.isInverted[i]) reversed << QLatin1String(kRateAxes[i]);
+  }
+  setValue("spaceMouse/deadZone", settings.deadZone);
+  setValue("spaceMouse/curve", settings.exponent);
+  setValue("spaceMouse/speed", settings.fullSpeed);
+  setValue("spaceMouse/turnSpeed", settings.fullTurn);
+  setValue("spaceMouse/off", off);
+  setValue("spaceMouse/reversed", reversed);
+}
+
+LengthUnit Preferences::lengthUnit() {
+  const QString kept = value("view/lengthUnit").toString();
+  for (const LengthUnit unit : kLengthUnits) {
+    if (symbolOf(unit) == kept) return unit;
+  }
+  return LengthUnit::Millimetre;
+}
+
+void Preferences::setLengthUnit(LengthUnit unit) {
+  setValue("view/lengthUnit", symbolOf(unit));
 }
 
 QByteArray Preferences::windowGeometry() {

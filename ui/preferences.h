@@ -3,6 +3,9 @@
 #include <QByteArray>
 #include <QString>
 
+#include "core/haptics/rate_settings.h"
+#include "ui/length_unit.h"
+
 namespace nearfit::ui {
 
 /// What the program remembers for a user from one run to the next. Nothing of a scene is in here.
@@ -16,6 +19,14 @@ class Preferences {
   static QString lastFolder();
   /// Remembers the folder of `file`.
   static void rememberFolderOf(const QString& file);
+
+  /// How a space mouse drives; the usual settings at first, and where what is kept makes no sense.
+  static RateSettings rate();
+  static void setRate(const RateSettings& settings);
+
+  /// The unit that lengths are shown in; millimetres at first.
+  static LengthUnit lengthUnit();
+  static void setLengthUnit(LengthUnit unit);
 
   static QByteArray windowGeometry();
   static void setWindowGeometry(const QByteArray& geometry);

@@ -8,8 +8,8 @@
 
 namespace nearfit::ui {
 
-SceneRenderer::SceneRenderer(vtkRenderer& renderer, std::shared_ptr<PartShapeCache> shapes)
-    : renderer_(renderer), shapes_(std::move(shapes)) {}
+SceneRenderer::SceneRenderer(vtkRenderer& renderer, std::shared_ptr<PartShapeCache> shapes, vtkRenderer* over)
+    : renderer_(renderer), shapes_(std::move(shapes)), over_(over) {}
 
 void SceneRenderer::setScene(const Scene& scene) {
   scene_ = scene;
@@ -17,8 +17,9 @@ void SceneRenderer::setScene(const Scene& scene) {
   applyAll();
 }
 
-void SceneRenderer::setSelected(std::optional<PartId> part) {
-  selected_ = part;
+void SceneRenderer::setSelected(std::vector<PartId> parts) {
+  selected_ = std::move(parts);
+  std::ranges::sort(selected_);
   applyAll();
 }
 
@@ -36,7 +37,25 @@ void SceneRenderer::setPoseInHand(std::optional<RigidTransform> worldFromMoving)
   poseInHand_ = std::move(worldFromMoving);
   if (!scene_.movingPart()) return;
   const Part* part = scene_.find(*scene_.movingPart());
-  if (part != nullptr) actorOf(*part).setPose(poseInHand_.value_or(part->worldFromPart));
+  if (part != nullptr) actorOf(*part).setPose(shownPose(*part));
+}
+
+void SceneRenderer::setDragged(std::map<PartId, RigidTransform> worldFromPart) {
+  const std::map<PartId, RigidTransform> before = std::exchange(dragged_, std::move(worldFromPart));
+  const auto place = [this](PartId id) {
+    const Part* part = scene_.find(id);
+    if (part != nullptr) actorOf(*part).setPose(shownPose(*part));
+  };
+  for (const auto& [id, pose] : before)
+    place(id);
+  for (const auto& [id, pose] : dragged_)
+    place(id);
+}
+
+RigidTransform SceneRenderer::shownPose(const Part& part) const {
+  const auto dragged = dragged_.find(part.id);
+  if (dragged != dragged_.end()) return dragged->second;
+  return scene_.movingPart() == part.id ? poseInHand_.value_or(part.worldFromPart) : part.worldFromPart;
 }
 
 void SceneRenderer::setOverlapping(std::span<const PartId> parts) {
@@ -49,7 +68,7 @@ PartActor& SceneRenderer::actorOf(const Part& part) {
   std::unique_ptr<PartActor>& actor = actors_[part.id];
   auto shape = shapes_->shapeOf(part.geometry);
   if (actor == nullptr || actor->shape() != shape.get()) {
-    actor = std::make_unique<PartActor>(renderer_, std::move(shape));
+    actor = std::make_unique<PartActor>(renderer_, std::move(shape), over_);
   }
   return *actor;
 }
@@ -57,13 +76,14 @@ PartActor& SceneRenderer::actorOf(const Part& part) {
 void SceneRenderer::applyAppearance(const Part& part) {
   PartLook look;
   look.isMoving = scene_.movingPart() == part.id;
-  look.isSelected = selected_ == part.id;
+  look.isSelected = std::ranges::binary_search(selected_, part.id);
   look.isTranslucent = isSeeThrough_ && scene_.movingPart().has_value() && !look.isMoving;
   look.isOverlapping = std::find(overlapping_.begin(), overlapping_.end(), part.id) != overlapping_.end();
   look.hasEdges = hasEdges_;
+  look.opacity = part.opacity;
   PartActor& actor = actorOf(part);
   actor.setAppearance(part.colour, part.isVisible, look);
-  actor.setPose(look.isMoving ? poseInHand_.value_or(part.worldFromPart) : part.worldFromPart);
+  actor.setPose(shownPose(part));
 }
 
 void SceneRenderer::applyAll() {
@@ -88,7 +108,7 @@ bool SceneRenderer::boundsOf(PartId part, double bounds[6]) const {
   return true;
 }
 
-std::optional<PartId> SceneRenderer::pick(double x, double y) {
+std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y) {
   vtkNew<vtkCellPicker> picker;
   picker->SetTolerance(0.0005);
   picker->PickFromListOn();
@@ -99,7 +119,10 @@ std::optional<PartId> SceneRenderer::pick(double x, double y) {
   }
   if (picker->Pick(x, y, 0.0, &renderer_) == 0) return std::nullopt;
   for (const auto& [id, actor] : actors_) {
-    if (actor->surface() == picker->GetActor()) return id;
+    if (actor->surface() != picker->GetActor()) continue;
+    const double* point = picker->GetPickPosition();
+    // Normals split vertices, and leave the triangles in their order.
+    return PickedPoint{id, {point[0], point[1], point[2]}, static_cast<std::uint32_t>(picker->GetCellId())};
   }
   return std::nullopt;
 }

@@ -11,19 +11,30 @@
 
 namespace nearfit::ui {
 
+/// What is seen at a place of the view.
+struct PickedPoint {
+  PartId part{};
+  glm::dvec3 point{0.0};       ///< Of its surface, in the world [m].
+  std::uint32_t triangle = 0;  ///< Of its mesh.
+};
+
 /// Keeps one actor for each part of the scene that is shown. Knows no widget and renders nothing itself.
 class SceneRenderer {
  public:
   /// @param renderer  Outlives this.
-  SceneRenderer(vtkRenderer& renderer, std::shared_ptr<PartShapeCache> shapes);
+  /// @param over      Drawn over it, outlives this: what is selected shows through there; may be null.
+  SceneRenderer(vtkRenderer& renderer, std::shared_ptr<PartShapeCache> shapes, vtkRenderer* over = nullptr);
 
   void setScene(const Scene& scene);
-  void setSelected(std::optional<PartId> part);
+  void setSelected(std::vector<PartId> parts);
   /// While there is a moving part, all others become see-through, so that what lies between can be seen.
   void setSeeThrough(bool isSeeThrough);
   void setEdgesVisible(bool isVisible);
   /// Shows the part away from its pose in the scene, where the hand has it; nothing puts it back.
   void setPoseInHand(std::optional<RigidTransform> worldFromMoving);
+
+  /// Shows parts away from their poses in the scene, where a drag has them; empty: none.
+  void setDragged(std::map<PartId, RigidTransform> worldFromPart);
 
   /// Parts that the moving one overlaps are tinted.
   void setOverlapping(std::span<const PartId> parts);
@@ -33,19 +44,27 @@ class SceneRenderer {
   /// Of one part, visible or not; false when it is not in the scene.
   bool boundsOf(PartId part, double bounds[6]) const;
   /// The part under a point of the view, in display coordinates from the lower left.
-  std::optional<PartId> pick(double x, double y);
+  std::optional<PartId> pick(double x, double y) {
+    const std::optional<PickedPoint> picked = pickPoint(x, y);
+    return picked ? std::optional(picked->part) : std::nullopt;
+  }
+  /// As pick, with the point of its surface.
+  std::optional<PickedPoint> pickPoint(double x, double y);
 
  private:
   PartActor& actorOf(const Part& part);
+  RigidTransform shownPose(const Part& part) const;
   void applyAppearance(const Part& part);
   void applyAll();
 
   vtkRenderer& renderer_;
   std::shared_ptr<PartShapeCache> shapes_;
+  vtkRenderer* over_;
   Scene scene_;
   std::map<PartId, std::unique_ptr<PartActor>> actors_;
-  std::optional<PartId> selected_;
+  std::vector<PartId> selected_;  ///< Sorted.
   std::optional<RigidTransform> poseInHand_;
+  std::map<PartId, RigidTransform> dragged_;
   std::vector<PartId> overlapping_;
   bool isSeeThrough_ = false;
   bool hasEdges_ = true;

@@ -1,8 +1,15 @@
 #include "ui/theme.h"
 
 #include <QApplication>
+#include <QEvent>
 #include <QPalette>
+#include <QSettings>
 #include <QStyleFactory>
+#include <QWidget>
+#include <algorithm>
+#include <utility>
+
+#include "ui/themed_icon.h"
 
 // Q_INIT_RESOURCE declares a function and so must stand outside of any namespace.
 static void initResources() {
@@ -11,6 +18,8 @@ static void initResources() {
 
 namespace nearfit::ui {
 namespace {
+
+const QString kSchemeKey = QStringLiteral("window/theme");
 
 constexpr const char* kStyleSheet = R"(
 QMainWindow { background: #eef1f4; }
@@ -37,33 +46,192 @@ QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QToolTip { background: #2c3640; color: #ffffff; border: none; padding: 4px; }
 )";
 
+/// Each colour of the light theme that a style sheet or an icon uses, and what it is in the dark one. Text
+/// and strokes keep at least the contrast that they had.
+constexpr std::pair<const char*, const char*> kDarkColours[] = {
+    {"#eef1f4", "#14181c"},
+    {"#d5dbe1", "#39434d"},
+    {"#1f73d0", "#62adf5"},
+    {"#f7f9fa", "#20262c"},
+    {"#dcebfb", "#2b4763"},
+    {"#e6eef7", "#2e3842"},
+    {"#c9d9ea", "#465667"},
+    {"#d3e5f8", "#2c4a68"},
+    {"#9fc4ec", "#4f7fae"},
+    {"#3b4754", "#c3ccd5"},
+    {"#e4e9ee", "#2a323a"},
+    {"#ffffff", "#1a1f24"},
+    {"#f0f5fa", "#283038"},
+    {"#16202a", "#f0f4f8"},
+    {"#2c3640", "#39434d"},
+    {"#1c252e", "#e8edf2"},
+    {"#5d6874", "#9ba7b3"},
+    {"#b34a00", "#ffab66"},
+    {"#d82c20", "#ff7a6e"},
+    {"#c8372d", "#ff7a6e"},
+    {"#fdf0e3", "#3b2c1c"},
+    {"#e8c39b", "#7a5a34"},
+    {"#c9d2db", "#414c57"},
+    {"#0b8484", "#45c4c4"},
+    {"#7b2fbe", "#bf8cf0"},
+    {"#b0155e", "#f278ad"},
+    {"#e2711d", "#ff9a52"},
+    {"rgba(255, 255, 255, 235)", "rgba(32, 38, 44, 240)"},
+    {"fill=\"#fff\"", "fill=\"#2e3740\""}};
+
+/// The desktop's own, before this program changes it.
+bool isDesktopDark() {
+  static const bool isDark = QApplication::palette().color(QPalette::Window).lightness() < 128;
+  return isDark;
+}
+
+bool& darkness() {
+  static bool isDark = false;
+  return isDark;
+}
+
+QPalette paletteOf(bool isDark) {
+  const auto colour = [isDark](const char* light) {
+    return QColor(isDark ? inDarkColours(QString::fromLatin1(light)) : QString::fromLatin1(light));
+  };
+  QPalette palette;
+  palette.setColor(QPalette::Window, colour("#f7f9fa"));
+  palette.setColor(QPalette::Base, colour("#ffffff"));
+  palette.setColor(QPalette::AlternateBase, colour("#f0f5fa"));
+  palette.setColor(QPalette::Button, isDark ? QColor(0x2e, 0x37, 0x40) : QColor(0xf7, 0xf9, 0xfa));
+  palette.setColor(QPalette::ToolTipBase, QColor(0x2c, 0x36, 0x40));
+  palette.setColor(QPalette::ToolTipText, Qt::white);
+  palette.setColor(QPalette::Highlight, colours::kAccent);
+  palette.setColor(QPalette::HighlightedText, Qt::white);
+  palette.setColor(QPalette::Link, colour("#1f73d0"));
+  palette.setColor(QPalette::BrightText, Qt::white);
+  if (isDark) {
+    // Fusion draws frames and grooves from these.
+    palette.setColor(QPalette::Light, QColor(0x46, 0x51, 0x5c));
+    palette.setColor(QPalette::Midlight, QColor(0x3a, 0x44, 0x4e));
+    palette.setColor(QPalette::Mid, QColor(0x29, 0x31, 0x38));
+    palette.setColor(QPalette::Dark, QColor(0x14, 0x18, 0x1c));
+    palette.setColor(QPalette::Shadow, Qt::black);
+  }
+  for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText}) {
+    palette.setColor(role, colour("#1c252e"));
+    palette.setColor(QPalette::Disabled, role, isDark ? QColor(0x6d, 0x78, 0x83) : QColor(0x9a, 0xa4, 0xae));
+  }
+  palette.setColor(QPalette::PlaceholderText, colour("#5d6874"));
+  return palette;
+}
+
+/// Widgets style themselves in the light theme's colours; this translates them in the dark one, and back.
+class SheetTranslator : public QObject {
+ public:
+  using QObject::QObject;
+
+  void translate(QWidget* widget) {
+    const QString sheet = widget->styleSheet();
+    if (sheet.isEmpty()) return;
+    const QVariant original = widget->property(kOriginal), made = widget->property(kMade);
+    // What the widget has set itself since is the new original.
+    const bool isOwn = !made.isValid() || made.toString() != sheet;
+    const QString light = isOwn ? sheet : original.toString();
+    const QString wanted = darkness() ? inDarkColours(light) : light;
+    if (wanted == sheet) return;
+    widget->setProperty(kOriginal, light);
+    widget->setProperty(kMade, wanted);
+    widget->setStyleSheet(wanted);
+  }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    // A sheet that is set before the widget is shown is told of by Polish alone.
+    const bool isStyled = event->type() == QEvent::StyleChange || event->type() == QEvent::Polish;
+    if (isStyled && darkness() && watched->isWidgetType()) translate(static_cast<QWidget*>(watched));
+    return false;
+  }
+
+ private:
+  static constexpr const char* kOriginal = "nearfitLightSheet";
+  static constexpr const char* kMade = "nearfitMadeSheet";
+};
+
+SheetTranslator& translator() {
+  static auto* instance = [] {
+    auto* made = new SheetTranslator(qApp);
+    qApp->installEventFilter(made);
+    return made;
+  }();
+  return *instance;
+}
+
+void apply(bool isDark) {
+  darkness() = isDark;
+  QApplication::setPalette(paletteOf(isDark));
+  const QString sheet = QString::fromLatin1(kStyleSheet);
+  qApp->setStyleSheet(isDark ? inDarkColours(sheet) : sheet);
+  // From the start on, when there are no widgets yet.
+  SheetTranslator& sheets = translator();
+  const QWidgetList widgets = QApplication::allWidgets();
+  for (QWidget* widget : widgets)
+    sheets.translate(widget);
+}
+
+bool isWantedDark(ColourScheme scheme) {
+  return scheme == ColourScheme::System ? isDesktopDark() : scheme == ColourScheme::Dark;
+}
+
 }  // namespace
 
 void loadResources() {
   initResources();
 }
 
-void applyTheme(QApplication& application) {
+void applyTheme(QApplication&) {
   loadResources();
+  isDesktopDark();
   QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
-  QPalette palette;
-  palette.setColor(QPalette::Window, QColor(0xf7, 0xf9, 0xfa));
-  palette.setColor(QPalette::Base, Qt::white);
-  palette.setColor(QPalette::AlternateBase, QColor(0xf3, 0xf6, 0xf9));
-  palette.setColor(QPalette::Button, QColor(0xf7, 0xf9, 0xfa));
-  palette.setColor(QPalette::Highlight, colours::kAccent);
-  palette.setColor(QPalette::HighlightedText, Qt::white);
-  for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText}) {
-    palette.setColor(role, QColor(0x1c, 0x25, 0x2e));
-    palette.setColor(QPalette::Disabled, role, QColor(0x9a, 0xa4, 0xae));
-  }
-  QApplication::setPalette(palette);
-  application.setStyleSheet(QString::fromLatin1(kStyleSheet));
+  apply(isWantedDark(colourScheme()));
   QApplication::setWindowIcon(icon(QStringLiteral("nearfit")));
 }
 
+ColourScheme colourScheme() {
+  const QString kept = QSettings().value(kSchemeKey).toString();
+  if (kept == QLatin1String("dark")) return ColourScheme::Dark;
+  return kept == QLatin1String("light") ? ColourScheme::Light : ColourScheme::System;
+}
+
+void setColourScheme(ColourScheme scheme) {
+  const char* names[] = {"system", "light", "dark"};
+  QSettings().setValue(kSchemeKey, QLatin1String(names[static_cast<int>(scheme)]));
+  apply(isWantedDark(scheme));
+}
+
+bool isThemeDark() {
+  return darkness();
+}
+
+QString inDarkColours(const QString& light) {
+  // Each place once: what one pair has made is not for another to translate.
+  QString dark;
+  dark.reserve(light.size());
+  for (int at = 0; at < light.size();) {
+    int length = 0;
+    for (const auto& [from, to] : kDarkColours) {
+      const QLatin1String sought(from);
+      if (QStringView(light).mid(at).startsWith(sought, Qt::CaseInsensitive)) {
+        dark += QLatin1String(to);
+        length = sought.size();
+        break;
+      }
+    }
+    if (length == 0) dark += light[at];
+    at += std::max(length, 1);
+  }
+  return dark;
+}
+
 QIcon icon(const QString& name) {
-  return QIcon(QStringLiteral(":/icons/%1.svg").arg(name));
+  // The program's own is the same on every ground.
+  const QString file = QStringLiteral(":/icons/%1.svg").arg(name);
+  return name == QLatin1String("nearfit") ? QIcon(file) : QIcon(new ThemedIcon(file));
 }
 
 }  // namespace nearfit::ui

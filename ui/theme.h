@@ -23,9 +23,21 @@ inline const QColor kWarning(0xb3, 0x4a, 0x00);
 
 /// Makes the compiled-in icons of this library known; harmless when repeated.
 void loadResources();
+/// Light or dark, or as the desktop is.
+enum class ColourScheme { System, Light, Dark };
+
+/// What the user has chosen, kept from run to run.
+ColourScheme colourScheme();
+/// Changes all that is shown at once, and keeps the choice. Widgets write their style sheets in the colours
+/// of the light theme; in the dark one those are translated. The view follows QEvent::PaletteChange.
+void setColourScheme(ColourScheme scheme);
+bool isThemeDark();
+/// A style sheet or SVG with each colour of the light theme replaced by that of the dark one.
+QString inDarkColours(const QString& light);
+
 /// Style, palette, window icon and style sheet of the whole application.
 void applyTheme(QApplication& application);
-/// An icon of resources/icons by its file name without ending.
+/// An icon of resources/icons by its file name without ending; follows the theme.
 QIcon icon(const QString& name);
 
 }  // namespace nearfit::ui

@@ -1,12 +1,14 @@
 #include "ui/viewport.h"
 
 #include <QApplication>
+#include <QEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QSurfaceFormat>
 #include <QTimer>
 #include <algorithm>
 
+#include <glm/trigonometric.hpp>
 #include <vtkBoundingBox.h>
 #include <vtkCamera.h>
 #include <vtkCameraOrientationRepresentation.h>
@@ -17,7 +19,10 @@
 #include <vtkRenderWindowInteractor.h>
 
 #include "ui/colour_legend.h"
+#include "ui/hand_drag.h"
+#include "ui/selection.h"
 #include "ui/snapshot_look.h"
+#include "ui/theme.h"
 
 namespace nearfit::ui {
 namespace {
@@ -38,24 +43,46 @@ void Viewport::setDefaultSurfaceFormat() {
   QSurfaceFormat::setDefaultFormat(format);
 }
 
-Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, QWidget* parent)
+Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection, QWidget* parent)
     : QVTKOpenGLNativeWidget(parent),
       shapes_(std::move(shapes)),
-      parts_(*renderer_.Get(), shapes_),
+      selection_(selection),
+      parts_(*renderer_.Get(), shapes_, overlay_.Get()),
       hand_(*renderer_.Get(), *overlay_.Get()),
       minima_(*overlay_.Get()),
       contacts_(*overlay_.Get()),
       arrows_(*overlay_.Get()),
-      legend_(new ColourLegend(this)) {
+      legend_(new ColourLegend(this)),
+      handDrag_(new HandDrag(*this, *renderer_->GetActiveCamera())) {
   setObjectName(QStringLiteral("viewport"));
+  setAccessibleName(tr("3-D view"));
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(320, 240);
   setUpRenderers();
   setUpInteraction();
+  connect(&selection_, &Selection::changed, this, &Viewport::showSelection);
   legend_->hide();
 }
 
 Viewport::~Viewport() = default;
+
+void Viewport::changeEvent(QEvent* event) {
+  QVTKOpenGLNativeWidget::changeEvent(event);
+  if (event->type() != QEvent::PaletteChange) return;
+  setUpBackground();
+  requestRender();
+}
+
+void Viewport::setUpBackground() {
+  renderer_->GradientBackgroundOn();
+  if (isThemeDark()) {
+    renderer_->SetBackground(0.27, 0.31, 0.36);
+    renderer_->SetBackground2(0.13, 0.15, 0.18);
+  } else {
+    renderer_->SetBackground(0.72, 0.78, 0.85);
+    renderer_->SetBackground2(0.955, 0.968, 0.98);
+  }
+}
 
 void Viewport::setUpRenderers() {
   // Software OpenGL has no cheap multisampling; FXAA smooths there too.
@@ -66,9 +93,7 @@ void Viewport::setUpRenderers() {
   window_->AddRenderer(overlay_);
 
   renderer_->SetLayer(0);
-  renderer_->GradientBackgroundOn();
-  renderer_->SetBackground(0.72, 0.78, 0.85);
-  renderer_->SetBackground2(0.955, 0.968, 0.98);
+  setUpBackground();
   renderer_->UseFXAAOn();
   renderer_->GetActiveCamera()->SetViewAngle(24.0);
   vtkNew<vtkLightKit> lights;
@@ -99,6 +124,7 @@ void Viewport::setUpInteraction() {
 
 void Viewport::countPicture() {
   ++pictureCount_;
+  emit drawn();
 }
 
 void Viewport::prepareRender() {
@@ -146,8 +172,8 @@ void Viewport::showMovingPart() {
   hand_.setShape(part != nullptr ? shapes_->shapeOf(part->geometry) : nullptr);
 }
 
-void Viewport::setSelected(std::optional<PartId> part) {
-  parts_.setSelected(part);
+void Viewport::showSelection() {
+  parts_.setSelected(selection_.parts());
   requestRender();
 }
 
@@ -190,12 +216,15 @@ void Viewport::fit() {
   requestRender();
 }
 
-void Viewport::fitPart(PartId part) {
-  // Room around it for its neighbours and for arrows.
+void Viewport::fitParts(const std::vector<PartId>& parts) {
+  // Room around them for their neighbours and for arrows.
   constexpr double kRoom = 0.45;
   double bounds[6];
-  if (!parts_.boundsOf(part, bounds)) return;
-  vtkBoundingBox box(bounds);
+  vtkBoundingBox box;
+  for (const PartId part : parts) {
+    if (parts_.boundsOf(part, bounds)) box.AddBounds(bounds);
+  }
+  if (box.IsValid() == 0) return;
   box.Inflate(kRoom * box.GetMaxLength());
   box.GetBounds(bounds);
   fitView(*renderer_, bounds);
@@ -247,34 +276,58 @@ void Viewport::mousePressEvent(QMouseEvent* event) {
 void Viewport::mouseReleaseEvent(QMouseEvent* event) {
   QVTKOpenGLNativeWidget::mouseReleaseEvent(event);
   const bool isClick = (event->pos() - pressedAt_).manhattanLength() < QApplication::startDragDistance() / 2;
-  if (event->button() == Qt::LeftButton && isClick) pickAt(event->pos());
+  if (event->button() == Qt::LeftButton && isClick) pickAt(event->pos(), event->modifiers());
 }
 
-void Viewport::pickAt(const QPoint& position) {
+void Viewport::setDragged(std::map<PartId, RigidTransform> worldFromPart) {
+  parts_.setDragged(std::move(worldFromPart));
+  requestRender();
+}
+
+ViewProjection Viewport::projection() const {
+  vtkCamera& seen = *renderer_->GetActiveCamera();
+  const auto vectorOf = [](const double* v) { return glm::dvec3(v[0], v[1], v[2]); };
+  ViewProjection::Camera camera;
+  camera.eye = vectorOf(seen.GetPosition());
+  camera.away = vectorOf(seen.GetDirectionOfProjection());
+  camera.up = vectorOf(seen.GetViewUp());
+  camera.isParallel = seen.GetParallelProjection() != 0;
+  camera.viewAngle = glm::radians(seen.GetViewAngle());
+  camera.halfHeight = seen.GetParallelScale();
+  return {camera, {width(), height()}};
+}
+
+std::optional<PickedPoint> Viewport::pointAt(const QPoint& position) {
   const double scale = devicePixelRatioF();
-  emit partPicked(parts_.pick(position.x() * scale, (height() - 1 - position.y()) * scale));
+  return parts_.pickPoint(position.x() * scale, (height() - 1 - position.y()) * scale);
+}
+
+void Viewport::pickAt(const QPoint& position, Qt::KeyboardModifiers modifiers) {
+  const std::optional<PickedPoint> picked = pointAt(position);
+  const std::optional<PartId> part = picked ? std::optional(picked->part) : std::nullopt;
+  const bool isToggled = modifiers.testFlag(Qt::ControlModifier);
+  // A click beside a part that was to be added loses nothing of what is selected.
+  if (!isToggled && !modifiers.testFlag(Qt::ShiftModifier)) return selection_.select(part);
+  if (part) isToggled ? selection_.toggle(*part) : selection_.add(*part);
 }
 
 void Viewport::keyPressEvent(QKeyEvent* event) {
+  const auto step = [&](int x, int y, int z) {
+    event->modifiers().testFlag(Qt::ShiftModifier) ? emit turned(x, y, z) : emit nudged(x, y, z);
+  };
   switch (event->key()) {
     case Qt::Key_Left:
-      emit nudged(-1, 0, 0);
-      return;
+      return step(-1, 0, 0);
     case Qt::Key_Right:
-      emit nudged(1, 0, 0);
-      return;
+      return step(1, 0, 0);
     case Qt::Key_Up:
-      emit nudged(0, 1, 0);
-      return;
+      return step(0, 1, 0);
     case Qt::Key_Down:
-      emit nudged(0, -1, 0);
-      return;
+      return step(0, -1, 0);
     case Qt::Key_PageUp:
-      emit nudged(0, 0, 1);
-      return;
+      return step(0, 0, 1);
     case Qt::Key_PageDown:
-      emit nudged(0, 0, -1);
-      return;
+      return step(0, 0, -1);
     default:
       QVTKOpenGLNativeWidget::keyPressEvent(event);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QPoint>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include <vtkRenderer.h>
 
 #include "core/haptics/servo_tick.h"
+#include "core/placing/view_projection.h"
 #include "core/scene/scene.h"
 #include "ui/camera_views.h"
 #include "ui/contact_glyphs.h"
@@ -22,30 +24,49 @@
 namespace nearfit::ui {
 
 class ColourLegend;
+class HandDrag;
+class Selection;
 
 /// The 3-D view: the scene's parts, and over them what the newest servo snapshot tells.
-/// Draws only after a change. Left drag orbits, middle drag pans, wheel or right drag zooms, a click picks.
+/// Draws only after a change. Left drag orbits, middle drag pans, wheel or right drag zooms; a click selects,
+/// with Ctrl it adds or takes out, with Shift it adds.
 class Viewport : public QVTKOpenGLNativeWidget {
   Q_OBJECT
 
  public:
-  explicit Viewport(std::shared_ptr<PartShapeCache> shapes, QWidget* parent = nullptr);
+  /// @param selection  Outlives this.
+  Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection, QWidget* parent = nullptr);
   ~Viewport() override;
 
   /// Sets OpenGL's version and buffers for all windows; before the QApplication is made.
   static void setDefaultSurfaceFormat();
 
   void setScene(const Scene& scene);
-  void setSelected(std::optional<PartId> part);
   /// Shows the part in hand, where the hand wants it, its minima, contacts and wrench, and what it overlaps;
   /// nothing is drawn when nothing of that has changed.
   void showSnapshot(const ServoSnapshot& snapshot);
   /// Back to the scene alone.
   void clearSnapshot();
 
+  /// As SceneRenderer::setDragged.
+  void setDragged(std::map<PartId, RigidTransform> worldFromPart);
+  /// How the view shows the world now, in the widget's own pixels.
+  ViewProjection projection() const;
+  /// What is seen at a place of the widget.
+  std::optional<PickedPoint> pointAt(const QPoint& position);
+  /// Does what a click there does: selects.
+  void pickAt(const QPoint& position, Qt::KeyboardModifiers modifiers);
+
+  /// What is drawn over the scene, for tools that add to it; requestRender() shows what they changed.
+  vtkRenderer& overlay() noexcept { return *overlay_.Get(); }
+  void requestRender();
+
+  /// The mouse as the manual hand.
+  HandDrag& handDrag() noexcept { return *handDrag_; }
+
   void fit();
-  /// A part of the scene with what is around it.
-  void fitPart(PartId part);
+  /// Parts of the scene with what is around them.
+  void fitParts(const std::vector<PartId>& parts);
   void setView(StandardView view);
   void setSeeThrough(bool isSeeThrough);
   void setEdgesVisible(bool isVisible);
@@ -58,39 +79,45 @@ class Viewport : public QVTKOpenGLNativeWidget {
   int pictureCount() const noexcept { return pictureCount_; }
 
  signals:
-  /// A click on a part; empty on the background.
-  void partPicked(std::optional<nearfit::PartId> part);
-  /// An arrow or page key: a step of the selected part along one axis of the world, each component -1, 0
+  /// A picture has been drawn, maybe from elsewhere.
+  void drawn();
+  /// An arrow or page key: a step of the current part along one axis of the world, each component -1, 0
   /// or 1.
   void nudged(int x, int y, int z);
+  /// The same with Shift: a turn about that axis.
+  void turned(int x, int y, int z);
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
   void setUpRenderers();
+  /// Light or dark, as the theme is.
+  void setUpBackground();
   void setUpInteraction();
   void prepareRender();
   void adjustClipping();
   void countPicture();
-  void requestRender();
   void showMovingPart();
+  void showSelection();
   void placeLegend();
-  void pickAt(const QPoint& position);
 
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_, overlay_;
   vtkNew<vtkCameraOrientationWidget> marker_;
   std::shared_ptr<PartShapeCache> shapes_;
+  Selection& selection_;
   SceneRenderer parts_;
   HandGhost hand_;
   LmdOverlay minima_;
   ContactGlyphs contacts_;
   WrenchArrows arrows_;
   ColourLegend* legend_;
+  HandDrag* handDrag_;
   std::unique_ptr<ServoSnapshot> shown_;
   Scene scene_;
   QPoint pressedAt_;

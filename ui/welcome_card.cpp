@@ -10,7 +10,7 @@
 
 namespace nearfit::ui {
 
-WelcomeCard::WelcomeCard(QAction* openDemo, QAction* addParts, QAction* open, QWidget* parent)
+WelcomeCard::WelcomeCard(QAction* openDemo, QAction* tour, QAction* addParts, QAction* open, QWidget* parent)
     : QFrame(parent) {
   setObjectName(QStringLiteral("welcome"));
   setStyleSheet(QStringLiteral(
@@ -33,6 +33,7 @@ WelcomeCard::WelcomeCard(QAction* openDemo, QAction* addParts, QAction* open, QW
   layout->addWidget(title);
   layout->addWidget(hint);
   addButton(openDemo, true);
+  addButton(tour, false);
   addButton(addParts, false);
   addButton(open, false);
   parent->installEventFilter(this);

@@ -11,7 +11,8 @@ class WelcomeCard : public QFrame {
   Q_OBJECT
 
  public:
-  WelcomeCard(QAction* openDemo, QAction* addParts, QAction* open, QWidget* parent);
+  /// @param tour  Explains the window.
+  WelcomeCard(QAction* openDemo, QAction* tour, QAction* addParts, QAction* open, QWidget* parent);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -12,6 +12,9 @@ void addInfoCommand(CLI::App& program);
 void addLmdCommand(CLI::App& program);
 void addSceneCommand(CLI::App& program);
 void addPlaceCommand(CLI::App& program);
+void addExportCommand(CLI::App& program);
+void addClearanceCommand(CLI::App& program);
 void addCacheCommand(CLI::App& program);
+void addDevicesCommand(CLI::App& program);
 
 }  // namespace nearfit::cli

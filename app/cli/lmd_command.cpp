@@ -2,6 +2,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,9 +16,10 @@
 #include "app/cli/output.h"
 #include "core/error.h"
 #include "core/haptics/spring_law.h"
+#include "core/math/finite.h"
 #include "core/report/lmd_set.h"
 #include "core/scene/part_geometry.h"
-#include "device/simulated_device.h"
+#include "device/simulated/simulated_device.h"
 
 namespace nearfit::cli {
 namespace {
@@ -26,7 +28,7 @@ namespace {
 constexpr std::size_t kMaxLmds = 4'000'000;
 
 struct LmdOptions {
-  std::string sceneMesh, partMesh, pose, poses, law = "linear", mode = "cold", unit = "m";
+  std::string sceneMesh, partMesh, pose, poses, law = "linear", mode = "cold", rule = "exact", unit = "m";
   SpringParameters springs;
 };
 
@@ -47,13 +49,9 @@ std::string extentText(const RegionExtent& extent) {
 std::string lmdText(const Lmd& lmd) {
   const std::string extent = lmd.isRegion ? ",\"extent\":" + extentText(lmd.extent) : "";
   return fmt::format(
-      R"({{"distance":{},"scene":{},"part":{},"features":["{}","{}"],"region":{}{},"blocked":{}}})",
+      R"({{"distance":{},"scene":{},"part":{},"features":["{}","{}"],"region":{}{},"blocked":{},"marginal":{}}})",
       numberText(lmd.distance), vectorText(lmd.scenePoint), vectorText(lmd.partPoint),
-      nameOf(lmd.sceneFeature), nameOf(lmd.partFeature), lmd.isRegion, extent, lmd.isBlocked);
-}
-
-bool isFinite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+      nameOf(lmd.sceneFeature), nameOf(lmd.partFeature), lmd.isRegion, extent, lmd.isBlocked, lmd.isMarginal);
 }
 
 /// One line for the pose of that number.
@@ -91,9 +89,31 @@ std::pair<PartGeometryPtr, PartGeometryPtr> loadBodies(const LmdOptions& options
     if (loaded.problem) std::rethrow_exception(loaded.problem);
     bodies.push_back(loaded.geometry);
   }
-  prepareHierarchies(bodies);
+  if (options.rule == "exact") prepareHierarchies(bodies);
   return {bodies.front(), bodies.back()};
 }
+
+/// What is searched, by the rule that is asked for.
+class Hierarchies {
+ public:
+  Hierarchies(const LmdOptions& options, PartGeometryPtr scene, PartGeometryPtr part)
+      : scene_(std::move(scene)), part_(std::move(part)) {
+    if (options.rule == "exact") return;
+    approximateScene_.emplace(scene_->mesh, ProgressCallback{}, AcceptanceRule::NormalSpan);
+    if (part_ != scene_)
+      approximatePart_.emplace(part_->mesh, ProgressCallback{}, AcceptanceRule::NormalSpan);
+  }
+
+  const NormalConeTree& scene() const { return approximateScene_ ? *approximateScene_ : scene_->tree(); }
+  const NormalConeTree& part() const {
+    if (part_ == scene_) return scene();
+    return approximatePart_ ? *approximatePart_ : part_->tree();
+  }
+
+ private:
+  PartGeometryPtr scene_, part_;
+  std::optional<NormalConeTree> approximateScene_, approximatePart_;
+};
 
 void runLmd(const LmdOptions& options) {
   const SpringParameters springs = springsOf(options);
@@ -101,14 +121,15 @@ void runLmd(const LmdOptions& options) {
   const std::vector<RigidTransform> poses =
       options.poses.empty() ? std::vector{parsePose("--pose", options.pose)} : readPosePath(options.poses);
   const auto [scene, part] = loadBodies(options, metresPerUnit);
+  const Hierarchies trees(options, scene, part);
   // Once nothing can fail but the output, so that a failure is one line.
   printWarnings(*scene);
   if (part != scene) printWarnings(*part);
   LmdCollector collector(kMaxLmds);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const LmdSet set = options.mode == "tracked"
-                           ? collector.collectTracked(scene->tree(), part->tree(), poses[i], springs.cutoff)
-                           : collector.collect(scene->tree(), part->tree(), poses[i], springs.cutoff);
+                           ? collector.collectTracked(trees.scene(), trees.part(), poses[i], springs.cutoff)
+                           : collector.collect(trees.scene(), trees.part(), poses[i], springs.cutoff);
     const glm::dvec3 centre = poses[i].applyToPoint(part->mass.centre);
     print(poseLine(i, set, springWrench(set.lmds, springs, centre, {})));
   }
@@ -118,13 +139,15 @@ void runLmd(const LmdOptions& options) {
 constexpr const char* kFooter =
     R"(Prints one JSON object a pose, each on a line of its own:
   {"pose":0,"lmds":[{"distance":d,"scene":[x,y,z],"part":[x,y,z],"features":["vertex","face"],
-   "region":false,"blocked":false}],"force":[x,y,z],"torque":[x,y,z],"query_us":t}
+   "region":false,"blocked":false,"marginal":false}],"force":[x,y,z],"torque":[x,y,z],"query_us":t}
 lmds      All local minimum distances within the cutoff, nearest first. "scene" and "part" are the two
           points, both in the scene mesh's frame [m]; "features" what carries them (vertex, edge, face),
           the scene's first; "region" whether the pair stands for a flat set of equal minima (faces or
           edges that are parallel to a microradian): the points are then at its centroid, which may lie
           beside it, as that of a ring does; "blocked" whether the way between the points is barred by
-          another part of either surface.
+          another part of either surface; "marginal" whether double precision cannot tell that it is one,
+          or that not another feature beside the named one carries it: a condition, or the cutoff, decides
+          by no more than rounding.
           A region has "extent":{"dimension":2,"measure":m,"axis":[x,y,z],"half":[a,b]} besides:
           dimension 2 and its area [m^2] where faces face each other, 1 and its length [m] where an edge
           faces an edge or a face; half lengths [m] along the axis and across it, of the rectangle that
@@ -133,6 +156,11 @@ force     Sum of the springs on the part [N], those of blocked minima left out, 
           torque [N m] about the part's centre of mass. Nothing moves, so nothing is damped.
 query_us  Time of the query alone [us]; with --mode tracked without that of the search ahead, which in
           the servo is another thread's.
+--rule    normal-span accepts a pair when the way between its points lies in the span of the surface
+          normals at both, as Johnson and Willemsen (2003) do. On convex vertices, edges and faces that
+          is exact. At saddles and jagged vertices it adds pairs that are no minima: a neighbouring face
+          is nearer. On closed meshes it misses none; on open ones it misses those of rims. Hierarchies
+          for it are made anew in each run.
 Poses are scene from part: p_scene = R(q) p_part + t. Cutoff and translations are in metres whatever
 the unit of the meshes is. A quaternion is normalised; one that is off unit length by more than 0.001 is
 refused.
@@ -179,6 +207,12 @@ void addLmdCommand(CLI::App& program) {
           "cold searches anew for each pose; tracked follows the part from pose to pose, as the servo "
           "does. The sets are the same")
       ->check(CLI::IsMember({"cold", "tracked"}))
+      ->capture_default_str();
+  command
+      ->add_option("--rule", options->rule,
+                   "When a pair counts as a minimum: exact is the definition; normal-span is the rule of the "
+                   "paper, approximate, for comparison (see below)")
+      ->check(CLI::IsMember({"exact", "normal-span"}))
       ->capture_default_str();
   command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
   command->footer(kFooter);

@@ -6,21 +6,25 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/cli/arguments.h"
 #include "app/cli/commands.h"
+#include "app/cli/device_options.h"
 #include "app/cli/haptic_options.h"
 #include "app/cli/output.h"
 #include "app/cli/place_run.h"
 #include "app/cli/place_summary.h"
+#include "app/cli/rate_options.h"
 #include "core/error.h"
 #include "core/report/placement_export.h"
 #include "core/scene/scene_file.h"
-#include "device/simulated_device.h"
+#include "device/simulated/replay_device.h"
+#include "device/simulated/simulated_device.h"
 
 namespace nearfit::cli {
 namespace {
 
 constexpr const char* kFooter =
-    R"(The part starts at the path's first pose; the scene file stays as it is. Options of the feel count for this
+    R"(The part starts at the first pose of the path or the recording, or stays where it is until a device moves; the scene file stays as it is. Options of the feel count for this
 run, instead of what the scene says.
 --record  CSV with a header and a row a tick, in the world frame: t_s; handle_tx ... handle_qz and
           proxy_tx ... proxy_qz (tx ty tz qw qx qy qz each; the proxy is where the part is); force_x ...
@@ -34,12 +38,17 @@ run, instead of what the scene says.
           (the summary says which).
 --export  JSON: each part's pose and mesh, and the minima left between the part that was led and each other.
 A tick that ends too late skips periods instead of rows: the path then takes longer, and the summary says so.
-Example: nearfit-cli place fit.nearfit --part Peg --path hand.csv --record felt.csv --export placed.json)";
+Examples: nearfit-cli place fit.nearfit --part Peg --path hand.csv --record felt.csv --export placed.json
+          nearfit-cli place fit.nearfit --part Peg --device openhap --arm --record felt.csv
+          nearfit-cli place fit.nearfit --part Peg --device replay:felt.csv --record again.csv)";
 
 struct PlaceOptions {
-  std::string scene, part, path, record, exportFile;
+  std::string scene, part, path, device, record, exportFile;
   HapticOptions haptics;
-  bool isFast = false, isJson = false;
+  DeviceFiles deviceFiles;
+  RateOptions rate;
+  std::optional<double> seconds;
+  bool isFast = false, isArming = false, isCalibrating = false, isJson = false, isLedByDevice = false;
 };
 
 std::string knownNames(const Scene& scene) {
@@ -49,13 +58,13 @@ std::string knownNames(const Scene& scene) {
   return names.empty() ? "the scene has no parts" : "its parts are " + names;
 }
 
-/// The part starts where the path does.
-void takeInHand(Scene& scene, const PlaceOptions& options, const RigidTransform& start) {
+/// @param start  Of the path; a device's handle begins where the part is.
+void takeInHand(Scene& scene, const PlaceOptions& options, const RigidTransform* start) {
   const Part* part = scene.findByName(options.part);
   if (part == nullptr) {
     throw UsageError(options.scene, "there is no part \"" + options.part + "\"", knownNames(scene));
   }
-  if (part->isLocked) {
+  if (scene.isLocked(*part)) {
     throw UsageError(options.scene, "part \"" + options.part + "\" is locked",
                      "unlock it, or choose another");
   }
@@ -64,7 +73,7 @@ void takeInHand(Scene& scene, const PlaceOptions& options, const RigidTransform&
                      "show it, or choose another");
   }
   Part placed = *part;
-  placed.worldFromPart = start;
+  if (start != nullptr) placed.worldFromPart = *start;
   scene.replace(placed);
   scene.setMovingPart(placed.id);
 }
@@ -88,7 +97,9 @@ void checkTargets(const PlaceOptions& options) {
 
 /// Neither output may take the place of an input.
 void checkInputsAreKept(const Scene& scene, const PlaceOptions& options) {
-  std::vector<std::filesystem::path> inputs = {options.scene, options.path};
+  std::vector<std::filesystem::path> inputs = {
+      options.scene, options.path, options.deviceFiles.falconFirmware, options.deviceFiles.polhemCalibration};
+  if (const auto recording = recordingMeant(options.device)) inputs.push_back(*recording);
   for (const Scene::PartPtr& part : scene.parts())
     inputs.push_back(part->geometry->file);
   checkTarget(options.record, inputs);
@@ -97,6 +108,9 @@ void checkInputsAreKept(const Scene& scene, const PlaceOptions& options) {
 
 void throwIfIncomplete(const PlaceResult& result, std::size_t poses) {
   if (result.fault != ServoFault::None) throw Error("servo", faultReason(result.fault));
+  if (result.device && !result.device->trouble.empty()) {
+    throw Error(result.device->name, result.device->trouble, "the files hold what was done till then");
+  }
   if (result.isInterrupted) {
     throw Error(
         "place",
@@ -105,25 +119,61 @@ void throwIfIncomplete(const PlaceResult& result, std::size_t poses) {
   }
   if (result.lostRows > 0) {
     throw Error("place", std::to_string(result.lostRows) + " ticks were not recorded: the disk was too slow",
-                "record to a faster disk, or run with --fast");
+                result.device ? "record to a faster disk" : "record to a faster disk, or run with --fast");
   }
+}
+
+void checkLead(const PlaceOptions& options) {
+  if (options.isLedByDevice != options.path.empty()) {
+    throw UsageError("place",
+                     options.isLedByDevice ? "--path and --device are both given" : "nothing leads the part",
+                     "give --path FILE or --device, one of them");
+  }
+  if (options.isLedByDevice && options.isFast)
+    throw UsageError("--fast", "a device sets its own pace", "leave it out");
+  if (!options.isLedByDevice && (options.isArming || options.isCalibrating || options.seconds)) {
+    const char* option = options.isArming ? "--arm" : options.isCalibrating ? "--calibrate" : "--seconds";
+    throw UsageError(option, "it is for --device", "leave it out");
+  }
+  if (!options.isLedByDevice && options.rate.isGiven())
+    throw UsageError("options of space mice", "they are for --device", "leave them out");
+  if (options.seconds) checkPositive("--seconds", *options.seconds);
+}
+
+PlaceResult lead(PlaceJob job, bool isFast) {
+  if (job.device) return placeWithDevice(std::move(job));
+  return isFast ? placeFast(std::move(job)) : placeInRealTime(std::move(job));
 }
 
 void runPlace(const PlaceOptions& options) {
   checkTargets(options);
+  checkLead(options);
   PlaceJob job;
-  job.path = readPosePath(options.path);
+  if (!options.isLedByDevice) job.path = readPosePath(options.path);
   Scene scene = readSceneFile(options.scene);
   checkInputsAreKept(scene, options);
-  takeInHand(scene, options, job.path.front());
+  std::optional<RigidTransform> start;
+  if (!options.isLedByDevice) start = job.path.front();
+  // As it was then, so that it is felt as it was then.
+  if (const auto recording = recordingMeant(options.device))
+    start = readHandMotion(*recording).front().worldFromHandle;
+  takeInHand(scene, options, start ? &*start : nullptr);
+  if (options.isLedByDevice) {
+    job.device = deviceMeant(options.device, options.deviceFiles);
+    applyRateOptions(options.rate, *job.device);
+  }
+  job.seconds = options.seconds;
+  job.isArming = options.isArming;
+  job.isCalibrating = options.isCalibrating;
   job.scene = makeServoScene(scene);
   job.parameters.haptics = withOptions(scene.haptics(), options.haptics);
-  const ServoParameters parameters = job.parameters;
+  ServoParameters parameters = job.parameters;
   std::optional<MotionWriter> writer;
   if (!options.record.empty()) job.writer = &writer.emplace(options.record);
 
   const std::size_t poses = job.path.size(), others = job.scene->bodies.size();
-  const PlaceResult result = options.isFast ? placeFast(std::move(job)) : placeInRealTime(std::move(job));
+  const PlaceResult result = lead(std::move(job), options.isFast);
+  if (result.device) parameters.limits = result.device->limits;
   if (writer) writer->finish();
   if (!options.exportFile.empty()) exportPlacement(scene, result.end, options.exportFile);
 
@@ -138,13 +188,23 @@ void runPlace(const PlaceOptions& options) {
 void addPlaceCommand(CLI::App& program) {
   const auto options = std::make_shared<PlaceOptions>();
   CLI::App* command = program.add_subcommand(
-      "place", "Leads a part along a path of poses with the 1 kHz servo and says what it felt.");
+      "place",
+      "Leads a part along a path of poses, or by a device, with the 1 kHz servo and says what it felt.");
   command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required();
   command->add_option("--part", options->part, "Name of the part to lead")->required();
-  command
-      ->add_option("--path", options->path,
-                   "CSV file of poses, world from part: tx,ty,tz,qw,qx,qy,qz a row, one row a tick of 1 ms")
-      ->required();
+  command->add_option(
+      "--path", options->path,
+      "CSV file of poses, world from part: tx,ty,tz,qw,qx,qy,qz a row, one row a tick of 1 ms");
+  CLI::Option* device = command->add_option(
+      "--device", options->device,
+      "Instead of a path: a device that is plugged in (see nearfit-cli devices); the first without "
+      "a name. Ctrl+C ends. replay:FILE is the hand of a recording (--record), with its own times");
+  device->type_name("[DEVICE]")->expected(0, 1);
+  command->add_flag("--arm", options->isArming, "Let the device's forces out; else they are only told");
+  command->add_flag("--calibrate", options->isCalibrating, kCalibrateHelp);
+  command->add_option("--seconds", options->seconds, "With --device: end after so long")->type_name("S");
+  addDeviceFileOptions(*command, options->deviceFiles);
+  addRateOptions(*command, options->rate);
   command->add_flag("--fast", options->isFast, "As fast as it goes, instead of in real time");
   command->add_option("--record", options->record,
                       "Write poses, wrench and minima of every tick to this CSV file");
@@ -152,7 +212,10 @@ void addPlaceCommand(CLI::App& program) {
   command->add_flag("--json", options->isJson, "Print the summary as one JSON object");
   addHapticOptions(*command, options->haptics);
   command->footer(kFooter);
-  command->callback([options] { runPlace(*options); });
+  command->callback([options, device] {
+    options->isLedByDevice = !device->empty();
+    runPlace(*options);
+  });
 }
 
 }  // namespace nearfit::cli

@@ -1,50 +1,22 @@
 #include "app/cli/place_run.h"
 
-#include <atomic>
 #include <chrono>
 #include <limits>
 #include <thread>
 #include <utility>
 
 #include <glm/geometric.hpp>
-#include <signal.h>
 
+#include "app/cli/device_armer.h"
+#include "app/cli/interrupt.h"
+#include "core/error.h"
 #include "core/haptics/scene_tracker.h"
-#include "device/servo_loop.h"
-#include "device/simulated_device.h"
+#include "device/servo/monotonic_clock.h"
+#include "device/servo/servo_loop.h"
+#include "device/simulated/simulated_device.h"
 
 namespace nearfit::cli {
 namespace {
-
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers may touch nothing else");
-
-void onInterrupt(int) {
-  interrupted.store(true);
-}
-
-/// Turns the first interrupt into a flag; the second one kills as usual.
-class InterruptGuard {
- public:
-  InterruptGuard() {
-    interrupted.store(false);
-    struct sigaction action {};
-    action.sa_handler = onInterrupt;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    ::sigaction(SIGINT, &action, &oldInt_);
-    ::sigaction(SIGTERM, &action, &oldTerm_);
-  }
-  ~InterruptGuard() {
-    ::sigaction(SIGINT, &oldInt_, nullptr);
-    ::sigaction(SIGTERM, &oldTerm_, nullptr);
-  }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
- private:
-  struct sigaction oldInt_ {
-  }, oldTerm_{};
-};
 
 void raise(Peak& peak, const glm::dvec3& vector, double time) {
   const double length = glm::length(vector);
@@ -75,13 +47,79 @@ void take(const MotionRow& row, PlaceResult& result, MotionWriter* writer) {
 void takeLast(const ServoSnapshot& snapshot, PlaceResult& result) {
   result.end = snapshot.proxy;
   result.coupling = snapshot.coupling;
+  result.period = snapshot.period;
 }
 
 PlaceResult beginning(const PlaceJob& job) {
   PlaceResult result;
   result.leastDistance = std::numeric_limits<double>::infinity();
   result.end = job.scene->moving.worldFromPart;
+  result.period = ServoLoop::kPeriod;
   return result;
+}
+
+/// The servo in its thread; this one takes its rows.
+class RecordedServo {
+ public:
+  RecordedServo(PlaceResult& result, MotionWriter* writer) : result_(result), writer_(writer) {}
+
+  ServoLoop& loop() noexcept { return loop_; }
+  MotionQueue* rows() noexcept { return rows_.get(); }
+  void waitAndTake() {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    takeRows();
+  }
+  /// Stops it and takes what there is left.
+  void finish() {
+    loop_.stop();
+    takeRows();
+    result_.lostRows = rows_->dropped();
+    if (loop_.pollSnapshot()) takeLast(loop_.snapshot(), result_);
+    const ServoStatistics statistics = loop_.statistics();
+    result_.ticks = statistics.ticks;
+    result_.overruns = statistics.overruns;
+    result_.lateness = statistics.lateness;
+    result_.queryTime = statistics.queryTime;
+    result_.tickTime = statistics.tickTime;
+    result_.refreshTime = statistics.refreshTime;
+    result_.schedulingNote = loop_.schedulingNote();
+  }
+
+ private:
+  void takeRows() {
+    for (MotionRow row; rows_->pop(row);)
+      take(row, result_, writer_);
+  }
+
+  PlaceResult& result_;
+  MotionWriter* writer_;
+  std::unique_ptr<MotionQueue> rows_ = std::make_unique<MotionQueue>();
+  ServoLoop loop_;
+};
+
+/// A device that is open for as long as this lives.
+class OpenDevice {
+ public:
+  /// Interrupts end it, however long it takes. Throws Error, Cancelled.
+  OpenDevice(HapticDevice& device, const RigidTransform& worldFromPart) : device_(device) {
+    device.start(worldFromPart, [](double) { return !InterruptGuard::isInterrupted(); });
+  }
+  ~OpenDevice() { device_.stop(); }
+  OpenDevice(const OpenDevice&) = delete;
+  OpenDevice& operator=(const OpenDevice&) = delete;
+
+ private:
+  HapticDevice& device_;
+};
+
+/// Empty as long as all is well.
+std::string troubleOf(const HapticDevice& device) {
+  const DeviceState state = device.state();
+  return state == DeviceState::Lost || state == DeviceState::Fault ? device.stateNote() : std::string();
+}
+
+bool isOver(const PlaceJob& job, Nanoseconds begin) {
+  return job.seconds && toSeconds(monotonicNow() - begin) >= *job.seconds;
 }
 
 }  // namespace
@@ -100,10 +138,11 @@ PlaceResult placeFast(PlaceJob job) {
   const SearchReach reach = searchReach(job.parameters.haptics);
   const bool isProxy = job.parameters.haptics.mode == HapticMode::Proxy;
   device.start(result.end);
-  while (!interrupted.load() && device.readHandle(handle)) {
+  while (!InterruptGuard::isInterrupted() && device.readHandle(handle)) {
     // No thread beside: what is due is looked at before the tick, around where the part is; with springs that
     // is where the hand wants it, and nothing is late.
     tracker.observe(isProxy ? result.end : handle.pose, 1.0);
+    if (result.ticks > 0) tracker.observeHand(snapshot->handle, 1.0);
     tracker.setWaiting(snapshot->isWaiting);
     tracker.setStarved(snapshot->isStarved);
     if (result.ticks == 0 || tracker.isDue(reach)) {
@@ -122,7 +161,7 @@ PlaceResult placeFast(PlaceJob job) {
     takeLast(*snapshot, result);
     take(motionRow(*snapshot), result, job.writer);
   }
-  result.isInterrupted = device.state() == DeviceState::Running;
+  result.isInterrupted = device.state() == DeviceState::Armed;
   device.stop();
   return result;
 }
@@ -131,31 +170,45 @@ PlaceResult placeInRealTime(PlaceJob job) {
   const InterruptGuard guard;
   PlaceResult result = beginning(job);
   PathDevice device(std::move(job.path));
-  const auto rows = std::make_unique<MotionQueue>();
-  const auto takeRows = [&] {
-    for (MotionRow row; rows->pop(row);)
-      take(row, result, job.writer);
-  };
-  ServoLoop loop;
-  loop.start(device, std::move(job.scene), job.parameters, rows.get());
-  while (loop.isRunning() && !interrupted.load()) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    takeRows();
-  }
+  RecordedServo servo(result, job.writer);
+  servo.loop().start(device, std::move(job.scene), job.parameters, servo.rows());
+  while (servo.loop().isRunning() && !InterruptGuard::isInterrupted())
+    servo.waitAndTake();
   // The path may end at the very moment of the interrupt: the device knows.
-  result.isInterrupted = interrupted.load() && device.state() == DeviceState::Running;
-  loop.stop();
-  takeRows();
-  result.lostRows = rows->dropped();
-  if (loop.pollSnapshot()) takeLast(loop.snapshot(), result);
-  const ServoStatistics statistics = loop.statistics();
-  result.ticks = statistics.ticks;
-  result.overruns = statistics.overruns;
-  result.lateness = statistics.lateness;
-  result.queryTime = statistics.queryTime;
-  result.tickTime = statistics.tickTime;
-  result.refreshTime = statistics.refreshTime;
-  result.schedulingNote = loop.schedulingNote();
+  result.isInterrupted = InterruptGuard::isInterrupted() && device.state() == DeviceState::Armed;
+  servo.finish();
+  return result;
+}
+
+PlaceResult placeWithDevice(PlaceJob job) {
+  const InterruptGuard guard;
+  PlaceResult result = beginning(job);
+  HapticDevice& device = *job.device;
+  DeviceReport& report = result.device.emplace();
+  if (!device.info().isMapped) job.parameters.haptics.mapping = {};
+  const OpenDevice open(device, result.end);
+  RecordedServo servo(result, job.writer);
+  servo.loop().startWithOpen(device, std::move(job.scene), job.parameters, servo.rows());
+  if (job.isCalibrating) device.calibrate();
+  // What it can do is known only now.
+  const DeviceInfo info = device.info();
+  report.name = info.name;
+  report.limits = job.parameters.limits = info.limits;
+  servo.loop().setParameters(job.parameters);
+  const Nanoseconds begin = monotonicNow();
+  DeviceArmer armer(device, job.isArming);
+  while (servo.loop().isRunning() && !InterruptGuard::isInterrupted() && !isOver(job, begin)) {
+    report.trouble = armer.look();
+    if (report.trouble.empty()) report.trouble = troubleOf(device);
+    if (!report.trouble.empty()) break;
+    servo.waitAndTake();
+  }
+  if (report.trouble.empty()) report.trouble = troubleOf(device);
+  report.seconds = toSeconds(monotonicNow() - begin);
+  report.wasArmed = armer.hasArmed();
+  report.counters = device.counters();
+  servo.finish();
+  report.roundTrip = servo.loop().statistics().roundTrip;
   return result;
 }
 

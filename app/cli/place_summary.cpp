@@ -7,7 +7,8 @@
 
 #include "app/cli/output.h"
 #include "core/haptics/virtual_coupling.h"
-#include "device/servo_loop.h"
+#include "core/haptics/workspace_mapper.h"
+#include "device/servo/servo_loop.h"
 
 namespace nearfit::cli {
 namespace {
@@ -30,6 +31,7 @@ nlohmann::ordered_json timesJson(const LatencyHistogram& h) {
 }
 
 std::string paceText(const PlaceResult& result) {
+  if (result.device) return fmt::format(" in {:.3f} s", result.device->seconds);
   if (result.schedulingNote.empty()) return ", as fast as it goes";
   const double seconds = static_cast<double>(result.ticks + result.overruns) * ServoLoop::kPeriod;
   return fmt::format(" in {:.3f} s", seconds);
@@ -71,18 +73,16 @@ std::string couplingText(const CouplingState& c) {
                      c.isHeldToBound ? " (less than was wished)" : "");
 }
 
-/// Stiffness up to which the coupling is passive in anyone's hand, at the servo's rate.
+/// Stiffness up to which the coupling is passive in anyone's hand, at the period that the servo reckons with.
 struct StiffnessBounds {
   double linear, rotational;  ///< [N/m], [N m/rad]
 };
 
 StiffnessBounds boundsOf(const PlaceSummary& s) {
-  const DeviceLimits& device = s.parameters.limits;
+  const DeviceLimits device = limitsAtHandle(s.parameters.limits, s.parameters.haptics.mapping.scale);
   const CouplingState& coupling = s.result.coupling;
-  // A metre of the handle is 1 / scale of the device's.
-  const double damping = device.damping / s.parameters.haptics.mapping.scale;
-  return {stiffnessBound(damping, coupling.damping, ServoLoop::kPeriod),
-          stiffnessBound(device.rotationalDamping, coupling.rotationalDamping, ServoLoop::kPeriod)};
+  return {stiffnessBound(device.damping, coupling.damping, s.result.period),
+          stiffnessBound(device.rotationalDamping, coupling.rotationalDamping, s.result.period)};
 }
 
 /// What only the proxy has to tell.
@@ -90,8 +90,9 @@ std::string proxyText(const PlaceSummary& s) {
   const PlaceResult& r = s.result;
   const StiffnessBounds bounds = boundsOf(s);
   std::string text = line("coupling", couplingText(r.coupling));
-  text += line("bound", fmt::format("{:.6g} N/m; {:.6g} N m/rad: passive at 1 kHz with the device's damping",
-                                    bounds.linear, bounds.rotational));
+  text +=
+      line("bound", fmt::format("{:.6g} N/m; {:.6g} N m/rad: passive at {:.3g} ms with the device's damping",
+                                bounds.linear, bounds.rotational, 1e3 * r.period));
   text += line("steps", fmt::format("{} in a tick at most, {} shortened, {} refused", r.maxSubSteps,
                                     r.shortenedSteps, r.refusedSteps));
   if (r.releasedTicks > 0) {
@@ -111,6 +112,7 @@ nlohmann::ordered_json proxyJson(const PlaceSummary& s) {
             {"rotational_damping", r.coupling.rotationalDamping},
             {"stiffness_bound", bounds.linear},
             {"rotational_stiffness_bound", bounds.rotational},
+            {"period", r.period},
             {"held_to_bound", r.coupling.isHeldToBound}}},
           {"max_sub_steps", r.maxSubSteps},
           {"shortened_steps", r.shortenedSteps},
@@ -119,13 +121,36 @@ nlohmann::ordered_json proxyJson(const PlaceSummary& s) {
           {"proxy_us", timesJson(r.proxyTime)}};
 }
 
+std::string deviceText(const DeviceReport& d) {
+  std::string text = line("device", oneLine(d.name) + (d.wasArmed ? ", armed" : ", not armed"));
+  text += line("reports", fmt::format("{} taken, {} missing, {} rejected", d.counters.poses,
+                                      d.counters.missing, d.counters.rejected));
+  if (d.roundTrip.count() > 0) text += line("round trip", timesText(d.roundTrip));
+  return text;
+}
+
+nlohmann::ordered_json deviceJson(const DeviceReport& d) {
+  nlohmann::ordered_json json{{"name", d.name},
+                              {"armed", d.wasArmed},
+                              {"seconds", d.seconds},
+                              {"reports", d.counters.poses},
+                              {"missing", d.counters.missing},
+                              {"rejected", d.counters.rejected},
+                              {"round_trips", d.roundTrip.count()},
+                              {"round_trip_us", nullptr}};
+  if (d.roundTrip.count() > 0) json["round_trip_us"] = timesJson(d.roundTrip);
+  return json;
+}
+
 }  // namespace
 
 std::string summaryText(const PlaceSummary& s) {
   const PlaceResult& r = s.result;
   std::string text =
       line("part", fmt::format("{} against {} other{}", oneLine(s.part), s.others, s.others == 1 ? "" : "s"));
-  text += line("ticks", fmt::format("{} of {}{}", r.ticks, s.poses, paceText(r)));
+  const std::string all = r.device ? "" : fmt::format(" of {}", s.poses);
+  text += line("ticks", fmt::format("{}{}{}", r.ticks, all, paceText(r)));
+  if (r.device) text += deviceText(*r.device);
   text += line("mode", modeText(s.parameters.haptics));
   text += line("minima", fmt::format("{} at once at most", r.maxLmds));
   text += line("distance", distanceText(r));
@@ -163,7 +188,8 @@ std::string summaryJson(const PlaceSummary& s) {
   const PlaceResult& r = s.result;
   nlohmann::ordered_json json{{"part", s.part},
                               {"others", s.others},
-                              {"poses", s.poses},
+                              {"poses", nullptr},
+                              {"device", nullptr},
                               {"ticks", r.ticks},
                               {"mode", modeName(s.parameters.haptics)},
                               {"max_lmds", r.maxLmds},
@@ -179,6 +205,10 @@ std::string summaryJson(const PlaceSummary& s) {
                               {"refresh_us", timesJson(r.refreshTime)},
                               {"query_us", timesJson(r.queryTime)},
                               {"tick_us", timesJson(r.tickTime)}};
+  if (r.device)
+    json["device"] = deviceJson(*r.device);
+  else
+    json["poses"] = s.poses;
   if (std::isfinite(r.leastDistance)) json["least_distance"] = r.leastDistance;
   if (s.parameters.haptics.mode == HapticMode::Proxy) json["proxy"] = proxyJson(s);
   if (!r.schedulingNote.empty()) {

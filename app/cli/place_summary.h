@@ -11,7 +11,7 @@ namespace nearfit::cli {
 struct PlaceSummary {
   const std::string& part;
   std::size_t others;                 ///< Parts that could be felt.
-  std::size_t poses;                  ///< Of the path.
+  std::size_t poses;                  ///< Of the path; a device has none.
   const ServoParameters& parameters;  ///< That it ran with.
   const PlaceResult& result;
   const std::string& record;      ///< Empty when none was written.

@@ -4,6 +4,8 @@
 #include <QSettings>
 
 #include "app/desktop/resource_files.h"
+#include "ui/preferences.h"
+#include "ui/taking/taking_away.h"
 #include "ui/theme.h"
 #include "ui/viewport.h"
 
@@ -22,8 +24,13 @@ void Application::configure() {
   ui::applyTheme(*qApp);
 }
 
-Application::Application() : servo_(session_), window_(session_) {
+Application::Application(std::unique_ptr<DeviceSource> devices)
+    : devices_(devices ? std::move(devices) : makeDeviceSource()),
+      servo_(session_, *devices_),
+      watcher_(*devices_),
+      window_(session_) {
   wire();
+  watcher_.start();
   window_.setDemoScene(resourceFile(QStringLiteral("demo/piston.nearfit")));
   window_.setAboutText(
       tr("<h3>Nearfit %1</h3><p>Virtual prototyping by touch: feel one part against the others "
@@ -37,14 +44,29 @@ Application::~Application() = default;
 
 void Application::wire() {
   connect(&window_, &ui::MainWindow::servoStartRequested, &servo_, &ServoController::start);
+  connect(&window_, &ui::MainWindow::armRequested, &servo_, &ServoController::setArmed);
+  connect(&window_, &ui::MainWindow::calibrateRequested, &servo_, &ServoController::calibrate);
+  connect(&window_, &ui::MainWindow::resetRequested, &servo_, &ServoController::reset);
   connect(&window_, &ui::MainWindow::servoStopRequested, &servo_, &ServoController::stop);
   connect(&window_, &ui::MainWindow::poseInHandRequested, &servo_, &ServoController::commitPose);
+  servo_.setRate(ui::Preferences::rate());
+  connect(&window_, &ui::MainWindow::rateChanged, &servo_, &ServoController::setRate);
   connect(&window_, &ui::MainWindow::handMoved, &servo_, &ServoController::moveHand);
+  connect(&watcher_, &DeviceWatcher::devicesChanged, &window_, &ui::MainWindow::showDevices);
+  connect(&servo_, &ServoController::statusChanged, &watcher_, [this](const ui::ServoStatus& status) {
+    if (!status.deviceId.isEmpty()) watcher_.setInHand(status.deviceId);
+  });
+  connect(&servo_, &ServoController::deviceReleased, &watcher_, &DeviceWatcher::letGo);
   connect(&servo_, &ServoController::statusChanged, &window_, &ui::MainWindow::showServoStatus);
   connect(&servo_, &ServoController::snapshotArrived, &window_, &ui::MainWindow::showSnapshot);
   connect(&servo_, &ServoController::hierarchiesNeeded, &window_, &ui::MainWindow::prepareHierarchies);
   connect(&window_, &ui::MainWindow::hierarchiesReady, &servo_, &ServoController::followSession);
   connect(&servo_, &ServoController::failed, &window_, &ui::MainWindow::showFailure);
+  ui::TakingAway& takingAway = window_.takingAway();
+  connect(&takingAway, &ui::TakingAway::recordRequested, &servo_, &ServoController::recordTo);
+  connect(&servo_.rows(), &ServoRows::ticked, &takingAway, &ui::TakingAway::showTicks);
+  connect(&servo_.rows(), &ServoRows::recordingChanged, &takingAway, &ui::TakingAway::showRecording);
+  connect(&servo_.rows(), &ServoRows::recorded, &takingAway, &ui::TakingAway::showRecorded);
 }
 
 }  // namespace nearfit::desktop

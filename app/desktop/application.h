@@ -2,7 +2,9 @@
 
 #include <QObject>
 #include <QStringList>
+#include <memory>
 
+#include "app/desktop/device_watcher.h"
 #include "app/desktop/servo_controller.h"
 #include "core/session.h"
 #include "ui/main_window.h"
@@ -15,7 +17,8 @@ class Application : public QObject {
   Q_OBJECT
 
  public:
-  Application();
+  /// @param devices  Null: those that are plugged in.
+  explicit Application(std::unique_ptr<DeviceSource> devices = nullptr);
   ~Application() override;
 
   /// What must be set up before the QApplication is made, and once after.
@@ -25,12 +28,16 @@ class Application : public QObject {
   Session& session() noexcept { return session_; }
   ui::MainWindow& window() noexcept { return window_; }
   ServoController& servo() noexcept { return servo_; }
+  DeviceWatcher& watcher() noexcept { return watcher_; }
+  DeviceSource& devices() noexcept { return *devices_; }
 
  private:
   void wire();
 
   Session session_;
+  std::unique_ptr<DeviceSource> devices_;
   ServoController servo_;
+  DeviceWatcher watcher_;
   ui::MainWindow window_;
 };
 

@@ -21,8 +21,31 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
   program.add_option(
       "--screenshot", options.screenshot,
       "Write a picture (PNG) of the window with the files and end; a moving part is felt for it");
+  std::string device;
+  CLI::Option* hand =
+      program
+          .add_option("--device", device,
+                      "Take the moving part in hand at once: with a device that is plugged in (see "
+                      "nearfit-cli devices), the first without a name, or with a recorded hand, replay:FILE")
+          ->type_name("[DEVICE]")
+          ->expected(0, 1);
+  program.add_flag("--arm", options.isArming, "With --device: let its forces out as soon as it is ready")
+      ->needs(hand);
+  program
+      .add_option("--seconds", options.seconds,
+                  "With --device: end after so long, and say what was done (round trip in us)")
+      ->type_name("S")
+      ->check(CLI::Range(0.01, 1e6))
+      ->needs(hand);
+  program
+      .add_option("--record", options.record,
+                  "Write every tick of what is felt to this CSV file, as nearfit-cli place --record does; "
+                  "anew each time that it is begun")
+      ->type_name("FILE");
+  hand->excludes("--screenshot");
   try {
     program.parse(argc, argv);
+    if (!hand->empty()) options.device = device;
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& error) {

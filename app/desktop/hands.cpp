@@ -10,8 +10,10 @@
 
 #include "core/haptics/virtual_coupling.h"
 #include "core/proximity/lmd_query.h"
-#include "device/servo_loop.h"
-#include "device/simulated_device.h"
+#include "device/servo/servo_loop.h"
+#include "device/simulated/replay_device.h"
+#include "device/simulated/simulated_device.h"
+#include "ui/paths.h"
 
 namespace nearfit::desktop {
 namespace {
@@ -102,6 +104,12 @@ std::vector<RigidTransform> pathAboutCentre(const ServoScene& scene, const Sweep
 }
 
 }  // namespace
+
+std::optional<std::filesystem::path> recordingOf(const QString& device) {
+  const QString prefix = QString::fromStdString(std::string(ReplayDevice::kPrefix));
+  if (!device.startsWith(prefix)) return std::nullopt;
+  return ui::toPath(device.mid(prefix.size()));
+}
 
 std::unique_ptr<HapticDevice> makeHand(ui::Hand hand, const ServoScene& scene,
                                        const HapticSettings& settings) {

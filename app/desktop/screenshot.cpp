@@ -48,7 +48,7 @@ void Screenshot::arrange(bool isComplete) {
     QTimer::singleShot(kSettleMs, this, &Screenshot::write);
     return;
   }
-  application_.window().viewport().fitPart(*application_.session().scene().movingPart());
+  application_.window().viewport().fitParts({*application_.session().scene().movingPart()});
   connect(&application_.servo(), &ServoController::snapshotArrived, this, &Screenshot::waitForMinima);
   QTimer::singleShot(kPatienceMs, this, &Screenshot::write);
   application_.window().document().prepareHierarchies([this](bool isReady) {

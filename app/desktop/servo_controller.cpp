@@ -1,69 +1,146 @@
 #include "app/desktop/servo_controller.h"
 
 #include <exception>
+#include <utility>
 
+#include "app/desktop/device_text.h"
 #include "app/desktop/hands.h"
-#include "device/simulated_device.h"
+#include "device/device_error.h"
+#include "device/rate_control.h"
+#include "device/simulated/replay_device.h"
+#include "device/simulated/simulated_device.h"
 
 namespace nearfit::desktop {
 namespace {
 
-constexpr int kPollMs = 16;         ///< A look at the newest snapshot for each picture of a 60 Hz display.
-constexpr qint64 kMeasureMs = 500;  ///< Rate and percentiles are read this often.
+constexpr int kPollMs = 16;  ///< A look at the newest snapshot for each picture of a 60 Hz display.
 
-/// What counts for a hand: the manual one gives poses of the scene itself, already without what is locked.
-ServoParameters parametersFor(const Scene& scene, const HapticDevice& device, ui::Hand hand) {
-  ServoParameters parameters{scene.haptics(), device.info().limits};
-  if (hand == ui::Hand::Manual) parameters.haptics.mapping = {};
+/// What counts for a device: some give poses of the scene itself, already without what is locked.
+ServoParameters parametersFor(const Scene& scene, const HapticDevice& device) {
+  const DeviceInfo info = device.info();
+  ServoParameters parameters{scene.haptics(), info.limits};
+  if (!info.isMapped) parameters.haptics.mapping = {};
   return parameters;
 }
 
 }  // namespace
 
-ServoController::ServoController(Session& session) : session_(session) {
+ServoController::ServoController(Session& session, DeviceSource& devices)
+    : session_(session), devices_(devices) {
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.setInterval(kPollMs);
   connect(&timer_, &QTimer::timeout, this, &ServoController::poll);
+  connect(&rows_, &ServoRows::failed, this,
+          [this](const std::exception_ptr& error) { fail(tr("The motion could not be recorded."), error); });
   session_.onChange([this] { followSession(); });
 }
 
 ServoController::~ServoController() {
   loop_.stop();
+  if (device_) release();
 }
 
-void ServoController::start(ui::Hand hand) {
-  if (isRunning()) return;
+void ServoController::fail(const QString& summary, const std::exception_ptr& error) {
+  emit failed(ui::describe(summary, error));
+}
+
+void ServoController::start(ui::Hand hand, const QString& device) {
+  if (status_.isTaken()) return;
   try {
-    take(hand);
+    status_ = {};
+    status_.hand = hand;
+    if (hand == ui::Hand::Device) {
+      open(device);
+      return;
+    }
+    auto scene = makeServoScene(session_.scene());
+    DevicePtr made = startedHand(*scene);
+    runOn(std::move(made), std::move(scene));
   } catch (...) {
-    emit failed(ui::describe(tr("The part could not be taken in hand."), std::current_exception()));
+    status_ = {};
+    fail(tr("The part could not be taken in hand."), std::current_exception());
     return;
   }
-  status_ = {};
+  showRunning();
+}
+
+ServoController::DevicePtr ServoController::startedHand(const ServoScene& scene) const {
+  DevicePtr made = makeHand(status_.hand, scene, session_.scene().haptics());
+  made->start(scene.moving.worldFromPart);
+  return made;
+}
+
+void ServoController::open(const QString& id) {
+  const Scene& scene = session_.scene();
+  const Part* part = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
+  if (part == nullptr) throw UsageError("servo", "there is no part to take in hand", "choose one");
+  const auto recording = recordingOf(id);
+  device_ = recording ? std::make_unique<ReplayDevice>(*recording) : devices_.make(id);
+  setRate(rate_);
+  status_.isOpening = true;
+  status_.deviceId = id;
+  status_.deviceState = tr("Opening…");
+  const auto job = [device = device_, pose = part->worldFromPart](const ProgressCallback& progress) {
+    device->start(pose, progress);
+  };
+  const auto done = [this](const std::exception_ptr& error) {
+    ticket_.reset();
+    isOpened_ = !error;
+    if (!error) return takeOpened();
+    halt();
+    fail(tr("The part could not be taken in hand."), error);
+  };
+  const auto progressed = [this](double fraction) {
+    status_.openingFraction = fraction;
+    emit statusChanged(status_);
+  };
+  ticket_ = worker_.run(job, {done, progressed});
+  emit statusChanged(status_);
+}
+
+void ServoController::takeOpened() {
+  const Scene& scene = session_.scene();
+  if (!areHierarchiesReady(scene.geometries())) {
+    emit hierarchiesNeeded();
+    return;
+  }
+  isOpened_ = false;
+  try {
+    runOn(device_, makeServoScene(scene));
+  } catch (...) {
+    halt();
+    fail(tr("The part could not be taken in hand."), std::current_exception());
+    return;
+  }
+  showRunning();
+}
+
+void ServoController::runOn(DevicePtr device, std::unique_ptr<const ServoScene> servoScene) {
+  const Scene& scene = session_.scene();
+  const ServoParameters parameters = parametersFor(scene, *device);
+  moving_ = servoScene->moving.id;
+  mode_ = scene.haptics().mode;
+  loop_.stop();
+  rows_.begin();
+  loop_.startWithOpen(*device, std::move(servoScene), parameters, rows_.queue());
+  loopDevice_ = device_ = std::move(device);
+  meter_.restart();
+}
+
+void ServoController::showRunning() {
   status_.isRunning = true;
-  status_.hand = hand;
+  status_.isOpening = false;
+  status_.deviceState.clear();
+  takeDeviceState();
   status_.device = device_->info().limits;
   status_.nominalRate = 1.0 / ServoLoop::kPeriod;
   status_.scheduling = QString::fromStdString(loop_.schedulingNote());
-  sinceMeasured_.start();
   timer_.start();
   emit statusChanged(status_);
 }
 
-void ServoController::take(ui::Hand hand) {
-  const Scene& scene = session_.scene();
-  auto servoScene = makeServoScene(scene);
-  moving_ = servoScene->moving.id;
-  mode_ = scene.haptics().mode;
-  auto device = makeHand(hand, *servoScene, scene.haptics());
-  loop_.stop();
-  loop_.start(*device, std::move(servoScene), parametersFor(scene, *device, hand));
-  device_ = std::move(device);
-  ticksMeasured_ = 0;
-}
-
 void ServoController::stop() {
-  if (!isRunning()) return;
+  if (!status_.isTaken()) return;
   loop_.stop();
   commitPose();
   halt();
@@ -72,9 +149,27 @@ void ServoController::stop() {
 void ServoController::halt() {
   timer_.stop();
   loop_.stop();
-  device_.reset();
+  rows_.finish();
+  loopDevice_.reset();
+  if (device_) release();
   status_ = {};
   emit statusChanged(status_);
+}
+
+void ServoController::recordTo(const QString& file) {
+  rows_.recordTo(file, isRunning());
+}
+
+void ServoController::release() {
+  if (ticket_) ticket_->cancel();
+  ticket_.reset();
+  isOpened_ = false;
+  const auto done = [this, id = status_.deviceId](const std::exception_ptr&) {
+    // It may have been taken again meanwhile.
+    if (status_.deviceId != id) emit deviceReleased(id);
+  };
+  worker_.run([device = std::move(device_)](const ProgressCallback&) { device->stop(); }, {done, {}});
+  device_.reset();
 }
 
 void ServoController::commitPose() {
@@ -86,17 +181,76 @@ void ServoController::commitPose() {
   try {
     session_.movePart(moving_, snapshot.proxy, "Feel");
   } catch (...) {
-    emit failed(ui::describe(tr("The part's place could not be kept."), std::current_exception()));
+    fail(tr("The part's place could not be kept."), std::current_exception());
   }
   isCommitting_ = false;
 }
 
 void ServoController::moveHand(const RigidTransform& worldFromPart) {
-  if (auto* manual = dynamic_cast<ManualDevice*>(device_.get())) manual->setPose(worldFromPart);
+  if (auto* manual = dynamic_cast<ManualDevice*>(loopDevice_.get())) manual->setPose(worldFromPart);
+}
+
+void ServoController::command(const QString& doing, const QString& what,
+                              std::function<void(HapticDevice&)> act) {
+  if (!isRunning() || status_.hand != ui::Hand::Device) return;
+  const auto done = [this, what](const std::exception_ptr& error) {
+    ticket_.reset();
+    status_.isBusy = false;
+    takeDeviceState();
+    emit statusChanged(status_);
+    if (error) fail(what, error);
+  };
+  // What was begun before is done first; only the last one counts for what is shown.
+  if (ticket_) ticket_->cancel();
+  ticket_ = worker_.run([device = device_, act = std::move(act)](const ProgressCallback&) { act(*device); },
+                        {done, {}});
+  status_.isBusy = true;
+  status_.deviceState = doing;
+  emit statusChanged(status_);
+}
+
+void ServoController::setArmed(bool isArmed) {
+  command(isArmed ? tr("Arming…") : tr("Disarming…"),
+          isArmed ? tr("The device could not be armed.") : tr("The device could not be disarmed."),
+          [isArmed](HapticDevice& device) { isArmed ? device.arm() : device.disarm(); });
+}
+
+void ServoController::calibrate() {
+  command(tr("Calibrating…"), tr("The device could not be calibrated."),
+          [](HapticDevice& device) { device.calibrate(); });
+}
+
+void ServoController::reset() {
+  command(tr("Resetting…"), tr("The device could not be reset."),
+          [](HapticDevice& device) { device.reset(); });
+}
+
+void ServoController::setRate(const RateSettings& settings) {
+  rate_ = settings;
+  if (auto* driven = dynamic_cast<RateDriven*>(device_.get())) driven->setRate(settings);
+}
+
+bool ServoController::takeDeviceState() {
+  // What is being done with it is shown till it is done.
+  if (status_.hand != ui::Hand::Device || !isRunning() || status_.isBusy) return false;
+  const DeviceState state = device_->state();
+  const bool isArmable = device_->info().forceAxes > 0;
+  const bool isArmed = isArmable && state == DeviceState::Armed;
+  const QString text = deviceText(state, isArmable, QString::fromStdString(device_->stateNote()));
+  if (text == status_.deviceState && isArmed == status_.isArmed && isArmable == status_.isArmable)
+    return false;
+  status_.deviceState = text;
+  status_.isUncalibrated = state == DeviceState::Uncalibrated;
+  status_.isFaulted = state == DeviceState::Fault;
+  status_.isArmed = isArmed;
+  status_.isArmable = isArmable;
+  return true;
 }
 
 void ServoController::followSession() {
-  if (!isRunning() || isCommitting_) return;
+  if (isCommitting_) return;
+  if (isOpened_) return takeOpened();
+  if (!isRunning()) return;
   const Scene& scene = session_.scene();
   const Part* part = scene.find(moving_);
   // What was in hand is gone or no longer what moves: there is no pose to keep.
@@ -109,51 +263,46 @@ void ServoController::followSession() {
     return;
   }
   try {
+    auto servoScene = makeServoScene(scene);
     // What the scripted hand does in one mode would go through in the other: it begins again.
     if (status_.hand == ui::Hand::Scripted && scene.haptics().mode != mode_) {
-      take(status_.hand);
-      return;
+      DevicePtr hand = startedHand(*servoScene);
+      return runOn(std::move(hand), std::move(servoScene));
     }
-    loop_.setScene(makeServoScene(scene));
-    loop_.setParameters(parametersFor(scene, *device_, status_.hand));
+    loop_.setScene(std::move(servoScene));
+    loop_.setParameters(parametersFor(scene, *device_));
   } catch (...) {
     halt();
-    emit failed(ui::describe(tr("The servo was stopped."), std::current_exception()));
+    fail(tr("The servo was stopped."), std::current_exception());
   }
 }
 
 void ServoController::poll() {
+  rows_.take();
   if (loop_.pollSnapshot()) {
     const ServoSnapshot& snapshot = loop_.snapshot();
-    if (ticksMeasured_ == 0) {
-      ticksMeasured_ = snapshot.tick;
-      timeMeasured_ = snapshot.time;
-    }
+    meter_.see(snapshot);
     emit snapshotArrived(snapshot);
   }
   if (!loop_.isRunning()) {
-    stop();
+    putDownAfterEnd();
     return;
   }
-  if (sinceMeasured_.elapsed() >= kMeasureMs) measure();
+  const bool isNew = takeDeviceState(), isMeasured = meter_.isDue();
+  if (isMeasured) {
+    meter_.measure(loop_, status_);
+    rows_.tell();
+  }
+  if (isNew || isMeasured) emit statusChanged(status_);
 }
 
-void ServoController::measure() {
-  sinceMeasured_.restart();
-  const ServoStatistics statistics = loop_.statistics();
-  // From snapshots: the statistics come in steps of many ticks, a tenth of what half a second holds.
-  const ServoSnapshot& snapshot = loop_.snapshot();
-  const double seconds = snapshot.time - timeMeasured_;
-  status_.rate = seconds > 0.0 ? static_cast<double>(snapshot.tick - ticksMeasured_) / seconds : 0.0;
-  ticksMeasured_ = snapshot.tick;
-  timeMeasured_ = snapshot.time;
-  status_.ticks = statistics.ticks;
-  status_.overruns = statistics.overruns;
-  status_.latenessP99 = statistics.lateness.percentile(0.99);
-  status_.latenessMax = statistics.lateness.max();
-  status_.tickP99 = statistics.tickTime.percentile(0.99);
-  status_.queryP99 = statistics.queryTime.percentile(0.99);
-  emit statusChanged(status_);
+void ServoController::putDownAfterEnd() {
+  const bool isLost = status_.hand == ui::Hand::Device && device_->state() == DeviceState::Lost;
+  const std::string name = device_->info().name, note = device_->stateNote();
+  stop();
+  if (!isLost) return;
+  const DeviceError error(DeviceProblem::Gone, name, note, "plug it in again, choose it and feel again");
+  fail(tr("The device was lost. The part stays where it was."), std::make_exception_ptr(error));
 }
 
 }  // namespace nearfit::desktop

@@ -37,10 +37,65 @@ bool doMeet(const Point& a, const Point& b) {
   return a == b;
 }
 
+/// Whether a plane through the corner that they share first, and through the others of `a`, has all else of
+/// `b` on one side; where they lie in one plane, whether a side of `a` that begins there has it behind.
+bool isBeside(const TriangleCorners& a, const TriangleCorners& b) {
+  const Point o = toPoint(a[0]), a1 = toPoint(a[1]), a2 = toPoint(a[2]), b1 = toPoint(b[1]),
+              b2 = toPoint(b[2]);
+  const CGAL::Orientation first = CGAL::orientation(o, a1, a2, b1), second = CGAL::orientation(o, a1, a2, b2);
+  if (first != CGAL::COPLANAR || second != CGAL::COPLANAR) return first != CGAL::COPLANAR && first == second;
+  if (CGAL::collinear(o, a1, a2)) return false;
+  const auto isBehind = [&](const Point& end, const Point& within) {
+    return CGAL::coplanar_orientation(o, end, within, b1) == CGAL::NEGATIVE &&
+           CGAL::coplanar_orientation(o, end, within, b2) == CGAL::NEGATIVE;
+  };
+  return isBehind(a1, a2) || isBehind(a2, a1);
+}
+
+/// What they have in common is convex, and so reaches from the corner to the far side of one of them.
+bool doMeetBeyondCorner(const TriangleCorners& a, const TriangleCorners& b) {
+  if (isBeside(a, b) || isBeside(b, a)) return false;
+  return doTrianglesMeet({a[1], a[2], a[2]}, b) || doTrianglesMeet({b[1], b[2], b[2]}, a);
+}
+
+/// Only where they are folded flat onto each other.
+bool doMeetBeyondSide(const TriangleCorners& a, const TriangleCorners& b) {
+  if (CGAL::orientation(toPoint(a[0]), toPoint(a[1]), toPoint(a[2]), toPoint(b[2])) != CGAL::COPLANAR)
+    return false;
+  const auto doSegmentsMeet = [](const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r,
+                                 const glm::dvec3& s) {
+    return doTrianglesMeet({p, q, q}, {r, s, s});
+  };
+  return doTrianglesMeet({a[2], a[2], a[2]}, b) || doTrianglesMeet({b[2], b[2], b[2]}, a) ||
+         doSegmentsMeet(a[0], a[2], b[1], b[2]) || doSegmentsMeet(a[1], a[2], b[0], b[2]);
+}
+
 }  // namespace
 
 bool doTrianglesMeet(const TriangleCorners& a, const TriangleCorners& b) {
   return std::visit([](const auto& x, const auto& y) { return doMeet(x, y); }, shapeOf(a), shapeOf(b));
+}
+
+bool doTrianglesMeetBeyond(const TriangleCorners& a, const TriangleCorners& b, std::size_t shared) {
+  switch (shared) {
+    case 0:
+      return doTrianglesMeet(a, b);
+    case 1:
+      return doMeetBeyondCorner(a, b);
+    case 2:
+      return doMeetBeyondSide(a, b);
+    default:
+      return true;
+  }
+}
+
+int sideOf(const glm::dvec3& point, const TriangleCorners& triangle) {
+  return static_cast<int>(
+      CGAL::orientation(toPoint(triangle[0]), toPoint(triangle[1]), toPoint(triangle[2]), toPoint(point)));
+}
+
+bool hasNoArea(const TriangleCorners& triangle) {
+  return CGAL::collinear(toPoint(triangle[0]), toPoint(triangle[1]), toPoint(triangle[2]));
 }
 
 Crossing crossingOf(const glm::dvec3& from, const glm::dvec3& to, const TriangleCorners& triangle) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -12,6 +13,18 @@ namespace nearfit {
 /// three finite points will do: a triangle of no area is the segment or the point that it covers. Not for the
 /// servo thread: hard cases allocate.
 bool doTrianglesMeet(const TriangleCorners& a, const TriangleCorners& b);
+
+/// Whether two triangles of one mesh have more in common than the corners that they share, or the side
+/// between two of these; all three shared count as more. Decided exactly, as doTrianglesMeet.
+/// @param shared  How many they share, from 0 to 3: the first of each, in one order.
+bool doTrianglesMeetBeyond(const TriangleCorners& a, const TriangleCorners& b, std::size_t shared);
+
+/// Which side of a triangle's plane a point lies on, decided exactly: 1 for the one that the triangle faces,
+/// -1 for the one behind, 0 in the plane. 0 for any point where the triangle has no area.
+int sideOf(const glm::dvec3& point, const TriangleCorners& triangle);
+
+/// Whether the corners lie on a line, decided exactly.
+bool hasNoArea(const TriangleCorners& triangle);
 
 enum class Crossing : std::int8_t {
   None,

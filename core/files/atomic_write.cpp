@@ -50,18 +50,20 @@ fs::path followLinks(const fs::path& file) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(const fs::path& file) {
+AtomicFile::AtomicFile(const fs::path& file, FileAccess access) {
   if (file.filename().empty())
     throw FileError(file.string(), "it names no file", "add a file name to the path");
   target_ = followLinks(file);
+  const ::mode_t mode = access == FileAccess::Private ? S_IRUSR | S_IWUSR : 0666;
   static std::atomic<unsigned> serial{0};
   do {
     // A short name of its own: the target's may already be as long as names can be.
     path_ =
         target_.parent_path() / (".nearfit-" + std::to_string(::getpid()) + "-" + std::to_string(serial++));
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ < 0) fail(target_, "it cannot be written", errno);
+  if (access == FileAccess::Private) return;
   try {
     keepPermissionsOfTarget();
   } catch (...) {
@@ -106,8 +108,8 @@ void AtomicFile::commit(Flush flush) {
   if (flush == Flush::ToDisk) flushFolder(target_.parent_path());
 }
 
-void atomicWrite(const fs::path& file, std::string_view content) {
-  AtomicFile replacement(file);
+void atomicWrite(const fs::path& file, std::string_view content, FileAccess access) {
+  AtomicFile replacement(file, access);
   replacement.write(content);
   replacement.commit();
 }

@@ -5,6 +5,12 @@
 
 namespace nearfit {
 
+/// Who may read a file that is made anew.
+enum class FileAccess {
+  Usual,    ///< Those that the user lets, by the umask.
+  Private,  ///< The user alone; so does one that stood there before become.
+};
+
 /// A file's new content, written piece by piece, that replaces the old one as one step: a crash, a full disk
 /// or an error leaves either the old file whole or the new one whole. The content goes to a temporary file
 /// beside the target; a symbolic link is followed, so that it stays a link; an existing file keeps its
@@ -12,7 +18,7 @@ namespace nearfit {
 /// returned.
 class AtomicFile {
  public:
-  explicit AtomicFile(const std::filesystem::path& file);
+  explicit AtomicFile(const std::filesystem::path& file, FileAccess access = FileAccess::Usual);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -35,6 +41,7 @@ class AtomicFile {
 };
 
 /// Replaces a file's content by `content`, as AtomicFile does.
-void atomicWrite(const std::filesystem::path& file, std::string_view content);
+void atomicWrite(const std::filesystem::path& file, std::string_view content,
+                 FileAccess access = FileAccess::Usual);
 
 }  // namespace nearfit

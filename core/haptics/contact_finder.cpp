@@ -10,12 +10,27 @@ namespace {
 
 /// How far around a pose pairs are gathered, in reaches: a few steps of the proxy; more when a hand is fast.
 constexpr double kLeastSlack = 0.5, kMostSlack = 6.0;
+/// And no more than the part goes in so many ticks, if it goes on as in the last.
+constexpr double kTicksAhead = 1.5;
 /// Farther turned, nearly every pair of features is a candidate [rad].
 constexpr double kMostTurn = 0.1;
-/// A pair of nodes leads to so many pairs of triangles, about, where surfaces are near.
-constexpr std::uint64_t kTrianglesOfNode = 8;
+/// Pairs of triangles that are held at most: what a search lists within its work.
+constexpr std::size_t kMaxTriangles = ContactFinder::kMaxSearchWork / kWorkOfListing;
+/// Of what work is left for searches, one for triangles may take this part: one that is left off says little,
+/// so that a step at full length is worth more than several looks; the rest lets a shorter look be tried.
+constexpr double kShareOfSearch = 0.75;
 /// Beyond so many pairs, testing those that only the room for motion adds costs more than gathering again.
 constexpr std::size_t kManyPairs = 2048;
+/// Where there are so many even without, less than the reach must do, down to these many margins. With two a
+/// part in contact takes its steps, of less than a margin, just as long; with less they are shorter, and the
+/// margin may give way, but what lies so close together that a tick cannot look at all of it moves still.
+constexpr std::array kShortReaches{2.0, 1.5, 1.1, 0.75, 0.5};
+/// Levels of room: for the way ahead, for some steps, for a pose alone, and with each short reach.
+constexpr std::size_t kLevelOfPose = 2, kLevels = kLevelOfPose + 1 + kShortReaches.size();
+/// Of a tick's work, what must be left for another attempt with less room.
+constexpr std::uint64_t kWorkOfAttempt = ContactFinder::kMaxWork / 4;
+/// Of a body that is asked about, or held, whatever there is of it.
+constexpr std::uint64_t kWorkOfBody = 1;
 /// After so many with less room, more is tried.
 constexpr unsigned kGatheringsBetweenTries = 16;
 
@@ -39,78 +54,127 @@ ContactFinder::ContactFinder()
     : scratch_(1),
       found_(ContactThinning::kMaxTaken),
       surfaceFound_(kMaxContacts),
-      pairs_(std::size_t{1} << 17U) {}
+      // More than a tick can test are of no use.
+      pairs_(kMaxWork),
+      triangles_(kMaxTriangles) {}
 
 void ContactFinder::beginTick() noexcept {
   workLeft_ = kMaxWork;
+  isWorkSpent_ = false;
   searchWorkLeft_ = kMaxSearchWork;
   lateBodies_ = 0;
+  isFirstOfTick_ = true;
 }
 
 bool ContactFinder::holdsFor(const ServoScene& scene, const RigidTransform& worldFromPart,
                              double reach) const noexcept {
-  return isHoldingPairs_ && reach == pairsReach_ &&
+  return isHoldingPairs_ && reach == askedReach_ &&
          spentShare(motionOf(scene, pairsPose_, worldFromPart), holds_) <= 1.0;
 }
 
 bool ContactFinder::gatherOne(const TrackedScene& tracked, std::uint32_t body,
                               const TrackedScene::Near* known, const RigidTransform& worldFromPart,
-                              const MotionBudget& slack) noexcept {
+                              const Gathering& gathering) noexcept {
   if (tracked.clearance.overlaps(body)) return true;
-  if (bodyCount_ == kMaxBodies) return false;
+  if (bodyCount_ == kMaxBodies || workLeft_ < kWorkOfBody) return false;
+  spend(kWorkOfBody);
   const ServoScene& scene = *tracked.scene;
   const ServoScene::Body& other = scene.bodies[body];
-  if (other.surface) {
-    // Looked at anew at each pose.
-    bodies_[bodyCount_] = {body, nextPair(), 0};
-    ++bodyCount_;
-    return true;
-  }
+  if (other.surface) return gatherTriangles(scene, body, worldFromPart, gathering.slack);
+  const NearbyPairs nearby = pairsOf(other, known, scene, worldFromPart, gathering);
+  spend(nearby.work);
+  bodies_[bodyCount_++] = {body, pairCount_, nearby.count};
+  pairCount_ += nearby.count;
+  holds_ = {std::min(holds_.travel, nearby.holds.travel), std::min(holds_.turn, nearby.holds.turn)};
+  return nearby.isComplete;
+}
+
+NearbyPairs ContactFinder::pairsOf(const ServoScene::Body& other, const TrackedScene::Near* known,
+                                   const ServoScene& scene, const RigidTransform& worldFromPart,
+                                   const Gathering& gathering) noexcept {
   const ContactReach within{pairsReach_, contactTurn(pairsReach_, scene.metric.radius)};
   const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
-  const std::size_t first = nextPair();
-  const std::span<LeafPair> room = std::span(pairs_).subspan(first);
-  std::optional<NearbyPairs> nearby;
-  if (known != nullptr && known->contacts)
-    nearby = known->contacts->nearbyPairs(bodyFromPart, within, slack, scratch_, room);
-  if (!nearby) {
-    ++lateBodies_;
-    nearby =
-        findNearbyPairs({other.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart, pairsReach_},
-                        within, slack, scratch_, room, searchWorkLeft_);
-    searchWorkLeft_ -= std::min(searchWorkLeft_, nearby->work);
+  const std::span<LeafPair> room = std::span(pairs_).subspan(pairCount_);
+  if (known != nullptr && known->contacts) {
+    // More than can be tested are of no use.
+    const std::size_t bound = std::min<std::size_t>(gathering.mostListed, workLeft_);
+    const std::size_t most = bound - std::min(bound, pairCount_);
+    const std::optional<NearbyPairs> listed = known->contacts->nearbyPairs(
+        bodyFromPart, within, gathering.slack, scratch_, room.first(std::min(room.size(), most)), workLeft_);
+    if (listed) return *listed;
+    isUncovered_ = known->contacts->size() > kMaxSearchWork;
   }
-  spend(nearby->work + nearby->count);
-  bodies_[bodyCount_++] = {body, first, nearby->count};
-  holds_ = {std::min(holds_.travel, nearby->holds.travel), std::min(holds_.turn, nearby->holds.turn)};
-  return nearby->isComplete;
+  ++lateBodies_;
+  if (isUncovered_) return {};
+  const NearbyPairs found =
+      findNearbyPairs({other.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart, pairsReach_},
+                      within, gathering.slack, scratch_, room, std::min(searchWorkLeft_, workLeft_));
+  searchWorkLeft_ -= found.work;
+  return found;
+}
+
+bool ContactFinder::gatherTriangles(const ServoScene& scene, std::uint32_t body,
+                                    const RigidTransform& worldFromPart, const MotionBudget& slack) noexcept {
+  const ServoScene::Body& other = scene.bodies[body];
+  const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
+  const double within = pairsReach_ + slack.travel;
+  const auto share = static_cast<std::uint64_t>(kShareOfSearch * static_cast<double>(searchWorkLeft_));
+  const std::uint64_t maxWork = std::min(share, workLeft_);
+  const NearbyTriangles nearby =
+      findNearbyTriangles(*other.surface, *scene.moving.surface, bodyFromPart, within, scratch_,
+                          std::span(triangles_).subspan(triangleCount_), maxWork);
+  searchWorkLeft_ -= nearby.work;
+  spend(nearby.work);
+  bodies_[bodyCount_++] = {body, triangleCount_, nearby.count, nearby.within};
+  triangleCount_ += nearby.count;
+  // With no room for motion a part of them serves, if what is not there is known to be away.
+  return nearby.within == within || (slack.travel == 0.0 && nearby.within > 0.0);
 }
 
 bool ContactFinder::gatherPairs(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                                 double reach, double way) noexcept {
   const double radius = tracked.scene->metric.radius;
-  const std::array<double, 3> rooms{std::clamp(way, kLeastSlack * reach, kMostSlack * reach),
-                                    kLeastSlack * reach, 0.0};
-  // Where there were many pairs there still are, most likely.
-  if (roomLevel_ > 0 && ++gatherings_ % kGatheringsBetweenTries == 0) --roomLevel_;
-  for (; roomLevel_ < rooms.size(); ++roomLevel_) {
-    const double travel = rooms[roomLevel_];
-    if (!gatherWithin(tracked, worldFromPart, reach, {travel, std::min(travel / radius, kMostTurn)}))
-      continue;
-    if (nextPair() <= kManyPairs || roomLevel_ + 1 == rooms.size() || lateBodies_ > 0) return true;
+  // Where nothing was about, all of the way may be free.
+  const double wanted = bodyCount_ == 0 ? way : std::min(way, kTicksAhead * tickTravel_);
+  const auto gather = [&](std::size_t level) {
+    const double travel = level == 0             ? std::clamp(wanted, kLeastSlack * reach, kMostSlack * reach)
+                          : level < kLevelOfPose ? kLeastSlack * reach
+                                                 : 0.0;
+    askedReach_ = reach;
+    pairsReach_ =
+        level <= kLevelOfPose ? reach : kShortReaches[level - kLevelOfPose - 1] / kContactReach * reach;
+    const std::size_t mostListed = level > kLevelOfPose ? pairs_.size() : kManyPairs;
+    return gatherWithin(tracked, worldFromPart, {{travel, std::min(travel / radius, kMostTurn)}, mostListed});
+  };
+  // Where there were many pairs there still are, most likely; where more is to be had, still more may be.
+  const bool isTry = roomLevel_ > 0 && ++gatherings_ % kGatheringsBetweenTries == 0;
+  if (isTry) --roomLevel_;
+  // What fails for want of work that other poses took says nothing.
+  const bool isFirst = workLeft_ == kMaxWork;
+  for (std::size_t level = roomLevel_; level < kLevels; ++level) {
+    if (gather(level)) {
+      if (isTry && level == roomLevel_) gatherings_ = kGatheringsBetweenTries - 1;
+      roomLevel_ = level;
+      return true;
+    }
+    // Nearer by a shorter step, but not with less room.
+    if (isUncovered_) return false;
+    if (workLeft_ >= kWorkOfAttempt) continue;
+    if (isFirst) roomLevel_ = std::min(std::max(level + 1, kLevelOfPose), kLevels - 1);
+    return false;
   }
-  roomLevel_ = rooms.size() - 1;
+  roomLevel_ = kLevels - 1;
   return false;
 }
 
 bool ContactFinder::gatherWithin(const TrackedScene& tracked, const RigidTransform& worldFromPart,
-                                 double reach, const MotionBudget& slack) noexcept {
-  bodyCount_ = 0;
+                                 const Gathering& gathering) noexcept {
+  bodyCount_ = pairCount_ = triangleCount_ = 0;
+  isUncovered_ = false;
   pairsPose_ = worldFromPart;
-  pairsReach_ = reach;
-  holds_ = slack;
+  holds_ = gathering.slack;
   bool isComplete = true;
-  const double far = reach + slack.travel;
+  const double far = pairsReach_ + gathering.slack.travel;
   const double spent = tracked.spent(worldFromPart, far);
   // What is said not to be near is so within what is left of the budget.
   if (spent <= 1.0) {
@@ -118,14 +182,10 @@ bool ContactFinder::gatherWithin(const TrackedScene& tracked, const RigidTransfo
     holds_ = {std::min(holds_.travel, left.travel), std::min(holds_.turn, left.turn)};
   }
   tracked.visitNear(worldFromPart, far, [&](std::uint32_t body, const TrackedScene::Near* known) {
-    isComplete = isComplete && gatherOne(tracked, body, known, worldFromPart, slack);
+    isComplete = isComplete && gatherOne(tracked, body, known, worldFromPart, gathering);
   });
-  isHoldingPairs_ = isComplete;
-  return isComplete;
-}
-
-std::size_t ContactFinder::nextPair() const noexcept {
-  return bodyCount_ == 0 ? 0 : bodies_[bodyCount_ - 1].first + bodies_[bodyCount_ - 1].count;
+  isHoldingPairs_ = isComplete && pairCount_ + bodyCount_ * kWorkOfBody <= workLeft_;
+  return isHoldingPairs_;
 }
 
 void ContactFinder::testPairs(const ServoScene& scene, const HeldBody& held,
@@ -148,45 +208,54 @@ void ContactFinder::testSurface(const ServoScene& scene, const HeldBody& held,
                                 const RigidTransform& worldFromPart, Surroundings& around) noexcept {
   const ServoScene::Body& other = scene.bodies[held.body];
   const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
-  const SurfaceContacts result =
-      findSurfaceContacts(*other.surface, *scene.moving.surface, bodyFromPart, pairsReach_, scratch_,
-                          surfaceFound_, workLeft_ / kTrianglesOfNode);
-  spend(result.nodePairs + result.trianglePairs);
+  const HeldTriangles triangles{std::span(triangles_).subspan(held.first, held.count), held.within,
+                                motionOf(scene, pairsPose_, worldFromPart).travel};
+  const SurfaceContacts result = testTriangles(*other.surface, *scene.moving.surface, bodyFromPart,
+                                               pairsReach_, triangles, surfaceFound_, workLeft_);
+  spend(result.work);
   around.distance = std::min(around.distance, result.lowerBound);
-  if (!result.isComplete) {
-    const double farthest = result.count > 0 ? surfaceFound_[result.count - 1].distance : 0.0;
-    // Where it was full the nearest are there, else what was looked at first.
-    const bool isFull = result.count == surfaceFound_.size();
-    around.completeTo = std::min(around.completeTo, isFull ? farthest : result.lowerBound);
-  }
+  around.completeTo = std::min(around.completeTo, result.completeTo);
   for (const SurfaceContact& contact : std::span(surfaceFound_).first(result.count)) {
     const ContactPair pair{contact.partPoint, contact.direction, contact.distance};
     if (!thinning_.add({inWorld(pair, other.worldFromPart), held.body})) around.completeTo = 0.0;
   }
 }
 
+void ContactFinder::testBodies(const ServoScene& scene, const RigidTransform& worldFromPart,
+                               Surroundings& around) noexcept {
+  spend(bodyCount_ * kWorkOfBody);
+  const std::span<const HeldBody> held = std::span(bodies_).first(bodyCount_);
+  // Surfaces take what is left: of them the nearest triangles alone do.
+  for (const HeldBody& body : held) {
+    if (!scene.bodies[body.body].surface) testPairs(scene, body, worldFromPart, around);
+  }
+  for (const HeldBody& body : held) {
+    if (scene.bodies[body.body].surface) testSurface(scene, body, worldFromPart, around);
+  }
+}
+
 Surroundings ContactFinder::find(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                                  double reach, double way, std::span<BodyContact> out) noexcept {
   const ServoScene& scene = *tracked.scene;
+  if (isFirstOfTick_) {
+    tickTravel_ = motionOf(scene, tickPose_, worldFromPart).travel;
+    tickPose_ = worldFromPart;
+    isFirstOfTick_ = false;
+  }
   if (!holdsFor(scene, worldFromPart, reach)) {
     if (!gatherPairs(tracked, worldFromPart, reach, way)) return {};
   }
-  if (nextPair() > workLeft_) {
-    workLeft_ = 0;
+  // Of pairs that have served before: they stay at hand for the next tick.
+  if (pairCount_ + bodyCount_ * kWorkOfBody > workLeft_) {
+    isWorkSpent_ = true;
     return {};
   }
-  Surroundings around{0, reach, reach};
+  Surroundings around{0, pairsReach_, pairsReach_, pairsReach_};
   // Where no body is about, none is nearer than was looked for.
   if (bodyCount_ == 0) around.distance += holds_.travel - motionOf(scene, pairsPose_, worldFromPart).travel;
   thinning_.clear();
-  for (const HeldBody& held : std::span(bodies_).first(bodyCount_)) {
-    if (scene.bodies[held.body].surface)
-      testSurface(scene, held, worldFromPart, around);
-    else
-      testPairs(scene, held, worldFromPart, around);
-  }
-  const glm::dquat principalFromWorld =
-      glm::conjugate(worldFromPart.rotation * scene.metric.partFromPrincipal);
+  testBodies(scene, worldFromPart, around);
+  const glm::dquat principalFromWorld = scene.metric.principalFromWorld(worldFromPart);
   const ContactThinning::Kept kept =
       thinning_.keep(worldFromPart.applyToPoint(scene.centreInPart), principalFromWorld, scene.metric, out);
   around.count = kept.count;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,8 +20,10 @@ struct Surroundings {
   std::size_t count = 0;  ///< Contacts.
   /// No body but those that the part overlaps is nearer [m]; 0 when the work allowed did not suffice.
   double distance = 0.0;
-  /// Every contact nearer than this is there, or one that says about the same [m].
+  /// Every contact nearer than this is there, or one that says about the same [m]: less than was asked for
+  /// where there are thousands, or no room.
   double completeTo = 0.0;
+  double reach = 0.0;  ///< How far was looked [m]: less than asked for where more pairs are near than fit.
 };
 
 /// Finds the contacts of the moving part with all bodies around it.
@@ -32,7 +35,8 @@ class ContactFinder {
  public:
   /// Contacts that are kept for a pose; of more, those that say about the same as a nearer one are left out.
   static constexpr std::size_t kMaxContacts = ContactThinning::kMaxKept;
-  /// Work of a tick: nodes opened, pairs listed and pairs tested, some 1.5 ms on a slow core.
+  /// Work of a tick: nodes opened, pairs listed and pairs tested, some 1.5 ms on a slow core. Never passed:
+  /// what would is not begun, or left off, and the pose counts as one of which nothing is known.
   static constexpr std::uint64_t kMaxWork = 1U << 15;
   /// Of it, for searches anew, some 0.7 ms: where that does not suffice, a list will soon be there.
   static constexpr std::uint64_t kMaxSearchWork = 1U << 14;
@@ -56,27 +60,44 @@ class ContactFinder {
 
   /// Bodies that were searched anew since the tick began.
   std::uint32_t lateBodies() const noexcept { return lateBodies_; }
-  bool isWorkSpent() const noexcept { return workLeft_ == 0; }
+  bool isWorkSpent() const noexcept { return isWorkSpent_ || workLeft_ == 0; }
+  /// All work since the tick began; at most kMaxWork.
+  std::uint64_t work() const noexcept { return kMaxWork - workLeft_; }
 
  private:
   struct HeldBody {
     std::uint32_t body = 0;
-    std::size_t first = 0, count = 0;  ///< Of pairs_; none where the body is a surface without sides.
+    std::size_t first = 0, count = 0;  ///< Of pairs_, or of triangles_ where it is a surface without sides.
+    double within = 0.0;               ///< What triangles are all there [m].
+  };
+
+  /// How pairs are gathered: for which motion, and of how many that lists have it is no use.
+  struct Gathering {
+    MotionBudget slack;
+    std::size_t mostListed;
   };
 
   bool holdsFor(const ServoScene& scene, const RigidTransform& worldFromPart, double reach) const noexcept;
   bool gatherPairs(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
                    double way) noexcept;
-  bool gatherWithin(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
-                    const MotionBudget& slack) noexcept;
+  bool gatherWithin(const TrackedScene& tracked, const RigidTransform& worldFromPart,
+                    const Gathering& gathering) noexcept;
   bool gatherOne(const TrackedScene& tracked, std::uint32_t body, const TrackedScene::Near* known,
-                 const RigidTransform& worldFromPart, const MotionBudget& slack) noexcept;
-  std::size_t nextPair() const noexcept;
+                 const RigidTransform& worldFromPart, const Gathering& gathering) noexcept;
+  NearbyPairs pairsOf(const ServoScene::Body& other, const TrackedScene::Near* known, const ServoScene& scene,
+                      const RigidTransform& worldFromPart, const Gathering& gathering) noexcept;
+  bool gatherTriangles(const ServoScene& scene, std::uint32_t body, const RigidTransform& worldFromPart,
+                       const MotionBudget& slack) noexcept;
   void testPairs(const ServoScene& scene, const HeldBody& held, const RigidTransform& worldFromPart,
                  Surroundings& around) noexcept;
   void testSurface(const ServoScene& scene, const HeldBody& held, const RigidTransform& worldFromPart,
                    Surroundings& around) noexcept;
-  void spend(std::uint64_t work) noexcept { workLeft_ -= work < workLeft_ ? work : workLeft_; }
+  void testBodies(const ServoScene& scene, const RigidTransform& worldFromPart,
+                  Surroundings& around) noexcept;
+  void spend(std::uint64_t work) noexcept {
+    assert(work <= workLeft_);
+    workLeft_ -= work;
+  }
 
   LmdScratch scratch_;
   ContactThinning thinning_;
@@ -85,16 +106,26 @@ class ContactFinder {
 
   /// Pairs that can be contacts within `holds_` of `pairsPose_`.
   std::vector<LeafPair> pairs_;
+  /// The same of surfaces without sides: the triangles that come near within it.
+  std::vector<TrianglePair> triangles_;
+  std::size_t pairCount_ = 0, triangleCount_ = 0;
   std::array<HeldBody, kMaxBodies> bodies_;
   std::size_t bodyCount_ = 0;
   RigidTransform pairsPose_;
-  double pairsReach_ = 0.0;
+  double askedReach_ = 0.0, pairsReach_ = 0.0;  ///< What was wanted, and what they are gathered for [m].
   MotionBudget holds_;
   bool isHoldingPairs_ = false;
-  std::size_t roomLevel_ = 0;  ///< Of the room for motion that pairs are gathered with: less at each level.
+  std::size_t roomLevel_ = 0;  ///< Of the room that pairs are gathered with: less at each level.
   unsigned gatherings_ = 0;
+  bool isUncovered_ = false;  ///< A list that is longer than a search could be does not hold there.
 
-  std::uint64_t workLeft_ = 0, searchWorkLeft_ = 0;
+  /// Where contacts were first looked for in the last tick, and how far that was from the one before [m].
+  RigidTransform tickPose_;
+  double tickTravel_ = 0.0;
+  bool isFirstOfTick_ = false;
+
+  std::uint64_t workLeft_ = kMaxWork, searchWorkLeft_ = 0;
+  bool isWorkSpent_ = false;  ///< What is left did not do for what was to be done.
   std::uint32_t lateBodies_ = 0;
 };
 

@@ -5,18 +5,27 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/geometric.hpp>
+#include "core/haptics/step_rows.h"
 
 namespace nearfit {
 namespace {
 
 /// Side of a cell of the grid of directions, whose length is about 1.
 constexpr double kCell = 0.08;
+/// Of the room, at least this part is for the nearest of those that agree with a nearer one, if there are as
+/// many. Of two that are equally near, a step that is square to one brings the other nearer by as much as
+/// they differ: where the proxy did not know, no step was a gain to it, and it stood until it was pulled off
+/// in a leap.
+constexpr std::size_t kShareOfOthers = 4;
 /// Slots of the table for each contact: half empty at the most.
 constexpr std::size_t kSlots = 2 * ContactThinning::kMaxTaken;
 
 bool isNearer(const BodyContact& a, const BodyContact& b) noexcept {
   return a.pair.distance < b.pair.distance;
+}
+
+std::ptrdiff_t at(std::size_t i) noexcept {
+  return static_cast<std::ptrdiff_t>(i);
 }
 
 /// Spreads the bits of a number (the finaliser of SplitMix64).
@@ -39,12 +48,9 @@ bool ContactThinning::add(const BodyContact& contact) noexcept {
 std::uint64_t ContactThinning::cellOf(const ContactPair& pair, const glm::dvec3& centre,
                                       const glm::dquat& principalFromWorld,
                                       const MassMetric& metric) const noexcept {
-  const glm::dvec3& u = pair.direction;
-  const glm::dvec3 turn =
-      principalFromWorld * glm::cross(pair.point - centre, pair.direction) / metric.gyration;
   std::uint64_t cell = 0;
-  for (const double x : {u.x, u.y, u.z, turn.x, turn.y, turn.z}) {
-    // Ten bits each: |turn| is at most the radius over the least gyration, some twenty.
+  for (const double x : stepRow(pair.direction, pair.point - centre, principalFromWorld, metric)) {
+    // Ten bits each: what it says of turns is at most the radius over the least gyration, some twenty.
     const auto step = static_cast<std::int64_t>(std::floor(x / kCell)) & 0x3FF;
     cell = cell << 10U | static_cast<std::uint64_t>(step);
   }
@@ -71,18 +77,22 @@ ContactThinning::Kept ContactThinning::keep(const glm::dvec3& centre, const glm:
       std::swap(taken_[distinct], taken_[i]);
       table_[slot] = static_cast<std::uint32_t>(++distinct);
     } else if (isNearer(taken_[i], taken_[table_[slot] - 1])) {
-      taken_[table_[slot] - 1] = taken_[i];
+      std::swap(taken_[table_[slot] - 1], taken_[i]);
     }
   }
-  kept.count = std::min({distinct, kMaxKept, out.size()});
-  const auto begin = taken_.begin();
-  const auto end = begin + static_cast<std::ptrdiff_t>(distinct);
-  if (kept.count < distinct) {
-    const auto last = begin + static_cast<std::ptrdiff_t>(kept.count);
-    std::nth_element(begin, last, end, isNearer);
-    kept.completeTo = last->pair.distance;
+  const std::size_t room = std::min(kMaxKept, out.size());
+  const std::size_t forOthers = std::min(count_ - distinct, room / kShareOfOthers);
+  const auto begin = taken_.begin(), others = begin + at(distinct);
+  const std::size_t own = std::min(distinct, room - forOthers);
+  if (own < distinct) {
+    std::nth_element(begin, begin + at(own), others, isNearer);
+    kept.completeTo = taken_[own].pair.distance;
   }
-  std::copy_n(begin, kept.count, out.begin());
+  const auto rest = std::copy_n(begin, own, out.begin());
+  const std::size_t more = std::min(room - own, count_ - distinct);
+  std::nth_element(others, others + at(more), begin + at(count_), isNearer);
+  std::copy_n(others, more, rest);
+  kept.count = own + more;
   return kept;
 }
 

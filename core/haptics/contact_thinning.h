@@ -20,7 +20,7 @@ struct BodyContact {
 /// The most telling of thousands of contacts, as where a thread lies in its nut.
 ///
 /// What a contact says to the proxy is a direction in the six dimensions of its motion. Of contacts that
-/// agree in it to a fine grid only the nearest counts: a small step changes the distances of the others by
+/// agree in it to a fine grid the nearest counts most: a small step changes the distances of the others by
 /// the same, to a tenth of the step. Memory is allocated once.
 class ContactThinning {
  public:
@@ -39,7 +39,7 @@ class ContactThinning {
         0.0;  ///< Nothing nearer was left out but what says the same [m]; infinity: nothing was.
   };
   /// Writes all, when there are no more than fit, else the nearest of each direction, and of those the
-  /// nearest.
+  /// nearest; a part of the room is for the nearest of the others.
   /// @param centre              Centre of mass of the part in the world [m].
   /// @param principalFromWorld  Turns the world into the part's principal axes.
   Kept keep(const glm::dvec3& centre, const glm::dquat& principalFromWorld, const MassMetric& metric,

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/math/finite.h"
 #include "core/math/rotation_vector.h"
 
 namespace nearfit {
@@ -25,8 +26,7 @@ struct Oscillator {
 
 glm::dvec3 sag(const glm::dvec3& weight, double stiffness) noexcept {
   const glm::dvec3 result = weight / stiffness;
-  const bool isFinite = std::isfinite(result.x) && std::isfinite(result.y) && std::isfinite(result.z);
-  return isFinite ? result : glm::dvec3(0.0);
+  return isFinite(result) ? result : glm::dvec3(0.0);
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ BodyMotion freeStep(const Felt& felt, const CouplingState& coupling, const MassM
 }
 
 double kineticEnergy(const Felt& felt, const MassMetric& metric, const BodyMotion& part) noexcept {
-  const glm::dquat principalFromWorld = glm::conjugate(part.pose.rotation * metric.partFromPrincipal);
+  const glm::dquat principalFromWorld = metric.principalFromWorld(part.pose);
   const glm::dvec3 spin = metric.gyration * (principalFromWorld * part.twist.angular);
   return 0.5 * felt.mass * (glm::dot(part.twist.linear, part.twist.linear) + glm::dot(spin, spin));
 }

@@ -3,6 +3,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/math/rigid_transform.h"
 #include "core/mesh/mass_properties.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -15,6 +16,14 @@ struct MassMetric {
   glm::dquat partFromPrincipal{1.0, 0.0, 0.0, 0.0};  ///< Unit; turns principal axes into the part's frame.
   glm::dvec3 gyration{1.0};                          ///< About the principal axes, smallest first [m]; > 0.
   double radius = 0.0;  ///< Of the sphere about the centre of mass that holds the mesh [m].
+
+  /// Turns principal axes into the world's, and back.
+  glm::dquat worldFromPrincipal(const RigidTransform& worldFromPart) const noexcept {
+    return worldFromPart.rotation * partFromPrincipal;
+  }
+  glm::dquat principalFromWorld(const RigidTransform& worldFromPart) const noexcept {
+    return glm::conjugate(worldFromPrincipal(worldFromPart));
+  }
 };
 
 /// No radius of gyration counts as less than this fraction of the metric's radius: a needle would else turn

@@ -15,7 +15,8 @@ constexpr double kShortestPeriod = 1e-9;
 
 PeriodMeter::PeriodMeter(double nominal) noexcept
     : nominal_(std::isfinite(nominal) ? std::clamp(nominal, kShortestPeriod, kLongestPeriod) : kUsualPeriod),
-      period_(nominal_) {}
+      period_(nominal_),
+      held_(nominal_) {}
 
 void PeriodMeter::add(double elapsed) noexcept {
   if (!std::isfinite(elapsed) || !(elapsed > 0.0)) return;
@@ -25,6 +26,8 @@ void PeriodMeter::add(double elapsed) noexcept {
     constexpr double kFall = kRise * (1.0 - kQuantile) / kQuantile;
     period_ = std::max(period_ * (1.0 - kFall), nominal_);
   }
+  if (period_ == nominal_) held_ *= 1.0 - kForget;
+  held_ = std::max(period_, std::min(held_, (1.0 + kPlay) * period_));
 }
 
 }  // namespace nearfit

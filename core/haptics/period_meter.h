@@ -20,6 +20,14 @@ class PeriodMeter {
   static constexpr double kQuantile = 0.99;      ///< Of the ticks that are no later than the estimate.
   static constexpr double kLongestPeriod = 0.1;  ///< A servo slower than that is none [s].
 
+  /// How much longer than the estimate the held period may be before it follows down: the estimate of an
+  /// uneven servo is never at rest, and a hand that leans on a wall would feel the stiffness come and go with
+  /// it.
+  static constexpr double kPlay = 0.3;
+  /// What the held period comes nearer to the nominal one in a tick on time, where the estimate is there
+  /// already, relative: a hiccup is forgotten within half a minute, unnoticed.
+  static constexpr double kForget = 5e-6;
+
   /// @param nominal  What the servo is meant to keep [s]; held to (0, kLongestPeriod], 1 ms if not finite.
   explicit PeriodMeter(double nominal = 1e-3) noexcept;
 
@@ -28,11 +36,14 @@ class PeriodMeter {
 
   /// The estimate [s], from the nominal period up to kLongestPeriod.
   double period() const noexcept { return period_; }
+  /// What stiffness is to be reckoned with [s]: never less than the estimate, and steady while that wanders
+  /// by less than kPlay.
+  double heldPeriod() const noexcept { return held_; }
   double nominal() const noexcept { return nominal_; }
 
  private:
   double nominal_;
-  double period_;
+  double period_, held_;
 };
 
 }  // namespace nearfit

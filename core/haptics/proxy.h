@@ -9,6 +9,7 @@
 #include "core/haptics/contact_finder.h"
 #include "core/haptics/friction_program.h"
 #include "core/haptics/haptic_settings.h"
+#include "core/haptics/step_judge.h"
 #include "core/haptics/step_program.h"
 #include "core/haptics/tracked_scene.h"
 
@@ -33,7 +34,8 @@ struct ProxyContact {
 
 /// Where the moving part is: it follows a target as far as the other bodies let it, and never meets one.
 ///
-/// A tick takes it there in steps. Each step is the shortest way, in the metric of the part's mass, that
+/// A tick takes it there in steps. Each step is the shortest way, in the metric of the part's mass (as the
+/// coupling weighs turns against shifts), that
 /// keeps every near pair of features a margin apart to first order (StepProgram); it is taken only where it
 /// is proved that nothing is met on the way: no point of the part moves as far as the nearest body is away.
 /// The distance at the step's end is no part of the proof, since minima tell it only where bodies do not
@@ -53,10 +55,12 @@ class Proxy {
   void noteDistance(double distance) noexcept;
 
   /// One tick. Stands still while it is not known which bodies it overlaps (TrackedScene::clearance).
-  /// @param target  worldFromPart; finite, unit quaternion.
+  /// @param target     worldFromPart; finite, unit quaternion.
+  /// @param turnScale  What radii of gyration count times, so that the way is shortest in the energy of the
+  ///                   coupling that pulls (turnScale() of virtual_coupling.h); > 0.
   /// Real-time safe.
-  void follow(const TrackedScene& tracked, const RigidTransform& target,
-              const ProxySettings& settings) noexcept;
+  void follow(const TrackedScene& tracked, const RigidTransform& target, const ProxySettings& settings,
+              double turnScale = 1.0) noexcept;
 
   const ProxyAccount& account() const noexcept { return account_; }
   /// What holds it now.
@@ -64,6 +68,8 @@ class Proxy {
   /// The distance known at the present pose; a bound below [m].
   double distance() const noexcept { return here_.distance; }
   std::uint32_t lateBodies() const noexcept { return finder_.lateBodies(); }
+  /// Of the last tick, on contacts (ContactFinder::work).
+  std::uint64_t work() const noexcept { return finder_.work(); }
   /// Of the last tick, what the search for contacts took [s].
   double queryTime() const noexcept { return queryTime_; }
 
@@ -77,10 +83,16 @@ class Proxy {
     const TrackedScene& tracked;
     const RigidTransform& target;
     const ProxySettings& settings;
+    MassMetric metric;  ///< Its gyration scaled.
   };
 
   bool isCleared(const TrackedScene& tracked) noexcept;
-  Motion motionTo(const ServoScene& scene, const RigidTransform& target) const noexcept;
+  static Motion motionBetween(const ServoScene& scene, const RigidTransform& from,
+                              const RigidTransform& to) noexcept;
+  /// No point of the part moves farther [m].
+  static double travelOf(const ServoScene& scene, const Motion& motion) noexcept;
+  static double travelBetween(const ServoScene& scene, const RigidTransform& from,
+                              const RigidTransform& to) noexcept;
   /// The farthest that a point of the part is from where the target has it [m].
   double wayTo(const Tick& tick) const noexcept;
   RigidTransform moved(const ServoScene& scene, const Motion& motion) const noexcept;
@@ -90,43 +102,30 @@ class Proxy {
     AtRest,  ///< It is where it is best.
     Stuck,   ///< It could not go on in this tick.
   };
-  /// What is said to a pose that it is to move to.
-  enum class Verdict : std::uint8_t {
-    Taken,
-    NotProved,  ///< Something might be met on the way, or is too near there.
-    NoGain,     ///< No better than where it is.
-    Unknown,    ///< The work allowed did not suffice to tell.
-  };
+  using Verdict = StepJudge::Verdict;
 
-  bool isResting(const RigidTransform& target, const ProxySettings& settings) const noexcept;
+  bool isResting(const Tick& tick) const noexcept;
   double targetMotion(const Tick& tick) const noexcept;
+  double marginHere() const noexcept;
   Outcome step(const Tick& tick) noexcept;
   Outcome freeStep(const Tick& tick, const Motion& wanted) noexcept;
   Outcome constrainedStep(const Tick& tick, const Motion& wanted) noexcept;
   Outcome programStep(const Tick& tick, const StepGoal& goal) noexcept;
-  /// A step as the program has it.
-  struct Trial {
-    StepVector wanted, step;
-    ClearanceCost cost;
-    double slope = 0.0;      ///< Of the cost along the step, at its start.
-    double bestShare = 1.0;  ///< Of the step, as the cost at its end tells.
-  };
-  Trial trialOf(const StepGoal& goal, const StepSolution& solution) const noexcept;
-  Outcome takeShortened(const Tick& tick, Trial trial, Motion motion, double travel) noexcept;
+  Outcome takeShortened(const Tick& tick, StepTrial trial, Motion motion, double travel) noexcept;
   StepGoal goalOf(const Tick& tick, const Motion& wanted) const noexcept;
-  /// Whether a step makes less what the program makes least, with the true distance at its end.
-  bool isGain(Trial& trial, double distance) const noexcept;
   bool fillRows(const Tick& tick, double reach) noexcept;
   StepSolution solve(const Tick& tick, const StepGoal& goal) noexcept;
   void keepContacts(const StepSolution& solution) noexcept;
   Surroundings lookAround(const Tick& tick, const RigidTransform& pose, std::span<BodyContact> out) noexcept;
   void raiseFloor(const Tick& tick) noexcept;
-  Verdict take(const Tick& tick, const RigidTransform& pose, double travel, Trial* trial = nullptr) noexcept;
+  Verdict take(const Tick& tick, const RigidTransform& pose, double travel,
+               StepTrial* trial = nullptr) noexcept;
 
   ContactFinder finder_;
   StepRows rows_;
   StepProgram program_;
   FrictionProgram frictionProgram_;
+  StepJudge judge_;
   std::vector<BodyContact> around_, next_;  ///< Contacts here, and at a pose that is tried.
   std::vector<std::uint32_t> rowContact_;   ///< Of each row, its contact in `around_`.
   std::vector<glm::dvec3> rowArm_;          ///< Of each row, from the centre of mass to its point [m].
@@ -142,11 +141,12 @@ class Proxy {
   struct Rest {
     RigidTransform target;
     ProxySettings settings;
+    double turnScale = 0.0;
     bool isAtRest = false;
   };
   Rest rest_;
+  double turnScale_ = 1.0;
   double margin_ = 0.0;  ///< That `here_` was found for.
-  double floor_ = 0.0;   ///< No step may end nearer than this to a body, unless it leads away [m].
   std::uint64_t clearedSerial_ = 0;
   ProxyAccount account_;
   double queryTime_ = 0.0;

@@ -1,6 +1,7 @@
 #include "core/haptics/scene_tracker.h"
 
 #include <algorithm>
+#include <atomic>
 #include <iterator>
 #include <utility>
 
@@ -12,6 +13,12 @@ namespace {
 /// How much farther than the lists' budget other bodies must be clear: looking at them again is cheap, but a
 /// body that is listed costs every tick a little.
 constexpr double kClearance = 8.0;
+
+/// Never the same twice, whatever tracker asks.
+std::uint64_t nextSerial() noexcept {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
 
 bool isBefore(const TrackedScene::Near& a, const TrackedScene::Near& b) noexcept {
   return a.body < b.body;
@@ -36,10 +43,18 @@ void SceneTracker::setScene(std::shared_ptr<const ServoScene> scene) {
     std::sort(next.near.begin(), next.near.end(), isBefore);
   } else if (next.scene->moving.geometry) {
     const Aabb& box = next.scene->moving.geometry->mesh.bounds();
-    forecast_ = MotionForecast(box.centre(), 0.5 * box.diagonal());
+    forecast_ = hand_ = MotionForecast(box.centre(), 0.5 * box.diagonal());
     forecast_.observe(next.scene->moving.worldFromPart, 1.0);
   }
   current_ = std::move(next);
+  memory_.assign(current_.scene->bodies.size(), {});
+}
+
+void SceneTracker::observeTick(const ServoSnapshot& snapshot, double ticks) noexcept {
+  observe(snapshot.proxy, ticks);
+  observeHand(snapshot.handle, ticks);
+  setWaiting(snapshot.isWaiting);
+  setStarved(snapshot.isStarved);
 }
 
 TrackedPair SceneTracker::pairOf(std::uint32_t index) const noexcept {
@@ -50,7 +65,7 @@ TrackedPair SceneTracker::pairOf(std::uint32_t index) const noexcept {
 ListPurpose SceneTracker::forMinima(const SearchReach& reach) const noexcept {
   ListPurpose purpose{.cutoff = reach.cutoff, .planCutoff = reach.cutoff};
   // Where minima are only to be seen, contacts must not wait for a search that is long.
-  if (reach.contact > 0.0) purpose.part = purpose.whole;
+  if (reach.contact > 0.0) purpose.part = purpose.least = purpose.whole;
   return purpose;
 }
 
@@ -62,15 +77,23 @@ ListPurpose SceneTracker::forContacts(const SearchReach& reach) const noexcept {
           .relaxation = turn,
           .leastRoom = {reach.contact, turn},
           .whole = {1U << 15, 1U << 16},
-          .part = {1U << 17, 1U << 20},
+          // A tick goes through all of a list, several times.
+          .part = {1U << 16, 1U << 18},
+          .least = {1U << 17, 1U << 20},
           // A part that stands gets a list around it; one that is at its middle cannot be bettered.
           .roomToKeep = isStarved_ ? 0.98 : 0.5};
 }
 
 bool SceneTracker::willServe(const TrackedScene::Near& entry, const SearchReach& reach) const noexcept {
   const TrackedPair pair = pairOf(entry.body);
-  return (!entry.list || nearfit::willServe(*entry.list, pair, forecast_, forMinima(reach))) &&
-         (!entry.contacts || nearfit::willServe(*entry.contacts, pair, forecast_, forContacts(reach)));
+  if (entry.list && !nearfit::willServe(*entry.list, pair, forecast_, forMinima(reach))) return false;
+  if (entry.contacts) return nearfit::willServe(*entry.contacts, pair, forecast_, forContacts(reach));
+  // Too many pairs they may have been for the way that was foretold then.
+  return !(isStarved_ && hasContacts(entry.body, reach));
+}
+
+bool SceneTracker::hasContacts(std::uint32_t body, const SearchReach& reach) const noexcept {
+  return reach.contact > 0.0 && !current_.scene->bodies[body].surface;
 }
 
 bool SceneTracker::isClearanceDue(const SearchReach& reach) const noexcept {
@@ -119,6 +142,7 @@ void SceneTracker::refresh(const SearchReach& reach, TrackedScene& out) {
       current_.clearance.serial = ++lastSerial_;
     }
   }
+  current_.serial = nextSerial();
   out = current_;
 }
 
@@ -153,19 +177,22 @@ void SceneTracker::findNear(const SearchReach& reach, const std::vector<TrackedS
     if (found != former.end() && found->body == entry.body) old = *found;
     const bool wasListed = old.list && willServe({entry.body, old.list, nullptr}, reach);
     if (!wasListed && isClearOf(entry.body, cutoff)) return true;
-    entry.list = renewed(old.list, entry.body, forMinima(reach));
-    if (reach.contact > 0.0 && !current_.scene->bodies[entry.body].surface)
-      entry.contacts = renewed(old.contacts, entry.body, forContacts(reach));
+    // With springs a tick needs all minima: what list there can be is worth any attempt.
+    Memory& memory = memory_[entry.body];
+    if (!(reach.contact > 0.0)) memory = {};
+    entry.list = renewed(old.list, entry.body, forMinima(reach), memory.minima);
+    if (hasContacts(entry.body, reach))
+      entry.contacts = renewed(old.contacts, entry.body, forContacts(reach), memory.contacts);
     return false;
   });
 }
 
 std::shared_ptr<const CandidateList> SceneTracker::renewed(const std::shared_ptr<const CandidateList>& former,
-                                                           std::uint32_t body, const ListPurpose& purpose) {
+                                                           std::uint32_t body, const ListPurpose& purpose,
+                                                           PlanMemory& memory) {
   if (former && nearfit::willServe(*former, pairOf(body), forecast_, purpose)) return former;
   const std::shared_ptr<CandidateList> list = spareList();
-  buildForPlan(*list, pairOf(body), forecast_, purpose, scratch_);
-  return list->isUsable() ? list : nullptr;
+  return buildForPlan(*list, pairOf(body), forecast_, purpose, scratch_, memory) ? list : nullptr;
 }
 
 std::shared_ptr<CandidateList> SceneTracker::spareList() {

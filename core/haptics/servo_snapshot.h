@@ -37,7 +37,8 @@ struct SnapshotContact {
   PartId other{};
 };
 
-/// One tick as others see it; trivially copyable. All in the world frame.
+/// One tick as others see it; trivially copyable. All in the world frame. Counters that go on from tick to
+/// tick, here and beside the servo, have 64 bits: they never wrap.
 struct ServoSnapshot {
   static constexpr std::size_t kMaxLmds = 512;
   static constexpr std::size_t kMaxContacts = 16, kMaxReleased = 8;
@@ -52,6 +53,9 @@ struct ServoSnapshot {
   glm::dvec3 centre{0.0};  ///< The part's centre of mass [m].
   double distance = 0.0;   ///< Least distance [m]; infinity when nothing is within the cutoff.
   double queryTime = 0.0, tickTime = 0.0;  ///< [s]
+  /// Pairs of nodes and of features looked at, listed and merged: what bounds the tick where its time, on a
+  /// busy machine, cannot.
+  std::uint64_t work = 0;
   std::uint32_t lmdCount = 0;    ///< All minima within the cutoff, also those that are not in `lmds`.
   std::uint32_t storedLmds = 0;  ///< Entries of `lmds` in use, nearest first for each part.
   /// Bodies that were searched anew in this tick, as what is known of them did not cover the pose.

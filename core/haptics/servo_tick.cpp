@@ -9,15 +9,12 @@
 
 #include "core/haptics/servo_faults.h"
 #include "core/haptics/spring_law.h"
+#include "core/math/finite.h"
 
 namespace nearfit {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-bool isFinite(const glm::dvec3& v) noexcept {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 double secondsSince(Clock::time_point begin) noexcept {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -39,6 +36,7 @@ void clearOutputs(ServoSnapshot& snapshot) noexcept {
   snapshot.wrench = snapshot.unclampedWrench = snapshot.deviceWrench = Wrench{};
   snapshot.distance = std::numeric_limits<double>::infinity();
   snapshot.queryTime = snapshot.proxyTime = 0.0;
+  snapshot.work = 0;
   snapshot.lmdCount = snapshot.storedLmds = snapshot.lateBodies = 0;
   snapshot.subSteps = snapshot.shortenedSteps = snapshot.refusedSteps = 0;
   snapshot.constraintCount = snapshot.contactCount = snapshot.storedContacts = snapshot.releasedCount = 0;
@@ -56,41 +54,52 @@ void ServoTick::reset() noexcept {
   partStep_ = {};
   held_ = {};
   hasPose_ = false;
-  shownShare_ = 1.0;
+  shownReach_.reset();
+  isToBeShown_ = false;
   fault_ = ServoFault::None;
 }
 
 void ServoTick::run(const TrackedScene& tracked, const ServoParameters& parameters, const HandleInput& input,
                     double period, ServoSnapshot& snapshot) noexcept {
+  feel(tracked, parameters, input, period, snapshot);
+  show(tracked, parameters, snapshot);
+}
+
+void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& parameters, const HandleInput& input,
+                     double period, ServoSnapshot& snapshot) noexcept {
   const ServoScene& scene = *tracked.scene;
   const HapticSettings& settings = parameters.haptics;
   clearOutputs(snapshot);
+  isToBeShown_ = false;
   snapshot.moving = scene.moving.id;
   snapshot.mode = settings.mode;
   if (scene.moving.id != moving_) {
     hasPose_ = false;
-    shownShare_ = 1.0;
+    shownReach_.reset();
   }
   moving_ = scene.moving.id;
   if (fault_ == ServoFault::None) fault_ = faultOfInput(settings, parameters.limits, input.pose, period);
   if (!hasPose_) handle_.pose = part_.pose = scene.moving.worldFromPart;
 
   const DeviceLimits limits = limitsAtHandle(parameters.limits, settings.mapping.scale);
-  const Tick tick{tracked, scene, settings, limits, period, snapshot};
+  const Tick tick{{tracked, scene, settings, snapshot}, limits, period};
   if (fault_ == ServoFault::None) {
     periodMeter_.add(period);
     // Turned about the centre of mass, about which torques are.
-    if (!hasPose_) mapper_.engageAt(input.pose.normalized(), input.pose.normalized(), scene.centreInPart);
-    takePose(tick, mapper_.map(input.pose.normalized(), input.isClutched, settings.mapping));
-    if (input.isClutched == conditioner_.isEngaged())
-      input.isClutched ? conditioner_.disengage() : conditioner_.engage();
+    const RigidTransform device = input.pose.normalized();
+    if (!hasPose_)
+      mapper_.engageAt(device, input.hasOwnFrame ? part_.pose.normalized() : device, scene.centreInPart);
+    if (input.isLettingGo && hasPose_) letGo(device, scene.centreInPart);
+    takePose(tick, mapper_.map(device, input.isClutched, settings.mapping));
+    const bool isFelt = input.isArmed && !input.isClutched;
+    if (isFelt != conditioner_.isEngaged()) isFelt ? conditioner_.engage() : conditioner_.disengage();
     Wrench wrench = settings.mode == HapticMode::Proxy ? feelProxy(tick) : feelSprings(tick);
     const Wrench damping = passivity_.damping(limits, period);
     wrench.force += damping.force;
     wrench.torque += damping.torque;
     const bool isUsable = isFinite(wrench.force) && isFinite(wrench.torque);
     if (fault_ == ServoFault::None && !isUsable) fault_ = ServoFault::WrenchNotFinite;
-    if (fault_ == ServoFault::None) send(tick, wrench, input.age);
+    if (fault_ == ServoFault::None) send(tick, wrench, input);
   }
   if (fault_ != ServoFault::None) {
     conditioner_ = {};
@@ -99,9 +108,15 @@ void ServoTick::run(const TrackedScene& tracked, const ServoParameters& paramete
   snapshot.handle = handle_.pose;
   snapshot.proxy = part_.pose;
   snapshot.centre = part_.pose.applyToPoint(scene.centreInPart);
-  snapshot.period = periodMeter_.period();
+  snapshot.period = periodMeter_.heldPeriod();
   snapshot.energyToHand = passivity_.energyToHand();
   snapshot.fault = fault_;
+}
+
+void ServoTick::letGo(const RigidTransform& device, const glm::dvec3& centreInPart) noexcept {
+  // At rest there: the way back is no motion of the hand's.
+  handle_ = {part_.pose.normalized(), {}};
+  mapper_.engageAt(device, handle_.pose, centreInPart);
 }
 
 BodyMotion ServoTick::smoothed(const BodyMotion& before, const RigidTransform& pose, const glm::dvec3& centre,
@@ -115,7 +130,8 @@ BodyMotion ServoTick::smoothed(const BodyMotion& before, const RigidTransform& p
 
 void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcept {
   const bool isProxy = tick.settings.mode == HapticMode::Proxy;
-  coupling_ = boundedCoupling(tick.settings.coupling, tick.limits, tick.scene.metric, periodMeter_.period());
+  coupling_ =
+      boundedCoupling(tick.settings.coupling, tick.limits, tick.scene.metric, periodMeter_.heldPeriod());
   felt_ = feltBody(tick.settings.weight, tick.scene.mass, tick.limits.maxForce);
   if (!hasPose_) {
     handle_ = {handle, {}};
@@ -141,30 +157,6 @@ void ServoTick::movePart(const Tick& tick, const RigidTransform& pose) noexcept 
   part_ = smoothed(part_, pose, tick.scene.centreInPart, tick.period);
 }
 
-std::uint64_t ServoTick::findMinima(const Tick& tick, double share, const SpringParameters* springs,
-                                    Wrench& sum) noexcept {
-  const Clock::time_point begin = Clock::now();
-  const glm::dvec3 centre = part_.pose.applyToPoint(tick.scene.centreInPart);
-  const double cutoff = share * tick.settings.springs.cutoff;
-  // With springs nothing keeps the part from going through: no distance can be taken for granted.
-  const double apart = springs == nullptr ? proxy_.distance() : 0.0;
-  const MinimaFinder::Result result =
-      minima_.find(tick.tracked, part_.pose, cutoff, apart, [&](std::span<const Lmd> lmds) {
-        if (springs == nullptr) return;
-        const Wrench wrench = springWrench(lmds, *springs, centre, part_.twist);
-        sum.force += wrench.force;
-        sum.torque += wrench.torque;
-      });
-  if (result.isPoseBad) fault_ = ServoFault::PoseNotFinite;
-  minima_.write(tick.snapshot);
-  if (share < 1.0) tick.snapshot.isTruncated = true;
-  tick.snapshot.lateBodies += result.lateBodies;
-  tick.snapshot.queryTime += secondsSince(begin);
-  // Of bodies that have an inside and are apart, the nearest minimum is the distance.
-  if (!tick.scene.hasSurfaces()) proxy_.noteDistance(std::min({result.distance, result.completeTo, cutoff}));
-  return result.work;
-}
-
 Wrench ServoTick::feelSprings(const Tick& tick) noexcept {
   movePart(tick, handle_.pose);
   Wrench sum{felt_.weight, glm::dvec3(0.0)};
@@ -172,9 +164,19 @@ Wrench ServoTick::feelSprings(const Tick& tick) noexcept {
   return sum;
 }
 
+bool ServoTick::areBodiesPlaced(const Tick& tick) const noexcept {
+  bool arePlaced = true;
+  tick.tracked.visitNear(part_.pose, tick.settings.springs.cutoff,
+                         [&](std::uint32_t body, const TrackedScene::Near*) {
+                           arePlaced = arePlaced && isPose(tick.scene.bodies[body].worldFromPart);
+                         });
+  return arePlaced;
+}
+
 Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
   const ServoScene& scene = tick.scene;
   tick.snapshot.coupling = coupling_;
+  isToBeShown_ = true;
   if (scene.moving.geometry == nullptr) {
     movePart(tick, handle_.pose);
   } else {
@@ -182,62 +184,17 @@ Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
                                        {part_.pose, partStep_}, tick.period);
     const Clock::time_point begin = Clock::now();
     // As it is: a free part must be where the hand is to the last bit, for there to be no force at all.
-    if (isPose(target.pose))
-      proxy_.follow(tick.tracked, target.pose, tick.settings.proxy);
+    if (!areBodiesPlaced(tick))
+      fault_ = ServoFault::PoseNotFinite;
+    else if (isPose(target.pose))
+      proxy_.follow(tick.tracked, target.pose, tick.settings.proxy, turnScale(coupling_, scene.metric));
     else
       fault_ = ServoFault::WrenchNotFinite;
     tick.snapshot.proxyTime = secondsSince(begin) - proxy_.queryTime();
     tick.snapshot.queryTime += proxy_.queryTime();
     movePart(tick, proxy_.pose());
   }
-  showMinima(tick);
-  describeProxy(tick);
   return couplingWrench(coupling_, scene.metric, scene.centreInPart, handle_, part_);
-}
-
-void ServoTick::showMinima(const Tick& tick) noexcept {
-  constexpr double kLess = 0.7, kMore = 1.1, kLeast = 1e-3, kLittle = 1.0 / 3.0;
-  Wrench none;
-  const std::uint64_t work = findMinima(tick, shownShare_, nullptr, none);
-  if (work > kMinimaWork) shownShare_ = std::max(kLeast, kLess * shownShare_);
-  if (static_cast<double>(work) < kLittle * static_cast<double>(kMinimaWork))
-    shownShare_ = std::min(1.0, kMore * shownShare_);
-  // Contacts reach farther than minima that are shown, then.
-  tick.snapshot.distance = std::min(tick.snapshot.distance, distanceOfContacts(tick));
-}
-
-double ServoTick::distanceOfContacts(const Tick& tick) const noexcept {
-  const double known = proxy_.distance();
-  const bool isShort = shownShare_ < 1.0 && known < kContactReach * tick.settings.proxy.margin;
-  return isShort ? known : std::numeric_limits<double>::infinity();
-}
-
-void ServoTick::describeProxy(const Tick& tick) noexcept {
-  ServoSnapshot& snapshot = tick.snapshot;
-  const ProxyAccount& account = proxy_.account();
-  snapshot.subSteps = account.subSteps;
-  snapshot.shortenedSteps = account.shortenedSteps;
-  snapshot.refusedSteps = account.refusedSteps;
-  snapshot.constraintCount = account.constraintCount;
-  snapshot.isWaiting = account.isWaiting;
-  snapshot.isStarved = account.isStarved;
-  snapshot.lateBodies += proxy_.lateBodies();
-  // Contacts name bodies of the scene that they were found in.
-  if (tick.scene.moving.geometry == nullptr || fault_ != ServoFault::None) return;
-  snapshot.contactCount = static_cast<std::uint32_t>(proxy_.contacts().size());
-  for (const ProxyContact& holding : proxy_.contacts()) {
-    if (snapshot.storedContacts == ServoSnapshot::kMaxContacts) break;
-    const ContactPair& pair = holding.contact.pair;
-    snapshot.contacts[snapshot.storedContacts++] = {pair.point, pair.direction,
-                                                    coupling_.stiffness * holding.push,
-                                                    tick.scene.bodies[holding.contact.body].id};
-  }
-  const Clearance& clearance = tick.tracked.clearance;
-  if (!clearance.overlapping) return;
-  snapshot.releasedCount = static_cast<std::uint32_t>(clearance.overlapping->size());
-  const std::size_t shown = std::min(clearance.overlapping->size(), ServoSnapshot::kMaxReleased);
-  for (std::size_t i = 0; i < shown; ++i)
-    snapshot.released[i] = tick.scene.bodies[(*clearance.overlapping)[i]].id;
 }
 
 void ServoTick::account(const Tick& tick, const RigidTransform& handleBefore) noexcept {
@@ -257,8 +214,9 @@ void ServoTick::account(const Tick& tick, const RigidTransform& handleBefore) no
   passivity_.observe(interval, tick.limits, stored);
 }
 
-void ServoTick::send(const Tick& tick, const Wrench& wrench, double age) noexcept {
-  const ConditionedWrench sent = conditioner_.condition(wrench, age, tick.period, tick.limits);
+void ServoTick::send(const Tick& tick, const Wrench& wrench, const HandleInput& input) noexcept {
+  const ConditionedWrench sent =
+      conditioner_.condition(wrench, input.age, tick.period, tick.limits, input.patience);
   tick.snapshot.unclampedWrench = wrench;
   tick.snapshot.wrench = sent.wrench;
   tick.snapshot.isClamped = sent.isClamped;

@@ -4,12 +4,27 @@
 #include <cstddef>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
+#include "core/haptics/mass_metric.h"
+
 namespace nearfit {
 
 /// A motion of the part in its mass metric [m]: translation of the centre of mass, then rotation about each
 /// principal axis times the radius of gyration about it. Half its squared length is kinetic energy for a unit
 /// mass and a unit of time.
 using StepVector = std::array<double, 6>;
+
+/// How a step changes the distance of a pair of points, to first order: by the product of both.
+/// @param direction           From scene to part, in the world; unit.
+/// @param arm                 From the centre of mass to the part's point, in the world [m].
+/// @param principalFromWorld  Turns the world into the part's principal axes.
+/// Real-time safe.
+inline StepVector stepRow(const glm::dvec3& direction, const glm::dvec3& arm,
+                          const glm::dquat& principalFromWorld, const MassMetric& metric) noexcept {
+  const glm::dvec3 turn = principalFromWorld * glm::cross(arm, direction) / metric.gyration;
+  return {direction.x, direction.y, direction.z, turn.x, turn.y, turn.z};
+}
 
 /// Near pairs of points, linearised: after the step y pair i is a_i . y + d_i apart, to first order.
 ///
@@ -26,8 +41,7 @@ class StepRows {
 
   void clear() noexcept;
 
-  /// @param a  Of a pair with direction u (unit, scene to part) and arm r from the centre of mass: u, then
-  ///           r x u in principal axes over the radii of gyration.
+  /// @param a  Of the pair: stepRow().
   /// @param d  Its distance [m].
   /// False, and nothing is added, when there is no room or a number is not finite or beyond `kLargest`: the
   /// part may then not be moved by what the program says, since it does not know of this pair.

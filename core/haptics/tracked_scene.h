@@ -51,6 +51,9 @@ struct TrackedScene {
     std::shared_ptr<const CandidateList> list, contacts;
   };
 
+  /// Of all that SceneTrackers have made, this one's alone: where nothing else has changed either, neither
+  /// has what a tick found. 0 where it may have been changed by hand since.
+  std::uint64_t serial = 0;
   std::shared_ptr<const ServoScene> scene;
   std::shared_ptr<const BroadPhase> bounds;  ///< Of the bodies, in world coordinates.
 

@@ -61,14 +61,29 @@ Stretch stretchOf(const glm::dvec3& centreInPart, const RigidTransform& handle,
 /// Along each principal axis of the part by the square of its gyration, that of the largest being one.
 glm::dvec3 byGyration(const MassMetric& metric, const RigidTransform& part,
                       const glm::dvec3& vector) noexcept {
-  const glm::dquat worldFromPrincipal = part.rotation * metric.partFromPrincipal;
+  const glm::dquat worldFromPrincipal = metric.worldFromPrincipal(part);
   const glm::dvec3 ratio = metric.gyration / largestGyration(metric);
   return worldFromPrincipal * (ratio * ratio * (glm::conjugate(worldFromPrincipal) * vector));
 }
 
-/// Of a spring whose load is clamped at a limit: the integral of the clamped load.
-double storedIn(const glm::dvec3& load, const glm::dvec3& stretch, double limit) noexcept {
-  const double size = glm::length(load);
+/// The torque on the hand of a spring with the energy V = 1/2 turn . K turn, from `load` = K turn: the
+/// derivative of V by a turn of the hand, J^-T load with J the right Jacobian of the rotation vector. K turn
+/// itself is none unless K is the same about all axes: round a loop of large turns it would give energy for
+/// nothing.
+glm::dvec3 torqueOf(const glm::dvec3& load, const glm::dvec3& turn) noexcept {
+  constexpr double kSmall = 1e-4;
+  const double angle = glm::length(turn);
+  // (1 - x cot x) / angle^2 with x = angle / 2, which tends to 1 / 12.
+  const double bend =
+      angle < kSmall ? 1.0 / 12.0 : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);
+  const glm::dvec3 across = glm::cross(turn, load);
+  return load - 0.5 * across + bend * glm::cross(turn, across);
+}
+
+/// Of a spring whose force or torque, as long as `size`, is clamped at a limit: the integral of what is
+/// rendered, along the straight way. A torque of large turns does not grow quite as the turn does, which is
+/// left out.
+double storedIn(const glm::dvec3& load, double size, const glm::dvec3& stretch, double limit) noexcept {
   const double rendered = size > limit ? limit / size : 1.0;
   return rendered * (1.0 - 0.5 * rendered) * glm::dot(load, stretch);
 }
@@ -95,6 +110,13 @@ CouplingState boundedCoupling(const CouplingSettings& wish, const DeviceLimits& 
           isLess(linear, linearWish) || isLess(angular, angularWish)};
 }
 
+double turnScale(const CouplingState& coupling, const MassMetric& metric) noexcept {
+  const double gyration = largestGyration(metric);
+  const double scale =
+      std::sqrt(coupling.rotationalStiffness / coupling.stiffness) / (gyration > 0.0 ? gyration : 1.0);
+  return std::isfinite(scale) && scale > 0.0 ? std::clamp(scale, kLeastTurnScale, kMostTurnScale) : 1.0;
+}
+
 glm::dvec3 turnBetween(const glm::dquat& from, const glm::dquat& to) noexcept {
   // The product of a quaternion and its conjugate is the identity only but for rounding where operations are
   // fused.
@@ -105,19 +127,21 @@ glm::dvec3 turnBetween(const glm::dquat& from, const glm::dquat& to) noexcept {
 Wrench couplingWrench(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
                       const BodyMotion& handle, const BodyMotion& part) noexcept {
   const Stretch stretch = stretchOf(centreInPart, handle.pose, part.pose);
-  const glm::dvec3 twisting = coupling.rotationalStiffness * stretch.turn +
-                              coupling.rotationalDamping * (part.twist.angular - handle.twist.angular);
+  const glm::dvec3 load = byGyration(metric, part.pose, coupling.rotationalStiffness * stretch.turn);
+  const glm::dvec3 damping =
+      byGyration(metric, part.pose, coupling.rotationalDamping * (part.twist.angular - handle.twist.angular));
   return {coupling.stiffness * stretch.shift + coupling.damping * (part.twist.linear - handle.twist.linear),
-          byGyration(metric, part.pose, twisting)};
+          torqueOf(load, stretch.turn) + damping};
 }
 
 double storedEnergy(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
                     const RigidTransform& handle, const RigidTransform& part,
                     const DeviceLimits& limits) noexcept {
   const Stretch stretch = stretchOf(centreInPart, handle, part);
-  const glm::dvec3 torque = byGyration(metric, part, coupling.rotationalStiffness * stretch.turn);
-  return storedIn(coupling.stiffness * stretch.shift, stretch.shift, limits.maxForce) +
-         storedIn(torque, stretch.turn, limits.maxTorque);
+  const glm::dvec3 load = byGyration(metric, part, coupling.rotationalStiffness * stretch.turn);
+  const glm::dvec3 force = coupling.stiffness * stretch.shift;
+  return storedIn(force, glm::length(force), stretch.shift, limits.maxForce) +
+         storedIn(load, glm::length(torqueOf(load, stretch.turn)), stretch.turn, limits.maxTorque);
 }
 
 }  // namespace nearfit

@@ -53,10 +53,20 @@ double stiffnessBound(double deviceDamping, double couplingDamping, double perio
 CouplingState boundedCoupling(const CouplingSettings& wish, const DeviceLimits& device,
                               const MassMetric& metric, double period) noexcept;
 
+/// What the radii of gyration have to be multiplied by for the metric to weigh turns against shifts as the
+/// coupling's energy does: a proxy that is nearest in any other metric gains energy where it gives way in the
+/// one to be nearer in the other, for nothing. 1 where stiffnesses agree with the metric, and where one is
+/// zero; held to [kLeastTurnScale, kMostTurnScale] for the sake of the program's condition, which leaves the
+/// rest to the passivity controller. Real-time safe.
+double turnScale(const CouplingState& coupling, const MassMetric& metric) noexcept;
+inline constexpr double kLeastTurnScale = 0.1, kMostTurnScale = 20.0;
+
 /// Spring and damper from the handle to the part, on the hand, about the centre of mass of the handle's
 /// pose; world frame. The force is `stiffness` times the distance of the centres; the torque that of a spring
 /// whose stiffness about each principal axis of the part goes with the square of its gyration, since the
-/// proxy is nearest in that metric: a torque of any other would not be square to the contacts.
+/// proxy is nearest in that metric: a torque of any other would not be square to the contacts. It is the
+/// derivative of the spring's energy by the turn of the hand, so that no way round gains anything; for small
+/// turns, stiffness times turn.
 ///
 /// @param centreInPart  Centre of mass [m].
 /// Zero exactly where both are at one pose with one twist. Hand and part turned by more than half a turn

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/finite.h"
+
 namespace nearfit {
 namespace {
-
-bool isFinite(const glm::dvec3& v) noexcept {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 double zeroUnlessPositive(double value) noexcept {
   return value > 0.0 ? value : 0.0;
@@ -32,6 +30,13 @@ glm::dvec3 slewed(const glm::dvec3& from, const glm::dvec3& to, double most, boo
   if (!limitLength(change, most)) return to;
   isSlewed = true;
   return from + change;
+}
+
+/// Of what is wanted, how much an input of that age is worth: not a number anywhere is nothing.
+double worthOf(double age, const PosePatience& patience) noexcept {
+  if (!(age < patience.silence)) return 0.0;
+  if (!(age > patience.hold)) return std::isnan(patience.hold) ? 0.0 : 1.0;
+  return (patience.silence - age) / (patience.silence - patience.hold);
 }
 
 double smoothStep(double t) noexcept {
@@ -58,18 +63,17 @@ void WrenchConditioner::disengage() noexcept {
   isEngaged_ = false;
 }
 
-double WrenchConditioner::nextGain(double inputAge, double period) noexcept {
+double WrenchConditioner::nextGain(double inputAge, double period, const PosePatience& patience) noexcept {
   // Falls with the age at once, and rises only in time: else each report of a stuttering device were a knock.
-  const double allowed =
-      std::isnan(inputAge) ? 0.0 : std::clamp(1.0 - (inputAge - kFreshTime) / kFadeTime, 0.0, 1.0);
-  freshness_ = std::min(allowed, freshness_ + period / kRecoveryTime);
+  freshness_ = std::min(worthOf(inputAge, patience), freshness_ + period / kRecoveryTime);
   const double gain = smoothStep(ramp_) * freshness_;
   ramp_ = std::min(1.0, ramp_ + period / kRampTime);
   return gain;
 }
 
 ConditionedWrench WrenchConditioner::condition(const Wrench& wanted, double inputAge, double period,
-                                               const DeviceLimits& limits) noexcept {
+                                               const DeviceLimits& limits,
+                                               const PosePatience& patience) noexcept {
   ConditionedWrench result;
   if (!isFinite(wanted.force) || !isFinite(wanted.torque)) {
     last_ = Wrench{};
@@ -78,7 +82,7 @@ ConditionedWrench WrenchConditioner::condition(const Wrench& wanted, double inpu
     return result;
   }
   const double elapsed = std::isfinite(period) ? zeroUnlessPositive(period) : 0.0;
-  const double gain = isEngaged_ ? nextGain(inputAge, elapsed) : 0.0;
+  const double gain = isEngaged_ ? nextGain(inputAge, elapsed, patience) : 0.0;
   const LimitedWrench clamped = limitWrench({gain * wanted.force, gain * wanted.torque}, limits);
   result.isClamped = clamped.isClamped;
   last_.force = slewed(last_.force, clamped.wrench.force, limits.forceSlew * elapsed, result.isSlewed);

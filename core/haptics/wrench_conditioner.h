@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/haptics/device_limits.h"
+#include "core/haptics/handle_input.h"
 #include "core/haptics/wrench.h"
 
 namespace nearfit {
@@ -26,9 +27,7 @@ struct ConditionedWrench {
 /// clamp, slew limit. Starts disengaged.
 class WrenchConditioner {
  public:
-  static constexpr double kRampTime = 0.2;    ///< From engaging to full strength [s].
-  static constexpr double kFreshTime = 0.01;  ///< Input up to this age counts in full [s]: ten lost reports.
-  static constexpr double kFadeTime = 0.04;   ///< Then it fades to nothing within this [s].
+  static constexpr double kRampTime = 0.2;      ///< From engaging to full strength [s].
   static constexpr double kRecoveryTime = 0.2;  ///< From nothing to full once the input is fresh again [s].
 
   /// Begins the ramp anew; a wrench that is being sent is left at the pace of the slew limit.
@@ -42,13 +41,14 @@ class WrenchConditioner {
   /// @param inputAge  Of the pose behind it [s]; negative is fresh, NaN stale.
   /// @param period    Since the call before [s]; not finite or <= 0: no time has passed, and nothing changes
   ///                  but that limits which have become lower are kept.
+  /// @param patience  With that age; what is not finite is no patience at all.
   /// A wanted number that is not finite gives zero at once, and the ramp begins anew, as after engaging: the
   /// caller's path for faults need do nothing more, and later calls are not affected. Real-time safe.
   ConditionedWrench condition(const Wrench& wanted, double inputAge, double period,
-                              const DeviceLimits& limits) noexcept;
+                              const DeviceLimits& limits, const PosePatience& patience = {}) noexcept;
 
  private:
-  double nextGain(double inputAge, double period) noexcept;
+  double nextGain(double inputAge, double period, const PosePatience& patience) noexcept;
 
   bool isEngaged_ = false;
   double ramp_ = 0.0;       ///< Part of kRampTime that has passed.

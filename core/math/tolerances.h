@@ -24,9 +24,17 @@ constexpr double kRegionDirection = 1e-3;
 /// of coordinates of that size.
 constexpr double kLengthTolerance = 1e-12;
 
+/// What a distance that is found may be off by at most, as a fraction of the scene's size: over the thinnest
+/// slivers.
+constexpr double kDistanceTolerance = 1e-11;
+
 /// Rounding of a difference of two points, as a fraction of the scene's size: what a direction between two
 /// points at a distance d can be wrong by is this over d.
 constexpr double kPointRounding = 4e-16;
+
+/// Coordinates up to this many sizes from the origin lose nothing in double precision that matters; poses of
+/// bodies beyond are made relative to them in extended precision.
+constexpr double kNearOrigin = 100.0;
 
 /// Minima whose points lie closer than this many tolerances are the same one, found by two neighbouring
 /// features that both claim it at their common boundary.

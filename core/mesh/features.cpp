@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/math/extreme_directions.h"
 #include "core/math/min_norm_point.h"
 #include "core/math/tolerances.h"
 
@@ -231,51 +232,12 @@ class FeatureFinder {
     const bool isInsideSure = depth > 0.5 * width;
     std::vector<std::size_t> walls(directions_.size());
     std::iota(walls.begin(), walls.end(), std::size_t{0});
-    if (isInsideSure) walls = extremeDirections(inside);
+    if (isInsideSure) walls = extremeDirections(directions_, -inside);
     const auto count = static_cast<std::uint32_t>(walls.size());
     out_.vertices.push_back({v, static_cast<std::uint32_t>(out_.neighbours.size()), count,
                              isInsideSure ? count : 0, polarCone(inside, walls, isInsideSure)});
     for (const std::size_t i : walls)
       out_.neighbours.push_back(neighbours_[i]);
-  }
-
-  /// Those of directions_ that bound their convex cone, in cyclic order: the hull of where they pierce a
-  /// plane across `-inside`, by Andrew's monotone chain.
-  std::vector<std::size_t> extremeDirections(const glm::dvec3& inside) const {
-    const glm::dvec3 helper = std::abs(inside.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 u = glm::normalize(glm::cross(inside, helper)), v = glm::cross(inside, u);
-    struct Pierced {
-      double x, y;
-      std::size_t index;
-    };
-    std::vector<Pierced> points;
-    for (std::size_t i = 0; i < directions_.size(); ++i) {
-      const double depth = -glm::dot(directions_[i], inside);
-      points.push_back({glm::dot(directions_[i], u) / depth, glm::dot(directions_[i], v) / depth, i});
-    }
-    std::sort(points.begin(), points.end(), [](const Pierced& a, const Pierced& b) {
-      return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.index < b.index;
-    });
-    const auto turnsLeft = [](const Pierced& a, const Pierced& b, const Pierced& c) {
-      return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0.0;
-    };
-    std::vector<Pierced> hull;
-    const auto chain = [&](auto first, auto last) {
-      const std::size_t base = hull.size();
-      for (auto it = first; it != last; ++it) {
-        while (hull.size() >= base + 2 && !turnsLeft(hull[hull.size() - 2], hull.back(), *it))
-          hull.pop_back();
-        hull.push_back(*it);
-      }
-      hull.pop_back();
-    };
-    if (points.size() == 1) return {points[0].index};
-    chain(points.begin(), points.end());
-    chain(points.rbegin(), points.rend());
-    std::vector<std::size_t> indices;
-    for (const Pierced& p : hull)
-      indices.push_back(p.index);
-    return indices;
   }
 
   NormalCone polarCone(const glm::dvec3& inside, const std::vector<std::size_t>& extreme,

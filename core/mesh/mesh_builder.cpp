@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/error.h"
+#include "core/math/finite.h"
 #include "core/mesh/flat_triangles.h"
 #include "core/mesh/polygon_triangulation.h"
 #include "core/mesh/shell_orientation.h"
@@ -25,10 +26,6 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// No part is larger [m]; beyond this a number is damaged or its unit wrong, and products of lengths lose
 /// meaning.
 constexpr double kMaxExtent = 1e9;
-
-bool isFinite(const glm::dvec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 void checkOptions(const MeshBuildOptions& options) {
   if (!std::isfinite(options.metresPerUnit) || !(options.metresPerUnit > 0.0)) {

@@ -68,11 +68,8 @@ void requireFaces(const std::filesystem::path& file, const PolygonSoup& soup) {
                   "export the part as a mesh of triangles");
 }
 
-ImportedMesh importUnguarded(const std::filesystem::path& file, const MeshBuildOptions& options,
-                             const ProgressCallback& callback) {
-  const Progress progress(callback);
-  std::vector<char> bytes =
-      readWholeFile(file, [&](double done) { progress.report(0.0, kReadFraction, done); });
+ImportedMesh importUnguarded(const std::filesystem::path& file, std::vector<char> bytes,
+                             const MeshBuildOptions& options, const Progress& progress) {
   ImportedMesh imported;
   imported.sha256 = sha256OfBytes(bytes);
   bytes = withoutByteOrderMark(std::move(bytes));
@@ -90,12 +87,11 @@ ImportedMesh importUnguarded(const std::filesystem::path& file, const MeshBuildO
   return imported;
 }
 
-}  // namespace
-
-ImportedMesh importMesh(const std::filesystem::path& file, const MeshBuildOptions& options,
-                        const ProgressCallback& progress) {
+/// Runs work on a file so that its errors name the file.
+template <class Work>
+ImportedMesh naming(const std::filesystem::path& file, Work work) {
   try {
-    return importUnguarded(file, options, progress);
+    return work();
   } catch (const FileError&) {
     throw;
   } catch (const UsageError&) {
@@ -109,6 +105,24 @@ ImportedMesh importMesh(const std::filesystem::path& file, const MeshBuildOption
     throw FileError(file.string(), "it needs more memory than there is",
                     "close other programs or reduce the mesh");
   }
+}
+
+}  // namespace
+
+ImportedMesh importMesh(const std::filesystem::path& file, const MeshBuildOptions& options,
+                        const ProgressCallback& callback) {
+  const Progress progress(callback);
+  return naming(file, [&] {
+    std::vector<char> bytes =
+        readWholeFile(file, [&](double done) { progress.report(0.0, kReadFraction, done); });
+    return importUnguarded(file, std::move(bytes), options, progress);
+  });
+}
+
+ImportedMesh importMeshBytes(const std::filesystem::path& file, std::vector<char> bytes,
+                             const MeshBuildOptions& options, const ProgressCallback& callback) {
+  const Progress progress(callback);
+  return naming(file, [&] { return importUnguarded(file, std::move(bytes), options, progress); });
 }
 
 const std::vector<std::string>& importableExtensions() {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/mesh/mesh_builder.h"
 #include "core/progress.h"
@@ -19,6 +20,11 @@ struct ImportedMesh {
 /// Throws FileError naming the file, the line or byte, and the remedy; Cancelled.
 ImportedMesh importMesh(const std::filesystem::path& file, const MeshBuildOptions& options,
                         const ProgressCallback& progress = {});
+
+/// The same of a file's bytes that are in memory already. `file` says its name for the format and messages;
+/// it is not opened.
+ImportedMesh importMeshBytes(const std::filesystem::path& file, std::vector<char> bytes,
+                             const MeshBuildOptions& options, const ProgressCallback& progress = {});
 
 /// File name endings that importMesh knows, lower case without the dot.
 const std::vector<std::string>& importableExtensions();

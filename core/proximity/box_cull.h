@@ -25,6 +25,12 @@ using Floats8 = float __attribute__((vector_size(32)));
 using Floats16 = float __attribute__((vector_size(64)));
 static_assert(sizeof(Floats8) == NormalConeTree::kWidth * sizeof(float));
 
+/// Numbers that code for another instruction set takes in: Clang has no bare vector returned into it.
+template <class F>
+struct Lanes {
+  F value;
+};
+
 /// Three times eight numbers, or sixteen.
 template <class F>
 struct Triple {
@@ -204,8 +210,8 @@ NEARFIT_INLINE Paddings<F> swept(const Box<F>& own, const Box<F>& its, const Swe
 /// At least 0 in the lanes where the two boxes can hold a minimum together, less in the others: where the
 /// projections on the axes of either box rule it out.
 template <class F>
-NEARFIT_INLINE F cull(const Box<F>& own, const Box<F>& its, const CullLimits& limits,
-                      const Paddings<F>& padding) {
+NEARFIT_INLINE Lanes<F> cull(const Box<F>& own, const Box<F>& its, const CullLimits& limits,
+                             const Paddings<F>& padding) {
   const Triple<F> ownV = cross(own.n, own.u), itsV = cross(its.n, its.u);
   const Triple<F> d{its.centre.x - own.centre.x, its.centre.y - own.centre.y, its.centre.z - own.centre.z};
   // Products of axes, own by row, the other's by column.
@@ -235,7 +241,7 @@ NEARFIT_INLINE F cull(const Box<F>& own, const Box<F>& its, const CullLimits& li
   margin = least(margin, meets(tv, ev, a.low.z, a.high.z, gap, reach));
   margin = least(margin, meets(sn, fn, b.low.x, b.high.x, gap, reach));
   margin = least(margin, meets(su, fu, b.low.y, b.high.y, gap, reach));
-  return least(margin, meets(sv, fv, b.low.z, b.high.z, gap, reach));
+  return {least(margin, meets(sv, fv, b.low.z, b.high.z, gap, reach))};
 }
 
 /// How far a box lies beyond a given half extent, squared.
@@ -248,7 +254,7 @@ NEARFIT_INLINE F squaredBeyond(const F& t, const F& extent) {
 /// At least 0 in the lanes where the two boxes come within the cutoff as far as their own axes tell,
 /// whatever directions they hold.
 template <class F>
-NEARFIT_INLINE F cullByPlace(const Box<F>& own, const Box<F>& its, const CullLimits& limits) {
+NEARFIT_INLINE Lanes<F> cullByPlace(const Box<F>& own, const Box<F>& its, const CullLimits& limits) {
   const Triple<F> ownV = cross(own.n, own.u), itsV = cross(its.n, its.u);
   const Triple<F> d{its.centre.x - own.centre.x, its.centre.y - own.centre.y, its.centre.z - own.centre.z};
   const Triple<F> cn{dot(own.n, its.n), dot(own.n, its.u), dot(own.n, itsV)};
@@ -262,7 +268,7 @@ NEARFIT_INLINE F cullByPlace(const Box<F>& own, const Box<F>& its, const CullLim
       squaredBeyond(dot(d, its.n), extent(own.half, cn.x, cu.x, cv.x) + (its.half.x + padding)) +
       squaredBeyond(dot(d, its.u), extent(own.half, cn.y, cu.y, cv.y) + (its.half.y + padding)) +
       squaredBeyond(dot(d, itsV), extent(own.half, cn.z, cu.z, cv.z) + (its.half.z + padding));
-  return cutoff * cutoff - most(fromOwn, fromIts);
+  return {cutoff * cutoff - most(fromOwn, fromIts)};
 }
 
 }  // namespace nearfit::simd

@@ -11,6 +11,17 @@ namespace nearfit {
 namespace {
 
 constexpr std::size_t kWidth = NormalConeTree::kWidth;
+static_assert(kWidth == kListedAtOnce);
+
+constexpr std::size_t blocksOf(std::size_t pairs) noexcept {
+  return (pairs + kWidth - 1) / kWidth;
+}
+
+/// Pairs that can be listed within so much work.
+constexpr std::uint64_t listable(std::uint64_t work) noexcept {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max() / kListedAtOnce;
+  return kListedAtOnce * std::min(work, kMost);
+}
 
 void copyLane(const NormalConeTree::Node& from, std::size_t lane, NormalConeTree::Node& to,
               std::size_t at) noexcept {
@@ -26,48 +37,49 @@ void copyLane(const NormalConeTree::Node& from, std::size_t lane, NormalConeTree
   to.child[at] = from.child[lane];
 }
 
-constexpr float kUp = 1.0F + 1e-6F;  // Sums and conversions below round by less.
+/// Tests pairs one by one: for all minima while that takes half of the work allowed, then for what is
+/// nearest.
+class BoundedTests {
+ public:
+  /// @param query   Its pose is between the centred frames.
+  /// @param limits  What pairs are culled by before they come here: narrowed on the way.
+  BoundedTests(const BodyPairQuery& query, std::uint64_t maxTests, MinimaCollector& collector,
+               CullLimits& limits) noexcept
+      : tests_(query.scene, query.part, query.sceneFromPart, query.cutoff),
+        collector_(collector),
+        limits_(limits),
+        cutoff_(query.cutoff),
+        maxTests_(maxTests) {}
 
-std::array<float, 3> single(const glm::dvec3& v) noexcept {
-  return {kUp * static_cast<float>(v.x), kUp * static_cast<float>(v.y), kUp * static_cast<float>(v.z)};
-}
+  void test(std::uint32_t sceneLeaf, std::uint32_t partLeaf) noexcept {
+    if (count_ == maxTests_) {
+      isSpent_ = true;
+      return;
+    }
+    ++count_;
+    Minimum& slot = collector_.slot();
+    if (tests_.test(sceneLeaf, partLeaf, slot)) {
+      nearest_ = std::min(nearest_, slot.lmd.distance);
+      collector_.add();
+    }
+    if (count_ > maxTests_ / 2)
+      limits_.cutoff = std::min(limits_.cutoff, static_cast<float>(kNearestSlack * nearest_));
+  }
 
-/// Limits that hold at every pose of a range.
-///
-/// A pair that carries a minimum at a pose X is within the cutoff there. X is within the budget of a pose P
-/// on the stretch. Seen from the scene, a point q of the part goes from where it is in the middle to P by t
-/// (shift + spin x (q - o)), o the part's centre, but for the curvature of its arc, |spin|^2 |q - o| / 2;
-/// seen from the part, a point a of the scene by the opposite with a for q, but for an arc about o as well
-/// and for the shift's turning, |spin| |shift|. From P to X it is the budget's travel, and seen from the part
-/// its turn times the distance of the two points besides.
-RangeLimits rangeLimits(const BodyPairQuery& query, const RigidTransform& centred,
-                        const MotionRange& range) noexcept {
-  const double radius = 0.5 * query.part.size();
-  const double spin = glm::length(range.stretch.spin), shift = glm::length(range.stretch.shift);
-  const double travel = range.budget.travel + shift + spin * radius;
-  // Nothing gets farther apart than this; beyond it a cutoff would be infinite in single precision.
-  const double reach = query.scene.size() + query.part.size() + glm::length(centred.translation) + travel;
-  const double within = std::min(query.cutoff, reach);
-  const double arc = 0.5 * spin * spin * (radius + within + travel) + spin * shift;
-  const double aside = range.budget.travel + range.budget.turn * (within + travel);
-  CullLimits limits = cullLimits(query.scene, query.part, centred, query.cutoff);
-  limits.cutoff = std::max(limits.cutoff, kUp * static_cast<float>(within));
-  limits.padding = kUp * (limits.padding + static_cast<float>(aside + arc));
-  limits.turn = kUp * (limits.turn + static_cast<float>(spin + range.budget.turn));
-  const MotionRange inPart = turned(glm::conjugate(centred.rotation), range);
-  const auto spinLength = kUp * static_cast<float>(spin);
-  return {limits,
-          {single(range.stretch.shift), single(range.stretch.spin), single(centred.translation), spinLength},
-          {single(inPart.stretch.shift), single(inPart.stretch.spin), {0.0F, 0.0F, 0.0F}, spinLength}};
-}
+  std::uint64_t count() const noexcept { return count_; }
+  /// Every minimum nearer than this was found [m].
+  double completeTo() const noexcept {
+    return isSpent_ ? 0.0 : count_ > maxTests_ / 2 ? std::min(cutoff_, nearest_) : cutoff_;
+  }
 
-/// A contact's direction is off the limits by the relaxation at most, and its points off their features by as
-/// much of the distance.
-MotionRange relaxed(MotionRange range, double cutoff, double relaxation) noexcept {
-  range.budget.travel += relaxation * cutoff;
-  range.budget.turn += relaxation;
-  return range;
-}
+ private:
+  const LeafTests tests_;
+  MinimaCollector& collector_;
+  CullLimits& limits_;
+  double cutoff_, nearest_ = std::numeric_limits<double>::infinity();
+  std::uint64_t maxTests_, count_ = 0;
+  bool isSpent_ = false;
+};
 
 }  // namespace
 
@@ -138,7 +150,7 @@ void CandidateList::pack() {
     sum += levelEnds_[level];
     levelEnds_[level] = sum;
   }
-  blocks_.resize(std::max(blocks_.size(), (found_.size() + kWidth - 1) / kWidth));
+  blocks_.resize(std::max(blocks_.size(), blocksOf(found_.size())));
   for (const LanePair& pair : found_) {
     const std::size_t at = next[pair.level]++;
     copyPair(pair, blocks_[at / kWidth], at % kWidth);
@@ -198,8 +210,9 @@ std::optional<CandidateList::CoveredPose> CandidateList::covered(const RigidTran
 }
 
 template <class Visit>
-void CandidateList::visitPairs(const RigidTransform& centred, std::size_t count, const CullLimits& limits,
-                               LmdScratch& scratch, Visit&& visit) const noexcept {
+std::size_t CandidateList::visitPairs(const RigidTransform& centred, std::size_t count,
+                                      const CullLimits& limits, LmdScratch& scratch,
+                                      Visit&& visit) const noexcept {
   const SinglePose inSingle(centred);
   for (std::size_t base = 0; base < count; base += kWidth) {
     const BoundPairs& block = blocks_[base / kWidth];
@@ -207,33 +220,46 @@ void CandidateList::visitPairs(const RigidTransform& centred, std::size_t count,
     if (count - base < kWidth) lanes &= (1U << (count - base)) - 1U;
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      visit(block.scene.child[lane], block.part.child[lane]);
+      if (!visit(block.scene.child[lane], block.part.child[lane])) return base / kWidth + 1;
     }
   }
+  return blocksOf(count);
 }
 
 std::optional<LmdResult> CandidateList::query(const RigidTransform& sceneFromPart, double cutoff,
-                                              LmdScratch& scratch, std::span<Lmd> out) const noexcept {
+                                              LmdScratch& scratch, std::span<Lmd> out,
+                                              std::uint64_t maxWork) const noexcept {
   const std::optional<CoveredPose> pose = covered(sceneFromPart, cutoff);
   if (!pose) return std::nullopt;
   LmdResult result;
   result.completeTo = cutoff;
   if (pose->count == 0) return result;
-  const LeafTests tests(*scene_, *part_, pose->centred, cutoff);
+  const std::uint64_t blocks = blocksOf(pose->count);
+  if (blocks >= maxWork) {
+    result.status = QueryStatus::Truncated;
+    result.completeTo = 0.0;
+    return result;
+  }
+  result.nodePairs = blocks;
   MinimaCollector collector(scratch.data(), result);
-  visitPairs(pose->centred, pose->count, cullLimits(*scene_, *part_, pose->centred, cutoff), scratch,
+  CullLimits limits = cullLimits(*scene_, *part_, pose->centred, cutoff);
+  BoundedTests tests({*scene_, *part_, pose->centred, cutoff}, maxWork - blocks, collector, limits);
+  visitPairs(pose->centred, pose->count, limits, scratch,
              [&](std::uint32_t sceneLeaf, std::uint32_t partLeaf) {
-               ++result.leafPairs;
-               if (tests.test(sceneLeaf, partLeaf, collector.slot())) collector.add();
+               tests.test(sceneLeaf, partLeaf);
+               return true;
              });
+  result.leafPairs = tests.count();
+  result.completeTo = tests.completeTo();
+  if (result.completeTo < cutoff) result.status = QueryStatus::Truncated;
   collector.finish(*scene_, *part_, out);
   return result;
 }
 
 std::optional<NearbyPairs> CandidateList::nearbyPairs(const RigidTransform& sceneFromPart,
                                                       const ContactReach& reach, const MotionBudget& slack,
-                                                      LmdScratch& scratch,
-                                                      std::span<LeafPair> out) const noexcept {
+                                                      LmdScratch& scratch, std::span<LeafPair> out,
+                                                      std::uint64_t maxWork) const noexcept {
   if (!(reach.turn <= relaxation_)) return std::nullopt;
   const std::optional<CoveredPose> pose = covered(sceneFromPart, reach.distance);
   if (!pose) return std::nullopt;
@@ -243,27 +269,24 @@ std::optional<NearbyPairs> CandidateList::nearbyPairs(const RigidTransform& scen
   result.holds = {std::clamp(range_.budget.travel - aside.travel, 0.0, slack.travel),
                   std::clamp(range_.budget.turn - aside.turn, 0.0, slack.turn)};
   result.isComplete = true;
-  result.work = size() / kWidth;
-  if (pose->count == 0 && size() == 0) return result;
+  // Pairs that matter farther from the middle do not at the pose itself.
+  const bool isForPose = !(slack.travel > 0.0) && !(slack.turn > 0.0);
+  const std::size_t count = isForPose ? pose->count : size();
+  if (count == 0) return result;
+  result.isComplete = blocksOf(count) <= maxWork;
+  if (!result.isComplete) return result;
+  const std::span<LeafPair> room = out.first(
+      static_cast<std::size_t>(std::min<std::uint64_t>(out.size(), listable(maxWork - blocksOf(count)))));
   const BodyPairQuery within{*scene_, *part_, sceneFromPart, reach.distance};
-  visitPairs(pose->centred, size(), contactLimits(within, pose->centred, reach.turn, result.holds), scratch,
-             [&](std::uint32_t sceneLeaf, std::uint32_t partLeaf) {
-               if (result.count < out.size())
-                 out[result.count++] = {sceneLeaf, partLeaf};
-               else
-                 result.isComplete = false;
-             });
+  result.work =
+      visitPairs(pose->centred, count, contactLimits(within, pose->centred, reach.turn, result.holds),
+                 scratch, [&](std::uint32_t sceneLeaf, std::uint32_t partLeaf) {
+                   result.isComplete = result.count < room.size();
+                   if (result.isComplete) room[result.count++] = {sceneLeaf, partLeaf};
+                   return result.isComplete;
+                 });
+  result.work += blocksOf(result.count);
   return result;
-}
-
-CullLimits contactLimits(const BodyPairQuery& query, const RigidTransform& centred, double relaxation,
-                         const MotionBudget& slack) noexcept {
-  return rangeLimits(query, centred, relaxed({{}, slack}, query.cutoff, relaxation)).still;
-}
-
-ContactPair contactOf(const Minimum& minimum, const NormalConeTree& scene) noexcept {
-  const Lmd& lmd = minimum.lmd;
-  return {lmd.partPoint + scene.centre(), lmd.direction, std::min(minimum.least, lmd.distance)};
 }
 
 bool isClearWithin(const BodyPairQuery& query, const MotionBudget& budget, LmdScratch& scratch,

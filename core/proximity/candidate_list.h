@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,14 +14,9 @@
 #include "core/proximity/lmd_query.h"
 #include "core/proximity/minimum.h"
 #include "core/proximity/motion_budget.h"
+#include "core/proximity/range_limits.h"
 
 namespace nearfit {
-
-/// What bounds are held against for a whole range of motion.
-struct RangeLimits {
-  CullLimits still;
-  CullSweep inScene, inPart;  ///< The stretch, in the frame of either tree.
-};
 
 /// The pairs of features that can carry a minimum at any pose within a range of motion: testing those alone
 /// is exact there.
@@ -57,14 +53,19 @@ class CandidateList {
   bool covers(const RigidTransform& sceneFromPart, double cutoff) const noexcept;
 
   /// The exact set at a pose, as findLmds gives it; none when the list does not cover it. Real-time safe.
-  std::optional<LmdResult> query(const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch,
-                                 std::span<Lmd> out) const noexcept;
+  /// @param maxWork  Bound on blocks culled and pairs tested. When the whole set takes more than half of it,
+  ///                 the rest is for what is nearest, as findNearestLmds has it.
+  std::optional<LmdResult> query(
+      const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch, std::span<Lmd> out,
+      std::uint64_t maxWork = std::numeric_limits<std::uint64_t>::max()) const noexcept;
 
   /// As findNearbyPairs, from the list; it holds for as much of the slack as the list does. None when the
-  /// list does not cover the pose, was made for a shorter cutoff, or for less relaxation. Real-time safe.
-  std::optional<NearbyPairs> nearbyPairs(const RigidTransform& sceneFromPart, const ContactReach& reach,
-                                         const MotionBudget& slack, LmdScratch& scratch,
-                                         std::span<LeafPair> out) const noexcept;
+  /// list does not cover the pose, was made for a shorter cutoff, or for less relaxation. A list that cannot
+  /// be gone through within the work is not begun. Real-time safe.
+  std::optional<NearbyPairs> nearbyPairs(
+      const RigidTransform& sceneFromPart, const ContactReach& reach, const MotionBudget& slack,
+      LmdScratch& scratch, std::span<LeafPair> out,
+      std::uint64_t maxWork = std::numeric_limits<std::uint64_t>::max()) const noexcept;
 
   std::size_t size() const noexcept { return levelEnds_.back(); }
   bool isUsable() const noexcept { return isUsable_; }
@@ -85,10 +86,12 @@ class CandidateList {
     std::size_t count;  ///< Pairs that matter there.
   };
   std::optional<CoveredPose> covered(const RigidTransform& sceneFromPart, double cutoff) const noexcept;
-  /// Calls visit(scene leaf, part leaf) for those of the first `count` pairs that survive the culls.
+  /// Calls visit(scene leaf, part leaf) for those of the first `count` pairs that survive the culls, until it
+  /// says false.
+  /// @returns how many blocks of pairs were culled.
   template <class Visit>
-  void visitPairs(const RigidTransform& centred, std::size_t count, const CullLimits& limits,
-                  LmdScratch& scratch, Visit&& visit) const noexcept;
+  std::size_t visitPairs(const RigidTransform& centred, std::size_t count, const CullLimits& limits,
+                         LmdScratch& scratch, Visit&& visit) const noexcept;
   RangeLimits limitsWithin(double share) const noexcept;
   double spentAt(const RigidTransform& centred) const noexcept;
   MotionBudget asideOf(const RigidTransform& centred) const noexcept;
@@ -106,13 +109,6 @@ class CandidateList {
   double cutoff_ = 0.0, relaxation_ = 0.0;
   MotionRange range_;  ///< About pose_, in the scene's frame.
 };
-
-/// What bounds are held against for contacts at a pose between centred frames.
-CullLimits contactLimits(const BodyPairQuery& query, const RigidTransform& centred, double relaxation,
-                         const MotionBudget& slack) noexcept;
-
-/// A contact in the frame of the scene's mesh from what a relaxed test found.
-ContactPair contactOf(const Minimum& minimum, const NormalConeTree& scene) noexcept;
 
 /// Whether no pair of features can carry a minimum within a budget of the query's pose, as far as
 /// `maxNodePairs` of work tell: false when it takes more.

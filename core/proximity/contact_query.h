@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include <glm/vec3.hpp>
@@ -34,23 +33,15 @@ struct ContactReach {
 
 struct ContactResult {
   std::size_t count = 0;  ///< Entries of the caller's storage that were filled, in no order.
-  /// Every pair nearer than this is there [m]: the reach, or less when there was no room or too much work.
+  /// Every contact among the pairs that is nearer than this is there [m]: the reach, or less when there was
+  /// no room.
   double completeTo = 0.0;
   double least = 0.0;  ///< The least distance that was found [m]; infinity when none.
-  std::uint64_t nodePairs = 0, leafPairs = 0;
+  std::uint64_t leafPairs = 0;
 
   /// A bound below the distance of two bodies that do not overlap and are closed and oriented.
   double distanceBound() const noexcept { return least < completeTo ? least : completeTo; }
 };
-
-/// Pairs of a vertex, edge or face that carry a minimum or would if directions were relaxed by `reach.turn`:
-/// everything that can become one while the part turns by so much. The exact minima within the reach are
-/// among them, but flat regions are there as the points that span them.
-/// @param query  Its cutoff is not used.
-/// @param out    Keeps the nearest if it fills; `completeTo` tells.
-/// In the frame of the scene's mesh. Real-time safe.
-ContactResult findContacts(const BodyPairQuery& query, const ContactReach& reach, LmdScratch& scratch,
-                           std::span<ContactPair> out, std::uint64_t maxNodePairs) noexcept;
 
 /// Whether two leaves can be a contact: regions are there as the points that span them.
 bool spansContact(std::uint32_t sceneLeaf, std::uint32_t partLeaf) noexcept;
@@ -60,39 +51,34 @@ struct LeafPair {
   std::uint32_t scene = 0, part = 0;
 };
 
+/// So many pairs of features are culled, or listed, in the time of one pair of nodes.
+constexpr std::size_t kListedAtOnce = 8;
+
 /// Pairs that were found to be near.
 struct NearbyPairs {
   std::size_t count = 0;    ///< Entries of the caller's storage that were filled.
-  bool isComplete = false;  ///< False when there was no room, or too much work.
+  bool isComplete = false;  ///< False when there was no room, or too much work: it is then left off at once.
   MotionBudget holds;       ///< Motion of the part for which they are all that can be contacts.
-  std::uint64_t work = 0;   ///< Pairs of nodes and features looked at.
+  /// In pairs of nodes: those opened, and one for each kListedAtOnce that are culled or listed. Never beyond
+  /// the bound.
+  std::uint64_t work = 0;
 };
 
 /// The pairs of features that can be contacts at the query's pose or at any other within `slack` of it.
-/// @param query  Its cutoff is not used.
+/// @param query    Its cutoff is not used.
+/// @param maxWork  Bound on the work, never passed.
 /// Real-time safe.
 NearbyPairs findNearbyPairs(const BodyPairQuery& query, const ContactReach& reach, const MotionBudget& slack,
-                            LmdScratch& scratch, std::span<LeafPair> out,
-                            std::uint64_t maxNodePairs) noexcept;
+                            LmdScratch& scratch, std::span<LeafPair> out, std::uint64_t maxWork) noexcept;
 
-/// The contacts among pairs of features, as findContacts gives them. Real-time safe.
+/// Pairs of a vertex, edge or face that carry a minimum or would if directions were relaxed by `reach.turn`:
+/// everything that can become one while the part turns by so much. The exact minima within the reach are
+/// among them, but flat regions are there as the points that span them.
+/// @param query  Its cutoff is not used.
+/// @param pairs  From findNearbyPairs, or a list: all that are near, so that none is missing.
+/// @param out    Keeps the nearest if it fills; `completeTo` tells.
+/// In the frame of the scene's mesh. Real-time safe.
 ContactResult testContacts(const BodyPairQuery& query, const ContactReach& reach,
                            std::span<const LeafPair> pairs, std::span<ContactPair> out) noexcept;
-
-/// Takes contacts in as they are found and keeps the nearest when there is no more room.
-class ContactCollector {
- public:
-  ContactCollector(std::span<ContactPair> out, double reach) noexcept : out_(out) {
-    result_.completeTo = reach;
-    result_.least = std::numeric_limits<double>::infinity();
-  }
-
-  void add(const ContactPair& contact) noexcept;
-  ContactResult& result() noexcept { return result_; }
-
- private:
-  std::span<ContactPair> out_;
-  ContactResult result_;
-};
 
 }  // namespace nearfit

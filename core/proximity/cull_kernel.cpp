@@ -24,27 +24,28 @@ NEARFIT_INLINE simd::Box<Floats8> partBoxes(const BoundPairs& pairs, const Singl
 }
 
 /// At least 0 in the lanes that survive.
-NEARFIT_INLINE Floats8 cullPairs(const BoundPairs& pairs, const SinglePose& pose, const CullLimits& limits) {
+NEARFIT_INLINE simd::Lanes<Floats8> cullPairs(const BoundPairs& pairs, const SinglePose& pose,
+                                              const CullLimits& limits) {
   return simd::cull(simd::boxes(pairs.scene), partBoxes(pairs, pose), limits, simd::still<Floats8>(limits));
 }
-NEARFIT_INLINE Floats8 cullSwept(const BoundPairs& pairs, const SinglePose& pose, const CullLimits& limits,
-                                 const CullSweep& sweep) {
+NEARFIT_INLINE simd::Lanes<Floats8> cullSwept(const BoundPairs& pairs, const SinglePose& pose,
+                                              const CullLimits& limits, const CullSweep& sweep) {
   const simd::Box<Floats8> scene = simd::boxes(pairs.scene), part = partBoxes(pairs, pose);
   return simd::cull(scene, part, limits, simd::swept(scene, part, simd::spread(sweep), limits));
 }
 
 std::uint32_t cullPairsPortable(const BoundPairs& pairs, const SinglePose& pose,
                                 const CullLimits& limits) noexcept {
-  return simd::notNegative(cullPairs(pairs, pose, limits));
+  return simd::notNegative(cullPairs(pairs, pose, limits).value);
 }
 std::uint32_t cullSweptPortable(const BoundPairs& pairs, const SinglePose& pose, const CullLimits& limits,
                                 const CullSweep& sweep) noexcept {
-  return simd::notNegative(cullSwept(pairs, pose, limits, sweep));
+  return simd::notNegative(cullSwept(pairs, pose, limits, sweep).value);
 }
 
 #if defined(__x86_64__)
 #define NEARFIT_BITS(margin) \
-  static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats8>((margin) >= 0.0F)))
+  static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats8>((margin).value >= 0.0F)))
 
 NEARFIT_AVX2 std::uint32_t cullPairsAvx2(const BoundPairs& pairs, const SinglePose& pose,
                                          const CullLimits& limits) noexcept {

@@ -153,12 +153,14 @@ class RegionUnion {
 
   Lmd unite() const noexcept {
     Moments moments;
+    bool isMarginal = true;
     double weight = 0.0, height = 0.0, distance = 0.0, least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t i : group_) {
       const Minimum& piece = minima_[i];
       least = std::min(least, piece.least);
       if (!isPiece(piece)) continue;
       addPiece(i, moments);
+      isMarginal = isMarginal && piece.lmd.isMarginal;
       weight += piece.weight;
       height += piece.weight * plane_.height(piece.lmd.scenePoint);
       distance += piece.weight * piece.lmd.distance;
@@ -169,6 +171,7 @@ class RegionUnion {
       addOutline(moments);
     }
     Lmd lmd = largest_.lmd;
+    lmd.isMarginal = isMarginal;
     if (!(moments.measure > 0.0)) return lmd;
     const glm::dvec2 centroid = moments.first / moments.measure;
     // A corner of a tilted region may be beyond contact, as exact tests see it.

@@ -17,7 +17,8 @@ struct RegionNeighbours {
 
 /// The representative of a flat region: what its pieces of the highest dimension cover, counted once, has its
 /// centroid and extent there: area (or length) means, which do not depend on how the bodies are meshed. The
-/// distance is the least of all, the features are the largest piece's.
+/// distance is the least of all, the features are the largest piece's. It is marginal when all such pieces
+/// are.
 ///
 /// @param group       Indices of the pieces, and points at their rims, in `minima`; at least one piece.
 /// @param neighbours  Of all that is in `minima`.

@@ -28,9 +28,7 @@ bool LeafTests::edgeEdge(std::uint32_t a, std::uint32_t b, Minimum& out) const n
   const glm::dvec3 w = eb.start - ea.start;
   const double s = glm::dot(glm::cross(w, eb.along), across) / (sine * sine);
   if (sine < kNearlyParallel) {
-    if (!nearlyParallelEdges(a, b, ea, eb, s, out)) return false;
-    widenAtEnd(ea, eb, s, sine, out);
-    return true;
+    return nearlyParallelEdges(a, b, ea, eb, s, sine, out);
   }
   glm::dvec3 direction = across / sine;
   double distance = glm::dot(w, direction);
@@ -38,52 +36,73 @@ bool LeafTests::edgeEdge(std::uint32_t a, std::uint32_t b, Minimum& out) const n
     direction = -direction;
     distance = -distance;
   }
-  if (!(distance > 0.0) || distance > cutoff_) return false;
+  if (!(distance > 0.0) || distance > mostDistance_) return false;
   const double slack = lengthSlack(distance);
   if (s < -slack || s > ea.length + slack) return false;
   const double t = glm::dot(glm::cross(w, ea.along), across) / (sine * sine);
   if (t < -slack || t > eb.length + slack) return false;
   if (!isPolarOfEdge(scene_.tree, a, ea, direction, angularSlackBase_)) return false;
-  if (!isPolarOfEdge(part_.tree, b, partEdge, partFromScene_.applyToVector(-direction), angularSlackBase_)) {
-    return false;
-  }
+  const glm::dvec3 toScene = partFromScene_.applyToVector(-direction);
+  if (!isPolarOfEdge(part_.tree, b, partEdge, toScene, angularSlackBase_)) return false;
   const glm::dvec3 p = ea.start + s * ea.along;
   accept(scene_, p, p + distance * direction, direction, distance, out);
-  widenAtEnd(ea, eb, s, sine, out);
-  return true;
+  const double error = 2.0 * margins_.pointError() / sine;
+  return settleCrossing(a, b, ea, eb, {s, t, sine, turnOfCrossing(ea, eb, sine), error, partEdge, toScene},
+                        out);
 }
 
-void LeafTests::widenAtEnd(const Edge& ea, const Edge& eb, double s, double sine,
+double LeafTests::turnOfCrossing(const Edge& ea, const Edge& eb, double sine) const noexcept {
+  return (LeafMargins::turnOfEdge(scene_.tree, ea.length) + LeafMargins::turnOfEdge(part_.tree, eb.length)) /
+         sine;
+}
+
+bool LeafTests::settleCrossing(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb,
+                               const Crossing& c, Minimum& out) const noexcept {
+  const bool isWidened = widenAtEnd(ea, eb, c.s, c.sine, out);
+  const auto isClear = [&] {
+    // What moves either edge, or the direction across both, moves the crossing by that over their angle.
+    const double place = (2.0 * margins_.pointError() + c.turn * out.lmd.distance) / c.sine;
+    return !isWidened && LeafMargins::isClearAlong(c.s, ea.length, place) &&
+           LeafMargins::isClearAlong(c.t, eb.length, place) &&
+           areClearOfEdges(a, b, ea, c.partEdge, out.lmd.direction, c.toScene, c.turn);
+  };
+  return settle([&c] { return c.error; }, isClear, out);
+}
+
+bool LeafTests::widenAtEnd(const Edge& ea, const Edge& eb, double s, double sine,
                            Minimum& out) const noexcept {
   // A vertex is held against directions to so many roundings.
   constexpr double kSlackOfVertex = 4.0;
   const double reach = kSlackOfVertex * pointRounding_ / (sine * sine);
-  if (reach <= lengthTolerance_) return;
+  if (reach <= lengthTolerance_) return false;
   const Overlap overlap = overlapOf(ea, eb);
   const double from = std::max(overlap.from, s - reach), to = std::min(overlap.to, s + reach);
-  if (to <= from || (from == s - reach && to == s + reach)) return;
+  if (to <= from || (from == s - reach && to == s + reach)) return false;
   setSegment(ea.start + from * ea.along, ea.start + to * ea.along, out);
   out.radius = out.weight;
+  return true;
 }
 
 bool LeafTests::nearlyParallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb,
-                                    double s, Minimum& out) const noexcept {
+                                    double s, double sine, Minimum& out) const noexcept {
   // Where along both the minimum is, is known to a rounding over their angle; the way between the two points
   // there does not feel that.
   const glm::dvec3 p = ea.start + s * ea.along;
   const double t = glm::dot(p - eb.start, eb.along);
   const glm::dvec3 d = eb.start + t * eb.along - p;
   const double distance = glm::length(d);
-  if (!(distance > 0.0) || distance > cutoff_) return false;
+  if (!(distance > 0.0) || distance > mostDistance_) return false;
   const double slack = lengthSlack(distance);
   if (s < -slack || s > ea.length + slack || t < -slack || t > eb.length + slack) return false;
   const glm::dvec3 direction = d / distance;
   if (!isPolarOfEdge(scene_.tree, a, ea, direction, angularSlack(distance))) return false;
-  if (!isPolarOfEdge(part_.tree, b, edgeOf(part_.tree, b), partFromScene_.applyToVector(-direction),
-                     angularSlack(distance))) {
-    return false;
-  }
-  return accept(scene_, p, p + d, direction, distance, out);
+  const Edge partEdge = edgeOf(part_.tree, b);
+  const glm::dvec3 toScene = partFromScene_.applyToVector(-direction);
+  if (!isPolarOfEdge(part_.tree, b, partEdge, toScene, angularSlack(distance))) return false;
+  accept(scene_, p, p + d, direction, distance, out);
+  // Either point, and how far the place where they are sought moves one from the other edge.
+  const double turn = 3.0 * margins_.turnOfPoints(distance), error = 6.0 * margins_.pointError();
+  return settleCrossing(a, b, ea, eb, {s, t, sine, turn, error, partEdge, toScene}, out);
 }
 
 LeafTests::Overlap LeafTests::overlapOf(const Edge& a, const Edge& b) noexcept {
@@ -116,17 +135,22 @@ bool LeafTests::parallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, 
   if (!(overlap.to - overlap.from > lengthTolerance_)) return false;
   const glm::dvec3 d = overlap.onB - overlap.onA;
   const double distance = glm::length(d), least = leastDistance(ea, eb, overlap);
-  if (!(distance > 0.0) || least > cutoff_) return false;
+  if (!(distance > 0.0) || least > mostDistance_) return false;
   const glm::dvec3 direction = d / distance;
   const double angular = angularSlack(distance);
   if (!isPolarOfEdge(scene_.tree, a, ea, direction, angular)) return false;
   const Edge partEdge = edgeOf(part_.tree, b);
-  if (!isPolarOfEdge(part_.tree, b, partEdge, partFromScene_.applyToVector(-direction), angular))
-    return false;
+  const glm::dvec3 toScene = partFromScene_.applyToVector(-direction);
+  if (!isPolarOfEdge(part_.tree, b, partEdge, toScene, angular)) return false;
   accept(scene_, overlap.onA, overlap.onB, direction, distance, out);
   setSegment(ea.start + overlap.from * ea.along, ea.start + overlap.to * ea.along, out);
   out.least = least;
-  return true;
+  const auto error = [this] { return 2.0 * margins_.pointError(); };
+  const auto isClear = [&] {
+    return out.weight > 2.0 * error() &&
+           areClearOfEdges(a, b, ea, partEdge, direction, toScene, margins_.turnOfPoints(distance));
+  };
+  return settle(error, isClear, out);
 }
 
 void LeafTests::setSegment(const glm::dvec3& from, const glm::dvec3& to, Minimum& out) noexcept {

@@ -31,8 +31,10 @@ LeafTests::LeafTests(const NormalConeTree& scene, const NormalConeTree& part,
       partFromScene_(sceneFromPart.inverse()),
       scene_{scene, partFromScene_, sceneFromPart_},
       part_{part, sceneFromPart_, partFromScene_},
+      margins_(scene, part, sceneFromPart),
       cutoff_(cutoff),
       relaxation_(relaxation),
+      mostDistance_(cutoff + kDistanceTolerance * (scene.size() + part.size())),
       lengthTolerance_(kLengthTolerance * (scene.size() + part.size())),
       angularSlackBase_(kAngularTolerance + relaxation),
       pointRounding_(kPointRounding * (scene.size() + part.size() + glm::length(sceneFromPart.translation))) {
@@ -53,7 +55,7 @@ bool LeafTests::test(std::uint32_t sceneLeaf, std::uint32_t partLeaf, Minimum& o
   if (a == Edge && b == Face) found = edgeFace(scene_, i, part_, j, out);
   if (a == Face && b == Edge) found = edgeFace(part_, j, scene_, i, out);
   if (a == Face && b == Face) found = faceFace(i, j, out);
-  if (!found) return false;
+  if (!found || scene_.tree.isIdle(a, i) || part_.tree.isIdle(b, j)) return false;
   const auto meshIndex = [](const NormalConeTree& tree, FeatureKind kind, std::uint32_t index) {
     return kind == Vertex ? tree.vertices()[index].vertex
            : kind == Edge ? tree.edges()[index].edge
@@ -76,6 +78,8 @@ LeafTests::Edge LeafTests::edgeOf(const NormalConeTree& tree, std::uint32_t edge
 
 bool LeafTests::isPolarOfVertex(const NormalConeTree& tree, std::uint32_t vertex, const glm::dvec3& d,
                                 double slack) const noexcept {
+  if (tree.rule() == AcceptanceRule::NormalSpan) [[unlikely]]
+    return isInSpanOfVertex(tree, vertex, d, slack);
   const NormalConeTree::VertexLeaf& leaf = tree.vertices()[vertex];
   const glm::dvec3& v = tree.positions()[leaf.vertex];
   for (const std::uint32_t n : tree.neighbours(leaf)) {
@@ -84,6 +88,24 @@ bool LeafTests::isPolarOfVertex(const NormalConeTree& tree, std::uint32_t vertex
     if (along > 0.0 && along > slack * glm::length(e) + pointRounding_) return false;
   }
   return true;
+}
+
+bool LeafTests::isInSpanOfVertex(const NormalConeTree& tree, std::uint32_t vertex, const glm::dvec3& d,
+                                 double slack) const noexcept {
+  const NormalConeTree::VertexLeaf& leaf = tree.vertices()[vertex];
+  for (const glm::dvec3& wall : tree.walls(leaf)) {
+    if (glm::dot(d, wall) < -slack) return false;
+  }
+  const glm::dvec3& v = tree.positions()[leaf.vertex];
+  const auto leadsAway = [&](std::uint32_t corner) {
+    const glm::dvec3 e = tree.positions()[corner] - v;
+    return glm::dot(d, e) <= slack * glm::length(e) + pointRounding_;
+  };
+  const std::span<const std::uint32_t> corners = tree.neighbours(leaf);
+  for (std::size_t i = 0; i + 1 < corners.size(); i += 2) {
+    if (leadsAway(corners[i]) && leadsAway(corners[i + 1])) return true;
+  }
+  return false;
 }
 
 bool LeafTests::isPolarOfEdge(const NormalConeTree& tree, std::uint32_t edge, const Edge& e,
@@ -97,7 +119,7 @@ bool LeafTests::isPolarOfEdge(const NormalConeTree& tree, std::uint32_t edge, co
   return true;
 }
 
-bool LeafTests::accept(const Side& frame, const glm::dvec3& p, const glm::dvec3& q,
+void LeafTests::accept(const Side& frame, const glm::dvec3& p, const glm::dvec3& q,
                        const glm::dvec3& direction, double distance, Minimum& out) const noexcept {
   out.dimension = 0;
   out.cornerCount = 0;
@@ -105,13 +127,13 @@ bool LeafTests::accept(const Side& frame, const glm::dvec3& p, const glm::dvec3&
   out.isOverlapping = false;
   out.least = distance;
   out.lmd.extent = {};
+  out.lmd.isMarginal = false;
   out.lmd.distance = distance;
   const bool isSceneFrame = &frame == &scene_;
   // p belongs to the body in whose frame we are.
   out.lmd.scenePoint = isSceneFrame ? p : sceneFromPart_.applyToPoint(q);
   out.lmd.partPoint = isSceneFrame ? q : sceneFromPart_.applyToPoint(p);
   out.lmd.direction = isSceneFrame ? direction : sceneFromPart_.applyToVector(-direction);
-  return true;
 }
 
 bool LeafTests::vertexFace(const Side& v, std::uint32_t vertex, const Side& f, std::uint32_t face,
@@ -121,18 +143,25 @@ bool LeafTests::vertexFace(const Side& v, std::uint32_t vertex, const Side& f, s
   const glm::dvec3 q = v.otherFromThis.applyToPoint(v.tree.positions()[v.tree.vertices()[vertex].vertex]);
   const glm::dvec3 n = faceNormal(x[t[0]], x[t[1]], x[t[2]]);
   const double distance = glm::dot(n, q - x[t[0]]);
-  if (!(distance > 0.0) || distance > cutoff_) return false;
+  if (!(distance > 0.0) || distance > mostDistance_) return false;
   // The normal of a thin face is known to a rounding over its height.
-  const double tilt = pointRounding_ / leastHeight(x[t[0]], x[t[1]], x[t[2]]);
+  const double height = leastHeight(x[t[0]], x[t[1]], x[t[2]]), tilt = pointRounding_ / height;
   const double slack = lengthSlack(distance) + tilt * distance;
   for (std::size_t k = 0; k < 3; ++k) {
     const glm::dvec3 &a = x[t[k]], &b = x[t[(k + 1) % 3]];
     const glm::dvec3 inward = glm::cross(n, b - a);
     if (glm::dot(inward, q - a) < -slack * glm::length(inward)) return false;
   }
-  if (!isPolarOfVertex(v.tree, vertex, v.thisFromOther.applyToVector(-n), angularSlackBase_ + tilt))
-    return false;
-  return accept(f, q - distance * n, q, n, distance, out);
+  const glm::dvec3 down = v.thisFromOther.applyToVector(-n);
+  if (!isPolarOfVertex(v.tree, vertex, down, angularSlackBase_ + tilt)) return false;
+  accept(f, q - distance * n, q, n, distance, out);
+  const double points = 2.0 * margins_.pointError(), turn = LeafMargins::turnOfFace(f.tree, height);
+  const auto error = [&] { return points + turn * glm::distance(q, x[t[0]]); };
+  const auto isClear = [&] {
+    return LeafMargins::isClearInFace({x[t[0]], x[t[1]], x[t[2]]}, n, q, points + turn * distance) &&
+           LeafMargins::isClearOfVertex(v.tree, vertex, down, turn);
+  };
+  return settle(error, isClear, out);
 }
 
 bool LeafTests::vertexEdge(const Side& v, std::uint32_t vertex, const Side& e, std::uint32_t edge,
@@ -143,28 +172,42 @@ bool LeafTests::vertexEdge(const Side& v, std::uint32_t vertex, const Side& e, s
   const double s = glm::dot(w, line.along);
   const glm::dvec3 d = w - s * line.along;
   const double distance = glm::length(d);
-  if (!(distance > 0.0) || distance > cutoff_) return false;
+  if (!(distance > 0.0) || distance > mostDistance_) return false;
   const double slack = lengthSlack(distance);
   if (s < -slack || s > line.length + slack) return false;
   const glm::dvec3 direction = d / distance;
   if (!isPolarOfEdge(e.tree, edge, line, direction, angularSlack(distance))) return false;
-  if (!isPolarOfVertex(v.tree, vertex, v.thisFromOther.applyToVector(-direction),
-                       directionRounding(distance))) {
-    return false;
-  }
-  return accept(e, q - d, q, direction, distance, out);
+  const glm::dvec3 back = v.thisFromOther.applyToVector(-direction);
+  if (!isPolarOfVertex(v.tree, vertex, back, directionRounding(distance))) return false;
+  accept(e, q - d, q, direction, distance, out);
+  const auto error = [this] { return 2.0 * margins_.pointError(); };
+  const auto isClear = [&] {
+    const double place = error() + LeafMargins::turnOfEdge(e.tree, line.length) * distance;
+    const double turn = margins_.turnOfPoints(distance);
+    return LeafMargins::isClearAlong(s, line.length, place) &&
+           isClearOfEdge(e, edge, line, direction, turn) &&
+           LeafMargins::isClearOfVertex(v.tree, vertex, back, turn);
+  };
+  return settle(error, isClear, out);
 }
 
 bool LeafTests::vertexVertex(std::uint32_t a, std::uint32_t b, Minimum& out) const noexcept {
   const glm::dvec3& p = scene_.tree.positions()[scene_.tree.vertices()[a].vertex];
   const glm::dvec3 q = sceneFromPart_.applyToPoint(part_.tree.positions()[part_.tree.vertices()[b].vertex]);
   const double distance = glm::distance(p, q);
-  if (!(distance > 0.0) || distance > cutoff_) return false;
+  if (!(distance > 0.0) || distance > mostDistance_) return false;
   const glm::dvec3 direction = (q - p) / distance;
   const double angular = directionRounding(distance);
   if (!isPolarOfVertex(scene_.tree, a, direction, angular)) return false;
-  if (!isPolarOfVertex(part_.tree, b, partFromScene_.applyToVector(-direction), angular)) return false;
-  return accept(scene_, p, q, direction, distance, out);
+  const glm::dvec3 back = partFromScene_.applyToVector(-direction);
+  if (!isPolarOfVertex(part_.tree, b, back, angular)) return false;
+  accept(scene_, p, q, direction, distance, out);
+  const auto isClear = [&] {
+    const double turn = margins_.turnOfPoints(distance);
+    return LeafMargins::isClearOfVertex(scene_.tree, a, direction, turn) &&
+           LeafMargins::isClearOfVertex(part_.tree, b, back, turn);
+  };
+  return settle([this] { return 2.0 * margins_.pointError(); }, isClear, out);
 }
 
 bool LeafTests::edgeFace(const Side& e, std::uint32_t edge, const Side& f, std::uint32_t face,
@@ -180,7 +223,7 @@ bool LeafTests::edgeFace(const Side& e, std::uint32_t edge, const Side& f, std::
   const glm::dvec3 start = e.otherFromThis.applyToPoint(local.start);
   const double startHeight = glm::dot(n, start - corners[0]);
   // Before anything that costs: how high the edge's lower end is.
-  if (startHeight + std::min(0.0, local.length * rise) > cutoff_) return false;
+  if (startHeight + std::min(0.0, local.length * rise) > mostDistance_) return false;
   double from = 0.0, to = local.length;
   if (!clipLine(corners, n, start, along, lengthSlack(std::abs(startHeight)), from, to) ||
       !(to - from > lengthTolerance_)) {
@@ -188,8 +231,9 @@ bool LeafTests::edgeFace(const Side& e, std::uint32_t edge, const Side& f, std::
   }
   const double distance = startHeight + 0.5 * (from + to) * rise;
   const double least = startHeight + std::min(from * rise, to * rise);
-  if (!(distance > 0.0) || least > cutoff_) return false;
-  if (!isPolarOfEdge(e.tree, edge, local, e.thisFromOther.applyToVector(-n), angularSlackBase_)) return false;
+  if (!(distance > 0.0) || least > mostDistance_) return false;
+  const glm::dvec3 down = e.thisFromOther.applyToVector(-n);
+  if (!isPolarOfEdge(e.tree, edge, local, down, angularSlackBase_)) return false;
   const glm::dvec3 q = start + 0.5 * (from + to) * along;
   accept(f, q - distance * n, q, n, distance, out);
   const glm::dvec3 first = start + from * along, last = start + to * along;
@@ -199,7 +243,14 @@ bool LeafTests::edgeFace(const Side& e, std::uint32_t edge, const Side& f, std::
     setSegment(sceneFromPart_.applyToPoint(first), sceneFromPart_.applyToPoint(last), out);
   }
   out.least = least;
-  return true;
+  const double points = 2.0 * margins_.pointError();
+  const double turn = LeafMargins::turnOfFace(f.tree, leastHeight(corners[0], corners[1], corners[2]));
+  const auto error = [&] { return points + turn * glm::distance(q, corners[0]); };
+  const auto isClear = [&] {
+    return LeafMargins::isClearInFace(corners, n, q, points + turn * distance) &&
+           isClearOfEdge(e, edge, local, down, turn);
+  };
+  return settle(error, isClear, out);
 }
 
 bool LeafTests::faceFace(std::uint32_t a, std::uint32_t b, Minimum& out) const noexcept {
@@ -234,7 +285,12 @@ bool LeafTests::faceFace(std::uint32_t a, std::uint32_t b, Minimum& out) const n
     out.corners[k] = overlap.corners[k] - above * n;
     out.radius = std::max(out.radius, glm::distance(out.corners[k], out.lmd.scenePoint));
   }
-  return out.least <= cutoff_;
+  const double points = 2.0 * margins_.pointError();
+  const double turn = LeafMargins::turnOfFace(scene_.tree, leastHeight(pa[0], pa[1], pa[2]));
+  const auto error = [&] { return points + turn * glm::distance(centroid, pa[0]); };
+  // Of an overlap that is no wider than rounding none may be left.
+  const auto isClear = [&] { return area > 2.0 * out.radius * (points + turn * distance); };
+  return settle(error, isClear, out);
 }
 
 }  // namespace nearfit

@@ -45,6 +45,10 @@ struct Lmd {
   /// The segment passes through a surface on its way, so that nothing can move along it: set by markBlocked
   /// alone. No force comes of such a minimum.
   bool isBlocked = false;
+  /// Double precision cannot tell whether it is one: a condition for it, or the cutoff, is met by no more
+  /// than rounding, or only to the resolution of tolerances.h. It may be none; or a feature beside those
+  /// named carries it. What is not marked meets all conditions in exact arithmetic.
+  bool isMarginal = false;
   RegionExtent extent;  ///< Of a region.
 };
 

@@ -14,6 +14,10 @@ LmdScratch::~LmdScratch() = default;
 LmdScratch::LmdScratch(LmdScratch&&) noexcept = default;
 LmdScratch& LmdScratch::operator=(LmdScratch&&) noexcept = default;
 
+void LmdScratch::holdAtMost(std::size_t pieces) noexcept {
+  data_->room = std::clamp<std::size_t>(pieces, 1, data_->minima.size());
+}
+
 namespace {
 
 /// One search, which may be narrowed on its way.
@@ -34,9 +38,7 @@ class Search {
 
   /// Goes on, from now on only for what is nearer than the nearest so far.
   bool nearest(std::uint64_t maxNodePairs) noexcept {
-    // The culls round: what is as near must not be lost.
-    constexpr double kSlack = 1.0 + 1e-6;
-    const auto tighten = [this] { traversal_.tighten(static_cast<float>(kSlack * nearest_)); };
+    const auto tighten = [this] { traversal_.tighten(static_cast<float>(kNearestSlack * nearest_)); };
     if (nearest_ < query_.cutoff) tighten();
     return traversal_.goOn(
         [&](const EntryPair& pair) {
@@ -47,7 +49,7 @@ class Search {
 
   /// @param completeTo  Every minimum nearer than that was found.
   LmdResult finish(std::span<Lmd> out, double completeTo) noexcept {
-    result_.nodePairs = traversal_.nodePairs();
+    result_.nodePairs = traversal_.nodePairs() - result_.leafPairs;
     result_.completeTo = completeTo;
     if (completeTo < query_.cutoff) result_.status = QueryStatus::Truncated;
     collector_.finish(query_.scene, query_.part, out);
@@ -60,6 +62,7 @@ class Search {
   /// Whether it is the nearest so far.
   bool test(const EntryPair& pair) noexcept {
     ++result_.leafPairs;
+    traversal_.spend(1);
     Minimum& slot = collector_.slot();
     if (!tests_.test(pair.scene, pair.part, slot)) return false;
     const bool isNearest = slot.lmd.distance < nearest_;

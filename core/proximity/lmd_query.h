@@ -32,7 +32,7 @@ struct LmdResult {
   QueryStatus status = QueryStatus::Complete;
   /// Every minimum nearer than this is there [m]: the cutoff when Complete, less when Truncated.
   double completeTo = 0.0;
-  std::uint64_t nodePairs = 0;   ///< Node pairs visited.
+  std::uint64_t nodePairs = 0;   ///< Node pairs visited; of a list, blocks of pairs that were culled.
   std::uint64_t leafPairs = 0;   ///< Feature pairs tested exactly.
   std::size_t pieces = 0;        ///< Minima and pieces of regions that were merged.
   std::uint64_t piecePairs = 0;  ///< Of them, those near enough to be held against each other.
@@ -44,12 +44,16 @@ class LmdScratch {
   /// Room for the minima of a servo tick: a query that finds more keeps the nearest and says Truncated.
   static constexpr std::size_t kDefaultCapacity = 16384;
 
-  /// @param capacity  Minima, and pieces of flat regions, that a query can hold; about 500 bytes each.
+  /// @param capacity  Minima, and pieces of flat regions, that a query can hold; about 750 bytes each.
   /// @param simd      Instruction set to cull with; the sets are the same with each.
   explicit LmdScratch(std::size_t capacity = kDefaultCapacity, SimdLevel simd = defaultSimdLevel());
   ~LmdScratch();
   LmdScratch(LmdScratch&&) noexcept;
   LmdScratch& operator=(LmdScratch&&) noexcept;
+
+  /// From now on a query holds no more than so many minima and pieces (at least one, at most the capacity),
+  /// as if that were the capacity: merging them is what can take longest. Real-time safe.
+  void holdAtMost(std::size_t pieces) noexcept;
 
   struct Data;
   Data& data() noexcept { return *data_; }
@@ -65,7 +69,8 @@ class LmdScratch {
 /// @param cutoff         Ignore pairs farther apart than this [m]; finite, > 0.
 /// @param scratch        Preallocated work space, one per thread.
 /// @param out            Caller's storage; keeps the nearest if it fills, and the result says Truncated.
-/// @param maxNodePairs   Bound on the work: at it the result says Truncated and holds what was found.
+/// @param maxNodePairs   Bound on the work, in pairs of nodes and of features (beyond it by one batch of
+///                       them at most): at it the result says Truncated and holds what was found.
 /// Points are in scene's frame. Real-time safe: no allocation, lock or throw.
 ///
 /// Promised: each minimum of the exact geometry is there, once; each entry meets the exact conditions to the

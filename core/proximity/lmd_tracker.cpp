@@ -1,6 +1,7 @@
 #include "core/proximity/lmd_tracker.h"
 
 #include <algorithm>
+#include <array>
 
 #include <glm/geometric.hpp>
 
@@ -11,6 +12,30 @@ namespace {
 
 /// Beyond this turn the limits on directions say nothing any more [rad].
 constexpr double kMostClearTurn = 0.5;
+
+/// Of a plan, what a list is made for.
+constexpr std::array<double, 4> kShares{1.0, 0.5, 0.25, 0.1};
+/// Of the way that many times as much is kept as of the room aside.
+constexpr double kWayShare = 2.0;
+/// After so many lists for less of a plan, or attempts that were left out, more is tried; at once where
+/// a list holds less than this share of the pairs that it may.
+constexpr unsigned kBuildsBetweenTries = 16;
+constexpr double kFewPairs = 1.0 / 8.0;
+
+/// Where the whole plan is too much, its way counts for more than room aside of it, of which the least must
+/// do.
+SearchPlan planFor(const MotionForecast& forecast, const ListPurpose& purpose, double share) noexcept {
+  const MotionBudget least = share * purpose.leastRoom;
+  if (share == 1.0 || !(least.travel > 0.0)) {
+    SearchPlan plan = forecast.plan(purpose.planCutoff, share);
+    plan.range.budget = {std::max(plan.range.budget.travel, least.travel),
+                         std::max(plan.range.budget.turn, least.turn)};
+    return plan;
+  }
+  SearchPlan plan = forecast.plan(purpose.planCutoff, std::min(1.0, kWayShare * share));
+  plan.range.budget = least;
+  return plan;
+}
 
 }  // namespace
 
@@ -30,17 +55,25 @@ bool willServe(const CandidateList& list, const TrackedPair& pair, const MotionF
   return list.cutoff() == purpose.cutoff && covers(forecast.pose()) && covers(forecast.poseWhenReady());
 }
 
-void buildForPlan(CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast,
-                  const ListPurpose& purpose, LmdScratch& scratch) {
+const CandidateList::Bounds& ListPurpose::boundsAt(std::size_t level) const noexcept {
+  return level == 0 ? whole : level + 1 < kShares.size() ? part : least;
+}
+
+bool buildForPlan(CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast,
+                  const ListPurpose& purpose, LmdScratch& scratch, PlanMemory& memory) {
   const glm::dquat sceneFromWorld = glm::conjugate(pair.worldFromScene.rotation);
-  for (const double share : {1.0, 0.5, 0.25, 0.1}) {
-    SearchPlan plan = forecast.plan(purpose.planCutoff, share);
-    plan.range.budget.travel = std::max(plan.range.budget.travel, share * purpose.leastRoom.travel);
-    plan.range.budget.turn = std::max(plan.range.budget.turn, share * purpose.leastRoom.turn);
+  if (memory.level > 0 && ++memory.builds % kBuildsBetweenTries == 0) --memory.level;
+  for (; memory.level < kShares.size(); ++memory.level) {
+    const double share = kShares[memory.level];
+    const SearchPlan plan = planFor(forecast, purpose, share);
     list.build(pair.queryAt(plan.pose, purpose.cutoff), turned(sceneFromWorld, plan.range), scratch,
-               share == 1.0 ? purpose.whole : purpose.part, purpose.relaxation);
-    if (list.isUsable()) return;
+               purpose.boundsAt(memory.level), purpose.relaxation);
+    if (!list.isUsable()) continue;
+    const auto most = memory.level > 0 ? static_cast<double>(purpose.boundsAt(memory.level - 1).pairs) : 0.0;
+    if (static_cast<double>(list.size()) < kFewPairs * most) --memory.level;
+    return true;
   }
+  return false;
 }
 
 void LmdTracker::refresh(CandidateList& list, double cutoff, LmdScratch& scratch) const {
@@ -52,7 +85,8 @@ void LmdTracker::refresh(CandidateList& list, double cutoff, LmdScratch& scratch
     list.build(query, {{}, wide}, scratch);
     return;
   }
-  buildForPlan(list, pair_, forecast_, {cutoff, cutoff}, scratch);
+  PlanMemory memory;
+  buildForPlan(list, pair_, forecast_, {cutoff, cutoff}, scratch, memory);
 }
 
 }  // namespace nearfit

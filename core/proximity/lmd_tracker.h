@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/proximity/candidate_list.h"
@@ -35,8 +36,11 @@ struct ListPurpose {
   double planCutoff = 0.0;   ///< What the room for motion is measured by [m]: the cutoff, or a wider one.
   double relaxation = 0.0;   ///< As CandidateList::build has it.
   MotionBudget leastRoom{};  ///< For motion aside of what is foretold.
-  /// How much a list for the whole plan may be, and one for a part of it.
-  CandidateList::Bounds whole{1U << 14, 1U << 14}, part{};
+  /// How much a list for the whole plan may be, one for a part of it, and one for the least.
+  CandidateList::Bounds whole{1U << 14, 1U << 14}, part{}, least{};
+
+  /// @param level  As PlanMemory has it.
+  const CandidateList::Bounds& boundsAt(std::size_t level) const noexcept;
   double roomToKeep = 0.0;  ///< Share of the room aside that must be left at a pose.
 };
 
@@ -44,11 +48,18 @@ struct ListPurpose {
 bool willServe(const CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast,
                const ListPurpose& purpose) noexcept;
 
+/// For how much of a plan lists of two bodies were to be had of late: where surfaces lie along each other,
+/// attempts at more cost many times what the list does that serves.
+struct PlanMemory {
+  std::size_t level = 0;  ///< 0 is the whole plan; less of it at each.
+  unsigned builds = 0;
+};
+
 /// Builds a list for a plan: for all of it while that takes about half a tick, and for less, which is found
-/// sooner, where it would take longer or the list would be too long. Unusable when even the least is too
-/// much. For a thread that can take its time.
-void buildForPlan(CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast,
-                  const ListPurpose& purpose, LmdScratch& scratch);
+/// sooner, where it would take longer or the list would be too long. False when even the least is too much,
+/// or was of late. For a thread that can take its time.
+bool buildForPlan(CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast,
+                  const ListPurpose& purpose, LmdScratch& scratch, PlanMemory& memory);
 
 /// When to renew the list of two bodies, where to search, and how far around. SceneTracker does the same for
 /// a scene.

@@ -19,6 +19,7 @@ class Grouping {
     work_.boxes.clear();
     for (std::uint32_t i = 0; i < minima_.size(); ++i) {
       work_.parent[i] = i;
+      findSides(minima_[i], work_.sides[i]);
       work_.boxes.add(boxOf(minima_[i], closeness_.margin(minima_[i])));
     }
     work_.boxes.build();
@@ -40,16 +41,23 @@ class Grouping {
   void join(std::uint32_t i, std::uint32_t j) noexcept {
     ++counted_.pairs;
     const std::uint32_t ri = root(i), rj = root(j);
-    // All that is left to learn of two of one set is whether they overlap.
+    // All that is left to learn of two of one set is whether they overlap: most do not, which is soon told.
     if (ri == rj && !mayMark(minima_[i], minima_[j])) return;
     if (featureKey(minima_[j]) < featureKey(minima_[i])) std::swap(i, j);
+    if (ri == rj && !doOverlap(i, j)) return;
     Minimum &a = minima_[i], &b = minima_[j];
     if (!canTouch(a, b, closeness_)) return;
-    const double tolerance = closeness_.ofOverlap(std::max(a.lmd.distance, b.lmd.distance));
-    const bool overlap = markIfOverlapping(a, b, tolerance);
+    const bool isOverlap = ri == rj || doOverlap(i, j);
+    if (isOverlap) a.isOverlapping = b.isOverlapping = true;
     if (ri == rj) return;
-    if (!overlap) ++counted_.touchings;
-    if (overlap || touch(a, b, closeness_)) work_.parent[std::max(ri, rj)] = std::min(ri, rj);
+    if (!isOverlap) ++counted_.touchings;
+    if (isOverlap || touch(a, b, closeness_)) work_.parent[std::max(ri, rj)] = std::min(ri, rj);
+  }
+
+  bool doOverlap(std::uint32_t i, std::uint32_t j) const noexcept {
+    const Minimum &a = minima_[i], &b = minima_[j];
+    const double tolerance = closeness_.ofOverlap(std::max(a.lmd.distance, b.lmd.distance));
+    return overlap({a, work_.sides[i]}, {b, work_.sides[j]}, tolerance);
   }
 
   static bool mayMark(const Minimum& a, const Minimum& b) noexcept {
@@ -109,7 +117,10 @@ MergeResult mergeMinima(std::span<Minimum> minima, std::span<std::uint32_t> orde
       isRegion = isRegion || minima[sorted[end]].dimension > 0;
     const std::span<std::uint32_t> set = sorted.subspan(i, end - i);
     if (set.size() > 1) sortByFeatures(minima, set, work.keys);
-    const std::uint32_t first = set.front();
+    // Neighbours claim a point at their common boundary by rounding; one whose own it is has the say.
+    const auto sure = std::find_if(set.begin(), set.end(),
+                                   [&](std::uint32_t m) { return isRegion || !minima[m].lmd.isMarginal; });
+    const std::uint32_t first = sure == set.end() ? set.front() : *sure;
     if (isRegion) {
       const double tolerance = closeness.ofOverlap(minima[first].lmd.distance);
       minima[first].lmd = uniteRegion(minima, set, neighbours, tolerance);

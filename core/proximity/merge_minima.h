@@ -7,6 +7,7 @@
 
 #include "core/proximity/box_pairs.h"
 #include "core/proximity/minimum.h"
+#include "core/proximity/touching.h"
 
 namespace nearfit {
 
@@ -20,9 +21,10 @@ struct MergeWork {
 
   /// @param capacity  Minima, and pieces of flat regions, that can be merged.
   explicit MergeWork(std::size_t capacity)
-      : boxes(capacity), parent(capacity), starts(capacity), keys(capacity) {}
+      : boxes(capacity), sides(capacity), parent(capacity), starts(capacity), keys(capacity) {}
 
   BoxPairs boxes;
+  std::vector<PieceSides> sides;  ///< Of each entry, where it is a piece of faces.
   std::vector<std::uint32_t> parent, starts;
   std::vector<Key> keys;
 };
@@ -36,7 +38,8 @@ struct MergeResult {
 /// Makes one minimum of each set of entries that touch each other at one distance: neighbouring features that
 /// claim a minimum at their common boundary, and the pieces of a flat region with the points at its rim:
 /// where faces are parallel only to kFlatTolerance, one of those points is the minimum and the region stands
-/// for it. Sets are the transitive closure of touching, whatever the order of the entries.
+/// for it. A set of points is what its first entry says that is not marginal, if there is one. Sets are the
+/// transitive closure of touching, whatever the order of the entries.
 ///
 /// @param order        Its first `count` entries then name the results in `minima`, nearest first, regions as
 ///                     their centroids; as long as `minima`.

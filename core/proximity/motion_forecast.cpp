@@ -109,6 +109,14 @@ void MotionForecast::observe(const RigidTransform& pose, double ticks) noexcept 
   }
   pose_ = next;
   hasPose_ = true;
+  isHeldUp_ = false;
+}
+
+void MotionForecast::goAs(const MotionForecast& leader) noexcept {
+  if (!leader.hasPose_) return;
+  velocity_ = leader.velocity_;
+  trend_ = leader.trend_;
+  isHeldUp_ = true;
 }
 
 void MotionForecast::checkProbe(const RigidTransform& centred, double ticks) noexcept {
@@ -132,20 +140,22 @@ RigidTransform MotionForecast::poseAhead(double ticks) const noexcept {
 }
 
 RigidTransform MotionForecast::poseWhenReady() const noexcept {
-  return poseAhead(lead_ + 1.0);
+  return poseAhead(isHeldUp_ ? 1.0 : lead_ + 1.0);
 }
 
 SearchPlan MotionForecast::plan(double cutoff, double share) const noexcept {
-  const double window = share * windowOf(lead_), half = 0.5 * kMargin * window;
-  const double growth = std::pow(lead_ + window, kErrorGrowth);
+  // What is held up begins where it is, however long the search takes.
+  const double begin = isHeldUp_ ? 0.0 : lead_;
+  const double window = share * (lead_ + windowOf(lead_) - begin), half = 0.5 * kMargin * window;
+  const double growth = std::pow(begin + window, kErrorGrowth);
   const auto aside = [&](double fastest, double error) {
     return generosity_ * std::min(growth * error, kMostAside * half * fastest);
   };
   // Part of the travel comes from turning: the least turn must not be out of reach of the least travel.
   const double leastTravel = kLeastTravel * cutoff + kLeastTurn * radius_;
   const double mostTravel = std::max(leastTravel, kMostTravel * cutoff);
-  SearchPlan plan{poseAhead(lead_ + 0.5 * window), {}};
-  const double middle = lead_ + 0.5 * window;
+  const double middle = begin + 0.5 * window;
+  SearchPlan plan{poseAhead(middle), {}};
   plan.range.stretch = {limited(half * (velocity_.shift + middle * trend_.shift), mostTravel),
                         limited(half * (velocity_.spin + middle * trend_.spin), kMostTurn)};
   plan.range.budget = {share * std::clamp(aside(fastest_.travel, error_.travel), leastTravel, mostTravel),

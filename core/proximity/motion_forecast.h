@@ -28,11 +28,16 @@ class MotionForecast {
   void observe(const RigidTransform& pose, double ticks) noexcept;
   const RigidTransform& pose() const noexcept { return pose_; }
 
+  /// Until the next look at it, the part counts as one that is held up where it is and then goes on as its
+  /// leader moves: how it moved itself tells how long it waited, not where it will go.
+  /// @param leader  Of the hand that draws it; one that has seen nothing changes nothing.
+  void goAs(const MotionForecast& leader) noexcept;
+
   /// How many ticks it takes from the start of a search until a tick has what it found; 0 when the tick
   /// waits for it. The longest of late counts.
   void setLead(double ticks) noexcept;
 
-  /// Where the part will be in the first tick after a search that starts now.
+  /// Where the part will be in the first tick after a search that starts now; one that is held up a tick on.
   RigidTransform poseWhenReady() const noexcept;
 
   /// @param cutoff  Of the search [m]; room aside is bounded by it.
@@ -47,6 +52,7 @@ class MotionForecast {
   double radius_ = 0.0;
   RigidTransform pose_;
   bool hasPose_ = false;
+  bool isHeldUp_ = false;
   bool wasJump_ = false;
   /// Of the centre in a tick, and what it grows by from tick to tick.
   MotionStretch velocity_, trend_;

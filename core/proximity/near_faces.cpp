@@ -49,7 +49,7 @@ double NearFaces::leastNotVisited() const noexcept {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < work.waitingCount; ++i) {
     const EntryPair& pair = work.waiting[i];
-    const Box scene = boxOf(scene_, pair.sceneLane, {}), part = boxOf(part_, pair.partLane, pose_);
+    const Box scene = boxOf(scene_, pair.sceneLane, {}), part = boxOf(part_, pair.partLane, placed_.pose());
     least = std::min(least, std::max(gapAlong(scene, part), gapAlong(part, scene)));
   }
   // Axes in single precision are unit to a few roundings.
@@ -57,7 +57,7 @@ double NearFaces::leastNotVisited() const noexcept {
   return std::max(0.0, kAxes * least - limits_.padding);
 }
 
-double NearFaces::rounding() const noexcept {
+double PlacedFaces::rounding() const noexcept {
   const double reach = scene_.size() + part_.size();
   return kLengthTolerance * reach + kPointRounding * glm::length(pose_.translation);
 }

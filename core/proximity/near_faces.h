@@ -11,8 +11,37 @@
 
 namespace nearfit {
 
-/// The pairs of faces of two bodies within reach of each other, whatever their sides, and their corners in
-/// the scene's centred frame. Real-time safe.
+/// The faces of two bodies in the scene's centred frame, whatever their sides. Real-time safe.
+class PlacedFaces {
+ public:
+  PlacedFaces(const NormalConeTree& scene, const NormalConeTree& part,
+              const RigidTransform& sceneFromPart) noexcept
+      : scene_(scene),
+        part_(part),
+        pose_(centredPose(scene, part, sceneFromPart)),
+        turn_(glm::mat3_cast(pose_.rotation)) {}
+
+  /// Between the trees' centred frames.
+  const RigidTransform& pose() const noexcept { return pose_; }
+  TriangleCorners sceneCorners(const NormalConeTree::FaceLeaf& f) const noexcept {
+    const auto x = scene_.positions();
+    return {x[f.corners[0]], x[f.corners[1]], x[f.corners[2]]};
+  }
+  TriangleCorners partCorners(const NormalConeTree::FaceLeaf& f) const noexcept {
+    const auto x = part_.positions();
+    return {turn_ * x[f.corners[0]] + pose_.translation, turn_ * x[f.corners[1]] + pose_.translation,
+            turn_ * x[f.corners[2]] + pose_.translation};
+  }
+  /// What a distance may be off by through rounding [m].
+  double rounding() const noexcept;
+
+ private:
+  const NormalConeTree &scene_, &part_;
+  RigidTransform pose_;
+  glm::dmat3 turn_;
+};
+
+/// The pairs of faces of two bodies within reach of each other. Real-time safe.
 class NearFaces {
  public:
   /// @param within  [m]; finite, > 0.
@@ -20,21 +49,20 @@ class NearFaces {
             double within, LmdScratch::Data& workspace) noexcept
       : scene_(scene),
         part_(part),
-        pose_(centredPose(scene, part, sceneFromPart)),
+        placed_(scene, part, sceneFromPart),
         workspace_(workspace),
-        limits_(cullLimits(scene, part, pose_, within)),
-        traversal_(scene, part, pose_, limits_, workspace.openNear, workspace.traversal) {}
+        limits_(cullLimits(scene, part, placed_.pose(), within)),
+        traversal_(scene, part, placed_.pose(), limits_, workspace.openNear, workspace.traversal) {}
 
-  /// Calls visit(scene leaf, part leaf): of FaceLeafs. False when it stopped at the bound of work.
+  /// Calls visit(scene index, part index): of faces(). False when it stopped at the bound of work.
   template <class Visit>
-  bool run(Visit&& visit, std::uint64_t maxNodePairs) noexcept {
+  bool run(Visit&& visit, std::uint64_t maxWork) noexcept {
     return traversal_.run(
         [&](const EntryPair& pair) {
           if (!isFace(pair.scene) || !isFace(pair.part)) return;
-          visit(scene_.faces()[NormalConeTree::leafIndex(pair.scene)],
-                part_.faces()[NormalConeTree::leafIndex(pair.part)]);
+          visit(NormalConeTree::leafIndex(pair.scene), NormalConeTree::leafIndex(pair.part));
         },
-        maxNodePairs);
+        maxWork);
   }
 
   /// From the next pairs on leaves out what is farther.
@@ -44,24 +72,16 @@ class NearFaces {
     traversal_.tighten(static_cast<float>(kSlack * within));
   }
 
-  /// Between the trees' centred frames.
-  const RigidTransform& pose() const noexcept { return pose_; }
-  glm::dvec3 scenePosition(std::uint32_t vertex) const noexcept { return scene_.positions()[vertex]; }
-  glm::dvec3 partPosition(std::uint32_t vertex) const noexcept {
-    return pose_.applyToPoint(part_.positions()[vertex]);
-  }
-  TriangleCorners sceneCorners(const NormalConeTree::FaceLeaf& f) const noexcept {
-    return {scenePosition(f.corners[0]), scenePosition(f.corners[1]), scenePosition(f.corners[2])};
-  }
-  TriangleCorners partCorners(const NormalConeTree::FaceLeaf& f) const noexcept {
-    return {partPosition(f.corners[0]), partPosition(f.corners[1]), partPosition(f.corners[2])};
-  }
-
+  const PlacedFaces& placed() const noexcept { return placed_; }
   /// After run() said false: no pair of faces that was not visited is nearer than this [m].
   double leastNotVisited() const noexcept;
-  /// What a distance may be off by through rounding [m].
-  double rounding() const noexcept;
-  std::uint64_t nodePairs() const noexcept { return traversal_.nodePairs(); }
+  /// Lets what is done with a visited pair count as so many pairs of nodes. run() goes beyond its bound by no
+  /// more than one batch of pairs takes.
+  void spend(std::uint64_t work) noexcept { traversal_.spend(work); }
+  /// From within a visit: run() ends as at its bound.
+  void stop() noexcept { traversal_.stop(); }
+  /// Pairs of nodes opened, and what was spent besides.
+  std::uint64_t work() const noexcept { return traversal_.nodePairs(); }
 
  private:
   static bool isFace(std::uint32_t leaf) noexcept {
@@ -69,7 +89,7 @@ class NearFaces {
   }
 
   const NormalConeTree &scene_, &part_;
-  RigidTransform pose_;
+  PlacedFaces placed_;
   LmdScratch::Data& workspace_;
   CullLimits limits_;
   TreeTraversal traversal_;

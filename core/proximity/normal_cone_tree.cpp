@@ -24,12 +24,21 @@ float NormalConeTree::Node::sizeSquared(std::size_t lane) const noexcept {
   return half[0][lane] * half[0][lane] + half[1][lane] * half[1][lane] + half[2][lane] * half[2][lane];
 }
 
-NormalConeTree::NormalConeTree(const TriangleMesh& mesh, const ProgressCallback& progress)
-    : arrays_(NormalConeTreeBuilder(mesh, progress).build()) {}
+NormalConeTree::NormalConeTree(const TriangleMesh& mesh, const ProgressCallback& progress,
+                               AcceptanceRule rule)
+    : arrays_(NormalConeTreeBuilder(mesh, progress, rule).build()) {}
+
+NormalConeTree NormalConeTree::withIdleFeatures(const TriangleMesh& mesh) {
+  const ProgressCallback nobody;
+  NormalConeTreeBuilder builder(mesh, nobody, AcceptanceRule::Exact);
+  builder.keepIdleFeatures();
+  return NormalConeTree(builder.build());
+}
 
 std::size_t NormalConeTree::byteSize() const noexcept {
   return arrays_.nodes.byteSize() + arrays_.positions.byteSize() + arrays_.vertices.byteSize() +
-         arrays_.edges.byteSize() + arrays_.faces.byteSize() + arrays_.neighbours.byteSize();
+         arrays_.edges.byteSize() + arrays_.faces.byteSize() + arrays_.neighbours.byteSize() +
+         arrays_.walls.byteSize();
 }
 
 }  // namespace nearfit

@@ -10,6 +10,7 @@
 
 #include "core/mesh/triangle_mesh.h"
 #include "core/progress.h"
+#include "core/proximity/acceptance_rule.h"
 #include "core/proximity/lmd.h"
 #include "core/shared_array.h"
 
@@ -62,7 +63,7 @@ class NormalConeTree {
 
   /// What a leaf child refers to.
   struct VertexLeaf {
-    std::uint32_t vertex, firstNeighbour, neighbourCount;
+    std::uint32_t vertex, firstNeighbour, neighbourCount;  ///< By the rule of normal spans: in pairs.
   };
   struct EdgeLeaf {
     std::uint32_t edge, v0, v1;
@@ -84,10 +85,19 @@ class NormalConeTree {
     SharedArray<EdgeLeaf> edges;
     SharedArray<FaceLeaf> faces;
     SharedArray<std::uint32_t> neighbours;
+    AcceptanceRule rule = AcceptanceRule::Exact;
+    SharedArray<glm::dvec3> walls{};  ///< By the rule of normal spans alone: see NormalSpanFeatures.
+    /// Last of the vertices and edges that are there though they carry no minimum; see withIdleFeatures().
+    FeatureCounts idle{};
   };
 
   /// Builds on all processors (see parallelFor). Throws Cancelled, and Error when the mesh is too large.
-  explicit NormalConeTree(const TriangleMesh& mesh, const ProgressCallback& progress = {});
+  /// @param rule  That queries with this hierarchy then follow, for what this body has to say of a pair.
+  explicit NormalConeTree(const TriangleMesh& mesh, const ProgressCallback& progress = {},
+                          AcceptanceRule rule = AcceptanceRule::Exact);
+  /// With the features, too, that cannot carry a minimum: they are held against the others like the rest and
+  /// then refused, so that queries have the same answers. To measure what leaving them out saves.
+  static NormalConeTree withIdleFeatures(const TriangleMesh& mesh);
   /// Takes arrays that another hierarchy was made of; nothing is checked.
   explicit NormalConeTree(Arrays arrays) : arrays_(std::move(arrays)) {}
 
@@ -110,11 +120,20 @@ class NormalConeTree {
   std::span<const std::uint32_t> neighbours(const VertexLeaf& v) const noexcept {
     return arrays_.neighbours.view().subspan(v.firstNeighbour, v.neighbourCount);
   }
+  AcceptanceRule rule() const noexcept { return arrays_.rule; }
+  std::span<const glm::dvec3> walls(const VertexLeaf& v) const noexcept {
+    return arrays_.walls.view().subspan(v.firstNeighbour / 2, v.neighbourCount / 2);
+  }
 
   /// Middle of the mesh's bounding box in its frame [m]; positions and nodes are relative to it.
   const glm::dvec3& centre() const noexcept { return arrays_.centre; }
   /// Diagonal of the bounding box [m].
   double size() const noexcept { return arrays_.size; }
+
+  bool isIdle(FeatureKind kind, std::uint32_t index) const noexcept {
+    return (kind == FeatureKind::Vertex && index >= arrays_.vertices.size() - arrays_.idle.vertices) ||
+           (kind == FeatureKind::Edge && index >= arrays_.edges.size() - arrays_.idle.edges);
+  }
 
   FeatureCounts keptFeatures() const noexcept {
     return {arrays_.vertices.size(), arrays_.edges.size(), arrays_.faces.size()};

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/error.h"
+#include "core/mesh/idle_features.h"
+#include "core/mesh/normal_span.h"
 #include "core/parallel/parallel_for.h"
 #include "core/proximity/subtree_builder.h"
 
@@ -51,15 +53,29 @@ NormalConeTree::Arrays NormalConeTreeBuilder::build() {
           std::move(tree_.vertices),
           std::move(tree_.edges),
           std::move(tree_.faces),
-          std::move(features_.neighbours)};
+          std::move(features_.neighbours),
+          rule_,
+          std::move(walls_),
+          idle_};
 }
 
 void NormalConeTreeBuilder::findFeaturesOfMesh() {
   double reported = 0.0;
-  features_ = findFeatures(mesh_, [&](double fraction) {
+  const auto report = [&](double fraction) {
     progress_.add(kFeaturesShare * (fraction - reported));
     reported = fraction;
-  });
+  };
+  if (rule_ == AcceptanceRule::NormalSpan) {
+    NormalSpanFeatures found = findNormalSpanFeatures(mesh_, report);
+    features_ = std::move(found.features);
+    walls_ = std::move(found.walls);
+  } else {
+    features_ = findFeatures(mesh_, report);
+  }
+  if (!keepsIdle_) return;
+  const std::size_t vertices = features_.vertices.size(), edges = features_.edges.size();
+  addIdleFeatures(mesh_, features_);
+  idle_ = {features_.vertices.size() - vertices, features_.edges.size() - edges, 0};
 }
 
 void NormalConeTreeBuilder::fillLeaves() {

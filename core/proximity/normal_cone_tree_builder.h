@@ -21,8 +21,10 @@ namespace nearfit {
 /// last few, and bounds each part by a box along its own axes. See PartSplitter and PartBounds.
 class NormalConeTreeBuilder {
  public:
-  NormalConeTreeBuilder(const TriangleMesh& mesh, const ProgressCallback& progress)
-      : mesh_(mesh), progress_(progress, 1.0) {}
+  NormalConeTreeBuilder(const TriangleMesh& mesh, const ProgressCallback& progress, AcceptanceRule rule)
+      : mesh_(mesh), progress_(progress, 1.0), rule_(rule) {}
+  /// See NormalConeTree::withIdleFeatures().
+  void keepIdleFeatures() noexcept { keepsIdle_ = true; }
   /// Once. Throws Cancelled, and Error when the mesh is too large.
   NormalConeTree::Arrays build();
 
@@ -69,9 +71,13 @@ class NormalConeTreeBuilder {
 
   const TriangleMesh& mesh_;
   SharedProgress progress_;
+  AcceptanceRule rule_;
   double splitsReported_ = 0.0;
+  bool keepsIdle_ = false;
+  FeatureCounts idle_;
   Growing tree_;
   MeshFeatures features_;
+  std::vector<glm::dvec3> walls_;
   std::optional<FeatureGeometry> geometry_;
 };
 

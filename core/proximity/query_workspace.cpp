@@ -14,9 +14,6 @@ namespace {
 /// The hierarchy's rounding, and the pose's in single precision, as a fraction of the lengths involved.
 constexpr double kPosePadding = 1e-6;
 
-/// Coordinates up to this many sizes from the origin lose nothing in double precision that matters.
-constexpr double kNear = 100.0;
-
 /// Rounding of projected limits on directions: some thirty roundings of single precision.
 constexpr float kDirectionSlack = 4e-6F;
 
@@ -27,25 +24,23 @@ bool isNearer(const Minimum& a, const Minimum& b) noexcept {
 }  // namespace
 
 void MinimaCollector::add() noexcept {
-  std::vector<Minimum>& minima = workspace_.minima;
-  if (count_ < minima.size()) {
+  if (count_ < minima_.size()) {
     ++count_;
     return;
   }
   // Full: the farthest makes room.
-  if (!isHeap_) std::make_heap(minima.begin(), minima.end(), isNearer);
+  if (!isHeap_) std::make_heap(minima_.begin(), minima_.end(), isNearer);
   isHeap_ = true;
-  if (spare_.lmd.distance >= minima.front().lmd.distance) return;
-  std::pop_heap(minima.begin(), minima.end(), isNearer);
-  minima.back() = spare_;
-  std::push_heap(minima.begin(), minima.end(), isNearer);
+  if (spare_.lmd.distance >= minima_.front().lmd.distance) return;
+  std::pop_heap(minima_.begin(), minima_.end(), isNearer);
+  minima_.back() = spare_;
+  std::push_heap(minima_.begin(), minima_.end(), isNearer);
 }
 
 void MinimaCollector::finish(const NormalConeTree& scene, const NormalConeTree& part,
                              std::span<Lmd> out) noexcept {
-  const MergeResult merged =
-      mergeMinima(std::span(workspace_.minima).first(count_), workspace_.order, workspace_.merge,
-                  scene.size() + part.size(), std::min(scene.size(), part.size()));
+  const MergeResult merged = mergeMinima(minima_.first(count_), workspace_.order, workspace_.merge,
+                                         scene.size() + part.size(), std::min(scene.size(), part.size()));
   const std::size_t kept = merged.count;
   result_.pieces = count_;
   result_.piecePairs = merged.pairs;
@@ -53,11 +48,11 @@ void MinimaCollector::finish(const NormalConeTree& scene, const NormalConeTree& 
   if (kept > out.size() || isHeap_) {
     result_.status = QueryStatus::Truncated;
     const double farthest =
-        result_.count > 0 ? workspace_.minima[workspace_.order[result_.count - 1]].lmd.distance : 0.0;
+        result_.count > 0 ? minima_[workspace_.order[result_.count - 1]].lmd.distance : 0.0;
     result_.completeTo = std::min(result_.completeTo, farthest);
   }
   for (std::size_t i = 0; i < result_.count; ++i) {
-    out[i] = workspace_.minima[workspace_.order[i]].lmd;
+    out[i] = minima_[workspace_.order[i]].lmd;
     out[i].scenePoint += scene.centre();
     out[i].partPoint += scene.centre();
   }
@@ -67,7 +62,7 @@ RigidTransform centredPose(const NormalConeTree& scene, const NormalConeTree& pa
                            const RigidTransform& sceneFromPart) noexcept {
   const RigidTransform pose = sceneFromPart.normalized();
   if (glm::length(pose.translation) + glm::length(part.centre()) + glm::length(scene.centre()) <=
-      kNear * (scene.size() + part.size())) {
+      kNearOrigin * (scene.size() + part.size())) {
     return {pose.rotation, pose.translation + pose.rotation * part.centre() - scene.centre()};
   }
   // Far from the origin what is left of these numbers is lost in their rounding.
@@ -92,7 +87,8 @@ CullLimits cullLimits(const NormalConeTree& scene, const NormalConeTree& part, c
 
 bool isQueryValid(const NormalConeTree& scene, const NormalConeTree& part,
                   const RigidTransform& sceneFromPart, double cutoff) noexcept {
-  return !scene.isEmpty() && !part.isEmpty() && cutoff > 0.0 && std::isfinite(cutoff) &&
+  // Regions that touch are said to be as far as the smallest normal number: that has to be within the cutoff.
+  return !scene.isEmpty() && !part.isEmpty() && cutoff > 0.0 && std::isnormal(cutoff) &&
          sceneFromPart.isFinite();
 }
 

@@ -13,10 +13,15 @@
 
 namespace nearfit {
 
+/// A search that goes on for the nearest alone culls by its distance and this much: culls round, and what is
+/// as near must not be lost.
+constexpr double kNearestSlack = 1.0 + 1e-6;
+
 /// What an LmdScratch holds: the stack of a traversal, and the minima found until they are merged.
 struct LmdScratch::Data {
   Data(std::size_t capacity, SimdLevel simd)
-      : minima(capacity),
+      : room(capacity),
+        minima(capacity),
         order(capacity),
         merge(capacity),
         open(opener(simd)),
@@ -27,6 +32,7 @@ struct LmdScratch::Data {
         segmentCull(segmentKernel(simd)) {}
 
   TraversalWork traversal;
+  std::size_t room;  ///< Of `minima` that a query may use.
   std::vector<Minimum> minima;
   std::vector<std::uint32_t> order;
   MergeWork merge;
@@ -41,10 +47,10 @@ struct LmdScratch::Data {
 class MinimaCollector {
  public:
   MinimaCollector(LmdScratch::Data& workspace, LmdResult& result) noexcept
-      : workspace_(workspace), result_(result) {}
+      : workspace_(workspace), minima_(std::span(workspace.minima).first(workspace.room)), result_(result) {}
 
   /// Where to write the next one; add() takes it in.
-  Minimum& slot() noexcept { return count_ < workspace_.minima.size() ? workspace_.minima[count_] : spare_; }
+  Minimum& slot() noexcept { return count_ < minima_.size() ? minima_[count_] : spare_; }
   void add() noexcept;
 
   /// Merges, sorts nearest first, and writes to `out` in the frame of the scene's mesh.
@@ -52,6 +58,7 @@ class MinimaCollector {
 
  private:
   LmdScratch::Data& workspace_;
+  std::span<Minimum> minima_;
   LmdResult& result_;
   Minimum spare_;
   std::size_t count_ = 0;

@@ -10,7 +10,7 @@ using Ints8 = std::int32_t __attribute__((vector_size(32)));
 
 /// All bits set in the lanes whose box the segment may meet: separating axes are the box's own, and those
 /// square to one of them and the segment.
-NEARFIT_INLINE Ints8 meets(const NormalConeTree::Node& node, const SegmentBound& s) {
+NEARFIT_INLINE simd::Lanes<Ints8> meets(const NormalConeTree::Node& node, const SegmentBound& s) {
   using Vectors = simd::Triple<Floats8>;
   const Vectors centre = simd::load(node.centre), half = simd::load(node.half);
   const Vectors n = simd::load(node.n), u = simd::load(node.u), v = simd::cross(n, u);
@@ -24,9 +24,9 @@ NEARFIT_INLINE Ints8 meets(const NormalConeTree::Node& node, const SegmentBound&
   const Ints8 alive = (magnitude(dn) <= en + an) & (magnitude(du) <= eu + au) & (magnitude(dv) <= ev + av);
   // Products carry the rounding of the distance over the whole length, whatever the axis.
   const Floats8 slack = s.padding * (an + au + av);
-  return alive & (magnitude(du * hv - dv * hu) <= eu * av + ev * au + slack) &
-         (magnitude(dv * hn - dn * hv) <= ev * an + en * av + slack) &
-         (magnitude(dn * hu - du * hn) <= en * au + eu * an + slack);
+  return {alive & (magnitude(du * hv - dv * hu) <= eu * av + ev * au + slack) &
+          (magnitude(dv * hn - dn * hv) <= ev * an + en * av + slack) &
+          (magnitude(dn * hu - du * hn) <= en * au + eu * an + slack)};
 }
 
 /// By way of memory, as simd::notNegative().
@@ -40,12 +40,12 @@ NEARFIT_INLINE std::uint32_t bitsOf(const Ints8& lanes) {
 }
 
 std::uint32_t segmentPortable(const NormalConeTree::Node& node, const SegmentBound& segment) noexcept {
-  return bitsOf(meets(node, segment));
+  return bitsOf(meets(node, segment).value);
 }
 
 #if defined(__x86_64__)
-#define NEARFIT_BITS(lanes) \
-  static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats8>(lanes)))
+#define NEARFIT_BITS(hits) \
+  static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats8>((hits).value)))
 
 NEARFIT_AVX2 std::uint32_t segmentAvx2(const NormalConeTree::Node& node,
                                        const SegmentBound& segment) noexcept {

@@ -23,6 +23,8 @@ constexpr double kSamePlace = 1e-9, kSameDirection = 1e-3;
 /// lose it between two faces in one plane, whose edge is no feature.
 constexpr double kSide = 1e-9;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 const double kSineOfTilt = std::sin(kContactTilt);
 
 /// One body's features, asked for in the scene's centred frame.
@@ -241,38 +243,148 @@ double distanceOf(const TriangleCorners& a, const TriangleCorners& b) noexcept {
   return std::sqrt(closestOfTriangles(a, b).distanceSquared);
 }
 
+/// Tests pairs that are listed, at one pose.
+class ListedPairs {
+ public:
+  ListedPairs(const UnsidedSurface& scene, const UnsidedSurface& part, const RigidTransform& sceneFromPart,
+              double within, ContactList& list) noexcept
+      : scene_(scene),
+        part_(part),
+        placed_(scene.tree(), part.tree(), sceneFromPart),
+        sceneSide_{scene, {}},
+        partSide_{part, placed_.pose()},
+        contacts_(sceneSide_, partSide_, within, list),
+        within_(within) {}
+
+  double rounding() const noexcept { return placed_.rounding(); }
+
+  void test(TrianglePair& pair) noexcept {
+    const FaceLeaf &s = leafOf(scene_, pair.scene), &p = leafOf(part_, pair.part);
+    const double reach = within_ + rounding();
+    const DirectedTriangle& a = sceneTriangle_.of(pair.scene, [&] { return placed_.sceneCorners(s); });
+    const DirectedTriangle& b = partTriangle_.of(pair.part, [&] { return placed_.partCorners(p); });
+    pair.gap = gapOfTriangles(a, b, reach, pair.isByPart);
+    if (pair.gap <= reach) contacts_.test(s, a.corners, p, b.corners);
+  }
+  /// Whether a plane square to a direction keeps the two as far apart as that.
+  bool areBeyondAlong(const glm::dvec3& direction, double distance, const TrianglePair& pair) const noexcept {
+    const TriangleCorners a = placed_.sceneCorners(leafOf(scene_, pair.scene)),
+                          b = placed_.partCorners(leafOf(part_, pair.part));
+    const auto at = [&](const glm::dvec3& corner) { return glm::dot(direction, corner - a[0]); };
+    return std::min(at(b[0]), std::min(at(b[1]), at(b[2]))) - std::max(0.0, std::max(at(a[1]), at(a[2]))) >=
+           distance;
+  }
+  double distance(const TrianglePair& pair) const noexcept {
+    return distanceOf(placed_.sceneCorners(leafOf(scene_, pair.scene)),
+                      placed_.partCorners(leafOf(part_, pair.part)));
+  }
+
+ private:
+  static const FaceLeaf& leafOf(const UnsidedSurface& surface, std::uint32_t i) noexcept {
+    return surface.tree().faces()[i];
+  }
+
+  /// The one asked for last: pairs that were found together often have one in common.
+  struct Latest {
+    std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
+    DirectedTriangle triangle;
+
+    template <class Corners>
+    const DirectedTriangle& of(std::uint32_t wanted, Corners&& corners) noexcept {
+      if (wanted != index) {
+        index = wanted;
+        triangle.corners = corners();
+        triangle.directions = SeparatingDirections(triangle.corners);
+      }
+      return triangle;
+    }
+  };
+
+  const UnsidedSurface &scene_, &part_;
+  PlacedFaces placed_;
+  Latest sceneTriangle_, partTriangle_;
+  Side sceneSide_, partSide_;
+  PairContacts contacts_;
+  double within_;
+};
+
+/// What listing a batch of a traversal's pairs may take.
+constexpr std::uint64_t kMostOfBatch = kWorkOfListing * TraversalWork::kMostLeaves;
+
+bool isPoseValid(const RigidTransform& sceneFromPart, double within) noexcept {
+  return sceneFromPart.isFinite() && within > 0.0 && std::isfinite(within);
+}
+
 }  // namespace
 
-SurfaceContacts findSurfaceContacts(const UnsidedSurface& scene, const UnsidedSurface& part,
+NearbyTriangles findNearbyTriangles(const UnsidedSurface& scene, const UnsidedSurface& part,
                                     const RigidTransform& sceneFromPart, double within, LmdScratch& scratch,
-                                    std::span<SurfaceContact> out, std::uint64_t maxNodePairs) noexcept {
-  SurfaceContacts result;
-  if (!sceneFromPart.isFinite() || !(within > 0.0) || !std::isfinite(within)) return result;
-  if (scene.tree().isEmpty() || part.tree().isEmpty()) {
-    result.isComplete = true;
-    result.lowerBound = within;
-    return result;
-  }
+                                    std::span<TrianglePair> out, std::uint64_t maxWork) noexcept {
+  NearbyTriangles result;
+  if (!isPoseValid(sceneFromPart, within)) return result;
+  result.within = within;
+  if (scene.tree().isEmpty() || part.tree().isEmpty()) return result;
   NearFaces faces(scene.tree(), part.tree(), sceneFromPart, within, scratch.data());
-  const Side sceneSide{scene, {}}, partSide{part, faces.pose()};
-  ContactList list(out, kSamePlace * (scene.tree().size() + part.tree().size()));
-  PairContacts contacts(sceneSide, partSide, within, list);
-  const double rounding = faces.rounding();
-  double least = within;
-  const auto visit = [&](const FaceLeaf& s, const FaceLeaf& p) {
-    ++result.trianglePairs;
-    const TriangleCorners a = faces.sceneCorners(s), b = faces.partCorners(p);
-    if (areSurelyBeyond(a, b, within + rounding)) return;
-    if (!areSurelyBeyond(a, b, least + rounding)) least = std::min(least, distanceOf(a, b));
-    contacts.test(s, a, p, b);
+  const PlacedFaces& placed = faces.placed();
+  const double rounding = placed.rounding(), reach = within + rounding;
+  const auto visit = [&](std::uint32_t s, std::uint32_t p) {
+    faces.spend(kWorkOfListing);
+    bool isByPart = false;
+    const double gap = gapOfTriangles(placed.sceneCorners(scene.tree().faces()[s]),
+                                      placed.partCorners(part.tree().faces()[p]), reach, isByPart);
+    if (gap > reach) return;
+    const double atLeast = std::max(0.0, gap - rounding);
+    if (result.count < out.size()) {
+      out[result.count++] = {s, p, atLeast, isByPart};
+    } else {
+      result.within = std::min(result.within, atLeast);
+      faces.stop();
+    }
   };
-  const bool isDone = faces.run(visit, maxNodePairs);
-  result.nodePairs = faces.nodePairs();
+  // A batch is listed to its end.
+  if (!faces.run(visit, maxWork - std::min(maxWork, kMostOfBatch)))
+    result.within = std::min(result.within, faces.leastNotVisited());
+  result.work = faces.work();
+  return result;
+}
+
+SurfaceContacts testTriangles(const UnsidedSurface& scene, const UnsidedSurface& part,
+                              const RigidTransform& sceneFromPart, double within, const HeldTriangles& held,
+                              std::span<SurfaceContact> out, std::uint64_t maxWork) noexcept {
+  SurfaceContacts result;
+  if (!isPoseValid(sceneFromPart, within)) return result;
+  ContactList list(out, kSamePlace * (scene.tree().size() + part.tree().size()));
+  ListedPairs pairs(scene, part, sceneFromPart, within, list);
+  const double rounding = pairs.rounding();
+  // Of the pairs that are not tested, none is nearer.
+  double notTested = held.within - held.travel;
+  const auto spend = [&](std::uint64_t work) {
+    const bool hasWork = result.work + work <= maxWork;
+    if (hasWork) result.work += work;
+    return hasWork;
+  };
+  if (!spend(held.pairs.size() / kPassedOver)) return result;
+  for (TrianglePair& pair : held.pairs) {
+    pair.gap = kInfinity;
+    const double atLeast = pair.atLeast - held.travel;
+    if (atLeast > within + rounding) continue;
+    if (spend(kWorkOfTest))
+      pairs.test(pair);
+    else
+      notTested = std::min(notTested, atLeast);
+  }
   result.count = list.count();
-  result.isComplete = isDone && !list.isFull();
-  double bound = least;
-  if (!isDone) bound = std::min(bound, faces.leastNotVisited());
-  result.lowerBound = std::max(0.0, bound - rounding);
+  result.completeTo = std::clamp(notTested, 0.0, within);
+  if (list.isFull()) result.completeTo = std::min(result.completeTo, out.empty() ? 0.0 : out.back().distance);
+  double least = std::min(within, notTested);
+  if (result.count > 0) least = std::min(least, out[0].distance);
+  // What is no contact, as where surfaces pass through each other.
+  for (const TrianglePair& pair : held.pairs) {
+    if (pair.gap >= least - rounding) continue;
+    if (result.count > 0 && pairs.areBeyondAlong(out[0].direction, least - rounding, pair)) continue;
+    least = spend(kWorkOfDistance) ? std::min(least, pairs.distance(pair)) : std::min(least, pair.gap);
+  }
+  result.lowerBound = std::max(0.0, least - 2.0 * rounding);
   return result;
 }
 

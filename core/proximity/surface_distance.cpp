@@ -33,11 +33,12 @@ SurfaceDistance leastSurfaceDistance(const NormalConeTree& scene, const NormalCo
   }
   NearFaces faces(scene, part, sceneFromPart, std::min(within, reachOf(scene, part, sceneFromPart)),
                   scratch.data());
-  const double rounding = faces.rounding();
+  const PlacedFaces& placed = faces.placed();
+  const double rounding = placed.rounding();
   double least = kInfinity, reach = within + rounding;
-  const auto visit = [&](const NormalConeTree::FaceLeaf& s, const NormalConeTree::FaceLeaf& p) {
+  const auto visit = [&](std::uint32_t s, std::uint32_t p) {
     ++result.trianglePairs;
-    const TriangleCorners a = faces.sceneCorners(s), b = faces.partCorners(p);
+    const TriangleCorners a = placed.sceneCorners(scene.faces()[s]), b = placed.partCorners(part.faces()[p]);
     if (areSurelyBeyond(a, b, reach)) return;
     const ClosestPoints found = closestOfTriangles(a, b);
     if (!(found.distanceSquared < least)) return;
@@ -48,7 +49,7 @@ SurfaceDistance leastSurfaceDistance(const NormalConeTree& scene, const NormalCo
     faces.tighten(std::sqrt(least));
   };
   result.isComplete = faces.run(visit, maxNodePairs);
-  result.nodePairs = faces.nodePairs();
+  result.nodePairs = faces.work();
   const double nearest = std::sqrt(least);
   result.isFound = nearest <= within;
   if (result.isFound) result.distance = nearest;

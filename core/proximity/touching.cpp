@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -101,18 +102,31 @@ bool isBeyondSide(const Minimum& a, const Piece& pa, const Piece& pb, double tol
   return false;
 }
 
-/// Whether a line along a side of `a` has `b` on its other side.
-bool isApartAlongSide(const Minimum& a, const Minimum& b, double tolerance) noexcept {
-  for (std::size_t i = 0; i < a.cornerCount; ++i) {
-    const glm::dvec3& from = a.corners[i];
-    glm::dvec3 inward = glm::cross(a.lmd.direction, a.corners[(i + 1) % a.cornerCount] - from);
-    const double length = glm::length(inward);
-    if (!(length > tolerance)) continue;
-    inward *= (glm::dot(inward, a.lmd.scenePoint - from) < 0.0 ? -1.0 : 1.0) / length;
-    bool isBeyond = true;
-    for (std::size_t k = 0; k < b.cornerCount && isBeyond; ++k)
-      isBeyond = glm::dot(inward, b.corners[k] - from) <= tolerance;
-    if (isBeyond) return true;
+/// Whether a line along a side of `a` has all corners of `b` on its other side.
+bool isBeyondSide(const SidedPiece& a, std::size_t side, const Minimum& b, double tolerance) noexcept {
+  const glm::dvec3 &from = a.piece.corners[side], &inward = a.sides.inward[side];
+  for (std::size_t k = 0; k < b.cornerCount; ++k) {
+    if (!(glm::dot(inward, b.corners[k] - from) <= tolerance)) return false;
+  }
+  return true;
+}
+
+bool isApartAlongSide(const SidedPiece& a, const Minimum& b, double tolerance) noexcept {
+  // The side that has b's centroid farthest beyond it most likely has all of b there: tried first, since each
+  // side that is tried in vain is a branch that cannot be foretold.
+  std::size_t first = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < a.piece.cornerCount; ++i) {
+    const double height = glm::dot(a.sides.inward[i], b.lmd.scenePoint - a.piece.corners[i]);
+    const bool isLess = a.sides.length[i] > tolerance && height < least;
+    first = isLess ? i : first;
+    least = isLess ? height : least;
+  }
+  // Where the centroid is well inside of a side, some corner is.
+  if (least > kBeyond * tolerance) return false;
+  if (isBeyondSide(a, first, b, tolerance)) return true;
+  for (std::size_t i = 0; i < a.piece.cornerCount; ++i) {
+    if (a.sides.length[i] > tolerance && isBeyondSide(a, i, b, tolerance)) return true;
   }
   return false;
 }
@@ -183,13 +197,24 @@ bool touch(const Minimum& a, const Minimum& b, const Closeness& closeness) noexc
   return false;
 }
 
-bool markIfOverlapping(Minimum& a, Minimum& b, double tolerance) noexcept {
-  if (a.dimension != b.dimension || a.dimension == 0) return false;
-  const bool overlap = a.dimension == 1
-                           ? segmentsOverlap(a, b, tolerance)
-                           : !isApartAlongSide(a, b, tolerance) && !isApartAlongSide(b, a, tolerance);
-  if (overlap) a.isOverlapping = b.isOverlapping = true;
-  return overlap;
+void findSides(const Minimum& piece, PieceSides& sides) noexcept {
+  if (piece.dimension != 2) return;
+  for (std::size_t i = 0; i < piece.cornerCount; ++i) {
+    const glm::dvec3& from = piece.corners[i];
+    const glm::dvec3& to = piece.corners[i + 1 < piece.cornerCount ? i + 1 : 0];
+    const glm::dvec3 inward = glm::cross(piece.lmd.direction, to - from);
+    const double length = glm::length(inward);
+    sides.length[i] = length;
+    sides.inward[i] = glm::dvec3(0.0);
+    if (!(length > 0.0)) continue;
+    sides.inward[i] = inward * ((glm::dot(inward, piece.lmd.scenePoint - from) < 0.0 ? -1.0 : 1.0) / length);
+  }
+}
+
+bool overlap(const SidedPiece& a, const SidedPiece& b, double tolerance) noexcept {
+  if (a.piece.dimension != b.piece.dimension || a.piece.dimension == 0) return false;
+  if (a.piece.dimension == 1) return segmentsOverlap(a.piece, b.piece, tolerance);
+  return !isApartAlongSide(a, b.piece, tolerance) && !isApartAlongSide(b, a.piece, tolerance);
 }
 
 Aabb boxOf(const Minimum& m, double margin) noexcept {

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+
+#include <glm/vec3.hpp>
+
 #include "core/math/aabb.h"
 #include "core/proximity/minimum.h"
 
@@ -29,10 +33,24 @@ bool canTouch(const Minimum& a, const Minimum& b, const Closeness& closeness) no
 /// Whether entries that can be of one set are: points that are one, pieces with a common point.
 bool touch(const Minimum& a, const Minimum& b, const Closeness& closeness) noexcept;
 
-/// Marks a pair of pieces of one dimension as overlapping where they cover more than a line (faces) or a
-/// point (edges) together, as those of coplanar faces of one mesh do. They lie in one plane but for
-/// tolerances.
-bool markIfOverlapping(Minimum& a, Minimum& b, double tolerance) noexcept;
+/// The sides of a piece of faces, found once for all that it is held against.
+struct PieceSides {
+  std::array<glm::dvec3, Minimum::kMaxCorners>
+      inward;                                       ///< Unit, in the piece's plane and square to the side.
+  std::array<double, Minimum::kMaxCorners> length;  ///< [m]
+};
+/// @param sides  Of a piece of faces only; left as they are for others.
+void findSides(const Minimum& piece, PieceSides& sides) noexcept;
+
+/// An entry and its sides.
+struct SidedPiece {
+  const Minimum& piece;
+  const PieceSides& sides;
+};
+
+/// Whether two pieces of one dimension cover more than a line (faces) or a point (edges) together, as those
+/// of coplanar faces of one mesh do. They lie in one plane but for tolerances.
+bool overlap(const SidedPiece& a, const SidedPiece& b, double tolerance) noexcept;
 
 /// What holds an entry's points on the scene, and `margin` about them [m].
 Aabb boxOf(const Minimum& m, double margin) noexcept;

@@ -113,7 +113,7 @@ std::optional<TreeCacheFile> TreeCache::find(const TreeCacheKey& key) const {
   return file;
 }
 
-bool TreeCache::store(const TreeCacheKey& key, const CachedMesh& mesh, const NormalConeTree* tree) const {
+bool TreeCache::store(const TreeCacheKey& key, const CachedMesh& mesh, const CachedTree* tree) const {
   if (!isOn() || mesh.mesh.triangles().size() < settings_.leastTriangles) return false;
   try {
     fs::create_directories(settings_.folder);

@@ -44,7 +44,7 @@ class TreeCache {
   std::optional<TreeCacheFile> find(const TreeCacheKey& key) const;
   /// Keeps a mesh, with its hierarchy unless that is null, in place of what was kept for the key. Removes
   /// what was not used for longest until the rest is no larger than allowed. False when nothing was kept.
-  bool store(const TreeCacheKey& key, const CachedMesh& mesh, const NormalConeTree* tree) const;
+  bool store(const TreeCacheKey& key, const CachedMesh& mesh, const CachedTree* tree) const;
 
   struct Usage {
     std::size_t files = 0;

@@ -1,9 +1,12 @@
 #include "core/proximity/tree_cache_checks.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -63,13 +66,62 @@ bool isPartition(std::span<const std::uint32_t> first, std::size_t total) {
 
 bool areEdgesSound(const TriangleMesh::Arrays& m) {
   const std::size_t vertices = m.vertices.size(), faces = m.edgeFaces.size();
-  std::uint64_t next = 0;
+  std::uint64_t next = 0, last = 0;
   bool fine = true;
   for (const MeshEdge& e : m.edges.view()) {
-    fine &= (e.v0 < e.v1) & (e.v1 < vertices) & (e.firstFace == next) & (e.faceCount > 0);
+    // In rising order, so that none is there twice; the first vertex is never the higher one.
+    const std::uint64_t name = std::uint64_t{e.v0} << 32 | e.v1;
+    fine &= (e.v0 < e.v1) & (e.v1 < vertices) & (e.firstFace == next) & (e.faceCount > 0) & (name > last);
     next += e.faceCount;
+    last = name;
   }
   return fine && next == faces;
+}
+
+/// Whether isFine(index) holds for all indices below `count`.
+template <typename IsFine>
+bool isFineAtEach(std::size_t count, IsFine isFine) {
+  std::atomic<bool> fine{true};
+  parallelFor((count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    bool isChunkFine = true;
+    for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i)
+      isChunkFine &= isFine(i);
+    if (!isChunkFine) fine = false;
+  });
+  return fine;
+}
+
+/// Whether triangles, edges and vertices name each other. Indices are in range by now, and there are as many
+/// names as there must be: where each is right and none is repeated, none is missing.
+bool isAdjacencySound(const TriangleMesh::Arrays& m) {
+  const auto rises = [](std::span<const std::uint32_t> names) {
+    return std::ranges::adjacent_find(names, std::greater_equal<>()) == names.end();
+  };
+  const bool areSidesSound = isFineAtEach(m.triangles.size(), [&](std::size_t t) {
+    bool fine = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(m.triangles[t][k], m.triangles[t][(k + 1) % 3]);
+      const MeshEdge& e = m.edges[m.triangleEdges[t][k]];
+      fine &= (e.v0 == low) & (e.v1 == high);
+    }
+    return fine;
+  });
+  return areSidesSound &&
+         isFineAtEach(
+             m.edges.size(),
+             [&](std::size_t e) {
+               const auto faces = m.edgeFaces.view().subspan(m.edges[e].firstFace, m.edges[e].faceCount);
+               return rises(faces) && std::ranges::all_of(faces, [&](std::uint32_t face) {
+                        return std::ranges::find(m.triangleEdges[face], e) != m.triangleEdges[face].end();
+                      });
+             }) &&
+         isFineAtEach(m.vertices.size(), [&](std::size_t v) {
+           const auto edges = m.vertexEdges.view().subspan(m.vertexFirstEdge[v],
+                                                           m.vertexFirstEdge[v + 1] - m.vertexFirstEdge[v]);
+           return rises(edges) && std::ranges::all_of(edges, [&](std::uint32_t e) {
+                    return m.edges[e].v0 == v || m.edges[e].v1 == v;
+                  });
+         });
 }
 
 /// Lanes hold numbers of the size of a mesh, or lie out of reach as the builder puts them there.
@@ -168,9 +220,12 @@ bool isSound(const TriangleMesh::Arrays& m) {
   const bool areTrianglesSound = isEachFine(m.triangles.view(), [vertices](const Triangle& t) {
     return areBelow(t, vertices) & (t[0] != t[1]) & (t[1] != t[2]) & (t[2] != t[0]);
   });
-  return areTrianglesSound && areNear(m.vertices) && areEdgesSound(m) && areBelow(m.edgeFaces, triangles) &&
+  const std::array<glm::dvec3, 2> bounds{m.bounds.lower, m.bounds.upper};
+  return areTrianglesSound && areNear(m.vertices) && areNear(bounds) && areEdgesSound(m) &&
+         areBelow(m.edgeFaces, triangles) &&
          isEachFine(m.triangleEdges.view(), [edges](const auto& e) { return areBelow(e, edges); }) &&
-         areBelow(m.vertexEdges, edges) && isPartition(m.vertexFirstEdge, m.vertexEdges.size());
+         areBelow(m.vertexEdges, edges) && isPartition(m.vertexFirstEdge, m.vertexEdges.size()) &&
+         isAdjacencySound(m);
 }
 
 bool isSound(const NormalConeTree::Arrays& t) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/files/checksum.h"
@@ -112,8 +113,11 @@ std::optional<CachedMesh> TreeCacheFile::mesh() const {
                               {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}},
                               {facts.topology[0], facts.topology[1], facts.topology[2], facts.topology[3]}};
   std::optional<MeshBuildReport> built = report(facts);
-  if (!built || facts.massBasis > static_cast<std::uint32_t>(MassBasis::OrientedBox) || !isSound(arrays))
+  const bool isMassFinite = std::ranges::all_of(facts.mass, [](double x) { return std::isfinite(x); });
+  if (!built || !isMassFinite || facts.massBasis > static_cast<std::uint32_t>(MassBasis::OrientedBox) ||
+      !isSound(arrays)) {
     return std::nullopt;
+  }
   MassProperties mass;
   mass.volume = facts.mass[0];
   mass.centre = {facts.mass[1], facts.mass[2], facts.mass[3]};
@@ -123,12 +127,12 @@ std::optional<CachedMesh> TreeCacheFile::mesh() const {
   return CachedMesh{TriangleMesh(std::move(arrays)), std::move(*built), mass};
 }
 
-std::optional<NormalConeTree> TreeCacheFile::tree() const {
+std::optional<CachedTree> TreeCacheFile::tree() const {
   if (!hasTree() || !isIntact(Section::TreeFacts, Section::Neighbours)) return std::nullopt;
   const TreeFacts facts = array<TreeFacts>(Section::TreeFacts)[0];
   const auto& c = facts.centreAndSize;
   if (facts.all[0] != count(Section::Vertices) || facts.all[1] != count(Section::Edges) ||
-      facts.all[2] != count(Section::Triangles)) {
+      facts.all[2] != count(Section::Triangles) || facts.isSolid > 1) {
     return std::nullopt;
   }
   NormalConeTree::Arrays arrays{{c[0], c[1], c[2]},
@@ -141,7 +145,7 @@ std::optional<NormalConeTree> TreeCacheFile::tree() const {
                                 array<NormalConeTree::FaceLeaf>(Section::FaceLeaves),
                                 array<std::uint32_t>(Section::Neighbours)};
   if (!isSound(arrays)) return std::nullopt;
-  return NormalConeTree(std::move(arrays));
+  return CachedTree{NormalConeTree(std::move(arrays)), facts.isSolid == 1};
 }
 
 }  // namespace nearfit

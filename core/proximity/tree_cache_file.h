@@ -23,6 +23,12 @@ struct CachedMesh {
   MassProperties mass;
 };
 
+/// The hierarchy of a mesh, and what is found out along with it. Copies share the arrays.
+struct CachedTree {
+  NormalConeTree tree;
+  bool isSolid = false;  ///< As isSolidThroughout says.
+};
+
 /// A cache file that is mapped. Nothing in it is trusted: each part is checked as a whole, checksums and
 /// every index, before it is given away.
 class TreeCacheFile {
@@ -34,7 +40,7 @@ class TreeCacheFile {
   std::optional<CachedMesh> mesh() const;
   bool hasTree() const noexcept { return header_.counts[index(TreeCacheSection::TreeFacts)] == 1; }
   /// None when it is damaged or there is none.
-  std::optional<NormalConeTree> tree() const;
+  std::optional<CachedTree> tree() const;
 
  private:
   static constexpr std::size_t index(TreeCacheSection section) { return static_cast<std::size_t>(section); }
@@ -59,6 +65,6 @@ class TreeCacheFile {
 /// null. Throws FileError; Error when the mesh cannot be cached (a warning with a zero in it).
 /// @param maxBytes  Writes nothing and returns 0 when the file would be larger; else its size.
 std::uint64_t writeTreeCacheFile(const std::filesystem::path& file, const TreeCacheKey& key,
-                                 const CachedMesh& mesh, const NormalConeTree* tree, std::uint64_t maxBytes);
+                                 const CachedMesh& mesh, const CachedTree* tree, std::uint64_t maxBytes);
 
 }  // namespace nearfit

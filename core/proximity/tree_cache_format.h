@@ -25,7 +25,7 @@ namespace nearfit {
 
 /// Goes up by one whenever this layout changes, or the meaning of a field. What import and building compute
 /// needs no number: the header carries a fingerprint of their sources (see core/CMakeLists.txt).
-constexpr std::uint32_t kTreeCacheVersion = 2;
+constexpr std::uint32_t kTreeCacheVersion = 3;
 
 /// Bytes of a section that share a checksum: enough work for a thread, enough threads for a large file.
 constexpr std::size_t kTreeCacheBlock = std::size_t{2} << 20;
@@ -65,8 +65,9 @@ static_assert(sizeof(MeshFacts) == 224);
 struct TreeFacts {
   std::array<double, 4> centreAndSize;
   std::array<std::uint64_t, 3> all;  ///< FeatureCounts, in their order.
+  std::uint64_t isSolid;             ///< 0 or 1, see isSolidThroughout.
 };
-static_assert(sizeof(TreeFacts) == 56);
+static_assert(sizeof(TreeFacts) == 64);
 
 struct TreeCacheHeader {
   std::array<char, 8> magic;

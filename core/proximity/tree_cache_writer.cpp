@@ -57,9 +57,11 @@ void addMesh(Gatherer& out, const MeshFacts& facts, const std::string& warnings,
   out.add(m.vertexFirstEdge);
 }
 
-TreeFacts treeFactsOf(const NormalConeTree::Arrays& tree) {
+TreeFacts treeFactsOf(const CachedTree& cached) {
+  const NormalConeTree::Arrays& tree = cached.tree.arrays();
   return {{tree.centre.x, tree.centre.y, tree.centre.z, tree.size},
-          {tree.all.vertices, tree.all.edges, tree.all.faces}};
+          {tree.all.vertices, tree.all.edges, tree.all.faces},
+          cached.isSolid ? 1U : 0U};
 }
 
 void addTree(Gatherer& out, const TreeFacts& facts, const NormalConeTree::Arrays& tree) {
@@ -104,14 +106,14 @@ std::string_view textOf(Bytes bytes) {
 }  // namespace
 
 std::uint64_t writeTreeCacheFile(const std::filesystem::path& file, const TreeCacheKey& key,
-                                 const CachedMesh& mesh, const NormalConeTree* tree, std::uint64_t maxBytes) {
+                                 const CachedMesh& mesh, const CachedTree* tree, std::uint64_t maxBytes) {
   if (key.sha256.size() != 64) throw Error("cache", "it needs the mesh file's SHA-256");
   const MeshFacts meshFacts = meshFactsOf(mesh.mesh, mesh.report, mesh.mass);
   const std::string warnings = warningsText(mesh.report);
-  const TreeFacts treeFacts = tree != nullptr ? treeFactsOf(tree->arrays()) : TreeFacts{};
+  const TreeFacts treeFacts = tree != nullptr ? treeFactsOf(*tree) : TreeFacts{};
   Gatherer gathered;
   addMesh(gathered, meshFacts, warnings, mesh.mesh);
-  if (tree != nullptr) addTree(gathered, treeFacts, tree->arrays());
+  if (tree != nullptr) addTree(gathered, treeFacts, tree->tree.arrays());
   TreeCacheHeader header = treeCacheHeader(std::span<const char, 64>(key.sha256), key.metresPerUnit);
   header.counts = gathered.counts;
   const std::optional<TreeCacheLayout> layout = treeCacheLayout(header.counts);

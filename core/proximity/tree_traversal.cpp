@@ -62,7 +62,7 @@ NEARFIT_INLINE Poses<Floats8> posesOf(const SinglePose& pose) {
 enum class Aim { Minima, SweptMinima, NearFaces };
 
 template <Aim kAim>
-NEARFIT_INLINE Floats8 test(const TraversalWork& work, const Opening& o) {
+NEARFIT_INLINE simd::Lanes<Floats8> test(const TraversalWork& work, const Opening& o) {
   const Box<Floats8> own = simd::boxes(*o.opened);
   Box<Floats8> other = otherOf(o);
   simd::move(other, posesOf(o.isScene ? work.sceneFromPart : work.partFromScene));
@@ -127,7 +127,7 @@ template <Aim kAim>
 void openPortable(TraversalWork& work) noexcept {
   while (isBusy(work)) {
     const Opening o = take(work);
-    keep<kAim>(work, o, simd::notNegative(test<kAim>(work, o)));
+    keep<kAim>(work, o, simd::notNegative(test<kAim>(work, o).value));
   }
 }
 
@@ -136,7 +136,7 @@ template <Aim kAim>
 NEARFIT_AVX2 void openAvx2(TraversalWork& work) noexcept {
   while (isBusy(work)) {
     const Opening o = take(work);
-    const auto alive = test<kAim>(work, o) >= 0.0F;
+    const auto alive = test<kAim>(work, o).value >= 0.0F;
     keep<kAim>(work, o,
                static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats8>(alive))));
   }
@@ -182,7 +182,7 @@ NEARFIT_AVX512 void openAvx512(TraversalWork& work) noexcept {
     Box<Floats16> other = join(otherOf(first), otherOf(second));
     simd::move(other, poses[first.isScene ? 1 : 0][second.isScene ? 1 : 0]);
     const Box<Floats16> own = join(simd::boxes(*first.opened), simd::boxes(*second.opened));
-    Floats16 margin;
+    simd::Lanes<Floats16> margin;
     if constexpr (kAim == Aim::NearFaces) {
       margin = simd::cullByPlace(own, other, work.limits);
     } else if constexpr (kAim == Aim::SweptMinima) {
@@ -191,7 +191,7 @@ NEARFIT_AVX512 void openAvx512(TraversalWork& work) noexcept {
     } else {
       margin = simd::cull(own, other, work.limits, simd::still<Floats16>(work.limits));
     }
-    const auto bits = static_cast<std::uint32_t>(__builtin_ia32_cvtd2mask512(margin >= 0.0F));
+    const auto bits = static_cast<std::uint32_t>(__builtin_ia32_cvtd2mask512(margin.value >= 0.0F));
     keep<kAim>(work, first, bits & 0xFFU);
     if (isTwo) keep<kAim>(work, second, bits >> 8 & 0xFFU);
   }

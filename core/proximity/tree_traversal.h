@@ -25,9 +25,10 @@ struct TraversalWork {
   static constexpr std::size_t kOpenTwo = 256;
   static constexpr std::size_t kRoom = kOpenTwo + 16 + 7 * 2 * NormalConeTree::kMaxDepth + 1;
   static constexpr std::size_t kLeaves = 64;
+  static constexpr std::size_t kMostLeaves = kLeaves + 16;
 
   std::array<EntryPair, kRoom> waiting;
-  std::array<EntryPair, kLeaves + 16> leaves;
+  std::array<EntryPair, kMostLeaves> leaves;
   std::size_t waitingCount, leafCount;
   std::uint64_t nodePairs, maxNodePairs;
   const NormalConeTree::Node *scene, *part;
@@ -91,13 +92,17 @@ class TreeTraversal {
         visit(work_.leaves[i]);
       work_.leafCount = 0;
       if (work_.waitingCount == 0) return true;
-      if (work_.nodePairs >= maxNodePairs) return false;
+      if (work_.nodePairs >= work_.maxNodePairs) return false;
     }
   }
 
   /// From the next batch of leaves on, leaves out what is farther.
   void tighten(float cutoff) noexcept { work_.limits.cutoff = std::min(work_.limits.cutoff, cutoff); }
 
+  /// Lets the work of a visit count as so many pairs of nodes.
+  void spend(std::uint64_t nodePairs) noexcept { work_.nodePairs += nodePairs; }
+  /// From within a visit: no more is opened, as if the bound of work were reached.
+  void stop() noexcept { work_.maxNodePairs = work_.nodePairs; }
   std::uint64_t nodePairs() const noexcept { return work_.nodePairs; }
 
  private:

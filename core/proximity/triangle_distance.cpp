@@ -18,6 +18,15 @@ double squaredDistance(const glm::dvec3& a, const glm::dvec3& b) noexcept {
   return glm::dot(b - a, b - a);
 }
 
+template <class Two>
+Two least(Two a, Two b) noexcept {
+  return a < b ? a : b;
+}
+template <class Two>
+Two most(Two a, Two b) noexcept {
+  return a > b ? a : b;
+}
+
 /// One triangle's corners over the other's face, and its sides through it.
 struct Against {
   const TriangleCorners& corners;
@@ -44,14 +53,14 @@ ClosestPoints closestToFace(const Against& t) noexcept {
   return best;
 }
 
-/// Whether the corners are farther apart along an axis of any length.
-bool areBeyondAlong(const glm::dvec3& axis, const std::array<glm::dvec3, 6>& corners, double reach) noexcept {
-  std::array<double, 6> at;
-  for (std::size_t i = 0; i < 6; ++i)
-    at[i] = glm::dot(axis, corners[i]);
-  const double gap = std::max(std::min({at[3], at[4], at[5]}) - std::max({at[0], at[1], at[2]}),
-                              std::min({at[0], at[1], at[2]}) - std::max({at[3], at[4], at[5]}));
-  return gap > 0.0 && gap * gap > reach * reach * glm::dot(axis, axis);
+/// gapOfTriangles, where `squaredGap(own, other)` is what own's directions tell.
+template <class Of, class T>
+double gapBy(Of squaredGap, const T& a, const T& b, double enough, bool& isSecond) noexcept {
+  const double first = isSecond ? squaredGap(b, a) : squaredGap(a, b);
+  if (first > enough * enough) return std::sqrt(first);
+  const double other = isSecond ? squaredGap(a, b) : squaredGap(b, a);
+  if (other > first) isSecond = !isSecond;
+  return std::sqrt(std::max(first, other));
 }
 
 }  // namespace
@@ -132,20 +141,52 @@ ClosestPoints closestOfTriangles(const TriangleCorners& a, const TriangleCorners
   return best;
 }
 
-bool areSurelyBeyond(const TriangleCorners& a, const TriangleCorners& b, double reach) noexcept {
-  const std::array<glm::dvec3, 6> corners{glm::dvec3(0.0), a[1] - a[0], a[2] - a[0],
-                                          b[0] - a[0],     b[1] - a[0], b[2] - a[0]};
-  for (std::size_t first = 0; first < 6; first += 3) {
-    const std::array<glm::dvec3, 3> sides{corners[first + 1] - corners[first],
-                                          corners[first + 2] - corners[first + 1],
-                                          corners[first] - corners[first + 2]};
-    const glm::dvec3 normal = glm::cross(sides[0], sides[1]);
-    if (areBeyondAlong(normal, corners, reach)) return true;
-    for (const glm::dvec3& side : sides) {
-      if (areBeyondAlong(glm::cross(side, normal), corners, reach)) return true;
-    }
-  }
-  return false;
+SeparatingDirections::Pair SeparatingDirections::pairOf(const glm::dvec3& a, const glm::dvec3& b,
+                                                        const glm::dvec3& u, const glm::dvec3& v) noexcept {
+  Pair pair{{a.x, b.x}, {a.y, b.y}, {a.z, b.z}, {}, {}, {}};
+  const auto at = [&](const glm::dvec3& p) { return pair.x * p.x + pair.y * p.y + pair.z * p.z; };
+  const Two zero{}, atU = at(u), atV = at(v);
+  pair.lengthSquared = pair.x * pair.x + pair.y * pair.y + pair.z * pair.z;
+  pair.low = least(zero, least(atU, atV));
+  pair.high = most(zero, most(atU, atV));
+  return pair;
+}
+
+SeparatingDirections::SeparatingDirections(const TriangleCorners& corners) noexcept : origin_(corners[0]) {
+  const glm::dvec3 u = corners[1] - corners[0], v = corners[2] - corners[0], n = glm::cross(u, v);
+  first_ = pairOf(n, glm::cross(u, n), u, v);
+  second_ = pairOf(glm::cross(v, n), glm::cross(v - u, n), u, v);
+}
+
+double SeparatingDirections::squaredGap(const Pair& pair, const TriangleCorners& relative) noexcept {
+  const auto at = [&](const glm::dvec3& p) { return pair.x * p.x + pair.y * p.y + pair.z * p.z; };
+  const Two zero{}, q0 = at(relative[0]), q1 = at(relative[1]), q2 = at(relative[2]);
+  const Two above = least(q0, least(q1, q2)) - pair.high;
+  const Two below = pair.low - most(q0, most(q1, q2));
+  const Two gap = most(zero, most(above, below)), squared = gap * gap;
+  // A direction without length has no gap.
+  const double first = squared[0] > 0.0 ? squared[0] / pair.lengthSquared[0] : 0.0;
+  return squared[1] > first * pair.lengthSquared[1] ? squared[1] / pair.lengthSquared[1] : first;
+}
+
+double SeparatingDirections::squaredGap(const TriangleCorners& other) const noexcept {
+  const TriangleCorners relative{other[0] - origin_, other[1] - origin_, other[2] - origin_};
+  return std::max(squaredGap(first_, relative), squaredGap(second_, relative));
+}
+
+double gapOfTriangles(const DirectedTriangle& a, const DirectedTriangle& b, double enough,
+                      bool& isSecond) noexcept {
+  return gapBy([](const DirectedTriangle& own,
+                  const DirectedTriangle& other) { return own.directions.squaredGap(other.corners); },
+               a, b, enough, isSecond);
+}
+
+double gapOfTriangles(const TriangleCorners& a, const TriangleCorners& b, double enough,
+                      bool& isSecond) noexcept {
+  // The second's directions are seldom needed.
+  return gapBy([](const TriangleCorners& own,
+                  const TriangleCorners& other) { return SeparatingDirections(own).squaredGap(other); },
+               a, b, enough, isSecond);
 }
 
 }  // namespace nearfit

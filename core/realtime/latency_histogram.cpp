@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nearfit {
 namespace {
@@ -23,13 +22,12 @@ std::size_t binOf(double seconds, std::size_t binCount) noexcept {
 
 }  // namespace
 
-void LatencyHistogram::record(double seconds) noexcept {
-  if (std::isnan(seconds)) return;
+void LatencyHistogram::record(double seconds, std::uint64_t times) noexcept {
+  if (std::isnan(seconds) || times == 0) return;
   seconds = std::max(seconds, 0.0);
-  std::uint32_t& bin = bins_[binOf(seconds, kBins)];
-  if (bin < std::numeric_limits<std::uint32_t>::max()) ++bin;
-  ++count_;
-  sum_ += seconds;
+  bins_[binOf(seconds, kBins)] += times;
+  count_ += times;
+  sum_ += static_cast<double>(times) * seconds;
   max_ = std::max(max_, seconds);
 }
 

@@ -10,7 +10,8 @@ namespace nearfit {
 /// good.
 class LatencyHistogram {
  public:
-  void record(double seconds) noexcept;
+  /// @param times  How many alike.
+  void record(double seconds, std::uint64_t times = 1) noexcept;
   void clear() noexcept { *this = LatencyHistogram(); }
 
   std::uint64_t count() const noexcept { return count_; }
@@ -21,7 +22,9 @@ class LatencyHistogram {
 
  private:
   static constexpr std::size_t kBins = 2100;
-  std::array<std::uint32_t, kBins> bins_{};
+  /// At 1 kHz 32 bits would be full after 49 days; 64 last longer than any machine. Twice the 8 KB is nothing
+  /// to a copy every hundred ticks.
+  std::array<std::uint64_t, kBins> bins_{};
   std::uint64_t count_ = 0;
   double sum_ = 0.0, max_ = 0.0;
 };

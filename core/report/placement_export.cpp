@@ -62,7 +62,8 @@ Json lmdJson(const Lmd& lmd, const RigidTransform& worldFromOther) {
                {"other", pointJson(inWorld.scenePoint)},
                {"features", {nameOf(lmd.partFeature), nameOf(lmd.sceneFeature)}},
                {"region", lmd.isRegion},
-               {"blocked", lmd.isBlocked}};
+               {"blocked", lmd.isBlocked},
+               {"marginal", lmd.isMarginal}};
   if (lmd.isRegion) {
     json["extent"] = {{"dimension", lmd.extent.dimension},
                       {"measure", lmd.extent.measure},

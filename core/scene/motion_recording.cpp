@@ -15,7 +15,7 @@ void appendPose(std::string& line, const RigidTransform& pose) {
 
 }  // namespace
 
-MotionRow motionRow(const ServoSnapshot& s) noexcept {
+MotionRow motionRow(const ServoSnapshot& s, double lateness) noexcept {
   MotionRow row{s.time,      s.handle,   s.proxy,      s.wrench,      s.lmdCount,  s.distance,
                 s.queryTime, s.tickTime, s.lateBodies, s.isTruncated, s.isClamped, s.fault};
   row.energyToHand = s.energyToHand;
@@ -26,6 +26,7 @@ MotionRow motionRow(const ServoSnapshot& s) noexcept {
   row.constraints = s.constraintCount;
   row.contacts = s.contactCount;
   row.released = s.releasedCount;
+  row.lateness = lateness;
   return row;
 }
 
@@ -35,7 +36,8 @@ std::string_view motionHeader() noexcept {
          "proxy_tx,proxy_ty,proxy_tz,proxy_qw,proxy_qx,proxy_qy,proxy_qz,"
          "force_x,force_y,force_z,torque_x,torque_y,torque_z,"
          "lmds,distance,query_us,tick_us,late_bodies,"
-         "energy,sub_steps,shortened,refused,constraints,contacts,released,proxy_us,clamped,fault";
+         "energy,sub_steps,shortened,refused,constraints,contacts,released,proxy_us,clamped,fault,"
+         "truncated,late_us";
 }
 
 std::string formatMotionRow(const MotionRow& row) {
@@ -46,9 +48,10 @@ std::string formatMotionRow(const MotionRow& row) {
   const glm::dvec3& t = row.wrench.torque;
   fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{},{:.3f},{:.3f},{}", f.x, f.y, f.z, t.x,
                  t.y, t.z, row.lmds, row.distance, row.queryTime * 1e6, row.tickTime * 1e6, row.lateBodies);
-  fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{:.3f},{:d},{:d}", row.energyToHand,
-                 row.subSteps, row.shortenedSteps, row.refusedSteps, row.constraints, row.contacts,
-                 row.released, row.proxyTime * 1e6, row.isClamped, static_cast<int>(row.fault));
+  fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{:.3f},{:d},{:d},{:d},{:.3f}",
+                 row.energyToHand, row.subSteps, row.shortenedSteps, row.refusedSteps, row.constraints,
+                 row.contacts, row.released, row.proxyTime * 1e6, row.isClamped, static_cast<int>(row.fault),
+                 row.isTruncated, row.lateness * 1e6);
   return line;
 }
 

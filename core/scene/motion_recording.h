@@ -28,22 +28,24 @@ struct MotionRow {
   std::uint32_t subSteps = 0, shortenedSteps = 0, refusedSteps = 0;  ///< Of the proxy in this tick.
   std::uint32_t constraints = 0, contacts = 0;                       ///< In its last step.
   std::uint32_t released = 0;  ///< Parts that are overlapped and not felt.
+  double lateness = 0.0;       ///< Of the tick behind its deadline, or behind the report that it follows [s].
 };
 
 /// Real-time safe.
-MotionRow motionRow(const ServoSnapshot& snapshot) noexcept;
+/// @param lateness  Of the tick; what else is kept the snapshot tells [s].
+MotionRow motionRow(const ServoSnapshot& snapshot, double lateness = 0.0) noexcept;
 
 /// From the servo thread to the thread that writes: sixteen seconds at 1 kHz.
 using MotionQueue = SpscQueue<MotionRow, 16384>;
 
 /// First line of a recording: t_s, handle_tx ... handle_qz, proxy_tx ... proxy_qz, force_x ... torque_z,
 /// lmds, distance, query_us, tick_us, late_bodies, energy, sub_steps, shortened, refused, constraints,
-/// contacts, released, proxy_us, clamped, fault. Poses are tx ty tz qw qx qy qz.
+/// contacts, released, proxy_us, clamped, fault, truncated, late_us. Poses are tx ty tz qw qx qy qz.
 std::string_view motionHeader() noexcept;
 
 /// One line without its end, in the columns of motionHeader. Numbers are the shortest that read back the
-/// same; `distance` is `inf` when nothing is within the cutoff, `clamped` 0 or 1, `fault` the number of the
-/// ServoFault.
+/// same; `distance` is `inf` when nothing is within the cutoff, `clamped` and `truncated` (not all minima
+/// that there are within the cutoff were looked for) 0 or 1, `fault` the number of the ServoFault.
 std::string formatMotionRow(const MotionRow& row);
 
 /// Writes a recording as CSV, row by row, to a temporary file beside the target that takes its name only when

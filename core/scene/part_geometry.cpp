@@ -50,14 +50,23 @@ class TaskProgress {
 PartGeometryPtr makeGeometry(const MeshSource& source, std::string sha256, CachedMesh&& loaded) {
   // Looked up again when the hierarchy is needed: another process may have kept it by then.
   const TreeCacheKey key{sha256, source.metresPerUnit};
-  const auto find = [key]() -> std::optional<NormalConeTree> {
-    const std::optional<TreeCacheFile> kept = TreeCache().find(key);
-    return kept ? kept->tree() : std::nullopt;
+  const auto surface = std::make_shared<SurfaceOnDemand>();
+  const auto find = [key, surface]() -> std::optional<NormalConeTree> {
+    const std::optional<TreeCacheFile> file = TreeCache().find(key);
+    std::optional<CachedTree> kept = file ? file->tree() : std::nullopt;
+    if (!kept) return std::nullopt;
+    surface->setSolid(kept->isSolid);
+    return std::move(kept->tree);
   };
-  const auto keep = [key, loaded](const NormalConeTree& tree) { TreeCache().store(key, loaded, &tree); };
+  // Whether it is solid is found out along with the hierarchy: here one may wait, and it is kept for the next
+  // time.
+  const auto keep = [key, loaded, surface](const NormalConeTree& tree) {
+    const CachedTree kept{tree, surface->isSolid(loaded.mesh)};
+    TreeCache().store(key, loaded, &kept);
+  };
   return std::make_shared<const PartGeometry>(PartGeometry{
       normalisedPath(source.file), std::move(sha256), source.metresPerUnit, std::move(loaded.mesh),
-      std::move(loaded.report), loaded.mass, std::make_shared<HierarchyOnDemand>(find, keep)});
+      std::move(loaded.report), loaded.mass, std::make_shared<HierarchyOnDemand>(find, keep), surface});
 }
 
 /// Null when the file is not the one that is wanted.

@@ -2,13 +2,14 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 
 #include "core/scene/scene.h"
 
 /// The scene file `*.nearfit`, JSON in UTF-8:
 ///
 ///     {
-///       "nearfit": 2,                                        version of this format
+///       "nearfit": 3,                                        version of this format
 ///       "units": {"length": "m", "force": "N", "time": "s"}, those and no others
 ///       "haptics": {
 ///         "mode": "proxy",                                   or "springs": the part goes where the hand is
@@ -25,6 +26,11 @@
 ///                     "rotationLocks": [false, false, false]}      about them
 ///       },
 ///       "moving": "Peg",                                     a part's name, or null
+///       "groups": [{
+///         "name": "Frame",                                   not empty
+///         "group": null,                                     that it is in: which of the groups before it,
+///         from 0 "locked": false
+///       }],
 ///       "parts": [{
 ///         "name": "Peg",                                     unique, not empty
 ///         "mesh": "meshes/peg.stl",                          from the scene file's folder, or from the root
@@ -34,8 +40,14 @@
 ///         "quaternion": [1, 0, 0, 0],                        worldFromPart, w x y z, unit
 ///         "colour": [0.62, 0.69, 0.76],                      sRGB, each 0 to 1
 ///         "density": 1000,                                   [kg/m^3]
+///         "opacity": 1,                                      0.05 to 1
 ///         "visible": true,
-///         "locked": false
+///         "locked": false,
+///         "group": 0,                                        that it is in: which of the groups, from 0, or
+///         null "wasVisible": null                                 true or false while parts are isolated:
+///         whether it was
+///                                                            visible before; null: it came since, or none
+///                                                            are
 ///       }]
 ///     }
 ///
@@ -43,12 +55,14 @@
 /// saved. Numbers are written with as many digits as it takes to read the same double again. Meanings and
 /// limits of the settings: haptic_settings.h, haptic_limits.h.
 ///
-/// Version 1 is still read: it has no "haptics" and no "density", and its "springs" stand where "haptics" do.
-/// What it does not say is as in a new scene, the margin a hundredth of its cutoff.
+/// Older versions are still read. Version 2 has no "groups", and its parts none of "opacity", "group" and
+/// "wasVisible": they are opaque and stand at the top. Version 1 is like version 2, but: it has no "haptics"
+/// and no "density", and its "springs" stand where "haptics" do. What it does not say is as in a new scene,
+/// the margin a hundredth of its cutoff.
 namespace nearfit {
 
 /// Version of the scene file format that this program writes, and the oldest that it reads.
-constexpr int kSceneFileVersion = 2, kOldestSceneFileVersion = 1;
+constexpr int kSceneFileVersion = 3, kOldestSceneFileVersion = 1;
 constexpr std::size_t kMaxSceneFileBytes = 8U << 20U;
 constexpr std::size_t kMaxSceneFileParts = 10'000;
 
@@ -59,6 +73,9 @@ std::filesystem::path meshFolder(const std::filesystem::path& sceneFile);
 /// message names the field (`parts[3].position`) or the line and column. All fields are checked before a mesh
 /// is loaded. Throws FileError (malformed, unknown version, missing or changed mesh), Cancelled.
 Scene readSceneFile(const std::filesystem::path& file, const ProgressCallback& progress = {});
+
+/// The text of the scene in a file of that name; nothing is written. Throws FileError.
+std::string sceneFileText(const Scene& scene, const std::filesystem::path& file);
 
 /// Writes atomically: a temporary file beside it, flushed to disk, then renamed. Throws FileError.
 void writeSceneFile(const Scene& scene, const std::filesystem::path& file);

@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <optional>
 #include <system_error>
@@ -11,6 +9,7 @@
 #include "core/error.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_file_haptics.h"
+#include "core/scene/scene_file_parts.h"
 #include "core/text/json_file.h"
 #include "core/text/utf8.h"
 
@@ -18,37 +17,6 @@ namespace nearfit {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Longest path to a mesh [bytes]: as Linux allows.
-constexpr std::size_t kMaxPathBytes = 4095;
-
-/// A part as the file says it, its mesh not loaded yet.
-struct PartEntry {
-  JsonField field;
-  Part part;
-  fs::path mesh;
-  std::string sha256;
-  double metresPerUnit;
-};
-
-/// Runs `check`, which throws UsageError, as a check of the field.
-template <typename Check>
-auto checked(const JsonField& field, Check check) {
-  try {
-    return check();
-  } catch (const UsageError& e) {
-    field.fail(e.problem(), e.remedy());
-  }
-}
-
-template <std::size_t Count>
-std::array<double, Count> numbers(const JsonField& field) {
-  field.requireSize(Count);
-  std::array<double, Count> values{};
-  for (std::size_t i = 0; i < Count; ++i)
-    values[i] = field.at(i).number();
-  return values;
-}
 
 int readVersion(const JsonField& root) {
   if (!root.has("nearfit"))
@@ -71,80 +39,6 @@ void checkUnits(const JsonField& units) {
     const JsonField field = units.at(quantity);
     if (field.text(16) != unit) field.fail("this unit is not known", fmt::format("give values in {}", unit));
   }
-}
-
-RigidTransform readPose(const JsonField& field) {
-  const auto [x, y, z] = numbers<3>(field.at("position"));
-  const auto [qw, qx, qy, qz] = numbers<4>(field.at("quaternion"));
-  const RigidTransform translation{{1, 0, 0, 0}, {x, y, z}}, rotation{{qw, qx, qy, qz}, {}};
-  checked(field.at("position"), [&] { return checkedPose(translation); });
-  return {checked(field.at("quaternion"), [&] { return checkedPose(rotation); }).rotation,
-          translation.translation};
-}
-
-Colour readColour(const JsonField& field) {
-  field.requireSize(3);
-  const auto channel = [&](std::size_t i) { return static_cast<float>(field.at(i).numberWithin(0.0, 1.0)); };
-  return {channel(0), channel(1), channel(2)};
-}
-
-std::string readSha256(const JsonField& field) {
-  std::string digits = field.text(64);
-  const bool isHash = digits.size() == 64 && std::all_of(digits.begin(), digits.end(), [](unsigned char c) {
-                        return std::isxdigit(c) != 0;
-                      });
-  if (!isHash) field.fail("it is no SHA-256", "give 64 hexadecimal digits");
-  std::transform(digits.begin(), digits.end(), digits.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return digits;
-}
-
-PartEntry readPart(const JsonField& field, const fs::path& folder, int version) {
-  PartEntry entry{field, {}, {}, readSha256(field.at("sha256")), field.at("metresPerUnit").number()};
-  checked(field.at("metresPerUnit"), [&] { checkMetresPerUnit(entry.metresPerUnit); });
-  const std::string mesh = field.at("mesh").text(kMaxPathBytes);
-  if (mesh.empty()) field.at("mesh").fail("it is empty", "give the path of the mesh file");
-  entry.mesh = normalisedPath(folder / mesh);
-  entry.part.name = field.at("name").text(kMaxPartNameBytes);
-  checked(field.at("name"), [&] { checkPartName(entry.part.name); });
-  entry.part.worldFromPart = readPose(field);
-  entry.part.colour = readColour(field.at("colour"));
-  if (version >= 2) {
-    entry.part.density = field.at("density").number();
-    checked(field.at("density"), [&] { checkDensity(entry.part.density); });
-  }
-  entry.part.isVisible = field.at("visible").isTrue();
-  entry.part.isLocked = field.at("locked").isTrue();
-  return entry;
-}
-
-std::vector<PartEntry> readParts(const JsonField& field, const fs::path& folder, int version) {
-  const std::size_t count = field.size();
-  if (count > kMaxSceneFileParts) field.fail(fmt::format("there are more than {} parts", kMaxSceneFileParts));
-  std::vector<PartEntry> entries;
-  std::map<std::string, std::size_t> indexOfName;
-  for (std::size_t i = 0; i < count; ++i) {
-    entries.push_back(readPart(field.at(i), folder, version));
-    const auto [known, isNew] = indexOfName.emplace(entries.back().part.name, i);
-    if (!isNew)
-      field.at(i).at("name").fail(fmt::format("parts[{}] has the same name", known->second),
-                                  "give each part its own");
-  }
-  return entries;
-}
-
-/// Index of the moving part among the entries.
-std::optional<std::size_t> readMovingPart(const JsonField& field, const std::vector<PartEntry>& entries) {
-  if (field.isNull()) return std::nullopt;
-  const std::string name = field.text(kMaxPartNameBytes);
-  const auto it =
-      std::find_if(entries.begin(), entries.end(), [&](const PartEntry& e) { return e.part.name == name; });
-  if (it == entries.end()) {
-    field.fail(fmt::format("there is no part \"{}\"", printableText(name)), "name a part, or say null");
-  }
-  if (it->part.isLocked)
-    field.fail("this part is locked and cannot be the moving part", "unlock it, or say null");
-  return static_cast<std::size_t>(it - entries.begin());
 }
 
 /// Loads meshes, each file and unit once.
@@ -195,6 +89,22 @@ class GeometryLoader {
   std::vector<LoadedPart> loaded_;
 };
 
+/// Still open, so that it takes in what it holds.
+Group placed(const GroupEntry& entry, const std::vector<GroupId>& ids) {
+  Group group = entry.group;
+  group.isLocked = false;
+  if (entry.parent) group.parent = ids[*entry.parent];
+  return group;
+}
+
+void lockGroups(Scene& scene, const std::vector<GroupEntry>& entries, const std::vector<GroupId>& ids) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    Group group = *scene.findGroup(ids[i]);
+    group.isLocked = entries[i].group.isLocked;
+    scene.replaceGroup(std::move(group));
+  }
+}
+
 }  // namespace
 
 fs::path meshFolder(const fs::path& sceneFile) {
@@ -213,14 +123,21 @@ Scene readSceneFile(const fs::path& file, const ProgressCallback& progress) {
   checkUnits(root.at("units"));
   Scene scene;
   scene.setHaptics(version >= 2 ? readHaptics(root.at("haptics")) : readHapticsOfVersion1(root));
-  std::vector<PartEntry> entries = readParts(root.at("parts"), meshFolder(file), version);
-  const std::optional<std::size_t> moving = readMovingPart(root.at("moving"), entries);
+  const std::vector<GroupEntry> groups =
+      version >= 3 ? readGroups(root.at("groups")) : std::vector<GroupEntry>();
+  std::vector<PartEntry> entries = readParts(root.at("parts"), groups, meshFolder(file), version);
+  const std::optional<std::size_t> moving = readMovingPart(root.at("moving"), entries, groups);
   const GeometryLoader loader(entries, progress);
+  std::vector<GroupId> ids;
+  for (const GroupEntry& entry : groups)
+    ids.push_back(scene.addGroup(placed(entry, ids)));
   for (PartEntry& entry : entries) {
     entry.part.geometry = loader.geometryOf(entry);
+    if (entry.group) entry.part.group = ids[*entry.group];
     scene.add(std::move(entry.part));
   }
   if (moving) scene.setMovingPart(scene.parts()[*moving]->id);
+  lockGroups(scene, groups, ids);
   return scene;
 }
 

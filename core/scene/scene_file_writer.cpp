@@ -1,3 +1,5 @@
+#include <map>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -5,6 +7,7 @@
 #include "core/files/atomic_write.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_file_haptics.h"
+#include "core/scene/scene_tree.h"
 #include "core/text/json_text.h"
 #include "core/text/utf8.h"
 
@@ -26,7 +29,24 @@ std::string meshPath(const std::filesystem::path& mesh, const std::filesystem::p
   return text;
 }
 
-Json partJson(const Part& part, const std::filesystem::path& sceneFile) {
+/// Where each group stands in the file.
+using GroupIndices = std::map<GroupId, std::size_t>;
+
+Json indexJson(std::optional<GroupId> group, const GroupIndices& indices) {
+  return group ? Json(indices.at(*group)) : Json();
+}
+
+Json groupsJson(const Scene& scene, GroupIndices& indices) {
+  Json json = Json::array();
+  visitGroups(scene, [&](const Group& group, std::size_t) {
+    indices.emplace(group.id, indices.size());
+    json.push_back(
+        {{"name", group.name}, {"group", indexJson(group.parent, indices)}, {"locked", group.isLocked}});
+  });
+  return json;
+}
+
+Json partJson(const Part& part, const GroupIndices& groups, const std::filesystem::path& sceneFile) {
   const glm::dvec3& t = part.worldFromPart.translation;
   const glm::dquat& q = part.worldFromPart.rotation;
   Json json;
@@ -39,23 +59,32 @@ Json partJson(const Part& part, const std::filesystem::path& sceneFile) {
   json["colour"] = {shortestDouble(part.colour.r), shortestDouble(part.colour.g),
                     shortestDouble(part.colour.b)};
   json["density"] = part.density;
+  json["opacity"] = part.opacity;
   json["visible"] = part.isVisible;
   json["locked"] = part.isLocked;
+  json["group"] = indexJson(part.group, groups);
+  json["wasVisible"] = part.wasVisible ? Json(*part.wasVisible) : Json();
   return json;
 }
 
 }  // namespace
 
-void writeSceneFile(const Scene& scene, const std::filesystem::path& file) {
+std::string sceneFileText(const Scene& scene, const std::filesystem::path& file) {
   Json json;
   json["nearfit"] = kSceneFileVersion;
   json["units"] = {{"length", "m"}, {"force", "N"}, {"time", "s"}};
   json["haptics"] = hapticsJson(scene.haptics());
   json["moving"] = scene.movingPart() ? Json(scene.find(*scene.movingPart())->name) : Json();
+  GroupIndices groups;
+  json["groups"] = groupsJson(scene, groups);
   json["parts"] = Json::array();
   for (const Scene::PartPtr& part : scene.parts())
-    json["parts"].push_back(partJson(*part, file));
-  atomicWrite(file, prettyJson(json));
+    json["parts"].push_back(partJson(*part, groups, file));
+  return prettyJson(json);
+}
+
+void writeSceneFile(const Scene& scene, const std::filesystem::path& file) {
+  atomicWrite(file, sceneFileText(scene, file));
 }
 
 }  // namespace nearfit

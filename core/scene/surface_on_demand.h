@@ -3,7 +3,7 @@
 #include <memory>
 #include <mutex>
 
-#include "core/mesh/solidity.h"
+#include "core/proximity/solidity.h"
 #include "core/proximity/unsided_surface.h"
 
 namespace nearfit {
@@ -16,6 +16,10 @@ class SurfaceOnDemand {
   bool isSolid(const TriangleMesh& mesh) {
     std::call_once(solidOnce_, [&] { isSolid_ = isSolidThroughout(mesh); });
     return isSolid_;
+  }
+  /// What was found out about the mesh before; nothing where it is known already.
+  void setSolid(bool isSolid) {
+    std::call_once(solidOnce_, [&] { isSolid_ = isSolid; });
   }
 
   std::shared_ptr<const UnsidedSurface> get(const TriangleMesh& mesh, const NormalConeTree& tree) {

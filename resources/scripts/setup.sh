@@ -3,10 +3,14 @@
 nearfit_packages=(
   g++ cmake ninja-build pkg-config ccache
   libvtk9-qt-dev qtbase5-dev libqt5svg5-dev libopenmesh-dev libglm-dev
-  libfmt-dev nlohmann-json3-dev libcli11-dev libssl-dev libxxhash-dev libgtest-dev libgmock-dev libfcl-dev
-  libcgal-dev
+  libfmt-dev nlohmann-json3-dev libcli11-dev libssl-dev libxxhash-dev libmuparser-dev libgtest-dev libgmock-dev libfcl-dev
+  libcgal-dev libusb-1.0-0-dev libqcustomplot-dev
 )
-nearfit_test_packages=(xvfb xauth libgl1-mesa-dri)
+nearfit_test_packages=(xvfb xauth libgl1-mesa-dri umockdev libumockdev-dev)
+# For tests/fuzz/run alone.
+nearfit_fuzz_packages=(clang-16 libclang-rt-16-dev)
+# For tests/usb/qemu/run alone.
+nearfit_qemu_packages=(qemu-system-x86 busybox-static cpio xz-utils python3)
 
 # missing_packages NAME... : prints those that are not installed.
 missing_packages() {

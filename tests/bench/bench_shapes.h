@@ -23,6 +23,9 @@ TriangleMesh teapotMesh();
 /// Journals, webs and offset pins along z, its large flat faces in annuli. 204 * around faces.
 TriangleMesh crankshaftMesh(std::uint32_t around);
 
+/// A sphere of even triangles, its vertices on it; 20 * frequency^2 faces. @param frequency  >= 1.
+TriangleMesh geodesicSphereMesh(double radius, std::uint32_t frequency);
+
 /// A sphere of even triangles whose radius varies smoothly, with lobes like limbs and relief like fur or
 /// skin: the character of a scan. 20 * frequency^2 faces; same seed, same mesh.
 TriangleMesh organicMesh(std::uint32_t frequency, std::uint64_t seed);

@@ -14,7 +14,9 @@ namespace {
 class CacheOfOne {
  public:
   explicit CacheOfOne(const TriangleMesh& mesh)
-      : cached_{mesh, {}, massProperties(mesh)}, tree_(mesh), cache_({folder_.path(), kMaxBytes, 0}) {}
+      : cached_{mesh, {}, massProperties(mesh)},
+        tree_{NormalConeTree(mesh), true},
+        cache_({folder_.path(), kMaxBytes, 0}) {}
 
   BuiltHierarchy write() const {
     if (!cache_.store(key_, cached_, &tree_)) throw Error("cache", "the mesh cannot be kept");
@@ -29,9 +31,9 @@ class CacheOfOne {
   Loaded load() const {
     const std::optional<TreeCacheFile> file = cache_.find(key_);
     std::optional<CachedMesh> mesh = file ? file->mesh() : std::nullopt;
-    std::optional<NormalConeTree> tree = file ? file->tree() : std::nullopt;
+    std::optional<CachedTree> tree = file ? file->tree() : std::nullopt;
     if (!mesh || !tree) throw Error("cache", "what was kept is not to be had");
-    return {std::move(*mesh), std::move(*tree)};
+    return {std::move(*mesh), std::move(tree->tree)};
   }
 
   /// Loads, and measures the mesh against itself set beside it.
@@ -59,7 +61,7 @@ class CacheOfOne {
   test::TemporaryFolder folder_;
   TreeCacheKey key_{std::string(64, '0'), 1.0};
   CachedMesh cached_;
-  NormalConeTree tree_;
+  CachedTree tree_;
   TreeCache cache_;
 };
 

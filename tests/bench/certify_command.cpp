@@ -22,7 +22,18 @@ struct CertifyOptions {
   std::filesystem::path scene, record;
   std::string part, pose = "proxy";
   std::size_t every = 1;
+  std::string rows = "all";
 };
+
+/// Those rows of the recording that are asked for.
+std::vector<RecordedPose> chosenPoses(const CertifyOptions& options) {
+  std::vector<RecordedPose> poses = readRecordedPoses(options.record, options.pose, options.every);
+  if (options.rows != "all") {
+    const bool isReleasedWanted = options.rows == "released";
+    std::erase_if(poses, [&](const RecordedPose& pose) { return pose.isReleased != isReleasedWanted; });
+  }
+  return poses;
+}
 
 struct Verdict {
   std::size_t meetings = 0;
@@ -51,7 +62,7 @@ void runCertify(const CertifyOptions& options) {
   if (part == nullptr || !part->geometry)
     throw UsageError("--part", fmt::format("the scene has no part \"{}\"", options.part),
                      "name one of its parts");
-  const std::vector<RecordedPose> poses = readRecordedPoses(options.record, options.pose, options.every);
+  const std::vector<RecordedPose> poses = chosenPoses(options);
   std::size_t meetings = 0;
   std::string first;
   for (const Scene::PartPtr& body : scene.parts()) {
@@ -81,6 +92,13 @@ void addCertifyCommand(CLI::App& program) {
   command->add_option("--pose", options->pose, "Which pose of a row: proxy or handle")->capture_default_str();
   command->add_option("--every", options->every, "Look at each so many-th row")
       ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--rows", options->rows,
+          "all; felt: those in which nothing was released; released: those in which the part overlapped "
+          "something and did not feel it")
+      ->check(CLI::IsMember({"all", "felt", "released"}))
       ->capture_default_str();
   command->callback([options] { runCertify(*options); });
 }

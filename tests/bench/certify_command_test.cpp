@@ -44,13 +44,15 @@ class CertifyCommand : public testing::Test {
     return part;
   }
 
-  /// The hand goes to the origin in ten steps, the proxy as far as `stop`.
-  void record(double stop) const {
+  /// The hand goes to the origin in ten steps, the proxy as far as `stop`; nearer than `releasedBefore` the
+  /// box is said to be released.
+  void record(double stop, double releasedBefore = 0.0) const {
     std::string text = std::string(motionHeader()) + "\n";
     for (int i = 0; i <= 10; ++i) {
       MotionRow row;
       row.handle.translation.x = 5.0 - 0.5 * i;
       row.proxy.translation.x = std::max(row.handle.translation.x, stop);
+      row.released = row.proxy.translation.x < releasedBefore ? 1 : 0;
       text += formatMotionRow(row) + "\n";
     }
     folder.write("record.csv", text);
@@ -95,6 +97,18 @@ TEST_F(CertifyCommand, FirstPoseThatMeetsIsNamedByItsLine) {
 TEST_F(CertifyCommand, EveryLooksAtEachSoManyth) {
   record(0.0);
   EXPECT_THAT(problem({"--every", "5"}), HasSubstr("in line 12"));
+}
+
+TEST_F(CertifyCommand, RowsInWhichTheBoxWasReleasedAreLeftOutOrLookedAtAlone) {
+  // The rows at 0.5 and 0, in lines 11 and 12, meet the box: both are said to be released, and then the last
+  // alone.
+  record(0.0, 0.6);
+  EXPECT_EQ(problem({"--rows", "felt"}), "");
+  EXPECT_THAT(problem({"--rows", "released"}), HasSubstr("in line 11"));
+  EXPECT_THAT(problem(), HasSubstr("in line 11"));
+  record(0.0, 0.1);
+  EXPECT_THAT(problem({"--rows", "felt"}), HasSubstr("in line 11"));
+  EXPECT_THAT(problem({"--rows", "released"}), HasSubstr("in line 12"));
 }
 
 TEST_F(CertifyCommand, WrongNamesAndDamagedRecordingsAreToldOf) {

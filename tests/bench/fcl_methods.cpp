@@ -3,48 +3,24 @@
 #include <memory>
 #include <utility>
 
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/detail/primitive_shape_algorithm/triangle_distance.h>
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 #include <fcl/narrowphase/detail/traversal/distance/mesh_distance_traversal_node.h>
 #include <fcl/narrowphase/distance.h>
 
+#include "tests/bench/fcl_bodies.h"
 #include "tests/bench/peer_bodies.h"
 #include "tests/bench/query_method.h"
 
 namespace nearfit::bench {
 namespace {
 
-using FclModel = fcl::BVHModel<fcl::OBBRSSd>;
-
-std::unique_ptr<FclModel> modelOf(const TriangleMesh& mesh) {
-  std::vector<fcl::Vector3d> vertices;
-  for (const glm::dvec3& p : mesh.vertices())
-    vertices.emplace_back(p.x, p.y, p.z);
-  std::vector<fcl::Triangle> triangles;
-  for (const Triangle& t : mesh.triangles())
-    triangles.emplace_back(t[0], t[1], t[2]);
-  auto model = std::make_unique<FclModel>();
-  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
-  model->addSubModel(vertices, triangles);
-  model->endModel();
-  return model;
-}
-
 struct FclBodies {
   explicit FclBodies(const PreparedScene& prepared)
-      : scene(modelOf(prepared.meshes.scene)), part(modelOf(prepared.meshes.part)) {}
+      : scene(fclModelOf(prepared.meshes.scene)), part(fclModelOf(prepared.meshes.part)) {}
   std::unique_ptr<FclModel> scene, part;
 };
 using FclBodiesPtr = std::shared_ptr<const FclBodies>;
-
-fcl::Transform3d toFcl(const RigidTransform& pose) {
-  fcl::Transform3d out = fcl::Transform3d::Identity();
-  const glm::dquat& q = pose.rotation;
-  out.linear() = fcl::Quaterniond(q.w, q.x, q.y, q.z).toRotationMatrix();
-  out.translation() = fcl::Vector3d(pose.translation.x, pose.translation.y, pose.translation.z);
-  return out;
-}
 
 /// The least distance over all triangles.
 class FclDistance : public QueryMethod {
@@ -156,7 +132,7 @@ std::vector<MethodEntry> fclMethods() {
 
 std::vector<BuildEntry> fclBuilds() {
   return {{"fcl", [](const TriangleMesh& mesh) -> BuiltHierarchy {
-             const std::shared_ptr<const FclModel> model = modelOf(mesh);
+             const std::shared_ptr<const FclModel> model = fclModelOf(mesh);
              const std::size_t bytes =
                  sizeof(fcl::BVNode<fcl::OBBRSSd>) * static_cast<std::size_t>(model->getNumBVs()) +
                  sizeof(fcl::Triangle) * static_cast<std::size_t>(model->num_tris) +

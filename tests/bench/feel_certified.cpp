@@ -5,15 +5,26 @@
 #include "tests/exact/pose_certifier.h"
 
 namespace nearfit::bench {
+namespace {
+
+bool isSame(const RigidTransform& a, const RigidTransform& b) {
+  return a.translation == b.translation && a.rotation == b.rotation;
+}
+
+}  // namespace
 
 FeelRow certifiedRow(const std::string& group, const std::string& scene, const std::string& run,
                      const ServoScene& bodies, std::span<const RigidTransform> worldFromPart) {
-  std::vector<double> meets(worldFromPart.size(), 0.0);
+  std::vector<RigidTransform> distinct;
+  for (const RigidTransform& pose : worldFromPart) {
+    if (distinct.empty() || !isSame(pose, distinct.back())) distinct.push_back(pose);
+  }
+  std::vector<double> meets(distinct.size(), 0.0);
   for (const ServoScene::Body& body : bodies.bodies) {
     const RigidTransform bodyFromWorld = body.worldFromPart.inverse();
     std::vector<RigidTransform> poses;
-    poses.reserve(worldFromPart.size());
-    for (const RigidTransform& pose : worldFromPart)
+    poses.reserve(distinct.size());
+    for (const RigidTransform& pose : distinct)
       poses.push_back(bodyFromWorld * pose);
     const test::PoseCertifier certifier(body.geometry->mesh, bodies.moving.geometry->mesh);
     const std::vector<char> found = certifier.meetings(poses);

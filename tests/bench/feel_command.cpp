@@ -15,6 +15,7 @@
 #include "tests/bench/feel_cost.h"
 #include "tests/bench/feel_sliding.h"
 #include "tests/bench/feel_smoothness.h"
+#include "tests/bench/feel_tessellation.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/selection.h"
 
@@ -26,13 +27,14 @@ constexpr double kCutoffFraction = 0.05;
 
 struct FeelOptions {
   std::filesystem::path shared, csv;
-  std::vector<std::string> groups{"smoothness", "pairs", "conforming", "sliding"};
+  std::vector<std::string> groups{"smoothness", "pairs", "conforming", "sliding", "tessellation"};
   std::vector<std::string> scenes{"all"}, pairs{"all"};
   SmoothnessOptions smoothness;
   SlidingOptions sliding;
   CostOptions cost;
   SeekingPathOptions seeking;
   double marginOfCutoff = 0.01, pressOfCutoff = 0.2;
+  std::vector<std::uint32_t> finenesses{1, 2, 4, 8};
   std::vector<double> speeds{0.1, 1.0}, slidingSpeeds{0.1, 0.5, 1.0};
 };
 
@@ -92,12 +94,23 @@ void measureConforming(const FeelOptions& options, std::vector<FeelRow>& all) {
   constexpr double kTick = 1e-3;  // [s]
   for (const FeelEntry& entry : feelScenes(options)) {
     const FeelScene feel = entry.make();
-    CostCase scene{
-        entry.name, "conforming", feel.scene, {}, kCutoffFraction * feel.size, options.smoothness.margin};
+    CostCase scene{entry.name,
+                   "conforming",
+                   feel.scene,
+                   {},
+                   kCutoffFraction * feel.size,
+                   feel.margin.value_or(options.smoothness.margin)};
     for (std::size_t i = 0; i < options.seeking.ticks; ++i)
       scene.path.push_back(handAt(feel.motion, kTick * static_cast<double>(i)));
     fmt::print("\nCost of ticks, {}: {}\n", entry.name, entry.description);
     say(all, costRows(scene, runCost(scene, options.cost)));
+  }
+}
+
+void measureTessellation(const FeelOptions& options, std::vector<FeelRow>& all) {
+  for (const RestScene& scene : restScenes()) {
+    fmt::print("\nTessellation, {}: {}\n", scene.name, scene.description);
+    say(all, tessellationRows(scene, options.finenesses));
   }
 }
 
@@ -135,6 +148,7 @@ void runFeel(const FeelOptions& options) {
       fmt::print("\nSliding and free motion\n");
       say(rows, slidingRows(options.slidingSpeeds, options.sliding));
     }
+    if (group == "tessellation") measureTessellation(options, rows);
   }
   std::string lines;
   for (const FeelRow& row : rows)
@@ -150,7 +164,7 @@ void addWhat(CLI::App& command, FeelOptions& o) {
   command.add_option("--shared", o.shared, "Folder of the shared models; without, generated ones alone");
   command.add_option("--groups", o.groups, "What to measure, with commas between")
       ->delimiter(',')
-      ->check(CLI::IsMember({"smoothness", "pairs", "conforming", "sliding"}))
+      ->check(CLI::IsMember({"smoothness", "pairs", "conforming", "sliding", "tessellation"}))
       ->capture_default_str();
   command.add_option("--scenes", o.scenes, "Scenes of conforming contact, with commas between")
       ->delimiter(',')
@@ -175,6 +189,11 @@ void addHow(CLI::App& command, FeelOptions& o) {
   positive("--press-of-cutoff", o.pressOfCutoff, "How far the hand presses beyond contact at the pairs");
   positive("--block", o.cost.block, "Ticks in a mode before the other has its turn");
   positive("--slide-seconds", o.sliding.seconds, "At full speed along the wall");
+  command
+      .add_option("--fineness", o.finenesses, "Of the meshes of tessellation, edges so many times shorter")
+      ->delimiter(',')
+      ->check(CLI::Range(1U, 64U))
+      ->capture_default_str();
   command.add_option("--warm-up", o.cost.warmUp, "First ticks of each block, which are not timed")
       ->capture_default_str();
   command.add_option("--speeds", o.speeds, "Of the hand at the pairs, whose larger part is 1 m [m/s]")

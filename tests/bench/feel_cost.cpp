@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/servo_loop.h"
+#include "device/servo/servo_loop.h"
 #include "tests/bench/feel_certified.h"
 #include "tests/bench/feel_servo.h"
 
@@ -53,7 +53,7 @@ CostRun runCost(const CostCase& scene, const CostOptions& options) {
     for (std::size_t i = begin; i < end; ++i) {
       const ServoSnapshot& snapshot = proxy.tick(scene.path[i], ServoLoop::kPeriod);
       way.push_back(snapshot.proxy);
-      if (i % options.posesStride == 0) run.poses.push_back(snapshot.proxy);
+      run.poses.push_back(snapshot.proxy);
       if (i - begin >= options.warmUp) note(run, proxy, snapshot);
     }
     for (std::size_t i = 0; i < way.size(); ++i) {

@@ -21,9 +21,8 @@ struct CostCase {
 };
 
 struct CostOptions {
-  std::size_t block = 100;       ///< Ticks in one mode before the other has its turn.
-  std::size_t warmUp = 5;        ///< Of them, the first that are not timed.
-  std::size_t posesStride = 10;  ///< Of the proxy's poses, each so-many-th is certified.
+  std::size_t block = 100;  ///< Ticks in one mode before the other has its turn.
+  std::size_t warmUp = 5;   ///< Of them, the first that are not timed.
   BenchClock clock = BenchClock::Wall;
 };
 
@@ -34,7 +33,7 @@ struct CostRun {
   std::vector<double> proxyAt32, proxyAt256;            ///< Of ticks with about so many constraints [s].
   std::vector<double> constraints, contacts, subSteps;  ///< Of each timed tick.
   std::vector<double> lateBodies, shortened, refused;   ///< Of each timed tick.
-  std::vector<RigidTransform> poses;                    ///< Of the proxy's part, some of them.
+  std::vector<RigidTransform> poses;                    ///< Of the proxy's part, tick by tick.
   std::vector<double> refresh;                          ///< Of the thread beside, each search [s].
 };
 

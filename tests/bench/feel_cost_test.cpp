@@ -35,6 +35,8 @@ TEST(RunCost, TimesEachTickOfBothModesButThoseThatWarmUp) {
   EXPECT_EQ(run.constraints.size(), timed);
   EXPECT_LE(run.query.size(), timed);
   EXPECT_EQ(run.query.size(), run.proxy.size());
+  // Certified are those of ticks that are not timed, too.
+  EXPECT_EQ(run.poses.size(), 180U);
 }
 
 TEST(RunCost, AHandThatPressesIsInContact) {

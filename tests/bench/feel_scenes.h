@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,12 @@ struct FeelScene {
   std::shared_ptr<const ServoScene> scene;
   PressingMotion motion;
   double size = 0.0;  ///< The larger body's diagonal [m].
+
+  /// Of the proxy, where what the options say is more than the parts' play allows [m].
+  std::optional<double> margin;
+  /// Where ticks take milliseconds: the most of the hand's motion that is walked, and of it with springs [s].
+  double mostSeconds = std::numeric_limits<double>::infinity();
+  double mostSpringSeconds = std::numeric_limits<double>::infinity();
 };
 
 /// A scene that is made when it is wanted.

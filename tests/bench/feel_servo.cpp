@@ -49,8 +49,7 @@ const ServoSnapshot& FeelServo::tick(const RigidTransform& hand, double period) 
 }
 
 void FeelServo::workBeside() {
-  tracker_.observe(snapshot_->proxy, 1.0);
-  tracker_.setWaiting(snapshot_->isWaiting);
+  tracker_.observeTick(*snapshot_, 1.0);
   if (isUnderWay_ || !tracker_.isDue(reach_)) return;
   const double start = secondsBy(clock_);
   tracker_.refresh(reach_, tracked_[1 - front_]);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "device/servo_loop.h"
+#include "device/servo/servo_loop.h"
 #include "tests/support/servo_fixtures.h"
 
 namespace nearfit::bench {

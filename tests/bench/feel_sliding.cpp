@@ -7,7 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "device/servo_loop.h"
+#include "device/servo/servo_loop.h"
+#include "tests/bench/feel_certified.h"
 #include "tests/bench/feel_scenes.h"
 #include "tests/bench/feel_servo.h"
 #include "tests/support/mesh_generators.h"
@@ -43,9 +44,9 @@ SlidingRun runSliding(double speed, const SlidingOptions& options) {
   const std::size_t rampTicks = static_cast<std::size_t>(std::llround(kApproachTime / ServoLoop::kPeriod));
   const std::size_t ticks =
       rampTicks + static_cast<std::size_t>(std::llround(options.seconds / ServoLoop::kPeriod));
-  FeelServo servo =
-      servoOn(boxOnWall(speed * (kApproachTime + options.seconds) + kBeyondWay, kStartGap), options.margin);
   SlidingRun run;
+  run.scene = boxOnWall(speed * (kApproachTime + options.seconds) + kBeyondWay, kStartGap);
+  FeelServo servo = servoOn(run.scene, options.margin);
   RigidTransform hand;
   double way = 0.0;
   for (std::size_t i = 0; i < ticks; ++i) {
@@ -54,6 +55,7 @@ SlidingRun runSliding(double speed, const SlidingOptions& options) {
     hand.translation = way * kAlong;
     hand.translation.z = kStartGap - begun * (kStartGap + options.press);
     const ServoSnapshot& snapshot = servo.tick(hand, ServoLoop::kPeriod);
+    run.poses.push_back(snapshot.proxy);
     if (i < rampTicks) continue;
     run.lag.push_back(glm::dot(hand.translation - snapshot.proxy.translation, kAlong));
     run.subSteps.push_back(snapshot.subSteps);
@@ -74,10 +76,12 @@ FreeRun runFree() {
   motion.swing = 1.0;
   motion.turn = 0.5;
   FreeRun run;
+  run.scene = scene;
   const auto ticks = static_cast<std::size_t>(std::llround((kMoving + kResting) / ServoLoop::kPeriod));
   for (std::size_t i = 0; i < ticks; ++i) {
     const double time = static_cast<double>(i) * ServoLoop::kPeriod;
     const ServoSnapshot& snapshot = servo.tick(handAt(motion, std::min(time, kMoving)), ServoLoop::kPeriod);
+    run.poses.push_back(snapshot.proxy);
     const double felt =
         glm::length(snapshot.unclampedWrench.force) + glm::length(snapshot.unclampedWrench.torque);
     (time <= kMoving + ServoLoop::kPeriod ? run.moving : run.resting).push_back(felt);
@@ -94,10 +98,12 @@ std::vector<FeelRow> slidingRows(const std::vector<double>& speeds, const Slidin
     rows.push_back(feelRow("sliding", "box-wall", run, "sub-steps", slid.subSteps));
     const double share = static_cast<double>(slid.ticksInContact) / static_cast<double>(slid.lag.size());
     rows.push_back(feelRow("sliding", "box-wall", run, "in contact", std::vector{share}));
+    rows.push_back(certifiedRow("sliding", "box-wall", run, *slid.scene, slid.poses));
   }
   const FreeRun free = runFree();
   rows.push_back(feelRow("free", "box-wall", "moving", "force and torque [N+N m]", free.moving));
   rows.push_back(feelRow("free", "box-wall", "at rest", "force and torque [N+N m]", free.resting));
+  rows.push_back(certifiedRow("free", "box-wall", "all", *free.scene, free.poses));
   return rows;
 }
 

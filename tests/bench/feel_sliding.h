@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
+#include "core/haptics/servo_scene.h"
 #include "tests/bench/feel_report.h"
 
 namespace nearfit::bench {
@@ -19,6 +21,8 @@ struct SlidingRun {
   std::vector<double> lag;
   std::vector<double> subSteps;
   std::size_t ticksInContact = 0;
+  std::shared_ptr<const ServoScene> scene;
+  std::vector<RigidTransform> poses;  ///< Of the part, tick by tick, while it comes up to speed too.
 };
 
 /// A box of 5 cm is pressed flat on a wall and drawn along it: up to speed within kApproachTime, then on.
@@ -28,6 +32,8 @@ SlidingRun runSliding(double speed, const SlidingOptions& options);
 /// What a hand feels that moves the same box freely above the wall, and then rests.
 struct FreeRun {
   std::vector<double> moving, resting;  ///< Size of the force [N] and of the torque [N m], summed.
+  std::shared_ptr<const ServoScene> scene;
+  std::vector<RigidTransform> poses;  ///< Of the part, tick by tick.
 };
 FreeRun runFree();
 

@@ -13,6 +13,7 @@ TEST(RunSliding, ABoxKeepsUpWithASlowHand) {
   const SlidingRun run = runSliding(0.1, options);
   ASSERT_EQ(run.lag.size(), 200U);
   EXPECT_EQ(run.ticksInContact, 200U);
+  EXPECT_GT(run.poses.size(), 200U);
   // Within what the hand goes in a tick.
   for (const double lag : run.lag)
     EXPECT_NEAR(lag, 0.0, 1e-4);

@@ -1,12 +1,15 @@
 #include "tests/bench/feel_smoothness.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "device/servo_loop.h"
+#include "core/haptics/virtual_coupling.h"
+#include "device/servo/servo_loop.h"
 #include "tests/bench/feel_certified.h"
 #include "tests/bench/feel_servo.h"
 
@@ -15,13 +18,20 @@ namespace {
 
 /// After the approach, until what it left in the filters has gone [s].
 constexpr double kSettling = 0.2;
+/// So many ticks of the refined way after the hand has become slower, or ticks shorter, that change is out of
+/// the filters of velocity.
+constexpr std::size_t kSettlingTicks = 50;
 
-ServoParameters parametersOf(HapticMode mode, SpringLaw law, const SmoothnessOptions& options) {
+double marginOf(const FeelScene& scene, const SmoothnessOptions& options) {
+  return scene.margin.value_or(options.margin);
+}
+
+ServoParameters parametersOf(HapticMode mode, SpringLaw law, double cutoff, double margin) {
   ServoParameters parameters;
   parameters.haptics.mode = mode;
-  parameters.haptics.springs.cutoff = options.cutoff;
+  parameters.haptics.springs.cutoff = cutoff;
   parameters.haptics.springs.law = law;
-  parameters.haptics.proxy.margin = options.margin;
+  parameters.haptics.proxy.margin = margin;
   return parameters;
 }
 
@@ -30,10 +40,11 @@ class ModesAbreast {
  public:
   ModesAbreast(const FeelScene& scene, const SmoothnessOptions& options, bool withDirect)
       : motion_(scene.motion), withDirect_(withDirect) {
+    const double margin = marginOf(scene, options);
     const std::array<ServoParameters, 3> parameters{
-        parametersOf(HapticMode::Proxy, SpringLaw::Linear, options),
-        parametersOf(HapticMode::Springs, SpringLaw::Linear, options),
-        parametersOf(HapticMode::Springs, SpringLaw::Printed, options)};
+        parametersOf(HapticMode::Proxy, SpringLaw::Linear, options.cutoff, margin),
+        parametersOf(HapticMode::Springs, SpringLaw::Linear, options.cutoff, margin),
+        parametersOf(HapticMode::Springs, SpringLaw::Printed, options.cutoff, margin)};
     for (const ServoParameters& p : parameters)
       servos_.push_back(std::make_unique<FeelServo>(scene.scene, p, ListArrival::AtOnce, BenchClock::Wall));
   }
@@ -46,6 +57,8 @@ class ModesAbreast {
       felt_[mode] = servos_[mode]->tick(felt.proxy, period).unclampedWrench;
     return felt;
   }
+
+  void leaveOutDirect() noexcept { withDirect_ = false; }
 
   void keep(std::array<WrenchChanges, 3>& changes) const {
     for (std::size_t mode = 0; mode < (withDirect_ ? servos_.size() : 1); ++mode)
@@ -76,6 +89,13 @@ FeelRow ratioRow(const FeelRow& plain, const FeelRow& refined, const std::string
   return row;
 }
 
+/// How the proxy's part went along.
+void addMotion(std::vector<FeelRow>& rows, const std::string& scene, const std::string& run,
+               const SmoothnessRun& result) {
+  rows.push_back(feelRow("smoothness", scene, run, "sub-steps", result.subSteps));
+  rows.push_back(feelRow("smoothness", scene, run, "turned [rad]", std::vector{result.turned}));
+}
+
 struct Rows {
   FeelRow force, torque, size;
 };
@@ -103,19 +123,27 @@ SmoothnessRun runSmoothness(const FeelScene& scene, const SmoothnessOptions& opt
   ModesAbreast servos(scene, options, held == Refinement::SamePeriod);
   const double begin = kApproachTime + kSettling;
   const auto approach = static_cast<std::size_t>(std::llround(begin / ServoLoop::kPeriod));
+  SmoothnessRun run;
   for (std::size_t i = 0; i < approach; ++i)
-    servos.tick(ServoLoop::kPeriod * static_cast<double>(i), ServoLoop::kPeriod);
+    run.poses.push_back(servos.tick(ServoLoop::kPeriod * static_cast<double>(i), ServoLoop::kPeriod).proxy);
 
   const double step = ServoLoop::kPeriod / static_cast<double>(refinement);
   const double period = held == Refinement::SamePeriod ? ServoLoop::kPeriod : step;
-  const auto ticks = static_cast<std::size_t>(std::llround(options.seconds / step));
-  SmoothnessRun run;
+  const double seconds = std::min(options.seconds, scene.mostSeconds);
+  const auto ticks = static_cast<std::size_t>(std::llround(seconds / step));
+  const double springTicks = scene.mostSpringSeconds / step;
   std::size_t inContact = 0;
+  std::optional<glm::dquat> last;
   for (std::size_t i = 0; i <= ticks; ++i) {
+    if (static_cast<double>(i) > springTicks) servos.leaveOutDirect();
     const ServoSnapshot& felt = servos.tick(begin + step * static_cast<double>(i), period);
-    servos.keep(run.changes);
+    // The same stretch of the way, however fine its ticks.
+    if (i >= kSettlingTicks * refinement / options.refinement) servos.keep(run.changes);
     inContact += felt.contactCount > 0 ? 1 : 0;
-    if (i % options.posesStride == 0) run.poses.push_back(felt.proxy);
+    run.subSteps.push_back(felt.subSteps);
+    run.turned += glm::length(turnBetween(last.value_or(felt.proxy.rotation), felt.proxy.rotation));
+    last = felt.proxy.rotation;
+    run.poses.push_back(felt.proxy);
   }
   run.inContact = static_cast<double>(inContact) / static_cast<double>(ticks + 1);
   return run;
@@ -128,11 +156,15 @@ std::vector<FeelRow> smoothnessRows(const std::string& name, const FeelScene& sc
   std::vector<FeelRow> rows;
   rows.push_back(feelRow("smoothness", name, "proxy x1", "in contact", std::vector{plain.inContact}));
   rows.push_back(certifiedRow("smoothness", name, "proxy x1", *scene.scene, plain.poses));
+  addMotion(rows, name, "proxy x1", plain);
   for (const Refinement held : {Refinement::SamePeriod, Refinement::SameSpeed}) {
     const SmoothnessRun refined = runSmoothness(scene, options, options.refinement, held);
+    const bool isSamePeriod = held == Refinement::SamePeriod;
+    const std::string refinedRun = "proxy " + times + (isSamePeriod ? "" : " same speed");
+    rows.push_back(certifiedRow("smoothness", name, refinedRun, *scene.scene, refined.poses));
+    addMotion(rows, name, refinedRun, refined);
     for (std::size_t mode = 0; mode < SmoothnessRun::kModes.size(); ++mode) {
       const std::string of = SmoothnessRun::kModes[mode];
-      const bool isSamePeriod = held == Refinement::SamePeriod;
       // Without damping the springs know nothing of time.
       if (!isSamePeriod && mode > 0) continue;
       const std::string run = of + " " + times + (isSamePeriod ? "" : " same speed");

@@ -12,11 +12,10 @@
 namespace nearfit::bench {
 
 struct SmoothnessOptions {
-  double seconds = 8.0;          ///< Of the hand's motion, after its approach.
-  std::size_t refinement = 10;   ///< Ticks of the refined path to each of the plain one.
-  double margin = 1e-4;          ///< Of the proxy [m].
-  double cutoff = 1e-3;          ///< Rest length of the springs [m].
-  std::size_t posesStride = 10;  ///< Of the proxy's poses, each so-many-th is certified.
+  double seconds = 8.0;         ///< Of the hand's motion, after its approach.
+  std::size_t refinement = 10;  ///< Ticks of the refined path to each of the plain one.
+  double margin = 1e-4;         ///< Of the proxy [m].
+  double cutoff = 1e-3;         ///< Rest length of the springs [m].
 };
 
 /// What is held while the path is refined.
@@ -45,8 +44,10 @@ struct WrenchChanges {
 struct SmoothnessRun {
   static constexpr std::array<const char*, 3> kModes{"proxy", "spring", "printed"};
   std::array<WrenchChanges, 3> changes;
-  std::vector<RigidTransform> poses;  ///< Of the proxy's part, some of them.
+  std::vector<RigidTransform> poses;  ///< Of the proxy's part, tick by tick, the approach too.
   double inContact = 0.0;             ///< Share of the ticks in which something holds the proxy.
+  std::vector<double> subSteps;       ///< Of the proxy, in each tick.
+  double turned = 0.0;                ///< All angles that its part turned by, added up [rad].
 };
 
 /// Runs the three modes side by side along the hand's path. The approach is neither refined nor kept, the

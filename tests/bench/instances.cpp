@@ -24,20 +24,6 @@ namespace {
 
 constexpr double kMegabyte = 1e6;
 
-/// Parts in a cubic grid, the first in hand; half a diagonal of air between their spheres.
-Scene gridOf(const PartGeometryPtr& geometry, std::size_t parts) {
-  const auto edge = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(parts))));
-  const double spacing = 1.5 * geometry->mesh.bounds().diagonal();
-  Scene scene;
-  for (std::size_t i = 0; i < parts; ++i) {
-    RigidTransform pose;
-    pose.translation = spacing * glm::dvec3(i % edge, i / edge % edge, i / (edge * edge));
-    const PartId id = scene.add(test::partOf(geometry, fmt::format("part {}", i + 1).c_str(), pose));
-    if (i == 0) scene.setMovingPart(id);
-  }
-  return scene;
-}
-
 double secondsSince(double start) {
   return secondsBy(BenchClock::Wall) - start;
 }
@@ -65,6 +51,20 @@ void prepareServo(const Scene& scene, InstancesRow& row) {
 
 }  // namespace
 
+Scene gridOf(std::span<const PartGeometryPtr> geometries, std::size_t parts) {
+  const auto edge = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(parts))));
+  const double spacing = 1.5 * geometries[0]->mesh.bounds().diagonal();
+  Scene scene;
+  for (std::size_t i = 0; i < parts; ++i) {
+    RigidTransform pose;
+    pose.translation = spacing * glm::dvec3(i % edge, i / edge % edge, i / (edge * edge));
+    const PartId id = scene.add(
+        test::partOf(geometries[i % geometries.size()], fmt::format("part {}", i + 1).c_str(), pose));
+    if (i == 0) scene.setMovingPart(id);
+  }
+  return scene;
+}
+
 GeometryTotals geometryTotals(const Scene& scene) {
   GeometryTotals totals;
   std::set<const PartGeometry*> seen;
@@ -91,7 +91,7 @@ InstancesRow measureInstancesInMemory(const TriangleMesh& mesh, std::size_t part
   // Arrays of its own: those of `mesh` are there already.
   const PartGeometryPtr geometry = test::freshGeometryOf(test::transformed(mesh, 1.0));
   const double start = secondsBy(BenchClock::Wall);
-  const Scene scene = gridOf(geometry, parts);
+  const Scene scene = gridOf({&geometry, 1}, parts);
   row.sceneSeconds = secondsSince(start);
   prepareServo(scene, row);
   return row;
@@ -102,7 +102,8 @@ InstancesRow measureInstancesFromFile(const TriangleMesh& mesh, std::size_t part
   const test::ScopedVariable noCache("NEARFIT_CACHE", "off");
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "instances.nearfit";
-  writeSceneFile(gridOf(loadPartGeometry(folder.write("mesh.obj", test::objText(mesh)), 1.0), parts), file);
+  const PartGeometryPtr geometry = loadPartGeometry(folder.write("mesh.obj", test::objText(mesh)), 1.0);
+  writeSceneFile(gridOf({&geometry, 1}, parts), file);
   InstancesRow row;
   row.name = "scene file";
   row.residentBefore = residentBytes();

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct InstancesRow {
   double servoSceneSeconds = 0.0;  ///< To make the ServoScene, the hierarchy included where it is missing.
   double trackedSeconds = 0.0;     ///< To the first TrackedScene.
 };
+
+/// Parts in a cubic grid, the first in hand, with half a diagonal of air between their spheres.
+/// @param geometries  Of one mesh; shown in turn.
+Scene gridOf(std::span<const PartGeometryPtr> geometries, std::size_t parts);
 
 /// Of the parts' geometries, each once.
 struct GeometryTotals {

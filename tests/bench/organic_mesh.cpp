@@ -122,6 +122,13 @@ class Relief {
 
 }  // namespace
 
+TriangleMesh geodesicSphereMesh(double radius, std::uint32_t frequency) {
+  GeodesicSphere sphere(frequency);
+  for (glm::dvec3& p : sphere.vertices)
+    p *= radius;
+  return {std::move(sphere.vertices), std::move(sphere.triangles)};
+}
+
 TriangleMesh organicMesh(std::uint32_t frequency, std::uint64_t seed) {
   GeodesicSphere sphere(frequency);
   const Relief relief(seed);

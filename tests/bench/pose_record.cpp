@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -25,6 +26,14 @@ std::vector<std::string_view> cellsOf(std::string_view line) {
     cells.push_back(line.substr(0, comma));
   }
   return cells;
+}
+
+/// Of the column that says how many parts were released; none where there is no such column.
+std::optional<std::size_t> placeOfReleased(const std::string& header) {
+  const std::vector<std::string_view> names = cellsOf(header);
+  const auto found = std::ranges::find(names, std::string_view("released"));
+  if (found == names.end()) return {};
+  return static_cast<std::size_t>(found - names.begin());
 }
 
 std::array<std::size_t, 7> placesOf(const std::filesystem::path& file, const std::string& header,
@@ -49,6 +58,7 @@ std::vector<RecordedPose> readRecordedPoses(const std::filesystem::path& file, c
   std::string line;
   if (!std::getline(in, line)) throw FileError(file.string(), "it cannot be read, or is empty", kRemedy);
   const std::array<std::size_t, 7> places = placesOf(file, line, name);
+  const std::optional<std::size_t> released = placeOfReleased(line);
   std::vector<RecordedPose> poses;
   for (std::size_t number = 2; std::getline(in, line); ++number) {
     if ((number - 2) % every != 0) continue;
@@ -62,7 +72,8 @@ std::vector<RecordedPose> readRecordedPoses(const std::filesystem::path& file, c
                         fmt::format("its {}_{} is no finite number", name, kColumns[i]), kRemedy);
       }
     }
-    poses.push_back({{{v[3], v[4], v[5], v[6]}, {v[0], v[1], v[2]}}, number});
+    const bool isReleased = released && *released < cells.size() && cells[*released] != "0";
+    poses.push_back({{{v[3], v[4], v[5], v[6]}, {v[0], v[1], v[2]}}, number, isReleased});
   }
   return poses;
 }

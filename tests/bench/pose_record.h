@@ -12,6 +12,8 @@ namespace nearfit::bench {
 struct RecordedPose {
   RigidTransform pose;
   std::size_t line = 0;
+  /// The part overlapped something that was not felt: column `released`; never where there is no such column.
+  bool isReleased = false;
 };
 
 /// The poses NAME_tx ... NAME_qz of a CSV file with a header, as `nearfit-cli place --record` writes them:

@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "core/files/atomic_write.h"
-#include "device/simulated_device.h"
+#include "device/simulated/simulated_device.h"
 #include "tests/bench/commands.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/query_report.h"

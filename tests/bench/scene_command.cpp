@@ -13,13 +13,12 @@
 #include "core/files/atomic_write.h"
 #include "core/scene/scene_file.h"
 #include "tests/bench/commands.h"
-#include "tests/bench/far_parts.h"
 #include "tests/bench/instances.h"
 #include "tests/bench/machine.h"
+#include "tests/bench/near_pair.h"
 #include "tests/bench/scene_path.h"
 #include "tests/bench/selection.h"
 #include "tests/bench/tick_report.h"
-#include "tests/support/part_geometries.h"
 
 namespace nearfit::bench {
 namespace {
@@ -40,39 +39,20 @@ struct SceneOptions {
   std::filesystem::path csv, instancesCsv;
 };
 
-/// What is the same in all scenes with one pair of parts.
-struct NearPair {
-  PartGeometryPtr scene, part;
-  RigidTransform start;
-  FarField field;
-  std::vector<PartGeometryPtr> farGeometries;
-};
-
-TickScene sceneWith(const NearPair& pair, std::size_t farCount) {
-  Scene scene;
-  // First, so that they have the same ids and places in all.
-  scene.add(test::partOf(pair.scene, "near"));
-  scene.setMovingPart(scene.add(test::partOf(pair.part, "in hand", pair.start)));
-  for (Part& part : farParts(pair.field, pair.farGeometries, farCount))
-    scene.add(std::move(part));
-  return {farCount == 0 ? "alone" : fmt::format("+{} far", farCount), makeServoScene(scene)};
+TickScene sceneOf(const NearPair& pair, std::size_t farCount) {
+  return {farCount == 0 ? "alone" : fmt::format("+{} far", farCount), pair.sceneWith(farCount)};
 }
 
 std::vector<TickRow> measureTicks(const SceneEntry& entry, const SceneOptions& options) {
   const PreparedScene pairOfMeshes(entry.make(), kCutoffFraction);
   const std::vector<RigidTransform> path = makePath(pairOfMeshes, options.path);
-  NearPair pair{test::freshGeometryOf(pairOfMeshes.meshes.scene),
-                test::freshGeometryOf(pairOfMeshes.meshes.part), path.front(), FarField(),
-                farGeometries(pairOfMeshes.size)};
-  pair.field.keepOut = ballAround(pathBodies(pairOfMeshes.meshes), path);
-  pair.field.keepOut.radius += pairOfMeshes.cutoff + options.gapFraction * pairOfMeshes.size;
-  pair.field.size = pairOfMeshes.size;
-  pair.field.spacing *= pairOfMeshes.size;
+  NearPair pair(pairOfMeshes, path);
+  pair.field.keepOut.radius += options.gapFraction * pairOfMeshes.size;
   pair.field.seed = options.seed;
 
-  std::vector<TickScene> scenes{sceneWith(pair, 0)};
+  std::vector<TickScene> scenes{sceneOf(pair, 0)};
   for (const std::size_t count : options.farParts)
-    scenes.push_back(sceneWith(pair, count));
+    scenes.push_back(sceneOf(pair, count));
   const std::vector<TickRun> runs = runTicks(scenes, path, pairOfMeshes.cutoff, options.run);
   std::vector<TickRow> rows = tickRows(entry.name, runs, options.run.rounds, options.isBest);
   const TickRun& alone = runs.front();

@@ -1,61 +1,27 @@
 #include "tests/bench/tick_run.h"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "core/haptics/scene_tracker.h"
-#include "device/servo_loop.h"
+#include "device/servo/servo_loop.h"
+#include "tests/bench/digest.h"
 
 namespace nearfit::bench {
 namespace {
 
-/// FNV-1a, by words in place of bytes.
-class Digest {
- public:
-  void add(std::uint64_t word) noexcept {
-    value_ = (value_ ^ word) * 0x100000001b3U;
-    value_ ^= value_ >> 32;  // Else the highest bits of a word would reach nothing but themselves.
-  }
-  void add(double number) noexcept { add(std::bit_cast<std::uint64_t>(number)); }
-  void add(const glm::dvec3& v) noexcept {
-    add(v.x);
-    add(v.y);
-    add(v.z);
-  }
-  void add(const RegionExtent& extent) noexcept {
-    add(extent.axis);
-    for (const double length :
-         {extent.measure, extent.halfLength, extent.halfWidth, extent.inside.x, extent.inside.y})
-      add(length);
-    add(std::uint64_t{extent.dimension});
-  }
-  void add(const Lmd& lmd) noexcept {
-    add(lmd.scenePoint);
-    add(lmd.partPoint);
-    add(lmd.direction);
-    add(lmd.distance);
-    add(std::uint64_t{lmd.sceneIndex} << 32 | lmd.partIndex);
-    add(static_cast<std::uint64_t>(lmd.sceneFeature) << 8 | static_cast<std::uint64_t>(lmd.partFeature) << 4 |
-        (lmd.isRegion ? 2U : 0U) | (lmd.isBlocked ? 1U : 0U));
-    if (lmd.isRegion) add(lmd.extent);
-  }
-  std::uint64_t value() const noexcept { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325U;
-};
-
 /// One scene with the servo's state in it, and what it has measured.
 class Lane {
  public:
-  Lane(const TickScene& scene, double cutoff, const RunOptions& options) : options_(options) {
-    parameters_.haptics.mode = HapticMode::Springs;
+  Lane(const TickScene& scene, double cutoff, const RunOptions& options)
+      : options_(options), alter_(scene.alter) {
+    parameters_.haptics.mode = scene.mode;
     parameters_.haptics.springs.cutoff = cutoff;
     parameters_.haptics.springs.damping = 1.0;
     run_.name = scene.name;
     run_.parts = scene.scene->bodies.size();
     tracker_.setScene(scene.scene);
+    snapshot_->proxy = scene.scene->moving.worldFromPart;
   }
 
   void walk(std::span<const RigidTransform> poses) {
@@ -76,12 +42,16 @@ class Lane {
 
  private:
   void keepAhead(const RigidTransform& pose, bool isTimed) {
-    const double cutoff = parameters_.haptics.springs.cutoff;
-    tracker_.observe(pose, 1.0);
-    if (tracked_.scene && !tracker_.isDue({cutoff})) return;
+    const SearchReach reach = searchReach(parameters_.haptics);
+    // Springs let the part be where the hand is.
+    tracker_.observe(parameters_.haptics.mode == HapticMode::Springs ? pose : snapshot_->proxy, 1.0);
+    tracker_.setWaiting(snapshot_->isWaiting);
+    tracker_.setStarved(snapshot_->isStarved);
+    if (tracked_.scene && !tracker_.isDue(reach)) return;
     const double start = secondsBy(options_.clock);
-    tracker_.refresh({cutoff}, tracked_);
+    tracker_.refresh(reach, tracked_);
     if (isTimed) run_.refreshTimes.push_back(secondsBy(options_.clock) - start);
+    if (alter_) alter_(tracked_);
   }
 
   void note() {
@@ -93,6 +63,7 @@ class Lane {
   }
 
   const RunOptions& options_;
+  std::function<void(TrackedScene&)> alter_;
   ServoParameters parameters_;
   SceneTracker tracker_;
   TrackedScene tracked_;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -17,6 +18,9 @@ namespace nearfit::bench {
 struct TickScene {
   std::string name;
   std::shared_ptr<const ServoScene> scene;
+  HapticMode mode = HapticMode::Springs;
+  /// Takes from what another thread has found, each time; none by default.
+  std::function<void(TrackedScene&)> alter = {};
 };
 
 /// What was measured of one.

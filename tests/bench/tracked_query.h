@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ class TrackedQuery : public QueryMethod {
   explicit TrackedQuery(const PreparedScene& scene);
 
   Answer query(const RigidTransform& sceneFromPart) override;
+  /// Of the last query: as many as it counted.
+  std::span<const Lmd> minima() const { return lmds_; }
   void workAside(const RigidTransform& sceneFromPart) override;
   std::string remark() const override;
 

@@ -295,5 +295,120 @@ TEST(Session, RandomCommandsUndoneInFullGiveBackTheBeginning) {
   EXPECT_FALSE(session.canUndo());
 }
 
+TEST(Session, HistoryNamesEveryStepAndSaysWhereTheSceneIs) {
+  Session session;
+  EXPECT_EQ(session.history(), std::vector<std::string>{""});
+  EXPECT_EQ(session.historyIndex(), 0U);
+  const PartId peg = session.addPart({}, "Peg");
+  session.movePart(peg, kAside);
+  session.setLocked(peg, true);
+  const std::vector<std::string> all{"", "Add Peg", "Move Peg", "Lock Peg"};
+  EXPECT_EQ(session.history(), all);
+  EXPECT_EQ(session.historyIndex(), 3U);
+  session.undo();
+  EXPECT_EQ(session.history(), all) << "what can be redone stays in the list";
+  EXPECT_EQ(session.historyIndex(), 2U);
+  session.setVisible(peg, false);
+  EXPECT_EQ(session.history(), (std::vector<std::string>{"", "Add Peg", "Move Peg", "Hide Peg"}));
+}
+
+TEST(Session, GoToIsTheSameAsUndoAndRedoAndTellsOnce) {
+  Session session, other;
+  for (Session* s : {&session, &other}) {
+    const PartId peg = s->addPart({}, "Peg");
+    s->movePart(peg, kAside);
+    s->duplicatePart(peg);
+    s->deletePart(peg);
+  }
+  int told = 0;
+  session.onChange([&] { ++told; });
+  for (const std::size_t index : {1U, 4U, 0U, 3U, 2U}) {
+    while (other.historyIndex() > index)
+      other.undo();
+    while (other.historyIndex() < index)
+      other.redo();
+    session.goTo(index);
+    EXPECT_EQ(describe(session.scene()), describe(other.scene())) << "at " << index;
+    EXPECT_EQ(session.historyIndex(), index);
+  }
+  EXPECT_EQ(told, 5);
+  session.goTo(2);
+  session.goTo(5);
+  EXPECT_EQ(told, 5) << "where it is already, and where there is nothing";
+  EXPECT_EQ(session.historyIndex(), 2U);
+}
+
+TEST(Session, GoingBackFarGivesNoIdTwice) {
+  Session session;
+  const PartId first = session.addPart({}, "First");
+  const PartId second = session.duplicatePart(first);
+  session.goTo(0);
+  const PartId third = session.addPart({}, "Third");
+  EXPECT_NE(third, first);
+  EXPECT_NE(third, second);
+}
+
+TEST(Session, CountsStepsFromWhatWasSavedEitherWay) {
+  Session session;
+  const PartId peg = session.addPart({}, "Peg");
+  EXPECT_EQ(session.changesSinceSave(), 1U);
+  session.setVisible(peg, false);
+  session.setVisible(peg, true);
+  EXPECT_EQ(session.changesSinceSave(), 3U);
+  session.goTo(0);
+  EXPECT_EQ(session.changesSinceSave(), 0U);
+  session.redo();
+  const std::uint64_t serial = session.stateSerial();
+  session.redo();
+  EXPECT_NE(session.stateSerial(), serial);
+  session.undo();
+  EXPECT_EQ(session.stateSerial(), serial);
+  EXPECT_EQ(session.changesSinceSave(), 1U);
+}
+
+TEST(Session, RestoredSceneIsModifiedAndHasItsFile) {
+  Session source, session;
+  source.addPart({}, "Peg");
+  session.restore(source.scene(), "somewhere.nearfit");
+  EXPECT_TRUE(session.isModified());
+  EXPECT_EQ(session.file(), "somewhere.nearfit");
+  EXPECT_FALSE(session.canUndo());
+  EXPECT_EQ(session.changesSinceSave(), 1U);
+  session.setVisible(session.scene().parts()[0]->id, false);
+  session.undo();
+  EXPECT_TRUE(session.isModified()) << "no step of undo leads to what is in the file";
+}
+
+TEST(Session, ReloadedPartsKeepTheirPosesAndAreOneStep) {
+  Session session;
+  const auto old = std::make_shared<const PartGeometry>(), renewed = std::make_shared<const PartGeometry>();
+  const PartId peg = session.addPart(old, "Peg", kAside);
+  const PartId copy = session.duplicatePart(peg);
+  session.setLocked(copy, true);
+  const std::size_t before = session.historyIndex();
+  session.reloadParts({{peg, renewed}, {copy, renewed}});
+  EXPECT_EQ(session.historyIndex(), before + 1);
+  EXPECT_EQ(session.undoText(), "Reload 2 parts");
+  for (const PartId id : {peg, copy}) {
+    EXPECT_EQ(session.scene().find(id)->geometry, renewed);
+    EXPECT_EQ(session.scene().find(id)->worldFromPart.translation, kAside.translation);
+  }
+  session.reloadParts({{peg, renewed}});
+  EXPECT_EQ(session.historyIndex(), before + 1) << "it has it already";
+  session.undo();
+  EXPECT_EQ(session.scene().find(copy)->geometry, old);
+}
+
+TEST(Session, LockedPartIsNotRescaled) {
+  Session session;
+  const PartId peg = session.addPart(std::make_shared<const PartGeometry>(), "Peg", kAside);
+  const auto larger = std::make_shared<const PartGeometry>();
+  session.rescaleParts({{peg, larger}});
+  EXPECT_EQ(session.undoText(), "Rescale Peg");
+  EXPECT_EQ(session.scene().find(peg)->geometry, larger);
+  session.setLocked(peg, true);
+  EXPECT_THROW(session.rescaleParts({{peg, std::make_shared<const PartGeometry>()}}), UsageError);
+}
+
 }  // namespace
 }  // namespace nearfit

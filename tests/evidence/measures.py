@@ -85,6 +85,10 @@ def _value(goal, recording, first, end):
         return float(recording.proxy_shift[last] @ np.array(goal.axis))
     if goal.kind == "gap":
         return recording.lag[last]
+    if goal.kind == "released":
+        return float((recording["released"][first:end] > 0).mean())
+    if goal.kind == "held":
+        return float((recording["contacts"][first:end] > 0).mean())
     if goal.kind == "twist":
         return recording.proxy_twist[last]
     if goal.kind == "lag":
@@ -156,7 +160,7 @@ def _starts(flags):
 def summary(evidence, recording):
     """The row of the table."""
     force_noise, torque_noise = rest_noise(recording)
-    distance = recording["distance"]
+    distance = recording["distance"][recording["released"] == 0]  # What is not felt may come as near as it likes.
     near = distance[distance < 2 * evidence.margin]
     row = {
         "scene": evidence.name,

@@ -193,11 +193,12 @@ def adversary(seed, size, start, reach, ticks=20000):
 
     def press():
         hand.move("", 0.2, 0.2 * anywhere())
+        hand.hold("", 0.5)  # The part may be far behind.
         hand.hold("still", 0.5)
 
     def leave():
         hand.move("", 0.25, start)
-        hand.hold("away", 0.15)
+        hand.hold("away", 0.6)
 
     while hand.ticks < ticks:
         for deed, name in ((impact, "impacts"), (teleports, "teleports"), (shake, "shaking"), (spin, "spin"),

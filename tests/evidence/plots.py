@@ -68,7 +68,8 @@ def _wrench(axes, r, t):
 
 
 def _distance(axes, r, t, margin):
-    distance = np.where(np.isfinite(r["distance"]), r["distance"], np.nan)
+    # While something is overlapped the least of all minima says nothing of how near it is.
+    distance = np.where(np.isfinite(r["distance"]) & (r["released"] == 0), r["distance"], np.nan)
     times, distance = _thin(t, 1e3 * distance)
     axes.semilogy(times, distance, color=COLOURS[2], lw=0.8, label="least distance")
     axes.axhline(1e3 * margin, color=COLOURS[0], lw=0.8, ls="--", label=f"margin {1e3 * margin:g} mm")
@@ -87,6 +88,14 @@ def _cost(axes, r, t):
     twin.semilogy(times, tick, color=GREY, lw=0.6, alpha=0.8)
     axes.plot([], [], color=GREY, lw=0.6, label="tick time (right)")
     twin.set_ylabel("tick [us]")
+
+
+def _released(all_axes, r, t):
+    """Grey where the part overlaps something that it does not feel."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], (r["released"] > 0).astype(int), [0]])))
+    for first, end in zip(edges[::2], edges[1::2]):
+        for axes in all_axes:
+            axes.axvspan(t[first], t[end - 1], color="#e8e8e8", zorder=-1)
 
 
 def _phases(figure, all_axes, phases, last):
@@ -114,6 +123,7 @@ def draw(evidence, recording, subtitle, file):
     _distance(axes[3], recording, t, evidence.margin)
     _cost(axes[4], recording, t)
     axes[4].set_xlabel("time [s]")
+    _released(axes, recording, t)
     for one in axes:
         one.grid(True, color="#eeeeee", lw=0.5)
         one.legend(loc="upper left", fontsize=7, ncol=5, framealpha=0.8)
@@ -123,10 +133,10 @@ def draw(evidence, recording, subtitle, file):
     figure.tight_layout(rect=(0, 0, 1, 0.985))
     figure.savefig(file, dpi=80)
     plt.close(figure)
-    _shrink(file)
+    shrink(file)
 
 
-def _shrink(file):
+def shrink(file):
     """To a palette, where Pillow is there: a third of the size."""
     try:
         from PIL import Image

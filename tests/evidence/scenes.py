@@ -45,6 +45,7 @@ class Evidence:
     pivot: tuple = (0.0, 0.0, 0.0)  # In the part's coordinates, after scaling.
     axis: int = 2                   # Of the world: what "twist" is about.
     goals: list = field(default_factory=list)
+    begins_overlapped: bool = False  # Drawn so: certified are the ticks in which nothing is released.
 
     @property
     def home(self):
@@ -136,10 +137,10 @@ def _nut_engaged():
     hand.move("pulled 10 mm up", 0.6, (0, 0, 0.020))
     hand.hold("still, pulled", 0.4)
     hand.move("let go", 0.3, (0, 0, 0.010))
-    hand.glide("wound down 2 turns", 4.0, (0, 0, 0.010 - 2 * PITCH - 0.0003), turns(-2))
+    hand.glide("wound down 2 turns", 10.0, (0, 0, 0.010 - 2 * PITCH - 0.0003), turns(-2))
     hand.hold("still, wound", 0.3)
     hand.wiggle("wiggles", 0.6, (0.0015, 0.0015, 0.001), (3 * DEGREE, 3 * DEGREE, 0), (4, 5, 3))
-    hand.glide("wound up 1 turn", 2.0, (0, 0, 0.010 - PITCH + 0.0003), turns(-1))
+    hand.glide("wound up 1 turn", 5.0, (0, 0, 0.010 - PITCH + 0.0003), turns(-1))
     hand.hold("still, wound up", 0.3)
     return Evidence(
         "nut-engaged", "M16 nut on its bolt: pushed, pulled, wound", NUT, [BOLT], 2e-5, 0.00015, hand,
@@ -312,6 +313,48 @@ def _ariac(name):
         ])
 
 
+def _drawn_overlapped(name, title, part, others, margin, cutoff, way, aside, pivot, press, out):
+    """Home is the pose as drawn, which overlaps. The part is led out along `way`, brought back, pressed, led out."""
+    way, aside = np.array(way, float), np.array(aside, float)
+    axis = int(np.argmax(np.abs(way)))
+    hand = Hand()
+    hand.hold("overlapped", 0.2)
+    hand.wiggle("wiggles, overlapped", 0.5, 1e-4 * (way + aside), (0.002, 0.002, 0.002), (3, 4, 5))
+    hand.move("led apart", 0.8, out * way)
+    hand.hold("apart", 0.3)
+    hand.move("brought back", 0.8, -press * way)
+    hand.hold("still, pressed", 0.4)
+    hand.wiggle("wiggles, pressed", 1.0, 0.5 * press * aside, (0.02, 0.02, 0.02), (3, 4, 5))
+    hand.move("led out", 0.8, out * way)
+    hand.hold("still outside", 0.3)
+    along = tuple(way)
+    return Evidence(name, title, part, others, margin, cutoff, hand, pivot=pivot, axis=axis, begins_overlapped=True, goals=[
+        Goal("overlaps as drawn, and is not felt: share of ticks", "released", "overlapped", low=1.0),
+        Goal("goes with the hand while it overlaps: gap", "gap", "wiggles, overlapped", high=1e-6),
+        Goal("is felt once apart: share of ticks released", "released", "apart", high=0.0),
+        Goal("is felt when it comes back: share of ticks released", "released", "still, pressed", high=0.0),
+        Goal("is held by contact: share of ticks", "held", "still, pressed", low=1.0),
+        Goal("does not come back to where it is drawn: along the way out", "along", "still, pressed", low=1e-5, axis=along),
+        Goal("is out again, where the hand is: gap", "gap", "still outside", high=1e-6),
+    ])
+
+
+def _battery_drawn():
+    file, position, turn, approach, pivot, _ = ARIAC["battery"]
+    return _drawn_overlapped(
+        "drawn-battery", "ARIAC: battery as drawn, overlapping the tray by 0.16 %",
+        Body("battery", f"ariac/{file}.stl", 1.0, position, turn), [Body("tray", "ariac/insert_collision.stl")], 1e-4, 0.003,
+        -np.array(approach, float), (0, 0, 1), pivot, 0.005, 0.06)
+
+
+def _pump_drawn():
+    """Both halves are in millimetres, in one frame; the axis is y."""
+    return _drawn_overlapped(
+        "drawn-pump", "Pump: upper half as drawn, overlapping the lower one by 0.06 %",
+        Body("top", "pump/Top.stl", 0.001), [Body("bottom", "pump/Bottom.stl", 0.001)], 1e-4, 0.002,
+        (0, 1, 0), (1, 0, 0), (-0.063, -0.086, 0.0), 0.005, 0.04)
+
+
 PAIR_SIZE = 0.1  # Diagonal that the benchmark's bodies of diagonal 1 are given [m].
 
 
@@ -365,4 +408,4 @@ def _pairs():
 
 def all_evidence():
     return (_pegs() + [_nut_engaged(), _nut_on(), _gear(), _piston_head(), _piston_cylinder()]
-            + [_ariac(name) for name in ARIAC] + _pairs())
+            + [_ariac(name) for name in ARIAC] + [_battery_drawn(), _pump_drawn()] + _pairs())

@@ -14,41 +14,15 @@
 namespace nearfit::test {
 namespace {
 
-/// Agreement asked of points and distances, as a fraction of the scene's size, and of far coordinates.
-constexpr double kAgreement = 1e-11;
-constexpr double kCoordinates = 4e-16;
-
-/// What is parallel to this may be reported as one flat region [rad], whose directions differ by less than
-/// the second; and by how much those of near-parallel edges that are none may.
-constexpr double kFlat = 2e-6, kRegionWay = 2e-3, kContactWay = 1e-4;
-
-/// No two are as close as this at both ends and in direction; on either side of a thin sheet there are.
-constexpr double kSamePlace = 4e-12, kSameWay = 1.0 - 1e-6;
-
-/// Nearer than this fraction of the size bodies touch, as far as double precision can tell: no promise is
-/// made.
-constexpr double kTouching = 1e-13;
-
-/// Found ones may miss a condition by this many times what is promised to be resolved.
-constexpr double kLeastMargin = -2.0;
-
-/// Exact ones that meet all conditions by as much are found at their own place, once: nearer to the end of a
-/// feature they may have become one with what its neighbour says.
-constexpr double kCertain = 10.0;
-
-std::string describe(const Lmd& f) {
-  return fmt::format("found {}-{} of {} and {} at {:.17g}, {:.17g} {:.17g} {:.17g}",
-                     "vef"[static_cast<int>(f.sceneFeature)], "vef"[static_cast<int>(f.partFeature)],
-                     f.sceneIndex, f.partIndex, f.distance, f.scenePoint.x, f.scenePoint.y, f.scenePoint.z);
-}
-std::string describe(const ExactMinimum& e) {
-  return fmt::format("exact {}-{} at {:.17g}, margin {:.3g}, {:.17g} {:.17g} {:.17g}", e.features[0],
-                     e.features[1], e.distance, e.margin, e.scenePoint.x, e.scenePoint.y, e.scenePoint.z);
-}
-std::string describe(const RigidTransform& pose) {
-  const glm::dquat& q = pose.rotation;
-  return fmt::format("pose {:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", pose.translation.x,
-                     pose.translation.y, pose.translation.z, q.w, q.x, q.y, q.z);
+/// One for each instruction set that the machine has: megabytes, kept.
+std::vector<LmdScratch>& scratchOfEachLevel() {
+  thread_local std::vector<LmdScratch> all = [] {
+    std::vector<LmdScratch> made;
+    for (const SimdLevel level : availableSimdLevels())
+      made.emplace_back(4096, level);
+    return made;
+  }();
+  return all;
 }
 
 /// What a query with the bodies swapped says, told from the scene.
@@ -68,67 +42,12 @@ std::vector<Lmd> mirrored(std::vector<Lmd> swapped, const RigidTransform& pose) 
 }  // namespace
 
 ExactComparison::ExactComparison(const BodyPair& pair)
-    : pair_(pair), scene_(pair.scene), part_(pair.part), oracle_(pair.scene, pair.part) {}
-
-double ExactComparison::pointTolerance(const Lmd& f) const {
-  return kAgreement * size() + kCoordinates * (glm::length(f.scenePoint) + glm::length(scene_.centre()) +
-                                               glm::length(part_.centre()));
-}
-
-/// At one place.
-bool ExactComparison::isAt(const Lmd& f, const ExactMinimum& e) const {
-  const double tolerance = pointTolerance(f) + e.place;
-  return std::abs(f.distance - e.distance) <= kAgreement * size() &&
-         glm::distance(f.scenePoint, e.scenePoint) <= tolerance &&
-         glm::distance(f.partPoint, e.partPoint) <= tolerance;
-}
-
-/// A place of a region, or at its rim.
-bool ExactComparison::isWithin(const Lmd& f, const ExactMinimum& e) const {
-  return glm::distance(f.scenePoint, e.scenePoint) <= 2.0 * f.extent.halfLength + kFlat * size();
-}
-
-/// At one distance and in one direction: what places in a flat region share.
-bool ExactComparison::isSameContact(const Lmd& f, const ExactMinimum& e) const {
-  const bool isFlat = f.isRegion || e.isFlat;
-  return std::abs(f.distance - e.distance) <= (isFlat ? kFlat : kAgreement) * size() &&
-         glm::distance(f.direction, e.direction) <=
-             (isFlat ? kRegionWay : kContactWay) + kAgreement * size() / e.distance;
-}
+    : pair_(pair), scene_(pair.scene), part_(pair.part), judge_(pair) {}
 
 void ExactComparison::checkSet(const std::vector<Lmd>& found, const std::vector<ExactMinimum>& exact,
                                double cutoff, const std::string& where) {
-  for (const ExactMinimum& e : exact) {
-    if (e.isFlat || e.margin < 0.0 || e.distance > cutoff - kAgreement * size() ||
-        e.distance < kAgreement * size())
-      continue;
-    const bool isCertain = e.margin > kCertain;
-    (isCertain ? tally_.minima : tally_.marginal) += 1;
-    const auto places = std::count_if(found.begin(), found.end(), [&](auto& f) { return isAt(f, e); });
-    EXPECT_LE(places, isCertain ? 1 : places) << where << ": " << describe(e);
-    if (places > 0 || !e.isPromised) continue;
-    const bool isCovered = std::any_of(found.begin(), found.end(), [&](auto& f) {
-      return (!isCertain || (f.isRegion && (e.angle < kFlat || isWithin(f, e)))) && isSameContact(f, e);
-    });
-    EXPECT_TRUE(isCovered) << where << ": " << describe(e);
-  }
-  for (const Lmd& f : found) {
-    if (f.distance < kTouching * size()) continue;
-    const bool isExact = std::any_of(exact.begin(), exact.end(), [&](auto& e) {
-      return (!e.isFlat && isAt(f, e)) || (f.isRegion && isSameContact(f, e));
-    });
-    EXPECT_TRUE(isExact) << where << ": spurious " << describe(f);
-    EXPECT_LE(glm::distance(f.partPoint - f.scenePoint, f.distance * f.direction),
-              pointTolerance(f) + (f.isRegion ? kFlat * size() : 0.0))
-        << where;
-    const auto places = std::count_if(found.begin(), found.end(), [&](auto& g) {
-      return glm::distance(f.scenePoint, g.scenePoint) <= kSamePlace * size() &&
-             glm::distance(f.partPoint, g.partPoint) <= kSamePlace * size() &&
-             glm::dot(f.direction, g.direction) > kSameWay;
-    });
-    EXPECT_EQ(places, 1) << where << ": found twice: " << describe(f);
-  }
-  tally_.found += found.size();
+  for (const std::string& fault : judge_.faults(found, exact, cutoff, tally_))
+    ADD_FAILURE() << where << ": " << fault;
 }
 
 void ExactComparison::checkVariants(const RigidTransform& pose, double cutoff,
@@ -141,18 +60,19 @@ void ExactComparison::checkVariants(const RigidTransform& pose, double cutoff,
     for (std::size_t i = 0; i < found.size(); ++i) {
       EXPECT_EQ(other[i].scenePoint, found[i].scenePoint) << what << ' ' << describe(pose);
       EXPECT_EQ(other[i].partPoint, found[i].partPoint) << what << ' ' << describe(pose);
+      EXPECT_EQ(other[i].isMarginal, found[i].isMarginal) << what << ' ' << describe(pose);
     }
   };
   std::vector<Lmd> other(found.size() + 1);
-  for (const SimdLevel level : availableSimdLevels()) {
-    LmdScratch scratch(4096, level);
+  for (LmdScratch& scratch : scratchOfEachLevel())
     expectSame(findLmds(scene_, part_, pose, cutoff, scratch, other), other, "instruction set");
-  }
-  LmdScratch scratch(4096);
+  thread_local LmdScratch scratch(4096);
   CandidateList list;
   RigidTransform start = pose;
-  start.translation += glm::dvec3(0.3, -0.2, 0.1) * cutoff;
-  list.build({scene_, part_, start, cutoff}, {{}, {0.5 * cutoff, 1e-3}}, scratch, {1U << 16, 1U << 22});
+  // Elsewhere, but no farther than there are bodies: a cutoff may be any number.
+  const double away = std::min(cutoff, size());
+  start.translation += glm::dvec3(0.3, -0.2, 0.1) * away;
+  list.build({scene_, part_, start, cutoff}, {{}, {0.5 * away, 1e-3}}, scratch, {1U << 16, 1U << 22});
   if (!list.isUsable()) return;  // Thousands of features at one place; it says that it covers nothing.
   const std::optional<LmdResult> listed = list.query(pose, cutoff, scratch, other);
   ASSERT_TRUE(listed) << list.size() << " pairs, " << describe(pose);
@@ -161,8 +81,7 @@ void ExactComparison::checkVariants(const RigidTransform& pose, double cutoff,
 
 void ExactComparison::checkPose(const RigidTransform& pose, double cutoff) {
   ++tally_.poses;
-  const double reach = cutoff + 2.0 * kAgreement * size();
-  const std::vector<ExactMinimum> exact = oracle_.minima(pose, reach, kLeastMargin);
+  const std::vector<ExactMinimum> exact = judge_.minimaAt(pose, cutoff);
   const std::vector<Lmd> found = allLmds(scene_, part_, pose, cutoff);
   const std::string where = fmt::format("{}, {}, cutoff {:.17g}", pair_.name, describe(pose), cutoff);
   checkSet(found, exact, cutoff, where);

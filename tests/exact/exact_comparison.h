@@ -4,19 +4,11 @@
 #include <cstdint>
 #include <string>
 
-#include "tests/exact/exact_oracle.h"
+#include "tests/exact/exact_judge.h"
 #include "tests/support/lmd_comparison.h"
 
 /// Comparison of the engine's sets with those of exact arithmetic; differences are reported to GoogleTest.
 namespace nearfit::test {
-
-/// Counts of a comparison, so that a test can ask that it compared anything.
-struct ExactTally {
-  std::size_t poses = 0;
-  std::size_t minima = 0;    ///< That rounding within the promise cannot add or take away.
-  std::size_t marginal = 0;  ///< Others that exact arithmetic finds: there are, but only just.
-  std::size_t found = 0;
-};
 
 /// Two bodies, both hierarchies, and the oracle.
 class ExactComparison {
@@ -33,20 +25,15 @@ class ExactComparison {
   void checkPoses(std::size_t poses, double cutoffFraction, std::uint64_t seed);
 
   const ExactTally& tally() const { return tally_; }
-  double size() const { return oracle_.size(); }
+  double size() const { return judge_.size(); }
 
  private:
   void checkSet(const std::vector<Lmd>& found, const std::vector<ExactMinimum>& exact, double cutoff,
                 const std::string& where);
   void checkVariants(const RigidTransform& pose, double cutoff, const std::vector<Lmd>& found);
-  double pointTolerance(const Lmd& f) const;
-  bool isAt(const Lmd& f, const ExactMinimum& e) const;
-  bool isWithin(const Lmd& f, const ExactMinimum& e) const;
-  bool isSameContact(const Lmd& f, const ExactMinimum& e) const;
-
   const BodyPair& pair_;
   NormalConeTree scene_, part_;
-  ExactOracle oracle_;
+  ExactJudge judge_;
   ExactTally tally_;
 };
 

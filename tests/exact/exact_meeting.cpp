@@ -127,6 +127,26 @@ Corners placed(const TriangleMesh& mesh, const Triangle& t, const RigidTransform
   return corners;
 }
 
+/// How far apart the boxes of two triangles are; 0 where they meet.
+double gapBetween(const Aabb& a, const Aabb& b) {
+  const glm::dvec3 gap = glm::max(glm::max(a.lower - b.upper, b.lower - a.upper), glm::dvec3(0.0));
+  return glm::length(gap);
+}
+
+/// Calls visit(triangle of the scene, of the part, gap of their boxes) for each pair until it says to stop.
+template <class Visit>
+void visitPairs(const TriangleMesh& scene, const TriangleMesh& part, const RigidTransform& sceneFromPart,
+                Visit&& visit) {
+  for (const Triangle& t : part.triangles()) {
+    const Corners b = placed(part, t, &sceneFromPart);
+    const Aabb box = boxOf(b);
+    for (const Triangle& s : scene.triangles()) {
+      const Corners a = placed(scene, s, nullptr);
+      if (!visit(a, b, gapBetween(boxOf(a), box))) return;
+    }
+  }
+}
+
 }  // namespace
 
 bool doMeetExactly(const Corners& a, const Corners& b) {
@@ -175,35 +195,22 @@ double exactDistance(const Corners& a, const Corners& b) {
 double leastDistanceExactly(const TriangleMesh& scene, const TriangleMesh& part,
                             const RigidTransform& sceneFromPart) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Triangle& t : part.triangles()) {
-    const Corners b = placed(part, t, &sceneFromPart);
-    const Aabb box = boxOf(b);
-    for (const Triangle& s : scene.triangles()) {
-      const Corners a = placed(scene, s, nullptr);
-      const Aabb other = boxOf(a);
-      const glm::dvec3 gap =
-          glm::max(glm::max(box.lower - other.upper, other.lower - box.upper), glm::dvec3(0.0));
-      if (glm::length(gap) < least) least = std::min(least, exactDistance(a, b));
-    }
-  }
+  visitPairs(scene, part, sceneFromPart, [&](const Corners& a, const Corners& b, double gap) {
+    if (gap < least) least = std::min(least, exactDistance(a, b));
+    return true;
+  });
   return least;
 }
 
 bool doSurfacesMeetExactly(const TriangleMesh& scene, const TriangleMesh& part,
                            const RigidTransform& sceneFromPart) {
-  for (const Triangle& t : part.triangles()) {
-    const Corners b = placed(part, t, &sceneFromPart);
-    const Aabb box = boxOf(b);
-    for (const Triangle& s : scene.triangles()) {
-      const Corners a = placed(scene, s, nullptr);
-      const Aabb other = boxOf(a);
-      bool isApart = false;
-      for (glm::length_t i = 0; i < 3; ++i)
-        isApart = isApart || box.lower[i] > other.upper[i] || other.lower[i] > box.upper[i];
-      if (!isApart && doMeetExactly(a, b)) return true;
-    }
-  }
-  return false;
+  bool doMeet = false;
+  visitPairs(scene, part, sceneFromPart, [&](const Corners& a, const Corners& b, double gap) {
+    // Boxes that touch may hold triangles that do.
+    doMeet = gap == 0.0 && doMeetExactly(a, b);
+    return !doMeet;
+  });
+  return doMeet;
 }
 
 double windingNumber(const TriangleMesh& mesh, const glm::dvec3& point) {

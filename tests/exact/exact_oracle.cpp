@@ -32,8 +32,22 @@ class Candidate {
       : a_(a), b_(b), size_(size), leastMargin_(leastMargin) {}
 
   std::optional<ExactMinimum> evaluate(double cutoff) {
-    if (!findPoints() && !findFlat()) return std::nullopt;
+    if (!findPoints()) return evaluateFlat(cutoff);
     d_ = q_ - p_;
+    return checked(cutoff);
+  }
+
+  /// Two edges that cross, but so slowly that they count as parallel.
+  bool mayBeFlat() const { return sineSquared_ > 0.0 && std::sqrt(sineSquared_) <= kFlat; }
+  std::optional<ExactMinimum> evaluateFlat(double cutoff) {
+    if (!findFlat()) return std::nullopt;
+    d_ = q_ - p_;
+    bringBefore();
+    return checked(cutoff);
+  }
+
+ private:
+  std::optional<ExactMinimum> checked(double cutoff) {
     squared_ = d_.squared_length();
     if (squared_ == 0) return std::nullopt;
     distance_ = std::sqrt(CGAL::to_double(squared_));
@@ -47,11 +61,11 @@ class Candidate {
                         margin_,
                         place_,
                         angle_,
-                        !isFlat_ && !isFlatRim(a_) && !isFlatRim(b_),
+                        sineSquared_ > 0.0 ? std::sqrt(sineSquared_) * tilt_ : tilt_,
+                        !isFlat_ && !isFlatRim(a_) && !isFlatRim(b_) && hasClearSides_,
                         isFlat_};
   }
 
- private:
   /// Takes a condition's value in units of its tolerance in; whether the pair is still of interest.
   bool take(double value, double tolerance) {
     margin_ = std::min(margin_, value / tolerance);
@@ -113,6 +127,16 @@ class Candidate {
     return true;
   }
 
+  /// What is tilted within kFlat and ends before a face may have its middle behind it.
+  void bringBefore() {
+    const Feature& flat = a_.kind == 'f' ? a_ : b_;
+    if (flat.kind != 'f' || !flat.hasSide) return;
+    const Vector outward = &flat == &a_ ? flat.span : -flat.span;
+    if (d_ * outward > 0) return;
+    const double behind = lengthOf(d_);
+    if (behind <= kFlat * size_) d_ = outward * Number(kFlat * size_ / lengthOf(outward));
+  }
+
   bool checkExtents() {
     const double angular = kDirections + kRounding * size_ / distance_;
     double along = kLengths * size_ + kDirections * distance_;
@@ -151,6 +175,7 @@ class Candidate {
       const double along = CGAL::to_double(d * t.vector) / (distance_ * t.length);
       isStrict = isStrict && along < 0.0;
       angle_ = std::min(angle_, -along);
+      tilt_ = std::min(tilt_, -along);
       if (!take(-along, base + kRounding * size_ / t.length)) return false;
     }
     if (!f.hasSide) return true;
@@ -167,8 +192,14 @@ class Candidate {
   }
 
   /// Where all edges go strictly back from d, the fan is a polygon seen along it: the material is inside
-  /// where it turns to the left.
+  /// where it turns to the left. Of a fan that does not cross itself the mean normal says the same.
   bool isOutsideVertex(const Feature& f, const Vector& d, bool isStrict) {
+    if (isCrossed(f)) {
+      // One lobe's outside is the other's inside. The mean normal, by which the definition goes, is a mean
+      // over both, and so is the area, by other weights: their signs differ, and with d.
+      hasClearSides_ = false;
+      return true;
+    }
     // Folded back on itself a sheet has two outsides.
     constexpr double kNoSide = 1e-9;
     if (!isStrict) return glm::length(f.outward) < kNoSide || glm::dot(roughly(d), f.outward) > 0.0;
@@ -182,6 +213,29 @@ class Candidate {
     return CGAL::to_double(area) > -kNoSide * sum;
   }
 
+  /// Whether faces pass through each other at the vertex, beyond rounding. All of its edges are within half a
+  /// turn of each other: arcs that each part the other's ends cross.
+  static bool isCrossed(const Feature& f) {
+    constexpr double kClear = 1e-14;
+    const auto unit = [](const Vector& v) {
+      return glm::dvec3(CGAL::to_double(v.x()), CGAL::to_double(v.y()), CGAL::to_double(v.z())) / lengthOf(v);
+    };
+    std::vector<std::array<glm::dvec3, 2>> arcs;
+    for (const auto& [a, b] : f.fan)
+      arcs.push_back({unit(a), unit(b)});
+    const auto doesPart = [](const auto& arc, const auto& ends) {
+      const glm::dvec3 n = glm::cross(arc[0], arc[1]);
+      const double s = glm::dot(n, ends[0]), t = glm::dot(n, ends[1]);
+      return std::min(s, t) < -kClear && std::max(s, t) > kClear;
+    };
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        if (doesPart(arcs[i], arcs[k]) && doesPart(arcs[k], arcs[i])) return true;
+      }
+    }
+    return false;
+  }
+
   glm::dvec3 roughly(const Vector& d) const {
     return glm::dvec3(CGAL::to_double(d.x()), CGAL::to_double(d.y()), CGAL::to_double(d.z())) / distance_;
   }
@@ -192,8 +246,8 @@ class Candidate {
   Vector d_;
   Number squared_;
   double distance_ = 0.0, sineSquared_ = 0.0, place_ = 0.0;
-  bool isFlat_ = false;
-  double angle_ = 1.0;
+  bool isFlat_ = false, hasClearSides_ = true;
+  double angle_ = 1.0, tilt_ = 1.0;
   double margin_ = std::numeric_limits<double>::infinity();
 };
 
@@ -229,8 +283,13 @@ std::vector<ExactMinimum> ExactOracle::minima(const RigidTransform& sceneFromPar
   for (const Feature& b : bodies_->part.features(sceneFromPart)) {
     for (const Feature& a : bodies_->sceneFeatures) {
       if (areApart(a, b, gap)) continue;
-      if (const auto minimum = Candidate(a, b, size(), leastMargin).evaluate(cutoff))
+      Candidate candidate(a, b, size(), leastMargin);
+      if (const auto minimum = candidate.evaluate(cutoff)) {
         found.push_back(*minimum);
+      } else if (candidate.mayBeFlat()) {
+        if (const auto flat = Candidate(a, b, size(), leastMargin).evaluateFlat(cutoff))
+          found.push_back(*flat);
+      }
     }
   }
   return found;

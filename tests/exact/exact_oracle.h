@@ -26,10 +26,15 @@ struct ExactMinimum {
   /// Least angle by which a direction along a surface would have to turn to lead nearer, or two edges to be
   /// parallel [rad].
   double angle;
-  /// False for the rim that a flat face shares with others of no common side: no feature of its own.
+  /// How little a face of one is tilted against the other's feature there [rad]: the first of these angles
+  /// times, of two edges, the sine at which they cross, as the way from edge to edge is tilted by the more
+  /// the slower they cross.
+  double tilt;
+  /// False for the rim that a flat face shares with others of no common side: no feature of its own; and at a
+  /// vertex whose faces pass through each other, where one lobe's outside is another's inside.
   bool isPromised;
   /// Parallel edges or faces, which may carry a flat region: distance and direction of it, from their
-  /// middles.
+  /// middles. Where one of the middles is a little behind the other's face, they count as just before it.
   bool isFlat;
 };
 

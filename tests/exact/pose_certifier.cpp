@@ -3,119 +3,26 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
+#include <glm/geometric.hpp>
 
 #include "core/parallel/parallel_for.h"
+#include "tests/exact/box_tree.h"
 #include "tests/exact/exact_meeting.h"
+#include "tests/exact/triangle_separation.h"
 
 namespace nearfit::test {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Corners = std::array<glm::dvec3, 3>;
 
-struct Box {
-  glm::dvec3 lower{INFINITY}, upper{-INFINITY};
-  void add(const glm::dvec3& p) {
-    lower = glm::min(lower, p);
-    upper = glm::max(upper, p);
-  }
-  bool meets(const Box& other) const {
-    for (glm::length_t i = 0; i < 3; ++i) {
-      if (lower[i] > other.upper[i] || other.lower[i] > upper[i]) return false;
-    }
-    return true;
-  }
-  double size() const { return upper.x - lower.x + upper.y - lower.y + upper.z - lower.z; }
-};
-
-Box around(const Corners& corners) {
-  Box box;
-  for (const glm::dvec3& p : corners)
-    box.add(p);
-  return box;
-}
-
-/// Boxes over a mesh's triangles, halved along the longest side until a few are left.
-class BoxTree {
- public:
-  struct Node {
-    Box box;
-    std::uint32_t first = 0, count = 0;  ///< Of order(), where there are no children.
-    std::uint32_t child = 0;             ///< The first of two beside each other; 0: none.
-  };
-
-  explicit BoxTree(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles().size()) {
-    std::iota(order_.begin(), order_.end(), 0U);
-    nodes_.emplace_back();
-    if (!order_.empty()) build(0, 0, static_cast<std::uint32_t>(order_.size()));
-  }
-
-  const TriangleMesh& mesh() const { return mesh_; }
-  const Node& node(std::uint32_t i) const { return nodes_[i]; }
-  std::span<const std::uint32_t> triangles(const Node& n) const {
-    return std::span(order_).subspan(n.first, n.count);
-  }
-  bool isEmpty() const { return order_.empty(); }
-  Corners corners(std::uint32_t triangle) const { return corners(triangle, mesh_.vertices()); }
-  Corners corners(std::uint32_t triangle, std::span<const glm::dvec3> vertices) const {
-    const Triangle& t = mesh_.triangles()[triangle];
-    return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
-  }
-  /// By node, around the same triangles with their vertices elsewhere.
-  std::vector<Box> boxesAround(std::span<const glm::dvec3> vertices) const {
-    std::vector<Box> boxes(nodes_.size());
-    // Children stand behind their parents.
-    for (std::size_t i = nodes_.size(); i-- > 0;) {
-      const Node& n = nodes_[i];
-      if (n.child != 0) {
-        boxes[i] = boxes[n.child];
-        boxes[i].add(boxes[n.child + 1].lower);
-        boxes[i].add(boxes[n.child + 1].upper);
-        continue;
-      }
-      for (const std::uint32_t t : triangles(n)) {
-        for (const glm::dvec3& p : corners(t, vertices))
-          boxes[i].add(p);
-      }
-    }
-    return boxes;
-  }
-
- private:
-  void build(std::uint32_t index, std::uint32_t first, std::uint32_t count) {
-    constexpr std::uint32_t kFew = 1;
-    Box box;
-    for (std::uint32_t i = first; i < first + count; ++i) {
-      for (const glm::dvec3& p : corners(order_[i]))
-        box.add(p);
-    }
-    nodes_[index] = {box, first, count, 0};
-    if (count <= kFew) return;
-    const glm::dvec3 d = box.upper - box.lower;
-    const glm::length_t axis = d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
-    const auto key = [&](std::uint32_t t) {
-      const Corners c = corners(t);
-      return c[0][axis] + c[1][axis] + c[2][axis];
-    };
-    const std::uint32_t half = count / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
-                     [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-    const auto child = static_cast<std::uint32_t>(nodes_.size());
-    nodes_[index].child = child;
-    nodes_.resize(nodes_.size() + 2);
-    build(child, first, half);
-    build(child + 1, first + half, count - half);
-  }
-
-  TriangleMesh mesh_;
-  std::vector<std::uint32_t> order_;
-  std::vector<Node> nodes_;
-};
+/// What placing a point and measuring a gap may round, of the largest coordinate: a hundred roundings.
+constexpr double kRounding = 1e-14;
 
 Kernel::Point_3 toPoint(const glm::dvec3& p) {
   return {p.x, p.y, p.z};
@@ -127,12 +34,12 @@ double largest(const glm::dvec3& v) {
 
 /// Whether one triangle surely lies wholly on one side of the other's plane: by far more than rounding.
 bool isSurelyBeside(const Corners& plane, const Corners& t) {
-  constexpr double kRounding = 1e-13;
+  constexpr double kFewRoundings = 1e-13;
   const glm::dvec3 u = plane[1] - plane[0], v = plane[2] - plane[0], n = glm::cross(u, v);
   int above = 0, below = 0;
   for (const glm::dvec3& p : t) {
     const glm::dvec3 w = p - plane[0];
-    const double height = glm::dot(n, w), rounding = kRounding * largest(u) * largest(v) * largest(w);
+    const double height = glm::dot(n, w), rounding = kFewRoundings * largest(u) * largest(v) * largest(w);
     above += height > rounding ? 1 : 0;
     below += height < -rounding ? 1 : 0;
   }
@@ -172,46 +79,122 @@ std::vector<glm::dvec3> oneVertexAPiece(const TriangleMesh& mesh) {
 }  // namespace
 
 struct PoseCertifier::Bodies {
+  struct NodePair {
+    std::uint32_t scene, part;
+  };
+
   Bodies(const TriangleMesh& s, const TriangleMesh& p)
       : scene(s), part(p), scenePieces(oneVertexAPiece(s)), partPieces(oneVertexAPiece(p)) {}
 
+  std::vector<glm::dvec3> placed(const RigidTransform& pose) const {
+    std::vector<glm::dvec3> out;
+    for (const glm::dvec3& p : part.mesh().vertices())
+      out.push_back(pose.applyToPoint(p));
+    return out;
+  }
+
   bool doSurfacesMeet(const RigidTransform& pose) const {
     if (scene.isEmpty() || part.isEmpty()) return false;
-    std::vector<glm::dvec3> placed;
-    for (const glm::dvec3& p : part.mesh().vertices())
-      placed.push_back(pose.applyToPoint(p));
-    const std::vector<Box> boxes = part.boxesAround(placed);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> waiting{{0, 0}};
+    const std::vector<glm::dvec3> vertices = placed(pose);
+    const std::vector<Box> boxes = part.boxesAround(vertices);
+    std::vector<NodePair> waiting{{0, 0}};
     while (!waiting.empty()) {
-      const auto [s, p] = waiting.back();
+      const NodePair at = waiting.back();
       waiting.pop_back();
-      const BoxTree::Node &a = scene.node(s), &b = part.node(p);
-      if (!a.box.meets(boxes[p])) continue;
+      const BoxTree::Node &a = scene.node(at.scene), &b = part.node(at.part);
+      if (!a.box.meets(boxes[at.part])) continue;
       if (a.child == 0 && b.child == 0) {
-        if (doLeavesMeet(a, b, placed)) return true;
-      } else if (b.child == 0 || (a.child != 0 && a.box.size() >= boxes[p].size())) {
-        waiting.emplace_back(a.child, p);
-        waiting.emplace_back(a.child + 1, p);
+        if (doLeavesMeet(a, b, vertices)) return true;
       } else {
-        waiting.emplace_back(s, b.child);
-        waiting.emplace_back(s, b.child + 1);
+        for (const NodePair& next : opened(at, boxes))
+          waiting.push_back(next);
       }
     }
     return false;
+  }
+
+  double surfacesApart(const RigidTransform& pose, double most) const {
+    if (scene.isEmpty() || part.isEmpty()) return most;
+    const std::vector<glm::dvec3> vertices = placed(pose);
+    const std::vector<Box> boxes = part.boxesAround(vertices);
+    double apart = most;
+    std::vector<NodePair> waiting{{0, 0}};
+    while (!waiting.empty() && apart > 0.0) {
+      const NodePair at = waiting.back();
+      waiting.pop_back();
+      const BoxTree::Node &a = scene.node(at.scene), &b = part.node(at.part);
+      if (a.box.distance(boxes[at.part]) >= apart) continue;
+      if (a.child == 0 && b.child == 0) {
+        apart = std::min(apart, leavesApart(a, b, vertices, apart));
+        continue;
+      }
+      std::array<NodePair, 2> next = opened(at, boxes);
+      // The nearer one first: what it gives spares the other.
+      const auto distance = [&](const NodePair& pair) {
+        return scene.node(pair.scene).box.distance(boxes[pair.part]);
+      };
+      if (distance(next[0]) < distance(next[1])) std::swap(next[0], next[1]);
+      waiting.insert(waiting.end(), next.begin(), next.end());
+    }
+    const double size = std::max({extent(scene.node(0).box), extent(part.node(0).box), extent(boxes[0])});
+    return std::max(0.0, apart - kRounding * size);
+  }
+
+  double leavesApart(const BoxTree::Node& a, const BoxTree::Node& b, std::span<const glm::dvec3> vertices,
+                     double most) const {
+    for (const std::uint32_t p : part.triangles(b)) {
+      for (const std::uint32_t s : scene.triangles(a))
+        most = std::min(most, separation(scene.corners(s), part.corners(p, vertices), most));
+    }
+    return most;
+  }
+
+  /// No vertex is farther from where the other pose has it: how far one is moved is convex over space.
+  double motion(const RigidTransform& from, const RigidTransform& to) const {
+    if (part.isEmpty()) return 0.0;
+    const Box& box = part.node(0).box;
+    double most = 0.0, size = extent(box);
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 p((corner & 1U ? box.upper : box.lower).x, (corner & 2U ? box.upper : box.lower).y,
+                         (corner & 4U ? box.upper : box.lower).z);
+      const glm::dvec3 before = from.applyToPoint(p), after = to.applyToPoint(p);
+      most = std::max(most, glm::distance(before, after));
+      size = std::max({size, largest(before), largest(after)});
+    }
+    return most + kRounding * size;
+  }
+
+  bool isOneInside(const RigidTransform& pose) const {
+    const RigidTransform partFromScene = pose.inverse();
+    return std::ranges::any_of(partPieces,
+                               [&](const glm::dvec3& p) { return isInside(scene, pose.applyToPoint(p)); }) ||
+           std::ranges::any_of(scenePieces, [&](const glm::dvec3& p) {
+             return isInside(part, partFromScene.applyToPoint(p));
+           });
   }
 
   bool doLeavesMeet(const BoxTree::Node& a, const BoxTree::Node& b,
                     std::span<const glm::dvec3> placed) const {
     for (const std::uint32_t p : part.triangles(b)) {
       const Corners q = part.corners(p, placed);
-      const Box box = around(q);
+      const Box box = boxAround(q);
       if (!a.box.meets(box)) continue;
       for (const std::uint32_t s : scene.triangles(a)) {
         const Corners c = scene.corners(s);
-        if (box.meets(around(c)) && doMeetByCgal(c, q)) return true;
+        if (box.meets(boxAround(c)) && doMeetByCgal(c, q)) return true;
       }
     }
     return false;
+  }
+
+  static double extent(const Box& box) { return std::max(largest(box.lower), largest(box.upper)); }
+
+  /// The larger node's children with the other.
+  std::array<NodePair, 2> opened(const NodePair& at, std::span<const Box> boxes) const {
+    const BoxTree::Node &a = scene.node(at.scene), &b = part.node(at.part);
+    if (b.child == 0 || (a.child != 0 && a.box.size() >= boxes[at.part].size()))
+      return {NodePair{a.child, at.part}, NodePair{a.child + 1, at.part}};
+    return {NodePair{at.scene, b.child}, NodePair{at.scene, b.child + 1}};
   }
 
   static bool isInside(const BoxTree& solid, const glm::dvec3& point) {
@@ -230,20 +213,79 @@ PoseCertifier::~PoseCertifier() = default;
 PoseCertifier::PoseCertifier(PoseCertifier&&) noexcept = default;
 
 bool PoseCertifier::doMeet(const RigidTransform& sceneFromPart) const {
-  const Bodies& b = *bodies_;
-  if (b.doSurfacesMeet(sceneFromPart)) return true;
-  const RigidTransform partFromScene = sceneFromPart.inverse();
-  return std::ranges::any_of(
-             b.partPieces,
-             [&](const glm::dvec3& p) { return Bodies::isInside(b.scene, sceneFromPart.applyToPoint(p)); }) ||
-         std::ranges::any_of(b.scenePieces, [&](const glm::dvec3& p) {
-           return Bodies::isInside(b.part, partFromScene.applyToPoint(p));
-         });
+  return bodies_->doSurfacesMeet(sceneFromPart) || bodies_->isOneInside(sceneFromPart);
 }
 
+double PoseCertifier::surfacesApart(const RigidTransform& sceneFromPart, double most) const {
+  return bodies_->surfacesApart(sceneFromPart, most);
+}
+
+/// Looks at the poses of a way one after the other.
+class PoseCertifier::Follower {
+ public:
+  Follower(const PoseCertifier& certifier, std::span<const RigidTransform> way)
+      : certifier_(certifier), way_(way) {}
+
+  bool doMeet(std::size_t i) {
+    if (i > 0 && isSame(way_[i], way_[i - 1])) return last_;
+    // On the straight way of each vertex to where it is now no point of the surface comes as far as to the
+    // other: neither do they meet now, nor has one come into the other.
+    if (isApart_ && motion(anchor_, i) < apart_) return last_ = false;
+    isApart_ = false;
+    if (isWorthMeasuring(i)) {
+      anchor_ = i;
+      apart_ = found_ = certifier_.surfacesApart(way_[i], farthestAhead(i));
+      if (apart_ > 0.0) {
+        last_ = certifier_.bodies_->isOneInside(way_[i]);
+        isApart_ = !last_;
+        return last_;
+      }
+    }
+    return last_ = certifier_.doMeet(way_[i]);
+  }
+
+ private:
+  static constexpr std::size_t kAhead = 32, kPatience = 8;
+
+  static bool isSame(const RigidTransform& a, const RigidTransform& b) {
+    return a.translation == b.translation && a.rotation == b.rotation;
+  }
+  double motion(std::size_t from, std::size_t to) const {
+    return certifier_.bodies_->motion(way_[from], way_[to]);
+  }
+  /// It costs more than looking whether they meet: only where the next pose is likely to be spared.
+  bool isWorthMeasuring(std::size_t i) {
+    if (i + 1 >= way_.size()) return false;
+    if (motion(i, i + 1) >= found_ && ++waited_ < kPatience) return false;
+    waited_ = 0;
+    return true;
+  }
+  double farthestAhead(std::size_t i) const {
+    double most = 0.0;
+    for (std::size_t next = i + 1; next < std::min(way_.size(), i + 1 + kAhead); ++next)
+      most = std::max(most, motion(i, next));
+    constexpr double kMore = 1.01;
+    return kMore * most;
+  }
+
+  const PoseCertifier& certifier_;
+  std::span<const RigidTransform> way_;
+  std::size_t anchor_ = 0, waited_ = 0;
+  double apart_ = 0.0;
+  double found_ = std::numeric_limits<double>::infinity();  ///< When last measured.
+  bool isApart_ = false;  ///< By `apart_`, at the anchor, and neither is in the other.
+  bool last_ = false;
+};
+
 std::vector<char> PoseCertifier::meetings(std::span<const RigidTransform> sceneFromPart) const {
+  constexpr std::size_t kBlock = 128;
   std::vector<char> out(sceneFromPart.size(), 0);
-  parallelFor(out.size(), [&](std::size_t i) { out[i] = doMeet(sceneFromPart[i]) ? 1 : 0; });
+  parallelFor((out.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+    const std::size_t first = block * kBlock, count = std::min(kBlock, out.size() - first);
+    Follower follower(*this, sceneFromPart.subspan(first, count));
+    for (std::size_t i = 0; i < count; ++i)
+      out[first + i] = follower.doMeet(i) ? 1 : 0;
+  });
   return out;
 }
 

@@ -20,10 +20,16 @@ class PoseCertifier {
   PoseCertifier(PoseCertifier&&) noexcept;
 
   bool doMeet(const RigidTransform& sceneFromPart) const;
-  /// Of all poses, on all processors: by pose, 1 where they meet.
+  /// No more than the distance of the surfaces, nor than `most`, by a gap that is found between each two
+  /// triangles that are near: what it says is there, is [m]. 0 where they meet, or rounding could say so.
+  double surfacesApart(const RigidTransform& sceneFromPart, double most) const;
+  /// Of all poses, on all processors: by pose, 1 where they meet. As doMeet says of each; poses that follow
+  /// each other nearer than the bodies are apart (surfacesApart, by the motion of the corners of the part's
+  /// box) cost next to nothing, so that every pose of a recording can be looked at.
   std::vector<char> meetings(std::span<const RigidTransform> sceneFromPart) const;
 
  private:
+  class Follower;
   struct Bodies;
   std::unique_ptr<const Bodies> bodies_;
 };

@@ -139,6 +139,30 @@ TriangleMesh coplanarFans(std::uint64_t seed, std::uint32_t cells) {
   return {std::move(x), std::move(t)};
 }
 
+TriangleMesh prismOver(const std::vector<glm::dvec2>& curve, const glm::dvec2& middle) {
+  const auto n = static_cast<std::uint32_t>(curve.size());
+  std::vector<glm::dvec3> vertices;
+  for (const glm::dvec2& p : curve)
+    vertices.emplace_back(p, -0.5);
+  for (const glm::dvec2& p : curve)
+    vertices.emplace_back(p, 0.5);
+  vertices.emplace_back(middle, -0.5);
+  vertices.emplace_back(middle, 0.5);
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t next = (i + 1) % n;
+    triangles.push_back({i, next, n + next});
+    triangles.push_back({i, n + next, n + i});
+    triangles.push_back({2 * n, next, i});
+    triangles.push_back({2 * n + 1, n + i, n + next});
+  }
+  return TriangleMesh(std::move(vertices), std::move(triangles));
+}
+
+TriangleMesh figureOfEightMesh(double scale) {
+  return prismOver({{1.0, -1.0}, {1.0, 1.0}, {-scale, -scale}, {-scale, scale}}, {2.0 / 3.0, 0.0});
+}
+
 TriangleMesh finsMesh(std::uint64_t seed, std::uint32_t fins, double spread) {
   std::mt19937_64 random(seed);
   std::vector<glm::dvec3> x{{0, 0, -0.5}, {0, 0, 0.5}};
@@ -162,6 +186,18 @@ TriangleMesh looseTriangles(std::uint64_t seed, std::uint32_t count) {
     t.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   return {std::move(x), std::move(t)};
+}
+
+TriangleMesh crossedApexMesh() {
+  std::vector<glm::dvec3> vertices{{9, -1.5, -1}, {9, 1.5, -1}, {-1, -1, -1},
+                                   {-1, 1, -1},   {0, 0, 0},    {0, 0, -3}};
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t next = (i + 1) % 4;
+    triangles.push_back({4, i, next});
+    triangles.push_back({5, next, i});
+  }
+  return TriangleMesh(std::move(vertices), std::move(triangles));
 }
 
 }  // namespace nearfit::test

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
 
 #include "core/mesh/triangle_mesh.h"
 
@@ -33,10 +36,24 @@ TriangleMesh wedgeMesh(double halfAngle);
 /// coplanar exactly, with fans of all kinds. On a flat box, closed.
 TriangleMesh coplanarFans(std::uint64_t seed, std::uint32_t cells);
 
+/// A closed strip of squares around a plane curve of the given corners, from z = -1/2 to 1/2, closed by two
+/// fans about points above and below one place. It winds around a point of the plane, near z = 0, as often as
+/// the curve does.
+TriangleMesh prismOver(const std::vector<glm::dvec2>& curve, const glm::dvec2& middle = glm::dvec2(0.0));
+
+/// A figure of eight about the crossing of its two long strokes in the origin: the lobe on the right is wound
+/// anticlockwise, the one on the left clockwise, smaller by `scale`.
+TriangleMesh figureOfEightMesh(double scale);
+
 /// `fins` half discs that share one edge along z, at random angles within `spread` [rad].
 TriangleMesh finsMesh(std::uint64_t seed, std::uint32_t fins, double spread);
 
 /// Random triangles, none connected.
 TriangleMesh looseTriangles(std::uint64_t seed, std::uint32_t count);
+
+/// A double pyramid around a ring that crosses itself like a bow, its apex at the origin, pointing along z.
+/// Seen from there, the ring goes round a lobe of area 9 in the sense of an outside, and nearer below the
+/// apex round one of area 4 in the other.
+TriangleMesh crossedApexMesh();
 
 }  // namespace nearfit::test

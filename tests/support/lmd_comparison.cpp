@@ -26,12 +26,12 @@ constexpr double kMarginal = 1e-8;
 
 std::vector<Lmd> allLmds(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& pose,
                          double cutoff) {
-  LmdScratch scratch;
-  std::vector<Lmd> out(8192);
+  // Megabytes, which under sanitizers take longer to come by than the query.
+  thread_local LmdScratch scratch;
+  thread_local std::vector<Lmd> out(8192);
   const LmdResult result = findLmds(scene, part, pose, cutoff, scratch, out);
   EXPECT_EQ(result.status, QueryStatus::Complete);
-  out.resize(result.count);
-  return out;
+  return {out.begin(), out.begin() + static_cast<std::ptrdiff_t>(result.count)};
 }
 
 RigidTransform randomRotation(std::mt19937_64& random) {

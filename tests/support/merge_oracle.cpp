@@ -66,6 +66,43 @@ bool touchByAllSides(const Minimum& a, const Minimum& b, double tolerance) {
   return false;
 }
 
+/// Whether a line along a side of `a` has `b` on its other side.
+bool isApartAlongSide(const Minimum& a, const Minimum& b, double tolerance) {
+  for (std::size_t i = 0; i < a.cornerCount; ++i) {
+    glm::dvec3 inward = glm::cross(a.lmd.direction, a.corners[(i + 1) % a.cornerCount] - a.corners[i]);
+    const double length = glm::length(inward);
+    if (!(length > tolerance)) continue;
+    inward *= (glm::dot(inward, a.lmd.scenePoint - a.corners[i]) < 0.0 ? -1.0 : 1.0) / length;
+    const auto isBeyond = [&](const glm::dvec3& p) {
+      return glm::dot(inward, p - a.corners[i]) <= tolerance;
+    };
+    if (std::all_of(b.corners.begin(), b.corners.begin() + b.cornerCount, isBeyond)) return true;
+  }
+  return false;
+}
+
+bool coverMoreThanTheirEnds(const Minimum& a, const Minimum& b, double tolerance) {
+  const glm::dvec3 along = (a.corners[1] - a.corners[0]) / a.weight;
+  double least = a.weight, most = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const glm::dvec3 w = b.corners[k] - a.corners[0];
+    const double s = glm::dot(w, along);
+    if (glm::distance(w, s * along) > tolerance) return false;
+    least = std::min(least, s);
+    most = std::max(most, s);
+  }
+  return std::min(a.weight, most) - std::max(0.0, least) > tolerance;
+}
+
+bool markIfOverlapping(Minimum& a, Minimum& b, double tolerance) {
+  if (a.dimension != b.dimension || a.dimension == 0) return false;
+  const bool overlap = a.dimension == 1
+                           ? coverMoreThanTheirEnds(a, b, tolerance)
+                           : !isApartAlongSide(a, b, tolerance) && !isApartAlongSide(b, a, tolerance);
+  if (overlap) a.isOverlapping = b.isOverlapping = true;
+  return overlap;
+}
+
 std::vector<std::uint32_t> leavesOf(const NormalConeTree& tree) {
   std::vector<std::uint32_t> leaves;
   const auto add = [&](FeatureKind kind, std::size_t count) {

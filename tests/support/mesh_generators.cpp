@@ -1,6 +1,7 @@
 #include "tests/support/mesh_generators.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -136,6 +137,28 @@ TriangleMesh uvSphereMesh(double radius, std::uint32_t segments, std::uint32_t r
     previous = ring;
   }
   addFan(draft, north, previous, segments, false);
+  return draft.finish();
+}
+
+TriangleMesh bowlMesh(double inner, double outer, std::uint32_t segments, std::uint32_t rings) {
+  Draft draft;
+  std::array<std::uint32_t, 2> rims{};
+  for (const bool isOuter : {false, true}) {
+    const double radius = isOuter ? outer : inner;
+    const std::uint32_t south = draft.add({0.0, 0.0, -radius});
+    std::uint32_t previous = 0;
+    for (std::uint32_t i = 1; i <= rings; ++i) {
+      const double latitude = pi * i / (2 * rings) - pi / 2;
+      const std::uint32_t ring =
+          addRing(draft, radius * std::cos(latitude), radius * std::sin(latitude), segments);
+      if (i == 1) addFan(draft, south, ring, segments, isOuter);
+      if (i > 1)
+        isOuter ? addBand(draft, previous, ring, segments) : addBand(draft, ring, previous, segments);
+      previous = ring;
+    }
+    rims[isOuter ? 1 : 0] = previous;
+  }
+  addBand(draft, rims[1], rims[0], segments);
   return draft.finish();
 }
 

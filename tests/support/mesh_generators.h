@@ -39,6 +39,10 @@ TriangleMesh tubeMesh(double innerRadius, double outerRadius, double height, std
 /// A cone about z, its base at z = 0 and its apex at z = height; 2 * segments faces.
 TriangleMesh coneMesh(double radius, double height, std::uint32_t segments);
 
+/// Half a hollow sphere about the origin, open towards +z, solid between its walls; 4 * segments * rings
+/// faces. The inner wall has the vertices of the lower half of uvSphereMesh(inner, segments, 2 * rings).
+TriangleMesh bowlMesh(double inner, double outer, std::uint32_t segments, std::uint32_t rings);
+
 /// A closed, jagged, star-shaped mesh about the origin: an icosphere whose vertices are moved along their
 /// rays by independent uniform factors in [1 - roughness, 1 + roughness]; roughness in [0, 1). Same seed,
 /// same mesh.

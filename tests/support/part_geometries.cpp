@@ -2,7 +2,22 @@
 
 #include <utility>
 
+#include "core/mesh/mass_properties.h"
+
 namespace nearfit::test {
+
+namespace {
+
+PartGeometryPtr withMass(TriangleMesh mesh, const MassProperties& mass) {
+  return std::make_shared<const PartGeometry>(PartGeometry{.file = "/generated.obj",
+                                                           .sha256 = std::string(64, '0'),
+                                                           .metresPerUnit = 1.0,
+                                                           .mesh = std::move(mesh),
+                                                           .report = {},
+                                                           .mass = mass});
+}
+
+}  // namespace
 
 PartGeometryPtr freshGeometryOf(TriangleMesh mesh, const glm::dvec3& centre) {
   MassProperties mass;
@@ -10,12 +25,12 @@ PartGeometryPtr freshGeometryOf(TriangleMesh mesh, const glm::dvec3& centre) {
   mass.centre = centre;
   mass.inertia = glm::dmat3(1.0);
   mass.basis = MassBasis::VolumeIntegrals;
-  return std::make_shared<const PartGeometry>(PartGeometry{.file = "/generated.obj",
-                                                           .sha256 = std::string(64, '0'),
-                                                           .metresPerUnit = 1.0,
-                                                           .mesh = std::move(mesh),
-                                                           .report = {},
-                                                           .mass = mass});
+  return withMass(std::move(mesh), mass);
+}
+
+PartGeometryPtr solidGeometryOf(TriangleMesh mesh) {
+  const MassProperties mass = massProperties(mesh);
+  return withMass(std::move(mesh), mass);
 }
 
 PartGeometryPtr geometryOf(TriangleMesh mesh, const glm::dvec3& centre) {

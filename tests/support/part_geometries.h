@@ -9,6 +9,9 @@ namespace nearfit::test {
 /// not built yet. Its centre of mass is `centre`.
 PartGeometryPtr freshGeometryOf(TriangleMesh mesh, const glm::dvec3& centre = glm::dvec3(0.0));
 
+/// As freshGeometryOf, with the mass properties of the mesh itself.
+PartGeometryPtr solidGeometryOf(TriangleMesh mesh);
+
 /// As freshGeometryOf, with its hierarchy.
 PartGeometryPtr geometryOf(TriangleMesh mesh, const glm::dvec3& centre = glm::dvec3(0.0));
 

@@ -1,30 +1,16 @@
 #include "tests/support/proxy_walk.h"
 
-#include "core/mesh/mass_properties.h"
-#include "core/scene/part_geometry.h"
+#include "tests/support/part_geometries.h"
 
 namespace nearfit::test {
-namespace {
-
-PartGeometryPtr solid(TriangleMesh mesh) {
-  const MassProperties mass = massProperties(mesh);
-  return std::make_shared<const PartGeometry>(PartGeometry{.file = "/generated.obj",
-                                                           .sha256 = std::string(64, '0'),
-                                                           .metresPerUnit = 1.0,
-                                                           .mesh = std::move(mesh),
-                                                           .report = {},
-                                                           .mass = mass});
-}
-
-}  // namespace
 
 ProxyWalk::ProxyWalk(std::vector<Fixed> bodies, TriangleMesh part, const RigidTransform& start,
                      const ProxySettings& settings)
     : settings_(settings) {
   auto scene = std::make_shared<ServoScene>();
-  scene->setMoving({PartId{1}, solid(std::move(part)), start});
+  scene->setMoving({PartId{1}, solidGeometryOf(std::move(part)), start});
   for (Fixed& body : bodies)
-    scene->bodies.push_back({PartId{nextId_++}, solid(std::move(body.mesh)), body.worldFromBody});
+    scene->bodies.push_back({PartId{nextId_++}, solidGeometryOf(std::move(body.mesh)), body.worldFromBody});
   setScene(std::move(scene));
   proxy_.place(start);
 }
@@ -42,6 +28,7 @@ const ProxyAccount& ProxyWalk::lead(const RigidTransform& hand) {
   const SearchReach reach{20.0 * settings_.margin, kContactReach * settings_.margin};
   tracker_.observe(proxy_.pose(), 1.0);
   tracker_.setWaiting(proxy_.account().isWaiting);
+  tracker_.setStarved(proxy_.account().isStarved);
   if (tracker_.isDue(reach)) tracker_.refresh(reach, tracked_);
   proxy_.follow(tracked_, hand, settings_);
   return proxy_.account();
@@ -60,7 +47,7 @@ void ProxyWalk::moveBody(std::size_t index, const RigidTransform& worldFromBody)
 
 void ProxyWalk::addBody(const Fixed& body) {
   auto scene = std::make_shared<ServoScene>(*scene_);
-  scene->bodies.push_back({PartId{nextId_++}, solid(body.mesh), body.worldFromBody});
+  scene->bodies.push_back({PartId{nextId_++}, solidGeometryOf(body.mesh), body.worldFromBody});
   setScene(std::move(scene));
 }
 

@@ -3,6 +3,7 @@
 #include <QtTest>
 
 #include "core/error.h"
+#include "tests/support/qt_patience.h"
 
 using namespace nearfit;
 
@@ -12,6 +13,7 @@ class BackgroundTaskTest : public QObject {
  private slots:
   void reportsProgressAndEndOnItsOwnThread();
   void cancelEndsTheJobWithCancelled();
+  void cancelIsToldBeforeTheJobLooks();
   void handsOnWhatTheJobThrows();
   void endMayStartTheNextJob();
   void destructionCancelsAndWaits();
@@ -63,6 +65,29 @@ void BackgroundTaskTest::cancelEndsTheJobWithCancelled() {
       });
   task.cancel();
   QTRY_VERIFY(wasCancelled);
+}
+
+void BackgroundTaskTest::cancelIsToldBeforeTheJobLooks() {
+  std::atomic<bool> mayLook{false}, hasEnded{false};
+  bool wasTold = false, isNextDone = false;
+  ui::BackgroundTask task;
+  task.run(
+      [&](const ProgressCallback& progress) {
+        while (!mayLook)
+          std::this_thread::yield();
+        hasEnded = !progress(0.5);
+      },
+      [&](const std::exception_ptr& error) {
+        QVERIFY_EXCEPTION_THROWN(std::rethrow_exception(error), Cancelled);
+        wasTold = true;
+        QVERIFY(!task.isRunning());
+        task.run([](const ProgressCallback&) {}, [&](const std::exception_ptr&) { isNextDone = true; });
+      });
+  task.cancel();
+  QTRY_VERIFY(wasTold && isNextDone);
+  QVERIFY(!hasEnded);
+  mayLook = true;
+  QTRY_VERIFY(hasEnded);
 }
 
 void BackgroundTaskTest::handsOnWhatTheJobThrows() {

@@ -29,6 +29,8 @@ class FeelDialogTest : public QObject {
   void tellsTheBoundOfTheDevice();
   void wishesBeyondTheBoundAreShownAsHeld();
   void automaticCouplingShowsWhatIsInForce();
+  void springsTellWhatIsEnforcedAndWhatIsNot();
+  void springsBeyondWhatIsPassiveAreMarked();
   void anglesOfTheOrientationBecomeAQuaternion();
   void locksAreSixSwitches();
   void returnInAFieldDoesNotClose();
@@ -117,10 +119,10 @@ void FeelDialogTest::showingIsNoEdit() {
 void FeelDialogTest::unitOfStiffnessFollowsTheLaw() {
   show(withSprings({0.01, 10.0, 0.0, SpringLaw::Linear}));
   QVERIFY(!field("stiffness")->isHidden() && field("printedStiffness")->isHidden());
-  QCOMPARE(field("stiffness")->suffix(), QStringLiteral(" N/m"));
+  QVERIFY(field("stiffness")->text().endsWith(QStringLiteral(" N/m")));
   show(withSprings({0.01, 10.0, 0.0, SpringLaw::Printed}));
   QVERIFY(field("stiffness")->isHidden() && !field("printedStiffness")->isHidden());
-  QCOMPARE(field("printedStiffness")->suffix(), QStringLiteral(" N/m²"));
+  QVERIFY(field("printedStiffness")->text().endsWith(QStringLiteral(" N/m²")));
 }
 
 void FeelDialogTest::modeShowsItsOwnParametersAlone() {
@@ -203,6 +205,59 @@ void FeelDialogTest::automaticCouplingShowsWhatIsInForce() {
   QCOMPARE(edited_->coupling.stiffness, 123.0);
   QCOMPARE(field("couplingStiffness")->value(), 123.0);
   QVERIFY(field("couplingStiffness")->isEnabled());
+}
+
+void FeelDialogTest::springsTellWhatIsEnforcedAndWhatIsNot() {
+  show(withSprings({0.01, 200.0, 0.0, SpringLaw::Linear}));
+  DeviceLimits device;
+  device.maxForce = 8.0;
+  device.maxTorque = 0.5;
+  device.forceSlew = 1600.0;
+  device.torqueSlew = 100.0;
+  device.damping = 1.5;
+  dialog_->setDevice(device);
+  QVERIFY(note("springLimits")
+              .contains(QStringLiteral("at most 8 N and 0.5 N·m, changing by at most 1600 N/s "
+                                       "and 100 N·m/s")));
+  // 2 b / T, in all.
+  QVERIFY(note("springBound").startsWith(QStringLiteral("Not enforced")));
+  QVERIFY2(note("springBound").contains(QStringLiteral("up to 3000 N/m, at 1.00 ms")),
+           qPrintable(note("springBound")));
+  QVERIFY(!note("springBound").contains(QStringLiteral("now")));
+  // Over a scale of two, half the damping at the handle.
+  HapticSettings scaled = withSprings({0.01, 200.0, 0.0, SpringLaw::Linear});
+  scaled.mapping.scale = 2.0;
+  show(scaled);
+  QVERIFY(note("springBound").contains(QStringLiteral("up to 1500 N/m")));
+}
+
+void FeelDialogTest::springsBeyondWhatIsPassiveAreMarked() {
+  DeviceLimits device;
+  device.damping = 1.0;
+  dialog_->setDevice(device);
+  show(withSprings({0.01, 200.0, 0.05, SpringLaw::Linear}));
+  dialog_->show();
+  ServoSnapshot snapshot;
+  snapshot.mode = HapticMode::Springs;
+  snapshot.period = 2e-3;
+  snapshot.lmdCount = 3;
+  dialog_->showSnapshot(snapshot);
+  // 2 (1 - 3 * 0.05) / 2 ms = 850 N/m, for three.
+  QVERIFY2(note("springBound").contains(QStringLiteral("up to 850 N/m, at 2.00 ms")),
+           qPrintable(note("springBound")));
+  QVERIFY(note("springBound").contains(QStringLiteral("now 3: 283.3 N/m each")));
+  const QString calm = widget<QLabel>("springBound")->styleSheet();
+  snapshot.lmdCount = 10;
+  dialog_->showSnapshot(snapshot);
+  // 2 (1 - 10 * 0.05) / 2 ms, a tenth of it each: less than 200.
+  QVERIFY(note("springBound").contains(QStringLiteral("now 10: 50 N/m each")));
+  QVERIFY(widget<QLabel>("springBound")->styleSheet() != calm);
+  // As printed a spring's slope is its stiffness times the cutoff at most.
+  show(withSprings({0.01, 200.0, 0.05, SpringLaw::Printed}));
+  QVERIFY(note("springBound").contains(QStringLiteral("5000 N/m² each")));
+  QCOMPARE(widget<QLabel>("springBound")->styleSheet(), calm);
+  dialog_->clearSnapshot();
+  QVERIFY(!note("springBound").contains(QStringLiteral("now")));
 }
 
 void FeelDialogTest::anglesOfTheOrientationBecomeAQuaternion() {

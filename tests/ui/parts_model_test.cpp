@@ -1,6 +1,7 @@
 #include "ui/parts_model.h"
 
 #include <QAbstractItemModelTester>
+#include <QMimeData>
 #include <QSignalSpy>
 #include <QtTest>
 
@@ -27,6 +28,8 @@ class PartsModelTest : public QObject {
   void keepsTheRulesOfItemModels();
   void changeOfAPartKeepsTheRows();
   void editingAsksForARenameAndChangesNothing();
+  void groupsStandBeforePartsAndHoldTheirs();
+  void whatIsDroppedAsksForItsPlaceAndChangesNothing();
 };
 
 void PartsModelTest::keepsTheRulesOfItemModels() {
@@ -72,6 +75,57 @@ void PartsModelTest::editingAsksForARenameAndChangesNothing() {
   QVERIFY(model.setData(model.indexOf(id), QStringLiteral(" shaft "), Qt::EditRole));
   QCOMPARE(asked, QStringLiteral("shaft"));
   QCOMPARE(model.indexOf(id).data().toString(), QStringLiteral("a"));
+}
+
+void PartsModelTest::groupsStandBeforePartsAndHoldTheirs() {
+  ui::PartsModel model;
+  const QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::QtTest);
+  Scene scene;
+  const PartId free = scene.add(cube("free"));
+  const GroupId outer = scene.addGroup({{}, "outer", {}, false});
+  const GroupId inner = scene.addGroup({{}, "inner", outer, false});
+  Part part = cube("in");
+  part.group = inner;
+  const PartId in = scene.add(part);
+  model.setScene(scene);
+  QCOMPARE(model.rowCount(), 2);
+  QVERIFY(model.groupAt(model.index(0, 0)) == outer && model.partAt(model.index(1, 0)) == free);
+  QVERIFY(model.indexOf(in).parent() == model.indexOf(inner));
+  QVERIFY(model.indexOf(inner).parent() == model.indexOf(outer));
+  QCOMPARE(model.indexOf(in).data().toString(), QStringLiteral("in"));
+  QCOMPARE(model.indexOf(outer).data(Qt::AccessibleTextRole).toString(), QStringLiteral("Group outer"));
+  part = *scene.find(in);
+  part.group.reset();
+  scene.replace(part);
+  model.setScene(scene);
+  QVERIFY(!model.indexOf(in).parent().isValid());
+}
+
+void PartsModelTest::whatIsDroppedAsksForItsPlaceAndChangesNothing() {
+  ui::PartsModel model;
+  Scene scene;
+  const PartId part = scene.add(cube("a"));
+  const GroupId group = scene.addGroup({{}, "g", {}, false}), other = scene.addGroup({{}, "h", {}, false});
+  model.setScene(scene);
+  SceneNodes asked;
+  std::optional<GroupId> where;
+  connect(&model, &ui::PartsModel::regroupRequested, this,
+          [&](const SceneNodes& nodes, std::optional<GroupId> target) { asked = nodes, where = target; });
+  const std::unique_ptr<QMimeData> data(
+      model.mimeData({model.indexOf(part), model.indexOf(part).siblingAtColumn(1), model.indexOf(other)}));
+  QVERIFY(!model.dropMimeData(data.get(), Qt::MoveAction, -1, -1, model.indexOf(group)));
+  QVERIFY(asked == (SceneNodes{{part}, {other}}) && where == group);
+  model.dropMimeData(data.get(), Qt::MoveAction, 0, 0, {});
+  QVERIFY(!where);
+  QCOMPARE(model.rowCount(), 3);
+  // What another program drags means nothing here.
+  asked = {};
+  QMimeData foreign;
+  foreign.setData(model.mimeTypes().front(), QByteArray(13, '\1'));
+  model.dropMimeData(&foreign, Qt::MoveAction, -1, -1, model.indexOf(group));
+  foreign.setData(model.mimeTypes().front(), {});
+  model.dropMimeData(&foreign, Qt::MoveAction, -1, -1, model.indexOf(group));
+  QVERIFY(asked.isEmpty());
 }
 
 QTEST_MAIN(PartsModelTest)

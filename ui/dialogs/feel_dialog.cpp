@@ -12,14 +12,13 @@
 
 #include "core/scene/haptic_limits.h"
 #include "ui/dialogs/feel_pages.h"
+#include "ui/dialogs/space_mouse_page.h"
 #include "ui/feel_mode.h"
 #include "ui/number_field.h"
 #include "ui/theme.h"
 
 namespace nearfit::ui {
 namespace {
-
-constexpr double kMillimetresPerMetre = 1e3;
 
 /// The one number that counts in every mode.
 class CutoffPage : public FeelPage {
@@ -28,8 +27,13 @@ class CutoffPage : public FeelPage {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(
-        addNumber({"cutoff", tr("Minima are looked for up to this distance; also the rest length of springs"),
-                   tr(" mm"), kMinCutoff, kMaxCutoff, kMillimetresPerMetre, 4},
+        addNumber({"cutoff",
+                   tr("Minima are looked for up to this distance; also the rest length of springs"),
+                   {},
+                   kMinCutoff,
+                   kMaxCutoff,
+                   4,
+                   true},
                   [](HapticSettings& s) -> double& { return s.springs.cutoff; }));
   }
 };
@@ -42,7 +46,8 @@ FeelDialog::FeelDialog(QWidget* parent)
       proxy_(new ProxyPage(this)),
       springs_(new SpringPage(this)),
       weight_(new WeightPage(this)),
-      workspace_(new WorkspacePage(this)) {
+      workspace_(new WorkspacePage(this)),
+      spaceMouse_(new SpaceMousePage(this)) {
   setObjectName(QStringLiteral("feelDialog"));
   setWindowTitle(tr("Feel settings"));
   QWidget* head = makeHead();
@@ -50,9 +55,11 @@ FeelDialog::FeelDialog(QWidget* parent)
   contact_->addWidget(springs_);
   auto* tabs = new QTabWidget(this);
   tabs->setObjectName(QStringLiteral("feelTabs"));
+  tabs->setAccessibleName(tr("Settings of the feel"));
   tabs->addTab(contact_, tr("Contact"));
   tabs->addTab(weight_, tr("Weight"));
   tabs->addTab(workspace_, tr("Workspace"));
+  tabs->addTab(spaceMouse_, tr("Space mouse"));
   refusal_ = new QLabel(this);
   refusal_->setObjectName(QStringLiteral("refusal"));
   refusal_->setWordWrap(true);
@@ -71,6 +78,7 @@ FeelDialog::FeelDialog(QWidget* parent)
   for (FeelPage* page : {cutoff_, static_cast<FeelPage*>(proxy_), static_cast<FeelPage*>(springs_),
                          static_cast<FeelPage*>(weight_), static_cast<FeelPage*>(workspace_)})
     connect(page, &FeelPage::edited, this, &FeelDialog::edit);
+  connect(spaceMouse_, &SpaceMousePage::edited, this, &FeelDialog::rateEdited);
   connect(mode_, QOverload<int>::of(&QComboBox::activated), this,
           [this] { edit(withMode(settings_, mode_->currentData().value<FeelMode>())); });
   showScene({});
@@ -126,7 +134,7 @@ void FeelDialog::showMovingPart(const Scene& scene) {
   if (geometry == moving_) return;
   moving_ = geometry;
   basis_.metric = geometry != nullptr ? massMetric(geometry->mass, geometry->mesh) : MassMetric{};
-  proxy_->showBasis(basis_);
+  showBasis();
 }
 
 void FeelDialog::showRefusal(const QString& why) {
@@ -140,24 +148,37 @@ void FeelDialog::growToContent() {
   resize(width(), std::max(height(), layout()->totalHeightForWidth(width())));
 }
 
+void FeelDialog::showRate(const RateSettings& settings) {
+  spaceMouse_->showSettings(settings);
+}
+
 void FeelDialog::setDevice(const DeviceLimits& limits) {
   basis_.device = limits;
-  proxy_->showBasis(basis_);
+  showBasis();
 }
 
 void FeelDialog::showSnapshot(const ServoSnapshot& snapshot) {
   basis_.period = snapshot.period;
   basis_.inForce.reset();
-  if (snapshot.mode == HapticMode::Proxy && snapshot.fault == ServoFault::None)
-    basis_.inForce = snapshot.coupling;
-  if (isVisible()) proxy_->showBasis(basis_);
+  basis_.springs.reset();
+  if (snapshot.fault == ServoFault::None) {
+    if (snapshot.mode == HapticMode::Proxy) basis_.inForce = snapshot.coupling;
+    if (snapshot.mode == HapticMode::Springs) basis_.springs = snapshot.lmdCount;
+  }
+  if (isVisible()) showBasis();
 }
 
 void FeelDialog::clearSnapshot() {
   const CouplingBasis usual;
   basis_.period = usual.period;
   basis_.inForce.reset();
+  basis_.springs.reset();
+  showBasis();
+}
+
+void FeelDialog::showBasis() {
   proxy_->showBasis(basis_);
+  springs_->showBasis(basis_);
 }
 
 }  // namespace nearfit::ui

@@ -2,6 +2,7 @@
 
 #include <QDialog>
 
+#include "core/haptics/rate_settings.h"
 #include "core/haptics/servo_snapshot.h"
 #include "ui/dialogs/proxy_page.h"
 
@@ -11,6 +12,7 @@ class QStackedWidget;
 
 namespace nearfit::ui {
 
+class SpaceMousePage;
 class SpringPage;
 class WeightPage;
 class WorkspacePage;
@@ -27,6 +29,8 @@ class FeelDialog : public QDialog {
   void showScene(const Scene& scene);
   /// Says why a change was refused; empty when the last one was not.
   void showRefusal(const QString& why);
+  /// How a space mouse drives; of the user, whatever the scene.
+  void showRate(const RateSettings& settings);
   /// Of the device in hand, or of the usual one.
   void setDevice(const DeviceLimits& limits);
   void showSnapshot(const ServoSnapshot& snapshot);
@@ -34,6 +38,7 @@ class FeelDialog : public QDialog {
 
  signals:
   void settingsEdited(const nearfit::HapticSettings& settings);
+  void rateEdited(const nearfit::RateSettings& settings);
 
  private:
   QWidget* makeHead();
@@ -42,6 +47,7 @@ class FeelDialog : public QDialog {
   /// Texts that wrap may need more room than the dialog has.
   void growToContent();
   void showMovingPart(const Scene& scene);
+  void showBasis();
 
   HapticSettings settings_;
   CouplingBasis basis_;
@@ -54,6 +60,7 @@ class FeelDialog : public QDialog {
   SpringPage* springs_;
   WeightPage* weight_;
   WorkspacePage* workspace_;
+  SpaceMousePage* spaceMouse_;
 };
 
 }  // namespace nearfit::ui

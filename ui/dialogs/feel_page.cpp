@@ -10,10 +10,6 @@
 
 namespace nearfit::ui {
 
-QString limitsText(double lower, double upper, const QString& unit) {
-  return QObject::tr("From %1 to %2%3").arg(formatNumber(lower), formatNumber(upper), unit);
-}
-
 void FeelPage::showSettings(const HapticSettings& settings) {
   if (hasShown_ && settings == settings_) return;
   hasShown_ = true;
@@ -34,21 +30,16 @@ NumberField* FeelPage::addNumber(const Number& number, const NumberOf& valueOf) 
   field->setObjectName(QLatin1String(number.name));
   field->setTrimmed(true);
   field->setDecimals(number.decimals);
-  field->setRange(number.lower * number.shownPerUnit, number.upper * number.shownPerUnit);
-  field->setSuffix(number.unit);
+  number.isLength ? field->setLength(number.decimals) : field->setUnit(number.unit);
+  field->setQuantityRange(number.lower, number.upper);
   field->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  field->setToolTip(number.toolTip + QChar('\n') +
-                    limitsText(field->minimum(), field->maximum(), number.unit));
-  const double scale = number.shownPerUnit;
-  connect(field, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [=, this](double value) {
+  field->setHelp(number.toolTip);
+  connect(field, &NumberField::quantityEdited, this, [=, this](double value) {
     HapticSettings next = settings_;
-    valueOf(next) = value / scale;
+    valueOf(next) = value;
     change(next);
   });
-  showers_.emplace_back([=, this] {
-    const QSignalBlocker blocker(field);
-    field->setValue(valueOf(settings_) * scale);
-  });
+  showers_.emplace_back([=, this] { field->showQuantity(valueOf(settings_)); });
   return field;
 }
 

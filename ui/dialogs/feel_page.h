@@ -32,9 +32,9 @@ class FeelPage : public QWidget {
     const char* name;  ///< Of the object.
     QString toolTip;
     QString unit;
-    double lower, upper;        ///< In SI.
-    double shownPerUnit = 1.0;  ///< What is shown for one in SI.
+    double lower, upper;  ///< In SI.
     int decimals = 3;
+    bool isLength = false;  ///< In the user's unit, then, and decimals are of millimetres.
   };
   using NumberOf = std::function<double&(HapticSettings&)>;
   using SwitchOf = std::function<bool&(HapticSettings&)>;
@@ -56,8 +56,5 @@ class FeelPage : public QWidget {
   bool hasShown_ = false;
   std::vector<std::function<void()>> showers_;  ///< Each puts one value into its field.
 };
-
-/// "From 0 to 1000000 N/m": limits as a tool tip tells them.
-QString limitsText(double lower, double upper, const QString& unit);
 
 }  // namespace nearfit::ui

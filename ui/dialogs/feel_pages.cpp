@@ -6,17 +6,18 @@
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
-#include <numbers>
+#include <algorithm>
 
+#include "core/haptics/workspace_mapper.h"
 #include "core/math/euler_angles.h"
 #include "core/scene/haptic_limits.h"
 #include "ui/format.h"
 #include "ui/number_field.h"
+#include "ui/theme.h"
 
 namespace nearfit::ui {
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 const QStringList kAxes = {QStringLiteral("X"), QStringLiteral("Y"), QStringLiteral("Z")};
 
 /// A row of three fields, one for each axis, with their names before them.
@@ -48,6 +49,17 @@ SpringPage::SpringPage(QWidget* parent) : FeelPage(parent) {
   form->addRow(linearLabel_, linear_);
   form->addRow(printedLabel_, printed_);
   form->addRow(tr("Damping"), damping);
+  limits_ = addNote();
+  limits_->setObjectName(QStringLiteral("springLimits"));
+  bound_ = addNote();
+  bound_->setObjectName(QStringLiteral("springBound"));
+  form->addRow(limits_);
+  form->addRow(bound_);
+}
+
+void SpringPage::showBasis(const CouplingBasis& basis) {
+  basis_ = basis;
+  refresh();
 }
 
 void SpringPage::refresh() {
@@ -56,6 +68,39 @@ void SpringPage::refresh() {
     widget->setVisible(isLinear);
   for (QWidget* widget : {static_cast<QWidget*>(printed_), static_cast<QWidget*>(printedLabel_)})
     widget->setVisible(!isLinear);
+  const DeviceLimits& device = basis_.device;
+  limits_->setText(tr("Enforced on what the device gets: at most %1 N and %2 N·m, changing by at most %3 N/s "
+                      "and %4 N·m/s. "
+                      "Energy that the hand gets beyond what it gave is damped away.")
+                       .arg(formatNumber(device.maxForce), formatNumber(device.maxTorque),
+                            formatNumber(device.forceSlew), formatNumber(device.torqueSlew)));
+  showBound();
+}
+
+void SpringPage::showBound() {
+  const SpringParameters& springs = settings().springs;
+  const bool isLinear = springs.law == SpringLaw::Linear;
+  const DeviceLimits device = limitsAtHandle(basis_.device, settings().mapping.scale);
+  const double count = basis_.springs.value_or(1);
+  const double most = stiffnessBound(device.damping, count * springs.damping, basis_.period);
+  // The slope of the law as printed is stiffness times cutoff at most.
+  const double each = most / (std::max(count, 1.0) * (isLinear ? 1.0 : springs.cutoff));
+  const QString unit = isLinear ? tr(" N/m") : tr(" N/m²");
+  QString text = tr("Not enforced: a bound on the stiffness of all springs together. What they make along "
+                    "one line is passive "
+                    "in anyone's hand up to %1 N/m, at %2 with the device's damping of %3 N·s/m")
+                     .arg(formatNumber(most), formatDuration(basis_.period), formatNumber(device.damping));
+  const bool isKnown = basis_.springs && *basis_.springs > 0;
+  text += isKnown ? tr("; shared by the springs of all minima, now %n: %1%2 each.", nullptr,
+                       static_cast<int>(*basis_.springs))
+                        .arg(formatNumber(each), unit)
+                  : tr("; shared by the springs of all minima.");
+  bound_->setText(text);
+  const bool isBeyond = isKnown && springs.stiffness > each;
+  const QString style =
+      QStringLiteral("color: %1").arg((isBeyond ? colours::kWarning : colours::kMutedText).name());
+  // Sixty times a second: a style is expensive to set.
+  if (bound_->styleSheet() != style) bound_->setStyleSheet(style);
 }
 
 WeightPage::WeightPage(QWidget* parent) : FeelPage(parent) {
@@ -75,7 +120,6 @@ WeightPage::WeightPage(QWidget* parent) : FeelPage(parent) {
                    {},
                    -kMaxGravity,
                    kMaxGravity,
-                   1.0,
                    5},
                   [axis](HapticSettings& s) -> double& { return s.weight.gravity[axis]; });
   }
@@ -131,10 +175,9 @@ void WorkspacePage::makeAngles() {
     field->setObjectName(QLatin1String(names[axis]));
     field->setTrimmed(true);
     field->setRange(-360.0, 360.0);
-    field->setSuffix(QString(QChar(0xB0)));
+    field->setUnit(QString(QChar(0xB0)));
     field->setToolTip(tr("Turns the device's frame into the world's: about the fixed axes x, y, z in turn"));
-    connect(field, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
-            [this, axis](double degrees) { turn(axis, degrees); });
+    connect(field, &NumberField::quantityEdited, this, [this, axis](double angle) { turn(axis, angle); });
     angleFields_[static_cast<std::size_t>(axis)] = field;
   }
 }
@@ -159,8 +202,8 @@ QGridLayout* WorkspacePage::makeLocks() {
   return locks;
 }
 
-void WorkspacePage::turn(int axis, double degrees) {
-  angles_[axis] = degrees / kDegreesPerRadian;
+void WorkspacePage::turn(int axis, double angle) {
+  angles_[axis] = angle;
   HapticSettings next = settings();
   next.mapping.orientationOffset = rotationFromEulerAngles(angles_);
   change(next);
@@ -172,8 +215,7 @@ void WorkspacePage::refresh() {
     angles_ = eulerAnglesOf(settings().mapping.orientationOffset);
   for (int axis = 0; axis < 3; ++axis) {
     NumberField* field = angleFields_[static_cast<std::size_t>(axis)];
-    const QSignalBlocker blocker(field);
-    field->setValue(angles_[axis] * kDegreesPerRadian + 0.0);
+    field->showQuantity(angles_[axis]);
   }
 }
 

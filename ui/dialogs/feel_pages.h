@@ -4,6 +4,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "ui/dialogs/coupling_basis.h"
 #include "ui/dialogs/feel_page.h"
 
 class QCheckBox;
@@ -12,19 +13,25 @@ class QLabel;
 
 namespace nearfit::ui {
 
-/// Stiffness and damping of the springs.
+/// Stiffness and damping of the springs, what is enforced of their sum, and what is not.
 class SpringPage : public FeelPage {
   Q_OBJECT
 
  public:
   explicit SpringPage(QWidget* parent = nullptr);
 
+  void showBasis(const CouplingBasis& basis);
+
  protected:
   void refresh() override;
 
  private:
+  void showBound();
+
   NumberField *linear_, *printed_;  ///< The stiffness has a unit and limits for each law.
   QLabel *linearLabel_, *printedLabel_;
+  QLabel *limits_, *bound_;
+  CouplingBasis basis_;
 };
 
 /// Weight and inertia, on request.

@@ -18,10 +18,12 @@ constexpr int kSteps = 1000;
 
 ProgressDialog::ProgressDialog(const QString& text, QWidget* parent)
     : QDialog(parent), bar_(new QProgressBar(this)) {
+  setObjectName(QStringLiteral("progressDialog"));
   setWindowTitle(tr("Loading"));
   setWindowModality(Qt::WindowModal);
   setMinimumWidth(380);
   bar_->setRange(0, kSteps);
+  bar_->setAccessibleName(tr("Progress"));
   auto* label = new QLabel(text, this);
   label->setWordWrap(true);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);

@@ -5,7 +5,6 @@
 #include <QGridLayout>
 #include <QGroupBox>
 #include <QLabel>
-#include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -17,8 +16,6 @@
 
 namespace nearfit::ui {
 namespace {
-
-constexpr double kMillimetresPerMetre = 1e3;
 
 /// What a wished number comes to: in the warning colour where it is less than was wished.
 void showMost(QLabel& note, double most, double wished, double inForce, const QString& unit,
@@ -39,7 +36,11 @@ ProxyPage::ProxyPage(QWidget* parent) : FeelPage(parent) {
       addNumber({"margin",
                  tr("Distance at which contact holds; at most the cutoff. Smaller shows the true gap better; "
                     "larger lets the part slide faster."),
-                 tr(" mm"), kMinMargin, kMaxMargin, kMillimetresPerMetre, 6},
+                 {},
+                 kMinMargin,
+                 kMaxMargin,
+                 6,
+                 true},
                 [](HapticSettings& s) -> double& { return s.proxy.margin; });
   NumberField* friction = addNumber({"friction",
                                      tr("Coulomb's coefficient: 0 is none, dry steel has about 0.15"),
@@ -88,18 +89,16 @@ QWidget* ProxyPage::makeCoupling() {
 
 void ProxyPage::makeRows() {
   rows_[0] = addRow(
-      {"couplingStiffness", tr("Pull between hand and part"), tr(" N/m"), kMinStiffness, kMaxStiffness, 1.0,
-       2},
+      {"couplingStiffness", tr("Pull between hand and part"), tr(" N/m"), kMinStiffness, kMaxStiffness, 2},
       [](HapticSettings& s) -> double& { return s.coupling.stiffness; },
-      {"couplingDamping", tr("Damping between hand and part"), tr(" N·s/m"), kMinDamping, kMaxDamping, 1.0,
-       4},
+      {"couplingDamping", tr("Damping between hand and part"), tr(" N·s/m"), kMinDamping, kMaxDamping, 4},
       [](HapticSettings& s) -> double& { return s.coupling.damping; });
   rows_[1] = addRow(
       {"rotationalStiffness", tr("About the part's axis of most inertia"), tr(" N·m/rad"),
-       kMinRotationalStiffness, kMaxRotationalStiffness, 1.0, 5},
+       kMinRotationalStiffness, kMaxRotationalStiffness, 5},
       [](HapticSettings& s) -> double& { return s.coupling.rotationalStiffness; },
       {"rotationalDamping", tr("About the part's axis of most inertia"), tr(" N·m·s/rad"),
-       kMinRotationalDamping, kMaxRotationalDamping, 1.0, 8},
+       kMinRotationalDamping, kMaxRotationalDamping, 8},
       [](HapticSettings& s) -> double& { return s.coupling.rotationalDamping; });
 }
 
@@ -152,8 +151,7 @@ void ProxyPage::showRow(const Row& row, const Line& line) {
     const bool isStiffness = field == row.stiffness;
     const double wished = isStiffness ? line.wishedStiffness : line.wishedDamping;
     const double inForce = isStiffness ? line.stiffness : line.damping;
-    const QSignalBlocker blocker(field);
-    field->setValue(isAutomatic ? inForce : wished);
+    field->showQuantity(isAutomatic ? inForce : wished);
   }
   showMost(*row.stiffnessNote, line.mostStiffness, line.wishedStiffness, line.stiffness, row.stiffnessUnit,
            isAutomatic);

@@ -1,26 +1,14 @@
 #pragma once
 
 #include <array>
-#include <optional>
 
-#include "core/haptics/device_limits.h"
-#include "core/haptics/virtual_coupling.h"
+#include "ui/dialogs/coupling_basis.h"
 #include "ui/dialogs/feel_page.h"
 
 class QCheckBox;
 class QLabel;
 
 namespace nearfit::ui {
-
-/// What the bound of stability hangs on, and what of the wished coupling is in force.
-struct CouplingBasis {
-  DeviceLimits device;
-  MassMetric metric;  ///< Of the moving part.
-  /// Nominal, or while the servo runs as measured [s].
-  double period = 1e-3;
-  /// While the servo runs in the proxy mode.
-  std::optional<CouplingState> inForce;
-};
 
 /// Margin, friction, and the coupling with the bound that it is held to.
 class ProxyPage : public FeelPage {

@@ -11,6 +11,7 @@
 #include "ui/format.h"
 #include "ui/hand_lead.h"
 #include "ui/panels/feel_notice.h"
+#include "ui/panels/hand_choice.h"
 #include "ui/theme.h"
 
 namespace nearfit::ui {
@@ -26,7 +27,7 @@ QString muted() {
 
 FeelPanel::FeelPanel(QWidget* settingsButton, QWidget* parent)
     : QWidget(parent),
-      hand_(new QComboBox(this)),
+      hand_(new HandChoice(this)),
       mode_(new QComboBox(this)),
       startStop_(new QPushButton(this)),
       notice_(new FeelNotice(this)) {
@@ -38,8 +39,12 @@ FeelPanel::FeelPanel(QWidget* settingsButton, QWidget* parent)
   layout->addStretch(1);
 
   connect(startStop_, &QPushButton::clicked, this,
-          [this] { emit(isRunning_ ? stopRequested() : startRequested()); });
-  connect(hand_, QOverload<int>::of(&QComboBox::activated), this, &FeelPanel::handChanged);
+          [this] { emit(isTaken_ ? stopRequested() : startRequested()); });
+  connect(hand_, &HandChoice::handChanged, this, &FeelPanel::handChanged);
+  connect(hand_, &HandChoice::armRequested, this, &FeelPanel::armRequested);
+  connect(hand_, &HandChoice::calibrateRequested, this, &FeelPanel::calibrateRequested);
+  connect(hand_, &HandChoice::recordingWanted, this, &FeelPanel::recordingWanted);
+  connect(hand_, &HandChoice::resetRequested, this, &FeelPanel::resetRequested);
   connect(mode_, QOverload<int>::of(&QComboBox::activated), this,
           [this] { emit modeRequested(mode_->currentData().value<FeelMode>()); });
   connect(notice_, &FeelNotice::restartRequested, this, &FeelPanel::restartRequested);
@@ -48,17 +53,10 @@ FeelPanel::FeelPanel(QWidget* settingsButton, QWidget* parent)
 }
 
 void FeelPanel::setUpChoices(QVBoxLayout& layout, QWidget* settingsButton) {
-  hand_->setObjectName(QStringLiteral("hand"));
-  hand_->addItem(icon(QStringLiteral("hand")), tr("Scripted hand"), QVariant::fromValue(Hand::Scripted));
-  hand_->addItem(icon(QStringLiteral("rename")), tr("Manual hand"), QVariant::fromValue(Hand::Manual));
-  hand_->setToolTip(
-      tr("Who holds the moving part while the servo runs: a script that presses it against the nearest "
-         "part, or you by numbers and arrow keys"));
   mode_->setObjectName(QStringLiteral("panelMode"));
   mode_->setToolTip(tr("How contact feels; the settings explain it"));
   addModes(*mode_);
-  for (QComboBox* box : {hand_, mode_})
-    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  mode_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   startStop_->setObjectName(QStringLiteral("startStop"));
   startStop_->setMinimumHeight(34);
   startStop_->setIconSize(QSize(20, 20));
@@ -118,18 +116,35 @@ QLabel* FeelPanel::addReadout(QVBoxLayout& layout, const QString& name, const QS
 }
 
 Hand FeelPanel::hand() const {
-  return hand_->currentData().value<Hand>();
+  return hand_->hand();
+}
+
+QString FeelPanel::device() const {
+  return hand_->device();
+}
+
+bool FeelPanel::isRecordingMissing() const {
+  return hand_->isRecordingMissing();
+}
+
+void FeelPanel::chooseDevice(const QString& device) {
+  hand_->choose(device);
+}
+
+void FeelPanel::showDevices(const QVector<DeviceChoice>& devices) {
+  hand_->showDevices(devices);
 }
 
 void FeelPanel::setStartable(bool isStartable) {
   isStartable_ = isStartable;
-  startStop_->setEnabled(isStartable_ || isRunning_);
+  startStop_->setEnabled(isStartable_ || isTaken_);
 }
 
 void FeelPanel::showStatus(const ServoStatus& status) {
-  isRunning_ = status.isRunning;
-  startStop_->setText(isRunning_ ? tr("Stop") : tr("Feel"));
-  startStop_->setIcon(icon(isRunning_ ? QStringLiteral("stop") : QStringLiteral("start")));
+  isTaken_ = status.isTaken();
+  hand_->showStatus(status);
+  startStop_->setText(status.isOpening ? tr("Cancel") : isTaken_ ? tr("Stop") : tr("Feel"));
+  startStop_->setIcon(icon(isTaken_ ? QStringLiteral("stop") : QStringLiteral("start")));
   setStartable(isStartable_);
   const bool hasTimes = status.isRunning && status.ticks > 0;
   rate_->setText(hasTimes ? QStringLiteral("%1 Hz").arg(status.rate, 0, 'f', 0) : kNothing);

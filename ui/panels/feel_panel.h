@@ -3,6 +3,7 @@
 #include <QWidget>
 
 #include "core/haptics/servo_snapshot.h"
+#include "ui/device_choice.h"
 #include "ui/feel_mode.h"
 #include "ui/servo_status.h"
 
@@ -14,6 +15,7 @@ class QVBoxLayout;
 namespace nearfit::ui {
 
 class FeelNotice;
+class HandChoice;
 
 /// Start and stop of the servo, whose hand it is, the mode, and what is felt: wrench, minima, contact and
 /// timing in numbers.
@@ -25,6 +27,13 @@ class FeelPanel : public QWidget {
   explicit FeelPanel(QWidget* settingsButton, QWidget* parent = nullptr);
 
   Hand hand() const;
+  /// Of the device that is chosen as hand; else empty.
+  QString device() const;
+  /// The recorded hand is chosen, and no recording.
+  bool isRecordingMissing() const;
+  /// Does nothing where it is not in the list.
+  void chooseDevice(const QString& device);
+  void showDevices(const QVector<DeviceChoice>& devices);
   void setStartable(bool isStartable);
   void showStatus(const ServoStatus& status);
   void showMode(FeelMode mode);
@@ -37,6 +46,10 @@ class FeelPanel : public QWidget {
   void stopRequested();
   void restartRequested();
   void handChanged();
+  void armRequested(bool isArmed);
+  void calibrateRequested();
+  void recordingWanted();
+  void resetRequested();
   void modeRequested(nearfit::ui::FeelMode mode);
 
  private:
@@ -46,12 +59,13 @@ class FeelPanel : public QWidget {
   QLabel* addReadout(QVBoxLayout& layout, const QString& name, const QString& objectName);
   void addHeading(QVBoxLayout& layout, const QString& text);
 
-  QComboBox *hand_, *mode_;
+  HandChoice* hand_;
+  QComboBox* mode_;
   QPushButton* startStop_;
   FeelNotice* notice_;
   QLabel *force_, *torque_, *distance_, *minima_, *contacts_, *lead_, *energy_, *clamped_;
   QLabel *rate_, *lateness_, *tick_, *subSteps_, *overruns_, *scheduling_;
-  bool isRunning_ = false, isStartable_ = false;
+  bool isTaken_ = false, isStartable_ = false;
 };
 
 }  // namespace nearfit::ui

@@ -2,26 +2,34 @@
 
 #include <QAction>
 #include <QHeaderView>
-#include <QTreeView>
+#include <QLineEdit>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <unordered_set>
+#include <utility>
+#include <vector>
 
 #include "ui/parts_model.h"
+#include "ui/selection.h"
+#include "ui/tree/parts_view.h"
 
 namespace nearfit::ui {
+namespace {
 
-PartsPanel::PartsPanel(QWidget* parent)
-    : QWidget(parent), model_(new PartsModel(this)), view_(new QTreeView(this)) {
+/// Parts from which on a name is rather looked for than seen.
+constexpr std::size_t kMany = 12;
+
+}  // namespace
+
+PartsPanel::PartsPanel(Selection& selection, QWidget* parent)
+    : QWidget(parent),
+      selection_(selection),
+      model_(new PartsModel(this)),
+      view_(new PartsView(this)),
+      filter_(new QLineEdit(this)) {
   view_->setObjectName(QStringLiteral("partsView"));
+  view_->setAccessibleName(tr("Groups and parts"));
   view_->setModel(model_);
-  view_->setRootIsDecorated(false);
-  view_->setUniformRowHeights(true);
-  view_->setHeaderHidden(true);
-  view_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  view_->setSelectionMode(QAbstractItemView::SingleSelection);
-  view_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
-  view_->setContextMenuPolicy(Qt::ActionsContextMenu);
-  view_->setIconSize(QSize(18, 18));
-  view_->setIndentation(0);
   QHeaderView* header = view_->header();
   header->setStretchLastSection(false);
   header->setMinimumSectionSize(28);
@@ -30,38 +38,94 @@ PartsPanel::PartsPanel(QWidget* parent)
     header->setSectionResizeMode(column, QHeaderView::Fixed);
     header->resizeSection(column, 30);
   }
+  filter_->setObjectName(QStringLiteral("partsFilter"));
+  filter_->setPlaceholderText(tr("Find a part or group"));
+  filter_->setAccessibleName(filter_->placeholderText());
+  filter_->setClearButtonEnabled(true);
+  filter_->hide();
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(filter_);
   layout->addWidget(view_);
 
+  connect(filter_, &QLineEdit::textChanged, view_, &PartsView::setFilter);
   connect(view_, &QTreeView::clicked, this, &PartsPanel::clickCell);
-  connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, this,
-          &PartsPanel::selectionChanged);
+  connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &PartsPanel::takeSelection);
+  connect(&selection_, &Selection::changed, this, &PartsPanel::showSelection);
   connect(model_, &PartsModel::renameRequested, this, &PartsPanel::renameRequested);
+  connect(model_, &PartsModel::groupRenameRequested, this, &PartsPanel::groupRenameRequested);
+  connect(model_, &PartsModel::regroupRequested, this, &PartsPanel::regroupRequested);
 }
 
 void PartsPanel::setScene(const Scene& scene) {
-  const std::optional<PartId> before = selected();
+  const std::vector<GroupId> expanded = expandedGroups();
+  const std::unordered_set<GroupId> before(known_.begin(), known_.end());
   scene_ = scene;
   model_->setScene(scene);
-  if (before != selected()) select(before);
-}
-
-std::optional<PartId> PartsPanel::selected() const {
-  const QModelIndexList rows = view_->selectionModel()->selectedRows();
-  return rows.isEmpty() ? std::nullopt : model_->partAt(rows.first());
-}
-
-void PartsPanel::select(std::optional<PartId> part) {
-  const QModelIndex index = part ? model_->indexOf(*part) : QModelIndex();
-  if (index.isValid()) {
-    view_->setCurrentIndex(index);
-  } else {
-    view_->setCurrentIndex({});
-    view_->clearSelection();
+  // A reset of the model closes every group and drops what was selected, without a signal.
+  known_.clear();
+  for (const Scene::GroupPtr& group : scene.groups()) {
+    known_.push_back(group->id);
+    if (!before.contains(group->id)) view_->expand(model_->indexOf(group->id));
   }
-  // A reset of the model drops the selection without a signal.
-  emit selectionChanged();
+  for (const GroupId group : expanded) {
+    const QModelIndex index = model_->indexOf(group);
+    if (index.isValid()) view_->expand(index);
+  }
+  view_->setRootIsDecorated(!scene.groups().empty());
+  const bool areMany = scene.parts().size() > kMany;
+  if (!areMany) filter_->clear();
+  filter_->setVisible(areMany);
+  if (!filter_->text().isEmpty()) view_->setFilter(filter_->text());
+  showSelection();
+}
+
+std::vector<GroupId> PartsPanel::expandedGroups() const {
+  std::vector<GroupId> expanded;
+  for (const GroupId group : known_) {
+    if (view_->isExpanded(model_->indexOf(group))) expanded.push_back(group);
+  }
+  return expanded;
+}
+
+void PartsPanel::takeSelection() {
+  if (isShowing_) return;
+  SceneNodes rows;
+  for (const QModelIndex& row : view_->selectionModel()->selectedRows()) {
+    if (const std::optional<PartId> part = model_->partAt(row)) rows.parts.push_back(*part);
+    if (const std::optional<GroupId> group = model_->groupAt(row)) rows.groups.push_back(*group);
+  }
+  const std::vector<PartId> chosen = partsOf(scene_, rows);
+  const std::unordered_set<PartId> left(chosen.begin(), chosen.end());
+  // Those that stay keep their order, so that the current one stays what it is.
+  std::vector<PartId> parts = selection_.parts();
+  std::erase_if(parts, [&](PartId part) { return !left.contains(part); });
+  const std::unordered_set<PartId> kept(parts.begin(), parts.end());
+  const std::optional<PartId> current = model_->partAt(view_->currentIndex());
+  for (const PartId part : chosen) {
+    if (!kept.contains(part)) parts.push_back(part);
+  }
+  if (current && left.contains(*current) && !kept.contains(*current)) parts.push_back(*current);
+  selection_.set(parts, rows.groups);
+}
+
+void PartsPanel::showSelection() {
+  QItemSelection rows;
+  const SceneNodes outer = outermost(scene_, selection_.nodes());
+  for (const GroupId group : outer.groups)
+    rows.select(model_->indexOf(group), model_->indexOf(group));
+  for (const PartId part : outer.parts)
+    rows.select(model_->indexOf(part), model_->indexOf(part));
+  const bool wasShowing = std::exchange(isShowing_, true);
+  QItemSelectionModel& model = *view_->selectionModel();
+  model.select(rows, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+  if (!model.isSelected(model.currentIndex())) {
+    const QModelIndex current = selection_.current() ? model_->indexOf(*selection_.current()) : QModelIndex();
+    if (current.isValid()) view_->scrollTo(current);
+    model.setCurrentIndex(current, QItemSelectionModel::NoUpdate);
+  }
+  isShowing_ = wasShowing;
 }
 
 void PartsPanel::setMenuActions(const QList<QAction*>& actions) {
@@ -69,27 +133,48 @@ void PartsPanel::setMenuActions(const QList<QAction*>& actions) {
 }
 
 void PartsPanel::editName() {
-  if (const std::optional<PartId> part = selected()) view_->edit(model_->indexOf(*part));
+  const QModelIndex row = view_->currentIndex().siblingAtColumn(PartsModel::Name);
+  if (row.isValid() && view_->selectionModel()->isSelected(row)) view_->edit(row);
+}
+
+SceneNodes PartsPanel::nodesOf(const QModelIndex& index) const {
+  if (view_->selectionModel()->isSelected(index)) return outermost(scene_, selection_.nodes());
+  SceneNodes nodes;
+  if (const std::optional<PartId> part = model_->partAt(index)) nodes.parts.push_back(*part);
+  if (const std::optional<GroupId> group = model_->groupAt(index)) nodes.groups.push_back(*group);
+  return nodes;
 }
 
 void PartsPanel::clickCell(const QModelIndex& index) {
-  const std::optional<PartId> id = model_->partAt(index);
-  const Part* part = id ? scene_.find(*id) : nullptr;
-  if (part == nullptr) return;
-  const bool isMoving = scene_.movingPart() == part->id;
   switch (index.column()) {
     case PartsModel::Moving:
-      emit movingPartRequested(isMoving ? std::nullopt : id);
+      if (const std::optional<PartId> part = model_->partAt(index))
+        emit movingPartRequested(scene_.movingPart() == part ? std::nullopt : part);
       break;
     case PartsModel::Visible:
-      emit visibilityRequested(part->id, !part->isVisible);
-      break;
+      return toggleVisible(index);
     case PartsModel::Locked:
-      emit lockRequested(part->id, !part->isLocked);
-      break;
+      return toggleLock(index);
     default:
       break;
   }
+}
+
+void PartsPanel::toggleVisible(const QModelIndex& index) {
+  std::vector<PartId> here;
+  if (const std::optional<PartId> part = model_->partAt(index)) here = {*part};
+  if (const std::optional<GroupId> group = model_->groupAt(index)) here = partsOf(scene_, {{}, {*group}});
+  // The row that was clicked says which way all go.
+  const bool isShown = std::ranges::all_of(here, [this](PartId id) { return scene_.find(id)->isVisible; });
+  emit visibilityRequested(partsOf(scene_, nodesOf(index)), !isShown);
+}
+
+void PartsPanel::toggleLock(const QModelIndex& index) {
+  bool isLocked = false;
+  if (const std::optional<PartId> part = model_->partAt(index)) isLocked = scene_.find(*part)->isLocked;
+  if (const std::optional<GroupId> group = model_->groupAt(index))
+    isLocked = scene_.findGroup(*group)->isLocked;
+  emit lockRequested(nodesOf(index), !isLocked);
 }
 
 }  // namespace nearfit::ui

@@ -5,10 +5,8 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
-#include <QSignalBlocker>
 #include <algorithm>
 #include <iterator>
-#include <numbers>
 
 #include "core/math/euler_angles.h"
 #include "core/scene/scene.h"
@@ -19,9 +17,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr double kMillimetresPerMetre = 1e3;
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-constexpr double kMaxPosition = 1e7;  ///< [mm]
+constexpr double kFarthest = 1e4;  ///< [m]
 
 /// Whether a key is one of the window's commands, such as Ctrl+S, that a line editor has no use for here. It
 /// claims some of them all the same: Ctrl+E to go to the end of the line, Ctrl+D to delete.
@@ -41,6 +37,7 @@ PosePanel::PosePanel(QWidget* parent) : QWidget(parent), heading_(new QLabel(thi
   auto* layout = new QGridLayout(this);
   layout->setContentsMargins(10, 8, 10, 10);
   layout->setHorizontalSpacing(6);
+  heading_->setObjectName(QStringLiteral("poseHeading"));
   layout->addWidget(heading_, 0, 0, 1, 4);
   setUpPose(*layout);
   setUpMass(*layout);
@@ -55,28 +52,37 @@ void PosePanel::setUpPose(QGridLayout& layout) {
   const QStringList axes = {QStringLiteral("X"), QStringLiteral("Y"), QStringLiteral("Z")};
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    fields_[i] = makeField(QStringLiteral("position") + axes[axis], kMaxPosition, 4, tr(" mm"), 1.0);
-    fields_[i + 3] = makeField(QStringLiteral("rotation") + axes[axis], 360.0, 3, QString(QChar(0xB0)), 1.0);
+    fields_[i] = makeLength(QStringLiteral("position") + axes[axis], kFarthest, 4, 1e-3);
+    fields_[i + 3] = makeAngle(QStringLiteral("rotation") + axes[axis], 360.0);
+    fields_[i]->setAccessibleName(tr("Position along %1").arg(axes[axis]));
+    fields_[i + 3]->setAccessibleName(tr("Rotation about %1").arg(axes[axis]));
     layout.addWidget(new QLabel(axes[axis], this), axis + 1, 0);
     layout.addWidget(fields_[i], axis + 1, 1);
     layout.addWidget(new QLabel(QStringLiteral("R") + axes[axis].toLower(), this), axis + 1, 2);
     layout.addWidget(fields_[i + 3], axis + 1, 3);
   }
-  step_ = makeField(QStringLiteral("nudgeStep"), 1e4, 3, tr(" mm"), 0.1);
-  step_->setMinimum(1e-3);
-  step_->setValue(0.1);
+  step_ = makeLength(QStringLiteral("nudgeStep"), 10.0, 3, 1e-4);
+  step_->setQuantityRange(1e-6, 10.0);
+  step_->showQuantity(1e-4);
   step_->setToolTip(tr("How far the arrow and page keys move the part while the 3-D view has the focus"));
-  layout.addWidget(new QLabel(tr("Key step"), this), 4, 0, 1, 3, Qt::AlignRight | Qt::AlignVCenter);
-  layout.addWidget(step_, 4, 3);
+  turnStep_ = makeAngle(QStringLiteral("turnStep"), 90.0);
+  turnStep_->setMinimum(1e-3);
+  turnStep_->setValue(1.0);
+  turnStep_->setToolTip(tr("How far the same keys turn the part with Shift, about its centre of mass"));
+  layout.addWidget(new QLabel(tr("Key"), this), 4, 0);
+  layout.addWidget(step_, 4, 1);
+  layout.addWidget(turnStep_, 4, 3);
   for (int field = 0; field < 6; ++field) {
-    connect(fields_[static_cast<std::size_t>(field)], QOverload<double>::of(&QDoubleSpinBox::valueChanged),
-            this, [this, field] { edit(field); });
+    connect(fields_[static_cast<std::size_t>(field)], &NumberField::quantityEdited, this,
+            [this, field] { edit(field); });
   }
 }
 
 void PosePanel::setUpMass(QGridLayout& layout) {
-  density_ = makeField(QStringLiteral("density"), kMaxDensity, 3, tr(" kg/m³"), 1.0);
-  density_->setMinimum(kMinDensity);
+  density_ = prepared(new NumberField(this), QStringLiteral("density"));
+  density_->setUnit(tr(" kg/m³"));
+  density_->setDecimals(3);
+  density_->setQuantityRange(kMinDensity, kMaxDensity);
   density_->setTrimmed(true);
   density_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   density_->setToolTip(
@@ -90,19 +96,28 @@ void PosePanel::setUpMass(QGridLayout& layout) {
   row->addWidget(density_, 1);
   row->addWidget(mass_);
   layout.addLayout(row, 5, 0, 1, 4);
-  connect(density_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &PosePanel::densityEdited);
+  connect(density_, &NumberField::quantityEdited, this, &PosePanel::densityEdited);
 }
 
-NumberField* PosePanel::makeField(const QString& name, double limit, int decimals, const QString& suffix,
-                                  double step) {
-  auto* field = new NumberField(this);
-  field->setObjectName(name);
+NumberField* PosePanel::makeLength(const QString& name, double limit, int decimals, double step) {
+  NumberField* field = prepared(new NumberField(this), name);
+  field->setLength(decimals);
+  field->setQuantityRange(-limit, limit);
+  field->setQuantityStep(step);
+  return field;
+}
+
+NumberField* PosePanel::makeAngle(const QString& name, double limit) {
+  NumberField* field = prepared(new NumberField(this), name);
+  field->setUnit(QString(QChar(0xB0)));
+  field->setDecimals(3);
   field->setRange(-limit, limit);
-  field->setDecimals(decimals);
-  field->setSuffix(suffix);
-  field->setSingleStep(step);
+  return field;
+}
+
+NumberField* PosePanel::prepared(NumberField* field, const QString& name) {
+  field->setObjectName(name);
   field->setMinimumWidth(60);
-  field->setAccelerated(true);
   field->findChild<QLineEdit*>()->installEventFilter(this);
   field->installEventFilter(this);
   return field;
@@ -129,7 +144,13 @@ bool PosePanel::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void PosePanel::showPart(const QString& name, bool isEditable) {
-  heading_->setText(name.isEmpty() ? tr("No part selected") : name);
+  const QString heading = name.isEmpty() ? tr("No part selected") : name;
+  // What was typed for one part is not meant for another.
+  if (heading != heading_->text()) {
+    for (NumberField* field : fields_)
+      if (field->isUnsettled()) field->takeBack();
+  }
+  heading_->setText(heading);
   heading_->setStyleSheet(name.isEmpty() ? QStringLiteral("color: %1").arg(colours::kMutedText.name())
                                          : QStringLiteral("font-weight: bold"));
   for (NumberField* field : fields_)
@@ -144,14 +165,11 @@ void PosePanel::showPose(const RigidTransform& worldFromPart, const RigidTransfo
   refresh();
 }
 
-void PosePanel::showMass(const Part* part) {
+void PosePanel::showMass(const Part* part, bool isLocked) {
   const bool hasGeometry = part != nullptr && part->geometry != nullptr;
-  density_->setEnabled(part != nullptr && !part->isLocked);
-  const bool isTyping = density_->hasFocus() && density_->findChild<QLineEdit*>()->isModified();
-  if (!isTyping || part == nullptr) {
-    const QSignalBlocker blocker(density_);
-    density_->setValue(part != nullptr ? part->density : kDefaultDensity);
-  }
+  density_->setEnabled(part != nullptr && !isLocked);
+  if (part == nullptr) density_->takeBack();
+  density_->showQuantity(part != nullptr ? part->density : kDefaultDensity);
   mass_->setText(hasGeometry ? formatMass(massOf(*part)) : QString());
   mass_->setToolTip(hasGeometry && part->geometry->mass.basis == MassBasis::OrientedBox
                         ? tr("Of its bounding box, as the mesh encloses no volume")
@@ -159,23 +177,25 @@ void PosePanel::showMass(const Part* part) {
 }
 
 double PosePanel::step() const {
-  return step_->value() / kMillimetresPerMetre;
+  return step_->quantity();
+}
+
+double PosePanel::turnStep() const {
+  return turnStep_->quantity();
 }
 
 void PosePanel::commit() {
-  for (NumberField* field : fields_) {
-    if (field->findChild<QLineEdit*>()->isModified()) field->interpretText();
-  }
-  if (density_->findChild<QLineEdit*>()->isModified()) density_->interpretText();
+  for (NumberField* field : fields_)
+    field->settle();
+  density_->settle();
 }
 
 void PosePanel::edit(int field) {
   const auto i = static_cast<std::size_t>(field);
-  const double value = fields_[i]->value();
-  const double perUnit = field < 3 ? kMillimetresPerMetre : kDegreesPerRadian;
+  const double value = fields_[i]->quantity();
   double& number = field < 3 ? hand_.translation[field] : handAngles_[field - 3];
   const bool isOn = fields_[i]->isStepping();
-  number = isOn ? number + (value - shown_[i]) / perUnit : value / perUnit;
+  number = isOn ? number + (value - shown_[i]) : value;
   shown_[i] = value;
   if (field >= 3) hand_.rotation = rotationFromEulerAngles(handAngles_);
   emit poseEdited(hand_);
@@ -185,16 +205,11 @@ void PosePanel::refresh() {
   const glm::dvec3 angles = eulerAnglesOf(pose_.rotation);
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    const double values[2] = {pose_.translation[axis] * kMillimetresPerMetre,
-                              angles[axis] * kDegreesPerRadian};
+    const double values[2] = {pose_.translation[axis], angles[axis]};
     for (const std::size_t kind : {0U, 1U}) {
       NumberField* field = fields_[i + 3 * kind];
-      // A field that is being typed in is left alone.
-      if (field->hasFocus() && field->findChild<QLineEdit*>()->isModified()) continue;
-      const QSignalBlocker blocker(field);
-      // Plus zero: no "-0".
-      field->setValue(values[kind] + 0.0);
-      shown_[i + 3 * kind] = field->value();
+      field->showQuantity(values[kind]);
+      if (!field->isUnsettled()) shown_[i + 3 * kind] = field->value() * field->shownUnit();
     }
   }
 }

@@ -18,8 +18,8 @@ namespace nearfit::ui {
 
 class NumberField;
 
-/// The pose of one part in numbers: position in millimetres, rotation as angles about the fixed axes x, y, z
-/// in degrees; and its density. Numbers that the user leaves alone stay exactly what they were.
+/// The pose of one part in numbers: position in the user's unit, rotation as angles about the fixed axes x,
+/// y, z; and its density. Numbers that the user leaves alone stay exactly what they were.
 class PosePanel : public QWidget {
   Q_OBJECT
 
@@ -33,11 +33,14 @@ class PosePanel : public QWidget {
   /// a step moves the hand on from where it is, and the rest of the hand's pose stays.
   void showPose(const RigidTransform& worldFromPart, const RigidTransform& worldFromHand);
   /// Density and mass of the part; null when none is chosen.
-  void showMass(const Part* part);
+  /// @param isLocked  It, or a group that it is in.
+  void showMass(const Part* part, bool isLocked = false);
   /// Takes over a number that is still being typed, as leaving its field does.
   void commit();
   /// How far an arrow key moves a part [m].
   double step() const;
+  /// How far one turns it, with Shift [rad].
+  double turnStep() const;
 
  signals:
   /// Of the part, or of the hand that holds it.
@@ -51,17 +54,19 @@ class PosePanel : public QWidget {
  private:
   void setUpPose(QGridLayout& layout);
   void setUpMass(QGridLayout& layout);
-  NumberField* makeField(const QString& name, double limit, int decimals, const QString& suffix, double step);
+  NumberField* makeLength(const QString& name, double limit, int decimals, double step);
+  NumberField* makeAngle(const QString& name, double limit);
+  NumberField* prepared(NumberField* field, const QString& name);
   void edit(int field);
   void refresh();
 
   QLabel* heading_;
   std::array<NumberField*, 6> fields_{};
-  NumberField *step_ = nullptr, *density_ = nullptr;
+  NumberField *step_ = nullptr, *turnStep_ = nullptr, *density_ = nullptr;
   QLabel* mass_ = nullptr;
   RigidTransform pose_, hand_;
   glm::dvec3 handAngles_{0.0};     ///< Of hand_ [rad].
-  std::array<double, 6> shown_{};  ///< What stands in the fields, in their units.
+  std::array<double, 6> shown_{};  ///< What stands in the fields.
 };
 
 }  // namespace nearfit::ui

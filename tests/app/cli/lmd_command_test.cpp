@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -70,6 +71,38 @@ TEST_F(LmdCommand, OverhangingCubeIsTurnedAboutItsCentreOfMass) {
   expectPoint(json["lmds"][0]["part"], {0.75, 0, 0.75});
   expectPoint(json["force"], {0, 0, 250}, 1e-9);
   expectPoint(json["torque"], {0, 62.5, 0}, 1e-9);
+}
+
+TEST_F(LmdCommand, NormalSpanRuleAddsWhatAJaggedVertexDoesNotCarry) {
+  // A fan of steep valleys between shallow ridges; the tip of a tetrahedron stands over its apex, 0.1 away
+  // and 30 degrees off its axis towards a ridge: nearer to that, and yet between the normals beside it.
+  const std::string fan =
+      folder_
+          .write("fan.obj",
+                 "v 0 0 0\nv 1 0 -.2\nv .7 .7 -1\nv 0 1 -.2\nv -.7 .7 -1\nv -1 0 -.2\n"
+                 "v -.7 -.7 -1\nv 0 -1 -.2\nv .7 -.7 -1\nv 0 0 -3\n"
+                 "f 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 6\nf 1 6 7\nf 1 7 8\nf 1 8 9\nf 1 9 2\n"
+                 "f 10 3 2\nf 10 4 3\nf 10 5 4\nf 10 6 5\nf 10 7 6\nf 10 8 7\nf 10 9 8\n"
+                 "f 10 2 9\n")
+          .string();
+  const std::string tip =
+      folder_
+          .write("tip.obj",
+                 "v 0 0 0\nv .01 0 .2\nv -.01 .01 .2\nv -.01 -.01 .2\nf 1 3 2\nf 1 4 3\nf 1 2 4\nf 2 3 4\n")
+          .string();
+  const auto countOf = [&](const std::string& rule) {
+    // Turned by -30 degrees about x, at 0.1 (0, sin 30, cos 30).
+    const ProcessResult result =
+        runCli({"lmd", fan, tip, "--cutoff", "0.11", "--rule", rule, "--pose",
+                "0,0.05,0.08660254037844387,0.9659258262890683,-0.25881904510252074,0,0"});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    const Json lmds = Json::parse(result.out)["lmds"];
+    return std::ranges::count_if(
+        lmds, [](const Json& lmd) { return std::abs(lmd["distance"].get<double>() - 0.1) < 1e-9; });
+  };
+  EXPECT_EQ(countOf("exact"), 0);
+  EXPECT_EQ(countOf("normal-span"), 1);
+  EXPECT_EQ(run({"--cutoff", "0.5", "--pose", "0,0,1.25,1,0,0,0", "--rule", "span"}).exitCode, 2);
 }
 
 TEST_F(LmdCommand, PrintedLawMultipliesByTheDistance) {
@@ -165,16 +198,21 @@ TEST_F(LmdCommand, SeveralMinimaComeNearestFirst) {
   expectPoint(json["force"], {0, 0, 200 * (0.25 + 0.125)}, 1e-9);
 }
 
+TEST_F(LmdCommand, CutoffAtTheVeryDistanceIsMarginal) {
+  EXPECT_EQ(only({"--cutoff", "0.25", "--pose", "0,0,1.25,1,0,0,0"})["lmds"][0]["marginal"], true);
+  EXPECT_EQ(only({"--cutoff", "0.5", "--pose", "0,0,1.25,1,0,0,0"})["lmds"][0]["marginal"], false);
+}
+
 TEST_F(LmdCommand, LineHasExactlyThePromisedForm) {
   const ProcessResult result = run({"--cutoff", "0.5", "--pose", "0.1,0,1.25,1,0,0,0"});
   const std::string n = "-?[0-9.]+(e[-+][0-9]+)?", v = "\\[" + n + "," + n + "," + n + "\\]";
   const std::string extent =
       "\\{\"dimension\":2,\"measure\":" + n + ",\"axis\":" + v + ",\"half\":\\[" + n + "," + n + "\\]\\}";
-  const std::string line = "\\{\"pose\":0,\"lmds\":\\[\\{\"distance\":" + n + ",\"scene\":" + v +
-                           ",\"part\":" + v +
-                           ",\"features\":\\[\"(vertex|edge|face)\",\"(vertex|edge|face)\"\\]," +
-                           "\"region\":true,\"extent\":" + extent + ",\"blocked\":false\\}\\]," +
-                           "\"force\":" + v + ",\"torque\":" + v + ",\"query_us\":" + n + "\\}\n";
+  const std::string line =
+      "\\{\"pose\":0,\"lmds\":\\[\\{\"distance\":" + n + ",\"scene\":" + v + ",\"part\":" + v +
+      ",\"features\":\\[\"(vertex|edge|face)\",\"(vertex|edge|face)\"\\]," +
+      "\"region\":true,\"extent\":" + extent + ",\"blocked\":false,\"marginal\":false\\}\\]," +
+      "\"force\":" + v + ",\"torque\":" + v + ",\"query_us\":" + n + "\\}\n";
   EXPECT_THAT(result.out, MatchesRegex(line));
 }
 

@@ -14,6 +14,7 @@
 #include "core/scene/motion_recording.h"
 #include "core/scene/scene_file.h"
 #include "tests/app/cli/place_fixture.h"
+#include "tests/support/eventually.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"
 #include "tests/support/run_process.h"
@@ -176,7 +177,8 @@ TEST_F(PlaceCommand, HelpTellsTheOptions) {
   }
 }
 
-/// Starts nearfit-cli, waits until a file shows up in its folder whose name begins so, then interrupts it.
+/// Starts nearfit-cli, waits until a file in its folder whose name begins so has rows in it, then interrupts
+/// it.
 int interruptOnce(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                   const std::string& prefix) {
   std::vector<char*> argv;
@@ -192,13 +194,15 @@ int interruptOnce(const std::vector<std::string>& arguments, const std::filesyst
   }
   const auto hasBegun = [&] {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      if (entry.path().filename().string().starts_with(prefix)) return true;
+      if (!entry.path().filename().string().starts_with(prefix)) continue;
+      std::error_code error;
+      const std::uintmax_t size = std::filesystem::file_size(entry.path(), error);
+      // The header and some tens of rows.
+      if (!error && size > 16384) return true;
     }
     return false;
   };
-  for (int i = 0; i < 10000 && !hasBegun(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_TRUE(eventually(hasBegun));
   ::kill(child, SIGINT);
   int status = 0;
   ::waitpid(child, &status, 0);
@@ -210,7 +214,7 @@ TEST_F(PlaceCommand, AnInterruptStopsItAndKeepsWhatWasDone) {
   folder_.write("long.csv", pathText(kLong));
   const int exitCode = interruptOnce({NEARFIT_CLI, "place", "fit.nearfit", "--part", "Cone", "--path",
                                       "long.csv", "--record", "out.csv", "--export", "out.json"},
-                                     folder_.path(), ".out.csv.");
+                                     folder_.path(), ".nearfit-");
   EXPECT_EQ(exitCode, 1);
   EXPECT_THAT(readBytes(file("err.txt")), HasSubstr("interrupted after"));
   const Record record(file("out.csv"));

@@ -7,17 +7,22 @@
 #include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListView>
 #include <QPushButton>
 #include <QSettings>
 #include <QTimer>
 #include <QTreeView>
 #include <QtTest>
+#include <cmath>
 #include <fstream>
 #include <functional>
+#include <optional>
 
 #include "app/desktop/application.h"
+#include "core/error.h"
 #include "core/mesh/triangle_mesh.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/qt_patience.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/document.h"
 #include "ui/viewport.h"
@@ -70,22 +75,42 @@ void whenModal(std::function<void(Dialog*)> act, const QString& name = {}) {
 
 /// Puts a path into a file dialog and accepts it by its button.
 inline void chooseFile(QFileDialog* dialog, const QString& file) {
+  // What is typed takes back what the dialog proposes, where that is there and so marked; a text that is set
+  // does not.
+  dialog->findChild<QListView*>(QStringLiteral("listView"))->clearSelection();
   dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))->setText(file);
   const auto accept =
       dialog->acceptMode() == QFileDialog::AcceptSave ? QDialogButtonBox::Save : QDialogButtonBox::Open;
   QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(accept), Qt::LeftButton);
 }
 
+/// Tests run on machines with devices too.
+class NoDevices final : public desktop::DeviceSource {
+ public:
+  bool hasChanged() override { return false; }
+  QVector<ui::DeviceChoice> list() override { return {}; }
+  QString find(const QString&) override { throw Error("devices", "there are none"); }
+  std::unique_ptr<HapticDevice> make(const QString&) override { throw Error("devices", "there are none"); }
+};
+
 /// The application with a fixed cube of 40 mm about the origin and a moving cube of 20 mm whose lower face is
 /// 5 mm above it: their one minimum is the region between the two faces.
 class DesktopDriver {
  public:
-  DesktopDriver() {
+  /// @param devices  Those that are plugged in: none that the tests do not know of.
+  explicit DesktopDriver(std::unique_ptr<desktop::DeviceSource> devices = std::make_unique<NoDevices>())
+      : application(std::move(devices)) {
     QWidget& w = application.window();
     w.resize(1200, 760);
     w.show();
     (void)QTest::qWaitForWindowExposed(&w);
     QApplication::setActiveWindow(&w);
+    QObject::connect(&application.servo(), &desktop::ServoController::snapshotArrived, &application,
+                     [this](const ServoSnapshot& snapshot) { felt = snapshot.proxy; });
+    QObject::connect(&application.servo(), &desktop::ServoController::statusChanged, &application,
+                     [this](const ui::ServoStatus& status) {
+                       if (!status.isTaken()) felt.reset();
+                     });
     fixedFile = writeOff(folder.path() / "fixed.off", boxMesh(glm::dvec3(0.04)));
     movingFile =
         writeOff(folder.path() / "moving.off", boxMesh(glm::dvec3(0.02), glm::dvec3(0.0, 0.0, 0.035)));
@@ -109,6 +134,17 @@ class DesktopDriver {
   Widget* widget(const char* name) {
     return window().findChild<Widget*>(QLatin1String(name));
   }
+  /// The servo has told that the part in hand is at this x, in its frame's origin [m].
+  bool isFeltAtX(double x) const { return felt && std::abs(felt->translation.x - x) < 1e-9; }
+  /// There is a while in which nothing is drawn: a window system that is late may ask for pictures at first.
+  bool comesToRest() {
+    for (int again = 0; again < 30; ++again) {
+      const int before = window().viewport().pictureCount();
+      QTest::qWait(1000);
+      if (window().viewport().pictureCount() == before) return true;
+    }
+    return false;
+  }
   QString text(const char* label) { return widget<QLabel>(label)->text(); }
   QTreeView* partsView() { return widget<QTreeView>("partsView"); }
 
@@ -130,6 +166,7 @@ class DesktopDriver {
 
   TemporaryFolder folder;
   QString fixedFile, movingFile;
+  std::optional<RigidTransform> felt;  ///< Where the part in hand is, once the servo has told.
   desktop::Application application;
 };
 

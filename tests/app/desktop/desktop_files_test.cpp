@@ -77,7 +77,7 @@ void DesktopFilesTest::savingKeepsThePoseInHand() {
   d.application.servo().start(ui::Hand::Manual);
   d.clickPart(1, ui::PartsModel::Name);
   d.type<QDoubleSpinBox>("positionX", "2");
-  QTest::qWait(50);
+  QTRY_VERIFY(d.isFeltAtX(0.002));
   d.action("save")->trigger();
   QVERIFY(d.application.servo().isRunning());
   QVERIFY(std::abs(d.part("moving").worldFromPart.translation.x - 0.002) < 1e-12);
@@ -163,6 +163,12 @@ void DesktopFilesTest::exportsThePlacementInHand() {
   d.type<QDoubleSpinBox>("positionZ", "1.5");
   QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 6.50 mm"));
   const auto file = d.folder.path() / "placement.json";
+  whenModal<QDialog>(
+      [](QDialog* dialog) {
+        QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save),
+                          Qt::LeftButton);
+      },
+      QStringLiteral("exportDialog"));
   whenModal<QFileDialog>(
       [&](QFileDialog* dialog) { chooseFile(dialog, QString::fromStdString(file.string())); });
   QTest::keyClick(&d.window(), Qt::Key_E, Qt::ControlModifier);

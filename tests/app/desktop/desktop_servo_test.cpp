@@ -20,6 +20,10 @@ void startWith(DesktopDriver& d, ui::Hand hand) {
   QCOMPARE(box->currentData().value<ui::Hand>(), hand);
   QTest::mouseClick(d.widget<QPushButton>("startStop"), Qt::LeftButton);
   QTRY_VERIFY(d.application.servo().isRunning());
+  // On a busy machine there was a dialog that showed progress, and without a window manager nobody gives
+  // the window the keys back.
+  QTRY_VERIFY(QApplication::activeModalWidget() == nullptr);
+  QApplication::setActiveWindow(&d.window());
 }
 
 /// The moving part goes where the hand is, and each minimum pushes: what the tests of springs are about.
@@ -115,7 +119,7 @@ void DesktopServoTest::rateCountsTheTicksOfTheServosOwnTime() {
             before = newest;
           });
   startWith(d, ui::Hand::Manual);
-  QTRY_VERIFY_WITH_TIMEOUT(measured >= 3, 10'000);
+  QTRY_VERIFY(measured >= 3);
 }
 
 void DesktopServoTest::manualHandFollowsKeysAndNumbers() {
@@ -132,6 +136,19 @@ void DesktopServoTest::manualHandFollowsKeysAndNumbers() {
   QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 3.00 mm"));
   d.type<QDoubleSpinBox>("positionZ", "1");
   QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 6.00 mm"));
+  // Up by a drag with Shift: in the view from the front that is along z, and along no other axis.
+  QTest::keyClick(&view, Qt::Key_1);
+  QTest::mousePress(&view, Qt::LeftButton, Qt::ShiftModifier, {200, 200});
+  for (int y = 199; y >= 190; --y) {
+    QMouseEvent move(QEvent::MouseMove, QPointF(200, y), Qt::NoButton, Qt::LeftButton, Qt::ShiftModifier);
+    QApplication::sendEvent(&view, &move);
+  }
+  QTest::mouseRelease(&view, Qt::LeftButton, Qt::ShiftModifier, {200, 190});
+  QTRY_VERIFY(d.widget<QDoubleSpinBox>("positionZ")->value() > 1.0);
+  QCOMPARE(d.widget<QDoubleSpinBox>("positionX")->value(), 0.0);
+  QCOMPARE(d.widget<QDoubleSpinBox>("positionY")->value(), 0.0);
+  d.type<QDoubleSpinBox>("positionZ", "1");
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 6.00 mm"));
   // Until it is put down, the scene has the part where it was.
   QCOMPARE(d.part("moving").worldFromPart.translation.z, 0.0);
   QTest::mouseClick(d.widget<QPushButton>("startStop"), Qt::LeftButton);
@@ -146,7 +163,7 @@ void DesktopServoTest::scriptedHandClosesThreeQuartersOfTheGapOfSprings() {
   connect(&d.application.servo(), &desktop::ServoController::snapshotArrived, this,
           [&](const ServoSnapshot& snapshot) { least = std::min(least, snapshot.distance); });
   startWith(d, ui::Hand::Scripted);
-  QTRY_VERIFY_WITH_TIMEOUT(least < 0.0014, 8000);
+  QTRY_VERIFY(least < 0.0014);
   QTest::qWait(500);
   QVERIFY2(least > 0.0008, "the wobble must not reach contact");
 }
@@ -159,7 +176,7 @@ void DesktopServoTest::stoppingIsOneStepOfUndo() {
   d.type<QDoubleSpinBox>("positionX", "3");
   d.type<QDoubleSpinBox>("positionX", "4");
   QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
-  QTest::qWait(50);
+  QTRY_VERIFY(d.isFeltAtX(0.004));
   QTest::keyClick(&d.window(), Qt::Key_F6);
   QCOMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Feel moving"));
   QVERIFY(std::abs(d.part("moving").worldFromPart.translation.x - 0.004) < 1e-12);
@@ -221,10 +238,7 @@ void DesktopServoTest::restingServoDrawsNothing() {
   d.addCubes();
   startWith(d, ui::Hand::Manual);
   QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
-  QTest::qWait(300);
-  const int before = d.window().viewport().pictureCount();
-  QTest::qWait(1000);
-  QCOMPARE(d.window().viewport().pictureCount(), before);
+  QVERIFY(d.comesToRest());
 }
 
 NEARFIT_DESKTOP_TEST_MAIN(DesktopServoTest)

@@ -85,6 +85,36 @@ TEST(PeriodMeter, NoTickChangesItByMoreThanTheStatedStep) {
   }
 }
 
+TEST(PeriodMeter, HeldPeriodIsSteadyWhereTheEstimateWanders) {
+  // A hand that leant on a wall was kept moving by a servo that lost one tick in twenty: each late tick made
+  // the wall a twentieth softer, and the hundred after it stiffer again.
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<> jitter(0.7, 1.3), lost(0.0, 1.0);
+  PeriodMeter meter(1e-3);
+  double least = 1.0, most = 0.0, leastHeld = 1.0, mostHeld = 0.0;
+  for (int i = 0; i < 20'000; ++i) {
+    meter.add(10e-3 * (jitter(engine) + (lost(engine) < 0.05 ? 1.0 : 0.0)));
+    ASSERT_GE(meter.heldPeriod(), meter.period());
+    ASSERT_LE(meter.heldPeriod(), (1.0 + PeriodMeter::kPlay) * meter.period());
+    if (i < 10'000) continue;
+    least = std::min(least, meter.period());
+    most = std::max(most, meter.period());
+    leastHeld = std::min(leastHeld, meter.heldPeriod());
+    mostHeld = std::max(mostHeld, meter.heldPeriod());
+  }
+  EXPECT_GT(most / least, 1.0 + PeriodMeter::kRise) << "it does wander";
+  EXPECT_LT((mostHeld / leastHeld - 1.0), 0.25 * (most / least - 1.0));
+}
+
+TEST(PeriodMeter, HeldPeriodForgetsAHiccup) {
+  PeriodMeter meter(1e-3);
+  meter.add(5e-3);
+  EXPECT_DOUBLE_EQ(meter.heldPeriod(), 1.05e-3);
+  for (int i = 0; i < 30'000; ++i)
+    meter.add(1e-3);
+  EXPECT_EQ(meter.heldPeriod(), 1e-3);
+}
+
 TEST(PeriodMeter, SenselessTimesAreLeftOut) {
   PeriodMeter meter(1e-3);
   for (const double bad :

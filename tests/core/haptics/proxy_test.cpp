@@ -11,6 +11,7 @@
 #include "core/math/rotation_vector.h"
 #include "tests/exact/pose_certifier.h"
 #include "tests/support/allocation_hook.h"
+#include "tests/support/degenerate_meshes.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/proxy_walk.h"
@@ -86,6 +87,33 @@ TEST(Proxy, TiltedCubePressedDownComesToLieFlat) {
   walk.hold(at({0.0, 0.0, 0.0}), 60);
   EXPECT_NEAR(lowestCorner(walk), kMargin, kSag);
   EXPECT_LT(glm::length(rotationVector(walk.pose().rotation)), 1e-4);
+}
+
+TEST(Proxy, NeverGainsEnergyOfTheCouplingThatPullsIt) {
+  // With turns ten times as stiff as the metric has them, a proxy that was nearest in the metric gave way by
+  // a turn to gain a little of a shift, and so stored a hundred times the energy that it took.
+  for (const double scale : {0.1, 1.0, 10.0}) {
+    ProxyWalk walk = cubeOverFloor(0.02);
+    const glm::dvec3 gyration = scale * walk.scene().metric.gyration;
+    const RigidTransform hand{glm::angleAxis(0.5, glm::normalize(glm::dvec3(1, 2, 0))), {0.05, 0.0, 0.06}};
+    const auto energy = [&] {
+      const glm::dvec3 shift = walk.pose().translation - hand.translation;
+      // A cube's are all the same.
+      const glm::dvec3 turn =
+          gyration.x * rotationVector(walk.pose().rotation * glm::conjugate(hand.rotation));
+      return glm::dot(shift, shift) + glm::dot(turn, turn);
+    };
+    walk.hold(at({0.0, 0.0, 0.12}), 3);
+    double before = energy();
+    const double first = before;
+    for (int i = 0; i < 100; ++i) {
+      walk.proxy().follow(walk.tracked(), hand, walk.settings(), scale);
+      ASSERT_LE(energy(), before * (1.0 + 1e-9)) << scale << ", tick " << i;
+      before = energy();
+    }
+    EXPECT_LT(before, first);
+    EXPECT_FALSE(walk.proxy().contacts().empty()) << scale;
+  }
 }
 
 TEST(Proxy, PressedOffItsCentreOfMassItBalancesTheHandsTurnAgainstIt) {
@@ -238,6 +266,24 @@ TEST(Proxy, AnOpenSheetIsPassedFromNeitherSide) {
       walk.lead(at({0.002 * i, 0.001 * i, -side * 0.3}));
     EXPECT_NEAR(walk.pose().translation.x, 0.2, 0.01) << "slides along it, " << side;
     EXPECT_NEAR(side * walk.pose().translation.z, 0.1 + kMargin, kSag) << side;
+  }
+}
+
+TEST(Proxy, ALobeThatCameOutInsideOutIsPassedFromNeitherSide) {
+  // A closed mesh that passes through itself went for solid since its volume is positive; but no face of the
+  // lobe that is inside out looks outwards, no minimum was found there, and the part went through. The lobe's
+  // far side is the plane x = -1/2.
+  const TriangleMesh eight = test::figureOfEightMesh(0.5), box = test::boxMesh({0.2, 0.2, 0.2});
+  for (const bool isEightInHand : {false, true}) {
+    const TriangleMesh &fixed = isEightInHand ? box : eight, &part = isEightInHand ? eight : box;
+    const double towards = isEightInHand ? -1.0 : 1.0;
+    const test::PoseCertifier certifier(fixed, part);
+    ProxyWalk walk({{fixed, {}}}, part, at({-towards, 0.0, 0.0}), {kMargin, 0.0});
+    for (int i = 0; i <= 200; ++i) {
+      walk.lead(at({towards * (-1.0 + 0.006 * i), 0.0, 0.0}));
+      ASSERT_FALSE(certifier.doMeet(walk.pose())) << isEightInHand << ", tick " << i;
+    }
+    EXPECT_NEAR(towards * walk.pose().translation.x, -0.6 - kMargin, kSag) << isEightInHand;
   }
 }
 

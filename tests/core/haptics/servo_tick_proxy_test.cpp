@@ -51,6 +51,11 @@ class ServoTickWithProxy : public testing::Test {
     ++snapshot_->tick;
     return *snapshot_;
   }
+  const ServoSnapshot& letGo(const RigidTransform& device) {
+    tick_.run(tracked_, parameters_, {.pose = device, .isLettingGo = true}, kPeriod, *snapshot_);
+    ++snapshot_->tick;
+    return *snapshot_;
+  }
   const ServoSnapshot& hold(const RigidTransform& device, int ticks) {
     for (int i = 0; i < ticks; ++i)
       tick(device);
@@ -74,6 +79,23 @@ TEST_F(ServoTickWithProxy, FreeMotionAndRestAreFeltAsExactlyNothing) {
     ASSERT_EQ(s.wrench.force, glm::dvec3(0.0)) << i;
     ASSERT_EQ(s.wrench.torque, glm::dvec3(0.0)) << i;
   }
+}
+
+TEST_F(ServoTickWithProxy, LettingGoTakesTheHandleToThePartAndLeadsItOnFromThere) {
+  parameters_.haptics.coupling = {.isAutomatic = false, .stiffness = 500.0};
+  tick(at({0.0, 0.0, 0.2}));
+  // What rests is a hundredth of the margin within it.
+  const double slack = 0.02 * kMargin;
+  // Its bottom is 8 mm in the floor, where the part does not follow.
+  const double rest = hold(at({0.0, 0.0, 0.092}), 300).proxy.translation.z;
+  ASSERT_NEAR(rest, 0.1 + kMargin, slack);
+  ASSERT_GT(snapshot_->unclampedWrench.force.z, 500.0 * 8e-3);
+  const ServoSnapshot& free = letGo(at({0.0, 0.0, 0.092}));
+  EXPECT_NEAR(free.handle.translation.z, rest, slack);
+  EXPECT_NEAR(free.proxy.translation.z, rest, slack);
+  EXPECT_LT(glm::length(free.unclampedWrench.force), 500.0 * slack) << "not even damping of the way back";
+  // Up by 2 mm from there, at once: not by what it had pressed before.
+  EXPECT_NEAR(hold(at({0.0, 0.0, 0.094}), 300).proxy.translation.z, rest + 2e-3, slack);
 }
 
 TEST_F(ServoTickWithProxy, ThePressedHandIsPushedBackByTheCouplingsStiffness) {
@@ -207,6 +229,45 @@ TEST_F(ServoTickWithProxy, AFaultSilencesAndHoldsThePartUntilReset) {
   EXPECT_NE(std::string(faultReason(s.fault)), "");
   tick_.reset();
   EXPECT_EQ(hold(at({0.0, 0.0, 0.3}), 3).fault, ServoFault::None);
+}
+
+TEST_F(ServoTickWithProxy, WhatIsFeltIsThereBeforeWhatIsShownAndDoesNotChangeByIt) {
+  hold(at({0.0, 0.0, 0.095}), 400);
+  tick_.feel(tracked_, parameters_, {.pose = at({0.0, 0.0, 0.094})}, kPeriod, *snapshot_);
+  const ServoSnapshot felt = *snapshot_;
+  EXPECT_GT(felt.deviceWrench.force.z, 1.0);
+  EXPECT_EQ(felt.lmdCount, 0U) << "nobody has looked for minima yet";
+  EXPECT_EQ(felt.contactCount, 0U);
+
+  tick_.show(tracked_, parameters_, *snapshot_);
+  EXPECT_EQ(snapshot_->deviceWrench.force, felt.deviceWrench.force);
+  EXPECT_EQ(snapshot_->deviceWrench.torque, felt.deviceWrench.torque);
+  EXPECT_EQ(snapshot_->proxy.translation, felt.proxy.translation);
+  EXPECT_EQ(snapshot_->lmdCount, 1U);
+  EXPECT_NEAR(snapshot_->distance, snapshot_->proxy.translation.z - 0.1, 1e-9)
+      << "the cube's gap to the floor";
+  EXPECT_GT(snapshot_->contactCount, 0U);
+}
+
+TEST_F(ServoTickWithProxy, TicksThatNobodyIsShownAreFeltAllTheSame) {
+  hold(at({0.0, 0.0, 0.095}), 400);
+  const glm::dvec3 force = snapshot_->wrench.force;
+  for (int i = 0; i < 20; ++i)
+    tick_.feel(tracked_, parameters_, {.pose = at({0.0, 0.0, 0.095})}, kPeriod, *snapshot_);
+  EXPECT_NEAR(snapshot_->wrench.force.z, force.z, 1e-6 * force.z);
+  EXPECT_EQ(snapshot_->fault, ServoFault::None);
+}
+
+TEST_F(ServoTickWithProxy, ABadPoseOfAnotherBodyIsAFaultBeforeAnythingIsFelt) {
+  hold(at({0.0, 0.0, 0.095}), 400);
+  const RigidTransform before = snapshot_->proxy;
+  auto broken = std::make_shared<ServoScene>(*scene_);
+  broken->bodies[0].worldFromPart.translation.z = std::numeric_limits<double>::quiet_NaN();
+  tracked_.scene = broken;
+  tick_.feel(tracked_, parameters_, {.pose = at({0.0, 0.0, 0.09})}, kPeriod, *snapshot_);
+  EXPECT_EQ(snapshot_->fault, ServoFault::PoseNotFinite);
+  EXPECT_EQ(snapshot_->deviceWrench.force, glm::dvec3(0.0));
+  EXPECT_EQ(snapshot_->proxy.translation, before.translation);
 }
 
 TEST_F(ServoTickWithProxy, SenselessSettingsAreAFault) {

@@ -142,15 +142,36 @@ TEST(WrenchConditioner, FullForceTakesTheTimeOfTheSlewLimit) {
 
 TEST(WrenchConditioner, StaleInputFadesToNothing) {
   WrenchConditioner conditioner = sending(kWanted, fastDevice());
-  const double fresh = WrenchConditioner::kFreshTime, fade = WrenchConditioner::kFadeTime;
   const auto forceAt = [&](double age) {
     return glm::length(conditioner.condition(kWanted, age, kPeriod, fastDevice()).wrench.force);
   };
-  EXPECT_NEAR(forceAt(fresh), 5.0, 1e-12);
-  EXPECT_NEAR(forceAt(fresh + 0.5 * fade), 2.5, 1e-12);
-  EXPECT_NEAR(forceAt(fresh + fade), 0.0, 1e-12);
+  // Held for 5 ms, then down along a line that ends at 20 ms.
+  EXPECT_NEAR(forceAt(0.005), 5.0, 1e-12);
+  EXPECT_NEAR(forceAt(0.008), 4.0, 1e-12);
+  EXPECT_NEAR(forceAt(0.0125), 2.5, 1e-12);
+  EXPECT_NEAR(forceAt(0.0199999), 0.0, 1e-4);
+  EXPECT_EQ(forceAt(0.020), 0.0);
   EXPECT_EQ(forceAt(1e9), 0.0);
   EXPECT_EQ(forceAt(kInfinity), 0.0);
+}
+
+TEST(WrenchConditioner, AHandThatIsSlowByItsNatureIsWaitedFor) {
+  WrenchConditioner conditioner = sending(kWanted, fastDevice());
+  const auto forceAt = [&](double age, const PosePatience& patience) {
+    return glm::length(conditioner.condition(kWanted, age, kPeriod, fastDevice(), patience).wrench.force);
+  };
+  const PosePatience slow{0.020, 0.040};
+  EXPECT_NEAR(forceAt(0.020, slow), 5.0, 1e-12);
+  EXPECT_NEAR(forceAt(0.030, slow), 2.5, 1e-12);
+  EXPECT_EQ(forceAt(0.040, slow), 0.0);
+}
+
+TEST(WrenchConditioner, PatienceThatIsNoNumberIsNone) {
+  for (const PosePatience& patience : {PosePatience{kNan, 0.02}, {0.005, kNan}, {0.005, 0.001}}) {
+    WrenchConditioner conditioner = sending(kWanted, fastDevice());
+    EXPECT_EQ(conditioner.condition(kWanted, 0.004, kPeriod, fastDevice(), patience).wrench.force,
+              glm::dvec3(0.0));
+  }
 }
 
 TEST(WrenchConditioner, RecoversFromStaleInputByARamp) {

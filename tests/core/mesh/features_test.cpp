@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
 
 namespace nearfit {
@@ -116,6 +117,18 @@ TEST(Features, DroppedVerticesOfARandomMeshHaveNoOutwardPolarDirection) {
       }
     }
   }
+}
+
+TEST(Features, ApexWhoseFacesCrossIsKeptWhereItsPseudonormalLooksOut) {
+  // Angles times unit normals, along z: 0.33 of the far face, -1.30 of either that crosses, -0.87 of the near
+  // one; though in the plane below it the far lobe is the larger.
+  constexpr std::uint32_t kApex = 4;
+  const auto isKept = [](const TriangleMesh& mesh) {
+    const MeshFeatures f = findFeatures(mesh);
+    return std::ranges::any_of(f.vertices, [](const VertexFeature& v) { return v.vertex == kApex; });
+  };
+  EXPECT_FALSE(isKept(test::crossedApexMesh()));
+  EXPECT_TRUE(isKept(test::turned(test::crossedApexMesh())));
 }
 
 TEST(Features, NonManifoldEdgeKeepsTheArcThatAllItsFacesAllow) {

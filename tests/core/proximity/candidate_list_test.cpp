@@ -1,5 +1,6 @@
 #include "core/proximity/candidate_list.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -182,6 +183,58 @@ TEST(MotionBetween, BoundsTheMotionOfEveryPointWithinTheRadius) {
       const double angle = std::acos(std::clamp(glm::dot(a.rotation * d, b.rotation * d), -1.0, 1.0));
       EXPECT_LE(angle, motion.turn + 1e-7);
     }
+  }
+}
+
+/// What a truncated set says of itself is true: every minimum nearer than `completeTo` is there.
+void expectHonest(const LmdResult& result, const std::vector<Lmd>& some, const std::vector<Lmd>& all) {
+  EXPECT_EQ(result.status == QueryStatus::Complete, result.completeTo == kCutoff);
+  for (const Lmd& minimum : all) {
+    if (minimum.distance >= result.completeTo) break;
+    EXPECT_TRUE(std::any_of(some.begin(), some.end(),
+                            [&](const Lmd& lmd) { return lmd.partPoint == minimum.partPoint; }));
+  }
+  if (result.completeTo > 0.0 && !all.empty()) {
+    EXPECT_EQ(some.front().distance, all.front().distance);
+  }
+}
+
+TEST(CandidateList, WithLittleWorkKeepsTheNearestAndSaysHowFarItIsComplete) {
+  Stars stars;
+  CandidateList list;
+  const RigidTransform pose{{1, 0, 0, 0}, {1.5, 0.1, 0.0}};
+  list.build({stars.scene, stars.part, pose, kCutoff}, {{}, kBudget}, stars.scratch, kNoBounds);
+  const std::vector<Lmd> all = stars.cold(pose);
+  ASSERT_GT(all.size(), 3U);
+  std::vector<Lmd> out(4096);
+  bool wasTruncated = false, wasCompleteToTheNearest = false;
+  for (std::uint64_t work = 1; work < 1U << 16; work += 1 + work / 8) {
+    const LmdResult result = list.query(pose, kCutoff, stars.scratch, out, work).value();
+    EXPECT_LE(result.nodePairs + result.leafPairs, work);
+    expectHonest(result, {out.begin(), out.begin() + static_cast<std::ptrdiff_t>(result.count)}, all);
+    wasTruncated = wasTruncated || result.completeTo == 0.0;
+    wasCompleteToTheNearest = wasCompleteToTheNearest || result.completeTo == all.front().distance;
+  }
+  EXPECT_TRUE(wasTruncated);
+  EXPECT_TRUE(wasCompleteToTheNearest);
+  expectSame(stars.listed(list, pose), all);
+}
+
+TEST(CandidateList, WithLittleRoomKeepsTheNearestAsAQueryDoes) {
+  Stars stars;
+  CandidateList list;
+  const RigidTransform pose{{1, 0, 0, 0}, {1.5, 0.1, 0.0}};
+  list.build({stars.scene, stars.part, pose, kCutoff}, {{}, kBudget}, stars.scratch, kNoBounds);
+  const std::vector<Lmd> all = stars.cold(pose);
+  std::vector<Lmd> out(4096);
+  for (const std::size_t room : {0UL, 1UL, 2UL, 3UL, 5UL, 100000UL}) {
+    stars.scratch.holdAtMost(room);
+    const LmdResult listed = list.query(pose, kCutoff, stars.scratch, out).value();
+    EXPECT_LE(listed.pieces, std::max<std::size_t>(room, 1));
+    expectHonest(listed, {out.begin(), out.begin() + static_cast<std::ptrdiff_t>(listed.count)}, all);
+    const LmdResult cold = findLmds(stars.scene, stars.part, pose, kCutoff, stars.scratch, out);
+    EXPECT_LE(cold.pieces, std::max<std::size_t>(room, 1));
+    expectHonest(cold, {out.begin(), out.begin() + static_cast<std::ptrdiff_t>(cold.count)}, all);
   }
 }
 

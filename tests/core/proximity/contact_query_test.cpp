@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -26,6 +27,17 @@ constexpr double kReach = 0.1;
 constexpr double kTurn = 0.03;
 constexpr std::uint64_t kNoBound = std::numeric_limits<std::uint64_t>::max();
 
+/// From a search anew; complete to nothing where that took too much work.
+ContactResult findContacts(const BodyPairQuery& query, LmdScratch& scratch, std::span<ContactPair> out,
+                           double turn = kTurn, std::uint64_t maxNodePairs = kNoBound) {
+  static std::vector<LeafPair> pairs(1U << 18);
+  const ContactReach reach{kReach, turn};
+  const NearbyPairs nearby = findNearbyPairs(query, reach, {}, scratch, pairs, maxNodePairs);
+  ContactResult result = testContacts(query, reach, std::span(pairs).first(nearby.count), out);
+  if (!nearby.isComplete) result.completeTo = 0.0;
+  return result;
+}
+
 class Bodies {
  public:
   explicit Bodies(BodyPair p) : pair(std::move(p)), scene(pair.scene), part(pair.part) {}
@@ -36,7 +48,7 @@ class Bodies {
 
   std::vector<ContactPair> contacts(const RigidTransform& pose, double turn = kTurn) {
     std::vector<ContactPair> out(8192);
-    last = findContacts({scene, part, pose, kReach}, {kReach, turn}, scratch, out, kNoBound);
+    last = findContacts({scene, part, pose, kReach}, scratch, out, turn);
     out.resize(last.count);
     return out;
   }
@@ -119,6 +131,41 @@ TEST(ContactQuery, LeastContactIsTheDistanceOfTheBodies) {
   EXPECT_GT(compared, 100U);
 }
 
+TEST(ContactQuery, WithoutRoomForMotionAListGivesTheContactsOfThePoseItself) {
+  Bodies bodies = stars();
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const MotionRange range{{{0.01, 0.005, 0.0}, {0.0, 0.01, 0.0}}, {0.03, 0.03}};
+  CandidateList list;
+  std::vector<LeafPair> pairs(1U << 18);
+  std::vector<ContactPair> fromList(8192), cold(8192);
+  std::size_t contacts = 0;
+  std::uint64_t work = 0, whole = 0;
+  for (int i = 0; i < 40; ++i) {
+    const RigidTransform middle = test::poseNearContact(bodies.pair, kReach, random);
+    list.build({bodies.scene, bodies.part, middle, kReach}, range, bodies.scratch, {1U << 20, 1U << 30},
+               kTurn);
+    const RigidTransform pose{
+        middle.rotation, middle.translation + 0.015 * glm::dvec3(unit(random), unit(random), unit(random))};
+    const BodyPairQuery query{bodies.scene, bodies.part, pose, kReach};
+    const auto nearby = list.nearbyPairs(pose, {kReach, kTurn}, {}, bodies.scratch, pairs);
+    ASSERT_TRUE(nearby && nearby->isComplete);
+    work += nearby->work;
+    whole += list.size() / NormalConeTree::kWidth;
+    const ContactResult listed =
+        testContacts(query, {kReach, kTurn}, std::span(pairs).first(nearby->count), fromList);
+    const NearbyPairs all = findNearbyPairs(query, {kReach, kTurn}, {}, bodies.scratch, pairs, kNoBound);
+    const ContactResult searched =
+        testContacts(query, {kReach, kTurn}, std::span(pairs).first(all.count), cold);
+    EXPECT_EQ(listed.count, searched.count);
+    EXPECT_EQ(listed.least, searched.least);
+    contacts += searched.count;
+  }
+  EXPECT_GT(contacts, 100U);
+  // Those that matter far from the middle alone are not gone through.
+  EXPECT_LT(work, whole);
+}
+
 TEST(ContactQuery, NearbyPairsHoldTheContactsOfEveryPoseThatTheyAreSaidToHoldFor) {
   Bodies bodies = stars();
   std::mt19937_64 random(7);
@@ -181,8 +228,7 @@ TEST(ContactQuery, FullStorageKeepsTheNearestAndSaysHowFarItIsComplete) {
   const std::vector<ContactPair> all = sorted(bodies.contacts(pose));
   ASSERT_GT(all.size(), 20U);
   std::vector<ContactPair> few(10);
-  const ContactResult result =
-      findContacts({bodies.scene, bodies.part, pose, kReach}, {kReach, kTurn}, bodies.scratch, few, kNoBound);
+  const ContactResult result = findContacts({bodies.scene, bodies.part, pose, kReach}, bodies.scratch, few);
   EXPECT_EQ(result.count, few.size());
   EXPECT_EQ(result.least, all.front().distance);
   const std::vector<ContactPair> kept = sorted(few);
@@ -197,7 +243,7 @@ TEST(ContactQuery, TooMuchWorkIsSaidAndBoundsTheDistanceByNothing) {
   const RigidTransform pose = test::poseNearContact(bodies.pair, kReach, random);
   std::vector<ContactPair> out(64);
   const ContactResult result =
-      findContacts({bodies.scene, bodies.part, pose, kReach}, {kReach, kTurn}, bodies.scratch, out, 2);
+      findContacts({bodies.scene, bodies.part, pose, kReach}, bodies.scratch, out, kTurn, 2);
   EXPECT_EQ(result.completeTo, 0.0);
   EXPECT_EQ(result.distanceBound(), 0.0);
 }
@@ -210,9 +256,10 @@ TEST(ContactQuery, AllocatesNothing) {
   list.build({bodies.scene, bodies.part, pose, kReach}, {{}, {0.01, 0.01}}, bodies.scratch, {}, kTurn);
   std::vector<ContactPair> out(4096);
   std::vector<LeafPair> pairs(1U << 18);
+  findContacts({bodies.scene, bodies.part, pose, kReach}, bodies.scratch, out);  // Makes what it keeps.
   test::resetAllocationCount();
   test::startCountingAllocations();
-  findContacts({bodies.scene, bodies.part, pose, kReach}, {kReach, kTurn}, bodies.scratch, out, kNoBound);
+  findContacts({bodies.scene, bodies.part, pose, kReach}, bodies.scratch, out);
   const auto nearby = list.nearbyPairs(pose, {kReach, kTurn}, {}, bodies.scratch, pairs);
   testContacts({bodies.scene, bodies.part, pose, kReach}, {kReach, kTurn}, pairs, out);
   const bool isListed = nearby.has_value();

@@ -145,6 +145,26 @@ TEST(LmdRobustness, ACutoffBeyondEverythingIsTheSameAsOneThatReachesEverything) 
   }
 }
 
+// A fuzzer's: regions that touch are said to be 2.2e-308 m apart, which was beyond cutoffs below that.
+TEST(LmdRobustness, NothingIsBeyondTheSmallestOfCutoffs) {
+  constexpr double kNormal = std::numeric_limits<double>::min();
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  const TriangleMesh square = test::transformed(test::squareMesh(1.0, 1), std::ldexp(1.0, -20));
+  const NormalConeTree tree(square);
+  LmdScratch scratch(256);
+  std::vector<Lmd> out(64);
+  std::size_t found = 0;
+  for (const double cutoff : {kLeast, 0.5 * kNormal, kNormal, 1e-300, 1e-150}) {
+    for (const double height : {0.0, kLeast, kNormal}) {
+      const LmdResult result = findLmds(tree, tree, at({0.0, 0.0, height}), cutoff, scratch, out);
+      for (std::size_t i = 0; i < result.count; ++i)
+        EXPECT_TRUE(out[i].distance > 0.0 && out[i].distance <= cutoff) << out[i].distance << ", " << cutoff;
+      found += result.count;
+    }
+  }
+  EXPECT_GT(found, 0U);
+}
+
 TEST(LmdRobustness, ArgumentsThatAreNoNumbersGiveNothing) {
   const NormalConeTree box(test::boxMesh({1, 1, 1}));
   LmdScratch scratch;

@@ -12,6 +12,7 @@
 #include "core/proximity/normal_cone_tree.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/part_geometries.h"
 
 namespace nearfit {
 namespace {
@@ -195,6 +196,71 @@ TEST(FindNearestLmds, KeepsWhatIsNearestWhenItMayNotDoAllTheWork) {
   }
   EXPECT_GT(truncated, 0U);
   EXPECT_GT(certain, 0U);
+}
+
+// Where threads lie in each other, attempts at lists that were too long took longer than the list that
+// served.
+TEST(BuildForPlan, WhatWasTooMuchOfLateIsNotTriedAgainAtOnce) {
+  const TriangleMesh mesh = test::icosphereMesh(0.5, 2);
+  const PartGeometryPtr ball = test::geometryOf(mesh);
+  const RigidTransform pose{{1, 0, 0, 0}, {1.02, 0.0, 0.0}};
+  MotionForecast forecast(mesh.bounds().centre(), 0.5 * mesh.bounds().diagonal());
+  forecast.observe(pose, 1.0);
+  const TrackedPair pair{ball->tree(), ball->tree(), {}};
+  LmdScratch scratch;
+  CandidateList list;
+  ListPurpose purpose{.cutoff = 0.1, .planCutoff = 0.1, .whole = {0, 0}, .part = {0, 0}, .least = {0, 0}};
+  PlanMemory memory;
+  EXPECT_FALSE(buildForPlan(list, pair, forecast, purpose, scratch, memory));
+  // There is one to be had now, of which a later attempt tells.
+  purpose.whole = purpose.part = purpose.least = {1U << 20, 1U << 30};
+  int attempts = 1;
+  while (!buildForPlan(list, pair, forecast, purpose, scratch, memory)) {
+    ASSERT_LT(attempts, 100);
+    ++attempts;
+  }
+  EXPECT_GT(attempts, 4);
+  EXPECT_TRUE(list.isUsable());
+  // Lists far below the bounds lead back to the whole plan, one after the other.
+  for (int i = 0; i < 4; ++i)
+    EXPECT_TRUE(buildForPlan(list, pair, forecast, purpose, scratch, memory));
+  EXPECT_EQ(memory.level, 0U);
+}
+
+// A list for half of the time held half of the way, with as much room aside as was foretold: what was pulled
+// along at its hand's pace was past its end at once.
+TEST(BuildForPlan, ListsOfLessKeepTheWayAndLeaveRoomAside) {
+  const TriangleMesh mesh = test::icosphereMesh(0.5, 2);
+  const PartGeometryPtr ball = test::geometryOf(mesh);
+  MotionForecast forecast(mesh.bounds().centre(), 0.5 * mesh.bounds().diagonal());
+  const auto along = [](int ticks, double aside = 0.0) {
+    return RigidTransform{{1, 0, 0, 0}, {1.02, 0.01 * ticks, aside}};
+  };
+  constexpr int kSeen = 40;
+  for (int tick = 0; tick <= kSeen; ++tick)
+    forecast.observe(along(tick), 1.0);
+  const TrackedPair pair{ball->tree(), ball->tree(), {}};
+  const CandidateList::Bounds none{0, 0}, many{1U << 20, 1U << 30};
+  ListPurpose purpose{.cutoff = 0.1, .planCutoff = 0.1, .leastRoom = {0.01, 0.01}, .whole = many};
+  LmdScratch scratch;
+  CandidateList whole, less;
+  PlanMemory first, second;
+  ASSERT_TRUE(buildForPlan(whole, pair, forecast, purpose, scratch, first));
+  purpose.whole = none;
+  purpose.part = purpose.least = many;
+  ASSERT_TRUE(buildForPlan(less, pair, forecast, purpose, scratch, second));
+  ASSERT_GT(second.level, 0U);
+  // The way, and past its end, and beside it.
+  const glm::dvec3 way = forecast.plan(purpose.planCutoff).range.stretch.shift;
+  const int end = kSeen + static_cast<int>(2.0 * glm::length(way) / 0.01);
+  ASSERT_GE(end - kSeen, 4);
+  for (int tick = kSeen; tick < end; ++tick) {
+    EXPECT_LE(whole.spent(along(tick)), 1.0) << tick;
+    EXPECT_LE(less.spent(along(tick)), 1.0) << tick;
+  }
+  EXPECT_LE(whole.spent(along(kSeen + 3, 0.02)), 1.0);
+  EXPECT_GT(less.spent(along(kSeen + 3, 0.02)), 1.0);
+  EXPECT_LT(less.size(), whole.size());
 }
 
 }  // namespace

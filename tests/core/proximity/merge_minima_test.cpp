@@ -117,6 +117,40 @@ TEST(MergeMinima, JaggedBodiesHaveTheSetsOfAllPairs) {
   EXPECT_GT(entries, 100U);
 }
 
+/// A plate about the origin, top and bottom cut into many triangles that get narrower towards the middle, by
+/// a power of where they are.
+TriangleMesh finelyCutPlate(double power) {
+  const TriangleMesh plate = test::subdivided(test::boxMesh({2.0, 2.0, 1.0}), 2);
+  std::vector<glm::dvec3> vertices(plate.vertices().begin(), plate.vertices().end());
+  for (glm::dvec3& v : vertices)
+    v.x = std::copysign(std::pow(std::abs(v.x), power), v.x);
+  return {std::move(vertices), {plate.triangles().begin(), plate.triangles().end()}};
+}
+
+TEST(MergeMinima, BoxesOnFinelyCutPlatesHaveTheSetsOfAllPairs) {
+  test::RandomValues random(11);
+  const TriangleMesh coarse = finelyCutPlate(1.0), narrow = finelyCutPlate(12.0);
+  // Twice the same, and two that cover each other askew: pieces that overlap.
+  const std::vector<TriangleMesh> plates{
+      coarse, narrow, test::joined(coarse, coarse),
+      test::joined(coarse, test::transformed(narrow, 1.0, {glm::angleAxis(0.7, glm::dvec3(0, 0, 1)), {}}))};
+  const NormalConeTree box(test::subdivided(test::boxMesh({0.9, 0.7, 1.0}), 1));
+  std::size_t entries = 0;
+  for (const TriangleMesh& plate : plates) {
+    const NormalConeTree scene(plate);
+    for (std::size_t i = 0; i < 8 / test::kPoseShare; ++i) {
+      // Askew, square to the triangles' sides, tilted a little.
+      const double turn = i % 4 == 0 ? 0.0 : random.in(0.0, std::numbers::pi);
+      const double tilt = i % 2 == 0 ? 0.0 : std::pow(10.0, random.in(-10.0, -5.0));
+      const RigidTransform pose{
+          glm::angleAxis(tilt, glm::dvec3(1, 0, 0)) * glm::angleAxis(turn, glm::dvec3(0, 0, 1)),
+          {i % 4 == 0 ? 0.05 : random.in(-0.3, 0.3), random.in(-0.3, 0.3), 1.01}};
+      entries += compareWithAllPairs(scene, box, pose, 0.05);
+    }
+  }
+  EXPECT_GT(entries, 2000U / test::kPoseShare);
+}
+
 TEST(MergeMinima, OrderOfEntriesChangesNothing) {
   const NormalConeTree hole(squareHole(2)), peg(squarePeg(2));
   std::vector<Minimum> minima = test::unmergedMinima(hole, peg, at({0.001, 0.002, 0.3}), 0.05);

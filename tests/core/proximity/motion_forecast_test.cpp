@@ -70,6 +70,36 @@ TEST(MotionForecast, APartThatIsPutElsewhereIsNotForetoldToFlyOn) {
   EXPECT_LT(plan.range.budget.travel, kCutoff);
 }
 
+// A nut that waited for its lists was foretold to stand: each list held the place it stood at, and no way on.
+TEST(MotionForecast, APartThatWaitsIsForetoldToGoOnFromWhereItIsAsItsHandDoes) {
+  MotionForecast forecast(kCentre, kRadius), hand(kCentre, kRadius);
+  const glm::dvec3 step(1e-3, 0.0, 5e-4);
+  const RigidTransform stands{{1, 0, 0, 0}, {1.0, 2.0, 3.0}};
+  for (int tick = 0; tick < 40; ++tick) {
+    forecast.observe(stands, 1.0);
+    hand.observe({{1, 0, 0, 0}, static_cast<double>(tick) * step}, 1.0);
+    forecast.setLead(2.0);
+  }
+  EXPECT_GT(shareOf(forecast.plan(kCutoff), {{1, 0, 0, 0}, stands.translation + 3.0 * step}), 1.0);
+  forecast.goAs(hand);
+  for (const double ahead : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}) {
+    const RigidTransform then{{1, 0, 0, 0}, stands.translation + ahead * step};
+    EXPECT_LE(shareOf(forecast.plan(kCutoff), then), 1.0) << ahead;
+  }
+  // Seen again, it goes as it does itself.
+  forecast.observe(stands, 1.0);
+  EXPECT_EQ(forecast.pose().translation, stands.translation);
+}
+
+TEST(MotionForecast, ALeaderThatHasSeenNothingChangesNothing) {
+  MotionForecast forecast(kCentre, kRadius);
+  for (int tick = 0; tick < 40; ++tick)
+    forecast.observe({{1, 0, 0, 0}, {1e-3 * tick, 0.0, 0.0}}, 1.0);
+  const RigidTransform before = forecast.plan(kCutoff).pose;
+  forecast.goAs(MotionForecast(kCentre, kRadius));
+  EXPECT_EQ(forecast.plan(kCutoff).pose.translation, before.translation);
+}
+
 TEST(MotionForecast, APoseThatIsNoPoseIsNotTakenNoteOf) {
   MotionForecast forecast(kCentre, kRadius);
   forecast.observe({{1, 0, 0, 0}, {1.0, 0.0, 0.0}}, 1.0);

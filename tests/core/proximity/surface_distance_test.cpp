@@ -58,6 +58,14 @@ TEST(TriangleDistance, WhatIsSurelyBeyondIsBeyond) {
     const double distance = test::exactDistance(a, b);
     EXPECT_FALSE(areSurelyBeyond(a, b, distance * (1.0 + 1e-12) + 1e-14));
     distance > 0.0 && areSurelyBeyond(a, b, 0.5 * distance) ? ++beyond : ++within;
+    for (const bool isSecond : {false, true}) {
+      bool at = isSecond, again = isSecond;
+      const DirectedTriangle directedA{a, SeparatingDirections(a)}, directedB{b, SeparatingDirections(b)};
+      const double gap = gapOfTriangles(directedA, directedB, 2.0 * distance, at);
+      EXPECT_EQ(gap, gapOfTriangles(a, b, 2.0 * distance, again));
+      EXPECT_EQ(at, again);
+      EXPECT_LE(gap, distance * (1.0 + 1e-12) + 1e-14);
+    }
   }
   EXPECT_GT(beyond, within);
 }

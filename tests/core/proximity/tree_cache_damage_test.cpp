@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ class TreeCacheDamage : public testing::Test {
  protected:
   TreeCacheDamage()
       : mesh_(test::cachedMeshOf(test::starMesh(3, 1.0, 3, 0.3))),
-        tree_(mesh_.mesh),
+        tree_{NormalConeTree(mesh_.mesh), true},
         cache_({folder_.path(), std::uint64_t{1} << 40, 0}) {
     cache_.store(kKey, mesh_, &tree_);
     file_ = test::onlyFileIn(folder_.path());
@@ -77,7 +78,7 @@ class TreeCacheDamage : public testing::Test {
 
   test::TemporaryFolder folder_;
   CachedMesh mesh_;
-  NormalConeTree tree_;
+  CachedTree tree_;
   TreeCache cache_;
   fs::path file_;
   std::optional<test::CacheImage> image_;
@@ -184,11 +185,53 @@ TEST_F(TreeCacheDamage, IndicesOutOfRangeAreFoundWhateverTheChecksumsSay) {
   });
 }
 
+// Found by fuzzing: every index was in range, but a face that an edge named was none of its own. The corner
+// that is left of the face without the edge's ends, a sum, was then a vertex beyond the last.
+TEST_F(TreeCacheDamage, NeighboursThatAreNoneAreFoundWhateverTheChecksumsSay) {
+  const auto triangles = static_cast<std::uint32_t>(mesh_.mesh.triangles().size());
+  const auto edges = static_cast<std::uint32_t>(mesh_.mesh.edges().size());
+  std::mt19937_64 random(4);
+  for (const auto& [section, limit] :
+       {std::pair(Section::EdgeFaces, triangles), std::pair(Section::TriangleEdges, edges),
+        std::pair(Section::VertexEdges, edges)}) {
+    for (int i = 0; i < 20; ++i) {
+      const std::size_t at = 4 * (random() % (image_->size(section) / 4));
+      const auto old = image_->value<std::uint32_t>(section, at);
+      const auto other = static_cast<std::uint32_t>((old + 1 + random() % (limit - 1)) % limit);
+      EXPECT_EQ(takenAfter([&](auto& image) { image.set(section, at, other); }), Taken::Nothing);
+    }
+    // Two that are right, in place of each other: one of a vertex is now one of its neighbour's, or out of
+    // order.
+    const auto first = image_->value<std::uint32_t>(section, 0),
+               second = image_->value<std::uint32_t>(section, 4);
+    const auto swapTwo = [&](auto& image) {
+      image.set(section, 0, second);
+      image.set(section, 4, first);
+    };
+    EXPECT_EQ(takenAfter(swapTwo), Taken::Nothing);
+  }
+  const auto repeatEdge = [&](auto& image) {
+    MeshEdge edge = image.template value<MeshEdge>(Section::Edges, sizeof(MeshEdge));
+    const MeshEdge before = image.template value<MeshEdge>(Section::Edges, 0);
+    edge.v0 = before.v0;
+    edge.v1 = before.v1;
+    image.set(Section::Edges, sizeof(MeshEdge), edge);
+  };
+  EXPECT_EQ(takenAfter(repeatEdge), Taken::Nothing);
+}
+
 TEST_F(TreeCacheDamage, NumbersThatAreNoneAreFoundWhateverTheChecksumsSay) {
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(takenAfter([&](auto& image) { image.set(Section::Vertices, 8 * 17, nan); }), Taken::Nothing);
+  // Bounds, and mass properties, which once were taken as they were: a mass that is no number is felt as one.
+  for (const std::size_t number : {0U, 5U, 6U, 8U, 18U})
+    EXPECT_EQ(takenAfter([&](auto& image) { image.set(Section::MeshFacts, 8 * number, nan); }),
+              Taken::Nothing);
   EXPECT_EQ(takenAfter([&](auto& image) { image.set(Section::Positions, 8 * 17, infinity); }), Taken::Mesh);
   EXPECT_EQ(takenAfter([&](auto& image) { image.set(Section::TreeFacts, 24, nan); }), Taken::Mesh);
+  // Solid or not: the last number.
+  for (const std::uint64_t solid : {std::uint64_t{2}, ~std::uint64_t{0}})
+    EXPECT_EQ(takenAfter([&](auto& image) { image.set(Section::TreeFacts, 56, solid); }), Taken::Mesh);
   for (const std::size_t number : {0U, 30U, 60U, 90U, 100U, 110U}) {
     const auto change = [&](auto& image) {
       image.set(Section::Nodes, sizeof(Node) + 4 * number, std::numeric_limits<float>::quiet_NaN());
@@ -205,8 +248,8 @@ TEST_F(TreeCacheDamage, ChildrenThatMakeNoTreeAreFoundWhateverTheChecksumsSay) {
       image.set(Section::Nodes, node * sizeof(Node), changed);
     });
   };
-  const auto nodes = static_cast<std::uint32_t>(tree_.nodes().size());
-  const Node second = tree_.nodes()[1];
+  const auto nodes = static_cast<std::uint32_t>(tree_.tree.nodes().size());
+  const Node second = tree_.tree.nodes()[1];
   EXPECT_EQ(takenWithChild(1, 0, second.child[0]), Taken::Both);
   EXPECT_EQ(takenWithChild(1, 0, second.child[1]), Taken::Mesh) << "one child twice, one never";
   EXPECT_EQ(takenWithChild(1, 0, 1), Taken::Mesh) << "its own child";
@@ -221,7 +264,7 @@ TEST_F(TreeCacheDamage, ChildrenThatMakeNoTreeAreFoundWhateverTheChecksumsSay) {
 
 TEST_F(TreeCacheDamage, LaneWithoutAChildMustLieOutOfReach) {
   // The first node has one child: its other lanes have none.
-  ASSERT_EQ(tree_.nodes()[0].child[3], NormalConeTree::kNoChild);
+  ASSERT_EQ(tree_.tree.nodes()[0].child[3], NormalConeTree::kNoChild);
   const auto takenWithLane = [&](auto change) {
     return takenAfter([&](auto& image) {
       Node node = image.template value<Node>(Section::Nodes, 0);

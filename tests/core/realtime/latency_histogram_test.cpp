@@ -88,5 +88,21 @@ TEST(LatencyHistogram, ExtremesCountWithoutHarm) {
   EXPECT_EQ(h.percentile(0.5), 0.0);
 }
 
+// Bins of 32 bits were full after 49 days at 1 kHz: from then on each percentile was the maximum.
+TEST(LatencyHistogram, GoesOnCountingPast32Bits) {
+  constexpr std::uint64_t kFull = std::numeric_limits<std::uint32_t>::max();
+  LatencyHistogram h;
+  h.record(1e-3, kFull - 2);
+  for (int i = 0; i < 5; ++i)
+    h.record(1e-3);
+  h.record(1.0, kFull + 3);
+  EXPECT_EQ(h.count(), 2 * kFull + 6);
+  EXPECT_NEAR(h.percentile(0.5), 1e-3, 1e-5) << "half of them, to the last one";
+  h.record(1.0);
+  EXPECT_EQ(h.percentile(0.75), 1.0);
+  EXPECT_NEAR(h.percentile(0.49), 1e-3, 1e-5);
+  EXPECT_NEAR(h.mean(), 0.5005, 1e-6);
+}
+
 }  // namespace
 }  // namespace nearfit

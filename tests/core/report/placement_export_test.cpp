@@ -121,6 +121,7 @@ TEST_F(PlacementExport, ClearanceToEachVisiblePartIsInTheWorldFrame) {
   EXPECT_NEAR(lmd["extent"]["axis"][0].get<double>(), 0.0, 1e-12);  // Square to the world's x.
   EXPECT_NEAR(lmd["extent"]["half"][1].get<double>(), 0.5, 1e-12);
   EXPECT_EQ(lmd["blocked"], false);
+  EXPECT_EQ(lmd["marginal"], false);
   EXPECT_EQ(lmd["features"].size(), 2U);
 
   const Json& far = clearance["to"][1];

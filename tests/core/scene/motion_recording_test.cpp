@@ -44,27 +44,28 @@ MotionRow sampleRow() {
   row.contacts = 8;
   row.released = 9;
   row.proxyTime = 1.2341e-6;
-  row.isClamped = true;
+  row.lateness = 45.6781e-6;
+  row.isClamped = row.isTruncated = true;
   row.fault = ServoFault::WrenchNotFinite;
   return row;
 }
 
 TEST(MotionRecording, TheHeaderNamesTheColumnsInOrder) {
   const std::vector<std::string> expected{
-      "t_s",         "handle_tx",   "handle_ty", "handle_tz", "handle_qw", "handle_qx",
-      "handle_qy",   "handle_qz",   "proxy_tx",  "proxy_ty",  "proxy_tz",  "proxy_qw",
-      "proxy_qx",    "proxy_qy",    "proxy_qz",  "force_x",   "force_y",   "force_z",
-      "torque_x",    "torque_y",    "torque_z",  "lmds",      "distance",  "query_us",
-      "tick_us",     "late_bodies", "energy",    "sub_steps", "shortened", "refused",
-      "constraints", "contacts",    "released",  "proxy_us",  "clamped",   "fault"};
+      "t_s",       "handle_tx", "handle_ty",   "handle_tz", "handle_qw",   "handle_qx", "handle_qy",
+      "handle_qz", "proxy_tx",  "proxy_ty",    "proxy_tz",  "proxy_qw",    "proxy_qx",  "proxy_qy",
+      "proxy_qz",  "force_x",   "force_y",     "force_z",   "torque_x",    "torque_y",  "torque_z",
+      "lmds",      "distance",  "query_us",    "tick_us",   "late_bodies", "energy",    "sub_steps",
+      "shortened", "refused",   "constraints", "contacts",  "released",    "proxy_us",  "clamped",
+      "fault",     "truncated", "late_us"};
   EXPECT_EQ(split(std::string(motionHeader()), ','), expected);
 }
 
 TEST(MotionRecording, ARowHasItsValuesUnderTheirColumns) {
   const std::vector<std::string> columns = split(formatMotionRow(sampleRow()), ',');
   const std::vector<double> expected{
-      0.001, 1,  2,  3,  0.1,       0.2,    0.3, 0.4, 4,       5, 6, 0.5, 0.6, 0.7, 0.8, -1,    -2, -3,
-      -4,    -5, -6, 17, 1.0 / 3.0, 12.346, 20,  3,   -2.5e-4, 4, 5, 6,   7,   8,   9,   1.234, 1,  2};
+      0.001, 1,  2,  3,         0.1,    0.2, 0.3, 0.4,     4, 5, 6, 0.5, 0.6, 0.7, 0.8,   -1, -2, -3, -4,
+      -5,    -6, 17, 1.0 / 3.0, 12.346, 20,  3,   -2.5e-4, 4, 5, 6, 7,   8,   9,   1.234, 1,  2,  1,  45.678};
   ASSERT_EQ(columns.size(), expected.size());
   for (std::size_t i = 0; i < columns.size(); ++i)
     EXPECT_EQ(std::stod(columns[i]), expected[i]) << i;
@@ -99,7 +100,7 @@ TEST(MotionRecording, ARowIsTakenFromASnapshot) {
   snapshot->storedContacts = 1;
   snapshot->releasedCount = 16;
   snapshot->fault = ServoFault::WrenchNotFinite;
-  const MotionRow row = motionRow(*snapshot);
+  const MotionRow row = motionRow(*snapshot, 17.5);
   EXPECT_EQ(row.time, 1.5);
   EXPECT_EQ(row.handle.translation.x, 2.5);
   EXPECT_EQ(row.proxy.translation.x, 3.5);
@@ -119,6 +120,7 @@ TEST(MotionRecording, ARowIsTakenFromASnapshot) {
   EXPECT_EQ(row.constraints, 14U);
   EXPECT_EQ(row.contacts, 15U);
   EXPECT_EQ(row.released, 16U);
+  EXPECT_EQ(row.lateness, 17.5);
 }
 
 TEST(MotionWriter, TheFileAppearsWholeWhenFinished) {

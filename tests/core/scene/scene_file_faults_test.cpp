@@ -22,9 +22,9 @@ TEST_F(SceneFileFaults, MissingFileIsToldByName) {
 }
 
 TEST_F(SceneFileFaults, UnknownVersionSaysWhichOneThisProgramReads) {
-  EXPECT_THAT(errorWith("/nearfit", 3),
-              AllOf(HasSubstr("fit.nearfit: nearfit: "), HasSubstr("version 3"),
-                    HasSubstr("reads versions 1 to 2"), HasSubstr("newer Nearfit")));
+  EXPECT_THAT(errorWith("/nearfit", 4),
+              AllOf(HasSubstr("fit.nearfit: nearfit: "), HasSubstr("version 4"),
+                    HasSubstr("reads versions 1 to 3"), HasSubstr("newer Nearfit")));
   EXPECT_THAT(errorWith("/nearfit", 0), HasSubstr("with the Nearfit that made it"));
   EXPECT_THAT(errorWith("/nearfit", 1.5), HasSubstr("this is version 1.5"));
   EXPECT_THAT(errorWith("/nearfit", "1"), HasSubstr("nearfit: it is of type string"));
@@ -119,6 +119,26 @@ TEST_F(SceneFileFaults, EveryFieldIsCheckedAndNamed) {
       {"/parts/1/colour", {0, 0, 1.5}, "parts[1].colour[2]: 1.5 is out of range"},
       {"/parts/1/colour", "#ffffff", "parts[1].colour: it is of type string"},
       {"/parts/1/visible", 1, "parts[1].visible: it is of type number where true or false is wanted"},
+      {"/groups", nullptr, "groups: it is of type null where an array is wanted"},
+      {"/groups/1", 7, "groups[1]: it is of type number where an object is wanted"},
+      {"/groups/1/name", "", "groups[1].name: a group's name is empty"},
+      {"/groups/1/name", "a\nb", "groups[1].name: a group's name holds control characters"},
+      {"/groups/1/name", longName, "groups[1].name: it is longer than 200 bytes"},
+      {"/groups/1/locked", 0, "groups[1].locked: it is of type number"},
+      // Neither itself nor one behind it, so that none can hold itself.
+      {"/groups/1/group", 1, "groups[1].group: 1 is none of 1 groups; give the number of one before this"},
+      {"/groups/1/group", 2, "groups[1].group: 2 is none of 1 groups"},
+      {"/groups/1/group", -1, "groups[1].group: -1 is none of 1 groups"},
+      {"/groups/2/group", 0.5, "groups[2].group: 0.5 is none of 2 groups"},
+      {"/groups/2/group", "Spare", "groups[2].group: it is of type string"},
+      {"/parts/1/group", 3, "parts[1].group: 3 is none of 3 groups"},
+      {"/parts/1/group", 1e300, "parts[1].group: 1e+300 is none of 3 groups"},
+      {"/parts/1/group", false, "parts[1].group: it is of type boolean"},
+      {"/parts/1/opacity", 0, "parts[1].opacity: 0 is out of range; give a value from 0.05 to 1"},
+      {"/parts/1/opacity", 1.01, "parts[1].opacity: 1.01 is out of range"},
+      {"/parts/1/opacity", nullptr, "parts[1].opacity: it is of type null"},
+      {"/parts/1/wasVisible", 1, "parts[1].wasVisible: it is of type number where true or false is wanted"},
+      {"/moving", "Peg 2", "moving: this part is locked"},
       {"/parts/1/locked", "no", "parts[1].locked: it is of type string"},
   };
   for (const auto& [pointer, value, message] : faults) {
@@ -143,6 +163,9 @@ TEST_F(SceneFileFaults, EveryKeyIsNeeded) {
   for (const auto& [key, value] : json_["parts"][2].items()) {
     EXPECT_THAT(errorWithout("/parts/2", key), HasSubstr("parts[2]." + key + ": it is missing"));
   }
+  for (const auto& [key, value] : json_["groups"][2].items()) {
+    EXPECT_THAT(errorWithout("/groups/2", key), HasSubstr("groups[2]." + key + ": it is missing"));
+  }
 }
 
 TEST_F(SceneFileFaults, Version1IsCheckedAndNamedAsItSaysThings) {
@@ -162,6 +185,27 @@ TEST_F(SceneFileFaults, Version2WithTheSpringsOfVersion1SaysWhatIsMissing) {
   json_ = version1();
   json_["nearfit"] = 2;
   EXPECT_THAT(errorOf(json_.dump()), HasSubstr("haptics: it is missing"));
+}
+
+TEST_F(SceneFileFaults, WhatVersion3SaysIsIgnoredInVersion2) {
+  json_ = version2();
+  EXPECT_EQ(errorWith("/groups", "none"), "");
+  EXPECT_EQ(errorWith("/parts/0/opacity", -1), "");
+  EXPECT_EQ(errorWith("/parts/0/group", 5), "");
+}
+
+TEST_F(SceneFileFaults, GroupsTooDeepOrTooManyAreRefused) {
+  const Json group = {{"name", "g"}, {"group", nullptr}, {"locked", false}};
+  json_["groups"] = Json::array();
+  for (std::size_t i = 0; i <= kMaxGroupDepth; ++i) {
+    json_["groups"].push_back(group);
+    if (i > 0) json_["groups"][i]["group"] = i - 1;
+  }
+  EXPECT_THAT(errorOf(json_.dump()), HasSubstr("groups[32].group: groups are more than 32 deep"));
+  json_["groups"] = Json::array();
+  for (std::size_t i = 0; i <= kMaxGroups; ++i)
+    json_["groups"].push_back(group);
+  EXPECT_THAT(errorOf(json_.dump()), HasSubstr("groups: there are more than 10000 groups"));
 }
 
 TEST_F(SceneFileFaults, TooBigAFileIsRefused) {
@@ -197,8 +241,8 @@ TEST_F(SceneFileFaults, FlippedBytesGiveAnErrorOrAScene) {
 
 TEST_F(SceneFileFaults, HostileValuesInAnyPlaceGiveAnErrorOrAScene) {
   const Json flat = json_.flatten();
-  std::vector<std::string> places{
-      "", "/parts", "/parts/1", "/units", "/haptics", "/haptics/coupling", "/parts/1/position"};
+  std::vector<std::string> places{"",       "/parts",   "/parts/1",          "/groups",          "/groups/1",
+                                  "/units", "/haptics", "/haptics/coupling", "/parts/1/position"};
   for (const auto& [pointer, value] : flat.items())
     places.push_back(pointer);
   const std::vector<Json> hostile = {nullptr,

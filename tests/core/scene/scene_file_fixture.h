@@ -13,7 +13,8 @@
 
 namespace nearfit::test {
 
-/// A scene of three parts, the last two of one mesh, written to `file_`; and ways to damage what was written.
+/// A scene of three parts, the last two of one mesh, in groups of which one is locked, written to `file_`;
+/// and ways to damage what was written.
 class SceneFileFixture : public ::testing::Test {
  protected:
   SceneFileFixture() {
@@ -24,16 +25,25 @@ class SceneFileFixture : public ::testing::Test {
     part.geometry = loadPartGeometry(hole, 0.001);
     part.name = "Hole \xC3\xA4";
     part.isLocked = true;
+    part.wasVisible = false;
     scene_.add(part);
+    const GroupId spare = scene_.addGroup({{}, "Spare", {}, false});
+    const GroupId frame = scene_.addGroup({{}, "Frame \xC3\xA4", {}, false});
+    part.group = scene_.addGroup({{}, "Pegs", frame, false});
     part.geometry = loadPartGeometry(peg, 0.0254);
     part.name = "Peg";
     part.isLocked = false;
     part.colour = {0.1F, 0.2F, 0.3F};
     part.density = 7850.1;
     part.worldFromPart = {{0.5, -0.5, 0.5, 0.5}, {0.1, -1e-17, 123456.789012345}};
+    part.opacity = 0.1 + 0.2;
+    part.wasVisible = true;
     scene_.setMovingPart(scene_.add(part));
     part.isVisible = false;
+    part.wasVisible.reset();
+    part.group = spare;
     scene_.add(part);
+    scene_.replaceGroup({spare, "Spare", {}, true});
     scene_.setHaptics(unusualHaptics());
     writeSceneFile(scene_, file_);
     json_ = nlohmann::json::parse(readBytes(file_));
@@ -51,9 +61,21 @@ class SceneFileFixture : public ::testing::Test {
     return haptics;
   }
 
+  /// The scene as version 2 of the format says it.
+  nlohmann::json version2() const {
+    nlohmann::json json = json_;
+    json["nearfit"] = 2;
+    json.erase("groups");
+    for (nlohmann::json& part : json["parts"]) {
+      for (const char* key : {"opacity", "group", "wasVisible"})
+        part.erase(key);
+    }
+    return json;
+  }
+
   /// The scene as version 1 of the format says it.
   nlohmann::json version1() const {
-    nlohmann::json json = json_;
+    nlohmann::json json = version2();
     json["nearfit"] = 1;
     json["springs"] = json["haptics"]["springs"];
     json.erase("haptics");

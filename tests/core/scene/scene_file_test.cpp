@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/scene/scene_tree.h"
 #include "core/session.h"
 #include "tests/core/scene/scene_file_fixture.h"
 
@@ -13,6 +14,23 @@ namespace {
 
 using Json = nlohmann::json;
 class SceneFile : public test::SceneFileFixture {};
+
+/// Where a group stands, as the names from the top down.
+std::string pathOf(const Scene& scene, std::optional<GroupId> id) {
+  const Group* group = id ? scene.findGroup(*id) : nullptr;
+  return group == nullptr ? "" : pathOf(scene, group->parent) + "/" + group->name;
+}
+
+void expectSameGroups(const Scene& a, const Scene& b) {
+  const auto listOf = [](const Scene& scene) {
+    std::vector<std::string> list;
+    visitGroups(scene, [&](const Group& group, std::size_t depth) {
+      list.push_back(pathOf(scene, group.id) + (group.isLocked ? " locked " : " ") + std::to_string(depth));
+    });
+    return list;
+  };
+  EXPECT_EQ(listOf(a), listOf(b));
+}
 
 void expectSameScene(const Scene& a, const Scene& b) {
   ASSERT_EQ(a.parts().size(), b.parts().size());
@@ -25,12 +43,16 @@ void expectSameScene(const Scene& a, const Scene& b) {
     EXPECT_EQ(p.density, q.density);
     EXPECT_EQ(p.isVisible, q.isVisible);
     EXPECT_EQ(p.isLocked, q.isLocked);
+    EXPECT_EQ(p.opacity, q.opacity);
+    EXPECT_EQ(p.wasVisible, q.wasVisible);
+    EXPECT_EQ(pathOf(a, p.group), pathOf(b, q.group));
     EXPECT_EQ(p.geometry->file, q.geometry->file);
     EXPECT_EQ(p.geometry->sha256, q.geometry->sha256);
     EXPECT_EQ(p.geometry->metresPerUnit, q.geometry->metresPerUnit);
     EXPECT_EQ(a.movingPart() == p.id, b.movingPart() == q.id);
   }
   EXPECT_TRUE(a.haptics() == b.haptics());
+  expectSameGroups(a, b);
 }
 
 TEST_F(SceneFile, TenThousandPartsOfOneMeshHaveOneGeometry) {
@@ -66,7 +88,7 @@ TEST_F(SceneFile, SavingWhatWasReadGivesTheSameBytes) {
 }
 
 TEST_F(SceneFile, FileSaysVersionUnitsAndRelativePaths) {
-  EXPECT_EQ(json_["nearfit"], 2);
+  EXPECT_EQ(json_["nearfit"], 3);
   EXPECT_EQ(json_["units"]["length"], "m");
   EXPECT_EQ(json_["moving"], "Peg");
   EXPECT_EQ(json_["parts"][0]["mesh"], "meshes/hole.obj");
@@ -77,6 +99,74 @@ TEST_F(SceneFile, FileSaysVersionUnitsAndRelativePaths) {
   EXPECT_EQ(json_["parts"][2]["name"], "Peg 2");
   EXPECT_EQ(json_["parts"][0]["density"], 1000.0);
   EXPECT_EQ(json_["parts"][1]["density"], 7850.1);
+}
+
+TEST_F(SceneFile, FileSaysGroupsByTheirNumberAndTheLook) {
+  const Json expected = Json::parse(R"([{"name": "Spare", "group": null, "locked": true},
+                                        {"name": "Frame \u00e4", "group": null, "locked": false},
+                                        {"name": "Pegs", "group": 1, "locked": false}])");
+  EXPECT_EQ(json_["groups"], expected);
+  EXPECT_EQ(json_["parts"][0]["group"], nullptr);
+  EXPECT_EQ(json_["parts"][1]["group"], 2);
+  EXPECT_EQ(json_["parts"][2]["group"], 0);
+  EXPECT_EQ(json_["parts"][0]["opacity"], 1.0);
+  EXPECT_EQ(json_["parts"][1]["opacity"], 0.30000000000000004);
+  EXPECT_EQ(json_["parts"][0]["wasVisible"], false);
+  EXPECT_EQ(json_["parts"][1]["wasVisible"], true);
+  EXPECT_EQ(json_["parts"][2]["wasVisible"], nullptr);
+}
+
+TEST_F(SceneFile, GroupsThatWerePutIntoLaterOnesComeBack) {
+  const GroupId pegs = *scene_.parts()[1]->group;
+  const GroupId late = scene_.addGroup({{}, "Late", {}, false});
+  Group frame = *scene_.findGroup(*scene_.findGroup(pegs)->parent);
+  frame.parent = late;
+  scene_.replaceGroup(frame);
+  writeSceneFile(scene_, file_);
+  expectSameScene(readSceneFile(file_), scene_);
+}
+
+TEST_F(SceneFile, IsolationIsTakenBackExactlyAfterReading) {
+  Session session;
+  session.reset(readSceneFile(file_), file_);
+  session.endIsolation();
+  const auto& parts = session.scene().parts();
+  EXPECT_TRUE(!parts[0]->isVisible && parts[1]->isVisible && !parts[2]->isVisible);
+}
+
+TEST_F(SceneFile, Version2KeepsAllThatItSaysAndStandsAtTheTop) {
+  EXPECT_EQ(errorOf(version2().dump()), "");
+  const Scene scene = readSceneFile(file_);
+  EXPECT_TRUE(scene.groups().empty());
+  ASSERT_EQ(scene.parts().size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    Part expected = *scene_.parts()[i];
+    expected.id = scene.parts()[i]->id;
+    expected.geometry = scene.parts()[i]->geometry;
+    expected.group.reset();
+    expected.opacity = 1.0;
+    expected.wasVisible.reset();
+    EXPECT_TRUE(isSame(*scene.parts()[i], expected)) << i;
+  }
+  EXPECT_TRUE(scene.haptics() == scene_.haptics());
+  EXPECT_EQ(scene.movingPart(), scene.parts()[1]->id);
+}
+
+TEST_F(SceneFile, TenThousandPartsInTenThousandGroupsAreWrittenSoThatTheyCanBeRead) {
+  Scene scene;
+  Part part = *scene_.parts()[1];
+  part.name = std::string(100, 'x');
+  std::optional<GroupId> group;
+  for (int i = 0; i < 10'000; ++i) {
+    group = scene.addGroup({{}, std::string(100, 'g'), i % 20 == 0 ? std::nullopt : group, false});
+    part.group = group;
+    part.name = "Part " + std::to_string(i);
+    scene.add(part);
+  }
+  writeSceneFile(scene, file_);
+  const Scene read = readSceneFile(file_);
+  EXPECT_EQ(read.parts().size(), 10'000U);
+  expectSameGroups(read, scene);
 }
 
 TEST_F(SceneFile, FileSaysEverySettingOfTheFeel) {
@@ -115,7 +205,7 @@ TEST_F(SceneFile, Version1KeepsItsSpringsAndGetsTheRestOfANewScene) {
     EXPECT_EQ(part->density, 1000.0);
   EXPECT_EQ(scene.parts()[1]->worldFromPart.translation, scene_.parts()[1]->worldFromPart.translation);
   writeSceneFile(scene, file_);
-  EXPECT_EQ(Json::parse(test::readBytes(file_))["nearfit"], 2);
+  EXPECT_EQ(Json::parse(test::readBytes(file_))["nearfit"], 3);
   expectSameScene(readSceneFile(file_), scene);
 }
 

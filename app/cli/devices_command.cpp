@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/arguments.h"
+#include "app/cli/commands.h"
+#include "app/cli/device_monitor.h"
+#include "app/cli/device_options.h"
+#include "app/cli/device_test.h"
+#include "app/cli/devices_text.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/output.h"
+#include "app/cli/rate_options.h"
+#include "core/error.h"
+#include "device/usb/udev_rules.h"
+
+namespace nearfit::cli {
+namespace {
+
+constexpr const char* kFooter =
+    R"(DEVICE is a driver (openhap, spacemouse, falcon, polhem, plugin), an id (046d:c626), a place (1-4.2), a node of
+/dev or a part of the name; without it, the first that can be used.
+--test opens the device, watches its reports and poses for 2 s and then, only if you type yes or give --yes,
+arms it and pushes with at most 0.5 N for a second along each axis, while you hold the handle.
+--monitor --arm arms it once it is ready and resists motion as syrup would: 2 N s/m, at most 0.5 N, none beyond 0.6 m/s.
+Nothing is armed otherwise, and no force goes out.
+Exit code: 0 also when nothing is plugged in; 1 when the device that is meant is missing, is lost or fails the test.)";
+
+constexpr std::chrono::milliseconds kLook{100};
+/// Where the system does not tell of changes, and for those that plug-ins look after.
+constexpr int kLooksBetweenLists = 10;
+
+struct DevicesOptions {
+  bool isJson = false, printsRules = false, watches = false, hasConsent = false, isCalibrating = false,
+       isArming = false;
+  std::string monitored, tested;
+  CLI::Option *monitor = nullptr, *test = nullptr;
+  std::optional<double> seconds;
+  DeviceFiles files;
+  RateOptions rate;
+};
+
+void printRules() {
+  const std::string file = udevRulesFile();
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in || text.empty()) throw FileError(file, "it cannot be read", "install Nearfit anew");
+  print(text);
+}
+
+/// What `from` has and `other` has not.
+std::vector<DeviceListing> without(const std::vector<DeviceListing>& from,
+                                   const std::vector<DeviceListing>& other) {
+  std::vector<DeviceListing> rest;
+  std::copy_if(from.begin(), from.end(), std::back_inserter(rest), [&](const DeviceListing& each) {
+    return std::none_of(other.begin(), other.end(),
+                        [&](const DeviceListing& known) { return each.isSamePlugging(known); });
+  });
+  return rest;
+}
+
+void printChanges(const std::vector<DeviceListing>& devices, bool hasCome, bool isJson) {
+  for (const DeviceListing& each : devices)
+    print(isJson ? arrivalJson(each, hasCome) : arrivalText(each, hasCome));
+}
+
+void watch(const DevicesOptions& options) {
+  const InterruptGuard guard;
+  const UsbBus bus;
+  const PluginSearch plugins = loadPlugins(pluginFolders());
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<DeviceListing> known;
+  std::vector<std::string> problems;
+  while (!InterruptGuard::isInterrupted()) {
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+    if (options.seconds && time.count() >= *options.seconds) return;
+    const std::uint64_t changes = bus.changes();  // Before the list: what comes meanwhile is listed again.
+    std::vector<DeviceListing> devices = listDevices(bus, plugins, problems);
+    printChanges(without(known, devices), false, options.isJson);
+    printChanges(without(devices, known), true, options.isJson);
+    flushOutput();
+    known = std::move(devices);
+    for (int look = 0; look < kLooksBetweenLists && bus.changes() == changes; ++look) {
+      if (InterruptGuard::isInterrupted()) return;
+      std::this_thread::sleep_for(kLook);
+    }
+  }
+}
+
+void runDevices(const DevicesOptions& options) {
+  if (options.seconds) checkPositive("--seconds", *options.seconds);
+  if (options.seconds && !options.watches && options.monitor->empty())
+    throw UsageError("--seconds", "it is for --watch and --monitor", "leave it out");
+  if (options.hasConsent && options.test->empty())
+    throw UsageError("--yes", "it is for --test", "leave it out");
+  if (options.isArming && options.monitor->empty())
+    throw UsageError("--arm", "it is for --monitor", "leave it out");
+  if (options.rate.isGiven() && options.monitor->empty() && options.test->empty())
+    throw UsageError("options of space mice", "they are for --monitor and --test", "leave them out");
+  if (options.isCalibrating && options.monitor->empty() && options.test->empty())
+    throw UsageError("--calibrate", "it is for --monitor and --test", "leave it out");
+  if (options.printsRules) return printRules();
+  if (options.watches) return watch(options);
+  if (!options.monitor->empty()) {
+    const std::unique_ptr<HapticDevice> device = deviceMeant(options.monitored, options.files);
+    applyRateOptions(options.rate, *device);
+    return monitorDevice(*device, {options.seconds, options.isJson, options.isCalibrating, options.isArming});
+  }
+  if (!options.test->empty()) {
+    const std::unique_ptr<HapticDevice> device = deviceMeant(options.tested, options.files);
+    applyRateOptions(options.rate, *device);
+    return testDevice(*device, {options.hasConsent, options.isJson, options.isCalibrating});
+  }
+  const std::vector<DeviceListing> devices = devicesPluggedIn();
+  print(options.isJson ? devicesJson(devices) : devicesText(devices));
+}
+
+}  // namespace
+
+void addDevicesCommand(CLI::App& program) {
+  const auto options = std::make_shared<DevicesOptions>();
+  CLI::App* command = program.add_subcommand(
+      "devices", "Says which devices are plugged in and whether they can be used; shows and tests one.");
+  CLI::Option* rules =
+      command->add_flag("--udev-rules", options->printsRules, "Print the udev rules that give permission");
+  CLI::Option* watched =
+      command->add_flag("--watch", options->watches, "Tell of devices that come and go until Ctrl+C");
+  options->monitor = command->add_option("--monitor", options->monitored,
+                                         "Show pose, rate, jitter, buttons, force and state until Ctrl+C");
+  options->test = command->add_option("--test", options->tested, "Test a device, step by step");
+  for (CLI::Option* option : {options->monitor, options->test})
+    option->type_name("[DEVICE]")->expected(0, 1);
+  rules->excludes(watched)->excludes(options->monitor)->excludes(options->test);
+  watched->excludes(options->monitor)->excludes(options->test);
+  options->monitor->excludes(options->test);
+  command->add_option("--seconds", options->seconds, "End --watch or --monitor after so long")
+      ->type_name("S");
+  command->add_flag("--yes", options->hasConsent, "Agree to the forces of --test: somebody holds the handle");
+  command->add_flag("--arm", options->isArming,
+                    "With --monitor: let a weak resistance out, 0.5 N at most; hold the handle");
+  command->add_flag("--calibrate", options->isCalibrating, kCalibrateHelp);
+  command->add_flag("--json", options->isJson, "Print JSON, an object a line");
+  addDeviceFileOptions(*command, options->files);
+  addRateOptions(*command, options->rate);
+  command->footer(kFooter);
+  command->callback([options] { runDevices(*options); });
+}
+
+}  // namespace nearfit::cli

@@ -1,0 +1,85 @@
+#include "app/cli/rate_options.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "device/rate_control.h"
+
+namespace nearfit::cli {
+namespace {
+
+constexpr const char* kAxes = "--axes";
+
+void takeAxis(const std::string& word, RateSettings& settings) {
+  const bool isInverted = !word.empty() && word[0] == '-';
+  const std::string name = word.substr(isInverted ? 1 : 0);
+  const auto found = std::find(kRateAxes.begin(), kRateAxes.end(), name);
+  if (found == kRateAxes.end()) {
+    throw UsageError(kAxes, "\"" + word + "\" is no axis",
+                     "name some of x, y, z, rx, ry, rz with commas between them, a minus before those that "
+                     "are to go the other way");
+  }
+  const auto axis = static_cast<std::size_t>(found - kRateAxes.begin());
+  if (settings.isEnabled[axis]) throw UsageError(kAxes, "\"" + name + "\" is named twice", "name it once");
+  settings.isEnabled[axis] = true;
+  settings.isInverted[axis] = isInverted;
+}
+
+}  // namespace
+
+void takeAxes(const std::string& text, RateSettings& settings) {
+  settings.isEnabled = settings.isInverted = {};
+  std::istringstream words(text + ',');
+  for (std::string word; std::getline(words, word, ',');)
+    takeAxis(word, settings);
+}
+
+void addRateOptions(CLI::App& command, RateOptions& options) {
+  constexpr const char* kGroup = "Space mice";
+  const RateSettings usual;
+  const auto add = [&](const char* name, std::optional<double>& value, const std::string& text,
+                       const char* type) {
+    command.add_option(name, value, text)->type_name(type)->group(kGroup);
+  };
+  add("--dead-zone", options.deadZone,
+      fmt::format("Deflection below which nothing moves, of 1; {} without it", usual.deadZone), "SHARE");
+  add("--curve", options.exponent,
+      fmt::format("Exponent from there on: 1 is straight, more is finer near the middle; {} without it",
+                  usual.exponent),
+      "NUMBER");
+  add("--speed", options.fullSpeed,
+      fmt::format("At full deflection [m/s], before the scale; {} without it", usual.fullSpeed), "SPEED");
+  add("--turn-speed", options.fullTurn,
+      fmt::format("The same of turning [rad/s]; {} without it", usual.fullTurn), "SPEED");
+  command
+      .add_option(kAxes, options.axes,
+                  "Only these axes of x,y,z,rx,ry,rz drive, those with a minus the other way: x,y,-rz (and "
+                  "--axes=-x,y, with an equals sign, where a minus is first)")
+      ->type_name("LIST")
+      ->group(kGroup);
+}
+
+RateSettings rateSettings(const RateOptions& options) {
+  RateSettings settings;
+  settings.deadZone = options.deadZone.value_or(settings.deadZone);
+  settings.exponent = options.exponent.value_or(settings.exponent);
+  settings.fullSpeed = options.fullSpeed.value_or(settings.fullSpeed);
+  settings.fullTurn = options.fullTurn.value_or(settings.fullTurn);
+  if (options.axes) takeAxes(*options.axes, settings);
+  checkRateSettings(settings);
+  return settings;
+}
+
+void applyRateOptions(const RateOptions& options, HapticDevice& device) {
+  const RateSettings settings = rateSettings(options);
+  if (auto* driven = dynamic_cast<RateDriven*>(&device)) return driven->setRate(settings);
+  if (!options.isGiven()) return;
+  throw UsageError(device.info().name, "it is no space mouse, and options of such are given",
+                   "leave out --dead-zone, --curve, --speed, --turn-speed and --axes");
+}
+
+}  // namespace nearfit::cli

@@ -1,0 +1,118 @@
+#include "app/desktop/device_source.h"
+
+#include <QObject>
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+#include "device/device_list.h"
+
+namespace nearfit::desktop {
+namespace {
+
+/// Not the place alone: what is plugged in there later is another device.
+QString idOf(const DeviceListing& device) {
+  const QString plugging = device.plugin ? QString() : QString::fromStdString(device.usb.node());
+  return QString::fromStdString(device.driver + ' ' + device.place + ' ' + device.id) + plugging;
+}
+
+ui::DeviceChoice choiceOf(const DeviceListing& device) {
+  ui::DeviceChoice choice;
+  choice.id = idOf(device);
+  choice.name = QString::fromStdString(device.name);
+  choice.isUsable = device.isUsable();
+  choice.isMendable = !device.isUsable() && device.problem != DeviceProblem::Unsupported;
+  choice.command = QString::fromStdString(device.command);
+  const std::string note =
+      device.isUsable() ? device.needs : device.reason + (device.remedy.empty() ? "" : "; " + device.remedy);
+  if (!note.empty()) {
+    choice.note = QString::fromStdString(device.isUsable() ? "It needs " + note + "." : note + ".");
+    choice.note[0] = choice.note[0].toUpper();
+  }
+  return choice;
+}
+
+/// What went wrong with plug-ins, beside the devices.
+ui::DeviceChoice noticeOf(const std::string& problem) {
+  ui::DeviceChoice notice;
+  notice.name = QObject::tr("Plug-in");
+  notice.note = QString::fromStdString(problem + ".");
+  notice.isMendable = true;
+  return notice;
+}
+
+/// Files of the user's in ~/.config/nearfit, by their usual names.
+DeviceFiles userFiles() {
+  DeviceFiles files;
+  const char* home = std::getenv("HOME");
+  const char* config = std::getenv("XDG_CONFIG_HOME");
+  if (home == nullptr && config == nullptr) return files;
+  const std::filesystem::path folder =
+      (config != nullptr ? std::filesystem::path(config) : std::filesystem::path(home) / ".config") /
+      "nearfit";
+  std::error_code ignored;
+  const auto existing = [&](const char* name) {
+    const std::filesystem::path file = folder / name;
+    return std::filesystem::is_regular_file(file, ignored) ? file : std::filesystem::path();
+  };
+  files.falconFirmware = existing("falcon-firmware.bin");
+  files.polhemCalibration = existing("polhem-calibration.json");
+  return files;
+}
+
+class PluggedIn final : public DeviceSource {
+ public:
+  PluggedIn() : plugins_(loadPlugins(pluginFolders())) {
+    try {
+      bus_.emplace();
+    } catch (const DeviceError&) {
+      // A machine without USB has no devices; nearfit-cli devices says why.
+    }
+  }
+  bool hasChanged() override {
+    // Where nobody tells, and for what plug-ins look after, it has to be looked.
+    const bool hasToLook = !plugins_.plugins.empty() || isFirst_;
+    return bus_ ? hasToLook || !bus_->tellsOfChanges() || bus_->changes() != changes_ : hasToLook;
+  }
+  QVector<ui::DeviceChoice> list() override {
+    isFirst_ = false;
+    if (bus_) changes_ = bus_->changes();
+    std::vector<std::string> problems;
+    devices_ = bus_ ? listDevices(*bus_, plugins_, problems) : listPluginDevices(plugins_, problems);
+    QVector<ui::DeviceChoice> choices;
+    for (const DeviceListing& each : devices_)
+      choices.push_back(choiceOf(each));
+    for (const std::string& each : problems)
+      choices.push_back(noticeOf(each));
+    return choices;
+  }
+  QString find(const QString& wanted) override {
+    list();
+    return idOf(chooseDevice(devices_, wanted.toStdString()));
+  }
+  std::unique_ptr<HapticDevice> make(const QString& id) override {
+    const auto found = std::find_if(devices_.begin(), devices_.end(),
+                                    [&](const DeviceListing& each) { return idOf(each) == id; });
+    if (found == devices_.end()) {
+      throw DeviceError(DeviceProblem::Gone, id.toStdString(), "it is not plugged in any more",
+                        "plug it in again");
+    }
+    return makeDevice(*found, userFiles());
+  }
+
+ private:
+  std::optional<UsbBus> bus_;
+  PluginSearch plugins_;
+  std::vector<DeviceListing> devices_;
+  std::uint64_t changes_ = 0;
+  bool isFirst_ = true;
+};
+
+}  // namespace
+
+std::unique_ptr<DeviceSource> makeDeviceSource() {
+  return std::make_unique<PluggedIn>();
+}
+
+}  // namespace nearfit::desktop

@@ -1,0 +1,33 @@
+#include "app/desktop/servo_meter.h"
+
+namespace nearfit::desktop {
+
+void ServoMeter::restart() {
+  since_.start();
+  ticks_ = 0;
+}
+
+void ServoMeter::see(const ServoSnapshot& snapshot) {
+  if (ticks_ != 0) return;
+  ticks_ = snapshot.tick;
+  time_ = snapshot.time;
+}
+
+void ServoMeter::measure(const ServoLoop& loop, ui::ServoStatus& status) {
+  since_.restart();
+  const ServoStatistics statistics = loop.statistics();
+  // From snapshots: the statistics come in steps of many ticks, a tenth of what half a second holds.
+  const ServoSnapshot& snapshot = loop.snapshot();
+  const double seconds = snapshot.time - time_;
+  status.rate = seconds > 0.0 ? static_cast<double>(snapshot.tick - ticks_) / seconds : 0.0;
+  ticks_ = snapshot.tick;
+  time_ = snapshot.time;
+  status.ticks = statistics.ticks;
+  status.overruns = statistics.overruns;
+  status.latenessP99 = statistics.lateness.percentile(0.99);
+  status.latenessMax = statistics.lateness.max();
+  status.tickP99 = statistics.tickTime.percentile(0.99);
+  status.queryP99 = statistics.queryTime.percentile(0.99);
+}
+
+}  // namespace nearfit::desktop

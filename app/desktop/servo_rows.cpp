@@ -1,0 +1,69 @@
+#include "app/desktop/servo_rows.h"
+
+#include <utility>
+
+#include "ui/paths.h"
+
+namespace nearfit::desktop {
+
+void ServoRows::take() {
+  rows_.clear();
+  for (MotionRow row; queue_->pop(row);)
+    rows_.push_back(row);
+  if (rows_.empty()) return;
+  try {
+    if (recorder_) recorder_->write(rows_);
+  } catch (...) {
+    abandon(std::current_exception());
+  }
+  emit ticked(rows_);
+}
+
+void ServoRows::recordTo(const QString& file, bool isRunning) {
+  take();
+  finish();
+  file_ = file;
+  if (isRunning) begin();
+  tell();
+}
+
+void ServoRows::begin() {
+  // What is there is of before; a servo that begins anew goes on with the recording.
+  take();
+  if (file_.isEmpty() || recorder_) return;
+  try {
+    recorder_ = std::make_unique<MotionRecorder>(ui::toPath(file_));
+    lostBefore_ = queue_->dropped();
+  } catch (...) {
+    abandon(std::current_exception());
+  }
+}
+
+void ServoRows::finish() {
+  take();
+  if (!recorder_) return;
+  // Nothing was felt: there is nothing to keep, and a file of that name stays as it was.
+  const bool isWorthIt = recorder_->rowCount() > 0;
+  try {
+    if (isWorthIt) recorder_->finish();
+  } catch (...) {
+    return abandon(std::current_exception());
+  }
+  const std::unique_ptr<MotionRecorder> recorder = std::move(recorder_);
+  const QString file = std::exchange(file_, {});
+  tell();
+  if (isWorthIt) emit recorded(file, recorder->seconds(), queue_->dropped() - lostBefore_);
+}
+
+void ServoRows::tell() {
+  emit recordingChanged(file_, recorder_ ? recorder_->seconds() : 0.0);
+}
+
+void ServoRows::abandon(const std::exception_ptr& error) {
+  recorder_.reset();
+  file_.clear();
+  tell();
+  emit failed(error);
+}
+
+}  // namespace nearfit::desktop

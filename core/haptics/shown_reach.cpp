@@ -1,0 +1,45 @@
+#include "core/haptics/shown_reach.h"
+
+#include <algorithm>
+
+namespace nearfit {
+namespace {
+
+constexpr double kLess = 0.7, kMore = 1.1, kLeast = 1e-3;
+/// Of the usual work: with less there is room for more.
+constexpr std::uint64_t kLittle = ShownReach::kUsualWork / 3;
+/// Minima up to so many times as far as the nearest are always looked for.
+constexpr double kAboutAsNear = 1.25;
+constexpr double kNone = 2.0;
+
+}  // namespace
+
+void ShownReach::observe(std::uint64_t work, double nearest) noexcept {
+  const double least = nearest < 1.0 ? std::clamp(kAboutAsNear * nearest, kLeast, 1.0) : kLeast;
+  if (work > kUsualWork) {
+    calm_ = 0;
+    if (share_ > least) {
+      // Again where it was before, or for the first time.
+      wait_ = tooMuch_ < kNone ? std::min(2 * wait_, kLongestWait) : kFirstWait;
+      tooMuch_ = std::min(tooMuch_, share_);
+    }
+    share_ = kLess * share_;
+  } else {
+    calm_ = std::min(calm_ + 1, kLongestWait);
+    if (work < kLittle) grow();
+  }
+  share_ = std::max(share_, least);
+}
+
+void ShownReach::grow() noexcept {
+  // What was too much is not any more.
+  if (share_ >= tooMuch_) tooMuch_ = kNone;
+  const double more = std::min(1.0, kMore * share_);
+  if (more >= tooMuch_) {
+    if (calm_ < wait_) return;
+    calm_ = 0;
+  }
+  share_ = more;
+}
+
+}  // namespace nearfit

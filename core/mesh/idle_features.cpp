@@ -1,0 +1,94 @@
+#include "core/mesh/idle_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+namespace nearfit {
+namespace {
+
+/// Half the angle between the normals of two faces is rounded by less than this [rad].
+constexpr double kArcPadding = 1e-12;
+
+class IdleFeatureFinder {
+ public:
+  IdleFeatureFinder(const TriangleMesh& mesh, MeshFeatures& features)
+      : mesh_(mesh), out_(features), normals_(mesh.triangles().size(), glm::dvec3(0.0)) {
+    for (const FaceFeature& f : features.faces)
+      normals_[f.face] = f.cone.axis;
+  }
+
+  void add() {
+    std::vector<bool> isThere(mesh_.edges().size());
+    for (const EdgeFeature& f : out_.edges)
+      isThere[f.edge] = true;
+    for (std::uint32_t e = 0; e < mesh_.edges().size(); ++e) {
+      if (!isThere[e]) addEdge(e);
+    }
+    isThere.assign(mesh_.vertices().size(), false);
+    for (const VertexFeature& f : out_.vertices)
+      isThere[f.vertex] = true;
+    for (std::uint32_t v = 0; v < mesh_.vertices().size(); ++v) {
+      if (!isThere[v]) addVertex(v);
+    }
+  }
+
+ private:
+  bool hasArea(std::uint32_t face) const { return normals_[face] != glm::dvec3(0.0); }
+
+  /// Whether it has two faces with an area, oriented alike.
+  bool hasSide(std::uint32_t edge) const {
+    return mesh_.isEdgeConsistent(edge) &&
+           std::ranges::all_of(mesh_.facesOfEdge(edge), [this](std::uint32_t f) { return hasArea(f); });
+  }
+
+  std::uint32_t opposite(std::uint32_t face, const MeshEdge& edge) const {
+    const Triangle& t = mesh_.triangles()[face];
+    return *std::ranges::find_if(t, [&](std::uint32_t v) { return v != edge.v0 && v != edge.v1; });
+  }
+
+  void addEdge(std::uint32_t e) {
+    if (!hasSide(e)) return;
+    const MeshEdge& edge = mesh_.edges()[e];
+    const auto faces = mesh_.facesOfEdge(e);
+    const glm::dvec3 sum = normals_[faces[0]] + normals_[faces[1]];
+    const glm::dvec3 along = mesh_.vertices()[edge.v1] - mesh_.vertices()[edge.v0];
+    // Square to the edge, as the hierarchy wants it: of thin faces the normals are so to rounding only.
+    const glm::dvec3 axis = sum - along * (glm::dot(sum, along) / glm::dot(along, along));
+    const double length = glm::length(axis);
+    if (!(length > 0.0)) return;  // Folded back on itself: the arc has no middle.
+    const double halfAngle = 0.5 * angleBetween(normals_[faces[0]], normals_[faces[1]]);
+    out_.edges.push_back(
+        {e, {opposite(faces[0], edge), opposite(faces[1], edge)}, {axis / length, halfAngle + kArcPadding}});
+  }
+
+  void addVertex(std::uint32_t v) {
+    const auto edges = mesh_.edgesOfVertex(v);
+    if (edges.empty() || !std::ranges::all_of(edges, [this](std::uint32_t e) { return hasSide(e); })) return;
+    const auto first = static_cast<std::uint32_t>(out_.neighbours.size());
+    cones_.clear();
+    for (const std::uint32_t e : edges) {
+      const MeshEdge& edge = mesh_.edges()[e];
+      out_.neighbours.push_back(edge.v0 == v ? edge.v1 : edge.v0);
+      for (const std::uint32_t f : mesh_.facesOfEdge(e))
+        cones_.push_back({normals_[f], 0.0});
+    }
+    out_.vertices.push_back({v, first, static_cast<std::uint32_t>(edges.size()), 0, boundingCone(cones_)});
+  }
+
+  const TriangleMesh& mesh_;
+  MeshFeatures& out_;
+  std::vector<glm::dvec3> normals_;  ///< Zero for faces without area.
+  std::vector<NormalCone> cones_;
+};
+
+}  // namespace
+
+void addIdleFeatures(const TriangleMesh& mesh, MeshFeatures& features) {
+  IdleFeatureFinder(mesh, features).add();
+}
+
+}  // namespace nearfit

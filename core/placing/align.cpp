@@ -1,0 +1,87 @@
+#include "core/placing/align.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace nearfit {
+namespace {
+
+const glm::dquat kNoTurn(1.0, 0.0, 0.0, 0.0);
+
+bool hasPlane(FeatureShape shape) noexcept {
+  return shape == FeatureShape::Plane || shape == FeatureShape::Circle;
+}
+
+/// By the least angle; half a turn is about any axis square to it.
+glm::dquat turnBetween(const glm::dvec3& from, const glm::dvec3& to) {
+  // Nearer to half a turn, 1 + cos is mostly rounding.
+  constexpr double kNearlyBack = -0.9999;
+  const double cosine = glm::dot(from, to);
+  if (cosine > kNearlyBack) {
+    const glm::dvec3 axis = glm::cross(from, to);
+    return glm::normalize(glm::dquat(1.0 + cosine, axis.x, axis.y, axis.z));
+  }
+  const glm::dvec3 other = std::abs(from.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 square = glm::normalize(glm::cross(from, other));
+  // Half a turn, and the little that is left.
+  return glm::normalize(turnBetween(-from, to) * glm::dquat(0.0, square.x, square.y, square.z));
+}
+
+glm::dquat turnOf(const AlignFeature& moving, const AlignFeature& fixed, bool isFlipped) {
+  if (!canBeFlipped(moving.shape, fixed.shape)) return kNoTurn;
+  glm::dvec3 target = fixed.direction;
+  if (moving.shape == FeatureShape::Plane && fixed.shape == FeatureShape::Plane) {
+    target = -target;
+  } else if (glm::dot(moving.direction, target) < 0.0) {
+    target = -target;
+  }
+  return turnBetween(moving.direction, isFlipped ? -target : target);
+}
+
+glm::dvec3 along(const glm::dvec3& v, const glm::dvec3& direction) {
+  return glm::dot(v, direction) * direction;
+}
+
+/// @param moving  After its turn.
+glm::dvec3 shiftOf(const AlignFeature& moving, const AlignFeature& fixed, double offset) {
+  const glm::dvec3 between = fixed.point - moving.point;
+  const FeatureShape m = moving.shape, f = fixed.shape;
+  if (f == FeatureShape::Plane) {
+    // An axis that stands square to a plane may stand anywhere.
+    if (m == FeatureShape::Axis) return glm::dvec3(0.0);
+    return along(between, fixed.direction) + offset * fixed.direction;
+  }
+  if (m == FeatureShape::Plane) {
+    if (f == FeatureShape::Axis) return glm::dvec3(0.0);
+    return along(between, moving.direction) - offset * moving.direction;
+  }
+  if (f == FeatureShape::Axis) return between - along(between, fixed.direction);
+  if (m == FeatureShape::Axis) return between - along(between, moving.direction);
+  return between;
+}
+
+}  // namespace
+
+bool canBeOffset(FeatureShape moving, FeatureShape fixed) noexcept {
+  if (fixed == FeatureShape::Plane) return moving != FeatureShape::Axis;
+  return moving == FeatureShape::Plane && (hasPlane(fixed) || fixed == FeatureShape::Point);
+}
+
+bool canBeFlipped(FeatureShape moving, FeatureShape fixed) noexcept {
+  return moving != FeatureShape::Point && fixed != FeatureShape::Point;
+}
+
+RigidTransform alignMotion(const AlignFeature& moving, const AlignFeature& fixed,
+                           const AlignOptions& options) {
+  const glm::dquat turn = turnOf(moving, fixed, options.isFlipped);
+  AlignFeature turned = moving;
+  turned.direction = turn * moving.direction;
+  const double offset = canBeOffset(moving.shape, fixed.shape) ? options.offset : 0.0;
+  const glm::dvec3 shift = shiftOf(turned, fixed, offset);
+  // The feature's point stays where it is while the part turns.
+  return {turn, moving.point - turn * moving.point + shift};
+}
+
+}  // namespace nearfit

@@ -1,0 +1,160 @@
+// Cylinders among the facets of a mesh; declared in mesh_region.h.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "core/math/symmetric_eigen.h"
+#include "core/placing/mesh_region.h"
+#include "core/placing/region_growth.h"
+
+namespace nearfit {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// How far corners may be off a cylinder, as a share of its radius: at first, and once it is well known.
+constexpr double kLoose = 0.02, kTight = 2e-3;
+/// How far facets may lean [sine of the angle]: the same.
+constexpr double kLooseLean = 0.03, kTightLean = 5e-3;
+/// Corners whose angles about the axis differ by less are on one line along it [rad].
+constexpr double kSameAngle = 1e-3;
+/// Facets of a cylinder, and how much wider than the usual one any of them may be.
+constexpr std::size_t kFewestFacets = 4;
+constexpr double kWidest = 3.0;
+/// Triangles of a flat facet that are enough to tell where it is.
+constexpr std::size_t kFacetSample = 64;
+
+std::vector<glm::dvec3> cornersOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  std::vector<std::uint32_t> indices;
+  for (const std::uint32_t t : triangles)
+    indices.insert(indices.end(), mesh.triangles()[t].begin(), mesh.triangles()[t].end());
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  std::vector<glm::dvec3> corners;
+  for (const std::uint32_t v : indices)
+    corners.push_back(mesh.vertices()[v]);
+  return corners;
+}
+
+std::vector<std::uint32_t> onCylinder(const TriangleMesh& mesh, std::uint32_t first, const Circle& cylinder,
+                                      double share, double lean) {
+  const double slack = share * cylinder.radius + 1e-7 * mesh.bounds().diagonal();
+  const auto accepts = [&](std::uint32_t triangle) {
+    for (const std::uint32_t v : mesh.triangles()[triangle]) {
+      if (!(cylinder.distanceFromCylinder(mesh.vertices()[v]) <= slack)) return false;
+    }
+    const glm::dvec3 normal = triangleNormal(mesh, triangle);
+    return std::abs(glm::dot(normal, cylinder.axis)) <= lean;
+  };
+  if (!accepts(first)) return {};
+  return grownRegion(mesh, first, accepts);
+}
+
+/// Facets that are square to an axis have it as the direction in which they do not lean.
+Circle refined(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, const Circle& before) {
+  glm::dmat3 normals(0.0);
+  for (const std::uint32_t t : triangles) {
+    const Triangle& c = mesh.triangles()[t];
+    const glm::dvec3 normal = glm::cross(mesh.vertices()[c[1]] - mesh.vertices()[c[0]],
+                                         mesh.vertices()[c[2]] - mesh.vertices()[c[0]]);
+    normals += glm::outerProduct(normal, normal);
+  }
+  glm::dvec3 axis = symmetricEigen(normals).vectors[0];
+  if (glm::dot(axis, before.axis) < 0.0) axis = -axis;
+  return fitCylinder(cornersOf(mesh, triangles), axis).value_or(before);
+}
+
+/// Angles of the lines of corners about the axis, ascending [rad].
+std::vector<double> linesOf(const std::vector<glm::dvec3>& corners, const Circle& cylinder) {
+  const glm::dvec3 u = glm::normalize(
+      glm::cross(cylinder.axis, std::abs(cylinder.axis.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+  const glm::dvec3 v = glm::cross(cylinder.axis, u);
+  std::vector<double> angles;
+  for (const glm::dvec3& p : corners)
+    angles.push_back(std::atan2(glm::dot(p - cylinder.centre, v), glm::dot(p - cylinder.centre, u)));
+  std::sort(angles.begin(), angles.end());
+  angles.erase(
+      std::unique(angles.begin(), angles.end(), [](double a, double b) { return b - a < kSameAngle; }),
+      angles.end());
+  if (angles.size() > 1 && angles.front() + 2.0 * kPi - angles.back() < kSameAngle) angles.pop_back();
+  return angles;
+}
+
+/// Whether corners that lie on a circle are facets of something round, not of a flat face between two
+/// roundings, whose corners lie on a circle too.
+bool isRound(const std::vector<glm::dvec3>& corners, const Circle& cylinder) {
+  const std::vector<double> lines = linesOf(corners, cylinder);
+  if (lines.size() <= kFewestFacets) return false;
+  std::vector<double> widths;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const double next = i + 1 < lines.size() ? lines[i + 1] : lines.front() + 2.0 * kPi;
+    widths.push_back(next - lines[i]);
+  }
+  std::sort(widths.begin(), widths.end());
+  // The widest may be where the region is open.
+  const double widest = widths[widths.size() - 2];
+  return widest <= kWidest * widths[widths.size() / 2] && widest <= kSharpTurn + kSameAngle;
+}
+
+std::optional<CylinderRegion> grown(const TriangleMesh& mesh, std::uint32_t first, const Circle& guess) {
+  std::vector<std::uint32_t> triangles = onCylinder(mesh, first, guess, kLoose, kLooseLean);
+  if (triangles.size() < kFewestFacets) return std::nullopt;
+  CylinderRegion region;
+  region.cylinder = refined(mesh, triangles, guess);
+  region.triangles = onCylinder(mesh, first, region.cylinder, kLoose, kLooseLean);
+  if (region.triangles.size() < kFewestFacets) return std::nullopt;
+  region.cylinder = refined(mesh, region.triangles, region.cylinder);
+  region.triangles = onCylinder(mesh, first, region.cylinder, kTight, kTightLean);
+  const std::vector<glm::dvec3> corners = cornersOf(mesh, region.triangles);
+  if (region.triangles.size() < kFewestFacets || !isRound(corners, region.cylinder)) return std::nullopt;
+  double lowest = glm::dot(corners[0] - region.cylinder.centre, region.cylinder.axis), highest = lowest;
+  for (const glm::dvec3& p : corners) {
+    const double height = glm::dot(p - region.cylinder.centre, region.cylinder.axis);
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
+  region.cylinder.centre += 0.5 * (lowest + highest) * region.cylinder.axis;
+  return region;
+}
+
+std::vector<std::uint32_t> facetOf(const TriangleMesh& mesh, std::uint32_t triangle) {
+  std::vector<std::uint32_t> facet = planeRegion(mesh, triangle).triangles;
+  if (facet.size() > kFacetSample) facet.resize(kFacetSample);
+  return facet;
+}
+
+}  // namespace
+
+std::optional<CylinderRegion> cylinderRegion(const TriangleMesh& mesh, std::uint32_t triangle) {
+  std::optional<CylinderRegion> best;
+  const std::vector<std::uint32_t> facet = facetOf(mesh, triangle);
+  const glm::dvec3 normal = triangleNormal(mesh, triangle);
+  const std::unordered_set<std::uint32_t> own(facet.begin(), facet.end());
+  for (const std::uint32_t t : facet) {
+    for (const std::uint32_t edge : mesh.edgesOfTriangle(t)) {
+      const auto faces = mesh.facesOfEdge(edge);
+      if (isSharp(mesh, edge) || own.contains(faces[0] == t ? faces[1] : faces[0])) continue;
+      const std::uint32_t other = faces[0] == t ? faces[1] : faces[0];
+      const MeshEdge& e = mesh.edges()[edge];
+      std::vector<std::uint32_t> both = facetOf(mesh, other);
+      both.insert(both.end(), facet.begin(), facet.end());
+      const std::vector<glm::dvec3> corners = cornersOf(mesh, both);
+      // Facets that go along the axis have it as their edge; others lean about it.
+      const glm::dvec3 axes[] = {mesh.vertices()[e.v1] - mesh.vertices()[e.v0],
+                                 glm::cross(normal, triangleNormal(mesh, other))};
+      for (const glm::dvec3& axis : axes) {
+        if (!(glm::length(axis) > 0.0)) continue;
+        const std::optional<Circle> guess = fitCylinder(corners, glm::normalize(axis));
+        if (!guess) continue;
+        std::optional<CylinderRegion> found = grown(mesh, triangle, *guess);
+        if (found && (!best || found->triangles.size() > best->triangles.size())) best = std::move(found);
+      }
+    }
+    // One edge that leads to a cylinder is enough.
+    if (best) return best;
+  }
+  return best;
+}
+
+}  // namespace nearfit

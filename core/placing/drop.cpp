@@ -1,0 +1,162 @@
+#include "core/placing/drop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "core/error.h"
+#include "core/placing/straight_contact.h"
+#include "core/proximity/interference.h"
+
+namespace nearfit {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUsualGap = 1e-6;   ///< [m]
+constexpr double kGapOfSize = 1e-5;  ///< Of a part smaller than 0.1 m.
+
+struct Pair {
+  const Part *moving, *fixed;
+};
+
+RigidTransform fixedFromMoving(const Pair& pair, const glm::dvec3& shift) {
+  RigidTransform moved = pair.moving->worldFromPart;
+  moved.translation += shift;
+  return (pair.fixed->worldFromPart.inverse() * moved).normalized();
+}
+
+/// Whether spheres about the bounding boxes meet: cheap, and true wherever the bodies do.
+bool mayMeet(const Pair& pair, const glm::dvec3& shift) {
+  const TriangleMesh &a = pair.moving->geometry->mesh, &b = pair.fixed->geometry->mesh;
+  const glm::dvec3 centreInMoving = 0.5 * (a.bounds().lower + a.bounds().upper);
+  const glm::dvec3 centre = fixedFromMoving(pair, shift).applyToPoint(centreInMoving);
+  const double reach = 0.5 * (a.bounds().diagonal() + b.bounds().diagonal());
+  return glm::distance(centre, 0.5 * (b.bounds().lower + b.bounds().upper)) <= 1.001 * reach;
+}
+
+bool doMeet(const Pair& pair, const glm::dvec3& shift) {
+  if (!mayMeet(pair, shift)) return false;
+  const PartGeometry &a = *pair.fixed->geometry, &b = *pair.moving->geometry;
+  return findInterference({a.mesh, a.tree()}, {b.mesh, b.tree()}, fixedFromMoving(pair, shift)).kind !=
+         InterferenceKind::Disjoint;
+}
+
+const Part& movablePart(const Scene& scene, PartId id) {
+  const Part* part = scene.find(id);
+  if (part == nullptr) throw UsageError("part", "there is no such part", "choose one of the scene");
+  if (scene.isLocked(*part))
+    throw UsageError(part->name, "the part is locked", "unlock it, or its group, first");
+  return *part;
+}
+
+std::vector<Pair> pairsOf(const Scene& scene, std::span<const PartId> moved) {
+  std::vector<Pair> pairs;
+  for (const PartId id : moved) {
+    const Part& moving = movablePart(scene, id);
+    if (moving.geometry == nullptr) continue;
+    for (const Scene::PartPtr& other : scene.parts()) {
+      const bool isMoved = std::find(moved.begin(), moved.end(), other->id) != moved.end();
+      if (!isMoved && other->isVisible && other->geometry != nullptr) pairs.push_back({&moving, other.get()});
+    }
+  }
+  return pairs;
+}
+
+double gapOf(const DropOptions& options, const std::vector<Pair>& pairs) {
+  if (options.gap != 0.0) return options.gap;
+  double size = kInfinity;
+  for (const Pair& pair : pairs)
+    size = std::min(size, pair.moving->geometry->mesh.bounds().diagonal());
+  return dropGap(size);
+}
+
+/// Reports how many of the pairs are done, and that work goes on in the middle of one.
+class Steps {
+ public:
+  Steps(const ProgressCallback& progress, std::size_t count) : progress_(progress), count_(count) {}
+  void report() const {
+    const double fraction = count_ == 0 ? 1.0 : static_cast<double>(done_) / static_cast<double>(count_);
+    if (progress_ && !progress_(std::min(fraction, 1.0))) throw Cancelled();
+  }
+  void finishOne() {
+    ++done_;
+    report();
+  }
+
+ private:
+  const ProgressCallback& progress_;
+  std::size_t count_, done_ = 0;
+};
+
+/// Puts the first contact of all pairs into the result; infinite travel when there is none.
+void findFirst(const std::vector<Pair>& pairs, const glm::dvec3& direction, Steps& steps,
+               DropResult& result) {
+  result.travel = kInfinity;
+  for (const Pair& pair : pairs) {
+    const RigidTransform& worldFromFixed = pair.fixed->worldFromPart;
+    const glm::dvec3 along = worldFromFixed.inverse().applyToVector(direction);
+    const StraightContact contact = findStraightContact(
+        pair.fixed->geometry->tree(), pair.moving->geometry->tree(), fixedFromMoving(pair, glm::dvec3(0.0)),
+        glm::normalize(along), result.travel, [&steps] { steps.report(); });
+    steps.finishOne();
+    if (!contact.isFound) continue;
+    result.travel = contact.travel;
+    result.normal = worldFromFixed.applyToVector(contact.normal);
+    result.moved = pair.moving->id;
+    result.against = pair.fixed->id;
+  }
+}
+
+/// Steps back from contact until no two bodies meet.
+void stepBack(const std::vector<Pair>& pairs, const glm::dvec3& direction, double gap, DropResult& result) {
+  const double contact = result.travel;
+  for (double back = gap;; back *= 2.0) {
+    result.travel = std::max(0.0, contact - back);
+    result.shift = result.travel * direction;
+    result.gap = contact - result.travel;
+    // At the start nothing meets: that is known.
+    if (result.travel == 0.0) return;
+    const auto meet = [&](const Pair& pair) { return doMeet(pair, result.shift); };
+    if (std::none_of(pairs.begin(), pairs.end(), meet)) return;
+  }
+}
+
+}  // namespace
+
+double dropGap(double size) noexcept {
+  return std::min(kUsualGap, kGapOfSize * size);
+}
+
+DropResult dropParts(const Scene& scene, std::span<const PartId> moved, const DropOptions& options,
+                     const ProgressCallback& progress) {
+  const double length = glm::length(options.direction);
+  if (!(length > 0.0) || !std::isfinite(length))
+    throw UsageError("direction", "it has no length or is not finite", "give one with a length");
+  if (!(options.gap >= 0.0) || !std::isfinite(options.gap))
+    throw UsageError("gap", "it is negative or not finite", "give 0 or more metres");
+  const std::vector<Pair> pairs = pairsOf(scene, moved);
+  const glm::dvec3 direction = options.direction / length;
+  Steps steps(progress, 2 * pairs.size());
+  DropResult result;
+  for (const Pair& pair : pairs) {
+    if (doMeet(pair, glm::dvec3(0.0))) {
+      result.outcome = DropResult::Outcome::Overlapping;
+      result.moved = pair.moving->id;
+      result.against = pair.fixed->id;
+      return result;
+    }
+    steps.finishOne();
+  }
+  findFirst(pairs, direction, steps, result);
+  if (!(result.travel < kInfinity)) {
+    result.travel = 0.0;
+    return result;
+  }
+  result.outcome = DropResult::Outcome::Contact;
+  stepBack(pairs, direction, gapOf(options, pairs), result);
+  return result;
+}
+
+}  // namespace nearfit

@@ -1,0 +1,202 @@
+#include "core/placing/gizmo_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <ranges>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "core/placing/gizmo_drag.h"
+#include "core/placing/screen_shapes.h"
+
+namespace nearfit {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// Where shafts begin, heads are long and wide, and squares reach from and to [pixels].
+constexpr double kShaftFrom = 14.0, kHeadLength = 17.0, kHeadRadius = 6.0;
+constexpr double kSquareFrom = 27.0, kSquareTo = 49.0;
+/// Arrows and squares fade between these sines of the angle to the sight, and are gone below.
+constexpr double kArrowGone = 0.14, kArrowWhole = 0.28, kSquareGone = 0.12, kSquareWhole = 0.28;
+/// A pointer so near to a line is on it [pixels].
+constexpr double kOnLine = 3.0;
+/// What is fainter cannot be grabbed.
+constexpr double kLeastGrabbed = 0.35;
+/// The far side of a ring is faint, but for one that is seen as a circle.
+constexpr double kFarOpacity = 0.38, kRound = 0.9, kQuiteRound = 0.98;
+constexpr int kArcPoints = 48;
+/// How far the line of an axis is drawn [pixels].
+constexpr double kGuideReach = 4096.0;
+
+double ramp(double value, double from, double to) {
+  return std::clamp((value - from) / (to - from), 0.0, 1.0);
+}
+
+/// An arc about the frame's pivot: from one direction over another, square to it.
+std::vector<glm::dvec2> arc(const ViewProjection& view, const glm::dvec3& centre, const glm::dvec3& first,
+                            const glm::dvec3& second, double from, double to) {
+  std::vector<glm::dvec2> points;
+  for (int i = 0; i <= kArcPoints; ++i) {
+    const double angle = from + (to - from) * i / kArcPoints;
+    const auto pixel = view.pixelOf(centre + std::cos(angle) * first + std::sin(angle) * second);
+    if (pixel) points.push_back(*pixel);
+  }
+  return points;
+}
+
+std::vector<glm::dvec2> pixelsOf(const ViewProjection& view, std::span<const glm::dvec3> points) {
+  std::vector<glm::dvec2> pixels;
+  for (const glm::dvec3& point : points) {
+    if (const auto pixel = view.pixelOf(point)) pixels.push_back(*pixel);
+  }
+  return pixels;
+}
+
+/// A unit vector across another, and the third.
+std::array<glm::dvec3, 2> across(const glm::dvec3& unit) {
+  const glm::dvec3 helper = std::abs(unit.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 first = glm::normalize(glm::cross(unit, helper));
+  return {first, glm::cross(unit, first)};
+}
+
+}  // namespace
+
+GizmoLayout::GizmoLayout(const ViewProjection& view, const GizmoFrame& frame, GizmoMode mode) {
+  if (mode == GizmoMode::Hidden || !view.pixelOf(frame.pivot)) return;
+  const bool hasRings = mode != GizmoMode::Move, hasArrows = mode != GizmoMode::Turn;
+  if (hasRings) addRings(view, frame);
+  if (mode == GizmoMode::Turn) addViewRing(view, frame);
+  if (!hasArrows) return;
+  const double length = hasRings ? kLongArrowLength : kArrowLength;
+  addArrows(view, frame, length, Side::Far);
+  addPlanes(view, frame);
+  addArrows(view, frame, length, Side::Near);
+  addMiddle(view, frame);
+}
+
+void GizmoLayout::addArrows(const ViewProjection& view, const GizmoFrame& frame, double length, Side side) {
+  const double scale = view.metresPerPixel(frame.pivot);
+  const glm::dvec3 sight = view.sightOf(frame.pivot);
+  std::array<int, 3> order{0, 1, 2};
+  std::ranges::sort(order, std::greater<>(), [&](int axis) { return glm::dot(frame.axes[axis], sight); });
+  for (const int axis : order) {
+    const glm::dvec3 unit = frame.axes[axis];
+    if ((glm::dot(unit, sight) > 0.0) != (side == Side::Far)) continue;
+    const double opacity = ramp(glm::length(glm::cross(unit, sight)), kArrowGone, kArrowWhole);
+    if (opacity == 0.0) continue;
+    const GizmoHandle handle = kArrows[static_cast<std::size_t>(axis)];
+    const glm::dvec3 base = frame.pivot + scale * (length - kHeadLength) * unit;
+    const std::array shaft{frame.pivot + scale * kShaftFrom * unit, base};
+    figures_.push_back({handle, pixelsOf(view, shaft), false, opacity, false});
+    const auto [first, second] = across(unit);
+    std::vector<glm::dvec2> head =
+        arc(view, base, scale * kHeadRadius * first, scale * kHeadRadius * second, 0.0, 2.0 * kPi);
+    if (const auto tip = view.pixelOf(frame.pivot + scale * length * unit)) head.push_back(*tip);
+    figures_.push_back({handle, convexHull(std::move(head)), true, opacity, false});
+  }
+}
+
+void GizmoLayout::addPlanes(const ViewProjection& view, const GizmoFrame& frame) {
+  const double scale = view.metresPerPixel(frame.pivot);
+  const glm::dvec3 sight = view.sightOf(frame.pivot);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double opacity = ramp(std::abs(glm::dot(frame.axes[axis], sight)), kSquareGone, kSquareWhole);
+    if (opacity == 0.0) continue;
+    // In the quarter that is nearest to the viewer, where the others do not hide it.
+    const auto towardsViewer = [&](int other) {
+      const glm::dvec3 unit = frame.axes[other];
+      return scale * (glm::dot(unit, sight) <= 0.0 ? unit : -unit);
+    };
+    const glm::dvec3 a = towardsViewer((axis + 1) % 3), b = towardsViewer((axis + 2) % 3);
+    const std::array corners{
+        frame.pivot + kSquareFrom * a + kSquareFrom * b, frame.pivot + kSquareTo * a + kSquareFrom * b,
+        frame.pivot + kSquareTo * a + kSquareTo * b, frame.pivot + kSquareFrom * a + kSquareTo * b};
+    figures_.push_back(
+        {kPlanes[static_cast<std::size_t>(axis)], pixelsOf(view, corners), true, opacity, false});
+  }
+}
+
+void GizmoLayout::addMiddle(const ViewProjection& view, const GizmoFrame& frame) {
+  const double radius = kMiddleRadius * view.metresPerPixel(frame.pivot);
+  figures_.push_back({GizmoHandle::MoveFree,
+                      arc(view, frame.pivot, radius * view.right(), radius * view.up(), 0.0, 2.0 * kPi), true,
+                      1.0, false});
+}
+
+void GizmoLayout::addRings(const ViewProjection& view, const GizmoFrame& frame) {
+  const double radius = kRingRadius * view.metresPerPixel(frame.pivot);
+  const glm::dvec3 sight = view.sightOf(frame.pivot);
+  std::vector<GizmoFigure> near;
+  for (int axis = 0; axis < 3; ++axis) {
+    const glm::dvec3 unit = frame.axes[axis];
+    const double facing = std::abs(glm::dot(unit, sight));
+    // The direction in the ring's plane that comes nearest to the viewer.
+    const glm::dvec3 flat = glm::dot(unit, sight) * unit - sight;
+    const glm::dvec3 first = radius * (glm::length(flat) > 1e-9 ? glm::normalize(flat) : across(unit)[0]);
+    const glm::dvec3 second = glm::cross(unit, first);
+    const GizmoHandle handle = kRings[static_cast<std::size_t>(axis)];
+    const double farOpacity = std::max(kFarOpacity, ramp(facing, kRound, kQuiteRound));
+    figures_.push_back({handle, arc(view, frame.pivot, first, second, 0.5 * kPi, 1.5 * kPi), false,
+                        farOpacity, facing < kQuiteRound});
+    near.push_back({handle, arc(view, frame.pivot, first, second, -0.5 * kPi, 0.5 * kPi), false, 1.0, false});
+  }
+  std::ranges::move(near, std::back_inserter(figures_));
+}
+
+void GizmoLayout::addViewRing(const ViewProjection& view, const GizmoFrame& frame) {
+  const double radius = kViewRingRadius * view.metresPerPixel(frame.pivot);
+  figures_.push_back({GizmoHandle::TurnView,
+                      arc(view, frame.pivot, radius * view.right(), radius * view.up(), 0.0, 2.0 * kPi),
+                      false, 1.0, false});
+}
+
+bool GizmoLayout::has(GizmoHandle handle) const noexcept {
+  return std::ranges::any_of(figures_, [handle](const GizmoFigure& f) { return f.handle == handle; });
+}
+
+GizmoHandle GizmoLayout::pick(const glm::dvec2& pixel) const noexcept {
+  GizmoHandle nearest = GizmoHandle::None;
+  double least = kGrabDistance;
+  // What is drawn last is on top.
+  for (const GizmoFigure& figure : std::views::reverse(figures_)) {
+    if (figure.isFarSide || figure.opacity < kLeastGrabbed) continue;
+    const double distance = distanceToLine(figure.points, pixel);
+    const bool isOnIt = figure.isArea ? isInside(figure.points, pixel) : distance < kOnLine;
+    if (isOnIt) return figure.handle;
+    // Beside a square is the place of arrows.
+    if (isPlane(figure.handle) || !(distance < least)) continue;
+    least = distance;
+    nearest = figure.handle;
+  }
+  return nearest;
+}
+
+GizmoGuide gizmoGuide(const ViewProjection& view, const GizmoDrag& drag, const glm::dvec3& shift,
+                      double angle) {
+  const glm::dvec3& pivot = drag.frame().pivot;
+  const double scale = view.metresPerPixel(pivot);
+  GizmoGuide guide;
+  if (isRing(drag.handle())) {
+    const double radius = scale * (drag.handle() == GizmoHandle::TurnView ? GizmoLayout::kViewRingRadius
+                                                                          : GizmoLayout::kRingRadius);
+    const glm::dvec3 first = radius * drag.grabbedArm(), second = glm::cross(drag.turnAxis(), first);
+    guide.sector = arc(view, pivot, first, second, 0.0, std::clamp(angle, -2.0 * kPi, 2.0 * kPi));
+    if (const auto middle = view.pixelOf(pivot)) guide.sector.push_back(*middle);
+    return guide;
+  }
+  guide.way = pixelsOf(view, std::array{pivot, pivot + shift});
+  if (!isArrow(drag.handle())) return guide;
+  const glm::dvec3 axis = drag.turnAxis();
+  // Out of the view on either side; where the eye is passed, to there.
+  for (double reach = kGuideReach; reach > 1.0 && guide.line.size() != 2; reach *= 0.5)
+    guide.line = pixelsOf(view, std::array{pivot - scale * reach * axis, pivot + scale * reach * axis});
+  return guide;
+}
+
+}  // namespace nearfit

@@ -1,0 +1,138 @@
+#include "core/placing/solid_move.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "core/error.h"
+#include "core/placing/placing_scene.h"
+
+namespace nearfit {
+namespace {
+
+/// What is only to be shifted turns by no more than rounding: a turn costs the square of this times as much.
+constexpr double kNoTurn = 1e4;
+/// Settled is what moves by less than this share of the margin for so many ticks.
+constexpr double kStill = 1e-3;
+constexpr int kStillTicks = 3;
+/// So many ticks are waited for the lists that a crowded place needs.
+constexpr int kPatience = 40;
+/// Between two looks at whether the user wants to stop.
+constexpr int kTicksAtOnce = 50;
+
+bool isSame(const RigidTransform& a, const RigidTransform& b) {
+  return a.rotation == b.rotation && a.translation == b.translation;
+}
+
+bool turns(const RigidTransform& motion) {
+  return motion.rotation.x != 0.0 || motion.rotation.y != 0.0 || motion.rotation.z != 0.0;
+}
+
+/// No point of the body moves farther [m].
+double travelBetween(const ServoScene& scene, const RigidTransform& from, const RigidTransform& to) {
+  const glm::dvec3 shift = to.applyToPoint(scene.centreInPart) - from.applyToPoint(scene.centreInPart);
+  return glm::length(shift) + scene.metric.radius * glm::length(turnBetween(from.rotation, to.rotation));
+}
+
+}  // namespace
+
+SolidMove::SolidMove(const Scene& scene, std::span<const PartId> moved, const ProgressCallback& progress)
+    : scene_(makePlacingScene(scene, moved, progress)),
+      settings_{scene.haptics().proxy.margin, 0.0},
+      reach_{kContactReach * settings_.margin, kContactReach * settings_.margin},
+      proxy_(std::make_unique<Proxy>()),
+      start_(scene_->moving.worldFromPart),
+      pose_(start_) {
+  for (const PartId id : moved) {
+    const RigidTransform& worldFromPart = scene.find(id)->worldFromPart;
+    startPoses_.push_back(worldFromPart);
+    bodyFromPart_.push_back((start_.inverse() * worldFromPart).normalized());
+  }
+  poses_ = startPoses_;
+  tracker_.setScene(scene_);
+  proxy_->place(start_);
+}
+
+SolidMove::Progress SolidMove::advance(const RigidTransform& motion, int ticks) {
+  const RigidTransform target = motion * start_;
+  const double turnScale = turns(motion) ? 1.0 : kNoTurn;
+  if (scene_->moving.geometry == nullptr) pose_ = target;
+  if (!isSame(motion, wanted_)) still_ = waited_ = 0;
+  wanted_ = motion;
+  bool isSettled = isSame(pose_, target);
+  for (int i = 0; i < ticks && !isSettled; ++i) {
+    const RigidTransform before = pose_;
+    const bool isWaiting = tick(target, turnScale);
+    const bool isStill = travelBetween(*scene_, before, pose_) < kStill * settings_.margin;
+    waited_ = isWaiting && isStill ? waited_ + 1 : 0;
+    still_ = isStill && !isWaiting ? still_ + 1 : 0;
+    isSettled = isSame(pose_, target) || still_ >= kStillTicks || waited_ >= kPatience;
+  }
+  updatePoses();
+  if (isSame(pose_, target)) {
+    // To the last bit where they were wanted, for several parts too.
+    for (std::size_t i = 0; i < poses_.size(); ++i)
+      poses_[i] = motion * startPoses_[i];
+  }
+  return {isSettled, isSame(pose_, target)};
+}
+
+/// Says whether the proxy waits for what is not known yet.
+bool SolidMove::tick(const RigidTransform& target, double turnScale) {
+  const ProxyAccount& last = proxy_->account();
+  tracker_.observe(pose_, 1.0);
+  tracker_.observeHand(target, 1.0);
+  tracker_.setWaiting(last.isWaiting);
+  tracker_.setStarved(last.isStarved);
+  if (tracker_.isDue(reach_)) tracker_.refresh(reach_, tracked_);
+  proxy_->follow(tracked_, target, settings_, turnScale);
+  pose_ = proxy_->pose();
+  return proxy_->account().isWaiting || proxy_->account().isStarved;
+}
+
+void SolidMove::updatePoses() {
+  if (isSame(pose_, start_)) {
+    poses_ = startPoses_;
+    return;
+  }
+  for (std::size_t i = 0; i < poses_.size(); ++i)
+    poses_[i] = isSame(startPoses_[i], start_) ? pose_ : (pose_ * bodyFromPart_[i]).normalized();
+}
+
+RigidTransform SolidMove::motion() const noexcept {
+  return isSame(pose_, start_) ? RigidTransform{} : (pose_ * start_.inverse()).normalized();
+}
+
+std::vector<PartId> SolidMove::idsOf(const std::vector<std::uint32_t>& bodies) const {
+  std::vector<PartId> ids;
+  for (const std::uint32_t body : bodies)
+    ids.push_back(scene_->bodies[body].id);
+  std::ranges::sort(ids);
+  const auto repeated = std::ranges::unique(ids);
+  ids.erase(repeated.begin(), repeated.end());
+  return ids;
+}
+
+std::vector<PartId> SolidMove::touching() const {
+  std::vector<std::uint32_t> bodies;
+  for (const ProxyContact& holding : proxy_->contacts())
+    bodies.push_back(holding.contact.body);
+  return idsOf(bodies);
+}
+
+std::vector<PartId> SolidMove::released() const {
+  const auto& overlapping = tracked_.clearance.overlapping;
+  return overlapping ? idsOf(*overlapping) : std::vector<PartId>{};
+}
+
+std::vector<RigidTransform> movedSolidly(const Scene& scene, std::span<const PartId> moved,
+                                         const RigidTransform& motion, const ProgressCallback& progress) {
+  SolidMove move(scene, moved, progress);
+  for (int ticks = 0; ticks < SolidMove::kMostTicks; ticks += kTicksAtOnce) {
+    if (progress && !progress(static_cast<double>(ticks) / SolidMove::kMostTicks)) throw Cancelled();
+    if (move.advance(motion, kTicksAtOnce).isSettled) break;
+  }
+  return move.poses();
+}
+
+}  // namespace nearfit

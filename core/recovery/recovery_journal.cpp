@@ -1,0 +1,98 @@
+#include "core/recovery/recovery_journal.h"
+
+#include <system_error>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files/input_file.h"
+#include "core/files/sha256.h"
+#include "core/scene/part_geometry.h"
+#include "core/scene/scene_file.h"
+#include "core/text/json_text.h"
+#include "core/text/utf8.h"
+
+namespace nearfit {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Names the meshes of a scene file from the root, so that the scene means the same wherever it lies.
+void makePathsAbsolute(Json& scene, const fs::path& folder) {
+  for (Json& part : scene.at("parts")) {
+    Json& mesh = part.at("mesh");
+    mesh = normalisedPath(folder / mesh.get<std::string>()).generic_string();
+  }
+}
+
+/// A file's JSON in the order that it stands there. Throws FileError, nlohmann::json::exception.
+Json readOrdered(const fs::path& file) {
+  const std::vector<char> bytes = readWholeFile(file, {});
+  return Json::parse(bytes.begin(), bytes.end());
+}
+
+[[noreturn]] void failDamaged(const fs::path& journal) {
+  throw FileError(journal.string(), "this recovery journal is damaged",
+                  "open the scene as it was last saved");
+}
+
+/// Runs `work` on JSON that may be anything.
+template <typename Work>
+auto guarded(const fs::path& journal, Work work) {
+  try {
+    return work();
+  } catch (const nlohmann::json::exception&) {
+    failDamaged(journal);
+  }
+}
+
+}  // namespace
+
+std::string journalText(const Scene& scene, const JournalHead& head) {
+  // Anywhere: the paths are made absolute below.
+  const fs::path place = "/journal.nearfit";
+  Json json = Json::parse(sceneFileText(scene, place));
+  makePathsAbsolute(json, meshFolder(place));
+  // Whoever restores it may stand in another folder.
+  const std::string path = head.scene.empty() ? std::string() : normalisedPath(head.scene).string();
+  if (!isUtf8(path)) {
+    throw FileError(printableText(path), "the name of this scene file or of a folder above it is not UTF-8",
+                    "save it under another name");
+  }
+  const std::string sha256 = sha256OfBytes(prettyJson(json));
+  json["recovery"] = {
+      {"scene", path.empty() ? Json() : Json(path)}, {"changes", head.changes}, {"sha256", sha256}};
+  return prettyJson(json);
+}
+
+JournalHead readJournalHead(const fs::path& journal) {
+  return guarded(journal, [&] {
+    Json json = readOrdered(journal);
+    const Json recovery = json.at("recovery");
+    json.erase("recovery");
+    if (sha256OfBytes(prettyJson(json)) != recovery.at("sha256").get<std::string>()) failDamaged(journal);
+    JournalHead head;
+    if (!recovery.at("scene").is_null()) head.scene = recovery.at("scene").get<std::string>();
+    head.changes = recovery.at("changes").get<std::size_t>();
+    head.parts = json.at("parts").size();
+    return head;
+  });
+}
+
+bool isSaved(const fs::path& journal, const JournalHead& head) {
+  if (head.scene.empty()) return false;
+  try {
+    Json kept = readOrdered(journal), saved = readOrdered(head.scene);
+    kept.erase("recovery");
+    makePathsAbsolute(kept, meshFolder(journal));
+    makePathsAbsolute(saved, meshFolder(head.scene));
+    return kept == saved;
+  } catch (const FileError&) {
+  } catch (const nlohmann::json::exception&) {
+  }
+  return false;  // The file is gone, or is no scene: all that there is is the journal.
+}
+
+}  // namespace nearfit

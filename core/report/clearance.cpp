@@ -1,0 +1,127 @@
+#include "core/report/clearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/proximity/surface_distance.h"
+#include "core/report/csv_text.h"
+#include "core/report/lmd_set.h"
+
+namespace nearfit {
+namespace {
+
+/// Of a pair that are counted: beyond, "more than" is all that a table needs.
+constexpr std::size_t kMaxMinima = 10'000;
+constexpr std::uint64_t kAnyWork = std::numeric_limits<std::uint64_t>::max();
+
+struct Workspace {
+  LmdCollector collector{kMaxMinima};
+  LmdScratch scratch;
+};
+
+PartClearance clearanceOf(const Part& part, const Part& other, double cutoff, Workspace& work) {
+  const PartGeometry &a = *part.geometry, &b = *other.geometry;
+  const RigidTransform otherFromPart = (other.worldFromPart.inverse() * part.worldFromPart).normalized();
+  PartClearance result;
+  result.other = other.id;
+  result.overlap = findInterference({b.mesh, b.tree()}, {a.mesh, a.tree()}, otherFromPart).kind;
+  result.isBetweenSolids = a.isSolid() && b.isSolid();
+  const SurfaceDistance nearest = leastSurfaceDistance(
+      b.tree(), a.tree(), otherFromPart, std::numeric_limits<double>::infinity(), work.scratch, kAnyWork);
+  result.distance = result.isOverlapping() ? 0.0 : nearest.distance;
+  result.partPoint = other.worldFromPart.applyToPoint(nearest.partPoint);
+  result.otherPoint = other.worldFromPart.applyToPoint(nearest.scenePoint);
+  if (result.isOverlapping()) return result;
+  const LmdSet minima = work.collector.collect(b.tree(), a.tree(), otherFromPart, cutoff);
+  result.minima = minima.lmds.size();
+  result.isEveryMinimum = minima.isComplete;
+  return result;
+}
+
+bool hasSurface(const Part& part) {
+  return part.geometry && !part.geometry->mesh.triangles().empty();
+}
+
+}  // namespace
+
+std::vector<PartClearance> clearancesOf(const Scene& scene, PartId id, double cutoff,
+                                        const ProgressCallback& progress) {
+  const Part* part = scene.find(id);
+  if (part == nullptr) throw UsageError("clearance", "there is no such part", "choose one of the scene");
+  if (!(cutoff > 0.0) || !std::isfinite(cutoff))
+    throw UsageError("clearance", fmt::format("{} m is no cutoff", cutoff), "give a length above zero");
+  std::vector<PartClearance> result;
+  if (!hasSurface(*part)) return result;
+  Workspace work;
+  std::size_t done = 0;
+  for (const Scene::PartPtr& other : scene.parts()) {
+    const double fraction = static_cast<double>(done++) / static_cast<double>(scene.parts().size());
+    if (progress && !progress(fraction)) throw Cancelled();
+    if (other->id != id && other->isVisible && hasSurface(*other))
+      result.push_back(clearanceOf(*part, *other, cutoff, work));
+  }
+  return result;
+}
+
+void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clearances) noexcept {
+  const bool isEvery = !snapshot.isTruncated && snapshot.storedLmds == snapshot.lmdCount;
+  const auto released =
+      std::span(snapshot.released)
+          .first(std::min<std::size_t>(snapshot.releasedCount, ServoSnapshot::kMaxReleased));
+  for (PartClearance& each : clearances) {
+    // What is released has minima as well, of surfaces that pass through each other.
+    if (!each.isBetweenSolids || std::ranges::find(released, each.other) != released.end()) continue;
+    const Lmd* nearest = nullptr;
+    std::size_t count = 0;
+    for (const SnapshotLmd& minimum : std::span(snapshot.lmds).first(snapshot.storedLmds)) {
+      if (minimum.other != each.other) continue;
+      ++count;
+      if (nearest == nullptr || minimum.lmd.distance < nearest->distance) nearest = &minimum.lmd;
+    }
+    if (nearest == nullptr) continue;
+    each.distance = nearest->distance;
+    each.partPoint = nearest->partPoint;
+    each.otherPoint = nearest->scenePoint;
+    each.minima = count;
+    each.isEveryMinimum = isEvery;
+    each.overlap = InterferenceKind::Disjoint;
+  }
+}
+
+const char* nameOf(InterferenceKind overlap) noexcept {
+  switch (overlap) {
+    case InterferenceKind::Disjoint:
+      return "no";
+    case InterferenceKind::SurfacesMeet:
+      return "surfaces meet";
+    case InterferenceKind::PartInside:
+      return "inside the other";
+    case InterferenceKind::SceneInside:
+      break;
+  }
+  return "the other inside";
+}
+
+std::string clearanceCsv(const Scene& scene, PartId id, const std::vector<PartClearance>& clearances) {
+  const auto nameOfPart = [&](PartId which) {
+    const Part* part = scene.find(which);
+    return part != nullptr ? csvField(part->name) : std::string();
+  };
+  std::string text =
+      "part,other,distance,part_x,part_y,part_z,other_x,other_y,other_z,minima,every_minimum,overlap\n";
+  for (const PartClearance& c : clearances) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{:d},{}\n", nameOfPart(id),
+                   nameOfPart(c.other), c.distance, c.partPoint.x, c.partPoint.y, c.partPoint.z,
+                   c.otherPoint.x, c.otherPoint.y, c.otherPoint.z, c.minima, c.isEveryMinimum,
+                   nameOf(c.overlap));
+  }
+  return text;
+}
+
+}  // namespace nearfit

@@ -1,0 +1,30 @@
+#include "core/scene/free_name.h"
+
+#include <fmt/format.h>
+
+#include "core/text/utf8.h"
+
+namespace nearfit {
+namespace {
+
+/// "Peg 12" without its number: "Peg".
+std::string withoutNumber(const std::string& name) {
+  const std::size_t end = name.find_last_not_of("0123456789");
+  if (end == std::string::npos || end + 1 == name.size() || name[end] != ' ' || end == 0) return name;
+  return name.substr(0, end);
+}
+
+}  // namespace
+
+std::string freeName(const std::string& wanted, const std::unordered_set<std::string_view>& taken,
+                     std::size_t maxBytes) {
+  if (!taken.contains(wanted)) return wanted;
+  const std::string stem = withoutNumber(wanted);
+  for (std::size_t number = 2;; ++number) {
+    const std::string suffix = fmt::format(" {}", number);
+    std::string name = truncatedUtf8(stem, maxBytes - suffix.size()) + suffix;
+    if (!taken.contains(name)) return name;
+  }
+}
+
+}  // namespace nearfit

@@ -1,0 +1,57 @@
+#include "core/scene/odd_size.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace nearfit {
+namespace {
+
+/// Metres in the units that files of meshes are in by far most often: micrometre, millimetre, centimetre,
+/// inch, metre. Rarer ones would be guessed where one of these is meant.
+constexpr std::array<double, 5> kUnits{1e-6, 1e-3, 1e-2, 0.0254, 1.0};
+
+/// Diagonals of boxes [m].
+struct Sizes {
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  void add(double size) {
+    least = std::min(least, size);
+    most = std::max(most, size);
+  }
+  bool isEmpty() const { return most <= 0.0; }
+};
+
+/// The change of unit that takes `metresPerUnit` nearest to `wanted` times itself.
+double nearestFactor(double metresPerUnit, double wanted) {
+  double best = 1.0;
+  for (const double unit : kUnits) {
+    const double factor = unit / metresPerUnit;
+    if (std::abs(std::log(factor / wanted)) < std::abs(std::log(best / wanted))) best = factor;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<OddSize> oddSizeOf(const Scene& scene, std::span<const PartId> parts) {
+  Sizes own, others;
+  double metresPerUnit = 1.0;
+  for (const Scene::PartPtr& part : scene.parts()) {
+    const double size = part->geometry != nullptr ? part->geometry->mesh.bounds().diagonal() : 0.0;
+    if (size <= 0.0) continue;
+    const bool isOwn = std::ranges::find(parts, part->id) != parts.end();
+    (isOwn ? own : others).add(size);
+    if (isOwn) metresPerUnit = part->geometry->metresPerUnit;
+  }
+  if (own.isEmpty() || others.isEmpty()) return std::nullopt;
+  const bool isLarge = own.least >= kOddSizeRatio * others.most;
+  const bool isSmall = own.most * kOddSizeRatio <= others.least;
+  if (!isLarge && !isSmall) return std::nullopt;
+  const double ratio = isLarge ? own.least / others.most : own.most / others.least;
+  const double factor = nearestFactor(metresPerUnit, 1.0 / ratio);
+  if (std::abs(std::log(factor * ratio)) >= std::abs(std::log(ratio))) return std::nullopt;
+  return OddSize{ratio, factor};
+}
+
+}  // namespace nearfit

@@ -1,0 +1,88 @@
+#include "core/scene/part.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text/utf8.h"
+
+namespace nearfit {
+namespace {
+
+void checkName(const char* kind, const std::string& name, std::size_t maxBytes) {
+  if (name.empty()) throw UsageError("name", fmt::format("a {}'s name is empty", kind), "give it one");
+  if (name.size() > maxBytes) {
+    throw UsageError("name", fmt::format("a {}'s name is longer than {} bytes", kind, maxBytes),
+                     "shorten it");
+  }
+  if (!isPrintableUtf8(name)) {
+    throw UsageError("name", fmt::format("a {}'s name holds control characters or is not UTF-8", kind),
+                     "use printable text");
+  }
+}
+
+}  // namespace
+
+bool isSameButForLook(const Part& a, const Part& b) noexcept {
+  return a.id == b.id && a.name == b.name && a.geometry == b.geometry &&
+         a.worldFromPart.rotation == b.worldFromPart.rotation &&
+         a.worldFromPart.translation == b.worldFromPart.translation && a.colour == b.colour &&
+         a.density == b.density && a.group == b.group;
+}
+
+bool isSame(const Part& a, const Part& b) noexcept {
+  return isSameButForLook(a, b) && a.opacity == b.opacity && a.isVisible == b.isVisible &&
+         a.isLocked == b.isLocked && a.wasVisible == b.wasVisible;
+}
+
+double massOf(const Part& part) noexcept {
+  return part.geometry != nullptr ? part.density * part.geometry->mass.volume : 0.0;
+}
+
+void checkDensity(double density) {
+  if (density >= kMinDensity && density <= kMaxDensity) return;
+  throw UsageError("density", fmt::format("{} kg/m^3 is out of range", density),
+                   fmt::format("give a value from {} to {} kg/m^3", kMinDensity, kMaxDensity));
+}
+
+void checkOpacity(double opacity) {
+  if (opacity >= kMinOpacity && opacity <= 1.0) return;
+  throw UsageError("opacity", fmt::format("{} is out of range", opacity),
+                   fmt::format("give a value from {} to 1; what is not to be seen is hidden", kMinOpacity));
+}
+
+void checkColour(const Colour& colour) {
+  for (const float channel : {colour.r, colour.g, colour.b}) {
+    if (!(channel >= 0.0F && channel <= 1.0F)) {
+      throw UsageError("colour", fmt::format("a channel is {}", channel),
+                       "give each of r, g and b from 0 to 1");
+    }
+  }
+}
+
+void checkPartName(const std::string& name) {
+  checkName("part", name, kMaxPartNameBytes);
+}
+
+void checkGroupName(const std::string& name) {
+  checkName("group", name, kMaxGroupNameBytes);
+}
+
+RigidTransform checkedPose(const RigidTransform& pose) {
+  const glm::dvec3& t = pose.translation;
+  for (const double coordinate : {t.x, t.y, t.z}) {
+    if (std::isfinite(coordinate) && std::abs(coordinate) <= kMaxPosition) continue;
+    throw UsageError("position", fmt::format("a coordinate is {} m", coordinate),
+                     fmt::format("stay within {} m of the origin", kMaxPosition));
+  }
+  const double length = std::sqrt(glm::dot(pose.rotation, pose.rotation));
+  if (!(std::abs(length - 1.0) <= kQuaternionSlack)) {
+    throw UsageError("quaternion", fmt::format("its length is {}, not 1", length),
+                     "give a unit quaternion in the order w, x, y, z");
+  }
+  // One that is unit up to rounding stays as it is, so that saving and loading changes no digit.
+  return std::abs(length - 1.0) <= 1e-15 ? pose : pose.normalized();
+}
+
+}  // namespace nearfit

@@ -1,0 +1,103 @@
+#include "core/scene/pose_csv.h"
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/scene/scene.h"
+
+namespace nearfit::csv {
+
+void Place::fail(const std::string& problem, const std::string& remedy) const {
+  throw FileError(fmt::format("{}:{}", file.string(), line), problem, remedy);
+}
+
+std::string_view trimmed(std::string_view text) noexcept {
+  const char* const blanks = " \t\r";
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+Rows::Rows(const std::filesystem::path& file) : in_(file, std::ios::binary), place_{file, 0} {
+  std::error_code ignored;
+  if (!in_ || std::filesystem::is_directory(file, ignored)) {
+    throw FileError(file.string(), fmt::format("cannot be read ({})", std::strerror(in_ ? EISDIR : errno)),
+                    "check the name and the permissions");
+  }
+  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+  size_ = ignored ? 0 : size;
+}
+
+std::optional<std::string_view> Rows::next() {
+  while (in_.getline(buffer_.data(), kMaxLineBytes) || in_.gcount() > 0) {
+    ++place_.line;
+    if (in_.fail() && !in_.eof()) {
+      if (in_.bad()) break;
+      place_.fail(fmt::format("the line is longer than {} characters", kMaxLineBytes - 1),
+                  "check that this is a CSV file of poses");
+    }
+    taken_ += static_cast<std::uint64_t>(in_.gcount());
+    // The count includes the line's end, where there is one.
+    std::string_view row(buffer_.data(), static_cast<std::size_t>(in_.gcount()) - (in_.eof() ? 0 : 1));
+    if (place_.line == 1 && row.starts_with("\xEF\xBB\xBF")) row.remove_prefix(3);
+    row = trimmed(row);
+    if (!row.empty() && row.front() != '#') return row;
+  }
+  if (in_.bad()) throw FileError(place_.file.string(), "reading stopped before the end", "check the disk");
+  return std::nullopt;
+}
+
+std::vector<std::string_view> columnsOf(std::string_view row) {
+  std::vector<std::string_view> columns;
+  while (true) {
+    const std::size_t comma = row.find(',');
+    columns.push_back(trimmed(row.substr(0, comma)));
+    if (comma == std::string_view::npos) return columns;
+    row.remove_prefix(comma + 1);
+  }
+}
+
+std::optional<double> parseNumber(std::string_view text) noexcept {
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  // Smaller than the smallest double is zero for a pose.
+  if (error == std::errc::result_out_of_range && end == text.data() + text.size() &&
+      text.find("e-") != text.npos) {
+    return 0.0;
+  }
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+double finiteNumber(std::string_view text, std::size_t column, const Place& place, const char* remedy) {
+  const std::optional<double> value = parseNumber(text);
+  if (!value)
+    place.fail(fmt::format("column {}: \"{}\" is not a number", column + 1, text.substr(0, 40)), remedy);
+  if (!std::isfinite(*value))
+    place.fail(fmt::format("column {}: \"{}\" is not finite", column + 1, text), remedy);
+  return *value;
+}
+
+RigidTransform poseOf(std::span<const double, 7> v, std::size_t firstColumn, const Place& place) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::abs(v[i]) > kMaxPosition) {
+      place.fail(fmt::format("column {}: {} m is too far away", firstColumn + i + 1, v[i]),
+                 fmt::format("give metres, within {} of the origin", kMaxPosition));
+    }
+  }
+  const RigidTransform pose{glm::dquat(v[3], v[4], v[5], v[6]), glm::dvec3(v[0], v[1], v[2])};
+  const double length = std::hypot(std::hypot(v[3], v[4]), std::hypot(v[5], v[6]));
+  if (!(std::abs(length - 1.0) <= kQuaternionSlack)) {
+    place.fail(fmt::format("the quaternion has length {:.6g}, not 1", length),
+               "normalise it; its order is qw,qx,qy,qz");
+  }
+  return pose.normalized();
+}
+
+}  // namespace nearfit::csv

@@ -1,0 +1,132 @@
+// Commands about parts.
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/session.h"
+#include "core/session_labels.h"
+
+namespace nearfit {
+namespace {
+
+const Part& existing(const Scene& scene, PartId id) {
+  const Part* part = scene.find(id);
+  if (part != nullptr) return *part;
+  throw UsageError(fmt::format("part {}", static_cast<std::uint32_t>(id)), "the scene has no such part",
+                   "choose one that is in the scene");
+}
+
+/// Where a motion that takes `from` to `to` takes `pose`. One without a turn turns nothing, to the last
+/// digit.
+RigidTransform moved(const RigidTransform& pose, const RigidTransform& from, const RigidTransform& to) {
+  if (from.rotation == to.rotation)
+    return {pose.rotation, pose.translation + (to.translation - from.translation)};
+  const glm::dquat turn = to.rotation * glm::conjugate(from.rotation);
+  return RigidTransform{turn * pose.rotation, turn * (pose.translation - from.translation) + to.translation}
+      .normalized();
+}
+
+std::vector<PartId> partsOf(const std::vector<Session::NewGeometry>& renewed) {
+  std::vector<PartId> ids;
+  for (const Session::NewGeometry& each : renewed)
+    ids.push_back(each.part);
+  return ids;
+}
+
+PartGeometryPtr geometryFor(const Part& part, const std::vector<Session::NewGeometry>& renewed) {
+  return std::ranges::find(renewed, part.id, &Session::NewGeometry::part)->geometry;
+}
+
+}  // namespace
+
+void Session::change(const std::vector<PartId>& ids, const std::string& verb,
+                     const std::function<void(Part&)>& change) {
+  Scene next = scene();
+  SceneNodes changed;
+  for (const PartId id : ids) {
+    Part part = existing(next, id);
+    change(part);
+    if (isSame(part, *next.find(id))) continue;
+    next.replace(std::move(part));
+    changed.parts.push_back(id);
+  }
+  if (changed.isEmpty()) return;
+  const std::string label = verb + " " + nameOf(scene(), changed);
+  commit(std::move(next), label);
+}
+
+void Session::changeUnlocked(const std::vector<PartId>& ids, const std::string& verb,
+                             const std::function<void(Part&)>& change) {
+  for (const PartId id : ids)
+    scene().requireUnlocked(existing(scene(), id));
+  this->change(ids, verb, change);
+}
+
+void Session::renamePart(PartId id, const std::string& name) {
+  Part part = existing(scene(), id);
+  scene().requireUnlocked(part);
+  if (part.name == name) return;
+  const std::string label = fmt::format("Rename {} to {}", part.name, name);
+  part.name = name;
+  Scene next = scene();
+  next.replace(std::move(part));
+  commit(std::move(next), label);
+}
+
+void Session::moveParts(const std::vector<PartId>& ids, PartId lead, const RigidTransform& worldFromLead,
+                        const std::string& verb) {
+  const RigidTransform from = existing(scene(), lead).worldFromPart;
+  const RigidTransform to = checkedPose(worldFromLead);
+  if (from.rotation == to.rotation && from.translation == to.translation) {
+    // No step; but that of a locked part is refused all the same.
+    return changeUnlocked(ids, verb, [](Part&) {});
+  }
+  changeUnlocked(ids, verb, [&](Part& part) {
+    part.worldFromPart = part.id == lead ? to : moved(part.worldFromPart, from, to);
+  });
+}
+
+void Session::setVisible(const std::vector<PartId>& ids, bool visible) {
+  change(ids, visible ? "Show" : "Hide", [visible](Part& part) { part.isVisible = visible; });
+}
+
+void Session::setColour(const std::vector<PartId>& ids, const Colour& colour) {
+  changeUnlocked(ids, "Recolour", [&colour](Part& part) { part.colour = colour; });
+}
+
+void Session::setOpacity(const std::vector<PartId>& ids, double opacity) {
+  change(ids, "Change the transparency of", [opacity](Part& part) { part.opacity = opacity; });
+}
+
+void Session::setDensity(const std::vector<PartId>& ids, double density) {
+  changeUnlocked(ids, "Change the density of", [density](Part& part) { part.density = density; });
+}
+
+void Session::reloadParts(const std::vector<NewGeometry>& parts) {
+  change(partsOf(parts), "Reload", [&parts](Part& part) { part.geometry = geometryFor(part, parts); });
+}
+
+void Session::rescaleParts(const std::vector<NewGeometry>& parts) {
+  changeUnlocked(partsOf(parts), "Rescale",
+                 [&parts](Part& part) { part.geometry = geometryFor(part, parts); });
+}
+
+void Session::isolate(const std::vector<PartId>& ids) {
+  Scene next = scene();
+  next.isolate(ids);
+  const bool isSameView = std::ranges::equal(next.parts(), scene().parts(),
+                                             [](const auto& a, const auto& b) { return isSame(*a, *b); });
+  if (isSameView) return;
+  commit(std::move(next), "Isolate " + nameOf(scene(), {ids, {}}));
+}
+
+void Session::endIsolation() {
+  if (!scene().isIsolated()) return;
+  Scene next = scene();
+  next.endIsolation();
+  commit(std::move(next), "End the isolation");
+}
+
+}  // namespace nearfit

@@ -1,0 +1,151 @@
+#include "device/falcon/falcon_device.h"
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "device/device_error.h"
+#include "device/falcon/falcon_firmware.h"
+#include "device/falcon/falcon_kinematics.h"
+
+namespace nearfit {
+namespace {
+
+constexpr std::uint8_t kInterface = 0;
+constexpr std::uint8_t kVendorOut = 0x40;
+constexpr UsbLink::Timeout kTimeout{1000};
+
+/// About 9 N for a short while, as its maker says; damping and mass are estimates on the safe side.
+DeviceLimits limits() noexcept {
+  DeviceLimits limits;
+  limits.maxForce = 9.0;
+  limits.maxTorque = 0.0;
+  limitSlewByMost(limits);
+  limits.damping = 0.5;
+  limits.leastMass = 0.15;
+  return limits;
+}
+
+/// Each step of a greeting may wait for a device that does not answer: whether it is still wanted is asked
+/// before each.
+class LinkTransport final : public FtdiTransport {
+ public:
+  LinkTransport(UsbLink& link, std::uint8_t in, std::uint8_t out, const std::function<bool()>& isWanted)
+      : link_(link), in_(in), out_(out), isWanted_(isWanted) {}
+
+  void control(std::uint8_t request, std::uint16_t value) override {
+    requireWanted();
+    link_.controlOut(kVendorOut, request, value, kInterface, {}, kTimeout);
+  }
+  void write(std::span<const std::byte> data) override { link_.write(out_, data, kTimeout); }
+  std::size_t read(std::span<std::byte> packet, Timeout timeout) override try {
+    requireWanted();
+    return link_.read(in_, packet, timeout);
+  } catch (const DeviceError& error) {
+    if (error.cause() != DeviceProblem::NotAnswering) throw;
+    return 0;
+  }
+
+ private:
+  void requireWanted() const {
+    if (!isWanted_()) throw Cancelled();
+  }
+
+  UsbLink& link_;
+  const std::uint8_t in_, out_;
+  const std::function<bool()>& isWanted_;
+};
+
+const UsbInterface* interfaceOf(const UsbDescription& device) noexcept {
+  const UsbInterface* face = device.findInterface(kInterface);
+  const bool isWhole =
+      face != nullptr && face->streaming(true) != nullptr && face->streaming(false) != nullptr;
+  return isWhole ? face : nullptr;
+}
+
+}  // namespace
+
+bool FalconDevice::speaks(const UsbDescription& device) noexcept {
+  return device.vendor == falcon::kVendor && device.product == falcon::kProduct &&
+         interfaceOf(device) != nullptr;
+}
+
+FalconDevice::FalconDevice(UsbDescription device, std::filesystem::path firmware, const SafetyLimits& safety)
+    : ForceArmDevice(std::move(device), "Novint Falcon", limits(), safety), firmware_(std::move(firmware)) {}
+
+std::string FalconDevice::stateNote() const {
+  return handle().note("it does not know where its handle is: pull it all the way out, then push it in");
+}
+
+ForceArmDevice::Opened FalconDevice::open(std::optional<UsbLink>& link, const ProgressCallback& progress) {
+  const UsbInterface* face = interfaceOf(description());
+  if (face == nullptr) {
+    throw DeviceError(DeviceProblem::Unsupported, name(),
+                      "its interface lacks the endpoints that it should have", "plug it in again");
+  }
+  link.emplace(description(), kInterface);
+  const std::uint8_t in = face->streaming(true)->address, out = face->streaming(false)->address;
+  double fraction = 0.0;
+  const ProgressCallback tell = [&](double done) { return !progress || progress(fraction = done); };
+  const std::function<bool()> isWanted = [&] { return tell(fraction); };
+  LinkTransport transport(*link, in, out, isWanted);
+  FtdiPort port(transport);
+  if (!falcon::isFirmwareRunning(port))
+    falcon::uploadFirmware(port, falcon::readFirmware(firmware_, name()), name(), tell);
+  port.purge();
+  reader_ = {};
+  isHomed_ = false;
+  last_ = falcon::kCentre;
+  velocity_.reset();
+  ArmSample rest;
+  rest.pose.translation = falcon::kCentre;
+  rest.joints = falcon::inverse(falcon::kCentre).value_or(glm::dvec3(0.0));
+  return {{in, out}, false, rest, 1e-3};
+}
+
+void FalconDevice::take(std::span<const std::byte> packet, Nanoseconds arrived) noexcept {
+  const std::uint64_t damagedBefore = reader_.damaged();
+  // Packets with nothing but the chip's status come all the time.
+  for (const std::byte byte : FtdiPort::contentOf(packet)) {
+    if (const auto report = reader_.take(byte)) take(*report, arrived);
+  }
+  for (std::uint64_t i = damagedBefore; i < reader_.damaged(); ++i)
+    handle().reject();
+}
+
+void FalconDevice::take(const falcon::Report& report, Nanoseconds arrived) noexcept {
+  ArmSample& sample = handle().next();
+  sample = {};
+  sample.pose.translation = last_;
+  sample.buttons = report.buttons;
+  const bool wasHomed = std::exchange(isHomed_, report.homed == falcon::kAllHomed);
+  if (isHomed_) {
+    sample.joints = falcon::anglesOf(report.encoders);
+    // A letter in a frame that came over wrong looks like this too; more than a few in a row are no accident.
+    const auto place =
+        falcon::isInRange(sample.joints) ? falcon::forward(sample.joints, last_) : std::nullopt;
+    if (!place) return handle().reject(DeviceFault::OutOfReach);
+    sample.pose.translation = last_ = *place;
+    if (!wasHomed) velocity_.reset();
+    sample.velocity = velocity_.update(last_, arrived);
+    handle().supervisor().calibrated();
+  } else if (wasHomed) {
+    // It has forgotten where its handle is.
+    handle().supervisor().stop(DeviceFault::OutOfReach);
+  }
+  handle().publish(arrived);
+}
+
+std::span<const std::byte> FalconDevice::command(const glm::dvec3& force, const ArmSample& at) noexcept {
+  const DeviceState is = state();
+  falcon::Command command;
+  if (is == DeviceState::Armed) command.torques = falcon::unitsFor(force, at.pose.translation, at.joints);
+  command.isHoming = is == DeviceState::Uncalibrated;
+  command.lights = is == DeviceState::Armed   ? falcon::kBlue
+                   : is == DeviceState::Ready ? falcon::kGreen
+                                              : falcon::kRed;
+  command_ = falcon::encode(command);
+  return command_;
+}
+
+}  // namespace nearfit

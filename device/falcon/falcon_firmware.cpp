@@ -1,0 +1,163 @@
+#include "device/falcon/falcon_firmware.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/files/input_file.h"
+#include "device/device_error.h"
+#include "device/falcon/falcon_protocol.h"
+
+namespace nearfit::falcon {
+namespace {
+
+/// Of 3 MHz. The loader greets at 9600 baud, takes its data at 3 MHz / 21; the firmware talks at 1.5 MBaud.
+constexpr std::uint16_t kGreetingDivisor = 0x4138, kLoadingDivisor = 0x15, kRunningDivisor = 2;
+/// The loader's answers get lost with a shorter one [ms].
+constexpr std::uint8_t kLoadingLatency = 16, kRunningLatency = 1;
+/// A packet less the chip's status: what comes back of a block is one packet.
+constexpr std::size_t kBlockSize = FtdiPort::kPacketSize - FtdiPort::kStatusSize;
+constexpr int kGreetings = 20, kQuestions = 10;
+
+constexpr std::array kGreeting{std::byte{0x0a}, std::byte{0x43}, std::byte{0x0d}};
+constexpr std::array kAnswer{std::byte{0x0a}, std::byte{0x44}, std::byte{0x2c}, std::byte{0x0d}};
+constexpr std::array kBegin{std::byte{0x41}};
+
+/// A step that failed, which may go better the next time.
+struct Failure {
+  std::string problem, remedy;
+};
+
+constexpr const char* kPowerCycle =
+    "switch the device off at its power supply, wait, switch it on and try again";
+
+/// The line may still carry a zero byte of the chip's reset before the answer.
+bool isAnswer(std::span<const std::byte> got) {
+  if (!got.empty() && got.front() == std::byte{0}) got = got.subspan(1);
+  return got.size() >= kAnswer.size() && std::equal(kAnswer.begin(), kAnswer.end(), got.begin());
+}
+
+std::optional<Failure> greet(FtdiPort& port) {
+  port.purge();
+  port.setLatency(kLoadingLatency);
+  port.setDivisor(kGreetingDivisor);
+  port.setPlainLine();
+  port.setRts(false);
+  // The edge of DTR resets the processor into its loader.
+  port.setDtr(false);
+  port.setDtr(true);
+  for (int i = 0; i < kGreetings; ++i) {
+    port.write(kGreeting);
+    std::array<std::byte, kAnswer.size() + 1> got{};
+    std::size_t count = port.read(std::span(got).first(kAnswer.size()));
+    if (count == kAnswer.size() && got.front() == std::byte{0}) count += port.read(std::span(got).last(1));
+    if (isAnswer(std::span(got).first(count))) return std::nullopt;
+  }
+  return Failure{"its loader does not answer",
+                 "check that its power supply is plugged in, then " + std::string(kPowerCycle)};
+}
+
+std::optional<Failure> beginLoading(FtdiPort& port) {
+  port.setDtr(false);
+  port.setDivisor(kLoadingDivisor);
+  port.write(kBegin);
+  std::array<std::byte, kBegin.size()> got{};
+  if (port.read(got) == got.size() && got == kBegin) return std::nullopt;
+  return Failure{"its loader does not take firmware", kPowerCycle};
+}
+
+/// Of all attempts together, as it never falls.
+class Told {
+ public:
+  explicit Told(const ProgressCallback& progress) : progress_(progress) {}
+  void tell(std::size_t done, std::size_t all) {
+    most_ = std::max(most_, static_cast<double>(done) / static_cast<double>(all));
+    if (progress_ && !progress_(most_)) throw Cancelled();
+  }
+
+ private:
+  const ProgressCallback& progress_;
+  double most_ = 0.0;
+};
+
+std::optional<Failure> sendBlocks(FtdiPort& port, std::span<const std::byte> firmware, Told& told) {
+  std::array<std::byte, kBlockSize> buffer{};
+  for (std::size_t at = 0; at < firmware.size(); at += kBlockSize) {
+    told.tell(at, firmware.size());
+    const std::span<const std::byte> block = firmware.subspan(at, std::min(kBlockSize, firmware.size() - at));
+    port.write(block);
+    const std::span<std::byte> echo = std::span(buffer).first(block.size());
+    const std::size_t count = port.read(echo);
+    if (count < echo.size())
+      return Failure{fmt::format("it stopped taking firmware at byte {} of {}", at + count, firmware.size()),
+                     kPowerCycle};
+    const auto wrong = std::mismatch(block.begin(), block.end(), echo.begin()).first;
+    if (wrong != block.end()) {
+      const std::size_t byte = at + static_cast<std::size_t>(wrong - block.begin());
+      return Failure{fmt::format("it repeated byte {} of the firmware wrongly", byte),
+                     "plug it straight into the computer, not into a hub, and try again"};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Failure> tryUpload(FtdiPort& port, std::span<const std::byte> firmware, Told& told) {
+  if (auto failure = greet(port)) return failure;
+  if (auto failure = beginLoading(port)) return failure;
+  if (auto failure = sendBlocks(port, firmware, told)) return failure;
+  if (isFirmwareRunning(port)) return std::nullopt;
+  return Failure{"it took the firmware and does not run it",
+                 "check that the file is the firmware of the Novint Falcon"};
+}
+
+}  // namespace
+
+std::vector<std::byte> readFirmware(const std::filesystem::path& file, const std::string& where) {
+  if (file.empty()) {
+    throw DeviceError(DeviceProblem::NoFirmware, where,
+                      "it has no firmware since it was switched on, and no file with it is set",
+                      "give the firmware file that came with its maker's driver");
+  }
+  const std::uint64_t size = InputFile(file).size();
+  if (size < kLeastFirmware || size > kMostFirmware) {
+    throw DeviceError(DeviceProblem::NoFirmware, where,
+                      fmt::format("{} has {} bytes, and firmware has {} to {}", file.string(), size,
+                                  kLeastFirmware, kMostFirmware),
+                      "give the firmware file that came with its maker's driver");
+  }
+  const std::vector<char> content = readWholeFile(file);
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(content));
+  return {bytes.begin(), bytes.end()};
+}
+
+bool isFirmwareRunning(FtdiPort& port) {
+  port.setLatency(kRunningLatency);
+  port.setDivisor(kRunningDivisor);
+  port.purge();
+  FrameReader reader;
+  for (int i = 0; i < kQuestions; ++i) {
+    port.write(encode(Command{}));
+    std::array<std::byte, kFrameSize> got{};
+    const std::size_t count = port.read(got);
+    for (const std::byte byte : std::span(got).first(count)) {
+      if (reader.take(byte)) return true;
+    }
+  }
+  return false;
+}
+
+void uploadFirmware(FtdiPort& port, std::span<const std::byte> firmware, const std::string& where,
+                    const ProgressCallback& progress) {
+  Told told(progress);
+  std::optional<Failure> failure;
+  for (int i = 0; i < kUploads; ++i) {
+    failure = tryUpload(port, firmware, told);
+    if (!failure) return;
+  }
+  throw DeviceError(DeviceProblem::NotAnswering, where,
+                    fmt::format("{} ({} attempts)", failure->problem, kUploads), failure->remedy);
+}
+
+}  // namespace nearfit::falcon

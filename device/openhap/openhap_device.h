@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+
+#include "device/device_error.h"
+#include "device/haptic_device.h"
+#include "device/openhap/openhap_protocol.h"
+#include "device/streamed_handle.h"
+#include "device/usb/usb_link.h"
+
+namespace nearfit {
+
+/// A device that speaks OpenHap (resources/docs/openhap.md), over USB.
+class OpenHapDevice final : public HapticDevice, private UsbPacketSink {
+ public:
+  /// True for what has an OpenHap interface, of whatever version.
+  static bool speaks(const UsbDescription& device) noexcept;
+  /// When it speaks another version than ours.
+  static std::optional<DeviceRefusal> refusal(const UsbDescription& device);
+
+  /// Opens nothing yet.
+  /// @param limits  What the device says of itself may only tighten its speeds; it says whether it has a
+  ///                dead-man switch.
+  explicit OpenHapDevice(UsbDescription device, const SafetyLimits& limits = {});
+  ~OpenHapDevice() override;
+
+  DeviceInfo info() const override;
+  DeviceState state() const noexcept override { return handle_.state(); }
+  std::string stateNote() const override;
+  void start(const RigidTransform& worldFromPart, const ProgressCallback& progress = {}) override;
+  void stop() noexcept override;
+  void arm() override;
+  void disarm() noexcept override;
+  void calibrate() override;
+  void reset() override;
+  bool waitForHandle(Nanoseconds deadline) noexcept override { return handle_.wait(deadline); }
+  bool readHandle(HandleInput& handle) noexcept override;
+  void sendWrench(const Wrench& wrench) noexcept override;
+
+  ReportCounters counters() const noexcept override { return handle_.counters(); }
+  UsbCounters linkCounters() const noexcept { return link_ ? link_->counters() : UsbCounters{}; }
+
+ private:
+  void onPacket(std::span<const std::byte> packet, std::int64_t arrived) noexcept override;
+  void onLost(UsbLoss loss) noexcept override;
+  openhap::Capabilities readCapabilities();
+  void request(openhap::Request request);
+  void askForFaultText() noexcept;
+  void setFaultText(std::string text);
+  std::string name() const;
+
+  const UsbDescription device_;
+  const SafetyLimits safety_;
+  std::uint8_t interfaceNumber_ = 0;
+  std::optional<UsbLink> link_;
+  openhap::Capabilities capabilities_;
+  std::string product_;
+  StreamedHandle<openhap::PoseReport> handle_;
+
+  mutable std::mutex faultMutex_;
+  std::string faultText_;  ///< The device's own, of the fault that it reports.
+
+  // The link thread's own.
+  bool hasSequence_ = false, wasFaulted_ = false;
+  std::uint16_t lastSequence_ = 0;
+
+  // The servo thread's own.
+  bool hasPose_ = false;  ///< Something came from the device at an earlier reading.
+  glm::dvec3 velocity_{0.0};
+};
+
+}  // namespace nearfit

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "device/force_arm_device.h"
+#include "device/polhem/polhem_kinematics.h"
+#include "device/polhem/polhem_protocol.h"
+#include "device/velocity_filter.h"
+
+namespace nearfit {
+
+/// A WoodenHaptics or Polhem over USB: six joints sensed where it has a gimbal, three driven. It counts from
+/// wherever it was switched on, and so is uncalibrated until it is held in its rest and told so.
+class PolhemDevice final : public ForceArmDevice {
+ public:
+  /// True for what has its ids, or those of a Teensy that speaks raw HID, and the endpoints.
+  static bool speaks(const UsbDescription& device) noexcept;
+
+  /// Opens nothing yet.
+  PolhemDevice(UsbDescription device, const polhem::Calibration& calibration,
+               const SafetyLimits& safety = {});
+  ~PolhemDevice() override { stop(); }
+
+  std::string stateNote() const override;
+  /// The hand holds the handle in its rest: from the next report on it is where the calibration says. The
+  /// device's own button does the same. Holds until it is unplugged or proves wrong.
+  void calibrate() override;
+
+ private:
+  Opened open(std::optional<UsbLink>& link, const ProgressCallback& progress) override;
+  void take(std::span<const std::byte> packet, Nanoseconds arrived) noexcept override;
+  std::span<const std::byte> command(const glm::dvec3& force, const ArmSample& at) noexcept override;
+  ArmSample restSample() const noexcept;
+  bool isRestShown(const polhem::Report& report) noexcept;
+
+  const polhem::Calibration calibration_;
+  const polhem::Kinematics kinematics_;
+  std::size_t packetSize_ = polhem::kPacketSize;
+  std::atomic<bool> isCalibrationDue_{false};
+
+  // The link thread's; the controlling thread's while nothing streams.
+  bool isCalibrated_ = false;
+  std::array<std::int16_t, 6> rest_{};
+  VelocityFilter velocity_;
+  bool hasReport_ = false, wasButtonPressed_ = false;
+
+  std::array<std::byte, polhem::kRawHidSize> command_{};  ///< The servo thread's.
+};
+
+}  // namespace nearfit

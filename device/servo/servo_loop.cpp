@@ -1,0 +1,269 @@
+#include "device/servo/servo_loop.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <semaphore>
+#include <utility>
+
+#include <pthread.h>
+#include <signal.h>
+#include <time.h>
+
+#include "core/error.h"
+#include "core/realtime/triple_buffer.h"
+#include "device/servo/monotonic_clock.h"
+#include "device/servo/realtime_thread.h"
+#include "device/servo/scene_refresher.h"
+
+namespace nearfit {
+namespace {
+
+constexpr Nanoseconds kPeriodNs = 1'000'000;
+static_assert(ServoLoop::kPeriod * 1e9 == static_cast<double>(kPeriodNs));
+
+/// Without a report for so many periods a tick runs all the same, so that the force fades.
+constexpr double kReportPatience = 2.0;
+
+/// Statistics are some 40 KB: copying them every tick would cost more than a tick's bookkeeping.
+constexpr std::uint64_t kTicksPerStatistics = 100;
+
+/// The lower of each limit; not a number on either side stays one, for the tick to refuse.
+DeviceLimits lower(const DeviceLimits& a, const DeviceLimits& b) noexcept {
+  const auto least = [](double x, double y) { return std::isnan(x) || x < y ? x : y; };
+  DeviceLimits result = a;
+  for (const auto limit :
+       {&DeviceLimits::maxForce, &DeviceLimits::maxTorque, &DeviceLimits::forceSlew,
+        &DeviceLimits::torqueSlew, &DeviceLimits::damping, &DeviceLimits::rotationalDamping,
+        &DeviceLimits::leastMass, &DeviceLimits::leastInertia}) {
+    result.*limit = least(a.*limit, b.*limit);
+  }
+  return result;
+}
+
+}  // namespace
+
+/// Everything that both threads see. The controlling thread makes and frees it; the servo thread is joined
+/// first.
+///
+/// The floating-point mode is left as it is (no flush to zero): the same pose must give the same minima here
+/// as in any other thread, and ServoTick keeps its filter out of the denormals.
+struct ServoLoop::Shared {
+  Shared(HapticDevice& d, const DeviceInfo& info, std::shared_ptr<const ServoScene> scene,
+         const ServoParameters& p, MotionQueue* r)
+      : device(d),
+        deviceLimits(info.limits),
+        reportPatience(static_cast<Nanoseconds>(kReportPatience * info.reportPeriod * 1e9)),
+        record(r),
+        refresher(std::in_place, std::move(scene), searchReach(p.haptics)),
+        parameters(p) {}
+
+  static void* threadMain(void* self) noexcept;
+  void spawn();
+  void serve() noexcept;
+  Nanoseconds nextDeadline(Nanoseconds last, bool hasReport) noexcept;
+  /// @param late  The tick, behind its deadline; of no account where a report paces it [s].
+  bool tickOnce(bool hasReport, Nanoseconds sinceStart, double late) noexcept;
+
+  HapticDevice& device;
+  const DeviceLimits deviceLimits;
+  const Nanoseconds reportPatience;  ///< 0: this loop sets the pace.
+  MotionQueue* const record;
+  RealtimeGrant grant;
+  std::optional<MemoryLock> memoryLock;
+  pthread_t thread{};
+  bool isJoinable = false;
+  bool isDeviceToStop = false;
+  std::binary_semaphore started{0};
+  std::atomic<bool> stopRequested{false};
+  std::atomic<bool> isRunning{false};
+
+  std::optional<SceneRefresher> refresher;  ///< Gone, with the scenes that it holds, once stopped.
+  TripleBuffer<ServoParameters> parameters;
+  TripleBuffer<ServoSnapshot> snapshots;
+  TripleBuffer<ServoStatistics> published;
+
+  // The servo thread's own while it runs.
+  ServoTick tick;
+  ServoStatistics statistics;
+  Nanoseconds lastBegin = 0;  ///< Of a tick; 0 before the first.
+
+  LatencyHistogram lastRefreshTimes;  ///< Once stopped; the controlling thread's.
+};
+
+void* ServoLoop::Shared::threadMain(void* self) noexcept {
+  Shared& shared = *static_cast<Shared*>(self);
+  requestRealtimeScheduling(shared.grant);
+  shared.started.release();
+  shared.serve();
+  return nullptr;
+}
+
+void ServoLoop::Shared::spawn() {
+  memoryLock.emplace(grant);
+  // Signals are for the other threads: a handler here would run inside a tick.
+  sigset_t all, before;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &before);
+  isRunning.store(true);
+  // Not std::thread: it frees its state in the new thread.
+  const int error = ::pthread_create(&thread, nullptr, threadMain, this);
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (error != 0) {
+    isRunning.store(false);
+    throw Error("servo", std::string("no thread could be started (") + std::strerror(error) + ")",
+                "close other programs and try again");
+  }
+  isJoinable = true;
+  started.acquire();
+}
+
+void ServoLoop::Shared::serve() noexcept {
+  const Nanoseconds start = monotonicNow() + kPeriodNs;
+  Nanoseconds deadline = start;
+  while (!stopRequested.load(std::memory_order_acquire)) {
+    const bool hasReport = device.waitForHandle(deadline);
+    const double late = toSeconds(monotonicNow() - deadline);
+    if (!hasReport) statistics.lateness.record(late);
+    if (!tickOnce(hasReport, (hasReport ? monotonicNow() : deadline) - start, late)) break;
+    if (statistics.ticks % kTicksPerStatistics == 0) published.publish(statistics);
+    deadline = nextDeadline(deadline, hasReport);
+  }
+  device.sendWrench(Wrench{});
+  published.publish(statistics);
+  isRunning.store(false, std::memory_order_release);
+}
+
+Nanoseconds ServoLoop::Shared::nextDeadline(Nanoseconds last, bool hasReport) noexcept {
+  const Nanoseconds now = monotonicNow();
+  // The device's next report sets the pace; reports that came during a tick are one, the newest.
+  // In silence this loop does, so that the force of a slow one fades smoothly and it is stopped in time.
+  if (reportPatience > 0) return now + (hasReport ? reportPatience : std::min(reportPatience, kPeriodNs));
+  const Nanoseconds next = last + kPeriodNs;
+  if (now <= next) return next;
+  // Skip whole periods: a burst to catch up would send several wrenches for one moment of the hand.
+  const Nanoseconds skipped = (now - next) / kPeriodNs + 1;
+  statistics.overruns += static_cast<std::uint64_t>(skipped);
+  return next + skipped * kPeriodNs;
+}
+
+bool ServoLoop::Shared::tickOnce(bool hasReport, Nanoseconds sinceStart, double late) noexcept {
+  const Nanoseconds begin = monotonicNow();
+  // What really passed between two looks at the hand, not between two deadlines.
+  const Nanoseconds sinceLast = lastBegin == 0 ? kPeriodNs : begin - lastBegin;
+  lastBegin = begin;
+  HandleInput handle;
+  if (!device.readHandle(handle)) return false;
+  // Behind the report's arrival.
+  if (hasReport) statistics.lateness.record(handle.age);
+  parameters.update();
+  ServoParameters limited = parameters.front();
+  limited.limits = lower(limited.limits, deviceLimits);
+
+  ServoSnapshot& snapshot = snapshots.back();
+  const TrackedScene& tracked = refresher->latest();
+  tick.feel(tracked, limited, handle, toSeconds(sinceLast), snapshot);
+  device.sendWrench(snapshot.deviceWrench);
+  // The age counts from somewhere in readHandle: this is never too good.
+  if (hasReport) statistics.roundTrip.record(handle.age + toSeconds(monotonicNow() - begin));
+
+  tick.show(tracked, limited, snapshot);
+  snapshot.tick = ++statistics.ticks;
+  refresher->report({snapshot.proxy, snapshot.handle, searchReach(limited.haptics), snapshot.tick,
+                     snapshot.isWaiting, snapshot.isStarved});
+  if (snapshot.lateBodies > 0) ++statistics.lateTicks;
+  snapshot.time = toSeconds(sinceStart);
+  snapshot.tickTime = toSeconds(monotonicNow() - begin);
+  statistics.tickTime.record(snapshot.tickTime);
+  statistics.queryTime.record(snapshot.queryTime);
+  if (record != nullptr) record->push(motionRow(snapshot, hasReport ? handle.age : late));
+  snapshots.publish();
+  return true;
+}
+
+ServoLoop::ServoLoop() = default;
+
+ServoLoop::~ServoLoop() {
+  stop();
+}
+
+void ServoLoop::requireStartable(const ServoScene* scene) const {
+  if (shared_ && shared_->isJoinable) throw UsageError("servo", "it is running already", "stop it first");
+  if (scene == nullptr) throw UsageError("servo", "there is no scene to feel", "open one first");
+}
+
+void ServoLoop::start(HapticDevice& device, std::unique_ptr<const ServoScene> scene,
+                      const ServoParameters& parameters, MotionQueue* record) {
+  requireStartable(scene.get());
+  device.start(scene->moving.worldFromPart);
+  try {
+    startWithOpen(device, std::move(scene), parameters, record);
+  } catch (...) {
+    device.stop();
+    throw;
+  }
+  shared_->isDeviceToStop = true;
+}
+
+void ServoLoop::startWithOpen(HapticDevice& device, std::unique_ptr<const ServoScene> scene,
+                              const ServoParameters& parameters, MotionQueue* record) {
+  requireStartable(scene.get());
+  // What it can do may be known only once it is open.
+  auto shared = std::make_unique<Shared>(device, device.info(), std::move(scene), parameters, record);
+  shared->refresher->start();
+  shared->spawn();
+  shared_ = std::move(shared);
+}
+
+void ServoLoop::stop() noexcept {
+  if (!shared_ || !shared_->isJoinable) return;
+  shared_->stopRequested.store(true, std::memory_order_release);
+  ::pthread_join(shared_->thread, nullptr);
+  shared_->isJoinable = false;
+  shared_->memoryLock.reset();
+  shared_->lastRefreshTimes = shared_->refresher->refreshTimes();
+  shared_->refresher.reset();
+  if (shared_->isDeviceToStop) shared_->device.stop();
+}
+
+bool ServoLoop::isRunning() const noexcept {
+  return shared_ && shared_->isRunning.load(std::memory_order_acquire);
+}
+
+void ServoLoop::setScene(std::unique_ptr<const ServoScene> scene) {
+  if (!scene) throw UsageError("servo", "there is no scene to feel", "open one first");
+  if (!shared_ || !shared_->isJoinable) return;
+  shared_->refresher->setScene(std::move(scene));
+}
+
+void ServoLoop::setParameters(const ServoParameters& parameters) {
+  if (shared_) shared_->parameters.publish(parameters);
+}
+
+bool ServoLoop::pollSnapshot() {
+  if (!shared_) return false;
+  return shared_->snapshots.update();
+}
+
+const ServoSnapshot& ServoLoop::snapshot() const noexcept {
+  static const ServoSnapshot none;
+  return shared_ ? shared_->snapshots.front() : none;
+}
+
+ServoStatistics ServoLoop::statistics() const {
+  if (!shared_) return {};
+  shared_->published.update();
+  ServoStatistics statistics = shared_->published.front();
+  statistics.refreshTime =
+      shared_->refresher ? shared_->refresher->refreshTimes() : shared_->lastRefreshTimes;
+  return statistics;
+}
+
+std::string ServoLoop::schedulingNote() const {
+  return shared_ ? shared_->grant.describe() : "not started";
+}
+
+}  // namespace nearfit

@@ -1,0 +1,205 @@
+#include "device/spacemouse/spacemouse_device.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "device/device_error.h"
+#include "device/device_supervisor.h"
+#include "device/spacemouse/spacemouse_models.h"
+
+namespace nearfit {
+namespace {
+
+/// Of the device's forces that there are none: a push of this on the handle stops it, as a firm hand would be
+/// [N], [N m].
+constexpr double kLeashForce = 5.0, kLeashTorque = 0.25;
+/// While the cap is pushed reports come at least every 16 ms; after so long without one, the one that says
+/// that it is back was lost.
+constexpr Nanoseconds kForgetAfter = kNanosecondsPerSecond / 10;
+
+/// Bits of its buttons.
+constexpr std::uint64_t kClutchButton = 1, kLetGoButton = 2;
+
+/// HID 1.11, 7.1.1 and 7.2.2.
+constexpr std::uint8_t kGetFromInterface = 0x81, kGetDescriptor = 0x06, kSetToInterface = 0x21,
+                       kSetReport = 0x09;
+constexpr std::uint16_t kReportDescriptor = 0x2200, kOutputReport = 0x0200;
+constexpr std::size_t kMostDescriptor = 4096;
+constexpr UsbLink::Timeout kRequestTimeout{500};
+
+}  // namespace
+
+bool SpaceMouseDevice::speaks(const UsbDescription& device) noexcept {
+  return spacemouse::isOfMaker(device);
+}
+
+std::optional<DeviceRefusal> SpaceMouseDevice::refusal(const UsbDescription& device) {
+  return spacemouse::whyNone(device);
+}
+
+SpaceMouseDevice::SpaceMouseDevice(UsbDescription device)
+    : device_(std::move(device)), control_(kLeashForce, kLeashTorque) {}
+
+SpaceMouseDevice::~SpaceMouseDevice() {
+  stop();
+}
+
+std::string SpaceMouseDevice::name() const {
+  return fmt::format("{} ({} at {})", product_.empty() ? "Space mouse" : product_, device_.id(),
+                     device_.node());
+}
+
+void SpaceMouseDevice::setRate(const RateSettings& settings) {
+  checkRateSettings(settings);
+  settings_.publish(settings);
+}
+
+DeviceInfo SpaceMouseDevice::info() const {
+  return {name(), 0, DeviceLimits{}};
+}
+
+std::string SpaceMouseDevice::stateNote() const {
+  return state() == DeviceState::Lost ? lossReason(loss_.load(std::memory_order_acquire)) : "";
+}
+
+void SpaceMouseDevice::start(const RigidTransform&, const ProgressCallback&) {
+  stop();
+  state_ = DeviceState::Opening;
+  try {
+    const std::uint8_t endpoint = openAxes();
+    product_ = link_->strings().product;
+    newest_ = {};
+    samples_.publish(Sample{});
+    control_.restart({});
+    wrench_ = {};
+    lastRead_ = 0;
+    wasLettingGo_ = false;
+    loss_ = UsbLoss::None;
+    light(true);
+    state_ = DeviceState::Armed;
+    link_->stream({endpoint, 0}, *this);
+  } catch (...) {
+    link_.reset();
+    state_ = stateAfterFailure();
+    throw;
+  }
+}
+
+std::uint8_t SpaceMouseDevice::openAxes() {
+  const UsbInterface* unreadable = nullptr;
+  for (const UsbInterface* face : spacemouse::candidates(device_)) {
+    open(*face);
+    const std::vector<std::byte> descriptor = readDescriptor();
+    reader_ = SpaceMouseReader::fromDescriptor(descriptor);
+    if (reader_) return face->streaming(true)->address;
+    const bool isReadable = !descriptor.empty() && parseReportDescriptor(descriptor).has_value();
+    if (!isReadable && unreadable == nullptr) unreadable = face;
+  }
+  // One that says itself that it has no such axes is believed; what says nothing may be a model that is
+  // known.
+  if (unreadable == nullptr || !spacemouse::isKnownModel(device_)) {
+    const DeviceRefusal refusal = spacemouse::noSixAxes();
+    throw DeviceError(DeviceProblem::Unsupported, name(), refusal.reason, refusal.remedy);
+  }
+  open(*unreadable);
+  reader_ = SpaceMouseReader::withKnownLayout();
+  return unreadable->streaming(true)->address;
+}
+
+void SpaceMouseDevice::open(const UsbInterface& face) {
+  link_.reset();  // Gives the one before back.
+  interfaceNumber_ = face.number;
+  link_.emplace(device_, face.number);
+}
+
+std::vector<std::byte> SpaceMouseDevice::readDescriptor() {
+  std::vector<std::byte> descriptor(kMostDescriptor);
+  try {
+    descriptor.resize(link_->controlIn(kGetFromInterface, kGetDescriptor, kReportDescriptor, interfaceNumber_,
+                                       descriptor, kRequestTimeout));
+  } catch (const DeviceError& error) {
+    if (error.cause() == DeviceProblem::Gone) throw;
+    descriptor.clear();
+  }
+  return descriptor;
+}
+
+void SpaceMouseDevice::light(bool isOn) noexcept {
+  const std::optional<SpaceMouseReader::LedReport> report = reader_ ? reader_->ledReport(isOn) : std::nullopt;
+  if (!report || !link_) return;
+  try {
+    const auto value =
+        static_cast<std::uint16_t>(kOutputReport | std::to_integer<unsigned>(report->bytes[0]));
+    link_->controlOut(kSetToInterface, kSetReport, value, interfaceNumber_,
+                      std::span(report->bytes).first(report->size), kRequestTimeout);
+  } catch (const DeviceError&) {
+    // It shines or not; either way it works.
+  }
+}
+
+void SpaceMouseDevice::stop() noexcept {
+  if (!link_) return;
+  const bool isLost = state() == DeviceState::Lost;
+  link_->stop();
+  if (!isLost) light(false);
+  link_.reset();
+  state_ = isLost ? DeviceState::Lost : DeviceState::Present;
+}
+
+void SpaceMouseDevice::onPacket(std::span<const std::byte> packet, std::int64_t arrived) noexcept {
+  if (!reader_->read(packet, newest_)) {
+    rejected_.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  samples_.publish({newest_, arrived});
+  shown_.publish(newest_);
+  // Last: who sees that it was counted, sees it.
+  reports_.fetch_add(1, std::memory_order_release);
+}
+
+ReportCounters SpaceMouseDevice::counters() const noexcept {
+  return {reports_.load(std::memory_order_acquire), rejected_.load(std::memory_order_relaxed)};
+}
+
+void SpaceMouseDevice::onLost(UsbLoss loss) noexcept {
+  loss_.store(loss, std::memory_order_release);
+  state_.store(DeviceState::Lost, std::memory_order_release);
+}
+
+bool SpaceMouseDevice::waitForHandle(Nanoseconds deadline) noexcept {
+  waitUntil(deadline);
+  return false;
+}
+
+bool SpaceMouseDevice::readHandle(HandleInput& handle) noexcept {
+  if (state() != DeviceState::Armed) return false;
+  samples_.update();
+  settings_.update();
+  const Sample& sample = samples_.front();
+  const Nanoseconds now = monotonicNow();
+  const bool isFresh = now - sample.arrived < kForgetAfter;
+  const double time = lastRead_ == 0 ? 0.0 : toSeconds(now - lastRead_);
+  lastRead_ = now;
+  const std::uint64_t buttons = sample.state.buttons;
+  handle = {};
+  handle.isClutched = (buttons & kClutchButton) != 0;
+  const bool isDriven = isFresh && !handle.isClutched;
+  handle.pose =
+      control_.step(isDriven ? sample.state.axes : std::array<double, 6>{}, settings_.front(), wrench_, time);
+  const bool isLettingGo = (buttons & kLetGoButton) != 0;
+  handle.isLettingGo = isLettingGo && !wasLettingGo_;
+  wasLettingGo_ = isLettingGo;
+  handle.hasOwnFrame = true;
+  handle.buttons = buttons;
+  return true;
+}
+
+const SpaceMouseState& SpaceMouseDevice::newest() noexcept {
+  shown_.update();
+  return shown_.front();
+}
+
+}  // namespace nearfit

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <semaphore>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include <poll.h>
+
+#include "core/realtime/triple_buffer.h"
+#include "device/usb/libusb_handles.h"
+#include "device/usb/usb_link.h"
+#include "device/usb/usb_requests.h"
+#include "device/usb/wake_event.h"
+
+namespace nearfit::usb {
+
+/// Keeps transfers of one device in flight, on a thread of its own; UsbLink says what for.
+class Streamer {
+ public:
+  /// Context and handle outlive this, and nobody else handles their events. Nothing comes before begin().
+  /// Throws std::system_error.
+  Streamer(libusb_context* context, libusb_device_handle* handle, const UsbEndpoint& in,
+           const UsbEndpoint* out, UsbPacketSink& sink);
+  ~Streamer() { stop(); }
+  Streamer(const Streamer&) = delete;
+  Streamer& operator=(const Streamer&) = delete;
+
+  /// Lets packets in; once.
+  void begin() noexcept { mayBegin_.release(); }
+  void stop() noexcept;
+  bool send(std::span<const std::byte> packet) noexcept;
+  /// For as long as the thread handles events.
+  Requests& requests() noexcept { return requests_; }
+
+  UsbLoss loss() const noexcept { return loss_.load(std::memory_order_acquire); }
+  UsbCounters counters() const noexcept;
+  /// Once the thread runs.
+  RealtimeGrant grant() const noexcept { return grant_; }
+
+ private:
+  struct Command {
+    std::array<std::byte, UsbLink::kMostPacket> bytes{};
+    std::size_t size = 0;
+    std::uint64_t serial = 0;
+  };
+  struct Pipe;
+  /// A transfer with its buffer. What is in flight belongs to libusb.
+  struct Slot {
+    Streamer* owner = nullptr;
+    Pipe* pipe = nullptr;
+    Transfer transfer;
+    std::vector<unsigned char> buffer;
+    bool isInFlight = false;
+  };
+  /// The transfers of one endpoint.
+  struct Pipe {
+    std::vector<std::unique_ptr<Slot>> slots;
+    unsigned errorsInRow = 0, stallsInRow = 0;
+    bool isHalted = false;  ///< It stalled, and is to be cleared.
+
+    bool isIdle() const noexcept;
+    void cancel() const noexcept;
+  };
+  struct Counters {
+    std::atomic<std::uint64_t> packets{0}, oversized{0}, errors{0}, stalls{0}, commands{0}, replaced{0};
+  };
+  /// In flight at once: what a device sends while the thread is kept from running is not lost.
+  static constexpr std::size_t kInSlots = 4;
+  /// One is on its way while the next is filled.
+  static constexpr std::size_t kOutSlots = 2;
+
+  static void LIBUSB_CALL onDone(libusb_transfer* transfer) noexcept;
+  void onIn(Slot& slot) noexcept;
+  void onFailure(Pipe& pipe, libusb_transfer_status status) noexcept;
+  static int LIBUSB_CALL onLeft(libusb_context*, libusb_device* device, libusb_hotplug_event,
+                                void* self) noexcept;
+
+  void makeSlots(Pipe& pipe, std::size_t count, const UsbEndpoint& endpoint);
+  void run() noexcept;
+  /// Until there is something to do; true when that is what `wake_` rang for.
+  bool wait() noexcept;
+  bool isOver(bool isDrained) noexcept;
+  void clearHalts() noexcept;
+  void clearHalt(Pipe& pipe) noexcept;
+  void submitCommand() noexcept;
+  void submit(Slot& slot) noexcept;
+  void lose(UsbLoss loss) noexcept;
+
+  libusb_context* context_;
+  libusb_device_handle* handle_;
+  UsbPacketSink& sink_;
+  const bool hasOut_;
+  WakeEvent wake_;  ///< A command is there, or the end.
+  Requests requests_;
+  Pipe in_, out_;
+  libusb_hotplug_callback_handle leftCallback_{};
+  bool hasLeftCallback_ = false;
+
+  TripleBuffer<Command> commands_;
+  std::uint64_t nextSerial_ = 0;  ///< The sender's.
+  std::uint64_t lastSerial_ = 0;  ///< The thread's: of the last command taken.
+  std::vector<pollfd> polled_;
+  std::atomic<bool> arePollsStale_{true};
+  std::atomic<UsbLoss> loss_{UsbLoss::None};
+  bool isLossTold_ = false;
+  Counters counters_;
+  RealtimeGrant grant_;
+  std::binary_semaphore mayBegin_{0};
+  std::atomic<bool> isGrantKnown_{false}, stopRequested_{false};
+  std::thread thread_;
+};
+
+}  // namespace nearfit::usb

@@ -1,0 +1,79 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/mesh/mesh_import.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/mesh_text.h"
+#include "tests/support/run_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+/// A scene of a plate and, 1 m above it, a cube that is the moving part, in metres.
+class ExportCommand : public ::testing::Test {
+ protected:
+  ExportCommand() {
+    const std::string plate = folder_.write("plate.obj", objText(boxMesh({4, 4, 1}))).string();
+    const std::string cube = folder_.write("cube.obj", objText(boxMesh({1, 1, 1}))).string();
+    const auto made = runCli({"scene", "new", scene_, "--part", "Plate=" + plate, "--part",
+                              "Cube=" + cube + "@0,0,2,1,0,0,0", "--moving", "Cube"});
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+  }
+  std::string path(const char* name) { return (folder_.path() / name).string(); }
+
+  TemporaryFolder folder_;
+  std::string scene_ = path("fit.nearfit");
+};
+
+TEST_F(ExportCommand, TheNameOfTheFileSaysWhatIsWritten) {
+  for (const char* name : {"a.stl", "a.OBJ", "a.ply"}) {
+    const auto result = runCli({"export", scene_, path(name)});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_THAT(result.out, StartsWith("wrote "));
+    const ImportedMesh read = importMesh(path(name), {.metresPerUnit = 1e-3});
+    EXPECT_EQ(read.mesh.triangles().size(), 24U);
+    EXPECT_NEAR(read.mesh.bounds().upper.z, 2.5, 1e-6) << "in millimetres unless said otherwise";
+  }
+  ASSERT_EQ(runCli({"export", scene_, path("a.json")}).exitCode, 0);
+  EXPECT_EQ(nlohmann::json::parse(readBytes(path("a.json")))["moving"], "Cube");
+  ASSERT_EQ(runCli({"export", scene_, path("a.csv")}).exitCode, 0);
+  EXPECT_THAT(readBytes(path("a.csv")), HasSubstr("\nCube,"));
+}
+
+TEST_F(ExportCommand, APartAndAUnitAreChosen) {
+  ASSERT_EQ(runCli({"export", scene_, path("b.obj"), "--part", "Cube", "--unit", "m"}).exitCode, 0);
+  const ImportedMesh read = importMesh(path("b.obj"), {});
+  EXPECT_EQ(read.mesh.triangles().size(), 12U);
+  EXPECT_EQ(read.mesh.bounds().upper.z, 2.5);
+}
+
+TEST_F(ExportCommand, WhatMakesNoSenseIsWrongUsageAndWritesNothing) {
+  for (const auto& arguments :
+       std::vector<std::vector<std::string>>{{"export", scene_, path("c.step")},
+                                             {"export", scene_, path("c.stl"), "--part", "Peg"},
+                                             {"export", scene_, path("c.json"), "--part", "Cube"},
+                                             {"export", scene_, path("c.stl"), "--unit", "parsec"},
+                                             {"export", scene_, path("cube.obj")},
+                                             {"clearance", scene_, "--part", "Peg"},
+                                             {"clearance", scene_, "--cutoff", "-1"}}) {
+    const auto result = runCli(arguments);
+    EXPECT_EQ(result.exitCode, 2) << arguments.back();
+    EXPECT_FALSE(std::filesystem::exists(path("c.stl")));
+  }
+  EXPECT_EQ(importMesh(path("cube.obj"), {}).mesh.triangles().size(), 12U) << "it is not overwritten";
+}
+
+TEST_F(ExportCommand, ClearancesAreATable) {
+  const auto result = runCli({"clearance", scene_, "--cutoff", "1.5"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("\nCube,Plate,1,"));
+  EXPECT_THAT(result.out, HasSubstr(",1,1,no\n")) << "one minimum, the region between the faces";
+}
+
+}  // namespace
+}  // namespace nearfit::test

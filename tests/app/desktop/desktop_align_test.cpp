@@ -1,0 +1,271 @@
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QMouseEvent>
+#include <QStatusBar>
+
+#include "tests/app/desktop/desktop_driver.h"
+#include "ui/parts_model.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+class DesktopAlignTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void hoverTellsWhatWouldBePicked();
+  void alignsTwoFacesByTwoClicksAsOneStepOfUndo();
+  void flipsAndLeavesADistance();
+  void escapeLeavesEverythingAsItWas();
+  void lockedPartsRefuseToMove();
+  void dragsStillOrbitWhileAligning();
+  void alignsACornerWithACorner();
+  void dropsToContactAsOneStepOfUndo();
+  void dropsTowardsAFace();
+  void pushesUntilHeld();
+  void saysWhenNothingIsInTheWayOrPartsOverlap();
+  void lockedPartsDoNotDrop();
+  void selectedPartsGoTogetherAsOneStep();
+
+ private:
+  /// The window; kept where NEARFIT_PICTURES says, to be looked at.
+  static QPixmap pictureOf(DesktopDriver& d) {
+    QTest::qWait(100);
+    const QPixmap picture = d.window().grab();
+    const QString folder = qEnvironmentVariable("NEARFIT_PICTURES");
+    if (!folder.isEmpty()) picture.save(folder + QStringLiteral("/align.png"));
+    return picture;
+  }
+  /// Where a point of the world is seen.
+  static QPoint at(DesktopDriver& d, const glm::dvec3& point) {
+    const auto pixel = d.window().viewport().projection().pixelOf(point);
+    return pixel ? QPoint(qRound(pixel->x), qRound(pixel->y)) : QPoint();
+  }
+  static void click(DesktopDriver& d, const glm::dvec3& point) {
+    QTest::mouseClick(&d.window().viewport(), Qt::LeftButton, {}, at(d, point));
+  }
+  static void hover(DesktopDriver& d, const glm::dvec3& point) {
+    const QPoint to = at(d, point);
+    QWidget& view = d.window().viewport();
+    QMouseEvent move(QEvent::MouseMove, to, view.mapToGlobal(to), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+    QApplication::sendEvent(&view, &move);
+  }
+  static void begin(DesktopDriver& d) {
+    d.addCubes();
+    d.action("viewFront")->trigger();
+    QTest::qWait(50);
+    QTest::keyClick(&d.window(), Qt::Key_A);
+    QVERIFY(d.action("align")->isChecked());
+    QVERIFY(d.widget<QWidget>("alignBar")->isVisible());
+  }
+  /// On the faces that look at the viewer of the front view.
+  static constexpr double kFixedFront = -0.02, kMovingFront = -0.01;
+  /// The pointer stands on pixels: exactly on an outline it may be beside the part.
+  static constexpr double kInside = 3e-4, kTop = 0.045 - kInside;
+};
+
+void DesktopAlignTest::hoverTellsWhatWouldBePicked() {
+  DesktopDriver d;
+  begin(d);
+  hover(d, {0.003, kMovingFront, 0.036});
+  QTRY_COMPARE(d.text("alignHint"), QStringLiteral("Flat face of moving"));
+  hover(d, {0.0, kMovingFront, kTop});
+  QTRY_COMPARE(d.text("alignHint"), QStringLiteral("Straight edge of moving"));
+  hover(d, {0.01 - kInside, kMovingFront, kTop});
+  QTRY_COMPARE(d.text("alignHint"), QStringLiteral("Point of moving"));
+  d.widget<QComboBox>("alignFilter")->setCurrentIndex(1);
+  hover(d, {0.0, kMovingFront, 0.0449});
+  QTRY_COMPARE(d.text("alignHint"), QStringLiteral("Flat face of moving"));
+}
+
+void DesktopAlignTest::alignsTwoFacesByTwoClicksAsOneStepOfUndo() {
+  DesktopDriver d;
+  begin(d);
+  const RigidTransform before = d.part("moving").worldFromPart;
+  click(d, {0.003, kMovingFront, 0.036});
+  QVERIFY(d.text("alignPrompt").contains(QStringLiteral("aligned with")));
+  click(d, {-0.01, kFixedFront, 0.005});
+  QVERIFY(d.widget<QPushButton>("alignApply")->isEnabled());
+  QVERIFY(!pictureOf(d).isNull());
+  // A preview is no change.
+  QCOMPARE(d.part("moving").worldFromPart.translation, before.translation);
+  QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
+  const RigidTransform after = d.part("moving").worldFromPart;
+  // Face to face: its front looks back, in the plane of the other's.
+  QVERIFY(glm::distance(after.applyToVector({0, -1, 0}), glm::dvec3(0, 1, 0)) < 1e-12);
+  QVERIFY(std::abs(after.applyToPoint({0.0, kMovingFront, 0.035}).y - kFixedFront) < 1e-12);
+  QVERIFY(!d.action("align")->isChecked());
+  QVERIFY(!d.widget<QWidget>("alignBar")->isVisible());
+  QVERIFY(d.action("undo")->text().contains(QStringLiteral("Align moving")));
+  d.action("undo")->trigger();
+  QCOMPARE(d.part("moving").worldFromPart.translation, before.translation);
+  QCOMPARE(d.part("moving").worldFromPart.rotation, before.rotation);
+}
+
+void DesktopAlignTest::flipsAndLeavesADistance() {
+  DesktopDriver d;
+  begin(d);
+  click(d, {0.003, kMovingFront, 0.036});
+  click(d, {-0.01, kFixedFront, 0.005});
+  QTest::mouseClick(d.widget<QCheckBox>("alignFlip"), Qt::LeftButton, {}, QPoint(8, 8));
+  QVERIFY(d.widget<QCheckBox>("alignFlip")->isChecked());
+  d.type<QDoubleSpinBox>("alignOffset", "1/2 cm");
+  QTest::mouseClick(d.widget<QPushButton>("alignApply"), Qt::LeftButton);
+  const RigidTransform after = d.part("moving").worldFromPart;
+  QVERIFY(glm::distance(after.applyToVector({0, -1, 0}), glm::dvec3(0, -1, 0)) < 1e-12);
+  QVERIFY(glm::distance(after.translation, glm::dvec3(0.0, kFixedFront - 0.005 - kMovingFront, 0.0)) < 1e-12);
+}
+
+void DesktopAlignTest::escapeLeavesEverythingAsItWas() {
+  DesktopDriver d;
+  begin(d);
+  const RigidTransform before = d.part("moving").worldFromPart;
+  const std::string undo = d.session().undoText();
+  click(d, {0.003, kMovingFront, 0.036});
+  click(d, {-0.01, kFixedFront, 0.005});
+  QTest::keyClick(&d.window().viewport(), Qt::Key_Escape);
+  QVERIFY(!d.action("align")->isChecked());
+  QVERIFY(!d.widget<QWidget>("alignBar")->isVisible());
+  QCOMPARE(d.part("moving").worldFromPart.translation, before.translation);
+  QCOMPARE(d.session().undoText(), undo);
+}
+
+void DesktopAlignTest::lockedPartsRefuseToMove() {
+  DesktopDriver d;
+  begin(d);
+  d.session().setLocked(d.partId("fixed"), true);
+  hover(d, {-0.01, kFixedFront, 0.005});
+  QTRY_VERIFY2(d.text("alignHint").contains(QStringLiteral("fixed is locked")),
+               qPrintable(d.text("alignHint")));
+  click(d, {-0.01, kFixedFront, 0.005});
+  QVERIFY(d.text("alignPrompt").contains(QStringLiteral("part to move")));
+  // It may stay and be aligned with.
+  click(d, {0.003, kMovingFront, 0.036});
+  click(d, {-0.01, kFixedFront, 0.005});
+  QVERIFY(d.widget<QPushButton>("alignApply")->isEnabled());
+}
+
+void DesktopAlignTest::dragsStillOrbitWhileAligning() {
+  DesktopDriver d;
+  begin(d);
+  QWidget& view = d.window().viewport();
+  const glm::dvec3 before = d.window().viewport().projection().away();
+  const QPoint from = at(d, {0.003, kMovingFront, 0.036});
+  QTest::mousePress(&view, Qt::LeftButton, {}, from);
+  for (int i = 1; i <= 10; ++i) {
+    const QPoint to = from + QPoint(8 * i, 0);
+    QMouseEvent move(QEvent::MouseMove, to, view.mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
+                     Qt::NoModifier);
+    QApplication::sendEvent(&view, &move);
+  }
+  QTest::mouseRelease(&view, Qt::LeftButton, {}, from + QPoint(80, 0));
+  QVERIFY(glm::distance(d.window().viewport().projection().away(), before) > 0.05);
+  QVERIFY(d.text("alignPrompt").contains(QStringLiteral("part to move")));
+  QVERIFY(d.action("align")->isChecked());
+}
+
+void DesktopAlignTest::alignsACornerWithACorner() {
+  DesktopDriver d;
+  begin(d);
+  click(d, {-0.01 + kInside, kMovingFront, kTop});
+  click(d, {-0.02 + kInside, kFixedFront, 0.02 - kInside});
+  QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
+  const glm::dvec3 corner = d.part("moving").worldFromPart.applyToPoint({-0.01, kMovingFront, 0.045});
+  QVERIFY(glm::distance(corner, glm::dvec3(-0.02, kFixedFront, 0.02)) < 1e-15);
+}
+
+void DesktopAlignTest::dropsToContactAsOneStepOfUndo() {
+  DesktopDriver d;
+  d.addCubes();
+  d.clickPart(1, ui::PartsModel::Name);
+  const RigidTransform before = d.part("moving").worldFromPart;
+  d.action("dropDown")->trigger();
+  // 5 mm above the other, less what is left.
+  QTRY_VERIFY(d.part("moving").worldFromPart.translation.z < 0.0);
+  const double travel = -d.part("moving").worldFromPart.translation.z;
+  QVERIFY(travel < 0.005 && travel > 0.005 - 2e-6);
+  QVERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("touches fixed")));
+  QVERIFY(d.action("undo")->text().contains(QStringLiteral("Drop moving")));
+  d.action("undo")->trigger();
+  QCOMPARE(d.part("moving").worldFromPart.translation, before.translation);
+}
+
+void DesktopAlignTest::dropsTowardsAFace() {
+  DesktopDriver d;
+  d.addCubes();
+  // In front of the fixed cube, seen from above.
+  d.session().movePart(d.partId("moving"), {{1, 0, 0, 0}, {0.0, -0.06, -0.035}});
+  d.clickPart(1, ui::PartsModel::Name);
+  d.action("viewIso")->trigger();
+  QTest::qWait(50);
+  d.action("dropToFace")->trigger();
+  // A face of its own is refused.
+  click(d, {0.0, -0.06, 0.01});
+  QCOMPARE(d.part("moving").worldFromPart.translation.y, -0.06);
+  // The upper face: straight down, and past the cube.
+  click(d, {0.0, 0.0, 0.02});
+  QTRY_VERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("Nothing is in the way")));
+  d.action("dropBack")->trigger();
+  QTRY_VERIFY(d.part("moving").worldFromPart.translation.y > -0.0301);
+  QVERIFY(d.part("moving").worldFromPart.translation.y < -0.03);
+}
+
+void DesktopAlignTest::pushesUntilHeld() {
+  DesktopDriver d;
+  d.addCubes();
+  d.clickPart(1, ui::PartsModel::Name);
+  d.action("pushDown")->trigger();
+  QTRY_VERIFY(d.part("moving").worldFromPart.translation.z < -0.0045);
+  QVERIFY(d.part("moving").worldFromPart.translation.z > -0.005);
+  QVERIFY(d.action("undo")->text().contains(QStringLiteral("Push moving")));
+}
+
+void DesktopAlignTest::saysWhenNothingIsInTheWayOrPartsOverlap() {
+  DesktopDriver d;
+  d.addCubes();
+  d.clickPart(1, ui::PartsModel::Name);
+  const std::string undo = d.session().undoText();
+  d.action("dropUp")->trigger();
+  QTRY_VERIFY(
+      d.window().statusBar()->currentMessage().contains(QStringLiteral("Nothing is in the way of moving")));
+  QCOMPARE(d.session().undoText(), undo);
+  d.session().movePart(d.partId("moving"), {{1, 0, 0, 0}, {0.0, 0.0, -0.01}});
+  d.action("dropDown")->trigger();
+  QTRY_VERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("overlaps fixed")));
+  QCOMPARE(d.part("moving").worldFromPart.translation.z, -0.01);
+}
+
+void DesktopAlignTest::lockedPartsDoNotDrop() {
+  DesktopDriver d;
+  d.addCubes();
+  d.session().setMovingPart({});
+  d.clickPart(1, ui::PartsModel::Name);
+  QVERIFY(d.action("dropDown")->isEnabled());
+  d.session().setLocked(d.partId("moving"), true);
+  QVERIFY(!d.action("dropDown")->isEnabled());
+  QVERIFY(!d.action("pushDown")->isEnabled());
+}
+
+void DesktopAlignTest::selectedPartsGoTogetherAsOneStep() {
+  DesktopDriver d;
+  d.addCubes();
+  const PartId copy = d.session().duplicatePart(d.partId("moving"));
+  d.session().movePart(copy, {{1, 0, 0, 0}, {0.0, 0.0, 0.03}});
+  const auto height = [&](PartId id) { return d.session().scene().find(id)->worldFromPart.translation.z; };
+  d.clickPart(1, ui::PartsModel::Name);
+  QTest::mouseClick(
+      d.partsView()->viewport(), Qt::LeftButton, Qt::ControlModifier,
+      d.partsView()->visualRect(d.partsView()->model()->index(2, ui::PartsModel::Name)).center());
+  d.action("dropDown")->trigger();
+  QTRY_VERIFY(height(copy) < 0.03);
+  // The lower one touches; the other one keeps its distance from it.
+  QVERIFY(std::abs(height(d.partId("moving")) + 0.005) < 2e-6);
+  QVERIFY(std::abs(height(copy) - height(d.partId("moving")) - 0.03) < 1e-15);
+  d.action("undo")->trigger();
+  QCOMPARE(height(d.partId("moving")), 0.0);
+  QCOMPARE(height(copy), 0.03);
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopAlignTest)
+#include "desktop_align_test.moc"

@@ -1,0 +1,189 @@
+#include <QComboBox>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QHeaderView>
+#include <QMenu>
+#include <QTableView>
+
+#include "tests/app/desktop/desktop_driver.h"
+#include "ui/clearance/clearance_model.h"
+#include "ui/parts_model.h"
+#include "ui/selection.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+using ui::ClearanceModel;
+
+namespace {
+
+/// The two cubes, 5 mm apart, and a third that stands 30 mm beside the moving one; the table is shown.
+struct Fixture {
+  Fixture() {
+    d.addCubes();
+    const QString beside =
+        writeOff(d.folder.path() / "beside.off", boxMesh(glm::dvec3(0.02), glm::dvec3(0.05, 0.0, 0.035)));
+    d.add({beside});
+    (void)QTest::qWaitFor([&] { return d.session().scene().parts().size() == 3; });
+    d.widget<QDockWidget>("clearanceDock")->toggleViewAction()->trigger();
+    table = d.widget<QTableView>("clearanceTable");
+  }
+  QString cell(int row, int column) const { return table->model()->index(row, column).data().toString(); }
+  /// Of the row whose part is called so.
+  QString of(const char* name, int column) const {
+    for (int row = 0; row < table->model()->rowCount(); ++row) {
+      if (cell(row, ClearanceModel::Other) == QLatin1String(name)) return cell(row, column);
+    }
+    return {};
+  }
+  void clickRow(int row) {
+    QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
+                      table->visualRect(table->model()->index(row, ClearanceModel::Distance)).center());
+  }
+
+  DesktopDriver d;
+  QTableView* table = nullptr;
+};
+
+int differentPixels(const QImage& a, const QImage& b) {
+  int count = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x)
+      count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+class DesktopClearanceTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void theTableSaysHowNearEachOtherPartIs();
+  void theThresholdMarksPairsInColourAndInWords();
+  void aRowSelectsItsPairAndShowsWhereItIsNearest();
+  void theTableFollowsMovesAndOverlaps();
+  void theTableFollowsThePartInHand();
+  void columnsAreSortedByWhatTheyMean();
+  void anotherPartThanTheOneInHandIsChosen();
+  void theTableIsExported();
+  void aHiddenTableSearchesNothing();
+};
+
+void DesktopClearanceTest::theTableSaysHowNearEachOtherPartIs() {
+  Fixture f;
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
+  QCOMPARE(f.of("beside", ClearanceModel::Distance), QStringLiteral("30.0 mm"));
+  QCOMPARE(f.of("fixed", ClearanceModel::Minima), QStringLiteral("1"));
+  QCOMPARE(f.of("beside", ClearanceModel::Minima), QStringLiteral("0"));
+  QCOMPARE(f.table->model()->rowCount(), 2);
+}
+
+void DesktopClearanceTest::theThresholdMarksPairsInColourAndInWords() {
+  Fixture f;
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Verdict), QStringLiteral("clear"));
+  f.d.type<QDoubleSpinBox>("clearanceThreshold", "5.5");
+  QCOMPARE(f.of("fixed", ClearanceModel::Verdict), QStringLiteral("too near"));
+  QCOMPARE(f.of("beside", ClearanceModel::Verdict), QStringLiteral("clear"));
+  const auto colourOf = [&](int row) {
+    return f.table->model()->index(row, ClearanceModel::Distance).data(Qt::ForegroundRole);
+  };
+  QVERIFY(colourOf(0).isValid());
+  QVERIFY(!colourOf(1).isValid());
+}
+
+void DesktopClearanceTest::aRowSelectsItsPairAndShowsWhereItIsNearest() {
+  Fixture f;
+  QTRY_COMPARE(f.table->model()->rowCount(), 2);
+  const int before = f.d.window().viewport().pictureCount();
+  QCOMPARE(f.cell(1, ClearanceModel::Other), QStringLiteral("beside"));
+  f.clickRow(1);
+  const std::vector<PartId> expected{f.d.partId("beside"), f.d.partId("moving")};
+  QCOMPARE(f.d.window().selection().parts(), expected);
+  QTRY_VERIFY(f.d.window().viewport().pictureCount() > before);
+  const QImage with = f.d.window().viewport().grabFramebuffer();
+  // The same picture without the pair's segment.
+  f.table->clearSelection();
+  QCOMPARE(f.d.window().selection().parts(), expected);
+  QTRY_VERIFY(differentPixels(f.d.window().viewport().grabFramebuffer(), with) > 100);
+}
+
+void DesktopClearanceTest::theTableFollowsMovesAndOverlaps() {
+  Fixture f;
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
+  f.d.session().movePart(f.d.partId("fixed"), {{1, 0, 0, 0}, {0, 0, 0.01}});
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Verdict), QStringLiteral("overlapping"));
+  QCOMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("0.00 mm"));
+  f.d.session().undo();
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
+  f.d.session().setVisible(f.d.partId("fixed"), false);
+  QTRY_COMPARE(f.table->model()->rowCount(), 1);
+}
+
+void DesktopClearanceTest::theTableFollowsThePartInHand() {
+  Fixture f;
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
+  f.d.application.servo().start(ui::Hand::Manual);
+  f.d.clickPart(1, ui::PartsModel::Name);
+  f.d.type<QDoubleSpinBox>("positionZ", "2");
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("7.00 mm"));
+  // The servo knows nothing of what is beyond its cutoff: that is searched.
+  f.d.type<QDoubleSpinBox>("positionX", "-3");
+  QTRY_COMPARE(f.of("beside", ClearanceModel::Distance), QStringLiteral("33.0 mm"));
+}
+
+void DesktopClearanceTest::columnsAreSortedByWhatTheyMean() {
+  Fixture f;
+  QTRY_COMPARE(f.table->model()->rowCount(), 2);
+  QCOMPARE(f.cell(0, ClearanceModel::Other), QStringLiteral("fixed"));
+  QHeaderView* header = f.table->horizontalHeader();
+  const auto clickHeader = [&](int column) {
+    QTest::mouseClick(header->viewport(), Qt::LeftButton, {},
+                      {header->sectionViewportPosition(column) + 20, header->height() / 2});
+  };
+  clickHeader(ClearanceModel::Distance);
+  QCOMPARE(f.cell(0, ClearanceModel::Other), QStringLiteral("beside"));
+  clickHeader(ClearanceModel::Other);
+  clickHeader(ClearanceModel::Other);
+  QCOMPARE(f.cell(0, ClearanceModel::Other), QStringLiteral("fixed"));
+}
+
+void DesktopClearanceTest::anotherPartThanTheOneInHandIsChosen() {
+  Fixture f;
+  auto* part = f.d.widget<QComboBox>("clearancePart");
+  QCOMPARE(part->currentText(), QStringLiteral("In hand: moving"));
+  part->setFocus();
+  QTest::keyClick(part, Qt::Key_End);
+  QCOMPARE(part->currentText(), QStringLiteral("beside"));
+  QTRY_COMPARE(f.of("moving", ClearanceModel::Distance), QStringLiteral("30.0 mm"));
+  f.d.session().deletePart(f.d.partId("beside"));
+  QCOMPARE(part->currentText(), QStringLiteral("In hand: moving"));
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
+  QCOMPARE(f.table->model()->rowCount(), 1);
+}
+
+void DesktopClearanceTest::theTableIsExported() {
+  Fixture f;
+  QTRY_COMPARE(f.table->model()->rowCount(), 2);
+  const auto file = f.d.folder.path() / "clear.csv";
+  whenModal<QFileDialog>(
+      [&](QFileDialog* dialog) { chooseFile(dialog, QString::fromStdString(file.string())); });
+  QTest::mouseClick(f.d.widget<QPushButton>("exportClearances"), Qt::LeftButton);
+  QTRY_VERIFY(std::filesystem::exists(file));
+  QVERIFY(readBytes(file).find("\nmoving,fixed,0.005") != std::string::npos);
+}
+
+void DesktopClearanceTest::aHiddenTableSearchesNothing() {
+  Fixture f;
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
+  auto* dock = f.d.widget<QDockWidget>("clearanceDock");
+  dock->toggleViewAction()->trigger();
+  f.d.session().movePart(f.d.partId("fixed"), {{1, 0, 0, 0}, {0, 0, -0.002}});
+  QTest::qWait(400);
+  QCOMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
+  dock->toggleViewAction()->trigger();
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("7.00 mm"));
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopClearanceTest)
+#include "desktop_clearance_test.moc"

@@ -1,0 +1,546 @@
+#include <QImage>
+#include <QMouseEvent>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "core/math/rotation_vector.h"
+#include "core/placing/gizmo_layout.h"
+#include "tests/app/desktop/desktop_driver.h"
+#include "tests/exact/pose_certifier.h"
+#include "ui/number_field.h"
+#include "ui/placing/gizmo_overlay.h"
+#include "ui/placing/placing_tools.h"
+#include "ui/selection.h"
+
+using namespace nearfit;
+using test::DesktopDriver;
+
+namespace {
+
+/// The two cubes, the moving one selected, and a mouse over the view.
+struct Bench {
+  Bench() {
+    driver.addCubes();
+    select("moving");
+    look("viewFront");
+    QTRY_VERIFY(overlay().picture() || driver.action("gizmoNone")->isChecked());
+  }
+  /// Goes to a view and waits until it is drawn.
+  void look(const char* action) {
+    const int before = view().pictureCount();
+    driver.action(action)->trigger();
+    QTRY_VERIFY(view().pictureCount() > before);
+  }
+  ui::Viewport& view() { return driver.window().viewport(); }
+  void select(const char* name) { driver.window().selection().select(driver.partId(name)); }
+  RigidTransform pose(const char* name = "moving") { return driver.part(name).worldFromPart; }
+  std::size_t steps() { return driver.session().historyIndex(); }
+  ui::GizmoOverlay& overlay() { return *driver.widget<ui::GizmoOverlay>("gizmo"); }
+  QString readout() { return driver.text("dragReadout"); }
+
+  QPoint seen(const glm::dvec3& point) {
+    const glm::dvec2 pixel = view().projection().pixelOf(point).value();
+    return {static_cast<int>(std::lround(pixel.x)), static_cast<int>(std::lround(pixel.y))};
+  }
+  /// Where the gizmo shows a handle so that it can be grabbed.
+  QPoint handle(GizmoHandle handle) {
+    const GizmoLayout& layout = overlay().picture().value().layout;
+    for (const GizmoFigure& figure : layout.figures()) {
+      if (figure.handle != handle) continue;
+      glm::dvec2 middle(0.0);
+      for (const glm::dvec2& point : figure.points)
+        middle += point / static_cast<double>(figure.points.size());
+      if (isRing(handle)) middle = figure.points[figure.points.size() / 3];
+      if (layout.pick(glm::round(middle)) != handle) continue;
+      return {static_cast<int>(std::lround(middle.x)), static_cast<int>(std::lround(middle.y))};
+    }
+    throw Error("gizmo", "the handle is not to be seen");
+  }
+
+  void send(QEvent::Type type, QPoint at, Qt::KeyboardModifiers keys = {},
+            Qt::MouseButton button = Qt::LeftButton) {
+    const bool isMove = type == QEvent::MouseMove;
+    const Qt::MouseButtons down = type == QEvent::MouseButtonRelease ? Qt::NoButton : held_;
+    QMouseEvent event(type, at, view().mapToGlobal(at), isMove ? Qt::NoButton : button, down, keys);
+    QApplication::sendEvent(&view(), &event);
+  }
+  void press(QPoint at, Qt::KeyboardModifiers keys = {}) {
+    held_ = Qt::LeftButton;
+    send(QEvent::MouseButtonPress, at, keys);
+  }
+  void moveTo(QPoint at, Qt::KeyboardModifiers keys = {}) {
+    send(QEvent::MouseMove, at, keys);
+    QCoreApplication::processEvents();
+  }
+  void release(QPoint at, Qt::KeyboardModifiers keys = {}) {
+    send(QEvent::MouseButtonRelease, at, keys);
+    held_ = Qt::NoButton;
+  }
+  void drag(QPoint from, QPoint way, Qt::KeyboardModifiers keys = {}) {
+    press(from, keys);
+    for (int i = 1; i <= 10; ++i)
+      moveTo(from + way * i / 10, keys);
+    release(from + way, keys);
+  }
+
+  DesktopDriver driver;
+
+ private:
+  Qt::MouseButtons held_ = Qt::NoButton;
+};
+
+double angleBetween(const RigidTransform& a, const RigidTransform& b) {
+  return glm::length(rotationVector(b.rotation * glm::conjugate(a.rotation)));
+}
+
+}  // namespace
+
+class DesktopGizmoTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init();
+  void anArrowMovesAlongItsAxisInOneStepOfUndo();
+  void aSquareMovesInItsPlane();
+  void aRingTurnsAboutTheCentreOfMass();
+  void theSelectedPartIsGrabbedItself();
+  void besideItAViewIsOrbited();
+  void withoutAGizmoNothingIsDragged();
+  void escapeRestoresExactly();
+  void anotherButtonRestoresToo();
+  void aClickOnAHandleIsNoStep();
+  void theHandleUnderThePointerLightsUpWithoutAPicture();
+  void stepsAreTakenWithTheSwitchAndControlTurnsItRound();
+  void keysChooseTheGizmoAndItsAxes();
+  void thePivotIsMovedAndPutBack();
+  void theGizmoFollowsUndoAndNumbers();
+  void lockedAndHiddenPartsHaveNoGizmo();
+  void theNumbersFollowADrag();
+  void aSceneThatChangesUnderADragEndsIt();
+  void whatIsChosenIsRemembered();
+  void theManualHandIsLedByTheGizmo();
+  void aPartThatAnotherHandHoldsHasNoGizmo();
+  void solidPartsStayOutsideByExactPredicates();
+  void aSolidDragThatStillSettlesIsUndoneWhole();
+  void numbersStopAtContactTooWhereItIsSolid();
+  void severalPartsAreMovedAsOneInOneStep();
+  void aLockedPartAmongThemKeepsAllWhereTheyAre();
+};
+
+void DesktopGizmoTest::init() {
+  QSettings().clear();
+}
+
+void DesktopGizmoTest::anArrowMovesAlongItsAxisInOneStepOfUndo() {
+  Bench b;
+  const RigidTransform before = b.pose();
+  const std::size_t steps = b.steps();
+  b.drag(b.handle(GizmoHandle::MoveX), {60, -25});
+  const glm::dvec3 way = b.pose().translation - before.translation;
+  const double pixel = b.view().projection().metresPerPixel(b.pose().translation + glm::dvec3(0, 0, 0.035));
+  QVERIFY2(std::abs(way.x - 60.0 * pixel) < 1.5 * pixel, qPrintable(QString::number(way.x / pixel)));
+  QCOMPARE(way.y, 0.0);
+  QCOMPARE(way.z, 0.0);
+  QCOMPARE(b.steps(), steps + 1);
+  QCOMPARE(b.driver.session().undoText(), std::string("Move moving"));
+  b.driver.action("undo")->trigger();
+  QCOMPARE(b.pose().translation, before.translation);
+}
+
+void DesktopGizmoTest::aSquareMovesInItsPlane() {
+  Bench b;
+  b.look("viewIso");
+  const RigidTransform before = b.pose();
+  b.drag(b.handle(GizmoHandle::PlaneZ), {40, 30});
+  const glm::dvec3 way = b.pose().translation - before.translation;
+  QCOMPARE(way.z, 0.0);
+  QVERIFY(std::abs(way.x) > 1e-4 && std::abs(way.y) > 1e-4);
+}
+
+void DesktopGizmoTest::aRingTurnsAboutTheCentreOfMass() {
+  Bench b;
+  b.driver.action("gizmoTurn")->trigger();
+  b.look("viewIso");
+  const RigidTransform before = b.pose();
+  const glm::dvec3 centre = b.driver.part("moving").geometry->mass.centre;
+  b.drag(b.handle(GizmoHandle::TurnZ), {40, -10});
+  QVERIFY(angleBetween(before, b.pose()) > 0.1);
+  const glm::dvec3 axis = rotationVector(b.pose().rotation * glm::conjugate(before.rotation));
+  QVERIFY(std::abs(std::abs(glm::normalize(axis).z) - 1.0) < 1e-9);
+  QVERIFY(glm::distance(before.applyToPoint(centre), b.pose().applyToPoint(centre)) < 1e-12);
+  QCOMPARE(b.driver.session().undoText(), std::string("Turn moving"));
+}
+
+void DesktopGizmoTest::theSelectedPartIsGrabbedItself() {
+  Bench b;
+  const RigidTransform before = b.pose();
+  // A place of its face that no handle covers; it goes with the pointer.
+  const glm::dvec3 grabbed = before.applyToPoint({-0.008, -0.01, 0.027});
+  const QPoint from = b.seen(grabbed);
+  b.drag(from, {-70, 44});
+  const glm::dvec3 way = b.pose().translation - before.translation;
+  QVERIFY((b.seen(grabbed + way) - from - QPoint(-70, 44)).manhattanLength() <= 2);
+  QVERIFY(std::abs(way.y) < 1e-12);
+}
+
+void DesktopGizmoTest::besideItAViewIsOrbited() {
+  Bench b;
+  const RigidTransform before = b.pose();
+  const glm::dvec3 away = b.view().projection().away();
+  b.drag({20, b.view().height() - 40}, {80, 20});
+  QCOMPARE(b.pose().translation, before.translation);
+  QVERIFY(glm::distance(away, b.view().projection().away()) > 0.05);
+  // So it is on a part that is not selected.
+  const glm::dvec3 then = b.view().projection().away();
+  b.drag(b.seen({0.0, 0.0, -0.012}), {60, 0});
+  QVERIFY(glm::distance(then, b.view().projection().away()) > 0.05);
+  QCOMPARE(b.pose("fixed").translation, glm::dvec3(0.0));
+}
+
+void DesktopGizmoTest::withoutAGizmoNothingIsDragged() {
+  Bench b;
+  b.driver.action("gizmoNone")->trigger();
+  QVERIFY(!b.overlay().isVisible());
+  const RigidTransform before = b.pose();
+  const glm::dvec3 away = b.view().projection().away();
+  b.drag(b.seen(before.applyToPoint({0.0, 0.0, 0.035})), {80, 20});
+  QCOMPARE(b.pose().translation, before.translation);
+  QVERIFY(glm::distance(away, b.view().projection().away()) > 0.05);
+}
+
+void DesktopGizmoTest::escapeRestoresExactly() {
+  Bench b;
+  const RigidTransform before = b.pose();
+  const std::size_t steps = b.steps();
+  const QPoint from = b.handle(GizmoHandle::MoveZ);
+  b.view().setFocus();
+  b.press(from);
+  b.moveTo(from + QPoint(3, -70));
+  QTRY_VERIFY(b.driver.widget<QWidget>("dragReadout")->isVisible());
+  const QImage away = b.view().grabFramebuffer();
+  QTest::keyClick(&b.view(), Qt::Key_Escape);
+  QVERIFY(!b.driver.widget<QWidget>("dragReadout")->isVisible());
+  // Still pressed: neither the part nor the view moves any more.
+  const glm::dvec3 sight = b.view().projection().away();
+  b.moveTo(from + QPoint(50, -120));
+  b.release(from + QPoint(50, -120));
+  QCOMPARE(b.view().projection().away(), sight);
+  QCOMPARE(b.pose().translation, before.translation);
+  QCOMPARE(b.pose().rotation, before.rotation);
+  QCOMPARE(b.steps(), steps);
+  QTRY_VERIFY(b.view().grabFramebuffer() != away);
+}
+
+void DesktopGizmoTest::anotherButtonRestoresToo() {
+  Bench b;
+  const RigidTransform before = b.pose();
+  const QPoint from = b.handle(GizmoHandle::MoveX);
+  b.press(from);
+  b.moveTo(from + QPoint(40, 0));
+  b.send(QEvent::MouseButtonPress, from + QPoint(40, 0), {}, Qt::RightButton);
+  b.send(QEvent::MouseButtonRelease, from + QPoint(40, 0), {}, Qt::RightButton);
+  b.release(from + QPoint(40, 0));
+  QCOMPARE(b.pose().translation, before.translation);
+}
+
+void DesktopGizmoTest::aClickOnAHandleIsNoStep() {
+  Bench b;
+  const std::size_t steps = b.steps();
+  const QPoint at = b.handle(GizmoHandle::MoveFree);
+  b.press(at);
+  b.release(at);
+  QCOMPARE(b.steps(), steps);
+  // It goes through to the part: which is selected still.
+  QCOMPARE(b.driver.window().selection().current(), std::optional(b.driver.partId("moving")));
+}
+
+void DesktopGizmoTest::theHandleUnderThePointerLightsUpWithoutAPicture() {
+  Bench b;
+  QTRY_VERIFY(b.overlay().isVisible());
+  const QPoint arrow = b.handle(GizmoHandle::MoveX);
+  b.moveTo({5, 5});
+  QTest::qWait(100);
+  const int pictures = b.view().pictureCount();
+  const QImage dark = b.overlay().grab().toImage();
+  b.moveTo(arrow);
+  QCOMPARE(b.overlay().picture()->hot, GizmoHandle::MoveX);
+  QVERIFY(b.overlay().grab().toImage() != dark);
+  QTest::qWait(100);
+  QCOMPARE(b.view().pictureCount(), pictures);
+  b.moveTo({5, 5});
+  QCOMPARE(b.overlay().picture()->hot, GizmoHandle::None);
+}
+
+void DesktopGizmoTest::stepsAreTakenWithTheSwitchAndControlTurnsItRound() {
+  Bench b;
+  b.driver.type<ui::NumberField>("snapLength", "2.5");
+  b.driver.action("snap")->trigger();
+  const RigidTransform before = b.pose();
+  const QPoint from = b.handle(GizmoHandle::MoveX);
+  b.press(from);
+  b.moveTo(from + QPoint(47, 0));
+  const auto way = [&] {
+    return (*b.driver.window().placing().draggedPose(b.driver.partId("moving"))).translation.x -
+           before.translation.x;
+  };
+  const double snapped = way();
+  QVERIFY(snapped > 0.002);
+  QVERIFY(std::abs(std::remainder(snapped, 0.0025)) < 1e-12);
+  // While Ctrl is held: exactly where the pointer is.
+  b.moveTo(from + QPoint(48, 0), Qt::ControlModifier);
+  QVERIFY(std::abs(std::remainder(way(), 0.0025)) > 1e-6);
+  b.moveTo(from + QPoint(47, 0));
+  QCOMPARE(way(), snapped);
+  b.release(from + QPoint(47, 0));
+  QVERIFY(std::abs(b.pose().translation.x - before.translation.x - snapped) < 1e-15);
+  // The other way round.
+  b.driver.action("snap")->trigger();
+  b.drag(b.handle(GizmoHandle::MoveZ), {0, -53}, Qt::ControlModifier);
+  QVERIFY(std::abs(std::remainder(b.pose().translation.z - before.translation.z, 0.0025)) < 1e-12);
+}
+
+void DesktopGizmoTest::keysChooseTheGizmoAndItsAxes() {
+  Bench b;
+  b.view().setFocus();
+  const auto has = [&](GizmoHandle handle) {
+    return b.overlay().picture() && b.overlay().picture()->layout.has(handle);
+  };
+  QTest::keyClick(&b.view(), Qt::Key_E);
+  QVERIFY(has(GizmoHandle::TurnZ) && !has(GizmoHandle::MoveX));
+  QTest::keyClick(&b.view(), Qt::Key_R);
+  QVERIFY(has(GizmoHandle::TurnZ) && has(GizmoHandle::MoveX));
+  QTest::keyClick(&b.view(), Qt::Key_W);
+  QVERIFY(!has(GizmoHandle::TurnZ) && has(GizmoHandle::MoveX));
+  QTest::keyClick(&b.view(), Qt::Key_Q);
+  QVERIFY(!b.overlay().isVisible());
+  QTest::keyClick(&b.view(), Qt::Key_W);
+
+  // Turned by 30 degrees, its own axes are not the world's.
+  const glm::dquat turned = glm::angleAxis(0.5235987755982988, glm::dvec3(0, 1, 0));
+  b.driver.session().movePart(b.driver.partId("moving"), {turned, b.pose().translation});
+  const RigidTransform before = b.pose();
+  QTest::keyClick(&b.view(), Qt::Key_X);
+  QVERIFY(b.driver.action("localAxes")->isChecked());
+  b.drag(b.handle(GizmoHandle::MoveX), {60, 30});
+  const glm::dvec3 way = glm::normalize(b.pose().translation - before.translation);
+  QVERIFY(glm::distance(way, turned * glm::dvec3(1, 0, 0)) < 1e-9);
+}
+
+void DesktopGizmoTest::thePivotIsMovedAndPutBack() {
+  Bench b;
+  const RigidTransform before = b.pose();
+  const glm::dvec3 centre = b.driver.part("moving").geometry->mass.centre;
+  const std::size_t steps = b.steps();
+  b.driver.action("movePivot")->trigger();
+  b.drag(b.handle(GizmoHandle::MoveX), {50, 0});
+  QCOMPARE(b.steps(), steps);
+  QCOMPARE(b.pose().translation, before.translation);
+  b.driver.action("movePivot")->trigger();
+  b.driver.action("gizmoTurn")->trigger();
+  // Seen from the front, the ring about y is round: half a turn puts the part to the other side of the pivot.
+  b.drag(b.handle(GizmoHandle::TurnY), {-20, 35});
+  QVERIFY(angleBetween(before, b.pose()) > 0.1);
+  QVERIFY(glm::distance(before.applyToPoint(centre), b.pose().applyToPoint(centre)) > 1e-3);
+  // It has gone with the part, and can be put back.
+  b.driver.action("pivotAtMass")->trigger();
+  const RigidTransform then = b.pose();
+  b.drag(b.handle(GizmoHandle::TurnY), {-20, 35});
+  QVERIFY(angleBetween(then, b.pose()) > 0.1);
+  QVERIFY(glm::distance(then.applyToPoint(centre), b.pose().applyToPoint(centre)) < 1e-12);
+}
+
+void DesktopGizmoTest::theGizmoFollowsUndoAndNumbers() {
+  Bench b;
+  const QPoint at = b.handle(GizmoHandle::MoveFree);
+  b.drag(b.handle(GizmoHandle::MoveX), {60, 0});
+  QVERIFY((b.handle(GizmoHandle::MoveFree) - at - QPoint(60, 0)).manhattanLength() <= 2);
+  b.driver.action("undo")->trigger();
+  QCOMPARE(b.handle(GizmoHandle::MoveFree), at);
+  b.driver.session().movePart(b.driver.partId("moving"), {b.pose().rotation, {0.01, 0.0, 0.0}});
+  QVERIFY(b.handle(GizmoHandle::MoveFree).x() > at.x() + 5);
+}
+
+void DesktopGizmoTest::lockedAndHiddenPartsHaveNoGizmo() {
+  Bench b;
+  const PartId fixed = b.driver.partId("fixed");
+  b.select("fixed");
+  QVERIFY(b.overlay().picture().has_value());
+  b.driver.session().setLocked(fixed, true);
+  QVERIFY(!b.overlay().isVisible());
+  b.drag(b.seen({0.0, -0.02, 0.01}), {60, 0});
+  QCOMPARE(b.pose("fixed").translation, glm::dvec3(0.0));
+  b.driver.session().setLocked(fixed, false);
+  QVERIFY(b.overlay().isVisible());
+  b.driver.session().setVisible(fixed, false);
+  QVERIFY(!b.overlay().isVisible());
+}
+
+void DesktopGizmoTest::theNumbersFollowADrag() {
+  Bench b;
+  auto* x = b.driver.widget<ui::NumberField>("positionX");
+  const QPoint from = b.handle(GizmoHandle::MoveX);
+  b.press(from);
+  b.moveTo(from + QPoint(60, 0));
+  QVERIFY(x->value() > 1.0);
+  QVERIFY2(b.readout().startsWith(QString::fromUtf8("X\u00a0+")) && b.readout().endsWith("mm"),
+           qPrintable(b.readout()));
+  QTest::keyClick(&b.view(), Qt::Key_Escape);
+  QCOMPARE(x->value(), 0.0);
+  b.release(from);
+}
+
+void DesktopGizmoTest::aSceneThatChangesUnderADragEndsIt() {
+  Bench b;
+  const QPoint from = b.handle(GizmoHandle::MoveX);
+  b.press(from);
+  b.moveTo(from + QPoint(60, 0));
+  b.driver.session().deletePart(b.driver.partId("moving"));
+  b.moveTo(from + QPoint(80, 0));
+  b.release(from + QPoint(80, 0));
+  QVERIFY(!b.overlay().isVisible());
+  QCOMPARE(b.driver.session().scene().parts().size(), std::size_t{1});
+}
+
+void DesktopGizmoTest::whatIsChosenIsRemembered() {
+  {
+    Bench b;
+    b.driver.action("gizmoTurn")->trigger();
+    b.driver.action("snap")->trigger();
+    b.driver.action("solid")->trigger();
+    b.driver.type<ui::NumberField>("snapAngle", "7.5");
+  }
+  Bench b;
+  QVERIFY(b.driver.action("gizmoTurn")->isChecked());
+  QVERIFY(b.driver.action("snap")->isChecked());
+  QVERIFY(b.driver.action("solid")->isChecked());
+  QCOMPARE(b.driver.widget<ui::NumberField>("snapAngle")->value(), 7.5);
+}
+
+void DesktopGizmoTest::theManualHandIsLedByTheGizmo() {
+  Bench b;
+  const RigidTransform before = b.pose();
+  const std::size_t steps = b.steps();
+  b.driver.application.servo().start(ui::Hand::Manual);
+  QTRY_VERIFY(b.driver.action("stop")->isEnabled());
+  QTRY_VERIFY(b.overlay().picture().has_value());
+  // Down into the fixed cube: it stops a margin above, however far the pointer goes.
+  const QPoint from = b.handle(GizmoHandle::MoveZ);
+  b.drag(from, {0, 200});
+  auto* z = b.driver.widget<ui::NumberField>("positionZ");
+  QTRY_VERIFY2(std::abs(z->value() + 4.9) < 0.02, qPrintable(QString::number(z->value())));
+  QCOMPARE(b.steps(), steps);
+  b.driver.action("stop")->trigger();
+  QTRY_VERIFY(b.pose().translation.z < before.translation.z - 4e-3);
+  QCOMPARE(b.steps(), steps + 1);
+  QTRY_VERIFY(b.overlay().isVisible());
+}
+
+void DesktopGizmoTest::aPartThatAnotherHandHoldsHasNoGizmo() {
+  Bench b;
+  b.driver.application.servo().start(ui::Hand::Scripted);
+  QTRY_VERIFY(b.driver.action("stop")->isEnabled());
+  QTRY_VERIFY(!b.overlay().isVisible());
+  b.select("fixed");
+  QVERIFY(b.overlay().isVisible());
+  b.driver.action("stop")->trigger();
+}
+
+void DesktopGizmoTest::solidPartsStayOutsideByExactPredicates() {
+  Bench b;
+  b.driver.action("solid")->trigger();
+  const std::size_t steps = b.steps();
+  const RigidTransform before = b.pose();
+  const test::PoseCertifier certifier(b.driver.part("fixed").geometry->mesh,
+                                      b.driver.part("moving").geometry->mesh);
+  const RigidTransform worldFromFixed = b.pose("fixed");
+  const PartId moving = b.driver.partId("moving");
+  int dragged = 0;
+  QObject::connect(&b.driver.window().placing(), &ui::PlacingTools::draggedPosesChanged, &b.view(), [&] {
+    const auto pose = b.driver.window().placing().draggedPose(moving);
+    if (!pose) return;
+    ++dragged;
+    QVERIFY(!certifier.doMeet(worldFromFixed.inverse() * *pose));
+  });
+  // Down into the fixed cube, and across it.
+  const QPoint from = b.seen(before.applyToPoint({-0.008, -0.01, 0.027}));
+  b.press(from);
+  for (int i = 1; i <= 30; ++i)
+    b.moveTo(from + QPoint(i, 5 * i));
+  QTRY_VERIFY2(b.readout().contains("fixed"), qPrintable(b.readout()));
+  b.release(from + QPoint(30, 150));
+  QTRY_COMPARE(b.steps(), steps + 1);
+  QVERIFY(dragged > 1);
+  QVERIFY(!certifier.doMeet(worldFromFixed.inverse() * b.pose()));
+  const double margin = b.driver.session().scene().haptics().proxy.margin;
+  const double gap = b.pose().translation.z - before.translation.z + 0.005;
+  QVERIFY2(std::abs(gap - margin) < 0.1 * margin, qPrintable(QString::number(gap / margin)));
+  QVERIFY(b.pose().translation.x - before.translation.x > 1e-3);
+  b.driver.action("undo")->trigger();
+  QCOMPARE(b.pose().translation, before.translation);
+  QCOMPARE(b.pose().rotation, before.rotation);
+}
+
+void DesktopGizmoTest::aSolidDragThatStillSettlesIsUndoneWhole() {
+  Bench b;
+  b.driver.action("solid")->trigger();
+  const RigidTransform before = b.pose();
+  b.drag(b.handle(GizmoHandle::MoveZ), {0, 150});
+  b.driver.action("undo")->trigger();
+  QTest::qWait(50);
+  QCOMPARE(b.pose().translation, before.translation);
+  QVERIFY(!b.driver.window().placing().draggedPose(b.driver.partId("moving")));
+}
+
+void DesktopGizmoTest::numbersStopAtContactTooWhereItIsSolid() {
+  Bench b;
+  b.driver.action("solid")->trigger();
+  const std::size_t steps = b.steps();
+  b.driver.type<ui::NumberField>("positionZ", "-20");
+  QTRY_COMPARE(b.steps(), steps + 1);
+  const double margin = b.driver.session().scene().haptics().proxy.margin;
+  QVERIFY(std::abs(b.pose().translation.z + 0.005 - margin) < 0.1 * margin);
+  // Where nothing is in the way it is there to the last bit.
+  b.driver.type<ui::NumberField>("positionZ", "30");
+  QTRY_VERIFY(qFuzzyCompare(b.pose().translation.z, 0.03));
+  QCOMPARE(b.steps(), steps + 2);
+}
+
+void DesktopGizmoTest::severalPartsAreMovedAsOneInOneStep() {
+  for (const bool isSolid : {false, true}) {
+    Bench b;
+    if (b.driver.action("solid")->isChecked() != isSolid) b.driver.action("solid")->trigger();
+    b.driver.window().selection().set({b.driver.partId("fixed"), b.driver.partId("moving")});
+    const std::size_t steps = b.steps();
+    b.drag(b.handle(GizmoHandle::MoveX), {70, 0});
+    QTRY_COMPARE(b.steps(), steps + 1);
+    QVERIFY(b.pose().translation.x > 1e-3);
+    QVERIFY(glm::distance(b.pose("fixed").translation, b.pose().translation) < 1e-12);
+    // Turned about what both weigh together, they keep their places to each other.
+    b.driver.action("gizmoTurn")->trigger();
+    const RigidTransform before = b.pose("fixed").inverse() * b.pose();
+    b.drag(b.handle(GizmoHandle::TurnY), {-20, 35});
+    QTRY_COMPARE(b.steps(), steps + 2);
+    const RigidTransform after = b.pose("fixed").inverse() * b.pose();
+    QVERIFY(angleBetween(b.pose("fixed"), {}) > 0.05);
+    QVERIFY(glm::distance(before.translation, after.translation) < 1e-12);
+    b.driver.action("undo")->trigger();
+    b.driver.action("undo")->trigger();
+    QCOMPARE(b.pose("fixed").translation, glm::dvec3(0.0));
+    QCOMPARE(b.pose().translation, glm::dvec3(0.0));
+    b.driver.action("gizmoMove")->trigger();
+  }
+}
+
+void DesktopGizmoTest::aLockedPartAmongThemKeepsAllWhereTheyAre() {
+  Bench b;
+  b.driver.session().setLocked(b.driver.partId("fixed"), true);
+  b.driver.window().selection().set({b.driver.partId("fixed"), b.driver.partId("moving")});
+  QVERIFY(!b.overlay().isVisible());
+  b.drag(b.seen({-0.008, -0.01, 0.027}), {60, 0});
+  QCOMPARE(b.pose().translation, glm::dvec3(0.0));
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopGizmoTest)
+#include "desktop_gizmo_test.moc"

@@ -1,0 +1,100 @@
+#include <QDockWidget>
+#include <QListView>
+#include <QMenu>
+
+#include "tests/app/desktop/desktop_driver.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+const RigidTransform kAside{{1, 0, 0, 0}, {0.1, 0.0, 0.0}}, kAbove{{1, 0, 0, 0}, {0.0, 0.0, 0.2}};
+
+QStringList rows(const QListView& view) {
+  QStringList texts;
+  for (int row = 0; row < view.model()->rowCount(); ++row)
+    texts << view.model()->index(row, 0).data().toString();
+  return texts;
+}
+
+void clickRow(QListView* view, int row) {
+  const QModelIndex index = view->model()->index(row, 0);
+  view->scrollTo(index);
+  QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, view->visualRect(index).center());
+}
+
+bool isBold(const QListView& view, int row) {
+  return view.model()->index(row, 0).data(Qt::FontRole).value<QFont>().bold();
+}
+
+}  // namespace
+
+class DesktopHistoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void listsTheStepsAndMarksThePresentOne();
+  void clickGoesThere();
+  void keysGoThereToo();
+  void menuNamesTheStep();
+};
+
+void DesktopHistoryTest::listsTheStepsAndMarksThePresentOne() {
+  DesktopDriver d;
+  auto* view = d.widget<QListView>("historyView");
+  QCOMPARE(rows(*view), QStringList{QStringLiteral("Beginning")});
+  d.addCubes();
+  d.session().movePart(d.partId("fixed"), kAside);
+  const QStringList all{QStringLiteral("Beginning"), QStringLiteral("Add fixed"),
+                        QStringLiteral("Add moving"), QStringLiteral("Make moving the moving part"),
+                        QStringLiteral("Move fixed")};
+  QCOMPARE(rows(*view), all);
+  QVERIFY(isBold(*view, 4));
+  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(rows(*view), all);
+  QVERIFY(isBold(*view, 3));
+  QVERIFY(!isBold(*view, 4));
+}
+
+void DesktopHistoryTest::clickGoesThere() {
+  DesktopDriver d;
+  d.addCubes();
+  d.session().movePart(d.partId("fixed"), kAside);
+  d.session().movePart(d.partId("fixed"), kAbove);
+  d.widget<QDockWidget>("historyDock")->raise();
+  auto* view = d.widget<QListView>("historyView");
+  QTRY_VERIFY(view->isVisible());
+  clickRow(view, 4);
+  QCOMPARE(d.part("fixed").worldFromPart.translation.x, 0.1);
+  clickRow(view, 0);
+  QVERIFY(d.session().scene().parts().empty());
+  clickRow(view, 5);
+  QCOMPARE(d.part("fixed").worldFromPart.translation.z, 0.2);
+}
+
+void DesktopHistoryTest::keysGoThereToo() {
+  DesktopDriver d;
+  d.addCubes();
+  d.widget<QDockWidget>("historyDock")->raise();
+  auto* view = d.widget<QListView>("historyView");
+  QTRY_VERIFY(view->isVisible());
+  view->setFocus();
+  QTest::keyClick(view, Qt::Key_Home);
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QTest::keyClick(view, Qt::Key_Return);
+  QVERIFY(d.session().scene().parts().empty());
+}
+
+void DesktopHistoryTest::menuNamesTheStep() {
+  DesktopDriver d;
+  d.addCubes();
+  d.session().renamePart(d.partId("fixed"), "Nut & bolt");
+  d.session().movePart(d.partId("Nut & bolt"), kAside);
+  QCOMPARE(d.action("undo")->text(), QStringLiteral("&Undo Move Nut && bolt"));
+  d.action("undo")->trigger();
+  QCOMPARE(d.action("redo")->text(), QStringLiteral("&Redo Move Nut && bolt"));
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopHistoryTest)
+#include "desktop_history_test.moc"

@@ -1,0 +1,235 @@
+#include <QAbstractButton>
+#include <QAbstractItemView>
+#include <QAbstractSpinBox>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QGroupBox>
+#include <QImage>
+#include <QMenuBar>
+#include <QPainter>
+#include <QScrollArea>
+#include <QSet>
+#include <QTabBar>
+#include <QTreeWidget>
+
+#include "tests/app/desktop/desktop_driver.h"
+#include "ui/theme.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+/// A piece of a widget of Qt's that is reached through that widget, not by itself.
+bool isPieceOfAnother(const QWidget& widget) {
+  const QWidget* parent = widget.parentWidget();
+  if (widget.objectName().startsWith(QStringLiteral("qt_"))) return true;
+  for (; parent != nullptr; parent = parent->parentWidget()) {
+    if (qobject_cast<const QAbstractSpinBox*>(parent) != nullptr ||
+        qobject_cast<const QComboBox*>(parent) != nullptr ||
+        qobject_cast<const QTabBar*>(parent) != nullptr ||
+        qobject_cast<const QAbstractItemView*>(parent) != nullptr ||
+        qobject_cast<const QDialogButtonBox*>(parent) != nullptr)
+      return true;
+  }
+  return qobject_cast<const QTabBar*>(&widget) != nullptr ||
+         qobject_cast<const QMenuBar*>(&widget) != nullptr ||
+         qobject_cast<const QMenu*>(&widget) != nullptr ||
+         qobject_cast<const QScrollArea*>(&widget) != nullptr ||
+         qobject_cast<const QDialog*>(&widget) != nullptr ||
+         qobject_cast<const QDockWidget*>(&widget) != nullptr;
+}
+
+bool hasName(const QWidget& widget) {
+  if (!widget.accessibleName().isEmpty()) return true;
+  if (const auto* button = qobject_cast<const QAbstractButton*>(&widget))
+    return !button->text().isEmpty() || !button->toolTip().isEmpty();
+  if (const auto* group = qobject_cast<const QGroupBox*>(&widget)) return !group->title().isEmpty();
+  if (qobject_cast<const QLabel*>(&widget) != nullptr) return true;  // Says itself.
+  const QList<QLabel*> labels = widget.window()->findChildren<QLabel*>();
+  return std::any_of(labels.begin(), labels.end(),
+                     [&](const QLabel* label) { return label->buddy() == &widget; });
+}
+
+QString pathOf(const QWidget* widget) {
+  QStringList names;
+  for (; widget != nullptr; widget = widget->parentWidget())
+    names.prepend(QLatin1String(widget->metaObject()->className()) + QChar(' ') + widget->objectName());
+  return names.join(QStringLiteral(" > "));
+}
+
+QList<QAction*> allActions(QMainWindow& window) {
+  QList<QAction*> actions = window.findChildren<QAction*>();
+  QList<QAction*> wanted;
+  for (QAction* action : actions) {
+    if (!action->isSeparator() && !action->objectName().startsWith(QStringLiteral("_q")) &&
+        !action->objectName().isEmpty() && action->menu() == nullptr)
+      wanted << action;
+  }
+  return wanted;
+}
+
+int lightnessAt(QWidget& widget, const QPoint& point) {
+  return QColor(widget.grab().toImage().pixel(point)).lightness();
+}
+
+/// Farthest apart of the lightness of two pixels of an icon on its ground.
+int contrastOf(const QIcon& icon, const QColor& ground) {
+  QImage image(24, 24, QImage::Format_RGB32);
+  image.fill(ground);
+  QPainter painter(&image);
+  icon.paint(&painter, QRect(0, 0, 24, 24));
+  painter.end();
+  int contrast = 0;
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 24; ++x)
+      contrast = std::max(contrast, std::abs(QColor(image.pixel(x, y)).lightness() - ground.lightness()));
+  }
+  return contrast;
+}
+
+}  // namespace
+
+class DesktopMannersTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void cleanup() { ui::setColourScheme(ui::ColourScheme::Light); }
+  void everyWidgetThatTakesTheFocusHasAName();
+  void everyActionHasATooltipAndNoTwoShareAShortcut();
+  void shortcutsAreListedAndSearched();
+  void themeIsSwitchedAtOnceAndKept();
+  void iconsAreLegibleInBothThemes();
+  void layoutIsRememberedAndReset();
+  void tourExplainsTheDemoAndCanBeLeft();
+};
+
+void DesktopMannersTest::everyWidgetThatTakesTheFocusHasAName() {
+  DesktopDriver d;
+  d.addCubes();
+  QStringList nameless;
+  for (const QWidget* widget : d.window().findChildren<QWidget*>()) {
+    if (widget->focusPolicy() == Qt::NoFocus || isPieceOfAnother(*widget) || hasName(*widget)) continue;
+    nameless << pathOf(widget);
+    qInfo("no name: %s", qPrintable(nameless.last()));
+  }
+  QVERIFY2(nameless.isEmpty(), qPrintable(QChar('\n') + nameless.join('\n')));
+}
+
+void DesktopMannersTest::everyActionHasATooltipAndNoTwoShareAShortcut() {
+  DesktopDriver d;
+  QMap<QString, QString> owners;
+  const QList<QAction*> actions = allActions(d.window());
+  QVERIFY(actions.size() > 20);
+  for (const QAction* action : actions) {
+    QVERIFY2(!action->toolTip().isEmpty(), qPrintable(action->objectName()));
+    for (const QKeySequence& keys : action->shortcuts()) {
+      const QString text = keys.toString();
+      QVERIFY2(!owners.contains(text),
+               qPrintable(text + QStringLiteral(": ") + action->objectName() + ' ' + owners[text]));
+      owners[text] = action->objectName();
+    }
+  }
+}
+
+void DesktopMannersTest::shortcutsAreListedAndSearched() {
+  DesktopDriver d;
+  QTest::keyClick(&d.window(), Qt::Key_F1);
+  auto* dialog = d.widget<QDialog>("shortcutsDialog");
+  QTRY_VERIFY(dialog->isVisible());
+  auto* list = d.widget<QTreeWidget>("shortcutList");
+  const auto shown = [list] {
+    QStringList texts;
+    for (QTreeWidgetItemIterator it(list, QTreeWidgetItemIterator::NotHidden); *it != nullptr; ++it) {
+      if ((*it)->childCount() == 0) texts << (*it)->text(0) + '|' + (*it)->text(1);
+    }
+    return texts;
+  };
+  const QStringList all = shown();
+  for (const QAction* action : allActions(d.window())) {
+    if (action->shortcut().isEmpty()) continue;
+    const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+    QVERIFY2(all.filter(keys).size() > 0, qPrintable(action->objectName()));
+  }
+  QTest::keyClicks(d.widget<QLineEdit>("shortcutSearch"), QStringLiteral("undo"));
+  QCOMPARE(shown(), QStringList{QStringLiteral("Undo|Ctrl+Z")});
+  QTest::keyClick(dialog, Qt::Key_Escape);
+  QVERIFY(!dialog->isVisible());
+}
+
+void DesktopMannersTest::themeIsSwitchedAtOnceAndKept() {
+  DesktopDriver d;
+  d.addCubes();
+  d.action("themeLight")->trigger();
+  auto* dock = d.widget<QDockWidget>("feelDock");
+  const QPoint corner(dock->width() - 4, dock->height() - 4);
+  QVERIFY(lightnessAt(*dock, corner) > 200);
+  d.action("themeDark")->trigger();
+  QTRY_VERIFY(lightnessAt(*dock, corner) < 80);
+  QCOMPARE(ui::colourScheme(), ui::ColourScheme::Dark);
+  const QPoint viewCorner(6, 6);
+  QTRY_VERIFY(d.window().viewport().grabFramebuffer().pixelColor(viewCorner).lightness() < 120);
+  // What a widget says of its own colours is translated too, before and after.
+  auto* label = d.widget<QLabel>("statusRate");
+  QVERIFY2(!label->styleSheet().contains(QStringLiteral("#5d6874")), qPrintable(label->styleSheet()));
+  QLabel late(QStringLiteral("late"));
+  late.setStyleSheet(QStringLiteral("color: #5d6874"));
+  QTRY_COMPARE(late.styleSheet(), QStringLiteral("color: #9ba7b3"));
+  d.action("themeLight")->trigger();
+  QTRY_VERIFY(lightnessAt(*dock, corner) > 200);
+  QCOMPARE(late.styleSheet(), QStringLiteral("color: #5d6874"));
+  QTRY_VERIFY(d.window().viewport().grabFramebuffer().pixelColor(viewCorner).lightness() > 150);
+}
+
+void DesktopMannersTest::iconsAreLegibleInBothThemes() {
+  DesktopDriver d;
+  for (const bool isDark : {false, true}) {
+    ui::setColourScheme(isDark ? ui::ColourScheme::Dark : ui::ColourScheme::Light);
+    const QColor ground = QApplication::palette().color(QPalette::Window);
+    for (const QAction* action : allActions(d.window())) {
+      if (action->icon().isNull()) continue;
+      QVERIFY2(contrastOf(action->icon(), ground) > 40, qPrintable(action->objectName()));
+    }
+  }
+}
+
+void DesktopMannersTest::layoutIsRememberedAndReset() {
+  {
+    DesktopDriver d;
+    auto* dock = d.widget<QDockWidget>("poseDock");
+    QVERIFY(dock->isVisible());
+    dock->close();
+    QVERIFY(d.window().close());
+  }
+  DesktopDriver d;
+  QVERIFY(!d.widget<QDockWidget>("poseDock")->isVisible());
+  d.action("resetLayout")->trigger();
+  QTRY_VERIFY(d.widget<QDockWidget>("poseDock")->isVisible());
+  QVERIFY(d.window().close());
+}
+
+void DesktopMannersTest::tourExplainsTheDemoAndCanBeLeft() {
+  DesktopDriver d;
+  QTest::mouseClick(d.widget<QPushButton>("tourButton"), Qt::LeftButton);
+  auto* tour = d.widget<QFrame>("tour");
+  QTRY_VERIFY(tour->isVisible());
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{4});
+  QSet<QString> titles;
+  auto* next = d.widget<QPushButton>("tourNext");
+  while (tour->isVisible()) {
+    const QString title = d.text("tourTitle");
+    QVERIFY2(!titles.contains(title), qPrintable(title));
+    titles << title;
+    QVERIFY(!d.text("tourText").isEmpty());
+    QVERIFY(d.window().rect().contains(tour->geometry()));
+    QTest::mouseClick(next, Qt::LeftButton);
+  }
+  QVERIFY(titles.size() >= 4);
+  d.action("tour")->trigger();
+  QTRY_VERIFY(tour->isVisible());
+  QTest::keyClick(next, Qt::Key_Escape);
+  QVERIFY(!tour->isVisible());
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopMannersTest)
+#include "desktop_manners_test.moc"

@@ -1,0 +1,263 @@
+#include <QClipboard>
+#include <QComboBox>
+#include <QElapsedTimer>
+#include <QMenu>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QStatusBar>
+
+#include "tests/app/desktop/desktop_driver.h"
+#include "tests/support/mesh_files.h"
+#include "ui/files/recent_files.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+QString nameOf(const fs::path& file) {
+  return QString::fromStdString(file.string());
+}
+
+/// Drops files on the window as a file manager does.
+void drop(QWidget& window, const QStringList& files) {
+  QMimeData data;
+  QList<QUrl> urls;
+  for (const QString& file : files)
+    urls << QUrl::fromLocalFile(file);
+  data.setUrls(urls);
+  const QPoint middle = window.rect().center();
+  QDragEnterEvent enter(middle, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(&window, &enter);
+  QVERIFY(enter.isAccepted());
+  QDropEvent event(middle, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(&window, &event);
+}
+
+/// Answers the question for the unit, and counts how often it was asked.
+void answerUnit(double metres, int& asked) {
+  whenModal<QDialog>(
+      [metres, &asked](QDialog* dialog) {
+        ++asked;
+        auto* box = dialog->findChild<QComboBox*>(QStringLiteral("unit"));
+        box->setCurrentIndex(box->findData(metres));
+        QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok),
+                          Qt::LeftButton);
+      },
+      QStringLiteral("unitDialog"));
+}
+
+QPushButton* choice(DesktopDriver& d, const char* notice, const char* button) {
+  auto* row = d.widget<QWidget>(notice);
+  return row != nullptr && row->isVisible() ? row->findChild<QPushButton*>(QLatin1String(button)) : nullptr;
+}
+
+double widthOf(const Part& part) {
+  const Aabb& box = part.geometry->mesh.bounds();
+  return box.upper.x - box.lower.x;
+}
+
+/// As programs save that care: beside it, then in its place.
+void replaceByCube(const QString& file, double edge) {
+  const fs::path target = file.toStdString();
+  const fs::path beside = target.parent_path() / "being-written.tmp";
+  writeOff(beside, boxMesh(glm::dvec3(edge)));
+  fs::rename(beside, target);
+}
+
+}  // namespace
+
+class DesktopPartFilesTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { QSettings().clear(); }
+  void recentScenesAreInTheMenuAndOpen();
+  void missingRecentSceneIsToldAndLeavesTheList();
+  void droppedFolderIsTakenApartAndTheUnitAskedOnce();
+  void folderWithoutPartsIsToldQuietly();
+  void fiftyBadFilesGiveOneBoxWithDetailsToCopy();
+  void replacedFileIsOfferedAndReloadedInItsPlace();
+  void reloadAlwaysFollowsTheFile();
+  void rewrittenSameContentIsNotOffered();
+  void partOfTheWrongUnitIsCalledOutAndRescaled();
+  void cancelOfAMillionTrianglesAnswersBeforeTheImporterDoes();
+};
+
+void DesktopPartFilesTest::recentScenesAreInTheMenuAndOpen() {
+  DesktopDriver d;
+  d.addCubes();
+  const fs::path file = d.folder.path() / "a & b.nearfit";
+  d.session().save(file);
+  d.session().reset();
+  d.window().document().openScene(nameOf(file));
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QTest::keyClick(&d.window(), Qt::Key_N, Qt::ControlModifier);
+  QVERIFY(d.session().scene().parts().empty());
+  QMenu* menu = nullptr;
+  for (QMenu* each : d.window().findChildren<QMenu*>()) {
+    if (each->title().contains(QStringLiteral("recent"))) menu = each;
+  }
+  QVERIFY(menu != nullptr);
+  emit menu->aboutToShow();
+  QCOMPARE(menu->actions().first()->text(), QStringLiteral("&1  a && b.nearfit"));
+  menu->actions().first()->trigger();
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+}
+
+void DesktopPartFilesTest::missingRecentSceneIsToldAndLeavesTheList() {
+  DesktopDriver d;
+  ui::RecentFiles::remember(nameOf(d.folder.path() / "gone.nearfit"));
+  QStringList told;
+  d.window().setFailureSink([&](const ui::Failure& failure) { told << failure.details; });
+  QMenu* menu = nullptr;
+  for (QMenu* each : d.window().findChildren<QMenu*>()) {
+    if (each->title().contains(QStringLiteral("recent"))) menu = each;
+  }
+  emit menu->aboutToShow();
+  QVERIFY(menu->actions().first()->text().contains(QStringLiteral("(missing)")));
+  menu->actions().first()->trigger();
+  QCOMPARE(told.size(), 1);
+  QVERIFY(told.first().contains(QStringLiteral("gone.nearfit")));
+  QVERIFY(ui::RecentFiles::list().isEmpty());
+}
+
+void DesktopPartFilesTest::droppedFolderIsTakenApartAndTheUnitAskedOnce() {
+  DesktopDriver d;
+  const fs::path folder = d.folder.path() / "parts";
+  fs::create_directories(folder / "inner");
+  writeOff(folder / "a.off", boxMesh(glm::dvec3(0.01)));
+  writeOff(folder / "inner" / "b.off", boxMesh(glm::dvec3(0.02)));
+  std::ofstream(folder / "notes.txt") << "no mesh";
+  int asked = 0;
+  answerUnit(0.01, asked);
+  drop(d.window(), {nameOf(folder), d.fixedFile});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
+  QCOMPARE(asked, 1);
+  for (const Scene::PartPtr& part : d.session().scene().parts())
+    QCOMPARE(part->geometry->metresPerUnit, 0.01);
+}
+
+void DesktopPartFilesTest::folderWithoutPartsIsToldQuietly() {
+  DesktopDriver d;
+  const fs::path folder = d.folder.path() / "empty";
+  fs::create_directories(folder);
+  drop(d.window(), {nameOf(folder)});
+  QTRY_VERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("Nothing to open")));
+}
+
+void DesktopPartFilesTest::fiftyBadFilesGiveOneBoxWithDetailsToCopy() {
+  DesktopDriver d;
+  QStringList files{d.fixedFile};
+  for (int i = 0; i < 50; ++i)
+    files << nameOf(d.folder.write("bad" + std::to_string(i) + ".off", "OFF\nnonsense\n"));
+  int boxes = 0;
+  QApplication::clipboard()->clear();
+  whenModal<QMessageBox>([&](QMessageBox* box) {
+    ++boxes;
+    QVERIFY(box->text().contains(QStringLiteral("50")));
+    QVERIFY(box->height() < 700);
+    QTest::mouseClick(box->findChild<QPushButton*>(QStringLiteral("copyDetails")), Qt::LeftButton);
+    QVERIFY(box->isVisible());
+    QTest::mouseClick(box->button(QMessageBox::Ok), Qt::LeftButton);
+  });
+  d.add(files);
+  QTRY_COMPARE(boxes, 1);
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
+  const QString copied = QApplication::clipboard()->text();
+  QVERIFY(copied.contains(QStringLiteral("bad0.off")) && copied.contains(QStringLiteral("bad49.off")));
+  QVERIFY(QApplication::activeModalWidget() == nullptr);
+}
+
+void DesktopPartFilesTest::replacedFileIsOfferedAndReloadedInItsPlace() {
+  DesktopDriver d;
+  d.addCubes();
+  const RigidTransform pose{{0.5, 0.5, 0.5, 0.5}, {0.1, 0.2, 0.3}};
+  d.session().movePart(d.partId("fixed"), pose);
+  replaceByCube(d.fixedFile, 0.05);
+  QTRY_VERIFY_WITH_TIMEOUT(choice(d, "notice-reload", "choice1") != nullptr, 20'000);
+  QCOMPARE(widthOf(d.part("fixed")), 0.04);
+  QTest::mouseClick(choice(d, "notice-reload", "choice1"), Qt::LeftButton);
+  QTRY_VERIFY(qFuzzyCompare(widthOf(d.part("fixed")), 0.05));
+  QCOMPARE(d.part("fixed").worldFromPart.translation, pose.translation);
+  QCOMPARE(d.part("fixed").worldFromPart.rotation, pose.rotation);
+  QCOMPARE(widthOf(d.part("moving")), 0.02);
+  QVERIFY(choice(d, "notice-reload", "choice1") == nullptr);
+  QCOMPARE(d.action("undo")->text(), QStringLiteral("&Undo Reload fixed"));
+  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(widthOf(d.part("fixed")), 0.04);
+  // It goes on being watched although it is another file now.
+  replaceByCube(d.fixedFile, 0.06);
+  QTRY_VERIFY_WITH_TIMEOUT(choice(d, "notice-reload", "choice1") != nullptr, 20'000);
+}
+
+void DesktopPartFilesTest::reloadAlwaysFollowsTheFile() {
+  DesktopDriver d;
+  d.addCubes();
+  replaceByCube(d.fixedFile, 0.05);
+  QTRY_VERIFY_WITH_TIMEOUT(choice(d, "notice-reload", "choice2") != nullptr, 20'000);
+  QTest::mouseClick(choice(d, "notice-reload", "choice2"), Qt::LeftButton);
+  QTRY_VERIFY(qFuzzyCompare(widthOf(d.part("fixed")), 0.05));
+  QVERIFY(d.action("reloadAlways")->isChecked());
+  // Written in place this time.
+  writeOff(d.fixedFile.toStdString(), boxMesh(glm::dvec3(0.065)));
+  QTRY_COMPARE_WITH_TIMEOUT(widthOf(d.part("fixed")), 0.065, 20'000);
+}
+
+void DesktopPartFilesTest::rewrittenSameContentIsNotOffered() {
+  DesktopDriver d;
+  d.addCubes();
+  replaceByCube(d.fixedFile, 0.04);
+  replaceByCube(d.movingFile, 0.05);
+  QTRY_VERIFY_WITH_TIMEOUT(choice(d, "notice-reload", "choice1") != nullptr, 20'000);
+  const QString text =
+      d.widget<QWidget>("notice-reload")->findChild<QLabel*>(QStringLiteral("noticeText"))->text();
+  QVERIFY2(text.contains(QStringLiteral("moving.off")) && !text.contains(QStringLiteral("fixed.off")),
+           qPrintable(text));
+}
+
+void DesktopPartFilesTest::partOfTheWrongUnitIsCalledOutAndRescaled() {
+  DesktopDriver d;
+  d.addCubes();
+  const QString tiny = writeOff(d.folder.path() / "tiny.off", boxMesh(glm::dvec3(0.00003)));
+  d.add({tiny});
+  QTRY_VERIFY(choice(d, "notice-rescale", "choice1") != nullptr);
+  QCOMPARE(choice(d, "notice-rescale", "choice1")->text().remove(QChar(',')),
+           QStringLiteral("Make 1000 times larger"));
+  QTest::mouseClick(choice(d, "notice-rescale", "choice1"), Qt::LeftButton);
+  QTRY_VERIFY(qFuzzyCompare(widthOf(d.part("tiny")), 0.03));
+  QVERIFY(choice(d, "notice-rescale", "choice1") == nullptr);
+  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(widthOf(d.part("tiny")), 0.00003);
+}
+
+void DesktopPartFilesTest::cancelOfAMillionTrianglesAnswersBeforeTheImporterDoes() {
+  DesktopDriver d;
+  const fs::path file = d.folder.write("million.stl", stlBinary(uvSphereMesh(0.05, 1000, 501)));
+  QElapsedTimer sinceClick;
+  qint64 answeredAfter = -1;
+  whenModal<QDialog>(
+      [&](QDialog* dialog) {
+        sinceClick.start();
+        QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Cancel),
+                          Qt::LeftButton);
+      },
+      QStringLiteral("progressDialog"));
+  connect(&d.window().document(), &ui::Document::loaded, this,
+          [&](bool isComplete) { answeredAfter = isComplete ? -2 : sinceClick.elapsed(); });
+  d.add({nameOf(file)});
+  QVERIFY(d.window().document().isBusy());
+  QTRY_VERIFY_WITH_TIMEOUT(answeredAfter != -1, 60'000);
+  QVERIFY2(answeredAfter >= 0, "it was loaded although it was cancelled");
+  qInfo("answered after %lld ms", static_cast<long long>(answeredAfter));
+  QVERIFY(!d.window().document().isBusy());
+  QVERIFY(d.window().findChild<QDialog*>(QStringLiteral("progressDialog")) == nullptr);
+  // The next file need not wait for the importer to notice.
+  d.add({d.fixedFile});
+  QTRY_COMPARE_WITH_TIMEOUT(d.session().scene().parts().size(), std::size_t{1}, 60'000);
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopPartFilesTest)
+#include "desktop_part_files_test.moc"

@@ -1,0 +1,122 @@
+// The window with a device plugged in, used by its widgets alone. Runs under nearfit-emulate, which plugs an
+// emulated OpenHap device into this very program: the real registry, driver and libusb find it.
+#include <QComboBox>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "app/desktop/device_source.h"
+#include "tests/app/desktop/desktop_driver.h"
+#include "tests/support/eventually.h"
+#include "ui/dialogs/error_box.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+/// The emulated hand goes round a circle of 40 mm across, beside and below where it began, a turn in 4 s: a
+/// quarter of the way the moving cube is pressed onto the fixed one, as deep as 15 mm.
+struct Plugged {
+  Plugged() {
+    d.window().setFailureSink([this](const ui::Failure& failure) { failures << failure; });
+    d.addCubes();
+    QObject::connect(&d.application.servo(), &desktop::ServoController::snapshotArrived, &d.application,
+                     [this](const ServoSnapshot& snapshot) { see(snapshot); });
+  }
+  void see(const ServoSnapshot& snapshot) {
+    ++pictures;
+    force = glm::length(snapshot.wrench.force);
+    strongest = std::max(strongest, force);
+    const glm::dvec3& at = snapshot.proxy.translation;
+    const bool isOver = std::abs(at.x) < 0.03 && std::abs(at.y) < 0.03;
+    if (isOver) lowest = std::min(lowest, at.z);
+  }
+  void choose(const QString& name) {
+    auto* box = d.widget<QComboBox>("hand");
+    int wanted = -1;
+    QTRY_VERIFY((wanted = box->findText(name, Qt::MatchContains)) >= 0);
+    box->setFocus();
+    for (int keys = 0; keys < 10 && box->currentIndex() != wanted; ++keys)
+      QTest::keyClick(box, Qt::Key_Down);
+    QCOMPARE(box->currentIndex(), wanted);
+  }
+  void click(const char* button) { QTest::mouseClick(d.widget<QPushButton>(button), Qt::LeftButton); }
+  /// Arms it and waits. Where a thread does not run for 20 ms the device is stopped, and has to be: its user
+  /// resets it and arms it again.
+  template <class Condition>
+  bool armedUntil(Condition&& isTrue) {
+    return eventually([&] {
+      QTest::qWait(10);
+      const ui::ServoStatus& status = d.application.servo().status();
+      if (status.isArmed && isTrue()) return true;
+      if (status.isBusy || status.isArmed) return false;
+      for (const char* button : {"resetDevice", "arm"}) {
+        if (!d.widget<QPushButton>(button)->isVisible()) continue;
+        click(button);
+        break;
+      }
+      return false;
+    });
+  }
+
+  DesktopDriver d{desktop::makeDeviceSource()};
+  QVector<ui::Failure> failures;
+  std::uint64_t pictures = 0;
+  double force = 0.0, strongest = 0.0, lowest = 0.0;
+};
+
+}  // namespace
+
+class DesktopPluggedTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void itsUserChoosesItIsLedByItArmsItFeelsAndPutsThePartDown();
+};
+
+void DesktopPluggedTest::itsUserChoosesItIsLedByItArmsItFeelsAndPutsThePartDown() {
+  Plugged p;
+  p.choose(QStringLiteral("OpenHap"));
+  p.click("startStop");
+  QTRY_VERIFY(p.d.application.servo().isRunning());
+  QTRY_VERIFY(p.d.widget<QPushButton>("arm")->isVisible());
+  QVERIFY(p.d.text("deviceState").startsWith(QStringLiteral("Not armed")));
+
+  // It leads, into contact too, and nothing pushes.
+  QTRY_VERIFY2(p.lowest < -0.004, "the hand brings the part down to the fixed one");
+  QCOMPARE(p.strongest, 0.0);
+
+  QVERIFY2(p.armedUntil([&] { return p.force > 0.5; }), qPrintable(p.d.text("deviceState")));
+  QVERIFY2(p.lowest > -0.005, "and it never goes into it");
+
+  const double armed = p.strongest;
+  QVERIFY(armed > 0.5);
+  p.click("arm");
+  QTRY_VERIFY(!p.d.application.servo().status().isArmed);
+  // Pressed all the time, it is felt no more: for longer than the hand's way round.
+  QTRY_COMPARE(p.force, 0.0);
+  p.strongest = 0.0;
+  const std::uint64_t before = p.pictures;
+  QTRY_VERIFY(p.pictures > before + 20);
+  QCOMPARE(p.strongest, 0.0);
+
+  p.click("startStop");
+  QVERIFY(!p.d.application.servo().status().isTaken());
+  QCOMPARE(QString::fromStdString(p.d.session().undoText()), QStringLiteral("Feel moving"));
+  QVERIFY(glm::length(p.d.part("moving").worldFromPart.translation) < 0.1);
+
+  // Taken up again it is not armed.
+  QTRY_VERIFY(p.d.widget<QPushButton>("startStop")->isEnabled());
+  p.click("startStop");
+  QTRY_VERIFY(p.d.application.servo().isRunning());
+  QTRY_VERIFY(p.d.widget<QPushButton>("arm")->isVisible());
+  QVERIFY(!p.d.application.servo().status().isArmed);
+  p.click("startStop");
+  // Where it was stopped, arming it in that moment may have been refused; nothing else goes wrong.
+  for (const ui::Failure& failure : p.failures)
+    QCOMPARE(failure.summary, QStringLiteral("The device could not be armed."));
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopPluggedTest)
+#include "desktop_plugged_test.moc"

@@ -1,0 +1,282 @@
+#include <QComboBox>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QSlider>
+#include <QToolButton>
+#include <QWheelEvent>
+
+#include "core/scene/motion_reader.h"
+#include "tests/app/desktop/desktop_driver.h"
+#include "ui/dialogs/error_box.h"
+#include "ui/parts_model.h"
+#include "ui/plots/plot_view.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+/// There is no window manager that gives the window the focus back after a dialog.
+void pressShortcut(DesktopDriver& d, Qt::Key key, Qt::KeyboardModifiers modifiers) {
+  QApplication::setActiveWindow(&d.window());
+  QTest::keyClick(&d.window(), key, modifiers);
+}
+
+constexpr int kRows = 2001;
+
+/// The application with two cubes and a recording of two seconds, in which the part goes 20 mm along x and
+/// the hand 30 mm, with a force that grows.
+struct Fixture {
+  Fixture() {
+    d.window().setFailureSink([this](const ui::Failure& failure) { failures << failure; });
+    d.addCubes();
+    MotionWriter writer(d.folder.path() / "felt.csv");
+    for (int i = 0; i < kRows; ++i) {
+      MotionRow row;
+      row.time = 5.0 + 1e-3 * i;
+      row.proxy.translation.x = 0.02 * i / (kRows - 1);
+      row.handle.translation.x = 0.03 * i / (kRows - 1);
+      // One tick's peak.
+      row.wrench.force.x = i == 1234 ? 9.0 : 2.0 * i / (kRows - 1);
+      row.distance = 0.005;
+      row.tickTime = 20e-6;
+      row.lateness = 60e-6;
+      writer.write(row);
+    }
+    writer.finish();
+  }
+  QString file(const char* name) { return QString::fromStdString((d.folder.path() / name).string()); }
+  void openByMenu() {
+    whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, file("felt.csv")); });
+    pressShortcut(d, Qt::Key_F8, Qt::ShiftModifier);
+    QTRY_COMPARE(d.text("timelineName"), QStringLiteral("felt.csv"));
+  }
+  void press(const char* button) { QTest::mouseClick(d.widget<QToolButton>(button), Qt::LeftButton); }
+  double shownTime() { return d.text("timelineTime").section(' ', 0, 0).toDouble(); }
+  ui::PlotView* plots() { return d.widget<ui::PlotView>("plotView"); }
+  void showPlots() { d.widget<QDockWidget>("plotsDock")->toggleViewAction()->trigger(); }
+
+  DesktopDriver d;
+  QVector<ui::Failure> failures;
+};
+
+}  // namespace
+
+class DesktopTimelineTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void aRecordingIsPlayedToItsEndAndClosedWithoutATrace();
+  void scrubbingAndSteppingGoToAnyTick();
+  void itGoesAtTheChosenSpeedAndLoops();
+  void takingAPartInHandEndsTheReplay();
+  void whatIsNoRecordingIsToldWithItsLine();
+  void withoutAPartInHandThereIsNothingToMove();
+  void whatIsFeltIsRecordedFromTheButtonAndPlayed();
+  void aRecordingThatCannotBeWrittenIsToldAndThePartStaysInHand();
+  void plotsShowTheRecordingWithEveryPeak();
+  void plotsAreDrawnOnlyWhileShownAndWhenSomethingIsNew();
+  void plotsPauseZoomAndAreExported();
+};
+
+void DesktopTimelineTest::aRecordingIsPlayedToItsEndAndClosedWithoutATrace() {
+  Fixture f;
+  QTRY_VERIFY(f.d.window().viewport().pictureCount() > 0);
+  const std::string undo = f.d.session().undoText();
+  f.openByMenu();
+  QTRY_VERIFY(f.d.widget<QDockWidget>("timelineDock")->isVisible());
+  QCOMPARE(f.shownTime(), 0.0);
+  const int before = f.d.window().viewport().pictureCount();
+  f.press("timelinePlay");
+  QTRY_COMPARE(f.shownTime(), 2.0);
+  QVERIFY(f.d.window().viewport().pictureCount() > before + 3);
+  QVERIFY2(f.d.text("timelineNote").contains(QStringLiteral("Force 2.00 N")),
+           qPrintable(f.d.text("timelineNote")));
+  f.press("timelineClose");
+  QCOMPARE(f.d.text("timelineName"), QStringLiteral("No recording is open."));
+  QCOMPARE(f.d.session().undoText(), undo);
+  QCOMPARE(f.d.part("moving").worldFromPart.translation.x, 0.0);
+  QVERIFY(f.failures.isEmpty());
+}
+
+void DesktopTimelineTest::scrubbingAndSteppingGoToAnyTick() {
+  Fixture f;
+  f.openByMenu();
+  auto* scale = f.d.widget<QSlider>("timelineScale");
+  QTRY_VERIFY(scale->width() > 50);
+  QTest::mouseClick(scale, Qt::LeftButton, {}, scale->rect().center());
+  QTRY_VERIFY(std::abs(f.shownTime() - 1.0) < 0.05);
+  QTest::mouseClick(scale, Qt::LeftButton, {}, {2, scale->height() / 2});
+  QTRY_COMPARE(f.shownTime(), 0.0);
+  f.press("timelineForward");
+  f.press("timelineForward");
+  QCOMPARE(f.shownTime(), 0.002);
+  f.press("timelineBack");
+  QCOMPARE(f.shownTime(), 0.001);
+  auto* play = f.d.widget<QToolButton>("timelinePlay");
+  play->setFocus();
+  QTest::keyClick(play->parentWidget(), Qt::Key_Right, Qt::ShiftModifier);
+  QCOMPARE(f.shownTime(), 0.101);
+}
+
+void DesktopTimelineTest::itGoesAtTheChosenSpeedAndLoops() {
+  Fixture f;
+  f.openByMenu();
+  auto* speed = f.d.widget<QComboBox>("timelineSpeed");
+  speed->setFocus();
+  QTest::keyClick(speed, Qt::Key_End);
+  QCOMPARE(speed->currentText(), QStringLiteral("10×"));
+  f.press("timelineLoop");
+  f.press("timelinePlay");
+  // It has begun again when an earlier time is shown.
+  double last = 0.0;
+  bool hasLooped = false;
+  QTRY_VERIFY([&] {
+    const double now = f.shownTime();
+    hasLooped = hasLooped || now < last;
+    last = now;
+    return hasLooped;
+  }());
+  f.press("timelinePlay");
+  const double paused = f.shownTime();
+  QTest::qWait(60);
+  QCOMPARE(f.shownTime(), paused);
+}
+
+void DesktopTimelineTest::takingAPartInHandEndsTheReplay() {
+  Fixture f;
+  f.openByMenu();
+  f.d.application.servo().start(ui::Hand::Manual);
+  QCOMPARE(f.d.text("timelineName"), QStringLiteral("No recording is open."));
+  QVERIFY(!f.d.action("openRecording")->isEnabled());
+  QTRY_VERIFY(f.d.application.servo().statistics().ticks > 10);
+  f.d.application.servo().stop();
+  QVERIFY(f.d.action("openRecording")->isEnabled());
+  QVERIFY(std::abs(f.d.part("moving").worldFromPart.translation.x) < 1e-6);
+}
+
+void DesktopTimelineTest::whatIsNoRecordingIsToldWithItsLine() {
+  Fixture f;
+  std::string text = readBytes(f.d.folder.path() / "felt.csv");
+  const std::size_t third = text.find('\n', text.find('\n') + 1) + 1;
+  text.replace(third, 5, "what,");
+  f.d.folder.write("felt.csv", text);
+  whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, f.file("felt.csv")); });
+  pressShortcut(f.d, Qt::Key_F8, Qt::ShiftModifier);
+  QTRY_COMPARE(f.failures.size(), 1);
+  QVERIFY2(f.failures[0].details.contains(QStringLiteral("felt.csv:3")), qPrintable(f.failures[0].details));
+  QCOMPARE(f.d.text("timelineName"), QStringLiteral("No recording is open."));
+}
+
+void DesktopTimelineTest::withoutAPartInHandThereIsNothingToMove() {
+  Fixture f;
+  f.d.session().setMovingPart({});
+  whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, f.file("felt.csv")); });
+  pressShortcut(f.d, Qt::Key_F8, Qt::ShiftModifier);
+  QTRY_COMPARE(f.failures.size(), 1);
+  QVERIFY(f.failures[0].details.contains(QStringLiteral("Take the one in hand")));
+}
+
+void DesktopTimelineTest::whatIsFeltIsRecordedFromTheButtonAndPlayed() {
+  Fixture f;
+  f.d.application.servo().start(ui::Hand::Manual);
+  QTRY_VERIFY(f.d.application.servo().statistics().ticks > 10);
+  whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, f.file("mine.csv")); });
+  pressShortcut(f.d, Qt::Key_F8, Qt::NoModifier);
+  QVERIFY(f.d.action("record")->isChecked());
+  f.d.clickPart(1, ui::PartsModel::Name);
+  f.d.type<QDoubleSpinBox>("positionZ", "2");
+  QTRY_COMPARE(f.d.text("statusDistance"), QStringLiteral("Least distance 7.00 mm"));
+  pressShortcut(f.d, Qt::Key_F8, Qt::NoModifier);
+  QVERIFY(!f.d.action("record")->isChecked());
+  QVERIFY(f.d.application.servo().isRunning());
+  const auto rows = readMotion(f.d.folder.path() / "mine.csv");
+  QVERIFY(std::abs(rows.back().proxy.translation.z - 0.002) < 1e-6);
+  QVERIFY(std::abs(rows.front().proxy.translation.z) < 1e-6);
+  f.d.application.servo().stop();
+  whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, f.file("mine.csv")); });
+  pressShortcut(f.d, Qt::Key_F8, Qt::ShiftModifier);
+  QTRY_COMPARE(f.d.text("timelineName"), QStringLiteral("mine.csv"));
+  QVERIFY(f.failures.isEmpty());
+}
+
+void DesktopTimelineTest::aRecordingThatCannotBeWrittenIsToldAndThePartStaysInHand() {
+  Fixture f;
+  f.d.application.servo().start(ui::Hand::Manual);
+  f.d.application.servo().recordTo(f.file("none/felt.csv"));
+  QCOMPARE(f.failures.size(), 1);
+  QVERIFY(f.d.application.servo().isRunning());
+  QVERIFY(!f.d.action("record")->isChecked());
+}
+
+void DesktopTimelineTest::plotsShowTheRecordingWithEveryPeak() {
+  Fixture f;
+  f.showPlots();
+  f.openByMenu();
+  QTRY_VERIFY(f.plots()->redrawCount() > 0);
+  QTRY_VERIFY(std::abs(f.plots()->timeRange().upper - 2.0) < 1e-9);
+  QCPRange values;
+  QTRY_VERIFY([&] {
+    bool isFound = false;
+    values = f.plots()->graph(0)->getValueRange(isFound);
+    return isFound && std::abs(values.upper - 9.0) < 1e-5;
+  }());
+  // Closed, it is as it was: nothing has been felt.
+  f.press("timelineClose");
+  QTRY_COMPARE(f.plots()->graph(0)->dataCount(), 0);
+}
+
+void DesktopTimelineTest::plotsAreDrawnOnlyWhileShownAndWhenSomethingIsNew() {
+  Fixture f;
+  f.d.application.servo().start(ui::Hand::Scripted);
+  QTRY_VERIFY(f.d.application.servo().statistics().ticks > 200);
+  QCOMPARE(f.plots()->redrawCount(), 0);
+  f.showPlots();
+  QTRY_VERIFY(f.plots()->redrawCount() > 3);
+  // What was felt before is there too.
+  QTRY_VERIFY(f.plots()->graph(0)->dataCount() > 100);
+  f.d.application.servo().stop();
+  QTest::qWait(200);
+  const int still = f.plots()->redrawCount();
+  QTest::qWait(200);
+  QCOMPARE(f.plots()->redrawCount(), still);
+}
+
+void DesktopTimelineTest::plotsPauseZoomAndAreExported() {
+  Fixture f;
+  f.showPlots();
+  f.d.application.servo().start(ui::Hand::Scripted);
+  QTRY_VERIFY(f.plots()->graph(0)->dataCount() > 50);
+  f.press("pausePlots");
+  const auto lastTime = [&] { return (f.plots()->graph(0)->data()->constEnd() - 1)->key; };
+  QTest::qWait(80);
+  const double paused = lastTime();
+  QTest::qWait(150);
+  QCOMPARE(lastTime(), paused);
+  f.press("pausePlots");
+  QTRY_VERIFY(lastTime() > paused);
+
+  const double width = f.plots()->timeRange().size();
+  const QPoint middle = f.plots()->rect().center() / 2;
+  QWheelEvent wheel(middle, f.plots()->mapToGlobal(middle), {}, {0, 240}, Qt::NoButton, Qt::NoModifier,
+                    Qt::NoScrollPhase, false);
+  QApplication::sendEvent(f.plots(), &wheel);
+  QTRY_VERIFY(f.plots()->timeRange().size() < 0.9 * width);
+  QVERIFY(!f.plots()->isFollowing());
+  f.press("followPlots");
+  QVERIFY(f.plots()->isFollowing());
+
+  f.d.application.servo().stop();
+  const std::vector<std::pair<const char*, const char*>> exports{{"exportPlotTable", "plot.csv"},
+                                                                 {"exportPlotPicture", "plot.png"}};
+  for (const auto& [button, name] : exports) {
+    whenModal<QFileDialog>([&, name = name](QFileDialog* dialog) { chooseFile(dialog, f.file(name)); });
+    f.press(button);
+    QTRY_VERIFY(QFile::exists(f.file(name)));
+  }
+  QVERIFY(readBytes(f.d.folder.path() / "plot.csv").starts_with("t_s,force_N"));
+  QCOMPARE(QImage(f.file("plot.png")).size(), f.plots()->size());
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopTimelineTest)
+#include "desktop_timeline_test.moc"

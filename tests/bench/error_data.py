@@ -1,0 +1,81 @@
+"""Rows of `nearfit-bench error`, and what follows from them: fronts, orders, times to an error."""
+
+import csv
+from dataclasses import dataclass
+
+import numpy as np
+
+# Column, what it is called, its unit, the order that facets leave it.
+QUANTITIES = {
+    "distance": ("distance_rms_m", "distance", "m", 2),
+    "position": ("position_rms_m", "position", "m", 1),
+    "direction": ("direction_rms", "direction", "rad", 1),
+    "force": ("force_rms", "force", "N", 1),
+    "torque": ("torque_rms_m", "torque", "N m", 1),
+}
+FLOOR = 1e-16  # Errors below are rounding, zero with them: logarithms end here.
+COARSE = 4  # Finer than this, errors follow their order.
+MARGIN = 1.02  # Times and errors this near to the best count as it.
+SETTLED = 1e-12  # An error below this on every mesh has no order: the mesh is the solid there.
+
+
+@dataclass
+class Table:
+    comments: list
+    rows: list
+
+    @property
+    def pairs(self):
+        return list(dict.fromkeys(r["pair"] for r in self.rows))
+
+    @property
+    def methods(self):
+        return list(dict.fromkeys(r["method"] for r in self.rows))
+
+    def of(self, pair, method):
+        """Coarsest first."""
+        rows = [r for r in self.rows if r["pair"] == pair and r["method"] == method]
+        return sorted(rows, key=lambda r: r["fineness"])
+
+
+def read(file):
+    lines = file.read_text().splitlines()
+    rows = []
+    for row in csv.DictReader(line for line in lines if not line.startswith("#")):
+        rows.append({k: v if k in ("pair", "method") else float(v) for k, v in row.items()})
+    return Table([line[2:] for line in lines if line.startswith("#")], rows)
+
+
+def error(row, quantity):
+    """NaN where a method found nothing."""
+    value = row[QUANTITIES[quantity][0]]
+    return max(value, FLOOR) if np.isfinite(value) else np.nan
+
+
+def front(rows, quantity):
+    """Of all methods and meshes, those that none beats in both time and error; fastest first."""
+    kept, least = [], np.inf
+    for row in sorted(rows, key=lambda r: (r["p50_us"], error(r, quantity))):
+        if error(row, quantity) * MARGIN < least:
+            least = error(row, quantity)
+            kept.append(row)
+    return kept
+
+
+def time_to(rows, quantity, target):
+    """Least median time with an error of at most that [us]; None when no mesh will do."""
+    times = [r["p50_us"] for r in rows if error(r, quantity) <= target]
+    return min(times) if times else None
+
+
+def order(rows, quantity):
+    """Slope of error over edge length, in logarithms; None where the error is rounding, or none is left."""
+    rows = [r for r in rows if r["fineness"] >= COARSE]
+    errors = np.array([error(r, quantity) for r in rows])
+    if len(rows) < 3 or not np.all(np.isfinite(errors)) or errors.max() < SETTLED:
+        return None
+    return float(np.polyfit(np.log([r["edge_m"] for r in rows]), np.log(errors), 1)[0])
+
+
+def is_exact(method):
+    return method.startswith("exact")

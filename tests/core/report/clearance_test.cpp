@@ -1,0 +1,185 @@
+#include "core/report/clearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "tests/exact/exact_meeting.h"
+#include "tests/support/lmd_comparison.h"
+#include "tests/support/lmd_oracle.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/part_geometries.h"
+#include "tests/support/random_values.h"
+
+namespace nearfit {
+namespace {
+
+/// Rough all over: their minima are isolated ones.
+TriangleMesh rock(std::uint64_t seed) {
+  return test::starMesh(seed, 0.5, 1, 0.4);
+}
+
+RigidTransform relativePose(const Part& other, const Part& part) {
+  return (other.worldFromPart.inverse() * part.worldFromPart).normalized();
+}
+
+double distanceToSurface(const Part& part, const glm::dvec3& worldPoint) {
+  // A point is a triangle so small that it makes no difference.
+  const glm::dvec3 p = part.worldFromPart.inverse().applyToPoint(worldPoint);
+  constexpr double kSmall = 1e-12;
+  const TriangleMesh point({p, p + glm::dvec3(kSmall, 0, 0), p + glm::dvec3(0, kSmall, 0)}, {{0, 1, 2}});
+  return test::leastDistanceExactly(part.geometry->mesh, point, {});
+}
+
+void expectAsBruteForce(const Scene& scene, const PartClearance& found, const Part& part, double cutoff) {
+  const Part& other = *scene.find(found.other);
+  const TriangleMesh &a = part.geometry->mesh, &b = other.geometry->mesh;
+  const RigidTransform pose = relativePose(other, part);
+  const bool doMeet = test::doSurfacesMeetExactly(b, a, pose);
+  EXPECT_EQ(found.overlap == InterferenceKind::SurfacesMeet, doMeet);
+  EXPECT_LT(distanceToSurface(part, found.partPoint), 1e-10);
+  EXPECT_LT(distanceToSurface(other, found.otherPoint), 1e-10);
+  if (doMeet) {
+    EXPECT_EQ(found.distance, 0.0);
+    return;
+  }
+  const double expected = test::leastDistanceExactly(b, a, pose);
+  EXPECT_NEAR(found.distance, expected, 1e-12);
+  EXPECT_NEAR(glm::distance(found.partPoint, found.otherPoint), expected, 1e-12);
+  constexpr double kMargin = 1e-9;
+  const auto minima = test::bruteForceMinima(test::OracleBody(b), test::OracleBody(a), pose, cutoff, kMargin);
+  const auto certain = std::ranges::count_if(minima, [&](const auto& m) { return m.slack > kMargin; });
+  EXPECT_GE(found.minima, static_cast<std::size_t>(certain));
+  EXPECT_LE(found.minima, minima.size());
+  EXPECT_TRUE(found.isEveryMinimum);
+}
+
+TEST(Clearance, DistancesPointsMinimaAndOverlapsAreThoseOfBruteForce) {
+  constexpr double kCutoff = 0.4;
+  test::RandomValues random(11);
+  std::size_t meeting = 0, apart = 0;
+  for (unsigned round = 0; round < 24 / test::kPoseShare; ++round) {
+    Scene scene;
+    const auto place = [&](const char* name, std::uint64_t seed, double reach) {
+      RigidTransform pose = random.pose().normalized();
+      pose.translation *= reach;
+      return scene.add(test::partOf(test::geometryOf(rock(seed)), name, pose));
+    };
+    const PartId part = place("part", 2 * round, 0.0);
+    place("near", 2 * round + 1, 2.2);
+    place("far", 2 * round + 7, 6.0);
+    const auto clearances = clearancesOf(scene, part, kCutoff);
+    ASSERT_EQ(clearances.size(), 2U);
+    for (const PartClearance& each : clearances) {
+      expectAsBruteForce(scene, each, *scene.find(part), kCutoff);
+      each.isOverlapping() ? ++meeting : ++apart;
+    }
+  }
+  EXPECT_GT(meeting, 0U);
+  EXPECT_GT(apart, meeting);
+}
+
+TEST(Clearance, APartInsideAnotherOverlapsItEitherWay) {
+  Scene scene;
+  const PartId shell = scene.add(test::partOf(test::geometryOf(test::boxMesh(glm::dvec3(2.0))), "shell"));
+  const PartId core = scene.add(test::partOf(test::geometryOf(test::boxMesh(glm::dvec3(1.0))), "core"));
+  const PartClearance inner = clearancesOf(scene, core, 1.0).at(0),
+                      outer = clearancesOf(scene, shell, 1.0).at(0);
+  EXPECT_EQ(inner.overlap, InterferenceKind::PartInside);
+  EXPECT_EQ(outer.overlap, InterferenceKind::SceneInside);
+  EXPECT_EQ(inner.distance, 0.0);
+  EXPECT_EQ(inner.minima, 0U);
+  EXPECT_NEAR(glm::distance(inner.partPoint, inner.otherPoint), 0.5, 1e-12) << "points of the surfaces";
+}
+
+TEST(Clearance, HiddenPartsAreNotMeasuredAndThatOfAnOpenMeshIsSaid) {
+  Scene scene;
+  const PartId part = scene.add(test::partOf(test::geometryOf(test::boxMesh(glm::dvec3(1.0))), "part"));
+  Part other = test::partOf(test::geometryOf(test::squareMesh(1.0, 1)), "sheet",
+                            {{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 2.0}});
+  const PartId sheet = scene.add(other);
+  other.isVisible = false;
+  other.name = "hidden";
+  scene.add(other);
+  const auto clearances = clearancesOf(scene, part, 1.0);
+  ASSERT_EQ(clearances.size(), 1U);
+  EXPECT_EQ(clearances[0].other, sheet);
+  EXPECT_NEAR(clearances[0].distance, 1.5, 1e-12);
+  EXPECT_EQ(clearances[0].minima, 0U) << "beyond the cutoff";
+  EXPECT_FALSE(clearances[0].isBetweenSolids);
+}
+
+TEST(Clearance, WhatMakesNoSenseIsRefusedAndLongWorkEndsWhenAsked) {
+  Scene scene;
+  const PartId part = scene.add(test::partOf(test::geometryOf(test::tetrahedronMesh()), "part"));
+  EXPECT_TRUE(clearancesOf(scene, part, 1.0).empty());
+  EXPECT_THROW(clearancesOf(scene, PartId{99}, 1.0), UsageError);
+  EXPECT_THROW(clearancesOf(scene, part, 0.0), UsageError);
+  EXPECT_THROW(clearancesOf(scene, part, std::nan("")), UsageError);
+  EXPECT_THROW(clearancesOf(scene, part, 1.0, [](double) { return false; }), Cancelled);
+}
+
+TEST(Clearance, WhatATickKnowsIsTakenOverAndTheRestStays) {
+  const auto row = [](unsigned id, bool isSolid) {
+    PartClearance each;
+    each.other = PartId{id};
+    each.distance = 9.0;
+    each.isBetweenSolids = isSolid;
+    return each;
+  };
+  std::vector<PartClearance> rows{row(1, true), row(2, true), row(3, false), row(4, true)};
+  rows[3].overlap = InterferenceKind::SurfacesMeet;
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  const auto add = [&](unsigned id, double distance) {
+    SnapshotLmd& minimum = snapshot->lmds[snapshot->storedLmds++];
+    minimum.other = PartId{id};
+    minimum.lmd.distance = distance;
+    minimum.lmd.scenePoint.x = distance;
+  };
+  add(1, 0.5);
+  add(1, 0.25);
+  add(3, 0.1);
+  add(4, 0.125);
+  snapshot->lmdCount = 5;
+  updateFrom(*snapshot, rows);
+  EXPECT_EQ(rows[0].distance, 0.25);
+  EXPECT_EQ(rows[0].otherPoint.x, 0.25);
+  EXPECT_EQ(rows[0].minima, 2U);
+  EXPECT_FALSE(rows[0].isEveryMinimum) << "one of five was not stored";
+  EXPECT_EQ(rows[1].distance, 9.0) << "nothing is known of what is beyond the cutoff";
+  EXPECT_EQ(rows[2].distance, 9.0) << "minima of open meshes need not hold the least distance";
+  EXPECT_EQ(rows[3].distance, 0.125);
+  EXPECT_FALSE(rows[3].isOverlapping()) << "they are apart again";
+
+  rows[3] = row(4, true);
+  snapshot->released[0] = PartId{4};
+  snapshot->releasedCount = 1;
+  updateFrom(*snapshot, rows);
+  EXPECT_EQ(rows[3].distance, 9.0) << "overlapping: the next search tells";
+}
+
+TEST(Clearance, TheTableSaysNamesUnitsAndOverlaps) {
+  Scene scene;
+  const PartId part = scene.add(test::partOf(test::geometryOf(test::boxMesh(glm::dvec3(1.0))), "a, b"));
+  const PartId other = scene.add(test::partOf(test::geometryOf(test::boxMesh(glm::dvec3(1.0))), "c"));
+  PartClearance row;
+  row.other = other;
+  row.distance = 0.125;
+  row.partPoint = {1, 2, 3};
+  row.otherPoint = {4, 5, 6};
+  row.minima = 7;
+  PartClearance second = row;
+  second.overlap = InterferenceKind::PartInside;
+  second.isEveryMinimum = false;
+  EXPECT_EQ(clearanceCsv(scene, part, {row, second}),
+            "part,other,distance,part_x,part_y,part_z,other_x,other_y,other_z,minima,every_minimum,overlap\n"
+            "\"a, b\",c,0.125,1,2,3,4,5,6,7,1,no\n"
+            "\"a, b\",c,0.125,1,2,3,4,5,6,7,0,inside the other\n");
+}
+
+}  // namespace
+}  // namespace nearfit

@@ -1,0 +1,105 @@
+#include "device/plugin/device_plugin.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "device/device_error.h"
+#include "tests/support/scoped_variable.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::string whyNot(const fs::path& file) {
+  try {
+    DevicePlugin::load(file);
+  } catch (const DeviceError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(DevicePlugin, ExampleIsLoadedOpenedReadAndPushed) {
+  const auto plugin = DevicePlugin::load(NEARFIT_EXAMPLE_PLUGIN);
+  EXPECT_EQ(plugin->name(), "Example plug-in");
+  const auto devices = plugin->devices();
+  ASSERT_EQ(devices.size(), 1U);
+  const std::unique_ptr<HapticDevice> device = makePluginDevice(plugin, 0, devices[0]);
+  EXPECT_EQ(device->info().forceAxes, 3);
+  EXPECT_EQ(device->info().limits.maxForce, 5.0);
+  device->start({});
+  EXPECT_EQ(device->state(), DeviceState::Ready);
+  HandleInput handle;
+  ASSERT_TRUE(device->readHandle(handle));
+  EXPECT_FALSE(handle.isArmed);
+  EXPECT_TRUE(handle.hasOwnFrame);
+  EXPECT_NEAR(glm::length(glm::dvec2(handle.pose.translation)), 0.01, 1e-12);
+  const Wrench push{{0.0, 0.0, 3.0}, {}};
+  device->sendWrench(push);
+  ASSERT_TRUE(device->readHandle(handle));
+  EXPECT_EQ(handle.pose.translation.z, 0.0) << "not armed: nothing goes out";
+  device->arm();
+  ASSERT_TRUE(device->readHandle(handle));
+  EXPECT_TRUE(handle.isArmed);
+  device->sendWrench(push);
+  ASSERT_TRUE(device->readHandle(handle));
+  EXPECT_NEAR(handle.pose.translation.z, 3e-3, 1e-15);
+  device->stop();
+  EXPECT_EQ(device->state(), DeviceState::Present);
+  EXPECT_FALSE(device->readHandle(handle));
+}
+
+TEST(DevicePlugin, ItsOwnWordsReachTheUser) {
+  const auto plugin = DevicePlugin::load(NEARFIT_EXAMPLE_PLUGIN);
+  const test::ScopedVariable fails("NEARFIT_EXAMPLE_FAILS", "1");
+  try {
+    plugin->devices();
+    FAIL();
+  } catch (const DeviceError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the maker's service does not run"));
+  }
+}
+
+TEST(DevicePlugin, WhatIsNoneIsRefusedWithItsReason) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(whyNot(folder.path() / "none.so"), HasSubstr("No such file"));
+  const fs::path text = folder.path() / "text.so";
+  std::ofstream(text) << "not a library";
+  fs::permissions(text, fs::perms::owner_all);
+  EXPECT_THAT(whyNot(text), HasSubstr("cannot be loaded"));
+  EXPECT_THAT(whyNot(folder.path()), HasSubstr("no file"));
+}
+
+TEST(DevicePlugin, FilesThatOthersMayWriteAreNotLoaded) {
+  const test::TemporaryFolder folder;
+  const fs::path copy = folder.path() / "copy.so";
+  fs::copy_file(NEARFIT_EXAMPLE_PLUGIN, copy);
+  fs::permissions(copy, fs::perms::owner_all | fs::perms::others_write);
+  EXPECT_THAT(whyNot(copy), HasSubstr("others may write"));
+  fs::permissions(copy, fs::perms::owner_all);
+  EXPECT_EQ(whyNot(copy), "");
+}
+
+TEST(DevicePlugin, FoldersAreSearchedAndProblemsAreTold) {
+  const test::TemporaryFolder folder;
+  const fs::path copy = folder.path() / "good.so", bad = folder.path() / "bad.so";
+  fs::copy_file(NEARFIT_EXAMPLE_PLUGIN, copy);
+  fs::permissions(copy, fs::perms::owner_all);
+  std::ofstream(bad) << "bad";
+  std::ofstream(folder.path() / "readme.txt") << "not looked at";
+  const test::ScopedVariable folders("NEARFIT_PLUGINS", folder.path().string() + ":/nonexistent");
+  const PluginSearch search = loadPlugins(pluginFolders());
+  ASSERT_EQ(search.plugins.size(), 1U);
+  EXPECT_EQ(search.plugins[0]->file(), copy);
+  ASSERT_EQ(search.problems.size(), 1U);
+  EXPECT_THAT(search.problems[0], HasSubstr("bad.so"));
+}
+
+}  // namespace
+}  // namespace nearfit

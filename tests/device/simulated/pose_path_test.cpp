@@ -1,0 +1,149 @@
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "device/simulated/simulated_device.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit {
+namespace {
+
+using testing::HasSubstr;
+
+class PosePath : public testing::Test {
+ protected:
+  std::vector<RigidTransform> read(const std::string& content) const {
+    return readPosePath(folder_.write("path.csv", content));
+  }
+  /// What readPosePath says about a file that it refuses; empty when it takes it.
+  std::string refusal(const std::string& content) const {
+    try {
+      read(content);
+    } catch (const FileError& e) {
+      return e.what();
+    }
+    return {};
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(PosePath, ColumnsAreTranslationThenQuaternionWithItsRealPartFirst) {
+  const std::vector<RigidTransform> path = read("1,2.5,-3e-3,0.5,0.5,-0.5,0.5\n0,0,0,1,0,0,0\n");
+  ASSERT_EQ(path.size(), 2U);
+  EXPECT_EQ(path[0].translation, glm::dvec3(1.0, 2.5, -3e-3));
+  EXPECT_EQ(path[0].rotation, glm::dquat(0.5, 0.5, -0.5, 0.5));
+  EXPECT_EQ(path[1].rotation, glm::dquat(1.0, 0.0, 0.0, 0.0));
+}
+
+TEST_F(PosePath, CommentsBlankLinesBlanksHeaderAndForeignLineEndsAreTaken) {
+  EXPECT_EQ(read("\xEF\xBB\xBF# a comment\r\n\r\ntx,ty,tz,qw,qx,qy,qz\r\n"
+                 " 1 ,\t+2, 3 , 1,0,0,0 \r\n#1,2\r\n   # indented\r\n4,5,6,1,0,0,0")
+                .size(),
+            2U);
+}
+
+TEST_F(PosePath, QuaternionsNearUnitLengthAreNormalised) {
+  const std::vector<RigidTransform> path = read("0,0,0,1.0005,0,0,0\n0,0,0,0.7071,0.7071,0,0\n");
+  EXPECT_EQ(path[0].rotation.w, 1.0);
+  EXPECT_NEAR(path[1].rotation.w, std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(path[1].rotation.x, std::sqrt(0.5), 1e-15);
+}
+
+TEST_F(PosePath, AWordIsNamedWithItsLineAndColumn) {
+  const std::string message = refusal("# comment\n0,0,0,1,0,0,0\n0,0,zero,1,0,0,0\n");
+  EXPECT_THAT(message, HasSubstr("path.csv:3:"));
+  EXPECT_THAT(message, HasSubstr("column 3: \"zero\" is not a number"));
+  EXPECT_THAT(message, HasSubstr("tx,ty,tz,qw,qx,qy,qz"));
+}
+
+TEST_F(PosePath, NumbersOfOtherLocalesAndWithTailsAreRefused) {
+  EXPECT_THAT(refusal("0,0,0,1,0,0,0\n0,0,0,1,0,0,1.0m\n"), HasSubstr(":2: column 7"));
+  EXPECT_THAT(refusal("0,0,0,1,0,0,0\n0,0,,1,0,0,0\n"), HasSubstr(":2: column 3: \"\" is not a number"));
+  EXPECT_THAT(refusal("0,0,0,1,0,0,0\n0,0,0x10,1,0,0,0\n"), HasSubstr("not a number"));
+  EXPECT_THAT(refusal("0,0,0,1,0,0,0\n0,0,+-1,1,0,0,0\n"), HasSubstr("not a number"));
+}
+
+TEST_F(PosePath, InfinityOverflowAndNotANumberAreRefused) {
+  for (const char* const bad : {"inf", "-inf", "nan", "1e999"}) {
+    EXPECT_THAT(refusal("0,0,0,1,0,0,0\n" + std::string(bad) + ",0,0,1,0,0,0\n"), HasSubstr(":2: column 1"))
+        << bad;
+  }
+}
+
+TEST_F(PosePath, PositionsThatCanOnlyBeAWrongUnitAreRefused) {
+  EXPECT_THAT(refusal("0,1e9,0,1,0,0,0\n0,0,-1.1e9,1,0,0,0\n"), HasSubstr(":2: column 3"));
+}
+
+TEST_F(PosePath, NumbersTooSmallForADoubleAreZero) {
+  EXPECT_EQ(read("1e-999,0,0,1,0,0,0\n").at(0).translation.x, 0.0);
+}
+
+TEST_F(PosePath, AWrongNumberOfColumnsIsCounted) {
+  EXPECT_THAT(refusal("0,0,0,1,0,0\n"), HasSubstr(":1: 6 values where 7 belong"));
+  EXPECT_THAT(refusal("0,0,0,1,0,0,0,0\n"), HasSubstr(":1: 8 values where 7 belong"));
+  EXPECT_THAT(refusal("0 0 0 1 0 0 0\n"), HasSubstr(":1: 1 values where 7 belong"));
+}
+
+TEST_F(PosePath, ASecondHeaderIsNoHeader) {
+  EXPECT_THAT(refusal("tx,ty,tz,qw,qx,qy,qz\ntx,ty,tz,qw,qx,qy,qz\n"), HasSubstr(":2: column 1"));
+}
+
+TEST_F(PosePath, QuaternionsOffUnitLengthAreRefused) {
+  EXPECT_THAT(refusal("0,0,0,1.01,0,0,0\n"), HasSubstr(":1: the quaternion has length 1.01, not 1"));
+  EXPECT_THAT(refusal("0,0,0,0,0,0,0\n"), HasSubstr("length 0"));
+  EXPECT_THAT(refusal("0,0,0,1e300,1e300,0,0\n"), HasSubstr("not 1"));
+}
+
+TEST_F(PosePath, FilesWithoutPosesAreRefused) {
+  EXPECT_THAT(refusal(""), HasSubstr("no poses"));
+  EXPECT_THAT(refusal("# nothing\n\n"), HasSubstr("no poses"));
+  EXPECT_THAT(refusal("tx,ty,tz,qw,qx,qy,qz\n"), HasSubstr("no poses"));
+}
+
+TEST_F(PosePath, AFileWithoutLineEndsIsRefusedEarly) {
+  EXPECT_THAT(refusal("0,0,0,1,0,0,0\n" + std::string(1 << 20, '7')), HasSubstr(":2: the line is longer"));
+  EXPECT_THAT(refusal("0,0,0,1,0,0,0\n" + std::string(4096, ' ')), HasSubstr(":2: the line is longer"));
+  EXPECT_EQ(refusal("0,0,0,1,0,0,0\n" + std::string(4095, ' ')), "");
+}
+
+TEST_F(PosePath, ZeroBytesAreNoLineEnds) {
+  EXPECT_THAT(refusal(std::string("0,0,0,1,0,0,0\0,9\n", 18)), HasSubstr(":1: "));
+}
+
+TEST_F(PosePath, MissingFilesAndFoldersAreNamed) {
+  const std::filesystem::path missing = folder_.path() / "missing.csv";
+  try {
+    readPosePath(missing);
+    FAIL() << "no error";
+  } catch (const FileError& e) {
+    EXPECT_THAT(e.what(), HasSubstr(missing.string()));
+    EXPECT_THAT(e.what(), HasSubstr("No such file"));
+  }
+  try {
+    readPosePath(folder_.path());
+    FAIL() << "no error";
+  } catch (const FileError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("Is a directory"));
+  }
+}
+
+TEST_F(PosePath, ALongFileIsReadToItsLastLine) {
+  const std::filesystem::path file = folder_.path() / "long.csv";
+  constexpr int kRows = 300000;
+  {
+    std::ofstream out(file);
+    for (int i = 0; i < kRows; ++i)
+      out << i << ",0.123456789,0,1,0,0,0\n";
+  }
+  const std::vector<RigidTransform> path = readPosePath(file);
+  ASSERT_EQ(path.size(), static_cast<std::size_t>(kRows));
+  EXPECT_EQ(path.back().translation.x, kRows - 1);
+}
+
+}  // namespace
+}  // namespace nearfit

@@ -1,0 +1,81 @@
+// Scene files, beside two meshes that they may name. One that is read is written and read again as the same
+// scene.
+#include "core/scene/scene_file.h"
+
+#include <string>
+
+#include "core/error.h"
+#include "core/files/sha256.h"
+#include "tests/fuzz/fuzz_target.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/mesh_text.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit::fuzz {
+namespace {
+
+struct Folder {
+  Folder() {
+    std::filesystem::create_directory(folder.path() / "meshes");
+    folder.write("meshes/hole.obj", test::objText(test::boxMesh({2, 2, 1})));
+    folder.write("meshes/peg.obj", test::objText(test::tetrahedronMesh(1)));
+  }
+  test::TemporaryFolder folder;
+};
+
+/// Names and locks of the groups from there upwards.
+std::string pathOf(const Scene& scene, std::optional<GroupId> id) {
+  std::string path;
+  std::size_t depth = 0;
+  for (; id; id = scene.findGroup(*id)->parent) {
+    require(scene.findGroup(*id) != nullptr && ++depth <= kMaxGroupDepth, "groups are a tree");
+    path += scene.findGroup(*id)->name + (scene.findGroup(*id)->isLocked ? "!" : "/");
+  }
+  return path;
+}
+
+void checkSame(const Scene& a, const Scene& b) {
+  require(a.groups().size() == b.groups().size(), "as many groups are read as were written");
+  require(a.parts().size() == b.parts().size(), "as many parts are read as were written");
+  require(a.movingPart().has_value() == b.movingPart().has_value(), "the moving part is read as written");
+  require(a.haptics() == b.haptics(), "settings are read as written");
+  for (std::size_t i = 0; i < a.parts().size(); ++i) {
+    const Part &x = *a.parts()[i], &y = *b.parts()[i];
+    require(x.name == y.name && x.geometry->sha256 == y.geometry->sha256 && x.colour == y.colour &&
+                x.density == y.density && x.isVisible == y.isVisible && x.isLocked == y.isLocked &&
+                x.opacity == y.opacity && x.wasVisible == y.wasVisible,
+            "parts are read as written");
+    require(pathOf(a, x.group) == pathOf(b, y.group), "parts stand in the groups that were written");
+    require(isPose(x.worldFromPart) && x.worldFromPart.translation == y.worldFromPart.translation,
+            "poses are read as written");
+  }
+}
+
+void replaceAll(std::string& text, std::string_view what, const std::string& with) {
+  for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + with.size()))
+    text.replace(at, what.size(), with);
+}
+
+/// "<hole>" and "<peg>" stand for the hashes of the meshes, which no fuzzer guesses.
+void run(std::string text) {
+  static const Folder folder;
+  static const std::string kHole = sha256OfFile(folder.folder.path() / "meshes/hole.obj"),
+                           kPeg = sha256OfFile(folder.folder.path() / "meshes/peg.obj");
+  replaceAll(text, "<hole>", kHole);
+  replaceAll(text, "<peg>", kPeg);
+  const auto file = folder.folder.write("fit.nearfit", text);
+  requireReadOrRefused<FileError>([&] {
+    const Scene scene = readSceneFile(file);
+    const auto again = folder.folder.path() / "again.nearfit";
+    writeSceneFile(scene, again);
+    checkSame(scene, readSceneFile(again));
+  });
+}
+
+}  // namespace
+}  // namespace nearfit::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  nearfit::fuzz::run(std::string(reinterpret_cast<const char*>(data), size));
+  return 0;
+}

@@ -1,0 +1,65 @@
+// The short form of the adversarial hand: the same as `nearfit-stress hand`, with fewer ticks.
+#include "tests/stress/hand_run.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/haptics/passivity_controller.h"
+#include "tests/stress/stress_servo.h"
+
+namespace nearfit::stress {
+namespace {
+
+/// Under sanitizers a tick takes ten times as long.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::uint64_t kShare = 12;
+#else
+constexpr std::uint64_t kShare = 1;
+#endif
+
+class AdversarialHand : public testing::TestWithParam<const char*> {};
+
+TEST_P(AdversarialHand, NeverBringsThePartIntoTheScene) {
+  const StressScene scene = chosenScenes(stressScenes({}), {GetParam()}).front().make();
+  const HandRunResult result = runHand(scene, {.ticks = 16000 / kShare, .seed = 20});
+  EXPECT_FALSE(result.failure) << *result.failure;
+  EXPECT_EQ(result.meetings, 0U);
+  EXPECT_GT(result.certified, result.ticks / 10);
+  EXPECT_LE(result.extremes.quaternionError, kQuaternionError);
+  EXPECT_GT(result.extremes.inContact, 0U);
+  // The servo's account of energy is that of one who only sees what goes over the border.
+  EXPECT_LT(result.ledgerError, 1e-9);
+  EXPECT_TRUE(!scene.isEnergyBound || result.energyGain <= kMostEnergyGain);
+}
+
+INSTANTIATE_TEST_SUITE_P(Stress, AdversarialHand,
+                         testing::Values("peg-bore", "wedge-jam", "needle-grid", "slot-1um", "thin-wall",
+                                         "thin-wall-inside", "closed-box", "sheet-box", "rings",
+                                         "overlapping", "crowd", "tiny", "huge", "far", "far-mesh",
+                                         "far-fine", "box-hole"),
+                         [](const auto& of) {
+                           std::string name = of.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(StressServo, ANumberThatIsNoneLatchesAFaultAndThePartStays) {
+  const StressScene scene = linkedRings(0.1, 1e-4);
+  StressServo servo(scene.scene, {}, 1);
+  const RigidTransform start = scene.scene->moving.worldFromPart;
+  servo.tick({.pose = start}, 1e-3);
+  RigidTransform bad = start;
+  bad.rotation.y = std::numeric_limits<double>::quiet_NaN();
+  const ServoSnapshot& s = servo.tick({.pose = bad}, 1e-3);
+  EXPECT_EQ(s.fault, ServoFault::PoseNotFinite);
+  servo.tick({.pose = start}, 1e-3);
+  EXPECT_EQ(s.fault, ServoFault::PoseNotFinite);
+  EXPECT_EQ(s.proxy.translation, start.translation);
+  EXPECT_EQ(s.wrench.force, glm::dvec3(0.0));
+}
+
+}  // namespace
+}  // namespace nearfit::stress

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+namespace nearfit::stress {
+
+struct LongRunResult {
+  std::uint64_t ticks = 0;
+  std::uint64_t cycles = 0;       ///< Of the hand's path, which is the same each time.
+  double freeDrift = 0.0;         ///< Part off the hand where it is free, at worst [m]; must be zero.
+  double contactDrift = 0.0;      ///< Of where the part rests in contact, against the first cycle [m].
+  double forceDrift = 0.0;        ///< Of the force there [N].
+  double lateDrift = 0.0;         ///< As contactDrift, in the last tenth of the run.
+  std::int64_t memoryGrowth = 0;  ///< Resident, since the second cycle [bytes].
+  double energyDrift = 0.0;       ///< Of the energy given to the hand in a cycle, last against second [J].
+};
+
+/// Simulated hours at 1 kHz: a cube over a floor that is set down, pressed, slid, turned, lifted and held, in
+/// cycles of ten seconds.
+/// @param seconds  Simulated.
+LongRunResult runLong(double seconds);
+
+/// What a drift may be: the proxy comes to rest to a thousandth of the margin.
+constexpr double kLongMargin = 1e-4, kMostDrift = 2e-3 * kLongMargin;
+/// Allocators keep some.
+constexpr std::int64_t kMostGrowth = 2 << 20;  // [bytes]
+
+}  // namespace nearfit::stress

@@ -1,0 +1,128 @@
+#include "tests/stress/stiffness_limit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/haptics/period_meter.h"
+#include "core/haptics/virtual_coupling.h"
+#include "tests/stress/stress_scene.h"
+#include "tests/stress/stress_servo.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/simulated_hand.h"
+
+namespace nearfit::stress {
+namespace {
+
+/// So small that the proxy's resting place, known to a thousandth of it, is a wall.
+constexpr double kMargin = 1e-6;
+constexpr double kPush = 2.0;    ///< The device is leant on with this [N].
+constexpr double kNudge = 0.05;  ///< Of the depth, and of its velocity: the device stays in contact.
+constexpr double kCube = 0.04;
+constexpr double kPrecision = 0.01;
+constexpr double kNoLimit = 1e9;  ///< Of force and slew.
+
+StressScene cubeOnFloor() {
+  return stressScene({{test::boxMesh({0.3, 0.3, 0.05}, {0.0, 0.0, -0.025})}},
+                     test::boxMesh(glm::dvec3(kCube)), {{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.5 * kCube + 1e-3}},
+                     kMargin);
+}
+
+double knownPeriod(double period) {
+  return std::max(period, PeriodMeter{}.nominal());
+}
+
+ServoParameters parametersFor(const LeaningDevice& device, double stiffness) {
+  ServoParameters parameters;
+  HapticSettings& settings = parameters.haptics;
+  settings.proxy.margin = kMargin;
+  settings.springs.cutoff = 1e-3;
+  settings.coupling = {.isAutomatic = false, .stiffness = stiffness, .damping = device.couplingDamping};
+  DeviceLimits& limits = parameters.limits;
+  // A little more than the bound asks for, and twice the rendered damping at least.
+  constexpr double kMore = 1.001;
+  limits.damping = std::max(kMore * (0.5 * stiffness * knownPeriod(device.period) + device.couplingDamping),
+                            2.0 * kMore * device.couplingDamping);
+  limits.maxForce = limits.forceSlew = kNoLimit;
+  return parameters;
+}
+
+/// The device over the floor, one tick after the other.
+class Leaning {
+ public:
+  Leaning(const LeaningDevice& device, double stiffness)
+      : device_(device),
+        depth_(kPush / stiffness),
+        servo_(scene().scene, parametersFor(device, stiffness), 1),
+        hand_(device.mass, device.damping, 0.0, 0.0) {
+    // Led down, until the ramp is over and the period known.
+    const int ticks = static_cast<int>(std::ceil(0.4 / device.period)) + 100;
+    for (int i = 0; i < ticks; ++i)
+      servo_.tick(at(atRest() - depth_ * std::min(1.0, 2.0 * i / ticks)), device.period);
+    const double nudge = kNudge * depth_ * std::sqrt(stiffness / device.mass);
+    hand_ = test::SimulatedHand(device.mass, device.damping, 0.0, nudge);
+  }
+
+  /// The largest motion, as depth and as velocity both, over so many ticks [m].
+  double largest(int ticks, double stiffness) {
+    double most = 0.0;
+    for (int i = 0; i < ticks && most < depth_; ++i) {
+      const double force = servo_.snapshot().wrench.force.z - kPush;
+      hand_.step(force, device_.period);
+      servo_.tick(at(atRest() - depth_ + hand_.position()), device_.period);
+      const double velocity = hand_.velocity() * std::sqrt(device_.mass / stiffness);
+      most = std::max(most, std::hypot(hand_.position(), velocity));
+    }
+    return most;
+  }
+
+ private:
+  static const StressScene& scene() {
+    static const StressScene made = cubeOnFloor();
+    return made;
+  }
+  static double atRest() { return 0.5 * kCube + kMargin; }
+  static HandleInput at(double height) { return {.pose = {{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, height}}}; }
+
+  const LeaningDevice device_;
+  const double depth_;
+  StressServo servo_;
+  test::SimulatedHand hand_;
+};
+
+}  // namespace
+
+bool isCalm(const LeaningDevice& device, double stiffness) {
+  Leaning leaning(device, stiffness);
+  // Off the limit by the precision, the motion changes by half of it times T b / m a tick: long enough that
+  // it shows beside the sampling of its peaks.
+  const double rate = device.period * device.damping / device.mass;
+  const double quarterCycle = 1.6 / std::min(1.0, device.period * std::sqrt(stiffness / device.mass));
+  const int window = std::clamp(static_cast<int>(2.0 / rate), 4 * static_cast<int>(quarterCycle), 4000);
+  const double early = leaning.largest(window, stiffness);
+  leaning.largest(2 * window, stiffness);
+  return leaning.largest(window, stiffness) < early;
+}
+
+double simulatedLimit(const LeaningDevice& device) {
+  double calm = 0.2 * enforcedBound(device), shaken = 2.0 * calm;
+  while (isCalm(device, shaken)) {
+    calm = shaken;
+    shaken *= 2.0;
+  }
+  while (shaken > (1.0 + kPrecision) * calm) {
+    const double middle = std::sqrt(calm * shaken);
+    (isCalm(device, middle) ? calm : shaken) = middle;
+  }
+  return std::sqrt(calm * shaken);
+}
+
+double exactLimit(const LeaningDevice& device) {
+  const double tau = device.mass / device.damping, gone = -std::expm1(-device.period / tau);
+  return device.damping * gone / (tau * gone - (1.0 - gone) * device.period);
+}
+
+double enforcedBound(const LeaningDevice& device) {
+  return stiffnessBound(device.damping, device.couplingDamping, knownPeriod(device.period));
+}
+
+}  // namespace nearfit::stress

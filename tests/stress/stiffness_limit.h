@@ -1,0 +1,31 @@
+#pragma once
+
+namespace nearfit::stress {
+
+/// A device in one dimension that leans on a wall, through the servo.
+struct LeaningDevice {
+  double mass = 0.2;             ///< [kg]
+  double damping = 1.0;          ///< Its own, b [N s/m].
+  double period = 1e-3;          ///< Of the servo, T [s].
+  double couplingDamping = 0.0;  ///< Rendered, B [N s/m].
+};
+
+/// The stiffness from which on a device that leans on a floor, nudged, is shaken ever more [N/m]: by
+/// bisection over runs of whole ticks of the servo, to 1 %. The servo is told of a damping that the device
+/// has not, so that it allows the stiffness, and its observer has nothing to object to.
+double simulatedLimit(const LeaningDevice& device);
+
+/// Whether the device, nudged, calms down at that stiffness.
+bool isCalm(const LeaningDevice& device, double stiffness);
+
+/// The same limit for B = 0, in closed form. The device between two ticks, with a = exp(-T b / m):
+///     x' = x + v tau (1 - a) - K x c1     v' = a v - K x c2     tau = m / b,
+///     c1 = (T - tau (1 - a)) / b          c2 = (1 - a) / b
+/// is stable as long as the determinant is below one (Jury): K < b (1 - a) / (tau (1 - a) - a T). It tends to
+/// Colgate's 2 b / T for a heavy device, and is more for every other.
+double exactLimit(const LeaningDevice& device);
+
+/// What the application allows that device [N/m].
+double enforcedBound(const LeaningDevice& device);
+
+}  // namespace nearfit::stress

@@ -1,0 +1,98 @@
+#include "ui/viewport.h"
+
+#include <QtTest>
+#include <memory>
+
+#include "core/session.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/part_geometries.h"
+#include "ui/selection.h"
+
+using namespace nearfit;
+
+class ViewportTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase();
+  void aViewAtRestDrawsNothing();
+  void oneChangeIsOnePicture();
+  void changesBetweenTwoFramesAreOnePicture();
+  void aPictureDrawnAgainIsTheSame();
+
+ private:
+  /// Pictures since the last call, once the view is at rest.
+  int newPictures() {
+    QTest::qWait(100);
+    const int before = seen_;
+    seen_ = viewport_->pictureCount();
+    return seen_ - before;
+  }
+
+  Session session_;
+  ui::Selection selection_{session_};
+  std::unique_ptr<ui::Viewport> viewport_;
+  std::unique_ptr<ServoSnapshot> snapshot_ = std::make_unique<ServoSnapshot>();
+  int seen_ = 0;
+};
+
+void ViewportTest::initTestCase() {
+  viewport_ = std::make_unique<ui::Viewport>(std::make_shared<ui::PartShapeCache>(), selection_);
+  const PartGeometryPtr cube = test::freshGeometryOf(test::boxMesh(glm::dvec3(0.02)));
+  Scene scene;
+  const PartId moving = scene.add(test::partOf(cube, "in hand"));
+  Part other = test::partOf(cube, "other");
+  other.worldFromPart.translation = {0.05, 0.0, 0.0};
+  scene.add(other);
+  scene.setMovingPart(moving);
+  snapshot_->moving = moving;
+  snapshot_->proxy = snapshot_->handle = RigidTransform{};
+  viewport_->resize(400, 300);
+  viewport_->setScene(scene);
+  viewport_->show();
+  QVERIFY(QTest::qWaitForWindowExposed(viewport_.get()));
+  viewport_->showSnapshot(*snapshot_);
+  QTest::qWait(300);
+  QVERIFY(newPictures() > 0);
+}
+
+void ViewportTest::aViewAtRestDrawsNothing() {
+  for (int i = 0; i < 30; ++i) {
+    viewport_->showSnapshot(*snapshot_);
+    QTest::qWait(5);
+  }
+  QCOMPARE(newPictures(), 0);
+}
+
+void ViewportTest::oneChangeIsOnePicture() {
+  snapshot_->proxy.translation.x += 0.001;
+  viewport_->showSnapshot(*snapshot_);
+  QCOMPARE(newPictures(), 1);
+  viewport_->showSnapshot(*snapshot_);
+  QCOMPARE(newPictures(), 0);
+}
+
+void ViewportTest::changesBetweenTwoFramesAreOnePicture() {
+  for (int i = 0; i < 5; ++i) {
+    snapshot_->proxy.translation.y += 0.001;
+    viewport_->showSnapshot(*snapshot_);
+  }
+  viewport_->setEdgesVisible(false);
+  QCOMPARE(newPictures(), 1);
+}
+
+void ViewportTest::aPictureDrawnAgainIsTheSame() {
+  const QImage left = viewport_->grabFramebuffer();
+  viewport_->renderWindow()->Render();
+  const QImage drawn = viewport_->grabFramebuffer();
+  QVERIFY(!left.isNull());
+  QCOMPARE(left, drawn);
+}
+
+int main(int argc, char** argv) {
+  ui::Viewport::setDefaultSurfaceFormat();
+  QApplication qt(argc, argv);
+  ViewportTest test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "viewport_test.moc"

@@ -1,0 +1,201 @@
+#include "ui/clearance/clearance_panel.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QSettings>
+#include <QSignalBlocker>
+#include <QSortFilterProxyModel>
+#include <QTableView>
+#include <QVBoxLayout>
+
+#include "core/files/atomic_write.h"
+#include "ui/clearance/clearance_model.h"
+#include "ui/clearance/clearance_search.h"
+#include "ui/paths.h"
+#include "ui/preferences.h"
+#include "ui/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+const QString kThresholdKey = QStringLiteral("clearance/thresholdMillimetres");
+
+}  // namespace
+
+ClearancePanel::ClearancePanel(Session& session, ClearanceSearch& search, QWidget* parent)
+    : QWidget(parent), session_(session), search_(search), model_(new ClearanceModel(this)) {
+  setUpFields();
+  setUpTable();
+  note_ = new QLabel(this);
+  note_->setObjectName(QStringLiteral("clearanceNote"));
+  note_->setWordWrap(true);
+  export_ = new QPushButton(icon(QStringLiteral("export")), tr("Export table…"), this);
+  export_->setObjectName(QStringLiteral("exportClearances"));
+  connect(export_, &QPushButton::clicked, this, &ClearancePanel::exportTable);
+  auto* partLabel = new QLabel(tr("&Part"), this);
+  auto* thresholdLabel = new QLabel(tr("&Too near below"), this);
+  partLabel->setBuddy(subject_);
+  thresholdLabel->setBuddy(threshold_);
+  auto* fields = new QHBoxLayout;
+  fields->addWidget(partLabel);
+  fields->addWidget(subject_, 1);
+  fields->addWidget(thresholdLabel);
+  fields->addWidget(threshold_);
+  auto* below = new QHBoxLayout;
+  below->addWidget(note_, 1);
+  below->addWidget(export_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(8, 6, 8, 6);
+  column->setSpacing(4);
+  column->addLayout(fields);
+  column->addWidget(table_, 1);
+  column->addLayout(below);
+  connect(&search_, &ClearanceSearch::changed, this, &ClearancePanel::showClearances);
+  connect(&search_, &ClearanceSearch::failed, this, &ClearancePanel::failed);
+  session_.onChange([this] { showSubjects(); });
+  showSubjects();
+  showClearances();
+}
+
+void ClearancePanel::setUpFields() {
+  subject_ = new QComboBox(this);
+  subject_->setObjectName(QStringLiteral("clearancePart"));
+  subject_->setToolTip(tr("The part whose distances to all other visible ones are listed"));
+  subject_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  connect(subject_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
+    const QVariant id = subject_->currentData();
+    search_.setSubject(id.isValid() ? std::optional(PartId{id.toUInt()}) : std::nullopt);
+  });
+  threshold_ = new QDoubleSpinBox(this);
+  threshold_->setObjectName(QStringLiteral("clearanceThreshold"));
+  threshold_->setRange(0.0, 1e6);
+  threshold_->setDecimals(3);
+  threshold_->setSuffix(tr(" mm"));
+  threshold_->setSingleStep(0.1);
+  threshold_->setValue(QSettings().value(kThresholdKey, 1.0).toDouble());
+  threshold_->setToolTip(tr("Pairs that are nearer are marked"));
+  model_->setThreshold(1e-3 * threshold_->value());
+  connect(threshold_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [this](double millimetres) {
+    model_->setThreshold(1e-3 * millimetres);
+    QSettings().setValue(kThresholdKey, millimetres);
+    showClearances();
+  });
+}
+
+void ClearancePanel::setUpTable() {
+  sorted_ = new QSortFilterProxyModel(this);
+  sorted_->setSourceModel(model_);
+  sorted_->setSortRole(ClearanceModel::kSortRole);
+  sorted_->setSortCaseSensitivity(Qt::CaseInsensitive);
+  table_ = new QTableView(this);
+  table_->setObjectName(QStringLiteral("clearanceTable"));
+  table_->setAccessibleName(tr("Clearances"));
+  table_->setModel(sorted_);
+  table_->setSortingEnabled(true);
+  table_->sortByColumn(ClearanceModel::Distance, Qt::AscendingOrder);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setTabKeyNavigation(false);
+  table_->setShowGrid(false);
+  table_->setAlternatingRowColors(true);
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(24);
+  table_->setMinimumSize(360, 90);
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table_->horizontalHeader()->setSectionResizeMode(ClearanceModel::Other, QHeaderView::Stretch);
+  table_->horizontalHeader()->setHighlightSections(false);
+  connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &ClearancePanel::choose);
+}
+
+void ClearancePanel::showSubjects() {
+  const Scene& scene = session_.scene();
+  const QVariant before = subject_->currentData();
+  QStringList names, shown;
+  const Part* moving = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
+  names << (moving != nullptr ? tr("In hand: %1").arg(QString::fromStdString(moving->name))
+                              : tr("In hand (none)"));
+  for (const Scene::PartPtr& part : scene.parts())
+    names << QString::fromStdString(part->name);
+  for (int i = 0; i < subject_->count(); ++i)
+    shown << subject_->itemText(i);
+  if (names == shown) return;
+  const QSignalBlocker blocker(subject_);
+  subject_->clear();
+  subject_->addItem(names.first());
+  for (const Scene::PartPtr& part : scene.parts())
+    subject_->addItem(QString::fromStdString(part->name), static_cast<uint>(part->id));
+  const int index = before.isValid() ? subject_->findData(before) : 0;
+  subject_->setCurrentIndex(std::max(index, 0));
+  if (index < 0) search_.setSubject(std::nullopt);
+}
+
+void ClearancePanel::showClearances() {
+  model_->show(search_.clearances(), search_.scene());
+  const bool hasRows = model_->rowCount() > 0;
+  export_->setEnabled(hasRows);
+  QString note;
+  if (!search_.subject()) {
+    note = tr("Choose a part, or take one in hand.");
+  } else if (!hasRows) {
+    note = session_.scene().parts().size() > 1
+               ? tr("No other part is visible, or the search is not done yet.")
+               : tr("There is no other part.");
+  } else {
+    note = tr("Choose a row to see where the two are nearest.");
+  }
+  note_->setText(note);
+  emit chosenChanged();
+}
+
+std::optional<PartClearance> ClearancePanel::chosen() const {
+  const QModelIndexList rows = table_->selectionModel()->selectedRows();
+  if (rows.isEmpty() || !isVisible()) return std::nullopt;
+  return model_->at(sorted_->mapToSource(rows.first()).row());
+}
+
+void ClearancePanel::choose() {
+  const std::optional<PartClearance> pair = chosen();
+  const std::optional<PartId> part = search_.subject();
+  if (pair && part) emit pairChosen(*part, pair->other);
+  emit chosenChanged();
+}
+
+void ClearancePanel::exportTable() {
+  const std::optional<PartId> part = search_.subject();
+  if (!part) return;
+  QFileDialog dialog(this, tr("Export clearances"),
+                     Preferences::lastFolder() + QStringLiteral("/clearances.csv"), tr("Tables (*.csv)"));
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix(QStringLiteral("csv"));
+  if (dialog.exec() != QDialog::Accepted) return;
+  const QString file = dialog.selectedFiles().first();
+  try {
+    atomicWrite(toPath(file), clearanceCsv(search_.scene(), *part, search_.clearances()));
+  } catch (...) {
+    emit failed(describe(tr("The clearances could not be exported."), std::current_exception()));
+    return;
+  }
+  Preferences::rememberFolderOf(file);
+  emit noted(tr("Exported %1").arg(QFileInfo(file).fileName()));
+}
+
+void ClearancePanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  search_.setWanted(true);
+  emit chosenChanged();
+}
+
+void ClearancePanel::hideEvent(QHideEvent* event) {
+  QWidget::hideEvent(event);
+  search_.setWanted(false);
+  emit chosenChanged();
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,123 @@
+#include "ui/files/mesh_watch.h"
+
+#include <QDateTime>
+#include <QFileInfo>
+#include <QPointer>
+#include <memory>
+
+#include "core/error.h"
+#include "core/files/sha256.h"
+#include "ui/paths.h"
+
+namespace nearfit::ui {
+
+MeshWatch::MeshWatch(Session& session, QObject* parent) : QObject(parent), session_(session) {
+  timer_.setSingleShot(true);
+  timer_.setInterval(kSettle);
+  connect(&timer_, &QTimer::timeout, this, &MeshWatch::settle);
+  connect(&watcher_, &QFileSystemWatcher::fileChanged, this,
+          [this](const QString& file) { look(QFileInfo(file).absolutePath()); });
+  connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, &MeshWatch::look);
+  session_.onChange([self = QPointer<MeshWatch>(this)] {
+    if (self) self->watchScene();
+  });
+}
+
+MeshWatch::Stamp MeshWatch::stampOf(const QString& file) {
+  const QFileInfo info(file);
+  return info.exists() ? Stamp{info.lastModified().toMSecsSinceEpoch(), info.size()} : Stamp{};
+}
+
+QSet<QString> MeshWatch::filesOfScene() const {
+  QSet<QString> files;
+  for (const PartGeometryPtr& geometry : session_.scene().geometries()) {
+    if (!geometry->file.empty()) files << fromPath(geometry->file);
+  }
+  return files;
+}
+
+void MeshWatch::watchScene() {
+  const QSet<QString> files = filesOfScene();
+  const QStringList before = known_.keys();
+  for (const QString& file : before) {
+    if (files.contains(file)) continue;
+    watcher_.removePath(file);
+    known_.remove(file);
+    pending_.remove(file);
+  }
+  QSet<QString> folders;
+  for (const QString& file : files) {
+    folders << QFileInfo(file).absolutePath();
+    if (known_.contains(file)) continue;
+    known_[file] = stampOf(file);
+    if (QFileInfo::exists(file)) watcher_.addPath(file);
+  }
+  const QStringList watched = watcher_.directories();
+  for (const QString& folder : watched) {
+    if (!folders.remove(folder)) watcher_.removePath(folder);
+  }
+  for (const QString& folder : folders)
+    watcher_.addPath(folder);
+}
+
+void MeshWatch::look(const QString& folder) {
+  for (auto it = known_.cbegin(); it != known_.cend(); ++it) {
+    const QString& file = it.key();
+    if (QFileInfo(file).absolutePath() != folder) continue;
+    const Stamp now = stampOf(file);
+    // The watch of a file that was replaced has gone with it.
+    if (now != Stamp{} && !watcher_.files().contains(file)) watcher_.addPath(file);
+    if (now == it.value() || now == Stamp{}) continue;
+    pending_[file] = now;
+    timer_.start();
+  }
+}
+
+void MeshWatch::settle() {
+  if (task_.isRunning()) {
+    timer_.start();
+    return;
+  }
+  QStringList quiet;
+  const QStringList files = pending_.keys();
+  for (const QString& file : files) {
+    const Stamp now = stampOf(file);
+    if (now == pending_[file]) {
+      known_[file] = now;
+      pending_.remove(file);
+      quiet << file;
+    } else if (now == Stamp{}) {
+      pending_.remove(file);  // Gone again; its folder tells when it comes back.
+    } else {
+      pending_[file] = now;
+    }
+  }
+  if (!pending_.isEmpty()) timer_.start();
+  if (!quiet.isEmpty()) compare(quiet);
+}
+
+void MeshWatch::compare(const QStringList& files) {
+  auto hashes = std::make_shared<QMap<QString, std::string>>();
+  const auto job = [hashes, files](const ProgressCallback& progress) {
+    for (const QString& file : files) {
+      try {
+        (*hashes)[file] = sha256OfFile(toPath(file), [&](double) {
+          if (!progress(0.0)) throw Cancelled();
+        });
+      } catch (const FileError&) {
+        // It cannot be read now; what tells of its next change comes by again.
+      }
+    }
+  };
+  task_.run(job, [this, hashes](const std::exception_ptr&) {
+    QStringList different;
+    for (const PartGeometryPtr& geometry : session_.scene().geometries()) {
+      const QString file = fromPath(geometry->file);
+      if (hashes->contains(file) && hashes->value(file) != geometry->sha256 && !different.contains(file))
+        different << file;
+    }
+    if (!different.isEmpty()) emit changed(different);
+  });
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,192 @@
+#include "ui/files/part_files.h"
+
+#include <QAction>
+#include <QFileInfo>
+#include <QLocale>
+#include <QMenu>
+#include <QSettings>
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "core/scene/odd_size.h"
+#include "ui/document.h"
+#include "ui/files/mesh_watch.h"
+#include "ui/files/notice_bar.h"
+#include "ui/paths.h"
+#include "ui/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+const QString kReloadAlways = QStringLiteral("files/reloadAlways");
+const QString kReloadNotice = QStringLiteral("reload"), kRescaleNotice = QStringLiteral("rescale");
+
+QString namesOf(const QStringList& files) {
+  if (files.size() > 3) return QObject::tr("%n files", nullptr, files.size());
+  QStringList names;
+  for (const QString& file : files)
+    names << QFileInfo(file).fileName();
+  return names.join(QStringLiteral(", "));
+}
+
+/// "1000", "25.4"
+QString times(double factor) {
+  return QLocale().toString(factor, 'g', factor >= 100.0 ? 4 : 3);
+}
+
+}  // namespace
+
+PartFiles::PartFiles(Session& session, Document& document, NoticeBar& notices, QMenu* menu, QObject* parent)
+    : QObject(parent),
+      session_(session),
+      document_(document),
+      notices_(notices),
+      watch_(new MeshWatch(session, this)) {
+  addActions(menu);
+  connect(watch_, &MeshWatch::changed, this, &PartFiles::seeChange);
+  connect(&document_, &Document::partsAdded, this, &PartFiles::judgeSizes);
+  connect(
+      &document_, &Document::busyChanged, this,
+      [this] {
+        if (!document_.isBusy() && !waiting_.isEmpty()) reload(std::exchange(waiting_, {}));
+      },
+      Qt::QueuedConnection);
+}
+
+void PartFiles::addActions(QMenu* menu) {
+  reload_ = menu->addAction(icon(QStringLiteral("reload")), tr("&Reload parts from disk"));
+  reload_->setObjectName(QStringLiteral("reloadParts"));
+  reload_->setToolTip(tr("Read every part's file again; poses stay"));
+  reload_->setShortcut(QKeySequence(QStringLiteral("Ctrl+R")));
+  connect(reload_, &QAction::triggered, this, [this] { reload({}); });
+  reloadAlways_ = menu->addAction(tr("Reload changed parts &without asking"));
+  reloadAlways_->setObjectName(QStringLiteral("reloadAlways"));
+  reloadAlways_->setToolTip(tr("Follow changes of the parts' files on disk at once"));
+  reloadAlways_->setCheckable(true);
+  reloadAlways_->setChecked(QSettings().value(kReloadAlways, false).toBool());
+  connect(reloadAlways_, &QAction::toggled, this,
+          [](bool isOn) { QSettings().setValue(kReloadAlways, isOn); });
+  const auto update = [this] {
+    reload_->setEnabled(!document_.isBusy() && !session_.scene().parts().empty());
+  };
+  connect(menu, &QMenu::aboutToShow, reload_, update);
+  connect(&document_, &Document::busyChanged, reload_, update);
+}
+
+void PartFiles::seeChange(const QStringList& files) {
+  if (reloadAlways_->isChecked()) {
+    reload(files);
+    return;
+  }
+  notices_.offer(kReloadNotice, tr("%1: changed on disk since it was read.").arg(namesOf(files)),
+                 {{tr("Reload"), [this, files] { reload(files); }}, {tr("Reload always"), [this, files] {
+                                                                       reloadAlways_->setChecked(true);
+                                                                       reload(files);
+                                                                     }}});
+}
+
+std::vector<PartFiles::Wanted> PartFiles::partsOf(const QStringList& files) const {
+  std::vector<Wanted> wanted;
+  for (const Scene::PartPtr& part : session_.scene().parts()) {
+    if (part->geometry == nullptr) continue;
+    if (files.isEmpty() || files.contains(fromPath(part->geometry->file)))
+      wanted.push_back({part->id, part->geometry->metresPerUnit});
+  }
+  return wanted;
+}
+
+void PartFiles::reload(const QStringList& files) {
+  if (document_.isBusy()) {
+    waiting_ << files;
+    return;
+  }
+  notices_.withdraw(kReloadNotice);
+  load(tr("Reloading %1").arg(files.isEmpty() ? tr("all parts") : namesOf(files)), partsOf(files),
+       &Session::reloadParts, tr("Not everything could be reloaded; those parts stay as they were."));
+}
+
+void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, Command command,
+                     const QString& failure) {
+  std::vector<MeshSource> sources;
+  std::vector<std::size_t> sourceOf;
+  for (const Wanted& want : wanted) {
+    const PartGeometry& geometry = *session_.scene().find(want.part)->geometry;
+    const auto known = std::ranges::find_if(sources, [&](const MeshSource& source) {
+      return source.file == geometry.file && source.metresPerUnit == want.metresPerUnit;
+    });
+    sourceOf.push_back(static_cast<std::size_t>(known - sources.begin()));
+    if (known == sources.end()) sources.push_back({geometry.file, want.metresPerUnit, {}});
+  }
+  if (sources.empty()) return;
+  auto loaded = std::make_shared<std::vector<LoadedPart>>();
+  const auto job = [loaded, sources, shapes = document_.shapes()](const ProgressCallback& progress) {
+    *loaded = loadPartGeometries(sources, progress);
+    for (const LoadedPart& part : *loaded) {
+      if (part.geometry) shapes->shapeOf(part.geometry);
+    }
+  };
+  document_.load(text, job, [=, this](const std::exception_ptr& error) {
+    if (isCancelled(error)) return;
+    QStringList problems;
+    if (error) problems << describe({}, error).details;
+    for (const LoadedPart& part : *loaded) {
+      if (part.problem) problems << describe({}, part.problem).details;
+    }
+    std::vector<Session::NewGeometry> renewed;
+    for (std::size_t i = 0; !error && i < wanted.size(); ++i) {
+      const PartGeometryPtr& geometry = (*loaded)[sourceOf[i]].geometry;
+      const Part* part = session_.scene().find(wanted[i].part);
+      if (part == nullptr || !geometry) continue;
+      const bool isSame = part->geometry->sha256 == geometry->sha256 &&
+                          part->geometry->metresPerUnit == geometry->metresPerUnit;
+      if (!isSame) renewed.push_back({part->id, geometry});
+    }
+    try {
+      (session_.*command)(renewed);
+    } catch (...) {
+      problems << describe({}, std::current_exception()).details;
+    }
+    if (!problems.isEmpty())
+      emit failed({failure, problems.join(QStringLiteral("\n\n"))});
+    else
+      emit noted(renewed.empty() ? tr("No file has changed") : tr("Undo takes it back"));
+  });
+}
+
+void PartFiles::judgeSizes(const std::vector<PartId>& added) {
+  if (const std::optional<OddSize> odd = oddSizeOf(session_.scene(), added)) {
+    offerRescale(added, odd->ratio, odd->factor);
+    return;
+  }
+  for (const PartId part : added) {
+    if (const std::optional<OddSize> odd = oddSizeOf(session_.scene(), std::span(&part, 1)))
+      return offerRescale({part}, odd->ratio, odd->factor);
+  }
+}
+
+void PartFiles::offerRescale(const std::vector<PartId>& parts, double ratio, double factor) {
+  const Part* first = session_.scene().find(parts.front());
+  const QString what = parts.size() == 1
+                           ? tr("“%1” is").arg(QString::fromStdString(first->name))
+                           : tr("The %n new parts are", nullptr, static_cast<int>(parts.size()));
+  const QString text = ratio > 1.0 ? tr("%1 %2 times larger than the other parts. Is the unit right?")
+                                   : tr("%1 %2 times smaller than the other parts. Is the unit right?");
+  const QString offer = factor > 1.0 ? tr("Make %1 times larger").arg(times(factor))
+                                     : tr("Make %1 times smaller").arg(times(1.0 / factor));
+  notices_.offer(kRescaleNotice, text.arg(what, times(ratio > 1.0 ? ratio : 1.0 / ratio)),
+                 {{offer, [this, parts, factor] { rescale(parts, factor); }}});
+}
+
+void PartFiles::rescale(const std::vector<PartId>& parts, double factor) {
+  if (document_.isBusy()) return;
+  std::vector<Wanted> wanted;
+  for (const PartId id : parts) {
+    const Part* part = session_.scene().find(id);
+    if (part != nullptr) wanted.push_back({id, part->geometry->metresPerUnit * factor});
+  }
+  load(tr("Rescaling"), wanted, &Session::rescaleParts, tr("The parts could not be rescaled."));
+}
+
+}  // namespace nearfit::ui

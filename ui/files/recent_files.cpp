@@ -1,0 +1,73 @@
+#include "ui/files/recent_files.h"
+
+#include <QAction>
+#include <QDir>
+#include <QFileInfo>
+#include <QMenu>
+#include <QSettings>
+
+namespace nearfit::ui {
+namespace {
+
+const QString kKey = QStringLiteral("files/recent");
+
+QString shown(const QString& file, int number) {
+  QString name = QFileInfo(file).fileName();
+  name.replace(QChar('&'), QStringLiteral("&&"));
+  const QString entry = QFileInfo::exists(file) ? name : QObject::tr("%1 (missing)").arg(name);
+  return number < 10 ? QStringLiteral("&%1  %2").arg(QString::number(number), entry) : entry;
+}
+
+}  // namespace
+
+RecentFiles::RecentFiles(QMenu* menu, QObject* parent) : QObject(parent), menu_(menu) {
+  connect(menu_, &QMenu::aboutToShow, this, &RecentFiles::fill);
+  menu_->setToolTipsVisible(true);
+  fill();
+}
+
+QStringList RecentFiles::list() {
+  return QStringList(QSettings().value(kKey).toStringList().mid(0, kMost));
+}
+
+void RecentFiles::remember(const QString& file) {
+  const QString path = QDir::cleanPath(QFileInfo(file).absoluteFilePath());
+  QStringList files = list();
+  files.removeAll(path);
+  files.prepend(path);
+  QSettings().setValue(kKey, QStringList(files.mid(0, kMost)));
+}
+
+void RecentFiles::forget(const QString& file) {
+  QStringList files = list();
+  files.removeAll(file);
+  QSettings().setValue(kKey, files);
+}
+
+void RecentFiles::fill() {
+  menu_->clear();
+  int number = 0;
+  for (const QString& file : list()) {
+    QAction* action = menu_->addAction(shown(file, ++number));
+    action->setToolTip(QDir::toNativeSeparators(file));
+    action->setStatusTip(action->toolTip());
+    connect(action, &QAction::triggered, this, [this, file] { open(file); });
+  }
+  if (number == 0) menu_->addAction(tr("No scene yet"))->setEnabled(false);
+  menu_->addSeparator();
+  QAction* clear = menu_->addAction(tr("&Clear this list"));
+  clear->setObjectName(QStringLiteral("clearRecent"));
+  clear->setEnabled(number > 0);
+  connect(clear, &QAction::triggered, this, [] { QSettings().remove(kKey); });
+}
+
+void RecentFiles::open(const QString& file) {
+  if (QFileInfo::exists(file)) {
+    emit openRequested(file);
+    return;
+  }
+  forget(file);
+  emit missing(file);
+}
+
+}  // namespace nearfit::ui

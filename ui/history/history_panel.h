@@ -1,0 +1,32 @@
+#pragma once
+
+#include <QWidget>
+
+class QListView;
+
+namespace nearfit {
+class Session;
+}
+
+namespace nearfit::ui {
+
+class HistoryModel;
+
+/// Lists the steps of undo and redo; a click, or Return, goes to one.
+class HistoryPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// @param session  Outlives this.
+  explicit HistoryPanel(Session& session, QWidget* parent = nullptr);
+
+ private:
+  void showHistory();
+  void goTo(int row);
+
+  Session& session_;
+  HistoryModel* model_;
+  QListView* view_;
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <QString>
+#include <array>
+
+namespace nearfit::ui {
+
+/// The unit that lengths are shown in, and typed in where none is given.
+enum class LengthUnit { Millimetre, Centimetre, Metre, Inch };
+
+constexpr std::array<LengthUnit, 4> kLengthUnits = {LengthUnit::Millimetre, LengthUnit::Centimetre,
+                                                    LengthUnit::Metre, LengthUnit::Inch};
+
+/// Short: "mm", "cm", "m", "in".
+QString symbolOf(LengthUnit unit);
+/// For menus: "Millimetres".
+QString nameOf(LengthUnit unit);
+/// [m]
+double metresOf(LengthUnit unit) noexcept;
+/// Decimals that a number needs more than in millimetres to be about as fine.
+int extraDecimals(LengthUnit unit) noexcept;
+
+}  // namespace nearfit::ui

@@ -1,0 +1,44 @@
+// The tools that align parts and move them to contact, and what the window tells them.
+#include <QAction>
+#include <QMenu>
+#include <QToolBar>
+#include <algorithm>
+
+#include "ui/actions.h"
+#include "ui/document.h"
+#include "ui/main_window.h"
+#include "ui/placing/align_tool.h"
+#include "ui/placing/drop_tool.h"
+#include "ui/selection.h"
+#include "ui/viewport.h"
+
+namespace nearfit::ui {
+
+void MainWindow::setUpAligning() {
+  align_ = new AlignTool(session_, *selection_, *viewport_, this);
+  const auto prepare = [this](std::function<void(bool)> done) {
+    document_->prepareHierarchies(std::move(done));
+  };
+  drop_ = new DropTool(session_, *selection_, *viewport_, prepare, this);
+  actions_->placeMenu->addSeparator();
+  actions_->placeMenu->addAction(align_->action());
+  drop_->addTo(*actions_->placeMenu);
+  findChild<QToolBar*>(QStringLiteral("toolBar"))->addAction(align_->action());
+  connect(align_, &AlignTool::failed, this, &MainWindow::showFailure);
+  connect(align_, &AlignTool::noted, this, &MainWindow::showNote);
+  connect(drop_, &DropTool::failed, this, &MainWindow::showFailure);
+  connect(drop_, &DropTool::noted, this, &MainWindow::showNote);
+}
+
+void MainWindow::updateAligning() {
+  // What is in hand is moved by the hand.
+  const bool isFree = !document_->isBusy() && !servo_.isTaken() && session_.scene().parts().size() > 1;
+  align_->setAvailable(isFree);
+  const bool isAnyLocked = std::ranges::any_of(selection_->parts(), [this](PartId id) {
+    const Part* part = session_.scene().find(id);
+    return part != nullptr && session_.scene().isLocked(*part);
+  });
+  drop_->setAvailable(isFree && !selection_->isEmpty() && !isAnyLocked);
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,125 @@
+// What keys, mouse and numbers do to the selected part, and to the manual hand that holds it.
+#include <QAction>
+#include <algorithm>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "core/haptics/workspace_mapper.h"
+#include "ui/actions.h"
+#include "ui/dialogs/error_box.h"
+#include "ui/document.h"
+#include "ui/hand_drag.h"
+#include "ui/main_window.h"
+#include "ui/panels/pose_panel.h"
+#include "ui/placing/placing_tools.h"
+#include "ui/selection.h"
+#include "ui/viewport.h"
+
+namespace nearfit::ui {
+namespace {
+
+const glm::dquat kNoTurn(1.0, 0.0, 0.0, 0.0);
+
+/// @param centre  That it turns about, in the part's frame.
+RigidTransform stepped(const RigidTransform& worldFromPart, const glm::dvec3& shift, const glm::dquat& turn,
+                       const glm::dvec3& centre) {
+  const glm::dquat rotation =
+      RigidTransform{turn * worldFromPart.rotation, glm::dvec3(0.0)}.normalized().rotation;
+  return {rotation, worldFromPart.applyToPoint(centre) + shift - rotation * centre};
+}
+
+}  // namespace
+
+void MainWindow::connectHand() {
+  connect(viewport_, &Viewport::nudged, this, [this](int x, int y, int z) { nudge(glm::dvec3(x, y, z)); });
+  connect(viewport_, &Viewport::turned, this, [this](int x, int y, int z) { turn(glm::dvec3(x, y, z)); });
+  connect(&viewport_->handDrag(), &HandDrag::dragged, this, &MainWindow::dragHand);
+  connect(actions_->letGo, &QAction::triggered, this, &MainWindow::letGo);
+}
+
+void MainWindow::connectPlacing() {
+  connect(placing_, &PlacingTools::draggedPosesChanged, this, [this] {
+    const std::optional<PartId> id = selected();
+    if (id && !holds(id)) posePanel_->showPose(poseOf(*session_.scene().find(*id)));
+  });
+  connect(placing_, &PlacingTools::handWanted, this, &MainWindow::moveHand);
+  connect(placing_, &PlacingTools::failed, this, [this](const Failure& failure) {
+    showFailure(failure);
+    showScene();
+  });
+  connect(placing_, &PlacingTools::hierarchiesWanted, this,
+          [this] { document_->prepareHierarchies([](bool) {}); });
+  // A drag that is still settling is a step before the one that is asked for.
+  for (const QAction* action : {actions_->undo, actions_->redo})
+    connect(action, &QAction::triggered, placing_, &PlacingTools::commit);
+  connect(document_.get(), &Document::sceneNeeded, placing_, &PlacingTools::commit);
+}
+
+void MainWindow::showHeld() {
+  const std::optional<PartId> part = session_.scene().movingPart();
+  if (!servo_.isRunning || !part) return placing_->setHeld({});
+  placing_->setHeld(HeldPart{*part, poseInHand_, handPose_, servo_.hand == Hand::Manual});
+}
+
+void MainWindow::moveSelected(const RigidTransform& worldFromPart) {
+  const std::optional<PartId> part = selected();
+  if (!part) return;
+  if (holds(part)) {
+    moveHand(worldFromPart);
+  } else {
+    if (std::ranges::any_of(selection_->parts(), [this](PartId id) { return holds(id); }))
+      return showNote(tr("One of these parts is in hand: stop feeling it, or select the others alone."));
+    placing_->bring(worldFromPart);
+  }
+}
+
+void MainWindow::nudge(const glm::dvec3& direction) {
+  stepSelected(direction * posePanel_->step(), kNoTurn);
+}
+
+void MainWindow::turn(const glm::dvec3& axis) {
+  stepSelected(glm::dvec3(0.0), glm::angleAxis(posePanel_->turnStep(), axis));
+}
+
+void MainWindow::stepSelected(const glm::dvec3& shift, const glm::dquat& turn) {
+  if (isHandManual()) return dragHand(shift, turn);
+  placing_->commit();
+  const std::optional<PartId> id = selected();
+  const Part* part = id ? session_.scene().find(*id) : nullptr;
+  if (part == nullptr) return;
+  if (holds(id)) {
+    showNote(servo_.hand == Hand::Device ? tr("The device holds this part.")
+                                         : tr("The scripted hand holds this part."));
+  } else {
+    moveSelected(stepped(part->worldFromPart, shift, turn, part->geometry->mass.centre));
+  }
+}
+
+bool MainWindow::isHandManual() const {
+  return servo_.isRunning && servo_.hand == Hand::Manual;
+}
+
+void MainWindow::dragHand(const glm::dvec3& shift, const glm::dquat& turn) {
+  if (!isHandManual()) return;
+  // Of what is in hand, before its first snapshot too.
+  const Part* part = session_.scene().find(session_.scene().movingPart().value_or(PartId{}));
+  if (part != nullptr) moveHand(stepped(handPose_, shift, turn, part->geometry->mass.centre));
+}
+
+void MainWindow::moveHand(const RigidTransform& worldFromPart) {
+  WorkspaceMapping locks;
+  locks.translationLocks = session_.scene().haptics().mapping.translationLocks;
+  locks.rotationLocks = session_.scene().haptics().mapping.rotationLocks;
+  WorkspaceMapper mapper;
+  mapper.engage(handPose_);
+  handPose_ = mapper.map(worldFromPart, false, locks);
+  emit handMoved(handPose_);
+}
+
+void MainWindow::letGo() {
+  if (!isHandManual()) return;
+  handPose_ = poseInHand_;
+  emit handMoved(handPose_);
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,91 @@
+#include "ui/manners/manners.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QDockWidget>
+#include <QMainWindow>
+#include <QMenu>
+#include <QToolBar>
+#include <QWhatsThis>
+#include <utility>
+
+#include "ui/manners/field_names.h"
+#include "ui/manners/shortcuts_dialog.h"
+#include "ui/manners/tour.h"
+#include "ui/manners/window_layout.h"
+#include "ui/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+QAction* addAction(QMenu* menu, const char* name, const QString& text, const QString& toolTip) {
+  QAction* action = menu->addAction(text);
+  action->setObjectName(QLatin1String(name));
+  action->setToolTip(toolTip);
+  return action;
+}
+
+}  // namespace
+
+Manners::Manners(QMainWindow* window, QMenu* view, QMenu* help)
+    : QObject(window), window_(window), shortcuts_(new ShortcutsDialog(window)), tour_(new Tour(window)) {
+  addThemes(view);
+  QAction* reset = addAction(view, "resetLayout", tr("Reset la&yout"), tr("Put all panels back in place"));
+  connect(reset, &QAction::triggered, this, [this] { layout_->reset(); });
+
+  tourAction_ = addAction(help, "tour", tr("Short &tour"), tr("What is where in this window"));
+  tourAction_->setIcon(icon(QStringLiteral("about")));
+  connect(tourAction_, &QAction::triggered, this, &Manners::tourRequested);
+  QAction* keys = addAction(help, "shortcuts", tr("&Keyboard shortcuts"),
+                            tr("All commands with their keys, to be searched"));
+  keys->setShortcuts({QKeySequence(Qt::Key_F1), QKeySequence(QStringLiteral("Ctrl+/"))});
+  connect(keys, &QAction::triggered, shortcuts_, &ShortcutsDialog::open);
+  QAction* what =
+      addAction(help, "whatsThis", tr("&What is this?"), tr("Click something to hear what it does"));
+  what->setShortcut(QKeySequence(QStringLiteral("Shift+F1")));
+  connect(what, &QAction::triggered, this, [] { QWhatsThis::enterWhatsThisMode(); });
+}
+
+void Manners::settle() {
+  layout_ = new WindowLayout(window_);
+  layout_->restore();
+  nameFields(*window_);
+}
+
+void Manners::addThemes(QMenu* view) {
+  QMenu* menu = view->addMenu(tr("T&heme"));
+  auto* group = new QActionGroup(this);
+  const std::pair<ColourScheme, QAction*> schemes[] = {
+      {ColourScheme::System,
+       addAction(menu, "themeSystem", tr("As the &desktop"), tr("Light or dark as the desktop is"))},
+      {ColourScheme::Light, addAction(menu, "themeLight", tr("&Light"), tr("Dark text on light panels"))},
+      {ColourScheme::Dark, addAction(menu, "themeDark", tr("&Dark"), tr("Light text on dark panels"))}};
+  for (const auto& [scheme, action] : schemes) {
+    action->setCheckable(true);
+    action->setChecked(scheme == colourScheme());
+    group->addAction(action);
+    connect(action, &QAction::triggered, this, [scheme = scheme] { setColourScheme(scheme); });
+  }
+}
+
+void Manners::beginTour() {
+  const auto find = [this](const char* name) { return window_->findChild<QWidget*>(QLatin1String(name)); };
+  tour_->begin({
+      {find("partsDock"), tr("Parts"),
+       tr("Every part of the scene. The eye hides one, the lock keeps it where it is, and the hand makes it "
+          "the moving part: the one that you feel.")},
+      {window_->centralWidget(), tr("The view"),
+       tr("Left drag orbits, the wheel zooms, a click selects. Arrow keys move the selected part. While you "
+          "feel, coloured lines show each least distance, arrows the force and torque.")},
+      {find("poseDock"), tr("Pose and mass"),
+       tr("Where the selected part is, in numbers that you can type, and what it weighs.")},
+      {find("feelDock"), tr("Feel"),
+       tr("Choose what holds the part: a device, a recording, or the mouse. Press Feel (F5), then push the "
+          "part against the others: it stops at contact.")},
+      {find("toolBar"), tr("Tools"),
+       tr("Everything here is in the menus too. F1 lists all keys; History beside the parts takes you back "
+          "to any step.")},
+  });
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,170 @@
+#include "ui/placing/align_tool.h"
+
+#include <QAction>
+#include <QSignalBlocker>
+#include <algorithm>
+#include <utility>
+
+#include "ui/placing/align_bar.h"
+#include "ui/selection.h"
+#include "ui/theme.h"
+#include "ui/viewport.h"
+
+namespace nearfit::ui {
+
+AlignTool::AlignTool(Session& session, Selection& selection, Viewport& view, QObject* parent)
+    : QObject(parent),
+      session_(session),
+      selection_(selection),
+      view_(view),
+      action_(new QAction(icon(QStringLiteral("align")), tr("&Align…"), this)),
+      bar_(new AlignBar(&view)),
+      picker_(session, view, colours::kAccent, this),
+      movingLight_(view.overlay(), colours::kMoving),
+      fixedLight_(view.overlay(), colours::kHand) {
+  action_->setObjectName(QStringLiteral("align"));
+  action_->setCheckable(true);
+  action_->setShortcut(QKeySequence(Qt::Key_A));
+  action_->setToolTip(tr("Align a face, axis or point of a part with one of another (A)"));
+  connect(action_, &QAction::toggled, this, [this](bool isOn) { isOn ? start() : stop(); });
+  connect(&picker_, &FeaturePicker::picked, this, &AlignTool::take);
+  connect(&picker_, &FeaturePicker::told, this, &AlignTool::tell);
+  connect(&picker_, &FeaturePicker::accepted, this, &AlignTool::apply);
+  connect(&picker_, &FeaturePicker::cancelled, this, &AlignTool::stop);
+  connect(bar_, &AlignBar::filterChosen, &picker_, &FeaturePicker::setFilter);
+  connect(bar_, &AlignBar::optionsEdited, this, &AlignTool::preview);
+  connect(bar_, &AlignBar::applied, this, &AlignTool::apply);
+  connect(bar_, &AlignBar::cancelled, this, &AlignTool::stop);
+  session_.onChange([this] {
+    if (picker_.isActive() && !isSound()) stop();
+  });
+}
+
+AlignTool::~AlignTool() = default;
+
+void AlignTool::setAvailable(bool isAvailable) {
+  action_->setEnabled(isAvailable);
+  if (!isAvailable) stop();
+}
+
+void AlignTool::start() {
+  bar_->reset();
+  picker_.setFilter(bar_->filter());
+  picker_.start([this](const Part& part) { return refusalOf(part); });
+  bar_->show();
+  tell({});
+}
+
+void AlignTool::stop() {
+  const QSignalBlocker blocker(action_);
+  action_->setChecked(false);
+  if (!picker_.isActive()) return;
+  picker_.stop();
+  bar_->hide();
+  view_.setDragged({});
+  movingLight_.clear();
+  fixedLight_.clear();
+  moving_.reset();
+  fixed_.reset();
+  start_.clear();
+  view_.requestRender();
+}
+
+bool AlignTool::isMoved(PartId part) const {
+  return start_.contains(part);
+}
+
+/// Whether what was picked still stands where it was.
+bool AlignTool::isSound() const {
+  if (fixed_ && session_.scene().find(fixed_->part) == nullptr) return false;
+  return std::all_of(start_.begin(), start_.end(), [this](const auto& entry) {
+    const Part* part = session_.scene().find(entry.first);
+    return part != nullptr && !session_.scene().isLocked(*part) &&
+           part->worldFromPart.translation == entry.second.translation &&
+           part->worldFromPart.rotation == entry.second.rotation;
+  });
+}
+
+QString AlignTool::refusalOf(const Part& part) const {
+  const QString name = QString::fromStdString(part.name);
+  if (moving_) return isMoved(part.id) ? tr("%1 is what moves: point at another part").arg(name) : QString();
+  if (session_.scene().isLocked(part)) return tr("%1 is locked: unlock it to move it").arg(name);
+  if (selection_.contains(part.id)) {
+    for (const PartId id : selection_.parts()) {
+      const Part* other = session_.scene().find(id);
+      if (other != nullptr && session_.scene().isLocked(*other))
+        return tr("%1 is selected too, and locked").arg(QString::fromStdString(other->name));
+    }
+  }
+  return {};
+}
+
+void AlignTool::take(const FeaturePick& pick) {
+  const Part* part = session_.scene().find(pick.part);
+  if (part == nullptr) return;
+  if (!moving_) {
+    if (!selection_.contains(pick.part)) selection_.select(pick.part);
+    for (const PartId id : selection_.parts())
+      start_[id] = session_.scene().find(id)->worldFromPart;
+    moving_ = pick;
+    movingLight_.show(part->geometry->mesh, pick.picked, part->worldFromPart);
+    picker_.start([this](const Part& other) { return refusalOf(other); });
+  } else {
+    fixed_ = pick;
+    fixedLight_.show(part->geometry->mesh, pick.picked, part->worldFromPart);
+    bar_->showPair(true, canBeFlipped(moving_->picked.feature.shape, pick.picked.feature.shape),
+                   canBeOffset(moving_->picked.feature.shape, pick.picked.feature.shape));
+    preview();
+  }
+  tell({});
+  view_.requestRender();
+}
+
+void AlignTool::preview() {
+  if (!moving_ || !fixed_) return;
+  const RigidTransform& worldFromMoving = start_.at(moving_->part);
+  const AlignFeature moving = placed(moving_->picked.feature, worldFromMoving);
+  const AlignFeature fixed =
+      placed(fixed_->picked.feature, session_.scene().find(fixed_->part)->worldFromPart);
+  motion_ = alignMotion(moving, fixed, {bar_->isFlipped(), bar_->offset()});
+  std::map<PartId, RigidTransform> poses;
+  for (const auto& [id, pose] : start_)
+    poses[id] = (motion_ * pose).normalized();
+  movingLight_.setPose(poses.at(moving_->part));
+  view_.setDragged(std::move(poses));
+  tell({});
+}
+
+void AlignTool::apply() {
+  if (!moving_ || !fixed_) return;
+  const PartId lead = moving_->part;
+  const RigidTransform pose = (motion_ * start_.at(lead)).normalized();
+  std::vector<PartId> moved;
+  for (const auto& [id, was] : start_)
+    moved.push_back(id);
+  stop();
+  try {
+    session_.moveParts(moved, lead, pose, "Align");
+  } catch (...) {
+    emit failed(describe(tr("The part could not be aligned."), std::current_exception()));
+  }
+}
+
+QString AlignTool::prompt() const {
+  if (!moving_) return tr("Click a face, axis or point of the part to move");
+  if (!fixed_) return tr("Click what it is to be aligned with");
+  return tr("%1 to %2")
+      .arg(describeFeature(moving_->picked.feature), describeFeature(fixed_->picked.feature).toLower());
+}
+
+void AlignTool::tell(const QString& hint) {
+  const QString idle = !moving_ ? tr("Locked parts stay; selected ones go together")
+                       : !fixed_
+                           ? tr("%1 of %2")
+                                 .arg(describeFeature(moving_->picked.feature),
+                                      QString::fromStdString(session_.scene().find(moving_->part)->name))
+                           : tr("Return applies, Escape leaves it; click another to change it");
+  bar_->showPrompt(prompt(), hint.isEmpty() ? idle : hint);
+}
+
+}  // namespace nearfit::ui

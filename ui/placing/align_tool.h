@@ -1,0 +1,66 @@
+#pragma once
+
+#include <QObject>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "core/placing/align.h"
+#include "core/session.h"
+#include "ui/dialogs/error_box.h"
+#include "ui/placing/feature_picker.h"
+
+class QAction;
+
+namespace nearfit::ui {
+
+class AlignBar;
+class Selection;
+class Viewport;
+
+/// Aligns a part by two clicks in the view: on a feature of it, then on one of another part that it is to
+/// meet. Shows where the part would be; Apply or Return puts it there as one step of undo, Escape leaves
+/// everything as it was. A selected part takes the other selected ones with it. Locked parts refuse to move.
+class AlignTool : public QObject {
+  Q_OBJECT
+
+ public:
+  /// @param session, selection, view  Outlive this.
+  AlignTool(Session& session, Selection& selection, Viewport& view, QObject* parent);
+  ~AlignTool() override;
+
+  /// Switches it on and off.
+  QAction* action() const noexcept { return action_; }
+  /// Whether it can be used now; it stops when it no longer can.
+  void setAvailable(bool isAvailable);
+
+ signals:
+  void failed(const nearfit::ui::Failure& failure);
+  void noted(const QString& text);
+
+ private:
+  void start();
+  void stop();
+  void take(const FeaturePick& pick);
+  void retake();
+  void preview();
+  void apply();
+  void tell(const QString& hint);
+  QString prompt() const;
+  QString refusalOf(const Part& part) const;
+  bool isMoved(PartId part) const;
+  bool isSound() const;
+
+  Session& session_;
+  Selection& selection_;
+  Viewport& view_;
+  QAction* action_;
+  AlignBar* bar_;
+  FeaturePicker picker_;
+  FeatureHighlight movingLight_, fixedLight_;
+  std::optional<FeaturePick> moving_, fixed_;
+  std::map<PartId, RigidTransform> start_;  ///< worldFromPart of those that move, when the first was picked.
+  RigidTransform motion_;
+};
+
+}  // namespace nearfit::ui

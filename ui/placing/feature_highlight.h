@@ -1,0 +1,39 @@
+#pragma once
+
+#include <QColor>
+
+#include <vtkActor.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include "core/math/rigid_transform.h"
+#include "core/mesh/triangle_mesh.h"
+#include "core/placing/feature.h"
+
+namespace nearfit::ui {
+
+/// A feature lit up in the view: its face, the line of its edge, its axis, its point.
+class FeatureHighlight {
+ public:
+  FeatureHighlight(vtkRenderer& renderer, const QColor& colour);
+  ~FeatureHighlight();
+  FeatureHighlight(const FeatureHighlight&) = delete;
+  FeatureHighlight& operator=(const FeatureHighlight&) = delete;
+
+  void show(const TriangleMesh& mesh, const PickedFeature& picked, const RigidTransform& worldFromPart);
+  void setPose(const RigidTransform& worldFromPart);
+  void clear();
+  bool isShown() const;
+
+ private:
+  void style(vtkActor& actor, vtkPolyData& data, const QColor& colour) const;
+
+  vtkSmartPointer<vtkRenderer> renderer_;  ///< Held: a view may go before the tools that draw in it.
+  vtkNew<vtkPolyData> faces_, lines_, points_;
+  vtkNew<vtkActor> face_, line_, point_;
+  vtkNew<vtkMatrix4x4> pose_;
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,287 @@
+#include "ui/placing/placing_tools.h"
+
+#include <QAction>
+#include <QMainWindow>
+#include <QMenu>
+#include <QStringList>
+#include <QToolBar>
+#include <algorithm>
+#include <utility>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "ui/placing/gizmo_control.h"
+#include "ui/placing/placing_actions.h"
+#include "ui/selection.h"
+#include "ui/viewport.h"
+
+namespace nearfit::ui {
+
+PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& view, QObject* parent)
+    : QObject(parent),
+      session_(session),
+      selection_(selection),
+      view_(view),
+      actions_(new PlacingActions(this)),
+      control_(new GizmoControl(view)) {
+  control_->setDirectDrag([this](const QPoint& position) { return grab(position); });
+  connect(control_, &GizmoControl::began, this, &PlacingTools::begin);
+  connect(control_, &GizmoControl::dragged, this, &PlacingTools::follow);
+  connect(control_, &GizmoControl::ended, this, &PlacingTools::finish);
+  connect(control_, &GizmoControl::cancelled, this, &PlacingTools::takeBack);
+  connect(&mover_, &PartMover::moved, this, &PlacingTools::showMoved);
+  connect(&mover_, &PartMover::ended, this, &PlacingTools::putMoved);
+  connect(&mover_, &PartMover::failed, this, [this](const std::exception_ptr& error) {
+    abandon();
+    emit failed(describe(tr("The part could not be moved solidly."), error));
+  });
+  connect(actions_, &PlacingActions::changed, this, &PlacingTools::showActions);
+  connect(actions_->pivotAtMass, &QAction::triggered, this, [this] { resetPivot(Pivot::Mass); });
+  connect(actions_->pivotAtBox, &QAction::triggered, this, [this] { resetPivot(Pivot::Box); });
+  connect(actions_->solid, &QAction::toggled, this, [this](bool isOn) {
+    if (isOn && !session_.scene().parts().empty()) emit hierarchiesWanted();
+  });
+  connect(&selection_, &Selection::changed, this, [this] {
+    commit();
+    abandon();
+    showFrame();
+  });
+  session_.onChange([this] {
+    if (!isDragSound()) abandon();
+    showFrame();
+  });
+  showActions();
+}
+
+void PlacingTools::addTo(QMainWindow& window, QMenu& menu) {
+  actions_->addTo(menu);
+  window.addToolBarBreak();
+  window.addToolBar(actions_->makeToolBar(window));
+}
+
+void PlacingTools::setHeld(const std::optional<HeldPart>& held) {
+  const bool hasChanged = held.has_value() != held_.has_value() || (held && held->part != held_->part);
+  held_ = held;
+  if (hasChanged || !isDragSound()) abandon();
+  showFrame();
+  if (drag_ == Drag::Hand) control_->showReached(held_->worldFromPart * heldAtStart_.inverse(), {});
+}
+
+/// Whether what is dragged still stands in the scene where the drag took it up.
+bool PlacingTools::isDragSound() const {
+  if (isPutting_) return true;
+  if (drag_ == Drag::Hand || drag_ == Drag::Pivot) return frame().has_value();
+  return std::ranges::all_of(mover_.start(), [this](const auto& entry) {
+    const auto& [id, pose] = entry;
+    const Part* part = session_.scene().find(id);
+    return part != nullptr && isMovable(*part) && part->worldFromPart.translation == pose.translation &&
+           part->worldFromPart.rotation == pose.rotation;
+  });
+}
+
+void PlacingTools::showActions() {
+  // While the pivot is moved there is nothing to turn.
+  control_->setMode(actions_->movePivot->isChecked() ? GizmoMode::Move : actions_->mode());
+  control_->setSteps(actions_->steps());
+  control_->setSnapping(actions_->snap->isChecked());
+  showFrame();
+}
+
+void PlacingTools::resetPivot(Pivot pivot) {
+  pivot_ = pivot;
+  pivotFor_ = selection_.parts();
+  showFrame();
+}
+
+bool PlacingTools::isMovable(const Part& part) const {
+  if (session_.scene().isLocked(part) || part.geometry == nullptr) return false;
+  return !held_ || held_->part != part.id || leadsHand();
+}
+
+bool PlacingTools::leadsHand() const {
+  return held_ && held_->isManual && selection_.parts() == std::vector{held_->part};
+}
+
+RigidTransform PlacingTools::shownPose(const Part& part) const {
+  if (const std::optional<RigidTransform> dragged = draggedPose(part.id)) return *dragged;
+  return held_ && held_->part == part.id ? held_->worldFromPart : part.worldFromPart;
+}
+
+std::optional<RigidTransform> PlacingTools::draggedPose(PartId part) const {
+  const auto found = mover_.poses().find(part);
+  return found == mover_.poses().end() ? std::nullopt : std::optional(found->second);
+}
+
+/// All that is selected, or nothing when one of it may not be moved.
+std::vector<PlacedPart> PlacingTools::placedParts() const {
+  std::vector<PlacedPart> placed;
+  for (const PartId id : selection_.parts()) {
+    const Part* part = session_.scene().find(id);
+    if (part == nullptr || !isMovable(*part)) return {};
+    placed.push_back({part, shownPose(*part)});
+  }
+  return placed;
+}
+
+std::optional<GizmoFrame> PlacingTools::frame() const {
+  const std::vector<PlacedPart> parts = placedParts();
+  if (parts.empty() || !std::ranges::all_of(parts, [](const PlacedPart& p) { return p.part->isVisible; }))
+    return std::nullopt;
+  const RigidTransform& worldFromFirst = parts.front().worldFromPart;
+  const Pivot pivot = pivotFor_ == selection_.parts() ? pivot_ : Pivot::Mass;
+  GizmoFrame frame;
+  frame.pivot = pivot == Pivot::Own   ? worldFromFirst.applyToPoint(ownPivot_)
+                : pivot == Pivot::Box ? boxCentre(parts)
+                                      : centreOfMass(parts);
+  // The numbers are of the current part: so are its axes.
+  if (actions_->localAxes->isChecked()) frame.axes = glm::mat3_cast(parts.back().worldFromPart.rotation);
+  return frame;
+}
+
+void PlacingTools::showFrame() {
+  control_->setFrame(frame());
+}
+
+std::optional<glm::dvec3> PlacingTools::grab(const QPoint& position) const {
+  if (actions_->movePivot->isChecked()) return std::nullopt;
+  const std::vector<PlacedPart> parts = placedParts();
+  const ViewRay ray = view_.projection().rayThrough({position.x(), position.y()});
+  // Looking closely takes its time where there are many triangles: only where it may help.
+  if (std::ranges::none_of(parts, [&](const PlacedPart& part) { return meetsBox(ray, part); }))
+    return std::nullopt;
+  const std::optional<PickedPoint> picked = view_.pointAt(position);
+  if (!picked || !selection_.contains(picked->part)) return std::nullopt;
+  return picked->point;
+}
+
+void PlacingTools::begin(GizmoHandle handle) {
+  // What still settles from the last drag stays where it has come to.
+  commit();
+  handle_ = handle;
+  if (actions_->movePivot->isChecked()) {
+    drag_ = Drag::Pivot;
+    pivotAtStart_ = control_->frameAtStart().pivot;
+  } else if (leadsHand()) {
+    drag_ = Drag::Hand;
+    handAtStart_ = held_->worldFromHand;
+    heldAtStart_ = held_->worldFromPart;
+  } else {
+    drag_ = Drag::Parts;
+    mover_.begin(sceneNow(), selection_.parts(), actions_->solid->isChecked());
+  }
+}
+
+/// The scene with what is in hand where the servo has it: it is in the way there.
+Scene PlacingTools::sceneNow() const {
+  Scene scene = session_.scene();
+  const Part* inHand = held_ ? scene.find(held_->part) : nullptr;
+  if (inHand != nullptr) {
+    Part moved = *inHand;
+    moved.worldFromPart = held_->worldFromPart;
+    scene.replace(std::move(moved));
+  }
+  return scene;
+}
+
+void PlacingTools::bring(const RigidTransform& worldFromCurrent) {
+  commit();
+  const std::vector<PlacedPart> parts = placedParts();
+  // What may not be moved is for the session to refuse.
+  if (parts.empty() || !actions_->solid->isChecked()) return put(worldFromCurrent, "Move");
+  handle_ = GizmoHandle::None;
+  brought_ = worldFromCurrent;
+  mover_.begin(sceneNow(), selection_.parts(), true);
+  mover_.moveTo((worldFromCurrent * parts.back().worldFromPart.inverse()).normalized());
+  mover_.end();
+}
+
+void PlacingTools::follow(const RigidTransform& motion) {
+  switch (drag_) {
+    case Drag::Parts:
+      return mover_.moveTo(motion);
+    case Drag::Hand:
+      return emit handWanted((motion * handAtStart_).normalized());
+    case Drag::Pivot: {
+      const std::vector<PlacedPart> parts = placedParts();
+      if (parts.empty()) return;
+      ownPivot_ = parts.front().worldFromPart.inverse().applyToPoint(motion.applyToPoint(pivotAtStart_));
+      resetPivot(Pivot::Own);
+      return control_->showReached(motion, {});
+    }
+    case Drag::None:
+      return;
+  }
+}
+
+void PlacingTools::showMoved() {
+  view_.setDragged(mover_.poses());
+  showFrame();
+  control_->showReached(mover_.motion(), note());
+  emit draggedPosesChanged();
+}
+
+QString PlacingTools::note() const {
+  if (mover_.isPreparing()) return tr("Contact is being prepared…");
+  QStringList names;
+  for (const PartId id : mover_.touching()) {
+    const Part* part = session_.scene().find(id);
+    if (part != nullptr) names << QString::fromStdString(part->name);
+  }
+  return names.isEmpty() ? QString() : tr("Stopped by %1").arg(names.join(QStringLiteral(", ")));
+}
+
+void PlacingTools::finish() {
+  if (std::exchange(drag_, Drag::None) == Drag::Parts) mover_.end();
+}
+
+void PlacingTools::takeBack() {
+  const Drag drag = std::exchange(drag_, Drag::None);
+  if (drag == Drag::Parts) {
+    abandon();
+  } else if (drag == Drag::Hand) {
+    emit handWanted(handAtStart_);
+  } else if (drag == Drag::Pivot) {
+    follow({});
+  }
+  showFrame();
+}
+
+void PlacingTools::commit() {
+  if (mover_.isEnding()) mover_.endHere();
+}
+
+void PlacingTools::abandon() {
+  drag_ = Drag::None;
+  control_->abandon();
+  giveUpParts();
+}
+
+/// The parts are in the view as the scene has them again.
+void PlacingTools::giveUpParts() {
+  brought_.reset();
+  if (!mover_.isUnderWay()) return;
+  mover_.giveUp();
+  view_.setDragged({});
+  emit draggedPosesChanged();
+}
+
+void PlacingTools::putMoved() {
+  const RigidTransform current = mover_.poses().at(mover_.parts().back());
+  put(brought_ && mover_.hasArrived() ? *brought_ : current, isRing(handle_) ? "Turn" : "Move");
+  giveUpParts();
+  showFrame();
+}
+
+/// All selected parts together, so that the current one stands there.
+void PlacingTools::put(const RigidTransform& worldFromCurrent, const char* verb) {
+  if (selection_.isEmpty()) return;
+  isPutting_ = true;
+  try {
+    session_.moveParts(selection_.parts(), *selection_.current(), worldFromCurrent, verb);
+  } catch (...) {
+    emit failed(describe(tr("The part could not be moved."), std::current_exception()));
+  }
+  isPutting_ = false;
+}
+
+}  // namespace nearfit::ui

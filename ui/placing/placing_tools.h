@@ -1,0 +1,110 @@
+#pragma once
+
+#include <QObject>
+#include <optional>
+#include <vector>
+
+#include "core/placing/gizmo.h"
+#include "core/placing/pivot.h"
+#include "core/session.h"
+#include "ui/dialogs/error_box.h"
+#include "ui/placing/part_mover.h"
+
+class QMainWindow;
+class QMenu;
+
+namespace nearfit::ui {
+
+class GizmoControl;
+class PlacingActions;
+class Selection;
+class Viewport;
+
+/// The part in hand while the servo runs.
+struct HeldPart {
+  PartId part{};
+  RigidTransform worldFromPart;  ///< Where the servo has it.
+  RigidTransform worldFromHand;  ///< Where the hand would have it.
+  bool isManual = false;         ///< The hand can be led from here.
+};
+
+/// Placing by gizmo and by direct drag: the selected parts together, each drag one step of undo. A part that
+/// the manual hand holds is led by that hand; one that another hand holds, and locked ones, have no gizmo.
+class PlacingTools : public QObject {
+  Q_OBJECT
+
+ public:
+  /// @param session, selection, view  Outlive this.
+  PlacingTools(Session& session, Selection& selection, Viewport& view, QObject* parent = nullptr);
+
+  /// Its actions, and a toolbar in a row of its own.
+  void addTo(QMainWindow& window, QMenu& menu);
+
+  /// Nothing: the servo does not run.
+  void setHeld(const std::optional<HeldPart>& held);
+  /// Puts what is on its way where it is now; for whoever needs the scene.
+  void commit();
+  /// Moves the selected parts together so that the current one comes to stand there, or as near as it can
+  /// where parts are solid; one step of undo. Not for a part in hand.
+  void bring(const RigidTransform& worldFromCurrent);
+  /// Where a part is shown while it is dragged; nothing for all others.
+  std::optional<RigidTransform> draggedPose(PartId part) const;
+
+ signals:
+  /// Parts are dragged, or have been put back.
+  void draggedPosesChanged();
+  /// The manual hand is to go there.
+  void handWanted(const nearfit::RigidTransform& worldFromPart);
+  /// What may be touched has no hierarchies yet: they had better be there before a drag.
+  void hierarchiesWanted();
+  void failed(const nearfit::ui::Failure& failure);
+
+ private:
+  enum class Pivot { Mass, Box, Own };
+
+  std::vector<PlacedPart> placedParts() const;
+  bool isMovable(const Part& part) const;
+  RigidTransform shownPose(const Part& part) const;
+  /// The selected parts are the one that the manual hand holds.
+  bool leadsHand() const;
+  std::optional<GizmoFrame> frame() const;
+  std::optional<glm::dvec3> grab(const QPoint& position) const;
+
+  Scene sceneNow() const;
+  void showActions();
+  void showFrame();
+  void resetPivot(Pivot pivot);
+  void begin(GizmoHandle handle);
+  void follow(const RigidTransform& motion);
+  void finish();
+  void takeBack();
+  bool isDragSound() const;
+  void abandon();
+  void giveUpParts();
+  void putMoved();
+  void put(const RigidTransform& worldFromCurrent, const char* verb);
+  void showMoved();
+  QString note() const;
+
+  Session& session_;
+  Selection& selection_;
+  Viewport& view_;
+  PlacingActions* actions_;
+  GizmoControl* control_;
+  PartMover mover_;
+  std::optional<HeldPart> held_;
+
+  Pivot pivot_ = Pivot::Mass;
+  glm::dvec3 ownPivot_{0.0};      ///< In the frame of the first selected part [m].
+  std::vector<PartId> pivotFor_;  ///< The selection that it was set for.
+
+  enum class Drag { None, Parts, Hand, Pivot };
+  Drag drag_ = Drag::None;
+  GizmoHandle handle_ = GizmoHandle::None;
+  RigidTransform handAtStart_, heldAtStart_;
+  glm::dvec3 pivotAtStart_{0.0};
+  std::optional<RigidTransform> brought_;  ///< Where the current part is to stand, to the last bit.
+  bool isPutting_ = false;                 ///< The session changes by this.
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <QWidget>
+
+class QComboBox;
+class QLabel;
+class QSlider;
+class QToolButton;
+
+namespace nearfit::ui {
+
+/// The buttons and the scale with which a recording is played. Knows times, nothing of what is played.
+class Timeline : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit Timeline(QWidget* parent = nullptr);
+
+  /// @param name  Of the recording; empty: there is none, and nothing can be pressed.
+  void showRecording(const QString& name, double duration);
+  /// @param note  What the row there says, in words.
+  void showTime(double time, const QString& note);
+  void showPlaying(bool isPlaying);
+
+ signals:
+  void playToggled();
+  void sought(double time);
+  void stepped(int rows);
+  void speedChosen(double speed);
+  void loopingChosen(bool isLooping);
+  void openWanted();
+  void closeWanted();
+
+ protected:
+  void keyPressEvent(QKeyEvent* event) override;
+
+ private:
+  QToolButton* make(const char* name, const QString& text, const char* iconName);
+  void setUpButtons();
+
+  QToolButton *open_, *back_, *play_, *forward_, *loop_, *close_;
+  QSlider* scale_;
+  QComboBox* speed_;
+  QLabel *name_, *time_, *note_;
+  double duration_ = 0.0;
+};
+
+}  // namespace nearfit::ui

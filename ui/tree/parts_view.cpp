@@ -1,0 +1,58 @@
+#include "ui/tree/parts_view.h"
+
+#include <QEvent>
+#include <QPalette>
+
+#include "ui/parts_model.h"
+
+namespace nearfit::ui {
+
+PartsView::PartsView(QWidget* parent) : QTreeView(parent) {
+  setUniformRowHeights(true);
+  setHeaderHidden(true);
+  setSelectionBehavior(QAbstractItemView::SelectRows);
+  setSelectionMode(QAbstractItemView::ExtendedSelection);
+  setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
+  setContextMenuPolicy(Qt::ActionsContextMenu);
+  setIconSize(QSize(18, 18));
+  setIndentation(16);
+  setExpandsOnDoubleClick(false);
+  setDragDropMode(QAbstractItemView::DragDrop);
+  setDefaultDropAction(Qt::MoveAction);
+  setDragEnabled(true);
+  setDropIndicatorShown(true);
+  setAutoExpandDelay(600);
+  // The style fills the indentation of a selected row by itself: as the style sheet fills the row.
+  QPalette pale = palette();
+  pale.setColor(QPalette::Highlight, QColor(0xd3, 0xe5, 0xf8));
+  pale.setColor(QPalette::HighlightedText, pale.color(QPalette::Text));
+  setPalette(pale);
+}
+
+void PartsView::setFilter(const QString& text) {
+  for (int row = 0; row < model()->rowCount(); ++row)
+    filterRow(row, {}, text, false);
+}
+
+bool PartsView::filterRow(int row, const QModelIndex& parent, const QString& text, bool isWithinMatch) {
+  const QModelIndex index = model()->index(row, PartsModel::Name, parent);
+  // What a group that is looked for holds stays, too.
+  const bool isMatch = isWithinMatch || index.data().toString().contains(text, Qt::CaseInsensitive);
+  bool stays = isMatch;
+  for (int child = 0; child < model()->rowCount(index); ++child)
+    stays = filterRow(child, index, text, isMatch) || stays;
+  if (isRowHidden(row, parent) == stays) setRowHidden(row, parent, !stays);
+  if (!text.isEmpty() && stays && model()->rowCount(index) > 0) expand(index);
+  return stays;
+}
+
+QItemSelectionModel::SelectionFlags PartsView::selectionCommand(const QModelIndex& index,
+                                                                const QEvent* event) const {
+  const bool isMouse =
+      event != nullptr && (event->type() == QEvent::MouseButtonPress ||
+                           event->type() == QEvent::MouseButtonRelease || event->type() == QEvent::MouseMove);
+  if (isMouse && index.isValid() && index.column() != PartsModel::Name) return QItemSelectionModel::NoUpdate;
+  return QTreeView::selectionCommand(index, event);
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,30 @@
+#include "ui/unit_menu.h"
+
+#include <QActionGroup>
+
+#include "ui/number_field.h"
+#include "ui/preferences.h"
+
+namespace nearfit::ui {
+
+UnitMenu::UnitMenu(QWidget* window)
+    : QMenu(tr("&Unit of length"), window), window_(window), group_(new QActionGroup(this)) {
+  setObjectName(QStringLiteral("unitMenu"));
+  for (const LengthUnit unit : kLengthUnits) {
+    QAction* action = addAction(tr("%1 (%2)").arg(nameOf(unit), symbolOf(unit)));
+    action->setObjectName(QStringLiteral("unit-") + symbolOf(unit));
+    action->setCheckable(true);
+    action->setChecked(unit == Preferences::lengthUnit());
+    group_->addAction(action);
+    connect(action, &QAction::triggered, this, [this, unit] { choose(unit); });
+  }
+}
+
+void UnitMenu::choose(LengthUnit unit) {
+  Preferences::setLengthUnit(unit);
+  for (NumberField* field : window_->findChildren<NumberField*>())
+    field->setLengthUnit(unit);
+  emit unitChanged(unit);
+}
+
+}  // namespace nearfit::ui
