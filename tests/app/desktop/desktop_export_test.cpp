@@ -1,15 +1,12 @@
 #include <QClipboard>
-#include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QRadioButton>
 #include <QStatusBar>
 
 #include "core/mesh/mesh_import.h"
 #include "core/report/placement_table.h"
-#include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/export_driver.h"
 #include "ui/dialogs/error_box.h"
 #include "ui/parts_model.h"
-#include "ui/taking/export_dialog.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -20,23 +17,6 @@ namespace {
 void pressShortcut(DesktopDriver& d, Qt::Key key, Qt::KeyboardModifiers modifiers) {
   QApplication::setActiveWindow(&d.window());
   QTest::keyClick(&d.window(), key, modifiers);
-}
-
-/// Chooses in the export dialog as a user does: a format by its row, selected parts by their button.
-void chooseExport(int kindRow, bool isSelected, QString* summary = nullptr) {
-  whenModal<ui::ExportDialog>([=](ui::ExportDialog* dialog) {
-    auto* kind = dialog->findChild<QComboBox*>(QStringLiteral("exportKind"));
-    kind->setFocus();
-    QTest::keyClick(kind, Qt::Key_Home);
-    for (int i = 0; i < kindRow; ++i)
-      QTest::keyClick(kind, Qt::Key_Down);
-    if (isSelected) {
-      auto* chosen = dialog->findChild<QRadioButton*>(QStringLiteral("exportSelected"));
-      QTest::mouseClick(chosen, Qt::LeftButton, {}, QPoint(8, chosen->height() / 2));
-    }
-    if (summary != nullptr) *summary = dialog->findChild<QLabel*>(QStringLiteral("exportSummary"))->text();
-    QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save), Qt::LeftButton);
-  });
 }
 
 }  // namespace

@@ -1,16 +1,13 @@
 #include <QImage>
-#include <QMouseEvent>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/math/rotation_vector.h"
-#include "core/placing/gizmo_layout.h"
-#include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/view_driver.h"
 #include "tests/exact/pose_certifier.h"
 #include "ui/number_field.h"
-#include "ui/placing/gizmo_overlay.h"
 #include "ui/placing/placing_tools.h"
 #include "ui/selection.h"
 
@@ -19,76 +16,22 @@ using test::DesktopDriver;
 
 namespace {
 
+/// What is made first of what a Bench consists of.
+struct Cubes {
+  DesktopDriver driver;
+};
+
 /// The two cubes, the moving one selected, and a mouse over the view.
-struct Bench {
-  Bench() {
+struct Bench : Cubes, test::ViewDriver {
+  Bench() : ViewDriver(Cubes::driver) {
     driver.addCubes();
     select("moving");
     look("viewFront");
     QTRY_VERIFY(overlay().picture() || driver.action("gizmoNone")->isChecked());
   }
-  /// Goes to a view and waits until it is drawn.
-  void look(const char* action) {
-    const int before = view().pictureCount();
-    driver.action(action)->trigger();
-    QTRY_VERIFY(view().pictureCount() > before);
-  }
-  ui::Viewport& view() { return driver.window().viewport(); }
   void select(const char* name) { driver.window().selection().select(driver.partId(name)); }
   RigidTransform pose(const char* name = "moving") { return driver.part(name).worldFromPart; }
   std::size_t steps() { return driver.session().historyIndex(); }
-  ui::GizmoOverlay& overlay() { return *driver.widget<ui::GizmoOverlay>("gizmo"); }
-  QString readout() { return driver.text("dragReadout"); }
-
-  QPoint seen(const glm::dvec3& point) {
-    const glm::dvec2 pixel = view().projection().pixelOf(point).value();
-    return {static_cast<int>(std::lround(pixel.x)), static_cast<int>(std::lround(pixel.y))};
-  }
-  /// Where the gizmo shows a handle so that it can be grabbed.
-  QPoint handle(GizmoHandle handle) {
-    const GizmoLayout& layout = overlay().picture().value().layout;
-    for (const GizmoFigure& figure : layout.figures()) {
-      if (figure.handle != handle) continue;
-      glm::dvec2 middle(0.0);
-      for (const glm::dvec2& point : figure.points)
-        middle += point / static_cast<double>(figure.points.size());
-      if (isRing(handle)) middle = figure.points[figure.points.size() / 3];
-      if (layout.pick(glm::round(middle)) != handle) continue;
-      return {static_cast<int>(std::lround(middle.x)), static_cast<int>(std::lround(middle.y))};
-    }
-    throw Error("gizmo", "the handle is not to be seen");
-  }
-
-  void send(QEvent::Type type, QPoint at, Qt::KeyboardModifiers keys = {},
-            Qt::MouseButton button = Qt::LeftButton) {
-    const bool isMove = type == QEvent::MouseMove;
-    const Qt::MouseButtons down = type == QEvent::MouseButtonRelease ? Qt::NoButton : held_;
-    QMouseEvent event(type, at, view().mapToGlobal(at), isMove ? Qt::NoButton : button, down, keys);
-    QApplication::sendEvent(&view(), &event);
-  }
-  void press(QPoint at, Qt::KeyboardModifiers keys = {}) {
-    held_ = Qt::LeftButton;
-    send(QEvent::MouseButtonPress, at, keys);
-  }
-  void moveTo(QPoint at, Qt::KeyboardModifiers keys = {}) {
-    send(QEvent::MouseMove, at, keys);
-    QCoreApplication::processEvents();
-  }
-  void release(QPoint at, Qt::KeyboardModifiers keys = {}) {
-    send(QEvent::MouseButtonRelease, at, keys);
-    held_ = Qt::NoButton;
-  }
-  void drag(QPoint from, QPoint way, Qt::KeyboardModifiers keys = {}) {
-    press(from, keys);
-    for (int i = 1; i <= 10; ++i)
-      moveTo(from + way * i / 10, keys);
-    release(from + way, keys);
-  }
-
-  DesktopDriver driver;
-
- private:
-  Qt::MouseButtons held_ = Qt::NoButton;
 };
 
 double angleBetween(const RigidTransform& a, const RigidTransform& b) {

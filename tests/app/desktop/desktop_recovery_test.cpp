@@ -1,4 +1,3 @@
-#include <QDialog>
 #include <QDoubleSpinBox>
 #include <QProcess>
 #include <QSignalSpy>
@@ -8,10 +7,9 @@
 
 #include "core/recovery/recovery_folder.h"
 #include "core/scene/scene_file.h"
-#include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/recovery_driver.h"
 #include "ui/parts_model.h"
 #include "ui/recovery/autosave.h"
-#include "ui/recovery/recovery_dialog.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -20,52 +18,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<fs::path> filesIn(const fs::path& folder, const char* ending = ".nearfit") {
-  std::vector<fs::path> files;
-  std::error_code failure;
-  for (const auto& entry : fs::directory_iterator(folder, failure)) {
-    if (entry.path().extension() == ending && entry.path().filename().string().front() != '.')
-      files.push_back(entry.path());
-  }
-  return files;
-}
-
-/// What the one journal of a folder holds; none while there is not one that is whole.
-std::optional<Scene> journalIn(const fs::path& folder) {
-  try {
-    const std::vector<fs::path> files = filesIn(folder);
-    if (files.size() == 1) return readSceneFile(files.front());
-  } catch (const Error&) {
-  }
-  return std::nullopt;
-}
-
-std::string poses(const Scene& scene) {
-  std::string text;
-  char line[400];
-  for (const Scene::PartPtr& part : scene.parts()) {
-    const glm::dquat& q = part->worldFromPart.rotation;
-    const glm::dvec3& t = part->worldFromPart.translation;
-    std::snprintf(line, sizeof line, "%s %a %a %a %a %a %a %a\n", part->name.c_str(), q.w, q.x, q.y, q.z, t.x,
-                  t.y, t.z);
-    text += line;
-  }
-  return text;
-}
-
 /// What a process that is about to die has on its screen.
 struct Doomed {
   DesktopDriver& d;
   const fs::path folder, state;
 
   void waitForJournal(const std::string& expected) const {
-    const bool isKept = QTest::qWaitFor(
-        [&] {
-          const auto kept = journalIn(state);
-          return kept && poses(*kept) == expected;
-        },
-        30'000);
-    if (!isKept) std::exit(3);
+    if (!isJournalKept(state, expected)) std::exit(3);
     std::ofstream(folder / "expected") << expected;
   }
   void typeX(const char* millimetres) const {
@@ -153,23 +112,6 @@ struct Place {
   TemporaryFolder folder;
   fs::path state = folder.path() / "state";
 };
-
-ui::RecoveryDialog* dialogOf(DesktopDriver& d) {
-  ui::RecoveryDialog* dialog = nullptr;
-  (void)QTest::qWaitFor(
-      [&] {
-        dialog = d.window().findChild<ui::RecoveryDialog*>();
-        return dialog != nullptr && dialog->isVisible();
-      },
-      30'000);
-  return dialog;
-}
-
-void clickIn(QDialog* dialog, const char* button) {
-  auto* found = dialog->findChild<QPushButton*>(QLatin1String(button));
-  QVERIFY2(found != nullptr, button);
-  QTest::mouseClick(found, Qt::LeftButton);
-}
 
 }  // namespace
 
