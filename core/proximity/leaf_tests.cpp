@@ -7,6 +7,7 @@
 
 #include "core/math/tolerances.h"
 #include "core/proximity/polygon_clip.h"
+#include "core/proximity/relaxed_conditions.h"
 
 namespace nearfit {
 namespace {
@@ -82,12 +83,16 @@ bool LeafTests::isPolarOfVertex(const NormalConeTree& tree, std::uint32_t vertex
     return isInSpanOfVertex(tree, vertex, d, slack);
   const NormalConeTree::VertexLeaf& leaf = tree.vertices()[vertex];
   const glm::dvec3& v = tree.positions()[leaf.vertex];
+  bool isInside = true;
   for (const std::uint32_t n : tree.neighbours(leaf)) {
     const glm::dvec3 e = tree.positions()[n] - v;
     const double along = glm::dot(d, e);
-    if (along > 0.0 && along > slack * glm::length(e) + pointRounding_) return false;
+    if (!(along > 0.0)) continue;
+    if (along > slack * glm::length(e) + pointRounding_) return false;
+    isInside = false;
   }
-  return true;
+  return isInside || !(relaxation_ > 0.0) ||
+         isNearPolarCone(v, tree.neighbours(leaf), tree.positions(), d, slack);
 }
 
 bool LeafTests::isInSpanOfVertex(const NormalConeTree& tree, std::uint32_t vertex, const glm::dvec3& d,
@@ -110,13 +115,17 @@ bool LeafTests::isInSpanOfVertex(const NormalConeTree& tree, std::uint32_t verte
 
 bool LeafTests::isPolarOfEdge(const NormalConeTree& tree, std::uint32_t edge, const Edge& e,
                               const glm::dvec3& d, double slack) const noexcept {
-  for (const std::uint32_t corner : tree.edges()[edge].opposite) {
-    const glm::dvec3 w = tree.positions()[corner] - e.start;
-    const glm::dvec3 inward = w - glm::dot(w, e.along) * e.along;
-    const double along = glm::dot(d, inward);
-    if (along > 0.0 && along > slack * glm::length(inward) + pointRounding_) return false;
+  std::array<glm::dvec3, 2> inward;
+  bool isInside = true;
+  for (std::size_t i = 0; i < inward.size(); ++i) {
+    const glm::dvec3 w = tree.positions()[tree.edges()[edge].opposite[i]] - e.start;
+    inward[i] = w - glm::dot(w, e.along) * e.along;
+    const double along = glm::dot(d, inward[i]);
+    if (!(along > 0.0)) continue;
+    if (along > slack * glm::length(inward[i]) + pointRounding_) return false;
+    isInside = false;
   }
-  return true;
+  return isInside || !(relaxation_ > 0.0) || isOnSideOfPolarArc(inward, d);
 }
 
 void LeafTests::accept(const Side& frame, const glm::dvec3& p, const glm::dvec3& q,
@@ -152,6 +161,7 @@ bool LeafTests::vertexFace(const Side& v, std::uint32_t vertex, const Side& f, s
     const glm::dvec3 inward = glm::cross(n, b - a);
     if (glm::dot(inward, q - a) < -slack * glm::length(inward)) return false;
   }
+  if (relaxation_ > 0.0 && !isNearTriangle({x[t[0]], x[t[1]], x[t[2]]}, n, q, slack)) return false;
   const glm::dvec3 down = v.thisFromOther.applyToVector(-n);
   if (!isPolarOfVertex(v.tree, vertex, down, angularSlackBase_ + tilt)) return false;
   accept(f, q - distance * n, q, n, distance, out);

@@ -16,8 +16,8 @@ namespace nearfit {
 class LeafTests {
  public:
   /// @param sceneFromPart  Between the trees' centred frames.
-  /// @param relaxation     Directions may be off the conditions by so much, points off their features by so
-  ///                       much of the distance [rad].
+  /// @param relaxation     Directions may be off the polar cones of either feature by so much, points off
+  ///                       their features by so much of the distance [rad].
   LeafTests(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
             double cutoff, double relaxation = 0.0) noexcept;
 

@@ -1,6 +1,7 @@
 #include "core/proximity/range_limits.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
@@ -41,7 +42,8 @@ RangeLimits rangeLimits(const BodyPairQuery& query, const RigidTransform& centre
 
 MotionRange relaxed(MotionRange range, double cutoff, double relaxation) noexcept {
   range.budget.travel += relaxation * cutoff;
-  range.budget.turn += relaxation;
+  // Off the limits of both bodies, to either side; conditions know the sine.
+  range.budget.turn += 2.0 * std::asin(std::min(relaxation, 1.0));
   return range;
 }
 

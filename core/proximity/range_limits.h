@@ -24,8 +24,8 @@ struct RangeLimits {
 RangeLimits rangeLimits(const BodyPairQuery& query, const RigidTransform& centred,
                         const MotionRange& range) noexcept;
 
-/// A contact's direction is off the limits by the relaxation at most, and its points off their features by as
-/// much of the distance.
+/// A contact's direction is off the limits of either body by the relaxation at most, and its points off their
+/// features by as much of the distance: the limits of both are up to twice as far from each other.
 MotionRange relaxed(MotionRange range, double cutoff, double relaxation) noexcept;
 
 /// What bounds are held against for contacts at a pose between centred frames.

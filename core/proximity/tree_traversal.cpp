@@ -120,7 +120,7 @@ NEARFIT_INLINE bool isBusy(const TraversalWork& work) {
 
 NEARFIT_INLINE bool mayOpenTwo(const TraversalWork& work) {
   return work.waitingCount > 1 && work.waitingCount <= TraversalWork::kOpenTwo &&
-         work.maxNodePairs - work.nodePairs > 1;
+         work.nodePairs < work.maxNodePairs;
 }
 
 template <Aim kAim>
