@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <linux/capability.h>
 #include <pthread.h>
@@ -82,6 +84,19 @@ MemoryLock::~MemoryLock() {
   if (isLocked_ && memoryLocks.fetch_sub(1) == 1) ::munlockall();
 }
 
+AwakeProcessors::AwakeProcessors(RealtimeGrant& grant, const char* device) noexcept
+    : file_(::open(device, O_WRONLY | O_CLOEXEC)) {
+  grant.awakeError = file_ < 0 ? errno : 0;
+  if (file_ < 0) return;
+  constexpr std::int32_t kLongestWake = 0;  // [us]
+  if (::write(file_, &kLongestWake, sizeof kLongestWake) != sizeof kLongestWake) grant.awakeError = errno;
+  grant.areProcessorsAwake = grant.awakeError == 0;
+}
+
+AwakeProcessors::~AwakeProcessors() {
+  if (file_ >= 0) ::close(file_);
+}
+
 std::string RealtimeGrant::describe() const {
   const std::string scheduling = priority > 0
                                      ? fmt::format("SCHED_FIFO {}", priority)
@@ -90,6 +105,10 @@ std::string RealtimeGrant::describe() const {
   std::string text = scheduling;
   if (isMemoryLocked) text += ", memory locked";
   if (lockError != 0) text += fmt::format(", memory not locked ({})", std::strerror(lockError));
+  if (areProcessorsAwake) text += ", processors kept awake";
+  if (awakeError == EACCES || awakeError == EPERM)
+    text += fmt::format(", processors may sleep ({}; Nearfit's udev rules allow to keep them awake)",
+                        std::strerror(awakeError));
   if (priority == 0 || lockError != 0) {
     text +=
         "; to allow it put \"USER - rtprio 70\" and \"USER - memlock unlimited\", with your own name for "

@@ -10,14 +10,16 @@ struct RealtimeGrant {
   int schedulingError = 0;  ///< errno of the refusal.
   bool isMemoryLocked = false;
   int lockError = 0;  ///< errno of the refusal.
+  bool areProcessorsAwake = false;
+  int awakeError = 0;  ///< errno of the refusal; ENOENT where the system has no such thing.
 
   /// For the user: what was granted; where something was refused, why and what to do about it. Nothing of
-  /// memory where nobody asked to lock it.
+  /// memory or processors where nobody asked.
   std::string describe() const;
 };
 
 /// Asks for SCHED_FIFO and the finest timer for the calling thread, and touches its stack so that it does not
-/// fault later. Allocates nothing. `isMemoryLocked` and `lockError` are left alone.
+/// fault later. Allocates nothing; leaves the rest of `grant` alone.
 void requestRealtimeScheduling(RealtimeGrant& grant) noexcept;
 
 /// Keeps all memory of the process, present and future, from being paged out for as long as it lives, where
@@ -32,6 +34,21 @@ class MemoryLock {
 
  private:
   bool isLocked_ = false;
+};
+
+/// Keeps idle processors from halting for as long as it lives (the kernel's PM QoS, as cyclictest does): a
+/// thread that waits for a device's report then runs some microseconds after it, not tens. It costs power, so
+/// it is for servos that a device paces.
+class AwakeProcessors {
+ public:
+  /// @param device  Of the kernel: holds the request while it is open.
+  explicit AwakeProcessors(RealtimeGrant& grant, const char* device = "/dev/cpu_dma_latency") noexcept;
+  ~AwakeProcessors();
+  AwakeProcessors(const AwakeProcessors&) = delete;
+  AwakeProcessors& operator=(const AwakeProcessors&) = delete;
+
+ private:
+  int file_ = -1;
 };
 
 }  // namespace nearfit

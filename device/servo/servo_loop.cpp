@@ -74,6 +74,7 @@ struct ServoLoop::Shared {
   MotionQueue* const record;
   RealtimeGrant grant;
   std::optional<MemoryLock> memoryLock;
+  std::optional<AwakeProcessors> awake;
   pthread_t thread{};
   bool isJoinable = false;
   bool isDeviceToStop = false;
@@ -104,6 +105,7 @@ void* ServoLoop::Shared::threadMain(void* self) noexcept {
 
 void ServoLoop::Shared::spawn() {
   memoryLock.emplace(grant);
+  if (reportPatience > 0) awake.emplace(grant);
   // Signals are for the other threads: a handler here would run inside a tick.
   sigset_t all, before;
   ::sigfillset(&all);
@@ -224,6 +226,7 @@ void ServoLoop::stop() noexcept {
   ::pthread_join(shared_->thread, nullptr);
   shared_->isJoinable = false;
   shared_->memoryLock.reset();
+  shared_->awake.reset();
   shared_->lastRefreshTimes = shared_->refresher->refreshTimes();
   shared_->refresher.reset();
   if (shared_->isDeviceToStop) shared_->device.stop();
