@@ -57,6 +57,16 @@ void FeelNotice::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene)
   text_->setText(text);
   restart_->setVisible(snapshot.fault != ServoFault::None);
   setVisible(!text.isEmpty());
+  keepTextWhole();
+}
+
+void FeelNotice::keepTextWhole() {
+  text_->setMinimumHeight(std::max(0, text_->heightForWidth(text_->width())));
+}
+
+void FeelNotice::resizeEvent(QResizeEvent* event) {
+  QFrame::resizeEvent(event);
+  keepTextWhole();
 }
 
 bool FeelNotice::hasWaitedLong(const ServoSnapshot& snapshot) {

@@ -24,7 +24,12 @@ class FeelNotice : public QFrame {
  signals:
   void restartRequested();
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  /// A panel that is short of room would cut lines that wrap.
+  void keepTextWhole();
   QString textFor(const ServoSnapshot& snapshot, const Scene& scene) const;
   /// Whether the proxy has waited for long enough to say so; a few ticks pass unnoticed.
   bool hasWaitedLong(const ServoSnapshot& snapshot);

@@ -1,0 +1,221 @@
+// nearfit-pictures FOLDER light|dark: pictures of the window at work, of each panel, menu and dialog, by the
+// real application. resources/scripts/pictures runs it in both themes and at two scales.
+#include <QComboBox>
+#include <QDialog>
+#include <QDir>
+#include <QDockWidget>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QTabWidget>
+#include <chrono>
+#include <cstdio>
+
+#include "core/recovery/recovery_folder.h"
+#include "tests/app/desktop/desktop_driver.h"
+#include "ui/actions.h"
+#include "ui/dialogs/error_box.h"
+#include "ui/dialogs/progress_dialog.h"
+#include "ui/dialogs/unit_dialog.h"
+#include "ui/recovery/recovery_dialog.h"
+#include "ui/selection.h"
+#include "ui/theme.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+constexpr int kSettleMs = 350;  ///< For layout, and the pictures of the view that follow.
+/// Ticks of the scripted hand until it presses and turns.
+constexpr std::uint64_t kFeelFor = 2450;
+
+class Pictures {
+ public:
+  explicit Pictures(const QString& folder) : folder_(folder) {
+    QObject::connect(&driver_.application.servo(), &desktop::ServoController::snapshotArrived,
+                     &driver_.application, [this](const ServoSnapshot& snapshot) { tick_ = snapshot.tick; });
+    driver_.window().resize(1280, 800);
+  }
+
+  bool takeAll() {
+    atFirst();
+    showDemo();
+    atWork();
+    placing();
+    menus();
+    dialogs();
+    feeling();
+    return failures_ == 0;
+  }
+
+ private:
+  void settle() { QTest::qWait(kSettleMs); }
+  void grab(QWidget& widget, const QString& name) {
+    settle();
+    const QString file = QDir(folder_).filePath(name + QStringLiteral(".png"));
+    if (widget.grab().save(file, "PNG")) return;
+    std::fprintf(stderr, "nearfit-pictures: %s cannot be written\n", qPrintable(file));
+    ++failures_;
+  }
+  void grabWindow(const char* name) { grab(driver_.window(), QLatin1String(name)); }
+  void trigger(const char* action) {
+    QAction* wanted = driver_.action(action);
+    if (wanted != nullptr && wanted->isEnabled()) {
+      wanted->trigger();
+    } else {
+      std::fprintf(stderr, "nearfit-pictures: %s cannot be done\n", action);
+      ++failures_;
+    }
+  }
+  template <class Condition>
+  void wait(Condition&& isTrue, const char* what) {
+    if (QTest::qWaitFor(isTrue, 60'000)) return;
+    std::fprintf(stderr, "nearfit-pictures: waited for %s in vain\n", what);
+    ++failures_;
+  }
+  /// What `open` opens, a modal dialog, with its tabs in turn; closed again.
+  void grabDialog(const QString& name, const std::function<void()>& open) {
+    const auto wasThere = std::make_shared<bool>(false);
+    whenModal<QDialog>([this, wasThere, name](QDialog* dialog) {
+      *wasThere = true;
+      grab(*dialog, QStringLiteral("dialog-") + name);
+      dialog->reject();
+    });
+    open();
+    wait([&] { return *wasThere; }, qPrintable(name));
+  }
+
+  void atFirst() {
+    grabWindow("window-first");
+    // It opens the demo.
+    trigger("tour");
+    auto* tour = driver_.widget<QFrame>("tour");
+    wait([&] { return tour->isVisible(); }, "the tour");
+    for (int stop = 1; tour->isVisible() && stop < 20; ++stop) {
+      grab(driver_.window(), QStringLiteral("tour-%1").arg(stop));
+      QTest::mouseClick(driver_.widget<QPushButton>("tourNext"), Qt::LeftButton);
+    }
+  }
+  void showDemo() {
+    driver_.window().selection().select({*driver_.session().scene().movingPart()});
+    trigger("fitSelection");
+    grabWindow("window-demo");
+  }
+  void atWork() {
+    for (QDockWidget* dock : driver_.window().findChildren<QDockWidget*>()) {
+      const bool wasVisible = dock->isVisible();
+      dock->show();
+      dock->raise();
+      grab(*dock, QStringLiteral("panel-") + dock->objectName());
+      if (!wasVisible) dock->hide();
+    }
+  }
+  void placing() {
+    for (const char* tool : {"gizmoMove", "gizmoTurn", "gizmoMoveAndTurn"}) {
+      trigger(tool);
+      grabWindow(tool);
+    }
+    trigger("align");
+    grabWindow("window-align");
+    QTest::keyClick(&driver_.window(), Qt::Key_Escape);
+  }
+  void menus() {
+    for (QMenu* menu : driver_.window().findChildren<QMenu*>()) {
+      if (menu->isEmpty() || menu->title().isEmpty()) continue;
+      menu->popup(driver_.window().mapToGlobal(QPoint(40, 40)));
+      grab(*menu,
+           QStringLiteral("menu-") + menu->title().remove('&').remove(QStringLiteral("…")).replace(' ', '-'));
+      menu->hide();
+    }
+  }
+  void dialogs() {
+    ui::MainWindow& window = driver_.window();
+    grabDialog(QStringLiteral("export"), [this] { trigger("exportPlacement"); });
+    grabDialog(QStringLiteral("about"), [this] { trigger("about"); });
+    grabDialog(QStringLiteral("unit"), [&] { ui::askForUnit(QStringLiteral("piston.stl"), &window); });
+    grabDialog(QStringLiteral("error"), [&] {
+      ui::showFailure(
+          {QStringLiteral("The scene could not be opened."),
+           QStringLiteral("/home/ada/lift/bracket.nearfit: line 41: \"mesh\" names no file; write the "
+                          "path of a mesh file, relative to the scene")},
+          &window);
+    });
+    trigger("duplicate");
+    grabDialog(QStringLiteral("unsaved"), [&] { window.close(); });
+    trigger("undo");
+    auto* progress = new ui::ProgressDialog(QStringLiteral("Loading bracket.stl…"), &window);
+    progress->show();
+    progress->setFraction(0.4);
+    grab(*progress, QStringLiteral("dialog-progress"));
+    progress->hide();
+    progress->deleteLater();
+    LostWork lost;
+    lost.head = {"/home/ada/lift/bracket.nearfit", 12, 5};
+    lost.time = std::chrono::system_clock::now() - std::chrono::minutes(7);
+    auto* recovery = new ui::RecoveryDialog({lost}, &window);
+    recovery->show();
+    grab(*recovery, QStringLiteral("dialog-recovery"));
+    recovery->close();
+    trigger("shortcuts");
+    auto* shortcuts = driver_.widget<QDialog>("shortcutsDialog");
+    grab(*shortcuts, QStringLiteral("dialog-shortcuts"));
+    shortcuts->close();
+    trigger("feelSettings");
+    auto* feel = driver_.widget<QDialog>("feelDialog");
+    auto* tabs = feel->findChild<QTabWidget*>(QStringLiteral("feelTabs"));
+    for (int tab = 0; tabs != nullptr && tab < tabs->count(); ++tab) {
+      tabs->setCurrentIndex(tab);
+      grab(*feel, QStringLiteral("dialog-feel-%1").arg(tab + 1));
+    }
+    feel->close();
+  }
+  void feeling() {
+    for (const char* dock : {"clearanceDock", "plotsDock"}) {
+      if (auto* wanted = driver_.window().findChild<QDockWidget*>(QLatin1String(dock))) wanted->show();
+    }
+    trigger("start");
+    wait([this] { return tick_ > kFeelFor; }, "the scripted hand");
+    grabWindow("window-feeling");
+    atWork();
+    trigger("stop");
+    // A part that overlaps is said to.
+    driver_.window().selection().select({*driver_.session().scene().movingPart()});
+    trigger("duplicate");
+    tick_ = 0;
+    trigger("start");
+    wait([this] { return tick_ > kFeelFor; }, "the scripted hand again");
+    grabWindow("window-overlapping");
+    trigger("stop");
+  }
+
+  QString folder_;
+  DesktopDriver driver_;
+  std::uint64_t tick_ = 0;
+  int failures_ = 0;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const TemporaryFolder settings;
+  desktop::Application::prepare();
+  QSettings::setPath(QSettings::IniFormat, QSettings::UserScope,
+                     QString::fromStdString(settings.path().string()));
+  QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+  QApplication qt(argc, argv);
+  const QStringList arguments = QCoreApplication::arguments();
+  if (arguments.size() != 3 ||
+      (arguments[2] != QStringLiteral("light") && arguments[2] != QStringLiteral("dark"))) {
+    std::fprintf(stderr, "usage: nearfit-pictures FOLDER light|dark\n");
+    return 2;
+  }
+  desktop::Application::configure();
+  ui::setColourScheme(arguments[2] == QStringLiteral("dark") ? ui::ColourScheme::Dark
+                                                             : ui::ColourScheme::Light);
+  if (!QDir().mkpath(arguments[1])) {
+    std::fprintf(stderr, "nearfit-pictures: %s cannot be made\n", qPrintable(arguments[1]));
+    return 1;
+  }
+  return Pictures(arguments[1]).takeAll() ? 0 : 1;
+}
