@@ -1,4 +1,4 @@
-#include <cmath>
+#include <cstdio>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -23,8 +23,7 @@ void run() {
           const double simulated = simulatedLimit(device), enforced = enforcedBound(device);
           beyond += isCalm(device, enforced) ? 0 : 1;
           fmt::print("{},{},{:.3g},{:.3g},{:.5g},{:.5g},{:.5g},{:.4g}\n", mass, damping, 1e3 * period,
-                     share * damping, simulated, share == 0.0 ? exactLimit(device) : std::nan(""), enforced,
-                     simulated / enforced);
+                     share * damping, simulated, exactLimit(device), enforced, simulated / enforced);
           std::fflush(stdout);
         }
       }

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
 #include "core/haptics/period_meter.h"
+#include "core/haptics/servo_tick.h"
 #include "core/haptics/virtual_coupling.h"
 #include "tests/stress/stress_scene.h"
 #include "tests/stress/stress_servo.h"
@@ -89,6 +93,67 @@ class Leaning {
   test::SimulatedHand hand_;
 };
 
+/// What a device does freely from tick to tick, as exactLimit() has it.
+struct HeldForce {
+  explicit HeldForce(const LeaningDevice& d)
+      : tau(d.mass / d.damping),
+        gone(-std::expm1(-d.period / tau)),
+        shift((d.period - tau * gone) / d.damping),
+        push(gone / d.damping) {}
+  double tau, gone;    ///< [s], and 1 - a.
+  double shift, push;  ///< c1 and c2.
+};
+
+/// The map of (x, v, x before, smoothed velocity before) over a tick; transposed, which has the same
+/// eigenvalues.
+glm::dmat4 mapOfTick(const LeaningDevice& d, double stiffness) {
+  const HeldForce held(d);
+  const double share = d.period / (ServoTick::kVelocityTimeConstant + d.period);
+  const glm::dvec4 velocity(share / d.period, 0.0, -share / d.period, 1.0 - share);
+  const glm::dvec4 force = glm::dvec4(-stiffness, 0.0, 0.0, 0.0) - d.couplingDamping * velocity;
+  return {glm::dvec4(1.0, held.tau * held.gone, 0.0, 0.0) + held.shift * force,
+          glm::dvec4(0.0, 1.0 - held.gone, 0.0, 0.0) + held.push * force, glm::dvec4(1.0, 0.0, 0.0, 0.0),
+          velocity};
+}
+
+double largestEntry(const glm::dmat4& m) {
+  double largest = 0.0;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row)
+      largest = std::max(largest, std::abs(m[column][row]));
+  }
+  return largest;
+}
+
+/// Logarithm of the largest modulus of the eigenvalues: what high powers grow by.
+double growthOf(glm::dmat4 map) {
+  constexpr int kSquarings = 30;
+  double growth = 0.0, share = 1.0;
+  for (int i = 0; i < kSquarings; ++i) {
+    const double largest = largestEntry(map);
+    growth += share * std::log(largest);
+    map /= largest;
+    map = map * map;
+    share *= 0.5;
+  }
+  return growth + share * std::log(largestEntry(map));
+}
+
+/// The stiffness up to which a device is calm, from well below it on, to a fraction.
+template <class IsCalm>
+double limitOf(const LeaningDevice& device, double precision, IsCalm&& isCalmAt) {
+  double calm = 0.2 * enforcedBound(device), shaken = 2.0 * calm;
+  while (isCalmAt(shaken)) {
+    calm = shaken;
+    shaken *= 2.0;
+  }
+  while (shaken > (1.0 + precision) * calm) {
+    const double middle = std::sqrt(calm * shaken);
+    (isCalmAt(middle) ? calm : shaken) = middle;
+  }
+  return std::sqrt(calm * shaken);
+}
+
 }  // namespace
 
 bool isCalm(const LeaningDevice& device, double stiffness) {
@@ -104,21 +169,17 @@ bool isCalm(const LeaningDevice& device, double stiffness) {
 }
 
 double simulatedLimit(const LeaningDevice& device) {
-  double calm = 0.2 * enforcedBound(device), shaken = 2.0 * calm;
-  while (isCalm(device, shaken)) {
-    calm = shaken;
-    shaken *= 2.0;
-  }
-  while (shaken > (1.0 + kPrecision) * calm) {
-    const double middle = std::sqrt(calm * shaken);
-    (isCalm(device, middle) ? calm : shaken) = middle;
-  }
-  return std::sqrt(calm * shaken);
+  return limitOf(device, kPrecision, [&](double stiffness) { return isCalm(device, stiffness); });
 }
 
 double exactLimit(const LeaningDevice& device) {
-  const double tau = device.mass / device.damping, gone = -std::expm1(-device.period / tau);
-  return device.damping * gone / (tau * gone - (1.0 - gone) * device.period);
+  if (device.couplingDamping == 0.0) {
+    const HeldForce held(device);
+    return device.damping * held.gone / (held.tau * held.gone - (1.0 - held.gone) * device.period);
+  }
+  constexpr double kExact = 1e-9;
+  return limitOf(device, kExact,
+                 [&](double stiffness) { return growthOf(mapOfTick(device, stiffness)) < 0.0; });
 }
 
 double enforcedBound(const LeaningDevice& device) {

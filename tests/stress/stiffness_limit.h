@@ -18,11 +18,15 @@ double simulatedLimit(const LeaningDevice& device);
 /// Whether the device, nudged, calms down at that stiffness.
 bool isCalm(const LeaningDevice& device, double stiffness);
 
-/// The same limit for B = 0, in closed form. The device between two ticks, with a = exp(-T b / m):
-///     x' = x + v tau (1 - a) - K x c1     v' = a v - K x c2     tau = m / b,
-///     c1 = (T - tau (1 - a)) / b          c2 = (1 - a) / b
-/// is stable as long as the determinant is below one (Jury): K < b (1 - a) / (tau (1 - a) - a T). It tends to
-/// Colgate's 2 b / T for a heavy device, and is more for every other.
+/// The same limit, from the map of one tick to the next. The device between two, under a force F that is
+/// held, with a = exp(-T b / m):
+///     x' = x + v tau (1 - a) + F c1     v' = a v + F c2     tau = m / b,
+///     c1 = (T - tau (1 - a)) / b        c2 = (1 - a) / b
+/// Without rendered damping F = -K x, stable as long as the determinant is below one (Jury):
+/// K < b (1 - a) / (tau (1 - a) - a T). It tends to Colgate's 2 b / T for a heavy device, and is more for
+/// every other. With it F = -K x - B w, w the servo's smoothed velocity, w' = w + s ((x' - x) / T - w'), s as
+/// its time constant has it: stable as long as no eigenvalue of the map of (x, v, x before, w before) is
+/// beyond one; found by bisection.
 double exactLimit(const LeaningDevice& device);
 
 /// What the application allows that device [N/m].

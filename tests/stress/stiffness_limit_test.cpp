@@ -20,6 +20,20 @@ TEST(StiffnessLimit, WithoutRenderedDampingIsWhereTheClosedFormHasIt) {
   }
 }
 
+TEST(StiffnessLimit, WithHardlyAnyRenderedDampingTendsToTheClosedForm) {
+  const LeaningDevice device{.mass = 0.1, .damping = 1.0, .period = 2e-3};
+  LeaningDevice damped = device;
+  damped.couplingDamping = 1e-7;
+  EXPECT_NEAR(exactLimit(damped), exactLimit(device), 1e-5 * exactLimit(device));
+}
+
+TEST(StiffnessLimit, WithRenderedDampingIsWhereTheMapOfATickHasIt) {
+  for (const LeaningDevice& device : {LeaningDevice{0.05, 1.0, 1e-3, 0.2}, LeaningDevice{0.2, 2.0, 2e-3, 0.4},
+                                      LeaningDevice{0.05, 5.0, 10e-3, 1.0}}) {
+    EXPECT_NEAR(simulatedLimit(device), exactLimit(device), 0.05 * exactLimit(device));
+  }
+}
+
 TEST(StiffnessLimit, EnforcedIsStableAndNotNeedlesslyLow) {
   // Passivity is enough for stability, not necessary. Without rendered damping the two differ by the closed
   // form's factor alone; damping that is rendered counts against the bound, while it calms a device:
@@ -30,7 +44,8 @@ TEST(StiffnessLimit, EnforcedIsStableAndNotNeedlesslyLow) {
         const LeaningDevice device{0.1, damping, period, share * damping};
         const double bound = enforcedBound(device);
         EXPECT_TRUE(isCalm(device, bound)) << damping << " N s/m, " << period << " s, " << share;
-        const double factor = (1.0 + share) / (1.0 - share) * exactLimit(device) / (2.0 * damping / period);
+        const double factor =
+            (1.0 + share) / (1.0 - share) * exactLimit({0.1, damping, period}) / (2.0 * damping / period);
         EXPECT_FALSE(isCalm(device, 1.05 * factor * bound))
             << damping << " N s/m, " << period << " s, " << share;
       }
