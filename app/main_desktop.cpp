@@ -1,6 +1,5 @@
 #include <QApplication>
 #include <QFile>
-#include <QOpenGLContext>
 #include <QTimer>
 #include <cstdio>
 #include <exception>
@@ -8,33 +7,15 @@
 
 #include "app/desktop/application.h"
 #include "app/desktop/command_line.h"
+#include "app/desktop/display_check.h"
 #include "app/desktop/led_session.h"
 #include "app/desktop/screenshot.h"
-#include "core/error.h"
 #include "core/recovery/recovery_folder.h"
 #include "ui/document.h"
 
 namespace {
 
 using namespace nearfit;
-
-/// Qt and VTK end the process where they find no display or no OpenGL: looked for before they do.
-void requireDisplay() {
-  if (!qEnvironmentVariableIsEmpty("DISPLAY") || !qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY") ||
-      !qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) {
-    return;
-  }
-  throw Error("", "there is no display", "set DISPLAY, or use nearfit-cli, which needs none");
-}
-
-void requireOpenGl() {
-  QOpenGLContext context;
-  const bool isUsable = context.create() && context.format().version() >= qMakePair(3, 2);
-  if (!isUsable) {
-    throw Error("", "there is no OpenGL 3.2 on this display",
-                "install a graphics driver, or Mesa's software one (libgl1-mesa-dri)");
-  }
-}
 
 QStringList fileNames(const std::vector<std::string>& files) {
   QStringList names;
@@ -47,11 +28,11 @@ int run(int argc, char** argv) {
   const auto parsed = desktop::parseCommandLine(argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const auto& options = std::get<desktop::Options>(parsed);
-  requireDisplay();
+  desktop::requireDisplay();
   desktop::Application::prepare();
   QApplication qt(argc, argv);
   desktop::Application::configure();
-  requireOpenGl();
+  desktop::requireOpenGl();
 
   desktop::Application application;
   const QStringList files = fileNames(options.files);

@@ -58,7 +58,7 @@ void HandGhost::setShape(std::shared_ptr<const PartShape> shape) {
   if (shape == shape_) return;
   shape_ = std::move(shape);
   if (shape_ != nullptr) {
-    setInput(*surface_, shape_->surface);
+    setInput(*surface_, shape_->finestDraft());
     setInput(*edges_, shape_->edges);
   }
   applyVisibility();

@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
+#include <vtkBoundingBox.h>
 
 #include "ui/theme.h"
 #include "ui/vtk_convert.h"
@@ -28,61 +27,108 @@ void setEdgeColour(vtkProperty& property, const PartLook& look) {
 
 }  // namespace
 
-PartActor::PartActor(vtkRenderer& renderer, std::shared_ptr<const PartShape> shape, vtkRenderer* over)
-    : renderer_(renderer), shape_(std::move(shape)), over_(over) {
-  vtkNew<vtkPolyDataMapper> surfaceMapper;
-  surfaceMapper->SetInputData(shape_->surface);
-  surfaceMapper->ScalarVisibilityOff();
-  // Surfaces step back a little, so that edge lines and the shapes they bound do not fight for the same
-  // depth.
-  surfaceMapper->SetResolveCoincidentTopologyToPolygonOffset();
-  surfaceMapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(1.0, 1.0);
-  surface_->SetMapper(surfaceMapper);
-  surface_->SetUserMatrix(pose_);
-  vtkProperty* property = surface_->GetProperty();
-  property->SetInterpolationToPhong();
-  property->SetAmbient(0.12);
-  property->SetDiffuse(0.82);
-  property->SetSpecular(0.22);
-  property->SetSpecularPower(28.0);
-
-  vtkNew<vtkPolyDataMapper> edgeMapper;
-  edgeMapper->SetInputData(shape_->edges);
-  edgeMapper->ScalarVisibilityOff();
-  edges_->SetMapper(edgeMapper);
+PartActor::PartActor(vtkRenderer& renderer, std::shared_ptr<ShapeMappers> mappers, vtkRenderer* over)
+    : renderer_(renderer), mappers_(std::move(mappers)), over_(over) {
+  look_->SetInterpolationToPhong();
+  look_->SetAmbient(0.12);
+  look_->SetDiffuse(0.82);
+  look_->SetSpecular(0.22);
+  look_->SetSpecularPower(28.0);
+  for (std::size_t i = 0; i < shape().pieces.size(); ++i) {
+    auto piece = vtkSmartPointer<vtkActor>::New();
+    piece->SetProperty(look_);
+    piece->SetUserMatrix(pose_);
+    renderer_.AddActor(piece);
+    pieces_.push_back(piece);
+  }
   edges_->SetUserMatrix(pose_);
   edges_->PickableOff();
   edges_->GetProperty()->LightingOff();
-
-  renderer_.AddActor(surface_);
   renderer_.AddActor(edges_);
+  showPieces();
 }
 
 PartActor::~PartActor() {
   setThrough(false);
-  renderer_.RemoveActor(surface_);
+  for (vtkActor* piece : pieces_)
+    renderer_.RemoveActor(piece);
   renderer_.RemoveActor(edges_);
 }
 
-void PartActor::setPose(const RigidTransform& worldFromPart) {
+bool PartActor::setPose(const RigidTransform& worldFromPart) {
+  if (worldFromPart_ && worldFromPart_->rotation == worldFromPart.rotation &&
+      worldFromPart_->translation == worldFromPart.translation)
+    return false;
+  worldFromPart_ = worldFromPart;
   setMatrix(*pose_, worldFromPart);
+  return true;
 }
 
-void PartActor::setAppearance(const Colour& colour, bool isVisible, const PartLook& look) {
-  surface_->SetVisibility(isVisible);
-  edges_->SetVisibility(isVisible && look.hasEdges);
-  vtkProperty* property = surface_->GetProperty();
+bool PartActor::setAppearance(const Colour& colour, bool isVisible, const PartLook& look) {
+  if (shownLook_ == look && isVisible_ == isVisible && colour_ == colour) return false;
+  shownLook_ = look;
+  isVisible_ = isVisible;
+  colour_ = colour;
   if (look.isOverlapping) {
-    property->SetColor(colours::kOverlap.redF(), colours::kOverlap.greenF(), colours::kOverlap.blueF());
+    look_->SetColor(colours::kOverlap.redF(), colours::kOverlap.greenF(), colours::kOverlap.blueF());
   } else {
-    property->SetColor(static_cast<double>(colour.r), static_cast<double>(colour.g),
-                       static_cast<double>(colour.b));
+    look_->SetColor(static_cast<double>(colour.r), static_cast<double>(colour.g),
+                    static_cast<double>(colour.b));
   }
-  property->SetOpacity(look.opacity * (!look.isTranslucent  ? 1.0
-                                       : look.isOverlapping ? kWarningOpacity
-                                                            : kTranslucentOpacity));
+  look_->SetOpacity(look.opacity * (!look.isTranslucent  ? 1.0
+                                    : look.isOverlapping ? kWarningOpacity
+                                                         : kTranslucentOpacity));
+  // Half of the work of drawing a closed surface is behind it.
+  look_->SetBackfaceCulling(shape().hidesItsInside && isOpaque());
   setEdgeColour(*edges_->GetProperty(), look);
+  showPieces();
   setThrough(isVisible && look.isSelected);
+  return true;
+}
+
+bool PartActor::isOpaque() const noexcept {
+  return look_->GetOpacity() >= 1.0;
+}
+
+void PartActor::setLevel(std::size_t level) {
+  if (level == level_) return;
+  level_ = level;
+  showPieces();
+}
+
+void PartActor::setKept(bool isKept) {
+  if (isKept == isKept_) return;
+  isKept_ = isKept;
+  showPieces();
+}
+
+void PartActor::showPieces() {
+  const bool isDrawn = isVisible_ && !isKept_;
+  const std::vector<ShapeMappers::Mapper>& mappers = mappers_->surface(level_, !isOpaque());
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    if (i < mappers.size()) pieces_[i]->SetMapper(mappers[i]);
+    pieces_[i]->SetVisibility(isDrawn && i < mappers.size());
+  }
+  edges_->SetMapper(mappers_->edges(edges_->GetProperty()->GetOpacity() < 1.0));
+  edges_->SetVisibility(isDrawn && level_ == 0 && shownLook_ && shownLook_->hasEdges);
+}
+
+void PartActor::bounds(double bounds[6]) const {
+  double own[6];
+  mappers_->shape()->surface->GetBounds(own);
+  vtkBoundingBox box;
+  for (int corner = 0; corner < 8; ++corner) {
+    const double p[4] = {own[corner & 1], own[2 + (corner >> 1 & 1)], own[4 + (corner >> 2 & 1)], 1.0};
+    double world[4];
+    pose_->MultiplyPoint(p, world);
+    box.AddPoint(world);
+  }
+  box.GetBounds(bounds);
+}
+
+void PartActor::addTo(std::vector<vtkProp*>& props) const {
+  props.insert(props.end(), pieces_.begin(), pieces_.end());
+  if (shownLook_ && shownLook_->hasEdges) props.push_back(edges_);
 }
 
 void PartActor::setThrough(bool isThrough) {
@@ -93,10 +139,7 @@ void PartActor::setThrough(bool isThrough) {
     veil_ = veilEdges_ = nullptr;
     return;
   }
-  const auto make = [this](vtkPolyData* data, double opacity) {
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(data);
-    mapper->ScalarVisibilityOff();
+  const auto make = [this](vtkMapper* mapper, double opacity) {
     auto actor = vtkSmartPointer<vtkActor>::New();
     actor->SetMapper(mapper);
     actor->SetUserMatrix(pose_);
@@ -108,20 +151,11 @@ void PartActor::setThrough(bool isThrough) {
     over_->AddActor(actor);
     return actor;
   };
-  veil_ = make(shape_->surface, kVeilOpacity);
+  veil_ = make(mappers_->veil(), kVeilOpacity);
   // One layer of a closed surface, not two.
   veil_->GetProperty()->BackfaceCullingOn();
-  veilEdges_ = make(shape_->edges, kVeilEdgeOpacity);
+  veilEdges_ = make(mappers_->veilEdges(), kVeilEdgeOpacity);
   veilEdges_->GetProperty()->SetLineWidth(1.6F);
-}
-
-vtkStaticCellLocator* PartActor::locator() {
-  if (locator_ == nullptr) {
-    locator_ = vtkSmartPointer<vtkStaticCellLocator>::New();
-    locator_->SetDataSet(shape_->surface);
-    locator_->BuildLocator();
-  }
-  return locator_;
 }
 
 }  // namespace nearfit::ui

@@ -1,14 +1,16 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include <vtkActor.h>
 #include <vtkNew.h>
+#include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkStaticCellLocator.h>
 
 #include "core/scene/scene.h"
-#include "ui/part_shape.h"
+#include "ui/detail/shape_mappers.h"
 
 namespace nearfit::ui {
 
@@ -29,30 +31,49 @@ struct PartLook {
 class PartActor {
  public:
   /// @param over  May be null: then nothing shows through.
-  PartActor(vtkRenderer& renderer, std::shared_ptr<const PartShape> shape, vtkRenderer* over = nullptr);
+  PartActor(vtkRenderer& renderer, std::shared_ptr<ShapeMappers> mappers, vtkRenderer* over = nullptr);
   ~PartActor();
   PartActor(const PartActor&) = delete;
   PartActor& operator=(const PartActor&) = delete;
 
-  void setPose(const RigidTransform& worldFromPart);
-  void setAppearance(const Colour& colour, bool isVisible, const PartLook& look);
+  /// True when it was elsewhere before.
+  bool setPose(const RigidTransform& worldFromPart);
+  /// True when it looked otherwise before.
+  bool setAppearance(const Colour& colour, bool isVisible, const PartLook& look);
+  /// One of the shape's levels. Edges are drawn with the mesh itself alone.
+  void setLevel(std::size_t level);
+  /// While a picture of it is kept it need not be drawn.
+  void setKept(bool isKept);
 
-  const PartShape* shape() const noexcept { return shape_.get(); }
-  vtkActor* surface() const noexcept { return surface_; }
-  /// Search structure for picking, built at the first call.
-  vtkStaticCellLocator* locator();
+  const PartShape& shape() const noexcept { return *mappers_->shape(); }
+  bool isVisible() const noexcept { return isVisible_; }
+  bool isOpaque() const noexcept;
+  std::size_t level() const noexcept { return level_; }
+  bool isKept() const noexcept { return isKept_; }
+  /// Of the mesh itself, in the world, as VTK has them [m].
+  void bounds(double bounds[6]) const;
+  /// What draws it as it is, piece by piece.
+  void addTo(std::vector<vtkProp*>& props) const;
+  const std::vector<vtkSmartPointer<vtkActor>>& pieces() const noexcept { return pieces_; }
 
  private:
+  void showPieces();
   void setThrough(bool isThrough);
 
   vtkRenderer& renderer_;
-  std::shared_ptr<const PartShape> shape_;
+  std::shared_ptr<ShapeMappers> mappers_;
   vtkRenderer* over_;
-  vtkNew<vtkActor> surface_, edges_;
+  std::vector<vtkSmartPointer<vtkActor>> pieces_;  ///< The first also draws drafts.
+  vtkNew<vtkProperty> look_;
+  vtkNew<vtkActor> edges_;
   /// While it is selected, in over_.
   vtkSmartPointer<vtkActor> veil_, veilEdges_;
   vtkNew<vtkMatrix4x4> pose_;
-  vtkSmartPointer<vtkStaticCellLocator> locator_;
+  std::optional<RigidTransform> worldFromPart_;
+  std::optional<PartLook> shownLook_;
+  Colour colour_;
+  std::size_t level_ = 0;
+  bool isVisible_ = true, isKept_ = false;
 };
 
 }  // namespace nearfit::ui

@@ -1,10 +1,15 @@
 #include "ui/part_shape.h"
 
+#include <algorithm>
+
 #include <vtkCellArray.h>
 #include <vtkFeatureEdges.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyDataNormals.h>
+
+#include "ui/detail/draft_surface.h"
 
 namespace nearfit::ui {
 namespace {
@@ -34,6 +39,43 @@ vtkSmartPointer<vtkPolyData> trianglesOf(const TriangleMesh& mesh) {
   return data;
 }
 
+/// One at a time is drawn without anybody waiting for it, software OpenGL or not.
+constexpr vtkIdType kPieceTriangles = 100'000;
+
+std::vector<vtkSmartPointer<vtkPolyData>> piecesOf(vtkPolyData& surface) {
+  const vtkIdType count = surface.GetNumberOfPolys();
+  if (count <= kPieceTriangles) return {&surface};
+  std::vector<vtkSmartPointer<vtkPolyData>> pieces;
+  for (vtkIdType begin = 0; begin < count; begin += kPieceTriangles) {
+    const vtkIdType end = std::min(begin + kPieceTriangles, count);
+    vtkNew<vtkCellArray> triangles;
+    triangles->AllocateExact(end - begin, 3 * (end - begin));
+    for (vtkIdType cell = begin; cell < end; ++cell) {
+      vtkIdType size = 0;
+      const vtkIdType* corners = nullptr;
+      surface.GetPolys()->GetCellAtId(cell, size, corners);
+      triangles->InsertNextCell(size, corners);
+    }
+    auto piece = vtkSmartPointer<vtkPolyData>::New();
+    piece->SetPoints(surface.GetPoints());
+    piece->GetPointData()->SetNormals(surface.GetPointData()->GetNormals());
+    piece->SetPolys(triangles);
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+void addDrafts(PartShape& shape) {
+  const auto sizeOf = [](vtkPolyData& data) {
+    return static_cast<std::size_t>(data.GetNumberOfPolys() + data.GetNumberOfLines());
+  };
+  shape.levels = {{sizeOf(*shape.surface) + sizeOf(*shape.edges), 0.0}};
+  for (DraftSurface& draft : draftsOf(*shape.surface)) {
+    shape.levels.push_back({sizeOf(*draft.surface), draft.cell});
+    shape.drafts.push_back(draft.surface);
+  }
+}
+
 }  // namespace
 
 PartShape makePartShape(const TriangleMesh& mesh) {
@@ -56,7 +98,15 @@ PartShape makePartShape(const TriangleMesh& mesh) {
   edges->ManifoldEdgesOff();
   edges->ColoringOff();
   edges->Update();
-  return {normals->GetOutput(), edges->GetOutput()};
+  PartShape shape;
+  shape.surface = normals->GetOutput();
+  shape.edges = edges->GetOutput();
+  shape.pieces = piecesOf(*shape.surface);
+  addDrafts(shape);
+  shape.locator = vtkSmartPointer<vtkStaticCellLocator>::New();
+  shape.locator->SetDataSet(shape.surface);
+  shape.locator->BuildLocator();
+  return shape;
 }
 
 std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& geometry) {
@@ -66,7 +116,10 @@ std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& 
     if (found != entries_.end() && !found->second.geometry.expired()) return found->second.shape;
   }
   // Outside the lock, so that a large mesh being prepared does not hold up the drawing of another.
-  auto shape = std::make_shared<const PartShape>(makePartShape(geometry->mesh));
+  const auto shape = std::make_shared<PartShape>(makePartShape(geometry->mesh));
+  // Of several components each may be inside out.
+  shape->hidesItsInside =
+      geometry->mass.basis == MassBasis::VolumeIntegrals && geometry->mesh.topology().components == 1;
   const std::lock_guard lock(mutex_);
   dropUnused();
   entries_[geometry.get()] = {geometry, shape};

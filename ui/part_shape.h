@@ -3,11 +3,14 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkStaticCellLocator.h>
 
 #include "core/scene/part_geometry.h"
+#include "ui/detail/detail_choice.h"
 
 namespace nearfit::ui {
 
@@ -15,6 +18,18 @@ namespace nearfit::ui {
 struct PartShape {
   vtkSmartPointer<vtkPolyData> surface;  ///< Triangles with point normals, split along sharp edges.
   vtkSmartPointer<vtkPolyData> edges;    ///< Sharp, open and non-manifold edges.
+  /// The surface again, in pieces that are drawn in a moment each; they share its points.
+  std::vector<vtkSmartPointer<vtkPolyData>> pieces;
+  /// For what moves where there is too much to draw: coarser and coarser, with normals; none of a small mesh.
+  std::vector<vtkSmartPointer<vtkPolyData>> drafts;
+  std::vector<DetailLevel> levels;  ///< The surface's, then each draft's.
+  /// Search structure for picking, of the surface. Not for several threads at once.
+  vtkSmartPointer<vtkStaticCellLocator> locator;
+  /// Nobody outside sees a triangle from behind.
+  bool hidesItsInside = false;
+
+  /// Good enough for what is drawn as a veil.
+  vtkPolyData* finestDraft() const { return drafts.empty() ? surface.Get() : drafts.front().Get(); }
 };
 
 PartShape makePartShape(const TriangleMesh& mesh);

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <vtkBoundingBox.h>
-#include <vtkCellPicker.h>
 
 namespace nearfit::ui {
 
@@ -13,7 +12,13 @@ SceneRenderer::SceneRenderer(vtkRenderer& renderer, std::shared_ptr<PartShapeCac
 
 void SceneRenderer::setScene(const Scene& scene) {
   scene_ = scene;
-  std::erase_if(actors_, [&](const auto& entry) { return scene_.find(entry.first) == nullptr; });
+  const auto isGone = [&](const auto& entry) { return scene_.find(entry.first) == nullptr; };
+  if (std::ranges::any_of(actors_, isGone)) {
+    letGoOfKept();
+    ++revision_;
+    std::erase_if(actors_, isGone);
+    std::erase_if(loose_, [&](PartId id) { return scene_.find(id) == nullptr; });
+  }
   applyAll();
 }
 
@@ -37,19 +42,29 @@ void SceneRenderer::setPoseInHand(std::optional<RigidTransform> worldFromMoving)
   poseInHand_ = std::move(worldFromMoving);
   if (!scene_.movingPart()) return;
   const Part* part = scene_.find(*scene_.movingPart());
-  if (part != nullptr) actorOf(*part).setPose(shownPose(*part));
+  if (part != nullptr) place(*part);
 }
 
 void SceneRenderer::setDragged(std::map<PartId, RigidTransform> worldFromPart) {
   const std::map<PartId, RigidTransform> before = std::exchange(dragged_, std::move(worldFromPart));
-  const auto place = [this](PartId id) {
+  const auto placeAgain = [this](PartId id) {
     const Part* part = scene_.find(id);
-    if (part != nullptr) actorOf(*part).setPose(shownPose(*part));
+    if (part != nullptr) place(*part);
   };
   for (const auto& [id, pose] : before)
-    place(id);
+    placeAgain(id);
   for (const auto& [id, pose] : dragged_)
-    place(id);
+    placeAgain(id);
+}
+
+void SceneRenderer::place(const Part& part) {
+  if (!actorOf(part).setPose(shownPose(part))) return;
+  if (loose_.insert(part.id).second) ++revision_;
+}
+
+void SceneRenderer::settle() {
+  if (!loose_.empty()) ++revision_;
+  loose_.clear();
 }
 
 RigidTransform SceneRenderer::shownPose(const Part& part) const {
@@ -67,8 +82,11 @@ void SceneRenderer::setOverlapping(std::span<const PartId> parts) {
 PartActor& SceneRenderer::actorOf(const Part& part) {
   std::unique_ptr<PartActor>& actor = actors_[part.id];
   auto shape = shapes_->shapeOf(part.geometry);
-  if (actor == nullptr || actor->shape() != shape.get()) {
-    actor = std::make_unique<PartActor>(renderer_, std::move(shape), over_);
+  if (actor == nullptr || &actor->shape() != shape.get()) {
+    letGoOfKept();
+    ++revision_;
+    actor = std::make_unique<PartActor>(renderer_, mappers_.mappersOf(shape), over_);
+    actor->setPose(shownPose(part));
   }
   return *actor;
 }
@@ -82,8 +100,8 @@ void SceneRenderer::applyAppearance(const Part& part) {
   look.hasEdges = hasEdges_;
   look.opacity = part.opacity;
   PartActor& actor = actorOf(part);
-  actor.setAppearance(part.colour, part.isVisible, look);
-  actor.setPose(shownPose(part));
+  if (actor.setAppearance(part.colour, part.isVisible, look)) ++revision_;
+  place(part);
 }
 
 void SceneRenderer::applyAll() {
@@ -91,10 +109,18 @@ void SceneRenderer::applyAll() {
     applyAppearance(*part);
 }
 
+const PartActor* SceneRenderer::find(PartId part) const {
+  const auto found = actors_.find(part);
+  return found == actors_.end() ? nullptr : found->second.get();
+}
+
 bool SceneRenderer::visibleBounds(double bounds[6]) const {
   vtkBoundingBox box;
   for (const auto& [id, actor] : actors_) {
-    if (actor->surface()->GetVisibility() != 0) box.AddBounds(actor->surface()->GetBounds());
+    if (!actor->isVisible()) continue;
+    double own[6];
+    actor->bounds(own);
+    box.AddBounds(own);
   }
   if (box.IsValid() == 0) return false;
   box.GetBounds(bounds);
@@ -104,27 +130,8 @@ bool SceneRenderer::visibleBounds(double bounds[6]) const {
 bool SceneRenderer::boundsOf(PartId part, double bounds[6]) const {
   const auto found = actors_.find(part);
   if (found == actors_.end()) return false;
-  found->second->surface()->GetBounds(bounds);
+  found->second->bounds(bounds);
   return true;
-}
-
-std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y) {
-  vtkNew<vtkCellPicker> picker;
-  picker->SetTolerance(0.0005);
-  picker->PickFromListOn();
-  for (const auto& [id, actor] : actors_) {
-    if (actor->surface()->GetVisibility() == 0) continue;
-    picker->AddPickList(actor->surface());
-    picker->AddLocator(actor->locator());
-  }
-  if (picker->Pick(x, y, 0.0, &renderer_) == 0) return std::nullopt;
-  for (const auto& [id, actor] : actors_) {
-    if (actor->surface() != picker->GetActor()) continue;
-    const double* point = picker->GetPickPosition();
-    // Normals split vertices, and leave the triangles in their order.
-    return PickedPoint{id, {point[0], point[1], point[2]}, static_cast<std::uint32_t>(picker->GetCellId())};
-  }
-  return std::nullopt;
 }
 
 }  // namespace nearfit::ui

@@ -3,10 +3,12 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
 #include "core/scene/scene.h"
+#include "ui/detail/detail_choice.h"
 #include "ui/part_actor.h"
 
 namespace nearfit::ui {
@@ -39,6 +41,23 @@ class SceneRenderer {
   /// Parts that the moving one overlaps are tinted.
   void setOverlapping(std::span<const PartId> parts);
 
+  /// What is drawn in the next picture: parts that are kept are not. @return  The choice for the others.
+  DetailChoice applyDetail(const DetailLimits& limits);
+  /// What draws the opaque parts that are seen and do not move, as they are. They get no levels of detail and
+  /// are not drawn until letGoOfKept().
+  std::vector<vtkProp*> keep();
+  /// As they are, whatever the last picture showed of them; before each time that some are drawn to be kept.
+  void prepareKept();
+  void showKept();
+  void letGoOfKept();
+  /// Another one: what is kept is no longer right.
+  std::uint64_t revision() const noexcept { return revision_; }
+  /// Parts that have been moved since the last time that all stood still; the others can be kept.
+  /// Null when it is not in the scene.
+  const PartActor* find(PartId part) const;
+  bool hasLoose() const noexcept { return !loose_.empty(); }
+  void settle();
+
   /// Bounds of all visible parts as VTK has them (xmin, xmax, ...) [m]; false when there are none.
   bool visibleBounds(double bounds[6]) const;
   /// Of one part, visible or not; false when it is not in the scene.
@@ -52,14 +71,18 @@ class SceneRenderer {
   std::optional<PickedPoint> pickPoint(double x, double y);
 
  private:
+  struct View;
   PartActor& actorOf(const Part& part);
   RigidTransform shownPose(const Part& part) const;
   void applyAppearance(const Part& part);
   void applyAll();
+  void place(const Part& part);
+  View view() const;
 
   vtkRenderer& renderer_;
   std::shared_ptr<PartShapeCache> shapes_;
   vtkRenderer* over_;
+  MapperCache mappers_;
   Scene scene_;
   std::map<PartId, std::unique_ptr<PartActor>> actors_;
   std::vector<PartId> selected_;  ///< Sorted.
@@ -68,6 +91,9 @@ class SceneRenderer {
   std::vector<PartId> overlapping_;
   bool isSeeThrough_ = false;
   bool hasEdges_ = true;
+  std::set<PartId> loose_;
+  std::vector<PartActor*> beingKept_;
+  std::uint64_t revision_ = 0;
 };
 
 }  // namespace nearfit::ui

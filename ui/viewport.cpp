@@ -4,6 +4,7 @@
 #include <QEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <QScreen>
 #include <QSurfaceFormat>
 #include <QTimer>
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include <vtkRenderWindowInteractor.h>
 
 #include "ui/colour_legend.h"
+#include "ui/detail/view_detail.h"
 #include "ui/hand_drag.h"
 #include "ui/selection.h"
 #include "ui/snapshot_look.h"
@@ -33,7 +35,37 @@ class CameraStyle : public vtkInteractorStyleTrackballCamera {
   static CameraStyle* New() { VTK_STANDARD_NEW_BODY(CameraStyle); }
   void OnChar() override {}
   void OnKeyPress() override {}
+  void OnMouseMove() override {
+    atNextPicture([this] { Superclass::OnMouseMove(); });
+  }
+  void OnMouseWheelForward() override {
+    atNextPicture([this] { Superclass::OnMouseWheelForward(); });
+  }
+  void OnMouseWheelBackward() override {
+    atNextPicture([this] { Superclass::OnMouseWheelBackward(); });
+  }
+
+  Viewport* view = nullptr;
+
+ private:
+  using Superclass = vtkInteractorStyleTrackballCamera;
+
+  /// VTK would draw a picture for each event, however many come between two pictures of the display.
+  template <typename Act>
+  void atNextPicture(const Act& act) {
+    vtkRenderWindowInteractor* interactor = GetInteractor();
+    interactor->EnableRenderOff();
+    vtkCamera* camera = view->camera();
+    const vtkMTimeType before = camera->GetMTime();
+    act();
+    const bool hasChanged = camera->GetMTime() != before;
+    interactor->EnableRenderOn();
+    if (hasChanged) view->requestRender();
+  }
 };
+
+/// So far may what moves leave the bounds of all, in parts of their size, before what is kept is drawn anew.
+constexpr double kRoomForMotion = 0.3;
 
 }  // namespace
 
@@ -48,6 +80,7 @@ Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection,
       shapes_(std::move(shapes)),
       selection_(selection),
       parts_(*renderer_.Get(), shapes_, overlay_.Get()),
+      detail_(std::make_unique<ViewDetail>(*renderer_.Get(), *overlay_.Get(), parts_)),
       hand_(*renderer_.Get(), *overlay_.Get()),
       minima_(*overlay_.Get()),
       contacts_(*overlay_.Get()),
@@ -60,6 +93,8 @@ Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection,
   setMinimumSize(320, 240);
   setUpRenderers();
   setUpInteraction();
+  connect(detail_.get(), &ViewDetail::pictureWanted, this, &Viewport::requestRender);
+  connect(detail_.get(), &ViewDetail::depthsNeeded, this, [this] { fitDepths(kRoomForMotion); });
   connect(&selection_, &Selection::changed, this, &Viewport::showSelection);
   legend_->hide();
 }
@@ -94,7 +129,6 @@ void Viewport::setUpRenderers() {
 
   renderer_->SetLayer(0);
   setUpBackground();
-  renderer_->UseFXAAOn();
   renderer_->GetActiveCamera()->SetViewAngle(24.0);
   vtkNew<vtkLightKit> lights;
   lights->SetKeyLightIntensity(0.92);
@@ -106,13 +140,13 @@ void Viewport::setUpRenderers() {
   overlay_->SetLayer(1);
   overlay_->SetActiveCamera(renderer_->GetActiveCamera());
   overlay_->InteractiveOff();
-  overlay_->UseFXAAOn();
 }
 
 void Viewport::setUpInteraction() {
   vtkNew<CameraStyle> style;
   interactor()->SetInteractorStyle(style);
   style->SetDefaultRenderer(renderer_);
+  style->view = this;
   style->AutoAdjustCameraClippingRangeOff();
   marker_->SetParentRenderer(renderer_);
   auto* shape = vtkCameraOrientationRepresentation::SafeDownCast(marker_->GetRepresentation());
@@ -124,6 +158,8 @@ void Viewport::setUpInteraction() {
 
 void Viewport::countPicture() {
   ++pictureCount_;
+  sincePicture_.start();
+  detail_->afterPicture();
   emit drawn();
 }
 
@@ -131,9 +167,25 @@ void Viewport::prepareRender() {
   // The marker learns of the window's first size from nobody.
   marker_->SquareResize();
   adjustClipping();
+  detail_->beforePicture();
 }
 
 void Viewport::adjustClipping() {
+  if (!detail_->holdsDepths()) return fitDepths(0.0);
+  // Depths that are kept stay right, unless something left them.
+  double kept[2];
+  vtkCamera& camera = *renderer_->GetActiveCamera();
+  camera.GetClippingRange(kept);
+  fitDepths(0.0);
+  const double* needed = camera.GetClippingRange();
+  if (needed[0] >= kept[0] && needed[1] <= kept[1]) {
+    camera.SetClippingRange(kept);
+  } else {
+    detail_->drop();
+  }
+}
+
+void Viewport::fitDepths(double room) {
   vtkBoundingBox box;
   double bounds[6];
   if (parts_.visibleBounds(bounds)) box.AddBounds(bounds);
@@ -142,6 +194,7 @@ void Viewport::adjustClipping() {
   overlay_->ComputeVisiblePropBounds(bounds);
   if (bounds[0] <= bounds[1]) box.AddBounds(bounds);
   if (box.IsValid() == 0) return;
+  box.Inflate(room * box.GetMaxLength());
   box.GetBounds(bounds);
   renderer_->ResetCameraClippingRange(bounds);
 }
@@ -149,10 +202,19 @@ void Viewport::adjustClipping() {
 void Viewport::requestRender() {
   if (hasRequest_) return;
   hasRequest_ = true;
-  QTimer::singleShot(0, this, [this] {
+  // At most as many as the display shows.
+  const QScreen* screen = window()->screen();
+  const auto interval = static_cast<qint64>(1000.0 / std::max(30.0, screen->refreshRate()));
+  const qint64 since = sincePicture_.isValid() ? sincePicture_.elapsed() : interval;
+  QTimer::singleShot(static_cast<int>(std::max<qint64>(0, interval - since)), Qt::PreciseTimer, this, [this] {
     hasRequest_ = false;
     if (isVisible()) window_->Render();
   });
+}
+
+void Viewport::completePicture() {
+  detail_->complete();
+  window_->Render();
 }
 
 void Viewport::setScene(const Scene& scene) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QElapsedTimer>
 #include <QPoint>
 #include <map>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "core/scene/scene.h"
 #include "ui/camera_views.h"
 #include "ui/contact_glyphs.h"
+#include "ui/detail/kept_renderer.h"
 #include "ui/hand_ghost.h"
 #include "ui/lmd_overlay.h"
 #include "ui/scene_renderer.h"
@@ -26,6 +28,7 @@ namespace nearfit::ui {
 class ColourLegend;
 class HandDrag;
 class Selection;
+class ViewDetail;
 
 /// The 3-D view: the scene's parts, and over them what the newest servo snapshot tells.
 /// Draws only after a change. Left drag orbits, middle drag pans, wheel or right drag zooms; a click selects,
@@ -59,6 +62,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
 
   /// What is drawn over the scene, for tools that add to it; requestRender() shows what they changed.
   vtkRenderer& overlay() noexcept { return *overlay_.Get(); }
+  vtkCamera* camera() { return renderer_->GetActiveCamera(); }
   void requestRender();
 
   /// The mouse as the manual hand.
@@ -74,6 +78,12 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void setContactsVisible(bool isVisible);
   void setHandVisible(bool isVisible);
   void setWrenchVisible(bool isVisible);
+
+  /// How much of the parts the last picture shows, and how much pictures may while something moves.
+  ViewDetail& detail() noexcept { return *detail_; }
+  SceneRenderer& parts() noexcept { return parts_; }
+  /// Draws what was left out to be quick, however long that takes: for pictures that are taken away.
+  void completePicture();
 
   /// Pictures drawn since the start: tests check with it that an idle view stays idle.
   int pictureCount() const noexcept { return pictureCount_; }
@@ -101,17 +111,21 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void setUpInteraction();
   void prepareRender();
   void adjustClipping();
+  /// @param room  Around what is drawn, in parts of its size.
+  void fitDepths(double room);
   void countPicture();
   void showMovingPart();
   void showSelection();
   void placeLegend();
 
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
-  vtkNew<vtkRenderer> renderer_, overlay_;
+  vtkNew<KeptRenderer> renderer_;
+  vtkNew<vtkRenderer> overlay_;
   vtkNew<vtkCameraOrientationWidget> marker_;
   std::shared_ptr<PartShapeCache> shapes_;
   Selection& selection_;
   SceneRenderer parts_;
+  std::unique_ptr<ViewDetail> detail_;
   HandGhost hand_;
   LmdOverlay minima_;
   ContactGlyphs contacts_;
@@ -121,6 +135,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   std::unique_ptr<ServoSnapshot> shown_;
   Scene scene_;
   QPoint pressedAt_;
+  QElapsedTimer sincePicture_;
   bool hasRequest_ = false;
   int pictureCount_ = 0;
 };

@@ -65,6 +65,7 @@ void Screenshot::waitForMinima(const ServoSnapshot& snapshot) {
 
 void Screenshot::write() {
   if (std::exchange(isWriting_, true) || hasFailed_) return;
+  application_.window().viewport().completePicture();
   const QPixmap picture = application_.window().grab();
   if (!picture.save(output_, "PNG")) {
     fail(tr("%1: the picture could not be written; choose a folder that can be written to").arg(output_));

@@ -1,0 +1,111 @@
+#include <QApplication>
+#include <QSettings>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/files/atomic_write.h"
+#include "tests/bench/command_program.h"
+#include "tests/bench/machine.h"
+#include "tests/bench/selection.h"
+#include "tests/bench/window/bench_window.h"
+#include "tests/bench/window/figures.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using namespace nearfit;
+using bench::WindowOptions;
+
+/// To add one, add a row.
+struct Entry {
+  std::string name, description;
+  std::function<std::vector<bench::Figure>(const WindowOptions&)> measure;
+};
+
+std::vector<Entry> entries() {
+  return {{"start", "From the program's start to a window that answers", bench::measureStarts},
+          {"frames", "Turning a scene while the servo runs, and the servo's lateness", bench::measureFrames},
+          {"idle", "The processor while nothing moves", bench::measureIdle},
+          {"glyphs", "What 100 minima cost", bench::measureGlyphs},
+          {"picks", "What is under the mouse, of a million triangles", bench::measurePicks},
+          {"open", "Whether the window answers while a million triangles are opened", bench::measureOpening},
+          {"large", "1000 parts, 10 million triangles", bench::measureLarge}};
+}
+
+struct CommandOptions {
+  std::vector<std::string> names{"all"};
+  double seconds = 4.0;
+  WindowOptions window;
+  std::filesystem::path csv;
+};
+
+void measure(CommandOptions options, int argc, char** argv) {
+  // Nobody's settings are read or changed.
+  const test::TemporaryFolder settings;
+  desktop::Application::prepare();
+  QSettings::setPath(QSettings::IniFormat, QSettings::UserScope,
+                     QString::fromStdString(settings.path().string()));
+  const QApplication qt(argc, argv);
+  desktop::Application::configure();
+  options.window.program = std::filesystem::canonical("/proc/self/exe").string();
+  options.window.time = std::chrono::milliseconds(static_cast<int>(1e3 * options.seconds));
+  const std::string machine =
+      bench::machineComment() + fmt::format("# {} turns of {} s\n", options.window.turns, options.seconds);
+  fmt::print("{}\n{}", machine, bench::figureTableHeader());
+  std::string lines;
+  for (const Entry& entry : bench::chosen(entries(), options.names, "--figures")) {
+    for (const bench::Figure& figure : entry.measure(options.window)) {
+      fmt::print("{}", bench::figureTableLine(figure));
+      std::fflush(stdout);
+      lines += bench::figureCsvLine(figure);
+    }
+  }
+  if (options.csv.empty()) return;
+  atomicWrite(options.csv, machine + fmt::format("# load at end: {}\n", bench::loadAverages()) +
+                               bench::figureCsvHeader() + lines);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto options = std::make_shared<CommandOptions>();
+  CLI::App program("Measures the application's window: what a user waits for, and what it costs.");
+  program.name("nearfit-bench-window");
+  CLI::App* figures = program.add_subcommand("figures", "Measures; needs a display, such as xvfb-run's.");
+  WindowOptions& window = options->window;
+  std::string names = "Which of";
+  for (const Entry& entry : entries())
+    names += fmt::format(" {} ({});", entry.name, entry.description);
+  figures->add_option("--figures", options->names, names)->delimiter(',');
+  figures->add_option("--seconds", options->seconds, "Of each turn")
+      ->check(CLI::Range(0.1, 600.0))
+      ->capture_default_str();
+  figures->add_option("--turns", window.turns, "Of each way")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  figures->add_option("--starts", window.starts, "Of the program")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  figures->add_option("--triangles", window.triangles, "Of the scene that is turned")
+      ->check(CLI::Range(1000, 100'000'000))
+      ->capture_default_str();
+  figures->add_option("--million", window.million, "Triangles of the mesh that is opened and picked")
+      ->check(CLI::Range(10'000, 100'000'000))
+      ->capture_default_str();
+  figures->add_option("--parts", window.parts, "Of the large scene")
+      ->check(CLI::Range(8, 100'000))
+      ->capture_default_str();
+  figures->add_option("--picks", window.picks, "")->check(CLI::Range(20, 10'000'000))->capture_default_str();
+  figures->add_option("--csv", options->csv, "File for the table");
+  figures->callback([options, argc, argv] { measure(*options, argc, argv); });
+  CLI::App* start =
+      program.add_subcommand("start", "Starts the application, says when it is usable, and ends.");
+  start->callback([argc, argv] { (void)bench::startAndLeave(argc, argv); });
+  return bench::runCommand(program, argc, argv);
+}

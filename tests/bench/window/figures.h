@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "tests/bench/window/figure.h"
+
+/// Each makes the figures of one question; those of two ways are measured in turns.
+namespace nearfit::bench {
+
+/// From the start of the program to a window that has drawn and answers.
+std::vector<Figure> measureStarts(const WindowOptions& options);
+/// What a start begins: the same as the application, until it is usable; says so on the standard output.
+int startAndLeave(int argc, char** argv);
+
+/// A scene turned by the mouse while the servo runs, and the servo's lateness with and without that.
+std::vector<Figure> measureFrames(const WindowOptions& options);
+/// What the processor does while nobody does anything.
+std::vector<Figure> measureIdle(const WindowOptions& options);
+/// What minima add to a picture.
+std::vector<Figure> measureGlyphs(const WindowOptions& options);
+std::vector<Figure> measurePicks(const WindowOptions& options);
+/// How long events wait while a large mesh is opened.
+std::vector<Figure> measureOpening(const WindowOptions& options);
+/// Many parts with many triangles.
+std::vector<Figure> measureLarge(const WindowOptions& options);
+
+}  // namespace nearfit::bench

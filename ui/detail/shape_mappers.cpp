@@ -1,0 +1,66 @@
+#include "ui/detail/shape_mappers.h"
+
+namespace nearfit::ui {
+namespace {
+
+ShapeMappers::Mapper mapperOf(vtkPolyData* data) {
+  auto mapper = ShapeMappers::Mapper::New();
+  mapper->SetInputData(data);
+  mapper->ScalarVisibilityOff();
+  return mapper;
+}
+
+ShapeMappers::Mapper surfaceMapperOf(vtkPolyData* data) {
+  auto mapper = mapperOf(data);
+  // Surfaces step back a little, so that edge lines and the shapes they bound do not fight for the same
+  // depth.
+  mapper->SetResolveCoincidentTopologyToPolygonOffset();
+  mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(1.0, 1.0);
+  return mapper;
+}
+
+ShapeMappers::Mapper& made(ShapeMappers::Mapper& mapper, vtkPolyData* data) {
+  if (mapper == nullptr) mapper = mapperOf(data);
+  return mapper;
+}
+
+}  // namespace
+
+const std::vector<ShapeMappers::Mapper>& ShapeMappers::surface(std::size_t level, bool isTranslucent) {
+  auto& levels = surfaces_[isTranslucent ? 1 : 0];
+  levels.resize(shape_->levels.size());
+  std::vector<Mapper>& mappers = levels.at(level);
+  if (!mappers.empty()) return mappers;
+  if (level > 0) {
+    mappers = {surfaceMapperOf(shape_->drafts[level - 1])};
+  } else {
+    for (vtkPolyData* piece : shape_->pieces)
+      mappers.push_back(surfaceMapperOf(piece));
+  }
+  return mappers;
+}
+
+ShapeMappers::Mapper ShapeMappers::edges(bool isTranslucent) {
+  return made(edges_[isTranslucent ? 1 : 0], shape_->edges);
+}
+
+ShapeMappers::Mapper ShapeMappers::veil() {
+  return made(veil_, shape_->finestDraft());
+}
+
+ShapeMappers::Mapper ShapeMappers::veilEdges() {
+  return made(veilEdges_, shape_->edges);
+}
+
+std::shared_ptr<ShapeMappers> MapperCache::mappersOf(const std::shared_ptr<const PartShape>& shape) {
+  std::weak_ptr<ShapeMappers>& entry = entries_[shape.get()];
+  std::shared_ptr<ShapeMappers> mappers = entry.lock();
+  if (mappers == nullptr) {
+    mappers = std::make_shared<ShapeMappers>(shape);
+    entry = mappers;
+    std::erase_if(entries_, [](const auto& other) { return other.second.expired(); });
+  }
+  return mappers;
+}
+
+}  // namespace nearfit::ui

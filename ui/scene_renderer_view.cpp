@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <vtkBox.h>
+#include <vtkCamera.h>
+#include <vtkGenericCell.h>
+
+#include "ui/scene_renderer.h"
+
+/// What the camera sees of the parts: their levels of detail, and what is under a point of the view.
+namespace nearfit::ui {
+namespace {
+
+struct Ray {
+  glm::dvec3 begin, end;
+};
+
+glm::dvec3 worldOf(vtkRenderer& renderer, double x, double y, double depth) {
+  renderer.SetDisplayPoint(x, y, depth);
+  renderer.DisplayToWorld();
+  const double* p = renderer.GetWorldPoint();
+  return glm::dvec3(p[0], p[1], p[2]) / p[3];
+}
+
+struct Hit {
+  double fraction = 2.0;  ///< Of the ray; nothing yet.
+  std::uint32_t triangle = 0;
+  glm::dvec3 point{0.0};  ///< In the part's frame.
+};
+
+/// The first triangle that a ray of the part's frame meets before what has been hit.
+bool hitFirst(const PartShape& shape, const Ray& ray, vtkGenericCell& cell, Hit& hit) {
+  double direction[3], at[3], t = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    direction[axis] = ray.end[axis] - ray.begin[axis];
+  if (vtkBox::IntersectBox(shape.surface->GetBounds(), &ray.begin.x, direction, at, t) == 0) return false;
+  double point[3], parametric[3];
+  int part = 0;
+  vtkIdType triangle = -1;
+  const int isHit = shape.locator->IntersectWithLine(&ray.begin.x, &ray.end.x, 0.0, t, point, parametric,
+                                                     part, triangle, &cell);
+  if (isHit == 0 || triangle < 0 || t >= hit.fraction) return false;
+  // Normals split vertices, and leave the triangles in their order.
+  hit = {t, static_cast<std::uint32_t>(triangle), {point[0], point[1], point[2]}};
+  return true;
+}
+
+}  // namespace
+
+/// Where the camera is and how large it shows things.
+struct SceneRenderer::View {
+  glm::dvec3 eye;
+  bool isParallel = false;
+  double pixelsAtOne = 1.0;  ///< A metre, a metre away from the eye; anywhere where it is parallel.
+  double planes[24];         ///< Of what is seen, outward negative.
+
+  double pixelsPerMetre(const glm::dvec3& centre, double radius) const {
+    if (isParallel) return pixelsAtOne;
+    // What is around the eye is as near as anything can be.
+    return pixelsAtOne / std::max(glm::distance(eye, centre) - radius, 1e-3 * radius + 1e-12);
+  }
+  bool sees(const glm::dvec3& centre, double radius) const {
+    for (int plane = 0; plane < 6; ++plane) {
+      const double* p = planes + 4 * plane;
+      if (p[0] * centre.x + p[1] * centre.y + p[2] * centre.z + p[3] < -radius) return false;
+    }
+    return true;
+  }
+};
+
+SceneRenderer::View SceneRenderer::view() const {
+  vtkCamera* camera = renderer_.GetActiveCamera();
+  View view;
+  camera->GetPosition(&view.eye.x);
+  view.isParallel = camera->GetParallelProjection() != 0;
+  const double height = std::max(1, renderer_.GetSize()[1]);
+  view.pixelsAtOne = view.isParallel ? height / (2.0 * camera->GetParallelScale())
+                                     : height / (2.0 * std::tan(0.5 * glm::radians(camera->GetViewAngle())));
+  camera->GetFrustumPlanes(renderer_.GetTiledAspectRatio(), view.planes);
+  return view;
+}
+
+DetailChoice SceneRenderer::applyDetail(const DetailLimits& limits) {
+  const View view = this->view();
+  std::vector<DetailCandidate> candidates;
+  std::vector<PartActor*> drawn;
+  for (const auto& [id, actor] : actors_) {
+    if (!actor->isVisible() || actor->isKept()) continue;
+    double b[6];
+    actor->bounds(b);
+    const glm::dvec3 lower(b[0], b[2], b[4]), upper(b[1], b[3], b[5]), centre = 0.5 * (lower + upper);
+    const double radius = 0.5 * glm::distance(lower, upper);
+    candidates.push_back(
+        {actor->shape().levels, view.pixelsPerMetre(centre, radius), view.sees(centre, radius)});
+    drawn.push_back(actor.get());
+  }
+  DetailChoice choice = chooseDetail(candidates, limits);
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    drawn[i]->setLevel(choice.levels[i]);
+  return choice;
+}
+
+std::vector<vtkProp*> SceneRenderer::keep() {
+  std::vector<vtkProp*> props;
+  beingKept_.clear();
+  for (const auto& [id, actor] : actors_) {
+    if (!actor->isVisible() || !actor->isOpaque() || loose_.contains(id)) continue;
+    actor->addTo(props);
+    beingKept_.push_back(actor.get());
+  }
+  return props;
+}
+
+void SceneRenderer::prepareKept() {
+  for (PartActor* actor : beingKept_)
+    actor->setLevel(0);
+}
+
+void SceneRenderer::showKept() {
+  for (PartActor* actor : beingKept_)
+    actor->setKept(true);
+}
+
+void SceneRenderer::letGoOfKept() {
+  for (PartActor* actor : beingKept_)
+    actor->setKept(false);
+  beingKept_.clear();
+}
+
+std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y) {
+  const Ray seen{worldOf(renderer_, x, y, 0.0), worldOf(renderer_, x, y, 1.0)};
+  std::optional<PickedPoint> picked;
+  Hit hit;
+  vtkNew<vtkGenericCell> cell;
+  for (const auto& [id, actor] : actors_) {
+    const Part* part = scene_.find(id);
+    if (part == nullptr || !actor->isVisible()) continue;
+    const RigidTransform worldFromPart = shownPose(*part), partFromWorld = worldFromPart.inverse();
+    const Ray ray{partFromWorld.applyToPoint(seen.begin), partFromWorld.applyToPoint(seen.end)};
+    if (hitFirst(actor->shape(), ray, *cell, hit))
+      picked = PickedPoint{id, worldFromPart.applyToPoint(hit.point), hit.triangle};
+  }
+  return picked;
+}
+
+}  // namespace nearfit::ui
