@@ -166,6 +166,9 @@ void apply(bool isDark) {
   darkness() = isDark;
   QApplication::setPalette(paletteOf(isDark));
   const QString sheet = QString::fromLatin1(kStyleSheet);
+  // A sheet in place of another is told to all that Qt remembers, some of it long gone (5.15): it forgets
+  // them with the sheet.
+  qApp->setStyleSheet({});
   qApp->setStyleSheet(isDark ? inDarkColours(sheet) : sheet);
   // From the start on, when there are no widgets yet.
   SheetTranslator& sheets = translator();
