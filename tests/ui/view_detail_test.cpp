@@ -27,9 +27,11 @@ constexpr std::size_t kTriangles = 20 << (2 * kSubdivisions), kParts = 6, kBudge
 
 /// A row of balls that share a mesh, in a view that may draw few triangles while something moves.
 struct Row {
-  Row() {
+  /// @param opaque  How many of them; the others are seen through.
+  explicit Row(std::size_t opaque = kParts) {
     for (std::size_t i = 0; i < kParts; ++i) {
       Part part = test::partOf(ball, "ball");
+      if (i >= opaque) part.opacity = 0.4;
       part.worldFromPart.translation.x = 0.05 * static_cast<double>(i);
       ids.push_back(scene.add(part));
     }
@@ -72,6 +74,7 @@ class ViewDetailTest : public QObject {
   void aStillViewShowsEveryTriangle();
   void aFullPictureIsThatOfTheMeshesThemselves();
   void nothingIsDrawnOnceItIsFull();
+  void whatShinesThroughIsWholeAtRestToo();
   void aPartThatMovesIsDrawnOverWhatIsKept();
   void manyRequestsAreOnePicture();
   void partsOfOneMeshShareItsBuffers();
@@ -140,6 +143,16 @@ void ViewDetailTest::nothingIsDrawnOnceItIsFull() {
   for (int i = 0; i < 20; ++i)
     QTest::qWait(20);
   QCOMPARE(row.view.pictureCount(), before);
+}
+
+/// It cannot be kept, and was drawn coarsely again and again.
+void ViewDetailTest::whatShinesThroughIsWholeAtRestToo() {
+  for (const std::size_t opaque : {std::size_t{1}, std::size_t{0}}) {
+    Row row(opaque);
+    row.turn();
+    QVERIFY(row.comesToRest());
+    QVERIFY(row.view.detail().detail().triangles >= (kParts - opaque) * kTriangles);
+  }
 }
 
 void ViewDetailTest::aPartThatMovesIsDrawnOverWhatIsKept() {

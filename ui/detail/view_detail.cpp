@@ -14,6 +14,8 @@ using namespace std::chrono_literals;
 
 /// Drawn in full at once, always.
 constexpr std::size_t kSmall = 20'000;
+/// What is drawn once nothing moves may take half a second.
+constexpr std::size_t kBudgetAtRest = 1'000'000;
 constexpr std::size_t kFirstBudget = 120'000, kLeastBudget = 60'000, kMostBudget = 50'000'000;
 /// A picture that takes longer is drawn coarser the next time, one that takes less finer [ms].
 constexpr qint64 kSlow = 45, kQuick = 15;
@@ -68,14 +70,16 @@ void ViewDetail::beforePicture() {
   picture_.start();
   const Key now = key();
   if (keptKey_ && *keptKey_ != now) drop();
-  const DetailChoice choice = parts_.applyDetail({budget_});
+  // What shines through cannot be kept: of that a still picture shows more, and no picture after it all.
+  const bool isLast = isAtRest_ && renderer_.hasKept() && !parts_.hasLoose();
+  const DetailChoice choice = parts_.applyDetail({isLast ? std::max(budget_, kBudgetAtRest) : budget_});
   detail_ = {choice.triangles, renderer_.hasKept(), choice.isExact};
   isLimited_ = !choice.isExact;
   const bool isSmooth = isAtRest_ || (choice.triangles <= kSmall && !detail_.isKept);
   smooth(isSmooth);
   detail_.isFull = detail_.isFull && isSmooth;
   isAtRest_ = false;
-  if (detail_.isFull) {
+  if (detail_.isFull || isLast) {
     still_.stop();
     resting_.stop();
   } else {
