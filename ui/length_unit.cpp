@@ -1,6 +1,8 @@
 #include "ui/length_unit.h"
 
 #include <QObject>
+#include <algorithm>
+#include <cmath>
 
 namespace nearfit::ui {
 
@@ -41,6 +43,19 @@ double metresOf(LengthUnit unit) noexcept {
     default:
       return 1e-3;
   }
+}
+
+QString lengthIn(LengthUnit unit, double metres, int decimals) {
+  QString number = QString::number(metres / metresOf(unit), 'f', decimals);
+  if (number.startsWith(QChar('-')) && number.toDouble() == 0.0) number.remove(0, 1);
+  return number + QChar(' ') + symbolOf(unit);
+}
+
+int measuredDecimals(LengthUnit unit, double metres) noexcept {
+  constexpr int kLeast = 3, kMost = 9;
+  const double inUnits = std::abs(metres) / metresOf(unit);
+  if (!(inUnits > 0.0)) return kLeast;
+  return std::clamp(4 - static_cast<int>(std::floor(std::log10(inUnits))), kLeast, kMost);
 }
 
 int extraDecimals(LengthUnit unit) noexcept {

@@ -17,6 +17,11 @@ QString symbolOf(LengthUnit unit);
 QString nameOf(LengthUnit unit);
 /// [m]
 double metresOf(LengthUnit unit) noexcept;
+/// A length with its unit: "-1.25 mm".
+/// @param metres  [m]
+QString lengthIn(LengthUnit unit, double metres, int decimals);
+/// Decimals that show five figures of a length, and thousandths at least.
+int measuredDecimals(LengthUnit unit, double metres) noexcept;
 /// Decimals that a number needs more than in millimetres to be about as fine.
 int extraDecimals(LengthUnit unit) noexcept;
 

@@ -60,6 +60,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   placing_ = new PlacingTools(session_, *selection_, *viewport_, this);
   placing_->addTo(*this, *actions_->placeMenu);
   setUpAligning();
+  setUpInspecting();
   setUpTakingAway();
   setAcceptDrops(true);
   resize(1360, 860);

@@ -94,6 +94,7 @@ class MainWindow : public QMainWindow {
   QDockWidget* addDock(const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area);
   void setUpPanels();
   void setUpAligning();
+  void setUpInspecting();
   void updateAligning();
   void setUpTakingAway();
   void connectFileActions();

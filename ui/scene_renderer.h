@@ -38,6 +38,9 @@ class SceneRenderer {
   /// Shows parts away from their poses in the scene, where a drag has them; empty: none.
   void setDragged(std::map<PartId, RigidTransform> worldFromPart);
 
+  /// Where a part is shown, by a drag, by the hand or as the scene has it.
+  RigidTransform shownPose(const Part& part) const;
+
   /// Parts that the moving one overlaps are tinted.
   void setOverlapping(std::span<const PartId> parts);
 
@@ -73,7 +76,6 @@ class SceneRenderer {
  private:
   struct View;
   PartActor& actorOf(const Part& part);
-  RigidTransform shownPose(const Part& part) const;
   void applyAppearance(const Part& part);
   void applyAll();
   void place(const Part& part);

@@ -183,6 +183,11 @@ bool isWantedDark(ColourScheme scheme) {
 
 }  // namespace
 
+QColor axisColour(int axis) {
+  constexpr QRgb kColours[] = {0xffd93a3a, 0xff2e9e4f, 0xff2f6fe0};
+  return axis < 0 ? QColor(0x4a, 0x55, 0x61) : QColor(kColours[axis]);
+}
+
 void loadResources() {
   initResources();
 }

@@ -21,6 +21,9 @@ inline const QColor kMutedText(0x5d, 0x68, 0x74);
 inline const QColor kWarning(0xb3, 0x4a, 0x00);
 }  // namespace colours
 
+/// The colour that an axis has: 0, 1 or 2; that of the view for -1.
+QColor axisColour(int axis);
+
 /// Makes the compiled-in icons of this library known; harmless when repeated.
 void loadResources();
 /// Light or dark, or as the desktop is.

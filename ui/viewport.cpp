@@ -226,6 +226,7 @@ void Viewport::setScene(const Scene& scene) {
   showMovingPart();
   legend_->setCutoff(scene.haptics().springs.cutoff);
   if (isAnotherScene) setView(StandardView::Isometric);
+  emit posesChanged();
   requestRender();
 }
 
@@ -256,6 +257,7 @@ void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
   legend_->showSnapshot(snapshot);
   placeLegend();
   legend_->show();
+  emit posesChanged();
   requestRender();
 }
 
@@ -268,6 +270,7 @@ void Viewport::clearSnapshot() {
   hand_.clear();
   parts_.setOverlapping({});
   legend_->hide();
+  emit posesChanged();
   requestRender();
 }
 
@@ -343,7 +346,13 @@ void Viewport::mouseReleaseEvent(QMouseEvent* event) {
 
 void Viewport::setDragged(std::map<PartId, RigidTransform> worldFromPart) {
   parts_.setDragged(std::move(worldFromPart));
+  emit posesChanged();
   requestRender();
+}
+
+std::optional<RigidTransform> Viewport::shownPose(PartId part) const {
+  const Part* found = scene_.find(part);
+  return found != nullptr ? std::optional(parts_.shownPose(*found)) : std::nullopt;
 }
 
 ViewProjection Viewport::projection() const {

@@ -53,12 +53,17 @@ class Viewport : public QVTKOpenGLNativeWidget {
 
   /// As SceneRenderer::setDragged.
   void setDragged(std::map<PartId, RigidTransform> worldFromPart);
+  /// Where a part is shown now; nothing when it is not in the scene.
+  std::optional<RigidTransform> shownPose(PartId part) const;
   /// How the view shows the world now, in the widget's own pixels.
   ViewProjection projection() const;
   /// What is seen at a place of the widget.
   std::optional<PickedPoint> pointAt(const QPoint& position);
   /// Does what a click there does: selects.
   void pickAt(const QPoint& position, Qt::KeyboardModifiers modifiers);
+
+  /// Clicks are a tool's from now on: others that took them are told to leave.
+  void takeClicks(QObject* tool) { emit clicksTaken(tool); }
 
   /// What is drawn over the scene, for tools that add to it; requestRender() shows what they changed.
   vtkRenderer& overlay() noexcept { return *overlay_.Get(); }
@@ -91,6 +96,9 @@ class Viewport : public QVTKOpenGLNativeWidget {
  signals:
   /// A picture has been drawn, maybe from elsewhere.
   void drawn();
+  /// Parts came, left or are shown elsewhere: what stands by them follows before the next picture.
+  void posesChanged();
+  void clicksTaken(QObject* tool);
   /// An arrow or page key: a step of the current part along one axis of the world, each component -1, 0
   /// or 1.
   void nudged(int x, int y, int z);

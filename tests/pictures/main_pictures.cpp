@@ -119,6 +119,9 @@ class Pictures {
     trigger("align");
     grabWindow("window-align");
     QTest::keyClick(&driver_.window(), Qt::Key_Escape);
+    trigger("measure");
+    grabWindow("window-measure");
+    trigger("measure");
   }
   void menus() {
     for (QMenu* menu : driver_.window().findChildren<QMenu*>()) {

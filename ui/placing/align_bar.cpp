@@ -2,7 +2,6 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -15,12 +14,11 @@ namespace nearfit::ui {
 namespace {
 
 constexpr double kFarthest = 1e3;  ///< [m]
-constexpr int kMargin = 12;
 
 }  // namespace
 
 AlignBar::AlignBar(QWidget* view)
-    : QFrame(view),
+    : ViewBar(view, QStringLiteral("alignBar")),
       prompt_(new QLabel(this)),
       hint_(new QLabel(this)),
       filter_(new QComboBox(this)),
@@ -29,10 +27,6 @@ AlignBar::AlignBar(QWidget* view)
       offset_(new NumberField(this)),
       apply_(new QPushButton(tr("Apply"), this)),
       cancel_(new QPushButton(tr("Cancel"), this)) {
-  setObjectName(QStringLiteral("alignBar"));
-  setStyleSheet(
-      QStringLiteral("#alignBar { background: palette(window); border: 1px solid palette(mid); "
-                     "border-radius: 8px; }"));
   setUpFields();
   auto* fields = new QHBoxLayout;
   fields->setSpacing(8);
@@ -47,8 +41,6 @@ AlignBar::AlignBar(QWidget* view)
   rows->addWidget(prompt_);
   rows->addWidget(hint_);
   rows->addLayout(fields);
-  view->installEventFilter(this);
-  hide();
 }
 
 void AlignBar::setUpFields() {
@@ -121,17 +113,6 @@ bool AlignBar::isFlipped() const {
 
 double AlignBar::offset() const {
   return offset_->quantity();
-}
-
-bool AlignBar::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == parentWidget() && event->type() == QEvent::Resize) place();
-  return QFrame::eventFilter(watched, event);
-}
-
-void AlignBar::place() {
-  adjustSize();
-  const QWidget& view = *parentWidget();
-  move(std::max(kMargin, (view.width() - width()) / 2), view.height() - height() - kMargin);
 }
 
 }  // namespace nearfit::ui

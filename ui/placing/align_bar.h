@@ -1,8 +1,7 @@
 #pragma once
 
-#include <QFrame>
-
 #include "core/placing/feature_pick.h"
+#include "ui/view_bar.h"
 
 class QCheckBox;
 class QComboBox;
@@ -14,7 +13,7 @@ namespace nearfit::ui {
 class NumberField;
 
 /// What the align tool asks for, over the lower edge of the view: what to point at, flip, distance, apply.
-class AlignBar : public QFrame {
+class AlignBar : public ViewBar {
   Q_OBJECT
 
  public:
@@ -30,7 +29,6 @@ class AlignBar : public QFrame {
   bool isFlipped() const;
   /// [m]
   double offset() const;
-  bool eventFilter(QObject* watched, QEvent* event) override;
 
  signals:
   void filterChosen(nearfit::FeatureFilter filter);
@@ -40,7 +38,6 @@ class AlignBar : public QFrame {
   void cancelled();
 
  private:
-  void place();
   void setUpFields();
 
   QLabel *prompt_, *hint_;

@@ -40,12 +40,20 @@ FeaturePicker::FeaturePicker(const Session& session, Viewport& view, const QColo
       escape_(new QShortcut(QKeySequence(Qt::Key_Escape), &view, nullptr, nullptr, Qt::WindowShortcut)) {
   escape_->setEnabled(false);
   connect(escape_, &QShortcut::activated, this, &FeaturePicker::cancelled);
+  connect(&view_, &Viewport::clicksTaken, this, [this](QObject* tool) {
+    if (isActive_ && tool != this) emit cancelled();
+  });
+  connect(&view_, &Viewport::posesChanged, this, [this] {
+    const std::optional<RigidTransform> pose = hovered_ ? view_.shownPose(hovered_->part) : std::nullopt;
+    if (pose) highlight_.setPose(*pose);
+  });
 }
 
 FeaturePicker::~FeaturePicker() = default;
 
 void FeaturePicker::start(Refusal refusal) {
   refusal_ = std::move(refusal);
+  view_.takeClicks(this);
   if (isActive_) return forgetHover();
   isActive_ = true;
   escape_->setEnabled(true);
@@ -140,11 +148,12 @@ void FeaturePicker::hoverAt(const QPoint& position) {
   if (part != nullptr) {
     text = refusal_ ? refusal_(*part) : QString();
     if (text.isEmpty()) {
-      const SurfaceHit hit{seen->triangle, part->worldFromPart.inverse().applyToPoint(seen->point)};
+      const RigidTransform pose = view_.shownPose(part->id).value_or(part->worldFromPart);
+      const SurfaceHit hit{seen->triangle, pose.inverse().applyToPoint(seen->point)};
       const double reach = kReach * view_.projection().metresPerPixel(seen->point);
       if (auto found = pickFeature(part->geometry->mesh, hit, reach, filter_)) {
         text = tr("%1 of %2").arg(describeFeature(found->feature), QString::fromStdString(part->name));
-        hovered_ = {seen->part, std::move(*found)};
+        hovered_ = {seen->part, std::move(*found), hit.point};
       }
     }
   }
@@ -161,7 +170,8 @@ void FeaturePicker::forgetHover() {
 void FeaturePicker::showHovered() {
   const Part* part = hovered_ ? session_.scene().find(hovered_->part) : nullptr;
   if (part != nullptr) {
-    highlight_.show(part->geometry->mesh, hovered_->picked, part->worldFromPart);
+    highlight_.show(part->geometry->mesh, hovered_->picked,
+                    view_.shownPose(part->id).value_or(part->worldFromPart));
   } else if (highlight_.isShown()) {
     highlight_.clear();
   } else {

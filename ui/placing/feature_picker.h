@@ -20,13 +20,14 @@ class Viewport;
 struct FeaturePick {
   PartId part{};
   PickedFeature picked;  ///< In the part's frame.
+  glm::dvec3 hit{0.0};   ///< The point of the surface that was pointed at, in the part's frame [m].
 };
 
 /// What a feature is called: "Flat face", "Cylinder ⌀ 12.0 mm".
 QString describeFeature(const AlignFeature& feature);
 
 /// Lets the user point at features in the view: lights up the one under the pointer, and tells of a click on
-/// it. Drags, the wheel and the other buttons stay the view's.
+/// it. Drags, the wheel and the other buttons stay the view's. One at a time: who starts sends others away.
 class FeaturePicker : public QObject {
   Q_OBJECT
 

@@ -41,7 +41,4 @@ class GizmoOverlay : public QWidget {
   std::optional<GizmoPicture> picture_;
 };
 
-/// The colour that an axis has: 0, 1 or 2; that of the view for -1.
-QColor axisColour(int axis);
-
 }  // namespace nearfit::ui

@@ -25,7 +25,7 @@ namespace nearfit::ui {
 TakingAway::TakingAway(const Window& window)
     : QObject(&window.window),
       window_(window),
-      segment_(window.viewport.overlay()),
+      segment_(window.viewport.overlay(), colours::kAccent),
       exporter_(new Exporter(window.session, window.selection, window.poseOfMoving, &window.window)),
       search_(new ClearanceSearch(window.session, window.poseOfMoving, this)) {
   setUpDocks();

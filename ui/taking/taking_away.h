@@ -6,7 +6,7 @@
 
 #include "core/scene/motion_recording.h"
 #include "core/session.h"
-#include "ui/clearance/pair_segment.h"
+#include "ui/pair_segment.h"
 #include "ui/dialogs/error_box.h"
 
 class QAction;

@@ -1,10 +1,9 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QMouseEvent>
 #include <QStatusBar>
 
-#include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/view_pointer.h"
 #include "ui/parts_model.h"
 
 using namespace nearfit;
@@ -37,20 +36,8 @@ class DesktopAlignTest : public QObject {
     if (!folder.isEmpty()) picture.save(folder + QStringLiteral("/align.png"));
     return picture;
   }
-  /// Where a point of the world is seen.
-  static QPoint at(DesktopDriver& d, const glm::dvec3& point) {
-    const auto pixel = d.window().viewport().projection().pixelOf(point);
-    return pixel ? QPoint(qRound(pixel->x), qRound(pixel->y)) : QPoint();
-  }
-  static void click(DesktopDriver& d, const glm::dvec3& point) {
-    QTest::mouseClick(&d.window().viewport(), Qt::LeftButton, {}, at(d, point));
-  }
-  static void hover(DesktopDriver& d, const glm::dvec3& point) {
-    const QPoint to = at(d, point);
-    QWidget& view = d.window().viewport();
-    QMouseEvent move(QEvent::MouseMove, to, view.mapToGlobal(to), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
-    QApplication::sendEvent(&view, &move);
-  }
+  static void click(DesktopDriver& d, const glm::dvec3& point) { ViewPointer(d).click(point); }
+  static void hover(DesktopDriver& d, const glm::dvec3& point) { ViewPointer(d).hover(point); }
   static void begin(DesktopDriver& d) {
     d.addCubes();
     d.action("viewFront")->trigger();
@@ -149,17 +136,9 @@ void DesktopAlignTest::lockedPartsRefuseToMove() {
 void DesktopAlignTest::dragsStillOrbitWhileAligning() {
   DesktopDriver d;
   begin(d);
-  QWidget& view = d.window().viewport();
   const glm::dvec3 before = d.window().viewport().projection().away();
-  const QPoint from = at(d, {0.003, kMovingFront, 0.036});
-  QTest::mousePress(&view, Qt::LeftButton, {}, from);
-  for (int i = 1; i <= 10; ++i) {
-    const QPoint to = from + QPoint(8 * i, 0);
-    QMouseEvent move(QEvent::MouseMove, to, view.mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
-                     Qt::NoModifier);
-    QApplication::sendEvent(&view, &move);
-  }
-  QTest::mouseRelease(&view, Qt::LeftButton, {}, from + QPoint(80, 0));
+  ViewPointer pointer(d);
+  pointer.drag(pointer.seen({0.003, kMovingFront, 0.036}), QPoint(80, 0));
   QVERIFY(glm::distance(d.window().viewport().projection().away(), before) > 0.05);
   QVERIFY(d.text("alignPrompt").contains(QStringLiteral("part to move")));
   QVERIFY(d.action("align")->isChecked());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <QColor>
+
 #include <glm/vec3.hpp>
 #include <vtkActor.h>
 #include <vtkNew.h>
@@ -10,11 +12,11 @@
 
 namespace nearfit::ui {
 
-/// Draws where two parts are nearest: a segment with its two ends.
+/// Draws what lies between two parts: a segment with its two ends.
 class PairSegment {
  public:
   /// @param overlay  Where parts do not hide it.
-  explicit PairSegment(vtkRenderer& overlay);
+  PairSegment(vtkRenderer& overlay, const QColor& colour);
   ~PairSegment();
 
   /// In the world [m].

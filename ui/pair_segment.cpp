@@ -1,10 +1,8 @@
-#include "ui/clearance/pair_segment.h"
+#include "ui/pair_segment.h"
 
 #include <vtkCellArray.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-
-#include "ui/theme.h"
 
 namespace nearfit::ui {
 namespace {
@@ -28,7 +26,7 @@ void setUp(vtkActor& actor, vtkPolyData& data, const QColor& colour, float size)
 
 }  // namespace
 
-PairSegment::PairSegment(vtkRenderer& overlay) : overlay_(&overlay) {
+PairSegment::PairSegment(vtkRenderer& overlay, const QColor& colour) : overlay_(&overlay) {
   ends_->SetDataTypeToDouble();
   ends_->SetNumberOfPoints(2);
   vtkNew<vtkCellArray> line, dots;
@@ -43,8 +41,8 @@ PairSegment::PairSegment(vtkRenderer& overlay) : overlay_(&overlay) {
   // Later actors win where depths are equal: a white rim first, the colour over it.
   setUp(*halo_, *segment_.Get(), Qt::white, 7.0F);
   setUp(*rims_, *dots_.Get(), Qt::white, 15.0F);
-  setUp(*line_, *segment_.Get(), colours::kAccent, 3.5F);
-  setUp(*points_, *dots_.Get(), colours::kAccent, 10.0F);
+  setUp(*line_, *segment_.Get(), colour, 3.5F);
+  setUp(*points_, *dots_.Get(), colour, 10.0F);
   for (vtkActor* actor : {halo_.Get(), rims_.Get(), line_.Get(), points_.Get()})
     overlay.AddActor(actor);
   applyVisibility();

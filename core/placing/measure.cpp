@@ -1,0 +1,75 @@
+#include "core/placing/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+namespace nearfit {
+namespace {
+
+glm::dvec3 nearestOnSegment(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& point) noexcept {
+  const glm::dvec3 along = b - a;
+  const double squared = glm::dot(along, along);
+  const double share = squared > 0.0 ? std::clamp(glm::dot(point - a, along) / squared, 0.0, 1.0) : 0.0;
+  return a + share * along;
+}
+
+glm::dvec3 nearestOnEdge(const TriangleMesh& mesh, const PickedFeature& edge, const glm::dvec3& point) {
+  const auto vertices = mesh.vertices();
+  glm::dvec3 nearest = vertices[edge.vertices.front()];
+  for (std::size_t i = 1; i < edge.vertices.size(); ++i) {
+    const glm::dvec3 on = nearestOnSegment(vertices[edge.vertices[i - 1]], vertices[edge.vertices[i]], point);
+    if (glm::distance(on, point) < glm::distance(nearest, point)) nearest = on;
+  }
+  return nearest;
+}
+
+bool isPlane(const AlignFeature& feature) noexcept {
+  return feature.shape == FeatureShape::Plane;
+}
+bool isPoint(const AlignFeature& feature) noexcept {
+  return feature.shape == FeatureShape::Point;
+}
+
+/// Between directions, of either sense [rad].
+double angleBetween(const glm::dvec3& a, const glm::dvec3& b) noexcept {
+  return std::atan2(glm::length(glm::cross(a, b)), std::abs(glm::dot(a, b)));
+}
+
+/// From a point to a plane or a line [m].
+double distanceTo(const AlignFeature& feature, const glm::dvec3& point) noexcept {
+  const glm::dvec3 off = point - feature.point;
+  return isPlane(feature) ? std::abs(glm::dot(off, feature.direction))
+                          : glm::length(glm::cross(off, feature.direction));
+}
+
+}  // namespace
+
+MeasureEnd measureEnd(const TriangleMesh& mesh, const PickedFeature& picked, const glm::dvec3& hit) {
+  const FeatureShape shape = picked.feature.shape;
+  if (shape == FeatureShape::Point || shape == FeatureShape::Circle)
+    return {picked.feature.point, picked.feature};
+  return {picked.vertices.empty() ? hit : nearestOnEdge(mesh, picked, hit), picked.feature};
+}
+
+Measurement measure(const MeasureEnd& from, const MeasureEnd& to) noexcept {
+  Measurement result{from.point, to.point, glm::distance(from.point, to.point), {}, {}};
+  const AlignFeature &a = from.feature, &b = to.feature;
+  if (isPoint(a) && isPoint(b)) return result;
+  if (isPoint(a) || isPoint(b)) {
+    result.apart = isPoint(a) ? distanceTo(b, from.point) : distanceTo(a, to.point);
+    return result;
+  }
+  const bool isMixed = isPlane(a) != isPlane(b);
+  const double between = angleBetween(a.direction, b.direction);
+  result.angle = isMixed ? 0.5 * std::numbers::pi - between : between;
+  const bool hasCentre = a.shape == FeatureShape::Circle || b.shape == FeatureShape::Circle;
+  if (!(isMixed && hasCentre) && *result.angle > kParallelAngle) return result;
+  // From the line to the plane where there is one of each.
+  result.apart = isPlane(a) ? distanceTo(a, b.point) : distanceTo(b, a.point);
+  return result;
+}
+
+}  // namespace nearfit

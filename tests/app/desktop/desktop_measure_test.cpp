@@ -1,0 +1,226 @@
+#include <QClipboard>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+
+#include "tests/app/desktop/view_pointer.h"
+#include "ui/parts_model.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+class DesktopMeasureTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void cleanup() { QSettings().clear(); }
+  void cornersAreMeasuredWithTheirComponents();
+  void parallelFacesSayHowFarTheyAreApart();
+  void hoverTellsWhatWouldBeMeasured();
+  void aThirdClickBeginsAnew();
+  void numbersAreCopied();
+  void unitsAreFollowed();
+  void theLabelStandsOnTheLine();
+  void theMeasureFollowsItsParts();
+  void theMeasureFollowsThePartInHand();
+  void theMeasureLeavesWithItsPart();
+  void dragsStillOrbitAndEscapeLeaves();
+  void oneToolAtATimeTakesClicks();
+
+ private:
+  /// The two cubes from the front, and the tool on.
+  static void begin(DesktopDriver& d) {
+    d.addCubes();
+    d.action("viewFront")->trigger();
+    QTest::qWait(50);
+    QTest::keyClick(&d.window(), Qt::Key_M);
+    QVERIFY(d.action("measure")->isChecked());
+    QVERIFY(d.widget<QWidget>("measureBar")->isVisible());
+  }
+  /// From the moving cube's upper left corner to the fixed one's: 10, 10 and 25 mm.
+  static void measureCorners(DesktopDriver& d) {
+    begin(d);
+    ViewPointer pointer(d);
+    pointer.click({-0.01 + kInside, -0.01, 0.045 - kInside});
+    pointer.click({-0.02 + kInside, -0.02, 0.02 - kInside});
+  }
+  /// Kept where NEARFIT_PICTURES says, to be looked at.
+  static void keepPicture(DesktopDriver& d, const char* name) {
+    const QString folder = qEnvironmentVariable("NEARFIT_PICTURES");
+    if (folder.isEmpty()) return;
+    QTest::qWait(300);
+    d.window().grab().save(folder + QChar('/') + QLatin1String(name));
+  }
+  static bool isShown(DesktopDriver& d, const char* label) { return d.widget<QLabel>(label)->isVisible(); }
+  /// Of what the label says [mm].
+  static double number(DesktopDriver& d, const char* label) {
+    return d.text(label).section(QChar(' '), 0, 0).toDouble();
+  }
+  /// The pointer stands on pixels: exactly on an outline it may be beside the part.
+  static constexpr double kInside = 3e-4;
+};
+
+void DesktopMeasureTest::cornersAreMeasuredWithTheirComponents() {
+  DesktopDriver d;
+  measureCorners(d);
+  // Millimetres: sqrt(100 + 100 + 625).
+  QCOMPARE(d.text("measureDistance"), QStringLiteral("28.723 mm"));
+  QCOMPARE(d.text("measureX"), QStringLiteral("-10.000 mm"));
+  QCOMPARE(d.text("measureY"), QStringLiteral("-10.000 mm"));
+  QCOMPARE(d.text("measureZ"), QStringLiteral("-25.000 mm"));
+  QVERIFY(!isShown(d, "measureApart"));
+  QVERIFY(!isShown(d, "measureAngle"));
+  QVERIFY(d.text("measurePrompt").contains(QStringLiteral("Point of moving")));
+  QVERIFY(d.text("measurePrompt").contains(QStringLiteral("Point of fixed")));
+  // It is no change of the scene.
+  QVERIFY(!d.action("undo")->text().contains(QStringLiteral("easure")));
+}
+
+void DesktopMeasureTest::parallelFacesSayHowFarTheyAreApart() {
+  DesktopDriver d;
+  begin(d);
+  ViewPointer pointer(d);
+  pointer.click({0.004, -0.01, 0.038});
+  QVERIFY(!isShown(d, "measureDistance"));
+  pointer.click({-0.011, -0.02, 0.004});
+  QCOMPARE(d.text("measureApart"), QStringLiteral("10.000 mm"));
+  QCOMPARE(d.text("measureAngle"), QStringLiteral("0.000") + QChar(0xB0));
+  QVERIFY(number(d, "measureDistance") > 30.0);
+  keepPicture(d, "measure-light.png");
+  d.action("themeDark")->trigger();
+  d.action("viewIso")->trigger();
+  keepPicture(d, "measure-dark.png");
+  d.action("themeLight")->trigger();
+}
+
+void DesktopMeasureTest::hoverTellsWhatWouldBeMeasured() {
+  DesktopDriver d;
+  begin(d);
+  ViewPointer pointer(d);
+  pointer.hover({0.003, -0.01, 0.036});
+  QTRY_COMPARE(d.text("measureHint"), QStringLiteral("Flat face of moving"));
+  pointer.hover({0.0, -0.01, 0.045 - kInside});
+  QTRY_COMPARE(d.text("measureHint"), QStringLiteral("Straight edge of moving"));
+}
+
+void DesktopMeasureTest::aThirdClickBeginsAnew() {
+  DesktopDriver d;
+  measureCorners(d);
+  ViewPointer pointer(d);
+  pointer.click({0.01 - kInside, -0.01, 0.045 - kInside});
+  QVERIFY(!isShown(d, "measureDistance"));
+  QVERIFY(!d.widget<QLabel>("measureLabel")->isVisible());
+  // To the other end of the same edge, of the same part.
+  pointer.click({-0.01 + kInside, -0.01, 0.045 - kInside});
+  QCOMPARE(d.text("measureDistance"), QStringLiteral("20.000 mm"));
+}
+
+void DesktopMeasureTest::numbersAreCopied() {
+  DesktopDriver d;
+  measureCorners(d);
+  QApplication::clipboard()->clear();
+  QTest::mouseClick(d.widget<QPushButton>("measureCopy"), Qt::LeftButton);
+  QCOMPARE(QApplication::clipboard()->text(),
+           QStringLiteral("Distance: 28.723 mm\nX: -10.000 mm\nY: -10.000 mm\nZ: -25.000 mm"));
+}
+
+void DesktopMeasureTest::unitsAreFollowed() {
+  DesktopDriver d;
+  measureCorners(d);
+  d.action("unit-in")->trigger();
+  QCOMPARE(d.text("measureZ"), QStringLiteral("-0.9843 in"));
+  QCOMPARE(d.text("measureLabel"), d.text("measureDistance"));
+  d.action("unit-mm")->trigger();
+  QCOMPARE(d.text("measureZ"), QStringLiteral("-25.000 mm"));
+}
+
+void DesktopMeasureTest::theLabelStandsOnTheLine() {
+  DesktopDriver d;
+  measureCorners(d);
+  const auto* label = d.widget<QLabel>("measureLabel");
+  ViewPointer pointer(d);
+  const glm::dvec3 middle(-0.015, -0.015, 0.0325);
+  const auto isThere = [&] {
+    return (label->geometry().center() - pointer.seen(middle)).manhattanLength() <= 3;
+  };
+  QTRY_VERIFY(label->isVisible() && isThere());
+  QCOMPARE(label->text(), QStringLiteral("28.723 mm"));
+  // The camera goes elsewhere, and the label with it.
+  d.action("viewIso")->trigger();
+  QTRY_VERIFY(label->isVisible() && isThere());
+}
+
+void DesktopMeasureTest::theMeasureFollowsItsParts() {
+  DesktopDriver d;
+  measureCorners(d);
+  d.clickPart(1, ui::PartsModel::Name);
+  d.type<QDoubleSpinBox>("positionZ", "15");
+  QTRY_COMPARE(d.text("measureZ"), QStringLiteral("-40.000 mm"));
+  d.action("undo")->trigger();
+  QTRY_COMPARE(d.text("measureZ"), QStringLiteral("-25.000 mm"));
+}
+
+void DesktopMeasureTest::theMeasureFollowsThePartInHand() {
+  DesktopDriver d;
+  measureCorners(d);
+  auto* hands = d.widget<QComboBox>("hand");
+  hands->setFocus();
+  for (int i = 0; i < hands->count() && hands->currentData().value<ui::Hand>() != ui::Hand::Manual; ++i)
+    QTest::keyClick(hands, Qt::Key_Down);
+  QTest::mouseClick(d.widget<QPushButton>("startStop"), Qt::LeftButton);
+  QTRY_VERIFY(d.application.servo().isRunning());
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QVERIFY(d.action("measure")->isChecked());
+  for (int i = 0; i < 3; ++i)
+    QTest::keyClick(&d.window().viewport(), Qt::Key_PageUp);
+  // Wherever the servo has it.
+  QTRY_VERIFY(d.felt && d.felt->translation.z > 2e-4);
+  QTRY_VERIFY(std::abs(number(d, "measureZ") + 25.0 + 1e3 * d.felt->translation.z) < 2e-3);
+  d.application.servo().stop();
+  QTRY_VERIFY(!d.application.servo().isRunning());
+  QTRY_VERIFY(std::abs(number(d, "measureZ") + 25.0 + 1e3 * d.part("moving").worldFromPart.translation.z) <
+              2e-3);
+}
+
+void DesktopMeasureTest::theMeasureLeavesWithItsPart() {
+  DesktopDriver d;
+  measureCorners(d);
+  d.clickPart(1, ui::PartsModel::Name);
+  d.action("remove")->trigger();
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{1});
+  QVERIFY(!isShown(d, "measureDistance"));
+  QVERIFY(!d.widget<QLabel>("measureLabel")->isVisible());
+  QVERIFY(d.text("measurePrompt").contains(QStringLiteral("to measure from")));
+  QVERIFY(!d.widget<QPushButton>("measureCopy")->isEnabled());
+}
+
+void DesktopMeasureTest::dragsStillOrbitAndEscapeLeaves() {
+  DesktopDriver d;
+  measureCorners(d);
+  const std::string undo = d.session().undoText();
+  const glm::dvec3 before = d.window().viewport().projection().away();
+  ViewPointer pointer(d);
+  pointer.drag(pointer.seen({0.003, -0.02, 0.01}), QPoint(80, 0));
+  QVERIFY(glm::distance(d.window().viewport().projection().away(), before) > 0.05);
+  QCOMPARE(d.text("measureDistance"), QStringLiteral("28.723 mm"));
+  QTest::keyClick(&d.window().viewport(), Qt::Key_Escape);
+  QVERIFY(!d.action("measure")->isChecked());
+  QVERIFY(!d.widget<QWidget>("measureBar")->isVisible());
+  QVERIFY(!d.widget<QLabel>("measureLabel")->isVisible());
+  QCOMPARE(d.session().undoText(), undo);
+}
+
+void DesktopMeasureTest::oneToolAtATimeTakesClicks() {
+  DesktopDriver d;
+  begin(d);
+  d.action("align")->trigger();
+  QVERIFY(d.action("align")->isChecked());
+  QVERIFY(!d.action("measure")->isChecked());
+  QVERIFY(!d.widget<QWidget>("measureBar")->isVisible());
+  d.action("measure")->trigger();
+  QVERIFY(!d.action("align")->isChecked());
+  QTest::keyClick(&d.window().viewport(), Qt::Key_Escape);
+  QVERIFY(!d.action("measure")->isChecked());
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopMeasureTest)
+#include "desktop_measure_test.moc"

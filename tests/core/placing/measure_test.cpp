@@ -1,0 +1,135 @@
+#include "core/placing/measure.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <gtest/gtest.h>
+
+#include "core/placing/feature_pick.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/random_values.h"
+
+namespace nearfit {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+MeasureEnd plane(const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& clicked) {
+  return {clicked, {FeatureShape::Plane, point, glm::normalize(normal)}};
+}
+MeasureEnd axis(const glm::dvec3& point, const glm::dvec3& along, const glm::dvec3& clicked) {
+  return {clicked, {FeatureShape::Axis, point, glm::normalize(along)}};
+}
+MeasureEnd point(const glm::dvec3& at) {
+  return {at, {FeatureShape::Point, at}};
+}
+
+TEST(Measure, TwoPointsAreAsFarApartAsPythagorasSays) {
+  const Measurement m = measure(point({0.001, 0.002, 0.003}), point({0.003, 0.005, 0.009}));
+  EXPECT_NEAR(m.distance, 0.007, 1e-15);
+  EXPECT_EQ(m.from, glm::dvec3(0.001, 0.002, 0.003));
+  EXPECT_EQ(m.to, glm::dvec3(0.003, 0.005, 0.009));
+  EXPECT_FALSE(m.apart);
+  EXPECT_FALSE(m.angle);
+}
+
+TEST(Measure, ParallelFacesAreApartSquareToThemWhereverTheyAreClicked) {
+  const Measurement m = measure(plane({0.1, 0, 0.02}, {0, 0, 1}, {0.3, 0.4, 0.02}),
+                                plane({-0.2, 0, 0.05}, {0, 0, -1}, {-0.3, -0.4, 0.05}));
+  EXPECT_NEAR(m.apart.value(), 0.03, 1e-15);
+  EXPECT_NEAR(m.angle.value(), 0.0, 1e-15);
+  EXPECT_NEAR(m.distance, std::sqrt(0.36 + 0.64 + 0.0009), 1e-15);
+}
+
+TEST(Measure, FacesThatMeetHaveAnAngleOnly) {
+  const Measurement m = measure(plane({}, {0, 0, 1}, {}), plane({}, {0, std::sin(0.5), -std::cos(0.5)}, {}));
+  EXPECT_NEAR(m.angle.value(), 0.5, 1e-15);
+  EXPECT_FALSE(m.apart);
+}
+
+TEST(Measure, ParallelEdgesAreAsFarApartAsTheirLines) {
+  const Measurement m =
+      measure(axis({0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}), axis({7, 0.3, 0.4}, {-1, 0, 0}, {7, 0.3, 0.4}));
+  EXPECT_NEAR(m.apart.value(), 0.5, 1e-15);
+  EXPECT_NEAR(m.angle.value(), 0.0, 1e-15);
+}
+
+TEST(Measure, AnAxisThatRunsAlongAFaceIsApartFromIt) {
+  const MeasureEnd face = plane({}, {0, 0, 1}, {}), along = axis({1, 1, 0.2}, {1, 2, 0}, {1, 1, 0.2});
+  for (const Measurement& m : {measure(face, along), measure(along, face)}) {
+    EXPECT_NEAR(m.apart.value(), 0.2, 1e-15);
+    EXPECT_NEAR(m.angle.value(), 0.0, 1e-15);
+  }
+  const Measurement square = measure(face, axis({1, 1, 0.2}, {0, 0, -1}, {1, 1, 0.2}));
+  EXPECT_NEAR(square.angle.value(), 0.5 * kPi, 1e-15);
+  EXPECT_FALSE(square.apart);
+}
+
+TEST(Measure, ACircleIsAsFarFromAFaceAsItsCentre) {
+  const MeasureEnd circle{{0, 0, 0.3}, {FeatureShape::Circle, {0, 0, 0.3}, {0, 0, 1}, 0.01}};
+  const Measurement m = measure(circle, plane({1, 1, 0.1}, {0, 0, 1}, {1, 1, 0.1}));
+  EXPECT_NEAR(m.apart.value(), 0.2, 1e-15);
+}
+
+TEST(Measure, APointIsSquareFromAFaceAndFromAnEdge) {
+  const MeasureEnd corner = point({0.3, 0.4, 1.2});
+  EXPECT_NEAR(measure(corner, plane({}, {0, 0, 1}, {5, 5, 0})).apart.value(), 1.2, 1e-15);
+  EXPECT_NEAR(measure(axis({}, {0, 0, 1}, {}), corner).apart.value(), 0.5, 1e-15);
+  EXPECT_FALSE(measure(axis({}, {0, 0, 1}, {}), corner).angle);
+}
+
+TEST(Measure, IsTheSameInEveryFrame) {
+  test::RandomValues random(7);
+  for (int i = 0; i < 50; ++i) {
+    const glm::dvec3 along = random.vector(1.0);
+    const MeasureEnd a = plane(random.vector(1.0), along, random.vector(1.0));
+    const MeasureEnd b = axis(random.vector(1.0), glm::cross(along, random.vector(1.0)), random.vector(1.0));
+    const RigidTransform pose{glm::angleAxis(random.in(-3.0, 3.0), glm::normalize(random.vector(1.0))),
+                              random.vector(1.0)};
+    const Measurement here = measure(a, b), there = measure(placed(a, pose), placed(b, pose));
+    EXPECT_NEAR(here.distance, there.distance, 1e-12);
+    EXPECT_NEAR(here.apart.value(), there.apart.value(), 1e-12);
+    EXPECT_NEAR(here.angle.value(), there.angle.value(), 1e-12);
+  }
+}
+
+TEST(MeasureEnd, OfAnEdgeIsItsNearestPointOfAFaceTheVeryPoint) {
+  const TriangleMesh box = test::boxMesh({0.02, 0.04, 0.06});
+  // The upper face, near its edge along y.
+  std::uint32_t upper = 0;
+  while (box.vertices()[box.triangles()[upper][0]].z < 0.0 ||
+         box.vertices()[box.triangles()[upper][1]].z < 0.0 ||
+         box.vertices()[box.triangles()[upper][2]].z < 0.0)
+    ++upper;
+  const SurfaceHit hit{upper, {0.0095, 0.011, 0.03}};
+  const auto edge = pickFeature(box, hit, 0.001);
+  ASSERT_TRUE(edge && edge->feature.shape == FeatureShape::Axis);
+  EXPECT_LT(glm::distance(measureEnd(box, *edge, hit.point).point, glm::dvec3(0.01, 0.011, 0.03)), 1e-15);
+  const auto face = pickFeature(box, hit, 1e-6);
+  ASSERT_TRUE(face && face->feature.shape == FeatureShape::Plane);
+  EXPECT_EQ(measureEnd(box, *face, hit.point).point, hit.point);
+  const auto corner = pickFeature(box, hit, 0.05);
+  ASSERT_TRUE(corner && corner->feature.shape == FeatureShape::Point);
+  EXPECT_LT(glm::distance(measureEnd(box, *corner, hit.point).point, glm::dvec3(0.01, 0.02, 0.03)), 1e-15);
+}
+
+TEST(MeasureEnd, OfACircleIsItsCentre) {
+  const TriangleMesh cylinder = test::cylinderMesh(0.01, 0.04, 48);
+  std::uint32_t rim = 0;
+  while (cylinder.vertices()[cylinder.triangles()[rim][0]].z < 0.0 ||
+         cylinder.vertices()[cylinder.triangles()[rim][1]].z < 0.0 ||
+         cylinder.vertices()[cylinder.triangles()[rim][2]].z < 0.0)
+    ++rim;
+  const Triangle& t = cylinder.triangles()[rim];
+  glm::dvec3 on(0.0);
+  for (const std::uint32_t v : t)
+    on += cylinder.vertices()[v] / 3.0;
+  const auto circle = pickFeature(cylinder, {rim, on}, 0.008, FeatureFilter::Axes);
+  ASSERT_TRUE(circle && circle->feature.shape == FeatureShape::Circle);
+  EXPECT_LT(glm::distance(measureEnd(cylinder, *circle, on).point, glm::dvec3(0, 0, 0.02)), 1e-12);
+}
+
+}  // namespace
+}  // namespace nearfit
