@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/scene_file.h"
+#include "core/session_labels.h"
 
 namespace nearfit {
 namespace {
@@ -15,6 +16,16 @@ const char* labelOfChange(const HapticSettings& from, const HapticSettings& to) 
   HapticSettings withNewSprings = from;
   withNewSprings.springs = to.springs;
   return withNewSprings == to ? "Change the springs" : "Change how contact feels";
+}
+
+PartId addTo(Scene& scene, PartGeometryPtr geometry, const std::string& name,
+             const RigidTransform& worldFromPart) {
+  Part part;
+  part.name = name;
+  part.geometry = std::move(geometry);
+  part.worldFromPart = worldFromPart;
+  part.colour = scene.nextColour();
+  return scene.add(std::move(part));
 }
 
 }  // namespace
@@ -29,15 +40,21 @@ void Session::commit(Scene scene, std::string label) {
 PartId Session::addPart(PartGeometryPtr geometry, const std::string& name,
                         const RigidTransform& worldFromPart) {
   Scene next = scene();
-  Part part;
-  part.name = name;
-  part.geometry = std::move(geometry);
-  part.worldFromPart = worldFromPart;
-  part.colour = next.nextColour();
-  const PartId id = next.add(std::move(part));
+  const PartId id = addTo(next, std::move(geometry), name, worldFromPart);
   const std::string label = "Add " + next.find(id)->name;
   commit(std::move(next), label);
   return id;
+}
+
+std::vector<PartId> Session::addParts(const std::vector<NewPart>& parts) {
+  Scene next = scene();
+  SceneNodes added;
+  for (const NewPart& each : parts)
+    added.parts.push_back(addTo(next, each.geometry, each.name, {}));
+  if (added.isEmpty()) return {};
+  const std::string label = "Add " + nameOf(next, added);
+  commit(std::move(next), label);
+  return added.parts;
 }
 
 void Session::setMovingPart(std::optional<PartId> id) {
@@ -49,29 +66,31 @@ void Session::setMovingPart(std::optional<PartId> id) {
   commit(std::move(next), label);
 }
 
-void Session::setHaptics(const HapticSettings& haptics) {
+void Session::setHaptics(const HapticSettings& haptics, const std::string& label) {
   Scene next = scene();
   next.setHaptics(haptics);
   if (next.haptics() == scene().haptics()) return;
-  const char* label = labelOfChange(scene().haptics(), next.haptics());
-  commit(std::move(next), label);
+  const std::string change = label.empty() ? labelOfChange(scene().haptics(), next.haptics()) : label;
+  commit(std::move(next), change);
 }
 
-void Session::reset(Scene scene, const std::filesystem::path& file) {
+void Session::begin(Scene scene, const std::filesystem::path& file) {
   current_ = {std::move(scene), {}, nextSerial_++};
-  savedSerial_ = current_.serial;
   past_.clear();
   future_.clear();
   file_ = file;
+  ++sceneSerial_;
+}
+
+void Session::reset(Scene scene, const std::filesystem::path& file) {
+  begin(std::move(scene), file);
+  savedSerial_ = current_.serial;
   notify();
 }
 
 void Session::restore(Scene scene, const std::filesystem::path& file) {
-  current_ = {std::move(scene), {}, nextSerial_++};
+  begin(std::move(scene), file);
   savedSerial_ = nextSerial_++;  // Of no state.
-  past_.clear();
-  future_.clear();
-  file_ = file;
   notify();
 }
 

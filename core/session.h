@@ -28,6 +28,12 @@ class Session {
   /// A part for a loaded mesh, with the next colour of the palette; at the identity pose unless given.
   /// A name that is taken gets a number behind it.
   PartId addPart(PartGeometryPtr geometry, const std::string& name, const RigidTransform& worldFromPart = {});
+  struct NewPart {
+    PartGeometryPtr geometry;
+    std::string name;
+  };
+  /// Several at once, each as addPart does. None at all is no step.
+  std::vector<PartId> addParts(const std::vector<NewPart>& parts);
   /// A copy in the same place, unlocked, of the next colour, its name with a number behind it.
   PartId duplicatePart(PartId id) { return duplicate({{id}, {}}).parts.front(); }
   void deletePart(PartId id) { deleteNodes({{id}, {}}); }
@@ -51,8 +57,9 @@ class Session {
   void setVisible(PartId id, bool visible) { setVisible(std::vector{id}, visible); }
   void setLocked(PartId id, bool locked) { setLocked({{id}, {}}, locked); }
   void setMovingPart(std::optional<PartId> id);
-  /// Undo calls it by what changes: the mode, the springs, or how contact feels.
-  void setHaptics(const HapticSettings& haptics);
+  /// @param label  What undo calls it; empty: by what changes, which is the mode, the springs, or how contact
+  ///               feels.
+  void setHaptics(const HapticSettings& haptics, const std::string& label = {});
 
   /// Moves parts rigidly together, so that one of them, the lead, comes to stand exactly there.
   void moveParts(const std::vector<PartId>& ids, PartId lead, const RigidTransform& worldFromLead,
@@ -88,6 +95,8 @@ class Session {
   /// Writes the scene and takes that file as its own. Throws FileError.
   void save(const std::filesystem::path& file);
   const std::filesystem::path& file() const noexcept { return file_; }
+  /// Another number after each reset and restore: the ids of before then mean other parts, or none.
+  std::uint64_t sceneSerial() const noexcept { return sceneSerial_; }
   /// Whether the scene differs from what was last saved or reset; undo back to there makes it false again.
   bool isModified() const noexcept { return current_.serial != savedSerial_; }
 
@@ -128,6 +137,8 @@ class Session {
   void changeUnlocked(const std::vector<PartId>& ids, const std::string& verb,
                       const std::function<void(Part&)>& change);
   void notify() const;
+  /// Another scene takes the place of this one, and there is nothing to undo.
+  void begin(Scene scene, const std::filesystem::path& file);
   /// One state back or on, without telling.
   void stepBack();
   void stepOn();
@@ -135,7 +146,7 @@ class Session {
   State current_;
   std::deque<State> past_;     ///< Oldest first.
   std::vector<State> future_;  ///< The next to redo last.
-  std::uint64_t savedSerial_ = 0, nextSerial_ = 1;
+  std::uint64_t savedSerial_ = 0, nextSerial_ = 1, sceneSerial_ = 0;
   std::filesystem::path file_;
   std::vector<std::function<void()>> listeners_;
 };

@@ -8,6 +8,7 @@
 #include <QToolButton>
 
 #include "core/session.h"
+#include "ui/split_button.h"
 #include "ui/theme.h"
 #include "ui/unit_menu.h"
 
@@ -42,6 +43,9 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   stop->setToolTip(tr("Stop the servo and leave the part where it is (F6)"));
   letGo = make("letGo", tr("&Let go"), "hand-off", QKeySequence(Qt::Key_F7));
   letGo->setToolTip(tr("The manual hand goes back to where the part is, and presses no more (F7)"));
+  clutch = makeSwitch("clutch", tr("&Clutch"), "clutch", false);
+  clutch->setShortcut(QKeySequence(Qt::Key_F9));
+  clutch->setToolTip(tr("The part stays while you bring the device back to where it is handy (F9)"));
   feelSettings = make("feelSettings", tr("Feel s&ettings…"), "springs");
   feelSettings->setToolTip(tr("Mode, cutoff, margin, stiffness, weight and workspace"));
 
@@ -59,7 +63,7 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   wrench = makeSwitch("wrench", tr("Force and torque &arrows"), "wrench-arrows", true);
   about = make("about", tr("&About Nearfit"), "about");
   // Also from the feel dialog, which stays open beside the window.
-  for (QAction* action : {undo, redo, start, stop, letGo})
+  for (QAction* action : {undo, redo, start, stop, letGo, clutch})
     action->setShortcutContext(Qt::ApplicationShortcut);
   recentMenu = new QMenu(tr("Open &recent"), window);
   reloadMenu = new QMenu(tr("Re&load"), window);
@@ -101,7 +105,7 @@ void Actions::setUpMenus(QMainWindow& window) {
   window.menuBar()->addMenu(placeMenu);
   viewMenu = view;
   QMenu* feel = feelMenu = window.menuBar()->addMenu(tr("F&eel"));
-  feel->addActions({start, stop, letGo, feel->addSeparator(), feelSettings});
+  feel->addActions({start, stop, letGo, clutch, feel->addSeparator(), feelSettings});
   helpMenu = window.menuBar()->addMenu(tr("&Help"));
   helpMenu->addAction(about);
 }
@@ -119,14 +123,31 @@ void Actions::setUpToolBar(QMainWindow& window) {
   addGroup({addParts, duplicate, remove});
   addGroup({undo, redo});
   addGroup({takeInHand, start, stop, feelSettings});
-  addGroup({fit, viewIso, viewFront, viewRight, viewTop});
+  addGroup({fit});
+  addViews(*bar);
   addGroup({seeThrough, edges, minima, contacts, hand, wrench});
   addGroup({exportPlacement});
-  for (QAction* action : {addParts, start, stop}) {
+  for (QAction* action : {addParts, start}) {
     auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action));
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   }
   window.setContextMenuPolicy(Qt::NoContextMenu);
+}
+
+/// One button for all of them, which shows the last one that was chosen: a narrow window has room for the
+/// rest.
+void Actions::addViews(QToolBar& bar) {
+  auto* button = new QToolButton(&bar);
+  button->setObjectName(QStringLiteral("viewsButton"));
+  auto* menu = new QMenu(button);
+  menu->addActions({viewIso, viewFront, viewRight, viewTop});
+  button->setMenu(menu);
+  button->setPopupMode(QToolButton::MenuButtonPopup);
+  button->setDefaultAction(viewIso);
+  button->setStyleSheet(QString::fromLatin1(kSplitButton));
+  for (QAction* view : menu->actions())
+    connect(view, &QAction::triggered, button, [button, view] { button->setDefaultAction(view); });
+  bar.addWidget(button);
 }
 
 void Actions::update(const Session& session, const Availability& availability) {
@@ -155,6 +176,7 @@ void Actions::update(const Session& session, const Availability& availability) {
   start->setEnabled(isFree && availability.canStart && !availability.isServoRunning);
   stop->setEnabled(availability.isServoRunning);
   letGo->setEnabled(availability.isServoRunning && availability.isHandManual);
+  clutch->setEnabled(availability.isServoRunning && availability.isHandDevice);
   selectAll->setEnabled(hasParts);
   selectNone->setEnabled(availability.hasSelection);
   for (QAction* action : {fit, viewIso, viewFront, viewRight, viewTop})

@@ -6,6 +6,7 @@
 class QAction;
 class QMainWindow;
 class QMenu;
+class QToolBar;
 
 namespace nearfit {
 class Session;
@@ -23,7 +24,7 @@ class Actions : public QObject {
 
   QAction *newScene, *open, *openDemo, *addParts, *save, *saveAs, *exportPlacement, *quit;
   QAction *undo, *redo, *duplicate, *rename, *recolour, *takeInHand, *remove, *selectAll, *selectNone;
-  QAction *start, *stop, *letGo, *feelSettings;
+  QAction *start, *stop, *letGo, *clutch, *feelSettings;
   QAction *fit, *fitSelection, *viewIso, *viewFront, *viewRight, *viewTop;
   QAction *seeThrough, *edges, *minima, *contacts, *hand, *wrench;
   QAction* about;
@@ -45,12 +46,14 @@ class Actions : public QObject {
     bool canStart = false;
     bool isServoRunning = false;
     bool isHandManual = false;  ///< While the servo runs.
+    bool isHandDevice = false;  ///< So too.
   };
   void update(const Session& session, const Availability& availability);
 
  private:
   QAction* make(const char* name, const QString& text, const QString& iconName,
                 const QKeySequence& keys = {});
+  void addViews(QToolBar& bar);
   QAction* makeSwitch(const char* name, const QString& text, const QString& iconName, bool isOn);
 };
 

@@ -45,7 +45,7 @@ QColor textColour() {
 }
 
 QColor mutedColour() {
-  return isThemeDark() ? QColor(0x9b, 0xa7, 0xb3) : colours::kMutedText;
+  return themed(colours::kMutedText);
 }
 
 }  // namespace

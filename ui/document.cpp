@@ -206,15 +206,22 @@ void Document::addParts(const QStringList& files, double metresPerUnit) {
   });
 }
 
-void Document::finishParts(const std::vector<PartGeometryPtr>& geometries, const QStringList& problems) {
+void Document::finishParts(const std::vector<PartGeometryPtr>& geometries, const QStringList& loadProblems) {
   QStringList warnings;
-  std::vector<PartId> added;
+  std::vector<Session::NewPart> parts;
   for (const PartGeometryPtr& geometry : geometries) {
-    added.push_back(session_.addPart(geometry, geometry->file.stem().string()));
+    parts.push_back({geometry, fromPath(geometry->file.stem()).toStdString()});
     for (const std::string& warning : geometry->report.warnings) {
       warnings << fromPath(geometry->file.filename()) + QStringLiteral(": ") +
                       QString::fromStdString(warning);
     }
+  }
+  std::vector<PartId> added;
+  QStringList problems = loadProblems;
+  try {
+    added = session_.addParts(parts);
+  } catch (...) {
+    problems << describe({}, std::current_exception()).details;
   }
   if (!warnings.isEmpty()) emit noted(warnings.join(QStringLiteral("  ")));
   if (!problems.isEmpty()) {

@@ -2,21 +2,11 @@
 
 #include <QComboBox>
 #include <QObject>
-#include <algorithm>
 
 #include "core/scene/haptic_limits.h"
 
 namespace nearfit::ui {
 namespace {
-
-SpringParameters withLaw(SpringParameters springs, SpringLaw law) noexcept {
-  if (springs.law == law) return springs;
-  springs.law = law;
-  springs.stiffness = law == SpringLaw::Printed
-                          ? std::min(4.0 * springs.stiffness / springs.cutoff, kMaxPrintedStiffness)
-                          : std::min(0.25 * springs.stiffness * springs.cutoff, kMaxStiffness);
-  return springs;
-}
 
 QString nameOf(FeelMode mode) {
   switch (mode) {

@@ -16,14 +16,35 @@ QString figures(double value) {
   return QString::number(value, 'f', decimals);
 }
 
+/// Three figures also below one: 0.0484.
+QString threeFigures(double value) {
+  const double magnitude = std::abs(value);
+  if (magnitude == 0.0 || magnitude >= 0.9995) return figures(value);
+  const int zeros = static_cast<int>(std::floor(-std::log10(magnitude)));
+  return QString::number(value, 'f', zeros + 3);
+}
+
 }  // namespace
 
 QString formatLength(double metres) {
+  return formatLength(metres, shownLengthUnit());
+}
+
+QString formatLength(double metres, LengthUnit unit) {
+  constexpr double kMicrons = 1e6;
   if (!std::isfinite(metres)) return QStringLiteral("–");
   const double magnitude = std::abs(metres);
-  if (magnitude >= 1.0) return figures(metres) + QStringLiteral(" m");
-  if (magnitude >= 1e-4 || magnitude == 0.0) return figures(metres * 1e3) + QStringLiteral(" mm");
-  return figures(metres * 1e6) + QChar(' ') + kMicro + QChar('m');
+  if (unit == LengthUnit::Millimetre && magnitude >= 1.0) return figures(metres) + QStringLiteral(" m");
+  const double number = metres / metresOf(unit);
+  const bool isInch = unit == LengthUnit::Inch;
+  // A tenth of a millimetre, or a thousandth of an inch.
+  const bool isShort = isInch ? std::abs(number) < 1e-3 : magnitude < 1e-4;
+  if (isShort && magnitude > 0.0) {
+    return figures(kMicrons * (isInch ? number : metres)) + QChar(' ') + kMicro +
+           QLatin1String(isInch ? "in" : "m");
+  }
+  const QString text = unit == LengthUnit::Millimetre ? figures(number) : threeFigures(number);
+  return text + QChar(' ') + symbolOf(unit);
 }
 
 QString formatForce(double newtons) {

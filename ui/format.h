@@ -2,13 +2,17 @@
 
 #include <QString>
 
+#include "ui/length_unit.h"
+
 namespace nearfit::ui {
 
-/// A length as an engineer writes it: "12.34 mm", "850 um" with the micro sign, "1.20 m"; three to four
-/// figures.
-/// "-" when it is not finite.
+/// A length as an engineer writes it, in the unit that the user has chosen (shownLengthUnit); three to four
+/// figures. In millimetres what is long or short has a unit of its own: "12.34 mm", "850 um" with the micro
+/// sign, "1.20 m"; in the others what is short alone: "1.23 cm", "0.484 in", "850 uin". "-" when it is not
+/// finite.
 /// @param metres  [m]
 QString formatLength(double metres);
+QString formatLength(double metres, LengthUnit unit);
 /// "3.42 N"; `newtons` in [N].
 QString formatForce(double newtons);
 /// "12.3 mN·m" or "1.20 N·m"; `newtonMetres` in [N m].

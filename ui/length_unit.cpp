@@ -5,6 +5,22 @@
 #include <cmath>
 
 namespace nearfit::ui {
+namespace {
+
+LengthUnit& shown() noexcept {
+  static LengthUnit unit = LengthUnit::Millimetre;
+  return unit;
+}
+
+}  // namespace
+
+LengthUnit shownLengthUnit() noexcept {
+  return shown();
+}
+
+void setShownLengthUnit(LengthUnit unit) noexcept {
+  shown() = unit;
+}
 
 QString symbolOf(LengthUnit unit) {
   switch (unit) {

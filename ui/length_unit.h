@@ -11,6 +11,10 @@ enum class LengthUnit { Millimetre, Centimetre, Metre, Inch };
 constexpr std::array<LengthUnit, 4> kLengthUnits = {LengthUnit::Millimetre, LengthUnit::Centimetre,
                                                     LengthUnit::Metre, LengthUnit::Inch};
 
+/// The one that the user has chosen; kept by the preferences from run to run.
+LengthUnit shownLengthUnit() noexcept;
+void setShownLengthUnit(LengthUnit unit) noexcept;
+
 /// Short: "mm", "cm", "m", "in".
 QString symbolOf(LengthUnit unit);
 /// For menus: "Millimetres".

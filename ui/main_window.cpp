@@ -15,7 +15,7 @@
 #include "ui/dialogs/error_box.h"
 #include "ui/dialogs/feel_dialog.h"
 #include "ui/document.h"
-#include "ui/feel_mode.h"
+#include "ui/feel/preset_store.h"
 #include "ui/hand_drag.h"
 #include "ui/history/history_panel.h"
 #include "ui/manners/manners.h"
@@ -52,7 +52,8 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   document_ = std::make_unique<Document>(session, shapes, this);
   setCentralWidget(viewport_);
   readout_ = new StatusReadout(statusBar());
-  feelDialog_ = new FeelDialog(this);
+  presets_ = new PresetStore(PresetStore::usualFile(), this);
+  feelDialog_ = new FeelDialog(*presets_, this);
   setUpPanels();
   actions_->setUpMenus(*this);
   treeActions_->addTo(*actions_->editMenu);
@@ -91,7 +92,7 @@ void MainWindow::setUpPanels() {
   auto* settings = new QPushButton(actions_->feelSettings->icon(), tr("Feel settings…"), this);
   settings->setObjectName(QStringLiteral("settingsButton"));
   connect(settings, &QPushButton::clicked, actions_->feelSettings, &QAction::trigger);
-  feelPanel_ = new FeelPanel(settings, this);
+  feelPanel_ = new FeelPanel({settings, actions_->clutch, *presets_}, this);
   QDockWidget* parts = addDock(QStringLiteral("partsDock"), tr("Parts"), partsPanel_, Qt::LeftDockWidgetArea);
   auto* history = new HistoryPanel(session_, this);
   tabifyDockWidget(parts,
@@ -151,7 +152,7 @@ void MainWindow::showScene() {
   viewport_->setScene(scene);
   partsPanel_->setScene(scene);
   feelDialog_->showScene(scene);
-  feelPanel_->showMode(feelModeOf(scene.haptics()));
+  feelPanel_->showSettings(scene.haptics());
   welcome_->setVisible(scene.parts().empty());
   showSelection();
 }
@@ -187,6 +188,7 @@ void MainWindow::updateActions() {
   availability.canStart = scene.movingPart().has_value() && scene.parts().size() > 1;
   availability.isServoRunning = servo_.isTaken();
   availability.isHandManual = servo_.isRunning && servo_.hand == Hand::Manual;
+  availability.isHandDevice = servo_.isRunning && servo_.hand == Hand::Device;
   actions_->update(session_, availability);
   treeActions_->update(document_->isBusy());
   actions_->openDemo->setEnabled(!document_->isBusy() && !demoScene_.isEmpty());
@@ -203,6 +205,7 @@ void MainWindow::showServoStatus(const ServoStatus& status) {
                           status.hand != servo_.hand;
   servo_ = status;
   feelPanel_->showStatus(status);
+  actions_->clutch->setChecked(status.isClutched);
   readout_->showStatus(status);
   feelDialog_->setDevice(status.device);
   takingAway_->showTaken(status.isTaken());

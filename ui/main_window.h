@@ -25,6 +25,7 @@ class Manners;
 class PartsPanel;
 class PlacingTools;
 class PosePanel;
+class PresetStore;
 class Recovery;
 class Selection;
 class StatusReadout;
@@ -74,6 +75,7 @@ class MainWindow : public QMainWindow {
   /// @param device  Of the hand of a device: DeviceChoice::id.
   void servoStartRequested(nearfit::ui::Hand hand, const QString& device);
   void armRequested(bool isArmed);
+  void clutchRequested(bool isClutched);
   void calibrateRequested();
   void resetRequested();
   void servoStopRequested();
@@ -103,6 +105,7 @@ class MainWindow : public QMainWindow {
   void connectViewActions();
   void connectPanels();
   void connectFeel();
+  void connectPresets();
   void connectHand();
   void connectPlacing();
   /// Tells the tools for placing what the servo holds.
@@ -135,7 +138,8 @@ class MainWindow : public QMainWindow {
   /// The manual hand alone, turned about the part's centre of mass; nothing happens with others.
   void dragHand(const glm::dvec3& shift, const glm::dquat& turn);
   void letGo();
-  void changeHaptics(const HapticSettings& settings);
+  /// @param label  What undo calls it; empty: by what changes.
+  void changeHaptics(const HapticSettings& settings, const QString& label = {});
   void restartServo();
   void showAbout();
   void beginTour();
@@ -150,6 +154,7 @@ class MainWindow : public QMainWindow {
   PosePanel* posePanel_;
   FeelPanel* feelPanel_;
   FeelDialog* feelDialog_;
+  PresetStore* presets_;
   AlignTool* align_ = nullptr;
   DropTool* drop_ = nullptr;
   StatusReadout* readout_;

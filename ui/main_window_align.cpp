@@ -9,6 +9,7 @@
 #include "ui/main_window.h"
 #include "ui/placing/align_tool.h"
 #include "ui/placing/drop_tool.h"
+#include "ui/placing/placing_tools.h"
 #include "ui/selection.h"
 #include "ui/viewport.h"
 
@@ -23,8 +24,11 @@ void MainWindow::setUpAligning() {
   actions_->placeMenu->addSeparator();
   actions_->placeMenu->addAction(align_->action());
   drop_->addTo(*actions_->placeMenu);
-  findChild<QToolBar*>(QStringLiteral("toolBar"))->addAction(align_->action());
-  connect(align_, &AlignTool::failed, this, &MainWindow::showFailure);
+  findChild<QToolBar*>(QStringLiteral("placingBar"))->addAction(align_->action());
+  connect(align_, &AlignTool::moveWanted, placing_,
+          [this](const std::vector<PartId>& parts, PartId lead, const RigidTransform& worldFromLead) {
+            placing_->bring(parts, lead, worldFromLead, "Align");
+          });
   connect(align_, &AlignTool::noted, this, &MainWindow::showNote);
   connect(drop_, &DropTool::failed, this, &MainWindow::showFailure);
   connect(drop_, &DropTool::noted, this, &MainWindow::showNote);

@@ -47,6 +47,7 @@ void MainWindow::connectPlacing() {
     showFailure(failure);
     showScene();
   });
+  connect(placing_, &PlacingTools::noted, this, &MainWindow::showNote);
   connect(placing_, &PlacingTools::hierarchiesWanted, this,
           [this] { document_->prepareHierarchies([](bool) {}); });
   // A drag that is still settling is a step before the one that is asked for.

@@ -136,7 +136,7 @@ QVariant PartsModel::partData(const Part& part, int column, int role) const {
     case Qt::AccessibleTextRole:
       return column == Name ? QString::fromStdString(part.name) : cell.toolTip(column);
     case Qt::ForegroundRole:
-      return part.isVisible ? QVariant() : QVariant(colours::kMutedText);
+      return part.isVisible ? QVariant() : QVariant(themed(colours::kMutedText));
     case Qt::FontRole: {
       QFont font;
       font.setBold(scene_.movingPart() == part.id);

@@ -8,8 +8,13 @@
 
 namespace nearfit::ui {
 
-Selection::Selection(Session& session, QObject* parent) : QObject(parent), session_(session) {
-  session_.onChange([this] { set(parts_, groups_); });
+Selection::Selection(Session& session, QObject* parent)
+    : QObject(parent), session_(session), sceneSerial_(session.sceneSerial()) {
+  session_.onChange([this] {
+    // What has the same ids in another scene is something else.
+    const bool isSameScene = std::exchange(sceneSerial_, session_.sceneSerial()) == session_.sceneSerial();
+    isSameScene ? set(parts_, groups_) : set({});
+  });
 }
 
 std::optional<PartId> Selection::current() const noexcept {

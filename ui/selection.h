@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -13,7 +14,8 @@ class Session;
 namespace nearfit::ui {
 
 /// Which parts of the session's scene are selected: the one truth that tree, view and commands share. Parts
-/// that leave the scene leave it by themselves; undo does not bring them back.
+/// that leave the scene leave it by themselves; undo does not bring them back. Another scene begins with
+/// none.
 class Selection : public QObject {
   Q_OBJECT
 
@@ -49,6 +51,7 @@ class Selection : public QObject {
 
  private:
   Session& session_;
+  std::uint64_t sceneSerial_;  ///< Of the scene that the parts are of.
   std::vector<PartId> parts_;
   std::vector<GroupId> groups_;
 };

@@ -27,8 +27,13 @@ struct ServoStatus {
   bool isUncalibrated = false;
   bool isArmable = false;  ///< It pushes, when it is armed.
   bool isArmed = false;
-  bool isFaulted = false;    ///< Until it is reset.
-  bool isBusy = false;       ///< It is being armed, calibrated or reset.
+  bool isFaulted = false;   ///< Until it is reset.
+  bool isBusy = false;      ///< It is being armed, calibrated or reset.
+  bool isClutched = false;  ///< By the window's clutch.
+  /// Of a device that reports its poses: how many come in a second [Hz], how far the time between two is off
+  /// its mean [s], and how many are missing or damaged since it was taken in hand. 0 where it does not.
+  double reportRate = 0.0, reportJitter = 0.0;
+  std::uint64_t reportsLost = 0;
   double rate = 0.0;         ///< Ticks per second over the last half second or so [Hz].
   DeviceLimits device;       ///< Of what is in hand, or the usual ones.
   double nominalRate = 0.0;  ///< What the rate should be [Hz].

@@ -69,6 +69,7 @@ constexpr std::pair<const char*, const char*> kDarkColours[] = {
     {"#b34a00", "#ffab66"},
     {"#d82c20", "#ff7a6e"},
     {"#c8372d", "#ff7a6e"},
+    {"#e03b2f", "#ff7a6e"},
     {"#fdf0e3", "#3b2c1c"},
     {"#e8c39b", "#7a5a34"},
     {"#c9d2db", "#414c57"},
@@ -234,6 +235,10 @@ QString inDarkColours(const QString& light) {
     at += std::max(length, 1);
   }
   return dark;
+}
+
+QColor themed(const QColor& light) {
+  return isThemeDark() ? QColor(inDarkColours(light.name())) : light;
 }
 
 QIcon icon(const QString& name) {

@@ -38,6 +38,10 @@ bool isThemeDark();
 /// A style sheet or SVG with each colour of the light theme replaced by that of the dark one.
 QString inDarkColours(const QString& light);
 
+/// A colour of the light theme as it is in the present one: for what is drawn, or given to a model's reader,
+/// without a style sheet.
+QColor themed(const QColor& light);
+
 /// Style, palette, window icon and style sheet of the whole application.
 void applyTheme(QApplication& application);
 /// An icon of resources/icons by its file name without ending; follows the theme.

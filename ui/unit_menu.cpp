@@ -10,6 +10,7 @@ namespace nearfit::ui {
 UnitMenu::UnitMenu(QWidget* window)
     : QMenu(tr("&Unit of length"), window), window_(window), group_(new QActionGroup(this)) {
   setObjectName(QStringLiteral("unitMenu"));
+  setShownLengthUnit(Preferences::lengthUnit());
   for (const LengthUnit unit : kLengthUnits) {
     QAction* action = addAction(tr("%1 (%2)").arg(nameOf(unit), symbolOf(unit)));
     action->setObjectName(QStringLiteral("unit-") + symbolOf(unit));
@@ -22,8 +23,12 @@ UnitMenu::UnitMenu(QWidget* window)
 
 void UnitMenu::choose(LengthUnit unit) {
   Preferences::setLengthUnit(unit);
+  setShownLengthUnit(unit);
   for (NumberField* field : window_->findChildren<NumberField*>())
     field->setLengthUnit(unit);
+  // Lengths are written anew where they are drawn.
+  for (QWidget* widget : window_->findChildren<QWidget*>())
+    widget->update();
   emit unitChanged(unit);
 }
 

@@ -47,6 +47,7 @@ void Application::wire() {
   connect(&window_, &ui::MainWindow::armRequested, &servo_, &ServoController::setArmed);
   connect(&window_, &ui::MainWindow::calibrateRequested, &servo_, &ServoController::calibrate);
   connect(&window_, &ui::MainWindow::resetRequested, &servo_, &ServoController::reset);
+  connect(&window_, &ui::MainWindow::clutchRequested, &servo_, &ServoController::setClutched);
   connect(&window_, &ui::MainWindow::servoStopRequested, &servo_, &ServoController::stop);
   connect(&window_, &ui::MainWindow::poseInHandRequested, &servo_, &ServoController::commitPose);
   servo_.setRate(ui::Preferences::rate());

@@ -119,12 +119,13 @@ void ServoController::runOn(DevicePtr device, std::unique_ptr<const ServoScene> 
   const Scene& scene = session_.scene();
   const ServoParameters parameters = parametersFor(scene, *device);
   moving_ = servoScene->moving.id;
+  sceneSerial_ = session_.sceneSerial();
   mode_ = scene.haptics().mode;
   loop_.stop();
   rows_.begin();
   loop_.startWithOpen(*device, std::move(servoScene), parameters, rows_.queue());
   loopDevice_ = device_ = std::move(device);
-  meter_.restart();
+  meter_.restart(loopDevice_->counters());
 }
 
 void ServoController::showRunning() {
@@ -225,6 +226,15 @@ void ServoController::reset() {
           [](HapticDevice& device) { device.reset(); });
 }
 
+void ServoController::setClutched(bool isClutched) {
+  // A hand without a device has nothing to bring elsewhere.
+  if (isRunning() && status_.hand == ui::Hand::Device) {
+    loop_.setClutched(isClutched);
+    status_.isClutched = isClutched;
+  }
+  emit statusChanged(status_);
+}
+
 void ServoController::setRate(const RateSettings& settings) {
   rate_ = settings;
   if (auto* driven = dynamic_cast<RateDriven*>(device_.get())) driven->setRate(settings);
@@ -254,7 +264,7 @@ void ServoController::followSession() {
   const Scene& scene = session_.scene();
   const Part* part = scene.find(moving_);
   // What was in hand is gone or no longer what moves: there is no pose to keep.
-  if (part == nullptr || scene.movingPart() != moving_) {
+  if (part == nullptr || scene.movingPart() != moving_ || session_.sceneSerial() != sceneSerial_) {
     halt();
     return;
   }
@@ -290,7 +300,7 @@ void ServoController::poll() {
   }
   const bool isNew = takeDeviceState(), isMeasured = meter_.isDue();
   if (isMeasured) {
-    meter_.measure(loop_, status_);
+    meter_.measure(loop_, loopDevice_->counters(), status_);
     rows_.tell();
   }
   if (isNew || isMeasured) emit statusChanged(status_);

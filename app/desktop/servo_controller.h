@@ -51,6 +51,8 @@ class ServoController : public QObject {
   void calibrate();
   /// HapticDevice::reset.
   void reset();
+  /// The part stays, and nothing is felt, while the device in hand is brought elsewhere.
+  void setClutched(bool isClutched);
   /// Of devices that are driven by pushing: of this one and all later ones.
   void setRate(const nearfit::RateSettings& settings);
   /// Puts the pose in hand into the session and goes on.
@@ -105,7 +107,8 @@ class ServoController : public QObject {
   QTimer timer_;
   ServoMeter meter_;
   PartId moving_{};
-  HapticMode mode_{};  ///< That the hand was made for.
+  std::uint64_t sceneSerial_ = 0;  ///< Of the session's scene that it is of.
+  HapticMode mode_{};              ///< That the hand was made for.
   bool isCommitting_ = false;
   ui::ServoStatus status_;
   DeviceWorker worker_;  ///< Ends first: its jobs tell of themselves here.

@@ -2,8 +2,9 @@
 
 namespace nearfit::desktop {
 
-void ServoMeter::restart() {
+void ServoMeter::restart(const ReportCounters& reports) {
   since_.start();
+  first_ = last_ = reports;
   ticks_ = 0;
 }
 
@@ -13,9 +14,14 @@ void ServoMeter::see(const ServoSnapshot& snapshot) {
   time_ = snapshot.time;
 }
 
-void ServoMeter::measure(const ServoLoop& loop, ui::ServoStatus& status) {
-  since_.restart();
+void ServoMeter::measure(const ServoLoop& loop, const ReportCounters& reports, ui::ServoStatus& status) {
+  constexpr double kMilli = 1e-3;
+  const double passed = kMilli * static_cast<double>(since_.restart());
   const ServoStatistics statistics = loop.statistics();
+  status.reportRate = passed > 0.0 ? static_cast<double>(reports.poses - last_.poses) / passed : 0.0;
+  status.reportJitter = statistics.reportJitter;
+  status.reportsLost = reports.missing - first_.missing + reports.rejected - first_.rejected;
+  last_ = reports;
   // From snapshots: the statistics come in steps of many ticks, a tenth of what half a second holds.
   const ServoSnapshot& snapshot = loop.snapshot();
   const double seconds = snapshot.time - time_;

@@ -16,7 +16,8 @@ void ServoRows::take() {
   } catch (...) {
     abandon(std::current_exception());
   }
-  emit ticked(rows_);
+  const quint64 lost = queue_->dropped();
+  emit ticked(rows_, lost - std::exchange(lostTold_, lost));
 }
 
 void ServoRows::recordTo(const QString& file, bool isRunning) {

@@ -35,7 +35,8 @@ class ServoRows : public QObject {
 
  signals:
   /// Every tick since the last time, in order; many at a time where the window was busy.
-  void ticked(const std::vector<nearfit::MotionRow>& rows);
+  /// @param lost  Ticks after them that are missing, as the window was busy for too long.
+  void ticked(const std::vector<nearfit::MotionRow>& rows, quint64 lost);
   /// What is recorded, or will be (empty: nothing), and how long that is so far [s].
   void recordingChanged(const QString& file, double seconds);
   /// A recording is whole.
@@ -51,6 +52,7 @@ class ServoRows : public QObject {
   std::unique_ptr<MotionRecorder> recorder_;
   QString file_;
   quint64 lostBefore_ = 0;  ///< By the queue, before the recording began.
+  quint64 lostTold_ = 0;    ///< By the queue, as `ticked` has told.
 };
 
 }  // namespace nearfit::desktop

@@ -62,6 +62,7 @@ struct ServoSnapshot {
   std::uint32_t lateBodies = 0;
   bool isTruncated = false;
   bool isClamped = false;
+  bool isClutched = false;              ///< The hand repositions the device: the part stays.
   ServoFault fault = ServoFault::None;  ///< Latched: the wrench is zero until the servo is started anew.
   PartId moving{};
 

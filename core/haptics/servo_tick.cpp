@@ -73,6 +73,7 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
   isToBeShown_ = false;
   snapshot.moving = scene.moving.id;
   snapshot.mode = settings.mode;
+  snapshot.isClutched = input.isClutched;
   if (scene.moving.id != moving_) {
     hasPose_ = false;
     shownReach_.reset();

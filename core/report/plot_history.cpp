@@ -75,6 +75,16 @@ void PlotHistory::add(const PlotSample& sample) {
   first_ = (first_ + 1) % capacity_;
 }
 
+void PlotHistory::addGap() {
+  // Between the newest and the first that can come after what is missing.
+  constexpr double kHalfTick = 5e-4;
+  if (isEmpty()) return;
+  PlotSample nothing;
+  nothing.time = endTime() + kHalfTick;
+  nothing.values.fill(std::numeric_limits<float>::quiet_NaN());
+  add(nothing);
+}
+
 void PlotHistory::clear() noexcept {
   samples_.clear();
   first_ = 0;

@@ -45,6 +45,8 @@ class PlotHistory {
 
   /// A sample that is earlier than the one before begins a new run: what was there is forgotten.
   void add(const PlotSample& sample);
+  /// Samples are missing after the newest: lines break there.
+  void addGap();
   void clear() noexcept;
 
   std::size_t size() const noexcept { return samples_.size(); }

@@ -70,6 +70,15 @@ double defaultMargin(double cutoff) noexcept {
   return std::clamp(kShareOfCutoff * cutoff, kMinMargin, kMaxMargin);
 }
 
+SpringParameters withLaw(SpringParameters springs, SpringLaw law) noexcept {
+  if (springs.law == law) return springs;
+  springs.law = law;
+  springs.stiffness = law == SpringLaw::Printed
+                          ? std::min(4.0 * springs.stiffness / springs.cutoff, kMaxPrintedStiffness)
+                          : std::min(0.25 * springs.stiffness * springs.cutoff, kMaxStiffness);
+  return springs;
+}
+
 void checkHaptics(const HapticSettings& settings) {
   checkSprings(settings.springs);
   checkProxy(settings.proxy, settings.springs.cutoff);

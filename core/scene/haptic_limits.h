@@ -22,6 +22,10 @@ constexpr double kMaxGravity = 1e3;  ///< Length [m/s^2]: a hundred times the ea
 /// A margin that suits a cutoff where nobody has chosen one: 1 % of it, within the limits.
 double defaultMargin(double cutoff) noexcept;
 
+/// Springs of another law. The stiffness is converted so that the most a spring pushes stays what it was (k c
+/// for the linear law, k c^2 / 4 as printed), within the limits.
+SpringParameters withLaw(SpringParameters springs, SpringLaw law) noexcept;
+
 /// Throws UsageError when a value is not finite or out of its limits, the margin is larger than the cutoff,
 /// or the orientation's length is off 1 by more than kQuaternionSlack. `where` names the value as scene files
 /// do: "springs.cutoff", "coupling.rotationalDamping".

@@ -14,6 +14,7 @@
 #include <time.h>
 
 #include "core/error.h"
+#include "core/realtime/pace_meter.h"
 #include "core/realtime/triple_buffer.h"
 #include "device/servo/monotonic_clock.h"
 #include "device/servo/realtime_thread.h"
@@ -81,6 +82,7 @@ struct ServoLoop::Shared {
   std::binary_semaphore started{0};
   std::atomic<bool> stopRequested{false};
   std::atomic<bool> isRunning{false};
+  std::atomic<bool> isClutched{false};
 
   std::optional<SceneRefresher> refresher;  ///< Gone, with the scenes that it holds, once stopped.
   TripleBuffer<ServoParameters> parameters;
@@ -90,6 +92,7 @@ struct ServoLoop::Shared {
   // The servo thread's own while it runs.
   ServoTick tick;
   ServoStatistics statistics;
+  PaceMeter reports;
   Nanoseconds lastBegin = 0;  ///< Of a tick; 0 before the first.
 
   LatencyHistogram lastRefreshTimes;  ///< Once stopped; the controlling thread's.
@@ -160,7 +163,13 @@ bool ServoLoop::Shared::tickOnce(bool hasReport, Nanoseconds sinceStart, double 
   HandleInput handle;
   if (!device.readHandle(handle)) return false;
   // Behind the report's arrival.
-  if (hasReport) statistics.lateness.record(handle.age);
+  if (hasReport) {
+    statistics.lateness.record(handle.age);
+    reports.see(toSeconds(sinceStart) - handle.age);
+    statistics.reportInterval = reports.interval();
+    statistics.reportJitter = reports.jitter();
+  }
+  handle.isClutched = handle.isClutched || isClutched.load(std::memory_order_relaxed);
   parameters.update();
   ServoParameters limited = parameters.front();
   limited.limits = lower(limited.limits, deviceLimits);
@@ -244,6 +253,10 @@ void ServoLoop::setScene(std::unique_ptr<const ServoScene> scene) {
 
 void ServoLoop::setParameters(const ServoParameters& parameters) {
   if (shared_) shared_->parameters.publish(parameters);
+}
+
+void ServoLoop::setClutched(bool isClutched) {
+  if (shared_) shared_->isClutched.store(isClutched, std::memory_order_relaxed);
 }
 
 bool ServoLoop::pollSnapshot() {

@@ -17,6 +17,8 @@ struct ServoStatistics {
   LatencyHistogram roundTrip;  ///< From a report's arrival to its wrench handed over, where reports pace it.
   LatencyHistogram queryTime;
   LatencyHistogram refreshTime;  ///< Of the thread beside that searches ahead, a time a search.
+  double reportInterval = 0.0;   ///< Of late, where reports pace it [s]; else 0.
+  double reportJitter = 0.0;     ///< Mean distance of that from its mean [s].
   std::uint64_t ticks = 0;
   /// Ticks that searched for themselves, as the thread beside had not caught up with the motion.
   std::uint64_t lateTicks = 0;
@@ -55,6 +57,9 @@ class ServoLoop {
   /// old one is freed off the servo thread, later. Throws UsageError when `scene` is null.
   void setScene(std::unique_ptr<const ServoScene> scene);
   void setParameters(const ServoParameters& parameters);
+  /// While it is on, the part stays and nothing is felt: the hand brings the device elsewhere, as by a clutch
+  /// button that the device may have besides. Off after each start.
+  void setClutched(bool isClutched);
 
   /// The newest snapshot; true when it is another than at the last call. One reader.
   bool pollSnapshot();

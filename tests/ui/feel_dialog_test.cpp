@@ -11,6 +11,8 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/scene/haptic_limits.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/feel/preset_store.h"
 #include "ui/feel_mode.h"
 
 using namespace nearfit;
@@ -28,6 +30,7 @@ class FeelDialogTest : public QObject {
   void changingTheLawKeepsTheGreatestPush();
   void tellsTheBoundOfTheDevice();
   void wishesBeyondTheBoundAreShownAsHeld();
+  void aPresetBeyondTheBoundIsShownAsHeld();
   void automaticCouplingShowsWhatIsInForce();
   void springsTellWhatIsEnforcedAndWhatIsNot();
   void springsBeyondWhatIsPassiveAreMarked();
@@ -55,6 +58,8 @@ class FeelDialogTest : public QObject {
   }
   QString note(const char* name) { return widget<QLabel>(name)->text(); }
 
+  test::TemporaryFolder folder_;
+  std::unique_ptr<ui::PresetStore> presets_;
   std::unique_ptr<ui::FeelDialog> dialog_;
   std::optional<HapticSettings> edited_;
 };
@@ -71,7 +76,9 @@ HapticSettings withSprings(const SpringParameters& springs) {
 }  // namespace
 
 void FeelDialogTest::init() {
-  dialog_ = std::make_unique<ui::FeelDialog>();
+  dialog_.reset();
+  presets_ = std::make_unique<ui::PresetStore>(folder_.path() / "presets.json");
+  dialog_ = std::make_unique<ui::FeelDialog>(*presets_);
   edited_.reset();
   connect(dialog_.get(), &ui::FeelDialog::settingsEdited, this,
           [this](const HapticSettings& settings) { edited_ = settings; });
@@ -184,6 +191,24 @@ void FeelDialogTest::wishesBeyondTheBoundAreShownAsHeld() {
   QCOMPARE(edited_->coupling.stiffness, 5000.0);
   QCOMPARE(note("couplingStiffnessNote"), QStringLiteral("held to 2000 N/m"));
   QCOMPARE(note("rotationalStiffnessNote"), QStringLiteral("at most 2 N·m/rad"));
+}
+
+void FeelDialogTest::aPresetBeyondTheBoundIsShownAsHeld() {
+  std::optional<HapticSettings> chosen;
+  connect(dialog_.get(), &ui::FeelDialog::presetChosen, this,
+          [&](const HapticSettings& settings) { chosen = settings; });
+  show({});
+  DeviceLimits weak;
+  weak.damping = 0.2;
+  dialog_->setDevice(weak);
+  auto* presets = widget<QComboBox>("preset");
+  presets->setFocus();
+  QTest::keyClick(presets, Qt::Key_Up);
+  QCOMPARE(presets->currentText(), QStringLiteral("Medium"));
+  QVERIFY(chosen && chosen->coupling.stiffness == 600.0);
+  // 2 (0.2 - 0.1) / 1 ms.
+  QCOMPARE(note("couplingStiffnessNote"), QStringLiteral("held to 200 N/m"));
+  QVERIFY(!edited_);
 }
 
 void FeelDialogTest::automaticCouplingShowsWhatIsInForce() {

@@ -11,6 +11,7 @@ class FormatTest : public QObject {
  private slots:
   void lengthsTakeTheUnitOfTheirSize();
   void lengthsKeepThreeFigures();
+  void lengthsAreInTheUnitThatWasChosen();
   void noLengthIsADash();
   void smallTorquesAreInMillinewtonMetres();
   void massesAndEnergiesTakeTheUnitOfTheirSize();
@@ -29,6 +30,21 @@ void FormatTest::lengthsKeepThreeFigures() {
   QCOMPARE(formatLength(0.01234), QStringLiteral("12.3 mm"));
   QCOMPARE(formatLength(0.1234), QStringLiteral("123 mm"));
   QCOMPARE(formatLength(0.009996), QStringLiteral("10.0 mm"));
+}
+
+void FormatTest::lengthsAreInTheUnitThatWasChosen() {
+  QCOMPARE(formatLength(0.0254, LengthUnit::Inch), QStringLiteral("1.00 in"));
+  QCOMPARE(formatLength(0.00123, LengthUnit::Inch), QStringLiteral("0.0484 in"));
+  QCOMPARE(formatLength(3.0, LengthUnit::Inch), QStringLiteral("118 in"));
+  QCOMPARE(formatLength(2.54e-6, LengthUnit::Inch), QStringLiteral("100 µin"));
+  QCOMPARE(formatLength(0.0, LengthUnit::Inch), QStringLiteral("0.00 in"));
+  QCOMPARE(formatLength(0.01234, LengthUnit::Centimetre), QStringLiteral("1.23 cm"));
+  QCOMPARE(formatLength(-0.005, LengthUnit::Metre), QStringLiteral("-0.00500 m"));
+  QCOMPARE(formatLength(5e-5, LengthUnit::Metre), QStringLiteral("50.0 µm"));
+  QCOMPARE(formatLength(0.01234, LengthUnit::Millimetre), formatLength(0.01234));
+  setShownLengthUnit(LengthUnit::Inch);
+  QCOMPARE(formatLength(0.0254), QStringLiteral("1.00 in"));
+  setShownLengthUnit(LengthUnit::Millimetre);
 }
 
 void FormatTest::noLengthIsADash() {

@@ -20,6 +20,7 @@ class SelectionTest : public QObject {
   void togglingTakesOutAndTheOneBeforeIsCurrent();
   void aPartSelectedAgainBecomesTheCurrentOne();
   void partsThatLeaveTheSceneLeaveIt();
+  void partsOfAnotherSceneAreOthersThoughTheirIdsAreTheSame();
   void whoeverHearsOfTheSceneAfterwardsFindsNoPartThatIsGone();
   void whatTheSceneDoesNotHaveIsNotSelected();
   void allOfThemAreThoseThatAreShown();
@@ -70,6 +71,17 @@ void SelectionTest::partsThatLeaveTheSceneLeaveIt() {
   session_->undo();
   QVERIFY(selection_->parts() == (Parts{ids_[0], ids_[1]}));
   session_->reset();
+  QVERIFY(selection_->isEmpty());
+}
+
+void SelectionTest::partsOfAnotherSceneAreOthersThoughTheirIdsAreTheSame() {
+  const Scene same = session_->scene();
+  selection_->set({ids_[0], ids_[1]});
+  session_->reset(same);
+  QVERIFY(session_->scene().find(ids_[0]) != nullptr);
+  QVERIFY(selection_->isEmpty());
+  selection_->select(ids_[0]);
+  session_->restore(same, {});
   QVERIFY(selection_->isEmpty());
 }
 

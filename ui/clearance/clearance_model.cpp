@@ -115,7 +115,7 @@ QVariant ClearanceModel::data(const QModelIndex& index, int role) const {
           Qt::AlignVCenter);
     case Qt::ForegroundRole:
       if (index.column() == Other || index.column() == Minima || !isTooNear(row.clearance)) return {};
-      return row.clearance.isOverlapping() ? colours::kOverlap : colours::kWarning;
+      return themed(row.clearance.isOverlapping() ? colours::kOverlap : colours::kWarning);
     case Qt::ToolTipRole:
       return tr("%1: %2, %3").arg(row.name, textOf(row, Distance), textOf(row, Verdict));
     default:

@@ -1,7 +1,6 @@
 #include "ui/clearance/clearance_panel.h"
 
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
@@ -13,10 +12,12 @@
 #include <QSortFilterProxyModel>
 #include <QTableView>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "core/files/atomic_write.h"
 #include "ui/clearance/clearance_model.h"
 #include "ui/clearance/clearance_search.h"
+#include "ui/number_field.h"
 #include "ui/paths.h"
 #include "ui/preferences.h"
 #include "ui/theme.h"
@@ -25,6 +26,16 @@ namespace nearfit::ui {
 namespace {
 
 const QString kThresholdKey = QStringLiteral("clearance/thresholdMillimetres");
+constexpr double kMillimetre = 1e-3;
+constexpr double kUsualThreshold = 1e-3, kThresholdStep = 1e-4, kMostThreshold = 1e3;  ///< [m]
+constexpr int kThresholdDecimals = 4;
+
+/// A number that somebody has edited may be none [m].
+double keptThreshold() {
+  bool isNumber = false;
+  const double kept = kMillimetre * QSettings().value(kThresholdKey).toDouble(&isNumber);
+  return isNumber && kept >= 0.0 && kept <= kMostThreshold ? kept : kUsualThreshold;
+}
 
 }  // namespace
 
@@ -72,18 +83,18 @@ void ClearancePanel::setUpFields() {
     const QVariant id = subject_->currentData();
     search_.setSubject(id.isValid() ? std::optional(PartId{id.toUInt()}) : std::nullopt);
   });
-  threshold_ = new QDoubleSpinBox(this);
+  threshold_ = new NumberField(this);
   threshold_->setObjectName(QStringLiteral("clearanceThreshold"));
-  threshold_->setRange(0.0, 1e6);
-  threshold_->setDecimals(3);
-  threshold_->setSuffix(tr(" mm"));
-  threshold_->setSingleStep(0.1);
-  threshold_->setValue(QSettings().value(kThresholdKey, 1.0).toDouble());
-  threshold_->setToolTip(tr("Pairs that are nearer are marked"));
-  model_->setThreshold(1e-3 * threshold_->value());
-  connect(threshold_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [this](double millimetres) {
-    model_->setThreshold(1e-3 * millimetres);
-    QSettings().setValue(kThresholdKey, millimetres);
+  threshold_->setTrimmed(true);
+  threshold_->setLength(kThresholdDecimals);
+  threshold_->setQuantityRange(0.0, kMostThreshold);
+  threshold_->setQuantityStep(kThresholdStep);
+  threshold_->setHelp(tr("Pairs that are nearer are marked"));
+  threshold_->showQuantity(keptThreshold());
+  model_->setThreshold(threshold_->quantity());
+  connect(threshold_, &NumberField::quantityEdited, this, [this](double metres) {
+    model_->setThreshold(metres);
+    QSettings().setValue(kThresholdKey, metres / kMillimetre);
     showClearances();
   });
 }
@@ -116,7 +127,8 @@ void ClearancePanel::setUpTable() {
 
 void ClearancePanel::showSubjects() {
   const Scene& scene = session_.scene();
-  const QVariant before = subject_->currentData();
+  const bool isSameScene = std::exchange(sceneSerial_, session_.sceneSerial()) == session_.sceneSerial();
+  const QVariant before = isSameScene ? subject_->currentData() : QVariant();
   QStringList names, shown;
   const Part* moving = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
   names << (moving != nullptr ? tr("In hand: %1").arg(QString::fromStdString(moving->name))
@@ -125,7 +137,7 @@ void ClearancePanel::showSubjects() {
     names << QString::fromStdString(part->name);
   for (int i = 0; i < subject_->count(); ++i)
     shown << subject_->itemText(i);
-  if (names == shown) return;
+  if (names == shown && isSameScene) return;
   const QSignalBlocker blocker(subject_);
   subject_->clear();
   subject_->addItem(names.first());
@@ -133,7 +145,7 @@ void ClearancePanel::showSubjects() {
     subject_->addItem(QString::fromStdString(part->name), static_cast<uint>(part->id));
   const int index = before.isValid() ? subject_->findData(before) : 0;
   subject_->setCurrentIndex(std::max(index, 0));
-  if (index < 0) search_.setSubject(std::nullopt);
+  if (index < 0 || !isSameScene) search_.setSubject(std::nullopt);
 }
 
 void ClearancePanel::showClearances() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QWidget>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -9,7 +10,6 @@
 #include "ui/dialogs/error_box.h"
 
 class QComboBox;
-class QDoubleSpinBox;
 class QLabel;
 class QPushButton;
 class QSortFilterProxyModel;
@@ -19,6 +19,7 @@ namespace nearfit::ui {
 
 class ClearanceModel;
 class ClearanceSearch;
+class NumberField;
 
 /// How near a part is to each other one, as a table; the row that is chosen is a pair to look at.
 class ClearancePanel : public QWidget {
@@ -53,11 +54,12 @@ class ClearancePanel : public QWidget {
 
   Session& session_;
   ClearanceSearch& search_;
+  std::uint64_t sceneSerial_ = 0;  ///< Of the scene whose parts are offered.
   ClearanceModel* model_;
   QSortFilterProxyModel* sorted_;
   QTableView* table_;
   QComboBox* subject_;
-  QDoubleSpinBox* threshold_;
+  NumberField* threshold_;
   QLabel* note_;
   QPushButton* export_;
 };

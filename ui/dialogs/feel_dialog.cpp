@@ -13,6 +13,7 @@
 #include "core/scene/haptic_limits.h"
 #include "ui/dialogs/feel_pages.h"
 #include "ui/dialogs/space_mouse_page.h"
+#include "ui/feel/preset_choice.h"
 #include "ui/feel_mode.h"
 #include "ui/number_field.h"
 #include "ui/theme.h"
@@ -40,7 +41,7 @@ class CutoffPage : public FeelPage {
 
 }  // namespace
 
-FeelDialog::FeelDialog(QWidget* parent)
+FeelDialog::FeelDialog(PresetStore& presets, QWidget* parent)
     : QDialog(parent),
       contact_(new QStackedWidget(this)),
       proxy_(new ProxyPage(this)),
@@ -50,7 +51,7 @@ FeelDialog::FeelDialog(QWidget* parent)
       spaceMouse_(new SpaceMousePage(this)) {
   setObjectName(QStringLiteral("feelDialog"));
   setWindowTitle(tr("Feel settings"));
-  QWidget* head = makeHead();
+  QWidget* head = makeHead(presets);
   contact_->addWidget(proxy_);
   contact_->addWidget(springs_);
   auto* tabs = new QTabWidget(this);
@@ -84,8 +85,15 @@ FeelDialog::FeelDialog(QWidget* parent)
   showScene({});
 }
 
-QWidget* FeelDialog::makeHead() {
+QWidget* FeelDialog::makeHead(PresetStore& presets) {
   auto* head = new QWidget(this);
+  preset_ = new PresetChoice("preset", presets, head);
+  preset_->setManaged();
+  connect(preset_, &PresetChoice::chosen, this, [this](const HapticSettings& settings, const QString& name) {
+    settings_ = settings;
+    refresh();
+    emit presetChosen(settings, name);
+  });
   mode_ = new QComboBox(head);
   mode_->setObjectName(QStringLiteral("mode"));
   addModes(*mode_);
@@ -98,6 +106,7 @@ QWidget* FeelDialog::makeHead() {
   cutoff_ = new CutoffPage(head);
   auto* form = new QFormLayout(head);
   form->setContentsMargins(0, 0, 0, 0);
+  form->addRow(tr("Preset"), preset_);
   form->addRow(tr("Mode"), mode_);
   form->addRow(explanation_);
   form->addRow(tr("Cutoff"), cutoff_);
@@ -119,6 +128,7 @@ void FeelDialog::showScene(const Scene& scene) {
 void FeelDialog::refresh() {
   const FeelMode mode = feelModeOf(settings_);
   showMode(*mode_, mode);
+  preset_->showSettings(settings_);
   explanation_->setText(explanationOf(mode));
   for (FeelPage* page : {cutoff_, static_cast<FeelPage*>(proxy_), static_cast<FeelPage*>(springs_),
                          static_cast<FeelPage*>(weight_), static_cast<FeelPage*>(workspace_)})

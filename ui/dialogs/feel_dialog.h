@@ -12,6 +12,8 @@ class QStackedWidget;
 
 namespace nearfit::ui {
 
+class PresetChoice;
+class PresetStore;
 class SpaceMousePage;
 class SpringPage;
 class WeightPage;
@@ -23,7 +25,8 @@ class FeelDialog : public QDialog {
   Q_OBJECT
 
  public:
-  explicit FeelDialog(QWidget* parent = nullptr);
+  /// @param presets  Outlives this.
+  explicit FeelDialog(PresetStore& presets, QWidget* parent = nullptr);
 
   /// The scene's settings, and what belongs to its moving part.
   void showScene(const Scene& scene);
@@ -37,11 +40,12 @@ class FeelDialog : public QDialog {
   void clearSnapshot();
 
  signals:
+  void presetChosen(const nearfit::HapticSettings& settings, const QString& name);
   void settingsEdited(const nearfit::HapticSettings& settings);
   void rateEdited(const nearfit::RateSettings& settings);
 
  private:
-  QWidget* makeHead();
+  QWidget* makeHead(PresetStore& presets);
   void edit(const HapticSettings& settings);
   void refresh();
   /// Texts that wrap may need more room than the dialog has.
@@ -52,6 +56,7 @@ class FeelDialog : public QDialog {
   HapticSettings settings_;
   CouplingBasis basis_;
   PartGeometryPtr moving_;
+  PresetChoice* preset_;
   QComboBox* mode_;
   QLabel *explanation_, *refusal_;
   FeelPage* cutoff_;

@@ -25,6 +25,11 @@ void FeelPage::change(const HapticSettings& next) {
   emit edited(next);
 }
 
+void FeelPage::replace(const HapticSettings& next) {
+  showSettings(next);
+  emit edited(next);
+}
+
 NumberField* FeelPage::addNumber(const Number& number, const NumberOf& valueOf) {
   auto* field = new NumberField(this);
   field->setObjectName(QLatin1String(number.name));
@@ -43,10 +48,10 @@ NumberField* FeelPage::addNumber(const Number& number, const NumberOf& valueOf) 
   return field;
 }
 
-QCheckBox* FeelPage::addSwitch(const char* name, const QString& text, const QString& toolTip,
+QCheckBox* FeelPage::addSwitch(const QString& name, const QString& text, const QString& toolTip,
                                const SwitchOf& valueOf) {
   auto* box = new QCheckBox(text, this);
-  box->setObjectName(QLatin1String(name));
+  box->setObjectName(name);
   box->setToolTip(toolTip);
   connect(box, &QCheckBox::toggled, this, [=, this](bool isOn) {
     HapticSettings next = settings_;

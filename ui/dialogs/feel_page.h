@@ -41,13 +41,15 @@ class FeelPage : public QWidget {
 
   /// A field for a value; its limits stand in the tool tip.
   NumberField* addNumber(const Number& number, const NumberOf& valueOf);
-  QCheckBox* addSwitch(const char* name, const QString& text, const QString& toolTip,
+  QCheckBox* addSwitch(const QString& name, const QString& text, const QString& toolTip,
                        const SwitchOf& valueOf);
   QLabel* addNote();
 
   const HapticSettings& settings() const noexcept { return settings_; }
   /// Takes the settings for its own and asks for them.
   void change(const HapticSettings& next);
+  /// As change, where other fields of this page than the one that was edited have to follow.
+  void replace(const HapticSettings& next);
   /// After every change of settings(), for what depends on it.
   virtual void refresh() {}
 

@@ -2,7 +2,6 @@
 
 #include <QCheckBox>
 #include <QFormLayout>
-#include <QGridLayout>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
@@ -11,6 +10,7 @@
 #include "core/haptics/workspace_mapper.h"
 #include "core/math/euler_angles.h"
 #include "core/scene/haptic_limits.h"
+#include "ui/dialogs/locks_page.h"
 #include "ui/format.h"
 #include "ui/number_field.h"
 #include "ui/theme.h"
@@ -104,10 +104,10 @@ void SpringPage::showBound() {
 }
 
 WeightPage::WeightPage(QWidget* parent) : FeelPage(parent) {
-  QCheckBox* weight = addSwitch("weight", tr("Weight: the part hangs in the hand"),
+  QCheckBox* weight = addSwitch(QStringLiteral("weight"), tr("Weight: the part hangs in the hand"),
                                 tr("What the device cannot hold is left out"),
                                 [](HapticSettings& s) -> bool& { return s.weight.hasWeight; });
-  inertia_ = addSwitch("inertia", tr("Inertia: the part resists being accelerated"),
+  inertia_ = addSwitch(QStringLiteral("inertia"), tr("Inertia: the part resists being accelerated"),
                        tr("In the proxy mode alone: springs leave the part where the hand is"),
                        [](HapticSettings& s) -> bool& { return s.weight.hasInertia; });
   std::array<NumberField*, 3> gravity{};
@@ -151,7 +151,8 @@ WorkspacePage::WorkspacePage(QWidget* parent) : FeelPage(parent) {
       addNumber({"scale", tr("Metres in the scene to a metre of the device"), tr(" ×"), kMinScale, kMaxScale},
                 [](HapticSettings& s) -> double& { return s.mapping.scale; });
   makeAngles();
-  QGridLayout* locks = makeLocks();
+  locks_ = new LocksPage({}, this);
+  connect(locks_, &FeelPage::edited, this, &WorkspacePage::change);
   QLabel* note = addNote();
   note->setText(tr("The manual hand takes numbers of the scene itself: for it only the locks count."));
   auto* scaleRow = new QFormLayout;
@@ -161,8 +162,8 @@ WorkspacePage::WorkspacePage(QWidget* parent) : FeelPage(parent) {
   layout->addWidget(new QLabel(tr("Orientation of the device"), this));
   layout->addLayout(axisRow(angleFields_));
   layout->addSpacing(6);
-  layout->addWidget(new QLabel(tr("Locked axes of the world"), this));
-  layout->addLayout(locks);
+  layout->addWidget(new QLabel(tr("Motions that count, by axes of the world"), this));
+  layout->addWidget(locks_);
   layout->addSpacing(6);
   layout->addWidget(note);
   layout->addStretch(1);
@@ -182,26 +183,6 @@ void WorkspacePage::makeAngles() {
   }
 }
 
-QGridLayout* WorkspacePage::makeLocks() {
-  auto* locks = new QGridLayout;
-  locks->setHorizontalSpacing(18);
-  locks->addWidget(new QLabel(tr("Moves along"), this), 0, 0);
-  locks->addWidget(new QLabel(tr("Turns about"), this), 1, 0);
-  const char* lockNames[6] = {"lockX", "lockY", "lockZ", "lockRx", "lockRy", "lockRz"};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const QString name = kAxes[static_cast<int>(axis)];
-    QCheckBox* move =
-        addSwitch(lockNames[axis], name, tr("The hand stays where it is along %1").arg(name),
-                  [axis](HapticSettings& s) -> bool& { return s.mapping.translationLocks[axis]; });
-    QCheckBox* turn = addSwitch(lockNames[axis + 3], name, tr("The hand does not turn about %1").arg(name),
-                                [axis](HapticSettings& s) -> bool& { return s.mapping.rotationLocks[axis]; });
-    locks->addWidget(move, 0, static_cast<int>(axis) + 1);
-    locks->addWidget(turn, 1, static_cast<int>(axis) + 1);
-  }
-  locks->setColumnStretch(4, 1);
-  return locks;
-}
-
 void WorkspacePage::turn(int axis, double angle) {
   angles_[axis] = angle;
   HapticSettings next = settings();
@@ -210,6 +191,7 @@ void WorkspacePage::turn(int axis, double angle) {
 }
 
 void WorkspacePage::refresh() {
+  locks_->showSettings(settings());
   // Angles that were typed stay, also where others turn the same way.
   if (rotationFromEulerAngles(angles_) != settings().mapping.orientationOffset)
     angles_ = eulerAnglesOf(settings().mapping.orientationOffset);

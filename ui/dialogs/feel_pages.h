@@ -8,10 +8,11 @@
 #include "ui/dialogs/feel_page.h"
 
 class QCheckBox;
-class QGridLayout;
 class QLabel;
 
 namespace nearfit::ui {
+
+class LocksPage;
 
 /// Stiffness and damping of the springs, what is enforced of their sum, and what is not.
 class SpringPage : public FeelPage {
@@ -64,9 +65,9 @@ class WorkspacePage : public FeelPage {
 
  private:
   void makeAngles();
-  QGridLayout* makeLocks();
   void turn(int axis, double degrees);
 
+  LocksPage* locks_;
   std::array<NumberField*, 3> angleFields_{};
   glm::dvec3 angles_{0.0};  ///< Of the orientation offset [rad].
 };

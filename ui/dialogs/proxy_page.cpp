@@ -57,7 +57,7 @@ ProxyPage::ProxyPage(QWidget* parent) : FeelPage(parent) {
 }
 
 QWidget* ProxyPage::makeCoupling() {
-  automatic_ = addSwitch("automaticCoupling", tr("As stiff as the device allows"),
+  automatic_ = addSwitch(QStringLiteral("automaticCoupling"), tr("As stiff as the device allows"),
                          tr("Chosen from the device's damping and the measured period of the servo"),
                          [](HapticSettings& s) -> bool& { return s.coupling.isAutomatic; });
   makeRows();

@@ -1,58 +1,74 @@
 #include "ui/panels/feel_panel.h"
 
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QVBoxLayout>
 
 #include <glm/geometric.hpp>
 
+#include "ui/feel/preset_choice.h"
 #include "ui/format.h"
 #include "ui/hand_lead.h"
 #include "ui/panels/feel_notice.h"
 #include "ui/panels/hand_choice.h"
+#include "ui/panels/hand_workspace.h"
+#include "ui/panels/readouts.h"
 #include "ui/theme.h"
 
 namespace nearfit::ui {
-namespace {
 
-const QString kNothing = QStringLiteral("–");
-
-QString muted() {
-  return QStringLiteral("color: %1").arg(colours::kMutedText.name());
-}
-
-}  // namespace
-
-FeelPanel::FeelPanel(QWidget* settingsButton, QWidget* parent)
+FeelPanel::FeelPanel(const Parts& parts, QWidget* parent)
     : QWidget(parent),
       hand_(new HandChoice(this)),
       mode_(new QComboBox(this)),
+      preset_(new PresetChoice("panelPreset", parts.presets, this)),
       startStop_(new QPushButton(this)),
-      notice_(new FeelNotice(this)) {
+      notice_(new FeelNotice(this)),
+      workspace_(new HandWorkspace(parts.clutch, this)),
+      device_(new Readouts(tr("Device"), this)),
+      felt_(new Readouts(tr("Felt"), this)),
+      servo_(new Readouts(tr("Servo"), this)) {
+  setUpReadouts();
+  // All of it is more than a small window has room for.
+  auto* scroll = new QScrollArea(this);
+  scroll->setObjectName(QStringLiteral("feelScroll"));
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(makeChoices(parts));
+  // As wide as the widest of it, which may come later, beside the bar: nothing is cut off.
+  workspace_->showHand(Hand::Device);
+  scroll->setMinimumWidth(scroll->widget()->minimumSizeHint().width() +
+                          scroll->verticalScrollBar()->sizeHint().width());
+  showHand();
   auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(12, 10, 12, 12);
-  layout->setSpacing(6);
-  setUpChoices(*layout, settingsButton);
-  setUpReadouts(*layout);
-  layout->addStretch(1);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(scroll);
 
   connect(startStop_, &QPushButton::clicked, this,
           [this] { emit(isTaken_ ? stopRequested() : startRequested()); });
-  connect(hand_, &HandChoice::handChanged, this, &FeelPanel::handChanged);
+  connect(hand_, &HandChoice::handChanged, this, [this] {
+    showHand();
+    emit handChanged();
+  });
   connect(hand_, &HandChoice::armRequested, this, &FeelPanel::armRequested);
   connect(hand_, &HandChoice::calibrateRequested, this, &FeelPanel::calibrateRequested);
   connect(hand_, &HandChoice::recordingWanted, this, &FeelPanel::recordingWanted);
   connect(hand_, &HandChoice::resetRequested, this, &FeelPanel::resetRequested);
   connect(mode_, QOverload<int>::of(&QComboBox::activated), this,
           [this] { emit modeRequested(mode_->currentData().value<FeelMode>()); });
+  connect(preset_, &PresetChoice::chosen, this, &FeelPanel::presetChosen);
+  connect(workspace_, &FeelPage::edited, this, &FeelPanel::settingsEdited);
   connect(notice_, &FeelNotice::restartRequested, this, &FeelPanel::restartRequested);
   showStatus({});
   clearSnapshot();
 }
 
-void FeelPanel::setUpChoices(QVBoxLayout& layout, QWidget* settingsButton) {
+QWidget* FeelPanel::makeChoices(const Parts& parts) {
   mode_->setObjectName(QStringLiteral("panelMode"));
   mode_->setToolTip(tr("How contact feels; the settings explain it"));
   addModes(*mode_);
@@ -60,59 +76,41 @@ void FeelPanel::setUpChoices(QVBoxLayout& layout, QWidget* settingsButton) {
   startStop_->setObjectName(QStringLiteral("startStop"));
   startStop_->setMinimumHeight(34);
   startStop_->setIconSize(QSize(20, 20));
-  layout.addWidget(hand_);
-  layout.addWidget(mode_);
-  layout.addWidget(startStop_);
-  layout.addWidget(settingsButton);
-  layout.addWidget(notice_);
+  auto* content = new QWidget(this);
+  auto* layout = new QVBoxLayout(content);
+  layout->setContentsMargins(12, 10, 12, 12);
+  layout->setSpacing(6);
+  for (QWidget* each :
+       {static_cast<QWidget*>(hand_), static_cast<QWidget*>(mode_), static_cast<QWidget*>(preset_),
+        static_cast<QWidget*>(startStop_), parts.settingsButton, static_cast<QWidget*>(notice_),
+        static_cast<QWidget*>(felt_), static_cast<QWidget*>(device_), static_cast<QWidget*>(workspace_),
+        static_cast<QWidget*>(servo_)})
+    layout->addWidget(each);
+  layout->addStretch(1);
+  return content;
 }
 
-void FeelPanel::setUpReadouts(QVBoxLayout& layout) {
-  addHeading(layout, tr("Felt"));
-  force_ = addReadout(layout, tr("Force"), QStringLiteral("force"));
-  torque_ = addReadout(layout, tr("Torque"), QStringLiteral("torque"));
-  distance_ = addReadout(layout, tr("Least distance"), QStringLiteral("distance"));
-  minima_ = addReadout(layout, tr("Local minima"), QStringLiteral("minima"));
-  contacts_ = addReadout(layout, tr("Contacts"), QStringLiteral("contacts"));
-  contacts_->setToolTip(tr("Minima that hold the part"));
-  lead_ = addReadout(layout, tr("Hand ahead"), QStringLiteral("lead"));
-  lead_->setToolTip(tr("From the part to where the hand wants it"));
-  energy_ = addReadout(layout, tr("Energy to hand"), QStringLiteral("energy"));
-  energy_->setToolTip(tr("Given to the hand since the start, less what came back"));
-  clamped_ = new QLabel(this);
-  clamped_->setWordWrap(true);
-  clamped_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kForce.name()));
-  layout.addWidget(clamped_);
-  addHeading(layout, tr("Servo"));
-  rate_ = addReadout(layout, tr("Rate"), QStringLiteral("rate"));
-  lateness_ = addReadout(layout, tr("Lateness, p99"), QStringLiteral("lateness"));
-  tick_ = addReadout(layout, tr("Tick, p99"), QStringLiteral("tick"));
-  subSteps_ = addReadout(layout, tr("Sub-steps"), QStringLiteral("subSteps"));
-  subSteps_->setToolTip(tr("Steps of the proxy in a tick"));
-  overruns_ = addReadout(layout, tr("Overruns"), QStringLiteral("overruns"));
-  scheduling_ = new QLabel(this);
-  scheduling_->setWordWrap(true);
-  scheduling_->setStyleSheet(muted());
-  layout.addWidget(scheduling_);
-}
-
-void FeelPanel::addHeading(QVBoxLayout& layout, const QString& text) {
-  auto* heading = new QLabel(text, this);
-  heading->setStyleSheet(QStringLiteral("font-weight: bold; color: #3b4754; padding-top: 10px"));
-  layout.addWidget(heading);
-}
-
-QLabel* FeelPanel::addReadout(QVBoxLayout& layout, const QString& name, const QString& objectName) {
-  auto* row = new QHBoxLayout;
-  auto* label = new QLabel(name, this);
-  label->setStyleSheet(muted());
-  auto* value = new QLabel(kNothing, this);
-  value->setObjectName(objectName);
-  value->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  row->addWidget(label);
-  row->addWidget(value, 1);
-  layout.addLayout(row);
-  return value;
+void FeelPanel::setUpReadouts() {
+  reports_ = device_->add(tr("Reports"), "reportRate", tr("Poses that come from the device in a second"));
+  jitter_ = device_->add(tr("Jitter"), "reportJitter",
+                         tr("How far the time between two of them is off its mean, on average"));
+  lost_ = device_->add(tr("Missing"), "reportsLost",
+                       tr("Reports that were lost or damaged since it was taken in hand"));
+  force_ = felt_->add(tr("Force"), "force");
+  torque_ = felt_->add(tr("Torque"), "torque");
+  distance_ = felt_->add(tr("Least distance"), "distance");
+  minima_ = felt_->add(tr("Local minima"), "minima");
+  contacts_ = felt_->add(tr("Contacts"), "contacts", tr("Minima that hold the part"));
+  lead_ = felt_->add(tr("Hand ahead"), "lead", tr("From the part to where the hand wants it"));
+  energy_ = felt_->add(tr("Energy to hand"), "energy",
+                       tr("Given to the hand since the start, less what came back"));
+  clamped_ = felt_->addNote("clamped", colours::kForce);
+  rate_ = servo_->add(tr("Rate"), "rate");
+  lateness_ = servo_->add(tr("Lateness, p99"), "lateness");
+  tick_ = servo_->add(tr("Tick, p99"), "tick");
+  subSteps_ = servo_->add(tr("Sub-steps"), "subSteps", tr("Steps of the proxy in a tick"));
+  overruns_ = servo_->add(tr("Overruns"), "overruns");
+  scheduling_ = servo_->addNote("scheduling", colours::kMutedText);
 }
 
 Hand FeelPanel::hand() const {
@@ -129,10 +127,16 @@ bool FeelPanel::isRecordingMissing() const {
 
 void FeelPanel::chooseDevice(const QString& device) {
   hand_->choose(device);
+  showHand();
 }
 
 void FeelPanel::showDevices(const QVector<DeviceChoice>& devices) {
   hand_->showDevices(devices);
+  showHand();
+}
+
+void FeelPanel::showHand() {
+  workspace_->showHand(hand());
 }
 
 void FeelPanel::setStartable(bool isStartable) {
@@ -147,17 +151,32 @@ void FeelPanel::showStatus(const ServoStatus& status) {
   startStop_->setIcon(icon(isTaken_ ? QStringLiteral("stop") : QStringLiteral("start")));
   setStartable(isStartable_);
   const bool hasTimes = status.isRunning && status.ticks > 0;
-  rate_->setText(hasTimes ? QStringLiteral("%1 Hz").arg(status.rate, 0, 'f', 0) : kNothing);
+  rate_->setText(hasTimes ? QStringLiteral("%1 Hz").arg(status.rate, 0, 'f', 0) : Readouts::nothing());
   rate_->setStyleSheet(status.isTooSlow() ? QStringLiteral("color: %1").arg(colours::kWarning.name())
                                           : QString());
-  lateness_->setText(hasTimes ? formatDuration(status.latenessP99) : kNothing);
-  tick_->setText(hasTimes ? formatDuration(status.tickP99) : kNothing);
-  overruns_->setText(hasTimes ? QString::number(status.overruns) : kNothing);
+  lateness_->setText(hasTimes ? formatDuration(status.latenessP99) : Readouts::nothing());
+  tick_->setText(hasTimes ? formatDuration(status.tickP99) : Readouts::nothing());
+  overruns_->setText(hasTimes ? QString::number(status.overruns) : Readouts::nothing());
   scheduling_->setText(status.scheduling);
+  showDevice(status);
 }
 
-void FeelPanel::showMode(FeelMode mode) {
-  ui::showMode(*mode_, mode);
+void FeelPanel::showDevice(const ServoStatus& status) {
+  device_->setVisible(status.isRunning && status.hand == Hand::Device);
+  const bool hasReports = status.reportRate > 0.0;
+  reports_->setText(hasReports ? QStringLiteral("%1 Hz").arg(status.reportRate, 0, 'f', 0)
+                               : Readouts::nothing());
+  const bool hasJitter = hasReports && status.reportJitter > 0.0;
+  jitter_->setText(hasJitter ? QStringLiteral("± ") + formatDuration(status.reportJitter)
+                             : Readouts::nothing());
+  lost_->setText(hasReports || status.reportsLost > 0 ? QString::number(status.reportsLost)
+                                                      : Readouts::nothing());
+}
+
+void FeelPanel::showSettings(const HapticSettings& settings) {
+  showMode(*mode_, feelModeOf(settings));
+  preset_->showSettings(settings);
+  workspace_->showSettings(settings);
 }
 
 void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) {
@@ -169,21 +188,23 @@ void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) 
   energy_->setText(formatEnergy(snapshot.energyToHand));
   clamped_->setText(snapshot.isClamped ? tr("Held at the device's limit.") : QString());
   notice_->showSnapshot(snapshot, scene);
+  workspace_->showClutched(snapshot.isClutched);
   showProxy(snapshot);
 }
 
 void FeelPanel::showProxy(const ServoSnapshot& snapshot) {
   const bool isProxy = snapshot.mode == HapticMode::Proxy;
-  contacts_->setText(isProxy ? QString::number(snapshot.contactCount) : kNothing);
-  lead_->setText(isProxy ? formatLead(handLeadOf(snapshot)) : kNothing);
-  subSteps_->setText(isProxy ? QString::number(snapshot.subSteps) : kNothing);
+  contacts_->setText(isProxy ? QString::number(snapshot.contactCount) : Readouts::nothing());
+  lead_->setText(isProxy ? formatLead(handLeadOf(snapshot)) : Readouts::nothing());
+  subSteps_->setText(isProxy ? QString::number(snapshot.subSteps) : Readouts::nothing());
 }
 
 void FeelPanel::clearSnapshot() {
   for (QLabel* label : {force_, torque_, distance_, minima_, contacts_, lead_, energy_, subSteps_})
-    label->setText(kNothing);
+    label->setText(Readouts::nothing());
   clamped_->clear();
   notice_->clear();
+  workspace_->showClutched(false);
 }
 
 }  // namespace nearfit::ui

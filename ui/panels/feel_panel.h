@@ -7,6 +7,7 @@
 #include "ui/feel_mode.h"
 #include "ui/servo_status.h"
 
+class QAction;
 class QComboBox;
 class QLabel;
 class QPushButton;
@@ -16,6 +17,10 @@ namespace nearfit::ui {
 
 class FeelNotice;
 class HandChoice;
+class HandWorkspace;
+class PresetChoice;
+class PresetStore;
+class Readouts;
 
 /// Start and stop of the servo, whose hand it is, the mode, and what is felt: wrench, minima, contact and
 /// timing in numbers.
@@ -23,8 +28,13 @@ class FeelPanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// @param settingsButton  Opens the settings; becomes part of this panel.
-  explicit FeelPanel(QWidget* settingsButton, QWidget* parent = nullptr);
+  /// What others bring.
+  struct Parts {
+    QWidget* settingsButton;  ///< Opens the settings; becomes part of this panel.
+    QAction* clutch;
+    PresetStore& presets;  ///< Outlives this.
+  };
+  explicit FeelPanel(const Parts& parts, QWidget* parent = nullptr);
 
   Hand hand() const;
   /// Of the device that is chosen as hand; else empty.
@@ -36,7 +46,8 @@ class FeelPanel : public QWidget {
   void showDevices(const QVector<DeviceChoice>& devices);
   void setStartable(bool isStartable);
   void showStatus(const ServoStatus& status);
-  void showMode(FeelMode mode);
+  /// The scene's settings.
+  void showSettings(const HapticSettings& settings);
   /// @param scene  For the names of the parts.
   void showSnapshot(const ServoSnapshot& snapshot, const Scene& scene);
   void clearSnapshot();
@@ -51,19 +62,25 @@ class FeelPanel : public QWidget {
   void recordingWanted();
   void resetRequested();
   void modeRequested(nearfit::ui::FeelMode mode);
+  void settingsEdited(const nearfit::HapticSettings& settings);
+  void presetChosen(const nearfit::HapticSettings& settings, const QString& name);
 
  private:
-  void setUpChoices(QVBoxLayout& layout, QWidget* settingsButton);
-  void setUpReadouts(QVBoxLayout& layout);
+  QWidget* makeChoices(const Parts& parts);
+  void setUpReadouts();
+  void showDevice(const ServoStatus& status);
+  void showHand();
   void showProxy(const ServoSnapshot& snapshot);
-  QLabel* addReadout(QVBoxLayout& layout, const QString& name, const QString& objectName);
-  void addHeading(QVBoxLayout& layout, const QString& text);
 
   HandChoice* hand_;
   QComboBox* mode_;
+  PresetChoice* preset_;
   QPushButton* startStop_;
   FeelNotice* notice_;
+  HandWorkspace* workspace_;
+  Readouts *device_, *felt_, *servo_;
   QLabel *force_, *torque_, *distance_, *minima_, *contacts_, *lead_, *energy_, *clamped_;
+  QLabel *reports_, *jitter_, *lost_;
   QLabel *rate_, *lateness_, *tick_, *subSteps_, *overruns_, *scheduling_;
   bool isTaken_ = false, isStartable_ = false;
 };

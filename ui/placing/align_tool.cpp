@@ -143,11 +143,7 @@ void AlignTool::apply() {
   for (const auto& [id, was] : start_)
     moved.push_back(id);
   stop();
-  try {
-    session_.moveParts(moved, lead, pose, "Align");
-  } catch (...) {
-    emit failed(describe(tr("The part could not be aligned."), std::current_exception()));
-  }
+  emit moveWanted(moved, lead, pose);
 }
 
 QString AlignTool::prompt() const {

@@ -7,7 +7,6 @@
 
 #include "core/placing/align.h"
 #include "core/session.h"
-#include "ui/dialogs/error_box.h"
 #include "ui/placing/feature_picker.h"
 
 class QAction;
@@ -35,7 +34,9 @@ class AlignTool : public QObject {
   void setAvailable(bool isAvailable);
 
  signals:
-  void failed(const nearfit::ui::Failure& failure);
+  /// These parts are to move together so that the lead comes to stand there.
+  void moveWanted(const std::vector<nearfit::PartId>& parts, nearfit::PartId lead,
+                  const nearfit::RigidTransform& worldFromLead);
   void noted(const QString& text);
 
  private:

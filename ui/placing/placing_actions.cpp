@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "ui/number_field.h"
+#include "ui/split_button.h"
 #include "ui/theme.h"
 
 namespace nearfit::ui {
@@ -143,9 +144,7 @@ QToolBar* PlacingActions::makeToolBar(QMainWindow& window) {
   pivots->addActions({movePivot, pivots->addSeparator(), pivotAtMass, pivotAtBox});
   pivotButton->setMenu(pivots);
   pivotButton->setPopupMode(QToolButton::MenuButtonPopup);
-  pivotButton->setStyleSheet(
-      QStringLiteral("QToolButton { padding-right: 18px; } "
-                     "QToolButton::menu-button { border: none; width: 16px; }"));
+  pivotButton->setStyleSheet(QString::fromLatin1(kSplitButton));
   bar->addSeparator();
   bar->addAction(snap);
   bar->addWidget(lengthStep_);

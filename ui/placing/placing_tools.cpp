@@ -114,8 +114,12 @@ std::optional<RigidTransform> PlacingTools::draggedPose(PartId part) const {
 
 /// All that is selected, or nothing when one of it may not be moved.
 std::vector<PlacedPart> PlacingTools::placedParts() const {
+  return placed(selection_.parts());
+}
+
+std::vector<PlacedPart> PlacingTools::placed(const std::vector<PartId>& parts) const {
   std::vector<PlacedPart> placed;
-  for (const PartId id : selection_.parts()) {
+  for (const PartId id : parts) {
     const Part* part = session_.scene().find(id);
     if (part == nullptr || !isMovable(*part)) return {};
     placed.push_back({part, shownPose(*part)});
@@ -184,14 +188,19 @@ Scene PlacingTools::sceneNow() const {
 }
 
 void PlacingTools::bring(const RigidTransform& worldFromCurrent) {
+  if (!selection_.parts().empty()) bring(selection_.parts(), *selection_.current(), worldFromCurrent, "Move");
+}
+
+void PlacingTools::bring(const std::vector<PartId>& parts, PartId lead, const RigidTransform& worldFromLead,
+                         const char* verb) {
   commit();
-  const std::vector<PlacedPart> parts = placedParts();
+  const Brought brought{lead, worldFromLead, verb};
   // What may not be moved is for the session to refuse.
-  if (parts.empty() || !actions_->solid->isChecked()) return put(worldFromCurrent, "Move");
+  if (placed(parts).empty() || !actions_->solid->isChecked()) return put(parts, brought);
   handle_ = GizmoHandle::None;
-  brought_ = worldFromCurrent;
-  mover_.begin(sceneNow(), selection_.parts(), true);
-  mover_.moveTo((worldFromCurrent * parts.back().worldFromPart.inverse()).normalized());
+  brought_ = brought;
+  mover_.begin(sceneNow(), parts, true);
+  mover_.moveTo((worldFromLead * mover_.start().at(lead).inverse()).normalized());
   mover_.end();
 }
 
@@ -266,18 +275,20 @@ void PlacingTools::giveUpParts() {
 }
 
 void PlacingTools::putMoved() {
-  const RigidTransform current = mover_.poses().at(mover_.parts().back());
-  put(brought_ && mover_.hasArrived() ? *brought_ : current, isRing(handle_) ? "Turn" : "Move");
+  Brought where = brought_.value_or(Brought{mover_.parts().back(), {}, isRing(handle_) ? "Turn" : "Move"});
+  if (!brought_ || !mover_.hasArrived()) where.worldFromLead = mover_.poses().at(where.lead);
+  const QString stoppedBy = brought_ && !mover_.hasArrived() ? note() : QString();
+  put(mover_.parts(), where);
   giveUpParts();
   showFrame();
+  if (!stoppedBy.isEmpty()) emit noted(stoppedBy);
 }
 
-/// All selected parts together, so that the current one stands there.
-void PlacingTools::put(const RigidTransform& worldFromCurrent, const char* verb) {
-  if (selection_.isEmpty()) return;
+/// All together, so that the lead stands there.
+void PlacingTools::put(const std::vector<PartId>& parts, const Brought& where) {
   isPutting_ = true;
   try {
-    session_.moveParts(selection_.parts(), *selection_.current(), worldFromCurrent, verb);
+    session_.moveParts(parts, where.lead, where.worldFromLead, where.verb);
   } catch (...) {
     emit failed(describe(tr("The part could not be moved."), std::current_exception()));
   }

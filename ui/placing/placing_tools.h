@@ -44,8 +44,12 @@ class PlacingTools : public QObject {
   void setHeld(const std::optional<HeldPart>& held);
   /// Puts what is on its way where it is now; for whoever needs the scene.
   void commit();
-  /// Moves the selected parts together so that the current one comes to stand there, or as near as it can
-  /// where parts are solid; one step of undo. Not for a part in hand.
+  /// Moves parts together so that the lead comes to stand there, or as near as it can where parts are solid;
+  /// one step of undo. Not for a part in hand.
+  /// @param verb  What undo calls the step, before the part's name.
+  void bring(const std::vector<PartId>& parts, PartId lead, const RigidTransform& worldFromLead,
+             const char* verb);
+  /// The selected ones, by the current one.
   void bring(const RigidTransform& worldFromCurrent);
   /// Where a part is shown while it is dragged; nothing for all others.
   std::optional<RigidTransform> draggedPose(PartId part) const;
@@ -58,11 +62,20 @@ class PlacingTools : public QObject {
   /// What may be touched has no hierarchies yet: they had better be there before a drag.
   void hierarchiesWanted();
   void failed(const nearfit::ui::Failure& failure);
+  void noted(const QString& text);
 
  private:
   enum class Pivot { Mass, Box, Own };
 
+  /// A move to a pose that is known, to the last bit.
+  struct Brought {
+    PartId lead{};
+    RigidTransform worldFromLead;
+    const char* verb;
+  };
+
   std::vector<PlacedPart> placedParts() const;
+  std::vector<PlacedPart> placed(const std::vector<PartId>& parts) const;
   bool isMovable(const Part& part) const;
   RigidTransform shownPose(const Part& part) const;
   /// The selected parts are the one that the manual hand holds.
@@ -82,7 +95,7 @@ class PlacingTools : public QObject {
   void abandon();
   void giveUpParts();
   void putMoved();
-  void put(const RigidTransform& worldFromCurrent, const char* verb);
+  void put(const std::vector<PartId>& parts, const Brought& where);
   void showMoved();
   QString note() const;
 
@@ -103,8 +116,8 @@ class PlacingTools : public QObject {
   GizmoHandle handle_ = GizmoHandle::None;
   RigidTransform handAtStart_, heldAtStart_;
   glm::dvec3 pivotAtStart_{0.0};
-  std::optional<RigidTransform> brought_;  ///< Where the current part is to stand, to the last bit.
-  bool isPutting_ = false;                 ///< The session changes by this.
+  std::optional<Brought> brought_;
+  bool isPutting_ = false;  ///< The session changes by this.
 };
 
 }  // namespace nearfit::ui

@@ -10,6 +10,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/files/atomic_write.h"
 #include "ui/paths.h"
@@ -88,10 +89,23 @@ const PlotHistory& PlotPanel::shown() const {
   return recording_ ? *recording_ : paused_ ? *paused_ : live_;
 }
 
-void PlotPanel::add(const std::vector<MotionRow>& rows) {
+void PlotPanel::add(const std::vector<MotionRow>& rows, quint64 lost) {
+  // A new run begins, whose ticks are all there so far.
+  const bool isNewRun = !rows.empty() && rows.front().time < live_.endTime();
   for (const MotionRow& row : rows)
     live_.add(plotSample(row));
+  if (lost > 0) live_.addGap();
+  const quint64 before = std::exchange(lost_, (isNewRun ? 0 : lost_) + lost);
+  if (lost_ != before) showNote();
   if (&shown() == &live_) view_->refresh();
+}
+
+void PlotPanel::showNote() {
+  QStringList notes;
+  if (recording_) notes << tr("Recording");
+  if (!recording_ && paused_) notes << tr("Paused");
+  if (!recording_ && lost_ > 0) notes << tr("%1 ticks are missing: the window was busy").arg(lost_);
+  note_->setText(notes.join(QStringLiteral("; ")));
 }
 
 void PlotPanel::setPaused(bool isPaused) {
@@ -101,7 +115,7 @@ void PlotPanel::setPaused(bool isPaused) {
   view_->setHistory(nullptr);
   if (!isPaused) paused_.reset();
   view_->setHistory(&shown());
-  note_->setText(isPaused ? tr("Paused") : QString());
+  showNote();
 }
 
 void PlotPanel::followAgain() {
@@ -115,7 +129,7 @@ void PlotPanel::showRecording(const std::vector<MotionRow>& rows) {
     recording_->add(plotSample(row));
   pause_->setEnabled(false);
   span_->setCurrentIndex(span_->findData(kAll));
-  note_->setText(tr("Recording"));
+  showNote();
   view_->setHistory(&*recording_);
   followAgain();
 }
@@ -129,7 +143,7 @@ void PlotPanel::showLive() {
   recording_.reset();
   pause_->setEnabled(true);
   span_->setCurrentIndex(kFirstSpan);
-  note_->setText(paused_ ? tr("Paused") : QString());
+  showNote();
   view_->setCursorTime({});
   view_->setHistory(&shown());
   followAgain();

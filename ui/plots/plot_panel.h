@@ -24,7 +24,8 @@ class PlotPanel : public QWidget {
   ~PlotPanel() override;
 
   /// Ticks that were done since the last time, in order. What is plotted meanwhile may be a recording.
-  void add(const std::vector<MotionRow>& rows);
+  /// @param lost  Ticks after these that are missing: the lines have a gap there, and the note says so.
+  void add(const std::vector<MotionRow>& rows, quint64 lost = 0);
   /// Plots a recording instead.
   void showRecording(const std::vector<MotionRow>& rows);
   /// The time of it that is looked at [s].
@@ -38,6 +39,7 @@ class PlotPanel : public QWidget {
  private:
   void setUpButtons();
   void setPaused(bool isPaused);
+  void showNote();
   void followAgain();
   void exportTable();
   void exportPicture();
@@ -50,6 +52,7 @@ class PlotPanel : public QWidget {
   QLabel* note_;
   PlotHistory live_;
   std::optional<PlotHistory> paused_, recording_;
+  quint64 lost_ = 0;  ///< Ticks that are missing in what is live.
 };
 
 }  // namespace nearfit::ui

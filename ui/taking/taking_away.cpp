@@ -158,8 +158,8 @@ void TakingAway::showSnapshot(const ServoSnapshot& snapshot) {
   search_->showSnapshot(snapshot);
 }
 
-void TakingAway::showTicks(const std::vector<MotionRow>& rows) {
-  plots_->add(rows);
+void TakingAway::showTicks(const std::vector<MotionRow>& rows, quint64 lost) {
+  plots_->add(rows, lost);
 }
 
 void TakingAway::toggleRecord(bool isOn) {

@@ -58,7 +58,8 @@ class TakingAway : public QObject {
   /// A part is in hand, or no more.
   void showTaken(bool isTaken);
   void showSnapshot(const nearfit::ServoSnapshot& snapshot);
-  void showTicks(const std::vector<nearfit::MotionRow>& rows);
+  /// @param lost  Ticks after these that are missing.
+  void showTicks(const std::vector<nearfit::MotionRow>& rows, quint64 lost);
   /// What is recorded or will be; empty: nothing.
   void showRecording(const QString& file, double seconds);
   void showRecorded(const QString& file, double seconds, quint64 lost);

@@ -1,9 +1,11 @@
 #include "ui/tree/parts_view.h"
 
+#include <QApplication>
 #include <QEvent>
 #include <QPalette>
 
 #include "ui/parts_model.h"
+#include "ui/theme.h"
 
 namespace nearfit::ui {
 
@@ -22,11 +24,22 @@ PartsView::PartsView(QWidget* parent) : QTreeView(parent) {
   setDragEnabled(true);
   setDropIndicatorShown(true);
   setAutoExpandDelay(600);
-  // The style fills the indentation of a selected row by itself: as the style sheet fills the row.
-  QPalette pale = palette();
-  pale.setColor(QPalette::Highlight, QColor(0xd3, 0xe5, 0xf8));
+  showHighlight();
+}
+
+// The style fills the indentation of a selected row by itself: as the style sheet fills the row.
+void PartsView::showHighlight() {
+  const QColor fill = themed(QColor(0xd3, 0xe5, 0xf8));
+  QPalette pale = QApplication::palette();
+  if (palette().color(QPalette::Highlight) == fill) return;
+  pale.setColor(QPalette::Highlight, fill);
   pale.setColor(QPalette::HighlightedText, pale.color(QPalette::Text));
   setPalette(pale);
+}
+
+void PartsView::changeEvent(QEvent* event) {
+  QTreeView::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange) showHighlight();
 }
 
 void PartsView::setFilter(const QString& text) {

@@ -15,10 +15,12 @@ class PartsView : public QTreeView {
   void setFilter(const QString& text);
 
  protected:
+  void changeEvent(QEvent* event) override;
   QItemSelectionModel::SelectionFlags selectionCommand(const QModelIndex& index,
                                                        const QEvent* event) const override;
 
  private:
+  void showHighlight();
   /// Whether the row or one below it stays.
   bool filterRow(int row, const QModelIndex& parent, const QString& text, bool isWithinMatch);
 };

@@ -13,9 +13,12 @@ class DesktopAlignTest : public QObject {
   Q_OBJECT
 
  private slots:
+  /// Kept from one window to the next.
+  void cleanup() { QSettings().remove(QStringLiteral("placing/solid")); }
   void hoverTellsWhatWouldBePicked();
   void alignsTwoFacesByTwoClicksAsOneStepOfUndo();
   void flipsAndLeavesADistance();
+  void solidPartsStopAtContactOnTheWay();
   void escapeLeavesEverythingAsItWas();
   void lockedPartsRefuseToMove();
   void dragsStillOrbitWhileAligning();
@@ -28,14 +31,6 @@ class DesktopAlignTest : public QObject {
   void selectedPartsGoTogetherAsOneStep();
 
  private:
-  /// The window; kept where NEARFIT_PICTURES says, to be looked at.
-  static QPixmap pictureOf(DesktopDriver& d) {
-    QTest::qWait(100);
-    const QPixmap picture = d.window().grab();
-    const QString folder = qEnvironmentVariable("NEARFIT_PICTURES");
-    if (!folder.isEmpty()) picture.save(folder + QStringLiteral("/align.png"));
-    return picture;
-  }
   static void click(DesktopDriver& d, const glm::dvec3& point) { ViewPointer(d).click(point); }
   static void hover(DesktopDriver& d, const glm::dvec3& point) { ViewPointer(d).hover(point); }
   static void begin(DesktopDriver& d) {
@@ -74,7 +69,7 @@ void DesktopAlignTest::alignsTwoFacesByTwoClicksAsOneStepOfUndo() {
   QVERIFY(d.text("alignPrompt").contains(QStringLiteral("aligned with")));
   click(d, {-0.01, kFixedFront, 0.005});
   QVERIFY(d.widget<QPushButton>("alignApply")->isEnabled());
-  QVERIFY(!pictureOf(d).isNull());
+  keepPictures(d.window(), QStringLiteral("align"));
   // A preview is no change.
   QCOMPARE(d.part("moving").worldFromPart.translation, before.translation);
   QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
@@ -102,6 +97,26 @@ void DesktopAlignTest::flipsAndLeavesADistance() {
   const RigidTransform after = d.part("moving").worldFromPart;
   QVERIFY(glm::distance(after.applyToVector({0, -1, 0}), glm::dvec3(0, -1, 0)) < 1e-12);
   QVERIFY(glm::distance(after.translation, glm::dvec3(0.0, kFixedFront - 0.005 - kMovingFront, 0.0)) < 1e-12);
+}
+
+// Whatever "solid" said, it went through.
+void DesktopAlignTest::solidPartsStopAtContactOnTheWay() {
+  DesktopDriver d;
+  d.action("solid")->trigger();
+  QVERIFY(d.action("solid")->isChecked());
+  begin(d);
+  // Top corner on top corner would put the one cube into the other.
+  click(d, {-0.01 + kInside, kMovingFront, kTop});
+  click(d, {-0.02 + kInside, kFixedFront, 0.02 - kInside});
+  QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
+  QTRY_COMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Align moving"));
+  const RigidTransform after = d.part("moving").worldFromPart;
+  const double margin = d.session().scene().haptics().proxy.margin;
+  QVERIFY2(after.translation.z > -0.005 && after.translation.z < -0.005 + 2.0 * margin,
+           qPrintable(QString::number(after.translation.z)));
+  QVERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("Stopped by fixed")));
+  d.action("undo")->trigger();
+  QCOMPARE(d.part("moving").worldFromPart.translation, glm::dvec3(0.0));
 }
 
 void DesktopAlignTest::escapeLeavesEverythingAsItWas() {

@@ -61,6 +61,7 @@ class DesktopClearanceTest : public QObject {
  private slots:
   void theTableSaysHowNearEachOtherPartIs();
   void theThresholdMarksPairsInColourAndInWords();
+  void lengthsAreInTheUnitThatIsChosen();
   void aRowSelectsItsPairAndShowsWhereItIsNearest();
   void theTableFollowsMovesAndOverlaps();
   void theTableFollowsThePartInHand();
@@ -90,6 +91,20 @@ void DesktopClearanceTest::theThresholdMarksPairsInColourAndInWords() {
   };
   QVERIFY(colourOf(0).isValid());
   QVERIFY(!colourOf(1).isValid());
+}
+
+void DesktopClearanceTest::lengthsAreInTheUnitThatIsChosen() {
+  Fixture f;
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
+  f.d.action("unit-in")->trigger();
+  QCOMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("0.197 in"));
+  f.d.type<QDoubleSpinBox>("clearanceThreshold", "0.19");
+  QCOMPARE(f.of("fixed", ClearanceModel::Verdict), QStringLiteral("clear"));
+  f.d.type<QDoubleSpinBox>("clearanceThreshold", "1/2 cm + 1 um");
+  QCOMPARE(f.of("fixed", ClearanceModel::Verdict), QStringLiteral("too near"));
+  f.d.action("unit-mm")->trigger();
+  QCOMPARE(f.d.widget<QDoubleSpinBox>("clearanceThreshold")->text(), QStringLiteral("5.001 mm"));
+  f.d.type<QDoubleSpinBox>("clearanceThreshold", "1");
 }
 
 void DesktopClearanceTest::aRowSelectsItsPairAndShowsWhereItIsNearest() {

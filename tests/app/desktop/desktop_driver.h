@@ -25,6 +25,7 @@
 #include "tests/support/qt_patience.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/document.h"
+#include "ui/theme.h"
 #include "ui/viewport.h"
 
 /// Drives the desktop application as a user does: by its widgets, with real events.
@@ -82,6 +83,22 @@ inline void chooseFile(QFileDialog* dialog, const QString& file) {
   const auto accept =
       dialog->acceptMode() == QFileDialog::AcceptSave ? QDialogButtonBox::Save : QDialogButtonBox::Open;
   QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(accept), Qt::LeftButton);
+}
+
+/// Keeps pictures of a widget in both themes in the folder that NEARFIT_PICTURES names, to be looked at;
+/// without one nothing happens.
+inline void keepPictures(QWidget& widget, const QString& name) {
+  const QString folder = qEnvironmentVariable("NEARFIT_PICTURES");
+  if (folder.isEmpty()) return;
+  const ui::ColourScheme before = ui::colourScheme();
+  const std::pair<ui::ColourScheme, QString> schemes[] = {
+      {ui::ColourScheme::Light, QStringLiteral("light")}, {ui::ColourScheme::Dark, QStringLiteral("dark")}};
+  for (const auto& [scheme, word] : schemes) {
+    ui::setColourScheme(scheme);
+    QTest::qWait(300);
+    widget.grab().save(QStringLiteral("%1/%2-%3.png").arg(folder, name, word));
+  }
+  ui::setColourScheme(before);
 }
 
 /// Tests run on machines with devices too.

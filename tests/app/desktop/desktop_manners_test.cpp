@@ -10,6 +10,8 @@
 #include <QScrollArea>
 #include <QSet>
 #include <QTabBar>
+#include <QToolBar>
+#include <QToolButton>
 #include <QTreeWidget>
 
 #include "tests/app/desktop/desktop_driver.h"
@@ -102,6 +104,7 @@ class DesktopMannersTest : public QObject {
   void iconsAreLegibleInBothThemes();
   void layoutIsRememberedAndReset();
   void tourExplainsTheDemoAndCanBeLeft();
+  void toolbarsFitANarrowWindow();
 };
 
 void DesktopMannersTest::everyWidgetThatTakesTheFocusHasAName() {
@@ -229,6 +232,24 @@ void DesktopMannersTest::tourExplainsTheDemoAndCanBeLeft() {
   QTRY_VERIFY(tour->isVisible());
   QTest::keyClick(next, Qt::Key_Escape);
   QVERIFY(!tour->isVisible());
+}
+
+void DesktopMannersTest::toolbarsFitANarrowWindow() {
+  DesktopDriver d;
+  d.addCubes();
+  d.window().resize(1200, 760);
+  for (const char* name : {"toolBar", "placingBar"}) {
+    auto* bar = d.widget<QToolBar>(name);
+    QTRY_VERIFY(bar->width() > 1000);
+    QVERIFY2(bar->sizeHint().width() <= bar->width(), qPrintable(QString::number(bar->sizeHint().width())));
+    const auto* more = bar->findChild<QWidget*>(QStringLiteral("qt_toolbar_ext_button"));
+    QVERIFY(more == nullptr || !more->isVisible());
+  }
+  // The views share a button, which goes where the last one went.
+  auto* views = d.widget<QToolButton>("viewsButton");
+  QCOMPARE(views->defaultAction(), d.action("viewIso"));
+  QTest::keyClick(&d.window(), Qt::Key_3);
+  QCOMPARE(views->defaultAction(), d.action("viewTop"));
 }
 
 NEARFIT_DESKTOP_TEST_MAIN(DesktopMannersTest)

@@ -15,6 +15,7 @@ class DesktopPartsTest : public QObject {
  private slots:
   void addsAPartThroughTheDialogsInTheUnitChosen();
   void cancellingTheUnitAddsNothing();
+  void manyFilesAreOneStepOfUndo();
   void refusedFileIsNamedAndNothingIsLost();
   void iconsOfTheListSwitchHandVisibilityAndLock();
   void renamesInPlace();
@@ -68,6 +69,18 @@ void DesktopPartsTest::cancellingTheUnitAddsNothing() {
   QTest::qWait(100);
   QVERIFY(!d.window().document().isBusy());
   QVERIFY(d.session().scene().parts().empty());
+}
+
+void DesktopPartsTest::manyFilesAreOneStepOfUndo() {
+  DesktopDriver d;
+  d.add({d.fixedFile, d.movingFile, d.fixedFile});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
+  QVERIFY(d.action("undo")->text().contains(QStringLiteral("Add 3 parts")));
+  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  QVERIFY(d.session().scene().parts().empty());
+  QVERIFY(!d.action("undo")->isEnabled());
+  QTest::keyClick(&d.window(), Qt::Key_Y, Qt::ControlModifier);
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{3});
 }
 
 void DesktopPartsTest::refusedFileIsNamedAndNothingIsLost() {

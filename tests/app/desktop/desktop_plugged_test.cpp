@@ -1,14 +1,18 @@
 // The window with a device plugged in, used by its widgets alone. Runs under nearfit-emulate, which plugs an
 // emulated OpenHap device into this very program: the real registry, driver and libusb find it.
 #include <QComboBox>
+#include <QToolBar>
+#include <QToolButton>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "app/desktop/device_source.h"
+#include "core/scene/motion_reader.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/exact/pose_certifier.h"
 #include "tests/support/eventually.h"
@@ -52,6 +56,21 @@ struct Plugged {
     QCOMPARE(box->currentIndex(), wanted);
   }
   void click(const char* button) { QTest::mouseClick(d.widget<QPushButton>(button), Qt::LeftButton); }
+  std::filesystem::path path(const char* name) { return d.folder.path() / name; }
+  QString file(const char* name) { return QString::fromStdString(path(name).string()); }
+  /// By the button in the tool bar; no file ends it.
+  void record(const QString& file) {
+    if (!file.isEmpty()) whenModal<QFileDialog>([file](QFileDialog* dialog) { chooseFile(dialog, file); });
+    auto* bar = d.widget<QToolBar>("toolBar");
+    auto* button = bar->widgetForAction(d.action("record"));
+    QVERIFY(button->isVisible());
+    QTest::mouseClick(button, Qt::LeftButton);
+  }
+  /// As the button says.
+  int recordedSeconds() {
+    const QString text = d.action("record")->text();
+    return text.section('(', 1).section(' ', 0, 0).toInt();
+  }
   /// Arms it and waits. Where a thread does not run for 20 ms the device is stopped, and has to be: its user
   /// resets it and arms it again.
   template <class Condition>
@@ -84,6 +103,8 @@ class DesktopPluggedTest : public QObject {
 
  private slots:
   void itsUserChoosesItIsLedByItArmsItFeelsAndPutsThePartDown();
+  void howItReportsIsShownWhileItLeads();
+  void whatItLeadsIsRecordedByTheButtonAndReplayed();
 };
 
 void DesktopPluggedTest::itsUserChoosesItIsLedByItArmsItFeelsAndPutsThePartDown() {
@@ -129,6 +150,67 @@ void DesktopPluggedTest::itsUserChoosesItIsLedByItArmsItFeelsAndPutsThePartDown(
   // Where it was stopped, arming it in that moment may have been refused; nothing else goes wrong.
   for (const ui::Failure& failure : p.failures)
     QCOMPARE(failure.summary, QStringLiteral("The device could not be armed."));
+}
+
+void DesktopPluggedTest::howItReportsIsShownWhileItLeads() {
+  Plugged p;
+  p.choose(QStringLiteral("OpenHap"));
+  p.click("startStop");
+  QTRY_VERIFY(p.d.application.servo().isRunning());
+  QTRY_VERIFY2(p.d.text("reportRate").endsWith(QStringLiteral(" Hz")), qPrintable(p.d.text("reportRate")));
+  QTRY_VERIFY2(p.d.text("reportJitter").startsWith(QStringLiteral("± ")),
+               qPrintable(p.d.text("reportJitter")));
+  QVERIFY(p.d.widget<QLabel>("reportRate")->isVisible());
+  bool isNumber = false;
+  p.d.text("reportsLost").toInt(&isNumber);
+  QVERIFY(isNumber);
+  p.click("startStop");
+  QVERIFY(!p.d.widget<QLabel>("reportRate")->isVisible());
+  QVERIFY(p.failures.isEmpty());
+}
+
+void DesktopPluggedTest::whatItLeadsIsRecordedByTheButtonAndReplayed() {
+  Plugged p;
+  p.choose(QStringLiteral("OpenHap"));
+  p.click("startStop");
+  QTRY_VERIFY(p.pictures > 5);
+  const QString led = p.file("led.csv"), again = p.file("again.csv");
+  p.record(led);
+  // Some way of the circle.
+  QTRY_VERIFY2(p.recordedSeconds() >= 1, qPrintable(p.d.action("record")->text()));
+  p.record({});
+  QTRY_VERIFY(QFile::exists(led));
+  QVERIFY(p.d.application.servo().isRunning());
+  p.click("startStop");
+  const std::vector<MotionRow> felt = readMotion(p.path("led.csv"));
+  QVERIFY(felt.size() > 20 && felt.back().time - felt.front().time > 0.9);
+
+  // On the timeline, to its end.
+  whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, led); });
+  QApplication::setActiveWindow(&p.d.window());
+  QTest::keyClick(&p.d.window(), Qt::Key_F8, Qt::ShiftModifier);
+  QTRY_COMPARE(p.d.text("timelineName"), QStringLiteral("led.csv"));
+  QTest::mouseClick(p.d.widget<QToolButton>("timelinePlay"), Qt::LeftButton);
+  const double length = felt.back().time - felt.front().time;
+  QTRY_VERIFY(std::abs(p.d.text("timelineTime").section(' ', 0, 0).toDouble() - length) < 2e-3);
+  QTest::mouseClick(p.d.widget<QToolButton>("timelineClose"), Qt::LeftButton);
+
+  // And as the hand, recorded anew: it goes the same way.
+  p.record(again);
+  p.choose(QStringLiteral("Recorded hand"));
+  whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, led); });
+  p.click("startStop");
+  QTRY_VERIFY(QFile::exists(again));
+  QTRY_VERIFY(!p.d.application.servo().status().isTaken());
+  const std::vector<MotionRow> replayed = readMotion(p.path("again.csv"));
+  QVERIFY(replayed.size() > 20);
+  const auto way = [](const std::vector<MotionRow>& rows) {
+    return rows.back().handle.translation - rows.front().handle.translation;
+  };
+  QVERIFY(glm::length(way(felt)) > 0.005);
+  QVERIFY2(glm::distance(way(felt), way(replayed)) < 1e-6,
+           qPrintable(QString::number(glm::distance(way(felt), way(replayed)))));
+  QVERIFY(p.failures.isEmpty());
 }
 
 NEARFIT_DESKTOP_TEST_MAIN(DesktopPluggedTest)

@@ -49,6 +49,7 @@ class DesktopServoTest : public QObject {
   void springsChangeWhileItRuns();
   void partsComeAndGoWhileItRuns();
   void deletingThePartInHandStops();
+  void anotherSceneStopsThoughItsIdsAreTheSame();
   void restingServoDrawsNothing();
 };
 
@@ -231,6 +232,17 @@ void DesktopServoTest::deletingThePartInHandStops() {
   QTest::keyClick(&d.window(), Qt::Key_Delete);
   QVERIFY(!d.application.servo().isRunning());
   QVERIFY(d.session().scene().findByName("moving") == nullptr);
+}
+
+// It went on with whatever part of the other scene had the same number.
+void DesktopServoTest::anotherSceneStopsThoughItsIdsAreTheSame() {
+  DesktopDriver d;
+  d.addCubes();
+  startWith(d, ui::Hand::Manual);
+  Scene other = d.session().scene();
+  d.session().reset(other);
+  QVERIFY(!d.application.servo().isRunning());
+  QVERIFY(d.session().scene().movingPart());
 }
 
 void DesktopServoTest::restingServoDrawsNothing() {

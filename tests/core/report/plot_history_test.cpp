@@ -122,6 +122,21 @@ TEST(PlotHistory, ANewRunForgetsTheOldOne) {
   EXPECT_EQ(history.endTime(), 0.0);
 }
 
+TEST(PlotHistory, AGapBreaksTheLineAndForgetsNothing) {
+  PlotHistory history;
+  history.addGap();
+  EXPECT_TRUE(history.isEmpty());
+  history.add(sampleOf(0.0, 1.0F));
+  history.addGap();
+  history.add(sampleOf(0.002, 3.0F));
+  std::vector<PlotPoint> points;
+  history.envelope(PlotChannel::Force, -1.0, 1.0, 100, points);
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_EQ(points[0].value, 1.0);
+  EXPECT_TRUE(std::isnan(points[1].value));
+  EXPECT_EQ(points[2].value, 3.0);
+}
+
 TEST(PlotHistory, ASampleIsTheMagnitudesAndTimesOfItsTick) {
   MotionRow row;
   row.time = 3.0;

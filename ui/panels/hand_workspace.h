@@ -1,0 +1,37 @@
+#pragma once
+
+#include "ui/dialogs/feel_page.h"
+#include "ui/servo_status.h"
+
+class QAction;
+class QLabel;
+class QToolButton;
+
+namespace nearfit::ui {
+
+class LocksPage;
+
+/// The hand's way into the scene, at hand while it feels: scale and clutch of a device, and which motions
+/// count. Of a scripted hand there is nothing to set.
+class HandWorkspace : public FeelPage {
+  Q_OBJECT
+
+ public:
+  /// @param clutch  Holds the part while it is on.
+  explicit HandWorkspace(QAction* clutch, QWidget* parent = nullptr);
+
+  void showHand(Hand hand);
+  /// Whether the part stays though the hand moves, by the clutch here or by one of the device's own.
+  void showClutched(bool isClutched);
+
+ protected:
+  void refresh() override;
+
+ private:
+  QWidget* scaleRow_;
+  QToolButton* clutch_;
+  QLabel* note_;
+  LocksPage* locks_;
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace nearfit::ui {
+
+/// Style sheet of a tool button of which a part opens a menu: the picture stays clear of the arrow.
+inline constexpr const char* kSplitButton =
+    "QToolButton { padding-right: 18px; } QToolButton::menu-button { border: none; width: 16px; }";
+
+}  // namespace nearfit::ui
