@@ -162,6 +162,11 @@ class DesktopDriver {
     }
     return false;
   }
+  /// What the view shows now, drawn whole: one that is drawn in its own time may still show what was before.
+  QImage picture() {
+    window().viewport().completePicture();
+    return window().viewport().grabFramebuffer();
+  }
   QString text(const char* label) { return widget<QLabel>(label)->text(); }
   QTreeView* partsView() { return widget<QTreeView>("partsView"); }
 
