@@ -29,8 +29,12 @@ constexpr std::array kShortReaches{2.0, 1.5, 1.1, 0.75, 0.5};
 constexpr std::size_t kLevelOfPose = 2, kLevels = kLevelOfPose + 1 + kShortReaches.size();
 /// Of a tick's work, what must be left for another attempt with less room.
 constexpr std::uint64_t kWorkOfAttempt = ContactFinder::kMaxWork / 4;
+/// The same of the work that surfaces may take.
+constexpr std::uint64_t kWorkOfSurfaceAttempt = ContactFinder::kMaxSurfaceWork / 4;
 /// Of a body that is asked about, or held, whatever there is of it.
 constexpr std::uint64_t kWorkOfBody = 1;
+/// After a tick that saw nothing for want of work among surfaces, so many may have all there is.
+constexpr unsigned kGenerousTicks = 16;
 /// After so many with less room, more is tried.
 constexpr unsigned kGatheringsBetweenTries = 16;
 
@@ -62,8 +66,14 @@ void ContactFinder::beginTick() noexcept {
   workLeft_ = kMaxWork;
   isWorkSpent_ = false;
   searchWorkLeft_ = kMaxSearchWork;
+  if (isBlind_)
+    generousTicks_ = kGenerousTicks;
+  else if (generousTicks_ > 0)
+    --generousTicks_;
+  surfaceWorkLeft_ = generousTicks_ > 0 ? kMaxWork : kMaxSurfaceWork;
+  isBlind_ = false;
   lateBodies_ = 0;
-  isFirstOfTick_ = true;
+  isFirstLook_ = true;
 }
 
 bool ContactFinder::holdsFor(const ServoScene& scene, const RigidTransform& worldFromPart,
@@ -118,17 +128,23 @@ bool ContactFinder::gatherTriangles(const ServoScene& scene, std::uint32_t body,
   const ServoScene::Body& other = scene.bodies[body];
   const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
   const double within = pairsReach_ + slack.travel;
-  const auto share = static_cast<std::uint64_t>(kShareOfSearch * static_cast<double>(searchWorkLeft_));
-  const std::uint64_t maxWork = std::min(share, workLeft_);
+  const std::uint64_t left = std::min(searchWorkLeft_, leftForSurfaces());
+  const auto maxWork = static_cast<std::uint64_t>(kShareOfSearch * static_cast<double>(left));
   const NearbyTriangles nearby =
       findNearbyTriangles(*other.surface, *scene.moving.surface, bodyFromPart, within, scratch_,
                           std::span(triangles_).subspan(triangleCount_), maxWork);
   searchWorkLeft_ -= nearby.work;
-  spend(nearby.work);
+  spendOnSurface(nearby.work);
   bodies_[bodyCount_++] = {body, triangleCount_, nearby.count, nearby.within};
   triangleCount_ += nearby.count;
+  isSurfaceNear_ = true;
   // With no room for motion a part of them serves, if what is not there is known to be away.
   return nearby.within == within || (slack.travel == 0.0 && nearby.within > 0.0);
+}
+
+bool ContactFinder::hasWorkForAttempt() const noexcept {
+  if (workLeft_ < kWorkOfAttempt) return false;
+  return !isSurfaceNear_ || std::min(searchWorkLeft_, surfaceWorkLeft_) >= kWorkOfSurfaceAttempt;
 }
 
 bool ContactFinder::gatherPairs(const TrackedScene& tracked, const RigidTransform& worldFromPart,
@@ -149,29 +165,34 @@ bool ContactFinder::gatherPairs(const TrackedScene& tracked, const RigidTransfor
   // Where there were many pairs there still are, most likely; where more is to be had, still more may be.
   const bool isTry = roomLevel_ > 0 && ++gatherings_ % kGatheringsBetweenTries == 0;
   if (isTry) --roomLevel_;
-  // What fails for want of work that other poses took says nothing.
+  // What fails for want of work that other poses took says nothing of the poses of other ticks.
   const bool isFirst = workLeft_ == kMaxWork;
-  for (std::size_t level = roomLevel_; level < kLevels; ++level) {
+  if (isFirst || isTry) tickLevel_ = roomLevel_;
+  const auto keep = [&](std::size_t level) {
+    tickLevel_ = level;
+    if (isFirst || isTry) roomLevel_ = level;
+  };
+  for (std::size_t level = tickLevel_; level < kLevels; ++level) {
     if (gather(level)) {
       if (isTry && level == roomLevel_) gatherings_ = kGatheringsBetweenTries - 1;
-      roomLevel_ = level;
+      keep(level);
       return true;
     }
     // Nearer by a shorter step, but not with less room.
     if (isUncovered_) return false;
-    if (workLeft_ >= kWorkOfAttempt) continue;
-    if (isFirst) roomLevel_ = std::min(std::max(level + 1, kLevelOfPose), kLevels - 1);
+    if (hasWorkForAttempt()) continue;
+    keep(std::min(std::max(level + 1, kLevelOfPose), kLevels - 1));
     return false;
   }
-  roomLevel_ = kLevels - 1;
+  keep(kLevels - 1);
   return false;
 }
 
 bool ContactFinder::gatherWithin(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                                  const Gathering& gathering) noexcept {
   bodyCount_ = pairCount_ = triangleCount_ = 0;
-  isUncovered_ = false;
-  pairsPose_ = worldFromPart;
+  isUncovered_ = isSurfaceNear_ = false;
+  pairsPose_ = testedPose_ = worldFromPart;
   holds_ = gathering.slack;
   bool isComplete = true;
   const double far = pairsReach_ + gathering.slack.travel;
@@ -209,10 +230,11 @@ void ContactFinder::testSurface(const ServoScene& scene, const HeldBody& held,
   const ServoScene::Body& other = scene.bodies[held.body];
   const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
   const HeldTriangles triangles{std::span(triangles_).subspan(held.first, held.count), held.within,
-                                motionOf(scene, pairsPose_, worldFromPart).travel};
+                                motionOf(scene, pairsPose_, worldFromPart).travel,
+                                motionOf(scene, testedPose_, worldFromPart).travel};
   const SurfaceContacts result = testTriangles(*other.surface, *scene.moving.surface, bodyFromPart,
-                                               pairsReach_, triangles, surfaceFound_, workLeft_);
-  spend(result.work);
+                                               pairsReach_, triangles, surfaceFound_, leftForSurfaces());
+  spendOnSurface(result.work);
   around.distance = std::min(around.distance, result.lowerBound);
   around.completeTo = std::min(around.completeTo, result.completeTo);
   for (const SurfaceContact& contact : std::span(surfaceFound_).first(result.count)) {
@@ -232,15 +254,23 @@ void ContactFinder::testBodies(const ServoScene& scene, const RigidTransform& wo
   for (const HeldBody& body : held) {
     if (scene.bodies[body.body].surface) testSurface(scene, body, worldFromPart, around);
   }
+  testedPose_ = worldFromPart;
 }
 
 Surroundings ContactFinder::find(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                                  double reach, double way, std::span<BodyContact> out) noexcept {
+  const Surroundings around = look(tracked, worldFromPart, reach, way, out);
+  isBlind_ = (isBlind_ || isFirstLook_) && !(around.distance > 0.0);
+  isFirstLook_ = false;
+  return around;
+}
+
+Surroundings ContactFinder::look(const TrackedScene& tracked, const RigidTransform& worldFromPart,
+                                 double reach, double way, std::span<BodyContact> out) noexcept {
   const ServoScene& scene = *tracked.scene;
-  if (isFirstOfTick_) {
+  if (isFirstLook_) {
     tickTravel_ = motionOf(scene, tickPose_, worldFromPart).travel;
     tickPose_ = worldFromPart;
-    isFirstOfTick_ = false;
   }
   if (!holdsFor(scene, worldFromPart, reach)) {
     if (!gatherPairs(tracked, worldFromPart, reach, way)) return {};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -40,6 +41,10 @@ class ContactFinder {
   static constexpr std::uint64_t kMaxWork = 1U << 15;
   /// Of it, for searches anew, some 0.7 ms: where that does not suffice, a list will soon be there.
   static constexpr std::uint64_t kMaxSearchWork = 1U << 14;
+  /// Of it, for surfaces without sides, some 0.3 ms: they have no lists, so that a part among them would take
+  /// all of it in every tick. With less a part passes them more slowly, and ticks are not late. Where that is
+  /// too little to see anything, the ticks that follow may take all.
+  static constexpr std::uint64_t kMaxSurfaceWork = 1U << 13;
   /// Bodies that can be in contact at a time; with more the part stands still.
   static constexpr std::size_t kMaxBodies = 1024;
 
@@ -60,7 +65,7 @@ class ContactFinder {
 
   /// Bodies that were searched anew since the tick began.
   std::uint32_t lateBodies() const noexcept { return lateBodies_; }
-  bool isWorkSpent() const noexcept { return isWorkSpent_ || workLeft_ == 0; }
+  bool isWorkSpent() const noexcept { return isWorkSpent_ || workLeft_ == 0 || surfaceWorkLeft_ == 0; }
   /// All work since the tick began; at most kMaxWork.
   std::uint64_t work() const noexcept { return kMaxWork - workLeft_; }
 
@@ -77,7 +82,10 @@ class ContactFinder {
     std::size_t mostListed;
   };
 
+  Surroundings look(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
+                    double way, std::span<BodyContact> out) noexcept;
   bool holdsFor(const ServoScene& scene, const RigidTransform& worldFromPart, double reach) const noexcept;
+  bool hasWorkForAttempt() const noexcept;
   bool gatherPairs(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
                    double way) noexcept;
   bool gatherWithin(const TrackedScene& tracked, const RigidTransform& worldFromPart,
@@ -99,6 +107,12 @@ class ContactFinder {
     workLeft_ -= work;
   }
 
+  std::uint64_t leftForSurfaces() const noexcept { return std::min(workLeft_, surfaceWorkLeft_); }
+  void spendOnSurface(std::uint64_t work) noexcept {
+    spend(work);
+    surfaceWorkLeft_ -= std::min(work, surfaceWorkLeft_);
+  }
+
   LmdScratch scratch_;
   ContactThinning thinning_;
   std::vector<ContactPair> found_;            ///< Of one body.
@@ -111,21 +125,25 @@ class ContactFinder {
   std::size_t pairCount_ = 0, triangleCount_ = 0;
   std::array<HeldBody, kMaxBodies> bodies_;
   std::size_t bodyCount_ = 0;
-  RigidTransform pairsPose_;
+  RigidTransform pairsPose_, testedPose_;
   double askedReach_ = 0.0, pairsReach_ = 0.0;  ///< What was wanted, and what they are gathered for [m].
   MotionBudget holds_;
   bool isHoldingPairs_ = false;
   std::size_t roomLevel_ = 0;  ///< Of the room that pairs are gathered with: less at each level.
+  std::size_t tickLevel_ = 0;  ///< The same for the rest of this tick, whose work is less.
   unsigned gatherings_ = 0;
-  bool isUncovered_ = false;  ///< A list that is longer than a search could be does not hold there.
+  bool isSurfaceNear_ = false;  ///< A surface without sides was searched.
+  bool isUncovered_ = false;    ///< A list that is longer than a search could be does not hold there.
 
   /// Where contacts were first looked for in the last tick, and how far that was from the one before [m].
   RigidTransform tickPose_;
   double tickTravel_ = 0.0;
-  bool isFirstOfTick_ = false;
+  bool isFirstLook_ = false;
 
-  std::uint64_t workLeft_ = kMaxWork, searchWorkLeft_ = 0;
-  bool isWorkSpent_ = false;  ///< What is left did not do for what was to be done.
+  std::uint64_t workLeft_ = kMaxWork, searchWorkLeft_ = 0, surfaceWorkLeft_ = 0;
+  bool isBlind_ = false;        ///< Nothing is known of any pose of this tick.
+  unsigned generousTicks_ = 0;  ///< That surfaces may have all the work in.
+  bool isWorkSpent_ = false;    ///< What is left did not do for what was to be done.
   std::uint32_t lateBodies_ = 0;
 };
 

@@ -335,7 +335,7 @@ NearbyTriangles findNearbyTriangles(const UnsidedSurface& scene, const UnsidedSu
     if (gap > reach) return;
     const double atLeast = std::max(0.0, gap - rounding);
     if (result.count < out.size()) {
-      out[result.count++] = {s, p, atLeast, isByPart};
+      out[result.count++] = {s, p, atLeast, isByPart, atLeast};
     } else {
       result.within = std::min(result.within, atLeast);
       faces.stop();
@@ -366,12 +366,15 @@ SurfaceContacts testTriangles(const UnsidedSurface& scene, const UnsidedSurface&
   if (!spend(held.pairs.size() / kPassedOver)) return result;
   for (TrianglePair& pair : held.pairs) {
     pair.gap = kInfinity;
-    const double atLeast = pair.atLeast - held.travel;
-    if (atLeast > within + rounding) continue;
-    if (spend(kWorkOfTest))
-      pairs.test(pair);
-    else
-      notTested = std::min(notTested, atLeast);
+    // A part goes on by small steps: what its last one says of most pairs is enough.
+    pair.known = std::max(pair.known - held.travelSinceTest, pair.atLeast - held.travel);
+    if (pair.known > within + rounding) continue;
+    if (!spend(kWorkOfTest)) {
+      notTested = std::min(notTested, pair.known);
+      continue;
+    }
+    pairs.test(pair);
+    pair.known = std::max(pair.known, pair.gap - rounding);
   }
   result.count = list.count();
   result.completeTo = std::clamp(notTested, 0.0, within);

@@ -26,7 +26,8 @@ struct TrianglePair {
   std::uint32_t scene = 0, part = 0;  ///< Of the faces of the hierarchies.
   double atLeast = 0.0;               ///< They are no nearer at the pose that they were listed for [m].
   bool isByPart = false;              ///< Whether the part's triangle told that.
-  double gap = 0.0;                   ///< Nor than this at the pose that they were tested for last [m].
+  double known = 0.0;                 ///< The same of the pose that the list was tested for last [m].
+  double gap = 0.0;                   ///< Of a test: they are no nearer there [m].
 };
 
 /// Pairs that were found to be near.
@@ -57,9 +58,11 @@ NearbyTriangles findNearbyTriangles(const UnsidedSurface& scene, const UnsidedSu
 
 /// Pairs of triangles that were listed for a pose, and how far that is from another.
 struct HeldTriangles {
-  std::span<TrianglePair> pairs;  ///< Written to: `gap`.
+  std::span<TrianglePair> pairs;  ///< Written to: `known`, `gap`, `isByPart`.
   double within = 0.0;            ///< As NearbyTriangles says [m].
   double travel = 0.0;            ///< No point of the part is farther from where it was than this [m].
+  /// Nor from where it was when the list was tested last [m]; `travel` where it was not.
+  double travelSinceTest;
 };
 
 struct SurfaceContacts {

@@ -42,8 +42,9 @@ TEST(ContactFinder, ATickAmongOpenSheetsEndsWithinItsWork) {
     }
     most = std::max(most, finder.work());
   }
-  EXPECT_LE(most, ContactFinder::kMaxWork);
-  EXPECT_GT(most, ContactFinder::kMaxSearchWork / 2);
+  // And some for asking which bodies are near.
+  EXPECT_LE(most, ContactFinder::kMaxSurfaceWork + 64);
+  EXPECT_GT(most, ContactFinder::kMaxSurfaceWork / 2);
 }
 
 /// Waves in phase, one above the other: their boxes overlap down to the leaves.
@@ -56,18 +57,19 @@ TriangleMesh waves() {
 }
 
 // A search that was left off with its nodes still overlapping says of nothing that it is away. Taken for an
-// answer, it left no work for a shorter look: a part that slid among coils took one step a tick.
+// answer, it left no work for a shorter look: a part that slid among coils took one step a tick. Here even the
+// shortest says nothing within what surfaces have of a tick: those that follow may take more.
 TEST(ContactFinder, WhereALookSaysNothingAShorterOneDoes) {
   test::ProxyWalk walk({{waves(), {}}}, waves(), raised(0.1), {1e-3, 0.0});
   walk.lead(walk.pose());
   ContactFinder finder;
   std::vector<BodyContact> out(ContactFinder::kMaxContacts);
-  for (int tick = 0; tick < 3; ++tick) {
+  for (int tick = 0; tick < 8; ++tick) {
     finder.beginTick();
     const RigidTransform pose{{1, 0, 0, 0}, {0.0, 0.0, 1.2e-3 + 1e-5 * tick}};
     const Surroundings around = finder.find(walk.tracked(), pose, kReach, 1e-3, out);
-    // The first tick learns that there is too much for longer ones.
-    if (tick == 0) continue;
+    // The first ticks learn that there is too much for longer ones.
+    if (tick < 4) continue;
     EXPECT_GT(around.completeTo, 0.0);
     EXPECT_GT(around.distance, 0.2e-3);
     EXPECT_LE(around.distance, pose.translation.z);

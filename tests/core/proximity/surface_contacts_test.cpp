@@ -34,8 +34,8 @@ SurfaceContacts findContacts(const UnsidedSurface& scene, const UnsidedSurface& 
   static LmdScratch scratch;
   static std::vector<TrianglePair> pairs(1U << 20);
   const NearbyTriangles nearby = findNearbyTriangles(scene, part, pose, within, scratch, pairs, work);
-  return testTriangles(scene, part, pose, within, {std::span(pairs).first(nearby.count), nearby.within, 0.0},
-                       out, work);
+  return testTriangles(scene, part, pose, within,
+                       {std::span(pairs).first(nearby.count), nearby.within, 0.0, 0.0}, out, work);
 }
 
 std::vector<SurfaceContact> contactsAt(const UnsidedSurface& scene, const UnsidedSurface& part,
@@ -195,19 +195,28 @@ void compareHeld(const BodyPair& pair, double within, double slack, std::uint64_
     const NearbyTriangles nearby =
         findNearbyTriangles(scene, part, start, within + slack, scratch, pairs, kAnyWork);
     ASSERT_EQ(nearby.within, within + slack);
-    // Along a way, so that what is kept of a pair from pose to pose is old.
+    // Along a way of leaps and small steps, so that what is kept of a pair from pose to pose is old.
+    RigidTransform before = start;
+    glm::dvec3 axis(0.0);
+    double share = 0.0;
     for (int k = 0; k < 8; ++k) {
-      const glm::dvec3 axis = test::randomRotation(random).rotation * glm::dvec3(1, 0, 0);
-      const double share = unit(random);
+      if (k % 3 == 0) {
+        axis = test::randomRotation(random).rotation * glm::dvec3(1, 0, 0);
+        share = unit(random);
+      } else {
+        share *= 0.9;
+      }
       const RigidTransform pose{
           glm::normalize(glm::angleAxis(0.45 * share * slack / radius, axis) * start.rotation),
           start.translation + 0.5 * share * slack * axis};
       const double travel = motionBetween(start, pose, radius).travel;
       ASSERT_LE(travel, slack);
       std::vector<SurfaceContact> held(4096);
-      const SurfaceContacts found =
-          testTriangles(scene, part, pose, within,
-                        {std::span(pairs).first(nearby.count), nearby.within, travel}, held, kAnyWork);
+      const SurfaceContacts found = testTriangles(scene, part, pose, within,
+                                                  {std::span(pairs).first(nearby.count), nearby.within,
+                                                   travel, motionBetween(before, pose, radius).travel},
+                                                  held, kAnyWork);
+      before = pose;
       held.resize(found.count);
       EXPECT_EQ(found.completeTo, within);
       const std::vector<SurfaceContact> cold = contactsAt(scene, part, pose, within);
@@ -248,7 +257,7 @@ TEST(SurfaceContacts, WorkIsBoundedWhereAllTrianglesOfTwoSheetsAreNear) {
     EXPECT_GE(nearby.work, kWorkOfListing * nearby.count);
     const SurfaceContacts found =
         testTriangles(sheet, sheet, above, 2.6 * kGap,
-                      {std::span(pairs).first(nearby.count), nearby.within, 0.0}, out, work);
+                      {std::span(pairs).first(nearby.count), nearby.within, 0.0, 0.0}, out, work);
     EXPECT_LE(found.work, work);
     EXPECT_LE(found.lowerBound, kGap);
     EXPECT_LE(found.completeTo, std::max(kGap, nearby.within));
