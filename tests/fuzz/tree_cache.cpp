@@ -114,7 +114,7 @@ void useMesh(const CachedMesh& cached, const NormalConeTree& tree) {
   std::vector<SurfaceContact> contacts(64);
   const NearbyTriangles nearby = findNearbyTriangles(surface, surface, pose, 1.0, scratch, pairs, 1U << 16);
   require(nearby.count <= pairs.size(), "no more triangles than room");
-  testTriangles(surface, surface, pose, 1.0, {std::span(pairs).first(nearby.count), nearby.within, 0.0},
+  testTriangles(surface, surface, pose, 1.0, {std::span(pairs).first(nearby.count), nearby.within, 0.0, 0.0},
                 contacts, 1U << 16);
 }
 
