@@ -59,6 +59,8 @@ class SceneRenderer {
   /// Null when it is not in the scene.
   const PartActor* find(PartId part) const;
   bool hasLoose() const noexcept { return !loose_.empty(); }
+  /// Whether parts that are seen shine through.
+  bool hasTranslucent() const;
   void settle();
 
   /// Bounds of all visible parts as VTK has them (xmin, xmax, ...) [m]; false when there are none.

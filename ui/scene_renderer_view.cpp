@@ -102,6 +102,11 @@ DetailChoice SceneRenderer::applyDetail(const DetailLimits& limits) {
   return choice;
 }
 
+bool SceneRenderer::hasTranslucent() const {
+  return std::ranges::any_of(
+      actors_, [](const auto& entry) { return entry.second->isVisible() && !entry.second->isOpaque(); });
+}
+
 std::vector<vtkProp*> SceneRenderer::keep() {
   std::vector<vtkProp*> props;
   beingKept_.clear();

@@ -12,7 +12,6 @@
 #include <glm/trigonometric.hpp>
 #include <vtkBoundingBox.h>
 #include <vtkCamera.h>
-#include <vtkCameraOrientationRepresentation.h>
 #include <vtkCommand.h>
 #include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkLightKit.h>
@@ -22,6 +21,7 @@
 #include "ui/colour_legend.h"
 #include "ui/detail/view_detail.h"
 #include "ui/hand_drag.h"
+#include "ui/orientation_marker.h"
 #include "ui/selection.h"
 #include "ui/snapshot_look.h"
 #include "ui/theme.h"
@@ -148,10 +148,7 @@ void Viewport::setUpInteraction() {
   style->SetDefaultRenderer(renderer_);
   style->view = this;
   style->AutoAdjustCameraClippingRangeOff();
-  marker_->SetParentRenderer(renderer_);
-  auto* shape = vtkCameraOrientationRepresentation::SafeDownCast(marker_->GetRepresentation());
-  shape->SetSize(100, 100);
-  marker_->On();
+  setUpOrientationMarker(*marker_.Get(), *renderer_.Get());
   renderer_->AddObserver(vtkCommand::StartEvent, this, &Viewport::prepareRender);
   window_->AddObserver(vtkCommand::EndEvent, this, &Viewport::countPicture);
 }
@@ -178,7 +175,9 @@ void Viewport::adjustClipping() {
   camera.GetClippingRange(kept);
   fitDepths(0.0);
   const double* needed = camera.GetClippingRange();
-  if (needed[0] >= kept[0] && needed[1] <= kept[1]) {
+  // From within the scene VTK begins at a part of the farthest depth, which room around it makes no nearer.
+  const bool beginsAtTheEye = kept[0] <= 1.01 * renderer_->GetNearClippingPlaneTolerance() * kept[1];
+  if ((needed[0] >= kept[0] || beginsAtTheEye) && needed[1] <= kept[1]) {
     camera.SetClippingRange(kept);
   } else {
     detail_->drop();

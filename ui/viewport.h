@@ -128,7 +128,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
 
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<KeptRenderer> renderer_;
-  vtkNew<vtkRenderer> overlay_;
+  vtkNew<BlendingRenderer> overlay_;
   vtkNew<vtkCameraOrientationWidget> marker_;
   std::shared_ptr<PartShapeCache> shapes_;
   Selection& selection_;

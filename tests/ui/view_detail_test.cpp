@@ -75,6 +75,7 @@ class ViewDetailTest : public QObject {
   void aFullPictureIsThatOfTheMeshesThemselves();
   void nothingIsDrawnOnceItIsFull();
   void whatShinesThroughIsWholeAtRestToo();
+  void aViewFromWithinComesToRest();
   void aPartThatMovesIsDrawnOverWhatIsKept();
   void manyRequestsAreOnePicture();
   void partsOfOneMeshShareItsBuffers();
@@ -153,6 +154,20 @@ void ViewDetailTest::whatShinesThroughIsWholeAtRestToo() {
     QVERIFY(row.comesToRest());
     QVERIFY(row.view.detail().detail().triangles >= (kParts - opaque) * kTriangles);
   }
+}
+
+/// Depths that begin at the eye were never taken for those that had been kept, and all was drawn again and
+/// again.
+void ViewDetailTest::aViewFromWithinComesToRest() {
+  Row row;
+  QVERIFY(row.comesToRest());
+  // Between the first and the second, along the row.
+  row.view.camera()->SetPosition(0.025, 0.0, 0.0);
+  row.view.camera()->SetFocalPoint(0.3, 0.0, 0.0);
+  row.view.requestRender();
+  QTRY_VERIFY(!row.isFull());
+  QVERIFY(row.comesToRest());
+  QVERIFY(row.view.detail().detail().isKept);
 }
 
 void ViewDetailTest::aPartThatMovesIsDrawnOverWhatIsKept() {

@@ -3,6 +3,11 @@
 #include <QtTest>
 #include <memory>
 
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPropCollection.h>
+#include <vtkRendererCollection.h>
+
 #include "core/session.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
@@ -19,6 +24,7 @@ class ViewportTest : public QObject {
   void oneChangeIsOnePicture();
   void changesBetweenTwoFramesAreOnePicture();
   void aPictureDrawnAgainIsTheSame();
+  void whatIsDrawnBesidesPartsIsLittle();
 
  private:
   /// Pictures since the last call, once the view is at rest.
@@ -87,6 +93,30 @@ void ViewportTest::aPictureDrawnAgainIsTheSame() {
   const QImage drawn = viewport_->grabFramebuffer();
   QVERIFY(!left.isNull());
   QCOMPARE(left, drawn);
+}
+
+/// VTK's marker in the corner had more triangles than most scenes, made anew for each picture.
+void ViewportTest::whatIsDrawnBesidesPartsIsLittle() {
+  constexpr vtkIdType kMost = 5'000;
+  vtkRendererCollection* renderers = viewport_->renderWindow()->GetRenderers();
+  QVERIFY(renderers->GetNumberOfItems() > 2);
+  vtkIdType count = 0;
+  renderers->InitTraversal();
+  while (vtkRenderer* renderer = renderers->GetNextItem()) {
+    vtkNew<vtkPropCollection> actors;
+    vtkPropCollection* props = renderer->GetViewProps();
+    props->InitTraversal();
+    while (vtkProp* prop = props->GetNextProp())
+      prop->GetActors(actors);
+    actors->InitTraversal();
+    while (auto* actor = vtkActor::SafeDownCast(actors->GetNextProp())) {
+      auto* mapper = vtkPolyDataMapper::SafeDownCast(actor->GetMapper());
+      if (actor->GetVisibility() == 0 || mapper == nullptr) continue;
+      mapper->Update();
+      count += mapper->GetInput()->GetNumberOfPolys() + 2 * mapper->GetInput()->GetNumberOfStrips();
+    }
+  }
+  QVERIFY2(count > 100 && count < kMost, qPrintable(QString::number(count)));
 }
 
 int main(int argc, char** argv) {

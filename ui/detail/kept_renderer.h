@@ -5,16 +5,17 @@
 
 #include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
-#include <vtkOpenGLRenderer.h>
+
+#include "ui/detail/blending_renderer.h"
 
 namespace nearfit::ui {
 
 /// A renderer that can keep a picture of opaque things, with its depths, and draw everything else over it. It
 /// is drawn a little at a time, so that nobody waits for millions of triangles.
-class KeptRenderer : public vtkOpenGLRenderer {
+class KeptRenderer : public BlendingRenderer {
  public:
   static KeptRenderer* New();
-  using Superclass = vtkOpenGLRenderer;
+  using Superclass = BlendingRenderer;
 
   /// Begins anew, with the background alone, as the camera sees it now.
   void beginKeeping();

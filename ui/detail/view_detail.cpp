@@ -16,9 +16,10 @@ using namespace std::chrono_literals;
 constexpr std::size_t kSmall = 20'000;
 /// What is drawn once nothing moves may take half a second.
 constexpr std::size_t kBudgetAtRest = 1'000'000;
-constexpr std::size_t kFirstBudget = 120'000, kLeastBudget = 60'000, kMostBudget = 50'000'000;
-/// A picture that takes longer is drawn coarser the next time, one that takes less finer [ms].
-constexpr qint64 kSlow = 45, kQuick = 15;
+constexpr std::size_t kFirstBudget = 120'000, kLeastBudget = 30'000, kMostBudget = 50'000'000;
+/// A picture that takes longer is drawn coarser the next time, one that takes less finer [ms]. Bringing it to
+/// the screen takes software another ten.
+constexpr qint64 kSlow = 36, kQuick = 15;
 constexpr int kStillMs = 150, kRestMs = 220;
 /// Of drawing what is kept between two looks at what the user does.
 constexpr std::chrono::microseconds kTurn = 15ms;
@@ -77,6 +78,8 @@ void ViewDetail::beforePicture() {
   isLimited_ = !choice.isExact;
   const bool isSmooth = isAtRest_ || (choice.triangles <= kSmall && !detail_.isKept);
   smooth(isSmooth);
+  // While something moves, what shines through is blended as it comes.
+  renderer_.setManyColoured(isSmooth && parts_.hasTranslucent());
   detail_.isFull = detail_.isFull && isSmooth;
   isAtRest_ = false;
   if (detail_.isFull || isLast) {

@@ -14,7 +14,7 @@ namespace nearfit::bench {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 800;
-constexpr double kPatience = 60'000.0;  ///< [ms]
+constexpr double kPatience = 120'000.0;  ///< [ms]
 
 /// Tests run on machines with devices too.
 class NoDevices final : public desktop::DeviceSource {
@@ -24,17 +24,6 @@ class NoDevices final : public desktop::DeviceSource {
   QString find(const QString&) override { throw Error("devices", "there are none"); }
   std::unique_ptr<HapticDevice> make(const QString&) override { throw Error("devices", "there are none"); }
 };
-
-void waitUntil(const char* what, const std::function<bool()>& isDone) {
-  const double start = milliseconds();
-  // Where no event comes, patience ends all the same.
-  QTimer look;
-  look.start(1000);
-  while (!isDone()) {
-    if (milliseconds() - start > kPatience) throw Error("window", std::string("waits in vain for ") + what);
-    QApplication::processEvents(QEventLoop::WaitForMoreEvents);
-  }
-}
 
 void send(QWidget& widget, QEvent::Type type, const QPoint& at) {
   const bool isMove = type == QEvent::MouseMove;
@@ -48,6 +37,17 @@ void send(QWidget& widget, QEvent::Type type, const QPoint& at) {
 
 double milliseconds() {
   return 1e3 * secondsBy(BenchClock::Wall);
+}
+
+void waitUntil(const char* what, const std::function<bool()>& isDone) {
+  const double start = milliseconds();
+  // Where no event comes, patience ends all the same.
+  QTimer look;
+  look.start(1000);
+  while (!isDone()) {
+    if (milliseconds() - start > kPatience) throw Error("window", std::string("waits in vain for ") + what);
+    QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+  }
 }
 
 BenchWindow::BenchWindow()
@@ -91,9 +91,12 @@ void BenchWindow::run(std::chrono::milliseconds time) {
 
 void BenchWindow::settle() {
   constexpr std::chrono::milliseconds kWhile{500};
+  const double start = milliseconds();
   int before = -1;
-  while (std::exchange(before, view().pictureCount()) != view().pictureCount())
+  while (std::exchange(before, view().pictureCount()) != view().pictureCount()) {
+    if (milliseconds() - start > kPatience) throw Error("window", "it draws without end");
     run(kWhile);
+  }
 }
 
 double BenchWindow::shown(const std::function<void()>& act) {

@@ -14,6 +14,8 @@ namespace nearfit::bench {
 
 /// Milliseconds by the wall clock, from some beginning.
 double milliseconds();
+/// Handles events until it is done. @throw Error after two minutes.
+void waitUntil(const char* what, const std::function<bool()>& isDone);
 
 /// The application that ships, its view 1280 pixels wide and 800 high, driven as a user does.
 class BenchWindow {
@@ -29,7 +31,7 @@ class BenchWindow {
 
   /// Handles events for so long.
   static void run(std::chrono::milliseconds time);
-  /// Handles events until the view draws nothing more.
+  /// Handles events until the view draws nothing more. @throw Error when it goes on and on.
   void settle();
   /// Does something and waits until a picture after it is on the screen. @return How long that took [ms].
   double shown(const std::function<void()>& act);

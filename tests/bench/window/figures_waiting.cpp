@@ -132,8 +132,7 @@ std::vector<Figure> measureOpening(const WindowOptions& options) {
   const double start = milliseconds();
   const Heartbeat heart;
   document.addParts({QString::fromStdString(file.string())}, 1.0);
-  while (!isLoaded)
-    QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+  waitUntil("the mesh", [&] { return isLoaded; });
   const double loaded = milliseconds() - start;
   window.settle();
   const std::string remark = fmt::format("loaded in {:.1f} s; {} in the last picture", loaded / 1e3,

@@ -46,8 +46,7 @@ PlainWindow::PlainWindow(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   QObject::connect(&impl_->widget, &QOpenGLWidget::frameSwapped, &impl_->widget, [this] { ++impl_->swaps; });
   impl_->renderer->ResetCamera();
   impl_->widget.show();
-  while (impl_->swaps == 0)
-    QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+  waitUntil("its first picture", [this] { return impl_->swaps > 0; });
 }
 
 PlainWindow::~PlainWindow() = default;
@@ -62,8 +61,7 @@ std::vector<double> PlainWindow::orbit(std::chrono::milliseconds time) {
     impl_->renderer->GetActiveCamera()->Azimuth(kDegrees);
     impl_->renderer->ResetCameraClippingRange();
     impl_->window->Render();
-    while (impl_->swaps == before)
-      QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    waitUntil("a picture", [&] { return impl_->swaps > before; });
     frames.push_back(milliseconds() - start);
   }
   return frames;

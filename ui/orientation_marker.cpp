@@ -1,0 +1,53 @@
+#include "ui/orientation_marker.h"
+
+#include <vtkActor.h>
+#include <vtkCameraOrientationRepresentation.h>
+#include <vtkCameraOrientationWidget.h>
+#include <vtkEllipticalButtonSource.h>
+#include <vtkMapper.h>
+#include <vtkNew.h>
+#include <vtkPropCollection.h>
+#include <vtkRenderer.h>
+#include <vtkTextProperty.h>
+
+namespace nearfit::ui {
+namespace {
+
+constexpr int kPixels = 100;
+/// Of labels. VTK draws their letters anew for each picture, and would make them ten times as tall as they
+/// are seen.
+constexpr int kFontSize = 36;
+/// Of a handle's rim, and rings within it, which is of one colour: VTK would make 15,000 triangles for each
+/// picture.
+constexpr int kSides = 32, kRings = 1;
+
+void coarsen(vtkActor& actor) {
+  if (actor.GetMapper() == nullptr) return;
+  auto* handle = vtkEllipticalButtonSource::SafeDownCast(actor.GetMapper()->GetInputAlgorithm());
+  if (handle == nullptr) return;
+  handle->SetCircumferentialResolution(kSides);
+  handle->SetShoulderResolution(kRings);
+  handle->SetTextureResolution(kRings);
+}
+
+}  // namespace
+
+void setUpOrientationMarker(vtkCameraOrientationWidget& marker, vtkRenderer& parent) {
+  marker.SetParentRenderer(&parent);
+  auto* shape = vtkCameraOrientationRepresentation::SafeDownCast(marker.GetRepresentation());
+  shape->SetSize(kPixels, kPixels);
+  for (vtkTextProperty* label :
+       {shape->GetXPlusLabelProperty(), shape->GetYPlusLabelProperty(), shape->GetZPlusLabelProperty(),
+        shape->GetXMinusLabelProperty(), shape->GetYMinusLabelProperty(), shape->GetZMinusLabelProperty()})
+    label->SetFontSize(kFontSize);
+  vtkNew<vtkPropCollection> props;
+  shape->GetActors(props);
+  vtkCollectionSimpleIterator it;
+  props->InitTraversal(it);
+  while (vtkProp* prop = props->GetNextProp(it)) {
+    if (auto* actor = vtkActor::SafeDownCast(prop)) coarsen(*actor);
+  }
+  marker.On();
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,13 @@
+#pragma once
+
+class vtkCameraOrientationWidget;
+class vtkRenderer;
+
+namespace nearfit::ui {
+
+/// The axes in the corner of a view, which turn with it and turn it.
+///
+/// @param parent  Whose camera they show; it has a window and an interactor.
+void setUpOrientationMarker(vtkCameraOrientationWidget& marker, vtkRenderer& parent);
+
+}  // namespace nearfit::ui
