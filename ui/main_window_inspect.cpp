@@ -6,6 +6,7 @@
 #include "ui/actions.h"
 #include "ui/main_window.h"
 #include "ui/measure/measure_tool.h"
+#include "ui/section/section_tool.h"
 #include "ui/unit_menu.h"
 #include "ui/viewport.h"
 
@@ -15,7 +16,8 @@ void MainWindow::setUpInspecting() {
   auto* measure = new MeasureTool(session_, *viewport_, this);
   connect(findChild<UnitMenu*>(QStringLiteral("unitMenu")), &UnitMenu::unitChanged, measure,
           &MeasureTool::refresh);
-  const QList<QAction*> tools{measure->action()};
+  const auto* section = new SectionTool(session_, *viewport_, this);
+  const QList<QAction*> tools{measure->action(), section->action()};
   actions_->viewMenu->insertActions(actions_->panelsMenu->menuAction(), tools);
   actions_->viewMenu->insertSeparator(actions_->panelsMenu->menuAction());
   auto* bar = findChild<QToolBar*>(QStringLiteral("placingBar"));

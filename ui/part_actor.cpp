@@ -78,12 +78,25 @@ bool PartActor::setAppearance(const Colour& colour, bool isVisible, const PartLo
   look_->SetOpacity(look.opacity * (!look.isTranslucent  ? 1.0
                                     : look.isOverlapping ? kWarningOpacity
                                                          : kTranslucentOpacity));
-  // Half of the work of drawing a closed surface is behind it.
-  look_->SetBackfaceCulling(shape().hidesItsInside && isOpaque());
+  hideBackFaces();
   setEdgeColour(*edges_->GetProperty(), look);
   showPieces();
   setThrough(isVisible && look.isSelected);
   return true;
+}
+
+void PartActor::hideBackFaces() {
+  // Half of the work of drawing a closed surface is behind it; into one that is cut open one sees.
+  look_->SetBackfaceCulling(shape().hidesItsInside && isOpaque() && !mappers_->isCut());
+}
+
+void PartActor::setMappers(std::shared_ptr<ShapeMappers> mappers) {
+  mappers_ = std::move(mappers);
+  hideBackFaces();
+  showPieces();
+  if (veil_ == nullptr) return;
+  veil_->SetMapper(mappers_->veil());
+  veilEdges_->SetMapper(mappers_->veilEdges());
 }
 
 bool PartActor::isOpaque() const noexcept {

@@ -42,10 +42,13 @@ class PartActor {
   bool setAppearance(const Colour& colour, bool isVisible, const PartLook& look);
   /// One of the shape's levels. Edges are drawn with the mesh itself alone.
   void setLevel(std::size_t level);
+  /// Of the same shape: cut open, or whole again.
+  void setMappers(std::shared_ptr<ShapeMappers> mappers);
   /// While a picture of it is kept it need not be drawn.
   void setKept(bool isKept);
 
   const PartShape& shape() const noexcept { return *mappers_->shape(); }
+  const ShapeMappers& mappers() const noexcept { return *mappers_; }
   bool isVisible() const noexcept { return isVisible_; }
   bool isOpaque() const noexcept;
   std::size_t level() const noexcept { return level_; }
@@ -55,9 +58,12 @@ class PartActor {
   /// What draws it as it is, piece by piece.
   void addTo(std::vector<vtkProp*>& props) const;
   const std::vector<vtkSmartPointer<vtkActor>>& pieces() const noexcept { return pieces_; }
+  vtkProperty& look() const noexcept { return *look_.Get(); }
+  vtkProperty& edgeLook() const noexcept { return *edges_->GetProperty(); }
 
  private:
   void showPieces();
+  void hideBackFaces();
   void setThrough(bool isThrough);
 
   vtkRenderer& renderer_;

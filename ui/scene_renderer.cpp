@@ -8,7 +8,7 @@
 namespace nearfit::ui {
 
 SceneRenderer::SceneRenderer(vtkRenderer& renderer, std::shared_ptr<PartShapeCache> shapes, vtkRenderer* over)
-    : renderer_(renderer), shapes_(std::move(shapes)), over_(over) {}
+    : renderer_(renderer), shapes_(std::move(shapes)), over_(over), cut_(renderer) {}
 
 void SceneRenderer::setScene(const Scene& scene) {
   scene_ = scene;
@@ -71,6 +71,37 @@ RigidTransform SceneRenderer::shownPose(const Part& part) const {
   const auto dragged = dragged_.find(part.id);
   if (dragged != dragged_.end()) return dragged->second;
   return scene_.movingPart() == part.id ? poseInHand_.value_or(part.worldFromPart) : part.worldFromPart;
+}
+
+void SceneRenderer::setCut(const std::optional<ViewCut>& cut) {
+  if (cut == cut_.cut()) return;
+  cut_.set(cut);
+  ++revision_;
+  if (cut) return updateCut();
+  // Once more, for all to be whole.
+  cut_.begin(0.0);
+  for (const Scene::PartPtr& part : scene_.parts())
+    open(actorOf(*part), false);
+  cut_.end();
+}
+
+void SceneRenderer::open(PartActor& actor, bool isCut) {
+  if (actor.mappers().isCut() == isCut) return;
+  actor.setMappers(mappers_.mappersOf(actor.mappers().shape(), isCut ? cut_.plane() : nullptr));
+  ++revision_;
+}
+
+void SceneRenderer::updateCut() {
+  if (!cut_.cut()) return;
+  double bounds[6];
+  cut_.begin(visibleBounds(bounds) ? vtkBoundingBox(bounds).GetDiagonalLength() : 0.0);
+  for (const Scene::PartPtr& part : scene_.parts()) {
+    PartActor& actor = actorOf(*part);
+    const bool isCut = cut_.cuts(scene_.movingPart() == part->id);
+    open(actor, isCut);
+    if (isCut && part->isVisible) cut_.close(*part, actor, shownPose(*part));
+  }
+  cut_.end();
 }
 
 void SceneRenderer::setOverlapping(std::span<const PartId> parts) {

@@ -10,6 +10,7 @@
 #include "core/scene/scene.h"
 #include "ui/detail/detail_choice.h"
 #include "ui/part_actor.h"
+#include "ui/section/scene_cut.h"
 
 namespace nearfit::ui {
 
@@ -17,7 +18,9 @@ namespace nearfit::ui {
 struct PickedPoint {
   PartId part{};
   glm::dvec3 point{0.0};       ///< Of its surface, in the world [m].
-  std::uint32_t triangle = 0;  ///< Of its mesh.
+  std::uint32_t triangle = 0;  ///< Of its mesh; 0 on a cut face.
+  /// Of the part's cut face, in the part's frame; null where its own surface is seen.
+  std::shared_ptr<const MeshSection> cut;
 };
 
 /// Keeps one actor for each part of the scene that is shown. Knows no widget and renders nothing itself.
@@ -40,6 +43,13 @@ class SceneRenderer {
 
   /// Where a part is shown, by a drag, by the hand or as the scene has it.
   RigidTransform shownPose(const Part& part) const;
+
+  /// Cuts the parts open; nothing: they are whole.
+  void setCut(const std::optional<ViewCut>& cut);
+  /// The cut follows the parts: before each picture.
+  void updateCut();
+  /// Parts that are cut and cannot be closed, as of the last picture.
+  const std::vector<PartId>& openlyCut() const noexcept { return cut_.open(); }
 
   /// Parts that the moving one overlaps are tinted.
   void setOverlapping(std::span<const PartId> parts);
@@ -81,7 +91,10 @@ class SceneRenderer {
   void applyAppearance(const Part& part);
   void applyAll();
   void place(const Part& part);
+  void open(PartActor& actor, bool isCut);
   View view() const;
+  /// The part whose cut face has a point of the plane.
+  std::optional<PickedPoint> capAt(const glm::dvec3& point) const;
 
   vtkRenderer& renderer_;
   std::shared_ptr<PartShapeCache> shapes_;
@@ -93,6 +106,7 @@ class SceneRenderer {
   std::optional<RigidTransform> poseInHand_;
   std::map<PartId, RigidTransform> dragged_;
   std::vector<PartId> overlapping_;
+  SceneCut cut_;
   bool isSeeThrough_ = false;
   bool hasEdges_ = true;
   std::set<PartId> loose_;

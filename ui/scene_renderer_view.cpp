@@ -15,7 +15,33 @@ namespace {
 
 struct Ray {
   glm::dvec3 begin, end;
+  double from = 0.0, to = 1.0;  ///< Of the ray that this is a piece of.
+
+  glm::dvec3 at(double fraction) const { return begin + fraction * (end - begin); }
 };
+
+/// Where a whole ray goes through a plane; nothing when it does not.
+std::optional<double> throughPlane(const Ray& ray, const CutPlane& plane) {
+  const double first = plane.heightOf(ray.begin), last = plane.heightOf(ray.end);
+  return (first > 0.0) != (last > 0.0) ? std::optional(first / (first - last)) : std::nullopt;
+}
+
+/// The piece of a whole ray that is not cut away; nothing when all of it is.
+std::optional<Ray> behind(const Ray& ray, const CutPlane& plane) {
+  const bool isAway = plane.heightOf(ray.begin) > 0.0;
+  const std::optional<double> through = throughPlane(ray, plane);
+  if (!through) return isAway ? std::nullopt : std::optional(ray);
+  return isAway ? Ray{ray.at(*through), ray.end, *through, 1.0}
+                : Ray{ray.begin, ray.at(*through), 0.0, *through};
+}
+
+/// What is drawn of a surface lies behind this: by a hair more than what is cut, for faces in the plane.
+CutPlane planeOf(vtkPlane& drawn) {
+  glm::dvec3 stays, origin;
+  drawn.GetNormal(&stays.x);
+  drawn.GetOrigin(&origin.x);
+  return {-stays, -glm::dot(stays, origin)};
+}
 
 glm::dvec3 worldOf(vtkRenderer& renderer, double x, double y, double depth) {
   renderer.SetDisplayPoint(x, y, depth);
@@ -30,7 +56,7 @@ struct Hit {
   glm::dvec3 point{0.0};  ///< In the part's frame.
 };
 
-/// The first triangle that a ray of the part's frame meets before what has been hit.
+/// The first triangle that a ray in the part's frame meets before what has been hit.
 bool hitFirst(const PartShape& shape, const Ray& ray, vtkGenericCell& cell, Hit& hit) {
   double direction[3], at[3], t = 0.0;
   for (int axis = 0; axis < 3; ++axis)
@@ -41,9 +67,10 @@ bool hitFirst(const PartShape& shape, const Ray& ray, vtkGenericCell& cell, Hit&
   vtkIdType triangle = -1;
   const int isHit = shape.locator->IntersectWithLine(&ray.begin.x, &ray.end.x, 0.0, t, point, parametric,
                                                      part, triangle, &cell);
-  if (isHit == 0 || triangle < 0 || t >= hit.fraction) return false;
+  const double fraction = ray.from + t * (ray.to - ray.from);
+  if (isHit == 0 || triangle < 0 || fraction >= hit.fraction) return false;
   // Normals split vertices, and leave the triangles in their order.
-  hit = {t, static_cast<std::uint32_t>(triangle), {point[0], point[1], point[2]}};
+  hit = {fraction, static_cast<std::uint32_t>(triangle), {point[0], point[1], point[2]}};
   return true;
 }
 
@@ -135,19 +162,37 @@ void SceneRenderer::letGoOfKept() {
 }
 
 std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y) {
-  const Ray seen{worldOf(renderer_, x, y, 0.0), worldOf(renderer_, x, y, 1.0)};
+  updateCut();
+  const Ray whole{worldOf(renderer_, x, y, 0.0), worldOf(renderer_, x, y, 1.0)};
   std::optional<PickedPoint> picked;
   Hit hit;
+  if (const auto through = cut_.cut() ? throughPlane(whole, cut_.cut()->plane) : std::nullopt) {
+    picked = capAt(whole.at(*through));
+    if (picked) hit.fraction = *through;
+  }
   vtkNew<vtkGenericCell> cell;
   for (const auto& [id, actor] : actors_) {
     const Part* part = scene_.find(id);
     if (part == nullptr || !actor->isVisible()) continue;
+    const auto seen = actor->mappers().isCut() ? behind(whole, planeOf(*cut_.plane())) : std::optional(whole);
+    if (!seen) continue;
     const RigidTransform worldFromPart = shownPose(*part), partFromWorld = worldFromPart.inverse();
-    const Ray ray{partFromWorld.applyToPoint(seen.begin), partFromWorld.applyToPoint(seen.end)};
+    const Ray ray{partFromWorld.applyToPoint(seen->begin), partFromWorld.applyToPoint(seen->end), seen->from,
+                  seen->to};
     if (hitFirst(actor->shape(), ray, *cell, hit))
-      picked = PickedPoint{id, worldFromPart.applyToPoint(hit.point), hit.triangle};
+      picked = PickedPoint{id, worldFromPart.applyToPoint(hit.point), hit.triangle, nullptr};
   }
   return picked;
+}
+
+std::optional<PickedPoint> SceneRenderer::capAt(const glm::dvec3& point) const {
+  for (const auto& [id, cap] : cut_.caps()) {
+    const RigidTransform partFromWorld = shownPose(*scene_.find(id)).inverse();
+    if (isOnCap(*cap->section(), partFromWorld.applyToVector(cut_.cut()->plane.normal),
+                partFromWorld.applyToPoint(point)))
+      return PickedPoint{id, point, 0, cap->section()};
+  }
+  return std::nullopt;
 }
 
 }  // namespace nearfit::ui

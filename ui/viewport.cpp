@@ -163,6 +163,7 @@ void Viewport::countPicture() {
 void Viewport::prepareRender() {
   // The marker learns of the window's first size from nobody.
   marker_->SquareResize();
+  parts_.updateCut();
   adjustClipping();
   detail_->beforePicture();
 }
@@ -365,6 +366,20 @@ ViewProjection Viewport::projection() const {
   camera.viewAngle = glm::radians(seen.GetViewAngle());
   camera.halfHeight = seen.GetParallelScale();
   return {camera, {width(), height()}};
+}
+
+Aabb Viewport::visibleBounds() const {
+  Aabb box;
+  double bounds[6];
+  if (!parts_.visibleBounds(bounds)) return box;
+  box.add({bounds[0], bounds[2], bounds[4]});
+  box.add({bounds[1], bounds[3], bounds[5]});
+  return box;
+}
+
+void Viewport::setCut(const std::optional<ViewCut>& cut) {
+  parts_.setCut(cut);
+  requestRender();
 }
 
 std::optional<PickedPoint> Viewport::pointAt(const QPoint& position) {

@@ -57,6 +57,12 @@ class Viewport : public QVTKOpenGLNativeWidget {
   std::optional<RigidTransform> shownPose(PartId part) const;
   /// How the view shows the world now, in the widget's own pixels.
   ViewProjection projection() const;
+  /// The box around all visible parts, whole, in the world; empty when there are none.
+  Aabb visibleBounds() const;
+  /// Cuts the parts open; nothing: they are whole.
+  void setCut(const std::optional<ViewCut>& cut);
+  /// Parts that are cut and cannot be closed, as of the last picture.
+  const std::vector<PartId>& openlyCut() const noexcept { return parts_.openlyCut(); }
   /// What is seen at a place of the widget.
   std::optional<PickedPoint> pointAt(const QPoint& position);
   /// Does what a click there does: selects.

@@ -30,6 +30,9 @@ enum class GizmoMode : std::uint8_t {
   Move,
   Turn,
   MoveAndTurn,
+  AcrossX,  ///< Of a plane across an axis: the arrow along it, and the rings that tilt the plane.
+  AcrossY,
+  AcrossZ,
 };
 
 /// Where a gizmo stands.
@@ -51,6 +54,11 @@ constexpr bool isPlane(GizmoHandle handle) noexcept {
 /// Whether it turns the part; the others shift it.
 constexpr bool isRing(GizmoHandle handle) noexcept {
   return handle >= GizmoHandle::TurnX && handle <= GizmoHandle::TurnView;
+}
+
+/// The axis that a mode's plane lies across: 0, 1 or 2; -1 for all others.
+constexpr int axisOf(GizmoMode mode) noexcept {
+  return mode < GizmoMode::AcrossX ? -1 : static_cast<int>(mode) - static_cast<int>(GizmoMode::AcrossX);
 }
 
 /// Of which axis a handle is: 0, 1 or 2; -1 for those of the view.

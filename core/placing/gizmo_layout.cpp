@@ -69,6 +69,11 @@ std::array<glm::dvec3, 2> across(const glm::dvec3& unit) {
 
 GizmoLayout::GizmoLayout(const ViewProjection& view, const GizmoFrame& frame, GizmoMode mode) {
   if (mode == GizmoMode::Hidden || !view.pixelOf(frame.pivot)) return;
+  if (axisOf(mode) >= 0) {
+    addRings(view, frame, axisOf(mode));
+    addArrow(view, frame, axisOf(mode), kLongArrowLength);
+    return;
+  }
   const bool hasRings = mode != GizmoMode::Move, hasArrows = mode != GizmoMode::Turn;
   if (hasRings) addRings(view, frame);
   if (mode == GizmoMode::Turn) addViewRing(view, frame);
@@ -80,25 +85,29 @@ GizmoLayout::GizmoLayout(const ViewProjection& view, const GizmoFrame& frame, Gi
   addMiddle(view, frame);
 }
 
-void GizmoLayout::addArrows(const ViewProjection& view, const GizmoFrame& frame, double length, Side side) {
+void GizmoLayout::addArrow(const ViewProjection& view, const GizmoFrame& frame, int axis, double length) {
   const double scale = view.metresPerPixel(frame.pivot);
+  const glm::dvec3 unit = frame.axes[axis];
+  const double sine = glm::length(glm::cross(unit, view.sightOf(frame.pivot)));
+  const double opacity = ramp(sine, kArrowGone, kArrowWhole);
+  if (opacity == 0.0) return;
+  const GizmoHandle handle = kArrows[static_cast<std::size_t>(axis)];
+  const glm::dvec3 base = frame.pivot + scale * (length - kHeadLength) * unit;
+  const std::array shaft{frame.pivot + scale * kShaftFrom * unit, base};
+  figures_.push_back({handle, pixelsOf(view, shaft), false, opacity, false});
+  const auto [first, second] = across(unit);
+  std::vector<glm::dvec2> head =
+      arc(view, base, scale * kHeadRadius * first, scale * kHeadRadius * second, 0.0, 2.0 * kPi);
+  if (const auto tip = view.pixelOf(frame.pivot + scale * length * unit)) head.push_back(*tip);
+  figures_.push_back({handle, convexHull(std::move(head)), true, opacity, false});
+}
+
+void GizmoLayout::addArrows(const ViewProjection& view, const GizmoFrame& frame, double length, Side side) {
   const glm::dvec3 sight = view.sightOf(frame.pivot);
   std::array<int, 3> order{0, 1, 2};
   std::ranges::sort(order, std::greater<>(), [&](int axis) { return glm::dot(frame.axes[axis], sight); });
   for (const int axis : order) {
-    const glm::dvec3 unit = frame.axes[axis];
-    if ((glm::dot(unit, sight) > 0.0) != (side == Side::Far)) continue;
-    const double opacity = ramp(glm::length(glm::cross(unit, sight)), kArrowGone, kArrowWhole);
-    if (opacity == 0.0) continue;
-    const GizmoHandle handle = kArrows[static_cast<std::size_t>(axis)];
-    const glm::dvec3 base = frame.pivot + scale * (length - kHeadLength) * unit;
-    const std::array shaft{frame.pivot + scale * kShaftFrom * unit, base};
-    figures_.push_back({handle, pixelsOf(view, shaft), false, opacity, false});
-    const auto [first, second] = across(unit);
-    std::vector<glm::dvec2> head =
-        arc(view, base, scale * kHeadRadius * first, scale * kHeadRadius * second, 0.0, 2.0 * kPi);
-    if (const auto tip = view.pixelOf(frame.pivot + scale * length * unit)) head.push_back(*tip);
-    figures_.push_back({handle, convexHull(std::move(head)), true, opacity, false});
+    if ((glm::dot(frame.axes[axis], sight) > 0.0) == (side == Side::Far)) addArrow(view, frame, axis, length);
   }
 }
 
@@ -129,11 +138,12 @@ void GizmoLayout::addMiddle(const ViewProjection& view, const GizmoFrame& frame)
                       1.0, false});
 }
 
-void GizmoLayout::addRings(const ViewProjection& view, const GizmoFrame& frame) {
+void GizmoLayout::addRings(const ViewProjection& view, const GizmoFrame& frame, int without) {
   const double radius = kRingRadius * view.metresPerPixel(frame.pivot);
   const glm::dvec3 sight = view.sightOf(frame.pivot);
   std::vector<GizmoFigure> near;
   for (int axis = 0; axis < 3; ++axis) {
+    if (axis == without) continue;
     const glm::dvec3 unit = frame.axes[axis];
     const double facing = std::abs(glm::dot(unit, sight));
     // The direction in the ring's plane that comes nearest to the viewer.

@@ -44,10 +44,12 @@ class GizmoLayout {
  private:
   /// Arrows that point away from the viewer lie behind the squares.
   enum class Side { Far, Near };
+  void addArrow(const ViewProjection& view, const GizmoFrame& frame, int axis, double length);
   void addArrows(const ViewProjection& view, const GizmoFrame& frame, double length, Side side);
   void addPlanes(const ViewProjection& view, const GizmoFrame& frame);
   void addMiddle(const ViewProjection& view, const GizmoFrame& frame);
-  void addRings(const ViewProjection& view, const GizmoFrame& frame);
+  /// @param without  The axis that has no ring; -1: each has.
+  void addRings(const ViewProjection& view, const GizmoFrame& frame, int without = -1);
   void addViewRing(const ViewProjection& view, const GizmoFrame& frame);
 
   std::vector<GizmoFigure> figures_;

@@ -1,16 +1,16 @@
 #include "ui/detail/shape_mappers.h"
 
 namespace nearfit::ui {
-namespace {
 
-ShapeMappers::Mapper mapperOf(vtkPolyData* data) {
-  auto mapper = ShapeMappers::Mapper::New();
+ShapeMappers::Mapper ShapeMappers::mapperOf(vtkPolyData* data) const {
+  auto mapper = Mapper::New();
   mapper->SetInputData(data);
   mapper->ScalarVisibilityOff();
+  if (cut_ != nullptr) mapper->AddClippingPlane(cut_);
   return mapper;
 }
 
-ShapeMappers::Mapper surfaceMapperOf(vtkPolyData* data) {
+ShapeMappers::Mapper ShapeMappers::surfaceMapperOf(vtkPolyData* data) const {
   auto mapper = mapperOf(data);
   // Surfaces step back a little, so that edge lines and the shapes they bound do not fight for the same
   // depth.
@@ -19,12 +19,10 @@ ShapeMappers::Mapper surfaceMapperOf(vtkPolyData* data) {
   return mapper;
 }
 
-ShapeMappers::Mapper& made(ShapeMappers::Mapper& mapper, vtkPolyData* data) {
+ShapeMappers::Mapper& ShapeMappers::made(Mapper& mapper, vtkPolyData* data) const {
   if (mapper == nullptr) mapper = mapperOf(data);
   return mapper;
 }
-
-}  // namespace
 
 const std::vector<ShapeMappers::Mapper>& ShapeMappers::surface(std::size_t level, bool isTranslucent) {
   auto& levels = surfaces_[isTranslucent ? 1 : 0];
@@ -52,11 +50,12 @@ ShapeMappers::Mapper ShapeMappers::veilEdges() {
   return made(veilEdges_, shape_->edges);
 }
 
-std::shared_ptr<ShapeMappers> MapperCache::mappersOf(const std::shared_ptr<const PartShape>& shape) {
-  std::weak_ptr<ShapeMappers>& entry = entries_[shape.get()];
+std::shared_ptr<ShapeMappers> MapperCache::mappersOf(const std::shared_ptr<const PartShape>& shape,
+                                                     vtkPlane* cut) {
+  std::weak_ptr<ShapeMappers>& entry = entries_[{shape.get(), cut}];
   std::shared_ptr<ShapeMappers> mappers = entry.lock();
   if (mappers == nullptr) {
-    mappers = std::make_shared<ShapeMappers>(shape);
+    mappers = std::make_shared<ShapeMappers>(shape, cut);
     entry = mappers;
     std::erase_if(entries_, [](const auto& other) { return other.second.expired(); });
   }

@@ -69,7 +69,10 @@ void fillLines(vtkPolyData& data, const TriangleMesh& mesh, const PickedFeature&
 void fillPoint(vtkPolyData& data, const TriangleMesh& mesh, const PickedFeature& picked) {
   Points points(mesh);
   vtkNew<vtkCellArray> cells;
-  if (picked.feature.shape == FeatureShape::Point || picked.feature.shape == FeatureShape::Circle) {
+  // The edge of a cut face is none of the mesh: a point of it stands for it.
+  const bool isOfNoMesh = picked.triangles.empty() && picked.vertices.empty();
+  const FeatureShape shape = picked.feature.shape;
+  if (isOfNoMesh || shape == FeatureShape::Point || shape == FeatureShape::Circle) {
     const vtkIdType point = points.add(picked.feature.point);
     cells->InsertNextCell(1, &point);
   }

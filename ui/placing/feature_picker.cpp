@@ -149,9 +149,10 @@ void FeaturePicker::hoverAt(const QPoint& position) {
     text = refusal_ ? refusal_(*part) : QString();
     if (text.isEmpty()) {
       const RigidTransform pose = view_.shownPose(part->id).value_or(part->worldFromPart);
-      const SurfaceHit hit{seen->triangle, pose.inverse().applyToPoint(seen->point)};
+      SurfaceHit hit{seen->triangle, pose.inverse().applyToPoint(seen->point)};
       const double reach = kReach * view_.projection().metresPerPixel(seen->point);
-      if (auto found = pickFeature(part->geometry->mesh, hit, reach, filter_)) {
+      if (auto found = seen->cut ? pickFeature(*seen->cut, hit.point, reach, filter_)
+                                 : pickFeature(part->geometry->mesh, hit, reach, filter_)) {
         text = tr("%1 of %2").arg(describeFeature(found->feature), QString::fromStdString(part->name));
         hovered_ = {seen->part, std::move(*found), hit.point};
       }

@@ -21,8 +21,10 @@ glm::dvec2 pixelOf(const QPoint& point) {
 
 }  // namespace
 
-GizmoControl::GizmoControl(Viewport& view)
+GizmoControl::GizmoControl(Viewport& view, const QString& name, const QString& readout)
     : QObject(&view), view_(view), overlay_(new GizmoOverlay(&view)), readout_(new DragReadout(&view)) {
+  overlay_->setObjectName(name);
+  readout_->setObjectName(readout);
   view.installEventFilter(this);
   connect(&view, &Viewport::drawn, this, &GizmoControl::refresh);
 }
@@ -204,7 +206,9 @@ void GizmoControl::refresh() {
     const double angle = drag_->angleIn(reached_);
     picture.guide = gizmoGuide(view, *drag_, shift, angle);
     const double pixel = view.metresPerPixel(drag_->frame().pivot);
-    readout_->showAt(pointer_, dragText(*drag_, shift, angle, pixel, Preferences::lengthUnit()), note_);
+    QString text = text_ ? text_() : QString();
+    if (text.isEmpty()) text = dragText(*drag_, shift, angle, pixel, Preferences::lengthUnit());
+    readout_->showAt(pointer_, text, note_);
   }
   overlay_->showPicture(std::move(picture));
 }

@@ -25,7 +25,9 @@ class GizmoControl : public QObject {
 
  public:
   /// @param view  Outlives this.
-  explicit GizmoControl(Viewport& view);
+  /// @param name, readout  Of what is drawn of it, and of what a drag says.
+  explicit GizmoControl(Viewport& view, const QString& name = QStringLiteral("gizmo"),
+                        const QString& readout = QStringLiteral("dragReadout"));
 
   /// Where it stands; nothing: there is none. A drag goes on.
   void setFrame(const std::optional<GizmoFrame>& frame);
@@ -39,7 +41,12 @@ class GizmoControl : public QObject {
     grab_ = std::move(grab);
   }
 
+  /// Says beside the pointer what a drag has come to, instead of how far it has gone; empty: the latter.
+  void setReadout(std::function<QString()> text) { text_ = std::move(text); }
+
   bool isDragging() const noexcept { return drag_.has_value(); }
+  /// Of the drag.
+  GizmoHandle handle() const noexcept { return drag_->handle(); }
   /// Of the drag, as it stood when that began.
   const GizmoFrame& frameAtStart() const noexcept { return drag_->frame(); }
   /// Shows how far what is dragged has come, which may be less than the pointer asks for.
@@ -84,6 +91,7 @@ class GizmoControl : public QObject {
   GizmoOverlay* overlay_;
   DragReadout* readout_;
   std::function<std::optional<glm::dvec3>(const QPoint&)> grab_;
+  std::function<QString()> text_;
   std::optional<GizmoFrame> frame_;
   GizmoMode mode_ = GizmoMode::Hidden;
   SnapSteps steps_;

@@ -153,5 +153,22 @@ TEST(ScreenShapes, TheHullOfASquareAndItsMiddleIsTheSquare) {
   EXPECT_NEAR(distanceToLine(hull, {-3.0, -4.0}), 5.0, 1e-12);
 }
 
+TEST(GizmoLayout, APlaneIsShiftedByOneArrowAndTiltedByTwoRings) {
+  const TestView view = farAlong({1, 1, -1}, {0, 0, 1});
+  const GizmoMode modes[] = {GizmoMode::AcrossX, GizmoMode::AcrossY, GizmoMode::AcrossZ};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const GizmoLayout layout = layoutOf(view, modes[axis]);
+    for (std::size_t other = 0; other < 3; ++other) {
+      EXPECT_EQ(layout.has(kArrows[other]), other == axis);
+      // Turned about its own normal a plane stays what it is.
+      EXPECT_EQ(layout.has(kRings[other]), other != axis);
+      EXPECT_FALSE(layout.has(kPlanes[other]));
+    }
+    EXPECT_FALSE(layout.has(GizmoHandle::MoveFree) || layout.has(GizmoHandle::TurnView));
+  }
+  // Seen from its tip an arrow would say nothing of the way.
+  EXPECT_FALSE(layoutOf(farAlong({0, 0, -1}, {0, 1, 0}), GizmoMode::AcrossZ).has(GizmoHandle::MoveZ));
+}
+
 }  // namespace
 }  // namespace nearfit

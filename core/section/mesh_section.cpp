@@ -1,0 +1,107 @@
+#include "core/section/mesh_section.h"
+
+#include <algorithm>
+#include <exception>
+#include <unordered_map>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "core/exact/outline_fill.h"
+
+namespace nearfit {
+namespace {
+
+/// Corners nearer to the plane lie in it, in parts of the mesh's size: more than what placing it rounds.
+constexpr double kInPlane = 1e-11;
+/// More would hold up whoever waits for the cap: so many take some 50 ms.
+constexpr std::size_t kMostFilled = 25'000;
+
+/// The outline as it is gathered, one point for each edge that is cut.
+class Outline {
+ public:
+  Outline(const TriangleMesh& mesh, const CutPlane& plane, MeshSection& section)
+      : mesh_(mesh), plane_(plane), section_(section) {}
+
+  void cut(std::uint32_t triangle, const std::array<bool, 3>& isAway) {
+    // The corner that is alone on its side; seen from outside with the normal up, the segment runs from left
+    // to right below a corner that is cut away.
+    const int alone = isAway[1] == isAway[2] ? 0 : isAway[0] == isAway[2] ? 1 : 2;
+    const auto& edges = mesh_.edgesOfTriangle(triangle);
+    const std::uint32_t after = pointOf(edges[static_cast<std::size_t>(alone)]);
+    const std::uint32_t before = pointOf(edges[static_cast<std::size_t>((alone + 2) % 3)]);
+    if (isAway[static_cast<std::size_t>(alone)]) {
+      section_.outline.push_back({after, before});
+    } else {
+      section_.outline.push_back({before, after});
+    }
+  }
+
+ private:
+  std::uint32_t pointOf(std::uint32_t edge) {
+    const auto [entry, isNew] = points_.try_emplace(edge, static_cast<std::uint32_t>(section_.points.size()));
+    if (isNew) {
+      const glm::dvec3 a = mesh_.vertices()[mesh_.edges()[edge].v0];
+      const glm::dvec3 b = mesh_.vertices()[mesh_.edges()[edge].v1];
+      const double from = plane_.heightOf(a), to = plane_.heightOf(b);
+      // One end may lie beyond the plane by less than what counts.
+      section_.points.push_back(a + std::clamp(from / (from - to), 0.0, 1.0) * (b - a));
+    }
+    return entry->second;
+  }
+
+  const TriangleMesh& mesh_;
+  const CutPlane& plane_;
+  MeshSection& section_;
+  std::unordered_map<std::uint32_t, std::uint32_t> points_;
+};
+
+void gatherOutline(const TriangleMesh& mesh, const CutPlane& plane, MeshSection& section) {
+  const double tolerance = kInPlane * mesh.bounds().diagonal();
+  std::vector<std::uint8_t> isAway(mesh.vertices().size());
+  for (std::size_t v = 0; v < isAway.size(); ++v)
+    isAway[v] = plane.heightOf(mesh.vertices()[v]) > tolerance ? 1 : 0;
+  Outline outline(mesh, plane, section);
+  for (std::uint32_t t = 0; t < mesh.triangles().size(); ++t) {
+    const Triangle& c = mesh.triangles()[t];
+    const std::array corners{isAway[c[0]] != 0, isAway[c[1]] != 0, isAway[c[2]] != 0};
+    if (corners[0] != corners[1] || corners[0] != corners[2]) outline.cut(t, corners);
+  }
+}
+
+void fill(const CutPlane& plane, FillRule rule, MeshSection& section) {
+  const auto [right, up] = axesOf(plane);
+  std::vector<glm::dvec2> flat;
+  flat.reserve(section.points.size());
+  for (const glm::dvec3& p : section.points)
+    flat.emplace_back(glm::dot(p, right), glm::dot(p, up));
+  FilledOutline filled = fillOutline(flat, section.outline, rule);
+  section.capPoints.reserve(filled.points.size());
+  for (const glm::dvec2& p : filled.points)
+    section.capPoints.push_back(plane.offset * plane.normal + p.x * right + p.y * up);
+  section.cap = std::move(filled.triangles);
+}
+
+}  // namespace
+
+MeshSection sectionOf(const TriangleMesh& mesh, const CutPlane& plane) {
+  MeshSection section;
+  section.isCapped = mesh.topology().isClosed();
+  if (mesh.bounds().isEmpty()) return section;
+  const auto [low, high] = reachAlong(mesh.bounds(), plane.normal);
+  if (plane.offset < low || plane.offset > high) return section;
+  gatherOutline(mesh, plane, section);
+  section.isCapped = section.isCapped && section.outline.size() <= kMostFilled;
+  if (!section.isCapped || section.outline.empty()) return section;
+  try {
+    fill(plane, mesh.topology().isOriented() ? FillRule::Wound : FillRule::Odd, section);
+  } catch (const std::exception&) {
+    // The outline alone still says where the cut is.
+    section.capPoints.clear();
+    section.cap.clear();
+    section.isCapped = false;
+  }
+  return section;
+}
+
+}  // namespace nearfit
