@@ -59,13 +59,14 @@ void AlignTool::stop() {
   const QSignalBlocker blocker(action_);
   action_->setChecked(false);
   if (!picker_.isActive()) return;
+  // First: their parts may have left the scene, and the picker tells once more of what it shows.
+  moving_.reset();
+  fixed_.reset();
   picker_.stop();
   bar_->hide();
   view_.setDragged({});
   movingLight_.clear();
   fixedLight_.clear();
-  moving_.reset();
-  fixed_.reset();
   start_.clear();
   view_.requestRender();
 }

@@ -20,6 +20,7 @@ class DesktopAlignTest : public QObject {
   void flipsAndLeavesADistance();
   void solidPartsStopAtContactOnTheWay();
   void escapeLeavesEverythingAsItWas();
+  void aPartThatLeavesTheSceneEndsIt();
   void lockedPartsRefuseToMove();
   void dragsStillOrbitWhileAligning();
   void alignsACornerWithACorner();
@@ -131,6 +132,18 @@ void DesktopAlignTest::escapeLeavesEverythingAsItWas() {
   QVERIFY(!d.widget<QWidget>("alignBar")->isVisible());
   QCOMPARE(d.part("moving").worldFromPart.translation, before.translation);
   QCOMPARE(d.session().undoText(), undo);
+}
+
+void DesktopAlignTest::aPartThatLeavesTheSceneEndsIt() {
+  DesktopDriver d;
+  begin(d);
+  click(d, {0.003, kMovingFront, 0.036});
+  // Back to before it was added.
+  while (d.session().canUndo())
+    d.action("undo")->trigger();
+  QVERIFY(d.session().scene().parts().empty());
+  QVERIFY(!d.action("align")->isChecked());
+  QVERIFY(!d.widget<QWidget>("alignBar")->isVisible());
 }
 
 void DesktopAlignTest::lockedPartsRefuseToMove() {
