@@ -1,5 +1,7 @@
 // nearfit-pictures FOLDER light|dark: pictures of the window at work, of each panel, menu and dialog, by the
-// real application. resources/scripts/pictures runs it in both themes and at two scales.
+// real application; those whose names begin with "guide-" stand in the README. resources/scripts/pictures
+// runs it in both themes and at two scales.
+#include <QAbstractButton>
 #include <QComboBox>
 #include <QDialog>
 #include <QDir>
@@ -43,6 +45,7 @@ class Pictures {
     showDemo();
     atWork();
     placing();
+    inspecting();
     menus();
     dialogs();
     feeling();
@@ -116,12 +119,31 @@ class Pictures {
       trigger(tool);
       grabWindow(tool);
     }
+    grabWindow("guide-place");
     trigger("align");
     grabWindow("window-align");
     QTest::keyClick(&driver_.window(), Qt::Key_Escape);
+  }
+  void inspecting() {
+    ui::Viewport& view = driver_.window().viewport();
+    // What is measured shows best with nothing over it.
+    driver_.window().selection().select({});
     trigger("measure");
-    grabWindow("window-measure");
+    const Part& moving = *driver_.session().scene().find(*driver_.session().scene().movingPart());
+    const Aabb& box = moving.geometry->mesh.bounds();
+    for (const double y : {box.lower.y, box.upper.y}) {
+      const auto pixel =
+          view.projection().pixelOf(moving.worldFromPart.applyToPoint({box.centre().x, y, box.upper.z}));
+      if (pixel) QTest::mouseClick(&view, Qt::LeftButton, {}, {qRound(pixel->x), qRound(pixel->y)});
+      settle();
+    }
+    grabWindow("guide-measure");
     trigger("measure");
+    trigger("section");
+    QTest::mouseClick(driver_.widget<QAbstractButton>("sectionX"), Qt::LeftButton);
+    grabWindow("guide-section");
+    trigger("section");
+    driver_.window().selection().select({moving.id});
   }
   void menus() {
     for (QMenu* menu : driver_.window().findChildren<QMenu*>()) {
@@ -179,7 +201,7 @@ class Pictures {
     }
     trigger("start");
     wait([this] { return tick_ > kFeelFor; }, "the scripted hand");
-    grabWindow("window-feeling");
+    grabWindow("guide-feel");
     atWork();
     trigger("stop");
     // A part that overlaps is said to.

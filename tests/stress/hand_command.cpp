@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -24,7 +25,7 @@ namespace {
 struct HandOptions {
   std::vector<std::string> scenes;
   std::uint64_t ticks = 200000, seed = 1;
-  std::string certify = "every";
+  std::uint64_t certifyEvery = 1;  ///< Each so many-th pose; 0: none.
   unsigned threads = 1;
 };
 
@@ -68,14 +69,13 @@ std::vector<std::uint64_t> ticksOf(const std::vector<StressEntry>& scenes, std::
 /// Rows are printed in the order of the scenes, each as soon as those before it are.
 std::vector<Row> runScenes(const std::vector<StressEntry>& scenes, const HandOptions& options) {
   const std::vector<std::uint64_t> ticks = ticksOf(scenes, options.ticks);
-  const std::uint64_t every = options.certify == "every" ? 1 : std::stoull(options.certify);
   std::vector<Row> rows(scenes.size());
   std::atomic<std::size_t> next{0};
   std::size_t printed = 0;
   std::mutex mutex;
   const auto work = [&] {
     for (std::size_t i = next++; i < scenes.size(); i = next++) {
-      Row row = runScene(scenes[i], {ticks[i], options.seed, every});
+      Row row = runScene(scenes[i], {ticks[i], options.seed, options.certifyEvery});
       const std::lock_guard lock(mutex);
       rows[i] = std::move(row);
       for (; printed < rows.size() && rows[printed].isDone; ++printed)
@@ -114,8 +114,10 @@ void addHandCommand(CLI::App& program) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--seed", options->seed)->capture_default_str();
-  command->add_option("--certify", options->certify, "every pose, each N-th, or none (0)")
-      ->capture_default_str();
+  command
+      ->add_option("--certify", options->certifyEvery, "Poses that are certified: every, none, or each N-th")
+      ->transform(CLI::Transformer(std::map<std::string, std::string>{{"every", "1"}, {"none", "0"}}))
+      ->default_str("every");
   command->callback([options] { run(*options); });
 }
 

@@ -52,6 +52,8 @@ class HandRun {
     result_.energyGain = std::max(largestGain_, ledger_.largestGain());
     if (!result_.failure && scene_.isEnergyBound && result_.energyGain > kMostEnergyGain)
       result_.failure = fmt::format("the hand gained {:.3g} J", result_.energyGain);
+    if (!result_.failure && result_.ledgerError > kMostLedgerError)
+      result_.failure = fmt::format("the servo's account of energy is off by {:.3g}", result_.ledgerError);
     if (poses_.firstBad()) noteBadPose();
     return result_;
   }

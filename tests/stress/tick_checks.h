@@ -33,6 +33,10 @@ class EnergyLedger {
   double largestGain_ = 0.0;
 };
 
+/// The servo's account of the energy given to the hand may differ from one kept beside it by so much of what
+/// went to and fro: both are sums of millions of small numbers.
+constexpr double kMostLedgerError = 1e-6;
+
 /// The most that a hand may gain [J]: the controller's largest debt and slack, and what a force that the slew
 /// limit only lets down from the device's most (10 N at 2000 N/s) gives a hand that goes with it at 2 m/s.
 constexpr double kMostEnergyGain =

@@ -60,11 +60,17 @@ BenchWindow::BenchWindow()
   window.resize(kWidth, kHeight);
   window.show();
   waitUntil("its first picture", [this] { return swaps_ > 0; });
-  window.resize(window.width() + kWidth - view().width(), window.height() + kHeight - view().height());
-  settle();
+  resize(Sized::View);
 }
 
 BenchWindow::~BenchWindow() = default;
+
+void BenchWindow::resize(Sized what) {
+  ui::MainWindow& window = application_->window();
+  window.resize(what == Sized::Window ? QSize(kWidth, kHeight)
+                                      : window.size() + QSize(kWidth, kHeight) - view().size());
+  settle();
+}
 
 void BenchWindow::open(Scene scene) {
   application_->session().reset(std::move(scene), {});
@@ -109,7 +115,7 @@ double BenchWindow::shown(const std::function<void()>& act) {
 
 std::vector<double> BenchWindow::orbit(std::chrono::milliseconds time) {
   std::vector<double> frames;
-  const QPoint centre(kWidth / 2, kHeight / 2);
+  const QPoint centre = view().rect().center();
   send(view(), QEvent::MouseButtonPress, centre);
   const double end = milliseconds() + static_cast<double>(time.count());
   for (int step = 1; milliseconds() < end; ++step) {

@@ -17,7 +17,10 @@ double milliseconds();
 /// Handles events until it is done. @throw Error after two minutes.
 void waitUntil(const char* what, const std::function<bool()>& isDone);
 
-/// The application that ships, its view 1280 pixels wide and 800 high, driven as a user does.
+/// What is 1280 pixels wide and 800 high.
+enum class Sized { View, Window };
+
+/// The application that ships, driven as a user does; its view is sized at first.
 class BenchWindow {
  public:
   BenchWindow();
@@ -25,6 +28,7 @@ class BenchWindow {
 
   desktop::Application& application() noexcept { return *application_; }
   ui::Viewport& view() { return application_->window().viewport(); }
+  void resize(Sized what);
   void open(Scene scene);
   void startServo();
   void stopServo();

@@ -1,6 +1,9 @@
 #include <cmath>
 #include <ctime>
+#include <functional>
+#include <string>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -62,10 +65,33 @@ double processorSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Tells beside load too what a picture costs.
-std::string busyText(double seconds, std::size_t pictures) {
-  return fmt::format("{:.1f} ms of the processors each", 1e3 * seconds / static_cast<double>(pictures));
-}
+/// Pictures of one way to draw. What the processors do for each tells beside load too what it costs.
+class Frames {
+ public:
+  explicit Frames(std::string way) : way_(std::move(way)) {}
+
+  std::string remark;
+
+  void add(const std::function<std::vector<double>()>& draw) {
+    const double before = processorSeconds();
+    const std::vector<double> some = draw();
+    busy_ += processorSeconds() - before;
+    times_.insert(times_.end(), some.begin(), some.end());
+  }
+  Figure figure(double goal) const {
+    Figure figure = figureOf("frame", way_, "ms", times_);
+    figure.goal = goal;
+    if (goal > 0.0) figure.goalOf = "p50";
+    figure.remark = fmt::format("{}{}{:.1f} ms of the processors each", remark, remark.empty() ? "" : "; ",
+                                1e3 * busy_ / static_cast<double>(times_.size()));
+    return figure;
+  }
+
+ private:
+  std::string way_;
+  std::vector<double> times_;
+  double busy_ = 0.0;
+};
 
 std::string detailText(BenchWindow& window) {
   return fmt::format("{} triangles a picture", window.view().detail().detail().triangles);
@@ -74,43 +100,37 @@ std::string detailText(BenchWindow& window) {
 }  // namespace
 
 std::vector<Figure> measureFrames(const WindowOptions& options) {
-  BenchWindow window;
   const Scene scene = pairOf(options.triangles);
+  BenchWindow window;
   window.open(scene);
-  std::vector<double> frames, plainFrames;
+  Frames large("100k triangles; servo runs"), small("the same; window of 1280 x 800");
+  Frames plain("plain VTK; no servo");
   std::vector<ServoStatistics> with, without;
-  std::string drawn;
-  double busy = 0.0, plainBusy = 0.0;
   for (std::size_t turn = 0; turn < options.turns; ++turn) {
     window.startServo();
-    const double busyBefore = processorSeconds();
-    const std::vector<double> some = window.orbit(options.time);
-    busy += processorSeconds() - busyBefore;
-    drawn = detailText(window);
+    large.add([&] { return window.orbit(options.time); });
+    large.remark = detailText(window);
     window.stopServo();
     with.push_back(window.application().servo().statistics());
-    frames.insert(frames.end(), some.begin(), some.end());
     window.startServo();
     // The window neither draws nor looks at the servo.
     std::this_thread::sleep_for(options.time);
     window.stopServo();
     without.push_back(window.application().servo().statistics());
-    PlainWindow plain(scene);
-    const double plainBefore = processorSeconds();
-    const std::vector<double> others = plain.orbit(options.time);
-    plainBusy += processorSeconds() - plainBefore;
-    plainFrames.insert(plainFrames.end(), others.begin(), others.end());
+    window.resize(Sized::Window);
+    window.startServo();
+    small.add([&] { return window.orbit(options.time); });
+    small.remark =
+        fmt::format("view of {} x {}; {}", window.view().width(), window.view().height(), detailText(window));
+    window.stopServo();
+    window.resize(Sized::View);
+    PlainWindow bare(scene);
+    plain.add([&] { return bare.orbit(options.time); });
   }
-  Figure ours = figureOf("frame", "100k triangles; servo runs", "ms", frames);
-  ours.goal = kFrameGoal;
-  ours.goalOf = "p50";
-  ours.remark = drawn + "; " + busyText(busy, frames.size());
-  Figure plain = figureOf("frame", "plain VTK; no servo", "ms", plainFrames);
-  plain.remark = busyText(plainBusy, plainFrames.size());
   Figure drawing = latenessOf("while the view is turned", with), still = latenessOf("window asleep", without);
   drawing.goal = kLatenessFactor * still.p99;
   drawing.goalOf = "p99";
-  return {ours, plain, drawing, still};
+  return {large.figure(kFrameGoal), small.figure(kFrameGoal), plain.figure(0.0), drawing, still};
 }
 
 std::vector<Figure> measureIdle(const WindowOptions& options) {
