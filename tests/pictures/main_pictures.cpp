@@ -137,7 +137,7 @@ class Pictures {
       if (pixel) QTest::mouseClick(&view, Qt::LeftButton, {}, {qRound(pixel->x), qRound(pixel->y)});
       settle();
     }
-    grabWindow("guide-measure");
+    grabWindow("window-measure");
     trigger("measure");
     trigger("section");
     QTest::mouseClick(driver_.widget<QAbstractButton>("sectionX"), Qt::LeftButton);
@@ -196,12 +196,16 @@ class Pictures {
     feel->close();
   }
   void feeling() {
+    driver_.window().selection().select({*driver_.session().scene().movingPart()});
+    trigger("gizmoNone");
+    trigger("start");
+    wait([this] { return tick_ > kFeelFor; }, "the scripted hand");
+    grabWindow("guide-main-window");
     for (const char* dock : {"clearanceDock", "plotsDock"}) {
       if (auto* wanted = driver_.window().findChild<QDockWidget*>(QLatin1String(dock))) wanted->show();
     }
-    trigger("start");
-    wait([this] { return tick_ > kFeelFor; }, "the scripted hand");
-    grabWindow("guide-feel");
+    wait([this] { return tick_ > 2 * kFeelFor; }, "its next turn");
+    grabWindow("guide-clearances");
     atWork();
     trigger("stop");
     // A part that overlaps is said to.
