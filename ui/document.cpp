@@ -127,6 +127,16 @@ void Document::openScene(const QString& file) {
   loadScene(file, {}, Preferences::metresPerUnit());
 }
 
+void Document::openExample(const QString& file) {
+  if (isBusy() || !mayLeaveScene()) return;
+  const QString name = QFileInfo(file).fileName();
+  readScene(file, name, [=, this](Scene scene) {
+    session_.reset(std::move(scene));
+    emit noted(tr("Opened %1").arg(name));
+    emit loaded(true);
+  });
+}
+
 void Document::readScene(const QString& file, const QString& name, std::function<void(Scene)> opened) {
   auto scene = std::make_shared<Scene>();
   const auto job = [scene, shapes = shapes_, path = toPath(file)](const ProgressCallback& progress) {

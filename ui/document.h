@@ -39,6 +39,8 @@ class Document : public QObject {
   void askAndOpen();
   /// Opens a scene after asking about changes.
   void openScene(const QString& file);
+  /// As openScene, of one that others need as it is: it becomes an unnamed scene, so that saving asks where.
+  void openExample(const QString& file);
   /// Opens a scene that was lost before it was saved, after asking about changes.
   /// @param journal    A scene file that it is read from.
   /// @param sceneFile  That the scene has as its own; empty for none.

@@ -29,7 +29,7 @@ void MainWindow::connectFileActions() {
   setUpFiles();
   connect(actions_->newScene, &QAction::triggered, this, [this] { document_->newScene(); });
   connect(actions_->open, &QAction::triggered, this, [this] { document_->askAndOpen(); });
-  connect(actions_->openDemo, &QAction::triggered, this, [this] { document_->openScene(demoScene_); });
+  connect(actions_->openDemo, &QAction::triggered, this, [this] { document_->openExample(demoScene_); });
   connect(actions_->addParts, &QAction::triggered, this, [this] { document_->askAndAddParts(); });
   connect(actions_->save, &QAction::triggered, this, [this] { document_->save(); });
   connect(actions_->saveAs, &QAction::triggered, this, [this] { document_->askAndSaveAs(); });
@@ -198,7 +198,7 @@ void MainWindow::beginTour() {
     once->deleteLater();
     manners_->beginTour();
   });
-  document_->openScene(demoScene_);
+  document_->openExample(demoScene_);
 }
 
 }  // namespace nearfit::ui

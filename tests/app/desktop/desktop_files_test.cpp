@@ -189,6 +189,14 @@ void DesktopFilesTest::demoSceneOpensAndIsFelt() {
   QTest::mouseClick(d.widget<QPushButton>("openDemoButton"), Qt::LeftButton);
   QTRY_COMPARE_WITH_TIMEOUT(d.session().scene().parts().size(), std::size_t{4}, 10'000);
   QVERIFY(d.session().scene().movingPart());
+  // Whoever tries things out and saves them writes over nothing: the file that others open is asked for anew.
+  QVERIFY(d.session().file().empty());
+  QVERIFY(!d.session().isModified());
+  const QString mine = QString::fromStdString((d.folder.path() / "mine.nearfit").string());
+  whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, mine); });
+  d.action("save")->trigger();
+  QTRY_VERIFY(QFile::exists(mine));
+  QCOMPARE(d.session().file(), std::filesystem::path(mine.toStdString()));
   QTest::keyClick(&d.window(), Qt::Key_F5);
   QTRY_VERIFY(d.text("statusMinima").mid(5).toInt() > 10);
 }
