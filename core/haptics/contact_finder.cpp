@@ -60,6 +60,8 @@ ContactFinder::ContactFinder()
       surfaceFound_(kMaxContacts),
       // More than a tick can test are of no use.
       pairs_(kMaxWork),
+      edgePairs_(kManyPairs / EdgePairs::kLanes),
+      edgePairKernel_(edgePairKernel(defaultSimdLevel())),
       triangles_(kMaxTriangles) {}
 
 void ContactFinder::beginTick() noexcept {
@@ -206,7 +208,22 @@ bool ContactFinder::gatherWithin(const TrackedScene& tracked, const RigidTransfo
     isComplete = isComplete && gatherOne(tracked, body, known, worldFromPart, gathering);
   });
   isHoldingPairs_ = isComplete && pairCount_ + bodyCount_ * kWorkOfBody <= workLeft_;
+  // What serves for one pose is not worth it.
+  if (isHoldingPairs_ && gathering.slack.travel > 0.0) packPairs(*tracked.scene);
   return isHoldingPairs_;
+}
+
+void ContactFinder::packPairs(const ServoScene& scene) noexcept {
+  std::size_t used = 0;
+  for (HeldBody& held : std::span(bodies_).first(bodyCount_)) {
+    const ServoScene::Body& other = scene.bodies[held.body];
+    if (other.surface) continue;
+    held.firstBlock = used;
+    held.blocks =
+        packEdgePairs(other.geometry->tree(), scene.moving.geometry->tree(),
+                      std::span(pairs_).subspan(held.first, held.count), std::span(edgePairs_).subspan(used));
+    used += held.blocks;
+  }
 }
 
 void ContactFinder::testPairs(const ServoScene& scene, const HeldBody& held,
@@ -216,7 +233,8 @@ void ContactFinder::testPairs(const ServoScene& scene, const HeldBody& held,
   const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
   const ContactResult result =
       testContacts({other.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart, pairsReach_}, within,
-                   std::span<const LeafPair>(pairs_).subspan(held.first, held.count), found_);
+                   std::span<const LeafPair>(pairs_).subspan(held.first, held.count), found_,
+                   {std::span(edgePairs_).subspan(held.firstBlock, held.blocks), edgePairKernel_});
   spend(result.leafPairs);
   around.distance = std::min(around.distance, result.distanceBound());
   around.completeTo = std::min(around.completeTo, result.completeTo);

@@ -74,6 +74,7 @@ class ContactFinder {
     std::uint32_t body = 0;
     std::size_t first = 0, count = 0;  ///< Of pairs_, or of triangles_ where it is a surface without sides.
     double within = 0.0;               ///< What triangles are all there [m].
+    std::size_t firstBlock = 0, blocks = 0;  ///< Of edgePairs_: its first pairs.
   };
 
   /// How pairs are gathered: for which motion, and of how many that lists have it is no use.
@@ -90,6 +91,7 @@ class ContactFinder {
                    double way) noexcept;
   bool gatherWithin(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                     const Gathering& gathering) noexcept;
+  void packPairs(const ServoScene& scene) noexcept;
   bool gatherOne(const TrackedScene& tracked, std::uint32_t body, const TrackedScene::Near* known,
                  const RigidTransform& worldFromPart, const Gathering& gathering) noexcept;
   NearbyPairs pairsOf(const ServoScene::Body& other, const TrackedScene::Near* known, const ServoScene& scene,
@@ -120,6 +122,9 @@ class ContactFinder {
 
   /// Pairs that can be contacts within `holds_` of `pairsPose_`.
   std::vector<LeafPair> pairs_;
+  /// Those of edges, ready to be tested four at a time, as far as there is room.
+  std::vector<EdgePairs> edgePairs_;
+  EdgePairKernel edgePairKernel_;
   /// The same of surfaces without sides: the triangles that come near within it.
   std::vector<TrianglePair> triangles_;
   std::size_t pairCount_ = 0, triangleCount_ = 0;

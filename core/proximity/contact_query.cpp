@@ -1,6 +1,7 @@
 #include "core/proximity/contact_query.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "core/proximity/leaf_tests.h"
@@ -53,6 +54,14 @@ ContactPair contactOf(const Minimum& minimum, const NormalConeTree& scene) noexc
   return {lmd.partPoint + scene.centre(), lmd.direction, std::min(minimum.least, lmd.distance)};
 }
 
+/// The same from what a kernel found.
+ContactPair contactOf(const EdgePairHits& hits, std::size_t lane, const NormalConeTree& scene) noexcept {
+  const auto vector = [lane](const EdgePairs::Vectors& v) {
+    return glm::dvec3(v[0][lane], v[1][lane], v[2][lane]);
+  };
+  return {vector(hits.partPoint) + scene.centre(), vector(hits.direction), hits.distance[lane]};
+}
+
 }  // namespace
 
 double contactTurn(double reach, double radius) noexcept {
@@ -97,7 +106,8 @@ NearbyPairs findNearbyPairs(const BodyPairQuery& query, const ContactReach& reac
 }
 
 ContactResult testContacts(const BodyPairQuery& query, const ContactReach& reach,
-                           std::span<const LeafPair> pairs, std::span<ContactPair> out) noexcept {
+                           std::span<const LeafPair> pairs, std::span<ContactPair> out,
+                           const PackedEdgePairs& packed) noexcept {
   ContactCollector collector(out, reach.distance);
   ContactResult& result = collector.result();
   result.leafPairs = pairs.size();
@@ -105,9 +115,22 @@ ContactResult testContacts(const BodyPairQuery& query, const ContactReach& reach
   const RigidTransform pose = centredPose(query.scene, query.part, query.sceneFromPart);
   const LeafTests tests(query.scene, query.part, pose, reach.distance, reach.turn);
   Minimum minimum;
-  for (const LeafPair& pair : pairs) {
+  const auto test = [&](const LeafPair& pair) {
     if (tests.test(pair.scene, pair.part, minimum)) collector.add(contactOf(minimum, query.scene));
+  };
+  // A kernel knows relaxed directions alone.
+  const std::size_t blocks = reach.turn > 0.0 ? packed.blocks.size() : 0;
+  const EdgePairLimits limits = tests.edgePairLimits();
+  EdgePairHits hits;
+  for (std::size_t i = 0; i < blocks; ++i) {
+    packed.kernel(packed.blocks[i], tests.sceneFromPart(), tests.partFromScene(), limits, hits);
+    for (std::uint32_t lanes = hits.found; lanes != 0; lanes &= lanes - 1)
+      collector.add(contactOf(hits, static_cast<std::size_t>(std::countr_zero(lanes)), query.scene));
+    for (std::uint32_t lanes = hits.undecided; lanes != 0; lanes &= lanes - 1)
+      test(pairs[i * EdgePairs::kLanes + static_cast<std::size_t>(std::countr_zero(lanes))]);
   }
+  for (const LeafPair& pair : pairs.subspan(blocks * EdgePairs::kLanes))
+    test(pair);
   return result;
 }
 

@@ -6,6 +6,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/proximity/edge_pairs.h"
+#include "core/proximity/leaf_pair.h"
 #include "core/proximity/lmd_query.h"
 #include "core/proximity/motion_budget.h"
 
@@ -46,11 +48,6 @@ struct ContactResult {
 /// Whether two leaves can be a contact: regions are there as the points that span them.
 bool spansContact(std::uint32_t sceneLeaf, std::uint32_t partLeaf) noexcept;
 
-/// A leaf of either hierarchy: a pair of features.
-struct LeafPair {
-  std::uint32_t scene = 0, part = 0;
-};
-
 /// So many pairs of features are culled, or listed, in the time of one pair of nodes.
 constexpr std::size_t kListedAtOnce = 8;
 
@@ -75,10 +72,12 @@ NearbyPairs findNearbyPairs(const BodyPairQuery& query, const ContactReach& reac
 /// everything that can become one while the part turns by so much. The exact minima within the reach are
 /// among them, but flat regions are there as the points that span them.
 /// @param query  Its cutoff is not used.
-/// @param pairs  From findNearbyPairs, or a list: all that are near, so that none is missing.
-/// @param out    Keeps the nearest if it fills; `completeTo` tells.
+/// @param pairs   From findNearbyPairs, or a list: all that are near, so that none is missing.
+/// @param out     Keeps the nearest if it fills; `completeTo` tells.
+/// @param packed  What packEdgePairs made of the first pairs; none may be.
 /// In the frame of the scene's mesh. Real-time safe.
 ContactResult testContacts(const BodyPairQuery& query, const ContactReach& reach,
-                           std::span<const LeafPair> pairs, std::span<ContactPair> out) noexcept;
+                           std::span<const LeafPair> pairs, std::span<ContactPair> out,
+                           const PackedEdgePairs& packed = {}) noexcept;
 
 }  // namespace nearfit

@@ -7,12 +7,6 @@
 #include "core/proximity/leaf_tests.h"
 
 namespace nearfit {
-namespace {
-
-/// Sine below which the direction square to two edges is better known from the points where they are nearest.
-constexpr double kNearlyParallel = 1e-4;
-
-}  // namespace
 
 bool LeafTests::edgeEdge(std::uint32_t a, std::uint32_t b, Minimum& out) const noexcept {
   const Edge ea = edgeOf(scene_.tree, a), partEdge = edgeOf(part_.tree, b);

@@ -113,16 +113,24 @@ bool LeafTests::isInSpanOfVertex(const NormalConeTree& tree, std::uint32_t verte
   return false;
 }
 
-bool LeafTests::isPolarOfEdge(const NormalConeTree& tree, std::uint32_t edge, const Edge& e,
-                              const glm::dvec3& d, double slack) const noexcept {
+std::array<glm::dvec3, 2> LeafTests::inwardOf(const NormalConeTree& tree, std::uint32_t edge,
+                                              const Edge& e) noexcept {
   std::array<glm::dvec3, 2> inward;
-  bool isInside = true;
   for (std::size_t i = 0; i < inward.size(); ++i) {
     const glm::dvec3 w = tree.positions()[tree.edges()[edge].opposite[i]] - e.start;
     inward[i] = w - glm::dot(w, e.along) * e.along;
-    const double along = glm::dot(d, inward[i]);
+  }
+  return inward;
+}
+
+bool LeafTests::isPolarOfEdge(const NormalConeTree& tree, std::uint32_t edge, const Edge& e,
+                              const glm::dvec3& d, double slack) const noexcept {
+  const std::array<glm::dvec3, 2> inward = inwardOf(tree, edge, e);
+  bool isInside = true;
+  for (const glm::dvec3& in : inward) {
+    const double along = glm::dot(d, in);
     if (!(along > 0.0)) continue;
-    if (along > slack * glm::length(inward[i]) + pointRounding_) return false;
+    if (along > slack * glm::length(in) + pointRounding_) return false;
     isInside = false;
   }
   return isInside || !(relaxation_ > 0.0) || isOnSideOfPolarArc(inward, d);

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/math/rigid_transform.h"
+#include "core/proximity/edge_pairs.h"
 #include "core/proximity/leaf_margins.h"
 #include "core/proximity/minimum.h"
 #include "core/proximity/normal_cone_tree.h"
@@ -24,6 +25,26 @@ class LeafTests {
   LeafTests(const LeafTests&) = delete;
   LeafTests& operator=(const LeafTests&) = delete;
 
+  /// Sine below which the direction square to two edges is better known from the points where they are
+  /// nearest.
+  static constexpr double kNearlyParallel = 1e-4;
+
+  struct Edge {
+    glm::dvec3 start, along;  ///< `along` is unit.
+    double length;
+  };
+  static Edge edgeOf(const NormalConeTree& tree, std::uint32_t edge) noexcept;
+  /// From an edge, square to it, to the third corner of either of its faces.
+  static std::array<glm::dvec3, 2> inwardOf(const NormalConeTree& tree, std::uint32_t edge,
+                                            const Edge& e) noexcept;
+
+  /// What a test of pairs of edges by a kernel needs.
+  EdgePairLimits edgePairLimits() const noexcept {
+    return {cutoff_, mostDistance_, lengthTolerance_, angularSlackBase_, pointRounding_};
+  }
+  const RigidTransform& sceneFromPart() const noexcept { return sceneFromPart_; }
+  const RigidTransform& partFromScene() const noexcept { return partFromScene_; }
+
   /// Whether the pair of leaf children carries a minimum, or a piece of a flat region; fills `out` if so.
   bool test(std::uint32_t sceneLeaf, std::uint32_t partLeaf, Minimum& out) const noexcept;
 
@@ -33,10 +54,6 @@ class LeafTests {
     const NormalConeTree& tree;
     const RigidTransform& otherFromThis;
     const RigidTransform& thisFromOther;
-  };
-  struct Edge {
-    glm::dvec3 start, along;  ///< `along` is unit.
-    double length;
   };
   /// Where two edges that are nearly parallel run beside each other: along the first, and in the middle of
   /// that the point of each.
@@ -122,7 +139,6 @@ class LeafTests {
   /// Where edges cross at so small an angle that the end of one, too, is a minimum to rounding, they share a
   /// piece of a region with it: so that they become one. False where it is as it was.
   bool widenAtEnd(const Edge& ea, const Edge& eb, double s, double sine, Minimum& out) const noexcept;
-  static Edge edgeOf(const NormalConeTree& tree, std::uint32_t edge) noexcept;
 
   double lengthSlack(double distance) const noexcept {
     return lengthTolerance_ + angularSlackBase_ * distance;

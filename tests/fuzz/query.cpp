@@ -176,7 +176,12 @@ ContactResult contactsWith(const Case& c, const ContactReach& reach, const Motio
   const NearbyPairs nearby = findNearbyPairs(c.query(), reach, slack, c.scratch, pairs, kUnbounded);
   require(nearby.count <= pairs.size(), "no more pairs than room");
   isAll = nearby.isComplete;
-  const ContactResult result = testContacts(c.query(), reach, std::span(pairs).first(nearby.count), contacts);
+  const std::span<LeafPair> found = std::span(pairs).first(nearby.count);
+  std::vector<EdgePairs>& blocks = kept<EdgePairs, (1U << 14) / EdgePairs::kLanes>();
+  const std::size_t filled = packEdgePairs(c.query().scene, c.query().part, found, blocks);
+  const ContactResult result =
+      testContacts(c.query(), reach, found, contacts,
+                   {std::span(blocks).first(filled), edgePairKernel(defaultSimdLevel())});
   require(result.count <= contacts.size(), "no more contacts than room");
   return result;
 }

@@ -31,9 +31,13 @@ constexpr std::uint64_t kNoBound = std::numeric_limits<std::uint64_t>::max();
 ContactResult findContacts(const BodyPairQuery& query, LmdScratch& scratch, std::span<ContactPair> out,
                            double turn = kTurn, std::uint64_t maxNodePairs = kNoBound) {
   static std::vector<LeafPair> pairs(1U << 18);
+  static std::vector<EdgePairs> blocks(1U << 12);
   const ContactReach reach{kReach, turn};
   const NearbyPairs nearby = findNearbyPairs(query, reach, {}, scratch, pairs, maxNodePairs);
-  ContactResult result = testContacts(query, reach, std::span(pairs).first(nearby.count), out);
+  const std::span<LeafPair> found = std::span(pairs).first(nearby.count);
+  const std::size_t filled = packEdgePairs(query.scene, query.part, found, blocks);
+  ContactResult result = testContacts(query, reach, found, out,
+                                      {std::span(blocks).first(filled), edgePairKernel(defaultSimdLevel())});
   if (!nearby.isComplete) result.completeTo = 0.0;
   return result;
 }
