@@ -136,7 +136,7 @@ void FeelPanel::showDevices(const QVector<DeviceChoice>& devices) {
 }
 
 void FeelPanel::showHand() {
-  workspace_->showHand(hand());
+  workspace_->showHand(hand(), hand_->isRecorded());
 }
 
 void FeelPanel::setStartable(bool isStartable) {

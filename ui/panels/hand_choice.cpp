@@ -102,8 +102,12 @@ void HandChoice::choose(const QString& device) {
   showChosen();
 }
 
+bool HandChoice::isRecorded() const {
+  return box_->currentIndex() == kRecording;
+}
+
 bool HandChoice::isRecordingMissing() const {
-  return box_->currentIndex() == kRecording && device().isEmpty();
+  return isRecorded() && device().isEmpty();
 }
 
 int HandChoice::rowOf(const QString& device) const {
@@ -115,7 +119,7 @@ void HandChoice::showDevices(const QVector<DeviceChoice>& devices) {
   const QSignalBlocker quiet(box_);
   const Hand hand = this->hand();
   const QString chosen = device();
-  const bool isRecording = box_->currentIndex() == kRecording;
+  const bool isRecording = isRecorded();
   while (box_->count() > kFirstDevice)
     box_->removeItem(kFirstDevice);
   auto* model = qobject_cast<QStandardItemModel*>(box_->model());
@@ -144,7 +148,7 @@ void HandChoice::showChosen() {
   const bool isInHand = status_.isRunning && status_.hand == Hand::Device;
   const bool isTaken = isInHand || status_.isOpening;
   const QString text = isTaken ? status_.deviceState : box_->currentData(kNoteRole).toString();
-  recording_->setVisible(box_->currentIndex() == kRecording);
+  recording_->setVisible(isRecorded());
   opening_->setVisible(status_.isOpening);
   // As long as it is not known how far it is, the bar moves to and fro.
   opening_->setRange(0, status_.openingFraction > 0.0 ? kOpeningSteps : 0);

@@ -27,6 +27,8 @@ class HandChoice : public QWidget {
   QString device() const;
   /// A device of the list, or a recording ("replay:FILE"); does nothing for what is not there.
   void choose(const QString& device);
+  /// The recorded hand is chosen, whether a recording is or not.
+  bool isRecorded() const;
   /// The recorded hand is chosen, and none is recorded: there is no device yet.
   bool isRecordingMissing() const;
   /// Devices come and go; what is chosen stays chosen where it is still there, else the scripted hand is.

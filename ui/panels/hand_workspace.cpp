@@ -17,6 +17,7 @@ HandWorkspace::HandWorkspace(QAction* clutch, QWidget* parent)
       scaleRow_(new QWidget(this)),
       clutch_(new QToolButton(this)),
       note_(addNote()),
+      recorded_(addNote()),
       locks_(new LocksPage(QStringLiteral("panel-"), this)) {
   auto* heading = new QLabel(tr("Workspace"), this);
   heading->setStyleSheet(QStringLiteral("font-weight: bold; color: #3b4754; padding-top: 8px"));
@@ -37,19 +38,24 @@ HandWorkspace::HandWorkspace(QAction* clutch, QWidget* parent)
   clutch_->setFocusPolicy(Qt::StrongFocus);
   note_->setObjectName(QStringLiteral("clutchNote"));
   note_->setText(tr("The part stays: bring the device to where it is handy."));
+  recorded_->setObjectName(QStringLiteral("recordedNote"));
+  recorded_->setText(tr("A recorded hand goes as it went: its scale and locks are in the recording."));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(6);
-  for (QWidget* each : {static_cast<QWidget*>(heading), scaleRow_, static_cast<QWidget*>(clutch_),
-                        static_cast<QWidget*>(note_), static_cast<QWidget*>(locks_)})
+  for (QWidget* each :
+       {static_cast<QWidget*>(heading), scaleRow_, static_cast<QWidget*>(clutch_),
+        static_cast<QWidget*>(note_), static_cast<QWidget*>(recorded_), static_cast<QWidget*>(locks_)})
     layout->addWidget(each);
   connect(locks_, &FeelPage::edited, this, &HandWorkspace::change);
   showHand(Hand::Scripted);
   showClutched(false);
 }
 
-void HandWorkspace::showHand(Hand hand) {
-  scaleRow_->setVisible(hand == Hand::Device);
+void HandWorkspace::showHand(Hand hand, bool isRecorded) {
+  scaleRow_->setVisible(hand == Hand::Device && !isRecorded);
+  locks_->setVisible(!isRecorded);
+  recorded_->setVisible(isRecorded);
   clutch_->setVisible(hand == Hand::Device);
   setVisible(hand != Hand::Scripted);
 }

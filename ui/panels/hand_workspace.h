@@ -20,7 +20,9 @@ class HandWorkspace : public FeelPage {
   /// @param clutch  Holds the part while it is on.
   explicit HandWorkspace(QAction* clutch, QWidget* parent = nullptr);
 
-  void showHand(Hand hand);
+  /// @param isRecorded  It is a recording, which has been through scale and locks when it was made: instead
+  ///                    of them stands why.
+  void showHand(Hand hand, bool isRecorded = false);
   /// Whether the part stays though the hand moves, by the clutch here or by one of the device's own.
   void showClutched(bool isClutched);
 
@@ -30,7 +32,7 @@ class HandWorkspace : public FeelPage {
  private:
   QWidget* scaleRow_;
   QToolButton* clutch_;
-  QLabel* note_;
+  QLabel *note_, *recorded_;
   LocksPage* locks_;
 };
 

@@ -17,6 +17,7 @@
 #include "tests/exact/pose_certifier.h"
 #include "tests/support/eventually.h"
 #include "ui/dialogs/error_box.h"
+#include "ui/number_field.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -52,7 +53,7 @@ struct Plugged {
     QTRY_VERIFY((wanted = box->findText(name, Qt::MatchContains)) >= 0);
     box->setFocus();
     for (int keys = 0; keys < 10 && box->currentIndex() != wanted; ++keys)
-      QTest::keyClick(box, Qt::Key_Down);
+      QTest::keyClick(box, box->currentIndex() < wanted ? Qt::Key_Down : Qt::Key_Up);
     QCOMPARE(box->currentIndex(), wanted);
   }
   void click(const char* button) { QTest::mouseClick(d.widget<QPushButton>(button), Qt::LeftButton); }
@@ -196,6 +197,29 @@ void DesktopPluggedTest::whatItLeadsIsRecordedByTheButtonAndReplayed() {
   const double length = felt.back().time - felt.front().time;
   QTRY_VERIFY(std::abs(p.d.text("timelineTime").section(' ', 0, 0).toDouble() - length) < 2e-3);
   QTest::mouseClick(p.d.widget<QToolButton>("timelineClose"), Qt::LeftButton);
+
+  // As the hand, beside the device: the part goes the same way from where it is now, far above the other.
+  p.d.action("undo")->trigger();
+  p.d.clickPart(1, 0);
+  p.d.type<ui::NumberField>("positionZ", "100");
+  const glm::dvec3 high = p.d.part("moving").worldFromPart.translation;
+  QCOMPARE(high, glm::dvec3(0.0, 0.0, 0.1));
+  p.shown.clear();
+  p.choose(QStringLiteral("Recorded hand"));
+  if (QTest::currentTestFailed()) return;
+  whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, led); });
+  p.click("startStop");
+  // It ends by itself.
+  QTRY_COMPARE(QString::fromStdString(p.d.session().undoText()), QStringLiteral("Feel moving"));
+  QVERIFY(!p.d.application.servo().status().isTaken());
+  const glm::dvec3 way = felt.back().handle.translation - felt.front().handle.translation;
+  const glm::dvec3 end = p.d.part("moving").worldFromPart.translation;
+  QVERIFY2(glm::distance(end, high + way) < 3e-3,
+           qPrintable(QStringLiteral("%1 %2 %3").arg(end.x).arg(end.y).arg(end.z)));
+  double farthest = 0.0;
+  for (const RigidTransform& pose : p.shown)
+    farthest = std::max(farthest, glm::distance(pose.translation, high));
+  QVERIFY2(farthest > 5e-3, qPrintable(QString::number(farthest)));
   QVERIFY(p.failures.isEmpty());
 }
 

@@ -138,6 +138,14 @@ void DesktopWorkspaceTest::whatThereIsToSetDependsOnTheHand() {
   QVERIFY(!scale->isVisible() && freedom->isVisible());
   f.choose("hand", QStringLiteral("Fake arm"));
   QVERIFY(scale->isVisible() && f.d->widget<QToolButton>("clutchButton")->isVisible());
+  // A recording has been through scale and locks when it was made: neither would have an effect.
+  auto* why = f.d->widget<QLabel>("recordedNote");
+  QVERIFY(!why->isVisible());
+  f.choose("hand", QStringLiteral("Recorded hand"));
+  QVERIFY(!scale->isVisible() && !freedom->isVisible() && why->isVisible());
+  QVERIFY(f.d->widget<QToolButton>("clutchButton")->isVisible());
+  f.choose("hand", QStringLiteral("Fake arm"));
+  QVERIFY(scale->isVisible() && freedom->isVisible() && !why->isVisible());
   f.choose("hand", QStringLiteral("Scripted hand"));
   QVERIFY(!freedom->isVisible());
 }
