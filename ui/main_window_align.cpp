@@ -36,8 +36,9 @@ void MainWindow::setUpAligning() {
 
 void MainWindow::updateAligning() {
   // What is in hand is moved by the hand.
-  const bool isFree = !document_->isBusy() && !servo_.isTaken() && session_.scene().parts().size() > 1;
-  align_->setAvailable(isFree);
+  const bool canMove = !servo_.isTaken() && session_.scene().parts().size() > 1;
+  const bool isFree = canMove && !document_->isBusy();
+  align_->setAvailable(canMove, document_->isBusy());
   const bool isAnyLocked = std::ranges::any_of(selection_->parts(), [this](PartId id) {
     const Part* part = session_.scene().find(id);
     return part != nullptr && session_.scene().isLocked(*part);

@@ -3,6 +3,7 @@
 #include <vtkCellArray.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkShaderProperty.h>
 
 namespace nearfit::ui {
 namespace {
@@ -21,7 +22,17 @@ void setUp(vtkActor& actor, vtkPolyData& data, const QColor& colour, float size)
   look.SetColor(colour.redF(), colour.greenF(), colour.blueF());
   look.SetLineWidth(size);
   look.SetPointSize(size);
-  look.SetRenderPointsAsSpheres(true);
+}
+
+/// Dots are discs. VTK's spheres bulge towards the eye, each as far as it is wide: those of the rims would
+/// hide the dots in them.
+void makeRound(vtkActor& actor) {
+  actor.GetShaderProperty()->AddFragmentShaderReplacement(
+      "//VTK::Normal::Impl", true,
+      "  vec2 fromMiddle = 2.0 * gl_PointCoord - vec2(1.0);\n"
+      "  if (dot(fromMiddle, fromMiddle) > 1.0) discard;\n"
+      "//VTK::Normal::Impl",
+      false);
 }
 
 }  // namespace
@@ -43,6 +54,8 @@ PairSegment::PairSegment(vtkRenderer& overlay, const QColor& colour) : overlay_(
   setUp(*rims_, *dots_.Get(), Qt::white, 15.0F);
   setUp(*line_, *segment_.Get(), colour, 3.5F);
   setUp(*points_, *dots_.Get(), colour, 10.0F);
+  for (vtkActor* actor : {rims_.Get(), points_.Get()})
+    makeRound(*actor);
   for (vtkActor* actor : {halo_.Get(), rims_.Get(), line_.Get(), points_.Get()})
     overlay.AddActor(actor);
   applyVisibility();

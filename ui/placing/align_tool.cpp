@@ -42,9 +42,9 @@ AlignTool::AlignTool(Session& session, Selection& selection, Viewport& view, QOb
 
 AlignTool::~AlignTool() = default;
 
-void AlignTool::setAvailable(bool isAvailable) {
-  action_->setEnabled(isAvailable);
+void AlignTool::setAvailable(bool isAvailable, bool isBusy) {
   if (!isAvailable) stop();
+  action_->setEnabled(isAvailable && (!isBusy || picker_.isActive()));
 }
 
 void AlignTool::start() {

@@ -31,7 +31,8 @@ class AlignTool : public QObject {
   /// Switches it on and off.
   QAction* action() const noexcept { return action_; }
   /// Whether it can be used now; it stops when it no longer can.
-  void setAvailable(bool isAvailable);
+  /// @param isBusy  Something is being loaded or prepared: it cannot be begun, but what was begun goes on.
+  void setAvailable(bool isAvailable, bool isBusy);
 
  signals:
   /// These parts are to move together so that the lead comes to stand there.

@@ -23,6 +23,7 @@ class DesktopAlignTest : public QObject {
   void aPartThatLeavesTheSceneEndsIt();
   void lockedPartsRefuseToMove();
   void dragsStillOrbitWhileAligning();
+  void makingPartsSolidMeanwhileEndsNothing();
   void alignsACornerWithACorner();
   void dropsToContactAsOneStepOfUndo();
   void dropsTowardsAFace();
@@ -170,6 +171,27 @@ void DesktopAlignTest::dragsStillOrbitWhileAligning() {
   QVERIFY(glm::distance(d.window().viewport().projection().away(), before) > 0.05);
   QVERIFY(d.text("alignPrompt").contains(QStringLiteral("part to move")));
   QVERIFY(d.action("align")->isChecked());
+}
+
+// The parts were prepared for contact, and whatever was busy ended the tool.
+void DesktopAlignTest::makingPartsSolidMeanwhileEndsNothing() {
+  DesktopDriver d;
+  begin(d);
+  click(d, {0.003, kMovingFront, 0.036});
+  click(d, {-0.01, kFixedFront, 0.005});
+  const QString prompt = d.text("alignPrompt");
+  int busy = 0;
+  connect(&d.window().document(), &ui::Document::busyChanged, this, [&] { ++busy; });
+  QTest::keyClick(&d.window(), Qt::Key_S, Qt::ShiftModifier);
+  QVERIFY(d.action("solid")->isChecked());
+  QTRY_VERIFY2(busy > 1 && !d.window().document().isBusy(), "it begins and ends");
+  QVERIFY(d.action("align")->isChecked() && d.action("align")->isEnabled());
+  QVERIFY(d.widget<QWidget>("alignBar")->isVisible());
+  QCOMPARE(d.text("alignPrompt"), prompt);
+  // Whole: what was picked counts, and contact stops it.
+  d.window().viewport().setFocus();
+  QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
+  QTRY_COMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Align moving"));
 }
 
 void DesktopAlignTest::alignsACornerWithACorner() {

@@ -101,6 +101,7 @@ class DesktopMannersTest : public QObject {
   void everyActionHasATooltipAndNoTwoShareAShortcut();
   void shortcutsAreListedAndSearched();
   void themeIsSwitchedAtOnceAndKept();
+  void themeIsSwitchedAfterDialogsHaveCome();
   void iconsAreLegibleInBothThemes();
   void layoutIsRememberedAndReset();
   void tourExplainsTheDemoAndCanBeLeft();
@@ -182,6 +183,31 @@ void DesktopMannersTest::themeIsSwitchedAtOnceAndKept() {
   QTRY_VERIFY(lightnessAt(*dock, corner) > 200);
   QCOMPARE(late.styleSheet(), QStringLiteral("color: #5d6874"));
   QTRY_VERIFY(d.window().viewport().grabFramebuffer().pixelColor(viewCorner).lightness() > 150);
+}
+
+// Qt 5.15 remembers widgets that a style sheet gave a font or a palette, also once they are gone: a sheet in
+// place of another was told to them, and the window crashed.
+void DesktopMannersTest::themeIsSwitchedAfterDialogsHaveCome() {
+  DesktopDriver d;
+  d.addCubes();
+  for (int round = 0; round < 3; ++round) {
+    for (const char* opens : {"exportPlacement", "open", "saveAs"}) {
+      whenModal<QDialog>([](QDialog* dialog) { QTest::keyClick(dialog, Qt::Key_Escape); });
+      d.action(opens)->trigger();
+    }
+    {
+      QDialog dialog(&d.window());
+      dialog.setStyleSheet(QStringLiteral("QLabel { color: #5d6874; font-weight: bold }"));
+      new QLabel(QStringLiteral("gone soon"), &dialog);
+      new QComboBox(&dialog);
+      dialog.show();
+      QVERIFY(QTest::qWaitForWindowExposed(&dialog));
+    }
+    d.action(round % 2 == 0 ? "themeDark" : "themeLight")->trigger();
+    QCoreApplication::processEvents();
+  }
+  QCOMPARE(ui::colourScheme(), ui::ColourScheme::Dark);
+  QVERIFY(d.window().isVisible());
 }
 
 void DesktopMannersTest::iconsAreLegibleInBothThemes() {
