@@ -60,6 +60,7 @@ void HandGhost::setShape(std::shared_ptr<const PartShape> shape) {
   if (shape_ != nullptr) {
     setInput(*surface_, shape_->finestDraft());
     setInput(*edges_, shape_->edges);
+    applyCut();
   }
   applyVisibility();
 }
@@ -83,6 +84,21 @@ void HandGhost::clear() {
 void HandGhost::setVisible(bool isVisible) {
   isVisible_ = isVisible;
   applyVisibility();
+}
+
+void HandGhost::setCut(vtkPlane* cut) {
+  if (cut == cut_) return;
+  cut_ = cut;
+  applyCut();
+}
+
+void HandGhost::applyCut() {
+  for (vtkActor* actor : {surface_.Get(), edges_.Get()}) {
+    vtkMapper* mapper = actor->GetMapper();
+    if (mapper == nullptr) continue;
+    mapper->RemoveAllClippingPlanes();
+    if (cut_ != nullptr) mapper->AddClippingPlane(cut_);
+  }
 }
 
 bool HandGhost::visibleBounds(double bounds[6]) const {

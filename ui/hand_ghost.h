@@ -6,7 +6,9 @@
 #include <vtkLineSource.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
+#include <vtkPlane.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 
 #include "core/haptics/servo_snapshot.h"
 #include "ui/part_shape.h"
@@ -26,17 +28,21 @@ class HandGhost {
   void show(const ServoSnapshot& snapshot, double size);
   void clear();
   void setVisible(bool isVisible);
+  /// Cuts the copy open, as the part is: what the plane's normal points to stays. Null: it is whole.
+  void setCut(vtkPlane* cut);
 
   /// In the world, as VTK has them; false while it is not drawn.
   bool visibleBounds(double bounds[6]) const;
 
  private:
   void applyVisibility();
+  void applyCut();
 
   std::shared_ptr<const PartShape> shape_;
   vtkNew<vtkActor> surface_, edges_, line_;
   vtkNew<vtkMatrix4x4> pose_;
   vtkNew<vtkLineSource> lead_;
+  vtkSmartPointer<vtkPlane> cut_;
   bool isVisible_ = true, isAhead_ = false;
 };
 

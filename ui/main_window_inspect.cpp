@@ -7,6 +7,7 @@
 #include "ui/main_window.h"
 #include "ui/measure/measure_tool.h"
 #include "ui/section/section_tool.h"
+#include "ui/selecting/box_select.h"
 #include "ui/unit_menu.h"
 #include "ui/viewport.h"
 
@@ -17,12 +18,17 @@ void MainWindow::setUpInspecting() {
   connect(findChild<UnitMenu*>(QStringLiteral("unitMenu")), &UnitMenu::unitChanged, measure,
           &MeasureTool::refresh);
   const auto* section = new SectionTool(session_, *viewport_, this);
+  const auto* box = new BoxSelect(*selection_, *viewport_, this);
+  connect(box, &BoxSelect::noted, this, &MainWindow::showNote);
+  actions_->editMenu->insertAction(actions_->selectNone, box->action());
   const QList<QAction*> tools{measure->action(), section->action()};
   actions_->viewMenu->insertActions(actions_->panelsMenu->menuAction(), tools);
   actions_->viewMenu->insertSeparator(actions_->panelsMenu->menuAction());
   auto* bar = findChild<QToolBar*>(QStringLiteral("placingBar"));
   bar->addSeparator();
   bar->addActions(tools);
+  bar->insertAction(bar->actions().constFirst(), box->action());
+  bar->insertSeparator(bar->actions().at(1));
 }
 
 }  // namespace nearfit::ui

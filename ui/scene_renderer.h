@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/placing/seen_parts.h"
 #include "core/scene/scene.h"
 #include "ui/detail/detail_choice.h"
 #include "ui/part_actor.h"
@@ -48,6 +49,8 @@ class SceneRenderer {
   void setCut(const std::optional<ViewCut>& cut);
   /// The cut follows the parts: before each picture.
   void updateCut();
+  /// What cuts the moving part now, for what goes with it: see SceneCut::plane. Null: it is whole.
+  vtkPlane* cutOfMoving() const noexcept { return cut_.cuts(true) ? cut_.plane() : nullptr; }
   /// Parts that are cut and cannot be closed, as of the last picture.
   const std::vector<PartId>& openlyCut() const noexcept { return cut_.open(); }
 
@@ -84,6 +87,9 @@ class SceneRenderer {
   }
   /// As pick, with the point of its surface.
   std::optional<PickedPoint> pickPoint(double x, double y);
+  /// Of which something is seen at the pixels of a box, in the scene's order: what shines through hides
+  /// nothing.
+  std::vector<PartId> seenIn(const ViewProjection& view, const PixelBox& pixels) const;
 
  private:
   struct View;

@@ -185,6 +185,17 @@ std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y) {
   return picked;
 }
 
+std::vector<PartId> SceneRenderer::seenIn(const ViewProjection& view, const PixelBox& pixels) const {
+  std::vector<ShownPart> shown;
+  for (const Scene::PartPtr& part : scene_.parts()) {
+    const PartActor* actor = find(part->id);
+    if (actor == nullptr || !actor->isVisible()) continue;
+    const bool isCut = cut_.cuts(scene_.movingPart() == part->id);
+    shown.push_back({{part.get(), shownPose(*part)}, actor->isOpaque(), isCut});
+  }
+  return partsSeenIn(shown, view, pixels, cut_.cut() ? std::optional(cut_.cut()->plane) : std::nullopt);
+}
+
 std::optional<PickedPoint> SceneRenderer::capAt(const glm::dvec3& point) const {
   for (const auto& [id, cap] : cut_.caps()) {
     const RigidTransform partFromWorld = shownPose(*scene_.find(id)).inverse();

@@ -164,6 +164,7 @@ void Viewport::prepareRender() {
   // The marker learns of the window's first size from nobody.
   marker_->SquareResize();
   parts_.updateCut();
+  hand_.setCut(parts_.cutOfMoving());
   adjustClipping();
   detail_->beforePicture();
 }
@@ -385,6 +386,12 @@ void Viewport::setCut(const std::optional<ViewCut>& cut) {
 std::optional<PickedPoint> Viewport::pointAt(const QPoint& position) {
   const double scale = devicePixelRatioF();
   return parts_.pickPoint(position.x() * scale, (height() - 1 - position.y()) * scale);
+}
+
+std::vector<PartId> Viewport::partsIn(const QRect& place) const {
+  const QRect seen = place.normalized().intersected(rect());
+  if (seen.isEmpty()) return {};
+  return parts_.seenIn(projection(), {{seen.left(), seen.top()}, {seen.right(), seen.bottom()}});
 }
 
 void Viewport::pickAt(const QPoint& position, Qt::KeyboardModifiers modifiers) {

@@ -32,7 +32,7 @@ class ViewDetail;
 
 /// The 3-D view: the scene's parts, and over them what the newest servo snapshot tells.
 /// Draws only after a change. Left drag orbits, middle drag pans, wheel or right drag zooms; a click selects,
-/// with Ctrl it adds or takes out, with Shift it adds.
+/// with Ctrl it adds or takes out, with Shift it adds. BoxSelect draws rectangles on it.
 class Viewport : public QVTKOpenGLNativeWidget {
   Q_OBJECT
 
@@ -65,6 +65,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
   const std::vector<PartId>& openlyCut() const noexcept { return parts_.openlyCut(); }
   /// What is seen at a place of the widget.
   std::optional<PickedPoint> pointAt(const QPoint& position);
+  /// Parts of which something is seen in a rectangle of the widget, in the scene's order.
+  std::vector<PartId> partsIn(const QRect& place) const;
   /// Does what a click there does: selects.
   void pickAt(const QPoint& position, Qt::KeyboardModifiers modifiers);
 

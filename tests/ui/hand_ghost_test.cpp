@@ -3,6 +3,8 @@
 #include <QtTest>
 
 #include <glm/gtc/quaternion.hpp>
+#include <vtkMapper.h>
+#include <vtkPlaneCollection.h>
 
 #include "tests/support/mesh_generators.h"
 #include "ui/hand_lead.h"
@@ -31,6 +33,7 @@ class HandGhostTest : public QObject {
   void isDrawnWhereTheHandIs();
   void isNotDrawnWherePartAndHandLookTheSame();
   void canBeSwitchedOff();
+  void isCutAsItsPartIs();
 
  private:
   std::shared_ptr<const ui::PartShape> box_ = std::make_shared<const ui::PartShape>(
@@ -96,6 +99,31 @@ void HandGhostTest::canBeSwitchedOff() {
   QVERIFY(!ghost.visibleBounds(bounds));
   ghost.setVisible(true);
   QVERIFY(ghost.visibleBounds(bounds));
+}
+
+void HandGhostTest::isCutAsItsPartIs() {
+  vtkNew<vtkRenderer> parts, overlay;
+  ui::HandGhost ghost(*parts.Get(), *overlay.Get());
+  const auto planes = [&parts] {
+    QVector<vtkIdType> counts;
+    vtkCollectionSimpleIterator it;
+    vtkActorCollection* actors = parts->GetActors();
+    actors->InitTraversal(it);
+    while (vtkActor* actor = actors->GetNextActor(it)) {
+      vtkPlaneCollection* cut = actor->GetMapper()->GetClippingPlanes();
+      counts << (cut == nullptr ? vtkIdType{0} : vtkIdType{cut->GetNumberOfItems()});
+    }
+    return counts;
+  };
+  vtkNew<vtkPlane> plane;
+  // Before there is a shape, and for the next one too.
+  ghost.setCut(plane);
+  ghost.setShape(box_);
+  QCOMPARE(planes(), (QVector<vtkIdType>{1, 1}));
+  ghost.setShape(std::make_shared<const ui::PartShape>(ui::makePartShape(test::boxMesh(glm::dvec3(0.01)))));
+  QCOMPARE(planes(), (QVector<vtkIdType>{1, 1}));
+  ghost.setCut(nullptr);
+  QCOMPARE(planes(), (QVector<vtkIdType>{0, 0}));
 }
 
 QTEST_MAIN(HandGhostTest)

@@ -59,6 +59,7 @@ void addView(QTreeWidget* list) {
       {QObject::tr("Zoom"), QObject::tr("Wheel, or right drag")},
       {QObject::tr("Select a part"), QObject::tr("Click")},
       {QObject::tr("Add to the selection, or take out of it"), QObject::tr("Ctrl+Click")},
+      {QObject::tr("Select what is seen in a box"), QObject::tr("B, then left drag")},
       {QObject::tr("Move the part by a step"), QObject::tr("Arrow keys, Page up, Page down")},
       {QObject::tr("Turn the part by a step"), QObject::tr("Shift+Arrow keys, Shift+Page up or down")},
       {QObject::tr("Move the manual hand"), QObject::tr("Shift+Left drag, Shift+Wheel")},
