@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/trigonometric.hpp>
-#include <vtkCamera.h>
 
 namespace nearfit::ui {
 namespace {
@@ -66,6 +65,17 @@ void fitView(vtkRenderer& renderer, const double bounds[6]) {
   camera->SetPosition(eye.x, eye.y, eye.z);
   camera->OrthogonalizeViewUp();
   renderer.ResetCameraClippingRange(bounds);
+}
+
+ViewProjection::Camera projectionCamera(vtkCamera& camera) {
+  ViewProjection::Camera seen;
+  seen.eye = glm::make_vec3(camera.GetPosition());
+  seen.away = glm::make_vec3(camera.GetDirectionOfProjection());
+  seen.up = glm::make_vec3(camera.GetViewUp());
+  seen.isParallel = camera.GetParallelProjection() != 0;
+  seen.viewAngle = glm::radians(camera.GetViewAngle());
+  seen.halfHeight = camera.GetParallelScale();
+  return seen;
 }
 
 }  // namespace nearfit::ui

@@ -2,7 +2,10 @@
 
 #include <cstdint>
 
+#include <vtkCamera.h>
 #include <vtkRenderer.h>
+
+#include "core/placing/view_projection.h"
 
 namespace nearfit::ui {
 
@@ -14,5 +17,8 @@ void setStandardView(vtkRenderer& renderer, StandardView view, const double boun
 
 /// Moves the camera, without turning it, so that the bounds just fill the view with a margin around them.
 void fitView(vtkRenderer& renderer, const double bounds[6]);
+
+/// What the camera sees, for core.
+ViewProjection::Camera projectionCamera(vtkCamera& camera);
 
 }  // namespace nearfit::ui

@@ -4,65 +4,29 @@
 #include <QEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
-#include <QScreen>
 #include <QSurfaceFormat>
-#include <QTimer>
 #include <algorithm>
+#include <utility>
 
-#include <glm/trigonometric.hpp>
-#include <vtkBoundingBox.h>
+#include <QVTKRenderWindowAdapter.h>
 #include <vtkCamera.h>
 #include <vtkCommand.h>
-#include <vtkInteractorStyleTrackballCamera.h>
-#include <vtkLightKit.h>
-#include <vtkObjectFactory.h>
-#include <vtkRenderWindowInteractor.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLState.h>
 
-#include "ui/colour_legend.h"
 #include "ui/detail/view_detail.h"
 #include "ui/hand_drag.h"
 #include "ui/orientation_marker.h"
 #include "ui/selection.h"
 #include "ui/snapshot_look.h"
-#include "ui/theme.h"
+#include "ui/view/camera_style.h"
+#include "ui/view/picture_pace.h"
+#include "ui/view/snapshot_glyphs.h"
+#include "ui/view/view_depths.h"
+#include "ui/view/view_setting.h"
 
 namespace nearfit::ui {
 namespace {
-
-/// VTK's style without its letter keys, some of which end the program or switch to stereo.
-class CameraStyle : public vtkInteractorStyleTrackballCamera {
- public:
-  static CameraStyle* New() { VTK_STANDARD_NEW_BODY(CameraStyle); }
-  void OnChar() override {}
-  void OnKeyPress() override {}
-  void OnMouseMove() override {
-    atNextPicture([this] { Superclass::OnMouseMove(); });
-  }
-  void OnMouseWheelForward() override {
-    atNextPicture([this] { Superclass::OnMouseWheelForward(); });
-  }
-  void OnMouseWheelBackward() override {
-    atNextPicture([this] { Superclass::OnMouseWheelBackward(); });
-  }
-
-  Viewport* view = nullptr;
-
- private:
-  using Superclass = vtkInteractorStyleTrackballCamera;
-
-  /// VTK would draw a picture for each event, however many come between two pictures of the display.
-  template <typename Act>
-  void atNextPicture(const Act& act) {
-    vtkRenderWindowInteractor* interactor = GetInteractor();
-    interactor->EnableRenderOff();
-    vtkCamera* camera = view->camera();
-    const vtkMTimeType before = camera->GetMTime();
-    act();
-    const bool hasChanged = camera->GetMTime() != before;
-    interactor->EnableRenderOn();
-    if (hasChanged) view->requestRender();
-  }
-};
 
 /// So far may what moves leave the bounds of all, in parts of their size, before what is kept is drawn anew.
 constexpr double kRoomForMotion = 0.3;
@@ -81,11 +45,8 @@ Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection,
       selection_(selection),
       parts_(*renderer_.Get(), shapes_, overlay_.Get()),
       detail_(std::make_unique<ViewDetail>(*renderer_.Get(), *overlay_.Get(), parts_)),
-      hand_(*renderer_.Get(), *overlay_.Get()),
-      minima_(*overlay_.Get()),
-      contacts_(*overlay_.Get()),
-      arrows_(*overlay_.Get()),
-      legend_(new ColourLegend(this)),
+      glyphs_(std::make_unique<SnapshotGlyphs>(*renderer_.Get(), *overlay_.Get(), *this)),
+      pace_(std::make_unique<PicturePace>(*this)),
       handDrag_(new HandDrag(*this, *renderer_->GetActiveCamera())) {
   setObjectName(QStringLiteral("viewport"));
   setAccessibleName(tr("3-D view"));
@@ -94,9 +55,10 @@ Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection,
   setUpRenderers();
   setUpInteraction();
   connect(detail_.get(), &ViewDetail::pictureWanted, this, &Viewport::requestRender);
-  connect(detail_.get(), &ViewDetail::depthsNeeded, this, [this] { fitDepths(kRoomForMotion); });
+  connect(detail_.get(), &ViewDetail::depthsNeeded, this,
+          [this] { fitDepths(*renderer_, drawnBounds(), kRoomForMotion); });
+  connect(pace_.get(), &PicturePace::pictureDue, this, [this] { window_->Render(); });
   connect(&selection_, &Selection::changed, this, &Viewport::showSelection);
-  legend_->hide();
 }
 
 Viewport::~Viewport() = default;
@@ -104,37 +66,24 @@ Viewport::~Viewport() = default;
 void Viewport::changeEvent(QEvent* event) {
   QVTKOpenGLNativeWidget::changeEvent(event);
   if (event->type() != QEvent::PaletteChange) return;
-  setUpBackground();
+  setUpBackground(*renderer_);
   requestRender();
-}
-
-void Viewport::setUpBackground() {
-  renderer_->GradientBackgroundOn();
-  if (isThemeDark()) {
-    renderer_->SetBackground(0.27, 0.31, 0.36);
-    renderer_->SetBackground2(0.13, 0.15, 0.18);
-  } else {
-    renderer_->SetBackground(0.72, 0.78, 0.85);
-    renderer_->SetBackground2(0.955, 0.968, 0.98);
-  }
 }
 
 void Viewport::setUpRenderers() {
   // Software OpenGL has no cheap multisampling; FXAA smooths there too.
   window_->SetMultiSamples(0);
   setRenderWindow(window_);
+  // Each picture covers the last one: nothing is to be cleared before.
+  setUpdateBehavior(PartialUpdate);
   window_->SetNumberOfLayers(2);
   window_->AddRenderer(renderer_);
   window_->AddRenderer(overlay_);
 
   renderer_->SetLayer(0);
-  setUpBackground();
+  setUpBackground(*renderer_);
+  setUpLights(*renderer_);
   renderer_->GetActiveCamera()->SetViewAngle(24.0);
-  vtkNew<vtkLightKit> lights;
-  lights->SetKeyLightIntensity(0.92);
-  lights->SetKeyToFillRatio(2.0);
-  lights->SetKeyToHeadRatio(2.2);
-  lights->AddLightsToRenderer(renderer_);
 
   // Minima lie in the gaps between parts: drawn over everything, or the parts would hide them.
   overlay_->SetLayer(1);
@@ -146,16 +95,38 @@ void Viewport::setUpInteraction() {
   vtkNew<CameraStyle> style;
   interactor()->SetInteractorStyle(style);
   style->SetDefaultRenderer(renderer_);
-  style->view = this;
+  style->onMoved([this] { requestRender(); });
   style->AutoAdjustCameraClippingRangeOff();
   setUpOrientationMarker(*marker_.Get(), *renderer_.Get());
   renderer_->AddObserver(vtkCommand::StartEvent, this, &Viewport::prepareRender);
   window_->AddObserver(vtkCommand::EndEvent, this, &Viewport::countPicture);
 }
 
+void Viewport::paintGL() {
+  vtkOpenGLState* state = window_->GetState();
+  state->Reset();
+  state->Push();
+  // VTK's default, which is not Qt's.
+  state->vtkglDepthFunc(GL_LEQUAL);
+  RenderWindowAdapter->paint();
+  // Drawing lets others draw.
+  makeCurrent();
+  // The superclass would scale the picture to its own size, which takes software as long as drawing it.
+  const int* size = window_->GetRenderFramebuffer()->GetLastSize();
+  state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, defaultFramebufferObject());
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  window_->BlitDisplayFramebuffer(0, 0, 0, size[0], size[1], 0, 0, size[0], size[1], GL_COLOR_BUFFER_BIT,
+                                  GL_NEAREST);
+  // What shines through is blended: where it was thin, the window is not to be.
+  state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+  state->vtkglClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+  state->vtkglClear(GL_COLOR_BUFFER_BIT);
+  state->Pop();
+}
+
 void Viewport::countPicture() {
   ++pictureCount_;
-  sincePicture_.start();
+  pace_->noteDrawn();
   detail_->afterPicture();
   emit drawn();
 }
@@ -163,54 +134,33 @@ void Viewport::countPicture() {
 void Viewport::prepareRender() {
   // The marker learns of the window's first size from nobody.
   marker_->SquareResize();
+  if (std::exchange(hasNewNumbers_, false) && shown_ != nullptr) glyphs_->showNumbers(*shown_);
   parts_.updateCut();
-  hand_.setCut(parts_.cutOfMoving());
+  glyphs_->hand().setCut(parts_.cutOfMoving());
   adjustClipping();
   detail_->beforePicture();
 }
 
 void Viewport::adjustClipping() {
-  if (!detail_->holdsDepths()) return fitDepths(0.0);
+  const vtkBoundingBox needed = drawnBounds();
+  if (!detail_->holdsDepths()) return fitDepths(*renderer_, needed);
   // Depths that are kept stay right, unless something left them.
-  double kept[2];
-  vtkCamera& camera = *renderer_->GetActiveCamera();
-  camera.GetClippingRange(kept);
-  fitDepths(0.0);
-  const double* needed = camera.GetClippingRange();
-  // From within the scene VTK begins at a part of the farthest depth, which room around it makes no nearer.
-  const bool beginsAtTheEye = kept[0] <= 1.01 * renderer_->GetNearClippingPlaneTolerance() * kept[1];
-  if ((needed[0] >= kept[0] || beginsAtTheEye) && needed[1] <= kept[1]) {
-    camera.SetClippingRange(kept);
-  } else {
-    detail_->drop();
-  }
+  if (!keepDepths(*renderer_, needed)) detail_->drop();
 }
 
-void Viewport::fitDepths(double room) {
+vtkBoundingBox Viewport::drawnBounds() {
   vtkBoundingBox box;
   double bounds[6];
   if (parts_.visibleBounds(bounds)) box.AddBounds(bounds);
-  if (hand_.visibleBounds(bounds)) box.AddBounds(bounds);
+  if (glyphs_->hand().visibleBounds(bounds)) box.AddBounds(bounds);
   // Arrows stand out of the parts.
   overlay_->ComputeVisiblePropBounds(bounds);
   if (bounds[0] <= bounds[1]) box.AddBounds(bounds);
-  if (box.IsValid() == 0) return;
-  box.Inflate(room * box.GetMaxLength());
-  box.GetBounds(bounds);
-  renderer_->ResetCameraClippingRange(bounds);
+  return box;
 }
 
 void Viewport::requestRender() {
-  if (hasRequest_) return;
-  hasRequest_ = true;
-  // At most as many as the display shows.
-  const QScreen* screen = window()->screen();
-  const auto interval = static_cast<qint64>(1000.0 / std::max(30.0, screen->refreshRate()));
-  const qint64 since = sincePicture_.isValid() ? sincePicture_.elapsed() : interval;
-  QTimer::singleShot(static_cast<int>(std::max<qint64>(0, interval - since)), Qt::PreciseTimer, this, [this] {
-    hasRequest_ = false;
-    if (isVisible()) window_->Render();
-  });
+  pace_->request();
 }
 
 void Viewport::completePicture() {
@@ -225,7 +175,7 @@ void Viewport::setScene(const Scene& scene) {
   scene_ = scene;
   parts_.setScene(scene);
   showMovingPart();
-  legend_->setCutoff(scene.haptics().springs.cutoff);
+  glyphs_->setCutoff(scene.haptics().springs.cutoff);
   if (isAnotherScene) setView(StandardView::Isometric);
   emit posesChanged();
   requestRender();
@@ -233,7 +183,7 @@ void Viewport::setScene(const Scene& scene) {
 
 void Viewport::showMovingPart() {
   const Part* part = scene_.movingPart() ? scene_.find(*scene_.movingPart()) : nullptr;
-  hand_.setShape(part != nullptr ? shapes_->shapeOf(part->geometry) : nullptr);
+  glyphs_->hand().setShape(part != nullptr ? shapes_->shapeOf(part->geometry) : nullptr);
 }
 
 void Viewport::showSelection() {
@@ -245,19 +195,11 @@ void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
   if (shown_ != nullptr && looksTheSame(*shown_, snapshot)) return;
   if (shown_ == nullptr) shown_ = std::make_unique<ServoSnapshot>();
   *shown_ = snapshot;
+  hasNewNumbers_ = true;
   parts_.setPoseInHand(snapshot.proxy);
-  const double cutoff = scene_.haptics().springs.cutoff;
-  minima_.show(std::span(snapshot.lmds).first(snapshot.storedLmds), cutoff);
-  const Part* moving = scene_.find(snapshot.moving);
-  const double size = moving != nullptr ? moving->geometry->mesh.bounds().diagonal() : 0.0;
-  arrows_.show(snapshot.centre, snapshot.wrench, size);
-  contacts_.show(std::span(snapshot.contacts).first(snapshot.storedContacts), size);
-  hand_.show(snapshot, size);
+  glyphs_->show(snapshot, scene_.haptics().springs.cutoff, scene_.find(snapshot.moving));
   const std::size_t released = std::min<std::size_t>(snapshot.releasedCount, ServoSnapshot::kMaxReleased);
   parts_.setOverlapping(std::span(snapshot.released).first(released));
-  legend_->showSnapshot(snapshot);
-  placeLegend();
-  legend_->show();
   emit posesChanged();
   requestRender();
 }
@@ -265,12 +207,8 @@ void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
 void Viewport::clearSnapshot() {
   shown_.reset();
   parts_.setPoseInHand(std::nullopt);
-  minima_.clear();
-  arrows_.clear();
-  contacts_.clear();
-  hand_.clear();
+  glyphs_->clear();
   parts_.setOverlapping({});
-  legend_->hide();
   emit posesChanged();
   requestRender();
 }
@@ -315,22 +253,22 @@ void Viewport::setEdgesVisible(bool isVisible) {
 }
 
 void Viewport::setMinimaVisible(bool isVisible) {
-  minima_.setVisible(isVisible);
+  glyphs_->minima().setVisible(isVisible);
   requestRender();
 }
 
 void Viewport::setContactsVisible(bool isVisible) {
-  contacts_.setVisible(isVisible);
+  glyphs_->contacts().setVisible(isVisible);
   requestRender();
 }
 
 void Viewport::setHandVisible(bool isVisible) {
-  hand_.setVisible(isVisible);
+  glyphs_->hand().setVisible(isVisible);
   requestRender();
 }
 
 void Viewport::setWrenchVisible(bool isVisible) {
-  arrows_.setVisible(isVisible);
+  glyphs_->arrows().setVisible(isVisible);
   requestRender();
 }
 
@@ -357,16 +295,7 @@ std::optional<RigidTransform> Viewport::shownPose(PartId part) const {
 }
 
 ViewProjection Viewport::projection() const {
-  vtkCamera& seen = *renderer_->GetActiveCamera();
-  const auto vectorOf = [](const double* v) { return glm::dvec3(v[0], v[1], v[2]); };
-  ViewProjection::Camera camera;
-  camera.eye = vectorOf(seen.GetPosition());
-  camera.away = vectorOf(seen.GetDirectionOfProjection());
-  camera.up = vectorOf(seen.GetViewUp());
-  camera.isParallel = seen.GetParallelProjection() != 0;
-  camera.viewAngle = glm::radians(seen.GetViewAngle());
-  camera.halfHeight = seen.GetParallelScale();
-  return {camera, {width(), height()}};
+  return {projectionCamera(*renderer_->GetActiveCamera()), {width(), height()}};
 }
 
 Aabb Viewport::visibleBounds() const {
@@ -427,12 +356,7 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
 
 void Viewport::resizeEvent(QResizeEvent* event) {
   QVTKOpenGLNativeWidget::resizeEvent(event);
-  placeLegend();
-}
-
-void Viewport::placeLegend() {
-  constexpr int kMargin = 14;
-  legend_->move(kMargin, height() - legend_->height() - kMargin);
+  glyphs_->placeLegend();
 }
 
 }  // namespace nearfit::ui

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <QElapsedTimer>
 #include <QPoint>
 #include <map>
 #include <memory>
 #include <optional>
 
 #include <QVTKOpenGLNativeWidget.h>
+#include <vtkBoundingBox.h>
 #include <vtkCameraOrientationWidget.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
@@ -16,18 +16,15 @@
 #include "core/placing/view_projection.h"
 #include "core/scene/scene.h"
 #include "ui/camera_views.h"
-#include "ui/contact_glyphs.h"
 #include "ui/detail/kept_renderer.h"
-#include "ui/hand_ghost.h"
-#include "ui/lmd_overlay.h"
 #include "ui/scene_renderer.h"
-#include "ui/wrench_arrows.h"
 
 namespace nearfit::ui {
 
-class ColourLegend;
 class HandDrag;
+class PicturePace;
 class Selection;
+class SnapshotGlyphs;
 class ViewDetail;
 
 /// The 3-D view: the scene's parts, and over them what the newest servo snapshot tells.
@@ -119,20 +116,18 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void keyPressEvent(QKeyEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void changeEvent(QEvent* event) override;
+  void paintGL() override;
 
  private:
   void setUpRenderers();
-  /// Light or dark, as the theme is.
-  void setUpBackground();
   void setUpInteraction();
   void prepareRender();
   void adjustClipping();
-  /// @param room  Around what is drawn, in parts of its size.
-  void fitDepths(double room);
+  /// Of all that the next picture shows, in the world [m].
+  vtkBoundingBox drawnBounds();
   void countPicture();
   void showMovingPart();
   void showSelection();
-  void placeLegend();
 
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<KeptRenderer> renderer_;
@@ -142,17 +137,13 @@ class Viewport : public QVTKOpenGLNativeWidget {
   Selection& selection_;
   SceneRenderer parts_;
   std::unique_ptr<ViewDetail> detail_;
-  HandGhost hand_;
-  LmdOverlay minima_;
-  ContactGlyphs contacts_;
-  WrenchArrows arrows_;
-  ColourLegend* legend_;
+  std::unique_ptr<SnapshotGlyphs> glyphs_;
+  std::unique_ptr<PicturePace> pace_;
   HandDrag* handDrag_;
   std::unique_ptr<ServoSnapshot> shown_;
+  bool hasNewNumbers_ = false;  ///< What shown_ says has not been drawn yet.
   Scene scene_;
   QPoint pressedAt_;
-  QElapsedTimer sincePicture_;
-  bool hasRequest_ = false;
   int pictureCount_ = 0;
 };
 

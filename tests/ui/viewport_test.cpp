@@ -11,6 +11,7 @@
 #include "core/session.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
+#include "ui/colour_legend.h"
 #include "ui/selection.h"
 
 using namespace nearfit;
@@ -25,6 +26,8 @@ class ViewportTest : public QObject {
   void changesBetweenTwoFramesAreOnePicture();
   void aPictureDrawnAgainIsTheSame();
   void whatIsDrawnBesidesPartsIsLittle();
+  void nothingBehindTheWindowShinesThrough();
+  void numbersChangeWithTheGlyphsTheyExplain();
 
  private:
   /// Pictures since the last call, once the view is at rest.
@@ -117,6 +120,39 @@ void ViewportTest::whatIsDrawnBesidesPartsIsLittle() {
     }
   }
   QVERIFY2(count > 100 && count < kMost, qPrintable(QString::number(count)));
+}
+
+/// What shines through leaves the picture thin there, and a window whose surface has an alpha shows the
+/// desktop.
+void ViewportTest::nothingBehindTheWindowShinesThrough() {
+  viewport_->setSeeThrough(true);
+  for (const bool hasForce : {false, true}) {
+    snapshot_->wrench.force = {0.0, 0.0, hasForce ? 2.0 : 0.0};
+    snapshot_->proxy.translation.z += 0.001;
+    viewport_->showSnapshot(*snapshot_);
+    QVERIFY(newPictures() > 0);
+    const QImage picture = viewport_->grabFramebuffer().convertToFormat(QImage::Format_ARGB32);
+    int thin = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x)
+        thin += qAlpha(picture.pixel(x, y)) < 255 ? 1 : 0;
+    }
+    QCOMPARE(thin, 0);
+  }
+}
+
+/// The legend said the next picture's numbers while the arrows of the last one stood beside it.
+void ViewportTest::numbersChangeWithTheGlyphsTheyExplain() {
+  auto* legend = viewport_->findChild<ui::ColourLegend*>();
+  (void)newPictures();
+  const int pictures = viewport_->pictureCount();
+  const QImage before = legend->grab().toImage();
+  snapshot_->wrench.force = {0.0, 1.5, 0.25};
+  viewport_->showSnapshot(*snapshot_);
+  QCOMPARE(viewport_->pictureCount(), pictures);
+  QCOMPARE(legend->grab().toImage(), before);
+  QTRY_VERIFY(viewport_->pictureCount() > pictures);
+  QVERIFY(legend->grab().toImage() != before);
 }
 
 int main(int argc, char** argv) {

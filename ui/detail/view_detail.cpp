@@ -76,7 +76,8 @@ void ViewDetail::beforePicture() {
   const DetailChoice choice = parts_.applyDetail({isLast ? std::max(budget_, kBudgetAtRest) : budget_});
   detail_ = {choice.triangles, renderer_.hasKept(), choice.isExact};
   isLimited_ = !choice.isExact;
-  const bool isSmooth = isAtRest_ || (choice.triangles <= kSmall && !detail_.isKept);
+  // What is coarse now is drawn once more at rest anyway.
+  const bool isSmooth = isAtRest_ || (choice.isExact && choice.triangles <= kSmall && !detail_.isKept);
   smooth(isSmooth);
   // While something moves, what shines through is blended as it comes.
   renderer_.setManyColoured(isSmooth && parts_.hasTranslucent());
@@ -139,6 +140,10 @@ void ViewDetail::keepMore() {
   parts_.showKept();
   isAtRest_ = !parts_.hasLoose();
   emit pictureWanted();
+}
+
+bool ViewDetail::isSettled() const {
+  return !isKeeping_ && !isAtRest_ && !still_.isActive() && !resting_.isActive();
 }
 
 void ViewDetail::rest() {

@@ -34,6 +34,8 @@ class ViewDetail : public QObject {
   void beforePicture();
   void afterPicture();
   const PictureDetail& detail() const noexcept { return detail_; }
+  /// Whether the last picture is final: none that shows more follows by itself.
+  bool isSettled() const;
   /// Whether the depths that the camera sees must stay, as some are kept.
   bool holdsDepths() const noexcept { return isKeeping_ || renderer_.hasKept(); }
 

@@ -1,0 +1,38 @@
+#include "ui/view/camera_style.h"
+
+#include <vtkCamera.h>
+#include <vtkObjectFactory.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+
+namespace nearfit::ui {
+
+CameraStyle* CameraStyle::New() {
+  VTK_STANDARD_NEW_BODY(CameraStyle);
+}
+
+template <typename Act>
+void CameraStyle::withoutDrawing(const Act& act) {
+  vtkRenderWindowInteractor* interactor = GetInteractor();
+  interactor->EnableRenderOff();
+  vtkCamera* camera = GetDefaultRenderer()->GetActiveCamera();
+  const vtkMTimeType before = camera->GetMTime();
+  act();
+  const bool hasMoved = camera->GetMTime() != before;
+  interactor->EnableRenderOn();
+  if (hasMoved && moved_) moved_();
+}
+
+void CameraStyle::OnMouseMove() {
+  withoutDrawing([this] { Superclass::OnMouseMove(); });
+}
+
+void CameraStyle::OnMouseWheelForward() {
+  withoutDrawing([this] { Superclass::OnMouseWheelForward(); });
+}
+
+void CameraStyle::OnMouseWheelBackward() {
+  withoutDrawing([this] { Superclass::OnMouseWheelBackward(); });
+}
+
+}  // namespace nearfit::ui
