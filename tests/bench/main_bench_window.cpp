@@ -32,10 +32,10 @@ std::vector<Entry> entries() {
   return {{"start", "From the program's start to a window that answers", bench::measureStarts},
           {"frames", "Turning a scene while the servo runs, and the servo's lateness", bench::measureFrames},
           {"idle", "The processor while nothing moves", bench::measureIdle},
-          {"glyphs", "What 100 minima cost", bench::measureGlyphs},
-          {"picks", "What is under the mouse, of a million triangles", bench::measurePicks},
-          {"open", "Whether the window answers while a million triangles are opened", bench::measureOpening},
-          {"large", "1000 parts, 10 million triangles", bench::measureLarge}};
+          {"glyphs", "What minima add to a picture", bench::measureGlyphs},
+          {"picks", "What is under the mouse, of a large mesh", bench::measurePicks},
+          {"open", "Whether the window answers while a large mesh is opened", bench::measureOpening},
+          {"large", "Many parts with many triangles", bench::measureLarge}};
 }
 
 struct CommandOptions {

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "tests/bench/bench_clock.h"
+#include "ui/detail/view_detail.h"
 #include "ui/document.h"
 
 namespace nearfit::bench {
@@ -96,10 +97,12 @@ void BenchWindow::run(std::chrono::milliseconds time) {
 }
 
 void BenchWindow::settle() {
+  // What is wanted but not drawn yet comes in this time.
   constexpr std::chrono::milliseconds kWhile{500};
   const double start = milliseconds();
   int before = -1;
-  while (std::exchange(before, view().pictureCount()) != view().pictureCount()) {
+  while (std::exchange(before, view().pictureCount()) != view().pictureCount() ||
+         !view().detail().isSettled()) {
     if (milliseconds() - start > kPatience) throw Error("window", "it draws without end");
     run(kWhile);
   }

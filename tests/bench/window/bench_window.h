@@ -35,7 +35,8 @@ class BenchWindow {
 
   /// Handles events for so long.
   static void run(std::chrono::milliseconds time);
-  /// Handles events until the view draws nothing more. @throw Error when it goes on and on.
+  /// Handles events until the view has drawn all that it will, and draws nothing more. @throw Error when it
+  /// goes on and on.
   void settle();
   /// Does something and waits until a picture after it is on the screen. @return How long that took [ms].
   double shown(const std::function<void()>& act);
