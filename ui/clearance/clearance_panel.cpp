@@ -53,6 +53,9 @@ ClearancePanel::ClearancePanel(Session& session, ClearanceSearch& search, QWidge
   auto* thresholdLabel = new QLabel(tr("&Too near below"), this);
   partLabel->setBuddy(subject_);
   thresholdLabel->setBuddy(threshold_);
+  // On fine displays letters are a little wider than Qt reckons, and the last one was cut.
+  thresholdLabel->ensurePolished();
+  thresholdLabel->setMinimumWidth(thresholdLabel->sizeHint().width() + 4);
   auto* fields = new QHBoxLayout;
   fields->addWidget(partLabel);
   fields->addWidget(subject_, 1);

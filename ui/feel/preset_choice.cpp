@@ -8,7 +8,6 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QStandardItemModel>
-#include <QToolButton>
 
 #include "ui/feel/preset_name_dialog.h"
 #include "ui/feel/preset_store.h"
@@ -57,11 +56,11 @@ void PresetChoice::setManaged() {
   delete_ = add("deletePreset", tr("&Delete"), "delete", tr("Forget your preset; scenes stay as they are"),
                 &PresetChoice::deleteChosen);
   menu->setToolTipsVisible(true);
-  menuButton_ = new QToolButton(this);
+  menuButton_ = new QPushButton(tr("Manage"), this);
   menuButton_->setObjectName(QStringLiteral("presetMenu"));
-  menuButton_->setText(tr("Manage"));
+  // Return in a field is no press of it.
+  menuButton_->setAutoDefault(false);
   menuButton_->setToolTip(tr("Save, rename and delete presets of your own"));
-  menuButton_->setPopupMode(QToolButton::InstantPopup);
   menuButton_->setFocusPolicy(Qt::TabFocus);
   menuButton_->setMenu(menu);
   layout()->addWidget(menuButton_);

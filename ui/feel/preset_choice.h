@@ -6,7 +6,7 @@
 
 class QAction;
 class QComboBox;
-class QToolButton;
+class QPushButton;
 
 namespace nearfit::ui {
 
@@ -42,7 +42,7 @@ class PresetChoice : public QWidget {
 
   PresetStore& presets_;
   QComboBox* box_;
-  QToolButton* menuButton_ = nullptr;
+  QPushButton* menuButton_ = nullptr;
   QAction *rename_ = nullptr, *delete_ = nullptr;
   HapticSettings settings_;
 };

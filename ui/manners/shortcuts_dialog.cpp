@@ -30,6 +30,13 @@ QString keysOf(const QAction& action) {
   return keys.join(QObject::tr(" or "));
 }
 
+/// As wide as the others: names stand below each other.
+QIcon noIcon() {
+  QPixmap empty(32, 32);
+  empty.fill(Qt::transparent);
+  return empty;
+}
+
 QTreeWidgetItem* addGroup(QTreeWidget* list, const QString& title) {
   auto* group = new QTreeWidgetItem(list, {title});
   QFont bold = list->font();
@@ -46,7 +53,7 @@ void listActions(QTreeWidgetItem* group, const QList<QAction*>& actions, QSet<co
     if (action->menu() != nullptr || action->shortcut().isEmpty() || listed.contains(action)) continue;
     listed << action;
     auto* item = new QTreeWidgetItem(group, {plainText(action->text()), keysOf(*action)});
-    item->setIcon(0, action->icon());
+    item->setIcon(0, action->icon().isNull() ? noIcon() : action->icon());
     item->setToolTip(0, action->toolTip());
   }
 }
