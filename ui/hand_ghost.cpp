@@ -6,6 +6,7 @@
 #include <vtkProperty.h>
 
 #include "ui/hand_lead.h"
+#include "ui/pixel_sizes.h"
 #include "ui/theme.h"
 #include "ui/vtk_convert.h"
 
@@ -21,7 +22,7 @@ void setUp(vtkActor& actor, const QColor& colour, double opacity, float lineWidt
   vtkProperty* property = actor.GetProperty();
   property->SetColor(colour.redF(), colour.greenF(), colour.blueF());
   property->SetOpacity(opacity);
-  property->SetLineWidth(lineWidth);
+  property->SetLineWidth(devicePixels(lineWidth));
 }
 
 void setInput(vtkActor& actor, vtkPolyData* data) {
@@ -40,7 +41,7 @@ HandGhost::HandGhost(vtkRenderer& parts, vtkRenderer& overlay) {
   line_->GetProperty()->VertexVisibilityOn();
   line_->GetProperty()->SetVertexColor(colours::kHand.redF(), colours::kHand.greenF(),
                                        colours::kHand.blueF());
-  line_->GetProperty()->SetPointSize(9.0F);
+  line_->GetProperty()->SetPointSize(devicePixels(9.0F));
   for (vtkActor* actor : {edges_.Get(), line_.Get()})
     actor->GetProperty()->LightingOff();
   for (vtkActor* actor : {surface_.Get(), edges_.Get()}) {

@@ -7,6 +7,7 @@
 #include <vtkProperty.h>
 
 #include "ui/distance_colours.h"
+#include "ui/pixel_sizes.h"
 
 namespace nearfit::ui {
 namespace {
@@ -29,8 +30,8 @@ void setUp(vtkActor& actor, vtkPolyData& data, bool isColoured, float lineWidth,
   vtkProperty* property = actor.GetProperty();
   property->LightingOff();
   property->SetColor(kHalo[0], kHalo[1], kHalo[2]);
-  property->SetLineWidth(lineWidth);
-  property->SetPointSize(pointSize);
+  property->SetLineWidth(devicePixels(lineWidth));
+  property->SetPointSize(devicePixels(pointSize));
 }
 
 /// What is drawn of a set of minima.

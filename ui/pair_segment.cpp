@@ -5,6 +5,8 @@
 #include <vtkProperty.h>
 #include <vtkShaderProperty.h>
 
+#include "ui/pixel_sizes.h"
+
 namespace nearfit::ui {
 namespace {
 
@@ -20,8 +22,8 @@ void setUp(vtkActor& actor, vtkPolyData& data, const QColor& colour, float size)
   vtkProperty& look = *actor.GetProperty();
   look.LightingOff();
   look.SetColor(colour.redF(), colour.greenF(), colour.blueF());
-  look.SetLineWidth(size);
-  look.SetPointSize(size);
+  look.SetLineWidth(devicePixels(size));
+  look.SetPointSize(devicePixels(size));
 }
 
 /// Dots are discs. VTK's spheres bulge towards the eye, each as far as it is wide: those of the rims would

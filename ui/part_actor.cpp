@@ -4,6 +4,7 @@
 
 #include <vtkBoundingBox.h>
 
+#include "ui/pixel_sizes.h"
 #include "ui/theme.h"
 #include "ui/vtk_convert.h"
 
@@ -21,7 +22,7 @@ void setEdgeColour(vtkProperty& property, const PartLook& look) {
                         : look.isOverlapping ? colours::kOverlap.darker(150)
                                              : dark;
   property.SetColor(colour.redF(), colour.greenF(), colour.blueF());
-  property.SetLineWidth(look.isSelected ? 2.4F : 1.3F);
+  property.SetLineWidth(devicePixels(look.isSelected ? 2.4F : 1.3F));
   property.SetOpacity(look.isTranslucent && !look.isSelected ? 0.55 : 1.0);
 }
 
@@ -168,7 +169,7 @@ void PartActor::setThrough(bool isThrough) {
   // One layer of a closed surface, not two.
   veil_->GetProperty()->BackfaceCullingOn();
   veilEdges_ = make(mappers_->veilEdges(), kVeilEdgeOpacity);
-  veilEdges_->GetProperty()->SetLineWidth(1.6F);
+  veilEdges_->GetProperty()->SetLineWidth(devicePixels(1.6F));
 }
 
 }  // namespace nearfit::ui

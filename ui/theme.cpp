@@ -4,12 +4,12 @@
 #include <QEvent>
 #include <QPalette>
 #include <QSettings>
-#include <QStyleFactory>
 #include <QWidget>
 #include <algorithm>
 #include <utility>
 
 #include "ui/themed_icon.h"
+#include "ui/window_style.h"
 
 // Q_INIT_RESOURCE declares a function and so must stand outside of any namespace.
 static void initResources() {
@@ -196,7 +196,7 @@ void loadResources() {
 void applyTheme(QApplication&) {
   loadResources();
   isDesktopDark();
-  QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+  QApplication::setStyle(new WindowStyle);
   apply(isWantedDark(colourScheme()));
   QApplication::setWindowIcon(icon(QStringLiteral("nearfit")));
 }

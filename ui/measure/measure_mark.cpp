@@ -5,6 +5,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 
+#include "ui/pixel_sizes.h"
 #include "ui/theme.h"
 #include "ui/viewport.h"
 
@@ -26,7 +27,7 @@ MeasureMark::MeasureMark(Viewport& view)
     vtkProperty& look = *leg.actor->GetProperty();
     look.LightingOff();
     look.SetColor(colour.redF(), colour.greenF(), colour.blueF());
-    look.SetLineWidth(2.0F);
+    look.SetLineWidth(devicePixels(2.0F));
     overlay_->AddActor(leg.actor);
   }
   label_->setObjectName(QStringLiteral("measureLabel"));

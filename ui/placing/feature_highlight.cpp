@@ -7,6 +7,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 
+#include "ui/pixel_sizes.h"
 #include "ui/vtk_convert.h"
 
 namespace nearfit::ui {
@@ -88,8 +89,8 @@ FeatureHighlight::FeatureHighlight(vtkRenderer& renderer, const QColor& colour) 
   style(*line_.Get(), *lines_.Get(), colour.darker(125));
   style(*point_.Get(), *points_.Get(), colour.darker(125));
   face_->GetProperty()->SetOpacity(0.5);
-  line_->GetProperty()->SetLineWidth(3.5F);
-  point_->GetProperty()->SetPointSize(11.0F);
+  line_->GetProperty()->SetLineWidth(devicePixels(3.5F));
+  point_->GetProperty()->SetPointSize(devicePixels(11.0F));
   point_->GetProperty()->RenderPointsAsSpheresOn();
 }
 

@@ -6,6 +6,8 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 
+#include "ui/pixel_sizes.h"
+
 namespace nearfit::ui {
 
 PlaneSheet::PlaneSheet(vtkRenderer& renderer) : renderer_(&renderer) {
@@ -21,7 +23,7 @@ PlaneSheet::PlaneSheet(vtkRenderer& renderer) : renderer_(&renderer) {
   actor_->SetMapper(mapper);
   actor_->PickableOff();
   actor_->GetProperty()->LightingOff();
-  actor_->GetProperty()->SetLineWidth(1.6F);
+  actor_->GetProperty()->SetLineWidth(devicePixels(1.6F));
   actor_->VisibilityOff();
   renderer.AddActor(actor_);
 }

@@ -186,7 +186,8 @@ void DesktopMannersTest::themeIsSwitchedAtOnceAndKept() {
 }
 
 // Qt 5.15 remembers widgets that a style sheet gave a font or a palette, also once they are gone: a sheet in
-// place of another was told to them, and the window crashed.
+// place of another was told to them, and the window crashed. It did so after steps like these, now and then:
+// they do not bring it about at will.
 void DesktopMannersTest::themeIsSwitchedAfterDialogsHaveCome() {
   DesktopDriver d;
   d.addCubes();

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <QProxyStyle>
+
+namespace nearfit::ui {
+
+/// Fusion, with boxes and circles to tick that stand out in the dark theme too: Fusion draws their frames a
+/// little darker than what lies around them, which is hardly seen where that is dark.
+class WindowStyle : public QProxyStyle {
+ public:
+  WindowStyle();
+
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget) const override;
+};
+
+}  // namespace nearfit::ui
