@@ -89,6 +89,11 @@ FeatureHighlight::FeatureHighlight(vtkRenderer& renderer, const QColor& colour) 
   style(*line_.Get(), *lines_.Get(), colour.darker(125));
   style(*point_.Get(), *points_.Get(), colour.darker(125));
   face_->GetProperty()->SetOpacity(0.5);
+  // Lines and dots that lie in the face are seen in all their width: it is as deep as it is beside them.
+  constexpr double kBehindLines = 8.0, kDeeper = 100.0;
+  face_->GetMapper()->SetResolveCoincidentTopologyToPolygonOffset();
+  face_->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(
+      kBehindLines * static_cast<double>(devicePixels(1.0F)), kDeeper);
   line_->GetProperty()->SetLineWidth(devicePixels(3.5F));
   point_->GetProperty()->SetPointSize(devicePixels(11.0F));
   point_->GetProperty()->RenderPointsAsSpheresOn();

@@ -53,6 +53,9 @@ void PlotView::addPane(int row, int column, const QString& label,
   // Beside the axis it would be cut off where there is little height.
   auto* title = new QCPTextElement(this, label);
   pane.rect->insetLayout()->addElement(title, Qt::AlignTop | Qt::AlignLeft);
+  // Clear of the axis and its ticks.
+  constexpr int kBesideAxis = 6;
+  title->setMargins({kBesideAxis, 0, 0, 0});
   titles_.push_back(title);
   time->setLabel(row == 1 ? tr("Time [s]") : QString());
   value->ticker()->setTickCount(4);
