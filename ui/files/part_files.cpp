@@ -6,6 +6,7 @@
 #include <QMenu>
 #include <QSettings>
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -144,7 +145,8 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, Com
       if (!isSame) renewed.push_back({part->id, geometry});
     }
     try {
-      (session_.*command)(renewed);
+      // Called by .* GCC 12's sanitizer reads a `this` that it has not set.
+      std::invoke(command, session_, renewed);
     } catch (...) {
       problems << describe({}, std::current_exception()).details;
     }

@@ -68,8 +68,8 @@ void MonkeyFiles::writeDamaged() {
   const std::string text = readBytes(scene().toStdString());
   folder_.write("cut.off", whole.substr(0, whole.size() / 2));
   folder_.write("empty.stl", "");
-  folder_.write("noise.ply",
-                std::string("ply\nformat binary_little_endian 1.0\nelement vertex 99\0\1\2", 60));
+  using namespace std::string_literals;
+  folder_.write("noise.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 99\0\1\2"s);
   folder_.write("nan.off", "OFF\n3 1 0\nnan 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n");
   folder_.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
   folder_.write("cut.nearfit", text.substr(0, text.size() / 2));
