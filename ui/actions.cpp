@@ -8,6 +8,7 @@
 #include <QToolButton>
 
 #include "core/session.h"
+#include "ui/minima/minima_menu.h"
 #include "ui/split_button.h"
 #include "ui/theme.h"
 #include "ui/unit_menu.h"
@@ -101,6 +102,7 @@ void Actions::setUpMenus(QMainWindow& window) {
   view->addActions({fit, fitSelection, viewIso, viewFront, viewRight, viewTop, view->addSeparator(),
                     seeThrough, edges, minima, contacts, hand, wrench, view->addSeparator()});
   view->addMenu(panelsMenu);
+  view->addMenu(new MinimaMenu(&window));
   view->addMenu(new UnitMenu(&window));
   window.menuBar()->addMenu(placeMenu);
   viewMenu = view;

@@ -6,6 +6,7 @@
 #include "ui/actions.h"
 #include "ui/main_window.h"
 #include "ui/measure/measure_tool.h"
+#include "ui/minima/minima_menu.h"
 #include "ui/section/section_tool.h"
 #include "ui/selecting/box_select.h"
 #include "ui/unit_menu.h"
@@ -17,6 +18,9 @@ void MainWindow::setUpInspecting() {
   auto* measure = new MeasureTool(session_, *viewport_, this);
   connect(findChild<UnitMenu*>(QStringLiteral("unitMenu")), &UnitMenu::unitChanged, measure,
           &MeasureTool::refresh);
+  const auto* drawn = findChild<MinimaMenu*>();
+  viewport_->setMinimaChoice(drawn->choice());
+  connect(drawn, &MinimaMenu::choiceChanged, viewport_, &Viewport::setMinimaChoice);
   const auto* section = new SectionTool(session_, *viewport_, this);
   const auto* box = new BoxSelect(*selection_, *viewport_, this);
   connect(box, &BoxSelect::noted, this, &MainWindow::showNote);

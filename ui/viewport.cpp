@@ -257,6 +257,12 @@ void Viewport::setMinimaVisible(bool isVisible) {
   requestRender();
 }
 
+void Viewport::setMinimaChoice(const MinimaChoice& choice) {
+  glyphs_->minima().setChoice(choice);
+  if (shown_ != nullptr) glyphs_->show(*shown_, scene_.haptics().springs.cutoff, scene_.find(shown_->moving));
+  requestRender();
+}
+
 void Viewport::setContactsVisible(bool isVisible) {
   glyphs_->contacts().setVisible(isVisible);
   requestRender();

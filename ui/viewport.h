@@ -17,6 +17,7 @@
 #include "core/scene/scene.h"
 #include "ui/camera_views.h"
 #include "ui/detail/kept_renderer.h"
+#include "ui/minima/minima_choice.h"
 #include "ui/scene_renderer.h"
 
 namespace nearfit::ui {
@@ -85,6 +86,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void setSeeThrough(bool isSeeThrough);
   void setEdgesVisible(bool isVisible);
   void setMinimaVisible(bool isVisible);
+  void setMinimaChoice(const MinimaChoice& choice);
   void setContactsVisible(bool isVisible);
   void setHandVisible(bool isVisible);
   void setWrenchVisible(bool isVisible);

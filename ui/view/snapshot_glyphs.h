@@ -9,7 +9,7 @@
 #include "core/scene/scene.h"
 #include "ui/contact_glyphs.h"
 #include "ui/hand_ghost.h"
-#include "ui/lmd_overlay.h"
+#include "ui/minima/lmd_overlay.h"
 #include "ui/wrench_arrows.h"
 
 namespace nearfit::ui {

@@ -1,0 +1,111 @@
+#include "ui/minima/minima_menu.h"
+
+#include <QActionGroup>
+#include <QSettings>
+#include <algorithm>
+#include <array>
+
+namespace nearfit::ui {
+namespace {
+
+const QString kForms[] = {QStringLiteral("minima/segments"), QStringLiteral("minima/points"),
+                          QStringLiteral("minima/normals")};
+const QString kMost = QStringLiteral("minima/most"), kNearerThan = QStringLiteral("minima/nearerThanPercent");
+constexpr std::array<std::size_t, 5> kCounts{0, 100, 30, 10, 1};
+constexpr std::array kPercents{100, 50, 25, 10};
+
+/// What is kept, or the usual where it makes no sense.
+MinimaChoice kept() {
+  const QSettings settings;
+  MinimaChoice choice;
+  choice.hasSegments = settings.value(kForms[0], choice.hasSegments).toBool();
+  choice.hasPoints = settings.value(kForms[1], choice.hasPoints).toBool();
+  choice.hasNormals = settings.value(kForms[2], choice.hasNormals).toBool();
+  const auto most = static_cast<std::size_t>(settings.value(kMost, 0).toULongLong());
+  if (std::ranges::find(kCounts, most) != kCounts.end()) choice.most = most;
+  const int percent = settings.value(kNearerThan, 100).toInt();
+  if (std::ranges::find(kPercents, percent) != kPercents.end()) choice.nearerThan = 0.01 * percent;
+  return choice;
+}
+
+void keep(const MinimaChoice& choice) {
+  QSettings settings;
+  settings.setValue(kForms[0], choice.hasSegments);
+  settings.setValue(kForms[1], choice.hasPoints);
+  settings.setValue(kForms[2], choice.hasNormals);
+  settings.setValue(kMost, static_cast<qulonglong>(choice.most));
+  settings.setValue(kNearerThan, qRound(100.0 * choice.nearerThan));
+}
+
+}  // namespace
+
+MinimaMenu::MinimaMenu(QWidget* parent) : QMenu(tr("Minima &drawn"), parent), choice_(kept()) {
+  setObjectName(QStringLiteral("minimaMenu"));
+  addForm(QStringLiteral("minimaSegments"), tr("&Segments"), &MinimaChoice::hasSegments);
+  addForm(QStringLiteral("minimaPoints"), tr("&Points"), &MinimaChoice::hasPoints);
+  addForm(QStringLiteral("minimaNormals"), tr("&Normals"), &MinimaChoice::hasNormals);
+  addSeparator();
+  QMenu* count = addChoices(tr("&How many"));
+  for (const std::size_t most : kCounts)
+    addMost(*count, most);
+  QMenu* threshold = addChoices(tr("How n&ear"));
+  for (const int percent : kPercents)
+    addNearerThan(*threshold, percent);
+}
+
+void MinimaMenu::addForm(const QString& name, const QString& text, bool MinimaChoice::*form) {
+  QAction* action = addAction(text);
+  action->setObjectName(name);
+  action->setCheckable(true);
+  action->setChecked(choice_.*form);
+  connect(action, &QAction::toggled, this, [this, form](bool isOn) {
+    MinimaChoice next = choice_;
+    next.*form = isOn;
+    choose(next);
+  });
+}
+
+QMenu* MinimaMenu::addChoices(const QString& title) {
+  QMenu* menu = addMenu(title);
+  new QActionGroup(menu);
+  return menu;
+}
+
+void MinimaMenu::addMost(QMenu& menu, std::size_t most) {
+  const int number = static_cast<int>(most);
+  QAction* action = menu.addAction(most == 0 ? tr("&All") : tr("The %n nearest", nullptr, number));
+  if (most == 1) action->setText(tr("The nearest alone"));
+  action->setObjectName(QStringLiteral("minimaMost%1").arg(number));
+  action->setCheckable(true);
+  action->setChecked(most == choice_.most);
+  menu.findChild<QActionGroup*>()->addAction(action);
+  connect(action, &QAction::triggered, this, [this, most] {
+    MinimaChoice next = choice_;
+    next.most = most;
+    choose(next);
+  });
+}
+
+void MinimaMenu::addNearerThan(QMenu& menu, int percent) {
+  const double share = 0.01 * percent;
+  QAction* action = menu.addAction(percent == 100 ? tr("&Within the cutoff")
+                                                  : tr("Within %1 % of the cutoff").arg(percent));
+  action->setObjectName(QStringLiteral("minimaWithin%1").arg(percent));
+  action->setCheckable(true);
+  action->setChecked(share == choice_.nearerThan);
+  menu.findChild<QActionGroup*>()->addAction(action);
+  connect(action, &QAction::triggered, this, [this, share] {
+    MinimaChoice next = choice_;
+    next.nearerThan = share;
+    choose(next);
+  });
+}
+
+void MinimaMenu::choose(const MinimaChoice& choice) {
+  if (choice == choice_) return;
+  choice_ = choice;
+  keep(choice);
+  emit choiceChanged(choice);
+}
+
+}  // namespace nearfit::ui
