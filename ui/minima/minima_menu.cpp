@@ -46,11 +46,19 @@ MinimaMenu::MinimaMenu(QWidget* parent) : QMenu(tr("Minima &drawn"), parent), ch
   addForm(QStringLiteral("minimaNormals"), tr("&Normals"), &MinimaChoice::hasNormals);
   addSeparator();
   QMenu* count = addChoices(tr("&How many"));
-  for (const std::size_t most : kCounts)
-    addMost(*count, most);
+  for (const std::size_t most : kCounts) {
+    const int number = static_cast<int>(most);
+    const QString text = most == 0   ? tr("&All")
+                         : most == 1 ? tr("The nearest alone")
+                                     : tr("The %n nearest", nullptr, number);
+    addNumber(*count, QStringLiteral("minimaMost%1").arg(number), text, &MinimaChoice::most, most);
+  }
   QMenu* threshold = addChoices(tr("How n&ear"));
-  for (const int percent : kPercents)
-    addNearerThan(*threshold, percent);
+  for (const int percent : kPercents) {
+    addNumber(*threshold, QStringLiteral("minimaWithin%1").arg(percent),
+              percent == 100 ? tr("&Within the cutoff") : tr("Within %1 % of the cutoff").arg(percent),
+              &MinimaChoice::nearerThan, 0.01 * percent);
+  }
 }
 
 void MinimaMenu::addForm(const QString& name, const QString& text, bool MinimaChoice::*form) {
@@ -58,11 +66,7 @@ void MinimaMenu::addForm(const QString& name, const QString& text, bool MinimaCh
   action->setObjectName(name);
   action->setCheckable(true);
   action->setChecked(choice_.*form);
-  connect(action, &QAction::toggled, this, [this, form](bool isOn) {
-    MinimaChoice next = choice_;
-    next.*form = isOn;
-    choose(next);
-  });
+  connect(action, &QAction::toggled, this, [this, form](bool isOn) { set(form, isOn); });
 }
 
 QMenu* MinimaMenu::addChoices(const QString& title) {
@@ -71,34 +75,22 @@ QMenu* MinimaMenu::addChoices(const QString& title) {
   return menu;
 }
 
-void MinimaMenu::addMost(QMenu& menu, std::size_t most) {
-  const int number = static_cast<int>(most);
-  QAction* action = menu.addAction(most == 0 ? tr("&All") : tr("The %n nearest", nullptr, number));
-  if (most == 1) action->setText(tr("The nearest alone"));
-  action->setObjectName(QStringLiteral("minimaMost%1").arg(number));
+template <class Number>
+void MinimaMenu::addNumber(QMenu& menu, const QString& name, const QString& text,
+                           Number MinimaChoice::*number, Number value) {
+  QAction* action = menu.addAction(text);
+  action->setObjectName(name);
   action->setCheckable(true);
-  action->setChecked(most == choice_.most);
+  action->setChecked(choice_.*number == value);
   menu.findChild<QActionGroup*>()->addAction(action);
-  connect(action, &QAction::triggered, this, [this, most] {
-    MinimaChoice next = choice_;
-    next.most = most;
-    choose(next);
-  });
+  connect(action, &QAction::triggered, this, [this, number, value] { set(number, value); });
 }
 
-void MinimaMenu::addNearerThan(QMenu& menu, int percent) {
-  const double share = 0.01 * percent;
-  QAction* action = menu.addAction(percent == 100 ? tr("&Within the cutoff")
-                                                  : tr("Within %1 % of the cutoff").arg(percent));
-  action->setObjectName(QStringLiteral("minimaWithin%1").arg(percent));
-  action->setCheckable(true);
-  action->setChecked(share == choice_.nearerThan);
-  menu.findChild<QActionGroup*>()->addAction(action);
-  connect(action, &QAction::triggered, this, [this, share] {
-    MinimaChoice next = choice_;
-    next.nearerThan = share;
-    choose(next);
-  });
+template <class Value>
+void MinimaMenu::set(Value MinimaChoice::*member, Value value) {
+  MinimaChoice next = choice_;
+  next.*member = value;
+  choose(next);
 }
 
 void MinimaMenu::choose(const MinimaChoice& choice) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QMenu>
-#include <vector>
 
 #include "ui/minima/minima_choice.h"
 
@@ -23,8 +22,11 @@ class MinimaMenu : public QMenu {
  private:
   void addForm(const QString& name, const QString& text, bool MinimaChoice::*form);
   QMenu* addChoices(const QString& title);
-  void addMost(QMenu& menu, std::size_t most);
-  void addNearerThan(QMenu& menu, int percent);
+  template <class Number>
+  void addNumber(QMenu& menu, const QString& name, const QString& text, Number MinimaChoice::*number,
+                 Number value);
+  template <class Value>
+  void set(Value MinimaChoice::*member, Value value);
   void choose(const MinimaChoice& choice);
 
   MinimaChoice choice_;
