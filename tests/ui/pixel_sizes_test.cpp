@@ -2,15 +2,9 @@
 
 #include <QApplication>
 #include <QtTest>
-#include <memory>
 
-#include "core/session.h"
-#include "tests/support/mesh_generators.h"
-#include "tests/support/part_geometries.h"
 #include "tests/support/qt_patience.h"
-#include "ui/pair_segment.h"
-#include "ui/selection.h"
-#include "ui/viewport.h"
+#include "tests/ui/segment_view.h"
 
 using namespace nearfit;
 
@@ -28,22 +22,10 @@ void PixelSizesTest::sizesAreThoseOfTheScreen() {
 }
 
 void PixelSizesTest::linesAreAsWideOnAFineScreen() {
-  Session session;
-  ui::Selection selection(session);
-  ui::Viewport view(std::make_shared<ui::PartShapeCache>(), selection);
-  Scene scene;
-  scene.add(test::partOf(test::geometryOf(test::boxMesh(glm::dvec3(0.1))), "box"));
-  session.reset(scene);
-  view.resize(400, 400);
-  view.setScene(session.scene());
-  view.show();
-  QVERIFY(QTest::qWaitForWindowExposed(&view));
-  QTRY_VERIFY(view.pictureCount() > 0);
-  view.setView(ui::StandardView::Front);
-  const QColor colour(200, 30, 160);
-  ui::PairSegment segment(view.overlay(), colour);
-  segment.show({-0.03, -0.06, 0.0}, {0.03, -0.06, 0.0});
-  view.completePicture();
+  test::SegmentView shown;
+  shown.show();
+  if (QTest::currentTestFailed()) return;
+  ui::Viewport& view = shown.view;
   const QImage picture = view.grabFramebuffer();
   QCOMPARE(picture.width(), 800);
   const auto widthAt = [&](const glm::dvec3& place) {

@@ -40,6 +40,13 @@ double milliseconds() {
   return 1e3 * secondsBy(BenchClock::Wall);
 }
 
+std::size_t trianglesOf(const Scene& scene) {
+  std::size_t all = 0;
+  for (const Scene::PartPtr& part : scene.parts())
+    all += part->geometry->mesh.triangles().size();
+  return all;
+}
+
 void waitUntil(const char* what, const std::function<bool()>& isDone) {
   const double start = milliseconds();
   // Where no event comes, patience ends all the same.

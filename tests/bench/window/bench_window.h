@@ -16,6 +16,8 @@ namespace nearfit::bench {
 double milliseconds();
 /// Handles events until it is done. @throw Error after two minutes.
 void waitUntil(const char* what, const std::function<bool()>& isDone);
+/// Of all parts together.
+std::size_t trianglesOf(const Scene& scene);
 
 /// What is 1280 pixels wide and 800 high.
 enum class Sized { View, Window };

@@ -103,10 +103,8 @@ std::vector<Figure> measureFrames(const WindowOptions& options) {
   const Scene scene = pairOf(options.triangles);
   BenchWindow window;
   window.open(scene);
-  std::size_t triangles = 0;
-  for (const Scene::PartPtr& part : scene.parts())
-    triangles += part->geometry->mesh.triangles().size();
-  Frames large(fmt::format("{} triangles; servo runs", triangles)), small("the same; window of 1280 x 800");
+  Frames large(fmt::format("{} triangles; servo runs", trianglesOf(scene))),
+      small("the same; window of 1280 x 800");
   Frames plain("plain VTK; no servo");
   std::vector<ServoStatistics> with, without;
   for (std::size_t turn = 0; turn < options.turns; ++turn) {

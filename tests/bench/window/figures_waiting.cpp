@@ -41,13 +41,6 @@ Scene sceneOf(std::span<const PartGeometryPtr> geometries, std::size_t parts) {
   return gridOf(geometries, parts);
 }
 
-std::size_t trianglesOf(const Scene& scene) {
-  std::size_t all = 0;
-  for (const Scene::PartPtr& part : scene.parts())
-    all += part->geometry->mesh.triangles().size();
-  return all;
-}
-
 Figure answersOf(const char* name, std::string way, const Heartbeat& heart, std::string remark) {
   Figure figure = figureOf(name, std::move(way), "ms", heart.waits);
   figure.goal = kAnswerGoal;
