@@ -1,5 +1,7 @@
 #include "ui/orientation_marker.h"
 
+#include <cmath>
+
 #include <vtkActor.h>
 #include <vtkCameraOrientationRepresentation.h>
 #include <vtkCameraOrientationWidget.h>
@@ -10,10 +12,12 @@
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
 
+#include "ui/pixel_sizes.h"
+
 namespace nearfit::ui {
 namespace {
 
-constexpr int kPixels = 100;
+constexpr float kPixels = 100.0F, kPadding = 10.0F;  ///< From the corner of the view.
 /// Of labels. VTK draws their letters anew for each picture, and would make them ten times as tall as they
 /// are seen.
 constexpr int kFontSize = 36;
@@ -35,7 +39,6 @@ void coarsen(vtkActor& actor) {
 void setUpOrientationMarker(vtkCameraOrientationWidget& marker, vtkRenderer& parent) {
   marker.SetParentRenderer(&parent);
   auto* shape = vtkCameraOrientationRepresentation::SafeDownCast(marker.GetRepresentation());
-  shape->SetSize(kPixels, kPixels);
   for (vtkTextProperty* label :
        {shape->GetXPlusLabelProperty(), shape->GetYPlusLabelProperty(), shape->GetZPlusLabelProperty(),
         shape->GetXMinusLabelProperty(), shape->GetYMinusLabelProperty(), shape->GetZMinusLabelProperty()})
@@ -47,7 +50,17 @@ void setUpOrientationMarker(vtkCameraOrientationWidget& marker, vtkRenderer& par
   while (vtkProp* prop = props->GetNextProp(it)) {
     if (auto* actor = vtkActor::SafeDownCast(prop)) coarsen(*actor);
   }
+  sizeOrientationMarker(marker, 1.0);
   marker.On();
+}
+
+void sizeOrientationMarker(vtkCameraOrientationWidget& marker, double scale) {
+  const auto scaled = [scale](float pixels) {
+    return static_cast<int>(std::lround(devicePixels(pixels) * scale));
+  };
+  auto* shape = vtkCameraOrientationRepresentation::SafeDownCast(marker.GetRepresentation());
+  shape->SetSize(scaled(kPixels), scaled(kPixels));
+  shape->SetPadding(scaled(kPadding), scaled(kPadding));
 }
 
 }  // namespace nearfit::ui

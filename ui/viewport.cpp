@@ -23,6 +23,7 @@
 #include "ui/view/picture_pace.h"
 #include "ui/view/snapshot_glyphs.h"
 #include "ui/view/view_depths.h"
+#include "ui/view/view_picture.h"
 #include "ui/view/view_setting.h"
 
 namespace nearfit::ui {
@@ -47,6 +48,8 @@ Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection,
       detail_(std::make_unique<ViewDetail>(*renderer_.Get(), *overlay_.Get(), parts_)),
       glyphs_(std::make_unique<SnapshotGlyphs>(*renderer_.Get(), *overlay_.Get(), *this)),
       pace_(std::make_unique<PicturePace>(*this)),
+      pictures_(std::make_unique<ViewPicture>(
+          ViewPicture::View{*this, *renderer_.Get(), *overlay_.Get(), *marker_.Get(), *detail_})),
       handDrag_(new HandDrag(*this, *renderer_->GetActiveCamera())) {
   setObjectName(QStringLiteral("viewport"));
   setAccessibleName(tr("3-D view"));

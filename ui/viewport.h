@@ -27,6 +27,7 @@ class PicturePace;
 class Selection;
 class SnapshotGlyphs;
 class ViewDetail;
+class ViewPicture;
 
 /// The 3-D view: the scene's parts, and over them what the newest servo snapshot tells.
 /// Draws only after a change. Left drag orbits, middle drag pans, wheel or right drag zooms; a click selects,
@@ -96,6 +97,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
   SceneRenderer& parts() noexcept { return parts_; }
   /// Draws what was left out to be quick, however long that takes: for pictures that are taken away.
   void completePicture();
+  /// Takes pictures of the view away.
+  ViewPicture& pictures() noexcept { return *pictures_; }
 
   /// Pictures drawn since the start: tests check with it that an idle view stays idle.
   int pictureCount() const noexcept { return pictureCount_; }
@@ -141,6 +144,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   std::unique_ptr<ViewDetail> detail_;
   std::unique_ptr<SnapshotGlyphs> glyphs_;
   std::unique_ptr<PicturePace> pace_;
+  std::unique_ptr<ViewPicture> pictures_;
   HandDrag* handDrag_;
   std::unique_ptr<ServoSnapshot> shown_;
   bool hasNewNumbers_ = false;  ///< What shown_ says has not been drawn yet.

@@ -157,6 +157,7 @@ class Pictures {
   void dialogs() {
     ui::MainWindow& window = driver_.window();
     grabDialog(QStringLiteral("export"), [this] { trigger("exportPlacement"); });
+    grabDialog(QStringLiteral("picture"), [this] { trigger("savePicture"); });
     grabDialog(QStringLiteral("about"), [this] { trigger("about"); });
     grabDialog(QStringLiteral("unit"), [&] { ui::askForUnit(QStringLiteral("piston.stl"), &window); });
     grabDialog(QStringLiteral("error"), [&] {

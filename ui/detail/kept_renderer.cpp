@@ -21,6 +21,9 @@ void KeptRenderer::intoKept(bool isErased, const Act& draw) {
   // Others have drawn meanwhile.
   state->Reset();
   state->Push();
+  // Blending of what shines through leaves depths switched off.
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthMask(GL_TRUE);
   state->vtkglDepthFunc(GL_LEQUAL);
   state->PushFramebufferBindings();
   const int* size = window->GetSize();

@@ -158,7 +158,10 @@ void ViewDetail::rest() {
 }
 
 void ViewDetail::complete() {
-  if (detail_.isFull) return;
+  if (!detail_.isFull) completeAnew();
+}
+
+void ViewDetail::completeAnew() {
   parts_.settle();
   beginKeeping();
   while (isKeeping_)

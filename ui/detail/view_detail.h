@@ -43,6 +43,8 @@ class ViewDetail : public QObject {
   void setBudget(std::size_t triangles);
   /// Ends when the next picture will be a full one, however long that takes.
   void complete();
+  /// The same, whatever the last picture showed.
+  void completeAnew();
   /// The next picture leaves nothing out that its triangles' budget allows.
   void drawFullNext() { isAtRest_ = true; }
   /// What is kept is no longer right.

@@ -7,6 +7,7 @@
 
 #include "ui/pixel_sizes.h"
 #include "ui/theme.h"
+#include "ui/view/view_picture.h"
 #include "ui/viewport.h"
 
 namespace nearfit::ui {
@@ -32,6 +33,7 @@ MeasureMark::MeasureMark(Viewport& view)
   }
   label_->setObjectName(QStringLiteral("measureLabel"));
   label_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  setInPictures(*label_);
   label_->setStyleSheet(
       QStringLiteral("#measureLabel { background: rgba(28, 37, 46, 225); color: white; border-radius: 5px; "
                      "padding: 3px 7px; font-weight: 600; }"));

@@ -17,6 +17,7 @@
 #include "ui/replay/timeline.h"
 #include "ui/selection.h"
 #include "ui/taking/exporter.h"
+#include "ui/taking/picture_taker.h"
 #include "ui/theme.h"
 #include "ui/viewport.h"
 
@@ -27,6 +28,7 @@ TakingAway::TakingAway(const Window& window)
       window_(window),
       segment_(window.viewport.overlay(), colours::kAccent),
       exporter_(new Exporter(window.session, window.selection, window.poseOfMoving, &window.window)),
+      pictures_(new PictureTaker(window.session, window.viewport.pictures(), &window.window)),
       search_(new ClearanceSearch(window.session, window.poseOfMoving, this)) {
   setUpDocks();
   setUpActions();
@@ -34,6 +36,8 @@ TakingAway::TakingAway(const Window& window)
   connectReplay();
   connect(exporter_, &Exporter::failed, this, &TakingAway::failed);
   connect(exporter_, &Exporter::noted, this, &TakingAway::noted);
+  connect(pictures_, &PictureTaker::failed, this, &TakingAway::failed);
+  connect(pictures_, &PictureTaker::noted, this, &TakingAway::noted);
   connect(plots_, &PlotPanel::failed, this, &TakingAway::failed);
   connect(plots_, &PlotPanel::noted, this, &TakingAway::noted);
 }
@@ -86,7 +90,8 @@ void TakingAway::setUpActions() {
 void TakingAway::addTo(const Menus& menus) {
   const QList<QAction*> file = menus.file->actions();
   const int place = file.indexOf(menus.exportAction) + 1;
-  menus.file->insertAction(place < file.size() ? file.at(place) : nullptr, copy_);
+  menus.file->insertActions(place < file.size() ? file.at(place) : nullptr,
+                            {copy_, pictures_->save(), pictures_->copy()});
   menus.toolBar->insertAction(menus.exportAction, record_);
   menus.feel->addSeparator();
   menus.feel->addActions({record_, openRecording_});

@@ -6,8 +6,8 @@
 
 #include "core/scene/motion_recording.h"
 #include "core/session.h"
-#include "ui/pair_segment.h"
 #include "ui/dialogs/error_box.h"
+#include "ui/pair_segment.h"
 
 class QAction;
 class QDockWidget;
@@ -21,6 +21,7 @@ namespace nearfit::ui {
 class ClearancePanel;
 class ClearanceSearch;
 class Exporter;
+class PictureTaker;
 class PlotPanel;
 class Replay;
 class Selection;
@@ -84,6 +85,7 @@ class TakingAway : public QObject {
   Window window_;
   PairSegment segment_;
   Exporter* exporter_;
+  PictureTaker* pictures_;
   ClearanceSearch* search_;
   ClearancePanel* clearances_;
   PlotPanel* plots_;

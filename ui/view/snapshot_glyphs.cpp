@@ -3,6 +3,7 @@
 #include <span>
 
 #include "ui/colour_legend.h"
+#include "ui/view/view_picture.h"
 
 namespace nearfit::ui {
 
@@ -13,6 +14,7 @@ SnapshotGlyphs::SnapshotGlyphs(vtkRenderer& parts, vtkRenderer& overlay, QWidget
       contacts_(overlay),
       arrows_(overlay),
       legend_(new ColourLegend(&view)) {
+  setInPictures(*legend_);
   legend_->hide();
 }
 

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <QDialog>
+#include <QTimer>
+
+#include "ui/view/view_picture.h"
+
+class QCheckBox;
+class QComboBox;
+class QDialogButtonBox;
+class QLabel;
+class QSpinBox;
+
+namespace nearfit::ui {
+
+/// Asks how a picture of the view is to look (size, background, what besides the parts), and shows a small
+/// one meanwhile. Remembers the choices from one time to the next.
+class PictureDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  /// @param pictures  Outlives this.
+  PictureDialog(ViewPicture& pictures, QWidget* parent);
+
+  PictureStyle style() const;
+  /// The picture is wanted on the clipboard, not in a file.
+  bool isForClipboard() const noexcept { return isForClipboard_; }
+
+  /// As it was chosen last; its size may be too large for the view as it is now.
+  static PictureStyle remembered();
+
+ private:
+  void setUpFields();
+  void setUpButtons();
+  void restore();
+  void remember() const;
+  void chooseSize();
+  void showSize();
+  void showPreview();
+
+  ViewPicture& pictures_;
+  const QSize shown_, largest_;
+  QComboBox *size_, *ground_;
+  QSpinBox* width_;
+  QLabel *height_, *preview_;
+  QCheckBox *axes_, *labels_;
+  QTimer later_;
+  bool isForClipboard_ = false;
+};
+
+}  // namespace nearfit::ui
