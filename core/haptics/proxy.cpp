@@ -267,10 +267,15 @@ Proxy::Outcome Proxy::programStep(const Tick& tick, const StepGoal& goal) noexce
       {solution.y[0], solution.y[1], solution.y[2]},
       worldFromPrincipal * (glm::dvec3(solution.y[3], solution.y[4], solution.y[5]) / metric.gyration)};
   const double travel = travelOf(*tick.tracked.scene, motion);
-  if (!(travel > (account_.subSteps == 0 ? kAtRestAtFirst : kAtRest) * held)) return Outcome::AtRest;
+  // Where what is left of the tick's way makes the step so short, or such that it is no gain, the next tick
+  // goes on.
+  const bool isCutShort = goal.reach >= wayLeft_ && (solution.scale < 1.0 || solution.share < 1.0);
+  const Outcome best = isCutShort ? Outcome::Stuck : Outcome::AtRest;
+  if (!(travel > (account_.subSteps == 0 ? kAtRestAtFirst : kAtRest) * held)) return best;
   if (account_.subSteps == 0) firstTravel_ = travel;
   if (account_.subSteps >= kWorthwhileSteps && travel < kWorthwhile * firstTravel_) return Outcome::Stuck;
-  return takeShortened(tick, StepTrial(goal, solution, here_.distance), motion, travel);
+  const Outcome outcome = takeShortened(tick, StepTrial(goal, solution, here_.distance), motion, travel);
+  return outcome == Outcome::AtRest ? best : outcome;
 }
 
 Proxy::Outcome Proxy::takeShortened(const Tick& tick, StepTrial trial, Motion motion,

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/placing/placing_scene.h"
+#include "core/scene/haptic_limits.h"
 
 namespace nearfit {
 namespace {
@@ -42,7 +43,8 @@ SolidMove::SolidMove(const Scene& scene, std::span<const PartId> moved, const Pr
       reach_{kContactReach * settings_.margin, kContactReach * settings_.margin},
       proxy_(std::make_unique<Proxy>()),
       start_(scene_->moving.worldFromPart),
-      pose_(start_) {
+      pose_(start_),
+      margin_(settings_.margin) {
   for (const PartId id : moved) {
     const RigidTransform& worldFromPart = scene.find(id)->worldFromPart;
     startPoses_.push_back(worldFromPart);
@@ -57,24 +59,47 @@ SolidMove::Progress SolidMove::advance(const RigidTransform& motion, int ticks) 
   const RigidTransform target = motion * start_;
   const double turnScale = turns(motion) ? 1.0 : kNoTurn;
   if (scene_->moving.geometry == nullptr) pose_ = target;
-  if (!isSame(motion, wanted_)) still_ = waited_ = 0;
+  if (marginAtEnd_ == 0.0) findStartDistance();
+  if (!isSame(motion, wanted_)) keepMargin(margin_);
   wanted_ = motion;
-  bool isSettled = isSame(pose_, target);
-  for (int i = 0; i < ticks && !isSettled; ++i) {
-    const RigidTransform before = pose_;
-    const bool isWaiting = tick(target, turnScale);
-    const bool isStill = travelBetween(*scene_, before, pose_) < kStill * settings_.margin;
-    waited_ = isWaiting && isStill ? waited_ + 1 : 0;
-    still_ = isStill && !isWaiting ? still_ + 1 : 0;
-    isSettled = isSame(pose_, target) || still_ >= kStillTicks || waited_ >= kPatience;
-  }
+  settle(target, turnScale, ticks);
   updatePoses();
   if (isSame(pose_, target)) {
     // To the last bit where they were wanted, for several parts too.
     for (std::size_t i = 0; i < poses_.size(); ++i)
       poses_[i] = motion * startPoses_[i];
   }
-  return {isSettled, isSame(pose_, target)};
+  return {isSettled_, isSame(pose_, target)};
+}
+
+void SolidMove::settle(const RigidTransform& target, double turnScale, int ticks) {
+  isSettled_ = isSame(pose_, target);
+  for (int i = 0; i < ticks && !isSettled_; ++i) {
+    const RigidTransform before = pose_;
+    const bool isWaiting = tick(target, turnScale);
+    const bool isStill = travelBetween(*scene_, before, pose_) < kStill * settings_.margin;
+    waited_ = isWaiting && isStill ? waited_ + 1 : 0;
+    still_ = isStill && !isWaiting ? still_ + 1 : 0;
+    isSettled_ = isSame(pose_, target) || still_ >= kStillTicks || waited_ >= kPatience;
+    // They have come as far as the margin lets them: the rest of the way is a part of it.
+    if (isSettled_ && !isSame(pose_, target) && settings_.margin > marginAtEnd_) keepMargin(marginAtEnd_);
+  }
+}
+
+void SolidMove::keepMargin(double margin) {
+  settings_.margin = margin;
+  still_ = waited_ = 0;
+  isSettled_ = false;
+}
+
+/// Stands for as many ticks as it takes to know what is near.
+void SolidMove::findStartDistance() {
+  marginAtEnd_ = margin_;
+  if (scene_->moving.geometry == nullptr) return;
+  int ticks = 0;
+  while (tick(start_, kNoTurn) && ++ticks < kPatience) {
+  }
+  if (ticks < kPatience) marginAtEnd_ = std::clamp(proxy_->distance(), kMinMargin, margin_);
 }
 
 /// Says whether the proxy waits for what is not known yet.

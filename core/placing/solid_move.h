@@ -13,7 +13,9 @@ namespace nearfit {
 
 /// Moves parts of a scene, as one rigid body, as far towards where they are wanted as the others let them, by
 /// the proxy that the servo feels with: they slide along what they touch, a margin away from it, and never
-/// meet it. What they overlap where they start lets them through until they have come apart.
+/// meet it. Parts that start nearer than the margin to something end as near, if they are wanted there; on
+/// the way they go by the margin. What they overlap where they start lets them through until they have come
+/// apart.
 ///
 /// A motion that only shifts does not turn them, whatever they touch; one that turns may shift them aside.
 /// There is no friction: what is placed by hand is to slide.
@@ -48,6 +50,9 @@ class SolidMove {
 
  private:
   bool tick(const RigidTransform& target, double turnScale);
+  void settle(const RigidTransform& target, double turnScale, int ticks);
+  void findStartDistance();
+  void keepMargin(double margin);
   void updatePoses();
   std::vector<PartId> idsOf(const std::vector<std::uint32_t>& bodies) const;
 
@@ -59,6 +64,11 @@ class SolidMove {
   std::unique_ptr<Proxy> proxy_;
   RigidTransform start_, pose_;  ///< Of the body that they are one of.
   RigidTransform wanted_;
+  double margin_;  ///< That is kept on the way [m].
+  /// What the parts keep where they end: at most the margin, less where they were nearer at the start [m]. 0:
+  /// not known yet.
+  double marginAtEnd_ = 0.0;
+  bool isSettled_ = false;
   int still_ = 0, waited_ = 0;  ///< Ticks since the parts last moved, or since the proxy knew enough.
   std::vector<RigidTransform> startPoses_, bodyFromPart_, poses_;
 };

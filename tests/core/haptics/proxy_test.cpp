@@ -80,6 +80,19 @@ TEST(Proxy, AtRestItStaysToTheLastBit) {
   EXPECT_EQ(walk.pose().rotation, rest.rotation);
 }
 
+TEST(Proxy, NeverRestsShortOfAPlaceThatItCanReach) {
+  // A step at the end of a tick's way is as short as one at rest.
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> exponent(-8.0, -3.0), way(-0.05, 0.05);
+  for (int i = 0; i < 200; ++i) {
+    ProxyWalk walk = cubeOverFloor(std::pow(10.0, exponent(random)));
+    const glm::dvec3 wanted(way(random), way(random), 0.1);
+    walk.hold(at(wanted), 60);
+    EXPECT_NEAR(walk.pose().translation.x, wanted.x, 2e-3 * kMargin) << i;
+    EXPECT_NEAR(walk.pose().translation.y, wanted.y, 2e-3 * kMargin) << i;
+  }
+}
+
 TEST(Proxy, TiltedCubePressedDownComesToLieFlat) {
   ProxyWalk walk = cubeOverFloor(0.05);
   const RigidTransform tilted{glm::angleAxis(0.2, glm::normalize(glm::dvec3(1, 2, 0))), {0.0, 0.0, 0.17}};

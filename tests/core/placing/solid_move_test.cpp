@@ -214,6 +214,43 @@ TEST(SolidMove, NoPoseOfAWildDragMeetsAnything) {
   EXPECT_GT(blocked, 10);
 }
 
+TEST(SolidMove, WhatStartsNearerThanTheMarginArrivesAlongWhatItStandsOn) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> exponent(-8.0, -4.0), way(-0.03, 0.03);
+  for (int i = 0; i < 60; ++i) {
+    CubeAndWall b;
+    // The cube's right face stands by the wall, as after a drop.
+    const double gap = std::pow(10.0, exponent(random));
+    Part part = *b.scene.find(b.cube);
+    part.worldFromPart = at({0.04 - gap, 0.002, 0.003});
+    b.scene.replace(part);
+    SolidMove move(b.scene, {{b.cube}});
+    const RigidTransform along = at({0.0, way(random), way(random)});
+    const SolidMove::Progress progress = settle(move, along);
+    EXPECT_TRUE(progress.hasArrived) << gap;
+    EXPECT_EQ(move.poses()[0].translation, (along * part.worldFromPart).translation) << gap;
+    EXPECT_THAT(move.touching(), IsEmpty()) << gap;
+    EXPECT_FALSE(b.doMeet(b.cube, move.poses()[0], b.wall)) << gap;
+  }
+}
+
+TEST(SolidMove, WhatStartsNearerThanTheMarginAndIsPressedOnEndsAsNear) {
+  for (const double gap : {1e-6, 2e-5}) {
+    CubeAndWall b;
+    Part part = *b.scene.find(b.cube);
+    part.worldFromPart = at({0.04 - gap, 0.002, 0.003});
+    b.scene.replace(part);
+    SolidMove move(b.scene, {{b.cube}});
+    const SolidMove::Progress progress = settle(move, at({0.02, 0.01, 0.0}));
+    EXPECT_TRUE(progress.isSettled);
+    EXPECT_FALSE(progress.hasArrived);
+    EXPECT_NEAR(b.highestX(b.cube, move.poses()[0]), 0.05 - gap, 0.05 * gap);
+    EXPECT_NEAR(move.poses()[0].translation.y, 0.012, 1e-6);
+    EXPECT_THAT(move.touching(), ElementsAre(b.wall));
+    EXPECT_FALSE(b.doMeet(b.cube, move.poses()[0], b.wall));
+  }
+}
+
 TEST(SolidMove, APartThatIsNotThereIsRefused) {
   CubeAndWall b;
   EXPECT_THROW(SolidMove(b.scene, {{PartId{77}}}), UsageError);
