@@ -9,6 +9,7 @@
 
 #include "core/session.h"
 #include "ui/minima/minima_menu.h"
+#include "ui/names.h"
 #include "ui/split_button.h"
 #include "ui/theme.h"
 #include "ui/unit_menu.h"
@@ -164,7 +165,7 @@ void Actions::update(const Session& session, const Availability& availability) {
   redo->setEnabled(isFree && session.canRedo());
   const auto withLabel = [](const QString& verb, const std::string& label) {
     // An ampersand of a part's name is no key of the menu.
-    const QString name = QString::fromStdString(label).replace(QChar('&'), QStringLiteral("&&"));
+    const QString name = shortName(label).replace(QChar('&'), QStringLiteral("&&"));
     return label.empty() ? verb : verb + QChar(' ') + name;
   };
   undo->setText(withLabel(tr("&Undo"), session.undoText()));

@@ -24,6 +24,7 @@
 #include "ui/panels/parts_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/paths.h"
+#include "ui/placing/move_guard.h"
 #include "ui/placing/placing_tools.h"
 #include "ui/preferences.h"
 #include "ui/recovery/recovery.h"
@@ -46,7 +47,8 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     : QMainWindow(parent),
       session_(session),
       selection_(new Selection(session, this)),
-      actions_(new Actions(this)) {
+      actions_(new Actions(this)),
+      guard_(new MoveGuard(session, this)) {
   const auto shapes = std::make_shared<PartShapeCache>();
   viewport_ = new Viewport(shapes, *selection_, this);
   document_ = std::make_unique<Document>(session, shapes, this);
@@ -58,7 +60,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   actions_->setUpMenus(*this);
   treeActions_->addTo(*actions_->editMenu);
   actions_->setUpToolBar(*this);
-  placing_ = new PlacingTools(session_, *selection_, *viewport_, this);
+  placing_ = new PlacingTools(session_, *selection_, *viewport_, *guard_, this);
   placing_->addTo(*this, *actions_->placeMenu);
   setUpAligning();
   setUpInspecting();
@@ -71,6 +73,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       new WelcomeCard(actions_->openDemo, manners_->tour(), actions_->addParts, actions_->open, viewport_);
 
   connectPlacing();
+  connectMoveGuard();
   connectFileActions();
   connectEditActions();
   connectViewActions();
@@ -157,26 +160,6 @@ void MainWindow::showScene() {
   showSelection();
 }
 
-void MainWindow::showSelection() {
-  const std::optional<PartId> id = selected();
-  const Scene& scene = session_.scene();
-  const Part* part = id ? scene.find(*id) : nullptr;
-  const bool isInHand = holds(id);
-  const bool isEditable =
-      part != nullptr && !scene.isLocked(*part) && (!isInHand || servo_.hand == Hand::Manual);
-  QString heading = part != nullptr ? QString::fromStdString(part->name) : QString();
-  const auto others = static_cast<int>(selection_->parts().size()) - 1;
-  if (others > 0) heading = tr("%1 and %n more", nullptr, others).arg(heading);
-  posePanel_->showPart(heading, isEditable);
-  posePanel_->showMass(part, part != nullptr && scene.isLocked(*part));
-  if (isInHand && servo_.hand == Hand::Manual) {
-    posePanel_->showPose(poseInHand_, handPose_);
-  } else if (part != nullptr) {
-    posePanel_->showPose(poseOf(*part));
-  }
-  updateActions();
-}
-
 void MainWindow::updateActions() {
   const Scene& scene = session_.scene();
   const std::optional<PartId> id = selected();
@@ -250,19 +233,6 @@ void MainWindow::showFailure(const Failure& failure) {
 
 void MainWindow::showNote(const QString& text) {
   statusBar()->showMessage(text, kNoteTime);
-}
-
-std::optional<PartId> MainWindow::selected() const {
-  return selection_->current();
-}
-
-bool MainWindow::holds(std::optional<PartId> part) const {
-  return servo_.isRunning && part && session_.scene().movingPart() == part;
-}
-
-RigidTransform MainWindow::poseOf(const Part& part) const {
-  if (const std::optional<RigidTransform> dragged = placing_->draggedPose(part.id)) return *dragged;
-  return holds(part.id) ? poseInHand_ : part.worldFromPart;
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -22,6 +22,7 @@ class DropTool;
 class FeelDialog;
 class FeelPanel;
 class Manners;
+class MoveGuard;
 class PartsPanel;
 class PlacingTools;
 class PosePanel;
@@ -108,6 +109,7 @@ class MainWindow : public QMainWindow {
   void connectPresets();
   void connectHand();
   void connectPlacing();
+  void connectMoveGuard();
   /// Tells the tools for placing what the servo holds.
   void showHeld();
 
@@ -147,6 +149,7 @@ class MainWindow : public QMainWindow {
   Session& session_;
   Selection* selection_;
   Actions* actions_;
+  MoveGuard* guard_;
   TreeActions* treeActions_;
   Viewport* viewport_;
   std::unique_ptr<Document> document_;

@@ -2,13 +2,13 @@
 #include <QAction>
 #include <QMenu>
 #include <QToolBar>
-#include <algorithm>
 
 #include "ui/actions.h"
 #include "ui/document.h"
 #include "ui/main_window.h"
 #include "ui/placing/align_tool.h"
 #include "ui/placing/drop_tool.h"
+#include "ui/placing/move_guard.h"
 #include "ui/placing/placing_tools.h"
 #include "ui/selection.h"
 #include "ui/viewport.h"
@@ -16,7 +16,7 @@
 namespace nearfit::ui {
 
 void MainWindow::setUpAligning() {
-  align_ = new AlignTool(session_, *selection_, *viewport_, this);
+  align_ = new AlignTool(session_, *selection_, *viewport_, *guard_, this);
   const auto prepare = [this](std::function<void(bool)> done) {
     document_->prepareHierarchies(std::move(done));
   };
@@ -39,11 +39,7 @@ void MainWindow::updateAligning() {
   const bool canMove = !servo_.isTaken() && session_.scene().parts().size() > 1;
   const bool isFree = canMove && !document_->isBusy();
   align_->setAvailable(canMove, document_->isBusy());
-  const bool isAnyLocked = std::ranges::any_of(selection_->parts(), [this](PartId id) {
-    const Part* part = session_.scene().find(id);
-    return part != nullptr && session_.scene().isLocked(*part);
-  });
-  drop_->setAvailable(isFree && !selection_->isEmpty() && !isAnyLocked);
+  drop_->setAvailable(isFree && !selection_->isEmpty() && guard_->refusalOf(selection_->parts()).isEmpty());
 }
 
 }  // namespace nearfit::ui

@@ -16,6 +16,7 @@
 #include "ui/files/recent_files.h"
 #include "ui/main_window.h"
 #include "ui/manners/manners.h"
+#include "ui/names.h"
 #include "ui/panels/parts_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/preferences.h"
@@ -163,8 +164,7 @@ void MainWindow::recolourSelected() {
   const QColor before =
       QColor::fromRgbF(static_cast<double>(part->colour.r), static_cast<double>(part->colour.g),
                        static_cast<double>(part->colour.b));
-  const QColor chosen =
-      QColorDialog::getColor(before, this, tr("Colour of %1").arg(QString::fromStdString(part->name)));
+  const QColor chosen = QColorDialog::getColor(before, this, tr("Colour of %1").arg(shortName(part->name)));
   if (!chosen.isValid()) return;
   const Colour colour{static_cast<float>(chosen.redF()), static_cast<float>(chosen.greenF()),
                       static_cast<float>(chosen.blueF())};

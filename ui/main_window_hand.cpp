@@ -1,6 +1,5 @@
 // What keys, mouse and numbers do to the selected part, and to the manual hand that holds it.
 #include <QAction>
-#include <algorithm>
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -11,6 +10,7 @@
 #include "ui/hand_drag.h"
 #include "ui/main_window.h"
 #include "ui/panels/pose_panel.h"
+#include "ui/placing/move_guard.h"
 #include "ui/placing/placing_tools.h"
 #include "ui/selection.h"
 #include "ui/viewport.h"
@@ -57,6 +57,11 @@ void MainWindow::connectPlacing() {
 }
 
 void MainWindow::showHeld() {
+  using Holder = MoveGuard::Holder;
+  guard_->setHolder(!servo_.isRunning             ? Holder::Nobody
+                    : servo_.hand == Hand::Manual ? Holder::ManualHand
+                    : servo_.hand == Hand::Device ? Holder::Device
+                                                  : Holder::ScriptedHand);
   const std::optional<PartId> part = session_.scene().movingPart();
   if (!servo_.isRunning || !part) return placing_->setHeld({});
   placing_->setHeld(HeldPart{*part, poseInHand_, handPose_, servo_.hand == Hand::Manual});
@@ -65,13 +70,9 @@ void MainWindow::showHeld() {
 void MainWindow::moveSelected(const RigidTransform& worldFromPart) {
   const std::optional<PartId> part = selected();
   if (!part) return;
-  if (holds(part)) {
-    moveHand(worldFromPart);
-  } else {
-    if (std::ranges::any_of(selection_->parts(), [this](PartId id) { return holds(id); }))
-      return showNote(tr("One of these parts is in hand: stop feeling it, or select the others alone."));
-    placing_->bring(worldFromPart);
-  }
+  const QString refusal = guard_->refusalOf(selection_->parts());
+  if (!refusal.isEmpty()) return showNote(refusal);
+  holds(part) ? moveHand(worldFromPart) : placing_->bring(worldFromPart);
 }
 
 void MainWindow::nudge(const glm::dvec3& direction) {
@@ -87,13 +88,7 @@ void MainWindow::stepSelected(const glm::dvec3& shift, const glm::dquat& turn) {
   placing_->commit();
   const std::optional<PartId> id = selected();
   const Part* part = id ? session_.scene().find(*id) : nullptr;
-  if (part == nullptr) return;
-  if (holds(id)) {
-    showNote(servo_.hand == Hand::Device ? tr("The device holds this part.")
-                                         : tr("The scripted hand holds this part."));
-  } else {
-    moveSelected(stepped(part->worldFromPart, shift, turn, part->geometry->mass.centre));
-  }
+  if (part != nullptr) moveSelected(stepped(part->worldFromPart, shift, turn, part->geometry->mass.centre));
 }
 
 bool MainWindow::isHandManual() const {

@@ -87,9 +87,23 @@ void NumberField::setQuantityStep(double step) {
   setSingleStep(roundStep(step / unit_.inSi));
 }
 
+void NumberField::showMixed(const QString& word) {
+  if (isUnsettled()) return;
+  const QSignalBlocker blocker(this);
+  // It stands in place of the least value.
+  setSpecialValueText(word);
+  setValue(minimum());
+  exact_ = lower_;
+}
+
+bool NumberField::isMixed() const {
+  return !specialValueText().isEmpty() && value() == minimum();
+}
+
 void NumberField::showQuantity(double value) {
   if (isUnsettled()) return;
   const QSignalBlocker blocker(this);
+  setSpecialValueText({});
   // Plus zero: no "-0".
   setValue(value / unit_.inSi + 0.0);
   exact_ = value;
@@ -183,7 +197,7 @@ QValidator::State NumberField::validate(QString& text, int& /*position*/) const 
 
 void NumberField::stepBy(int steps) {
   settle();
-  if (isFaulty()) return;
+  if (isFaulty() || isMixed()) return;
   isStepping_ = true;
   QDoubleSpinBox::stepBy(steps);
   isStepping_ = false;
@@ -196,7 +210,8 @@ bool NumberField::event(QEvent* event) {
          "+= 5 adds to what is there; so do -=, *= and /=.");
   QStringList text;
   if (!toolTip().isEmpty()) text << toolTip();
-  text << help;
+  // Of no use while nothing can be typed.
+  if (isEnabled()) text << help;
   QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(),
                      isFaulty() ? fault_ : text.join(QChar('\n')), this);
   return true;
@@ -209,7 +224,8 @@ void NumberField::keyPressEvent(QKeyEvent* event) {
     event->accept();
     return;
   }
-  if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) {
+  const bool isUntouched = isMixed() && !lineEdit()->isModified();
+  if (!isUntouched && (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter)) {
     const Reading reading = read(lineEdit()->text());
     if (!reading.fault.isEmpty()) {
       showFault(reading);

@@ -33,6 +33,9 @@ class NumberField : public QDoubleSpinBox {
   void setQuantityStep(double step);
   /// No edit: nothing is told. What is being typed, or cannot be read, is left alone.
   void showQuantity(double value);
+  /// Shows a word in place of a number, for several that differ; it has the quantity of the lower limit until
+  /// one is typed or shown, and takes no steps.
+  void showMixed(const QString& word);
   /// As it was typed or set, not as it is rounded to be shown.
   double quantity() const;
   /// One of the shown unit, in SI.
@@ -77,6 +80,7 @@ class NumberField : public QDoubleSpinBox {
     int position = 0;  ///< Of the mistake, in the text.
   };
   Reading read(const QString& text) const;
+  bool isMixed() const;
   void showFault(const Reading& reading);
   void clearFault();
   void applyUnit(const QString& name, double inSi);

@@ -16,6 +16,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUsualGap = 1e-6;   ///< [m]
 constexpr double kGapOfSize = 1e-5;  ///< Of a part smaller than 0.1 m.
+/// A way shorter than this part of the gap is rounding of what stands a gap away already.
+constexpr double kNoWay = 1e-3;
 
 struct Pair {
   const Part *moving, *fixed;
@@ -113,7 +115,8 @@ void findFirst(const std::vector<Pair>& pairs, const glm::dvec3& direction, Step
 void stepBack(const std::vector<Pair>& pairs, const glm::dvec3& direction, double gap, DropResult& result) {
   const double contact = result.travel;
   for (double back = gap;; back *= 2.0) {
-    result.travel = std::max(0.0, contact - back);
+    const double travel = contact - back;
+    result.travel = travel > kNoWay * gap ? travel : 0.0;
     result.shift = result.travel * direction;
     result.gap = contact - result.travel;
     // At the start nothing meets: that is known.

@@ -42,7 +42,8 @@ double dropGap(double size) noexcept;
 /// The travel is exact but for rounding (straight_contact.h): the way before it is free, and it ends `gap`
 /// short of contact, measured along the way. That no two bodies meet at the end is decided by exact
 /// predicates; where rounding is coarser than the gap, more is left. Parts that stand nearer than the gap
-/// before each other already do not move.
+/// before each other already do not move at all: those that were dropped stay where they are when they are
+/// dropped again.
 ///
 /// @param moved  Of the scene, each once; those without geometry do not count.
 /// Throws UsageError when a part is unknown or locked, or a number makes no sense; Cancelled. Builds

@@ -1,6 +1,8 @@
 #include "core/placing/push.h"
 
 #include <algorithm>
+#include <limits>
+#include <map>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -46,6 +48,31 @@ Scene shifted(const Scene& scene, std::span<const PartId> moved, const glm::dvec
   return result;
 }
 
+/// Parts that are touched, those first that bar the way, the nearest of them first.
+std::vector<PartId> barringFirst(const Scene& scene, std::span<const PartId> moved,
+                                 const std::vector<RigidTransform>& poses, std::vector<PartId> touched,
+                                 const glm::dvec3& direction) {
+  std::map<PartId, double> ways;
+  for (const PartId id : touched) {
+    Scene alone = scene;
+    for (const Scene::PartPtr& part : scene.parts()) {
+      Part changed = *part;
+      changed.isVisible = changed.id == id;
+      alone.replace(std::move(changed));
+    }
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      Part part = *alone.find(moved[i]);
+      part.worldFromPart = poses[i];
+      alone.replace(std::move(part));
+    }
+    const DropResult drop = dropParts(alone, moved, {direction, 0.0});
+    const bool bars = drop.outcome != DropResult::Outcome::NothingMet;
+    ways[id] = bars ? drop.travel : std::numeric_limits<double>::infinity();
+  }
+  std::ranges::stable_sort(touched, {}, [&ways](PartId id) { return ways.at(id); });
+  return touched;
+}
+
 }  // namespace
 
 PushResult pushParts(const Scene& scene, std::span<const PartId> moved, const glm::dvec3& direction,
@@ -74,7 +101,8 @@ PushResult pushParts(const Scene& scene, std::span<const PartId> moved, const gl
   }
   result.outcome = PushResult::Outcome::Held;
   result.poses = move.poses();
-  if (const std::vector<PartId> touching = move.touching(); !touching.empty()) result.against = touching;
+  if (const std::vector<PartId> touching = move.touching(); !touching.empty())
+    result.against = barringFirst(scene, moved, result.poses, touching, direction);
   return result;
 }
 

@@ -19,8 +19,9 @@ struct PushResult {
   };
   Outcome outcome = Outcome::NothingMet;
   std::vector<RigidTransform>
-      poses;                    ///< worldFromPart of each, in the order given; the present ones unless held.
-  std::vector<PartId> against;  ///< What holds them, or meets them at the start.
+      poses;  ///< worldFromPart of each, in the order given; the present ones unless held.
+  /// What they touch in the end, or meet at the start; first what bars the direction, the nearest before.
+  std::vector<PartId> against;
 };
 
 /// Pushes parts together along a direction until they are held: straight to the first contact, as dropParts()

@@ -12,6 +12,7 @@
 #include "core/scene/haptic_limits.h"
 #include "ui/dialogs/locks_page.h"
 #include "ui/format.h"
+#include "ui/names.h"
 #include "ui/number_field.h"
 #include "ui/theme.h"
 
@@ -140,10 +141,9 @@ void WeightPage::refresh() {
 }
 
 void WeightPage::showMass(const QString& name, double mass) {
-  mass_->setText(
-      name.isEmpty()
-          ? tr("No part is in hand.")
-          : tr("%1 has a mass of %2; its density is set in the pose panel.").arg(name, formatMass(mass)));
+  mass_->setText(name.isEmpty() ? tr("No part is in hand.")
+                                : tr("%1 has a mass of %2; its density is set in the pose panel.")
+                                      .arg(breakable(shortName(name)), formatMass(mass)));
 }
 
 WorkspacePage::WorkspacePage(QWidget* parent) : FeelPage(parent) {

@@ -7,6 +7,8 @@
 #include <QTimer>
 #include <QVBoxLayout>
 
+#include "ui/names.h"
+
 namespace nearfit::ui {
 namespace {
 
@@ -24,7 +26,7 @@ ProgressDialog::ProgressDialog(const QString& text, QWidget* parent)
   setMinimumWidth(380);
   bar_->setRange(0, kSteps);
   bar_->setAccessibleName(tr("Progress"));
-  auto* label = new QLabel(text, this);
+  auto* label = new QLabel(breakable(text), this);
   label->setWordWrap(true);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
   connect(buttons, &QDialogButtonBox::rejected, this, &ProgressDialog::reject);

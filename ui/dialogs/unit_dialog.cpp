@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 #include <array>
 
+#include "ui/names.h"
 #include "ui/preferences.h"
 
 namespace nearfit::ui {
@@ -30,8 +31,8 @@ std::optional<double> askForUnit(const QString& what, QWidget* parent) {
   QDialog dialog(parent);
   dialog.setObjectName(QStringLiteral("unitDialog"));
   dialog.setWindowTitle(QObject::tr("Unit of length"));
-  auto* question =
-      new QLabel(QObject::tr("Mesh files carry no unit. In which unit is %1?").arg(what), &dialog);
+  auto* question = new QLabel(
+      QObject::tr("Mesh files carry no unit. In which unit is %1?").arg(breakable(shortName(what))), &dialog);
   question->setWordWrap(true);
   auto* box = new QComboBox(&dialog);
   box->setObjectName(QStringLiteral("unit"));

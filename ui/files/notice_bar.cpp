@@ -8,6 +8,9 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
+
+#include "ui/names.h"
 
 namespace nearfit::ui {
 namespace {
@@ -29,13 +32,14 @@ NoticeBar::NoticeBar(QWidget* parent) : QFrame(parent) {
   hide();
 }
 
-void NoticeBar::offer(const QString& key, const QString& text, std::vector<Choice> choices) {
+void NoticeBar::offer(const QString& key, const QString& text, std::vector<Choice> choices,
+                      std::function<void()> dismissed) {
   withdraw(key);
   auto* row = new QWidget(this);
   row->setObjectName(QStringLiteral("notice-") + key);
   auto* layout = new QHBoxLayout(row);
   layout->setContentsMargins(0, 0, 0, 0);
-  auto* label = new QLabel(text, row);
+  auto* label = new QLabel(breakable(text), row);
   label->setObjectName(QStringLiteral("noticeText"));
   label->setTextFormat(Qt::PlainText);
   label->setWordWrap(true);
@@ -56,7 +60,10 @@ void NoticeBar::offer(const QString& key, const QString& text, std::vector<Choic
   close->setIcon(style()->standardIcon(QStyle::SP_TitleBarCloseButton));
   close->setToolTip(tr("Leave it as it is"));
   close->setAccessibleName(tr("Dismiss: %1").arg(text));
-  connect(close, &QToolButton::clicked, this, [this, key] { withdraw(key); });
+  connect(close, &QToolButton::clicked, this, [this, key, dismissed = std::move(dismissed)] {
+    withdraw(key);
+    if (dismissed) dismissed();
+  });
   layout->addWidget(close);
   offers_[key] = row;
   qobject_cast<QVBoxLayout*>(this->layout())->addWidget(row);

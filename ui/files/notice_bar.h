@@ -21,8 +21,10 @@ class NoticeBar : public QFrame {
   explicit NoticeBar(QWidget* parent);
 
   /// Shows an offer; one of the same key is replaced.
-  /// @param choices  One button each; the offer goes when one is clicked.
-  void offer(const QString& key, const QString& text, std::vector<Choice> choices);
+  /// @param choices    One button each; the offer goes when one is clicked.
+  /// @param dismissed  Called when it is waved away.
+  void offer(const QString& key, const QString& text, std::vector<Choice> choices,
+             std::function<void()> dismissed = {});
   void withdraw(const QString& key);
 
  protected:

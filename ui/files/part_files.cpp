@@ -15,6 +15,7 @@
 #include "ui/document.h"
 #include "ui/files/mesh_watch.h"
 #include "ui/files/notice_bar.h"
+#include "ui/names.h"
 #include "ui/paths.h"
 #include "ui/theme.h"
 
@@ -24,12 +25,13 @@ namespace {
 const QString kReloadAlways = QStringLiteral("files/reloadAlways");
 const QString kReloadNotice = QStringLiteral("reload"), kRescaleNotice = QStringLiteral("rescale");
 
+/// "a.stl, b.stl and 4 more"
 QString namesOf(const QStringList& files) {
-  if (files.size() > 3) return QObject::tr("%n files", nullptr, files.size());
+  constexpr int kNamed = 6;
   QStringList names;
   for (const QString& file : files)
     names << QFileInfo(file).fileName();
-  return names.join(QStringLiteral(", "));
+  return listOfNames(names, kNamed);
 }
 
 /// "1000", "25.4"
@@ -77,15 +79,29 @@ void PartFiles::addActions(QMenu* menu) {
 }
 
 void PartFiles::seeChange(const QStringList& files) {
-  if (reloadAlways_->isChecked()) {
-    reload(files);
-    return;
+  if (reloadAlways_->isChecked()) return reload(files);
+  changed_ << files;
+  changed_.removeDuplicates();
+  offerReload();
+}
+
+void PartFiles::offerReload() {
+  // What has left the scene meanwhile is nothing to ask about.
+  QStringList there;
+  for (const QString& file : changed_) {
+    if (!partsOf({file}).empty()) there << file;
   }
-  notices_.offer(kReloadNotice, tr("%1: changed on disk since it was read.").arg(namesOf(files)),
-                 {{tr("Reload"), [this, files] { reload(files); }}, {tr("Reload always"), [this, files] {
-                                                                       reloadAlways_->setChecked(true);
-                                                                       reload(files);
-                                                                     }}});
+  changed_ = there;
+  if (changed_.isEmpty()) return notices_.withdraw(kReloadNotice);
+  const QString text = changed_.size() == 1 ? tr("%1 has changed on disk since it was read.")
+                                            : tr("%1 have changed on disk since they were read.");
+  const auto always = [this] {
+    reloadAlways_->setChecked(true);
+    reload(changed_);
+  };
+  notices_.offer(kReloadNotice, text.arg(namesOf(changed_)),
+                 {{tr("Reload"), [this] { reload(changed_); }}, {tr("Reload always"), always}},
+                 [this] { changed_.clear(); });
 }
 
 std::vector<PartFiles::Wanted> PartFiles::partsOf(const QStringList& files) const {
@@ -98,12 +114,16 @@ std::vector<PartFiles::Wanted> PartFiles::partsOf(const QStringList& files) cons
   return wanted;
 }
 
-void PartFiles::reload(const QStringList& files) {
+// By value: it may be changed_ itself.
+void PartFiles::reload(QStringList files) {
   if (document_.isBusy()) {
     waiting_ << files;
     return;
   }
-  notices_.withdraw(kReloadNotice);
+  for (const QString& file : files)
+    changed_.removeAll(file);
+  if (files.isEmpty()) changed_.clear();
+  offerReload();
   load(tr("Reloading %1").arg(files.isEmpty() ? tr("all parts") : namesOf(files)), partsOf(files),
        &Session::reloadParts, tr("Not everything could be reloaded; those parts stay as they were."));
 }

@@ -38,7 +38,10 @@ class PartFiles : public QObject {
   };
   void addActions(QMenu* menu);
   void seeChange(const QStringList& files);
-  void reload(const QStringList& files);
+  /// Names all files that have changed and were neither reloaded nor waved away.
+  void offerReload();
+  /// All files when there are none.
+  void reload(QStringList files);
   /// All parts of the scene that are read from these files; of all files when there are none.
   std::vector<Wanted> partsOf(const QStringList& files) const;
   void judgeSizes(const std::vector<PartId>& added);
@@ -53,6 +56,7 @@ class PartFiles : public QObject {
   NoticeBar& notices_;
   MeshWatch* watch_;
   QAction *reload_ = nullptr, *reloadAlways_ = nullptr;
+  QStringList changed_;  ///< On disk, and not reloaded yet.
   QStringList waiting_;  ///< Files to reload once nothing else is being loaded.
 };
 

@@ -6,13 +6,15 @@
 #include <QMenu>
 #include <QSettings>
 
+#include "ui/names.h"
+
 namespace nearfit::ui {
 namespace {
 
 const QString kKey = QStringLiteral("files/recent");
 
 QString shown(const QString& file, int number) {
-  QString name = QFileInfo(file).fileName();
+  QString name = shortName(QFileInfo(file).fileName());
   name.replace(QChar('&'), QStringLiteral("&&"));
   const QString entry = QFileInfo::exists(file) ? name : QObject::tr("%1 (missing)").arg(name);
   return number < 10 ? QStringLiteral("&%1  %2").arg(QString::number(number), entry) : entry;

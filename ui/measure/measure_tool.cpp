@@ -4,6 +4,7 @@
 #include <QSignalBlocker>
 
 #include "ui/measure/measure_bar.h"
+#include "ui/names.h"
 #include "ui/preferences.h"
 #include "ui/theme.h"
 #include "ui/viewport.h"
@@ -63,7 +64,7 @@ void MeasureTool::take(const FeaturePick& pick) {
   const Part* part = session_.scene().find(pick.part);
   if (part == nullptr) return;
   const End end{pick.part, part->geometry, measureEnd(part->geometry->mesh, pick.picked, pick.hit),
-                tr("%1 of %2").arg(describeFeature(pick.picked.feature), QString::fromStdString(part->name))};
+                tr("%1 of %2").arg(describeFeature(pick.picked.feature), shortName(part->name))};
   if (!from_ || to_) {
     forget();
     from_ = end;

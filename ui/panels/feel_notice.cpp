@@ -5,6 +5,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "ui/names.h"
 #include "ui/theme.h"
 
 namespace nearfit::ui {
@@ -20,10 +21,7 @@ QString namesOf(const ServoSnapshot& snapshot, const Scene& scene) {
     if (const Part* part = scene.find(snapshot.released[i])) names << QString::fromStdString(part->name);
   }
   constexpr int kNamed = 2;
-  if (names.size() <= 1) return names.join(QString());
-  if (names.size() == kNamed && snapshot.releasedCount == kNamed) return names.join(QObject::tr(" and "));
-  const auto more = static_cast<int>(snapshot.releasedCount) - kNamed;
-  return QObject::tr("%1 and %2 more").arg(names.mid(0, kNamed).join(QStringLiteral(", "))).arg(more);
+  return breakable(listOfNames(names, kNamed, static_cast<int>(snapshot.releasedCount)));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "core/math/euler_angles.h"
 #include "core/scene/scene.h"
+#include "ui/elided_label.h"
 #include "ui/format.h"
 #include "ui/number_field.h"
 #include "ui/theme.h"
@@ -33,7 +34,7 @@ bool isCommand(const QKeyEvent& key) {
 
 }  // namespace
 
-PosePanel::PosePanel(QWidget* parent) : QWidget(parent), heading_(new QLabel(this)) {
+PosePanel::PosePanel(QWidget* parent) : QWidget(parent), heading_(new ElidedLabel(this)) {
   auto* layout = new QGridLayout(this);
   layout->setContentsMargins(10, 8, 10, 10);
   layout->setHorizontalSpacing(6);
@@ -44,8 +45,8 @@ PosePanel::PosePanel(QWidget* parent) : QWidget(parent), heading_(new QLabel(thi
   layout->setColumnStretch(1, 3);
   layout->setColumnStretch(3, 2);
   layout->setRowStretch(6, 1);
-  showPart({}, false);
-  showMass(nullptr);
+  showPart({});
+  showMass({});
 }
 
 void PosePanel::setUpPose(QGridLayout& layout) {
@@ -143,7 +144,7 @@ bool PosePanel::eventFilter(QObject* watched, QEvent* event) {
   return QWidget::eventFilter(watched, event);
 }
 
-void PosePanel::showPart(const QString& name, bool isEditable) {
+void PosePanel::showPart(const QString& name, const QString& refusal, const QString& help) {
   const QString heading = name.isEmpty() ? tr("No part selected") : name;
   // What was typed for one part is not meant for another.
   if (heading != heading_->text()) {
@@ -151,11 +152,22 @@ void PosePanel::showPart(const QString& name, bool isEditable) {
       if (field->isUnsettled()) field->takeBack();
   }
   heading_->setText(heading);
+  heading_->setToolTip(help);
   heading_->setStyleSheet(name.isEmpty() ? QStringLiteral("color: %1").arg(colours::kMutedText.name())
                                          : QStringLiteral("font-weight: bold"));
-  for (NumberField* field : fields_)
-    field->setEnabled(isEditable);
+  for (NumberField* field : fields_) {
+    field->setEnabled(!name.isEmpty() && refusal.isEmpty());
+    field->setToolTip(refusal);
+  }
   if (name.isEmpty()) showPose({});
+}
+
+void PosePanel::showPose(const RigidTransform& worldFromPart) {
+  const bool isSame =
+      worldFromPart.rotation == pose_.rotation && worldFromPart.translation == pose_.translation;
+  for (NumberField* field : fields_)
+    if (!isSame && !isEditing_ && field->isFaulty()) field->takeBack();
+  showPose(worldFromPart, worldFromPart);
 }
 
 void PosePanel::showPose(const RigidTransform& worldFromPart, const RigidTransform& worldFromHand) {
@@ -165,15 +177,29 @@ void PosePanel::showPose(const RigidTransform& worldFromPart, const RigidTransfo
   refresh();
 }
 
-void PosePanel::showMass(const Part* part, bool isLocked) {
-  const bool hasGeometry = part != nullptr && part->geometry != nullptr;
-  density_->setEnabled(part != nullptr && !isLocked);
-  if (part == nullptr) density_->takeBack();
-  density_->showQuantity(part != nullptr ? part->density : kDefaultDensity);
-  mass_->setText(hasGeometry ? formatMass(massOf(*part)) : QString());
-  mass_->setToolTip(hasGeometry && part->geometry->mass.basis == MassBasis::OrientedBox
-                        ? tr("Of its bounding box, as the mesh encloses no volume")
-                        : tr("Mass"));
+void PosePanel::showMass(const std::vector<const Part*>& parts, bool isLocked) {
+  density_->setEnabled(!parts.empty() && !isLocked);
+  showDensity(parts);
+  double mass = 0.0;
+  bool hasGeometry = false, isOfBox = false;
+  for (const Part* part : parts) {
+    if (part->geometry == nullptr) continue;
+    hasGeometry = true;
+    isOfBox = isOfBox || part->geometry->mass.basis == MassBasis::OrientedBox;
+    mass += massOf(*part);
+  }
+  mass_->setText(hasGeometry ? formatMass(mass) : QString());
+  const bool isOne = parts.size() == 1;
+  mass_->setToolTip(!isOfBox ? (isOne ? tr("Mass") : tr("Mass of all of them together"))
+                    : isOne  ? tr("Of its bounding box, as the mesh encloses no volume")
+                             : tr("Together; of the bounding box where a mesh encloses no volume"));
+}
+
+void PosePanel::showDensity(const std::vector<const Part*>& parts) {
+  if (parts.empty()) density_->takeBack();
+  const double density = parts.empty() ? kDefaultDensity : parts.back()->density;
+  const bool areSame = std::ranges::all_of(parts, [&](const Part* part) { return part->density == density; });
+  areSame ? density_->showQuantity(density) : density_->showMixed(tr("different"));
 }
 
 double PosePanel::step() const {
@@ -198,7 +224,9 @@ void PosePanel::edit(int field) {
   number = isOn ? number + (value - shown_[i]) : value;
   shown_[i] = value;
   if (field >= 3) hand_.rotation = rotationFromEulerAngles(handAngles_);
+  isEditing_ = true;
   emit poseEdited(hand_);
+  isEditing_ = false;
 }
 
 void PosePanel::refresh() {

@@ -5,18 +5,22 @@
 #include <algorithm>
 #include <utility>
 
+#include "ui/names.h"
 #include "ui/placing/align_bar.h"
+#include "ui/placing/move_guard.h"
 #include "ui/selection.h"
 #include "ui/theme.h"
 #include "ui/viewport.h"
 
 namespace nearfit::ui {
 
-AlignTool::AlignTool(Session& session, Selection& selection, Viewport& view, QObject* parent)
+AlignTool::AlignTool(Session& session, Selection& selection, Viewport& view, const MoveGuard& guard,
+                     QObject* parent)
     : QObject(parent),
       session_(session),
       selection_(selection),
       view_(view),
+      guard_(guard),
       action_(new QAction(icon(QStringLiteral("align")), tr("&Align…"), this)),
       bar_(new AlignBar(&view)),
       picker_(session, view, colours::kAccent, this),
@@ -35,9 +39,11 @@ AlignTool::AlignTool(Session& session, Selection& selection, Viewport& view, QOb
   connect(bar_, &AlignBar::optionsEdited, this, &AlignTool::preview);
   connect(bar_, &AlignBar::applied, this, &AlignTool::apply);
   connect(bar_, &AlignBar::cancelled, this, &AlignTool::stop);
-  session_.onChange([this] {
+  const auto look = [this] {
     if (picker_.isActive() && !isSound()) stop();
-  });
+  };
+  session_.onChange(look);
+  connect(&guard_, &MoveGuard::changed, this, look);
 }
 
 AlignTool::~AlignTool() = default;
@@ -80,24 +86,19 @@ bool AlignTool::isSound() const {
   if (fixed_ && session_.scene().find(fixed_->part) == nullptr) return false;
   return std::all_of(start_.begin(), start_.end(), [this](const auto& entry) {
     const Part* part = session_.scene().find(entry.first);
-    return part != nullptr && !session_.scene().isLocked(*part) &&
+    return part != nullptr && guard_.refusalOf(*part).isEmpty() &&
            part->worldFromPart.translation == entry.second.translation &&
            part->worldFromPart.rotation == entry.second.rotation;
   });
 }
 
 QString AlignTool::refusalOf(const Part& part) const {
-  const QString name = QString::fromStdString(part.name);
+  const QString name = shortName(part.name);
   if (moving_) return isMoved(part.id) ? tr("%1 is what moves: point at another part").arg(name) : QString();
-  if (session_.scene().isLocked(part)) return tr("%1 is locked: unlock it to move it").arg(name);
-  if (selection_.contains(part.id)) {
-    for (const PartId id : selection_.parts()) {
-      const Part* other = session_.scene().find(id);
-      if (other != nullptr && session_.scene().isLocked(*other))
-        return tr("%1 is selected too, and locked").arg(QString::fromStdString(other->name));
-    }
-  }
-  return {};
+  const QString refusal = guard_.refusalOf(part);
+  if (!refusal.isEmpty() || !selection_.contains(part.id)) return refusal;
+  const QString ofOthers = guard_.refusalOf(selection_.parts());
+  return ofOthers.isEmpty() ? QString() : tr("Selected with it: %1").arg(ofOthers);
 }
 
 void AlignTool::take(const FeaturePick& pick) {
@@ -155,12 +156,11 @@ QString AlignTool::prompt() const {
 }
 
 void AlignTool::tell(const QString& hint) {
-  const QString idle = !moving_ ? tr("Locked parts stay; selected ones go together")
-                       : !fixed_
-                           ? tr("%1 of %2")
-                                 .arg(describeFeature(moving_->picked.feature),
-                                      QString::fromStdString(session_.scene().find(moving_->part)->name))
-                           : tr("Return applies, Escape leaves it; click another to change it");
+  const QString idle = !moving_  ? tr("Locked parts stay; selected ones go together")
+                       : !fixed_ ? tr("%1 of %2")
+                                       .arg(describeFeature(moving_->picked.feature),
+                                            shortName(session_.scene().find(moving_->part)->name))
+                                 : tr("Return applies, Escape leaves it; click another to change it");
   bar_->showPrompt(prompt(), hint.isEmpty() ? idle : hint);
 }
 

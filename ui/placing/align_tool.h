@@ -14,6 +14,7 @@ class QAction;
 namespace nearfit::ui {
 
 class AlignBar;
+class MoveGuard;
 class Selection;
 class Viewport;
 
@@ -24,8 +25,8 @@ class AlignTool : public QObject {
   Q_OBJECT
 
  public:
-  /// @param session, selection, view  Outlive this.
-  AlignTool(Session& session, Selection& selection, Viewport& view, QObject* parent);
+  /// @param session, selection, view, guard  Outlive this.
+  AlignTool(Session& session, Selection& selection, Viewport& view, const MoveGuard& guard, QObject* parent);
   ~AlignTool() override;
 
   /// Switches it on and off.
@@ -56,6 +57,7 @@ class AlignTool : public QObject {
   Session& session_;
   Selection& selection_;
   Viewport& view_;
+  const MoveGuard& guard_;
   QAction* action_;
   AlignBar* bar_;
   FeaturePicker picker_;

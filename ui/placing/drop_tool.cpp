@@ -13,6 +13,7 @@
 #include "core/placing/push.h"
 #include "ui/dialogs/progress_dialog.h"
 #include "ui/format.h"
+#include "ui/names.h"
 #include "ui/selection.h"
 #include "ui/theme.h"
 #include "ui/viewport.h"
@@ -34,7 +35,17 @@ const Way kWays[] = {{"Down", QT_TRANSLATE_NOOP("DropTool", "&Down (−Z)"), {0,
 
 QString nameOf(const Scene& scene, PartId part) {
   const Part* found = scene.find(part);
-  return found != nullptr ? QString::fromStdString(found->name) : QString();
+  return found != nullptr ? shortName(found->name) : QString();
+}
+
+constexpr int kNamed = 3;
+
+QString overlapText(const QString& name, const QString& against) {
+  return DropTool::tr("%1 already touches or overlaps %2: move them apart, or hide %2.").arg(name, against);
+}
+
+QString freeWayText(const QString& name) {
+  return DropTool::tr("Nothing is in the way of %1 there: it stays where it is.").arg(name);
 }
 
 bool isCancelled(const std::exception_ptr& error) {
@@ -154,17 +165,17 @@ DropTool::Outcome DropTool::dropped(const Scene& scene, const std::vector<PartId
                                     const glm::dvec3& direction, const ProgressCallback& progress) {
   const DropResult result = dropParts(scene, parts, {direction, 0.0}, progress);
   Outcome outcome;
-  outcome.isContact = result.outcome == DropResult::Outcome::Contact;
   outcome.against = nameOf(scene, result.against);
   outcome.travel = result.travel;
   outcome.worldFromLead = scene.find(parts.back())->worldFromPart;
   outcome.worldFromLead.translation += result.shift;
+  const QString name = nameOf(scene, result.moved);
   if (result.outcome == DropResult::Outcome::Overlapping) {
-    outcome.problem = tr("%1 already touches or overlaps %2: move them apart, or hide %2.")
-                          .arg(nameOf(scene, result.moved), outcome.against);
-  } else if (!outcome.isContact) {
-    outcome.problem =
-        tr("Nothing is in the way of %1 there: it stays where it is.").arg(nameOf(scene, parts.back()));
+    outcome.problem = overlapText(name, outcome.against);
+  } else if (result.outcome == DropResult::Outcome::NothingMet) {
+    outcome.problem = freeWayText(nameOf(scene, parts.back()));
+  } else if (result.travel == 0.0) {
+    outcome.problem = tr("%1 touches %2 already: it stays where it is.").arg(name, outcome.against);
   }
   return outcome;
 }
@@ -172,28 +183,38 @@ DropTool::Outcome DropTool::dropped(const Scene& scene, const std::vector<PartId
 DropTool::Outcome DropTool::pushed(const Scene& scene, const std::vector<PartId>& parts,
                                    const glm::dvec3& direction, const ProgressCallback& progress) {
   const PushResult result = pushParts(scene, parts, direction, progress);
-  const QString name = nameOf(scene, parts.back());
+  const Part& lead = *scene.find(parts.back());
+  const QString name = shortName(lead.name);
+  QStringList against;
+  for (const PartId id : result.against)
+    against << QString::fromStdString(scene.find(id)->name);
   Outcome outcome;
-  outcome.isContact = result.outcome == PushResult::Outcome::Held;
-  if (!result.against.empty()) outcome.against = nameOf(scene, result.against.front());
+  outcome.against = listOfNames(against, kNamed);
   outcome.worldFromLead = result.poses.back();
-  outcome.travel =
-      glm::distance(outcome.worldFromLead.translation, scene.find(parts.back())->worldFromPart.translation);
-  if (result.outcome == PushResult::Outcome::Overlapping) {
-    outcome.problem =
-        tr("%1 already touches or overlaps %2: move them apart, or hide %2.").arg(name, outcome.against);
-  } else if (result.outcome == PushResult::Outcome::SlippedPast) {
-    outcome.problem = tr("Nothing holds %1 there: it would slide past %2. It stays where it is.")
-                          .arg(name, outcome.against);
-  } else if (!outcome.isContact) {
-    outcome.problem = tr("Nothing is in the way of %1 there: it stays where it is.").arg(name);
+  outcome.travel = glm::distance(outcome.worldFromLead.translation, lead.worldFromPart.translation);
+  switch (result.outcome) {
+    case PushResult::Outcome::Overlapping:
+      outcome.problem = overlapText(name, outcome.against);
+      break;
+    case PushResult::Outcome::SlippedPast:
+      outcome.problem = tr("Nothing holds %1 there: it would slide past %2. It stays where it is.")
+                            .arg(name, outcome.against);
+      break;
+    case PushResult::Outcome::NothingMet:
+      outcome.problem = freeWayText(name);
+      break;
+    case PushResult::Outcome::Held:
+      // Nearer than that nothing is told apart from what has been pushed there before.
+      if (outcome.travel <= dropGap(lead.geometry->mesh.bounds().diagonal()))
+        outcome.problem = tr("%1 is held by %2 already: it stays where it is.").arg(name, outcome.against);
+      break;
   }
   return outcome;
 }
 
 void DropTool::finish(Kind kind, const std::vector<PartId>& parts, const Scene& before,
                       const Outcome& outcome) {
-  if (!outcome.isContact) {
+  if (!outcome.problem.isEmpty()) {
     emit noted(outcome.problem);
     return;
   }

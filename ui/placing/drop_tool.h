@@ -47,10 +47,9 @@ class DropTool : public QObject {
  private:
   enum class Kind { Drop, Push };
   struct Outcome {
-    bool isContact = false;
     RigidTransform worldFromLead;
     double travel = 0.0;  ///< [m]
-    QString problem;      ///< Why nothing moves.
+    QString problem;      ///< Why nothing moves; empty when something does.
     QString against;
   };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ui/format.h"
+#include "ui/names.h"
 #include "ui/viewport.h"
 
 namespace nearfit::ui {
@@ -153,7 +154,7 @@ void FeaturePicker::hoverAt(const QPoint& position) {
       const double reach = kReach * view_.projection().metresPerPixel(seen->point);
       if (auto found = seen->cut ? pickFeature(*seen->cut, hit.point, reach, filter_)
                                  : pickFeature(part->geometry->mesh, hit, reach, filter_)) {
-        text = tr("%1 of %2").arg(describeFeature(found->feature), QString::fromStdString(part->name));
+        text = tr("%1 of %2").arg(describeFeature(found->feature), shortName(part->name));
         hovered_ = {seen->part, std::move(*found), hit.point};
       }
     }

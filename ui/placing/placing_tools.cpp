@@ -10,18 +10,22 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "ui/names.h"
 #include "ui/placing/gizmo_control.h"
+#include "ui/placing/move_guard.h"
 #include "ui/placing/placing_actions.h"
 #include "ui/selection.h"
 #include "ui/viewport.h"
 
 namespace nearfit::ui {
 
-PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& view, QObject* parent)
+PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& view, const MoveGuard& guard,
+                           QObject* parent)
     : QObject(parent),
       session_(session),
       selection_(selection),
       view_(view),
+      guard_(guard),
       actions_(new PlacingActions(this)),
       control_(new GizmoControl(view)) {
   control_->setDirectDrag([this](const QPoint& position) { return grab(position); });
@@ -46,10 +50,12 @@ PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& vie
     abandon();
     showFrame();
   });
-  session_.onChange([this] {
+  const auto look = [this] {
     if (!isDragSound()) abandon();
     showFrame();
-  });
+  };
+  session_.onChange(look);
+  connect(&guard_, &MoveGuard::changed, this, look);
   showActions();
 }
 
@@ -94,7 +100,7 @@ void PlacingTools::resetPivot(Pivot pivot) {
 }
 
 bool PlacingTools::isMovable(const Part& part) const {
-  if (session_.scene().isLocked(part) || part.geometry == nullptr) return false;
+  if (part.geometry == nullptr || !guard_.refusalOf(part).isEmpty()) return false;
   return !held_ || held_->part != part.id || leadsHand();
 }
 
@@ -194,8 +200,9 @@ void PlacingTools::bring(const RigidTransform& worldFromCurrent) {
 void PlacingTools::bring(const std::vector<PartId>& parts, PartId lead, const RigidTransform& worldFromLead,
                          const char* verb) {
   commit();
+  const QString refusal = guard_.refusalOf(parts);
+  if (!refusal.isEmpty()) return emit noted(refusal);
   const Brought brought{lead, worldFromLead, verb};
-  // What may not be moved is for the session to refuse.
   if (placed(parts).empty() || !actions_->solid->isChecked()) return put(parts, brought);
   handle_ = GizmoHandle::None;
   brought_ = brought;
@@ -230,13 +237,14 @@ void PlacingTools::showMoved() {
 }
 
 QString PlacingTools::note() const {
+  constexpr int kNamed = 3;
   if (mover_.isPreparing()) return tr("Contact is being prepared…");
   QStringList names;
   for (const PartId id : mover_.touching()) {
     const Part* part = session_.scene().find(id);
     if (part != nullptr) names << QString::fromStdString(part->name);
   }
-  return names.isEmpty() ? QString() : tr("Stopped by %1").arg(names.join(QStringLiteral(", ")));
+  return names.isEmpty() ? QString() : tr("Stopped by %1").arg(listOfNames(names, kNamed));
 }
 
 void PlacingTools::finish() {

@@ -16,6 +16,7 @@ class QMenu;
 namespace nearfit::ui {
 
 class GizmoControl;
+class MoveGuard;
 class PlacingActions;
 class Selection;
 class Viewport;
@@ -34,8 +35,9 @@ class PlacingTools : public QObject {
   Q_OBJECT
 
  public:
-  /// @param session, selection, view  Outlive this.
-  PlacingTools(Session& session, Selection& selection, Viewport& view, QObject* parent = nullptr);
+  /// @param session, selection, view, guard  Outlive this.
+  PlacingTools(Session& session, Selection& selection, Viewport& view, const MoveGuard& guard,
+               QObject* parent = nullptr);
 
   /// Its actions, and a toolbar in a row of its own.
   void addTo(QMainWindow& window, QMenu& menu);
@@ -45,7 +47,7 @@ class PlacingTools : public QObject {
   /// Puts what is on its way where it is now; for whoever needs the scene.
   void commit();
   /// Moves parts together so that the lead comes to stand there, or as near as it can where parts are solid;
-  /// one step of undo. Not for a part in hand.
+  /// one step of undo; says so when one of them may not be moved. Not for a part in hand.
   /// @param verb  What undo calls the step, before the part's name.
   void bring(const std::vector<PartId>& parts, PartId lead, const RigidTransform& worldFromLead,
              const char* verb);
@@ -102,6 +104,7 @@ class PlacingTools : public QObject {
   Session& session_;
   Selection& selection_;
   Viewport& view_;
+  const MoveGuard& guard_;
   PlacingActions* actions_;
   GizmoControl* control_;
   PartMover mover_;

@@ -9,6 +9,7 @@
 #include <QScrollArea>
 #include <QVBoxLayout>
 
+#include "ui/names.h"
 #include "ui/paths.h"
 
 namespace nearfit::ui {
@@ -39,7 +40,7 @@ QString partsText(std::size_t count) {
 }
 
 QLabel* plainLabel(const QString& text, QWidget* parent) {
-  auto* label = new QLabel(text, parent);
+  auto* label = new QLabel(breakable(text), parent);
   label->setTextFormat(Qt::PlainText);
   label->setWordWrap(true);
   return label;

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/elided_label.h"
 #include "ui/theme.h"
 
 namespace nearfit::ui {
@@ -71,7 +72,7 @@ Timeline::Timeline(QWidget* parent) : QWidget(parent) {
   speed_->setCurrentIndex(kRealTime);
   connect(speed_, QOverload<int>::of(&QComboBox::activated), this,
           [this] { emit speedChosen(speed_->currentData().toDouble()); });
-  name_ = new QLabel(this);
+  name_ = new ElidedLabel(this);
   time_ = new QLabel(this);
   note_ = new QLabel(this);
   name_->setObjectName(QStringLiteral("timelineName"));
@@ -90,8 +91,8 @@ Timeline::Timeline(QWidget* parent) : QWidget(parent) {
                         static_cast<QWidget*>(loop_), static_cast<QWidget*>(close_)})
     row->addWidget(each);
   auto* words = new QHBoxLayout;
-  words->addWidget(name_);
-  words->addWidget(note_, 1);
+  words->addWidget(name_, 1);
+  words->addWidget(note_, 2);
   words->setSpacing(16);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(8, 4, 8, 6);
@@ -137,6 +138,7 @@ void Timeline::showRecording(const QString& name, double duration) {
         static_cast<QWidget*>(speed_)})
     each->setEnabled(isThere);
   name_->setText(isThere ? name : tr("No recording is open."));
+  name_->setToolTip(name);
   if (!isThere) loop_->setChecked(false);
   if (!isThere) speed_->setCurrentIndex(kRealTime);
   showPlaying(false);

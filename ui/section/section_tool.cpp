@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "ui/names.h"
 #include "ui/placing/gizmo_control.h"
 #include "ui/preferences.h"
 #include "ui/theme.h"
@@ -249,11 +250,12 @@ void SectionTool::tell() {
     const bool isClosed = part->geometry->mesh.topology().isClosed();
     (isClosed ? intricate : open) << QString::fromStdString(part->name);
   }
-  const QString separator = QStringLiteral(", ");
+  constexpr int kNamed = 3;
   QStringList notes;
-  if (!open.isEmpty()) notes << tr("Cut without a cap, as the mesh is open: %1").arg(open.join(separator));
+  if (!open.isEmpty())
+    notes << tr("Cut without a cap, as the mesh is open: %1").arg(listOfNames(open, kNamed));
   if (!intricate.isEmpty())
-    notes << tr("Cut without a cap, as its outline is too intricate: %1").arg(intricate.join(separator));
+    notes << tr("Cut without a cap, as its outline is too intricate: %1").arg(listOfNames(intricate, kNamed));
   bar_->showNote(notes.join(QChar('\n')));
 }
 

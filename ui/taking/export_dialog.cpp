@@ -13,6 +13,8 @@
 #include <array>
 #include <utility>
 
+#include "ui/names.h"
+
 namespace nearfit::ui {
 namespace {
 
@@ -168,7 +170,7 @@ QString ExportDialog::placementSummary() const {
   if (moving == nullptr) return poses + QChar(' ') + tr("No clearances, as no part is in hand.");
   return poses + QChar(' ') +
          tr("Then every local minimum distance within the cutoff between %1 and each other visible part.")
-             .arg(QString::fromStdString(moving->name));
+             .arg(breakable(shortName(moving->name)));
 }
 
 }  // namespace nearfit::ui

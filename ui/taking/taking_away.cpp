@@ -11,6 +11,7 @@
 
 #include "ui/clearance/clearance_panel.h"
 #include "ui/clearance/clearance_search.h"
+#include "ui/names.h"
 #include "ui/plots/plot_panel.h"
 #include "ui/preferences.h"
 #include "ui/replay/replay.h"
@@ -127,6 +128,7 @@ void TakingAway::connectReplay() {
     timelineDock_->raise();
     plots_->showRecording(replay_->rows());
     timeline_->setFocus();
+    emit replayingChanged(true);
   });
   connect(replay_, &Replay::rowShown, this, [this](const ServoSnapshot& snapshot) {
     window_.viewport.showSnapshot(snapshot);
@@ -135,6 +137,7 @@ void TakingAway::connectReplay() {
   connect(replay_, &Replay::closed, this, [this] {
     window_.viewport.clearSnapshot();
     plots_->showLive();
+    emit replayingChanged(false);
   });
   // Whoever closes the timeline wants the scene back.
   connect(timelineDock_->toggleViewAction(), &QAction::toggled, this, [this](bool isShown) {
@@ -183,7 +186,8 @@ void TakingAway::toggleRecord(bool isOn) {
   const QString file = dialog.selectedFiles().first();
   Preferences::rememberFolderOf(file);
   emit recordRequested(file);
-  if (!isTaken_) emit noted(tr("What is felt next is recorded to %1").arg(QFileInfo(file).fileName()));
+  if (!isTaken_)
+    emit noted(tr("What is felt next is recorded to %1").arg(shortName(QFileInfo(file).fileName())));
 }
 
 void TakingAway::showRecording(const QString& file, double seconds) {
@@ -191,12 +195,12 @@ void TakingAway::showRecording(const QString& file, double seconds) {
   record_->setChecked(isOn);
   QString text = tr("&Record…");
   if (isOn && seconds > 0.0) text = tr("Stop &recording (%1 s)").arg(seconds, 0, 'f', 0);
-  if (isOn && !(seconds > 0.0)) text = tr("Do not &record to %1").arg(QFileInfo(file).fileName());
+  if (isOn && !(seconds > 0.0)) text = tr("Do not &record to %1").arg(shortName(QFileInfo(file).fileName()));
   if (record_->text() != text) record_->setText(text);
 }
 
 void TakingAway::showRecorded(const QString& file, double seconds, quint64 lost) {
-  QString text = tr("Recorded %1 s to %2").arg(seconds, 0, 'f', 1).arg(QFileInfo(file).fileName());
+  QString text = tr("Recorded %1 s to %2").arg(seconds, 0, 'f', 1).arg(shortName(QFileInfo(file).fileName()));
   if (lost > 0) text += tr("; %1 ticks are missing, as the window was busy").arg(lost);
   emit noted(text);
 }

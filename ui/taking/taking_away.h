@@ -70,6 +70,8 @@ class TakingAway : public QObject {
   void recordRequested(const QString& file);
   /// Numbers that are still being typed count now.
   void sceneNeeded();
+  /// Whether a recording moves the part in hand in the view.
+  void replayingChanged(bool isReplaying);
   void failed(const nearfit::ui::Failure& failure);
   void noted(const QString& text);
 

@@ -5,6 +5,7 @@
 #include <QMessageBox>
 #include <QMimeData>
 #include <QStatusBar>
+#include <QToolButton>
 
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/support/mesh_files.h"
@@ -54,6 +55,12 @@ QPushButton* choice(DesktopDriver& d, const char* notice, const char* button) {
   return row != nullptr && row->isVisible() ? row->findChild<QPushButton*>(QLatin1String(button)) : nullptr;
 }
 
+/// What the notice of changed files says; empty while there is none.
+QString reloadText(DesktopDriver& d) {
+  if (choice(d, "notice-reload", "choice1") == nullptr) return {};
+  return d.widget<QWidget>("notice-reload")->findChild<QLabel*>(QStringLiteral("noticeText"))->text();
+}
+
 double widthOf(const Part& part) {
   const Aabb& box = part.geometry->mesh.bounds();
   return box.upper.x - box.lower.x;
@@ -80,6 +87,8 @@ class DesktopPartFilesTest : public QObject {
   void folderWithoutPartsIsToldQuietly();
   void fiftyBadFilesGiveOneBoxWithDetailsToCopy();
   void replacedFileIsOfferedAndReloadedInItsPlace();
+  void aSecondChangedFileJoinsTheFirstInTheNotice();
+  void whatWasWavedAwayIsNotNamedAgain();
   void reloadAlwaysFollowsTheFile();
   void rewrittenSameContentIsNotOffered();
   void partOfTheWrongUnitIsCalledOutAndRescaled();
@@ -193,6 +202,36 @@ void DesktopPartFilesTest::replacedFileIsOfferedAndReloadedInItsPlace() {
   QTRY_VERIFY_WITH_TIMEOUT(choice(d, "notice-reload", "choice1") != nullptr, 20'000);
 }
 
+// The notice of the second took the place of the first's, which was then never read.
+void DesktopPartFilesTest::aSecondChangedFileJoinsTheFirstInTheNotice() {
+  DesktopDriver d;
+  d.addCubes();
+  replaceByCube(d.fixedFile, 0.05);
+  QTRY_COMPARE_WITH_TIMEOUT(reloadText(d), QStringLiteral("fixed.off has changed on disk since it was read."),
+                            20'000);
+  replaceByCube(d.movingFile, 0.03);
+  QTRY_COMPARE_WITH_TIMEOUT(
+      reloadText(d), QStringLiteral("fixed.off and moving.off have changed on disk since they were read."),
+      20'000);
+  QTest::mouseClick(choice(d, "notice-reload", "choice1"), Qt::LeftButton);
+  QTRY_VERIFY(qFuzzyCompare(widthOf(d.part("fixed")), 0.05));
+  QVERIFY(qFuzzyCompare(widthOf(d.part("moving")), 0.03));
+  QVERIFY(choice(d, "notice-reload", "choice1") == nullptr);
+}
+
+void DesktopPartFilesTest::whatWasWavedAwayIsNotNamedAgain() {
+  DesktopDriver d;
+  d.addCubes();
+  replaceByCube(d.fixedFile, 0.05);
+  QTRY_VERIFY_WITH_TIMEOUT(choice(d, "notice-reload", "choice1") != nullptr, 20'000);
+  QTest::mouseClick(d.widget<QWidget>("notice-reload")->findChild<QToolButton*>(QStringLiteral("dismiss")),
+                    Qt::LeftButton);
+  QVERIFY(choice(d, "notice-reload", "choice1") == nullptr);
+  replaceByCube(d.movingFile, 0.03);
+  QTRY_COMPARE_WITH_TIMEOUT(reloadText(d),
+                            QStringLiteral("moving.off has changed on disk since it was read."), 20'000);
+}
+
 void DesktopPartFilesTest::reloadAlwaysFollowsTheFile() {
   DesktopDriver d;
   d.addCubes();
@@ -212,8 +251,7 @@ void DesktopPartFilesTest::rewrittenSameContentIsNotOffered() {
   replaceByCube(d.fixedFile, 0.04);
   replaceByCube(d.movingFile, 0.05);
   QTRY_VERIFY_WITH_TIMEOUT(choice(d, "notice-reload", "choice1") != nullptr, 20'000);
-  const QString text =
-      d.widget<QWidget>("notice-reload")->findChild<QLabel*>(QStringLiteral("noticeText"))->text();
+  const QString text = reloadText(d);
   QVERIFY2(text.contains(QStringLiteral("moving.off")) && !text.contains(QStringLiteral("fixed.off")),
            qPrintable(text));
 }

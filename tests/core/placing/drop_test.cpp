@@ -101,6 +101,27 @@ TEST(Drop, BoxFallsOnBox) {
   EXPECT_NEAR(glm::distance(result.normal, glm::dvec3(0, 0, 1)), 0.0, 1e-12);
 }
 
+TEST(Drop, WhatHasBeenDroppedStaysExactlyWhereItIs) {
+  // What rounding left of the way was a travel, and so a step of undo, each time.
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 40; ++i) {
+    Pair pair(boxMesh({0.3, 0.2, 0.04}), {randomRotation(random), 0.5 * randomDirection(random)},
+              boxMesh({0.03, 0.02, 0.01}), {randomRotation(random), 2.0 * randomDirection(random)});
+    const glm::dvec3 way = pair.scene.find(pair.fixed)->worldFromPart.translation -
+                           pair.scene.find(pair.moving)->worldFromPart.translation;
+    const DropResult first = pair.drop(way);
+    ASSERT_EQ(first.outcome, DropResult::Outcome::Contact);
+    ASSERT_GT(first.travel, 0.1);
+    Part dropped = *pair.scene.find(pair.moving);
+    dropped.worldFromPart.translation += first.shift;
+    pair.scene.replace(dropped);
+    const DropResult second = pair.drop(way);
+    ASSERT_EQ(second.outcome, DropResult::Outcome::Contact);
+    EXPECT_EQ(second.travel, 0.0) << "case " << i;
+    EXPECT_EQ(second.shift, glm::dvec3(0.0)) << "case " << i;
+  }
+}
+
 TEST(Drop, TheGapIsLeftOfTheWay) {
   const Pair pair(boxMesh(glm::dvec3(0.04)), {}, boxMesh(glm::dvec3(0.02)), {{1, 0, 0, 0}, {0.0, 0.0, 0.1}});
   const DropResult result = pair.drop(3.0 * kDown, 0.001);

@@ -65,6 +65,25 @@ TEST(Push, BoxSlidesDownASlopeToTheStopWithoutTurning) {
   EXPECT_FALSE(meets(scene, stop, box, result.poses[0]));
 }
 
+TEST(Push, WhatBarsTheWayIsNamedBeforeWhatIsSlidAlong) {
+  // On the floor, and pushed along it to the wall: the floor came first, as it does in the scene.
+  Scene scene;
+  const PartId floor = scene.add(partOf(solidGeometryOf(boxMesh({0.4, 0.2, 0.02})), "floor"));
+  const PartId wall = scene.add(
+      partOf(solidGeometryOf(boxMesh({0.02, 0.2, 0.1})), "wall", {{1, 0, 0, 0}, {0.15, 0.0, 0.07}}));
+  const PartId box =
+      scene.add(partOf(solidGeometryOf(boxMesh(glm::dvec3(0.02))), "box", {{1, 0, 0, 0}, {0.0, 0.0, 0.1}}));
+  const PartId moved[] = {box};
+  const PushResult down = pushParts(scene, moved, kDown);
+  ASSERT_EQ(down.outcome, PushResult::Outcome::Held);
+  Part lying = *scene.find(box);
+  lying.worldFromPart = down.poses[0];
+  scene.replace(lying);
+  const PushResult right = pushParts(scene, moved, {1.0, 0.0, 0.0});
+  ASSERT_EQ(right.outcome, PushResult::Outcome::Held);
+  EXPECT_EQ(right.against, (std::vector{wall, floor}));
+}
+
 TEST(Push, WhatNothingHoldsStaysWhereItIs) {
   const glm::dquat slope = glm::angleAxis(std::numbers::pi / 6.0, glm::dvec3(0, 1, 0));
   Scene scene;
