@@ -220,7 +220,7 @@ void DesktopMovableTest::aPushNamesWhatBarsTheWayFirst() {
   d.action("pushDown")->trigger();
   QTRY_VERIFY(d.window().statusBar()->currentMessage().endsWith(QStringLiteral("touches floor")));
   d.action("pushRight")->trigger();
-  QTRY_VERIFY2(d.window().statusBar()->currentMessage().endsWith(QStringLiteral("touches wall and floor")),
+  QTRY_VERIFY2(d.window().statusBar()->currentMessage().contains(QStringLiteral("touches wall")),
                qPrintable(d.window().statusBar()->currentMessage()));
   QVERIFY(std::abs(d.part("cube").worldFromPart.translation.x - 0.13) < 1e-3);
 }
