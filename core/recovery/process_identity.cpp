@@ -29,19 +29,28 @@ std::string thisBoot() {
   return id;
 }
 
-/// Field 22 of proc(5)'s stat; the name before it stands in parentheses and may hold anything.
-std::optional<std::uint64_t> startOf(int pid) {
+/// Of proc(5)'s stat.
+struct ProcessState {
+  bool hasEnded = false;  ///< Only its parent's look at how is missing: a zombie.
+  std::uint64_t start = 0;
+};
+
+/// Fields 3 and 22; the name before them stands in parentheses and may hold anything.
+std::optional<ProcessState> stateOf(int pid) {
   const std::string stat = wholeText(fmt::format("/proc/{}/stat", pid));
   const std::size_t name = stat.rfind(')');
   if (name == std::string::npos) return std::nullopt;
   std::istringstream fields(stat.substr(name + 1));
-  constexpr int kFieldsBefore = 19;
+  char state = 0;
+  fields >> state;
+  constexpr int kFieldsBetween = 18;
   std::string skipped;
-  for (int i = 0; i < kFieldsBefore; ++i)
+  for (int i = 0; i < kFieldsBetween; ++i)
     fields >> skipped;
-  std::uint64_t start = 0;
-  if (!(fields >> start)) return std::nullopt;
-  return start;
+  ProcessState result;
+  result.hasEnded = state == 'Z' || state == 'X';
+  if (!(fields >> result.start)) return std::nullopt;
+  return result;
 }
 
 template <typename Number>
@@ -54,14 +63,15 @@ bool parse(std::string_view text, Number& number) {
 
 ProcessIdentity thisProcess() {
   const int pid = ::getpid();
-  return {thisBoot(), pid, startOf(pid).value_or(0)};
+  const std::optional<ProcessState> state = stateOf(pid);
+  return {thisBoot(), pid, state ? state->start : 0};
 }
 
 bool isRunning(const ProcessIdentity& process) {
   if (process.boot != thisBoot() || process.pid <= 0) return false;
   if (::kill(process.pid, 0) != 0 && errno == ESRCH) return false;
-  const std::optional<std::uint64_t> start = startOf(process.pid);
-  return !start || *start == process.start;
+  const std::optional<ProcessState> state = stateOf(process.pid);
+  return !state || (!state->hasEnded && state->start == process.start);
 }
 
 std::string textOf(const ProcessIdentity& process) {

@@ -16,7 +16,8 @@ struct ProcessIdentity {
 };
 
 ProcessIdentity thisProcess();
-/// Whether the process still runs. One that cannot be looked at is taken for running: better too careful.
+/// Whether the process still runs; one that has ended and whose parent has not asked how yet does not. One
+/// that cannot be looked at is taken for running: better too careful.
 bool isRunning(const ProcessIdentity& process);
 
 /// As a piece of a file name: "0f3a9c12-4711-88123".

@@ -114,7 +114,11 @@ FoundWork RecoveryFolder::takeLost() {
     sweep();
     for (fs::path journal : filesIn(folder_)) {
       const std::optional<ProcessIdentity> owner = ownerOf(journal);
-      if (owner && *owner != self_ && !isRunning(*owner) && claim(journal)) examine(journal, found);
+      if (!owner || *owner == self_) continue;
+      if (isRunning(*owner))
+        found.areOthersRunning = true;
+      else if (claim(journal))
+        examine(journal, found);
     }
   } catch (...) {
     // What is found by then counts; the rest stays for the next time.

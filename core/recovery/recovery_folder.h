@@ -23,6 +23,8 @@ struct LostWork {
 struct FoundWork {
   std::vector<LostWork> lost;                  ///< Newest first.
   std::vector<std::filesystem::path> damaged;  ///< Kept aside there.
+  /// There are journals of other processes that run, of which one may be about to end.
+  bool areOthersRunning = false;
 };
 
 /// The user's folder of recovery journals, one a process, its name saying whose it is: no process touches

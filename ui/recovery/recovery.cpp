@@ -1,6 +1,8 @@
 #include "ui/recovery/recovery.h"
 
 #include <QCoreApplication>
+#include <QTimer>
+#include <iterator>
 #include <utility>
 
 #include "ui/document.h"
@@ -23,10 +25,20 @@ Recovery::Recovery(const std::filesystem::path& folder, Session& session, Docume
 }
 
 void Recovery::offer() {
+  look(0);
+}
+
+void Recovery::look(int number) {
   if (search_.isRunning()) return;
+  static constexpr int kLater[] = {kSecondLookMs, kThirdLookMs - kSecondLookMs};
   auto found = std::make_shared<FoundWork>();
   search_.run([found, folder = folder_](const ProgressCallback&) { *found = folder->takeLost(); },
-              [this, found](const std::exception_ptr&) { show(std::move(*found)); });
+              [this, found, number](const std::exception_ptr&) {
+                if (found->areOthersRunning && number < static_cast<int>(std::size(kLater)))
+                  QTimer::singleShot(kLater[number], this, [this, number] { look(number + 1); });
+                show(std::move(*found));
+                emit looked();
+              });
 }
 
 void Recovery::show(FoundWork found) {

@@ -25,15 +25,21 @@ class Recovery : public QObject {
            std::function<Autosave::PoseInHand()> poseInHand, QWidget* window);
 
   Autosave& autosave() noexcept { return *autosave_; }
-  /// Looks in another thread for what was lost, and asks about it when there is something.
+  /// After which a process that was ending has ended, also where it held much [ms].
+  static constexpr int kSecondLookMs = 2500, kThirdLookMs = 10'000;
+  /// Looks in another thread for what was lost, and asks about it when there is something. Where others run,
+  /// it looks again: who starts anew at once after a crash may be faster than the end of what crashed.
   void offer();
 
  signals:
+  /// It has looked, and offers what it found.
+  void looked();
   /// A quiet word for the status bar.
   void noted(const QString& text);
   void failed(const nearfit::ui::Failure& failure);
 
  private:
+  void look(int number);
   void show(FoundWork found);
   void restore(const LostWork& work);
 

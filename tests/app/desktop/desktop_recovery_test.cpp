@@ -8,8 +8,10 @@
 #include "core/recovery/recovery_folder.h"
 #include "core/scene/scene_file.h"
 #include "tests/app/desktop/recovery_driver.h"
+#include "tests/support/process_identity_of.h"
 #include "ui/parts_model.h"
 #include "ui/recovery/autosave.h"
+#include "ui/recovery/recovery.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -84,6 +86,7 @@ class DesktopRecoveryTest : public QObject {
   void unsavedSceneOfAKilledProcessComesBack();
   void poseInHandOfAKilledProcessComesBackAndTheFileIsKnown();
   void theProgramItselfIsKilledAndItsSceneComesBack();
+  void whatEndsOnlyAfterTheStartIsOfferedToo();
   void laterOffersAgainAndDiscardDoesNot();
   void damagedJournalIsTold();
   void savingOrUndoingLeavesNothingToRecover();
@@ -189,6 +192,32 @@ void DesktopRecoveryTest::theProgramItselfIsKilledAndItsSceneComesBack() {
   const std::string after = poses(d.session().scene());
   QVERIFY(after.starts_with(before));
   QCOMPARE(d.session().file(), file);
+}
+
+void DesktopRecoveryTest::whatEndsOnlyAfterTheStartIsOfferedToo() {
+  Place place;
+  place.lose("edits");
+  QVERIFY(!QTest::currentTestFailed());
+  // It is another's, who runs for now.
+  QProcess other;
+  other.start(QStringLiteral("sleep"), {QStringLiteral("1000")});
+  QVERIFY(other.waitForStarted());
+  const ProcessIdentity owner = identityOf(static_cast<::pid_t>(other.processId()));
+  QVERIFY(isRunning(owner));
+  fs::rename(filesIn(place.state).front(), place.state / (textOf(owner) + ".nearfit"));
+  DesktopDriver d;
+  d.window().protectWork(place.state);
+  auto* recovery = d.window().findChild<ui::Recovery*>();
+  QSignalSpy looked(recovery, &ui::Recovery::looked);
+  QTRY_COMPARE(looked.count(), 1);
+  QVERIFY(d.window().findChild<ui::RecoveryDialog*>() == nullptr);
+  other.kill();
+  QVERIFY(other.waitForFinished());
+  ui::RecoveryDialog* dialog = dialogOf(d);
+  QVERIFY(dialog != nullptr);
+  clickIn(dialog, "restore1");
+  QTRY_COMPARE_WITH_TIMEOUT(d.session().scene().parts().size(), std::size_t{2}, 30'000);
+  QCOMPARE(poses(d.session().scene()), place.expected());
 }
 
 void DesktopRecoveryTest::laterOffersAgainAndDiscardDoesNot() {

@@ -5,12 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/session.h"
 #include "tests/core/scene/scene_file_fixture.h"
+#include "tests/support/file_size_limit.h"
+#include "tests/support/process_identity_of.h"
 
 namespace nearfit {
 namespace {
@@ -27,6 +28,28 @@ ProcessIdentity deadProcess() {
   ::waitpid(child, nullptr, 0);
   return dead;
 }
+
+/// A process that has ended, and whose parent has not asked how.
+class Zombie {
+ public:
+  Zombie() : child_(::fork()) {
+    if (child_ == 0) ::pause();
+    identity_ = test::identityOf(child_);
+    ::kill(child_, SIGKILL);
+    // Until it has ended, and without taking it away.
+    ::siginfo_t ended{};
+    ::waitid(P_PID, static_cast<::id_t>(child_), &ended, WEXITED | WNOWAIT);
+  }
+  ~Zombie() { ::waitpid(child_, nullptr, 0); }
+  Zombie(const Zombie&) = delete;
+  Zombie& operator=(const Zombie&) = delete;
+
+  const ProcessIdentity& identity() const { return identity_; }
+
+ private:
+  ::pid_t child_;
+  ProcessIdentity identity_;
+};
 
 class RecoveryFolderTest : public test::SceneFileFixture {
  protected:
@@ -70,6 +93,19 @@ TEST(ProcessIdentity, TellsThisProcessFromOthersOfItsId) {
   EXPECT_FALSE(isRunning(deadProcess()));
   for (const char* text : {"", "scene", "0f3a9c12-1", "0f3a9c12-x-1", "0f3a9c1z-1-1", "0f3a9c12-0-1"})
     EXPECT_FALSE(processFromText(text)) << text;
+}
+
+// Who starts it anew at once after it was killed may be there before the parent has asked how it ended.
+TEST(ProcessIdentity, AZombieDoesNotRun) {
+  EXPECT_FALSE(isRunning(Zombie().identity()));
+}
+
+TEST_F(RecoveryFolderTest, WorkOfAZombieIsFound) {
+  const Zombie zombie;
+  RecoveryFolder(state_, zombie.identity()).write(movedScene(), {file_, 1, 0});
+  const FoundWork found = RecoveryFolder(state_).takeLost();
+  EXPECT_EQ(found.lost.size(), 1U);
+  EXPECT_FALSE(found.areOthersRunning);
 }
 
 TEST_F(RecoveryFolderTest, SceneOfADeadProcessComesBackBitForBit) {
@@ -130,7 +166,9 @@ TEST_F(RecoveryFolderTest, JournalOfARunningProcessIsLeftAlone) {
   running.write(movedScene(), {file_, 1, 0});
   const std::vector<fs::path> before = files();
   EXPECT_TRUE(RecoveryFolder(state_).takeLost().lost.empty());
-  EXPECT_TRUE(RecoveryFolder(state_, deadProcess()).takeLost().lost.empty());
+  const FoundWork found = RecoveryFolder(state_, deadProcess()).takeLost();
+  EXPECT_TRUE(found.lost.empty());
+  EXPECT_TRUE(found.areOthersRunning) << "it may be about to end";
   EXPECT_EQ(files(), before);
   running.clear();
   EXPECT_TRUE(files().empty());
@@ -204,14 +242,10 @@ TEST_F(RecoveryFolderTest, FolderThatCannotBeMadeIsAnErrorThatSaysWhere) {
 TEST_F(RecoveryFolderTest, FullDiskKeepsTheLastJournalWhole) {
   RecoveryFolder folder(state_, deadProcess());
   folder.write(movedScene(), {file_, 7, 0});
-  rlimit before = {};
-  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-  const auto handler = ::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small = {100, before.rlim_max};
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  EXPECT_THROW(folder.write(scene_, {file_, 8, 0}), FileError);
-  ::setrlimit(RLIMIT_FSIZE, &before);
-  ::signal(SIGXFSZ, handler);
+  {
+    const test::FileSizeLimit full(100);
+    EXPECT_THROW(folder.write(scene_, {file_, 8, 0}), FileError);
+  }
   const FoundWork found = RecoveryFolder(state_).takeLost();
   ASSERT_EQ(found.lost.size(), 1U);
   EXPECT_EQ(found.lost[0].head.changes, 7U);
