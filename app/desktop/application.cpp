@@ -68,6 +68,7 @@ void Application::wire() {
   connect(&servo_.rows(), &ServoRows::ticked, &takingAway, &ui::TakingAway::showTicks);
   connect(&servo_.rows(), &ServoRows::recordingChanged, &takingAway, &ui::TakingAway::showRecording);
   connect(&servo_.rows(), &ServoRows::recorded, &takingAway, &ui::TakingAway::showRecorded);
+  connect(&servo_.rows(), &ServoRows::failed, &takingAway, &ui::TakingAway::showRecordingFailed);
 }
 
 }  // namespace nearfit::desktop

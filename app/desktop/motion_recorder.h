@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "core/scene/motion_recording.h"
@@ -27,6 +28,11 @@ class MotionRecorder {
   }
   /// The file is whole then. Throws FileError.
   void finish() { writer_.finish(); }
+  /// After a failure: keeps what was written before it, as MotionWriter does, and says how long that is [s].
+  std::optional<double> keepWritten() {
+    const std::optional<double> last = writer_.keepWritten();
+    return last ? std::optional(*last - first_) : std::nullopt;
+  }
 
   std::size_t rowCount() const noexcept { return count_; }
   /// That the recording covers so far [s].

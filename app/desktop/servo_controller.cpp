@@ -1,5 +1,6 @@
 #include "app/desktop/servo_controller.h"
 
+#include <QFileInfo>
 #include <exception>
 #include <utility>
 
@@ -31,7 +32,13 @@ ServoController::ServoController(Session& session, DeviceSource& devices)
   timer_.setInterval(kPollMs);
   connect(&timer_, &QTimer::timeout, this, &ServoController::poll);
   connect(&rows_, &ServoRows::failed, this,
-          [this](const std::exception_ptr& error) { fail(tr("The motion could not be recorded."), error); });
+          [this](const std::exception_ptr& error, const QString& file, double seconds) {
+            fail(file.isEmpty() ? tr("The motion could not be recorded.")
+                                : tr("The recording stopped after %1 s. %2 has what was felt until then.")
+                                      .arg(seconds, 0, 'f', 1)
+                                      .arg(QFileInfo(file).fileName()),
+                 error);
+          });
   session_.onChange([this] { followSession(); });
 }
 

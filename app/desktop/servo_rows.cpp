@@ -61,10 +61,16 @@ void ServoRows::tell() {
 }
 
 void ServoRows::abandon(const std::exception_ptr& error) {
+  std::optional<double> kept;
+  try {
+    if (recorder_) kept = recorder_->keepWritten();
+  } catch (...) {
+    // What went wrong first is what is told.
+  }
   recorder_.reset();
-  file_.clear();
+  const QString file = std::exchange(file_, {});
   tell();
-  emit failed(error);
+  emit failed(error, kept ? file : QString(), kept.value_or(0.0));
 }
 
 }  // namespace nearfit::desktop

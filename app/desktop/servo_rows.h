@@ -42,7 +42,10 @@ class ServoRows : public QObject {
   /// A recording is whole.
   /// @param lost  Ticks that are not in it, as the window was busy for too long.
   void recorded(const QString& file, double seconds, quint64 lost);
-  void failed(const std::exception_ptr& error);
+  /// The recording has ended early.
+  /// @param file     That keeps what was recorded until then; empty: nothing is kept.
+  /// @param seconds  That it covers [s].
+  void failed(const std::exception_ptr& error, const QString& file, double seconds);
 
  private:
   void abandon(const std::exception_ptr& error);

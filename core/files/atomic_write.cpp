@@ -48,21 +48,25 @@ fs::path followLinks(const fs::path& file) {
   return target;
 }
 
+fs::path hiddenName(const fs::path& target, unsigned serial) {
+  return target.parent_path() / (".nearfit-" + std::to_string(::getpid()) + "-" + std::to_string(serial));
+}
+
+/// Of several that were never finished each has its own.
+fs::path visibleName(const fs::path& target, unsigned number) {
+  fs::path name = target.stem();
+  name += number == 1 ? ".unfinished" : ".unfinished-" + std::to_string(number);
+  name += target.extension();
+  return target.parent_path() / name;
+}
+
 }  // namespace
 
-AtomicFile::AtomicFile(const fs::path& file, FileAccess access) {
+AtomicFile::AtomicFile(const fs::path& file, FileAccess access, Unfinished unfinished) {
   if (file.filename().empty())
     throw FileError(file.string(), "it names no file", "add a file name to the path");
   target_ = followLinks(file);
-  const ::mode_t mode = access == FileAccess::Private ? S_IRUSR | S_IWUSR : 0666;
-  static std::atomic<unsigned> serial{0};
-  do {
-    // A short name of its own: the target's may already be as long as names can be.
-    path_ =
-        target_.parent_path() / (".nearfit-" + std::to_string(::getpid()) + "-" + std::to_string(serial++));
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-  } while (descriptor_ < 0 && errno == EEXIST);
-  if (descriptor_ < 0) fail(target_, "it cannot be written", errno);
+  open(access == FileAccess::Private ? S_IRUSR | S_IWUSR : 0666, unfinished);
   if (access == FileAccess::Private) return;
   try {
     keepPermissionsOfTarget();
@@ -70,6 +74,20 @@ AtomicFile::AtomicFile(const fs::path& file, FileAccess access) {
     discard();
     throw;
   }
+}
+
+void AtomicFile::open(unsigned mode, Unfinished unfinished) {
+  static std::atomic<unsigned> serial{0};
+  unsigned number = 0;
+  do {
+    path_ =
+        unfinished == Unfinished::Visible ? visibleName(target_, ++number) : hiddenName(target_, serial++);
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    // The target's name may already be as long as names can be.
+    if (descriptor_ < 0 && errno == ENAMETOOLONG && unfinished == Unfinished::Visible)
+      return open(mode, Unfinished::Hidden);
+  } while (descriptor_ < 0 && errno == EEXIST);
+  if (descriptor_ < 0) fail(target_, "it cannot be written", errno);
 }
 
 AtomicFile::~AtomicFile() {
@@ -96,7 +114,15 @@ void AtomicFile::write(std::string_view content) {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail(target_, "writing it failed", errno);
     content.remove_prefix(static_cast<std::size_t>(count));
+    size_ += static_cast<std::uint64_t>(count);
   }
+}
+
+void AtomicFile::cut(std::uint64_t size) {
+  const auto offset = static_cast<::off_t>(size);
+  if (::ftruncate(descriptor_, offset) != 0 || ::lseek(descriptor_, offset, SEEK_SET) != offset)
+    fail(target_, "it cannot be cut", errno);
+  size_ = size;
 }
 
 void AtomicFile::commit(Flush flush) {

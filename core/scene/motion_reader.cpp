@@ -157,16 +157,22 @@ void reportProgress(const csv::Rows& rows, const ProgressCallback& progress) {
 
 }  // namespace
 
-std::vector<MotionRow> readMotion(const std::filesystem::path& file, const ProgressCallback& progress) {
+ReadMotion readRecording(const std::filesystem::path& file, const ProgressCallback& progress) {
   csv::Rows rows(file);
   const std::optional<std::string_view> header = rows.next();
   if (!header) throw FileError(file.string(), "there is nothing in it", kRemedy);
   const Places places = placesIn(*header, rows.place());
-  std::vector<MotionRow> motion;
+  ReadMotion read;
+  std::vector<MotionRow>& motion = read.rows;
   while (const std::optional<std::string_view> text = rows.next()) {
     if (motion.size() == kMaxMotionRows)
       rows.place().fail(fmt::format("there are more than {} rows", kMaxMotionRows), "split the recording");
-    motion.push_back(parseRow(*text, places, rows.place()));
+    const auto row = rows.parsed(!motion.empty(), [&] { return parseRow(*text, places, rows.place()); });
+    if (!row) {
+      read.isCut = true;
+      break;
+    }
+    motion.push_back(*row);
     if (motion.size() > 1 && motion.back().time < motion[motion.size() - 2].time)
       rows.place().fail("it is earlier than the row before", kRemedy);
     if (motion.size() % kRowsPerReport == 0) reportProgress(rows, progress);
@@ -175,7 +181,11 @@ std::vector<MotionRow> readMotion(const std::filesystem::path& file, const Progr
   const double begin = motion.front().time;
   for (MotionRow& row : motion)
     row.time -= begin;
-  return motion;
+  return read;
+}
+
+std::vector<MotionRow> readMotion(const std::filesystem::path& file, const ProgressCallback& progress) {
+  return readRecording(file, progress).rows;
 }
 
 }  // namespace nearfit

@@ -55,18 +55,42 @@ std::string formatMotionRow(const MotionRow& row) {
   return line;
 }
 
-MotionWriter::MotionWriter(const std::filesystem::path& file) : file_(file) {
+MotionWriter::MotionWriter(const std::filesystem::path& file)
+    : file_(file, FileAccess::Usual, Unfinished::Visible) {
   writeLine(motionHeader());
 }
 
 void MotionWriter::write(const MotionRow& row) {
-  writeLine(formatMotionRow(row));
+  const std::string line = formatMotionRow(row);
+  waiting_.push_back({buffer_.size() + line.size() + 1, row.time});
+  writeLine(line);
 }
 
 void MotionWriter::finish() {
-  file_.write(buffer_);
-  buffer_.clear();
+  flush();
   file_.commit();
+}
+
+void MotionWriter::flush() {
+  file_.write(buffer_);
+  flushed_ = file_.size();
+  if (!waiting_.empty()) lastTime_ = waiting_.back().time;
+  buffer_.clear();
+  waiting_.clear();
+}
+
+std::optional<double> MotionWriter::keepWritten() {
+  std::uint64_t whole = flushed_;
+  for (const Waiting& row : waiting_) {
+    if (flushed_ + row.end > file_.size()) break;
+    whole = flushed_ + row.end;
+    lastTime_ = row.time;
+  }
+  if (!lastTime_) return std::nullopt;
+  file_.cut(whole);
+  // A disk that has failed may refuse to flush.
+  file_.commit(AtomicFile::Flush::Later);
+  return lastTime_;
 }
 
 void MotionWriter::writeLine(std::string_view line) {
@@ -74,9 +98,7 @@ void MotionWriter::writeLine(std::string_view line) {
   constexpr std::size_t kBlock = 1 << 16;
   buffer_ += line;
   buffer_ += '\n';
-  if (buffer_.size() < kBlock) return;
-  file_.write(buffer_);
-  buffer_.clear();
+  if (buffer_.size() >= kBlock) flush();
 }
 
 }  // namespace nearfit

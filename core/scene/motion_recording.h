@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/files/atomic_write.h"
 #include "core/haptics/servo_tick.h"
@@ -48,8 +50,9 @@ std::string_view motionHeader() noexcept;
 /// that there are within the cutoff were looked for) 0 or 1, `fault` the number of the ServoFault.
 std::string formatMotionRow(const MotionRow& row);
 
-/// Writes a recording as CSV, row by row, to a temporary file beside the target that takes its name only when
-/// it is whole. Not for the servo thread. Throws FileError.
+/// Writes a recording as CSV, row by row, to a file beside the target that takes its name only when it is
+/// whole; a program that is killed leaves that, called "felt.unfinished.csv" where it was to be "felt.csv",
+/// with all but the last tenths of a second. Not for the servo thread. Throws FileError.
 class MotionWriter {
  public:
   explicit MotionWriter(const std::filesystem::path& file);
@@ -57,12 +60,24 @@ class MotionWriter {
   void write(const MotionRow& row);
   /// Flushes to disk and puts the recording in place; without it nothing is left of what was written.
   void finish();
+  /// After a failure: puts the whole rows before it in place, and says when the last of them was [s], as it
+  /// was given. Nothing when there is none; then none is kept.
+  std::optional<double> keepWritten();
 
  private:
+  /// A row in the buffer.
+  struct Waiting {
+    std::size_t end;  ///< Behind its line.
+    double time;
+  };
   void writeLine(std::string_view line);
+  void flush();
 
   AtomicFile file_;
   std::string buffer_;  ///< Lines that are not in the file yet.
+  std::vector<Waiting> waiting_;
+  std::uint64_t flushed_ = 0;       ///< Bytes of the file that are whole lines.
+  std::optional<double> lastTime_;  ///< Of what is flushed.
 };
 
 }  // namespace nearfit

@@ -41,6 +41,7 @@ std::optional<std::string_view> Rows::next() {
       place_.fail(fmt::format("the line is longer than {} characters", kMaxLineBytes - 1),
                   "check that this is a CSV file of poses");
     }
+    hasEnd_ = !in_.eof();
     taken_ += static_cast<std::uint64_t>(in_.gcount());
     // The count includes the line's end, where there is one.
     std::string_view row(buffer_.data(), static_cast<std::size_t>(in_.gcount()) - (in_.eof() ? 0 : 1));

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/error.h"
 #include "core/math/rigid_transform.h"
 
 namespace nearfit::csv {
@@ -29,6 +30,18 @@ class Rows {
 
   /// Nothing at the end. Valid until the next call.
   std::optional<std::string_view> next();
+  /// What `parse` makes of the row that was read last. Nothing where it throws FileError and the row's end is
+  /// missing: a file of which only that row was not written to its end.
+  /// @param hasOthers  There are rows before it; a file of a single row that is wrong is wrong.
+  template <typename Parse>
+  auto parsed(bool hasOthers, const Parse& parse) const -> std::optional<decltype(parse())> {
+    try {
+      return parse();
+    } catch (const FileError&) {
+      if (hasEnd_ || !hasOthers) throw;
+      return std::nullopt;
+    }
+  }
   const Place& place() const noexcept { return place_; }
   std::uint64_t size() const noexcept { return size_; }
   /// Bytes that have been read.
@@ -42,6 +55,7 @@ class Rows {
   std::ifstream in_;
   Place place_;
   std::uint64_t size_ = 0, taken_ = 0;
+  bool hasEnd_ = false;  ///< The row that was read last.
   std::array<char, kMaxLineBytes> buffer_;
 };
 

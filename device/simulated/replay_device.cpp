@@ -59,7 +59,9 @@ std::vector<TimedPose> readHandMotion(const std::filesystem::path& file, const P
   const Columns columns = columnsNamed(*header, rows.place());
   std::vector<TimedPose> motion;
   while (const std::optional<std::string_view> row = rows.next()) {
-    motion.push_back(parseRow(*row, columns, rows.place()));
+    const auto pose = rows.parsed(!motion.empty(), [&] { return parseRow(*row, columns, rows.place()); });
+    if (!pose) break;
+    motion.push_back(*pose);
     if (motion.size() > 1 && motion.back().time < motion[motion.size() - 2].time)
       rows.place().fail("it is earlier than the row before", kRemedy);
     if (!progress || motion.size() % kRowsPerReport != 0 || rows.size() == 0) continue;

@@ -90,16 +90,21 @@ void Replay::open(const QString& file) {
   }
   close();
   Preferences::rememberFolderOf(file);
-  auto rows = std::make_shared<std::vector<MotionRow>>();
+  auto read = std::make_shared<ReadMotion>();
   progress_ = new ProgressDialog(tr("Reading %1").arg(QFileInfo(file).fileName()), window_);
   connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
   connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
-  const auto job = [rows, path = toPath(file)](const ProgressCallback& progress) {
-    *rows = readMotion(path, progress);
+  const auto job = [read, path = toPath(file)](const ProgressCallback& progress) {
+    *read = readRecording(path, progress);
   };
-  task_.run(job, [this, rows, file](const std::exception_ptr& error) {
+  task_.run(job, [this, read, file](const std::exception_ptr& error) {
     delete progress_;
-    if (!error) return begin(file, std::move(*rows));
+    if (!error) {
+      if (read->isCut)
+        emit noted(tr("The recording was not written to its end: the last whole row is at %1 s")
+                       .arg(read->rows.back().time, 0, 'f', 3));
+      return begin(file, std::move(read->rows));
+    }
     if (!isCancelled(error)) emit failed(describe(tr("The recording could not be opened."), error));
   });
 }

@@ -47,6 +47,7 @@ class Replay : public QObject {
   void rowShown(const nearfit::ServoSnapshot& snapshot);
   void closed();
   void failed(const nearfit::ui::Failure& failure);
+  void noted(const QString& text);
 
  private:
   void connectTimeline();

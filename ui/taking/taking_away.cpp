@@ -123,6 +123,7 @@ void TakingAway::showPair() {
 
 void TakingAway::connectReplay() {
   connect(replay_, &Replay::failed, this, &TakingAway::failed);
+  connect(replay_, &Replay::noted, this, &TakingAway::noted);
   connect(replay_, &Replay::opened, this, [this] {
     timelineDock_->show();
     timelineDock_->raise();
@@ -197,6 +198,10 @@ void TakingAway::showRecording(const QString& file, double seconds) {
   if (isOn && seconds > 0.0) text = tr("Stop &recording (%1 s)").arg(seconds, 0, 'f', 0);
   if (isOn && !(seconds > 0.0)) text = tr("Do not &record to %1").arg(shortName(QFileInfo(file).fileName()));
   if (record_->text() != text) record_->setText(text);
+}
+
+void TakingAway::showRecordingFailed() {
+  emit noted(tr("Nothing is being recorded any more"));
 }
 
 void TakingAway::showRecorded(const QString& file, double seconds, quint64 lost) {

@@ -64,6 +64,8 @@ class TakingAway : public QObject {
   /// What is recorded or will be; empty: nothing.
   void showRecording(const QString& file, double seconds);
   void showRecorded(const QString& file, double seconds, quint64 lost);
+  /// The failure itself is told elsewhere.
+  void showRecordingFailed();
 
  signals:
   /// Record to that file; empty: no more.

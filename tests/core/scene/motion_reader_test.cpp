@@ -109,6 +109,25 @@ TEST_F(MotionReader, WhatIsWrittenReadsBackTheSame) {
   EXPECT_THROW(readMotion(file, [](double) { return false; }), Cancelled);
 }
 
+// What a killed program leaves, or a disk that got full, ends anywhere.
+TEST_F(MotionReader, AFileThatIsCutWithinARowGivesTheWholeRowsAndSaysSo) {
+  test::RandomValues random(5);
+  std::string text = std::string(motionHeader()) + "\n";
+  for (int i = 0; i < 3; ++i)
+    text += formatMotionRow(rowAt(0.001 * i, random)) + "\n";
+  const std::size_t last = text.rfind('\n', text.size() - 2) + 1, lastColumn = text.rfind(',');
+  for (std::size_t end = last; end <= text.size(); ++end) {
+    const ReadMotion read = readRecording(folder_.write("felt.csv", text.substr(0, end)));
+    // Of the last column, which only says how late the tick was, some digits may be missing.
+    const bool isCut = end > last && end <= lastColumn + 1;
+    EXPECT_EQ(read.isCut, isCut) << end;
+    EXPECT_EQ(read.rows.size(), end == last || isCut ? 2U : 3U) << end;
+  }
+  EXPECT_THAT(refusal(text.substr(0, text.size() - 40) + "\n"), HasSubstr("felt.csv:4"))
+      << "a row that ends is no row that was cut";
+  EXPECT_THAT(refusal(text.substr(0, text.find('\n') + 20)), HasSubstr("felt.csv:2"));
+}
+
 TEST_F(MotionReader, OlderRecordingsLackColumnsAndLaterOnesMayHaveMore) {
   const auto rows = read(
       "x,force_z,t_s,handle_tx,handle_ty,handle_tz,handle_qw,handle_qx,handle_qy,handle_qz,"

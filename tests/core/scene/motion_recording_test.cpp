@@ -8,8 +8,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "core/error.h"
+#include "core/scene/motion_reader.h"
+#include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit {
@@ -148,6 +153,103 @@ TEST(MotionWriter, AnUnfinishedRecordingLeavesTheOldFileAndNothingElse) {
   }
   EXPECT_EQ(test::readBytes(file), "old");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+/// Rows a millisecond apart, until writing fails or there are so many.
+void writeRows(MotionWriter& writer, int count) {
+  MotionRow row = sampleRow();
+  row.handle.rotation = row.proxy.rotation = glm::dquat(1.0, 0.0, 0.0, 0.0);
+  for (int i = 0; i < count; ++i) {
+    row.time = 1e-3 * i;
+    writer.write(row);
+  }
+}
+
+/// The other files of a folder.
+std::vector<std::filesystem::path> filesBeside(const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(file.parent_path())) {
+    if (entry.path() != file) files.push_back(entry.path());
+  }
+  return files;
+}
+
+TEST(MotionWriter, WhatWasWrittenBeforeTheDiskWasFullIsKeptInWholeRows) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "record.csv";
+  // Within a block and within a row, in several ways.
+  for (const rlim_t space : {20'000, 65'536, 100'000, 150'001, 150'002, 150'113}) {
+    MotionWriter writer(file);
+    {
+      const test::FileSizeLimit full(space);
+      EXPECT_THROW(
+          {
+            writeRows(writer, 2000);
+            writer.finish();
+          },
+          FileError);
+    }
+    const std::optional<double> kept = writer.keepWritten();
+    ASSERT_TRUE(kept);
+    const ReadMotion read = readRecording(file);
+    EXPECT_FALSE(read.isCut);
+    EXPECT_EQ(read.rows.back().time, *kept);
+    const std::string text = test::readBytes(file);
+    EXPECT_EQ(text.back(), '\n');
+    EXPECT_LE(text.size(), space);
+    EXPECT_GT(text.size() + 400, space) << "no row that was whole is lost";
+    EXPECT_TRUE(filesBeside(file).empty());
+  }
+}
+
+TEST(MotionWriter, WhereNoRowWasWrittenNothingIsKeptAndTheOldFileStays) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("record.csv", "old");
+  {
+    MotionWriter writer(file);
+    writeRows(writer, 3);
+    const test::FileSizeLimit full(400);
+    EXPECT_THROW(writer.finish(), FileError);
+    EXPECT_FALSE(writer.keepWritten());
+  }
+  EXPECT_EQ(test::readBytes(file), "old");
+  EXPECT_TRUE(filesBeside(file).empty());
+}
+
+TEST(MotionWriter, AKilledProgramLeavesWhatItWroteUnderANameThatTellsAndLaterOnesLeaveItAlone) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "record.csv";
+  const auto dieRecording = [&] {
+    const ::pid_t child = ::fork();
+    if (child == 0) {
+      MotionWriter writer(file);
+      writeRows(writer, 2000);
+      ::kill(::getpid(), SIGKILL);
+    }
+    ::waitpid(child, nullptr, 0);
+  };
+  dieRecording();
+  const std::filesystem::path left = folder.path() / "record.unfinished.csv";
+  ASSERT_THAT(filesBeside(file), testing::ElementsAre(left));
+  const ReadMotion read = readRecording(left);
+  EXPECT_GT(read.rows.size(), 1500U) << "all but the last tenths of a second";
+  dieRecording();
+  EXPECT_THAT(filesBeside(file),
+              testing::UnorderedElementsAre(left, folder.path() / "record.unfinished-2.csv"));
+  MotionWriter writer(file);
+  writeRows(writer, 3);
+  writer.finish();
+  EXPECT_EQ(readMotion(file).size(), 3U);
+  EXPECT_EQ(readMotion(left).size(), read.rows.size());
+}
+
+TEST(MotionWriter, ANameAsLongAsNamesCanBeIsNoObstacle) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / (std::string(251, 'n') + ".csv");
+  MotionWriter writer(file);
+  writeRows(writer, 3);
+  writer.finish();
+  EXPECT_EQ(readMotion(file).size(), 3U);
 }
 
 TEST(MotionWriter, AMissingFolderIsNamed) {

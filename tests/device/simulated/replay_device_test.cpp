@@ -57,6 +57,14 @@ TEST_F(Replay, HandAndTimesAreReadFromWhatIsRecorded) {
   }
 }
 
+TEST_F(Replay, AFileThatIsCutWithinARowIsReplayedToItsLastWholeRow) {
+  std::filesystem::resize_file(recording(3, 1e-3), std::filesystem::file_size(recording(3, 1e-3)) - 1);
+  EXPECT_EQ(readHandMotion(file()).size(), 3U) << "only the end of the line is missing";
+  const std::string text = test::readBytes(file());
+  std::filesystem::resize_file(file(), text.rfind('\n') + 5);
+  EXPECT_EQ(readHandMotion(file()).size(), 2U);
+}
+
 TEST_F(Replay, WhatIsNoRecordingIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal(""), HasSubstr("there is nothing in it"));
   EXPECT_THAT(refusal("0,0,0,1,0,0,0\n"), HasSubstr("felt.csv:1: there is no column t_s"));
