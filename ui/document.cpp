@@ -38,6 +38,18 @@ QString describeMeshes(const QStringList& files) {
                            : QObject::tr("what these %n files hold", nullptr, files.size());
 }
 
+/// What stands in place of a file's name where a failure is about all of them.
+QString nameOfAll(const QStringList& files) {
+  return files.size() == 1 ? QFileInfo(files.first()).fileName() : QObject::tr("All files");
+}
+
+QString notAdded(const QStringList& files, const QVector<FailedItem>& problems) {
+  if (files.size() == 1) return QObject::tr("“%1” was not added.").arg(nameOfAll(files));
+  if (problems.size() == 1)
+    return QObject::tr("“%1”, one of %2 files, was not added.").arg(problems.first().name).arg(files.size());
+  return QObject::tr("%1 of %2 files were not added.").arg(problems.size()).arg(files.size());
+}
+
 }  // namespace
 
 bool isCancelled(const std::exception_ptr& error) {
@@ -188,16 +200,18 @@ void Document::addParts(const QStringList& files, double metresPerUnit) {
   Preferences::rememberFolderOf(files.first());
   struct Outcome {
     std::vector<PartGeometryPtr> geometries;
-    QStringList problems;
+    QVector<FailedItem> problems;
   };
   auto outcome = std::make_shared<Outcome>();
   const auto job = [outcome, files, metresPerUnit, shapes = shapes_](const ProgressCallback& progress) {
     std::vector<MeshSource> sources;
     for (const QString& file : files)
       sources.push_back({toPath(file), metresPerUnit, {}});
-    for (const LoadedPart& loaded : loadPartGeometries(sources, progress)) {
+    const std::vector<LoadedPart> parts = loadPartGeometries(sources, progress);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const LoadedPart& loaded = parts[i];
       if (loaded.problem) {
-        outcome->problems << describe({}, loaded.problem).details;
+        outcome->problems << describeItem(fromPath(sources[i].file.filename()), loaded.problem);
       } else {
         outcome->geometries.push_back(loaded.geometry);
         shapes->shapeOf(loaded.geometry);
@@ -206,40 +220,42 @@ void Document::addParts(const QStringList& files, double metresPerUnit) {
   };
   const QString text = files.size() == 1 ? tr("Loading %1").arg(QFileInfo(files.first()).fileName())
                                          : tr("Loading %n files", nullptr, files.size());
-  load(text, job, [this, outcome](const std::exception_ptr& error) {
+  load(text, job, [this, outcome, files](const std::exception_ptr& error) {
     if (isCancelled(error)) {
       emit loaded(false);
       return;
     }
-    if (error) outcome->problems << describe({}, error).details;
-    finishParts(outcome->geometries, outcome->problems);
+    if (error) outcome->problems << describeItem(nameOfAll(files), error);
+    finishParts(files, outcome->geometries, outcome->problems);
   });
 }
 
-void Document::finishParts(const std::vector<PartGeometryPtr>& geometries, const QStringList& loadProblems) {
+void Document::finishParts(const QStringList& files, const std::vector<PartGeometryPtr>& geometries,
+                           const QVector<FailedItem>& loadProblems) {
   QStringList warnings;
+  int warned = 0;
   std::vector<Session::NewPart> parts;
   for (const PartGeometryPtr& geometry : geometries) {
     parts.push_back({geometry, fromPath(geometry->file.stem()).toStdString()});
+    if (!geometry->report.warnings.empty()) ++warned;
     for (const std::string& warning : geometry->report.warnings) {
       warnings << fromPath(geometry->file.filename()) + QStringLiteral(": ") +
                       QString::fromStdString(warning);
     }
   }
   std::vector<PartId> added;
-  QStringList problems = loadProblems;
+  QVector<FailedItem> problems = loadProblems;
   try {
     added = session_.addParts(parts);
   } catch (...) {
-    problems << describe({}, std::current_exception()).details;
+    problems << describeItem(nameOfAll(files), std::current_exception());
   }
-  if (!warnings.isEmpty()) emit noted(warnings.join(QStringLiteral("  ")));
-  if (!problems.isEmpty()) {
-    const QString summary = problems.size() == 1
-                                ? tr("A part could not be loaded.")
-                                : tr("%n parts could not be loaded.", nullptr, problems.size());
-    emit failed({summary, problems.join(QStringLiteral("\n\n"))});
-  }
+  // All of them would be cut off, and gone soon: the list of parts keeps them.
+  if (warnings.size() == 1) emit noted(warnings.first());
+  if (warnings.size() > 1)
+    emit noted(tr("Meshes of %n part(s) are open or degenerate: the list of parts says more under the mouse",
+                  nullptr, warned));
+  if (!problems.isEmpty()) emit failed(describeItems(notAdded(files, problems), problems));
   if (!added.empty()) emit partsAdded(added);
   emit loaded(problems.isEmpty());
 }

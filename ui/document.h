@@ -85,7 +85,8 @@ class Document : public QObject {
   void readScene(const QString& file, const QString& name, std::function<void(Scene)> opened);
   void open(const DroppedFiles& files, double metresPerUnit);
   bool saveTo(const QString& file);
-  void finishParts(const std::vector<PartGeometryPtr>& geometries, const QStringList& problems);
+  void finishParts(const QStringList& files, const std::vector<PartGeometryPtr>& geometries,
+                   const QVector<FailedItem>& problems);
 
   Session& session_;
   std::shared_ptr<PartShapeCache> shapes_;

@@ -11,6 +11,8 @@
 #include <QTimer>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 #include "ui/actions.h"
 #include "ui/dialogs/error_box.h"
 #include "ui/dialogs/feel_dialog.h"
@@ -40,6 +42,14 @@ namespace nearfit::ui {
 namespace {
 
 constexpr int kNoteTime = 8000;  ///< [ms]
+
+/// More than what rounding makes of a pose that is put into the scene.
+bool isElsewhere(const RigidTransform& a, const RigidTransform& b) {
+  constexpr double kSlack = 1e-9;  ///< [m]; half an angle [rad]
+  const glm::dquat turn = glm::conjugate(a.rotation) * b.rotation;
+  return glm::distance(a.translation, b.translation) > kSlack ||
+         glm::length(glm::dvec3(turn.x, turn.y, turn.z)) > kSlack;
+}
 
 }  // namespace
 
@@ -151,13 +161,21 @@ void MainWindow::showScene() {
   const Scene& scene = session_.scene();
   const QString name = session_.file().empty() ? tr("Untitled") : fromPath(session_.file().filename());
   setWindowTitle(name + QStringLiteral("[*] – Nearfit"));
-  setWindowModified(session_.isModified());
+  showModified();
   viewport_->setScene(scene);
   partsPanel_->setScene(scene);
   feelDialog_->showScene(scene);
   feelPanel_->showSettings(scene.haptics());
   welcome_->setVisible(scene.parts().empty());
   showSelection();
+}
+
+void MainWindow::showModified() {
+  const std::optional<PartId> moving = session_.scene().movingPart();
+  const Part* held = servo_.isRunning && moving ? session_.scene().find(*moving) : nullptr;
+  const bool hasMoved = held != nullptr && isElsewhere(poseInHand_, held->worldFromPart);
+  const bool isModified = session_.isModified() || hasMoved;
+  if (isWindowModified() != isModified) setWindowModified(isModified);
 }
 
 void MainWindow::updateActions() {
@@ -204,6 +222,7 @@ void MainWindow::showServoStatus(const ServoStatus& status) {
     readout_->clearSnapshot();
   }
   showHeld();
+  showModified();
   showSelection();
 }
 
@@ -217,6 +236,7 @@ void MainWindow::showSnapshot(const ServoSnapshot& snapshot) {
   feelDialog_->showSnapshot(snapshot);
   readout_->showSnapshot(snapshot);
   showHeld();
+  showModified();
   if (recovery_ != nullptr) recovery_->autosave().noteMotion();
   takingAway_->showSnapshot(snapshot);
   if (!holds(selected())) return;
@@ -227,7 +247,8 @@ void MainWindow::showFailure(const Failure& failure) {
   if (failureSink_) {
     failureSink_(failure);
   } else {
-    ui::showFailure(failure, this);
+    // Whatever has the keys: the servo can be stopped.
+    ui::showFailure(failure, this, {actions_->stop});
   }
 }
 

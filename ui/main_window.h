@@ -114,6 +114,8 @@ class MainWindow : public QMainWindow {
   void showHeld();
 
   void showScene();
+  /// The mark of what is not saved, in the title.
+  void showModified();
   void showSelection();
   void updateActions();
   /// Runs a command of the session; a refusal is shown and changes nothing.

@@ -8,7 +8,6 @@
 #include <QDockWidget>
 #include <QMenu>
 #include <QMenuBar>
-#include <QMessageBox>
 #include <QTabWidget>
 #include <chrono>
 #include <cstdio>
@@ -154,19 +153,34 @@ class Pictures {
       menu->hide();
     }
   }
+  void grabFailure(const QString& name, const ui::Failure& failure) {
+    ui::showFailure(failure, &driver_.window());
+    auto* box = driver_.widget<QDialog>("errorBox");
+    grab(*box, QStringLiteral("dialog-") + name);
+    delete box;
+  }
+  void failures() {
+    grabFailure(QStringLiteral("error"),
+                {QStringLiteral("The scene could not be opened."),
+                 QStringLiteral("/home/ada/lift/bracket.nearfit: line 41: \"mesh\" names no file; write the "
+                                "path of a mesh file, relative to the scene")});
+    QVector<ui::FailedItem> files;
+    for (int i = 1; i <= 8; ++i) {
+      files << ui::FailedItem{QStringLiteral("bracket-%1.stl").arg(i),
+                              QStringLiteral("It ends within triangle %1.").arg(117 * i),
+                              QStringLiteral("Export it again from the program that it comes from."),
+                              {}};
+    }
+    grabFailure(QStringLiteral("errors"),
+                ui::describeItems(QStringLiteral("8 of 34 files were not added."), files));
+  }
   void dialogs() {
     ui::MainWindow& window = driver_.window();
     grabDialog(QStringLiteral("export"), [this] { trigger("exportPlacement"); });
     grabDialog(QStringLiteral("picture"), [this] { trigger("savePicture"); });
     grabDialog(QStringLiteral("about"), [this] { trigger("about"); });
     grabDialog(QStringLiteral("unit"), [&] { ui::askForUnit(QStringLiteral("piston.stl"), &window); });
-    grabDialog(QStringLiteral("error"), [&] {
-      ui::showFailure(
-          {QStringLiteral("The scene could not be opened."),
-           QStringLiteral("/home/ada/lift/bracket.nearfit: line 41: \"mesh\" names no file; write the "
-                          "path of a mesh file, relative to the scene")},
-          &window);
-    });
+    failures();
     trigger("duplicate");
     grabDialog(QStringLiteral("unsaved"), [&] { window.close(); });
     trigger("undo");

@@ -1,18 +1,14 @@
 #include "ui/dialogs/error_box.h"
 
-#include <QClipboard>
-#include <QGuiApplication>
-#include <QMessageBox>
+#include <QApplication>
 #include <QObject>
-#include <QPushButton>
 #include <QStringList>
 
 #include "core/error.h"
+#include "ui/dialogs/failure_dialog.h"
 
 namespace nearfit::ui {
 namespace {
-
-constexpr int kMostLines = 9;
 
 QString sentence(const std::string& text) {
   QString result = QString::fromStdString(text);
@@ -21,50 +17,58 @@ QString sentence(const std::string& text) {
   return result.endsWith('.') ? result : result + QChar('.');
 }
 
+QString paragraphsOf(const FailedItem& item) {
+  QStringList paragraphs{item.reason, item.remedy};
+  if (!item.where.isEmpty()) paragraphs << QObject::tr("Where: %1").arg(item.where);
+  paragraphs.removeAll(QString());
+  return paragraphs.join(QStringLiteral("\n\n"));
+}
+
 }  // namespace
 
-Failure describe(const QString& attempt, const std::exception_ptr& error) {
+FailedItem describeItem(const QString& name, const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
   } catch (const Error& e) {
-    QStringList lines;
-    if (!e.problem().empty()) lines << sentence(e.problem());
-    if (!e.remedy().empty()) lines << sentence(e.remedy());
-    if (!e.where().empty()) lines << QObject::tr("Where: %1").arg(QString::fromStdString(e.where()));
-    return {attempt, lines.join(QStringLiteral("\n\n"))};
+    return {name, sentence(e.problem()), sentence(e.remedy()), QString::fromStdString(e.where())};
   } catch (const std::bad_alloc&) {
-    return {attempt,
-            QObject::tr("There is not enough memory.\n\nClose other programs or use a smaller file.")};
+    return {name,
+            QObject::tr("There is not enough memory."),
+            QObject::tr("Close other programs or use a smaller file."),
+            {}};
   } catch (const std::exception& e) {
-    return {attempt, QString::fromLocal8Bit(e.what())};
+    return {name, QString::fromLocal8Bit(e.what()), {}, {}};
   } catch (...) {
-    return {attempt, QObject::tr("The cause is unknown.")};
+    return {name, QObject::tr("The cause is unknown."), {}, {}};
   }
 }
 
-void showFailure(const Failure& failure, QWidget* parent) {
-  QMessageBox box(QMessageBox::Warning, QObject::tr("Nearfit"), failure.summary, QMessageBox::Ok, parent);
-  box.setObjectName(QStringLiteral("errorBox"));
-  box.setTextFormat(Qt::PlainText);
-  box.setTextInteractionFlags(Qt::TextSelectableByMouse);
-  // Of fifty files nobody reads all at once, and a box taller than the screen has no button.
-  const QStringList lines = failure.details.split('\n');
-  if (lines.size() > kMostLines) {
-    box.setInformativeText(lines.mid(0, kMostLines).join('\n') + QStringLiteral("\n…"));
-    box.setDetailedText(failure.details);
-  } else {
-    box.setInformativeText(failure.details);
+Failure describe(const QString& attempt, const std::exception_ptr& error) {
+  return describeItems(attempt, {describeItem({}, error)});
+}
+
+Failure describeItems(const QString& summary, const QVector<FailedItem>& items) {
+  if (items.size() == 1) return {summary, paragraphsOf(items.first())};
+  QStringList lines;
+  for (const FailedItem& item : items) {
+    const QString place = item.where.isEmpty() ? item.name : item.where;
+    lines << QStringLiteral("%1: %2 %3").arg(place, item.reason, item.remedy).trimmed();
   }
-  QPushButton* copy = box.addButton(QObject::tr("Copy details"), QMessageBox::ActionRole);
-  copy->setObjectName(QStringLiteral("copyDetails"));
-  copy->setToolTip(QObject::tr("Puts this message on the clipboard"));
-  copy->disconnect();  // It copies, and the box stays.
-  QObject::connect(copy, &QPushButton::clicked, &box, [&failure] {
-    QGuiApplication::clipboard()->setText(failure.summary + QStringLiteral("\n\n") + failure.details);
-  });
-  box.setDefaultButton(QMessageBox::Ok);
-  box.setEscapeButton(QMessageBox::Ok);
-  box.exec();
+  return {summary, lines.join('\n'), items};
+}
+
+void showFailure(const Failure& failure, QWidget* parent, const QList<QAction*>& actions) {
+  auto* dialog = parent->findChild<FailureDialog*>(QString(), Qt::FindDirectChildrenOnly);
+  // One that was closed may still be about to go.
+  if (dialog == nullptr || !dialog->isVisible()) {
+    dialog = new FailureDialog(parent);
+    dialog->addActions(actions);
+    // Above a question that waits for its answer it could not be reached otherwise.
+    if (QApplication::activeModalWidget() != nullptr) dialog->setWindowModality(Qt::ApplicationModal);
+  }
+  dialog->add(failure);
+  dialog->show();
+  dialog->raise();
 }
 
 }  // namespace nearfit::ui

@@ -112,14 +112,11 @@ void DesktopFilesTest::malformedSceneLosesNothingThatIsOpen() {
   d.addCubes();
   d.session().save(d.folder.path() / "good.nearfit");
   const auto broken = d.folder.write("broken.nearfit", "{\"format\": ");
-  bool wasShown = false;
-  whenModal<QMessageBox>([&](QMessageBox* box) {
-    wasShown = true;
-    QVERIFY(box->informativeText().contains(QStringLiteral("broken.nearfit")));
-    QTest::keyClick(box, Qt::Key_Return);
-  });
   d.window().document().openScene(QString::fromStdString(broken.string()));
-  QTRY_VERIFY(wasShown);
+  QTRY_VERIFY(d.widget<QDialog>("errorBox") != nullptr);
+  QVERIFY(d.text("errorDetails").contains(QStringLiteral("broken.nearfit")));
+  QTest::keyClick(d.widget<QDialog>("errorBox"), Qt::Key_Return);
+  QTRY_VERIFY(d.widget<QDialog>("errorBox") == nullptr);
   QCOMPARE(d.session().scene().parts().size(), std::size_t{2});
   QVERIFY(d.window().windowTitle().contains(QStringLiteral("good.nearfit")));
 }

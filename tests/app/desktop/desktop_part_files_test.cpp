@@ -2,14 +2,15 @@
 #include <QComboBox>
 #include <QElapsedTimer>
 #include <QMenu>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QStatusBar>
+#include <QTableWidget>
 #include <QToolButton>
 
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/support/mesh_files.h"
 #include "ui/files/recent_files.h"
+#include "ui/parts_model.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -86,6 +87,7 @@ class DesktopPartFilesTest : public QObject {
   void droppedFolderIsTakenApartAndTheUnitAskedOnce();
   void folderWithoutPartsIsToldQuietly();
   void fiftyBadFilesGiveOneBoxWithDetailsToCopy();
+  void notesOnManyMeshesAreKeptInTheListOfParts();
   void replacedFileIsOfferedAndReloadedInItsPlace();
   void aSecondChangedFileJoinsTheFirstInTheNotice();
   void whatWasWavedAwayIsNotNamedAgain();
@@ -162,22 +164,59 @@ void DesktopPartFilesTest::fiftyBadFilesGiveOneBoxWithDetailsToCopy() {
   QStringList files{d.fixedFile};
   for (int i = 0; i < 50; ++i)
     files << nameOf(d.folder.write("bad" + std::to_string(i) + ".off", "OFF\nnonsense\n"));
-  int boxes = 0;
   QApplication::clipboard()->clear();
-  whenModal<QMessageBox>([&](QMessageBox* box) {
-    ++boxes;
-    QVERIFY(box->text().contains(QStringLiteral("50")));
-    QVERIFY(box->height() < 700);
-    QTest::mouseClick(box->findChild<QPushButton*>(QStringLiteral("copyDetails")), Qt::LeftButton);
-    QVERIFY(box->isVisible());
-    QTest::mouseClick(box->button(QMessageBox::Ok), Qt::LeftButton);
-  });
   d.add(files);
-  QTRY_COMPARE(boxes, 1);
-  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
-  const QString copied = QApplication::clipboard()->text();
-  QVERIFY(copied.contains(QStringLiteral("bad0.off")) && copied.contains(QStringLiteral("bad49.off")));
-  QVERIFY(QApplication::activeModalWidget() == nullptr);
+  QDialog* box = nullptr;
+  QTRY_VERIFY((box = d.widget<QDialog>("errorBox")) != nullptr);
+  QTRY_VERIFY(box->isVisible());
+  QCOMPARE(d.window().findChildren<QDialog*>(QStringLiteral("errorBox")).size(), 1);
+  QCOMPARE(box->findChild<QLabel*>(QStringLiteral("errorSummary"))->text(),
+           QStringLiteral("50 of 51 files were not added."));
+  QVERIFY(box->height() < 700);
+  const auto* table = box->findChild<QTableWidget*>(QStringLiteral("errorTable"));
+  QCOMPARE(table->rowCount(), 50);
+  QTRY_VERIFY2(table->rowAt(table->viewport()->height() - 1) >= 4, "some lines are seen at a glance");
+  for (int i = 0; i < 50; ++i) {
+    QCOMPARE(table->item(i, 0)->text(), QStringLiteral("bad%1.off").arg(i));
+    QVERIFY(!table->item(i, 1)->text().isEmpty() && !table->item(i, 2)->text().isEmpty());
+    for (int column = 0; column < table->columnCount(); ++column) {
+      const QRect room(0, 0, table->columnWidth(column), 10'000);
+      const QRect needed =
+          table->fontMetrics().boundingRect(room, Qt::TextWordWrap, table->item(i, column)->text());
+      QVERIFY2(table->rowHeight(i) >= needed.height(), "no line is cut off");
+    }
+  }
+  keepPictures(*box, QStringLiteral("fifty-bad-files"));
+  QTest::mouseClick(box->findChild<QPushButton*>(QStringLiteral("copyDetails")), Qt::LeftButton);
+  QVERIFY(box->isVisible());
+  QTest::keyClick(box, Qt::Key_Return);
+  QTRY_VERIFY(d.widget<QDialog>("errorBox") == nullptr);
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{1});
+  const QStringList copied = QApplication::clipboard()->text().split('\n');
+  for (const char* name : {"bad0.off", "bad49.off"})
+    QCOMPARE(copied.filter(QLatin1String(name)).size(), 1);
+}
+
+void DesktopPartFilesTest::notesOnManyMeshesAreKeptInTheListOfParts() {
+  DesktopDriver d;
+  QStringList files;
+  for (int i = 0; i < 3; ++i) {
+    TriangleMesh box = boxMesh(glm::dvec3(0.02));
+    std::vector<Triangle> open(box.triangles().begin(), box.triangles().end() - 1);
+    files << writeOff(d.folder.path() / ("open" + std::to_string(i) + ".off"),
+                      TriangleMesh({box.vertices().begin(), box.vertices().end()}, open));
+  }
+  d.add(files);
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
+  QVERIFY2(d.window().statusBar()->currentMessage().contains(QStringLiteral("3 part")),
+           qPrintable(d.window().statusBar()->currentMessage()));
+  const QAbstractItemModel* parts = d.partsView()->model();
+  for (int row = 0; row < 3; ++row) {
+    const QString tip = parts->index(row, ui::PartsModel::Name).data(Qt::ToolTipRole).toString();
+    const std::string note =
+        d.session().scene().parts()[static_cast<std::size_t>(row)]->geometry->report.warnings.at(0);
+    QVERIFY2(tip.contains(QString::fromStdString(note)), qPrintable(tip));
+  }
 }
 
 void DesktopPartFilesTest::replacedFileIsOfferedAndReloadedInItsPlace() {

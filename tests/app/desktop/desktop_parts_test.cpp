@@ -1,7 +1,6 @@
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDoubleSpinBox>
-#include <QMessageBox>
 
 #include "tests/app/desktop/desktop_driver.h"
 #include "ui/parts_model.h"
@@ -86,14 +85,11 @@ void DesktopPartsTest::manyFilesAreOneStepOfUndo() {
 void DesktopPartsTest::refusedFileIsNamedAndNothingIsLost() {
   DesktopDriver d;
   const auto broken = d.folder.write("broken.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
-  bool wasShown = false;
-  whenModal<QMessageBox>([&](QMessageBox* box) {
-    wasShown = true;
-    QVERIFY(box->informativeText().contains(QStringLiteral("broken.off")));
-    QTest::keyClick(box, Qt::Key_Return);
-  });
   d.add({d.fixedFile, QString::fromStdString(broken.string())});
-  QTRY_VERIFY(wasShown);
+  QTRY_VERIFY(d.widget<QDialog>("errorBox") != nullptr);
+  QVERIFY(d.text("errorDetails").contains(QStringLiteral("broken.off")));
+  QTest::keyClick(d.widget<QDialog>("errorBox"), Qt::Key_Return);
+  QTRY_VERIFY(d.widget<QDialog>("errorBox") == nullptr);
   QCOMPARE(d.session().scene().parts().size(), std::size_t{1});
   QVERIFY(d.session().scene().findByName("fixed") != nullptr);
 }

@@ -45,6 +45,7 @@ class DesktopServoTest : public QObject {
   void rateCountsTheTicksOfTheServosOwnTime();
   void manualHandFollowsKeysAndNumbers();
   void scriptedHandClosesThreeQuartersOfTheGapOfSprings();
+  void whatHasMovedInHandIsMarkedAsNotSavedAtOnce();
   void stoppingIsOneStepOfUndo();
   void springsChangeWhileItRuns();
   void partsComeAndGoWhileItRuns();
@@ -167,6 +168,32 @@ void DesktopServoTest::scriptedHandClosesThreeQuartersOfTheGapOfSprings() {
   QTRY_VERIFY(least < 0.0014);
   QTest::qWait(500);
   QVERIFY2(least > 0.0008, "the wobble must not reach contact");
+}
+
+void DesktopServoTest::whatHasMovedInHandIsMarkedAsNotSavedAtOnce() {
+  DesktopDriver d;
+  d.addCubes();
+  const auto file = d.folder.path() / "pair.nearfit";
+  d.session().save(file);
+  startWith(d, ui::Hand::Manual);
+  QTRY_VERIFY(d.isFeltAtX(0.0));
+  QVERIFY2(!d.window().isWindowModified(), "it is where it was");
+  d.clickPart(1, ui::PartsModel::Name);
+  d.type<QDoubleSpinBox>("positionX", "1");
+  QTRY_VERIFY(d.isFeltAtX(0.001));
+  QTRY_VERIFY(d.window().isWindowModified());
+  QVERIFY(d.application.servo().isRunning());
+  QVERIFY2(!d.session().isModified(), "it is still in hand");
+  QTest::keyClick(&d.window(), Qt::Key_S, Qt::ControlModifier);
+  QTRY_VERIFY2(!d.window().isWindowModified(), "saving puts it into the scene, and it stays there");
+  QVERIFY(d.application.servo().isRunning());
+  d.type<QDoubleSpinBox>("positionX", "2");
+  QTRY_VERIFY(d.window().isWindowModified());
+  QTest::keyClick(&d.window(), Qt::Key_F6);
+  QTRY_VERIFY(!d.application.servo().isRunning());
+  QVERIFY(d.window().isWindowModified());
+  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  QVERIFY(!d.window().isWindowModified());
 }
 
 void DesktopServoTest::stoppingIsOneStepOfUndo() {
