@@ -110,6 +110,13 @@ std::optional<DeviceMatch> recognise(const UsbDescription& device) {
   return std::nullopt;
 }
 
+std::vector<std::string> drivenKinds() {
+  std::vector<std::string> kinds;
+  for (const Driver& driver : kDrivers)
+    kinds.emplace_back(driver.name);
+  return kinds;
+}
+
 std::optional<DeviceMatch> recogniseByName(std::string_view makerAndProduct) {
   std::string name(makerAndProduct);
   std::transform(name.begin(), name.end(), name.begin(),

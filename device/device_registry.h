@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "device/haptic_device.h"
 #include "device/usb/usb_description.h"
@@ -35,6 +36,9 @@ struct DeviceMatch {
 /// Nothing for devices that have nothing to do with touch: keyboards, hubs. One that a driver takes as a rule
 /// and not this time (another version, a mouse of a maker of space mice) is known and not usable.
 std::optional<DeviceMatch> recognise(const UsbDescription& device);
+
+/// Of the kinds of devices that there are drivers for.
+std::vector<std::string> drivenKinds();
 
 /// For makers whose devices carry numbers of the chips in them: by what a device calls itself and its maker.
 std::optional<DeviceMatch> recogniseByName(std::string_view makerAndProduct);

@@ -6,7 +6,7 @@
 
 namespace nearfit::ui {
 
-/// A device that is plugged in, as a choice of hand.
+/// A device that is plugged in, as a choice of hand; or something about devices that the user may know.
 struct DeviceChoice {
   QString id;    ///< Tells it from all others for as long as it is plugged in; empty for a mere notice.
   QString name;  ///< For the list.

@@ -1,9 +1,30 @@
 #include "app/desktop/device_watcher.h"
 
+#include <algorithm>
+
 #include "core/error.h"
+#include "device/device_registry.h"
 
 namespace nearfit::desktop {
 namespace {
+
+/// Beside devices, plug-ins may have something to say.
+bool isDevice(const ui::DeviceChoice& choice) {
+  return !choice.id.isEmpty();
+}
+
+ui::DeviceChoice noDevice() {
+  QStringList kinds;
+  for (const std::string& kind : drivenKinds())
+    kinds << QString::fromStdString(kind);
+  ui::DeviceChoice notice;
+  notice.name = QObject::tr("No device is plugged in.");
+  notice.note = QObject::tr(
+                    "These can be used: %1; others by a plug-in. The section Devices of the README says "
+                    "what each needs. One that is plugged in now appears here at once.")
+                    .arg(kinds.join(QStringLiteral(", ")));
+  return notice;
+}
 
 constexpr int kLookMs = 500;  ///< A user sees it at once; a look costs nothing while nothing changes.
 
@@ -51,6 +72,7 @@ void DeviceWatcher::publish() {
     each.isMendable = false;
     each.note.clear();
   }
+  if (std::none_of(devices.begin(), devices.end(), isDevice)) devices << noDevice();
   if (devices == shown_) return;
   shown_ = devices;
   emit devicesChanged(devices);

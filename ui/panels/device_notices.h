@@ -10,7 +10,7 @@ class QPushButton;
 namespace nearfit::ui {
 
 /// What keeps devices from being used, as far as the user can do something about it, and the command that
-/// does. Hidden when there is nothing.
+/// does; or that there is none. Hidden when there is nothing to say.
 class DeviceNotices : public QWidget {
   Q_OBJECT
 
@@ -20,7 +20,7 @@ class DeviceNotices : public QWidget {
   void showDevices(const QVector<DeviceChoice>& devices);
 
  private:
-  QLabel* text_;
+  QLabel *none_, *text_;
   QPushButton* copy_;
   QString command_;
 };

@@ -147,6 +147,7 @@ void FeelPanel::setStartable(bool isStartable) {
 void FeelPanel::showStatus(const ServoStatus& status) {
   isTaken_ = status.isTaken();
   hand_->showStatus(status);
+  workspace_->showUncalibrated(status.isRunning && status.isUncalibrated);
   startStop_->setText(status.isOpening ? tr("Cancel") : isTaken_ ? tr("Stop") : tr("Feel"));
   startStop_->setIcon(icon(isTaken_ ? QStringLiteral("stop") : QStringLiteral("start")));
   setStartable(isStartable_);

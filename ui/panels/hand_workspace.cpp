@@ -37,7 +37,6 @@ HandWorkspace::HandWorkspace(QAction* clutch, QWidget* parent)
   clutch_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   clutch_->setFocusPolicy(Qt::StrongFocus);
   note_->setObjectName(QStringLiteral("clutchNote"));
-  note_->setText(tr("The part stays: bring the device to where it is handy."));
   recorded_->setObjectName(QStringLiteral("recordedNote"));
   recorded_->setText(tr("A recorded hand goes as it went: its scale and locks are in the recording."));
   auto* layout = new QVBoxLayout(this);
@@ -49,6 +48,7 @@ HandWorkspace::HandWorkspace(QAction* clutch, QWidget* parent)
     layout->addWidget(each);
   connect(locks_, &FeelPage::edited, this, &HandWorkspace::change);
   showHand(Hand::Scripted);
+  showUncalibrated(false);
   showClutched(false);
 }
 
@@ -62,6 +62,11 @@ void HandWorkspace::showHand(Hand hand, bool isRecorded) {
 
 void HandWorkspace::showClutched(bool isClutched) {
   if (note_->isHidden() == isClutched) note_->setVisible(isClutched);
+}
+
+void HandWorkspace::showUncalibrated(bool isUncalibrated) {
+  note_->setText(isUncalibrated ? tr("The part stays until the device is calibrated: see above.")
+                                : tr("The part stays: bring the device to where it is handy."));
 }
 
 void HandWorkspace::refresh() {

@@ -25,6 +25,8 @@ class HandWorkspace : public FeelPage {
   void showHand(Hand hand, bool isRecorded = false);
   /// Whether the part stays though the hand moves, by the clutch here or by one of the device's own.
   void showClutched(bool isClutched);
+  /// Then the part stays, whatever the clutch is.
+  void showUncalibrated(bool isUncalibrated);
 
  protected:
   void refresh() override;

@@ -1,5 +1,6 @@
 #include <QComboBox>
 #include <QProgressBar>
+#include <QToolButton>
 #include <cmath>
 #include <memory>
 
@@ -67,6 +68,7 @@ class DesktopDeviceTest : public QObject {
   void aDeviceLeadsThePartAndIsNotArmed();
   void theButtonAloneArms();
   void aDeviceIsArmedOnlyOnceItIsCalibrated();
+  void thatNoneIsPluggedInIsSaidWithWhatCanBe();
   void unpluggingPutsThePartDownAndSaysWhy();
   void aDeviceThatIsGoneWhenItIsTakenIsAFailure();
   void changingTheHandChangesTheDevice();
@@ -152,10 +154,37 @@ void DesktopDeviceTest::aDeviceIsArmedOnlyOnceItIsCalibrated() {
   QTRY_VERIFY(calibrate->isVisible());
   QVERIFY(!f.d->widget<QPushButton>("arm")->isVisible());
   QVERIFY(f.d->text("deviceState").startsWith(QStringLiteral("Not calibrated")));
+  // The part stays, and not because of the clutch.
+  const auto* note = f.d->widget<QLabel>("clutchNote");
+  QTRY_VERIFY(note->isVisible());
+  QVERIFY(!f.d->action("clutch")->isChecked());
+  QVERIFY2(note->text().contains(QStringLiteral("calibrated")), qPrintable(note->text()));
+  keepPictures(f.d->window(), QStringLiteral("uncalibrated"));
   QTest::mouseClick(calibrate, Qt::LeftButton);
   QTRY_COMPARE(f.handle->calibrations.load(), 1);
   QTRY_VERIFY(f.d->widget<QPushButton>("arm")->isVisible());
   QVERIFY(!calibrate->isVisible());
+  QTRY_VERIFY(!note->isVisible());
+  QTest::mouseClick(f.d->widget<QToolButton>("clutchButton"), Qt::LeftButton);
+  QTRY_VERIFY(note->isVisible());
+  QVERIFY2(note->text().contains(QStringLiteral("handy")), qPrintable(note->text()));
+}
+
+void DesktopDeviceTest::thatNoneIsPluggedInIsSaidWithWhatCanBe() {
+  Fixture f;
+  const auto* none = f.d->widget<QLabel>("noDevice");
+  QTRY_VERIFY(none->isVisible());
+  QCOMPARE(none->text(), QStringLiteral("No device is plugged in."));
+  for (const char* kind : {"OpenHap", "SpaceMouse", "Falcon", "WoodenHaptics"})
+    QVERIFY2(none->toolTip().contains(QLatin1String(kind)), qPrintable(none->toolTip()));
+  QVERIFY2(!f.names().contains(none->text()), "it is no hand");
+  keepPictures(f.d->window(), QStringLiteral("no-device"));
+  f.plug({kArm});
+  QTRY_VERIFY(!none->isVisible());
+  f.plug({});
+  QTRY_VERIFY(none->isVisible());
+  f.plug({kForbidden});
+  QTRY_VERIFY(!none->isVisible());
 }
 
 void DesktopDeviceTest::unpluggingPutsThePartDownAndSaysWhy() {

@@ -83,6 +83,8 @@ class FakeDevice final : public HapticDevice {
     input = {};
     input.pose.translation = handle_->place();
     input.hasOwnFrame = true;
+    // As arms have it, whose pose is none till then.
+    input.isClutched = state() == DeviceState::Uncalibrated;
     input.isArmed = supervisor_.check({});
     return true;
   }
