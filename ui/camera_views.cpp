@@ -41,22 +41,33 @@ void setStandardView(vtkRenderer& renderer, StandardView view, const double boun
 }
 
 void fitView(vtkRenderer& renderer, const double bounds[6]) {
+  const vtkBoundingBox box(bounds);
+  fitView(renderer, std::span(&box, 1));
+}
+
+void fitView(vtkRenderer& renderer, std::span<const vtkBoundingBox> boxes) {
   constexpr double kMargin = 1.04;
+  vtkBoundingBox whole;
+  for (const vtkBoundingBox& box : boxes)
+    whole.AddBox(box);
+  glm::dvec3 centre;
+  whole.GetCenter(&centre.x);
   vtkCamera* camera = renderer.GetActiveCamera();
   const glm::dvec3 toEye = -glm::make_vec3(camera->GetDirectionOfProjection());
   const glm::dvec3 right = glm::normalize(glm::cross(glm::make_vec3(camera->GetViewUp()), toEye));
   const glm::dvec3 up = glm::cross(toEye, right);
-  const glm::dvec3 lower(bounds[0], bounds[2], bounds[4]), upper(bounds[1], bounds[3], bounds[5]);
-  const glm::dvec3 centre = 0.5 * (lower + upper);
   const double tanY = std::tan(glm::radians(0.5 * camera->GetViewAngle()));
   const double tanX = tanY * renderer.GetTiledAspectRatio();
   // Far enough for each corner to be inside the pyramid of the view.
   double distance = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 p =
-        glm::mix(lower, upper, glm::dvec3(corner & 1, (corner >> 1) & 1, corner >> 2)) - centre;
-    const double across = std::max(std::abs(glm::dot(p, right)) / tanX, std::abs(glm::dot(p, up)) / tanY);
-    distance = std::max(distance, glm::dot(p, toEye) + kMargin * across);
+  for (const vtkBoundingBox& box : boxes) {
+    for (int corner = 0; corner < 8; ++corner) {
+      glm::dvec3 p;
+      box.GetCorner(corner, &p.x);
+      p -= centre;
+      const double across = std::max(std::abs(glm::dot(p, right)) / tanX, std::abs(glm::dot(p, up)) / tanY);
+      distance = std::max(distance, glm::dot(p, toEye) + kMargin * across);
+    }
   }
   // A single point has no size to fill the view with.
   if (!(distance > 0.0)) distance = 1.0;
@@ -64,6 +75,8 @@ void fitView(vtkRenderer& renderer, const double bounds[6]) {
   camera->SetFocalPoint(centre.x, centre.y, centre.z);
   camera->SetPosition(eye.x, eye.y, eye.z);
   camera->OrthogonalizeViewUp();
+  double bounds[6];
+  whole.GetBounds(bounds);
   renderer.ResetCameraClippingRange(bounds);
 }
 

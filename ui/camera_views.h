@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
+#include <vtkBoundingBox.h>
 #include <vtkCamera.h>
 #include <vtkRenderer.h>
 
@@ -17,6 +19,9 @@ void setStandardView(vtkRenderer& renderer, StandardView view, const double boun
 
 /// Moves the camera, without turning it, so that the bounds just fill the view with a margin around them.
 void fitView(vtkRenderer& renderer, const double bounds[6]);
+/// The same for several boxes, which fill the view more than the one around them all. @param boxes  At least
+/// one, valid.
+void fitView(vtkRenderer& renderer, std::span<const vtkBoundingBox> boxes);
 
 /// What the camera sees, for core.
 ViewProjection::Camera projectionCamera(vtkCamera& camera);

@@ -1,6 +1,9 @@
 #include "ui/colour_legend.h"
 
+#include <QFontInfo>
 #include <QPainter>
+#include <algorithm>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
@@ -16,6 +19,8 @@ constexpr int kWidth = 226, kMargin = 14;
 constexpr int kBarTop = 34, kBarHeight = 11;
 constexpr int kFirstRow = 86, kRowHeight = 22, kBelowLastRow = 16;  ///< Rows by their baselines.
 constexpr int kGlyphWidth = 25;
+/// All of these are for letters of this height; larger ones make all larger.
+constexpr double kUsualLetters = 17.0;
 
 void paintArrow(QPainter& painter, int y, const QColor& colour) {
   painter.setPen(QPen(colour, 2.6, Qt::SolidLine, Qt::FlatCap));
@@ -74,15 +79,28 @@ void ColourLegend::showSnapshot(const ServoSnapshot& snapshot) {
 
 QSize ColourLegend::sizeHint() const {
   const int rows = hasProxy_ ? 4 : 2;
-  return {kWidth, kFirstRow + (rows - 1) * kRowHeight + kBelowLastRow};
+  return scale() * QSize(kWidth, kFirstRow + (rows - 1) * kRowHeight + kBelowLastRow);
+}
+
+double ColourLegend::scale() const {
+  return std::max(1.0, fontMetrics().height() / kUsualLetters);
+}
+
+QFont ColourLegend::letters() const {
+  QFont letters = font();
+  letters.setPixelSize(std::max(1, static_cast<int>(std::lround(QFontInfo(font()).pixelSize() / scale()))));
+  return letters;
 }
 
 void ColourLegend::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
+  painter.scale(scale(), scale());
+  painter.setFont(letters());
   painter.setPen(QPen(isThemeDark() ? QColor(255, 255, 255, 40) : QColor(0, 0, 0, 36), 1.0));
   painter.setBrush(isThemeDark() ? QColor(32, 38, 44, 228) : QColor(255, 255, 255, 228));
-  painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 7.0, 7.0);
+  painter.drawRoundedRect(QRectF(QPointF(), QSizeF(size()) / scale()).adjusted(0.5, 0.5, -0.5, -0.5), 7.0,
+                          7.0);
   paintScale(painter);
   int y = kFirstRow;
   paintArrow(painter, y, colours::kForce);
@@ -100,12 +118,12 @@ void ColourLegend::paintEvent(QPaintEvent*) {
 }
 
 void ColourLegend::paintScale(QPainter& painter) {
-  QFont bold = font();
+  QFont bold = letters();
   bold.setBold(true);
   painter.setFont(bold);
   painter.setPen(textColour());
   painter.drawText(kMargin, 23, tr("Local minimum distance"));
-  painter.setFont(font());
+  painter.setFont(letters());
 
   const QRectF bar(kMargin, kBarTop, kWidth - 2 * kMargin, kBarHeight);
   QLinearGradient gradient(bar.topLeft(), bar.topRight());

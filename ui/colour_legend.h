@@ -25,6 +25,9 @@ class ColourLegend : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  /// Larger than 1 where letters are.
+  double scale() const;
+  QFont letters() const;
   void paintScale(QPainter& painter);
   void paintRow(QPainter& painter, int y, const QString& name, const QString& value);
 

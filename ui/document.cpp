@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/scene/scene_file.h"
 #include "ui/dialogs/progress_dialog.h"
+#include "ui/dialogs/save_file.h"
 #include "ui/dialogs/unit_dialog.h"
 #include "ui/files/dropped_files.h"
 #include "ui/files/recent_files.h"
@@ -303,11 +304,9 @@ bool Document::save() {
 bool Document::askAndSaveAs() {
   const QString start = session_.file().empty() ? Preferences::lastFolder() + QStringLiteral("/scene.nearfit")
                                                 : fromPath(session_.file());
-  QFileDialog dialog(window_, tr("Save scene"), start, sceneFilter());
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(kSceneSuffix);
-  if (dialog.exec() != QDialog::Accepted) return false;
-  return saveTo(dialog.selectedFiles().first());
+  const std::optional<QString> file =
+      askForSave({tr("Save scene"), start, {sceneFilter()}, {kSceneSuffix}}, window_);
+  return file && saveTo(*file);
 }
 
 bool Document::saveTo(const QString& file) {

@@ -1,5 +1,6 @@
 #include "ui/part_actor.h"
 
+#include <numbers>
 #include <utility>
 
 #include <vtkBoundingBox.h>
@@ -14,6 +15,10 @@ namespace {
 constexpr double kTranslucentOpacity = 0.28, kWarningOpacity = 0.45;
 /// Faint enough that what lies before a selected part keeps its shape and colour.
 constexpr double kVeilOpacity = 0.13, kVeilEdgeOpacity = 0.55;
+constexpr float kEdgeWidth = 1.3F;
+/// Of its edges that are not behind it, and of the disc around it that they may cover: beyond that a small
+/// part would be a blot.
+constexpr double kSeenEdges = 0.5, kMostInk = 0.4;
 
 void setEdgeColour(vtkProperty& property, const PartLook& look) {
   const QColor dark(0x1a, 0x22, 0x2b);
@@ -22,7 +27,7 @@ void setEdgeColour(vtkProperty& property, const PartLook& look) {
                         : look.isOverlapping ? colours::kOverlap.darker(150)
                                              : dark;
   property.SetColor(colour.redF(), colour.greenF(), colour.blueF());
-  property.SetLineWidth(devicePixels(look.isSelected ? 2.4F : 1.3F));
+  property.SetLineWidth(devicePixels(look.isSelected ? 2.4F : kEdgeWidth));
   property.SetOpacity(look.isTranslucent && !look.isSelected ? 0.55 : 1.0);
 }
 
@@ -104,6 +109,17 @@ bool PartActor::isOpaque() const noexcept {
   return look_->GetOpacity() >= 1.0;
 }
 
+void PartActor::setScale(double pixelsPerMetre) {
+  double own[6];
+  shape().surface->GetBounds(own);
+  const double diagonal = vtkBoundingBox(own).GetDiagonalLength();
+  const double inked = kSeenEdges * shape().edgeLength * static_cast<double>(devicePixels(kEdgeWidth));
+  const double disc = std::numbers::pi * 0.25 * diagonal * diagonal * pixelsPerMetre;
+  if (std::exchange(areEdgesApart_, inked <= kMostInk * disc) == areEdgesApart_) return;
+  showPieces();
+  if (veilEdges_ != nullptr) veilEdges_->SetVisibility(areEdgesApart_);
+}
+
 void PartActor::setLevel(std::size_t level) {
   if (level == level_) return;
   level_ = level;
@@ -124,7 +140,7 @@ void PartActor::showPieces() {
     pieces_[i]->SetVisibility(isDrawn && i < mappers.size());
   }
   edges_->SetMapper(mappers_->edges(edges_->GetProperty()->GetOpacity() < 1.0));
-  edges_->SetVisibility(isDrawn && level_ == 0 && shownLook_ && shownLook_->hasEdges);
+  edges_->SetVisibility(isDrawn && level_ == 0 && areEdgesApart_ && shownLook_ && shownLook_->hasEdges);
 }
 
 void PartActor::bounds(double bounds[6]) const {
@@ -142,7 +158,7 @@ void PartActor::bounds(double bounds[6]) const {
 
 void PartActor::addTo(std::vector<vtkProp*>& props) const {
   props.insert(props.end(), pieces_.begin(), pieces_.end());
-  if (shownLook_ && shownLook_->hasEdges) props.push_back(edges_);
+  if (shownLook_ && shownLook_->hasEdges && areEdgesApart_) props.push_back(edges_);
 }
 
 void PartActor::setThrough(bool isThrough) {
@@ -170,6 +186,7 @@ void PartActor::setThrough(bool isThrough) {
   veil_->GetProperty()->BackfaceCullingOn();
   veilEdges_ = make(mappers_->veilEdges(), kVeilEdgeOpacity);
   veilEdges_->GetProperty()->SetLineWidth(devicePixels(1.6F));
+  veilEdges_->SetVisibility(areEdgesApart_);
 }
 
 }  // namespace nearfit::ui

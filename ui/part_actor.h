@@ -40,6 +40,8 @@ class PartActor {
   bool setPose(const RigidTransform& worldFromPart);
   /// True when it looked otherwise before.
   bool setAppearance(const Colour& colour, bool isVisible, const PartLook& look);
+  /// How large it is seen: where its edges would cover it they are left out, of what is selected too.
+  void setScale(double pixelsPerMetre);
   /// One of the shape's levels. Edges are drawn with the mesh itself alone.
   void setLevel(std::size_t level);
   /// Of the same shape: cut open, or whole again.
@@ -80,6 +82,7 @@ class PartActor {
   Colour colour_;
   std::size_t level_ = 0;
   bool isVisible_ = true, isKept_ = false;
+  bool areEdgesApart_ = true;  ///< As large as it is seen, edges do not run into one another.
 };
 
 }  // namespace nearfit::ui

@@ -65,6 +65,19 @@ std::vector<vtkSmartPointer<vtkPolyData>> piecesOf(vtkPolyData& surface) {
   return pieces;
 }
 
+/// Of edges of two points each.
+double lengthOf(vtkPolyData& edges) {
+  double length = 0.0;
+  vtkNew<vtkIdList> ends;
+  for (edges.GetLines()->InitTraversal(); edges.GetLines()->GetNextCell(ends) != 0;) {
+    glm::dvec3 from, to;
+    edges.GetPoint(ends->GetId(0), &from.x);
+    edges.GetPoint(ends->GetId(1), &to.x);
+    length += glm::distance(from, to);
+  }
+  return length;
+}
+
 void addDrafts(PartShape& shape) {
   const auto sizeOf = [](vtkPolyData& data) {
     return static_cast<std::size_t>(data.GetNumberOfPolys() + data.GetNumberOfLines());
@@ -101,6 +114,7 @@ PartShape makePartShape(const TriangleMesh& mesh) {
   PartShape shape;
   shape.surface = normals->GetOutput();
   shape.edges = edges->GetOutput();
+  shape.edgeLength = lengthOf(*shape.edges);
   shape.pieces = piecesOf(*shape.surface);
   addDrafts(shape);
   shape.locator = vtkSmartPointer<vtkStaticCellLocator>::New();

@@ -18,6 +18,7 @@ namespace nearfit::ui {
 struct PartShape {
   vtkSmartPointer<vtkPolyData> surface;  ///< Triangles with point normals, split along sharp edges.
   vtkSmartPointer<vtkPolyData> edges;    ///< Sharp, open and non-manifold edges.
+  double edgeLength = 0.0;               ///< Of all of them [m].
   /// The surface again, in pieces that are drawn in a moment each; they share its points.
   std::vector<vtkSmartPointer<vtkPolyData>> pieces;
   /// For what moves where there is too much to draw: coarser and coarser, with normals; none of a small mesh.

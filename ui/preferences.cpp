@@ -1,7 +1,9 @@
 #include "ui/preferences.h"
 
+#include <QDir>
 #include <QFileInfo>
 #include <QSettings>
+#include <QStandardPaths>
 
 #include "core/error.h"
 
@@ -31,7 +33,10 @@ void Preferences::setMetresPerUnit(double metresPerUnit) {
 }
 
 QString Preferences::lastFolder() {
-  return value("files/folder").toString();
+  const QString last = value("files/folder").toString();
+  if (QFileInfo(last).isDir()) return last;
+  const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+  return QFileInfo(documents).isDir() ? documents : QDir::homePath();
 }
 
 void Preferences::rememberFolderOf(const QString& file) {

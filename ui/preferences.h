@@ -15,7 +15,7 @@ class Preferences {
   static double metresPerUnit();
   static void setMetresPerUnit(double metresPerUnit);
 
-  /// Folder of the file chosen last; empty at first.
+  /// Folder of the file chosen last; the user's documents, or home, at first and where it is there no more.
   static QString lastFolder();
   /// Remembers the folder of `file`.
   static void rememberFolderOf(const QString& file);

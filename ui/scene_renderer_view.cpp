@@ -119,8 +119,9 @@ DetailChoice SceneRenderer::applyDetail(const DetailLimits& limits) {
     actor->bounds(b);
     const glm::dvec3 lower(b[0], b[2], b[4]), upper(b[1], b[3], b[5]), centre = 0.5 * (lower + upper);
     const double radius = 0.5 * glm::distance(lower, upper);
-    candidates.push_back(
-        {actor->shape().levels, view.pixelsPerMetre(centre, radius), view.sees(centre, radius)});
+    const double scale = view.pixelsPerMetre(centre, radius);
+    actor->setScale(scale);
+    candidates.push_back({actor->shape().levels, scale, view.sees(centre, radius)});
     drawn.push_back(actor.get());
   }
   DetailChoice choice = chooseDetail(candidates, limits);

@@ -172,9 +172,12 @@ void Viewport::completePicture() {
 }
 
 void Viewport::setScene(const Scene& scene) {
-  const bool isAnotherScene =
-      std::none_of(scene.parts().begin(), scene.parts().end(),
-                   [this](const Scene::PartPtr& part) { return scene_.find(part->id) != nullptr; });
+  // Parts that come back by undo are no others.
+  bool isAnotherScene = true;
+  for (const Scene::PartPtr& part : scene.parts())
+    isAnotherScene = !known_.contains(part->id) && isAnotherScene;
+  for (const Scene::PartPtr& part : scene.parts())
+    known_.insert(part->id);
   scene_ = scene;
   parts_.setScene(scene);
   showMovingPart();
@@ -224,17 +227,20 @@ void Viewport::fit() {
 }
 
 void Viewport::fitParts(const std::vector<PartId>& parts) {
-  // Room around them for their neighbours and for arrows.
-  constexpr double kRoom = 0.45;
-  double bounds[6];
-  vtkBoundingBox box;
+  // Room around them for their neighbours and for arrows, in parts of their size.
+  constexpr double kRoom = 0.1;
+  vtkBoundingBox whole;
+  std::vector<vtkBoundingBox> boxes;
   for (const PartId part : parts) {
-    if (parts_.boundsOf(part, bounds)) box.AddBounds(bounds);
+    double bounds[6];
+    if (!parts_.boundsOf(part, bounds)) continue;
+    boxes.emplace_back(bounds);
+    whole.AddBounds(bounds);
   }
-  if (box.IsValid() == 0) return;
-  box.Inflate(kRoom * box.GetMaxLength());
-  box.GetBounds(bounds);
-  fitView(*renderer_, bounds);
+  if (boxes.empty()) return;
+  for (vtkBoundingBox& box : boxes)
+    box.Inflate(kRoom * whole.GetMaxLength());
+  fitView(*renderer_, boxes);
   requestRender();
 }
 

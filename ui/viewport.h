@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkBoundingBox.h>
@@ -30,8 +31,9 @@ class ViewDetail;
 class ViewPicture;
 
 /// The 3-D view: the scene's parts, and over them what the newest servo snapshot tells.
-/// Draws only after a change. Left drag orbits, middle drag pans, wheel or right drag zooms; a click selects,
-/// with Ctrl it adds or takes out, with Shift it adds. BoxSelect draws rectangles on it.
+/// Draws only after a change. Left drag orbits, so does a middle drag with Ctrl, middle drag pans, wheel or
+/// right drag zooms; a click selects, with Ctrl it adds or takes out, with Shift it adds. BoxSelect draws
+/// rectangles on it.
 class Viewport : public QVTKOpenGLNativeWidget {
   Q_OBJECT
 
@@ -149,6 +151,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   std::unique_ptr<ServoSnapshot> shown_;
   bool hasNewNumbers_ = false;  ///< What shown_ says has not been drawn yet.
   Scene scene_;
+  std::set<PartId> known_;  ///< Parts that have been shown, also those that have left.
   QPoint pressedAt_;
   int pictureCount_ = 0;
 };

@@ -4,7 +4,9 @@
 #include <array>
 
 #include <vtkActorCollection.h>
+#include <vtkCamera.h>
 #include <vtkProperty.h>
+#include <vtkRenderWindow.h>
 
 #include "tests/support/mesh_generators.h"
 #include "ui/theme.h"
@@ -17,6 +19,7 @@ class SceneRendererTest : public QObject {
  private slots:
   void partsThatOverlapAreTintedAndGetTheirColourBack();
   void boundsOfAPartAreThoseInTheWorld();
+  void edgesThatWouldCoverAPartAreLeftOut();
 
  private:
   static PartGeometryPtr cube() {
@@ -42,6 +45,16 @@ class SceneRendererTest : public QObject {
                           std::abs(rgb[2] - colour.blueF()) < 1e-3;
       if (isSame) ++count;
     }
+    return count;
+  }
+
+  /// Of what is drawn without light.
+  int visibleLines() {
+    int count = 0;
+    vtkActorCollection* actors = renderer_->GetActors();
+    actors->InitTraversal();
+    while (vtkActor* actor = actors->GetNextActor())
+      count += actor->GetVisibility() != 0 && !actor->GetProperty()->GetLighting() ? 1 : 0;
     return count;
   }
 
@@ -74,6 +87,24 @@ void SceneRendererTest::boundsOfAPartAreThoseInTheWorld() {
   QVERIFY(parts_.boundsOf(a, bounds));
   QVERIFY(std::abs(bounds[0] - 0.09) < 1e-9 && std::abs(bounds[1] - 0.11) < 1e-9);
   QVERIFY(!parts_.boundsOf(PartId{99}, bounds));
+}
+
+void SceneRendererTest::edgesThatWouldCoverAPartAreLeftOut() {
+  vtkNew<vtkRenderWindow> window;
+  window->SetSize(600, 600);
+  window->AddRenderer(renderer_);
+  Scene scene;
+  scene.add(partOf("a"));
+  parts_.setScene(scene);
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  // A cube of 20 mm, so many pixels wide.
+  for (const auto& [pixels, lines] : {std::pair{300.0, 1}, {40.0, 1}, {4.0, 0}, {300.0, 1}}) {
+    camera->SetParallelScale(0.02 / pixels * 300.0);
+    parts_.applyDetail({1'000'000});
+    QCOMPARE(visibleLines(), lines);
+  }
+  window->RemoveRenderer(renderer_);
 }
 
 QTEST_MAIN(SceneRendererTest)

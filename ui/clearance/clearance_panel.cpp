@@ -1,7 +1,6 @@
 #include "ui/clearance/clearance_panel.h"
 
 #include <QComboBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -17,6 +16,7 @@
 #include "core/files/atomic_write.h"
 #include "ui/clearance/clearance_model.h"
 #include "ui/clearance/clearance_search.h"
+#include "ui/dialogs/save_file.h"
 #include "ui/number_field.h"
 #include "ui/paths.h"
 #include "ui/preferences.h"
@@ -185,20 +185,21 @@ void ClearancePanel::choose() {
 void ClearancePanel::exportTable() {
   const std::optional<PartId> part = search_.subject();
   if (!part) return;
-  QFileDialog dialog(this, tr("Export clearances"),
-                     Preferences::lastFolder() + QStringLiteral("/clearances.csv"), tr("Tables (*.csv)"));
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(QStringLiteral("csv"));
-  if (dialog.exec() != QDialog::Accepted) return;
-  const QString file = dialog.selectedFiles().first();
+  const std::optional<QString> file =
+      askForSave({tr("Export clearances"),
+                  Preferences::lastFolder() + QStringLiteral("/clearances.csv"),
+                  {tr("Tables (*.csv)")},
+                  {QStringLiteral("csv")}},
+                 this);
+  if (!file) return;
   try {
-    atomicWrite(toPath(file), clearanceCsv(search_.scene(), *part, search_.clearances()));
+    atomicWrite(toPath(*file), clearanceCsv(search_.scene(), *part, search_.clearances()));
   } catch (...) {
     emit failed(describe(tr("The clearances could not be exported."), std::current_exception()));
     return;
   }
-  Preferences::rememberFolderOf(file);
-  emit noted(tr("Exported %1").arg(QFileInfo(file).fileName()));
+  Preferences::rememberFolderOf(*file);
+  emit noted(tr("Exported %1").arg(QFileInfo(*file).fileName()));
 }
 
 void ClearancePanel::showEvent(QShowEvent* event) {

@@ -7,6 +7,8 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
+#include <QScreen>
+#include <QScrollBar>
 #include <QSet>
 #include <QTreeWidget>
 #include <QVBoxLayout>
@@ -47,12 +49,16 @@ QTreeWidgetItem* addGroup(QTreeWidget* list, const QString& title) {
   return group;
 }
 
-void listActions(QTreeWidgetItem* group, const QList<QAction*>& actions, QSet<const QAction*>& listed) {
+/// @param menu  Before what stands in it: "Drop to contact: down"; empty for a menu of the bar.
+void listActions(QTreeWidgetItem* group, const QList<QAction*>& actions, QSet<const QAction*>& listed,
+                 const QString& menu = {}) {
   for (QAction* action : actions) {
-    if (action->menu() != nullptr) listActions(group, action->menu()->actions(), listed);
+    if (action->menu() != nullptr)
+      listActions(group, action->menu()->actions(), listed,
+                  QObject::tr("%1: ").arg(plainText(action->text())));
     if (action->menu() != nullptr || action->shortcut().isEmpty() || listed.contains(action)) continue;
     listed << action;
-    auto* item = new QTreeWidgetItem(group, {plainText(action->text()), keysOf(*action)});
+    auto* item = new QTreeWidgetItem(group, {menu + plainText(action->text()), keysOf(*action)});
     item->setIcon(0, action->icon().isNull() ? noIcon() : action->icon());
     item->setToolTip(0, action->toolTip());
   }
@@ -62,6 +68,7 @@ void addView(QTreeWidget* list) {
   QTreeWidgetItem* group = addGroup(list, QObject::tr("Mouse and keys in the view"));
   const std::pair<QString, QString> entries[] = {
       {QObject::tr("Orbit"), QObject::tr("Left drag")},
+      {QObject::tr("Orbit, also over what a drag would move"), QObject::tr("Ctrl+Middle drag")},
       {QObject::tr("Pan"), QObject::tr("Middle drag")},
       {QObject::tr("Zoom"), QObject::tr("Wheel, or right drag")},
       {QObject::tr("Select a part"), QObject::tr("Click")},
@@ -91,16 +98,15 @@ ShortcutsDialog::ShortcutsDialog(QMainWindow* window)
   list_->setHeaderLabels({tr("Command"), tr("Keys")});
   list_->setRootIsDecorated(false);
   list_->setSelectionMode(QAbstractItemView::NoSelection);
-  list_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  list_->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
   list_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
-  list_->header()->setStretchLastSection(false);
+  list_->header()->setStretchLastSection(true);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(search_);
   layout->addWidget(list_);
   layout->addWidget(buttons);
-  resize(560, 620);
   connect(search_, &QLineEdit::textChanged, this, &ShortcutsDialog::filter);
 }
 
@@ -108,8 +114,26 @@ void ShortcutsDialog::open() {
   fill();
   search_->clear();
   search_->setFocus();
+  fitToContent();
   show();
   raise();
+}
+
+/// Both columns are to be read, whatever the size of letters, as far as the screen goes.
+void ShortcutsDialog::fitToContent() {
+  constexpr int kRows = 26;
+  const int around = 2 * style()->pixelMetric(QStyle::PM_LayoutLeftMargin) +
+                     list_->verticalScrollBar()->sizeHint().width() + 2 * list_->frameWidth() +
+                     fontMetrics().height();
+  list_->header()->setStretchLastSection(false);
+  int wide = around;
+  for (int column = 0; column < list_->columnCount(); ++column) {
+    list_->resizeColumnToContents(column);
+    wide += list_->columnWidth(column);
+  }
+  list_->header()->setStretchLastSection(true);
+  const QSize room = 0.9 * QSizeF(screen()->availableSize()).toSize();
+  resize(QSize(wide, kRows * list_->visualItemRect(list_->topLevelItem(0)).height()).boundedTo(room));
 }
 
 void ShortcutsDialog::fill() {

@@ -22,6 +22,7 @@ class ShortcutsDialog : public QDialog {
 
  private:
   void fill();
+  void fitToContent();
   void filter(const QString& words);
 
   QMainWindow* window_;

@@ -87,6 +87,8 @@ QWidget* FeelPanel::makeChoices(const Parts& parts) {
         static_cast<QWidget*>(servo_)})
     layout->addWidget(each);
   layout->addStretch(1);
+  // As they stand; the button was there before the others.
+  setTabOrder(startStop_, parts.settingsButton);
   return content;
 }
 

@@ -118,7 +118,9 @@ NumberField* PosePanel::makeAngle(const QString& name, double limit) {
 
 NumberField* PosePanel::prepared(NumberField* field, const QString& name) {
   field->setObjectName(name);
-  field->setMinimumWidth(60);
+  // A number as short as most, beside the arrows, whatever the size of letters.
+  constexpr int kArrows = 26;
+  field->setMinimumWidth(field->fontMetrics().horizontalAdvance(QStringLiteral("-0.0000 m")) + kArrows);
   field->findChild<QLineEdit*>()->installEventFilter(this);
   field->installEventFilter(this);
   return field;

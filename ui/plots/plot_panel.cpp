@@ -2,7 +2,6 @@
 
 #include <QBuffer>
 #include <QComboBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "core/files/atomic_write.h"
+#include "ui/dialogs/save_file.h"
 #include "ui/paths.h"
 #include "ui/plots/plot_view.h"
 #include "ui/preferences.h"
@@ -150,11 +150,12 @@ void PlotPanel::showLive() {
 }
 
 QString PlotPanel::askForFile(const QString& title, const QString& suffix) {
-  QFileDialog dialog(this, title, Preferences::lastFolder() + QStringLiteral("/felt.") + suffix,
-                     tr("%1 files (*.%2)").arg(suffix.toUpper(), suffix));
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(suffix);
-  return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().first() : QString();
+  return askForSave({title,
+                     Preferences::lastFolder() + QStringLiteral("/felt.") + suffix,
+                     {tr("%1 files (*.%2)").arg(suffix.toUpper(), suffix)},
+                     {suffix}},
+                    this)
+      .value_or(QString());
 }
 
 void PlotPanel::exportTable() {

@@ -2,13 +2,13 @@
 
 #include <QApplication>
 #include <QClipboard>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <utility>
 
 #include "core/error.h"
 #include "core/report/placement_table.h"
 #include "ui/dialogs/progress_dialog.h"
+#include "ui/dialogs/save_file.h"
 #include "ui/paths.h"
 #include "ui/preferences.h"
 #include "ui/selection.h"
@@ -51,14 +51,13 @@ void Exporter::askAndExport() {
   const SceneExport what = dialog.choice();
   const QString suffix =
       QString::fromLatin1(extensionOf(what.kind).data(), static_cast<int>(extensionOf(what.kind).size()));
-  QFileDialog files(
-      window_, tr("Export"),
-      Preferences::lastFolder() + QChar('/') + nameFor(session_, what.kind) + QChar('.') + suffix,
-      tr("%1 files (*.%2)").arg(suffix.toUpper(), suffix));
-  files.setAcceptMode(QFileDialog::AcceptSave);
-  files.setDefaultSuffix(suffix);
-  if (files.exec() != QDialog::Accepted) return;
-  write(what, files.selectedFiles().first());
+  const std::optional<QString> file =
+      askForSave({tr("Export"),
+                  Preferences::lastFolder() + QChar('/') + nameFor(session_, what.kind) + QChar('.') + suffix,
+                  {tr("%1 files (*.%2)").arg(suffix.toUpper(), suffix)},
+                  {suffix}},
+                 window_);
+  if (file) write(what, *file);
 }
 
 void Exporter::write(const SceneExport& what, const QString& file) {

@@ -4,7 +4,6 @@
 #include <QApplication>
 #include <QBuffer>
 #include <QClipboard>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QImage>
 #include <string_view>
@@ -12,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/files/atomic_write.h"
+#include "ui/dialogs/save_file.h"
 #include "ui/paths.h"
 #include "ui/preferences.h"
 #include "ui/taking/picture_dialog.h"
@@ -26,16 +26,10 @@ constexpr int kJpegQuality = 92;  ///< Of 100: edges of parts stay clean.
 QByteArray encoded(const QImage& picture, const QString& file) {
   const QString suffix = QFileInfo(file).suffix().toLower();
   const bool isJpeg = suffix == QLatin1String("jpg") || suffix == QLatin1String("jpeg");
-  const std::string where = toPath(file).string();
-  if (!isJpeg && suffix != QLatin1String("png"))
-    throw FileError(where, "pictures are written as PNG or JPEG", "choose a name that ends in .png or .jpg");
-  if (isJpeg && picture.hasAlphaChannel())
-    throw FileError(where, "JPEG knows no transparency",
-                    "choose a name that ends in .png, or another background");
   QBuffer buffer;
   buffer.open(QIODevice::WriteOnly);
   if (!picture.save(&buffer, isJpeg ? "JPG" : "PNG", isJpeg ? kJpegQuality : -1))
-    throw FileError(where, "the picture could not be encoded", "choose a smaller size");
+    throw FileError(toPath(file).string(), "the picture could not be encoded", "choose a smaller size");
   return buffer.data();
 }
 
@@ -80,17 +74,15 @@ void PictureTaker::askAndSave() {
 
 void PictureTaker::saveTo(const QImage& picture) {
   const QString name = session_.file().empty() ? QStringLiteral("nearfit") : fromPath(session_.file().stem());
-  QFileDialog dialog(window_, tr("Save picture"),
-                     Preferences::lastFolder() + QChar('/') + name + QStringLiteral(".png"));
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  QStringList kinds{tr("PNG pictures (*.png)")};
-  if (!picture.hasAlphaChannel()) kinds << tr("JPEG pictures (*.jpg *.jpeg)");
-  dialog.setNameFilters(kinds);
-  dialog.setDefaultSuffix(QStringLiteral("png"));
-  connect(&dialog, &QFileDialog::filterSelected, &dialog, [&dialog, kinds](const QString& kind) {
-    dialog.setDefaultSuffix(kind == kinds.first() ? QStringLiteral("png") : QStringLiteral("jpg"));
-  });
-  if (dialog.exec() == QDialog::Accepted) write(picture, dialog.selectedFiles().first());
+  SaveRequest request{tr("Save picture"),
+                      Preferences::lastFolder() + QChar('/') + name + QStringLiteral(".png"),
+                      {tr("PNG pictures (*.png)")},
+                      {QStringLiteral("png")}};
+  if (!picture.hasAlphaChannel()) {
+    request.filters << tr("JPEG pictures (*.jpg *.jpeg)");
+    request.suffixes << QStringLiteral("jpg") << QStringLiteral("jpeg");
+  }
+  if (const std::optional<QString> file = askForSave(request, window_)) write(picture, *file);
 }
 
 void PictureTaker::write(QImage picture, const QString& file) {

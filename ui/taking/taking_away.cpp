@@ -2,7 +2,6 @@
 
 #include <QAction>
 #include <QDockWidget>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMainWindow>
 #include <QMenu>
@@ -11,6 +10,7 @@
 
 #include "ui/clearance/clearance_panel.h"
 #include "ui/clearance/clearance_search.h"
+#include "ui/dialogs/save_file.h"
 #include "ui/names.h"
 #include "ui/plots/plot_panel.h"
 #include "ui/preferences.h"
@@ -176,19 +176,19 @@ void TakingAway::toggleRecord(bool isOn) {
     emit recordRequested({});
     return;
   }
-  QFileDialog dialog(&window_.window, tr("Record to"),
-                     Preferences::lastFolder() + QStringLiteral("/felt.csv"), tr("Recordings (*.csv)"));
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(QStringLiteral("csv"));
-  if (dialog.exec() != QDialog::Accepted) {
+  const std::optional<QString> file = askForSave({tr("Record to"),
+                                                  Preferences::lastFolder() + QStringLiteral("/felt.csv"),
+                                                  {tr("Recordings (*.csv)")},
+                                                  {QStringLiteral("csv")}},
+                                                 &window_.window);
+  if (!file) {
     record_->setChecked(false);
     return;
   }
-  const QString file = dialog.selectedFiles().first();
-  Preferences::rememberFolderOf(file);
-  emit recordRequested(file);
+  Preferences::rememberFolderOf(*file);
+  emit recordRequested(*file);
   if (!isTaken_)
-    emit noted(tr("What is felt next is recorded to %1").arg(shortName(QFileInfo(file).fileName())));
+    emit noted(tr("What is felt next is recorded to %1").arg(shortName(QFileInfo(*file).fileName())));
 }
 
 void TakingAway::showRecording(const QString& file, double seconds) {

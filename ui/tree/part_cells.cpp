@@ -22,7 +22,7 @@ QIcon sameWhenSelected(const QPixmap& pixmap) {
 
 QIcon listIcon(const QString& name) {
   constexpr int kSize = 36;
-  const QString key = QStringLiteral("nearfit-list-") + name;
+  const QString key = QStringLiteral("nearfit-list-%1-%2").arg(name).arg(isThemeDark() ? 1 : 0);
   QPixmap pixmap;
   if (!QPixmapCache::find(key, &pixmap)) {
     pixmap = icon(name).pixmap(kSize, kSize);

@@ -1,5 +1,6 @@
 #include "ui/view/camera_style.h"
 
+#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkObjectFactory.h>
 #include <vtkRenderWindowInteractor.h>
@@ -25,6 +26,22 @@ void CameraStyle::withoutDrawing(const Act& act) {
 
 void CameraStyle::OnMouseMove() {
   withoutDrawing([this] { Superclass::OnMouseMove(); });
+}
+
+void CameraStyle::OnMiddleButtonDown() {
+  if (GetInteractor()->GetControlKey() == 0) return Superclass::OnMiddleButtonDown();
+  FindPokedRenderer(GetInteractor()->GetEventPosition()[0], GetInteractor()->GetEventPosition()[1]);
+  GrabFocus(EventCallbackCommand);
+  StartRotate();
+}
+
+void CameraStyle::OnMiddleButtonUp() {
+  if (GetState() == VTKIS_ROTATE) {
+    EndRotate();
+    if (GetInteractor() != nullptr) ReleaseFocus();
+    return;
+  }
+  Superclass::OnMiddleButtonUp();
 }
 
 void CameraStyle::OnMouseWheelForward() {

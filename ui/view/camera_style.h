@@ -20,6 +20,9 @@ class CameraStyle : public vtkInteractorStyleTrackballCamera {
   void OnChar() override {}
   void OnKeyPress() override {}
   void OnMouseMove() override;
+  /// With Ctrl it orbits, wherever the pointer is: a left drag may be a tool's.
+  void OnMiddleButtonDown() override;
+  void OnMiddleButtonUp() override;
   void OnMouseWheelForward() override;
   void OnMouseWheelBackward() override;
 

@@ -117,6 +117,20 @@ void DesktopClearanceTest::aRowSelectsItsPairAndShowsWhereItIsNearest() {
   QCOMPARE(f.d.window().selection().parts(), expected);
   QTRY_VERIFY(f.d.window().viewport().pictureCount() > before);
   const QImage with = f.d.picture();
+  // The pair fills more than half of the view, one way or the other.
+  const ViewProjection view = f.d.window().viewport().projection();
+  glm::dvec2 least(1e9), most(-1e9);
+  for (const char* name : {"beside", "moving"}) {
+    const Part& part = f.d.part(name);
+    for (const glm::dvec3& vertex : part.geometry->mesh.vertices()) {
+      const glm::dvec2 seen = view.pixelOf(part.worldFromPart.applyToPoint(vertex)).value();
+      least = glm::min(least, seen);
+      most = glm::max(most, seen);
+    }
+  }
+  const QSize size = f.d.window().viewport().size();
+  const double share = std::max((most.x - least.x) / size.width(), (most.y - least.y) / size.height());
+  QVERIFY2(share > 0.5 && share < 1.0, qPrintable(QString::number(share)));
   // The same picture without the pair's segment.
   f.table->clearSelection();
   QCOMPARE(f.d.window().selection().parts(), expected);

@@ -1,5 +1,6 @@
 #include <QClipboard>
 #include <QDoubleSpinBox>
+#include <QMessageBox>
 #include <QStatusBar>
 
 #include "core/mesh/mesh_import.h"
@@ -31,6 +32,7 @@ class DesktopExportTest : public QObject {
   void cancellingWritesNothing();
   void whatCannotBeWrittenIsToldAndNothingIsLost();
   void thePlacementIsCopiedAsAMatrix();
+  void aDotInANameIsNoSuffix();
 };
 
 void DesktopExportTest::aMergedMeshHasThePartsWhereTheyAre() {
@@ -139,6 +141,46 @@ void DesktopExportTest::thePlacementIsCopiedAsAMatrix() {
   QCOMPARE(second[3].toDouble(), -0.02);
   QVERIFY(std::abs(second[0].toDouble() - glm::mat4_cast(pose.rotation)[0][1]) < 1e-15);
   QCOMPARE(lines[3], QStringLiteral("0 0 0 1"));
+}
+
+void DesktopExportTest::aDotInANameIsNoSuffix() {
+  DesktopDriver d;
+  d.addCubes();
+  const auto file = d.folder.path() / "lift.v2.nearfit";
+  const QString typed = QString::fromStdString((d.folder.path() / "lift.v2").string());
+  const auto saveAs = [&] {
+    whenModal<QFileDialog>([typed](QFileDialog* dialog) { chooseFile(dialog, typed); });
+    pressShortcut(d, Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
+  };
+  saveAs();
+  QVERIFY(std::filesystem::exists(file));
+  QVERIFY(!std::filesystem::exists(d.folder.path() / "lift.v2"));
+  QVERIFY(d.window().windowTitle().startsWith(QStringLiteral("lift.v2.nearfit")));
+  // The dialog has asked for another name than the one that stands there: so does the program.
+  const std::string before = readBytes(file);
+  d.session().movePart(d.partId("fixed"), {{1, 0, 0, 0}, {0, 0, -0.5}});
+  for (const bool isReplaced : {false, true}) {
+    whenModal<QMessageBox>(
+        [isReplaced](QMessageBox* box) {
+          for (QAbstractButton* button : box->buttons()) {
+            const bool replaces = box->buttonRole(button) == QMessageBox::DestructiveRole;
+            if (replaces == isReplaced) return QTest::mouseClick(button, Qt::LeftButton);
+          }
+        },
+        QStringLiteral("replaceFile"));
+    if (!isReplaced) {
+      whenModal<QFileDialog>([typed](QFileDialog* dialog) {
+        chooseFile(dialog, typed);
+        // Cancelled, it is there once more.
+        whenModal<QFileDialog>([](QFileDialog* again) { again->reject(); });
+      });
+      pressShortcut(d, Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
+      QCOMPARE(readBytes(file), before);
+    } else {
+      saveAs();
+      QVERIFY(readBytes(file) != before);
+    }
+  }
 }
 
 NEARFIT_DESKTOP_TEST_MAIN(DesktopExportTest)

@@ -50,6 +50,7 @@ class DesktopGizmoTest : public QObject {
   void aRingTurnsAboutTheCentreOfMass();
   void theSelectedPartIsGrabbedItself();
   void besideItAViewIsOrbited();
+  void theMiddleButtonWithCtrlOrbitsOverThePart();
   void withoutAGizmoNothingIsDragged();
   void escapeRestoresExactly();
   void anotherButtonRestoresToo();
@@ -140,6 +141,20 @@ void DesktopGizmoTest::besideItAViewIsOrbited() {
   b.drag(b.seen({0.0, 0.0, -0.012}), {60, 0});
   QVERIFY(glm::distance(then, b.view().projection().away()) > 0.05);
   QCOMPARE(b.pose("fixed").translation, glm::dvec3(0.0));
+}
+
+void DesktopGizmoTest::theMiddleButtonWithCtrlOrbitsOverThePart() {
+  Bench b;
+  const RigidTransform before = b.pose();
+  const glm::dvec3 away = b.view().projection().away();
+  const QPoint onPart = b.seen(before.translation);
+  b.drag(onPart, {80, 20}, Qt::ControlModifier, Qt::MiddleButton);
+  QCOMPARE(b.pose().translation, before.translation);
+  QVERIFY(glm::distance(away, b.view().projection().away()) > 0.05);
+  // Without Ctrl the view goes along, and looks the same way.
+  const glm::dvec3 then = b.view().projection().away();
+  b.drag(onPart, {30, 10}, {}, Qt::MiddleButton);
+  QVERIFY(glm::distance(then, b.view().projection().away()) < 1e-12);
 }
 
 void DesktopGizmoTest::withoutAGizmoNothingIsDragged() {

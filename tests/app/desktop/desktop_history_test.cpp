@@ -38,6 +38,7 @@ class DesktopHistoryTest : public QObject {
   void clickGoesThere();
   void keysGoThereToo();
   void menuNamesTheStep();
+  void whatComesBackIsSeenFromWhereItWas();
 };
 
 void DesktopHistoryTest::listsTheStepsAndMarksThePresentOne() {
@@ -93,6 +94,19 @@ void DesktopHistoryTest::menuNamesTheStep() {
   QCOMPARE(d.action("undo")->text(), QStringLiteral("&Undo Move Nut && bolt"));
   d.action("undo")->trigger();
   QCOMPARE(d.action("redo")->text(), QStringLiteral("&Redo Move Nut && bolt"));
+}
+
+void DesktopHistoryTest::whatComesBackIsSeenFromWhereItWas() {
+  DesktopDriver d;
+  d.addCubes();
+  d.action("viewFront")->trigger();
+  const glm::dvec3 away = d.window().viewport().projection().away();
+  d.action("selectAll")->trigger();
+  d.action("remove")->trigger();
+  QVERIFY(d.session().scene().parts().empty());
+  d.action("undo")->trigger();
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QVERIFY(glm::distance(d.window().viewport().projection().away(), away) < 1e-12);
 }
 
 NEARFIT_DESKTOP_TEST_MAIN(DesktopHistoryTest)

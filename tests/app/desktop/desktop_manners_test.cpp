@@ -7,6 +7,7 @@
 #include <QImage>
 #include <QMenuBar>
 #include <QPainter>
+#include <QPixmapCache>
 #include <QScrollArea>
 #include <QSet>
 #include <QTabBar>
@@ -105,6 +106,10 @@ class DesktopMannersTest : public QObject {
   void iconsAreLegibleInBothThemes();
   void layoutIsRememberedAndReset();
   void tourExplainsTheDemoAndCanBeLeft();
+  void theTourIsLedByReturnToo();
+  void theTreeFollowsTheTheme();
+  void theTabKeyGoesDownTheFeelPanel();
+  void largerLettersAreNotCut();
   void toolbarsFitANarrowWindow();
 };
 
@@ -259,6 +264,84 @@ void DesktopMannersTest::tourExplainsTheDemoAndCanBeLeft() {
   QTRY_VERIFY(tour->isVisible());
   QTest::keyClick(next, Qt::Key_Escape);
   QVERIFY(!tour->isVisible());
+}
+
+void DesktopMannersTest::theTourIsLedByReturnToo() {
+  DesktopDriver d;
+  QTest::mouseClick(d.widget<QPushButton>("tourButton"), Qt::LeftButton);
+  auto* tour = d.widget<QFrame>("tour");
+  QTRY_VERIFY(tour->isVisible());
+  const QString first = d.text("tourTitle");
+  QTest::keyClick(d.widget<QPushButton>("tourNext"), Qt::Key_Return);
+  QVERIFY(tour->isVisible());
+  QVERIFY(d.text("tourTitle") != first);
+  d.widget<QPushButton>("tourLeave")->setFocus();
+  QTest::keyClick(d.widget<QPushButton>("tourLeave"), Qt::Key_Return);
+  QVERIFY(!tour->isVisible());
+}
+
+void DesktopMannersTest::theTreeFollowsTheTheme() {
+  DesktopDriver d;
+  d.addCubes();
+  const auto symbols = [&d] {
+    QTreeView* view = d.partsView();
+    QTest::qWait(0);
+    return view->viewport()->grab().toImage();
+  };
+  const QImage light = symbols();
+  d.action("themeDark")->trigger();
+  const QImage dark = symbols();
+  QVERIFY(dark != light);
+  // As a program that was dark from the start shows them.
+  QPixmapCache::clear();
+  d.partsView()->viewport()->update();
+  QCOMPARE(symbols(), dark);
+}
+
+void DesktopMannersTest::theTabKeyGoesDownTheFeelPanel() {
+  DesktopDriver d;
+  d.addCubes();
+  auto* panel = d.widget<QWidget>("feelScroll");
+  auto* first = panel->findChild<QComboBox*>(QStringLiteral("hand"));
+  QVERIFY(first != nullptr);
+  first->setFocus();
+  int lowest = 0, count = 0;
+  while (QApplication::focusWidget() != nullptr && panel->isAncestorOf(QApplication::focusWidget())) {
+    const QWidget* here = QApplication::focusWidget();
+    const int top = here->mapTo(&d.window(), QPoint()).y();
+    QVERIFY2(top >= lowest - here->height(), qPrintable(pathOf(here)));
+    lowest = std::max(lowest, top);
+    if (++count > 40) break;
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
+  }
+  QVERIFY(count >= 4 && count <= 40);
+}
+
+void DesktopMannersTest::largerLettersAreNotCut() {
+  const QFont before = QApplication::font();
+  QFont large = before;
+  large.setPointSizeF(1.6 * before.pointSizeF());
+  QApplication::setFont(large);
+  {
+    DesktopDriver d;
+    d.addCubes();
+    auto* legend = d.widget<QWidget>("colourLegend");
+    QVERIFY(legend->sizeHint().width() > 300);
+    QTest::keyClick(&d.window(), Qt::Key_F1);
+    auto* list = d.widget<QTreeWidget>("shortcutList");
+    QTRY_VERIFY(list->isVisible());
+    keepPictures(*list->window(), QStringLiteral("shortcuts-large"));
+    for (QTreeWidgetItemIterator it(list); *it != nullptr; ++it) {
+      const int room = list->columnWidth(0) - (list->visualItemRect(*it).left() + list->iconSize().width());
+      QVERIFY2((*it)->childCount() > 0 || list->fontMetrics().horizontalAdvance((*it)->text(0)) <= room,
+               qPrintable((*it)->text(0)));
+    }
+    for (const char* name : {"x", "rx", "mass"}) {
+      const auto* field = d.widget<QWidget>(name);
+      if (field != nullptr) QVERIFY2(field->width() >= field->minimumSizeHint().width(), name);
+    }
+  }
+  QApplication::setFont(before);
 }
 
 void DesktopMannersTest::toolbarsFitANarrowWindow() {

@@ -261,16 +261,13 @@ void DesktopPictureTest::aJpegIsWrittenUnlessItWouldBeTransparent() {
   QVERIFY(file.open(QIODevice::ReadOnly));
   QCOMPARE(file.read(2), QByteArray("\xff\xd8"));
 
-  std::vector<ui::Failure> failures;
-  d.window().setFailureSink([&](const ui::Failure& failure) { failures.push_back(failure); });
+  // What has another suffix, or one that knows no transparency, gets one that fits.
   PictureChoice choice;
   choice.ground = Transparent;
   d.save(choice, d.file("glass.jpg"));
-  QTRY_COMPARE(failures.size(), std::size_t{1});
-  QVERIFY(failures[0].details.contains(QStringLiteral("transparency")));
+  QTRY_VERIFY(QFile::exists(d.file("glass.jpg.png")));
   d.save({}, d.file("view.bmp"));
-  QTRY_COMPARE(failures.size(), std::size_t{2});
-  QVERIFY(failures[1].details.contains(QStringLiteral(".png or .jpg")));
+  QTRY_VERIFY(QFile::exists(d.file("view.bmp.png")));
   QVERIFY(!QFile::exists(d.file("glass.jpg")) && !QFile::exists(d.file("view.bmp")));
 }
 

@@ -50,23 +50,24 @@ class ViewDriver {
     QMouseEvent event(type, at, view().mapToGlobal(at), isMove ? Qt::NoButton : button, down, keys);
     QApplication::sendEvent(&view(), &event);
   }
-  void press(QPoint at, Qt::KeyboardModifiers keys = {}) {
-    held_ = Qt::LeftButton;
-    send(QEvent::MouseButtonPress, at, keys);
+  void press(QPoint at, Qt::KeyboardModifiers keys = {}, Qt::MouseButton button = Qt::LeftButton) {
+    held_ = button;
+    send(QEvent::MouseButtonPress, at, keys, button);
   }
   void moveTo(QPoint at, Qt::KeyboardModifiers keys = {}) {
     send(QEvent::MouseMove, at, keys);
     QCoreApplication::processEvents();
   }
-  void release(QPoint at, Qt::KeyboardModifiers keys = {}) {
-    send(QEvent::MouseButtonRelease, at, keys);
+  void release(QPoint at, Qt::KeyboardModifiers keys = {}, Qt::MouseButton button = Qt::LeftButton) {
+    send(QEvent::MouseButtonRelease, at, keys, button);
     held_ = Qt::NoButton;
   }
-  void drag(QPoint from, QPoint way, Qt::KeyboardModifiers keys = {}) {
-    press(from, keys);
+  void drag(QPoint from, QPoint way, Qt::KeyboardModifiers keys = {},
+            Qt::MouseButton button = Qt::LeftButton) {
+    press(from, keys, button);
     for (int i = 1; i <= 10; ++i)
       moveTo(from + way * i / 10, keys);
-    release(from + way, keys);
+    release(from + way, keys, button);
   }
 
  private:
