@@ -33,6 +33,7 @@ struct Full {
     QVERIFY(d.action("record")->isChecked());
   }
   void feel() {
+    QApplication::setActiveWindow(&d.window());
     QTest::keyClick(&d.window(), Qt::Key_F5);
     QTRY_VERIFY(d.application.servo().isRunning());
   }
