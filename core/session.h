@@ -65,7 +65,7 @@ class Session {
   void moveParts(const std::vector<PartId>& ids, PartId lead, const RigidTransform& worldFromLead,
                  const std::string& verb = "Move");
   void setVisible(const std::vector<PartId>& ids, bool visible);
-  void setColour(const std::vector<PartId>& ids, const Colour& colour);
+  void setColour(const std::vector<PartId>& ids, const Colour& colour);  ///< Also for locked parts.
   /// Also for locked parts.
   void setOpacity(const std::vector<PartId>& ids, double opacity);
   void setDensity(const std::vector<PartId>& ids, double density);
@@ -73,7 +73,7 @@ class Session {
   void isolate(const std::vector<PartId>& ids);
   void endIsolation();
 
-  /// The locks of the nodes themselves: what a group holds keeps its own beside the group's.
+  /// The nodes' own locks: what a group holds keeps its own. Whoever locks what is in hand puts it down.
   void setLocked(const SceneNodes& nodes, bool locked);
   void renameGroup(GroupId id, const std::string& name);
   /// Groups with all that they hold.

@@ -1,4 +1,5 @@
 // Commands about groups, and about parts and groups alike.
+#include <algorithm>
 #include <map>
 #include <ranges>
 #include <unordered_set>
@@ -86,7 +87,9 @@ void Session::setLocked(const SceneNodes& nodes, bool locked) {
   Scene next = scene();
   SceneNodes changed;
   // Throws when there is no such node.
-  outermost(scene(), nodes);
+  const std::vector<PartId> parts = partsOf(scene(), nodes);
+  const bool isMoving = next.movingPart() && std::ranges::count(parts, *next.movingPart()) > 0;
+  if (locked && isMoving) next.setMovingPart(std::nullopt);
   for (const GroupId id : nodes.groups) {
     Group group = *next.findGroup(id);
     if (std::exchange(group.isLocked, locked) == locked) continue;

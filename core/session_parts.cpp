@@ -93,7 +93,7 @@ void Session::setVisible(const std::vector<PartId>& ids, bool visible) {
 }
 
 void Session::setColour(const std::vector<PartId>& ids, const Colour& colour) {
-  changeUnlocked(ids, "Recolour", [&colour](Part& part) { part.colour = colour; });
+  change(ids, "Recolour", [&colour](Part& part) { part.colour = colour; });
 }
 
 void Session::setOpacity(const std::vector<PartId>& ids, double opacity) {

@@ -30,7 +30,7 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   redo = make("redo", tr("&Redo"), "redo");
   redo->setShortcuts({QKeySequence(QStringLiteral("Ctrl+Shift+Z")), QKeySequence(QStringLiteral("Ctrl+Y"))});
   duplicate = make("duplicate", tr("&Duplicate"), "duplicate", QKeySequence(QStringLiteral("Ctrl+D")));
-  rename = make("rename", tr("Re&name"), "rename");
+  rename = make("rename", tr("Re&name"), "rename", QKeySequence(Qt::Key_F2));
   recolour = make("recolour", tr("&Colour…"), {});
   takeInHand = make("takeInHand", tr("&Take in hand"), "hand", QKeySequence(QStringLiteral("Ctrl+H")));
   takeInHand->setToolTip(tr("Make the selected part the moving part"));
@@ -172,8 +172,10 @@ void Actions::update(const Session& session, const Availability& availability) {
   redo->setText(withLabel(tr("&Redo"), session.redoText()));
 
   const bool canChange = isFree && availability.hasSelection && !availability.isSelectionLocked;
-  duplicate->setEnabled(isFree && availability.hasSelection);
-  for (QAction* action : {rename, recolour, remove, takeInHand})
+  // How a part looks is nothing that a lock guards.
+  for (QAction* action : {duplicate, recolour})
+    action->setEnabled(isFree && availability.hasSelection);
+  for (QAction* action : {rename, remove, takeInHand})
     action->setEnabled(canChange);
   fitSelection->setEnabled(availability.hasSelection);
   start->setEnabled(isFree && availability.canStart && !availability.isServoRunning);

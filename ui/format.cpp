@@ -1,5 +1,6 @@
 #include "ui/format.h"
 
+#include <QLocale>
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +14,7 @@ constexpr QChar kDot(0xB7);
 QString figures(double value) {
   const double magnitude = std::abs(value);
   const int decimals = magnitude < 9.995 ? 2 : magnitude < 99.95 ? 1 : 0;
-  return QString::number(value, 'f', decimals);
+  return formatFixed(value, decimals);
 }
 
 /// Three figures also below one: 0.0484.
@@ -21,10 +22,16 @@ QString threeFigures(double value) {
   const double magnitude = std::abs(value);
   if (magnitude == 0.0 || magnitude >= 0.9995) return figures(value);
   const int zeros = static_cast<int>(std::floor(-std::log10(magnitude)));
-  return QString::number(value, 'f', zeros + 3);
+  return formatFixed(value, zeros + 3);
 }
 
 }  // namespace
+
+QString formatFixed(double value, int decimals) {
+  QLocale locale;
+  locale.setNumberOptions(QLocale::OmitGroupSeparator);
+  return locale.toString(value, 'f', decimals);
+}
 
 QString formatLength(double metres) {
   return formatLength(metres, shownLengthUnit());
@@ -74,13 +81,11 @@ QString formatNumber(double value) {
   if (!std::isfinite(value)) return QStringLiteral("–");
   if (value == 0.0) return QStringLiteral("0");
   const int before = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
-  const int decimals = std::clamp(kFigures - before, 0, kMostDecimals);
-  QString text = QString::number(value, 'f', decimals);
-  if (decimals == 0) return text;
-  while (text.endsWith(QChar('0')))
-    text.chop(1);
-  if (text.endsWith(QChar('.'))) text.chop(1);
-  return text;
+  int decimals = std::clamp(kFigures - before, 0, kMostDecimals);
+  const QString digits = QString::number(value, 'f', decimals);
+  for (int last = digits.size() - 1; decimals > 0 && digits[last] == QChar('0'); --last)
+    --decimals;
+  return formatFixed(value, decimals);
 }
 
 QString formatDuration(double seconds) {

@@ -6,6 +6,11 @@
 
 namespace nearfit::ui {
 
+/// All of these write decimals as the user's locale does, as number fields do, and group no thousands. They
+/// are for people: what is exported has a point.
+
+/// With so many decimals.
+QString formatFixed(double value, int decimals);
 /// A length as an engineer writes it, in the unit that the user has chosen (shownLengthUnit); three to four
 /// figures. In millimetres what is long or short has a unit of its own: "12.34 mm", "850 um" with the micro
 /// sign, "1.20 m"; in the others what is short alone: "1.23 cm", "0.484 in", "850 uin". "-" when it is not

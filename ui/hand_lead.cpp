@@ -26,7 +26,7 @@ QString formatLead(const HandLead& lead) {
   const double degrees = lead.angle * kDegreesPerRadian;
   const QString distance = formatLength(lead.distance);
   if (degrees < kLeastAngle) return distance;
-  return distance + QStringLiteral(", %1°").arg(degrees, 0, 'f', degrees < 10.0 ? 1 : 0);
+  return distance + QStringLiteral(", %1°").arg(formatFixed(degrees, degrees < 10.0 ? 1 : 0));
 }
 
 }  // namespace nearfit::ui

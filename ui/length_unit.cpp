@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/format.h"
+
 namespace nearfit::ui {
 namespace {
 
@@ -62,9 +64,10 @@ double metresOf(LengthUnit unit) noexcept {
 }
 
 QString lengthIn(LengthUnit unit, double metres, int decimals) {
-  QString number = QString::number(metres / metresOf(unit), 'f', decimals);
-  if (number.startsWith(QChar('-')) && number.toDouble() == 0.0) number.remove(0, 1);
-  return number + QChar(' ') + symbolOf(unit);
+  const double inUnits = metres / metresOf(unit);
+  // No "-0".
+  const bool isZero = QString::number(inUnits, 'f', decimals).toDouble() == 0.0;
+  return formatFixed(isZero ? 0.0 : inUnits, decimals) + QChar(' ') + symbolOf(unit);
 }
 
 int measuredDecimals(LengthUnit unit, double metres) noexcept {

@@ -30,6 +30,7 @@
 #include "ui/placing/placing_tools.h"
 #include "ui/preferences.h"
 #include "ui/recovery/recovery.h"
+#include "ui/selecting/view_menu.h"
 #include "ui/selection.h"
 #include "ui/status_readout.h"
 #include "ui/taking/taking_away.h"
@@ -120,9 +121,13 @@ void MainWindow::setUpPanels() {
   resizeDocks({pose}, {240}, Qt::Vertical);
   auto* separator = new QAction(this);
   separator->setSeparator(true);
-  partsPanel_->setMenuActions(
+  const QList<QAction*> menu =
       QList<QAction*>{actions_->takeInHand, actions_->rename, actions_->recolour, actions_->duplicate} +
-      treeActions_->list() + QList<QAction*>{separator, actions_->remove});
+      treeActions_->list() + QList<QAction*>{separator, actions_->remove};
+  for (QAction* action : menu)
+    action->setShortcutVisibleInContextMenu(true);
+  partsPanel_->setMenuActions(menu);
+  new ViewMenu(*selection_, *viewport_, menu, {actions_->selectAll, actions_->fit}, this);
 }
 
 QDockWidget* MainWindow::addDock(const QString& name, const QString& title, QWidget* content,

@@ -129,6 +129,8 @@ class MainWindow : public QMainWindow {
   /// Asks for the file of a recorded hand; false when the user wants none.
   bool askForRecording();
   void takeInHand(std::optional<PartId> part);
+  /// What is in hand is put down first, unless it is being felt.
+  void lockNodes(const SceneNodes& nodes, bool isLocked);
   void deleteSelected();
   void recolourSelected();
   void moveSelected(const RigidTransform& worldFromPart);

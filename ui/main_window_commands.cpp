@@ -1,6 +1,7 @@
 // What the main window does for the user: the wiring of its actions and panels to the session's commands.
 #include <QAction>
 #include <QColorDialog>
+#include <QDockWidget>
 #include <QFileDialog>
 #include <QMessageBox>
 #include <QTimer>
@@ -22,6 +23,7 @@
 #include "ui/preferences.h"
 #include "ui/selection.h"
 #include "ui/taking/taking_away.h"
+#include "ui/tree/tree_actions.h"
 #include "ui/viewport.h"
 
 namespace nearfit::ui {
@@ -65,7 +67,12 @@ void MainWindow::connectEditActions() {
   connect(actions_->redo, &QAction::triggered, this, [this] { session_.redo(); });
   connect(actions_->remove, &QAction::triggered, this, &MainWindow::deleteSelected);
   connect(actions_->recolour, &QAction::triggered, this, &MainWindow::recolourSelected);
-  connect(actions_->rename, &QAction::triggered, partsPanel_, &PartsPanel::editName);
+  connect(actions_->rename, &QAction::triggered, this, [this] {
+    auto* dock = findChild<QDockWidget*>(QStringLiteral("partsDock"));
+    dock->show();
+    dock->raise();
+    partsPanel_->editName();
+  });
   connect(actions_->takeInHand, &QAction::triggered, this, [this] {
     if (selected()) takeInHand(selected());
   });
@@ -114,9 +121,9 @@ void MainWindow::connectPanels() {
             attempt(tr("The part could not be hidden or shown."),
                     [&] { session_.setVisible(parts, isVisible); });
           });
-  connect(partsPanel_, &PartsPanel::lockRequested, this, [this](const SceneNodes& nodes, bool isLocked) {
-    attempt(tr("The part could not be locked or unlocked."), [&] { session_.setLocked(nodes, isLocked); });
-  });
+  connect(partsPanel_, &PartsPanel::lockRequested, this, &MainWindow::lockNodes);
+  connect(treeActions_, &TreeActions::lockRequested, this, &MainWindow::lockNodes);
+  connect(partsPanel_, &PartsPanel::renameRefused, this, &MainWindow::showNote);
   // Later: the view is still busy with the drop, which a changed model would disturb.
   connect(partsPanel_, &PartsPanel::regroupRequested, this,
           [this](const SceneNodes& nodes, std::optional<GroupId> target) {
@@ -148,6 +155,18 @@ void MainWindow::takeInHand(std::optional<PartId> part) {
   emit servoStopRequested();
   attempt(tr("The part could not be taken in hand."), [&] { session_.setMovingPart(part); });
   if (wasRunning && actions_->start->isEnabled()) requestStart();
+}
+
+void MainWindow::lockNodes(const SceneNodes& nodes, bool isLocked) {
+  const std::vector<PartId> parts = partsOf(session_.scene(), nodes);
+  const std::optional<PartId> moving = session_.scene().movingPart();
+  const bool isMoving = isLocked && moving && std::ranges::count(parts, *moving) > 0;
+  const QString name = isMoving ? shortName(session_.scene().find(*moving)->name) : QString();
+  if (isMoving && servo_.isTaken()) return showNote(tr("%1 is being felt: stop (F6) to lock it").arg(name));
+  attempt(tr("The parts could not be locked or unlocked."), [&] {
+    session_.setLocked(nodes, isLocked);
+    if (isMoving) showNote(tr("%1 is locked, and so no longer in hand").arg(name));
+  });
 }
 
 void MainWindow::deleteSelected() {

@@ -9,14 +9,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/fault_style.h"
 #include "ui/format.h"
 #include "ui/preferences.h"
 
 namespace nearfit::ui {
 namespace {
-
-constexpr int kFaultTime = 20000;  ///< That a message stays [ms].
-const char* const kFaultyStyle = "background: #fde8e6; color: #7a1109;";
 
 /// A step that is easy to count in: 1, 2 or 5 times a power of ten.
 double roundStep(double step) {

@@ -6,7 +6,9 @@
 #include <QMimeData>
 #include <algorithm>
 #include <map>
+#include <utility>
 
+#include "core/error.h"
 #include "ui/theme.h"
 #include "ui/tree/part_cells.h"
 
@@ -173,9 +175,33 @@ Qt::ItemFlags PartsModel::flags(const QModelIndex& index) const {
   // At the top, too, something can be dropped.
   if (!index.isValid()) return Qt::ItemIsDropEnabled;
   Qt::ItemFlags result = QAbstractItemModel::flags(index) | Qt::ItemIsDragEnabled;
-  if (index.column() == Name) result |= Qt::ItemIsEditable;
+  const std::optional<PartId> part = partAt(index);
+  const bool isLocked =
+      part ? scene_.isLocked(*scene_.find(*part)) : scene_.isLocked(*scene_.findGroup(*groupAt(index)));
+  if (index.column() == Name && !isLocked) result |= Qt::ItemIsEditable;
   if (groupAt(index)) result |= Qt::ItemIsDropEnabled;
   return result;
+}
+
+QString PartsModel::renameRefusal(const QModelIndex& index, const QString& name) const {
+  // The scene is a value, and cheap to copy: one to try it on.
+  Scene tried = scene_;
+  try {
+    if (const std::optional<PartId> id = partAt(index)) {
+      Part part = *tried.find(*id);
+      part.name = name.trimmed().toStdString();
+      tried.replace(std::move(part));
+    } else if (const std::optional<GroupId> group = groupAt(index)) {
+      Group renamed = *tried.findGroup(*group);
+      renamed.name = name.trimmed().toStdString();
+      tried.replaceGroup(std::move(renamed));
+    }
+  } catch (const UsageError& error) {
+    QString problem = QString::fromStdString(error.problem());
+    problem[0] = problem[0].toUpper();
+    return tr("%1: %2").arg(problem, QString::fromStdString(error.remedy()));
+  }
+  return {};
 }
 
 bool PartsModel::setData(const QModelIndex& index, const QVariant& value, int role) {

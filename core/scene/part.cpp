@@ -12,13 +12,13 @@ namespace nearfit {
 bool isSameButForLook(const Part& a, const Part& b) noexcept {
   return a.id == b.id && a.name == b.name && a.geometry == b.geometry &&
          a.worldFromPart.rotation == b.worldFromPart.rotation &&
-         a.worldFromPart.translation == b.worldFromPart.translation && a.colour == b.colour &&
-         a.density == b.density && a.group == b.group;
+         a.worldFromPart.translation == b.worldFromPart.translation && a.density == b.density &&
+         a.group == b.group;
 }
 
 bool isSame(const Part& a, const Part& b) noexcept {
-  return isSameButForLook(a, b) && a.opacity == b.opacity && a.isVisible == b.isVisible &&
-         a.isLocked == b.isLocked && a.wasVisible == b.wasVisible;
+  return isSameButForLook(a, b) && a.colour == b.colour && a.opacity == b.opacity &&
+         a.isVisible == b.isVisible && a.isLocked == b.isLocked && a.wasVisible == b.wasVisible;
 }
 
 double massOf(const Part& part) noexcept {

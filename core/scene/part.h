@@ -41,9 +41,9 @@ struct Part {
   double density = kDefaultDensity;  ///< [kg/m^3]
   double opacity = 1.0;              ///< kMinOpacity to 1.
   bool isVisible = true;             ///< An invisible part is not felt either.
-  /// A locked part cannot be moved, renamed, recoloured, made of another density or shape, put into another
-  /// group, deleted, or be the moving part; how it is shown (hidden, transparent) can be changed. A group
-  /// locks what it holds: Scene::isLocked says whether a part is locked for either reason.
+  /// A locked part cannot be moved, renamed, made of another density or shape, put into another group,
+  /// deleted, or be the moving part; how it is shown (hidden, transparent, its colour) can be changed. A
+  /// group locks what it holds: Scene::isLocked says whether a part is locked for either reason.
   bool isLocked = false;
   std::optional<GroupId> group;  ///< None: it stands at the top.
   /// While parts are isolated: whether it was visible before. Empty for parts that came since.

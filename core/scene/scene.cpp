@@ -68,7 +68,8 @@ void Scene::replace(Part part) {
   if (part.group != before.group) requireOpen(part.group);
   const Part* namesake = part.name != before.name ? findByName(part.name) : nullptr;
   if (namesake != nullptr && namesake->id != part.id) {
-    throw UsageError(fmt::format("name \"{}\"", part.name), "another part has it", "choose another name");
+    throw UsageError(fmt::format("part \"{}\"", before.name),
+                     fmt::format("\"{}\" is the name of another part", part.name), "choose another name");
   }
   if (part.isLocked && movingPart_ == part.id) {
     throw UsageError(fmt::format("part \"{}\"", part.name), "it is the moving part and cannot be locked",

@@ -141,9 +141,6 @@ TEST_F(SessionGroups, NoCommandBypassesALockOfThePartOrOfItsGroup) {
       },
       [&](PartId id) { session_.renamePart(id, "x"); },
       [&](PartId id) {
-        session_.setColour({c_, id}, {1, 0, 0});
-      },
-      [&](PartId id) {
         session_.setDensity({c_, id}, 1.0);
       },
       [&](PartId id) { session_.deletePart(id); },
@@ -192,6 +189,35 @@ TEST_F(SessionGroups, AGroupWithALockedPartIsNeitherDeletedNorUngrouped) {
   EXPECT_THROW(session_.deleteNodes({{}, {group}}), UsageError);
   EXPECT_THROW(session_.ungroup({group}), UsageError);
   EXPECT_EQ(part(a_).group, group);
+}
+
+TEST_F(SessionGroups, TheMovingPartIsPutDownByWhatLocksIt) {
+  const GroupId group = session_.group({{a_}, {}});
+  session_.setMovingPart(a_);
+  session_.setLocked({{b_}, {}}, true);
+  EXPECT_EQ(session_.scene().movingPart(), a_);
+  for (const SceneNodes& nodes : {SceneNodes{{a_}, {}}, SceneNodes{{}, {group}}}) {
+    const std::size_t before = session_.historyIndex();
+    session_.setLocked(nodes, true);
+    EXPECT_EQ(session_.historyIndex(), before + 1);
+    EXPECT_TRUE(session_.scene().isLocked(part(a_)));
+    EXPECT_EQ(session_.scene().movingPart(), std::nullopt);
+    session_.undo();
+    EXPECT_FALSE(session_.scene().isLocked(part(a_)));
+    EXPECT_EQ(session_.scene().movingPart(), a_);
+  }
+  // One that is not locked by it stays in hand.
+  session_.setLocked({{a_}, {}}, false);
+  EXPECT_EQ(session_.scene().movingPart(), a_);
+}
+
+TEST_F(SessionGroups, LockedPartsAreColouredAndThatIsOneStep) {
+  session_.setLocked({{a_, b_}, {}}, true);
+  const std::size_t before = session_.historyIndex();
+  session_.setColour({a_, b_}, {0.25F, 0.5F, 0.75F});
+  EXPECT_EQ(part(a_).colour, (Colour{0.25F, 0.5F, 0.75F}));
+  EXPECT_EQ(part(b_).colour, (Colour{0.25F, 0.5F, 0.75F}));
+  EXPECT_EQ(session_.historyIndex(), before + 1);
 }
 
 TEST_F(SessionGroups, LockedPartsAreHiddenIsolatedAndMadeTransparent) {

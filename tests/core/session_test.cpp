@@ -111,7 +111,6 @@ TEST(Session, RefusedCommandChangesNothingAndKeepsRedo) {
   EXPECT_THROW(session.movePart(peg, kAside), UsageError);
   EXPECT_THROW(session.renamePart(peg, "Pin"), UsageError);
   EXPECT_THROW(session.deletePart(peg), UsageError);
-  EXPECT_THROW(session.setColour(peg, {}), UsageError);
   EXPECT_THROW(session.setDensity(peg, 500.0), UsageError);
   EXPECT_THROW(session.setDensity(hole, 0.0), UsageError);
   EXPECT_THROW(session.setMovingPart(peg), UsageError);

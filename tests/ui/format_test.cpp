@@ -3,6 +3,8 @@
 #include <QtTest>
 #include <limits>
 
+#include "ui/number_field.h"
+
 using namespace nearfit::ui;
 
 class FormatTest : public QObject {
@@ -17,6 +19,7 @@ class FormatTest : public QObject {
   void massesAndEnergiesTakeTheUnitOfTheirSize();
   void numbersHaveNoZerosBehind();
   void durationsTakeTheUnitOfTheirSize();
+  void decimalsAreThoseOfNumberFields();
 };
 
 void FormatTest::lengthsTakeTheUnitOfTheirSize() {
@@ -80,5 +83,28 @@ void FormatTest::durationsTakeTheUnitOfTheirSize() {
   QCOMPARE(formatDuration(2.0), QStringLiteral("2.00 s"));
 }
 
-QTEST_GUILESS_MAIN(FormatTest)
+// Fields said "0,25", and the mass beside them "8.00 g".
+void FormatTest::decimalsAreThoseOfNumberFields() {
+  const QLocale before;
+  QLocale::setDefault(QLocale(QLocale::German, QLocale::Germany));
+  NumberField field;
+  field.setUnit(QStringLiteral(" mm"));
+  field.setDecimals(2);
+  field.setRange(0.0, 1e6);
+  const auto inField = [&field](double value) {
+    field.setValue(value);
+    return field.text();
+  };
+  QCOMPARE(inField(0.25), QStringLiteral("0,25 mm"));
+  QCOMPARE(formatLength(0.00025), inField(0.25));
+  QCOMPARE(lengthIn(LengthUnit::Millimetre, 1.2345, 2), inField(1234.5));
+  QCOMPARE(formatMass(0.008), QStringLiteral("8,00 g"));
+  QCOMPARE(formatForce(3.42), QStringLiteral("3,42 N"));
+  QCOMPARE(formatNumber(0.2), QStringLiteral("0,2"));
+  QCOMPARE(formatNumber(1600.0), QStringLiteral("1600"));
+  QCOMPARE(formatDuration(0.0013), QStringLiteral("1,30 ms"));
+  QLocale::setDefault(before);
+}
+
+QTEST_MAIN(FormatTest)
 #include "format_test.moc"

@@ -8,6 +8,7 @@
 #include <QStringList>
 #include <numbers>
 
+#include "ui/format.h"
 #include "ui/theme.h"
 
 namespace nearfit::ui {
@@ -91,7 +92,7 @@ void MeasureBar::showMeasurement(const std::optional<Measurement>& measurement, 
     if (measurement->apart) texts[4] = length(*measurement->apart);
     if (measurement->angle) {
       const double degrees = *measurement->angle * 180.0 / std::numbers::pi;
-      texts[5] = QString::number(degrees, 'f', kAngleDecimals) + QChar(0xB0);
+      texts[5] = formatFixed(degrees, kAngleDecimals) + QChar(0xB0);
     }
   }
   bool hasChanged = false;

@@ -11,6 +11,7 @@
 
 #include "ui/parts_model.h"
 #include "ui/selection.h"
+#include "ui/tree/name_delegate.h"
 #include "ui/tree/parts_view.h"
 
 namespace nearfit::ui {
@@ -30,6 +31,10 @@ PartsPanel::PartsPanel(Selection& selection, QWidget* parent)
   view_->setObjectName(QStringLiteral("partsView"));
   view_->setAccessibleName(tr("Groups and parts"));
   view_->setModel(model_);
+  auto* names = new NameDelegate(
+      [this](const QModelIndex& row, const QString& name) { return model_->renameRefusal(row, name); }, this);
+  view_->setItemDelegateForColumn(PartsModel::Name, names);
+  connect(names, &NameDelegate::refused, this, &PartsPanel::renameRefused);
   QHeaderView* header = view_->header();
   header->setStretchLastSection(false);
   header->setMinimumSectionSize(28);

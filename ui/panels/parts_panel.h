@@ -31,6 +31,8 @@ class PartsPanel : public QWidget {
 
  signals:
   void renameRequested(nearfit::PartId part, const QString& name);
+  /// A name that was typed was not taken, and is gone.
+  void renameRefused(const QString& reason);
   void groupRenameRequested(nearfit::GroupId group, const QString& name);
   void movingPartRequested(std::optional<nearfit::PartId> part);
   void visibilityRequested(const std::vector<nearfit::PartId>& parts, bool isVisible);

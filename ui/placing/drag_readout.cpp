@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "ui/format.h"
+
 namespace nearfit::ui {
 namespace {
 
@@ -15,9 +17,9 @@ constexpr int kBeside = 18;  ///< From the pointer [pixels].
 constexpr int kMostDecimals = 6;
 
 QString signedNumber(double value, int decimals) {
-  const QString digits = QString::number(std::abs(value), 'f', decimals);
-  const bool isZero = digits.toDouble() == 0.0;
-  return (isZero ? QString() : value < 0.0 ? QString(kMinus) : QStringLiteral("+")) + digits;
+  const bool isZero = QString::number(value, 'f', decimals).toDouble() == 0.0;
+  const QString sign = isZero ? QString() : value < 0.0 ? QString(kMinus) : QStringLiteral("+");
+  return sign + formatFixed(std::abs(value), decimals);
 }
 
 }  // namespace

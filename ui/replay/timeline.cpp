@@ -15,6 +15,7 @@
 #include <cmath>
 
 #include "ui/elided_label.h"
+#include "ui/format.h"
 #include "ui/theme.h"
 
 namespace nearfit::ui {
@@ -27,7 +28,7 @@ constexpr int kRealTime = 3;
 constexpr int kManyRows = 100;
 
 QString timeText(double time) {
-  return QObject::tr("%1 s").arg(time, 0, 'f', 3);
+  return QObject::tr("%1 s").arg(formatFixed(time, 3));
 }
 
 /// A slider that goes where it is pressed, as that of a player does.
@@ -68,7 +69,7 @@ Timeline::Timeline(QWidget* parent) : QWidget(parent) {
   speed_->setAccessibleName(tr("Speed"));
   speed_->setToolTip(tr("Speed"));
   for (const double speed : kSpeeds)
-    speed_->addItem(tr("%1×").arg(speed), speed);
+    speed_->addItem(tr("%L1×").arg(speed), speed);
   speed_->setCurrentIndex(kRealTime);
   connect(speed_, QOverload<int>::of(&QComboBox::activated), this,
           [this] { emit speedChosen(speed_->currentData().toDouble()); });

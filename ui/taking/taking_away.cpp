@@ -11,6 +11,7 @@
 #include "ui/clearance/clearance_panel.h"
 #include "ui/clearance/clearance_search.h"
 #include "ui/dialogs/save_file.h"
+#include "ui/format.h"
 #include "ui/names.h"
 #include "ui/plots/plot_panel.h"
 #include "ui/preferences.h"
@@ -205,7 +206,8 @@ void TakingAway::showRecordingFailed() {
 }
 
 void TakingAway::showRecorded(const QString& file, double seconds, quint64 lost) {
-  QString text = tr("Recorded %1 s to %2").arg(seconds, 0, 'f', 1).arg(shortName(QFileInfo(file).fileName()));
+  QString text =
+      tr("Recorded %1 s to %2").arg(formatFixed(seconds, 1), shortName(QFileInfo(file).fileName()));
   if (lost > 0) text += tr("; %1 ticks are missing, as the window was busy").arg(lost);
   emit noted(text);
 }

@@ -117,9 +117,7 @@ bool TreeActions::areNodesLocked() const {
 }
 
 void TreeActions::toggleLock() {
-  const SceneNodes nodes = outermost(session_.scene(), selection_.nodes());
-  attempt_(tr("The parts could not be locked or unlocked."),
-           [&] { session_.setLocked(nodes, !areNodesLocked()); });
+  emit lockRequested(outermost(session_.scene(), selection_.nodes()), !areNodesLocked());
 }
 
 void TreeActions::isolate() {

@@ -40,6 +40,9 @@ class TreeActions : public QObject {
   /// What can be done now.
   void update(bool isBusy);
 
+ signals:
+  void lockRequested(const nearfit::SceneNodes& nodes, bool isLocked);
+
  private:
   QAction* make(const char* name, const QString& text, const QString& icon, const QString& keys,
                 void (TreeActions::*run)());

@@ -25,6 +25,7 @@ class DesktopAlignTest : public QObject {
   void dragsStillOrbitWhileAligning();
   void makingPartsSolidMeanwhileEndsNothing();
   void alignsACornerWithACorner();
+  void alignsTheAxesOfTwoCylinders();
   void dropsToContactAsOneStepOfUndo();
   void dropsTowardsAFace();
   void pushesUntilHeld();
@@ -202,6 +203,34 @@ void DesktopAlignTest::alignsACornerWithACorner() {
   QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
   const glm::dvec3 corner = d.part("moving").worldFromPart.applyToPoint({-0.01, kMovingFront, 0.045});
   QVERIFY(glm::distance(corner, glm::dvec3(-0.02, kFixedFront, 0.02)) < 1e-15);
+}
+
+void DesktopAlignTest::alignsTheAxesOfTwoCylinders() {
+  DesktopDriver d;
+  d.add({writeOff(d.folder.path() / "bush.off", cylinderMesh(0.02, 0.04, 64)),
+         writeOff(d.folder.path() / "pin.off", cylinderMesh(0.005, 0.05, 64))});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+  const RigidTransform aside{glm::angleAxis(0.3, glm::dvec3(0, 1, 0)), {0.06, 0.01, 0.02}};
+  d.session().movePart(d.partId("pin"), aside);
+  d.action("viewFront")->trigger();
+  QTest::qWait(50);
+  QTest::keyClick(&d.window(), Qt::Key_A);
+  auto* filter = d.widget<QComboBox>("alignFilter");
+  filter->setCurrentIndex(filter->findText(QStringLiteral("Axes and edges")));
+  // In the middle of each, on the side of the viewer.
+  const glm::dvec3 onPin = aside.applyToPoint({0.0, -0.005, 0.002});
+  hover(d, onPin);
+  QTRY_VERIFY2(d.text("alignHint").startsWith(QStringLiteral("Axis of a cylinder ⌀ 10.0 mm")),
+               qPrintable(d.text("alignHint")));
+  click(d, onPin);
+  click(d, {0.0, -0.02, 0.002});
+  QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
+  QTRY_VERIFY(d.action("undo")->text().contains(QStringLiteral("Align pin")));
+  const RigidTransform pose = d.part("pin").worldFromPart;
+  for (const double along : {-0.02, 0.02}) {
+    const glm::dvec3 point = pose.applyToPoint({0.0, 0.0, along});
+    QVERIFY2(std::hypot(point.x, point.y) < 1e-9, qPrintable(QString::number(std::hypot(point.x, point.y))));
+  }
 }
 
 void DesktopAlignTest::dropsToContactAsOneStepOfUndo() {

@@ -94,6 +94,7 @@ class DesktopPartFilesTest : public QObject {
   void reloadAlwaysFollowsTheFile();
   void rewrittenSameContentIsNotOffered();
   void partOfTheWrongUnitIsCalledOutAndRescaled();
+  void aPartThatIsTooLargeIsCalledOutToo();
   void cancelOfAMillionTrianglesAnswersBeforeTheImporterDoes();
 };
 
@@ -308,6 +309,21 @@ void DesktopPartFilesTest::partOfTheWrongUnitIsCalledOutAndRescaled() {
   QVERIFY(choice(d, "notice-rescale", "choice1") == nullptr);
   QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
   QCOMPARE(widthOf(d.part("tiny")), 0.00003);
+}
+
+void DesktopPartFilesTest::aPartThatIsTooLargeIsCalledOutToo() {
+  DesktopDriver d;
+  d.addCubes();
+  d.add({writeOff(d.folder.path() / "huge.off", boxMesh(glm::dvec3(30.0)))});
+  QTRY_VERIFY(choice(d, "notice-rescale", "choice1") != nullptr);
+  const auto* text = d.widget<QWidget>("notice-rescale")->findChild<QLabel*>(QStringLiteral("noticeText"));
+  QVERIFY2(text->text().contains(QStringLiteral("times larger than the other parts")),
+           qPrintable(text->text()));
+  QCOMPARE(choice(d, "notice-rescale", "choice1")->text().remove(QChar(',')),
+           QStringLiteral("Make 1000 times smaller"));
+  QTest::mouseClick(choice(d, "notice-rescale", "choice1"), Qt::LeftButton);
+  QTRY_VERIFY(qFuzzyCompare(widthOf(d.part("huge")), 0.03));
+  QVERIFY(choice(d, "notice-rescale", "choice1") == nullptr);
 }
 
 void DesktopPartFilesTest::cancelOfAMillionTrianglesAnswersBeforeTheImporterDoes() {

@@ -1,7 +1,10 @@
+#include <QColorDialog>
 #include <QDoubleSpinBox>
 #include <QDropEvent>
 #include <QMenu>
 #include <QMimeData>
+#include <QPointer>
+#include <QStatusBar>
 
 #include "tests/app/desktop/desktop_driver.h"
 #include "ui/parts_model.h"
@@ -36,6 +39,8 @@ class Tree : public DesktopDriver {
     QTest::mouseClick(view->viewport(), Qt::LeftButton, modifiers, view->visualRect(index).center());
   }
   void key(Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
+    // There is no window manager that gives it back after a dialog.
+    QApplication::setActiveWindow(&window());
     QTest::keyClick(partsView(), key, modifiers);
   }
   const Part& at(std::size_t i) { return *session().scene().find(ids[i]); }
@@ -53,11 +58,18 @@ class DesktopTreeTest : public QObject {
   void severalAreHiddenLockedAndDeletedInOneStepEach();
   void aSwitchOfASelectedRowIsForAllOfThemAndSelectsNothing();
   void isolatesAndShowsExactlyWhatWasVisible();
+  void whatIsAddedWhileIsolatedStaysWhenTheRestComesBack();
+  void aGroupThatHoldsWhatIsInHandIsDeletedAndComesBackWithIt();
   void aGroupIsRenamedInPlace();
   void aRowIsDroppedOnAGroupAndAtTheTop();
   void severalMoveAsOneByNumberAndByKey();
   void severalBecomeTransparentAndAreCopied();
   void whatAGroupLocksIsLockedForEveryTool();
+  void aLockedPartIsColouredAsItIsMadeTransparent();
+  void whatIsInHandIsPutDownToBeLocked();
+  void whatIsFeltIsNotLockedAndThatIsNoQuestion();
+  void aRefusedNameStaysInItsEditorAndSaysWhy();
+  void aRefusedNameThatIsLeftChangesNothing();
   void aNameIsLookedForAmongMany();
   void groupsStayClosedThroughChanges();
 };
@@ -134,6 +146,37 @@ void DesktopTreeTest::isolatesAndShowsExactlyWhatWasVisible() {
   d.session().setVisible(d.ids[1], true);
   d.key(Qt::Key_I, Qt::ShiftModifier);
   QVERIFY(d.at(0).isVisible && !d.at(1).isVisible && d.at(2).isVisible);
+}
+
+void DesktopTreeTest::whatIsAddedWhileIsolatedStaysWhenTheRestComesBack() {
+  Tree d;
+  d.session().setVisible(d.ids[1], false);
+  d.click(d.ids[2]);
+  d.key(Qt::Key_I);
+  d.add({d.movingFile});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{4});
+  QVERIFY(d.part("moving").isVisible);
+  QVERIFY(!d.at(0).isVisible && !d.at(1).isVisible && d.at(2).isVisible);
+  // Not before all of the loading is done.
+  QTRY_VERIFY(d.action("endIsolation")->isEnabled());
+  d.action("endIsolation")->trigger();
+  QVERIFY(d.at(0).isVisible && !d.at(1).isVisible && d.at(2).isVisible);
+  QVERIFY(d.part("moving").isVisible);
+  QVERIFY(!d.action("endIsolation")->isEnabled());
+}
+
+void DesktopTreeTest::aGroupThatHoldsWhatIsInHandIsDeletedAndComesBackWithIt() {
+  Tree d;
+  const GroupId group = d.session().group({{d.ids[0], d.ids[1]}, {}});
+  d.session().setMovingPart(d.ids[0]);
+  d.click(group);
+  d.key(Qt::Key_Delete);
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{1});
+  QVERIFY(d.session().scene().groups().empty() && !d.session().scene().movingPart());
+  d.key(Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{3});
+  QVERIFY(d.at(0).group == group && d.at(1).group == group);
+  QVERIFY(d.session().scene().movingPart() == d.ids[0]);
 }
 
 void DesktopTreeTest::aGroupIsRenamedInPlace() {
@@ -223,10 +266,119 @@ void DesktopTreeTest::whatAGroupLocksIsLockedForEveryTool() {
   d.click(group, {}, ui::PartsModel::Locked);
   QVERIFY(d.session().scene().isLocked(d.at(0)));
   d.click(d.ids[0]);
-  for (const char* name : {"rename", "recolour", "remove", "takeInHand"})
+  for (const char* name : {"rename", "remove", "takeInHand"})
     QVERIFY2(!d.action(name)->isEnabled(), name);
   for (const char* field : {"positionX", "rotationZ", "density"})
     QVERIFY2(!d.widget<QDoubleSpinBox>(field)->isEnabled(), field);
+}
+
+// Its transparency could be changed, its colour not.
+void DesktopTreeTest::aLockedPartIsColouredAsItIsMadeTransparent() {
+  Tree d;
+  d.session().setLocked(d.ids[0], true);
+  d.click(d.ids[0]);
+  QVERIFY(d.action("recolour")->isEnabled());
+  whenModal<QColorDialog>([](QColorDialog* dialog) {
+    dialog->setCurrentColor(QColor(0, 255, 0));
+    QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
+  });
+  d.action("recolour")->trigger();
+  QVERIFY(d.at(0).colour == (Colour{0.0F, 1.0F, 0.0F}));
+  QVERIFY(d.at(0).isLocked);
+  QCOMPARE(d.session().undoText(), std::string("Recolour fixed"));
+}
+
+// It was refused in a dialog, also while nothing was felt.
+void DesktopTreeTest::whatIsInHandIsPutDownToBeLocked() {
+  Tree d;
+  QStringList failures;
+  d.window().setFailureSink([&](const ui::Failure& failure) { failures << failure.summary; });
+  const GroupId group = d.session().group({{d.ids[0], d.ids[1]}, {}});
+  d.session().setMovingPart(d.ids[1]);
+  const std::size_t before = d.steps();
+  d.click(d.ids[1]);
+  d.key(Qt::Key_L, Qt::ControlModifier);
+  QVERIFY(d.at(1).isLocked && !d.session().scene().movingPart());
+  QVERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("no longer in hand")));
+  QCOMPARE(d.steps(), before + 1);
+  d.session().undo();
+  QVERIFY(!d.at(1).isLocked && d.session().scene().movingPart() == d.ids[1]);
+  // As well by the lock of its group.
+  d.click(group, {}, ui::PartsModel::Locked);
+  QVERIFY(d.session().scene().isLocked(d.at(1)) && !d.session().scene().movingPart());
+  QVERIFY(failures.isEmpty());
+}
+
+void DesktopTreeTest::whatIsFeltIsNotLockedAndThatIsNoQuestion() {
+  Tree d;
+  QStringList failures;
+  d.window().setFailureSink([&](const ui::Failure& failure) { failures << failure.summary; });
+  d.session().setMovingPart(d.ids[1]);
+  d.click(d.ids[1]);
+  d.application.servo().start(ui::Hand::Manual);
+  QTRY_VERIFY(d.application.servo().statistics().ticks > 10);
+  d.key(Qt::Key_L, Qt::ControlModifier);
+  QVERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("is being felt: stop (F6)")));
+  QVERIFY(!d.at(1).isLocked && d.application.servo().isRunning());
+  d.application.servo().stop();
+  QVERIFY(failures.isEmpty());
+}
+
+// A dialog said "Another part has it. Where: name", and what was typed was gone.
+void DesktopTreeTest::aRefusedNameStaysInItsEditorAndSaysWhy() {
+  Tree d;
+  QStringList failures;
+  d.window().setFailureSink([&](const ui::Failure& failure) { failures << failure.summary; });
+  d.session().renamePart(d.ids[0], "wall");
+  d.click(d.ids[1]);
+  d.action("rename")->trigger();
+  QPointer<QLineEdit> editor = d.partsView()->findChild<QLineEdit*>();
+  QVERIFY(editor != nullptr);
+  const std::string before = d.at(1).name;
+  editor->selectAll();
+  QTest::keyClicks(editor, QStringLiteral("wall"));
+  QTest::keyClick(editor, Qt::Key_Return);
+  QCOMPARE(d.at(1).name, before);
+  QVERIFY(editor != nullptr && editor->isVisible());
+  QCOMPARE(editor->text(), QStringLiteral("wall"));
+  QCOMPARE(editor->accessibleDescription(),
+           QStringLiteral("\"wall\" is the name of another part: choose another name"));
+  QTest::keyClicks(editor, QStringLiteral(" 2"));
+  QVERIFY(editor->accessibleDescription().isEmpty());
+  QTest::keyClick(editor, Qt::Key_Return);
+  QTRY_COMPARE(d.at(1).name, std::string("wall 2"));
+  QTRY_VERIFY(editor == nullptr);
+  QVERIFY(failures.isEmpty());
+}
+
+void DesktopTreeTest::aRefusedNameThatIsLeftChangesNothing() {
+  Tree d;
+  QStringList failures;
+  d.window().setFailureSink([&](const ui::Failure& failure) { failures << failure.summary; });
+  d.session().renamePart(d.ids[0], "wall");
+  const std::size_t before = d.steps();
+  const auto type = [&] {
+    d.click(d.ids[1]);
+    d.action("rename")->trigger();
+    QPointer<QLineEdit> editor = d.partsView()->findChild<QLineEdit*>();
+    editor->selectAll();
+    QTest::keyClicks(editor, QStringLiteral("wall"));
+    QTest::keyClick(editor, Qt::Key_Return);
+    return editor;
+  };
+  QPointer<QLineEdit> editor = type();
+  // It waits while something else has the focus.
+  d.window().viewport().setFocus();
+  QVERIFY(editor != nullptr && editor->isVisible());
+  editor->setFocus();
+  QTest::keyClick(editor, Qt::Key_Escape);
+  QTRY_VERIFY(editor == nullptr);
+  editor = type();
+  d.click(d.ids[2]);
+  QTRY_VERIFY(editor == nullptr);
+  QVERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("is the name of another part")));
+  QCOMPARE(d.steps(), before);
+  QVERIFY(failures.isEmpty());
 }
 
 void DesktopTreeTest::aNameIsLookedForAmongMany() {

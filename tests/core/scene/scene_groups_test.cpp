@@ -140,8 +140,7 @@ TEST(SceneGroups, LockedThingsAreChangedByNoWay) {
       [](Part& p) {
         p.worldFromPart.rotation = {0, 1, 0, 0};
       },
-      [](Part& p) { p.colour.r = 0.123F; }, [](Part& p) { p.density = 1.0; },
-      [](Part& p) { p.group.reset(); },
+      [](Part& p) { p.density = 1.0; }, [](Part& p) { p.group.reset(); },
       [&](Part& p) { p.group = p.id == own ? std::optional<GroupId>() : open; },
       // Not even together with the lock.
       [](Part& p) { p.isLocked = false, p.density = 2.0; }};
