@@ -95,7 +95,10 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   manners_->settle();
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow() {
+  // A number that is being typed counts when its dialog is hidden: while there is all that it goes to.
+  delete feelDialog_;
+}
 
 void MainWindow::setUpPanels() {
   partsPanel_ = new PartsPanel(*selection_, this);

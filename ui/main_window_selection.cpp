@@ -23,6 +23,12 @@ QString headingOf(const Scene& scene, const Selection& selection) {
   return others > 0 ? MainWindow::tr("%1 and %n more", nullptr, others).arg(name) : name;
 }
 
+/// Whether all that is selected is still there: a scene that changes is told to others first.
+bool isUpToDate(const Scene& scene, const SceneNodes& nodes) {
+  return std::ranges::all_of(nodes.parts, [&](PartId part) { return scene.find(part) != nullptr; }) &&
+         std::ranges::all_of(nodes.groups, [&](GroupId group) { return scene.findGroup(group) != nullptr; });
+}
+
 }  // namespace
 
 void MainWindow::connectMoveGuard() {
@@ -39,6 +45,7 @@ void MainWindow::showSelection() {
   const Scene& scene = session_.scene();
   const Part* part = id ? scene.find(*id) : nullptr;
   const std::vector<PartId>& selection = selection_->parts();
+  if (!isUpToDate(scene, selection_->nodes())) return;
   const QString heading = headingOf(scene, *selection_);
   QString help = heading;
   if (selection.size() > 1)

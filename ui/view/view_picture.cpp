@@ -14,7 +14,7 @@
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkRendererCollection.h>
+#include <vtkSmartPointer.h>
 #include <vtkTextureObject.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -61,13 +61,14 @@ class LargerLines {
 
  private:
   struct Widths {
-    vtkProperty* look;
+    vtkSmartPointer<vtkProperty>
+        look;  ///< Drawing may take its actor out of the view: a cut that follows its parts.
     float line, point;
   };
   /// Several actors may share one.
   void add(vtkProperty* look) {
     const bool isKnown =
-        std::any_of(before_.begin(), before_.end(), [look](const Widths& w) { return w.look == look; });
+        std::any_of(before_.begin(), before_.end(), [look](const Widths& w) { return w.look.Get() == look; });
     if (!isKnown) before_.push_back({look, look->GetLineWidth(), look->GetPointSize()});
   }
 

@@ -111,6 +111,7 @@ class DesktopPictureTest : public QObject {
   void anOwnWidthKeepsTheShape();
   void onWhiteAndOnNothingPartsLookTheSame();
   void axesAndLegendCanBeLeftOut();
+  void aCutThatFollowsItsPartsIsTakenAsItIs();
   void theViewIsAsItWasAfterwards();
   void theDialogShowsItFirstAndRemembersItsChoices();
   void aJpegIsWrittenUnlessItWouldBeTransparent();
@@ -209,6 +210,20 @@ void DesktopPictureTest::axesAndLegendCanBeLeftOut() {
   QVERIFY2(covered(with) > 500, qPrintable(QString::number(covered(with))));
   QCOMPARE(covered(without), 0);
   d.application.servo().stop();
+}
+
+void DesktopPictureTest::aCutThatFollowsItsPartsIsTakenAsItIs() {
+  PictureDesk d;
+  d.action("section")->trigger();
+  d.picture();
+  // Faces of the cut come and go with the picture that is taken: none has been drawn in between.
+  for (const double x : {0.2, 0.0}) {
+    d.session().movePart(d.partId("fixed"), {{1, 0, 0, 0}, {x, 0, 0}});
+    d.press(Qt::Key_C, Qt::ControlModifier | Qt::AltModifier);
+    const QImage taken = QApplication::clipboard()->image();
+    const PictureDifference difference = compare(taken, d.picture());
+    QVERIFY2(difference.mean < 1.0, qPrintable(QString::number(difference.mean)));
+  }
 }
 
 void DesktopPictureTest::theViewIsAsItWasAfterwards() {
