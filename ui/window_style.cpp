@@ -38,4 +38,9 @@ void WindowStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* op
   }
 }
 
+int WindowStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const {
+  constexpr int kMoreTools = 26;
+  return metric == PM_ToolBarExtensionExtent ? kMoreTools : QProxyStyle::pixelMetric(metric, option, widget);
+}
+
 }  // namespace nearfit::ui

@@ -5,13 +5,15 @@
 namespace nearfit::ui {
 
 /// Fusion, with boxes and circles to tick that stand out in the dark theme too: Fusion draws their frames a
-/// little darker than what lies around them, which is hardly seen where that is dark.
+/// little darker than what lies around them, which is hardly seen where that is dark. The button for tools
+/// that a toolbar has no room for is as wide as a tool; Fusion's is a few pixels.
 class WindowStyle : public QProxyStyle {
  public:
   WindowStyle();
 
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget) const override;
+  int pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const override;
 };
 
 }  // namespace nearfit::ui

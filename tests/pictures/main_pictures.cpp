@@ -45,6 +45,7 @@ class Pictures {
     atWork();
     placing();
     inspecting();
+    narrow();
     menus();
     dialogs();
     feeling();
@@ -143,6 +144,13 @@ class Pictures {
     grabWindow("guide-section");
     trigger("section");
     driver_.window().selection().select({moving.id});
+  }
+  /// As on a small laptop: what the toolbars have no room for is behind a button.
+  void narrow() {
+    const QSize before = driver_.window().size();
+    driver_.window().resize(1024, 700);
+    grabWindow("window-narrow");
+    driver_.window().resize(before);
   }
   void menus() {
     for (QMenu* menu : driver_.window().findChildren<QMenu*>()) {

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QPushButton>
 #include <QStackedWidget>
 #include <QtTest>
 #include <optional>
@@ -37,6 +38,7 @@ class FeelDialogTest : public QObject {
   void anglesOfTheOrientationBecomeAQuaternion();
   void locksAreSixSwitches();
   void returnInAFieldDoesNotClose();
+  void revertTakesBackAllSinceItWasOpened();
   void refusedValuesGoBackWithTheReason();
   void fitsASmallScreen();
 
@@ -305,6 +307,26 @@ void FeelDialogTest::locksAreSixSwitches() {
   }
   widget<QCheckBox>("lockRy")->click();
   QVERIFY(edited_->mapping.rotationLocks == (std::array{true, false, true}));
+}
+
+void FeelDialogTest::revertTakesBackAllSinceItWasOpened() {
+  const HapticSettings atFirst;
+  show(atFirst);
+  dialog_->show();
+  auto* revert = widget<QPushButton>("revert");
+  QVERIFY(!revert->isEnabled());
+  type("margin", "0.25");
+  type("friction", "0.3");
+  QVERIFY(edited_ && edited_->proxy.friction == 0.3);
+  QVERIFY(revert->isEnabled());
+  QTest::mouseClick(revert, Qt::LeftButton);
+  QVERIFY(*edited_ == atFirst);
+  QVERIFY(!revert->isEnabled());
+  // Closed and opened again, it goes back to what is set then.
+  type("friction", "0.4");
+  dialog_->close();
+  dialog_->show();
+  QVERIFY(!revert->isEnabled());
 }
 
 void FeelDialogTest::returnInAFieldDoesNotClose() {

@@ -5,6 +5,7 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QShowEvent>
 #include <QStackedWidget>
 #include <QTabWidget>
 #include <QVBoxLayout>
@@ -66,10 +67,7 @@ FeelDialog::FeelDialog(PresetStore& presets, QWidget* parent)
   refusal_->setWordWrap(true);
   refusal_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kWarning.name()));
   refusal_->hide();
-  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
-  // Return takes over a number; it must not press the button besides.
-  buttons->button(QDialogButtonBox::Close)->setAutoDefault(false);
-  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
+  QWidget* buttons = makeButtons();
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(head);
   layout->addWidget(tabs, 1);
@@ -83,6 +81,26 @@ FeelDialog::FeelDialog(PresetStore& presets, QWidget* parent)
   connect(mode_, QOverload<int>::of(&QComboBox::activated), this,
           [this] { edit(withMode(settings_, mode_->currentData().value<FeelMode>())); });
   showScene({});
+}
+
+QWidget* FeelDialog::makeButtons() {
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+  revert_ = buttons->addButton(tr("Revert"), QDialogButtonBox::ResetRole);
+  revert_->setObjectName(QStringLiteral("revert"));
+  revert_->setToolTip(tr("Back to what was set when this window was opened"));
+  // Return takes over a number; it must not press a button besides.
+  for (QAbstractButton* button : buttons->buttons())
+    qobject_cast<QPushButton*>(button)->setAutoDefault(false);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
+  connect(revert_, &QPushButton::clicked, this, [this] { edit(opened_); });
+  return buttons;
+}
+
+void FeelDialog::showEvent(QShowEvent* event) {
+  // Also told when the window comes back from being minimised.
+  if (!event->spontaneous()) opened_ = settings_;
+  refresh();
+  QDialog::showEvent(event);
 }
 
 QWidget* FeelDialog::makeHead(PresetStore& presets) {
@@ -129,6 +147,7 @@ void FeelDialog::refresh() {
   const FeelMode mode = feelModeOf(settings_);
   showMode(*mode_, mode);
   preset_->showSettings(settings_);
+  revert_->setEnabled(!(settings_ == opened_));
   explanation_->setText(explanationOf(mode));
   for (FeelPage* page : {cutoff_, static_cast<FeelPage*>(proxy_), static_cast<FeelPage*>(springs_),
                          static_cast<FeelPage*>(weight_), static_cast<FeelPage*>(workspace_)})

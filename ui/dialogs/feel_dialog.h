@@ -8,6 +8,7 @@
 
 class QComboBox;
 class QLabel;
+class QPushButton;
 class QStackedWidget;
 
 namespace nearfit::ui {
@@ -20,7 +21,8 @@ class WeightPage;
 class WorkspacePage;
 
 /// How contact feels: mode, the mode's own numbers, weight, and the device's way into the scene. Each change
-/// counts at once; undo takes it back. Stays open beside the window.
+/// counts at once; undo takes it back, and *Revert* all since the dialog was opened. Stays open beside the
+/// window.
 class FeelDialog : public QDialog {
   Q_OBJECT
 
@@ -45,7 +47,9 @@ class FeelDialog : public QDialog {
   void rateEdited(const nearfit::RateSettings& settings);
 
  private:
+  void showEvent(QShowEvent* event) override;
   QWidget* makeHead(PresetStore& presets);
+  QWidget* makeButtons();
   void edit(const HapticSettings& settings);
   void refresh();
   /// Texts that wrap may need more room than the dialog has.
@@ -53,12 +57,13 @@ class FeelDialog : public QDialog {
   void showMovingPart(const Scene& scene);
   void showBasis();
 
-  HapticSettings settings_;
+  HapticSettings settings_, opened_;
   CouplingBasis basis_;
   PartGeometryPtr moving_;
   PresetChoice* preset_;
   QComboBox* mode_;
   QLabel *explanation_, *refusal_;
+  QPushButton* revert_;
   FeelPage* cutoff_;
   QStackedWidget* contact_;
   ProxyPage* proxy_;

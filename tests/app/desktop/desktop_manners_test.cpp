@@ -355,6 +355,14 @@ void DesktopMannersTest::toolbarsFitANarrowWindow() {
     const auto* more = bar->findChild<QWidget*>(QStringLiteral("qt_toolbar_ext_button"));
     QVERIFY(more == nullptr || !more->isVisible());
   }
+  // A narrower one shows that there is more, and has it.
+  d.window().resize(960, 700);
+  auto* bar = d.widget<QToolBar>("toolBar");
+  auto* more = bar->findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
+  QTRY_VERIFY(more != nullptr && more->isVisible());
+  QVERIFY2(more->width() >= 20, qPrintable(QString::number(more->width())));
+  keepPictures(*bar, QStringLiteral("narrow-bar"));
+  d.window().resize(1200, 760);
   // The views share a button, which goes where the last one went.
   auto* views = d.widget<QToolButton>("viewsButton");
   QCOMPARE(views->defaultAction(), d.action("viewIso"));
