@@ -22,9 +22,9 @@ class PartsModel : public QAbstractItemModel {
   void setScene(const Scene& scene);
   std::optional<PartId> partAt(const QModelIndex& index) const;
   std::optional<GroupId> groupAt(const QModelIndex& index) const;
-  /// Of the name; invalid when it is not in the scene.
   /// Why what stands there cannot have that name, as a sentence; empty when it can.
   QString renameRefusal(const QModelIndex& index, const QString& name) const;
+  /// Of the name; invalid when it is not in the scene.
   QModelIndex indexOf(PartId part) const;
   QModelIndex indexOf(GroupId group) const;
 
