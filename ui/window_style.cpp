@@ -38,6 +38,13 @@ void WindowStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* op
   }
 }
 
+QIcon WindowStyle::standardIcon(StandardPixmap which, const QStyleOption* option,
+                                const QWidget* widget) const {
+  // Fusion's is black on any ground.
+  return which == SP_ToolBarHorizontalExtensionButton ? icon(QStringLiteral("more"))
+                                                      : QProxyStyle::standardIcon(which, option, widget);
+}
+
 int WindowStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const {
   constexpr int kMoreTools = 26;
   return metric == PM_ToolBarExtensionExtent ? kMoreTools : QProxyStyle::pixelMetric(metric, option, widget);
