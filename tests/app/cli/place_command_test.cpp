@@ -214,7 +214,7 @@ TEST_F(PlaceCommand, AnInterruptStopsItAndKeepsWhatWasDone) {
   folder_.write("long.csv", pathText(kLong));
   const int exitCode = interruptOnce({NEARFIT_CLI, "place", "fit.nearfit", "--part", "Cone", "--path",
                                       "long.csv", "--record", "out.csv", "--export", "out.json"},
-                                     folder_.path(), ".nearfit-");
+                                     folder_.path(), "out.unfinished.csv");
   EXPECT_EQ(exitCode, 1);
   EXPECT_THAT(readBytes(file("err.txt")), HasSubstr("interrupted after"));
   const Record record(file("out.csv"));
