@@ -175,9 +175,7 @@ void Viewport::setScene(const Scene& scene) {
   // Parts that come back by undo are no others.
   bool isAnotherScene = true;
   for (const Scene::PartPtr& part : scene.parts())
-    isAnotherScene = !known_.contains(part->id) && isAnotherScene;
-  for (const Scene::PartPtr& part : scene.parts())
-    known_.insert(part->id);
+    isAnotherScene = known_.insert(part->id).second && isAnotherScene;
   scene_ = scene;
   parts_.setScene(scene);
   showMovingPart();

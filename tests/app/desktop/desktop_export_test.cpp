@@ -12,16 +12,6 @@
 using namespace nearfit;
 using namespace nearfit::test;
 
-namespace {
-
-/// There is no window manager that gives the window the focus back after a dialog.
-void pressShortcut(DesktopDriver& d, Qt::Key key, Qt::KeyboardModifiers modifiers) {
-  QApplication::setActiveWindow(&d.window());
-  QTest::keyClick(&d.window(), key, modifiers);
-}
-
-}  // namespace
-
 class DesktopExportTest : public QObject {
   Q_OBJECT
 

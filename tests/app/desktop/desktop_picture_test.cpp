@@ -4,7 +4,7 @@
 #include <QSpinBox>
 #include <QStatusBar>
 
-#include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/export_driver.h"
 #include "tests/ui/picture_comparison.h"
 #include "ui/dialogs/error_box.h"
 #include "ui/taking/picture_dialog.h"
@@ -71,11 +71,7 @@ struct PictureDesk : DesktopDriver {
     (void)picture();
   }
 
-  void press(Qt::Key key, Qt::KeyboardModifiers modifiers) {
-    // There is no window manager that gives the window the focus back after a dialog.
-    QApplication::setActiveWindow(&window());
-    QTest::keyClick(&window(), key, modifiers);
-  }
+  void press(Qt::Key key, Qt::KeyboardModifiers modifiers) { pressShortcut(*this, key, modifiers); }
   QString file(const char* name) const { return QString::fromStdString((folder.path() / name).string()); }
   void save(const PictureChoice& choice, const QString& to) {
     whenModal<ui::PictureDialog>([choice](ui::PictureDialog* dialog) { choice.make(dialog); });

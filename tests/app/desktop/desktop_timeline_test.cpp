@@ -6,7 +6,7 @@
 #include <QWheelEvent>
 
 #include "core/scene/motion_reader.h"
-#include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/export_driver.h"
 #include "ui/dialogs/error_box.h"
 #include "ui/parts_model.h"
 #include "ui/plots/plot_view.h"
@@ -15,12 +15,6 @@ using namespace nearfit;
 using namespace nearfit::test;
 
 namespace {
-
-/// There is no window manager that gives the window the focus back after a dialog.
-void pressShortcut(DesktopDriver& d, Qt::Key key, Qt::KeyboardModifiers modifiers) {
-  QApplication::setActiveWindow(&d.window());
-  QTest::keyClick(&d.window(), key, modifiers);
-}
 
 constexpr int kRows = 2001;
 
