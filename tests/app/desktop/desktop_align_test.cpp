@@ -38,7 +38,7 @@ class DesktopAlignTest : public QObject {
   static void hover(DesktopDriver& d, const glm::dvec3& point) { ViewPointer(d).hover(point); }
   static void begin(DesktopDriver& d) {
     d.addCubes();
-    d.action("viewFront")->trigger();
+    d.choose("viewFront");
     QTest::qWait(50);
     QTest::keyClick(&d.window(), Qt::Key_A);
     QVERIFY(d.action("align")->isChecked());
@@ -83,7 +83,7 @@ void DesktopAlignTest::alignsTwoFacesByTwoClicksAsOneStepOfUndo() {
   QVERIFY(!d.action("align")->isChecked());
   QVERIFY(!d.widget<QWidget>("alignBar")->isVisible());
   QVERIFY(d.action("undo")->text().contains(QStringLiteral("Align moving")));
-  d.action("undo")->trigger();
+  d.choose("undo");
   QCOMPARE(d.part("moving").worldFromPart.translation, before.translation);
   QCOMPARE(d.part("moving").worldFromPart.rotation, before.rotation);
 }
@@ -105,7 +105,7 @@ void DesktopAlignTest::flipsAndLeavesADistance() {
 // Whatever "solid" said, it went through.
 void DesktopAlignTest::solidPartsStopAtContactOnTheWay() {
   DesktopDriver d;
-  d.action("solid")->trigger();
+  d.choose("solid");
   QVERIFY(d.action("solid")->isChecked());
   begin(d);
   // Top corner on top corner would put the one cube into the other.
@@ -118,7 +118,7 @@ void DesktopAlignTest::solidPartsStopAtContactOnTheWay() {
   QVERIFY2(after.translation.z > -0.005 && after.translation.z < -0.005 + 2.0 * margin,
            qPrintable(QString::number(after.translation.z)));
   QVERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("Stopped by fixed")));
-  d.action("undo")->trigger();
+  d.choose("undo");
   QCOMPARE(d.part("moving").worldFromPart.translation, glm::dvec3(0.0));
 }
 
@@ -142,7 +142,7 @@ void DesktopAlignTest::aPartThatLeavesTheSceneEndsIt() {
   click(d, {0.003, kMovingFront, 0.036});
   // Back to before it was added.
   while (d.session().canUndo())
-    d.action("undo")->trigger();
+    d.choose("undo");
   QVERIFY(d.session().scene().parts().empty());
   QVERIFY(!d.action("align")->isChecked());
   QVERIFY(!d.widget<QWidget>("alignBar")->isVisible());
@@ -212,7 +212,7 @@ void DesktopAlignTest::alignsTheAxesOfTwoCylinders() {
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
   const RigidTransform aside{glm::angleAxis(0.3, glm::dvec3(0, 1, 0)), {0.06, 0.01, 0.02}};
   d.session().movePart(d.partId("pin"), aside);
-  d.action("viewFront")->trigger();
+  d.choose("viewFront");
   QTest::qWait(50);
   QTest::keyClick(&d.window(), Qt::Key_A);
   auto* filter = d.widget<QComboBox>("alignFilter");
@@ -238,14 +238,14 @@ void DesktopAlignTest::dropsToContactAsOneStepOfUndo() {
   d.addCubes();
   d.clickPart(1, ui::PartsModel::Name);
   const RigidTransform before = d.part("moving").worldFromPart;
-  d.action("dropDown")->trigger();
+  d.choose("dropDown");
   // 5 mm above the other, less what is left.
   QTRY_VERIFY(d.part("moving").worldFromPart.translation.z < 0.0);
   const double travel = -d.part("moving").worldFromPart.translation.z;
   QVERIFY(travel < 0.005 && travel > 0.005 - 2e-6);
   QVERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("touches fixed")));
   QVERIFY(d.action("undo")->text().contains(QStringLiteral("Drop moving")));
-  d.action("undo")->trigger();
+  d.choose("undo");
   QCOMPARE(d.part("moving").worldFromPart.translation, before.translation);
 }
 
@@ -255,16 +255,16 @@ void DesktopAlignTest::dropsTowardsAFace() {
   // In front of the fixed cube, seen from above.
   d.session().movePart(d.partId("moving"), {{1, 0, 0, 0}, {0.0, -0.06, -0.035}});
   d.clickPart(1, ui::PartsModel::Name);
-  d.action("viewIso")->trigger();
+  d.choose("viewIso");
   QTest::qWait(50);
-  d.action("dropToFace")->trigger();
+  d.choose("dropToFace");
   // A face of its own is refused.
   click(d, {0.0, -0.06, 0.01});
   QCOMPARE(d.part("moving").worldFromPart.translation.y, -0.06);
   // The upper face: straight down, and past the cube.
   click(d, {0.0, 0.0, 0.02});
   QTRY_VERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("Nothing is in the way")));
-  d.action("dropBack")->trigger();
+  d.choose("dropBack");
   QTRY_VERIFY(d.part("moving").worldFromPart.translation.y > -0.0301);
   QVERIFY(d.part("moving").worldFromPart.translation.y < -0.03);
 }
@@ -273,7 +273,7 @@ void DesktopAlignTest::pushesUntilHeld() {
   DesktopDriver d;
   d.addCubes();
   d.clickPart(1, ui::PartsModel::Name);
-  d.action("pushDown")->trigger();
+  d.choose("pushDown");
   QTRY_VERIFY(d.part("moving").worldFromPart.translation.z < -0.0045);
   QVERIFY(d.part("moving").worldFromPart.translation.z > -0.005);
   QVERIFY(d.action("undo")->text().contains(QStringLiteral("Push moving")));
@@ -284,12 +284,12 @@ void DesktopAlignTest::saysWhenNothingIsInTheWayOrPartsOverlap() {
   d.addCubes();
   d.clickPart(1, ui::PartsModel::Name);
   const std::string undo = d.session().undoText();
-  d.action("dropUp")->trigger();
+  d.choose("dropUp");
   QTRY_VERIFY(
       d.window().statusBar()->currentMessage().contains(QStringLiteral("Nothing is in the way of moving")));
   QCOMPARE(d.session().undoText(), undo);
   d.session().movePart(d.partId("moving"), {{1, 0, 0, 0}, {0.0, 0.0, -0.01}});
-  d.action("dropDown")->trigger();
+  d.choose("dropDown");
   QTRY_VERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("overlaps fixed")));
   QCOMPARE(d.part("moving").worldFromPart.translation.z, -0.01);
 }
@@ -315,12 +315,12 @@ void DesktopAlignTest::selectedPartsGoTogetherAsOneStep() {
   QTest::mouseClick(
       d.partsView()->viewport(), Qt::LeftButton, Qt::ControlModifier,
       d.partsView()->visualRect(d.partsView()->model()->index(2, ui::PartsModel::Name)).center());
-  d.action("dropDown")->trigger();
+  d.choose("dropDown");
   QTRY_VERIFY(height(copy) < 0.03);
   // The lower one touches; the other one keeps its distance from it.
   QVERIFY(std::abs(height(d.partId("moving")) + 0.005) < 2e-6);
   QVERIFY(std::abs(height(copy) - height(d.partId("moving")) - 0.03) < 1e-15);
-  d.action("undo")->trigger();
+  d.choose("undo");
   QCOMPARE(height(d.partId("moving")), 0.0);
   QCOMPARE(height(copy), 0.03);
 }

@@ -22,7 +22,7 @@ struct Row {
     d.session().movePart(ids[0], {{1, 0, 0, 0}, {-0.1, 0, 0}});
     d.session().movePart(ids[2], {{1, 0, 0, 0}, {0.1, 0, 0}});
     selection().select(std::nullopt);
-    d.action("viewTop")->trigger();
+    d.choose("viewTop");
     d.window().viewport().setFocus();
   }
   ui::Selection& selection() { return d.window().selection(); }
@@ -110,7 +110,7 @@ void DesktopBoxSelectTest::whatIsHiddenIsNotSelected() {
 void DesktopBoxSelectTest::handlesAndPartsUnderTheBoxAreNotDragged() {
   Row r;
   r.selection().select(r.ids[1]);
-  r.d.action("gizmoMoveAndTurn")->trigger();
+  r.d.choose("gizmoMoveAndTurn");
   QTRY_VERIFY(r.pointer.overlay().picture().has_value());
   const std::string undo = r.d.session().undoText();
   const QPoint middle = r.pointer.seen({0.0, 0.0, 0.02});
@@ -123,7 +123,7 @@ void DesktopBoxSelectTest::handlesAndPartsUnderTheBoxAreNotDragged() {
 void DesktopBoxSelectTest::otherToolsStayOn() {
   for (const char* tool : {"align", "measure"}) {
     Row r;
-    r.d.action(tool)->trigger();
+    r.d.choose(tool);
     QVERIFY(r.d.action(tool)->isChecked());
     r.box({-0.13, -0.05}, {-0.05, 0.05});
     QVERIFY(r.selection().parts() == Parts{r.ids[0]});

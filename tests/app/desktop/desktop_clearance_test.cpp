@@ -24,7 +24,7 @@ struct Fixture {
         writeOff(d.folder.path() / "beside.off", boxMesh(glm::dvec3(0.02), glm::dvec3(0.05, 0.0, 0.035)));
     d.add({beside});
     (void)QTest::qWaitFor([&] { return d.session().scene().parts().size() == 3; });
-    d.widget<QDockWidget>("clearanceDock")->toggleViewAction()->trigger();
+    d.choose(d.widget<QDockWidget>("clearanceDock")->toggleViewAction());
     table = d.widget<QTableView>("clearanceTable");
   }
   QString cell(int row, int column) const { return table->model()->index(row, column).data().toString(); }
@@ -96,13 +96,13 @@ void DesktopClearanceTest::theThresholdMarksPairsInColourAndInWords() {
 void DesktopClearanceTest::lengthsAreInTheUnitThatIsChosen() {
   Fixture f;
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
-  f.d.action("unit-in")->trigger();
+  f.d.choose("unit-in");
   QCOMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("0.197 in"));
   f.d.type<QDoubleSpinBox>("clearanceThreshold", "0.19");
   QCOMPARE(f.of("fixed", ClearanceModel::Verdict), QStringLiteral("clear"));
   f.d.type<QDoubleSpinBox>("clearanceThreshold", "1/2 cm + 1 um");
   QCOMPARE(f.of("fixed", ClearanceModel::Verdict), QStringLiteral("too near"));
-  f.d.action("unit-mm")->trigger();
+  f.d.choose("unit-mm");
   QCOMPARE(f.d.widget<QDoubleSpinBox>("clearanceThreshold")->text(), QStringLiteral("5.001 mm"));
   f.d.type<QDoubleSpinBox>("clearanceThreshold", "1");
 }
@@ -152,7 +152,7 @@ void DesktopClearanceTest::theTableFollowsMovesAndOverlaps() {
 void DesktopClearanceTest::theTableFollowsThePartInHand() {
   Fixture f;
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
-  f.d.application.servo().start(ui::Hand::Manual);
+  f.d.startWith(ui::Hand::Manual);
   f.d.clickPart(1, ui::PartsModel::Name);
   f.d.type<QDoubleSpinBox>("positionZ", "2");
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("7.00 mm"));
@@ -206,11 +206,11 @@ void DesktopClearanceTest::aHiddenTableSearchesNothing() {
   Fixture f;
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
   auto* dock = f.d.widget<QDockWidget>("clearanceDock");
-  dock->toggleViewAction()->trigger();
+  f.d.choose(dock->toggleViewAction());
   f.d.session().movePart(f.d.partId("fixed"), {{1, 0, 0, 0}, {0, 0, -0.002}});
   QTest::qWait(400);
   QCOMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
-  dock->toggleViewAction()->trigger();
+  f.d.choose(dock->toggleViewAction());
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("7.00 mm"));
 }
 

@@ -3,6 +3,7 @@
 #include <QAbstractItemModel>
 #include <QAction>
 #include <QApplication>
+#include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFileDialog>
 #include <QLabel>
@@ -21,6 +22,7 @@
 #include "app/desktop/application.h"
 #include "core/error.h"
 #include "core/mesh/triangle_mesh.h"
+#include "tests/app/desktop/menus.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/qt_patience.h"
 #include "tests/support/temporary_folder.h"
@@ -91,8 +93,8 @@ inline void keepPictures(QWidget& widget, const QString& name) {
   const QString folder = qEnvironmentVariable("NEARFIT_PICTURES");
   if (folder.isEmpty()) return;
   const ui::ColourScheme before = ui::colourScheme();
-  const std::pair<ui::ColourScheme, QString> schemes[] = {
-      {ui::ColourScheme::Light, QStringLiteral("light")}, {ui::ColourScheme::Dark, QStringLiteral("dark")}};
+  const std::pair<ui::ColourScheme, QString> schemes[] = {{ui::ColourScheme::Light, QStringLiteral("light")},
+                                                          {ui::ColourScheme::Dark, QStringLiteral("dark")}};
   for (const auto& [scheme, word] : schemes) {
     ui::setColourScheme(scheme);
     QTest::qWait(300);
@@ -147,6 +149,21 @@ class DesktopDriver {
   const Part& part(const char* name) { return *session().scene().findByName(name); }
 
   QAction* action(const char* name) { return window().findChild<QAction*>(QLatin1String(name)); }
+  /// Gives a command by the menus, or by its button where it is in none.
+  void choose(QAction* action) { chooseCommand(window(), action); }
+  void choose(const char* name) { choose(action(name)); }
+  /// Takes the moving part in hand: whose hand by keys in its list, then the command.
+  void startWith(ui::Hand hand) {
+    auto* hands = widget<QComboBox>("hand");
+    hands->setFocus();
+    QTest::keyClick(hands, Qt::Key_Home);
+    while (hands->currentData().value<ui::Hand>() != hand) {
+      const int before = hands->currentIndex();
+      QTest::keyClick(hands, Qt::Key_Down);
+      if (hands->currentIndex() == before) throw Error("hand", "it cannot be chosen");
+    }
+    choose("start");
+  }
   template <class Widget>
   Widget* widget(const char* name) {
     return window().findChild<Widget*>(QLatin1String(name));

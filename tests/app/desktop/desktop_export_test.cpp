@@ -68,7 +68,7 @@ void DesktopExportTest::onlyTheSelectedPartsAreWrittenWhenAskedFor() {
 void DesktopExportTest::thePlacementTableHasThePoseInHand() {
   DesktopDriver d;
   d.addCubes();
-  d.application.servo().start(ui::Hand::Manual);
+  d.startWith(ui::Hand::Manual);
   d.clickPart(1, ui::PartsModel::Name);
   d.type<QDoubleSpinBox>("positionZ", "1.5");
   QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 6.50 mm"));

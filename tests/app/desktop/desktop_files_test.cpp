@@ -81,11 +81,11 @@ void DesktopFilesTest::savingKeepsThePoseInHand() {
   d.addCubes();
   const auto file = d.folder.path() / "held.nearfit";
   d.session().save(file);
-  d.application.servo().start(ui::Hand::Manual);
+  d.startWith(ui::Hand::Manual);
   d.clickPart(1, ui::PartsModel::Name);
   d.type<QDoubleSpinBox>("positionX", "2");
   QTRY_VERIFY(d.isFeltAtX(0.002));
-  d.action("save")->trigger();
+  d.choose("save");
   QVERIFY(d.application.servo().isRunning());
   QVERIFY(std::abs(d.part("moving").worldFromPart.translation.x - 0.002) < 1e-12);
   QVERIFY(!d.window().isWindowModified());
@@ -162,7 +162,7 @@ void DesktopFilesTest::openingAsksAboutChanges() {
 void DesktopFilesTest::exportsThePlacementInHand() {
   DesktopDriver d;
   d.addCubes();
-  d.application.servo().start(ui::Hand::Manual);
+  d.startWith(ui::Hand::Manual);
   d.clickPart(1, ui::PartsModel::Name);
   d.type<QDoubleSpinBox>("positionZ", "1.5");
   QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 6.50 mm"));
@@ -198,7 +198,7 @@ void DesktopFilesTest::demoSceneOpensAndIsFelt() {
   QVERIFY(!d.session().isModified());
   const QString mine = QString::fromStdString((d.folder.path() / "mine.nearfit").string());
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, mine); });
-  d.action("save")->trigger();
+  d.choose("save");
   QTRY_VERIFY(QFile::exists(mine));
   QCOMPARE(d.session().file(), std::filesystem::path(mine.toStdString()));
   press(d, Qt::Key_F5);

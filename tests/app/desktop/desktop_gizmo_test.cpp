@@ -89,7 +89,7 @@ void DesktopGizmoTest::anArrowMovesAlongItsAxisInOneStepOfUndo() {
   QCOMPARE(way.z, 0.0);
   QCOMPARE(b.steps(), steps + 1);
   QCOMPARE(b.driver.session().undoText(), std::string("Move moving"));
-  b.driver.action("undo")->trigger();
+  b.driver.choose("undo");
   QCOMPARE(b.pose().translation, before.translation);
 }
 
@@ -105,7 +105,7 @@ void DesktopGizmoTest::aSquareMovesInItsPlane() {
 
 void DesktopGizmoTest::aRingTurnsAboutTheCentreOfMass() {
   Bench b;
-  b.driver.action("gizmoTurn")->trigger();
+  b.driver.choose("gizmoTurn");
   b.look("viewIso");
   const RigidTransform before = b.pose();
   const glm::dvec3 centre = b.driver.part("moving").geometry->mass.centre;
@@ -159,7 +159,7 @@ void DesktopGizmoTest::theMiddleButtonWithCtrlOrbitsOverThePart() {
 
 void DesktopGizmoTest::withoutAGizmoNothingIsDragged() {
   Bench b;
-  b.driver.action("gizmoNone")->trigger();
+  b.driver.choose("gizmoNone");
   QVERIFY(!b.overlay().isVisible());
   const RigidTransform before = b.pose();
   const glm::dvec3 away = b.view().projection().away();
@@ -234,7 +234,7 @@ void DesktopGizmoTest::theHandleUnderThePointerLightsUpWithoutAPicture() {
 void DesktopGizmoTest::stepsAreTakenWithTheSwitchAndControlTurnsItRound() {
   Bench b;
   b.driver.type<ui::NumberField>("snapLength", "2.5");
-  b.driver.action("snap")->trigger();
+  b.driver.choose("snap");
   const RigidTransform before = b.pose();
   const QPoint from = b.handle(GizmoHandle::MoveX);
   b.press(from);
@@ -254,7 +254,7 @@ void DesktopGizmoTest::stepsAreTakenWithTheSwitchAndControlTurnsItRound() {
   b.release(from + QPoint(47, 0));
   QVERIFY(std::abs(b.pose().translation.x - before.translation.x - snapped) < 1e-15);
   // The other way round.
-  b.driver.action("snap")->trigger();
+  b.driver.choose("snap");
   b.drag(b.handle(GizmoHandle::MoveZ), {0, -53}, Qt::ControlModifier);
   QVERIFY(std::abs(std::remainder(b.pose().translation.z - before.translation.z, 0.0025)) < 1e-12);
 }
@@ -291,18 +291,18 @@ void DesktopGizmoTest::thePivotIsMovedAndPutBack() {
   const RigidTransform before = b.pose();
   const glm::dvec3 centre = b.driver.part("moving").geometry->mass.centre;
   const std::size_t steps = b.steps();
-  b.driver.action("movePivot")->trigger();
+  b.driver.choose("movePivot");
   b.drag(b.handle(GizmoHandle::MoveX), {50, 0});
   QCOMPARE(b.steps(), steps);
   QCOMPARE(b.pose().translation, before.translation);
-  b.driver.action("movePivot")->trigger();
-  b.driver.action("gizmoTurn")->trigger();
+  b.driver.choose("movePivot");
+  b.driver.choose("gizmoTurn");
   // Seen from the front, the ring about y is round: half a turn puts the part to the other side of the pivot.
   b.drag(b.handle(GizmoHandle::TurnY), {-20, 35});
   QVERIFY(angleBetween(before, b.pose()) > 0.1);
   QVERIFY(glm::distance(before.applyToPoint(centre), b.pose().applyToPoint(centre)) > 1e-3);
   // It has gone with the part, and can be put back.
-  b.driver.action("pivotAtMass")->trigger();
+  b.driver.choose("pivotAtMass");
   const RigidTransform then = b.pose();
   b.drag(b.handle(GizmoHandle::TurnY), {-20, 35});
   QVERIFY(angleBetween(then, b.pose()) > 0.1);
@@ -314,7 +314,7 @@ void DesktopGizmoTest::theGizmoFollowsUndoAndNumbers() {
   const QPoint at = b.handle(GizmoHandle::MoveFree);
   b.drag(b.handle(GizmoHandle::MoveX), {60, 0});
   QVERIFY((b.handle(GizmoHandle::MoveFree) - at - QPoint(60, 0)).manhattanLength() <= 2);
-  b.driver.action("undo")->trigger();
+  b.driver.choose("undo");
   QCOMPARE(b.handle(GizmoHandle::MoveFree), at);
   b.driver.session().movePart(b.driver.partId("moving"), {b.pose().rotation, {0.01, 0.0, 0.0}});
   QVERIFY(b.handle(GizmoHandle::MoveFree).x() > at.x() + 5);
@@ -364,9 +364,9 @@ void DesktopGizmoTest::aSceneThatChangesUnderADragEndsIt() {
 void DesktopGizmoTest::whatIsChosenIsRemembered() {
   {
     Bench b;
-    b.driver.action("gizmoTurn")->trigger();
-    b.driver.action("snap")->trigger();
-    b.driver.action("solid")->trigger();
+    b.driver.choose("gizmoTurn");
+    b.driver.choose("snap");
+    b.driver.choose("solid");
     b.driver.type<ui::NumberField>("snapAngle", "7.5");
   }
   Bench b;
@@ -380,7 +380,7 @@ void DesktopGizmoTest::theManualHandIsLedByTheGizmo() {
   Bench b;
   const RigidTransform before = b.pose();
   const std::size_t steps = b.steps();
-  b.driver.application.servo().start(ui::Hand::Manual);
+  b.driver.startWith(ui::Hand::Manual);
   QTRY_VERIFY(b.driver.action("stop")->isEnabled());
   QTRY_VERIFY(b.overlay().picture().has_value());
   // Down into the fixed cube: it stops a margin above, however far the pointer goes.
@@ -389,7 +389,7 @@ void DesktopGizmoTest::theManualHandIsLedByTheGizmo() {
   auto* z = b.driver.widget<ui::NumberField>("positionZ");
   QTRY_VERIFY2(std::abs(z->value() + 4.9) < 0.02, qPrintable(QString::number(z->value())));
   QCOMPARE(b.steps(), steps);
-  b.driver.action("stop")->trigger();
+  b.driver.choose("stop");
   QTRY_VERIFY(b.pose().translation.z < before.translation.z - 4e-3);
   QCOMPARE(b.steps(), steps + 1);
   QTRY_VERIFY(b.overlay().isVisible());
@@ -397,17 +397,17 @@ void DesktopGizmoTest::theManualHandIsLedByTheGizmo() {
 
 void DesktopGizmoTest::aPartThatAnotherHandHoldsHasNoGizmo() {
   Bench b;
-  b.driver.application.servo().start(ui::Hand::Scripted);
+  b.driver.startWith(ui::Hand::Scripted);
   QTRY_VERIFY(b.driver.action("stop")->isEnabled());
   QTRY_VERIFY(!b.overlay().isVisible());
   b.select("fixed");
   QVERIFY(b.overlay().isVisible());
-  b.driver.action("stop")->trigger();
+  b.driver.choose("stop");
 }
 
 void DesktopGizmoTest::solidPartsStayOutsideByExactPredicates() {
   Bench b;
-  b.driver.action("solid")->trigger();
+  b.driver.choose("solid");
   const std::size_t steps = b.steps();
   const RigidTransform before = b.pose();
   const test::PoseCertifier certifier(b.driver.part("fixed").geometry->mesh,
@@ -435,17 +435,17 @@ void DesktopGizmoTest::solidPartsStayOutsideByExactPredicates() {
   const double gap = b.pose().translation.z - before.translation.z + 0.005;
   QVERIFY2(std::abs(gap - margin) < 0.1 * margin, qPrintable(QString::number(gap / margin)));
   QVERIFY(b.pose().translation.x - before.translation.x > 1e-3);
-  b.driver.action("undo")->trigger();
+  b.driver.choose("undo");
   QCOMPARE(b.pose().translation, before.translation);
   QCOMPARE(b.pose().rotation, before.rotation);
 }
 
 void DesktopGizmoTest::aSolidDragThatStillSettlesIsUndoneWhole() {
   Bench b;
-  b.driver.action("solid")->trigger();
+  b.driver.choose("solid");
   const RigidTransform before = b.pose();
   b.drag(b.handle(GizmoHandle::MoveZ), {0, 150});
-  b.driver.action("undo")->trigger();
+  b.driver.choose("undo");
   QTest::qWait(50);
   QCOMPARE(b.pose().translation, before.translation);
   QVERIFY(!b.driver.window().placing().draggedPose(b.driver.partId("moving")));
@@ -453,7 +453,7 @@ void DesktopGizmoTest::aSolidDragThatStillSettlesIsUndoneWhole() {
 
 void DesktopGizmoTest::numbersStopAtContactTooWhereItIsSolid() {
   Bench b;
-  b.driver.action("solid")->trigger();
+  b.driver.choose("solid");
   const std::size_t steps = b.steps();
   b.driver.type<ui::NumberField>("positionZ", "-20");
   QTRY_COMPARE(b.steps(), steps + 1);
@@ -468,7 +468,7 @@ void DesktopGizmoTest::numbersStopAtContactTooWhereItIsSolid() {
 void DesktopGizmoTest::severalPartsAreMovedAsOneInOneStep() {
   for (const bool isSolid : {false, true}) {
     Bench b;
-    if (b.driver.action("solid")->isChecked() != isSolid) b.driver.action("solid")->trigger();
+    if (b.driver.action("solid")->isChecked() != isSolid) b.driver.choose("solid");
     b.driver.window().selection().set({b.driver.partId("fixed"), b.driver.partId("moving")});
     const std::size_t steps = b.steps();
     b.drag(b.handle(GizmoHandle::MoveX), {70, 0});
@@ -476,18 +476,18 @@ void DesktopGizmoTest::severalPartsAreMovedAsOneInOneStep() {
     QVERIFY(b.pose().translation.x > 1e-3);
     QVERIFY(glm::distance(b.pose("fixed").translation, b.pose().translation) < 1e-12);
     // Turned about what both weigh together, they keep their places to each other.
-    b.driver.action("gizmoTurn")->trigger();
+    b.driver.choose("gizmoTurn");
     const RigidTransform before = b.pose("fixed").inverse() * b.pose();
     b.drag(b.handle(GizmoHandle::TurnY), {-20, 35});
     QTRY_COMPARE(b.steps(), steps + 2);
     const RigidTransform after = b.pose("fixed").inverse() * b.pose();
     QVERIFY(angleBetween(b.pose("fixed"), {}) > 0.05);
     QVERIFY(glm::distance(before.translation, after.translation) < 1e-12);
-    b.driver.action("undo")->trigger();
-    b.driver.action("undo")->trigger();
+    b.driver.choose("undo");
+    b.driver.choose("undo");
     QCOMPARE(b.pose("fixed").translation, glm::dvec3(0.0));
     QCOMPARE(b.pose().translation, glm::dvec3(0.0));
-    b.driver.action("gizmoMove")->trigger();
+    b.driver.choose("gizmoMove");
   }
 }
 

@@ -31,7 +31,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 struct ByMouse {
   ByMouse() {
     d.addCubes();
-    d.action("viewFront")->trigger();
+    d.choose("viewFront");
     QObject::connect(&d.window(), &ui::MainWindow::handMoved, &d.window(),
                      [this](const RigidTransform& pose) { hand = pose; });
   }
@@ -165,7 +165,7 @@ void DesktopHandTest::shiftedKeysTurn() {
 
 void DesktopHandTest::spaceMouseSettingsReachTheDeviceAndAreKept() {
   const auto open = [](DesktopDriver& d) {
-    d.action("feelSettings")->trigger();
+    d.choose("feelSettings");
     d.widget<QTabWidget>("feelTabs")->setCurrentIndex(3);
   };
   const auto source = new PushedSource;

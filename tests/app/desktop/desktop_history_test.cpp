@@ -92,19 +92,19 @@ void DesktopHistoryTest::menuNamesTheStep() {
   d.session().renamePart(d.partId("fixed"), "Nut & bolt");
   d.session().movePart(d.partId("Nut & bolt"), kAside);
   QCOMPARE(d.action("undo")->text(), QStringLiteral("&Undo Move Nut && bolt"));
-  d.action("undo")->trigger();
+  d.choose("undo");
   QCOMPARE(d.action("redo")->text(), QStringLiteral("&Redo Move Nut && bolt"));
 }
 
 void DesktopHistoryTest::whatComesBackIsSeenFromWhereItWas() {
   DesktopDriver d;
   d.addCubes();
-  d.action("viewFront")->trigger();
+  d.choose("viewFront");
   const glm::dvec3 away = d.window().viewport().projection().away();
-  d.action("selectAll")->trigger();
-  d.action("remove")->trigger();
+  d.choose("selectAll");
+  d.choose("remove");
   QVERIFY(d.session().scene().parts().empty());
-  d.action("undo")->trigger();
+  d.choose("undo");
   QCOMPARE(d.session().scene().parts().size(), std::size_t{2});
   QVERIFY(glm::distance(d.window().viewport().projection().away(), away) < 1e-12);
 }

@@ -36,7 +36,7 @@ void DesktopLongNamesTest::theWindowAndItsDocksStayAsWideAsTheyWere() {
   DesktopDriver d;
   d.addCubes();
   for (const char* dock : {"clearanceDock", "timelineDock"})
-    d.widget<QDockWidget>(dock)->toggleViewAction()->trigger();
+    d.choose(d.widget<QDockWidget>(dock)->toggleViewAction());
   d.clickPart(1, ui::PartsModel::Name);
   QTRY_COMPARE(d.text("poseHeading"), QStringLiteral("moving"));
   QTest::qWait(100);

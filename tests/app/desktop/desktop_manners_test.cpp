@@ -169,11 +169,11 @@ void DesktopMannersTest::shortcutsAreListedAndSearched() {
 void DesktopMannersTest::themeIsSwitchedAtOnceAndKept() {
   DesktopDriver d;
   d.addCubes();
-  d.action("themeLight")->trigger();
+  d.choose("themeLight");
   auto* dock = d.widget<QDockWidget>("feelDock");
   const QPoint corner(dock->width() - 4, dock->height() - 4);
   QVERIFY(lightnessAt(*dock, corner) > 200);
-  d.action("themeDark")->trigger();
+  d.choose("themeDark");
   QTRY_VERIFY(lightnessAt(*dock, corner) < 80);
   QCOMPARE(ui::colourScheme(), ui::ColourScheme::Dark);
   const QPoint viewCorner(6, 6);
@@ -184,7 +184,7 @@ void DesktopMannersTest::themeIsSwitchedAtOnceAndKept() {
   QLabel late(QStringLiteral("late"));
   late.setStyleSheet(QStringLiteral("color: #5d6874"));
   QTRY_COMPARE(late.styleSheet(), QStringLiteral("color: #9ba7b3"));
-  d.action("themeLight")->trigger();
+  d.choose("themeLight");
   QTRY_VERIFY(lightnessAt(*dock, corner) > 200);
   QCOMPARE(late.styleSheet(), QStringLiteral("color: #5d6874"));
   QTRY_VERIFY(d.window().viewport().grabFramebuffer().pixelColor(viewCorner).lightness() > 150);
@@ -199,7 +199,7 @@ void DesktopMannersTest::themeIsSwitchedAfterDialogsHaveCome() {
   for (int round = 0; round < 3; ++round) {
     for (const char* opens : {"exportPlacement", "open", "saveAs"}) {
       whenModal<QDialog>([](QDialog* dialog) { QTest::keyClick(dialog, Qt::Key_Escape); });
-      d.action(opens)->trigger();
+      d.choose(opens);
     }
     {
       QDialog dialog(&d.window());
@@ -209,7 +209,7 @@ void DesktopMannersTest::themeIsSwitchedAfterDialogsHaveCome() {
       dialog.show();
       QVERIFY(QTest::qWaitForWindowExposed(&dialog));
     }
-    d.action(round % 2 == 0 ? "themeDark" : "themeLight")->trigger();
+    d.choose(round % 2 == 0 ? "themeDark" : "themeLight");
     QCoreApplication::processEvents();
   }
   QCOMPARE(ui::colourScheme(), ui::ColourScheme::Dark);
@@ -238,7 +238,7 @@ void DesktopMannersTest::layoutIsRememberedAndReset() {
   }
   DesktopDriver d;
   QVERIFY(!d.widget<QDockWidget>("poseDock")->isVisible());
-  d.action("resetLayout")->trigger();
+  d.choose("resetLayout");
   QTRY_VERIFY(d.widget<QDockWidget>("poseDock")->isVisible());
   QVERIFY(d.window().close());
 }
@@ -260,7 +260,7 @@ void DesktopMannersTest::tourExplainsTheDemoAndCanBeLeft() {
     QTest::mouseClick(next, Qt::LeftButton);
   }
   QVERIFY(titles.size() >= 4);
-  d.action("tour")->trigger();
+  d.choose("tour");
   QTRY_VERIFY(tour->isVisible());
   QTest::keyClick(next, Qt::Key_Escape);
   QVERIFY(!tour->isVisible());
@@ -289,7 +289,7 @@ void DesktopMannersTest::theTreeFollowsTheTheme() {
     return view->viewport()->grab().toImage();
   };
   const QImage light = symbols();
-  d.action("themeDark")->trigger();
+  d.choose("themeDark");
   const QImage dark = symbols();
   QVERIFY(dark != light);
   // As a program that was dark from the start shows them.

@@ -30,7 +30,7 @@ class DesktopMeasureTest : public QObject {
   /// The two cubes from the front, and the tool on.
   static void begin(DesktopDriver& d) {
     d.addCubes();
-    d.action("viewFront")->trigger();
+    d.choose("viewFront");
     QTest::qWait(50);
     QTest::keyClick(&d.window(), Qt::Key_M);
     QVERIFY(d.action("measure")->isChecked());
@@ -86,10 +86,10 @@ void DesktopMeasureTest::parallelFacesSayHowFarTheyAreApart() {
   QCOMPARE(d.text("measureAngle"), QStringLiteral("0.000") + QChar(0xB0));
   QVERIFY(number(d, "measureDistance") > 30.0);
   keepPicture(d, "measure-light.png");
-  d.action("themeDark")->trigger();
-  d.action("viewIso")->trigger();
+  d.choose("themeDark");
+  d.choose("viewIso");
   keepPicture(d, "measure-dark.png");
-  d.action("themeLight")->trigger();
+  d.choose("themeLight");
 }
 
 void DesktopMeasureTest::hoverTellsWhatWouldBeMeasured() {
@@ -126,10 +126,10 @@ void DesktopMeasureTest::numbersAreCopied() {
 void DesktopMeasureTest::unitsAreFollowed() {
   DesktopDriver d;
   measureCorners(d);
-  d.action("unit-in")->trigger();
+  d.choose("unit-in");
   QCOMPARE(d.text("measureZ"), QStringLiteral("-0.9843 in"));
   QCOMPARE(d.text("measureLabel"), d.text("measureDistance"));
-  d.action("unit-mm")->trigger();
+  d.choose("unit-mm");
   QCOMPARE(d.text("measureZ"), QStringLiteral("-25.000 mm"));
 }
 
@@ -145,7 +145,7 @@ void DesktopMeasureTest::theLabelStandsOnTheLine() {
   QTRY_VERIFY(label->isVisible() && isThere());
   QCOMPARE(label->text(), QStringLiteral("28.723 mm"));
   // The camera goes elsewhere, and the label with it.
-  d.action("viewIso")->trigger();
+  d.choose("viewIso");
   QTRY_VERIFY(label->isVisible() && isThere());
 }
 
@@ -155,7 +155,7 @@ void DesktopMeasureTest::theMeasureFollowsItsParts() {
   d.clickPart(1, ui::PartsModel::Name);
   d.type<QDoubleSpinBox>("positionZ", "15");
   QTRY_COMPARE(d.text("measureZ"), QStringLiteral("-40.000 mm"));
-  d.action("undo")->trigger();
+  d.choose("undo");
   QTRY_COMPARE(d.text("measureZ"), QStringLiteral("-25.000 mm"));
 }
 
@@ -175,7 +175,7 @@ void DesktopMeasureTest::theMeasureFollowsThePartInHand() {
   // Wherever the servo has it.
   QTRY_VERIFY(d.felt && d.felt->translation.z > 2e-4);
   QTRY_VERIFY(std::abs(number(d, "measureZ") + 25.0 + 1e3 * d.felt->translation.z) < 2e-3);
-  d.application.servo().stop();
+  d.choose("stop");
   QTRY_VERIFY(!d.application.servo().isRunning());
   QTRY_VERIFY(std::abs(number(d, "measureZ") + 25.0 + 1e3 * d.part("moving").worldFromPart.translation.z) <
               2e-3);
@@ -185,7 +185,7 @@ void DesktopMeasureTest::theMeasureLeavesWithItsPart() {
   DesktopDriver d;
   measureCorners(d);
   d.clickPart(1, ui::PartsModel::Name);
-  d.action("remove")->trigger();
+  d.choose("remove");
   QCOMPARE(d.session().scene().parts().size(), std::size_t{1});
   QVERIFY(!isShown(d, "measureDistance"));
   QVERIFY(!d.widget<QLabel>("measureLabel")->isVisible());
@@ -212,11 +212,11 @@ void DesktopMeasureTest::dragsStillOrbitAndEscapeLeaves() {
 void DesktopMeasureTest::oneToolAtATimeTakesClicks() {
   DesktopDriver d;
   begin(d);
-  d.action("align")->trigger();
+  d.choose("align");
   QVERIFY(d.action("align")->isChecked());
   QVERIFY(!d.action("measure")->isChecked());
   QVERIFY(!d.widget<QWidget>("measureBar")->isVisible());
-  d.action("measure")->trigger();
+  d.choose("measure");
   QVERIFY(!d.action("align")->isChecked());
   QTest::keyClick(&d.window().viewport(), Qt::Key_Escape);
   QVERIFY(!d.action("measure")->isChecked());

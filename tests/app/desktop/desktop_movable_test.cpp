@@ -68,7 +68,7 @@ void DesktopMovableTest::whatARecordingShowsIsMovedByNoTool() {
   const QPoint arrow = view.handle(GizmoHandle::MoveX);
   const QString file = writeRecording(d.folder.path() / "felt.csv");
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, file); });
-  d.action("openRecording")->trigger();
+  d.choose("openRecording");
   QTRY_COMPARE(d.text("timelineName"), QStringLiteral("felt.csv"));
   const std::size_t before = d.steps();
 
@@ -116,12 +116,12 @@ void DesktopMovableTest::whatCouldNotBeReadMakesRoomWhenThePartIsMovedOtherwise(
   d.type<ui::NumberField>("positionX", "3");
   QCOMPARE(d.x("moving"), 0.003);
   QVERIFY(d.field("positionY")->isFaulty());
-  d.action("undo")->trigger();
+  d.choose("undo");
   QVERIFY(!d.field("positionY")->isFaulty());
   QCOMPARE(d.field("positionY")->quantity(), 0.0);
   d.type<ui::NumberField>("positionZ", "5 kg");
   QVERIFY(d.field("positionZ")->isFaulty());
-  d.action("dropDown")->trigger();
+  d.choose("dropDown");
   QTRY_VERIFY(d.part("moving").worldFromPart.translation.z < 0.0);
   QVERIFY(!d.field("positionZ")->isFaulty());
   QVERIFY(std::abs(d.field("positionZ")->quantity() + 0.005) < 2e-6);
@@ -189,19 +189,19 @@ void DesktopMovableTest::withALockedPartAmongThemTheFieldsSayWhyTheyAreDisabled(
 // "moving went 0.00 um and touches fixed", and a second step of undo.
 void DesktopMovableTest::whatHasBeenDroppedOrPushedIsNoStepTheSecondTime() {
   Bench d;
-  d.action("dropDown")->trigger();
+  d.choose("dropDown");
   QTRY_VERIFY(d.isNoted("touches fixed"));
   const std::size_t dropped = d.steps();
   const double z = d.part("moving").worldFromPart.translation.z;
-  d.action("dropDown")->trigger();
+  d.choose("dropDown");
   QTRY_VERIFY(d.isNoted("moving touches fixed already"));
   QCOMPARE(d.steps(), dropped);
   QCOMPARE(d.part("moving").worldFromPart.translation.z, z);
 
-  d.action("pushDown")->trigger();
+  d.choose("pushDown");
   QTRY_VERIFY(d.steps() > dropped || d.isNoted("is held by fixed already"));
   const std::size_t pushed = d.steps();
-  d.action("pushDown")->trigger();
+  d.choose("pushDown");
   QTRY_VERIFY(d.isNoted("is held by fixed already"));
   QCOMPARE(d.steps(), pushed);
 }
@@ -217,9 +217,9 @@ void DesktopMovableTest::aPushNamesWhatBarsTheWayFirst() {
          write("cube.off", glm::dvec3(0.02), {0.0, 0.0, 0.05})});
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
   d.clickPart(2, ui::PartsModel::Name);
-  d.action("pushDown")->trigger();
+  d.choose("pushDown");
   QTRY_VERIFY(d.window().statusBar()->currentMessage().endsWith(QStringLiteral("touches floor")));
-  d.action("pushRight")->trigger();
+  d.choose("pushRight");
   QTRY_VERIFY2(d.window().statusBar()->currentMessage().contains(QStringLiteral("touches wall")),
                qPrintable(d.window().statusBar()->currentMessage()));
   QVERIFY(std::abs(d.part("cube").worldFromPart.translation.x - 0.13) < 1e-3);

@@ -6,6 +6,7 @@
 #include <QStatusBar>
 #include <QTableWidget>
 #include <QToolButton>
+#include <algorithm>
 
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/support/mesh_files.h"
@@ -36,6 +37,16 @@ void drop(QWidget& window, const QStringList& files) {
   QVERIFY(enter.isAccepted());
   QDropEvent event(middle, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QApplication::sendEvent(&window, &event);
+}
+
+/// Opens File > Open recent.
+QMenu& openRecent(DesktopDriver& d) {
+  const QList<QMenu*> menus = d.window().findChildren<QMenu*>();
+  QMenu* recent = *std::find_if(menus.begin(), menus.end(), [](const QMenu* menu) {
+    return menu->title().contains(QStringLiteral("recent"));
+  });
+  openMenus(d.window(), menusTo(d.window().menuBar()->actions(), recent->menuAction()) + QList{recent});
+  return *recent;
 }
 
 /// Answers the question for the unit, and counts how often it was asked.
@@ -108,14 +119,9 @@ void DesktopPartFilesTest::recentScenesAreInTheMenuAndOpen() {
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
   QTest::keyClick(&d.window(), Qt::Key_N, Qt::ControlModifier);
   QVERIFY(d.session().scene().parts().empty());
-  QMenu* menu = nullptr;
-  for (QMenu* each : d.window().findChildren<QMenu*>()) {
-    if (each->title().contains(QStringLiteral("recent"))) menu = each;
-  }
-  QVERIFY(menu != nullptr);
-  emit menu->aboutToShow();
-  QCOMPARE(menu->actions().first()->text(), QStringLiteral("&1  a && b.nearfit"));
-  menu->actions().first()->trigger();
+  QMenu& menu = openRecent(d);
+  QCOMPARE(menu.actions().first()->text(), QStringLiteral("&1  a && b.nearfit"));
+  clickEntry(menu, menu.actions().first());
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
 }
 
@@ -124,13 +130,9 @@ void DesktopPartFilesTest::missingRecentSceneIsToldAndLeavesTheList() {
   ui::RecentFiles::remember(nameOf(d.folder.path() / "gone.nearfit"));
   QStringList told;
   d.window().setFailureSink([&](const ui::Failure& failure) { told << failure.details; });
-  QMenu* menu = nullptr;
-  for (QMenu* each : d.window().findChildren<QMenu*>()) {
-    if (each->title().contains(QStringLiteral("recent"))) menu = each;
-  }
-  emit menu->aboutToShow();
-  QVERIFY(menu->actions().first()->text().contains(QStringLiteral("(missing)")));
-  menu->actions().first()->trigger();
+  QMenu& menu = openRecent(d);
+  QVERIFY(menu.actions().first()->text().contains(QStringLiteral("(missing)")));
+  clickEntry(menu, menu.actions().first());
   QCOMPARE(told.size(), 1);
   QVERIFY(told.first().contains(QStringLiteral("gone.nearfit")));
   QVERIFY(ui::RecentFiles::list().isEmpty());

@@ -64,7 +64,7 @@ void DesktopPartsTest::cancellingTheUnitAddsNothing() {
         QStringLiteral("unitDialog"));
     chooseFile(dialog, d.fixedFile);
   });
-  d.action("addParts")->trigger();
+  d.choose("addParts");
   QTest::qWait(100);
   QVERIFY(!d.window().document().isBusy());
   QVERIFY(d.session().scene().parts().empty());
@@ -114,7 +114,7 @@ void DesktopPartsTest::renamesInPlace() {
   DesktopDriver d;
   d.addCubes();
   d.clickPart(1, ui::PartsModel::Name);
-  d.action("rename")->trigger();
+  d.choose("rename");
   auto* editor = d.partsView()->findChild<QLineEdit*>();
   QVERIFY(editor != nullptr);
   editor->selectAll();
@@ -161,11 +161,11 @@ void DesktopPartsTest::movesByUnitsAndArithmeticInTheChosenUnit() {
   d.clickPart(1, ui::PartsModel::Name);
   QCOMPARE(d.widget<QDoubleSpinBox>("positionY")->text(), QStringLiteral("0.0000 mm"));
   d.clickPart(0, ui::PartsModel::Name);
-  d.action("unit-in")->trigger();
+  d.choose("unit-in");
   QCOMPARE(d.widget<QDoubleSpinBox>("positionX")->text(), QStringLiteral("0.87992 in"));
   d.type<QDoubleSpinBox>("positionX", "1");
   QVERIFY(std::abs(at().x - 0.0254) < 1e-15);
-  d.action("unit-mm")->trigger();
+  d.choose("unit-mm");
   QCOMPARE(d.widget<QDoubleSpinBox>("positionX")->text(), QStringLiteral("25.4000 mm"));
 }
 
@@ -234,7 +234,7 @@ void DesktopPartsTest::clickInTheViewSelectsThePart() {
   d.addCubes();
   d.session().setVisible(d.partId("moving"), false);
   ui::Viewport& view = d.window().viewport();
-  d.action("viewTop")->trigger();
+  d.choose("viewTop");
   QTest::qWait(100);
   QTest::mouseClick(&view, Qt::LeftButton, {}, view.rect().center());
   QCOMPARE(d.partsView()->currentIndex().row(), 0);

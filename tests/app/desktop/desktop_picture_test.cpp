@@ -184,7 +184,7 @@ void DesktopPictureTest::onWhiteAndOnNothingPartsLookTheSame() {
 
 void DesktopPictureTest::axesAndLegendCanBeLeftOut() {
   PictureDesk d;
-  d.application.servo().start(ui::Hand::Manual);
+  d.startWith(ui::Hand::Manual);
   auto* legend = d.widget<QWidget>("colourLegend");
   QTRY_VERIFY(legend->isVisible());
   PictureChoice choice;
@@ -205,12 +205,12 @@ void DesktopPictureTest::axesAndLegendCanBeLeftOut() {
   };
   QVERIFY2(covered(with) > 500, qPrintable(QString::number(covered(with))));
   QCOMPARE(covered(without), 0);
-  d.application.servo().stop();
+  d.choose("stop");
 }
 
 void DesktopPictureTest::aCutThatFollowsItsPartsIsTakenAsItIs() {
   PictureDesk d;
-  d.action("section")->trigger();
+  d.choose("section");
   d.picture();
   // Faces of the cut come and go with the picture that is taken: none has been drawn in between.
   for (const double x : {0.2, 0.0}) {

@@ -199,7 +199,7 @@ void DesktopPluggedTest::whatItLeadsIsRecordedByTheButtonAndReplayed() {
   QTest::mouseClick(p.d.widget<QToolButton>("timelineClose"), Qt::LeftButton);
 
   // As the hand, beside the device: the part goes the same way from where it is now, far above the other.
-  p.d.action("undo")->trigger();
+  p.d.choose("undo");
   p.d.clickPart(1, 0);
   p.d.type<ui::NumberField>("positionZ", "100");
   const glm::dvec3 high = p.d.part("moving").worldFromPart.translation;

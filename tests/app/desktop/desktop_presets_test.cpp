@@ -40,10 +40,10 @@ struct Fixture {
           QTest::keyClick(field, Qt::Key_Return);
         },
         QStringLiteral("presetNameDialog"));
-    d.action(action)->trigger();
+    d.choose(action);
   }
   void openDialog() {
-    d.action("feelSettings")->trigger();
+    d.choose("feelSettings");
     QTRY_VERIFY(dialog()->isVisible());
   }
 
@@ -82,9 +82,9 @@ void DesktopPresetsTest::oneIsChosenAsOneStepOfUndoAndShownInBothPlaces() {
   QCOMPARE(f.panel()->currentText(), QStringLiteral("Soft"));
   QCOMPARE(f.d.widget<ui::NumberField>("couplingStiffness")->quantity(), 250.0);
   QCOMPARE(f.d.session().historyIndex(), before + 2);
-  f.d.action("undo")->trigger();
+  f.d.choose("undo");
   QCOMPARE(f.dialog()->currentText(), QStringLiteral("Medium"));
-  f.d.action("undo")->trigger();
+  f.d.choose("undo");
   QCOMPARE(f.panel()->currentText(), QStringLiteral("Stiff"));
   QVERIFY(f.settings() == stiff);
 }
@@ -132,10 +132,10 @@ void DesktopPresetsTest::onesOwnIsSavedChosenRenamedAndDeleted() {
         QStringLiteral("deletePresetBox"));
   };
   answer("cancel");
-  f.d.action("deletePreset")->trigger();
+  f.d.choose("deletePreset");
   QCOMPARE(f.panel()->currentText(), QStringLiteral("Dry steel"));
   answer("confirmDeletePreset");
-  f.d.action("deletePreset")->trigger();
+  f.d.choose("deletePreset");
   QCOMPARE(f.panel()->currentText(), QStringLiteral("Stiff"));
   QVERIFY(f.panel()->findText(QStringLiteral("Dry steel")) < 0);
   // The scene feels as it did.
@@ -178,7 +178,7 @@ void DesktopPresetsTest::aUsualNameIsRefusedWithTheReason() {
         QTest::keyClick(field, Qt::Key_Escape);
       },
       QStringLiteral("presetNameDialog"));
-  f.d.action("savePreset")->trigger();
+  f.d.choose("savePreset");
   QVERIFY(wasAsked);
   QVERIFY(!std::filesystem::exists(ui::PresetStore::usualFile()));
 }

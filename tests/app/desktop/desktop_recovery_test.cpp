@@ -43,7 +43,7 @@ struct Doomed {
     RigidTransform last;
     QObject::connect(&d.application.servo(), &desktop::ServoController::snapshotArrived, &d.application,
                      [&](const ServoSnapshot& snapshot) { last = snapshot.proxy; });
-    d.application.servo().start(ui::Hand::Manual);
+    d.startWith(ui::Hand::Manual);
     const std::size_t steps = d.session().history().size();
     typeX("7.25");
     const bool isThere =
@@ -283,7 +283,7 @@ void DesktopRecoveryTest::nothingIsWrittenWhileNothingChanges() {
   QSignalSpy written(autosave, &ui::Autosave::written);
   d.addCubes();
   QTRY_COMPARE_WITH_TIMEOUT(written.count(), 1, 30'000);
-  d.application.servo().start(ui::Hand::Manual);
+  d.startWith(ui::Hand::Manual);
   bool isFelt = false;
   connect(&d.application.servo(), &desktop::ServoController::snapshotArrived, this, [&] { isFelt = true; });
   QTRY_VERIFY_WITH_TIMEOUT(isFelt, 30'000);

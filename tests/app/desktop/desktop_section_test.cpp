@@ -49,7 +49,7 @@ void DesktopSectionTest::onePartOfTwoAlikeMayBeWhole() {
     if (part->id != cut.d.partId("fixed") && part->id != cut.d.partId("moving")) copy = part->id;
   }
   cut.d.session().movePart(copy, {{1, 0, 0, 0}, {0.03, 0.0, 0.0}});
-  cut.d.action("viewFront")->trigger();
+  cut.d.choose("viewFront");
   cut.begin("sectionY");
   cut.press("sectionSpare");
   QVERIFY(cut.d.widget<QCheckBox>("sectionSpare")->isChecked());
@@ -129,7 +129,7 @@ void DesktopSectionTest::theCutFollowsPartsThatMove() {
   // In hand, where the servo has it: half a cube to the front and the plane misses it.
   cut.d.session().movePart(cut.d.partId("moving"), {{1, 0, 0, 0}, {0.025, 0.011, 0.0}});
   QTRY_VERIFY(cut.picked({0.025, 0.001, 0.035})->cut == nullptr);
-  cut.d.action("undo")->trigger();
+  cut.d.choose("undo");
   QTRY_VERIFY(cut.picked({0.025, 0.0, 0.035})->cut != nullptr);
   auto* hands = cut.d.widget<QComboBox>("hand");
   hands->setFocus();
@@ -146,7 +146,7 @@ void DesktopSectionTest::theCutFollowsPartsThatMove() {
     const auto seen = cut.picked({x + 0.009, 0.0, 0.035});
     return seen && seen->cut != nullptr && seen->part == cut.d.partId("moving");
   }());
-  cut.d.application.servo().stop();
+  cut.d.choose("stop");
   QTRY_VERIFY(!cut.d.application.servo().isRunning());
 }
 

@@ -18,7 +18,7 @@ class Row : public DesktopDriver {
       ids.push_back(part->id);
     session().movePart(ids[0], {{1, 0, 0, 0}, {-0.1, 0, 0}});
     session().movePart(ids[2], {{1, 0, 0, 0}, {0.1, 0, 0}});
-    action("viewTop")->trigger();
+    choose("viewTop");
     selection().select(std::nullopt);
     QTest::qWait(100);
   }

@@ -145,7 +145,7 @@ void Worker::openParts(const QStringList& files) {
         QStringLiteral("unitDialog"));
     chooseFile(dialog, quoted.join(QChar(' ')));
   });
-  d_.action("addParts")->trigger();
+  d_.choose("addParts");
   REQUIRE_SOON(d_.session().scene().parts().size() == 4);
   REQUIRE_SOON(!d_.window().document().isBusy());
 }

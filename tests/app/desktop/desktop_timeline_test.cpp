@@ -48,7 +48,7 @@ struct Fixture {
   void press(const char* button) { QTest::mouseClick(d.widget<QToolButton>(button), Qt::LeftButton); }
   double shownTime() { return d.text("timelineTime").section(' ', 0, 0).toDouble(); }
   ui::PlotView* plots() { return d.widget<ui::PlotView>("plotView"); }
-  void showPlots() { d.widget<QDockWidget>("plotsDock")->toggleViewAction()->trigger(); }
+  void showPlots() { d.choose(d.widget<QDockWidget>("plotsDock")->toggleViewAction()); }
 
   DesktopDriver d;
   QVector<ui::Failure> failures;
@@ -140,11 +140,11 @@ void DesktopTimelineTest::itGoesAtTheChosenSpeedAndLoops() {
 void DesktopTimelineTest::takingAPartInHandEndsTheReplay() {
   Fixture f;
   f.openByMenu();
-  f.d.application.servo().start(ui::Hand::Manual);
+  f.d.startWith(ui::Hand::Manual);
   QCOMPARE(f.d.text("timelineName"), QStringLiteral("No recording is open."));
   QVERIFY(!f.d.action("openRecording")->isEnabled());
   QTRY_VERIFY(f.d.application.servo().statistics().ticks > 10);
-  f.d.application.servo().stop();
+  f.d.choose("stop");
   QVERIFY(f.d.action("openRecording")->isEnabled());
   QVERIFY(std::abs(f.d.part("moving").worldFromPart.translation.x) < 1e-6);
 }
@@ -173,7 +173,7 @@ void DesktopTimelineTest::withoutAPartInHandThereIsNothingToMove() {
 
 void DesktopTimelineTest::whatIsFeltIsRecordedFromTheButtonAndPlayed() {
   Fixture f;
-  f.d.application.servo().start(ui::Hand::Manual);
+  f.d.startWith(ui::Hand::Manual);
   QTRY_VERIFY(f.d.application.servo().statistics().ticks > 10);
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, f.file("mine.csv")); });
   pressShortcut(f.d, Qt::Key_F8, Qt::NoModifier);
@@ -187,7 +187,7 @@ void DesktopTimelineTest::whatIsFeltIsRecordedFromTheButtonAndPlayed() {
   const auto rows = readMotion(f.d.folder.path() / "mine.csv");
   QVERIFY(std::abs(rows.back().proxy.translation.z - 0.002) < 1e-6);
   QVERIFY(std::abs(rows.front().proxy.translation.z) < 1e-6);
-  f.d.application.servo().stop();
+  f.d.choose("stop");
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, f.file("mine.csv")); });
   pressShortcut(f.d, Qt::Key_F8, Qt::ShiftModifier);
   QTRY_COMPARE(f.d.text("timelineName"), QStringLiteral("mine.csv"));
@@ -196,7 +196,7 @@ void DesktopTimelineTest::whatIsFeltIsRecordedFromTheButtonAndPlayed() {
 
 void DesktopTimelineTest::aRecordingThatCannotBeWrittenIsToldAndThePartStaysInHand() {
   Fixture f;
-  f.d.application.servo().start(ui::Hand::Manual);
+  f.d.startWith(ui::Hand::Manual);
   f.d.application.servo().recordTo(f.file("none/felt.csv"));
   QCOMPARE(f.failures.size(), 1);
   QVERIFY(f.d.application.servo().isRunning());
@@ -222,14 +222,14 @@ void DesktopTimelineTest::plotsShowTheRecordingWithEveryPeak() {
 
 void DesktopTimelineTest::plotsAreDrawnOnlyWhileShownAndWhenSomethingIsNew() {
   Fixture f;
-  f.d.application.servo().start(ui::Hand::Scripted);
+  f.d.startWith(ui::Hand::Scripted);
   QTRY_VERIFY(f.d.application.servo().statistics().ticks > 200);
   QCOMPARE(f.plots()->redrawCount(), 0);
   f.showPlots();
   QTRY_VERIFY(f.plots()->redrawCount() > 3);
   // What was felt before is there too.
   QTRY_VERIFY(f.plots()->graph(0)->dataCount() > 100);
-  f.d.application.servo().stop();
+  f.d.choose("stop");
   QTest::qWait(200);
   const int still = f.plots()->redrawCount();
   QTest::qWait(200);
@@ -239,7 +239,7 @@ void DesktopTimelineTest::plotsAreDrawnOnlyWhileShownAndWhenSomethingIsNew() {
 void DesktopTimelineTest::plotsPauseZoomAndAreExported() {
   Fixture f;
   f.showPlots();
-  f.d.application.servo().start(ui::Hand::Scripted);
+  f.d.startWith(ui::Hand::Scripted);
   QTRY_VERIFY(f.plots()->graph(0)->dataCount() > 50);
   f.press("pausePlots");
   const auto lastTime = [&] { return (f.plots()->graph(0)->data()->constEnd() - 1)->key; };
@@ -260,7 +260,7 @@ void DesktopTimelineTest::plotsPauseZoomAndAreExported() {
   f.press("followPlots");
   QVERIFY(f.plots()->isFollowing());
 
-  f.d.application.servo().stop();
+  f.d.choose("stop");
   const std::vector<std::pair<const char*, const char*>> exports{{"exportPlotTable", "plot.csv"},
                                                                  {"exportPlotPicture", "plot.png"}};
   for (const auto& [button, name] : exports) {

@@ -43,6 +43,13 @@ class Tree : public DesktopDriver {
     QApplication::setActiveWindow(&window());
     QTest::keyClick(partsView(), key, modifiers);
   }
+  /// Puts parts into a new group: by clicks on their rows and the key.
+  GroupId group(std::initializer_list<std::size_t> members) {
+    for (const std::size_t i : members)
+      click(ids[i], i == *members.begin() ? Qt::NoModifier : Qt::ControlModifier);
+    key(Qt::Key_G, Qt::ControlModifier);
+    return session().scene().groups().back()->id;
+  }
   const Part& at(std::size_t i) { return *session().scene().find(ids[i]); }
   std::size_t steps() { return session().historyIndex(); }
 
@@ -94,7 +101,7 @@ void DesktopTreeTest::groupsAndUngroupsByKeys() {
 
 void DesktopTreeTest::aGroupIsSelectedWithAllThatItHolds() {
   Tree d;
-  const GroupId group = d.session().group({{d.ids[0], d.ids[1]}, {}});
+  const GroupId group = d.group({0, 1});
   d.click(group);
   QVERIFY(d.selection().parts() == (Parts{d.ids[0], d.ids[1]}));
   d.click(d.ids[2], Qt::ControlModifier);
@@ -159,7 +166,7 @@ void DesktopTreeTest::whatIsAddedWhileIsolatedStaysWhenTheRestComesBack() {
   QVERIFY(!d.at(0).isVisible && !d.at(1).isVisible && d.at(2).isVisible);
   // Not before all of the loading is done.
   QTRY_VERIFY(d.action("endIsolation")->isEnabled());
-  d.action("endIsolation")->trigger();
+  d.choose("endIsolation");
   QVERIFY(d.at(0).isVisible && !d.at(1).isVisible && d.at(2).isVisible);
   QVERIFY(d.part("moving").isVisible);
   QVERIFY(!d.action("endIsolation")->isEnabled());
@@ -167,7 +174,7 @@ void DesktopTreeTest::whatIsAddedWhileIsolatedStaysWhenTheRestComesBack() {
 
 void DesktopTreeTest::aGroupThatHoldsWhatIsInHandIsDeletedAndComesBackWithIt() {
   Tree d;
-  const GroupId group = d.session().group({{d.ids[0], d.ids[1]}, {}});
+  const GroupId group = d.group({0, 1});
   d.session().setMovingPart(d.ids[0]);
   d.click(group);
   d.key(Qt::Key_Delete);
@@ -181,9 +188,9 @@ void DesktopTreeTest::aGroupThatHoldsWhatIsInHandIsDeletedAndComesBackWithIt() {
 
 void DesktopTreeTest::aGroupIsRenamedInPlace() {
   Tree d;
-  const GroupId group = d.session().group({{d.ids[0]}, {}});
+  const GroupId group = d.group({0});
   d.click(group);
-  d.action("rename")->trigger();
+  d.choose("rename");
   auto* editor = d.partsView()->findChild<QLineEdit*>();
   QVERIFY(editor != nullptr);
   editor->selectAll();
@@ -194,7 +201,7 @@ void DesktopTreeTest::aGroupIsRenamedInPlace() {
 
 void DesktopTreeTest::aRowIsDroppedOnAGroupAndAtTheTop() {
   Tree d;
-  const GroupId group = d.session().group({{d.ids[0]}, {}});
+  const GroupId group = d.group({0});
   QTreeView* view = d.partsView();
   const auto drop = [&](PartId part, const QPoint& place) {
     const std::unique_ptr<QMimeData> data(d.model().mimeData({d.model().indexOf(part)}));
@@ -240,16 +247,15 @@ void DesktopTreeTest::severalMoveAsOneByNumberAndByKey() {
 
 void DesktopTreeTest::severalBecomeTransparentAndAreCopied() {
   Tree d;
-  const GroupId group = d.session().group({{d.ids[0], d.ids[1]}, {}});
+  const GroupId group = d.group({0, 1});
   d.click(group);
-  auto* half = d.window().findChild<QAction*>(QStringLiteral("transparency50"));
-  if (half == nullptr) {
-    for (QAction* action : d.partsView()->actions())
-      if (action->menu() != nullptr)
-        half = action->menu()->findChild<QAction*>(QStringLiteral("transparency50"));
+  QAction* half = nullptr;
+  for (QAction* action : d.window().menuBar()->actions().at(1)->menu()->actions()) {
+    if (action->menu() != nullptr && half == nullptr)
+      half = action->menu()->findChild<QAction*>(QStringLiteral("transparency50"));
   }
   QVERIFY(half != nullptr);
-  half->trigger();
+  d.choose(half);
   QCOMPARE(d.at(0).opacity, 0.5);
   QCOMPARE(d.at(1).opacity, 0.5);
   QCOMPARE(d.at(2).opacity, 1.0);
@@ -262,7 +268,7 @@ void DesktopTreeTest::severalBecomeTransparentAndAreCopied() {
 
 void DesktopTreeTest::whatAGroupLocksIsLockedForEveryTool() {
   Tree d;
-  const GroupId group = d.session().group({{d.ids[0]}, {}});
+  const GroupId group = d.group({0});
   d.click(group, {}, ui::PartsModel::Locked);
   QVERIFY(d.session().scene().isLocked(d.at(0)));
   d.click(d.ids[0]);
@@ -282,7 +288,7 @@ void DesktopTreeTest::aLockedPartIsColouredAsItIsMadeTransparent() {
     dialog->setCurrentColor(QColor(0, 255, 0));
     QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
   });
-  d.action("recolour")->trigger();
+  d.choose("recolour");
   QVERIFY(d.at(0).colour == (Colour{0.0F, 1.0F, 0.0F}));
   QVERIFY(d.at(0).isLocked);
   QCOMPARE(d.session().undoText(), std::string("Recolour fixed"));
@@ -293,7 +299,7 @@ void DesktopTreeTest::whatIsInHandIsPutDownToBeLocked() {
   Tree d;
   QStringList failures;
   d.window().setFailureSink([&](const ui::Failure& failure) { failures << failure.summary; });
-  const GroupId group = d.session().group({{d.ids[0], d.ids[1]}, {}});
+  const GroupId group = d.group({0, 1});
   d.session().setMovingPart(d.ids[1]);
   const std::size_t before = d.steps();
   d.click(d.ids[1]);
@@ -315,12 +321,12 @@ void DesktopTreeTest::whatIsFeltIsNotLockedAndThatIsNoQuestion() {
   d.window().setFailureSink([&](const ui::Failure& failure) { failures << failure.summary; });
   d.session().setMovingPart(d.ids[1]);
   d.click(d.ids[1]);
-  d.application.servo().start(ui::Hand::Manual);
+  d.startWith(ui::Hand::Manual);
   QTRY_VERIFY(d.application.servo().statistics().ticks > 10);
   d.key(Qt::Key_L, Qt::ControlModifier);
   QVERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("is being felt: stop (F6)")));
   QVERIFY(!d.at(1).isLocked && d.application.servo().isRunning());
-  d.application.servo().stop();
+  d.choose("stop");
   QVERIFY(failures.isEmpty());
 }
 
@@ -331,7 +337,7 @@ void DesktopTreeTest::aRefusedNameStaysInItsEditorAndSaysWhy() {
   d.window().setFailureSink([&](const ui::Failure& failure) { failures << failure.summary; });
   d.session().renamePart(d.ids[0], "wall");
   d.click(d.ids[1]);
-  d.action("rename")->trigger();
+  d.choose("rename");
   QPointer<QLineEdit> editor = d.partsView()->findChild<QLineEdit*>();
   QVERIFY(editor != nullptr);
   const std::string before = d.at(1).name;
@@ -359,7 +365,7 @@ void DesktopTreeTest::aRefusedNameThatIsLeftChangesNothing() {
   const std::size_t before = d.steps();
   const auto type = [&] {
     d.click(d.ids[1]);
-    d.action("rename")->trigger();
+    d.choose("rename");
     QPointer<QLineEdit> editor = d.partsView()->findChild<QLineEdit*>();
     editor->selectAll();
     QTest::keyClicks(editor, QStringLiteral("wall"));
@@ -401,7 +407,7 @@ void DesktopTreeTest::aNameIsLookedForAmongMany() {
 
 void DesktopTreeTest::groupsStayClosedThroughChanges() {
   Tree d;
-  const GroupId group = d.session().group({{d.ids[0]}, {}});
+  const GroupId group = d.group({0});
   d.partsView()->collapse(d.model().indexOf(group));
   d.session().duplicatePart(d.ids[1]);
   QVERIFY(!d.partsView()->isExpanded(d.model().indexOf(group)));

@@ -66,7 +66,7 @@ void DesktopWorkspaceTest::theScaleMakesSmallMotionsLarge() {
   QCOMPARE(f.d->session().scene().haptics().mapping.scale, 5.0);
   f.handle->moveTo({0.002, 0.003, 0.0});
   QTRY_VERIFY(f.isFeltAt({0.01, 0.015, 0.1}));
-  f.d->action("undo")->trigger();
+  f.d->choose("undo");
   QCOMPARE(f.d->widget<ui::NumberField>("panelScale")->quantity(), 1.0);
 }
 
@@ -119,7 +119,7 @@ void DesktopWorkspaceTest::theClutchIsForADeviceInHand() {
   QVERIFY(!f.d->action("clutch")->isEnabled());
   f.feel();
   QVERIFY(f.d->action("clutch")->isEnabled());
-  f.d->action("clutch")->trigger();
+  f.d->choose("clutch");
   QVERIFY(f.d->application.servo().status().isClutched);
   f.click("startStop");
   QVERIFY(!f.d->action("clutch")->isEnabled() && !f.d->action("clutch")->isChecked());

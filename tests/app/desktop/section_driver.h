@@ -19,7 +19,7 @@ struct SectionDriver {
     d.session().setColour(d.partId("moving"), {0.0F, 0.0F, 1.0F});
     d.action("seeThrough")->setChecked(false);
     d.window().selection().select({});
-    d.action(look)->trigger();
+    d.choose(look);
   }
   void begin(const char* axis) {
     QTest::keyClick(&d.window(), Qt::Key_C);

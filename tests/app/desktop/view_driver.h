@@ -17,7 +17,7 @@ class ViewDriver {
   /// Goes to a view and waits until it is drawn.
   void look(const char* action) {
     const int before = view().pictureCount();
-    d_.action(action)->trigger();
+    d_.choose(action);
     QTRY_VERIFY(view().pictureCount() > before);
   }
   ui::Viewport& view() { return d_.window().viewport(); }

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <QAction>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QToolButton>
+#include <QtTest>
+
+#include "core/error.h"
+
+/// Commands as a user gives them: by clicks through the menus down to an entry, or on a button of a toolbar.
+namespace nearfit::test {
+
+/// The menus that lead to an entry, from the outermost; none where no menu does.
+inline QList<QMenu*> menusTo(const QList<QAction*>& entries, QAction* wanted) {
+  for (QAction* entry : entries) {
+    QMenu* menu = entry->menu();
+    if (menu == nullptr) continue;
+    if (menu->actions().contains(wanted)) return {menu};
+    const QList<QMenu*> within = menusTo(menu->actions(), wanted);
+    if (!within.isEmpty()) return QList<QMenu*>{menu} + within;
+  }
+  return {};
+}
+
+inline void clickEntry(QMenu& menu, QAction* entry) {
+  const QPoint at = menu.actionGeometry(entry).center();
+  QTest::mouseMove(&menu, at);
+  QTest::mouseClick(&menu, Qt::LeftButton, {}, at);
+}
+
+/// Opens menus one out of the other, the first from the window's bar.
+inline void openMenus(QMainWindow& window, const QList<QMenu*>& path) {
+  QMenuBar* bar = window.menuBar();
+  QTest::mouseClick(bar, Qt::LeftButton, {}, bar->actionGeometry(path.first()->menuAction()).center());
+  for (int i = 0; i < path.size(); ++i) {
+    if (!QTest::qWaitFor([&] { return path[i]->isVisible(); }))
+      throw Error("menus", path[i]->title().toStdString() + " does not open");
+    if (i + 1 < path.size()) clickEntry(*path[i], path[i + 1]->menuAction());
+  }
+}
+
+/// @throws Error  What a user could not choose either: it is disabled, hidden or nowhere to be seen.
+inline void chooseCommand(QMainWindow& window, QAction* action) {
+  const std::string name = action->objectName().toStdString();
+  const QList<QMenu*> path = menusTo(window.menuBar()->actions(), action);
+  if (!path.isEmpty()) {
+    openMenus(window, path);
+    // What can be done may be known only as the menu opens.
+    if (!action->isEnabled() || !action->isVisible()) throw Error("menus", name + " cannot be chosen now");
+    return clickEntry(*path.last(), action);
+  }
+  for (auto* button : window.findChildren<QToolButton*>()) {
+    if (button->defaultAction() != action || !button->isVisible()) continue;
+    if (!button->isEnabled()) throw Error("menus", name + " cannot be pressed now");
+    return QTest::mouseClick(button, Qt::LeftButton);
+  }
+  throw Error("menus", name + " is in no menu and on no toolbar");
+}
+
+}  // namespace nearfit::test
