@@ -51,7 +51,7 @@ class Session {
   /// Parts whose files have changed get what those hold now, as one step; poses stay. Also of locked parts:
   /// what a file holds is not the scene's to lock.
   void reloadParts(const std::vector<NewGeometry>& parts);
-  /// The same meshes in another unit of length, as one step; poses stay.
+  /// The same meshes in another unit of length, as one step; poses stay, pivots are where they were on them.
   void rescaleParts(const std::vector<NewGeometry>& parts);
   /// Also for locked parts: what is shown is no property of the part.
   void setVisible(PartId id, bool visible) { setVisible(std::vector{id}, visible); }
@@ -69,6 +69,11 @@ class Session {
   /// Also for locked parts.
   void setOpacity(const std::vector<PartId>& ids, double opacity);
   void setDensity(const std::vector<PartId>& ids, double density);
+  struct NewPivot {
+    PartId part;
+    std::optional<glm::dvec3> inPart;  ///< As Part::pivot.
+  };
+  void setPivots(const std::vector<NewPivot>& pivots);
   /// Shows these alone, also locked ones; endIsolation shows exactly what was visible before the first one.
   void isolate(const std::vector<PartId>& ids);
   void endIsolation();

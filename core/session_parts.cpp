@@ -35,6 +35,13 @@ std::vector<PartId> partsOf(const std::vector<Session::NewGeometry>& renewed) {
   return ids;
 }
 
+std::vector<PartId> partsOf(const std::vector<Session::NewPivot>& pivots) {
+  std::vector<PartId> ids;
+  for (const Session::NewPivot& each : pivots)
+    ids.push_back(each.part);
+  return ids;
+}
+
 PartGeometryPtr geometryFor(const Part& part, const std::vector<Session::NewGeometry>& renewed) {
   return std::ranges::find(renewed, part.id, &Session::NewGeometry::part)->geometry;
 }
@@ -104,13 +111,27 @@ void Session::setDensity(const std::vector<PartId>& ids, double density) {
   changeUnlocked(ids, "Change the density of", [density](Part& part) { part.density = density; });
 }
 
+void Session::setPivots(const std::vector<NewPivot>& pivots) {
+  const bool isReset =
+      std::ranges::none_of(pivots, [](const NewPivot& each) { return each.inPart.has_value(); });
+  for (const NewPivot& each : pivots) {
+    if (each.inPart) checkPosition(*each.inPart);
+  }
+  changeUnlocked(partsOf(pivots), isReset ? "Reset the pivot of" : "Move the pivot of", [&](Part& part) {
+    part.pivot = std::ranges::find(pivots, part.id, &NewPivot::part)->inPart;
+  });
+}
+
 void Session::reloadParts(const std::vector<NewGeometry>& parts) {
   change(partsOf(parts), "Reload", [&parts](Part& part) { part.geometry = geometryFor(part, parts); });
 }
 
 void Session::rescaleParts(const std::vector<NewGeometry>& parts) {
-  changeUnlocked(partsOf(parts), "Rescale",
-                 [&parts](Part& part) { part.geometry = geometryFor(part, parts); });
+  changeUnlocked(partsOf(parts), "Rescale", [&parts](Part& part) {
+    PartGeometryPtr rescaled = geometryFor(part, parts);
+    if (part.pivot) *part.pivot *= rescaled->metresPerUnit / part.geometry->metresPerUnit;
+    part.geometry = std::move(rescaled);
+  });
 }
 
 void Session::isolate(const std::vector<PartId>& ids) {

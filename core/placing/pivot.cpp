@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <glm/geometric.hpp>
+
 namespace nearfit {
 
 glm::dvec3 centreOfMass(std::span<const PlacedPart> parts) noexcept {
@@ -34,6 +36,19 @@ glm::dvec3 boxCentre(std::span<const PlacedPart> parts) noexcept {
     }
   }
   return worldFromFirst.applyToPoint(all.centre());
+}
+
+std::optional<glm::dvec3> sharedPivot(std::span<const PlacedPart> parts) noexcept {
+  // A few poses that were made of each other.
+  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+  std::optional<glm::dvec3> shared;
+  for (const PlacedPart& placed : parts) {
+    if (!placed.part->pivot) return std::nullopt;
+    const glm::dvec3 pivot = placed.worldFromPart.applyToPoint(*placed.part->pivot);
+    if (!shared) shared = pivot;
+    if (glm::distance(pivot, *shared) > kPivotSlack + kRounding * glm::length(pivot)) return std::nullopt;
+  }
+  return shared;
 }
 
 bool meetsBox(const ViewRay& ray, const PlacedPart& part) noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include <glm/vec3.hpp>
@@ -23,6 +24,12 @@ glm::dvec3 centreOfMass(std::span<const PlacedPart> parts) noexcept;
 /// The middle of the box around all parts, in the world [m]. The box lies along the axes of the first part,
 /// so that its middle goes with the parts when they are moved together. @param parts  Not empty.
 glm::dvec3 boxCentre(std::span<const PlacedPart> parts) noexcept;
+
+/// The pivot that all parts were given together, in the world [m]; nothing where one has none, or another.
+/// Parts that have moved together since still share it: kPivotSlack and what rounds at the coordinates' size.
+/// @param parts  Not empty.
+std::optional<glm::dvec3> sharedPivot(std::span<const PlacedPart> parts) noexcept;
+constexpr double kPivotSlack = 1e-9;  ///< Nobody aims at a nanometre [m].
 
 /// Whether a ray meets the box around a part, so that it is worth while to look closer.
 bool meetsBox(const ViewRay& ray, const PlacedPart& part) noexcept;

@@ -13,7 +13,7 @@ bool isSameButForLook(const Part& a, const Part& b) noexcept {
   return a.id == b.id && a.name == b.name && a.geometry == b.geometry &&
          a.worldFromPart.rotation == b.worldFromPart.rotation &&
          a.worldFromPart.translation == b.worldFromPart.translation && a.density == b.density &&
-         a.group == b.group;
+         a.pivot == b.pivot && a.group == b.group;
 }
 
 bool isSame(const Part& a, const Part& b) noexcept {
@@ -54,13 +54,16 @@ void checkGroupName(const std::string& name) {
   checkName("group", name, kMaxGroupNameBytes);
 }
 
-RigidTransform checkedPose(const RigidTransform& pose) {
-  const glm::dvec3& t = pose.translation;
-  for (const double coordinate : {t.x, t.y, t.z}) {
+void checkPosition(const glm::dvec3& position) {
+  for (const double coordinate : {position.x, position.y, position.z}) {
     if (std::isfinite(coordinate) && std::abs(coordinate) <= kMaxPosition) continue;
     throw UsageError("position", fmt::format("a coordinate is {} m", coordinate),
                      fmt::format("stay within {} m of the origin", kMaxPosition));
   }
+}
+
+RigidTransform checkedPose(const RigidTransform& pose) {
+  checkPosition(pose.translation);
   const double length = std::sqrt(glm::dot(pose.rotation, pose.rotation));
   if (!(std::abs(length - 1.0) <= kQuaternionSlack)) {
     throw UsageError("quaternion", fmt::format("its length is {}, not 1", length),

@@ -40,10 +40,12 @@ struct Part {
   Colour colour;
   double density = kDefaultDensity;  ///< [kg/m^3]
   double opacity = 1.0;              ///< kMinOpacity to 1.
-  bool isVisible = true;             ///< An invisible part is not felt either.
-  /// A locked part cannot be moved, renamed, made of another density or shape, put into another group,
-  /// deleted, or be the moving part; how it is shown (hidden, transparent, its colour) can be changed. A
-  /// group locks what it holds: Scene::isLocked says whether a part is locked for either reason.
+  /// What tools turn it about, in its own frame [m]; none: its centre of mass.
+  std::optional<glm::dvec3> pivot;
+  bool isVisible = true;  ///< An invisible part is not felt either.
+  /// A locked part cannot be moved, renamed, made of another density or shape, given another pivot, put into
+  /// another group, deleted, or be the moving part; how it is shown (hidden, transparent, its colour) can be
+  /// changed. A group locks what it holds: Scene::isLocked says whether a part is locked for either reason.
   bool isLocked = false;
   std::optional<GroupId> group;  ///< None: it stands at the top.
   /// While parts are isolated: whether it was visible before. Empty for parts that came since.
@@ -71,8 +73,10 @@ void checkColour(const Colour& colour);
 /// Throws UsageError when the name is empty, too long, not UTF-8 or holds control characters.
 void checkPartName(const std::string& name);
 
-/// The pose with its quaternion normalised. Throws UsageError when a number is not finite, a coordinate is
-/// beyond kMaxPosition, or the quaternion's length is off 1 by more than kQuaternionSlack.
+/// Throws UsageError when a coordinate is not finite or beyond kMaxPosition.
+void checkPosition(const glm::dvec3& position);
+/// The pose with its quaternion normalised. Throws UsageError as checkPosition does, or when the
+/// quaternion's length is off 1 by more than kQuaternionSlack.
 RigidTransform checkedPose(const RigidTransform& pose);
 /// How far off 1 a quaternion's length may be: covers numbers typed or printed with four digits, not slips.
 constexpr double kQuaternionSlack = 1e-3;

@@ -9,7 +9,7 @@
 /// The scene file `*.nearfit`, JSON in UTF-8:
 ///
 ///     {
-///       "nearfit": 3,                                        version of this format
+///       "nearfit": 4,                                        version of this format
 ///       "units": {"length": "m", "force": "N", "time": "s"}, those and no others
 ///       "haptics": {
 ///         "mode": "proxy",                                   or "springs": the part goes where the hand is
@@ -41,6 +41,8 @@
 ///         "colour": [0.62, 0.69, 0.76],                      sRGB, each 0 to 1
 ///         "density": 1000,                                   [kg/m^3]
 ///         "opacity": 1,                                      0.05 to 1
+///         "pivot": null,                                     or [x, y, z] that tools turn it about, in its
+///                                                            frame [m]; null: its centre of mass
 ///         "visible": true,
 ///         "locked": false,
 ///         "group": 0,                                        that it is in: which of the groups, from 0, or
@@ -55,14 +57,14 @@
 /// saved. Numbers are written with as many digits as it takes to read the same double again. Meanings and
 /// limits of the settings: haptic_settings.h, haptic_limits.h.
 ///
-/// Older versions are still read. Version 2 has no "groups", and its parts none of "opacity", "group" and
-/// "wasVisible": they are opaque and stand at the top. Version 1 is like version 2, but: it has no "haptics"
-/// and no "density", and its "springs" stand where "haptics" do. What it does not say is as in a new scene,
-/// the margin a hundredth of its cutoff.
+/// Older versions are still read. Version 3 has no "pivot": there it is the centre of mass. Version 2 has no
+/// "groups", and its parts none of "opacity", "group" and "wasVisible": they are opaque and stand at the top.
+/// Version 1 is like version 2, but: it has no "haptics" and no "density", and its "springs" stand where
+/// "haptics" do. What it does not say is as in a new scene, the margin a hundredth of its cutoff.
 namespace nearfit {
 
 /// Version of the scene file format that this program writes, and the oldest that it reads.
-constexpr int kSceneFileVersion = 3, kOldestSceneFileVersion = 1;
+constexpr int kSceneFileVersion = 4, kOldestSceneFileVersion = 1;
 constexpr std::size_t kMaxSceneFileBytes = 8U << 20U;
 constexpr std::size_t kMaxSceneFileParts = 10'000;
 

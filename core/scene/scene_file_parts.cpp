@@ -83,6 +83,15 @@ void readPlaceAndLook(const JsonField& field, std::size_t groupCount, PartEntry&
   if (!wasVisible.isNull()) entry.part.wasVisible = wasVisible.isTrue();
 }
 
+/// What version 4 says beside version 3.
+std::optional<glm::dvec3> readPivot(const JsonField& field) {
+  if (field.isNull()) return std::nullopt;
+  const auto [x, y, z] = numbers<3>(field);
+  const glm::dvec3 pivot(x, y, z);
+  checked(field, [&] { checkPosition(pivot); });
+  return pivot;
+}
+
 PartEntry readPart(const JsonField& field, std::size_t groupCount, const fs::path& folder, int version) {
   PartEntry entry{field, {}, {}, {}, readSha256(field.at("sha256")), field.at("metresPerUnit").number()};
   checked(field.at("metresPerUnit"), [&] { checkMetresPerUnit(entry.metresPerUnit); });
@@ -100,6 +109,7 @@ PartEntry readPart(const JsonField& field, std::size_t groupCount, const fs::pat
   entry.part.isVisible = field.at("visible").isTrue();
   entry.part.isLocked = field.at("locked").isTrue();
   if (version >= 3) readPlaceAndLook(field, groupCount, entry);
+  if (version >= 4) entry.part.pivot = readPivot(field.at("pivot"));
   return entry;
 }
 

@@ -60,6 +60,7 @@ Json partJson(const Part& part, const GroupIndices& groups, const std::filesyste
                     shortestDouble(part.colour.b)};
   json["density"] = part.density;
   json["opacity"] = part.opacity;
+  json["pivot"] = part.pivot ? Json({part.pivot->x, part.pivot->y, part.pivot->z}) : Json();
   json["visible"] = part.isVisible;
   json["locked"] = part.isLocked;
   json["group"] = indexJson(part.group, groups);

@@ -409,5 +409,38 @@ TEST(Session, LockedPartIsNotRescaled) {
   EXPECT_THROW(session.rescaleParts({{peg, std::make_shared<const PartGeometry>()}}), UsageError);
 }
 
+TEST(Session, PivotsAreAStepAndStayWhereTheyAreOnThePart) {
+  const auto geometryIn = [](double metresPerUnit) {
+    PartGeometry geometry;
+    geometry.metresPerUnit = metresPerUnit;
+    return std::make_shared<const PartGeometry>(std::move(geometry));
+  };
+  Session session;
+  const PartId peg = session.addPart(geometryIn(1e-3), "Peg", kAside);
+  const PartId copy = session.duplicatePart(peg);
+  const auto pivotOf = [&](PartId id) { return session.scene().find(id)->pivot; };
+  session.setPivots({{peg, glm::dvec3(1, 2, 3)}, {copy, glm::dvec3(4, 5, 6)}});
+  EXPECT_EQ(session.undoText(), "Move the pivot of 2 parts");
+  session.movePart(peg, {});
+  session.rescaleParts({{peg, geometryIn(1e-2)}});
+  EXPECT_LT(glm::distance(*pivotOf(peg), {10, 20, 30}), 1e-12);
+  EXPECT_EQ(pivotOf(copy), glm::dvec3(4, 5, 6));
+  EXPECT_EQ(pivotOf(session.duplicatePart(copy)), glm::dvec3(4, 5, 6));
+  session.setPivots({{copy, {}}});
+  EXPECT_EQ(session.undoText(), "Reset the pivot of Peg 2");
+  EXPECT_EQ(pivotOf(copy), std::nullopt);
+  session.undo();
+  EXPECT_EQ(pivotOf(copy), glm::dvec3(4, 5, 6));
+
+  const std::size_t steps = session.historyIndex();
+  session.setPivots({{copy, glm::dvec3(4, 5, 6)}});
+  EXPECT_EQ(session.historyIndex(), steps) << "it is there already";
+  EXPECT_THROW(session.setPivots({{copy, glm::dvec3(NAN, 0, 0)}}), UsageError);
+  EXPECT_THROW(session.setPivots({{copy, glm::dvec3(0, -2 * kMaxPosition, 0)}}), UsageError);
+  session.setLocked(copy, true);
+  EXPECT_THROW(session.setPivots({{peg, {}}, {copy, {}}}), UsageError);
+  EXPECT_LT(glm::distance(*pivotOf(peg), {10, 20, 30}), 1e-12) << "refused whole";
+}
+
 }  // namespace
 }  // namespace nearfit

@@ -40,8 +40,11 @@ PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& vie
     emit failed(describe(tr("The part could not be moved solidly."), error));
   });
   connect(actions_, &PlacingActions::changed, this, &PlacingTools::showActions);
-  connect(actions_->pivotAtMass, &QAction::triggered, this, [this] { resetPivot(Pivot::Mass); });
-  connect(actions_->pivotAtBox, &QAction::triggered, this, [this] { resetPivot(Pivot::Box); });
+  connect(actions_->pivotAtMass, &QAction::triggered, this, [this] { setPivot(std::nullopt); });
+  connect(actions_->pivotAtBox, &QAction::triggered, this, [this] {
+    const std::vector<PlacedPart> parts = placedParts();
+    if (!parts.empty()) setPivot(boxCentre(parts));
+  });
   connect(actions_->solid, &QAction::toggled, this, [this](bool isOn) {
     if (isOn && !session_.scene().parts().empty()) emit hierarchiesWanted();
   });
@@ -93,10 +96,20 @@ void PlacingTools::showActions() {
   showFrame();
 }
 
-void PlacingTools::resetPivot(Pivot pivot) {
-  pivot_ = pivot;
-  pivotFor_ = selection_.parts();
-  showFrame();
+/// Of all that is selected; nothing: their centre of mass again.
+void PlacingTools::setPivot(const std::optional<glm::dvec3>& inWorld) {
+  commit();
+  std::vector<Session::NewPivot> pivots;
+  for (const PlacedPart& placed : placedParts()) {
+    const RigidTransform partFromWorld = placed.worldFromPart.inverse();
+    pivots.push_back({placed.part->id, {}});
+    if (inWorld) pivots.back().inPart = partFromWorld.applyToPoint(*inWorld);
+  }
+  try {
+    session_.setPivots(pivots);
+  } catch (...) {
+    emit failed(describe(tr("The pivot could not be moved."), std::current_exception()));
+  }
 }
 
 bool PlacingTools::isMovable(const Part& part) const {
@@ -137,12 +150,9 @@ std::optional<GizmoFrame> PlacingTools::frame() const {
   const std::vector<PlacedPart> parts = placedParts();
   if (parts.empty() || !std::ranges::all_of(parts, [](const PlacedPart& p) { return p.part->isVisible; }))
     return std::nullopt;
-  const RigidTransform& worldFromFirst = parts.front().worldFromPart;
-  const Pivot pivot = pivotFor_ == selection_.parts() ? pivot_ : Pivot::Mass;
   GizmoFrame frame;
-  frame.pivot = pivot == Pivot::Own   ? worldFromFirst.applyToPoint(ownPivot_)
-                : pivot == Pivot::Box ? boxCentre(parts)
-                                      : centreOfMass(parts);
+  const std::optional<glm::dvec3> given = draggedPivot_ ? draggedPivot_ : sharedPivot(parts);
+  frame.pivot = given ? *given : centreOfMass(parts);
   // The numbers are of the current part: so are its axes.
   if (actions_->localAxes->isChecked()) frame.axes = glm::mat3_cast(parts.back().worldFromPart.rotation);
   return frame;
@@ -170,7 +180,6 @@ void PlacingTools::begin(GizmoHandle handle) {
   handle_ = handle;
   if (actions_->movePivot->isChecked()) {
     drag_ = Drag::Pivot;
-    pivotAtStart_ = control_->frameAtStart().pivot;
   } else if (leadsHand()) {
     drag_ = Drag::Hand;
     handAtStart_ = held_->worldFromHand;
@@ -217,13 +226,10 @@ void PlacingTools::follow(const RigidTransform& motion) {
       return mover_.moveTo(motion);
     case Drag::Hand:
       return emit handWanted((motion * handAtStart_).normalized());
-    case Drag::Pivot: {
-      const std::vector<PlacedPart> parts = placedParts();
-      if (parts.empty()) return;
-      ownPivot_ = parts.front().worldFromPart.inverse().applyToPoint(motion.applyToPoint(pivotAtStart_));
-      resetPivot(Pivot::Own);
+    case Drag::Pivot:
+      draggedPivot_ = motion.applyToPoint(control_->frameAtStart().pivot);
+      showFrame();
       return control_->showReached(motion, {});
-    }
     case Drag::None:
       return;
   }
@@ -248,7 +254,9 @@ QString PlacingTools::note() const {
 }
 
 void PlacingTools::finish() {
-  if (std::exchange(drag_, Drag::None) == Drag::Parts) mover_.end();
+  const Drag drag = std::exchange(drag_, Drag::None);
+  if (drag == Drag::Parts) mover_.end();
+  if (drag == Drag::Pivot) setPivot(std::exchange(draggedPivot_, std::nullopt));
 }
 
 void PlacingTools::takeBack() {
@@ -257,9 +265,8 @@ void PlacingTools::takeBack() {
     abandon();
   } else if (drag == Drag::Hand) {
     emit handWanted(handAtStart_);
-  } else if (drag == Drag::Pivot) {
-    follow({});
   }
+  draggedPivot_.reset();
   showFrame();
 }
 
@@ -269,6 +276,7 @@ void PlacingTools::commit() {
 
 void PlacingTools::abandon() {
   drag_ = Drag::None;
+  draggedPivot_.reset();
   control_->abandon();
   giveUpParts();
 }

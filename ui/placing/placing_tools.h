@@ -67,8 +67,6 @@ class PlacingTools : public QObject {
   void noted(const QString& text);
 
  private:
-  enum class Pivot { Mass, Box, Own };
-
   /// A move to a pose that is known, to the last bit.
   struct Brought {
     PartId lead{};
@@ -88,7 +86,7 @@ class PlacingTools : public QObject {
   Scene sceneNow() const;
   void showActions();
   void showFrame();
-  void resetPivot(Pivot pivot);
+  void setPivot(const std::optional<glm::dvec3>& inWorld);
   void begin(GizmoHandle handle);
   void follow(const RigidTransform& motion);
   void finish();
@@ -110,15 +108,11 @@ class PlacingTools : public QObject {
   PartMover mover_;
   std::optional<HeldPart> held_;
 
-  Pivot pivot_ = Pivot::Mass;
-  glm::dvec3 ownPivot_{0.0};      ///< In the frame of the first selected part [m].
-  std::vector<PartId> pivotFor_;  ///< The selection that it was set for.
-
   enum class Drag { None, Parts, Hand, Pivot };
   Drag drag_ = Drag::None;
   GizmoHandle handle_ = GizmoHandle::None;
   RigidTransform handAtStart_, heldAtStart_;
-  glm::dvec3 pivotAtStart_{0.0};
+  std::optional<glm::dvec3> draggedPivot_;  ///< In the world [m].
   std::optional<Brought> brought_;
   bool isPutting_ = false;  ///< The session changes by this.
 };

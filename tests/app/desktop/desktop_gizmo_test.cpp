@@ -59,6 +59,7 @@ class DesktopGizmoTest : public QObject {
   void stepsAreTakenWithTheSwitchAndControlTurnsItRound();
   void keysChooseTheGizmoAndItsAxes();
   void thePivotIsMovedAndPutBack();
+  void thePivotOfSeveralIsTheirBoxesMiddleAndStaysTheirs();
   void theGizmoFollowsUndoAndNumbers();
   void lockedAndHiddenPartsHaveNoGizmo();
   void theNumbersFollowADrag();
@@ -292,9 +293,24 @@ void DesktopGizmoTest::thePivotIsMovedAndPutBack() {
   const glm::dvec3 centre = b.driver.part("moving").geometry->mass.centre;
   const std::size_t steps = b.steps();
   b.driver.choose("movePivot");
+  const QPoint at = b.handle(GizmoHandle::MoveFree);
   b.drag(b.handle(GizmoHandle::MoveX), {50, 0});
-  QCOMPARE(b.steps(), steps);
   QCOMPARE(b.pose().translation, before.translation);
+  // It is a step like any other, and the gizmo goes with it.
+  QCOMPARE(b.steps(), steps + 1);
+  QCOMPARE(b.driver.session().undoText(), std::string("Move the pivot of moving"));
+  QVERIFY((b.handle(GizmoHandle::MoveFree) - at - QPoint(50, 0)).manhattanLength() <= 2);
+  b.driver.choose("undo");
+  QCOMPARE(b.handle(GizmoHandle::MoveFree), at);
+  b.driver.choose("redo");
+  QVERIFY((b.handle(GizmoHandle::MoveFree) - at - QPoint(50, 0)).manhattanLength() <= 2);
+  // Escape takes a drag of it back, and that is no step.
+  b.press(b.handle(GizmoHandle::MoveX));
+  b.moveTo(b.handle(GizmoHandle::MoveX) + QPoint(30, 0));
+  QTest::keyClick(&b.view(), Qt::Key_Escape);
+  b.release(at);
+  QCOMPARE(b.steps(), steps + 1);
+  QVERIFY((b.handle(GizmoHandle::MoveFree) - at - QPoint(50, 0)).manhattanLength() <= 2);
   b.driver.choose("movePivot");
   b.driver.choose("gizmoTurn");
   // Seen from the front, the ring about y is round: half a turn puts the part to the other side of the pivot.
@@ -307,6 +323,26 @@ void DesktopGizmoTest::thePivotIsMovedAndPutBack() {
   b.drag(b.handle(GizmoHandle::TurnY), {-20, 35});
   QVERIFY(angleBetween(then, b.pose()) > 0.1);
   QVERIFY(glm::distance(then.applyToPoint(centre), b.pose().applyToPoint(centre)) < 1e-12);
+}
+
+void DesktopGizmoTest::thePivotOfSeveralIsTheirBoxesMiddleAndStaysTheirs() {
+  Bench b;
+  const PartId fixed = b.driver.partId("fixed"), moving = b.driver.partId("moving");
+  b.driver.choose("selectAll");
+  b.driver.choose("pivotAtBox");
+  QCOMPARE(b.driver.session().undoText(), std::string("Move the pivot of 2 parts"));
+  // The cubes are from -20 to 20 and from 25 to 45 mm high: their middle is 12.5 mm up; the masses' is lower.
+  const auto isAtHeight = [&](double z) {
+    return (b.handle(GizmoHandle::MoveFree) - b.seen({0.0, 0.0, z})).manhattanLength() <= 1;
+  };
+  QVERIFY(isAtHeight(0.0125));
+  b.select("moving");
+  QVERIFY(isAtHeight(0.0125));
+  b.driver.choose("pivotAtMass");
+  QVERIFY(isAtHeight(0.035));
+  // Now one of them has another.
+  b.driver.window().selection().set({fixed, moving});
+  QVERIFY(isAtHeight(0.035 / 9.0));
 }
 
 void DesktopGizmoTest::theGizmoFollowsUndoAndNumbers() {

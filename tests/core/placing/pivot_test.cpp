@@ -41,6 +41,29 @@ TEST(Pivot, TheBoxHoldsAllParts) {
   EXPECT_LT(glm::distance(boxCentre(parts), {0.25, 0.1, -0.05}), 1e-12);
 }
 
+TEST(Pivot, PartsShareThePivotThatTheyWereGivenTogether) {
+  Part a = boxPart({0.1, 0.2, 0.3}, {0.01, 0.02, 0.03}), b = a;
+  const RigidTransform beside{glm::angleAxis(0.3, glm::dvec3(0, 0, 1)), {0.2, 0.1, 0.0}};
+  const glm::dvec3 pivot(0.4, -0.3, 0.2);
+  const PlacedPart before[] = {{&a, {}}, {&b, beside}};
+  EXPECT_EQ(sharedPivot(before), std::nullopt);
+  a.pivot = pivot;
+  EXPECT_EQ(sharedPivot(std::span(before, 1)), pivot);
+  EXPECT_EQ(sharedPivot(before), std::nullopt) << "one has none";
+  b.pivot = beside.inverse().applyToPoint(pivot);
+  // Far away too, and after many turns.
+  RigidTransform way{glm::angleAxis(0.1, glm::normalize(glm::dvec3(1, 2, 3))), {1e4, -2e4, 3e4}};
+  PlacedPart after[] = {before[0], before[1]};
+  for (int i = 0; i < 20; ++i) {
+    for (PlacedPart& each : after)
+      each.worldFromPart = (way * each.worldFromPart).normalized();
+    ASSERT_TRUE(sharedPivot(after)) << i;
+    EXPECT_LT(glm::distance(*sharedPivot(after), after[0].worldFromPart.applyToPoint(pivot)), 1e-9);
+  }
+  after[1].worldFromPart.translation.x += 1e-6;
+  EXPECT_EQ(sharedPivot(after), std::nullopt) << "they have moved apart";
+}
+
 TEST(Pivot, ARayMeetsABoxWhereItGoesThroughIt) {
   const Part box = boxPart({0.1, 0.2, 0.3}, {0.01, 0.02, 0.03});
   const PlacedPart placed{&box, somewhere()};

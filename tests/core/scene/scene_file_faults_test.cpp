@@ -137,6 +137,9 @@ TEST_F(SceneFileFaults, EveryFieldIsCheckedAndNamed) {
       {"/parts/1/opacity", 0, "parts[1].opacity: 0 is out of range; give a value from 0.05 to 1"},
       {"/parts/1/opacity", 1.01, "parts[1].opacity: 1.01 is out of range"},
       {"/parts/1/opacity", nullptr, "parts[1].opacity: it is of type null"},
+      {"/parts/1/pivot", {0, 0}, "parts[1].pivot: it has 2 elements where 3 are wanted"},
+      {"/parts/1/pivot", {0, 2e9, 0}, "parts[1].pivot: a coordinate is 2000000000 m; stay within"},
+      {"/parts/1/pivot", true, "parts[1].pivot: it is of type boolean"},
       {"/parts/1/wasVisible", 1, "parts[1].wasVisible: it is of type number where true or false is wanted"},
       {"/moving", "Peg 2", "moving: this part is locked"},
       {"/parts/1/locked", "no", "parts[1].locked: it is of type string"},
@@ -185,6 +188,11 @@ TEST_F(SceneFileFaults, Version2WithTheSpringsOfVersion1SaysWhatIsMissing) {
   json_ = version1();
   json_["nearfit"] = 2;
   EXPECT_THAT(errorOf(json_.dump()), HasSubstr("haptics: it is missing"));
+}
+
+TEST_F(SceneFileFaults, WhatVersion4SaysIsIgnoredInVersion3) {
+  json_ = version3();
+  EXPECT_EQ(errorWith("/parts/0/pivot", "none"), "");
 }
 
 TEST_F(SceneFileFaults, WhatVersion3SaysIsIgnoredInVersion2) {

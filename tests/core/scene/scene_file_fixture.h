@@ -37,6 +37,7 @@ class SceneFileFixture : public ::testing::Test {
     part.density = 7850.1;
     part.worldFromPart = {{0.5, -0.5, 0.5, 0.5}, {0.1, -1e-17, 123456.789012345}};
     part.opacity = 0.1 + 0.2;
+    part.pivot = {0.1 + 0.2, -1e-17, 1e9};
     part.wasVisible = true;
     scene_.setMovingPart(scene_.add(part));
     part.isVisible = false;
@@ -61,9 +62,18 @@ class SceneFileFixture : public ::testing::Test {
     return haptics;
   }
 
+  /// The scene as version 3 of the format says it.
+  nlohmann::json version3() const {
+    nlohmann::json json = json_;
+    json["nearfit"] = 3;
+    for (nlohmann::json& part : json["parts"])
+      part.erase("pivot");
+    return json;
+  }
+
   /// The scene as version 2 of the format says it.
   nlohmann::json version2() const {
-    nlohmann::json json = json_;
+    nlohmann::json json = version3();
     json["nearfit"] = 2;
     json.erase("groups");
     for (nlohmann::json& part : json["parts"]) {

@@ -44,6 +44,7 @@ void expectSameScene(const Scene& a, const Scene& b) {
     EXPECT_EQ(p.isVisible, q.isVisible);
     EXPECT_EQ(p.isLocked, q.isLocked);
     EXPECT_EQ(p.opacity, q.opacity);
+    EXPECT_EQ(p.pivot, q.pivot);
     EXPECT_EQ(p.wasVisible, q.wasVisible);
     EXPECT_EQ(pathOf(a, p.group), pathOf(b, q.group));
     EXPECT_EQ(p.geometry->file, q.geometry->file);
@@ -88,7 +89,7 @@ TEST_F(SceneFile, SavingWhatWasReadGivesTheSameBytes) {
 }
 
 TEST_F(SceneFile, FileSaysVersionUnitsAndRelativePaths) {
-  EXPECT_EQ(json_["nearfit"], 3);
+  EXPECT_EQ(json_["nearfit"], 4);
   EXPECT_EQ(json_["units"]["length"], "m");
   EXPECT_EQ(json_["moving"], "Peg");
   EXPECT_EQ(json_["parts"][0]["mesh"], "meshes/hole.obj");
@@ -132,6 +133,21 @@ TEST_F(SceneFile, IsolationIsTakenBackExactlyAfterReading) {
   session.endIsolation();
   const auto& parts = session.scene().parts();
   EXPECT_TRUE(!parts[0]->isVisible && parts[1]->isVisible && !parts[2]->isVisible);
+}
+
+TEST_F(SceneFile, FileSaysPivotsInTheirPartsFrames) {
+  EXPECT_EQ(json_["parts"][0]["pivot"], nullptr);
+  EXPECT_EQ(json_["parts"][1]["pivot"], Json({0.30000000000000004, -1e-17, 1e9}));
+}
+
+TEST_F(SceneFile, Version3KeepsAllThatItSaysAndTurnsAboutCentresOfMass) {
+  EXPECT_EQ(errorOf(version3().dump()), "");
+  for (const Scene::PartPtr& each : scene_.parts()) {
+    Part part = *each;
+    part.pivot.reset();
+    scene_.replace(part);
+  }
+  expectSameScene(readSceneFile(file_), scene_);
 }
 
 TEST_F(SceneFile, Version2KeepsAllThatItSaysAndStandsAtTheTop) {
