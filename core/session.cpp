@@ -11,11 +11,29 @@
 namespace nearfit {
 namespace {
 
+/// By the one thing that differs, where it is one.
 const char* labelOfChange(const HapticSettings& from, const HapticSettings& to) {
+  using Take = void (*)(HapticSettings&, const HapticSettings&);
+  constexpr std::pair<const char*, Take> kChanges[] = {
+      {"Change the springs", [](auto& a, const auto& b) { a.springs = b.springs; }},
+      {"Change the margin", [](auto& a, const auto& b) { a.proxy.margin = b.proxy.margin; }},
+      {"Change the friction", [](auto& a, const auto& b) { a.proxy.friction = b.proxy.friction; }},
+      {"Change the coupling", [](auto& a, const auto& b) { a.coupling = b.coupling; }},
+      {"Change the weight that is felt", [](auto& a, const auto& b) { a.weight = b.weight; }},
+      {"Change the hand's scale", [](auto& a, const auto& b) { a.mapping.scale = b.mapping.scale; }},
+      {"Change the locked axes",
+       [](auto& a, const auto& b) {
+         a.mapping.translationLocks = b.mapping.translationLocks;
+         a.mapping.rotationLocks = b.mapping.rotationLocks;
+       }},
+  };
   if (from.mode != to.mode) return "Change the mode";
-  HapticSettings withNewSprings = from;
-  withNewSprings.springs = to.springs;
-  return withNewSprings == to ? "Change the springs" : "Change how contact feels";
+  for (const auto& [label, take] : kChanges) {
+    HapticSettings changed = from;
+    take(changed, to);
+    if (changed == to) return label;
+  }
+  return "Change how contact feels";
 }
 
 PartId addTo(Scene& scene, PartGeometryPtr geometry, const std::string& name,

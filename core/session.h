@@ -57,8 +57,7 @@ class Session {
   void setVisible(PartId id, bool visible) { setVisible(std::vector{id}, visible); }
   void setLocked(PartId id, bool locked) { setLocked({{id}, {}}, locked); }
   void setMovingPart(std::optional<PartId> id);
-  /// @param label  What undo calls it; empty: by what changes, which is the mode, the springs, or how contact
-  ///               feels.
+  /// @param label  What undo calls it; empty: by what changes.
   void setHaptics(const HapticSettings& haptics, const std::string& label = {});
 
   /// Moves parts rigidly together, so that one of them, the lead, comes to stand exactly there.

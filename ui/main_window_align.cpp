@@ -29,6 +29,7 @@ void MainWindow::setUpAligning() {
           [this](const std::vector<PartId>& parts, PartId lead, const RigidTransform& worldFromLead) {
             placing_->bring(parts, lead, worldFromLead, "Align");
           });
+  connect(align_, &AlignTool::activeChanged, placing_, &PlacingTools::setAside);
   connect(align_, &AlignTool::noted, this, &MainWindow::showNote);
   connect(drop_, &DropTool::failed, this, &MainWindow::showFailure);
   connect(drop_, &DropTool::noted, this, &MainWindow::showNote);

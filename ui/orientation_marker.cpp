@@ -5,14 +5,19 @@
 #include <vtkActor.h>
 #include <vtkCameraOrientationRepresentation.h>
 #include <vtkCameraOrientationWidget.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
 #include <vtkEllipticalButtonSource.h>
 #include <vtkMapper.h>
 #include <vtkNew.h>
+#include <vtkPolyData.h>
 #include <vtkPropCollection.h>
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
+#include <vtkTubeFilter.h>
 
 #include "ui/pixel_sizes.h"
+#include "ui/theme.h"
 
 namespace nearfit::ui {
 namespace {
@@ -34,6 +39,34 @@ void coarsen(vtkActor& actor) {
   handle->SetTextureResolution(kRings);
 }
 
+/// The axes in the colours that the gizmo and the bars have: VTK's own are others for y and z. The balls are
+/// painted by the ground of their labels, the rods by the lines that they are tubes of.
+void colour(vtkCameraOrientationRepresentation& shape, vtkPropCollection& props) {
+  vtkTextProperty* labels[3][2] = {{shape.GetXPlusLabelProperty(), shape.GetXMinusLabelProperty()},
+                                   {shape.GetYPlusLabelProperty(), shape.GetYMinusLabelProperty()},
+                                   {shape.GetZPlusLabelProperty(), shape.GetZMinusLabelProperty()}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const QColor colour = axisColour(axis);
+    for (vtkTextProperty* label : labels[axis])
+      label->SetBackgroundColor(colour.redF(), colour.greenF(), colour.blueF());
+  }
+  vtkCollectionSimpleIterator it;
+  props.InitTraversal(it);
+  while (vtkProp* prop = props.GetNextProp(it)) {
+    auto* actor = vtkActor::SafeDownCast(prop);
+    if (actor == nullptr || actor->GetMapper() == nullptr) continue;
+    auto* tubes = vtkTubeFilter::SafeDownCast(actor->GetMapper()->GetInputAlgorithm());
+    auto* lines = tubes != nullptr ? vtkPolyData::SafeDownCast(tubes->GetInput()) : nullptr;
+    vtkDataArray* colours = lines != nullptr ? lines->GetCellData()->GetScalars() : nullptr;
+    if (colours == nullptr || colours->GetNumberOfTuples() != 3) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const QColor colour = axisColour(axis);
+      colours->SetTuple3(axis, colour.redF(), colour.greenF(), colour.blueF());
+    }
+    colours->Modified();
+  }
+}
+
 }  // namespace
 
 void setUpOrientationMarker(vtkCameraOrientationWidget& marker, vtkRenderer& parent) {
@@ -50,6 +83,7 @@ void setUpOrientationMarker(vtkCameraOrientationWidget& marker, vtkRenderer& par
   while (vtkProp* prop = props->GetNextProp(it)) {
     if (auto* actor = vtkActor::SafeDownCast(prop)) coarsen(*actor);
   }
+  colour(*shape, *props);
   sizeOrientationMarker(marker, 1.0);
   marker.On();
 }

@@ -8,15 +8,15 @@
 namespace nearfit::ui {
 namespace {
 
-/// What Fusion's frames are made from in the dark theme.
-constexpr QRgb kFrameInDark = 0xffb4c0cc;
+/// What Fusion's frames are made from in the dark theme: those of boxes to tick, and of fields.
+constexpr QRgb kFrameInDark = 0xffb4c0cc, kFieldFrameInDark = 0xff7d8995;
 
 template <class Option>
-bool takesFrom(const QStyleOption* option, Option& out) {
+bool takesFrom(const QStyleOption* option, Option& out, QRgb frame = kFrameInDark) {
   const Option* own = qstyleoption_cast<const Option*>(option);
   if (own == nullptr) return false;
   out = *own;
-  out.palette.setColor(QPalette::Window, QColor(kFrameInDark));
+  out.palette.setColor(QPalette::Window, QColor(frame));
   return true;
 }
 
@@ -28,14 +28,38 @@ void WindowStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* op
                                 const QWidget* widget) const {
   QStyleOptionButton button;
   QStyleOptionViewItem item;
+  QStyleOptionFrame field;
   const bool isButton = element == PE_IndicatorCheckBox || element == PE_IndicatorRadioButton;
   if (isThemeDark() && isButton && takesFrom(option, button)) {
     QProxyStyle::drawPrimitive(element, &button, painter, widget);
   } else if (isThemeDark() && element == PE_IndicatorItemViewItemCheck && takesFrom(option, item)) {
     QProxyStyle::drawPrimitive(element, &item, painter, widget);
+  } else if (isThemeDark() && element == PE_FrameLineEdit && takesFrom(option, field, kFieldFrameInDark)) {
+    QProxyStyle::drawPrimitive(element, &field, painter, widget);
   } else {
     QProxyStyle::drawPrimitive(element, option, painter, widget);
   }
+}
+
+void WindowStyle::drawComplexControl(ComplexControl control, const QStyleOptionComplex* option,
+                                     QPainter* painter, const QWidget* widget) const {
+  QStyleOptionSpinBox field;
+  const bool isField = isThemeDark() && control == CC_SpinBox && takesFrom(option, field, kFieldFrameInDark);
+  QProxyStyle::drawComplexControl(control, isField ? &field : option, painter, widget);
+}
+
+void WindowStyle::drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
+                              const QWidget* widget) const {
+  const auto* box = qstyleoption_cast<const QStyleOptionComboBox*>(option);
+  if (element != CE_ComboBoxLabel || box == nullptr || box->editable)
+    return QProxyStyle::drawControl(element, option, painter, widget);
+  // Fusion cuts what is too long without a word.
+  QStyleOptionComboBox elided = *box;
+  const QRect room = subControlRect(CC_ComboBox, box, SC_ComboBoxEditField, widget);
+  const int icon = box->currentIcon.isNull() ? 0 : box->iconSize.width() + 4;
+  elided.currentText =
+      box->fontMetrics.elidedText(box->currentText, Qt::ElideMiddle, room.width() - icon - 2);
+  QProxyStyle::drawControl(element, &elided, painter, widget);
 }
 
 QIcon WindowStyle::standardIcon(StandardPixmap which, const QStyleOption* option,

@@ -153,8 +153,13 @@ void ClearancePanel::showSubjects() {
 
 void ClearancePanel::showClearances() {
   model_->show(search_.clearances(), search_.scene());
+  export_->setEnabled(model_->rowCount() > 0);
+  showNote();
+  emit chosenChanged();
+}
+
+void ClearancePanel::showNote() {
   const bool hasRows = model_->rowCount() > 0;
-  export_->setEnabled(hasRows);
   QString note;
   if (!search_.subject()) {
     note = tr("Choose a part, or take one in hand.");
@@ -162,11 +167,12 @@ void ClearancePanel::showClearances() {
     note = session_.scene().parts().size() > 1
                ? tr("No other part is visible, or the search is not done yet.")
                : tr("There is no other part.");
-  } else {
+  } else if (const std::optional<PartClearance> pair = chosen(); !pair) {
     note = tr("Choose a row to see where the two are nearest.");
+  } else if (!pair->isOverlapping()) {
+    note = tr("The line in the view joins the points where the two are nearest.");
   }
   note_->setText(note);
-  emit chosenChanged();
 }
 
 std::optional<PartClearance> ClearancePanel::chosen() const {
@@ -179,6 +185,7 @@ void ClearancePanel::choose() {
   const std::optional<PartClearance> pair = chosen();
   const std::optional<PartId> part = search_.subject();
   if (pair && part) emit pairChosen(*part, pair->other);
+  showNote();
   emit chosenChanged();
 }
 

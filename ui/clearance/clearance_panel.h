@@ -49,6 +49,7 @@ class ClearancePanel : public QWidget {
   void setUpFields();
   void showSubjects();
   void showClearances();
+  void showNote();
   void choose();
   void exportTable();
 

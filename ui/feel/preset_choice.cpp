@@ -131,6 +131,7 @@ void PresetChoice::deleteChosen() {
   box.setInformativeText(tr("How this and other scenes feel does not change."));
   auto* confirm = box.addButton(tr("Delete"), QMessageBox::DestructiveRole);
   confirm->setObjectName(QStringLiteral("confirmDeletePreset"));
+  box.setDefaultButton(QMessageBox::Cancel);
   box.exec();
   if (box.clickedButton() == confirm) presets_.remove(name);
 }

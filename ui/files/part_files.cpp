@@ -150,10 +150,11 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, Com
   };
   document_.load(text, job, [=, this](const std::exception_ptr& error) {
     if (isCancelled(error)) return;
-    QStringList problems;
-    if (error) problems << describe({}, error).details;
-    for (const LoadedPart& part : *loaded) {
-      if (part.problem) problems << describe({}, part.problem).details;
+    QVector<FailedItem> problems;
+    if (error) problems << describeItem({}, error);
+    for (std::size_t i = 0; i < loaded->size(); ++i) {
+      const QString name = fromPath(sources[i].file.filename());
+      if ((*loaded)[i].problem) problems << describeItem(name, (*loaded)[i].problem);
     }
     std::vector<Session::NewGeometry> renewed;
     for (std::size_t i = 0; !error && i < wanted.size(); ++i) {
@@ -168,10 +169,10 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, Com
       // Called by .* GCC 12's sanitizer reads a `this` that it has not set.
       std::invoke(command, session_, renewed);
     } catch (...) {
-      problems << describe({}, std::current_exception()).details;
+      problems << describeItem({}, std::current_exception());
     }
     if (!problems.isEmpty())
-      emit failed({failure, problems.join(QStringLiteral("\n\n"))});
+      emit failed(describeItems(failure, problems));
     else
       emit noted(renewed.empty() ? tr("No file has changed") : tr("Undo takes it back"));
   });

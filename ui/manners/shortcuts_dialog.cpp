@@ -73,6 +73,7 @@ void addView(QTreeWidget* list) {
       {QObject::tr("Zoom"), QObject::tr("Wheel, or right drag")},
       {QObject::tr("Select a part"), QObject::tr("Click")},
       {QObject::tr("Add to the selection, or take out of it"), QObject::tr("Ctrl+Click")},
+      {QObject::tr("What can be done with a part"), QObject::tr("Right click, or the Menu key")},
       {QObject::tr("Select what is seen in a box"), QObject::tr("B, then left drag")},
       {QObject::tr("Move the part by a step"), QObject::tr("Arrow keys, Page up, Page down")},
       {QObject::tr("Turn the part by a step"), QObject::tr("Shift+Arrow keys, Shift+Page up or down")},

@@ -59,6 +59,7 @@ void AlignTool::start() {
   picker_.start([this](const Part& part) { return refusalOf(part); });
   bar_->show();
   tell({});
+  emit activeChanged(true);
 }
 
 void AlignTool::stop() {
@@ -75,6 +76,7 @@ void AlignTool::stop() {
   fixedLight_.clear();
   start_.clear();
   view_.requestRender();
+  emit activeChanged(false);
 }
 
 bool AlignTool::isMoved(PartId part) const {

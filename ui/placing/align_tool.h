@@ -40,6 +40,8 @@ class AlignTool : public QObject {
   void moveWanted(const std::vector<nearfit::PartId>& parts, nearfit::PartId lead,
                   const nearfit::RigidTransform& worldFromLead);
   void noted(const QString& text);
+  /// It asks for features and shows where parts would go, or no longer.
+  void activeChanged(bool isActive);
 
  private:
   void start();

@@ -76,6 +76,11 @@ void PlacingTools::setHeld(const std::optional<HeldPart>& held) {
   if (drag_ == Drag::Hand) control_->showReached(held_->worldFromPart * heldAtStart_.inverse(), {});
 }
 
+void PlacingTools::setAside(bool isAside) {
+  isAside_ = isAside;
+  showFrame();
+}
+
 /// Whether what is dragged still stands in the scene where the drag took it up.
 bool PlacingTools::isDragSound() const {
   if (isPutting_) return true;
@@ -148,7 +153,8 @@ std::vector<PlacedPart> PlacingTools::placed(const std::vector<PartId>& parts) c
 
 std::optional<GizmoFrame> PlacingTools::frame() const {
   const std::vector<PlacedPart> parts = placedParts();
-  if (parts.empty() || !std::ranges::all_of(parts, [](const PlacedPart& p) { return p.part->isVisible; }))
+  if (isAside_ || parts.empty() ||
+      !std::ranges::all_of(parts, [](const PlacedPart& p) { return p.part->isVisible; }))
     return std::nullopt;
   GizmoFrame frame;
   const std::optional<glm::dvec3> given = draggedPivot_ ? draggedPivot_ : sharedPivot(parts);

@@ -44,6 +44,8 @@ class PlacingTools : public QObject {
 
   /// Nothing: the servo does not run.
   void setHeld(const std::optional<HeldPart>& held);
+  /// Another tool moves parts: there is no gizmo meanwhile.
+  void setAside(bool isAside);
   /// Puts what is on its way where it is now; for whoever needs the scene.
   void commit();
   /// Moves parts together so that the lead comes to stand there, or as near as it can where parts are solid;
@@ -114,6 +116,7 @@ class PlacingTools : public QObject {
   RigidTransform handAtStart_, heldAtStart_;
   std::optional<glm::dvec3> draggedPivot_;  ///< In the world [m].
   std::optional<Brought> brought_;
+  bool isAside_ = false;
   bool isPutting_ = false;  ///< The session changes by this.
 };
 

@@ -68,6 +68,16 @@ void TakingAway::setUpDocks() {
   // The timeline as wide as the window below the two, which stand side by side.
   window_.window.splitDockWidget(clearanceDock_, timelineDock_, Qt::Vertical);
   window_.window.splitDockWidget(clearanceDock_, plotsDock_, Qt::Horizontal);
+  // By what they ask for, curves would get a strip beside the table.
+  const auto share = [this](bool isShown) {
+    if (!isShown || !clearanceDock_->isVisible() || !plotsDock_->isVisible()) return;
+    const int both = clearanceDock_->width() + plotsDock_->width();
+    const bool areBeside = clearanceDock_->y() == plotsDock_->y();
+    if (areBeside && 3 * plotsDock_->width() < both)
+      window_.window.resizeDocks({clearanceDock_, plotsDock_}, {both / 2, both / 2}, Qt::Horizontal);
+  };
+  for (const QDockWidget* dock : {clearanceDock_, plotsDock_})
+    connect(dock->toggleViewAction(), &QAction::triggered, this, share, Qt::QueuedConnection);
 }
 
 void TakingAway::setUpActions() {

@@ -20,6 +20,7 @@ class DesktopAlignTest : public QObject {
   void flipsAndLeavesADistance();
   void solidPartsStopAtContactOnTheWay();
   void escapeLeavesEverythingAsItWas();
+  void theGizmoStandsAsideMeanwhile();
   void aPartThatLeavesTheSceneEndsIt();
   void lockedPartsRefuseToMove();
   void dragsStillOrbitWhileAligning();
@@ -120,6 +121,24 @@ void DesktopAlignTest::solidPartsStopAtContactOnTheWay() {
   QVERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("Stopped by fixed")));
   d.choose("undo");
   QCOMPARE(d.part("moving").worldFromPart.translation, glm::dvec3(0.0));
+}
+
+// It stayed where the part was, and took clicks that were meant for faces under it.
+void DesktopAlignTest::theGizmoStandsAsideMeanwhile() {
+  DesktopDriver d;
+  begin(d);
+  auto& gizmo = *d.widget<ui::GizmoOverlay>("gizmo");
+  d.clickPart(1, ui::PartsModel::Name);
+  QVERIFY(!gizmo.isVisible());
+  click(d, {0.003, kMovingFront, 0.036});
+  click(d, {-0.01, kFixedFront, 0.005});
+  QVERIFY(!gizmo.isVisible());
+  QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
+  QTRY_VERIFY(gizmo.isVisible());
+  d.choose("align");
+  QVERIFY(!gizmo.isVisible());
+  QTest::keyClick(&d.window().viewport(), Qt::Key_Escape);
+  QVERIFY(gizmo.isVisible());
 }
 
 void DesktopAlignTest::escapeLeavesEverythingAsItWas() {

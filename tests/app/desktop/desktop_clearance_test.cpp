@@ -69,6 +69,8 @@ class DesktopClearanceTest : public QObject {
   void anotherPartThanTheOneInHandIsChosen();
   void theTableIsExported();
   void aHiddenTableSearchesNothing();
+  void plotsBesideTheTableGetHalfOfTheWidth();
+  void theNoteFollowsWhatIsChosen();
 };
 
 void DesktopClearanceTest::theTableSaysHowNearEachOtherPartIs() {
@@ -200,6 +202,29 @@ void DesktopClearanceTest::theTableIsExported() {
   QTest::mouseClick(f.d.widget<QPushButton>("exportClearances"), Qt::LeftButton);
   QTRY_VERIFY(std::filesystem::exists(file));
   QVERIFY(readBytes(file).find("\nmoving,fixed,0.005") != std::string::npos);
+}
+
+void DesktopClearanceTest::plotsBesideTheTableGetHalfOfTheWidth() {
+  Fixture f;
+  auto* plots = f.d.widget<QDockWidget>("plotsDock");
+  f.d.choose(plots->toggleViewAction());
+  const int both = f.d.window().width();
+  QTRY_VERIFY2(plots->isVisible() && plots->width() > 2 * both / 5 && plots->width() < 3 * both / 5,
+               qPrintable(QString::number(plots->width())));
+}
+
+void DesktopClearanceTest::theNoteFollowsWhatIsChosen() {
+  Fixture f;
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
+  QVERIFY(f.d.text("clearanceNote").startsWith(QStringLiteral("Choose a row")));
+  f.clickRow(0);
+  QVERIFY(f.d.text("clearanceNote").startsWith(QStringLiteral("The line in the view")));
+  // They overlap: no line says where.
+  f.d.clickPart(1, ui::PartsModel::Name);
+  f.d.type<QDoubleSpinBox>("positionZ", "-10");
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Verdict), QStringLiteral("overlapping"));
+  f.clickRow(0);
+  QVERIFY2(f.d.text("clearanceNote").isEmpty(), qPrintable(f.d.text("clearanceNote")));
 }
 
 void DesktopClearanceTest::aHiddenTableSearchesNothing() {

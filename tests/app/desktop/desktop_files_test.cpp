@@ -11,7 +11,6 @@ using namespace nearfit::test;
 
 namespace {
 
-/// Answers the question about unsaved changes.
 /// A key of the window's. Without a window manager nobody gives it the keys back once a dialog has closed, be
 /// it one that showed progress on a busy machine.
 void press(DesktopDriver& d, Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
@@ -19,6 +18,7 @@ void press(DesktopDriver& d, Qt::Key key, Qt::KeyboardModifiers modifiers = {}) 
   QTest::keyClick(&d.window(), key, modifiers);
 }
 
+/// Answers the question about unsaved changes.
 void answerUnsaved(QMessageBox::StandardButton answer, bool& wasAsked) {
   wasAsked = false;
   whenModal<QMessageBox>([answer, &wasAsked](QMessageBox* box) {
@@ -41,6 +41,8 @@ class DesktopFilesTest : public QObject {
   void malformedSceneLosesNothingThatIsOpen();
   void closingAsksAboutChanges();
   void openingAsksAboutChanges();
+  void aNewSceneAndTheDemoAskAboutChangesToo();
+  void theFirstFileDialogOpensInTheDocuments();
   void exportsThePlacementInHand();
   void demoSceneOpensAndIsFelt();
 };
@@ -157,6 +159,44 @@ void DesktopFilesTest::openingAsksAboutChanges() {
   answerUnsaved(QMessageBox::Discard, wasAsked);
   d.window().document().openScene(QString::fromStdString(file.string()));
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+}
+
+void DesktopFilesTest::aNewSceneAndTheDemoAskAboutChangesToo() {
+  DesktopDriver d;
+  d.addCubes();
+  bool wasAsked = false;
+  for (const char* command : {"newScene", "openDemo"}) {
+    answerUnsaved(QMessageBox::Cancel, wasAsked);
+    d.choose(command);
+    QVERIFY2(wasAsked, command);
+    QVERIFY2(d.session().scene().findByName("moving") != nullptr, command);
+  }
+  answerUnsaved(QMessageBox::Discard, wasAsked);
+  d.choose("openDemo");
+  QVERIFY(wasAsked);
+  QTRY_COMPARE_WITH_TIMEOUT(d.session().scene().parts().size(), std::size_t{4}, 10'000);
+  // Nothing of the demo is lost that is not in its file.
+  d.choose("newScene");
+  QVERIFY(d.session().scene().parts().empty());
+}
+
+void DesktopFilesTest::theFirstFileDialogOpensInTheDocuments() {
+  DesktopDriver d;
+  QSettings().remove(QStringLiteral("files/folder"));
+  const auto documents = d.folder.path() / "Papers";
+  std::filesystem::create_directory(documents);
+  const auto folders = "XDG_DOCUMENTS_DIR=\"" + documents.string() + "\"\n";
+  d.folder.write("user-dirs.dirs", folders);
+  const QByteArray before = qgetenv("XDG_CONFIG_HOME");
+  qputenv("XDG_CONFIG_HOME", QByteArray::fromStdString(d.folder.path().string()));
+  QString opened;
+  whenModal<QFileDialog>([&](QFileDialog* dialog) {
+    opened = dialog->directory().absolutePath();
+    QTest::keyClick(dialog, Qt::Key_Escape);
+  });
+  d.choose("open");
+  before.isNull() ? qunsetenv("XDG_CONFIG_HOME") : qputenv("XDG_CONFIG_HOME", before);
+  QCOMPARE(opened, QString::fromStdString(documents.string()));
 }
 
 void DesktopFilesTest::exportsThePlacementInHand() {

@@ -47,6 +47,7 @@ class DesktopGizmoTest : public QObject {
   void init();
   void anArrowMovesAlongItsAxisInOneStepOfUndo();
   void aSquareMovesInItsPlane();
+  void eachSquareMovesAcrossItsAxisWithThePointer();
   void aRingTurnsAboutTheCentreOfMass();
   void theSelectedPartIsGrabbedItself();
   void besideItAViewIsOrbited();
@@ -102,6 +103,25 @@ void DesktopGizmoTest::aSquareMovesInItsPlane() {
   const glm::dvec3 way = b.pose().translation - before.translation;
   QCOMPARE(way.z, 0.0);
   QVERIFY(std::abs(way.x) > 1e-4 && std::abs(way.y) > 1e-4);
+}
+
+void DesktopGizmoTest::eachSquareMovesAcrossItsAxisWithThePointer() {
+  const std::pair<GizmoHandle, int> squares[] = {
+      {GizmoHandle::PlaneX, 0}, {GizmoHandle::PlaneY, 1}, {GizmoHandle::PlaneZ, 2}};
+  for (const auto& [square, axis] : squares) {
+    Bench b;
+    b.look("viewIso");
+    const glm::dvec3 before = b.pose().translation;
+    const QPoint from = b.handle(square), way(28, -17);
+    b.drag(from, way);
+    const glm::dvec3 gone = b.pose().translation - before;
+    QCOMPARE(gone[axis], 0.0);
+    QVERIFY(std::abs(gone[(axis + 1) % 3]) > 1e-4 && std::abs(gone[(axis + 2) % 3]) > 1e-4);
+    // What was grabbed is under the pointer still; the handle is taken at a whole pixel beside its middle.
+    const QPoint shown = b.handle(square) - from;
+    QVERIFY2((shown - way).manhattanLength() <= 4,
+             qPrintable(QStringLiteral("%1: %2, %3").arg(axis).arg(shown.x()).arg(shown.y())));
+  }
 }
 
 void DesktopGizmoTest::aRingTurnsAboutTheCentreOfMass() {
@@ -404,12 +424,14 @@ void DesktopGizmoTest::whatIsChosenIsRemembered() {
     b.driver.choose("snap");
     b.driver.choose("solid");
     b.driver.type<ui::NumberField>("snapAngle", "7.5");
+    b.driver.type<ui::NumberField>("snapLength", "1/8 in");
   }
   Bench b;
   QVERIFY(b.driver.action("gizmoTurn")->isChecked());
   QVERIFY(b.driver.action("snap")->isChecked());
   QVERIFY(b.driver.action("solid")->isChecked());
   QCOMPARE(b.driver.widget<ui::NumberField>("snapAngle")->value(), 7.5);
+  QCOMPARE(b.driver.widget<ui::NumberField>("snapLength")->value(), 3.175);
 }
 
 void DesktopGizmoTest::theManualHandIsLedByTheGizmo() {
