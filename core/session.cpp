@@ -48,8 +48,8 @@ PartId addTo(Scene& scene, PartGeometryPtr geometry, const std::string& name,
 
 }  // namespace
 
-void Session::commit(Scene scene, std::string label) {
-  past_.push_back(std::exchange(current_, {std::move(scene), std::move(label), nextSerial_++}));
+void Session::commit(Scene scene, Step step) {
+  past_.push_back(std::exchange(current_, {std::move(scene), std::move(step), nextSerial_++}));
   if (past_.size() > kMaxUndo) past_.pop_front();
   future_.clear();
   notify();
@@ -143,15 +143,15 @@ void Session::redo() {
   notify();
 }
 
-std::vector<std::string> Session::history() const {
-  std::vector<std::string> labels;
-  labels.reserve(past_.size() + 1 + future_.size());
+std::vector<Session::Step> Session::history() const {
+  std::vector<Step> steps;
+  steps.reserve(past_.size() + 1 + future_.size());
   for (const State& state : past_)
-    labels.push_back(state.label);
-  labels.push_back(current_.label);
+    steps.push_back(state.step);
+  steps.push_back(current_.step);
   for (auto state = future_.rbegin(); state != future_.rend(); ++state)
-    labels.push_back(state->label);
-  return labels;
+    steps.push_back(state->step);
+  return steps;
 }
 
 void Session::goTo(std::size_t index) {

@@ -107,14 +107,21 @@ class Session {
   bool canUndo() const noexcept { return !past_.empty(); }
   bool canRedo() const noexcept { return !future_.empty(); }
   /// What undo would take back, as a short phrase ("Move Peg"); empty when there is nothing.
-  std::string undoText() const { return past_.empty() ? std::string() : current_.label; }
-  std::string redoText() const { return future_.empty() ? std::string() : future_.back().label; }
+  std::string undoText() const { return past_.empty() ? std::string() : current_.step.label; }
+  std::string redoText() const { return future_.empty() ? std::string() : future_.back().step.label; }
   /// Does nothing when there is nothing to undo; so does redo.
   void undo();
   void redo();
-  /// What led to each state that undo and redo reach, oldest first; the first is empty where that is the
-  /// scene as it was opened or made.
-  std::vector<std::string> history() const;
+  /// What led to a state.
+  struct Step {
+    std::string label;  ///< As undoText says it; empty: the scene was opened or made so.
+    /// Of a step that moves parts, how far the lead's centre of mass went [m], and how far it turned [rad];
+    /// zero for all others.
+    double shift = 0.0, angle = 0.0;
+    bool operator==(const Step&) const = default;
+  };
+  /// Of each state that undo and redo reach, oldest first.
+  std::vector<Step> history() const;
   /// Where in the history the scene is.
   std::size_t historyIndex() const noexcept { return past_.size(); }
   /// Undoes or redoes up to that state of the history, as one change; does nothing when there is none.
@@ -130,16 +137,22 @@ class Session {
  private:
   struct State {
     Scene scene;
-    std::string label;         ///< What led to this state.
+    Step step;
     std::uint64_t serial = 0;  ///< Different for each state, so that the saved one is recognised.
   };
-  void commit(Scene scene, std::string label);
-  /// Changes copies of the parts; the label is the verb and those that are different then.
-  void change(const std::vector<PartId>& ids, const std::string& verb,
-              const std::function<void(Part&)>& change);
+  void commit(Scene scene, Step step);
+  void commit(Scene scene, std::string label) { commit(std::move(scene), Step{std::move(label)}); }
+  /// Changes copies of the parts; the label is the step's verb and those that are different then.
+  void change(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change);
+  void change(const std::vector<PartId>& ids, const char* verb, const std::function<void(Part&)>& change) {
+    this->change(ids, Step{verb}, change);
+  }
   /// As change. Throws UsageError when one of them is locked, even if nothing would change.
-  void changeUnlocked(const std::vector<PartId>& ids, const std::string& verb,
-                      const std::function<void(Part&)>& change);
+  void changeUnlocked(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change);
+  void changeUnlocked(const std::vector<PartId>& ids, const char* verb,
+                      const std::function<void(Part&)>& change) {
+    changeUnlocked(ids, Step{verb}, change);
+  }
   void notify() const;
   /// Another scene takes the place of this one, and there is nothing to undo.
   void begin(Scene scene, const std::filesystem::path& file);

@@ -3,8 +3,10 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "core/error.h"
+#include "core/math/rotation_vector.h"
 #include "core/session.h"
 #include "core/session_labels.h"
 
@@ -48,8 +50,7 @@ PartGeometryPtr geometryFor(const Part& part, const std::vector<Session::NewGeom
 
 }  // namespace
 
-void Session::change(const std::vector<PartId>& ids, const std::string& verb,
-                     const std::function<void(Part&)>& change) {
+void Session::change(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change) {
   Scene next = scene();
   SceneNodes changed;
   for (const PartId id : ids) {
@@ -60,15 +61,15 @@ void Session::change(const std::vector<PartId>& ids, const std::string& verb,
     changed.parts.push_back(id);
   }
   if (changed.isEmpty()) return;
-  const std::string label = verb + " " + nameOf(scene(), changed);
-  commit(std::move(next), label);
+  verb.label += " " + nameOf(scene(), changed);
+  commit(std::move(next), std::move(verb));
 }
 
-void Session::changeUnlocked(const std::vector<PartId>& ids, const std::string& verb,
+void Session::changeUnlocked(const std::vector<PartId>& ids, Step verb,
                              const std::function<void(Part&)>& change) {
   for (const PartId id : ids)
     scene().requireUnlocked(existing(scene(), id));
-  this->change(ids, verb, change);
+  this->change(ids, std::move(verb), change);
 }
 
 void Session::renamePart(PartId id, const std::string& name) {
@@ -84,13 +85,17 @@ void Session::renamePart(PartId id, const std::string& name) {
 
 void Session::moveParts(const std::vector<PartId>& ids, PartId lead, const RigidTransform& worldFromLead,
                         const std::string& verb) {
-  const RigidTransform from = existing(scene(), lead).worldFromPart;
+  const Part& before = existing(scene(), lead);
+  const RigidTransform from = before.worldFromPart;
   const RigidTransform to = checkedPose(worldFromLead);
   if (from.rotation == to.rotation && from.translation == to.translation) {
     // No step; but that of a locked part is refused all the same.
-    return changeUnlocked(ids, verb, [](Part&) {});
+    return changeUnlocked(ids, verb.c_str(), [](Part&) {});
   }
-  changeUnlocked(ids, verb, [&](Part& part) {
+  const glm::dvec3 centre = before.geometry != nullptr ? before.geometry->mass.centre : glm::dvec3(0.0);
+  const double shift = glm::distance(from.applyToPoint(centre), to.applyToPoint(centre));
+  const double angle = glm::length(rotationVector(to.rotation * glm::conjugate(from.rotation)));
+  changeUnlocked(ids, Step{verb, shift, angle}, [&](Part& part) {
     part.worldFromPart = part.id == lead ? to : moved(part.worldFromPart, from, to);
   });
 }

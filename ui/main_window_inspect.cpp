@@ -4,6 +4,7 @@
 #include <QToolBar>
 
 #include "ui/actions.h"
+#include "ui/history/history_panel.h"
 #include "ui/main_window.h"
 #include "ui/measure/measure_tool.h"
 #include "ui/minima/minima_menu.h"
@@ -16,8 +17,10 @@ namespace nearfit::ui {
 
 void MainWindow::setUpInspecting() {
   auto* measure = new MeasureTool(session_, *viewport_, this);
-  connect(findChild<UnitMenu*>(QStringLiteral("unitMenu")), &UnitMenu::unitChanged, measure,
-          &MeasureTool::refresh);
+  const auto* units = findChild<UnitMenu*>(QStringLiteral("unitMenu"));
+  connect(units, &UnitMenu::unitChanged, measure, &MeasureTool::refresh);
+  auto* history = findChild<HistoryPanel*>(QStringLiteral("historyPanel"));
+  connect(units, &UnitMenu::unitChanged, history, &HistoryPanel::refresh);
   const auto* drawn = findChild<MinimaMenu*>();
   viewport_->setMinimaChoice(drawn->choice());
   connect(drawn, &MinimaMenu::choiceChanged, viewport_, &Viewport::setMinimaChoice);

@@ -315,19 +315,45 @@ TEST(Session, RandomCommandsUndoneInFullGiveBackTheBeginning) {
 
 TEST(Session, HistoryNamesEveryStepAndSaysWhereTheSceneIs) {
   Session session;
-  EXPECT_EQ(session.history(), std::vector<std::string>{""});
+  const auto labels = [&] {
+    std::vector<std::string> texts;
+    for (const Session::Step& step : session.history())
+      texts.push_back(step.label);
+    return texts;
+  };
+  EXPECT_EQ(labels(), std::vector<std::string>{""});
   EXPECT_EQ(session.historyIndex(), 0U);
   const PartId peg = session.addPart({}, "Peg");
   session.movePart(peg, kAside);
   session.setLocked(peg, true);
   const std::vector<std::string> all{"", "Add Peg", "Move Peg", "Lock Peg"};
-  EXPECT_EQ(session.history(), all);
+  EXPECT_EQ(labels(), all);
   EXPECT_EQ(session.historyIndex(), 3U);
   session.undo();
-  EXPECT_EQ(session.history(), all) << "what can be redone stays in the list";
+  EXPECT_EQ(labels(), all) << "what can be redone stays in the list";
   EXPECT_EQ(session.historyIndex(), 2U);
   session.setVisible(peg, false);
-  EXPECT_EQ(session.history(), (std::vector<std::string>{"", "Add Peg", "Move Peg", "Hide Peg"}));
+  EXPECT_EQ(labels(), (std::vector<std::string>{"", "Add Peg", "Move Peg", "Hide Peg"}));
+}
+
+TEST(Session, HistorySaysHowFarAPartWent) {
+  Session session;
+  PartGeometry geometry;
+  geometry.mass.centre = {0.0, 0.1, 0.0};
+  const PartId peg = session.addPart(std::make_shared<const PartGeometry>(std::move(geometry)), "Peg");
+  session.movePart(peg, {{1, 0, 0, 0}, {0.03, 0.0, -0.04}});
+  // Half a turn about x takes the centre to the other side of the part's own origin.
+  session.movePart(peg, {{0, 1, 0, 0}, {0.03, 0.0, -0.04}}, "Turn");
+  session.setVisible(peg, false);
+  session.undo();
+  const std::vector<Session::Step> steps = session.history();
+  ASSERT_EQ(steps.size(), 5U);
+  EXPECT_EQ(steps[1].shift, 0.0);
+  EXPECT_NEAR(steps[2].shift, 0.05, 1e-15);
+  EXPECT_EQ(steps[2].angle, 0.0);
+  EXPECT_NEAR(steps[3].shift, 0.2, 1e-15);
+  EXPECT_NEAR(steps[3].angle, M_PI, 1e-12);
+  EXPECT_EQ(steps[4], (Session::Step{"Hide Peg", 0.0, 0.0}));
 }
 
 TEST(Session, GoToIsTheSameAsUndoAndRedoAndTellsOnce) {

@@ -5,25 +5,45 @@
 #include <QPalette>
 #include <utility>
 
+#include <glm/trigonometric.hpp>
+
+#include "ui/format.h"
 #include "ui/theme.h"
 
 namespace nearfit::ui {
+namespace {
 
-void HistoryModel::show(std::vector<std::string> labels, int current) {
-  if (labels == labels_ && current == current_) return;
+/// What is less is what rounding left [m], and [rad]: it would be shown as zero.
+constexpr double kLeastShift = 1e-8, kLeastAngle = 1e-3;
+
+}  // namespace
+
+void HistoryModel::show(std::vector<Session::Step> steps, int current) {
+  if (steps == steps_ && current == current_) return;
   beginResetModel();
-  labels_ = std::move(labels);
+  steps_ = std::move(steps);
   current_ = current;
   endResetModel();
 }
 
+void HistoryModel::refresh() {
+  if (!steps_.empty()) emit dataChanged(index(0), index(rowCount() - 1));
+}
+
 int HistoryModel::rowCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : static_cast<int>(labels_.size());
+  return parent.isValid() ? 0 : static_cast<int>(steps_.size());
 }
 
 QString HistoryModel::text(int row) const {
-  const std::string& label = labels_[static_cast<std::size_t>(row)];
-  return label.empty() ? tr("Beginning") : QString::fromStdString(label);
+  const Session::Step& step = steps_[static_cast<std::size_t>(row)];
+  if (step.label.empty()) return tr("Beginning");
+  QString text = QString::fromStdString(step.label);
+  if (step.shift >= kLeastShift) text += QStringLiteral(", ") + formatLength(step.shift);
+  if (step.angle >= kLeastAngle) {
+    const QChar degree(0xB0);
+    text += QStringLiteral(", ") + formatFixed(glm::degrees(step.angle), 1) + degree;
+  }
+  return text;
 }
 
 QVariant HistoryModel::data(const QModelIndex& index, int role) const {

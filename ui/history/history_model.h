@@ -1,8 +1,9 @@
 #pragma once
 
 #include <QAbstractListModel>
-#include <string>
 #include <vector>
+
+#include "core/session.h"
 
 namespace nearfit::ui {
 
@@ -13,9 +14,11 @@ class HistoryModel : public QAbstractListModel {
  public:
   using QAbstractListModel::QAbstractListModel;
 
-  /// @param labels   As Session::history gives them.
+  /// @param steps    As Session::history gives them.
   /// @param current  Index of the present state.
-  void show(std::vector<std::string> labels, int current);
+  void show(std::vector<Session::Step> steps, int current);
+  /// Lengths are in another unit now.
+  void refresh();
   int current() const noexcept { return current_; }
 
   int rowCount(const QModelIndex& parent = {}) const override;
@@ -24,7 +27,7 @@ class HistoryModel : public QAbstractListModel {
  private:
   QString text(int row) const;
 
-  std::vector<std::string> labels_;
+  std::vector<Session::Step> steps_;
   int current_ = 0;
 };
 

@@ -41,6 +41,10 @@ void HistoryPanel::showHistory() {
   view_->scrollTo(index);
 }
 
+void HistoryPanel::refresh() {
+  model_->refresh();
+}
+
 void HistoryPanel::goTo(int row) {
   if (row >= 0) session_.goTo(static_cast<std::size_t>(row));
 }

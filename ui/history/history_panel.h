@@ -20,6 +20,9 @@ class HistoryPanel : public QWidget {
   /// @param session  Outlives this.
   explicit HistoryPanel(Session& session, QWidget* parent = nullptr);
 
+  /// Lengths are in another unit now.
+  void refresh();
+
  private:
   void showHistory();
   void goTo(int row);

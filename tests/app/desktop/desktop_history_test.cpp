@@ -48,13 +48,18 @@ void DesktopHistoryTest::listsTheStepsAndMarksThePresentOne() {
   d.addCubes();
   d.session().movePart(d.partId("fixed"), kAside);
   const QStringList all{QStringLiteral("Beginning"), QStringLiteral("Add 2 parts"),
-                        QStringLiteral("Make moving the moving part"), QStringLiteral("Move fixed")};
+                        QStringLiteral("Make moving the moving part"),
+                        QStringLiteral("Move fixed, 100 mm")};
   QCOMPARE(rows(*view), all);
   QVERIFY(isBold(*view, 3));
   QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
   QCOMPARE(rows(*view), all);
   QVERIFY(isBold(*view, 2));
   QVERIFY(!isBold(*view, 3));
+  d.choose("unit-in");
+  QCOMPARE(rows(*view).last(), QStringLiteral("Move fixed, 3.94 in"));
+  d.choose("unit-mm");
+  QCOMPARE(rows(*view), all);
 }
 
 void DesktopHistoryTest::clickGoesThere() {
