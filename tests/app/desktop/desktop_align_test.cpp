@@ -41,7 +41,7 @@ class DesktopAlignTest : public QObject {
     d.addCubes();
     d.choose("viewFront");
     QTest::qWait(50);
-    QTest::keyClick(&d.window(), Qt::Key_A);
+    pressShortcut(d, Qt::Key_A);
     QVERIFY(d.action("align")->isChecked());
     QVERIFY(d.widget<QWidget>("alignBar")->isVisible());
   }
@@ -202,7 +202,7 @@ void DesktopAlignTest::makingPartsSolidMeanwhileEndsNothing() {
   const QString prompt = d.text("alignPrompt");
   int busy = 0;
   connect(&d.window().document(), &ui::Document::busyChanged, this, [&] { ++busy; });
-  QTest::keyClick(&d.window(), Qt::Key_S, Qt::ShiftModifier);
+  pressShortcut(d, Qt::Key_S, Qt::ShiftModifier);
   QVERIFY(d.action("solid")->isChecked());
   QTRY_VERIFY2(busy > 1 && !d.window().document().isBusy(), "it begins and ends");
   QVERIFY(d.action("align")->isChecked() && d.action("align")->isEnabled());
@@ -233,7 +233,7 @@ void DesktopAlignTest::alignsTheAxesOfTwoCylinders() {
   d.session().movePart(d.partId("pin"), aside);
   d.choose("viewFront");
   QTest::qWait(50);
-  QTest::keyClick(&d.window(), Qt::Key_A);
+  pressShortcut(d, Qt::Key_A);
   auto* filter = d.widget<QComboBox>("alignFilter");
   filter->setCurrentIndex(filter->findText(QStringLiteral("Axes and edges")));
   // In the middle of each, on the side of the viewer.

@@ -209,6 +209,13 @@ class DesktopDriver {
   desktop::Application application;
 };
 
+/// A key of the window's. There is no window manager that gives the window the focus back after a dialog or a
+/// menu, nor says so at once.
+inline void pressShortcut(DesktopDriver& d, Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
+  QApplication::setActiveWindow(&d.window());
+  QTest::keyClick(&d.window(), key, modifiers);
+}
+
 }  // namespace nearfit::test
 
 #define NEARFIT_DESKTOP_TEST_MAIN(Test)                     \

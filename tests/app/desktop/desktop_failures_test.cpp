@@ -29,12 +29,12 @@ struct Full {
     ++recordings;
     whenModal<QFileDialog>([this](QFileDialog* dialog) { chooseFile(dialog, name()); });
     QApplication::setActiveWindow(&d.window());
-    QTest::keyClick(&d.window(), Qt::Key_F8);
+    pressShortcut(d, Qt::Key_F8);
     QVERIFY(d.action("record")->isChecked());
   }
   void feel() {
     QApplication::setActiveWindow(&d.window());
-    QTest::keyClick(&d.window(), Qt::Key_F5);
+    pressShortcut(d, Qt::Key_F5);
     QTRY_VERIFY(d.application.servo().isRunning());
   }
   fs::path file() const { return d.folder.path() / ("felt" + std::to_string(recordings) + ".csv"); }
@@ -101,7 +101,7 @@ void DesktopFailuresTest::aRecordingThatFailsKeepsWhatWasFeltUntilThen() {
   f.record();
   const int pictures = f.pictures;
   QTRY_VERIFY(f.pictures > pictures + 10);
-  QTest::keyClick(&f.d.window(), Qt::Key_F6);
+  pressShortcut(f.d, Qt::Key_F6);
   QTRY_VERIFY(!f.d.application.servo().isRunning());
   QVERIFY(!readRecording(f.file()).isCut);
   QCOMPARE(readRecording(f.d.folder.path() / "felt1.csv").rows.size(), kept.rows.size());
@@ -112,12 +112,12 @@ void DesktopFailuresTest::aRecordingThatIsCutIsPlayedAndSaysSo() {
   f.record();
   f.feel();
   QTRY_VERIFY(f.pictures > 10);
-  QTest::keyClick(&f.d.window(), Qt::Key_F6);
+  pressShortcut(f.d, Qt::Key_F6);
   QTRY_VERIFY(!f.d.application.servo().isRunning());
   const double whole = readMotion(f.file()).back().time;
   fs::resize_file(f.file(), fs::file_size(f.file()) - 100);
   whenModal<QFileDialog>([&f](QFileDialog* dialog) { chooseFile(dialog, f.name()); });
-  QTest::keyClick(&f.d.window(), Qt::Key_F8, Qt::ShiftModifier);
+  pressShortcut(f.d, Qt::Key_F8, Qt::ShiftModifier);
   QTRY_VERIFY(f.d.widget<QDockWidget>("timelineDock")->isVisible());
   const QString status = f.d.window().statusBar()->currentMessage();
   QVERIFY2(status.contains(QStringLiteral("not written to its end")), qPrintable(status));

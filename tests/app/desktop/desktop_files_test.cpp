@@ -11,13 +11,6 @@ using namespace nearfit::test;
 
 namespace {
 
-/// A key of the window's. Without a window manager nobody gives it the keys back once a dialog has closed, be
-/// it one that showed progress on a busy machine.
-void press(DesktopDriver& d, Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
-  QApplication::setActiveWindow(&d.window());
-  QTest::keyClick(&d.window(), key, modifiers);
-}
-
 /// Answers the question about unsaved changes.
 void answerUnsaved(QMessageBox::StandardButton answer, bool& wasAsked) {
   wasAsked = false;
@@ -62,15 +55,15 @@ void DesktopFilesTest::savesAndOpensTheSameScene() {
   d.session().movePart(d.partId("fixed"), pose);
   const QString file = QString::fromStdString((d.folder.path() / "pair.nearfit").string());
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, file); });
-  press(d, Qt::Key_S, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_S, Qt::ControlModifier);
   QTRY_VERIFY(QFile::exists(file));
   QVERIFY(!d.window().isWindowModified());
   QVERIFY(d.window().windowTitle().contains(QStringLiteral("pair.nearfit")));
 
-  press(d, Qt::Key_N, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_N, Qt::ControlModifier);
   QVERIFY(d.session().scene().parts().empty());
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, file); });
-  press(d, Qt::Key_O, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_O, Qt::ControlModifier);
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
   QVERIFY(glm::distance(d.part("fixed").worldFromPart.translation, pose.translation) < 1e-15);
   QVERIFY(std::abs(glm::dot(d.part("fixed").worldFromPart.rotation, pose.rotation)) > 1.0 - 1e-14);
@@ -215,7 +208,7 @@ void DesktopFilesTest::exportsThePlacementInHand() {
       QStringLiteral("exportDialog"));
   whenModal<QFileDialog>(
       [&](QFileDialog* dialog) { chooseFile(dialog, QString::fromStdString(file.string())); });
-  QTest::keyClick(&d.window(), Qt::Key_E, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_E, Qt::ControlModifier);
   QTRY_VERIFY(std::filesystem::exists(file));
   const auto json = nlohmann::json::parse(readBytes(file));
   QCOMPARE(QString::fromStdString(json.at("moving").get<std::string>()), QStringLiteral("moving"));
@@ -241,7 +234,7 @@ void DesktopFilesTest::demoSceneOpensAndIsFelt() {
   d.choose("save");
   QTRY_VERIFY(QFile::exists(mine));
   QCOMPARE(d.session().file(), std::filesystem::path(mine.toStdString()));
-  press(d, Qt::Key_F5);
+  pressShortcut(d, Qt::Key_F5);
   QTRY_VERIFY(d.text("statusMinima").mid(5).toInt() > 10);
 }
 

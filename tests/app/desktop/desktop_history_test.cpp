@@ -52,7 +52,7 @@ void DesktopHistoryTest::listsTheStepsAndMarksThePresentOne() {
                         QStringLiteral("Move fixed, 100 mm")};
   QCOMPARE(rows(*view), all);
   QVERIFY(isBold(*view, 3));
-  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_Z, Qt::ControlModifier);
   QCOMPARE(rows(*view), all);
   QVERIFY(isBold(*view, 2));
   QVERIFY(!isBold(*view, 3));

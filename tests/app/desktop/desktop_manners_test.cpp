@@ -143,7 +143,7 @@ void DesktopMannersTest::everyActionHasATooltipAndNoTwoShareAShortcut() {
 
 void DesktopMannersTest::shortcutsAreListedAndSearched() {
   DesktopDriver d;
-  QTest::keyClick(&d.window(), Qt::Key_F1);
+  pressShortcut(d, Qt::Key_F1);
   auto* dialog = d.widget<QDialog>("shortcutsDialog");
   QTRY_VERIFY(dialog->isVisible());
   auto* list = d.widget<QTreeWidget>("shortcutList");
@@ -327,7 +327,7 @@ void DesktopMannersTest::largerLettersAreNotCut() {
     d.addCubes();
     auto* legend = d.widget<QWidget>("colourLegend");
     QVERIFY(legend->sizeHint().width() > 300);
-    QTest::keyClick(&d.window(), Qt::Key_F1);
+    pressShortcut(d, Qt::Key_F1);
     auto* list = d.widget<QTreeWidget>("shortcutList");
     QTRY_VERIFY(list->isVisible());
     keepPictures(*list->window(), QStringLiteral("shortcuts-large"));
@@ -366,7 +366,7 @@ void DesktopMannersTest::toolbarsFitANarrowWindow() {
   // The views share a button, which goes where the last one went.
   auto* views = d.widget<QToolButton>("viewsButton");
   QCOMPARE(views->defaultAction(), d.action("viewIso"));
-  QTest::keyClick(&d.window(), Qt::Key_3);
+  pressShortcut(d, Qt::Key_3);
   QCOMPARE(views->defaultAction(), d.action("viewTop"));
 }
 

@@ -32,7 +32,7 @@ class DesktopMeasureTest : public QObject {
     d.addCubes();
     d.choose("viewFront");
     QTest::qWait(50);
-    QTest::keyClick(&d.window(), Qt::Key_M);
+    pressShortcut(d, Qt::Key_M);
     QVERIFY(d.action("measure")->isChecked());
     QVERIFY(d.widget<QWidget>("measureBar")->isVisible());
   }

@@ -117,7 +117,7 @@ void DesktopPartFilesTest::recentScenesAreInTheMenuAndOpen() {
   d.session().reset();
   d.window().document().openScene(nameOf(file));
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
-  QTest::keyClick(&d.window(), Qt::Key_N, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_N, Qt::ControlModifier);
   QVERIFY(d.session().scene().parts().empty());
   QMenu& menu = openRecent(d);
   QCOMPARE(menu.actions().first()->text(), QStringLiteral("&1  a && b.nearfit"));
@@ -237,7 +237,7 @@ void DesktopPartFilesTest::replacedFileIsOfferedAndReloadedInItsPlace() {
   QCOMPARE(widthOf(d.part("moving")), 0.02);
   QVERIFY(choice(d, "notice-reload", "choice1") == nullptr);
   QCOMPARE(d.action("undo")->text(), QStringLiteral("&Undo Reload fixed"));
-  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_Z, Qt::ControlModifier);
   QCOMPARE(widthOf(d.part("fixed")), 0.04);
   // It goes on being watched although it is another file now.
   replaceByCube(d.fixedFile, 0.06);
@@ -309,7 +309,7 @@ void DesktopPartFilesTest::partOfTheWrongUnitIsCalledOutAndRescaled() {
   QTest::mouseClick(choice(d, "notice-rescale", "choice1"), Qt::LeftButton);
   QTRY_VERIFY(qFuzzyCompare(widthOf(d.part("tiny")), 0.03));
   QVERIFY(choice(d, "notice-rescale", "choice1") == nullptr);
-  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_Z, Qt::ControlModifier);
   QCOMPARE(widthOf(d.part("tiny")), 0.00003);
 }
 

@@ -43,7 +43,7 @@ void DesktopPartsTest::addsAPartThroughTheDialogsInTheUnitChosen() {
         QStringLiteral("unitDialog"));
     chooseFile(dialog, d.fixedFile);
   });
-  QTest::keyClick(&d.window(), Qt::Key_I, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_I, Qt::ControlModifier);
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
   const Part& part = d.part("fixed");
   // 40 units of a centimetre.
@@ -75,10 +75,10 @@ void DesktopPartsTest::manyFilesAreOneStepOfUndo() {
   d.add({d.fixedFile, d.movingFile, d.fixedFile});
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
   QVERIFY(d.action("undo")->text().contains(QStringLiteral("Add 3 parts")));
-  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_Z, Qt::ControlModifier);
   QVERIFY(d.session().scene().parts().empty());
   QVERIFY(!d.action("undo")->isEnabled());
-  QTest::keyClick(&d.window(), Qt::Key_Y, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_Y, Qt::ControlModifier);
   QCOMPARE(d.session().scene().parts().size(), std::size_t{3});
 }
 
@@ -136,10 +136,10 @@ void DesktopPartsTest::movesByNumbersAndTakesItBackByKeys() {
   // The number field still has the focus: the keys reach the scene all the same.
   QTest::keyClick(d.widget<QDoubleSpinBox>("rotationZ"), Qt::Key_Z, Qt::ControlModifier);
   QCOMPARE(d.part("fixed").worldFromPart.rotation.z, 0.0);
-  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_Z, Qt::ControlModifier);
   QCOMPARE(d.part("fixed").worldFromPart.translation.x, 0.0);
   QCOMPARE(d.widget<QDoubleSpinBox>("positionX")->value(), 0.0);
-  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  pressShortcut(d, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   QVERIFY(std::abs(d.widget<QDoubleSpinBox>("positionX")->value() - 12.5) < 1e-9);
 }
 
@@ -219,13 +219,13 @@ void DesktopPartsTest::deletesAndDuplicatesTheSelectedPart() {
   DesktopDriver d;
   d.addCubes();
   d.clickPart(0, ui::PartsModel::Name);
-  QTest::keyClick(&d.window(), Qt::Key_D, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_D, Qt::ControlModifier);
   QCOMPARE(d.session().scene().parts().size(), std::size_t{3});
   d.clickPart(0, ui::PartsModel::Name);
-  QTest::keyClick(&d.window(), Qt::Key_Delete);
+  pressShortcut(d, Qt::Key_Delete);
   QVERIFY(d.session().scene().findByName("fixed") == nullptr);
   QCOMPARE(d.partsView()->model()->rowCount(), 2);
-  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_Z, Qt::ControlModifier);
   QVERIFY(d.session().scene().findByName("fixed") != nullptr);
 }
 

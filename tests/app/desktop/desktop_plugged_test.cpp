@@ -191,7 +191,7 @@ void DesktopPluggedTest::whatItLeadsIsRecordedByTheButtonAndReplayed() {
   // On the timeline, to its end.
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, led); });
   QApplication::setActiveWindow(&p.d.window());
-  QTest::keyClick(&p.d.window(), Qt::Key_F8, Qt::ShiftModifier);
+  pressShortcut(p.d, Qt::Key_F8, Qt::ShiftModifier);
   QTRY_COMPARE(p.d.text("timelineName"), QStringLiteral("led.csv"));
   QTest::mouseClick(p.d.widget<QToolButton>("timelinePlay"), Qt::LeftButton);
   const double length = felt.back().time - felt.front().time;

@@ -41,7 +41,7 @@ void start(DesktopDriver& d, ui::Hand hand) {
   for (int i = 0; i < box->count() && box->currentData().value<ui::Hand>() != hand; ++i)
     QTest::keyClick(box, Qt::Key_Down);
   d.clickPart(1, ui::PartsModel::Name);
-  QTest::keyClick(&d.window(), Qt::Key_F5);
+  pressShortcut(d, Qt::Key_F5);
   QTRY_VERIFY(d.application.servo().isRunning());
 }
 
@@ -89,7 +89,7 @@ void DesktopProxyTest::partStopsAtContactWhileTheHandGoesOn() {
   const auto pull = [&] { return watch.newest.coupling.stiffness * 3.1e-3; };
   QTRY_VERIFY(force() > 0.98 * pull() && force() < 1.02 * pull());
   QVERIFY(watch.least > 0.5 * kMargin);
-  QTest::keyClick(&d.window(), Qt::Key_F6);
+  pressShortcut(d, Qt::Key_F6);
   // What is kept is where the part is, not the hand.
   QVERIFY(isNear(d.part("moving").worldFromPart.translation.z, -0.0049, 1.1e-5));
   QCOMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Feel moving"));
@@ -137,7 +137,7 @@ void DesktopProxyTest::lettingGoTakesTheHandBackToThePart() {
   d.type<QDoubleSpinBox>("positionZ", "-8");
   QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
   QTRY_VERIFY(d.text("force") != QStringLiteral("0.00 N"));
-  QTest::keyClick(&d.window(), Qt::Key_F7);
+  pressShortcut(d, Qt::Key_F7);
   QTRY_COMPARE(d.text("lead"), QStringLiteral("0.00 mm"));
   QTRY_COMPARE(d.text("force"), QStringLiteral("0.00 N"));
   // From there it moves at once.
@@ -154,7 +154,7 @@ void DesktopProxyTest::scriptedHandPressesAndSlides() {
   QVERIFY2(watch.most > 1.0, "it presses well");
   QVERIFY2(watch.highest - watch.lowest > 1e-3, "it slides along contact");
   QVERIFY2(watch.least > 0.25 * kMargin, qPrintable(QString::number(watch.least)));
-  QTest::keyClick(&d.window(), Qt::Key_F6);
+  pressShortcut(d, Qt::Key_F6);
 }
 
 void DesktopProxyTest::partThatOverlapsIsNamed() {

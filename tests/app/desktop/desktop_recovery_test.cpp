@@ -272,7 +272,7 @@ void DesktopRecoveryTest::savingOrUndoingLeavesNothingToRecover() {
   QTRY_COMPARE_WITH_TIMEOUT(filesIn(state).size(), std::size_t{0}, 30'000);
   d.session().setVisible(d.partId("fixed"), false);
   QTRY_COMPARE_WITH_TIMEOUT(filesIn(state).size(), std::size_t{1}, 30'000);
-  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_Z, Qt::ControlModifier);
   QTRY_COMPARE_WITH_TIMEOUT(filesIn(state).size(), std::size_t{0}, 30'000);
 }
 

@@ -138,7 +138,7 @@ void DesktopSectionPlaneTest::escapeClosesWhatIsAskedForAndThenTheSection() {
   QTest::keyClick(&cut.view(), Qt::Key_Escape);
   QVERIFY(cut.d.action("section")->isChecked());
   QVERIFY(cut.isDown("sectionY") && !cut.isDown("sectionFace"));
-  QTest::keyClick(&cut.d.window(), Qt::Key_M);
+  pressShortcut(cut.d, Qt::Key_M);
   QTest::keyClick(&cut.view(), Qt::Key_Escape);
   QVERIFY(!cut.d.action("measure")->isChecked() && cut.d.action("section")->isChecked());
   QTest::keyClick(&cut.view(), Qt::Key_Escape);
@@ -150,9 +150,9 @@ void DesktopSectionPlaneTest::thePlaneIsKeptWhileItIsOff() {
   SectionDriver cut;
   cut.begin("sectionX");
   cut.goTo("7");
-  QTest::keyClick(&cut.d.window(), Qt::Key_C);
+  pressShortcut(cut.d, Qt::Key_C);
   QVERIFY(!cut.d.action("section")->isChecked());
-  QTest::keyClick(&cut.d.window(), Qt::Key_C);
+  pressShortcut(cut.d, Qt::Key_C);
   QCOMPARE(cut.position(), 7.0);
   QVERIFY(cut.isDown("sectionX"));
   // Chosen again it is in the middle.
@@ -185,7 +185,7 @@ void DesktopSectionPlaneTest::itIsNoChangeOfTheSceneAndItsChoicesAreKept() {
     QCOMPARE(cut.d.session().historyIndex(), steps);
   }
   SectionDriver cut;
-  QTest::keyClick(&cut.d.window(), Qt::Key_C);
+  pressShortcut(cut.d, Qt::Key_C);
   QVERIFY(cut.isDown("sectionZ"));
   QVERIFY(cut.d.widget<QCheckBox>("sectionSpare")->isChecked());
 }

@@ -96,7 +96,7 @@ void DesktopSectionTest::theEdgeOfTheCutIsMeasured() {
   SectionDriver cut;
   cut.begin("sectionY");
   cut.goTo("5");
-  QTest::keyClick(&cut.d.window(), Qt::Key_M);
+  pressShortcut(cut.d, Qt::Key_M);
   constexpr double kInside = 3e-4;
   cut.pointer.click({0.004, 0.005, 0.025 + kInside});
   cut.pointer.click({0.006, 0.005, 0.02 - kInside});

@@ -60,7 +60,7 @@ void DesktopServoTest::needsAMovingPart() {
   d.session().setMovingPart(std::nullopt);
   QVERIFY(!d.widget<QPushButton>("startStop")->isEnabled());
   d.clickPart(1, ui::PartsModel::Name);
-  QTest::keyClick(&d.window(), Qt::Key_H, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_H, Qt::ControlModifier);
   QVERIFY(d.widget<QPushButton>("startStop")->isEnabled());
 }
 
@@ -96,7 +96,7 @@ void DesktopServoTest::showsTheOneMinimumBetweenTwoFaces() {
   QTRY_VERIFY(d.text("statusRate").startsWith(QStringLiteral("Servo ")) &&
               d.text("statusRate") != "Servo 0 Hz");
   QVERIFY(d.text("statusLateness").contains(QStringLiteral("p99")));
-  QTest::keyClick(&d.window(), Qt::Key_F6);
+  pressShortcut(d, Qt::Key_F6);
   QVERIFY(!d.application.servo().isRunning());
   QCOMPARE(d.text("statusRate"), QStringLiteral("Servo off"));
 }
@@ -184,15 +184,15 @@ void DesktopServoTest::whatHasMovedInHandIsMarkedAsNotSavedAtOnce() {
   QTRY_VERIFY(d.window().isWindowModified());
   QVERIFY(d.application.servo().isRunning());
   QVERIFY2(!d.session().isModified(), "it is still in hand");
-  QTest::keyClick(&d.window(), Qt::Key_S, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_S, Qt::ControlModifier);
   QTRY_VERIFY2(!d.window().isWindowModified(), "saving puts it into the scene, and it stays there");
   QVERIFY(d.application.servo().isRunning());
   d.type<QDoubleSpinBox>("positionX", "2");
   QTRY_VERIFY(d.window().isWindowModified());
-  QTest::keyClick(&d.window(), Qt::Key_F6);
+  pressShortcut(d, Qt::Key_F6);
   QTRY_VERIFY(!d.application.servo().isRunning());
   QVERIFY(d.window().isWindowModified());
-  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_Z, Qt::ControlModifier);
   QVERIFY(!d.window().isWindowModified());
 }
 
@@ -205,10 +205,10 @@ void DesktopServoTest::stoppingIsOneStepOfUndo() {
   d.type<QDoubleSpinBox>("positionX", "4");
   QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
   QTRY_VERIFY(d.isFeltAtX(0.004));
-  QTest::keyClick(&d.window(), Qt::Key_F6);
+  pressShortcut(d, Qt::Key_F6);
   QCOMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Feel moving"));
   QVERIFY(std::abs(d.part("moving").worldFromPart.translation.x - 0.004) < 1e-12);
-  QTest::keyClick(&d.window(), Qt::Key_Z, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_Z, Qt::ControlModifier);
   QCOMPARE(d.part("moving").worldFromPart.translation.x, 0.0);
 }
 
@@ -256,7 +256,7 @@ void DesktopServoTest::deletingThePartInHandStops() {
   d.addCubes();
   startWith(d, ui::Hand::Manual);
   d.clickPart(1, ui::PartsModel::Name);
-  QTest::keyClick(&d.window(), Qt::Key_Delete);
+  pressShortcut(d, Qt::Key_Delete);
   QVERIFY(!d.application.servo().isRunning());
   QVERIFY(d.session().scene().findByName("moving") == nullptr);
 }

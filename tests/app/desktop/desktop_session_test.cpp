@@ -120,7 +120,7 @@ class Worker {
   void press(Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
     // There is no window manager that gives the window the focus back after a dialog.
     QApplication::setActiveWindow(&d_.window());
-    QTest::keyClick(&d_.window(), key, modifiers);
+    pressShortcut(d_, key, modifiers);
   }
   void click(const char* button) { QTest::mouseClick(d_.widget<QPushButton>(button), Qt::LeftButton); }
 
@@ -310,7 +310,7 @@ void DesktopSessionTest::exportScene(DesktopDriver& d, const fs::path& file) {
   whenModal<QFileDialog>(
       [&](QFileDialog* dialog) { chooseFile(dialog, QString::fromStdString(file.string())); });
   QApplication::setActiveWindow(&d.window());
-  QTest::keyClick(&d.window(), Qt::Key_E, Qt::ControlModifier);
+  pressShortcut(d, Qt::Key_E, Qt::ControlModifier);
   QTRY_VERIFY(fs::exists(file));
 }
 

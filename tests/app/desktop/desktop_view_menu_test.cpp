@@ -118,7 +118,7 @@ void DesktopViewMenuTest::renameHasAKeyAndBringsTheTreeUp() {
   pointer.click(kMoving);
   d.widget<QDockWidget>("historyDock")->raise();
   pointer.view().setFocus();
-  QTest::keyClick(&d.window(), Qt::Key_F2);
+  pressShortcut(d, Qt::Key_F2);
   QTRY_VERIFY(d.partsView()->isVisible());
   auto* editor = d.partsView()->findChild<QLineEdit*>();
   QVERIFY(editor != nullptr);

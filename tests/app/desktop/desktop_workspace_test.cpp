@@ -107,7 +107,7 @@ void DesktopWorkspaceTest::theClutchHoldsThePartWhileTheDeviceIsBroughtBack() {
   f.handle->moveTo({-0.05, 0.02, 0.0});
   QTest::qWait(100);
   QVERIFY(f.isFeltAt({0.003, 0.0, 0.1}));
-  QTest::keyClick(&f.d->window(), Qt::Key_F9);
+  pressShortcut(*f.d, Qt::Key_F9);
   QTRY_VERIFY(!note->isVisible());
   QVERIFY(f.isFeltAt({0.003, 0.0, 0.1}));
   f.handle->moveTo({-0.05, 0.024, 0.0});

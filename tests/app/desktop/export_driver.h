@@ -8,12 +8,6 @@
 
 namespace nearfit::test {
 
-/// There is no window manager that gives the window the focus back after a dialog.
-inline void pressShortcut(DesktopDriver& d, Qt::Key key, Qt::KeyboardModifiers modifiers) {
-  QApplication::setActiveWindow(&d.window());
-  QTest::keyClick(&d.window(), key, modifiers);
-}
-
 /// Chooses in the export dialog as a user does: a format by its row, selected parts by their button.
 inline void chooseExport(int kindRow, bool isSelected, QString* summary = nullptr) {
   whenModal<ui::ExportDialog>([=](ui::ExportDialog* dialog) {

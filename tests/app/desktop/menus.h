@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QAction>
+#include <QApplication>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
@@ -25,9 +26,7 @@ inline QList<QMenu*> menusTo(const QList<QAction*>& entries, QAction* wanted) {
 }
 
 inline void clickEntry(QMenu& menu, QAction* entry) {
-  const QPoint at = menu.actionGeometry(entry).center();
-  QTest::mouseMove(&menu, at);
-  QTest::mouseClick(&menu, Qt::LeftButton, {}, at);
+  QTest::mouseClick(&menu, Qt::LeftButton, {}, menu.actionGeometry(entry).center());
 }
 
 /// Opens menus one out of the other, the first from the window's bar.
@@ -49,7 +48,11 @@ inline void chooseCommand(QMainWindow& window, QAction* action) {
     openMenus(window, path);
     // What can be done may be known only as the menu opens.
     if (!action->isEnabled() || !action->isVisible()) throw Error("menus", name + " cannot be chosen now");
-    return clickEntry(*path.last(), action);
+    clickEntry(*path.last(), action);
+    // No window manager gives the window the keys back that the menu had.
+    if (QApplication::activeModalWidget() == nullptr && QApplication::activeWindow() == nullptr)
+      QApplication::setActiveWindow(&window);
+    return;
   }
   for (auto* button : window.findChildren<QToolButton*>()) {
     if (button->defaultAction() != action || !button->isVisible()) continue;

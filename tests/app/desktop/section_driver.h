@@ -22,7 +22,7 @@ struct SectionDriver {
     d.choose(look);
   }
   void begin(const char* axis) {
-    QTest::keyClick(&d.window(), Qt::Key_C);
+    pressShortcut(d, Qt::Key_C);
     QVERIFY(d.action("section")->isChecked());
     QVERIFY(d.widget<QWidget>("sectionBar")->isVisible());
     press(axis);
