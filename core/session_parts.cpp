@@ -134,7 +134,10 @@ void Session::reloadParts(const std::vector<NewGeometry>& parts) {
 void Session::rescaleParts(const std::vector<NewGeometry>& parts) {
   changeUnlocked(partsOf(parts), "Rescale", [&parts](Part& part) {
     PartGeometryPtr rescaled = geometryFor(part, parts);
-    if (part.pivot) *part.pivot *= rescaled->metresPerUnit / part.geometry->metresPerUnit;
+    if (part.pivot) {
+      *part.pivot *= rescaled->metresPerUnit / part.geometry->metresPerUnit;
+      checkPosition(*part.pivot);
+    }
     part.geometry = std::move(rescaled);
   });
 }

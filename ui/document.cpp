@@ -254,8 +254,10 @@ void Document::finishParts(const QStringList& files, const std::vector<PartGeome
   // All of them would be cut off, and gone soon: the list of parts keeps them.
   if (warnings.size() == 1) emit noted(warnings.first());
   if (warnings.size() > 1)
-    emit noted(tr("Meshes of %1 parts are open or degenerate: the list of parts says more under the mouse")
-                   .arg(warned));
+    emit noted((warned == 1
+                    ? tr("A mesh is open or degenerate: the list of parts says more under the mouse")
+                    : tr("%1 meshes are open or degenerate: the list of parts says more under the mouse")
+                          .arg(warned)));
   if (!problems.isEmpty()) emit failed(describeItems(notAdded(files, problems), problems));
   if (!added.empty()) emit partsAdded(added);
   emit loaded(problems.isEmpty());

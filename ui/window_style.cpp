@@ -1,5 +1,7 @@
 #include "ui/window_style.h"
 
+#include <QHash>
+#include <QPair>
 #include <QStyleFactory>
 #include <QStyleOption>
 
@@ -11,12 +13,25 @@ namespace {
 /// What Fusion's frames are made from in the dark theme: those of boxes to tick, and of fields.
 constexpr QRgb kFrameInDark = 0xffb4c0cc, kFieldFrameInDark = 0xff7d8995;
 
+/// The palette with another colour for frames: the same for the same, as Fusion keeps pictures by it.
+QPalette framed(const QPalette& own, QRgb frame) {
+  constexpr int kMost = 64;
+  static QHash<QPair<qint64, QRgb>, QPalette> known;
+  if (known.size() >= kMost) known.clear();
+  QPalette& palette = known[{own.cacheKey(), frame}];
+  if (palette.color(QPalette::Window) != QColor(frame)) {
+    palette = own;
+    palette.setColor(QPalette::Window, QColor(frame));
+  }
+  return palette;
+}
+
 template <class Option>
 bool takesFrom(const QStyleOption* option, Option& out, QRgb frame = kFrameInDark) {
   const Option* own = qstyleoption_cast<const Option*>(option);
   if (own == nullptr) return false;
   out = *own;
-  out.palette.setColor(QPalette::Window, QColor(frame));
+  out.palette = framed(own->palette, frame);
   return true;
 }
 

@@ -40,7 +40,7 @@ struct Part {
   Colour colour;
   double density = kDefaultDensity;  ///< [kg/m^3]
   double opacity = 1.0;              ///< kMinOpacity to 1.
-  /// What tools turn it about, in its own frame [m]; none: its centre of mass.
+  /// What the gizmo turns it about, in its own frame [m]; none: its centre of mass.
   std::optional<glm::dvec3> pivot;
   bool isVisible = true;  ///< An invisible part is not felt either.
   /// A locked part cannot be moved, renamed, made of another density or shape, given another pivot, put into

@@ -41,8 +41,8 @@
 ///         "colour": [0.62, 0.69, 0.76],                      sRGB, each 0 to 1
 ///         "density": 1000,                                   [kg/m^3]
 ///         "opacity": 1,                                      0.05 to 1
-///         "pivot": null,                                     or [x, y, z] that tools turn it about, in its
-///                                                            frame [m]; null: its centre of mass
+///         "pivot": null,                                     or [x, y, z] that the gizmo turns it about, in
+///                                                            its frame [m]; null: its centre of mass
 ///         "visible": true,
 ///         "locked": false,
 ///         "group": 0,                                        that it is in: which of the groups, from 0, or
@@ -57,7 +57,8 @@
 /// saved. Numbers are written with as many digits as it takes to read the same double again. Meanings and
 /// limits of the settings: haptic_settings.h, haptic_limits.h.
 ///
-/// Older versions are still read. Version 3 has no "pivot": there it is the centre of mass. Version 2 has no
+/// Older versions are still read. Version 3 and those before have no "pivot": there it is the centre of
+/// mass. Version 2 has no
 /// "groups", and its parts none of "opacity", "group" and "wasVisible": they are opaque and stand at the top.
 /// Version 1 is like version 2, but: it has no "haptics" and no "density", and its "springs" stand where
 /// "haptics" do. What it does not say is as in a new scene, the margin a hundredth of its cutoff.

@@ -469,6 +469,7 @@ TEST(Session, PivotsAreAStepAndStayWhereTheyAreOnThePart) {
   session.movePart(peg, {});
   session.rescaleParts({{peg, geometryIn(1e-2)}});
   EXPECT_LT(glm::distance(*pivotOf(peg), {10, 20, 30}), 1e-12);
+  EXPECT_THROW(session.rescaleParts({{peg, geometryIn(1e8)}}), UsageError) << "beyond the limit of a scene";
   EXPECT_EQ(pivotOf(copy), glm::dvec3(4, 5, 6));
   EXPECT_EQ(pivotOf(session.duplicatePart(copy)), glm::dvec3(4, 5, 6));
   session.setPivots({{copy, {}}});

@@ -13,8 +13,8 @@
 namespace nearfit::ui {
 namespace {
 
-/// What is less is what rounding left [m], and [rad]: it would be shown as zero.
-constexpr double kLeastShift = 1e-8, kLeastAngle = 1e-3;
+/// What is less is what rounding left [m], and would be shown as 0.0° [rad].
+constexpr double kLeastShift = 1e-8, kLeastAngle = 8.7e-4;
 
 }  // namespace
 

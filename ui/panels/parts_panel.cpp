@@ -57,7 +57,7 @@ PartsPanel::PartsPanel(Selection& selection, QWidget* parent)
   connect(filter_, &QLineEdit::textChanged, view_, &PartsView::setFilter);
   connect(view_, &QTreeView::clicked, this, &PartsPanel::clickCell);
   connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &PartsPanel::takeSelection);
-  connect(&selection_, &Selection::changed, this, &PartsPanel::showSelection);
+  connect(&selection_, &Selection::changed, this, [this] { showSelection(Reveal::Yes); });
   connect(model_, &PartsModel::renameRequested, this, &PartsPanel::renameRequested);
   connect(model_, &PartsModel::groupRenameRequested, this, &PartsPanel::groupRenameRequested);
   connect(model_, &PartsModel::regroupRequested, this, &PartsPanel::regroupRequested);
@@ -83,7 +83,8 @@ void PartsPanel::setScene(const Scene& scene) {
   if (!areMany) filter_->clear();
   filter_->setVisible(areMany);
   if (!filter_->text().isEmpty()) view_->setFilter(filter_->text());
-  showSelection();
+  // A group that was closed stays so, whatever it holds.
+  showSelection(Reveal::No);
 }
 
 std::vector<GroupId> PartsPanel::expandedGroups() const {
@@ -115,7 +116,7 @@ void PartsPanel::takeSelection() {
   selection_.set(parts, rows.groups);
 }
 
-void PartsPanel::showSelection() {
+void PartsPanel::showSelection(Reveal reveal) {
   QItemSelection rows;
   const SceneNodes outer = outermost(scene_, selection_.nodes());
   for (const GroupId group : outer.groups)
@@ -127,8 +128,11 @@ void PartsPanel::showSelection() {
   model.select(rows, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
   if (!model.isSelected(model.currentIndex())) {
     const QModelIndex current = selection_.current() ? model_->indexOf(*selection_.current()) : QModelIndex();
-    if (current.isValid()) view_->scrollTo(current);
+    if (current.isValid() && reveal == Reveal::Yes) view_->scrollTo(current);
+    // The view scrolls by itself to what becomes current.
+    view_->setAutoScroll(reveal == Reveal::Yes);
     model.setCurrentIndex(current, QItemSelectionModel::NoUpdate);
+    view_->setAutoScroll(true);
   }
   isShowing_ = wasShowing;
 }

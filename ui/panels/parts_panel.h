@@ -46,7 +46,9 @@ class PartsPanel : public QWidget {
   /// What a switch in this row is about: all that is selected when the row is, else the row alone.
   SceneNodes nodesOf(const QModelIndex& index) const;
   void takeSelection();
-  void showSelection();
+  enum class Reveal { Yes, No };
+  /// @param reveal  Whether the current part is scrolled to, and the groups opened that it is in.
+  void showSelection(Reveal reveal);
   /// Groups whose rows show what they hold.
   std::vector<GroupId> expandedGroups() const;
 

@@ -73,7 +73,7 @@ void TakingAway::setUpDocks() {
     if (!isShown || !clearanceDock_->isVisible() || !plotsDock_->isVisible()) return;
     const int both = clearanceDock_->width() + plotsDock_->width();
     const bool areBeside = clearanceDock_->y() == plotsDock_->y();
-    if (areBeside && 3 * plotsDock_->width() < both)
+    if (areBeside && 5 * plotsDock_->width() < 2 * both)
       window_.window.resizeDocks({clearanceDock_, plotsDock_}, {both / 2, both / 2}, Qt::Horizontal);
   };
   for (const QDockWidget* dock : {clearanceDock_, plotsDock_})

@@ -76,7 +76,7 @@ void DesktopAlignTest::alignsTwoFacesByTwoClicksAsOneStepOfUndo() {
   keepPictures(d.window(), QStringLiteral("align"));
   // A preview is no change.
   QCOMPARE(d.part("moving").worldFromPart.translation, before.translation);
-  QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
+  pressInView(d, Qt::Key_Return);
   const RigidTransform after = d.part("moving").worldFromPart;
   // Face to face: its front looks back, in the plane of the other's.
   QVERIFY(glm::distance(after.applyToVector({0, -1, 0}), glm::dvec3(0, 1, 0)) < 1e-12);
@@ -112,7 +112,7 @@ void DesktopAlignTest::solidPartsStopAtContactOnTheWay() {
   // Top corner on top corner would put the one cube into the other.
   click(d, {-0.01 + kInside, kMovingFront, kTop});
   click(d, {-0.02 + kInside, kFixedFront, 0.02 - kInside});
-  QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
+  pressInView(d, Qt::Key_Return);
   QTRY_COMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Align moving"));
   const RigidTransform after = d.part("moving").worldFromPart;
   const double margin = d.session().scene().haptics().proxy.margin;
@@ -133,11 +133,11 @@ void DesktopAlignTest::theGizmoStandsAsideMeanwhile() {
   click(d, {0.003, kMovingFront, 0.036});
   click(d, {-0.01, kFixedFront, 0.005});
   QVERIFY(!gizmo.isVisible());
-  QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
+  pressInView(d, Qt::Key_Return);
   QTRY_VERIFY(gizmo.isVisible());
   d.choose("align");
   QVERIFY(!gizmo.isVisible());
-  QTest::keyClick(&d.window().viewport(), Qt::Key_Escape);
+  pressInView(d, Qt::Key_Escape);
   QVERIFY(gizmo.isVisible());
 }
 
@@ -148,7 +148,7 @@ void DesktopAlignTest::escapeLeavesEverythingAsItWas() {
   const std::string undo = d.session().undoText();
   click(d, {0.003, kMovingFront, 0.036});
   click(d, {-0.01, kFixedFront, 0.005});
-  QTest::keyClick(&d.window().viewport(), Qt::Key_Escape);
+  pressInView(d, Qt::Key_Escape);
   QVERIFY(!d.action("align")->isChecked());
   QVERIFY(!d.widget<QWidget>("alignBar")->isVisible());
   QCOMPARE(d.part("moving").worldFromPart.translation, before.translation);
@@ -210,7 +210,7 @@ void DesktopAlignTest::makingPartsSolidMeanwhileEndsNothing() {
   QCOMPARE(d.text("alignPrompt"), prompt);
   // Whole: what was picked counts, and contact stops it.
   d.window().viewport().setFocus();
-  QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
+  pressInView(d, Qt::Key_Return);
   QTRY_COMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Align moving"));
 }
 
@@ -219,7 +219,7 @@ void DesktopAlignTest::alignsACornerWithACorner() {
   begin(d);
   click(d, {-0.01 + kInside, kMovingFront, kTop});
   click(d, {-0.02 + kInside, kFixedFront, 0.02 - kInside});
-  QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
+  pressInView(d, Qt::Key_Return);
   const glm::dvec3 corner = d.part("moving").worldFromPart.applyToPoint({-0.01, kMovingFront, 0.045});
   QVERIFY(glm::distance(corner, glm::dvec3(-0.02, kFixedFront, 0.02)) < 1e-15);
 }
@@ -243,7 +243,7 @@ void DesktopAlignTest::alignsTheAxesOfTwoCylinders() {
                qPrintable(d.text("alignHint")));
   click(d, onPin);
   click(d, {0.0, -0.02, 0.002});
-  QTest::keyClick(&d.window().viewport(), Qt::Key_Return);
+  pressInView(d, Qt::Key_Return);
   QTRY_VERIFY(d.action("undo")->text().contains(QStringLiteral("Align pin")));
   const RigidTransform pose = d.part("pin").worldFromPart;
   for (const double along : {-0.02, 0.02}) {

@@ -27,7 +27,7 @@ struct Row {
   }
   ui::Selection& selection() { return d.window().selection(); }
   void pressB() {
-    QTest::keyClick(&d.window().viewport(), Qt::Key_B);
+    pressInView(d, Qt::Key_B);
     QVERIFY(d.action("boxSelect")->isChecked());
   }
   /// From one place to another, both at the height of the cubes' upper faces.
@@ -130,10 +130,10 @@ void DesktopBoxSelectTest::otherToolsStayOn() {
     QVERIFY(r.d.action(tool)->isChecked());
     // Escape ends what was begun last.
     r.pressB();
-    QTest::keyClick(&r.d.window().viewport(), Qt::Key_Escape);
+    pressInView(r.d, Qt::Key_Escape);
     QVERIFY(!r.d.action("boxSelect")->isChecked());
     QVERIFY(r.d.action(tool)->isChecked());
-    QTest::keyClick(&r.d.window().viewport(), Qt::Key_Escape);
+    pressInView(r.d, Qt::Key_Escape);
     QVERIFY(!r.d.action(tool)->isChecked());
   }
 }
@@ -149,7 +149,7 @@ void DesktopBoxSelectTest::escapeAndAnotherButtonLeaveEverythingAsItWas() {
   QVERIFY(r.band()->isVisible());
   QCOMPARE(r.band()->geometry(), QRect(from, to).normalized());
   keepPictures(r.d.window(), QStringLiteral("box-select"));
-  QTest::keyClick(&r.d.window().viewport(), Qt::Key_Escape);
+  pressInView(r.d, Qt::Key_Escape);
   QVERIFY(!r.band()->isVisible());
   // The rest of the drag is nobody's.
   r.pointer.moveTo(from);
@@ -158,7 +158,7 @@ void DesktopBoxSelectTest::escapeAndAnotherButtonLeaveEverythingAsItWas() {
   QVERIFY(glm::distance(r.away(), before) == 0.0);
   // By the key of the tool, too.
   r.pressB();
-  QTest::keyClick(&r.d.window().viewport(), Qt::Key_B);
+  pressInView(r.d, Qt::Key_B);
   QVERIFY(!r.d.action("boxSelect")->isChecked());
   r.pointer.drag(from, QPoint(60, 30));
   QVERIFY(glm::distance(r.away(), before) > 0.05);

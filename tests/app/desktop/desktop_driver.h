@@ -163,6 +163,10 @@ class DesktopDriver {
       if (hands->currentIndex() == before) throw Error("hand", "it cannot be chosen");
     }
     choose("start");
+    const auto isInHand = [this] {
+      return application.servo().isRunning() && QApplication::activeModalWidget() == nullptr;
+    };
+    if (!QTest::qWaitFor(isInHand, 30'000)) throw Error("hand", "it does not hold the part");
   }
   template <class Widget>
   Widget* widget(const char* name) {
@@ -214,6 +218,12 @@ class DesktopDriver {
 inline void pressShortcut(DesktopDriver& d, Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
   QApplication::setActiveWindow(&d.window());
   QTest::keyClick(&d.window(), key, modifiers);
+}
+
+/// The same of the view's, which has the focus then.
+inline void pressInView(DesktopDriver& d, Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
+  QApplication::setActiveWindow(&d.window());
+  QTest::keyClick(&d.window().viewport(), key, modifiers);
 }
 
 }  // namespace nearfit::test

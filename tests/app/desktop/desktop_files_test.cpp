@@ -231,6 +231,8 @@ void DesktopFilesTest::demoSceneOpensAndIsFelt() {
   QVERIFY(!d.session().isModified());
   const QString mine = QString::fromStdString((d.folder.path() / "mine.nearfit").string());
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, mine); });
+  d.clickPart(0, ui::PartsModel::Visible);
+  QVERIFY(d.session().isModified());
   d.choose("save");
   QTRY_VERIFY(QFile::exists(mine));
   QCOMPARE(d.session().file(), std::filesystem::path(mine.toStdString()));

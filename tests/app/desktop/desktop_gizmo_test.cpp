@@ -199,7 +199,7 @@ void DesktopGizmoTest::escapeRestoresExactly() {
   b.moveTo(from + QPoint(3, -70));
   QTRY_VERIFY(b.driver.widget<QWidget>("dragReadout")->isVisible());
   const QImage away = b.driver.picture();
-  QTest::keyClick(&b.view(), Qt::Key_Escape);
+  pressInView(b.driver, Qt::Key_Escape);
   QVERIFY(!b.driver.widget<QWidget>("dragReadout")->isVisible());
   // Still pressed: neither the part nor the view moves any more.
   const glm::dvec3 sight = b.view().projection().away();
@@ -286,21 +286,21 @@ void DesktopGizmoTest::keysChooseTheGizmoAndItsAxes() {
   const auto has = [&](GizmoHandle handle) {
     return b.overlay().picture() && b.overlay().picture()->layout.has(handle);
   };
-  QTest::keyClick(&b.view(), Qt::Key_E);
+  pressInView(b.driver, Qt::Key_E);
   QVERIFY(has(GizmoHandle::TurnZ) && !has(GizmoHandle::MoveX));
-  QTest::keyClick(&b.view(), Qt::Key_R);
+  pressInView(b.driver, Qt::Key_R);
   QVERIFY(has(GizmoHandle::TurnZ) && has(GizmoHandle::MoveX));
-  QTest::keyClick(&b.view(), Qt::Key_W);
+  pressInView(b.driver, Qt::Key_W);
   QVERIFY(!has(GizmoHandle::TurnZ) && has(GizmoHandle::MoveX));
-  QTest::keyClick(&b.view(), Qt::Key_Q);
+  pressInView(b.driver, Qt::Key_Q);
   QVERIFY(!b.overlay().isVisible());
-  QTest::keyClick(&b.view(), Qt::Key_W);
+  pressInView(b.driver, Qt::Key_W);
 
   // Turned by 30 degrees, its own axes are not the world's.
   const glm::dquat turned = glm::angleAxis(0.5235987755982988, glm::dvec3(0, 1, 0));
   b.driver.session().movePart(b.driver.partId("moving"), {turned, b.pose().translation});
   const RigidTransform before = b.pose();
-  QTest::keyClick(&b.view(), Qt::Key_X);
+  pressInView(b.driver, Qt::Key_X);
   QVERIFY(b.driver.action("localAxes")->isChecked());
   b.drag(b.handle(GizmoHandle::MoveX), {60, 30});
   const glm::dvec3 way = glm::normalize(b.pose().translation - before.translation);
@@ -327,7 +327,7 @@ void DesktopGizmoTest::thePivotIsMovedAndPutBack() {
   // Escape takes a drag of it back, and that is no step.
   b.press(b.handle(GizmoHandle::MoveX));
   b.moveTo(b.handle(GizmoHandle::MoveX) + QPoint(30, 0));
-  QTest::keyClick(&b.view(), Qt::Key_Escape);
+  pressInView(b.driver, Qt::Key_Escape);
   b.release(at);
   QCOMPARE(b.steps(), steps + 1);
   QVERIFY((b.handle(GizmoHandle::MoveFree) - at - QPoint(50, 0)).manhattanLength() <= 2);
@@ -400,7 +400,7 @@ void DesktopGizmoTest::theNumbersFollowADrag() {
   QVERIFY(x->value() > 1.0);
   QVERIFY2(b.readout().startsWith(QString::fromUtf8("X\u00a0+")) && b.readout().endsWith("mm"),
            qPrintable(b.readout()));
-  QTest::keyClick(&b.view(), Qt::Key_Escape);
+  pressInView(b.driver, Qt::Key_Escape);
   QCOMPARE(x->value(), 0.0);
   b.release(from);
 }

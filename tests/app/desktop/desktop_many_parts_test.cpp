@@ -2,6 +2,7 @@
 
 #include "tests/app/desktop/export_driver.h"
 #include "tests/app/desktop/view_pointer.h"
+#include "tests/ui/picture_comparison.h"
 #include "ui/parts_model.h"
 #include "ui/selection.h"
 
@@ -60,7 +61,7 @@ void DesktopManyPartsTest::oneOfAThousandIsPickedInTheViewAndShownInTheTree() {
   ViewPointer pointer(d);
   pointer.look("viewFront");
   // From the front, those of the first row along y are seen.
-  for (const auto& [x, z] : {std::pair(0, 0), std::pair(9, 9), std::pair(3, 7)}) {
+  for (const auto& [x, z] : {std::pair(0, 0), std::pair(8, 8), std::pair(3, 7)}) {
     const Part& wanted = d.part(x, 0, z);
     pointer.click(wanted.worldFromPart.applyToPoint({0.003, -0.02, 0.004}));
     QVERIFY(d.selection().parts() == std::vector{wanted.id});
@@ -82,16 +83,16 @@ void DesktopManyPartsTest::allAreMovedAsOneAndOneByOne() {
   QVERIFY(std::abs(d.part(4, 5, 6).worldFromPart.translation.x - (4 * kStep + 0.01)) < 1e-12);
   ViewPointer pointer(d);
   pointer.look("viewFront");
-  const Part& corner = d.part(9, 0, 9);
+  const Part& corner = d.part(8, 0, 8);
   pointer.click(corner.worldFromPart.applyToPoint({0.003, -0.02, 0.004}));
   const double before = corner.worldFromPart.translation.z;
   pointer.drag(pointer.handle(GizmoHandle::MoveZ), {0, -40});
-  QVERIFY(d.part(9, 0, 9).worldFromPart.translation.z > before + 1e-3);
+  QVERIFY(d.part(8, 0, 8).worldFromPart.translation.z > before + 1e-3);
   QCOMPARE(d.session().historyIndex(), steps + 2);
   d.choose("undo");
   d.choose("undo");
   QCOMPARE(d.part(4, 5, 6).worldFromPart.translation.x, 4 * kStep);
-  QCOMPARE(d.part(9, 0, 9).worldFromPart.translation.z, before);
+  QCOMPARE(d.part(8, 0, 8).worldFromPart.translation.z, before);
 }
 
 void DesktopManyPartsTest::mostAreHiddenAndComeBack() {
@@ -112,7 +113,8 @@ void DesktopManyPartsTest::mostAreHiddenAndComeBack() {
   QVERIFY(d.selection().isEmpty());
   d.choose("endIsolation");
   QCOMPARE(visible(), kCount);
-  QCOMPARE(d.picture(), all);
+  // What is kept of the depths may be of another range.
+  QVERIFY(!compare(d.picture(), all).isSeen());
 }
 
 void DesktopManyPartsTest::thePartInHandMeetsItsNeighboursAlone() {

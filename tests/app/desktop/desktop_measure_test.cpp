@@ -171,7 +171,7 @@ void DesktopMeasureTest::theMeasureFollowsThePartInHand() {
   QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
   QVERIFY(d.action("measure")->isChecked());
   for (int i = 0; i < 3; ++i)
-    QTest::keyClick(&d.window().viewport(), Qt::Key_PageUp);
+    pressInView(d, Qt::Key_PageUp);
   // Wherever the servo has it.
   QTRY_VERIFY(d.felt && d.felt->translation.z > 2e-4);
   QTRY_VERIFY(std::abs(number(d, "measureZ") + 25.0 + 1e3 * d.felt->translation.z) < 2e-3);
@@ -202,7 +202,7 @@ void DesktopMeasureTest::dragsStillOrbitAndEscapeLeaves() {
   pointer.drag(pointer.seen({0.003, -0.02, 0.01}), QPoint(80, 0));
   QVERIFY(glm::distance(d.window().viewport().projection().away(), before) > 0.05);
   QCOMPARE(d.text("measureDistance"), QStringLiteral("28.723 mm"));
-  QTest::keyClick(&d.window().viewport(), Qt::Key_Escape);
+  pressInView(d, Qt::Key_Escape);
   QVERIFY(!d.action("measure")->isChecked());
   QVERIFY(!d.widget<QWidget>("measureBar")->isVisible());
   QVERIFY(!d.widget<QLabel>("measureLabel")->isVisible());
@@ -218,7 +218,7 @@ void DesktopMeasureTest::oneToolAtATimeTakesClicks() {
   QVERIFY(!d.widget<QWidget>("measureBar")->isVisible());
   d.choose("measure");
   QVERIFY(!d.action("align")->isChecked());
-  QTest::keyClick(&d.window().viewport(), Qt::Key_Escape);
+  pressInView(d, Qt::Key_Escape);
   QVERIFY(!d.action("measure")->isChecked());
 }
 

@@ -81,7 +81,7 @@ void DesktopMovableTest::whatARecordingShowsIsMovedByNoTool() {
   for (const char* name : {"dropDown", "pushDown"})
     QVERIFY2(!d.action(name)->isEnabled(), name);
   d.window().viewport().setFocus();
-  QTest::keyClick(&d.window().viewport(), Qt::Key_Right);
+  pressInView(d, Qt::Key_Right);
   QVERIFY(d.isNoted("close the recording"));
   QCOMPARE(d.steps(), before);
   QCOMPARE(d.x("moving"), 0.0);
@@ -178,7 +178,7 @@ void DesktopMovableTest::withALockedPartAmongThemTheFieldsSayWhyTheyAreDisabled(
   }
   QVERIFY(!d.field("density")->isEnabled());
   d.window().viewport().setFocus();
-  QTest::keyClick(&d.window().viewport(), Qt::Key_Right);
+  pressInView(d, Qt::Key_Right);
   QVERIFY(d.isNoted("fixed is locked"));
   QCOMPARE(d.x("moving"), 0.0);
   d.session().setLocked(fixed, false);

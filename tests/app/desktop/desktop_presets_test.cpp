@@ -40,7 +40,18 @@ struct Fixture {
           QTest::keyClick(field, Qt::Key_Return);
         },
         QStringLiteral("presetNameDialog"));
-    d.choose(action);
+    manage(action);
+  }
+  /// By the menu of the button beside the presets.
+  void manage(const char* action) {
+    auto* button = d.window().findChild<QPushButton*>(QStringLiteral("presetMenu"));
+    QMenu* menu = button->menu();
+    // The button waits until its menu is gone.
+    QTimer::singleShot(0, menu, [menu, entry = d.action(action)] {
+      QVERIFY(QTest::qWaitFor([menu] { return menu->isVisible(); }));
+      clickEntry(*menu, entry);
+    });
+    QTest::mouseClick(button, Qt::LeftButton);
   }
   void openDialog() {
     d.choose("feelSettings");
@@ -132,10 +143,10 @@ void DesktopPresetsTest::onesOwnIsSavedChosenRenamedAndDeleted() {
         QStringLiteral("deletePresetBox"));
   };
   answer("cancel");
-  f.d.choose("deletePreset");
+  f.manage("deletePreset");
   QCOMPARE(f.panel()->currentText(), QStringLiteral("Dry steel"));
   answer("confirmDeletePreset");
-  f.d.choose("deletePreset");
+  f.manage("deletePreset");
   QCOMPARE(f.panel()->currentText(), QStringLiteral("Stiff"));
   QVERIFY(f.panel()->findText(QStringLiteral("Dry steel")) < 0);
   // The scene feels as it did.
@@ -178,7 +189,7 @@ void DesktopPresetsTest::aUsualNameIsRefusedWithTheReason() {
         QTest::keyClick(field, Qt::Key_Escape);
       },
       QStringLiteral("presetNameDialog"));
-  f.d.choose("savePreset");
+  f.manage("savePreset");
   QVERIFY(wasAsked);
   QVERIFY(!std::filesystem::exists(ui::PresetStore::usualFile()));
 }

@@ -110,7 +110,7 @@ void DesktopSelectionTest::allAndNoneByKeys() {
   Row d;
   d.session().setVisible(d.ids[1], false);
   d.window().viewport().setFocus();
-  QTest::keyClick(&d.window().viewport(), Qt::Key_A, Qt::ControlModifier);
+  pressInView(d, Qt::Key_A, Qt::ControlModifier);
   QCOMPARE(d.rows(), (QList<int>{0, 2}));
   pressShortcut(d, Qt::Key_A, Qt::ControlModifier | Qt::ShiftModifier);
   QVERIFY(d.selection().isEmpty() && d.rows().isEmpty());

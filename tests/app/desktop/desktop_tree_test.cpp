@@ -235,7 +235,7 @@ void DesktopTreeTest::severalMoveAsOneByNumberAndByKey() {
   QVERIFY(glm::distance(d.at(0).worldFromPart.translation, glm::dvec3(0.27, -0.08, 0)) < 1e-12);
   d.type<QDoubleSpinBox>("nudgeStep", "2");
   d.window().viewport().setFocus();
-  QTest::keyClick(&d.window().viewport(), Qt::Key_Right);
+  pressInView(d, Qt::Key_Right);
   QVERIFY(std::abs(d.at(0).worldFromPart.translation.x - 0.272) < 1e-12);
   QVERIFY(std::abs(d.at(1).worldFromPart.translation.x - 0.252) < 1e-12);
   QVERIFY(d.at(2).worldFromPart.translation == glm::dvec3(0.0));
