@@ -211,7 +211,7 @@ void DesktopPartFilesTest::notesOnManyMeshesAreKeptInTheListOfParts() {
   }
   d.add(files);
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
-  QVERIFY2(d.window().statusBar()->currentMessage().contains(QStringLiteral("3 part")),
+  QVERIFY2(d.window().statusBar()->currentMessage().contains(QStringLiteral("3 meshes")),
            qPrintable(d.window().statusBar()->currentMessage()));
   const QAbstractItemModel* parts = d.partsView()->model();
   for (int row = 0; row < 3; ++row) {
