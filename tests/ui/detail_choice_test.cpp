@@ -23,6 +23,7 @@ class DetailChoiceTest : public QObject {
   void whatIsNotSeenCostsNothing();
   void coarsestOfAllWhereNothingElseFits();
   void draftsAreNearTheirSurface();
+  void aThousandPartsFitAtOnce();
   void smallMeshesHaveNoDrafts();
 
  private:
@@ -84,6 +85,12 @@ void DetailChoiceTest::draftsAreNearTheirSurface() {
       QVERIFY2(off <= shape.levels[i + 1].cell, qPrintable(QString::number(off)));
     }
   }
+}
+
+/// The coarsest of a thousand parts of ten thousand triangles are what a slow machine turns smoothly.
+void DetailChoiceTest::aThousandPartsFitAtOnce() {
+  const ui::PartShape shape = ui::makePartShape(test::icosphereMesh(1.0, 5));
+  QVERIFY2(shape.levels.back().triangles <= 150, qPrintable(QString::number(shape.levels.back().triangles)));
 }
 
 void DetailChoiceTest::smallMeshesHaveNoDrafts() {

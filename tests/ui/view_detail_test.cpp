@@ -1,5 +1,6 @@
 #include "ui/detail/view_detail.h"
 
+#include <QThread>
 #include <QtTest>
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <set>
 
 #include <glm/geometric.hpp>
+#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkOpenGLVertexBufferObjectGroup.h>
@@ -81,6 +83,7 @@ class ViewDetailTest : public QObject {
   void partsOfOneMeshShareItsBuffers();
   void picksAreOfTheMeshWhileDraftsAreShown();
   void whatIsHiddenLeavesThePicture();
+  void slowPicturesOfWhatMovesAreNotTakenForRest();
 };
 
 void ViewDetailTest::whatMovesStaysWithinTheBudget() {
@@ -259,6 +262,28 @@ void ViewDetailTest::whatIsHiddenLeavesThePicture() {
   const QImage after = row.view.grabFramebuffer();
   QVERIFY(before != after);
   QVERIFY(!row.view.pointAt({row.view.width() / 2, row.view.height() / 2}));
+}
+
+/// Pictures that took longer than a rest were each followed by a whole one, while the camera still turned.
+void ViewDetailTest::slowPicturesOfWhatMovesAreNotTakenForRest() {
+  Row row;
+  QVERIFY(row.comesToRest());
+  // The overlay is drawn last.
+  vtkNew<vtkCallbackCommand> slowly;
+  slowly->SetCallback([](vtkObject*, unsigned long, void*, void*) { QThread::msleep(300); });
+  const unsigned long observer = row.view.overlay().AddObserver(vtkCommand::StartEvent, slowly);
+  int moving = 0, whole = 0;
+  connect(&row.view, &ui::Viewport::drawn, &row.view, [&] {
+    const auto& detail = row.view.detail().detail();
+    ++(detail.isKept || detail.isFull ? whole : moving);
+    row.turn();
+  });
+  row.turn();
+  QTRY_VERIFY_WITH_TIMEOUT(moving + whole >= 8, 30'000);
+  QVERIFY2(whole <= 2, qPrintable(QString::number(whole)));
+  disconnect(&row.view, &ui::Viewport::drawn, &row.view, nullptr);
+  row.view.overlay().RemoveObserver(observer);
+  QVERIFY(row.comesToRest());
 }
 
 int main(int argc, char** argv) {

@@ -12,9 +12,10 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr vtkIdType kLeastTriangles = 500;
-/// Cells along the longest side. Twice the first would take VTK five times as long.
-constexpr std::array kDivisions{96, 28, 8};
+constexpr vtkIdType kLeastTriangles = 200;
+/// Cells along the longest side. Twice the first would take VTK five times as long; the last is for a
+/// thousand parts at once.
+constexpr std::array kDivisions{96, 28, 8, 4};
 constexpr double kFeatureAngle = 30.0;  ///< As of the surface itself [degrees].
 
 DraftSurface clustered(vtkPolyData& surface, int divisions) {

@@ -83,14 +83,10 @@ void ViewDetail::beforePicture() {
   renderer_.setManyColoured(isSmooth && parts_.hasTranslucent());
   detail_.isFull = detail_.isFull && isSmooth;
   isAtRest_ = false;
-  if (detail_.isFull || isLast) {
-    still_.stop();
-    resting_.stop();
-  } else {
-    resting_.start();
-    // Restarted by what would spoil what is kept, not by what is drawn over it.
-    if (key_ != now || (!still_.isActive() && !holdsDepths())) still_.start();
-  }
+  isFinal_ = detail_.isFull || isLast;
+  // What would spoil what is kept begins it anew, what is drawn over it does not.
+  if (isFinal_ || key_ != now) still_.stop();
+  resting_.stop();
   key_ = now;
 }
 
@@ -108,6 +104,10 @@ void ViewDetail::smooth(bool isSmooth) {
 
 void ViewDetail::afterPicture() {
   if (detail_.triangles > kSmall && !detail_.isFull) adaptBudget();
+  if (isFinal_) return;
+  // From here, as a picture may take longer than these: it is what the user does after it that counts.
+  resting_.start();
+  if (!still_.isActive() && !holdsDepths()) still_.start();
 }
 
 void ViewDetail::adaptBudget() {

@@ -78,6 +78,7 @@ class ViewDetail : public QObject {
   std::size_t kept_ = 0;  ///< Of toKeep_.
   bool isKeeping_ = false;
   bool isAtRest_ = false;  ///< The next picture is to be a full one.
+  bool isFinal_ = true;    ///< None that shows more follows the picture that is being drawn.
   bool isLimited_ = false;
   bool isBudgetFixed_ = false;
   std::size_t budget_;

@@ -223,7 +223,7 @@ TEST_F(SceneFile, Version1KeepsItsSpringsAndGetsTheRestOfANewScene) {
     EXPECT_EQ(part->density, 1000.0);
   EXPECT_EQ(scene.parts()[1]->worldFromPart.translation, scene_.parts()[1]->worldFromPart.translation);
   writeSceneFile(scene, file_);
-  EXPECT_EQ(Json::parse(test::readBytes(file_))["nearfit"], 3);
+  EXPECT_EQ(Json::parse(test::readBytes(file_))["nearfit"], 4);
   expectSameScene(readSceneFile(file_), scene);
 }
 
