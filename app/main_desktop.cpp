@@ -1,6 +1,5 @@
 #include <QApplication>
 #include <QFile>
-#include <QTimer>
 #include <cstdio>
 #include <exception>
 #include <optional>
@@ -11,7 +10,6 @@
 #include "app/desktop/led_session.h"
 #include "app/desktop/screenshot.h"
 #include "core/recovery/recovery_folder.h"
-#include "ui/document.h"
 
 namespace {
 
@@ -51,10 +49,7 @@ int run(int argc, char** argv) {
     screenshot.emplace(application, fileNames({options.screenshot}).first());
     screenshot->take(files);
   } else {
-    application.window().show();
-    if (!files.isEmpty()) {
-      QTimer::singleShot(0, &application, [&] { application.window().document().openFiles(files); });
-    }
+    application.show(files, options.isDemo);
   }
   return QApplication::exec();
 }

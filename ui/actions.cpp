@@ -6,6 +6,7 @@
 #include <QMenuBar>
 #include <QToolBar>
 #include <QToolButton>
+#include <utility>
 
 #include "core/session.h"
 #include "ui/minima/minima_menu.h"
@@ -64,6 +65,7 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   hand = makeSwitch("handGhost", tr("&Hand ahead of the part"), "ghost", true);
   wrench = makeSwitch("wrench", tr("Force and torque &arrows"), "wrench-arrows", true);
   about = make("about", tr("&About Nearfit"), "about");
+  explain();
   // Also from the feel dialog, which stays open beside the window.
   for (QAction* action : {undo, redo, start, stop, letGo, clutch})
     action->setShortcutContext(Qt::ApplicationShortcut);
@@ -71,6 +73,41 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   reloadMenu = new QMenu(tr("Re&load"), window);
   panelsMenu = new QMenu(tr("&Panels"), window);
   placeMenu = new QMenu(tr("&Place"), window);
+}
+
+void Actions::explain() {
+  const std::pair<QAction*, QString> tips[] = {
+      {newScene, tr("Begin an empty scene")},
+      {open, tr("Open a scene (*.nearfit) instead of this one")},
+      {openDemo, tr("Open the scene that comes with Nearfit: a piston to be fitted into its cylinder")},
+      {addParts, tr("Add meshes (STL, OBJ, PLY, OFF), STEP files or whole folders to the scene")},
+      {save, tr("Save the scene and where its parts are")},
+      {saveAs, tr("Save the scene under another name")},
+      {exportPlacement, tr("Write where the parts ended up: JSON, CSV, matrices or one mesh")},
+      {quit, tr("End Nearfit; asks first where something is not saved")},
+      {duplicate, tr("Add a copy of what is selected, which shares its mesh")},
+      {rename, tr("Give the selected part or group another name")},
+      {recolour, tr("Choose another colour for what is selected")},
+      {remove, tr("Take what is selected out of the scene; its file stays")},
+      {selectNone, tr("Select nothing")},
+      {fit, tr("Show all parts, as large as the view allows")},
+      {fitSelection, tr("Show what is selected, as large as the view allows")},
+      {viewIso, tr("Look from the corner between front, right and top")},
+      {viewFront, tr("Look from the front, along Y")},
+      {viewRight, tr("Look from the right, along X")},
+      {viewTop, tr("Look from above, along Z")},
+      {seeThrough, tr("See the moving part through the others")},
+      {edges, tr("Draw the sharp edges of parts as lines")},
+      {minima, tr("Draw each local minimum distance while a part is in hand")},
+      {contacts, tr("Mark where the part in hand touches")},
+      {hand, tr("Draw where the hand is, ahead of a part that is held by contact")},
+      {wrench, tr("Draw the force and the torque that are felt as arrows")},
+      {about, tr("Version, method and licence")},
+  };
+  for (const auto& [action, tip] : tips) {
+    const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+    action->setToolTip(keys.isEmpty() ? tip : QStringLiteral("%1 (%2)").arg(tip, keys));
+  }
 }
 
 QAction* Actions::make(const char* name, const QString& text, const QString& iconName,
@@ -168,8 +205,15 @@ void Actions::update(const Session& session, const Availability& availability) {
     const QString name = shortName(label).replace(QChar('&'), QStringLiteral("&&"));
     return label.empty() ? verb : verb + QChar(' ') + name;
   };
-  undo->setText(withLabel(tr("&Undo"), session.undoText()));
-  redo->setText(withLabel(tr("&Redo"), session.redoText()));
+  const auto show = [&](QAction* action, const QString& verb, const QString& explained,
+                        const std::string& label) {
+    action->setText(withLabel(verb, label));
+    const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+    const QString what = label.empty() ? QString() : QStringLiteral(": ") + shortName(label);
+    action->setToolTip(QStringLiteral("%1%2 (%3)").arg(explained, what, keys));
+  };
+  show(undo, tr("&Undo"), tr("Take back the last step"), session.undoText());
+  show(redo, tr("&Redo"), tr("Do again what was taken back"), session.redoText());
 
   const bool canChange = isFree && availability.hasSelection && !availability.isSelectionLocked;
   // How a part looks is nothing that a lock guards.

@@ -54,6 +54,8 @@ class Actions : public QObject {
   QAction* make(const char* name, const QString& text, const QString& iconName,
                 const QKeySequence& keys = {});
   void addViews(QToolBar& bar);
+  /// What each does, with its keys, under the mouse.
+  void explain();
   QAction* makeSwitch(const char* name, const QString& text, const QString& iconName, bool isOn);
 };
 

@@ -18,6 +18,8 @@
 namespace nearfit::ui {
 namespace {
 
+constexpr double kReading = 0.45;  ///< Of the time that a mesh takes; the rest makes what is drawn of it.
+
 const QString kSceneSuffix = QStringLiteral("nearfit");
 
 QString meshFilter() {
@@ -61,6 +63,14 @@ bool isCancelled(const std::exception_ptr& error) {
   } catch (...) {
   }
   return false;
+}
+
+ProgressCallback progressOfReading(const ProgressCallback& whole) {
+  return [whole](double fraction) { return !whole || whole(kReading * fraction); };
+}
+
+ProgressCallback progressOfShapes(const ProgressCallback& whole) {
+  return [whole](double fraction) { return !whole || whole(kReading + (1.0 - kReading) * fraction); };
 }
 
 Document::Document(Session& session, std::shared_ptr<PartShapeCache> shapes, QWidget* window)
@@ -143,22 +153,33 @@ void Document::openScene(const QString& file) {
 void Document::openExample(const QString& file) {
   if (isBusy() || !mayLeaveScene()) return;
   const QString name = QFileInfo(file).fileName();
-  readScene(file, name, [=, this](Scene scene) {
+  readScene(file, name, [=, this](Scene scene, const QStringList&) {
     session_.reset(std::move(scene));
     emit noted(tr("Opened %1").arg(name));
     emit loaded(true);
   });
 }
 
-void Document::readScene(const QString& file, const QString& name, std::function<void(Scene)> opened) {
-  auto scene = std::make_shared<Scene>();
-  const auto job = [scene, shapes = shapes_, path = toPath(file)](const ProgressCallback& progress) {
-    *scene = readSceneFile(path, progress);
-    for (const Scene::PartPtr& part : scene->parts())
-      shapes->shapeOf(part->geometry);
+void Document::readScene(const QString& file, const QString& name,
+                         std::function<void(Scene, const QStringList&)> opened) {
+  struct Outcome {
+    Scene scene;
+    std::vector<std::filesystem::path> changed;
+  };
+  auto read = std::make_shared<Outcome>();
+  const auto job = [read, shapes = shapes_, path = toPath(file)](const ProgressCallback& progress) {
+    read->scene = readSceneFile(path, progressOfReading(progress), &read->changed);
+    shapes->prepare(read->scene.geometries(), progressOfShapes(progress));
   };
   load(tr("Opening %1").arg(name), job, [=, this](const std::exception_ptr& error) {
-    if (!error) return opened(std::move(*scene));
+    if (!error) {
+      QStringList changed;
+      for (const std::filesystem::path& mesh : read->changed)
+        changed << fromPath(mesh);
+      opened(std::move(read->scene), changed);
+      if (!changed.isEmpty()) emit meshesHaveChanged(changed);
+      return;
+    }
     if (!isCancelled(error)) emit failed(describe(tr("The scene could not be opened."), error));
     emit loaded(false);
   });
@@ -166,8 +187,12 @@ void Document::readScene(const QString& file, const QString& name, std::function
 
 void Document::loadScene(const QString& file, const QStringList& partsAfter, double metresPerUnit) {
   Preferences::rememberFolderOf(file);
-  readScene(file, QFileInfo(file).fileName(), [=, this](Scene scene) {
-    session_.reset(std::move(scene), toPath(file));
+  readScene(file, QFileInfo(file).fileName(), [=, this](Scene scene, const QStringList& changed) {
+    // With other meshes it is not what the file says.
+    if (changed.isEmpty())
+      session_.reset(std::move(scene), toPath(file));
+    else
+      session_.restore(std::move(scene), toPath(file));
     RecentFiles::remember(file);
     if (!partsAfter.isEmpty()) {
       addParts(partsAfter, metresPerUnit);
@@ -182,7 +207,7 @@ void Document::openLost(const QString& journal, const std::filesystem::path& sce
                         std::function<void()> restored) {
   if (isBusy() || !mayLeaveScene()) return;
   const QString name = sceneFile.empty() ? tr("lost work") : fromPath(sceneFile.filename());
-  readScene(journal, name, [=, this, restored = std::move(restored)](Scene scene) {
+  readScene(journal, name, [=, this, restored = std::move(restored)](Scene scene, const QStringList&) {
     session_.restore(std::move(scene), sceneFile);
     emit loaded(true);
     restored();
@@ -208,16 +233,16 @@ void Document::addParts(const QStringList& files, double metresPerUnit) {
     std::vector<MeshSource> sources;
     for (const QString& file : files)
       sources.push_back({toPath(file), metresPerUnit, {}});
-    const std::vector<LoadedPart> parts = loadPartGeometries(sources, progress);
+    const std::vector<LoadedPart> parts = loadPartGeometries(sources, progressOfReading(progress));
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const LoadedPart& loaded = parts[i];
       if (loaded.problem) {
         outcome->problems << describeItem(fromPath(sources[i].file.filename()), loaded.problem);
       } else {
         outcome->geometries.push_back(loaded.geometry);
-        shapes->shapeOf(loaded.geometry);
       }
     }
+    shapes->prepare(outcome->geometries, progressOfShapes(progress));
   };
   const QString text = files.size() == 1 ? tr("Loading %1").arg(QFileInfo(files.first()).fileName())
                                          : tr("Loading %n files", nullptr, files.size());

@@ -74,6 +74,8 @@ class Document : public QObject {
   void noted(const QString& text);
   /// These came together.
   void partsAdded(const std::vector<nearfit::PartId>& parts);
+  /// These meshes of the scene that has been opened are no longer what it was saved with.
+  void meshesHaveChanged(const QStringList& files);
   /// Loading ended, well or not.
   void loaded(bool isComplete);
 
@@ -82,7 +84,9 @@ class Document : public QObject {
   /// @param metresPerUnit  Of the parts that are added after.
   void loadScene(const QString& file, const QStringList& partsAfter, double metresPerUnit);
   /// @param opened  Puts the scene into the session.
-  void readScene(const QString& file, const QString& name, std::function<void(Scene)> opened);
+  /// @param changed  Meshes that are other files than those that it was saved with.
+  void readScene(const QString& file, const QString& name,
+                 std::function<void(Scene, const QStringList& changed)> opened);
   void open(const DroppedFiles& files, double metresPerUnit);
   bool saveTo(const QString& file);
   void finishParts(const QStringList& files, const std::vector<PartGeometryPtr>& geometries,
@@ -95,6 +99,11 @@ class Document : public QObject {
   QPointer<ProgressDialog> progress_;
   std::vector<std::function<void(bool isReady)>> waiting_;  ///< For hierarchies.
 };
+
+/// The progress of reading, and of making what is drawn of it, as parts of the whole: that of either is about
+/// half of the time.
+ProgressCallback progressOfReading(const ProgressCallback& whole);
+ProgressCallback progressOfShapes(const ProgressCallback& whole);
 
 /// Whether that is what a job throws that the user has stopped.
 bool isCancelled(const std::exception_ptr& error);

@@ -55,6 +55,10 @@ class MainWindow : public QMainWindow {
   void setFailureSink(std::function<void(const Failure&)> sink);
   /// What "Open demo" opens; empty when there is no demo.
   void setDemoScene(const QString& file);
+  /// Opens the demo scene, without its file's name.
+  void openDemo();
+  /// Explains the window part by part; one without parts opens the demo scene for it.
+  void beginTour();
   /// Keeps unsaved work in journals of that folder, and offers what earlier runs left there.
   void protectWork(const std::filesystem::path& recoveryFolder);
   void setAboutText(const QString& text) { aboutText_ = text; }
@@ -148,7 +152,6 @@ class MainWindow : public QMainWindow {
   void changeHaptics(const HapticSettings& settings, const QString& label = {});
   void restartServo();
   void showAbout();
-  void beginTour();
 
   Session& session_;
   Selection* selection_;

@@ -32,7 +32,7 @@ void MainWindow::connectFileActions() {
   setUpFiles();
   connect(actions_->newScene, &QAction::triggered, this, [this] { document_->newScene(); });
   connect(actions_->open, &QAction::triggered, this, [this] { document_->askAndOpen(); });
-  connect(actions_->openDemo, &QAction::triggered, this, [this] { document_->openExample(demoScene_); });
+  connect(actions_->openDemo, &QAction::triggered, this, &MainWindow::openDemo);
   connect(actions_->addParts, &QAction::triggered, this, [this] { document_->askAndAddParts(); });
   connect(actions_->save, &QAction::triggered, this, [this] { document_->save(); });
   connect(actions_->saveAs, &QAction::triggered, this, [this] { document_->askAndSaveAs(); });
@@ -41,9 +41,14 @@ void MainWindow::connectFileActions() {
   connect(actions_->about, &QAction::triggered, this, &MainWindow::showAbout);
   connect(document_.get(), &Document::failed, this, &MainWindow::showFailure);
   connect(document_.get(), &Document::noted, this, &MainWindow::showNote);
-  connect(document_.get(), &Document::loaded, this, [this] {
+  const auto showWhole = [this] {
     viewport_->fit();
     if (!selected()) selection_->select(session_.scene().movingPart());
+  };
+  // What did not come leaves the view as it is; of several files some may have come.
+  connect(document_.get(), &Document::partsAdded, this, showWhole);
+  connect(document_.get(), &Document::loaded, this, [showWhole](bool isComplete) {
+    if (isComplete) showWhole();
   });
   connect(document_.get(), &Document::busyChanged, this, &MainWindow::updateActions);
   connect(document_.get(), &Document::sceneNeeded, posePanel_, &PosePanel::commit);
@@ -208,6 +213,10 @@ void MainWindow::showAbout() {
   QMessageBox::about(this, tr("About Nearfit"), aboutText_);
 }
 
+void MainWindow::openDemo() {
+  if (!demoScene_.isEmpty()) document_->openExample(demoScene_);
+}
+
 void MainWindow::beginTour() {
   const bool isSomethingThere = !session_.scene().parts().empty() || demoScene_.isEmpty();
   if (isSomethingThere || document_->isBusy()) return manners_->beginTour();
@@ -217,7 +226,7 @@ void MainWindow::beginTour() {
     once->deleteLater();
     manners_->beginTour();
   });
-  document_->openExample(demoScene_);
+  openDemo();
 }
 
 }  // namespace nearfit::ui

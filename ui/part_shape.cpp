@@ -9,6 +9,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyDataNormals.h>
 
+#include "core/error.h"
 #include "ui/detail/draft_surface.h"
 
 namespace nearfit::ui {
@@ -138,6 +139,14 @@ std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& 
   dropUnused();
   entries_[geometry.get()] = {geometry, shape};
   return shape;
+}
+
+void PartShapeCache::prepare(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress) {
+  for (std::size_t i = 0; i < geometries.size(); ++i) {
+    shapeOf(geometries[i]);
+    const double made = static_cast<double>(i + 1) / static_cast<double>(geometries.size());
+    if (progress && !progress(made)) throw Cancelled();
+  }
 }
 
 void PartShapeCache::dropUnused() {

@@ -3,12 +3,14 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStaticCellLocator.h>
 
+#include "core/progress.h"
 #include "core/scene/part_geometry.h"
 #include "ui/detail/detail_choice.h"
 
@@ -41,6 +43,8 @@ class PartShapeCache {
  public:
   /// Makes the shape at the first call for a geometry: seconds for millions of triangles.
   std::shared_ptr<const PartShape> shapeOf(const PartGeometryPtr& geometry);
+  /// Makes those of all of them. Throws Cancelled.
+  void prepare(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress);
 
  private:
   struct Entry {

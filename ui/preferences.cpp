@@ -90,6 +90,12 @@ void Preferences::setLengthUnit(LengthUnit unit) {
   setValue("view/lengthUnit", symbolOf(unit));
 }
 
+bool Preferences::takeFirstRun() {
+  const bool isFirst = !value("window/hasRun", false).toBool();
+  if (isFirst) setValue("window/hasRun", true);
+  return isFirst;
+}
+
 QByteArray Preferences::windowGeometry() {
   return value("window/geometry").toByteArray();
 }

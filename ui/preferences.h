@@ -28,6 +28,9 @@ class Preferences {
   static LengthUnit lengthUnit();
   static void setLengthUnit(LengthUnit unit);
 
+  /// Whether the program has never run before for this user; from now on it has.
+  static bool takeFirstRun();
+
   static QByteArray windowGeometry();
   static void setWindowGeometry(const QByteArray& geometry);
 };

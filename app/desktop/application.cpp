@@ -2,8 +2,10 @@
 
 #include <QApplication>
 #include <QSettings>
+#include <QTimer>
 
 #include "app/desktop/resource_files.h"
+#include "ui/document.h"
 #include "ui/preferences.h"
 #include "ui/taking/taking_away.h"
 #include "ui/theme.h"
@@ -41,6 +43,16 @@ Application::Application(std::unique_ptr<DeviceSource> devices)
 }
 
 Application::~Application() = default;
+
+void Application::show(const QStringList& files, bool isDemo) {
+  window_.show();
+  const bool isFirst = ui::Preferences::takeFirstRun();
+  QTimer::singleShot(0, this, [=, this] {
+    if (!files.isEmpty()) return window_.document().openFiles(files);
+    if (isFirst) return window_.beginTour();
+    if (isDemo) window_.openDemo();
+  });
+}
 
 void Application::wire() {
   connect(&window_, &ui::MainWindow::servoStartRequested, &servo_, &ServoController::start);

@@ -25,6 +25,10 @@ class Application : public QObject {
   static void prepare();
   static void configure();
 
+  /// Shows the window, then opens what is to be seen in it. The very first time and without files that is the
+  /// demo scene, with the tour.
+  void show(const QStringList& files, bool isDemo);
+
   Session& session() noexcept { return session_; }
   ui::MainWindow& window() noexcept { return window_; }
   ServoController& servo() noexcept { return servo_; }

@@ -14,10 +14,15 @@ constexpr int kUsage = 2;
 std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
   CLI::App program("Feel one part against the others before any of them exists.", "nearfit");
   program.footer(
-      "Without files it starts empty. Mesh files are read in the unit that was used last (at first mm).");
+      "Without files it starts empty; the very first time with the demo scene and a short tour. Mesh files "
+      "are read in the unit that was used last (at first mm).");
   program.set_version_flag("--version", std::string("nearfit ") + NEARFIT_VERSION);
   Options options;
-  program.add_option("FILE", options.files, "Scene (*.nearfit) or mesh (STL, OBJ, PLY, OFF) to open");
+  CLI::Option* files =
+      program.add_option("FILE", options.files, "Scene (*.nearfit) or mesh (STL, OBJ, PLY, OFF) to open");
+  CLI::Option* demo =
+      program.add_flag("--demo", options.isDemo, "Open the demo scene: a copy, nothing is saved over it")
+          ->excludes(files);
   program.add_option(
       "--screenshot", options.screenshot,
       "Write a picture (PNG) of the window with the files and end; a moving part is felt for it");
@@ -43,6 +48,7 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
                   "anew each time that it is begun")
       ->type_name("FILE");
   hand->excludes("--screenshot");
+  demo->excludes(hand)->excludes("--screenshot");
   try {
     program.parse(argc, argv);
     if (!hand->empty()) options.device = device;

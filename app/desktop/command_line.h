@@ -9,6 +9,7 @@ namespace nearfit::desktop {
 
 struct Options {
   std::vector<std::string> files;     ///< Meshes, and at most one scene.
+  bool isDemo = false;                ///< Opens the demo scene.
   std::string screenshot;             ///< File to write a picture of the window to; empty for a normal run.
   std::optional<std::string> device;  ///< Takes the part in hand at once; empty text: the first one.
   bool isArming = false;

@@ -16,6 +16,8 @@ constexpr double kNoTurn = 1e4;
 /// Settled is what moves by less than this share of the margin for so many ticks.
 constexpr double kStill = 1e-3;
 constexpr int kStillTicks = 3;
+/// Of the margin: who goes no farther than that has not moved.
+constexpr double kNoMove = 0.02;
 /// So many ticks are waited for the lists that a crowded place needs.
 constexpr int kPatience = 40;
 /// Between two looks at whether the user wants to stop.
@@ -84,6 +86,9 @@ void SolidMove::settle(const RigidTransform& target, double turnScale, int ticks
     // They have come as far as the margin lets them: the rest of the way is a part of it.
     if (isSettled_ && !isSame(pose_, target) && settings_.margin > marginAtEnd_) keepMargin(marginAtEnd_);
   }
+  // What rests ends a hundredth nearer than it began: pushed again and again, it would creep.
+  if (isSettled_ && !isSame(pose_, target) && travelBetween(*scene_, start_, pose_) < kNoMove * marginAtEnd_)
+    pose_ = start_;
 }
 
 void SolidMove::keepMargin(double margin) {

@@ -46,7 +46,8 @@ using MotionQueue = SpscQueue<MotionRow, 16384>;
 std::string_view motionHeader() noexcept;
 
 /// One line without its end, in the columns of motionHeader. Numbers are the shortest that read back the
-/// same; `distance` is `inf` when nothing is within the cutoff, `clamped` and `truncated` (not all minima
+/// same, but for durations in microseconds, which are rounded to whole nanoseconds;
+/// `distance` is `inf` when nothing is within the cutoff, `clamped` and `truncated` (not all minima
 /// that there are within the cutoff were looked for) 0 or 1, `fault` the number of the ServoFault.
 std::string formatMotionRow(const MotionRow& row);
 

@@ -74,8 +74,12 @@ std::filesystem::path meshFolder(const std::filesystem::path& sceneFile);
 
 /// Reads a scene file and loads its meshes, each file and unit once. Nothing that it says is trusted: each
 /// message names the field (`parts[3].position`) or the line and column. All fields are checked before a mesh
-/// is loaded. Throws FileError (malformed, unknown version, missing or changed mesh), Cancelled.
-Scene readSceneFile(const std::filesystem::path& file, const ProgressCallback& progress = {});
+/// is loaded.
+/// @param changedMeshes  Where it is given, a mesh file that is another than the scene was made with is read
+///                       as it is now, and listed here; else that is an error.
+/// Throws FileError (malformed, unknown version, missing or changed mesh), Cancelled.
+Scene readSceneFile(const std::filesystem::path& file, const ProgressCallback& progress = {},
+                    std::vector<std::filesystem::path>* changedMeshes = nullptr);
 
 /// The text of the scene in a file of that name; nothing is written. Throws FileError.
 std::string sceneFileText(const Scene& scene, const std::filesystem::path& file);

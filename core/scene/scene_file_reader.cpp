@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -44,25 +45,31 @@ void checkUnits(const JsonField& units) {
 /// Loads meshes, each file and unit once.
 class GeometryLoader {
  public:
+  /// @param changed  Takes the files that are not those of the scene; null: they fail.
   /// Throws FileError when a mesh file is missing, Cancelled.
-  GeometryLoader(const std::vector<PartEntry>& entries, const ProgressCallback& progress) {
+  GeometryLoader(const std::vector<PartEntry>& entries, const ProgressCallback& progress,
+                 std::vector<fs::path>* changed)
+      : changed_(changed) {
     std::vector<MeshSource> sources;
     for (const PartEntry& entry : entries) {
       if (!indices_.emplace(keyOf(entry), sources.size()).second) continue;
       checkExists(entry);
-      sources.push_back({entry.mesh, entry.metresPerUnit, entry.sha256});
+      sources.push_back({entry.mesh, entry.metresPerUnit, changed != nullptr ? std::string() : entry.sha256});
     }
     loaded_ = loadPartGeometries(sources, progress);
   }
 
-  PartGeometryPtr geometryOf(const PartEntry& entry) const {
+  PartGeometryPtr geometryOf(const PartEntry& entry) {
     const LoadedPart& loaded = loaded_[indices_.at(keyOf(entry))];
     try {
       if (loaded.problem) std::rethrow_exception(loaded.problem);
     } catch (const Error& e) {
       entry.field.at("mesh").fail(e.where() + ": " + e.problem(), e.remedy());
     }
-    if (!loaded.geometry || loaded.geometry->sha256 != entry.sha256) failChanged(entry);
+    const bool isThatOfTheScene = loaded.geometry && loaded.geometry->sha256 == entry.sha256;
+    if (!isThatOfTheScene && (changed_ == nullptr || !loaded.geometry)) failChanged(entry);
+    if (!isThatOfTheScene && std::ranges::find(*changed_, entry.mesh) == changed_->end())
+      changed_->push_back(entry.mesh);
     return loaded.geometry;
   }
 
@@ -82,9 +89,10 @@ class GeometryLoader {
     entry.field.at("sha256").fail(
         fmt::format("the mesh file {} is not the one that the scene was made with (its SHA-256 differs)",
                     printableText(entry.mesh.string())),
-        "put the old file back, or make the scene anew with the changed one");
+        "put the old file back, or open the scene in the window and save it: it takes the changed one");
   }
 
+  std::vector<fs::path>* changed_;
   std::map<Key, std::size_t> indices_;
   std::vector<LoadedPart> loaded_;
 };
@@ -114,7 +122,8 @@ fs::path meshFolder(const fs::path& sceneFile) {
   return (failure ? absolute : real).parent_path();
 }
 
-Scene readSceneFile(const fs::path& file, const ProgressCallback& progress) {
+Scene readSceneFile(const fs::path& file, const ProgressCallback& progress,
+                    std::vector<fs::path>* changedMeshes) {
   JsonLimits limits;
   limits.maxBytes = kMaxSceneFileBytes;
   const nlohmann::json json = readJsonFile(file, limits);
@@ -127,7 +136,7 @@ Scene readSceneFile(const fs::path& file, const ProgressCallback& progress) {
       version >= 3 ? readGroups(root.at("groups")) : std::vector<GroupEntry>();
   std::vector<PartEntry> entries = readParts(root.at("parts"), groups, meshFolder(file), version);
   const std::optional<std::size_t> moving = readMovingPart(root.at("moving"), entries, groups);
-  const GeometryLoader loader(entries, progress);
+  GeometryLoader loader(entries, progress, changedMeshes);
   std::vector<GroupId> ids;
   for (const GroupEntry& entry : groups)
     ids.push_back(scene.addGroup(placed(entry, ids)));

@@ -35,6 +35,7 @@ std::vector<Entry> entries() {
           {"glyphs", "What minima add to a picture", bench::measureGlyphs},
           {"picks", "What is under the mouse, of a large mesh", bench::measurePicks},
           {"open", "Whether the window answers while a large mesh is opened", bench::measureOpening},
+          {"cancel", "How soon the window is free once that is cancelled", bench::measureCancels},
           {"large", "Many parts with many triangles", bench::measureLarge}};
 }
 

@@ -2,6 +2,7 @@
 // real application; those whose names begin with "guide-" stand in the README. resources/scripts/pictures
 // runs it in both themes and at two scales.
 #include <QAbstractButton>
+#include <QAbstractItemView>
 #include <QComboBox>
 #include <QDialog>
 #include <QDir>
@@ -10,10 +11,13 @@
 #include <QMenuBar>
 #include <QTabWidget>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include "core/recovery/recovery_folder.h"
+#include "core/scene/motion_recording.h"
 #include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/fake_device.h"
 #include "ui/actions.h"
 #include "ui/dialogs/error_box.h"
 #include "ui/dialogs/progress_dialog.h"
@@ -34,6 +38,11 @@ constexpr std::uint64_t kFeelFor = 2450;
 class Pictures {
  public:
   explicit Pictures(const QString& folder) : folder_(folder) {
+    driver_.window().setFailureSink([this](const ui::Failure& failure) {
+      std::fprintf(stderr, "nearfit-pictures: %s %s\n", qPrintable(failure.summary),
+                   qPrintable(failure.details));
+      ++failures_;
+    });
     QObject::connect(&driver_.application.servo(), &desktop::ServoController::snapshotArrived,
                      &driver_.application, [this](const ServoSnapshot& snapshot) { tick_ = snapshot.tick; });
     driver_.window().resize(1280, 800);
@@ -48,7 +57,10 @@ class Pictures {
     narrow();
     menus();
     dialogs();
+    presets();
     feeling();
+    recording();
+    device();
     return failures_ == 0;
   }
 
@@ -154,10 +166,11 @@ class Pictures {
   }
   void menus() {
     for (QMenu* menu : driver_.window().findChildren<QMenu*>()) {
-      if (menu->isEmpty() || menu->title().isEmpty()) continue;
+      if (menu->isEmpty()) continue;
+      const QString title = menu->title().isEmpty() ? menu->actions().first()->objectName() : menu->title();
       menu->popup(driver_.window().mapToGlobal(QPoint(40, 40)));
-      grab(*menu,
-           QStringLiteral("menu-") + menu->title().remove('&').remove(QStringLiteral("…")).replace(' ', '-'));
+      grab(*menu, QStringLiteral("menu-") +
+                      QString(title).remove('&').remove(QStringLiteral("…")).replace(' ', '-'));
       menu->hide();
     }
   }
@@ -218,6 +231,18 @@ class Pictures {
     }
     feel->close();
   }
+  void presets() {
+    auto* choice = driver_.window().findChild<QPushButton*>(QStringLiteral("presetMenu"));
+    const auto command = [choice](const char* name) {
+      for (QAction* action : choice->menu()->actions()) {
+        if (action->objectName() == QLatin1String(name)) action->trigger();
+      }
+    };
+    grabDialog(QStringLiteral("preset-name"), [&] { command("savePreset"); });
+    whenModal<QDialog>([](QDialog* dialog) { dialog->accept(); });
+    command("savePreset");
+    grabDialog(QStringLiteral("preset-delete"), [&] { command("deletePreset"); });
+  }
   void feeling() {
     driver_.window().selection().select({*driver_.session().scene().movingPart()});
     trigger("gizmoNone");
@@ -241,8 +266,77 @@ class Pictures {
     trigger("stop");
   }
 
+  /// What was felt, played again.
+  void recording() {
+    const std::string file = (driver_.folder.path() / "felt.csv").string();
+    MotionWriter writer(file);
+    const Part& moving = *driver_.session().scene().find(*driver_.session().scene().movingPart());
+    for (int i = 0; i <= 2000; ++i) {
+      MotionRow row;
+      row.time = 1e-3 * i;
+      row.proxy = row.handle = moving.worldFromPart;
+      row.proxy.translation.z += 0.01 * std::sin(3e-3 * i);
+      row.wrench.force = {std::sin(3e-3 * i), 0.3 * std::cos(7e-3 * i), std::cos(3e-3 * i)};
+      row.wrench.torque = 0.01 * row.wrench.force;
+      row.distance = 2e-3 + 1e-3 * std::cos(3e-3 * i);
+      row.tickTime = 40e-6;
+      row.lateness = 12e-6;
+      writer.write(row);
+    }
+    writer.finish();
+    whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, QString::fromStdString(file)); });
+    trigger("openRecording");
+    auto* name = driver_.widget<QLabel>("timelineName");
+    wait([&] { return name->isVisible(); }, "the recording");
+    grabWindow("window-replay");
+    QTest::mouseClick(driver_.widget<QAbstractButton>("timelineClose"), Qt::LeftButton);
+  }
+  /// Each state of a device that is plugged in.
+  void device() {
+    devices_->devices = {
+        {QStringLiteral("arm"), QStringLiteral("OpenHap at bus 1"), {}, true},
+        {QStringLiteral("other"), QStringLiteral("Novint Falcon at bus 2"),
+         QStringLiteral("You have no permission to open it: see the README's udev rules."), false}};
+    driver_.application.watcher().look();
+    // Room for all of the panel, and nothing that overlaps.
+    for (const char* dock : {"clearanceDock", "plotsDock", "timelineDock"})
+      driver_.widget<QDockWidget>(dock)->hide();
+    trigger("undo");
+    auto* hand = driver_.widget<QComboBox>("hand");
+    hand->showPopup();
+    grab(*hand->view()->window(), QStringLiteral("list-hands"));
+    hand->hidePopup();
+    hand->setFocus();
+    const int wanted = hand->findText(devices_->devices.first().name);
+    for (int keys = 0; keys < 10 && hand->currentIndex() != wanted; ++keys)
+      QTest::keyClick(hand, Qt::Key_Down);
+    auto* dock = driver_.widget<QDockWidget>("feelDock");
+    const auto feel = [&](const char* name) {
+      trigger("start");
+      wait([&] { return driver_.application.servo().isRunning(); }, "the device");
+      QTest::qWait(1000);
+      grab(*dock, QLatin1String(name));
+    };
+    devices_->handle->needsCalibration = true;
+    feel("panel-feel-uncalibrated");
+    trigger("stop");
+    devices_->handle->needsCalibration = false;
+    feel("panel-feel-device");
+    QTest::mouseClick(driver_.widget<QPushButton>("arm"), Qt::LeftButton);
+    QTest::qWait(500);
+    grab(*dock, QStringLiteral("panel-feel-armed"));
+    trigger("clutch");
+    grab(*dock, QStringLiteral("panel-feel-clutched"));
+    grabWindow("window-device");
+    devices_->handle->isFaulty = true;
+    QTest::qWait(500);
+    grab(*dock, QStringLiteral("panel-feel-fault"));
+    trigger("stop");
+  }
+
   QString folder_;
-  DesktopDriver driver_;
+  FakeSource* devices_ = new FakeSource;  ///< The driver's.
+  DesktopDriver driver_{std::unique_ptr<desktop::DeviceSource>(devices_)};
   std::uint64_t tick_ = 0;
   int failures_ = 0;
 };

@@ -122,6 +122,8 @@ class ViewPicturesTest : public QObject {
   void minimaAreColouredByDistance();
   void forceTorqueContactsAndTheHandAreShown();
   void overlapsAreMarked();
+  void cutFacesAreClosedAndHatched();
+  void whatIsBehindATransparentPartIsSeen();
   void aGlyphThatIsMissingIsSeen();
   void anArrowThatIsMissingIsSeen();
   void smoothedEdgesAndLettersAreNotSeen();
@@ -186,6 +188,22 @@ void ViewPicturesTest::overlapsAreMarked() {
   snapshot->releasedCount = 1;
   b.view.showSnapshot(*snapshot);
   check(b.picture(), "overlap", b.texts());
+}
+
+void ViewPicturesTest::cutFacesAreClosedAndHatched() {
+  Bench b;
+  b.view.setCut(ui::ViewCut{{{0.0, -1.0, 0.0}, 0.0}, false});
+  check(b.picture(), "cut");
+}
+
+void ViewPicturesTest::whatIsBehindATransparentPartIsSeen() {
+  Bench b;
+  // The moving part is seen through the others anyway.
+  b.session.setMovingPart(std::nullopt);
+  b.session.setOpacity({b.peg}, 0.4);
+  b.view.setScene(b.session.scene());
+  b.view.setView(ui::StandardView::Top);
+  check(b.picture(), "transparent");
 }
 
 void ViewPicturesTest::aGlyphThatIsMissingIsSeen() {

@@ -12,7 +12,8 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr vtkIdType kLeastTriangles = 200;
+/// Of a mesh that has drafts at all, and of a draft that there is a coarser one of.
+constexpr vtkIdType kLeastTriangles = 500, kLeastOfADraft = 200;
 /// Cells along the longest side. Twice the first would take VTK five times as long; the last is for a
 /// thousand parts at once.
 constexpr std::array kDivisions{96, 28, 8, 4};
@@ -52,7 +53,7 @@ std::vector<DraftSurface> draftsOf(vtkPolyData& surface) {
   vtkPolyData* last = &surface;
   double off = 0.0;
   for (const int divisions : kDivisions) {
-    if (last->GetNumberOfPolys() < kLeastTriangles) break;
+    if (last->GetNumberOfPolys() < (drafts.empty() ? kLeastTriangles : kLeastOfADraft)) break;
     DraftSurface draft = clustered(*last, divisions);
     // Each is made of the one before, which is quicker.
     draft.cell += off;

@@ -36,6 +36,7 @@ std::optional<double> askForUnit(const QString& what, QWidget* parent) {
   question->setWordWrap(true);
   auto* box = new QComboBox(&dialog);
   box->setObjectName(QStringLiteral("unit"));
+  box->setAccessibleName(QObject::tr("Unit of length"));
   for (const Unit& unit : kUnits) {
     box->addItem(QObject::tr(unit.name), unit.metres);
     if (unit.metres == Preferences::metresPerUnit()) box->setCurrentIndex(box->count() - 1);

@@ -4,6 +4,7 @@
 #include <QFileInfo>
 #include <QLocale>
 #include <QMenu>
+#include <QPointer>
 #include <QSettings>
 #include <algorithm>
 #include <functional>
@@ -23,7 +24,8 @@ namespace nearfit::ui {
 namespace {
 
 const QString kReloadAlways = QStringLiteral("files/reloadAlways");
-const QString kReloadNotice = QStringLiteral("reload"), kRescaleNotice = QStringLiteral("rescale");
+const QString kReloadNotice = QStringLiteral("reload"), kRescaleNotice = QStringLiteral("rescale"),
+              kOthersNotice = QStringLiteral("others");
 
 /// "a.stl, b.stl and 4 more"
 QString namesOf(const QStringList& files) {
@@ -50,6 +52,7 @@ PartFiles::PartFiles(Session& session, Document& document, NoticeBar& notices, Q
   addActions(menu);
   connect(watch_, &MeshWatch::changed, this, &PartFiles::seeChange);
   connect(&document_, &Document::partsAdded, this, &PartFiles::judgeSizes);
+  connect(&document_, &Document::meshesHaveChanged, this, &PartFiles::tellOfOthers);
   connect(
       &document_, &Document::busyChanged, this,
       [this] {
@@ -76,6 +79,11 @@ void PartFiles::addActions(QMenu* menu) {
   };
   connect(menu, &QMenu::aboutToShow, reload_, update);
   connect(&document_, &Document::busyChanged, reload_, update);
+  // Parts come only after loading has ended, and go without any.
+  session_.onChange([self = QPointer<PartFiles>(this), update] {
+    if (self) update();
+  });
+  update();
 }
 
 void PartFiles::seeChange(const QStringList& files) {
@@ -83,6 +91,15 @@ void PartFiles::seeChange(const QStringList& files) {
   changed_ << files;
   changed_.removeDuplicates();
   offerReload();
+}
+
+void PartFiles::tellOfOthers(const QStringList& files) {
+  const QString text =
+      files.size() == 1 ? tr("%1 is another file than this scene was saved with. It is shown as it is now; "
+                             "save the scene to keep it.")
+                        : tr("%1 are other files than this scene was saved with. They are shown as they "
+                             "are now; save the scene to keep them.");
+  notices_.offer(kOthersNotice, text.arg(namesOf(files)), {{tr("Good"), [] {}}});
 }
 
 void PartFiles::offerReload() {
@@ -143,10 +160,12 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, Com
   if (sources.empty()) return;
   auto loaded = std::make_shared<std::vector<LoadedPart>>();
   const auto job = [loaded, sources, shapes = document_.shapes()](const ProgressCallback& progress) {
-    *loaded = loadPartGeometries(sources, progress);
+    *loaded = loadPartGeometries(sources, progressOfReading(progress));
+    std::vector<PartGeometryPtr> geometries;
     for (const LoadedPart& part : *loaded) {
-      if (part.geometry) shapes->shapeOf(part.geometry);
+      if (part.geometry) geometries.push_back(part.geometry);
     }
+    shapes->prepare(geometries, progressOfShapes(progress));
   };
   document_.load(text, job, [=, this](const std::exception_ptr& error) {
     if (isCancelled(error)) return;

@@ -38,6 +38,8 @@ class PartFiles : public QObject {
   };
   void addActions(QMenu* menu);
   void seeChange(const QStringList& files);
+  /// Meshes of a scene that are not what it was saved with.
+  void tellOfOthers(const QStringList& files);
   /// Names all files that have changed and were neither reloaded nor waved away.
   void offerReload();
   /// All files when there are none.

@@ -59,6 +59,7 @@ void RecentFiles::fill() {
   menu_->addSeparator();
   QAction* clear = menu_->addAction(tr("&Clear this list"));
   clear->setObjectName(QStringLiteral("clearRecent"));
+  clear->setToolTip(tr("Empty this list; the files stay"));
   clear->setEnabled(number > 0);
   connect(clear, &QAction::triggered, this, [] { QSettings().remove(kKey); });
 }

@@ -6,7 +6,6 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QToolBar>
-#include <QWhatsThis>
 #include <utility>
 
 #include "ui/manners/field_names.h"
@@ -40,10 +39,6 @@ Manners::Manners(QMainWindow* window, QMenu* view, QMenu* help)
                             tr("All commands with their keys, to be searched"));
   keys->setShortcuts({QKeySequence(Qt::Key_F1), QKeySequence(QStringLiteral("Ctrl+/"))});
   connect(keys, &QAction::triggered, shortcuts_, &ShortcutsDialog::open);
-  QAction* what =
-      addAction(help, "whatsThis", tr("&What is this?"), tr("Click something to hear what it does"));
-  what->setShortcut(QKeySequence(QStringLiteral("Shift+F1")));
-  connect(what, &QAction::triggered, this, [] { QWhatsThis::enterWhatsThisMode(); });
 }
 
 void Manners::settle() {

@@ -41,9 +41,12 @@ void keep(const MinimaChoice& choice) {
 
 MinimaMenu::MinimaMenu(QWidget* parent) : QMenu(tr("Minima &drawn"), parent), choice_(kept()) {
   setObjectName(QStringLiteral("minimaMenu"));
-  addForm(QStringLiteral("minimaSegments"), tr("&Segments"), &MinimaChoice::hasSegments);
-  addForm(QStringLiteral("minimaPoints"), tr("&Points"), &MinimaChoice::hasPoints);
-  addForm(QStringLiteral("minimaNormals"), tr("&Normals"), &MinimaChoice::hasNormals);
+  addForm(QStringLiteral("minimaSegments"), tr("&Segments"),
+          tr("Lines between the two points that are nearest to each other"), &MinimaChoice::hasSegments);
+  addForm(QStringLiteral("minimaPoints"), tr("&Points"), tr("Where each minimum is on either part"),
+          &MinimaChoice::hasPoints);
+  addForm(QStringLiteral("minimaNormals"), tr("&Normals"), tr("The directions in which each minimum pushes"),
+          &MinimaChoice::hasNormals);
   addSeparator();
   QMenu* count = addChoices(tr("&How many"));
   for (const std::size_t most : kCounts) {
@@ -61,8 +64,10 @@ MinimaMenu::MinimaMenu(QWidget* parent) : QMenu(tr("Minima &drawn"), parent), ch
   }
 }
 
-void MinimaMenu::addForm(const QString& name, const QString& text, bool MinimaChoice::*form) {
+void MinimaMenu::addForm(const QString& name, const QString& text, const QString& toolTip,
+                         bool MinimaChoice::*form) {
   QAction* action = addAction(text);
+  action->setToolTip(toolTip);
   action->setObjectName(name);
   action->setCheckable(true);
   action->setChecked(choice_.*form);

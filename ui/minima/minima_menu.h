@@ -20,7 +20,7 @@ class MinimaMenu : public QMenu {
   void choiceChanged(const nearfit::ui::MinimaChoice& choice);
 
  private:
-  void addForm(const QString& name, const QString& text, bool MinimaChoice::*form);
+  void addForm(const QString& name, const QString& text, const QString& toolTip, bool MinimaChoice::*form);
   QMenu* addChoices(const QString& title);
   template <class Number>
   void addNumber(QMenu& menu, const QString& name, const QString& text, Number MinimaChoice::*number,

@@ -120,7 +120,7 @@ NumberField* PosePanel::prepared(NumberField* field, const QString& name) {
   field->setObjectName(name);
   // A number as short as most, beside the arrows, whatever the size of letters.
   constexpr int kArrows = 26;
-  field->setMinimumWidth(field->fontMetrics().horizontalAdvance(QStringLiteral("-0.0000 m")) + kArrows);
+  field->setMinimumWidth(field->fontMetrics().horizontalAdvance(QStringLiteral("-00.0000 mm")) + kArrows);
   field->findChild<QLineEdit*>()->installEventFilter(this);
   field->installEventFilter(this);
   return field;

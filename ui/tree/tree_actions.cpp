@@ -20,6 +20,8 @@ TreeActions::TreeActions(Session& session, Selection& selection, Attempt attempt
   ungroup_->setToolTip(tr("Put what the selected groups hold in their place"));
   visible_ = make("toggleVisible", tr("&Hide"), "eye", "H", &TreeActions::toggleVisible);
   lock_ = make("toggleLock", tr("Loc&k"), "lock", "Ctrl+L", &TreeActions::toggleLock);
+  visible_->setToolTip(tr("Hide or show what is selected; what is hidden is not felt (H)"));
+  lock_->setToolTip(tr("Keep what is selected where it is, or let it go (Ctrl+L)"));
   isolate_ = make("isolate", tr("&Isolate"), "isolate", "I", &TreeActions::isolate);
   isolate_->setToolTip(tr("Show what is selected and nothing else; what is hidden is not felt"));
   endIsolation_ = make("endIsolation", tr("&End isolation"), {}, "Shift+I", &TreeActions::endIsolation);

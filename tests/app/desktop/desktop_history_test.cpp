@@ -48,8 +48,7 @@ void DesktopHistoryTest::listsTheStepsAndMarksThePresentOne() {
   d.addCubes();
   d.session().movePart(d.partId("fixed"), kAside);
   const QStringList all{QStringLiteral("Beginning"), QStringLiteral("Add 2 parts"),
-                        QStringLiteral("Make moving the moving part"),
-                        QStringLiteral("Move fixed, 100 mm")};
+                        QStringLiteral("Make moving the moving part"), QStringLiteral("Move fixed, 100 mm")};
   QCOMPARE(rows(*view), all);
   QVERIFY(isBold(*view, 3));
   pressShortcut(d, Qt::Key_Z, Qt::ControlModifier);

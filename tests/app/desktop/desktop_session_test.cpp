@@ -217,10 +217,16 @@ void Worker::leadPegByDevice() {
   click("startStop");
   // The hand goes round; the hole lets the peg go up and down alone.
   REQUIRE_SOON(d_.felt && std::abs(d_.felt->translation.z - before.z) > 2e-3);
+  REQUIRE(std::hypot(d_.felt->translation.x, d_.felt->translation.y) < 0.5e-3);
   click("startStop");
   REQUIRE_SOON(!d_.application.servo().status().isTaken());
   REQUIRE(d_.session().undoText() == "Feel peg");
-  REQUIRE(glm::distance(pose("peg").translation, before) > 1e-4);
+  const glm::dvec3 after = pose("peg").translation;
+  REQUIRE(glm::distance(after, before) > 1e-4);
+  press(Qt::Key_Z, Qt::ControlModifier);
+  REQUIRE(pose("peg").translation == before);
+  press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  REQUIRE(pose("peg").translation == after);
 }
 
 void Worker::save() {

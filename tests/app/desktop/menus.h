@@ -34,11 +34,11 @@ inline void openMenus(QMainWindow& window, const QList<QMenu*>& path) {
   QTest::mouseClick(bar, Qt::LeftButton, {}, bar->actionGeometry(path.first()->menuAction()).center());
   for (int i = 0; i < path.size(); ++i) {
     const auto isOpen = [&] { return path[i]->isVisible(); };
-    bool isThere = QTest::qWaitFor(isOpen, 1000);
+    bool isThere = QTest::qWaitFor(isOpen, 3000);
     // The entry that was chosen last is the active one already, and a click on it opens nothing at once.
     for (int again = 0; i > 0 && !isThere && again < 3; ++again) {
       clickEntry(*path[i - 1], path[i]->menuAction());
-      isThere = QTest::qWaitFor(isOpen, 1000);
+      isThere = QTest::qWaitFor(isOpen, 3000);
     }
     if (!isThere) throw Error("menus", path[i]->title().toStdString() + " does not open");
     if (i + 1 < path.size()) clickEntry(*path[i], path[i + 1]->menuAction());

@@ -21,6 +21,8 @@ std::vector<Figure> measureGlyphs(const WindowOptions& options);
 std::vector<Figure> measurePicks(const WindowOptions& options);
 /// How long events wait while a large mesh is opened.
 std::vector<Figure> measureOpening(const WindowOptions& options);
+/// How long the window takes to be free again once the opening of a large mesh is cancelled.
+std::vector<Figure> measureCancels(const WindowOptions& options);
 /// Many parts with many triangles.
 std::vector<Figure> measureLarge(const WindowOptions& options);
 

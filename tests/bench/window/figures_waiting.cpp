@@ -1,5 +1,8 @@
 #include <QApplication>
+#include <QDialog>
+#include <QDialogButtonBox>
 #include <QMetaObject>
+#include <QPushButton>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -30,7 +33,7 @@
 namespace nearfit::bench {
 namespace {
 
-constexpr double kStartGoal = 1500.0, kPickGoal = 5.0, kAnswerGoal = 100.0;  ///< [ms]
+constexpr double kStartGoal = 1500.0, kPickGoal = 5.0, kAnswerGoal = 100.0, kCancelGoal = 200.0;  ///< [ms]
 
 std::uint32_t frequencyOf(std::size_t triangles) {
   return static_cast<std::uint32_t>(
@@ -140,6 +143,46 @@ std::vector<Figure> measureOpening(const WindowOptions& options) {
   const std::string way =
       fmt::format("an event's wait; {} triangles", trianglesOf(window.application().session().scene()));
   return {answersOf("open", way, heart, remark)};
+}
+
+std::vector<Figure> measureCancels(const WindowOptions& options) {
+  constexpr std::size_t kCancels = 24;
+  const test::ScopedVariable noCache("NEARFIT_CACHE", "off");
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file =
+      folder.write("large.stl", test::stlBinary(organicMesh(frequencyOf(options.million), 1)));
+  std::vector<double> taken;
+  double whole = 0.0;
+  // Once to its end, which tells how long there is to cancel it; then at any time of it.
+  for (std::size_t i = 0; i <= kCancels; ++i) {
+    BenchWindow window;
+    ui::Document& document = window.application().window().document();
+    std::optional<bool> isComplete;
+    QObject::connect(&document, &ui::Document::loaded, &window.application(),
+                     [&](bool isAll) { isComplete = isAll; });
+    const double start = milliseconds();
+    document.addParts({QString::fromStdString(file.string())}, 1.0);
+    const auto* dialog = window.application().window().findChild<QDialog*>(QStringLiteral("progressDialog"));
+    if (dialog == nullptr) throw Error("cancel", "nothing shows the progress");
+    const double when = i == 0 ? 1e9 : whole * (static_cast<double>(i) - 0.5) / kCancels;
+    waitUntil("the mesh", [&] { return isComplete || milliseconds() - start >= when; });
+    if (isComplete) {
+      // The first is slower than those after it.
+      whole = i == 0 ? milliseconds() - start : std::min(whole, milliseconds() - start);
+      continue;
+    }
+    const double cancelled = milliseconds();
+    dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Cancel)->click();
+    waitUntil("the cancel", [&] { return isComplete && !document.isBusy(); });
+    taken.push_back(milliseconds() - cancelled);
+  }
+  if (taken.empty())
+    throw Error("cancel", "the mesh is opened before it can be cancelled", "take a larger one");
+  Figure figure = figureOf("cancel", fmt::format("opening {} triangles", options.million), "ms", taken);
+  figure.goal = kCancelGoal;
+  figure.goalOf = "max";
+  figure.remark = fmt::format("at any time of {:.1f} s", whole / 1e3);
+  return {figure};
 }
 
 std::vector<Figure> measureLarge(const WindowOptions& options) {

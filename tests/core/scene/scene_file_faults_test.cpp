@@ -12,6 +12,7 @@ namespace nearfit {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 class SceneFileFaults : public test::SceneFileFixture {};
@@ -44,6 +45,21 @@ TEST_F(SceneFileFaults, ChangedMeshSaysSoAndWhatToDo) {
                                            HasSubstr("SHA-256 differs"), HasSubstr("put the old file back")));
   folder_.write("meshes/peg.obj", "no mesh at all");
   EXPECT_THAT(errorOf(json_.dump()), HasSubstr("SHA-256 differs"));
+}
+
+TEST_F(SceneFileFaults, ChangedMeshIsTakenAndListedWhereThatIsAskedFor) {
+  const std::filesystem::path peg = folder_.path() / "meshes/peg.obj";
+  folder_.write("meshes/peg.obj", test::objText(test::tetrahedronMesh(2)));
+  const std::filesystem::path file = folder_.write("fit.nearfit", json_.dump());
+  std::vector<std::filesystem::path> changed;
+  const Scene scene = readSceneFile(file, {}, &changed);
+  ASSERT_THAT(changed, ElementsAre(std::filesystem::weakly_canonical(peg)));
+  EXPECT_EQ(scene.parts()[1]->geometry->mesh.triangles().size(), 4U);
+  EXPECT_NE(scene.parts()[1]->geometry->sha256, json_["parts"][1]["sha256"].get<std::string>());
+  // Poses are those of the file.
+  EXPECT_EQ(scene.parts()[1]->worldFromPart.translation.x, json_["parts"][1]["position"][0].get<double>());
+  folder_.write("meshes/peg.obj", "no mesh at all");
+  EXPECT_THROW(readSceneFile(file, {}, &changed), FileError);
 }
 
 TEST_F(SceneFileFaults, PartsThatShareAMeshMustAgreeOnItsHash) {

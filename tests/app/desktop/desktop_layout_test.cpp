@@ -1,0 +1,267 @@
+// How the user has arranged the window comes back in the next one; and no dialog has a field without a name.
+#include <QAbstractSpinBox>
+#include <QCheckBox>
+#include <QDockWidget>
+
+#include "tests/app/desktop/desktop_driver.h"
+#include "ui/dialogs/feel_dialog.h"
+#include "ui/taking/export_dialog.h"
+#include "ui/taking/picture_dialog.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+/// A window as a run of the program shows it: of the size that it has itself.
+struct Run {
+  Run() {
+    application.window().show();
+    (void)QTest::qWaitForWindowExposed(&application.window());
+    QApplication::setActiveWindow(&application.window());
+  }
+  ui::MainWindow& window() { return application.window(); }
+  QDockWidget* dock(const char* name) { return window().findChild<QDockWidget*>(QLatin1String(name)); }
+  QAction* action(const char* name) { return window().findChild<QAction*>(QLatin1String(name)); }
+  void choose(const char* name) { chooseCommand(window(), action(name)); }
+  /// Ends the run as a user does.
+  void close() { QVERIFY(window().close()); }
+
+  desktop::Application application{std::make_unique<NoDevices>()};
+};
+
+/// A mouse that is pressed on a dock's title, and let go over another place of the window.
+void dragDock(QMainWindow& window, QDockWidget* dock, const QPoint& to) {
+  const QPoint title(40, 8);
+  const auto send = [&](QEvent::Type type, const QPoint& global, Qt::MouseButtons held) {
+    const bool isMove = type == QEvent::MouseMove;
+    const QPoint local = dock->mapFromGlobal(global);
+    QMouseEvent event(type, local, window.mapFromGlobal(global), global,
+                      isMove ? Qt::NoButton : Qt::LeftButton, held, {});
+    QApplication::sendEvent(dock, &event);
+    QCoreApplication::processEvents();
+  };
+  const QPoint from = dock->mapToGlobal(title), end = window.mapToGlobal(to);
+  send(QEvent::MouseButtonPress, from, Qt::LeftButton);
+  for (int i = 1; i <= 20; ++i)
+    send(QEvent::MouseMove, from + (end - from) * i / 20, Qt::LeftButton);
+  send(QEvent::MouseMove, end, Qt::LeftButton);
+  send(QEvent::MouseButtonRelease, end, Qt::NoButton);
+}
+
+/// Of a dialog, the fields that a screen reader has no name for.
+QStringList namelessFields(const QWidget& dialog) {
+  const QList<QLabel*> labels = dialog.findChildren<QLabel*>();
+  QStringList nameless;
+  for (const QWidget* field : dialog.findChildren<QWidget*>()) {
+    const bool isField = qobject_cast<const QLineEdit*>(field) != nullptr ||
+                         qobject_cast<const QAbstractSpinBox*>(field) != nullptr ||
+                         qobject_cast<const QComboBox*>(field) != nullptr ||
+                         qobject_cast<const QCheckBox*>(field) != nullptr;
+    // What a spin box or a list types in is reached through it.
+    const QWidget* parent = field->parentWidget();
+    const bool isPiece = qobject_cast<const QAbstractSpinBox*>(parent) != nullptr ||
+                         qobject_cast<const QComboBox*>(parent) != nullptr;
+    if (!isField || isPiece || !field->accessibleName().isEmpty()) continue;
+    const auto* box = qobject_cast<const QCheckBox*>(field);
+    if (box != nullptr && !box->text().isEmpty()) continue;
+    // A label may speak for a row of which this is the field.
+    const auto speaks = [field, &dialog](const QLabel* label) {
+      if (label->buddy() == nullptr || label->text().isEmpty()) return false;
+      for (const QWidget* w = field; w != nullptr && w != &dialog; w = w->parentWidget()) {
+        if (label->buddy() == w && (w == field || w->focusProxy() == field)) return true;
+      }
+      return false;
+    };
+    if (std::none_of(labels.begin(), labels.end(), speaks))
+      nameless << QLatin1String(field->metaObject()->className()) + QChar(' ') + field->objectName();
+  }
+  return nameless;
+}
+
+int fieldCount(const QWidget& dialog) {
+  return dialog.findChildren<QComboBox*>().size() + dialog.findChildren<QLineEdit*>().size();
+}
+
+}  // namespace
+
+class DesktopLayoutTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { QSettings().clear(); }
+  void cleanup() { ui::setColourScheme(ui::ColourScheme::Light); }
+  void theSizeOfTheWindowComesBack();
+  void whatIsHiddenAndMovedComesBack();
+  void theThemeComesBack();
+  void dialogsThatAreMadeOnDemandHaveNoNamelessField_data();
+  void dialogsThatAreMadeOnDemandHaveNoNamelessField();
+};
+
+void DesktopLayoutTest::theSizeOfTheWindowComesBack() {
+  QSize usual;
+  const auto isOfSize = [](Run& run, const QSize& size) {
+    return QTest::qWaitFor([&] { return run.window().size() == size; }, kQtPatienceMs);
+  };
+  {
+    Run run;
+    usual = run.window().size();
+    run.window().resize(usual - QSize(70, 60));
+    QVERIFY(isOfSize(run, usual - QSize(70, 60)));
+    run.close();
+  }
+  {
+    Run run;
+    QVERIFY(isOfSize(run, usual - QSize(70, 60)));
+    run.window().resize(usual - QSize(30, 90));
+    QVERIFY(isOfSize(run, usual - QSize(30, 90)));
+    run.close();
+  }
+  Run run;
+  QVERIFY(isOfSize(run, usual - QSize(30, 90)));
+  run.close();
+}
+
+void DesktopLayoutTest::whatIsHiddenAndMovedComesBack() {
+  {
+    Run run;
+    QDockWidget* feel = run.dock("feelDock");
+    QCOMPARE(run.window().dockWidgetArea(feel), Qt::RightDockWidgetArea);
+    dragDock(run.window(), feel, {8, run.window().height() / 2});
+    QTRY_COMPARE(run.window().dockWidgetArea(feel), Qt::LeftDockWidgetArea);
+    QTRY_VERIFY(!feel->isFloating());
+    run.dock("poseDock")->close();
+    // By its entry in the menu.
+    chooseCommand(run.window(), run.dock("historyDock")->toggleViewAction());
+    QTRY_VERIFY(!run.dock("historyDock")->isVisible());
+    run.close();
+  }
+  Run run;
+  QCOMPARE(run.window().dockWidgetArea(run.dock("feelDock")), Qt::LeftDockWidgetArea);
+  QVERIFY(run.dock("feelDock")->isVisible() && run.dock("partsDock")->isVisible());
+  QVERIFY(!run.dock("poseDock")->isVisible() && !run.dock("historyDock")->isVisible());
+  QVERIFY(!run.dock("historyDock")->toggleViewAction()->isChecked());
+  run.choose("resetLayout");
+  QTRY_COMPARE(run.window().dockWidgetArea(run.dock("feelDock")), Qt::RightDockWidgetArea);
+  QVERIFY(run.dock("poseDock")->isVisible());
+  run.close();
+}
+
+void DesktopLayoutTest::theThemeComesBack() {
+  // The desktop of these tests is light.
+  const struct {
+    const char* action;
+    bool isDark;
+  } themes[] = {{"themeDark", true}, {"themeSystem", false}, {"themeDark", true}, {"themeLight", false}};
+  for (const auto& theme : themes) {
+    {
+      Run run;
+      run.choose(theme.action);
+      QVERIFY(run.action(theme.action)->isChecked());
+      QCOMPARE(ui::isThemeDark(), theme.isDark);
+      run.close();
+    }
+    // As the program does when it starts.
+    desktop::Application::configure();
+    Run run;
+    for (const char* other : {"themeDark", "themeLight", "themeSystem"})
+      QCOMPARE(run.action(other)->isChecked(), QLatin1String(other) == QLatin1String(theme.action));
+    QCOMPARE(ui::isThemeDark(), theme.isDark);
+    QCOMPARE(run.window().palette().color(QPalette::Window).lightness() < 128, theme.isDark);
+    run.close();
+  }
+}
+
+namespace {
+
+/// Opens a dialog in one way, and hands it over.
+using Look = std::function<void(QDialog*)>;
+struct Opening {
+  const char* name;
+  void (*open)(DesktopDriver&, const Look&);
+};
+
+template <class Dialog>
+void choosing(DesktopDriver& d, const char* command, const char* name, const Look& look) {
+  whenModal<Dialog>(
+      [look](Dialog* dialog) {
+        look(dialog);
+        QTest::keyClick(dialog, Qt::Key_Escape);
+      },
+      QLatin1String(name));
+  d.choose(command);
+}
+
+const Opening kOpenings[] = {
+    {"unit of length",
+     [](DesktopDriver& d, const Look& look) {
+       whenModal<QFileDialog>([&d, look](QFileDialog* files) {
+         whenModal<QDialog>(
+             [look](QDialog* dialog) {
+               look(dialog);
+               QTest::keyClick(dialog, Qt::Key_Escape);
+             },
+             QStringLiteral("unitDialog"));
+         chooseFile(files, d.fixedFile);
+       });
+       d.choose("addParts");
+     }},
+    {"export",
+     [](DesktopDriver& d, const Look& look) {
+       choosing<ui::ExportDialog>(d, "exportPlacement", "exportDialog", look);
+     }},
+    {"picture",
+     [](DesktopDriver& d, const Look& look) {
+       choosing<ui::PictureDialog>(d, "savePicture", "pictureDialog", look);
+     }},
+    {"feel settings",
+     [](DesktopDriver& d, const Look& look) {
+       d.choose("feelSettings");
+       auto* dialog = d.widget<ui::FeelDialog>("feelDialog");
+       QTRY_VERIFY(dialog->isVisible());
+       look(dialog);
+     }},
+    {"name of a preset",
+     [](DesktopDriver& d, const Look& look) {
+       d.choose("feelSettings");
+       auto* button = d.widget<QPushButton>("presetMenu");
+       QTRY_VERIFY(button->isVisible());
+       whenModal<QDialog>(
+           [look](QDialog* dialog) {
+             look(dialog);
+             QTest::keyClick(dialog, Qt::Key_Escape);
+           },
+           QStringLiteral("presetNameDialog"));
+       // The button waits until its menu is gone.
+       QTimer::singleShot(0, button->menu(), [menu = button->menu(), entry = d.action("savePreset")] {
+         QVERIFY(QTest::qWaitFor([menu] { return menu->isVisible(); }));
+         clickEntry(*menu, entry);
+       });
+       QTest::mouseClick(button, Qt::LeftButton);
+     }},
+};
+
+}  // namespace
+
+void DesktopLayoutTest::dialogsThatAreMadeOnDemandHaveNoNamelessField_data() {
+  QTest::addColumn<int>("row");
+  for (std::size_t i = 0; i < std::size(kOpenings); ++i)
+    QTest::newRow(kOpenings[i].name) << static_cast<int>(i);
+}
+
+void DesktopLayoutTest::dialogsThatAreMadeOnDemandHaveNoNamelessField() {
+  QFETCH(int, row);
+  DesktopDriver d;
+  d.addCubes();
+  int fields = 0;
+  QStringList nameless;
+  kOpenings[row].open(d, [&](QDialog* dialog) {
+    fields = fieldCount(*dialog);
+    nameless = namelessFields(*dialog);
+  });
+  QTRY_VERIFY(fields > 0);
+  QVERIFY2(nameless.isEmpty(), qPrintable(nameless.join(QStringLiteral(", "))));
+}
+
+NEARFIT_DESKTOP_TEST_MAIN(DesktopLayoutTest)
+#include "desktop_layout_test.moc"
