@@ -80,7 +80,8 @@ void Actions::explain() {
       {newScene, tr("Begin an empty scene")},
       {open, tr("Open a scene (*.nearfit) instead of this one")},
       {openDemo, tr("Open the scene that comes with Nearfit: a piston to be fitted into its cylinder")},
-      {addParts, tr("Add meshes (STL, OBJ, PLY, OFF), STEP files or whole folders to the scene")},
+      {addParts, tr("Add meshes (STL, OBJ, PLY, OFF) to the scene; files and whole folders can be dropped on "
+                    "the window too")},
       {save, tr("Save the scene and where its parts are")},
       {saveAs, tr("Save the scene under another name")},
       {exportPlacement, tr("Write where the parts ended up: JSON, CSV, matrices or one mesh")},
@@ -210,7 +211,9 @@ void Actions::update(const Session& session, const Availability& availability) {
     action->setText(withLabel(verb, label));
     const QString keys = action->shortcut().toString(QKeySequence::NativeText);
     const QString what = label.empty() ? QString() : QStringLiteral(": ") + shortName(label);
-    action->setToolTip(QStringLiteral("%1%2 (%3)").arg(explained, what, keys));
+    // A part's name is no markup.
+    const QString tip = QStringLiteral("%1%2 (%3)").arg(explained, what, keys);
+    action->setToolTip(QStringLiteral("<qt>%1</qt>").arg(tip.toHtmlEscaped()));
   };
   show(undo, tr("&Undo"), tr("Take back the last step"), session.undoText());
   show(redo, tr("&Redo"), tr("Do again what was taken back"), session.redoText());

@@ -150,14 +150,15 @@ void Document::openScene(const QString& file) {
   loadScene(file, {}, Preferences::metresPerUnit());
 }
 
-void Document::openExample(const QString& file) {
-  if (isBusy() || !mayLeaveScene()) return;
+bool Document::openExample(const QString& file) {
+  if (isBusy() || !mayLeaveScene()) return false;
   const QString name = QFileInfo(file).fileName();
   readScene(file, name, [=, this](Scene scene, const QStringList&) {
     session_.reset(std::move(scene));
     emit noted(tr("Opened %1").arg(name));
     emit loaded(true);
   });
+  return true;
 }
 
 void Document::readScene(const QString& file, const QString& name,
@@ -195,6 +196,7 @@ void Document::loadScene(const QString& file, const QStringList& partsAfter, dou
       session_.restore(std::move(scene), toPath(file));
     RecentFiles::remember(file);
     if (!partsAfter.isEmpty()) {
+      emit sceneOpened();
       addParts(partsAfter, metresPerUnit);
       return;
     }

@@ -40,7 +40,8 @@ class Document : public QObject {
   /// Opens a scene after asking about changes.
   void openScene(const QString& file);
   /// As openScene, of one that others need as it is: it becomes an unnamed scene, so that saving asks where.
-  void openExample(const QString& file);
+  /// False when the user stays with what is open, or something is being loaded.
+  bool openExample(const QString& file);
   /// Opens a scene that was lost before it was saved, after asking about changes.
   /// @param journal    A scene file that it is read from.
   /// @param sceneFile  That the scene has as its own; empty for none.
@@ -74,6 +75,8 @@ class Document : public QObject {
   void noted(const QString& text);
   /// These came together.
   void partsAdded(const std::vector<nearfit::PartId>& parts);
+  /// A scene is in the session; parts that were named with it are still to come.
+  void sceneOpened();
   /// These meshes of the scene that has been opened are no longer what it was saved with.
   void meshesHaveChanged(const QStringList& files);
   /// Loading ended, well or not.

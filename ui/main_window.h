@@ -55,8 +55,8 @@ class MainWindow : public QMainWindow {
   void setFailureSink(std::function<void(const Failure&)> sink);
   /// What "Open demo" opens; empty when there is no demo.
   void setDemoScene(const QString& file);
-  /// Opens the demo scene, without its file's name.
-  void openDemo();
+  /// Opens the demo scene, without its file's name. False when it is not.
+  bool openDemo();
   /// Explains the window part by part; one without parts opens the demo scene for it.
   void beginTour();
   /// Keeps unsaved work in journals of that folder, and offers what earlier runs left there.

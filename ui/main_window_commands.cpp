@@ -46,6 +46,7 @@ void MainWindow::connectFileActions() {
     if (!selected()) selection_->select(session_.scene().movingPart());
   };
   // What did not come leaves the view as it is; of several files some may have come.
+  connect(document_.get(), &Document::sceneOpened, this, showWhole);
   connect(document_.get(), &Document::partsAdded, this, showWhole);
   connect(document_.get(), &Document::loaded, this, [showWhole](bool isComplete) {
     if (isComplete) showWhole();
@@ -213,8 +214,8 @@ void MainWindow::showAbout() {
   QMessageBox::about(this, tr("About Nearfit"), aboutText_);
 }
 
-void MainWindow::openDemo() {
-  if (!demoScene_.isEmpty()) document_->openExample(demoScene_);
+bool MainWindow::openDemo() {
+  return !demoScene_.isEmpty() && document_->openExample(demoScene_);
 }
 
 void MainWindow::beginTour() {
@@ -222,11 +223,11 @@ void MainWindow::beginTour() {
   if (isSomethingThere || document_->isBusy()) return manners_->beginTour();
   // Of an empty window there is little to say.
   auto* once = new QObject(this);
-  connect(document_.get(), &Document::loaded, once, [this, once] {
+  connect(document_.get(), &Document::loaded, once, [this, once](bool isComplete) {
     once->deleteLater();
-    manners_->beginTour();
+    if (isComplete) manners_->beginTour();
   });
-  openDemo();
+  if (!openDemo()) delete once;
 }
 
 }  // namespace nearfit::ui

@@ -19,6 +19,9 @@ namespace {
 /// cylinders stay below it.
 constexpr double kFeatureAngle = 30.0;
 
+/// Shares of the time that a shape takes.
+constexpr double kNormalsMade = 0.35, kEdgesMade = 0.6, kDraftsMade = 0.85;
+
 vtkSmartPointer<vtkPolyData> trianglesOf(const TriangleMesh& mesh) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -92,7 +95,10 @@ void addDrafts(PartShape& shape) {
 
 }  // namespace
 
-PartShape makePartShape(const TriangleMesh& mesh) {
+PartShape makePartShape(const TriangleMesh& mesh, const ProgressCallback& progress) {
+  const auto report = [&progress](double fraction) {
+    if (progress && !progress(fraction)) throw Cancelled();
+  };
   const auto triangles = trianglesOf(mesh);
   vtkNew<vtkPolyDataNormals> normals;
   normals->SetInputData(triangles);
@@ -102,6 +108,7 @@ PartShape makePartShape(const TriangleMesh& mesh) {
   normals->ConsistencyOff();
   normals->AutoOrientNormalsOff();
   normals->Update();
+  report(kNormalsMade);
 
   vtkNew<vtkFeatureEdges> edges;
   edges->SetInputData(triangles);
@@ -112,26 +119,30 @@ PartShape makePartShape(const TriangleMesh& mesh) {
   edges->ManifoldEdgesOff();
   edges->ColoringOff();
   edges->Update();
+  report(kEdgesMade);
   PartShape shape;
   shape.surface = normals->GetOutput();
   shape.edges = edges->GetOutput();
   shape.edgeLength = lengthOf(*shape.edges);
   shape.pieces = piecesOf(*shape.surface);
   addDrafts(shape);
+  report(kDraftsMade);
   shape.locator = vtkSmartPointer<vtkStaticCellLocator>::New();
   shape.locator->SetDataSet(shape.surface);
   shape.locator->BuildLocator();
+  report(1.0);
   return shape;
 }
 
-std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& geometry) {
+std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& geometry,
+                                                         const ProgressCallback& progress) {
   {
     const std::lock_guard lock(mutex_);
     const auto found = entries_.find(geometry.get());
     if (found != entries_.end() && !found->second.geometry.expired()) return found->second.shape;
   }
   // Outside the lock, so that a large mesh being prepared does not hold up the drawing of another.
-  const auto shape = std::make_shared<PartShape>(makePartShape(geometry->mesh));
+  const auto shape = std::make_shared<PartShape>(makePartShape(geometry->mesh, progress));
   // Of several components each may be inside out.
   shape->hidesItsInside =
       geometry->mass.basis == MassBasis::VolumeIntegrals && geometry->mesh.topology().components == 1;
@@ -142,10 +153,21 @@ std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& 
 }
 
 void PartShapeCache::prepare(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress) {
-  for (std::size_t i = 0; i < geometries.size(); ++i) {
-    shapeOf(geometries[i]);
-    const double made = static_cast<double>(i + 1) / static_cast<double>(geometries.size());
-    if (progress && !progress(made)) throw Cancelled();
+  // Of an empty mesh too something is made.
+  const auto workOf = [](const PartGeometryPtr& geometry) {
+    return 1.0 + static_cast<double>(geometry->mesh.triangles().size());
+  };
+  double whole = 0.0, done = 0.0;
+  for (const PartGeometryPtr& geometry : geometries)
+    whole += workOf(geometry);
+  for (const PartGeometryPtr& geometry : geometries) {
+    const double work = workOf(geometry);
+    const auto report = [&](double fraction) {
+      return !progress || progress(std::min(1.0, (done + fraction * work) / whole));
+    };
+    shapeOf(geometry, report);
+    done += work;
+    if (!report(0.0)) throw Cancelled();
   }
 }
 

@@ -35,14 +35,17 @@ struct PartShape {
   vtkPolyData* finestDraft() const { return drafts.empty() ? surface.Get() : drafts.front().Get(); }
 };
 
-PartShape makePartShape(const TriangleMesh& mesh);
+/// Throws Cancelled.
+PartShape makePartShape(const TriangleMesh& mesh, const ProgressCallback& progress = {});
 
 /// One shape for each geometry while anyone holds that geometry. Any thread: loading fills it ahead of
 /// drawing.
 class PartShapeCache {
  public:
   /// Makes the shape at the first call for a geometry: seconds for millions of triangles.
-  std::shared_ptr<const PartShape> shapeOf(const PartGeometryPtr& geometry);
+  /// Throws Cancelled.
+  std::shared_ptr<const PartShape> shapeOf(const PartGeometryPtr& geometry,
+                                           const ProgressCallback& progress = {});
   /// Makes those of all of them. Throws Cancelled.
   void prepare(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress);
 

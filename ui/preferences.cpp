@@ -91,9 +91,10 @@ void Preferences::setLengthUnit(LengthUnit unit) {
 }
 
 bool Preferences::takeFirstRun() {
-  const bool isFirst = !value("window/hasRun", false).toBool();
-  if (isFirst) setValue("window/hasRun", true);
-  return isFirst;
+  if (value("window/hasRun", false).toBool()) return false;
+  setValue("window/hasRun", true);
+  // Versions that did not say so have left this.
+  return windowGeometry().isEmpty();
 }
 
 QByteArray Preferences::windowGeometry() {

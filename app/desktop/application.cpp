@@ -49,7 +49,8 @@ void Application::show(const QStringList& files, bool isDemo) {
   const bool isFirst = ui::Preferences::takeFirstRun();
   QTimer::singleShot(0, this, [=, this] {
     if (!files.isEmpty()) return window_.document().openFiles(files);
-    if (isFirst) return window_.beginTour();
+    // Lost work that is being asked about comes first.
+    if (isFirst && QApplication::activeModalWidget() == nullptr) return window_.beginTour();
     if (isDemo) window_.openDemo();
   });
 }

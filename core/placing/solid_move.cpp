@@ -16,7 +16,7 @@ constexpr double kNoTurn = 1e4;
 /// Settled is what moves by less than this share of the margin for so many ticks.
 constexpr double kStill = 1e-3;
 constexpr int kStillTicks = 3;
-/// Of the margin: who goes no farther than that has not moved.
+/// Of the margin that is kept at the end: who wants farther and goes no farther than that is held.
 constexpr double kNoMove = 0.02;
 /// So many ticks are waited for the lists that a crowded place needs.
 constexpr int kPatience = 40;
@@ -87,8 +87,9 @@ void SolidMove::settle(const RigidTransform& target, double turnScale, int ticks
     if (isSettled_ && !isSame(pose_, target) && settings_.margin > marginAtEnd_) keepMargin(marginAtEnd_);
   }
   // What rests ends a hundredth nearer than it began: pushed again and again, it would creep.
-  if (isSettled_ && !isSame(pose_, target) && travelBetween(*scene_, start_, pose_) < kNoMove * marginAtEnd_)
-    pose_ = start_;
+  const double gone = travelBetween(*scene_, start_, pose_);
+  isHeld_ = isSettled_ && !isSame(pose_, target) && gone < kNoMove * marginAtEnd_ &&
+            gone < 0.5 * travelBetween(*scene_, start_, target);
 }
 
 void SolidMove::keepMargin(double margin) {
@@ -121,7 +122,7 @@ bool SolidMove::tick(const RigidTransform& target, double turnScale) {
 }
 
 void SolidMove::updatePoses() {
-  if (isSame(pose_, start_)) {
+  if (isHeld_ || isSame(pose_, start_)) {
     poses_ = startPoses_;
     return;
   }
@@ -130,7 +131,7 @@ void SolidMove::updatePoses() {
 }
 
 RigidTransform SolidMove::motion() const noexcept {
-  return isSame(pose_, start_) ? RigidTransform{} : (pose_ * start_.inverse()).normalized();
+  return isHeld_ || isSame(pose_, start_) ? RigidTransform{} : (pose_ * start_.inverse()).normalized();
 }
 
 std::vector<PartId> SolidMove::idsOf(const std::vector<std::uint32_t>& bodies) const {

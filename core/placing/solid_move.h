@@ -15,7 +15,7 @@ namespace nearfit {
 /// the proxy that the servo feels with: they slide along what they touch, a margin away from it, and never
 /// meet it. Parts that start nearer than the margin to something end as near, if they are wanted there; on
 /// the way they go by the margin. What they overlap where they start lets them through until they have come
-/// apart.
+/// apart. Held where they stand they do not move at all: what goes less than a fiftieth of the margin stays.
 ///
 /// A motion that only shifts does not turn them, whatever they touch; one that turns may shift them aside.
 /// There is no friction: what is placed by hand is to slide.
@@ -69,6 +69,7 @@ class SolidMove {
   /// not known yet.
   double marginAtEnd_ = 0.0;
   bool isSettled_ = false;
+  bool isHeld_ = false;         ///< Where they started.
   int still_ = 0, waited_ = 0;  ///< Ticks since the parts last moved, or since the proxy knew enough.
   std::vector<RigidTransform> startPoses_, bodyFromPart_, poses_;
 };

@@ -66,10 +66,10 @@ class GeometryLoader {
     } catch (const Error& e) {
       entry.field.at("mesh").fail(e.where() + ": " + e.problem(), e.remedy());
     }
-    const bool isThatOfTheScene = loaded.geometry && loaded.geometry->sha256 == entry.sha256;
-    if (!isThatOfTheScene && (changed_ == nullptr || !loaded.geometry)) failChanged(entry);
-    if (!isThatOfTheScene && std::ranges::find(*changed_, entry.mesh) == changed_->end())
-      changed_->push_back(entry.mesh);
+    if (loaded.geometry && loaded.geometry->sha256 == entry.sha256) return loaded.geometry;
+    // Of none there is a problem where the file may be any.
+    if (changed_ == nullptr || !loaded.geometry) failChanged(entry);
+    if (std::ranges::find(*changed_, entry.mesh) == changed_->end()) changed_->push_back(entry.mesh);
     return loaded.geometry;
   }
 
@@ -89,7 +89,9 @@ class GeometryLoader {
     entry.field.at("sha256").fail(
         fmt::format("the mesh file {} is not the one that the scene was made with (its SHA-256 differs)",
                     printableText(entry.mesh.string())),
-        "put the old file back, or open the scene in the window and save it: it takes the changed one");
+        "put the old file back, or open the scene in the desktop application and save it there, which takes "
+        "over "
+        "the changed mesh");
   }
 
   std::vector<fs::path>* changed_;

@@ -301,6 +301,8 @@ class Pictures {
     // Room for all of the panel, and nothing that overlaps.
     for (const char* dock : {"clearanceDock", "plotsDock", "timelineDock"})
       driver_.widget<QDockWidget>(dock)->hide();
+    // What was felt, and the part that overlaps.
+    trigger("undo");
     trigger("undo");
     auto* hand = driver_.widget<QComboBox>("hand");
     hand->showPopup();

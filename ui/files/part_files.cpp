@@ -81,7 +81,11 @@ void PartFiles::addActions(QMenu* menu) {
   connect(&document_, &Document::busyChanged, reload_, update);
   // Parts come only after loading has ended, and go without any.
   session_.onChange([self = QPointer<PartFiles>(this), update] {
-    if (self) update();
+    if (!self) return;
+    update();
+    // Saved, or no longer there: nothing is left to say.
+    if (!self->session_.isModified() || self->session_.sceneSerial() != self->sceneOfOthers_)
+      self->notices_.withdraw(kOthersNotice);
   });
   update();
 }
@@ -94,12 +98,14 @@ void PartFiles::seeChange(const QStringList& files) {
 }
 
 void PartFiles::tellOfOthers(const QStringList& files) {
-  const QString text =
-      files.size() == 1 ? tr("%1 is another file than this scene was saved with. It is shown as it is now; "
-                             "save the scene to keep it.")
-                        : tr("%1 are other files than this scene was saved with. They are shown as they "
-                             "are now; save the scene to keep them.");
-  notices_.offer(kOthersNotice, text.arg(namesOf(files)), {{tr("Good"), [] {}}});
+  if (!session_.isModified()) return;
+  sceneOfOthers_ = session_.sceneSerial();
+  const QString text = files.size() == 1
+                           ? tr("%1 has changed since this scene was saved. It is shown as it is "
+                                "now; save the scene to keep it so.")
+                           : tr("%1 have changed since this scene was saved. They are shown as "
+                                "they are now; save the scene to keep them so.");
+  notices_.offer(kOthersNotice, text.arg(namesOf(files)), {{tr("OK"), [] {}}});
 }
 
 void PartFiles::offerReload() {

@@ -58,8 +58,9 @@ class PartFiles : public QObject {
   NoticeBar& notices_;
   MeshWatch* watch_;
   QAction *reload_ = nullptr, *reloadAlways_ = nullptr;
-  QStringList changed_;  ///< On disk, and not reloaded yet.
-  QStringList waiting_;  ///< Files to reload once nothing else is being loaded.
+  QStringList changed_;              ///< On disk, and not reloaded yet.
+  std::uint64_t sceneOfOthers_ = 0;  ///< The scene that was told to have other meshes.
+  QStringList waiting_;              ///< Files to reload once nothing else is being loaded.
 };
 
 }  // namespace nearfit::ui

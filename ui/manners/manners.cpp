@@ -6,6 +6,7 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QToolBar>
+#include <algorithm>
 #include <utility>
 
 #include "ui/manners/field_names.h"
@@ -22,6 +23,14 @@ QAction* addAction(QMenu* menu, const char* name, const QString& text, const QSt
   action->setObjectName(QLatin1String(name));
   action->setToolTip(toolTip);
   return action;
+}
+
+/// Whether all have more to say than their text.
+bool areExplained(const QList<QAction*>& actions) {
+  return std::ranges::all_of(actions, [](const QAction* action) {
+    return action->isSeparator() || action->menu() != nullptr ||
+           action->toolTip() != QAction(action->text()).toolTip();
+  });
 }
 
 }  // namespace
@@ -42,6 +51,9 @@ Manners::Manners(QMainWindow* window, QMenu* view, QMenu* help)
 }
 
 void Manners::settle() {
+  // A menu keeps what its commands do to itself unless it is told.
+  for (QMenu* menu : window_->findChildren<QMenu*>())
+    menu->setToolTipsVisible(areExplained(menu->actions()));
   layout_ = new WindowLayout(window_);
   layout_->restore();
   nameFields(*window_);

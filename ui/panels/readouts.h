@@ -16,7 +16,8 @@ class Readouts : public QWidget {
 
   /// @param objectName  Of the number's label.
   QLabel* add(const QString& name, const char* objectName, const QString& toolTip = {});
-  /// A text below them, in that colour of the light theme; keeps its line while it is empty, so that nothing jumps.
+  /// A text below them, in that colour of the light theme; keeps its line while it is empty, so that nothing
+  /// jumps.
   QLabel* addNote(const char* objectName, const QColor& colour);
   /// What stands where there is no number.
   static QString nothing() { return QStringLiteral("–"); }

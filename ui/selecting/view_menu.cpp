@@ -70,6 +70,7 @@ void ViewMenu::popUp(const QList<QAction*>& actions, const QPoint& position) {
   menu->setObjectName(QStringLiteral("viewMenu"));
   menu->setAttribute(Qt::WA_DeleteOnClose);
   menu->addActions(actions);
+  menu->setToolTipsVisible(true);
   menu->popup(view_.mapToGlobal(position));
 }
 

@@ -13,6 +13,7 @@
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/support/mesh_files.h"
 #include "ui/parts_model.h"
+#include "ui/selection.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -115,6 +116,7 @@ class DesktopCancelTest : public QObject {
   void reloadByKeysWorksOnTheFirstPartsOfAScene();
   void viewStaysWhenNothingCame();
   void aSceneWhoseMeshIsAnotherOpensAndSaysSo();
+  void aSceneThatComesWithABrokenMeshIsShownWhole();
 
  private:
   TemporaryFolder folder_;
@@ -343,12 +345,33 @@ void DesktopCancelTest::aSceneWhoseMeshIsAnotherOpensAndSaysSo() {
   QVERIFY(p.d.part("fixed").worldFromPart.translation == pose.translation);
   QTRY_VERIFY(p.d.widget<QWidget>("notice-others") != nullptr);
   const auto* text = p.d.widget<QWidget>("notice-others")->findChild<QLabel*>(QStringLiteral("noticeText"));
-  QVERIFY2(text->text().startsWith(QStringLiteral("fixed.off is another file")), qPrintable(text->text()));
+  QVERIFY2(text->text().startsWith(QStringLiteral("fixed.off has changed since")), qPrintable(text->text()));
   // It is not what the file says, until it is saved.
   QVERIFY(p.d.window().isWindowModified());
   pressShortcut(p.d, Qt::Key_S, Qt::ControlModifier);
   QTRY_VERIFY(!p.d.window().isWindowModified());
   QVERIFY(readSceneFile(file).parts().size() == 2);
+  QTRY_VERIFY(p.d.widget<QWidget>("notice-others") == nullptr);
+}
+
+/// Only what came with it was asked, and the scene stood somewhere.
+void DesktopCancelTest::aSceneThatComesWithABrokenMeshIsShownWhole() {
+  Pair p;
+  ui::Viewport& view = p.d.window().viewport();
+  const double fitted = view.camera()->GetDistance();
+  for (int i = 0; i < 5; ++i) {
+    const QPoint at = view.rect().center();
+    QWheelEvent wheel(at, view.mapToGlobal(at), {}, {0, 120}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&view, &wheel);
+  }
+  QVERIFY(view.camera()->GetDistance() < 0.8 * fitted);
+  const fs::path broken = p.d.folder.write("broken.off", "OFF\n3 1 0\n0 0\n");
+  p.d.window().document().openFiles({nameOf(p.file), nameOf(broken)});
+  QTRY_COMPARE(p.told.size(), 1);
+  QTRY_VERIFY(!p.d.window().document().isBusy());
+  QCOMPARE(p.d.session().scene().parts().size(), std::size_t{2});
+  QVERIFY(std::abs(view.camera()->GetDistance() - fitted) < 1e-6 * fitted);
+  QVERIFY(p.d.window().selection().current() == p.d.session().scene().movingPart());
 }
 
 NEARFIT_DESKTOP_TEST_MAIN(DesktopCancelTest)
