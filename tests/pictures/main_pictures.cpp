@@ -31,6 +31,7 @@ using namespace nearfit::test;
 
 namespace {
 
+constexpr std::size_t kDemoParts = 4;
 constexpr int kSettleMs = 350;  ///< For layout, and the pictures of the view that follow.
 /// Ticks of the scripted hand until it presses and turns.
 constexpr std::uint64_t kFeelFor = 2450;
@@ -301,9 +302,10 @@ class Pictures {
     // Room for all of the panel, and nothing that overlaps.
     for (const char* dock : {"clearanceDock", "plotsDock", "timelineDock"})
       driver_.widget<QDockWidget>(dock)->hide();
-    // What was felt, and the part that overlaps.
-    trigger("undo");
-    trigger("undo");
+    while (driver_.session().scene().parts().size() > kDemoParts)
+      trigger("undo");
+    const QSize before = driver_.window().size();
+    driver_.window().resize(before.width(), 960);
     auto* hand = driver_.widget<QComboBox>("hand");
     hand->showPopup();
     grab(*hand->view()->window(), QStringLiteral("list-hands"));
@@ -334,6 +336,7 @@ class Pictures {
     QTest::qWait(500);
     grab(*dock, QStringLiteral("panel-feel-fault"));
     trigger("stop");
+    driver_.window().resize(before);
   }
 
   QString folder_;
