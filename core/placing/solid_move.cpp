@@ -122,7 +122,7 @@ bool SolidMove::tick(const RigidTransform& target, double turnScale) {
 }
 
 void SolidMove::updatePoses() {
-  if (isHeld_ || isSame(pose_, start_)) {
+  if (isSame(reached(), start_)) {
     poses_ = startPoses_;
     return;
   }
@@ -131,7 +131,7 @@ void SolidMove::updatePoses() {
 }
 
 RigidTransform SolidMove::motion() const noexcept {
-  return isHeld_ || isSame(pose_, start_) ? RigidTransform{} : (pose_ * start_.inverse()).normalized();
+  return isSame(reached(), start_) ? RigidTransform{} : (pose_ * start_.inverse()).normalized();
 }
 
 std::vector<PartId> SolidMove::idsOf(const std::vector<std::uint32_t>& bodies) const {

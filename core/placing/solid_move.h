@@ -54,6 +54,7 @@ class SolidMove {
   void findStartDistance();
   void keepMargin(double margin);
   void updatePoses();
+  const RigidTransform& reached() const noexcept { return isHeld_ ? start_ : pose_; }
   std::vector<PartId> idsOf(const std::vector<std::uint32_t>& bodies) const;
 
   std::shared_ptr<const ServoScene> scene_;

@@ -89,9 +89,8 @@ class GeometryLoader {
     entry.field.at("sha256").fail(
         fmt::format("the mesh file {} is not the one that the scene was made with (its SHA-256 differs)",
                     printableText(entry.mesh.string())),
-        "put the old file back, or open the scene in the desktop application and save it there, which takes "
-        "over "
-        "the changed mesh");
+        "put the old file back, or open the scene in the desktop application and save it there, which "
+        "takes over the changed mesh");
   }
 
   std::vector<fs::path>* changed_;

@@ -77,7 +77,6 @@ void PartFiles::addActions(QMenu* menu) {
   const auto update = [this] {
     reload_->setEnabled(!document_.isBusy() && !session_.scene().parts().empty());
   };
-  connect(menu, &QMenu::aboutToShow, reload_, update);
   connect(&document_, &Document::busyChanged, reload_, update);
   // Parts come only after loading has ended, and go without any.
   session_.onChange([self = QPointer<PartFiles>(this), update] {

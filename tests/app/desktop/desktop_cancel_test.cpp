@@ -1,6 +1,5 @@
 #include <QDoubleSpinBox>
 #include <QMessageBox>
-#include <QMimeData>
 #include <QProgressBar>
 #include <QStatusBar>
 #include <QWheelEvent>
@@ -10,7 +9,7 @@
 
 #include "core/files/sha256.h"
 #include "core/scene/scene_file.h"
-#include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/file_drop.h"
 #include "tests/support/mesh_files.h"
 #include "ui/parts_model.h"
 #include "ui/selection.h"
@@ -21,10 +20,6 @@ using namespace nearfit::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-QString nameOf(const fs::path& file) {
-  return QString::fromStdString(file.string());
-}
 
 double widthOf(const Part& part) {
   const Aabb& box = part.geometry->mesh.bounds();
@@ -45,6 +40,14 @@ void stopLoading(Stop stop, int& stopped) {
       QStringLiteral("progressDialog"));
 }
 
+void zoomIn(ui::Viewport& view) {
+  for (int i = 0; i < 5; ++i) {
+    const QPoint at = view.rect().center();
+    QWheelEvent wheel(at, view.mapToGlobal(at), {}, {0, 120}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&view, &wheel);
+  }
+}
+
 void pressOpen(DesktopDriver& d, const fs::path& file) {
   whenModal<QFileDialog>([file](QFileDialog* dialog) { chooseFile(dialog, nameOf(file)); });
   pressShortcut(d, Qt::Key_O, Qt::ControlModifier);
@@ -57,17 +60,6 @@ void discardChanges(int& asked) {
         QTest::mouseClick(box->button(QMessageBox::Discard), Qt::LeftButton);
       },
       QStringLiteral("unsavedBox"));
-}
-
-void drop(QWidget& window, const fs::path& file) {
-  QMimeData data;
-  data.setUrls({QUrl::fromLocalFile(nameOf(file))});
-  const QPoint middle = window.rect().center();
-  QDragEnterEvent enter(middle, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-  QApplication::sendEvent(&window, &enter);
-  QVERIFY(enter.isAccepted());
-  QDropEvent event(middle, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-  QApplication::sendEvent(&window, &event);
 }
 
 /// The cubes in a scene with a file; what fails is told to `told`.
@@ -226,7 +218,7 @@ void DesktopCancelTest::progressRisesWhileFilesLoad() {
                           Qt::LeftButton);
       },
       QStringLiteral("unitDialog"));
-  drop(d.window(), parts);
+  drop(d.window(), {nameOf(parts)});
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{kFiles});
   QVERIFY(most > 0);
   QVERIFY2(values.size() >= 4, "it is told on the way");
@@ -312,11 +304,7 @@ void DesktopCancelTest::viewStaysWhenNothingCame() {
   Pair p;
   ui::Viewport& view = p.d.window().viewport();
   const double fitted = view.camera()->GetDistance();
-  for (int i = 0; i < 5; ++i) {
-    const QPoint at = view.rect().center();
-    QWheelEvent wheel(at, view.mapToGlobal(at), {}, {0, 120}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
-    QApplication::sendEvent(&view, &wheel);
-  }
+  zoomIn(view);
   const double near = view.camera()->GetDistance();
   QVERIFY(near < 0.8 * fitted);
   int stopped = 0;
@@ -359,11 +347,7 @@ void DesktopCancelTest::aSceneThatComesWithABrokenMeshIsShownWhole() {
   Pair p;
   ui::Viewport& view = p.d.window().viewport();
   const double fitted = view.camera()->GetDistance();
-  for (int i = 0; i < 5; ++i) {
-    const QPoint at = view.rect().center();
-    QWheelEvent wheel(at, view.mapToGlobal(at), {}, {0, 120}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
-    QApplication::sendEvent(&view, &wheel);
-  }
+  zoomIn(view);
   QVERIFY(view.camera()->GetDistance() < 0.8 * fitted);
   const fs::path broken = p.d.folder.write("broken.off", "OFF\n3 1 0\n0 0\n");
   p.d.window().document().openFiles({nameOf(p.file), nameOf(broken)});

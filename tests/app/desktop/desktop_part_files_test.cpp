@@ -2,13 +2,12 @@
 #include <QComboBox>
 #include <QElapsedTimer>
 #include <QMenu>
-#include <QMimeData>
 #include <QStatusBar>
 #include <QTableWidget>
 #include <QToolButton>
 #include <algorithm>
 
-#include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/file_drop.h"
 #include "tests/support/mesh_files.h"
 #include "ui/files/recent_files.h"
 #include "ui/parts_model.h"
@@ -19,25 +18,6 @@ using namespace nearfit::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-QString nameOf(const fs::path& file) {
-  return QString::fromStdString(file.string());
-}
-
-/// Drops files on the window as a file manager does.
-void drop(QWidget& window, const QStringList& files) {
-  QMimeData data;
-  QList<QUrl> urls;
-  for (const QString& file : files)
-    urls << QUrl::fromLocalFile(file);
-  data.setUrls(urls);
-  const QPoint middle = window.rect().center();
-  QDragEnterEvent enter(middle, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-  QApplication::sendEvent(&window, &enter);
-  QVERIFY(enter.isAccepted());
-  QDropEvent event(middle, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-  QApplication::sendEvent(&window, &event);
-}
 
 /// Opens File > Open recent.
 QMenu& openRecent(DesktopDriver& d) {

@@ -1,14 +1,13 @@
 #include <QDoubleSpinBox>
 #include <QMenu>
 #include <QMessageBox>
-#include <QMimeData>
 #include <QWindow>
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
 
 #include "core/scene/scene_file.h"
-#include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/file_drop.h"
 #include "tests/support/file_size_limit.h"
 #include "ui/files/recent_files.h"
 #include "ui/parts_model.h"
@@ -19,10 +18,6 @@ using namespace nearfit::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-QString nameOf(const fs::path& file) {
-  return QString::fromStdString(file.string());
-}
 
 /// While it lives, answers the question about unsaved changes, and counts how often it was asked.
 class Answers {
@@ -114,17 +109,6 @@ struct Work {
 
 const QString kNoFolder = QStringLiteral("Check that its folder exists.");
 
-void drop(QWidget& window, const fs::path& file) {
-  QMimeData data;
-  data.setUrls({QUrl::fromLocalFile(nameOf(file))});
-  const QPoint middle = window.rect().center();
-  QDragEnterEvent enter(middle, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-  QApplication::sendEvent(&window, &enter);
-  QVERIFY(enter.isAccepted());
-  QDropEvent event(middle, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-  QApplication::sendEvent(&window, &event);
-}
-
 void openRecent(DesktopDriver& d, const fs::path& file) {
   ui::RecentFiles::remember(nameOf(file));
   const QList<QMenu*> menus = d.window().findChildren<QMenu*>();
@@ -148,7 +132,7 @@ void leave(Work& w, const QString& way) {
   } else if (way == QStringLiteral("recent")) {
     openRecent(w.d, w.other);
   } else if (way == QStringLiteral("drop")) {
-    drop(w.d.window(), w.other);
+    drop(w.d.window(), {nameOf(w.other)});
   } else if (way == QStringLiteral("close")) {
     // As the window system tells that the cross in the title was clicked.
     QCloseEvent close;
