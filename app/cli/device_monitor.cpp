@@ -91,7 +91,7 @@ std::string textOf(const Look& look) {
   return text;
 }
 
-std::string jsonOf(const Look& look) {
+std::string lookJson(const Look& look) {
   const RigidTransform& pose = look.handle.pose;
   nlohmann::ordered_json json{
       {"t_s", look.time},
@@ -174,7 +174,7 @@ void monitorDevice(HapticDevice& device, const MonitorOptions& options) {
     const Look look = lookAt(ticked, sent, time, now);
     // To the line's start, and what was longer before is cleared behind it.
     if (options.isJson)
-      print(jsonOf(look));
+      print(lookJson(look));
     else
       print(isRewritten ? "\r" + oneLine(textOf(look)) + "\033[K" : oneLine(textOf(look)) + "\n");
     flushOutput();

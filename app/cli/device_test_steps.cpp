@@ -49,7 +49,7 @@ struct Watched {
   ReportCounters counters;
 };
 
-Watched watch(TickedDevice& ticked) {
+Watched watchTicks(TickedDevice& ticked) {
   Watched watched;
   const ReportCounters before = ticked.device().counters();
   SpeedMeter speed;
@@ -100,7 +100,7 @@ TestStep judgePoses(const Watched& watched) {
 }
 
 /// Why a push is given up; empty: it goes on.
-std::string troubleOf(const HapticDevice& device, double way, double speed) {
+std::string motionTrouble(const HapticDevice& device, double way, double speed) {
   if (InterruptGuard::isInterrupted()) return "interrupted";
   if (device.state() != DeviceState::Armed) {
     const std::string note = device.stateNote();
@@ -114,7 +114,7 @@ std::string troubleOf(const HapticDevice& device, double way, double speed) {
 }  // namespace
 
 std::vector<TestStep> watchReports(TickedDevice& ticked) {
-  const Watched watched = watch(ticked);
+  const Watched watched = watchTicks(ticked);
   const HapticDevice& device = ticked.device();
   return {judgeRate(ticked, watched, device.info().reportPeriod, device.stateNote()), judgePoses(watched)};
 }
@@ -131,7 +131,7 @@ TestStep push(TickedDevice& ticked, const std::string& name, const glm::dvec3& a
       return {name, Result::Failed, ticked.device().stateNote()};
     const glm::dvec3& position = ticked.handle().pose.translation;
     const double way = glm::length(position - from);
-    const std::string trouble = troubleOf(ticked.device(), way, speed.see(position, monotonicNow()));
+    const std::string trouble = motionTrouble(ticked.device(), way, speed.see(position, monotonicNow()));
     if (!trouble.empty()) {
       ticked.tick();
       return {name, Result::Failed, trouble};

@@ -25,7 +25,7 @@
 namespace nearfit::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kDevicesFooter =
     R"(DEVICE is a driver (openhap, spacemouse, falcon, polhem, plugin), an id (046d:c626), a place (1-4.2), a node of
 /dev or a part of the name; without it, the first that can be used.
 --test opens the device, watches its reports and poses for 2 s and then, only if you type yes or give --yes,
@@ -150,7 +150,7 @@ void addDevicesCommand(CLI::App& program) {
   command->add_flag("--json", options->isJson, "Print JSON, an object a line");
   addDeviceFileOptions(*command, options->files);
   addRateOptions(*command, options->rate);
-  command->footer(kFooter);
+  command->footer(kDevicesFooter);
   command->callback([options] { runDevices(*options); });
 }
 

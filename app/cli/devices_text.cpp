@@ -52,13 +52,13 @@ std::string conditionText(const DeviceListing& device) {
   return text;
 }
 
-std::string line(const DeviceListing& device) {
+std::string listingLine(const DeviceListing& device) {
   return oneLine(fmt::format("{:<10}  {:<9}  {:<10}  {} ({}): {}", device.place, device.id, device.driver,
                              device.name, device.kind, conditionText(device)));
 }
 
 /// @param isThere  It is plugged in; else it has just left.
-Json jsonOf(const DeviceListing& device, bool isThere = true) {
+Json listingJson(const DeviceListing& device, bool isThere = true) {
   Json json{{"place", device.place},
             {"state", stateName(isThere ? DeviceState::Present : DeviceState::Absent)},
             {"id", device.id},
@@ -86,7 +86,7 @@ std::string dump(const Json& json) {
 std::string devicesText(std::span<const DeviceListing> devices) {
   std::string text;
   for (const DeviceListing& device : devices)
-    text += line(device) + "\n";
+    text += listingLine(device) + "\n";
   if (devices.empty()) text = "No device that Nearfit knows is plugged in.\n";
   text += "Without a device:\n";
   for (const SimulatedHand& hand : kSimulatedHands)
@@ -97,18 +97,18 @@ std::string devicesText(std::span<const DeviceListing> devices) {
 std::string devicesJson(std::span<const DeviceListing> devices) {
   Json json{{"devices", Json::array()}, {"simulated", Json::array()}};
   for (const DeviceListing& device : devices)
-    json["devices"].push_back(jsonOf(device));
+    json["devices"].push_back(listingJson(device));
   for (const SimulatedHand& hand : kSimulatedHands)
     json["simulated"].push_back({{"id", hand.id}, {"name", hand.name}, {"use", hand.use}});
   return dump(json);
 }
 
 std::string arrivalText(const DeviceListing& device, bool hasCome) {
-  return (hasCome ? "+ " + line(device) : oneLine("- " + device.place + "  " + device.name)) + "\n";
+  return (hasCome ? "+ " + listingLine(device) : oneLine("- " + device.place + "  " + device.name)) + "\n";
 }
 
 std::string arrivalJson(const DeviceListing& device, bool hasCome) {
-  return dump({{"event", hasCome ? "arrived" : "left"}, {"device", jsonOf(device, hasCome)}});
+  return dump({{"event", hasCome ? "arrived" : "left"}, {"device", listingJson(device, hasCome)}});
 }
 
 }  // namespace nearfit::cli

@@ -21,7 +21,7 @@ struct ExportOptions {
   std::vector<std::string> parts;
 };
 
-constexpr const char* kFooter =
+constexpr const char* kExportFooter =
     "What is written follows from the name of OUT:\n"
     "  .json  where each part is, and what is left between the moving part and each other one\n"
     "  .csv   where each part is, a row a part: position [m], quaternion, matrix by rows\n"
@@ -76,7 +76,7 @@ void addExportCommand(CLI::App& program) {
       ->add_option("--unit", options->unit,
                    "Unit of a mesh's coordinates: m, cm, mm, um, in, ft, or a number of metres")
       ->capture_default_str();
-  command->footer(kFooter);
+  command->footer(kExportFooter);
   command->callback([options] { runExport(*options); });
 }
 

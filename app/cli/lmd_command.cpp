@@ -136,7 +136,7 @@ void runLmd(const LmdOptions& options) {
 }
 
 // clang-format off
-constexpr const char* kFooter =
+constexpr const char* kLmdFooter =
     R"(Prints one JSON object a pose, each on a line of its own:
   {"pose":0,"lmds":[{"distance":d,"scene":[x,y,z],"part":[x,y,z],"features":["vertex","face"],
    "region":false,"blocked":false,"marginal":false}],"force":[x,y,z],"torque":[x,y,z],"query_us":t}
@@ -215,7 +215,7 @@ void addLmdCommand(CLI::App& program) {
       ->check(CLI::IsMember({"exact", "normal-span"}))
       ->capture_default_str();
   command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
-  command->footer(kFooter);
+  command->footer(kLmdFooter);
   command->callback([options] { runLmd(*options); });
 }
 

@@ -23,7 +23,7 @@
 namespace nearfit::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kPlaceFooter =
     R"(The part starts at the first pose of the path or the recording, or stays where it is until a device moves; the scene file stays as it is. Options of the feel count for this
 run, instead of what the scene says.
 --record  CSV with a header and a row a tick, in the world frame: t_s; handle_tx ... handle_qz and
@@ -211,7 +211,7 @@ void addPlaceCommand(CLI::App& program) {
   command->add_option("--export", options->exportFile, "Write the placement at the end to this JSON file");
   command->add_flag("--json", options->isJson, "Print the summary as one JSON object");
   addHapticOptions(*command, options->haptics);
-  command->footer(kFooter);
+  command->footer(kPlaceFooter);
   command->callback([options, device] {
     options->isLedByDevice = !device->empty();
     runPlace(*options);

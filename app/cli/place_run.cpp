@@ -113,7 +113,7 @@ class OpenDevice {
 };
 
 /// Empty as long as all is well.
-std::string troubleOf(const HapticDevice& device) {
+std::string deviceTrouble(const HapticDevice& device) {
   const DeviceState state = device.state();
   return state == DeviceState::Lost || state == DeviceState::Fault ? device.stateNote() : std::string();
 }
@@ -199,11 +199,11 @@ PlaceResult placeWithDevice(PlaceJob job) {
   DeviceArmer armer(device, job.isArming);
   while (servo.loop().isRunning() && !InterruptGuard::isInterrupted() && !isOver(job, begin)) {
     report.trouble = armer.look();
-    if (report.trouble.empty()) report.trouble = troubleOf(device);
+    if (report.trouble.empty()) report.trouble = deviceTrouble(device);
     if (!report.trouble.empty()) break;
     servo.waitAndTake();
   }
-  if (report.trouble.empty()) report.trouble = troubleOf(device);
+  if (report.trouble.empty()) report.trouble = deviceTrouble(device);
   report.seconds = toSeconds(monotonicNow() - begin);
   report.wasArmed = armer.hasArmed();
   report.counters = device.counters();

@@ -63,7 +63,7 @@ std::string modeText(const HapticSettings& haptics) {
                      isPrinted ? "N/m^2" : "N/m", springs.damping, springs.cutoff);
 }
 
-std::string line(const char* name, const std::string& text) {
+std::string summaryLine(const char* name, const std::string& text) {
   return fmt::format("{:<12}{}\n", name, text);
 }
 
@@ -89,17 +89,17 @@ StiffnessBounds boundsOf(const PlaceSummary& s) {
 std::string proxyText(const PlaceSummary& s) {
   const PlaceResult& r = s.result;
   const StiffnessBounds bounds = boundsOf(s);
-  std::string text = line("coupling", couplingText(r.coupling));
+  std::string text = summaryLine("coupling", couplingText(r.coupling));
   text +=
-      line("bound", fmt::format("{:.6g} N/m; {:.6g} N m/rad: passive at {:.3g} ms with the device's damping",
+      summaryLine("bound", fmt::format("{:.6g} N/m; {:.6g} N m/rad: passive at {:.3g} ms with the device's damping",
                                 bounds.linear, bounds.rotational, 1e3 * r.period));
-  text += line("steps", fmt::format("{} in a tick at most, {} shortened, {} refused", r.maxSubSteps,
+  text += summaryLine("steps", fmt::format("{} in a tick at most, {} shortened, {} refused", r.maxSubSteps,
                                     r.shortenedSteps, r.refusedSteps));
   if (r.releasedTicks > 0) {
-    text += line("released", fmt::format("{} ticks overlapped a part, which is not felt until they are apart",
+    text += summaryLine("released", fmt::format("{} ticks overlapped a part, which is not felt until they are apart",
                                          r.releasedTicks));
   }
-  return text + line("proxy", timesText(r.proxyTime));
+  return text + summaryLine("proxy", timesText(r.proxyTime));
 }
 
 nlohmann::ordered_json proxyJson(const PlaceSummary& s) {
@@ -122,10 +122,10 @@ nlohmann::ordered_json proxyJson(const PlaceSummary& s) {
 }
 
 std::string deviceText(const DeviceReport& d) {
-  std::string text = line("device", oneLine(d.name) + (d.wasArmed ? ", armed" : ", not armed"));
-  text += line("reports", fmt::format("{} taken, {} missing, {} rejected", d.counters.poses,
+  std::string text = summaryLine("device", oneLine(d.name) + (d.wasArmed ? ", armed" : ", not armed"));
+  text += summaryLine("reports", fmt::format("{} taken, {} missing, {} rejected", d.counters.poses,
                                       d.counters.missing, d.counters.rejected));
-  if (d.roundTrip.count() > 0) text += line("round trip", timesText(d.roundTrip));
+  if (d.roundTrip.count() > 0) text += summaryLine("round trip", timesText(d.roundTrip));
   return text;
 }
 
@@ -147,40 +147,40 @@ nlohmann::ordered_json deviceJson(const DeviceReport& d) {
 std::string summaryText(const PlaceSummary& s) {
   const PlaceResult& r = s.result;
   std::string text =
-      line("part", fmt::format("{} against {} other{}", oneLine(s.part), s.others, s.others == 1 ? "" : "s"));
+      summaryLine("part", fmt::format("{} against {} other{}", oneLine(s.part), s.others, s.others == 1 ? "" : "s"));
   const std::string all = r.device ? "" : fmt::format(" of {}", s.poses);
-  text += line("ticks", fmt::format("{}{}{}", r.ticks, all, paceText(r)));
+  text += summaryLine("ticks", fmt::format("{}{}{}", r.ticks, all, paceText(r)));
   if (r.device) text += deviceText(*r.device);
-  text += line("mode", modeText(s.parameters.haptics));
-  text += line("minima", fmt::format("{} at once at most", r.maxLmds));
-  text += line("distance", distanceText(r));
-  text += line("force", fmt::format("peak {:.6g} N at {:.3f} s", r.force.value, r.force.time));
-  text += line("torque", fmt::format("peak {:.6g} N m at {:.3f} s", r.torque.value, r.torque.time));
-  text += line("energy", fmt::format("{:.6g} J given to the hand at most", r.maxEnergyToHand));
+  text += summaryLine("mode", modeText(s.parameters.haptics));
+  text += summaryLine("minima", fmt::format("{} at once at most", r.maxLmds));
+  text += summaryLine("distance", distanceText(r));
+  text += summaryLine("force", fmt::format("peak {:.6g} N at {:.3f} s", r.force.value, r.force.time));
+  text += summaryLine("torque", fmt::format("peak {:.6g} N m at {:.3f} s", r.torque.value, r.torque.time));
+  text += summaryLine("energy", fmt::format("{:.6g} J given to the hand at most", r.maxEnergyToHand));
   if (s.parameters.haptics.mode == HapticMode::Proxy) text += proxyText(s);
-  if (r.clampedTicks > 0) text += line("clamped", fmt::format("force or torque in {} ticks", r.clampedTicks));
+  if (r.clampedTicks > 0) text += summaryLine("clamped", fmt::format("force or torque in {} ticks", r.clampedTicks));
   if (r.truncatedTicks > 0) {
-    text += line("truncated",
+    text += summaryLine("truncated",
                  fmt::format("more minima or more work than a tick allows in {} ticks", r.truncatedTicks));
   }
   if (r.lateTicks > 0) {
-    text += line("late", fmt::format("{} ticks searched for themselves: the motion was ahead of the lists",
+    text += summaryLine("late", fmt::format("{} ticks searched for themselves: the motion was ahead of the lists",
                                      r.lateTicks));
   }
   text +=
-      line("refresh", fmt::format("{} searches ahead, {}", r.refreshTime.count(), timesText(r.refreshTime)));
-  text += line("query", timesText(r.queryTime));
-  text += line("tick", timesText(r.tickTime));
+      summaryLine("refresh", fmt::format("{} searches ahead, {}", r.refreshTime.count(), timesText(r.refreshTime)));
+  text += summaryLine("query", timesText(r.queryTime));
+  text += summaryLine("tick", timesText(r.tickTime));
   if (!r.schedulingNote.empty()) {
-    text += line("lateness", timesText(r.lateness));
-    text += line("overruns", overrunsText(r.overruns));
-    text += line("scheduling", r.schedulingNote);
+    text += summaryLine("lateness", timesText(r.lateness));
+    text += summaryLine("overruns", overrunsText(r.overruns));
+    text += summaryLine("scheduling", r.schedulingNote);
   }
   if (!s.record.empty()) {
-    text += line("record",
+    text += summaryLine("record",
                  fmt::format("{} ({} rows, {} lost)", oneLine(s.record), r.ticks - r.lostRows, r.lostRows));
   }
-  if (!s.exportFile.empty()) text += line("export", oneLine(s.exportFile));
+  if (!s.exportFile.empty()) text += summaryLine("export", oneLine(s.exportFile));
   return text;
 }
 

@@ -130,7 +130,7 @@ void runSceneNew(const SceneNewOptions& options) {
         "\n");
 }
 
-constexpr const char* kFooter =
+constexpr const char* kSceneFooter =
     "A part is NAME=FILE[@POSE]: its name (without =), its mesh file, and where it stands in the world,\n"
     "tx,ty,tz,qw,qx,qy,qz: translation [m] and unit quaternion, without which it stands at the origin.\n"
     "A file name may hold @ where what follows the last one is no pose.\n"
@@ -158,7 +158,7 @@ void addSceneNew(CLI::App& scene) {
   command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
   const HapticSettings defaults;
   addHapticOptions(*command, options->haptics, &defaults);
-  command->footer(kFooter);
+  command->footer(kSceneFooter);
   command->callback([options] { runSceneNew(*options); });
 }
 

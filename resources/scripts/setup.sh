@@ -1,4 +1,4 @@
-# Sourced by ./run and ./test: what Debian 12 and Ubuntu 24.04 need to build Nearfit, and how it gets there.
+# Sourced by ./run and ./test: what Debian 12, Debian 13 and Ubuntu 24.04 need to build Nearfit, and how it gets there.
 
 nearfit_packages=(
   g++ cmake ninja-build pkg-config ccache
@@ -7,8 +7,10 @@ nearfit_packages=(
   libcgal-dev libusb-1.0-0-dev libqcustomplot-dev
 )
 nearfit_test_packages=(xvfb xauth libgl1-mesa-dri umockdev libumockdev-dev)
+# For ./test --all: formatting and clang-tidy.
+nearfit_check_packages=(clang-format-19 clang-tidy-19)
 # For tests/fuzz/run alone.
-nearfit_fuzz_packages=(clang-16 libclang-rt-16-dev)
+nearfit_fuzz_packages=(clang-19 libclang-rt-19-dev)
 # For tests/usb/qemu/run alone.
 nearfit_qemu_packages=(qemu-system-x86 busybox-static cpio xz-utils python3)
 

@@ -3,7 +3,8 @@
 #include <QtTest>
 
 #include "core/error.h"
-#include "tests/support/qt_patience.h"
+#include "tests/support/qt/qt_patience.h"
+#include "tests/support/qt/qt_suite.h"
 
 using namespace nearfit;
 
@@ -130,5 +131,5 @@ void BackgroundTaskTest::destructionCancelsAndWaits() {
   QVERIFY(hasEnded);
 }
 
-QTEST_GUILESS_MAIN(BackgroundTaskTest)
+NEARFIT_QT_SUITE(BackgroundTaskTest, test::runQtTest<BackgroundTaskTest, QCoreApplication>)
 #include "background_task_test.moc"

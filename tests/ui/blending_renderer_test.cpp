@@ -11,7 +11,8 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 
-#include "tests/support/qt_patience.h"
+#include "tests/support/qt/qt_patience.h"
+#include "tests/support/qt/qt_suite.h"
 #include "ui/viewport.h"
 
 using namespace nearfit;
@@ -90,10 +91,8 @@ void BlendingRendererTest::aWayBackAndForthChangesNothing() {
   QVERIFY2(std::abs(byPasses - before) <= 2, qPrintable(QStringLiteral("%1, %2").arg(byPasses).arg(before)));
 }
 
-int main(int argc, char** argv) {
+NEARFIT_QT_SUITE(BlendingRendererTest, [](int argc, char** argv) {
   ui::Viewport::setDefaultSurfaceFormat();
-  QApplication qt(argc, argv);
-  BlendingRendererTest test;
-  return QTest::qExec(&test, argc, argv);
-}
+  return test::runQtTest<BlendingRendererTest>(argc, argv);
+})
 #include "blending_renderer_test.moc"

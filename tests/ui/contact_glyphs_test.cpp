@@ -3,6 +3,8 @@
 #include <QtTest>
 #include <array>
 
+#include "tests/support/qt/qt_suite.h"
+
 using namespace nearfit;
 
 class ContactGlyphsTest : public QObject {
@@ -69,5 +71,5 @@ void ContactGlyphsTest::nothingIsDrawnWithoutContactOrWhenSwitchedOff() {
   QVERIFY(isEmpty());
 }
 
-QTEST_MAIN(ContactGlyphsTest)
+NEARFIT_QT_SUITE(ContactGlyphsTest, test::runQtTest<ContactGlyphsTest>)
 #include "contact_glyphs_test.moc"

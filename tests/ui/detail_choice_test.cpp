@@ -7,6 +7,7 @@
 #include <vtkPointData.h>
 
 #include "tests/support/mesh_generators.h"
+#include "tests/support/qt/qt_suite.h"
 #include "ui/detail/draft_surface.h"
 #include "ui/part_shape.h"
 
@@ -97,5 +98,5 @@ void DetailChoiceTest::smallMeshesHaveNoDrafts() {
   QVERIFY(ui::makePartShape(test::boxMesh(glm::dvec3(1.0))).drafts.empty());
 }
 
-QTEST_GUILESS_MAIN(DetailChoiceTest)
+NEARFIT_QT_SUITE(DetailChoiceTest, test::runQtTest<DetailChoiceTest, QCoreApplication>)
 #include "detail_choice_test.moc"

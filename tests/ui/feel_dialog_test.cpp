@@ -12,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/scene/haptic_limits.h"
+#include "tests/support/qt/qt_suite.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/feel/preset_store.h"
 #include "ui/feel_mode.h"
@@ -358,5 +359,5 @@ void FeelDialogTest::fitsASmallScreen() {
   QVERIFY2(dialog_->width() <= 480, qPrintable(QString::number(dialog_->width())));
 }
 
-QTEST_MAIN(FeelDialogTest)
+NEARFIT_QT_SUITE(FeelDialogTest, test::runQtTest<FeelDialogTest>)
 #include "feel_dialog_test.moc"

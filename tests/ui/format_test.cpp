@@ -3,6 +3,7 @@
 #include <QtTest>
 #include <limits>
 
+#include "tests/support/qt/qt_suite.h"
 #include "ui/number_field.h"
 
 using namespace nearfit::ui;
@@ -106,5 +107,5 @@ void FormatTest::decimalsAreThoseOfNumberFields() {
   QLocale::setDefault(before);
 }
 
-QTEST_MAIN(FormatTest)
+NEARFIT_QT_SUITE(FormatTest, test::runQtTest<FormatTest>)
 #include "format_test.moc"

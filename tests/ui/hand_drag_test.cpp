@@ -12,13 +12,15 @@
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 
+#include "tests/support/qt/qt_suite.h"
+
 using nearfit::ui::HandDrag;
 
 namespace {
 
 /// A view and what is dragged over it, with VTK's own projection as the judge of where a point is seen.
-struct Bench {
-  Bench() : drag(view, *camera.Get()) {
+struct DragBench {
+  DragBench() : drag(view, *camera.Get()) {
     view.resize(800, 600);
     camera->SetPosition(0.3, -0.5, 0.2);
     camera->SetFocalPoint(0.01, 0.02, 0.03);
@@ -71,7 +73,7 @@ class HandDragTest : public QObject {
 };
 
 void HandDragTest::thePointFollowsThePointer() {
-  Bench b;
+  DragBench b;
   const QPointF before = b.seen(b.point);
   b.dragBy({100, -60}, Qt::LeftButton);
   const QPointF way = b.seen(b.point) - before;
@@ -81,7 +83,7 @@ void HandDragTest::thePointFollowsThePointer() {
 }
 
 void HandDragTest::inParallelProjectionToo() {
-  Bench b;
+  DragBench b;
   b.camera->ParallelProjectionOn();
   b.camera->SetParallelScale(0.1);
   const QPointF before = b.seen(b.point);
@@ -93,7 +95,7 @@ void HandDragTest::inParallelProjectionToo() {
 
 void HandDragTest::aRightDragTurnsTheNearSideWithThePointer() {
   for (const QPoint way : {QPoint(20, 0), QPoint(0, 20)}) {
-    Bench b;
+    DragBench b;
     const glm::dvec3 towardsEye = glm::normalize(glm::dvec3(0.3, -0.5, 0.2) - b.point);
     const glm::dvec3 near = 1e-3 * towardsEye;
     const QPointF before = b.seen(b.point + near);
@@ -107,7 +109,7 @@ void HandDragTest::aRightDragTurnsTheNearSideWithThePointer() {
 }
 
 void HandDragTest::theWheelMovesItAwayWhereItIsSeen() {
-  Bench b;
+  DragBench b;
   const glm::dvec3 eye(0.3, -0.5, 0.2);
   const double before = glm::length(b.point - eye);
   QWheelEvent event(QPointF(5, 5), QPointF(5, 5), {}, QPoint(0, 120), Qt::NoButton, Qt::ShiftModifier,
@@ -117,7 +119,7 @@ void HandDragTest::theWheelMovesItAwayWhereItIsSeen() {
 }
 
 void HandDragTest::withoutShiftOrWithoutAHandTheMouseIsTheViews() {
-  Bench b;
+  DragBench b;
   b.dragBy({50, 50}, Qt::LeftButton, Qt::NoModifier);
   b.dragBy({50, 50}, Qt::MiddleButton);
   QCOMPARE(b.count, 0);
@@ -126,5 +128,5 @@ void HandDragTest::withoutShiftOrWithoutAHandTheMouseIsTheViews() {
   QCOMPARE(b.count, 0);
 }
 
-QTEST_MAIN(HandDragTest)
+NEARFIT_QT_SUITE(HandDragTest, test::runQtTest<HandDragTest>)
 #include "hand_drag_test.moc"

@@ -7,6 +7,7 @@
 #include <vtkPlaneCollection.h>
 
 #include "tests/support/mesh_generators.h"
+#include "tests/support/qt/qt_suite.h"
 #include "ui/hand_lead.h"
 
 using namespace nearfit;
@@ -126,5 +127,5 @@ void HandGhostTest::isCutAsItsPartIs() {
   QCOMPARE(planes(), (QVector<vtkIdType>{0, 0}));
 }
 
-QTEST_MAIN(HandGhostTest)
+NEARFIT_QT_SUITE(HandGhostTest, test::runQtTest<HandGhostTest>)
 #include "hand_ghost_test.moc"

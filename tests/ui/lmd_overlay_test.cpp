@@ -12,6 +12,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 
+#include "tests/support/qt/qt_suite.h"
 #include "ui/minima/minima_menu.h"
 
 using namespace nearfit;
@@ -170,5 +171,5 @@ void LmdOverlayTest::menuChoosesAndRemembers() {
   QCOMPARE(usual.choice().nearerThan, 1.0);
 }
 
-QTEST_MAIN(LmdOverlayTest)
+NEARFIT_QT_SUITE(LmdOverlayTest, test::runQtTest<LmdOverlayTest>)
 #include "lmd_overlay_test.moc"

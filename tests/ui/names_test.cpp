@@ -4,7 +4,8 @@
 #include <memory>
 
 #include "core/haptics/servo_tick.h"
-#include "tests/support/qt_patience.h"
+#include "tests/support/qt/qt_patience.h"
+#include "tests/support/qt/qt_suite.h"
 #include "ui/elided_label.h"
 #include "ui/panels/feel_notice.h"
 
@@ -76,5 +77,5 @@ void NamesTest::aNoticeOfAPartWithALongNameIsNoWiderThanItsPanel() {
            qPrintable(QString::number(notice.minimumSizeHint().width())));
 }
 
-QTEST_MAIN(NamesTest)
+NEARFIT_QT_SUITE(NamesTest, test::runQtTest<NamesTest>)
 #include "names_test.moc"

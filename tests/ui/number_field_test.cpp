@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 
+#include "tests/support/qt/qt_suite.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/preferences.h"
 #include "ui/unit_menu.h"
@@ -237,14 +238,12 @@ void NumberFieldTest::toolTipTellsWhatCanBeTyped() {
     QVERIFY2(QToolTip::text().contains(QLatin1String(part)), part);
 }
 
-int main(int argc, char** argv) {
+NEARFIT_QT_SUITE(NumberFieldTest, [](int argc, char** argv) {
   const test::TemporaryFolder settings;
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope,
                      QString::fromStdString(settings.path().string()));
   QSettings::setDefaultFormat(QSettings::IniFormat);
-  QApplication qt(argc, argv);
-  QApplication::setOrganizationName(QStringLiteral("nearfit-test"));
-  NumberFieldTest test;
-  return QTest::qExec(&test, argc, argv);
-}
+  QCoreApplication::setOrganizationName(QStringLiteral("nearfit-test"));
+  return test::runQtTest<NumberFieldTest>(argc, argv);
+})
 #include "number_field_test.moc"

@@ -2,7 +2,8 @@
 
 #include <QtTest>
 
-#include "tests/support/qt_patience.h"
+#include "tests/support/qt/qt_patience.h"
+#include "tests/support/qt/qt_suite.h"
 #include "tests/ui/segment_view.h"
 
 using namespace nearfit;
@@ -42,5 +43,5 @@ void PairSegmentTest::endsAreDotsWithinWhiteRims() {
   }
 }
 
-QTEST_MAIN(PairSegmentTest)
+NEARFIT_QT_SUITE(PairSegmentTest, test::runQtTest<PairSegmentTest>)
 #include "pair_segment_test.moc"

@@ -8,6 +8,7 @@
 #include <vtkPointData.h>
 
 #include "tests/support/mesh_generators.h"
+#include "tests/support/qt/qt_suite.h"
 
 using namespace nearfit;
 
@@ -86,5 +87,5 @@ void PartShapeTest::threadsMayAskAtOnce() {
     QCOMPARE(count, vtkIdType{20 * 64});
 }
 
-QTEST_GUILESS_MAIN(PartShapeTest)
+NEARFIT_QT_SUITE(PartShapeTest, test::runQtTest<PartShapeTest, QCoreApplication>)
 #include "part_shape_test.moc"

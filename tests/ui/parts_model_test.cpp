@@ -6,6 +6,7 @@
 #include <QtTest>
 
 #include "tests/support/mesh_generators.h"
+#include "tests/support/qt/qt_suite.h"
 
 using namespace nearfit;
 
@@ -128,5 +129,5 @@ void PartsModelTest::whatIsDroppedAsksForItsPlaceAndChangesNothing() {
   QVERIFY(asked.isEmpty());
 }
 
-QTEST_MAIN(PartsModelTest)
+NEARFIT_QT_SUITE(PartsModelTest, test::runQtTest<PartsModelTest>)
 #include "parts_model_test.moc"

@@ -3,7 +3,8 @@
 #include <QApplication>
 #include <QtTest>
 
-#include "tests/support/qt_patience.h"
+#include "tests/support/qt/qt_patience.h"
+#include "tests/support/qt/qt_suite.h"
 #include "tests/ui/segment_view.h"
 
 using namespace nearfit;
@@ -42,10 +43,8 @@ void PixelSizesTest::linesAreAsWideOnAFineScreen() {
   QVERIFY2(std::abs(widthAt({0.03, -0.06, 0.0}) - 20) <= 3, "dot");
 }
 
-int main(int argc, char* argv[]) {
+NEARFIT_QT_SUITE(PixelSizesTest, [](int argc, char** argv) {
   qputenv("QT_SCALE_FACTOR", "2");
-  QApplication application(argc, argv);
-  PixelSizesTest test;
-  return QTest::qExec(&test, argc, argv);
-}
+  return test::runQtTest<PixelSizesTest>(argc, argv);
+})
 #include "pixel_sizes_test.moc"

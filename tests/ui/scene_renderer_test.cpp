@@ -9,6 +9,7 @@
 #include <vtkRenderWindow.h>
 
 #include "tests/support/mesh_generators.h"
+#include "tests/support/qt/qt_suite.h"
 #include "ui/theme.h"
 
 using namespace nearfit;
@@ -107,5 +108,5 @@ void SceneRendererTest::edgesThatWouldCoverAPartAreLeftOut() {
   window->RemoveRenderer(renderer_);
 }
 
-QTEST_MAIN(SceneRendererTest)
+NEARFIT_QT_SUITE(SceneRendererTest, test::runQtTest<SceneRendererTest>)
 #include "scene_renderer_test.moc"

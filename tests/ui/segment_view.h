@@ -6,7 +6,7 @@
 #include "core/session.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
-#include "tests/support/qt_patience.h"
+#include "tests/support/qt/qt_patience.h"
 #include "ui/pair_segment.h"
 #include "ui/selection.h"
 #include "ui/viewport.h"

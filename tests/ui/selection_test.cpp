@@ -6,6 +6,7 @@
 #include "core/session.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
+#include "tests/support/qt/qt_suite.h"
 
 using namespace nearfit;
 
@@ -130,5 +131,5 @@ void SelectionTest::aGroupStaysSelectedWhileAllOfItIs() {
   QVERIFY(selection_->isEmpty());
 }
 
-QTEST_MAIN(SelectionTest)
+NEARFIT_QT_SUITE(SelectionTest, test::runQtTest<SelectionTest>)
 #include "selection_test.moc"

@@ -16,7 +16,8 @@
 #include "core/session.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
-#include "tests/support/qt_patience.h"
+#include "tests/support/qt/qt_patience.h"
+#include "tests/support/qt/qt_suite.h"
 #include "ui/selection.h"
 #include "ui/viewport.h"
 
@@ -286,10 +287,8 @@ void ViewDetailTest::slowPicturesOfWhatMovesAreNotTakenForRest() {
   QVERIFY(row.comesToRest());
 }
 
-int main(int argc, char** argv) {
+NEARFIT_QT_SUITE(ViewDetailTest, [](int argc, char** argv) {
   ui::Viewport::setDefaultSurfaceFormat();
-  QApplication qt(argc, argv);
-  ViewDetailTest test;
-  return QTest::qExec(&test, argc, argv);
-}
+  return test::runQtTest<ViewDetailTest>(argc, argv);
+})
 #include "view_detail_test.moc"

@@ -6,7 +6,8 @@
 #include "core/session.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
-#include "tests/support/qt_patience.h"
+#include "tests/support/qt/qt_patience.h"
+#include "tests/support/qt/qt_suite.h"
 #include "tests/ui/picture_comparison.h"
 #include "ui/colour_legend.h"
 #include "ui/placing/gizmo_overlay.h"
@@ -255,7 +256,7 @@ void ViewPicturesTest::smoothedEdgesAndLettersAreNotSeen() {
   QVERIFY(test::compare(expected.copy(0, 0, 100, 100), expected).isSeen());
 }
 
-int main(int argc, char** argv) {
+NEARFIT_QT_SUITE(ViewPicturesTest, [](int argc, char** argv) {
   ui::Viewport::setDefaultSurfaceFormat();
   QCoreApplication::setOrganizationName(QStringLiteral("Nearfit"));
   QApplication qt(argc, argv);
@@ -266,5 +267,5 @@ int main(int argc, char** argv) {
   ui::setColourScheme(ui::ColourScheme::Light);
   ViewPicturesTest test;
   return QTest::qExec(&test, argc, argv);
-}
+})
 #include "view_pictures_test.moc"

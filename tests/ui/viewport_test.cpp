@@ -11,6 +11,7 @@
 #include "core/session.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
+#include "tests/support/qt/qt_suite.h"
 #include "ui/colour_legend.h"
 #include "ui/selection.h"
 
@@ -155,10 +156,8 @@ void ViewportTest::numbersChangeWithTheGlyphsTheyExplain() {
   QVERIFY(legend->grab().toImage() != before);
 }
 
-int main(int argc, char** argv) {
+NEARFIT_QT_SUITE(ViewportTest, [](int argc, char** argv) {
   ui::Viewport::setDefaultSurfaceFormat();
-  QApplication qt(argc, argv);
-  ViewportTest test;
-  return QTest::qExec(&test, argc, argv);
-}
+  return test::runQtTest<ViewportTest>(argc, argv);
+})
 #include "viewport_test.moc"

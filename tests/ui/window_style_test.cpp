@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "tests/support/qt/qt_suite.h"
 #include "ui/theme.h"
 
 using namespace nearfit;
@@ -57,5 +58,5 @@ void WindowStyleTest::boxesToTickStandOutInBothThemes() {
   }
 }
 
-QTEST_MAIN(WindowStyleTest)
+NEARFIT_QT_SUITE(WindowStyleTest, test::runQtTest<WindowStyleTest>)
 #include "window_style_test.moc"

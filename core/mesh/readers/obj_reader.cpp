@@ -39,7 +39,7 @@ std::uint32_t cornerVertex(const TextCursor& cursor, std::string_view corner, st
                            std::size_t verticesSoFar) {
   const std::optional<std::int64_t> index = parseInteger(corner.substr(0, corner.find('/')));
   if (!index) {
-    cursor.fail(fmt::format("a vertex number should stand here, but {} is none", quoted(corner)),
+    cursor.fail(fmt::format("a vertex number should stand here, but {} is none", inQuotes(corner)),
                 "correct the line or export the file again");
   }
   const auto before = static_cast<std::int64_t>(verticesSoFar);

@@ -34,7 +34,7 @@ PlyType parseType(const TextCursor& cursor, std::string_view word) {
                                                                          {"float64", Float64}}};
   const auto* const found = std::ranges::find(kNames, word, &std::pair<std::string_view, PlyType>::first);
   if (found == kNames.end())
-    cursor.fail(fmt::format("a type should stand here, but {} is none", quoted(word)), kExportAgain);
+    cursor.fail(fmt::format("a type should stand here, but {} is none", inQuotes(word)), kExportAgain);
   return found->second;
 }
 
@@ -42,7 +42,7 @@ PlyFormat parseFormat(const TextCursor& cursor, std::string_view word) {
   if (word == "ascii") return PlyFormat::Ascii;
   if (word == "binary_little_endian") return PlyFormat::LittleEndian;
   if (word == "binary_big_endian") return PlyFormat::BigEndian;
-  cursor.fail(fmt::format("the format {} is unknown", quoted(word)),
+  cursor.fail(fmt::format("the format {} is unknown", inQuotes(word)),
               "export it as ascii or binary_little_endian");
 }
 
@@ -55,7 +55,7 @@ PlyElement parseElement(TextCursor& cursor, const PlyHeader& header) {
     cursor.fail("an element needs a name and a count", kExportAgain);
   }
   if (header.find(element.name) != nullptr) {
-    cursor.fail(fmt::format("the element {} stands here for the second time", quoted(element.name)),
+    cursor.fail(fmt::format("the element {} stands here for the second time", inQuotes(element.name)),
                 kExportAgain);
   }
   element.count = static_cast<std::uint64_t>(*value);
@@ -117,7 +117,7 @@ PlyHeader readPlyHeader(const ReaderInput& input) {
       header.dataLine = cursor.line() + 1;
       return header;
     } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
-      cursor.fail(fmt::format("{} is no keyword of a PLY header", quoted(keyword)), kExportAgain);
+      cursor.fail(fmt::format("{} is no keyword of a PLY header", inQuotes(keyword)), kExportAgain);
     }
   }
   cursor.failAtEnd("'end_header'");

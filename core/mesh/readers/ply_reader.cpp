@@ -121,7 +121,7 @@ void checkRoom(const Values& values, const PlyElement& element) {
   if (smallest > 0 && element.count > values.bytesLeft() / smallest) {
     values.fail(
         fmt::format("the header promises {} elements {}, but the {} bytes that follow cannot hold them",
-                    element.count, quoted(element.name), values.bytesLeft()),
+                    element.count, inQuotes(element.name), values.bytesLeft()),
         kCutOff);
   }
 }

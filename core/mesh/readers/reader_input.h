@@ -27,6 +27,6 @@ struct ReaderResult {
 };
 
 /// A piece of a file fit for a message: shortened, control and non-ASCII characters replaced, in quotes.
-std::string quoted(std::string_view text);
+std::string inQuotes(std::string_view text);
 
 }  // namespace nearfit

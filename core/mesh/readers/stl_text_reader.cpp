@@ -20,9 +20,9 @@ bool isWord(std::string_view token, std::string_view word) {
 
 void expect(TextCursor& cursor, std::string_view word) {
   const std::string_view token = cursor.tokenAcrossLines();
-  if (token.empty()) cursor.failAtEnd(quoted(word));
+  if (token.empty()) cursor.failAtEnd(inQuotes(word));
   if (!isWord(token, word)) {
-    cursor.fail(fmt::format("{} should stand here, but {} does", quoted(word), quoted(token)), kExportAgain);
+    cursor.fail(fmt::format("{} should stand here, but {} does", inQuotes(word), inQuotes(token)), kExportAgain);
   }
 }
 
@@ -46,7 +46,7 @@ void readFacet(TextCursor& cursor, PolygonSoup& soup) {
        token = cursor.tokenAcrossLines(), ++corners) {
     if (token.empty()) cursor.failAtEnd("'endloop'");
     if (!isWord(token, "vertex")) {
-      cursor.fail(fmt::format("'vertex' or 'endloop' should stand here, but {} does", quoted(token)),
+      cursor.fail(fmt::format("'vertex' or 'endloop' should stand here, but {} does", inQuotes(token)),
                   kExportAgain);
     }
     glm::dvec3 p;
@@ -82,7 +82,7 @@ ReaderResult readStlText(const ReaderInput& input) {
     } else if (isWord(token, "facet")) {
       readFacet(cursor, result.soup);
     } else {
-      cursor.fail(fmt::format("'facet' or 'endsolid' should stand here, but {} does", quoted(token)),
+      cursor.fail(fmt::format("'facet' or 'endsolid' should stand here, but {} does", inQuotes(token)),
                   kExportAgain);
     }
   }

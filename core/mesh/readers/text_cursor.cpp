@@ -35,7 +35,7 @@ std::optional<double> parseExtremeNumber(std::string_view digits) {
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
   constexpr std::size_t kLongest = 32;
   std::string result = "'";
   for (const char c : text.substr(0, kLongest))
@@ -154,7 +154,7 @@ void TextCursor::failAtEnd(std::string_view what) const {
 
 void TextCursor::failNotA(std::string_view kind, std::string_view token, std::string_view what) const {
   const bool hasComma = token.find(',') != std::string_view::npos;
-  fail(fmt::format("{} should stand here, but {} is no {}", what, quoted(token), kind),
+  fail(fmt::format("{} should stand here, but {} is no {}", what, inQuotes(token), kind),
        hasComma ? "export it with decimal points instead of commas"
                 : "correct the line or export the file again");
 }

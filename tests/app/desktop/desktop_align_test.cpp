@@ -344,5 +344,5 @@ void DesktopAlignTest::selectedPartsGoTogetherAsOneStep() {
   QCOMPARE(height(copy), 0.03);
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopAlignTest)
+NEARFIT_QT_SUITE(DesktopAlignTest, runDesktopTest<DesktopAlignTest>)
 #include "desktop_align_test.moc"

@@ -176,5 +176,5 @@ void DesktopBoxSelectTest::withoutADragItIsAClick() {
   QVERIFY(!r.d.action("boxSelect")->isChecked());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopBoxSelectTest)
+NEARFIT_QT_SUITE(DesktopBoxSelectTest, runDesktopTest<DesktopBoxSelectTest>)
 #include "desktop_box_select_test.moc"

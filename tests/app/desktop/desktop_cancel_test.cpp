@@ -21,11 +21,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-double widthOf(const Part& part) {
-  const Aabb& box = part.geometry->mesh.bounds();
-  return box.upper.x - box.lower.x;
-}
-
 /// How the progress dialog is told to stop.
 enum class Stop { Button, Escape };
 
@@ -358,5 +353,5 @@ void DesktopCancelTest::aSceneThatComesWithABrokenMeshIsShownWhole() {
   QVERIFY(p.d.window().selection().current() == p.d.session().scene().movingPart());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopCancelTest)
+NEARFIT_QT_SUITE(DesktopCancelTest, runDesktopTest<DesktopCancelTest>)
 #include "desktop_cancel_test.moc"

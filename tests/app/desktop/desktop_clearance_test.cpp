@@ -17,8 +17,8 @@ using ui::ClearanceModel;
 namespace {
 
 /// The two cubes, 5 mm apart, and a third that stands 30 mm beside the moving one; the table is shown.
-struct Fixture {
-  Fixture() {
+struct ClearanceFixture {
+  ClearanceFixture() {
     d.addCubes();
     const QString beside =
         writeOff(d.folder.path() / "beside.off", boxMesh(glm::dvec3(0.02), glm::dvec3(0.05, 0.0, 0.035)));
@@ -74,7 +74,7 @@ class DesktopClearanceTest : public QObject {
 };
 
 void DesktopClearanceTest::theTableSaysHowNearEachOtherPartIs() {
-  Fixture f;
+  ClearanceFixture f;
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
   QCOMPARE(f.of("beside", ClearanceModel::Distance), QStringLiteral("30.0 mm"));
   QCOMPARE(f.of("fixed", ClearanceModel::Minima), QStringLiteral("1"));
@@ -83,7 +83,7 @@ void DesktopClearanceTest::theTableSaysHowNearEachOtherPartIs() {
 }
 
 void DesktopClearanceTest::theThresholdMarksPairsInColourAndInWords() {
-  Fixture f;
+  ClearanceFixture f;
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Verdict), QStringLiteral("clear"));
   f.d.type<QDoubleSpinBox>("clearanceThreshold", "5.5");
   QCOMPARE(f.of("fixed", ClearanceModel::Verdict), QStringLiteral("too near"));
@@ -96,7 +96,7 @@ void DesktopClearanceTest::theThresholdMarksPairsInColourAndInWords() {
 }
 
 void DesktopClearanceTest::lengthsAreInTheUnitThatIsChosen() {
-  Fixture f;
+  ClearanceFixture f;
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
   f.d.choose("unit-in");
   QCOMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("0.197 in"));
@@ -110,7 +110,7 @@ void DesktopClearanceTest::lengthsAreInTheUnitThatIsChosen() {
 }
 
 void DesktopClearanceTest::aRowSelectsItsPairAndShowsWhereItIsNearest() {
-  Fixture f;
+  ClearanceFixture f;
   QTRY_COMPARE(f.table->model()->rowCount(), 2);
   const int before = f.d.window().viewport().pictureCount();
   QCOMPARE(f.cell(1, ClearanceModel::Other), QStringLiteral("beside"));
@@ -140,7 +140,7 @@ void DesktopClearanceTest::aRowSelectsItsPairAndShowsWhereItIsNearest() {
 }
 
 void DesktopClearanceTest::theTableFollowsMovesAndOverlaps() {
-  Fixture f;
+  ClearanceFixture f;
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
   f.d.session().movePart(f.d.partId("fixed"), {{1, 0, 0, 0}, {0, 0, 0.01}});
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Verdict), QStringLiteral("overlapping"));
@@ -152,7 +152,7 @@ void DesktopClearanceTest::theTableFollowsMovesAndOverlaps() {
 }
 
 void DesktopClearanceTest::theTableFollowsThePartInHand() {
-  Fixture f;
+  ClearanceFixture f;
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
   f.d.startWith(ui::Hand::Manual);
   f.d.clickPart(1, ui::PartsModel::Name);
@@ -164,7 +164,7 @@ void DesktopClearanceTest::theTableFollowsThePartInHand() {
 }
 
 void DesktopClearanceTest::columnsAreSortedByWhatTheyMean() {
-  Fixture f;
+  ClearanceFixture f;
   QTRY_COMPARE(f.table->model()->rowCount(), 2);
   QCOMPARE(f.cell(0, ClearanceModel::Other), QStringLiteral("fixed"));
   QHeaderView* header = f.table->horizontalHeader();
@@ -180,7 +180,7 @@ void DesktopClearanceTest::columnsAreSortedByWhatTheyMean() {
 }
 
 void DesktopClearanceTest::anotherPartThanTheOneInHandIsChosen() {
-  Fixture f;
+  ClearanceFixture f;
   auto* part = f.d.widget<QComboBox>("clearancePart");
   QCOMPARE(part->currentText(), QStringLiteral("In hand: moving"));
   part->setFocus();
@@ -194,7 +194,7 @@ void DesktopClearanceTest::anotherPartThanTheOneInHandIsChosen() {
 }
 
 void DesktopClearanceTest::theTableIsExported() {
-  Fixture f;
+  ClearanceFixture f;
   QTRY_COMPARE(f.table->model()->rowCount(), 2);
   const auto file = f.d.folder.path() / "clear.csv";
   whenModal<QFileDialog>(
@@ -205,7 +205,7 @@ void DesktopClearanceTest::theTableIsExported() {
 }
 
 void DesktopClearanceTest::plotsBesideTheTableGetHalfOfTheWidth() {
-  Fixture f;
+  ClearanceFixture f;
   auto* plots = f.d.widget<QDockWidget>("plotsDock");
   f.d.choose(plots->toggleViewAction());
   const int both = f.d.window().width();
@@ -214,7 +214,7 @@ void DesktopClearanceTest::plotsBesideTheTableGetHalfOfTheWidth() {
 }
 
 void DesktopClearanceTest::theNoteFollowsWhatIsChosen() {
-  Fixture f;
+  ClearanceFixture f;
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
   QVERIFY(f.d.text("clearanceNote").startsWith(QStringLiteral("Choose a row")));
   f.clickRow(0);
@@ -228,7 +228,7 @@ void DesktopClearanceTest::theNoteFollowsWhatIsChosen() {
 }
 
 void DesktopClearanceTest::aHiddenTableSearchesNothing() {
-  Fixture f;
+  ClearanceFixture f;
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
   auto* dock = f.d.widget<QDockWidget>("clearanceDock");
   f.d.choose(dock->toggleViewAction());
@@ -239,5 +239,5 @@ void DesktopClearanceTest::aHiddenTableSearchesNothing() {
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("7.00 mm"));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopClearanceTest)
+NEARFIT_QT_SUITE(DesktopClearanceTest, runDesktopTest<DesktopClearanceTest>)
 #include "desktop_clearance_test.moc"

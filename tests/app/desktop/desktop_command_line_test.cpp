@@ -9,12 +9,12 @@ using namespace nearfit::test;
 
 namespace {
 
-struct Outcome {
+struct ProgramOutcome {
   int code = -1;
   QString out, err;
 };
 
-Outcome run(const QStringList& arguments,
+ProgramOutcome run(const QStringList& arguments,
             const QProcessEnvironment& environment = QProcessEnvironment::systemEnvironment()) {
   const TemporaryFolder home;
   QProcessEnvironment own = environment;
@@ -50,16 +50,16 @@ class DesktopCommandLineTest : public QObject {
 };
 
 void DesktopCommandLineTest::helpAndVersionNeedNoDisplay() {
-  const Outcome help = run({QStringLiteral("--help")}, withoutDisplay());
+  const ProgramOutcome help = run({QStringLiteral("--help")}, withoutDisplay());
   QCOMPARE(help.code, 0);
   QVERIFY(help.out.contains(QStringLiteral("--screenshot")));
-  const Outcome version = run({QStringLiteral("--version")}, withoutDisplay());
+  const ProgramOutcome version = run({QStringLiteral("--version")}, withoutDisplay());
   QCOMPARE(version.code, 0);
   QVERIFY(version.out.startsWith(QStringLiteral("nearfit ")));
 }
 
 void DesktopCommandLineTest::unknownOptionIsAUsageError() {
-  const Outcome outcome = run({QStringLiteral("--frobnicate")}, withoutDisplay());
+  const ProgramOutcome outcome = run({QStringLiteral("--frobnicate")}, withoutDisplay());
   QCOMPARE(outcome.code, 2);
   QVERIFY(outcome.err.startsWith(QStringLiteral("nearfit: ")));
   QVERIFY(outcome.err.contains(QStringLiteral("--frobnicate")));
@@ -67,7 +67,7 @@ void DesktopCommandLineTest::unknownOptionIsAUsageError() {
 }
 
 void DesktopCommandLineTest::saysThatThereIsNoDisplay() {
-  const Outcome outcome = run({}, withoutDisplay());
+  const ProgramOutcome outcome = run({}, withoutDisplay());
   QCOMPARE(outcome.code, 1);
   QVERIFY(outcome.err.contains(QStringLiteral("display")));
 }
@@ -76,7 +76,7 @@ void DesktopCommandLineTest::writesAPictureOfTheFilesAndEnds() {
   const TemporaryFolder folder;
   const QString box = writeOff(folder.path() / "box.off", boxMesh(glm::dvec3(0.04)));
   const QString picture = QString::fromStdString((folder.path() / "window.png").string());
-  const Outcome outcome = run({box, QStringLiteral("--screenshot"), picture});
+  const ProgramOutcome outcome = run({box, QStringLiteral("--screenshot"), picture});
   QVERIFY2(outcome.code == 0, qPrintable(outcome.err));
   const QImage image(picture);
   QCOMPARE(image.size(), QSize(1280, 800));
@@ -93,7 +93,7 @@ void DesktopCommandLineTest::brokenFileEndsWithAMessage() {
   const TemporaryFolder folder;
   const auto broken = folder.write("broken.stl", "this is no mesh");
   const QString picture = QString::fromStdString((folder.path() / "window.png").string());
-  const Outcome outcome =
+  const ProgramOutcome outcome =
       run({QString::fromStdString(broken.string()), QStringLiteral("--screenshot"), picture});
   QCOMPARE(outcome.code, 1);
   const QString line = outcome.err.mid(outcome.err.indexOf(QStringLiteral("nearfit: ")));
@@ -105,11 +105,11 @@ void DesktopCommandLineTest::brokenFileEndsWithAMessage() {
 void DesktopCommandLineTest::picturePathThatCannotBeWrittenEndsWithAMessage() {
   const TemporaryFolder folder;
   const QString box = writeOff(folder.path() / "box.off", boxMesh(glm::dvec3(0.04)));
-  const Outcome outcome =
+  const ProgramOutcome outcome =
       run({box, QStringLiteral("--screenshot"), QStringLiteral("/no/such/folder/window.png")});
   QCOMPARE(outcome.code, 1);
   QVERIFY(outcome.err.contains(QStringLiteral("/no/such/folder/window.png")));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopCommandLineTest)
+NEARFIT_QT_SUITE(DesktopCommandLineTest, runDesktopTest<DesktopCommandLineTest>)
 #include "desktop_command_line_test.moc"

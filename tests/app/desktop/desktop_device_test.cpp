@@ -18,8 +18,8 @@ const ui::DeviceChoice kForbidden{QStringLiteral("forbidden"), QStringLiteral("F
                                   QStringLiteral("You have no permission to open it."), false};
 
 /// An application whose devices are fake, with two cubes.
-struct Fixture {
-  explicit Fixture(QVector<ui::DeviceChoice> devices = {}) {
+struct DeviceFixture {
+  explicit DeviceFixture(QVector<ui::DeviceChoice> devices = {}) {
     source->devices = std::move(devices);
     d = std::make_unique<DesktopDriver>(std::unique_ptr<desktop::DeviceSource>(source));
     handle = source->handle;
@@ -80,7 +80,7 @@ class DesktopDeviceTest : public QObject {
 };
 
 void DesktopDeviceTest::devicesComeAndGoInTheChoice() {
-  Fixture f;
+  DeviceFixture f;
   const QStringList always{QStringLiteral("Scripted hand"), QStringLiteral("Manual hand"),
                            QStringLiteral("Recorded hand")};
   QCOMPARE(f.names(), always);
@@ -96,7 +96,7 @@ void DesktopDeviceTest::devicesComeAndGoInTheChoice() {
 }
 
 void DesktopDeviceTest::whatCannotBeUsedSaysWhyAndCannotBeChosen() {
-  Fixture f({kForbidden});
+  DeviceFixture f({kForbidden});
   f.box()->setFocus();
   for (int i = 0; i < 5; ++i)
     QTest::keyClick(f.box(), Qt::Key_Down);
@@ -105,7 +105,7 @@ void DesktopDeviceTest::whatCannotBeUsedSaysWhyAndCannotBeChosen() {
 }
 
 void DesktopDeviceTest::aDeviceLeadsThePartAndIsNotArmed() {
-  Fixture f({kArm});
+  DeviceFixture f({kArm});
   f.handle->moveTo({0.5, 0.0, 0.0});  // Wherever the device is, the part stays.
   f.choose(kArm.name);
   f.feel();
@@ -123,7 +123,7 @@ void DesktopDeviceTest::aDeviceLeadsThePartAndIsNotArmed() {
 }
 
 void DesktopDeviceTest::theButtonAloneArms() {
-  Fixture f({kArm});
+  DeviceFixture f({kArm});
   f.choose(kArm.name);
   auto* arm = f.d->widget<QPushButton>("arm");
   QVERIFY(!arm->isVisible());
@@ -146,7 +146,7 @@ void DesktopDeviceTest::theButtonAloneArms() {
 }
 
 void DesktopDeviceTest::aDeviceIsArmedOnlyOnceItIsCalibrated() {
-  Fixture f({kArm});
+  DeviceFixture f({kArm});
   f.handle->needsCalibration = true;
   f.choose(kArm.name);
   f.feel();
@@ -171,7 +171,7 @@ void DesktopDeviceTest::aDeviceIsArmedOnlyOnceItIsCalibrated() {
 }
 
 void DesktopDeviceTest::thatNoneIsPluggedInIsSaidWithWhatCanBe() {
-  Fixture f;
+  DeviceFixture f;
   const auto* none = f.d->widget<QLabel>("noDevice");
   QTRY_VERIFY(none->isVisible());
   QCOMPARE(none->text(), QStringLiteral("No device is plugged in."));
@@ -188,7 +188,7 @@ void DesktopDeviceTest::thatNoneIsPluggedInIsSaidWithWhatCanBe() {
 }
 
 void DesktopDeviceTest::unpluggingPutsThePartDownAndSaysWhy() {
-  Fixture f({kArm});
+  DeviceFixture f({kArm});
   f.choose(kArm.name);
   f.feel();
   QTRY_VERIFY(f.d->isFeltAtX(0.0));
@@ -208,7 +208,7 @@ void DesktopDeviceTest::unpluggingPutsThePartDownAndSaysWhy() {
 }
 
 void DesktopDeviceTest::aDeviceThatIsGoneWhenItIsTakenIsAFailure() {
-  Fixture f({kArm});
+  DeviceFixture f({kArm});
   f.choose(kArm.name);
   f.source->devices.clear();
   QTest::mouseClick(f.d->widget<QPushButton>("startStop"), Qt::LeftButton);
@@ -218,7 +218,7 @@ void DesktopDeviceTest::aDeviceThatIsGoneWhenItIsTakenIsAFailure() {
 }
 
 void DesktopDeviceTest::changingTheHandChangesTheDevice() {
-  Fixture f({kArm});
+  DeviceFixture f({kArm});
   f.choose(QStringLiteral("Manual hand"));
   f.feel();
   QCOMPARE(f.handle->starts.load(), 0);
@@ -230,7 +230,7 @@ void DesktopDeviceTest::changingTheHandChangesTheDevice() {
 }
 
 void DesktopDeviceTest::openingShowsHowFarItIsWhileTheWindowGoesOn() {
-  Fixture f({kArm});
+  DeviceFixture f({kArm});
   f.handle->opensSlowly = true;
   f.choose(kArm.name);
   auto* startStop = f.d->widget<QPushButton>("startStop");
@@ -256,7 +256,7 @@ void DesktopDeviceTest::openingShowsHowFarItIsWhileTheWindowGoesOn() {
 }
 
 void DesktopDeviceTest::cancellingAnOpeningAnswersAtOnceHoweverItHangs() {
-  Fixture f({kArm});
+  DeviceFixture f({kArm});
   f.handle->opensSlowly = true;
   f.choose(kArm.name);
   auto* startStop = f.d->widget<QPushButton>("startStop");
@@ -277,7 +277,7 @@ void DesktopDeviceTest::cancellingAnOpeningAnswersAtOnceHoweverItHangs() {
 }
 
 void DesktopDeviceTest::stoppingAnswersAtOnceWhileArmingHangs() {
-  Fixture f({kArm});
+  DeviceFixture f({kArm});
   f.choose(kArm.name);
   f.feel();
   auto* arm = f.d->widget<QPushButton>("arm");
@@ -294,7 +294,7 @@ void DesktopDeviceTest::stoppingAnswersAtOnceWhileArmingHangs() {
 }
 
 void DesktopDeviceTest::aFaultStaysUntilItIsResetAndArmsNothing() {
-  Fixture f({kArm});
+  DeviceFixture f({kArm});
   f.choose(kArm.name);
   f.feel();
   auto* arm = f.d->widget<QPushButton>("arm");
@@ -322,7 +322,7 @@ void DesktopDeviceTest::aFaultStaysUntilItIsResetAndArmsNothing() {
 
 void DesktopDeviceTest::aDeviceThatLeavesBeforeTheStartIsMissedAndNotReplaced() {
   // The scripted hand, which the choice falls back to, took the part.
-  Fixture f({kArm});
+  DeviceFixture f({kArm});
   f.choose(kArm.name);
   QTest::mouseClick(f.d->widget<QPushButton>("startStop"), Qt::LeftButton);
   QVERIFY2(!f.d->application.servo().status().isTaken(), "hierarchies are made first");
@@ -333,6 +333,6 @@ void DesktopDeviceTest::aDeviceThatLeavesBeforeTheStartIsMissedAndNotReplaced() 
   QVERIFY(!f.d->application.servo().status().isTaken());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopDeviceTest)
+NEARFIT_QT_SUITE(DesktopDeviceTest, runDesktopTest<DesktopDeviceTest>)
 
 #include "desktop_device_test.moc"

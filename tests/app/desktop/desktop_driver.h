@@ -17,6 +17,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <numbers>
 #include <optional>
 
 #include "app/desktop/application.h"
@@ -24,7 +25,8 @@
 #include "core/mesh/triangle_mesh.h"
 #include "tests/app/desktop/menus.h"
 #include "tests/support/mesh_generators.h"
-#include "tests/support/qt_patience.h"
+#include "tests/support/qt/qt_patience.h"
+#include "tests/support/qt/qt_suite.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/document.h"
 #include "ui/theme.h"
@@ -45,6 +47,18 @@ int runDesktopTest(int argc, char** argv) {
   desktop::Application::configure();
   Test test;
   return QTest::qExec(&test, argc, argv);
+}
+
+constexpr double kDegree = std::numbers::pi / 180.0;  ///< [rad]
+
+inline bool isNear(double a, double b, double tolerance) {
+  return std::abs(a - b) <= tolerance;
+}
+
+/// Extent of a part's mesh along its x axis [m].
+inline double widthOf(const Part& part) {
+  const Aabb& box = part.geometry->mesh.bounds();
+  return box.upper.x - box.lower.x;
 }
 
 /// A mesh as an OFF file, its numbers in millimetres.
@@ -227,8 +241,3 @@ inline void pressInView(DesktopDriver& d, Qt::Key key, Qt::KeyboardModifiers mod
 }
 
 }  // namespace nearfit::test
-
-#define NEARFIT_DESKTOP_TEST_MAIN(Test)                     \
-  int main(int argc, char** argv) {                         \
-    return nearfit::test::runDesktopTest<Test>(argc, argv); \
-  }

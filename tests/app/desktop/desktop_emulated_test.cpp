@@ -14,17 +14,17 @@ using namespace nearfit::test;
 
 namespace {
 
-struct Outcome {
+struct EmulatedOutcome {
   int code = -1;
   QString out, err;
 };
 
 /// A cube of 20 mm over a fixed one of 40 mm, felt by linear springs: 50 N/m within 0.1 m.
-class Bench {
+class EmulatedBench {
  public:
   static constexpr double kGap = 0.05, kCutoff = 0.1, kStiffness = 50.0;
 
-  Bench() {
+  EmulatedBench() {
     writeOff(folder_.path() / "fixed.off", boxMesh(glm::dvec3(0.04)));
     writeOff(folder_.path() / "moving.off", boxMesh(glm::dvec3(0.02)));
   }
@@ -52,7 +52,7 @@ class Bench {
     QVERIFY2(made.exitCode == 0, made.err.c_str());
   }
   /// nearfit, unchanged, as if what nearfit-emulate makes were plugged in.
-  Outcome run(const QStringList& emulation, const QStringList& arguments) const {
+  EmulatedOutcome run(const QStringList& emulation, const QStringList& arguments) const {
     QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
     environment.insert(QStringLiteral("XDG_CONFIG_HOME"), file("config"));
     QProcess process;
@@ -69,8 +69,8 @@ class Bench {
   }
   /// A machine on which a thread does not run for 20 ms stops an armed device, and is right to: then, and
   /// then only, again.
-  Outcome runUnstopped(const QStringList& emulation, const QStringList& arguments) const {
-    Outcome outcome;
+  EmulatedOutcome runUnstopped(const QStringList& emulation, const QStringList& arguments) const {
+    EmulatedOutcome outcome;
     eventually([&] {
       outcome = run(emulation, arguments);
       return outcome.code == 0 || !wasStoppedForSilence(outcome);
@@ -80,7 +80,7 @@ class Bench {
 
  private:
   /// By this side, or by the device, for which no wrench came.
-  static bool wasStoppedForSilence(const Outcome& outcome) {
+  static bool wasStoppedForSilence(const EmulatedOutcome& outcome) {
     const auto isTold = [&](DeviceFault fault) {
       return (outcome.out + outcome.err).contains(QLatin1String(faultReason(fault)), Qt::CaseInsensitive);
     };
@@ -110,9 +110,9 @@ class DesktopEmulatedTest : public QObject {
 };
 
 void DesktopEmulatedTest::posesComeInWrenchesGoOutAndAllIsRecorded() {
-  const Bench bench;
+  const EmulatedBench bench;
   bench.writeScene(true);
-  const Outcome outcome = bench.runUnstopped({kOpenHap}, {kDevice, kOpenHap, QStringLiteral("--arm"),
+  const EmulatedOutcome outcome = bench.runUnstopped({kOpenHap}, {kDevice, kOpenHap, QStringLiteral("--arm"),
                                                           kSeconds, QStringLiteral("3"), kRecord, kFelt});
   QVERIFY2(outcome.code == 0, qPrintable(outcome.err));
   for (const char* what : {"armed       yes\n", "round trip  p50 ", ", p99 ", ", p99.9 ", ", max "})
@@ -126,16 +126,16 @@ void DesktopEmulatedTest::posesComeInWrenchesGoOutAndAllIsRecorded() {
     farthest = std::max(farthest, std::abs(record["handle_tx"][i]));
     strongest = std::max(strongest, record["force_z"][i]);
     // The springs' at the least gap that there can be, as the hand goes 4 cm at most.
-    QVERIFY(record["force_z"][i] <= Bench::kStiffness * (Bench::kCutoff - (Bench::kGap - 0.04)));
+    QVERIFY(record["force_z"][i] <= EmulatedBench::kStiffness * (EmulatedBench::kCutoff - (EmulatedBench::kGap - 0.04)));
   }
   QVERIFY(farthest > 0.005 && farthest <= 0.04 + 1e-6);
   QVERIFY(strongest > 0.5);
 }
 
 void DesktopEmulatedTest::withoutArmingNoForceGoesOut() {
-  const Bench bench;
+  const EmulatedBench bench;
   bench.writeScene(true);
-  const Outcome outcome = bench.run({kOpenHap}, {kDevice, kSeconds, QStringLiteral("1"), kRecord, kFelt});
+  const EmulatedOutcome outcome = bench.run({kOpenHap}, {kDevice, kSeconds, QStringLiteral("1"), kRecord, kFelt});
   QVERIFY2(outcome.code == 0, qPrintable(outcome.err));
   QVERIFY(outcome.out.contains(QStringLiteral("armed       no\n")));
   const Record record(bench.file("felt.csv").toStdString());
@@ -144,11 +144,11 @@ void DesktopEmulatedTest::withoutArmingNoForceGoesOut() {
 }
 
 void DesktopEmulatedTest::aRecordedHandEndsWithItsRecording() {
-  const Bench bench;
+  const EmulatedBench bench;
   bench.writeScene(true);
-  const Outcome made = bench.run({kOpenHap}, {kDevice, kSeconds, QStringLiteral("1"), kRecord, kFelt});
+  const EmulatedOutcome made = bench.run({kOpenHap}, {kDevice, kSeconds, QStringLiteral("1"), kRecord, kFelt});
   QVERIFY2(made.code == 0, qPrintable(made.err));
-  const Outcome again = bench.run({kOpenHap}, {kDevice, QStringLiteral("replay:felt.csv"), kSeconds,
+  const EmulatedOutcome again = bench.run({kOpenHap}, {kDevice, QStringLiteral("replay:felt.csv"), kSeconds,
                                                QStringLiteral("100"), kRecord, QStringLiteral("again.csv")});
   QVERIFY2(again.code == 0, qPrintable(again.err));
   const Record before(bench.file("felt.csv").toStdString()), after(bench.file("again.csv").toStdString());
@@ -159,10 +159,10 @@ void DesktopEmulatedTest::aRecordedHandEndsWithItsRecording() {
 }
 
 void DesktopEmulatedTest::aPulledPlugEndsItWithAReasonAndAWholeRecording() {
-  const Bench bench;
+  const EmulatedBench bench;
   bench.writeScene(true);
   // On a busy machine the window may not be there yet when the plug is pulled: then later.
-  Outcome outcome;
+  EmulatedOutcome outcome;
   for (const char* later : {"5", "20", "60"}) {
     outcome = bench.run({kOpenHap, kSeconds, QLatin1String(later)},
                         {kDevice, kSeconds, QStringLiteral("100"), kRecord, kFelt});
@@ -177,14 +177,14 @@ void DesktopEmulatedTest::aPulledPlugEndsItWithAReasonAndAWholeRecording() {
 
 // It was waited for without end: that it had been stopped was found once it had ended.
 void DesktopEmulatedTest::aDeviceThatWasStoppedEndsItWithTheReason() {
-  const Bench bench;
+  const EmulatedBench bench;
   bench.writeScene(true);
   // To and fro by 8 mm a report, which is 8 m/s: no hand is so fast.
   QFile path(bench.file("leaps.csv"));
   QVERIFY(path.open(QIODevice::WriteOnly));
   path.write("0,0,0,1,0,0,0\n0.008,0,0,1,0,0,0\n");
   path.close();
-  const Outcome outcome =
+  const EmulatedOutcome outcome =
       bench.run({kOpenHap, QStringLiteral("--path"), bench.file("leaps.csv")},
                 {kDevice, kOpenHap, QStringLiteral("--arm"), kSeconds, QStringLiteral("2"), kRecord, kFelt});
   QCOMPARE(outcome.code, 1);
@@ -193,12 +193,12 @@ void DesktopEmulatedTest::aDeviceThatWasStoppedEndsItWithTheReason() {
 }
 
 void DesktopEmulatedTest::aSceneWithNothingInHandIsTold() {
-  const Bench bench;
+  const EmulatedBench bench;
   bench.writeScene(false);
-  const Outcome outcome = bench.run({kOpenHap}, {kDevice, kSeconds, QStringLiteral("1")});
+  const EmulatedOutcome outcome = bench.run({kOpenHap}, {kDevice, kSeconds, QStringLiteral("1")});
   QCOMPARE(outcome.code, 1);
   QVERIFY2(outcome.err.contains(QStringLiteral("no part of the scene is in hand")), qPrintable(outcome.err));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopEmulatedTest)
+NEARFIT_QT_SUITE(DesktopEmulatedTest, runDesktopTest<DesktopEmulatedTest>)
 #include "desktop_emulated_test.moc"

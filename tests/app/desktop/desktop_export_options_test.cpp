@@ -26,8 +26,8 @@ void chooseRow(QComboBox* box, int row) {
     QTest::keyClick(box, Qt::Key_Down);
 }
 
-struct Desk : DesktopDriver {
-  Desk() {
+struct ExportDesk : DesktopDriver {
+  ExportDesk() {
     addCubes();
     session().movePart(partId("moving"), {{1, 0, 0, 0}, {0.0, 0.03, 0.1}});
   }
@@ -93,7 +93,7 @@ void DesktopExportOptionsTest::numbersAreInTheChosenUnit() {
   QFETCH(QString, sign);
   QFETCH(int, format);
   QFETCH(QString, suffix);
-  Desk d;
+  ExportDesk d;
   const auto file = d.exportTo(qPrintable(QStringLiteral("out.") + suffix), [&](ui::ExportDialog* dialog) {
     chooseRow(dialog->findChild<QComboBox*>(QStringLiteral("exportKind")), format);
     chooseRow(dialog->findChild<QComboBox*>(QStringLiteral("exportUnit")), row);
@@ -113,7 +113,7 @@ void DesktopExportOptionsTest::numbersAreInTheChosenUnit() {
 }
 
 void DesktopExportOptionsTest::theUnitIsProposedTheNextTime() {
-  Desk d;
+  ExportDesk d;
   d.exportTo("first.obj", [](ui::ExportDialog* dialog) {
     chooseRow(dialog->findChild<QComboBox*>(QStringLiteral("exportKind")), kObjRow);
     chooseRow(dialog->findChild<QComboBox*>(QStringLiteral("exportUnit")), 3);
@@ -124,7 +124,7 @@ void DesktopExportOptionsTest::theUnitIsProposedTheNextTime() {
 }
 
 void DesktopExportOptionsTest::hiddenPartsAreLeftOut() {
-  Desk d;
+  ExportDesk d;
   // Both are selected, and one of them is hidden by its eye.
   d.choose("selectAll");
   const int row = d.session().scene().parts()[0]->name == "fixed" ? 0 : 1;
@@ -158,5 +158,5 @@ void DesktopExportOptionsTest::hiddenPartsAreLeftOut() {
   QCOMPARE(importMesh(file, {.metresPerUnit = 1e-3}).mesh.triangles().size(), std::size_t{24});
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopExportOptionsTest)
+NEARFIT_QT_SUITE(DesktopExportOptionsTest, runDesktopTest<DesktopExportOptionsTest>)
 #include "desktop_export_options_test.moc"

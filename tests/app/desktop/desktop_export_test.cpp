@@ -173,5 +173,5 @@ void DesktopExportTest::aDotInANameIsNoSuffix() {
   }
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopExportTest)
+NEARFIT_QT_SUITE(DesktopExportTest, runDesktopTest<DesktopExportTest>)
 #include "desktop_export_test.moc"

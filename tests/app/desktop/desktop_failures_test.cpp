@@ -153,5 +153,5 @@ void DesktopFailuresTest::laterFailuresJoinTheBoxThatIsOpen() {
   QTest::mouseClick(f.box()->findChild<QPushButton*>(), Qt::LeftButton);
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopFailuresTest)
+NEARFIT_QT_SUITE(DesktopFailuresTest, runDesktopTest<DesktopFailuresTest>)
 #include "desktop_failures_test.moc"

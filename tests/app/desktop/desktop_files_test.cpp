@@ -240,5 +240,5 @@ void DesktopFilesTest::demoSceneOpensAndIsFelt() {
   QTRY_VERIFY(d.text("statusMinima").mid(5).toInt() > 10);
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopFilesTest)
+NEARFIT_QT_SUITE(DesktopFilesTest, runDesktopTest<DesktopFilesTest>)
 #include "desktop_files_test.moc"

@@ -14,8 +14,8 @@ using Parts = std::vector<PartId>;
 namespace {
 
 /// The two cubes, from the front.
-struct Bench {
-  Bench() : mouse(d) {
+struct FineScreen {
+  FineScreen() : mouse(d) {
     // No larger than need be: four times as many pixels are drawn as on other screens.
     d.window().resize(d.window().minimumSizeHint());
     d.addCubes();
@@ -69,7 +69,7 @@ class DesktopFineScreenTest : public QObject {
 };
 
 void DesktopFineScreenTest::aClickPicksThePartUnderTheMouse() {
-  Bench b;
+  FineScreen b;
   QCOMPARE(b.mouse.view().devicePixelRatioF(), 2.0);
   const PartId fixed = b.d.partId("fixed"), moving = b.d.partId("moving");
   // Just within and just beside the corners of the faces that look this way.
@@ -89,7 +89,7 @@ void DesktopFineScreenTest::aClickPicksThePartUnderTheMouse() {
 }
 
 void DesktopFineScreenTest::anArrowMovesThePartAsFarAsTheMouse() {
-  Bench b;
+  FineScreen b;
   QVERIFY(b.clicked(b.mouse.seen({0.005, -0.01, 0.04})) == b.d.partId("moving"));
   QTRY_VERIFY(b.mouse.overlay().picture().has_value());
   const std::pair<GizmoHandle, QPoint> drags[] = {{GizmoHandle::MoveX, {50, 0}},
@@ -108,7 +108,7 @@ void DesktopFineScreenTest::anArrowMovesThePartAsFarAsTheMouse() {
 }
 
 void DesktopFineScreenTest::aBoxTakesWhatIsInIt() {
-  Bench b;
+  FineScreen b;
   const auto box = [&](const QPoint& from, const QPoint& to) {
     pressInView(b.d, Qt::Key_B);
     b.mouse.drag(from, to - from);
@@ -127,7 +127,7 @@ void DesktopFineScreenTest::aBoxTakesWhatIsInIt() {
 }
 
 void DesktopFineScreenTest::aPictureHasTheSizeThatIsAskedFor() {
-  Bench b;
+  FineScreen b;
   const QSize view = b.mouse.view().size();
   const QImage asShown = b.saved(0);
   QCOMPARE(asShown.size(), 2 * view);
@@ -145,8 +145,8 @@ void DesktopFineScreenTest::aPictureHasTheSizeThatIsAskedFor() {
   }
 }
 
-int main(int argc, char** argv) {
+NEARFIT_QT_SUITE(DesktopFineScreenTest, [](int argc, char** argv) {
   qputenv("QT_SCALE_FACTOR", "2");
   return runDesktopTest<DesktopFineScreenTest>(argc, argv);
-}
+})
 #include "desktop_fine_screen_test.moc"

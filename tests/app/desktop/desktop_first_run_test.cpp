@@ -67,5 +67,5 @@ void DesktopFirstRunTest::theDemoThatIsAskedForIsNeverSavedOver() {
   QVERIFY(d.session().file().empty());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopFirstRunTest)
+NEARFIT_QT_SUITE(DesktopFirstRunTest, runDesktopTest<DesktopFirstRunTest>)
 #include "desktop_first_run_test.moc"

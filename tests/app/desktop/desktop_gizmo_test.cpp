@@ -558,5 +558,5 @@ void DesktopGizmoTest::aLockedPartAmongThemKeepsAllWhereTheyAre() {
   QCOMPARE(b.pose().translation, glm::dvec3(0.0));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopGizmoTest)
+NEARFIT_QT_SUITE(DesktopGizmoTest, runDesktopTest<DesktopGizmoTest>)
 #include "desktop_gizmo_test.moc"

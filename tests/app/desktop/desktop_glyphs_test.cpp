@@ -49,8 +49,8 @@ int pixelsOf(const QColor& colour, const QImage& picture) {
   return count;
 }
 
-struct Fixture {
-  Fixture() {
+struct GlyphsFixture {
+  GlyphsFixture() {
     QObject::connect(&d.application.servo(), &desktop::ServoController::snapshotArrived, &d.application,
                      [this](const ServoSnapshot& snapshot) { newest = snapshot; });
     d.addCubes();
@@ -90,7 +90,7 @@ struct Fixture {
 };
 
 /// The moving cube with a gap to the cube below, one to a ceiling and one to a wall: a minimum in each.
-struct Gaps : Fixture {
+struct Gaps : GlyphsFixture {
   Gaps() {
     d.add({writeOff(d.folder.path() / "ceiling.off",
                     boxMesh(glm::dvec3(0.04, 0.04, 0.01), glm::dvec3(0.0, 0.0, 0.052))),
@@ -157,7 +157,7 @@ void DesktopGlyphsTest::eachSwitchTakesAwayWhatItNamesAndBringsItBack_data() {
 void DesktopGlyphsTest::eachSwitchTakesAwayWhatItNamesAndBringsItBack() {
   QFETCH(QColor, colour);
   const char* name = QTest::currentDataTag();
-  Fixture f;
+  GlyphsFixture f;
   f.feel();
   f.press();
   f.selectNothing();
@@ -176,7 +176,7 @@ void DesktopGlyphsTest::eachSwitchTakesAwayWhatItNamesAndBringsItBack() {
 }
 
 void DesktopGlyphsTest::forceContactAndHandAreThereOnlyWhileItIsPressed() {
-  Fixture f;
+  GlyphsFixture f;
   f.feel();
   QTRY_COMPARE(f.d.text("statusMinima"), QStringLiteral("LMDs 1"));
   f.selectNothing();
@@ -273,5 +273,5 @@ void DesktopGlyphsTest::minimaFartherThanChosenAreNotDrawn() {
   QTRY_COMPARE(changedPixels(all, g.d.picture()), 0);
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopGlyphsTest)
+NEARFIT_QT_SUITE(DesktopGlyphsTest, runDesktopTest<DesktopGlyphsTest>)
 #include "desktop_glyphs_test.moc"

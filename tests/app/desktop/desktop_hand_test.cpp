@@ -25,7 +25,6 @@ using namespace nearfit::test;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The two cubes, the moving one in the manual hand, seen from the front: x to the right, z up.
 struct ByMouse {
@@ -221,5 +220,5 @@ void DesktopHandTest::whatKeepsDevicesFromBeingUsedIsShownWithTheCommand() {
   QCOMPARE(QApplication::clipboard()->text(), QStringLiteral("sudo mend"));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopHandTest)
+NEARFIT_QT_SUITE(DesktopHandTest, runDesktopTest<DesktopHandTest>)
 #include "desktop_hand_test.moc"

@@ -113,5 +113,5 @@ void DesktopHistoryTest::whatComesBackIsSeenFromWhereItWas() {
   QVERIFY(glm::distance(d.window().viewport().projection().away(), away) < 1e-12);
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopHistoryTest)
+NEARFIT_QT_SUITE(DesktopHistoryTest, runDesktopTest<DesktopHistoryTest>)
 #include "desktop_history_test.moc"

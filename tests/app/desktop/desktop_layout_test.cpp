@@ -263,5 +263,5 @@ void DesktopLayoutTest::dialogsThatAreMadeOnDemandHaveNoNamelessField() {
   QVERIFY2(nameless.isEmpty(), qPrintable(nameless.join(QStringLiteral(", "))));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopLayoutTest)
+NEARFIT_QT_SUITE(DesktopLayoutTest, runDesktopTest<DesktopLayoutTest>)
 #include "desktop_layout_test.moc"

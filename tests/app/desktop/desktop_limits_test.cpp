@@ -77,13 +77,9 @@ class LimitedSource final : public desktop::DeviceSource {
   DeviceLimits limits_;
 };
 
-bool isNear(double a, double b, double tolerance) {
-  return std::abs(a - b) <= tolerance;
-}
-
 /// Two cubes, one of them to be led by an arm with limits of its own, or by the manual hand.
-struct Fixture {
-  explicit Fixture(const DeviceLimits& limits = {}) {
+struct LimitsFixture {
+  explicit LimitsFixture(const DeviceLimits& limits = {}) {
     auto source = std::make_unique<LimitedSource>(limits);
     handle = source->handle;
     sent = source->sent;
@@ -161,7 +157,7 @@ class DesktopLimitsTest : public QObject {
 };
 
 void DesktopLimitsTest::theSettingsTellTheLimitsOfTheDeviceInHand() {
-  Fixture f(weakArm());
+  LimitsFixture f(weakArm());
   f.openSettings();
   auto* mode = f.d->widget<QComboBox>("mode");
   mode->setFocus();
@@ -181,7 +177,7 @@ void DesktopLimitsTest::theSettingsTellTheLimitsOfTheDeviceInHand() {
 }
 
 void DesktopLimitsTest::whatIsWishedBeyondTheDeviceIsHeldAndTold() {
-  Fixture f(weakArm());
+  LimitsFixture f(weakArm());
   f.openSettings();
   f.check("automaticCoupling");
   QVERIFY(!f.settings().coupling.isAutomatic);
@@ -209,7 +205,7 @@ void DesktopLimitsTest::whatIsWishedBeyondTheDeviceIsHeldAndTold() {
 void DesktopLimitsTest::aForceBeyondTheDeviceIsHeldAndSaidToBe() {
   DeviceLimits limits;
   limits.maxForce = 1.5;
-  Fixture f(limits);
+  LimitsFixture f(limits);
   f.feelWithArm();
   if (QTest::currentTestFailed()) return;
   QTRY_VERIFY(f.newest.tick > 10);
@@ -232,7 +228,7 @@ void DesktopLimitsTest::aForceBeyondTheDeviceIsHeldAndSaidToBe() {
 }
 
 void DesktopLimitsTest::theMarginIsChangedWhileItIsFeltAndReverted() {
-  Fixture f;
+  LimitsFixture f;
   f.press();
   f.openSettings();
   const std::size_t before = f.d->session().historyIndex();
@@ -247,7 +243,7 @@ void DesktopLimitsTest::theMarginIsChangedWhileItIsFeltAndReverted() {
 }
 
 void DesktopLimitsTest::frictionHoldsThePartOnceItIsSet() {
-  Fixture f;
+  LimitsFixture f;
   f.press();
   f.openSettings();
   const auto x = [&] { return f.newest.proxy.translation.x; };
@@ -266,7 +262,7 @@ void DesktopLimitsTest::frictionHoldsThePartOnceItIsSet() {
 }
 
 void DesktopLimitsTest::couplingAndPresetAreFeltAtOnceAndReverted() {
-  Fixture f;
+  LimitsFixture f;
   f.press();
   const auto stiffness = [&] { return f.newest.coupling.stiffness; };
   const auto isFeltAs = [&] {
@@ -296,7 +292,7 @@ void DesktopLimitsTest::couplingAndPresetAreFeltAtOnceAndReverted() {
 }
 
 void DesktopLimitsTest::inertiaIsOneStepOfUndo() {
-  Fixture f;
+  LimitsFixture f;
   f.press();
   f.openSettings();
   f.openTab(QStringLiteral("Weight"));
@@ -324,5 +320,5 @@ void DesktopLimitsTest::inertiaIsOneStepOfUndo() {
   QVERIFY(!inertia->isEnabled());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopLimitsTest)
+NEARFIT_QT_SUITE(DesktopLimitsTest, runDesktopTest<DesktopLimitsTest>)
 #include "desktop_limits_test.moc"

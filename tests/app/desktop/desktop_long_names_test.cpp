@@ -69,5 +69,5 @@ void DesktopLongNamesTest::whatUndoTakesBackIsCutInTheMenu() {
   QVERIFY(d.action("redo")->text().size() < 60);
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopLongNamesTest)
+NEARFIT_QT_SUITE(DesktopLongNamesTest, runDesktopTest<DesktopLongNamesTest>)
 #include "desktop_long_names_test.moc"

@@ -399,5 +399,5 @@ void DesktopMannersTest::toolbarsFitANarrowWindow() {
   QCOMPARE(views->defaultAction(), d.action("viewTop"));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopMannersTest)
+NEARFIT_QT_SUITE(DesktopMannersTest, runDesktopTest<DesktopMannersTest>)
 #include "desktop_manners_test.moc"

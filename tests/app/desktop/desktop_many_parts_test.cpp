@@ -12,7 +12,7 @@ using namespace nearfit::test;
 namespace {
 
 constexpr int kSide = 10, kCount = kSide * kSide * kSide;
-constexpr double kStep = 0.06;  ///< From cube to cube, of 40 mm each [m].
+constexpr double kSpacing = 0.06;  ///< From cube to cube, of 40 mm each [m].
 
 /// A thousand cubes of one file, ten each way, in a scene file.
 std::filesystem::path thousandParts(const DesktopDriver& d) {
@@ -22,7 +22,7 @@ std::filesystem::path thousandParts(const DesktopDriver& d) {
   const std::vector<Scene::PartPtr> parts = session.scene().parts();
   for (int i = 0; i < kCount; ++i) {
     const glm::dvec3 place(i % kSide, i / kSide % kSide, i / kSide / kSide);
-    session.movePart(parts[static_cast<std::size_t>(i)]->id, {{1, 0, 0, 0}, kStep * place});
+    session.movePart(parts[static_cast<std::size_t>(i)]->id, {{1, 0, 0, 0}, kSpacing * place});
   }
   const auto file = d.folder.path() / "thousand.nearfit";
   session.save(file);
@@ -80,7 +80,7 @@ void DesktopManyPartsTest::allAreMovedAsOneAndOneByOne() {
   QCOMPARE(d.selection().parts().size(), std::size_t(kCount));
   d.type<QDoubleSpinBox>("positionX", "+= 10 mm");
   QCOMPARE(d.session().historyIndex(), steps + 1);
-  QVERIFY(std::abs(d.part(4, 5, 6).worldFromPart.translation.x - (4 * kStep + 0.01)) < 1e-12);
+  QVERIFY(std::abs(d.part(4, 5, 6).worldFromPart.translation.x - (4 * kSpacing + 0.01)) < 1e-12);
   ViewPointer pointer(d);
   pointer.look("viewFront");
   const Part& corner = d.part(8, 0, 8);
@@ -91,7 +91,7 @@ void DesktopManyPartsTest::allAreMovedAsOneAndOneByOne() {
   QCOMPARE(d.session().historyIndex(), steps + 2);
   d.choose("undo");
   d.choose("undo");
-  QCOMPARE(d.part(4, 5, 6).worldFromPart.translation.x, 4 * kStep);
+  QCOMPARE(d.part(4, 5, 6).worldFromPart.translation.x, 4 * kSpacing);
   QCOMPARE(d.part(8, 0, 8).worldFromPart.translation.z, before);
 }
 
@@ -130,11 +130,11 @@ void DesktopManyPartsTest::thePartInHandMeetsItsNeighboursAlone() {
   QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 5.00 mm"));
   d.type<QDoubleSpinBox>("positionZ", "+= 15 mm");
   // It is held a margin before the face.
-  QTRY_VERIFY(d.felt && std::abs(d.felt->translation.z - (5 * kStep + 0.02 - 1e-4)) < 2e-5);
+  QTRY_VERIFY(d.felt && std::abs(d.felt->translation.z - (5 * kSpacing + 0.02 - 1e-4)) < 2e-5);
   d.choose("stop");
   QTRY_COMPARE(QString::fromStdString(d.session().undoText()),
                QStringLiteral("Feel ") + QString::fromStdString(d.part(5, 5, 5).name));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopManyPartsTest)
+NEARFIT_QT_SUITE(DesktopManyPartsTest, runDesktopTest<DesktopManyPartsTest>)
 #include "desktop_many_parts_test.moc"

@@ -222,5 +222,5 @@ void DesktopMeasureTest::oneToolAtATimeTakesClicks() {
   QVERIFY(!d.action("measure")->isChecked());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopMeasureTest)
+NEARFIT_QT_SUITE(DesktopMeasureTest, runDesktopTest<DesktopMeasureTest>)
 #include "desktop_measure_test.moc"

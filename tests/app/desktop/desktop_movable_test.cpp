@@ -225,5 +225,5 @@ void DesktopMovableTest::aPushNamesWhatBarsTheWayFirst() {
   QVERIFY(std::abs(d.part("cube").worldFromPart.translation.x - 0.13) < 1e-3);
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopMovableTest)
+NEARFIT_QT_SUITE(DesktopMovableTest, runDesktopTest<DesktopMovableTest>)
 #include "desktop_movable_test.moc"

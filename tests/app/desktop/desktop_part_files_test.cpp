@@ -53,11 +53,6 @@ QString reloadText(DesktopDriver& d) {
   return d.widget<QWidget>("notice-reload")->findChild<QLabel*>(QStringLiteral("noticeText"))->text();
 }
 
-double widthOf(const Part& part) {
-  const Aabb& box = part.geometry->mesh.bounds();
-  return box.upper.x - box.lower.x;
-}
-
 /// As programs save that care: beside it, then in its place.
 void replaceByCube(const QString& file, double edge) {
   const fs::path target = file.toStdString();
@@ -334,5 +329,5 @@ void DesktopPartFilesTest::cancelOfAMillionTrianglesAnswersBeforeTheImporterDoes
   QTRY_COMPARE_WITH_TIMEOUT(d.session().scene().parts().size(), std::size_t{1}, 60'000);
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopPartFilesTest)
+NEARFIT_QT_SUITE(DesktopPartFilesTest, runDesktopTest<DesktopPartFilesTest>)
 #include "desktop_part_files_test.moc"

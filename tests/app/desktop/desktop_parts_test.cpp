@@ -263,5 +263,5 @@ void DesktopPartsTest::idleViewDrawsNothing() {
   QVERIFY(d.comesToRest());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopPartsTest)
+NEARFIT_QT_SUITE(DesktopPartsTest, runDesktopTest<DesktopPartsTest>)
 #include "desktop_parts_test.moc"

@@ -323,5 +323,5 @@ void DesktopPictureTest::picturesAreCopied() {
   QTRY_COMPARE(QApplication::clipboard()->image().size(), d.shownSize() * 2);
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopPictureTest)
+NEARFIT_QT_SUITE(DesktopPictureTest, runDesktopTest<DesktopPictureTest>)
 #include "desktop_picture_test.moc"

@@ -23,15 +23,15 @@ using namespace nearfit::test;
 namespace {
 
 /// A recording of a minute, four rows a second, in which each number goes its own way.
-constexpr int kRows = 241;
-constexpr double kStep = 0.25;
+constexpr int kPlottedRows = 241;
+constexpr double kRowPeriod = 0.25;
 
 double timeOf(int row) {
-  return kStep * row;
+  return kRowPeriod * row;
 }
 /// The force and the torque are read as vectors, of which the plots show the length.
 MotionRow rowAt(int row) {
-  const double share = static_cast<double>(row) / (kRows - 1);
+  const double share = static_cast<double>(row) / (kPlottedRows - 1);
   MotionRow out;
   out.time = timeOf(row);
   out.wrench.force = (2.0 + 3.0 * share) * glm::dvec3(0.6, 0.0, -0.8);
@@ -62,15 +62,15 @@ const Expected kExpected[kLines] = {
     {"Servo [µs]", "lateness", [](const MotionRow& row) { return row.lateness; }, 1e6}};
 
 /// Samples are kept as floats.
-bool isNear(double value, double expected) {
+bool isNearlyEqual(double value, double expected) {
   return std::abs(value - expected) <= 1e-6 * std::abs(expected);
 }
 
-struct Fixture {
-  Fixture() {
+struct PlotsFixture {
+  PlotsFixture() {
     d.addCubes();
     MotionWriter writer(d.folder.path() / "known.csv");
-    for (int i = 0; i < kRows; ++i)
+    for (int i = 0; i < kPlottedRows; ++i)
       writer.write(rowAt(i));
     writer.finish();
     d.choose(d.widget<QDockWidget>("plotsDock")->toggleViewAction());
@@ -84,7 +84,7 @@ struct Fixture {
     whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, file("known.csv")); });
     pressShortcut(d, Qt::Key_F8, Qt::ShiftModifier);
     QTRY_COMPARE(d.text("timelineName"), QStringLiteral("known.csv"));
-    QTRY_COMPARE(plots()->graph(0)->dataCount(), kRows);
+    QTRY_COMPARE(plots()->graph(0)->dataCount(), kPlottedRows);
   }
   /// Of the plot that a line is drawn in.
   QString titleOf(QCPGraph* graph) {
@@ -115,8 +115,8 @@ struct Fixture {
       if (std::abs(axis.lower - from) > 1e-9 || std::abs(axis.upper - to) > 1e-9) return false;
       bool isFound = false;
       const QCPRange times = graph->getKeyRange(isFound);
-      if (!isFound || times.lower < from - 1.01 * kStep || times.lower > from + 1e-9) return false;
-      if (times.upper < to - 1e-9 || times.upper > to + 1.01 * kStep) return false;
+      if (!isFound || times.lower < from - 1.01 * kRowPeriod || times.lower > from + 1e-9) return false;
+      if (times.upper < to - 1e-9 || times.upper > to + 1.01 * kRowPeriod) return false;
     }
     return true;
   }
@@ -183,7 +183,7 @@ class DesktopPlotsTest : public QObject {
 };
 
 void DesktopPlotsTest::eachLineHasItsOwnColumnOfTheRecordingInItsUnit() {
-  Fixture f;
+  PlotsFixture f;
   f.openRecording();
   QCOMPARE(f.plots()->graphCount(), kLines);
   QVector<QCPGraph*> seen;
@@ -191,12 +191,12 @@ void DesktopPlotsTest::eachLineHasItsOwnColumnOfTheRecordingInItsUnit() {
     QCPGraph* graph = f.line(expected);
     QVERIFY2(!seen.contains(graph), expected.title);
     seen << graph;
-    QCOMPARE(graph->dataCount(), kRows);
-    for (int i = 0; i < kRows; ++i) {
+    QCOMPARE(graph->dataCount(), kPlottedRows);
+    for (int i = 0; i < kPlottedRows; ++i) {
       const QCPGraphData& point = *graph->data()->at(i);
       QVERIFY(std::abs(point.key - timeOf(i)) < 1e-9);
       const double value = expected.scale * expected.valueOf(rowAt(i));
-      QVERIFY2(isNear(point.value, value), qPrintable(QStringLiteral("%1 %2: %3 instead of %4")
+      QVERIFY2(isNearlyEqual(point.value, value), qPrintable(QStringLiteral("%1 %2: %3 instead of %4")
                                                           .arg(QString::fromUtf8(expected.title))
                                                           .arg(i)
                                                           .arg(point.value)
@@ -208,27 +208,27 @@ void DesktopPlotsTest::eachLineHasItsOwnColumnOfTheRecordingInItsUnit() {
 }
 
 void DesktopPlotsTest::theTableHasAllColumnsInSiUnits() {
-  Fixture f;
+  PlotsFixture f;
   f.openRecording();
   std::string header;
   const auto rows = f.exportTable(header);
   QCOMPARE(header, std::string("t_s,force_N,torque_Nm,clearance_m,tick_s,lateness_s"));
-  QCOMPARE(rows.size(), std::size_t{kRows});
-  for (int i = 0; i < kRows; ++i) {
+  QCOMPARE(rows.size(), std::size_t{kPlottedRows});
+  for (int i = 0; i < kPlottedRows; ++i) {
     const auto& row = rows[static_cast<std::size_t>(i)];
     QCOMPARE(row.size(), std::size_t{1 + kLines});
     QVERIFY(std::abs(row[0] - timeOf(i)) < 1e-9);
     for (std::size_t column = 0; column < kLines; ++column) {
       const double value = kExpected[column].valueOf(rowAt(i));
       QVERIFY2(
-          isNear(row[1 + column], value),
+          isNearlyEqual(row[1 + column], value),
           qPrintable(QStringLiteral("row %1, column %2: %3").arg(i).arg(column + 1).arg(row[1 + column])));
     }
   }
 }
 
 void DesktopPlotsTest::theTableHasTheTimeThatIsShown() {
-  Fixture f;
+  PlotsFixture f;
   f.openRecording();
   f.span()->setFocus();
   QTest::keyClick(f.span(), Qt::Key_Home);
@@ -238,11 +238,11 @@ void DesktopPlotsTest::theTableHasTheTimeThatIsShown() {
   QCOMPARE(rows.size(), std::size_t{9});
   QCOMPARE(rows.front()[0], 58.0);
   QCOMPARE(rows.back()[0], 60.0);
-  QVERIFY(isNear(rows.back()[1], 5.0));
+  QVERIFY(isNearlyEqual(rows.back()[1], 5.0));
 }
 
 void DesktopPlotsTest::theSpanIsChosenByKeys() {
-  Fixture f;
+  PlotsFixture f;
   f.openRecording();
   QCOMPARE(f.span()->currentText(), QStringLiteral("All"));
   QVERIFY(f.haveAllPlots(0.0, 60.0));
@@ -259,7 +259,7 @@ void DesktopPlotsTest::theSpanIsChosenByKeys() {
 }
 
 void DesktopPlotsTest::theSpanIsChosenByTheMouse() {
-  Fixture f;
+  PlotsFixture f;
   f.openRecording();
   f.clickSpan(QStringLiteral("10 s"));
   if (QTest::currentTestFailed()) return;
@@ -270,7 +270,7 @@ void DesktopPlotsTest::theSpanIsChosenByTheMouse() {
 }
 
 void DesktopPlotsTest::theSpanFollowsTheNewestThatIsFelt() {
-  Fixture f;
+  PlotsFixture f;
   f.d.startWith(ui::Hand::Scripted);
   f.span()->setFocus();
   QTest::keyClick(f.span(), Qt::Key_Home);
@@ -286,7 +286,7 @@ void DesktopPlotsTest::theSpanFollowsTheNewestThatIsFelt() {
 }
 
 void DesktopPlotsTest::whatIsFeltIsWhatThePanelSays() {
-  Fixture f;
+  PlotsFixture f;
   HapticSettings settings = f.d.session().scene().haptics();
   settings.mode = HapticMode::Springs;
   f.d.session().setHaptics(settings);
@@ -307,7 +307,7 @@ void DesktopPlotsTest::whatIsFeltIsWhatThePanelSays() {
 }
 
 void DesktopPlotsTest::whilePausedNothingChangesAndNothingIsLost() {
-  Fixture f;
+  PlotsFixture f;
   f.d.startWith(ui::Hand::Scripted);
   const auto lastTime = [&] {
     const QCPGraph* graph = f.plots()->graph(0);
@@ -344,5 +344,5 @@ void DesktopPlotsTest::whilePausedNothingChangesAndNothingIsLost() {
   QCOMPARE(rows.size(), static_cast<std::size_t>(f.d.application.servo().statistics().ticks));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopPlotsTest)
+NEARFIT_QT_SUITE(DesktopPlotsTest, runDesktopTest<DesktopPlotsTest>)
 #include "desktop_plots_test.moc"

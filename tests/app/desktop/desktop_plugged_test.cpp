@@ -223,5 +223,5 @@ void DesktopPluggedTest::whatItLeadsIsRecordedByTheButtonAndReplayed() {
   QVERIFY(p.failures.isEmpty());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopPluggedTest)
+NEARFIT_QT_SUITE(DesktopPluggedTest, runDesktopTest<DesktopPluggedTest>)
 #include "desktop_plugged_test.moc"

@@ -16,7 +16,7 @@ using namespace nearfit::test;
 
 namespace {
 
-struct Fixture {
+struct PresetsFixture {
   QComboBox* panel() { return d.widget<QComboBox>("panelPreset"); }
   QComboBox* dialog() { return d.widget<QComboBox>("preset"); }
   const HapticSettings& settings() { return d.session().scene().haptics(); }
@@ -78,7 +78,7 @@ class DesktopPresetsTest : public QObject {
 };
 
 void DesktopPresetsTest::oneIsChosenAsOneStepOfUndoAndShownInBothPlaces() {
-  Fixture f;
+  PresetsFixture f;
   QCOMPARE(f.panel()->currentText(), QStringLiteral("Stiff"));
   const std::size_t before = f.d.session().historyIndex();
   const HapticSettings stiff = f.settings();
@@ -101,7 +101,7 @@ void DesktopPresetsTest::oneIsChosenAsOneStepOfUndoAndShownInBothPlaces() {
 }
 
 void DesktopPresetsTest::whatIsChangedAfterwardsIsCustom() {
-  Fixture f;
+  PresetsFixture f;
   f.choose(f.panel(), QStringLiteral("Soft"));
   f.openDialog();
   f.d.type<ui::NumberField>("couplingStiffness", "260");
@@ -115,7 +115,7 @@ void DesktopPresetsTest::whatIsChangedAfterwardsIsCustom() {
 }
 
 void DesktopPresetsTest::onesOwnIsSavedChosenRenamedAndDeleted() {
-  Fixture f;
+  PresetsFixture f;
   f.openDialog();
   QVERIFY(!f.d.action("renamePreset")->isEnabled() && !f.d.action("deletePreset")->isEnabled());
   // Friction is no part of a usual one.
@@ -155,20 +155,20 @@ void DesktopPresetsTest::onesOwnIsSavedChosenRenamedAndDeleted() {
 
 void DesktopPresetsTest::onesOwnIsThereInTheNextRun() {
   {
-    Fixture f;
+    PresetsFixture f;
     f.openDialog();
     f.d.type<ui::NumberField>("friction", "0.35");
     f.nameIt("savePreset", QStringLiteral("Gummi ½"));
     QTRY_COMPARE(f.panel()->currentText(), QStringLiteral("Gummi ½"));
   }
-  Fixture f;
+  PresetsFixture f;
   QCOMPARE(f.panel()->currentText(), QStringLiteral("Stiff"));
   f.choose(f.panel(), QStringLiteral("Gummi ½"));
   QCOMPARE(f.settings().proxy.friction, 0.35);
 }
 
 void DesktopPresetsTest::aUsualNameIsRefusedWithTheReason() {
-  Fixture f;
+  PresetsFixture f;
   f.openDialog();
   bool wasAsked = false;
   whenModal<QDialog>(
@@ -195,7 +195,7 @@ void DesktopPresetsTest::aUsualNameIsRefusedWithTheReason() {
 }
 
 void DesktopPresetsTest::ofTwoThatFeelTheSameTheOneThatWasChosenIsShown() {
-  Fixture f;
+  PresetsFixture f;
   f.openDialog();
   f.nameIt("savePreset", QStringLiteral("As new"));
   QTRY_COMPARE(f.dialog()->currentText(), QStringLiteral("As new"));
@@ -210,7 +210,7 @@ void DesktopPresetsTest::aDamagedFileIsPutAsideAndTold() {
   const std::filesystem::path file = ui::PresetStore::usualFile();
   std::filesystem::create_directories(file.parent_path());
   std::ofstream(file) << "{\"format\": \"nearfit feel pres";
-  Fixture f;
+  PresetsFixture f;
   QVERIFY2(f.d.window().statusBar()->currentMessage().contains(QStringLiteral("could be read")),
            qPrintable(f.d.window().statusBar()->currentMessage()));
   QCOMPARE(f.panel()->count(), 4);
@@ -224,5 +224,5 @@ void DesktopPresetsTest::aDamagedFileIsPutAsideAndTold() {
   std::filesystem::remove(aside);
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopPresetsTest)
+NEARFIT_QT_SUITE(DesktopPresetsTest, runDesktopTest<DesktopPresetsTest>)
 #include "desktop_presets_test.moc"

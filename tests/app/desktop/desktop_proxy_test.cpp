@@ -49,10 +49,6 @@ double value(DesktopDriver& d, const char* field) {
   return d.widget<QDoubleSpinBox>(field)->value();
 }
 
-bool isNear(double a, double b, double tolerance) {
-  return std::abs(a - b) <= tolerance;
-}
-
 constexpr double kMargin = 1e-4;  ///< Of a new scene [m].
 
 }  // namespace
@@ -256,5 +252,5 @@ void DesktopProxyTest::lockedAxesHoldTheManualHand() {
   QVERIFY(isNear(watch.newest.proxy.translation.x, 0.0, 1e-9));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopProxyTest)
+NEARFIT_QT_SUITE(DesktopProxyTest, runDesktopTest<DesktopProxyTest>)
 #include "desktop_proxy_test.moc"

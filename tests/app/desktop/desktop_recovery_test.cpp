@@ -97,15 +97,15 @@ class DesktopRecoveryTest : public QObject {
 namespace {
 
 /// A folder with the meshes that the scene of a process that dies is made of.
-struct Place {
-  Place() {
+struct DoomedPlace {
+  DoomedPlace() {
     writeOff(folder.path() / "fixed.off", boxMesh(glm::dvec3(0.04)));
     writeOff(folder.path() / "moving.off", boxMesh(glm::dvec3(0.02), glm::dvec3(0.0, 0.0, 0.035)));
   }
   void lose(const char* how) {
     QProcess process;
     process.setProcessChannelMode(QProcess::ForwardedChannels);
-    process.start(QCoreApplication::applicationFilePath(), {QStringLiteral("--die"), QLatin1String(how),
+    process.start(QCoreApplication::applicationFilePath(), {QStringLiteral("desktop_recovery_test"), QStringLiteral("--die"), QLatin1String(how),
                                                             QString::fromStdString(folder.path().string())});
     QVERIFY(process.waitForFinished(120'000));
     QCOMPARE(process.exitStatus(), QProcess::CrashExit);
@@ -119,7 +119,7 @@ struct Place {
 }  // namespace
 
 void DesktopRecoveryTest::unsavedSceneOfAKilledProcessComesBack() {
-  Place place;
+  DoomedPlace place;
   place.lose("edits");
   QVERIFY(!QTest::currentTestFailed());
   DesktopDriver d;
@@ -142,7 +142,7 @@ void DesktopRecoveryTest::unsavedSceneOfAKilledProcessComesBack() {
 }
 
 void DesktopRecoveryTest::poseInHandOfAKilledProcessComesBackAndTheFileIsKnown() {
-  Place place;
+  DoomedPlace place;
   place.lose("held");
   QVERIFY(!QTest::currentTestFailed());
   DesktopDriver d;
@@ -158,7 +158,7 @@ void DesktopRecoveryTest::poseInHandOfAKilledProcessComesBackAndTheFileIsKnown()
 }
 
 void DesktopRecoveryTest::theProgramItselfIsKilledAndItsSceneComesBack() {
-  Place place;
+  DoomedPlace place;
   Scene scene;
   Part part;
   part.geometry = loadPartGeometry(place.folder.path() / "fixed.off", 1e-3);
@@ -195,7 +195,7 @@ void DesktopRecoveryTest::theProgramItselfIsKilledAndItsSceneComesBack() {
 }
 
 void DesktopRecoveryTest::whatEndsOnlyAfterTheStartIsOfferedToo() {
-  Place place;
+  DoomedPlace place;
   place.lose("edits");
   QVERIFY(!QTest::currentTestFailed());
   // It is another's, who runs for now.
@@ -221,7 +221,7 @@ void DesktopRecoveryTest::whatEndsOnlyAfterTheStartIsOfferedToo() {
 }
 
 void DesktopRecoveryTest::laterOffersAgainAndDiscardDoesNot() {
-  Place place;
+  DoomedPlace place;
   place.lose("edits");
   QVERIFY(!QTest::currentTestFailed());
   // As another process would have it that ends before the last one looks.
@@ -307,8 +307,8 @@ void DesktopRecoveryTest::folderThatCannotBeWrittenGivesOneQuietNote() {
   QVERIFY(QApplication::activeModalWidget() == nullptr);
 }
 
-int main(int argc, char** argv) {
+NEARFIT_QT_SUITE(DesktopRecoveryTest, [](int argc, char** argv) {
   if (argc == 4 && QLatin1String(argv[1]) == QLatin1String("--die")) return die(argc, argv);
   return runDesktopTest<DesktopRecoveryTest>(argc, argv);
-}
+})
 #include "desktop_recovery_test.moc"

@@ -11,8 +11,8 @@ using namespace nearfit::test;
 namespace {
 
 /// The application with two cubes, and a recorded hand that goes 3 mm along x, far from either.
-struct Fixture {
-  Fixture() {
+struct ReplayFixture {
+  ReplayFixture() {
     d.window().setFailureSink([this](const ui::Failure& failure) { failures << failure; });
     d.addCubes();
     MotionWriter writer(d.folder.path() / "felt.csv");
@@ -52,7 +52,7 @@ class DesktopReplayTest : public QObject {
 };
 
 void DesktopReplayTest::aRecordedHandIsAskedForLeadsThePartAndPutsItDown() {
-  Fixture f;
+  ReplayFixture f;
   f.chooseRecordedHand();
   QVERIFY(f.d.widget<QPushButton>("chooseRecording")->isVisible());
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, f.file("felt.csv")); });
@@ -69,7 +69,7 @@ void DesktopReplayTest::aRecordedHandIsAskedForLeadsThePartAndPutsItDown() {
 }
 
 void DesktopReplayTest::whoWantsNoFileStartsNothing() {
-  Fixture f;
+  ReplayFixture f;
   f.chooseRecordedHand();
   whenModal<QFileDialog>([](QFileDialog* dialog) { dialog->reject(); });
   f.pressFeel();
@@ -79,7 +79,7 @@ void DesktopReplayTest::whoWantsNoFileStartsNothing() {
 }
 
 void DesktopReplayTest::whatIsNoRecordingIsTold() {
-  Fixture f;
+  ReplayFixture f;
   f.d.folder.write("path.csv", "0,0,0,1,0,0,0\n");
   f.chooseRecordedHand();
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, f.file("path.csv")); });
@@ -90,7 +90,7 @@ void DesktopReplayTest::whatIsNoRecordingIsTold() {
 }
 
 void DesktopReplayTest::whatIsFeltIsRecorded() {
-  Fixture f;
+  ReplayFixture f;
   f.d.application.servo().recordTo(f.file("again.csv"));
   f.d.window().feelWith(QStringLiteral("replay:") + f.file("felt.csv"));
   // The file is there once it is whole.
@@ -104,5 +104,5 @@ void DesktopReplayTest::whatIsFeltIsRecorded() {
   QVERIFY(f.failures.isEmpty());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopReplayTest)
+NEARFIT_QT_SUITE(DesktopReplayTest, runDesktopTest<DesktopReplayTest>)
 #include "desktop_replay_test.moc"

@@ -195,5 +195,5 @@ void DesktopSectionPlaneTest::itIsNoChangeOfTheSceneAndItsChoicesAreKept() {
   QVERIFY(cut.d.widget<QCheckBox>("sectionSpare")->isChecked());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopSectionPlaneTest)
+NEARFIT_QT_SUITE(DesktopSectionPlaneTest, runDesktopTest<DesktopSectionPlaneTest>)
 #include "desktop_section_plane_test.moc"

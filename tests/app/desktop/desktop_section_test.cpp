@@ -178,5 +178,5 @@ void DesktopSectionTest::switchedOffNothingIsLeftOfIt() {
   QVERIFY(cut.d.comesToRest());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopSectionTest)
+NEARFIT_QT_SUITE(DesktopSectionTest, runDesktopTest<DesktopSectionTest>)
 #include "desktop_section_test.moc"

@@ -133,5 +133,5 @@ void DesktopSelectionTest::deletingOneKeepsTheOthersSelected() {
   QCOMPARE(d.rows(), (QList<int>{0, 1}));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopSelectionTest)
+NEARFIT_QT_SUITE(DesktopSelectionTest, runDesktopTest<DesktopSelectionTest>)
 #include "desktop_selection_test.moc"

@@ -280,5 +280,5 @@ void DesktopServoTest::restingServoDrawsNothing() {
   QVERIFY(d.comesToRest());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopServoTest)
+NEARFIT_QT_SUITE(DesktopServoTest, runDesktopTest<DesktopServoTest>)
 #include "desktop_servo_test.moc"

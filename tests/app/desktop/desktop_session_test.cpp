@@ -28,8 +28,8 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A round peg in its hole and a square one, the key, in its slot, all on the z axis; files in metres.
-struct Place {
-  Place() {
+struct WorkPlace {
+  WorkPlace() {
     const fs::path models = fs::path(NEARFIT_SHARED_DIR) / "models/public/peghole";
     const std::pair<const char*, const char*> real[] = {
         {"hole.obj", "factory_round_hole_16mm_subdiv_3x.obj"},
@@ -295,17 +295,17 @@ class DesktopSessionTest : public QObject {
   void aDaysWorkSurvivesTheEndOfItsProcess();
 
  private:
-  void work(const Place& place);
+  void work(const WorkPlace& place);
   void exportScene(DesktopDriver& d, const fs::path& file);
 };
 
-void DesktopSessionTest::work(const Place& place) {
+void DesktopSessionTest::work(const WorkPlace& place) {
   QProcess process;
   process.setProcessChannelMode(QProcess::ForwardedChannels);
   process.start(
       QStringLiteral(NEARFIT_EMULATE),
       QStringList{QStringLiteral("openhap"), QStringLiteral("--"), QCoreApplication::applicationFilePath(),
-                  QStringLiteral("--work"), QString::fromStdString(place.folder.path().string())} +
+                  QStringLiteral("desktop_session_test"), QStringLiteral("--work"), QString::fromStdString(place.folder.path().string())} +
           place.files());
   QVERIFY(process.waitForFinished(250'000));
   QCOMPARE(process.exitStatus(), QProcess::CrashExit);
@@ -321,7 +321,7 @@ void DesktopSessionTest::exportScene(DesktopDriver& d, const fs::path& file) {
 }
 
 void DesktopSessionTest::aDaysWorkSurvivesTheEndOfItsProcess() {
-  const Place place;
+  const WorkPlace place;
   work(place);
   QVERIFY(!QTest::currentTestFailed());
   const fs::path folder = place.folder.path();
@@ -361,8 +361,8 @@ void DesktopSessionTest::aDaysWorkSurvivesTheEndOfItsProcess() {
   }
 }
 
-int main(int argc, char** argv) {
+NEARFIT_QT_SUITE(DesktopSessionTest, [](int argc, char** argv) {
   if (argc > 3 && QLatin1String(argv[1]) == QLatin1String("--work")) return work(argc, argv);
   return runDesktopTest<DesktopSessionTest>(argc, argv);
-}
+})
 #include "desktop_session_test.moc"

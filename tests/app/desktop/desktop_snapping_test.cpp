@@ -13,11 +13,10 @@ using namespace nearfit::test;
 
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;  ///< [rad]
 
 /// The two cubes, the moving one selected.
-struct Bench {
-  explicit Bench(const char* look = "viewIso") : mouse(d) {
+struct SnappingBench {
+  explicit SnappingBench(const char* look = "viewIso") : mouse(d) {
     d.addCubes();
     d.window().selection().select(d.partId("moving"));
     mouse.look(look);
@@ -90,7 +89,7 @@ void DesktopSnappingTest::ringsTurnInStepsOfTheAngle() {
   QFETCH(double, angle);
   const auto handle = static_cast<GizmoHandle>(ring);
   const double step = angle * kDegree;
-  Bench b;
+  SnappingBench b;
   b.d.choose("gizmoTurn");
   if (angle != 15.0) b.d.type<ui::NumberField>("snapAngle", qPrintable(QString::number(angle)));
   const glm::dvec3 free = b.turnBy(handle);
@@ -111,7 +110,7 @@ void DesktopSnappingTest::ringsTurnInStepsOfTheAngle() {
 }
 
 void DesktopSnappingTest::aSquareGoesInStepsAlongBothOfItsAxes() {
-  Bench b;
+  SnappingBench b;
   b.d.type<ui::NumberField>("snapLength", "2.5");
   const glm::dvec3 before = b.pose().translation;
   const QPoint square = b.mouse.handle(GizmoHandle::PlaneZ);
@@ -129,7 +128,7 @@ void DesktopSnappingTest::aSquareGoesInStepsAlongBothOfItsAxes() {
 }
 
 void DesktopSnappingTest::stepsAreAlongTheAxesOfAPartThatIsTurned() {
-  Bench b("viewFront");
+  SnappingBench b("viewFront");
   const glm::dquat turned = glm::angleAxis(30.0 * kDegree, glm::dvec3(0, 1, 0));
   b.d.session().movePart(b.d.partId("moving"), {turned, {0.0, 0.0, 0.0}});
   b.d.type<ui::NumberField>("snapLength", "2.5");
@@ -180,5 +179,5 @@ void DesktopSnappingTest::withCtrlTheSectionIsTiltedInFifteens() {
   }
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopSnappingTest)
+NEARFIT_QT_SUITE(DesktopSnappingTest, runDesktopTest<DesktopSnappingTest>)
 #include "desktop_snapping_test.moc"

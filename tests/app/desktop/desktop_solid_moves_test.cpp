@@ -16,7 +16,6 @@ QString shown(const glm::dvec3& v) {
   return QStringLiteral("%1 %2 %3").arg(v.x, 0, 'g', 12).arg(v.y, 0, 'g', 12).arg(v.z, 0, 'g', 12);
 }
 
-constexpr double kDegree = 0.017453292519943295;  ///< [rad]
 constexpr double kAngleSlack = 3e-3;  ///< What a tenth of the margin makes of the channel's angle, and more.
 
 }  // namespace
@@ -295,5 +294,5 @@ void DesktopSolidMovesTest::severalTogetherStopWhereOneOfThemDoes() {
   QVERIFY(glm::length(b.turnOf("front")) < 1e-12 && glm::length(b.turnOf("behind")) < 1e-12);
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopSolidMovesTest)
+NEARFIT_QT_SUITE(DesktopSolidMovesTest, runDesktopTest<DesktopSolidMovesTest>)
 #include "desktop_solid_moves_test.moc"

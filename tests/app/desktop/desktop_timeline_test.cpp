@@ -16,22 +16,22 @@ using namespace nearfit::test;
 
 namespace {
 
-constexpr int kRows = 2001;
+constexpr int kRecordedRows = 2001;
 
 /// The application with two cubes and a recording of two seconds, in which the part goes 20 mm along x and
 /// the hand 30 mm, with a force that grows.
-struct Fixture {
-  Fixture() {
+struct TimelineFixture {
+  TimelineFixture() {
     d.window().setFailureSink([this](const ui::Failure& failure) { failures << failure; });
     d.addCubes();
     MotionWriter writer(d.folder.path() / "felt.csv");
-    for (int i = 0; i < kRows; ++i) {
+    for (int i = 0; i < kRecordedRows; ++i) {
       MotionRow row;
       row.time = 5.0 + 1e-3 * i;
-      row.proxy.translation.x = 0.02 * i / (kRows - 1);
-      row.handle.translation.x = 0.03 * i / (kRows - 1);
+      row.proxy.translation.x = 0.02 * i / (kRecordedRows - 1);
+      row.handle.translation.x = 0.03 * i / (kRecordedRows - 1);
       // One tick's peak.
-      row.wrench.force.x = i == 1234 ? 9.0 : 2.0 * i / (kRows - 1);
+      row.wrench.force.x = i == 1234 ? 9.0 : 2.0 * i / (kRecordedRows - 1);
       row.distance = 0.005;
       row.tickTime = 20e-6;
       row.lateness = 60e-6;
@@ -74,7 +74,7 @@ class DesktopTimelineTest : public QObject {
 };
 
 void DesktopTimelineTest::aRecordingIsPlayedToItsEndAndClosedWithoutATrace() {
-  Fixture f;
+  TimelineFixture f;
   QTRY_VERIFY(f.d.window().viewport().pictureCount() > 0);
   const std::string undo = f.d.session().undoText();
   f.openByMenu();
@@ -94,7 +94,7 @@ void DesktopTimelineTest::aRecordingIsPlayedToItsEndAndClosedWithoutATrace() {
 }
 
 void DesktopTimelineTest::scrubbingAndSteppingGoToAnyTick() {
-  Fixture f;
+  TimelineFixture f;
   f.openByMenu();
   auto* scale = f.d.widget<QSlider>("timelineScale");
   QTRY_VERIFY(scale->width() > 50);
@@ -114,7 +114,7 @@ void DesktopTimelineTest::scrubbingAndSteppingGoToAnyTick() {
 }
 
 void DesktopTimelineTest::itGoesAtTheChosenSpeedAndLoops() {
-  Fixture f;
+  TimelineFixture f;
   f.openByMenu();
   auto* speed = f.d.widget<QComboBox>("timelineSpeed");
   speed->setFocus();
@@ -138,7 +138,7 @@ void DesktopTimelineTest::itGoesAtTheChosenSpeedAndLoops() {
 }
 
 void DesktopTimelineTest::takingAPartInHandEndsTheReplay() {
-  Fixture f;
+  TimelineFixture f;
   f.openByMenu();
   f.d.startWith(ui::Hand::Manual);
   QCOMPARE(f.d.text("timelineName"), QStringLiteral("No recording is open."));
@@ -150,7 +150,7 @@ void DesktopTimelineTest::takingAPartInHandEndsTheReplay() {
 }
 
 void DesktopTimelineTest::whatIsNoRecordingIsToldWithItsLine() {
-  Fixture f;
+  TimelineFixture f;
   std::string text = readBytes(f.d.folder.path() / "felt.csv");
   const std::size_t third = text.find('\n', text.find('\n') + 1) + 1;
   text.replace(third, 5, "what,");
@@ -163,7 +163,7 @@ void DesktopTimelineTest::whatIsNoRecordingIsToldWithItsLine() {
 }
 
 void DesktopTimelineTest::withoutAPartInHandThereIsNothingToMove() {
-  Fixture f;
+  TimelineFixture f;
   f.d.session().setMovingPart({});
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, f.file("felt.csv")); });
   pressShortcut(f.d, Qt::Key_F8, Qt::ShiftModifier);
@@ -172,7 +172,7 @@ void DesktopTimelineTest::withoutAPartInHandThereIsNothingToMove() {
 }
 
 void DesktopTimelineTest::whatIsFeltIsRecordedFromTheButtonAndPlayed() {
-  Fixture f;
+  TimelineFixture f;
   f.d.startWith(ui::Hand::Manual);
   QTRY_VERIFY(f.d.application.servo().statistics().ticks > 10);
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, f.file("mine.csv")); });
@@ -195,7 +195,7 @@ void DesktopTimelineTest::whatIsFeltIsRecordedFromTheButtonAndPlayed() {
 }
 
 void DesktopTimelineTest::aRecordingThatCannotBeWrittenIsToldAndThePartStaysInHand() {
-  Fixture f;
+  TimelineFixture f;
   f.d.startWith(ui::Hand::Manual);
   f.d.application.servo().recordTo(f.file("none/felt.csv"));
   QCOMPARE(f.failures.size(), 1);
@@ -204,7 +204,7 @@ void DesktopTimelineTest::aRecordingThatCannotBeWrittenIsToldAndThePartStaysInHa
 }
 
 void DesktopTimelineTest::plotsShowTheRecordingWithEveryPeak() {
-  Fixture f;
+  TimelineFixture f;
   f.showPlots();
   f.openByMenu();
   QTRY_VERIFY(f.plots()->redrawCount() > 0);
@@ -221,7 +221,7 @@ void DesktopTimelineTest::plotsShowTheRecordingWithEveryPeak() {
 }
 
 void DesktopTimelineTest::plotsAreDrawnOnlyWhileShownAndWhenSomethingIsNew() {
-  Fixture f;
+  TimelineFixture f;
   f.d.startWith(ui::Hand::Scripted);
   QTRY_VERIFY(f.d.application.servo().statistics().ticks > 200);
   QCOMPARE(f.plots()->redrawCount(), 0);
@@ -237,7 +237,7 @@ void DesktopTimelineTest::plotsAreDrawnOnlyWhileShownAndWhenSomethingIsNew() {
 }
 
 void DesktopTimelineTest::plotsPauseZoomAndAreExported() {
-  Fixture f;
+  TimelineFixture f;
   f.showPlots();
   f.d.startWith(ui::Hand::Scripted);
   QTRY_VERIFY(f.plots()->graph(0)->dataCount() > 50);
@@ -272,5 +272,5 @@ void DesktopTimelineTest::plotsPauseZoomAndAreExported() {
   QCOMPARE(QImage(f.file("plot.png")).size(), f.plots()->size());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopTimelineTest)
+NEARFIT_QT_SUITE(DesktopTimelineTest, runDesktopTest<DesktopTimelineTest>)
 #include "desktop_timeline_test.moc"

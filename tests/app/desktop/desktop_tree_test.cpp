@@ -413,5 +413,5 @@ void DesktopTreeTest::groupsStayClosedThroughChanges() {
   QVERIFY(!d.partsView()->isExpanded(d.model().indexOf(group)));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopTreeTest)
+NEARFIT_QT_SUITE(DesktopTreeTest, runDesktopTest<DesktopTreeTest>)
 #include "desktop_tree_test.moc"

@@ -18,8 +18,8 @@ using namespace nearfit::test;
 namespace {
 
 /// Cubes a, b and c, and d in a group, each with something of its own, and the tree that shows them.
-struct Desk : DesktopDriver {
-  Desk() {
+struct UndoDesk : DesktopDriver {
+  UndoDesk() {
     add({fixedFile, fixedFile, fixedFile, movingFile});
     [&] { QTRY_COMPARE(session().scene().parts().size(), std::size_t{4}); }();
     const char* const names[] = {"a", "b", "c", "d"};
@@ -112,140 +112,140 @@ struct Desk : DesktopDriver {
 
 struct Command {
   const char* name;
-  void (*prepare)(Desk&);  ///< None: nothing.
-  void (*give)(Desk&);
-  bool (*isDone)(Desk&);
+  void (*prepare)(UndoDesk&);  ///< None: nothing.
+  void (*give)(UndoDesk&);
+  bool (*isDone)(UndoDesk&);
 };
 
 const Command kCommands[] = {
     {"a part is renamed", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.click(d.ids[1]);
        d.rename("bracket");
      },
-     [](Desk& d) { return d.at(1).name == "bracket"; }},
+     [](UndoDesk& d) { return d.at(1).name == "bracket"; }},
     {"a group is renamed", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.click(d.frame);
        d.rename("Housing");
      },
-     [](Desk& d) { return d.scene().findGroup(d.frame)->name == "Housing"; }},
+     [](UndoDesk& d) { return d.scene().findGroup(d.frame)->name == "Housing"; }},
     {"a part is coloured", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.click(d.ids[0]);
        d.becomeGreen();
      },
-     [](Desk& d) {
+     [](UndoDesk& d) {
        return d.at(0).colour == Colour{0, 1, 0} && d.at(1).colour != Colour{0, 1, 0};
      }},
     {"several are coloured", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.clickTwo();
        d.becomeGreen();
      },
-     [](Desk& d) {
+     [](UndoDesk& d) {
        return d.at(0).colour == Colour{0, 1, 0} && d.at(1).colour == Colour{0, 1, 0};
      }},
     {"several become transparent", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.clickTwo();
        d.chooseTransparency("transparency50");
      },
-     [](Desk& d) { return d.at(0).opacity == 0.5 && d.at(1).opacity == 0.5 && d.at(2).opacity == 1.0; }},
+     [](UndoDesk& d) { return d.at(0).opacity == 0.5 && d.at(1).opacity == 0.5 && d.at(2).opacity == 1.0; }},
     {"several are hidden", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.clickTwo();
        d.key(Qt::Key_H);
      },
-     [](Desk& d) { return !d.at(0).isVisible && !d.at(1).isVisible && d.at(3).isVisible; }},
+     [](UndoDesk& d) { return !d.at(0).isVisible && !d.at(1).isVisible && d.at(3).isVisible; }},
     {"a hidden part is shown", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.click(d.ids[2]);
        d.key(Qt::Key_H);
      },
-     [](Desk& d) { return d.at(2).isVisible; }},
+     [](UndoDesk& d) { return d.at(2).isVisible; }},
     {"a part is locked", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.click(d.ids[1]);
        d.key(Qt::Key_L, Qt::ControlModifier);
      },
-     [](Desk& d) { return d.at(1).isLocked && !d.at(0).isLocked; }},
+     [](UndoDesk& d) { return d.at(1).isLocked && !d.at(0).isLocked; }},
     {"a group is locked", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.click(d.frame);
        d.key(Qt::Key_L, Qt::ControlModifier);
      },
-     [](Desk& d) { return d.scene().isLocked(d.at(3)) && !d.at(3).isLocked; }},
+     [](UndoDesk& d) { return d.scene().isLocked(d.at(3)) && !d.at(3).isLocked; }},
     {"a part is isolated", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.click(d.ids[1]);
        d.key(Qt::Key_I);
      },
-     [](Desk& d) { return d.scene().isIsolated() && !d.at(0).isVisible && d.at(1).isVisible; }},
+     [](UndoDesk& d) { return d.scene().isIsolated() && !d.at(0).isVisible && d.at(1).isVisible; }},
     {"isolation ends",
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.click(d.ids[1]);
        d.key(Qt::Key_I);
      },
-     [](Desk& d) { d.key(Qt::Key_I, Qt::ShiftModifier); },
-     [](Desk& d) { return !d.scene().isIsolated() && d.at(0).isVisible && !d.at(2).isVisible; }},
+     [](UndoDesk& d) { d.key(Qt::Key_I, Qt::ShiftModifier); },
+     [](UndoDesk& d) { return !d.scene().isIsolated() && d.at(0).isVisible && !d.at(2).isVisible; }},
     {"several are duplicated", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.clickTwo();
        d.key(Qt::Key_D, Qt::ControlModifier);
      },
-     [](Desk& d) { return d.scene().parts().size() == 6; }},
+     [](UndoDesk& d) { return d.scene().parts().size() == 6; }},
     {"a group is duplicated", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.click(d.frame);
        d.key(Qt::Key_D, Qt::ControlModifier);
      },
-     [](Desk& d) { return d.scene().groups().size() == 2 && d.scene().parts().size() == 5; }},
+     [](UndoDesk& d) { return d.scene().groups().size() == 2 && d.scene().parts().size() == 5; }},
     {"several are grouped", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.clickTwo();
        d.key(Qt::Key_G, Qt::ControlModifier);
      },
-     [](Desk& d) { return d.at(0).group && d.at(0).group == d.at(1).group && !d.at(2).group; }},
+     [](UndoDesk& d) { return d.at(0).group && d.at(0).group == d.at(1).group && !d.at(2).group; }},
     {"a group is taken apart", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.click(d.frame);
        d.key(Qt::Key_G, Qt::ControlModifier | Qt::ShiftModifier);
      },
-     [](Desk& d) { return d.scene().groups().empty() && !d.at(3).group; }},
+     [](UndoDesk& d) { return d.scene().groups().empty() && !d.at(3).group; }},
     {"a part is dropped on a group", nullptr,
-     [](Desk& d) { d.drop(d.ids[1], d.partsView()->visualRect(d.model().indexOf(d.frame)).center()); },
-     [](Desk& d) { return d.at(1).group == d.frame; }},
+     [](UndoDesk& d) { d.drop(d.ids[1], d.partsView()->visualRect(d.model().indexOf(d.frame)).center()); },
+     [](UndoDesk& d) { return d.at(1).group == d.frame; }},
     {"a part is dropped beside the groups", nullptr,
-     [](Desk& d) { d.drop(d.ids[3], d.partsView()->viewport()->rect().bottomLeft() + QPoint(20, -5)); },
-     [](Desk& d) { return !d.at(3).group && d.scene().findGroup(d.frame) != nullptr; }},
+     [](UndoDesk& d) { d.drop(d.ids[3], d.partsView()->viewport()->rect().bottomLeft() + QPoint(20, -5)); },
+     [](UndoDesk& d) { return !d.at(3).group && d.scene().findGroup(d.frame) != nullptr; }},
     {"several are deleted, the one in hand among them", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.clickTwo();
        d.key(Qt::Key_Delete);
      },
-     [](Desk& d) { return d.scene().parts().size() == 2 && !d.scene().movingPart(); }},
+     [](UndoDesk& d) { return d.scene().parts().size() == 2 && !d.scene().movingPart(); }},
     {"a group is deleted", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.click(d.frame);
        d.key(Qt::Key_Delete);
      },
-     [](Desk& d) { return d.scene().groups().empty() && d.scene().parts().size() == 3; }},
+     [](UndoDesk& d) { return d.scene().groups().empty() && d.scene().parts().size() == 3; }},
     {"several get a density", nullptr,
-     [](Desk& d) {
+     [](UndoDesk& d) {
        d.clickTwo();
        d.type<ui::NumberField>("density", "2700");
      },
-     [](Desk& d) { return d.at(0).density == 2700.0 && d.at(1).density == 2700.0; }},
-    {"a number of the feel is typed", [](Desk& d) { d.openFeel(0); },
-     [](Desk& d) { d.type<ui::NumberField>("friction", "0.2"); },
-     [](Desk& d) { return d.scene().haptics().proxy.friction == 0.2; }},
-    {"a motion of the hand is locked", [](Desk& d) { d.openFeel(2); },
-     [](Desk& d) {
+     [](UndoDesk& d) { return d.at(0).density == 2700.0 && d.at(1).density == 2700.0; }},
+    {"a number of the feel is typed", [](UndoDesk& d) { d.openFeel(0); },
+     [](UndoDesk& d) { d.type<ui::NumberField>("friction", "0.2"); },
+     [](UndoDesk& d) { return d.scene().haptics().proxy.friction == 0.2; }},
+    {"a motion of the hand is locked", [](UndoDesk& d) { d.openFeel(2); },
+     [](UndoDesk& d) {
        auto* box = d.widget<QAbstractButton>("lockX");
        QTest::mouseClick(box, Qt::LeftButton, {}, QPoint(8, box->height() / 2));
      },
-     [](Desk& d) { return bool(d.scene().haptics().mapping.translationLocks[0]); }},
+     [](UndoDesk& d) { return bool(d.scene().haptics().mapping.translationLocks[0]); }},
 };
 
 /// Whether nothing at all is different.
@@ -276,7 +276,7 @@ void DesktopUndoEverythingTest::eachCommandIsOneStepThatIsTakenBackAndDoneAgainE
 void DesktopUndoEverythingTest::eachCommandIsOneStepThatIsTakenBackAndDoneAgainExactly() {
   QFETCH(int, row);
   const Command& command = kCommands[row];
-  Desk d;
+  UndoDesk d;
   QStringList failures;
   d.window().setFailureSink([&](const ui::Failure& failure) { failures << failure.summary; });
   if (command.prepare != nullptr) command.prepare(d);
@@ -307,5 +307,5 @@ void DesktopUndoEverythingTest::eachCommandIsOneStepThatIsTakenBackAndDoneAgainE
   QVERIFY2(failures.isEmpty(), qPrintable(failures.join('\n')));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopUndoEverythingTest)
+NEARFIT_QT_SUITE(DesktopUndoEverythingTest, runDesktopTest<DesktopUndoEverythingTest>)
 #include "desktop_undo_everything_test.moc"

@@ -109,7 +109,7 @@ struct Work {
 
 const QString kNoFolder = QStringLiteral("Check that its folder exists.");
 
-void openRecent(DesktopDriver& d, const fs::path& file) {
+void openFromRecent(DesktopDriver& d, const fs::path& file) {
   ui::RecentFiles::remember(nameOf(file));
   const QList<QMenu*> menus = d.window().findChildren<QMenu*>();
   QMenu* recent = *std::ranges::find_if(
@@ -130,7 +130,7 @@ void leave(Work& w, const QString& way) {
     whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, nameOf(w.other)); });
     pressShortcut(w.d, Qt::Key_O, Qt::ControlModifier);
   } else if (way == QStringLiteral("recent")) {
-    openRecent(w.d, w.other);
+    openFromRecent(w.d, w.other);
   } else if (way == QStringLiteral("drop")) {
     drop(w.d.window(), {nameOf(w.other)});
   } else if (way == QStringLiteral("close")) {
@@ -298,5 +298,5 @@ void DesktopUnsavedTest::fullDiskLeavesTheOldFileAsItWas() {
   QCOMPARE(Work::savedX(w.file), 0.0025);
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopUnsavedTest)
+NEARFIT_QT_SUITE(DesktopUnsavedTest, runDesktopTest<DesktopUnsavedTest>)
 #include "desktop_unsaved_test.moc"

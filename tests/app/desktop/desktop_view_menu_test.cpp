@@ -128,5 +128,5 @@ void DesktopViewMenuTest::renameHasAKeyAndBringsTheTreeUp() {
   QTRY_VERIFY(d.session().scene().findByName("Lid") != nullptr);
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopViewMenuTest)
+NEARFIT_QT_SUITE(DesktopViewMenuTest, runDesktopTest<DesktopViewMenuTest>)
 #include "desktop_view_menu_test.moc"

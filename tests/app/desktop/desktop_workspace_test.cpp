@@ -14,8 +14,8 @@ using namespace nearfit::test;
 namespace {
 
 /// Two cubes, the moving one led by a fake device, far from the other.
-struct Fixture {
-  Fixture() {
+struct WorkspaceFixture {
+  WorkspaceFixture() {
     source->devices = {{QStringLiteral("arm"), QStringLiteral("Fake arm"), {}, true}};
     d = std::make_unique<DesktopDriver>(std::unique_ptr<desktop::DeviceSource>(source));
     handle = source->handle;
@@ -60,7 +60,7 @@ class DesktopWorkspaceTest : public QObject {
 };
 
 void DesktopWorkspaceTest::theScaleMakesSmallMotionsLarge() {
-  Fixture f;
+  WorkspaceFixture f;
   f.feel();
   f.d->type<ui::NumberField>("panelScale", "5");
   QCOMPARE(f.d->session().scene().haptics().mapping.scale, 5.0);
@@ -71,7 +71,7 @@ void DesktopWorkspaceTest::theScaleMakesSmallMotionsLarge() {
 }
 
 void DesktopWorkspaceTest::inAPlaneTheHandGoesAlongItAlone() {
-  Fixture f;
+  WorkspaceFixture f;
   f.choose("hand", QStringLiteral("Fake arm"));
   const std::size_t before = f.d->session().historyIndex();
   auto* freedom = f.d->widget<QComboBox>("panel-freedom");
@@ -94,7 +94,7 @@ void DesktopWorkspaceTest::inAPlaneTheHandGoesAlongItAlone() {
 }
 
 void DesktopWorkspaceTest::theClutchHoldsThePartWhileTheDeviceIsBroughtBack() {
-  Fixture f;
+  WorkspaceFixture f;
   f.feel();
   f.handle->moveTo({0.003, 0.0, 0.0});
   QTRY_VERIFY(f.isFeltAt({0.003, 0.0, 0.1}));
@@ -115,7 +115,7 @@ void DesktopWorkspaceTest::theClutchHoldsThePartWhileTheDeviceIsBroughtBack() {
 }
 
 void DesktopWorkspaceTest::theClutchIsForADeviceInHand() {
-  Fixture f;
+  WorkspaceFixture f;
   QVERIFY(!f.d->action("clutch")->isEnabled());
   f.feel();
   QVERIFY(f.d->action("clutch")->isEnabled());
@@ -130,7 +130,7 @@ void DesktopWorkspaceTest::theClutchIsForADeviceInHand() {
 }
 
 void DesktopWorkspaceTest::whatThereIsToSetDependsOnTheHand() {
-  Fixture f;
+  WorkspaceFixture f;
   auto* scale = f.d->widget<ui::NumberField>("panelScale");
   auto* freedom = f.d->widget<QComboBox>("panel-freedom");
   QVERIFY(!scale->isVisible() && !freedom->isVisible());
@@ -151,7 +151,7 @@ void DesktopWorkspaceTest::whatThereIsToSetDependsOnTheHand() {
 }
 
 void DesktopWorkspaceTest::aDeviceThatSendsNoReportsHasNoRate() {
-  Fixture f;
+  WorkspaceFixture f;
   auto* rate = f.d->widget<QLabel>("reportRate");
   QVERIFY(!rate->isVisible());
   f.feel();
@@ -161,5 +161,5 @@ void DesktopWorkspaceTest::aDeviceThatSendsNoReportsHasNoRate() {
   QCOMPARE(f.d->text("reportJitter"), QStringLiteral("–"));
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(DesktopWorkspaceTest)
+NEARFIT_QT_SUITE(DesktopWorkspaceTest, runDesktopTest<DesktopWorkspaceTest>)
 #include "desktop_workspace_test.moc"

@@ -57,5 +57,5 @@ void LostTicksTest::thePlotsSayHowManyAreMissingUntilANewRun() {
   QCOMPARE(note(), QString());
 }
 
-NEARFIT_DESKTOP_TEST_MAIN(LostTicksTest)
+NEARFIT_QT_SUITE(LostTicksTest, runDesktopTest<LostTicksTest>)
 #include "lost_ticks_test.moc"
