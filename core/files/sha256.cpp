@@ -13,7 +13,7 @@
 namespace nearfit {
 namespace {
 
-constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
+constexpr std::size_t kHashedAtOnce = std::size_t{1} << 20;
 
 /// A running digest. OpenSSL's calls fail only when it is out of memory or built without SHA-256.
 class Sha256 {
@@ -50,7 +50,7 @@ std::string sha256OfFile(const std::filesystem::path& file,
                          const std::function<void(double fraction)>& onBlock) {
   InputFile input(file);
   Sha256 digest;
-  std::vector<char> block(kBlockBytes);
+  std::vector<char> block(kHashedAtOnce);
   double done = 0.0;
   for (;;) {
     const std::size_t count = input.read(block);

@@ -20,7 +20,7 @@ constexpr std::size_t kShareOfOthers = 4;
 /// Slots of the table for each contact: half empty at the most.
 constexpr std::size_t kSlots = 2 * ContactThinning::kMaxTaken;
 
-bool isNearer(const BodyContact& a, const BodyContact& b) noexcept {
+bool isNearerContact(const BodyContact& a, const BodyContact& b) noexcept {
   return a.pair.distance < b.pair.distance;
 }
 
@@ -76,7 +76,7 @@ ContactThinning::Kept ContactThinning::keep(const glm::dvec3& centre, const glm:
       cells_[distinct] = cell;
       std::swap(taken_[distinct], taken_[i]);
       table_[slot] = static_cast<std::uint32_t>(++distinct);
-    } else if (isNearer(taken_[i], taken_[table_[slot] - 1])) {
+    } else if (isNearerContact(taken_[i], taken_[table_[slot] - 1])) {
       std::swap(taken_[table_[slot] - 1], taken_[i]);
     }
   }
@@ -85,12 +85,12 @@ ContactThinning::Kept ContactThinning::keep(const glm::dvec3& centre, const glm:
   const auto begin = taken_.begin(), others = begin + at(distinct);
   const std::size_t own = std::min(distinct, room - forOthers);
   if (own < distinct) {
-    std::nth_element(begin, begin + at(own), others, isNearer);
+    std::nth_element(begin, begin + at(own), others, isNearerContact);
     kept.completeTo = taken_[own].pair.distance;
   }
   const auto rest = std::copy_n(begin, own, out.begin());
   const std::size_t more = std::min(room - own, count_ - distinct);
-  std::nth_element(others, others + at(more), begin + at(count_), isNearer);
+  std::nth_element(others, others + at(more), begin + at(count_), isNearerContact);
   std::copy_n(others, more, rest);
   kept.count = own + more;
   return kept;

@@ -9,7 +9,7 @@
 namespace nearfit {
 namespace {
 
-bool isUsable(const StepRows& rows, const FrictionGoal& goal) noexcept {
+bool isUsableProgram(const StepRows& rows, const FrictionGoal& goal) noexcept {
   const auto isShort = [](const glm::dvec3& arm) {
     return std::abs(arm.x) <= kLongestStep && std::abs(arm.y) <= kLongestStep &&
            std::abs(arm.z) <= kLongestStep;
@@ -58,7 +58,7 @@ DualStepSolver::Point FrictionProgram::alternate(const StepRows& rows, const Fri
 
 FrictionSolution FrictionProgram::solve(const StepRows& rows, const FrictionGoal& goal) noexcept {
   FrictionSolution out;
-  if (!isUsable(rows, goal)) {
+  if (!isUsableProgram(rows, goal)) {
     out.step = standStill(rows);
     return out;
   }

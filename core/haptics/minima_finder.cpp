@@ -11,7 +11,7 @@
 namespace nearfit {
 namespace {
 
-bool isNearer(const SnapshotLmd& a, const SnapshotLmd& b) noexcept {
+bool isNearerMinimum(const SnapshotLmd& a, const SnapshotLmd& b) noexcept {
   return a.lmd.distance < b.lmd.distance;
 }
 
@@ -126,7 +126,7 @@ void MinimaFinder::keepForDisplay(PartId other, std::span<const Lmd> found) noex
   if (displayCount_ <= ServoSnapshot::kMaxLmds) return;
   const auto begin = display_.begin();
   std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(ServoSnapshot::kMaxLmds),
-                   begin + static_cast<std::ptrdiff_t>(displayCount_), isNearer);
+                   begin + static_cast<std::ptrdiff_t>(displayCount_), isNearerMinimum);
   displayCount_ = ServoSnapshot::kMaxLmds;
   displayWasCut_ = true;
 }
@@ -137,7 +137,7 @@ void MinimaFinder::write(ServoSnapshot& snapshot) const noexcept {
   if (displayWasCut_) {
     std::sort(snapshot.lmds.begin(), snapshot.lmds.begin() + static_cast<std::ptrdiff_t>(displayCount_),
               [](const SnapshotLmd& a, const SnapshotLmd& b) {
-                return a.other != b.other ? a.other < b.other : isNearer(a, b);
+                return a.other != b.other ? a.other < b.other : isNearerMinimum(a, b);
               });
   }
   snapshot.storedLmds = static_cast<std::uint32_t>(displayCount_);

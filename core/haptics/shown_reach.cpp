@@ -10,7 +10,7 @@ constexpr double kLess = 0.7, kMore = 1.1, kLeast = 1e-3;
 constexpr std::uint64_t kLittle = ShownReach::kUsualWork / 3;
 /// Minima up to so many times as far as the nearest are always looked for.
 constexpr double kAboutAsNear = 1.25;
-constexpr double kNone = 2.0;
+constexpr double kNoShare = 2.0;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ void ShownReach::observe(std::uint64_t work, double nearest) noexcept {
     calm_ = 0;
     if (share_ > least) {
       // Again where it was before, or for the first time.
-      wait_ = tooMuch_ < kNone ? std::min(2 * wait_, kLongestWait) : kFirstWait;
+      wait_ = tooMuch_ < kNoShare ? std::min(2 * wait_, kLongestWait) : kFirstWait;
       tooMuch_ = std::min(tooMuch_, share_);
     }
     share_ = kLess * share_;
@@ -33,7 +33,7 @@ void ShownReach::observe(std::uint64_t work, double nearest) noexcept {
 
 void ShownReach::grow() noexcept {
   // What was too much is not any more.
-  if (share_ >= tooMuch_) tooMuch_ = kNone;
+  if (share_ >= tooMuch_) tooMuch_ = kNoShare;
   const double more = std::min(1.0, kMore * share_);
   if (more >= tooMuch_) {
     if (calm_ < wait_) return;

@@ -10,7 +10,7 @@ namespace {
 /// Distance of the rows that fill up a block: never the least.
 constexpr double kNoRow = std::numeric_limits<double>::max();
 
-bool isUsable(double value) noexcept {
+bool isUsableNumber(double value) noexcept {
   return std::abs(value) <= StepRows::kLargest;
 }
 
@@ -24,7 +24,7 @@ void StepRows::clear() noexcept {
 }
 
 bool StepRows::add(const StepVector& a, double d) noexcept {
-  if (size_ == capacity_ || !isUsable(d) || !std::all_of(a.begin(), a.end(), isUsable)) return false;
+  if (size_ == capacity_ || !isUsableNumber(d) || !std::all_of(a.begin(), a.end(), isUsableNumber)) return false;
   Block& block = blocks_[size_ / kLanes];
   const std::size_t lane = size_ % kLanes;
   if (lane == 0) block.d.fill(kNoRow);

@@ -11,7 +11,7 @@ namespace {
 
 /// A side of a triangle, as 3 * triangle + corner: from that corner to the next.
 using Side = std::uint32_t;
-constexpr Side kNone = std::numeric_limits<Side>::max();
+constexpr Side kNoSide = std::numeric_limits<Side>::max();
 
 Side nextSide(Side s) {
   return s % 3 == 2 ? s - 2 : s + 1;
@@ -44,12 +44,12 @@ class Swapper {
       flat.pop_back();
       if (!isFlat(triangles_[t])) continue;
       const std::uint32_t other = trySwap(t);
-      if (other == kNone) continue;
+      if (other == kNoSide) continue;
       ++swapped;
       for (const std::uint32_t changed : {t, other}) {
         if (isFlat(triangles_[changed])) flat.push_back(changed);
         for (Side s = 3 * changed; s < 3 * changed + 3; ++s) {
-          if (twin_[s] != kNone && isFlat(triangles_[twin_[s] / 3])) flat.push_back(twin_[s] / 3);
+          if (twin_[s] != kNoSide && isFlat(triangles_[twin_[s] / 3])) flat.push_back(twin_[s] / 3);
         }
       }
     }
@@ -76,7 +76,7 @@ class Swapper {
     std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
       return a.edge != b.edge ? a.edge < b.edge : a.side < b.side;
     });
-    twin_.assign(3 * triangles_.size(), kNone);
+    twin_.assign(3 * triangles_.size(), kNoSide);
     for (std::size_t i = 0, end = 0; i < entries.size(); i = end) {
       while (end < entries.size() && entries[end].edge == entries[i].edge)
         ++end;
@@ -85,8 +85,8 @@ class Swapper {
     }
   }
   void join(Side a, Side b) {
-    if (a != kNone) twin_[a] = b;
-    if (b != kNone) twin_[b] = a;
+    if (a != kNoSide) twin_[a] = b;
+    if (b != kNoSide) twin_[b] = a;
   }
 
   Side longestSide(std::uint32_t triangle) const {
@@ -111,9 +111,9 @@ class Swapper {
     do {
       if (origin(nextSide(s)) == vertex || opposite(s) == vertex || ++faces > kMostFaces) return true;
       s = twin_[previousSide(s)];
-    } while (s != kNone && s != start);
+    } while (s != kNoSide && s != start);
     if (s == start) return false;
-    for (s = twin_[start]; s != kNone; s = twin_[nextSide(s)]) {
+    for (s = twin_[start]; s != kNoSide; s = twin_[nextSide(s)]) {
       if (opposite(nextSide(s)) == vertex || opposite(s) == vertex || ++faces > kMostFaces) return true;
     }
     return false;
@@ -142,20 +142,20 @@ class Swapper {
   }
 
   /// For a flat triangle abc with the longest side c-a and the face acd behind it: abd and bcd instead.
-  /// Returns that face, or kNone where nothing can be done.
+  /// Returns that face, or kNoSide where nothing can be done.
   std::uint32_t trySwap(std::uint32_t triangle) {
     const Side ca = longestSide(triangle), ac = twin_[ca];
-    if (ac == kNone) return kNone;
+    if (ac == kNoSide) return kNoSide;
     const std::uint32_t a = origin(ac), b = opposite(ca), c = origin(ca), d = opposite(ac);
     const std::uint32_t other = ac / 3;
     if (b == d || !isWorthSwapping(triangles_[triangle], ac, {a, b, d}, {b, c, d}) ||
         hasNeighbour(previousSide(ca), d)) {
-      return kNone;
+      return kNoSide;
     }
     const std::array outer{twin_[nextSide(ca)], twin_[previousSide(ca)], twin_[nextSide(ac)],
                            twin_[previousSide(ac)]};
-    const auto isInner = [&](Side s) { return s != kNone && (s / 3 == triangle || s / 3 == other); };
-    if (std::ranges::any_of(outer, isInner)) return kNone;
+    const auto isInner = [&](Side s) { return s != kNoSide && (s / 3 == triangle || s / 3 == other); };
+    if (std::ranges::any_of(outer, isInner)) return kNoSide;
     triangles_[triangle] = {a, b, d};
     triangles_[other] = {b, c, d};
     join(3 * triangle, outer[0]);
@@ -169,7 +169,7 @@ class Swapper {
   std::span<const glm::dvec3> vertices_;
   std::vector<Triangle>& triangles_;
   double tolerance_;
-  std::vector<Side> twin_;  ///< By side: the other side of its edge, or kNone.
+  std::vector<Side> twin_;  ///< By side: the other side of its edge, or kNoSide.
 };
 
 }  // namespace

@@ -21,7 +21,7 @@
 namespace nearfit {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
 /// No part is larger [m]; beyond this a number is damaged or its unit wrong, and products of lengths lose
 /// meaning.
@@ -99,12 +99,12 @@ class Builder {
 
   /// In metres, those only that faces use: the others must not count for the bounding box.
   void gatherVertices() {
-    newIndex_.assign(soup_.vertices.size(), kNone);
+    newIndex_.assign(soup_.vertices.size(), kNoVertex);
     Aabb box;
     for (std::size_t i = 0; i < soup_.polygonCount(); ++i) {
       if (!isFinitePolygon(polygon(i))) continue;
       for (const std::uint32_t v : polygon(i)) {
-        if (newIndex_[v] != kNone) continue;
+        if (newIndex_[v] != kNoVertex) continue;
         newIndex_[v] = static_cast<std::uint32_t>(vertices_.size());
         vertices_.push_back(options_.metresPerUnit * soup_.vertices[v]);
         box.add(vertices_.back());
@@ -123,7 +123,7 @@ class Builder {
   void weld() {
     const std::vector<std::uint32_t> representative = weldPoints(vertices_, tolerance_);
     for (std::uint32_t& index : newIndex_) {
-      if (index != kNone) index = representative[index];
+      if (index != kNoVertex) index = representative[index];
     }
     for (std::uint32_t i = 0; i < representative.size(); ++i)
       report_.weldedVertices += representative[i] != i ? 1 : 0;
@@ -161,15 +161,15 @@ class Builder {
   }
 
   void dropDuplicates() {
-    std::vector<std::uint32_t> slots(std::bit_ceil(2 * triangles_.size() + 1), kNone);
+    std::vector<std::uint32_t> slots(std::bit_ceil(2 * triangles_.size() + 1), kNoVertex);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       const Triangle t = triangles_[i];
       std::size_t slot = slotOf(t) & (slots.size() - 1);
-      while (slots[slot] != kNone && startingAtLowest(triangles_[slots[slot]]) != startingAtLowest(t)) {
+      while (slots[slot] != kNoVertex && startingAtLowest(triangles_[slots[slot]]) != startingAtLowest(t)) {
         slot = (slot + 1) & (slots.size() - 1);
       }
-      if (slots[slot] != kNone) continue;
+      if (slots[slot] != kNoVertex) continue;
       slots[slot] = static_cast<std::uint32_t>(kept);
       triangles_[kept++] = t;
     }
@@ -190,12 +190,12 @@ class Builder {
   }
 
   void dropUnusedVertices() {
-    std::vector<std::uint32_t> index(vertices_.size(), kNone);
+    std::vector<std::uint32_t> index(vertices_.size(), kNoVertex);
     std::vector<glm::dvec3> used;
     used.reserve(vertices_.size() - report_.weldedVertices);
     for (Triangle& t : triangles_) {
       for (std::uint32_t& v : t) {
-        if (index[v] == kNone) {
+        if (index[v] == kNoVertex) {
           index[v] = static_cast<std::uint32_t>(used.size());
           used.push_back(vertices_[v]);
         }
@@ -269,7 +269,7 @@ TriangleMesh outsideOut(TriangleMesh mesh, MeshBuildReport& report) {
 }  // namespace
 
 void PolygonSoup::closePolygon() {
-  if (corners.size() >= kNone) throw Error("", "its faces have too many corners", "reduce the mesh first");
+  if (corners.size() >= kNoVertex) throw Error("", "its faces have too many corners", "reduce the mesh first");
   firstCorner.push_back(static_cast<std::uint32_t>(corners.size()));
 }
 

@@ -38,7 +38,7 @@ void validate(const std::vector<glm::dvec3>& vertices, const std::vector<Triangl
 }
 
 /// One side of one triangle, named by its undirected edge.
-struct Side {
+struct DirectedSide {
   std::uint64_t edge;   ///< Smaller vertex in the high half, larger in the low half.
   std::uint32_t index;  ///< 3 * triangle + corner.
 };
@@ -68,7 +68,7 @@ TriangleMesh::TriangleMesh(std::vector<glm::dvec3> vertices, std::vector<Triangl
 
 void TriangleMesh::buildEdges() {
   const std::span<const Triangle> triangles = arrays_.triangles;
-  std::vector<Side> sides;
+  std::vector<DirectedSide> sides;
   sides.reserve(3 * triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -76,7 +76,7 @@ void TriangleMesh::buildEdges() {
       sides.push_back({std::min(a, b) << 32 | std::max(a, b), 3 * t + k});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+  std::sort(sides.begin(), sides.end(), [](const DirectedSide& a, const DirectedSide& b) {
     return a.edge != b.edge ? a.edge < b.edge : a.index < b.index;
   });
 

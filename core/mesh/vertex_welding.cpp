@@ -12,7 +12,7 @@
 namespace nearfit {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
 
 /// Cells are this many tolerances wide: then a point's neighbourhood mostly lies in one cell, and a cell
 /// still holds few points even where they are as close as they can be.
@@ -41,13 +41,13 @@ class Grid {
         origin_(box.lower),
         tolerance_(tolerance),
         cellSize_(std::max(kCellTolerances * tolerance, kNarrowestCell * box.diagonal())),
-        first_(std::bit_ceil(2 * points.size() + 1), kNone),
-        next_(points.size(), kNone) {}
+        first_(std::bit_ceil(2 * points.size() + 1), kNoPoint),
+        next_(points.size(), kNoPoint) {}
 
-  /// The first point of those added that is close to this one; kNone if there is none.
+  /// The first point of those added that is close to this one; kNoPoint if there is none.
   std::uint32_t find(const glm::dvec3& p) const {
     const Cell low = cellOf(p - tolerance_), high = cellOf(p + tolerance_);
-    std::uint32_t found = kNone;
+    std::uint32_t found = kNoPoint;
     for (std::int64_t x = low.x; x <= high.x; ++x) {
       for (std::int64_t y = low.y; y <= high.y; ++y) {
         for (std::int64_t z = low.z; z <= high.z; ++z)
@@ -68,8 +68,8 @@ class Grid {
     return {static_cast<std::int64_t>(c.x), static_cast<std::int64_t>(c.y), static_cast<std::int64_t>(c.z)};
   }
   std::uint32_t findInCell(const Cell& cell, const glm::dvec3& p) const {
-    std::uint32_t found = kNone;
-    for (std::uint32_t i = first_[hashOf(cell) & (first_.size() - 1)]; i != kNone; i = next_[i]) {
+    std::uint32_t found = kNoPoint;
+    for (std::uint32_t i = first_[hashOf(cell) & (first_.size() - 1)]; i != kNoPoint; i = next_[i]) {
       if (i < found && areClose(points_[i], p)) found = i;
     }
     return found;
@@ -96,8 +96,8 @@ std::vector<std::uint32_t> weldPoints(std::span<const glm::dvec3> points, double
   Grid grid(points, box, tolerance);
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     const std::uint32_t found = grid.find(points[i]);
-    representative[i] = found == kNone ? i : found;
-    if (found == kNone) grid.add(i);
+    representative[i] = found == kNoPoint ? i : found;
+    if (found == kNoPoint) grid.add(i);
   }
   return representative;
 }

@@ -15,7 +15,7 @@ bool hasPlane(FeatureShape shape) noexcept {
 }
 
 /// By the least angle; half a turn is about any axis square to it.
-glm::dquat turnBetween(const glm::dvec3& from, const glm::dvec3& to) {
+glm::dquat turnOnto(const glm::dvec3& from, const glm::dvec3& to) {
   // Nearer to half a turn, 1 + cos is mostly rounding.
   constexpr double kNearlyBack = -0.9999;
   const double cosine = glm::dot(from, to);
@@ -26,7 +26,7 @@ glm::dquat turnBetween(const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 other = std::abs(from.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 square = glm::normalize(glm::cross(from, other));
   // Half a turn, and the little that is left.
-  return glm::normalize(turnBetween(-from, to) * glm::dquat(0.0, square.x, square.y, square.z));
+  return glm::normalize(turnOnto(-from, to) * glm::dquat(0.0, square.x, square.y, square.z));
 }
 
 glm::dquat turnOf(const AlignFeature& moving, const AlignFeature& fixed, bool isFlipped) {
@@ -37,7 +37,7 @@ glm::dquat turnOf(const AlignFeature& moving, const AlignFeature& fixed, bool is
   } else if (glm::dot(moving.direction, target) < 0.0) {
     target = -target;
   }
-  return turnBetween(moving.direction, isFlipped ? -target : target);
+  return turnOnto(moving.direction, isFlipped ? -target : target);
 }
 
 glm::dvec3 along(const glm::dvec3& v, const glm::dvec3& direction) {

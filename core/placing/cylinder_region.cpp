@@ -12,7 +12,6 @@
 namespace nearfit {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// How far corners may be off a cylinder, as a share of its radius: at first, and once it is well known.
 constexpr double kLoose = 0.02, kTight = 2e-3;
 /// How far facets may lean [sine of the angle]: the same.
@@ -77,7 +76,7 @@ std::vector<double> linesOf(const std::vector<glm::dvec3>& corners, const Circle
   angles.erase(
       std::unique(angles.begin(), angles.end(), [](double a, double b) { return b - a < kSameAngle; }),
       angles.end());
-  if (angles.size() > 1 && angles.front() + 2.0 * kPi - angles.back() < kSameAngle) angles.pop_back();
+  if (angles.size() > 1 && angles.front() + 2.0 * std::numbers::pi - angles.back() < kSameAngle) angles.pop_back();
   return angles;
 }
 
@@ -88,7 +87,7 @@ bool isRound(const std::vector<glm::dvec3>& corners, const Circle& cylinder) {
   if (lines.size() <= kFewestFacets) return false;
   std::vector<double> widths;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const double next = i + 1 < lines.size() ? lines[i + 1] : lines.front() + 2.0 * kPi;
+    const double next = i + 1 < lines.size() ? lines[i + 1] : lines.front() + 2.0 * std::numbers::pi;
     widths.push_back(next - lines[i]);
   }
   std::sort(widths.begin(), widths.end());

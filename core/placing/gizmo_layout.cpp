@@ -18,7 +18,6 @@
 namespace nearfit {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// Where shafts begin, heads are long and wide, and squares reach from and to [pixels].
 constexpr double kShaftFrom = 14.0, kHeadLength = 17.0, kHeadRadius = 6.0;
 constexpr double kSquareFrom = 27.0, kSquareTo = 49.0;
@@ -97,7 +96,7 @@ void GizmoLayout::addArrow(const ViewProjection& view, const GizmoFrame& frame, 
   figures_.push_back({handle, pixelsOf(view, shaft), false, opacity, false});
   const auto [first, second] = across(unit);
   std::vector<glm::dvec2> head =
-      arc(view, base, scale * kHeadRadius * first, scale * kHeadRadius * second, 0.0, 2.0 * kPi);
+      arc(view, base, scale * kHeadRadius * first, scale * kHeadRadius * second, 0.0, 2.0 * std::numbers::pi);
   if (const auto tip = view.pixelOf(frame.pivot + scale * length * unit)) head.push_back(*tip);
   figures_.push_back({handle, convexHull(std::move(head)), true, opacity, false});
 }
@@ -134,7 +133,7 @@ void GizmoLayout::addPlanes(const ViewProjection& view, const GizmoFrame& frame)
 void GizmoLayout::addMiddle(const ViewProjection& view, const GizmoFrame& frame) {
   const double radius = kMiddleRadius * view.metresPerPixel(frame.pivot);
   figures_.push_back({GizmoHandle::MoveFree,
-                      arc(view, frame.pivot, radius * view.right(), radius * view.up(), 0.0, 2.0 * kPi), true,
+                      arc(view, frame.pivot, radius * view.right(), radius * view.up(), 0.0, 2.0 * std::numbers::pi), true,
                       1.0, false});
 }
 
@@ -152,9 +151,9 @@ void GizmoLayout::addRings(const ViewProjection& view, const GizmoFrame& frame, 
     const glm::dvec3 second = glm::cross(unit, first);
     const GizmoHandle handle = kRings[static_cast<std::size_t>(axis)];
     const double farOpacity = std::max(kFarOpacity, ramp(facing, kRound, kQuiteRound));
-    figures_.push_back({handle, arc(view, frame.pivot, first, second, 0.5 * kPi, 1.5 * kPi), false,
+    figures_.push_back({handle, arc(view, frame.pivot, first, second, 0.5 * std::numbers::pi, 1.5 * std::numbers::pi), false,
                         farOpacity, facing < kQuiteRound});
-    near.push_back({handle, arc(view, frame.pivot, first, second, -0.5 * kPi, 0.5 * kPi), false, 1.0, false});
+    near.push_back({handle, arc(view, frame.pivot, first, second, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi), false, 1.0, false});
   }
   std::ranges::move(near, std::back_inserter(figures_));
 }
@@ -162,7 +161,7 @@ void GizmoLayout::addRings(const ViewProjection& view, const GizmoFrame& frame, 
 void GizmoLayout::addViewRing(const ViewProjection& view, const GizmoFrame& frame) {
   const double radius = kViewRingRadius * view.metresPerPixel(frame.pivot);
   figures_.push_back({GizmoHandle::TurnView,
-                      arc(view, frame.pivot, radius * view.right(), radius * view.up(), 0.0, 2.0 * kPi),
+                      arc(view, frame.pivot, radius * view.right(), radius * view.up(), 0.0, 2.0 * std::numbers::pi),
                       false, 1.0, false});
 }
 
@@ -196,7 +195,7 @@ GizmoGuide gizmoGuide(const ViewProjection& view, const GizmoDrag& drag, const g
     const double radius = scale * (drag.handle() == GizmoHandle::TurnView ? GizmoLayout::kViewRingRadius
                                                                           : GizmoLayout::kRingRadius);
     const glm::dvec3 first = radius * drag.grabbedArm(), second = glm::cross(drag.turnAxis(), first);
-    guide.sector = arc(view, pivot, first, second, 0.0, std::clamp(angle, -2.0 * kPi, 2.0 * kPi));
+    guide.sector = arc(view, pivot, first, second, 0.0, std::clamp(angle, -2.0 * std::numbers::pi, 2.0 * std::numbers::pi));
     if (const auto middle = view.pixelOf(pivot)) guide.sector.push_back(*middle);
     return guide;
   }

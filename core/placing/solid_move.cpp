@@ -12,7 +12,7 @@ namespace nearfit {
 namespace {
 
 /// What is only to be shifted turns by no more than rounding: a turn costs the square of this times as much.
-constexpr double kNoTurn = 1e4;
+constexpr double kTurnBarred = 1e4;
 /// Settled is what moves by less than this share of the margin for so many ticks.
 constexpr double kStill = 1e-3;
 constexpr int kStillTicks = 3;
@@ -59,7 +59,7 @@ SolidMove::SolidMove(const Scene& scene, std::span<const PartId> moved, const Pr
 
 SolidMove::Progress SolidMove::advance(const RigidTransform& motion, int ticks) {
   const RigidTransform target = motion * start_;
-  const double turnScale = turns(motion) ? 1.0 : kNoTurn;
+  const double turnScale = turns(motion) ? 1.0 : kTurnBarred;
   if (scene_->moving.geometry == nullptr) pose_ = target;
   if (marginAtEnd_ == 0.0) findStartDistance();
   if (!isSame(motion, wanted_)) keepMargin(margin_);
@@ -103,7 +103,7 @@ void SolidMove::findStartDistance() {
   marginAtEnd_ = margin_;
   if (scene_->moving.geometry == nullptr) return;
   int ticks = 0;
-  while (tick(start_, kNoTurn) && ++ticks < kPatience) {
+  while (tick(start_, kTurnBarred) && ++ticks < kPatience) {
   }
   if (ticks < kPatience) marginAtEnd_ = std::clamp(proxy_->distance(), kMinMargin, margin_);
 }

@@ -10,11 +10,11 @@
 namespace nearfit {
 namespace {
 
-constexpr std::size_t kWidth = NormalConeTree::kWidth;
-static_assert(kWidth == kListedAtOnce);
+constexpr std::size_t kNodeWidth = NormalConeTree::kWidth;
+static_assert(kNodeWidth == kListedAtOnce);
 
 constexpr std::size_t blocksOf(std::size_t pairs) noexcept {
-  return (pairs + kWidth - 1) / kWidth;
+  return (pairs + kNodeWidth - 1) / kNodeWidth;
 }
 
 /// Pairs that can be listed within so much work.
@@ -125,10 +125,10 @@ void CandidateList::findLevels(const LmdScratch::Data& workspace) noexcept {
   for (std::size_t level = 0; level < kLevels.size(); ++level)
     limits[level] = limitsWithin(kLevels[level]);
   BoundPairs block;
-  for (std::size_t base = 0; base < found_.size(); base += kWidth) {
-    const std::size_t count = std::min(kWidth, found_.size() - base);
+  for (std::size_t base = 0; base < found_.size(); base += kNodeWidth) {
+    const std::size_t count = std::min(kNodeWidth, found_.size() - base);
     // Lanes that are left over repeat the first.
-    for (std::size_t i = 0; i < kWidth; ++i)
+    for (std::size_t i = 0; i < kNodeWidth; ++i)
       copyPair(found_[base + (i < count ? i : 0)], block, i);
     for (std::size_t level = kLevels.size() - 1; level-- > 0;) {
       const std::uint32_t alive =
@@ -153,19 +153,19 @@ void CandidateList::pack() {
   blocks_.resize(std::max(blocks_.size(), blocksOf(found_.size())));
   for (const LanePair& pair : found_) {
     const std::size_t at = next[pair.level]++;
-    copyPair(pair, blocks_[at / kWidth], at % kWidth);
+    copyPair(pair, blocks_[at / kNodeWidth], at % kNodeWidth);
   }
   // Lanes of the last block that are left over repeat its first: never counted, never far from its data.
-  for (std::size_t i = found_.size(); i % kWidth != 0; ++i) {
-    BoundPairs& block = blocks_[i / kWidth];
-    copyLane(block.scene, 0, block.scene, i % kWidth);
-    copyLane(block.part, 0, block.part, i % kWidth);
+  for (std::size_t i = found_.size(); i % kNodeWidth != 0; ++i) {
+    BoundPairs& block = blocks_[i / kNodeWidth];
+    copyLane(block.scene, 0, block.scene, i % kNodeWidth);
+    copyLane(block.part, 0, block.part, i % kNodeWidth);
   }
 }
 
 void CandidateList::copyPair(const LanePair& pair, BoundPairs& block, std::size_t at) const noexcept {
-  copyLane(scene_->nodes()[pair.sceneLane / kWidth], pair.sceneLane % kWidth, block.scene, at);
-  copyLane(part_->nodes()[pair.partLane / kWidth], pair.partLane % kWidth, block.part, at);
+  copyLane(scene_->nodes()[pair.sceneLane / kNodeWidth], pair.sceneLane % kNodeWidth, block.scene, at);
+  copyLane(part_->nodes()[pair.partLane / kNodeWidth], pair.partLane % kNodeWidth, block.part, at);
 }
 
 double CandidateList::spentAt(const RigidTransform& centred) const noexcept {
@@ -214,13 +214,13 @@ std::size_t CandidateList::visitPairs(const RigidTransform& centred, std::size_t
                                       const CullLimits& limits, LmdScratch& scratch,
                                       Visit&& visit) const noexcept {
   const SinglePose inSingle(centred);
-  for (std::size_t base = 0; base < count; base += kWidth) {
-    const BoundPairs& block = blocks_[base / kWidth];
+  for (std::size_t base = 0; base < count; base += kNodeWidth) {
+    const BoundPairs& block = blocks_[base / kNodeWidth];
     std::uint32_t lanes = scratch.data().pairCull(block, inSingle, limits);
-    if (count - base < kWidth) lanes &= (1U << (count - base)) - 1U;
+    if (count - base < kNodeWidth) lanes &= (1U << (count - base)) - 1U;
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      if (!visit(block.scene.child[lane], block.part.child[lane])) return base / kWidth + 1;
+      if (!visit(block.scene.child[lane], block.part.child[lane])) return base / kNodeWidth + 1;
     }
   }
   return blocksOf(count);

@@ -11,7 +11,7 @@
 namespace nearfit {
 namespace {
 
-bool isNearer(const ContactPair& a, const ContactPair& b) noexcept {
+bool isNearerPair(const ContactPair& a, const ContactPair& b) noexcept {
   return a.distance < b.distance;
 }
 
@@ -27,16 +27,16 @@ class ContactCollector {
     result_.least = std::min(result_.least, contact.distance);
     if (result_.count < out_.size()) {
       out_[result_.count++] = contact;
-      if (result_.count == out_.size()) std::make_heap(out_.begin(), out_.end(), isNearer);
+      if (result_.count == out_.size()) std::make_heap(out_.begin(), out_.end(), isNearerPair);
       return;
     }
     // Full: the farthest makes room.
     double lost = contact.distance;
-    if (!out_.empty() && isNearer(contact, out_.front())) {
+    if (!out_.empty() && isNearerPair(contact, out_.front())) {
       lost = out_.front().distance;
-      std::pop_heap(out_.begin(), out_.end(), isNearer);
+      std::pop_heap(out_.begin(), out_.end(), isNearerPair);
       out_.back() = contact;
-      std::push_heap(out_.begin(), out_.end(), isNearer);
+      std::push_heap(out_.begin(), out_.end(), isNearerPair);
     }
     result_.completeTo = std::min(result_.completeTo, lost);
   }

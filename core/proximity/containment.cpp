@@ -14,7 +14,7 @@ namespace nearfit {
 namespace {
 
 /// Rounding of a segment to single precision, as a fraction of the lengths involved: some ten roundings.
-constexpr double kSinglePadding = 1e-6;
+constexpr double kRayPadding = 1e-6;
 
 /// Rays to try before a point counts as inside, the side that is safe. Each is unclear only where it happens
 /// to hit an edge to the last bit.
@@ -42,7 +42,7 @@ SegmentBound boundOf(const NormalConeTree& tree, const glm::dvec3& from, const g
     bound.half[static_cast<std::size_t>(i)] = static_cast<float>(half[i]);
   }
   bound.padding =
-      static_cast<float>(kSinglePadding * (tree.size() + glm::length(middle) + glm::length(half)));
+      static_cast<float>(kRayPadding * (tree.size() + glm::length(middle) + glm::length(half)));
   return bound;
 }
 

@@ -8,15 +8,12 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "core/math/plane_cross.h"
 #include "core/math/tolerances.h"
 #include "core/proximity/touching.h"
 
 namespace nearfit {
 namespace {
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) noexcept {
-  return a.x * b.y - a.y * b.x;
-}
 
 /// A plane across a direction, about a point of it.
 class Plane {
@@ -137,7 +134,7 @@ struct Moments {
 };
 
 /// A union measures no less than its largest piece; half allows for rounding.
-constexpr double kLeastShare = 0.5;
+constexpr double kLeastFlatShare = 0.5;
 
 class RegionUnion {
  public:
@@ -166,7 +163,7 @@ class RegionUnion {
       distance += piece.weight * piece.lmd.distance;
     }
     // Of slivers that cover each other rounding may leave nothing, or less.
-    if (!(moments.measure > kLeastShare * largest_.weight)) {
+    if (!(moments.measure > kLeastFlatShare * largest_.weight)) {
       moments = {};
       addOutline(moments);
     }

@@ -19,7 +19,7 @@ constexpr std::size_t kMostInLine = 64;
 /// Triangles of a patch that are tried before it is given up.
 constexpr std::size_t kMostTries = 16;
 /// Rays to try from a point. Each is unclear only where it happens to hit an edge to the last bit.
-constexpr int kMaxRays = 16;
+constexpr int kMaxWindingRays = 16;
 /// How far off its triangle a point is, as a fraction of the triangle's size: the first is as a rule near
 /// enough for nothing to lie between, the last as near as rounding allows.
 constexpr double kOffsets[]{1e-3, 1e-5, 1e-7, 1e-9};
@@ -29,7 +29,7 @@ constexpr double kStray = 1e-3;
 class OuterWindings {
  public:
   OuterWindings(const TriangleMesh& mesh, const MeshPieces& pieces, const BoxPairs& boxes,
-                std::span<const TrianglePair> crossings)
+                std::span<const CrossingPair> crossings)
       : mesh_(mesh), pieces_(pieces), boxes_(boxes) {
     for (const auto& [a, b] : crossings) {
       partners_.push_back({a, b});
@@ -126,7 +126,7 @@ class OuterWindings {
     const double stray = kStray * box.diagonal();
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> some(-stray, stray);
-    for (int i = 0; i < kMaxRays; ++i) {
+    for (int i = 0; i < kMaxWindingRays; ++i) {
       const int axis = i % 3;
       glm::dvec3 end = point + glm::dvec3(some(random), some(random), some(random));
       const bool isUp = end[axis] > box.centre()[axis];
@@ -155,7 +155,7 @@ class OuterWindings {
   }
 
   /// Whether the number is nowhere negative just outside of a triangle that others cross.
-  bool isPositiveOn(std::uint32_t triangle, std::span<const TrianglePair> crossings) const {
+  bool isPositiveOn(std::uint32_t triangle, std::span<const CrossingPair> crossings) const {
     const TriangleCorners t = cornersOf(mesh_, triangle);
     if (hasNoArea(t)) return true;
     std::vector<TriangleCorners> passing;
@@ -181,13 +181,13 @@ class OuterWindings {
   /// Whether those that cross a triangle do so in one line, which cuts it into two parts: each in general
   /// position, none of them crossing another, and neighbours joined by sides that pass through the triangle.
   /// A line ends nowhere in the triangle since the mesh is closed.
-  bool isCutInTwo(std::uint32_t triangle, std::span<const TrianglePair> crossings) const {
+  bool isCutInTwo(std::uint32_t triangle, std::span<const CrossingPair> crossings) const {
     if (crossings.size() > kMostInLine) return false;
     std::vector<std::uint32_t> waiting{crossings[0][1]}, joined = waiting;
     for (const auto& [self, other] : crossings) {
       if (!isInGeneralPosition(triangle, other)) return false;
       for (const auto& [same, second] : crossings) {
-        if (std::ranges::binary_search(partners_, TrianglePair{other, second})) return false;
+        if (std::ranges::binary_search(partners_, CrossingPair{other, second})) return false;
       }
     }
     const TriangleCorners t = cornersOf(mesh_, triangle);
@@ -249,7 +249,7 @@ class OuterWindings {
   const TriangleMesh& mesh_;
   const MeshPieces& pieces_;
   const BoxPairs& boxes_;
-  std::vector<TrianglePair> partners_;  ///< Each crossing both ways, by the first.
+  std::vector<CrossingPair> partners_;  ///< Each crossing both ways, by the first.
   std::vector<std::uint32_t> patchOf_;
   std::vector<std::vector<std::uint32_t>> patches_;  ///< Some triangles of each.
   std::vector<int> windings_;                        ///< By patch.
@@ -258,7 +258,7 @@ class OuterWindings {
 }  // namespace
 
 bool areOuterWindingsPositive(const TriangleMesh& mesh, const MeshPieces& pieces, const BoxPairs& boxes,
-                              std::span<const TrianglePair> crossings) {
+                              std::span<const CrossingPair> crossings) {
   return OuterWindings(mesh, pieces, boxes, crossings).arePositive();
 }
 

@@ -20,6 +20,6 @@ namespace nearfit {
 /// @param crossings  All that findSelfCrossings() finds, in its order.
 /// @param boxes      As boxesOfTriangles() makes them. The mesh is closed and oriented.
 bool areOuterWindingsPositive(const TriangleMesh& mesh, const MeshPieces& pieces, const BoxPairs& boxes,
-                              std::span<const TrianglePair> crossings);
+                              std::span<const CrossingPair> crossings);
 
 }  // namespace nearfit

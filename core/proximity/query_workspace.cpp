@@ -17,7 +17,7 @@ constexpr double kPosePadding = 1e-6;
 /// Rounding of projected limits on directions: some thirty roundings of single precision.
 constexpr float kDirectionSlack = 4e-6F;
 
-bool isNearer(const Minimum& a, const Minimum& b) noexcept {
+bool isNearerMinimum(const Minimum& a, const Minimum& b) noexcept {
   return a.lmd.distance < b.lmd.distance;
 }
 
@@ -29,12 +29,12 @@ void MinimaCollector::add() noexcept {
     return;
   }
   // Full: the farthest makes room.
-  if (!isHeap_) std::make_heap(minima_.begin(), minima_.end(), isNearer);
+  if (!isHeap_) std::make_heap(minima_.begin(), minima_.end(), isNearerMinimum);
   isHeap_ = true;
   if (spare_.lmd.distance >= minima_.front().lmd.distance) return;
-  std::pop_heap(minima_.begin(), minima_.end(), isNearer);
+  std::pop_heap(minima_.begin(), minima_.end(), isNearerMinimum);
   minima_.back() = spare_;
-  std::push_heap(minima_.begin(), minima_.end(), isNearer);
+  std::push_heap(minima_.begin(), minima_.end(), isNearerMinimum);
 }
 
 void MinimaCollector::finish(const NormalConeTree& scene, const NormalConeTree& part,

@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/math/plane_cross.h"
+
 namespace nearfit {
 namespace {
 
@@ -24,10 +26,6 @@ bool isLeft(const glm::dvec2& a, const glm::dvec2& b) noexcept {
 bool holdsOrigin(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) noexcept {
   const bool side = isLeft(a, b);
   return isLeft(b, c) == side && isLeft(c, a) == side;
-}
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) noexcept {
-  return a.x * b.y - a.y * b.x;
 }
 
 }  // namespace

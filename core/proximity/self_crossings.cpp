@@ -110,7 +110,7 @@ class CrossingSearch {
         boxes_(boxes),
         mostWork_(kMostWork + kMostWorkPerTriangle * mesh.triangles().size()) {}
 
-  std::optional<std::vector<TrianglePair>> find() {
+  std::optional<std::vector<CrossingPair>> find() {
     const std::size_t count = mesh_.triangles().size();
     parallelFor((count + kTrianglesAtOnce - 1) / kTrianglesAtOnce, [&](std::size_t i) {
       findOf(i * kTrianglesAtOnce, std::min(count, (i + 1) * kTrianglesAtOnce));
@@ -122,7 +122,7 @@ class CrossingSearch {
 
  private:
   void findOf(std::size_t begin, std::size_t end) {
-    std::vector<TrianglePair> found;
+    std::vector<CrossingPair> found;
     for (std::size_t i = begin; i < end && !isGivenUp_; ++i) {
       std::uint64_t work = 0;
       const auto first = static_cast<std::uint32_t>(i);
@@ -142,7 +142,7 @@ class CrossingSearch {
   }
 
   /// Adds the pair if they meet; returns what it took.
-  std::uint64_t workOf(std::uint32_t first, std::uint32_t second, std::vector<TrianglePair>& found) const {
+  std::uint64_t workOf(std::uint32_t first, std::uint32_t second, std::vector<CrossingPair>& found) const {
     Triangle a = mesh_.triangles()[first], b = mesh_.triangles()[second];
     const std::size_t shared = alignShared(a, b);
     const TriangleCorners cornersA = at(mesh_, a), cornersB = at(mesh_, b);
@@ -158,7 +158,7 @@ class CrossingSearch {
   std::atomic<std::uint64_t> work_{0};
   std::atomic<bool> isGivenUp_{false};
   std::mutex mutex_;
-  std::vector<TrianglePair> found_;
+  std::vector<CrossingPair> found_;
 };
 
 }  // namespace
@@ -179,7 +179,7 @@ BoxPairs boxesOfTriangles(const TriangleMesh& mesh) {
   return boxes;
 }
 
-std::optional<std::vector<TrianglePair>> findSelfCrossings(const TriangleMesh& mesh, const MeshPieces& pieces,
+std::optional<std::vector<CrossingPair>> findSelfCrossings(const TriangleMesh& mesh, const MeshPieces& pieces,
                                                            const BoxPairs& boxes) {
   return CrossingSearch(mesh, pieces, boxes).find();
 }

@@ -12,7 +12,7 @@
 namespace nearfit {
 
 /// Two triangles of a piece.
-using TrianglePair = std::array<std::uint32_t, 2>;
+using CrossingPair = std::array<std::uint32_t, 2>;
 
 TriangleCorners cornersOf(const TriangleMesh& mesh, std::uint32_t triangle);
 
@@ -26,7 +26,7 @@ BoxPairs boxesOfTriangles(const TriangleMesh& mesh);
 /// @param boxes  As boxesOfTriangles() makes them.
 /// None where too many boxes of triangles overlap, more than a hundred for each and a hundred million, or
 /// more than a hundred thousand pairs meet. On all processors; O(n log n) for ordinary meshes.
-std::optional<std::vector<TrianglePair>> findSelfCrossings(const TriangleMesh& mesh, const MeshPieces& pieces,
+std::optional<std::vector<CrossingPair>> findSelfCrossings(const TriangleMesh& mesh, const MeshPieces& pieces,
                                                            const BoxPairs& boxes);
 
 }  // namespace nearfit

@@ -23,7 +23,7 @@ constexpr double kSamePlace = 1e-9, kSameDirection = 1e-3;
 /// lose it between two faces in one plane, whose edge is no feature.
 constexpr double kSide = 1e-9;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 const double kSineOfTilt = std::sin(kContactTilt);
 
@@ -365,7 +365,7 @@ SurfaceContacts testTriangles(const UnsidedSurface& scene, const UnsidedSurface&
   };
   if (!spend(held.pairs.size() / kPassedOver)) return result;
   for (TrianglePair& pair : held.pairs) {
-    pair.gap = kInfinity;
+    pair.gap = kUnbounded;
     // A part goes on by small steps: what its last one says of most pairs is enough.
     pair.known = std::max(pair.known - held.travelSinceTest, pair.atLeast - held.travel);
     if (pair.known > within + rounding) continue;

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit::bench {
+namespace nearfit::bench::agreement_test {
 namespace {
 
 constexpr double kCutoff = 0.05, kSize = 1.0, kFar = std::numeric_limits<double>::infinity();
@@ -77,4 +77,4 @@ TEST(CompareRuns, AMethodThatSkipsPosesIsComparedAtItsOwn) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::agreement_test

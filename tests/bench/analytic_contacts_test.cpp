@@ -15,7 +15,7 @@
 #include "tests/bench/error_pairs.h"
 #include "tests/bench/error_shapes.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::analytic_contacts_test {
 namespace {
 
 constexpr double kRounding = 1e-14;
@@ -205,4 +205,4 @@ TEST(TrueWrench, IsASpringOnEachContactWithinTheCutoff) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::analytic_contacts_test

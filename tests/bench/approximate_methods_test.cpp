@@ -20,7 +20,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::approximate_methods_test {
 namespace {
 
 std::vector<Lmd> minimaOf(const std::string& method, const ErrorScene& scene, const RigidTransform& pose) {
@@ -188,4 +188,4 @@ TEST(SurfaceSamples, LieApartAndLeaveNoHoles) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::approximate_methods_test

@@ -8,7 +8,7 @@
 
 #include "tests/bench/bench_shapes.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::bench_scene_test {
 namespace {
 
 double signedVolume(const TriangleMesh& mesh) {
@@ -61,4 +61,4 @@ TEST(BenchScenes, LargerBodyHasUnitDiagonal) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::bench_scene_test

@@ -16,7 +16,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::certify_command_test {
 namespace {
 
 using testing::HasSubstr;
@@ -121,4 +121,4 @@ TEST_F(CertifyCommand, WrongNamesAndDamagedRecordingsAreToldOf) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::certify_command_test

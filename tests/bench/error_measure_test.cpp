@@ -7,7 +7,7 @@
 
 #include "tests/bench/error_shapes.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::error_measure_test {
 namespace {
 
 constexpr glm::dvec3 kUp{0.0, 0.0, 1.0};
@@ -94,4 +94,4 @@ TEST(ErrorShapes, AreClosedAndEdgesHalveWithTwiceTheFineness) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::error_measure_test

@@ -12,7 +12,7 @@
 #include "tests/bench/error_shapes.h"
 #include "tests/bench/tracked_query.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::error_run_test {
 namespace {
 
 /// Errors that are rounding alone: of coordinates of some metres, and of sums over thousands of facets.
@@ -145,4 +145,4 @@ TEST(WayTo, EndsWithThePoseAndGoesByATickAtATime) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::error_run_test

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace nearfit::bench {
+namespace nearfit::bench::far_parts_test {
 namespace {
 
 const Ball kBall{{1.0, -2.0, 3.0}, 1.5};
@@ -65,4 +65,4 @@ TEST(FarGeometries, HaveHundredsToThousandsOfTrianglesAndAtMostHalfTheSize) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::far_parts_test

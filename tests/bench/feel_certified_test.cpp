@@ -8,7 +8,7 @@
 #include "tests/bench/feel_scenes.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::feel_certified_test {
 namespace {
 
 TEST(CertifiedRow, CountsPosesThatTouchCutOrLieInside) {
@@ -33,4 +33,4 @@ TEST(CertifiedRow, PosesThatFollowTheirLikeCountOnce) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::feel_certified_test

@@ -8,7 +8,7 @@
 #include "tests/bench/feel_scenes.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::feel_cost_test {
 namespace {
 
 /// A sphere pressed on another.
@@ -69,4 +69,4 @@ TEST(CostRows, NamesDoNotPartColumnsOfTheCsvFile) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::feel_cost_test

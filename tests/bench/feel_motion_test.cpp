@@ -10,7 +10,7 @@
 #include "core/haptics/virtual_coupling.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::feel_motion_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -118,4 +118,4 @@ TEST(SeekingPath, GoesAtTheSpeedItIsTold) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::feel_motion_test

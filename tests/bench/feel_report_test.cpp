@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit::bench {
+namespace nearfit::bench::feel_report_test {
 namespace {
 
 TEST(FeelRow, SumsSamplesUpInItsUnit) {
@@ -33,4 +33,4 @@ TEST(FeelCsv, HasAColumnForEachNumber) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::feel_report_test

@@ -7,7 +7,7 @@
 #include "core/haptics/virtual_coupling.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::feel_scenes_test {
 namespace {
 
 std::vector<FeelEntry> allScenes() {
@@ -60,4 +60,4 @@ TEST(SolidScene, TakesTheMassFromTheShape) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::feel_scenes_test

@@ -6,7 +6,7 @@
 #include "device/servo/servo_loop.h"
 #include "tests/support/servo_fixtures.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::feel_servo_test {
 namespace {
 
 ServoParameters proxyParameters() {
@@ -52,4 +52,4 @@ TEST(FeelServo, AFaultIsRefused) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::feel_servo_test

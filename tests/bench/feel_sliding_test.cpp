@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit::bench {
+namespace nearfit::bench::feel_sliding_test {
 namespace {
 
 TEST(RunSliding, ABoxKeepsUpWithASlowHand) {
@@ -41,4 +41,4 @@ TEST(RunFree, NothingIsFeltAtRest) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::feel_sliding_test

@@ -9,7 +9,7 @@
 #include "core/haptics/servo_tick.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::feel_smoothness_test {
 namespace {
 
 TEST(WrenchChanges, AreFromEachWrenchToTheNext) {
@@ -104,4 +104,4 @@ TEST(SmoothnessRows, RatiosAreOfThePlainToTheRefined) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::feel_smoothness_test

@@ -10,7 +10,7 @@
 
 #include "core/haptics/virtual_coupling.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::feel_tessellation_test {
 namespace {
 
 class Tessellation : public ::testing::TestWithParam<std::size_t> {
@@ -74,4 +74,4 @@ TEST(TessellationOfABox, RestsOnASlabAtOnePlaceHoweverItIsMeshed) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::feel_tessellation_test

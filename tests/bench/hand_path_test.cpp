@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::hand_path_test {
 namespace {
 
 constexpr double kRadius = 0.25, kCutoff = 0.05, kReach = 0.075;
@@ -123,4 +123,4 @@ TEST(MotionBound, AddsTurnTimesRadiusToTheCentresWay) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::hand_path_test

@@ -8,7 +8,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::instances_test {
 namespace {
 
 TEST(GeometryTotals, EachGeometryCountsOnce) {
@@ -51,4 +51,4 @@ TEST(ResidentBytes, GrowWithMemoryThatIsTouchedAndShrinkWhenItIsFreed) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::instances_test

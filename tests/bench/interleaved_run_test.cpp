@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::interleaved_run_test {
 namespace {
 
 /// Answers with the x of each pose, and writes its letter and that into a log.
@@ -102,4 +102,4 @@ TEST(RunInterleaved, AProcessorThatIsNotThereIsRefused) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::interleaved_run_test

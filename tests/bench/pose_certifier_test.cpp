@@ -12,7 +12,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit::test {
+namespace nearfit::test::pose_certifier_test {
 namespace {
 
 RigidTransform shift(double x, double y, double z) {
@@ -135,4 +135,4 @@ TEST(PoseCertifier, AWayThroughAThinWallOrIntoASolidIsSeen) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::pose_certifier_test

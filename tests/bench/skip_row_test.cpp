@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "tests/bench/skips.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::skip_row_test {
 namespace {
 
 SkipRow rowOf(std::vector<std::uint64_t> with, std::vector<std::uint64_t> without) {
@@ -90,4 +90,4 @@ TEST(Skips, AnswersAreTheSameWithoutThem) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::skip_row_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit::bench {
+namespace nearfit::bench::statistics_test {
 namespace {
 
 TEST(SampleSummary, PercentilesAreNearestRank) {
@@ -29,4 +29,4 @@ TEST(BestOfRounds, KeepsTheLeastTimeOfEachPose) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::statistics_test

@@ -9,7 +9,7 @@
 #include "tests/bench/far_parts.h"
 #include "tests/support/servo_fixtures.h"
 
-namespace nearfit::bench {
+namespace nearfit::bench::tick_run_test {
 namespace {
 
 /// The tip goes down over the floor to where its only minimum is.
@@ -116,4 +116,4 @@ TEST(RunTicks, APartThatIsFeltIsNoticed) {
 }
 
 }  // namespace
-}  // namespace nearfit::bench
+}  // namespace nearfit::bench::tick_run_test

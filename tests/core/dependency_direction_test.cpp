@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::dependency_direction_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -81,4 +81,4 @@ TEST(DependencyDirection, IncludesOfOursAreRooted) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::dependency_direction_test

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/session.h"
 
-namespace nearfit {
+namespace nearfit::session_groups_test {
 namespace {
 
 /// Everything of a scene's parts and groups, as text.
@@ -83,7 +83,7 @@ TEST_F(SessionGroups, CommandsThatChangeNothingAreNoStep) {
   const GroupId group = session_.group({{a_}, {}});
   session_.reset(session_.scene());
   session_.setVisible({a_, b_}, true);
-  session_.setColour({a_}, part(a_).colour);
+  session_.setColour(a_, part(a_).colour);
   session_.setOpacity({a_, c_}, 1.0);
   session_.setLocked({{a_}, {group}}, false);
   session_.moveParts({a_, b_}, a_, part(a_).worldFromPart);
@@ -267,7 +267,7 @@ TEST_F(SessionGroups, UngroupingPutsWhatItHoldsInItsPlace) {
 TEST_F(SessionGroups, CopyOfAGroupHoldsCopiesOfAllThatItHolds) {
   const GroupId inner = session_.group({{a_}, {}}, "inner"), outer = session_.group({{b_}, {inner}}, "outer");
   session_.setLocked(b_, true);
-  session_.setColour({a_}, {0.25F, 0.5F, 0.75F});
+  session_.setColour(a_, {0.25F, 0.5F, 0.75F});
   const SceneNodes copies = session_.duplicate({{a_, b_}, {outer, inner}});
   ASSERT_EQ(copies.groups.size(), 1U);
   EXPECT_TRUE(copies.parts.empty());
@@ -357,4 +357,4 @@ TEST_F(SessionGroups, RandomCommandsKeepTheTreeAndUndoneInFullGiveBackTheBeginni
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::session_groups_test

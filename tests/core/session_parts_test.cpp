@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/session.h"
 
-namespace nearfit {
+namespace nearfit::session_parts_test {
 namespace {
 
 TEST(SessionParts, PartsThatComeTogetherAreOneStep) {
@@ -50,4 +50,4 @@ TEST(SessionParts, AnotherSceneHasAnotherSerialAndEditsHaveNot) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::session_parts_test

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/scene/palette.h"
 
-namespace nearfit {
+namespace nearfit::session_test {
 namespace {
 
 const RigidTransform kAside{{1, 0, 0, 0}, {0.1, 0.2, 0.3}};
@@ -489,4 +489,4 @@ TEST(Session, PivotsAreAStepAndStayWhereTheyAreOnThePart) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::session_test

@@ -9,7 +9,7 @@
 #include "device/device_error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::device_registry_test {
 namespace {
 
 using testing::HasSubstr;
@@ -129,7 +129,6 @@ TEST(DeviceRegistry, DriversAreMadeWithoutOpeningAnything) {
     const auto made = makeDevice(each, {});
     ASSERT_TRUE(made) << each.id();
     EXPECT_EQ(made->state(), DeviceState::Present);
-    HandleInput handle;
     made->stop();
   }
 }
@@ -198,4 +197,4 @@ TEST(UdevRules, LetUsersOpenEveryDeviceThatHasADriver) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::device_registry_test

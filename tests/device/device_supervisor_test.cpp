@@ -6,7 +6,7 @@
 
 #include "device/device_error.h"
 
-namespace nearfit {
+namespace nearfit::device_supervisor_test {
 namespace {
 
 constexpr DeviceSupervisor::Sample kCalm{0.001, 0.1, true};
@@ -166,4 +166,4 @@ TEST(DeviceSupervisor, BrakeOpposesMotionBeyondItsSpeedWithinTheLimit) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::device_supervisor_test

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/math/rotation_vector.h"
 
-namespace nearfit {
+namespace nearfit::rate_control_test {
 namespace {
 
 constexpr RateSettings kLinear{.deadZone = 0.0, .exponent = 1.0, .fullSpeed = 0.1, .fullTurn = 1.0};
@@ -98,4 +98,4 @@ TEST(RateSettings, WhatIsOutOfRangeIsNamed) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::rate_control_test

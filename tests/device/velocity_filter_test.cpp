@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::velocity_filter_test {
 namespace {
 
 constexpr Nanoseconds kMillisecond = 1'000'000;
@@ -55,4 +55,4 @@ TEST(VelocityFilter, ForgetsWhenReset) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::velocity_filter_test

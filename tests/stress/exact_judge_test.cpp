@@ -10,7 +10,7 @@
 #include "tests/support/mesh_generators.h"
 
 /// That the judge sees what it is there for: sets that are right are spoilt, one thing at a time.
-namespace nearfit::test {
+namespace nearfit::test::exact_judge_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -99,4 +99,4 @@ TEST(ExactJudge, LeavesOpenWhichSideOfAnApexWhoseFacesCrossIsOut) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::exact_judge_test

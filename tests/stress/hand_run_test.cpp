@@ -10,11 +10,11 @@
 #include "core/haptics/passivity_controller.h"
 #include "tests/stress/stress_servo.h"
 
-namespace nearfit::stress {
+namespace nearfit::stress::hand_run_test {
 namespace {
 
 /// Under sanitizers a tick takes ten times as long.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef NEARFIT_SANITIZED
 constexpr std::uint64_t kShare = 12;
 #else
 constexpr std::uint64_t kShare = 1;
@@ -62,4 +62,4 @@ TEST(StressServo, ANumberThatIsNoneLatchesAFaultAndThePartStays) {
 }
 
 }  // namespace
-}  // namespace nearfit::stress
+}  // namespace nearfit::stress::hand_run_test

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit::stress {
+namespace nearfit::stress::long_run_test {
 namespace {
 
 TEST(LongRun, NeitherDriftsNorGrowsInMinutes) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef NEARFIT_SANITIZED
   constexpr double kSeconds = 60.0;
 #else
   constexpr double kSeconds = 300.0;
@@ -15,11 +15,11 @@ TEST(LongRun, NeitherDriftsNorGrowsInMinutes) {
   EXPECT_EQ(result.freeDrift, 0.0);
   EXPECT_LE(result.contactDrift, kMostDrift);
   EXPECT_LE(result.forceDrift, 1e-3);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef NEARFIT_SANITIZED
   // Sanitizers keep what was freed.
   EXPECT_LE(result.memoryGrowth, kMostGrowth);
 #endif
 }
 
 }  // namespace
-}  // namespace nearfit::stress
+}  // namespace nearfit::stress::long_run_test

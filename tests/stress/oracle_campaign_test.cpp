@@ -7,7 +7,7 @@
 
 #include "tests/stress/oracle_pairs.h"
 
-namespace nearfit::stress {
+namespace nearfit::stress::oracle_campaign_test {
 namespace {
 
 TEST(OracleCampaign, FewThousandPosesOfTwentyPairsHaveTheExactSet) {
@@ -72,4 +72,4 @@ TEST(OracleCampaign, RangesAddUpToTheWholeWhateverTheThreads) {
 }
 
 }  // namespace
-}  // namespace nearfit::stress
+}  // namespace nearfit::stress::oracle_campaign_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit::stress {
+namespace nearfit::stress::press_trial_test {
 namespace {
 
 TEST(PressedHand, ComesToRestInContactsOfAllKinds) {
@@ -33,4 +33,4 @@ TEST(PressedHand, ComesToRestWithASlowAndStutteringServo) {
 }
 
 }  // namespace
-}  // namespace nearfit::stress
+}  // namespace nearfit::stress::press_trial_test

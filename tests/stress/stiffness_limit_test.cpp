@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit::stress {
+namespace nearfit::stress::stiffness_limit_test {
 namespace {
 
 TEST(StiffnessLimit, OfAHeavyDeviceIsColgates) {
@@ -54,4 +54,4 @@ TEST(StiffnessLimit, EnforcedIsStableAndNotNeedlesslyLow) {
 }
 
 }  // namespace
-}  // namespace nearfit::stress
+}  // namespace nearfit::stress::stiffness_limit_test

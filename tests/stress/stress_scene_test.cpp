@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "tests/exact/pose_certifier.h"
 
-namespace nearfit::stress {
+namespace nearfit::stress::stress_scene_test {
 namespace {
 
 TEST(StressScene, EachGeneratedOneBeginsFreeAndOnItsSide) {
@@ -48,4 +48,4 @@ TEST(StressScene, ABallBesideItsBoxIsNotOnItsSide) {
 }
 
 }  // namespace
-}  // namespace nearfit::stress
+}  // namespace nearfit::stress::stress_scene_test

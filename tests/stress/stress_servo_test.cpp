@@ -7,7 +7,7 @@
 #include "tests/stress/stress_scene.h"
 #include "tests/support/ringed_pair.h"
 
-namespace nearfit::stress {
+namespace nearfit::stress::stress_servo_test {
 namespace {
 
 // The bench's servo once did not pass on that the proxy starved: a nut stood still there that moved
@@ -38,4 +38,4 @@ TEST(StressServo, IsTheBenchesServoWhereListsAreThereAtOnce) {
 }
 
 }  // namespace
-}  // namespace nearfit::stress
+}  // namespace nearfit::stress::stress_servo_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit::stress {
+namespace nearfit::stress::tick_shares_test {
 namespace {
 
 std::uint64_t sumOf(const std::vector<std::uint64_t>& shares) {
@@ -38,4 +38,4 @@ TEST(TickShares, AShortRunIsSharedEqually) {
 }
 
 }  // namespace
-}  // namespace nearfit::stress
+}  // namespace nearfit::stress::tick_shares_test

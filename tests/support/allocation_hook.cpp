@@ -37,7 +37,7 @@ void countAllocation() noexcept {
 
 }  // namespace nearfit::test
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef NEARFIT_SANITIZED
 
 void* operator new(std::size_t size) {
   nearfit::test::countAllocation();

@@ -21,7 +21,7 @@ struct BodyPair {
 };
 
 /// Sanitized builds, many times slower, take this share of the poses: what they look for shows in few.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef NEARFIT_SANITIZED
 constexpr std::size_t kPoseShare = 8;
 #else
 constexpr std::size_t kPoseShare = 1;

@@ -8,7 +8,7 @@
 #include "app/cli/rate_options.h"
 #include "core/error.h"
 
-namespace nearfit::cli {
+namespace nearfit::cli::cli_parts_test {
 namespace {
 
 constexpr Nanoseconds kMillisecond = 1'000'000;
@@ -82,4 +82,4 @@ TEST(RateOptions, WhatIsNotSaidStaysAsUsual) {
 }
 
 }  // namespace
-}  // namespace nearfit::cli
+}  // namespace nearfit::cli::cli_parts_test

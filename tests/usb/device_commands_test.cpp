@@ -30,7 +30,7 @@
 #include "tests/usb/spacemouse_firmware.h"
 #include "tests/usb/usb_fixture.h"
 
-namespace nearfit {
+namespace nearfit::device_commands_test {
 namespace {
 
 using nlohmann::json;
@@ -408,4 +408,4 @@ TEST_F(SpaceMouseCommand, WhatIsForbiddenIsToldWithTheCommandThatMendsIt) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::device_commands_test

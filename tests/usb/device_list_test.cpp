@@ -8,7 +8,7 @@
 #include "tests/usb/openhap_emulator.h"
 #include "tests/usb/usb_fixture.h"
 
-namespace nearfit {
+namespace nearfit::device_list_test {
 namespace {
 
 using testing::AllOf;
@@ -146,4 +146,4 @@ TEST_F(DeviceList, ADeviceThatIsPluggedInAgainIsAnotherOne) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::device_list_test

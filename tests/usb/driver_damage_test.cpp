@@ -6,7 +6,7 @@
 #include "device/streamed_handle.h"
 #include "tests/usb/driver_fixture.h"
 
-namespace nearfit {
+namespace nearfit::driver_damage_test {
 namespace {
 
 using testing::HasSubstr;
@@ -98,4 +98,4 @@ TEST_P(DriverWithBadReports, WithoutEndStopItWithoutForce) {
 INSTANTIATE_TEST_SUITE_P(All, DriverWithBadReports, testing::ValuesIn(test::kDriverKinds), test::nameOf);
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::driver_damage_test

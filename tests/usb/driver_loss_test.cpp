@@ -5,7 +5,7 @@
 
 #include "tests/usb/driver_fixture.h"
 
-namespace nearfit {
+namespace nearfit::driver_loss_test {
 namespace {
 
 using test::eventually;
@@ -126,4 +126,4 @@ TEST_P(DriverLoses, NoDeviceButStopsOneThatAnswersNoMore) {
 INSTANTIATE_TEST_SUITE_P(All, DriverLoses, testing::ValuesIn(test::kDriverKinds), test::nameOf);
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::driver_loss_test

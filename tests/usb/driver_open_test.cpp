@@ -3,7 +3,7 @@
 
 #include "tests/usb/driver_fixture.h"
 
-namespace nearfit {
+namespace nearfit::driver_open_test {
 namespace {
 
 using testing::HasSubstr;
@@ -132,4 +132,4 @@ TEST_P(DriverOpens, ADeviceThatRefusesRequestsSaysSoOrDoesWithout) {
 INSTANTIATE_TEST_SUITE_P(All, DriverOpens, testing::ValuesIn(test::kDriverKinds), test::nameOf);
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::driver_open_test

@@ -8,7 +8,7 @@
 #include "tests/usb/pace.h"
 #include "tests/usb/usb_fixture.h"
 
-namespace nearfit {
+namespace nearfit::driver_pairs_test {
 namespace {
 
 using test::eventually;
@@ -120,4 +120,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::driver_pairs_test

@@ -9,7 +9,7 @@
 #include "tests/support/part_geometries.h"
 #include "tests/usb/driver_fixture.h"
 
-namespace nearfit {
+namespace nearfit::driver_proxy_test {
 namespace {
 
 using test::eventually;
@@ -164,4 +164,4 @@ TEST_P(DriverInProxyMode, ASpaceMousePushesAPegNoFartherThanItsLeashAndBackAtOnc
 INSTANTIATE_TEST_SUITE_P(All, DriverInProxyMode, testing::ValuesIn(test::kDriverKinds), test::nameOf);
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::driver_proxy_test

@@ -3,7 +3,7 @@
 #include "tests/usb/driver_fixture.h"
 #include "tests/usb/pace.h"
 
-namespace nearfit {
+namespace nearfit::driver_stream_test {
 namespace {
 
 using test::eventually;
@@ -87,4 +87,4 @@ TEST_P(DriverStreams, AStallOfItsCommandsIsClearedAndOnlyThatOneIsLost) {
 INSTANTIATE_TEST_SUITE_P(All, DriverStreams, testing::ValuesIn(test::kDriverKinds), test::nameOf);
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::driver_stream_test

@@ -11,7 +11,7 @@
 #include "tests/app/cli/place_fixture.h"
 #include "tests/support/eventually.h"
 
-namespace nearfit::test {
+namespace nearfit::test::emulated_program_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -201,4 +201,4 @@ TEST_F(EmulatedProgram, ATestPassesWithConsent) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::emulated_program_test

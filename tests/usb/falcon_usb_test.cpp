@@ -12,7 +12,7 @@
 #include "tests/usb/hand_servo.h"
 #include "tests/usb/usb_fixture.h"
 
-namespace nearfit {
+namespace nearfit::falcon_usb_test {
 namespace {
 
 using testing::HasSubstr;
@@ -171,4 +171,4 @@ TEST_F(FalconOverUsb, ThighsThatCannotBeThereStopIt) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::falcon_usb_test

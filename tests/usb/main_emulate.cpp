@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   std::string preload = std::string(NEARFIT_EMULATION_LIBRARY) + ":" + NEARFIT_UMOCKDEV_LIBRARY;
   if (const char* others = std::getenv("LD_PRELOAD")) preload += std::string(":") + others;
   ::setenv("LD_PRELOAD", preload.c_str(), 1);
-#ifdef __SANITIZE_ADDRESS__
+#ifdef NEARFIT_SANITIZED_ADDRESS
   // The library goes before the sanitizer's own, which minds, although the two take over different functions.
   const char* given = std::getenv("ASAN_OPTIONS");
   ::setenv("ASAN_OPTIONS", (std::string(given == nullptr ? "" : given) + ":verify_asan_link_order=0").c_str(),

@@ -12,7 +12,7 @@
 #include "tests/usb/openhap_emulator.h"
 #include "tests/usb/usb_fixture.h"
 
-namespace nearfit {
+namespace nearfit::openhap_device_test {
 namespace {
 
 using test::eventually;
@@ -246,4 +246,4 @@ TEST_F(OpenHapOverUsb, ANewerMajorVersionIsRefused) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::openhap_device_test

@@ -13,7 +13,7 @@
 #include "tests/usb/openhap_emulator.h"
 #include "tests/usb/usb_fixture.h"
 
-namespace nearfit {
+namespace nearfit::openhap_servo_test {
 namespace {
 
 using test::eventually;
@@ -87,4 +87,4 @@ TEST(OpenHapServo, FollowsTheDevicesReportsAndItFeelsTheScene) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::openhap_servo_test

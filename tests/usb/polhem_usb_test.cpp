@@ -10,7 +10,7 @@
 #include "tests/usb/polhem_emulator.h"
 #include "tests/usb/usb_fixture.h"
 
-namespace nearfit {
+namespace nearfit::polhem_usb_test {
 namespace {
 
 using test::PolhemEmulator;
@@ -135,4 +135,4 @@ TEST_F(PolhemOnATeensy, FullPacketsAreExchangedOverTheRightInterface) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::polhem_usb_test

@@ -14,7 +14,7 @@
 #include "tests/usb/spacemouse_firmware.h"
 #include "tests/usb/usb_fixture.h"
 
-namespace nearfit {
+namespace nearfit::spacemouse_interfaces_test {
 namespace {
 
 using testing::HasSubstr;
@@ -158,4 +158,4 @@ TEST_F(SpaceMouseInterfaces, WhatIsGoneWhenItIsToBeOpenedIsAbsent) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::spacemouse_interfaces_test

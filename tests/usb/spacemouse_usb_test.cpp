@@ -12,7 +12,7 @@
 #include "tests/usb/spacemouse_emulator.h"
 #include "tests/usb/usb_fixture.h"
 
-namespace nearfit {
+namespace nearfit::spacemouse_usb_test {
 namespace {
 
 using test::eventually;
@@ -226,4 +226,4 @@ TEST_F(SpaceMouseOverUsb, AReportOfWhichAxesAreMissingMovesNone) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::spacemouse_usb_test

@@ -4,7 +4,7 @@
 
 #include "tests/usb/usb_fixture.h"
 
-namespace nearfit {
+namespace nearfit::usb_bus_test {
 namespace {
 
 using test::eventually;
@@ -96,4 +96,4 @@ TEST(UsbBus, TwoDevicesOfAKindAreToldApart) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::usb_bus_test

@@ -8,7 +8,7 @@
 #include "device/device_error.h"
 #include "tests/usb/usb_fixture.h"
 
-namespace nearfit {
+namespace nearfit::usb_link_loss_test {
 namespace {
 
 using test::eventually;
@@ -175,4 +175,4 @@ TEST_F(UsbLinkLoss, RequestsAfterALossFailAndReturn) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::usb_link_loss_test

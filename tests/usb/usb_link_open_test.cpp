@@ -8,7 +8,7 @@
 #include "device/device_error.h"
 #include "tests/usb/usb_fixture.h"
 
-namespace nearfit {
+namespace nearfit::usb_link_open_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -164,4 +164,4 @@ TEST_F(UsbLinkOpen, ReadsAndWritesSinglePackets) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::usb_link_open_test

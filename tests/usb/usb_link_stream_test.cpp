@@ -10,7 +10,7 @@
 #include "device/device_error.h"
 #include "tests/usb/usb_fixture.h"
 
-namespace nearfit {
+namespace nearfit::usb_link_stream_test {
 namespace {
 
 using test::eventually;
@@ -217,4 +217,4 @@ TEST_F(UsbLinkStream, TwoDevicesStreamAtOnce) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::usb_link_stream_test

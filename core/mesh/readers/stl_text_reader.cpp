@@ -12,7 +12,7 @@
 namespace nearfit {
 namespace {
 
-constexpr const char* kExportAgain = "correct the line or export the file again";
+constexpr const char* kCorrectLine = "correct the line or export the file again";
 
 bool isWord(std::string_view token, std::string_view word) {
   return token.size() == word.size() && ::strncasecmp(token.data(), word.data(), word.size()) == 0;
@@ -22,7 +22,7 @@ void expect(TextCursor& cursor, std::string_view word) {
   const std::string_view token = cursor.tokenAcrossLines();
   if (token.empty()) cursor.failAtEnd(inQuotes(word));
   if (!isWord(token, word)) {
-    cursor.fail(fmt::format("{} should stand here, but {} does", inQuotes(word), inQuotes(token)), kExportAgain);
+    cursor.fail(fmt::format("{} should stand here, but {} does", inQuotes(word), inQuotes(token)), kCorrectLine);
   }
 }
 
@@ -34,7 +34,7 @@ void skipToOuter(TextCursor& cursor) {
     if (token.empty()) cursor.failAtEnd("'outer'");
     if (isWord(token, "outer")) return;
   }
-  cursor.fail("a facet has no 'outer loop'", kExportAgain);
+  cursor.fail("a facet has no 'outer loop'", kCorrectLine);
 }
 
 /// A facet behind the word "facet", to "endfacet".
@@ -47,7 +47,7 @@ void readFacet(TextCursor& cursor, PolygonSoup& soup) {
     if (token.empty()) cursor.failAtEnd("'endloop'");
     if (!isWord(token, "vertex")) {
       cursor.fail(fmt::format("'vertex' or 'endloop' should stand here, but {} does", inQuotes(token)),
-                  kExportAgain);
+                  kCorrectLine);
     }
     glm::dvec3 p;
     for (int i = 0; i < 3; ++i)
@@ -55,7 +55,7 @@ void readFacet(TextCursor& cursor, PolygonSoup& soup) {
     soup.corners.push_back(static_cast<std::uint32_t>(soup.vertices.size()));
     soup.vertices.push_back(p);
   }
-  if (corners < 3) cursor.fail("a facet has fewer than three vertices", kExportAgain);
+  if (corners < 3) cursor.fail("a facet has fewer than three vertices", kCorrectLine);
   expect(cursor, "endfacet");
   soup.closePolygon();
 }
@@ -83,7 +83,7 @@ ReaderResult readStlText(const ReaderInput& input) {
       readFacet(cursor, result.soup);
     } else {
       cursor.fail(fmt::format("'facet' or 'endsolid' should stand here, but {} does", inQuotes(token)),
-                  kExportAgain);
+                  kCorrectLine);
     }
   }
   if (isSolidOpen) result.warnings.emplace_back("The file ends without 'endsolid': it may be cut off.");

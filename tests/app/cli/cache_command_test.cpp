@@ -12,7 +12,7 @@
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit::test {
+namespace nearfit::test::cache_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +109,4 @@ TEST_F(CacheCommand, LimitBoundsItAndOneThatMakesNoSenseIsSaid) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::cache_command_test

@@ -8,7 +8,7 @@
 
 #include "tests/app/cli/place_fixture.h"
 
-namespace nearfit::test {
+namespace nearfit::test::devices_command_test {
 namespace {
 
 using ::testing::AllOf;
@@ -112,4 +112,4 @@ TEST_F(PlaceWithDevice, ADeviceThatIsNotThereLeavesNoFiles) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::devices_command_test

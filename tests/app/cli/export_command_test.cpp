@@ -8,7 +8,7 @@
 #include "tests/support/run_process.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit::test {
+namespace nearfit::test::export_command_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -76,4 +76,4 @@ TEST_F(ExportCommand, ClearancesAreATable) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::export_command_test

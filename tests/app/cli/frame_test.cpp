@@ -3,7 +3,7 @@
 
 #include "tests/support/run_process.h"
 
-namespace nearfit::test {
+namespace nearfit::test::frame_test {
 namespace {
 
 using ::testing::ContainsRegex;
@@ -81,4 +81,4 @@ TEST(CliFrame, StartsWithoutQtVtkOrOpenCascade) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::frame_test

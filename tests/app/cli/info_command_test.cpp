@@ -8,7 +8,7 @@
 #include "tests/support/run_process.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit::test {
+namespace nearfit::test::info_command_test {
 namespace {
 
 using ::testing::AllOf;
@@ -148,4 +148,4 @@ TEST_F(InfoCommand, FullDiskIsAnError) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::info_command_test

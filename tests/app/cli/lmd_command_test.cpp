@@ -12,7 +12,7 @@
 #include "tests/support/run_process.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit::test {
+namespace nearfit::test::lmd_command_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -317,4 +317,4 @@ TEST_F(LmdCommand, FilesThatFailAreToldInOneLine) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::lmd_command_test

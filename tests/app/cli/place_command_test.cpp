@@ -20,7 +20,7 @@
 #include "tests/support/run_process.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit::test {
+namespace nearfit::test::place_command_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -261,4 +261,4 @@ TEST_F(PlaceCommand, ARoundPegGoesDownItsHoleWithTheGapItWasMadeWith) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::place_command_test

@@ -9,7 +9,7 @@
 #include "core/haptics/device_limits.h"
 #include "tests/app/cli/place_fixture.h"
 
-namespace nearfit::test {
+namespace nearfit::test::place_feel_test {
 namespace {
 
 using ::testing::AllOf;
@@ -84,4 +84,4 @@ TEST_F(PlaceFeel, TheSummaryTellsTheModeAndItsNumbers) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::place_feel_test

@@ -7,7 +7,7 @@
 
 #include "tests/app/cli/place_fixture.h"
 
-namespace nearfit::test {
+namespace nearfit::test::place_replay_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -70,4 +70,4 @@ TEST_F(PlaceReplay, WhatIsNoRecordingIsRefusedWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::place_replay_test

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace nearfit::cli {
+namespace nearfit::cli::place_summary_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -51,4 +51,4 @@ TEST_F(PlaceSummaryOfAProxy, TellsTheBoundAtTheHandleOverAScale) {
 }
 
 }  // namespace
-}  // namespace nearfit::cli
+}  // namespace nearfit::cli::place_summary_test

@@ -9,7 +9,7 @@
 #include "tests/support/run_process.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit::test {
+namespace nearfit::test::scene_command_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -229,4 +229,4 @@ TEST_F(SceneNewCommand, FilesThatFailAreToldInOneLine) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::scene_command_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::outline_fill_test {
 namespace {
 
 struct Outline {
@@ -69,4 +69,4 @@ TEST(OutlineFill, WhatSpansNoAreaFillsNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::outline_fill_test

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::atomic_write_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -102,4 +102,4 @@ TEST(AtomicWrite, FailedWriteLeavesTheOldFileWhole) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::atomic_write_test

@@ -10,7 +10,7 @@
 #include "core/files/checksum.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::mapped_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,4 +59,4 @@ TEST(Checksum, IsXxh3AsPublished) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::mapped_file_test

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::sha256_test {
 namespace {
 
 // FIPS 180-4 example vectors.
@@ -42,4 +42,4 @@ TEST(Sha256, MissingFileFolderAndPipeAreRefused) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::sha256_test

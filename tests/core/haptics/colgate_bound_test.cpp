@@ -4,7 +4,7 @@
 #include "core/haptics/virtual_coupling.h"
 #include "tests/support/wall_encounter.h"
 
-namespace nearfit {
+namespace nearfit::colgate_bound_test {
 namespace {
 
 using test::leaningOn;
@@ -49,4 +49,4 @@ TEST(ColgateBound, AutomaticCouplingCalmsAHandThatHitsIt) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::colgate_bound_test

@@ -11,7 +11,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/proxy_walk.h"
 
-namespace nearfit {
+namespace nearfit::contact_finder_test {
 namespace {
 
 constexpr double kReach = 2.6e-3;
@@ -92,4 +92,4 @@ TEST(ContactFinder, LooksAmongOpenSheetsAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::contact_finder_test

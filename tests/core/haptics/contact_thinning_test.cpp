@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::contact_thinning_test {
 namespace {
 
 constexpr std::size_t kMost = ContactThinning::kMaxKept;
@@ -104,4 +104,4 @@ TEST(ContactThinning, WhatHasNoRoomIsSaidToBeMissing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::contact_thinning_test

@@ -10,7 +10,7 @@
 #include "core/haptics/shown_reach.h"
 #include "core/haptics/tracked_scene.h"
 
-namespace nearfit {
+namespace nearfit::counters_test {
 namespace {
 
 static_assert(std::is_same_v<decltype(ServoSnapshot::tick), std::uint64_t>);
@@ -34,4 +34,4 @@ TEST(ShownReach, ItsWaitNeverWraps) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::counters_test

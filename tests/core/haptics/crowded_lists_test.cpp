@@ -11,7 +11,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/proxy_walk.h"
 
-namespace nearfit {
+namespace nearfit::crowded_lists_test {
 namespace {
 
 constexpr double kMargin = 1e-3;
@@ -103,4 +103,4 @@ TEST_F(BallInBowl, StandsWithoutListsAndGoesOnWhenTheyArrive) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::crowded_lists_test

@@ -9,7 +9,7 @@
 #include "core/math/rotation_vector.h"
 #include "tests/support/random_values.h"
 
-namespace nearfit {
+namespace nearfit::device_at_handle_test {
 namespace {
 
 using std::numbers::pi;
@@ -77,4 +77,4 @@ TEST(LimitsAtHandle, SenselessScaleCountsAsOne) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::device_at_handle_test

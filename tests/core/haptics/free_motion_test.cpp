@@ -10,7 +10,7 @@
 
 #include "core/math/rotation_vector.h"
 
-namespace nearfit {
+namespace nearfit::free_motion_test {
 namespace {
 
 const CouplingState kCoupling{500.0, 2.0, 0.3, 1e-3, false};
@@ -191,4 +191,4 @@ TEST(FeltBody, SenselessMassIsNone) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::free_motion_test

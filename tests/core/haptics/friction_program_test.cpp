@@ -13,7 +13,7 @@
 #include "tests/support/allocation_hook.h"
 #include "tests/support/step_problems.h"
 
-namespace nearfit {
+namespace nearfit::friction_program_test {
 namespace {
 
 using test::makeStepProblem;
@@ -262,4 +262,4 @@ TEST(FrictionProgram, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::friction_program_test

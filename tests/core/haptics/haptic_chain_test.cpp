@@ -15,7 +15,7 @@
 #include "tests/support/allocation_hook.h"
 #include "tests/support/simulated_hand.h"
 
-namespace nearfit {
+namespace nearfit::haptic_chain_test {
 namespace {
 
 constexpr double kPeriod = 1e-3;
@@ -126,4 +126,4 @@ TEST(HapticChain, TicksAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::haptic_chain_test

@@ -9,7 +9,7 @@
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::mass_metric_test {
 namespace {
 
 MassMetric metricOf(const TriangleMesh& mesh) {
@@ -107,4 +107,4 @@ TEST(MassMetric, EmptyMeshHasNoRadiusAndStillAMetric) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::mass_metric_test

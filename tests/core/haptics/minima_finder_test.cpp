@@ -10,7 +10,7 @@
 #include "tests/support/allocation_hook.h"
 #include "tests/support/servo_fixtures.h"
 
-namespace nearfit {
+namespace nearfit::minima_finder_test {
 namespace {
 
 constexpr double kCutoff = 0.2;
@@ -157,4 +157,4 @@ TEST(SceneTracker, EachTrackedSceneHasASerialOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::minima_finder_test

@@ -4,7 +4,7 @@
 
 #include "core/haptics/workspace_mapper.h"
 
-namespace nearfit {
+namespace nearfit::motion_freedom_test {
 namespace {
 
 TEST(MotionFreedom, EachIsFoundAgainInItsLocks) {
@@ -49,4 +49,4 @@ TEST(MotionFreedom, AlongAnAxisItOnlySlides) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::motion_freedom_test

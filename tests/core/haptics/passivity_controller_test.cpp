@@ -11,7 +11,7 @@
 #include "core/haptics/virtual_coupling.h"
 #include "tests/support/wall_encounter.h"
 
-namespace nearfit {
+namespace nearfit::passivity_controller_test {
 namespace {
 
 using test::leaningOn;
@@ -241,4 +241,4 @@ TEST(PassivityController, RandomHistoriesStayFiniteAndWithinTheLimits) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::passivity_controller_test

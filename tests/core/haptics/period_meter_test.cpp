@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::period_meter_test {
 namespace {
 
 TEST(PeriodMeter, StartsAtTheNominalPeriodAndStaysThereOnTime) {
@@ -131,4 +131,4 @@ TEST(PeriodMeter, SenselessNominalPeriodsAreReplaced) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::period_meter_test

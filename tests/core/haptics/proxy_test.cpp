@@ -16,7 +16,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/proxy_walk.h"
 
-namespace nearfit {
+namespace nearfit::proxy_test {
 namespace {
 
 using test::ProxyWalk;
@@ -400,4 +400,4 @@ TEST(Proxy, FollowingAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::proxy_test

@@ -14,7 +14,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
-namespace nearfit {
+namespace nearfit::scene_tracker_test {
 namespace {
 
 constexpr double kCutoff = 0.15;
@@ -194,4 +194,4 @@ TEST(SceneTracker, ABodyWhosePoseIsNoPoseStaysForTheTickToRefuse) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::scene_tracker_test

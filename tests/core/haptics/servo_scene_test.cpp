@@ -7,7 +7,7 @@
 #include "tests/support/part_geometries.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::servo_scene_test {
 namespace {
 
 class ServoSceneOfThree : public testing::Test {
@@ -96,4 +96,4 @@ TEST_F(ServoSceneOfThree, NoPartInHandIsRefused) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::servo_scene_test

@@ -8,7 +8,7 @@
 #include "core/haptics/servo_tick.h"
 #include "tests/support/servo_fixtures.h"
 
-namespace nearfit {
+namespace nearfit::servo_still_test {
 namespace {
 
 constexpr double kPeriod = 1e-3;
@@ -148,4 +148,4 @@ INSTANTIATE_TEST_SUITE_P(Modes, ServosAtRest, testing::Values(HapticMode::Spring
                          });
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::servo_still_test

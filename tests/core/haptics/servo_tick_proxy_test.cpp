@@ -14,7 +14,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
-namespace nearfit {
+namespace nearfit::servo_tick_proxy_test {
 namespace {
 
 constexpr double kPeriod = 1e-3, kMargin = 1e-3;
@@ -321,4 +321,4 @@ TEST_F(ServoTickWithProxy, TicksInContactAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::servo_tick_proxy_test

@@ -13,7 +13,7 @@
 #include "tests/support/allocation_hook.h"
 #include "tests/support/servo_fixtures.h"
 
-namespace nearfit {
+namespace nearfit::servo_tick_test {
 namespace {
 
 constexpr double kPeriod = 1e-3;
@@ -331,4 +331,4 @@ TEST(AllocationHook, SeesWhatAThreadAllocates) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::servo_tick_test

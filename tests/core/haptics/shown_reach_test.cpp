@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::shown_reach_test {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -61,4 +61,4 @@ TEST(ShownReach, NeverFallsShortOfWhatIsNearest) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::shown_reach_test

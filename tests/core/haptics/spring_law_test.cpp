@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::spring_law_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -146,4 +146,4 @@ TEST(SpringLaw, NotANumberInAnyInputShowsInTheWrench) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::spring_law_test

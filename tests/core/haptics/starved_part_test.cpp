@@ -13,7 +13,7 @@
 #include "tests/support/part_geometries.h"
 #include "tests/support/ringed_pair.h"
 
-namespace nearfit {
+namespace nearfit::starved_part_test {
 namespace {
 
 constexpr double kMargin = 0.008;
@@ -135,4 +135,4 @@ TEST_F(StarvedRod, ListsOfOneThatWaitsHoldTheWayThatItsHandGoes) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::starved_part_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::step_judge_test {
 namespace {
 
 using Verdict = StepJudge::Verdict;
@@ -61,4 +61,4 @@ TEST(StepJudge, StepWhoseEndIsTooNearToBeAGainIsBestShorter) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::step_judge_test

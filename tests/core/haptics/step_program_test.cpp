@@ -10,7 +10,7 @@
 #include "tests/support/allocation_hook.h"
 #include "tests/support/step_problems.h"
 
-namespace nearfit {
+namespace nearfit::step_program_test {
 namespace {
 
 using test::kStepProblemKinds;
@@ -303,4 +303,4 @@ TEST(StepProgram, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::step_program_test

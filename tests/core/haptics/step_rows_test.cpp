@@ -6,7 +6,7 @@
 
 #include "tests/support/step_problems.h"
 
-namespace nearfit {
+namespace nearfit::step_rows_test {
 namespace {
 
 TEST(StepRows, TheLeastClearanceIsThatOfARowByRowSearchAtAnyNumberOfRows) {
@@ -64,4 +64,4 @@ TEST(StepRows, RefusesWhatIsNotANumberOrTooLargeOrTooMuch) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::step_rows_test

@@ -11,7 +11,7 @@
 #include "core/math/rotation_vector.h"
 #include "tests/support/random_values.h"
 
-namespace nearfit {
+namespace nearfit::virtual_coupling_test {
 namespace {
 
 using test::RandomValues;
@@ -313,4 +313,4 @@ TEST(TurnBetween, OppositeQuaternionsAreTheSameTurn) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::virtual_coupling_test

@@ -12,7 +12,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
-namespace nearfit {
+namespace nearfit::work_bound_test {
 namespace {
 
 constexpr double kPeriod = 1e-3, kMargin = 1e-3, kCutoff = 0.02, kThickness = 0.01;
@@ -103,4 +103,4 @@ TEST(WorkBound, PiecesThatAreMergeableAreSoHoweverTheyLie) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::work_bound_test

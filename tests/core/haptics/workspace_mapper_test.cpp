@@ -10,7 +10,7 @@
 #include "core/math/rotation_vector.h"
 #include "tests/support/random_values.h"
 
-namespace nearfit {
+namespace nearfit::workspace_mapper_test {
 namespace {
 
 using std::numbers::pi;
@@ -296,4 +296,4 @@ TEST(WorkspaceMapper, SenselessMappingIsShownAndForgotten) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::workspace_mapper_test

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::wrench_conditioner_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -273,4 +273,4 @@ TEST(WrenchConditioner, RandomInputIsAlwaysFiniteWithinTheLimitsAndTheSlew) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::wrench_conditioner_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::euler_angles_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -45,4 +45,4 @@ TEST(EulerAngles, RightAngleAboutYKeepsTheRotation) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::euler_angles_test

@@ -6,7 +6,7 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::symmetric_eigen_test {
 namespace {
 
 TEST(SymmetricEigen, VectorsDiagonaliseRandomMatrices) {
@@ -41,4 +41,4 @@ TEST(SymmetricEigen, ZeroAndMultiplesOfTheIdentityKeepTheAxes) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::symmetric_eigen_test

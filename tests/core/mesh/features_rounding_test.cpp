@@ -12,7 +12,7 @@
 #include "tests/support/mesh_generators.h"
 
 /// Features that rounding would drop or keep wrongly, each for a reason of its own.
-namespace nearfit {
+namespace nearfit::features_rounding_test {
 namespace {
 
 using Extended = glm::tvec3<long double>;
@@ -85,4 +85,4 @@ TEST(Features, SheetFoldedBackOnItselfKeepsItsCorners) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::features_rounding_test

@@ -11,7 +11,7 @@
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::features_test {
 namespace {
 
 /// Random unit directions, the same each time.
@@ -155,4 +155,4 @@ TEST(Features, FacesWithoutAreaCarryNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::features_test

@@ -10,7 +10,7 @@
 #include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::flat_triangles_test {
 namespace {
 
 using Points = std::vector<glm::dvec3>;
@@ -148,4 +148,4 @@ TEST(FlatTriangles, ManyLinesThroughOneVertexTakeLittleTime) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::flat_triangles_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::idle_features_test {
 namespace {
 
 struct Counts {
@@ -64,4 +64,4 @@ TEST(IdleFeatures, AReflexEdgeHasTheArcBetweenTheNormalsOfItsFaces) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::idle_features_test

@@ -9,7 +9,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::import_cancel_test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -79,4 +79,4 @@ TEST(HierarchyCancel, AMillionTrianglesAskOftenAndStopWhenTold) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::import_cancel_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::mass_properties_test {
 namespace {
 
 using std::numbers::pi;
@@ -174,4 +174,4 @@ TEST(MassProperties, MeshWithoutTrianglesHasNone) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::mass_properties_test

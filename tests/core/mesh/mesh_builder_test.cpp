@@ -13,7 +13,7 @@
 #include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::mesh_builder_test {
 namespace {
 
 using testing::AllOf;
@@ -255,4 +255,4 @@ TEST(MeshBuilder, BuildingABuiltMeshChangesNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::mesh_builder_test

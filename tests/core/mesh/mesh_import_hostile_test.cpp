@@ -13,7 +13,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::mesh_import_hostile_test {
 namespace {
 
 struct Sample {
@@ -238,4 +238,4 @@ TEST(MeshImportHostile, HeavyFilesTakeAFewTimesTheirSize) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::mesh_import_hostile_test

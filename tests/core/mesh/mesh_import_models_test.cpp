@@ -16,7 +16,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::mesh_import_models_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -208,4 +208,4 @@ TEST(MeshImportModels, NoFileCrashesOrTakesMoreThanAFewTimesItsSize) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::mesh_import_models_test

@@ -17,7 +17,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::mesh_import_test {
 namespace {
 
 using testing::Contains;
@@ -446,4 +446,4 @@ TEST_F(MeshImport, ImportableExtensionsAreThoseOfTheFormats) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::mesh_import_test

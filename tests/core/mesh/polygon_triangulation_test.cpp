@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 
-namespace nearfit {
+namespace nearfit::polygon_triangulation_test {
 namespace {
 
 using Points = std::vector<glm::dvec3>;
@@ -166,4 +166,4 @@ TEST(PolygonTriangulation, ResultsFollowEachOther) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::polygon_triangulation_test

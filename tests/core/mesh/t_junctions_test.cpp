@@ -14,7 +14,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::t_junctions_test {
 namespace {
 
 using testing::Contains;
@@ -158,4 +158,4 @@ TEST(TJunctions, StitchedMeshReadsBackTheSame) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::t_junctions_test

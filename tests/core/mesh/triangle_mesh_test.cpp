@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::triangle_mesh_test {
 namespace {
 
 /// Six times the volume, by tetrahedra to the origin.
@@ -152,4 +152,4 @@ TEST(TriangleMesh, ByteSizeCountsAtLeastTheArrays) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::triangle_mesh_test

@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "core/parallel/shared_progress.h"
 
-namespace nearfit {
+namespace nearfit::parallel_for_test {
 namespace {
 
 TEST(ParallelFor, EachIndexIsWorkedOnOnce) {
@@ -90,4 +90,4 @@ TEST(SharedProgress, AllHearOnceThatItIsToStop) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::parallel_for_test

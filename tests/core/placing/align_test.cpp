@@ -8,7 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::align_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -152,4 +152,4 @@ TEST(Align, OnlyPairsWithDirectionsFlipAndOnlyPlanesAreOffset) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::align_test

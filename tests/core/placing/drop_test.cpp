@@ -14,7 +14,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
-namespace nearfit {
+namespace nearfit::drop_test {
 namespace {
 
 using test::boxMesh;
@@ -291,4 +291,4 @@ TEST(Drop, CanBeCancelled) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::drop_test

@@ -11,7 +11,7 @@
 #include "core/placing/circle_fit.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::feature_pick_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -243,4 +243,4 @@ TEST(CircleFit, PointsOnACircleGiveIt) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::feature_pick_test

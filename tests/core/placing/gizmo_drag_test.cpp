@@ -10,7 +10,7 @@
 #include "core/placing/gizmo_layout.h"
 #include "tests/core/placing/projection_oracle.h"
 
-namespace nearfit {
+namespace nearfit::gizmo_drag_test {
 namespace {
 
 using test::TestView;
@@ -261,4 +261,4 @@ TEST(GizmoDrag, APointerThatIsNoNumberMovesNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::gizmo_drag_test

@@ -11,7 +11,7 @@
 #include "core/placing/screen_shapes.h"
 #include "tests/core/placing/projection_oracle.h"
 
-namespace nearfit {
+namespace nearfit::gizmo_layout_test {
 namespace {
 
 using test::TestView;
@@ -171,4 +171,4 @@ TEST(GizmoLayout, APlaneIsShiftedByOneArrowAndTiltedByTwoRings) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::gizmo_layout_test

@@ -11,7 +11,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/random_values.h"
 
-namespace nearfit {
+namespace nearfit::measure_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -132,4 +132,4 @@ TEST(MeasureEnd, OfACircleIsItsCentre) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::measure_test

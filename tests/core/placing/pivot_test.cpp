@@ -7,7 +7,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
-namespace nearfit {
+namespace nearfit::pivot_test {
 namespace {
 
 Part boxPart(const glm::dvec3& size, const glm::dvec3& centre) {
@@ -80,4 +80,4 @@ TEST(Pivot, ARayMeetsABoxWhereItGoesThroughIt) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::pivot_test

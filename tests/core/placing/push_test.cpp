@@ -11,7 +11,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
-namespace nearfit {
+namespace nearfit::push_test {
 namespace {
 
 using test::boxMesh;
@@ -110,4 +110,4 @@ TEST(Push, StartingOverlappedIsSaid) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::push_test

@@ -13,7 +13,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
-namespace nearfit {
+namespace nearfit::seen_parts_test {
 namespace {
 
 using testing::ElementsAre;
@@ -183,4 +183,4 @@ TEST(SeenParts, AreThoseThatRaysMeet) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::seen_parts_test

@@ -14,7 +14,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
-namespace nearfit {
+namespace nearfit::solid_move_test {
 namespace {
 
 using testing::ElementsAre;
@@ -263,4 +263,4 @@ TEST(SolidMove, AWayThatIsNotWantedAnyMoreIsCancelled) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::solid_move_test

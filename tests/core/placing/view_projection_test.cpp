@@ -5,7 +5,7 @@
 
 #include "tests/core/placing/projection_oracle.h"
 
-namespace nearfit {
+namespace nearfit::view_projection_test {
 namespace {
 
 const glm::dvec3 kPoints[] = {{0, 0, 0}, {0.1, 0.05, -0.07}, {-0.2, 0.1, 0.15}, {0.3, -0.3, 0.1}};
@@ -61,4 +61,4 @@ TEST(ViewProjection, UpAlongTheSightStillGivesAFrame) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::view_projection_test

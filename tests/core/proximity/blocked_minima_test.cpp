@@ -13,7 +13,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/passage_oracle.h"
 
-namespace nearfit {
+namespace nearfit::blocked_minima_test {
 namespace {
 
 using test::BodyPair;
@@ -195,4 +195,4 @@ TEST(BlockedMinima, SenselessPosesMarkNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::blocked_minima_test

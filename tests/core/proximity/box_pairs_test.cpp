@@ -9,7 +9,7 @@
 
 #include "tests/support/random_values.h"
 
-namespace nearfit {
+namespace nearfit::box_pairs_test {
 namespace {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -116,4 +116,4 @@ TEST(BoxPairs, ForgetsWhatItHeldBefore) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::box_pairs_test

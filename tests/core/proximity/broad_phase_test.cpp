@@ -10,7 +10,7 @@
 
 #include "tests/support/lmd_comparison.h"
 
-namespace nearfit {
+namespace nearfit::broad_phase_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -122,4 +122,4 @@ TEST(BoundsOf, HoldTheCornersOfATurnedBoxTightly) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::broad_phase_test

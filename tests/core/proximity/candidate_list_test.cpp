@@ -13,7 +13,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::candidate_list_test {
 namespace {
 
 using test::BodyPair;
@@ -239,4 +239,4 @@ TEST(CandidateList, WithLittleRoomKeepsTheNearestAsAQueryDoes) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::candidate_list_test

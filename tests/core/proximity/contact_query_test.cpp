@@ -18,7 +18,7 @@
 #include "tests/support/lmd_oracle.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::contact_query_test {
 namespace {
 
 using test::BodyPair;
@@ -273,4 +273,4 @@ TEST(ContactQuery, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::contact_query_test

@@ -17,7 +17,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::contact_relaxation_test {
 namespace {
 
 using test::BodyPair;
@@ -185,4 +185,4 @@ TEST(ContactRelaxation, WhatBecomesAMinimumByATurnIsAContactBefore) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::contact_relaxation_test

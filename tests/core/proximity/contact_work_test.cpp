@@ -11,7 +11,7 @@
 #include "core/proximity/normal_cone_tree.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::contact_work_test {
 namespace {
 
 constexpr ContactReach kWithin{0.1, 0.03};
@@ -71,4 +71,4 @@ TEST_F(ContactWork, FullRoomEndsAListingAtOnce) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::contact_work_test

@@ -19,7 +19,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::edge_pairs_test {
 namespace {
 
 using test::BodyPair;
@@ -161,4 +161,4 @@ TEST(EdgePairs, EdgesComeFirstAndNothingIsLost) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::edge_pairs_test

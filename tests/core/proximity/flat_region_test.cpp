@@ -16,7 +16,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::flat_region_test {
 namespace {
 
 constexpr double kCutoff = 0.2;
@@ -332,4 +332,4 @@ TEST(FlatRegion, InAnotherFrameItsAxesTurnAlong) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::flat_region_test

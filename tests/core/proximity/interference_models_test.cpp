@@ -12,7 +12,7 @@
 #include "core/proximity/normal_cone_tree.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::interference_models_test {
 namespace {
 
 using Kind = InterferenceKind;
@@ -91,4 +91,4 @@ TEST(InterferenceModels, PegDrawnInItsHoleIsFree) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::interference_models_test

@@ -15,7 +15,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::interference_test {
 namespace {
 
 using test::BodyPair;
@@ -266,4 +266,4 @@ TEST(TrianglePredicates, CrossingThroughAnEdgeOrCornerIsUnclear) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::interference_test

@@ -12,7 +12,7 @@
 
 /// What says that it is marginal, and what does not. Positions are by hand: a cube of side 1 about the
 /// origin, and a spike whose point stands 0.25 over its top.
-namespace nearfit {
+namespace nearfit::lmd_marginal_test {
 namespace {
 
 constexpr double kGap = 0.25;
@@ -153,4 +153,4 @@ TEST(LmdMarginal, ListsSayTheSameAsASearch) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::lmd_marginal_test

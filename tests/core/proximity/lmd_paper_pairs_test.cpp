@@ -8,7 +8,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::lmd_paper_pairs_test {
 namespace {
 
 using test::BodyPair;
@@ -80,4 +80,4 @@ TEST(LmdQueryOnPaperPairs, CrankshaftAgainstSphereHasTheBruteForceSet) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::lmd_paper_pairs_test

@@ -13,7 +13,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::lmd_query_test {
 namespace {
 
 using test::BodyPair;
@@ -125,4 +125,4 @@ TEST(LmdQuery, EachInstructionSetGivesTheSameSet) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::lmd_query_test

@@ -10,7 +10,7 @@
 #include "core/proximity/normal_cone_tree.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::lmd_region_test {
 namespace {
 
 std::vector<Lmd> query(const TriangleMesh& scene, const TriangleMesh& part, const RigidTransform& pose,
@@ -222,4 +222,4 @@ TEST(LmdQuery, QuaternionAMillionthOffUnitIsTakenAsItsRotation) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::lmd_region_test

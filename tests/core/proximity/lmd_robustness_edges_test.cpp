@@ -12,7 +12,7 @@
 #include "tests/support/mesh_generators.h"
 
 /// Edges that are nearly parallel, at angles on both sides of what counts as parallel.
-namespace nearfit {
+namespace nearfit::lmd_robustness_edges_test {
 namespace {
 
 using std::numbers::pi;
@@ -97,4 +97,4 @@ TEST(LmdRobustness, NearlyParallelFacesHaveTheExactSet) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::lmd_robustness_edges_test

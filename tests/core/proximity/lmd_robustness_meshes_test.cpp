@@ -13,7 +13,7 @@
 
 /// Meshes that are damaged or hard on arithmetic, against exact arithmetic: as the hierarchy would get them
 /// from a program, and as a user's file comes, through the builder.
-namespace nearfit {
+namespace nearfit::lmd_robustness_meshes_test {
 namespace {
 
 using test::BodyPair;
@@ -125,4 +125,4 @@ TEST(LmdRobustness, NonManifoldEdgesHaveTheExactSet) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::lmd_robustness_meshes_test

@@ -15,7 +15,7 @@
 #include "tests/support/mesh_generators.h"
 
 /// Coordinates, sizes, distances and arguments at the limits of double precision.
-namespace nearfit {
+namespace nearfit::lmd_robustness_numbers_test {
 namespace {
 
 using test::BodyPair;
@@ -194,4 +194,4 @@ TEST(LmdRobustness, ArgumentsThatAreNoNumbersGiveNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::lmd_robustness_numbers_test

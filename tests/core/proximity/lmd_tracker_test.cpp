@@ -14,7 +14,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
-namespace nearfit {
+namespace nearfit::lmd_tracker_test {
 namespace {
 
 using test::BodyPair;
@@ -264,4 +264,4 @@ TEST(BuildForPlan, ListsOfLessKeepTheWayAndLeaveRoomAside) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::lmd_tracker_test

@@ -16,7 +16,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/random_values.h"
 
-namespace nearfit {
+namespace nearfit::merge_minima_test {
 namespace {
 
 /// Half the diagonal of a square peg, in a hole of 1; a gap of 7 mm at each of four walls.
@@ -210,4 +210,4 @@ TEST(MergeMinima, ConformingContactMeasuresWhatTheWallsHaveInCommon) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::merge_minima_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/lmd_comparison.h"
 
-namespace nearfit {
+namespace nearfit::motion_forecast_test {
 namespace {
 
 constexpr double kCutoff = 0.1, kRadius = 0.5;
@@ -131,4 +131,4 @@ TEST(MotionRange, PosesOnTheStretchAndAsideOfItByTheBudgetSpendNoMoreThanIsThere
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::motion_forecast_test

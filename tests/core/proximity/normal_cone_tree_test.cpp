@@ -12,7 +12,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::normal_cone_tree_test {
 namespace {
 
 /// Roundings of a box or a limit in single precision, on meshes of size one.
@@ -180,4 +180,4 @@ TEST(NormalConeTree, AFeatureThatCarriesNoMinimumIsKnownByItsPlace) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::normal_cone_tree_test

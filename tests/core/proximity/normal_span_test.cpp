@@ -19,7 +19,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::normal_span_test {
 namespace {
 
 using test::BodyPair;
@@ -244,4 +244,4 @@ TEST(NormalSpan, RimsOfOpenMeshesAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::normal_span_test

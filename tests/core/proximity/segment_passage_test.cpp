@@ -8,7 +8,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::segment_passage_test {
 namespace {
 
 constexpr double kClearance = 1e-9;
@@ -87,4 +87,4 @@ TEST(SegmentPassage, TwoSurfacesThatLeaveNoGapCloseItTogether) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::segment_passage_test

@@ -12,7 +12,7 @@
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::solidity_test {
 namespace {
 
 /// A tube about a ring that closes after two rounds, the second shifted by less than its width: where the
@@ -174,4 +174,4 @@ TEST(TrianglePredicates, SidesOfATriangleAreToldToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::solidity_test

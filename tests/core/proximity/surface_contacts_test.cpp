@@ -16,7 +16,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::surface_contacts_test {
 namespace {
 
 using test::BodyPair;
@@ -283,4 +283,4 @@ TEST(SurfaceContacts, FindingThemAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::surface_contacts_test

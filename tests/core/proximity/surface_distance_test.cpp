@@ -15,7 +15,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::surface_distance_test {
 namespace {
 
 using test::BodyPair;
@@ -216,4 +216,4 @@ TEST(SurfaceDistance, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::surface_distance_test

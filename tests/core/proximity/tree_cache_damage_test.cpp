@@ -14,7 +14,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::tree_cache_damage_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -278,4 +278,4 @@ TEST_F(TreeCacheDamage, LaneWithoutAChildMustLieOutOfReach) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::tree_cache_damage_test

@@ -13,7 +13,7 @@
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::tree_cache_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -249,4 +249,4 @@ TEST(TreeCacheSettings, SizeThatMakesNoSenseCountsAsNotSaid) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::tree_cache_test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::latency_histogram_test {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<LatencyHistogram>);
@@ -105,4 +105,4 @@ TEST(LatencyHistogram, GoesOnCountingPast32Bits) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::latency_histogram_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::pace_meter_test {
 namespace {
 
 TEST(PaceMeter, KnowsNothingBeforeTheSecond) {
@@ -50,4 +50,4 @@ TEST(PaceMeter, OneSeenTwiceIsOne) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::pace_meter_test

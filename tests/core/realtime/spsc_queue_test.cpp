@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::spsc_queue_test {
 namespace {
 
 TEST(SpscQueue, AnEmptyOneGivesNothing) {
@@ -66,4 +66,4 @@ TEST(SpscQueue, EverythingPushedArrivesOnceInOrderAcrossThreads) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::spsc_queue_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::triple_buffer_test {
 namespace {
 
 TEST(TripleBuffer, ReaderSeesTheInitialValueUntilSomethingIsPublished) {
@@ -65,4 +65,4 @@ TEST(TripleBuffer, ValuesArriveWholeAndInOrderAcrossThreads) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::triple_buffer_test

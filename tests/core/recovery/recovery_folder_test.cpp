@@ -13,7 +13,7 @@
 #include "tests/support/file_size_limit.h"
 #include "tests/support/process_identity_of.h"
 
-namespace nearfit {
+namespace nearfit::recovery_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -253,4 +253,4 @@ TEST_F(RecoveryFolderTest, FullDiskKeepsTheLastJournalWhole) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::recovery_folder_test

@@ -15,7 +15,7 @@
 #include "tests/support/part_geometries.h"
 #include "tests/support/random_values.h"
 
-namespace nearfit {
+namespace nearfit::clearance_test {
 namespace {
 
 /// Rough all over: their minima are isolated ones.
@@ -182,4 +182,4 @@ TEST(Clearance, TheTableSaysNamesUnitsAndOverlaps) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::clearance_test

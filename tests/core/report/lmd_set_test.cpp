@@ -5,7 +5,7 @@
 #include "core/proximity/normal_cone_tree.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::lmd_set_test {
 namespace {
 
 /// `count` x `count` tetrahedra in the plane z = 0, 4 apart from another: each has one vertex highest.
@@ -60,4 +60,4 @@ TEST(LmdCollector, KindsHaveTheNamesOfTheReports) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::lmd_set_test

@@ -14,7 +14,7 @@
 #include "tests/support/random_values.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::mesh_export_test {
 namespace {
 
 using testing::HasSubstr;
@@ -163,4 +163,4 @@ TEST_F(MeshExport, RefusalsAndCancellingLeaveTheOldFile) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::mesh_export_test

@@ -12,7 +12,7 @@
 #include "tests/support/mesh_text.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::placement_export_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -192,4 +192,4 @@ TEST_F(PlacementExport, FileIsWrittenWholeOrNotAtAll) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::placement_export_test

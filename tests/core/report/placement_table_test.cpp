@@ -10,7 +10,7 @@
 #include "tests/support/part_geometries.h"
 #include "tests/support/random_values.h"
 
-namespace nearfit {
+namespace nearfit::placement_table_test {
 namespace {
 
 /// Rows of fields, as RFC 4180 reads them.
@@ -83,4 +83,4 @@ TEST(PlacementTable, EachPartIsARowAndItsNumbersReadBackTheSame) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::placement_table_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/random_values.h"
 
-namespace nearfit {
+namespace nearfit::plot_history_test {
 namespace {
 
 constexpr PlotChannel kForce = PlotChannel::Force;
@@ -161,4 +161,4 @@ TEST(PlotHistory, ATableHasTheSamplesOfASpan) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::plot_history_test

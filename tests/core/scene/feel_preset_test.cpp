@@ -7,7 +7,7 @@
 #include "core/scene/haptic_limits.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::feel_preset_test {
 namespace {
 
 const FeelPreset& usual(std::size_t i) {
@@ -150,4 +150,4 @@ TEST(FeelPreset, NamesAndNumbersAreChecked) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::feel_preset_test

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/scene/scene.h"
 
-namespace nearfit {
+namespace nearfit::haptic_limits_test {
 namespace {
 
 /// A number of the settings, by the name that a refusal gives it, with its limits.
@@ -147,4 +147,4 @@ TEST(HapticLimits, DefaultMarginIsAHundredthOfTheCutoffWithinTheLimits) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::haptic_limits_test

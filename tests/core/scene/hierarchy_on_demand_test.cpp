@@ -10,7 +10,7 @@
 #include "tests/support/cached_meshes.h"
 #include "tests/support/mesh_generators.h"
 
-namespace nearfit {
+namespace nearfit::hierarchy_on_demand_test {
 namespace {
 
 /// Large enough that subtrees are built apart.
@@ -142,4 +142,4 @@ TEST(HierarchyOnDemand, WhoWaitsTakesOverFromOneThatWasStopped) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::hierarchy_on_demand_test

@@ -9,7 +9,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
-namespace nearfit {
+namespace nearfit::motion_playback_test {
 namespace {
 
 /// Rows at 0, 0.1, ... s, whose part is as far along x.
@@ -104,4 +104,4 @@ TEST(MotionPlayback, ARowIsShownAsTheSnapshotThatItWasTakenFrom) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::motion_playback_test

@@ -11,7 +11,7 @@
 #include "tests/support/random_values.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::motion_reader_test {
 namespace {
 
 using testing::HasSubstr;
@@ -176,4 +176,4 @@ TEST_F(MotionReader, NothingThatAFileSaysIsTrusted) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::motion_reader_test

@@ -17,7 +17,7 @@
 #include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::motion_recording_test {
 namespace {
 
 using testing::HasSubstr;
@@ -265,4 +265,4 @@ TEST(MotionWriter, AMissingFolderIsNamed) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::motion_recording_test

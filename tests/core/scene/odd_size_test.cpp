@@ -5,7 +5,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
-namespace nearfit {
+namespace nearfit::odd_size_test {
 namespace {
 
 /// @param edge           Of a cube [m].
@@ -74,4 +74,4 @@ TEST(OddSize, PartThatNoUnitBringsNearIsLeft) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::odd_size_test

@@ -17,7 +17,7 @@
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::part_geometry_test {
 namespace {
 
 TEST(PartGeometry, BoxInMillimetresIsLoadedInMetresWithItsMassAndHierarchy) {
@@ -204,4 +204,4 @@ TEST(PartGeometry, PathsToOneFileCompareEqual) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::part_geometry_test

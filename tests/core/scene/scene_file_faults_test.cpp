@@ -8,7 +8,7 @@
 #include "core/scene/scene_file.h"
 #include "tests/core/scene/scene_file_fixture.h"
 
-namespace nearfit {
+namespace nearfit::scene_file_faults_test {
 namespace {
 
 using ::testing::AllOf;
@@ -309,4 +309,4 @@ TEST_F(SceneFileFaults, MeshPathThatIsNotUtf8IsToldWhenSaving) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::scene_file_faults_test

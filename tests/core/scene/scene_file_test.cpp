@@ -9,7 +9,7 @@
 #include "core/session.h"
 #include "tests/core/scene/scene_file_fixture.h"
 
-namespace nearfit {
+namespace nearfit::scene_file_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -336,4 +336,4 @@ TEST_F(SceneFile, SessionSavesAndTakesTheFileAsItsOwn) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::scene_file_test

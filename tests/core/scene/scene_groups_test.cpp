@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/scene/scene.h"
 
-namespace nearfit {
+namespace nearfit::scene_groups_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -234,4 +234,4 @@ TEST(SceneGroups, IsolationIsTakenBackExactly) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::scene_groups_test

@@ -13,7 +13,7 @@
 #include "tests/support/mesh_text.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::scene_test {
 namespace {
 
 Part named(const std::string& name) {
@@ -214,4 +214,4 @@ TEST(Scene, CopyIsIndependentButSharesItsParts) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::scene_test

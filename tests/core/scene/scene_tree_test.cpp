@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace nearfit {
+namespace nearfit::scene_tree_test {
 namespace {
 
 /// top { a { b { Pin }, Peg }, Bolt }, Free
@@ -74,4 +74,4 @@ TEST_F(SceneTree, UnknownNodesAreRefused) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::scene_tree_test

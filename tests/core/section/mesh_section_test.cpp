@@ -12,7 +12,7 @@
 #include "tests/support/mesh_generators.h"
 #include "tests/support/random_values.h"
 
-namespace nearfit {
+namespace nearfit::mesh_section_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -269,4 +269,4 @@ TEST(CutPlane, ABoxReachesAsFarAsItsFarthestCorners) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::mesh_section_test

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::json_file_test {
 namespace {
 
 using ::testing::EndsWith;
@@ -111,4 +111,4 @@ TEST_F(JsonFile, FieldsNameTheirPath) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::json_file_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::json_text_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -55,4 +55,4 @@ TEST(JsonText, FloatsAreSaidShortAndReadBackTheSame) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::json_text_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::quantity_test {
 namespace {
 
 const Unit kMillimetre{{.length = 1}, 1e-3};
@@ -211,4 +211,4 @@ TEST(Quantity, RandomBytesAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::quantity_test

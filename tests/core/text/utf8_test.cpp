@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit {
+namespace nearfit::utf8_test {
 namespace {
 
 // Boundaries from The Unicode Standard 15, table 3-7.
@@ -40,4 +40,4 @@ TEST(Utf8, PrintableTextShowsBytesThatAreNot) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::utf8_test

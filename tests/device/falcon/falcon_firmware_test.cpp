@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/usb/falcon_firmware.h"
 
-namespace nearfit::falcon {
+namespace nearfit::falcon::falcon_firmware_test {
 namespace {
 
 using testing::HasSubstr;
@@ -181,4 +181,4 @@ TEST(FalconFirmwareFile, ThatIsNotThereOrAFolderIsRefused) {
 }
 
 }  // namespace
-}  // namespace nearfit::falcon
+}  // namespace nearfit::falcon::falcon_firmware_test

@@ -12,7 +12,7 @@
 
 #include "tests/support/random_values.h"
 
-namespace nearfit::falcon {
+namespace nearfit::falcon::falcon_kinematics_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -211,4 +211,4 @@ TEST(FalconKinematics, EncodersCountFromTheIndexThroughTheGear) {
 }
 
 }  // namespace
-}  // namespace nearfit::falcon
+}  // namespace nearfit::falcon::falcon_kinematics_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit::falcon {
+namespace nearfit::falcon::falcon_protocol_test {
 namespace {
 
 std::string textOf(const Command& command) {
@@ -73,4 +73,4 @@ TEST(FalconProtocol, DamagedFramesAreCountedAndTheNextIsRead) {
 }
 
 }  // namespace
-}  // namespace nearfit::falcon
+}  // namespace nearfit::falcon::falcon_protocol_test

@@ -7,7 +7,7 @@
 
 #include "tests/usb/spacemouse_firmware.h"
 
-namespace nearfit {
+namespace nearfit::report_descriptor_test {
 namespace {
 
 std::vector<std::byte> bytesOf(std::initializer_list<unsigned> values) {
@@ -127,4 +127,4 @@ TEST(ReportDescriptor, EveryPrefixAndEveryDamagedByteEndsWell) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::report_descriptor_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit::test {
+namespace nearfit::test::openhap_firmware_test {
 namespace {
 
 using openhap::Request;
@@ -114,4 +114,4 @@ TEST_F(OpenHapReference, MoreThanItCanBearIsMadeLess) {
 }
 
 }  // namespace
-}  // namespace nearfit::test
+}  // namespace nearfit::test::openhap_firmware_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearfit::openhap {
+namespace nearfit::openhap::openhap_protocol_test {
 namespace {
 
 PoseReport someReport() {
@@ -136,4 +136,4 @@ TEST(OpenHapProtocol, RandomBytesWithRightChecksumsEndWell) {
 }
 
 }  // namespace
-}  // namespace nearfit::openhap
+}  // namespace nearfit::openhap::openhap_protocol_test

@@ -10,7 +10,7 @@
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::device_plugin_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -102,4 +102,4 @@ TEST(DevicePlugin, FoldersAreSearchedAndProblemsAreTold) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::device_plugin_test

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit::polhem {
+namespace nearfit::polhem::polhem_calibration_test {
 namespace {
 
 using testing::HasSubstr;
@@ -119,4 +119,4 @@ TEST_F(PolhemCalibration, LimitsAreThoseOfTheFile) {
 }
 
 }  // namespace
-}  // namespace nearfit::polhem
+}  // namespace nearfit::polhem::polhem_calibration_test

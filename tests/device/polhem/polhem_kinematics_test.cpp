@@ -9,7 +9,7 @@
 #include "device/polhem/polhem_protocol.h"
 #include "tests/support/random_values.h"
 
-namespace nearfit::polhem {
+namespace nearfit::polhem::polhem_kinematics_test {
 namespace {
 
 /// Rounding of a few sines and lengths below a metre.
@@ -227,4 +227,4 @@ TEST(PolhemKinematics, RangesBoundTheJoints) {
 }
 
 }  // namespace
-}  // namespace nearfit::polhem
+}  // namespace nearfit::polhem::polhem_kinematics_test

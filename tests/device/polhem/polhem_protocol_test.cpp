@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace nearfit::polhem {
+namespace nearfit::polhem::polhem_protocol_test {
 namespace {
 
 using testing::ElementsAre;
@@ -58,4 +58,4 @@ TEST(PolhemProtocol, CurrentsBeyondWhatTheAmplifiersBearAreCut) {
 }
 
 }  // namespace
-}  // namespace nearfit::polhem
+}  // namespace nearfit::polhem::polhem_protocol_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::realtime_thread_test {
 namespace {
 
 using testing::AllOf;
@@ -73,4 +73,4 @@ TEST(AwakeProcessors, SayNothingWhereThereIsNoSuchRequest) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::realtime_thread_test

@@ -18,7 +18,7 @@
 #include "tests/support/eventually.h"
 #include "tests/support/servo_fixtures.h"
 
-namespace nearfit {
+namespace nearfit::servo_loop_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -320,4 +320,4 @@ TEST(ServoLoop, SaysWhatSchedulingItGotAndWhatToDoWhenItGotNone) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::servo_loop_test

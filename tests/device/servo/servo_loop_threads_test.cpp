@@ -12,7 +12,7 @@
 #include "tests/support/allocation_hook.h"
 #include "tests/support/servo_fixtures.h"
 
-namespace nearfit {
+namespace nearfit::servo_loop_threads_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -177,4 +177,4 @@ TEST(ServoLoopThreads, StartingAndStoppingManyTimesIsClean) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::servo_loop_threads_test

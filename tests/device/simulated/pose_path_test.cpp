@@ -9,7 +9,7 @@
 #include "device/simulated/simulated_device.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::pose_path_test {
 namespace {
 
 using testing::HasSubstr;
@@ -146,4 +146,4 @@ TEST_F(PosePath, ALongFileIsReadToItsLastLine) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::pose_path_test

@@ -11,7 +11,7 @@
 #include "core/scene/motion_recording.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit {
+namespace nearfit::replay_device_test {
 namespace {
 
 using testing::HasSubstr;
@@ -106,8 +106,7 @@ TEST_F(Replay, GivesPosesInOrderWhenTheyAreDueThenEnds) {
   EXPECT_FALSE(device.info().isMapped);
   const Nanoseconds begin = monotonicNow();
   double x = 0.0;
-  int reads = 0;
-  for (; device.waitForHandle(monotonicNow() + kNanosecondsPerSecond); ++reads) {
+  while (device.waitForHandle(monotonicNow() + kNanosecondsPerSecond)) {
     ASSERT_TRUE(device.readHandle(handle));
     EXPECT_GT(handle.pose.translation.x, x);
     x = handle.pose.translation.x;
@@ -144,4 +143,4 @@ TEST_F(Replay, SlowRecordingsAreWaitedForAsSlowDevicesAre) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::replay_device_test

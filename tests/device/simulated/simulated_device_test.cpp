@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 
-namespace nearfit {
+namespace nearfit::simulated_device_test {
 namespace {
 
 RigidTransform at(double x) {
@@ -174,4 +174,4 @@ TEST_F(ScriptedHand, SenselessArgumentsAreRefused) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::simulated_device_test

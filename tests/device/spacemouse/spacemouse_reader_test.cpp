@@ -5,7 +5,7 @@
 
 #include "tests/usb/spacemouse_firmware.h"
 
-namespace nearfit {
+namespace nearfit::spacemouse_reader_test {
 namespace {
 
 using test::SpaceMouseFirmware;
@@ -75,4 +75,4 @@ TEST(SpaceMouseReader, DescriptorsWithoutSixAxesAreNone) {
 }
 
 }  // namespace
-}  // namespace nearfit
+}  // namespace nearfit::spacemouse_reader_test
