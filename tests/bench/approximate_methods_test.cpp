@@ -138,7 +138,7 @@ TEST(MeshDistance, OfABoxIsThatOfItsFormula) {
   std::uint32_t nearest = 7;
   std::mt19937_64 random(2);
   for (int i = 0; i < 500; ++i) {
-    const glm::dvec3 p = 4.0 * glm::dvec3(uniform(random), uniform(random), uniform(random)) - 2.0;
+    const glm::dvec3 p = 4.0 * glm::dvec3{uniform(random), uniform(random), uniform(random)} - 2.0;
     const glm::dvec3 beyond = glm::abs(p) - glm::dvec3(0.5, 1.0, 1.5);
     const double outside = glm::length(glm::max(beyond, glm::dvec3(0.0)));
     const double inside = -std::max({beyond.x, beyond.y, beyond.z});

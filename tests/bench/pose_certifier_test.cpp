@@ -108,7 +108,7 @@ TEST(PoseCertifier, AlongAWayItSaysWhatItSaysOfEachPose) {
     const double pace = walk % 2 == 0 ? 2e-3 : 2e-2;
     for (int i = 0; i < 60; ++i) {
       if (i % 7 != 0) {
-        pose.translation += pace * glm::dvec3(some(random), some(random), some(random));
+        pose.translation += pace * glm::dvec3{some(random), some(random), some(random)};
         pose.rotation =
             glm::normalize(glm::angleAxis(pace * some(random), glm::dvec3(0.0, 0.6, 0.8)) * pose.rotation);
       }

@@ -80,7 +80,8 @@ RigidTransform alignedPose(const BodyPair& pair, double reach, std::mt19937_64& 
   RigidTransform pose{turns[random() % 4], {}};
   glm::dvec3 away(0.0);
   away[static_cast<int>(random() % 3)] = random() % 2 == 0 ? 0.5 * reach : -0.5 * reach;
-  pose.translation = pick(pair.scene) - pose.rotation * pick(pair.part) + away;
+  const glm::dvec3 onPart = pick(pair.part), onScene = pick(pair.scene);
+  pose.translation = onScene - pose.rotation * onPart + away;
   return pose;
 }
 

@@ -180,9 +180,9 @@ TriangleMesh looseTriangles(std::uint64_t seed, std::uint32_t count) {
   std::vector<glm::dvec3> x;
   std::vector<Triangle> t;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const glm::dvec3 middle(uniform(random), uniform(random), uniform(random));
+    const glm::dvec3 middle{uniform(random), uniform(random), uniform(random)};
     for (int k = 0; k < 3; ++k)
-      x.push_back(middle + 0.4 * glm::dvec3(uniform(random), uniform(random), uniform(random)));
+      x.push_back(middle + 0.4 * glm::dvec3{uniform(random), uniform(random), uniform(random)});
     t.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   return {std::move(x), std::move(t)};

@@ -48,8 +48,10 @@ RigidTransform poseNearContact(const BodyPair& pair, double reach, std::mt19937_
   std::uniform_real_distribution<double> offset(-reach, reach);
   RigidTransform pose = randomRotation(random);
   const bool isSeparated = random() % 2 == 0;
-  pose.translation = pick(pair.scene) - pose.rotation * pick(pair.part) +
-                     glm::dvec3(offset(random), offset(random), offset(random));
+  // One after the other: in which order a compiler draws the operands of a sum is its own affair.
+  const glm::dvec3 onScene = pick(pair.scene), onPart = pick(pair.part);
+  const glm::dvec3 gap{offset(random), offset(random), offset(random)};
+  pose.translation = onScene - pose.rotation * onPart + gap;
   if (!isSeparated) return pose;
 
   // Along a random direction to where the hulls are within reach of each other.

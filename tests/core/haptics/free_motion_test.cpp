@@ -61,7 +61,7 @@ TEST(FreeStep, ConvergesToTheDampedOscillationInTheFirstOrderOfTheStep) {
 TEST(FreeStep, WithoutMassAndWeightTheTargetIsTheHandleItself) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<> random(-1.0, 1.0);
-  const auto vector = [&] { return glm::dvec3(random(engine), random(engine), random(engine)); };
+  const auto vector = [&] { return glm::dvec3{random(engine), random(engine), random(engine)}; };
   for (int i = 0; i < 1000; ++i) {
     const BodyMotion handle{{rotationOf(3.0 * vector()), vector()}, {vector(), vector()}};
     const BodyMotion part{{rotationOf(3.0 * vector()), vector()}, {vector(), vector()}};

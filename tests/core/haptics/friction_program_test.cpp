@@ -84,14 +84,14 @@ TEST(FrictionProgram, APushThatASingleContactCanHoldMovesNothing) {
   std::uniform_real_distribution<double> any(-1.0, 1.0), positive(0.05, 1.0);
   FrictionProgram program;
   for (int i = 0; i < 500; ++i) {
-    const glm::dvec3 u = glm::normalize(glm::dvec3(any(random), any(random), any(random)));
-    const glm::dvec3 side = glm::normalize(glm::cross(u, glm::dvec3(any(random), any(random), any(random))));
+    const glm::dvec3 u = glm::normalize(glm::dvec3{any(random), any(random), any(random)});
+    const glm::dvec3 side = glm::normalize(glm::cross(u, glm::dvec3{any(random), any(random), any(random)}));
     const std::vector<glm::dvec3> arms{{any(random), any(random), any(random)}};
     FrictionGoal goal;
     goal.coefficient = 0.5 * positive(random);
     goal.arms = arms;
     goal.principalFromStep =
-        glm::mat3_cast(glm::normalize(glm::dquat(any(random), any(random), any(random), any(random))));
+        glm::mat3_cast(glm::normalize(glm::dquat{any(random), any(random), any(random), any(random)}));
     goal.step.gyration = {0.3 + positive(random), 0.3 + positive(random), 0.3 + positive(random)};
     goal.step.cost = {0.01, 1e4, 0.01};
     StepRows rows;

@@ -227,8 +227,11 @@ TEST(PassivityController, SenselessNumbersLeaveNoTrace) {
 TEST(PassivityController, RandomHistoriesStayFiniteAndWithinTheLimits) {
   std::mt19937 engine(43);
   std::uniform_real_distribution<> exponent(-200.0, 200.0), sign(-1.0, 1.0);
-  const auto number = [&] { return std::copysign(std::pow(10.0, exponent(engine)), sign(engine)); };
-  const auto vector = [&] { return glm::dvec3(number(), number(), number()); };
+  const auto number = [&] {
+    const double size = std::pow(10.0, exponent(engine));
+    return std::copysign(size, sign(engine));
+  };
+  const auto vector = [&] { return glm::dvec3{number(), number(), number()}; };
   PassivityController controller;
   for (int i = 0; i < 20'000; ++i) {
     controller.observe({{vector(), vector()}, vector(), vector(), number(), vector(), vector()}, {},

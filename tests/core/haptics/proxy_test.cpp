@@ -86,7 +86,7 @@ TEST(Proxy, NeverRestsShortOfAPlaceThatItCanReach) {
   std::uniform_real_distribution<double> exponent(-8.0, -3.0), way(-0.05, 0.05);
   for (int i = 0; i < 200; ++i) {
     ProxyWalk walk = cubeOverFloor(std::pow(10.0, exponent(random)));
-    const glm::dvec3 wanted(way(random), way(random), 0.1);
+    const glm::dvec3 wanted{way(random), way(random), 0.1};
     walk.hold(at(wanted), 60);
     EXPECT_NEAR(walk.pose().translation.x, wanted.x, 2e-3 * kMargin) << i;
     EXPECT_NEAR(walk.pose().translation.y, wanted.y, 2e-3 * kMargin) << i;

@@ -252,8 +252,11 @@ TEST(WrenchConditioner, LowerLimitsAreKeptAtOnce) {
 TEST(WrenchConditioner, RandomInputIsAlwaysFiniteWithinTheLimitsAndTheSlew) {
   std::mt19937 engine(31);
   std::uniform_real_distribution<> exponent(-320.0, 308.0), sign(-1.0, 1.0), unit(0.0, 1.0);
-  const auto number = [&] { return std::copysign(std::pow(10.0, exponent(engine)), sign(engine)); };
-  const auto vector = [&] { return glm::dvec3(number(), number(), number()); };
+  const auto number = [&] {
+    const double size = std::pow(10.0, exponent(engine));
+    return std::copysign(size, sign(engine));
+  };
+  const auto vector = [&] { return glm::dvec3{number(), number(), number()}; };
   WrenchConditioner conditioner = engaged();
   Wrench last;
   for (int i = 0; i < 20'000; ++i) {

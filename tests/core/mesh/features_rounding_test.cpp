@@ -29,7 +29,7 @@ TEST(Features, EdgeOfASliverIsConvexOrReflexByItsShapeNotByRounding) {
   // 1e-9: its side's perpendicular, and its normal, are off by as much in double precision.
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const auto vector = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
+  const auto vector = [&] { return glm::dvec3{unit(random), unit(random), unit(random)}; };
   int convex = 0, reflex = 0;
   for (int i = 0; i < 400; ++i) {
     const glm::dvec3 a(0.0), b = vector(), c = 0.45 * b + 3e-8 * vector();

@@ -20,7 +20,7 @@ std::vector<glm::dvec3> randomDirections(std::size_t count) {
   std::normal_distribution<double> normal;
   std::vector<glm::dvec3> out;
   while (out.size() < count)
-    out.push_back(glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))));
+    out.push_back(glm::normalize(glm::dvec3{normal(random), normal(random), normal(random)}));
   return out;
 }
 

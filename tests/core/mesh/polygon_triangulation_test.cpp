@@ -83,7 +83,7 @@ TEST(PolygonTriangulation, StarsAreTiledHoweverTheyLie) {
   std::normal_distribution<double> normal;
   for (int i = 0; i < 50; ++i) {
     const glm::dquat q =
-        glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
+        glm::normalize(glm::dquat{normal(random), normal(random), normal(random), normal(random)});
     const int n = 3 + i;
     const double inner = 0.3;
     const double area = n * inner * std::sin(std::numbers::pi / n);

@@ -67,7 +67,7 @@ TEST(TJunctions, TurnedAndRoundedToSinglePrecisionItIsClosedToo) {
   std::normal_distribution<double> normal;
   for (int i = 0; i < 20; ++i) {
     const glm::dquat turn =
-        glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
+        glm::normalize(glm::dquat{normal(random), normal(random), normal(random), normal(random)});
     PolygonSoup soup = boxWithAGrid(5, {1, 0.2, 3});
     for (glm::dvec3& p : soup.vertices)
       p = glm::dvec3(glm::vec3(turn * p + glm::dvec3(1, 2, 3)));

@@ -28,12 +28,13 @@ double uniform(std::mt19937_64& random) {
 }
 glm::dvec3 randomDirection(std::mt19937_64& random) {
   for (;;) {
-    const glm::dvec3 v(uniform(random), uniform(random), uniform(random));
+    const glm::dvec3 v{uniform(random), uniform(random), uniform(random)};
     if (glm::length(v) > 0.1 && glm::length(v) <= 1.0) return glm::normalize(v);
   }
 }
 glm::dquat randomRotation(std::mt19937_64& random) {
-  return glm::angleAxis(kPi * uniform(random), randomDirection(random));
+  const double angle = kPi * uniform(random);
+  return glm::angleAxis(angle, randomDirection(random));
 }
 
 /// A fixed and a moving part, and the way between them.

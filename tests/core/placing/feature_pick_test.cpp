@@ -51,8 +51,8 @@ TriangleMesh rounded(const TriangleMesh& mesh) {
 RigidTransform somePose(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<> in(-1.0, 1.0);
-  return {glm::angleAxis(kPi * in(random), glm::normalize(glm::dvec3(in(random), in(random), 1.0))),
-          glm::dvec3(in(random), in(random), in(random))};
+  return {glm::angleAxis(kPi * in(random), glm::normalize(glm::dvec3{in(random), in(random), 1.0})),
+          glm::dvec3{in(random), in(random), in(random)}};
 }
 
 void expectParallel(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {

@@ -164,15 +164,15 @@ TEST(SeenParts, AreThoseThatRaysMeet) {
     Show show(test::aslant(round % 2 == 1));
     for (int i = 0; i < 12; ++i) {
       const glm::dquat turn =
-          glm::normalize(glm::dquat(unit(random), unit(random), unit(random), unit(random)));
-      const RigidTransform pose{turn, 0.15 * glm::dvec3(unit(random), unit(random), unit(random))};
+          glm::normalize(glm::dquat{unit(random), unit(random), unit(random), unit(random)});
+      const RigidTransform pose{turn, 0.15 * glm::dvec3{unit(random), unit(random), unit(random)}};
       show.add(i % 2 == 0 ? test::boxMesh(glm::dvec3(0.06, 0.04, 0.09)) : test::tetrahedronMesh(0.05), pose,
                i % 3 != 0, i % 4 != 0);
     }
     const std::optional<CutPlane> cut =
         round % 3 == 0 ? std::nullopt
                        : std::optional(CutPlane{
-                             glm::normalize(glm::dvec3(unit(random), unit(random), unit(random))), 0.02});
+                             glm::normalize(glm::dvec3{unit(random), unit(random), unit(random)}), 0.02});
     for (int box = 0; box < 6; ++box) {
       const glm::ivec2 corner(450 + static_cast<int>(250 * unit(random)),
                               300 + static_cast<int>(180 * unit(random)));

@@ -42,13 +42,13 @@ TEST(BroadPhase, FindsTheBoxesWithinARadiusAndNoOthers) {
   for (const std::size_t count : {1U, 2U, 4U, 5U, 63U, 1000U}) {
     std::vector<Aabb> boxes(count);
     for (Aabb& box : boxes) {
-      const glm::dvec3 p(place(random), place(random), place(random));
+      const glm::dvec3 p{place(random), place(random), place(random)};
       box.add(p);
-      box.add(p + glm::dvec3(side(random), side(random), side(random)));
+      box.add(p + glm::dvec3{side(random), side(random), side(random)});
     }
     const BroadPhase phase(boxes);
     for (int i = 0; i < 50; ++i) {
-      const glm::dvec3 centre(place(random), place(random), place(random));
+      const glm::dvec3 centre{place(random), place(random), place(random)};
       const double radius = 3.0 * side(random);
       std::vector<std::uint32_t> expected;
       for (std::uint32_t k = 0; k < count; ++k) {

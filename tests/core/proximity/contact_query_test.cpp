@@ -145,12 +145,12 @@ TEST(ContactQuery, WithoutRoomForMotionAListGivesTheContactsOfThePoseItself) {
   std::vector<ContactPair> fromList(8192), cold(8192);
   std::size_t contacts = 0;
   std::uint64_t work = 0, whole = 0;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 80; ++i) {
     const RigidTransform middle = test::poseNearContact(bodies.pair, kReach, random);
     list.build({bodies.scene, bodies.part, middle, kReach}, range, bodies.scratch, {1U << 20, 1U << 30},
                kTurn);
     const RigidTransform pose{
-        middle.rotation, middle.translation + 0.015 * glm::dvec3(unit(random), unit(random), unit(random))};
+        middle.rotation, middle.translation + 0.015 * glm::dvec3{unit(random), unit(random), unit(random)}};
     const BodyPairQuery query{bodies.scene, bodies.part, pose, kReach};
     const auto nearby = list.nearbyPairs(pose, {kReach, kTurn}, {}, bodies.scratch, pairs);
     ASSERT_TRUE(nearby && nearby->isComplete);
@@ -181,7 +181,7 @@ TEST(ContactQuery, NearbyPairsHoldTheContactsOfEveryPoseThatTheyAreSaidToHoldFor
   std::size_t compared = 0, held = 0;
   std::vector<LeafPair> pairs(1U << 18);
   std::vector<ContactPair> found(8192);
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 80; ++i) {
     const RigidTransform middle = test::poseNearContact(bodies.pair, kReach, random);
     list.build({bodies.scene, bodies.part, middle, kReach}, range, bodies.scratch, {1U << 20, 1U << 30},
                kTurn);

@@ -194,7 +194,8 @@ TEST(Interference, PointsOfStarsAreInsideWhereTheirWindingNumberSaysSo) {
   std::uniform_real_distribution<double> coordinate(-1.2, 1.2);
   int inside = 0;
   for (int i = 0; i < 200; ++i) {
-    const RigidTransform pose = shift(coordinate(random), coordinate(random), coordinate(random));
+    const glm::dvec3 to{coordinate(random), coordinate(random), coordinate(random)};
+    const RigidTransform pose = shift(to.x, to.y, to.z);
     const Kind kind = between(star, speck, pose).kind;
     if (kind == Kind::SurfacesMeet) continue;
     const bool isInside = test::windingNumber(star.mesh, pose.translation) > 0.5;

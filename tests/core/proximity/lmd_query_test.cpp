@@ -60,7 +60,7 @@ TEST(LmdQuery, SwappingTheBodiesSwapsTheResult) {
   const NormalConeTree scene(pair.scene), part(pair.part);
   std::mt19937_64 random(5);
   std::size_t compared = 0;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const RigidTransform pose = test::poseNearContact(pair, 0.1, random);
     const std::vector<Lmd> there = test::allLmds(scene, part, pose, 0.1),
                            back = test::allLmds(part, scene, pose.inverse(), 0.1);

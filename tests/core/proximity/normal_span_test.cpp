@@ -202,7 +202,7 @@ TEST(NormalSpan, JaggedBodiesHaveTheBruteForceSetOfTheRule) {
     const BodyPair pair{"stars", test::starMesh(seed, 1.0, 1, 0.4), test::starMesh(seed + 20, 1.0, 1, 0.4)};
     const NormalConeTree exactScene(pair.scene), exactPart(pair.part), scene = spanTree(pair.scene),
                                                                        part = spanTree(pair.part);
-    for (std::size_t i = 0; i < 12 / test::kPoseShare; ++i) {
+    for (std::size_t i = 0; i < 24 / test::kPoseShare; ++i) {
       const RigidTransform pose = test::poseNearContact(pair, 0.2, random);
       const auto span = test::allLmds(scene, part, pose, 0.5),
                  exact = test::allLmds(exactScene, exactPart, pose, 0.5);

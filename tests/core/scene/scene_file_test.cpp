@@ -245,7 +245,7 @@ TEST_F(SceneFile, RandomDoublesComeBackBitForBit) {
     const double scale = std::exp2(40.0 * uniform(random) - 21.0);
     part.name = "Part " + std::to_string(i);
     part.worldFromPart =
-        RigidTransform{q, scale * glm::dvec3(uniform(random), uniform(random), uniform(random))}.normalized();
+        RigidTransform{q, scale * glm::dvec3{uniform(random), uniform(random), uniform(random)}}.normalized();
     part.colour = {std::abs(static_cast<float>(uniform(random))), 0.0F, 1.0F};
     scene.add(part);
   }
