@@ -39,41 +39,19 @@ void countAllocation() noexcept {
 
 #ifdef NEARFIT_SANITIZED
 
-void* operator new(std::size_t size) {
-  nearfit::test::countAllocation();
-  void* const memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  nearfit::test::countAllocation();
-  void* memory = nullptr;
-  const std::size_t least = sizeof(void*);
-  const auto wanted = static_cast<std::size_t>(alignment);
-  if (::posix_memalign(&memory, wanted < least ? least : wanted, size) != 0) throw std::bad_alloc();
-  return memory;
-}
-// As std::stable_sort asks for its buffer: without these the sanitizer's own would answer, and not ours free.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  nearfit::test::countAllocation();
-  return std::malloc(size == 0 ? 1 : size);
-}
-void operator delete(void* memory, const std::nothrow_t&) noexcept {
-  operator delete(memory);
-}
-void operator delete(void* memory) noexcept {
-  if (memory != nullptr) nearfit::test::countAllocation();
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  operator delete(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-  operator delete(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  operator delete(memory);
-}
+// The allocator is the sanitizer's own, and tells.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*onMalloc)(const volatile void*, std::size_t),
+                                                         void (*onFree)(const volatile void*));
+
+namespace {
+
+[[maybe_unused]] const int kHooks = __sanitizer_install_malloc_and_free_hooks(
+    [](const volatile void*, std::size_t) { nearfit::test::countAllocation(); },
+    [](const volatile void* memory) {
+      if (memory != nullptr) nearfit::test::countAllocation();
+    });
+
+}  // namespace
 
 #else
 
