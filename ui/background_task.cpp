@@ -50,8 +50,7 @@ void BackgroundTask::work(Running& running, const Job& job) {
   } catch (...) {
     error = std::current_exception();
   }
-  QMetaObject::invokeMethod(
-      this, [this, own, error] { finish(own, error); }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(this, [this, own, error] { finish(own, error); }, Qt::QueuedConnection);
 }
 
 void BackgroundTask::cancel() {

@@ -47,9 +47,8 @@ class OptionAdder {
     return option;
   }
   void addFlag(const char* names, std::optional<bool>& value, const char* help) {
-    command_
-        .add_flag_function(
-            names, [&value](std::int64_t count) { value = count > 0; }, help)
+    command_.add_flag_function(
+                names, [&value](std::int64_t count) { value = count > 0; }, help)
         ->group(kGroup);
   }
 

@@ -16,7 +16,7 @@ void onInterrupt(int) {
 
 InterruptGuard::InterruptGuard() {
   interrupted.store(false);
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = onInterrupt;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   ::sigaction(SIGINT, &action, &oldInt_);

@@ -15,8 +15,7 @@ class InterruptGuard {
   static bool isInterrupted() noexcept;
 
  private:
-  struct sigaction oldInt_ {
-  }, oldTerm_{};
+  struct sigaction oldInt_{}, oldTerm_{};
 };
 
 }  // namespace nearfit::cli

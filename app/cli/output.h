@@ -32,8 +32,7 @@ class ReportedFailure : public std::exception {
   const char* what() const noexcept override { return "the command failed"; }
 };
 
-/// Text on one line: each run of line breaks a space, other control characters and bytes that are not UTF-8
-/// as
+/// Text on one line: each run of line breaks a space, other control characters and bytes that are not UTF-8 as
 /// `\xNN`, so that no file name can play with the terminal.
 std::string oneLine(std::string_view text);
 

@@ -90,14 +90,15 @@ std::string proxyText(const PlaceSummary& s) {
   const PlaceResult& r = s.result;
   const StiffnessBounds bounds = boundsOf(s);
   std::string text = summaryLine("coupling", couplingText(r.coupling));
-  text +=
-      summaryLine("bound", fmt::format("{:.6g} N/m; {:.6g} N m/rad: passive at {:.3g} ms with the device's damping",
-                                bounds.linear, bounds.rotational, 1e3 * r.period));
+  text += summaryLine(
+      "bound", fmt::format("{:.6g} N/m; {:.6g} N m/rad: passive at {:.3g} ms with the device's damping",
+                           bounds.linear, bounds.rotational, 1e3 * r.period));
   text += summaryLine("steps", fmt::format("{} in a tick at most, {} shortened, {} refused", r.maxSubSteps,
-                                    r.shortenedSteps, r.refusedSteps));
+                                           r.shortenedSteps, r.refusedSteps));
   if (r.releasedTicks > 0) {
-    text += summaryLine("released", fmt::format("{} ticks overlapped a part, which is not felt until they are apart",
-                                         r.releasedTicks));
+    text += summaryLine(
+        "released",
+        fmt::format("{} ticks overlapped a part, which is not felt until they are apart", r.releasedTicks));
   }
   return text + summaryLine("proxy", timesText(r.proxyTime));
 }
@@ -124,7 +125,7 @@ nlohmann::ordered_json proxyJson(const PlaceSummary& s) {
 std::string deviceText(const DeviceReport& d) {
   std::string text = summaryLine("device", oneLine(d.name) + (d.wasArmed ? ", armed" : ", not armed"));
   text += summaryLine("reports", fmt::format("{} taken, {} missing, {} rejected", d.counters.poses,
-                                      d.counters.missing, d.counters.rejected));
+                                             d.counters.missing, d.counters.rejected));
   if (d.roundTrip.count() > 0) text += summaryLine("round trip", timesText(d.roundTrip));
   return text;
 }
@@ -146,8 +147,8 @@ nlohmann::ordered_json deviceJson(const DeviceReport& d) {
 
 std::string summaryText(const PlaceSummary& s) {
   const PlaceResult& r = s.result;
-  std::string text =
-      summaryLine("part", fmt::format("{} against {} other{}", oneLine(s.part), s.others, s.others == 1 ? "" : "s"));
+  std::string text = summaryLine(
+      "part", fmt::format("{} against {} other{}", oneLine(s.part), s.others, s.others == 1 ? "" : "s"));
   const std::string all = r.device ? "" : fmt::format(" of {}", s.poses);
   text += summaryLine("ticks", fmt::format("{}{}{}", r.ticks, all, paceText(r)));
   if (r.device) text += deviceText(*r.device);
@@ -158,17 +159,19 @@ std::string summaryText(const PlaceSummary& s) {
   text += summaryLine("torque", fmt::format("peak {:.6g} N m at {:.3f} s", r.torque.value, r.torque.time));
   text += summaryLine("energy", fmt::format("{:.6g} J given to the hand at most", r.maxEnergyToHand));
   if (s.parameters.haptics.mode == HapticMode::Proxy) text += proxyText(s);
-  if (r.clampedTicks > 0) text += summaryLine("clamped", fmt::format("force or torque in {} ticks", r.clampedTicks));
+  if (r.clampedTicks > 0)
+    text += summaryLine("clamped", fmt::format("force or torque in {} ticks", r.clampedTicks));
   if (r.truncatedTicks > 0) {
-    text += summaryLine("truncated",
-                 fmt::format("more minima or more work than a tick allows in {} ticks", r.truncatedTicks));
+    text += summaryLine("truncated", fmt::format("more minima or more work than a tick allows in {} ticks",
+                                                 r.truncatedTicks));
   }
   if (r.lateTicks > 0) {
-    text += summaryLine("late", fmt::format("{} ticks searched for themselves: the motion was ahead of the lists",
-                                     r.lateTicks));
+    text += summaryLine(
+        "late",
+        fmt::format("{} ticks searched for themselves: the motion was ahead of the lists", r.lateTicks));
   }
-  text +=
-      summaryLine("refresh", fmt::format("{} searches ahead, {}", r.refreshTime.count(), timesText(r.refreshTime)));
+  text += summaryLine("refresh",
+                      fmt::format("{} searches ahead, {}", r.refreshTime.count(), timesText(r.refreshTime)));
   text += summaryLine("query", timesText(r.queryTime));
   text += summaryLine("tick", timesText(r.tickTime));
   if (!r.schedulingNote.empty()) {
@@ -177,8 +180,8 @@ std::string summaryText(const PlaceSummary& s) {
     text += summaryLine("scheduling", r.schedulingNote);
   }
   if (!s.record.empty()) {
-    text += summaryLine("record",
-                 fmt::format("{} ({} rows, {} lost)", oneLine(s.record), r.ticks - r.lostRows, r.lostRows));
+    text += summaryLine(
+        "record", fmt::format("{} ({} rows, {} lost)", oneLine(s.record), r.ticks - r.lostRows, r.lostRows));
   }
   if (!s.exportFile.empty()) text += summaryLine("export", oneLine(s.exportFile));
   return text;

@@ -63,9 +63,7 @@ bool doMeetBeyondSide(const TriangleCorners& a, const TriangleCorners& b) {
   if (CGAL::orientation(toPoint(a[0]), toPoint(a[1]), toPoint(a[2]), toPoint(b[2])) != CGAL::COPLANAR)
     return false;
   const auto doSegmentsMeet = [](const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r,
-                                 const glm::dvec3& s) {
-    return doTrianglesMeet({p, q, q}, {r, s, s});
-  };
+                                 const glm::dvec3& s) { return doTrianglesMeet({p, q, q}, {r, s, s}); };
   return doTrianglesMeet({a[2], a[2], a[2]}, b) || doTrianglesMeet({b[2], b[2], b[2]}, a) ||
          doSegmentsMeet(a[0], a[2], b[1], b[2]) || doSegmentsMeet(a[1], a[2], b[0], b[2]);
 }

@@ -167,9 +167,7 @@ void SceneTracker::findNear(const SearchReach& reach, const std::vector<TrackedS
   const MovingBounds moving = movingBounds(*current_.scene, current_.worldFromPart);
   const double cutoff = reach.widest();
   current_.bounds->visitNear(moving.centre, moving.radius + cutoff + current_.clear.travel,
-                             [&](std::uint32_t body) {
-                               current_.near.push_back({body, nullptr, nullptr});
-                             });
+                             [&](std::uint32_t body) { current_.near.push_back({body, nullptr, nullptr}); });
   std::sort(current_.near.begin(), current_.near.end(), isBefore);
   std::erase_if(current_.near, [&](TrackedScene::Near& entry) {
     TrackedScene::Near old{};

@@ -24,7 +24,8 @@ void StepRows::clear() noexcept {
 }
 
 bool StepRows::add(const StepVector& a, double d) noexcept {
-  if (size_ == capacity_ || !isUsableNumber(d) || !std::all_of(a.begin(), a.end(), isUsableNumber)) return false;
+  if (size_ == capacity_ || !isUsableNumber(d) || !std::all_of(a.begin(), a.end(), isUsableNumber))
+    return false;
   Block& block = blocks_[size_ / kLanes];
   const std::size_t lane = size_ % kLanes;
   if (lane == 0) block.d.fill(kNoRow);

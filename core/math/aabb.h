@@ -1,9 +1,10 @@
 #pragma once
 
+#include <limits>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <limits>
 
 namespace nearfit {
 

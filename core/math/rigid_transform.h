@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>

@@ -269,7 +269,8 @@ TriangleMesh outsideOut(TriangleMesh mesh, MeshBuildReport& report) {
 }  // namespace
 
 void PolygonSoup::closePolygon() {
-  if (corners.size() >= kNoVertex) throw Error("", "its faces have too many corners", "reduce the mesh first");
+  if (corners.size() >= kNoVertex)
+    throw Error("", "its faces have too many corners", "reduce the mesh first");
   firstCorner.push_back(static_cast<std::uint32_t>(corners.size()));
 }
 

@@ -76,7 +76,8 @@ std::vector<double> linesOf(const std::vector<glm::dvec3>& corners, const Circle
   angles.erase(
       std::unique(angles.begin(), angles.end(), [](double a, double b) { return b - a < kSameAngle; }),
       angles.end());
-  if (angles.size() > 1 && angles.front() + 2.0 * std::numbers::pi - angles.back() < kSameAngle) angles.pop_back();
+  if (angles.size() > 1 && angles.front() + 2.0 * std::numbers::pi - angles.back() < kSameAngle)
+    angles.pop_back();
   return angles;
 }
 

@@ -132,9 +132,10 @@ void GizmoLayout::addPlanes(const ViewProjection& view, const GizmoFrame& frame)
 
 void GizmoLayout::addMiddle(const ViewProjection& view, const GizmoFrame& frame) {
   const double radius = kMiddleRadius * view.metresPerPixel(frame.pivot);
-  figures_.push_back({GizmoHandle::MoveFree,
-                      arc(view, frame.pivot, radius * view.right(), radius * view.up(), 0.0, 2.0 * std::numbers::pi), true,
-                      1.0, false});
+  figures_.push_back(
+      {GizmoHandle::MoveFree,
+       arc(view, frame.pivot, radius * view.right(), radius * view.up(), 0.0, 2.0 * std::numbers::pi), true,
+       1.0, false});
 }
 
 void GizmoLayout::addRings(const ViewProjection& view, const GizmoFrame& frame, int without) {
@@ -151,18 +152,22 @@ void GizmoLayout::addRings(const ViewProjection& view, const GizmoFrame& frame, 
     const glm::dvec3 second = glm::cross(unit, first);
     const GizmoHandle handle = kRings[static_cast<std::size_t>(axis)];
     const double farOpacity = std::max(kFarOpacity, ramp(facing, kRound, kQuiteRound));
-    figures_.push_back({handle, arc(view, frame.pivot, first, second, 0.5 * std::numbers::pi, 1.5 * std::numbers::pi), false,
-                        farOpacity, facing < kQuiteRound});
-    near.push_back({handle, arc(view, frame.pivot, first, second, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi), false, 1.0, false});
+    figures_.push_back({handle,
+                        arc(view, frame.pivot, first, second, 0.5 * std::numbers::pi, 1.5 * std::numbers::pi),
+                        false, farOpacity, facing < kQuiteRound});
+    near.push_back({handle,
+                    arc(view, frame.pivot, first, second, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi),
+                    false, 1.0, false});
   }
   std::ranges::move(near, std::back_inserter(figures_));
 }
 
 void GizmoLayout::addViewRing(const ViewProjection& view, const GizmoFrame& frame) {
   const double radius = kViewRingRadius * view.metresPerPixel(frame.pivot);
-  figures_.push_back({GizmoHandle::TurnView,
-                      arc(view, frame.pivot, radius * view.right(), radius * view.up(), 0.0, 2.0 * std::numbers::pi),
-                      false, 1.0, false});
+  figures_.push_back(
+      {GizmoHandle::TurnView,
+       arc(view, frame.pivot, radius * view.right(), radius * view.up(), 0.0, 2.0 * std::numbers::pi), false,
+       1.0, false});
 }
 
 bool GizmoLayout::has(GizmoHandle handle) const noexcept {
@@ -195,7 +200,8 @@ GizmoGuide gizmoGuide(const ViewProjection& view, const GizmoDrag& drag, const g
     const double radius = scale * (drag.handle() == GizmoHandle::TurnView ? GizmoLayout::kViewRingRadius
                                                                           : GizmoLayout::kRingRadius);
     const glm::dvec3 first = radius * drag.grabbedArm(), second = glm::cross(drag.turnAxis(), first);
-    guide.sector = arc(view, pivot, first, second, 0.0, std::clamp(angle, -2.0 * std::numbers::pi, 2.0 * std::numbers::pi));
+    guide.sector = arc(view, pivot, first, second, 0.0,
+                       std::clamp(angle, -2.0 * std::numbers::pi, 2.0 * std::numbers::pi));
     if (const auto middle = view.pixelOf(pivot)) guide.sector.push_back(*middle);
     return guide;
   }

@@ -41,8 +41,7 @@ SegmentBound boundOf(const NormalConeTree& tree, const glm::dvec3& from, const g
     bound.middle[static_cast<std::size_t>(i)] = static_cast<float>(middle[i]);
     bound.half[static_cast<std::size_t>(i)] = static_cast<float>(half[i]);
   }
-  bound.padding =
-      static_cast<float>(kRayPadding * (tree.size() + glm::length(middle) + glm::length(half)));
+  bound.padding = static_cast<float>(kRayPadding * (tree.size() + glm::length(middle) + glm::length(half)));
   return bound;
 }
 

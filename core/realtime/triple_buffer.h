@@ -22,7 +22,9 @@ class TripleBuffer {
   void publish() noexcept {
     back_ = middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel) & kIndex;
   }
-  void publish(const T& value) noexcept requires std::is_trivially_copyable_v<T> {
+  void publish(const T& value) noexcept
+    requires std::is_trivially_copyable_v<T>
+  {
     back() = value;
     publish();
   }

@@ -33,7 +33,7 @@ std::string textOf(const ErrorText& error) {
 
 /// Its code runs as the user: nobody else may have written it.
 void checkOwner(const fs::path& file) {
-  struct stat status {};
+  struct stat status{};
   if (::stat(file.c_str(), &status) != 0) refuse(file, std::strerror(errno), "check the path");
   if (!S_ISREG(status.st_mode)) refuse(file, "it is no file", "put the plug-in itself there");
   const bool isTrusted = status.st_uid == 0 || status.st_uid == ::geteuid();

@@ -21,31 +21,27 @@ extern "C" {
 /* One that is plugged in. Texts are UTF-8 and end in a zero. */
 typedef struct NearfitDeviceDescription {
   char name[128];
-  char serial[64];          /* Empty where there is none. */
-  int32_t force_axes;       /* 0, 3 or 6. */
-  int32_t has_dead_man;     /* Forces only while its switch is held. */
-  double max_force;         /* [N] */
-  double max_torque;        /* [N m]; 0 with three axes. */
-  double damping;           /* Physical, the least over the workspace [N s/m]. */
+  char serial[64];           /* Empty where there is none. */
+  int32_t force_axes;        /* 0, 3 or 6. */
+  int32_t has_dead_man;      /* Forces only while its switch is held. */
+  double max_force;          /* [N] */
+  double max_torque;         /* [N m]; 0 with three axes. */
+  double damping;            /* Physical, the least over the workspace [N s/m]. */
   double rotational_damping; /* [N m s/rad] */
-  double mass;              /* As felt at the handle [kg]. */
-  double inertia;           /* [kg m^2] */
-  double max_speed;         /* Faster is a fault [m/s]; 0: as Nearfit has it. */
+  double mass;               /* As felt at the handle [kg]. */
+  double inertia;            /* [kg m^2] */
+  double max_speed;          /* Faster is a fault [m/s]; 0: as Nearfit has it. */
 } NearfitDeviceDescription;
 
-enum {
-  NEARFIT_DEVICE_CALIBRATED = 1,
-  NEARFIT_DEVICE_DEAD_MAN_HELD = 2,
-  NEARFIT_DEVICE_FAULT = 4
-};
+enum { NEARFIT_DEVICE_CALIBRATED = 1, NEARFIT_DEVICE_DEAD_MAN_HELD = 2, NEARFIT_DEVICE_FAULT = 4 };
 
 typedef struct NearfitDevicePose {
-  double position[3];  /* [m] */
-  double rotation[4];  /* Unit quaternion, w x y z: from the handle's axes to the device's. */
-  double velocity[3];  /* [m/s] */
-  double age;          /* Since it was measured [s]. */
-  uint32_t buttons;    /* Bit 0 is the clutch. */
-  uint32_t flags;      /* NEARFIT_DEVICE_... */
+  double position[3]; /* [m] */
+  double rotation[4]; /* Unit quaternion, w x y z: from the handle's axes to the device's. */
+  double velocity[3]; /* [m/s] */
+  double age;         /* Since it was measured [s]. */
+  uint32_t buttons;   /* Bit 0 is the clutch. */
+  uint32_t flags;     /* NEARFIT_DEVICE_... */
 } NearfitDevicePose;
 
 typedef struct NearfitDevice NearfitDevice; /* The plug-in's own. */

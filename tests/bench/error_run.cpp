@@ -59,7 +59,7 @@ void answerPose(Lane& lane, const ErrorScene& scene, const ErrorPose& pose, std:
 }
 
 /// @param member  Which error; of poses without a match, those that need one count for nothing.
-ErrorSummary summaryOf(const std::vector<AnswerErrors>& errors, double AnswerErrors::*member,
+ErrorSummary summaryOf(const std::vector<AnswerErrors>& errors, double AnswerErrors::* member,
                        bool needsMatch) {
   double sum = 0.0, max = 0.0, count = 0.0;
   for (const AnswerErrors& e : errors) {
@@ -73,7 +73,7 @@ ErrorSummary summaryOf(const std::vector<AnswerErrors>& errors, double AnswerErr
   return {std::sqrt(sum / count), max};
 }
 
-double meanOf(const std::vector<AnswerErrors>& errors, std::size_t AnswerErrors::*member) {
+double meanOf(const std::vector<AnswerErrors>& errors, std::size_t AnswerErrors::* member) {
   double sum = 0.0;
   for (const AnswerErrors& e : errors)
     sum += static_cast<double>(e.*member);

@@ -28,7 +28,7 @@ ErrorPair pairNamed(const std::string& name) {
 }
 
 /// Slope of the line of least squares through the logarithms of error and edge length.
-double orderOf(const std::vector<ErrorRow>& rows, ErrorSummary ErrorRow::*error) {
+double orderOf(const std::vector<ErrorRow>& rows, ErrorSummary ErrorRow::* error) {
   double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   for (const ErrorRow& row : rows) {
     const double u = std::log(row.edge), v = std::log((row.*error).rms);

@@ -86,9 +86,7 @@ RestScene cylinderOnFloor() {
       glm::angleAxis(0.5 * pi, glm::dvec3(0, 1, 0)) * glm::angleAxis(0.1, glm::dvec3(0, 0, 1));
   return {"cylinder-floor",
           "a cylinder of 0.1 m that lies on a floor",
-          [](std::uint32_t) {
-            return test::boxMesh({2.0, 2.0, 0.2}, {0.0, 0.0, -0.1});
-          },
+          [](std::uint32_t) { return test::boxMesh({2.0, 2.0, 0.2}, {0.0, 0.0, -0.1}); },
           [](std::uint32_t n) { return fineCylinderMesh(kRadius, 0.4, n); },
           at({0.0, 0.0, 0.15}, lying),
           at({0.0, 0.0, kRest - kRestPress}, lying),
@@ -116,9 +114,7 @@ RestScene boxOnSlab() {
           [](std::uint32_t n) {
             return test::transformed(fineBoxMesh({1.0, 1.0, 0.2}, n), 1.0, at({0.0, 0.0, -0.1}));
           },
-          [](std::uint32_t n) {
-            return fineBoxMesh({0.4, 0.3, 0.2}, n);
-          },
+          [](std::uint32_t n) { return fineBoxMesh({0.4, 0.3, 0.2}, n); },
           at({0.0, 0.0, 0.15}),
           at({0.03, 0.02, kRest - kRestPress}),
           at({0.03, 0.02, kRest}),

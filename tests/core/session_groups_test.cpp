@@ -133,44 +133,24 @@ TEST_F(SessionGroups, NoCommandBypassesALockOfThePartOrOfItsGroup) {
   const RigidTransform aside{{1, 0, 0, 0}, {1, 1, 1}};
   const std::vector<Command> commands = {
       [&](PartId id) { session_.movePart(id, aside); },
-      [&](PartId id) {
-        session_.moveParts({c_, id}, c_, aside);
-      },
+      [&](PartId id) { session_.moveParts({c_, id}, c_, aside); },
       [&](PartId id) {
         session_.moveParts({c_}, c_, aside), session_.undo(), session_.moveParts({id}, c_, aside);
       },
       [&](PartId id) { session_.renamePart(id, "x"); },
-      [&](PartId id) {
-        session_.setDensity({c_, id}, 1.0);
-      },
+      [&](PartId id) { session_.setDensity({c_, id}, 1.0); },
       [&](PartId id) { session_.deletePart(id); },
-      [&](PartId id) {
-        session_.deleteNodes({{c_, id}, {}});
-      },
+      [&](PartId id) { session_.deleteNodes({{c_, id}, {}}); },
       [&](PartId id) { session_.setMovingPart(id); },
-      [&](PartId id) {
-        session_.group({{c_, id}, {}});
-      },
-      [&](PartId id) {
-        session_.regroup({{id}, {}}, open);
-      },
-      [&](PartId) {
-        session_.regroup({{c_}, {}}, inner);
-      },
-      [&](PartId) {
-        session_.regroup({{}, {inner}}, std::nullopt);
-      },
-      [&](PartId) {
-        session_.regroup({{}, {open}}, outer);
-      },
+      [&](PartId id) { session_.group({{c_, id}, {}}); },
+      [&](PartId id) { session_.regroup({{id}, {}}, open); },
+      [&](PartId) { session_.regroup({{c_}, {}}, inner); },
+      [&](PartId) { session_.regroup({{}, {inner}}, std::nullopt); },
+      [&](PartId) { session_.regroup({{}, {open}}, outer); },
       [&](PartId) { session_.ungroup({inner}); },
       [&](PartId) { session_.ungroup({outer}); },
-      [&](PartId) {
-        session_.deleteNodes({{}, {outer}});
-      },
-      [&](PartId) {
-        session_.deleteNodes({{}, {inner}});
-      },
+      [&](PartId) { session_.deleteNodes({{}, {outer}}); },
+      [&](PartId) { session_.deleteNodes({{}, {inner}}); },
       [&](PartId) { session_.renameGroup(inner, "x"); },
       [&](PartId) { session_.renameGroup(outer, "x"); },
   };

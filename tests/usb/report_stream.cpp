@@ -82,7 +82,7 @@ bool ReportStream::waitToGo(std::uint64_t report) {
   return true;
 }
 
-void ReportStream::count(std::uint64_t Counts::*what) {
+void ReportStream::count(std::uint64_t Counts::* what) {
   const std::lock_guard lock(mutex_);
   ++(counts_.*what);
 }

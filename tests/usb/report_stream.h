@@ -50,7 +50,7 @@ class ReportStream {
  private:
   void run();
   bool waitToGo(std::uint64_t report);
-  void count(std::uint64_t Counts::*what);
+  void count(std::uint64_t Counts::* what);
   bool send(const Bytes& report);
 
   EmulatedDevice& device_;

@@ -88,7 +88,7 @@ NumberField* SpaceMousePage::addNumber(const Number& number) {
 }
 
 QCheckBox* SpaceMousePage::addSwitch(const QString& name, const QString& toolTip,
-                                     std::array<bool, 6> RateSettings::*values, std::size_t axis) {
+                                     std::array<bool, 6> RateSettings::* values, std::size_t axis) {
   auto* box = new QCheckBox(this);
   box->setObjectName(name);
   box->setToolTip(toolTip);

@@ -33,12 +33,12 @@ class SpaceMousePage : public QWidget {
     const char* name;
     QString toolTip, unit;
     double lower, upper;  ///< In SI.
-    double RateSettings::*value;
+    double RateSettings::* value;
   };
   NumberField* addNumber(const Number& number);
   QGridLayout* makeAxes();
-  QCheckBox* addSwitch(const QString& name, const QString& toolTip, std::array<bool, 6> RateSettings::*values,
-                       std::size_t axis);
+  QCheckBox* addSwitch(const QString& name, const QString& toolTip,
+                       std::array<bool, 6> RateSettings::* values, std::size_t axis);
   void change(const RateSettings& settings);
 
   RateSettings settings_;

@@ -65,7 +65,7 @@ MinimaMenu::MinimaMenu(QWidget* parent) : QMenu(tr("Minima &drawn"), parent), ch
 }
 
 void MinimaMenu::addForm(const QString& name, const QString& text, const QString& toolTip,
-                         bool MinimaChoice::*form) {
+                         bool MinimaChoice::* form) {
   QAction* action = addAction(text);
   action->setToolTip(toolTip);
   action->setObjectName(name);
@@ -82,7 +82,7 @@ QMenu* MinimaMenu::addChoices(const QString& title) {
 
 template <class Number>
 void MinimaMenu::addNumber(QMenu& menu, const QString& name, const QString& text,
-                           Number MinimaChoice::*number, Number value) {
+                           Number MinimaChoice::* number, Number value) {
   QAction* action = menu.addAction(text);
   action->setObjectName(name);
   action->setCheckable(true);
@@ -92,7 +92,7 @@ void MinimaMenu::addNumber(QMenu& menu, const QString& name, const QString& text
 }
 
 template <class Value>
-void MinimaMenu::set(Value MinimaChoice::*member, Value value) {
+void MinimaMenu::set(Value MinimaChoice::* member, Value value) {
   MinimaChoice next = choice_;
   next.*member = value;
   choose(next);

@@ -20,13 +20,13 @@ class MinimaMenu : public QMenu {
   void choiceChanged(const nearfit::ui::MinimaChoice& choice);
 
  private:
-  void addForm(const QString& name, const QString& text, const QString& toolTip, bool MinimaChoice::*form);
+  void addForm(const QString& name, const QString& text, const QString& toolTip, bool MinimaChoice::* form);
   QMenu* addChoices(const QString& title);
   template <class Number>
-  void addNumber(QMenu& menu, const QString& name, const QString& text, Number MinimaChoice::*number,
+  void addNumber(QMenu& menu, const QString& name, const QString& text, Number MinimaChoice::* number,
                  Number value);
   template <class Value>
-  void set(Value MinimaChoice::*member, Value value);
+  void set(Value MinimaChoice::* member, Value value);
   void choose(const MinimaChoice& choice);
 
   MinimaChoice choice_;

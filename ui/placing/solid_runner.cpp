@@ -110,8 +110,7 @@ void SolidRunner::publish(std::uint64_t job, SolidReached reached) {
   if (job_.serial != job) return;
   newest_ = std::move(reached);
   if (std::exchange(isDelivering_, true)) return;
-  QMetaObject::invokeMethod(
-      this, [this] { deliver(); }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(this, [this] { deliver(); }, Qt::QueuedConnection);
 }
 
 void SolidRunner::publishFailure(std::uint64_t job, const std::exception_ptr& error) {
@@ -119,8 +118,7 @@ void SolidRunner::publishFailure(std::uint64_t job, const std::exception_ptr& er
   if (job_.serial != job) return;
   error_ = error;
   if (std::exchange(isDelivering_, true)) return;
-  QMetaObject::invokeMethod(
-      this, [this] { deliver(); }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(this, [this] { deliver(); }, Qt::QueuedConnection);
 }
 
 void SolidRunner::deliver() {

@@ -22,7 +22,8 @@ void expect(TextCursor& cursor, std::string_view word) {
   const std::string_view token = cursor.tokenAcrossLines();
   if (token.empty()) cursor.failAtEnd(inQuotes(word));
   if (!isWord(token, word)) {
-    cursor.fail(fmt::format("{} should stand here, but {} does", inQuotes(word), inQuotes(token)), kCorrectLine);
+    cursor.fail(fmt::format("{} should stand here, but {} does", inQuotes(word), inQuotes(token)),
+                kCorrectLine);
   }
 }
 

@@ -15,7 +15,7 @@ struct ProgramOutcome {
 };
 
 ProgramOutcome run(const QStringList& arguments,
-            const QProcessEnvironment& environment = QProcessEnvironment::systemEnvironment()) {
+                   const QProcessEnvironment& environment = QProcessEnvironment::systemEnvironment()) {
   const TemporaryFolder home;
   QProcessEnvironment own = environment;
   own.insert(QStringLiteral("XDG_CONFIG_HOME"), QString::fromStdString(home.path().string()));

@@ -112,8 +112,9 @@ class DesktopEmulatedTest : public QObject {
 void DesktopEmulatedTest::posesComeInWrenchesGoOutAndAllIsRecorded() {
   const EmulatedBench bench;
   bench.writeScene(true);
-  const EmulatedOutcome outcome = bench.runUnstopped({kOpenHap}, {kDevice, kOpenHap, QStringLiteral("--arm"),
-                                                          kSeconds, QStringLiteral("3"), kRecord, kFelt});
+  const EmulatedOutcome outcome = bench.runUnstopped(
+      {kOpenHap},
+      {kDevice, kOpenHap, QStringLiteral("--arm"), kSeconds, QStringLiteral("3"), kRecord, kFelt});
   QVERIFY2(outcome.code == 0, qPrintable(outcome.err));
   for (const char* what : {"armed       yes\n", "round trip  p50 ", ", p99 ", ", p99.9 ", ", max "})
     QVERIFY2(outcome.out.contains(QLatin1String(what)), qPrintable(outcome.out));
@@ -126,7 +127,8 @@ void DesktopEmulatedTest::posesComeInWrenchesGoOutAndAllIsRecorded() {
     farthest = std::max(farthest, std::abs(record["handle_tx"][i]));
     strongest = std::max(strongest, record["force_z"][i]);
     // The springs' at the least gap that there can be, as the hand goes 4 cm at most.
-    QVERIFY(record["force_z"][i] <= EmulatedBench::kStiffness * (EmulatedBench::kCutoff - (EmulatedBench::kGap - 0.04)));
+    QVERIFY(record["force_z"][i] <=
+            EmulatedBench::kStiffness * (EmulatedBench::kCutoff - (EmulatedBench::kGap - 0.04)));
   }
   QVERIFY(farthest > 0.005 && farthest <= 0.04 + 1e-6);
   QVERIFY(strongest > 0.5);
@@ -135,7 +137,8 @@ void DesktopEmulatedTest::posesComeInWrenchesGoOutAndAllIsRecorded() {
 void DesktopEmulatedTest::withoutArmingNoForceGoesOut() {
   const EmulatedBench bench;
   bench.writeScene(true);
-  const EmulatedOutcome outcome = bench.run({kOpenHap}, {kDevice, kSeconds, QStringLiteral("1"), kRecord, kFelt});
+  const EmulatedOutcome outcome =
+      bench.run({kOpenHap}, {kDevice, kSeconds, QStringLiteral("1"), kRecord, kFelt});
   QVERIFY2(outcome.code == 0, qPrintable(outcome.err));
   QVERIFY(outcome.out.contains(QStringLiteral("armed       no\n")));
   const Record record(bench.file("felt.csv").toStdString());
@@ -146,10 +149,12 @@ void DesktopEmulatedTest::withoutArmingNoForceGoesOut() {
 void DesktopEmulatedTest::aRecordedHandEndsWithItsRecording() {
   const EmulatedBench bench;
   bench.writeScene(true);
-  const EmulatedOutcome made = bench.run({kOpenHap}, {kDevice, kSeconds, QStringLiteral("1"), kRecord, kFelt});
+  const EmulatedOutcome made =
+      bench.run({kOpenHap}, {kDevice, kSeconds, QStringLiteral("1"), kRecord, kFelt});
   QVERIFY2(made.code == 0, qPrintable(made.err));
-  const EmulatedOutcome again = bench.run({kOpenHap}, {kDevice, QStringLiteral("replay:felt.csv"), kSeconds,
-                                               QStringLiteral("100"), kRecord, QStringLiteral("again.csv")});
+  const EmulatedOutcome again =
+      bench.run({kOpenHap}, {kDevice, QStringLiteral("replay:felt.csv"), kSeconds, QStringLiteral("100"),
+                             kRecord, QStringLiteral("again.csv")});
   QVERIFY2(again.code == 0, qPrintable(again.err));
   const Record before(bench.file("felt.csv").toStdString()), after(bench.file("again.csv").toStdString());
   for (const char* column : {"handle_tx", "handle_ty", "handle_tz"}) {

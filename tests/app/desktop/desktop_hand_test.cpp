@@ -25,7 +25,6 @@ using namespace nearfit::test;
 
 namespace {
 
-
 /// The two cubes, the moving one in the manual hand, seen from the front: x to the right, z up.
 struct ByMouse {
   ByMouse() {

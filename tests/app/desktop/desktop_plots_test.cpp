@@ -197,10 +197,10 @@ void DesktopPlotsTest::eachLineHasItsOwnColumnOfTheRecordingInItsUnit() {
       QVERIFY(std::abs(point.key - timeOf(i)) < 1e-9);
       const double value = expected.scale * expected.valueOf(rowAt(i));
       QVERIFY2(isNearlyEqual(point.value, value), qPrintable(QStringLiteral("%1 %2: %3 instead of %4")
-                                                          .arg(QString::fromUtf8(expected.title))
-                                                          .arg(i)
-                                                          .arg(point.value)
-                                                          .arg(value)));
+                                                                 .arg(QString::fromUtf8(expected.title))
+                                                                 .arg(i)
+                                                                 .arg(point.value)
+                                                                 .arg(value)));
       // All of it is within what its axis shows.
       QVERIFY(graph->valueAxis()->range().contains(value));
     }

@@ -105,8 +105,9 @@ struct DoomedPlace {
   void lose(const char* how) {
     QProcess process;
     process.setProcessChannelMode(QProcess::ForwardedChannels);
-    process.start(QCoreApplication::applicationFilePath(), {QStringLiteral("desktop_recovery_test"), QStringLiteral("--die"), QLatin1String(how),
-                                                            QString::fromStdString(folder.path().string())});
+    process.start(QCoreApplication::applicationFilePath(),
+                  {QStringLiteral("desktop_recovery_test"), QStringLiteral("--die"), QLatin1String(how),
+                   QString::fromStdString(folder.path().string())});
     QVERIFY(process.waitForFinished(120'000));
     QCOMPARE(process.exitStatus(), QProcess::CrashExit);
   }

@@ -302,11 +302,11 @@ class DesktopSessionTest : public QObject {
 void DesktopSessionTest::work(const WorkPlace& place) {
   QProcess process;
   process.setProcessChannelMode(QProcess::ForwardedChannels);
-  process.start(
-      QStringLiteral(NEARFIT_EMULATE),
-      QStringList{QStringLiteral("openhap"), QStringLiteral("--"), QCoreApplication::applicationFilePath(),
-                  QStringLiteral("desktop_session_test"), QStringLiteral("--work"), QString::fromStdString(place.folder.path().string())} +
-          place.files());
+  process.start(QStringLiteral(NEARFIT_EMULATE),
+                QStringList{QStringLiteral("openhap"), QStringLiteral("--"),
+                            QCoreApplication::applicationFilePath(), QStringLiteral("desktop_session_test"),
+                            QStringLiteral("--work"), QString::fromStdString(place.folder.path().string())} +
+                    place.files());
   QVERIFY(process.waitForFinished(250'000));
   QCOMPARE(process.exitStatus(), QProcess::CrashExit);
 }

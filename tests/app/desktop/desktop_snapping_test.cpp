@@ -13,7 +13,6 @@ using namespace nearfit::test;
 
 namespace {
 
-
 /// The two cubes, the moving one selected.
 struct SnappingBench {
   explicit SnappingBench(const char* look = "viewIso") : mouse(d) {

@@ -135,17 +135,13 @@ const Command kCommands[] = {
        d.click(d.ids[0]);
        d.becomeGreen();
      },
-     [](UndoDesk& d) {
-       return d.at(0).colour == Colour{0, 1, 0} && d.at(1).colour != Colour{0, 1, 0};
-     }},
+     [](UndoDesk& d) { return d.at(0).colour == Colour{0, 1, 0} && d.at(1).colour != Colour{0, 1, 0}; }},
     {"several are coloured", nullptr,
      [](UndoDesk& d) {
        d.clickTwo();
        d.becomeGreen();
      },
-     [](UndoDesk& d) {
-       return d.at(0).colour == Colour{0, 1, 0} && d.at(1).colour == Colour{0, 1, 0};
-     }},
+     [](UndoDesk& d) { return d.at(0).colour == Colour{0, 1, 0} && d.at(1).colour == Colour{0, 1, 0}; }},
     {"several become transparent", nullptr,
      [](UndoDesk& d) {
        d.clickTwo();

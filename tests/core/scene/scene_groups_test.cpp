@@ -137,10 +137,8 @@ TEST(SceneGroups, LockedThingsAreChangedByNoWay) {
   lock(scene, outer);
   const std::vector<std::function<void(Part&)>> changes = {
       [](Part& p) { p.name = "Other"; }, [](Part& p) { p.worldFromPart.translation.x += 1e-300; },
-      [](Part& p) {
-        p.worldFromPart.rotation = {0, 1, 0, 0};
-      },
-      [](Part& p) { p.density = 1.0; }, [](Part& p) { p.group.reset(); },
+      [](Part& p) { p.worldFromPart.rotation = {0, 1, 0, 0}; }, [](Part& p) { p.density = 1.0; },
+      [](Part& p) { p.group.reset(); },
       [&](Part& p) { p.group = p.id == own ? std::optional<GroupId>() : open; },
       // Not even together with the lock.
       [](Part& p) { p.isLocked = false, p.density = 2.0; }};

@@ -1,9 +1,9 @@
 /* An example of a plug-in: a ball on a spring, one that moves by itself in a small circle. Makers may begin with it. */
-#include "device/plugin/nearfit_device.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "device/plugin/nearfit_device.h"
 
 struct NearfitDevice {
   double time, force[3];
@@ -48,7 +48,9 @@ static NearfitDevice* open_device(int32_t index, char* error, size_t size) {
   return calloc(1, sizeof(NearfitDevice));
 }
 
-static void close_device(NearfitDevice* device) { free(device); }
+static void close_device(NearfitDevice* device) {
+  free(device);
+}
 
 static int32_t set_forces(NearfitDevice* device, int32_t are_on, char* error, size_t size) {
   (void)error;

@@ -29,5 +29,4 @@ int runQtTest(int argc, char** argv) {
 
 /// @param Test  The class of the tests.
 /// @param ...   Its main: a QtSuiteMain.
-#define NEARFIT_QT_SUITE(Test, ...) \
-  static const nearfit::test::QtSuite Test##Suite(__FILE__, __VA_ARGS__);
+#define NEARFIT_QT_SUITE(Test, ...) static const nearfit::test::QtSuite Test##Suite(__FILE__, __VA_ARGS__);
