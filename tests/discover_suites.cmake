@@ -2,8 +2,7 @@
 # of two thousand cases costs more than what most of them test.
 #   NAME, PROGRAM, OUTPUT   the target, its file and where the tests go
 #   LABELS                  of every suite, separated by commas
-#   THREADS, ALONE          regular expressions, may be empty: suites that get the label threads; suites that measure time
-#                           and therefore run alone
+#   THREADS                 regular expression, may be empty: suites that get the labels threads and waits
 cmake_minimum_required(VERSION 3.22)
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listing RESULT_VARIABLE result)
 if(NOT result EQUAL 0)
@@ -16,14 +15,10 @@ foreach(suite IN LISTS suites)
   string(REGEX REPLACE "\\.$" "" suite "${suite}")
   string(REPLACE "," ";" labels "${LABELS}")
   if(THREADS AND suite MATCHES "${THREADS}")
-    list(APPEND labels threads)
-  endif()
-  set(alone OFF)
-  if(ALONE AND suite MATCHES "${ALONE}")
-    set(alone ON)
+    list(APPEND labels threads waits)
   endif()
   string(APPEND text
     "add_test([==[${suite}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${suite}.*]==])\n"
-    "set_tests_properties([==[${suite}]==] PROPERTIES LABELS [==[${labels}]==] TIMEOUT 600 RUN_SERIAL ${alone})\n")
+    "set_tests_properties([==[${suite}]==] PROPERTIES LABELS [==[${labels}]==] TIMEOUT 600)\n")
 endforeach()
 file(WRITE ${OUTPUT} "${text}")

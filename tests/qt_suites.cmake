@@ -30,5 +30,5 @@ endfunction()
 # nearfit_add_qt_suite(PROGRAM LABEL SUITE [COMMAND...]): a test; what runs the program under the display comes first in COMMAND.
 function(nearfit_add_qt_suite program label suite)
   add_test(NAME ${suite} COMMAND ${xvfb_run} ${ARGN} $<TARGET_FILE:${program}> ${suite})
-  set_tests_properties(${suite} PROPERTIES LABELS ${label} TIMEOUT 300 ENVIRONMENT "${xvfb_environment}")
+  set_tests_properties(${suite} PROPERTIES LABELS "${label};waits" TIMEOUT 300 ENVIRONMENT "${xvfb_environment}")
 endfunction()

@@ -7,7 +7,7 @@
 /// `ui_tests SUITE [OPTIONS...]`. A suite has the name of its source file, without the suffix.
 namespace nearfit::test {
 
-/// What a suite would be as a program of its own: `argv` holds no suite name.
+/// Main function of a suite; `argv` holds no suite name.
 using QtSuiteMain = int (*)(int argc, char** argv);
 
 /// Adds a suite to the program that it is linked into. Constructed before main, by NEARFIT_QT_SUITE.
