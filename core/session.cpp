@@ -1,6 +1,7 @@
 #include "core/session.h"
 
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -149,8 +150,8 @@ std::vector<Session::Step> Session::history() const {
   for (const State& state : past_)
     steps.push_back(state.step);
   steps.push_back(current_.step);
-  for (auto state = future_.rbegin(); state != future_.rend(); ++state)
-    steps.push_back(state->step);
+  for (const State& state : std::views::reverse(future_))
+    steps.push_back(state.step);
   return steps;
 }
 

@@ -32,6 +32,7 @@ RigidTransform moved(const RigidTransform& pose, const RigidTransform& from, con
 
 std::vector<PartId> partsOf(const std::vector<Session::NewGeometry>& renewed) {
   std::vector<PartId> ids;
+  ids.reserve(renewed.size());
   for (const Session::NewGeometry& each : renewed)
     ids.push_back(each.part);
   return ids;
@@ -39,6 +40,7 @@ std::vector<PartId> partsOf(const std::vector<Session::NewGeometry>& renewed) {
 
 std::vector<PartId> partsOf(const std::vector<Session::NewPivot>& pivots) {
   std::vector<PartId> ids;
+  ids.reserve(pivots.size());
   for (const Session::NewPivot& each : pivots)
     ids.push_back(each.part);
   return ids;

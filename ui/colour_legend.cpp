@@ -15,7 +15,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr int kWidth = 226, kMargin = 14;
+constexpr int kWidth = 226, kInset = 14;
 constexpr int kBarTop = 34, kBarHeight = 11;
 constexpr int kFirstRow = 86, kRowHeight = 22, kBelowLastRow = 16;  ///< Rows by their baselines.
 constexpr int kGlyphWidth = 25;
@@ -24,17 +24,17 @@ constexpr double kUsualLetters = 17.0;
 
 void paintArrow(QPainter& painter, int y, const QColor& colour) {
   painter.setPen(QPen(colour, 2.6, Qt::SolidLine, Qt::FlatCap));
-  painter.drawLine(QPointF(kMargin, y - 4.5), QPointF(kMargin + 18, y - 4.5));
+  painter.drawLine(QPointF(kInset, y - 4.5), QPointF(kInset + 18, y - 4.5));
   painter.setPen(Qt::NoPen);
   painter.setBrush(colour);
-  painter.drawPolygon(QPolygonF({QPointF(kMargin + 16, y - 9.5), QPointF(kMargin + kGlyphWidth, y - 4.5),
-                                 QPointF(kMargin + 16, y + 0.5)}));
+  painter.drawPolygon(QPolygonF({QPointF(kInset + 16, y - 9.5), QPointF(kInset + kGlyphWidth, y - 4.5),
+                                 QPointF(kInset + 16, y + 0.5)}));
 }
 
 void paintDisc(QPainter& painter, int y) {
   painter.setPen(QPen(Qt::white, 1.5));
   painter.setBrush(colours::kContact);
-  painter.drawEllipse(QPointF(kMargin + 0.5 * kGlyphWidth, y - 4.5), 8.0, 4.5);
+  painter.drawEllipse(QPointF(kInset + 0.5 * kGlyphWidth, y - 4.5), 8.0, 4.5);
 }
 
 void paintGhost(QPainter& painter, int y) {
@@ -42,7 +42,7 @@ void paintGhost(QPainter& painter, int y) {
   QColor fill = colours::kHand;
   fill.setAlphaF(0.2);
   painter.setBrush(fill);
-  painter.drawRoundedRect(QRectF(kMargin + 4, y - 11, kGlyphWidth - 8, 13), 2.0, 2.0);
+  painter.drawRoundedRect(QRectF(kInset + 4, y - 11, kGlyphWidth - 8, 13), 2.0, 2.0);
 }
 
 QColor textColour() {
@@ -122,10 +122,10 @@ void ColourLegend::paintScale(QPainter& painter) {
   bold.setBold(true);
   painter.setFont(bold);
   painter.setPen(textColour());
-  painter.drawText(kMargin, 23, tr("Local minimum distance"));
+  painter.drawText(kInset, 23, tr("Local minimum distance"));
   painter.setFont(letters());
 
-  const QRectF bar(kMargin, kBarTop, kWidth - 2 * kMargin, kBarHeight);
+  const QRectF bar(kInset, kBarTop, kWidth - 2 * kInset, kBarHeight);
   QLinearGradient gradient(bar.topLeft(), bar.topRight());
   constexpr int kSteps = 16;
   for (int i = 0; i <= kSteps; ++i) {
@@ -137,7 +137,7 @@ void ColourLegend::paintScale(QPainter& painter) {
   painter.drawRoundedRect(bar, 2.5, 2.5);
 
   painter.setPen(mutedColour());
-  const QRect labels(kMargin, kBarTop + kBarHeight + 3, kWidth - 2 * kMargin, 18);
+  const QRect labels(kInset, kBarTop + kBarHeight + 3, kWidth - 2 * kInset, 18);
   painter.drawText(labels, Qt::AlignLeft, tr("contact"));
   painter.drawText(labels, Qt::AlignHCenter, formatLength(0.5 * cutoff_));
   painter.drawText(labels, Qt::AlignRight, formatLength(cutoff_));
@@ -145,9 +145,8 @@ void ColourLegend::paintScale(QPainter& painter) {
 
 void ColourLegend::paintRow(QPainter& painter, int y, const QString& name, const QString& value) {
   painter.setPen(textColour());
-  painter.drawText(kMargin + 34, y, name);
-  painter.drawText(QRect(kMargin, y - 13, kWidth - 2 * kMargin, 18), Qt::AlignRight | Qt::AlignVCenter,
-                   value);
+  painter.drawText(kInset + 34, y, name);
+  painter.drawText(QRect(kInset, y - 13, kWidth - 2 * kInset, 18), Qt::AlignRight | Qt::AlignVCenter, value);
 }
 
 }  // namespace nearfit::ui

@@ -18,7 +18,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr int kSides = 28;
+constexpr int kDiscSides = 28;
 /// As parts of the size: discs; arrows without force, and of the device's greatest force.
 constexpr double kDiscRadius = 0.026, kRimRadius = 0.033, kShortest = 0.11, kLongest = 0.45;
 constexpr const char *kDirection = "direction", *kDisc = "disc", *kArrow = "arrow";
@@ -28,7 +28,7 @@ vtkSmartPointer<vtkTransformPolyDataFilter> discAcrossX(double radius, double he
   vtkNew<vtkCylinderSource> cylinder;
   cylinder->SetRadius(radius);
   cylinder->SetHeight(height);
-  cylinder->SetResolution(kSides);
+  cylinder->SetResolution(kDiscSides);
   vtkNew<vtkTransform> turn;
   turn->RotateZ(90.0);
   auto disc = vtkSmartPointer<vtkTransformPolyDataFilter>::New();
@@ -74,8 +74,8 @@ ContactGlyphs::ContactGlyphs(vtkRenderer& renderer) {
   arrow->SetTipLength(0.34);
   arrow->SetTipRadius(0.1);
   arrow->SetShaftRadius(0.035);
-  arrow->SetTipResolution(kSides);
-  arrow->SetShaftResolution(kSides);
+  arrow->SetTipResolution(kDiscSides);
+  arrow->SetShaftResolution(kDiscSides);
   setUp(*arrows_, *points_.Get(), arrow->GetOutputPort(), kArrow, colours::kContact);
   for (vtkActor* actor : {rims_.Get(), discs_.Get(), arrows_.Get()})
     renderer.AddActor(actor);

@@ -162,7 +162,7 @@ bool Document::openExample(const QString& file) {
 }
 
 void Document::readScene(const QString& file, const QString& name,
-                         std::function<void(Scene, const QStringList&)> opened) {
+                         const std::function<void(Scene, const QStringList&)>& opened) {
   struct Outcome {
     Scene scene;
     std::vector<std::filesystem::path> changed;

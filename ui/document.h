@@ -89,7 +89,7 @@ class Document : public QObject {
   /// @param opened  Puts the scene into the session.
   /// @param changed  Meshes that are other files than those that it was saved with.
   void readScene(const QString& file, const QString& name,
-                 std::function<void(Scene, const QStringList& changed)> opened);
+                 const std::function<void(Scene, const QStringList& changed)>& opened);
   void open(const DroppedFiles& files, double metresPerUnit);
   bool saveTo(const QString& file);
   void finishParts(const QStringList& files, const std::vector<PartGeometryPtr>& geometries,

@@ -6,7 +6,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr int kLongest = 40;
+constexpr int kMaxCharacters = 40;
 /// Letters without a space that every place where a text wraps has room for.
 constexpr int kUnbroken = 16;
 constexpr QChar kCut(0x2026), kMayBreak(0x200B);
@@ -14,8 +14,8 @@ constexpr QChar kCut(0x2026), kMayBreak(0x200B);
 }  // namespace
 
 QString shortName(const QString& name) {
-  if (name.size() <= kLongest) return name;
-  const int begin = kLongest / 2, end = kLongest - begin - 1;
+  if (name.size() <= kMaxCharacters) return name;
+  const int begin = kMaxCharacters / 2, end = kMaxCharacters - begin - 1;
   return name.left(begin) + kCut + name.right(end);
 }
 

@@ -28,13 +28,13 @@ constexpr float kPixels = 100.0F, kPadding = 10.0F;  ///< From the corner of the
 constexpr int kFontSize = 36;
 /// Of a handle's rim, and rings within it, which is of one colour: VTK would make 15,000 triangles for each
 /// picture.
-constexpr int kSides = 32, kRings = 1;
+constexpr int kHandleSides = 32, kRings = 1;
 
 void coarsen(vtkActor& actor) {
   if (actor.GetMapper() == nullptr) return;
   auto* handle = vtkEllipticalButtonSource::SafeDownCast(actor.GetMapper()->GetInputAlgorithm());
   if (handle == nullptr) return;
-  handle->SetCircumferentialResolution(kSides);
+  handle->SetCircumferentialResolution(kHandleSides);
   handle->SetShoulderResolution(kRings);
   handle->SetTextureResolution(kRings);
 }

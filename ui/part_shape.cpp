@@ -32,7 +32,7 @@ vtkSmartPointer<vtkPolyData> trianglesOf(const TriangleMesh& mesh) {
 
   vtkNew<vtkCellArray> triangles;
   triangles->AllocateExact(static_cast<vtkIdType>(mesh.triangles().size()),
-                           static_cast<vtkIdType>(3 * mesh.triangles().size()));
+                           3 * static_cast<vtkIdType>(mesh.triangles().size()));
   for (const Triangle& t : mesh.triangles()) {
     const vtkIdType corners[3] = {t[0], t[1], t[2]};
     triangles->InsertNextCell(3, corners);

@@ -39,7 +39,7 @@ void SceneRenderer::setEdgesVisible(bool isVisible) {
 }
 
 void SceneRenderer::setPoseInHand(std::optional<RigidTransform> worldFromMoving) {
-  poseInHand_ = std::move(worldFromMoving);
+  poseInHand_ = worldFromMoving;
   if (!scene_.movingPart()) return;
   const Part* part = scene_.find(*scene_.movingPart());
   if (part != nullptr) place(*part);

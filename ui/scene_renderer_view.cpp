@@ -89,7 +89,7 @@ struct SceneRenderer::View {
     return pixelsAtOne / std::max(glm::distance(eye, centre) - radius, 1e-3 * radius + 1e-12);
   }
   bool sees(const glm::dvec3& centre, double radius) const {
-    for (int plane = 0; plane < 6; ++plane) {
+    for (std::size_t plane = 0; plane < 6; ++plane) {
       const double* p = planes + 4 * plane;
       if (p[0] * centre.x + p[1] * centre.y + p[2] * centre.z + p[3] < -radius) return false;
     }

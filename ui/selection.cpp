@@ -1,6 +1,7 @@
 #include "ui/selection.h"
 
 #include <algorithm>
+#include <ranges>
 #include <unordered_set>
 #include <utility>
 
@@ -31,8 +32,8 @@ void Selection::set(const std::vector<PartId>& parts, const std::vector<GroupId>
     left.insert(part->id);
   // The last of a part's places counts, as it may be the current one.
   std::vector<PartId> next;
-  for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
-    if (left.erase(*part) == 1) next.push_back(*part);
+  for (const PartId part : std::views::reverse(parts)) {
+    if (left.erase(part) == 1) next.push_back(part);
   }
   std::ranges::reverse(next);
   const std::unordered_set<PartId> chosen(next.begin(), next.end());

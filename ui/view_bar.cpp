@@ -6,7 +6,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr int kMargin = 12, kBetween = 8;
+constexpr int kEdgeGap = 12, kBetween = 8;
 
 }  // namespace
 
@@ -41,10 +41,10 @@ void ViewBar::place() {
 
 void ViewBar::placeAll() {
   const QWidget& view = *parentWidget();
-  int bottom = view.height() - kMargin;
+  int bottom = view.height() - kEdgeGap;
   for (ViewBar* bar : view.findChildren<ViewBar*>(QString(), Qt::FindDirectChildrenOnly)) {
     if (bar->isHidden()) continue;
-    bar->move(std::max(kMargin, (view.width() - bar->width()) / 2), bottom - bar->height());
+    bar->move(std::max(kEdgeGap, (view.width() - bar->width()) / 2), bottom - bar->height());
     bottom -= bar->height() + kBetween;
   }
 }

@@ -19,7 +19,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr int kSides = 20;
+constexpr int kArrowSides = 20;
 /// Thickness of shafts and length of heads, as parts of the size.
 constexpr double kShaft = 0.018, kHeadRadius = 0.05, kHeadLength = 0.14;
 /// Wrenches smaller than this part of the limit are not drawn.
@@ -44,7 +44,7 @@ void buildArrow(vtkPolyData& out, vtkPolyLineSource& path, const glm::dvec3& hea
   vtkNew<vtkTubeFilter> shaft;
   shaft->SetInputConnection(path.GetOutputPort());
   shaft->SetRadius(kShaft * size);
-  shaft->SetNumberOfSides(kSides);
+  shaft->SetNumberOfSides(kArrowSides);
   shaft->CappingOn();
   vtkNew<vtkConeSource> head;
   const glm::dvec3 middle = headStart + 0.5 * headLength * direction;
@@ -52,7 +52,7 @@ void buildArrow(vtkPolyData& out, vtkPolyLineSource& path, const glm::dvec3& hea
   head->SetDirection(direction.x, direction.y, direction.z);
   head->SetHeight(headLength);
   head->SetRadius(headLength * kHeadRadius / kHeadLength);
-  head->SetResolution(kSides);
+  head->SetResolution(kArrowSides);
   vtkNew<vtkAppendPolyData> both;
   both->AddInputConnection(shaft->GetOutputPort());
   both->AddInputConnection(head->GetOutputPort());

@@ -82,6 +82,7 @@ HapticSettings newSettings(const HapticOptions& options) {
 Scene makeScene(const SceneNewOptions& options) {
   const double metresPerUnit = parseUnit(options.unit);
   std::vector<PartArgument> arguments;
+  arguments.reserve(options.parts.size());
   for (const std::string& text : options.parts)
     arguments.push_back(parsePart(text));
 

@@ -39,7 +39,7 @@ std::vector<std::size_t> extremeDirections(std::span<const glm::dvec3> direction
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.index < b.index;
   });
   std::vector<Pierced> hull;
-  const auto chain = [&](auto first, auto last) {
+  const auto chain = [&](const auto& first, const auto& last) {
     const std::size_t base = hull.size();
     for (auto it = first; it != last; ++it) {
       while (hull.size() >= base + 2 && !turnsLeft(hull[hull.size() - 2], hull.back(), *it))
@@ -51,6 +51,7 @@ std::vector<std::size_t> extremeDirections(std::span<const glm::dvec3> direction
   chain(points.begin(), points.end());
   chain(points.rbegin(), points.rend());
   std::vector<std::size_t> indices;
+  indices.reserve(hull.size());
   for (const Pierced& p : hull)
     indices.push_back(p.index);
   return indices;

@@ -25,10 +25,10 @@ SymmetricEigen symmetricEigen(const glm::dmat3& matrix) noexcept {
         const double theta = 0.5 * (a[q][q] - a[p][p]) / a[p][q];
         const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
         const double c = 1.0 / std::sqrt(t * t + 1.0), s = t * c;
-        for (int k = 0; k < 3; ++k) {
-          const double kp = a[k][p], kq = a[k][q];
-          a[k][p] = c * kp - s * kq;
-          a[k][q] = s * kp + c * kq;
+        for (auto& row : a) {
+          const double kp = row[p], kq = row[q];
+          row[p] = c * kp - s * kq;
+          row[q] = s * kp + c * kq;
         }
         for (int k = 0; k < 3; ++k) {
           const double pk = a[p][k], qk = a[q][k];

@@ -163,8 +163,7 @@ class Builder {
   void dropDuplicates() {
     std::vector<std::uint32_t> slots(std::bit_ceil(2 * triangles_.size() + 1), kNoVertex);
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      const Triangle t = triangles_[i];
+    for (const Triangle t : triangles_) {
       std::size_t slot = slotOf(t) & (slots.size() - 1);
       while (slots[slot] != kNoVertex && startingAtLowest(triangles_[slots[slot]]) != startingAtLowest(t)) {
         slot = (slot + 1) & (slots.size() - 1);

@@ -32,11 +32,9 @@ glm::dquat turnOnto(const glm::dvec3& from, const glm::dvec3& to) {
 glm::dquat turnOf(const AlignFeature& moving, const AlignFeature& fixed, bool isFlipped) {
   if (!canBeFlipped(moving.shape, fixed.shape)) return kNoTurn;
   glm::dvec3 target = fixed.direction;
-  if (moving.shape == FeatureShape::Plane && fixed.shape == FeatureShape::Plane) {
-    target = -target;
-  } else if (glm::dot(moving.direction, target) < 0.0) {
-    target = -target;
-  }
+  // Planes face each other; axes take the shorter way round.
+  const bool areFlat = moving.shape == FeatureShape::Plane && fixed.shape == FeatureShape::Plane;
+  if (areFlat || glm::dot(moving.direction, target) < 0.0) target = -target;
   return turnOnto(moving.direction, isFlipped ? -target : target);
 }
 

@@ -31,6 +31,7 @@ std::vector<glm::dvec3> cornersOf(const TriangleMesh& mesh, const std::vector<st
   std::sort(indices.begin(), indices.end());
   indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
   std::vector<glm::dvec3> corners;
+  corners.reserve(indices.size());
   for (const std::uint32_t v : indices)
     corners.push_back(mesh.vertices()[v]);
   return corners;
@@ -70,6 +71,7 @@ std::vector<double> linesOf(const std::vector<glm::dvec3>& corners, const Circle
       glm::cross(cylinder.axis, std::abs(cylinder.axis.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
   const glm::dvec3 v = glm::cross(cylinder.axis, u);
   std::vector<double> angles;
+  angles.reserve(corners.size());
   for (const glm::dvec3& p : corners)
     angles.push_back(std::atan2(glm::dot(p - cylinder.centre, v), glm::dot(p - cylinder.centre, u)));
   std::sort(angles.begin(), angles.end());

@@ -136,6 +136,7 @@ RigidTransform SolidMove::motion() const noexcept {
 
 std::vector<PartId> SolidMove::idsOf(const std::vector<std::uint32_t>& bodies) const {
   std::vector<PartId> ids;
+  ids.reserve(bodies.size());
   for (const std::uint32_t body : bodies)
     ids.push_back(scene_->bodies[body].id);
   std::ranges::sort(ids);

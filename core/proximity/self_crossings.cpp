@@ -133,7 +133,8 @@ class CrossingSearch {
         if (second <= first || pieces_.pieceOf[first] != pieces_.pieceOf[second]) return;
         work += workOf(first, second, found);
       });
-      if ((work_ += work) > mostWork_ || found.size() > kMostCrossings) isGivenUp_ = true;
+      work_ += work;
+      if (work_ > mostWork_ || found.size() > kMostCrossings) isGivenUp_ = true;
     }
     if (found.empty()) return;
     const std::lock_guard lock(mutex_);

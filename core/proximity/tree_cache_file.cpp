@@ -122,7 +122,7 @@ std::optional<CachedMesh> TreeCacheFile::mesh() const {
   mass.volume = facts.mass[0];
   mass.centre = {facts.mass[1], facts.mass[2], facts.mass[3]};
   for (int k = 0; k < 9; ++k)
-    mass.inertia[k / 3][k % 3] = facts.mass[static_cast<std::size_t>(4 + k)];
+    mass.inertia[k / 3][k % 3] = facts.mass[4 + static_cast<std::size_t>(k)];
   mass.basis = static_cast<MassBasis>(facts.massBasis);
   return CachedMesh{TriangleMesh(std::move(arrays)), std::move(*built), mass};
 }

@@ -87,7 +87,7 @@ MeshFacts meshFactsOf(const TriangleMesh& mesh, const MeshBuildReport& report, c
   facts.bounds = {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z};
   facts.mass = {mass.volume, mass.centre.x, mass.centre.y, mass.centre.z};
   for (int k = 0; k < 9; ++k)
-    facts.mass[static_cast<std::size_t>(4 + k)] = mass.inertia[k / 3][k % 3];
+    facts.mass[4 + static_cast<std::size_t>(k)] = mass.inertia[k / 3][k % 3];
   facts.massBasis = static_cast<std::uint32_t>(mass.basis);
   facts.counts = {report.weldedVertices, report.degenerateFaces, report.duplicateFaces,
                   report.nonFiniteFaces, report.swappedFaces,    report.stitchedEdges};

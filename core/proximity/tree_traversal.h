@@ -23,7 +23,7 @@ struct TraversalWork {
   /// Pairs waiting up to which two are opened at once. Each alone leaves at most seven siblings waiting a
   /// level, of two trees: the room beyond is never used up.
   static constexpr std::size_t kOpenTwo = 256;
-  static constexpr std::size_t kRoom = kOpenTwo + 16 + 7 * 2 * NormalConeTree::kMaxDepth + 1;
+  static constexpr std::size_t kRoom = kOpenTwo + 16 + std::size_t{7} * 2 * NormalConeTree::kMaxDepth + 1;
   static constexpr std::size_t kLeaves = 64;
   static constexpr std::size_t kMostLeaves = kLeaves + 16;
 

@@ -23,7 +23,7 @@ constexpr int kGreetings = 20, kQuestions = 10;
 
 constexpr std::array kGreeting{std::byte{0x0a}, std::byte{0x43}, std::byte{0x0d}};
 constexpr std::array kAnswer{std::byte{0x0a}, std::byte{0x44}, std::byte{0x2c}, std::byte{0x0d}};
-constexpr std::array kBegin{std::byte{0x41}};
+constexpr std::array kStart{std::byte{0x41}};
 
 /// A step that failed, which may go better the next time.
 struct Failure {
@@ -62,9 +62,9 @@ std::optional<Failure> greet(FtdiPort& port) {
 std::optional<Failure> beginLoading(FtdiPort& port) {
   port.setDtr(false);
   port.setDivisor(kLoadingDivisor);
-  port.write(kBegin);
-  std::array<std::byte, kBegin.size()> got{};
-  if (port.read(got) == got.size() && got == kBegin) return std::nullopt;
+  port.write(kStart);
+  std::array<std::byte, kStart.size()> got{};
+  if (port.read(got) == got.size() && got == kStart) return std::nullopt;
   return Failure{"its loader does not take firmware", kPowerCycle};
 }
 

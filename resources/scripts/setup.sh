@@ -7,8 +7,8 @@ nearfit_packages=(
   libcgal-dev libusb-1.0-0-dev libqcustomplot-dev
 )
 nearfit_test_packages=(xvfb xauth libgl1-mesa-dri umockdev libumockdev-dev)
-# For ./test --all and tests/fuzz/run: sanitizers and formatting.
-nearfit_check_packages=(clang-19 libclang-rt-19-dev llvm-19 clang-format-19)
+# For ./test --all and tests/fuzz/run: sanitizers, formatting and clang-tidy.
+nearfit_check_packages=(clang-19 libclang-rt-19-dev llvm-19 clang-format-19 clang-tidy-19)
 # For tests/usb/qemu/run alone.
 nearfit_qemu_packages=(qemu-system-x86 busybox-static cpio xz-utils python3)
 

@@ -15,9 +15,6 @@
 namespace nearfit::bench {
 namespace {
 
-/// As the exact methods have.
-constexpr std::size_t kCapacity = 65536;
-
 /// The cold query on other hierarchies than the scene's.
 class QueryOnOthers : public ErrorMethod {
  public:
@@ -25,8 +22,8 @@ class QueryOnOthers : public ErrorMethod {
       : scene_(scene),
         sceneTree_(std::move(sceneTree)),
         partTree_(std::move(partTree)),
-        scratch_(kCapacity),
-        lmds_(kCapacity) {}
+        scratch_(kQueryCapacity),
+        lmds_(kQueryCapacity) {}
 
   void answer(const RigidTransform& sceneFromPart, ContactAnswer& answer) override {
     const LmdResult result =
@@ -49,9 +46,9 @@ class FloatLeaves : public ErrorMethod {
       : scene_(scene),
         sceneBody_(scene.bodies.sceneTree),
         partBody_(scene.bodies.partTree),
-        minima_(kCapacity),
-        order_(kCapacity),
-        merge_(kCapacity),
+        minima_(kQueryCapacity),
+        order_(kQueryCapacity),
+        merge_(kQueryCapacity),
         open_(opener(defaultSimdLevel())) {}
 
   void answer(const RigidTransform& sceneFromPart, ContactAnswer& answer) override {

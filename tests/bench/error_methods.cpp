@@ -12,14 +12,13 @@
 namespace nearfit::bench {
 namespace {
 
-/// Minima and pieces that a query may hold: more than any scene here has.
-constexpr std::size_t kCapacity = 65536;
 /// Poses that a list is given to arrive in after a jump: a search of several milliseconds.
 constexpr std::size_t kTrackedLeadIn = 16;
 
 class ExactCold : public ErrorMethod {
  public:
-  explicit ExactCold(const ErrorScene& scene) : scene_(scene), scratch_(kCapacity), lmds_(kCapacity) {}
+  explicit ExactCold(const ErrorScene& scene)
+      : scene_(scene), scratch_(kQueryCapacity), lmds_(kQueryCapacity) {}
 
   void answer(const RigidTransform& sceneFromPart, ContactAnswer& answer) override {
     const PreparedScene& bodies = scene_.bodies;

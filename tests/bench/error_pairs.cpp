@@ -22,7 +22,7 @@ using Random = std::mt19937_64;
 using Contacts = std::vector<TrueContact>;
 
 constexpr double kCutoff = 0.25;
-constexpr glm::dvec3 kUp{0.0, 0.0, 1.0};
+constexpr glm::dvec3 kVertical{0.0, 0.0, 1.0};
 
 /// Share of the cutoff: nearest minimum, farthest that counts, and nearest that does not.
 constexpr double kNearest = 0.35, kFarthest = 0.85, kBeyond = 1.25;
@@ -44,9 +44,9 @@ glm::dquat randomTurn(Random& random) {
 
 /// The part's z axis at an angle from upright, spun at random about itself and about the vertical.
 glm::dquat randomTilt(Random& random, double tilt) {
-  return glm::angleAxis(between(random, 0.0, 2.0 * pi), kUp) *
+  return glm::angleAxis(between(random, 0.0, 2.0 * pi), kVertical) *
          glm::angleAxis(tilt, glm::dvec3(1.0, 0.0, 0.0)) *
-         glm::angleAxis(between(random, 0.0, 2.0 * pi), kUp);
+         glm::angleAxis(between(random, 0.0, 2.0 * pi), kVertical);
 }
 
 double radians(double degrees) {
@@ -120,7 +120,7 @@ ErrorPair sphereOnTorus() {
   ErrorPair pair{"sphere-torus",
                  "a ball of radius 0.3 m around, above and in the hole of a ring (1 m, tube 0.25 m)"};
   pair.isSceneCurved = true;
-  const Torus torus{glm::dvec3(0.0), kUp, 1.0, 0.25};
+  const Torus torus{glm::dvec3(0.0), kVertical, 1.0, 0.25};
   pair.scene = [](std::uint32_t n) { return fineTorusMesh(1.0, 0.25, 12, 4, n); };
   pair.part = [](std::uint32_t n) { return geodesicSphereMesh(0.3, n); };
   pair.contacts = [torus](const RigidTransform& pose) -> Contacts {
@@ -130,7 +130,8 @@ ErrorPair sphereOnTorus() {
     const double around = between(random, 0.0, 2.0 * pi), section = between(random, 0.0, 2.0 * pi);
     const double out = 0.25 + 0.3 + randomGap(random);
     const glm::dvec3 outward(std::cos(around), std::sin(around), 0.0);
-    return {randomTurn(random), outward + out * (std::cos(section) * outward + std::sin(section) * kUp)};
+    return {randomTurn(random),
+            outward + out * (std::cos(section) * outward + std::sin(section) * kVertical)};
   };
   return pair;
 }
@@ -156,11 +157,12 @@ ErrorPair sphereInBowl() {
 ErrorPair capsuleOnCapsule() {
   ErrorPair pair{"capsule-capsule", "two rods with round ends, crossed or end on"};
   pair.isSceneCurved = true;
-  const Capsule scene{-0.5 * kUp, 0.5 * kUp, 0.2};
+  const Capsule scene{-0.5 * kVertical, 0.5 * kVertical, 0.2};
   pair.scene = [](std::uint32_t n) { return capsuleMesh(0.2, 0.5, n); };
   pair.part = [](std::uint32_t n) { return capsuleMesh(0.15, 0.4, n); };
   pair.contacts = [scene](const RigidTransform& pose) -> Contacts {
-    return {capsuleCapsule(scene, {pose.applyToPoint(-0.4 * kUp), pose.applyToPoint(0.4 * kUp), 0.15})};
+    return {capsuleCapsule(scene,
+                           {pose.applyToPoint(-0.4 * kVertical), pose.applyToPoint(0.4 * kVertical), 0.15})};
   };
   pair.proposePose = [](Random& random) -> RigidTransform {
     const glm::dvec3 place(between(random, -1.0, 1.0), between(random, -1.0, 1.0),
@@ -175,11 +177,11 @@ ErrorPair torusOnTorus() {
                  "a ring (0.7 m, tube 0.2 m) beside or linked with another (1 m, tube 0.25 m)"};
   pair.isSceneCurved = true;
   pair.hasSaddles = true;
-  const Torus scene{glm::dvec3(0.0), kUp, 1.0, 0.25};
+  const Torus scene{glm::dvec3(0.0), kVertical, 1.0, 0.25};
   pair.scene = [](std::uint32_t n) { return fineTorusMesh(1.0, 0.25, 12, 4, n); };
   pair.part = [](std::uint32_t n) { return fineTorusMesh(0.7, 0.2, 8, 4, n); };
   pair.contacts = [scene](const RigidTransform& pose) -> Contacts {
-    return torusTorus(scene, {pose.translation, pose.rotation * kUp, 0.7, 0.2});
+    return torusTorus(scene, {pose.translation, pose.rotation * kVertical, 0.7, 0.2});
   };
   pair.proposePose = [](Random& random) -> RigidTransform {
     return {randomTurn(random), between(random, 0.5, 2.4) * randomDirection(random)};
@@ -196,7 +198,7 @@ std::vector<ErrorPair> floorPairs() {
   const auto cone = [](const RigidTransform& pose) -> std::optional<TrueContact> {
     const std::optional<TrueContact> contact = floorCone(0.4, 0.8, pose);
     // Tilted by 180 degrees less its slope it lies on a line, and a mesh near that on either end.
-    const double tilt = std::acos((pose.rotation * kUp).z), slope = std::atan2(0.8, 0.4);
+    const double tilt = std::acos((pose.rotation * kVertical).z), slope = std::atan2(0.8, 0.4);
     return std::abs(tilt - (pi - slope)) < radians(5.0) ? std::nullopt : contact;
   };
   const auto boxContact = [box](const RigidTransform& pose) { return floorBox(box, pose); };

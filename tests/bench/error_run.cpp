@@ -15,13 +15,13 @@
 #include "tests/bench/error_shapes.h"
 #include "tests/bench/portable_random.h"
 #include "tests/bench/statistics.h"
+#include "tests/bench/units.h"
 
 namespace nearfit::bench {
 namespace {
 
 constexpr double kStep = 2e-4;                             // A tick [m].
 constexpr double kTurn = 0.05 * std::numbers::pi / 180.0;  // A tick [rad].
-constexpr double kMicro = 1e6;
 
 /// What was measured of one method at one fineness.
 struct Lane {

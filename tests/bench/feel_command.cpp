@@ -22,9 +22,6 @@
 namespace nearfit::bench {
 namespace {
 
-/// As the query benchmark has it.
-constexpr double kCutoffFraction = 0.05;
-
 struct FeelOptions {
   std::filesystem::path shared, csv;
   std::vector<std::string> groups{"smoothness", "pairs", "conforming", "sliding", "tessellation"};
@@ -75,7 +72,7 @@ void measureSmoothness(const FeelOptions& options, std::vector<FeelRow>& all) {
 
 void measurePairs(const FeelOptions& options, std::vector<FeelRow>& all) {
   for (const SceneEntry& entry : pairScenes(options)) {
-    const PreparedScene bodies(entry.make(), kCutoffFraction);
+    const PreparedScene bodies(entry.make(), kUsualCutoffFraction);
     for (const double speed : options.speeds) {
       SeekingPathOptions seeking = options.seeking;
       seeking.speed = speed;
@@ -98,7 +95,7 @@ void measureConforming(const FeelOptions& options, std::vector<FeelRow>& all) {
                    "conforming",
                    feel.scene,
                    {},
-                   kCutoffFraction * feel.size,
+                   kUsualCutoffFraction * feel.size,
                    feel.margin.value_or(options.smoothness.margin)};
     for (std::size_t i = 0; i < options.seeking.ticks; ++i)
       scene.path.push_back(handAt(feel.motion, kTick * static_cast<double>(i)));

@@ -6,6 +6,7 @@
 #include "device/servo/servo_loop.h"
 #include "tests/bench/feel_certified.h"
 #include "tests/bench/feel_servo.h"
+#include "tests/bench/units.h"
 
 namespace nearfit::bench {
 namespace {
@@ -66,7 +67,6 @@ CostRun runCost(const CostCase& scene, const CostOptions& options) {
 }
 
 std::vector<FeelRow> costRows(const CostCase& scene, const CostRun& run) {
-  constexpr double kMicro = 1e6;
   std::vector<FeelRow> rows;
   const auto add = [&](const char* quantity, const std::vector<double>& samples, double scale) {
     rows.push_back(feelRow("cost", scene.scene, scene.run, quantity, samples, scale));

@@ -10,6 +10,7 @@
 
 #include "core/math/rotation_vector.h"
 #include "core/proximity/lmd_query.h"
+#include "device/servo/servo_loop.h"
 #include "tests/bench/scene_path.h"
 
 namespace nearfit::bench {
@@ -19,7 +20,6 @@ namespace {
 constexpr double kSwingRate = 0.41, kSlideRate = 0.53, kTurnRate = 0.47, kTiltRate = 0.37,
                  kTiltRateAside = 0.31;
 
-constexpr double kTick = 1e-3;  // [s]
 /// How close to the scene the path stays that the hand presses down from, in cutoffs: near enough that its
 /// nearest points are where the part then touches.
 constexpr double kPathWithin = 0.2;
@@ -54,7 +54,7 @@ RigidTransform handAt(const PressingMotion& m, double time) {
 std::vector<RigidTransform> seekingPath(const PreparedScene& scene, const SeekingPathOptions& options) {
   HandPathOptions walk;
   walk.poses = options.ticks;
-  walk.step = options.speed * kTick / scene.size;
+  walk.step = options.speed * ServoLoop::kPeriod / scene.size;
   walk.turn = kTurnOfStep * walk.step;
   walk.cutoff = kPathWithin * scene.cutoff;
   walk.seed = options.seed;
@@ -66,7 +66,7 @@ std::vector<RigidTransform> seekingPath(const PreparedScene& scene, const Seekin
     const LmdResult found = findLmds(scene.sceneTree, scene.partTree, pose, scene.cutoff, scratch, nearest);
     if (found.count > 0) wanted = -(nearest[0].distance + options.press) * nearest[0].direction;
     pose.translation += displaced;
-    displaced += kTick / kSmoothing * (wanted - displaced);
+    displaced += ServoLoop::kPeriod / kSmoothing * (wanted - displaced);
   }
   return path;
 }

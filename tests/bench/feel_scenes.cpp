@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using std::numbers::pi;
 
 /// How far beyond contact a hand presses [m].
-constexpr double kBeyond = 1e-3;
+constexpr double kPressDepth = 1e-3;
 constexpr double kDegree = pi / 180.0;
 
 FeelScene feelScene(const TriangleMesh& scene, const TriangleMesh& part, PressingMotion motion) {
@@ -39,7 +39,7 @@ RigidTransform raised(double z, double turn = 0.0) {
 PressingMotion inHole(double gap, const RigidTransform& start = {}) {
   PressingMotion motion;
   motion.start = start;
-  motion.press = gap + kBeyond;
+  motion.press = gap + kPressDepth;
   motion.swing = pi;
   motion.slide = 8e-3;
   motion.turn = 20.0 * kDegree;
@@ -68,7 +68,7 @@ PressingMotion inMesh(const RigidTransform& start, double gap, const glm::dvec3&
   PressingMotion motion;
   motion.start = start;
   motion.towards = towards;
-  motion.press = gap + kBeyond;
+  motion.press = gap + kPressDepth;
   motion.swing = 40.0 * kDegree;
   motion.slide = 3e-3;
   motion.turn = 6.0 * kDegree;
@@ -94,9 +94,9 @@ FeelScene nutOnBolt(const fs::path& folder) {
   constexpr double kPitch = 2e-3, kTurns = 3.0, kGap = 0.2e-3;
   PressingMotion motion;
   motion.start = raised(kTurns * kPitch, 2.0 * pi * kTurns);
-  motion.press = kGap + kBeyond;
+  motion.press = kGap + kPressDepth;
   motion.swing = pi;
-  motion.slide = kBeyond;
+  motion.slide = kPressDepth;
   motion.turn = 120.0 * kDegree;
   motion.lead = kPitch / (2.0 * pi);
   motion.tilt = 0.5 * kDegree;

@@ -6,13 +6,10 @@
 #include <sys/resource.h>
 
 #include "core/error.h"
+#include "tests/bench/arrival_delay.h"
 
 namespace nearfit::bench {
 namespace {
-
-constexpr double kServoTick = 1e-3;  // [s]
-/// Ticks until the other thread sees a pose, as SceneRefresher has it.
-constexpr double kWakeUp = 0.5;
 
 long preemptions() noexcept {
   rusage usage{};
@@ -58,7 +55,7 @@ void FeelServo::workBeside() {
   isUnderWay_ = true;
   readyAt_ = ticks_ + 1;
   if (arrival_ == ListArrival::AtOnce) return;
-  const double delay = kWakeUp + time / kServoTick;
+  const double delay = arrivalDelay(time);
   readyAt_ += static_cast<std::uint64_t>(delay);
   tracker_.setLead(delay);
 }

@@ -16,7 +16,7 @@
 namespace nearfit::bench {
 namespace {
 
-constexpr double kBox = 0.05, kCutoff = 0.01;
+constexpr double kBox = 0.05, kSpringCutoff = 0.01;
 /// The wall is this much longer than the way along it.
 constexpr double kBeyondWay = 0.5;
 constexpr double kStartGap = 1e-3;
@@ -33,7 +33,7 @@ std::shared_ptr<const ServoScene> boxOnWall(double length, double gap) {
 FeelServo servoOn(const std::shared_ptr<const ServoScene>& scene, double margin) {
   ServoParameters parameters;
   parameters.haptics.mode = HapticMode::Proxy;
-  parameters.haptics.springs.cutoff = kCutoff;
+  parameters.haptics.springs.cutoff = kSpringCutoff;
   parameters.haptics.proxy.margin = margin;
   return {scene, parameters, ListArrival::InTime, BenchClock::Thread};
 }

@@ -13,6 +13,7 @@
 #include "core/haptics/scene_tracker.h"
 #include "core/scene/scene_file.h"
 #include "tests/bench/bench_clock.h"
+#include "tests/bench/units.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"
 #include "tests/support/part_geometries.h"
@@ -21,8 +22,6 @@
 
 namespace nearfit::bench {
 namespace {
-
-constexpr double kMegabyte = 1e6;
 
 double secondsSince(double start) {
   return secondsBy(BenchClock::Wall) - start;

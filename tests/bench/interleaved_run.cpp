@@ -23,7 +23,7 @@ long preemptionsOfThread() {
 }
 
 /// One method with its state and what it has measured.
-struct Lane {
+struct QueryLane {
   std::unique_ptr<QueryMethod> query;
   std::size_t stride;
   MethodRun run;
@@ -54,7 +54,7 @@ struct Block {
   bool isFirstRound;
 };
 
-void walkBlock(Lane& lane, const Block& block, const RunOptions& options) {
+void walkBlock(QueryLane& lane, const Block& block, const RunOptions& options) {
   const std::size_t begin = (block.begin + lane.stride - 1) / lane.stride * lane.stride;
   if (begin >= block.end) return;
   // A method that lists pairs remembers nothing: one pose will do to warm the caches.
@@ -92,7 +92,7 @@ void pinTo(int cpu) {
 
 std::vector<MethodRun> runInterleaved(std::span<const MethodEntry> methods, const PreparedScene& scene,
                                       std::span<const RigidTransform> path, const RunOptions& options) {
-  std::vector<Lane> lanes;
+  std::vector<QueryLane> lanes;
   for (const MethodEntry& method : methods) {
     const std::size_t stride = method.kind == AnswerKind::Pairs ? options.pairsStride : 1;
     lanes.push_back({method.make(scene), stride, MethodRun{&method, {}, {}, {}, {}}});
@@ -110,7 +110,7 @@ std::vector<MethodRun> runInterleaved(std::span<const MethodEntry> methods, cons
     }
   }
   std::vector<MethodRun> runs;
-  for (Lane& lane : lanes) {
+  for (QueryLane& lane : lanes) {
     lane.run.remark = lane.query->remark();
     runs.push_back(std::move(lane.run));
   }

@@ -9,9 +9,6 @@
 namespace nearfit::bench {
 namespace {
 
-/// Minima that a query may return: more than any scene here has.
-constexpr std::size_t kCapacity = 65536;
-
 /// The full set at each pose, from nothing.
 class ColdQuery : public QueryMethod {
  public:
@@ -19,7 +16,7 @@ class ColdQuery : public QueryMethod {
   enum class Marking { None, AnyPose, BodiesApart };
 
   ColdQuery(const PreparedScene& scene, Marking marking)
-      : scene_(scene), marking_(marking), scratch_(kCapacity), lmds_(kCapacity) {}
+      : scene_(scene), marking_(marking), scratch_(kQueryCapacity), lmds_(kQueryCapacity) {}
 
   Answer query(const RigidTransform& sceneFromPart) override {
     const LmdResult result =

@@ -6,13 +6,12 @@
 
 #include <glm/vec3.hpp>
 
+#include "tests/support/portable_random.h"
+
 /// Random numbers that are the same with every standard library (its distributions are not).
 namespace nearfit::bench {
 
-/// Uniform in [0, 1).
-inline double uniform(std::mt19937_64& random) {
-  return static_cast<double>(random() >> 11) * 0x1p-53;
-}
+using test::uniform;
 
 /// Uniform on the unit sphere.
 inline glm::dvec3 randomDirection(std::mt19937_64& random) {

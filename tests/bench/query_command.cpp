@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 struct QueryOptions {
   std::vector<std::string> scenes{"all"}, methods;
   fs::path sharedFolder, sceneFile, partFile, poses, writePoses, csv, samples;
-  double metresPerUnit = 1.0, cutoffFraction = 0.05, turnDegrees = 0.2, tickMicros = 0.0;
+  double metresPerUnit = 1.0, cutoffFraction = kUsualCutoffFraction, turnDegrees = 0.2, tickMicros = 0.0;
   HandPathOptions path;
   RunOptions run;
   std::string baseline = "fcl-seeded";

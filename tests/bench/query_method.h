@@ -12,6 +12,11 @@
 
 namespace nearfit::bench {
 
+/// Minima that a query may return: more than any scene here has.
+constexpr std::size_t kQueryCapacity = 65536;
+/// The cutoff unless something else is asked for, of the larger body's diagonal.
+constexpr double kUsualCutoffFraction = 0.05;
+
 /// A scene with Nearfit's hierarchies, and the cutoff [m].
 struct PreparedScene {
   explicit PreparedScene(BenchScene bodies, double cutoffFraction);

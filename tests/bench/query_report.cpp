@@ -6,11 +6,10 @@
 #include <fmt/format.h>
 
 #include "tests/bench/statistics.h"
+#include "tests/bench/units.h"
 
 namespace nearfit::bench {
 namespace {
-
-constexpr double kMicro = 1e6;
 
 ReportRow rowOf(const PreparedScene& scene, const MethodRun& run, bool isBest) {
   ReportRow row;

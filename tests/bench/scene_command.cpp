@@ -23,9 +23,6 @@
 namespace nearfit::bench {
 namespace {
 
-/// As the query benchmark has it.
-constexpr double kCutoffFraction = 0.05;
-
 struct SceneOptions {
   std::vector<std::string> scenes{"gear-disc", "crankshaft-gear"};
   std::vector<std::size_t> farParts{1000, 10'000};
@@ -44,7 +41,7 @@ TickScene sceneOf(const NearPair& pair, std::size_t farCount) {
 }
 
 std::vector<TickRow> measureTicks(const SceneEntry& entry, const SceneOptions& options) {
-  const PreparedScene pairOfMeshes(entry.make(), kCutoffFraction);
+  const PreparedScene pairOfMeshes(entry.make(), kUsualCutoffFraction);
   const std::vector<RigidTransform> path = makePath(pairOfMeshes, options.path);
   NearPair pair(pairOfMeshes, path);
   pair.field.keepOut.radius += options.gapFraction * pairOfMeshes.size;
@@ -80,7 +77,7 @@ std::string settingsComment(const SceneOptions& o) {
   return fmt::format(
              "# path: {} poses, seed {}; cutoff {} of the diagonal; far parts: seed {}, {} of the "
              "diagonal beyond the cutoff\n",
-             o.path.poses, o.path.seed, kCutoffFraction, o.seed, o.gapFraction) +
+             o.path.poses, o.path.seed, kUsualCutoffFraction, o.seed, o.gapFraction) +
          fmt::format("# times: {} clock, {} of {} rounds, turns of {} poses of which {} warm up, {}\n",
                      o.run.clock == BenchClock::Wall ? "wall" : "thread", o.isBest ? "least" : "all",
                      o.run.rounds, o.run.block, o.run.warmUp,

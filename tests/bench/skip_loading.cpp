@@ -9,6 +9,7 @@
 #include "core/haptics/scene_tracker.h"
 #include "core/haptics/servo_tick.h"
 #include "core/proximity/lmd_query.h"
+#include "device/servo/servo_loop.h"
 #include "tests/bench/bench_scene.h"
 #include "tests/bench/bench_shapes.h"
 #include "tests/bench/digest.h"
@@ -27,7 +28,6 @@ namespace {
 
 /// Of the diagonal: reaches from one part of a grid to the next.
 constexpr double kAcrossTheGrid = 1.0;
-constexpr double kTick = 1e-3;  ///< [s]
 /// Parts of the large scene that are shown, the one in hand among them.
 constexpr std::size_t kShown = 3;
 
@@ -56,7 +56,8 @@ struct FirstTick {
     tracker.setScene(makeServoScene(scene));
     tracker.refresh(searchReach(parameters.haptics), tracked);
     tick.reset();
-    tick.run(tracked, parameters, {.pose = scene.find(*scene.movingPart())->worldFromPart}, kTick, *snapshot);
+    tick.run(tracked, parameters, {.pose = scene.find(*scene.movingPart())->worldFromPart},
+             ServoLoop::kPeriod, *snapshot);
   }
   std::uint64_t answer() const {
     if (snapshot->lmdCount == 0) throw Error("first tick", "it has no minima, so that it is no evidence");

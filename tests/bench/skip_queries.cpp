@@ -14,11 +14,6 @@
 namespace nearfit::bench {
 namespace {
 
-/// Minima that a query may return: more than any scene here has.
-constexpr std::size_t kCapacity = 65536;
-/// As the query benchmark has it.
-constexpr double kCutoffFraction = 0.05;
-
 const std::vector<std::string> kScenes{"gear-disc", "crankshaft-gear", "teapot-spring", "organic-70k"};
 const std::vector<std::string> kMeshes{"gear-6k", "spring-24k", "organic-70k"};
 
@@ -26,7 +21,7 @@ const std::vector<std::string> kMeshes{"gear-6k", "spring-24k", "organic-70k"};
 class ColdWay {
  public:
   ColdWay(const NormalConeTree& scene, const NormalConeTree& part, double cutoff)
-      : scene_(scene), part_(part), cutoff_(cutoff), scratch_(kCapacity), lmds_(kCapacity) {}
+      : scene_(scene), part_(part), cutoff_(cutoff), scratch_(kQueryCapacity), lmds_(kQueryCapacity) {}
 
   void find(const RigidTransform& pose) {
     found_ = findLmds(scene_, part_, pose, cutoff_, scratch_, lmds_);
@@ -61,7 +56,7 @@ std::string featuresRemark(const NormalConeTree& tree) {
 }
 
 SkipRow queryWithoutFeatures(const SceneEntry& entry, const SkipOptions& options) {
-  const PreparedScene prepared(entry.make(), kCutoffFraction);
+  const PreparedScene prepared(entry.make(), kUsualCutoffFraction);
   const std::vector<RigidTransform> path = makePath(prepared, options.path);
   const NormalConeTree scene = NormalConeTree::withIdleFeatures(prepared.meshes.scene),
                        part = NormalConeTree::withIdleFeatures(prepared.meshes.part);
@@ -111,7 +106,7 @@ SkipRow buildWithoutFeatures(const MeshEntry& entry, const SkipOptions& options)
 }
 
 SkipRow markWithoutDistance(const SceneEntry& entry, const SkipOptions& options) {
-  const PreparedScene prepared(entry.make(), kCutoffFraction);
+  const PreparedScene prepared(entry.make(), kUsualCutoffFraction);
   const std::vector<RigidTransform> path = makePath(prepared, options.path);
   ColdWay with(prepared.sceneTree, prepared.partTree, prepared.cutoff),
       without(prepared.sceneTree, prepared.partTree, prepared.cutoff);

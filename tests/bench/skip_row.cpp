@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "tests/bench/statistics.h"
+#include "tests/bench/units.h"
 
 namespace nearfit::bench {
 
@@ -16,8 +17,6 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SkipSide, seconds, bytes, answers)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SkipRow, skip, where, measure, remark, with, without)
 
 namespace {
-
-constexpr double kMicro = 1e6, kMegabyte = 1e6;
 
 struct Figures {
   double p50, p99;  ///< [us]

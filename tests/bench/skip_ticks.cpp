@@ -13,8 +13,6 @@
 namespace nearfit::bench {
 namespace {
 
-/// As the query benchmark has it.
-constexpr double kCutoffFraction = 0.05;
 /// A hand that stops so often along its path, and stands so many ticks for each in which it moves.
 constexpr std::size_t kStops = 20, kStandingTicks = 5;
 
@@ -57,7 +55,7 @@ void forgetTicks(TrackedScene& tracked) {
 }
 
 SkipRow measureBroadPhase(const SceneEntry& entry, const SkipOptions& options) {
-  const PreparedScene prepared(entry.make(), kCutoffFraction);
+  const PreparedScene prepared(entry.make(), kUsualCutoffFraction);
   const std::vector<RigidTransform> path = makePath(prepared, options.path);
   const std::shared_ptr<const ServoScene> scene = NearPair(prepared, path).sceneWith(options.farParts);
   std::vector<TickRun> runs = bothRuns(scene, HapticMode::Springs, path, prepared.cutoff, lookAtAll, options);
@@ -68,7 +66,7 @@ SkipRow measureBroadPhase(const SceneEntry& entry, const SkipOptions& options) {
 }
 
 SkipRow measureLists(const SceneEntry& entry, const SkipOptions& options) {
-  const PreparedScene prepared(entry.make(), kCutoffFraction);
+  const PreparedScene prepared(entry.make(), kUsualCutoffFraction);
   const std::vector<RigidTransform> path = makePath(prepared, options.path);
   const std::shared_ptr<const ServoScene> scene = NearPair(prepared, path).sceneWith(0);
   std::vector<TickRun> runs =
@@ -85,7 +83,7 @@ SkipRow measureLists(const SceneEntry& entry, const SkipOptions& options) {
 }
 
 SkipRow measureStillTicks(const SceneEntry& entry, HapticMode mode, const SkipOptions& options) {
-  const PreparedScene prepared(entry.make(), kCutoffFraction);
+  const PreparedScene prepared(entry.make(), kUsualCutoffFraction);
   const std::vector<RigidTransform> moving = makePath(prepared, options.path);
   std::vector<RigidTransform> path;
   const std::size_t apart = std::max<std::size_t>(1, moving.size() / kStops);

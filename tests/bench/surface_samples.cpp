@@ -18,7 +18,7 @@ namespace {
 /// Random points a square of the spacing, of which those are kept that are not too near to a kept one.
 constexpr double kTrials = 12.0;
 constexpr double kAround = 2.5;
-constexpr std::uint32_t kLeaf = 8;
+constexpr std::uint32_t kBallLeaf = 8;
 /// Cosine between normals below which two points are on different sides of a wall.
 constexpr double kSameSide = -0.5;
 
@@ -106,7 +106,7 @@ void SurfaceSamples::build(std::uint32_t index, std::span<Candidate> all) {
   balls_[index].centre = box.centre();
   for (const Candidate& c : own)
     balls_[index].radius = std::max(balls_[index].radius, glm::distance(c.point, box.centre()));
-  if (own.size() <= kLeaf) return;
+  if (own.size() <= kBallLeaf) return;
   const glm::dvec3 size = box.upper - box.lower;
   const glm::length_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const std::uint32_t first = balls_[index].first, half = balls_[index].count / 2;

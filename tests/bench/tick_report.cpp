@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include "tests/bench/statistics.h"
+#include "tests/bench/units.h"
 
 namespace nearfit::bench {
 namespace {
-
-constexpr double kMicro = 1e6;
 
 TimeFigures figuresOf(const std::vector<double>& seconds) {
   if (seconds.empty()) return {};

@@ -11,9 +11,9 @@ namespace nearfit::bench {
 namespace {
 
 /// One scene with the servo's state in it, and what it has measured.
-class Lane {
+class TickLane {
  public:
-  Lane(const TickScene& scene, double cutoff, const RunOptions& options)
+  TickLane(const TickScene& scene, double cutoff, const RunOptions& options)
       : options_(options), alter_(scene.alter) {
     parameters_.haptics.mode = scene.mode;
     parameters_.haptics.springs.cutoff = cutoff;
@@ -99,9 +99,9 @@ std::optional<std::size_t> firstDifference(const TickRun& a, const TickRun& b) {
 std::vector<TickRun> runTicks(std::span<const TickScene> scenes, std::span<const RigidTransform> path,
                               double cutoff, const RunOptions& options) {
   if (options.cpu) pinTo(*options.cpu);
-  std::vector<std::unique_ptr<Lane>> lanes;
+  std::vector<std::unique_ptr<TickLane>> lanes;
   for (const TickScene& scene : scenes)
-    lanes.push_back(std::make_unique<Lane>(scene, cutoff, options));
+    lanes.push_back(std::make_unique<TickLane>(scene, cutoff, options));
   for (std::size_t round = 0; round < options.rounds; ++round) {
     for (std::size_t begin = 0; begin < path.size(); begin += options.block) {
       const std::size_t count = std::min(options.block, path.size() - begin);
@@ -110,7 +110,7 @@ std::vector<TickRun> runTicks(std::span<const TickScene> scenes, std::span<const
     }
   }
   std::vector<TickRun> runs;
-  for (const std::unique_ptr<Lane>& lane : lanes)
+  for (const std::unique_ptr<TickLane>& lane : lanes)
     runs.push_back(lane->result());
   return runs;
 }

@@ -5,23 +5,17 @@
 
 #include <fmt/format.h>
 
+#include "tests/bench/arrival_delay.h"
 #include "tests/bench/bench_clock.h"
 #include "tests/bench/statistics.h"
 
 namespace nearfit::bench {
-namespace {
-
-/// Minima that a query may return: more than any scene here has.
-constexpr std::size_t kCapacity = 65536;
-
-constexpr double kTick = 1e-3;  // [s]
-/// Ticks until the other thread sees a pose: it looks four times a tick, and may wait for its turn.
-constexpr double kWakeUp = 0.5;
-
-}  // namespace
 
 TrackedQuery::TrackedQuery(const PreparedScene& scene)
-    : scene_(scene), tracker_(scene.sceneTree, scene.partTree), scratch_(kCapacity), lmds_(kCapacity) {}
+    : scene_(scene),
+      tracker_(scene.sceneTree, scene.partTree),
+      scratch_(kQueryCapacity),
+      lmds_(kQueryCapacity) {}
 
 Answer TrackedQuery::query(const RigidTransform& sceneFromPart) {
   ++tick_;
@@ -45,7 +39,7 @@ void TrackedQuery::workAside(const RigidTransform& sceneFromPart) {
   const double start = secondsBy(BenchClock::Thread);
   tracker_.refresh(next, scene_.cutoff, refreshScratch_);
   const double time = secondsBy(BenchClock::Thread) - start;
-  const double delay = kWakeUp + time / kTick;
+  const double delay = arrivalDelay(time);
   readyAt_ = tick_ + 1 + static_cast<std::uint64_t>(delay);
   tracker_.setLead(delay);
   isUnderWay_ = true;

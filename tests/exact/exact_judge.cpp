@@ -17,7 +17,7 @@ constexpr double kCoordinates = 4e-16;
 
 /// What is parallel to this may be reported as one flat region [rad], whose directions differ by less than
 /// the second; and by how much those of near-parallel edges that are none may.
-constexpr double kFlat = 2e-6, kRegionWay = 2e-3, kContactWay = 1e-4;
+constexpr double kFlatRegion = 2e-6, kRegionWay = 2e-3, kContactWay = 1e-4;
 
 /// No two are as close as this at both ends and in direction; on either side of a thin sheet there are.
 constexpr double kSamePlace = 4e-12, kSameWay = 1.0 - 1e-6;
@@ -69,7 +69,7 @@ ExactJudge::ExactJudge(const BodyPair& pair)
 
 std::vector<ExactMinimum> ExactJudge::minimaAt(const RigidTransform& pose, double cutoff) const {
   // What is flat is told at the features' middles: elsewhere a tilted region is nearer.
-  return oracle_.minima(pose, cutoff + kFlat * size(), kLeastMargin);
+  return oracle_.minima(pose, cutoff + kFlatRegion * size(), kLeastMargin);
 }
 
 double ExactJudge::pointTolerance(const Lmd& f) const {
@@ -88,13 +88,13 @@ bool ExactJudge::isAt(const Lmd& f, const ExactMinimum& e) const {
 bool ExactJudge::isWithin(const Lmd& f, const ExactMinimum& e) const {
   const double apart =
       std::min(glm::distance(f.scenePoint, e.scenePoint), glm::distance(f.partPoint, e.partPoint));
-  return apart <= 2.0 * f.extent.halfLength + kFlat * size();
+  return apart <= 2.0 * f.extent.halfLength + kFlatRegion * size();
 }
 
 /// At one distance and in one direction: what places in a flat region share.
 bool ExactJudge::isSameContact(const Lmd& f, const ExactMinimum& e) const {
   const bool isFlat = f.isRegion || e.isFlat;
-  return std::abs(f.distance - e.distance) <= (isFlat ? kFlat : kAgreement) * size() &&
+  return std::abs(f.distance - e.distance) <= (isFlat ? kFlatRegion : kAgreement) * size() &&
          glm::distance(f.direction, e.direction) <=
              (isFlat ? kRegionWay : kContactWay) + kAgreement * size() / e.distance;
 }
@@ -102,7 +102,7 @@ bool ExactJudge::isSameContact(const Lmd& f, const ExactMinimum& e) const {
 /// Though elsewhere.
 bool ExactJudge::standsFor(const Lmd& f, const ExactMinimum& e, bool isCertain) const {
   if (!isSameContact(f, e)) return false;
-  if (f.isRegion) return !isCertain || std::min(e.angle, e.tilt) < kFlat || isWithin(f, e);
+  if (f.isRegion) return !isCertain || std::min(e.angle, e.tilt) < kFlatRegion || isWithin(f, e);
   // Within ten times the resolution two may become one.
   const double merged = kCertain * (kAgreement * size() + 1e-10 * e.distance);
   return !isCertain && (f.isMarginal || glm::distance(f.scenePoint, e.scenePoint) <= merged);
@@ -135,7 +135,7 @@ std::string ExactJudge::faultOf(const Lmd& f, const std::vector<ExactMinimum>& e
   if (f.isMarginal && !isRightlyMarginal(f, at, cutoff))
     return "marginal without need " + describe(f) + ", " + describe(*at[0]);
   if (glm::distance(f.partPoint - f.scenePoint, f.distance * f.direction) >
-      pointTolerance(f) + (f.isRegion ? kFlat * size() : 0.0))
+      pointTolerance(f) + (f.isRegion ? kFlatRegion * size() : 0.0))
     return "points, distance and direction disagree: " + describe(f);
   return "";
 }

@@ -14,54 +14,55 @@
 namespace nearfit::test {
 namespace {
 
-using Number = CGAL::Gmpq;
+using Rational = CGAL::Gmpq;
 using Corners = std::array<glm::dvec3, 3>;
 
-struct Vector {
-  Number x, y, z;
+struct RationalVector {
+  Rational x, y, z;
 };
-Vector difference(const glm::dvec3& a, const glm::dvec3& b) {
-  return {Number(a.x) - Number(b.x), Number(a.y) - Number(b.y), Number(a.z) - Number(b.z)};
+RationalVector difference(const glm::dvec3& a, const glm::dvec3& b) {
+  return {Rational(a.x) - Rational(b.x), Rational(a.y) - Rational(b.y), Rational(a.z) - Rational(b.z)};
 }
-Vector operator-(const Vector& a, const Vector& b) {
+RationalVector operator-(const RationalVector& a, const RationalVector& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-Number dot(const Vector& a, const Vector& b) {
+Rational dot(const RationalVector& a, const RationalVector& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-Vector cross(const Vector& a, const Vector& b) {
+RationalVector cross(const RationalVector& a, const RationalVector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-bool isZero(const Vector& v) {
+bool isZero(const RationalVector& v) {
   return v.x == 0 && v.y == 0 && v.z == 0;
 }
 
-bool isZeroOn(const Vector& a, const Vector& b) {
+bool isZeroOn(const RationalVector& a, const RationalVector& b) {
   return isZero(cross(a, b)) && dot(a, b) <= 0;
 }
 
-bool isZeroIn(const Vector& a, const Vector& b, const Vector& c) {
-  const Vector n = cross(b - a, c - a);
+bool isZeroIn(const RationalVector& a, const RationalVector& b, const RationalVector& c) {
+  const RationalVector n = cross(b - a, c - a);
   if (isZero(n) || dot(n, a) != 0) return false;
   return dot(cross(a, b), n) >= 0 && dot(cross(b, c), n) >= 0 && dot(cross(c, a), n) >= 0;
 }
 
-bool isZeroIn(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
-  const Number volume = dot(cross(b - a, c - a), d - a);
+bool isZeroIn(const RationalVector& a, const RationalVector& b, const RationalVector& c,
+              const RationalVector& d) {
+  const Rational volume = dot(cross(b - a, c - a), d - a);
   if (volume == 0) return false;
   // Zero in the place of each corner in turn: no volume turns round.
-  const std::array<Number, 4> parts{dot(cross(b, c), d), -dot(cross(a, c), d), dot(cross(a, b), d),
-                                    -dot(cross(a, b), c)};
-  for (const Number& part : parts) {
+  const std::array<Rational, 4> parts{dot(cross(b, c), d), -dot(cross(a, c), d), dot(cross(a, b), d),
+                                      -dot(cross(a, b), c)};
+  for (const Rational& part : parts) {
     if (part * volume < 0) return false;
   }
   return true;
 }
 
-bool isBeyond(const std::vector<Vector>& points, const Vector& axis) {
+bool isBeyond(const std::vector<RationalVector>& points, const RationalVector& axis) {
   int above = 0, below = 0;
-  for (const Vector& p : points) {
-    const Number height = dot(p, axis);
+  for (const RationalVector& p : points) {
+    const Rational height = dot(p, axis);
     above += height > 0 ? 1 : 0;
     below += height < 0 ? 1 : 0;
   }
@@ -69,21 +70,21 @@ bool isBeyond(const std::vector<Vector>& points, const Vector& axis) {
   return above == all || below == all;
 }
 
-Vector normalOf(const Corners& t) {
+RationalVector normalOf(const Corners& t) {
   return cross(difference(t[1], t[0]), difference(t[2], t[0]));
 }
 
-Number squared(const Vector& v) {
+Rational squared(const RationalVector& v) {
   return dot(v, v);
 }
-Vector scaled(const Number& s, const Vector& v) {
+RationalVector scaled(const Rational& s, const RationalVector& v) {
   return {s * v.x, s * v.y, s * v.z};
 }
 
 /// Squared distance of the origin from a segment.
-Number squaredToSegment(const Vector& a, const Vector& b) {
-  const Vector along = b - a;
-  const Number length = squared(along), share = -dot(a, along);
+Rational squaredToSegment(const RationalVector& a, const RationalVector& b) {
+  const RationalVector along = b - a;
+  const Rational length = squared(along), share = -dot(a, along);
   if (share <= 0 || length == 0) return squared(a);
   if (share >= length) return squared(b);
   return squared(a - scaled(-share / length, along));
@@ -91,23 +92,23 @@ Number squaredToSegment(const Vector& a, const Vector& b) {
 
 /// Squared distance of the lines of two sides where it is reached inside both; else something greater than
 /// that of the triangles, or equal.
-Number squaredOfSides(const Vector& w, const Vector& u, const Vector& v) {
-  const Vector n = cross(u, v);
-  const Number nn = squared(n);
+Rational squaredOfSides(const RationalVector& w, const RationalVector& u, const RationalVector& v) {
+  const RationalVector n = cross(u, v);
+  const Rational nn = squared(n);
   if (nn == 0) return squared(w);
-  const Number s = dot(cross(w, v), n) / nn, t = dot(cross(w, u), n) / nn;
+  const Rational s = dot(cross(w, v), n) / nn, t = dot(cross(w, u), n) / nn;
   if (s < 0 || s > 1 || t < 0 || t > 1) return squared(w);
-  const Number height = dot(w, n);
+  const Rational height = dot(w, n);
   return height * height / nn;
 }
 
 /// Squared distance of a point from a face where its foot is inside; else of the point from a corner.
-Number squaredToFace(const glm::dvec3& p, const Corners& t) {
-  const Vector n = cross(difference(t[1], t[0]), difference(t[2], t[0])), w = difference(p, t[0]);
+Rational squaredToFace(const glm::dvec3& p, const Corners& t) {
+  const RationalVector n = cross(difference(t[1], t[0]), difference(t[2], t[0])), w = difference(p, t[0]);
   for (std::size_t k = 0; k < 3; ++k) {
     if (dot(cross(difference(t[(k + 1) % 3], t[k]), difference(p, t[k])), n) < 0) return squared(w);
   }
-  const Number height = dot(w, n);
+  const Rational height = dot(w, n);
   return height * height / squared(n);
 }
 
@@ -150,7 +151,7 @@ void visitPairs(const TriangleMesh& scene, const TriangleMesh& part, const Rigid
 }  // namespace
 
 bool doMeetExactly(const Corners& a, const Corners& b) {
-  std::vector<Vector> d;
+  std::vector<RationalVector> d;
   for (const glm::dvec3& p : a) {
     for (const glm::dvec3& q : b)
       d.push_back(difference(p, q));
@@ -174,8 +175,8 @@ bool doMeetExactly(const Corners& a, const Corners& b) {
 
 double exactDistance(const Corners& a, const Corners& b) {
   if (doMeetExactly(a, b)) return 0.0;
-  Number least = squared(difference(a[0], b[0]));
-  const auto take = [&](const Number& n) {
+  Rational least = squared(difference(a[0], b[0]));
+  const auto take = [&](const Rational& n) {
     if (n < least) least = n;
   };
   for (std::size_t i = 0; i < 3; ++i) {

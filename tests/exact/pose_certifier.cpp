@@ -22,7 +22,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 /// What placing a point and measuring a gap may round, of the largest coordinate: a hundred roundings.
-constexpr double kRounding = 1e-14;
+constexpr double kPlacementRounding = 1e-14;
 
 Kernel::Point_3 toPoint(const glm::dvec3& p) {
   return {p.x, p.y, p.z};
@@ -137,7 +137,7 @@ struct PoseCertifier::Bodies {
       waiting.insert(waiting.end(), next.begin(), next.end());
     }
     const double size = std::max({extent(scene.node(0).box), extent(part.node(0).box), extent(boxes[0])});
-    return std::max(0.0, apart - kRounding * size);
+    return std::max(0.0, apart - kPlacementRounding * size);
   }
 
   double leavesApart(const BoxTree::Node& a, const BoxTree::Node& b, std::span<const glm::dvec3> vertices,
@@ -161,7 +161,7 @@ struct PoseCertifier::Bodies {
       most = std::max(most, glm::distance(before, after));
       size = std::max({size, largest(before), largest(after)});
     }
-    return most + kRounding * size;
+    return most + kPlacementRounding * size;
   }
 
   bool isOneInside(const RigidTransform& pose) const {

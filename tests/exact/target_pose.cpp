@@ -6,12 +6,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "tests/support/portable_random.h"
+
 namespace nearfit::test {
 namespace {
-
-double uniform(std::mt19937_64& random) {
-  return static_cast<double>(random() >> 11) * 0x1p-53;
-}
 
 /// Zero, a power of ten down to 1e-12, or anything up to 1.
 double weight(std::mt19937_64& random) {

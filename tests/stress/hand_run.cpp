@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/haptics/wrench_conditioner.h"
+#include "device/servo/servo_loop.h"
 #include "tests/bench/portable_random.h"
 #include "tests/stress/hand_motion.h"
 #include "tests/stress/held_hand.h"
@@ -17,7 +18,6 @@ namespace {
 
 /// Ticks between changes of settings.
 constexpr std::uint64_t kEpisode = 800;
-constexpr double kPeriod = 1e-3;  ///< Nominal [s].
 /// What a wrench takes at most to be whole again [s].
 constexpr double kRise = std::max(WrenchConditioner::kRampTime, WrenchConditioner::kRecoveryTime);
 
@@ -96,7 +96,7 @@ class HandRun {
     whole_ = 0.0;
   }
 
-  double nextPeriod() { return kPeriod * (1.0 + episode_.jitter * bench::uniform(random_)); }
+  double nextPeriod() { return ServoLoop::kPeriod * (1.0 + episode_.jitter * bench::uniform(random_)); }
 
   void tick() {
     const double period = nextPeriod();

@@ -10,16 +10,15 @@
 #include <glm/gtc/quaternion.hpp>
 #include <unistd.h>
 
+#include "device/servo/servo_loop.h"
 #include "tests/stress/stress_scene.h"
 #include "tests/stress/stress_servo.h"
-#include "tests/support/mesh_generators.h"
 
 namespace nearfit::stress {
 namespace {
 
-constexpr double kPeriod = 1e-3, kCycle = 10.0;  // [s]
-constexpr auto kTicksOfCycle = static_cast<std::uint64_t>(kCycle / kPeriod);
-constexpr double kCube = 0.04;
+constexpr double kCycle = 10.0;  // [s]
+constexpr auto kTicksOfCycle = static_cast<std::uint64_t>(kCycle / ServoLoop::kPeriod);
 
 /// From 0 to 1 between two times, smoothly.
 double between(double time, double begin, double end) {
@@ -29,12 +28,12 @@ double between(double time, double begin, double end) {
 
 /// At the same moment of each cycle the same, to the last bit.
 RigidTransform handAt(std::uint64_t tickOfCycle) {
-  const double time = kPeriod * static_cast<double>(tickOfCycle);
+  const double time = ServoLoop::kPeriod * static_cast<double>(tickOfCycle);
   const double down = between(time, 0.5, 1.5) - between(time, 8.0, 9.0);
   const double slide = between(time, 2.0, 4.0) - between(time, 9.0, 9.8);
   const double turn = between(time, 4.5, 6.0) - between(time, 9.0, 9.8);
   return {glm::angleAxis(0.5 * turn, glm::dvec3(0.0, 0.0, 1.0)),
-          {0.05 * slide, 0.0, 0.5 * kCube + 0.01 - 0.013 * down}};
+          {0.05 * slide, 0.0, 0.5 * kCubeSide + 0.01 - 0.013 * down}};
 }
 
 std::int64_t residentBytes() {
@@ -52,16 +51,13 @@ struct Moment {
 
 class LongRun {
  public:
-  LongRun()
-      : scene_(stressScene({{test::boxMesh({0.3, 0.3, 0.05}, {0.0, 0.0, -0.025})}},
-                           test::boxMesh(glm::dvec3(kCube)), handAt(0), kLongMargin)),
-        servo_(scene_.scene, parameters(), 1) {}
+  LongRun() : scene_(cubeOverFloor(handAt(0), kLongMargin)), servo_(scene_.scene, parameters(), 1) {}
 
   LongRunResult run(std::uint64_t ticks) {
     const std::uint64_t late = ticks - ticks / 10;
     for (result_.ticks = 0; result_.ticks < ticks; ++result_.ticks) {
       const std::uint64_t ofCycle = result_.ticks % kTicksOfCycle;
-      const ServoSnapshot& s = servo_.tick({.pose = handAt(ofCycle)}, kPeriod);
+      const ServoSnapshot& s = servo_.tick({.pose = handAt(ofCycle)}, ServoLoop::kPeriod);
       // Free and at rest at the beginning, pressed and at rest before it is lifted.
       if (ofCycle == kTicksOfCycle / 25)
         result_.freeDrift =
@@ -114,7 +110,7 @@ class LongRun {
 }  // namespace
 
 LongRunResult runLong(double seconds) {
-  return LongRun().run(static_cast<std::uint64_t>(std::llround(seconds / kPeriod)));
+  return LongRun().run(static_cast<std::uint64_t>(std::llround(seconds / ServoLoop::kPeriod)));
 }
 
 }  // namespace nearfit::stress

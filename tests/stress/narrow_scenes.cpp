@@ -8,16 +8,12 @@
 namespace nearfit::stress {
 namespace {
 
-constexpr double kMargin = 5e-5;
-
-RigidTransform at(const glm::dvec3& translation) {
-  return {{1.0, 0.0, 0.0, 0.0}, translation};
-}
+constexpr double kNarrowMargin = 5e-5;
 
 StressScene pegInBore() {
   constexpr double kPeg = 8e-3, kClearance = 2e-5;
   return stressScene({{test::tubeMesh(kPeg + kClearance, 12.5e-3, 9e-3, 64)}},
-                     test::cylinderMesh(kPeg, 50e-3, 64), at({0.0, 0.0, 0.0}), kMargin);
+                     test::cylinderMesh(kPeg, 50e-3, 64), placedAt({0.0, 0.0, 0.0}), kNarrowMargin);
 }
 
 StressScene wedgeInGroove() {
@@ -29,7 +25,7 @@ StressScene wedgeInGroove() {
   };
   const RigidTransform edgeDown{glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 0.1}};
   StressScene scene = stressScene({side(1.0), side(-1.0)}, test::transformed(test::wedgeMesh(kWedge), 0.02),
-                                  edgeDown, kMargin);
+                                  edgeDown, kNarrowMargin);
   scene.lure.translation = glm::dvec3(0.0);
   return scene;
 }
@@ -45,9 +41,9 @@ StressScene needleInGrid() {
     grid = test::joined(grid, test::boxMesh({kBar, kLength, kBar}, {place, 0.0, 0.0}));
   }
   const double hole = 0.5 * kPitch;
-  StressScene scene =
-      stressScene({{grid}}, test::cylinderMesh(0.2e-3, 30e-3, 6), at({hole, hole, 20e-3}), kMargin);
-  scene.lure = at({hole, hole, 2e-3});
+  StressScene scene = stressScene({{grid}}, test::cylinderMesh(0.2e-3, 30e-3, 6),
+                                  placedAt({hole, hole, 20e-3}), kNarrowMargin);
+  scene.lure = placedAt({hole, hole, 2e-3});
   return scene;
 }
 
@@ -56,8 +52,8 @@ StressScene blockBetweenPlates() {
   constexpr double kBlock = 10e-3, kRoom = 1e-6, kPlate = 5e-3;
   const double height = 0.5 * (kBlock + kPlate) + kRoom;
   const TriangleMesh plate = test::boxMesh({0.1, 0.1, kPlate});
-  return stressScene({{plate, at({0.0, 0.0, height})}, {plate, at({0.0, 0.0, -height})}},
-                     test::boxMesh({0.03, 0.03, kBlock}), at({0.0, 0.0, 0.0}), kMargin);
+  return stressScene({{plate, placedAt({0.0, 0.0, height})}, {plate, placedAt({0.0, 0.0, -height})}},
+                     test::boxMesh({0.03, 0.03, kBlock}), placedAt({0.0, 0.0, 0.0}), kNarrowMargin);
 }
 
 }  // namespace

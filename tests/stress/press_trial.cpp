@@ -60,10 +60,6 @@ ServoParameters parametersOf(const PressScene& scene, const PressOptions& option
   return parameters;
 }
 
-RigidTransform at(const glm::dvec3& translation, const glm::dquat& rotation = {1.0, 0.0, 0.0, 0.0}) {
-  return {rotation, translation};
-}
-
 PressScene named(const char* name, const glm::dvec3& shift, const glm::dquat& turn = {1.0, 0.0, 0.0, 0.0},
                  double scale = 1.0) {
   PressScene out{name, chosenScenes(stressScenes({}), {name}).front().make(), {}, scale};
@@ -86,10 +82,10 @@ PressScene cubeAt(const char* name, const RigidTransform& wanted) {
   const TriangleMesh slab = test::boxMesh({kFloor, kFloor, 0.05}, {0.0, 0.0, -0.025});
   const TriangleMesh wall = test::boxMesh({0.05, kFloor, kFloor}, {-0.025 - 0.05, 0.0, 0.0});
   const TriangleMesh other = test::boxMesh({kFloor, 0.05, kFloor}, {0.0, -0.025 - 0.05, 0.0});
-  return {
-      name,
-      stressScene({{slab}, {wall}, {other}}, test::boxMesh(glm::dvec3(kCube)), at({0.0, 0.0, 0.03}), kMargin),
-      wanted};
+  return {name,
+          stressScene({{slab}, {wall}, {other}}, test::boxMesh(glm::dvec3(kCube)), placedAt({0.0, 0.0, 0.03}),
+                      kMargin),
+          wanted};
 }
 
 /// The wanted pose as a device has it that was in its origin when the servo began, the part's centre in hand.
@@ -105,9 +101,9 @@ RigidTransform onDevice(const PressScene& scene) {
 std::vector<PressScene> pressScenes() {
   const glm::dquat tilt = glm::angleAxis(0.3, glm::normalize(glm::dvec3(1.0, 2.0, 0.5)));
   const glm::dvec3 pulled(0.03, 0.01, 0.01);
-  return {cubeAt("flat", at({0.0, 0.0, 0.01})),
-          cubeAt("edge", at({0.01, 0.0, 0.0}, glm::angleAxis(0.6, glm::dvec3(0.0, 1.0, 0.0)))),
-          cubeAt("corner", at({-0.04, -0.04, 0.01}, tilt)),
+  return {cubeAt("flat", placedAt({0.0, 0.0, 0.01})),
+          cubeAt("edge", placedAt({0.01, 0.0, 0.0}, glm::angleAxis(0.6, glm::dvec3(0.0, 1.0, 0.0)))),
+          cubeAt("corner", placedAt({-0.04, -0.04, 0.01}, tilt)),
           named("peg-bore", {0.01, 0.005, 0.0}, tilt),
           named("wedge-jam", {0.0, 0.0, -0.01}),
           named("slot-1um", {0.0, 0.002, 0.01}, tilt),

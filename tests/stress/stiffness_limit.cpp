@@ -11,25 +11,17 @@
 #include "core/haptics/virtual_coupling.h"
 #include "tests/stress/stress_scene.h"
 #include "tests/stress/stress_servo.h"
-#include "tests/support/mesh_generators.h"
 #include "tests/support/simulated_hand.h"
 
 namespace nearfit::stress {
 namespace {
 
 /// So small that the proxy's resting place, known to a thousandth of it, is a wall.
-constexpr double kMargin = 1e-6;
+constexpr double kWallMargin = 1e-6;
 constexpr double kPush = 2.0;    ///< The device is leant on with this [N].
 constexpr double kNudge = 0.05;  ///< Of the depth, and of its velocity: the device stays in contact.
-constexpr double kCube = 0.04;
 constexpr double kPrecision = 0.01;
 constexpr double kNoLimit = 1e9;  ///< Of force and slew.
-
-StressScene cubeOnFloor() {
-  return stressScene({{test::boxMesh({0.3, 0.3, 0.05}, {0.0, 0.0, -0.025})}},
-                     test::boxMesh(glm::dvec3(kCube)), {{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.5 * kCube + 1e-3}},
-                     kMargin);
-}
 
 double knownPeriod(double period) {
   return std::max(period, PeriodMeter{}.nominal());
@@ -38,7 +30,7 @@ double knownPeriod(double period) {
 ServoParameters parametersFor(const LeaningDevice& device, double stiffness) {
   ServoParameters parameters;
   HapticSettings& settings = parameters.haptics;
-  settings.proxy.margin = kMargin;
+  settings.proxy.margin = kWallMargin;
   settings.springs.cutoff = 1e-3;
   settings.coupling = {.isAutomatic = false, .stiffness = stiffness, .damping = device.couplingDamping};
   DeviceLimits& limits = parameters.limits;
@@ -81,10 +73,10 @@ class Leaning {
 
  private:
   static const StressScene& scene() {
-    static const StressScene made = cubeOnFloor();
+    static const StressScene made = cubeOverFloor(placedAt({0.0, 0.0, 0.5 * kCubeSide + 1e-3}), kWallMargin);
     return made;
   }
-  static double atRest() { return 0.5 * kCube + kMargin; }
+  static double atRest() { return 0.5 * kCubeSide + kWallMargin; }
   static HandleInput at(double height) { return {.pose = {{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, height}}}; }
 
   const LeaningDevice device_;

@@ -7,13 +7,14 @@
 #include "core/error.h"
 #include "core/proximity/broad_phase.h"
 #include "tests/bench/feel_scenes.h"
+#include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 
 namespace nearfit::stress {
 namespace {
 
 /// Minima are looked for this many margins around.
-constexpr double kCutoff = 20.0;
+constexpr double kCutoffMargins = 20.0;
 
 PartGeometryPtr solidOf(const TriangleMesh& mesh) {
   PartGeometryPtr geometry = test::solidGeometryOf(mesh);
@@ -42,7 +43,7 @@ StressEntry fromFeel(const bench::FeelEntry& entry) {
             StressScene out;
             out.scene = feel.scene;
             out.margin = 5e-5;
-            out.cutoff = kCutoff * out.margin;
+            out.cutoff = kCutoffMargins * out.margin;
             out.size = feel.size;
             out.lure = feel.motion.start;
             return out;
@@ -73,10 +74,15 @@ StressScene stressScene(const std::vector<PlacedBody>& bodies, const TriangleMes
   StressScene out;
   out.scene = std::move(scene);
   out.margin = margin;
-  out.cutoff = kCutoff * margin;
+  out.cutoff = kCutoffMargins * margin;
   out.size = box.diagonal();
   out.lure = start;
   return out;
+}
+
+StressScene cubeOverFloor(const RigidTransform& start, double margin) {
+  return stressScene({{test::boxMesh({0.3, 0.3, 0.05}, {0.0, 0.0, -0.025})}},
+                     test::boxMesh(glm::dvec3(kCubeSide)), start, margin);
 }
 
 std::vector<StressEntry> stressScenes(const std::filesystem::path& sharedFolder) {

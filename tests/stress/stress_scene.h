@@ -50,6 +50,16 @@ struct PlacedBody {
 StressScene stressScene(const std::vector<PlacedBody>& bodies, const TriangleMesh& part,
                         const RigidTransform& start, double margin);
 
+/// A cube over a floor whose top is z = 0.
+constexpr double kCubeSide = 0.04;  ///< [m]
+StressScene cubeOverFloor(const RigidTransform& start, double margin);
+
+/// Not turned unless it is said how.
+inline RigidTransform placedAt(const glm::dvec3& translation,
+                               const glm::dquat& rotation = {1.0, 0.0, 0.0, 0.0}) {
+  return {rotation, translation};
+}
+
 // By what is hard about them.
 std::vector<StressEntry> narrowScenes();
 std::vector<StressEntry> thinScenes();

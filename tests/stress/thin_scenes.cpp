@@ -10,7 +10,7 @@
 namespace nearfit::stress {
 namespace {
 
-constexpr double kMargin = 1e-4;
+constexpr double kThinMargin = 1e-4;
 constexpr double kBox = 0.1;  ///< Sides of every box here [m].
 
 /// Whether the part's first vertex is still inside, or outside, of the box about the origin.
@@ -23,7 +23,7 @@ std::function<bool(const RigidTransform&)> keptBy(const TriangleMesh& part, doub
 
 StressScene withBox(const TriangleMesh& box, const TriangleMesh& part, bool isInside) {
   const glm::dvec3 start = isInside ? glm::dvec3(0.0) : glm::dvec3(kBox, 0.01, 0.02);
-  StressScene scene = stressScene({{box}}, part, {{1.0, 0.0, 0.0, 0.0}, start}, kMargin);
+  StressScene scene = stressScene({{box}}, part, {{1.0, 0.0, 0.0, 0.0}, start}, kThinMargin);
   scene.isKept = keptBy(part, kBox, isInside);
   if (isInside) scene.lure.translation = glm::dvec3(0.5 * kBox);
   return scene;
@@ -74,7 +74,8 @@ std::vector<StressEntry> thinScenes() {
            [] {
              const TriangleMesh sheet = test::squareMesh(kBox, 4);
              return stressScene({{sheet}}, test::transformed(sheet, 0.5),
-                                {glm::angleAxis(0.4, glm::dvec3(1.0, 0.0, 0.0)), {0.0, 0.0, 0.05}}, kMargin);
+                                {glm::angleAxis(0.4, glm::dvec3(1.0, 0.0, 0.0)), {0.0, 0.0, 0.05}},
+                                kThinMargin);
            },
            6.0}};
 }

@@ -7,19 +7,17 @@
 
 #include <glm/geometric.hpp>
 
+#include "tests/support/portable_random.h"
+
 namespace nearfit::test {
 namespace {
 
-/// Uniform in [0, 1), the same on every platform.
-double uniform(std::mt19937_64& random) {
-  return static_cast<double>(random() >> 11) * 0x1p-53;
-}
-
-struct Draft {
+/// A mesh that is being spoilt.
+struct EditableMesh {
   std::vector<glm::dvec3> vertices;
   std::vector<Triangle> triangles;
 
-  explicit Draft(const TriangleMesh& mesh)
+  explicit EditableMesh(const TriangleMesh& mesh)
       : vertices(mesh.vertices().begin(), mesh.vertices().end()),
         triangles(mesh.triangles().begin(), mesh.triangles().end()) {}
   std::uint32_t add(const glm::dvec3& p) {
@@ -37,7 +35,7 @@ struct Draft {
   TriangleMesh finish() { return {std::move(vertices), std::move(triangles)}; }
 };
 
-glm::dvec3 normalOf(const Draft& draft, const Triangle& t) {
+glm::dvec3 normalOf(const EditableMesh& draft, const Triangle& t) {
   return glm::normalize(
       glm::cross(draft.vertices[t[1]] - draft.vertices[t[0]], draft.vertices[t[2]] - draft.vertices[t[0]]));
 }
@@ -45,7 +43,7 @@ glm::dvec3 normalOf(const Draft& draft, const Triangle& t) {
 }  // namespace
 
 TriangleMesh withSlivers(const TriangleMesh& mesh, double aspect, double lift) {
-  Draft draft(mesh);
+  EditableMesh draft(mesh);
   for (std::size_t f = 0; f < mesh.triangles().size(); ++f) {
     const Triangle& t = mesh.triangles()[f];
     const glm::dvec3 a = draft.vertices[t[0]], b = draft.vertices[t[1]], n = normalOf(draft, t);
@@ -57,7 +55,7 @@ TriangleMesh withSlivers(const TriangleMesh& mesh, double aspect, double lift) {
 }
 
 TriangleMesh withNeedles(const TriangleMesh& mesh, double aspect, double lift) {
-  Draft draft(mesh);
+  EditableMesh draft(mesh);
   for (std::size_t f = 0; f < mesh.triangles().size(); ++f) {
     const Triangle& t = mesh.triangles()[f];
     const glm::dvec3 a = draft.vertices[t[0]], b = draft.vertices[t[1]], c = draft.vertices[t[2]];
@@ -68,7 +66,7 @@ TriangleMesh withNeedles(const TriangleMesh& mesh, double aspect, double lift) {
 }
 
 TriangleMesh withDuplicates(const TriangleMesh& mesh) {
-  Draft draft(mesh);
+  EditableMesh draft(mesh);
   for (std::size_t f = 0; f < mesh.triangles().size(); f += 3) {
     const Triangle& t = mesh.triangles()[f];
     draft.triangles.push_back(f % 6 == 0 ? Triangle{t[0], t[2], t[1]} : Triangle{t[1], t[2], t[0]});
@@ -77,7 +75,7 @@ TriangleMesh withDuplicates(const TriangleMesh& mesh) {
 }
 
 TriangleMesh withFacesWithoutArea(const TriangleMesh& mesh) {
-  Draft draft(mesh);
+  EditableMesh draft(mesh);
   for (std::size_t e = 0; e < mesh.edges().size(); e += 2) {
     const MeshEdge& edge = mesh.edges()[e];
     const glm::dvec3 a = draft.vertices[edge.v0], b = draft.vertices[edge.v1];

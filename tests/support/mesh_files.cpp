@@ -53,15 +53,6 @@ std::string stlText(const TriangleMesh& mesh) {
   return text + "endsolid test\n";
 }
 
-std::string objText(const TriangleMesh& mesh) {
-  std::string text = "# made by a test\no test\n";
-  for (const glm::dvec3& p : mesh.vertices())
-    text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
-  for (const Triangle& t : mesh.triangles())
-    text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
-  return text;
-}
-
 std::string offText(const TriangleMesh& mesh) {
   std::string text = fmt::format("OFF\n{} {} 0\n", mesh.vertices().size(), mesh.triangles().size());
   for (const glm::dvec3& p : mesh.vertices())

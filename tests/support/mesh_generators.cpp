@@ -11,6 +11,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "tests/support/portable_random.h"
+
 namespace nearfit::test {
 namespace {
 
@@ -95,11 +97,6 @@ Draft unitIcosphere(std::uint32_t subdivisions) {
   for (std::uint32_t i = 0; i < subdivisions; ++i)
     subdivideOnUnitSphere(draft);
   return draft;
-}
-
-/// Uniform in [0, 1), the same on every platform (std::uniform_real_distribution is not).
-double uniform(std::mt19937_64& random) {
-  return static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 namespace nearfit::test {
 
 std::string objText(const TriangleMesh& mesh) {
-  std::string text;
-  for (const glm::dvec3& v : mesh.vertices())
-    text += fmt::format("v {:.17g} {:.17g} {:.17g}\n", v.x, v.y, v.z);
+  std::string text = "# made by a test\no test\n";
+  for (const glm::dvec3& p : mesh.vertices())
+    text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
   for (const Triangle& t : mesh.triangles())
     text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
   return text;

@@ -41,13 +41,13 @@ void PartShapeTest::boxShowsItsTwelveEdges() {
 void PartShapeTest::openSquareShowsItsRim() {
   constexpr std::uint32_t kDivisions = 5;
   const ui::PartShape shape = ui::makePartShape(test::squareMesh(1.0, kDivisions));
-  QCOMPARE(shape.edges->GetNumberOfLines(), vtkIdType{4 * kDivisions});
+  QCOMPARE(shape.edges->GetNumberOfLines(), vtkIdType{4} * kDivisions);
 }
 
 void PartShapeTest::fineCylinderShowsOnlyItsRims() {
   constexpr std::uint32_t kSegments = 36;  // Facets meet at 10 degrees.
   const ui::PartShape shape = ui::makePartShape(test::cylinderMesh(1.0, 2.0, kSegments));
-  QCOMPARE(shape.edges->GetNumberOfLines(), vtkIdType{2 * kSegments});
+  QCOMPARE(shape.edges->GetNumberOfLines(), vtkIdType{2} * kSegments);
 }
 
 void PartShapeTest::normalsOfABoxPointOutOfItsFaces() {
@@ -84,7 +84,7 @@ void PartShapeTest::threadsMayAskAtOnce() {
   for (std::thread& thread : threads)
     thread.join();
   for (const vtkIdType count : polygons)
-    QCOMPARE(count, vtkIdType{20 * 64});
+    QCOMPARE(count, vtkIdType{20} * 64);
 }
 
 NEARFIT_QT_SUITE(PartShapeTest, test::runQtTest<PartShapeTest, QCoreApplication>)

@@ -18,12 +18,12 @@ namespace {
 /// Some blocks and a part of one.
 const std::string kImage(1000, 'f');
 /// Of 0.036 degrees of a thigh each.
-constexpr int kMost = 250;
+constexpr int kMostThighCounts = 250;
 /// Far less than a count, which is 40 um; far more than what Newton's method leaves [m].
 constexpr double kSlack = 1e-6;
 
-std::array<std::int16_t, 3> countsAt(int i) {
-  const auto count = static_cast<std::int16_t>(toAndFro(i, kMost));
+std::array<std::int16_t, 3> encodersAt(int i) {
+  const auto count = static_cast<std::int16_t>(toAndFro(i, kMostThighCounts));
   return {count, 0, static_cast<std::int16_t>(-count)};
 }
 
@@ -58,10 +58,10 @@ class FalconBench final : public DriverBench {
     ASSERT_EQ(device.state(), DeviceState::Ready);
   }
   void hold(int i) override {
-    emulator_.withFirmware([&](FalconFirmware& firmware) { firmware.encoders = countsAt(i); });
+    emulator_.withFirmware([&](FalconFirmware& firmware) { firmware.encoders = encodersAt(i); });
   }
   void expectHeld(HapticDevice&, const HandleInput& handle, int i) override {
-    const auto place = falcon::forward(falcon::anglesOf(countsAt(i)), falcon::kCentre);
+    const auto place = falcon::forward(falcon::anglesOf(encodersAt(i)), falcon::kCentre);
     ASSERT_TRUE(place);
     EXPECT_LT(glm::distance(handle.pose.translation, *place), kSlack);
   }

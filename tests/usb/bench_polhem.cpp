@@ -13,13 +13,13 @@ namespace nearfit::test {
 namespace {
 
 /// Of 32,000 counts a turn: 28 degrees to either side, of 100.
-constexpr int kMost = 2500;
+constexpr int kMostJointCounts = 2500;
 /// Where it is switched on, which is its rest.
 constexpr std::array<std::int16_t, 6> kRest{1000, -200, 30, 0, 0, 0};
 
-std::array<std::int16_t, 6> countsAt(int i) {
+std::array<std::int16_t, 6> jointCountsAt(int i) {
   std::array<std::int16_t, 6> counts = kRest;
-  const int turned = toAndFro(i, kMost);
+  const int turned = toAndFro(i, kMostJointCounts);
   counts[0] = static_cast<std::int16_t>(counts[0] + turned);
   counts[1] = static_cast<std::int16_t>(counts[1] + turned / 2);
   counts[2] = static_cast<std::int16_t>(counts[2] - turned / 2);
@@ -58,13 +58,14 @@ class PolhemBench final : public DriverBench {
     ASSERT_EQ(device.state(), DeviceState::Ready);
   }
   void hold(int i) override {
-    const std::array<std::int16_t, 6> counts = countsAt(i);
+    const std::array<std::int16_t, 6> counts = jointCountsAt(i);
     emulator_.withFirmware([&](PolhemFirmware& firmware) {
       firmware.counts = {counts[0], counts[1], counts[2], counts[3], counts[4], counts[5]};
     });
   }
   void expectHeld(HapticDevice&, const HandleInput& handle, int i) override {
-    EXPECT_EQ(handle.pose.translation, kinematics_.positionOf(kinematics_.anglesOf(countsAt(i), kRest).arm));
+    EXPECT_EQ(handle.pose.translation,
+              kinematics_.positionOf(kinematics_.anglesOf(jointCountsAt(i), kRest).arm));
   }
   bool round(HapticDevice& device, const Wrench& wrench, HandleInput& handle) override {
     device.sendWrench(wrench);

@@ -10,7 +10,7 @@
 namespace nearfit::test {
 namespace {
 
-constexpr std::chrono::microseconds kGlance{20};
+constexpr std::chrono::microseconds kPollPause{20};
 
 }  // namespace
 
@@ -33,7 +33,7 @@ bool promptly(const std::function<bool()>& isTrue) {
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (!isTrue()) {
     if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(kGlance);
+    std::this_thread::sleep_for(kPollPause);
   }
   return true;
 }

@@ -13,7 +13,7 @@ constexpr std::uint8_t kBulkIn = 0x81, kBulkOut = 0x02;
 constexpr std::size_t kPacket = 64, kStatus = 2;
 constexpr std::chrono::milliseconds kLatency{1};
 /// How often it looks whether it is to end, while nobody asks.
-constexpr std::chrono::milliseconds kGlance{20};
+constexpr std::chrono::milliseconds kEndGlance{20};
 
 EmulatedDescription describe() {
   EmulatedDescription description;
@@ -74,9 +74,9 @@ void FalconEmulator::run() {
       packet.insert(packet.end(), content.begin(), content.end());
     }
     while (!isStopping_.load()) {
-      const auto sending = device_->send(kBulkIn, packet, kGlance);
+      const auto sending = device_->send(kBulkIn, packet, kEndGlance);
       if (sending == EmulatedDevice::Sending::NobodyAsked) continue;
-      if (sending == EmulatedDevice::Sending::Unplugged) std::this_thread::sleep_for(kGlance);
+      if (sending == EmulatedDevice::Sending::Unplugged) std::this_thread::sleep_for(kEndGlance);
       break;
     }
   }

@@ -5,7 +5,7 @@
 namespace nearfit::test {
 namespace {
 
-constexpr std::uint8_t kHid = 3, kIn = 0x81, kOut = 0x01;
+constexpr std::uint8_t kHidClass = 3, kInterruptIn = 0x81, kInterruptOut = 0x01;
 
 /// As the board's firmware describes itself, in full speed: intervals are milliseconds.
 EmulatedDescription describe(PolhemEmulator::Board board) {
@@ -13,9 +13,9 @@ EmulatedDescription describe(PolhemEmulator::Board board) {
   description.speed = 12;
   description.manufacturer = "Makers";
   description.productName = "WoodenHaptics emulator";
-  description.interfaces = {{.classCode = kHid,
-                             .endpoints = {{.address = kIn, .maxPacket = 64, .interval = 1},
-                                           {.address = kOut, .maxPacket = 64, .interval = 1}},
+  description.interfaces = {{.classCode = kHidClass,
+                             .endpoints = {{.address = kInterruptIn, .maxPacket = 64, .interval = 1},
+                                           {.address = kInterruptOut, .maxPacket = 64, .interval = 1}},
                              .kernelDriver = "usbhid"}};
   if (board == PolhemEmulator::Board::Own) {
     description.vendor = 0x1234;
@@ -25,7 +25,7 @@ EmulatedDescription describe(PolhemEmulator::Board board) {
   description.vendor = 0x16c0;
   description.product = 0x0486;
   // For text: it takes half a packet.
-  description.interfaces.push_back({.classCode = kHid,
+  description.interfaces.push_back({.classCode = kHidClass,
                                     .endpoints = {{.address = 0x82, .maxPacket = 64, .interval = 1},
                                                   {.address = 0x02, .maxPacket = 32, .interval = 1}},
                                     .kernelDriver = "usbhid"});
@@ -40,14 +40,14 @@ PolhemEmulator::PolhemEmulator(Board board)
   device_->onControl = [](const ControlRequest&) { return std::nullopt; };
   device_->onPacket = [this](std::uint8_t endpoint, std::span<const std::byte> packet) {
     const std::lock_guard lock(mutex_);
-    if (endpoint == kOut) firmware_.onPacket(packet);
+    if (endpoint == kInterruptOut) firmware_.onPacket(packet);
   };
 }
 
 void PolhemEmulator::stream(const Motion& motion) {
   stopStreaming();
   ReportStream::Plan plan;
-  plan.endpoint = kIn;
+  plan.endpoint = kInterruptIn;
   plan.rate = motion.rate;
   plan.count = motion.count;
   plan.isPatient = motion.count == 0;

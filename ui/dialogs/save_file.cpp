@@ -27,7 +27,7 @@ std::optional<QString> askForSave(const SaveRequest& request, QWidget* parent) {
   dialog.setNameFilters(request.filters);
   while (dialog.exec() == QDialog::Accepted) {
     // The dialog's own way takes whatever follows the last dot of a name for its suffix.
-    const QString named = dialog.selectedFiles().first();
+    QString named = dialog.selectedFiles().first();
     const bool hasSuffix = request.suffixes.contains(QFileInfo(named).suffix(), Qt::CaseInsensitive);
     if (hasSuffix) return named;
     const auto kind = request.filters.indexOf(dialog.selectedNameFilter());

@@ -15,8 +15,8 @@
 namespace nearfit::ui {
 namespace {
 
-const QStringList kAxes = {QStringLiteral("X"),  QStringLiteral("Y"),  QStringLiteral("Z"),
-                           QStringLiteral("Rx"), QStringLiteral("Ry"), QStringLiteral("Rz")};
+const QStringList kMotions = {QStringLiteral("X"),  QStringLiteral("Y"),  QStringLiteral("Z"),
+                              QStringLiteral("Rx"), QStringLiteral("Ry"), QStringLiteral("Rz")};
 
 }  // namespace
 
@@ -109,8 +109,8 @@ QGridLayout* SpaceMousePage::makeAxes() {
   grid->setHorizontalSpacing(12);
   grid->addWidget(new QLabel(tr("On"), this), 1, 0);
   grid->addWidget(new QLabel(tr("Reversed"), this), 2, 0);
-  for (int column = 0; column < kAxes.size(); ++column) {
-    const QString& axis = kAxes[column];
+  for (int column = 0; column < kMotions.size(); ++column) {
+    const QString& axis = kMotions[column];
     const auto i = static_cast<std::size_t>(column);
     grid->addWidget(new QLabel(axis, this), 0, column + 1);
     grid->addWidget(addSwitch(QStringLiteral("rateOn") + axis,
@@ -121,7 +121,7 @@ QGridLayout* SpaceMousePage::makeAxes() {
                               &RateSettings::isInverted, i),
                     2, column + 1);
   }
-  grid->setColumnStretch(static_cast<int>(kAxes.size()) + 1, 1);
+  grid->setColumnStretch(static_cast<int>(kMotions.size()) + 1, 1);
   return grid;
 }
 

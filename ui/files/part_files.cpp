@@ -136,7 +136,7 @@ std::vector<PartFiles::Wanted> PartFiles::partsOf(const QStringList& files) cons
   return wanted;
 }
 
-// By value: it may be changed_ itself.
+// By value: it may be changed_ itself. NOLINTNEXTLINE(performance-unnecessary-value-param)
 void PartFiles::reload(QStringList files) {
   if (document_.isBusy()) {
     waiting_ << files;

@@ -144,6 +144,7 @@ void AlignTool::apply() {
   const PartId lead = moving_->part;
   const RigidTransform pose = (motion_ * start_.at(lead)).normalized();
   std::vector<PartId> moved;
+  moved.reserve(start_.size());
   for (const auto& [id, was] : start_)
     moved.push_back(id);
   stop();

@@ -40,7 +40,7 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent) {
   timer_.setSingleShot(true);
   timer_.setInterval(kLeastRedrawMs);
   connect(&timer_, &QTimer::timeout, this, [this] {
-    if (isDue_) draw();
+    if (isDue_) drawPanes();
   });
 }
 
@@ -134,7 +134,7 @@ void PlotView::setHistory(const PlotHistory* history) {
 void PlotView::refresh() {
   isDue_ = true;
   // The first at once, so that a scrubbed time does not lag behind.
-  if (isVisible() && !timer_.isActive()) draw();
+  if (isVisible() && !timer_.isActive()) drawPanes();
 }
 
 void PlotView::follow(double seconds) {
@@ -172,7 +172,7 @@ void PlotView::takeUserRange(const QCPRange& range) {
   refresh();
 }
 
-void PlotView::draw() {
+void PlotView::drawPanes() {
   isDue_ = false;
   timer_.start();
   ++redraws_;

@@ -61,7 +61,7 @@ class PlotView : public QCustomPlot {
   void setUpLegend();
   void applyPalette();
   void takeUserRange(const QCPRange& range);
-  void draw();
+  void drawPanes();
   void drawPane(Pane& pane, const QCPRange& range);
   QCPRange followedRange() const;
   /// The values with room above them for the pane's title and legend.

@@ -50,7 +50,7 @@ void Recovery::show(FoundWork found) {
                  tr("The scene is as it was last saved. The journal is kept as\n%1").arg(files.join('\n'))});
   }
   if (found.lost.empty()) return;
-  auto* dialog = new RecoveryDialog(std::move(found.lost), window_);
+  auto* dialog = new RecoveryDialog(found.lost, window_);
   connect(dialog, &RecoveryDialog::restoreRequested, this, &Recovery::restore);
   connect(dialog, &RecoveryDialog::discardRequested, this,
           [folder = folder_](const LostWork& work) { folder->discard(work); });

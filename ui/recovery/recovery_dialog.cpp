@@ -48,7 +48,7 @@ QLabel* plainLabel(const QString& text, QWidget* parent) {
 
 }  // namespace
 
-RecoveryDialog::RecoveryDialog(std::vector<LostWork> lost, QWidget* parent)
+RecoveryDialog::RecoveryDialog(const std::vector<LostWork>& lost, QWidget* parent)
     : QDialog(parent), rows_(new QVBoxLayout) {
   setObjectName(QStringLiteral("recoveryDialog"));
   setWindowTitle(tr("Recover unsaved work"));

@@ -15,7 +15,7 @@ class RecoveryDialog : public QDialog {
   Q_OBJECT
 
  public:
-  RecoveryDialog(std::vector<LostWork> lost, QWidget* parent);
+  RecoveryDialog(const std::vector<LostWork>& lost, QWidget* parent);
 
  signals:
   /// The dialog then closes: one scene is open at a time.

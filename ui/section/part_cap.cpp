@@ -41,7 +41,8 @@ vtkSmartPointer<vtkPoints> pointsOf(const std::vector<glm::dvec3>& points) {
 template <std::size_t count>
 vtkSmartPointer<vtkCellArray> cellsOf(const std::vector<std::array<std::uint32_t, count>>& cells) {
   auto all = vtkSmartPointer<vtkCellArray>::New();
-  all->AllocateExact(static_cast<vtkIdType>(cells.size()), static_cast<vtkIdType>(count * cells.size()));
+  all->AllocateExact(static_cast<vtkIdType>(cells.size()),
+                     static_cast<vtkIdType>(count) * static_cast<vtkIdType>(cells.size()));
   for (const auto& cell : cells) {
     std::array<vtkIdType, count> ids;
     std::copy(cell.begin(), cell.end(), ids.begin());

@@ -86,8 +86,9 @@ void SectionBar::addAxes(QHBoxLayout& row) {
   }
   axes_[3] = addAxis(row, "sectionSight", tr("View"), tr("Across the direction of sight as it is now"));
   axes_[4] = addAxis(row, "sectionFace", tr("Face"), tr("Through a flat face, which you then click"));
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    connect(axes_[i], &QToolButton::clicked, this, [this, axis = static_cast<SectionAxis>(i)] {
+  int next = 0;
+  for (QToolButton* button : axes_) {
+    connect(button, &QToolButton::clicked, this, [this, axis = static_cast<SectionAxis>(next++)] {
       const bool wasPicking = isPicking_;
       // Which one is down is told by whoever lays the plane.
       showAxis(axis_);

@@ -132,7 +132,8 @@ std::uint64_t readListCount(Values& values, const PlyProperty& list) {
   if (!(count >= 0.0) || count != std::floor(count)) {
     values.fail(fmt::format("a list has {} values", count), "export the file again");
   }
-  if (count > static_cast<double>(values.bytesLeft() / Values::smallestByteCount(list.type))) {
+  const std::uint64_t most = values.bytesLeft() / Values::smallestByteCount(list.type);
+  if (count > static_cast<double>(most)) {
     values.fail(fmt::format("a list of {} values does not fit into the {} bytes that follow", count,
                             values.bytesLeft()),
                 kCutOff);

@@ -4,8 +4,10 @@
 // with a comment as a binary one, facets of noise included. Neither says which line is at fault.
 #include "core/mesh/readers/stl_text_reader.h"
 
+#include <algorithm>
+#include <cctype>
+
 #include <fmt/format.h>
-#include <strings.h>
 
 #include "core/mesh/readers/text_cursor.h"
 
@@ -15,7 +17,8 @@ namespace {
 constexpr const char* kCorrectLine = "correct the line or export the file again";
 
 bool isWord(std::string_view token, std::string_view word) {
-  return token.size() == word.size() && ::strncasecmp(token.data(), word.data(), word.size()) == 0;
+  const auto lower = [](unsigned char c) { return std::tolower(c); };
+  return std::ranges::equal(token, word, {}, lower, lower);
 }
 
 void expect(TextCursor& cursor, std::string_view word) {

@@ -173,7 +173,7 @@ void DesktopMannersTest::shortcutsAreListedAndSearched() {
   for (const QAction* action : allActions(d.window())) {
     if (action->shortcut().isEmpty()) continue;
     const QString keys = action->shortcut().toString(QKeySequence::NativeText);
-    QVERIFY2(all.filter(keys).size() > 0, qPrintable(action->objectName()));
+    QVERIFY2(!all.filter(keys).isEmpty(), qPrintable(action->objectName()));
   }
   QTest::keyClicks(d.widget<QLineEdit>("shortcutSearch"), QStringLiteral("undo"));
   QCOMPARE(shown(), QStringList{QStringLiteral("Undo|Ctrl+Z")});

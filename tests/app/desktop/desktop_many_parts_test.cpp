@@ -38,7 +38,9 @@ struct Thousand : DesktopDriver {
   }
   ui::Selection& selection() { return window().selection(); }
   const Part& part(int x, int y, int z) {
-    return *session().scene().parts()[static_cast<std::size_t>(x + kSide * (y + kSide * z))];
+    return *session().scene().parts().at(
+        static_cast<std::size_t>(x) +
+        kSide * (static_cast<std::size_t>(y) + kSide * static_cast<std::size_t>(z)));
   }
 };
 

@@ -144,8 +144,8 @@ void DesktopPartFilesTest::fiftyBadFilesGiveOneBoxWithDetailsToCopy() {
     files << nameOf(d.folder.write("bad" + std::to_string(i) + ".off", "OFF\nnonsense\n"));
   QApplication::clipboard()->clear();
   d.add(files);
-  QDialog* box = nullptr;
-  QTRY_VERIFY((box = d.widget<QDialog>("errorBox")) != nullptr);
+  QTRY_VERIFY(d.widget<QDialog>("errorBox") != nullptr);
+  auto* box = d.widget<QDialog>("errorBox");
   QTRY_VERIFY(box->isVisible());
   QCOMPARE(d.window().findChildren<QDialog*>(QStringLiteral("errorBox")).size(), 1);
   QCOMPARE(box->findChild<QLabel*>(QStringLiteral("errorSummary"))->text(),

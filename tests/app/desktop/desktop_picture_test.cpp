@@ -276,9 +276,12 @@ void DesktopPictureTest::aJpegIsWrittenUnlessItWouldBeTransparent() {
   PictureChoice choice;
   choice.ground = Transparent;
   d.save(choice, d.file("glass.jpg"));
-  QTRY_VERIFY(QFile::exists(d.file("glass.jpg.png")));
+  // The file is there before the window hears of it, and until then no other picture can be saved.
+  QTRY_VERIFY(d.told().startsWith(QStringLiteral("Saved glass.jpg.png, ")));
+  QVERIFY(QFile::exists(d.file("glass.jpg.png")));
   d.save({}, d.file("view.bmp"));
-  QTRY_VERIFY(QFile::exists(d.file("view.bmp.png")));
+  QTRY_VERIFY(d.told().startsWith(QStringLiteral("Saved view.bmp.png, ")));
+  QVERIFY(QFile::exists(d.file("view.bmp.png")));
   QVERIFY(!QFile::exists(d.file("glass.jpg")) && !QFile::exists(d.file("view.bmp")));
 }
 

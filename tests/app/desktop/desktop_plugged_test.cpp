@@ -49,8 +49,8 @@ struct Plugged {
   }
   void choose(const QString& name) {
     auto* box = d.widget<QComboBox>("hand");
-    int wanted = -1;
-    QTRY_VERIFY((wanted = box->findText(name, Qt::MatchContains)) >= 0);
+    QTRY_VERIFY(box->findText(name, Qt::MatchContains) >= 0);
+    const int wanted = box->findText(name, Qt::MatchContains);
     box->setFocus();
     for (int keys = 0; keys < 10 && box->currentIndex() != wanted; ++keys)
       QTest::keyClick(box, box->currentIndex() < wanted ? Qt::Key_Down : Qt::Key_Up);

@@ -8,6 +8,7 @@
 #include <QMenuBar>
 #include <QToolButton>
 #include <QtTest>
+#include <ranges>
 
 #include "core/error.h"
 #include "tests/support/qt/qt_patience.h"
@@ -56,8 +57,8 @@ inline void openMenus(QMainWindow& window, const QList<QMenu*>& path) {
   const QDeadlineTimer end(kQtPatienceMs);
   while (!openMenusOnce(window, path)) {
     if (end.hasExpired()) throw Error("menus", path.last()->title().toStdString() + " does not open");
-    for (auto menu = path.rbegin(); menu != path.rend(); ++menu)
-      (*menu)->hide();
+    for (QMenu* menu : std::views::reverse(path))
+      menu->hide();
     QApplication::setActiveWindow(&window);
   }
 }
