@@ -10,7 +10,8 @@ class QStatusBar;
 
 namespace nearfit::ui {
 
-/// The figures at the right of the status bar: servo rate, lateness, minima, least distance.
+/// Servo rate, lateness, number of minima and least distance, at the right of the status bar.
+/// @param bar  Becomes the parent.
 class StatusReadout : public QObject {
   Q_OBJECT
 
@@ -19,6 +20,7 @@ class StatusReadout : public QObject {
 
   void showStatus(const ServoStatus& status);
   void showSnapshot(const ServoSnapshot& snapshot);
+  /// Shows dashes instead of minima and distance.
   void clearSnapshot();
 
  private:

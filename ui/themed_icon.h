@@ -5,8 +5,8 @@
 
 namespace nearfit::ui {
 
-/// An icon of resources/icons, drawn for light panels or, its colours translated, for dark ones: as the theme
-/// is when it is painted.
+/// Paints an icon of resources/icons in the colours of the theme at that moment, light or dark.
+/// @param file  The SVG's resource path.
 class ThemedIcon : public QIconEngine {
  public:
   explicit ThemedIcon(const QString& file) : file_(file) {}

@@ -8,8 +8,8 @@ class QActionGroup;
 
 namespace nearfit::ui {
 
-/// The choice of the unit that lengths are shown in; remembered from one run to the next, and brought to
-/// every number field of the window.
+/// The choice of the length unit, kept between runs and passed to every NumberField of the window.
+/// @param window  Parent, and root of the fields to update. Sets shownLengthUnit() to the stored unit.
 class UnitMenu : public QMenu {
   Q_OBJECT
 
@@ -17,6 +17,7 @@ class UnitMenu : public QMenu {
   explicit UnitMenu(QWidget* window);
 
  signals:
+  /// Emitted when the user chose a unit, after fields and shownLengthUnit() have changed.
   void unitChanged(nearfit::ui::LengthUnit unit);
 
  private:
