@@ -29,7 +29,7 @@ class Preferences {
   static LengthUnit lengthUnit();
   static void setLengthUnit(LengthUnit unit);
 
-  /// True the first time the program runs for this user; false from then on.
+  /// Returns true the first time the program runs for this user, and false from then on.
   static bool takeFirstRun();
 
   /// As QWidget::saveGeometry() gives it; empty at first.

@@ -25,7 +25,7 @@ class Selection : public QObject {
 
   /// In order of selection, without duplicates.
   const std::vector<PartId>& parts() const noexcept { return parts_; }
-  /// The part selected last; numbers and names are its.
+  /// The part selected last, which number and name fields show.
   std::optional<PartId> current() const noexcept;
   bool contains(PartId part) const noexcept;
   /// Groups selected as a whole; all parts in them are selected too.

@@ -27,20 +27,20 @@ struct ServoStatus {
   bool isUncalibrated = false;
   bool isArmable = false;  ///< It renders forces once armed.
   bool isArmed = false;
-  bool isFaulted = false;   ///< Until the user resets it.
+  bool isFaulted = false;   ///< Stays true until the user resets the device.
   bool isBusy = false;      ///< Being armed, calibrated or reset.
   bool isClutched = false;  ///< By the window's clutch.
   /// For a device that reports its poses: reports per second [Hz], deviation of their interval from its mean
   /// [s], and how many were lost or damaged since it was taken in hand. Else 0.
   double reportRate = 0.0, reportJitter = 0.0;
   std::uint64_t reportsLost = 0;
-  double rate = 0.0;         ///< Ticks per second over about the last half second [Hz].
-  DeviceLimits device;       ///< Limits of the device in hand, or the defaults.
-  double nominalRate = 0.0;  ///< The intended rate [Hz].
-  double latenessP99 = 0.0, latenessMax = 0.0;
-  double tickP99 = 0.0, queryP99 = 0.0;
-  std::uint64_t ticks = 0, overruns = 0;
-  QString scheduling;  ///< Real-time scheduling that the system granted.
+  double rate = 0.0;                            ///< Ticks per second over about the last half second [Hz].
+  DeviceLimits device;                          ///< Limits of the device in hand, or the defaults.
+  double nominalRate = 0.0;                     ///< The intended rate [Hz].
+  double latenessP99 = 0.0, latenessMax = 0.0;  ///< How late ticks begin.
+  double tickP99 = 0.0, queryP99 = 0.0;         ///< Time of a tick, and of its queries.
+  std::uint64_t ticks = 0, overruns = 0;        ///< Ticks run; ticks skipped as too late.
+  QString scheduling;                           ///< Real-time scheduling that the system granted.
 
   /// True if the servo runs or is about to.
   bool isTaken() const { return isRunning || isOpening; }

@@ -11,11 +11,11 @@ class QStatusBar;
 namespace nearfit::ui {
 
 /// Servo rate, lateness, number of minima and least distance, at the right of the status bar.
-/// @param bar  Becomes the parent.
 class StatusReadout : public QObject {
   Q_OBJECT
 
  public:
+  /// @param bar  Becomes the parent.
   explicit StatusReadout(QStatusBar* bar);
 
   void showStatus(const ServoStatus& status);

@@ -6,9 +6,9 @@
 namespace nearfit::ui {
 
 /// Paints an icon of resources/icons in the colours of the theme at that moment, light or dark.
-/// @param file  The SVG's resource path.
 class ThemedIcon : public QIconEngine {
  public:
+  /// @param file  The SVG's resource path.
   explicit ThemedIcon(const QString& file) : file_(file) {}
 
   void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State state) override;

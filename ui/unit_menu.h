@@ -9,11 +9,12 @@ class QActionGroup;
 namespace nearfit::ui {
 
 /// The choice of the length unit, kept between runs and passed to every NumberField of the window.
-/// @param window  Parent, and root of the fields to update. Sets shownLengthUnit() to the stored unit.
 class UnitMenu : public QMenu {
   Q_OBJECT
 
  public:
+  /// Sets shownLengthUnit() to the stored unit.
+  /// @param window  The parent; its number fields follow the choice.
   explicit UnitMenu(QWidget* window);
 
  signals:

@@ -53,7 +53,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   /// Removes the snapshot and shows the scene alone.
   void clearSnapshot();
 
-  /// As SceneRenderer::setDragged.
+  /// See SceneRenderer::setDragged().
   void setDragged(std::map<PartId, RigidTransform> worldFromPart);
   /// Returns where a part is shown now (worldFromPart); nullopt if it is not in the scene.
   std::optional<RigidTransform> shownPose(PartId part) const;

@@ -4,10 +4,10 @@
 
 namespace nearfit::ui {
 
-/// Fusion with mended details. In the dark theme the frames of check boxes, radio buttons and fields
-/// stand out; Fusion draws them a little darker than their surroundings, hardly visible on a dark
-/// ground. Combo boxes elide long text, which Fusion clips. A toolbar's extension button is as wide as a
-/// tool, in Fusion a few pixels.
+/// Fusion with some details improved. In the dark theme the frames of check boxes, radio buttons and fields
+/// stand out; Fusion draws them a little darker than their surroundings, hardly visible on a dark ground.
+/// Combo boxes elide long text, which Fusion clips. A toolbar's extension button is as wide as a tool; Fusion
+/// makes it a few pixels wide.
 class WindowStyle : public QProxyStyle {
  public:
   WindowStyle();
