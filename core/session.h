@@ -68,12 +68,14 @@ class Session {
   /// Moves parts rigidly together so that `lead`, one of them, gets exactly this pose.
   void moveParts(const std::vector<PartId>& ids, PartId lead, const RigidTransform& worldFromLead,
                  const std::string& verb = "Move");
+  /// Also works on locked parts.
   void setVisible(const std::vector<PartId>& ids, bool visible);
   /// Also works on locked parts.
   void setColour(const std::vector<PartId>& ids, const Colour& colour);
   /// Also works on locked parts.
   /// @param opacity  kMinOpacity to 1.
   void setOpacity(const std::vector<PartId>& ids, double opacity);
+  /// @param density  [kg/m^3]; kMinDensity to kMaxDensity.
   void setDensity(const std::vector<PartId>& ids, double density);
   struct NewPivot {
     PartId part;
@@ -84,11 +86,13 @@ class Session {
   /// Shows only these parts, locked ones included. endIsolation() restores the visibility from
   /// before the first call.
   void isolate(const std::vector<PartId>& ids);
+  /// Restores the visibility from before isolate(); no-op if not isolated.
   void endIsolation();
 
   /// Sets the nodes' own locks; members of a group keep theirs. If this locks the moving part, the scene
   /// no longer has one.
   void setLocked(const SceneNodes& nodes, bool locked);
+  /// Renames a group; groups may share a name.
   void renameGroup(GroupId id, const std::string& name);
   /// Deletes nodes; groups with all they hold.
   void deleteNodes(const SceneNodes& nodes);
@@ -109,6 +113,7 @@ class Session {
   void restore(Scene scene, const std::filesystem::path& file);
   /// Writes the scene and makes `file` the session's file. Throws FileError.
   void save(const std::filesystem::path& file);
+  /// The session's file; empty if the scene was never saved.
   const std::filesystem::path& file() const noexcept { return file_; }
   /// Changes on each reset and restore. Earlier PartIds and GroupIds become invalid.
   std::uint64_t sceneSerial() const noexcept { return sceneSerial_; }
@@ -119,6 +124,7 @@ class Session {
   bool canRedo() const noexcept { return !future_.empty(); }
   /// Label of the step that undo() reverts ("Move Peg"); empty if none.
   std::string undoText() const { return past_.empty() ? std::string() : current_.step.label; }
+  /// Label of the step that redo() repeats; empty if none.
   std::string redoText() const { return future_.empty() ? std::string() : future_.back().step.label; }
   /// No-op if there is nothing to undo; likewise redo().
   void undo();
@@ -153,6 +159,7 @@ class Session {
     Step step;
     std::uint64_t serial = 0;  ///< Unique per state; identifies the saved one.
   };
+  /// Makes `scene` the current state, one undo step after the last, and notifies.
   void commit(Scene scene, Step step);
   void commit(Scene scene, std::string label) { commit(std::move(scene), Step{std::move(label)}); }
   /// Applies `change` to a copy of each part. The label is the verb and the names of the parts that changed.
@@ -166,6 +173,7 @@ class Session {
                       const std::function<void(Part&)>& change) {
     changeUnlocked(ids, Step{verb}, change);
   }
+  /// Calls all listeners.
   void notify() const;
   /// Replaces the scene and clears undo, without notifying.
   void begin(Scene scene, const std::filesystem::path& file);

@@ -33,6 +33,7 @@ struct EdgeFeature {
   NormalCone cone;
 };
 
+/// A face with an area.
 struct FaceFeature {
   std::uint32_t face;
   NormalCone cone;  ///< Axis: the outward normal. Half-angle 0.
@@ -46,6 +47,7 @@ struct MeshFeatures {
   std::vector<VertexFeature> vertices;
   std::vector<EdgeFeature> edges;
   std::vector<FaceFeature> faces;
+  /// Vertex indices; see VertexFeature::firstNeighbour.
   std::vector<std::uint32_t> neighbours;
 };
 

@@ -7,6 +7,7 @@
 
 namespace nearfit {
 
+/// How mass properties were computed.
 enum class MassBasis {
   VolumeIntegrals,  ///< Exact for the closed, oriented mesh.
   OrientedBox,      ///< The mesh encloses no volume; computed from its oriented bounding box.

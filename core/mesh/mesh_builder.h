@@ -22,6 +22,7 @@ struct PolygonSoup {
   void closePolygon();
 };
 
+/// Options of buildMesh().
 struct MeshBuildOptions {
   /// Scale from the soup's units [m]; finite, > 0.
   double metresPerUnit = 1.0;

@@ -9,6 +9,7 @@
 
 namespace nearfit {
 
+/// A mesh read from a file, in metres.
 struct ImportedMesh {
   TriangleMesh mesh;
   MeshBuildReport report;

@@ -12,10 +12,10 @@ namespace nearfit {
 constexpr double kOnEdge = 1e-6;
 
 /// Closes cracks of zero width (T-junctions): open edges on which vertices of the other side lie. Exporters
-/// leave them where they subdivide one face but not its neighbour. Splits each triangle with such an edge at
+/// leave them where they subdivide a face but not its neighbour. Splits each triangle with such an edge at
 /// those vertices, if every segment of the edge then meets exactly one other open edge that runs the other
-/// way. No vertex moves, the surface moves by at most kOnEdge, and orientation stays. Edges that would not
-/// close stay as they are. So does a mesh so torn that the search would take seconds.
+/// way. No vertex moves, the surface moves by at most kOnEdge of the mesh's diagonal, and orientation stays.
+/// Edges that would not close stay as they are. So does a mesh so torn that the search would take seconds.
 /// @return Triangles over the same vertices. Triangle i is triangle i of the mesh or a fragment of it;
 /// further fragments follow. Empty if there is nothing to close. About O(n log n) in open edges.
 std::vector<Triangle> stitchTJunctions(const TriangleMesh& mesh);

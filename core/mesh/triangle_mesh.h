@@ -29,6 +29,7 @@ struct MeshTopology {
   std::uint32_t inconsistentEdges = 0;  ///< Edges along which both faces run in the same direction.
   std::uint32_t components = 0;         ///< Sets of faces connected through edges.
 
+  /// True if each edge has exactly two faces.
   bool isClosed() const noexcept { return openEdges == 0 && nonManifoldEdges == 0; }
   bool isOriented() const noexcept { return inconsistentEdges == 0; }
 };
@@ -86,6 +87,7 @@ class TriangleMesh {
 
   /// Bounding box of the vertices that triangles use [m].
   const Aabb& bounds() const noexcept { return arrays_.bounds; }
+  /// Defects and number of components, computed on construction.
   const MeshTopology& topology() const noexcept { return arrays_.topology; }
   const Arrays& arrays() const noexcept { return arrays_; }
   /// Memory of the arrays, allocated or mapped [bytes].

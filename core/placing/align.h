@@ -5,6 +5,7 @@
 
 namespace nearfit {
 
+/// Options of alignMotion().
 struct AlignOptions {
   /// Turns the moving part round: faces then look the same way instead of at each other, and axes take the
   /// opposite sense.

@@ -50,7 +50,8 @@ std::vector<std::uint32_t> onCylinder(const TriangleMesh& mesh, std::uint32_t fi
   return grownRegion(mesh, first, accepts);
 }
 
-/// Refines the axis: the direction in which the facets' normals extend least.
+/// Refines the cylinder. Its axis is the direction along which the facets' normals have the smallest
+/// components.
 Circle refined(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, const Circle& before) {
   glm::dmat3 normals(0.0);
   for (const std::uint32_t t : triangles) {

@@ -11,6 +11,7 @@
 
 namespace nearfit {
 
+/// Options of dropParts().
 struct DropOptions {
   /// In the world frame; any length but 0.
   glm::dvec3 direction{0.0, 0.0, -1.0};
@@ -19,6 +20,7 @@ struct DropOptions {
   double gap = 0.0;
 };
 
+/// Result of dropParts().
 struct DropResult {
   enum class Outcome {
     Contact,      ///< The parts move by `travel` and stop a gap short of `against`.

@@ -9,6 +9,7 @@
 
 namespace nearfit {
 
+/// Shapes of features that parts can be aligned by.
 enum class FeatureShape : std::uint8_t {
   Plane,   ///< A flat face.
   Axis,    ///< Of a cylinder or a bore; an edge is an axis of radius 0.

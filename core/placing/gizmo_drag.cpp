@@ -20,7 +20,7 @@ constexpr double kEndOn = 0.0175;
 constexpr double kOnEdge = 0.15;
 /// Below this sine between a ray and a plane, where they meet is unreliable.
 constexpr double kGrazing = 0.02;
-/// Max pointer way toward an axis's vanishing point [fraction].
+/// Max pointer travel toward an axis's vanishing point, as a fraction of the way.
 constexpr double kVanishing = 0.98;
 
 double rounded(double value, double step) noexcept {

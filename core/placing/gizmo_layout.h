@@ -37,6 +37,7 @@ class GizmoLayout {
 
   /// In drawing order.
   std::span<const GizmoFigure> figures() const noexcept { return figures_; }
+  /// True if the handle is shown.
   bool has(GizmoHandle handle) const noexcept;
   /// The handle that the pointer would grab; None if it is beside all.
   GizmoHandle pick(const glm::dvec2& pixel) const noexcept;

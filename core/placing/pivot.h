@@ -14,6 +14,7 @@ namespace nearfit {
 /// A part as shown, which may be away from its pose in the scene during a drag or in the hand.
 struct PlacedPart {
   const Part* part = nullptr;  ///< Has a geometry.
+  /// Pose as shown.
   RigidTransform worldFromPart;
 };
 

@@ -10,6 +10,7 @@
 
 namespace nearfit {
 
+/// Result of pushParts().
 struct PushResult {
   enum class Outcome {
     Held,         ///< What the parts touch stops them in that direction.

@@ -11,8 +11,8 @@
 namespace nearfit {
 namespace {
 
-/// Turn scale that bars rotation in pure translations up to rounding: a rotation costs the
-/// square of it as much.
+/// Turn scale that bars rotation, up to rounding, in pure translations: the cost of a rotation grows with the
+/// square of this factor.
 constexpr double kTurnBarred = 1e4;
 /// The parts have settled if they move less than this fraction of the margin for kStillTicks ticks.
 constexpr double kStill = 1e-3;

@@ -17,7 +17,9 @@ struct StraightContact {
   double travel = 0.0;     ///< Before contact [m].
   glm::dvec3 normal{0.0};  ///< Of the touching surfaces, against the direction; unit.
   glm::dvec3 point{0.0};   ///< Centre of the part's touching triangle, at contact [m].
+  /// Indices of the touching triangles.
   std::uint32_t sceneTriangle = 0, partTriangle = 0;
+  /// Pairs of nodes examined.
   std::uint64_t nodePairs = 0;
 };
 

@@ -7,6 +7,7 @@ namespace nearfit {
 
 /// The range of a straight motion on which no tested axis separates two convex bodies.
 struct SweepStretch {
+  /// Travel along the direction [m].
   double from = 0.0, to = std::numeric_limits<double>::infinity();
 
   bool isEmpty() const noexcept { return from > to; }

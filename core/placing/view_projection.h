@@ -44,6 +44,7 @@ class ViewProjection {
   glm::dvec3 sightOf(const glm::dvec3& point) const noexcept;
   /// Pixel of a point, which may lie outside the view; std::nullopt if it is not in front of the eye.
   std::optional<glm::dvec2> pixelOf(const glm::dvec3& point) const noexcept;
+  /// Line of sight through a pixel.
   ViewRay rayThrough(const glm::dvec2& pixel) const noexcept;
   /// Size of a pixel across the direction of sight, at the depth of a point [m]; 0 if it is not in
   /// front of the eye.

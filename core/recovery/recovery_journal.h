@@ -18,6 +18,7 @@ namespace nearfit {
 /// Summary of a journal.
 struct JournalHead {
   std::filesystem::path scene;  ///< The scene's file; empty if it was never saved.
+  /// Steps since the last save; number of parts.
   std::size_t changes = 0, parts = 0;
 };
 

@@ -13,6 +13,7 @@
 
 namespace nearfit {
 
+/// Mesh file formats; see exportMesh().
 enum class MeshFileKind : std::uint8_t { StlBinary, Obj, Ply };
 
 /// File name extension: "stl", "obj" or "ply".

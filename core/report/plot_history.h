@@ -23,13 +23,16 @@ inline constexpr std::size_t kPlotChannels = 5;
 /// Values of one tick.
 struct PlotSample {
   double time = 0.0;  ///< Since the servo started [s].
+  /// By PlotChannel, in its unit.
   std::array<float, kPlotChannels> values{};
 
   float value(PlotChannel channel) const noexcept { return values[static_cast<std::size_t>(channel)]; }
 };
 
+/// Takes the plotted values from a row.
 PlotSample plotSample(const MotionRow& row) noexcept;
 
+/// A point of a line: time [s], value in the channel's unit; NaN breaks the line.
 struct PlotPoint {
   double time = 0.0, value = 0.0;
 };

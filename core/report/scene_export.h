@@ -27,6 +27,7 @@ std::optional<ExportKind> exportKindOf(const std::filesystem::path& file);
 /// The kind of mesh file; std::nullopt for placements.
 std::optional<MeshFileKind> meshKindOf(ExportKind kind) noexcept;
 
+/// What to export.
 struct SceneExport {
   ExportKind kind = ExportKind::PlacementJson;
   double metresPerUnit = 1e-3;  ///< Unit of a mesh file's numbers [m]; placements are in metres.

@@ -22,6 +22,7 @@ struct FeelPreset {
   bool operator==(const FeelPreset&) const = default;
 };
 
+/// Limits on a preset's name [bytes of UTF-8] and on the number of presets in a file.
 constexpr std::size_t kMaxFeelPresetNameBytes = 80, kMaxFeelPresets = 200;
 
 /// The built-in presets "Soft", "Medium" and "Stiff". A new scene has "Stiff": as stiff as the device allows.

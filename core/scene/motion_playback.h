@@ -24,6 +24,7 @@ class MotionPlayback {
   double time() const noexcept { return time_; }
   /// Index of the last row that is no later than time().
   std::size_t index() const noexcept { return index_; }
+  /// The row at index().
   const MotionRow& row() const noexcept { return rows_[index_]; }
 
   /// Goes to a time [s], clamped to the recording; NaN goes to the start. O(log n).
@@ -37,6 +38,7 @@ class MotionPlayback {
   /// Sets the speed, clamped to the limits; NaN and infinity are ignored.
   void setSpeed(double speed) noexcept;
   double speed() const noexcept { return speed_; }
+  /// If true, playback restarts at the end.
   void setLooping(bool isLooping) noexcept { isLooping_ = isLooping; }
   bool isLooping() const noexcept { return isLooping_; }
 

@@ -23,6 +23,7 @@ struct MotionRow {
   double distance = 0.0;                   ///< Min distance [m]; infinity if nothing is within the cutoff.
   double queryTime = 0.0, tickTime = 0.0;  ///< [s]
   std::uint32_t lateBodies = 0;            ///< Bodies searched anew in this tick.
+  /// Truncated: the search may have missed minima. Clamped: a limit cut the wrench.
   bool isTruncated = false, isClamped = false;
   ServoFault fault = ServoFault::None;
   double energyToHand = 0.0;  ///< Given to the hand since the start, less what came back [J].
@@ -56,8 +57,10 @@ std::string formatMotionRow(const MotionRow& row);
 /// last tenths of a second. Not for the servo thread. Throws FileError.
 class MotionWriter {
  public:
+  /// Creates the temporary file and writes the header.
   explicit MotionWriter(const std::filesystem::path& file);
 
+  /// Appends a row. Buffered: it reaches the file in blocks of 64 KiB.
   void write(const MotionRow& row);
   /// Flushes to disk and moves the recording to its name. Without this call, nothing is kept.
   void finish();

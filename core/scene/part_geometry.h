@@ -55,12 +55,14 @@ using PartGeometryPtr = std::shared_ptr<const PartGeometry>;
 PartGeometryPtr loadPartGeometry(const std::filesystem::path& file, double metresPerUnit,
                                  const ProgressCallback& progress = {});
 
+/// A mesh file to load.
 struct MeshSource {
   std::filesystem::path file;
   double metresPerUnit = 1.0;
   std::string sha256;  ///< Required SHA-256; empty: any.
 };
 
+/// Result of loading a MeshSource.
 struct LoadedPart {
   PartGeometryPtr geometry;    ///< Null if loading failed or the SHA-256 differs.
   std::exception_ptr problem;  ///< What loadPartGeometry() throws.

@@ -73,6 +73,7 @@ class Scene {
   void isolate(const std::vector<PartId>& parts);
   /// Restores the visibility from before isolate(). Parts added since stay as they are.
   void endIsolation();
+  /// True between isolate() and endIsolation().
   bool isIsolated() const noexcept;
 
   /// Non-null geometries of all parts, in part order; a shared one appears once per part.

@@ -65,6 +65,7 @@ namespace nearfit {
 
 /// Version that this program writes, and oldest version that it reads.
 constexpr int kSceneFileVersion = 4, kOldestSceneFileVersion = 1;
+/// Limits on the size of a scene file [bytes] and on its number of parts.
 constexpr std::size_t kMaxSceneFileBytes = 8U << 20U;
 constexpr std::size_t kMaxSceneFileParts = 10'000;
 

@@ -12,6 +12,7 @@ namespace nearfit {
 enum class PlyFormat { Ascii, LittleEndian, BigEndian };
 enum class PlyType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
 
+/// Size of a value in a binary file [bytes].
 constexpr std::size_t byteCount(PlyType type) {
   constexpr std::size_t kBytes[] = {1, 1, 2, 2, 4, 4, 4, 8};
   return kBytes[static_cast<std::size_t>(type)];
@@ -25,12 +26,14 @@ struct PlyProperty {
   std::optional<PlyType> listCountType;
 };
 
+/// A PLY element, such as "vertex": `count` items with the same properties.
 struct PlyElement {
   std::string name;
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
 };
 
+/// Header of a PLY file.
 struct PlyHeader {
   PlyFormat format = PlyFormat::Ascii;
   std::vector<PlyElement> elements;

@@ -12,6 +12,7 @@ namespace nearfit {
 /// Input of each format's reader: a whole file in memory.
 struct ReaderInput {
   std::string name;  ///< The file's path, for messages.
+  /// The whole file; must outlive the reader.
   std::span<const char> bytes;
   std::function<void(double fraction)> progress;  ///< Called now and then; throws Cancelled. May be empty.
 

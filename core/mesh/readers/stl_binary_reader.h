@@ -4,6 +4,7 @@
 
 namespace nearfit {
 
+/// Sizes in a binary STL file [bytes]; the header includes the facet count.
 constexpr std::size_t kStlHeaderBytes = 84, kStlFacetBytes = 50;
 
 /// Number of facets according to the header of a binary STL file. `bytes` has at least kStlHeaderBytes.

@@ -43,6 +43,7 @@ class TextCursor {
 
   /// A token as a number. Throws FileError if it is not one; `what` names the expected item.
   double asNumber(std::string_view token, std::string_view what) const;
+  /// A token as an integer. Throws FileError if it is not one; `what` names the expected item.
   std::int64_t asInteger(std::string_view token, std::string_view what) const;
   /// The next token, on this or a later line, as a number. Throws FileError if it is not one or the file
   /// ends; `what` names the expected item.
@@ -57,6 +58,7 @@ class TextCursor {
   std::size_t bytesLeft() const noexcept { return static_cast<std::size_t>(end_ - position_); }
   /// Throws a FileError naming the file and the line.
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
+  /// Throws a FileError that the file ends where `what` is expected.
   [[noreturn]] void failAtEnd(std::string_view what) const;
 
  private:
