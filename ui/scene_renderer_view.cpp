@@ -82,7 +82,7 @@ struct SceneRenderer::View {
   glm::dvec3 eye;
   bool isParallel = false;
   double pixelsAtOne = 1.0;  ///< Pixels per metre, at 1 m from the eye in perspective.
-  double planes[24];         ///< Of the frustum; outside is negative.
+  double planes[24];         ///< Frustum planes; negative outside.
 
   double pixelsPerMetre(const glm::dvec3& centre, double radius) const {
     if (isParallel) return pixelsAtOne;

@@ -13,7 +13,7 @@
 
 namespace nearfit::ui {
 
-/// What a picture shows of the parts.
+/// How much of the parts a picture shows.
 struct PictureDetail {
   std::size_t triangles = 0;  ///< Triangles and lines drawn for it, without the kept picture.
   bool isKept = false;        ///< Resting parts come from the kept picture.

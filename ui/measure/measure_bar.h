@@ -21,7 +21,7 @@ class MeasureBar : public ViewBar {
   explicit MeasureBar(QWidget* view);
 
   /// Shows what to do next.
-  /// @param hint  What is under the pointer; may be empty.
+  /// @param hint  The feature under the pointer; may be empty.
   void showPrompt(const QString& prompt, const QString& hint);
   /// Shows the values in that unit; nullopt clears them.
   /// @param measurement  World frame.

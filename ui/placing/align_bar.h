@@ -20,7 +20,7 @@ class AlignBar : public ViewBar {
   explicit AlignBar(QWidget* view);
 
   /// Shows what to do next.
-  /// @param hint  What is under the pointer; may be empty.
+  /// @param hint  The feature under the pointer; may be empty.
   void showPrompt(const QString& prompt, const QString& hint);
   /// Shows the options of the picked pair; hides them before there is one.
   /// @param isPicked   Both features are picked.

@@ -8,7 +8,7 @@
 
 namespace nearfit::ui {
 
-/// What to draw of a gizmo.
+/// The state in which a gizmo is drawn.
 struct GizmoPicture {
   GizmoLayout layout;
   GizmoHandle hot = GizmoHandle::None;  ///< The handle under the pointer, or dragged.

@@ -13,7 +13,7 @@
 
 namespace nearfit::ui {
 
-/// Where a SolidMove has brought its parts.
+/// Poses that a SolidMove has reached.
 struct SolidReached {
   std::uint64_t wanted = 0;           ///< The want() they were moving towards.
   std::vector<RigidTransform> poses;  ///< worldFromPart, in the order of the parts.

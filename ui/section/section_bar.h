@@ -17,7 +17,7 @@ namespace nearfit::ui {
 
 class NumberField;
 
-/// What the plane was laid across: a world axis, the direction of view at that time, or a face.
+/// Ways to lay the plane: across a world axis or the direction of view at that time, or through a face.
 enum class SectionAxis { X, Y, Z, Sight, Face };
 
 /// The section tool's bar: axis, position, flip, and whether the moving part stays whole.
