@@ -61,8 +61,9 @@ typedef struct NearfitDevice NearfitDevice;
  *
  * Threads: `read` and `write` are called on the servo thread. They allocate nothing, take no lock that another
  * thread may hold for long, and return within 0.1 ms. `read` is also called once after `open`, before the servo
- * starts. All other functions are called on one controlling thread and may take their time. They may be called
- * while the servo runs, except `open` and `close`.
+ * starts. All other functions may take their time: `count` and `describe` are called on one thread; `open`,
+ * `close` and `set_forces` on one that may be another. `set_forces`, `count` and `describe` may be called while
+ * the servo runs; `close` only after it has stopped.
  *
  * Errors: a function that takes `error` and fails writes a sentence for the user into it, at most `error_size`
  * bytes with the zero byte at its end; a longer text is cut off. */
