@@ -9,7 +9,7 @@
 
 namespace nearfit {
 
-/// Which points of the plane are inside an outline.
+/// Rule that decides which points are inside an outline.
 enum class FillRule : std::uint8_t {
   Wound,  ///< Nonzero winding number; parts of the outline may overlap.
   Odd,    ///< Odd number of crossings; segment directions do not matter.

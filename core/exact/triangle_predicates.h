@@ -27,7 +27,7 @@ int sideOf(const glm::dvec3& point, const TriangleCorners& triangle);
 /// True if the corners lie on one line, exactly.
 bool hasNoArea(const TriangleCorners& triangle);
 
-/// How a segment crosses a triangle.
+/// Result of crossingOf().
 enum class Crossing : std::int8_t {
   None,
   Out,      ///< From the back of the triangle to its front.

@@ -110,7 +110,7 @@ NearbyPairs ContactFinder::pairsOf(const ServoScene::Body& other, const TrackedS
   const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
   const std::span<LeafPair> room = std::span(pairs_).subspan(pairCount_);
   if (known != nullptr && known->contacts) {
-    // No more than can be tested.
+    // A tick cannot test more.
     const std::size_t bound = std::min<std::size_t>(gathering.mostListed, workLeft_);
     const std::size_t most = bound - std::min(bound, pairCount_);
     const std::optional<NearbyPairs> listed = known->contacts->nearbyPairs(

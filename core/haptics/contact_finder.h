@@ -70,7 +70,7 @@ class ContactFinder {
   Surroundings find(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
                     double way, std::span<BodyContact> out) noexcept;
 
-  /// How often since beginTick() no list covered the pose of a near body.
+  /// Number of times since beginTick() that no list covered the pose of a near body.
   std::uint32_t lateBodies() const noexcept { return lateBodies_; }
   /// True if no work is left for contacts or surfaces, or what was left was too little for something needed.
   bool isWorkSpent() const noexcept { return isWorkSpent_ || workLeft_ == 0 || surfaceWorkLeft_ == 0; }
@@ -85,7 +85,7 @@ class ContactFinder {
     std::size_t firstBlock = 0, blocks = 0;  ///< Range in edgePairs_, for its first pairs.
   };
 
-  /// How to gather pairs.
+  /// Parameters of gathering pairs.
   struct Gathering {
     MotionBudget slack;      ///< Motion for which the pairs must serve.
     std::size_t mostListed;  ///< Max pairs worth taking from lists.

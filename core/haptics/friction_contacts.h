@@ -12,7 +12,7 @@
 
 namespace nearfit {
 
-/// How torques of pushes act in the mass metric.
+/// Maps torques of pushes into the mass metric.
 struct ArmMetric {
   glm::dmat3 principalFromStep{1.0};  ///< Rotates the axes of a[0..2] into the principal axes.
   glm::dvec3 gyration{1.0};           ///< About the principal axes [m].
@@ -29,7 +29,7 @@ class FrictionContacts {
   /// Friction at an active row.
   struct Contact {
     std::size_t row = 0;                      ///< Index in the StepRows.
-    std::array<glm::dvec3, 2> axes{};         ///< Of the tangent plane, in the axes of a[0..2]; unit.
+    std::array<glm::dvec3, 2> axes{};         ///< Unit axes of the tangent plane, in the axes of a[0..2].
     std::array<ProgramVector, 2> tangents{};  ///< Steps made by unit pushes along them.
     glm::dvec2 push{0.0};                     ///< Along the axes [m].
 

@@ -36,7 +36,7 @@ struct FrictionSolution {
   std::array<FrictionPush, ActiveRows::kMost> pushes{};
   std::size_t pushCount = 0;
   unsigned sweeps = 0;  ///< Programs solved in total.
-  /// How much a push would change in another sweep [m].
+  /// Max change of a push in another sweep [m].
   double unsettled = 0.0;
   /// True if `unsettled` is below FrictionProgram::kSettled of the lengths involved. Otherwise the
   /// alternation was stopped, and a push may exceed its disk or fail to oppose the sliding by as much.

@@ -6,7 +6,7 @@
 
 namespace nearfit {
 
-/// How forces fade with the age of a pose: full up to `hold`, then linearly down to zero at `silence`.
+/// Fading of forces with the age of a pose: full up to `hold`, then linearly down to zero at `silence`.
 struct PosePatience {
   double hold = 5e-3;      ///< [s]; five reports of a device at 1 kHz.
   double silence = 20e-3;  ///< [s]
@@ -16,7 +16,7 @@ struct PosePatience {
 struct HandleInput {
   RigidTransform pose;      ///< Pose of the device's handle, in the device's frame.
   double age = 0.0;         ///< Time since the device measured it [s]; forces fade with it.
-  PosePatience patience{};  ///< How they fade.
+  PosePatience patience{};  ///< How forces fade with the age.
   bool isClutched = false;  ///< The hand repositions the device; the part stays.
   bool isArmed = true;      ///< The device may render force. When it is armed, the force ramps up from zero.
   /// True if the device has a frame of its own: the handle starts at the part, wherever the device is.

@@ -10,13 +10,13 @@
 
 namespace nearfit {
 
-/// What the hand feels.
+/// Source of the force that the hand feels.
 enum class HapticMode : std::uint8_t {
   Proxy,    ///< The part follows the hand as far as the scene allows; a coupling pulls the hand to the part.
   Springs,  ///< The part is where the hand is; each minimum pushes like a spring (see SpringLaw).
 };
 
-/// How the proxy keeps the part out of the scene.
+/// Contact in the proxy mode.
 struct ProxySettings {
   /// Clearance kept in contact [m]; > 0. A smaller one shows the true gap better, but the part slides less
   /// far in a tick.
@@ -28,7 +28,7 @@ struct ProxySettings {
 /// Spring and damper between handle and part in the proxy mode, as requested. What is rendered is limited to
 /// the stability bound (virtual_coupling.h).
 struct CouplingSettings {
-  /// As stiff as the device's bound allows; the values below are then ignored.
+  /// True: as stiff as the device's bound allows, and the values below are ignored.
   bool isAutomatic = true;
   double stiffness = 1000.0;         ///< [N/m]
   double damping = 0.0;              ///< [N s/m]
@@ -45,7 +45,7 @@ struct WeightSettings {
   bool operator==(const WeightSettings&) const = default;
 };
 
-/// How motion of the device becomes motion of the handle in the scene.
+/// Maps motion of the device to motion of the handle in the scene.
 struct WorkspaceMapping {
   double scale = 1.0;                                ///< Scale of translation; > 0.
   glm::dquat orientationOffset{1.0, 0.0, 0.0, 0.0};  ///< Rotates the device's frame into the world; unit.
@@ -54,7 +54,7 @@ struct WorkspaceMapping {
   bool operator==(const WorkspaceMapping&) const = default;
 };
 
-/// All that a user sets for haptics; stored with the scene. Limits: haptic_limits.h.
+/// All haptic settings of a user; stored with the scene. Limits: haptic_limits.h.
 struct HapticSettings {
   HapticMode mode = HapticMode::Proxy;
   SpringParameters springs;  ///< The cutoff applies in both modes.

@@ -7,8 +7,8 @@
 
 namespace nearfit {
 
-/// What happened between two ticks. All vectors are in one frame that does not rotate; torque is about the
-/// point whose motion is `shift` (the part's centre of mass, as the handle carries it).
+/// Wrench and motion between two ticks. All vectors are in one frame that does not rotate; torque is about
+/// the point whose motion is `shift` (the part's centre of mass, as the handle carries it).
 struct HandInterval {
   Wrench held;             ///< On the handle, as sent at the interval's start.
   glm::dvec3 shift{0.0};   ///< Translation of the handle [m].
@@ -20,8 +20,8 @@ struct HandInterval {
 };
 
 /// Accounts for the energy that goes to the hand, and takes back, by damping, what exceeds the energy put in
-/// by hand and gravity. A wrench is held while the hand moves, so its work over an interval is exactly held .
-/// motion, whatever happened in between; energy that a sampled spring creates is included.
+/// by hand and gravity. A wrench is held while the hand moves, so its work over an interval is exactly
+/// held . motion, whatever happened in between; energy that a sampled spring creates is included.
 ///
 /// The account is credited with the energy that the hand gives and that gravity gives the part, and debited
 /// with what the hand gets. The device's own damping dissipates at least b |motion|^2 / duration and is
@@ -47,27 +47,27 @@ class PassivityController {
   /// Max debt [J]: enough to move a hand of 100 g at 1 m/s.
   static constexpr double kMostDebt = 0.05;
   /// The balance may exceed the stored energy by this [J]. Rendered damping pays half a tick late, and that
-  /// delay (some B v^2 T, for 0.2 N s/m at 0.2 m/s) is no fault. Moves a hand of 200 g at 1 cm/s.
+  /// delay (some B v^2 T, for 0.2 N s/m at 0.2 m/s) is no fault. It moves a hand of 200 g at 1 cm/s.
   static constexpr double kSlack = 1e-5;
 
   /// Share of the device's damping that is credited right after a debt.
   static constexpr double kDoubtfulShare = 0.5;
-  static constexpr double kDoubtTime = 0.5;  ///< Until all of it is credited again [s].
+  static constexpr double kDoubtTime = 0.5;  ///< Time until all of it is credited again [s].
 
   /// Starts a new account.
   void reset() noexcept { *this = PassivityController{}; }
 
   /// Accounts for an interval. Ignores it if any number is not finite. Without a duration, the device's
   /// damping is not credited.
-  /// @param limits  Of the device, as they are at the handle (limitsAtHandle()).
-  /// @param stored  Upper bound on the energy that can return to the hand from the interval's end on, before
-  ///                the part moves on [J]: storedEnergy() plus kineticEnergy(), or kMostDebt if unknown.
+  /// @param limits  Limits at the handle (limitsAtHandle()).
+  /// @param stored  Upper bound on the energy that can return to the hand after the interval, before the part
+  ///                moves on [J]: storedEnergy() plus kineticEnergy(), or kMostDebt if unknown.
   void observe(const HandInterval& interval, const DeviceLimits& limits, double stored) noexcept;
 
   /// Damping to add to the wrench of the next tick, before that is clamped. Zero without debt or if the hand
-  /// does not move. Within the device's max force and torque.
-  /// @param limits  As for observe().
-  /// @param period  How long it will be held [s]; the wrench is zero unless this is finite and > 0.
+  /// does not move; within the device's max force and torque.
+  /// @param limits  Limits at the handle (limitsAtHandle()).
+  /// @param period  How long the damping will be held [s]; it is zero unless this is finite and > 0.
   Wrench damping(const DeviceLimits& limits, double period) const noexcept;
 
   /// Net work done on the hand since the reset [J]; positive if the hand got more than it gave.

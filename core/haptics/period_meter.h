@@ -20,7 +20,7 @@ class PeriodMeter {
   /// Max period [s]; a slower servo is unusable.
   static constexpr double kLongestPeriod = 0.1;
 
-  /// How far the held period may exceed the estimate before it follows down, relative. The estimate of an
+  /// Max excess of the held period over the estimate before it follows down, relative. The estimate of an
   /// uneven servo never rests, and a hand that leans on a wall would feel the stiffness vary with it.
   static constexpr double kPlay = 0.3;
   /// While the estimate is at the nominal period, the held period falls towards it by this per tick,
@@ -30,7 +30,7 @@ class PeriodMeter {
   /// @param nominal  Intended period [s]; clamped to (0, kLongestPeriod], 1 ms if not finite.
   explicit PeriodMeter(double nominal = 1e-3) noexcept;
 
-  /// Takes the time since the last tick [s]; ignored unless finite and > 0.
+  /// Records the time since the last tick [s]; ignored unless finite and > 0.
   void add(double elapsed) noexcept;
 
   /// The estimate [s], from the nominal period to kLongestPeriod.

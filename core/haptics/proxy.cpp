@@ -27,8 +27,8 @@ constexpr double kTurnShare = 0.5;
 constexpr double kPinched = 0.97;
 /// A step may always use this share of the distance.
 constexpr double kLeastStep = 0.5;
-/// How often a step is shortened before it is given up. On an edge, whose rounding by the margin is
-/// far narrower than the hand is deep, the program's step is many times too long; a parabola estimates
+/// Max shortenings of a step before it is given up. On an edge the program's step is many times too
+/// long, since the margin rounds the edge far more narrowly than the hand is deep; a parabola estimates
 /// the best length.
 constexpr int kMaxShortenings = 3;
 /// A part that comes free goes this share of the way to its target in a tick, besides the target's own

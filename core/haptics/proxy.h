@@ -15,7 +15,7 @@
 
 namespace nearfit {
 
-/// What the proxy did in a tick.
+/// Statistics of a tick of the proxy.
 struct ProxyAccount {
   std::uint32_t subSteps = 0;         ///< Steps taken.
   std::uint32_t shortenedSteps = 0;   ///< Steps halved because more was not proved free.
@@ -28,7 +28,7 @@ struct ProxyAccount {
 /// A contact that holds the proxy back.
 struct ProxyContact {
   BodyContact contact;
-  /// How much of the wanted motion it takes away, along its direction [m], for a body of unit mass.
+  /// Part of the wanted motion that it takes away, along its direction [m], for a body of unit mass.
   double push = 0.0;
 };
 
@@ -54,7 +54,7 @@ class Proxy {
   /// Pose of the part, worldFromPart.
   const RigidTransform& pose() const noexcept { return pose_; }
 
-  /// Takes a lower bound on the distance from the present pose to all bodies that the part does
+  /// Records a lower bound on the distance from the present pose to all bodies that the part does
   /// not overlap [m].
   void noteDistance(double distance) noexcept;
 
@@ -67,7 +67,7 @@ class Proxy {
   void follow(const TrackedScene& tracked, const RigidTransform& target, const ProxySettings& settings,
               double turnScale = 1.0) noexcept;
 
-  /// What the last tick did.
+  /// Statistics of the last tick.
   const ProxyAccount& account() const noexcept { return account_; }
   /// The contacts that hold the part now, in world coordinates; valid until the next tick.
   std::span<const ProxyContact> contacts() const noexcept;
@@ -100,7 +100,7 @@ class Proxy {
   static double travelOf(const ServoScene& scene, const Motion& motion) noexcept;
   static double travelBetween(const ServoScene& scene, const RigidTransform& from,
                               const RigidTransform& to) noexcept;
-  /// The same for the way to the target [m].
+  /// Upper bound on the travel of any point of the part to the target [m].
   double wayTo(const Tick& tick) const noexcept;
   RigidTransform moved(const ServoScene& scene, const Motion& motion) const noexcept;
   /// Result of a step.

@@ -4,7 +4,7 @@
 
 namespace nearfit {
 
-/// How the deflection of a device that is pushed becomes speed. The defaults suit a hand that has
+/// Maps the deflection of a device that is pushed to speed. The defaults suit a hand that has
 /// never set anything.
 struct RateSettings {
   /// Deflection below which nothing moves, since springs do not return to zero; 0 to kMaxDeadZone.

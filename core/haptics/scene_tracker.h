@@ -26,32 +26,32 @@ class SceneTracker {
   /// are unchanged.
   void setScene(std::shared_ptr<const ServoScene> scene);
 
-  /// Takes the pose of the moving part.
+  /// Records the pose of the moving part.
   /// @param ticks  Servo ticks since the last call; > 0.
   void observe(const RigidTransform& worldFromPart, double ticks) noexcept {
     forecast_.observe(worldFromPart, ticks);
   }
-  /// Takes the pose where the hand wants the part. If it is known, a part that waits for lists is expected to
-  /// go on as the hand does.
+  /// Records the pose where the hand wants the part. If it is known, a part that waits for lists is expected
+  /// to go on as the hand does.
   void observeHand(const RigidTransform& worldFromPart, double ticks) noexcept {
     hand_.observe(worldFromPart, ticks);
   }
-  /// Takes all that a tick tells about its part, its hand and what the proxy waits for. Whoever runs ticks
-  /// must pass each one on: a proxy whose starving goes unheard stands still for good.
+  /// Records all that a tick tells about its part, its hand and what the proxy waits for. Must be called for
+  /// each tick: a proxy that starves unnoticed stands still for good.
   void observeTick(const ServoSnapshot& snapshot, double ticks) noexcept;
-  /// As MotionForecast::setLead().
+  /// See MotionForecast::setLead().
   void setLead(double ticks) noexcept { forecast_.setLead(ticks); }
 
-  /// True if the servo's proxy waits to know what it overlaps where it is now.
+  /// Sets whether the servo's proxy waits to know what it overlaps where it is now.
   void setWaiting(bool isWaiting) noexcept { isWaiting_ = isWaiting; }
-  /// True if lists of contacts do not reach where the proxy would go from where it was last observed. They
-  /// are then renewed around it, unless they were made there, and tried again where none could be made.
+  /// Sets whether lists of contacts fall short of where the proxy would go from where it was last observed.
+  /// They are then renewed around it, unless they were made there, and tried again where none could be made.
   void setStarved(bool isStarved) noexcept {
     isStarved_ = isStarved;
     if (isStarved) forecast_.goAs(hand_);
   }
 
-  /// True if what is known will no longer serve when a search that starts now has ended.
+  /// True if the known data will no longer serve when a search that starts now has ended.
   bool isDue(const SearchReach& reach) const noexcept;
 
   /// Renews what is due for the time ahead, and copies everything to `out`.

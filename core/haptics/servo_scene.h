@@ -10,8 +10,8 @@
 
 namespace nearfit {
 
-/// What the servo thread needs of a scene. Once shared it is immutable. Made and destroyed off the servo
-/// thread; keeps the geometry alive.
+/// Data that the servo thread needs of a scene. Immutable once shared; made and destroyed off the servo
+/// thread. Keeps the geometry alive.
 struct ServoScene {
   /// A part as the servo knows it.
   struct Body {

@@ -77,7 +77,7 @@ struct ServoSnapshot {
   std::uint32_t shortenedSteps = 0;   ///< Steps shortened so that nothing is met on the way.
   std::uint32_t refusedSteps = 0;     ///< Steps not taken at all, for the same reason.
   std::uint32_t constraintCount = 0;  ///< Rows of the last step's program.
-  std::uint32_t contactCount = 0;     ///< Those of them that hold the part.
+  std::uint32_t contactCount = 0;     ///< Contacts that hold the part.
   std::uint32_t storedContacts = 0;   ///< Entries of `contacts` in use.
   /// Parts that overlap the moving one and so are not felt until they separate; `released` holds the first.
   std::uint32_t releasedCount = 0;

@@ -18,10 +18,10 @@
 
 namespace nearfit {
 
-/// Settings of a tick.
+/// Settings and device limits of a tick.
 struct ServoParameters {
   HapticSettings haptics;
-  DeviceLimits limits;  ///< Of the device itself, before the mapping's scale.
+  DeviceLimits limits;  ///< Of the device itself: not scaled by limitsAtHandle().
 };
 
 /// One servo tick: the device's pose in, wrench and snapshot out. Depends only on its inputs and the ticks
@@ -32,7 +32,7 @@ struct ServoParameters {
 /// where the handle is, and the hand feels the sum of the springs. The wrench is kept passive
 /// (PassivityController) and within the device's limits (WrenchConditioner).
 ///
-/// A tick has two halves: feel() has all that the hand waits for, show() what only others look at. In the
+/// A tick has two halves: feel() computes what the hand waits for, show() what only others look at. In the
 /// proxy mode that is the minima: they are found when the wrench is on its way.
 ///
 /// No tick does more than mostWork() (work_bound.h). In the proxy mode, where no force depends on minima,
@@ -64,7 +64,8 @@ class ServoTick {
   void feel(const TrackedScene& tracked, const ServoParameters& parameters, const HandleInput& input,
             double period, ServoSnapshot& snapshot) noexcept;
 
-  /// Completes the snapshot of feel(): minima, min distance, contacts, parts that are not felt.
+  /// Completes the snapshot of feel(): minima, min distance, contacts, parts that are not felt. Does nothing
+  /// in the springs mode, where feel() has filled it.
   ///
   /// @param snapshot  As feel() left it. Complete afterwards, except for `tick`, `time` and `tickTime`, which
   ///                  the caller sets.
@@ -76,7 +77,7 @@ class ServoTick {
            double period, ServoSnapshot& snapshot) noexcept;
 
  private:
-  /// What both halves work on.
+  /// Context that both halves share.
   struct Subject {
     const TrackedScene& tracked;
     const ServoScene& scene;
@@ -84,7 +85,7 @@ class ServoTick {
     ServoSnapshot& snapshot;
   };
   struct Tick : Subject {
-    const DeviceLimits& limits;  ///< As they are at the handle.
+    const DeviceLimits& limits;  ///< Limits at the handle.
     double period;
   };
 

@@ -19,7 +19,7 @@ class ShownReach {
   double share() const noexcept { return share_; }
   void reset() noexcept { *this = {}; }
 
-  /// Takes the outcome of a tick.
+  /// Records the outcome of a tick.
   /// @param work     Work that the minima took.
   /// @param nearest  Distance of the nearest one, as a fraction of the cutoff; infinity if there is none.
   ///                 Minima about as near are always included, as far as there is work for them.

@@ -26,7 +26,7 @@ class StepTrial {
   StepVector wanted_, step_;
   ClearanceCost cost_;
   double distance_;
-  double slope_;  ///< Of the cost along the step, at its start.
+  double slope_;  ///< Slope of the cost along the step, at its start.
   double bestShare_ = 1.0;
 };
 

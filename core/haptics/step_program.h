@@ -45,9 +45,9 @@ struct StepSolution {
   double displacement = 0.0;     ///< displacementOf(y): no point of the part moves farther [m].
   unsigned changes = 0;          ///< Changes of the active rows, in all solves.
   unsigned solves = 0;           ///< Programs solved.
-  /// How much of the way from standing still to the optimum for s y0 is used. Below 1 if no scale was found
-  /// at which the step fits the reach and is worthwhile: the recovery of the margin alone (s = 0) would
-  /// exceed the reach, or only next to nothing of the goal would not.
+  /// Share of the way from standing still to the optimum for s y0 that the step takes. Below 1 if no scale
+  /// was found at which the step both fits the reach and is worthwhile: recovering the margin alone (s = 0)
+  /// would exceed the reach, or only a negligible part of the goal would fit it.
   double share = 1.0;
   /// True if that optimum is exact. y and t keep all rows, the floor and the reach in any case.
   bool isExact = false;
@@ -69,13 +69,13 @@ bool isUsable(const StepGoal& goal) noexcept;
 ///
 /// The clearance t is elastic: contradicting rows, as in a gap narrower than two margins, lower it, and
 /// standing still is always allowed. If y would move a point farther than the reach, y0 is shortened to s y0
-/// until it does not; y(s) is continuous and piecewise linear in s. (A bound on |y| itself would add a
-/// multiplier l of |y|^2 / 2, hence y0 / (1 + l), and W shrunk likewise. Here W is kept, so that clearance
-/// does not give way to a far hand.)
+/// until it does not; y(s) is continuous and piecewise linear in s. (A bound on |y| itself would add
+/// l |y|^2 / 2 with a multiplier l. That shrinks y0 to y0 / (1 + l), and W likewise. Here W is kept, so that
+/// clearance does not give way to a far hand.)
 ///
-/// Exact: rows hold to DualStepSolver::kRowTolerance, and y and t differ from the optimum only by what so
-/// small a change of the d_i makes of it. Changes of the active set and solves are bounded; each change costs
-/// one scan of the rows. Deterministic. Real-time safe.
+/// Exact: rows hold to DualStepSolver::kRowTolerance, and y and t differ from the optimum only by the effect
+/// of so small a change of the d_i. Changes of the active set and solves are bounded; each change costs one
+/// scan of the rows. Deterministic. Real-time safe.
 ///
 /// Source: Ortega, Redon and Coquillart, A six degree-of-freedom god-object method, 2007 (the metric);
 /// Goldfarb and Idnani 1983 (the method).

@@ -17,10 +17,10 @@ void shortenToReach(StepSolution& step, const DualStepSolver::Point& still, doub
 StepSolution standStill(const StepRows& rows) noexcept;
 
 /// If no scale was found at which a step uses this share of the reach, a step that is too long is shortened
-/// instead: while a part turns flat, its way depends on the scale only near zero.
+/// instead: while a part turns flat, its step depends on the scale only for scales near zero.
 inline constexpr double kLeastUse = 0.5;
 
-/// For callers that need nothing but the step.
+/// The `keep` of callers that need nothing but the step.
 struct KeepNothing {
   void best() const noexcept {}
   void above() const noexcept {}

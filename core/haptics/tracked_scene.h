@@ -16,7 +16,7 @@ namespace nearfit {
 /// Contacts count up to this many margins away: a step of the proxy can close such a gap.
 constexpr double kContactReach = 2.6;
 
-/// How far to search.
+/// Distances to search.
 struct SearchReach {
   double cutoff = 0.0;   ///< For minima [m].
   double contact = 0.0;  ///< For contacts [m]; 0 if none are needed.
@@ -29,7 +29,7 @@ struct SearchReach {
 /// The reach that the settings need; contacts in the proxy mode only.
 SearchReach searchReach(const HapticSettings& settings) noexcept;
 
-/// Which bodies the part overlaps at a pose, and its distance to the others.
+/// Bodies that the part overlaps at a pose, and its distance to the others.
 struct Clearance {
   std::uint64_t serial = 0;      ///< Changes each time this is determined; 0 if nothing is known.
   RigidTransform worldFromPart;  ///< The pose.
@@ -86,6 +86,7 @@ struct MovingBounds {
   glm::dvec3 centre;
   double radius;
 };
+/// That sphere, padded for rounding. Real-time safe.
 MovingBounds movingBounds(const ServoScene& scene, const RigidTransform& worldFromPart) noexcept;
 
 /// A scene about which nothing is known yet: every tick searches anew. Allocates.

@@ -23,7 +23,7 @@ class TrustSearch {
   double scale() const noexcept { return scale_; }
   bool isDone() const noexcept { return isDone_; }
 
-  /// Takes the value at scale(). Returns true if it is the best so far: within the bound, at the
+  /// Records the value at scale(). Returns true if it is the best so far: within the bound, at the
   /// largest such s.
   bool report(double value) noexcept {
     ++values_;

@@ -43,12 +43,12 @@ inline constexpr double kMostDampingShare = 0.5;
 double stiffnessBound(double deviceDamping, double couplingDamping, double period) noexcept;
 
 /// The coupling that is rendered for a requested one. Automatic: the damping is kAutomaticDampingShare of the
-/// device's, the stiffness kAutomaticStiffnessShare of the bound that this leaves. Rotation follows the
-/// part's metric (stiffness and damping times the square of its largest gyration), so that the wrench is
-/// orthogonal to what holds the part, as far as its own bound allows. Not automatic: each number as
-/// requested, limited to kMostDampingShare and to the bound.
+/// device's, the stiffness kAutomaticStiffnessShare of the bound that this leaves. As far as their own bound
+/// allows, rotational values are these times the square of the part's largest gyration, as in its metric, so
+/// that the wrench is orthogonal to what holds the part. Not automatic: each number as requested, limited to
+/// kMostDampingShare and to the bound.
 ///
-/// @param device  As it is at the handle (limitsAtHandle()).
+/// @param device  Limits at the handle (limitsAtHandle()).
 /// @param period  Measured (PeriodMeter) [s].
 /// The result is finite and >= 0 for any input; zero stiffness where the bound has no meaning.
 /// Real-time safe.

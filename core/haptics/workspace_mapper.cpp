@@ -36,14 +36,14 @@ double validScale(double scale) noexcept {
   return std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
 }
 
-/// A rotation without what is locked.
+/// Result of freeTurn().
 struct FreeTurn {
   glm::dquat turn;
   bool isFar;      ///< A new index is needed.
   bool isDefined;  ///< If false, `turn` has no meaning.
 };
 
-/// What remains of a rotation if none about the locked axes is allowed.
+/// The rotation that remains of `turn` without rotation about the locked axes.
 FreeTurn freeTurn(const glm::dquat& turn, const Locks& locks) noexcept {
   const auto locked = std::count(locks.begin(), locks.end(), true);
   if (locked == 0) return {turn, false, true};

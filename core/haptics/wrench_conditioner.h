@@ -21,7 +21,7 @@ LimitedWrench limitWrench(const Wrench& wrench, const DeviceLimits& limits) noex
 struct ConditionedWrench {
   Wrench wrench;           ///< To be sent: finite and within the device's limits.
   bool isClamped = false;  ///< The wanted force or torque exceeded the device's max.
-  bool isSlewed = false;   ///< It was to change faster than the device may, and is still on its way.
+  bool isSlewed = false;   ///< The slew limit applied: the wrench is still on its way.
   bool isFinite = true;    ///< If false, what was wanted was not finite, and `wrench` is zero.
 };
 
