@@ -58,8 +58,7 @@ class Proxy {
   /// not overlap [m].
   void noteDistance(double distance) noexcept;
 
-  /// Runs one tick. The part stands still while it is not known which bodies it overlaps
-  /// (TrackedScene::clearance).
+  /// Runs one tick. The part stands still while it is unknown which bodies it overlaps (Clearance).
   /// @param target     Pose to move towards, worldFromPart; finite, unit quaternion.
   /// @param turnScale  Factor on the radii of gyration that makes steps nearest in the energy of the coupling
   ///                   that pulls (turnScale() in virtual_coupling.h); > 0.
