@@ -33,7 +33,7 @@ typedef struct NearfitDeviceDescription {
   double rotational_damping; /* The same for rotation [N m s/rad]. */
   double mass;               /* Moving mass as felt at the handle [kg]. */
   double inertia;            /* Moving inertia as felt at the handle [kg m^2]. */
-  double max_speed;          /* Above this speed Nearfit stops the device [m/s]; 0: Nearfit's own limit. */
+  double max_speed;          /* Above it Nearfit stops the device [m/s]; 0, or more than 3, counts as 3. */
 } NearfitDeviceDescription;
 
 /* Bits of NearfitDevicePose.flags. */
@@ -49,9 +49,9 @@ typedef struct NearfitDevicePose {
   double position[3]; /* [m] */
   double rotation[4]; /* Unit quaternion w, x, y, z: from the handle's axes to the device's. */
   double velocity[3]; /* [m/s] */
-  double age; /* Time since the measurement [s]. Forces fade from 5 ms on; at 20 ms the device is stopped. */
-  uint32_t buttons; /* One bit per pressed button. Bit 0 is the clutch: while held, the part stays. */
-  uint32_t flags;   /* NEARFIT_DEVICE_... bits. */
+  double age;         /* Since the measurement [s]. Forces fade from 5 ms on; at 20 ms it is stopped. */
+  uint32_t buttons;   /* One bit per pressed button. Bit 0 is the clutch: while held, the part stays. */
+  uint32_t flags;     /* NEARFIT_DEVICE_... bits. */
 } NearfitDevicePose;
 
 /* An open device. Defined by the plug-in; Nearfit only passes the pointer. */
@@ -59,14 +59,14 @@ typedef struct NearfitDevice NearfitDevice;
 
 /* The functions of a plug-in. None may be null.
  *
- * Threads: `read` and `write` are called on the servo thread. They allocate nothing, take no lock that another
- * thread may hold for long, and return within 0.1 ms. `read` is also called once after `open`, before the servo
- * starts. All other functions may take their time: `count` and `describe` are called on one thread; `open`,
- * `close` and `set_forces` on one that may be another. `set_forces`, `count` and `describe` may be called while
- * the servo runs; `close` only after it has stopped.
+ * Threads: `read` and `write` are called on the servo thread. They allocate nothing, take no lock that
+ * another thread may hold for long, and return within 0.1 ms. `read` is also called once after `open`, before
+ * the servo starts. All other functions may take their time: `count` and `describe` are called on one thread;
+ * `open`, `close` and `set_forces` on one that may be another. All but `open` and `close` may be called while
+ * the servo runs.
  *
- * Errors: a function that takes `error` and fails writes a sentence for the user into it, at most `error_size`
- * bytes with the zero byte at its end; a longer text is cut off. */
+ * Errors: a function that takes `error` and fails writes a sentence for the user into it, at most
+ * `error_size` bytes with the zero byte at its end; a longer text is cut off. */
 typedef struct NearfitDevicePlugin {
   uint32_t version; /* NEARFIT_DEVICE_VERSION as compiled. */
   uint32_t size;    /* sizeof(NearfitDevicePlugin) as compiled. */
@@ -82,11 +82,13 @@ typedef struct NearfitDevicePlugin {
   void (*close)(NearfitDevice* device);
   /* Turns forces on (`are_on` not 0) or off (0). Returns 0 on success. */
   int32_t (*set_forces)(NearfitDevice* device, int32_t are_on, char* error, size_t error_size);
-  /* Gives the newest pose, once per tick. Returns 0 on success; anything else means that the device is lost. */
+  /* Gives the newest pose; called once per tick. Returns 0 on success; anything else means that the device is
+   * lost. */
   int32_t (*read)(NearfitDevice* device, NearfitDevicePose* out);
-  /* Sets the force [N] and the torque about the handle's origin [N m] to render, in the device's frame: finite,
-   * within its limits, zero while it is not armed. Called once per tick, unless force_axes is 0; without a call
-   * for 20 ms the device must stop pushing. Returns 0 on success; anything else means that it is lost. */
+  /* Sets the force [N] and the torque about the handle's origin [N m] to render, in the device's frame:
+   * finite, within its limits, zero while it is not armed. Called once per tick, unless force_axes is 0;
+   * without a call for 20 ms the device must stop pushing. Returns 0 on success; anything else means that it
+   * is lost. */
   int32_t (*write)(NearfitDevice* device, const double force[3], const double torque[3]);
 } NearfitDevicePlugin;
 
