@@ -19,8 +19,8 @@ struct DeviceListing {
   /// Short name: "openhap", "spacemouse", "falcon", "polhem", "plugin"; "none" without a driver.
   std::string driver;
   std::string name;   ///< Name that the device reports, else that of its kind.
-  std::string kind;   ///< What it can do, as a phrase.
-  std::string needs;  ///< What it still needs once it is open; may be empty.
+  std::string kind;   ///< Abilities as a phrase.
+  std::string needs;  ///< Needs that remain once it is open; may be empty.
   /// Where it is plugged in: bus and ports ("1-4.2"), or plug-in and number ("name:1").
   std::string place;
   std::string id;                        ///< USB ID ("046d:c626"), or a plug-in device's serial number.
@@ -32,7 +32,7 @@ struct DeviceListing {
   UsbDescription usb;                          ///< USB devices only.
   std::shared_ptr<const DevicePlugin> plugin;  ///< Null for USB devices.
   std::int32_t index = 0;                      ///< Index within `plugin`.
-  NearfitDeviceDescription description{};      ///< As the plug-in gives it.
+  NearfitDeviceDescription description{};      ///< Given by the plug-in.
 
   bool isUsable() const noexcept { return !problem; }
   /// True if `other` is the same device and it has not been replugged since.

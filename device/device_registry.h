@@ -21,14 +21,14 @@ enum class DeviceDriver : std::uint8_t {
   SpaceMouse,
 };
 
-/// What is known of a device before it is opened.
+/// Knowledge of a device before it is opened.
 struct DeviceMatch {
   DeviceDriver driver = DeviceDriver::None;
   std::string name;  ///< Name of the kind, such as "Novint Falcon".
-  std::string kind;  ///< What it can do, as a phrase: "feels 3 axes, pushes along 3".
-  /// What it needs, or why it cannot be used, as a sentence without a full stop; may be empty.
+  std::string kind;  ///< Abilities as a phrase: "feels 3 axes, pushes along 3".
+  /// Its needs, or the reason why it cannot be used, as a sentence without a full stop; may be empty.
   std::string needs;
-  std::string remedy = {};  ///< What makes it usable; may be empty.
+  std::string remedy = {};  ///< Way to make it usable; may be empty.
 
   bool isUsable() const noexcept { return driver != DeviceDriver::None; }
 };

@@ -45,7 +45,7 @@ class ForceArmDevice : public HapticDevice, private UsbPacketSink {
   ForceArmDevice(UsbDescription device, std::string kind, const DeviceLimits& limits,
                  const SafetyLimits& safety);
 
-  /// What open() returns.
+  /// Result of open().
   struct Opened {
     UsbLink::Streams streams;
     bool isCalibrated = false;

@@ -92,7 +92,7 @@ class StreamedHandle {
   /// Servo thread: age of report() [s].
   double age() const noexcept { return toSeconds(monotonicNow() - samples_.front().arrived); }
 
-  /// Long cables damage a report now and then; so many in a row do not come from such a device.
+  /// Long cables damage a report now and then; this many in a row come from another kind of device.
   static constexpr unsigned kMostRejectedInRow = 20;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace nearfit::desktop {
 
-/// What to feel as soon as the files are open.
+/// Options of a run that a device leads.
 struct LedOptions {
   QString device;                 ///< Named as for chooseDevice(), or "replay:FILE"; empty: the first.
   bool isArming = false;          ///< Arms it as soon as it is ready.

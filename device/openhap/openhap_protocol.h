@@ -25,7 +25,7 @@ constexpr std::uint8_t kRequestIn = 0xc1, kRequestOut = 0x41;
 
 constexpr std::size_t kCapabilitiesSize = 64, kPoseSize = 64, kWrenchSize = 32, kFaultTextSize = 64;
 
-/// What a device says about itself.
+/// Abilities and limits that a device states.
 struct Capabilities {
   std::uint8_t major = kMajorVersion, minor = 0;
   bool sensesOrientation = true, rendersTorque = true, hasDeadMan = false, needsHoming = false;

@@ -35,7 +35,7 @@ class SceneRefresher {
     tracked_.update();
     return tracked_.front();
   }
-  /// What the servo tells after a tick.
+  /// State of the servo after a tick.
   struct Report {
     RigidTransform worldFromPart;  ///< Pose of the part.
     RigidTransform worldFromHand;  ///< Pose that the hand wants for it.

@@ -26,7 +26,7 @@ namespace {
 constexpr Nanoseconds kPeriodNs = 1'000'000;
 static_assert(ServoLoop::kPeriod * 1e9 == static_cast<double>(kPeriodNs));
 
-/// After so many periods without a report a tick runs anyway, so that the force fades.
+/// Periods without a report after which a tick runs anyway, so that the force fades.
 constexpr double kReportPatience = 2.0;
 
 /// Statistics are some 40 KB: copying them every tick would cost more than a tick's bookkeeping.

@@ -9,7 +9,7 @@
 
 namespace nearfit {
 
-/// What usbAccess() found out about a device.
+/// Result of usbAccess().
 struct UsbAccess {
   std::optional<DeviceProblem> problem;  ///< Why not; empty if it could.
   std::string reason, remedy;            ///< Explain `problem`, worded as in an Error.

@@ -65,7 +65,7 @@ class UsbLink {
   UsbLink& operator=(const UsbLink&) = delete;
 
   struct Strings {
-    std::string manufacturer, product, serial;  ///< Empty where the device has none.
+    std::string manufacturer, product, serial;  ///< Empty if the device has none.
   };
   /// Reads the device's strings, in printable ASCII. A device that hangs takes about a second.
   Strings strings() const;

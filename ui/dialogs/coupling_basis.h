@@ -8,7 +8,7 @@
 
 namespace nearfit::ui {
 
-/// What the stability bound depends on, and which settings are in force.
+/// Inputs of the stability bound, and the settings in force.
 struct CouplingBasis {
   DeviceLimits device;  ///< Limits of the device in hand, or of the usual one.
   MassMetric metric;    ///< Metric of the moving part.

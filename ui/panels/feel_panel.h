@@ -28,7 +28,7 @@ class FeelPanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// What other classes provide.
+  /// Widgets and presets that other classes provide.
   struct Parts {
     QWidget* settingsButton;  ///< Opens the settings; this panel becomes its parent.
     QAction* clutch;
