@@ -27,7 +27,7 @@ int report(const char* message, int exitCode) {
 }
 
 int reportUsage(const CLI::App& program, const CLI::ParseError& e) {
-  // The parser complains of a missing command where a wrong one was given.
+  // For a wrong command, the parser complains of a missing one.
   const std::vector<std::string> unknown = program.remaining();
   const bool isUnknownCommand = program.get_subcommands().empty() && !unknown.empty();
   const std::string problem =
@@ -53,7 +53,7 @@ int run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    // Help and version end the parsing by an exception too.
+    // Help and version end the parsing with an exception too.
     if (e.get_exit_code() != 0) return reportUsage(program, e);
     program.exit(e);
   }
@@ -64,7 +64,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A reader that has gone is an error to report, not a reason to die without a word.
+  // A closed pipe is an error to report, not a reason to die silently.
   std::signal(SIGPIPE, SIG_IGN);
   try {
     return run(argc, argv);

@@ -37,7 +37,7 @@ int run(int argc, char** argv) {
   std::optional<desktop::Screenshot> screenshot;
   std::optional<desktop::LedSession> led;
   if (!options.record.empty()) application.servo().recordTo(fileNames({options.record}).first());
-  // A run that nobody watches, or that ends by itself, is asked nothing.
+  // A run that nobody watches, or that ends by itself, must not ask questions.
   const std::filesystem::path recovery = userRecoveryFolder();
   if (options.screenshot.empty() && !options.seconds && !recovery.empty())
     application.window().protectWork(recovery);

@@ -5,13 +5,13 @@
 
 namespace nearfit {
 
-/// What went wrong, where, and what the user can do about it.
+/// An error with its place, the problem and a remedy.
 ///
 /// Thrown by loading, configuring and connecting; caught once, in app. Never thrown by queries or servo code.
 class Error : public std::runtime_error {
  public:
-  /// @param where    The file with line or byte, the option, the field or the device concerned.
-  /// @param problem  What is wrong there, as a sentence without a full stop.
+  /// @param where    The file (with line or byte), option, field or device concerned.
+  /// @param problem  What is wrong, as a sentence without a full stop.
   /// @param remedy   What to do about it, as an imperative without a full stop; may be empty.
   Error(std::string where, std::string problem, std::string remedy = {});
 
@@ -23,19 +23,19 @@ class Error : public std::runtime_error {
   std::string where_, problem_, remedy_;
 };
 
-/// A file, or a path to one, that cannot be read or written.
+/// A file or path cannot be read or written.
 class FileError : public Error {
  public:
   using Error::Error;
 };
 
-/// Arguments or values that a caller or user gave and that make no sense.
+/// An argument or value given by a caller or user is invalid.
 class UsageError : public Error {
  public:
   using Error::Error;
 };
 
-/// Long work that the user stopped.
+/// The user stopped long work.
 class Cancelled : public Error {
  public:
   Cancelled() : Error("", "cancelled") {}

@@ -12,7 +12,7 @@
 namespace nearfit {
 namespace {
 
-/// By the one thing that differs, where it is one.
+/// Names the one setting that differs; a general label if several do.
 const char* labelOfChange(const HapticSettings& from, const HapticSettings& to) {
   using Take = void (*)(HapticSettings&, const HapticSettings&);
   constexpr std::pair<const char*, Take> kChanges[] = {
@@ -109,7 +109,7 @@ void Session::reset(Scene scene, const std::filesystem::path& file) {
 
 void Session::restore(Scene scene, const std::filesystem::path& file) {
   begin(std::move(scene), file);
-  savedSerial_ = nextSerial_++;  // Of no state.
+  savedSerial_ = nextSerial_++;  // Matches no state.
   notify();
 }
 
@@ -179,7 +179,7 @@ void Session::onChange(std::function<void()> listener) {
 }
 
 void Session::notify() const {
-  // Copied: a listener may add another.
+  // A copy, since a listener may register another.
   const std::vector<std::function<void()>> listeners = listeners_;
   for (const std::function<void()>& listener : listeners)
     listener();

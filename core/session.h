@@ -14,155 +14,176 @@
 
 namespace nearfit {
 
-/// The open scene and the commands that change it, shared by GUI, CLI and scripts. Every command is one step
-/// of undo, and either happens whole or throws UsageError and changes nothing. A command that would leave
-/// everything as it is is no step. One that is about several parts is refused when one of them is locked, and
-/// so is every other that would change a locked part but for how it is shown. One thread only.
+/// The open scene and the commands that change it, shared by GUI, CLI and scripts.
+///
+/// Each command is one undo step. It either succeeds as a whole or throws UsageError and changes nothing.
+/// No-ops record no undo step. A command on several parts fails if any of them is locked, unless it only
+/// changes how parts are shown or locked. Single-threaded. Poses are in the world frame; SI units.
 class Session {
  public:
-  /// States that undo can go back through; older ones are forgotten.
+  /// Max number of undo steps; older states are dropped.
   static constexpr std::size_t kMaxUndo = 1000;
 
   const Scene& scene() const noexcept { return current_.scene; }
 
-  /// A part for a loaded mesh, with the next colour of the palette; at the identity pose unless given.
-  /// A name that is taken gets a number behind it.
+  /// Adds a part for a loaded mesh in the next colour of the palette. Appends a number if the name is taken.
   PartId addPart(PartGeometryPtr geometry, const std::string& name, const RigidTransform& worldFromPart = {});
   struct NewPart {
     PartGeometryPtr geometry;
     std::string name;
   };
-  /// Several at once, each as addPart does. None at all is no step.
+  /// Adds several parts in one step, at the identity pose; otherwise like addPart().
   std::vector<PartId> addParts(const std::vector<NewPart>& parts);
-  /// A copy in the same place, unlocked, of the next colour, its name with a number behind it.
+  /// Copies a part in place: unlocked, in the next colour, with a number appended to its name.
   PartId duplicatePart(PartId id) { return duplicate({{id}, {}}).parts.front(); }
+  /// Deletes a part. If it is the moving part, the scene no longer has one.
   void deletePart(PartId id) { deleteNodes({{id}, {}}); }
+  /// Renames a part. Throws UsageError if another part has the name.
   void renamePart(PartId id, const std::string& name);
-  /// @param verb  What undo calls the step, before the part's name.
+  /// @param verb  First word of the undo label; the part's name follows.
   void movePart(PartId id, const RigidTransform& worldFromPart, const std::string& verb = "Move") {
     moveParts({id}, id, worldFromPart, verb);
   }
   void setColour(PartId id, const Colour& colour) { setColour(std::vector{id}, colour); }
+  /// @param density  [kg/m^3]; kMinDensity to kMaxDensity.
   void setDensity(PartId id, double density) { setDensity(std::vector{id}, density); }
   struct NewGeometry {
     PartId part;
     PartGeometryPtr geometry;
   };
-  /// Parts whose files have changed get what those hold now, as one step; poses stay. Also of locked parts:
-  /// what a file holds is not the scene's to lock.
+  /// Replaces the geometry of parts whose files changed, in one step; poses stay. Also works on locked parts,
+  /// since the file decides what it holds.
   void reloadParts(const std::vector<NewGeometry>& parts);
-  /// The same meshes in another unit of length, as one step; poses stay, pivots are where they were on them.
+  /// Replaces geometry by the same meshes in another unit, in one step. Poses stay; pivots scale
+  /// with the meshes.
   void rescaleParts(const std::vector<NewGeometry>& parts);
-  /// Also for locked parts: what is shown is no property of the part.
+  /// Also works on locked parts: visibility is how a part is shown, not what it is.
   void setVisible(PartId id, bool visible) { setVisible(std::vector{id}, visible); }
   void setLocked(PartId id, bool locked) { setLocked({{id}, {}}, locked); }
+  /// Sets the moving part; std::nullopt for none. Throws UsageError if the part is locked.
   void setMovingPart(std::optional<PartId> id);
-  /// @param label  What undo calls it; empty: by what changes.
+  /// @param label  Undo label; if empty, one that names the change.
   void setHaptics(const HapticSettings& haptics, const std::string& label = {});
 
-  /// Moves parts rigidly together, so that one of them, the lead, comes to stand exactly there.
+  /// Moves parts rigidly together so that `lead`, one of them, gets exactly this pose.
   void moveParts(const std::vector<PartId>& ids, PartId lead, const RigidTransform& worldFromLead,
                  const std::string& verb = "Move");
+  /// Also works on locked parts.
   void setVisible(const std::vector<PartId>& ids, bool visible);
-  void setColour(const std::vector<PartId>& ids, const Colour& colour);  ///< Also for locked parts.
-  /// Also for locked parts.
+  /// Also works on locked parts.
+  void setColour(const std::vector<PartId>& ids, const Colour& colour);
+  /// Also works on locked parts.
+  /// @param opacity  kMinOpacity to 1.
   void setOpacity(const std::vector<PartId>& ids, double opacity);
+  /// @param density  [kg/m^3]; kMinDensity to kMaxDensity.
   void setDensity(const std::vector<PartId>& ids, double density);
   struct NewPivot {
     PartId part;
     std::optional<glm::dvec3> inPart;  ///< As Part::pivot.
   };
+  /// Sets or, with std::nullopt, resets pivots.
   void setPivots(const std::vector<NewPivot>& pivots);
-  /// Shows these alone, also locked ones; endIsolation shows exactly what was visible before the first one.
+  /// Shows only these parts, locked ones included. endIsolation() restores the visibility from
+  /// before the first call.
   void isolate(const std::vector<PartId>& ids);
+  /// Restores the visibility from before isolate(); no-op if not isolated.
   void endIsolation();
 
-  /// The nodes' own locks: what a group holds keeps its own. Whoever locks what is in hand puts it down.
+  /// Sets the nodes' own locks; members of a group keep theirs. If this locks the moving part, the scene
+  /// no longer has one.
   void setLocked(const SceneNodes& nodes, bool locked);
+  /// Renames a group; groups may share a name.
   void renameGroup(GroupId id, const std::string& name);
-  /// Groups with all that they hold.
+  /// Deletes nodes; groups with all they hold.
   void deleteNodes(const SceneNodes& nodes);
-  /// Copies in the same place, unlocked, beside the originals or outside of the groups that are locked; a
-  /// part alone gets the next colour. Returns the copies of `outermost` nodes.
+  /// Copies nodes in place, unlocked. Copies go beside the originals, or outside groups that are locked. A
+  /// single part gets the next colour. Returns the copies of the `outermost` nodes.
   SceneNodes duplicate(const SceneNodes& nodes);
-  /// Puts them into a new group in the innermost one that holds all of them.
+  /// Moves nodes into a new group, placed in the innermost group that holds them all. Appends a number if
+  /// the name is taken.
   GroupId group(const SceneNodes& nodes, const std::string& name = "Group");
-  /// What the groups hold takes their place.
+  /// Dissolves groups; their members move up to the groups' parents.
   void ungroup(const std::vector<GroupId>& ids);
-  /// Puts nodes into a group, or at the top.
+  /// Moves nodes into group `target`; std::nullopt means the top level.
   void regroup(const SceneNodes& nodes, std::optional<GroupId> target);
 
-  /// Replaces everything, forgets undo. `file` is empty for a new, unnamed scene.
+  /// Replaces the scene and clears undo. `file` is empty for a new, unnamed scene.
   void reset(Scene scene = {}, const std::filesystem::path& file = {});
-  /// As reset, but of a scene that was not saved when it was lost: it is modified, whatever is undone.
+  /// Like reset(), for a scene that was lost before it was saved: it stays modified until save().
   void restore(Scene scene, const std::filesystem::path& file);
-  /// Writes the scene and takes that file as its own. Throws FileError.
+  /// Writes the scene and makes `file` the session's file. Throws FileError.
   void save(const std::filesystem::path& file);
+  /// The session's file; empty if the scene was never saved.
   const std::filesystem::path& file() const noexcept { return file_; }
-  /// Another number after each reset and restore: the ids of before then mean other parts, or none.
+  /// Changes on each reset and restore. Earlier PartIds and GroupIds become invalid.
   std::uint64_t sceneSerial() const noexcept { return sceneSerial_; }
-  /// Whether the scene differs from what was last saved or reset; undo back to there makes it false again.
+  /// True if the scene differs from the last saved or reset state. Undoing back to that state makes it false.
   bool isModified() const noexcept { return current_.serial != savedSerial_; }
 
   bool canUndo() const noexcept { return !past_.empty(); }
   bool canRedo() const noexcept { return !future_.empty(); }
-  /// What undo would take back, as a short phrase ("Move Peg"); empty when there is nothing.
+  /// Label of the step that undo() reverts ("Move Peg"); empty if none.
   std::string undoText() const { return past_.empty() ? std::string() : current_.step.label; }
+  /// Label of the step that redo() repeats; empty if none.
   std::string redoText() const { return future_.empty() ? std::string() : future_.back().step.label; }
-  /// Does nothing when there is nothing to undo; so does redo.
+  /// No-op if there is nothing to undo; likewise redo().
   void undo();
   void redo();
-  /// What led to a state.
+  /// The step that led to a state.
   struct Step {
-    std::string label;  ///< As undoText says it; empty: the scene was opened or made so.
-    /// Of a step that moves parts, how far the lead's centre of mass went [m], and how far it turned [rad];
-    /// zero for all others.
+    std::string label;  ///< As in undoText(); empty for the initial state.
+    /// For steps that move parts: distance that the lead's centre of mass moved [m], and angle that the lead
+    /// turned [rad]. Otherwise 0.
     double shift = 0.0, angle = 0.0;
     bool operator==(const Step&) const = default;
   };
-  /// Of each state that undo and redo reach, oldest first.
+  /// The steps that led to each state that undo and redo reach, oldest first.
   std::vector<Step> history() const;
-  /// Where in the history the scene is.
+  /// Index of the current state in history().
   std::size_t historyIndex() const noexcept { return past_.size(); }
-  /// Undoes or redoes up to that state of the history, as one change; does nothing when there is none.
+  /// Undoes or redoes to state `index` of history(), as one change; no-op if out of range.
   void goTo(std::size_t index);
-  /// Changes with each state, and comes back with it: tells whether the scene is one that is known already.
+  /// Unique ID of the current state. Undo and redo restore it.
   std::uint64_t stateSerial() const noexcept { return current_.serial; }
-  /// Steps from what was last saved or reset; where that is forgotten, all that undo knows and one more.
+  /// Number of steps since the last save or reset; if that state is no longer reachable, the
+  /// undo depth plus one.
   std::size_t changesSinceSave() const noexcept;
 
-  /// Called after every change of the scene, the file or the modified mark, on the thread that made it.
+  /// Registers a listener, for the session's lifetime. It is called after each change of scene, file or
+  /// modified state, on the thread that made the change.
   void onChange(std::function<void()> listener);
 
  private:
   struct State {
     Scene scene;
     Step step;
-    std::uint64_t serial = 0;  ///< Different for each state, so that the saved one is recognised.
+    std::uint64_t serial = 0;  ///< Unique per state; identifies the saved one.
   };
+  /// Makes `scene` the current state, one undo step after the last, and notifies.
   void commit(Scene scene, Step step);
   void commit(Scene scene, std::string label) { commit(std::move(scene), Step{std::move(label)}); }
-  /// Changes copies of the parts; the label is the step's verb and those that are different then.
+  /// Applies `change` to a copy of each part. The label is the verb and the names of the parts that changed.
   void change(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change);
   void change(const std::vector<PartId>& ids, const char* verb, const std::function<void(Part&)>& change) {
     this->change(ids, Step{verb}, change);
   }
-  /// As change. Throws UsageError when one of them is locked, even if nothing would change.
+  /// Like change(). Throws UsageError if a part is locked, even if nothing would change.
   void changeUnlocked(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change);
   void changeUnlocked(const std::vector<PartId>& ids, const char* verb,
                       const std::function<void(Part&)>& change) {
     changeUnlocked(ids, Step{verb}, change);
   }
+  /// Calls all listeners.
   void notify() const;
-  /// Another scene takes the place of this one, and there is nothing to undo.
+  /// Replaces the scene and clears undo, without notifying.
   void begin(Scene scene, const std::filesystem::path& file);
-  /// One state back or on, without telling.
+  /// Move one state back or forward, without notifying.
   void stepBack();
   void stepOn();
 
   State current_;
   std::deque<State> past_;     ///< Oldest first.
-  std::vector<State> future_;  ///< The next to redo last.
+  std::vector<State> future_;  ///< Last element is the next to redo.
   std::uint64_t savedSerial_ = 0, nextSerial_ = 1, sceneSerial_ = 0;
   std::filesystem::path file_;
   std::vector<std::function<void()>> listeners_;

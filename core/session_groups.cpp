@@ -22,7 +22,7 @@ std::string freeGroupName(const Scene& scene, const std::string& wanted) {
   return freeName(wanted, taken, kMaxGroupNameBytes);
 }
 
-/// The group itself, or the nearest above it that takes something in.
+/// The group, or its nearest ancestor that is not locked.
 std::optional<GroupId> openPlace(const Scene& scene, std::optional<GroupId> group) {
   while (group && scene.isLocked(*scene.findGroup(*group)))
     group = scene.findGroup(*group)->parent;
@@ -86,7 +86,7 @@ void putInto(Scene& scene, const SceneNodes& outer, std::optional<GroupId> targe
 void Session::setLocked(const SceneNodes& nodes, bool locked) {
   Scene next = scene();
   SceneNodes changed;
-  // Throws when there is no such node.
+  // Throws if a node does not exist.
   const std::vector<PartId> parts = partsOf(scene(), nodes);
   const bool isMoving = next.movingPart() && std::ranges::count(parts, *next.movingPart()) > 0;
   if (locked && isMoving) next.setMovingPart(std::nullopt);
@@ -155,7 +155,7 @@ void Session::ungroup(const std::vector<GroupId>& ids) {
   Scene next = scene();
   for (const GroupId id : ids) {
     const Group* group = next.findGroup(id);
-    if (group == nullptr) continue;  // Named twice.
+    if (group == nullptr) continue;  // Listed twice.
     next.requireUnlocked(*group);
     putInto(next, childrenOf(next, id), group->parent);
     next.removeGroup(id);

@@ -6,7 +6,7 @@
 
 namespace nearfit {
 
-/// What undo calls nodes of a scene: the name of one, how many parts or groups they are else.
+/// How undo labels name nodes: the name of a single node, else the number of parts or groups.
 std::string nameOf(const Scene& scene, const SceneNodes& nodes);
 
 }  // namespace nearfit

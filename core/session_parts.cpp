@@ -20,8 +20,7 @@ const Part& existing(const Scene& scene, PartId id) {
                    "choose one that is in the scene");
 }
 
-/// Where a motion that takes `from` to `to` takes `pose`. One without a turn turns nothing, to the last
-/// digit.
+/// `pose` after the motion from `from` to `to`. A pure translation keeps the rotation bit for bit.
 RigidTransform moved(const RigidTransform& pose, const RigidTransform& from, const RigidTransform& to) {
   if (from.rotation == to.rotation)
     return {pose.rotation, pose.translation + (to.translation - from.translation)};
@@ -91,7 +90,7 @@ void Session::moveParts(const std::vector<PartId>& ids, PartId lead, const Rigid
   const RigidTransform from = before.worldFromPart;
   const RigidTransform to = checkedPose(worldFromLead);
   if (from.rotation == to.rotation && from.translation == to.translation) {
-    // No step; but that of a locked part is refused all the same.
+    // Nothing moves, but locked parts must still be refused.
     return changeUnlocked(ids, verb.c_str(), [](Part&) {});
   }
   const glm::dvec3 centre = before.geometry != nullptr ? before.geometry->mass.centre : glm::dvec3(0.0);

@@ -8,22 +8,22 @@
 
 namespace nearfit {
 
-/// An array that nobody changes, and whatever keeps its memory alive: a vector that it took over, or a file
-/// mapped into memory. Copies share it, so that they cost nothing.
+/// Immutable array with shared ownership of its memory: a vector taken over, or a file mapped into memory.
+/// Copies share the memory and cost nothing.
 template <typename T>
 class SharedArray {
  public:
   SharedArray() = default;
-  SharedArray(std::vector<T> values) {  // NOLINT(google-explicit-constructor): a vector that is done.
+  SharedArray(std::vector<T> values) {  // NOLINT(google-explicit-constructor): takes over a finished vector.
     values.shrink_to_fit();
     auto owner = std::make_shared<const std::vector<T>>(std::move(values));
     view_ = *owner;
     keep_ = std::move(owner);
   }
-  /// @param keep  Holds the memory of `view` while anyone has it.
+  /// @param keep  Owns the memory of `view`.
   SharedArray(std::span<const T> view, std::shared_ptr<const void> keep)
       : keep_(std::move(keep)), view_(view) {}
-  // No moves: an array that has been moved from would still show what it no longer holds.
+  // No moves: a moved-from array would still show memory that it no longer owns.
   SharedArray(const SharedArray&) = default;
   SharedArray& operator=(const SharedArray&) = default;
   ~SharedArray() = default;

@@ -8,23 +8,23 @@
 
 namespace nearfit {
 
-/// Why a device cannot be used.
+/// Reasons why a device cannot be used.
 enum class DeviceProblem : std::uint8_t {
-  NoPermission,  ///< The user may not open it: a udev rule mends that.
+  NoPermission,  ///< The user may not open it; a udev rule fixes that.
   Busy,          ///< Another program or driver holds it.
-  Gone,          ///< Not there, or unplugged.
-  Unsupported,   ///< Not what its driver expects: other endpoints, a newer version.
-  NoFirmware,    ///< It needs a file that its maker supplies.
-  NotAnswering,  ///< Silent, or answers with garbage.
-  Failed,        ///< Anything else; the text says what.
+  Gone,          ///< Absent or unplugged.
+  Unsupported,   ///< Differs from what its driver expects: other endpoints, a newer version.
+  NoFirmware,    ///< Needs a file that its maker supplies.
+  NotAnswering,  ///< Silent, or sends garbage.
+  Failed,        ///< Anything else; the message says what.
 };
 
-/// Why one device of a kind that has a driver cannot be used, as of an Error.
+/// Why a driver refuses one device of a kind that it supports; worded as an Error's problem and remedy.
 struct DeviceRefusal {
   std::string reason, remedy;
 };
 
-/// A device that cannot be listed, opened, set up or calibrated.
+/// Thrown if a device cannot be listed, opened, set up or calibrated.
 class DeviceError : public Error {
  public:
   DeviceError(DeviceProblem cause, std::string where, std::string problem, std::string remedy = {})

@@ -25,7 +25,7 @@ const char* wordOf(DeviceDriver driver) noexcept {
   return "none";
 }
 
-/// What mends a lack of permission; the remedy stays in words where the rules are missing.
+/// Adds the command that grants permission. Without a rules file the remedy stays in words.
 void addCommand(DeviceListing& listing) {
   try {
     listing.command = udevCommand();

@@ -14,46 +14,47 @@
 
 namespace nearfit {
 
-/// A device that is plugged in and that Nearfit knows: on USB, or through a plug-in.
+/// A known device that is plugged in, over USB or through a plug-in.
 struct DeviceListing {
-  std::string
-      driver;         ///< Short: "openhap", "spacemouse", "falcon", "polhem", "plugin"; "none" for no driver.
-  std::string name;   ///< As it calls itself, or else as its kind is called.
-  std::string kind;   ///< What it does, as a phrase.
-  std::string needs;  ///< What it waits for once it is open; or empty.
-  std::string place;  ///< "1-4.2": where it is plugged in; of plug-ins' devices, the plug-in and a number.
-  std::string id;     ///< "046d:c626"; or its serial number.
-  std::string kernelDriver;              ///< That gives it up when it is opened; or empty.
-  std::optional<DeviceProblem> problem;  ///< None: it can be used.
-  std::string reason, remedy;            ///< Why not, as of an Error.
-  std::string command;                   ///< One line for a shell that mends it; or empty.
+  /// Short name: "openhap", "spacemouse", "falcon", "polhem", "plugin"; "none" without a driver.
+  std::string driver;
+  std::string name;   ///< Name that the device reports, else that of its kind.
+  std::string kind;   ///< Abilities as a phrase.
+  std::string needs;  ///< Needs that remain once it is open; may be empty.
+  /// Where it is plugged in: bus and ports ("1-4.2"), or plug-in and number ("name:1").
+  std::string place;
+  std::string id;                        ///< USB ID ("046d:c626"), or a plug-in device's serial number.
+  std::string kernelDriver;              ///< Kernel driver that opening detaches; may be empty.
+  std::optional<DeviceProblem> problem;  ///< Why it cannot be used; empty if it can.
+  std::string reason, remedy;            ///< Explain `problem`, worded as in an Error.
+  std::string command;                   ///< One-line shell command that fixes it; may be empty.
 
-  UsbDescription usb;  ///< Of those on USB.
-  std::shared_ptr<const DevicePlugin> plugin;
-  std::int32_t index = 0;  ///< In the plug-in.
-  NearfitDeviceDescription description{};
+  UsbDescription usb;                          ///< USB devices only.
+  std::shared_ptr<const DevicePlugin> plugin;  ///< Null for USB devices.
+  std::int32_t index = 0;                      ///< Index within `plugin`.
+  NearfitDeviceDescription description{};      ///< Given by the plug-in.
 
   bool isUsable() const noexcept { return !problem; }
-  /// The same one, not plugged in again since.
+  /// True if `other` is the same device and it has not been replugged since.
   bool isSamePlugging(const DeviceListing& other) const noexcept;
 };
 
-/// Those of plug-ins alone, for machines without USB. @param problems  Takes what went wrong, a sentence
-/// each.
+/// Lists the devices of plug-ins alone, for machines without USB.
+/// @param problems  Receives a sentence for each failure; earlier content is discarded.
 std::vector<DeviceListing> listPluginDevices(const PluginSearch& plugins, std::vector<std::string>& problems);
 
-/// What is plugged in: on the bus, by number and address, then of the plug-ins. Opens nothing for longer than
-/// a look. Throws DeviceError.
-/// @param problems  Takes what went wrong with plug-ins, a sentence each.
+/// Lists the known devices that are plugged in: USB devices by bus and address, then those of plug-ins. Opens
+/// device nodes only for a moment. Throws DeviceError if USB cannot be listed.
+/// @param problems  Receives a sentence for each failure of a plug-in; earlier content is discarded.
 std::vector<DeviceListing> listDevices(const UsbBus& bus, const PluginSearch& plugins,
                                        std::vector<std::string>& problems);
 
-/// The first that can be used, of those that `wanted` means: a driver ("openhap"), an id, a place, a node of
-/// /dev, or a part of its name, upper or lower case; empty for any. Throws DeviceError that says which there
-/// are, or why the one that is meant cannot be used.
+/// Returns the first usable device that matches `wanted`: a driver ("openhap"), an ID, a place, a node in
+/// /dev or a part of the name, in upper or lower case; empty matches any. Throws DeviceError that lists the
+/// devices, or says why the match cannot be used.
 const DeviceListing& chooseDevice(const std::vector<DeviceListing>& devices, std::string_view wanted);
 
-/// Nothing is opened yet. Throws as makeDevice of the registry does.
+/// Creates the driver for a device; opens nothing yet. Throws as makeDevice() of the registry does.
 std::unique_ptr<HapticDevice> makeDevice(const DeviceListing& device, const DeviceFiles& files);
 
 }  // namespace nearfit

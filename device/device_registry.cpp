@@ -20,7 +20,7 @@ struct Driver {
   const char *name, *kind, *needs;
   bool (*speaks)(const UsbDescription&) noexcept;
   Made (*make)(const UsbDescription&, const DeviceFiles&);
-  /// Why this very one cannot be used; null where none is refused.
+  /// Returns why this device is refused; null if the driver refuses none.
   std::optional<DeviceRefusal> (*refusal)(const UsbDescription&) = nullptr;
 };
 
@@ -30,7 +30,7 @@ Made makePolhem(const UsbDescription& device, const DeviceFiles& files) {
                                         file.empty() ? polhem::Calibration{} : polhem::readCalibration(file));
 }
 
-/// The first that takes a device has it. A new driver is one more row here.
+/// The first driver that accepts a device gets it. A new driver is one more row here.
 constexpr std::array kDrivers = {
     Driver{DeviceDriver::OpenHap, "OpenHap device", "feels 6 axes, pushes along 3 or 6", "",
            &OpenHapDevice::speaks,
@@ -56,7 +56,7 @@ constexpr std::array kDrivers = {
 
 constexpr std::uint16_t kAnyProduct = 0;
 
-/// Devices that people own and that we cannot drive.
+/// Devices that people own and Nearfit cannot drive.
 struct Foreign {
   std::uint16_t vendor, product;
   const char *name, *kind, *why;
@@ -68,9 +68,9 @@ constexpr std::array kForeign = {
     Foreign{0x1451, kAnyProduct, "Force Dimension haptic device", "feels 3 to 7 axes, pushes along 3 to 7",
             kPlugin},
     Foreign{0x2988, kAnyProduct, "3D Systems Touch", "feels 6 axes, pushes along 3", kPlugin},
-    // As the first ones with USB have it: the two numbers changed places.
+    // The first models with USB have vendor and product swapped.
     Foreign{0x0301, 0x2988, "3D Systems Touch", "feels 6 axes, pushes along 3", kPlugin},
-    // As Haply builds it in, under the number that every Teensy has.
+    // Haply builds it in, under the ID that every Teensy has.
     Foreign{polhem::kTeensyVendor, 0x0483, "Teensy, if it is in a Haply Inverse3",
             "feels 3 axes, pushes along 3",
             "if it is in a Haply Inverse3, it needs its maker's software and a plug-in for it; any other "
@@ -88,7 +88,7 @@ std::optional<DeviceRefusal> refusalOf(const Driver& driver, const UsbDescriptio
   return driver.refusal == nullptr ? std::nullopt : driver.refusal(device);
 }
 
-/// Whoever makes something of a Teensy takes its maker's number over.
+/// Whatever is built from a Teensy keeps the Teensy's ID.
 bool isAnyTeensy(const UsbDescription& device) noexcept {
   return device.vendor == polhem::kTeensyVendor && device.product == polhem::kTeensyProduct;
 }

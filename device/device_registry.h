@@ -12,45 +12,48 @@
 
 namespace nearfit {
 
-/// Which of our drivers takes a device.
+/// Built-in drivers.
 enum class DeviceDriver : std::uint8_t {
-  None,  ///< It is known, and none does.
+  None,  ///< Known, but no driver can use it.
   OpenHap,
   Polhem,
   Falcon,
   SpaceMouse,
 };
 
-/// What is known of a device before it is opened.
+/// Knowledge of a device before it is opened.
 struct DeviceMatch {
   DeviceDriver driver = DeviceDriver::None;
-  std::string name;  ///< Of the kind: "Novint Falcon".
-  std::string kind;  ///< What it does, as a phrase: "feels 3 axes, pushes along 3".
-  std::string
-      needs;  ///< What it needs, or why it cannot be used, as a sentence without a full stop; may be empty.
-  std::string remedy = {};  ///< Of what cannot be used; may be empty.
+  std::string name;  ///< Name of the kind, such as "Novint Falcon".
+  std::string kind;  ///< Abilities as a phrase: "feels 3 axes, pushes along 3".
+  /// Its needs, or the reason why it cannot be used, as a sentence without a full stop; may be empty.
+  std::string needs;
+  std::string remedy = {};  ///< Way to make it usable; may be empty.
 
   bool isUsable() const noexcept { return driver != DeviceDriver::None; }
 };
 
-/// Nothing for devices that have nothing to do with touch: keyboards, hubs. One that a driver takes as a rule
-/// and not this time (another version, a mouse of a maker of space mice) is known and not usable.
+/// Recognises a device by its descriptors. Returns std::nullopt for devices that have nothing to do with
+/// touch: keyboards, hubs. A device that its driver refuses (another version, a mouse from a maker of space
+/// mice) is known but not usable.
 std::optional<DeviceMatch> recognise(const UsbDescription& device);
 
-/// Of the kinds of devices that there are drivers for.
+/// Returns the names of all kinds that have a driver.
 std::vector<std::string> drivenKinds();
 
-/// For makers whose devices carry numbers of the chips in them: by what a device calls itself and its maker.
+/// Recognises, by maker's and product's names, devices that carry the USB ID of a chip inside them.
+/// Ignores letter case.
+/// @param makerAndProduct  Both names, separated by a space.
 std::optional<DeviceMatch> recogniseByName(std::string_view makerAndProduct);
 
-/// Files of the user's that drivers need.
+/// The user's files that drivers need.
 struct DeviceFiles {
-  std::filesystem::path falconFirmware;     ///< Of a Novint Falcon; may be empty as long as it is loaded.
+  std::filesystem::path falconFirmware;     ///< Firmware of a Falcon; may be empty while it is loaded.
   std::filesystem::path polhemCalibration;  ///< Empty: the WoodenHaptics as published.
 };
 
-/// A driver for the device; nothing is opened yet. Throws DeviceError for what recognise() does not find
-/// usable, saying why; FileError for a calibration that is wrong.
+/// Creates the driver for a device; opens nothing yet. Throws DeviceError with the reason if recognise()
+/// finds the device unusable, FileError for an invalid calibration.
 std::unique_ptr<HapticDevice> makeDevice(const UsbDescription& device, const DeviceFiles& files);
 
 }  // namespace nearfit

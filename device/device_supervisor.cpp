@@ -49,7 +49,7 @@ void DeviceSupervisor::opened(const SafetyLimits& limits, bool isCalibrated) noe
   limits_ = limits;
   areForcesOut_ = false;
   isCalibrated_.store(isCalibrated, std::memory_order_release);
-  // Not when it was lost meanwhile.
+  // Fails if the device was lost meanwhile, and should.
   change(DeviceState::Opening, isCalibrated ? DeviceState::Ready : DeviceState::Uncalibrated);
 }
 
@@ -123,7 +123,7 @@ void DeviceSupervisor::stop(DeviceFault fault) noexcept {
 }
 
 bool DeviceSupervisor::check(const Sample& sample) noexcept {
-  // Not finite counts as too much.
+  // Negated comparisons, so that NaN stops the device too.
   if (state() == DeviceState::Armed) {
     if (!(sample.age <= limits_.patience.silence))
       stop(DeviceFault::Silent);
@@ -136,7 +136,7 @@ bool DeviceSupervisor::check(const Sample& sample) noexcept {
 
 Wrench DeviceSupervisor::guarded(const Wrench& wrench, const glm::dvec3& velocity,
                                  double maxForce) const noexcept {
-  // Asked anew: it may have been disarmed, or lost, since the check.
+  // Asks again: the device may have been disarmed or lost since check().
   if (!areForcesOut_ || state() != DeviceState::Armed) return {};
   const double speed = glm::length(velocity);
   if (!(speed > limits_.brakeSpeed)) return wrench;

@@ -10,85 +10,98 @@
 
 namespace nearfit {
 
-/// Why a device was stopped.
+/// Reasons for stopping a device.
 enum class DeviceFault : std::uint8_t {
   None,
-  Silent,      ///< No pose for longer than SafetyLimits::patience allows.
+  Silent,      ///< No pose for SafetyLimits::patience.silence.
   TooFast,     ///< Faster than SafetyLimits::faultSpeed.
-  Reported,    ///< It says so itself.
-  Garbage,     ///< What it sends cannot be read.
-  OutOfReach,  ///< Its joints are where they cannot be: its calibration is wrong.
+  Reported,    ///< Reported by the device itself.
+  Garbage,     ///< Its reports cannot be decoded.
+  OutOfReach,  ///< Its joint angles are impossible: the calibration is wrong.
 };
 
-/// As a sentence without a full stop; empty for None.
+/// Returns the reason as a sentence without a full stop; empty for None.
 const char* faultReason(DeviceFault fault) noexcept;
 
-/// What a device is that could not be opened: Absent when it was gone, else Present. In a catch block alone.
+/// Returns the state after opening failed: Absent if the device was gone, else Present. Call
+/// only in a catch block.
 DeviceState stateAfterFailure() noexcept;
 
-/// When a device is stopped, and what slows it down before.
+/// When a device is braked, and when it is stopped.
 struct SafetyLimits {
-  PosePatience patience;  ///< Without a pose forces fade from `hold` on; at `silence` it is stopped.
-  double brakeSpeed =
-      1.0;  ///< Beyond this the handle is braked [m/s]: a hand is seldom faster, a runaway is.
-  double brakeDamping = 5.0;  ///< By so much for each metre a second beyond [N s/m].
-  double faultSpeed = 3.0;    ///< Beyond this it is stopped [m/s].
-  bool hasDeadMan = false;    ///< Forces only while the hand holds its switch.
+  PosePatience patience;  ///< Without a pose, forces fade from `hold` on; the device stops at `silence`.
+  /// The handle is braked above this speed [m/s]: a hand is seldom faster, a runaway is.
+  double brakeSpeed = 1.0;
+  double brakeDamping = 5.0;  ///< Braking force per speed above brakeSpeed [N s/m].
+  double faultSpeed = 3.0;    ///< The device stops above this speed [m/s].
+  bool hasDeadMan = false;    ///< Forces go out only while the dead-man switch is held.
 
-  /// A device that is slow by its nature is not silent between two of its reports: one may be late, or lost.
-  /// @param reportPeriod  Of its reports [s].
+  /// Allows for a slow device, one of whose reports may be late or lost: raises `hold` to at least two report
+  /// periods and `silence` to four.
+  /// @param reportPeriod  Time between reports [s].
   void keepPace(double reportPeriod) noexcept {
     constexpr double kHoldPeriods = 2.0, kSilentPeriods = 4.0;
     patience.hold = std::fmax(patience.hold, kHoldPeriods * reportPeriod);
     patience.silence = std::fmax(patience.silence, kSilentPeriods * reportPeriod);
   }
 
-  /// Stops at no more than the speed that a device itself allows [m/s], 0 for any, and brakes well before.
+  /// Lowers faultSpeed to the device's own `maxSpeed` [m/s] (0: none), and brakeSpeed to at most
+  /// half of faultSpeed.
   void keepBelow(double maxSpeed) noexcept {
     if (maxSpeed > 0.0 && maxSpeed < faultSpeed) faultSpeed = maxSpeed;
     if (brakeSpeed > 0.5 * faultSpeed) brakeSpeed = 0.5 * faultSpeed;
   }
 };
 
-/// The state of a device that is plugged in, and what may go out to it: forces only when armed, and never
-/// armed but by arm(). Holds no thread and no clock. Each call says whose it is; all but those of the
-/// controlling thread are real-time safe.
+/// State of a plugged-in device, and the gate for its forces: they go out only while it is Armed, and only
+/// arm() arms it. Has neither thread nor clock. Each member names the thread that may call it; all but those
+/// of the controlling thread are real-time safe.
 class DeviceSupervisor {
  public:
   DeviceState state() const noexcept { return state_.load(std::memory_order_acquire); }
   DeviceFault fault() const noexcept { return fault_.load(std::memory_order_acquire); }
 
-  /// Controlling thread.
+  /// Controlling thread: begins to open the device and clears the last fault.
   void beginOpening() noexcept;
+  /// Controlling thread, before streaming: leaves Opening for Ready, or for Uncalibrated. Lost stays Lost.
   void opened(const SafetyLimits& limits, bool isCalibrated) noexcept;
+  /// Controlling thread: sets the state after closing.
   void closed(DeviceState state) noexcept;
-  /// Throws DeviceError when it is not ready, and says what it waits for. Harmless when armed.
+  /// Controlling thread: arms a Ready device; no-op if it is armed. Otherwise throws DeviceError that says
+  /// what the device waits for.
+  /// @param device  Name for the message.
   void arm(const std::string& device);
-  /// Throws DeviceError unless it is open, whole and not armed: a pose that jumps must not push.
+  /// Controlling thread: throws DeviceError unless the device is Ready or Uncalibrated. Calibration makes the
+  /// pose jump, which must not push.
   void requireCalibratable(const std::string& device) const;
-  /// Forgets a fault: the device is ready again, or uncalibrated where it was that or proved to be.
+  /// Controlling thread: clears a fault. The device is Ready again, or Uncalibrated if its calibration is
+  /// missing or was wrong.
   void reset() noexcept;
 
-  /// Any thread.
+  /// Any thread: disarms the device if it is armed.
   void disarm() noexcept;
+  /// Any thread: the device knows its pose now; Uncalibrated becomes Ready.
   void calibrated() noexcept;
+  /// Any thread: the device is lost, whatever its state.
   void lost() noexcept;
-  /// The first reason stays.
+  /// Any thread: stops an open device; the first fault is kept. OutOfReach also discards the calibration.
   void stop(DeviceFault fault) noexcept;
 
   struct Sample {
-    double age = 0.0;    ///< Of the newest pose [s].
-    double speed = 0.0;  ///< Of the handle, in the device's own metres [m/s].
+    double age = 0.0;    ///< Age of the newest pose [s].
+    double speed = 0.0;  ///< Speed of the handle, before workspace scaling [m/s].
     bool isDeadManHeld = false;
   };
-  /// Servo thread, each tick: stops the device where it must be. True when forces may go out.
+  /// Servo thread, each tick: stops an armed device that is silent or too fast. Returns true if
+  /// forces may go out.
   bool check(const Sample& sample) noexcept;
 
-  /// Servo thread.
+  /// Servo thread: limits on the age of a pose.
   const PosePatience& patience() const noexcept { return limits_.patience; }
 
-  /// Servo thread: `wrench` with the brake, or none at all when no force may go out.
-  /// @param velocity  Of the handle [m/s].
+  /// Servo thread: returns `wrench`, with braking above brakeSpeed; zero if forces may not go out.
+  /// @param velocity  Velocity of the handle [m/s].
+  /// @param maxForce  Limit of the braked force [N].
   Wrench guarded(const Wrench& wrench, const glm::dvec3& velocity, double maxForce) const noexcept;
 
  private:
@@ -97,8 +110,8 @@ class DeviceSupervisor {
   std::atomic<DeviceState> state_{DeviceState::Present};
   std::atomic<DeviceFault> fault_{DeviceFault::None};
   std::atomic<bool> isCalibrated_{false};
-  SafetyLimits limits_;        ///< Written while nothing streams.
-  bool areForcesOut_ = false;  ///< The servo thread's: as of the last check.
+  SafetyLimits limits_;        ///< Written only while nothing streams.
+  bool areForcesOut_ = false;  ///< Servo thread's: result of the last check().
 };
 
 }  // namespace nearfit

@@ -11,9 +11,9 @@
 namespace nearfit {
 namespace {
 
-/// A device that takes a command at all takes it at once.
+/// A working device takes a command at once.
 constexpr UsbLink::Timeout kCommandTimeout{100};
-/// The part stays, and the handle is brought back, while this button is held.
+/// Holds the part while the hand repositions the device.
 constexpr std::uint8_t kClutchButton = 1;
 
 }  // namespace
@@ -41,7 +41,7 @@ void ForceArmDevice::start(const RigidTransform&, const ProgressCallback& progre
     limits.keepPace(opened_.reportPeriod);
     handle_.supervisor().opened(limits, opened_.isCalibrated);
     link_->stream(opened_.streams, *this);
-    // It answers commands: this one sets it going.
+    // The device only answers commands: the first one starts it.
     link_->send(command(glm::dvec3(0.0), opened_.rest));
   } catch (...) {
     link_.reset();
@@ -59,15 +59,15 @@ void ForceArmDevice::stop() noexcept {
   handle_.supervisor().closed(isLost ? DeviceState::Lost : DeviceState::Present);
 }
 
-/// The last command may still wait to be sent when streaming ends, and motors keep pushing as they were told
-/// until a watchdog of theirs, where they have one, stops them.
+/// Streaming may end before the last command is sent, and motors keep pushing as last told until the device's
+/// watchdog, if it has one, stops them.
 void ForceArmDevice::restMotors() noexcept {
   link_->stop();
   if (state() == DeviceState::Lost) return;
   try {
     link_->write(opened_.streams.out, command(glm::dvec3(0.0), opened_.rest), kCommandTimeout);
   } catch (const Error&) {
-    // It is gone, or hangs: nothing more can be done from here.
+    // The device is gone or hangs: nothing more can be done from here.
   }
 }
 
@@ -77,7 +77,7 @@ bool ForceArmDevice::readHandle(HandleInput& handle) noexcept {
   handle.pose = sample.pose;
   handle.age = handle_.age();
   handle.patience = handle_.supervisor().patience();
-  // Until it is calibrated its pose is no pose: the part stays.
+  // An uncalibrated pose means nothing: the part stays.
   handle.isClutched = (sample.buttons & kClutchButton) != 0 || state() == DeviceState::Uncalibrated;
   handle.hasOwnFrame = true;
   handle.buttons = sample.buttons;
@@ -88,7 +88,7 @@ bool ForceArmDevice::readHandle(HandleInput& handle) noexcept {
 void ForceArmDevice::sendWrench(const Wrench& wrench) noexcept {
   const ArmSample& sample = handle_.report();
   const Wrench guarded = handle_.supervisor().guarded(wrench, sample.velocity, limits_.maxForce);
-  // The servo gives nothing else; but what is not finite must not reach a motor.
+  // The servo sends only finite wrenches; a motor must never see anything else.
   const glm::dvec3 force = isFinite(guarded.force) ? guarded.force : glm::dvec3(0.0);
   link_->send(command(force, sample));
 }

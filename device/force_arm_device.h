@@ -13,17 +13,17 @@
 
 namespace nearfit {
 
-/// What a driver makes of an arm's report.
+/// One decoded report of an arm.
 struct ArmSample {
-  RigidTransform pose;
+  RigidTransform pose;       ///< Pose of the handle in the device's frame.
   glm::dvec3 joints{0.0};    ///< Angles of the three driven joints [rad].
-  glm::dvec3 velocity{0.0};  ///< [m/s]
-  std::uint8_t buttons = 0;
+  glm::dvec3 velocity{0.0};  ///< Velocity of the handle [m/s].
+  std::uint8_t buttons = 0;  ///< Bit 0 is the clutch.
 };
 
-/// A device of three motors that answers each command with a report of where its joints are, and does not
-/// know where they are until it is calibrated. Drivers of such devices say how it is opened, what its reports
-/// mean and what its motors are told; their destructors call stop().
+/// Base of devices with three motors that answer each command with a report of their joints, and that do not
+/// know where their joints are until calibrated. A driver says how to open the device, decode its reports and
+/// encode commands; its destructor must call stop().
 class ForceArmDevice : public HapticDevice, private UsbPacketSink {
  public:
   DeviceInfo info() const override;
@@ -38,29 +38,35 @@ class ForceArmDevice : public HapticDevice, private UsbPacketSink {
   void sendWrench(const Wrench& wrench) noexcept override;
 
   ReportCounters counters() const noexcept override { return handle_.counters(); }
+  /// USB counters of the open link; zeros while closed.
   UsbCounters linkCounters() const noexcept { return link_ ? link_->counters() : UsbCounters{}; }
 
  protected:
   ForceArmDevice(UsbDescription device, std::string kind, const DeviceLimits& limits,
                  const SafetyLimits& safety);
 
+  /// Result of open().
   struct Opened {
     UsbLink::Streams streams;
     bool isCalibrated = false;
-    ArmSample rest;  ///< Where the handle is said to be until it is known.
-    double reportPeriod = 1e-3;
+    ArmSample rest;              ///< Assumed until the handle's pose is known.
+    double reportPeriod = 1e-3;  ///< [s]
   };
-  /// Controlling thread: makes the device ready to stream. Throws DeviceError, Cancelled.
+  /// Controlling thread: emplaces `link` and prepares the device for streaming.
+  /// Throws DeviceError, Cancelled.
   virtual Opened open(std::optional<UsbLink>& link, const ProgressCallback& progress) = 0;
-  /// The link's thread: calls publish() or reject() of handle(), if anything.
+  /// Link's thread: decodes a packet; calls publish() or reject() of handle() if it holds a
+  /// report. Real-time safe.
+  /// @param arrived  Arrival on CLOCK_MONOTONIC [ns].
   virtual void take(std::span<const std::byte> packet, Nanoseconds arrived) noexcept = 0;
-  /// Servo thread: the packet that makes the motors push with `force` [N]; of none, the motors rest. It stays
-  /// until the next call.
+  /// Servo thread: returns the packet that makes the motors push with `force` [N], in the device's frame, at
+  /// the pose `at`; zero rests the motors. Valid until the next call. Real-time safe.
   virtual std::span<const std::byte> command(const glm::dvec3& force, const ArmSample& at) noexcept = 0;
 
   StreamedHandle<ArmSample>& handle() noexcept { return handle_; }
   const StreamedHandle<ArmSample>& handle() const noexcept { return handle_; }
   const UsbDescription& description() const noexcept { return device_; }
+  /// Returns the device's name with its USB ID and node, for messages.
   std::string name() const;
 
  private:

@@ -11,83 +11,87 @@
 
 namespace nearfit {
 
+/// State of a device.
 enum class DeviceState : std::uint8_t {
-  Absent,        ///< Not plugged in any more when it was to be opened.
+  Absent,        ///< Unplugged before it could be opened.
   Present,       ///< Plugged in, not open.
-  Opening,       ///< Being opened, its firmware or capabilities fetched.
-  Uncalibrated,  ///< Open, but it does not know where its handle is.
-  Ready,         ///< Poses can be read; no force.
-  Armed,         ///< Forces go out. Never without arm(), and never again by itself.
-  Fault,         ///< Stopped for a reason that stateNote() tells; no force.
+  Opening,       ///< Being opened: firmware is loaded, capabilities are read.
+  Uncalibrated,  ///< Open, but the handle's pose is unknown.
+  Ready,         ///< Poses can be read; forces are off.
+  Armed,         ///< Forces go out. Entered by arm() alone, or by start() of a passive device.
+  Fault,         ///< Stopped; stateNote() says why. Forces are off.
   Lost,          ///< Unplugged while open.
 };
 
-/// The slew limits of a device that bears so much: full force, and full torque, in 5 ms, as DeviceLimits has
-/// it.
+/// Sets the slew limits to full force and full torque in 5 ms, as DeviceLimits describes.
 inline void limitSlewByMost(DeviceLimits& limits) noexcept {
   constexpr double kTimeToFull = 5e-3;
   limits.forceSlew = limits.maxForce / kTimeToFull;
   limits.torqueSlew = limits.maxTorque / kTimeToFull;
 }
 
+/// Properties of a device; some become known only when it is open.
 struct DeviceInfo {
   std::string name;
-  int forceAxes = 0;  ///< 0, 3 or 6.
+  int forceAxes = 0;  ///< Axes that it can push along: 0, 3 or 6.
   DeviceLimits limits;
-  double reportPeriod = 0.0;  ///< Of its reports, that the servo follows [s]; 0: the servo sets the pace.
-  bool isMapped = true;       ///< False: its poses are the handle's own, for no workspace mapping to change.
+  double reportPeriod = 0.0;  ///< Period of the reports that pace the servo [s]; 0: the servo sets the pace.
+  bool isMapped = true;       ///< False: poses are final, and workspace mapping does not apply.
 };
 
-/// Reports of a device since it was made.
+/// Reports of a device since its driver was created.
 struct ReportCounters {
-  std::uint64_t poses = 0;     ///< Taken.
-  std::uint64_t rejected = 0;  ///< Of another size, damaged, or with numbers that are none.
-  std::uint64_t missing = 0;   ///< By their sequence numbers, where the device has such.
+  std::uint64_t poses = 0;     ///< Accepted.
+  std::uint64_t rejected = 0;  ///< Wrong size, damaged or not finite.
+  std::uint64_t missing = 0;   ///< Gaps in the sequence numbers, if the device has them.
 };
 
-/// Something that a hand holds: gives the pose that the hand wants for the moving part, takes the wrench.
-/// `waitForHandle`, `readHandle` and `sendWrench` on the servo thread, real-time safe; `state` and
-/// `counters` on any; the rest on the controlling thread, but that `info` and `stateNote` may be called
-/// beside all but `start` and `stop`. Every driver implements every call: there are no
-/// defaults to fall into (PassiveDevice has some for those who choose them).
+/// A device held by a hand: gives the pose that the hand wants for the moving part, and takes the wrench.
+///
+/// Threads: `waitForHandle`, `readHandle` and `sendWrench` on the servo thread, real-time safe; `state` and
+/// `counters` on any; the rest on the controlling thread. `info` and `stateNote` may also be called from
+/// other threads, but not during `start` or `stop`. Every driver implements every call, since no default is
+/// safe; PassiveDevice has no-ops for those that choose them.
 class HapticDevice {
  public:
   virtual ~HapticDevice() = default;
 
+  /// Returns name, limits and pace; complete once the device is open.
   virtual DeviceInfo info() const = 0;
   virtual DeviceState state() const noexcept = 0;
-  /// Why it cannot be used, or what it waits for, as a sentence without a full stop; empty when there is
-  /// nothing to say.
+  /// Returns why it cannot be used or what it waits for, as a sentence without a full stop; may be empty.
   virtual std::string stateNote() const = 0;
-  /// Zeros where it sends no reports.
+  /// Returns zeros if it sends no reports.
   virtual ReportCounters counters() const noexcept = 0;
-  /// Begins to give poses: Ready afterwards, or what keeps it from that.
-  /// It may take seconds: `progress` is told how far it is, and ends it soon when it says so.
-  /// @param worldFromPart  Where the moving part is now: poses are given from there. Throws Error, Cancelled.
+  /// Opens the device and begins to give poses: Ready afterwards (passive devices: Armed), or the state that
+  /// prevents it. May take seconds; `progress` is called meanwhile and can cancel. Throws Error, Cancelled.
+  /// @param worldFromPart  Pose of the moving part now, where poses begin.
   virtual void start(const RigidTransform& worldFromPart, const ProgressCallback& progress = {}) = 0;
+  /// Turns forces off and closes the device; no-op while closed.
   virtual void stop() noexcept = 0;
-  /// Lets forces out, or no more. Those without force, and simulated hands, are armed by start(). Throws
-  /// Error when it is not ready.
+  /// Turns forces on. Throws Error if the device is not ready. Devices without force and simulated hands
+  /// are armed by start().
   virtual void arm() = 0;
+  /// Turns forces off.
   virtual void disarm() noexcept = 0;
-  /// Its handle is held in its rest, or left free to find itself: from the next reports on it knows where it
-  /// is. Nothing happens with devices that know, or see to that by themselves. Throws Error when it is not
-  /// open, or armed.
+  /// Declares that the handle is in its rest pose, or free to home: its pose is known from the next
+  /// reports on. No-op for devices that know it or calibrate by themselves. Throws Error if the device
+  /// is closed or armed.
   virtual void calibrate() = 0;
-  /// Forgets a fault, which nothing else does while it is open: it is ready again, or uncalibrated, never
-  /// armed; and stopped anew at once where what stopped it lasts. Nothing happens without a fault. Throws
-  /// Error when it refuses.
+  /// Clears a fault, which nothing else does while the device is open: Ready again, or Uncalibrated, never
+  /// Armed. The device stops again at once if the cause persists. No-op without a fault. Throws Error if
+  /// the device refuses.
   virtual void reset() = 0;
 
-  /// Sleeps until there is a newer pose than the last that was read, or until `deadline`; true for the
-  /// former. A device that the servo paces sleeps till the deadline.
-  /// @param deadline  CLOCK_MONOTONIC [ns].
+  /// Sleeps until a pose newer than the last one read arrives, and returns true; or until `deadline`, and
+  /// returns false. With a device that the servo paces, always sleeps until the deadline.
+  /// @param deadline  Time on CLOCK_MONOTONIC [ns].
   virtual bool waitForHandle(std::int64_t deadline) noexcept = 0;
 
-  /// The newest pose of the handle, from which the workspace mapping makes one in the world, and its age.
-  /// False when the device has ended or been lost: `handle` is left as it was.
+  /// Reads the newest pose of the handle, in the device's frame, and its age. The workspace mapping turns it
+  /// into a pose in the world. Returns false, and leaves `handle` alone, if the device has ended or is lost.
   virtual bool readHandle(HandleInput& handle) noexcept = 0;
-  /// Takes a wrench that is finite and within the limits.
+  /// Sends the wrench to render, in the device's frame: finite and within the limits.
   virtual void sendWrench(const Wrench& wrench) noexcept = 0;
 };
 

@@ -4,8 +4,8 @@
 
 namespace nearfit {
 
-/// A device that nobody arms, calibrates or resets: it does not push, or it is a hand of the program's own,
-/// and it is armed from its start to its end. What is asked of that sort does nothing.
+/// Base of devices that nobody arms, calibrates or resets, because they do not push or are simulated. start()
+/// arms them, stop() disarms them; the calls below do nothing.
 class PassiveDevice : public HapticDevice {
  public:
   void arm() final {}

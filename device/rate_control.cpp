@@ -9,7 +9,7 @@
 namespace nearfit {
 namespace {
 
-/// What is left of a velocity whose part against `load` is slowed down as the load nears `limit`.
+/// Returns `velocity` with its component against `load` reduced, to zero as the load reaches `limit`.
 glm::dvec3 leashed(const glm::dvec3& velocity, const glm::dvec3& load, double limit) noexcept {
   const double size = glm::length(load);
   if (!(size > 0.0) || !(limit > 0.0)) return velocity;

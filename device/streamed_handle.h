@@ -12,18 +12,18 @@
 
 namespace nearfit {
 
-/// What drivers of devices that stream their poses share: the newest report on its way from the link's thread
-/// to the servo's, its age, the end of waiting for it, the supervisor, counts, and how the device was lost.
+/// Shared by drivers whose devices stream poses: passes the newest report from the link's thread to the servo
+/// thread and wakes it. Holds the age of the report, the supervisor, the counters and the reason for a loss.
 ///
-/// @tparam Report  What a driver makes of a packet; trivially copyable.
+/// @tparam Report  Decoded packet; trivially copyable.
 template <class Report>
 class StreamedHandle {
  public:
   DeviceSupervisor& supervisor() noexcept { return supervisor_; }
   const DeviceSupervisor& supervisor() const noexcept { return supervisor_; }
   DeviceState state() const noexcept { return supervisor_.state(); }
-  /// HapticDevice::stateNote.
-  /// @param uncalibrated  What it waits for when it is that.
+  /// Implements HapticDevice::stateNote().
+  /// @param uncalibrated  Text for the state Uncalibrated.
   std::string note(const char* uncalibrated) const {
     switch (state()) {
       case DeviceState::Fault:
@@ -36,13 +36,14 @@ class StreamedHandle {
         return {};
     }
   }
+  /// Any thread.
   ReportCounters counters() const noexcept {
     return {poses_.load(std::memory_order_acquire), rejected_.load(std::memory_order_relaxed),
             missing_.load(std::memory_order_relaxed)};
   }
 
-  /// Controlling thread, while nothing streams: forgets the last stream; its silence counts from now.
-  /// @param initial  What the servo reads until something comes.
+  /// Controlling thread, while nothing streams: forgets the last stream. Silence counts from now.
+  /// @param initial  Report that the servo reads until the first one arrives.
   void begin(const Report& initial) noexcept {
     loss_.store(UsbLoss::None, std::memory_order_release);
     rejectedInRow_ = 0;
@@ -50,53 +51,55 @@ class StreamedHandle {
     samples_.update();
   }
 
-  /// The link's thread: where the next report goes; its content is some old one.
+  /// Link's thread: storage for the next report; it holds an old one.
   Report& next() noexcept { return samples_.back().report; }
-  /// The link's thread: next() is filled.
+  /// Link's thread: passes next() on.
+  /// @param arrived  Arrival on CLOCK_MONOTONIC [ns].
   void publish(Nanoseconds arrived) noexcept {
     rejectedInRow_ = 0;
     samples_.back().arrived = arrived;
     samples_.back().isReal = true;
     samples_.publish();
-    // Counted last: who sees that it was counted finds it with update().
+    // Counted last, so that whoever sees the count finds the report with update().
     poses_.fetch_add(1, std::memory_order_release);
     newPose_.ring();
   }
-  /// The link's thread: a packet cannot be used. kMostRejectedInRow in a row stop the device.
+  /// Link's thread: counts an unusable packet. kMostRejectedInRow in a row stop the device with `fault`.
   void reject(DeviceFault fault = DeviceFault::Garbage) noexcept {
     rejected_.fetch_add(1, std::memory_order_relaxed);
     if (++rejectedInRow_ == kMostRejectedInRow) supervisor_.stop(fault);
   }
+  /// Any thread: counts reports that never arrived.
   void countMissing(std::uint64_t count) noexcept { missing_.fetch_add(count, std::memory_order_relaxed); }
-  /// The link's thread: UsbPacketSink::onLost.
+  /// Link's thread: implements UsbPacketSink::onLost().
   void lose(UsbLoss loss) noexcept {
     loss_.store(loss, std::memory_order_release);
     supervisor_.lost();
     newPose_.ring();
   }
 
-  /// Servo thread: HapticDevice::waitForHandle.
+  /// Servo thread: implements HapticDevice::waitForHandle().
   bool wait(Nanoseconds deadline) noexcept { return newPose_.wait(deadline); }
-  /// Servo thread: takes the newest over; false when the device is lost.
+  /// Servo thread: takes the newest report. Returns false if the device is lost.
   bool update() noexcept {
     samples_.update();
     return state() != DeviceState::Lost;
   }
-  /// Servo thread: what the last update took.
+  /// Servo thread: the report that update() took last.
   const Report& report() const noexcept { return samples_.front().report; }
-  /// Servo thread: false as long as report() is the initial one.
+  /// Servo thread: false while report() is the initial one.
   bool hasReport() const noexcept { return samples_.front().isReal; }
-  /// Servo thread: of report() [s].
+  /// Servo thread: age of report() [s].
   double age() const noexcept { return toSeconds(monotonicNow() - samples_.front().arrived); }
 
-  /// A damaged report now and then happens on long cables; so many in a row are no device of ours.
+  /// Long cables damage a report now and then; this many in a row come from another kind of device.
   static constexpr unsigned kMostRejectedInRow = 20;
 
  private:
   struct Sample {
     Report report;
     Nanoseconds arrived = 0;
-    bool isReal = false;  ///< It came from the device.
+    bool isReal = false;  ///< Came from the device.
   };
 
   DeviceSupervisor supervisor_;
@@ -104,7 +107,7 @@ class StreamedHandle {
   TripleBuffer<Sample> samples_;
   WakeSignal newPose_;
   std::atomic<std::uint64_t> poses_{0}, rejected_{0}, missing_{0};
-  unsigned rejectedInRow_ = 0;  ///< The link thread's own.
+  unsigned rejectedInRow_ = 0;  ///< Link's thread only.
 };
 
 }  // namespace nearfit

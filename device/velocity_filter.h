@@ -8,18 +8,18 @@
 
 namespace nearfit {
 
-/// The speed of a handle whose device tells only where it is: differences, smoothed over kTime. Reports that
-/// arrive late and all at once do not look fast: each counts by how far the handle went. Real-time safe.
+/// Estimates the velocity of a handle from positions: differences, smoothed over kTime. Reports that arrive
+/// late and all at once do not look fast, since each counts by how far the handle went. Real-time safe.
 class VelocityFilter {
  public:
-  /// Longer than a few reports, so that an encoder's steps even out; far shorter than a hand's motion [s].
+  /// Longer than a few reports, to even out an encoder's steps; far shorter than a hand's motion [s].
   static constexpr double kTime = 4e-3;
 
-  /// @param time  Of arrival.
-  /// @return Of the handle now [m/s].
+  /// Adds a position [m] and returns the velocity now [m/s].
+  /// @param time  Arrival of the report.
   glm::dvec3 update(const glm::dvec3& position, Nanoseconds time) noexcept {
     if (hasLast_) {
-      // A first-order lag of the velocity, constant in between, integrated exactly.
+      // A first-order lag of the velocity, which is constant between reports, integrated exactly.
       const double passed = std::fmax(toSeconds(time - lastTime_), 0.0);
       const double decay = std::exp(-passed / kTime);
       const double weight = passed > kLeast ? (1.0 - decay) / passed : 1.0 / kTime;
@@ -30,10 +30,11 @@ class VelocityFilter {
     lastTime_ = time;
     return velocity_;
   }
+  /// Forgets all positions.
   void reset() noexcept { *this = {}; }
 
  private:
-  /// Below this the quotient is its limit to rounding.
+  /// For shorter times the quotient equals its limit to rounding [s].
   static constexpr double kLeast = 1e-9;
 
   bool hasLast_ = false;

@@ -66,7 +66,7 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   wrench = makeSwitch("wrench", tr("Force and torque &arrows"), "wrench-arrows", true);
   about = make("about", tr("&About Nearfit"), "about");
   explain();
-  // Also from the feel dialog, which stays open beside the window.
+  // These must work from the feel dialog too, which stays open beside the window.
   for (QAction* action : {undo, redo, start, stop, letGo, clutch})
     action->setShortcutContext(Qt::ApplicationShortcut);
   recentMenu = new QMenu(tr("Open &recent"), window);
@@ -175,8 +175,7 @@ void Actions::setUpToolBar(QMainWindow& window) {
   window.setContextMenuPolicy(Qt::NoContextMenu);
 }
 
-/// One button for all of them, which shows the last one that was chosen: a narrow window has room for the
-/// rest.
+/// Adds one button for all views that shows the last one chosen; it saves room in narrow windows.
 void Actions::addViews(QToolBar& bar) {
   auto* button = new QToolButton(&bar);
   button->setObjectName(QStringLiteral("viewsButton"));
@@ -202,7 +201,7 @@ void Actions::update(const Session& session, const Availability& availability) {
   undo->setEnabled(isFree && session.canUndo());
   redo->setEnabled(isFree && session.canRedo());
   const auto withLabel = [](const QString& verb, const std::string& label) {
-    // An ampersand of a part's name is no key of the menu.
+    // An ampersand in a part's name must not become a menu mnemonic.
     const QString name = shortName(label).replace(QChar('&'), QStringLiteral("&&"));
     return label.empty() ? verb : verb + QChar(' ') + name;
   };
@@ -211,7 +210,7 @@ void Actions::update(const Session& session, const Availability& availability) {
     action->setText(withLabel(verb, label));
     const QString keys = action->shortcut().toString(QKeySequence::NativeText);
     const QString what = label.empty() ? QString() : QStringLiteral(": ") + shortName(label);
-    // A part's name is no markup.
+    // A part's name must not be read as markup.
     const QString tip = QStringLiteral("%1%2 (%3)").arg(explained, what, keys);
     action->setToolTip(QStringLiteral("<qt>%1</qt>").arg(tip.toHtmlEscaped()));
   };
@@ -219,7 +218,7 @@ void Actions::update(const Session& session, const Availability& availability) {
   show(redo, tr("&Redo"), tr("Do again what was taken back"), session.redoText());
 
   const bool canChange = isFree && availability.hasSelection && !availability.isSelectionLocked;
-  // How a part looks is nothing that a lock guards.
+  // Locks prevent neither copying a part nor changing its look.
   for (QAction* action : {duplicate, recolour})
     action->setEnabled(isFree && availability.hasSelection);
   for (QAction* action : {rename, remove, takeInHand})

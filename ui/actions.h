@@ -14,8 +14,7 @@ class Session;
 
 namespace nearfit::ui {
 
-/// Every action of the main window, its menus and its toolbar. Knows what the actions look like, not what
-/// they do.
+/// The main window's actions, menus and toolbar. Knows how actions look; what they do is connected elsewhere.
 class Actions : public QObject {
   Q_OBJECT
 
@@ -29,32 +28,35 @@ class Actions : public QObject {
   QAction *seeThrough, *edges, *minima, *contacts, *hand, *wrench;
   QAction* about;
   QMenu *fileMenu = nullptr, *viewMenu = nullptr, *feelMenu = nullptr,
-        *helpMenu = nullptr;       ///< Once setUpMenus has made them.
-  QMenu *recentMenu, *reloadMenu;  ///< Filled by those who know what belongs there.
-  QMenu* editMenu;                 ///< For what else is done with parts.
-  QMenu* panelsMenu;               ///< For the docks' own switches.
-  QMenu* placeMenu;                ///< For what places parts.
+        *helpMenu = nullptr;       ///< Null until setUpMenus().
+  QMenu *recentMenu, *reloadMenu;  ///< Created empty; filled by their owners.
+  QMenu* editMenu;                 ///< Extended by others, who add more commands on parts.
+  QMenu* panelsMenu;               ///< For the docks' toggle actions.
+  QMenu* placeMenu;                ///< Created empty; placing commands are added by others.
 
+  /// Builds the menu bar. Call once, before anything uses the menus made here.
   void setUpMenus(QMainWindow& window);
+  /// Builds the toolbar and turns off the window's own context menu.
   void setUpToolBar(QMainWindow& window);
 
-  /// What can be done now.
+  /// State that decides which actions are enabled, beside the session's.
   struct Availability {
-    bool isBusy = false;  ///< Something is being loaded.
+    bool isBusy = false;  ///< A file is being loaded or parts prepared.
     bool hasSelection = false;
     bool isSelectionLocked = false;
-    bool canStart = false;
+    bool canStart = false;  ///< There is a moving part and another part.
     bool isServoRunning = false;
-    bool isHandManual = false;  ///< While the servo runs.
-    bool isHandDevice = false;  ///< So too.
+    bool isHandManual = false;  ///< The servo runs with the manual hand.
+    bool isHandDevice = false;  ///< The servo runs with a device.
   };
+  /// Enables and disables actions, and names the next step in the texts of undo and redo.
   void update(const Session& session, const Availability& availability);
 
  private:
   QAction* make(const char* name, const QString& text, const QString& iconName,
                 const QKeySequence& keys = {});
   void addViews(QToolBar& bar);
-  /// What each does, with its keys, under the mouse.
+  /// Sets tool tips: what each action does, and its shortcut.
   void explain();
   QAction* makeSwitch(const char* name, const QString& text, const QString& iconName, bool isOn);
 };

@@ -22,7 +22,7 @@ void BackgroundTask::run(Job job, std::function<void(std::exception_ptr)> done) 
   Q_ASSERT(!isRunning());
   current_ = std::make_shared<Running>();
   current_->done = std::move(done);
-  // A bare pointer: the thread is joined before what it points to goes.
+  // A raw pointer is safe: the thread is joined before its Running is destroyed.
   current_->thread =
       std::thread([this, running = current_.get(), job = std::move(job)] { work(*running, job); });
 }
@@ -57,7 +57,7 @@ void BackgroundTask::cancel() {
   if (!current_ || current_->isCancelled.exchange(true)) return;
   QMetaObject::invokeMethod(
       this,
-      // Held, so that no later job can be taken for this one.
+      // Holding a reference keeps a later job from getting the same address.
       [this, own = current_] {
         if (current_ != own) return;
         const RunningPtr running = abandoned_.emplace_back(std::move(current_));

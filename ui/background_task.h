@@ -12,7 +12,7 @@
 
 namespace nearfit::ui {
 
-/// Runs one long job at a time in a thread of its own and reports back on this object's thread.
+/// Runs one job at a time in a worker thread and reports back on this object's thread.
 class BackgroundTask : public QObject {
   Q_OBJECT
 
@@ -20,23 +20,24 @@ class BackgroundTask : public QObject {
   using Job = std::function<void(const ProgressCallback&)>;
 
   explicit BackgroundTask(QObject* parent = nullptr);
-  /// Cancels and waits, also for jobs that were cancelled before.
+  /// Cancels and joins all jobs, including ones cancelled earlier. Calls no `done`.
   ~BackgroundTask() override;
 
+  /// True from run() until just before `done` is called.
   bool isRunning() const noexcept { return current_ != nullptr; }
-  /// @param job  Runs in the other thread; may throw. It owns what it uses: once cancelled it may go on for
-  ///             a while when its end has been told, and beside the next job.
-  /// @param done Runs on this object's thread after the job ended; gets what it threw, or null.
-  /// Nothing may be running.
+  /// Starts a job. None may be running.
+  /// @param job   Runs in the worker thread; may throw. Must own what it uses: after cancel() it may still
+  ///              run for a while, even beside the next job.
+  /// @param done  Called on this object's thread when the job ends, with what it threw or null.
   void run(Job job, std::function<void(std::exception_ptr)> done);
 
  public slots:
-  /// Asks the job to stop, and tells its end, with Cancelled, without waiting until it looks: that may take
-  /// it a second.
+  /// Asks the job to stop and soon calls its `done` with Cancelled, from the event loop. Does not wait until
+  /// the job notices, which may take a second.
   void cancel();
 
  signals:
-  /// 0 to 1; at most some fifty times a job.
+  /// Emitted at most about 50 times per job. `fraction` goes from 0 to 1.
   void progressed(double fraction);
 
  private:
@@ -50,7 +51,7 @@ class BackgroundTask : public QObject {
   void finish(const Running* running, const std::exception_ptr& error);
 
   RunningPtr current_;
-  std::vector<RunningPtr> abandoned_;  ///< Cancelled; each ends when it next reports progress.
+  std::vector<RunningPtr> abandoned_;  ///< Cancelled jobs; each ends when it next reports progress.
 };
 
 }  // namespace nearfit::ui

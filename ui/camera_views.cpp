@@ -58,7 +58,7 @@ void fitView(vtkRenderer& renderer, std::span<const vtkBoundingBox> boxes) {
   const glm::dvec3 up = glm::cross(toEye, right);
   const double tanY = std::tan(glm::radians(0.5 * camera->GetViewAngle()));
   const double tanX = tanY * renderer.GetTiledAspectRatio();
-  // Far enough for each corner to be inside the pyramid of the view.
+  // Move back until every corner is inside the view frustum.
   double distance = 0.0;
   for (const vtkBoundingBox& box : boxes) {
     for (int corner = 0; corner < 8; ++corner) {
@@ -69,7 +69,7 @@ void fitView(vtkRenderer& renderer, std::span<const vtkBoundingBox> boxes) {
       distance = std::max(distance, glm::dot(p, toEye) + kMargin * across);
     }
   }
-  // A single point has no size to fill the view with.
+  // A single point has no size to fit.
   if (!(distance > 0.0)) distance = 1.0;
   const glm::dvec3 eye = centre + distance * toEye;
   camera->SetFocalPoint(centre.x, centre.y, centre.z);

@@ -11,19 +11,20 @@
 
 namespace nearfit::ui {
 
-/// Directions to look from; z is up, front looks along +y, top shows x to the right.
+/// Standard directions of view. z is up; Front looks along +y; Top shows x to the right.
 enum class StandardView : std::uint8_t { Isometric, Front, Right, Top };
 
-/// Turns the camera to look from there at the bounds (VTK's order) and fits them into the view.
+/// Turns the camera to `view` and fits `bounds` into it.
+/// @param bounds  World, VTK's order (xmin, xmax, ymin, ...) [m].
 void setStandardView(vtkRenderer& renderer, StandardView view, const double bounds[6]);
 
-/// Moves the camera, without turning it, so that the bounds just fill the view with a margin around them.
+/// Moves the camera, without turning it, so that `bounds` fill the view but for a small margin.
 void fitView(vtkRenderer& renderer, const double bounds[6]);
-/// The same for several boxes, which fill the view more than the one around them all. @param boxes  At least
-/// one, valid.
+/// Same for several boxes; fits them tighter than their common bounding box would.
+/// @param boxes  At least one, each valid; world [m].
 void fitView(vtkRenderer& renderer, std::span<const vtkBoundingBox> boxes);
 
-/// What the camera sees, for core.
+/// Returns the camera's pose and projection for core; lengths in [m], angles in [rad].
 ViewProjection::Camera projectionCamera(vtkCamera& camera);
 
 }  // namespace nearfit::ui

@@ -17,9 +17,9 @@ namespace {
 
 constexpr int kWidth = 226, kInset = 14;
 constexpr int kBarTop = 34, kBarHeight = 11;
-constexpr int kFirstRow = 86, kRowHeight = 22, kBelowLastRow = 16;  ///< Rows by their baselines.
+constexpr int kFirstRow = 86, kRowHeight = 22, kBelowLastRow = 16;  ///< Row positions are baselines.
 constexpr int kGlyphWidth = 25;
-/// All of these are for letters of this height; larger ones make all larger.
+/// Font height that the sizes above assume [pixels]; a larger font scales them all.
 constexpr double kUsualLetters = 17.0;
 
 void paintArrow(QPainter& painter, int y, const QColor& colour) {

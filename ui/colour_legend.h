@@ -6,17 +6,17 @@
 
 namespace nearfit::ui {
 
-/// A card over the 3-D view that explains its glyphs: the colours of distances from contact to the cutoff,
-/// and the other glyphs with what they stand for in numbers.
+/// A card over the 3-D view that explains its glyphs: the colour scale of distances from contact to the
+/// cutoff, and force, torque, contacts and hand with their current values. Ignores the mouse.
 class ColourLegend : public QWidget {
   Q_OBJECT
 
  public:
   explicit ColourLegend(QWidget* parent = nullptr);
 
-  /// @param cutoff  Distance of the last colour [m].
+  /// @param cutoff  Distance at the end of the colour scale [m].
   void setCutoff(double cutoff);
-  /// The numbers beside the glyphs; takes the size that they need.
+  /// Shows the snapshot's values and resizes to fit. Contacts and hand appear in proxy mode only.
   void showSnapshot(const ServoSnapshot& snapshot);
 
   QSize sizeHint() const override;
@@ -25,8 +25,9 @@ class ColourLegend : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  /// Larger than 1 where letters are.
+  /// Factor from the layout's constants to the widget's font; at least 1.
   double scale() const;
+  /// The widget's font at the size that the constants assume; the painter scales it.
   QFont letters() const;
   void paintScale(QPainter& painter);
   void paintRow(QPainter& painter, int y, const QString& name, const QString& value);

@@ -19,11 +19,11 @@ namespace nearfit::ui {
 namespace {
 
 constexpr int kDiscSides = 28;
-/// As parts of the size: discs; arrows without force, and of the device's greatest force.
+/// Fractions of the part's size: disc radii, and arrow lengths at zero and at the device's max force.
 constexpr double kDiscRadius = 0.026, kRimRadius = 0.033, kShortest = 0.11, kLongest = 0.45;
 constexpr const char *kDirection = "direction", *kDisc = "disc", *kArrow = "arrow";
 
-/// A flat round body across the x axis.
+/// Returns a flat cylinder around the x axis.
 vtkSmartPointer<vtkTransformPolyDataFilter> discAcrossX(double radius, double height) {
   vtkNew<vtkCylinderSource> cylinder;
   cylinder->SetRadius(radius);
@@ -37,7 +37,7 @@ vtkSmartPointer<vtkTransformPolyDataFilter> discAcrossX(double radius, double he
   return disc;
 }
 
-/// Copies of a shape at the points, turned along their directions: one draw call, nothing rebuilt.
+/// Draws `shape` at the points, oriented along their directions: one draw call, no geometry rebuilt.
 void setUp(vtkActor& actor, vtkPolyData& points, vtkAlgorithmOutput* shape, const char* scale,
            const QColor& colour) {
   vtkNew<vtkGlyph3DMapper> mapper;

@@ -11,15 +11,15 @@
 
 namespace nearfit::ui {
 
-/// Draws where the proxy presses on other parts: a disc across the contact's direction, and an arrow along it
-/// that grows with its share of the force.
+/// Draws where the proxy presses on other parts: a disc perpendicular to the contact direction and an arrow
+/// along it, which grows with the contact's share of the force.
 class ContactGlyphs {
  public:
   /// @param renderer  Outlives this.
   explicit ContactGlyphs(vtkRenderer& renderer);
 
-  /// @param contacts  In world coordinates.
-  /// @param size      The moving part's diagonal [m].
+  /// @param contacts  World frame; empty hides all.
+  /// @param size      Diagonal of the moving part [m].
   void show(std::span<const SnapshotContact> contacts, double size);
   void clear() { show({}, 1.0); }
   void setVisible(bool isVisible);

@@ -6,14 +6,14 @@
 
 namespace nearfit::ui {
 
-/// A device that is plugged in, as a choice of hand; or something about devices that the user may know.
+/// A connected device that can be chosen as the hand, or a notice about devices.
 struct DeviceChoice {
-  QString id;    ///< Tells it from all others for as long as it is plugged in; empty for a mere notice.
-  QString name;  ///< For the list.
+  QString id;    ///< Unique while the device is connected; empty for a notice.
+  QString name;  ///< Text in the list.
   QString note;  ///< Why it cannot be used and what to do, or what it needs; may be empty.
   bool isUsable = false;
-  bool isMendable = false;  ///< It cannot be used, and the user can do something about it.
-  QString command = {};     ///< One line for a shell that does; or empty.
+  bool isMendable = false;  ///< Not usable, but the user can fix that.
+  QString command = {};     ///< Shell command, one line, that fixes it; may be empty.
   bool operator==(const DeviceChoice& other) const {
     return id == other.id && name == other.name && note == other.note && isUsable == other.isUsable &&
            isMendable == other.isMendable && command == other.command;

@@ -7,7 +7,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// Equally spaced from 0 to 1.
+/// Colour stops, equally spaced from 0 to 1.
 const std::array<QColor, 5> kStops = {QColor(0xc9, 0x18, 0x2b), QColor(0xf4, 0x76, 0x2e),
                                       QColor(0xf9, 0xc9, 0x32), QColor(0x3f, 0xae, 0x7d),
                                       QColor(0x2a, 0x6f, 0xbb)};

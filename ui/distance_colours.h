@@ -7,11 +7,11 @@
 
 namespace nearfit::ui {
 
-/// Colour of a distance: red at contact, over yellow, to blue at the cutoff.
-/// @param fraction  Distance over cutoff; clamped to 0 to 1.
+/// Returns the colour of a distance: from red at contact through yellow to blue at the cutoff.
+/// @param fraction  Distance over cutoff; clamped to [0, 1].
 QColor distanceColour(double fraction);
 
-/// The same colours for scalars from 0 to 1.
+/// Returns the same colours as a table for scalars from 0 to 1.
 vtkSmartPointer<vtkLookupTable> distanceLookupTable();
 
 }  // namespace nearfit::ui

@@ -18,7 +18,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr double kReading = 0.45;  ///< Of the time that a mesh takes; the rest makes what is drawn of it.
+constexpr double kReading = 0.45;  ///< Share of loading spent on reading; the rest builds shapes.
 
 const QString kSceneSuffix = QStringLiteral("nearfit");
 
@@ -35,13 +35,13 @@ QString sceneFilter() {
   return QObject::tr("Nearfit scenes (*.%1)").arg(kSceneSuffix);
 }
 
-/// What the question for the unit is about.
+/// Names the meshes in the question for their unit.
 QString describeMeshes(const QStringList& files) {
   return files.size() == 1 ? QObject::tr("“%1”").arg(QFileInfo(files.first()).fileName())
                            : QObject::tr("what these %n files hold", nullptr, files.size());
 }
 
-/// What stands in place of a file's name where a failure is about all of them.
+/// Stands for a file name in a failure that concerns all files.
 QString nameOfAll(const QStringList& files) {
   return files.size() == 1 ? QFileInfo(files.first()).fileName() : QObject::tr("All files");
 }
@@ -189,7 +189,7 @@ void Document::readScene(const QString& file, const QString& name,
 void Document::loadScene(const QString& file, const QStringList& partsAfter, double metresPerUnit) {
   Preferences::rememberFolderOf(file);
   readScene(file, QFileInfo(file).fileName(), [=, this](Scene scene, const QStringList& changed) {
-    // With other meshes it is not what the file says.
+    // Meshes that changed make the scene differ from its file: it counts as modified.
     if (changed.isEmpty())
       session_.reset(std::move(scene), toPath(file));
     else
@@ -278,7 +278,7 @@ void Document::finishParts(const QStringList& files, const std::vector<PartGeome
   } catch (...) {
     problems << describeItem(nameOfAll(files), std::current_exception());
   }
-  // All of them would be cut off, and gone soon: the list of parts keeps them.
+  // The status bar would cut several off and soon clear them; the part list keeps them.
   if (warnings.size() == 1) emit noted(warnings.first());
   if (warnings.size() > 1)
     emit noted((warned == 1

@@ -20,8 +20,8 @@ namespace nearfit::ui {
 class ProgressDialog;
 struct DroppedFiles;
 
-/// The session's way to and from files, with the dialogs that go with it. Loads in another thread; what is
-/// open stays open until the new is loaded whole.
+/// Opens, saves and extends the session's scene, with the dialogs for that. Loads in another thread; the open
+/// scene stays until the new one is completely loaded. Failures go to failed(). Use from the GUI thread.
 class Document : public QObject {
   Q_OBJECT
 
@@ -30,64 +30,77 @@ class Document : public QObject {
   Document(Session& session, std::shared_ptr<PartShapeCache> shapes, QWidget* window);
   ~Document() override;
 
+  /// The shapes that loading prepares for drawing.
   const std::shared_ptr<PartShapeCache>& shapes() const noexcept { return shapes_; }
+  /// True while a job of load() runs.
   bool isBusy() const noexcept { return task_.isRunning(); }
-  /// Asks what to do with changes that are not saved. False when the user wants to stay.
+  /// Asks whether to save unsaved changes. False if the user cancels, or saving fails.
   bool mayLeaveScene();
 
+  /// Starts an empty scene after asking about unsaved changes.
   void newScene();
+  /// Lets the user choose a scene, then calls openScene().
   void askAndOpen();
-  /// Opens a scene after asking about changes.
+  /// Opens a scene after asking about unsaved changes. Does nothing while busy.
   void openScene(const QString& file);
-  /// As openScene, of one that others need as it is: it becomes an unnamed scene, so that saving asks where.
-  /// False when the user stays with what is open, or something is being loaded.
+  /// Opens a scene that must not be overwritten: it becomes an unnamed scene, so that saving asks for a file.
+  /// Asks about unsaved changes. False if the user cancels, or while busy.
   bool openExample(const QString& file);
-  /// Opens a scene that was lost before it was saved, after asking about changes.
-  /// @param journal    A scene file that it is read from.
-  /// @param sceneFile  That the scene has as its own; empty for none.
-  /// @param restored   Called once it is open.
+  /// Opens a scene that was lost before it was saved, after asking about unsaved changes.
+  /// Does nothing while busy.
+  /// @param journal    The scene file to read.
+  /// @param sceneFile  The file that the scene belongs to; empty if none.
+  /// @param restored   Called once the scene is open; not if that fails.
   void openLost(const QString& journal, const std::filesystem::path& sceneFile,
                 std::function<void()> restored);
+  /// Lets the user choose mesh files and their unit, then calls addParts().
   void askAndAddParts();
-  /// @param metresPerUnit  Of the numbers in the files.
+  /// Loads mesh files as new parts. Does nothing while busy.
+  /// @param metresPerUnit  Metres per unit of the numbers in the files.
   void addParts(const QStringList& files, double metresPerUnit);
-  /// Any mixture of meshes and at most one scene, which is opened first; meshes in the unit used last.
+  /// Opens any mix of meshes and at most one scene. The scene is opened first; the meshes use the unit chosen
+  /// last (Preferences::metresPerUnit()).
   void openFiles(const QStringList& files);
-  /// As openFiles, for what was dropped: folders are taken apart, and the unit of all meshes is asked once.
+  /// Like openFiles, for files and folders dropped on the window; asks once for the unit of all meshes. While
+  /// busy it only emits noted().
   void dropFiles(const QStringList& filesAndFolders);
-  /// Runs a job in another thread, showing progress; `done` gets what it threw, or null. Nothing may be
-  /// running.
+  /// Runs a job in another thread behind a progress dialog. Must not be called while busy.
+  /// @param done  Called on the GUI thread with what the job threw, Cancelled included, or null.
   void load(const QString& text, BackgroundTask::Job job, std::function<void(std::exception_ptr)> done);
-  /// Makes the hierarchies of all parts ready in another thread, and calls `done` with whether they are: at
-  /// once when nothing is missing, else when it is done or the user has stopped it. Waits for what is being
-  /// loaded.
+  /// Builds the missing hierarchies of all parts in another thread, after any load that is running. Calls
+  /// `done` at once if none is missing; isReady is false if the user cancelled or building failed.
   void prepareHierarchies(std::function<void(bool isReady)> done);
-  /// False when nothing was written.
+  /// Saves to the session's file, or asks for one if it has none. False if nothing was written.
   bool save();
+  /// Asks for a file and saves to it. False if nothing was written.
   bool askAndSaveAs();
 
  signals:
-  /// The scene is about to be saved or left: whoever holds a part puts its pose into the session now.
+  /// Emitted before the scene is saved or left. Whoever holds a part must put its pose into the session now.
   void sceneNeeded();
+  /// Emitted when isBusy() changes.
   void busyChanged();
+  /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
-  /// A short note for the status bar.
+  /// Emitted with a short note for the status bar.
   void noted(const QString& text);
-  /// These came together.
+  /// Emitted with parts that were added in one step.
   void partsAdded(const std::vector<nearfit::PartId>& parts);
-  /// A scene is in the session; parts that were named with it are still to come.
+  /// Emitted when a scene is open and parts given with it are still to be loaded.
   void sceneOpened();
-  /// These meshes of the scene that has been opened are no longer what it was saved with.
+  /// Emitted after opening a scene some of whose mesh files have changed since it was saved.
   void meshesHaveChanged(const QStringList& files);
-  /// Loading ended, well or not.
+  /// Emitted when opening or adding ends; `isComplete` is false if anything failed or was cancelled.
   void loaded(bool isComplete);
 
  private:
+  /// Serves the calls that wait for hierarchies, unless busy.
   void prepareNext();
-  /// @param metresPerUnit  Of the parts that are added after.
+  /// @param metresPerUnit  Unit of `partsAfter`, which are added once the scene is open.
   void loadScene(const QString& file, const QStringList& partsAfter, double metresPerUnit);
-  /// @param opened  Puts the scene into the session.
-  /// @param changed  Meshes that are other files than those that it was saved with.
+  /// Reads a scene and prepares its shapes.
+  /// @param opened   Puts the scene into the session; gets the mesh files that have
+  ///                 changed since it was saved.
   void readScene(const QString& file, const QString& name,
                  const std::function<void(Scene, const QStringList& changed)>& opened);
   void open(const DroppedFiles& files, double metresPerUnit);
@@ -100,15 +113,14 @@ class Document : public QObject {
   QWidget* window_;
   BackgroundTask task_;
   QPointer<ProgressDialog> progress_;
-  std::vector<std::function<void(bool isReady)>> waiting_;  ///< For hierarchies.
+  std::vector<std::function<void(bool isReady)>> waiting_;  ///< Unanswered prepareHierarchies() calls.
 };
 
-/// The progress of reading, and of making what is drawn of it, as parts of the whole: that of either is about
-/// half of the time.
+/// Map the progress of reading meshes, and of building their shapes, to shares of `whole`, about half each.
 ProgressCallback progressOfReading(const ProgressCallback& whole);
 ProgressCallback progressOfShapes(const ProgressCallback& whole);
 
-/// Whether that is what a job throws that the user has stopped.
+/// True if `error` is Cancelled; false if null.
 bool isCancelled(const std::exception_ptr& error);
 
 }  // namespace nearfit::ui

@@ -4,8 +4,8 @@
 
 namespace nearfit::ui {
 
-/// A line of plain text that asks for no room: what has none is cut in the middle. text() is whole; so that a
-/// reader can see it, tell it in the tool tip.
+/// A line of plain text that claims no width and is elided in the middle to fit. text() returns the whole
+/// text; set it as the tool tip too, so that users can read it.
 class ElidedLabel : public QLabel {
   Q_OBJECT
 

@@ -10,20 +10,22 @@ class QComboBox;
 
 namespace nearfit::ui {
 
-/// Mode and law as one choice, as a user sees them.
+/// Haptic mode and spring law as the one choice that users see.
 enum class FeelMode : std::uint8_t { Proxy, LinearSprings, PrintedSprings };
 
+/// Returns the choice that `settings` amount to.
 FeelMode feelModeOf(const HapticSettings& settings) noexcept;
 
-/// The settings in another mode. Between the laws the stiffness is converted so that the most a spring pushes
-/// stays what it was (k c for the linear one, k c^2 / 4 as printed), within the limits.
+/// Returns `settings` in another mode. Between spring laws it converts stiffness k so that a spring's max
+/// force is kept (k c for Linear, k c^2 / 4 for Printed, c being the cutoff), within the limits.
 HapticSettings withMode(const HapticSettings& settings, FeelMode mode) noexcept;
 
-/// A sentence or two for someone who has to choose.
+/// Returns one or two sentences that help the user choose.
 QString explanationOf(FeelMode mode);
 
-/// Puts the modes into a box; their data is the FeelMode.
+/// Adds all modes with explanations as tool tips; item data is the FeelMode.
 void addModes(QComboBox& box);
+/// Makes `mode` the current item of a box filled by addModes().
 void showMode(QComboBox& box, FeelMode mode);
 
 }  // namespace nearfit::ui

@@ -10,14 +10,14 @@ namespace {
 constexpr QChar kMicro(0xB5);
 constexpr QChar kDot(0xB7);
 
-/// Three figures without an exponent.
+/// Three figures or more from 1 up, two decimals below; no exponent.
 QString figures(double value) {
   const double magnitude = std::abs(value);
   const int decimals = magnitude < 9.995 ? 2 : magnitude < 99.95 ? 1 : 0;
   return formatFixed(value, decimals);
 }
 
-/// Three figures also below one: 0.0484.
+/// Three figures below one too: 0.0484.
 QString threeFigures(double value) {
   const double magnitude = std::abs(value);
   if (magnitude == 0.0 || magnitude >= 0.9995) return figures(value);
@@ -44,7 +44,7 @@ QString formatLength(double metres, LengthUnit unit) {
   if (unit == LengthUnit::Millimetre && magnitude >= 1.0) return figures(metres) + QStringLiteral(" m");
   const double number = metres / metresOf(unit);
   const bool isInch = unit == LengthUnit::Inch;
-  // A tenth of a millimetre, or a thousandth of an inch.
+  // Short: below 0.1 mm, or 0.001 in.
   const bool isShort = isInch ? std::abs(number) < 1e-3 : magnitude < 1e-4;
   if (isShort && magnitude > 0.0) {
     return figures(kMicrons * (isInch ? number : metres)) + QChar(' ') + kMicro +

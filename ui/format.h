@@ -6,29 +6,28 @@
 
 namespace nearfit::ui {
 
-/// All of these write decimals as the user's locale does, as number fields do, and group no thousands. They
-/// are for people: what is exported has a point.
+// Text for people: decimals as in the user's locale, as in number fields, and no thousands separators.
+// Exported files have a decimal point instead.
 
-/// With so many decimals.
+/// Formats with that many decimals.
 QString formatFixed(double value, int decimals);
-/// A length as an engineer writes it, in the unit that the user has chosen (shownLengthUnit); three to four
-/// figures. In millimetres what is long or short has a unit of its own: "12.34 mm", "850 um" with the micro
-/// sign, "1.20 m"; in the others what is short alone: "1.23 cm", "0.484 in", "850 uin". "-" when it is not
-/// finite.
-/// @param metres  [m]
+/// Formats a length in the unit that the user chose (shownLengthUnit()): "12.3 mm", three figures or more.
+/// Millimetres become "1.20 m" from 1 m up. Short lengths have a unit of their own: "85.0 µm" below 0.1 mm,
+/// "850 µin" below 0.001 in. Returns a dash if not finite.
 QString formatLength(double metres);
 QString formatLength(double metres, LengthUnit unit);
-/// "3.42 N"; `newtons` in [N].
+/// Formats a force [N]: "3.42 N".
 QString formatForce(double newtons);
-/// "12.3 mN·m" or "1.20 N·m"; `newtonMetres` in [N m].
+/// Formats a torque [N m]: "12.3 mN·m", "1.20 N·m".
 QString formatTorque(double newtonMetres);
-/// "1.23 kg", "45.6 g", "0.50 mg"; `kilograms` in [kg].
+/// Formats a mass [kg]: "1.23 kg", "45.6 g", "0.50 mg".
 QString formatMass(double kilograms);
-/// Four figures at most, without exponent and without zeros behind the last: "1600", "0.2", "0.00005".
+/// Formats at most four figures, without exponent or trailing zeros: "1600", "0.2", "0.00005". Digits before
+/// the point are all kept. Returns a dash if not finite.
 QString formatNumber(double value);
-/// "1.23 mJ", "45.6 µJ"; `joules` in [J].
+/// Formats an energy [J]: "1.23 mJ", "45.6 µJ".
 QString formatEnergy(double joules);
-/// "12 µs", "1.3 ms"; `seconds` in [s].
+/// Formats a duration [s]: "12.0 µs", "1.30 ms".
 QString formatDuration(double seconds);
 
 }  // namespace nearfit::ui

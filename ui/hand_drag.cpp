@@ -14,8 +14,8 @@ namespace nearfit::ui {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// How far a notch of the wheel moves the point, as a drag does [pixels].
-constexpr double kNotch = 15.0, kDegreesPerNotch = 120.0;  // Qt counts eighths of a degree, 15 a notch.
+/// A wheel notch moves the point as far as a drag of this many pixels.
+constexpr double kNotch = 15.0, kDegreesPerNotch = 120.0;  // Qt counts eighths of a degree; a notch is 15.
 
 glm::dvec3 vectorOf(const double* v) {
   return {v[0], v[1], v[2]};
@@ -37,7 +37,7 @@ HandDrag::Frame HandDrag::frame() const {
   const double half = camera_.GetParallelProjection() != 0
                           ? camera_.GetParallelScale()
                           : depth * std::tan(camera_.GetViewAngle() * kPi / 360.0);
-  // Behind the eye nothing is seen, and nothing moves.
+  // A point behind the eye is not seen, so it does not move.
   is.metresPerPixel = std::max(2.0 * half / height, 0.0);
   return is;
 }
@@ -61,7 +61,7 @@ bool HandDrag::eventFilter(QObject* watched, QEvent* event) {
 }
 
 bool HandDrag::press(const QMouseEvent& event) {
-  // A second button changes nothing of a drag.
+  // A second button does not disturb a drag.
   if (button_ != Qt::NoButton) return true;
   const bool isDrag = event.button() == Qt::LeftButton || event.button() == Qt::RightButton;
   if (!point_ || !isDrag || !event.modifiers().testFlag(Qt::ShiftModifier)) return false;
@@ -81,7 +81,7 @@ bool HandDrag::move(const QMouseEvent& event) {
     *point_ += shift;
     emit dragged(shift, glm::dquat(1.0, 0.0, 0.0, 0.0));
   } else {
-    // Half a turn over the whole view; the near side goes with the pointer.
+    // Half a turn over the view's height; the near side follows the pointer.
     const double perPixel = kPi / std::max(view_.height(), 1);
     emit dragged(glm::dvec3(0.0),
                  glm::angleAxis(perPixel * way.x(), is.up) * glm::angleAxis(perPixel * way.y(), is.right));
@@ -91,7 +91,7 @@ bool HandDrag::move(const QMouseEvent& event) {
 
 bool HandDrag::wheel(const QWheelEvent& event) {
   if (!point_ || !event.modifiers().testFlag(Qt::ShiftModifier)) return false;
-  // Some systems make a wheel with Shift one that goes sideways.
+  // Some systems turn Shift+wheel into a horizontal wheel.
   const QPoint angle = event.angleDelta();
   const double notches = (angle.y() != 0 ? angle.y() : angle.x()) / kDegreesPerNotch;
   const Frame is = frame();

@@ -14,8 +14,9 @@ class vtkCamera;
 
 namespace nearfit::ui {
 
-/// The mouse as a hand: with Shift held over a view, a left drag moves a point with the pointer, a right drag
-/// turns about it, the wheel moves it to and fro. Without a point, or without Shift, the mouse is the view's.
+/// The mouse as a hand. While Shift is held over a view, a left drag moves a point with the pointer, a right
+/// drag turns about it, and the wheel moves it along the line of sight. Without Shift, or without a point,
+/// events pass on to the view.
 class HandDrag : public QObject {
   Q_OBJECT
 
@@ -23,20 +24,21 @@ class HandDrag : public QObject {
   /// @param view, camera  Outlive this.
   HandDrag(QWidget& view, vtkCamera& camera);
 
-  /// In the world [m]; nothing: there is no hand to drag.
+  /// Sets the point that drags move, in the world [m]; nullopt turns dragging off.
   void setPoint(const std::optional<glm::dvec3>& point) { point_ = point; }
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  signals:
-  /// @param shift  In the world [m].
-  /// @param turn   About the point, in the world.
+  /// Emitted for each step of a drag or of the wheel.
+  /// @param shift  World [m].
+  /// @param turn   About the point, in the world frame.
   void dragged(const glm::dvec3& shift, const glm::dquat& turn);
 
  private:
   struct Frame {
-    glm::dvec3 right, up, away;  ///< Unit, in the world.
-    double metresPerPixel;       ///< At the point.
+    glm::dvec3 right, up, away;  ///< Unit vectors in the world.
+    double metresPerPixel;       ///< At the point's depth.
   };
   Frame frame() const;
   bool press(const QMouseEvent& event);
@@ -46,7 +48,7 @@ class HandDrag : public QObject {
   QWidget& view_;
   vtkCamera& camera_;
   std::optional<glm::dvec3> point_;
-  Qt::MouseButton button_ = Qt::NoButton;  ///< That drags.
+  Qt::MouseButton button_ = Qt::NoButton;  ///< The button that drags.
   QPoint last_;
 };
 

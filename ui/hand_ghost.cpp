@@ -14,7 +14,7 @@ namespace nearfit::ui {
 namespace {
 
 constexpr double kOpacity = 0.1, kEdgeOpacity = 0.9;
-/// A lead smaller than this part of the size is not seen: two outlines would only flicker.
+/// Below this fraction of the part's size the ghost is hidden: two almost equal outlines would flicker.
 constexpr double kLeastLead = 0.003;
 
 void setUp(vtkActor& actor, const QColor& colour, double opacity, float lineWidth) {

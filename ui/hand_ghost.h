@@ -15,23 +15,26 @@
 
 namespace nearfit::ui {
 
-/// Draws where the hand wants the moving part while the part stays behind: a translucent copy, and a line
-/// from its centre to the part's.
+/// Draws the ghost: where the hand wants the moving part while the part stays behind. A translucent copy of
+/// the part, and a line from the copy's centre of mass to the part's.
 class HandGhost {
  public:
-  /// @param parts    For the copy.   @param overlay  For the line, which parts would hide. Both outlive this.
+  /// @param parts    Draws the copy; outlives this.
+  /// @param overlay  Draws the line, which parts would hide; outlives this.
   HandGhost(vtkRenderer& parts, vtkRenderer& overlay);
 
-  /// Of the moving part; null when there is none.
+  /// Sets the moving part's shape; null if there is none.
   void setShape(std::shared_ptr<const PartShape> shape);
-  /// @param size  The part's diagonal [m].
+  /// Shows the ghost, unless the hand is too close to the part to tell them apart.
+  /// @param size  Diagonal of the part [m].
   void show(const ServoSnapshot& snapshot, double size);
   void clear();
   void setVisible(bool isVisible);
-  /// Cuts the copy open, as the part is: what the plane's normal points to stays. Null: it is whole.
+  /// Clips the copy, as the part is: keeps the side that the plane's normal points to. Null: whole. Holds a
+  /// reference to `cut` and so follows it.
   void setCut(vtkPlane* cut);
 
-  /// In the world, as VTK has them; false while it is not drawn.
+  /// Gets the copy's bounds in the world, VTK's order [m]; false while it is not drawn.
   bool visibleBounds(double bounds[6]) const;
 
  private:

@@ -10,7 +10,7 @@ namespace nearfit::ui {
 namespace {
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-/// A turn of less would be shown as none [degrees].
+/// A smaller turn would round to zero [degrees].
 constexpr double kLeastAngle = 0.05;
 
 }  // namespace

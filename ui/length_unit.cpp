@@ -65,7 +65,7 @@ double metresOf(LengthUnit unit) noexcept {
 
 QString lengthIn(LengthUnit unit, double metres, int decimals) {
   const double inUnits = metres / metresOf(unit);
-  // No "-0".
+  // Avoids "-0".
   const bool isZero = QString::number(inUnits, 'f', decimals).toDouble() == 0.0;
   return formatFixed(isZero ? 0.0 : inUnits, decimals) + QChar(' ') + symbolOf(unit);
 }

@@ -44,9 +44,9 @@ namespace {
 
 constexpr int kNoteTime = 8000;  ///< [ms]
 
-/// More than what rounding makes of a pose that is put into the scene.
+/// True if the poses differ by more than rounding.
 bool isElsewhere(const RigidTransform& a, const RigidTransform& b) {
-  constexpr double kSlack = 1e-9;  ///< [m]; half an angle [rad]
+  constexpr double kSlack = 1e-9;  ///< [m]; for rotations half the angle [rad].
   const glm::dquat turn = glm::conjugate(a.rotation) * b.rotation;
   return glm::distance(a.translation, b.translation) > kSlack ||
          glm::length(glm::dvec3(turn.x, turn.y, turn.z)) > kSlack;
@@ -96,7 +96,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
 }
 
 MainWindow::~MainWindow() {
-  // A number that is being typed counts when its dialog is hidden: while there is all that it goes to.
+  // Hiding the dialog commits a number being typed, so delete it while all receivers still exist.
   delete feelDialog_;
 }
 
@@ -255,7 +255,7 @@ void MainWindow::showFailure(const Failure& failure) {
   if (failureSink_) {
     failureSink_(failure);
   } else {
-    // Whatever has the keys: the servo can be stopped.
+    // The servo must be stoppable whichever window has the focus.
     ui::showFailure(failure, this, {actions_->stop});
   }
 }
@@ -283,7 +283,7 @@ void MainWindow::dropEvent(QDropEvent* event) {
   for (const QUrl& url : event->mimeData()->urls()) {
     if (url.isLocalFile()) files << url.toLocalFile();
   }
-  // Asks: not while whoever is dragging waits for an answer.
+  // Deferred: it asks the user, and the drag source waits until this returns.
   if (!files.isEmpty()) QTimer::singleShot(0, this, [this, files] { document_->dropFiles(files); });
   event->acceptProposedAction();
 }

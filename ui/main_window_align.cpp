@@ -1,4 +1,4 @@
-// The tools that align parts and move them to contact, and what the window tells them.
+// MainWindow: sets up and updates the tools that align parts and move them to contact.
 #include <QAction>
 #include <QMenu>
 #include <QToolBar>
@@ -36,7 +36,7 @@ void MainWindow::setUpAligning() {
 }
 
 void MainWindow::updateAligning() {
-  // What is in hand is moved by the hand.
+  // While the servo holds a part, the hand moves it.
   const bool canMove = !servo_.isTaken() && session_.scene().parts().size() > 1;
   const bool isFree = canMove && !document_->isBusy();
   align_->setAvailable(canMove, document_->isBusy());

@@ -1,4 +1,4 @@
-// What the main window does for the user: the wiring of its actions and panels to the session's commands.
+// MainWindow: connects actions and panels to the session's commands.
 #include <QAction>
 #include <QColorDialog>
 #include <QDockWidget>
@@ -45,7 +45,7 @@ void MainWindow::connectFileActions() {
     viewport_->fit();
     if (!selected()) selection_->select(session_.scene().movingPart());
   };
-  // What did not come leaves the view as it is; of several files some may have come.
+  // A failed load leaves the view alone, but some of several files may have been added.
   connect(document_.get(), &Document::sceneOpened, this, showWhole);
   connect(document_.get(), &Document::partsAdded, this, showWhole);
   connect(document_.get(), &Document::loaded, this, [showWhole](bool isComplete) {
@@ -130,7 +130,7 @@ void MainWindow::connectPanels() {
   connect(partsPanel_, &PartsPanel::lockRequested, this, &MainWindow::lockNodes);
   connect(treeActions_, &TreeActions::lockRequested, this, &MainWindow::lockNodes);
   connect(partsPanel_, &PartsPanel::renameRefused, this, &MainWindow::showNote);
-  // Later: the view is still busy with the drop, which a changed model would disturb.
+  // Deferred: the tree view is still handling the drop, which a model change would disturb.
   connect(partsPanel_, &PartsPanel::regroupRequested, this,
           [this](const SceneNodes& nodes, std::optional<GroupId> target) {
             QTimer::singleShot(0, this, [this, nodes, target] {
@@ -156,7 +156,7 @@ void MainWindow::attempt(const QString& what, const std::function<void()>& comma
 
 void MainWindow::takeInHand(std::optional<PartId> part) {
   if (session_.scene().movingPart() == part) return;
-  // What was in hand is put down where it is first, so that nothing of what was felt is lost.
+  // Stopping puts the part in hand down where it is; without it the pose felt would be lost.
   const bool wasRunning = servo_.isTaken();
   emit servoStopRequested();
   attempt(tr("The part could not be taken in hand."), [&] { session_.setMovingPart(part); });
@@ -221,7 +221,7 @@ bool MainWindow::openDemo() {
 void MainWindow::beginTour() {
   const bool isSomethingThere = !session_.scene().parts().empty() || demoScene_.isEmpty();
   if (isSomethingThere || document_->isBusy()) return manners_->beginTour();
-  // Of an empty window there is little to say.
+  // An empty window has little to explain, so open the demo first.
   auto* once = new QObject(this);
   connect(document_.get(), &Document::loaded, once, [this, once](bool isComplete) {
     once->deleteLater();

@@ -1,4 +1,4 @@
-// What the main window does about feeling: who holds the part, how contact feels, start and stop.
+// MainWindow: who holds the part, how contact feels, start and stop.
 #include <QAction>
 #include <QFileDialog>
 #include <utility>
@@ -22,7 +22,7 @@ void MainWindow::connectFeel() {
   connect(feelPanel_, &FeelPanel::handChanged, this, [this] {
     const bool isSame = servo_.hand == feelPanel_->hand() && servo_.deviceId == feelPanel_->device();
     if (wanted_) wanted_ = {feelPanel_->hand(), feelPanel_->device()};
-    // Whoever walks past the recorded hand is asked for no file: that waits for the button.
+    // Passing the recorded hand in the list must not ask for a file; the button does that.
     if (servo_.isTaken() && !isSame && !feelPanel_->isRecordingMissing()) restartServo();
   });
   connect(actions_->start, &QAction::triggered, this, &MainWindow::requestStart);
@@ -74,7 +74,7 @@ void MainWindow::changeHaptics(const HapticSettings& settings, const QString& la
                   .arg(QString::fromStdString(error.problem()), QString::fromStdString(error.remedy()));
   }
   feelDialog_->showRefusal(refusal);
-  // Back to what counts.
+  // Back to the settings that apply.
   if (!refusal.isEmpty()) showScene();
 }
 
@@ -97,7 +97,7 @@ void MainWindow::requestStart() {
   posePanel_->commit();
   if (feelPanel_->isRecordingMissing() && !askForRecording()) return;
   wanted_ = {feelPanel_->hand(), feelPanel_->device()};
-  // In another thread, as it may take seconds: only then can the servo start at once.
+  // Building hierarchies may take seconds; once they are ready the servo starts at once.
   document_->prepareHierarchies([this](bool isReady) {
     const std::optional<WantedHand> wanted = std::exchange(wanted_, std::nullopt);
     if (isReady && wanted) emit servoStartRequested(wanted->hand, wanted->device);

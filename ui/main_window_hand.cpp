@@ -1,4 +1,4 @@
-// What keys, mouse and numbers do to the selected part, and to the manual hand that holds it.
+// MainWindow: what keys, mouse and numbers do to the selected part and to the manual hand.
 #include <QAction>
 
 #include <glm/gtc/quaternion.hpp>
@@ -20,7 +20,8 @@ namespace {
 
 const glm::dquat kNoTurn(1.0, 0.0, 0.0, 0.0);
 
-/// @param centre  That it turns about, in the part's frame.
+/// Returns the pose shifted, and turned about `centre`, in the world.
+/// @param centre  In the part's frame [m].
 RigidTransform stepped(const RigidTransform& worldFromPart, const glm::dvec3& shift, const glm::dquat& turn,
                        const glm::dvec3& centre) {
   const glm::dquat rotation =
@@ -50,7 +51,7 @@ void MainWindow::connectPlacing() {
   connect(placing_, &PlacingTools::noted, this, &MainWindow::showNote);
   connect(placing_, &PlacingTools::hierarchiesWanted, this,
           [this] { document_->prepareHierarchies([](bool) {}); });
-  // A drag that is still settling is a step before the one that is asked for.
+  // A drag that is still settling must become a step before the one to undo.
   for (const QAction* action : {actions_->undo, actions_->redo})
     connect(action, &QAction::triggered, placing_, &PlacingTools::commit);
   connect(document_.get(), &Document::sceneNeeded, placing_, &PlacingTools::commit);
@@ -97,7 +98,7 @@ bool MainWindow::isHandManual() const {
 
 void MainWindow::dragHand(const glm::dvec3& shift, const glm::dquat& turn) {
   if (!isHandManual()) return;
-  // Of what is in hand, before its first snapshot too.
+  // Not from centreInPart_, which is unknown before the first snapshot.
   const Part* part = session_.scene().find(session_.scene().movingPart().value_or(PartId{}));
   if (part != nullptr) moveHand(stepped(handPose_, shift, turn, part->geometry->mass.centre));
 }

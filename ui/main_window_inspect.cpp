@@ -1,4 +1,4 @@
-// The tools that look at the scene and change nothing of it.
+// MainWindow: sets up the tools that inspect the scene without changing it.
 #include <QAction>
 #include <QMenu>
 #include <QToolBar>

@@ -1,4 +1,4 @@
-// What the window says of the selected parts, and which of them may be moved.
+// MainWindow: shows the selected parts and whether they may be moved.
 #include <algorithm>
 
 #include "ui/main_window.h"
@@ -12,7 +12,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// The part's name, the group's, or "Lid and 2 more".
+/// Returns the part's name, the group's, or "Lid and 2 more".
 QString headingOf(const Scene& scene, const Selection& selection) {
   if (!selection.current()) return {};
   const SceneNodes outer = outermost(scene, selection.nodes());
@@ -23,7 +23,8 @@ QString headingOf(const Scene& scene, const Selection& selection) {
   return others > 0 ? MainWindow::tr("%1 and %n more", nullptr, others).arg(name) : name;
 }
 
-/// Whether all that is selected is still there: a scene that changes is told to others first.
+/// True if all selected nodes still exist. Other listeners may hear of a scene change
+/// before the selection does.
 bool isUpToDate(const Scene& scene, const SceneNodes& nodes) {
   return std::ranges::all_of(nodes.parts, [&](PartId part) { return scene.find(part) != nullptr; }) &&
          std::ranges::all_of(nodes.groups, [&](GroupId group) { return scene.findGroup(group) != nullptr; });

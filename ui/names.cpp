@@ -7,7 +7,7 @@ namespace nearfit::ui {
 namespace {
 
 constexpr int kMaxCharacters = 40;
-/// Letters without a space that every place where a text wraps has room for.
+/// Letters without a break that fit wherever a text wraps.
 constexpr int kUnbroken = 16;
 constexpr QChar kCut(0x2026), kMayBreak(0x200B);
 
@@ -28,7 +28,7 @@ QString breakable(const QString& text) {
   int unbroken = 0;
   for (const QChar letter : text) {
     unbroken = letter.isSpace() ? 0 : unbroken + 1;
-    // Not between the halves of one letter.
+    // Do not split a surrogate pair.
     if (unbroken > kUnbroken && !letter.isLowSurrogate()) {
       result += kMayBreak;
       unbroken = 1;

@@ -6,16 +6,16 @@
 
 namespace nearfit::ui {
 
-/// A name as it stands within a text: cut in the middle where it is longer than a line should be.
+/// Shortens a name for use within a text: beyond 40 characters its middle becomes an ellipsis.
 QString shortName(const QString& name);
 QString shortName(const std::string& name);
 
-/// A text for a label that wraps: also words that are too long for a line are broken.
+/// Returns `text` for a label that wraps, with zero-width spaces where long words may break.
 QString breakable(const QString& text);
 
-/// "a", "a and b", "a, b and c", "a, b and 4 more"; each cut where it is long.
-/// @param most   Names that are said, at least 1.
-/// @param count  How many there are, when not all of them are given.
+/// Returns "a", "a and b", "a, b and c" or "a, b and 4 more"; each name shortened.
+/// @param most   Max number of names listed; at least 1.
+/// @param count  Total number, where `names` does not hold all.
 QString listOfNames(const QStringList& names, int most, int count = 0);
 
 }  // namespace nearfit::ui

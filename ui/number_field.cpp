@@ -16,7 +16,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// A step that is easy to count in: 1, 2 or 5 times a power of ten.
+/// Rounds a step to 1, 2 or 5 times a power of ten.
 double roundStep(double step) {
   const double power = std::pow(10.0, std::floor(std::log10(step)));
   const double figure = step / power;
@@ -88,7 +88,7 @@ void NumberField::setQuantityStep(double step) {
 void NumberField::showMixed(const QString& word) {
   if (isUnsettled()) return;
   const QSignalBlocker blocker(this);
-  // It stands in place of the least value.
+  // Qt shows this text in place of the minimum.
   setSpecialValueText(word);
   setValue(minimum());
   exact_ = lower_;
@@ -102,7 +102,7 @@ void NumberField::showQuantity(double value) {
   if (isUnsettled()) return;
   const QSignalBlocker blocker(this);
   setSpecialValueText({});
-  // Plus zero: no "-0".
+  // Adding zero turns "-0" into "0".
   setValue(value / unit_.inSi + 0.0);
   exact_ = value;
 }
@@ -189,7 +189,7 @@ double NumberField::valueFromText(const QString& text) const {
 }
 
 QValidator::State NumberField::validate(QString& text, int& /*position*/) const {
-  // Never Invalid: nothing that is typed is refused before it is whole.
+  // Never Invalid: an unfinished text must not be refused while it is typed.
   return read(text).fault.isEmpty() ? QValidator::Acceptable : QValidator::Intermediate;
 }
 
@@ -208,7 +208,7 @@ bool NumberField::event(QEvent* event) {
          "+= 5 adds to what is there; so do -=, *= and /=.");
   QStringList text;
   if (!toolTip().isEmpty()) text << toolTip();
-  // Of no use while nothing can be typed.
+  // Useless while nothing can be typed.
   if (isEnabled()) text << help;
   QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(),
                      isFaulty() ? fault_ : text.join(QChar('\n')), this);
@@ -237,7 +237,7 @@ void NumberField::keyPressEvent(QKeyEvent* event) {
 }
 
 void NumberField::focusOutEvent(QFocusEvent* event) {
-  // A menu that opens takes the focus and gives it back.
+  // A menu takes the focus only for a while.
   if (event->reason() != Qt::PopupFocusReason && lineEdit()->isModified()) {
     const Reading reading = read(lineEdit()->text());
     if (!reading.fault.isEmpty()) {

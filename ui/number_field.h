@@ -7,56 +7,58 @@
 
 namespace nearfit::ui {
 
-/// A number with its unit. Takes quantities with units and arithmetic (core/text/quantity.h): "1/4 in",
-/// "2*(3 mm + 0.5 cm)", "+= 5" to add to what is there. Counts once it is left by Return, by the focus or by
-/// a step; not at each key. What cannot be read stays as it was typed, marked, with the mistake explained,
-/// until it is mended or taken back by Escape; the number is then still the one before.
+/// A field for a number with a unit. Takes units and arithmetic as core/text/quantity.h does: "1/4 in",
+/// "2*(3 mm + 0.5 cm)", "+= 5" to add to the present value. Commits on Return, loss of focus or a step, not
+/// on each key. Text that cannot be read stays as typed, marked and with the mistake explained, until it
+/// is corrected or reverted by Escape; the value does not change meanwhile.
 ///
-/// value() and the like are in the shown unit; quantity() and the like in SI.
+/// value() and other members of QDoubleSpinBox use the shown unit; quantity() and its like use SI.
 class NumberField : public QDoubleSpinBox {
   Q_OBJECT
 
  public:
   explicit NumberField(QWidget* parent = nullptr);
 
-  /// A unit as it is shown, with the space before it if it has one: " N/m". One that cannot be read is shown
-  /// all the same, and numbers have no dimension then.
+  /// Sets the unit, written as shown, with a leading space if it has one: " N/m". An unknown unit is shown
+  /// too, and the number then has no dimension.
   void setUnit(const QString& unit);
-  /// A length in the unit that the user has chosen (LengthUnit).
-  /// @param decimals  In millimetres.
+  /// Makes this a length in the unit that the user chose (LengthUnit).
+  /// @param decimals  Decimals in millimetres.
   void setLength(int decimals);
-  /// Only fields of a length follow.
+  /// Changes the shown unit and keeps the quantity. Ignored unless setLength() was called.
   void setLengthUnit(LengthUnit unit);
 
-  /// In SI, as all of these.
+  /// Sets the limits [SI].
   void setQuantityRange(double lower, double upper);
+  /// Sets the step of arrows and wheel [SI], rounded to 1, 2 or 5 times a power of ten of the shown unit.
   void setQuantityStep(double step);
-  /// No edit: nothing is told. What is being typed, or cannot be read, is left alone.
+  /// Shows a quantity [SI] without emitting a signal. Ignored while the user is typing or
+  /// the text cannot be read.
   void showQuantity(double value);
-  /// Shows a word in place of a number, for several that differ; it has the quantity of the lower limit until
-  /// one is typed or shown, and takes no steps.
+  /// Shows a word instead of a number, for several values that differ. Until a number is typed or shown,
+  /// quantity() is the lower limit and steps do nothing.
   void showMixed(const QString& word);
-  /// As it was typed or set, not as it is rounded to be shown.
+  /// Returns the quantity as typed or set [SI], not as rounded for display.
   double quantity() const;
-  /// One of the shown unit, in SI.
+  /// Returns the size of one shown unit [SI].
   double shownUnit() const noexcept { return unit_.inSi; }
-  /// "From 0 to 10 mm": the limits in the shown unit.
+  /// Returns the limits in the shown unit: "From 0 to 10 mm".
   QString limitsText() const;
 
-  /// A tool tip, with limitsText() behind it.
+  /// Sets the tool tip: `help`, then limitsText().
   void setHelp(const QString& help);
 
-  /// Shows no zeros behind the last figure, for numbers whose size is anyone's guess.
+  /// Hides trailing zeros, for numbers of any magnitude.
   void setTrimmed(bool isTrimmed);
-  /// Whether the change that is being told comes from a step (arrow, key, wheel), not from typing.
+  /// True while quantityEdited() comes from a step (arrow, key, wheel) instead of typing.
   bool isStepping() const noexcept { return isStepping_; }
-  /// Whether something stands here that has not been taken over: it is being typed, or cannot be read.
+  /// True if the text is not committed: being typed, or cannot be read.
   bool isUnsettled() const;
-  /// Whether what stands here cannot be read.
+  /// True if the text cannot be read.
   bool isFaulty() const noexcept { return !fault_.isEmpty(); }
-  /// Takes over what is being typed, as leaving the field does.
+  /// Commits text being typed, as leaving the field does; marks it if it cannot be read.
   void settle();
-  /// Forgets what is being typed.
+  /// Discards text being typed and shows the value again.
   void takeBack();
 
   QString textFromValue(double value) const override;
@@ -65,7 +67,7 @@ class NumberField : public QDoubleSpinBox {
   void stepBy(int steps) override;
 
  signals:
-  /// The user has changed the number. In SI.
+  /// Emitted when the user has changed the number; `value` in SI.
   void quantityEdited(double value);
 
  protected:
@@ -76,8 +78,8 @@ class NumberField : public QDoubleSpinBox {
  private:
   struct Reading {
     double quantity = 0.0;
-    QString fault;     ///< Empty when it could be read.
-    int position = 0;  ///< Of the mistake, in the text.
+    QString fault;     ///< Empty if it could be read.
+    int position = 0;  ///< Index of the mistake in the text.
   };
   Reading read(const QString& text) const;
   bool isMixed() const;
@@ -86,12 +88,12 @@ class NumberField : public QDoubleSpinBox {
   void applyUnit(const QString& name, double inSi);
 
   Unit unit_;
-  QString unitText_;  ///< With the space before it.
+  QString unitText_;  ///< With its leading space.
   bool isLength_ = false;
-  bool isReadable_ = true;  ///< Of the unit.
+  bool isReadable_ = true;  ///< False: the unit is unknown.
   int millimetreDecimals_ = 3;
-  double lower_ = 0.0, upper_ = 0.0, step_ = 0.0;  ///< In SI; the step 0 when it is no length's.
-  mutable double exact_ = 0.0;                     ///< In SI; counts while it rounds to the number shown.
+  double lower_ = 0.0, upper_ = 0.0, step_ = 0.0;  ///< In SI; step_ is 0 until set.
+  mutable double exact_ = 0.0;                     ///< In SI; valid while it rounds to value().
   QString fault_;
   QString help_;
   bool isTrimmed_ = false;

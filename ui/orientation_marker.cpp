@@ -22,12 +22,11 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr float kPixels = 100.0F, kPadding = 10.0F;  ///< From the corner of the view.
-/// Of labels. VTK draws their letters anew for each picture, and would make them ten times as tall as they
-/// are seen.
+constexpr float kPixels = 100.0F, kPadding = 10.0F;  ///< Size; distance from the view's corner.
+/// Font size of labels. VTK renders them for each picture, by default ten times as tall as they appear.
 constexpr int kFontSize = 36;
-/// Of a handle's rim, and rings within it, which is of one colour: VTK would make 15,000 triangles for each
-/// picture.
+/// Segments of a handle's rim, and rings inside it, which all have one colour. VTK's defaults make 15,000
+/// triangles for each picture.
 constexpr int kHandleSides = 32, kRings = 1;
 
 void coarsen(vtkActor& actor) {
@@ -39,8 +38,8 @@ void coarsen(vtkActor& actor) {
   handle->SetTextureResolution(kRings);
 }
 
-/// The axes in the colours that the gizmo and the bars have: VTK's own are others for y and z. The balls are
-/// painted by the ground of their labels, the rods by the lines that they are tubes of.
+/// Gives the axes the colours of gizmo and bars; VTK's differ for y and z. Balls take the background colour
+/// of their labels, rods the cell colours of the lines inside their tubes.
 void colour(vtkCameraOrientationRepresentation& shape, vtkPropCollection& props) {
   vtkTextProperty* labels[3][2] = {{shape.GetXPlusLabelProperty(), shape.GetXMinusLabelProperty()},
                                    {shape.GetYPlusLabelProperty(), shape.GetYMinusLabelProperty()},

@@ -5,12 +5,12 @@ class vtkRenderer;
 
 namespace nearfit::ui {
 
-/// The axes in the corner of a view, which turn with it and turn it.
-///
-/// @param parent  Whose camera they show; it has a window and an interactor.
+/// Sets up the axes in the corner of a view, which turn with its camera and turn it when dragged.
+/// @param parent  Renderer whose camera they show; must have a window and an interactor.
 void setUpOrientationMarker(vtkCameraOrientationWidget& marker, vtkRenderer& parent);
 
-/// @param scale  1: as large as the view shows them; pictures of the view have others.
+/// Sets the marker's size.
+/// @param scale  1: the size in the view; exported pictures use others.
 void sizeOrientationMarker(vtkCameraOrientationWidget& marker, double scale);
 
 }  // namespace nearfit::ui

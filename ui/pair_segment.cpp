@@ -13,7 +13,7 @@ namespace {
 void setUp(vtkActor& actor, vtkPolyData& data, const QColor& colour, float size) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(&data);
-  // What is thinner lies over what is wider.
+  // Thinner lines and dots lie over wider ones.
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
   mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, static_cast<double>(size));
   mapper->SetRelativeCoincidentTopologyPointOffsetParameter(static_cast<double>(size));
@@ -26,8 +26,8 @@ void setUp(vtkActor& actor, vtkPolyData& data, const QColor& colour, float size)
   look.SetPointSize(devicePixels(size));
 }
 
-/// Dots are discs. VTK's spheres bulge towards the eye, each as far as it is wide: those of the rims would
-/// hide the dots in them.
+/// Draws dots as discs. VTK's spheres bulge towards the eye by their radius, so those of the rims
+/// would hide the dots inside.
 void makeRound(vtkActor& actor) {
   actor.GetShaderProperty()->AddFragmentShaderReplacement(
       "//VTK::Normal::Impl", true,
@@ -51,7 +51,7 @@ PairSegment::PairSegment(vtkRenderer& overlay, const QColor& colour) : overlay_(
   segment_->SetLines(line);
   dots_->SetPoints(ends_);
   dots_->SetVerts(dots);
-  // Later actors win where depths are equal: a white rim first, the colour over it.
+  // Later actors win at equal depth: the white rim first, the colour over it.
   setUp(*halo_, *segment_.Get(), Qt::white, 7.0F);
   setUp(*rims_, *dots_.Get(), Qt::white, 15.0F);
   setUp(*line_, *segment_.Get(), colour, 3.5F);

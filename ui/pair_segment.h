@@ -12,14 +12,14 @@
 
 namespace nearfit::ui {
 
-/// Draws what lies between two parts: a segment with its two ends.
+/// Draws a segment between two parts, with a dot at each end.
 class PairSegment {
  public:
-  /// @param overlay  Where parts do not hide it.
+  /// @param overlay  Renderer that parts do not hide. May be destroyed before this.
   PairSegment(vtkRenderer& overlay, const QColor& colour);
   ~PairSegment();
 
-  /// In the world [m].
+  /// Shows the segment between two world points [m].
   void show(const glm::dvec3& from, const glm::dvec3& to);
   void clear();
   bool isShown() const { return isShown_; }
@@ -27,7 +27,7 @@ class PairSegment {
  private:
   void applyVisibility();
 
-  vtkWeakPointer<vtkRenderer> overlay_;  ///< The view may go first.
+  vtkWeakPointer<vtkRenderer> overlay_;  ///< Weak: the view may be destroyed first.
   vtkNew<vtkPoints> ends_;
   vtkNew<vtkPolyData> segment_, dots_;
   vtkNew<vtkActor> halo_, line_, rims_, points_;

@@ -13,11 +13,11 @@ namespace nearfit::ui {
 namespace {
 
 constexpr double kTranslucentOpacity = 0.28, kWarningOpacity = 0.45;
-/// Faint enough that what lies before a selected part keeps its shape and colour.
+/// Faint enough to leave the shape and colour of parts in front visible.
 constexpr double kVeilOpacity = 0.13, kVeilEdgeOpacity = 0.55;
 constexpr float kEdgeWidth = 1.3F;
-/// Of its edges that are not behind it, and of the disc around it that they may cover: beyond that a small
-/// part would be a blot.
+/// Share of edges on the near side, and max share of the enclosing disc that they may cover: with more, a
+/// small part would be a blot.
 constexpr double kSeenEdges = 0.5, kMostInk = 0.4;
 
 void setEdgeColour(vtkProperty& property, const PartLook& look) {
@@ -92,7 +92,7 @@ bool PartActor::setAppearance(const Colour& colour, bool isVisible, const PartLo
 }
 
 void PartActor::hideBackFaces() {
-  // Half of the work of drawing a closed surface is behind it; into one that is cut open one sees.
+  // Back faces are half of the work of a closed surface; a part cut open shows them.
   look_->SetBackfaceCulling(shape().hidesItsInside && isOpaque() && !mappers_->isCut());
 }
 

@@ -14,39 +14,40 @@
 
 namespace nearfit::ui {
 
-/// How a part is drawn besides its own colour.
+/// How a part is drawn, apart from its own colour.
 struct PartLook {
   bool isMoving = false;
   bool isSelected = false;
   bool isTranslucent = false;
-  bool isOverlapping = false;  ///< With the moving part, which so cannot feel it.
+  bool isOverlapping = false;  ///< Overlaps the moving part, which therefore cannot feel it.
   bool hasEdges = true;
-  double opacity = 1.0;  ///< Of the part itself.
+  double opacity = 1.0;  ///< The part's own opacity, 0 to 1.
   bool operator==(const PartLook&) const = default;
 };
 
-/// One part in the view: surface and edge lines. In the renderer from construction to destruction. While it
-/// is selected, a faint veil and its edges are drawn over everything else, so that it is seen behind other
-/// parts.
+/// The actors of one part: surface and edge lines. In the renderer from construction to destruction.
+/// While the part is selected, a faint veil and its edges are also drawn over everything, so that it
+/// shows behind other parts.
 class PartActor {
  public:
-  /// @param over  May be null: then nothing shows through.
+  /// @param renderer  Outlives this.
+  /// @param over      Draws the veil over everything; outlives this. Null: no veil.
   PartActor(vtkRenderer& renderer, std::shared_ptr<ShapeMappers> mappers, vtkRenderer* over = nullptr);
   ~PartActor();
   PartActor(const PartActor&) = delete;
   PartActor& operator=(const PartActor&) = delete;
 
-  /// True when it was elsewhere before.
+  /// Moves the part; true if that changed its pose.
   bool setPose(const RigidTransform& worldFromPart);
-  /// True when it looked otherwise before.
+  /// True if the appearance changed.
   bool setAppearance(const Colour& colour, bool isVisible, const PartLook& look);
-  /// How large it is seen: where its edges would cover it they are left out, of what is selected too.
+  /// Sets the scale at which it is seen; hides edge lines, the veil's too, where they would cover the part.
   void setScale(double pixelsPerMetre);
-  /// One of the shape's levels. Edges are drawn with the mesh itself alone.
+  /// Draws one of the shape's levels. Edge lines are drawn with level 0, the mesh itself, only.
   void setLevel(std::size_t level);
-  /// Of the same shape: cut open, or whole again.
+  /// Exchanges the mappers: cut open or whole, of the same shape.
   void setMappers(std::shared_ptr<ShapeMappers> mappers);
-  /// While a picture of it is kept it need not be drawn.
+  /// Hides the part while a kept picture shows it (KeptRenderer).
   void setKept(bool isKept);
 
   const PartShape& shape() const noexcept { return *mappers_->shape(); }
@@ -55,11 +56,13 @@ class PartActor {
   bool isOpaque() const noexcept;
   std::size_t level() const noexcept { return level_; }
   bool isKept() const noexcept { return isKept_; }
-  /// Of the mesh itself, in the world, as VTK has them [m].
+  /// Gets the bounds of the mesh itself in the world, VTK's order [m].
   void bounds(double bounds[6]) const;
-  /// What draws it as it is, piece by piece.
+  /// Appends the actors that draw the visible part, piece by piece.
   void addTo(std::vector<vtkProp*>& props) const;
+  /// Actors of the surface's pieces.
   const std::vector<vtkSmartPointer<vtkActor>>& pieces() const noexcept { return pieces_; }
+  /// Shared by all pieces.
   vtkProperty& look() const noexcept { return *look_.Get(); }
   vtkProperty& edgeLook() const noexcept { return *edges_->GetProperty(); }
 
@@ -71,10 +74,10 @@ class PartActor {
   vtkRenderer& renderer_;
   std::shared_ptr<ShapeMappers> mappers_;
   vtkRenderer* over_;
-  std::vector<vtkSmartPointer<vtkActor>> pieces_;  ///< The first also draws drafts.
+  std::vector<vtkSmartPointer<vtkActor>> pieces_;  ///< The first one also draws drafts.
   vtkNew<vtkProperty> look_;
   vtkNew<vtkActor> edges_;
-  /// While it is selected, in over_.
+  /// In over_ while selected; else null.
   vtkSmartPointer<vtkActor> veil_, veilEdges_;
   vtkNew<vtkMatrix4x4> pose_;
   std::optional<RigidTransform> worldFromPart_;
@@ -82,7 +85,7 @@ class PartActor {
   Colour colour_;
   std::size_t level_ = 0;
   bool isVisible_ = true, isKept_ = false;
-  bool areEdgesApart_ = true;  ///< As large as it is seen, edges do not run into one another.
+  bool areEdgesApart_ = true;  ///< At the present scale edge lines do not cover the part.
 };
 
 }  // namespace nearfit::ui

@@ -15,11 +15,11 @@
 namespace nearfit::ui {
 namespace {
 
-/// Edges sharper than this are drawn as lines and not shaded over [degrees]. Finer facets of tessellated
+/// Edges sharper than this are drawn as lines and get split normals [degrees]. Facets of finely tessellated
 /// cylinders stay below it.
 constexpr double kFeatureAngle = 30.0;
 
-/// Shares of the time that a shape takes.
+/// Progress after each stage.
 constexpr double kNormalsMade = 0.35, kEdgesMade = 0.6, kDraftsMade = 0.85;
 
 vtkSmartPointer<vtkPolyData> trianglesOf(const TriangleMesh& mesh) {
@@ -43,7 +43,7 @@ vtkSmartPointer<vtkPolyData> trianglesOf(const TriangleMesh& mesh) {
   return data;
 }
 
-/// One at a time is drawn without anybody waiting for it, software OpenGL or not.
+/// Draws without a noticeable wait, in software OpenGL too.
 constexpr vtkIdType kPieceTriangles = 100'000;
 
 std::vector<vtkSmartPointer<vtkPolyData>> piecesOf(vtkPolyData& surface) {
@@ -69,7 +69,7 @@ std::vector<vtkSmartPointer<vtkPolyData>> piecesOf(vtkPolyData& surface) {
   return pieces;
 }
 
-/// Of edges of two points each.
+/// Sums the lengths of two-point lines.
 double lengthOf(vtkPolyData& edges) {
   double length = 0.0;
   vtkNew<vtkIdList> ends;
@@ -104,7 +104,7 @@ PartShape makePartShape(const TriangleMesh& mesh, const ProgressCallback& progre
   normals->SetInputData(triangles);
   normals->SetFeatureAngle(kFeatureAngle);
   normals->SplittingOn();
-  // The mesh's own orientation is the truth; guessing another would hide a fault of the file.
+  // Trust the mesh's orientation: guessing another would hide a fault in the file.
   normals->ConsistencyOff();
   normals->AutoOrientNormalsOff();
   normals->Update();
@@ -141,9 +141,9 @@ std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& 
     const auto found = entries_.find(geometry.get());
     if (found != entries_.end() && !found->second.geometry.expired()) return found->second.shape;
   }
-  // Outside the lock, so that a large mesh being prepared does not hold up the drawing of another.
+  // Not under the lock: preparing a large mesh must not hold up drawing another.
   const auto shape = std::make_shared<PartShape>(makePartShape(geometry->mesh, progress));
-  // Of several components each may be inside out.
+  // With several components, each may be inside out.
   shape->hidesItsInside =
       geometry->mass.basis == MassBasis::VolumeIntegrals && geometry->mesh.topology().components == 1;
   const std::lock_guard lock(mutex_);
@@ -153,7 +153,7 @@ std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& 
 }
 
 void PartShapeCache::prepare(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress) {
-  // Of an empty mesh too something is made.
+  // An empty mesh takes some work too.
   const auto workOf = [](const PartGeometryPtr& geometry) {
     return 1.0 + static_cast<double>(geometry->mesh.triangles().size());
   };

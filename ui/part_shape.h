@@ -16,37 +16,37 @@
 
 namespace nearfit::ui {
 
-/// A mesh as the graphics card wants it, in the part's frame [m]. Not changed once made.
+/// A mesh prepared for drawing and picking, in the part's frame [m]. Immutable once made.
 struct PartShape {
-  vtkSmartPointer<vtkPolyData> surface;  ///< Triangles with point normals, split along sharp edges.
+  vtkSmartPointer<vtkPolyData> surface;  ///< Triangles with point normals; vertices split along sharp edges.
   vtkSmartPointer<vtkPolyData> edges;    ///< Sharp, open and non-manifold edges.
-  double edgeLength = 0.0;               ///< Of all of them [m].
-  /// The surface again, in pieces that are drawn in a moment each; they share its points.
+  double edgeLength = 0.0;               ///< Total length of `edges` [m].
+  /// `surface` in pieces that each draw quickly; they share its points.
   std::vector<vtkSmartPointer<vtkPolyData>> pieces;
-  /// For what moves where there is too much to draw: coarser and coarser, with normals; none of a small mesh.
+  /// Ever coarser stand-ins with normals, for motion in large scenes; empty for a small mesh.
   std::vector<vtkSmartPointer<vtkPolyData>> drafts;
-  std::vector<DetailLevel> levels;  ///< The surface's, then each draft's.
-  /// Search structure for picking, of the surface. Not for several threads at once.
+  std::vector<DetailLevel> levels;  ///< The level of `surface`, then one for each draft.
+  /// Search structure of `surface` for picking. Not thread-safe.
   vtkSmartPointer<vtkStaticCellLocator> locator;
-  /// Nobody outside sees a triangle from behind.
+  /// True if no back face is visible from outside.
   bool hidesItsInside = false;
 
-  /// Good enough for what is drawn as a veil.
+  /// Returns the finest draft, or the surface if there is none; fine enough for a veil.
   vtkPolyData* finestDraft() const { return drafts.empty() ? surface.Get() : drafts.front().Get(); }
 };
 
-/// Throws Cancelled.
+/// Builds the shape of a mesh; seconds for millions of triangles. Throws Cancelled.
 PartShape makePartShape(const TriangleMesh& mesh, const ProgressCallback& progress = {});
 
-/// One shape for each geometry while anyone holds that geometry. Any thread: loading fills it ahead of
-/// drawing.
+/// Caches one shape for each geometry, as long as that geometry exists. Thread-safe: loading
+/// fills it before drawing.
 class PartShapeCache {
  public:
-  /// Makes the shape at the first call for a geometry: seconds for millions of triangles.
-  /// Throws Cancelled.
+  /// Returns the shape; the first call for a geometry builds it, which takes seconds for millions of
+  /// triangles. Throws Cancelled.
   std::shared_ptr<const PartShape> shapeOf(const PartGeometryPtr& geometry,
                                            const ProgressCallback& progress = {});
-  /// Makes those of all of them. Throws Cancelled.
+  /// Builds the missing shapes of all. Throws Cancelled.
   void prepare(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress);
 
  private:

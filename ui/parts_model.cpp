@@ -172,7 +172,7 @@ QVariant PartsModel::headerData(int section, Qt::Orientation orientation, int ro
 }
 
 Qt::ItemFlags PartsModel::flags(const QModelIndex& index) const {
-  // At the top, too, something can be dropped.
+  // Nodes can be dropped at the top level.
   if (!index.isValid()) return Qt::ItemIsDropEnabled;
   Qt::ItemFlags result = QAbstractItemModel::flags(index) | Qt::ItemIsDragEnabled;
   const std::optional<PartId> part = partAt(index);
@@ -184,7 +184,7 @@ Qt::ItemFlags PartsModel::flags(const QModelIndex& index) const {
 }
 
 QString PartsModel::renameRefusal(const QModelIndex& index, const QString& name) const {
-  // The scene is a value, and cheap to copy: one to try it on.
+  // Try the name on a copy; the scene is a value and cheap to copy.
   Scene tried = scene_;
   try {
     if (const std::optional<PartId> id = partAt(index)) {
@@ -241,7 +241,7 @@ bool PartsModel::dropMimeData(const QMimeData* data, Qt::DropAction, int, int, c
   QDataStream in(&bytes, QIODevice::ReadOnly);
   qint64 process = 0;
   in >> process;
-  // The numbers of another program's scene mean other things here.
+  // IDs from another process mean other nodes here.
   if (process != QCoreApplication::applicationPid()) return false;
   SceneNodes nodes;
   while (!in.atEnd()) {
@@ -253,7 +253,7 @@ bool PartsModel::dropMimeData(const QMimeData* data, Qt::DropAction, int, int, c
     if (!isPart && scene_.findGroup(GroupId{id}) != nullptr) nodes.groups.push_back(GroupId{id});
   }
   if (!nodes.isEmpty()) emit regroupRequested(nodes, groupAt(parent));
-  // The scene moves them, not the view: that would take the rows away.
+  // False, as the session moves the nodes: after true the view would remove the rows.
   return false;
 }
 

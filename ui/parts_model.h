@@ -8,8 +8,8 @@
 
 namespace nearfit::ui {
 
-/// The scene's groups and parts as a tree, in each group the groups before the parts; icons for what can be
-/// switched. Shows a scene and asks for changes by signals; changes nothing itself.
+/// The scene's groups and parts as a tree, in each group its groups before its parts; columns of icons show
+/// and switch states. Changes nothing itself: requests changes by signals.
 class PartsModel : public QAbstractItemModel {
   Q_OBJECT
 
@@ -18,13 +18,16 @@ class PartsModel : public QAbstractItemModel {
 
   explicit PartsModel(QObject* parent = nullptr);
 
-  /// Keeps rows, and so what is expanded, where the same parts are in the same groups.
+  /// Shows `scene`. Keeps the rows, and so what is expanded, if the tree and all meshes are the same;
+  /// else resets the model.
   void setScene(const Scene& scene);
+  /// Nullopt if the index is invalid or a group's.
   std::optional<PartId> partAt(const QModelIndex& index) const;
+  /// Nullopt if the index is invalid or a part's.
   std::optional<GroupId> groupAt(const QModelIndex& index) const;
-  /// Why what stands there cannot have that name, as a sentence; empty when it can.
+  /// Returns why the node cannot have that name, as a sentence; empty if it can.
   QString renameRefusal(const QModelIndex& index, const QString& name) const;
-  /// Of the name; invalid when it is not in the scene.
+  /// Returns the index in column Name; invalid if the node is not in the scene.
   QModelIndex indexOf(PartId part) const;
   QModelIndex indexOf(GroupId group) const;
 
@@ -43,13 +46,15 @@ class PartsModel : public QAbstractItemModel {
                     const QModelIndex& parent) override;
 
  signals:
+  /// Emitted when the user has typed a new name for a part; trimmed.
   void renameRequested(nearfit::PartId part, const QString& name);
+  /// The same for a group.
   void groupRenameRequested(nearfit::GroupId group, const QString& name);
-  /// Nodes were dropped on a group, or at the top.
+  /// Emitted when nodes were dropped on a group, or at the top level (nullopt).
   void regroupRequested(const nearfit::SceneNodes& nodes, std::optional<nearfit::GroupId> target);
 
  private:
-  /// A row: one of both.
+  /// A row: either a part or a group.
   struct Node {
     std::optional<PartId> part;
     std::optional<GroupId> group;
@@ -64,7 +69,7 @@ class PartsModel : public QAbstractItemModel {
   QVariant groupData(const Group& group, int column, int role) const;
 
   Scene scene_;
-  std::vector<Node> nodes_;  ///< The first is the scene itself.
+  std::vector<Node> nodes_;  ///< The first is the scene, the invisible root.
   bool isGeometrySame(const Scene& scene) const;
 };
 

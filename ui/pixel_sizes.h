@@ -2,8 +2,8 @@
 
 namespace nearfit::ui {
 
-/// Widths of lines and sizes of points for VTK, which counts the screen's own pixels: from sizes as they are
-/// on a screen of scale 1. Of several screens the finest decides.
+/// Converts a line width or point size from device-independent to device pixels, which VTK uses. Goes by the
+/// screen with the highest pixel ratio.
 float devicePixels(float pixels);
 
 }  // namespace nearfit::ui

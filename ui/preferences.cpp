@@ -59,7 +59,7 @@ RateSettings Preferences::rate() {
   try {
     checkRateSettings(kept);
   } catch (const UsageError&) {
-    return usual;  // A file that somebody has edited.
+    return usual;  // Someone has edited the file.
   }
   return kept;
 }
@@ -93,7 +93,7 @@ void Preferences::setLengthUnit(LengthUnit unit) {
 bool Preferences::takeFirstRun() {
   if (value("window/hasRun", false).toBool()) return false;
   setValue("window/hasRun", true);
-  // Versions that did not say so have left this.
+  // Older versions stored the geometry, but not hasRun.
   return windowGeometry().isEmpty();
 }
 

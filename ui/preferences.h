@@ -8,29 +8,31 @@
 
 namespace nearfit::ui {
 
-/// What the program remembers for a user from one run to the next. Nothing of a scene is in here.
+/// Settings that the program keeps for a user between runs (QSettings); nothing that belongs to a scene.
 class Preferences {
  public:
-  /// Metres in one unit of the mesh file added last; 1e-3 (millimetres) at first.
+  /// Metres per unit of the mesh files added last; 1e-3 (millimetres) at first.
   static double metresPerUnit();
   static void setMetresPerUnit(double metresPerUnit);
 
-  /// Folder of the file chosen last; the user's documents, or home, at first and where it is there no more.
+  /// Folder of the file chosen last; the user's documents folder, or home, at first or
+  /// if it no longer exists.
   static QString lastFolder();
   /// Remembers the folder of `file`.
   static void rememberFolderOf(const QString& file);
 
-  /// How a space mouse drives; the usual settings at first, and where what is kept makes no sense.
+  /// How a space mouse drives; the defaults at first, or if the stored settings are out of range.
   static RateSettings rate();
   static void setRate(const RateSettings& settings);
 
-  /// The unit that lengths are shown in; millimetres at first.
+  /// Unit of the lengths shown; millimetres at first.
   static LengthUnit lengthUnit();
   static void setLengthUnit(LengthUnit unit);
 
-  /// Whether the program has never run before for this user; from now on it has.
+  /// Returns true the first time the program runs for this user, and false from then on.
   static bool takeFirstRun();
 
+  /// As QWidget::saveGeometry() gives it; empty at first.
   static QByteArray windowGeometry();
   static void setWindowGeometry(const QByteArray& geometry);
 };

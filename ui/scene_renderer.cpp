@@ -78,7 +78,7 @@ void SceneRenderer::setCut(const std::optional<ViewCut>& cut) {
   cut_.set(cut);
   ++revision_;
   if (cut) return updateCut();
-  // Once more, for all to be whole.
+  // No picture updates the cut any more: make all parts whole now.
   cut_.begin(0.0);
   for (const Scene::PartPtr& part : scene_.parts())
     open(actorOf(*part), false);

@@ -15,80 +15,86 @@
 
 namespace nearfit::ui {
 
-/// What is seen at a place of the view.
+/// The surface point seen at a pixel of the view.
 struct PickedPoint {
   PartId part{};
-  glm::dvec3 point{0.0};       ///< Of its surface, in the world [m].
-  std::uint32_t triangle = 0;  ///< Of its mesh; 0 on a cut face.
-  /// Of the part's cut face, in the part's frame; null where its own surface is seen.
+  glm::dvec3 point{0.0};       ///< In the world [m].
+  std::uint32_t triangle = 0;  ///< Index in the part's mesh; 0 on a cut face.
+  /// The part's cut face, in the part's frame; null if its own surface is seen.
   std::shared_ptr<const MeshSection> cut;
 };
 
-/// Keeps one actor for each part of the scene that is shown. Knows no widget and renders nothing itself.
+/// Keeps one PartActor for each part of the scene. Knows no widget; never renders by itself.
 class SceneRenderer {
  public:
   /// @param renderer  Outlives this.
-  /// @param over      Drawn over it, outlives this: what is selected shows through there; may be null.
+  /// @param over      Drawn over `renderer`; shows selected parts through others. Outlives this; may be null.
   SceneRenderer(vtkRenderer& renderer, std::shared_ptr<PartShapeCache> shapes, vtkRenderer* over = nullptr);
 
   void setScene(const Scene& scene);
   void setSelected(std::vector<PartId> parts);
-  /// While there is a moving part, all others become see-through, so that what lies between can be seen.
+  /// While there is a moving part, makes all others translucent, so that gaps between them can be seen.
   void setSeeThrough(bool isSeeThrough);
   void setEdgesVisible(bool isVisible);
-  /// Shows the part away from its pose in the scene, where the hand has it; nothing puts it back.
+  /// Shows the moving part at the pose that the servo has, instead of its pose in the
+  /// scene; nullopt ends that.
   void setPoseInHand(std::optional<RigidTransform> worldFromMoving);
 
-  /// Shows parts away from their poses in the scene, where a drag has them; empty: none.
+  /// Shows parts at the poses that a drag has, instead of their poses in the scene; empty ends that.
   void setDragged(std::map<PartId, RigidTransform> worldFromPart);
 
-  /// Where a part is shown, by a drag, by the hand or as the scene has it.
+  /// Returns where a part is shown (worldFromPart): by a drag, else by the servo, else by the scene.
   RigidTransform shownPose(const Part& part) const;
 
-  /// Cuts the parts open; nothing: they are whole.
+  /// Cuts the parts open; nullopt: they are whole.
   void setCut(const std::optional<ViewCut>& cut);
-  /// The cut follows the parts: before each picture.
+  /// Makes the cut follow the parts; call before each picture.
   void updateCut();
-  /// What cuts the moving part now, for what goes with it: see SceneCut::plane. Null: it is whole.
+  /// Clipping plane of the moving part, for what is drawn with it: see SceneCut::plane. Null: it is whole.
   vtkPlane* cutOfMoving() const noexcept { return cut_.cuts(true) ? cut_.plane() : nullptr; }
-  /// Parts that are cut and cannot be closed, as of the last picture.
+  /// Parts that are cut but cannot be closed, as of the last picture.
   const std::vector<PartId>& openlyCut() const noexcept { return cut_.open(); }
 
-  /// Parts that the moving one overlaps are tinted.
+  /// Tints the parts that the moving part overlaps.
   void setOverlapping(std::span<const PartId> parts);
 
-  /// What is drawn in the next picture: parts that are kept are not. @return  The choice for the others.
+  /// Chooses what the next picture draws of each part, except of parts shown by a kept picture.
+  /// @return  The choice for those drawn.
   DetailChoice applyDetail(const DetailLimits& limits);
-  /// What draws the opaque parts that are seen and do not move, as they are. They get no levels of detail and
-  /// are not drawn until letGoOfKept().
+  /// Chooses what a kept picture is to show, and returns its props: visible opaque parts that rest. They
+  /// are drawn as usual until showKept().
   std::vector<vtkProp*> keep();
-  /// As they are, whatever the last picture showed of them; before each time that some are drawn to be kept.
+  /// Sets the chosen parts to full detail, whatever the last picture drew. Call before each turn of
+  /// drawing the kept picture.
   void prepareKept();
+  /// The kept picture is complete: the chosen parts are no longer drawn, until letGoOfKept().
   void showKept();
+  /// Draws all parts again; there is no kept picture any more.
   void letGoOfKept();
-  /// Another one: what is kept is no longer right.
+  /// Changes whenever a kept picture becomes wrong.
   std::uint64_t revision() const noexcept { return revision_; }
-  /// Parts that have been moved since the last time that all stood still; the others can be kept.
-  /// Null when it is not in the scene.
+  /// Returns the part's actor; null if it is not in the scene.
   const PartActor* find(PartId part) const;
+  /// True if parts have moved since the last settle(); those cannot be kept.
   bool hasLoose() const noexcept { return !loose_.empty(); }
-  /// Whether parts that are seen shine through.
+  /// True if a visible part is translucent.
   bool hasTranslucent() const;
+  /// Regards all parts as resting from now on.
   void settle();
 
-  /// Bounds of all visible parts as VTK has them (xmin, xmax, ...) [m]; false when there are none.
+  /// Gets the bounds of all visible parts, VTK's order (xmin, xmax, ...), in the world [m];
+  /// false if there are none.
   bool visibleBounds(double bounds[6]) const;
-  /// Of one part, visible or not; false when it is not in the scene.
+  /// Gets the bounds of one part, visible or not; false if it is not in the scene.
   bool boundsOf(PartId part, double bounds[6]) const;
-  /// The part under a point of the view, in display coordinates from the lower left.
+  /// Returns the part seen at a point in VTK display coordinates: device pixels from the lower left.
   std::optional<PartId> pick(double x, double y) {
     const std::optional<PickedPoint> picked = pickPoint(x, y);
     return picked ? std::optional(picked->part) : std::nullopt;
   }
-  /// As pick, with the point of its surface.
+  /// Like pick(), with the point of its surface.
   std::optional<PickedPoint> pickPoint(double x, double y);
-  /// Of which something is seen at the pixels of a box, in the scene's order: what shines through hides
-  /// nothing.
+  /// Returns the parts seen at some pixel of a box, in the scene's order. Translucent parts hide nothing.
   std::vector<PartId> seenIn(const ViewProjection& view, const PixelBox& pixels) const;
 
  private:
@@ -99,7 +105,7 @@ class SceneRenderer {
   void place(const Part& part);
   void open(PartActor& actor, bool isCut);
   View view() const;
-  /// The part whose cut face has a point of the plane.
+  /// Returns the part whose cut face contains a point of the plane.
   std::optional<PickedPoint> capAt(const glm::dvec3& point) const;
 
   vtkRenderer& renderer_;

@@ -9,24 +9,24 @@
 
 #include "ui/scene_renderer.h"
 
-/// What the camera sees of the parts: their levels of detail, and what is under a point of the view.
+// SceneRenderer: levels of detail, picking and what is seen, which depend on the camera.
 namespace nearfit::ui {
 namespace {
 
 struct Ray {
   glm::dvec3 begin, end;
-  double from = 0.0, to = 1.0;  ///< Of the ray that this is a piece of.
+  double from = 0.0, to = 1.0;  ///< Range within the whole ray, as fractions.
 
   glm::dvec3 at(double fraction) const { return begin + fraction * (end - begin); }
 };
 
-/// Where a whole ray goes through a plane; nothing when it does not.
+/// Returns the fraction at which a whole ray crosses a plane; nullopt if it does not.
 std::optional<double> throughPlane(const Ray& ray, const CutPlane& plane) {
   const double first = plane.heightOf(ray.begin), last = plane.heightOf(ray.end);
   return (first > 0.0) != (last > 0.0) ? std::optional(first / (first - last)) : std::nullopt;
 }
 
-/// The piece of a whole ray that is not cut away; nothing when all of it is.
+/// Returns the piece of a whole ray that is not cut away; nullopt if none is left.
 std::optional<Ray> behind(const Ray& ray, const CutPlane& plane) {
   const bool isAway = plane.heightOf(ray.begin) > 0.0;
   const std::optional<double> through = throughPlane(ray, plane);
@@ -35,7 +35,7 @@ std::optional<Ray> behind(const Ray& ray, const CutPlane& plane) {
                 : Ray{ray.begin, ray.at(*through), 0.0, *through};
 }
 
-/// What is drawn of a surface lies behind this: by a hair more than what is cut, for faces in the plane.
+/// Returns the plane that clips surfaces as drawn: a hair beyond the cut plane, to keep faces that lie in it.
 CutPlane planeOf(vtkPlane& drawn) {
   glm::dvec3 stays, origin;
   drawn.GetNormal(&stays.x);
@@ -51,12 +51,13 @@ glm::dvec3 worldOf(vtkRenderer& renderer, double x, double y, double depth) {
 }
 
 struct Hit {
-  double fraction = 2.0;  ///< Of the ray; nothing yet.
+  double fraction = 2.0;  ///< Along the ray; above 1: no hit yet.
   std::uint32_t triangle = 0;
-  glm::dvec3 point{0.0};  ///< In the part's frame.
+  glm::dvec3 point{0.0};  ///< In the part's frame [m].
 };
 
-/// The first triangle that a ray in the part's frame meets before what has been hit.
+/// Finds the first triangle on a ray in the part's frame. True, with `hit` updated, if
+/// it is nearer than `hit`.
 bool hitFirst(const PartShape& shape, const Ray& ray, vtkGenericCell& cell, Hit& hit) {
   double direction[3], at[3], t = 0.0;
   for (int axis = 0; axis < 3; ++axis)
@@ -69,23 +70,23 @@ bool hitFirst(const PartShape& shape, const Ray& ray, vtkGenericCell& cell, Hit&
                                                      part, triangle, &cell);
   const double fraction = ray.from + t * (ray.to - ray.from);
   if (isHit == 0 || triangle < 0 || fraction >= hit.fraction) return false;
-  // Normals split vertices, and leave the triangles in their order.
+  // Making normals splits vertices but keeps the order of triangles, so the index is the mesh's.
   hit = {fraction, static_cast<std::uint32_t>(triangle), {point[0], point[1], point[2]}};
   return true;
 }
 
 }  // namespace
 
-/// Where the camera is and how large it shows things.
+/// The camera's position, scale and frustum.
 struct SceneRenderer::View {
   glm::dvec3 eye;
   bool isParallel = false;
-  double pixelsAtOne = 1.0;  ///< A metre, a metre away from the eye; anywhere where it is parallel.
-  double planes[24];         ///< Of what is seen, outward negative.
+  double pixelsAtOne = 1.0;  ///< Pixels per metre, at 1 m from the eye in perspective.
+  double planes[24];         ///< Frustum planes; negative outside.
 
   double pixelsPerMetre(const glm::dvec3& centre, double radius) const {
     if (isParallel) return pixelsAtOne;
-    // What is around the eye is as near as anything can be.
+    // A part around the eye counts as very near, not as infinitely large.
     return pixelsAtOne / std::max(glm::distance(eye, centre) - radius, 1e-3 * radius + 1e-12);
   }
   bool sees(const glm::dvec3& centre, double radius) const {

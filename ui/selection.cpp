@@ -12,7 +12,7 @@ namespace nearfit::ui {
 Selection::Selection(Session& session, QObject* parent)
     : QObject(parent), session_(session), sceneSerial_(session.sceneSerial()) {
   session_.onChange([this] {
-    // What has the same ids in another scene is something else.
+    // In another scene the same ids mean other parts.
     const bool isSameScene = std::exchange(sceneSerial_, session_.sceneSerial()) == session_.sceneSerial();
     isSameScene ? set(parts_, groups_) : set({});
   });
@@ -30,7 +30,7 @@ void Selection::set(const std::vector<PartId>& parts, const std::vector<GroupId>
   std::unordered_set<PartId> left;
   for (const Scene::PartPtr& part : session_.scene().parts())
     left.insert(part->id);
-  // The last of a part's places counts, as it may be the current one.
+  // A duplicate keeps its last place, which may make it the current part.
   std::vector<PartId> next;
   for (const PartId part : std::views::reverse(parts)) {
     if (left.erase(part) == 1) next.push_back(part);

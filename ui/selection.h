@@ -13,45 +13,45 @@ class Session;
 
 namespace nearfit::ui {
 
-/// Which parts of the session's scene are selected: the one truth that tree, view and commands share. Parts
-/// that leave the scene leave it by themselves; undo does not bring them back. Another scene begins with
-/// none.
+/// The selected parts of the session's scene, shared by tree, view and commands. Parts that leave the scene
+/// leave the selection; undo does not bring them back. Another scene starts with an empty selection.
 class Selection : public QObject {
   Q_OBJECT
 
  public:
-  /// @param session  Outlives this; told of it first, so that whoever else hears of a change finds no part
-  ///                 here that the scene no longer has.
+  /// @param session  Outlives this. Construct this before other listeners of the session, so that they never
+  ///                 find a part here that has left the scene.
   explicit Selection(Session& session, QObject* parent = nullptr);
 
-  /// In the order in which they were selected, each once.
+  /// In order of selection, without duplicates.
   const std::vector<PartId>& parts() const noexcept { return parts_; }
-  /// The one that was selected last: numbers and names are of this one.
+  /// The part selected last, which number and name fields show.
   std::optional<PartId> current() const noexcept;
   bool contains(PartId part) const noexcept;
-  /// Groups that are selected as such: all parts in them are selected too.
+  /// Groups selected as a whole; all parts in them are selected too.
   const std::vector<GroupId>& groups() const noexcept { return groups_; }
   SceneNodes nodes() const { return {parts_, groups_}; }
   bool isEmpty() const noexcept { return parts_.empty() && groups_.empty(); }
 
-  /// These and no others, the last part the current one; what the scene does not have is left out, and so is
-  /// a group of which not all parts are selected.
+  /// Selects exactly these; the last part becomes the current one. Leaves out what is not in the scene, and
+  /// groups of which not all parts are selected.
   void set(const std::vector<PartId>& parts, const std::vector<GroupId>& groups = {});
-  /// One alone, or none.
+  /// Selects one part alone, or none.
   void select(std::optional<PartId> part);
-  /// Makes it the current one, beside those that are selected.
+  /// Adds a part and makes it the current one.
   void add(PartId part);
-  /// Adds it, or takes it out.
+  /// Adds a part, or removes it if it is selected.
   void toggle(PartId part);
-  /// All that are shown: what nobody sees should not be changed along with the rest.
+  /// Selects all visible parts; hidden ones should not be changed unseen.
   void selectAllVisible();
 
  signals:
+  /// Emitted when the selected parts or groups have changed.
   void changed();
 
  private:
   Session& session_;
-  std::uint64_t sceneSerial_;  ///< Of the scene that the parts are of.
+  std::uint64_t sceneSerial_;  ///< Serial of the scene that owns the parts.
   std::vector<PartId> parts_;
   std::vector<GroupId> groups_;
 };

@@ -10,40 +10,41 @@ namespace nearfit::ui {
 
 /// Who holds the moving part while the servo runs.
 enum class Hand : std::uint8_t {
-  Scripted,  ///< A scripted hand repeats a smooth sweep.
-  Manual,    ///< Numbers, keys and mouse.
-  Device,    ///< A hand that holds a device.
+  Scripted,  ///< A program that repeats a smooth sweep.
+  Manual,    ///< Driven by numbers, keys and mouse.
+  Device,    ///< A person's hand, through a device.
 };
 
-/// What the window shows about the servo; times in [s].
+/// The servo's state as the window shows it; times in [s].
 struct ServoStatus {
   bool isRunning = false;
-  /// A device is being opened, which may take seconds; nothing runs yet.
+  /// A device is being opened, which may take seconds; the servo does not run yet.
   bool isOpening = false;
-  double openingFraction = 0.0;  ///< 0 as long as it is not known.
+  double openingFraction = 0.0;  ///< 0 while unknown.
   Hand hand = Hand::Scripted;
-  QString deviceId;     ///< Of a device in hand (DeviceChoice::id); empty for other hands.
-  QString deviceState;  ///< What state it is in, in words.
+  QString deviceId;     ///< The device in hand (DeviceChoice::id); empty for other hands.
+  QString deviceState;  ///< The device's state in words.
   bool isUncalibrated = false;
-  bool isArmable = false;  ///< It pushes, when it is armed.
+  bool isArmable = false;  ///< It renders forces once armed.
   bool isArmed = false;
-  bool isFaulted = false;   ///< Until it is reset.
-  bool isBusy = false;      ///< It is being armed, calibrated or reset.
+  bool isFaulted = false;   ///< Stays true until the user resets the device.
+  bool isBusy = false;      ///< Being armed, calibrated or reset.
   bool isClutched = false;  ///< By the window's clutch.
-  /// Of a device that reports its poses: how many come in a second [Hz], how far the time between two is off
-  /// its mean [s], and how many are missing or damaged since it was taken in hand. 0 where it does not.
+  /// For a device that reports its poses: reports per second [Hz], deviation of their interval from its mean
+  /// [s], and how many were lost or damaged since it was taken in hand. Else 0.
   double reportRate = 0.0, reportJitter = 0.0;
   std::uint64_t reportsLost = 0;
-  double rate = 0.0;         ///< Ticks per second over the last half second or so [Hz].
-  DeviceLimits device;       ///< Of what is in hand, or the usual ones.
-  double nominalRate = 0.0;  ///< What the rate should be [Hz].
-  double latenessP99 = 0.0, latenessMax = 0.0;
-  double tickP99 = 0.0, queryP99 = 0.0;
-  std::uint64_t ticks = 0, overruns = 0;
-  QString scheduling;  ///< What real-time service the system granted.
+  double rate = 0.0;                            ///< Ticks per second over about the last half second [Hz].
+  DeviceLimits device;                          ///< Limits of the device in hand, or the defaults.
+  double nominalRate = 0.0;                     ///< The intended rate [Hz].
+  double latenessP99 = 0.0, latenessMax = 0.0;  ///< How late ticks begin.
+  double tickP99 = 0.0, queryP99 = 0.0;         ///< Time of a tick, and of its queries.
+  std::uint64_t ticks = 0, overruns = 0;        ///< Ticks run; ticks skipped as too late.
+  QString scheduling;                           ///< Real-time scheduling that the system granted.
 
+  /// True if the servo runs or is about to.
   bool isTaken() const { return isRunning || isOpening; }
-  /// Whether ticks are lost: what is felt then is softer and later than the springs say.
+  /// True if ticks are being lost: contact then feels softer and later than set.
   bool isTooSlow() const { return isRunning && rate > 0.0 && rate < 0.95 * nominalRate; }
 };
 

@@ -4,7 +4,7 @@
 
 namespace nearfit::ui {
 
-/// Whether two snapshots give the same picture.
+/// True if the view looks the same with both snapshots.
 bool looksTheSame(const ServoSnapshot& a, const ServoSnapshot& b);
 
 }  // namespace nearfit::ui

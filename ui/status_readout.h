@@ -10,15 +10,17 @@ class QStatusBar;
 
 namespace nearfit::ui {
 
-/// The figures at the right of the status bar: servo rate, lateness, minima, least distance.
+/// Servo rate, lateness, number of minima and least distance, at the right of the status bar.
 class StatusReadout : public QObject {
   Q_OBJECT
 
  public:
+  /// @param bar  Becomes the parent.
   explicit StatusReadout(QStatusBar* bar);
 
   void showStatus(const ServoStatus& status);
   void showSnapshot(const ServoSnapshot& snapshot);
+  /// Shows dashes instead of minima and distance.
   void clearSnapshot();
 
  private:

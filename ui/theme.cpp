@@ -11,7 +11,7 @@
 #include "ui/themed_icon.h"
 #include "ui/window_style.h"
 
-// Q_INIT_RESOURCE declares a function and so must stand outside of any namespace.
+// Q_INIT_RESOURCE declares a function, so it must stand outside any namespace.
 static void initResources() {
   Q_INIT_RESOURCE(nearfit);
 }
@@ -46,8 +46,8 @@ QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QToolTip { background: #2c3640; color: #ffffff; border: none; padding: 4px; }
 )";
 
-/// Each colour of the light theme that a style sheet or an icon uses, and what it is in the dark one. Text
-/// and strokes keep at least the contrast that they had.
+/// Colours of the light theme in style sheets and icons, each with its dark counterpart. Text and strokes
+/// keep at least their contrast.
 constexpr std::pair<const char*, const char*> kDarkColours[] = {
     {"#eef1f4", "#14181c"},
     {"#d5dbe1", "#39434d"},
@@ -80,7 +80,7 @@ constexpr std::pair<const char*, const char*> kDarkColours[] = {
     {"rgba(255, 255, 255, 235)", "rgba(32, 38, 44, 240)"},
     {"fill=\"#fff\"", "fill=\"#2e3740\""}};
 
-/// The desktop's own, before this program changes it.
+/// True if the desktop's own palette is dark; ask before this program first sets a palette.
 bool isDesktopDark() {
   static const bool isDark = QApplication::palette().color(QPalette::Window).lightness() < 128;
   return isDark;
@@ -122,7 +122,7 @@ QPalette paletteOf(bool isDark) {
   return palette;
 }
 
-/// Widgets style themselves in the light theme's colours; this translates them in the dark one, and back.
+/// Translates the style sheets of widgets, written in the light theme's colours, to the dark theme and back.
 class SheetTranslator : public QObject {
  public:
   using QObject::QObject;
@@ -131,7 +131,7 @@ class SheetTranslator : public QObject {
     const QString sheet = widget->styleSheet();
     if (sheet.isEmpty()) return;
     const QVariant original = widget->property(kOriginal), made = widget->property(kMade);
-    // What the widget has set itself since is the new original.
+    // A sheet that the widget has set since is the new original.
     const bool isOwn = !made.isValid() || made.toString() != sheet;
     const QString light = isOwn ? sheet : original.toString();
     const QString wanted = darkness() ? inDarkColours(light) : light;
@@ -143,7 +143,7 @@ class SheetTranslator : public QObject {
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override {
-    // A sheet that is set before the widget is shown is told of by Polish alone.
+    // A sheet set before the widget is shown only causes a Polish event.
     const bool isStyled = event->type() == QEvent::StyleChange || event->type() == QEvent::Polish;
     if (isStyled && darkness() && watched->isWidgetType()) translate(static_cast<QWidget*>(watched));
     return false;
@@ -167,11 +167,11 @@ void apply(bool isDark) {
   darkness() = isDark;
   QApplication::setPalette(paletteOf(isDark));
   const QString sheet = QString::fromLatin1(kStyleSheet);
-  // A sheet in place of another is told to all that Qt remembers, some of it long gone (5.15): it forgets
-  // them with the sheet.
+  // Replacing a sheet makes Qt 5.15 visit all widgets it remembers, even deleted ones; clearing the sheet
+  // first makes it forget them.
   qApp->setStyleSheet({});
   qApp->setStyleSheet(isDark ? inDarkColours(sheet) : sheet);
-  // From the start on, when there are no widgets yet.
+  // Creates the translator at the start too, when there are no widgets yet.
   SheetTranslator& sheets = translator();
   const QWidgetList widgets = QApplication::allWidgets();
   for (QWidget* widget : widgets)
@@ -218,7 +218,7 @@ bool isThemeDark() {
 }
 
 QString inDarkColours(const QString& light) {
-  // Each place once: what one pair has made is not for another to translate.
+  // One pass over the text: the result of one pair must not match another.
   QString dark;
   dark.reserve(light.size());
   for (int at = 0; at < light.size();) {
@@ -242,7 +242,7 @@ QColor themed(const QColor& light) {
 }
 
 QIcon icon(const QString& name) {
-  // The program's own is the same on every ground.
+  // The program's icon is the same in both themes.
   const QString file = QStringLiteral(":/icons/%1.svg").arg(name);
   return name == QLatin1String("nearfit") ? QIcon(file) : QIcon(new ThemedIcon(file));
 }

@@ -8,7 +8,7 @@ class QApplication;
 
 namespace nearfit::ui {
 
-/// Colours that mean something, the same in widgets and in the 3-D view.
+/// Colours with a meaning, the same in widgets and in the 3-D view.
 namespace colours {
 inline const QColor kAccent(0x1f, 0x73, 0xd0);
 inline const QColor kForce(0xd8, 0x2c, 0x20);
@@ -21,30 +21,31 @@ inline const QColor kMutedText(0x5d, 0x68, 0x74);
 inline const QColor kWarning(0xb3, 0x4a, 0x00);
 }  // namespace colours
 
-/// The colour that an axis has: 0, 1 or 2; that of the view for -1.
+/// Returns the colour of axis 0, 1 or 2; for -1 that of the direction of view.
 QColor axisColour(int axis);
 
-/// Makes the compiled-in icons of this library known; harmless when repeated.
+/// Registers this library's compiled-in icons; may be called again.
 void loadResources();
-/// Light or dark, or as the desktop is.
+/// Light, dark, or as the desktop is.
 enum class ColourScheme { System, Light, Dark };
 
-/// What the user has chosen, kept from run to run.
+/// Returns the user's choice, kept between runs.
 ColourScheme colourScheme();
-/// Changes all that is shown at once, and keeps the choice. Widgets write their style sheets in the colours
-/// of the light theme; in the dark one those are translated. The view follows QEvent::PaletteChange.
+/// Changes everything shown at once and stores the choice. Widgets write their style sheets in the light
+/// theme's colours; in the dark theme those are translated. The view follows QEvent::PaletteChange.
 void setColourScheme(ColourScheme scheme);
+/// True if the dark theme is applied now.
 bool isThemeDark();
-/// A style sheet or SVG with each colour of the light theme replaced by that of the dark one.
+/// Returns a style sheet or SVG with the light theme's colours replaced by those of the dark theme.
 QString inDarkColours(const QString& light);
 
-/// A colour of the light theme as it is in the present one: for what is drawn, or given to a model's reader,
-/// without a style sheet.
+/// Returns a colour of the light theme as it is in the present theme; for painting and model data, which
+/// style sheets do not reach.
 QColor themed(const QColor& light);
 
-/// Style, palette, window icon and style sheet of the whole application.
+/// Sets style, palette, window icon and style sheet of the application. Call once, before there are widgets.
 void applyTheme(QApplication& application);
-/// An icon of resources/icons by its file name without ending; follows the theme.
+/// Returns an icon of resources/icons by its file name without extension; follows the theme.
 QIcon icon(const QString& name);
 
 }  // namespace nearfit::ui

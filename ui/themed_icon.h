@@ -5,10 +5,10 @@
 
 namespace nearfit::ui {
 
-/// An icon of resources/icons, drawn for light panels or, its colours translated, for dark ones: as the theme
-/// is when it is painted.
+/// Paints an icon of resources/icons in the colours of the theme at that moment, light or dark.
 class ThemedIcon : public QIconEngine {
  public:
+  /// @param file  The SVG's resource path.
   explicit ThemedIcon(const QString& file) : file_(file) {}
 
   void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State state) override;

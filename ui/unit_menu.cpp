@@ -26,7 +26,7 @@ void UnitMenu::choose(LengthUnit unit) {
   setShownLengthUnit(unit);
   for (NumberField* field : window_->findChildren<NumberField*>())
     field->setLengthUnit(unit);
-  // Lengths are written anew where they are drawn.
+  // Painted lengths are formatted while painting.
   for (QWidget* widget : window_->findChildren<QWidget*>())
     widget->update();
   emit unitChanged(unit);

@@ -4,13 +4,14 @@
 
 namespace nearfit::ui {
 
-/// What a tool asks for and tells, in a frame over the lower edge of the view. Several that are shown stand
-/// over each other, the oldest lowest.
+/// Base of a tool's bar: prompts and inputs in a frame at the lower edge of the view. Bars shown together are
+/// stacked, the oldest lowest.
 class ViewBar : public QFrame {
   Q_OBJECT
 
  public:
-  /// @param name  Of the object; its style goes by that.
+  /// @param view  The parent.
+  /// @param name  The object name; the style sheet goes by it.
   ViewBar(QWidget* view, const QString& name);
 
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -18,7 +19,7 @@ class ViewBar : public QFrame {
  protected:
   void showEvent(QShowEvent* event) override;
   void hideEvent(QHideEvent* event) override;
-  /// Its content has changed: as large as that needs, and in its place.
+  /// Resizes the bar to changed content and moves it into place.
   void place();
 
  private:

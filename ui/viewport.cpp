@@ -29,7 +29,8 @@
 namespace nearfit::ui {
 namespace {
 
-/// So far may what moves leave the bounds of all, in parts of their size, before what is kept is drawn anew.
+/// Room for moving parts around everything, as a fraction of its size, when the clipping range is kept.
+/// Beyond it the kept picture must be redrawn.
 constexpr double kRoomForMotion = 0.3;
 
 }  // namespace
@@ -77,7 +78,7 @@ void Viewport::setUpRenderers() {
   // Software OpenGL has no cheap multisampling; FXAA smooths there too.
   window_->SetMultiSamples(0);
   setRenderWindow(window_);
-  // Each picture covers the last one: nothing is to be cleared before.
+  // Each picture covers the last one, so nothing needs clearing.
   setUpdateBehavior(PartialUpdate);
   window_->SetNumberOfLayers(2);
   window_->AddRenderer(renderer_);
@@ -88,7 +89,7 @@ void Viewport::setUpRenderers() {
   setUpLights(*renderer_);
   renderer_->GetActiveCamera()->SetViewAngle(24.0);
 
-  // Minima lie in the gaps between parts: drawn over everything, or the parts would hide them.
+  // Parts would hide minima, which lie in gaps between them: draw the overlay over everything.
   overlay_->SetLayer(1);
   overlay_->SetActiveCamera(renderer_->GetActiveCamera());
   overlay_->InteractiveOff();
@@ -109,18 +110,18 @@ void Viewport::paintGL() {
   vtkOpenGLState* state = window_->GetState();
   state->Reset();
   state->Push();
-  // VTK's default, which is not Qt's.
+  // VTK's default; Qt's differs.
   state->vtkglDepthFunc(GL_LEQUAL);
   RenderWindowAdapter->paint();
-  // Drawing lets others draw.
+  // Observers may have drawn elsewhere.
   makeCurrent();
-  // The superclass would scale the picture to its own size, which takes software as long as drawing it.
+  // The superclass would rescale the picture, which takes software OpenGL as long as drawing it.
   const int* size = window_->GetRenderFramebuffer()->GetLastSize();
   state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, defaultFramebufferObject());
   state->vtkglDisable(GL_SCISSOR_TEST);
   window_->BlitDisplayFramebuffer(0, 0, 0, size[0], size[1], 0, 0, size[0], size[1], GL_COLOR_BUFFER_BIT,
                                   GL_NEAREST);
-  // What shines through is blended: where it was thin, the window is not to be.
+  // Blending translucent parts leaves alpha below 1, but the window must be opaque.
   state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
   state->vtkglClearColor(0.0F, 0.0F, 0.0F, 1.0F);
   state->vtkglClear(GL_COLOR_BUFFER_BIT);
@@ -135,7 +136,7 @@ void Viewport::countPicture() {
 }
 
 void Viewport::prepareRender() {
-  // The marker learns of the window's first size from nobody.
+  // Nothing else tells the marker the window's first size.
   marker_->SquareResize();
   if (std::exchange(hasNewNumbers_, false) && shown_ != nullptr) glyphs_->showNumbers(*shown_);
   parts_.updateCut();
@@ -147,7 +148,7 @@ void Viewport::prepareRender() {
 void Viewport::adjustClipping() {
   const vtkBoundingBox needed = drawnBounds();
   if (!detail_->holdsDepths()) return fitDepths(*renderer_, needed);
-  // Depths that are kept stay right, unless something left them.
+  // A kept picture stays valid until something leaves its clipping range.
   if (!keepDepths(*renderer_, needed)) detail_->drop();
 }
 
@@ -156,7 +157,7 @@ vtkBoundingBox Viewport::drawnBounds() {
   double bounds[6];
   if (parts_.visibleBounds(bounds)) box.AddBounds(bounds);
   if (glyphs_->hand().visibleBounds(bounds)) box.AddBounds(bounds);
-  // Arrows stand out of the parts.
+  // Arrows reach beyond the parts.
   overlay_->ComputeVisiblePropBounds(bounds);
   if (bounds[0] <= bounds[1]) box.AddBounds(bounds);
   return box;
@@ -172,7 +173,7 @@ void Viewport::completePicture() {
 }
 
 void Viewport::setScene(const Scene& scene) {
-  // Parts that come back by undo are no others.
+  // Parts that undo brings back are known, so the camera stays.
   bool isAnotherScene = true;
   for (const Scene::PartPtr& part : scene.parts())
     isAnotherScene = known_.insert(part->id).second && isAnotherScene;
@@ -225,7 +226,7 @@ void Viewport::fit() {
 }
 
 void Viewport::fitParts(const std::vector<PartId>& parts) {
-  // Room around them for their neighbours and for arrows, in parts of their size.
+  // Room for neighbours and arrows, as a fraction of the parts' size.
   constexpr double kRoom = 0.1;
   vtkBoundingBox whole;
   std::vector<vtkBoundingBox> boxes;
@@ -340,7 +341,7 @@ void Viewport::pickAt(const QPoint& position, Qt::KeyboardModifiers modifiers) {
   const std::optional<PickedPoint> picked = pointAt(position);
   const std::optional<PartId> part = picked ? std::optional(picked->part) : std::nullopt;
   const bool isToggled = modifiers.testFlag(Qt::ControlModifier);
-  // A click beside a part that was to be added loses nothing of what is selected.
+  // With Ctrl or Shift, a click that misses all parts keeps the selection.
   if (!isToggled && !modifiers.testFlag(Qt::ShiftModifier)) return selection_.select(part);
   if (part) isToggled ? selection_.toggle(*part) : selection_.add(*part);
 }

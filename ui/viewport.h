@@ -30,10 +30,10 @@ class SnapshotGlyphs;
 class ViewDetail;
 class ViewPicture;
 
-/// The 3-D view: the scene's parts, and over them what the newest servo snapshot tells.
-/// Draws only after a change. Left drag orbits, so does a middle drag with Ctrl, middle drag pans, wheel or
-/// right drag zooms; a click selects, with Ctrl it adds or takes out, with Shift it adds. BoxSelect draws
-/// rectangles on it.
+/// The 3-D view: the scene's parts, and over them the newest servo snapshot. Draws only after a change.
+///
+/// Left drag or Ctrl+middle drag orbits, middle drag pans, wheel or right drag zooms. A click selects; with
+/// Ctrl it adds or removes, with Shift it adds. BoxSelect draws rectangles on the view.
 class Viewport : public QVTKOpenGLNativeWidget {
   Q_OBJECT
 
@@ -42,49 +42,53 @@ class Viewport : public QVTKOpenGLNativeWidget {
   Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection, QWidget* parent = nullptr);
   ~Viewport() override;
 
-  /// Sets OpenGL's version and buffers for all windows; before the QApplication is made.
+  /// Sets the OpenGL surface format of all windows. Call before constructing the QApplication.
   static void setDefaultSurfaceFormat();
 
+  /// Shows a scene; turns to the isometric view if none of its parts has been shown before.
   void setScene(const Scene& scene);
-  /// Shows the part in hand, where the hand wants it, its minima, contacts and wrench, and what it overlaps;
-  /// nothing is drawn when nothing of that has changed.
+  /// Shows the part in hand, the hand's ghost, minima, contacts, wrench and overlapping parts. Draws nothing
+  /// if none of these changed.
   void showSnapshot(const ServoSnapshot& snapshot);
-  /// Back to the scene alone.
+  /// Removes the snapshot and shows the scene alone.
   void clearSnapshot();
 
-  /// As SceneRenderer::setDragged.
+  /// See SceneRenderer::setDragged().
   void setDragged(std::map<PartId, RigidTransform> worldFromPart);
-  /// Where a part is shown now; nothing when it is not in the scene.
+  /// Returns where a part is shown now (worldFromPart); nullopt if it is not in the scene.
   std::optional<RigidTransform> shownPose(PartId part) const;
-  /// How the view shows the world now, in the widget's own pixels.
+  /// Returns how the view projects the world now, in the widget's device-independent pixels.
   ViewProjection projection() const;
-  /// The box around all visible parts, whole, in the world; empty when there are none.
+  /// Returns the bounds of all visible parts, uncut, in the world [m]; empty if there are none.
   Aabb visibleBounds() const;
-  /// Cuts the parts open; nothing: they are whole.
+  /// Cuts the parts open; nullopt: they are whole.
   void setCut(const std::optional<ViewCut>& cut);
-  /// Parts that are cut and cannot be closed, as of the last picture.
+  /// Parts that are cut but cannot be closed, as of the last picture.
   const std::vector<PartId>& openlyCut() const noexcept { return parts_.openlyCut(); }
-  /// What is seen at a place of the widget.
+  /// Returns what is seen at a pixel of the widget; nullopt over the background.
   std::optional<PickedPoint> pointAt(const QPoint& position);
-  /// Parts of which something is seen in a rectangle of the widget, in the scene's order.
+  /// Returns the parts seen somewhere in a rectangle of the widget, in the scene's order.
   std::vector<PartId> partsIn(const QRect& place) const;
-  /// Does what a click there does: selects.
+  /// Selects as a click at that pixel does.
   void pickAt(const QPoint& position, Qt::KeyboardModifiers modifiers);
 
-  /// Clicks are a tool's from now on: others that took them are told to leave.
+  /// Gives clicks to a tool: other tools that take clicks stop, at clicksTaken().
   void takeClicks(QObject* tool) { emit clicksTaken(tool); }
 
-  /// What is drawn over the scene, for tools that add to it; requestRender() shows what they changed.
+  /// Renderer drawn over the scene, for tools to add actors; call requestRender() after a change.
   vtkRenderer& overlay() noexcept { return *overlay_.Get(); }
   vtkCamera* camera() { return renderer_->GetActiveCamera(); }
+  /// Requests a picture; several requests until it is due are answered by one.
   void requestRender();
 
   /// The mouse as the manual hand.
   HandDrag& handDrag() noexcept { return *handDrag_; }
 
+  /// Fits all visible parts into the view.
   void fit();
-  /// Parts of the scene with what is around them.
+  /// Fits these parts into the view, with some room around them.
   void fitParts(const std::vector<PartId>& parts);
+  /// Turns to a standard view and fits all visible parts.
   void setView(StandardView view);
   void setSeeThrough(bool isSeeThrough);
   void setEdgesVisible(bool isVisible);
@@ -94,25 +98,27 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void setHandVisible(bool isVisible);
   void setWrenchVisible(bool isVisible);
 
-  /// How much of the parts the last picture shows, and how much pictures may while something moves.
+  /// How much of the parts the last picture shows, and the limits while something moves.
   ViewDetail& detail() noexcept { return *detail_; }
   SceneRenderer& parts() noexcept { return parts_; }
-  /// Draws what was left out to be quick, however long that takes: for pictures that are taken away.
+  /// Draws a picture in full detail, however long that takes; for screenshots.
   void completePicture();
-  /// Takes pictures of the view away.
+  /// Exports pictures of the view.
   ViewPicture& pictures() noexcept { return *pictures_; }
 
-  /// Pictures drawn since the start: tests check with it that an idle view stays idle.
+  /// Number of pictures drawn so far; tests use it to check that an idle view stays idle.
   int pictureCount() const noexcept { return pictureCount_; }
 
  signals:
-  /// A picture has been drawn, maybe from elsewhere.
+  /// Emitted after each picture, requested here or elsewhere.
   void drawn();
-  /// Parts came, left or are shown elsewhere: what stands by them follows before the next picture.
+  /// Emitted when parts came, left or are shown elsewhere. Tools that follow parts update
+  /// before the next picture.
   void posesChanged();
+  /// Emitted when `tool` takes the clicks; see takeClicks().
   void clicksTaken(QObject* tool);
-  /// An arrow or page key: a step of the current part along one axis of the world, each component -1, 0
-  /// or 1.
+  /// Emitted for an arrow or page key: a step of the current part along one world axis; each
+  /// component is -1, 0 or 1.
   void nudged(int x, int y, int z);
   /// The same with Shift: a turn about that axis.
   void turned(int x, int y, int z);
@@ -130,7 +136,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void setUpInteraction();
   void prepareRender();
   void adjustClipping();
-  /// Of all that the next picture shows, in the world [m].
+  /// Bounds of everything that the next picture shows, in the world [m].
   vtkBoundingBox drawnBounds();
   void countPicture();
   void showMovingPart();
@@ -149,9 +155,9 @@ class Viewport : public QVTKOpenGLNativeWidget {
   std::unique_ptr<ViewPicture> pictures_;
   HandDrag* handDrag_;
   std::unique_ptr<ServoSnapshot> shown_;
-  bool hasNewNumbers_ = false;  ///< What shown_ says has not been drawn yet.
+  bool hasNewNumbers_ = false;  ///< shown_ has not been drawn yet.
   Scene scene_;
-  std::set<PartId> known_;  ///< Parts that have been shown, also those that have left.
+  std::set<PartId> known_;  ///< Parts shown so far, including ones that have left.
   QPoint pressedAt_;
   int pictureCount_ = 0;
 };

@@ -8,7 +8,7 @@
 
 namespace nearfit::ui {
 
-/// Writes a pose into a VTK matrix (row-major, acting on columns); marks it modified only when it changed.
+/// Writes a pose into a VTK matrix (row-major, acts on column vectors). Marks it modified only if it changed.
 inline void setMatrix(vtkMatrix4x4& matrix, const RigidTransform& pose) {
   const glm::dmat4 m = pose.toMatrix();
   for (int row = 0; row < 3; ++row) {

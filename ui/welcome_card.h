@@ -6,12 +6,12 @@ class QAction;
 
 namespace nearfit::ui {
 
-/// What an empty scene offers to begin with, in the middle of its parent.
+/// A card in the middle of its parent that offers ways to begin while the scene is empty.
 class WelcomeCard : public QFrame {
   Q_OBJECT
 
  public:
-  /// @param tour  Explains the window.
+  /// @param tour  Starts the tour of the window.
   WelcomeCard(QAction* openDemo, QAction* tour, QAction* addParts, QAction* open, QWidget* parent);
 
  protected:

@@ -10,10 +10,12 @@
 namespace nearfit::ui {
 namespace {
 
-/// What Fusion's frames are made from in the dark theme: those of boxes to tick, and of fields.
+/// Colours that Fusion derives frames from in the dark theme: of check boxes and radio
+/// buttons, and of fields.
 constexpr QRgb kFrameInDark = 0xffb4c0cc, kFieldFrameInDark = 0xff7d8995;
 
-/// The palette with another colour for frames: the same for the same, as Fusion keeps pictures by it.
+/// Returns a palette with another colour for frames. Equal arguments give the same palette, as Fusion
+/// caches pixmaps by its key.
 QPalette framed(const QPalette& own, QRgb frame) {
   constexpr int kMost = 64;
   static QHash<QPair<qint64, QRgb>, QPalette> known;
@@ -68,7 +70,7 @@ void WindowStyle::drawControl(ControlElement element, const QStyleOption* option
   const auto* box = qstyleoption_cast<const QStyleOptionComboBox*>(option);
   if (element != CE_ComboBoxLabel || box == nullptr || box->editable)
     return QProxyStyle::drawControl(element, option, painter, widget);
-  // Fusion cuts what is too long without a word.
+  // Fusion clips long text without an ellipsis.
   QStyleOptionComboBox elided = *box;
   const QRect room = subControlRect(CC_ComboBox, box, SC_ComboBoxEditField, widget);
   const int icon = box->currentIcon.isNull() ? 0 : box->iconSize.width() + 4;
@@ -79,7 +81,7 @@ void WindowStyle::drawControl(ControlElement element, const QStyleOption* option
 
 QIcon WindowStyle::standardIcon(StandardPixmap which, const QStyleOption* option,
                                 const QWidget* widget) const {
-  // Fusion's is black on any ground.
+  // Fusion's is black in both themes.
   return which == SP_ToolBarHorizontalExtensionButton ? icon(QStringLiteral("more"))
                                                       : QProxyStyle::standardIcon(which, option, widget);
 }

@@ -4,10 +4,10 @@
 
 namespace nearfit::ui {
 
-/// Fusion, with boxes and circles to tick that stand out in the dark theme too: Fusion draws their frames a
-/// little darker than what lies around them, which is hardly seen where that is dark; so are the frames of
-/// fields. A list that drops down shortens what is chosen where Fusion would cut it. The button for tools
-/// that a toolbar has no room for is as wide as a tool; Fusion's is a few pixels.
+/// Fusion with some details improved. In the dark theme the frames of check boxes, radio buttons and fields
+/// stand out; Fusion draws them a little darker than their surroundings, hardly visible on a dark ground.
+/// Combo boxes elide long text, which Fusion clips. A toolbar's extension button is as wide as a tool; Fusion
+/// makes it a few pixels wide.
 class WindowStyle : public QProxyStyle {
  public:
   WindowStyle();

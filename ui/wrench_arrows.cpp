@@ -20,9 +20,9 @@ namespace nearfit::ui {
 namespace {
 
 constexpr int kArrowSides = 20;
-/// Thickness of shafts and length of heads, as parts of the size.
+/// Radius of shafts, radius and length of heads, as fractions of the size.
 constexpr double kShaft = 0.018, kHeadRadius = 0.05, kHeadLength = 0.14;
-/// Wrenches smaller than this part of the limit are not drawn.
+/// Wrenches below this fraction of the device's limit are not drawn.
 constexpr double kLeast = 1e-4;
 
 void setUp(vtkActor& actor, vtkPolyData& data, const QColor& colour) {
@@ -38,7 +38,7 @@ void setUp(vtkActor& actor, vtkPolyData& data, const QColor& colour) {
   property->SetSpecular(0.15);
 }
 
-/// A tube along a path with a cone at its end that points along `direction`.
+/// Builds a tube along a path, and at its end a cone that points along `direction`.
 void buildArrow(vtkPolyData& out, vtkPolyLineSource& path, const glm::dvec3& headStart,
                 const glm::dvec3& direction, double size, double headLength) {
   vtkNew<vtkTubeFilter> shaft;
@@ -113,7 +113,7 @@ void WrenchArrows::showTorque(const glm::dvec3& centre, const glm::dvec3& torque
   const glm::dvec3 axis = glm::normalize(torque);
   const glm::dvec3 u = anyPerpendicular(axis), v = glm::cross(axis, u);
   const double radius = 0.5 * size;
-  // The root keeps the small torques of thin parts readable; the number stands in the legend.
+  // The square root keeps small torques of thin parts readable; the legend has the number.
   const double sweep = std::sqrt(std::min(fraction, 1.0)) * 1.7 * std::numbers::pi;
   const double headLength = std::min(kHeadLength * size, 0.6 * sweep * radius);
   const double shaftSweep = sweep - headLength / radius;

@@ -16,9 +16,9 @@ class WrenchArrows {
   /// @param renderer  Outlives this.
   explicit WrenchArrows(vtkRenderer& renderer);
 
-  /// @param centre  Where the arrows start, in world coordinates [m].
-  /// @param wrench  In world coordinates.
-  /// @param size    Length of the arrow of the greatest force, and diameter of the torque's arc [m].
+  /// @param centre  Centre of mass, where the force starts; world [m].
+  /// @param wrench  World frame.
+  /// @param size    Length of the arrow at max force, and diameter of the torque's arc [m].
   void show(const glm::dvec3& centre, const Wrench& wrench, double size);
   void clear();
   void setVisible(bool isVisible);

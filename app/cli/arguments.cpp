@@ -67,7 +67,7 @@ std::optional<RigidTransform> parsePoseIfAny(const std::string& text) {
   if (!std::isfinite(n[0]) || !std::isfinite(n[1]) || !std::isfinite(n[2])) {
     throw UsageError(fmt::format("pose \"{}\"", text), "a number is not finite", "give finite numbers");
   }
-  // The scene's limits on positions are not for queries, which work anywhere.
+  // The scene's limits on positions do not apply: queries work anywhere.
   return RigidTransform{checkedPose({{n[3], n[4], n[5], n[6]}, {}}).rotation, {n[0], n[1], n[2]}};
 }
 

@@ -11,26 +11,27 @@
 
 namespace nearfit::cli {
 
-/// What --unit takes, for help texts.
+/// Help text on the values of --unit.
 inline constexpr const char* kUnitHelp =
     "Unit of the mesh files' coordinates: m, cm, mm, um, in, ft, or a number of metres";
-/// What poses look like, for help texts.
+/// Help text on the form of a pose.
 inline constexpr const char* kPoseHelp = "tx,ty,tz,qw,qx,qy,qz: translation [m] and unit quaternion";
 
-/// Metres to the unit. Throws UsageError.
+/// Returns metres per unit, for a unit's name or a number. Throws UsageError.
 double parseUnit(const std::string& text);
 
-/// Seven numbers with commas between them; none when the text is anything else.
-/// Throws UsageError when a number is not finite or the quaternion is off unit by more than kQuaternionSlack;
-/// a smaller error is normalised away.
+/// Parses seven numbers separated by commas; returns std::nullopt for any other text. Throws UsageError if
+/// a number is not finite or the quaternion's length is off by more than kQuaternionSlack; a smaller error
+/// is normalised away.
 std::optional<RigidTransform> parsePoseIfAny(const std::string& text);
-/// As parsePoseIfAny; throws UsageError also when the text is no pose.
+/// Same as parsePoseIfAny(), but throws UsageError, naming the option, if the text is no pose.
 RigidTransform parsePose(const std::string& option, const std::string& text);
 
+/// Throws UsageError: the option takes `count` numbers.
 [[noreturn]] void failNumbers(const std::string& option, const std::string& text, std::size_t count);
-/// As many numbers as `numbers` takes, with commas between them; false when the text is anything else.
+/// Parses as many numbers as `numbers` holds, separated by commas. Returns false for any other text.
 bool parseNumbersIfAny(std::string_view text, std::span<double> numbers);
-/// That many numbers. Throws UsageError naming the option when the text is anything else.
+/// Parses Count numbers. Throws UsageError, naming the option, for any other text.
 template <std::size_t Count>
 std::array<double, Count> parseNumbers(const std::string& option, const std::string& text) {
   std::array<double, Count> numbers{};
@@ -38,7 +39,7 @@ std::array<double, Count> parseNumbers(const std::string& option, const std::str
   return numbers;
 }
 
-/// Throws UsageError when the value of an option is not finite or not above (or, with `orZero`, below) zero.
+/// Throws UsageError if an option's value is not finite or not above zero; `orZero` allows zero.
 void checkPositive(const std::string& option, double value, bool orZero = false);
 
 }  // namespace nearfit::cli

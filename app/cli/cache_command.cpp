@@ -19,8 +19,7 @@ struct CacheOptions {
   bool isJson = false, isCleared = false;
 };
 
-/// Loading takes a size that makes no sense for none, so that it never fails for it: here is where it is
-/// said.
+/// Reports an invalid size here: loading ignores one, so that it never fails because of it.
 void checkSize() {
   const char* text = std::getenv("NEARFIT_CACHE_SIZE");
   if (text == nullptr || *text == '\0' || parseByteSize(text)) return;

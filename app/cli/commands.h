@@ -4,8 +4,9 @@ namespace CLI {
 class App;
 }
 
-/// Each adds one subcommand with its help to `program`; the subcommand runs while the arguments are parsed.
-/// Results go to stdout; failures are thrown: UsageError (exit code 2) or anything else (exit code 1).
+/// Each function adds one subcommand with its help to `program`; the subcommand runs while the
+/// arguments are parsed. Results go to stdout. Failures are thrown: UsageError (exit code 2) or
+/// anything else (exit code 1).
 namespace nearfit::cli {
 
 void addInfoCommand(CLI::App& program);

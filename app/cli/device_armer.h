@@ -6,14 +6,15 @@
 
 namespace nearfit::cli {
 
-/// Arms a device once, as soon as it is ready: never again after it was stopped.
+/// Arms a device once, as soon as it is ready; never again after it was stopped.
 class DeviceArmer {
  public:
-  /// @param device  Outlives this.
+  /// @param device    Must outlive this.
+  /// @param isWanted  False: never arms.
   DeviceArmer(HapticDevice& device, bool isWanted) : device_(device), isWanted_(isWanted) {}
 
-  /// Controlling thread, now and then. Says on stderr, once, what the device waits for.
-  /// @return Why the device refuses; empty: it does not.
+  /// Arms the device if it is ready. Prints to stderr, once, what an uncalibrated device waits for. Call it
+  /// now and then on the controlling thread. Returns why the device refuses; empty if it does not.
   std::string look();
   bool hasArmed() const noexcept { return hasArmed_; }
 

@@ -16,14 +16,14 @@
 namespace nearfit::cli {
 namespace {
 
-/// How often an eye can read, and how often a file needs it.
+/// How often a person can read a line, and how often a file needs one.
 constexpr Nanoseconds kRewriteEvery = kNanosecondsPerSecond / 10, kLineEvery = kNanosecondsPerSecond / 2;
 
-/// Whether forces go out, and if not why.
+/// State of the forces, with the reason if none go out.
 enum class Forces : std::uint8_t {
-  None,  ///< It has none.
-  Off,   ///< It is not armed.
-  Held,  ///< It is armed, and its dead-man's switch is not held.
+  None,  ///< The device has none.
+  Off,   ///< The device is not armed.
+  Held,  ///< The device is armed, but its dead-man switch is not held.
   Out,
 };
 
@@ -48,7 +48,7 @@ Forces forcesOf(TickedDevice& ticked) {
 }
 
 struct Look {
-  double time = 0.0;  ///< Since the beginning [s].
+  double time = 0.0;  ///< Since the start [s].
   double rate = 0.0;  ///< [Hz]
   HandleInput handle;
   ReportCounters counters;
@@ -56,7 +56,7 @@ struct Look {
   DeviceState state{};
   std::string note;
   Forces forces = Forces::Off;
-  glm::dvec3 force{0.0};  ///< As the device was told last [N]; counts when they are out.
+  glm::dvec3 force{0.0};  ///< Last one sent to the device [N]; valid if forces are out.
 };
 
 Look lookAt(TickedDevice& ticked, const glm::dvec3& force, double time, Nanoseconds now) {
@@ -172,7 +172,7 @@ void monitorDevice(HapticDevice& device, const MonitorOptions& options) {
     if (now < next && !isOver && isThere) continue;
     next += every * ((now - next) / every + 1);
     const Look look = lookAt(ticked, sent, time, now);
-    // To the line's start, and what was longer before is cleared behind it.
+    // Goes to the line's start, and clears what a longer line left behind.
     if (options.isJson)
       print(lookJson(look));
     else

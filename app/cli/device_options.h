@@ -13,24 +13,25 @@ class App;
 
 namespace nearfit::cli {
 
-/// What --calibrate does, for help texts.
+/// Help text on what --calibrate does.
 inline constexpr const char* kCalibrateHelp =
     "The handle is held in its rest, or left free to find itself: devices that do not know where it is take "
     "it "
     "from there";
 
-/// Files that some devices need: options of a command.
-/// @param files  Outlives the command.
+/// Adds the options for files that some devices need.
+/// @param files  Must outlive the command.
 void addDeviceFileOptions(CLI::App& command, DeviceFiles& files);
 
-/// What is plugged in now; what went wrong with plug-ins goes to stderr as warnings. Throws DeviceError.
+/// Returns the devices that are plugged in now; prints problems of plug-ins to stderr as
+/// warnings. Throws DeviceError.
 std::vector<DeviceListing> devicesPluggedIn();
 
-/// The file of a recorded hand that is meant as a device: "replay:FILE".
+/// Returns the file of a recorded hand that is named as a device, "replay:FILE"; else std::nullopt.
 std::optional<std::filesystem::path> recordingMeant(const std::string& wanted);
 
-/// The device that is meant (see chooseDevice, recordingMeant), not opened yet. Throws DeviceError with what
-/// to do about it.
+/// Creates the device that `wanted` names (see chooseDevice, recordingMeant); opens nothing yet. Throws
+/// DeviceError with the remedy.
 std::unique_ptr<HapticDevice> deviceMeant(const std::string& wanted, const DeviceFiles& files);
 
 }  // namespace nearfit::cli

@@ -23,7 +23,7 @@ namespace {
 
 using Result = TestStep::Result;
 
-/// For a device to find out where its handle is, while somebody moves it [s].
+/// Time for a device to find its handle's place while somebody moves it [s].
 constexpr double kCalibrationSeconds = 20.0;
 
 const char* resultName(Result result) {
@@ -70,7 +70,7 @@ class Steps {
   std::vector<TestStep> steps_;
 };
 
-/// A line that the user has typed, if there is one yet.
+/// Returns the line that the user has typed, if there is one yet.
 std::optional<std::string> typedLine() {
   pollfd input{STDIN_FILENO, POLLIN, 0};
   if (::poll(&input, 1, 0) <= 0) return std::nullopt;
@@ -82,7 +82,7 @@ std::optional<std::string> typedLine() {
   return line;
 }
 
-/// The device is served meanwhile: some need that.
+/// Ticks the device while it waits, since some devices need that.
 bool asksForConsent(TickedDevice& ticked, double force) {
   print(
       fmt::format("Hold the handle. It will be pushed with up to {:.2f} N, {} s along each axis.\n"
@@ -162,7 +162,7 @@ void testDevice(HapticDevice& device, const DeviceTestOptions& options) {
     steps.add({"open", Result::Passed, name + ", " + ticked.grant().describe()});
     for (TestStep& step : watchReports(ticked))
       steps.add(std::move(step));
-    // No forces from one whose poses cannot be trusted.
+    // No forces on a device whose poses cannot be trusted.
     if (steps.failed() == 0 && !InterruptGuard::isInterrupted()) testForces(ticked, steps, options);
   }
   steps.printJson(name);

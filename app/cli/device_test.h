@@ -5,14 +5,14 @@
 namespace nearfit::cli {
 
 struct DeviceTestOptions {
-  bool hasConsent = false;  ///< Forces may go out; else the user is asked, where there is a terminal.
+  bool hasConsent = false;  ///< Allows forces; if false, a user at a terminal is asked.
   bool isJson = false;
-  bool isCalibrating = false;  ///< See HapticDevice::calibrate.
+  bool isCalibrating = false;  ///< See HapticDevice::calibrate().
 };
 
-/// Opens a device, looks at its reports and poses, and if the user agrees arms it and pushes gently along
-/// each axis; says of each step whether it passed. Forces end and the device is closed however this ends.
-/// Throws Error when a step has failed.
+/// Tests a device: opens it, watches its reports and poses and, with consent, arms it and pushes gently along
+/// each axis. Prints for each step whether it passed. Always turns forces off and closes the device. Throws
+/// Error if a step failed.
 void testDevice(HapticDevice& device, const DeviceTestOptions& options);
 
 }  // namespace nearfit::cli

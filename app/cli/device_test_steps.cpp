@@ -14,19 +14,19 @@ namespace nearfit::cli {
 namespace {
 
 constexpr double kWatchSeconds = 2.0, kPushSeconds = 1.0;
-/// The servo copes with half the rate, with softer contact; less is a bad cable or hub.
+/// The servo copes with half the nominal rate, with softer contact; less means a bad cable or hub.
 constexpr double kLeastRate = 0.5;
-/// Speed is measured over this at least: two reports may come at once [s].
+/// Shortest time over which speed is measured, since two reports may come at once [s].
 constexpr double kSpeedTime = 0.01;
-/// Of a push of half a newton on a handle that is held.
+/// Limits for half a newton on a handle that is held.
 constexpr double kMostWay = 0.05, kMostSpeed = 0.5;  // [m], [m/s]
 
 using Result = TestStep::Result;
 
-/// How fast a handle goes, from its poses.
+/// Measures the speed of a handle from its poses.
 class SpeedMeter {
  public:
-  /// [m/s]; the last one while too little time has passed.
+  /// Returns the speed [m/s]; the last one if too little time has passed.
   double see(const glm::dvec3& position, Nanoseconds now) noexcept {
     const double time = toSeconds(now - time_);
     if (time_ == 0 || time >= kSpeedTime) {
@@ -62,7 +62,7 @@ Watched watchTicks(TickedDevice& ticked) {
     const Nanoseconds now = monotonicNow();
     const RigidTransform& pose = ticked.handle().pose;
     watched.isFinite = watched.isFinite && pose.isFinite();
-    // What is no number counts as too fast.
+    // std::fmax ignores NaN; isFinite reports it.
     watched.mostSpeed = std::fmax(watched.mostSpeed, speed.see(pose.translation, now));
     watched.seconds = toSeconds(now - begin);
   }
@@ -99,7 +99,7 @@ TestStep judgePoses(const Watched& watched) {
                       isTooFast ? ": no hand is so fast" : "")};
 }
 
-/// Why a push is given up; empty: it goes on.
+/// Returns why a push is given up; empty if it goes on.
 std::string motionTrouble(const HapticDevice& device, double way, double speed) {
   if (InterruptGuard::isInterrupted()) return "interrupted";
   if (device.state() != DeviceState::Armed) {

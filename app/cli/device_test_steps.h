@@ -9,6 +9,7 @@
 
 namespace nearfit::cli {
 
+/// Result of one step.
 struct TestStep {
   enum class Result { Passed, Failed, Skipped };
   std::string name;
@@ -16,14 +17,14 @@ struct TestStep {
   std::string text;
 };
 
-/// What is measured while nothing is done to it: rate, jitter, poses. Two steps.
+/// Watches the device without touching it: one step for rate and jitter, one for poses.
 std::vector<TestStep> watchReports(TickedDevice& ticked);
 
-/// A push of at most `force` along an axis that comes and goes smoothly, given up at once when the handle
-/// runs away or the device stops. The device is armed.
+/// Pushes along a unit axis in the device's frame, rising to `force` [N] and falling smoothly. Gives up at
+/// once if the handle runs away or the device stops. The device must be armed.
 TestStep push(TickedDevice& ticked, const std::string& name, const glm::dvec3& axis, double force);
 
-/// How strong the pushes are [N]: well felt, and no danger to anybody.
+/// Strength of the pushes [N]: clearly felt, and dangerous to nobody.
 constexpr double kTestForce = 0.5;
 
 }  // namespace nearfit::cli

@@ -35,7 +35,7 @@ Nothing is armed otherwise, and no force goes out.
 Exit code: 0 also when nothing is plugged in; 1 when the device that is meant is missing, is lost or fails the test.)";
 
 constexpr std::chrono::milliseconds kLook{100};
-/// Where the system does not tell of changes, and for those that plug-ins look after.
+/// Covers systems that do not announce changes, and devices of plug-ins.
 constexpr int kLooksBetweenLists = 10;
 
 struct DevicesOptions {
@@ -56,7 +56,7 @@ void printRules() {
   print(text);
 }
 
-/// What `from` has and `other` has not.
+/// Returns the devices in `from` that are not in `other`.
 std::vector<DeviceListing> without(const std::vector<DeviceListing>& from,
                                    const std::vector<DeviceListing>& other) {
   std::vector<DeviceListing> rest;

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Hands that need no hardware, and where they are to be had.
+/// Hands that need no hardware, and where to find them.
 struct SimulatedHand {
   const char *id, *name, *use;
 };
@@ -57,7 +57,7 @@ std::string listingLine(const DeviceListing& device) {
                              device.name, device.kind, conditionText(device)));
 }
 
-/// @param isThere  It is plugged in; else it has just left.
+/// @param isThere  True if it is plugged in; false if it has just left.
 Json listingJson(const DeviceListing& device, bool isThere = true) {
   Json json{{"place", device.place},
             {"state", stateName(isThere ? DeviceState::Present : DeviceState::Absent)},

@@ -7,13 +7,13 @@
 
 namespace nearfit::cli {
 
-/// Lines for a reader, each with a line break at its end: what is plugged in, whether it can be used, and if
-/// not why and what to do; then what needs no device.
+/// Returns text for a reader, one line each with a line break: the devices that are plugged in, whether they
+/// can be used and, if not, why and what to do; then the hands that need no device.
 std::string devicesText(std::span<const DeviceListing> devices);
-/// The same as one JSON object on one line.
+/// Returns the same as one JSON object on one line.
 std::string devicesJson(std::span<const DeviceListing> devices);
 
-/// One line (or object) on a device that has come or gone.
+/// Return one line, or one JSON object on a line, about a device that has come (`hasCome`) or gone.
 std::string arrivalText(const DeviceListing& device, bool hasCome);
 std::string arrivalJson(const DeviceListing& device, bool hasCome);
 

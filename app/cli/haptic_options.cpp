@@ -17,10 +17,10 @@ namespace nearfit::cli {
 namespace {
 
 constexpr const char* kGroup = "Feel";
-/// In the order in which WorkspaceMapping holds them, translation first.
+/// In the order of WorkspaceMapping, translation first.
 constexpr std::array<std::string_view, 6> kLocks{"tx", "ty", "tz", "rx", "ry", "rz"};
 
-/// By the names that checkHaptics gives values.
+/// Maps checkHaptics()'s names of values to options.
 constexpr std::array<std::pair<std::string_view, const char*>, 12> kOptionOfValue{
     {{"springs.cutoff", "--cutoff"},
      {"springs.stiffness", "--stiffness"},
@@ -128,7 +128,7 @@ void applyLocks(const std::string& text, WorkspaceMapping& mapping) {
   for (std::string_view rest = text; !rest.empty();) {
     const std::string_view name = rest.substr(0, rest.find(','));
     const auto* const lock = std::find(kLocks.begin(), kLocks.end(), name);
-    // Nor may a comma end the list.
+    // A comma may not end the list either.
     if (lock == kLocks.end() || name.size() + 1 == rest.size()) break;
     const auto index = static_cast<std::size_t>(lock - kLocks.begin());
     (index < 3 ? mapping.translationLocks : mapping.rotationLocks)[index % 3] = true;
@@ -152,7 +152,7 @@ void applyTexts(const HapticOptions& options, HapticSettings& settings) {
   }
 }
 
-/// As checkHaptics, but for the name of what is wrong.
+/// Same as checkHaptics(), but names the option.
 void checkByOption(const HapticSettings& settings) {
   try {
     checkHaptics(settings);

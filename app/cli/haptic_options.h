@@ -11,7 +11,7 @@ class App;
 
 namespace nearfit::cli {
 
-/// What a command line says about feeling; what it does not say stays as it is.
+/// Haptic settings from a command line; those not given stay unchanged.
 struct HapticOptions {
   std::optional<std::string> mode, gravity, orientation, locks;
   std::optional<double> cutoff, stiffness, damping, margin, friction, scale;
@@ -19,13 +19,13 @@ struct HapticOptions {
   std::optional<bool> hasWeight, hasInertia;
 };
 
-/// Adds the options, in a group of their own, to a command.
-/// @param options   Outlives the command.
-/// @param defaults  Told in the help as what counts otherwise; null: nothing is told.
+/// Adds the options to a command, in their own group.
+/// @param options   Must outlive the command.
+/// @param defaults  Shown in the help as default values; null: none are shown.
 void addHapticOptions(CLI::App& command, HapticOptions& options, const HapticSettings* defaults = nullptr);
 
-/// The settings with what the options say. Any number for the coupling turns its automatic choice off. Throws
-/// UsageError naming the option: text that is none of what it takes, or a value that checkHaptics refuses.
+/// Returns `settings` with the options applied. Any value for the coupling turns its automatic choice off.
+/// Throws UsageError, naming the option, for invalid text or a value that checkHaptics() refuses.
 HapticSettings withOptions(HapticSettings settings, const HapticOptions& options);
 
 }  // namespace nearfit::cli

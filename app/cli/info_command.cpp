@@ -68,14 +68,14 @@ std::string massText(const MassProperties& mass, double density) {
   std::string text =
       fmt::format("  weighs      {:.6g} kg at {:.6g} kg/m^3\n", density * mass.volume, density);
   const glm::dmat3 inertia = density * mass.inertia;
-  // By rows; glm's matrices are columns, but this one is symmetric.
+  // By rows: glm's matrices are columns, but this one is symmetric.
   for (int i = 0; i < 3; ++i) {
     text += fmt::format("  {}{} kg m^2\n", i == 0 ? "inertia     " : "            ", pointText(inertia[i]));
   }
   return text;
 }
 
-/// Of its hierarchy, made now where it is not there yet.
+/// Returns the origin of its hierarchy, which is made now if it does not exist yet.
 HierarchyOrigin originOf(const PartGeometry& geometry) {
   geometry.tree();
   return *geometry.hierarchy->origin();

@@ -4,7 +4,8 @@
 
 namespace nearfit::cli {
 
-/// Turns the first interrupt (SIGINT, SIGTERM) into a flag; the second one kills as usual. One at a time.
+/// Turns the first interrupt (SIGINT, SIGTERM) into a flag; a second one kills as usual. Only
+/// one guard at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -12,6 +13,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
+  /// True if an interrupt came since the last guard was made.
   static bool isInterrupted() noexcept;
 
  private:

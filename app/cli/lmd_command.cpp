@@ -24,7 +24,7 @@
 namespace nearfit::cli {
 namespace {
 
-/// Minima of a pose; bounds memory at some gigabytes.
+/// Limit of minima per pose; bounds memory at some gigabytes.
 constexpr std::size_t kMaxLmds = 4'000'000;
 
 struct LmdOptions {
@@ -54,7 +54,7 @@ std::string lmdText(const Lmd& lmd) {
       nameOf(lmd.sceneFeature), nameOf(lmd.partFeature), lmd.isRegion, extent, lmd.isBlocked, lmd.isMarginal);
 }
 
-/// One line for the pose of that number.
+/// Returns the output line of a pose. Throws Error if minima were left out or the wrench is not finite.
 std::string poseLine(std::size_t pose, const LmdSet& set, const Wrench& wrench) {
   const std::string where = fmt::format("pose {}", pose);
   if (!set.isComplete) {
@@ -79,7 +79,7 @@ SpringParameters springsOf(const LmdOptions& options) {
   return springs;
 }
 
-/// Scene and part, the same one when both are one file, with their hierarchies.
+/// Loads scene and part with their hierarchies; both are the same one if the files are.
 std::pair<PartGeometryPtr, PartGeometryPtr> loadBodies(const LmdOptions& options, double metresPerUnit) {
   std::vector<MeshSource> sources{{options.sceneMesh, metresPerUnit, {}}};
   if (normalisedPath(options.partMesh) != normalisedPath(options.sceneMesh))
@@ -93,7 +93,7 @@ std::pair<PartGeometryPtr, PartGeometryPtr> loadBodies(const LmdOptions& options
   return {bodies.front(), bodies.back()};
 }
 
-/// What is searched, by the rule that is asked for.
+/// The hierarchies to search, built by the chosen rule.
 class Hierarchies {
  public:
   Hierarchies(const LmdOptions& options, PartGeometryPtr scene, PartGeometryPtr part)
@@ -122,7 +122,7 @@ void runLmd(const LmdOptions& options) {
       options.poses.empty() ? std::vector{parsePose("--pose", options.pose)} : readPosePath(options.poses);
   const auto [scene, part] = loadBodies(options, metresPerUnit);
   const Hierarchies trees(options, scene, part);
-  // Once nothing can fail but the output, so that a failure is one line.
+  // Only once nothing but the output can fail, so that a failure is one line.
   printWarnings(*scene);
   if (part != scene) printWarnings(*part);
   LmdCollector collector(kMaxLmds);

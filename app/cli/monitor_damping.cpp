@@ -15,7 +15,7 @@ Wrench MonitorDamping::step(const HandleInput& handle, bool isArmed, Nanoseconds
   }
   if (pushingSince_ == 0) pushingSince_ = now;
   const double speed = glm::length(velocity);
-  // What is no number is no force.
+  // NaN gives no force.
   if (!(speed > 0.0 && speed < kNoneFrom) || !(handle.age <= kFresh)) return {};
   const double in = std::min(toSeconds(now - pushingSince_) / kFadeIn, 1.0);
   const double slow = std::clamp((kNoneFrom - speed) / (kNoneFrom - kAllUpTo), 0.0, 1.0);

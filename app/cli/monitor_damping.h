@@ -7,22 +7,22 @@
 
 namespace nearfit::cli {
 
-/// A weak resistance to motion, so that a monitor has a force to show: as if the handle moved in syrup.
+/// A weak resistance to motion, as if the handle moved in syrup, so that a monitor has a force to show.
 ///
-/// It fades in after each time that the device begins to push. It only ever takes energy out as long as the
-/// device measures right; should it not (a joint that counts the wrong way), what it adds is kMost at most,
-/// and nothing at all beyond kNoneFrom.
+/// It fades in each time that the device begins to push. It only takes energy out as long as the device
+/// measures correctly. If the device does not (a joint that counts backwards), the force is at most kMost,
+/// and zero above kNoneFrom.
 class MonitorDamping {
  public:
-  static constexpr double kDamping = 2.0;  ///< Of the order of what devices have themselves [N s/m].
-  static constexpr double kMost = 0.5;     ///< As --test pushes at most [N].
-  /// A hand that looks at a monitor is slower; from the first to the second the force fades [m/s].
+  static constexpr double kDamping = 2.0;  ///< Similar to the damping of devices themselves [N s/m].
+  static constexpr double kMost = 0.5;     ///< Largest force, the same as that of --test [N].
+  /// Speeds between which the force fades; a hand at a monitor is slower [m/s].
   static constexpr double kAllUpTo = 0.4, kNoneFrom = 0.6;
-  static constexpr double kFadeIn = 1.0;  ///< [s]
-  /// Older poses tell nothing of the speed now [s].
+  static constexpr double kFadeIn = 1.0;  ///< Time to fade in [s].
+  /// Older poses say nothing about the speed now [s].
   static constexpr double kFresh = 5e-3;
 
-  /// What to send, in the device's frame; none when the device does not push.
+  /// Returns the wrench to send, in the device's frame; zero if the device does not push.
   Wrench step(const HandleInput& handle, bool isArmed, Nanoseconds now) noexcept;
 
  private:

@@ -58,7 +58,8 @@ std::string knownNames(const Scene& scene) {
   return names.empty() ? "the scene has no parts" : "its parts are " + names;
 }
 
-/// @param start  Of the path; a device's handle begins where the part is.
+/// Makes the named part the moving part.
+/// @param start  First pose of a path or recording; null: the part stays where it is.
 void takeInHand(Scene& scene, const PlaceOptions& options, const RigidTransform* start) {
   const Part* part = scene.findByName(options.part);
   if (part == nullptr) {
@@ -78,7 +79,7 @@ void takeInHand(Scene& scene, const PlaceOptions& options, const RigidTransform*
   scene.setMovingPart(placed.id);
 }
 
-/// Told before the run, not after it.
+/// Throws before the run, not after it, if an output file cannot be written.
 void checkTargets(const PlaceOptions& options) {
   if (!options.record.empty() && options.record == options.exportFile) {
     throw UsageError("--record", "it names the same file as --export", "give two files");
@@ -95,7 +96,7 @@ void checkTargets(const PlaceOptions& options) {
   }
 }
 
-/// Neither output may take the place of an input.
+/// Throws UsageError if an output would replace an input.
 void checkInputsAreKept(const Scene& scene, const PlaceOptions& options) {
   std::vector<std::filesystem::path> inputs = {
       options.scene, options.path, options.deviceFiles.falconFirmware, options.deviceFiles.polhemCalibration};
@@ -154,7 +155,7 @@ void runPlace(const PlaceOptions& options) {
   checkInputsAreKept(scene, options);
   std::optional<RigidTransform> start;
   if (!options.isLedByDevice) start = job.path.front();
-  // As it was then, so that it is felt as it was then.
+  // A recorded hand feels the same only from the same pose.
   if (const auto recording = recordingMeant(options.device))
     start = readHandMotion(*recording).front().worldFromHandle;
   takeInHand(scene, options, start ? &*start : nullptr);

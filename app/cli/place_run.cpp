@@ -58,7 +58,7 @@ PlaceResult beginning(const PlaceJob& job) {
   return result;
 }
 
-/// The servo in its thread; this one takes its rows.
+/// Runs the servo on its own thread and takes its rows on this one.
 class RecordedServo {
  public:
   RecordedServo(PlaceResult& result, MotionWriter* writer) : result_(result), writer_(writer) {}
@@ -69,7 +69,7 @@ class RecordedServo {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     takeRows();
   }
-  /// Stops it and takes what there is left.
+  /// Stops the servo and takes the rows that are left.
   void finish() {
     loop_.stop();
     takeRows();
@@ -97,10 +97,10 @@ class RecordedServo {
   ServoLoop loop_;
 };
 
-/// A device that is open for as long as this lives.
+/// Keeps a device open while this lives.
 class OpenDevice {
  public:
-  /// Interrupts end it, however long it takes. Throws Error, Cancelled.
+  /// Opens the device; an interrupt cancels that. Throws Error, Cancelled.
   OpenDevice(HapticDevice& device, const RigidTransform& worldFromPart) : device_(device) {
     device.start(worldFromPart, [](double) { return !InterruptGuard::isInterrupted(); });
   }
@@ -112,7 +112,7 @@ class OpenDevice {
   HapticDevice& device_;
 };
 
-/// Empty as long as all is well.
+/// Returns why the device stopped; empty while all is well.
 std::string deviceTrouble(const HapticDevice& device) {
   const DeviceState state = device.state();
   return state == DeviceState::Lost || state == DeviceState::Fault ? device.stateNote() : std::string();
@@ -139,8 +139,8 @@ PlaceResult placeFast(PlaceJob job) {
   const bool isProxy = job.parameters.haptics.mode == HapticMode::Proxy;
   device.start(result.end);
   while (!InterruptGuard::isInterrupted() && device.readHandle(handle)) {
-    // No thread beside: what is due is looked at before the tick, around where the part is; with springs that
-    // is where the hand wants it, and nothing is late.
+    // There is no search thread: what is due is searched before the tick, around the part. With springs the
+    // part is where the hand wants it, and nothing is late.
     tracker.observe(isProxy ? result.end : handle.pose, 1.0);
     if (result.ticks > 0) tracker.observeHand(snapshot->handle, 1.0);
     tracker.setWaiting(snapshot->isWaiting);
@@ -174,7 +174,7 @@ PlaceResult placeInRealTime(PlaceJob job) {
   servo.loop().start(device, std::move(job.scene), job.parameters, servo.rows());
   while (servo.loop().isRunning() && !InterruptGuard::isInterrupted())
     servo.waitAndTake();
-  // The path may end at the very moment of the interrupt: the device knows.
+  // The path may end at the moment of the interrupt: the device knows.
   result.isInterrupted = InterruptGuard::isInterrupted() && device.state() == DeviceState::Armed;
   servo.finish();
   return result;
@@ -190,7 +190,7 @@ PlaceResult placeWithDevice(PlaceJob job) {
   RecordedServo servo(result, job.writer);
   servo.loop().startWithOpen(device, std::move(job.scene), job.parameters, servo.rows());
   if (job.isCalibrating) device.calibrate();
-  // What it can do is known only now.
+  // Its limits are known only now that it is open.
   const DeviceInfo info = device.info();
   report.name = info.name;
   report.limits = job.parameters.limits = info.limits;

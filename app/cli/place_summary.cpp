@@ -73,7 +73,7 @@ std::string couplingText(const CouplingState& c) {
                      c.isHeldToBound ? " (less than was wished)" : "");
 }
 
-/// Stiffness up to which the coupling is passive in anyone's hand, at the period that the servo reckons with.
+/// Stiffness up to which the coupling is passive in any hand, at the period that the servo assumes.
 struct StiffnessBounds {
   double linear, rotational;  ///< [N/m], [N m/rad]
 };
@@ -85,7 +85,7 @@ StiffnessBounds boundsOf(const PlaceSummary& s) {
           stiffnessBound(device.rotationalDamping, coupling.rotationalDamping, s.result.period)};
 }
 
-/// What only the proxy has to tell.
+/// Returns the lines that only the proxy mode has.
 std::string proxyText(const PlaceSummary& s) {
   const PlaceResult& r = s.result;
   const StiffnessBounds bounds = boundsOf(s);

@@ -7,21 +7,21 @@
 
 namespace nearfit::cli {
 
-/// What `place` tells of a run.
+/// Input of the summary of `place`.
 struct PlaceSummary {
   const std::string& part;
-  std::size_t others;                 ///< Parts that could be felt.
-  std::size_t poses;                  ///< Of the path; a device has none.
-  const ServoParameters& parameters;  ///< That it ran with.
+  std::size_t others;                 ///< Parts that can be felt.
+  std::size_t poses;                  ///< Length of the path; 0 with a device.
+  const ServoParameters& parameters;  ///< In force during the run.
   const PlaceResult& result;
-  const std::string& record;      ///< Empty when none was written.
-  const std::string& exportFile;  ///< Empty when none was written.
+  const std::string& record;      ///< Empty if none was written.
+  const std::string& exportFile;  ///< Empty if none was written.
 };
 
-/// Lines for a reader; each ends in a line break.
+/// Returns lines for a reader; each ends in a line break.
 std::string summaryText(const PlaceSummary& summary);
 
-/// One JSON object on one line; SI units but for the times in microseconds, whose names say so.
+/// Returns one JSON object on one line; SI units, except times in microseconds, whose names say so.
 std::string summaryJson(const PlaceSummary& summary);
 
 }  // namespace nearfit::cli

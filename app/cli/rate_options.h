@@ -12,25 +12,27 @@ class App;
 
 namespace nearfit::cli {
 
-/// How a space mouse drives, as far as it was said.
+/// Options of a space mouse from a command line.
 struct RateOptions {
   std::optional<double> deadZone, exponent, fullSpeed, fullTurn;
-  std::optional<std::string> axes;  ///< See takeAxes.
+  std::optional<std::string> axes;  ///< See takeAxes().
 
   bool isGiven() const noexcept { return deadZone || exponent || fullSpeed || fullTurn || axes; }
 };
 
-/// Options of a command. @param options  Outlives the command.
+/// Adds the options to a command.
+/// @param options  Must outlive the command.
 void addRateOptions(CLI::App& command, RateOptions& options);
 
-/// The usual settings with what was said. Throws UsageError that names the option.
+/// Returns the default settings with the options applied. Throws UsageError that names the option.
 RateSettings rateSettings(const RateOptions& options);
 
-/// Those axes that `text` names ("x,y,-rz") are on, those with a minus reversed, all others off.
-/// Throws UsageError.
+/// Enables the axes that `text` names ("x,y,-rz"), reversed with a minus, and disables all
+/// others. Throws UsageError.
 void takeAxes(const std::string& text, RateSettings& settings);
 
-/// Hands what was said to the device. Throws UsageError when it is not driven by pushing.
+/// Applies the settings to a device. Throws UsageError if options are given and the device is not
+/// driven by pushing.
 void applyRateOptions(const RateOptions& options, HapticDevice& device);
 
 }  // namespace nearfit::cli

@@ -33,7 +33,7 @@ struct PartArgument {
   RigidTransform worldFromPart;
 };
 
-/// NAME=FILE[@POSE]. What follows the last @ belongs to the file's name unless it is a pose.
+/// Parses NAME=FILE[@POSE]. Text after the last @ belongs to the file name unless it is a pose.
 PartArgument parsePart(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
@@ -57,7 +57,7 @@ PartArgument parsePart(const std::string& text) {
   return part;
 }
 
-/// NAME=VALUE, of a part that is there.
+/// Sets a density given as NAME=VALUE. Throws UsageError if there is no such part.
 void setDensity(Scene& scene, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {

@@ -5,8 +5,8 @@
 namespace nearfit::cli {
 namespace {
 
-/// A device that sends reports at a rate and is silent for so many periods is answered all the same: some
-/// wait for that.
+/// Silent periods after which a device with a report rate is answered anyway, since some
+/// devices wait for that.
 constexpr double kReportPatience = 2.0;
 
 }  // namespace
@@ -35,7 +35,7 @@ TickedDevice::TickedDevice(HapticDevice& device, bool isCalibrating) : device_(d
     device_.stop();
     throw;
   }
-  // What it can do is known only now.
+  // Its pace is known only now that it is open.
   const double period = device_.info().reportPeriod;
   if (period > 0.0) patience_ = static_cast<Nanoseconds>(kReportPatience * period * 1e9);
   requestRealtimeScheduling(grant_);

@@ -9,20 +9,20 @@
 
 namespace nearfit::cli {
 
-/// How often reports come, by a device's own count of them and when they are seen.
+/// Measures how often reports come, from the device's own count and the times at which they are seen.
 class ReportMeter {
  public:
   /// @param poses    ReportCounters::poses.
-  /// @param arrived  Of the newest, as nearly as is known.
+  /// @param arrived  Arrival of the newest report, as nearly as it is known.
   void see(std::uint64_t poses, Nanoseconds arrived) noexcept;
 
-  /// Reports a second between the last two calls [Hz]; 0 in the first.
+  /// Returns the reports per second between the last two calls [Hz]; 0 at the first.
   double takeRate(Nanoseconds now) noexcept;
-  /// Between reports that were seen [s]; pauses are left out.
+  /// Returns the times between reports that were seen [s], without pauses.
   const LatencyHistogram& intervals() const noexcept { return intervals_; }
   std::uint64_t poses() const noexcept { return poses_; }
 
-  /// A cap at rest sends nothing: longer is no jitter.
+  /// A longer interval is no jitter but a pause: a cap at rest sends nothing.
   static constexpr Nanoseconds kPause = kNanosecondsPerSecond / 10;
 
  private:
@@ -31,20 +31,20 @@ class ReportMeter {
   Nanoseconds lastArrived_ = 0, taken_ = 0;
 };
 
-/// A device that is open and that this thread serves, with real-time service where that is granted: for
-/// looking at it without a scene. Its forces are off and it is closed when this ends.
+/// An open device that this thread ticks, with real-time service if granted: for watching a device without a
+/// scene. At the end its forces are turned off and it is closed.
 class TickedDevice {
  public:
-  /// Opens it, and calibrates it where that is wished. Throws Error.
+  /// Opens the device, and calibrates it if wanted. Throws Error.
   TickedDevice(HapticDevice& device, bool isCalibrating);
   ~TickedDevice();
   TickedDevice(const TickedDevice&) = delete;
   TickedDevice& operator=(const TickedDevice&) = delete;
 
-  /// Waits for the next report or period, reads the handle, answers with the wrench (which goes out only when
-  /// the device is armed). False when it has been lost.
+  /// Waits for the next report or period, reads the handle and answers with the wrench, which goes out only
+  /// if the device is armed. Returns false if the device is lost.
   bool tick(const Wrench& wrench = {}) noexcept;
-  /// As of the last tick.
+  /// The handle at the last tick.
   const HandleInput& handle() const noexcept { return handle_; }
 
   HapticDevice& device() noexcept { return device_; }
@@ -54,7 +54,7 @@ class TickedDevice {
 
  private:
   HapticDevice& device_;
-  Nanoseconds patience_ = kNanosecondsPerSecond / 1000;  ///< For the next report; or the period.
+  Nanoseconds patience_ = kNanosecondsPerSecond / 1000;  ///< Longest wait for a report; or the period.
   HandleInput handle_;
   ReportMeter meter_;
   RealtimeGrant grant_;

@@ -49,7 +49,7 @@ void Application::show(const QStringList& files, bool isDemo) {
   const bool isFirst = ui::Preferences::takeFirstRun();
   QTimer::singleShot(0, this, [=, this] {
     if (!files.isEmpty()) return window_.document().openFiles(files);
-    // Lost work that is being asked about comes first.
+    // A question about lost work comes first.
     if (isFirst && QApplication::activeModalWidget() == nullptr) return window_.beginTour();
     if (isDemo) window_.openDemo();
   });

@@ -11,22 +11,22 @@
 
 namespace nearfit::desktop {
 
-/// The desktop application's composition root: owns session, servo and window, and wires them.
+/// Composition root of the desktop application: owns session, servo and window, and connects them.
 /// Needs the QApplication.
 class Application : public QObject {
   Q_OBJECT
 
  public:
-  /// @param devices  Null: those that are plugged in.
+  /// @param devices  Null: the devices that are plugged in.
   explicit Application(std::unique_ptr<DeviceSource> devices = nullptr);
   ~Application() override;
 
-  /// What must be set up before the QApplication is made, and once after.
+  /// Set up Qt: prepare() before the QApplication is made, configure() after.
   static void prepare();
   static void configure();
 
-  /// Shows the window, then opens what is to be seen in it. The very first time and without files that is the
-  /// demo scene, with the tour.
+  /// Shows the window, then opens the files, or the demo scene if `isDemo`. The very first run without files
+  /// shows the demo scene with the tour.
   void show(const QStringList& files, bool isDemo);
 
   Session& session() noexcept { return session_; }

@@ -33,7 +33,7 @@ ui::DeviceChoice choiceOf(const DeviceListing& device) {
   return choice;
 }
 
-/// What went wrong with plug-ins, beside the devices.
+/// Returns an entry that tells of a problem with plug-ins.
 ui::DeviceChoice noticeOf(const std::string& problem) {
   ui::DeviceChoice notice;
   notice.name = QObject::tr("Plug-in");
@@ -42,7 +42,7 @@ ui::DeviceChoice noticeOf(const std::string& problem) {
   return notice;
 }
 
-/// Files of the user's in ~/.config/nearfit, by their usual names.
+/// Returns the files in ~/.config/nearfit that exist under their usual names.
 DeviceFiles userFiles() {
   DeviceFiles files;
   const char* home = std::getenv("HOME");
@@ -67,11 +67,11 @@ class PluggedIn final : public DeviceSource {
     try {
       bus_.emplace();
     } catch (const DeviceError&) {
-      // A machine without USB has no devices; nearfit-cli devices says why.
+      // Without USB there are no USB devices; nearfit-cli devices says why.
     }
   }
   bool hasChanged() override {
-    // Where nobody tells, and for what plug-ins look after, it has to be looked.
+    // Systems that announce no changes, and plug-ins, have to be polled.
     const bool hasToLook = !plugins_.plugins.empty() || isFirst_;
     return bus_ ? hasToLook || !bus_->tellsOfChanges() || bus_->changes() != changes_ : hasToLook;
   }

@@ -9,21 +9,21 @@
 
 namespace nearfit::desktop {
 
-/// Devices that are plugged in. All calls from the window's thread.
+/// Source of the devices that can be taken in hand. Call it on the window's thread only.
 class DeviceSource {
  public:
   virtual ~DeviceSource() = default;
-  /// Cheap: whether list() may give something else than the last time.
+  /// True if list() may differ from the last one. Cheap.
   virtual bool hasChanged() = 0;
-  /// Throws Error.
+  /// Lists the devices, and problems of plug-ins as entries without an id. Throws Error.
   virtual QVector<ui::DeviceChoice> list() = 0;
-  /// The id of the device that is meant (see chooseDevice). Throws Error.
+  /// Returns the id of the device that `wanted` names (see chooseDevice). Throws Error.
   virtual QString find(const QString& wanted) = 0;
-  /// One of the last list; nothing is opened yet. Throws Error: it is gone, or cannot be used.
+  /// Creates a device of the last list; opens nothing yet. Throws Error if it is gone or cannot be used.
   virtual std::unique_ptr<HapticDevice> make(const QString& id) = 0;
 };
 
-/// Those on USB and of plug-ins; none, and no error, where there is no USB.
+/// Returns the devices on USB and of plug-ins; without USB, those of plug-ins alone, which is no error.
 std::unique_ptr<DeviceSource> makeDeviceSource();
 
 }  // namespace nearfit::desktop

@@ -6,9 +6,9 @@
 
 namespace nearfit::desktop {
 
-/// What a device is doing, as sentences for its user.
-/// @param isPushing  It can push.
-/// @param note       HapticDevice::stateNote.
+/// Tells the user in sentences what a device is doing.
+/// @param isPushing  True if it can push.
+/// @param note       HapticDevice::stateNote().
 QString deviceText(DeviceState state, bool isPushing, const QString& note);
 
 }  // namespace nearfit::desktop

@@ -8,7 +8,7 @@
 namespace nearfit::desktop {
 namespace {
 
-/// Beside devices, plug-ins may have something to say.
+/// False for a notice of a plug-in.
 bool isDevice(const ui::DeviceChoice& choice) {
   return !choice.id.isEmpty();
 }
@@ -20,13 +20,13 @@ ui::DeviceChoice noDevice() {
   ui::DeviceChoice notice;
   notice.name = QObject::tr("No device is plugged in.");
   notice.note = QObject::tr(
-                    "These can be used: %1; others by a plug-in. The section Devices of the README says "
-                    "what each needs. One that is plugged in now appears here at once.")
+                    "These can be used: %1; others by a plug-in. resources/docs/devices.md says what each "
+                    "needs. One that is plugged in now appears here at once.")
                     .arg(kinds.join(QStringLiteral(", ")));
   return notice;
 }
 
-constexpr int kLookMs = 500;  ///< A user sees it at once; a look costs nothing while nothing changes.
+constexpr int kLookMs = 500;  ///< At once for a user; a look costs nothing while nothing changes.
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void DeviceWatcher::start() {
 void DeviceWatcher::setInHand(const QString& id) {
   if (inHand_ == id) return;
   inHand_ = id;
-  // Whether others can have it has changed too.
+  // The system's answer on who can use it changed too.
   look();
 }
 
@@ -58,7 +58,7 @@ void DeviceWatcher::look() {
   try {
     listed_ = source_.list();
   } catch (const Error&) {
-    // Listing fails now and then while something is unplugged: the next look will do.
+    // Listing may fail while something is unplugged: the next look will do.
     return;
   }
   publish();

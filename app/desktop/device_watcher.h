@@ -12,19 +12,20 @@ class DeviceWatcher : public QObject {
   Q_OBJECT
 
  public:
-  /// @param source  Outlives this.
+  /// @param source  Must outlive this.
   explicit DeviceWatcher(DeviceSource& source);
 
-  /// Begins to look.
+  /// Looks now, and from now on twice a second.
   void start();
-  /// What is in hand is not busy: we have it. Empty for none.
+  /// Lists the device in hand as usable although it is busy: it is ours. Empty: none.
   void setInHand(const QString& id);
-  /// It has been closed, and others can have it.
+  /// Tells that a device was closed and others can have it.
   void letGo(const QString& id);
   /// Looks now.
   void look();
 
  signals:
+  /// Emitted when the list changed. If no device is plugged in, a notice says which can be used.
   void devicesChanged(const QVector<nearfit::ui::DeviceChoice>& devices);
 
  private:

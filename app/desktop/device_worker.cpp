@@ -57,7 +57,7 @@ void DeviceWorker::perform(const std::shared_ptr<Task>& task) {
   } catch (...) {
     error = std::current_exception();
   }
-  // What the job holds is let go here: it may be the last to hold a device.
+  // Release here what the job holds: it may be the last reference to a device.
   task->job = nullptr;
   QMetaObject::invokeMethod(
       this,

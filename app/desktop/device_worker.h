@@ -14,22 +14,22 @@
 
 namespace nearfit::desktop {
 
-/// What is to be done with devices and may have to wait for them, in a thread of its own, one after the
-/// other: the window never waits.
+/// Runs jobs that may have to wait for devices one after the other, on its own thread, so that the
+/// window never waits.
 class DeviceWorker : public QObject {
   Q_OBJECT
 
  public:
   using Job = std::function<void(const ProgressCallback&)>;
   struct Listener {
-    std::function<void(std::exception_ptr)> onDone;  ///< With what the job threw, or null.
-    std::function<void(double)> onProgress;          ///< May be empty.
+    std::function<void(std::exception_ptr)> onDone;  ///< Receives what the job threw, or null.
+    std::function<void(double)> onProgress;          ///< Receives the fraction done; may be empty.
   };
 
-  /// A job that was given. Only the worker's owner's thread uses it.
+  /// A job that was submitted. For the thread that owns the worker only.
   class Ticket {
    public:
-    /// Nobody listens to the job any more, and it is asked to end; the call does not wait.
+    /// Asks the job to end and drops its listener; does not wait.
     void cancel() noexcept { isCancelled_.store(true, std::memory_order_relaxed); }
     bool isCancelled() const noexcept { return isCancelled_.load(std::memory_order_relaxed); }
 
@@ -38,10 +38,11 @@ class DeviceWorker : public QObject {
   };
 
   DeviceWorker();
-  /// Cancels what opens, does what was given, and waits for it.
+  /// Cancels all jobs, still runs those that wait, and joins the thread.
   ~DeviceWorker() override;
 
-  /// @param job       Runs in the other thread, even when it has been cancelled before; may throw.
+  /// Submits a job.
+  /// @param job       Runs on the worker's thread, even if it was cancelled before; may throw.
   /// @param listener  Called on this object's thread.
   std::shared_ptr<Ticket> run(Job job, Listener listener);
 

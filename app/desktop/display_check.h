@@ -2,8 +2,8 @@
 
 namespace nearfit::desktop {
 
-/// Qt and VTK end the process where they find no display or no OpenGL: looked for before they do. Both throw
-/// Error with the remedy. The first needs no QApplication, the second does.
+/// Check for a display and for OpenGL 3.2 before Qt and VTK do, which end the process without them. Throw
+/// Error with the remedy. requireDisplay() needs no QApplication; requireOpenGl() does.
 void requireDisplay();
 void requireOpenGl();
 

@@ -19,23 +19,23 @@ namespace nearfit::desktop {
 namespace {
 
 constexpr double kSweepSeconds = 4.0;
-/// Part of the gap to the nearest part that the scripted hand closes against springs: near enough to feel,
-/// never through.
+/// Share of the gap to the nearest part that the scripted hand closes against springs: near enough to
+/// feel, never through.
 constexpr double kCloses = 0.75;
-/// How far the wobble moves the part's ends, as a part of the approach's reach.
+/// Travel of the part's ends in the wobble, as a share of the approach's reach.
 constexpr double kWobble = 0.2;
-/// What the scripted hand presses with against contact [N]: well felt, and with what sliding adds still what
-/// usual devices bear.
+/// Force of the scripted hand against contact [N]: clearly felt, and with what sliding adds still within the
+/// limits of usual devices.
 constexpr double kPress = 7.0;
-/// Radius of its circle on contact, as a part of the way that it presses beyond.
+/// Radius of its circle on contact, as a share of the depth that it presses beyond.
 constexpr double kSlides = 0.5;
-/// It goes no farther beyond contact than this part of the moving part's diagonal.
+/// Largest depth beyond contact, as a share of the moving part's diagonal.
 constexpr double kMostBeyond = 0.05;
 
-/// How the hand goes: straight on, and then in a circle across.
+/// Direction in which the hand goes straight on, before it circles across.
 struct Approach {
   glm::dvec3 direction{0.0};
-  double gap = 0.0;  ///< To what is nearest [m].
+  double gap = 0.0;  ///< Distance to the nearest part [m].
 };
 
 struct Sweep {
@@ -47,7 +47,7 @@ double sizeOf(const ServoScene& scene) {
   return scene.moving.geometry->mesh.bounds().diagonal();
 }
 
-/// Towards the nearest other part within the cutoff.
+/// Returns the approach to the nearest other part within the cutoff; std::nullopt if there is none.
 std::optional<Approach> approachOfNearest(const ServoScene& scene, double cutoff) {
   LmdScratch scratch;
   std::array<Lmd, 16> lmds;
@@ -64,7 +64,7 @@ std::optional<Approach> approachOfNearest(const ServoScene& scene, double cutoff
   return approach;
 }
 
-/// Towards the middle of the other parts, when nothing is near.
+/// Returns the approach to the middle of the other parts, for when none is near.
 Approach approachOfMiddle(const ServoScene& scene, double cutoff) {
   glm::dvec3 middle(0.0);
   for (const ServoScene::Body& body : scene.bodies) {
@@ -76,14 +76,14 @@ Approach approachOfMiddle(const ServoScene& scene, double cutoff) {
   return {length > 0.0 ? way / length : glm::dvec3(0.0, 0.0, -1.0), cutoff};
 }
 
-/// So little turning that the part's ends move less than the approach leaves of the gap.
+/// Turns so little that the part's ends move less than the approach leaves of the gap.
 Sweep sweepOfSprings(const ServoScene& scene, const Approach& approach) {
   const double reach = kCloses * approach.gap;
   return {approach.direction, reach, kScriptedSlide * reach,
           std::min(kScriptedWobble, kWobble * reach / (0.5 * sizeOf(scene)))};
 }
 
-/// Beyond contact, and round on it.
+/// Goes beyond contact, and in a circle on it.
 Sweep sweepOfProxy(const ServoScene& scene, const Approach& approach, const CouplingSettings& wish) {
   const CouplingState coupling = boundedCoupling(wish, DeviceLimits{}, scene.metric, ServoLoop::kPeriod);
   const double most = kMostBeyond * sizeOf(scene);
@@ -91,7 +91,7 @@ Sweep sweepOfProxy(const ServoScene& scene, const Approach& approach, const Coup
   return {approach.direction, approach.gap + beyond, kSlides * beyond, kScriptedWobble};
 }
 
-/// Turns about the part's centre of mass, wherever the file put the origin.
+/// Turns about the part's centre of mass, wherever the file has its origin.
 std::vector<RigidTransform> pathAboutCentre(const ServoScene& scene, const Sweep& sweep) {
   const RigidTransform partFromCentre{{1.0, 0.0, 0.0, 0.0}, scene.centreInPart};
   std::vector<RigidTransform> path =

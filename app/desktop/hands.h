@@ -11,13 +11,13 @@
 
 namespace nearfit::desktop {
 
-/// The file of a recorded hand whose id that is ("replay:FILE"); nothing for other devices.
+/// Returns the file of a recorded hand from its id ("replay:FILE"); std::nullopt for other devices.
 std::optional<std::filesystem::path> recordingOf(const QString& device);
 
-/// The device behind a choice of hand. The scripted hand takes the moving part to what is nearest to it and
-/// slides it along: in the proxy mode it presses beyond contact, by the way that a few newtons take; springs,
-/// which it could push through, it presses most of the way alone.
-/// @param settings  Of the scene; the nearest is looked for within the cutoff.
+/// Creates the manual or the scripted hand. The scripted hand takes the moving part to the nearest other part
+/// and slides it along. In the proxy mode it presses beyond contact, as far as a few newtons take; against
+/// springs, which it could push through, it only closes most of the gap.
+/// @param settings  Settings of the scene; the nearest part is searched within their cutoff.
 std::unique_ptr<HapticDevice> makeHand(ui::Hand hand, const ServoScene& scene,
                                        const HapticSettings& settings);
 

@@ -57,7 +57,7 @@ void LedSession::follow(const ui::ServoStatus& status) {
   const bool isReady = status.isRunning && status.isArmable && !status.isArmed && !status.isUncalibrated &&
                        !status.isFaulted && !status.isBusy;
   if (options_.isArming && isReady && !std::exchange(hasArmed_, true)) application_.servo().setArmed(true);
-  // It has ended by itself: a recording is over. What went wrong is told beside this.
+  // The servo ended by itself: a recording is over. Failures are reported elsewhere.
   if (hasBegun_ && !status.isTaken() && options_.seconds) QTimer::singleShot(0, this, &LedSession::finish);
 }
 
@@ -65,9 +65,9 @@ void LedSession::finish() {
   if (hasEnded_) return;
   const ui::ServoStatus status = application_.servo().status();
   application_.servo().stop();
-  // Stopping it may have failed, and that is told then: of a recording, say.
+  // Stopping may have failed and said so, for a recording for example.
   if (hasEnded_) return;
-  // What the device says of its state tells whether it was well to the end.
+  // The device's state tells if all was well to the end.
   if (status.isFaulted) return fail(status.deviceState);
   hasEnded_ = true;
   const ServoStatistics statistics = application_.servo().statistics();

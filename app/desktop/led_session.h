@@ -8,23 +8,23 @@
 
 namespace nearfit::desktop {
 
-/// What is to be felt as soon as the files are open.
+/// Options of a run that a device leads.
 struct LedOptions {
-  QString device;                 ///< As chooseDevice has it, or "replay:FILE"; empty for the first.
-  bool isArming = false;          ///< As soon as it is ready.
-  std::optional<double> seconds;  ///< From the first tick on; then the program ends and says what was done.
+  QString device;                 ///< Named as for chooseDevice(), or "replay:FILE"; empty: the first.
+  bool isArming = false;          ///< Arms it as soon as it is ready.
+  std::optional<double> seconds;  ///< From the first tick on; then the program ends and prints a summary.
 };
 
-/// Opens files in the window and takes the moving part in hand with a device; for the rest the window is the
-/// user's.
+/// Opens files in the window and takes the moving part in hand with a device; otherwise the
+/// window is the user's.
 class LedSession : public QObject {
   Q_OBJECT
 
  public:
-  /// @param application  Outlives this.
+  /// @param application  Must outlive this.
   LedSession(Application& application, LedOptions options);
 
-  /// Begins. With a time, the event loop ends with 0, or with 1 after a message on stderr.
+  /// Starts. If `seconds` is set, the event loop ends with 0, or with 1 after a message on stderr.
   void begin(const QStringList& files);
 
  private:

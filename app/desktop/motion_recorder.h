@@ -8,14 +8,14 @@
 
 namespace nearfit::desktop {
 
-/// Writes what the servo does to a file, as `nearfit-cli place --record` does. Where the servo begins anew
+/// Writes what the servo does to a file, as `nearfit-cli place --record` does. If the servo restarts
 /// meanwhile, the recording's time goes on.
 class MotionRecorder {
  public:
   /// Throws FileError.
   explicit MotionRecorder(const std::filesystem::path& file) : writer_(file) {}
 
-  /// In the order of the ticks. Throws FileError.
+  /// Appends rows, in the order of the ticks. Throws FileError.
   void write(const std::vector<MotionRow>& rows) {
     for (MotionRow row : rows) {
       if (count_ > 0 && row.time + offset_ < last_) offset_ = last_ + kTick - row.time;
@@ -26,16 +26,17 @@ class MotionRecorder {
       writer_.write(row);
     }
   }
-  /// The file is whole then. Throws FileError.
+  /// Completes the file. Throws FileError.
   void finish() { writer_.finish(); }
-  /// After a failure: keeps what was written before it, as MotionWriter does, and says how long that is [s].
+  /// After a failure: keeps what was written before it, as MotionWriter does, and returns
+  /// how long that is [s].
   std::optional<double> keepWritten() {
     const std::optional<double> last = writer_.keepWritten();
     return last ? std::optional(*last - first_) : std::nullopt;
   }
 
   std::size_t rowCount() const noexcept { return count_; }
-  /// That the recording covers so far [s].
+  /// Returns the time that the recording covers so far [s].
   double seconds() const noexcept { return last_ - first_; }
 
  private:

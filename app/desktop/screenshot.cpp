@@ -12,11 +12,10 @@
 namespace nearfit::desktop {
 namespace {
 
-constexpr int kSettleMs = 400;  ///< For layout and first pictures.
-/// Into the scripted hand's sweep, where it presses and turns; in ticks, so that each picture shows the same
-/// pose.
+constexpr int kSettleMs = 400;  ///< Time for layout and the first pictures.
+/// The scripted hand presses and turns then; in ticks, so that each picture shows the same pose.
 constexpr std::uint64_t kFeelFor = 2450;
-constexpr int kPatienceMs = 20'000;  ///< Written then even if no servo ever ticked.
+constexpr int kPatienceMs = 20'000;  ///< The picture is written then even if no servo ever ticked.
 
 }  // namespace
 
@@ -59,7 +58,7 @@ void Screenshot::arrange(bool isComplete) {
 void Screenshot::waitForMinima(const ServoSnapshot& snapshot) {
   if (snapshot.tick < kFeelFor) return;
   disconnect(&application_.servo(), &ServoController::snapshotArrived, this, nullptr);
-  // After the figures of this very snapshot are in the view.
+  // Once the figures of this very snapshot are in the view.
   QTimer::singleShot(0, this, &Screenshot::write);
 }
 

@@ -7,15 +7,16 @@
 
 namespace nearfit::desktop {
 
-/// Opens files in the window, takes the moving part in hand if there is one, and writes a picture of it all.
+/// Opens files in the window, takes the moving part in hand if there is one, and writes a
+/// picture of the window.
 class Screenshot : public QObject {
   Q_OBJECT
 
  public:
-  /// @param application  Outlives this.
+  /// @param application  Must outlive this.
   Screenshot(Application& application, QString output);
 
-  /// Begins; the event loop then ends with 0, or with 1 after a message on stderr.
+  /// Starts; the event loop then ends with 0, or with 1 after a message on stderr.
   void take(const QStringList& files);
 
  private:

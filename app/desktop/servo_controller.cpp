@@ -14,9 +14,10 @@
 namespace nearfit::desktop {
 namespace {
 
-constexpr int kPollMs = 16;  ///< A look at the newest snapshot for each picture of a 60 Hz display.
+constexpr int kPollMs = 16;  ///< One look for each picture of a 60 Hz display.
 
-/// What counts for a device: some give poses of the scene itself, already without what is locked.
+/// Returns the parameters for a device: some give poses of the scene itself, to which scale and
+/// locks were applied.
 ServoParameters parametersFor(const Scene& scene, const HapticDevice& device) {
   const DeviceInfo info = device.info();
   ServoParameters parameters{scene.haptics(), info.limits};
@@ -173,7 +174,7 @@ void ServoController::release() {
   ticket_.reset();
   isOpened_ = false;
   const auto done = [this, id = status_.deviceId](const std::exception_ptr&) {
-    // It may have been taken again meanwhile.
+    // The device may have been taken again meanwhile.
     if (status_.deviceId != id) emit deviceReleased(id);
   };
   worker_.run([device = std::move(device_)](const ProgressCallback&) { device->stop(); }, {done, {}});
@@ -208,7 +209,7 @@ void ServoController::command(const QString& doing, const QString& what,
     emit statusChanged(status_);
     if (error) fail(what, error);
   };
-  // What was begun before is done first; only the last one counts for what is shown.
+  // Jobs submitted before run first; only the last one counts for what is shown.
   if (ticket_) ticket_->cancel();
   ticket_ = worker_.run([device = device_, act = std::move(act)](const ProgressCallback&) { act(*device); },
                         {done, {}});
@@ -234,7 +235,7 @@ void ServoController::reset() {
 }
 
 void ServoController::setClutched(bool isClutched) {
-  // A hand without a device has nothing to bring elsewhere.
+  // Without a device there is nothing to reposition.
   if (isRunning() && status_.hand == ui::Hand::Device) {
     loop_.setClutched(isClutched);
     status_.isClutched = isClutched;
@@ -248,7 +249,7 @@ void ServoController::setRate(const RateSettings& settings) {
 }
 
 bool ServoController::takeDeviceState() {
-  // What is being done with it is shown till it is done.
+  // A command that is under way stays on show until it is done.
   if (status_.hand != ui::Hand::Device || !isRunning() || status_.isBusy) return false;
   const DeviceState state = device_->state();
   const bool isArmable = device_->info().forceAxes > 0;
@@ -270,7 +271,7 @@ void ServoController::followSession() {
   if (!isRunning()) return;
   const Scene& scene = session_.scene();
   const Part* part = scene.find(moving_);
-  // What was in hand is gone or no longer what moves: there is no pose to keep.
+  // The part in hand is gone or is no longer the moving part: there is no pose to keep.
   if (part == nullptr || scene.movingPart() != moving_ || session_.sceneSerial() != sceneSerial_) {
     halt();
     return;
@@ -281,7 +282,7 @@ void ServoController::followSession() {
   }
   try {
     auto servoScene = makeServoScene(scene);
-    // What the scripted hand does in one mode would go through in the other: it begins again.
+    // What the scripted hand does in one mode would push through in the other: it begins again.
     if (status_.hand == ui::Hand::Scripted && scene.haptics().mode != mode_) {
       DevicePtr hand = startedHand(*servoScene);
       return runOn(std::move(hand), std::move(servoScene));

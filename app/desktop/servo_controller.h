@@ -18,100 +18,105 @@
 namespace nearfit::desktop {
 
 /// Runs the servo for the session's moving part: makes the device, keeps the servo's scene and parameters as
-/// the session has them, and puts the part's last pose into the session when it is put down. What may have to
-/// wait for a device (opening, arming, calibrating, resetting, closing) is done in another thread.
+/// the session has them, and puts the part's last pose into the session when it is put down. What may wait
+/// for a device (opening, arming, calibrating, resetting, closing) runs on another thread.
 class ServoController : public QObject {
   Q_OBJECT
 
  public:
-  /// @param session, devices  Outlive this.
+  /// @param session  Must outlive this.
+  /// @param devices  Must outlive this.
   ServoController(Session& session, DeviceSource& devices);
   ~ServoController() override;
 
   bool isRunning() const noexcept { return loopDevice_ != nullptr; }
   const ui::ServoStatus& status() const noexcept { return status_; }
-  /// Of what runs, or ran last.
+  /// Returns the statistics of the current or the last run.
   ServoStatistics statistics() const { return loop_.statistics(); }
-  /// Each tick, for plots, and recordings of them: begun by recordTo, ended when the part is put down.
+  /// Every tick, for plots and recordings. recordTo() begins a recording; it ends when the part is put down.
   ServoRows& rows() noexcept { return rows_; }
 
  public slots:
-  /// What is felt next, or from now on where the part is in hand, is recorded to that file until it is put
-  /// down; empty ends a recording, or what would be one.
+  /// Records what is felt to a file until the part is put down: from now on if it is in hand, else from the
+  /// next time. Empty: ends the recording, or the wish for one.
   void recordTo(const QString& file);
-  /// Takes the moving part in hand; does nothing while it is. Waits for hierarchies that are not ready: see
-  /// Document::prepareHierarchies. A device is opened first: `stop` ends that at once, whatever it waits for.
-  /// @param device  Of the hand of a device: which.
+  /// Takes the moving part in hand; no-op while it is. Waits for hierarchies that are not ready: see
+  /// Document::prepareHierarchies(). Opens a device first; stop() ends that at once, whatever it waits for.
+  /// @param device  Id of the device, if the hand is one.
   void start(nearfit::ui::Hand hand, const QString& device = {});
-  /// Stops and puts the part down where it is, as one step of undo.
+  /// Stops and puts the part down where it is, as one undo step.
   void stop();
-  /// Lets the forces of a device in hand out, or no more.
+  /// Turns the forces of the device in hand on or off.
   void setArmed(bool isArmed);
-  /// Its handle is held as HapticDevice::calibrate says.
+  /// Calibrates the device in hand: see HapticDevice::calibrate().
   void calibrate();
-  /// HapticDevice::reset.
+  /// Resets the device in hand: see HapticDevice::reset().
   void reset();
-  /// The part stays, and nothing is felt, while the device in hand is brought elsewhere.
+  /// Holds the part, and nothing is felt, while the hand repositions the device.
   void setClutched(bool isClutched);
-  /// Of devices that are driven by pushing: of this one and all later ones.
+  /// Sets how deflection becomes speed, for the device in hand and all later ones.
   void setRate(const nearfit::RateSettings& settings);
   /// Puts the pose in hand into the session and goes on.
   void commitPose();
-  /// Gives the servo the scene as the session has it, once all its hierarchies are ready; until then the
-  /// servo keeps what it has.
+  /// Gives the servo the session's scene once all its hierarchies are ready; until then the servo
+  /// keeps the scene it has.
   void followSession();
-  /// Where the manual hand wants the part; ignored for other hands.
+  /// Sets the pose that the manual hand wants for the part; ignored for other hands.
   void moveHand(const nearfit::RigidTransform& worldFromPart);
 
  signals:
+  /// Emitted when the status changed.
   void statusChanged(const nearfit::ui::ServoStatus& status);
+  /// Emitted with the newest snapshot, up to 60 times a second.
   void snapshotArrived(const nearfit::ServoSnapshot& snapshot);
+  /// Emitted with a failure that the user must see.
   void failed(const nearfit::ui::Failure& failure);
-  /// The session's scene has parts that cannot be felt yet; followSession wants to be called when they can.
+  /// Emitted when parts of the session's scene cannot be felt yet; call followSession() when they can.
   void hierarchiesNeeded();
-  /// It is closed, and others can have it.
+  /// Emitted when a device was closed and others can have it.
   void deviceReleased(const QString& id);
 
  private:
   using DevicePtr = std::shared_ptr<HapticDevice>;
 
-  /// Of the status' hand, which needs no opening.
+  /// Creates and starts the status' hand, which needs no opening.
   DevicePtr startedHand(const ServoScene& scene) const;
   void open(const QString& device);
   void takeOpened();
   void fail(const QString& summary, const std::exception_ptr& error);
-  /// Lets the servo run on a device that is open, or one that need not be opened. Throws Error.
+  /// Runs the servo on a device that is open or needs no opening. Throws Error.
   void runOn(DevicePtr device, std::unique_ptr<const ServoScene> scene);
   void showRunning();
-  /// Closes a device of the user's in the other thread.
+  /// Closes the device on the other thread.
   void release();
-  /// @param doing  For the user meanwhile.
-  /// @param what   When it fails.
+  /// Runs `act` on the device, on the other thread.
+  /// @param doing  Shown to the user meanwhile.
+  /// @param what   Shown to the user if it fails.
   void command(const QString& doing, const QString& what, std::function<void(HapticDevice&)> act);
-  /// Puts what the device says of itself into the status; true when that is new.
+  /// Puts the device's own state into the status. Returns true if that is new.
   bool takeDeviceState();
   void poll();
-  /// The servo has ended by itself: the part is put down, and the user told when a device was lost.
+  /// After the servo ended by itself: puts the part down, and tells the user if a device was lost.
   void putDownAfterEnd();
   void halt();
 
   Session& session_;
   DeviceSource& devices_;
-  DevicePtr device_;                              ///< In hand, or being opened for it.
-  DevicePtr loopDevice_;                          ///< That the servo runs on.
-  std::shared_ptr<DeviceWorker::Ticket> ticket_;  ///< Of what is being done with the device.
-  bool isOpened_ = false;                         ///< The device waits for the scene to be ready.
+  DevicePtr device_;                              ///< Device in hand, or being opened.
+  DevicePtr loopDevice_;                          ///< Device that the servo runs on.
+  std::shared_ptr<DeviceWorker::Ticket> ticket_;  ///< Job that is under way on the device.
+  bool isOpened_ = false;  ///< The device is open and waits for the scene's hierarchies.
   RateSettings rate_;
   ServoRows rows_;
   ServoLoop loop_;
   QTimer timer_;
   ServoMeter meter_;
   PartId moving_{};
-  std::uint64_t sceneSerial_ = 0;  ///< Of the session's scene that it is of.
-  HapticMode mode_{};              ///< That the hand was made for.
+  std::uint64_t sceneSerial_ = 0;  ///< Serial of the scene that owns `moving_`.
+  HapticMode mode_{};              ///< Mode that the hand was made for.
   bool isCommitting_ = false;
   ui::ServoStatus status_;
-  DeviceWorker worker_;  ///< Ends first: its jobs tell of themselves here.
+  DeviceWorker worker_;  ///< Destroyed first: its jobs call back into this.
 };
 
 }  // namespace nearfit::desktop

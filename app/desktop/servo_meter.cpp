@@ -22,7 +22,7 @@ void ServoMeter::measure(const ServoLoop& loop, const ReportCounters& reports, u
   status.reportJitter = statistics.reportJitter;
   status.reportsLost = reports.missing - first_.missing + reports.rejected - first_.rejected;
   last_ = reports;
-  // From snapshots: the statistics come in steps of many ticks, a tenth of what half a second holds.
+  // From snapshots: statistics advance in steps of many ticks, too coarse for half a second.
   const ServoSnapshot& snapshot = loop.snapshot();
   const double seconds = snapshot.time - time_;
   status.rate = seconds > 0.0 ? static_cast<double>(snapshot.tick - ticks_) / seconds : 0.0;

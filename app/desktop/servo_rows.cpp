@@ -29,7 +29,7 @@ void ServoRows::recordTo(const QString& file, bool isRunning) {
 }
 
 void ServoRows::begin() {
-  // What is there is of before; a servo that begins anew goes on with the recording.
+  // Queued rows belong to the run before; a servo that restarts continues the recording.
   take();
   if (file_.isEmpty() || recorder_) return;
   try {
@@ -65,7 +65,7 @@ void ServoRows::abandon(const std::exception_ptr& error) {
   try {
     if (recorder_) kept = recorder_->keepWritten();
   } catch (...) {
-    // What went wrong first is what is told.
+    // Report the first failure only.
   }
   recorder_.reset();
   const QString file = std::exchange(file_, {});

@@ -10,52 +10,55 @@
 
 namespace nearfit::desktop {
 
-/// Every tick of the servo, taken over from its thread, for whoever plots them, and for the file that is
-/// recorded. A recording that cannot be written ends; the servo goes on.
+/// Takes every tick from the servo thread, for plots and for a file. A recording that cannot be written ends;
+/// the servo goes on.
 class ServoRows : public QObject {
   Q_OBJECT
 
  public:
   using QObject::QObject;
 
-  /// For the servo. Always there, so that a recording can begin at any time and plots miss no peak.
+  /// Queue for the servo to fill. Always there, so that a recording can begin at any time and
+  /// plots miss no peak.
   MotionQueue* queue() noexcept { return queue_.get(); }
-  /// Takes over what the servo has put there; several times in sixteen seconds.
+  /// Takes the rows that the servo has queued. The queue holds sixteen seconds: call it far more often.
   void take();
 
-  /// What is felt next is recorded to that file, or from now on if `isRunning`; empty ends a recording, or
-  /// what would be one.
+  /// Records what is felt to a file: from now on if `isRunning`, else from the next begin(). Empty: ends the
+  /// recording, or the wish for one.
   void recordTo(const QString& file, bool isRunning);
-  /// The servo starts: what is to be recorded is.
+  /// Call it when the servo starts: begins the recording, if one is wanted.
   void begin();
-  /// The servo has stopped: the recording is finished.
+  /// Call it when the servo has stopped: completes the recording.
   void finish();
-  /// Says how far the recording is.
+  /// Emits recordingChanged().
   void tell();
 
  signals:
-  /// Every tick since the last time, in order; many at a time where the window was busy.
-  /// @param lost  Ticks after them that are missing, as the window was busy for too long.
+  /// Emitted with every tick since the last time, in order; many at a time if the window was busy.
+  /// @param lost  Ticks missing after them, because the window was busy for too long.
   void ticked(const std::vector<nearfit::MotionRow>& rows, quint64 lost);
-  /// What is recorded, or will be (empty: nothing), and how long that is so far [s].
+  /// Emitted when the recording changed.
+  /// @param file     File that is recorded, or will be; empty: none.
+  /// @param seconds  Time recorded so far [s].
   void recordingChanged(const QString& file, double seconds);
-  /// A recording is whole.
-  /// @param lost  Ticks that are not in it, as the window was busy for too long.
+  /// Emitted when a recording is complete.
+  /// @param lost  Ticks missing in it, because the window was busy for too long.
   void recorded(const QString& file, double seconds, quint64 lost);
-  /// The recording has ended early.
-  /// @param file     That keeps what was recorded until then; empty: nothing is kept.
-  /// @param seconds  That it covers [s].
+  /// Emitted when a recording has ended early.
+  /// @param file     File that keeps what was recorded until then; empty: nothing is kept.
+  /// @param seconds  Time that it covers [s].
   void failed(const std::exception_ptr& error, const QString& file, double seconds);
 
  private:
   void abandon(const std::exception_ptr& error);
 
   const std::unique_ptr<MotionQueue> queue_ = std::make_unique<MotionQueue>();
-  std::vector<MotionRow> rows_;  ///< Taken last.
+  std::vector<MotionRow> rows_;  ///< Rows taken last.
   std::unique_ptr<MotionRecorder> recorder_;
   QString file_;
-  quint64 lostBefore_ = 0;  ///< By the queue, before the recording began.
-  quint64 lostTold_ = 0;    ///< By the queue, as `ticked` has told.
+  quint64 lostBefore_ = 0;  ///< Rows that the queue dropped before the recording began.
+  quint64 lostTold_ = 0;    ///< Rows that the queue dropped, as far as `ticked` has told.
 };
 
 }  // namespace nearfit::desktop

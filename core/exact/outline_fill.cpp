@@ -17,7 +17,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
-/// Of a face, the region that it belongs to; -1: none yet.
+/// Each face stores the region that it belongs to; -1 for none yet.
 using FaceBase =
     CGAL::Triangulation_face_base_with_info_2<int, Kernel,
                                               CGAL::Constrained_triangulation_face_base_2<Kernel>>;
@@ -27,7 +27,7 @@ using Segment = std::array<std::uint32_t, 2>;
 
 constexpr std::uint32_t kUnnumbered = std::numeric_limits<std::uint32_t>::max();
 
-/// Counts how an outline goes around points, by the segments that a ray to the right crosses.
+/// Winding and crossing numbers of points with respect to an outline, from a ray to the right.
 class Winding {
  public:
   Winding(std::span<const glm::dvec2> points, std::span<const Segment> segments)
@@ -49,8 +49,8 @@ class Winding {
   }
 
   struct Count {
-    int wound = 0;  ///< Anticlockwise.
-    int crossed = 0;
+    int wound = 0;    ///< Winding number, anticlockwise.
+    int crossed = 0;  ///< Segments crossed.
   };
   Count around(const glm::dvec2& p) const {
     Count count;
@@ -75,7 +75,7 @@ class Winding {
   std::span<const glm::dvec2> points_;
   std::span<const Segment> segments_;
   double least_ = 0.0, perMetre_ = 0.0;
-  std::vector<std::vector<std::uint32_t>> strips_;  ///< Segments by the heights that they pass.
+  std::vector<std::vector<std::uint32_t>> strips_;  ///< Segments in each horizontal strip.
 };
 
 glm::dvec2 pointOf(const Triangulation::Vertex_handle& vertex) {
@@ -87,7 +87,7 @@ double doubleArea(const Triangulation::Face_handle& face) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Faces that no segment parts, from one of them on; returns the largest.
+/// Marks all faces reachable from `first` without crossing a constraint as `region`; returns the largest.
 Triangulation::Face_handle gather(const Triangulation& triangulation, Triangulation::Face_handle first,
                                   int region) {
   std::vector<Triangulation::Face_handle> open{first};

@@ -9,23 +9,25 @@
 
 namespace nearfit {
 
-/// What of the plane lies inside an outline.
+/// Rule that decides which points are inside an outline.
 enum class FillRule : std::uint8_t {
-  Wound,  ///< What it winds around, in either sense: pieces may overlap.
-  Odd,    ///< What it takes an odd number of crossings to leave: senses say nothing.
+  Wound,  ///< Nonzero winding number; parts of the outline may overlap.
+  Odd,    ///< Odd number of crossings; segment directions do not matter.
 };
 
+/// Triangles that fill an outline.
 struct FilledOutline {
-  std::vector<glm::dvec2> points;  ///< Those of the outline, and where parts of it cross.
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Anticlockwise.
+  std::vector<glm::dvec2> points;                       ///< Points of the outline, and its crossings.
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Anticlockwise, by index into `points`.
 };
 
 /// Fills an outline of closed curves with triangles.
 ///
-/// @param points    Finite; equal ones are one.
-/// @param segments  Ends by index, in the sense of the curve: with Wound the inside lies on the left. In any
-///                  order; they may touch, overlap, cross and be of no length.
-/// O(n log n) where crossings are few. Throws std::exception when the arithmetic gives up.
+/// @param points    Finite; equal points count as one.
+/// @param segments  Pairs of indices into `points`, in any order. With Wound each is directed so that the
+///                  inside is on its left. Segments may touch, overlap, cross and have no length.
+/// The result is empty if all points lie on a line. O(n log n) for few crossings. Not for the servo thread:
+/// allocates. Throws std::exception if the arithmetic fails.
 FilledOutline fillOutline(std::span<const glm::dvec2> points,
                           std::span<const std::array<std::uint32_t, 2>> segments, FillRule rule);
 

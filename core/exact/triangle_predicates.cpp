@@ -18,11 +18,11 @@ Point toPoint(const glm::dvec3& p) {
   return {p.x, p.y, p.z};
 }
 
-/// What the corners span: CGAL's predicates ask for no less.
+/// The point, segment or triangle that the corners span; CGAL's predicates reject degenerate shapes.
 Shape shapeOf(const TriangleCorners& t) {
   const Point a = toPoint(t[0]), b = toPoint(t[1]), c = toPoint(t[2]);
   if (!CGAL::collinear(a, b, c)) return Kernel::Triangle_3(a, b, c);
-  // On a line the least and the greatest by coordinates are the ends.
+  // Of collinear points, the lexicographic min and max are the ends.
   const auto [low, high] = std::minmax(
       {a, b, c}, [](const Point& x, const Point& y) { return CGAL::compare_xyz(x, y) == CGAL::SMALLER; });
   if (low == high) return low;
@@ -37,8 +37,9 @@ bool doMeet(const Point& a, const Point& b) {
   return a == b;
 }
 
-/// Whether a plane through the corner that they share first, and through the others of `a`, has all else of
-/// `b` on one side; where they lie in one plane, whether a side of `a` that begins there has it behind.
+/// True if a plane through the shared corner (the first of each) and the other corners of `a` has the rest
+/// of `b` strictly on one side. For coplanar triangles: true if a side of `a` at that corner has `b`
+/// strictly behind it.
 bool isBeside(const TriangleCorners& a, const TriangleCorners& b) {
   const Point o = toPoint(a[0]), a1 = toPoint(a[1]), a2 = toPoint(a[2]), b1 = toPoint(b[1]),
               b2 = toPoint(b[2]);
@@ -52,13 +53,13 @@ bool isBeside(const TriangleCorners& a, const TriangleCorners& b) {
   return isBehind(a1, a2) || isBehind(a2, a1);
 }
 
-/// What they have in common is convex, and so reaches from the corner to the far side of one of them.
+/// The intersection is convex, so it reaches from the corner to the far side of one of the triangles.
 bool doMeetBeyondCorner(const TriangleCorners& a, const TriangleCorners& b) {
   if (isBeside(a, b) || isBeside(b, a)) return false;
   return doTrianglesMeet({a[1], a[2], a[2]}, b) || doTrianglesMeet({b[1], b[2], b[2]}, a);
 }
 
-/// Only where they are folded flat onto each other.
+/// Triangles with a common side meet elsewhere only if they are folded flat onto each other.
 bool doMeetBeyondSide(const TriangleCorners& a, const TriangleCorners& b) {
   if (CGAL::orientation(toPoint(a[0]), toPoint(a[1]), toPoint(a[2]), toPoint(b[2])) != CGAL::COPLANAR)
     return false;

@@ -30,14 +30,14 @@ namespace fs = std::filesystem;
 
 void flushFolder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;  // A folder that may be written but not read: the file itself is safe on disk.
-  ::fsync(descriptor);         // Some file systems refuse it for folders; the rename stands all the same.
+  if (descriptor < 0) return;  // The folder is writable but not readable; the file itself is safe on disk.
+  ::fsync(descriptor);         // Some file systems refuse this for folders; the rename stands anyway.
   ::close(descriptor);
 }
 
-/// Where a chain of symbolic links leads, as an absolute path; the last link may dangle.
+/// Absolute target of a chain of symbolic links; the last link may dangle.
 fs::path followLinks(const fs::path& file) {
-  constexpr int kMaxLinks = 40;  // As the kernel's own limit.
+  constexpr int kMaxLinks = 40;  // The kernel's own limit.
   fs::path target = fs::absolute(file);
   std::error_code error;
   for (int i = 0; i < kMaxLinks && fs::is_symlink(fs::symlink_status(target, error)); ++i) {
@@ -52,7 +52,7 @@ fs::path hiddenName(const fs::path& target, unsigned serial) {
   return target.parent_path() / (".nearfit-" + std::to_string(::getpid()) + "-" + std::to_string(serial));
 }
 
-/// Of several that were never finished each has its own.
+/// Several unfinished files of one target get different numbers.
 fs::path visibleName(const fs::path& target, unsigned number) {
   fs::path name = target.stem();
   name += number == 1 ? ".unfinished" : ".unfinished-" + std::to_string(number);
@@ -83,7 +83,7 @@ void AtomicFile::open(unsigned mode, Unfinished unfinished) {
     path_ =
         unfinished == Unfinished::Visible ? visibleName(target_, ++number) : hiddenName(target_, serial++);
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    // The target's name may already be as long as names can be.
+    // The target's name may already have the max length.
     if (descriptor_ < 0 && errno == ENAMETOOLONG && unfinished == Unfinished::Visible)
       return open(mode, Unfinished::Hidden);
   } while (descriptor_ < 0 && errno == EEXIST);

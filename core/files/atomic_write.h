@@ -6,43 +6,46 @@
 
 namespace nearfit {
 
-/// Who may read a file that is made anew.
+/// Who may read a newly created file.
 enum class FileAccess {
-  Usual,    ///< Those that the user lets, by the umask.
-  Private,  ///< The user alone; so does one that stood there before become.
+  Usual,    ///< Whom the user's umask allows.
+  Private,  ///< The user only; also applies when an existing file is replaced.
 };
 
-/// What a file is called until it is whole, for as long as that takes.
+/// Name of the temporary file until commit().
 enum class Unfinished {
-  Hidden,  ///< A moment: nobody shall see it.
-  /// Long enough to be looked for when the program was killed meanwhile: "felt.csv" is "felt.unfinished.csv".
+  Hidden,  ///< For short writes: a hidden name.
+  /// For long writes, so that a killed program's file can be found: "felt.unfinished.csv" for "felt.csv".
   Visible,
 };
 
-/// A file's new content, written piece by piece, that replaces the old one as one step: a crash, a full disk
-/// or an error leaves either the old file whole or the new one whole. The content goes to a temporary file
-/// beside the target; a symbolic link is followed, so that it stays a link; an existing file keeps its
-/// permissions. Each call throws FileError naming the target; nothing is left behind unless commit() has
-/// returned.
+/// Replaces a file atomically: a crash, a full disk or an error leaves either the old file or the new one,
+/// whole. Written in steps to a temporary file beside the target. A symbolic link is followed and stays a
+/// link; an existing file keeps its permissions (unless Private). Every call throws FileError naming the
+/// target. Without a successful commit() the destructor deletes the temporary file. Not thread-safe.
 class AtomicFile {
  public:
+  /// Creates the temporary file. Throws also if `file` names a folder or no file.
   explicit AtomicFile(const std::filesystem::path& file, FileAccess access = FileAccess::Usual,
                       Unfinished unfinished = Unfinished::Hidden);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Appends; unbuffered.
+  /// Appends `content`, unbuffered.
   void write(std::string_view content);
-  /// Bytes that are written; after a failure those before it.
+  /// Bytes written; after a failed write(), those written before the failure.
   std::uint64_t size() const noexcept { return size_; }
-  /// Takes back what was written after so many bytes.
+  /// Truncates the content to `size` bytes; writing goes on from there.
   void cut(std::uint64_t size);
+  /// When the content must be on disk.
   enum class Flush {
-    ToDisk,  ///< Content, then folder: from then on it survives a crash of the machine.
-    Later,   ///< When the system likes; after a crash the file may hold anything.
+    /// Before commit() returns, content and then folder: it survives a crash of the machine.
+    ToDisk,
+    /// When the system decides: after a crash of the machine the file may hold anything.
+    Later,
   };
-  /// Flushes the content and puts it in place.
+  /// Puts the new content in place of the target. To be called once, last.
   void commit(Flush flush = Flush::ToDisk);
 
  private:
@@ -55,7 +58,7 @@ class AtomicFile {
   std::uint64_t size_ = 0;
 };
 
-/// Replaces a file's content by `content`, as AtomicFile does.
+/// Replaces the content of `file` as AtomicFile does, and flushes it to disk. Throws FileError.
 void atomicWrite(const std::filesystem::path& file, std::string_view content,
                  FileAccess access = FileAccess::Usual);
 

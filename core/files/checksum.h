@@ -6,7 +6,7 @@
 
 namespace nearfit {
 
-/// XXH3 of the bytes (64 bits): finds damage, at the speed of memory; no defence against who means it.
+/// 64-bit XXH3 of the bytes. Detects damage, at memory speed; no protection against intentional changes.
 std::uint64_t checksumOf(std::span<const std::byte> bytes) noexcept;
 
 }  // namespace nearfit

@@ -33,7 +33,7 @@ constexpr std::size_t kBlockBytes = std::size_t{4} << 20;
 }  // namespace
 
 InputFile::InputFile(const std::filesystem::path& file) : file_(file) {
-  // Opening a pipe would wait for a writer but for O_NONBLOCK, which means nothing for a regular file.
+  // O_NONBLOCK keeps open() from waiting for the writer of a pipe; it has no effect on regular files.
   descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0) throwOpenError(file, errno);
   struct stat status = {};
@@ -70,7 +70,7 @@ std::size_t InputFile::read(std::span<char> buffer) {
 std::vector<char> readWholeFile(const std::filesystem::path& file,
                                 const std::function<void(double fraction)>& onBlock) {
   InputFile input(file);
-  // The size at opening bounds the memory, whatever happens to the file meanwhile.
+  // The size at opening bounds the memory, even if the file grows.
   std::vector<char> bytes(input.size());
   std::size_t filled = 0;
   while (filled < bytes.size()) {

@@ -8,21 +8,22 @@
 
 namespace nearfit {
 
-/// A regular file open for reading. Its errors are FileErrors that name the path, the cause and the remedy.
+/// A regular file open for reading. Throws FileErrors that name path, cause and remedy.
 class InputFile {
  public:
-  /// Throws FileError when there is no such file, it may not be read, or it is a folder, pipe or device
-  /// (which would block or never end).
+  /// Throws FileError if the file does not exist, is not readable, or is a folder, pipe or device (which
+  /// would block or never end).
   explicit InputFile(const std::filesystem::path& file);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
-  /// Bytes in the file when it was opened.
+  /// Size when the file was opened [bytes].
   std::uint64_t size() const noexcept { return size_; }
-  /// For system calls that take one; stays this object's.
+  /// File descriptor, for system calls; this object keeps owning it.
   int descriptor() const noexcept { return descriptor_; }
-  /// Fills `buffer` as far as the file goes; returns the bytes read, 0 at the end. Throws FileError.
+  /// Fills `buffer` until it is full or the file ends; returns the bytes read, 0 at the end.
+  /// Throws FileError.
   std::size_t read(std::span<char> buffer);
 
  private:
@@ -31,8 +32,8 @@ class InputFile {
   std::uint64_t size_ = 0;
 };
 
-/// All bytes of a file. `onBlock` gets the fraction read after each block and may throw to stop. Throws
-/// FileError.
+/// Reads the whole file. `onBlock` gets the fraction read (0 to 1) after each block and may throw to stop.
+/// Throws FileError, also if the file shrinks meanwhile.
 std::vector<char> readWholeFile(const std::filesystem::path& file,
                                 const std::function<void(double fraction)>& onBlock = {});
 

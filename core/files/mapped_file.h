@@ -6,18 +6,18 @@
 
 namespace nearfit {
 
-/// The bytes of a file, mapped into memory to be read where they are. For files that are only ever replaced
-/// as a whole (see AtomicFile): what is mapped then stays as it was, even when the file is gone. One that is
-/// cut short in place takes the process down when it is read.
+/// Read-only memory mapping of a file. Only for files that are always replaced as a whole (AtomicFile): the
+/// mapping then keeps the old content, even after the file is deleted. Reading a mapped file that was
+/// truncated in place kills the process.
 class MappedFile {
  public:
-  /// Throws FileError as InputFile does, and when the file cannot be mapped.
+  /// Throws FileError as InputFile does, and if the file cannot be mapped.
   explicit MappedFile(const std::filesystem::path& file);
   ~MappedFile();
   MappedFile(const MappedFile&) = delete;
   MappedFile& operator=(const MappedFile&) = delete;
 
-  /// Begins at a page.
+  /// The file's bytes, page-aligned, valid as long as this object; empty for an empty file.
   std::span<const std::byte> bytes() const noexcept { return bytes_; }
 
  private:

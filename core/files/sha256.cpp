@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kHashedAtOnce = std::size_t{1} << 20;
 
-/// A running digest. OpenSSL's calls fail only when it is out of memory or built without SHA-256.
+/// A running digest. OpenSSL's calls fail only if it is out of memory or built without SHA-256.
 class Sha256 {
  public:
   Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
@@ -57,7 +57,7 @@ std::string sha256OfFile(const std::filesystem::path& file,
     if (count == 0) return digest.finish();
     digest.update({block.data(), count});
     done += static_cast<double>(count);
-    // A file that grows meanwhile is read to its end all the same.
+    // A file that grows meanwhile is still read to its end.
     if (onBlock) onBlock(std::min(1.0, done / static_cast<double>(std::max<std::uint64_t>(1, input.size()))));
   }
 }

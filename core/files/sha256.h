@@ -8,9 +8,9 @@
 
 namespace nearfit {
 
-/// SHA-256 of a file's bytes as 64 lower-case hexadecimal digits. Reads in blocks: constant memory. `onBlock`
-/// gets the fraction read after each block and may throw to stop. Throws FileError when the file cannot be
-/// read or is no regular file.
+/// SHA-256 of a file's bytes, as 64 lower-case hexadecimal digits. Reads in blocks: constant memory.
+/// `onBlock` gets the fraction read (0 to 1) after each block and may throw to stop. Throws FileError if the
+/// file cannot be read or is not a regular file.
 std::string sha256OfFile(const std::filesystem::path& file,
                          const std::function<void(double fraction)>& onBlock = {});
 

@@ -5,10 +5,11 @@
 namespace nearfit {
 namespace {
 
-/// A vector of which this part of the squared length is left after a pass is orthogonal to a rounding or two.
+/// One pass is enough if at least this part of the squared length is left: the vector is then orthogonal to a
+/// rounding or two.
 constexpr double kOnceIsEnough = 0.5;
 
-/// A number for each column: its product with v. Columns that are not in use are zero.
+/// Dot product of each column with v; zero for unused columns.
 template <class Matrix>
 inline ProgramVector products(const Matrix& byRow, const ProgramVector& v) noexcept {
   ProgramVector out{};
@@ -43,7 +44,7 @@ ActiveRows::Split ActiveRows::split(const ProgramVector& n) const noexcept {
       out.remainder = along(out.remainder, -part[i], q_[i]);
     out.q = along(out.q, 1.0, part);
     out.remainderSquared = dot(out.remainder, out.remainder);
-    // Little was taken away: little of that was rounding.
+    // Little was subtracted, so little of it was rounding.
     if (out.remainderSquared > kOnceIsEnough * squared) break;
   }
   out.r = backSubstituted(out.q);
@@ -52,7 +53,7 @@ ActiveRows::Split ActiveRows::split(const ProgramVector& n) const noexcept {
 }
 
 ProgramVector ActiveRows::backSubstituted(ProgramVector q) const noexcept {
-  // Apart from q: a number written into a vector would have to reach memory before the vector is read.
+  // A separate result: elements written into q would have to reach memory before the next vector read of q.
   ProgramVector out{};
   for (std::size_t i = size_; i-- > 0;) {
     out[i] = q[i] * inverseDiagonal_[i];
@@ -67,7 +68,7 @@ void ActiveRows::setFactors(std::size_t i, const Split& split) noexcept {
   q_[i] = along(ProgramVector{}, inverseDiagonal_[i], split.remainder);
   for (std::size_t k = 0; k < q_[i].size(); ++k)
     qByRow_[k][i] = q_[i][k];
-  // Above the diagonal by columns, right of it by rows; the rest is zero.
+  // The strict upper triangle of R, by columns and by rows; the rest is zero.
   r_[i] = {};
   rByRow_[i] = {};
   for (std::size_t k = 0; k < i; ++k)
@@ -101,7 +102,7 @@ void ActiveRows::remove(std::size_t i) noexcept {
     for (std::size_t c = i; c <= last; ++c)
       qByRow_[k][c] = 0.0;
   }
-  // Columns after it lose one that they were made orthogonal to; what they have of their own only grows.
+  // Later columns were orthogonal to the removed one too; without it their own components only grow.
   for (size_ = i; size_ < last; ++size_)
     setFactors(size_, split(n_[size_]));
 }

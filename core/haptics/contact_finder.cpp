@@ -8,34 +8,36 @@
 namespace nearfit {
 namespace {
 
-/// How far around a pose pairs are gathered, in reaches: a few steps of the proxy; more when a hand is fast.
+/// Room for motion around a pose for which pairs are gathered, in reaches: a few steps of the proxy; more
+/// for a fast hand.
 constexpr double kLeastSlack = 0.5, kMostSlack = 6.0;
-/// And no more than the part goes in so many ticks, if it goes on as in the last.
+/// Limits that room to the travel of this many ticks at the speed of the last one.
 constexpr double kTicksAhead = 1.5;
-/// Farther turned, nearly every pair of features is a candidate [rad].
+/// Limits the room for turning: beyond it, nearly every pair of features is a candidate [rad].
 constexpr double kMostTurn = 0.1;
-/// Pairs of triangles that are held at most: what a search lists within its work.
+/// Max pairs of triangles held: as many as a search can list within its work.
 constexpr std::size_t kMaxTriangles = ContactFinder::kMaxSearchWork / kWorkOfListing;
-/// Of what work is left for searches, one for triangles may take this part: one that is left off says little,
-/// so that a step at full length is worth more than several looks; the rest lets a shorter look be tried.
+/// Part of the remaining search work that one search for triangles may use. An abandoned search tells little,
+/// so one step at full length is worth more than several looks; the rest allows a shorter look.
 constexpr double kShareOfSearch = 0.75;
-/// Beyond so many pairs, testing those that only the room for motion adds costs more than gathering again.
+/// With more pairs than this, testing those added by the room for motion costs more than gathering again.
 constexpr std::size_t kManyPairs = 2048;
-/// Where there are so many even without, less than the reach must do, down to these many margins. With two a
-/// part in contact takes its steps, of less than a margin, just as long; with less they are shorter, and the
-/// margin may give way, but what lies so close together that a tick cannot look at all of it moves still.
+/// If there are that many pairs even without room for motion, the reach is shortened, down to these many
+/// margins. With two margins, a part in contact takes its steps (shorter than a margin) at full length.
+/// With less, steps are shorter and the margin may shrink, but a part that is close to more than a tick can
+/// test still moves.
 constexpr std::array kShortReaches{2.0, 1.5, 1.1, 0.75, 0.5};
-/// Levels of room: for the way ahead, for some steps, for a pose alone, and with each short reach.
+/// Levels of room: for the way ahead, for some steps, for one pose alone, then one per short reach.
 constexpr std::size_t kLevelOfPose = 2, kLevels = kLevelOfPose + 1 + kShortReaches.size();
-/// Of a tick's work, what must be left for another attempt with less room.
+/// Work that must be left in a tick for another attempt with less room.
 constexpr std::uint64_t kWorkOfAttempt = ContactFinder::kMaxWork / 4;
-/// The same of the work that surfaces may take.
+/// The same for the work on surfaces.
 constexpr std::uint64_t kWorkOfSurfaceAttempt = ContactFinder::kMaxSurfaceWork / 4;
-/// Of a body that is asked about, or held, whatever there is of it.
+/// Fixed work for each body queried or held.
 constexpr std::uint64_t kWorkOfBody = 1;
-/// After a tick that saw nothing for want of work among surfaces, so many may have all there is.
+/// After a tick in which nothing could be seen, surfaces may use all the work for this many ticks.
 constexpr unsigned kGenerousTicks = 16;
-/// After so many with less room, more is tried.
+/// After this many gatherings with less room, more room is tried.
 constexpr unsigned kGatheringsBetweenTries = 16;
 
 ContactPair inWorld(const ContactPair& pair, const RigidTransform& worldFromBody) noexcept {
@@ -53,12 +55,12 @@ MotionBudget motionOf(const ServoScene& scene, const RigidTransform& from,
 
 }  // namespace
 
-// Contacts need none of the room that minima are merged in.
+// The smallest scratch: contacts do not use the room in which minima are merged.
 ContactFinder::ContactFinder()
     : scratch_(1),
       found_(ContactThinning::kMaxTaken),
       surfaceFound_(kMaxContacts),
-      // More than a tick can test are of no use.
+      // A tick cannot test more.
       pairs_(kMaxWork),
       edgePairs_(kManyPairs / EdgePairs::kLanes),
       edgePairKernel_(edgePairKernel(defaultSimdLevel())),
@@ -108,7 +110,7 @@ NearbyPairs ContactFinder::pairsOf(const ServoScene::Body& other, const TrackedS
   const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
   const std::span<LeafPair> room = std::span(pairs_).subspan(pairCount_);
   if (known != nullptr && known->contacts) {
-    // More than can be tested are of no use.
+    // A tick cannot test more.
     const std::size_t bound = std::min<std::size_t>(gathering.mostListed, workLeft_);
     const std::size_t most = bound - std::min(bound, pairCount_);
     const std::optional<NearbyPairs> listed = known->contacts->nearbyPairs(
@@ -140,7 +142,7 @@ bool ContactFinder::gatherTriangles(const ServoScene& scene, std::uint32_t body,
   bodies_[bodyCount_++] = {body, triangleCount_, nearby.count, nearby.within};
   triangleCount_ += nearby.count;
   isSurfaceNear_ = true;
-  // With no room for motion a part of them serves, if what is not there is known to be away.
+  // For a single pose an incomplete set serves, if the missing pairs are known to be farther away.
   return nearby.within == within || (slack.travel == 0.0 && nearby.within > 0.0);
 }
 
@@ -152,7 +154,7 @@ bool ContactFinder::hasWorkForAttempt() const noexcept {
 bool ContactFinder::gatherPairs(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                                 double reach, double way) noexcept {
   const double radius = tracked.scene->metric.radius;
-  // Where nothing was about, all of the way may be free.
+  // If no body was near, the whole way may be free.
   const double wanted = bodyCount_ == 0 ? way : std::min(way, kTicksAhead * tickTravel_);
   const auto gather = [&](std::size_t level) {
     const double travel = level == 0             ? std::clamp(wanted, kLeastSlack * reach, kMostSlack * reach)
@@ -164,10 +166,11 @@ bool ContactFinder::gatherPairs(const TrackedScene& tracked, const RigidTransfor
     const std::size_t mostListed = level > kLevelOfPose ? pairs_.size() : kManyPairs;
     return gatherWithin(tracked, worldFromPart, {{travel, std::min(travel / radius, kMostTurn)}, mostListed});
   };
-  // Where there were many pairs there still are, most likely; where more is to be had, still more may be.
+  // Where pairs were many, they most likely still are. Now and then more room is tried, and after a success
+  // tried again at once.
   const bool isTry = roomLevel_ > 0 && ++gatherings_ % kGatheringsBetweenTries == 0;
   if (isTry) --roomLevel_;
-  // What fails for want of work that other poses took says nothing of the poses of other ticks.
+  // A failure after other poses have used up work says nothing about later ticks.
   const bool isFirst = workLeft_ == kMaxWork;
   if (isFirst || isTry) tickLevel_ = roomLevel_;
   const auto keep = [&](std::size_t level) {
@@ -180,7 +183,7 @@ bool ContactFinder::gatherPairs(const TrackedScene& tracked, const RigidTransfor
       keep(level);
       return true;
     }
-    // Nearer by a shorter step, but not with less room.
+    // A shorter step may help here, but less room does not.
     if (isUncovered_) return false;
     if (hasWorkForAttempt()) continue;
     keep(std::min(std::max(level + 1, kLevelOfPose), kLevels - 1));
@@ -199,7 +202,7 @@ bool ContactFinder::gatherWithin(const TrackedScene& tracked, const RigidTransfo
   bool isComplete = true;
   const double far = pairsReach_ + gathering.slack.travel;
   const double spent = tracked.spent(worldFromPart, far);
-  // What is said not to be near is so within what is left of the budget.
+  // Bodies not listed as near stay so only within the rest of the budget.
   if (spent <= 1.0) {
     const MotionBudget left = (1.0 - spent) * tracked.clear;
     holds_ = {std::min(holds_.travel, left.travel), std::min(holds_.turn, left.turn)};
@@ -208,7 +211,7 @@ bool ContactFinder::gatherWithin(const TrackedScene& tracked, const RigidTransfo
     isComplete = isComplete && gatherOne(tracked, body, known, worldFromPart, gathering);
   });
   isHoldingPairs_ = isComplete && pairCount_ + bodyCount_ * kWorkOfBody <= workLeft_;
-  // What serves for one pose is not worth it.
+  // Packing does not pay for a single pose.
   if (isHoldingPairs_ && gathering.slack.travel > 0.0) packPairs(*tracked.scene);
   return isHoldingPairs_;
 }
@@ -265,7 +268,7 @@ void ContactFinder::testBodies(const ServoScene& scene, const RigidTransform& wo
                                Surroundings& around) noexcept {
   spend(bodyCount_ * kWorkOfBody);
   const std::span<const HeldBody> held = std::span(bodies_).first(bodyCount_);
-  // Surfaces take what is left: of them the nearest triangles alone do.
+  // Surfaces get the work that is left, since testing only their nearest triangles is enough.
   for (const HeldBody& body : held) {
     if (!scene.bodies[body.body].surface) testPairs(scene, body, worldFromPart, around);
   }
@@ -293,13 +296,13 @@ Surroundings ContactFinder::look(const TrackedScene& tracked, const RigidTransfo
   if (!holdsFor(scene, worldFromPart, reach)) {
     if (!gatherPairs(tracked, worldFromPart, reach, way)) return {};
   }
-  // Of pairs that have served before: they stay at hand for the next tick.
+  // Pairs that have served before are kept for the next tick.
   if (pairCount_ + bodyCount_ * kWorkOfBody > workLeft_) {
     isWorkSpent_ = true;
     return {};
   }
   Surroundings around{0, pairsReach_, pairsReach_, pairsReach_};
-  // Where no body is about, none is nearer than was looked for.
+  // With no body near, nothing is nearer than the distance searched, room for motion included.
   if (bodyCount_ == 0) around.distance += holds_.travel - motionOf(scene, pairsPose_, worldFromPart).travel;
   thinning_.clear();
   testBodies(scene, worldFromPart, around);

@@ -16,71 +16,79 @@
 
 namespace nearfit {
 
-/// What is around the part at a pose.
+/// Contacts and distances around the part at a pose.
 struct Surroundings {
-  std::size_t count = 0;  ///< Contacts.
-  /// No body but those that the part overlaps is nearer [m]; 0 when the work allowed did not suffice.
+  std::size_t count = 0;  ///< Contacts found.
+  /// Lower bound on the distance to every body that the part does not overlap [m]; 0 if the allowed work
+  /// was too little.
   double distance = 0.0;
-  /// Every contact nearer than this is there, or one that says about the same [m]: less than was asked for
-  /// where there are thousands, or no room.
+  /// Every contact nearer than this is included, or one that constrains about the same motion [m]. Less than
+  /// asked for if there are thousands of contacts or too little room.
   double completeTo = 0.0;
-  double reach = 0.0;  ///< How far was looked [m]: less than asked for where more pairs are near than fit.
+  /// Distance searched [m]; less than asked for if more pairs are near than fit.
+  double reach = 0.0;
 };
 
 /// Finds the contacts of the moving part with all bodies around it.
 ///
-/// Pairs of features that are near are taken from the lists of a tracked scene where they cover the pose,
-/// else by a search; they then serve for a little motion around, so that most poses cost the exact tests of
-/// some hundred pairs.
+/// Near pairs of features come from the lists of a tracked scene where they cover the pose, else from a
+/// search. The pairs then serve for small motions around that pose, so most poses cost only the exact tests
+/// of some hundred pairs.
 class ContactFinder {
  public:
-  /// Contacts that are kept for a pose; of more, those that say about the same as a nearer one are left out.
+  /// Max contacts kept for a pose. Of more, those that constrain about the same motion as a nearer
+  /// one are dropped.
   static constexpr std::size_t kMaxContacts = ContactThinning::kMaxKept;
-  /// Work of a tick: nodes opened, pairs listed and pairs tested, some 1.5 ms on a slow core. Never passed:
-  /// what would is not begun, or left off, and the pose counts as one of which nothing is known.
+  /// Max work per tick: nodes opened, pairs listed and pairs tested; some 1.5 ms on a slow core.
+  /// Never exceeded: work that would exceed it is not started or is abandoned, and nothing is then
+  /// known of the pose.
   static constexpr std::uint64_t kMaxWork = 1U << 15;
-  /// Of it, for searches anew, some 0.7 ms: where that does not suffice, a list will soon be there.
+  /// Part of kMaxWork for new searches, some 0.7 ms. If it is too little, a list will soon be ready.
   static constexpr std::uint64_t kMaxSearchWork = 1U << 14;
-  /// Of it, for surfaces without sides, some 0.3 ms: they have no lists, so that a part among them would take
-  /// all of it in every tick. With less a part passes them more slowly, and ticks are not late. Where that is
-  /// too little to see anything, the ticks that follow may take all.
+  /// Part of kMaxWork for unsided surfaces, some 0.3 ms. They have no lists, so a part among them would use
+  /// all the work in every tick. With this limit it moves past them more slowly, but ticks are on time. If it
+  /// is too little to see anything, the next ticks may use all of kMaxWork.
   static constexpr std::uint64_t kMaxSurfaceWork = 1U << 13;
-  /// Bodies that can be in contact at a time; with more the part stands still.
+  /// Max bodies near the part at a time; with more, the part stands still.
   static constexpr std::size_t kMaxBodies = 1024;
 
+  /// Allocates all work space.
   ContactFinder();
 
-  /// Gives the work of a new tick.
+  /// Starts a tick with the full allowance of work.
   void beginTick() noexcept;
-  /// Forgets the pairs at hand: the scene is another, or what overlaps.
+  /// Discards the pairs held. To be called when the scene or the set of overlapping bodies changes.
   void forget() noexcept { isHoldingPairs_ = false; }
 
-  /// Bodies that the tracked scene's clearance names as overlapping are left out.
-  /// @param reach  How far contacts are looked for [m].
-  /// @param way    How far the part will probably go from there in this tick [m].
-  /// @param out    Room for kMaxContacts.
+  /// Finds the contacts at a pose. Bodies that the tracked scene's clearance lists as
+  /// overlapping are ignored.
+  /// @param worldFromPart  Pose of the moving part.
+  /// @param reach          Max distance of contacts [m]; > 0.
+  /// @param way            Expected travel of the part from there in this tick [m].
+  /// @param out            Room for kMaxContacts; filled in no order, in world coordinates.
   /// Real-time safe.
   Surroundings find(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
                     double way, std::span<BodyContact> out) noexcept;
 
-  /// Bodies that were searched anew since the tick began.
+  /// Number of times since beginTick() that no list covered the pose of a near body.
   std::uint32_t lateBodies() const noexcept { return lateBodies_; }
+  /// True if no work is left for contacts or surfaces, or what was left was too little for something needed.
   bool isWorkSpent() const noexcept { return isWorkSpent_ || workLeft_ == 0 || surfaceWorkLeft_ == 0; }
-  /// All work since the tick began; at most kMaxWork.
+  /// Work done since beginTick(); at most kMaxWork.
   std::uint64_t work() const noexcept { return kMaxWork - workLeft_; }
 
  private:
   struct HeldBody {
-    std::uint32_t body = 0;
-    std::size_t first = 0, count = 0;  ///< Of pairs_, or of triangles_ where it is a surface without sides.
-    double within = 0.0;               ///< What triangles are all there [m].
-    std::size_t firstBlock = 0, blocks = 0;  ///< Of edgePairs_: its first pairs.
+    std::uint32_t body = 0;                  ///< Index in ServoScene::bodies.
+    std::size_t first = 0, count = 0;        ///< Range in pairs_, or in triangles_ for an unsided surface.
+    double within = 0.0;                     ///< Every pair of triangles nearer than this is held [m].
+    std::size_t firstBlock = 0, blocks = 0;  ///< Range in edgePairs_, for its first pairs.
   };
 
-  /// How pairs are gathered: for which motion, and of how many that lists have it is no use.
+  /// Parameters of gathering pairs.
   struct Gathering {
-    MotionBudget slack;
-    std::size_t mostListed;
+    MotionBudget slack;      ///< Motion for which the pairs must serve.
+    std::size_t mostListed;  ///< Max pairs worth taking from lists.
   };
 
   Surroundings look(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
@@ -117,38 +125,40 @@ class ContactFinder {
 
   LmdScratch scratch_;
   ContactThinning thinning_;
-  std::vector<ContactPair> found_;            ///< Of one body.
-  std::vector<SurfaceContact> surfaceFound_;  ///< Of one that is a surface without sides.
+  std::vector<ContactPair> found_;            ///< Contacts of one body.
+  std::vector<SurfaceContact> surfaceFound_;  ///< Contacts of one unsided surface.
 
-  /// Pairs that can be contacts within `holds_` of `pairsPose_`.
+  /// Pairs that can be contacts at poses within `holds_` of `pairsPose_`.
   std::vector<LeafPair> pairs_;
-  /// Those of edges, ready to be tested four at a time, as far as there is room.
+  /// The edge pairs among them, packed for tests of four at a time, as far as there is room.
   std::vector<EdgePairs> edgePairs_;
   EdgePairKernel edgePairKernel_;
-  /// The same of surfaces without sides: the triangles that come near within it.
+  /// For unsided surfaces instead: pairs of triangles that come near within `holds_`.
   std::vector<TrianglePair> triangles_;
   std::size_t pairCount_ = 0, triangleCount_ = 0;
   std::array<HeldBody, kMaxBodies> bodies_;
   std::size_t bodyCount_ = 0;
   RigidTransform pairsPose_, testedPose_;
-  double askedReach_ = 0.0, pairsReach_ = 0.0;  ///< What was wanted, and what they are gathered for [m].
+  /// Reach asked for, and reach that the pairs were gathered for [m].
+  double askedReach_ = 0.0, pairsReach_ = 0.0;
   MotionBudget holds_;
   bool isHoldingPairs_ = false;
-  std::size_t roomLevel_ = 0;  ///< Of the room that pairs are gathered with: less at each level.
-  std::size_t tickLevel_ = 0;  ///< The same for the rest of this tick, whose work is less.
+  /// Level of the room for motion that pairs are gathered with; higher levels have less room.
+  std::size_t roomLevel_ = 0;
+  std::size_t tickLevel_ = 0;  ///< The same for the rest of this tick, which has less work left.
   unsigned gatherings_ = 0;
-  bool isSurfaceNear_ = false;  ///< A surface without sides was searched.
-  bool isUncovered_ = false;    ///< A list that is longer than a search could be does not hold there.
+  bool isSurfaceNear_ = false;  ///< An unsided surface was searched.
+  bool isUncovered_ = false;    ///< A list too long to be replaced by a search does not cover the pose.
 
-  /// Where contacts were first looked for in the last tick, and how far that was from the one before [m].
+  /// Pose of the first look in the last tick, and how far that was from the one before [m].
   RigidTransform tickPose_;
   double tickTravel_ = 0.0;
   bool isFirstLook_ = false;
 
   std::uint64_t workLeft_ = kMaxWork, searchWorkLeft_ = 0, surfaceWorkLeft_ = 0;
   bool isBlind_ = false;        ///< Nothing is known of any pose of this tick.
-  unsigned generousTicks_ = 0;  ///< That surfaces may have all the work in.
-  bool isWorkSpent_ = false;    ///< What is left did not do for what was to be done.
+  unsigned generousTicks_ = 0;  ///< Ticks left in which surfaces may use all the work.
+  bool isWorkSpent_ = false;    ///< The work left was too little for something needed.
   std::uint32_t lateBodies_ = 0;
 };
 

@@ -10,14 +10,13 @@
 namespace nearfit {
 namespace {
 
-/// Side of a cell of the grid of directions, whose length is about 1.
+/// Cell size of the grid of directions; the length of a direction is about 1.
 constexpr double kCell = 0.08;
-/// Of the room, at least this part is for the nearest of those that agree with a nearer one, if there are as
-/// many. Of two that are equally near, a step that is square to one brings the other nearer by as much as
-/// they differ: where the proxy did not know, no step was a gain to it, and it stood until it was pulled off
-/// in a leap.
+/// One part in this many of the room is reserved for the nearest of those that agree with a nearer one. Of
+/// two contacts equally near, a step perpendicular to one brings the other nearer by as much as they differ.
+/// A proxy that does not know the other gains from no step, and stands until it is pulled off in a leap.
 constexpr std::size_t kShareOfOthers = 4;
-/// Slots of the table for each contact: half empty at the most.
+/// Slots of the hash table, of which at most half are in use.
 constexpr std::size_t kSlots = 2 * ContactThinning::kMaxTaken;
 
 bool isNearerContact(const BodyContact& a, const BodyContact& b) noexcept {
@@ -50,7 +49,7 @@ std::uint64_t ContactThinning::cellOf(const ContactPair& pair, const glm::dvec3&
                                       const MassMetric& metric) const noexcept {
   std::uint64_t cell = 0;
   for (const double x : stepRow(pair.direction, pair.point - centre, principalFromWorld, metric)) {
-    // Ten bits each: what it says of turns is at most the radius over the least gyration, some twenty.
+    // Ten bits each: rotational components are at most the radius over the min gyration, some twenty.
     const auto step = static_cast<std::int64_t>(std::floor(x / kCell)) & 0x3FF;
     cell = cell << 10U | static_cast<std::uint64_t>(step);
   }
@@ -72,7 +71,7 @@ ContactThinning::Kept ContactThinning::keep(const glm::dvec3& centre, const glm:
     while (table_[slot] != 0 && cells_[table_[slot] - 1] != cell)
       slot = (slot + 1) % kSlots;
     if (table_[slot] == 0) {
-      // What comes first of a cell moves to the front.
+      // The first contact of each cell moves to the front.
       cells_[distinct] = cell;
       std::swap(taken_[distinct], taken_[i]);
       table_[slot] = static_cast<std::uint32_t>(++distinct);

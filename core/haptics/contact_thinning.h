@@ -14,34 +14,40 @@ namespace nearfit {
 /// A contact with one of the bodies, in world coordinates.
 struct BodyContact {
   ContactPair pair;
-  std::uint32_t body = 0;  ///< Of the servo scene.
+  std::uint32_t body = 0;  ///< Index in ServoScene::bodies.
 };
 
-/// The most telling of thousands of contacts, as where a thread lies in its nut.
+/// Selects the most informative of thousands of contacts, as between a thread and its nut.
 ///
-/// What a contact says to the proxy is a direction in the six dimensions of its motion. Of contacts that
-/// agree in it to a fine grid the nearest counts most: a small step changes the distances of the others by
-/// the same, to a tenth of the step. Memory is allocated once.
+/// A contact constrains one direction in the six dimensions of the part's motion. Of contacts whose
+/// directions agree on a fine grid, the nearest counts most: a small step changes the distances of the others
+/// by the same amount, to a tenth of the step. Allocates only in the constructor; real-time safe after it.
 class ContactThinning {
  public:
+  /// Max contacts that keep() writes.
   static constexpr std::size_t kMaxKept = 512;
-  /// Contacts that can be taken in.
+  /// Max contacts that can be added.
   static constexpr std::size_t kMaxTaken = 1U << 15;
 
   ContactThinning();
 
   void clear() noexcept { count_ = 0; }
+  /// Adds a contact. Returns false if there is no room.
   bool add(const BodyContact& contact) noexcept;
 
+  /// Result of keep().
   struct Kept {
-    std::size_t count = 0;
-    double completeTo =
-        0.0;  ///< Nothing nearer was left out but what says the same [m]; infinity: nothing was.
+    std::size_t count = 0;  ///< Contacts written.
+    /// Every contact nearer than this was written, or one that agrees with it [m]; infinity if that
+    /// holds for all.
+    double completeTo = 0.0;
   };
-  /// Writes all, when there are no more than fit, else the nearest of each direction, and of those the
-  /// nearest; a part of the room is for the nearest of the others.
+  /// Writes all contacts if they fit. Otherwise writes the nearest contact of each direction, as many as fit,
+  /// and in a reserved part of the room the nearest of the others. The order is arbitrary. Call clear()
+  /// before the next add().
   /// @param centre              Centre of mass of the part in the world [m].
-  /// @param principalFromWorld  Turns the world into the part's principal axes.
+  /// @param principalFromWorld  Rotates the world into the part's principal axes.
+  /// @param out                 At most kMaxKept entries are used.
   Kept keep(const glm::dvec3& centre, const glm::dquat& principalFromWorld, const MassMetric& metric,
             std::span<BodyContact> out) noexcept;
 

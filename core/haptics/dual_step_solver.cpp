@@ -14,7 +14,7 @@ double lengthOf(const StepVector& y) noexcept {
   return std::sqrt(y[0] * y[0] + y[1] * y[1] + y[2] * y[2] + y[3] * y[3] + y[4] * y[4] + y[5] * y[5]);
 }
 
-/// How far multipliers can be moved along -r before one of them is zero.
+/// How far the multipliers can move along -r until one of them is zero.
 struct DualStep {
   double length = std::numeric_limits<double>::infinity();
   std::size_t leaving = 0;
@@ -101,7 +101,7 @@ bool DualStepSolver::enter(const Violation& violation, const ProgramVector& z0, 
     const double primal =
         split.isDependent ? std::numeric_limits<double>::infinity() : missing / split.remainderSquared;
     const double step = std::min(primal, dual.length);
-    // Neither: the row contradicts the active ones, which only rounding can bring about.
+    // The row contradicts the active ones; only rounding can cause that.
     if (!std::isfinite(step)) return false;
     if (primal <= dual.length) {
       active_.add(violation.id, row.n, row.b, multiplier + primal, split);
@@ -131,7 +131,7 @@ DualStepSolver::Point DualStepSolver::solve(const StepVector& y0) noexcept {
     const Violation worst = mostViolated(z);
     if (worst.by <= tolerance_) break;
     if (active_.holds(worst.id)) {
-      // Rounding that correcting does not mend: nothing is gained by going on.
+      // A rounding error that correct() does not remove will not go away by iterating.
       isExact = !isCorrected;
       active_.correct(z);
       isCorrected = true;

@@ -8,56 +8,61 @@
 
 namespace nearfit {
 
-/// What a step costs: 1/2 |y - y0|^2 + 1/2 weight (t - margin)^2, with t >= floor.
+/// Cost of a step: 1/2 |y - y0|^2 + 1/2 weight (t - margin)^2, subject to t >= floor.
 struct ClearanceCost {
-  double margin = 0.0;  ///< Clearance that is wanted [m].
-  double weight = 1.0;  ///< Of clearance against motion; > 0.
-  double floor = 0.0;   ///< Least clearance allowed [m]; -infinity for none.
+  double margin = 0.0;  ///< Wanted clearance [m].
+  double weight = 1.0;  ///< Weight of clearance against motion; > 0.
+  double floor = 0.0;   ///< Min clearance allowed [m]; -infinity for none.
 };
 
-/// The program of a step for one y0 after another: the nearest point in seven dimensions (y, and t scaled by
-/// the root of its weight) to the unconstrained one, under all rows a_i . y - t >= -d_i and the floor.
+/// Solves the program of a step for a sequence of goals y0. Finds the point nearest to the unconstrained
+/// optimum, in seven dimensions (y, and t scaled by the root of its weight), that satisfies the floor and all
+/// rows a_i . y - t >= -d_i.
 ///
 /// Source: Goldfarb and Idnani, A numerically stable dual method for solving strictly convex quadratic
-/// programs, 1983. Deviations: the Hessian is the identity, so that an orthogonal basis of the active normals
-/// is all that is factored; the point and the multipliers are computed anew from the active rows whenever a
-/// row has become active, so that errors do not add up; a solve starts from the active rows of the last, less
-/// those whose multipliers have become negative. Real-time safe.
+/// programs, 1983. Deviations: the Hessian is the identity, so only an orthogonal basis of the active normals
+/// is factored; the point and the multipliers are recomputed from the active rows whenever a row becomes
+/// active, so errors do not accumulate; a solve starts from the active rows of the last one, without those
+/// whose multipliers have become negative. Real-time safe.
 class DualStepSolver {
  public:
   /// Id of the floor among the active rows.
   static constexpr std::size_t kFloor = std::numeric_limits<std::size_t>::max();
 
-  /// Rows hold to this fraction of the lengths in play (y0, margin, least distance) times the largest row:
-  /// a hundred roundings.
+  /// Rows hold to this fraction of the lengths involved (y0, margin, min distance) times the largest row
+  /// norm: a hundred roundings.
   static constexpr double kRowTolerance = 2e-14;
 
-  /// Multipliers that are negative by less than this fraction of the largest are zero with rounding.
+  /// Multipliers negative by less than this fraction of the largest count as zero.
   static constexpr double kSignTolerance = 1e-9;
 
-  /// Parts of a normal that are smaller than this fraction of its largest are rounding.
+  /// Coefficients of a normal that are smaller than this fraction of its largest count as rounding.
   static constexpr double kPartTolerance = 1e-12;
 
+  /// A step and its clearance.
   struct Point {
-    StepVector y{};
-    double t = 0.0;
-    /// It is the optimum, to the tolerances. Otherwise the way from standing still to where the method stood
-    /// was gone as far as all rows allow.
+    StepVector y{};  ///< [m]
+    double t = 0.0;  ///< [m]
+    /// True if this is the optimum, to the tolerances. Otherwise it is as far as all rows allow on the way
+    /// from standing still to where the method stopped.
     bool isExact = false;
   };
 
-  /// Forgets the active rows. @param rows  Must stay as they are until the last solve.
-  /// A floor above the least distance is lowered to it: y = 0 must be allowed.
-  /// @param mostChanges  Of the active rows, in all solves together.
+  /// Starts a program with no active rows.
+  /// @param rows         Must stay alive and unchanged until the last solve().
+  /// @param cost         A floor above the min distance is lowered to it, so that y = 0 is feasible.
+  /// @param mostChanges  Max changes of the active rows, over all solves.
   void begin(const StepRows& rows, const ClearanceCost& cost, unsigned mostChanges) noexcept;
 
-  /// @param y0  Finite.
+  /// Solves for the goal y0 [m]; finite.
   Point solve(const StepVector& y0) noexcept;
 
-  /// Standing still, with the clearance that there is, at most the margin (or the floor).
+  /// Standing still, with the clearance available: at most the margin, at least the floor.
   Point standing() const noexcept;
 
+  /// Active rows of the last solve; ids are row indices or kFloor.
   const ActiveRows& active() const noexcept { return active_; }
+  /// Changes of the active rows since begin().
   unsigned changes() const noexcept { return changes_; }
 
  private:
@@ -79,7 +84,7 @@ class DualStepSolver {
 
   const StepRows* rows_ = nullptr;
   ClearanceCost cost_;
-  double inverseRoot_ = 1.0;  ///< Of the weight.
+  double inverseRoot_ = 1.0;  ///< 1 / sqrt(weight).
   double leastDistance_ = 0.0, tolerance_ = 0.0;
   unsigned changes_ = 0, mostChanges_ = 0;
   ActiveRows active_;

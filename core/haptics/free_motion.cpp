@@ -11,7 +11,7 @@
 namespace nearfit {
 namespace {
 
-/// Of a mass on a spring and a damper; in the same units as the vectors it is used with.
+/// Mass on a spring and damper, in the units of the vectors passed.
 struct Oscillator {
   double inertia, stiffness, damping;
 
@@ -53,8 +53,8 @@ BodyMotion freeStep(const Felt& felt, const CouplingState& coupling, const MassM
   const double gyration = std::max({metric.gyration.x, metric.gyration.y, metric.gyration.z});
   const glm::dvec3 centre = part.pose.applyToPoint(centreInPart);
   const Oscillator linear{felt.mass, coupling.stiffness, coupling.damping};
-  // Inertia, stiffness and damping all go with the square of each axis' gyration, which cancels: one
-  // oscillator serves all axes, whatever their directions.
+  // Inertia, stiffness and damping about each axis are all proportional to the square of its gyration, which
+  // cancels: one oscillator serves all axes.
   const Oscillator angular{felt.mass * gyration * gyration, coupling.rotationalStiffness,
                            coupling.rotationalDamping};
   BodyMotion next;

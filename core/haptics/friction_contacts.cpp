@@ -8,27 +8,27 @@
 namespace nearfit {
 namespace {
 
-/// A direction in which the contact cannot move on its own: what the other rows leave of how it answers a
-/// push is a smaller part than this.
+/// A contact cannot move in a direction if the active rows leave less than this part of its
+/// response to a push.
 constexpr double kBlocked = 1e-12;
 
-/// Of the greatest multiplier, within one relaxation: where pushes jam the part, each would let the others
-/// grow without bound.
+/// Limits pushes to this multiple of the largest multiplier before the relaxation, times the coefficient: in
+/// a jammed part each push would let the others grow without bound.
 constexpr double kGrowth = 2.0;
 
-/// Disks of pushes below this are none [m]: their reciprocals would overflow.
+/// Friction disks smaller than this count as zero [m]: their reciprocals would overflow.
 constexpr double kNoRadius = 1e-100;
 
-/// Newton steps for the push on the rim of its disk; some five reach rounding.
+/// Max Newton steps for a push on the rim of its disk; some five reach rounding.
 constexpr int kRimSteps = 20;
 constexpr double kRimTolerance = 1e-15;
 
-/// One contact while pushes are sought.
+/// One contact during relaxation.
 struct Local {
   std::size_t activeIndex = 0;
   std::array<ActiveRows::Split, 2> splits;
-  /// Of how the slip answers a push while all active rows hold: eigenvalues, the greater first, and the
-  /// direction of that. Zero where the contact is blocked.
+  /// Response of the slip to a push while all active rows hold: eigenvalues, the larger first, and the
+  /// direction of that one. Zero where the contact is blocked.
   glm::dvec2 answer{0.0}, direction{1.0, 0.0};
 };
 
@@ -63,7 +63,7 @@ Local localOf(const ActiveRows& active, const FrictionContacts::Contact& contact
   return out;
 }
 
-/// Turns a vector into the frame of a direction, or back out of it.
+/// Rotates a vector into the frame of a unit direction, or back out of it.
 glm::dvec2 into(const glm::dvec2& direction, const glm::dvec2& v) noexcept {
   return {glm::dot(direction, v), direction.x * v.y - direction.y * v.x};
 }
@@ -71,8 +71,8 @@ glm::dvec2 outOf(const glm::dvec2& direction, const glm::dvec2& v) noexcept {
   return {direction.x * v.x - direction.y * v.y, direction.y * v.x + direction.x * v.y};
 }
 
-/// The push f of length `radius` for which (answer + l) f = target with some l > 0: the slip that is left is
-/// -l f. Newton's method on 1 / |f|, which is nearly linear in l (More and Sorensen 1983).
+/// The push f of length `radius` with (answer + l) f = target for some l > 0; the slip left is -l f. Newton's
+/// method on 1 / |f|, which is nearly linear in l (More and Sorensen 1983).
 glm::dvec2 onRim(const glm::dvec2& answer, const glm::dvec2& target, double radius) noexcept {
   double l = 0.0;
   glm::dvec2 f = target / answer;
@@ -86,8 +86,8 @@ glm::dvec2 onRim(const glm::dvec2& answer, const glm::dvec2& target, double radi
   return f * (radius / glm::length(f));
 }
 
-/// The push at which the point stays or slides against it, if nothing else changes. @param radius  Of the
-/// disk of pushes.
+/// The push at which the point sticks, or slides against it, if nothing else changes.
+/// @param radius  Of the friction disk [m].
 glm::dvec2 locallySettled(const Local& local, const glm::dvec2& push, const glm::dvec2& slip,
                           double radius) noexcept {
   if (!(radius > kNoRadius)) return glm::dvec2(0.0);
@@ -99,7 +99,7 @@ glm::dvec2 locallySettled(const Local& local, const glm::dvec2& push, const glm:
     if (local.answer.y > 0.0) {
       next = onRim(local.answer, local.answer * old - left, radius);
     } else if (local.answer.x > 0.0) {
-      // Blocked in the second direction, where the push takes what the disk leaves.
+      // Blocked in the second direction: the push there is limited to what the disk leaves.
       next.x = std::clamp(next.x, -radius, radius);
       const double rest = std::sqrt(std::max(0.0, radius * radius - next.x * next.x));
       next.y = std::clamp(next.y, -rest, rest);
@@ -186,7 +186,7 @@ double FrictionContacts::relax(const ActiveRows& active, const StepVector& y, do
     multipliers[i] = active.multiplier(i);
   for (std::size_t i = 0; i < size_; ++i)
     most = std::max(most, multipliers[locals[i].activeIndex]);
-  // The pushes of rows that have let go are no more.
+  // Remove the effect of pushes whose rows are no longer active.
   const ActiveRows::Split gone = active.split(gone_);
   z = along(z, -1.0, gone.remainder);
   multipliers = along(multipliers, 1.0, gone.r);
@@ -201,7 +201,7 @@ double FrictionContacts::relax(const ActiveRows& active, const StepVector& y, do
       const glm::dvec2 slip(dot(contact.tangents[0], z), dot(contact.tangents[1], z));
       const double radius = std::clamp(coefficient * multipliers[local.activeIndex], 0.0, largest);
       const glm::dvec2 next = locallySettled(local, contact.push, slip, radius);
-      // Rounds that swing meet half of the way.
+      // Late rounds go half the way, since rounds that have not settled oscillate.
       const glm::dvec2 step = (2 * round < kMostRounds ? 1.0 : 0.5) * (next - contact.push);
       contact.push += step;
       for (std::size_t c = 0; c < 2; ++c) {

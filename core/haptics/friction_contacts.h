@@ -12,26 +12,28 @@
 
 namespace nearfit {
 
-/// How arms lie in the mass metric.
+/// Maps torques of pushes into the mass metric.
 struct ArmMetric {
-  glm::dmat3 principalFromStep{1.0};
-  glm::dvec3 gyration{1.0};  ///< [m]
+  glm::dmat3 principalFromStep{1.0};  ///< Rotates the axes of a[0..2] into the principal axes.
+  glm::dvec3 gyration{1.0};           ///< About the principal axes [m].
 };
 
-/// The contacts that rub: one for each active row, with its tangential push.
+/// Contacts with friction: one for each active row, with its tangential push. Real-time safe.
 class FrictionContacts {
  public:
-  /// Rounds over all contacts for one set of active rows.
+  /// Max rounds over all contacts for one set of active rows.
   static constexpr unsigned kMostRounds = 12;
-  /// Changes below this fraction of the lengths in play are rounding.
+  /// Changes below this fraction of the lengths involved count as rounding.
   static constexpr double kRounding = 1e-14;
 
+  /// Friction at an active row.
   struct Contact {
-    std::size_t row = 0;
-    std::array<glm::dvec3, 2> axes{};         ///< Of the tangent plane, in the axes of a[0..2].
-    std::array<ProgramVector, 2> tangents{};  ///< What a push along them does, in the mass metric.
+    std::size_t row = 0;                      ///< Index in the StepRows.
+    std::array<glm::dvec3, 2> axes{};         ///< Unit axes of the tangent plane, in the axes of a[0..2].
+    std::array<ProgramVector, 2> tangents{};  ///< Steps made by unit pushes along them.
     glm::dvec2 push{0.0};                     ///< Along the axes [m].
 
+    /// The push in the axes of a[0..2] [m].
     glm::dvec3 pushVector() const noexcept { return push.x * axes[0] + push.y * axes[1]; }
   };
 
@@ -39,26 +41,30 @@ class FrictionContacts {
   std::size_t size() const noexcept { return size_; }
   const Contact& operator[](std::size_t i) const noexcept { return contacts_[i]; }
 
+  /// Multiplies all pushes by `factor`.
   void scale(double factor) noexcept;
 
-  /// Length of the greatest push [m].
+  /// Length of the largest push [m]; 0 without contacts.
   double largest() const noexcept;
 
-  /// Adds what the pushes do to a goal.
+  /// The goal y plus the effect of all pushes.
   StepVector pushed(StepVector y) const noexcept;
 
-  /// Follows the active rows: pushes of rows that are still active stay, new ones are zero.
-  /// @param arms  Of each of the rows.
-  /// Whether a push that was not zero is gone.
+  /// Adapts the contacts to the active rows: rows that are still active keep their pushes, new ones
+  /// start at zero.
+  /// @param arms  For each of the rows: from the centre of mass to the part's point, in the axes
+  ///              of a[0..2] [m].
+  /// @return True if a push that was not zero is gone.
   bool follow(const StepRows& rows, const ActiveRows& active, const glm::dvec3* arms,
               const ArmMetric& metric) noexcept;
 
-  /// Finds the pushes for the active rows as they are, and goes part of the way to them.
-  /// @param y       The program's step with the pushes so far.
-  /// @param length  In play [m].
-  /// @param share   Of the way; 1 for all of it, less where sweeps overshoot.
-  /// How far a push still is from where it should be: the most that one went in all, or in the last round
-  /// [m].
+  /// Finds the pushes for fixed active rows, and changes the pushes by a share of the way to them.
+  /// @param y            The program's step with the pushes so far [m].
+  /// @param coefficient  Coulomb's; >= 0.
+  /// @param length       Length scale of the problem [m].
+  /// @param share        1 for the whole way, less if sweeps overshoot.
+  /// @return How far a push may still be from its solution [m]: the largest change, in total or in
+  ///         the last round.
   double relax(const ActiveRows& active, const StepVector& y, double coefficient, double length,
                double share) noexcept;
 
@@ -67,7 +73,7 @@ class FrictionContacts {
 
   std::array<Contact, ActiveRows::kMost> contacts_;
   std::size_t size_ = 0;
-  ProgramVector gone_{};  ///< Effect of pushes of rows that are not active any more.
+  ProgramVector gone_{};  ///< Effect of the pushes that the last follow() dropped.
 };
 
 }  // namespace nearfit

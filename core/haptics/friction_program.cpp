@@ -20,7 +20,7 @@ bool isUsableProgram(const StepRows& rows, const FrictionGoal& goal) noexcept {
          (goal.arms.size() == rows.size() && std::all_of(goal.arms.begin(), goal.arms.end(), isShort));
 }
 
-/// What changes of pushes are measured against [m].
+/// Length scale that changes of pushes are compared with [m].
 double lengthOf(const StepVector& y, double margin) noexcept {
   double squared = margin * margin;
   for (const double value : y)
@@ -42,7 +42,7 @@ DualStepSolver::Point FrictionProgram::alternate(const StepRows& rows, const Fri
     const bool isOneGone = contacts_.follow(rows, solver_.active(), goal.arms.data(), metric);
     const double share = sweep < kDampedSweep ? 1.0 : 0.5;
     attempt.unsettled = contacts_.relax(solver_.active(), point.y, goal.coefficient, length, share);
-    // A push whose row has let go of the part counts in full.
+    // A push whose row is no longer active counts in full.
     if (isOneGone) attempt.unsettled = std::max(attempt.unsettled, attempt.applied.largest());
     attempt.isSettled = point.isExact && attempt.unsettled <= kSettled * length;
     const bool isExact = attempt.isSettled && attempt.unsettled <= FrictionContacts::kRounding * length;
@@ -70,7 +70,7 @@ FrictionSolution FrictionProgram::solve(const StepRows& rows, const FrictionGoal
   out.step = searchStep(
       solver_, goal.step, kMostScales,
       [&](const StepVector& wanted, double scale) noexcept {
-        // Pushes grow with the goal, more or less.
+        // Pushes are roughly proportional to the goal.
         contacts_.scale(lastScale > 0.0 ? scale / lastScale : 0.0);
         lastScale = scale;
         return alternate(rows, goal, wanted, attempts.last);

@@ -6,27 +6,26 @@
 
 namespace nearfit {
 
-/// How old a pose may be: in full up to `hold`, then it counts for less and less, and for nothing from
-/// `silence` on.
+/// Fading of forces with the age of a pose: full up to `hold`, then linearly down to zero at `silence`.
 struct PosePatience {
-  double hold = 5e-3;      ///< [s]: five reports of a device at 1 kHz.
+  double hold = 5e-3;      ///< [s]; five reports of a device at 1 kHz.
   double silence = 20e-3;  ///< [s]
 };
 
-/// What a tick gets from a device.
+/// Input from a device for one tick.
 struct HandleInput {
-  RigidTransform pose;      ///< Where the device's handle is, in the device's frame.
-  double age = 0.0;         ///< Since the device measured it [s]; forces fade as it grows.
-  PosePatience patience{};  ///< With that age.
-  bool isClutched = false;  ///< The hand repositions the device: the part stays meanwhile.
-  bool isArmed = true;      ///< The device may push: when it is armed, the force begins from nothing.
-  /// The device has a frame of its own: the handle begins where the part is, wherever the device is. Else
-  /// poses of the device are poses in the world.
+  RigidTransform pose;      ///< Pose of the device's handle, in the device's frame.
+  double age = 0.0;         ///< Time since the device measured it [s]; forces fade with it.
+  PosePatience patience{};  ///< How forces fade with the age.
+  bool isClutched = false;  ///< The hand repositions the device; the part stays.
+  bool isArmed = true;      ///< The device may render force. When it is armed, the force ramps up from zero.
+  /// True if the device has a frame of its own: the handle starts at the part, wherever the device is.
+  /// Otherwise the device's poses are world poses.
   bool hasOwnFrame = false;
-  /// In this tick the handle goes back to where the part is, and leads it on from there. For devices that do
-  /// not push: what is felt ends at once.
+  /// In this tick the handle returns to the part's pose and leads on from there. Only for devices that render
+  /// no force, since the force ends at once.
   bool isLettingGo = false;
-  std::uint64_t buttons = 0;  ///< That are down; bit 0: the first.
+  std::uint64_t buttons = 0;  ///< Buttons that are down; bit 0 is the first.
 };
 
 }  // namespace nearfit

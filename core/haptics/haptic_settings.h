@@ -10,53 +10,54 @@
 
 namespace nearfit {
 
+/// Source of the force that the hand feels.
 enum class HapticMode : std::uint8_t {
-  Proxy,    ///< The part follows the hand as far as the scene lets it; the hand is pulled towards the part.
-  Springs,  ///< The part is where the hand is; each minimum pushes as a spring (SpringLaw says which).
+  Proxy,    ///< The part follows the hand as far as the scene allows; a coupling pulls the hand to the part.
+  Springs,  ///< The part is where the hand is; each minimum pushes like a spring (see SpringLaw).
 };
 
-/// How the part keeps out of the scene in the proxy mode.
+/// Contact in the proxy mode.
 struct ProxySettings {
-  /// Distance at which contact holds [m]; > 0. Smaller shows the true gap better and lets the part slide
-  /// less far in a tick.
+  /// Clearance kept in contact [m]; > 0. A smaller one shows the true gap better, but the part slides less
+  /// far in a tick.
   double margin = 1e-4;
-  double friction = 0.0;  ///< Coulomb's coefficient; 0 is none.
+  double friction = 0.0;  ///< Coulomb's coefficient; >= 0, 0 for none.
   bool operator==(const ProxySettings&) const = default;
 };
 
-/// Spring and damper between hand and part in the proxy mode, as wished: what is felt is held to the bound
-/// of stability (virtual_coupling.h).
+/// Spring and damper between handle and part in the proxy mode, as requested. What is rendered is limited to
+/// the stability bound (virtual_coupling.h).
 struct CouplingSettings {
-  /// As stiff as the device's bound allows; the numbers below are then not used.
+  /// True: as stiff as the device's bound allows, and the values below are ignored.
   bool isAutomatic = true;
   double stiffness = 1000.0;         ///< [N/m]
   double damping = 0.0;              ///< [N s/m]
-  double rotationalStiffness = 1.0;  ///< About the part's axis of most inertia [N m/rad].
+  double rotationalStiffness = 1.0;  ///< About the part's axis of max inertia [N m/rad].
   double rotationalDamping = 0.0;    ///< [N m s/rad]
   bool operator==(const CouplingSettings&) const = default;
 };
 
-/// Weight and inertia that are felt, on request.
+/// Weight and inertia of the part that the hand feels on request.
 struct WeightSettings {
-  bool hasWeight = false;                  ///< The part hangs in the hand.
-  bool hasInertia = false;                 ///< The part resists being accelerated (proxy mode).
+  bool hasWeight = false;                  ///< The hand carries the part's weight.
+  bool hasInertia = false;                 ///< The part resists acceleration (proxy mode only).
   glm::dvec3 gravity{0.0, 0.0, -9.80665};  ///< World frame [m/s^2].
   bool operator==(const WeightSettings&) const = default;
 };
 
-/// How motion of a device becomes motion of the handle in the scene.
+/// Maps motion of the device to motion of the handle in the scene.
 struct WorkspaceMapping {
-  double scale = 1.0;                                ///< Of translation; > 0.
-  glm::dquat orientationOffset{1.0, 0.0, 0.0, 0.0};  ///< Turns the device's frame into the world's; unit.
-  std::array<bool, 3> translationLocks{};            ///< World axes along which the handle stays.
-  std::array<bool, 3> rotationLocks{};               ///< World axes about which the handle stays.
+  double scale = 1.0;                                ///< Scale of translation; > 0.
+  glm::dquat orientationOffset{1.0, 0.0, 0.0, 0.0};  ///< Rotates the device's frame into the world; unit.
+  std::array<bool, 3> translationLocks{};            ///< World axes along which the handle does not move.
+  std::array<bool, 3> rotationLocks{};               ///< World axes about which the handle does not turn.
   bool operator==(const WorkspaceMapping&) const = default;
 };
 
-/// What a user sets about feeling; belongs to a scene. Limits: haptic_limits.h.
+/// All haptic settings of a user; stored with the scene. Limits: haptic_limits.h.
 struct HapticSettings {
   HapticMode mode = HapticMode::Proxy;
-  SpringParameters springs;  ///< The cutoff counts in both modes.
+  SpringParameters springs;  ///< The cutoff applies in both modes.
   ProxySettings proxy;
   CouplingSettings coupling;
   WeightSettings weight;

@@ -11,7 +11,7 @@
 namespace nearfit {
 namespace {
 
-/// Of the vertices that a triangle uses; others are no part of the surface.
+/// Distance of the farthest vertex that a triangle uses; unused vertices are not part of the surface.
 double farthestVertex(const TriangleMesh& mesh, const glm::dvec3& centre) {
   double farthest = 0.0;
   for (const Triangle& triangle : mesh.triangles()) {
@@ -21,12 +21,12 @@ double farthestVertex(const TriangleMesh& mesh, const glm::dvec3& centre) {
   return farthest;
 }
 
-/// Axes as they come may be left-handed, and then are no rotation.
+/// Rotation from orthonormal axes, which may be left-handed.
 glm::dquat rotationFromAxes(const std::array<glm::dvec3, 3>& axes) {
   return glm::normalize(glm::quat_cast(glm::dmat3(axes[0], axes[1], glm::cross(axes[0], axes[1]))));
 }
 
-/// Sums over surfaces that are partly inside out can give moments that no body has, negative ones included.
+/// Limits the gyration: partly inverted surfaces can have impossible moments, even negative ones.
 double safeGyration(double momentOverMass, double radius) {
   const double gyration = momentOverMass > 0.0 ? std::sqrt(momentOverMass) : 0.0;
   return std::clamp(gyration, kLeastGyration * radius, radius);
@@ -38,7 +38,7 @@ MassMetric massMetric(const MassProperties& mass, const TriangleMesh& mesh) {
   MassMetric metric;
   metric.radius = farthestVertex(mesh, mass.centre);
   if (!(metric.radius > 0.0)) return metric;
-  // Divided first, since products of the moments of a body of micrometres would underflow.
+  // Divide first: products of the moments of a micrometre-sized body would underflow.
   const glm::dmat3 inertiaOverMass = mass.volume > 0.0 ? mass.inertia / mass.volume : glm::dmat3(0.0);
   const SymmetricEigen principal = symmetricEigen(inertiaOverMass);
   metric.partFromPrincipal = rotationFromAxes(principal.vectors);

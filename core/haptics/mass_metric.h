@@ -9,15 +9,15 @@
 
 namespace nearfit {
 
-/// How far apart two poses of a part count: a metric of mass and inertia, as for a body of mass one. A turn
-/// by a small vector w [rad] about the centre of mass counts as the length |k w| [m], with k the radii of
-/// gyration along the principal axes.
+/// Measures how far apart two poses of a part are: a metric of mass and inertia, for unit mass. A rotation by
+/// a small vector w [rad] about the centre of mass has the length |k w| [m], with k the radii of gyration
+/// about the principal axes.
 struct MassMetric {
-  glm::dquat partFromPrincipal{1.0, 0.0, 0.0, 0.0};  ///< Unit; turns principal axes into the part's frame.
-  glm::dvec3 gyration{1.0};                          ///< About the principal axes, smallest first [m]; > 0.
-  double radius = 0.0;  ///< Of the sphere about the centre of mass that holds the mesh [m].
+  glm::dquat partFromPrincipal{1.0, 0.0, 0.0, 0.0};  ///< Unit; rotates principal axes into the part's frame.
+  glm::dvec3 gyration{1.0};  ///< Radii about the principal axes, smallest first [m]; > 0.
+  double radius = 0.0;       ///< Radius of the sphere about the centre of mass that contains the mesh [m].
 
-  /// Turns principal axes into the world's, and back.
+  /// Rotates principal axes into the world; principalFromWorld() is the inverse.
   glm::dquat worldFromPrincipal(const RigidTransform& worldFromPart) const noexcept {
     return worldFromPart.rotation * partFromPrincipal;
   }
@@ -26,14 +26,14 @@ struct MassMetric {
   }
 };
 
-/// No radius of gyration counts as less than this fraction of the metric's radius: a needle would else turn
-/// about itself for nothing, by any angle, and the metric's condition would grow without bound. Only pins
-/// more than some fourteen times as long as wide are below it.
+/// Min radius of gyration, as a fraction of the metric's radius. Without it a needle could turn about itself
+/// by any angle at no cost, and the metric's condition would be unbounded. It affects only pins more than
+/// some fourteen times as long as wide.
 inline constexpr double kLeastGyration = 0.05;
 
-/// The metric of a part, safe for bodies of any shape: gyration is within [kLeastGyration, 1] times the
-/// radius whatever the mass properties say. A mesh without extent gets a gyration of 1 m and the radius 0.
-/// O(triangles); not for the servo thread.
+/// The metric of a part, valid for bodies of any shape: the radii of gyration are within [kLeastGyration, 1]
+/// times the radius, whatever the mass properties are. A mesh without extent gets a gyration of 1 m and the
+/// radius 0. O(triangles); not for the servo thread.
 MassMetric massMetric(const MassProperties& mass, const TriangleMesh& mesh);
 
 }  // namespace nearfit

@@ -17,7 +17,7 @@ bool isNearerMinimum(const SnapshotLmd& a, const SnapshotLmd& b) noexcept {
 
 }  // namespace
 
-// Of several bodies together there are seldom more than of the one that has most.
+// Several bodies together seldom have more minima than the max of one.
 MinimaFinder::MinimaFinder()
     : lmds_(2 * kMaxPerBody), kept_(kMaxKeptBodies), display_(2 * ServoSnapshot::kMaxLmds) {}
 

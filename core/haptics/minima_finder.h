@@ -12,45 +12,50 @@
 
 namespace nearfit {
 
-/// The exact minima of the moving part with all bodies around it, for display and springs.
+/// Finds the exact minima of the moving part with all bodies around it, for display and springs.
 class MinimaFinder {
  public:
-  /// Minima kept for each body; beyond it the nearest, and the result says truncated.
+  /// Max minima kept for each body. If there are more, the nearest are kept, and the result says truncated.
   static constexpr std::size_t kMaxPerBody = 4096;
-  /// Work of a tick on bodies that are searched anew: some 1.5 ms on a slow core. Beyond it the nearest
+  /// Max work of a tick on bodies that are searched anew: some 1.5 ms on a slow core. Beyond it the nearest
   /// minima of a body are kept, and the result says truncated.
   static constexpr std::uint64_t kMaxNodePairs = 1U << 15;
-  /// Where springs decide the force: as much as lists and work space hold.
+  /// For springs, whose force depends on the minima: as much as lists and work space hold.
   static constexpr MinimaAllowance kFelt{1U << 18, mostMergeWork(LmdScratch::kDefaultCapacity)};
-  /// Where minima are only shown: 0.4 ms and 1.6 on a slow core, the latter for some 400 pieces at least.
+  /// For minima that are only shown: on a slow core some 0.4 ms of search and 1.6 ms of merging, enough
+  /// for 400 pieces.
   static constexpr MinimaAllowance kShown{1U << 13, 1U << 15};
 
   struct Result {
-    std::uint32_t count = 0;
-    std::uint32_t lateBodies = 0;  ///< Searched anew, as no list covered the pose.
-    bool isTruncated = false;
-    bool isPoseBad = false;   ///< A body's pose is none.
-    double distance = 0.0;    ///< Of the nearest [m]; infinity when there is none.
-    double completeTo = 0.0;  ///< Every minimum nearer than this was found [m].
-    /// Pairs of nodes and features looked at, and minima merged: of what is felt again, what it took then.
+    std::uint32_t count = 0;       ///< Minima found, of all bodies.
+    std::uint32_t lateBodies = 0;  ///< Bodies searched anew, since no list covered the pose.
+    bool isTruncated = false;      ///< Minima may be missing.
+    bool isPoseBad = false;        ///< The pose of a body is invalid.
+    double distance = 0.0;         ///< Distance of the nearest minimum [m]; infinity if there is none.
+    double completeTo = 0.0;       ///< Every minimum nearer than this was found [m].
+    /// Pairs of nodes and features visited, and merging. For a reused result, the work that it
+    /// took originally.
     std::uint64_t work = 0;
   };
 
-  /// Bodies of which the minima stay known for the next tick.
+  /// Max bodies whose minima are kept for reuse in the next tick.
   static constexpr std::size_t kMaxKeptBodies = 256;
 
+  /// Allocates all work space.
   MinimaFinder();
 
-  /// Within an allowance for all bodies together. What goes beyond it is left out, the nearest last, and the
-  /// result says truncated.
+  /// Finds the minima within the cutoff, with an allowance of work for all bodies together. Beyond the
+  /// allowance minima are left out, the nearest last, and the result says truncated.
   ///
-  /// Calls feel(span of minima in world coordinates) for each body that has any. Minima come from the lists
-  /// where they cover the pose, and from a search bounded by kMaxNodePairs where they do not; bodies that
-  /// are far away cost nothing. Where nothing has changed since the last call (the tracked scene
-  /// by its serial, the rest to the last bit), nothing is searched: what was found then is felt again.
-  /// @param apart         The bodies that do not overlap the part are no nearer than this [m]; 0 when
-  /// unknown.
-  /// @param allowance     kFelt, or kShown where nothing depends on them.
+  /// Calls feel(span of minima in world coordinates) once for each body that may be near; the span may be
+  /// empty. Minima come from the lists where they cover the pose, else from a search bounded by
+  /// kMaxNodePairs. Far bodies cost nothing. If nothing has changed since the last call (the tracked scene by
+  /// its serial, all else bit for bit), nothing is searched: feel() gets the same minima again.
+  ///
+  /// @param cutoff     [m]; finite, > 0.
+  /// @param apart      Lower bound on the distance to the bodies that do not overlap the part
+  ///                   [m]; 0 if unknown.
+  /// @param allowance  kFelt, or kShown if no force depends on the minima.
   /// Real-time safe.
   template <class Feel>
   Result find(const TrackedScene& tracked, const RigidTransform& worldFromPart, double cutoff, double apart,
@@ -76,13 +81,13 @@ class MinimaFinder {
     return result_;
   }
 
-  /// The nearest minima of the last find(), for display. Real-time safe.
+  /// Writes the nearest minima of the last find(), and its counts, to the snapshot. Real-time safe.
   void write(ServoSnapshot& snapshot) const noexcept;
 
  private:
-  /// All that an answer depends on, by its bits: zeros of either sign are two.
+  /// Everything that a result depends on, bit for bit: +0 and -0 differ.
   using Question = std::array<std::uint64_t, 12>;
-  /// @param lengths  Cutoff, and how far apart bodies are.
+  /// @param lengths  Cutoff, and lower bound on the distance [m].
   static Question questionOf(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                              const std::array<double, 2>& lengths, const MinimaAllowance& allowance) noexcept;
 
@@ -104,12 +109,13 @@ class MinimaFinder {
   void keepForDisplay(PartId other, std::span<const Lmd> found) noexcept;
 
   LmdScratch scratch_;
-  std::vector<Lmd> lmds_;                   ///< Of body after body, as long as there is room.
-  std::vector<std::span<const Lmd>> kept_;  ///< The minima of each body; the first keptCount_ are in use.
+  std::vector<Lmd> lmds_;                   ///< Minima of one body after another, while there is room.
+  std::vector<std::span<const Lmd>> kept_;  ///< Minima of each body; the first keptCount_ are in use.
   std::size_t usedLmds_ = 0, keptCount_ = 0;
   Question asked_{};
-  bool isAnswerKept_ = false;         ///< What was asked last and found is all there.
-  std::vector<SnapshotLmd> display_;  ///< Nearest of all bodies so far; the first displayCount_ are in use.
+  bool isAnswerKept_ = false;  ///< The minima found for the last question are all kept.
+  /// Nearest minima of all bodies so far; the first displayCount_ are in use.
+  std::vector<SnapshotLmd> display_;
   std::size_t displayCount_ = 0;
   MinimaAllowance left_;
   std::uint64_t nodePairsLeft_ = 0;

@@ -27,7 +27,7 @@ constexpr Locks only(std::size_t axis) {
   return locks;
 }
 
-/// In the order of MotionFreedom, but for Other.
+/// In the order of MotionFreedom, without Other.
 constexpr std::array<SixLocks, kMotionFreedoms - 1> kLocks = {{{kNone, kNone},
                                                                {only(2), allBut(2)},
                                                                {only(0), allBut(0)},

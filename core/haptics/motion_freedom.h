@@ -6,8 +6,8 @@
 
 namespace nearfit {
 
-/// Which motions of the hand count, as a user asks for them. In a plane the hand slides and turns about the
-/// plane's normal, as on a table; along an axis it slides alone.
+/// The motions of the hand that count, as a user chooses them. In a plane the hand moves and turns about the
+/// plane's normal, as on a table; along an axis it only moves.
 enum class MotionFreedom : std::uint8_t {
   All,
   PlaneXy,
@@ -16,16 +16,17 @@ enum class MotionFreedom : std::uint8_t {
   AlongX,
   AlongY,
   AlongZ,
-  Shifts,  ///< In all directions, without a turn.
-  Turns,   ///< About all axes, in its place.
-  Other,   ///< By locks that are none of these.
+  Shifts,  ///< Translation in all directions, no rotation.
+  Turns,   ///< Rotation about all axes, no translation.
+  Other,   ///< Any other set of locks.
 };
+/// Number of enumerators.
 inline constexpr int kMotionFreedoms = 10;
 
-/// The locks of a mapping that leave this freedom; Other leaves those that there are.
+/// `mapping` with the locks that leave this freedom; unchanged for Other.
 WorkspaceMapping withFreedom(const WorkspaceMapping& mapping, MotionFreedom freedom) noexcept;
 
-/// What the locks of a mapping leave.
+/// The freedom that the mapping's locks leave.
 MotionFreedom freedomOf(const WorkspaceMapping& mapping) noexcept;
 
 }  // namespace nearfit

@@ -21,7 +21,7 @@ Clearance findClearance(const ServoScene& scene, const BroadPhase& bounds,
     const ServoScene::Body& body = scene.bodies[index];
     const PartGeometry& other = *body.geometry;
     const RigidTransform bodyFromPart = (body.worldFromPart.inverse() * worldFromPart).normalized();
-    // What has no pose is for the tick to refuse.
+    // The tick reports invalid poses.
     if (!bodyFromPart.isFinite()) return;
     const Interference found =
         findInterference({other.mesh, other.tree()}, {part.mesh, part.tree()}, bodyFromPart);
@@ -31,7 +31,7 @@ Clearance findClearance(const ServoScene& scene, const BroadPhase& bounds,
     }
     const SurfaceDistance distance =
         leastSurfaceDistance(other.tree(), part.tree(), bodyFromPart, within, scratch, kUnbounded);
-    // Nearer than rounding can tell apart from touching.
+    // Too near for rounding to tell from touching.
     if (!(distance.lowerBound > 0.0)) {
       overlapping->push_back(index);
       return;

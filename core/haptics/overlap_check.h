@@ -6,11 +6,12 @@
 
 namespace nearfit {
 
-/// Which bodies the moving part meets or is inside of at a pose, exactly (interference.h), and how near the
-/// others are at the least. Its serial is 0, for the caller to give. Not for the servo thread.
+/// Finds exactly which bodies the moving part overlaps or lies inside of at a pose (interference.h), and a
+/// lower bound on its distance to the others. Bodies with an invalid pose are skipped. The result's serial is
+/// 0, for the caller to set. Not for the servo thread.
 ///
-/// @param bounds  Of the scene's bodies, in the world.
-/// @param within  Bodies farther away than this are not looked at, and `distance` is no more [m].
+/// @param bounds  Of the scene's bodies, in the world frame.
+/// @param within  Bodies farther away than this are ignored, and the distance returned is at most this [m].
 Clearance findClearance(const ServoScene& scene, const BroadPhase& bounds,
                         const RigidTransform& worldFromPart, double within, LmdScratch& scratch);
 

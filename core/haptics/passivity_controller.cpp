@@ -10,10 +10,10 @@
 namespace nearfit {
 namespace {
 
-/// Forces and torques below this have no direction worth the name [N], [N m].
+/// Smaller forces and torques have no meaningful direction [N], [N m].
 constexpr double kNoForce = 1e-9;
 
-/// Finite where all of them are; NaN or infinity else, also where their sum overflows.
+/// Sum of magnitudes: finite unless a component is not, or the sum overflows.
 double sumOf(const glm::dvec3& v) noexcept {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
@@ -28,7 +28,7 @@ void follow(glm::dvec3& axis, const glm::dvec3& vector) noexcept {
   if (length > kNoForce) axis = vector / length;
 }
 
-/// Damping, against shifts [N s/m] and turns [N m s/rad].
+/// Damping of translation [N s/m] and rotation [N m s/rad].
 struct Damping {
   double linear, angular;
 
@@ -37,7 +37,7 @@ struct Damping {
   }
 };
 
-/// As much of the damping as pays the debt within a period; what it pays is taken off.
+/// Applies as much of the damping as pays the debt within a period, and reduces the debt by that.
 Wrench pay(const Twist& twist, double period, const Damping& most, double& debt) noexcept {
   const double payable = period * most.power(twist);
   if (!(debt > 0.0) || !(payable > 0.0)) return {};

@@ -7,76 +7,81 @@
 
 namespace nearfit {
 
-/// What passed between two ticks. All in one frame that does not turn; torque about the point whose motion
-/// `shift` is (the part's centre of mass, as the handle carries it).
+/// Wrench and motion between two ticks. All vectors are in one frame that does not rotate; torque is about
+/// the point whose motion is `shift` (the part's centre of mass, as the handle carries it).
 struct HandInterval {
-  Wrench held;                ///< As sent at the interval's start, on the handle.
-  glm::dvec3 shift{0.0};      ///< Of the handle [m].
-  glm::dvec3 turn{0.0};       ///< Of the handle: axis times angle [rad].
-  double duration = 0.0;      ///< [s]
-  glm::dvec3 weight{0.0};     ///< Of the part, where it is felt [N].
-  glm::dvec3 partShift{0.0};  ///< Of the part's centre [m]: as it sinks, gravity pays for what the hand gets.
+  Wrench held;             ///< On the handle, as sent at the interval's start.
+  glm::dvec3 shift{0.0};   ///< Translation of the handle [m].
+  glm::dvec3 turn{0.0};    ///< Rotation of the handle: axis times angle [rad].
+  double duration = 0.0;   ///< [s]
+  glm::dvec3 weight{0.0};  ///< Weight of the part, as it is felt [N].
+  /// Translation of the part's centre [m]. As it sinks, gravity pays for what the hand gets.
+  glm::dvec3 partShift{0.0};
 };
 
-/// Keeps account of the energy that goes to the hand, and takes back, by damping, what is more than hand and
-/// gravity have put in. Since a wrench is held while the hand moves, its work over an interval is exactly
-/// held . motion, whatever happened in between; what a sampled spring makes of nothing is in it.
+/// Accounts for the energy that goes to the hand, and takes back, by damping, what exceeds the energy put in
+/// by hand and gravity. A wrench is held while the hand moves, so its work over an interval is exactly
+/// held . motion, whatever happened in between; energy that a sampled spring creates is included.
 ///
-/// The account: what the hand gives and what gravity gives the part go in, what the hand gets comes out. The
-/// device's own damping dissipates at least b |motion|^2 / duration and goes in too: so a wall within
-/// Colgate's bound is never touched. What the balance may keep is no more than coupling and part store at
-/// that moment, since what was lost in friction, damping or free motion is no right to vibrate later. Below
-/// zero it is a debt.
+/// The account is credited with the energy that the hand gives and that gravity gives the part, and debited
+/// with what the hand gets. The device's own damping dissipates at least b |motion|^2 / duration and is
+/// credited too, so a wall within Colgate's bound is never touched. The balance may keep no more than
+/// coupling and part store at that moment: energy lost in friction, damping or free motion gives no right to
+/// vibrate later. A negative balance is a debt.
 ///
-/// All of the device's damping in the account would let a wall beyond the bound just vibrate on: none would
-/// be left to calm it. So after a debt, which no wall within the bound makes, only kDoubtfulShare of it
-/// counts, and comes back within kDoubtTime.
+/// Crediting all of the device's damping would let a wall beyond the bound vibrate on: none would be left to
+/// calm it. So after a debt, which no wall within the bound causes, only kDoubtfulShare of it is credited;
+/// the full share returns within kDoubtTime.
 ///
-/// A debt is paid by damping that would take it out in one tick at the hand's velocity, first along the
-/// force (energy comes in through force times velocity, and sliding is to stay free), what is left against
-/// all of the motion. The damping is at most leastMass / (2 period): more would turn a light hand round
-/// within a tick. Debt beyond kMostDebt is forgotten: the hand has spent it.
+/// A debt is paid by damping that would remove it in one tick at the hand's velocity: first along the force
+/// (energy enters through force times velocity, and sliding is to stay free), the rest across it. The damping
+/// is at most leastMass / (2 period): more would reverse a light hand within a tick. Debt beyond kMostDebt is
+/// forgotten: the hand has spent it.
 ///
 /// Real-time safe throughout. Source: Hannaford & Ryu 2002, Time-domain passivity control of haptic
 /// interfaces; the work of a held force as in Stramigioli et al. 2005, Sampled data systems passivity and
-/// discrete port-Hamiltonian systems. Deviations: what the balance may keep, the device's damping in the
+/// discrete port-Hamiltonian systems. Deviations: the limit on the balance, the device's damping in the
 /// account, the direction of the damping.
 class PassivityController {
  public:
-  /// Moves a hand of 100 g at 1 m/s [J].
+  /// Max debt [J]: enough to move a hand of 100 g at 1 m/s.
   static constexpr double kMostDebt = 0.05;
-  /// The balance may keep this beyond what is stored [J]: rendered damping pays half a tick late, and what
-  /// that is (some B v^2 T, for 0.2 N s/m at 0.2 m/s) is no fault. Moves a hand of 200 g at 1 cm/s.
+  /// The balance may exceed the stored energy by this [J]. Rendered damping pays half a tick late, and that
+  /// delay (some B v^2 T, for 0.2 N s/m at 0.2 m/s) is no fault. It moves a hand of 200 g at 1 cm/s.
   static constexpr double kSlack = 1e-5;
 
+  /// Share of the device's damping that is credited right after a debt.
   static constexpr double kDoubtfulShare = 0.5;
-  static constexpr double kDoubtTime = 0.5;  ///< [s]
+  static constexpr double kDoubtTime = 0.5;  ///< Time until all of it is credited again [s].
 
+  /// Starts a new account.
   void reset() noexcept { *this = PassivityController{}; }
 
-  /// @param limits  Of the device, as at the handle (limitsAtHandle).
-  /// @param stored  What can come back to the hand at the interval's end, before the part moves on [J]:
-  ///                storedEnergy plus kineticEnergy, or a bound of it; kMostDebt where it is not known.
-  /// An interval with numbers that are not finite is left out. Without a duration, damping has no share.
+  /// Accounts for an interval. Ignores it if any number is not finite. Without a duration, the device's
+  /// damping is not credited.
+  /// @param limits  Limits at the handle (limitsAtHandle()).
+  /// @param stored  Upper bound on the energy that can return to the hand after the interval, before the part
+  ///                moves on [J]: storedEnergy() plus kineticEnergy(), or kMostDebt if unknown.
   void observe(const HandInterval& interval, const DeviceLimits& limits, double stored) noexcept;
 
-  /// To be added to the wrench for the next tick, before it is clamped; zero without debt, or for a hand that
-  /// does not move. Within the device's force and torque.
-  /// @param period  How long it will be held [s]; zero wrench unless > 0 and finite.
+  /// Damping to add to the wrench of the next tick, before that is clamped. Zero without debt or if the hand
+  /// does not move; within the device's max force and torque.
+  /// @param limits  Limits at the handle (limitsAtHandle()).
+  /// @param period  How long the damping will be held [s]; it is zero unless this is finite and > 0.
   Wrench damping(const DeviceLimits& limits, double period) const noexcept;
 
-  /// Work done on the hand since the reset, less what came back [J]: positive when the hand has got more than
-  /// it gave (weight included).
+  /// Net work done on the hand since the reset [J]; positive if the hand got more than it gave.
+  /// Includes weight.
   double energyToHand() const noexcept { return energyToHand_; }
-  /// What is still to be taken back [J]; >= 0.
+  /// Energy still to be taken back [J]; >= 0.
   double debt() const noexcept { return balance_ < 0.0 ? -balance_ : 0.0; }
 
  private:
   double energyToHand_ = 0.0;
   double balance_ = kSlack;
-  double doubt_ = 0.0;                           ///< 1 at a debt, falling to 0.
-  Twist velocity_;                               ///< Mean of the last interval.
-  glm::dvec3 forceAxis_{0.0}, torqueAxis_{0.0};  ///< Unit, or zero as long as there was none.
+  double doubt_ = 0.0;                           ///< 1 at a debt, then falling to 0.
+  Twist velocity_;                               ///< Mean over the last interval.
+  glm::dvec3 forceAxis_{0.0}, torqueAxis_{0.0};  ///< Unit; zero until the first force.
 };
 
 }  // namespace nearfit

@@ -6,9 +6,9 @@
 namespace nearfit {
 namespace {
 
-/// What a servo keeps when nobody says otherwise [s].
+/// Default period of a servo [s].
 constexpr double kUsualPeriod = 1e-3;
-/// The shortest that counts as a period at all [s]; the processor's clock is no finer.
+/// Min period [s]; the processor's clock is no finer.
 constexpr double kShortestPeriod = 1e-9;
 
 }  // namespace

@@ -2,43 +2,43 @@
 
 namespace nearfit {
 
-/// The servo's period as the bound of stability needs it: what nearly all ticks keep (their 99th
-/// percentile), from the time that really passed between them.
+/// Estimates the servo's period for the stability bound: the 99th percentile of the time measured
+/// between ticks.
 ///
-/// It follows the percentile by small steps, up by kRise where a tick was later than the estimate, down by
-/// kRise / 99 where it was not: in balance one tick in a hundred is later. No history is kept, a single
-/// hiccup of any length counts for one step (a maximum would leave the wall soft for seconds after it;
-/// what a late tick gives the hand is the passivity controller's to take back), and no step changes the
-/// stiffness by more than kRise. A servo that becomes twice as slow is known after 15 ticks; one that is
-/// fast again after some 1,400.
+/// Follows the percentile in small steps: up by kRise after a tick later than the estimate, else down by
+/// kRise / 99, so that in balance one tick in a hundred is later. It keeps no history. A single hiccup of any
+/// length counts as one step (a max would leave the wall soft for seconds; the passivity controller takes
+/// back what a late tick gives the hand), and no step changes the stiffness by more than kRise. A servo that
+/// becomes twice as slow is known after 15 ticks, one that is fast again after some 1,400.
 ///
-/// Never less than the nominal period, which a paced loop keeps on average: short ticks that make up for a
-/// late one say nothing.
+/// Never below the nominal period, which a paced loop keeps on average: short ticks that make up for a late
+/// one carry no information. Real-time safe.
 class PeriodMeter {
  public:
-  static constexpr double kRise = 0.05;          ///< Of a step up, relative.
-  static constexpr double kQuantile = 0.99;      ///< Of the ticks that are no later than the estimate.
-  static constexpr double kLongestPeriod = 0.1;  ///< A servo slower than that is none [s].
+  static constexpr double kRise = 0.05;      ///< Relative size of a step up.
+  static constexpr double kQuantile = 0.99;  ///< Share of ticks no later than the estimate.
+  /// Max period [s]; a slower servo is unusable.
+  static constexpr double kLongestPeriod = 0.1;
 
-  /// How much longer than the estimate the held period may be before it follows down: the estimate of an
-  /// uneven servo is never at rest, and a hand that leans on a wall would feel the stiffness come and go with
-  /// it.
+  /// Max excess of the held period over the estimate before it follows down, relative. The estimate of an
+  /// uneven servo never rests, and a hand that leans on a wall would feel the stiffness vary with it.
   static constexpr double kPlay = 0.3;
-  /// What the held period comes nearer to the nominal one in a tick on time, where the estimate is there
-  /// already, relative: a hiccup is forgotten within half a minute, unnoticed.
+  /// While the estimate is at the nominal period, the held period falls towards it by this per tick,
+  /// relative: a hiccup is forgotten within half a minute, unnoticed.
   static constexpr double kForget = 5e-6;
 
-  /// @param nominal  What the servo is meant to keep [s]; held to (0, kLongestPeriod], 1 ms if not finite.
+  /// @param nominal  Intended period [s]; clamped to (0, kLongestPeriod], 1 ms if not finite.
   explicit PeriodMeter(double nominal = 1e-3) noexcept;
 
-  /// @param elapsed  Since the tick before [s]. Not finite or <= 0: left out. Real-time safe.
+  /// Records the time since the last tick [s]; ignored unless finite and > 0.
   void add(double elapsed) noexcept;
 
-  /// The estimate [s], from the nominal period up to kLongestPeriod.
+  /// The estimate [s], from the nominal period to kLongestPeriod.
   double period() const noexcept { return period_; }
-  /// What stiffness is to be reckoned with [s]: never less than the estimate, and steady while that wanders
-  /// by less than kPlay.
+  /// Period to compute stiffness with [s]: never below the estimate, and steady while that varies by
+  /// less than kPlay.
   double heldPeriod() const noexcept { return held_; }
+  /// Intended period [s].
   double nominal() const noexcept { return nominal_; }
 
  private:

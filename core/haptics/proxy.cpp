@@ -14,35 +14,36 @@
 namespace nearfit {
 namespace {
 
-/// How far is looked at least, in margins.
+/// Sight that a margin needs, in margins: a tick that sees less far keeps a smaller margin.
 constexpr double kSight = 1.5;
-/// Nothing is in the way of a step that ends this many margins short of what is nearest.
+/// If the nearest body is farther than this many margins, no constraints are needed.
 constexpr double kFree = 1.7;
 /// Share of the distance that a step is planned to use.
 constexpr double kPlanned = 0.95;
-/// A step turns by this share of what contacts are relaxed by: all that it can bring nearer are there.
+/// Max turn of a step, as a share of the turn that contacts are relaxed by: everything that the step can
+/// bring nearer is then among them.
 constexpr double kTurnShare = 0.5;
 /// Nearer than this share of the margin a part is pinched: pressing alone does not bring it there.
 constexpr double kPinched = 0.97;
-/// A step may be this share of the distance at least.
+/// A step may always use this share of the distance.
 constexpr double kLeastStep = 0.5;
-/// How often a step is shortened before it is given up. On an edge, whose rounding by the margin is far
-/// narrower than the hand is deep, the program's step is many times too long: where it is best tells a
-/// parabola.
+/// Max shortenings of a step before it is given up. On an edge the program's step is many times too
+/// long, since the margin rounds the edge far more narrowly than the hand is deep; a parabola estimates
+/// the best length.
 constexpr int kMaxShortenings = 3;
-/// Of the way to a target that it was kept from, a part that has come free goes this share in a tick, besides
-/// what the target moves: it does not leap.
+/// A part that comes free goes this share of the way to its target in a tick, besides the target's own
+/// motion: it does not leap.
 constexpr double kSnapShare = 0.3;
-/// A change of the scale of turns by less than this share is none.
+/// Smaller relative changes of the scale of turns are ignored.
 constexpr double kSameScale = 1e-3;
-/// What moves by less than this share of the margin (or of the clearance) rests: 0.1 um of 0.1 mm. The first
-/// step of a tick goes on below that, so that a slow hand does not drag.
+/// Motion below this share of the margin (or of the clearance) counts as rest: 0.1 um of 0.1 mm. The first
+/// step of a tick may be smaller, so that a slow hand does not drag.
 constexpr double kAtRest = 1e-3, kAtRestAtFirst = 1e-6;
-/// After so many steps of a tick, one that brings less than this share of the first is left to the next tick.
+/// After this many steps in a tick, a step shorter than this share of the first is left to the next tick.
 constexpr std::uint32_t kWorthwhileSteps = 3;
 constexpr double kWorthwhile = 0.05;
-/// How hard the margin is held, against a way of so many margins into the contact: to a hundredth of it for
-/// each direction that is pressed in.
+/// Weight of the margin for each margin of wanted motion: it holds the margin to a hundredth for each
+/// direction pressed.
 constexpr double kMarginWeight = 100.0, kMostMarginWeight = 1e6;
 
 }  // namespace
@@ -120,12 +121,12 @@ void Proxy::follow(const TrackedScene& tracked, const RigidTransform& target, co
     lastTarget_ = target;
     return;
   }
-  // The stiffnesses follow the measured period: what rests is not to be woken by their rounding.
+  // The stiffnesses vary with the measured period; their rounding must not wake a part at rest.
   if (!(std::abs(turnScale - turnScale_) <= kSameScale * turnScale_)) turnScale_ = turnScale;
   Tick tick{tracked, target, settings, tracked.scene->metric};
   tick.metric.gyration *= turnScale_;
   if (isResting(tick)) return;
-  // Where the work did not suffice, the lists may be ready by now.
+  // If the work ran out before, the lists may be ready now.
   if (!isHereKnown_ || margin_ != settings.margin || here_.completeTo == 0.0) {
     margin_ = settings.margin;
     here_ = lookAround(tick, pose_, around_);
@@ -156,8 +157,8 @@ double Proxy::targetMotion(const Tick& tick) const noexcept {
   return travelBetween(*tick.tracked.scene, lastTarget_.value_or(pose_), tick.target);
 }
 
-/// The margin that is kept. Where so many pairs are near that a tick cannot look as far as it should, it is
-/// less, as it would be for a part that is pressed in: what holds the part is to be within sight.
+/// The margin that is kept. It is smaller where so many pairs are near that a tick cannot look as far as it
+/// should, as for a part that is pressed in: what holds the part must be within sight.
 double Proxy::marginHere() const noexcept {
   return std::min(margin_, here_.reach / kSight);
 }
@@ -172,7 +173,7 @@ Proxy::Outcome Proxy::freeStep(const Tick& tick, const Motion& wanted) noexcept 
   const ServoScene& scene = *tick.tracked.scene;
   const double travel = travelOf(scene, wanted);
   const double free = std::min(here_.distance - marginHere(), wayLeft_);
-  // To the target to the last bit: a free part pulls at nothing.
+  // To the target bit for bit: a free part exerts no force.
   if (travel <= free) {
     const Verdict verdict = take(tick, tick.target, travel);
     if (verdict == Verdict::Taken) return Outcome::AtRest;
@@ -180,7 +181,7 @@ Proxy::Outcome Proxy::freeStep(const Tick& tick, const Motion& wanted) noexcept 
   }
   if (!(free > kAtRest * marginHere())) return Outcome::Stuck;
   double share = std::min(travel <= free ? StepJudge::kHalf : 1.0, free / travel);
-  // What lists do not cover a shorter step may not leave.
+  // A shorter step may stay within what the lists cover.
   for (int shortenings = 0; shortenings <= kMaxShortenings; ++shortenings) {
     const RigidTransform pose = moved(scene, {share * wanted.shift, share * wanted.spin});
     const Verdict verdict = take(tick, pose, share * travel);
@@ -222,7 +223,7 @@ StepSolution Proxy::solve(const Tick& tick, const StepGoal& goal) noexcept {
 StepGoal Proxy::goalOf(const Tick& tick, const Motion& wanted) const noexcept {
   const MassMetric& metric = tick.metric;
   const double margin = marginHere(), held = std::min(here_.distance, margin);
-  // Where not all contacts are there, what the others would allow shows after the step.
+  // If contacts are missing, what they allow shows only after the step.
   const double known = std::max(here_.completeTo - held, kLeastStep * held);
   const glm::dvec3 turn = metric.gyration * (metric.principalFromWorld(pose_) * wanted.spin);
   const double way = std::sqrt(glm::dot(wanted.shift, wanted.shift) + glm::dot(turn, turn));
@@ -234,9 +235,9 @@ StepGoal Proxy::goalOf(const Tick& tick, const Motion& wanted) const noexcept {
                .floor = StepJudge::kHalf * held};
   goal.gyration = metric.gyration;
   goal.reach = std::min({kPlanned * here_.distance, known, wayLeft_});
-  // The lists hold for no more of a turn: a part so small that it could turn farther within the reach counts
-  // as larger. As the whole goal is shortened alike, shifts wait for turns meanwhile; a bound of its own on
-  // the turn would make such steps twice as long at most.
+  // The lists hold for no larger turn: a part small enough to turn farther within the reach counts as larger.
+  // The whole goal is shortened alike, so translation waits for rotation; a separate limit on the turn would
+  // make such steps twice as long at most.
   goal.radius = std::max(metric.radius, goal.reach / mostTurn);
   return goal;
 }
@@ -249,8 +250,7 @@ Proxy::Outcome Proxy::constrainedStep(const Tick& tick, const Motion& wanted) no
   account_.constraintCount = static_cast<std::uint32_t>(rows_.size());
   const Outcome outcome = programStep(tick, goal);
   if (outcome != Outcome::AtRest || !(held < kPinched * marginHere())) return outcome;
-  // Pinched, with no way back to the margin that is worth while: the clearance that there is will do, but
-  // not less.
+  // Pinched, and no worthwhile step leads back to the margin: accept the present clearance, but no less.
   goal.cost.margin = goal.cost.floor = held;
   return programStep(tick, goal);
 }
@@ -267,8 +267,7 @@ Proxy::Outcome Proxy::programStep(const Tick& tick, const StepGoal& goal) noexce
       {solution.y[0], solution.y[1], solution.y[2]},
       worldFromPrincipal * (glm::dvec3(solution.y[3], solution.y[4], solution.y[5]) / metric.gyration)};
   const double travel = travelOf(*tick.tracked.scene, motion);
-  // Where what is left of the tick's way makes the step so short, or such that it is no gain, the next tick
-  // goes on.
+  // If the tick's remaining travel makes the step so short, or no gain, the next tick goes on.
   const bool isCutShort = goal.reach >= wayLeft_ && (solution.scale < 1.0 || solution.share < 1.0);
   const Outcome best = isCutShort ? Outcome::Stuck : Outcome::AtRest;
   if (!(travel > (account_.subSteps == 0 ? kAtRestAtFirst : kAtRest) * held)) return best;
@@ -282,11 +281,11 @@ Proxy::Outcome Proxy::takeShortened(const Tick& tick, StepTrial trial, Motion mo
                                     double travel) noexcept {
   Verdict verdict = Verdict::NoGain;
   for (int shortenings = 0; shortenings <= kMaxShortenings; ++shortenings) {
-    // What rubs is held back by more than the program's cost.
+    // Friction holds the part back beyond the program's cost, which then says nothing about gain.
     StepTrial* judged = tick.settings.friction > 0.0 ? nullptr : &trial;
     verdict = take(tick, moved(*tick.tracked.scene, motion), travel, judged);
     if (verdict == Verdict::Taken) return Outcome::Moved;
-    // What lists do not cover a shorter step may not leave.
+    // A shorter step may stay within what the lists cover.
     if (finder_.isWorkSpent()) break;
     if (verdict == Verdict::NotProved) ++account_.shortenedSteps;
     const double share = verdict == Verdict::NoGain ? trial.bestShare() : StepJudge::kHalf;
@@ -322,18 +321,18 @@ void Proxy::raiseFloor(const Tick& tick) noexcept {
 
 Proxy::Verdict Proxy::take(const Tick& tick, const RigidTransform& pose, double travel,
                            StepTrial* trial) noexcept {
-  // Whichever step it is: lists are to be renewed where the part stands.
+  // Unless a look succeeds: the lists must be renewed around where the part stands.
   account_.isStarved = true;
   if (finder_.isWorkSpent()) return Verdict::Unknown;
   Surroundings there = lookAround(tick, pose, next_);
   if (there.completeTo == 0.0) return Verdict::Unknown;
   account_.isStarved = finder_.isWorkSpent();
-  // What was known here is known there but for the way. Far from the origin a pose is rounded by more than a
-  // small step is long: such steps would else add up to any way without counting.
+  // The bound here, less the travel, holds there too. Far from the origin a pose is rounded by more than a
+  // small step is long; without that term such steps would add up unnoticed.
   const MassMetric& metric = tick.tracked.scene->metric;
   const double rounding = kPointRounding * (metric.radius + 2.0 * glm::length(pose.translation));
   there.distance = std::max(there.distance, here_.distance - travel - rounding);
-  // Nearer than was looked there is only a bound for the distance: a step may well be a gain.
+  // If the search reached less than the margin, the distance there is only a bound and cannot tell gain.
   const double margin = marginHere();
   const Verdict verdict =
       judge_.judge({travel, here_.distance, there.distance, margin}, there.reach < margin ? nullptr : trial);

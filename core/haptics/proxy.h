@@ -15,66 +15,72 @@
 
 namespace nearfit {
 
-/// How the proxy fared in a tick.
+/// Statistics of a tick of the proxy.
 struct ProxyAccount {
-  std::uint32_t subSteps = 0;
-  std::uint32_t shortenedSteps = 0;   ///< Halved, as more was not proved free.
-  std::uint32_t refusedSteps = 0;     ///< Not taken at all.
-  std::uint32_t constraintCount = 0;  ///< Of the last step's program.
-  bool isWaiting = false;             ///< For the clearance at its pose: it stands meanwhile.
-  bool isStarved = false;             ///< Lists did not reach where it would go, nor the work of the tick.
+  std::uint32_t subSteps = 0;         ///< Steps taken.
+  std::uint32_t shortenedSteps = 0;   ///< Steps halved because more was not proved free.
+  std::uint32_t refusedSteps = 0;     ///< Steps not taken at all.
+  std::uint32_t constraintCount = 0;  ///< Rows of the last step's program.
+  bool isWaiting = false;             ///< It stands still until the clearance at its pose is known.
+  bool isStarved = false;             ///< Neither the lists nor the tick's work covered where it would go.
 };
 
-/// Something that holds the proxy back.
+/// A contact that holds the proxy back.
 struct ProxyContact {
   BodyContact contact;
-  /// What of the wanted way it takes away, along its direction [m] for a body of mass one.
+  /// Part of the wanted motion that it takes away, along its direction [m], for a body of unit mass.
   double push = 0.0;
 };
 
-/// Where the moving part is: it follows a target as far as the other bodies let it, and never meets one.
+/// The pose of the moving part: it follows a target as far as the other bodies allow, and never meets one.
 ///
-/// A tick takes it there in steps. Each step is the shortest way, in the metric of the part's mass (as the
-/// coupling weighs turns against shifts), that
-/// keeps every near pair of features a margin apart to first order (StepProgram); it is taken only where it
-/// is proved that nothing is met on the way: no point of the part moves as far as the nearest body is away.
-/// The distance at the step's end is no part of the proof, since minima tell it only where bodies do not
-/// overlap. Standing still is always possible. Source: Ortega, Redon & Coquillart 2007, on local minimum
-/// distances; conservative advancement.
+/// A tick moves it in steps. Each step is the motion nearest to the wanted one that keeps every near pair
+/// of features a margin apart to first order (StepProgram), in the metric of the part's mass, with rotation
+/// weighed against translation as in the coupling. It is taken only if it is proved that nothing is met on
+/// the way: no point of the part moves as far as the nearest body is away. The distance at the step's end
+/// is not part of the proof, since minima give the distance only for bodies that do not overlap. Standing
+/// still is always possible. Source: Ortega, Redon & Coquillart 2007, on local minimum distances;
+/// conservative advancement.
 class Proxy {
  public:
+  /// Max steps in a tick.
   static constexpr std::uint32_t kMaxSubSteps = 24;
 
+  /// Allocates all work space; nothing else allocates.
   Proxy();
 
-  /// Puts it anywhere, which nothing is known of yet.
+  /// Puts the part at any pose. Nothing is known of it yet, so the part stands still until its clearance is.
   void place(const RigidTransform& worldFromPart) noexcept;
+  /// Pose of the part, worldFromPart.
   const RigidTransform& pose() const noexcept { return pose_; }
 
-  /// Takes note that no body but the overlapping ones is nearer than this at the present pose [m].
+  /// Records a lower bound on the distance from the present pose to all bodies that the part does
+  /// not overlap [m].
   void noteDistance(double distance) noexcept;
 
-  /// One tick. Stands still while it is not known which bodies it overlaps (TrackedScene::clearance).
-  /// @param target     worldFromPart; finite, unit quaternion.
-  /// @param turnScale  What radii of gyration count times, so that the way is shortest in the energy of the
-  ///                   coupling that pulls (turnScale() of virtual_coupling.h); > 0.
+  /// Runs one tick. The part stands still while it is unknown which bodies it overlaps (Clearance).
+  /// @param target     Pose to move towards, worldFromPart; finite, unit quaternion.
+  /// @param turnScale  Factor on the radii of gyration that makes steps nearest in the energy of the coupling
+  ///                   that pulls (turnScale() in virtual_coupling.h); > 0.
   /// Real-time safe.
   void follow(const TrackedScene& tracked, const RigidTransform& target, const ProxySettings& settings,
               double turnScale = 1.0) noexcept;
 
+  /// Statistics of the last tick.
   const ProxyAccount& account() const noexcept { return account_; }
-  /// What holds it now.
+  /// The contacts that hold the part now, in world coordinates; valid until the next tick.
   std::span<const ProxyContact> contacts() const noexcept;
-  /// The distance known at the present pose; a bound below [m].
+  /// Lower bound on the distance from the present pose to the bodies that the part does not overlap [m].
   double distance() const noexcept { return here_.distance; }
+  /// ContactFinder::lateBodies() of the last tick.
   std::uint32_t lateBodies() const noexcept { return finder_.lateBodies(); }
-  /// Of the last tick, on contacts (ContactFinder::work).
+  /// ContactFinder::work() of the last tick.
   std::uint64_t work() const noexcept { return finder_.work(); }
-  /// Of the last tick, what the search for contacts took [s].
+  /// Time that the search for contacts took in the last tick [s].
   double queryTime() const noexcept { return queryTime_; }
 
  private:
-  /// A small motion: of the centre of mass, and about it, in the world.
+  /// A small motion: translation of the centre of mass, and rotation about it; world frame.
   struct Motion {
     glm::dvec3 shift{0.0};  ///< [m]
     glm::dvec3 spin{0.0};   ///< Axis times angle [rad].
@@ -83,24 +89,24 @@ class Proxy {
     const TrackedScene& tracked;
     const RigidTransform& target;
     const ProxySettings& settings;
-    MassMetric metric;  ///< Its gyration scaled.
+    MassMetric metric;  ///< With scaled gyration.
   };
 
   bool isCleared(const TrackedScene& tracked) noexcept;
   static Motion motionBetween(const ServoScene& scene, const RigidTransform& from,
                               const RigidTransform& to) noexcept;
-  /// No point of the part moves farther [m].
+  /// Upper bound on the travel of any point of the part [m].
   static double travelOf(const ServoScene& scene, const Motion& motion) noexcept;
   static double travelBetween(const ServoScene& scene, const RigidTransform& from,
                               const RigidTransform& to) noexcept;
-  /// The farthest that a point of the part is from where the target has it [m].
+  /// Upper bound on the travel of any point of the part to the target [m].
   double wayTo(const Tick& tick) const noexcept;
   RigidTransform moved(const ServoScene& scene, const Motion& motion) const noexcept;
-  /// What became of a step of a tick.
+  /// Result of a step.
   enum class Outcome : std::uint8_t {
     Moved,
     AtRest,  ///< It is where it is best.
-    Stuck,   ///< It could not go on in this tick.
+    Stuck,   ///< It cannot go on in this tick.
   };
   using Verdict = StepJudge::Verdict;
 
@@ -126,17 +132,17 @@ class Proxy {
   StepProgram program_;
   FrictionProgram frictionProgram_;
   StepJudge judge_;
-  std::vector<BodyContact> around_, next_;  ///< Contacts here, and at a pose that is tried.
-  std::vector<std::uint32_t> rowContact_;   ///< Of each row, its contact in `around_`.
-  std::vector<glm::dvec3> rowArm_;          ///< Of each row, from the centre of mass to its point [m].
+  std::vector<BodyContact> around_, next_;  ///< Contacts here, and at a pose being tried.
+  std::vector<std::uint32_t> rowContact_;   ///< For each row, the index of its contact in `around_`.
+  std::vector<glm::dvec3> rowArm_;          ///< For each row, from the centre of mass to its point [m].
   std::array<ProxyContact, ActiveRows::kMost> holding_;
   std::size_t holdingCount_ = 0;
 
   RigidTransform pose_;
   Surroundings here_;
   bool isHereKnown_ = false;
-  double wayLeft_ = 0.0;      ///< That a point of it may still go in this tick [m].
-  double firstTravel_ = 0.0;  ///< Of the tick's first step [m].
+  double wayLeft_ = 0.0;      ///< Travel that is left in this tick [m].
+  double firstTravel_ = 0.0;  ///< Travel of the tick's first step [m].
   std::optional<RigidTransform> lastTarget_;
   struct Rest {
     RigidTransform target;
@@ -146,7 +152,7 @@ class Proxy {
   };
   Rest rest_;
   double turnScale_ = 1.0;
-  double margin_ = 0.0;  ///< That `here_` was found for.
+  double margin_ = 0.0;  ///< Margin that `here_` was found for [m].
   std::uint64_t clearedSerial_ = 0;
   ProxyAccount account_;
   double queryTime_ = 0.0;

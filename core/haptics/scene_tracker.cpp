@@ -10,11 +10,11 @@
 namespace nearfit {
 namespace {
 
-/// How much farther than the lists' budget other bodies must be clear: looking at them again is cheap, but a
-/// body that is listed costs every tick a little.
+/// Other bodies must be clear by this multiple of the lists' budget: looking at them again is cheap, but
+/// every listed body costs each tick a little.
 constexpr double kClearance = 8.0;
 
-/// Never the same twice, whatever tracker asks.
+/// Unique among all trackers.
 std::uint64_t nextSerial() noexcept {
   static std::atomic<std::uint64_t> last{0};
   return ++last;
@@ -64,23 +64,23 @@ TrackedPair SceneTracker::pairOf(std::uint32_t index) const noexcept {
 
 ListPurpose SceneTracker::forMinima(const SearchReach& reach) const noexcept {
   ListPurpose purpose{.cutoff = reach.cutoff, .planCutoff = reach.cutoff};
-  // Where minima are only to be seen, contacts must not wait for a search that is long.
+  // If minima are only shown, contacts must not wait for a long search.
   if (reach.contact > 0.0) purpose.part = purpose.least = purpose.whole;
   return purpose;
 }
 
 ListPurpose SceneTracker::forContacts(const SearchReach& reach) const noexcept {
   const double turn = contactTurn(reach.contact, current_.scene->metric.radius);
-  // The proxy tries steps before it takes them: there must be room for some, also where it stands.
+  // The proxy tries steps before it takes them, so there must be room for some, even around a part at rest.
   return {.cutoff = reach.contact,
           .planCutoff = reach.widest(),
           .relaxation = turn,
           .leastRoom = {reach.contact, turn},
           .whole = {1U << 15, 1U << 16},
-          // A tick goes through all of a list, several times.
+          // A tick goes through a whole list several times.
           .part = {1U << 16, 1U << 18},
           .least = {1U << 17, 1U << 20},
-          // A part that stands gets a list around it; one that is at its middle cannot be bettered.
+          // A starved part gets a list around it; if it is already at the middle of one, no other is better.
           .roomToKeep = isStarved_ ? 0.98 : 0.5};
 }
 
@@ -88,7 +88,7 @@ bool SceneTracker::willServe(const TrackedScene::Near& entry, const SearchReach&
   const TrackedPair pair = pairOf(entry.body);
   if (entry.list && !nearfit::willServe(*entry.list, pair, forecast_, forMinima(reach))) return false;
   if (entry.contacts) return nearfit::willServe(*entry.contacts, pair, forecast_, forContacts(reach));
-  // Too many pairs they may have been for the way that was foretold then.
+  // There may have been too many pairs for the motion predicted then.
   return !(isStarved_ && hasContacts(entry.body, reach));
 }
 
@@ -102,7 +102,7 @@ bool SceneTracker::isClearanceDue(const SearchReach& reach) const noexcept {
   if (known.serial == 0) return true;
   const RigidTransform &then = known.worldFromPart, &now = forecast_.pose();
   const bool hasMoved = then.translation != now.translation || then.rotation != now.rotation;
-  // What overlaps may have come apart.
+  // Bodies that overlapped may have come apart.
   return isWaiting_ ? hasMoved || known.distance > 0.0 : hasMoved && !known.overlapping->empty();
 }
 
@@ -124,7 +124,7 @@ void SceneTracker::refresh(const SearchReach& reach, TrackedScene& out) {
     const double radius = 0.5 * current_.scene->moving.geometry->mesh.bounds().diagonal();
     const std::vector<TrackedScene::Near> former = std::exchange(current_.near, {});
     current_.worldFromPart = plan.pose;
-    current_.cutoff = 0.0;  // Should memory run out below, nothing is known.
+    current_.cutoff = 0.0;  // If memory runs out below, nothing is known.
     const auto wide =
         std::find_if(std::begin(kWideClearances), std::end(kWideClearances), [&](double factor) {
           current_.clear = clearance(factor, plan, radius);
@@ -147,16 +147,16 @@ void SceneTracker::refresh(const SearchReach& reach, TrackedScene& out) {
 }
 
 bool SceneTracker::isClearOf(std::uint32_t body, double cutoff) noexcept {
-  // A surface without sides is near where its box is: minima do not tell.
+  // An unsided surface is near if its box is: minima do not tell.
   if (current_.scene->bodies[body].surface) return false;
   const BodyPairQuery query = pairOf(body).queryAt(current_.worldFromPart, cutoff);
-  // A pose that is no pose is for the tick to refuse.
+  // The tick reports invalid poses.
   return query.sceneFromPart.isFinite() && isClearWithin(query, current_.clear, scratch_, kClearNodePairs);
 }
 
 bool SceneTracker::isAllClear(double cutoff, const std::vector<TrackedScene::Near>& former) noexcept {
   const auto isClear = [&](std::uint32_t body) { return isClearOf(body, cutoff); };
-  // What was near most likely still is, and is asked before the thousands that so wide a sphere may hold.
+  // Former near bodies most likely still are; ask them before the thousands that so wide a sphere may hold.
   if (!std::all_of(former.begin(), former.end(), [&](const auto& entry) { return isClear(entry.body); }))
     return false;
   const MovingBounds moving = movingBounds(*current_.scene, current_.worldFromPart);
@@ -175,7 +175,7 @@ void SceneTracker::findNear(const SearchReach& reach, const std::vector<TrackedS
     if (found != former.end() && found->body == entry.body) old = *found;
     const bool wasListed = old.list && willServe({entry.body, old.list, nullptr}, reach);
     if (!wasListed && isClearOf(entry.body, cutoff)) return true;
-    // With springs a tick needs all minima: what list there can be is worth any attempt.
+    // With springs a tick needs all minima: making a list is worth any attempt.
     Memory& memory = memory_[entry.body];
     if (!(reach.contact > 0.0)) memory = {};
     entry.list = renewed(old.list, entry.body, forMinima(reach), memory.minima);
@@ -194,7 +194,7 @@ std::shared_ptr<const CandidateList> SceneTracker::renewed(const std::shared_ptr
 }
 
 std::shared_ptr<CandidateList> SceneTracker::spareList() {
-  // Counts change on this thread alone: the servo thread never copies a list.
+  // Only this thread changes the counts: the servo thread never copies a list.
   for (const std::shared_ptr<CandidateList>& list : pool_) {
     if (list.use_count() == 1) return list;
   }

@@ -15,45 +15,47 @@ namespace nearfit {
 /// Keeps a TrackedScene ahead of the motion of its moving part. For a thread beside the servo: it allocates,
 /// and its work is not bounded.
 ///
-/// Each near body has a list of its own and is searched anew only when that will soon not do any more; the
-/// others are looked at again when the motion could have brought one near. A search that comes late
-/// costs the servo a cold query, never the exactness of the set.
+/// Each near body has its own list, which is searched anew only when it will soon no longer serve. Other
+/// bodies are looked at again when the motion could have brought one near. A late search costs the servo a
+/// cold query, never the exactness of the set.
 class SceneTracker {
  public:
   SceneTracker() = default;
 
-  /// Another scene: lists of bodies whose geometry, like that of the moving part, is the same stay of use.
+  /// Replaces the scene. Lists stay in use for bodies whose geometry, and that of the moving part,
+  /// are unchanged.
   void setScene(std::shared_ptr<const ServoScene> scene);
 
-  /// Takes note of where the moving part is now.
+  /// Records the pose of the moving part.
   /// @param ticks  Servo ticks since the last call; > 0.
   void observe(const RigidTransform& worldFromPart, double ticks) noexcept {
     forecast_.observe(worldFromPart, ticks);
   }
-  /// Takes note of where the hand would have it. Where that is known, a part that waits for lists is
-  /// expected to go on as the hand does.
+  /// Records the pose where the hand wants the part. If it is known, a part that waits for lists is expected
+  /// to go on as the hand does.
   void observeHand(const RigidTransform& worldFromPart, double ticks) noexcept {
     hand_.observe(worldFromPart, ticks);
   }
-  /// All that a tick tells of where its part and its hand are, and of what the proxy waits for. Whoever runs
-  /// ticks passes each on by this: a proxy that starves unheard stands still for good.
+  /// Records all that a tick tells about its part, its hand and what the proxy waits for. Must be called for
+  /// each tick: a proxy that starves unnoticed stands still for good.
   void observeTick(const ServoSnapshot& snapshot, double ticks) noexcept;
-  /// As MotionForecast::setLead().
+  /// See MotionForecast::setLead().
   void setLead(double ticks) noexcept { forecast_.setLead(ticks); }
 
-  /// Whether the servo's proxy waits to know what it overlaps where it is now.
+  /// Sets whether the servo's proxy waits to know what it overlaps where it is now.
   void setWaiting(bool isWaiting) noexcept { isWaiting_ = isWaiting; }
-  /// Whether lists of contacts do not reach where the proxy would go from where it was seen last: they are
-  /// then renewed around it, unless they were made there, and tried again where there were none to be had.
+  /// Sets whether lists of contacts fall short of where the proxy would go from where it was last observed.
+  /// They are then renewed around it, unless they were made there, and tried again where none could be made.
   void setStarved(bool isStarved) noexcept {
     isStarved_ = isStarved;
     if (isStarved) forecast_.goAs(hand_);
   }
 
-  /// Whether what is known will not do any more by the time that a search from now has ended.
+  /// True if the known data will no longer serve when a search that starts now has ended.
   bool isDue(const SearchReach& reach) const noexcept;
 
-  /// Renews what is due for the time to come, and writes the whole to `out`.
+  /// Renews what is due for the time ahead, and copies everything to `out`.
+  /// @param reach  searchReach() of the settings.
   void refresh(const SearchReach& reach, TrackedScene& out);
 
  private:
@@ -72,16 +74,16 @@ class SceneTracker {
   TrackedPair pairOf(std::uint32_t body) const noexcept;
 
   TrackedScene current_;
-  /// Of each body of the scene: what its lists were made for of late.
+  /// For each body of the scene: how much of a plan its recent lists could cover.
   struct Memory {
     PlanMemory minima, contacts;
   };
   std::vector<Memory> memory_;
-  std::uint64_t lastSerial_ = 0;  ///< Of a clearance.
+  std::uint64_t lastSerial_ = 0;  ///< Of the last clearance.
   bool isWaiting_ = false, isStarved_ = false;
   MotionForecast forecast_, hand_;
   LmdScratch scratch_;
-  /// Lists that come back here when the last TrackedScene that shows them is overwritten, with their storage.
+  /// Lists return here, with their storage, when the last TrackedScene that uses them is overwritten.
   std::vector<std::shared_ptr<CandidateList>> pool_;
 };
 

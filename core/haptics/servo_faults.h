@@ -6,10 +6,12 @@
 
 namespace nearfit {
 
-/// Whether a pose is finite and its quaternion near enough to unit length to be meant as a rotation.
+/// True if the pose is finite and its quaternion close enough to unit length (0.5 to 2) to mean a rotation.
+/// Real-time safe.
 bool isPose(const RigidTransform& pose) noexcept;
 
-/// What is wrong with what goes into a tick. Real-time safe.
+/// The fault in the inputs of a tick, or None. Real-time safe.
+/// @param period  Since the last tick [s].
 ServoFault faultOfInput(const HapticSettings& settings, const DeviceLimits& limits,
                         const RigidTransform& devicePose, double period) noexcept;
 

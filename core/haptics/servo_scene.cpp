@@ -34,7 +34,7 @@ std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene) {
     if (part->id == moving->id || !part->isVisible || part->geometry == nullptr) continue;
     result->bodies.push_back({part->id, part->geometry, part->worldFromPart});
   }
-  // Here, where one may wait, and not in a tick.
+  // Waiting is allowed here, but not in a tick.
   std::vector<PartGeometryPtr> geometries{moving->geometry};
   for (const ServoScene::Body& body : result->bodies)
     geometries.push_back(body.geometry);

@@ -10,33 +10,35 @@
 
 namespace nearfit {
 
-/// What the servo thread needs of a scene: immutable, made off the servo thread, shared with no one who
-/// writes. Holds the geometry alive; must be destroyed off the servo thread.
+/// Data that the servo thread needs of a scene. Immutable once shared; made and destroyed off the servo
+/// thread. Keeps the geometry alive.
 struct ServoScene {
+  /// A part as the servo knows it.
   struct Body {
     PartId id{};
     PartGeometryPtr geometry;
     RigidTransform worldFromPart;
-    /// Where the part in hand or this one has no inside (open, or of no orientation): it is then kept out
-    /// whatever side it is seen from. Else null.
+    /// Set if the moving part or this one has no inside (is open or has no consistent orientation): contact
+    /// then counts from any side. Otherwise null.
     std::shared_ptr<const UnsidedSurface> surface{};
   };
   std::vector<Body> bodies;      ///< Visible parts other than the moving one.
-  Body moving;                   ///< geometry is null when nothing is in hand.
+  Body moving;                   ///< The moving part; its geometry is null if there is none.
   glm::dvec3 centreInPart{0.0};  ///< Centre of mass of the moving part, in its frame [m].
-  double mass = 1.0;             ///< Of the moving part [kg]; > 0.
-  MassMetric metric;             ///< Of the moving part.
+  double mass = 1.0;             ///< Mass of the moving part [kg]; > 0.
+  MassMetric metric;             ///< Metric of the moving part.
 
-  /// Puts a part in hand, with what belongs to it but for its mass.
+  /// Sets the moving part and everything that belongs to it except its mass.
   void setMoving(const Body& body);
-  /// Gives bodies that have no inside, and what meets them, their surfaces. Called last.
+  /// Sets the surfaces of bodies that have no inside, and of what meets them. To be called last.
   void prepareSurfaces();
+  /// True if some contacts are between unsided surfaces.
   bool hasSurfaces() const noexcept { return moving.surface != nullptr; }
 };
 
-/// Nothing is felt while the moving part is invisible. Builds the hierarchies that are missing, which takes
-/// seconds for millions of triangles: prepareHierarchies() does so with progress before. Throws UsageError
-/// when the scene has no moving part.
+/// The scene for the servo. It has no bodies while the moving part is invisible, so nothing is felt. Builds
+/// missing hierarchies, which takes seconds for millions of triangles; prepareHierarchies() does so
+/// beforehand, with progress. Throws UsageError if the scene has no moving part.
 std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene);
 
 }  // namespace nearfit

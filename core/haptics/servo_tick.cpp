@@ -20,12 +20,13 @@ double secondsSince(Clock::time_point begin) noexcept {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// A velocity that decays at rest would end, for good, among the denormals, where arithmetic is slow.
+/// Zero for tiny velocities: one that decays at rest would stay among the denormals, where
+/// arithmetic is slow.
 glm::dvec3 withoutTraces(const glm::dvec3& velocity) noexcept {
   return glm::length(velocity) < 1e-100 ? glm::dvec3(0.0) : velocity;
 }
 
-/// Mean velocity from one pose to the next, of a point that both carry.
+/// Mean velocity between two poses, at a point that both carry.
 Twist twistBetween(const RigidTransform& from, const RigidTransform& to, const glm::dvec3& centre,
                    double period) noexcept {
   return {(to.applyToPoint(centre) - from.applyToPoint(centre)) / period,
@@ -86,7 +87,7 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
   const Tick tick{{tracked, scene, settings, snapshot}, limits, period};
   if (fault_ == ServoFault::None) {
     periodMeter_.add(period);
-    // Turned about the centre of mass, about which torques are.
+    // The pivot is the centre of mass, about which torques are.
     const RigidTransform device = input.pose.normalized();
     if (!hasPose_)
       mapper_.engageAt(device, input.hasOwnFrame ? part_.pose.normalized() : device, scene.centreInPart);
@@ -115,7 +116,7 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
 }
 
 void ServoTick::letGo(const RigidTransform& device, const glm::dvec3& centreInPart) noexcept {
-  // At rest there: the way back is no motion of the hand's.
+  // At rest: the way back is not motion of the hand.
   handle_ = {part_.pose.normalized(), {}};
   mapper_.engageAt(device, handle_.pose, centreInPart);
 }
@@ -146,7 +147,7 @@ void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcep
     const RigidTransform before = handle_.pose;
     handle_ = smoothed(handle_, handle, tick.scene.centreInPart, tick.period);
     account(tick, before);
-    // Springs let the part be anywhere: what it overlaps there is not known.
+    // With springs the part may be anywhere, so what it overlaps is not known.
     if (isProxy && mode_ != HapticMode::Proxy) proxy_.place(part_.pose);
   }
   mode_ = tick.settings.mode;
@@ -184,7 +185,7 @@ Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
     const BodyMotion target = freeStep(felt_, coupling_, scene.metric, scene.centreInPart, handle_,
                                        {part_.pose, partStep_}, tick.period);
     const Clock::time_point begin = Clock::now();
-    // As it is: a free part must be where the hand is to the last bit, for there to be no force at all.
+    // The target is not normalised: a free part must match the hand bit for bit, so that there is no force.
     if (!areBodiesPlaced(tick))
       fault_ = ServoFault::PoseNotFinite;
     else if (isPose(target.pose))

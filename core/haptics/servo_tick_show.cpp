@@ -5,7 +5,7 @@
 #include "core/haptics/servo_tick.h"
 #include "core/haptics/spring_law.h"
 
-/// The part of ServoTick that finds minima and describes the proxy: what is shown, and what springs hang in.
+/// The part of ServoTick that finds minima, to show them or as springs, and describes the proxy.
 namespace nearfit {
 
 void ServoTick::show(const TrackedScene& tracked, const ServoParameters& parameters,
@@ -23,7 +23,7 @@ MinimaFinder::Result ServoTick::findMinima(const Subject& subject, double share,
   const auto begin = std::chrono::steady_clock::now();
   const glm::dvec3 centre = part_.pose.applyToPoint(subject.scene.centreInPart);
   const double cutoff = share * subject.settings.springs.cutoff;
-  // With springs nothing keeps the part from going through: no distance can be taken for granted.
+  // With springs nothing keeps the part from passing through, so no distance can be relied on.
   const double apart = springs == nullptr ? proxy_.distance() : 0.0;
   const MinimaAllowance& allowance = springs == nullptr ? MinimaFinder::kShown : MinimaFinder::kFelt;
   const MinimaFinder::Result result =
@@ -40,7 +40,7 @@ MinimaFinder::Result ServoTick::findMinima(const Subject& subject, double share,
   subject.snapshot.work += result.work;
   subject.snapshot.queryTime +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  // Of bodies that have an inside and are apart, the nearest minimum is the distance.
+  // Of solid bodies that are apart, the distance of the nearest minimum is the distance.
   if (!subject.scene.hasSurfaces())
     proxy_.noteDistance(std::min({result.distance, result.completeTo, cutoff}));
   return result;
@@ -50,7 +50,7 @@ void ServoTick::showMinima(const Subject& subject) noexcept {
   const double cutoff = subject.settings.springs.cutoff;
   Wrench none;
   const MinimaFinder::Result result = findMinima(subject, shownReach_.share(), nullptr, none);
-  // Contacts reach farther than minima that are shown, then.
+  // The minima found may then reach less far than the contacts.
   if (result.completeTo < std::min(result.distance, cutoff))
     subject.snapshot.distance = std::min(subject.snapshot.distance, distanceOfContacts(subject));
   shownReach_.observe(result.work, subject.snapshot.distance / cutoff);
@@ -73,7 +73,7 @@ void ServoTick::describeProxy(const Subject& subject) noexcept {
   snapshot.isStarved = account.isStarved;
   snapshot.lateBodies += proxy_.lateBodies();
   snapshot.work += proxy_.work();
-  // Contacts name bodies of the scene that they were found in.
+  // Contacts hold indices into the scene that they were found in.
   if (subject.scene.moving.geometry == nullptr || fault_ != ServoFault::None) return;
   snapshot.contactCount = static_cast<std::uint32_t>(proxy_.contacts().size());
   for (const ProxyContact& holding : proxy_.contacts()) {

@@ -6,10 +6,11 @@ namespace nearfit {
 namespace {
 
 constexpr double kLess = 0.7, kMore = 1.1, kLeast = 1e-3;
-/// Of the usual work: with less there is room for more.
+/// With less work than this, there is room for more.
 constexpr std::uint64_t kLittle = ShownReach::kUsualWork / 3;
-/// Minima up to so many times as far as the nearest are always looked for.
+/// Minima up to this many times as far as the nearest are always included.
 constexpr double kAboutAsNear = 1.25;
+/// Above any share.
 constexpr double kNoShare = 2.0;
 
 }  // namespace
@@ -19,7 +20,7 @@ void ShownReach::observe(std::uint64_t work, double nearest) noexcept {
   if (work > kUsualWork) {
     calm_ = 0;
     if (share_ > least) {
-      // Again where it was before, or for the first time.
+      // Too much once more, or for the first time.
       wait_ = tooMuch_ < kNoShare ? std::min(2 * wait_, kLongestWait) : kFirstWait;
       tooMuch_ = std::min(tooMuch_, share_);
     }
@@ -32,7 +33,7 @@ void ShownReach::observe(std::uint64_t work, double nearest) noexcept {
 }
 
 void ShownReach::grow() noexcept {
-  // What was too much is not any more.
+  // That share is not too much any more.
   if (share_ >= tooMuch_) tooMuch_ = kNoShare;
   const double more = std::min(1.0, kMore * share_);
   if (more >= tooMuch_) {

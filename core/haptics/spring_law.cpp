@@ -5,14 +5,14 @@
 namespace nearfit {
 namespace {
 
-/// Push of one minimum along its direction [N], >= 0; NaN when an input is.
+/// Force of one minimum along its direction [N]; >= 0, or NaN if an input is.
 double pushOf(const Lmd& lmd, const SpringParameters& p, const glm::dvec3& velocity) noexcept {
   const double compression = p.cutoff - lmd.distance;
   if (compression <= 0.0) return 0.0;
   double push = p.stiffness * compression;
   if (p.law == SpringLaw::Printed) push *= lmd.distance;
   push -= p.damping * glm::dot(lmd.direction, velocity);
-  // Written so that NaN passes through: the caller must see it, not a force that looks right.
+  // NaN passes this test: the caller must see it, not a force that looks right.
   return push < 0.0 ? 0.0 : push;
 }
 

@@ -5,15 +5,15 @@
 namespace nearfit {
 namespace {
 
-/// Share of the distance that a step may use: distances are rounded. What lies at the step's end proves
-/// nothing: minima are the distance only where bodies do not overlap.
+/// Share of the distance that a step may use; below 1, since distances are rounded. The distance at the
+/// step's end proves nothing: minima give the distance only for bodies that do not overlap.
 constexpr double kProved = 1.0 - 1e-9;
-/// A step may halve the distance at most, and only down to this share of the margin, or of the distance that
-/// it began with where that was less: going on by halves would end in rounding.
+/// A step may halve the distance at most, and only down to this share of the margin, or of the initial
+/// distance if that was less: halving on and on would end in rounding.
 constexpr double kFloor = 1.0 / 64.0, kFloorOfFirst = 0.25;
-/// Distances are not known better than this, as a fraction of the lengths involved.
+/// Error of distances, as a fraction of the lengths involved.
 constexpr double kRounding = 1e-11;
-/// A step is not shortened to less than this share at a time.
+/// Min share to which a step is shortened at a time.
 constexpr double kLeastShare = 1.0 / 64.0;
 
 }  // namespace
@@ -39,7 +39,7 @@ bool StepTrial::isGain(double distance) noexcept {
   const double lackThere = std::max(0.0, cost_.margin - distance);
   before += cost_.weight * lackHere * lackHere;
   after += cost_.weight * lackThere * lackThere;
-  // Least of the parabola through both, with the slope that the program knows here.
+  // Lowest point of the parabola through both costs that has the program's slope here.
   const double bend = after - before - slope_;
   const double best = bend > 0.0 ? -slope_ / (2.0 * bend) : StepJudge::kHalf;
   bestShare_ = std::clamp(best, kLeastShare, StepJudge::kHalf);

@@ -6,58 +6,63 @@
 
 namespace nearfit {
 
-/// A step as the program has it, and what it costs by the true distance at its end.
+/// A step of the program, and its cost given the true distance at its end.
 class StepTrial {
  public:
-  /// @param distance  Of the nearest body where the step begins [m].
+  /// @param distance  Lower bound on the distance to the nearest body where the step begins [m].
   StepTrial(const StepGoal& goal, const StepSolution& solution, double distance) noexcept;
 
-  /// Whether it makes less what the program makes least. If not, bestShare() says where that is less.
+  /// True if the step lowers the program's cost. If not, bestShare() estimates where on the way the
+  /// cost is lowest.
   /// @param distance  Of the nearest body where the step ends [m].
   bool isGain(double distance) noexcept;
-  /// Share of the step at which the cost is least, as a parabola has it that the last isGain() knew.
+  /// Share of the step with the lowest cost, from the parabola of the last isGain(); at most kHalf then.
   double bestShare() const noexcept { return bestShare_; }
 
+  /// Scales the step.
   void shorten(double share) noexcept;
 
  private:
   StepVector wanted_, step_;
   ClearanceCost cost_;
   double distance_;
-  double slope_;  ///< Of the cost along the step, at its start.
+  double slope_;  ///< Slope of the cost along the step, at its start.
   double bestShare_ = 1.0;
 };
 
-/// Says of a step that is planned whether it may be taken.
+/// Decides whether a planned step may be taken.
 class StepJudge {
  public:
-  /// A step may bring what it is to keep down to this share of what it has.
+  /// A step may reduce the clearance, or the margin if that is less, to this share.
   static constexpr double kHalf = 0.5;
 
+  /// The decision on a step.
   enum class Verdict : std::uint8_t {
-    Taken,
-    NotProved,  ///< Something might be met on the way, or is too near there.
-    NoGain,     ///< No better than where it is.
-    Unknown,    ///< The work allowed did not suffice to tell.
+    Taken,      ///< It may be taken.
+    NotProved,  ///< Something might be met on the way, or is too near at its end.
+    NoGain,     ///< No better than staying.
+    Unknown,    ///< The work allowed was too little to tell.
   };
 
-  /// A way from a pose to another; distances are bounds below, of bodies that are not overlapped [m].
+  /// A way from one pose to another. Distances are lower bounds, to bodies that are not overlapped [m].
   struct Way {
-    double travel = 0.0;  ///< No point of the part moves farther [m].
-    double here = 0.0, there = 0.0;
+    double travel = 0.0;             ///< No point of the part moves farther than this [m].
+    double here = 0.0, there = 0.0;  ///< At its start and at its end.
     double margin = 0.0;
   };
-  /// @param trial  Null where the step need not be a gain.
-  /// Never Unknown. Real-time safe.
+  /// Decides on a way; never Unknown. Real-time safe.
+  /// @param trial  Null if the step need not be a gain.
   Verdict judge(const Way& way, StepTrial* trial) const noexcept;
 
-  /// No step may end nearer to a body than a share of the distance here, from now on.
-  /// @param distance  Here.   @param lengths  That it is rounded with [m].
+  /// From now on no step may end nearer to a body than a share of the distance here.
+  /// @param distance  At the present pose [m].
+  /// @param lengths   Lengths whose rounding limits the distance [m].
   void raiseFloor(double distance, double margin, double lengths) noexcept;
+  /// Allows any distance again.
   void dropFloor() noexcept { floor_ = 0.0; }
 
  private:
-  double floor_ = 0.0;  ///< No step may end nearer than this to a body, unless it leads away [m].
+  double floor_ = 0.0;  ///< Min distance at a step's end, unless the step leads away [m].
 };
 
 }  // namespace nearfit

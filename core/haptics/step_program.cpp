@@ -10,7 +10,7 @@
 namespace nearfit {
 namespace {
 
-/// A step that was shortened to the reach ends below it, whatever is rounded.
+/// Keeps a step that was shortened to the reach below it despite rounding.
 constexpr double kInside = 1.0 - 1e-12;
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace nearfit {
 namespace {
 
-/// Distance of the rows that fill up a block: never the least.
+/// Distance of the rows that fill up a block: never the min.
 constexpr double kNoRow = std::numeric_limits<double>::max();
 
 bool isUsableNumber(double value) noexcept {
@@ -59,7 +59,7 @@ inline void StepRows::clearances(const Block& block, const StepVector& y,
 }
 
 inline double StepRows::least(std::array<double, kLanes> values) noexcept {
-  // Unrolled, so that the halves stay in registers.
+// Unrolled so that the halves stay in registers.
 #pragma GCC unroll 4
   for (std::size_t half = kLanes / 2; half > 0; half /= 2)
 #pragma GCC unroll 8

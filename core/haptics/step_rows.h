@@ -11,14 +11,14 @@
 namespace nearfit {
 
 /// A motion of the part in its mass metric [m]: translation of the centre of mass, then rotation about each
-/// principal axis times the radius of gyration about it. Half its squared length is kinetic energy for a unit
-/// mass and a unit of time.
+/// principal axis times the radius of gyration about it. Half its squared length is the kinetic energy of a
+/// unit mass that moves so in unit time.
 using StepVector = std::array<double, 6>;
 
-/// How a step changes the distance of a pair of points, to first order: by the product of both.
+/// Row of a pair of points: its dot product with a step is the change of their distance, to first order.
 /// @param direction           From scene to part, in the world; unit.
 /// @param arm                 From the centre of mass to the part's point, in the world [m].
-/// @param principalFromWorld  Turns the world into the part's principal axes.
+/// @param principalFromWorld  Rotates the world into the part's principal axes.
 /// Real-time safe.
 inline StepVector stepRow(const glm::dvec3& direction, const glm::dvec3& arm,
                           const glm::dquat& principalFromWorld, const MassMetric& metric) noexcept {
@@ -28,7 +28,7 @@ inline StepVector stepRow(const glm::dvec3& direction, const glm::dvec3& arm,
 
 /// Near pairs of points, linearised: after the step y pair i is a_i . y + d_i apart, to first order.
 ///
-/// Kept in blocks whose columns lie side by side, so that the scan over all rows runs in vectors.
+/// Stored in blocks of columns, so that the scan over all rows vectorises.
 class StepRows {
  public:
   static constexpr std::size_t kDefaultCapacity = 512;
@@ -36,33 +36,37 @@ class StepRows {
   /// Numbers beyond this are refused, so that no product of two overflows.
   static constexpr double kLargest = 1e12;
 
-  /// @param capacity  Rows that can be held; allocates, as nothing after it does.
+  /// @param capacity  Max number of rows. Allocates; nothing after it does.
   explicit StepRows(std::size_t capacity = kDefaultCapacity);
 
   void clear() noexcept;
 
-  /// @param a  Of the pair: stepRow().
+  /// Adds the row of a pair.
+  /// @param a  stepRow() of the pair.
   /// @param d  Its distance [m].
-  /// False, and nothing is added, when there is no room or a number is not finite or beyond `kLargest`: the
-  /// part may then not be moved by what the program says, since it does not know of this pair.
+  /// @return False, with nothing added, if there is no room or a number is not finite or beyond `kLargest`.
+  ///         The part must then not take the program's step, which does not know of this pair.
   /// Real-time safe.
   bool add(const StepVector& a, double d) noexcept;
 
   std::size_t size() const noexcept { return size_; }
   std::size_t capacity() const noexcept { return capacity_; }
 
+  /// a_i; i < size().
   StepVector row(std::size_t i) const noexcept;
+  /// d_i [m]; i < size().
   double distance(std::size_t i) const noexcept;
 
-  /// Greatest |a_i|, at least 1.
+  /// Max |a_i|, at least 1.
   double largestNorm() const noexcept { return largestNorm_; }
 
+  /// The row with the min clearance.
   struct Least {
     double clearance;  ///< [m]; beyond kLargest without rows.
-    std::size_t row;   ///< The first of the rows that have it.
+    std::size_t row;   ///< The first row that has it.
   };
 
-  /// The least of a_i . y + d_i. The same on every machine. Real-time safe; linear in the rows.
+  /// Min of a_i . y + d_i. The same on every machine. Real-time safe; O(rows).
   Least leastClearance(const StepVector& y) const noexcept;
 
  private:

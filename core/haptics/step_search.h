@@ -5,22 +5,22 @@
 
 namespace nearfit {
 
-/// Of a step at one scale of the goal: its displacement, and the active rows of the solver.
+/// The solver's step at one scale of the goal, with its displacement and active rows.
 StepSolution describeStep(const DualStepSolver& solver, const DualStepSolver::Point& point,
                           const StepGoal& goal, double scale) noexcept;
 
-/// Shortens the way from standing still, which all rows allow since they allow both its ends, until the step
-/// is within the reach. A step that is not finite becomes standing still.
+/// Shortens a step towards standing still until it is within the reach. All rows allow that, since they allow
+/// both ends. A step that is not finite becomes standing still.
 void shortenToReach(StepSolution& step, const DualStepSolver::Point& still, double reach) noexcept;
 
 /// Standing still, for a goal that is not usable.
 StepSolution standStill(const StepRows& rows) noexcept;
 
-/// Where no scale was found at which a step uses as much of the reach, a step that is too long is shortened
-/// instead: while a part turns flat, its way depends on the scale only where the scale is next to nothing.
+/// If no scale was found at which a step uses this share of the reach, a step that is too long is shortened
+/// instead: while a part turns flat, its step depends on the scale only for scales near zero.
 inline constexpr double kLeastUse = 0.5;
 
-/// For those that keep nothing of a point but the step.
+/// The `keep` of callers that need nothing but the step.
 struct KeepNothing {
   void best() const noexcept {}
   void above() const noexcept {}
@@ -28,11 +28,11 @@ struct KeepNothing {
 };
 
 /// Solves for one scale of the goal after another until the step fits the reach.
-/// @param solver  After begin().
-/// @param solve   Gives the Point for a scaled goal y0 and its scale.
-/// @param mostSolves  Scales that are tried at most.
-/// @param keep    Is told of the point given last: best() that it is the best so far, above() that it is the
-///                last that is too long; and useAbove() that this one is taken after all.
+/// @param solver      After begin().
+/// @param mostSolves  Max scales tried.
+/// @param solve       Returns the Point for a scaled goal y0 and its scale.
+/// @param keep        Told about the last point: best() if it is the best so far, above() if it is too long.
+///                    Finally useAbove() if the last point that was too long is used after all.
 template <class Solve, class Keep>
 StepSolution searchStep(const DualStepSolver& solver, const StepGoal& goal, unsigned mostSolves, Solve solve,
                         Keep&& keep) noexcept {
@@ -47,7 +47,7 @@ StepSolution searchStep(const DualStepSolver& solver, const StepGoal& goal, unsi
     const StepSolution here = describeStep(solver, solve(wanted, scale), goal, scale);
     ++solves;
     const bool isWithin = search.report(here.displacement);
-    // Without one within the reach, the last is shortened.
+    // Until a step is within the reach, the last one is kept and shortened.
     if (isWithin || !isFound) {
       best = here;
       keep.best();

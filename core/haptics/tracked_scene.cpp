@@ -40,7 +40,7 @@ TrackedScene untracked(std::shared_ptr<const ServoScene> scene) {
 double TrackedScene::spent(const RigidTransform& pose, double forCutoff) const noexcept {
   if (!(forCutoff <= cutoff)) return std::numeric_limits<double>::infinity();
   const Aabb& box = scene->moving.geometry->mesh.bounds();
-  // About the part's own middle, so that turning it where it stands costs the least.
+  // About the middle of the part, so that turning on the spot spends the least.
   const auto centred = [&](const RigidTransform& p) {
     return RigidTransform{p.rotation, p.applyToPoint(box.centre())};
   };

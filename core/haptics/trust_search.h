@@ -4,23 +4,27 @@
 
 namespace nearfit {
 
-/// Finds s in [0, 1] at which a function that is continuous, 0 or little at s = 0, and nearly linear, lies
-/// within [kLeastShare, 1] of a bound; s = 1 if it is below the bound there. Regula falsi, halved when it
-/// drags. The caller evaluates: ask for `scale()`, tell `report(value)`, until `isDone()`.
+/// Finds s in [0, 1] at which a continuous, nearly linear function that is zero or small at s = 0 lies
+/// within [kLeastShare, 1] of a bound; s = 1 if it is below the bound there. Regula falsi, with halving
+/// when it stalls. The caller evaluates: until isDone(), compute the value at scale() and report() it.
+/// Real-time safe.
 class TrustSearch {
  public:
   static constexpr double kLeastShare = 0.9;
-  /// Part of the bound that is aimed at: rounding and a kink on the way may put the value beside it.
+  /// Share of the bound that is aimed at: rounding and kinks may put the value beside it.
   static constexpr double kAim = 0.95;
-  /// After so many values, all above the bound, s = 0 is tried whatever the last two promise.
+  /// After this many values, all above the bound, s = 0 is tried whatever the last two predict.
   static constexpr unsigned kPatience = 4;
 
+  /// @param mostValues  Max values to evaluate.
   TrustSearch(double bound, unsigned mostValues) noexcept : bound_(bound), mostValues_(mostValues) {}
 
+  /// The s to evaluate next.
   double scale() const noexcept { return scale_; }
   bool isDone() const noexcept { return isDone_; }
 
-  /// Whether the value just reported is the best so far: within the bound and at the largest such s.
+  /// Records the value at scale(). Returns true if it is the best so far: within the bound, at the
+  /// largest such s.
   bool report(double value) noexcept {
     ++values_;
     const bool isWithin = value <= bound_;
@@ -28,7 +32,7 @@ class TrustSearch {
       low_ = scale_;
       lowValue_ = value;
     } else {
-      // Where no value within the bound is known, the line through the last two says what to expect at 0.
+      // No value within the bound is known: extrapolate the last two to s = 0.
       if (low_ < 0.0 && values_ > 1)
         lowValue_ = std::max(0.0, value - scale_ * (highValue_ - value) / (high_ - scale_));
       high_ = scale_;
@@ -52,7 +56,7 @@ class TrustSearch {
   }
 
   double bound_, scale_ = 1.0;
-  double low_ = -1.0, lowValue_ = 0.0;  ///< Below 0: none known.
+  double low_ = -1.0, lowValue_ = 0.0;  ///< low_ is negative while no value within the bound is known.
   double high_ = 1.0, highValue_ = 0.0;
   unsigned mostValues_, values_ = 0, repeats_ = 0;
   bool lastWasWithin_ = false, isDone_ = false;

@@ -37,7 +37,7 @@ SpringDamper asStiffAsAllowed(double deviceDamping, double damping, double perio
   return {kAutomaticStiffnessShare * stiffnessBound(deviceDamping, damping, period), damping};
 }
 
-/// @param damping  What the device takes out of the handle's motion [N s/m].
+/// @param damping  Physical damping of the device [N s/m].
 CouplingState automatic(double damping, double rotationalDamping, double gyration, double period) noexcept {
   const double area = finiteOrZero(gyration * gyration);
   const SpringDamper linear = asStiffAsAllowed(damping, kAutomaticDampingShare * damping, period);
@@ -47,7 +47,7 @@ CouplingState automatic(double damping, double rotationalDamping, double gyratio
           angular.damping, false};
 }
 
-/// From the handle to the part: of the centres, and of the turn; world frame.
+/// From the handle to the part, in the world frame: offset of the centres [m], and rotation vector [rad].
 struct Stretch {
   glm::dvec3 shift, turn;
 };
@@ -58,7 +58,8 @@ Stretch stretchOf(const glm::dvec3& centreInPart, const RigidTransform& handle,
           turnBetween(handle.rotation, part.rotation)};
 }
 
-/// Along each principal axis of the part by the square of its gyration, that of the largest being one.
+/// Scales the component along each principal axis of the part by the square of its gyration, relative
+/// to the largest.
 glm::dvec3 byGyration(const MassMetric& metric, const RigidTransform& part,
                       const glm::dvec3& vector) noexcept {
   const glm::dquat worldFromPrincipal = metric.worldFromPrincipal(part);
@@ -66,10 +67,10 @@ glm::dvec3 byGyration(const MassMetric& metric, const RigidTransform& part,
   return worldFromPrincipal * (ratio * ratio * (glm::conjugate(worldFromPrincipal) * vector));
 }
 
-/// The torque on the hand of a spring with the energy V = 1/2 turn . K turn, from `load` = K turn: the
-/// derivative of V by a turn of the hand, J^-T load with J the right Jacobian of the rotation vector. K turn
-/// itself is none unless K is the same about all axes: round a loop of large turns it would give energy for
-/// nothing.
+/// Torque on the hand of a spring with the energy V = 1/2 turn . K turn, from `load` = K turn. It is the
+/// derivative of V with respect to the hand's rotation: J^-T load, with J the right Jacobian of the rotation
+/// vector. K turn itself is not, unless K is the same about all axes: on a loop of large rotations it would
+/// create energy.
 glm::dvec3 torqueOf(const glm::dvec3& load, const glm::dvec3& turn) noexcept {
   constexpr double kSmall = 1e-4;
   const double angle = glm::length(turn);
@@ -80,9 +81,9 @@ glm::dvec3 torqueOf(const glm::dvec3& load, const glm::dvec3& turn) noexcept {
   return load - 0.5 * across + bend * glm::cross(turn, across);
 }
 
-/// Of a spring whose force or torque, as long as `size`, is clamped at a limit: the integral of what is
-/// rendered, along the straight way. A torque of large turns does not grow quite as the turn does, which is
-/// left out.
+/// Energy of a spring whose force or torque, of length `size`, is clamped at a limit: the integral of what
+/// is rendered along the straight way. Leaves out that the torque of large rotations grows a little less
+/// than the rotation.
 double storedIn(const glm::dvec3& load, double size, const glm::dvec3& stretch, double limit) noexcept {
   const double rendered = size > limit ? limit / size : 1.0;
   return rendered * (1.0 - 0.5 * rendered) * glm::dot(load, stretch);
@@ -118,8 +119,7 @@ double turnScale(const CouplingState& coupling, const MassMetric& metric) noexce
 }
 
 glm::dvec3 turnBetween(const glm::dquat& from, const glm::dquat& to) noexcept {
-  // The product of a quaternion and its conjugate is the identity only but for rounding where operations are
-  // fused.
+  // With fused operations, a quaternion times its conjugate is the identity only to rounding.
   if (from == to) return glm::dvec3(0.0);
   return rotationVector(to * glm::conjugate(from));
 }

@@ -10,80 +10,81 @@
 
 namespace nearfit {
 
-/// Stiffness and damping in force between hand and part.
+/// Stiffness and damping that are rendered between handle and part.
 struct CouplingState {
   double stiffness = 0.0, damping = 0.0;                      ///< [N/m], [N s/m]
   double rotationalStiffness = 0.0, rotationalDamping = 0.0;  ///< [N m/rad], [N m s/rad]
-  bool isHeldToBound = false;                                 ///< Less than was wished, for stability.
+  bool isHeldToBound = false;                                 ///< Less than requested, for stability.
 };
 
-/// Where a body is and how it moves; world frame, `twist` at the centre of mass.
+/// Pose and velocity of a body, in the world frame; `twist` at the centre of mass.
 struct BodyMotion {
   RigidTransform pose;  ///< worldFromPart.
   Twist twist;
 };
 
 /// Part of the device's damping that the automatic coupling uses for its own: enough to calm the snap off a
-/// corner, little enough that four fifths of the stiffness stay.
+/// corner, little enough to leave four fifths of the stiffness.
 inline constexpr double kAutomaticDampingShare = 0.2;
-/// The automatic coupling's part of the bound: what is known of a device's damping is seldom better than
-/// that.
+/// Part of the bound that the automatic coupling uses: a device's damping is seldom known better than that.
 inline constexpr double kAutomaticStiffnessShare = 0.8;
-/// Damping that is wished counts up to this part of the device's own, so that the bound leaves a stiffness.
+/// Requested damping is limited to this part of the device's own, so that the bound leaves a stiffness.
 inline constexpr double kMostDampingShare = 0.5;
 
-/// The largest stiffness K of a wall, sampled and held, that is passive in anyone's hand:
-/// b > K T / 2 + |B|. For translation [N/m] from [N s/m], for rotation [N m/rad] from [N m s/rad].
+/// Max stiffness K of a wall, sampled and held, that is passive in anyone's hand: b > K T / 2 + |B|. For
+/// translation [N/m] from [N s/m], for rotation [N m/rad] from [N m s/rad].
 ///
-/// @param deviceDamping    b, physical.     @param couplingDamping  B, rendered.
+/// @param deviceDamping    b, physical.
+/// @param couplingDamping  B, rendered.
 /// @param period           T, from one output to the next [s].
-/// 0 where there is no such stiffness, and for numbers that are not finite or a period <= 0. Real-time safe.
+/// 0 if there is no such stiffness, for numbers that are not finite, and for a period <= 0. Real-time safe.
 /// Source: Colgate & Schenkel 1997, Passivity of a class of sampled-data systems. It holds for damping from
 /// backward differences, low-passed or not.
 double stiffnessBound(double deviceDamping, double couplingDamping, double period) noexcept;
 
-/// What is enforced of the wished coupling. Automatic: the damping is kAutomaticDampingShare of the device's,
-/// the stiffness kAutomaticStiffnessShare of the bound that this leaves. Rotation is that of the part's
-/// metric (stiffness and damping times the square of its largest gyration), so that the wrench is square to
-/// what holds the part, where its own bound allows. Not automatic: each number as wished, up to
+/// The coupling that is rendered for a requested one. Automatic: the damping is kAutomaticDampingShare of the
+/// device's, the stiffness kAutomaticStiffnessShare of the bound that this leaves. As far as their own bound
+/// allows, rotational values are these times the square of the part's largest gyration, as in its metric, so
+/// that the wrench is orthogonal to what holds the part. Not automatic: each number as requested, limited to
 /// kMostDampingShare and to the bound.
 ///
-/// @param device  As at the handle (limitsAtHandle).   @param period  Measured (PeriodMeter) [s].
-/// Any input: finite and >= 0; zero stiffness where the bound has no meaning. Real-time safe.
+/// @param device  Limits at the handle (limitsAtHandle()).
+/// @param period  Measured (PeriodMeter) [s].
+/// The result is finite and >= 0 for any input; zero stiffness where the bound has no meaning.
+/// Real-time safe.
 CouplingState boundedCoupling(const CouplingSettings& wish, const DeviceLimits& device,
                               const MassMetric& metric, double period) noexcept;
 
-/// What the radii of gyration have to be multiplied by for the metric to weigh turns against shifts as the
-/// coupling's energy does: a proxy that is nearest in any other metric gains energy where it gives way in the
-/// one to be nearer in the other, for nothing. 1 where stiffnesses agree with the metric, and where one is
-/// zero; held to [kLeastTurnScale, kMostTurnScale] for the sake of the program's condition, which leaves the
-/// rest to the passivity controller. Real-time safe.
+/// Factor on the radii of gyration with which the metric weighs rotation against translation as the
+/// coupling's energy does. A proxy that is nearest in any other metric would gain energy for nothing, by
+/// giving way in one metric to be nearer in the other. 1 if the stiffnesses agree with the metric, or one of
+/// them is zero. Limited to [kLeastTurnScale, kMostTurnScale] for the program's condition; the passivity
+/// controller handles the rest. Real-time safe.
 double turnScale(const CouplingState& coupling, const MassMetric& metric) noexcept;
 inline constexpr double kLeastTurnScale = 0.1, kMostTurnScale = 20.0;
 
-/// Spring and damper from the handle to the part, on the hand, about the centre of mass of the handle's
-/// pose; world frame. The force is `stiffness` times the distance of the centres; the torque that of a spring
-/// whose stiffness about each principal axis of the part goes with the square of its gyration, since the
-/// proxy is nearest in that metric: a torque of any other would not be square to the contacts. It is the
-/// derivative of the spring's energy by the turn of the hand, so that no way round gains anything; for small
-/// turns, stiffness times turn.
+/// Wrench on the hand of the spring and damper from handle to part, about the centre of mass of the handle's
+/// pose; world frame. The spring's force is `stiffness` times the offset of the centres. Its torque is that
+/// of a spring whose stiffness about each principal axis of the part is proportional to the square of its
+/// gyration: the proxy is nearest in that metric, so any other torque would not be orthogonal to the
+/// contacts. It is the derivative of the spring's energy with respect to the hand's rotation, so no closed
+/// path gains energy; for small rotations, stiffness times rotation.
 ///
-/// @param centreInPart  Centre of mass [m].
-/// Zero exactly where both are at one pose with one twist. Hand and part turned by more than half a turn
-/// against each other pull the shorter way round: the torque then changes sign. NaN or infinity in comes out.
-/// Real-time safe.
-/// Source: Ortega, Redon & Coquillart 2007, 5; with damping.
+/// @param centreInPart  Centre of mass, in the part's frame [m].
+/// Exactly zero if both have one pose and one twist. Past half a turn between hand and part the torque pulls
+/// the shorter way round, so it changes sign. NaN and infinity propagate. Real-time safe. Source: Ortega,
+/// Redon & Coquillart 2007, 5; with damping.
 Wrench couplingWrench(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
                       const BodyMotion& handle, const BodyMotion& part) noexcept;
 
-/// Energy in the spring between the poses [J], less what it could not give back as its force and torque are
-/// clamped to the limits: from there on it grows with the distance, not with its square. Real-time safe.
+/// Energy in the spring between two poses [J], without what it could not give back because force and torque
+/// are clamped to the limits: beyond these it grows linearly with the distance. Real-time safe.
 double storedEnergy(const CouplingState& coupling, const MassMetric& metric, const glm::dvec3& centreInPart,
                     const RigidTransform& handle, const RigidTransform& part,
                     const DeviceLimits& limits) noexcept;
 
-/// The turn, as axis times angle in the common frame [rad], that takes `from` to `to` the shorter way; zero
-/// exactly for equal ones. Real-time safe.
+/// Rotation vector from `from` to `to`, in their common frame [rad]; the shorter way. Exactly zero if they
+/// are equal. Real-time safe.
 glm::dvec3 turnBetween(const glm::dquat& from, const glm::dquat& to) noexcept;
 
 }  // namespace nearfit

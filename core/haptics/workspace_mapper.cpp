@@ -10,10 +10,10 @@ namespace {
 
 using Locks = std::array<bool, 3>;
 
-/// A twist is well defined while the square of what it leaves of the quaternion is above this: the square of
-/// the cosine of half a quarter turn.
+/// A twist is well defined while the squared length of its part of the quaternion is above this: the squared
+/// cosine of half a quarter turn.
 constexpr double kLeastTwistSquared = 0.5;
-/// Below this there is nothing left to define it, as after a jump of half a turn within one call.
+/// Below this it is undefined, as after a jump of half a turn within one call.
 constexpr double kNoTwistSquared = 1e-12;
 
 bool isSame(const WorkspaceMapping& a, const WorkspaceMapping& b) noexcept {
@@ -36,18 +36,19 @@ double validScale(double scale) noexcept {
   return std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
 }
 
+/// Result of freeTurn().
 struct FreeTurn {
   glm::dquat turn;
-  bool isFar;      ///< Time for a new index.
-  bool isDefined;  ///< If not, `turn` means nothing.
+  bool isFar;      ///< A new index is needed.
+  bool isDefined;  ///< If false, `turn` has no meaning.
 };
 
-/// What remains of a turn when no turning about the locked axes is allowed.
+/// The rotation that remains of `turn` without rotation about the locked axes.
 FreeTurn freeTurn(const glm::dquat& turn, const Locks& locks) noexcept {
   const auto locked = std::count(locks.begin(), locks.end(), true);
   if (locked == 0) return {turn, false, true};
   if (locked == 3) return {{1.0, 0.0, 0.0, 0.0}, false, true};
-  // The one axis that is locked, or the one that is free.
+  // The single locked axis, or the single free one.
   const auto axis = static_cast<int>(std::find(locks.begin(), locks.end(), locked == 1) - locks.begin());
   const glm::dvec3 imaginary(turn.x, turn.y, turn.z);
   glm::dvec3 along(0.0);
@@ -95,7 +96,7 @@ RigidTransform WorkspaceMapper::map(const RigidTransform& device, bool isClutche
                                     const WorkspaceMapping& mapping) noexcept {
   if (!device.isFinite()) return device;
   if (!isEngaged_) engage(device);
-  // From the pose before, so that the motion of this tick counts under the new mapping.
+  // At the previous pose, so that the motion of this tick counts under the new mapping.
   if (hasMapping_ && !isSame(mapping, mapping_)) setIndex(lastDevice_, lastHandle_);
   mapping_ = mapping;
   hasMapping_ = true;

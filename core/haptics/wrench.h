@@ -4,7 +4,7 @@
 
 namespace nearfit {
 
-/// Force [N] and torque [N m] on the moving part, about its centre of mass unless said otherwise.
+/// Force [N] and torque [N m] on the moving part, about its centre of mass unless stated otherwise.
 struct Wrench {
   glm::dvec3 force{0.0};
   glm::dvec3 torque{0.0};

@@ -13,7 +13,7 @@ double zeroUnlessPositive(double value) noexcept {
 }
 
 bool limitLength(glm::dvec3& v, double limit) noexcept {
-  // Scaled first, since the square of a large finite number overflows and would turn the limit into zero.
+  // Scale first: the square of a large finite number overflows, which would turn the limit into zero.
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (!(largest > 0.0)) return false;
   const glm::dvec3 scaled = v / largest;
@@ -32,7 +32,7 @@ glm::dvec3 slewed(const glm::dvec3& from, const glm::dvec3& to, double most, boo
   return from + change;
 }
 
-/// Of what is wanted, how much an input of that age is worth: not a number anywhere is nothing.
+/// Share of the wanted wrench that an input of that age is worth; 0 if any number is NaN.
 double worthOf(double age, const PosePatience& patience) noexcept {
   if (!(age < patience.silence)) return 0.0;
   if (!(age > patience.hold)) return std::isnan(patience.hold) ? 0.0 : 1.0;
@@ -64,7 +64,8 @@ void WrenchConditioner::disengage() noexcept {
 }
 
 double WrenchConditioner::nextGain(double inputAge, double period, const PosePatience& patience) noexcept {
-  // Falls with the age at once, and rises only in time: else each report of a stuttering device were a knock.
+  // Falls with the age at once but rises only in time; otherwise each report of a stuttering device
+  // would be a knock.
   freshness_ = std::min(worthOf(inputAge, patience), freshness_ + period / kRecoveryTime);
   const double gain = smoothStep(ramp_) * freshness_;
   ramp_ = std::min(1.0, ramp_ + period / kRampTime);
@@ -87,7 +88,7 @@ ConditionedWrench WrenchConditioner::condition(const Wrench& wanted, double inpu
   result.isClamped = clamped.isClamped;
   last_.force = slewed(last_.force, clamped.wrench.force, limits.forceSlew * elapsed, result.isSlewed);
   last_.torque = slewed(last_.torque, clamped.wrench.torque, limits.torqueSlew * elapsed, result.isSlewed);
-  // The way from one wrench to the next keeps the limits, unless they have just become narrower.
+  // On the way from one wrench to the next the limits hold anyway, unless they have just been lowered.
   last_ = limitWrench(last_, limits).wrench;
   result.wrench = last_;
   return result;

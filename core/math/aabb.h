@@ -13,11 +13,13 @@ struct Aabb {
   glm::dvec3 lower{std::numeric_limits<double>::infinity()};
   glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
 
+  /// Grows the box to contain `p` [m].
   void add(const glm::dvec3& p) noexcept {
     lower = glm::min(lower, p);
     upper = glm::max(upper, p);
   }
   bool isEmpty() const noexcept { return !(lower.x <= upper.x); }
+  /// Centre [m]; NaN when empty.
   glm::dvec3 centre() const noexcept { return lower + 0.5 * (upper - lower); }
   /// Length of the diagonal [m]; 0 when empty.
   double diagonal() const noexcept { return isEmpty() ? 0.0 : glm::length(upper - lower); }

@@ -15,14 +15,15 @@ inline glm::dquat rotationFromEulerAngles(const glm::dvec3& angles) noexcept {
          glm::angleAxis(angles.x, glm::dvec3(1, 0, 0));
 }
 
-/// The inverse of rotationFromEulerAngles for a unit quaternion [rad]: x and z in (-pi, pi], y in [-pi/2,
-/// pi/2]. Where y is a right angle, x and z turn about one axis: z is then 0 and x carries the whole turn.
+/// Inverse of rotationFromEulerAngles() for a unit quaternion [rad]: x and z in (-pi, pi], y in
+/// [-pi/2, pi/2]. At y = +-pi/2 the angles x and z turn about the same axis; z is then 0 and x holds
+/// the whole rotation.
 inline glm::dvec3 eulerAnglesOf(const glm::dquat& rotation) noexcept {
   const glm::dmat3 m = glm::mat3_cast(rotation);  // m[column][row]
   const double sinY = std::clamp(-m[0][2], -1.0, 1.0);
   const double cosY = std::hypot(m[0][0], m[0][1]);
   const double y = std::atan2(sinY, cosY);
-  // Below this the two remaining angles are rounding noise; the turn left out is as small.
+  // Below this, x and z are rounding noise, and the rotation lost by setting z to 0 is as small.
   constexpr double kLocked = 1e-9;
   if (cosY < kLocked) return {std::atan2(-m[2][1], m[1][1]), y, 0.0};
   return {std::atan2(m[1][2], m[2][2]), y, std::atan2(m[0][1], m[0][0])};

@@ -8,6 +8,7 @@
 namespace nearfit {
 namespace {
 
+/// Point where a direction pierces the plane at distance 1 along the axis, and the direction's index.
 struct Pierced {
   double x, y;
   std::size_t index;

@@ -8,12 +8,13 @@
 
 namespace nearfit {
 
-/// Those of `directions` that bound the convex cone which they span, as indices in cyclic order: the corners
-/// of the hull of where they pierce a plane across `axis`. Two where all lie in one plane, one where they are
-/// one direction.
+/// Indices of the directions that bound the convex cone spanned by `directions`, in cyclic order. They are
+/// the corners of the convex hull of the points where the directions pierce a plane perpendicular to `axis`.
+/// Two indices if all directions lie in one plane, one if they coincide, none if there are none.
 ///
-/// @param axis  Unit; every direction has a part along it, > 0.
-/// Source: Andrew's monotone chain. O(n log n).
+/// @param directions  Each has a positive component along `axis`; any length.
+/// @param axis        Unit.
+/// Allocates. O(n log n). Source: Andrew's monotone chain.
 std::vector<std::size_t> extremeDirections(std::span<const glm::dvec3> directions, const glm::dvec3& axis);
 
 }  // namespace nearfit

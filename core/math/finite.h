@@ -6,7 +6,7 @@
 
 namespace nearfit {
 
-/// Whether no component is infinite or not a number.
+/// True if no component is infinite or NaN.
 inline bool isFinite(const glm::dvec3& v) noexcept {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

@@ -9,14 +9,14 @@
 namespace nearfit {
 namespace {
 
-/// Up to four hull points and the weights that make the point of their hull nearest to the origin.
+/// Up to four points of the hull whose own hull contains the point nearest to the origin so far.
 struct Simplex {
   std::array<glm::dvec3, 4> points{};
   std::size_t size = 0;
 };
 
-/// Nearest point of the affine hull of the selected points; false when they are dependent or a weight is
-/// negative.
+/// Finds the point nearest to the origin in the affine hull of the first `n` points. Returns false if the
+/// points are dependent or that point is outside their convex hull.
 bool nearestOfAffineHull(const std::array<glm::dvec3, 4>& p, std::size_t n, glm::dvec3& nearest) {
   if (n == 1) {
     nearest = p[0];
@@ -40,7 +40,7 @@ bool nearestOfAffineHull(const std::array<glm::dvec3, 4>& p, std::size_t n, glm:
     }
     return true;
   }
-  // Four points: the origin is inside, or a face is nearer.
+  // With four points the origin is inside, or else a face is nearer.
   nearest = glm::dvec3(0.0);
   for (std::size_t k = 0; k < 4; ++k) {
     const glm::dvec3 &a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4];
@@ -51,7 +51,7 @@ bool nearestOfAffineHull(const std::array<glm::dvec3, 4>& p, std::size_t n, glm:
   return true;
 }
 
-/// Replaces the simplex by the smallest sub-simplex that holds its nearest point; returns that point.
+/// Reduces the simplex to its smallest sub-simplex that contains the nearest point; returns that point.
 glm::dvec3 reduce(Simplex& simplex) {
   glm::dvec3 best(0.0);
   double bestSquared = -1.0;
@@ -82,10 +82,10 @@ glm::dvec3 minNormPoint(std::span<const glm::dvec3> points) {
   simplex.points[0] = points[0];
   simplex.size = 1;
   glm::dvec3 nearest = points[0];
-  // A few iterations suffice; the bound only ends a cycle of rounding.
+  // A few iterations suffice; the limit only ends cycles caused by rounding.
   constexpr int kMaxIterations = 128;
-  // How much nearer the hull may still come, as a length: a few roundings of the points' own. As a fraction of
-  // the squared norm it would stop early at hulls that pass the origin closely, by up to its square root.
+  // Stop when the hull can come nearer by no more than a few roundings of the points. A fraction of the
+  // squared norm would stop early at hulls that pass close to the origin, by up to its square root.
   constexpr double kConverged = 1e-14;
   for (int i = 0; i < kMaxIterations && simplex.size < 4; ++i) {
     const auto support = std::min_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {

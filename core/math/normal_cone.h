@@ -13,7 +13,7 @@ namespace nearfit {
 /// All directions within `halfAngle` of `axis`.
 struct NormalCone {
   glm::dvec3 axis{0.0, 0.0, 1.0};       ///< Unit.
-  double halfAngle = std::numbers::pi;  ///< [rad], 0 to pi; pi holds every direction.
+  double halfAngle = std::numbers::pi;  ///< [rad], 0 to pi; pi contains every direction.
 };
 
 /// Angle between two unit vectors [rad], accurate also near 0 and pi.
@@ -21,13 +21,14 @@ inline double angleBetween(const glm::dvec3& a, const glm::dvec3& b) noexcept {
   return 2.0 * std::atan2(glm::length(a - b), glm::length(a + b));
 }
 
-/// A cone that holds all of `cones`: axis along the sum of theirs.
+/// Cone that contains all `cones`; its axis is along the sum of theirs. Contains every direction if the axes
+/// cancel or `cones` is empty. O(n); real-time safe.
 inline NormalCone boundingCone(std::span<const NormalCone> cones) noexcept {
   glm::dvec3 sum(0.0);
   for (const NormalCone& c : cones)
     sum += c.axis;
   const double length = glm::length(sum);
-  // A sum this small has no direction of its own.
+  // The direction of a smaller sum is noise.
   constexpr double kNoDirection = 1e-6;
   if (!(length > kNoDirection * static_cast<double>(cones.size()))) return {};
   NormalCone bound{sum / length, 0.0};

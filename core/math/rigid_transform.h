@@ -18,12 +18,13 @@ struct RigidTransform {
   glm::dvec3 applyToPoint(const glm::dvec3& p) const noexcept { return rotation * p + translation; }
   glm::dvec3 applyToVector(const glm::dvec3& v) const noexcept { return rotation * v; }
 
+  /// Inverse, for a unit quaternion.
   RigidTransform inverse() const noexcept {
     const glm::dquat q = glm::conjugate(rotation);
     return {q, -(q * translation)};
   }
 
-  /// The same motion with its quaternion scaled to unit length; identity rotation if the quaternion is zero
+  /// The same transform with a unit quaternion; the rotation becomes the identity if the quaternion is zero
   /// or not finite.
   RigidTransform normalized() const noexcept {
     const double length = std::sqrt(glm::dot(rotation, rotation));
@@ -31,11 +32,13 @@ struct RigidTransform {
     return {rotation / length, translation};
   }
 
+  /// True if rotation and translation are finite; does not check that the quaternion has unit length.
   bool isFinite() const noexcept {
     return std::isfinite(rotation.w + rotation.x + rotation.y + rotation.z) &&
            std::isfinite(translation.x + translation.y + translation.z);
   }
 
+  /// Homogeneous 4x4 matrix, for column vectors.
   glm::dmat4 toMatrix() const noexcept {
     glm::dmat4 m = glm::mat4_cast(rotation);
     m[3] = glm::dvec4(translation, 1.0);

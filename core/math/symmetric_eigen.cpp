@@ -7,13 +7,13 @@
 namespace nearfit {
 
 SymmetricEigen symmetricEigen(const glm::dmat3& matrix) noexcept {
-  // a[row][column], and the rotations so far in the columns of v.
+  // Indexed a[row][column]; the columns of v accumulate the rotations.
   double a[3][3], v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j)
       a[i][j] = matrix[std::max(i, j)][std::min(i, j)];
   }
-  // Converges quadratically: a handful of sweeps leaves nothing off the diagonal.
+  // Convergence is quadratic: a handful of sweeps clears the off-diagonal.
   constexpr int kMaxSweeps = 16;
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     const double off = a[0][1] * a[0][1] + a[0][2] * a[0][2] + a[1][2] * a[1][2];

@@ -6,7 +6,7 @@
 
 namespace nearfit {
 
-/// Corners in one frame [m].
+/// The three corners of a triangle, in one frame [m].
 using TriangleCorners = std::array<glm::dvec3, 3>;
 
 }  // namespace nearfit

@@ -14,25 +14,25 @@
 namespace nearfit {
 namespace {
 
-/// Dihedral angles within this of straight count as flat [rad]. What a dropped flat edge leaves uncovered
-/// between its faces is this times the distance: below the slack that leaf tests allow.
+/// Dihedral angles within this of straight count as flat [rad]. A dropped flat edge leaves a gap between its
+/// faces of this times the distance, which is below the slack of the leaf tests.
 constexpr double kFlat = 1e-11;
 
-/// A triangle lower than this fraction of its longest side has no normal worth the name in double precision.
+/// A triangle lower than this fraction of its longest side has no reliable normal in double precision.
 constexpr double kNoArea = 1e-14;
 
-/// Thinner triangles than this get their directions in extended precision, where the edges around them would
-/// turn convex or reflex by rounding otherwise.
+/// Directions in thinner triangles are computed in extended precision. Otherwise rounding could turn the
+/// edges around them convex or reflex.
 constexpr double kThin = 1e-3;
 
-/// What the axis of a polar cone as narrow as the angular tolerance can be off by [rad].
+/// Max error of the axis of a polar cone as narrow as the angular tolerance [rad].
 constexpr double kAxisRounding = 1e-5;
 
-/// Cosine below which two directions may pass for perpendicular where only a bound is built.
+/// Directions whose cosine is smaller count as perpendicular. Used only to build bounds.
 constexpr double kSquare = 1e-6;
 
-/// How far the work is once the faces and the edges are done, about, and features between two reports (some
-/// milliseconds).
+/// Approximate progress after the faces and after the edges, and the number of features between two reports
+/// (some milliseconds).
 constexpr double kFacesDone = 0.05, kEdgesDone = 0.5;
 constexpr std::uint32_t kBetweenReports = 8192;
 
@@ -44,7 +44,9 @@ std::optional<glm::dvec3> unit(const glm::dvec3& v) {
 
 using Extended = glm::tvec3<long double>;
 
-/// The direction from an edge's start to a point, less what lies along the edge; unit, or none.
+/// Unit direction from an edge to a point, perpendicular to the edge; std::nullopt if the point lies on it.
+/// @param along  Unit direction of the edge.
+/// @param w      From the edge's start to the point.
 std::optional<glm::dvec3> squareToEdge(const glm::dvec3& edge, const glm::dvec3& along, const glm::dvec3& w) {
   const glm::dvec3 t = w - glm::dot(w, along) * along;
   if (glm::dot(t, t) > kThin * kThin * glm::dot(w, w)) return unit(t);
@@ -65,7 +67,7 @@ class FeatureFinder {
   }
 
  private:
-  /// In-face direction perpendicular to an edge, pointing into the face, and the face's third corner.
+  /// In-face direction perpendicular to an edge and pointing into the face, and the face's third corner.
   struct Wing {
     glm::dvec3 inward;
     std::uint32_t opposite;
@@ -84,7 +86,7 @@ class FeatureFinder {
 
   bool hasArea(std::uint32_t f) const { return normals_[f] != glm::dvec3(0.0); }
 
-  /// Whether any face at an edge has an area: what only faces without one join is not there.
+  /// True if a face at the edge has an area. Edges only between faces without area are ignored.
   bool isSurface(std::uint32_t edge) const {
     return std::ranges::any_of(mesh_.facesOfEdge(edge), [this](std::uint32_t f) { return hasArea(f); });
   }
@@ -114,8 +116,7 @@ class FeatureFinder {
     return wings;
   }
 
-  /// The two wings between which all others lie, if all fit in less than half a turn: the widest gap's two
-  /// sides.
+  /// The two wings that enclose all others, if all fit in less than half a turn: the sides of the widest gap.
   static std::optional<std::array<Wing, 2>> boundingWings(std::vector<Wing>& wings, const glm::dvec3& along) {
     const glm::dvec3 u = wings[0].inward, v = glm::cross(along, u);
     const auto angle = [&](const Wing& w) {
@@ -151,7 +152,7 @@ class FeatureFinder {
     if (wings.empty()) return;
     const bool hasSide = wings.size() == 2 && mesh_.isEdgeConsistent(e);
     if (hasSide) {
-      // Not by the face's normal, which is worse known than its side where the face is thin.
+      // The face's normal is less accurate than its inward direction if the face is thin.
       const glm::dvec3 outward =
           (runsAlong(wings[0].face, edge) ? 1.0 : -1.0) * glm::cross(*along, wings[0].inward);
       const double rise = glm::dot(wings[1].inward, outward);
@@ -167,13 +168,13 @@ class FeatureFinder {
     out_.edges.push_back({e, {a.opposite, b.opposite}, {*axis, 0.5 * (std::numbers::pi - between)}});
   }
 
-  /// Angle-weighted pseudonormal of a vertex around which the surface has a side; none elsewhere.
+  /// Angle-weighted pseudonormal of a vertex; std::nullopt if the surface around it has no side.
   std::optional<glm::dvec3> pseudonormal(std::uint32_t v) const {
     const auto edges = mesh_.edgesOfVertex(v);
     for (const std::uint32_t e : edges) {
       if (!mesh_.isEdgeConsistent(e)) return std::nullopt;
     }
-    // Walk once around: a vertex where two fans touch has no side.
+    // Walk once around the vertex: where two fans touch, the surface has no side.
     glm::dvec3 normal(0.0);
     std::uint32_t edge = edges[0], face = mesh_.facesOfEdge(edge)[0];
     std::size_t walked = 0;
@@ -216,19 +217,20 @@ class FeatureFinder {
       }
     }
     if (directions_.empty()) return;
-    // Inside the polar cone, as far from its walls as can be: as far as the hull of edges is from the origin.
+    // The direction inside the polar cone farthest from its walls. That distance is the distance of the hull
+    // of edge directions from the origin.
     const glm::dvec3 nearest = minNormPoint(directions_);
     const double width = glm::length(nearest);
     if (!(width > kAngularTolerance)) return;  // No interior.
     const glm::dvec3 inside = nearest / -width;
     const auto normal = pseudonormal(v);
-    // A pit: the polar cone is in the material. A sheet folded back on itself has no normal but rounding.
+    // In a pit, the polar cone lies in the material. For a folded sheet, the pseudonormal is mere rounding.
     if (normal && glm::dot(*normal, inside) < -kAngularTolerance) return;
 
     double depth = 1.0;
     for (const glm::dvec3& e : directions_)
       depth = std::min(depth, -glm::dot(e, inside));
-    // In the narrowest cones rounding leaves no direction that is surely inside, to see the walls from.
+    // In the narrowest cones, rounding leaves no direction certainly inside from which to see the walls.
     const bool isInsideSure = depth > 0.5 * width;
     std::vector<std::size_t> walls(directions_.size());
     std::iota(walls.begin(), walls.end(), std::size_t{0});
@@ -242,7 +244,7 @@ class FeatureFinder {
 
   NormalCone polarCone(const glm::dvec3& inside, const std::vector<std::size_t>& extreme,
                        bool isInsideSure) const {
-    // No polar direction is farther than a right angle from `inside`, which is minus a sum of the edges.
+    // All polar directions are within a right angle of `inside`, because it is minus a sum of the edges.
     if (!isInsideSure) return {inside, 0.5 * std::numbers::pi + kAxisRounding};
     const NormalCone widest{inside, 0.5 * std::numbers::pi};
     if (extreme.size() < 3) return widest;
@@ -250,7 +252,7 @@ class FeatureFinder {
     for (std::size_t i = 0; i < extreme.size(); ++i) {
       const glm::dvec3 &a = directions_[extreme[i]], &b = directions_[extreme[(i + 1) % extreme.size()]];
       const auto ray = unit(glm::cross(a, b));
-      // A ray square to `inside` has no sure sign.
+      // The sign of a ray perpendicular to `inside` is uncertain.
       if (!ray || std::abs(glm::dot(*ray, inside)) < kSquare) return widest;
       rays.push_back({glm::dot(*ray, inside) < 0.0 ? -*ray : *ray, 0.0});
     }

@@ -9,7 +9,7 @@
 namespace nearfit {
 namespace {
 
-/// A side of a triangle, as 3 * triangle + corner: from that corner to the next.
+/// Side of a triangle, as 3 * triangle + corner: from that corner to the next.
 using Side = std::uint32_t;
 constexpr Side kNoSide = std::numeric_limits<Side>::max();
 
@@ -31,9 +31,9 @@ class Swapper {
     matchSides();
   }
 
-  /// Swaps what can be swapped. A swap may free a flat neighbour to be swapped next. Each makes the thinner
-  /// triangle fatter, or an edge shorter at no loss; the limit is for meshes so damaged that this goes round
-  /// in circles.
+  /// Swaps what can be swapped. A swap may make a flat neighbour swappable. Each swap makes the
+  /// thinner triangle fatter, or an edge shorter without making any thinner. The limit stops cycles in
+  /// badly damaged meshes.
   std::uint64_t run(std::vector<std::uint32_t> flat) {
     constexpr std::uint64_t kMostSwapsEach = 20;
     const std::uint64_t mostSwaps = kMostSwapsEach * flat.size();
@@ -61,7 +61,7 @@ class Swapper {
   std::uint32_t opposite(Side s) const { return origin(previousSide(s)); }
   bool isFlat(const Triangle& t) const { return leastHeight(vertices_, t) <= tolerance_; }
 
-  /// Pairs the sides of ordinary edges: two faces that run along it in opposite directions.
+  /// Pairs the sides of ordinary edges: two faces that run along the edge in opposite directions.
   void matchSides() {
     struct Entry {
       std::uint64_t edge;
@@ -102,8 +102,8 @@ class Swapper {
     return longest;
   }
 
-  /// Whether an edge joins the origin of `start` with `vertex`, as far as faces around it hang together.
-  /// Where very many do, it is taken for granted: a limit on the time that a made-up file can cost.
+  /// True if an edge joins the origin of `start` to `vertex`, searching the connected fan of faces. Returns
+  /// true for very large fans, which bounds the time for malicious files.
   bool hasNeighbour(Side start, std::uint32_t vertex) const {
     constexpr int kMostFaces = 1000;
     int faces = 0;
@@ -119,9 +119,9 @@ class Swapper {
     return false;
   }
 
-  /// Whether two new triangles are better than `flat` and the face `behind` its longest side: fatter, and
-  /// facing as that face does. Where it is flat too, and has the same longest side, it is enough that the new
-  /// edge is shorter: they come to lie between other faces.
+  /// True if two new triangles are better than `flat` and the face `behind` its longest side: fatter, and
+  /// facing like that face. If that face is flat too and shares the longest side, a shorter new edge is
+  /// enough, since the triangles then lie between other faces.
   bool isWorthSwapping(const Triangle& flat, Side behind, const Triangle& first,
                        const Triangle& second) const {
     const Triangle& face = triangles_[behind / 3];
@@ -135,14 +135,14 @@ class Swapper {
     return isFlat(face) && after >= before && longestSide(behind / 3) == behind &&
            isShorter(first, second, behind);
   }
-  /// Whether the edge that the new triangles abd and bcd share is shorter than a side.
+  /// True if the edge shared by the new triangles abd and bcd is shorter than `side`.
   bool isShorter(const Triangle& first, const Triangle& second, Side side) const {
     return glm::distance(vertices_[second[0]], vertices_[first[2]]) <
            glm::distance(vertices_[origin(side)], vertices_[origin(nextSide(side))]);
   }
 
-  /// For a flat triangle abc with the longest side c-a and the face acd behind it: abd and bcd instead.
-  /// Returns that face, or kNoSide where nothing can be done.
+  /// Replaces a flat triangle abc with longest side c-a, and the face acd behind it, by abd and bcd. Returns
+  /// that face, or kNoSide if no swap is possible.
   std::uint32_t trySwap(std::uint32_t triangle) {
     const Side ca = longestSide(triangle), ac = twin_[ca];
     if (ac == kNoSide) return kNoSide;
@@ -169,7 +169,7 @@ class Swapper {
   std::span<const glm::dvec3> vertices_;
   std::vector<Triangle>& triangles_;
   double tolerance_;
-  std::vector<Side> twin_;  ///< By side: the other side of its edge, or kNoSide.
+  std::vector<Side> twin_;  ///< By side: the opposite side of its edge, or kNoSide.
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace nearfit {
 namespace {
 
-/// Half the angle between the normals of two faces is rounded by less than this [rad].
+/// Max rounding error of half the angle between two face normals [rad].
 constexpr double kArcPadding = 1e-12;
 
 class IdleFeatureFinder {
@@ -39,7 +39,7 @@ class IdleFeatureFinder {
  private:
   bool hasArea(std::uint32_t face) const { return normals_[face] != glm::dvec3(0.0); }
 
-  /// Whether it has two faces with an area, oriented alike.
+  /// True if the edge has two faces with area and consistent orientation.
   bool hasSide(std::uint32_t edge) const {
     return mesh_.isEdgeConsistent(edge) &&
            std::ranges::all_of(mesh_.facesOfEdge(edge), [this](std::uint32_t f) { return hasArea(f); });
@@ -56,10 +56,10 @@ class IdleFeatureFinder {
     const auto faces = mesh_.facesOfEdge(e);
     const glm::dvec3 sum = normals_[faces[0]] + normals_[faces[1]];
     const glm::dvec3 along = mesh_.vertices()[edge.v1] - mesh_.vertices()[edge.v0];
-    // Square to the edge, as the hierarchy wants it: of thin faces the normals are so to rounding only.
+    // Perpendicular to the edge, as the hierarchy requires. Normals of thin faces are so only up to rounding.
     const glm::dvec3 axis = sum - along * (glm::dot(sum, along) / glm::dot(along, along));
     const double length = glm::length(axis);
-    if (!(length > 0.0)) return;  // Folded back on itself: the arc has no middle.
+    if (!(length > 0.0)) return;  // Folded onto itself: the arc has no middle.
     const double halfAngle = 0.5 * angleBetween(normals_[faces[0]], normals_[faces[1]]);
     out_.edges.push_back(
         {e, {opposite(faces[0], edge), opposite(faces[1], edge)}, {axis / length, halfAngle + kArcPadding}});

@@ -11,20 +11,20 @@
 namespace nearfit {
 namespace {
 
-/// A closed mesh with less volume than this part of its area times its size is a sheet: what the sum gives is
-/// rounding (1e-16 of area times size), and its inertia would be singular.
+/// A closed mesh with less volume than this fraction of area times size is a sheet: its volume is rounding
+/// (1e-16 of area times size), and its inertia would be singular.
 constexpr double kLeastThickness = 1e-12;
-/// The stand-in box is at least this part of its length thick and wide.
+/// Min thickness and width of the substitute box, as a fraction of its length.
 constexpr double kLeastBoxThickness = 1e-3;
 
-/// Sums over the solid tetrahedra between a reference point and each face.
+/// Sums over the tetrahedra between a reference point and each face.
 struct Moments {
   double volume = 0.0, area = 0.0;
   glm::dvec3 first{0.0};   ///< Integral of position.
   glm::dmat3 second{0.0};  ///< Integral of position times its transpose.
 };
 
-/// Relative to `origin`, so that a mesh far from the frame's origin loses no digits.
+/// Relative to `origin`, so that a mesh far from the frame's origin loses no precision.
 Moments momentsAbout(const TriangleMesh& mesh, const glm::dvec3& origin) {
   Moments sum;
   for (const Triangle& t : mesh.triangles()) {
@@ -42,7 +42,7 @@ Moments momentsAbout(const TriangleMesh& mesh, const glm::dvec3& origin) {
   return sum;
 }
 
-/// The inertia tensor that belongs to second moments about the same point.
+/// Inertia tensor from second moments about the same point.
 glm::dmat3 inertiaOf(const glm::dmat3& second) {
   return glm::dmat3(second[0][0] + second[1][1] + second[2][2]) - second;
 }

@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
-/// No part is larger [m]; beyond this a number is damaged or its unit wrong, and products of lengths lose
-/// meaning.
+/// Max coordinate [m]. Beyond it, the file is damaged or the unit wrong, and products of
+/// lengths lose precision.
 constexpr double kMaxExtent = 1e9;
 
 void checkOptions(const MeshBuildOptions& options) {
@@ -59,7 +59,7 @@ void checkSoup(const PolygonSoup& soup) {
   }
 }
 
-/// The work of buildMesh, step by step.
+/// The steps of buildMesh().
 class Builder {
  public:
   Builder(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report,
@@ -84,7 +84,7 @@ class Builder {
   }
 
  private:
-  /// The fractions are those of the time that a plain mesh takes.
+  /// Fractions match the time that an ordinary mesh takes.
   void report(double fraction) const {
     if (onProgress_) onProgress_(fraction);
   }
@@ -97,7 +97,7 @@ class Builder {
         corners, [&](std::uint32_t v) { return isFinite(options_.metresPerUnit * soup_.vertices[v]); });
   }
 
-  /// In metres, those only that faces use: the others must not count for the bounding box.
+  /// Takes only vertices that faces use, in metres: others must not affect the bounding box.
   void gatherVertices() {
     newIndex_.assign(soup_.vertices.size(), kNoVertex);
     Aabb box;
@@ -242,7 +242,7 @@ void addWarnings(const MeshTopology& topology, MeshBuildReport& report) {
     report.warnings.emplace_back("The mesh was inside out; all its faces were turned.");
 }
 
-/// Closes cracks. Most meshes have none and are not built twice.
+/// Closes cracks. Most meshes have none and are not rebuilt.
 TriangleMesh stitched(TriangleMesh mesh, MeshBuildReport& report) {
   std::vector<Triangle> triangles = stitchTJunctions(mesh);
   if (triangles.empty()) return mesh;
@@ -252,7 +252,7 @@ TriangleMesh stitched(TriangleMesh mesh, MeshBuildReport& report) {
   return mesh;
 }
 
-/// Turns what is inside out. Most meshes have nothing to turn and are not built twice.
+/// Flips what is inside out. Most meshes need no flip and are not rebuilt.
 TriangleMesh outsideOut(TriangleMesh mesh, MeshBuildReport& report) {
   OrientedShells shells = orientShells(mesh);
   if (shells.turnedPieces == 0) return mesh;

@@ -20,10 +20,10 @@
 namespace nearfit {
 namespace {
 
-/// How far the work is when each stage ends.
+/// Progress at the end of each stage.
 constexpr double kReadFraction = 0.2, kParsedFraction = 0.6;
 
-/// Passes the progress of one stage on, and the user's wish to stop back.
+/// Maps progress of one stage to the whole; throws Cancelled if the user stops.
 class Progress {
  public:
   explicit Progress(const ProgressCallback& callback) : callback_(callback) {}
@@ -87,7 +87,7 @@ ImportedMesh importUnguarded(const std::filesystem::path& file, std::vector<char
   return imported;
 }
 
-/// Runs work on a file so that its errors name the file.
+/// Runs work on a file; its errors name the file.
 template <class Work>
 ImportedMesh naming(const std::filesystem::path& file, Work work) {
   try {

@@ -15,18 +15,18 @@
 namespace nearfit {
 namespace {
 
-/// Normals that differ by less are one [rad]: a wall between them would have no direction but rounding's.
+/// Normals that differ by less are equal [rad]: a wall between them would have a random direction.
 constexpr double kSameNormal = 1e-7;
 
-/// What a bound of directions is widened by for that.
+/// Widening of cones to allow for that [rad].
 constexpr double kConePadding = 1e-6;
 
-/// Share of the time that looking for faces and edges takes, about.
+/// Approximate share of the time spent finding faces and edges.
 constexpr double kExactShare = 0.7;
 
 /// Faces around each vertex, in one array.
 struct FacesOfVertices {
-  std::vector<std::uint32_t> first, face;  ///< `first` has one more than there are vertices.
+  std::vector<std::uint32_t> first, face;  ///< `first` has one more entry than there are vertices.
 
   FacesOfVertices(const TriangleMesh& mesh, std::span<const FaceFeature> faces)
       : first(mesh.vertices().size() + 1, 0), face(3 * faces.size()) {
@@ -60,18 +60,18 @@ std::vector<glm::dvec3> differentNormals(std::span<const FaceFeature> faces,
   return normals;
 }
 
-/// The convex cone that normals span.
+/// Convex cone spanned by normals.
 struct Span {
-  std::vector<glm::dvec3> walls;  ///< Unit; none where the normals span everything.
+  std::vector<glm::dvec3> walls;  ///< Unit; empty if the normals span everything.
   NormalCone bound;
 };
 
-/// None where the span has no interior.
+/// std::nullopt if the span has no interior.
 std::optional<Span> spanOf(std::span<const glm::dvec3> normals) {
   if (normals.size() < 3) return std::nullopt;
   const glm::dvec3 nearest = minNormPoint(normals);
   const double width = glm::length(nearest);
-  // Normals all round: no side is left that a direction of their span could not have.
+  // Normals all around: their span excludes no direction.
   if (!(width > kSameNormal)) return Span{};
   const glm::dvec3 axis = nearest / width;
   const std::vector<std::size_t> extreme = extremeDirections(normals, axis);
@@ -83,8 +83,8 @@ std::optional<Span> spanOf(std::span<const glm::dvec3> normals) {
     span.walls.push_back(glm::normalize(glm::cross(a, b)));
     rays.push_back({a, 0.0});
   }
-  // Each normal is less than a right angle from the axis, so that the widest cone about it that may be
-  // needed is convex and holds their span; a narrower one does when it is convex, too.
+  // All normals are within a right angle of the axis. So the cone of half-angle pi/2 about it is convex and
+  // contains their span; so does a narrower bounding cone, being convex too.
   const NormalCone aboutAll = boundingCone(rays);
   span.bound =
       aboutAll.halfAngle < 0.5 * std::numbers::pi ? aboutAll : NormalCone{axis, 0.5 * std::numbers::pi};

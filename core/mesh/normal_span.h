@@ -9,27 +9,28 @@
 
 namespace nearfit {
 
-/// The features of a mesh that can carry a minimum by the rule of normal spans (AcceptanceRule::NormalSpan).
+/// The features of a mesh that can carry a minimum under the normal-span rule (AcceptanceRule::NormalSpan).
 ///
-/// By that rule the way between two points that are nearest between two triangles is a local minimum distance
-/// when it lies in the span of the surface normals at both: of a face its normal, of an edge the arc between
-/// the normals of its two faces, of a vertex the convex cone of the normals of its faces. Of faces and of
-/// edges that is the exact condition. Of a vertex it is so only where the surface is convex: at a saddle, or
-/// on a jagged fan, most directions of the span lead into a neighbouring face, and are accepted all the same.
-/// The rule adds minima that are none, then, and on a closed surface misses none.
+/// By this rule, the segment between the nearest points of two triangles is a local minimum distance if it
+/// lies in the span of the surface normals at both ends. The span is the normal of a face, the arc between
+/// the normals of an edge's two faces, or the convex cone of the normals of a vertex's faces. For faces and
+/// edges this is the exact condition. For vertices it is exact only where the surface is convex: at a saddle,
+/// or on a jagged fan, most directions of the span lead into a neighbouring face but are accepted. So the
+/// rule adds false minima, and on a closed surface misses none.
 ///
-/// Hence: all vertices whose span has an interior are kept, those that the exact rule drops as well. Reflex
-/// and flat edges are dropped by both: no triangle has its nearest point within a reflex one for a direction
-/// of its arc, and a flat one's only direction is its faces'. Rims and edges of three faces or more are
-/// dropped, as their normals span nothing but the faces': that much the rule misses on open meshes.
+/// All vertices whose span has an interior are kept, including those that the exact rule drops. Both rules
+/// drop reflex and flat edges: no triangle has its nearest point within a reflex edge for a direction of its
+/// arc, and a flat edge's only direction is that of its faces. Rims and edges with three or more faces are
+/// dropped, since their normals span nothing but the faces'; on open meshes the rule misses their minima.
 struct NormalSpanFeatures {
   /// The neighbours of a vertex are the other two corners of each of its faces, face by face.
   MeshFeatures features;
-  /// One for each such pair: a direction d is in the span where d.w >= 0 for all of the vertex's walls w
-  /// (unit, or zero where there are fewer walls than faces).
+  /// One per such pair of neighbours. A direction d is in the span if d.w >= 0 for all walls w of the vertex.
+  /// Unit; zero if there are fewer walls than faces.
   std::vector<glm::dvec3> walls;
 };
 
+/// Finds the features for the normal-span rule. For measurements only.
 /// @param onProgress  Called now and then with the fraction done; may throw to stop the work. May be empty.
 NormalSpanFeatures findNormalSpanFeatures(const TriangleMesh& mesh,
                                           const std::function<void(double fraction)>& onProgress = {});

@@ -13,10 +13,10 @@
 namespace nearfit {
 namespace {
 
-/// Triangles whose sides are tried as axes: enough to meet a flat side of most parts.
+/// Number of triangles whose sides are tried as axes: enough to include a flat side of most parts.
 constexpr std::size_t kTriangleCandidates = 24;
 
-/// Positions of the vertices that triangles use, relative to the box's centre.
+/// Vertices that triangles use, relative to the bounding box's centre.
 std::vector<glm::dvec3> usedPoints(const TriangleMesh& mesh) {
   std::vector<glm::dvec3> points;
   for (std::uint32_t v = 0; v < mesh.vertices().size(); ++v) {
@@ -33,7 +33,7 @@ OrientedBox boxAlong(const std::vector<glm::dvec3>& points, const glm::dmat3& ax
   return {axes * box.centre(), axes, 0.5 * (box.upper - box.lower)};
 }
 
-/// Smaller volume first; flat boxes by their largest side face instead.
+/// Compares volumes; for flat boxes, the largest side faces.
 bool isSmaller(const OrientedBox& a, const OrientedBox& b) {
   const auto largestFace = [](const glm::dvec3& h) { return std::max({h.x * h.y, h.y * h.z, h.z * h.x}); };
   constexpr double kFlat = 1e-9;
@@ -45,7 +45,7 @@ bool isSmaller(const OrientedBox& a, const OrientedBox& b) {
 
 /// Eigenvectors of a symmetric matrix as columns, by Jacobi rotations.
 glm::dmat3 eigenvectors(glm::dmat3 m) {
-  constexpr int kSweeps = 16;  // Converges quadratically: five are usual.
+  constexpr int kSweeps = 16;  // Converges quadratically; five usually suffice.
   glm::dmat3 vectors(1.0);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (int p = 0; p < 2; ++p) {
@@ -66,7 +66,7 @@ glm::dmat3 eigenvectors(glm::dmat3 m) {
   return vectors;
 }
 
-/// Right-handed axes from a direction and another that is not parallel to it.
+/// Right-handed axes from a direction and a second one not parallel to it.
 glm::dmat3 axesFrom(const glm::dvec3& first, const glm::dvec3& second) {
   const glm::dvec3 x = glm::normalize(first);
   const glm::dvec3 z = glm::normalize(glm::cross(x, second));
@@ -77,7 +77,8 @@ bool isFinite(const glm::dmat3& m) {
   return std::isfinite(glm::dot(m[0] + m[1] + m[2], glm::dvec3(1.0)));
 }
 
-/// Second moments of the surface about its centroid, from box-centred coordinates scaled to unit size.
+/// Second moments of the surface about its centroid, in coordinates centred on the box and
+/// scaled to unit size.
 glm::dmat3 surfaceMoments(const TriangleMesh& mesh) {
   const glm::dvec3 origin = mesh.bounds().centre();
   const double scale = 1.0 / mesh.bounds().diagonal();

@@ -6,7 +6,7 @@
 namespace nearfit {
 namespace {
 
-/// Whether a segment comes into a box: not apart along an axis, nor where it passes the box's slabs.
+/// True if the segment comes within `reach` of the box, by the slab test; may be true somewhat beyond.
 bool meets(const Aabb& box, const glm::dvec3& from, const glm::dvec3& to, double reach) {
   double enters = 0.0, leaves = 1.0;
   for (glm::length_t i = 0; i < 3; ++i) {

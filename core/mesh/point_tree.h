@@ -10,24 +10,24 @@
 
 namespace nearfit {
 
-/// Points in boxes that are halved, to find those near a segment.
+/// Tree of boxes over points, to find those near a segment.
 class PointTree {
  public:
   /// @param points    Kept by reference.
-  /// @param selected  Indices of those that count.
+  /// @param selected  Indices of the points to include.
   PointTree(std::span<const glm::dvec3> points, std::vector<std::uint32_t> selected);
 
-  /// Appends those of the points that may lie within `reach` of the segment, and more.
+  /// Appends the indices of all points within `reach` of the segment, and of some farther ones.
   void findNear(const glm::dvec3& from, const glm::dvec3& to, double reach, std::vector<std::uint32_t>& out);
 
-  /// Boxes looked into so far: what a caller may bound its work by.
+  /// Number of boxes visited so far, for callers that bound their work.
   std::uint64_t visits() const noexcept { return visits_; }
 
  private:
   struct Node {
     Aabb box;
     std::uint32_t first, count;
-    std::uint32_t child;  ///< The first of two beside each other; 0: none.
+    std::uint32_t child;  ///< First of two adjacent children; 0 for a leaf.
   };
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
 

@@ -12,10 +12,11 @@
 namespace nearfit {
 namespace {
 
-/// Tests of a point against a triangle, over all polygons: some ten seconds. Only made-up files need as many.
+/// Max tests of a point against a triangle, over all polygons: about ten seconds. Only malicious
+/// files need more.
 constexpr std::uint64_t kMaxTests = 2'000'000'000;
 
-/// Twice the signed area of abc: > 0 for a left turn, exactly 0 where rounding could decide.
+/// Twice the signed area of abc: > 0 for a left turn, exactly 0 if rounding could decide the sign.
 /// Source: J. Shewchuk, Adaptive precision floating-point arithmetic, 1997 (the first filter of orient2d).
 double orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   constexpr double kEpsilon = 0.5 * std::numeric_limits<double>::epsilon();
@@ -50,24 +51,24 @@ std::size_t PolygonTriangulator::triangulate(std::span<const glm::dvec3> points,
     std::uint32_t corner = 0;
     for (std::size_t left = polygon.size(); left > 3; --left) {
       const std::uint32_t ear = findEar(corner, left);
-      // Going on behind the next corner spreads the cuts and makes better triangles than a fan.
+      // Skipping a corner spreads the cuts and gives better triangles than a fan.
       corner = corners_[corners_[ear].next].next;
       cut(ear, out);
     }
     cut(corner, out);
   }
-  // What a bridge or a spike folds onto itself is no triangle.
+  // A folded bridge or spike gives no triangle.
   const auto isFolded = [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
   out.erase(std::remove_if(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(), isFolded),
             out.end());
   return out.size() - before;
 }
 
-/// Along the diagonal that leaves the fatter smaller half; the first where both are alike.
+/// Cuts along the diagonal whose smaller triangle is larger; along the first if they are equal.
 void PolygonTriangulator::triangulateQuad(std::span<const glm::dvec3> points,
                                           std::span<const std::uint32_t> quad,
                                           std::vector<Triangle>& out) const {
-  if (quad[0] == quad[2] || quad[1] == quad[3]) return;  // A spike: no surface.
+  if (quad[0] == quad[2] || quad[1] == quad[3]) return;  // A spike has no surface.
   const glm::dvec3 normal = vectorArea(points, quad);
   const auto area = [&](int a, int b, int c) {
     const glm::dvec3 &p = points[quad[a]], &q = points[quad[b]], &r = points[quad[c]];
@@ -75,7 +76,7 @@ void PolygonTriangulator::triangulateQuad(std::span<const glm::dvec3> points,
   };
   const double first = std::min(area(0, 1, 2), area(0, 2, 3)),
                second = std::min(area(1, 2, 3), area(1, 3, 0));
-  // Rounding must not decide between the two diagonals of a square.
+  // Rounding must not choose between the diagonals of a square.
   if (second > first + 1e-9 * std::abs(first)) {
     out.push_back({quad[1], quad[2], quad[3]});
     out.push_back({quad[1], quad[3], quad[0]});
@@ -85,7 +86,7 @@ void PolygonTriangulator::triangulateQuad(std::span<const glm::dvec3> points,
   }
 }
 
-/// Drops the coordinate in which the polygon's normal is longest; what is left is exact, and anticlockwise.
+/// Drops the coordinate in which the polygon's normal is largest. The rest is exact, and anticlockwise.
 void PolygonTriangulator::project(std::span<const glm::dvec3> points,
                                   std::span<const std::uint32_t> polygon) {
   const glm::dvec3 normal = vectorArea(points, polygon);
@@ -119,13 +120,13 @@ bool PolygonTriangulator::isEar(std::uint32_t corner) {
   tests_ += blockers_.size();
   return std::ranges::none_of(blockers_, [&](std::uint32_t i) {
     const glm::dvec2 p = corners_[i].p;
-    // A bridge's corners come twice: the other one is no obstacle.
+    // A bridge repeats its corners; the duplicate is no obstacle.
     if (p == a || p == b || p == c) return false;
     return orientation(a, b, p) >= 0.0 && orientation(b, c, p) >= 0.0 && orientation(c, a, p) >= 0.0;
   });
 }
 
-/// The first ear from `start` on; where there is none, since the polygon crosses or folds onto itself, its
+/// First ear from `start` on. If there is none, because the polygon crosses or folds onto itself, its
 /// most convex corner.
 std::uint32_t PolygonTriangulator::findEar(std::uint32_t start, std::size_t left) {
   std::uint32_t corner = start, best = start;

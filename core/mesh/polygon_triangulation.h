@@ -11,17 +11,16 @@
 
 namespace nearfit {
 
-/// Cuts polygons into triangles with the polygons' own corners and sense, one after the other.
-/// Keeps its work space, so that many small polygons cost no allocation.
+/// Cuts polygons into triangles that keep the polygons' corners and orientation. Reuses its work space, so
+/// that many small polygons cause no allocation.
 class PolygonTriangulator {
  public:
-  /// Appends the triangles of a polygon to `out`; returns how many. Concave polygons, holes joined to the rim
-  /// by bridges (corners that come twice) and corners in a straight line are cut right; corners out of plane
-  /// are judged by their shadow along the axis nearest to the normal. One that crosses itself still gives
-  /// triangles.
+  /// Appends the triangles of a polygon to `out` and returns their number. Handles concave polygons, holes
+  /// joined to the rim by bridges (repeated corners) and collinear corners. Corners out of plane are
+  /// projected along the axis nearest to the normal. A self-intersecting polygon still gives triangles.
   /// @param points   Coordinates by corner index.
-  /// @param polygon  Three corners or more, no two neighbours the same.
-  /// Ear cutting: about O(n r), r the number of reflex corners. Throws Error when polygons take too long.
+  /// @param polygon  At least three corners; neighbours differ.
+  /// Ear clipping: about O(n r) for r reflex corners. Throws Error if all polygons together take too long.
   std::size_t triangulate(std::span<const glm::dvec3> points, std::span<const std::uint32_t> polygon,
                           std::vector<Triangle>& out);
 
@@ -29,7 +28,7 @@ class PolygonTriangulator {
   struct Corner {
     glm::dvec2 p;
     std::uint32_t index, previous, next;
-    bool isBlocker;  ///< Reflex or straight: may lie inside a triangle of others.
+    bool isBlocker;  ///< Reflex or straight: may lie inside another corner's triangle.
   };
 
   void triangulateQuad(std::span<const glm::dvec3> points, std::span<const std::uint32_t> quad,

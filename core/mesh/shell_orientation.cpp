@@ -11,21 +11,21 @@
 namespace nearfit {
 namespace {
 
-/// Beyond this many closed pieces, each is no longer compared with each.
+/// Max number of closed components that are compared pairwise.
 constexpr std::size_t kMostComparedPieces = 5000;
 
-/// A volume below this part of the mesh's diagonal cubed is rounding: that piece is a sheet, and has no
-/// inside.
+/// A component with less volume than this fraction of the mesh's diagonal cubed is a sheet and has no inside:
+/// its volume is rounding.
 constexpr double kLeastVolume = 1e-14;
 
 struct Piece {
-  bool isShell = true;  ///< Closed, oriented, of a volume.
+  bool isShell = true;  ///< Closed, oriented, and has a volume.
   bool isTurned = false;
   double volume6 = 0.0;  ///< Six times the signed volume.
   Aabb box;
 };
 
-/// The piece of each triangle, numbered by first triangle; `count` is how many there are.
+/// Component of each triangle, numbered by first triangle; `count` receives the number of components.
 std::vector<std::uint32_t> piecesOfTriangles(const TriangleMesh& mesh, std::uint32_t& count) {
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> piece(mesh.triangles().size(), kNone), open;
@@ -38,7 +38,7 @@ std::vector<std::uint32_t> piecesOfTriangles(const TriangleMesh& mesh, std::uint
       const std::uint32_t triangle = open.back();
       open.pop_back();
       for (const std::uint32_t edge : mesh.edgesOfTriangle(triangle)) {
-        // A non-manifold edge may have very many faces; its first hands the others on, once.
+        // A non-manifold edge may have very many faces: only its first face visits the others.
         const auto faces = mesh.facesOfEdge(edge);
         if (faces.size() > 2 && faces[0] != triangle) {
           if (piece[faces[0]] == kNone) {
@@ -86,7 +86,7 @@ bool contains(const Aabb& outer, const Aabb& inner) {
          glm::all(glm::greaterThanEqual(outer.upper, inner.upper));
 }
 
-/// Where most of the volume is inside out, the whole mesh is, its cavities included.
+/// If most of the volume is inside out, the whole mesh is, including its cavities.
 void turnAllIfInsideOut(std::vector<Piece>& shells) {
   double sum = 0.0;
   for (const Piece& shell : shells)

@@ -6,17 +6,18 @@
 
 namespace nearfit {
 
-/// Faces of a mesh turned so that closed pieces are outside out.
+/// Triangles of a mesh, flipped so that closed components are outside out.
 struct OrientedShells {
-  std::vector<Triangle> triangles;  ///< As in the mesh, in the same order, turned where needed.
-  std::uint32_t closedPieces = 0;   ///< Pieces (connected through edges) that are closed and oriented.
-  std::uint32_t turnedPieces = 0;   ///< Those of them that were turned.
+  std::vector<Triangle> triangles;  ///< In the mesh's order, flipped where needed.
+  /// Components (connected through edges) that are closed, oriented and have a volume.
+  std::uint32_t closedPieces = 0;
+  std::uint32_t turnedPieces = 0;  ///< Number of those that were flipped.
 };
 
-/// A closed mesh of negative volume is turned as a whole; then each closed piece of negative volume that lies
-/// in no other closed piece's bounding box. (One that does is taken for a cavity.) Pieces that are open,
-/// non-manifold or inconsistent have no inside and are left alone. Near O(n); with very many pieces only the
-/// whole is turned.
+/// Flips all closed components if their total volume is negative. Then flips each closed component of
+/// negative volume that lies in no other closed component's bounding box (one that does is taken for a
+/// cavity). Open, non-manifold or inconsistent components have no inside and stay as they are. About O(n);
+/// with more than 5,000 closed components, only the first step runs.
 OrientedShells orientShells(const TriangleMesh& mesh);
 
 }  // namespace nearfit

@@ -15,17 +15,17 @@
 namespace nearfit {
 namespace {
 
-/// Boxes to look into before a mesh counts as torn: about a second.
+/// Max boxes visited before a mesh counts as torn: about a second.
 constexpr std::uint64_t kMaxVisits = 50'000'000;
-/// Rounds in which edges that do not close are left out, which may open others. Two or three are common.
+/// Max rounds of dropping edges that do not close, which may open others. Two or three are common.
 constexpr int kMaxRounds = 32;
 
-using Run = std::pair<std::uint32_t, std::uint32_t>;  ///< From one vertex to another.
+using Run = std::pair<std::uint32_t, std::uint32_t>;  ///< From one vertex to the next.
 
-/// An open edge as its one triangle runs along it, and what lies on it.
+/// An open edge, directed as in its triangle, and the vertices that lie on it.
 struct OpenSide {
   std::uint32_t triangle, from, to, apex;
-  std::uint32_t firstPoint = 0, pointCount = 0;  ///< In the order of the run.
+  std::uint32_t firstPoint = 0, pointCount = 0;  ///< In the edge's direction.
 };
 
 class Stitcher {
@@ -58,7 +58,7 @@ class Stitcher {
     }
   }
 
-  /// False when there is nothing to split, or too much to look at.
+  /// Returns false if there is nothing to split, or if the search takes too long.
   bool findPoints() {
     std::vector<std::uint32_t> rim;
     for (const OpenSide& side : sides_)
@@ -76,8 +76,8 @@ class Stitcher {
     return !points_.empty();
   }
 
-  /// Of the candidates those between the ends of a side and on it, in order, if the triangle can be split
-  /// there without turning a piece over.
+  /// Stores the candidates that lie on the side between its ends, in order, unless splitting there would flip
+  /// a fragment of the triangle.
   void addPoints(OpenSide& side, std::span<const std::uint32_t> candidates) {
     const glm::dvec3 start = at(side.from), along = at(side.to) - start;
     const double squared = glm::dot(along, along);
@@ -111,7 +111,7 @@ class Stitcher {
     visit(Run{last, side.to});
   }
 
-  /// Leaves sides whole of which any piece would stay open. False when none is left to split.
+  /// Leaves a side whole if any of its segments would stay open. Returns false if no side is left to split.
   bool dropWhatStaysOpen() {
     for (int round = 0; round < kMaxRounds; ++round) {
       countRuns();
@@ -138,14 +138,14 @@ class Stitcher {
       forEachRun(side, [this](const Run& run) { ++runs_[keyOf(run)]; });
   }
 
-  /// Whether a piece is run along once either way, and joins no edge that has its faces already.
+  /// True if the segment is used once in each direction, and its edge has no two faces yet.
   bool isMatched(const Run& run) const {
     const auto forth = runs_.find(keyOf(run)), back = runs_.find(keyOf({run.second, run.first}));
     if (forth == runs_.end() || back == runs_.end() || forth->second != 1 || back->second != 1) return false;
     return facesAt(run) < 2;
   }
 
-  /// How many faces of the mesh meet at an edge between two vertices; 0 where there is none.
+  /// Number of faces at the edge between two vertices; 0 if there is no such edge.
   std::uint32_t facesAt(const Run& run) const {
     for (const std::uint32_t e : mesh_.edgesOfVertex(run.first)) {
       const MeshEdge& edge = mesh_.edges()[e];
@@ -154,7 +154,7 @@ class Stitcher {
     return 0;
   }
 
-  /// Splits every triangle. False when a side had to be left whole, so that others may stay open.
+  /// Splits all triangles. Returns false if a side had to stay whole, which may leave others open.
   bool splitAll() {
     triangles_.assign(mesh_.triangles().begin(), mesh_.triangles().end());
     piecesOf_.clear();
@@ -168,8 +168,8 @@ class Stitcher {
     return !isWhole;
   }
 
-  /// Makes a fan of the piece of the triangle that has the whole side. False when one of its edges is there
-  /// already, at which more than two faces would meet.
+  /// Splits the fragment with the whole side into a fan. Returns false if a new edge already exists, since
+  /// more than two faces would meet there.
   bool split(const OpenSide& side) {
     std::vector<std::uint32_t>& pieces = piecesOf_[side.triangle];
     if (pieces.empty()) pieces.push_back(side.triangle);
@@ -193,7 +193,7 @@ class Stitcher {
     return true;
   }
 
-  /// The third corner of a triangle that runs along the whole side.
+  /// Third corner of the triangle, if it runs along the whole side.
   static std::optional<std::uint32_t> apexOver(const OpenSide& side, const Triangle& t) {
     const auto k = static_cast<std::size_t>(std::ranges::find(t, side.from) - t.begin());
     if (k == 3 || t[(k + 1) % 3] != side.to) return std::nullopt;

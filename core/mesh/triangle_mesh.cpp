@@ -37,7 +37,7 @@ void validate(const std::vector<glm::dvec3>& vertices, const std::vector<Triangl
   }
 }
 
-/// One side of one triangle, named by its undirected edge.
+/// One side of a triangle, with its undirected edge.
 struct DirectedSide {
   std::uint64_t edge;   ///< Smaller vertex in the high half, larger in the low half.
   std::uint32_t index;  ///< 3 * triangle + corner.

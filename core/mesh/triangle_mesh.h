@@ -12,81 +12,85 @@
 
 namespace nearfit {
 
-/// Corner vertices, anticlockwise seen from outside.
+/// Corner vertices, anticlockwise when seen from outside.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// An undirected edge and where its incident faces stand in `TriangleMesh::facesOfEdge`.
+/// An undirected edge.
 struct MeshEdge {
   std::uint32_t v0, v1;  ///< v0 < v1.
+  /// Range in Arrays::edgeFaces; see TriangleMesh::facesOfEdge.
   std::uint32_t firstFace, faceCount;
 };
 
-/// How a mesh departs from a closed, consistently oriented manifold.
+/// How a mesh deviates from a closed, consistently oriented manifold.
 struct MeshTopology {
   std::uint32_t openEdges = 0;          ///< Edges with one face.
-  std::uint32_t nonManifoldEdges = 0;   ///< Edges with three faces or more.
-  std::uint32_t inconsistentEdges = 0;  ///< Edges whose two faces run along it in the same direction.
+  std::uint32_t nonManifoldEdges = 0;   ///< Edges with three or more faces.
+  std::uint32_t inconsistentEdges = 0;  ///< Edges along which both faces run in the same direction.
   std::uint32_t components = 0;         ///< Sets of faces connected through edges.
 
+  /// True if each edge has exactly two faces.
   bool isClosed() const noexcept { return openEdges == 0 && nonManifoldEdges == 0; }
   bool isOriented() const noexcept { return inconsistentEdges == 0; }
 };
 
-/// Immutable triangle mesh in flat arrays, with adjacency. Coordinates in metres, in the mesh's own frame.
-/// Copies share the arrays.
+/// Immutable triangle mesh with adjacency, in flat arrays. Coordinates are in metres, in the mesh's own
+/// frame. Copies share the arrays. Accessors are real-time safe; indices are not checked.
 class TriangleMesh {
  public:
-  /// All that a mesh is, as the constructor from vertices and triangles derives it.
+  /// The complete data of a mesh, as the constructor from vertices and triangles derives it.
   struct Arrays {
     SharedArray<glm::dvec3> vertices;
     SharedArray<Triangle> triangles;
     SharedArray<MeshEdge> edges;
-    SharedArray<std::uint32_t> edgeFaces;  ///< Of each edge in turn.
+    SharedArray<std::uint32_t> edgeFaces;  ///< Faces of edge 0, of edge 1, ...
     SharedArray<std::array<std::uint32_t, 3>> triangleEdges;
-    SharedArray<std::uint32_t> vertexEdges;      ///< Of each vertex in turn.
-    SharedArray<std::uint32_t> vertexFirstEdge;  ///< In vertexEdges; one more than there are vertices.
+    SharedArray<std::uint32_t> vertexEdges;      ///< Edges of vertex 0, of vertex 1, ...
+    SharedArray<std::uint32_t> vertexFirstEdge;  ///< Offsets into vertexEdges; one more than vertices.
     Aabb bounds;
     MeshTopology topology;
   };
 
   TriangleMesh() = default;
 
-  /// Takes the arrays over and derives adjacency in O(n log n). Triangles must have three different corners
-  /// (weld and clean first: see mesh_builder.h); vertices may be unused.
-  /// Throws Error when a coordinate is not finite, an index is out of range, a triangle repeats a corner, or
-  /// there are more than `kMaxTriangles`.
+  /// Takes over the arrays and derives adjacency in O(n log n). Vertices may be unused. Weld and clean first
+  /// (mesh_builder.h): throws Error if a coordinate is not finite, an index is out of range, a triangle
+  /// repeats a corner, or there are more than kMaxTriangles triangles or vertices.
   TriangleMesh(std::vector<glm::dvec3> vertices, std::vector<Triangle> triangles);
 
-  /// Takes arrays that another mesh was made of; nothing is checked.
+  /// Adopts the arrays of another mesh, without checks.
   explicit TriangleMesh(Arrays arrays) : arrays_(std::move(arrays)) {}
 
-  /// Indices of edges (3/2 of the triangles) and halfedges (3 each) stay within 32 bits.
+  /// Keeps edge indices (3/2 per triangle) and halfedge indices (3 per triangle) within 32 bits.
   static constexpr std::size_t kMaxTriangles = 1'000'000'000;
 
   std::span<const glm::dvec3> vertices() const noexcept { return arrays_.vertices; }
   std::span<const Triangle> triangles() const noexcept { return arrays_.triangles; }
   std::span<const MeshEdge> edges() const noexcept { return arrays_.edges; }
 
-  /// Faces around an edge; 1 for an open edge, 2 for an ordinary one.
+  /// Faces at an edge: 1 for an open edge, 2 for an ordinary one.
   std::span<const std::uint32_t> facesOfEdge(std::uint32_t edge) const noexcept {
     const MeshEdge& e = arrays_.edges[edge];
     return arrays_.edgeFaces.view().subspan(e.firstFace, e.faceCount);
   }
-  /// Edge k of a triangle joins its corners k and k+1.
+  /// Edges of a triangle; edge k joins corners k and (k + 1) % 3.
   const std::array<std::uint32_t, 3>& edgesOfTriangle(std::uint32_t triangle) const noexcept {
     return arrays_.triangleEdges[triangle];
   }
+  /// Edges at a vertex, in ascending order; none if no triangle uses it.
   std::span<const std::uint32_t> edgesOfVertex(std::uint32_t vertex) const noexcept {
     const std::uint32_t first = arrays_.vertexFirstEdge[vertex];
     return arrays_.vertexEdges.view().subspan(first, arrays_.vertexFirstEdge[vertex + 1] - first);
   }
-  /// Whether the two faces of an edge run along it in opposite directions, as on an oriented manifold.
+  /// True if the edge has two faces that run along it in opposite directions.
   bool isEdgeConsistent(std::uint32_t edge) const noexcept;
 
+  /// Bounding box of the vertices that triangles use [m].
   const Aabb& bounds() const noexcept { return arrays_.bounds; }
+  /// Defects and number of components, computed on construction.
   const MeshTopology& topology() const noexcept { return arrays_.topology; }
   const Arrays& arrays() const noexcept { return arrays_; }
-  /// Memory held by the arrays, or mapped [bytes].
+  /// Memory of the arrays, allocated or mapped [bytes].
   std::size_t byteSize() const noexcept;
 
  private:

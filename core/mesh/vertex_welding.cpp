@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
 
-/// Cells are this many tolerances wide: then a point's neighbourhood mostly lies in one cell, and a cell
-/// still holds few points even where they are as close as they can be.
+/// Cell width in tolerances. A point's neighbourhood then mostly lies in one cell, and a cell holds few
+/// points even if they are as close as possible.
 constexpr double kCellTolerances = 8.0;
-/// No cell is narrower than this part of the box, so that cell numbers fit into 64 bits.
+/// Min cell width as a fraction of the box, so that cell numbers fit into 64 bits.
 constexpr double kNarrowestCell = 1e-15;
 
 struct Cell {
@@ -33,7 +33,7 @@ std::uint64_t hashOf(const Cell& cell) {
   return h;
 }
 
-/// Points that stand for themselves, found by where they are.
+/// Finds representatives by position.
 class Grid {
  public:
   Grid(std::span<const glm::dvec3> points, const Aabb& box, double tolerance)
@@ -44,7 +44,7 @@ class Grid {
         first_(std::bit_ceil(2 * points.size() + 1), kNoPoint),
         next_(points.size(), kNoPoint) {}
 
-  /// The first point of those added that is close to this one; kNoPoint if there is none.
+  /// First of the added points that is close to `p`; kNoPoint if none.
   std::uint32_t find(const glm::dvec3& p) const {
     const Cell low = cellOf(p - tolerance_), high = cellOf(p + tolerance_);
     std::uint32_t found = kNoPoint;
@@ -82,7 +82,7 @@ class Grid {
   glm::dvec3 origin_;
   double tolerance_, cellSize_;
   std::vector<std::uint32_t> first_;  ///< By hash of the cell: the last point added.
-  std::vector<std::uint32_t> next_;   ///< By point: the one added before it with the same hash.
+  std::vector<std::uint32_t> next_;   ///< By point: the previous point with the same hash.
 };
 
 }  // namespace

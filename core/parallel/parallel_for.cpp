@@ -13,13 +13,13 @@
 namespace nearfit {
 namespace {
 
-/// How many threads besides those that started parallel work may be at it, in the whole process.
+/// Helper threads that the process may still start, besides the threads that call parallelFor().
 std::atomic<int>& freeHelpers() {
   static std::atomic<int> count{static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) - 1};
   return count;
 }
 
-/// The right to run one more thread.
+/// Permission to run one helper thread; returned on destruction.
 class HelperPermit {
  public:
   static std::optional<HelperPermit> take() {
@@ -56,7 +56,8 @@ class ParallelLoop {
   }
 
  private:
-  /// Only the thread that started the loop hires; it asks again at each turn, as others may have ended.
+  /// Called only by the thread that started the loop, before each item: other loops may have
+  /// released helpers.
   void hireHelpers() {
     while (next_.load(std::memory_order_relaxed) < count_) {
       std::optional<HelperPermit> permit = HelperPermit::take();
@@ -67,7 +68,7 @@ class ParallelLoop {
             attempt(i);
         });
       } catch (const std::system_error&) {
-        return;  // No more threads to be had: the work gets done all the same.
+        return;  // No thread available; this thread does the work.
       }
     }
   }

@@ -7,14 +7,16 @@
 
 namespace nearfit {
 
-/// Progress of work that several threads share: keeps the order that ProgressCallback promises, and tells all
-/// of them when the user wants to stop.
+/// Progress of work shared by several threads. Keeps the guarantees of ProgressCallback (one call at a time,
+/// never falling) and stops all threads when the user cancels.
 class SharedProgress {
  public:
-  /// @param total  What all calls of add() come to; > 0.
+  /// @param callback  Must outlive this object; may be empty.
+  /// @param total     Sum of the work of all calls of add(); > 0.
   SharedProgress(const ProgressCallback& callback, double total) : callback_(callback), total_(total) {}
 
-  /// Any thread. Counts work as done; throws Cancelled once the callback has said stop.
+  /// Adds to the work done, and reports it. Any thread. Throws Cancelled once the callback has
+  /// returned false.
   void add(double work);
 
  private:

@@ -14,9 +14,9 @@ bool hasPlane(FeatureShape shape) noexcept {
   return shape == FeatureShape::Plane || shape == FeatureShape::Circle;
 }
 
-/// By the least angle; half a turn is about any axis square to it.
+/// The smallest rotation from one direction to another; a half turn is about any perpendicular axis.
 glm::dquat turnOnto(const glm::dvec3& from, const glm::dvec3& to) {
-  // Nearer to half a turn, 1 + cos is mostly rounding.
+  // Closer to a half turn, 1 + cos is mostly rounding.
   constexpr double kNearlyBack = -0.9999;
   const double cosine = glm::dot(from, to);
   if (cosine > kNearlyBack) {
@@ -25,7 +25,7 @@ glm::dquat turnOnto(const glm::dvec3& from, const glm::dvec3& to) {
   }
   const glm::dvec3 other = std::abs(from.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 square = glm::normalize(glm::cross(from, other));
-  // Half a turn, and the little that is left.
+  // A half turn, then the small remainder.
   return glm::normalize(turnOnto(-from, to) * glm::dquat(0.0, square.x, square.y, square.z));
 }
 
@@ -42,12 +42,12 @@ glm::dvec3 along(const glm::dvec3& v, const glm::dvec3& direction) {
   return glm::dot(v, direction) * direction;
 }
 
-/// @param moving  After its turn.
+/// @param moving  After its rotation.
 glm::dvec3 shiftOf(const AlignFeature& moving, const AlignFeature& fixed, double offset) {
   const glm::dvec3 between = fixed.point - moving.point;
   const FeatureShape m = moving.shape, f = fixed.shape;
   if (f == FeatureShape::Plane) {
-    // An axis that stands square to a plane may stand anywhere.
+    // An axis perpendicular to a plane may be anywhere.
     if (m == FeatureShape::Axis) return glm::dvec3(0.0);
     return along(between, fixed.direction) + offset * fixed.direction;
   }
@@ -78,7 +78,7 @@ RigidTransform alignMotion(const AlignFeature& moving, const AlignFeature& fixed
   turned.direction = turn * moving.direction;
   const double offset = canBeOffset(moving.shape, fixed.shape) ? options.offset : 0.0;
   const glm::dvec3 shift = shiftOf(turned, fixed, offset);
-  // The feature's point stays where it is while the part turns.
+  // The feature's point stays in place while the part turns.
   return {turn, moving.point - turn * moving.point + shift};
 }
 

@@ -12,7 +12,7 @@
 namespace nearfit {
 namespace {
 
-/// Points whose spread across their row is less than this share of its length lie in a row.
+/// Points are collinear if their spread across the line is below this fraction of its length.
 constexpr double kInARow = 1e-6;
 
 glm::dvec3 meanOf(std::span<const glm::dvec3> points) {
@@ -46,7 +46,7 @@ std::optional<Circle> fitCylinder(std::span<const glm::dvec3> points, const glm:
   if (points.size() < 3) return std::nullopt;
   const glm::dvec3 mean = meanOf(points);
   const Plane plane = planeAcross(axis);
-  // x^2 + y^2 = a x + b y + c about the mean, where the sums of x and y vanish.
+  // Fit x^2 + y^2 = a x + b y + c, relative to the mean, so that the sums of x and y vanish.
   double xx = 0.0, xy = 0.0, yy = 0.0, xs = 0.0, ys = 0.0, s = 0.0;
   for (const glm::dvec3& p : points) {
     const double x = glm::dot(p - mean, plane.u), y = glm::dot(p - mean, plane.v), square = x * x + y * y;

@@ -7,23 +7,23 @@
 
 namespace nearfit {
 
-/// A circle in space, or a cylinder about the line through its centre along its axis.
+/// A circle in space, or the cylinder through it along its axis.
 struct Circle {
-  glm::dvec3 centre{0.0}, axis{0.0};  ///< [m]; unit.
+  glm::dvec3 centre{0.0}, axis{0.0};  ///< Centre [m]; unit axis.
   double radius = 0.0;                ///< [m]
 
-  /// How far a point is from the cylinder's surface [m].
+  /// Distance of a point from the cylinder's surface [m].
   double distanceFromCylinder(const glm::dvec3& point) const noexcept;
-  /// How far a point is from the circle itself [m].
+  /// Distance of a point from the circle itself [m].
   double distanceFrom(const glm::dvec3& point) const noexcept;
 };
 
-/// The circle about an axis of given direction that points lie on when they are seen along it, by least
-/// squares (I. Kåsa, 1976: exact for points on a circle); its centre at the height of their mean. Nothing for
-/// fewer than three points, or points in a row.
+/// Least-squares fit of a circle about a given axis (unit) to points projected along it (I. Kåsa, 1976; exact
+/// for points on a circle). The centre is at the mean height of the points. std::nullopt for fewer than three
+/// points, or collinear ones.
 std::optional<Circle> fitCylinder(std::span<const glm::dvec3> points, const glm::dvec3& axis);
 
-/// The same of points in one plane, whose normal is found by least squares too.
+/// Same for points near one plane, whose normal is also a least-squares fit.
 std::optional<Circle> fitCircle(std::span<const glm::dvec3> points);
 
 }  // namespace nearfit

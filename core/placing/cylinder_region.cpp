@@ -1,4 +1,4 @@
-// Cylinders among the facets of a mesh; declared in mesh_region.h.
+// Finds cylinders among the facets of a mesh; declared in mesh_region.h.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,16 +12,16 @@
 namespace nearfit {
 namespace {
 
-/// How far corners may be off a cylinder, as a share of its radius: at first, and once it is well known.
+/// Max distance of corners from a cylinder, as a fraction of its radius: for a first guess, and once refined.
 constexpr double kLoose = 0.02, kTight = 2e-3;
-/// How far facets may lean [sine of the angle]: the same.
+/// Max inclination of facets to the axis [sine of the angle]: likewise.
 constexpr double kLooseLean = 0.03, kTightLean = 5e-3;
-/// Corners whose angles about the axis differ by less are on one line along it [rad].
+/// Corners whose angles about the axis differ by less lie on one line along it [rad].
 constexpr double kSameAngle = 1e-3;
-/// Facets of a cylinder, and how much wider than the usual one any of them may be.
+/// Min facets of a cylinder, and max width of a facet relative to the median one.
 constexpr std::size_t kFewestFacets = 4;
 constexpr double kWidest = 3.0;
-/// Triangles of a flat facet that are enough to tell where it is.
+/// Number of triangles that suffice to locate a flat facet.
 constexpr std::size_t kFacetSample = 64;
 
 std::vector<glm::dvec3> cornersOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
@@ -51,7 +51,8 @@ std::vector<std::uint32_t> onCylinder(const TriangleMesh& mesh, std::uint32_t fi
   return grownRegion(mesh, first, accepts);
 }
 
-/// Facets that are square to an axis have it as the direction in which they do not lean.
+/// Refines the cylinder. Its axis is the direction along which the facets' normals have the smallest
+/// components.
 Circle refined(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, const Circle& before) {
   glm::dmat3 normals(0.0);
   for (const std::uint32_t t : triangles) {
@@ -65,7 +66,7 @@ Circle refined(const TriangleMesh& mesh, const std::vector<std::uint32_t>& trian
   return fitCylinder(cornersOf(mesh, triangles), axis).value_or(before);
 }
 
-/// Angles of the lines of corners about the axis, ascending [rad].
+/// Angles about the axis of the lines that corners lie on, ascending [rad].
 std::vector<double> linesOf(const std::vector<glm::dvec3>& corners, const Circle& cylinder) {
   const glm::dvec3 u = glm::normalize(
       glm::cross(cylinder.axis, std::abs(cylinder.axis.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
@@ -83,8 +84,8 @@ std::vector<double> linesOf(const std::vector<glm::dvec3>& corners, const Circle
   return angles;
 }
 
-/// Whether corners that lie on a circle are facets of something round, not of a flat face between two
-/// roundings, whose corners lie on a circle too.
+/// True if corners on a circle belong to something round. The corners of a flat face between two roundings
+/// also lie on a circle.
 bool isRound(const std::vector<glm::dvec3>& corners, const Circle& cylinder) {
   const std::vector<double> lines = linesOf(corners, cylinder);
   if (lines.size() <= kFewestFacets) return false;
@@ -94,7 +95,7 @@ bool isRound(const std::vector<glm::dvec3>& corners, const Circle& cylinder) {
     widths.push_back(next - lines[i]);
   }
   std::sort(widths.begin(), widths.end());
-  // The widest may be where the region is open.
+  // Ignore the widest: the region may be open there.
   const double widest = widths[widths.size() - 2];
   return widest <= kWidest * widths[widths.size() / 2] && widest <= kSharpTurn + kSameAngle;
 }
@@ -142,7 +143,8 @@ std::optional<CylinderRegion> cylinderRegion(const TriangleMesh& mesh, std::uint
       std::vector<std::uint32_t> both = facetOf(mesh, other);
       both.insert(both.end(), facet.begin(), facet.end());
       const std::vector<glm::dvec3> corners = cornersOf(mesh, both);
-      // Facets that go along the axis have it as their edge; others lean about it.
+      // If the facets run along the axis, so does their common edge. Otherwise the cross product of
+      // their normals does.
       const glm::dvec3 axes[] = {mesh.vertices()[e.v1] - mesh.vertices()[e.v0],
                                  glm::cross(normal, triangleNormal(mesh, other))};
       for (const glm::dvec3& axis : axes) {

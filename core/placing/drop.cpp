@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUsualGap = 1e-6;   ///< [m]
-constexpr double kGapOfSize = 1e-5;  ///< Of a part smaller than 0.1 m.
-/// A way shorter than this part of the gap is rounding of what stands a gap away already.
+constexpr double kGapOfSize = 1e-5;  ///< Fraction of the size of a part smaller than 0.1 m.
+/// A travel below this fraction of the gap is rounding: the parts already stand a gap away.
 constexpr double kNoWay = 1e-3;
 
 struct Pair {
@@ -29,7 +29,7 @@ RigidTransform fixedFromMoving(const Pair& pair, const glm::dvec3& shift) {
   return (pair.fixed->worldFromPart.inverse() * moved).normalized();
 }
 
-/// Whether spheres about the bounding boxes meet: cheap, and true wherever the bodies do.
+/// True if spheres around the bounding boxes meet: cheap, and true whenever the bodies meet.
 bool mayMeet(const Pair& pair, const glm::dvec3& shift) {
   const TriangleMesh &a = pair.moving->geometry->mesh, &b = pair.fixed->geometry->mesh;
   const glm::dvec3 centreInMoving = 0.5 * (a.bounds().lower + a.bounds().upper);
@@ -74,7 +74,7 @@ double gapOf(const DropOptions& options, const std::vector<Pair>& pairs) {
   return dropGap(size);
 }
 
-/// Reports how many of the pairs are done, and that work goes on in the middle of one.
+/// Reports the fraction of pairs done; also called in the middle of a pair, to allow cancelling.
 class Steps {
  public:
   Steps(const ProgressCallback& progress, std::size_t count) : progress_(progress), count_(count) {}
@@ -92,7 +92,7 @@ class Steps {
   std::size_t count_, done_ = 0;
 };
 
-/// Puts the first contact of all pairs into the result; infinite travel when there is none.
+/// Stores the first contact of all pairs in the result; infinite travel if there is none.
 void findFirst(const std::vector<Pair>& pairs, const glm::dvec3& direction, Steps& steps,
                DropResult& result) {
   result.travel = kInfinity;
@@ -111,7 +111,7 @@ void findFirst(const std::vector<Pair>& pairs, const glm::dvec3& direction, Step
   }
 }
 
-/// Steps back from contact until no two bodies meet.
+/// Moves back from contact until no two bodies meet.
 void stepBack(const std::vector<Pair>& pairs, const glm::dvec3& direction, double gap, DropResult& result) {
   const double contact = result.travel;
   for (double back = gap;; back *= 2.0) {
@@ -119,7 +119,7 @@ void stepBack(const std::vector<Pair>& pairs, const glm::dvec3& direction, doubl
     result.travel = travel > kNoWay * gap ? travel : 0.0;
     result.shift = result.travel * direction;
     result.gap = contact - result.travel;
-    // At the start nothing meets: that is known.
+    // Nothing meets at the start, as checked before.
     if (result.travel == 0.0) return;
     const auto meet = [&](const Pair& pair) { return doMeet(pair, result.shift); };
     if (std::none_of(pairs.begin(), pairs.end(), meet)) return;

@@ -12,13 +12,14 @@
 namespace nearfit {
 namespace {
 
-/// How far corners may be off a circle as a share of its radius, and off a line as a share of the mesh.
+/// Max distance of corners from a circle, as a fraction of its radius, and from a line, as a
+/// fraction of the mesh.
 constexpr double kOffCircle = 2e-3, kOffLine = 2e-6;
 constexpr std::size_t kFewestCorners = 5;
 
 using Chain = std::deque<std::uint32_t>;
 
-/// The shape's edges that go on from the end of a chain, to the corners at their other ends.
+/// Far ends of the sharp edges that continue a chain at `at`, coming from `from`.
 std::vector<std::uint32_t> nextOf(const TriangleMesh& mesh, std::uint32_t at, std::uint32_t from) {
   std::vector<std::uint32_t> next;
   for (const std::uint32_t edge : mesh.edgesOfVertex(at)) {
@@ -29,7 +30,7 @@ std::vector<std::uint32_t> nextOf(const TriangleMesh& mesh, std::uint32_t at, st
   return next;
 }
 
-/// Lengthens a chain at its end while a corner follows that fits; true when it is closed by that.
+/// Extends a chain at its end while a fitting corner follows. True if that closes it.
 template <class Fits>
 bool lengthen(const TriangleMesh& mesh, Chain& chain, Fits&& fits) {
   for (;;) {
@@ -45,7 +46,7 @@ bool lengthen(const TriangleMesh& mesh, Chain& chain, Fits&& fits) {
       hasGrown = true;
       break;
     }
-    // More corners than there are: it would go round and round.
+    // More corners than vertices: it would run in circles.
     if (!hasGrown || chain.size() > mesh.vertices().size()) return false;
   }
 }
@@ -83,13 +84,13 @@ EdgeChain straightChain(const TriangleMesh& mesh, const MeshEdge& edge) {
   return result;
 }
 
-/// The round chain through an edge and the corner behind one of its ends.
+/// The round chain through an edge and a corner adjacent to one of its ends.
 std::optional<EdgeChain> roundChain(const TriangleMesh& mesh, const MeshEdge& edge, std::uint32_t beyond) {
   const glm::dvec3 three[] = {mesh.vertices()[edge.v0], mesh.vertices()[edge.v1], mesh.vertices()[beyond]};
   std::optional<Circle> circle = fitCircle(three);
   if (!circle) return std::nullopt;
   EdgeChain result;
-  // Once more with the circle that all of them have: three near corners know it badly.
+  // Fit again with all corners: three close ones determine the circle poorly.
   for (int round = 0; round < 2; ++round) {
     const double slack = (round == 0 ? 5.0 : 1.0) * kOffCircle * circle->radius;
     const Chain chain =

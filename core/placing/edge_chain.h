@@ -8,16 +8,17 @@
 
 namespace nearfit {
 
-/// Edges of the shape (isSharp) one behind the other, that lie on one circle or in one line.
+/// Consecutive sharp edges (isSharp) on one circle or line.
 struct EdgeChain {
-  /// In order; the first again as the last where it is closed.
+  /// In order; if closed, the first is repeated at the end.
   std::vector<std::uint32_t> vertices;
   bool isRound = false;
-  Circle circle;  ///< Of a round one; else its centre is the middle of the line, its axis along it, radius 0.
+  /// Of a round chain. For a line: centre at its middle, axis along it, radius 0.
+  Circle circle;
 };
 
-/// The chain that an edge of the shape is of: the whole circle or arc where there are at least five corners
-/// on one, else the straight edge. O(n) of the chain.
+/// The chain that contains a sharp edge: the whole circle or arc if it has at least five corners, else the
+/// straight edge. O(n) in the chain.
 EdgeChain edgeChain(const TriangleMesh& mesh, std::uint32_t sharpEdge);
 
 }  // namespace nearfit

@@ -9,24 +9,25 @@
 
 namespace nearfit {
 
+/// Shapes of features that parts can be aligned by.
 enum class FeatureShape : std::uint8_t {
   Plane,   ///< A flat face.
-  Axis,    ///< Of a cylinder or a bore; an edge is one too, of radius 0.
+  Axis,    ///< Of a cylinder or a bore; an edge is an axis of radius 0.
   Circle,  ///< A round edge: an axis with a centre.
   Point,   ///< A corner, or any point of a surface.
 };
 
-/// What parts are aligned by, in some frame.
+/// A feature by which parts are aligned, in some frame.
 struct AlignFeature {
   FeatureShape shape = FeatureShape::Point;
-  /// In the plane: the middle of the face; on the axis: the middle of what has it; the centre; the point [m].
+  /// Plane: middle of the face. Axis: middle of the cylinder or edge. Circle: centre. Point: the point [m].
   glm::dvec3 point{0.0};
-  /// Outward normal; along the axis, of either sense; unit. Zero for a point.
+  /// Outward normal, or direction along the axis, of either sign; unit. Zero for a point.
   glm::dvec3 direction{0.0};
   double radius = 0.0;  ///< Of a cylinder or circle [m].
 };
 
-/// The same feature in another frame.
+/// Returns the feature in another frame.
 inline AlignFeature placed(const AlignFeature& feature, const RigidTransform& frameFromFeature) noexcept {
   AlignFeature moved = feature;
   moved.point = frameFromFeature.applyToPoint(feature.point);
@@ -34,12 +35,12 @@ inline AlignFeature placed(const AlignFeature& feature, const RigidTransform& fr
   return moved;
 }
 
-/// A feature of a mesh, in its frame, with what of the mesh shows it.
+/// A feature of a mesh, in the mesh's frame, and the triangles or vertices that show it.
 struct PickedFeature {
   AlignFeature feature;
   std::vector<std::uint32_t> triangles;  ///< Of a face or cylinder.
-  std::vector<std::uint32_t>
-      vertices;  ///< Along an edge or circle, in order; closed when the last is the first.
+  /// Along an edge or circle, in order; if closed, the first is repeated at the end.
+  std::vector<std::uint32_t> vertices;
 };
 
 }  // namespace nearfit

@@ -15,7 +15,7 @@
 namespace nearfit {
 namespace {
 
-/// Triangles around the point that are searched for its corner and edge.
+/// Max number of triangles around the point to search for corners and edges.
 constexpr std::size_t kMostAround = 400;
 
 double distanceToEdge(const TriangleMesh& mesh, std::uint32_t edge, const glm::dvec3& point) {
@@ -25,7 +25,7 @@ double distanceToEdge(const TriangleMesh& mesh, std::uint32_t edge, const glm::d
   return glm::distance(point, a + share * along);
 }
 
-/// Triangles that come within reach of the point, connected with the one that was hit.
+/// Triangles within reach of the point that are connected to the hit one.
 std::vector<std::uint32_t> trianglesAround(const TriangleMesh& mesh, const SurfaceHit& hit, double reach) {
   const auto isNear = [&](std::uint32_t triangle) {
     const auto& edges = mesh.edgesOfTriangle(triangle);
@@ -35,7 +35,7 @@ std::vector<std::uint32_t> trianglesAround(const TriangleMesh& mesh, const Surfa
   return grownRegion(mesh, hit.triangle, isNear, kMostAround);
 }
 
-/// A corner of the shape: not just any of the mesh.
+/// True for a corner of the shape, not just of the triangulation.
 bool isCorner(const TriangleMesh& mesh, std::uint32_t vertex) {
   std::vector<glm::dvec3> sharp;
   for (const std::uint32_t edge : mesh.edgesOfVertex(vertex)) {

@@ -10,27 +10,27 @@
 
 namespace nearfit {
 
-/// Which features are looked for.
+/// Kinds of features to look for.
 enum class FeatureFilter : std::uint8_t {
-  Any,     ///< What is nearest in this order: corner, edge or circle, cylinder, flat face.
-  Faces,   ///< Flat faces; facets of something round too.
+  Any,     ///< The first found of: corner, edge or circle, cylinder, flat face.
+  Faces,   ///< Flat faces, including facets of something round.
   Axes,    ///< Cylinders, circles and edges.
-  Points,  ///< Corners, centres of circles; else the very point.
+  Points,  ///< Corners and centres of circles; otherwise the point itself.
 };
 
-/// Where a ray or the mouse hit a mesh, in its frame.
+/// A point where a ray or the mouse hits a mesh, in the mesh's frame.
 struct SurfaceHit {
   std::uint32_t triangle = 0;
   glm::dvec3 point{0.0};  ///< [m]
 };
 
-/// The feature that somebody means who points at a mesh.
+/// The feature that a user points at; std::nullopt if there is none of that kind.
 ///
+/// A flat face is a set of connected triangles in one plane, a cylinder one on a cylinder (at least four
+/// facets), a circle or edge a chain of sharp edges. Takes some milliseconds for features with tens of
+/// thousands of triangles: for the GUI thread, not the servo thread.
 /// @param hit    Its triangle is one of the mesh.
-/// @param reach  How far from the point corners and edges may be to be meant [m]; >= 0.
-/// A flat face is the connected triangles in one plane, a cylinder those on one (at least four facets), a
-/// circle or edge a chain of sharp edges. Nothing where the mesh has no such feature there. Takes some
-/// milliseconds where the feature has tens of thousands of triangles: for the GUI thread, not for the servo.
+/// @param reach  Max distance from the point to corners and edges [m]; >= 0.
 std::optional<PickedFeature> pickFeature(const TriangleMesh& mesh, const SurfaceHit& hit, double reach,
                                          FeatureFilter filter = FeatureFilter::Any);
 

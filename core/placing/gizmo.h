@@ -8,37 +8,37 @@
 
 namespace nearfit {
 
-/// What of a gizmo can be grabbed.
+/// The parts of a gizmo that can be grabbed.
 enum class GizmoHandle : std::uint8_t {
   None,
   MoveX,  ///< Arrows: along an axis.
   MoveY,
   MoveZ,
-  PlaneX,  ///< Squares: in the plane across an axis.
+  PlaneX,  ///< Squares: in the plane perpendicular to an axis.
   PlaneY,
   PlaneZ,
-  MoveFree,  ///< The middle: in the plane of the view.
+  MoveFree,  ///< The middle: in the view plane.
   TurnX,     ///< Rings: about an axis.
   TurnY,
   TurnZ,
-  TurnView,  ///< The outer ring: about the direction of sight.
+  TurnView,  ///< The outer ring: about the line of sight.
 };
 
-/// What a gizmo offers.
+/// Which handles a gizmo shows.
 enum class GizmoMode : std::uint8_t {
   Hidden,
   Move,
   Turn,
   MoveAndTurn,
-  AcrossX,  ///< Of a plane across an axis: the arrow along it, and the rings that tilt the plane.
+  AcrossX,  ///< For a plane across an axis: the arrow along the axis, and the rings that tilt the plane.
   AcrossY,
   AcrossZ,
 };
 
-/// Where a gizmo stands.
+/// Pose of a gizmo.
 struct GizmoFrame {
-  glm::dvec3 pivot{0.0};  ///< In the world [m]; turns are about it.
-  glm::dmat3 axes{1.0};   ///< Columns: x, y and z in the world; unit and square to each other.
+  glm::dvec3 pivot{0.0};  ///< Centre of rotation, in the world frame [m].
+  glm::dmat3 axes{1.0};   ///< Columns: x, y and z axes in the world frame; unit, mutually perpendicular.
 };
 
 inline constexpr std::array kArrows{GizmoHandle::MoveX, GizmoHandle::MoveY, GizmoHandle::MoveZ};
@@ -51,17 +51,17 @@ constexpr bool isArrow(GizmoHandle handle) noexcept {
 constexpr bool isPlane(GizmoHandle handle) noexcept {
   return handle >= GizmoHandle::PlaneX && handle <= GizmoHandle::PlaneZ;
 }
-/// Whether it turns the part; the others shift it.
+/// True if the handle rotates; the others translate.
 constexpr bool isRing(GizmoHandle handle) noexcept {
   return handle >= GizmoHandle::TurnX && handle <= GizmoHandle::TurnView;
 }
 
-/// The axis that a mode's plane lies across: 0, 1 or 2; -1 for all others.
+/// Axis perpendicular to the plane of an Across mode: 0, 1 or 2; -1 for other modes.
 constexpr int axisOf(GizmoMode mode) noexcept {
   return mode < GizmoMode::AcrossX ? -1 : static_cast<int>(mode) - static_cast<int>(GizmoMode::AcrossX);
 }
 
-/// Of which axis a handle is: 0, 1 or 2; -1 for those of the view.
+/// Axis of a handle: 0, 1 or 2; -1 for None and the view's handles.
 constexpr int axisOf(GizmoHandle handle) noexcept {
   if (handle == GizmoHandle::None || handle == GizmoHandle::MoveFree || handle == GizmoHandle::TurnView)
     return -1;

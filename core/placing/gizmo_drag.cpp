@@ -13,13 +13,14 @@
 namespace nearfit {
 namespace {
 
-/// Seen so much from the side that the pointer would go the length of the view for a step (sine of 1 degree).
+/// Below this sine between axis and sight (1 degree), the axis is end on: the pointer would cross the view
+/// for a small step.
 constexpr double kEndOn = 0.0175;
-/// A plane that is seen at less than about 9 degrees counts as on edge.
+/// A plane seen at less than about 9 degrees is edge on [sine].
 constexpr double kOnEdge = 0.15;
-/// A ray that meets a plane at less than this says nothing of where (sine of the angle).
+/// Below this sine between a ray and a plane, where they meet is unreliable.
 constexpr double kGrazing = 0.02;
-/// Of the way to the point where an axis vanishes, how far a pointer can lead [share].
+/// Max pointer travel toward an axis's vanishing point, as a fraction of the way.
 constexpr double kVanishing = 0.98;
 
 double rounded(double value, double step) noexcept {
@@ -29,11 +30,11 @@ double rounded(double value, double step) noexcept {
 glm::dvec3 axisIn(const GizmoFrame& frame, GizmoHandle handle, const ViewProjection& view) noexcept {
   const int axis = axisOf(handle);
   if (axis >= 0) return frame.axes[axis];
-  // Towards the viewer, so that anticlockwise on the screen is a positive turn.
+  // Toward the viewer, so that anticlockwise on the screen is a positive rotation.
   return handle == GizmoHandle::TurnView ? -view.sightOf(frame.pivot) : -view.away();
 }
 
-/// Where angles about an axis are counted from; unit.
+/// Zero direction for angles about an axis; unit.
 glm::dvec3 zeroArm(const glm::dvec3& axis) noexcept {
   const glm::dvec3 helper = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   return glm::normalize(glm::cross(axis, helper));
@@ -62,21 +63,21 @@ GizmoDrag::GizmoDrag(const ViewProjection& view, const GizmoFrame& frame, GizmoH
   }
 }
 
-/// The point of the axis whose picture is nearest to the pixel: where the pointer stands along the axis's
-/// picture, which is a line. Nothing where that picture is a point.
+/// Position along the axis of the point whose image is nearest to the pixel [m]. The image of the axis is a
+/// line; std::nullopt if it is a point.
 std::optional<double> GizmoDrag::alongAxis(const ViewProjection& view,
                                            const glm::dvec2& pixel) const noexcept {
   const std::optional<glm::dvec2> origin = view.pixelOf(anchor_);
   if (!origin) return std::nullopt;
   const double scale = view.metresPerPixel(anchor_), depth = view.depthOf(anchor_);
   const double deeper = view.isParallel() ? 0.0 : glm::dot(axis_, view.away()) / depth;
-  // How the picture of a point moves as it starts along the axis, in pixels for each metre.
+  // Image velocity of a point that starts along the axis [pixel/m].
   const glm::dvec2 flat = glm::dvec2(glm::dot(axis_, view.right()), -glm::dot(axis_, view.up())) / scale;
   const glm::dvec2 speed = flat - deeper * (*origin - view.middle());
   const double rate = glm::length(speed);
   if (!(rate * scale > kEndOn)) return std::nullopt;
   const double along = glm::dot(pixel - *origin, speed) / rate;
-  // The picture of anchor + t axis stands at rate t / (1 + deeper t) along the line.
+  // The image of anchor + t axis is at rate t / (1 + deeper t) along the line.
   const double vanishing = deeper != 0.0 ? rate / deeper : 0.0;
   double reached = along;
   if (deeper > 0.0) reached = std::min(along, kVanishing * vanishing);
@@ -84,7 +85,7 @@ std::optional<double> GizmoDrag::alongAxis(const ViewProjection& view,
   return reached / (rate - deeper * reached);
 }
 
-/// Where the pointer meets the plane; nothing where it does not in front of the eye, or at too flat an angle.
+/// Point of the plane under the pointer; std::nullopt if it is behind the eye or the angle is too flat.
 std::optional<glm::dvec3> GizmoDrag::onPlane(const ViewProjection& view,
                                              const glm::dvec2& pixel) const noexcept {
   const ViewRay ray = view.rayThrough(pixel);
@@ -95,7 +96,7 @@ std::optional<glm::dvec3> GizmoDrag::onPlane(const ViewProjection& view,
   return ray.origin + distance * ray.direction;
 }
 
-/// The pointer's way in the plane that faces the viewer, of it what lies in the plane that is on edge.
+/// The pointer's way in the view plane, projected onto the plane seen edge on.
 glm::dvec3 GizmoDrag::acrossView(const ViewProjection& view, const glm::dvec2& pixel) const noexcept {
   const glm::dvec2 way = view.metresPerPixel(anchor_) * (pixel - pressed_);
   const glm::dvec3 inView = way.x * view.right() - way.y * view.up();
@@ -106,13 +107,13 @@ std::optional<double> GizmoDrag::angleAt(const ViewProjection& view, const glm::
   const std::optional<glm::dvec3> point = onPlane(view, pixel);
   if (!point) return std::nullopt;
   const glm::dvec3 arm = *point - anchor_;
-  // In the middle of the ring there is no angle.
+  // At the ring's centre, the angle is undefined.
   if (!(glm::length(arm) > view.metresPerPixel(anchor_))) return std::nullopt;
   const glm::dvec3 first = zeroArm(axis_), second = glm::cross(axis_, first);
   return std::atan2(glm::dot(arm, second), glm::dot(arm, first));
 }
 
-/// A ring on edge is a line on the screen: the pointer rolls it as a thumb does a wheel.
+/// A ring edge on is a line on the screen; the pointer rolls it like a thumb wheel.
 void GizmoDrag::grabRingOnEdge(const ViewProjection& view) noexcept {
   const glm::dvec3 along = glm::cross(axis_, -view.sightOf(anchor_));
   glm::dvec2 onScreen(glm::dot(along, view.right()), -glm::dot(along, view.up()));
@@ -146,7 +147,7 @@ glm::dvec3 GizmoDrag::shift(const SnapSteps& steps) const noexcept {
   if (!(steps.length > 0.0)) return way;
   glm::dvec3 snapped(0.0);
   for (int i = 0; i < 3; ++i) {
-    // No step leads out of the plane of a square.
+    // Snapping must not leave the plane of a square.
     if (isPlane(handle_) && i == axisOf(handle_)) continue;
     snapped += rounded(glm::dot(way, frame_.axes[i]), steps.length) * frame_.axes[i];
   }

@@ -10,44 +10,45 @@
 
 namespace nearfit {
 
-/// In what steps a drag goes.
+/// Step sizes that a drag snaps to.
 struct SnapSteps {
-  double length = 0.0;  ///< Of shifts, along the gizmo's axes, from where the drag began [m]; 0: none.
-  double angle = 0.0;   ///< Of turns [rad]; 0: none.
+  double length = 0.0;  ///< Translation along the gizmo's axes, from the drag's start [m]; 0: no snapping.
+  double angle = 0.0;   ///< Rotation [rad]; 0: no snapping.
 };
 
-/// One drag of a handle, from the pointer's way over the view to the motion that it asks for.
+/// One drag of a gizmo handle: converts the pointer's way over the view to a motion.
 ///
-/// What was grabbed stays under the pointer where the handle allows. Where the view shows a handle's axis end
-/// on, or its plane on edge, the pointer says little of the motion: it then moves what it can say, and never
-/// by a jump. Pointers beyond the horizon of an axis or plane move it no farther than to there.
+/// The grabbed point stays under the pointer where the handle allows it. If the view shows the handle's axis
+/// end on or its plane edge on, the pointer determines only part of the motion; the rest stays unchanged,
+/// without jumps. A pointer beyond the horizon of an axis or plane moves it only up to the horizon.
 class GizmoDrag {
  public:
-  /// @param grabbed  For MoveFree, the point that is to stay under the pointer; the pivot where there is
-  /// none.
+  /// @param grabbed  For MoveFree: the point that stays under the pointer; default: the pivot.
   GizmoDrag(const ViewProjection& view, const GizmoFrame& frame, GizmoHandle handle, const glm::dvec2& pixel,
             const std::optional<glm::dvec3>& grabbed = std::nullopt);
 
-  /// The pointer is there now. Turns add up over any number of rounds.
+  /// Moves the pointer to a pixel; non-finite pixels are ignored. Rotation accumulates over any
+  /// number of turns.
   void moveTo(const ViewProjection& view, const glm::dvec2& pixel);
 
   GizmoHandle handle() const noexcept { return handle_; }
-  /// As the gizmo stood when the drag began.
+  /// The gizmo's pose when the drag began.
   const GizmoFrame& frame() const noexcept { return frame_; }
 
-  /// Where the drag has come to, in the world [m]; zero for turns.
+  /// Translation so far, in the world frame [m]; zero for rings.
   glm::dvec3 shift(const SnapSteps& steps = {}) const noexcept;
-  /// About turnAxis(), anticlockwise seen from its tip [rad]; zero for shifts.
+  /// Rotation so far about turnAxis(), anticlockwise seen from its tip [rad]; 0 for other handles.
   double angle(const SnapSteps& steps = {}) const noexcept;
-  /// Unit, in the world.
+  /// Unit, in the world frame.
   const glm::dvec3& turnAxis() const noexcept { return axis_; }
-  /// Of a ring, the direction from the pivot in which it was grabbed; unit, across the axis.
+  /// For rings: direction from the pivot to where it was grabbed; unit, perpendicular to the axis.
   const glm::dvec3& grabbedArm() const noexcept { return grabbedArm_; }
-  /// What of the drag a motion is that has come less far, or aside: the pivot's shift in the world [m]...
+  /// The pivot's translation in `motion`, which may deviate from the drag, such as at contact
+  /// [m]; zero for rings.
   glm::dvec3 shiftIn(const RigidTransform& motion) const noexcept;
-  /// ... and the turn about turnAxis(), in the round that is nearest to the pointer's [rad].
+  /// The angle of `motion` about turnAxis(), in the turn nearest to the pointer's [rad]; 0 for other handles.
   double angleIn(const RigidTransform& motion) const noexcept;
-  /// Of all that is dragged: what stood at a point p of the world then shall stand at motion(p).
+  /// Motion of what is dragged: a world point p moves from its start to motion(p).
   RigidTransform motion(const SnapSteps& steps = {}) const noexcept;
 
  private:
@@ -60,15 +61,15 @@ class GizmoDrag {
 
   GizmoFrame frame_;
   GizmoHandle handle_;
-  glm::dvec3 axis_;    ///< Of an arrow, across a plane, or that is turned about; unit.
-  glm::dvec3 anchor_;  ///< Point that axis and plane go through.
+  glm::dvec3 axis_;    ///< Along an arrow, normal of a plane, or axis of rotation; unit.
+  glm::dvec3 anchor_;  ///< A point on the axis or plane.
   bool isOnEdge_ = false;
   glm::dvec2 pressed_;
   double alongAtStart_ = 0.0, along_ = 0.0;
   glm::dvec3 onPlaneAtStart_{0.0}, onPlane_{0.0};
   glm::dvec3 grabbedArm_{1.0, 0.0, 0.0};
   double lastAngle_ = 0.0, turned_ = 0.0;
-  glm::dvec2 tangent_{0.0};  ///< Of a ring on edge: radians for a way of the pointer [rad/pixel].
+  glm::dvec2 tangent_{0.0};  ///< For a ring edge on: rotation per pointer motion [rad/pixel].
 };
 
 }  // namespace nearfit

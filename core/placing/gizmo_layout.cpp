@@ -18,26 +18,26 @@
 namespace nearfit {
 namespace {
 
-/// Where shafts begin, heads are long and wide, and squares reach from and to [pixels].
+/// Start of shafts, size of arrow heads, and extent of squares [pixels].
 constexpr double kShaftFrom = 14.0, kHeadLength = 17.0, kHeadRadius = 6.0;
 constexpr double kSquareFrom = 27.0, kSquareTo = 49.0;
-/// Arrows and squares fade between these sines of the angle to the sight, and are gone below.
+/// Arrows and squares fade between these sines of the angle to the sight, and vanish below.
 constexpr double kArrowGone = 0.14, kArrowWhole = 0.28, kSquareGone = 0.12, kSquareWhole = 0.28;
-/// A pointer so near to a line is on it [pixels].
+/// Max distance at which the pointer is on a line [pixels].
 constexpr double kOnLine = 3.0;
-/// What is fainter cannot be grabbed.
+/// Min opacity of what can be grabbed.
 constexpr double kLeastGrabbed = 0.35;
-/// The far side of a ring is faint, but for one that is seen as a circle.
+/// The far side of a ring is faint, unless the ring is seen as a circle.
 constexpr double kFarOpacity = 0.38, kRound = 0.9, kQuiteRound = 0.98;
 constexpr int kArcPoints = 48;
-/// How far the line of an axis is drawn [pixels].
+/// Reach of an axis's guide line [pixels].
 constexpr double kGuideReach = 4096.0;
 
 double ramp(double value, double from, double to) {
   return std::clamp((value - from) / (to - from), 0.0, 1.0);
 }
 
-/// An arc about the frame's pivot: from one direction over another, square to it.
+/// An arc about `centre`, at angles from `first` toward `second`, which is perpendicular to it.
 std::vector<glm::dvec2> arc(const ViewProjection& view, const glm::dvec3& centre, const glm::dvec3& first,
                             const glm::dvec3& second, double from, double to) {
   std::vector<glm::dvec2> points;
@@ -57,7 +57,7 @@ std::vector<glm::dvec2> pixelsOf(const ViewProjection& view, std::span<const glm
   return pixels;
 }
 
-/// A unit vector across another, and the third.
+/// Two unit vectors perpendicular to `unit` and to each other.
 std::array<glm::dvec3, 2> across(const glm::dvec3& unit) {
   const glm::dvec3 helper = std::abs(unit.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 first = glm::normalize(glm::cross(unit, helper));
@@ -116,7 +116,7 @@ void GizmoLayout::addPlanes(const ViewProjection& view, const GizmoFrame& frame)
   for (int axis = 0; axis < 3; ++axis) {
     const double opacity = ramp(std::abs(glm::dot(frame.axes[axis], sight)), kSquareGone, kSquareWhole);
     if (opacity == 0.0) continue;
-    // In the quarter that is nearest to the viewer, where the others do not hide it.
+    // In the quadrant nearest to the viewer, where nothing hides it.
     const auto towardsViewer = [&](int other) {
       const glm::dvec3 unit = frame.axes[other];
       return scale * (glm::dot(unit, sight) <= 0.0 ? unit : -unit);
@@ -146,7 +146,7 @@ void GizmoLayout::addRings(const ViewProjection& view, const GizmoFrame& frame, 
     if (axis == without) continue;
     const glm::dvec3 unit = frame.axes[axis];
     const double facing = std::abs(glm::dot(unit, sight));
-    // The direction in the ring's plane that comes nearest to the viewer.
+    // The direction in the ring's plane nearest to the viewer.
     const glm::dvec3 flat = glm::dot(unit, sight) * unit - sight;
     const glm::dvec3 first = radius * (glm::length(flat) > 1e-9 ? glm::normalize(flat) : across(unit)[0]);
     const glm::dvec3 second = glm::cross(unit, first);
@@ -183,7 +183,7 @@ GizmoHandle GizmoLayout::pick(const glm::dvec2& pixel) const noexcept {
     const double distance = distanceToLine(figure.points, pixel);
     const bool isOnIt = figure.isArea ? isInside(figure.points, pixel) : distance < kOnLine;
     if (isOnIt) return figure.handle;
-    // Beside a square is the place of arrows.
+    // Arrows come before the surroundings of squares.
     if (isPlane(figure.handle) || !(distance < least)) continue;
     least = distance;
     nearest = figure.handle;
@@ -208,7 +208,7 @@ GizmoGuide gizmoGuide(const ViewProjection& view, const GizmoDrag& drag, const g
   guide.way = pixelsOf(view, std::array{pivot, pivot + shift});
   if (!isArrow(drag.handle())) return guide;
   const glm::dvec3 axis = drag.turnAxis();
-  // Out of the view on either side; where the eye is passed, to there.
+  // Far out of the view on both sides, but not past the eye.
   for (double reach = kGuideReach; reach > 1.0 && guide.line.size() != 2; reach *= 0.5)
     guide.line = pixelsOf(view, std::array{pivot - scale * reach * axis, pivot + scale * reach * axis});
   return guide;

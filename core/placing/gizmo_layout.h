@@ -12,33 +12,34 @@ namespace nearfit {
 
 class GizmoDrag;
 
-/// Of one handle, what is drawn and grabbed: a line or an area of the view, in pixels.
+/// What is drawn and grabbed of one handle: a line or an area, in pixels.
 struct GizmoFigure {
   GizmoHandle handle = GizmoHandle::None;
   std::vector<glm::dvec2> points;
-  bool isArea = false;     ///< Closed and filled; else an open line.
-  double opacity = 1.0;    ///< Less where the view shows too little of it to be of use.
-  bool isFarSide = false;  ///< Of a ring, what lies behind the gizmo: cannot be grabbed.
+  bool isArea = false;     ///< Closed and filled; otherwise an open line.
+  double opacity = 1.0;    ///< Below 1 if the view shows too little of it to be useful.
+  bool isFarSide = false;  ///< The part of a ring behind the gizmo: cannot be grabbed.
 };
 
-/// A gizmo as a view shows it: of the same size on the screen wherever it stands. What is drawn is what can
-/// be grabbed, by distances on the screen.
+/// The gizmo as a view shows it: of constant size on the screen. What is drawn can be grabbed, by
+/// distance on the screen.
 class GizmoLayout {
  public:
-  /// All in pixels.
-  static constexpr double kArrowLength = 92.0, kLongArrowLength = 112.0;  ///< The longer reach out of rings.
+  /// All sizes are in pixels.
+  static constexpr double kArrowLength = 92.0, kLongArrowLength = 112.0;  ///< Long: beyond the rings.
   static constexpr double kRingRadius = 80.0, kViewRingRadius = 98.0;
   static constexpr double kMiddleRadius = 8.0;
-  /// How near to a line the pointer must be to grab it.
+  /// Max distance of the pointer from a line that it grabs.
   static constexpr double kGrabDistance = 7.0;
 
-  /// Nothing is shown where the pivot is not in front of the eye.
+  /// Empty if the pivot is not in front of the eye.
   GizmoLayout(const ViewProjection& view, const GizmoFrame& frame, GizmoMode mode);
 
-  /// In the order in which they are to be drawn.
+  /// In drawing order.
   std::span<const GizmoFigure> figures() const noexcept { return figures_; }
+  /// True if the handle is shown.
   bool has(GizmoHandle handle) const noexcept;
-  /// What the pointer would grab there; None beside all handles.
+  /// The handle that the pointer would grab; None if it is beside all.
   GizmoHandle pick(const glm::dvec2& pixel) const noexcept;
 
  private:
@@ -48,21 +49,22 @@ class GizmoLayout {
   void addArrows(const ViewProjection& view, const GizmoFrame& frame, double length, Side side);
   void addPlanes(const ViewProjection& view, const GizmoFrame& frame);
   void addMiddle(const ViewProjection& view, const GizmoFrame& frame);
-  /// @param without  The axis that has no ring; -1: each has.
+  /// @param without  Axis without a ring; -1: all have one.
   void addRings(const ViewProjection& view, const GizmoFrame& frame, int without = -1);
   void addViewRing(const ViewProjection& view, const GizmoFrame& frame);
 
   std::vector<GizmoFigure> figures_;
 };
 
-/// What shows how far a drag has come, in pixels.
+/// Shows how far a drag has come, in pixels.
 struct GizmoGuide {
-  std::vector<glm::dvec2> line;    ///< The axis, through the view; empty but for arrows.
-  std::vector<glm::dvec2> way;     ///< From where the pivot stood to where it stands; empty for turns.
-  std::vector<glm::dvec2> sector;  ///< That a ring has swept; empty for shifts.
+  std::vector<glm::dvec2> line;    ///< The axis across the view; arrows only.
+  std::vector<glm::dvec2> way;     ///< From the pivot's start to its position; empty for rings.
+  std::vector<glm::dvec2> sector;  ///< Swept by a ring; empty for other handles.
 };
 
-/// @param shift  Where the drag has come to, in the world [m].   @param angle  Turned by so much [rad].
+/// @param shift  Translation so far, in the world frame [m].
+/// @param angle  Rotation so far [rad].
 GizmoGuide gizmoGuide(const ViewProjection& view, const GizmoDrag& drag, const glm::dvec3& shift,
                       double angle);
 

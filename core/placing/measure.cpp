@@ -33,7 +33,7 @@ bool isPoint(const AlignFeature& feature) noexcept {
   return feature.shape == FeatureShape::Point;
 }
 
-/// Between directions, of either sense [rad].
+/// Between lines, regardless of sign [rad].
 double angleBetween(const glm::dvec3& a, const glm::dvec3& b) noexcept {
   return std::atan2(glm::length(glm::cross(a, b)), std::abs(glm::dot(a, b)));
 }
@@ -67,7 +67,7 @@ Measurement measure(const MeasureEnd& from, const MeasureEnd& to) noexcept {
   result.angle = isMixed ? 0.5 * std::numbers::pi - between : between;
   const bool hasCentre = a.shape == FeatureShape::Circle || b.shape == FeatureShape::Circle;
   if (!(isMixed && hasCentre) && *result.angle > kParallelAngle) return result;
-  // From the line to the plane where there is one of each.
+  // For a plane and a line, measure from the line to the plane.
   result.apart = isPlane(a) ? distanceTo(a, b.point) : distanceTo(b, a.point);
   return result;
 }

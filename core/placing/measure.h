@@ -11,37 +11,38 @@ namespace nearfit {
 
 /// One end of a measurement, in some frame.
 struct MeasureEnd {
-  glm::dvec3 point{0.0};  ///< That the distance is measured to [m].
-  AlignFeature feature;   ///< What was pointed at: for angles, and distances square to it.
+  glm::dvec3 point{0.0};  ///< Distances are measured to this point [m].
+  AlignFeature feature;   ///< The feature pointed at: for angles and perpendicular distances.
 };
 
-/// What somebody measures from who points at a feature of a mesh, in its frame: a corner, the centre of a
-/// circle, the nearest point of an edge, else the very point of the face.
-/// @param hit  The point of the surface that was pointed at [m].
+/// The end of a measurement at a picked feature, in the mesh's frame: a corner, the centre of a circle, the
+/// nearest point of an edge, otherwise the point of the face itself.
+/// @param hit  Point of the surface pointed at [m].
 MeasureEnd measureEnd(const TriangleMesh& mesh, const PickedFeature& picked, const glm::dvec3& hit);
 
-/// The same end in another frame.
+/// Returns the end in another frame.
 inline MeasureEnd placed(const MeasureEnd& end, const RigidTransform& frameFromEnd) noexcept {
   return {frameFromEnd.applyToPoint(end.point), placed(end.feature, frameFromEnd)};
 }
 
-/// What lies between two ends.
+/// A measurement between two ends.
 struct Measurement {
-  glm::dvec3 from{0.0}, to{0.0};  ///< The points of the ends [m].
-  double distance = 0.0;          ///< Between them [m].
-  /// Between the planes, axes and points that the ends are of [m]: square to them; of a circle and a plane,
-  /// from its centre. Nothing where they run into each other, or are two points.
+  glm::dvec3 from{0.0}, to{0.0};  ///< Points of the ends [m].
+  double distance = 0.0;          ///< Between these points [m].
+  /// Perpendicular distance between the ends' planes, axes and points; for a circle and a plane, from the
+  /// circle's centre [m]. std::nullopt if they are two points, or otherwise not parallel.
   std::optional<double> apart;
-  /// Between the directions of faces and axes, from 0 to a right angle [rad]; between a face and an axis that
-  /// of the axis to the face. Nothing where one has no direction.
+  /// Angle between the directions of faces and axes, or between an axis and a face [rad]; 0 to pi / 2.
+  /// std::nullopt if one has no direction.
   std::optional<double> angle;
 };
 
-/// Directions that differ by less count as parallel, and planes and lines are apart then [rad]: a tenth of a
-/// degree, as meshes have rounded normals.
+/// Directions that differ by less count as parallel [rad]: a tenth of a degree, since meshes have
+/// rounded normals.
 constexpr double kParallelAngle = 1.745e-3;
 
-/// @param from, to  In one frame; directions unit, everything finite.
+/// Measures between two ends.
+/// @param from, to  In one frame; unit directions, everything finite.
 Measurement measure(const MeasureEnd& from, const MeasureEnd& to) noexcept;
 
 }  // namespace nearfit

@@ -10,7 +10,7 @@
 namespace nearfit {
 namespace {
 
-/// What single precision leaves of a plane: heights as a fraction of the mesh's size, and directions of
+/// Tolerances for planes in single precision: height as a fraction of the mesh's size, and direction of
 /// triangles that are not slivers [rad].
 constexpr double kPlaneHeight = 2e-6, kPlaneTurn = 2e-3;
 
@@ -36,7 +36,7 @@ std::vector<std::uint32_t> inPlaneOf(const TriangleMesh& mesh, std::uint32_t tri
       return std::abs(glm::dot(mesh.vertices()[v] - point, normal)) <= height;
     };
     if (!isNear(t[0]) || !isNear(t[1]) || !isNear(t[2])) return false;
-    // A small facet of something round is as near; a sliver's direction says nothing.
+    // A small facet of something round may be as near. A sliver's direction is unreliable.
     const glm::dvec3 area = doubleArea(mesh, other);
     const double turn = kPlaneTurn * glm::length(area) + height * mesh.bounds().diagonal() * kPlaneTurn;
     return glm::dot(area, normal) >= 0.0 && glm::length(glm::cross(area, normal)) <= turn;
@@ -61,7 +61,7 @@ bool isSharp(const TriangleMesh& mesh, std::uint32_t edge) noexcept {
 PlaneRegion planeRegion(const TriangleMesh& mesh, std::uint32_t triangle) {
   PlaneRegion region;
   if (triangleNormal(mesh, triangle) == glm::dvec3(0.0)) return region;
-  // The plane of a large triangle is better known than that of a small one.
+  // A large triangle determines the plane better than a small one.
   const std::uint32_t largest = largestOf(mesh, inPlaneOf(mesh, triangle, triangle));
   region.triangles = inPlaneOf(mesh, largest, triangle);
   glm::dvec3 area(0.0), moment(0.0);

@@ -17,7 +17,7 @@ glm::dvec3 centreOfMass(std::span<const PlacedPart> parts) noexcept {
     plain += centre;
     total += mass;
   }
-  // One part's own centre to the last bit.
+  // Keep a single part's centre exact.
   if (parts.size() == 1 || !(total > 0.0)) return plain / static_cast<double>(parts.size());
   return sum / total;
 }
@@ -39,7 +39,7 @@ glm::dvec3 boxCentre(std::span<const PlacedPart> parts) noexcept {
 }
 
 std::optional<glm::dvec3> sharedPivot(std::span<const PlacedPart> parts) noexcept {
-  // A few poses that were made of each other.
+  // Rounding of a few multiplied poses.
   constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
   std::optional<glm::dvec3> shared;
   for (const PlacedPart& placed : parts) {

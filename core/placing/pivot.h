@@ -11,27 +11,32 @@
 
 namespace nearfit {
 
-/// A part where it is shown, which a drag or a hand may have away from its pose in the scene.
+/// A part as shown, which may be away from its pose in the scene during a drag or in the hand.
 struct PlacedPart {
-  const Part* part = nullptr;  ///< With a geometry.
+  const Part* part = nullptr;  ///< Has a geometry.
+  /// Pose as shown.
   RigidTransform worldFromPart;
 };
 
-/// Of all parts together, in the world [m]; goes with them. The parts weigh by density and volume; where none
-/// has a mass all count alike. @param parts  Not empty.
+/// Common centre of mass, in the world frame [m]. Parts are weighted by mass (density times volume), or
+/// equally if none has a mass.
+/// @param parts  Not empty.
 glm::dvec3 centreOfMass(std::span<const PlacedPart> parts) noexcept;
 
-/// The middle of the box around all parts, in the world [m]. The box lies along the axes of the first part,
-/// so that its middle goes with the parts when they are moved together. @param parts  Not empty.
+/// Centre of the bounding box of all parts, in the world frame [m]. The box is aligned with the first part,
+/// so that its centre moves with the parts.
+/// @param parts  Not empty.
 glm::dvec3 boxCentre(std::span<const PlacedPart> parts) noexcept;
 
-/// The pivot that all parts were given together, in the world [m]; nothing where one has none, or another.
-/// Parts that have moved together since still share it: kPivotSlack and what rounds at the coordinates' size.
+/// The pivot that all parts share, in the world frame [m]; std::nullopt if a part has none or a
+/// different one. Parts that moved together still share it: the tolerance is kPivotSlack plus rounding
+/// of the coordinates.
 /// @param parts  Not empty.
 std::optional<glm::dvec3> sharedPivot(std::span<const PlacedPart> parts) noexcept;
 constexpr double kPivotSlack = 1e-9;  ///< Nobody aims at a nanometre [m].
 
-/// Whether a ray meets the box around a part, so that it is worth while to look closer.
+/// True if the line of sight, extended both ways, meets the part's bounding box: a cheap test
+/// before a closer look.
 bool meetsBox(const ViewRay& ray, const PlacedPart& part) noexcept;
 
 }  // namespace nearfit

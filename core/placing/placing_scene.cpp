@@ -21,8 +21,8 @@ const Part& partOf(const Scene& scene, PartId id) {
   return *part;
 }
 
-/// All meshes in one, in the frame of `worldFromAll`. What crosses there has no inside, and is kept out from
-/// any side.
+/// Merges the meshes, in the frame of `worldFromAll`. Where meshes cross, the result has no inside, and
+/// contact counts from either side.
 PartGeometryPtr joined(std::span<const Part* const> parts, const RigidTransform& worldFromAll) {
   std::vector<glm::dvec3> vertices;
   std::vector<Triangle> triangles;

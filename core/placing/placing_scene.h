@@ -9,12 +9,12 @@
 
 namespace nearfit {
 
-/// Parts of a scene as one rigid body in hand, among all visible others. Of one part that is itself, in its
-/// own frame; several become one mesh, in the frame of the first. Those that are invisible are left out;
-/// where none is left, nothing can be met. Builds the hierarchies that are missing, which takes seconds for
-/// millions of triangles (prepareHierarchies() does so before).
+/// Builds a servo scene in which some parts, as one rigid body, are the moving part among all other visible
+/// parts. A single part stays as it is, in its own frame; several become one mesh, in the frame of the first.
+/// Invisible parts are left out; if no moved part remains, nothing can be touched. Builds missing
+/// hierarchies, which takes seconds for millions of triangles (prepareHierarchies() can do so beforehand).
 /// @param moved  Not empty.
-/// Throws UsageError when a part is not in the scene, and Cancelled.
+/// Throws UsageError if a part is not in the scene; Cancelled.
 std::shared_ptr<const ServoScene> makePlacingScene(const Scene& scene, std::span<const PartId> moved,
                                                    const ProgressCallback& progress = {});
 

@@ -15,10 +15,10 @@
 namespace nearfit {
 namespace {
 
-/// Ticks between two reports of progress, and of a whole push.
+/// Ticks between two progress reports, and max ticks of a push.
 constexpr int kBetweenReports = 20, kMostTicks = 4 * SolidMove::kMostTicks;
 
-/// As long as everything that is shown: whoever has gone so far has gone past it [m].
+/// The extent of everything visible: a part that has moved this far is past it all [m].
 double wholeWay(const Scene& scene) {
   Aabb box;
   double size = 0.0;
@@ -48,7 +48,7 @@ Scene shifted(const Scene& scene, std::span<const PartId> moved, const glm::dvec
   return result;
 }
 
-/// Parts that are touched, those first that bar the way, the nearest of them first.
+/// Sorts touched parts: those that block the direction first, nearest first.
 std::vector<PartId> barringFirst(const Scene& scene, std::span<const PartId> moved,
                                  const std::vector<RigidTransform>& poses, std::vector<PartId> touched,
                                  const glm::dvec3& direction) {

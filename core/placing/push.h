@@ -10,27 +10,28 @@
 
 namespace nearfit {
 
+/// Result of pushParts().
 struct PushResult {
   enum class Outcome {
-    Held,         ///< The parts are where what they touch lets them go no farther that way.
+    Held,         ///< What the parts touch stops them in that direction.
     NothingMet,   ///< Nothing is in the way.
-    SlippedPast,  ///< They touched, slid along, and past everything, or on and on: nothing holds them.
+    SlippedPast,  ///< They touched something but slid past everything, or kept sliding: nothing holds them.
     Overlapping,  ///< `against` meets them at the start.
   };
   Outcome outcome = Outcome::NothingMet;
-  std::vector<RigidTransform>
-      poses;  ///< worldFromPart of each, in the order given; the present ones unless held.
-  /// What they touch in the end, or meet at the start; first what bars the direction, the nearest before.
+  /// worldFromPart of each part, in the order given; the present poses unless Held.
+  std::vector<RigidTransform> poses;
+  /// Parts touched at the end, or met at the start. Those that block the direction come first, nearest first.
   std::vector<PartId> against;
 };
 
-/// Pushes parts together along a direction until they are held: straight to the first contact, as dropParts()
-/// does, and from there on along what they touch, as SolidMove does, without turning, a margin of the proxy
-/// away. Where a drop stops at the first touch, a push slides a ball down a slope into its seat.
+/// Pushes parts together along a direction until they are held. They go straight to the first contact, like
+/// dropParts(), and then slide along what they touch, like SolidMove: without rotation, a proxy's margin
+/// away. A drop stops at the first touch; a push slides a ball down a slope into its seat.
 ///
 /// @param moved      As for dropParts().
-/// @param direction  In the world; of any length but 0.
-/// Throws what dropParts() and SolidMove do. Not real-time safe; may take seconds.
+/// @param direction  In the world frame; any length but 0.
+/// Throws what dropParts() and SolidMove throw. May take seconds; not real-time safe.
 PushResult pushParts(const Scene& scene, std::span<const PartId> moved, const glm::dvec3& direction,
                      const ProgressCallback& progress = {});
 

@@ -8,9 +8,9 @@
 
 namespace nearfit {
 
-/// The triangles connected with one through edges of two faces, as far as `accepts(triangle)` goes. The first
-/// is always among them.
-/// @param most  No more than so many.
+/// Triangles connected to `first` through edges with two faces, as long as `accepts(triangle)`. `first` is
+/// always included. O(n) in the region.
+/// @param most  Max number of triangles.
 template <class Accept>
 std::vector<std::uint32_t> grownRegion(const TriangleMesh& mesh, std::uint32_t first, Accept&& accepts,
                                        std::size_t most = TriangleMesh::kMaxTriangles) {

@@ -52,7 +52,7 @@ std::vector<glm::dvec2> convexHull(std::vector<glm::dvec2> points) {
       hull.pop_back();
     hull.push_back(point);
   };
-  // Along one side, and back along the other.
+  // Along one side, then back along the other.
   for (const glm::dvec2& point : points)
     add(point, 0);
   const std::size_t turned = hull.size() - 1;

@@ -7,14 +7,13 @@
 
 namespace nearfit {
 
-/// Of a point from an open line [pixels]; infinity where the line has no point.
+/// Distance of a point from an open polyline [pixels]; infinity if the line is empty.
 double distanceToLine(std::span<const glm::dvec2> line, const glm::dvec2& point) noexcept;
 
-/// Whether a point lies in a polygon that closes itself; by the even-odd rule.
+/// True if a point is inside a closed polygon, by the even-odd rule.
 bool isInside(std::span<const glm::dvec2> polygon, const glm::dvec2& point) noexcept;
 
-/// The corners of the convex hull, in order; the points themselves where there are fewer than three.
-/// O(n log n).
+/// Corners of the convex hull, in order; fewer than three points are returned as they are. O(n log n).
 std::vector<glm::dvec2> convexHull(std::vector<glm::dvec2> points);
 
 }  // namespace nearfit

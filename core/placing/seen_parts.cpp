@@ -11,23 +11,23 @@
 namespace nearfit {
 namespace {
 
-/// As near to the eye as anything is shown, in parts of the distance to the farthest.
+/// Nearest depth that is shown, as a fraction of the farthest.
 constexpr double kNearest = 1e-9;
 constexpr std::uint32_t kNobody = 0xffffffff;
 
-/// A corner before the eye: across, down and away from it [m], and how far before the cut [m].
+/// A corner in eye coordinates: right, down and away [m], and its height above the cut plane [m].
 struct Corner {
   glm::dvec3 at;
   double height = 0.0;
 };
 
-/// A piece of a triangle after two planes.
+/// A triangle clipped by two planes.
 struct Polygon {
   std::array<Corner, 5> corners;
   std::size_t count = 0;
 };
 
-/// What of a polygon has a value of at most zero.
+/// The part of a polygon where `value` is at most zero.
 template <typename Value>
 Polygon below(const Polygon& whole, const Value& value) {
   Polygon piece;
@@ -43,13 +43,13 @@ Polygon below(const Polygon& whole, const Value& value) {
   return piece;
 }
 
-/// A picture of who is nearest at each pixel.
+/// An image of the nearest part at each pixel.
 class Picture {
  public:
   Picture(const ViewProjection& view, const PixelBox& pixels)
       : view_(view),
         eye_(view.rayThrough(view.middle()).origin),
-        // At depth 1; in parallel projection at any.
+        // At depth 1; in parallel projection at any depth.
         scale_(view.metresPerPixel(eye_ + view.away())),
         lower_(glm::min(pixels.lower, pixels.upper)),
         size_(glm::max(pixels.lower, pixels.upper) - lower_ + 1),
@@ -62,11 +62,11 @@ class Picture {
     return {{glm::dot(way, view_.right()), -glm::dot(way, view_.up()), glm::dot(way, view_.away())}, 0.0};
   }
 
-  /// Whether anything of a box before the eye may be seen.
+  /// False if the box is certainly outside the pixels.
   bool mayShow(std::span<const Corner> box) const {
     glm::dvec2 least(std::numeric_limits<double>::infinity()), most(-least);
     for (const Corner& corner : box) {
-      // Of what reaches behind the eye the pixels say little.
+      // Pixels of corners behind the eye are meaningless.
       if (!view_.isParallel() && corner.at.z <= 0.0) return true;
       const glm::dvec3 pixel = pixelOf(corner.at);
       least = glm::min(least, glm::dvec2(pixel));
@@ -76,8 +76,9 @@ class Picture {
     return least.x <= upper.x && least.y <= upper.y && most.x >= lower.x && most.y >= lower.y;
   }
 
-  /// @param farthest  From the eye, of all that is shown [m].
-  /// @param isDrawn   Hides what is behind it from now on. @return  Whether anything of it is seen now.
+  /// Adds a triangle; true if any of it is visible now.
+  /// @param farthest  Farthest depth of all that is shown [m].
+  /// @param isDrawn   If true, it hides what is behind it from now on.
   bool add(std::uint32_t owner, const std::array<Corner, 3>& triangle, bool isCut, double farthest,
            bool isDrawn) {
     Polygon piece{{triangle[0], triangle[1], triangle[2]}, 3};
@@ -100,7 +101,7 @@ class Picture {
     return isSeen;
   }
 
-  /// Of whoever is nearest somewhere.
+  /// Marks the owners of all pixels.
   void markOwners(std::vector<char>& isSeen) const {
     for (const std::uint32_t owner : owner_) {
       if (owner != kNobody) isSeen[owner] = 1;
@@ -108,7 +109,7 @@ class Picture {
   }
 
  private:
-  /// Pixel, and how near: a number that is linear in the picture and greater for what is nearer.
+  /// Pixel and nearness. Nearness is linear in the image and greater for nearer points.
   glm::dvec3 pixelOf(const glm::dvec3& at) const {
     const double scale = view_.isParallel() ? scale_ : scale_ * at.z;
     return {view_.middle() + glm::dvec2(at) / scale, view_.isParallel() ? -at.z : 1.0 / at.z};
@@ -197,7 +198,7 @@ std::vector<PartId> partsSeenIn(std::span<const ShownPart> parts, const ViewProj
       const bool isMet =
           picture.add(static_cast<std::uint32_t>(i), {corners[t[0]], corners[t[1]], corners[t[2]]}, isCut,
                       farthest, part.isOpaque);
-      // One look is enough of what hides nothing.
+      // For a part that hides nothing, one visible triangle is enough.
       if (!isMet || part.isOpaque) continue;
       isSeen[i] = 1;
       return;

@@ -15,21 +15,22 @@ namespace nearfit {
 /// A part as a view shows it.
 struct ShownPart {
   PlacedPart placed;
-  bool isOpaque = true;  ///< Else what lies behind it is seen too.
-  bool isCut = false;    ///< What the plane cuts away is not shown of it.
+  bool isOpaque = true;  ///< If false, what lies behind is visible too.
+  bool isCut = false;    ///< The cut plane removes part of it.
 };
 
-/// Pixels of a view (see ViewProjection), both corners among them.
+/// A box of pixels of a view (see ViewProjection), both corners included.
 struct PixelBox {
   glm::ivec2 lower{0}, upper{0};
 };
 
-/// The parts of which something is seen at the pixels of a box, in their order in `parts`. Something is seen
-/// at a pixel where a part is met there before all opaque ones; what is smaller than a pixel may be missed.
+/// The parts visible in a box of pixels, in the order of `parts`. A part is visible at a pixel if no opaque
+/// part is in front of it there. Parts smaller than a pixel may be missed.
 ///
-/// Cut open, a closed part is seen where its cut face is: there its inside is met first. Takes time in
-/// proportion to the triangles of the parts whose boxes reach into the pixels, and to those pixels.
-/// @param cut  In the world; counts for parts that are cut.
+/// A closed part that is cut open is visible at its cut face, where its inside is in front. Time is
+/// proportional to the triangles of the parts whose bounding boxes reach the pixels, plus the
+/// number of pixels.
+/// @param cut  In the world frame; applies to parts with isCut.
 std::vector<PartId> partsSeenIn(std::span<const ShownPart> parts, const ViewProjection& view,
                                 const PixelBox& pixels, const std::optional<CutPlane>& cut = std::nullopt);
 

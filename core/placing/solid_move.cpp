@@ -11,16 +11,18 @@
 namespace nearfit {
 namespace {
 
-/// What is only to be shifted turns by no more than rounding: a turn costs the square of this times as much.
+/// Turn scale that bars rotation, up to rounding, in pure translations: the cost of a rotation grows with the
+/// square of this factor.
 constexpr double kTurnBarred = 1e4;
-/// Settled is what moves by less than this share of the margin for so many ticks.
+/// The parts have settled if they move less than this fraction of the margin for kStillTicks ticks.
 constexpr double kStill = 1e-3;
 constexpr int kStillTicks = 3;
-/// Of the margin that is kept at the end: who wants farther and goes no farther than that is held.
+/// The parts are held if they move less than this fraction of the final margin although the
+/// target is farther.
 constexpr double kNoMove = 0.02;
-/// So many ticks are waited for the lists that a crowded place needs.
+/// Max ticks to wait for the candidate lists of a crowded place.
 constexpr int kPatience = 40;
-/// Between two looks at whether the user wants to stop.
+/// Ticks between two checks for cancellation.
 constexpr int kTicksAtOnce = 50;
 
 bool isSame(const RigidTransform& a, const RigidTransform& b) {
@@ -31,7 +33,7 @@ bool turns(const RigidTransform& motion) {
   return motion.rotation.x != 0.0 || motion.rotation.y != 0.0 || motion.rotation.z != 0.0;
 }
 
-/// No point of the body moves farther [m].
+/// Upper bound on how far any point of the body moves [m].
 double travelBetween(const ServoScene& scene, const RigidTransform& from, const RigidTransform& to) {
   const glm::dvec3 shift = to.applyToPoint(scene.centreInPart) - from.applyToPoint(scene.centreInPart);
   return glm::length(shift) + scene.metric.radius * glm::length(turnBetween(from.rotation, to.rotation));
@@ -67,7 +69,7 @@ SolidMove::Progress SolidMove::advance(const RigidTransform& motion, int ticks) 
   settle(target, turnScale, ticks);
   updatePoses();
   if (isSame(pose_, target)) {
-    // To the last bit where they were wanted, for several parts too.
+    // Exactly at the target, for several parts too.
     for (std::size_t i = 0; i < poses_.size(); ++i)
       poses_[i] = motion * startPoses_[i];
   }
@@ -83,10 +85,11 @@ void SolidMove::settle(const RigidTransform& target, double turnScale, int ticks
     waited_ = isWaiting && isStill ? waited_ + 1 : 0;
     still_ = isStill && !isWaiting ? still_ + 1 : 0;
     isSettled_ = isSame(pose_, target) || still_ >= kStillTicks || waited_ >= kPatience;
-    // They have come as far as the margin lets them: the rest of the way is a part of it.
+    // They have gone as far as the margin allows; the final margin allows a little more.
     if (isSettled_ && !isSame(pose_, target) && settings_.margin > marginAtEnd_) keepMargin(marginAtEnd_);
   }
-  // What rests ends a hundredth nearer than it began: pushed again and again, it would creep.
+  // Resting parts end a hundredth nearer than they began. Without this, repeated pushes would
+  // make them creep.
   const double gone = travelBetween(*scene_, start_, pose_);
   isHeld_ = isSettled_ && !isSame(pose_, target) && gone < kNoMove * marginAtEnd_ &&
             gone < 0.5 * travelBetween(*scene_, start_, target);
@@ -98,7 +101,7 @@ void SolidMove::keepMargin(double margin) {
   isSettled_ = false;
 }
 
-/// Stands for as many ticks as it takes to know what is near.
+/// Holds the parts still until their surroundings are known.
 void SolidMove::findStartDistance() {
   marginAtEnd_ = margin_;
   if (scene_->moving.geometry == nullptr) return;
@@ -108,7 +111,7 @@ void SolidMove::findStartDistance() {
   if (ticks < kPatience) marginAtEnd_ = std::clamp(proxy_->distance(), kMinMargin, margin_);
 }
 
-/// Says whether the proxy waits for what is not known yet.
+/// Runs one tick. True if the proxy waits for missing information.
 bool SolidMove::tick(const RigidTransform& target, double turnScale) {
   const ProxyAccount& last = proxy_->account();
   tracker_.observe(pose_, 1.0);

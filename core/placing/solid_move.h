@@ -11,41 +11,41 @@
 
 namespace nearfit {
 
-/// Moves parts of a scene, as one rigid body, as far towards where they are wanted as the others let them, by
-/// the proxy that the servo feels with: they slide along what they touch, a margin away from it, and never
-/// meet it. Parts that start nearer than the margin to something end as near, if they are wanted there; on
-/// the way they go by the margin. What they overlap where they start lets them through until they have come
-/// apart. Held where they stand they do not move at all: what goes less than a fiftieth of the margin stays.
+/// Moves parts of a scene, as one rigid body, as far toward a target as the other parts allow, with the
+/// servo's proxy. The parts slide along what they touch, a margin away, and never meet it.
 ///
-/// A motion that only shifts does not turn them, whatever they touch; one that turns may shift them aside.
-/// There is no friction: what is placed by hand is to slide.
+/// Parts that start nearer than the margin to something may end as near if the target is there; on the way
+/// they keep the margin. Parts that they overlap at the start do not block them until they have come apart.
+/// Parts that are held do not move at all: a motion below a fiftieth of the margin is discarded.
 ///
-/// Not for the servo thread, and for one thread at a time. A tick takes 1.5 ms at most on a slow core, in
-/// most cases a tenth of that, and now and then a search of the surroundings beside it.
+/// A pure translation never rotates the parts, whatever they touch; a motion with rotation may also displace
+/// them. There is no friction, so that placed parts slide.
+///
+/// Not for the servo thread; one thread at a time. A tick takes at most 1.5 ms on a slow core, usually a
+/// tenth of that, plus an occasional search of the surroundings.
 class SolidMove {
  public:
-  /// Of a whole way at once. In contact a tick goes some twenty margins.
+  /// Max ticks of a whole motion. In contact, a tick covers about twenty margins.
   static constexpr int kMostTicks = 4000;
 
-  /// As makePlacingScene(), and throws what that does.
+  /// Builds the scene with makePlacingScene() and throws what that throws.
   SolidMove(const Scene& scene, std::span<const PartId> moved, const ProgressCallback& progress = {});
 
   struct Progress {
-    bool isSettled = false;   ///< They go no farther towards what was wanted last.
-    bool hasArrived = false;  ///< They are where they were wanted, to the last bit.
+    bool isSettled = false;   ///< The parts go no farther toward the last target.
+    bool hasArrived = false;  ///< They are exactly at the target.
   };
-  /// Goes on from where they are for so many ticks, or until they have settled.
-  /// @param motion  What stood at a point p of the world at the start is wanted at motion(p); finite, its
-  ///                quaternion unit.
+  /// Continues for up to `ticks` ticks, or until the parts have settled.
+  /// @param motion  Target: a world point p from the start should go to motion(p). Finite, unit quaternion.
   Progress advance(const RigidTransform& motion, int ticks);
 
-  /// Of each part, in the order given: worldFromPart.
+  /// worldFromPart of each part, in the order given.
   const std::vector<RigidTransform>& poses() const noexcept { return poses_; }
-  /// The motion that has brought them from the start to where they are, but for rounding.
+  /// The motion from the start to the present poses, up to rounding.
   RigidTransform motion() const noexcept;
-  /// What holds them back now, each part once.
+  /// The parts that hold them back now, each once.
   std::vector<PartId> touching() const;
-  /// What lets them through, as they overlapped it at the start.
+  /// The parts that do not block them yet, because they overlapped at the start.
   std::vector<PartId> released() const;
 
  private:
@@ -63,22 +63,21 @@ class SolidMove {
   SceneTracker tracker_;
   TrackedScene tracked_;
   std::unique_ptr<Proxy> proxy_;
-  RigidTransform start_, pose_;  ///< Of the body that they are one of.
+  RigidTransform start_, pose_;  ///< Poses of the body that the parts form.
   RigidTransform wanted_;
-  double margin_;  ///< That is kept on the way [m].
-  /// What the parts keep where they end: at most the margin, less where they were nearer at the start [m]. 0:
-  /// not known yet.
+  double margin_;  ///< Kept on the way [m].
+  /// Margin kept at the end: `margin_`, or less if the parts started nearer to something [m]. 0 until known.
   double marginAtEnd_ = 0.0;
   bool isSettled_ = false;
-  bool isHeld_ = false;         ///< Where they started.
-  int still_ = 0, waited_ = 0;  ///< Ticks since the parts last moved, or since the proxy knew enough.
+  bool isHeld_ = false;         ///< The parts stay where they started.
+  int still_ = 0, waited_ = 0;  ///< Consecutive ticks without motion; of waiting for lists.
   std::vector<RigidTransform> startPoses_, bodyFromPart_, poses_;
 };
 
-/// Where parts come to that are moved so, the whole way at once: for numbers and alignment.
-/// @param motion  As for SolidMove::advance.
+/// Moves parts like SolidMove, the whole way at once: for typed poses and alignment.
+/// @param motion  As for SolidMove::advance().
 /// @return worldFromPart of each part, in the order given.
-/// Takes what it takes: off the GUI thread. Throws what SolidMove does.
+/// May take seconds: not for the GUI thread. Throws what SolidMove throws, and Cancelled.
 std::vector<RigidTransform> movedSolidly(const Scene& scene, std::span<const PartId> moved,
                                          const RigidTransform& motion, const ProgressCallback& progress = {});
 

@@ -16,10 +16,10 @@
 namespace nearfit {
 namespace {
 
-/// How far a node's box may be off from what single precision says of it, as a fraction of its size: its axes
-/// are unit and square to 1e-7.
+/// Max error of a node's single-precision box, as a fraction of its size: its axes are unit and
+/// perpendicular to 1e-7.
 constexpr double kBoxSlack = 1e-6;
-/// Pairs of nodes between two calls to whoever wants to stop.
+/// Pairs of nodes between two calls of onWork.
 constexpr std::uint64_t kBetweenCalls = 2048;
 
 struct Box {
@@ -41,7 +41,7 @@ struct Entry {
 };
 
 struct EntryPairAt {
-  double travel;  ///< Before this they are apart.
+  double travel;  ///< The pair is apart before this [m].
   Entry scene, part;
   bool operator<(const EntryPairAt& other) const noexcept { return travel > other.travel; }
 };
@@ -99,7 +99,7 @@ class Search {
     return children;
   }
 
-  /// Where boxes come together, at the earliest.
+  /// Earliest travel at which the boxes may touch; std::nullopt if they do not.
   std::optional<double> meeting(const Box& a, const Box& b) const noexcept {
     const double slack = slack_ + kBoxSlack * (a.size() + b.size());
     const glm::dvec3 between = b.centre - a.centre;

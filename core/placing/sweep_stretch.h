@@ -5,17 +5,18 @@
 
 namespace nearfit {
 
-/// The part of a straight way on which nothing yet says that two convex things are apart.
+/// The range of a straight motion on which no tested axis separates two convex bodies.
 struct SweepStretch {
+  /// Travel along the direction [m].
   double from = 0.0, to = std::numeric_limits<double>::infinity();
 
   bool isEmpty() const noexcept { return from > to; }
 
-  /// Cuts off where the moving one's shadow on an axis is apart from the other's.
-  /// @param gap    From the fixed shadow's upper end to the moving one's lower end, at the start.
-  /// @param depth  From the fixed one's lower end to the moving one's upper end.
-  /// @param speed  Of the moving one along the axis.
-  /// Whether this axis is now the one that says where they come together.
+  /// Removes the range on which an axis separates them.
+  /// @param gap    From the fixed body's upper end on the axis to the moving one's lower end, at the start.
+  /// @param depth  From the fixed body's lower end to the moving one's upper end.
+  /// @param speed  Of the moving body along the axis.
+  /// @return True if this axis now determines where they touch.
   bool cut(double gap, double depth, double speed) noexcept {
     if (speed == 0.0) {
       if (gap > 0.0 || depth < 0.0) to = -1.0;

@@ -11,7 +11,7 @@
 namespace nearfit {
 namespace {
 
-/// Two edges that are parallel to this have no common normal: what is computed as one is rounding [rad].
+/// Edges nearer to parallel than this have no reliable common normal [rad].
 constexpr double kParallel = 1e-12;
 
 struct Shadow {
@@ -38,8 +38,8 @@ class Sweep {
     stretch_.to = within;
   }
 
-  /// @param longest  What the axis's length would be, were its factors square to each other.
-  /// False once they are known never to touch.
+  /// @param longest  Length that the axis would have if its factors were perpendicular.
+  /// @return False once the triangles can never touch.
   bool look(const glm::dvec3& axis, double longest) noexcept {
     const double length = glm::length(axis);
     if (!(length > kParallel * longest)) return true;

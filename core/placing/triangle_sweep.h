@@ -6,20 +6,22 @@
 
 namespace nearfit {
 
-/// Where two triangles come to touch on a straight way.
+/// The first contact of two triangles in a straight motion.
 struct SweepHit {
-  double travel = 0.0;     ///< Along the direction; infinity when they never do.
-  glm::dvec3 normal{0.0};  ///< Of the plane that they touch in, unit, against the direction; zero at once.
+  double travel = 0.0;  ///< Along the direction; infinity if they never touch.
+  /// Of the plane in which they touch, against the direction; unit. Zero if they touch at the start.
+  glm::dvec3 normal{0.0};
 };
 
-/// How far `moving` goes along `direction` until it touches `fixed`, nothing turning; 0 where they touch
-/// already. Triangles are the convex hulls of their corners, whatever their side.
+/// How far `moving` goes along `direction`, without rotation, until it touches `fixed`; 0 if they already
+/// touch. A triangle is the convex hull of its corners; both sides count.
 ///
-/// @param direction  Unit.   @param within  More travel than this need not be told apart from infinity.
-/// Before the travel that is returned they are apart, to rounding of the corners. Where the way only grazes,
-/// so that rounding alone decides, they touch.
-/// Exact separating axes of a moving polytope (S. Gottschalk's, in D. Eberly's dynamic form), with those in
-/// the triangles' planes for pairs that are parallel. Real-time safe.
+/// @param direction  Unit.
+/// @param within     Max travel of interest; longer ones may be returned as infinity.
+/// Before the returned travel the triangles are apart, up to rounding of the corners. If rounding alone
+/// decides a grazing motion, they touch.
+/// Exact separating axes of moving polytopes (S. Gottschalk's, in D. Eberly's dynamic form), including those
+/// in the triangles' planes for parallel pairs. Real-time safe.
 SweepHit sweepTriangles(const TriangleCorners& fixed, const TriangleCorners& moving,
                         const glm::dvec3& direction, double within) noexcept;
 

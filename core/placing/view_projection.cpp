@@ -8,7 +8,7 @@
 namespace nearfit {
 namespace {
 
-/// Any unit vector that is square to one.
+/// A unit vector perpendicular to another.
 glm::dvec3 squareTo(const glm::dvec3& unit) {
   const glm::dvec3 other = std::abs(unit.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   return glm::normalize(glm::cross(unit, other));

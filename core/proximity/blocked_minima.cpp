@@ -15,20 +15,20 @@
 namespace nearfit {
 namespace {
 
-/// How close to its ends, and to its side, a surface only touches a segment, as a fraction of the sizes of
-/// the bodies. A thousand times the tolerance by which points of minima may lie off their features, far below
-/// what coordinates in single precision can mean (1e-7).
+/// Distance from a segment's ends and sides within which a surface only touches it, as a fraction of the
+/// sizes of the bodies. A thousand times the tolerance by which points of minima may lie off their features,
+/// far below the resolution of single-precision coordinates (1e-7).
 constexpr double kTouch = 1e-9;
 
 /// Rounding of a segment to single precision, as a fraction of the lengths involved: some ten roundings.
 constexpr double kSinglePadding = 1e-6;
 
-/// What of a segment counts, as distances from its start [m].
+/// Range of a segment that counts, as distances from its start [m].
 struct Stretch {
   double from, to;
 };
 
-/// One body and its hierarchy, asked for what lies across a segment in the frame of the hierarchy.
+/// One body, tested for surfaces across a segment in the frame of its hierarchy.
 class Obstacle {
  public:
   Obstacle(const NormalConeTree& tree, SegmentKernel kernel, double clearance) noexcept
@@ -38,10 +38,10 @@ class Obstacle {
     if (!(stretch.from < stretch.to)) return false;
     const SegmentBound bound = boundOf(start, direction, stretch);
     SegmentPassage passage(start, direction, stretch.from, stretch.to, clearance_);
-    // Siblings that wait on the way down, of one tree.
+    // At most seven siblings wait per level of the tree.
     std::array<std::uint32_t, 7 * 12 + 1> stack;
     std::size_t size = 0;
-    // The first node has one child: everything. A tree of a single feature has no other node.
+    // The root has one child, which holds everything; it is a leaf in a tree of a single feature.
     const std::uint32_t top = tree_.nodes()[0].child[0];
     stack[size++] = NormalConeTree::isLeaf(top) ? 0 : top;
     while (size > 0) {
@@ -95,13 +95,13 @@ void markBlocked(const NormalConeTree& scene, const NormalConeTree& part, const 
   const RigidTransform partFromScene = centredPose(scene, part, sceneFromPart).inverse();
   for (Lmd& lmd : lmds) {
     const glm::dvec3 start = scenePointInside(lmd) - scene.centre();
-    // Away from its centroid a region that is not quite flat lies a little off the segment's ends.
+    // Away from its centroid, a region that is not quite flat lies slightly off the segment's ends.
     const double off = kFlatTolerance * (2.0 * lmd.extent.halfLength + glm::length(lmd.extent.inside));
     const Stretch open{touch + off, lmd.distance - touch - off};
-    // Where the segment crosses the scene, the rest of it joins the scene to its end on the part: that rest
-    // is no shorter than the least distance. Likewise the part, seen from the other end. So the nearest
-    // minimum of bodies that do not interpenetrate is never blocked, and little is left of those not much
-    // longer.
+    // If the segment crosses the scene, the rest of it joins the scene to its end on the part, and is no
+    // shorter than the least distance. The same holds for the part, seen from the other end. So the nearest
+    // minimum of bodies that do not interpenetrate is never blocked, and those not much
+    // longer need few tests.
     const Stretch byScene{open.from, std::min(open.to, lmd.distance - leastDistance + touch + off)};
     const Stretch byPart{std::max(open.from, leastDistance - touch - off), open.to};
     lmd.isBlocked = sceneObstacle.blocks(start, lmd.direction, byScene) ||

@@ -10,21 +10,20 @@ namespace nearfit {
 
 class NormalConeTree;
 
-/// Sets `isBlocked` of each minimum: whether its segment, between its ends, passes through the surface of
-/// either body. Such a minimum (through a thin wall, or between components of one mesh that overlap) is one
-/// by definition, but nothing can move along it. What the segment only touches does not count: the surface
-/// that carries its ends, an edge or a face that it grazes. For a flat region the segment at a point of the
-/// region stands for all.
+/// Sets `isBlocked` of each minimum: true if its segment, between its ends, passes through the surface of
+/// either body. Such a minimum (through a thin wall, or between overlapping components of one mesh) meets the
+/// definition, but nothing can move along it. A surface that the segment only touches does not count: the one
+/// that carries an end, or an edge or face that it grazes. For a flat region, one segment inside it decides.
 ///
 /// @param scene, part    Hierarchies of the two meshes.
-/// @param sceneFromPart  The pose that the minima were found at.
-/// @param lmds           As findLmds or a candidate list gave them: points in the frame of the scene's mesh.
-/// @param leastDistance  No point of one surface is nearer to the other than this [m]. Where the bodies do
-/// not
-///                       interpenetrate, that is the distance of the nearest minimum (of the complete set),
-///                       and most of the work is spared. 0 where they may interpenetrate.
-/// @param scratch        For its instruction set alone.
-/// Real-time safe. About the cost of a ray cast a minimum and body: O(log n).
+/// @param sceneFromPart  Pose at which the minima were found.
+/// @param lmds           From findLmds or a candidate list: points in the frame of the scene's mesh.
+/// @param leastDistance  Lower bound on the distance between the surfaces [m]; saves most of the work. If the
+///                       bodies do not interpenetrate, pass the distance of the nearest minimum (of the
+///                       complete set); if they may, 0.
+/// @param scratch        Provides the instruction set only.
+/// Real-time safe. Costs about one ray cast per minimum and body: O(log n). Does nothing if a hierarchy is
+/// empty or the pose is not finite.
 void markBlocked(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
                  std::span<Lmd> lmds, double leastDistance, LmdScratch& scratch) noexcept;
 

@@ -6,9 +6,9 @@
 #include "core/proximity/cull_kernel.h"
 #include "core/proximity/normal_cone_tree.h"
 
-// The test of two bounds, written once, on eight or sixteen numbers at a time, and compiled for each
-// instruction set. Everything here is forced inline: a function of its own compiled for AVX could be the copy
-// that the linker keeps for all.
+// The test of two bounds, written once for eight or sixteen numbers at a time and compiled for each
+// instruction set. Everything here is forced inline: the linker could keep, for all callers, a copy of a
+// function that was compiled for AVX.
 #define NEARFIT_INLINE inline __attribute__((always_inline))
 
 #if defined(__x86_64__)
@@ -18,20 +18,20 @@
 
 namespace nearfit::simd {
 
-/// Directions that are nearly square to n say nothing of how far they reach along it.
+/// Min component of d / |d| along n from which |d| can be bounded.
 constexpr float kLeastSlope = 1e-2F;
 
 using Floats8 = float __attribute__((vector_size(32)));
 using Floats16 = float __attribute__((vector_size(64)));
 static_assert(sizeof(Floats8) == NormalConeTree::kWidth * sizeof(float));
 
-/// Numbers that code for another instruction set takes in: Clang has no bare vector returned into it.
+/// Vector returned into code for another instruction set; Clang does not allow a bare one there.
 template <class F>
 struct Lanes {
   F value;
 };
 
-/// Three times eight numbers, or sixteen.
+/// Three coordinates of eight or sixteen vectors.
 template <class F>
 struct Triple {
   F x, y, z;
@@ -45,8 +45,8 @@ NEARFIT_INLINE Floats8 load(const std::array<float, NormalConeTree::kWidth>& lan
 NEARFIT_INLINE Triple<Floats8> load(const std::array<std::array<float, NormalConeTree::kWidth>, 3>& lanes) {
   return {load(lanes[0]), load(lanes[1]), load(lanes[2])};
 }
-/// Lanes that are at least 0, bit by bit. By way of memory: where vectors are indexed by a variable, GCC 12
-/// loses the variable under -fsanitize=undefined.
+/// Bit per lane, set if the lane is at least 0. Goes through memory: where a variable indexes a vector, GCC
+/// 12 loses the variable under -fsanitize=undefined.
 NEARFIT_INLINE std::uint32_t notNegative(const Floats8& lanes) {
   float numbers[NormalConeTree::kWidth];
   __builtin_memcpy(numbers, &lanes, sizeof numbers);
@@ -79,7 +79,7 @@ NEARFIT_INLINE Triple<F> cross(const Triple<F>& a, const Triple<F>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Limits on the directions of a body's minima, in its axes.
+/// Limits on the directions of a body's minima, along the axes of its box.
 template <class F>
 struct Limits {
   F leastN, mostU, mostV;
@@ -91,7 +91,7 @@ struct Box {
   Limits<F> limits;
 };
 
-/// The bounds of a node's lanes.
+/// Bounds of all lanes of a node.
 NEARFIT_INLINE Box<Floats8> boxes(const NormalConeTree::Node& node) {
   return {load(node.centre),
           load(node.n),
@@ -100,7 +100,7 @@ NEARFIT_INLINE Box<Floats8> boxes(const NormalConeTree::Node& node) {
           {load(node.leastN), load(node.mostU), load(node.mostV)}};
 }
 
-/// A pose for each lane: three columns of the rotation, then the translation.
+/// One pose per lane: three columns of the rotation, then the translation.
 template <class F>
 struct Poses {
   Triple<F> x, y, z, translation;
@@ -110,7 +110,7 @@ struct Poses {
   }
 };
 
-/// Boxes seen from the frame that the poses lead to.
+/// Transforms boxes to the frame that the poses map to.
 template <class F>
 NEARFIT_INLINE void move(Box<F>& box, const Poses<F>& poses) {
   box.n = poses.turned(box.n);
@@ -119,15 +119,16 @@ NEARFIT_INLINE void move(Box<F>& box, const Poses<F>& poses) {
   box.centre = {c.x + poses.translation.x, c.y + poses.translation.y, c.z + poses.translation.z};
 }
 
-/// What the components of a minimum's d / |d| along three axes can be.
+/// Ranges of the components of a minimum's d / |d| along three axes.
 template <class F>
 struct Ranges {
   Triple<F> low, high;
 };
 
-/// Along a's axes, of directions d within limits `a` with -d within limits `b`. The rows hold the product of
-/// each of a's axes with b's n, u and v. -d = x n + y u + z v in b's axes, x within [leastN, 1], |y| and |z|
-/// at most mostU and mostV: its product with an axis of a's is linear in each, so that the ends bound it.
+/// Ranges along a's axes for directions d within limits `a` with -d within limits `b`. The rows n, u and v
+/// hold the dot products of each of a's axes with b's n, u and v. In b's axes -d = x n + y u + z v, with x
+/// within [leastN, 1], |y| <= mostU and |z| <= mostV. The dot product with one of a's axes is linear in each,
+/// so the ends of the intervals bound it. Widened by `turn` [rad].
 template <class F>
 NEARFIT_INLINE Ranges<F> ranges(const Limits<F>& a, const Limits<F>& b, const Triple<F>& n,
                                 const Triple<F>& u, const Triple<F>& v, float turn) {
@@ -142,34 +143,35 @@ NEARFIT_INLINE Ranges<F> ranges(const Limits<F>& a, const Limits<F>& b, const Tr
            least(a.mostV, most(vEnd, vLeast) + vSide)}};
 }
 
-/// Half extent of a box along a direction whose products with the box's axes are given.
+/// Half extent of a box along a direction, given the direction's dot products with the box's axes.
 template <class F>
 NEARFIT_INLINE F extent(const Triple<F>& half, const F& byN, const F& byU, const F& byV) {
   return magnitude(byN) * half.x + magnitude(byU) * half.y + magnitude(byV) * half.z;
 }
 
-/// At least 0 when d can reach along an axis what the boxes ask: t give or take e. |d| is within [gap,
-/// reach], and its share along the axis within [low, high]: the product is greatest and least at ends of
-/// both.
+/// At least 0 if d can span what the boxes require along an axis: t, give or take e. |d| lies within [gap,
+/// reach], its relative component along the axis within [low, high], so their product has its extremes at
+/// ends of both.
 template <class F>
 NEARFIT_INLINE F meets(const F& t, const F& e, const F& low, const F& high, const F& gap, const F& reach) {
   const F above = most(high * reach, high * gap) - (t - e), below = (t + e) - least(low * reach, low * gap);
   return least(high - low, least(above, below));
 }
 
-/// What is allowed for along the axes of either box.
+/// Paddings along the axes of either box.
 template <class F>
 struct Paddings {
   Triple<F> own, its;
 };
 
 template <class F>
+/// Paddings for a single pose.
 NEARFIT_INLINE Paddings<F> still(const CullLimits& limits) {
   const F padding = F{} + limits.padding;
   return {{padding, padding, padding}, {padding, padding, padding}};
 }
 
-/// A CullSweep for each lane.
+/// One CullSweep per lane.
 template <class F>
 struct Sweeps {
   Triple<F> shift, spin, about;
@@ -183,8 +185,8 @@ NEARFIT_INLINE Sweeps<Floats8> spread(const CullSweep& s) {
   return {spread(s.shift), spread(s.spin), spread(s.about), Floats8{} + s.spinLength};
 }
 
-/// How far the points of a box go along axes as a sweep moves them: its middle, and how much farther a point
-/// beside the middle may, as the spin carries it.
+/// Max displacement of a box's points along axes as a sweep moves the box: that of its centre, plus what the
+/// spin adds for points off the centre, plus the padding.
 template <class F>
 NEARFIT_INLINE Triple<F> along(const Box<F>& moving, const Box<F>& axes, const Triple<F>& axesV,
                                const Sweeps<F>& sweep, const CullLimits& limits) {
@@ -198,8 +200,8 @@ NEARFIT_INLINE Triple<F> along(const Box<F>& moving, const Box<F>& axes, const T
           magnitude(dot(way, axesV)) + aside};
 }
 
-/// For all poses of a sweep. Seen from either box the other moves: the part's along the sweep, or the scene's
-/// against it.
+/// Paddings for all poses of a sweep. Seen from either box the other one moves: the part's along the sweep,
+/// the scene's against it.
 template <class F>
 NEARFIT_INLINE Paddings<F> swept(const Box<F>& own, const Box<F>& its, const Sweeps<F>& sweep,
                                  const CullLimits& limits) {
@@ -207,14 +209,14 @@ NEARFIT_INLINE Paddings<F> swept(const Box<F>& own, const Box<F>& its, const Swe
           along(own, its, cross(its.n, its.u), sweep, limits)};
 }
 
-/// At least 0 in the lanes where the two boxes can hold a minimum together, less in the others: where the
-/// projections on the axes of either box rule it out.
+/// At least 0 in lanes where the two boxes can hold a minimum together; negative where the projections on the
+/// axes of either box rule it out.
 template <class F>
 NEARFIT_INLINE Lanes<F> cull(const Box<F>& own, const Box<F>& its, const CullLimits& limits,
                              const Paddings<F>& padding) {
   const Triple<F> ownV = cross(own.n, own.u), itsV = cross(its.n, its.u);
   const Triple<F> d{its.centre.x - own.centre.x, its.centre.y - own.centre.y, its.centre.z - own.centre.z};
-  // Products of axes, own by row, the other's by column.
+  // Dot products of axes, own by row, the other's by column.
   const Triple<F> cn{dot(own.n, its.n), dot(own.n, its.u), dot(own.n, itsV)};
   const Triple<F> cu{dot(own.u, its.n), dot(own.u, its.u), dot(own.u, itsV)};
   const Triple<F> cv{dot(ownV, its.n), dot(ownV, its.u), dot(ownV, itsV)};
@@ -222,8 +224,8 @@ NEARFIT_INLINE Lanes<F> cull(const Box<F>& own, const Box<F>& its, const CullLim
   const Ranges<F> b = ranges(its.limits, own.limits, Triple<F>{cn.x, cu.x, cv.x}, Triple<F>{cn.y, cu.y, cv.y},
                              Triple<F>{cn.z, cu.z, cv.z}, limits.turn);
 
-  // Along each axis of either box a minimum's d, out of that box, lies within the sum of extents of the
-  // centres' difference.
+  // Along each axis of either box, a minimum's d, directed out of that box, is within the sum of extents of
+  // the centres' difference.
   const F tn = dot(d, own.n), en = own.half.x + extent(its.half, cn.x, cn.y, cn.z) + padding.own.x;
   const F tu = dot(d, own.u), eu = own.half.y + extent(its.half, cu.x, cu.y, cu.z) + padding.own.y;
   const F tv = dot(d, ownV), ev = own.half.z + extent(its.half, cv.x, cv.y, cv.z) + padding.own.z;
@@ -231,7 +233,7 @@ NEARFIT_INLINE Lanes<F> cull(const Box<F>& own, const Box<F>& its, const CullLim
   const F su = -dot(d, its.u), fu = extent(own.half, cn.y, cu.y, cv.y) + (its.half.y + padding.its.y);
   const F sv = -dot(d, itsV), fv = extent(own.half, cn.z, cu.z, cv.z) + (its.half.z + padding.its.z);
 
-  // |d| is at least what it is along an axis, and at most that by the least share that it has along it.
+  // |d| is at least its component along any axis, and at most that over the min component of d / |d|.
   const F cutoff = F{} + limits.cutoff;
   const F gap = most(F{}, most(tn - en, sn - fn));
   const F reach = least(least(cutoff, a.low.x > kLeastSlope ? (tn + en) / a.low.x : cutoff),
@@ -244,15 +246,14 @@ NEARFIT_INLINE Lanes<F> cull(const Box<F>& own, const Box<F>& its, const CullLim
   return {least(margin, meets(sv, fv, b.low.z, b.high.z, gap, reach))};
 }
 
-/// How far a box lies beyond a given half extent, squared.
+/// Squared excess of |t| over a half extent.
 template <class F>
 NEARFIT_INLINE F squaredBeyond(const F& t, const F& extent) {
   const F beyond = most(F{}, magnitude(t) - extent);
   return beyond * beyond;
 }
 
-/// At least 0 in the lanes where the two boxes come within the cutoff as far as their own axes tell,
-/// whatever directions they hold.
+/// At least 0 in lanes where the two boxes come within the cutoff by their own axes, in any directions.
 template <class F>
 NEARFIT_INLINE Lanes<F> cullByPlace(const Box<F>& own, const Box<F>& its, const CullLimits& limits) {
   const Triple<F> ownV = cross(own.n, own.u), itsV = cross(its.n, its.u);

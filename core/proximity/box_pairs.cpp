@@ -9,13 +9,13 @@ namespace {
 
 constexpr std::uint32_t kLeafEntries = 8;
 
-/// A split leaves this share to either side: a tree of a million entries is no deeper than a hundred.
+/// Each side of a split gets at least 1/kLeastShare of the entries: for a million, at most a hundred levels.
 constexpr std::uint32_t kLeastShare = 8;
 
-/// No child has fewer entries, so that there are fewer nodes than entries.
+/// Min entries of a child; keeps nodes fewer than entries.
 constexpr std::uint32_t kLeastEntries = 3;
 
-/// Twice the centre.
+/// Twice the centre along an axis.
 double middle(const Aabb& box, int axis) noexcept {
   return box.lower[axis] + box.upper[axis];
 }
@@ -52,7 +52,7 @@ std::uint32_t BoxPairs::makeNode(std::uint32_t begin, std::uint32_t end) noexcep
   return at;
 }
 
-/// In the middle of where centres lie along their longest axis, or, where that is too uneven, by halves.
+/// Splits at the middle of the centres along their longest axis or, if that is too uneven, at the median.
 std::uint32_t BoxPairs::split(std::uint32_t begin, std::uint32_t end) noexcept {
   Aabb middles;
   for (std::uint32_t i = begin; i < end; ++i)

@@ -9,27 +9,27 @@
 
 namespace nearfit {
 
-/// Boxes, and which of them overlap: a hierarchy of two children a node that is made anew for each set.
+/// Finds the overlaps in a set of boxes by a binary hierarchy, which is rebuilt for each set.
 ///
-/// Real-time safe but for the constructor. Building and finding the pairs of n boxes of which each overlaps a
-/// few takes O(n log n).
+/// Real-time safe but for the constructor. Building, and finding the pairs of n boxes that each overlap a
+/// few, takes O(n log n).
 class BoxPairs {
  public:
-  /// @param capacity  Boxes that a set can have.
+  /// @param capacity  Max number of boxes in a set.
   explicit BoxPairs(std::size_t capacity);
 
   void clear() noexcept { count_ = nodeCount_ = 0; }
-  /// The next box, which is known by its rank from 0 on; no more than the capacity, none of them empty.
+  /// Adds a non-empty box, within the capacity (unchecked); its index is the number of boxes added before it.
   void add(const Aabb& box) noexcept;
-  /// To be called when all are there, before anything is asked.
+  /// Call once all boxes are added, before any search.
   void build() noexcept;
 
-  /// Calls visit(i, j) once for each two boxes that overlap or touch, those that lie close together first.
+  /// Calls visit(i, j) once for each pair of boxes that overlap or touch, pairs close in the hierarchy first.
   template <class Visit>
   void forEachPair(Visit&& visit) const noexcept {
     if (nodeCount_ > 0) pairsWithin(0, visit);
   }
-  /// Calls visit(i) for each box that overlaps or touches a given one.
+  /// Calls visit(i) for each box that overlaps or touches `box`.
   template <class Visit>
   void forEachAt(const Aabb& box, Visit&& visit) const noexcept {
     if (nodeCount_ > 0) entriesAt(0, box, visit);
@@ -42,12 +42,12 @@ class BoxPairs {
   };
   struct Node {
     Aabb box;
-    std::uint32_t begin, end;  ///< Of its entries.
-    std::uint32_t right;       ///< Second child, the first follows the node; 0 for a leaf.
+    std::uint32_t begin, end;  ///< Range of its entries.
+    std::uint32_t right;       ///< Second child; the first follows the node. 0 for a leaf.
   };
 
   static bool overlap(const Aabb& a, const Aabb& b) noexcept {
-    // All six at once: a branch for each cannot be foretold, and costs more.
+    // All six at once: branches here are unpredictable and cost more.
     const int x = static_cast<int>(a.lower.x <= b.upper.x) & static_cast<int>(b.lower.x <= a.upper.x);
     const int y = static_cast<int>(a.lower.y <= b.upper.y) & static_cast<int>(b.lower.y <= a.upper.y);
     const int z = static_cast<int>(a.lower.z <= b.upper.z) & static_cast<int>(b.lower.z <= a.upper.z);
@@ -59,7 +59,7 @@ class BoxPairs {
     return {entries_.data() + node.begin, node.end - node.begin};
   }
 
-  // These call themselves: as deep as the tree at most (twice that for two nodes), see kLeastShare.
+  // Recursive, no deeper than the tree (twice that for two nodes); see kLeastShare.
 
   template <class Visit>
   void pairsWithin(std::uint32_t at, Visit& visit) const noexcept {

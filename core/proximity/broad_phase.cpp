@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
 
-/// Rounding of a turned and moved corner, as a fraction of the lengths involved; some dozens of roundings.
+/// Rounding of a transformed corner, as a fraction of the lengths involved: some dozens of roundings.
 constexpr double kBoundsPadding = 1e-14;
 
 }  // namespace

@@ -11,19 +11,18 @@
 
 namespace nearfit {
 
-/// Box of a box that is turned and moved, padded for rounding.
+/// Returns a box that holds the transformed `box`, padded for rounding; empty if `box` is.
 Aabb boundsOf(const Aabb& box, const RigidTransform& worldFromBox) noexcept;
 
-/// A tree of the boxes of bodies that stand still, to find those near a point without looking at the others.
-/// Immutable.
+/// Tree of the boxes of bodies at rest, to find those near a point without visiting the others. Immutable.
 class BroadPhase {
  public:
   BroadPhase() = default;
-  /// O(n log n). Empty boxes are never found, those that are not finite always.
+  /// O(n log n). Searches never find an empty box, and always find one with a NaN coordinate.
   explicit BroadPhase(std::span<const Aabb> boxes);
 
-  /// Calls visit(index) for each box within `radius` of `centre`, and maybe some that are a little farther.
-  /// Real-time safe.
+  /// Calls visit(index) for each box within `radius` of `centre` [m], and maybe for some a little farther
+  /// away. Real-time safe.
   template <class Visit>
   void visitNear(const glm::dvec3& centre, double radius, Visit&& visit) const noexcept {
     isEachNear(centre, radius, [&](std::uint32_t i) {
@@ -32,15 +31,15 @@ class BroadPhase {
     });
   }
 
-  /// Whether holds(index) is true of each of these; the first of which it is not is the last to be asked.
-  /// Real-time safe.
+  /// True if holds(index) is true for each box that visitNear would visit; stops at the first for which it is
+  /// not. Real-time safe.
   template <class Holds>
   bool isEachNear(const glm::dvec3& centre, double radius, Holds&& holds) const noexcept {
     for (const std::uint32_t i : boundless_) {
       if (!holds(i)) return false;
     }
     if (nodes_.empty()) return true;
-    // Halves are a median apart: the tree is no deeper than the index has bits, and two wait at each level.
+    // Splits are at the median: the tree is no deeper than an index has bits, and two nodes wait per level.
     std::array<std::uint32_t, 66> stack;
     std::size_t size = 0;
     stack[size++] = 0;
@@ -62,15 +61,15 @@ class BroadPhase {
  private:
   struct Node {
     Aabb box;
-    std::uint32_t first, count;  ///< Of `order_` in a leaf; otherwise the first of two children, and 0.
+    std::uint32_t first, count;  ///< Range in `order_` for a leaf; else the first of two children, and 0.
   };
 
   static bool isFarther(const Aabb& box, const glm::dvec3& centre, double radius) noexcept;
   void split(std::uint32_t node, std::uint32_t first, std::uint32_t count);
 
   std::vector<Aabb> boxes_;
-  std::vector<std::uint32_t> boundless_;  ///< Boxes that are not finite.
-  std::vector<std::uint32_t> order_;      ///< The others, as the leaves have them.
+  std::vector<std::uint32_t> boundless_;  ///< Boxes with a NaN coordinate.
+  std::vector<std::uint32_t> order_;      ///< The others, in the order of the leaves.
   std::vector<Node> nodes_;
 };
 

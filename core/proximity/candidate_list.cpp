@@ -17,7 +17,7 @@ constexpr std::size_t blocksOf(std::size_t pairs) noexcept {
   return (pairs + kNodeWidth - 1) / kNodeWidth;
 }
 
-/// Pairs that can be listed within so much work.
+/// Number of pairs that can be listed within so much work.
 constexpr std::uint64_t listable(std::uint64_t work) noexcept {
   constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max() / kListedAtOnce;
   return kListedAtOnce * std::min(work, kMost);
@@ -37,12 +37,11 @@ void copyLane(const NormalConeTree::Node& from, std::size_t lane, NormalConeTree
   to.child[at] = from.child[lane];
 }
 
-/// Tests pairs one by one: for all minima while that takes half of the work allowed, then for what is
-/// nearest.
+/// Tests pairs one by one: for all minima with half of the work allowed, then for the nearest only.
 class BoundedTests {
  public:
   /// @param query   Its pose is between the centred frames.
-  /// @param limits  What pairs are culled by before they come here: narrowed on the way.
+  /// @param limits  Limits of the culls before the tests; tightened on the way.
   BoundedTests(const BodyPairQuery& query, std::uint64_t maxTests, MinimaCollector& collector,
                CullLimits& limits) noexcept
       : tests_(query.scene, query.part, query.sceneFromPart, query.cutoff),
@@ -127,7 +126,7 @@ void CandidateList::findLevels(const LmdScratch::Data& workspace) noexcept {
   BoundPairs block;
   for (std::size_t base = 0; base < found_.size(); base += kNodeWidth) {
     const std::size_t count = std::min(kNodeWidth, found_.size() - base);
-    // Lanes that are left over repeat the first.
+    // Unused lanes repeat the first pair.
     for (std::size_t i = 0; i < kNodeWidth; ++i)
       copyPair(found_[base + (i < count ? i : 0)], block, i);
     for (std::size_t level = kLevels.size() - 1; level-- > 0;) {
@@ -155,7 +154,7 @@ void CandidateList::pack() {
     const std::size_t at = next[pair.level]++;
     copyPair(pair, blocks_[at / kNodeWidth], at % kNodeWidth);
   }
-  // Lanes of the last block that are left over repeat its first: never counted, never far from its data.
+  // Unused lanes of the last block repeat its first pair; they are never counted.
   for (std::size_t i = found_.size(); i % kNodeWidth != 0; ++i) {
     BoundPairs& block = blocks_[i / kNodeWidth];
     copyLane(block.scene, 0, block.scene, i % kNodeWidth);
@@ -264,12 +263,12 @@ std::optional<NearbyPairs> CandidateList::nearbyPairs(const RigidTransform& scen
   const std::optional<CoveredPose> pose = covered(sceneFromPart, reach.distance);
   if (!pose) return std::nullopt;
   NearbyPairs result;
-  // Wherever on the stretch the pose is, what is left aside is left.
+  // The budget left for deviation does not depend on the place along the stretch.
   const MotionBudget aside = asideOf(pose->centred);
   result.holds = {std::clamp(range_.budget.travel - aside.travel, 0.0, slack.travel),
                   std::clamp(range_.budget.turn - aside.turn, 0.0, slack.turn)};
   result.isComplete = true;
-  // Pairs that matter farther from the middle do not at the pose itself.
+  // Pairs that matter only farther from the middle do not matter at the pose itself.
   const bool isForPose = !(slack.travel > 0.0) && !(slack.turn > 0.0);
   const std::size_t count = isForPose ? pose->count : size();
   if (count == 0) return result;

@@ -15,7 +15,7 @@ bool isNearerPair(const ContactPair& a, const ContactPair& b) noexcept {
   return a.distance < b.distance;
 }
 
-/// Takes contacts in as they are found and keeps the nearest when there is no more room.
+/// Collects contacts as they are found, and keeps the nearest if room runs out.
 class ContactCollector {
  public:
   ContactCollector(std::span<ContactPair> out, double reach) noexcept : out_(out) {
@@ -30,7 +30,7 @@ class ContactCollector {
       if (result_.count == out_.size()) std::make_heap(out_.begin(), out_.end(), isNearerPair);
       return;
     }
-    // Full: the farthest makes room.
+    // Full: replaces the farthest.
     double lost = contact.distance;
     if (!out_.empty() && isNearerPair(contact, out_.front())) {
       lost = out_.front().distance;
@@ -48,13 +48,13 @@ class ContactCollector {
   ContactResult result_;
 };
 
-/// A contact in the frame of the scene's mesh from what a relaxed test found.
+/// Converts what a relaxed test found to a contact in the frame of the scene's mesh.
 ContactPair contactOf(const Minimum& minimum, const NormalConeTree& scene) noexcept {
   const Lmd& lmd = minimum.lmd;
   return {lmd.partPoint + scene.centre(), lmd.direction, std::min(minimum.least, lmd.distance)};
 }
 
-/// The same from what a kernel found.
+/// The same for what a kernel found.
 ContactPair contactOf(const EdgePairHits& hits, std::size_t lane, const NormalConeTree& scene) noexcept {
   const auto vector = [lane](const EdgePairs::Vectors& v) {
     return glm::dvec3(v[0][lane], v[1][lane], v[2][lane]);
@@ -118,7 +118,7 @@ ContactResult testContacts(const BodyPairQuery& query, const ContactReach& reach
   const auto test = [&](const LeafPair& pair) {
     if (tests.test(pair.scene, pair.part, minimum)) collector.add(contactOf(minimum, query.scene));
   };
-  // A kernel knows relaxed directions alone.
+  // Kernels test relaxed directions only.
   const std::size_t blocks = reach.turn > 0.0 ? packed.blocks.size() : 0;
   const EdgePairLimits limits = tests.edgePairLimits();
   EdgePairHits hits;

@@ -16,11 +16,11 @@ namespace {
 /// Rounding of a segment to single precision, as a fraction of the lengths involved: some ten roundings.
 constexpr double kRayPadding = 1e-6;
 
-/// Rays to try before a point counts as inside, the side that is safe. Each is unclear only where it happens
-/// to hit an edge to the last bit.
+/// Max number of rays before a point counts as inside, the safe answer. A ray is unclear only if it hits an
+/// edge to the last bit.
 constexpr int kMaxRays = 64;
 
-/// Whether as many triangles run along an edge one way as the other.
+/// True if as many triangles run along an edge one way as the other.
 bool isBalanced(const TriangleMesh& mesh, std::uint32_t edge) {
   const MeshEdge& e = mesh.edges()[edge];
   int balance = 0;
@@ -106,7 +106,7 @@ PlacedSolid::PlacedSolid(const PlacedMesh& mesh, const MeshPieces& pieces) : mes
 
 bool PlacedSolid::contains(const glm::dvec3& point) const {
   if (!doOverlap(box_, {point, point})) return false;
-  // The same rays each time; none along an axis, where CAD models have their edges.
+  // The same rays each time, none along an axis, where CAD models have their edges.
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
   const double reach = 2.0 * box_.diagonal();

@@ -9,24 +9,25 @@
 
 namespace nearfit {
 
-/// The pieces of a mesh: triangles connected through edges.
+/// Components of a mesh: triangles connected through edges.
 struct MeshPieces {
-  std::vector<std::uint32_t> pieceOf;        ///< By triangle.
-  std::vector<std::uint32_t> firstTriangle;  ///< By piece.
-  /// By piece: along each edge as many triangles run one way as the other, so that it winds around every
-  /// point off it a whole number of times.
+  std::vector<std::uint32_t> pieceOf;        ///< Component of each triangle.
+  std::vector<std::uint32_t> firstTriangle;  ///< A triangle of each component.
+  /// True for each component in which as many triangles run one way along each edge as the other, so that it
+  /// winds around every point off it a whole number of times.
   std::vector<bool> isClosed;
 };
+/// Finds the components of a mesh. O(n).
 MeshPieces piecesOf(const TriangleMesh& mesh);
 
-/// What the closed pieces of a placed mesh enclose.
+/// Solid that the closed components of a placed mesh enclose.
 class PlacedSolid {
  public:
   /// @param mesh, pieces  Kept by reference.
   PlacedSolid(const PlacedMesh& mesh, const MeshPieces& pieces);
 
-  /// Whether the closed pieces wind around a point, which must lie on none of their triangles. Decided
-  /// exactly, by the triangles that a ray passes through.
+  /// True if the closed components wind around a point in the pose's frame, which must lie on none of their
+  /// triangles. Decided exactly, by the triangles that a ray crosses. Allocates.
   bool contains(const glm::dvec3& point) const;
 
  private:
@@ -40,7 +41,7 @@ class PlacedSolid {
 
   const PlacedMesh& mesh_;
   const MeshPieces& pieces_;
-  Aabb box_;  ///< Of the closed pieces, as placed.
+  Aabb box_;  ///< Box of the closed components, as placed.
 };
 
 }  // namespace nearfit

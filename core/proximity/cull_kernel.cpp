@@ -23,7 +23,7 @@ NEARFIT_INLINE simd::Box<Floats8> partBoxes(const BoundPairs& pairs, const Singl
   return part;
 }
 
-/// At least 0 in the lanes that survive.
+/// At least 0 in lanes that survive.
 NEARFIT_INLINE simd::Lanes<Floats8> cullPairs(const BoundPairs& pairs, const SinglePose& pose,
                                               const CullLimits& limits) {
   return simd::cull(simd::boxes(pairs.scene), partBoxes(pairs, pose), limits, simd::still<Floats8>(limits));

@@ -34,7 +34,7 @@ NEARFIT_INLINE void store(const Vectors& from, EdgePairs::Vectors& to) {
   store(from.y, to[1]);
   store(from.z, to[2]);
 }
-/// By way of memory, as simd::notNegative().
+/// Goes through memory, like simd::notNegative().
 NEARFIT_INLINE std::uint32_t bitsOf(const Mask4& lanes) {
   std::int64_t numbers[kLanes];
   __builtin_memcpy(numbers, &lanes, sizeof numbers);
@@ -65,7 +65,7 @@ NEARFIT_INLINE Vectors times(const Vectors& a, const Doubles4& s) {
 NEARFIT_INLINE Vectors spread(double x, double y, double z) {
   return {Doubles4{} + x, Doubles4{} + y, Doubles4{} + z};
 }
-/// As glm turns a vector by a quaternion.
+/// Rotates as glm does by a quaternion.
 NEARFIT_INLINE Vectors turned(const RigidTransform& pose, const Vectors& v) {
   const glm::dquat& q = pose.rotation;
   const Vectors axis = spread(q.x, q.y, q.z);
@@ -73,14 +73,14 @@ NEARFIT_INLINE Vectors turned(const RigidTransform& pose, const Vectors& v) {
   return plus(v, times(plus(times(once, Doubles4{} + q.w), twice), Doubles4{} + 2.0));
 }
 
-/// isInsideWall of relaxed_conditions.cpp.
+/// isInsideWall of relaxed_conditions.cpp, four at a time.
 NEARFIT_INLINE simd::Lanes<Mask4> isInsideWall(const Vectors& x, const Vectors& e) {
   constexpr double kSquared = kAngularTolerance * kAngularTolerance;
   const Doubles4 beyond = simd::dot(x, e);
   return {(beyond <= 0.0) | (beyond * beyond <= kSquared * simd::dot(e, e))};
 }
 
-/// LeafTests::isPolarOfEdge, relaxed.
+/// LeafTests::isPolarOfEdge with relaxation, four at a time.
 NEARFIT_INLINE simd::Lanes<Mask4> isPolar(const EdgePairs::Edges& edges, const Vectors& d,
                                           const EdgePairLimits& limits) {
   const Vectors in0 = load(edges.inward[0]), in1 = load(edges.inward[1]);
@@ -93,7 +93,7 @@ NEARFIT_INLINE simd::Lanes<Mask4> isPolar(const EdgePairs::Edges& edges, const V
   return {~((isOut0 & isFar0) | (isOut1 & isFar1)) & (~(isOut0 | isOut1) | isOnArc)};
 }
 
-/// LeafTests::edgeEdge, where edges cross, step by step.
+/// LeafTests::edgeEdge for edges that cross, four at a time and step by step.
 NEARFIT_INLINE void test(const EdgePairs& pairs, const RigidTransform& sceneFromPart,
                          const RigidTransform& partFromScene, const EdgePairLimits& limits,
                          EdgePairHits& out) {

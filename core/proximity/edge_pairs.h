@@ -12,8 +12,8 @@
 
 namespace nearfit {
 
-/// Four pairs of edges, lane by lane, each edge in the centred frame of its own tree, with what a test of it
-/// needs at any pose.
+/// Four pairs of edges, one per lane, with what their tests need at any pose. Each edge is in the centred
+/// frame of its own tree.
 struct alignas(64) EdgePairs {
   static constexpr std::size_t kLanes = 4;
 
@@ -22,14 +22,14 @@ struct alignas(64) EdgePairs {
   struct Edges {
     Vectors start, along;  ///< `along` is unit.
     Numbers length;        ///< [m]
-    /// From the edge, square to it, to the third corner of either face; the lengths of both.
+    /// Vectors from the edge, perpendicular to it, to the third corner of each face, and their lengths [m].
     std::array<Vectors, 2> inward;
     std::array<Numbers, 2> depth;
   };
   Edges scene, part;
 };
 
-/// What pairs of edges are held against: LeafTests' bounds and tolerances, with relaxed directions.
+/// Limits for tests of edge pairs: the bounds and tolerances of LeafTests, with relaxed directions.
 struct EdgePairLimits {
   double cutoff = 0.0, mostDistance = 0.0;  ///< [m]
   double lengthTolerance = 0.0;             ///< [m]
@@ -37,34 +37,33 @@ struct EdgePairLimits {
   double pointRounding = 0.0;               ///< [m]
 };
 
-/// What became of four pairs: bit per lane.
+/// Results of testing four pairs; one bit per lane.
 struct EdgePairHits {
   std::uint32_t found = 0;
-  /// Nearly parallel, or not to be told: LeafTests decides.
+  /// Lanes whose edges are nearly parallel or not finite: LeafTests decides.
   std::uint32_t undecided = 0;
-  EdgePairs::Vectors partPoint, direction;  ///< In the scene's centred frame, where found.
+  EdgePairs::Vectors partPoint, direction;  ///< In the scene's centred frame; valid in lanes found.
   EdgePairs::Numbers distance;              ///< [m]
 };
 
-/// Tests four pairs of edges that cross: what LeafTests says of each alone, to the last bit, since it is the
-/// same arithmetic in the same order. Real-time safe.
+/// Tests four pairs of edges that cross. Results equal those of LeafTests for each pair to the last bit,
+/// since the arithmetic and its order are the same. Real-time safe.
 using EdgePairKernel = void (*)(const EdgePairs& pairs, const RigidTransform& sceneFromPart,
                                 const RigidTransform& partFromScene, const EdgePairLimits& limits,
                                 EdgePairHits& out) noexcept;
 
-/// The kernel for a level that the machine has.
+/// Returns the kernel for an instruction set that the machine has.
 EdgePairKernel edgePairKernel(SimdLevel level) noexcept;
 
-/// Pairs that are tested four at a time, and by what.
+/// Blocks of pairs to test four at a time, and the kernel that tests them.
 struct PackedEdgePairs {
   std::span<const EdgePairs> blocks;
-  EdgePairKernel kernel = nullptr;  ///< Not null where there are blocks.
+  EdgePairKernel kernel = nullptr;  ///< Not null if there are blocks.
 };
 
-/// Puts pairs of edges first and makes blocks of them, as many as there is room for: the first
-/// EdgePairs::kLanes pairs are the first block, and so on. What does not fill a block is left as it is.
-/// @returns how many blocks were filled.
-/// Real-time safe.
+/// Moves pairs of edges to the front and packs them into blocks while there is room: the first
+/// EdgePairs::kLanes pairs form the first block, and so on. Pairs that do not fill a block are not packed.
+/// @returns Number of blocks filled. Real-time safe.
 std::size_t packEdgePairs(const NormalConeTree& scene, const NormalConeTree& part, std::span<LeafPair> pairs,
                           std::span<EdgePairs> blocks) noexcept;
 

@@ -9,7 +9,7 @@
 namespace nearfit {
 namespace {
 
-/// Largest cosine between w and the directions within a cone.
+/// Largest cosine between w (unit) and the directions within a cone.
 double coneSupport(const NormalCone& cone, const glm::dvec3& w) noexcept {
   const double cosine = glm::dot(cone.axis, w), edge = std::cos(cone.halfAngle);
   if (cosine >= edge) return 1.0;
@@ -64,7 +64,7 @@ double FeatureGeometry::support(std::uint32_t feature, const glm::dvec3& directi
 double FeatureGeometry::edgeSupport(const EdgeFeature& e, const glm::dvec3& w) const noexcept {
   const MeshEdge& edge = mesh_.edges()[e.edge];
   const glm::dvec3 along = glm::normalize(x_[edge.v1] - x_[edge.v0]);
-  // The polar arc lies across the edge, half-angle either side of its axis.
+  // The polar arc is perpendicular to the edge and reaches the half-angle to either side of the cone's axis.
   const glm::dvec3 inPlane = w - glm::dot(w, along) * along;
   const double length = glm::length(inPlane);
   if (!(length > 0.0)) return 0.0;
@@ -82,8 +82,8 @@ void FeatureGeometry::rays(std::uint32_t feature, Rays& out) const noexcept {
   } else {
     out.rays[out.count++] = axis.axis;
   }
-  // d is a sum of rays r with weights w >= 0: d.a <= 1 and d.a >= least r.a times the sum of w; and
-  // |d| <= the sum of w, as each r is unit.
+  // d is a sum of unit rays r with weights w >= 0. With axis a, d.a <= 1 and d.a >= min(r.a) * sum(w); and
+  // sum(w) >= |d|.
   double least = 1.0;
   for (std::size_t i = 0; i < out.count; ++i)
     least = std::min(least, glm::dot(out.rays[i], axis.axis));
@@ -94,7 +94,7 @@ void FeatureGeometry::rays(std::uint32_t feature, Rays& out) const noexcept {
   }
 }
 
-/// The ends of the polar arc.
+/// Rays of an edge: the ends of its polar arc.
 void FeatureGeometry::raysOfEdge(const EdgeFeature& e, Rays& out) const noexcept {
   const MeshEdge& edge = mesh_.edges()[e.edge];
   const glm::dvec3 across = glm::normalize(glm::cross(x_[edge.v1] - x_[edge.v0], e.cone.axis));
@@ -103,12 +103,12 @@ void FeatureGeometry::raysOfEdge(const EdgeFeature& e, Rays& out) const noexcept
   out.rays[out.count++] = cosine * e.cone.axis - sine * across;
 }
 
-/// The extreme rays of a vertex's polar cone, each square to two neighbouring walls; false when they cannot
-/// be told.
+/// Rays of a vertex: the extreme rays of its polar cone, each perpendicular to two neighbouring edges. False
+/// if they cannot be determined.
 bool FeatureGeometry::raysOfVertex(const VertexFeature& v, Rays& out) const noexcept {
   const std::span<const std::uint32_t> neighbours =
       std::span(features_.neighbours).subspan(v.firstNeighbour, v.hullCount);
-  // A wedge has no apex to walk around.
+  // Fewer than three walls form a wedge, which has no extreme rays.
   if (neighbours.size() < 3 || neighbours.size() > kMaxRays) return false;
   const glm::dvec3& x = x_[v.vertex];
   glm::dvec3 previous = x_[neighbours.back()] - x;
@@ -117,7 +117,7 @@ bool FeatureGeometry::raysOfVertex(const VertexFeature& v, Rays& out) const noex
     const glm::dvec3 ray = glm::cross(previous, e);
     const double length = glm::length(ray);
     if (!(length > 0.0)) return false;
-    // Extreme rays lie within a right angle of the cone's axis; nearly square to it the sign is not sure.
+    // Extreme rays lie within a right angle of the cone's axis; near that angle their sign is uncertain.
     const double side = glm::dot(ray, v.cone.axis) / length;
     if (std::abs(side) < 1e-3) return false;
     out.rays[out.count++] = ray / (side < 0.0 ? -length : length);

@@ -15,7 +15,7 @@
 namespace nearfit {
 namespace {
 
-/// A plane across a direction, about a point of it.
+/// Plane perpendicular to a direction, with its own axes about a point.
 class Plane {
  public:
   Plane(const glm::dvec3& origin, const glm::dvec3& normal) noexcept : origin_(origin), normal_(normal) {
@@ -36,7 +36,7 @@ class Plane {
   glm::dvec3 origin_, normal_, x_, y_;
 };
 
-/// A piece in a plane: a segment, or a convex polygon that runs anticlockwise.
+/// A piece in a plane: a segment, or a convex polygon with its corners anticlockwise.
 struct Outline {
   Outline(const Minimum& piece, const Plane& plane) noexcept : count(piece.cornerCount) {
     double area = 0.0;
@@ -67,13 +67,13 @@ struct Outline {
   std::size_t count;
 };
 
-/// What of a way from 0 to 1 is covered.
+/// Covered interval of a segment from a to b, as fractions of its length.
 struct Interval {
   double from = 0.0, to = 1.0;
 };
 
-/// Where the way from a to b runs through the interior of a polygon. Along one of its sides, in its sense, it
-/// counts as covered for the one of two pieces that comes later.
+/// Interval of the segment from a to b inside a polygon. Along one of the polygon's sides, in its sense, the
+/// segment counts as covered only if the polygon is the earlier of the two pieces.
 Interval coveredByPolygon(const glm::dvec2& a, const glm::dvec2& b, const Outline& polygon, bool isEarlier,
                           double tolerance) noexcept {
   Interval covered;
@@ -95,7 +95,7 @@ Interval coveredByPolygon(const glm::dvec2& a, const glm::dvec2& b, const Outlin
   return covered;
 }
 
-/// Where the way from a to b runs along a segment.
+/// Interval of the segment from a to b that runs along another segment.
 Interval coveredBySegment(const glm::dvec2& a, const glm::dvec2& b, const Outline& segment,
                           double tolerance) noexcept {
   const glm::dvec2 way = b - a;
@@ -108,7 +108,7 @@ Interval coveredBySegment(const glm::dvec2& a, const glm::dvec2& b, const Outlin
   return {std::max(0.0, std::min(s, t)), std::min(1.0, std::max(s, t))};
 }
 
-/// Measure of a plane set, and its first and second moments about the plane's origin.
+/// Measure (length or area) of a set in the plane, and its first and second moments about the plane's origin.
 struct Moments {
   double measure = 0.0;
   glm::dvec2 first{0.0};
@@ -122,7 +122,7 @@ struct Moments {
     yy += length / 3.0 * (a.y * a.y + a.y * b.y + b.y * b.y);
     xy += length / 6.0 * (2.0 * a.x * a.y + a.x * b.y + b.x * a.y + 2.0 * b.x * b.y);
   }
-  /// A part of the set's outline, anticlockwise about it: Green's theorem.
+  /// Adds a section of the set's outline, anticlockwise, by Green's theorem.
   void addBoundary(const glm::dvec2& a, const glm::dvec2& b) noexcept {
     const double c = cross(a, b);
     measure += c / 2.0;
@@ -133,7 +133,7 @@ struct Moments {
   }
 };
 
-/// A union measures no less than its largest piece; half allows for rounding.
+/// A union measures no less than its largest piece; half of that allows for rounding.
 constexpr double kLeastFlatShare = 0.5;
 
 class RegionUnion {
@@ -162,7 +162,7 @@ class RegionUnion {
       height += piece.weight * plane_.height(piece.lmd.scenePoint);
       distance += piece.weight * piece.lmd.distance;
     }
-    // Of slivers that cover each other rounding may leave nothing, or less.
+    // If slivers cover each other, rounding may leave nothing, or less.
     if (!(moments.measure > kLeastFlatShare * largest_.weight)) {
       moments = {};
       addOutline(moments);
@@ -171,7 +171,7 @@ class RegionUnion {
     lmd.isMarginal = isMarginal;
     if (!(moments.measure > 0.0)) return lmd;
     const glm::dvec2 centroid = moments.first / moments.measure;
-    // A corner of a tilted region may be beyond contact, as exact tests see it.
+    // Exact tests may see a corner of a tilted region beyond contact.
     lmd.distance = std::max(least, std::numeric_limits<double>::min());
     lmd.direction = direction_;
     lmd.scenePoint = plane_.point(centroid, height / weight);
@@ -197,7 +197,7 @@ class RegionUnion {
     return glm::normalize(sum);
   }
 
-  /// The whole of the largest piece.
+  /// Adds the whole outline of the largest piece.
   void addOutline(Moments& moments) const noexcept {
     const Outline outline(largest_, plane_);
     for (std::size_t k = 0; k < outline.sides(); ++k) {
@@ -221,7 +221,7 @@ class RegionUnion {
     }
   }
 
-  /// Adds what no other piece covers of the way from a to b, part by part.
+  /// Adds the intervals of the segment from a to b that no other piece covers.
   template <class Add>
   void addUncovered(std::uint32_t at, const glm::dvec2& a, const glm::dvec2& b, Add& add) const noexcept {
     const Aabb box = boxOf(minima_[at], tolerance_ + kRegionDirection * minima_[at].radius);
@@ -262,7 +262,7 @@ class RegionUnion {
                  yy = m.yy / m.measure - centroid.y * centroid.y,
                  xy = m.xy / m.measure - centroid.x * centroid.y;
     const double mean = 0.5 * (xx + yy), spread = std::hypot(0.5 * (xx - yy), xy);
-    // As wide as long but for rounding: any axis will do, if it is the same one always.
+    // Length and width are equal but for rounding: any axis will do if it is always the same.
     constexpr double kRound = 1e-9;
     const double angle = spread > kRound * mean ? 0.5 * std::atan2(2.0 * xy, xx - yy) : 0.0;
     const glm::dvec2 axis(std::cos(angle), std::sin(angle)), across(-axis.y, axis.x);
@@ -276,7 +276,7 @@ class RegionUnion {
     extent.inside = {glm::dot(inside, axis), glm::dot(inside, across)};
   }
 
-  /// The centroid where a piece holds it, else the largest piece's.
+  /// Returns the centroid if a piece holds it, else that of the largest piece.
   glm::dvec2 pointInside(const glm::dvec2& centroid) const noexcept {
     const bool isInside = std::any_of(group_.begin(), group_.end(), [&](std::uint32_t i) {
       const Minimum& m = minima_[i];

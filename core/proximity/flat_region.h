@@ -8,23 +8,20 @@
 
 namespace nearfit {
 
-/// Where to find the pieces that may cover some of another.
+/// Where to find the pieces that may cover another piece, or some of it.
 struct RegionNeighbours {
-  const BoxPairs& boxes;  ///< Of all entries, by their index; pieces that overlap have a point
-                          ///< of their boxes in common.
-  std::span<const std::uint32_t> region;  ///< Of each entry, as a number that its region's entries share.
+  const BoxPairs& boxes;  ///< Boxes of all entries, by index; those of overlapping pieces share a point.
+  std::span<const std::uint32_t> region;  ///< A number per entry, which the entries of its region share.
 };
 
-/// The representative of a flat region: what its pieces of the highest dimension cover, counted once, has its
-/// centroid and extent there: area (or length) means, which do not depend on how the bodies are meshed. The
-/// distance is the least of all, the features are the largest piece's. It is marginal when all such pieces
-/// are.
+/// Returns the representative of a flat region. Its centroid and extent are those of the union of the pieces
+/// of the highest dimension: means over area (or length), which do not depend on the meshing of the bodies.
+/// Its distance is the min of all pieces, its features are the largest piece's. It is marginal if all are.
 ///
-/// @param group       Indices of the pieces, and points at their rims, in `minima`; at least one piece.
-/// @param neighbours  Of all that is in `minima`.
-/// @param tolerance   Lengths that differ by less are one [m].
-/// Real-time safe. Linear, but for pieces that are marked as overlapping: those are held against what their
-/// boxes overlap.
+/// @param group       Indices in `minima` of the pieces and of the points at their rims; at least one piece.
+/// @param neighbours  For all entries of `minima`.
+/// @param tolerance   Lengths that differ by less count as equal [m].
+/// Real-time safe. Linear, but pieces marked as overlapping are compared with those whose boxes meet theirs.
 Lmd uniteRegion(std::span<const Minimum> minima, std::span<const std::uint32_t> group,
                 const RegionNeighbours& neighbours, double tolerance) noexcept;
 

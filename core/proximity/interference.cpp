@@ -16,21 +16,21 @@
 namespace nearfit {
 namespace {
 
-/// Rounding of coordinates in double precision, as a fraction of how far they are from the origin: what
-/// placed vertices may be off from where the hierarchies have them. Some ten roundings.
+/// Rounding of double-precision coordinates as a fraction of their distance from the origin: how far placed
+/// vertices may be from where the hierarchies have them. Some ten roundings.
 constexpr double kPlacing = 4e-15;
 
-/// Node pairs opened between two looks whether triangles were found that meet.
+/// Node pairs opened between checks for triangles that meet.
 constexpr std::uint64_t kBetweenLooks = 256;
 
-/// The search for two triangles that meet.
+/// Search for two triangles that meet.
 class MeetingSearch {
  public:
   MeetingSearch(const PlacedMesh& scene, const PlacedMesh& part) : scene_(scene), part_(part) {}
 
   std::optional<Interference> find(const RigidTransform& sceneFromPart) {
     searchTrees(sceneFromPart);
-    // The thin ones against everything: there are none in most meshes.
+    // Thin triangles are tested against everything; most meshes have none.
     testAll(scene_.looseTriangles(), part_.mesh().triangles().size(),
             [this](std::uint32_t loose, std::uint32_t other) { test(loose, other); });
     testAll(part_.looseTriangles(), scene_.mesh().triangles().size(),
@@ -80,7 +80,7 @@ class MeetingSearch {
   std::optional<Interference> found_;
 };
 
-/// A triangle of a piece that lies in the solid of the other mesh. Their surfaces are apart.
+/// Returns a triangle of a component inside the solid of the other mesh. The surfaces must be apart.
 std::optional<std::uint32_t> pieceInside(const PlacedMesh& inner, const MeshPieces& innerPieces,
                                          const PlacedSolid& solid) {
   for (const std::uint32_t triangle : innerPieces.firstTriangle) {

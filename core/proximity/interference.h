@@ -10,41 +10,42 @@ namespace nearfit {
 
 class NormalConeTree;
 
-/// A mesh with the hierarchy that was built of it.
+/// A mesh and the hierarchy built from it, by reference.
 struct MeshBody {
   const TriangleMesh& mesh;
   const NormalConeTree& tree;
 };
 
+/// How two bodies meet.
 enum class InterferenceKind : std::uint8_t {
   Disjoint,
-  SurfacesMeet,  ///< Touching counts.
-  PartInside,    ///< The surfaces are apart, but a piece of the part lies in the scene's solid.
-  SceneInside,   ///< The surfaces are apart, but a piece of the scene's lies in the part's solid.
+  SurfacesMeet,  ///< The surfaces meet or touch.
+  PartInside,    ///< The surfaces are apart, but a component of the part is in the scene's solid.
+  SceneInside,   ///< The surfaces are apart, but a component of the scene is in the part's solid.
 };
 
+/// Result of findInterference.
 struct Interference {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
   InterferenceKind kind = InterferenceKind::Disjoint;
-  /// Two triangles that meet, or one of the piece that lies inside; else kNone.
+  /// Two triangles that meet, or a triangle of the component inside; else kNone.
   std::uint32_t sceneTriangle = kNone, partTriangle = kNone;
 };
 
-/// Whether two bodies that stand at a pose have a point in common, decided exactly.
+/// Decides exactly if two bodies at a pose have a point in common.
 ///
 /// The part is placed by rounding each of its vertices to double precision in the frame of the scene's mesh,
-/// as `sceneFromPart.applyToPoint` does: for those triangles the answer has no tolerance. Surfaces that touch
-/// meet. Where none do, each piece of either mesh (triangles connected through edges) lies wholly inside or
-/// outside the other's solid: that is what its closed pieces wind around, those along each of whose edges as
-/// many triangles run one way as the other. A piece wound the other way inside one is a cavity; open pieces
-/// and inconsistently oriented ones contain nothing.
+/// as `sceneFromPart.applyToPoint` does; for those triangles the answer has no tolerance. Surfaces that touch
+/// meet. If none do, each component of either mesh (triangles connected through edges) lies wholly inside or
+/// outside the other's solid: what its closed components wind around. In a closed component, as many
+/// triangles run one way along each edge as the other; one wound the other way inside another is a cavity.
+/// Open and inconsistently oriented components contain nothing.
 ///
 /// @param scene, part    Each with its own hierarchy; an empty mesh meets nothing.
-/// @param sceneFromPart  Finite, unit quaternion. Throws UsageError when it is not finite.
-/// Stops at the first pair of triangles that meet. Allocates, and CGAL's exact numbers are slow where it
-/// needs them: not for the servo thread. O(log n) a piece of a mesh, besides the search for pairs of
-/// triangles.
+/// @param sceneFromPart  Unit quaternion. Throws UsageError if it is not finite.
+/// Stops at the first pair of triangles that meet. Allocates, and CGAL's exact numbers are slow where needed:
+/// not for the servo thread. O(log n) per component, besides the search for pairs of triangles.
 Interference findInterference(const MeshBody& scene, const MeshBody& part,
                               const RigidTransform& sceneFromPart);
 

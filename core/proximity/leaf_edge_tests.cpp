@@ -54,7 +54,7 @@ bool LeafTests::settleCrossing(std::uint32_t a, std::uint32_t b, const Edge& ea,
                                const Crossing& c, Minimum& out) const noexcept {
   const bool isWidened = widenAtEnd(ea, eb, c.s, c.sine, out);
   const auto isClear = [&] {
-    // What moves either edge, or the direction across both, moves the crossing by that over their angle.
+    // An error of either edge, or of their common perpendicular, moves the crossing by that over their angle.
     const double place = (2.0 * margins_.pointError() + c.turn * out.lmd.distance) / c.sine;
     return !isWidened && LeafMargins::isClearAlong(c.s, ea.length, place) &&
            LeafMargins::isClearAlong(c.t, eb.length, place) &&
@@ -65,7 +65,7 @@ bool LeafTests::settleCrossing(std::uint32_t a, std::uint32_t b, const Edge& ea,
 
 bool LeafTests::widenAtEnd(const Edge& ea, const Edge& eb, double s, double sine,
                            Minimum& out) const noexcept {
-  // A vertex is held against directions to so many roundings.
+  // Number of roundings that a vertex's test of directions allows.
   constexpr double kSlackOfVertex = 4.0;
   const double reach = kSlackOfVertex * pointRounding_ / (sine * sine);
   if (reach <= lengthTolerance_) return false;
@@ -79,8 +79,8 @@ bool LeafTests::widenAtEnd(const Edge& ea, const Edge& eb, double s, double sine
 
 bool LeafTests::nearlyParallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb,
                                     double s, double sine, Minimum& out) const noexcept {
-  // Where along both the minimum is, is known to a rounding over their angle; the way between the two points
-  // there does not feel that.
+  // The place of the minimum along the edges is known only to a rounding over their angle; the vector between
+  // the two points there hardly depends on it.
   const glm::dvec3 p = ea.start + s * ea.along;
   const double t = glm::dot(p - eb.start, eb.along);
   const glm::dvec3 d = eb.start + t * eb.along - p;
@@ -94,7 +94,7 @@ bool LeafTests::nearlyParallelEdges(std::uint32_t a, std::uint32_t b, const Edge
   const glm::dvec3 toScene = partFromScene_.applyToVector(-direction);
   if (!isPolarOfEdge(part_.tree, b, partEdge, toScene, angularSlack(distance))) return false;
   accept(scene_, p, p + d, direction, distance, out);
-  // Either point, and how far the place where they are sought moves one from the other edge.
+  // Adds the errors of both points, and of the place along the edges, which moves one off the other edge.
   const double turn = 3.0 * margins_.turnOfPoints(distance), error = 6.0 * margins_.pointError();
   return settleCrossing(a, b, ea, eb, {s, t, sine, turn, error, partEdge, toScene}, out);
 }
@@ -108,7 +108,7 @@ LeafTests::Overlap LeafTests::overlapOf(const Edge& a, const Edge& b) noexcept {
 }
 
 double LeafTests::leastDistance(const Edge& a, const Edge& b, const Overlap& overlap) noexcept {
-  // Along a, from the middle, the way to b changes by this.
+  // Change of the vector from a to b per unit length along a.
   const glm::dvec3 change = glm::dot(a.along, b.along) * b.along - a.along;
   const glm::dvec3 middle = overlap.onB - overlap.onA;
   const double half = 0.5 * (overlap.to - overlap.from), square = glm::dot(change, change);
@@ -117,15 +117,15 @@ double LeafTests::leastDistance(const Edge& a, const Edge& b, const Overlap& ove
 }
 
 bool LeafTests::isFlat(double sine, const Overlap& overlap) noexcept {
-  // Nearer to each other, edges that are not quite parallel face each other in directions that differ along
-  // them: then it matters where they come nearest.
+  // When closer than this, edges that are not quite parallel face each other in directions that vary along
+  // them; then the place where they come nearest matters.
   return 0.5 * sine * (overlap.to - overlap.from) <=
          kRegionDirection * glm::distance(overlap.onA, overlap.onB);
 }
 
 bool LeafTests::parallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb,
                               const Overlap& overlap, Minimum& out) const noexcept {
-  // Ends that face each other are found as vertices.
+  // Vertex tests find the minima of edges that only face each other at their ends.
   if (!(overlap.to - overlap.from > lengthTolerance_)) return false;
   const glm::dvec3 d = overlap.onB - overlap.onA;
   const double distance = glm::length(d), least = leastDistance(ea, eb, overlap);

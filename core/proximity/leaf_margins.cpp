@@ -11,7 +11,7 @@
 namespace nearfit {
 namespace {
 
-/// No less than the length, at most 1.74 times it, and sooner there: bounds may be as much too wide.
+/// Cheap upper bound on the length, at most 1.74 times it; error bounds may be that much too wide.
 double mostLength(const glm::dvec3& v) noexcept {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
@@ -23,8 +23,8 @@ LeafMargins::LeafMargins(const NormalConeTree& scene, const NormalConeTree& part
   constexpr double kExtendedUnit = 0.5 * static_cast<double>(std::numeric_limits<long double>::epsilon());
   constexpr double kRoundings = 24.0, kOfSum = 16.0;
   const double size = scene.size() + part.size(), way = glm::length(sceneFromPart.translation);
-  // No less than any number that the centred pose was made from: in double precision as far as coordinates
-  // near the origin go, in extended precision beyond.
+  // Upper bound on every number that the centred pose was made from: in double precision up to where
+  // coordinates count as near the origin, in extended precision beyond.
   const double origin = way + 2.0 * (glm::length(scene.centre()) + glm::length(part.centre()));
   pointError_ = kRoundings * kUnit * (size + way) + kOfSum * kUnit * std::min(origin, kNearOrigin * size) +
                 kOfSum * kExtendedUnit * origin;
@@ -50,7 +50,7 @@ bool LeafMargins::isClearOfEdge(const NormalConeTree& tree, std::uint32_t edge, 
     const glm::dvec3 w = tree.positions()[corner] - start;
     const double far = glm::dot(w, along);
     const glm::dvec3 inward = w - far * along;
-    // Far along a short edge the error of its direction counts: so many lengths of it. All times the length.
+    // The error of a short edge's direction grows with the distance along it. All is times the length.
     const double bound = error * (length + 2.0 * std::abs(far)) + turn * mostLength(inward) * length;
     if (!(glm::dot(d, inward) * length < -bound)) return false;
   }

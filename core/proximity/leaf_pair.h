@@ -4,7 +4,7 @@
 
 namespace nearfit {
 
-/// A leaf of either hierarchy: a pair of features.
+/// Pair of features: a leaf child of each hierarchy (see NormalConeTree::isLeaf).
 struct LeafPair {
   std::uint32_t scene = 0, part = 0;
 };

@@ -12,12 +12,12 @@
 namespace nearfit {
 namespace {
 
-/// Outward unit normal of a face that has an area.
+/// Outward unit normal of a face with non-zero area.
 glm::dvec3 faceNormal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) noexcept {
   return glm::normalize(glm::cross(b - a, c - a));
 }
 
-/// Height of a triangle over its longest side.
+/// Height of a triangle over its longest side [m].
 double leastHeight(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) noexcept {
   const glm::dvec3 u = b - a, v = c - b, w = a - c;
   const double longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
@@ -147,7 +147,7 @@ void LeafTests::accept(const Side& frame, const glm::dvec3& p, const glm::dvec3&
   out.lmd.isMarginal = false;
   out.lmd.distance = distance;
   const bool isSceneFrame = &frame == &scene_;
-  // p belongs to the body in whose frame we are.
+  // p lies on the body whose frame this is.
   out.lmd.scenePoint = isSceneFrame ? p : sceneFromPart_.applyToPoint(q);
   out.lmd.partPoint = isSceneFrame ? q : sceneFromPart_.applyToPoint(p);
   out.lmd.direction = isSceneFrame ? direction : sceneFromPart_.applyToVector(-direction);
@@ -161,7 +161,7 @@ bool LeafTests::vertexFace(const Side& v, std::uint32_t vertex, const Side& f, s
   const glm::dvec3 n = faceNormal(x[t[0]], x[t[1]], x[t[2]]);
   const double distance = glm::dot(n, q - x[t[0]]);
   if (!(distance > 0.0) || distance > mostDistance_) return false;
-  // The normal of a thin face is known to a rounding over its height.
+  // A thin face's normal has an error of one rounding over its height.
   const double height = leastHeight(x[t[0]], x[t[1]], x[t[2]]), tilt = pointRounding_ / height;
   const double slack = lengthSlack(distance) + tilt * distance;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -240,7 +240,7 @@ bool LeafTests::edgeFace(const Side& e, std::uint32_t edge, const Side& f, std::
   if (std::abs(rise) > kFlatTolerance) return false;
   const glm::dvec3 start = e.otherFromThis.applyToPoint(local.start);
   const double startHeight = glm::dot(n, start - corners[0]);
-  // Before anything that costs: how high the edge's lower end is.
+  // A cheap test before costly ones: the height of the edge's lower end.
   if (startHeight + std::min(0.0, local.length * rise) > mostDistance_) return false;
   double from = 0.0, to = local.length;
   if (!clipLine(corners, n, start, along, lengthSlack(std::abs(startHeight)), from, to) ||
@@ -306,7 +306,7 @@ bool LeafTests::faceFace(std::uint32_t a, std::uint32_t b, Minimum& out) const n
   const double points = 2.0 * margins_.pointError();
   const double turn = LeafMargins::turnOfFace(scene_.tree, leastHeight(pa[0], pa[1], pa[2]));
   const auto error = [&] { return points + turn * glm::distance(centroid, pa[0]); };
-  // Of an overlap that is no wider than rounding none may be left.
+  // In exact arithmetic, an overlap no wider than rounding may not exist.
   const auto isClear = [&] { return area > 2.0 * out.radius * (points + turn * distance); };
   return settle(error, isClear, out);
 }

@@ -11,67 +11,69 @@
 
 namespace nearfit {
 
-/// Exact conditions on pairs of features, in double precision, closed by the tolerances of tolerances.h; of
-/// the vertices of a hierarchy by the rule of normal spans, that rule's.
-/// Coordinates are those of the trees (relative to their centres). Real-time safe.
+/// Tests pairs of features against the exact conditions of a minimum, in double precision, closed by the
+/// tolerances of tolerances.h. For the vertices of a hierarchy with AcceptanceRule::NormalSpan, the
+/// conditions are that rule's. Coordinates are in the trees' centred frames. Real-time safe.
 class LeafTests {
  public:
   /// @param sceneFromPart  Between the trees' centred frames.
-  /// @param relaxation     Directions may be off the polar cones of either feature by so much, points off
-  ///                       their features by so much of the distance [rad].
+  /// @param cutoff         [m]
+  /// @param relaxation     Angle by which directions may leave the polar cones of either feature [rad].
+  ///                       Points may leave their features by this angle times the distance.
   LeafTests(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
             double cutoff, double relaxation = 0.0) noexcept;
 
   LeafTests(const LeafTests&) = delete;
   LeafTests& operator=(const LeafTests&) = delete;
 
-  /// Sine below which the direction square to two edges is better known from the points where they are
-  /// nearest.
+  /// Sine of the angle between two edges below which the direction between their nearest points is more
+  /// accurate than their common perpendicular.
   static constexpr double kNearlyParallel = 1e-4;
 
   struct Edge {
     glm::dvec3 start, along;  ///< `along` is unit.
-    double length;
+    double length;            ///< [m]
   };
+  /// @param edge  Index in tree.edges(). The result is in the tree's centred frame.
   static Edge edgeOf(const NormalConeTree& tree, std::uint32_t edge) noexcept;
-  /// From an edge, square to it, to the third corner of either of its faces.
+  /// Returns the vectors from an edge, perpendicular to it, to the third corner of each of its faces [m].
   static std::array<glm::dvec3, 2> inwardOf(const NormalConeTree& tree, std::uint32_t edge,
                                             const Edge& e) noexcept;
 
-  /// What a test of pairs of edges by a kernel needs.
+  /// Limits for testing pairs of edges by a kernel.
   EdgePairLimits edgePairLimits() const noexcept {
     return {cutoff_, mostDistance_, lengthTolerance_, angularSlackBase_, pointRounding_};
   }
   const RigidTransform& sceneFromPart() const noexcept { return sceneFromPart_; }
   const RigidTransform& partFromScene() const noexcept { return partFromScene_; }
 
-  /// Whether the pair of leaf children carries a minimum, or a piece of a flat region; fills `out` if so.
+  /// True if the pair of leaf children carries a minimum or a piece of a flat region; then fills `out`.
   bool test(std::uint32_t sceneLeaf, std::uint32_t partLeaf, Minimum& out) const noexcept;
 
  private:
-  /// One of the two bodies and how to get from its frame to the other's.
+  /// One of the two bodies, and the poses between its frame and the other's.
   struct Side {
     const NormalConeTree& tree;
     const RigidTransform& otherFromThis;
     const RigidTransform& thisFromOther;
   };
-  /// Where two edges that are nearly parallel run beside each other: along the first, and in the middle of
-  /// that the point of each.
+  /// Where two nearly parallel edges run beside each other: an interval along the first [m], and the points
+  /// of both edges at its middle.
   struct Overlap {
     double from, to;
     glm::dvec3 onA, onB;
   };
   static Overlap overlapOf(const Edge& a, const Edge& b) noexcept;
-  /// Whether the edges face each other in one direction all along.
+  /// True if the edges face each other in one direction over the whole overlap.
   static bool isFlat(double sine, const Overlap& overlap) noexcept;
+  /// Min distance between the edges over the overlap [m].
   static double leastDistance(const Edge& a, const Edge& b, const Overlap& overlap) noexcept;
   static void setSegment(const glm::dvec3& from, const glm::dvec3& to, Minimum& out) noexcept;
 
-  /// Takes what was found in, or not: the cutoff, to the rounding of the distance, and whether any condition
-  /// is met by rounding only.
-  /// @param error    () to the error of the least distance [m]; asked where it may count.
-  /// @param isClear  () to whether all other conditions are met by more than their rounding; asked of minima
-  ///                 that are not relaxed.
+  /// Accepts or rejects a minimum by the cutoff, to the rounding of its distance, and sets isMarginal if any
+  /// condition holds only within rounding.
+  /// @param error    Returns the error of the min distance [m]; called only where it can matter.
+  /// @param isClear  Returns true if all other conditions hold by more than rounding; not called if relaxed.
   template <class Error, class IsClear>
   bool settle(Error&& error, IsClear&& isClear, Minimum& out) const noexcept {
     if (relaxation_ > 0.0) return out.least <= cutoff_;
@@ -81,7 +83,7 @@ class LeafTests {
       const double e = error();
       if (out.least > cutoff_ + e) return false;
       isClose = !(out.least < cutoff_ - e && out.least > e);
-      // Nothing that is reported is beyond the cutoff.
+      // No reported distance exceeds the cutoff.
       out.least = std::min(out.least, cutoff_);
       if (out.dimension == 0) out.lmd.distance = out.least;
     }
@@ -92,13 +94,13 @@ class LeafTests {
                             double turn) noexcept {
     return LeafMargins::isClearOfEdge(e.tree, edge, line.start, line.along, line.length, d, turn);
   }
-  /// @param toPart, toScene  The direction from a to b in the scene's frame, the opposite in the part's.
+  /// @param toPart, toScene  Direction from a to b in the scene's frame, its opposite in the part's frame.
   bool areClearOfEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& partEdge,
                        const glm::dvec3& toPart, const glm::dvec3& toScene, double turn) const noexcept {
     return isClearOfEdge(scene_, a, ea, toPart, turn) && isClearOfEdge(part_, b, partEdge, toScene, turn);
   }
 
-  /// A point minimum with p on one side and q on the other, both in `frame`'s coordinates.
+  /// Fills `out` with a point minimum: p on `frame`'s body, q on the other, both in `frame`'s coordinates.
   void accept(const Side& frame, const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& direction,
               double distance, Minimum& out) const noexcept;
 
@@ -114,38 +116,40 @@ class LeafTests {
   bool parallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb, const Overlap& overlap,
                      Minimum& out) const noexcept;
 
-  /// Whether direction `d` (unit, the side's frame) lies in the closed polar cone of the feature: to `slack`,
-  /// and to the rounding of the points that span it, which is more of an angle the shorter they are.
+  /// True if direction `d` (unit, in the tree's frame) lies in the closed polar cone of the feature, to
+  /// within `slack` [rad] and the rounding of the points that span the cone. As an angle, that rounding grows
+  /// as the feature's edges get shorter.
   bool isPolarOfVertex(const NormalConeTree& tree, std::uint32_t vertex, const glm::dvec3& d,
                        double slack) const noexcept;
-  /// The same by the rule of normal spans, when that is the tree's: `d` lies in the span, and the vertex is
-  /// where one of its triangles is nearest in that direction.
+  /// The same for AcceptanceRule::NormalSpan: `d` lies in the span, and one of the vertex's triangles has its
+  /// nearest point there in that direction.
   bool isInSpanOfVertex(const NormalConeTree& tree, std::uint32_t vertex, const glm::dvec3& d,
                         double slack) const noexcept;
   bool isPolarOfEdge(const NormalConeTree& tree, std::uint32_t edge, const Edge& e, const glm::dvec3& d,
                      double slack) const noexcept;
-  /// The rest of edgeEdge where edges are so nearly parallel that the normal of both is not known.
+  /// Completes edgeEdge for edges so nearly parallel that their common perpendicular is inaccurate.
   bool nearlyParallelEdges(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb, double s,
                            double sine, Minimum& out) const noexcept;
-  /// Where lines cross, how steeply, and the errors of the direction across both [rad] and of their distance.
+  /// Crossing of two edges' lines: the place along each [m], the sine of their angle, and the errors of their
+  /// common perpendicular [rad] and of their distance [m].
   struct Crossing {
     double s, t, sine, turn, error;
-    const Edge& partEdge;       ///< The second in the part's frame,
-    const glm::dvec3& toScene;  ///< and there the direction to the first.
+    const Edge& partEdge;       ///< The second edge in the part's frame,
+    const glm::dvec3& toScene;  ///< and the direction from it to the first there.
   };
   double turnOfCrossing(const Edge& ea, const Edge& eb, double sine) const noexcept;
   bool settleCrossing(std::uint32_t a, std::uint32_t b, const Edge& ea, const Edge& eb, const Crossing& c,
                       Minimum& out) const noexcept;
-  /// Where edges cross at so small an angle that the end of one, too, is a minimum to rounding, they share a
-  /// piece of a region with it: so that they become one. False where it is as it was.
+  /// If edges cross at so small an angle that the end of one is also a minimum within rounding, turns the
+  /// minimum into a region piece that reaches that end, so that the two merge. False if nothing changed.
   bool widenAtEnd(const Edge& ea, const Edge& eb, double s, double sine, Minimum& out) const noexcept;
 
   double lengthSlack(double distance) const noexcept {
     return lengthTolerance_ + angularSlackBase_ * distance;
   }
-  /// What a direction between two points can be off by. Two features that share an end and both claim it
-  /// there say the same, so no more is needed; more would let both ends of an edge claim what is nearest
-  /// between them, over an edge that is nearly parallel to it.
+  /// Error of a direction between two points [rad]. Two features that share an end and both claim a minimum
+  /// there compute the same direction, so they need no more. More would let both ends of an edge claim the
+  /// minimum between them, over a nearly parallel edge.
   double directionRounding(double distance) const noexcept {
     return relaxation_ + 2.0 * pointRounding_ / distance;
   }
@@ -157,7 +161,7 @@ class LeafTests {
   Side scene_, part_;
   LeafMargins margins_;
   double cutoff_, relaxation_;
-  double mostDistance_;  ///< No less than the cutoff and any rounding of a distance [m].
+  double mostDistance_;  ///< At least the cutoff plus the rounding of any distance [m].
   double lengthTolerance_, angularSlackBase_, pointRounding_;
 };
 

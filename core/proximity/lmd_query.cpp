@@ -20,7 +20,7 @@ void LmdScratch::holdAtMost(std::size_t pieces) noexcept {
 
 namespace {
 
-/// One search, which may be narrowed on its way.
+/// One search, whose cutoff can be tightened as it runs.
 class Search {
  public:
   Search(const BodyPairQuery& query, LmdScratch::Data& workspace) noexcept
@@ -31,12 +31,12 @@ class Search {
         traversal_(query.scene, query.part, pose_, cullLimits(query.scene, query.part, pose_, query.cutoff),
                    workspace.open, workspace.traversal) {}
 
-  /// Everything within the cutoff, unless that is too much work.
+  /// Finds all minima within the cutoff; false if that exceeds the work.
   bool all(std::uint64_t maxNodePairs) noexcept {
     return traversal_.run([this](const EntryPair& pair) { test(pair); }, maxNodePairs);
   }
 
-  /// Goes on, from now on only for what is nearer than the nearest so far.
+  /// Continues, but only for minima nearer than the nearest so far.
   bool nearest(std::uint64_t maxNodePairs) noexcept {
     const auto tighten = [this] { traversal_.tighten(static_cast<float>(kNearestSlack * nearest_)); };
     if (nearest_ < query_.cutoff) tighten();
@@ -47,7 +47,7 @@ class Search {
         maxNodePairs);
   }
 
-  /// @param completeTo  Every minimum nearer than that was found.
+  /// @param completeTo  Every minimum nearer than this was found [m].
   LmdResult finish(std::span<Lmd> out, double completeTo) noexcept {
     result_.nodePairs = traversal_.nodePairs() - result_.leafPairs;
     result_.completeTo = completeTo;
@@ -59,7 +59,7 @@ class Search {
   double nearestSoFar() const noexcept { return nearest_; }
 
  private:
-  /// Whether it is the nearest so far.
+  /// True if the pair carries the nearest minimum so far.
   bool test(const EntryPair& pair) noexcept {
     ++result_.leafPairs;
     traversal_.spend(1);

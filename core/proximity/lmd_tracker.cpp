@@ -10,20 +10,19 @@
 namespace nearfit {
 namespace {
 
-/// Beyond this turn the limits on directions say nothing any more [rad].
+/// Beyond this turn, limits of direction no longer cull [rad].
 constexpr double kMostClearTurn = 0.5;
 
-/// Of a plan, what a list is made for.
+/// Share of a plan that a list is built for, by level.
 constexpr std::array<double, 4> kShares{1.0, 0.5, 0.25, 0.1};
-/// Of the way that many times as much is kept as of the room aside.
+/// A list for part of a plan keeps this many times as much of the stretch as of the budget for deviation.
 constexpr double kWayShare = 2.0;
-/// After so many lists for less of a plan, or attempts that were left out, more is tried; at once where
-/// a list holds less than this share of the pairs that it may.
+/// After this many lists for less of a plan, or skipped attempts, more is tried; at once if a list holds less
+/// than kFewPairs of the pairs that it may.
 constexpr unsigned kBuildsBetweenTries = 16;
 constexpr double kFewPairs = 1.0 / 8.0;
 
-/// Where the whole plan is too much, its way counts for more than room aside of it, of which the least must
-/// do.
+/// If the whole plan is too much, its stretch counts for more than deviation, which gets the min budget.
 SearchPlan planFor(const MotionForecast& forecast, const ListPurpose& purpose, double share) noexcept {
   const MotionBudget least = share * purpose.leastRoom;
   if (share == 1.0 || !(least.travel > 0.0)) {

@@ -9,7 +9,7 @@
 namespace nearfit {
 namespace {
 
-/// Finds which entries belong together: `parent` then leads from each to the first of its set.
+/// Finds the sets: makes `parent` lead from each entry to the first entry of its set.
 class Grouping {
  public:
   Grouping(std::span<Minimum> minima, MergeWork& work, const Closeness& closeness) noexcept
@@ -24,7 +24,7 @@ class Grouping {
     }
     work_.boxes.build();
     work_.boxes.forEachPair([this](std::uint32_t i, std::uint32_t j) { join(i, j); });
-    // Parents come first.
+    // A parent precedes its children.
     for (std::uint32_t i = 0; i < minima_.size(); ++i)
       work_.parent[i] = work_.parent[work_.parent[i]];
     return counted_;
@@ -41,7 +41,7 @@ class Grouping {
   void join(std::uint32_t i, std::uint32_t j) noexcept {
     ++counted_.pairs;
     const std::uint32_t ri = root(i), rj = root(j);
-    // All that is left to learn of two of one set is whether they overlap: most do not, which is soon told.
+    // Of two entries in one set, only their overlap is left to find out. Most have none, which is soon seen.
     if (ri == rj && !mayMark(minima_[i], minima_[j])) return;
     if (featureKey(minima_[j]) < featureKey(minima_[i])) std::swap(i, j);
     if (ri == rj && !doOverlap(i, j)) return;
@@ -70,10 +70,10 @@ class Grouping {
   MergeResult counted_;
 };
 
-/// Writes the indices of the entries to `order`, those of a set one after the other, sets by their first.
+/// Writes the indices of the entries to `order`, set by set, the sets in order of their first entries.
 void sortBySet(std::span<const std::uint32_t> parent, std::span<std::uint32_t> order,
                std::span<std::uint32_t> starts) noexcept {
-  // How many each has; then where its next one goes.
+  // First the size of each set, then the place of its next entry.
   std::fill(starts.begin(), starts.end(), 0U);
   for (const std::uint32_t root : parent)
     ++starts[root];
@@ -117,7 +117,7 @@ MergeResult mergeMinima(std::span<Minimum> minima, std::span<std::uint32_t> orde
       isRegion = isRegion || minima[sorted[end]].dimension > 0;
     const std::span<std::uint32_t> set = sorted.subspan(i, end - i);
     if (set.size() > 1) sortByFeatures(minima, set, work.keys);
-    // Neighbours claim a point at their common boundary by rounding; one whose own it is has the say.
+    // Neighbours claim a point at their common boundary by rounding; the one that surely owns it decides.
     const auto sure = std::find_if(set.begin(), set.end(),
                                    [&](std::uint32_t m) { return isRegion || !minima[m].lmd.isMarginal; });
     const std::uint32_t first = sure == set.end() ? set.front() : *sure;

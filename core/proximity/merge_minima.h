@@ -13,39 +13,41 @@ namespace nearfit {
 
 /// Work space of mergeMinima, allocated once.
 struct MergeWork {
-  /// What entries are sorted by: at hand, not in minima that are strewn about in memory.
+  /// Sort key, copied out of minima that are scattered in memory.
   struct Key {
     FeatureKey features;
     std::uint32_t index;
   };
 
-  /// @param capacity  Minima, and pieces of flat regions, that can be merged.
+  /// @param capacity  Max number of minima and region pieces to merge.
   explicit MergeWork(std::size_t capacity)
       : boxes(capacity), sides(capacity), parent(capacity), starts(capacity), keys(capacity) {}
 
   BoxPairs boxes;
-  std::vector<PieceSides> sides;  ///< Of each entry, where it is a piece of faces.
+  std::vector<PieceSides> sides;  ///< Sides of each entry that is a piece of a region of faces.
   std::vector<std::uint32_t> parent, starts;
   std::vector<Key> keys;
 };
 
+/// Counts of mergeMinima.
 struct MergeResult {
-  std::size_t count = 0;        ///< Of what is left.
-  std::uint64_t pairs = 0;      ///< Of entries with boxes that overlap: what was looked at.
-  std::uint64_t touchings = 0;  ///< Of them, those that had to be tested exactly for a common point.
+  std::size_t count = 0;        ///< Minima after merging.
+  std::uint64_t pairs = 0;      ///< Pairs of entries whose boxes overlap, all of which were examined.
+  std::uint64_t touchings = 0;  ///< Pairs of these that needed an exact test for a common point.
 };
 
-/// Makes one minimum of each set of entries that touch each other at one distance: neighbouring features that
-/// claim a minimum at their common boundary, and the pieces of a flat region with the points at its rim:
-/// where faces are parallel only to kFlatTolerance, one of those points is the minimum and the region stands
-/// for it. A set of points is what its first entry says that is not marginal, if there is one. Sets are the
-/// transitive closure of touching, whatever the order of the entries.
+/// Merges each set of entries that touch each other at one distance into one minimum: neighbouring features
+/// that claim a minimum at their common boundary, and the pieces of a flat region with the points at its rim.
+/// (Where faces are parallel only to kFlatTolerance, one of those points is the minimum, and the region
+/// stands for it.) A set of points becomes its first entry that is not marginal, or else its first. Sets are
+/// the transitive closure of touching, whatever the order of the entries.
 ///
-/// @param order        Its first `count` entries then name the results in `minima`, nearest first, regions as
-///                     their centroids; as long as `minima`.
-/// @param size         Of both bodies together [m], for tolerances.
-/// @param smallerSize  Of the smaller body [m].
-/// Real-time safe. O(n log n) where each piece has a few neighbours.
+/// @param minima       Entries, within the capacity of `work`; results overwrite some.
+/// @param order        As long as `minima`. Receives, in its first `count` entries, the indices of the
+///                     results in `minima`, nearest first; regions are represented at their centroids.
+/// @param size         Size of both bodies together [m], for tolerances.
+/// @param smallerSize  Size of the smaller body [m].
+/// Real-time safe. O(n log n) if each piece has few neighbours.
 MergeResult mergeMinima(std::span<Minimum> minima, std::span<std::uint32_t> order, MergeWork& work,
                         double size, double smallerSize) noexcept;
 

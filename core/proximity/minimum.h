@@ -10,23 +10,23 @@
 
 namespace nearfit {
 
-/// What the leaf tests find before neighbours that claim the same minimum are merged: a point of minima, or a
-/// piece of a flat region (a segment or a convex polygon of them, all at one distance and direction).
+/// Result of a leaf test, not yet merged with those of neighbouring features: a point, or a piece of a flat
+/// region (a segment or convex polygon of minima that share one distance and direction).
 struct Minimum {
   static constexpr std::size_t kMaxCorners = 6;  ///< Two triangles overlap in a hexagon at most.
 
-  Lmd lmd;                     ///< In the query's frame; for a piece, its centroid.
-  bool isOverlapping = false;  ///< With another piece: see markIfOverlapping.
-  double radius = 0.0;         ///< Of a sphere about scenePoint that holds a piece [m].
-  double least = 0.0;          ///< Distance where a piece is nearest; at its centroid it is lmd.distance [m].
-  double weight = 0.0;         ///< Length or area of a piece; 0 for a point.
+  Lmd lmd;                     ///< In the scene's centred frame; for a piece, at its centroid.
+  bool isOverlapping = false;  ///< Overlaps another piece; set by mergeMinima.
+  double radius = 0.0;         ///< Radius of a sphere about scenePoint that holds the piece [m].
+  double least = 0.0;          ///< Min distance over the piece [m]; lmd.distance is that at its centroid.
+  double weight = 0.0;         ///< Length [m] or area [m^2] of a piece; 0 for a point.
   std::uint8_t dimension = 0;  ///< 0 point, 1 segment, 2 polygon.
   std::uint8_t cornerCount = 0;
-  std::array<glm::dvec3, kMaxCorners> corners{};  ///< Of a piece, scene side.
+  std::array<glm::dvec3, kMaxCorners> corners{};  ///< Corners of a piece, on the scene's side [m].
 };
 
-/// The two features of a minimum, as numbers: no two entries of a query have the same. Their order does not
-/// depend on when entries were found, and so not on the instruction set or a candidate list.
+/// Sort key from a minimum's two features; no two entries of a query share one. The order does not depend on
+/// when entries were found, hence not on the instruction set or the use of a candidate list.
 struct FeatureKey {
   std::uint64_t scene, part;
   auto operator<=>(const FeatureKey&) const = default;

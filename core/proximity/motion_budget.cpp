@@ -11,7 +11,7 @@
 namespace nearfit {
 namespace {
 
-/// Budgets are spent to this fraction only, so that rounding of the motion does not overdraw them.
+/// Budgets may be used to this fraction only, so that rounding of the motion does not overdraw them.
 constexpr double kBudgetUse = 1.0 - 1e-9;
 
 }  // namespace
@@ -20,7 +20,7 @@ MotionBudget motionBetween(const RigidTransform& from, const RigidTransform& to,
   const glm::dquat turn = glm::conjugate(from.rotation) * to.rotation;
   const double sine = glm::length(glm::dvec3(turn.x, turn.y, turn.z));
   const double angle = 2.0 * std::atan2(sine, std::abs(turn.w));
-  // A point at the radius moves along a chord.
+  // The displacement of a point at the radius is a chord.
   return {glm::distance(from.translation, to.translation) + 2.0 * std::min(sine, 1.0) * radius, angle};
 }
 

@@ -10,55 +10,55 @@
 namespace nearfit {
 namespace {
 
-/// Share of the memory of the fastest motion, and of the slowest search, that a tick leaves: half is gone
-/// after 35 ticks, in which a hand stops or turns round.
+/// Share of the memory of the fastest motion, and of the slowest search, that remains after a tick: half is
+/// gone after 35 ticks, in which a hand stops or reverses.
 constexpr double kMemoryPerTick = 0.98;
 
-/// A way foretold is followed for so many ticks, to see how far off it was.
+/// Number of ticks for which a forecast path is followed, to see how far off it is.
 constexpr double kProbeTicks = 6.0;
-/// A part gets off its way by a change of its velocity that goes on: the square of the time.
+/// A part deviates from its path by a lasting change of velocity: with the square of the time.
 constexpr double kErrorGrowth = 2.0;
 
-/// How much of the newest velocity counts, and of the newest change of it: smooths the steps of encoders over
-/// some two and some four ticks (Holt's double exponential smoothing, which does not lag behind a steady
-/// change as simple smoothing does).
+/// Weights of the newest velocity, and of its newest change. They smooth the steps of encoders over some two
+/// and some four ticks (Holt's double exponential smoothing, which unlike simple smoothing does not lag
+/// behind a steady change).
 constexpr double kVelocityShare = 0.5, kTrendShare = 0.25;
 
-/// How long what is found must serve, in ticks: while the next search waits for its turn and runs, and a
-/// little more; the shorter, the shorter the lists. Where ticks wait for the search, long enough that they
-/// seldom do.
+/// How long a search's result must serve [ticks]: while the next search waits for its turn and runs, and a
+/// little more; the shorter, the shorter the lists. If ticks wait for the search, long enough that few do.
 double windowOf(double lead) noexcept {
   return lead > 0.0 ? lead + 1.5 : 6.0;
 }
 
-/// A longer lead asks for wider lists, and those take longer to search: beyond this it would never end.
+/// Max lead. A longer lead needs wider lists, which take longer to search: beyond this it would never end.
 constexpr double kMostLead = 3.0;
 
-/// The stretch is this much longer than the window, at both ends.
+/// Factor by which the stretch is longer than the window, at both ends.
 constexpr double kMargin = 1.2;
-/// Room aside at most, as a share of the motion in half a window: being late now and then costs less than
-/// lists that reach wherever a hand could turn.
+/// Max budget for deviation, as a share of the motion in half a window: being late now and then costs less
+/// than lists that reach wherever a hand could turn.
 constexpr double kMostAside = 1.0;
 
-/// While searches are quick, they look for more and more; when they are not, they soon look for less.
+/// Quick searches slowly widen the budget for deviation; slow ones soon narrow it.
 constexpr double kShortLead = 0.9, kMoreRoom = 1.1, kLessRoom = 0.7, kMostGenerosity = 4.0;
 
 /// Even a hand at rest gets this share of the cutoff: it may start at any tick.
 constexpr double kLeastTravel = 0.02;
 /// Beyond this share of the cutoff a list holds most of what is near, and a cold query does as well.
 constexpr double kMostTravel = 1.0;
-/// Turning further makes nearly every feature a candidate [rad].
+/// Turning more makes nearly every feature a candidate [rad].
 constexpr double kLeastTurn = 1e-3, kMostTurn = 0.1;
 
-/// A step this many times the fastest of late, and more than a hand does in a tick, is no motion to go on
-/// with unless the next one is like it: the part was put elsewhere. The second is a share of its radius.
+/// A step this many times the fastest recent one, and longer than a hand makes in a tick (a share of the
+/// part's radius), means that the part was placed elsewhere. It is not taken for motion unless the next step
+/// is like it.
 constexpr double kJump = 3.0, kJumpOfRadius = 0.005;
 
 MotionBudget greater(const MotionBudget& a, const MotionBudget& b) noexcept {
   return {std::max(a.travel, b.travel), std::max(a.turn, b.turn)};
 }
 
-/// Brings a velocity and its trend up to date with one that was measured over some ticks.
+/// Updates a velocity and its trend with a velocity measured over some ticks.
 void smooth(glm::dvec3& velocity, glm::dvec3& trend, const glm::dvec3& measured, double ticks) noexcept {
   const glm::dvec3 expected = velocity + ticks * trend;
   const glm::dvec3 next = expected + (1.0 - std::pow(1.0 - kVelocityShare, ticks)) * (measured - expected);
@@ -66,7 +66,7 @@ void smooth(glm::dvec3& velocity, glm::dvec3& trend, const glm::dvec3& measured,
   velocity = next;
 }
 
-/// Where a velocity that grows by a trend leads in some ticks; frames have their origin in the part's centre.
+/// Returns the pose after some ticks of a velocity that grows by a trend. Frames are at the part's centre.
 RigidTransform ahead(const RigidTransform& from, const MotionStretch& velocity, const MotionStretch& trend,
                      double ticks) noexcept {
   const double growth = 0.5 * ticks * (ticks + 1.0);
@@ -74,7 +74,7 @@ RigidTransform ahead(const RigidTransform& from, const MotionStretch& velocity, 
                 from, 1.0);
 }
 
-/// A vector, shortened where it is longer than a limit.
+/// Returns a vector, shortened to a limit if it is longer.
 glm::dvec3 limited(const glm::dvec3& vector, double limit) noexcept {
   const double length = glm::length(vector);
   return length > limit ? (limit / length) * vector : vector;
@@ -122,7 +122,7 @@ void MotionForecast::goAs(const MotionForecast& leader) noexcept {
 void MotionForecast::checkProbe(const RigidTransform& centred, double ticks) noexcept {
   probe_.age += ticks;
   const RigidTransform foretold = ahead(probe_.from, probe_.velocity, probe_.trend, probe_.age);
-  // What it is early or late by does not count: a stretch reaches farther than it must.
+  // Being early or late does not count: a stretch reaches farther than it must.
   const double time = nearestTime(probe_.velocity, foretold, centred, radius_);
   const MotionBudget off = motionBetween(poseOn(probe_.velocity, foretold, time), centred, radius_);
   error_ = greater(std::pow(probe_.age, -kErrorGrowth) * off, error_);
@@ -144,14 +144,14 @@ RigidTransform MotionForecast::poseWhenReady() const noexcept {
 }
 
 SearchPlan MotionForecast::plan(double cutoff, double share) const noexcept {
-  // What is held up begins where it is, however long the search takes.
+  // A held-up part begins where it is, however long the search takes.
   const double begin = isHeldUp_ ? 0.0 : lead_;
   const double window = share * (lead_ + windowOf(lead_) - begin), half = 0.5 * kMargin * window;
   const double growth = std::pow(begin + window, kErrorGrowth);
   const auto aside = [&](double fastest, double error) {
     return generosity_ * std::min(growth * error, kMostAside * half * fastest);
   };
-  // Part of the travel comes from turning: the least turn must not be out of reach of the least travel.
+  // Part of the travel comes from turning: the min travel must allow for the min turn.
   const double leastTravel = kLeastTravel * cutoff + kLeastTurn * radius_;
   const double mostTravel = std::max(leastTravel, kMostTravel * cutoff);
   const double middle = begin + 0.5 * window;

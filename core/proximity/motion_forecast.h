@@ -5,43 +5,43 @@
 
 namespace nearfit {
 
-/// Where to search ahead: the middle of a stretch of the way, and the range about it.
+/// Plan of a search ahead: the middle of a stretch of the path, and the range about it.
 struct SearchPlan {
   RigidTransform pose;
   MotionRange range;
 };
 
-/// How a part has been moving of late, and so where to search for what its next ticks need.
+/// Forecasts a part's motion from its recent motion, to plan searches for what its next ticks need.
 ///
-/// What is found serves from when the search has ended until the next one has. The plan follows the way that
-/// the part would go by itself in that time, and leaves room aside for as much as it has been off such a way
-/// of late.
+/// A search's result serves from the end of that search to the end of the next. The plan follows the path
+/// that the part would take by itself in that time, give or take the deviation seen recently. Real-time safe.
 class MotionForecast {
  public:
   MotionForecast() = default;
-  /// @param centre  Of the part, in its own frame [m].
-  /// @param radius  Of a sphere about the centre that holds the part [m].
+  /// @param centre  Centre of the part in its own frame [m].
+  /// @param radius  Radius of a sphere about the centre that holds the part [m].
   MotionForecast(const glm::dvec3& centre, double radius) noexcept : centre_(centre), radius_(radius) {}
 
-  /// Takes note of where the part is now.
-  /// @param ticks  Since the last call; > 0.
+  /// Records the part's current pose; ignores one that is not finite.
+  /// @param ticks  Ticks since the last call; > 0.
   void observe(const RigidTransform& pose, double ticks) noexcept;
-  const RigidTransform& pose() const noexcept { return pose_; }
+  const RigidTransform& pose() const noexcept { return pose_; }  ///< Latest pose.
 
-  /// Until the next look at it, the part counts as one that is held up where it is and then goes on as its
-  /// leader moves: how it moved itself tells how long it waited, not where it will go.
-  /// @param leader  Of the hand that draws it; one that has seen nothing changes nothing.
+  /// Until the next observe(), treats the part as held up where it is, then moving as its leader does. Its
+  /// own motion only shows how long it waited, not where it will go.
+  /// @param leader  Forecast of the hand that leads it; ignored if it has observed nothing.
   void goAs(const MotionForecast& leader) noexcept;
 
-  /// How many ticks it takes from the start of a search until a tick has what it found; 0 when the tick
-  /// waits for it. The longest of late counts.
+  /// Reports the lead: ticks from the start of a search until a tick has its result; 0 if the tick waits for
+  /// it. The longest recent lead counts.
   void setLead(double ticks) noexcept;
 
-  /// Where the part will be in the first tick after a search that starts now; one that is held up a tick on.
+  /// Returns the pose expected in the first tick after a search that starts now; in the next if held up.
   RigidTransform poseWhenReady() const noexcept;
 
-  /// @param cutoff  Of the search [m]; room aside is bounded by it.
-  /// @param share   Of the time that what is found is to serve; less makes less to find.
+  /// Plans a search that starts now.
+  /// @param cutoff  Cutoff of the search [m]; bounds the budget for deviation.
+  /// @param share   Share of the time that the result should serve; a smaller share leaves less to find.
   SearchPlan plan(double cutoff, double share = 1.0) const noexcept;
 
  private:
@@ -54,19 +54,19 @@ class MotionForecast {
   bool hasPose_ = false;
   bool isHeldUp_ = false;
   bool wasJump_ = false;
-  /// Of the centre in a tick, and what it grows by from tick to tick.
+  /// Motion of the centre per tick, and its growth from tick to tick.
   MotionStretch velocity_, trend_;
-  MotionBudget fastest_;  ///< Of late, in a tick.
-  /// A way that was foretold some ticks ago, to be compared with the one taken.
+  MotionBudget fastest_;  ///< Fastest recent motion, per tick.
+  /// Path forecast some ticks ago, to compare with the one taken.
   struct Probe {
-    RigidTransform from;  ///< Of the centre.
+    RigidTransform from;  ///< Pose of the centre.
     MotionStretch velocity, trend;
     double age = 0.0;  ///< [ticks]
   };
   Probe probe_;
-  MotionBudget error_;  ///< The farthest of late that the part was off its way, for a tick ahead.
-  double lead_ = 0.0;
-  double generosity_ = 1.0;  ///< Factor of the room aside.
+  MotionBudget error_;       ///< Max recent deviation from the forecast path, one tick ahead.
+  double lead_ = 0.0;        ///< [ticks]
+  double generosity_ = 1.0;  ///< Factor of the budget for deviation.
 };
 
 }  // namespace nearfit

@@ -9,7 +9,7 @@
 namespace nearfit {
 namespace {
 
-/// A child's box in some frame.
+/// Box of a child in some frame.
 struct Box {
   glm::dvec3 centre;
   std::array<glm::dvec3, 3> axes;
@@ -29,7 +29,7 @@ Box boxOf(const NormalConeTree& tree, std::uint32_t lane, const RigidTransform& 
           {b.half[0], b.half[1], b.half[2]}};
 }
 
-/// How far `other` is at least from `box`, along the axes of that.
+/// Lower bound on the distance between two boxes, along the axes of `box` [m].
 double gapAlong(const Box& box, const Box& other) noexcept {
   double squared = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -52,7 +52,7 @@ double NearFaces::leastNotVisited() const noexcept {
     const Box scene = boxOf(scene_, pair.sceneLane, {}), part = boxOf(part_, pair.partLane, placed_.pose());
     least = std::min(least, std::max(gapAlong(scene, part), gapAlong(part, scene)));
   }
-  // Axes in single precision are unit to a few roundings.
+  // Single-precision axes are unit to within a few roundings.
   constexpr double kAxes = 1.0 - 1e-6;
   return std::max(0.0, kAxes * least - limits_.padding);
 }

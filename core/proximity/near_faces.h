@@ -11,7 +11,7 @@
 
 namespace nearfit {
 
-/// The faces of two bodies in the scene's centred frame, whatever their sides. Real-time safe.
+/// Faces of two bodies in the scene's centred frame, regardless of their sides. Real-time safe.
 class PlacedFaces {
  public:
   PlacedFaces(const NormalConeTree& scene, const NormalConeTree& part,
@@ -21,7 +21,7 @@ class PlacedFaces {
         pose_(centredPose(scene, part, sceneFromPart)),
         turn_(glm::mat3_cast(pose_.rotation)) {}
 
-  /// Between the trees' centred frames.
+  /// Pose of the part between the trees' centred frames.
   const RigidTransform& pose() const noexcept { return pose_; }
   TriangleCorners sceneCorners(const NormalConeTree::FaceLeaf& f) const noexcept {
     const auto x = scene_.positions();
@@ -32,7 +32,7 @@ class PlacedFaces {
     return {turn_ * x[f.corners[0]] + pose_.translation, turn_ * x[f.corners[1]] + pose_.translation,
             turn_ * x[f.corners[2]] + pose_.translation};
   }
-  /// What a distance may be off by through rounding [m].
+  /// Max error of a distance through rounding [m].
   double rounding() const noexcept;
 
  private:
@@ -41,10 +41,11 @@ class PlacedFaces {
   glm::dmat3 turn_;
 };
 
-/// The pairs of faces of two bodies within reach of each other. Real-time safe.
+/// Traversal of the pairs of faces of two bodies within reach of each other. Real-time safe.
 class NearFaces {
  public:
-  /// @param within  [m]; finite, > 0.
+  /// @param scene, part  Not empty.
+  /// @param within       Max distance [m]; finite, > 0.
   NearFaces(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
             double within, LmdScratch::Data& workspace) noexcept
       : scene_(scene),
@@ -54,7 +55,7 @@ class NearFaces {
         limits_(cullLimits(scene, part, placed_.pose(), within)),
         traversal_(scene, part, placed_.pose(), limits_, workspace.openNear, workspace.traversal) {}
 
-  /// Calls visit(scene index, part index): of faces(). False when it stopped at the bound of work.
+  /// Calls visit(scene index, part index), indices in faces(), for each pair. False if `maxWork` stopped it.
   template <class Visit>
   bool run(Visit&& visit, std::uint64_t maxWork) noexcept {
     return traversal_.run(
@@ -65,22 +66,22 @@ class NearFaces {
         maxWork);
   }
 
-  /// From the next pairs on leaves out what is farther.
+  /// Lowers the max distance [m] from the next batch of pairs on.
   void tighten(double within) noexcept {
-    // The culls round: what is as near must not be lost.
+    // Culls round, and an equally near pair must not be lost.
     constexpr double kSlack = 1.0 + 1e-6;
     traversal_.tighten(static_cast<float>(kSlack * within));
   }
 
   const PlacedFaces& placed() const noexcept { return placed_; }
-  /// After run() said false: no pair of faces that was not visited is nearer than this [m].
+  /// After run() returned false: lower bound on the distance of all pairs of faces not visited [m].
   double leastNotVisited() const noexcept;
-  /// Lets what is done with a visited pair count as so many pairs of nodes. run() goes beyond its bound by no
-  /// more than one batch of pairs takes.
+  /// Counts the work on a visited pair as this many pairs of nodes. run() exceeds its bound by the work on
+  /// one batch of pairs at most.
   void spend(std::uint64_t work) noexcept { traversal_.spend(work); }
-  /// From within a visit: run() ends as at its bound.
+  /// Call within a visit: run() ends as at its bound.
   void stop() noexcept { traversal_.stop(); }
-  /// Pairs of nodes opened, and what was spent besides.
+  /// Pairs of nodes opened, plus the work counted by spend().
   std::uint64_t work() const noexcept { return traversal_.nodePairs(); }
 
  private:

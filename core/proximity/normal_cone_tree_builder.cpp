@@ -14,12 +14,12 @@
 namespace nearfit {
 namespace {
 
-/// Parts larger than this are opened whatever they hold: they get no exact limits of direction, and are split
-/// along their widest axis untried.
+/// Queries open larger sets whatever they hold, so these get no exact limits of direction and are split along
+/// their widest axis without trials.
 constexpr std::size_t kLargePart = 8192;
 
-/// Shares of the time that building takes, about, for the report of progress: looking for features, splitting
-/// what one thread splits, and building the rest on all processors.
+/// Approximate shares of the build time, for progress: finding features, splits by one thread, and the rest,
+/// built on all processors.
 constexpr double kFeaturesShare = 0.3, kSplitsShare = 0.2, kSubtreesShare = 0.5;
 
 constexpr std::size_t kWidth = NormalConeTree::kWidth;
@@ -132,7 +132,7 @@ void NormalConeTreeBuilder::buildRoot(Items items) {
   buildSubtrees(subtrees);
 }
 
-/// Builds what was put off, on all processors; the same tree whoever builds which part.
+/// Builds the deferred subtrees on all processors. The tree does not depend on which thread builds what.
 void NormalConeTreeBuilder::buildSubtrees(std::vector<Subtree>& subtrees) {
   progress_.add(kSplitsShare - splitsReported_);
   parallelFor(subtrees.size(), [&](std::size_t i) {
@@ -161,7 +161,7 @@ void NormalConeTreeBuilder::buildSubtrees(std::vector<Subtree>& subtrees) {
   }
 }
 
-/// Orders the items so that the first `cut` are lowest along the axis on which they are spread most.
+/// Puts first the `cut` items that are lowest along the axis of greatest spread.
 void NormalConeTreeBuilder::halveLarge(Items items, std::size_t cut) {
   Aabb box;
   for (const Item& item : items)
@@ -175,8 +175,7 @@ void NormalConeTreeBuilder::halveLarge(Items items, std::size_t cut) {
                    });
 }
 
-/// Counts a split that one thread makes for all, as a part of the halvings of everything down to what is put
-/// off.
+/// Reports a split by one thread as its share of all halvings down to the deferred subtrees.
 void NormalConeTreeBuilder::reportSplit(std::size_t items) {
   const auto all = static_cast<double>(geometry_->size());
   const double halvings = std::max(1.0, std::log2(all / static_cast<double>(kLargePart)));
@@ -194,8 +193,8 @@ NormalConeTree::Bound NormalConeTreeBuilder::boundOfMany(Items items) const {
   return PartBounds(*geometry_, tree_.size).boundOfMany(features);
 }
 
-/// Returns the index of a new node over more items than a thread is given. Bounds, and parts that are
-/// small enough, are put off.
+/// Adds a node over more than kLargePart items and returns its index. Defers bounds, and subtrees small
+/// enough for one thread.
 std::uint32_t NormalConeTreeBuilder::buildLarge(Items items, std::vector<Subtree>& putOff) {
   const std::vector<Items> parts = pieces(items, [this](Items whole, std::size_t cut) {
     halveLarge(whole, cut);

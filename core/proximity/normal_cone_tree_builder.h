@@ -17,27 +17,26 @@
 
 namespace nearfit {
 
-/// Builds a NormalConeTree: halves the features until each stands alone, in nodes that are full but for the
-/// last few, and bounds each part by a box along its own axes. See PartSplitter and PartBounds.
+/// Builds a NormalConeTree: halves the features until each stands alone, so that all nodes but the last few
+/// are full, and bounds each set of features by a box along its own axes. See PartSplitter and PartBounds.
 class NormalConeTreeBuilder {
  public:
   NormalConeTreeBuilder(const TriangleMesh& mesh, const ProgressCallback& progress, AcceptanceRule rule)
       : mesh_(mesh), progress_(progress, 1.0), rule_(rule) {}
   /// See NormalConeTree::withIdleFeatures().
   void keepIdleFeatures() noexcept { keepsIdle_ = true; }
-  /// Once. Throws Cancelled, and Error when the mesh is too large.
+  /// Call once. Throws Cancelled, and Error if the mesh is too large.
   NormalConeTree::Arrays build();
 
  private:
-  /// One feature on its way into the tree; single precision suffices to sort by.
+  /// One feature to place in the tree; single precision suffices for sorting.
   struct Item {
-    std::array<float, 3> centre;  ///< Of its box.
+    std::array<float, 3> centre;  ///< Centre of the feature's box, relative to the tree's centre [m].
     std::uint32_t feature;
   };
   using Items = std::span<Item>;
 
-  /// A part of the tree that is built by itself, with the lane that holds it, and put in its place
-  /// afterwards.
+  /// Subtree built on its own, with the lane that will hold it; inserted afterwards.
   struct Subtree {
     std::uint32_t parent;
     std::size_t lane;
@@ -46,7 +45,7 @@ class NormalConeTreeBuilder {
     std::vector<NormalConeTree::Node> nodes;
   };
 
-  /// The hierarchy while it grows.
+  /// Hierarchy under construction.
   struct Growing {
     glm::dvec3 centre{0.0};
     double size = 0.0;

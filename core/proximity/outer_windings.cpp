@@ -14,16 +14,16 @@ namespace nearfit {
 namespace {
 
 constexpr std::size_t kMostPatches = 1000;
-/// Triangles that a line on another one is followed through: each is compared with each.
+/// Max number of triangles through which a line on another one is followed: each is compared with each.
 constexpr std::size_t kMostInLine = 64;
-/// Triangles of a patch that are tried before it is given up.
+/// Max number of triangles of a patch to try.
 constexpr std::size_t kMostTries = 16;
-/// Rays to try from a point. Each is unclear only where it happens to hit an edge to the last bit.
+/// Max number of rays from a point. A ray is unclear only if it hits an edge to the last bit.
 constexpr int kMaxWindingRays = 16;
-/// How far off its triangle a point is, as a fraction of the triangle's size: the first is as a rule near
-/// enough for nothing to lie between, the last as near as rounding allows.
+/// Distance of a point from its triangle, as a fraction of the triangle's size: the first is usually near
+/// enough for nothing to lie between, the last is as near as rounding allows.
 constexpr double kOffsets[]{1e-3, 1e-5, 1e-7, 1e-9};
-/// How much rays stray from an axis, as a fraction of their length: clear of edges along it, in a thin box.
+/// How far rays stray from an axis, as a fraction of their length: clear of edges along it, in a thin box.
 constexpr double kStray = 1e-3;
 
 class OuterWindings {
@@ -56,7 +56,7 @@ class OuterWindings {
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max(), kCrossed = kNone - 1;
 
-  /// Of the pieces that cross themselves. False when there are too many.
+  /// Finds the patches of the components that cross themselves. False if there are too many.
   bool makePatches() {
     patchOf_.assign(mesh_.triangles().size(), kNone);
     std::vector<bool> isCrossed(pieces_.firstTriangle.size(), false);
@@ -72,7 +72,7 @@ class OuterWindings {
     return true;
   }
 
-  /// Keeps of each no more triangles than are to be tried.
+  /// Keeps only as many triangles of a patch as are to be tried.
   void fillPatch(std::uint32_t first) {
     const auto number = static_cast<std::uint32_t>(patches_.size());
     std::vector<std::uint32_t>& patch = patches_.emplace_back();
@@ -92,7 +92,7 @@ class OuterWindings {
     }
   }
 
-  /// How often the piece winds around the points just outside of a patch.
+  /// Winding number of the component just outside a patch.
   std::optional<int> outside(const std::vector<std::uint32_t>& patch) const {
     for (const std::uint32_t triangle : patch) {
       const std::optional<glm::dvec3> point = pointOutside(triangle);
@@ -102,7 +102,7 @@ class OuterWindings {
     return std::nullopt;
   }
 
-  /// A point with nothing of the piece between it and the triangle, on the side that this faces.
+  /// Returns a point on the triangle's outer side with nothing of the component between the two.
   std::optional<glm::dvec3> pointOutside(std::uint32_t triangle) const {
     const TriangleCorners t = cornersOf(mesh_, triangle);
     const glm::dvec3 middle = (t[0] + t[1] + t[2]) / 3.0, across = glm::cross(t[1] - t[0], t[2] - t[0]);
@@ -143,7 +143,7 @@ class OuterWindings {
     return std::nullopt;
   }
 
-  /// Calls visit(triangle) for those of a piece that a segment may meet.
+  /// Calls visit(triangle) for each triangle of a component that a segment may meet.
   template <class Visit>
   void visitAt(const glm::dvec3& from, const glm::dvec3& to, std::uint32_t piece, Visit&& visit) const {
     Aabb box;
@@ -154,14 +154,14 @@ class OuterWindings {
     });
   }
 
-  /// Whether the number is nowhere negative just outside of a triangle that others cross.
+  /// True if the winding number is nowhere negative just outside a triangle that others cross.
   bool isPositiveOn(std::uint32_t triangle, std::span<const CrossingPair> crossings) const {
     const TriangleCorners t = cornersOf(mesh_, triangle);
     if (hasNoArea(t)) return true;
     std::vector<TriangleCorners> passing;
     for (const auto& [self, other] : crossings) {
       const TriangleCorners corners = cornersOf(mesh_, other);
-      // One in the same plane does not come between points just outside.
+      // A coplanar triangle does not come between points just outside.
       const auto isInPlane = [&](const glm::dvec3& p) { return sideOf(p, corners) == 0; };
       if (!std::ranges::all_of(t, isInPlane)) passing.push_back(corners);
     }
@@ -178,9 +178,9 @@ class OuterWindings {
     return false;
   }
 
-  /// Whether those that cross a triangle do so in one line, which cuts it into two parts: each in general
-  /// position, none of them crossing another, and neighbours joined by sides that pass through the triangle.
-  /// A line ends nowhere in the triangle since the mesh is closed.
+  /// True if the triangles that cross a triangle do so in one line, which cuts it in two: each is in general
+  /// position, none crosses another, and neighbours share sides that pass through the triangle. The line does
+  /// not end within the triangle since the mesh is closed.
   bool isCutInTwo(std::uint32_t triangle, std::span<const CrossingPair> crossings) const {
     if (crossings.size() > kMostInLine) return false;
     std::vector<std::uint32_t> waiting{crossings[0][1]}, joined = waiting;
@@ -209,8 +209,8 @@ class OuterWindings {
 
   static bool isThrough(Crossing crossing) { return crossing == Crossing::In || crossing == Crossing::Out; }
 
-  /// Whether no corner of either lies in the other's plane and no side of one passes the other's edge. What
-  /// is more than two sides through is then impossible.
+  /// True if no corner of either triangle lies in the other's plane and no side of one meets an edge of the
+  /// other. Then at most two sides pass through.
   bool isInGeneralPosition(std::uint32_t first, std::uint32_t second) const {
     const TriangleCorners a = cornersOf(mesh_, first), b = cornersOf(mesh_, second);
     const auto isClear = [](const TriangleCorners& corners, const TriangleCorners& other) {
@@ -223,8 +223,8 @@ class OuterWindings {
     return isClear(a, b) && isClear(b, a);
   }
 
-  /// Whether of the passing triangles one alone crosses a side, from its front: what lies behind has one
-  /// more.
+  /// True if exactly one of the passing triangles crosses a side, from its front: the winding number behind
+  /// it is larger by one.
   static bool isEntered(const glm::dvec3& from, const glm::dvec3& to,
                         std::span<const TriangleCorners> passing) {
     int in = 0, through = 0;
@@ -236,7 +236,7 @@ class OuterWindings {
     return in == 1 && through == 1;
   }
 
-  /// How many triangles a point of a side near its end does not lie in front of: no more can be passed from
+  /// Number of triangles that a point of a side, near its end, is not in front of: no more can be passed from
   /// behind on the way to any point.
   static int countBehind(const glm::dvec3& end, const glm::dvec3& other,
                          std::span<const TriangleCorners> passing) {
@@ -249,9 +249,9 @@ class OuterWindings {
   const TriangleMesh& mesh_;
   const MeshPieces& pieces_;
   const BoxPairs& boxes_;
-  std::vector<CrossingPair> partners_;  ///< Each crossing both ways, by the first.
+  std::vector<CrossingPair> partners_;  ///< Each crossing in both orders, sorted.
   std::vector<std::uint32_t> patchOf_;
-  std::vector<std::vector<std::uint32_t>> patches_;  ///< Some triangles of each.
+  std::vector<std::vector<std::uint32_t>> patches_;  ///< Some triangles of each patch.
   std::vector<int> windings_;                        ///< By patch.
 };
 

@@ -12,28 +12,25 @@
 namespace nearfit {
 namespace {
 
-/// Added to each half extent as a fraction of the mesh's size: twenty roundings of a single precision
-/// coordinate.
+/// Padding of each half extent over the mesh's size: twenty single-precision roundings of a coordinate.
 constexpr double kExtentPadding = 1.2e-6;
 
-/// Added to each limit on directions: some roundings of single precision axes and rays.
+/// Padding of each limit of direction: some roundings of single-precision axes and rays.
 constexpr double kDirectionPadding = 3e-6;
 
-/// Rays bound the directions of a feature when their sums reach no farther than this; wider ones are asked
-/// for exactly.
+/// Max stretch at which rays suffice to bound a feature's directions; above it, the exact support is used.
 constexpr double kLittleStretch = 1.01;
 
-/// Axes that are tried for a part, by turning those of its moments about n: cosine and sine of quarters of a
-/// right angle.
+/// Turns about n, tried on the axes of a set's moments: cosine and sine of quarters of a right angle.
 constexpr std::array<std::array<double, 2>, 4> kTurnsTried{{{1.0, 0.0},
                                                             {0.92387953251128674, 0.38268343236508978},
                                                             {0.70710678118654752, 0.70710678118654752},
                                                             {0.38268343236508978, 0.92387953251128674}}};
 
-/// Features of a large part that its axes are chosen by.
+/// Number of features sampled to choose the axes of a large set.
 constexpr std::size_t kSample = 1024;
 
-/// Beyond anything that a mesh in single precision holds.
+/// Beyond any coordinate of a mesh in single precision.
 constexpr float kFar = std::numeric_limits<float>::max();
 
 constexpr std::size_t kLanes = 8;
@@ -127,7 +124,7 @@ PartBounds::Range PartBounds::range(const Vectors& vectors, const glm::dvec3& al
   return {*std::min_element(low.begin(), low.end()), *std::max_element(high.begin(), high.end())};
 }
 
-/// n along the axis of the feature's cone, u along its longest side.
+/// Axes of one feature: n along the axis of its cone, u along its longest side.
 PartBounds::Frame PartBounds::axesOfOne(const Loaded& f) const {
   const glm::dvec3 n = geometry_.cone(f.feature).axis;
   glm::dvec3 side(0.0);
@@ -142,7 +139,8 @@ PartBounds::Frame PartBounds::axesOfOne(const Loaded& f) const {
   return {n, u, glm::cross(n, u)};
 }
 
-/// u where the features are long and their normals are not, n along the mean normal, v square to both.
+/// Axes of the gathered set: u where features are long and their normals are not, n along the mean normal, v
+/// perpendicular to both.
 PartBounds::Frame PartBounds::axes() const {
   glm::dmat3 positions(0.0), normals(0.0);
   glm::dvec3 mean(0.0), meanNormal(0.0);
@@ -173,13 +171,13 @@ PartBounds::Frame PartBounds::axes() const {
   return {n, u, glm::cross(n, u)};
 }
 
-/// Turns the axes until directions reach about as far to either side of n.
+/// Turns the axes until directions reach about equally far to both sides of n.
 void PartBounds::centreDirections(Frame& frame) const noexcept {
   constexpr int kPasses = 2;
   for (int pass = 0; pass < kPasses; ++pass) {
     for (const std::size_t side : {std::size_t{1}, std::size_t{2}}) {
       const Range r = range(part_.rays, frame[side]);
-      // The middle between two angles of whose sines we know.
+      // Bisects two angles given by their sines.
       const double low = std::clamp<double>(r.low, -1.0, 1.0), high = std::clamp<double>(r.high, -1.0, 1.0);
       double sine = low + high, cosine = std::sqrt(1.0 - low * low) + std::sqrt(1.0 - high * high);
       const double length = std::sqrt(sine * sine + cosine * cosine);
@@ -193,8 +191,8 @@ void PartBounds::centreDirections(Frame& frame) const noexcept {
   }
 }
 
-/// Of the poses of another body, the share at which it could not be told from these axes that it has no
-/// minimum with the part, about: within a short reach of the box, in directions within the limits.
+/// Approximate share of another body's poses at which these axes cannot rule out a minimum: within a short
+/// reach of the box, in directions within the limits.
 double PartBounds::cost(const Frame& frame) const noexcept {
   constexpr double kReach = 0.005, kLeastSide = 0.1 * kReach, kOtherSpread = 0.1;
   double product = 1.0;
@@ -244,7 +242,7 @@ Extents PartBounds::extentsOf(const Loaded& f, const Frame& frame) const noexcep
       add(3 + axis, -geometry_.support(f.feature, -frame[axis]), geometry_.support(f.feature, frame[axis]));
       continue;
     }
-    // Weights that add up to something between 1 and the stretch reach farther out, never less far in.
+    // The weights sum to between 1 and the stretch: values that reach outward grow, the others do not shrink.
     const auto stretch = static_cast<double>(f.stretch);
     for (std::size_t i = f.firstRay; i < f.endRay; ++i) {
       const double t = glm::dot(loaded_.rays.at(i), frame[axis]);
@@ -276,7 +274,7 @@ NormalConeTree::Bound PartBounds::bound(std::span<const std::uint32_t> part) {
   const bool isOne = part.size() == 1;
   Frame frame;
   if (isOne) frame = axesOfOne(features_[part[0]]);
-  // Of a face or an edge that is the best frame.
+  // For a face or an edge that frame is already the best.
   if (!isOne || features_[part[0]].feature < geometry_.edgeBase()) {
     gather(part);
     frame = best(isOne ? frame : axes());

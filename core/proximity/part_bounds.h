@@ -13,9 +13,9 @@
 
 namespace nearfit {
 
-/// How far features reach along the axes of a part, and their directions of minima likewise: of position and
-/// then of direction along n, u and v, the negated least and the most. The last four are nothing. The
-/// extents of several features are the most of each.
+/// Extents of features in position [m] and in direction of minima, along the axes n, u, v of a set. `most`
+/// holds the negated min and the max along each axis, of position and then of direction; the last four
+/// entries are unused. The extents of several features are the max of each entry.
 struct alignas(64) Extents {
   static constexpr std::size_t kCount = 12;
   std::array<float, 16> most;
@@ -26,33 +26,34 @@ struct alignas(64) Extents {
     for (std::size_t i = 0; i < most.size(); ++i)
       most[i] = most[i] < other.most[i] ? other.most[i] : most[i];
   }
+  /// Extents of no feature, neutral in add().
   static Extents none() noexcept;
 };
 
-/// Bounds parts of a mesh by boxes and limits of direction along axes of their own. Keeps its work space from
-/// one part to the next; one per thread.
+/// Bounds sets of features by boxes and limits of direction, each on axes of its own. Reuses its work space;
+/// one per thread.
 class PartBounds {
  public:
   /// @param geometry  Kept by reference.
   /// @param size      The mesh's diagonal [m].
   PartBounds(const FeatureGeometry& geometry, double size) : geometry_(geometry), size_(size) {}
 
-  /// Takes in the features that parts are made of from now on, which name them by their index in `features`.
+  /// Loads the features from which later sets are formed; these name them by their index in `features`.
   void load(std::span<const std::uint32_t> features);
 
-  /// A box and limits of direction that hold all features of a part; not none.
+  /// Returns a box and limits of direction that hold all features of the non-empty set `part`.
   NormalConeTree::Bound bound(std::span<const std::uint32_t> part);
 
-  /// Of each feature loaded, along the axes of the last part with it that was bounded.
+  /// Extents of each loaded feature, along the axes of the last bounded set that holds it.
   std::span<const Extents> extents() const noexcept { return extents_; }
 
-  /// A box without limits of direction, for very many features. Leaves some of them loaded.
+  /// Returns a box without limits of direction, for very many features. Loads a sample of them.
   NormalConeTree::Bound boundOfMany(std::span<const std::uint32_t> features);
 
  private:
   using Frame = std::array<glm::dvec3, 3>;  ///< n, u, v.
 
-  /// Vectors by coordinate; a multiple of eight after close().
+  /// Vectors by coordinate; close() pads them to a multiple of eight.
   struct Vectors {
     std::array<std::vector<float>, 3> c;
     std::size_t count = 0;
@@ -66,7 +67,7 @@ class PartBounds {
     std::uint32_t feature, firstPoint, firstRay, endPoint, endRay;
     float stretch;
   };
-  /// Corners and rays of some features.
+  /// Corners and rays of a set of features.
   struct Cloud {
     Vectors points, rays;
   };

@@ -7,14 +7,14 @@
 namespace nearfit {
 namespace {
 
-/// Of the other body's pieces that a piece meets: their half extent as a fraction of the part's size, and
-/// how far their directions spread. Measured to be best on the bodies of the benchmark, and no sharp optimum.
+/// Typical subset of the other body: its half extent as a fraction of the size of the set that is split, and
+/// the spread of its directions. Measured best on the bodies of the benchmark; not a sharp optimum.
 constexpr float kOtherSize = 0.25F, kOtherSpread = 0.6F;
 
-/// Directions that reach no farther, beside kOtherSpread, are no reason to split by them.
+/// A spread of directions below this is small beside kOtherSpread and no reason to split by direction.
 constexpr float kLittleSpread = 0.25F;
 
-/// Features that the choice is made by, in a larger part.
+/// Number of features sampled to choose the key in a larger set.
 constexpr std::size_t kSample = 256;
 
 constexpr std::uint32_t kSign = 0x80000000U;
@@ -31,16 +31,16 @@ void PartSplitter::begin(float size, float spread) noexcept {
   keysTried_ = spread < kLittleSpread ? kPositionKeys : kKeys;
 }
 
-/// Orders by value, then by feature: one comparison of integers.
+/// Orders by value, then by feature, in one integer comparison.
 PartSplitter::Key PartSplitter::key(std::size_t kind, std::uint32_t feature) const noexcept {
   const float value = kind < 3 ? centres_[feature][kind] : extents_[feature].middle(kind - 3);
   const auto bits = std::bit_cast<std::uint32_t>(value);
-  // Negative numbers in reverse, below the others.
+  // Negative floats order in reverse, below the others.
   const std::uint32_t ordered = (bits & kSign) != 0 ? ~bits : bits | kSign;
   return Key{ordered} << 32 | feature;
 }
 
-/// Number of features times the poses at which the other body's pieces are near and face this one.
+/// Number of features, times a measure of the poses at which subsets of the other body are near and facing.
 float PartSplitter::cost(std::span<const Key> features) const noexcept {
   Extents all = Extents::none();
   for (const Key k : features)
@@ -51,7 +51,7 @@ float PartSplitter::cost(std::span<const Key> features) const noexcept {
   return product;
 }
 
-/// Puts the least `cut` first.
+/// Puts the `cut` lowest keys first.
 void PartSplitter::sort(std::size_t kind, std::span<const std::uint32_t> features, std::size_t stride,
                         std::size_t cut) {
   keys_.clear();

@@ -10,28 +10,29 @@
 
 namespace nearfit {
 
-/// Divides the features of a part in two so that a query has reason to open few of the pieces: by position
-/// along the mesh's axes or the part's, or by direction along the part's, whichever leaves pieces that are
-/// small in both. Keeps its work space; one per thread.
+/// Splits a set of features in two so that queries open few of the resulting subsets: by position along the
+/// mesh's or the set's axes, or by direction along the set's, whichever leaves subsets that are small in
+/// both. Reuses its work space; one per thread.
 class PartSplitter {
  public:
-  /// Takes in what is known of features, named by their index here; kept by reference.
-  /// @param centres  In the mesh's axes [m].
-  /// @param extents  Along the axes of a part; those of its features must be right when it is split.
+  /// Loads the features, which are named by their index here. Keeps both arrays by reference.
+  /// @param centres  Relative to the tree's centre [m].
+  /// @param extents  Along the axes of a set; must be current for its features when it is split.
   void load(std::span<const std::array<float, 3>> centres, std::span<const Extents> extents);
 
-  /// @param size    Half the diagonal of the box of the part that is split from now on [m].
-  /// @param spread  How far its directions reach to the sides: mostU or mostV.
+  /// Sets the scale for the splits that follow.
+  /// @param size    Half the diagonal of the box of the set to split [m].
+  /// @param spread  Max reach of its directions to the sides: the larger of mostU and mostV.
   void begin(float size, float spread) noexcept;
 
-  /// Puts the first piece's `cut` features first. Takes time in proportion to the number of features.
+  /// Reorders `features` so that the first `cut` are one subset. Linear time.
   void split(std::span<std::uint32_t> features, std::size_t cut);
 
  private:
-  /// Three axes of the mesh and three of the part for position, three of the part for direction.
+  /// Sort keys: position along the mesh's axes and the set's axes, direction along the set's axes.
   static constexpr std::size_t kKeys = 9, kPositionKeys = 6;
 
-  /// What a feature is sorted by, and below that the feature.
+  /// Sort value in the upper half, feature in the lower.
   using Key = std::uint64_t;
   static std::uint32_t featureOf(Key key) noexcept { return static_cast<std::uint32_t>(key); }
 

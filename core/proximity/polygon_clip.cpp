@@ -32,7 +32,7 @@ void clipPolygon(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& no
     const auto depth = [&](const glm::dvec3& p) { return glm::dot(inward, p - triangle[k]); };
     ConvexPolygon kept;
     const auto keep = [&kept](const glm::dvec3& p) {
-      // Rounding may cut a corner twice; the area does not feel a corner left out.
+      // Rounding may cut a corner twice; omitting the extra corner does not change the area.
       if (kept.count < kept.corners.size()) kept.corners[kept.count++] = p;
     };
     for (std::size_t i = 0; i < polygon.count; ++i) {

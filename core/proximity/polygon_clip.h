@@ -7,25 +7,26 @@
 
 namespace nearfit {
 
-/// A convex polygon with at most six corners: what two triangles can have in common.
+/// Convex polygon with at most six corners, as in the intersection of two triangles.
 struct ConvexPolygon {
   std::array<glm::dvec3, 6> corners{};
   std::size_t count = 0;
 };
 
-/// Cuts [from, to] of the line start + s * along to where it passes over the triangle, seen along its normal.
-/// @param slack  The triangle's sides are moved outward by this [m], so that a line along the side that two
-///               coplanar triangles share is over both rather than over none.
-/// False when nothing is left. Real-time safe.
+/// Clips the interval [from, to] of the line start + s * along to the triangle, seen along its normal.
+/// @param slack  Moves the triangle's sides outward [m], so that a line along the common side of two coplanar
+///               triangles is over both, not over neither.
+/// False if nothing is left. Real-time safe.
 bool clipLine(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& normal, const glm::dvec3& start,
               const glm::dvec3& along, double slack, double& from, double& to) noexcept;
 
-/// Keeps what of a triangle (as `polygon`) lies over the other triangle, seen along that one's normal.
-/// Source: Sutherland & Hodgman 1974. Real-time safe.
+/// Clips `polygon` (at first the three corners of a triangle) to another triangle, seen along that one's
+/// normal. Source: Sutherland & Hodgman 1974. Real-time safe.
 void clipPolygon(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& normal,
                  ConvexPolygon& polygon) noexcept;
 
-/// Area seen along the unit `normal`, and centroid; the area is 0 and the centroid a corner when degenerate.
+/// Returns the area seen along the unit `normal` [m^2], and sets the centroid [m]. Degenerate polygons have
+/// area 0 and a corner as centroid; an empty one leaves the centroid unchanged. Real-time safe.
 double polygonArea(const ConvexPolygon& polygon, const glm::dvec3& normal, glm::dvec3& centroid) noexcept;
 
 }  // namespace nearfit

@@ -11,10 +11,10 @@
 namespace nearfit {
 namespace {
 
-/// The hierarchy's rounding, and the pose's in single precision, as a fraction of the lengths involved.
+/// Rounding of the hierarchy, and of the pose in single precision, as a fraction of the lengths involved.
 constexpr double kPosePadding = 1e-6;
 
-/// Rounding of projected limits on directions: some thirty roundings of single precision.
+/// Rounding of projected limits of direction: some thirty roundings of single precision.
 constexpr float kDirectionSlack = 4e-6F;
 
 bool isNearerMinimum(const Minimum& a, const Minimum& b) noexcept {
@@ -28,7 +28,7 @@ void MinimaCollector::add() noexcept {
     ++count_;
     return;
   }
-  // Full: the farthest makes room.
+  // Full: replaces the farthest.
   if (!isHeap_) std::make_heap(minima_.begin(), minima_.end(), isNearerMinimum);
   isHeap_ = true;
   if (spare_.lmd.distance >= minima_.front().lmd.distance) return;
@@ -65,7 +65,7 @@ RigidTransform centredPose(const NormalConeTree& scene, const NormalConeTree& pa
       kNearOrigin * (scene.size() + part.size())) {
     return {pose.rotation, pose.translation + pose.rotation * part.centre() - scene.centre()};
   }
-  // Far from the origin what is left of these numbers is lost in their rounding.
+  // Far from the origin, rounding would swallow the small difference of these large numbers.
   using Extended = glm::tvec3<long double>;
   const glm::qua<long double> given(sceneFromPart.rotation);
   const long double length = std::sqrt(glm::dot(given, given));
@@ -77,9 +77,9 @@ RigidTransform centredPose(const NormalConeTree& scene, const NormalConeTree& pa
 CullLimits cullLimits(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& centred,
                       double cutoff) noexcept {
   const double reach = scene.size() + part.size() + glm::length(centred.translation);
-  // Nothing is farther apart than the reach; a cutoff far beyond it would be infinite in single precision.
+  // No two points are farther apart than the reach; a cutoff far beyond it would overflow single precision.
   const double within = std::min(cutoff, reach);
-  // Regions are found in features that are parallel to a tolerance, at any place of theirs.
+  // Features of a region are parallel only to a tolerance, and may meet at any place on them.
   return {static_cast<float>(within * (1.0 + kPosePadding)),
           static_cast<float>(kPosePadding * reach + kFlatTolerance * (within + reach)),
           kDirectionSlack + static_cast<float>(kFlatTolerance)};
@@ -87,7 +87,7 @@ CullLimits cullLimits(const NormalConeTree& scene, const NormalConeTree& part, c
 
 bool isQueryValid(const NormalConeTree& scene, const NormalConeTree& part,
                   const RigidTransform& sceneFromPart, double cutoff) noexcept {
-  // Regions that touch are said to be as far as the smallest normal number: that has to be within the cutoff.
+  // Touching regions report the smallest normal number as their distance; it must be within the cutoff.
   return !scene.isEmpty() && !part.isEmpty() && cutoff > 0.0 && std::isnormal(cutoff) &&
          sceneFromPart.isFinite();
 }

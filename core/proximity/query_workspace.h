@@ -13,11 +13,11 @@
 
 namespace nearfit {
 
-/// A search that goes on for the nearest alone culls by its distance and this much: culls round, and what is
-/// as near must not be lost.
+/// A search for the nearest minimum alone culls at its distance times this: culls round, and an equally near
+/// minimum must not be lost.
 constexpr double kNearestSlack = 1.0 + 1e-6;
 
-/// What an LmdScratch holds: the stack of a traversal, and the minima found until they are merged.
+/// Contents of an LmdScratch: the traversal's stack, and the minima found, until they are merged.
 struct LmdScratch::Data {
   Data(std::size_t capacity, SimdLevel simd)
       : room(capacity),
@@ -32,7 +32,7 @@ struct LmdScratch::Data {
         segmentCull(segmentKernel(simd)) {}
 
   TraversalWork traversal;
-  std::size_t room;  ///< Of `minima` that a query may use.
+  std::size_t room;  ///< Number of `minima` that a query may use.
   std::vector<Minimum> minima;
   std::vector<std::uint32_t> order;
   MergeWork merge;
@@ -42,18 +42,19 @@ struct LmdScratch::Data {
   SegmentKernel segmentCull;
 };
 
-/// Takes minima in as they are found, keeps the nearest when the workspace is full, and merges them in the
-/// end.
+/// Collects minima as they are found, keeping the nearest if the workspace is full, and merges them at the
+/// end. Real-time safe.
 class MinimaCollector {
  public:
   MinimaCollector(LmdScratch::Data& workspace, LmdResult& result) noexcept
       : workspace_(workspace), minima_(std::span(workspace.minima).first(workspace.room)), result_(result) {}
 
-  /// Where to write the next one; add() takes it in.
+  /// Storage for the next minimum; add() takes it in.
   Minimum& slot() noexcept { return count_ < minima_.size() ? minima_[count_] : spare_; }
   void add() noexcept;
 
-  /// Merges, sorts nearest first, and writes to `out` in the frame of the scene's mesh.
+  /// Merges, sorts nearest first, and writes to `out` in the frame of the scene's mesh. Completes the result;
+  /// if minima were dropped, sets Truncated and lowers completeTo.
   void finish(const NormalConeTree& scene, const NormalConeTree& part, std::span<Lmd> out) noexcept;
 
  private:
@@ -65,15 +66,17 @@ class MinimaCollector {
   bool isHeap_ = false;
 };
 
-/// A pose between the trees' centred frames from one between the meshes' frames, its quaternion normalised.
+/// Converts a pose between the meshes' frames to one between the trees' centred frames, and normalises it.
+/// Far from the origin it computes in extended precision.
 RigidTransform centredPose(const NormalConeTree& scene, const NormalConeTree& part,
                            const RigidTransform& sceneFromPart) noexcept;
 
-/// Cutoff and padding in single precision for a pose between centred frames.
+/// Returns cutoff and padding, in single precision, for a pose between the centred frames.
 CullLimits cullLimits(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& centred,
                       double cutoff) noexcept;
 
-/// Whether a query with these arguments makes sense; it has no minima otherwise.
+/// True if both hierarchies hold features, the pose is finite, and the cutoff is a normal number > 0. A query
+/// has no minima otherwise.
 bool isQueryValid(const NormalConeTree& scene, const NormalConeTree& part,
                   const RigidTransform& sceneFromPart, double cutoff) noexcept;
 

@@ -24,7 +24,7 @@ RangeLimits rangeLimits(const BodyPairQuery& query, const RigidTransform& centre
   const double radius = 0.5 * query.part.size();
   const double spin = glm::length(range.stretch.spin), shift = glm::length(range.stretch.shift);
   const double travel = range.budget.travel + shift + spin * radius;
-  // Nothing gets farther apart than this; beyond it a cutoff would be infinite in single precision.
+  // No two points get farther apart than this; a cutoff beyond it would be infinite in single precision.
   const double reach = query.scene.size() + query.part.size() + glm::length(centred.translation) + travel;
   const double within = std::min(query.cutoff, reach);
   const double arc = 0.5 * spin * spin * (radius + within + travel) + spin * shift;
@@ -42,7 +42,7 @@ RangeLimits rangeLimits(const BodyPairQuery& query, const RigidTransform& centre
 
 MotionRange relaxed(MotionRange range, double cutoff, double relaxation) noexcept {
   range.budget.travel += relaxation * cutoff;
-  // Off the limits of both bodies, to either side; conditions know the sine.
+  // Twice, for the limits of both bodies; the relaxed conditions compare sines.
   range.budget.turn += 2.0 * std::asin(std::min(relaxation, 1.0));
   return range;
 }

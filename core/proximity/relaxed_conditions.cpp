@@ -10,13 +10,13 @@
 namespace nearfit {
 namespace {
 
-/// Whether x is on the inner side of the wall that e is square to, to rounding; x no longer than 1.
+/// True if x, no longer than 1, is on the inner side of the wall perpendicular to e, to rounding.
 bool isInsideWall(const glm::dvec3& x, const glm::dvec3& e) noexcept {
   const double beyond = glm::dot(x, e);
   return beyond <= 0.0 || beyond * beyond <= kAngularTolerance * kAngularTolerance * glm::dot(e, e);
 }
 
-/// Where a direction comes down on the wall that e is square to.
+/// Projects a direction onto the wall perpendicular to e.
 glm::dvec3 onWall(const glm::dvec3& direction, const glm::dvec3& e) noexcept {
   return direction - e * (glm::dot(direction, e) / glm::dot(e, e));
 }
@@ -31,7 +31,7 @@ bool isNearPolarCone(const glm::dvec3& apex, std::span<const std::uint32_t> neig
     return std::ranges::all_of(neighbours,
                                [&](std::uint32_t n) { return isInsideWall(x, positions[n] - apex); });
   };
-  // What of the cone is nearest lies within a wall, or where two meet.
+  // The nearest direction of the cone lies in a wall, or where two walls meet.
   for (std::size_t i = 0; i < neighbours.size(); ++i) {
     const glm::dvec3 e = edge(i);
     if (glm::dot(direction, e) > 0.0 && holds(onWall(direction, e))) return true;

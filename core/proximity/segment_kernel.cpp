@@ -8,8 +8,8 @@ namespace {
 using simd::Floats8, simd::magnitude;
 using Ints8 = std::int32_t __attribute__((vector_size(32)));
 
-/// All bits set in the lanes whose box the segment may meet: separating axes are the box's own, and those
-/// square to one of them and the segment.
+/// All bits set in lanes whose box the segment may meet. The separating axes are the box's own, and their
+/// cross products with the segment.
 NEARFIT_INLINE simd::Lanes<Ints8> meets(const NormalConeTree::Node& node, const SegmentBound& s) {
   using Vectors = simd::Triple<Floats8>;
   const Vectors centre = simd::load(node.centre), half = simd::load(node.half);
@@ -22,14 +22,14 @@ NEARFIT_INLINE simd::Lanes<Ints8> meets(const NormalConeTree::Node& node, const 
   const Floats8 an = magnitude(hn), au = magnitude(hu), av = magnitude(hv);
   const Floats8 en = half.x + s.padding, eu = half.y + s.padding, ev = half.z + s.padding;
   const Ints8 alive = (magnitude(dn) <= en + an) & (magnitude(du) <= eu + au) & (magnitude(dv) <= ev + av);
-  // Products carry the rounding of the distance over the whole length, whatever the axis.
+  // For any axis, the products carry the rounding of the distance times the whole length.
   const Floats8 slack = s.padding * (an + au + av);
   return {alive & (magnitude(du * hv - dv * hu) <= eu * av + ev * au + slack) &
           (magnitude(dv * hn - dn * hv) <= ev * an + en * av + slack) &
           (magnitude(dn * hu - du * hn) <= en * au + eu * an + slack)};
 }
 
-/// By way of memory, as simd::notNegative().
+/// Goes through memory, like simd::notNegative().
 NEARFIT_INLINE std::uint32_t bitsOf(const Ints8& lanes) {
   std::int32_t numbers[NormalConeTree::kWidth];
   __builtin_memcpy(numbers, &lanes, sizeof numbers);

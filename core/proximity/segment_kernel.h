@@ -8,18 +8,18 @@
 
 namespace nearfit {
 
-/// A segment in a tree's frame, in single precision, for bounds only.
+/// Segment in a tree's frame, in single precision, for bounds only.
 struct SegmentBound {
   std::array<float, 3> middle, half;  ///< Ends are middle - half and middle + half [m].
-  float padding;                      ///< What rounding may move it by, and how far around it counts [m].
+  float padding;                      ///< Rounding of the segment, plus the clearance that counts [m].
 };
 
-/// Which children of a node may hold something that the segment meets: bit per lane. Never leaves out a box
-/// that comes within the padding of the segment. Real-time safe.
+/// Returns which children of a node may hold something that the segment meets, one bit per lane. Never misses
+/// a box within the padding of the segment. Real-time safe.
 using SegmentKernel = std::uint32_t (*)(const NormalConeTree::Node& node,
                                         const SegmentBound& segment) noexcept;
 
-/// The kernel for a level that the machine has.
+/// Returns the kernel for an instruction set that the machine has.
 SegmentKernel segmentKernel(SimdLevel level) noexcept;
 
 }  // namespace nearfit

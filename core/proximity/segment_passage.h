@@ -7,19 +7,19 @@
 
 namespace nearfit {
 
-/// A straight way between two points, closed once triangles lie across all of it: it is eight lines parallel
-/// to the segment, a clearance away from it all around, and each triangle bars those that cross it. A surface
-/// that the segment passes through bars all eight; one that it only touches (with its ends, along an edge,
+/// Passage along a straight segment, closed once triangles lie across all of it. It consists of eight lines
+/// parallel to the segment, at a clearance all around; each triangle bars the lines that cross it. A surface
+/// that the segment passes through bars all eight. One that it only touches (with its ends, along an edge,
 /// along a face) leaves some open.
 ///
-/// Watertight: corners are rounded once each to the plane across the segment, and on which side of an edge a
-/// line passes is decided exactly there, so that no line slips between triangles that share an edge or a
-/// vertex. Source: Woop, Benthin & Wald 2013, in double precision, with ties broken as if the line had been
-/// moved by next to nothing (Edelsbrunner & Muecke 1990). Real-time safe.
+/// Watertight: each corner is rounded once to the plane across the segment, and the side on which a line
+/// passes an edge is decided exactly there, so no line slips between triangles that share an edge or a
+/// vertex. Source: Woop, Benthin & Wald 2013, in double precision; ties are broken by an infinitesimal shift
+/// of the line (Edelsbrunner & Muecke 1990). Real-time safe.
 class SegmentPassage {
  public:
-  /// @param start, direction  Of the segment; the direction is unit.
-  /// @param from, to          What of it counts, as distances from the start [m].
+  /// @param start, direction  Start of the segment [m] and its unit direction.
+  /// @param from, to          Range of the segment that counts, as distances from the start [m].
   /// @param clearance         Distance of the lines from the segment [m]; > 0.
   SegmentPassage(const glm::dvec3& start, const glm::dvec3& direction, double from, double to,
                  double clearance) noexcept;
@@ -27,6 +27,7 @@ class SegmentPassage {
   /// Bars the lines that cross the triangle.
   void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) noexcept;
 
+  /// True once every line is barred.
   bool isClosed() const noexcept { return barred_ == kAll; }
 
  private:

@@ -14,18 +14,18 @@
 namespace nearfit {
 namespace {
 
-/// Work that is done at most, in pairs whose boxes overlap: scans have 6 for each triangle, turned parts with
-/// finely divided caps up to some thousands. A fan of a million needles, which would have 10^12, is given up.
+/// Max work, in pairs whose boxes overlap: scans have 6 per triangle, turned parts with finely divided caps
+/// up to some thousands. A fan of a million needles, which would have 10^12, is given up.
 constexpr std::uint64_t kMostWork = 100'000'000, kMostWorkPerTriangle = 100;
-/// What a pair costs beside one that is clearly apart when exact numbers are needed.
+/// Cost of a pair that needs exact numbers, relative to one that is clearly apart.
 constexpr std::uint64_t kExactWork = 32;
-/// A mesh that meets itself more often is none that much can be said of.
+/// Little can be said of a mesh that meets itself more often.
 constexpr std::size_t kMostCrossings = 100'000;
 
-/// Triangles that are a thread's work at a time: some milliseconds.
+/// Triangles per task of a thread: some milliseconds.
 constexpr std::size_t kTrianglesAtOnce = 4096;
 
-/// Puts the corners that two triangles share first in both, in one order; returns how many there are.
+/// Puts the corners that two triangles share first in both, in the same order; returns their number.
 std::size_t alignShared(Triangle& a, Triangle& b) {
   std::size_t shared = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -42,7 +42,7 @@ TriangleCorners at(const TriangleMesh& mesh, const Triangle& t) {
   return {mesh.vertices()[t[0]], mesh.vertices()[t[1]], mesh.vertices()[t[2]]};
 }
 
-/// Rounding of a product of two vectors each off by some roundings, as a fraction of their lengths' product.
+/// Rounding of the dot product of two vectors, each off by some roundings, over the product of their lengths.
 constexpr double kRounding = 1e-14;
 
 bool isClearlyPositive(const glm::dvec3& axis, const glm::dvec3& v) {
@@ -58,7 +58,7 @@ bool areApartAlong(const glm::dvec3& axis, const TriangleCorners& a, const Trian
   return isBeyond(a, b) || isBeyond(b, a);
 }
 
-/// By the plane of one and the planes through its sides square to it.
+/// True if the plane of a, or a plane through one of its sides and perpendicular to it, separates the two.
 bool areApartBeside(const TriangleCorners& a, const TriangleCorners& b) {
   const glm::dvec3 normal = glm::cross(a[1] - a[0], a[2] - a[0]);
   if (areApartAlong(normal, a, b)) return true;
@@ -72,7 +72,7 @@ glm::dvec3 unit(const glm::dvec3& v) {
   return v / std::max(glm::length(v), std::numeric_limits<double>::min());
 }
 
-/// Whether a plane through the corner that they share has one on either side.
+/// True if a plane through their common corner has one on either side.
 bool areApartAtCorner(const TriangleCorners& a, const TriangleCorners& b) {
   const glm::dvec3 a1 = a[1] - a[0], a2 = a[2] - a[0], b1 = b[1] - a[0], b2 = b[2] - a[0];
   const glm::dvec3 axis = unit(a1) + unit(a2) - unit(b1) - unit(b2);
@@ -80,7 +80,7 @@ bool areApartAtCorner(const TriangleCorners& a, const TriangleCorners& b) {
          isClearlyPositive(axis, -b2);
 }
 
-/// Whether they lie on either side of what they share, so that they are not folded onto each other.
+/// True if they lie on either side of their common side, so that they are not folded onto each other.
 bool areApartAtSide(const TriangleCorners& a, const TriangleCorners& b) {
   const glm::dvec3 side = a[1] - a[0], normalA = glm::cross(side, a[2] - a[0]),
                    normalB = glm::cross(b[2] - b[0], side);
@@ -88,7 +88,7 @@ bool areApartAtSide(const TriangleCorners& a, const TriangleCorners& b) {
   return glm::dot(normalA, normalB) > kRounding * scale;
 }
 
-/// What is sure in double precision; most pairs are.
+/// True if double precision shows that they are apart, as it does for most pairs.
 bool areClearlyApart(const TriangleCorners& a, const TriangleCorners& b, std::size_t shared) {
   switch (shared) {
     case 0:
@@ -142,7 +142,7 @@ class CrossingSearch {
     if (found_.size() > kMostCrossings) isGivenUp_ = true;
   }
 
-  /// Adds the pair if they meet; returns what it took.
+  /// Adds the pair if it meets; returns the work it took.
   std::uint64_t workOf(std::uint32_t first, std::uint32_t second, std::vector<CrossingPair>& found) const {
     Triangle a = mesh_.triangles()[first], b = mesh_.triangles()[second];
     const std::size_t shared = alignShared(a, b);

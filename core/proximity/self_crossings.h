@@ -11,21 +11,22 @@
 
 namespace nearfit {
 
-/// Two triangles of a piece.
+/// Indices of two triangles of a component.
 using CrossingPair = std::array<std::uint32_t, 2>;
 
+/// Corners of a triangle in the mesh's frame [m].
 TriangleCorners cornersOf(const TriangleMesh& mesh, std::uint32_t triangle);
 
-/// The boxes of all triangles, ready to be asked.
+/// Returns the boxes of all triangles, ready for searches.
 BoxPairs boxesOfTriangles(const TriangleMesh& mesh);
 
-/// Where pieces pass through or touch themselves: all pairs of triangles of one piece that have more in
-/// common than the corners that they share, in order. Decided exactly. Pieces that meet each other do not
-/// count.
+/// Finds where components cross or touch themselves: all pairs of triangles of one component that share more
+/// than their common corners, the lower index first, sorted. Decided exactly. Meetings of different
+/// components do not count.
 ///
-/// @param boxes  As boxesOfTriangles() makes them.
-/// None where too many boxes of triangles overlap, more than a hundred for each and a hundred million, or
-/// more than a hundred thousand pairs meet. On all processors; O(n log n) for ordinary meshes.
+/// @param boxes  From boxesOfTriangles().
+/// No value if too many boxes of triangles overlap (more than a hundred per triangle plus a hundred million),
+/// or more than a hundred thousand pairs meet. Runs on all processors; O(n log n) for ordinary meshes.
 std::optional<std::vector<CrossingPair>> findSelfCrossings(const TriangleMesh& mesh, const MeshPieces& pieces,
                                                            const BoxPairs& boxes);
 

@@ -10,13 +10,13 @@
 namespace nearfit {
 namespace {
 
-/// Roundings in the volume of a triangle's tetrahedron, each of them a part of the product of lengths.
+/// Roundings in the volume of a triangle's tetrahedron, each relative to the product of lengths.
 constexpr double kRoundings = 32.0;
 
-/// Six times the volume of a piece.
+/// Six times the volume of a component.
 struct Volume {
   double sum = 0.0;
-  double size = 0.0;  ///< What the terms would sum up to were they square to each other.
+  double size = 0.0;  ///< Sum of the terms if their vectors were orthogonal.
   double count = 0.0;
 
   bool isPositive() const {
@@ -28,7 +28,7 @@ bool haveAllPositiveVolume(const TriangleMesh& mesh, const MeshPieces& pieces) {
   std::vector<Volume> volumes(pieces.firstTriangle.size());
   for (std::uint32_t i = 0; i < pieces.pieceOf.size(); ++i) {
     const std::uint32_t piece = pieces.pieceOf[i];
-    // From a corner of the piece itself, so that a small one far away is not lost in rounding.
+    // Relative to a corner of the component, so that a small one far away is not lost in rounding.
     const glm::dvec3 origin = mesh.vertices()[mesh.triangles()[pieces.firstTriangle[piece]][0]];
     const TriangleCorners t = cornersOf(mesh, i);
     const glm::dvec3 a = t[0] - origin, b = t[1] - t[0], c = t[2] - t[0];

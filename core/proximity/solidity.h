@@ -4,15 +4,15 @@
 
 namespace nearfit {
 
-/// Whether a mesh is closed and oriented and its outer side is seen wherever a body outside of it can be:
-/// then minima find all that such a body can touch.
+/// True if a mesh is closed and oriented, and shows its outer side wherever a body outside it can be. Then
+/// minima include everything that such a body can touch.
 ///
-/// Each piece (triangles connected through edges) has positive volume and crosses itself nowhere, or winds
-/// around no point a negative number of times, certainly (outer_windings.h). A piece that is inside out has
-/// negative volume, and so has a cavity; which of the two it is would take knowing what it lies in. Pieces
-/// may cross each other. False where there is doubt: a volume within rounding of zero, too many crossings. On
-/// all processors, not for the GUI's thread nor the servo's: O(n log n), a second or so for a million
-/// triangles; O(n) where pieces have no such volume, at once where the mesh is not closed and oriented.
+/// Each component (triangles connected through edges) must have positive volume; if it crosses itself, it
+/// must certainly wind around no point a negative number of times (outer_windings.h). A component that is
+/// inside out has negative volume, and so has a cavity; telling them apart would take knowing what they lie
+/// in. Components may cross each other. False in doubt: a volume within rounding of zero, too many crossings.
+/// Runs on all processors; not for the GUI or servo thread. O(n log n), about a second for a million
+/// triangles; O(n) if a volume is not positive, immediate if the mesh is not closed and oriented.
 bool isSolidThroughout(const TriangleMesh& mesh);
 
 }  // namespace nearfit

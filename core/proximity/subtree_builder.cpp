@@ -50,7 +50,7 @@ void SubtreeBuilder::build(NormalConeTree::Bound& bound, std::vector<NormalConeT
   if (all.size() > 1) buildNode(all, bound, nodes);
 }
 
-/// Returns the index of a new node over a part that has just been bounded.
+/// Adds a node over a set that has just been bounded, and returns its index.
 std::uint32_t SubtreeBuilder::buildNode(std::span<std::uint32_t> part, const NormalConeTree::Bound& bound,
                                         std::vector<NormalConeTree::Node>& nodes) {
   splitter_.begin(sizeOf(bound), std::max(bound.mostU, bound.mostV));

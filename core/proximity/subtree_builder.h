@@ -13,8 +13,8 @@
 
 namespace nearfit {
 
-/// How many features a child of a node over `count` features holds when it is full: the least power of eight
-/// that eight children need.
+/// Number of features below each full child of a node over `count` features: the smallest power of eight with
+/// which eight children suffice.
 inline std::size_t fullChild(std::size_t count) {
   std::size_t size = 1;
   while (size * NormalConeTree::kWidth < count)
@@ -22,9 +22,8 @@ inline std::size_t fullChild(std::size_t count) {
   return size;
 }
 
-/// Divides `items` into at most eight pieces that are full but for the last, the largest in half each time,
-/// and returns them.
-/// @param halve  Called with the items to order so that the first `cut` are one half.
+/// Divides `items` into at most eight spans, all but one full, halving the largest each time.
+/// @param halve  halve(items, cut) reorders `items` so that the first `cut` are one half.
 template <class Item, class Halve>
 std::vector<std::span<Item>> pieces(std::span<Item> items, Halve&& halve) {
   const std::size_t unit = fullChild(items.size());
@@ -41,22 +40,25 @@ std::vector<std::span<Item>> pieces(std::span<Item> items, Halve&& halve) {
   }
 }
 
-/// A node without children.
+/// Returns a node without children.
 NormalConeTree::Node emptyNode() noexcept;
+/// Writes a bound to one lane of a node.
 void setLane(NormalConeTree::Node& node, std::size_t lane, const NormalConeTree::Bound& b) noexcept;
 
-/// Builds what hangs from one lane of a hierarchy, on one thread.
+/// Builds the subtree below one lane of a hierarchy, on one thread.
 class SubtreeBuilder {
  public:
   /// @param geometry  Kept by reference.
   /// @param size      The mesh's diagonal [m].
   SubtreeBuilder(const FeatureGeometry& geometry, double size) : bounds_(geometry, size) {}
 
-  /// @param centre  Of the feature's box, in the mesh's axes [m].
-  /// @param leaf    The child that stands for it.
+  /// @param feature  Its index in the FeatureGeometry.
+  /// @param centre   Centre of the feature's box, relative to the tree's centre [m].
+  /// @param leaf     Leaf child that refers to it.
   void add(std::uint32_t feature, const std::array<float, 3>& centre, std::uint32_t leaf);
 
-  /// Once. Bounds what was added, and leaves its nodes, the uppermost first; none for a single feature.
+  /// Call once. Bounds the added features and writes their nodes, root first, to the empty `nodes`; a single
+  /// feature needs none.
   void build(NormalConeTree::Bound& bound, std::vector<NormalConeTree::Node>& nodes);
 
  private:

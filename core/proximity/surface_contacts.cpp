@@ -15,19 +15,19 @@ namespace {
 
 using FaceLeaf = NormalConeTree::FaceLeaf;
 
-/// Contacts whose points are as close as this, as a fraction of the bodies' sizes, and whose directions
-/// differ by as little, are one: what neighbouring features find at their common boundary.
+/// Contacts whose points are this close, as a fraction of the bodies' sizes, and whose directions differ this
+/// little are one: neighbouring features find it at their common boundary.
 constexpr double kSamePlace = 1e-9, kSameDirection = 1e-3;
 
-/// How far beyond a side a foot may stand and count as inside, as a fraction of the side: rounding must not
-/// lose it between two faces in one plane, whose edge is no feature.
+/// How far beyond a side a foot still counts as inside, as a fraction of the side: rounding must not lose it
+/// between two faces in one plane, whose edge is no feature.
 constexpr double kSide = 1e-9;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 const double kSineOfTilt = std::sin(kContactTilt);
 
-/// One body's features, asked for in the scene's centred frame.
+/// One body's features, in the scene's centred frame.
 struct Side {
   const UnsidedSurface& surface;
   RigidTransform frameFromTree;
@@ -41,7 +41,7 @@ struct Side {
     return length > 0.0 ? frameFromTree.applyToVector(d / length) : glm::dvec3(0.0);
   }
 
-  /// Whether no edge at the vertex leads nearer along d, a unit vector away from it, but by the tilt.
+  /// True if no edge at the vertex leads nearer along d, a unit vector away from it, except within the tilt.
   bool allowsAtVertex(std::uint32_t v, const glm::dvec3& d) const noexcept {
     for (const std::uint32_t e : surface.mesh().edgesOfVertex(v)) {
       const MeshEdge& edge = surface.mesh().edges()[e];
@@ -49,7 +49,7 @@ struct Side {
     }
     return true;
   }
-  /// Whether no face at the edge leads nearer along d, which is square to it, but by the tilt.
+  /// True if no face at the edge leads nearer along d, perpendicular to the edge, except within the tilt.
   bool allowsAtEdge(std::uint32_t e, const glm::dvec3& d) const noexcept {
     const MeshEdge& edge = surface.mesh().edges()[e];
     const glm::dvec3 along = direction(edge.v0, edge.v1);
@@ -63,7 +63,7 @@ struct Side {
   }
 };
 
-/// Keeps the nearest contacts, each place and direction once, in rising order.
+/// Keeps the nearest contacts in order of distance, one per place and direction.
 class ContactList {
  public:
   ContactList(std::span<SurfaceContact> out, double samePlace) noexcept : out_(out), samePlace_(samePlace) {}
@@ -105,7 +105,7 @@ class ContactList {
   bool isFull_ = false;
 };
 
-/// The pairs of features that belong to a pair of triangles.
+/// Tests the pairs of features that belong to a pair of triangles.
 class PairContacts {
  public:
   PairContacts(const Side& scene, const Side& part, double within, ContactList& list) noexcept
@@ -132,7 +132,7 @@ class PairContacts {
   }
 
  private:
-  /// @param sign  1 when the vertices are the scene's.
+  /// @param sign  1 if the vertices are the scene's, else -1.
   void verticesOverFace(const Side& side, const FaceLeaf& owner, const TriangleCorners& corners,
                         const TriangleFrame& face, double sign) noexcept {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -156,7 +156,7 @@ class PairContacts {
     const glm::dvec3 u = a[(i + 1) % 3] - a[i], v = b[(j + 1) % 3] - b[j], w = b[j] - a[i];
     const glm::dvec3 n = glm::cross(u, v);
     const double nn = glm::dot(n, n);
-    // Parallel ones touch in a region, whose ends have contacts of their own.
+    // Parallel edges touch in a region, whose ends have contacts of their own.
     constexpr double kParallel = 1e-12;
     if (!(nn > kParallel * glm::dot(u, u) * glm::dot(v, v))) return;
     const double height = glm::dot(w, n);
@@ -174,9 +174,9 @@ class PairContacts {
     add(point, point + d, direction, distance);
   }
 
-  /// A vertex against the inside of a side.
+  /// Foot of a vertex on a side; the distance is negative if there is none.
   struct Foot {
-    glm::dvec3 point, direction;  ///< Direction from the vertex.
+    glm::dvec3 point, direction;  ///< The direction is from the vertex.
     double distance = -1.0;
   };
   Foot footOn(const glm::dvec3& vertex, const glm::dvec3& start, const glm::dvec3& end) const noexcept {
@@ -243,7 +243,7 @@ double distanceOf(const TriangleCorners& a, const TriangleCorners& b) noexcept {
   return std::sqrt(closestOfTriangles(a, b).distanceSquared);
 }
 
-/// Tests pairs that are listed, at one pose.
+/// Tests listed pairs at one pose.
 class ListedPairs {
  public:
   ListedPairs(const UnsidedSurface& scene, const UnsidedSurface& part, const RigidTransform& sceneFromPart,
@@ -266,7 +266,7 @@ class ListedPairs {
     pair.gap = gapOfTriangles(a, b, reach, pair.isByPart);
     if (pair.gap <= reach) contacts_.test(s, a.corners, p, b.corners);
   }
-  /// Whether a plane square to a direction keeps the two as far apart as that.
+  /// True if planes perpendicular to `direction` keep the two triangles at least `distance` apart [m].
   bool areBeyondAlong(const glm::dvec3& direction, double distance, const TrianglePair& pair) const noexcept {
     const TriangleCorners a = placed_.sceneCorners(leafOf(scene_, pair.scene)),
                           b = placed_.partCorners(leafOf(part_, pair.part));
@@ -284,7 +284,7 @@ class ListedPairs {
     return surface.tree().faces()[i];
   }
 
-  /// The one asked for last: pairs that were found together often have one in common.
+  /// The triangle of the last call: pairs that were found together often share one.
   struct Latest {
     std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
     DirectedTriangle triangle;
@@ -308,7 +308,7 @@ class ListedPairs {
   double within_;
 };
 
-/// What listing a batch of a traversal's pairs may take.
+/// Max work of listing one batch of a traversal's pairs.
 constexpr std::uint64_t kMostOfBatch = kWorkOfListing * TraversalWork::kMostLeaves;
 
 bool isPoseValid(const RigidTransform& sceneFromPart, double within) noexcept {
@@ -341,7 +341,7 @@ NearbyTriangles findNearbyTriangles(const UnsidedSurface& scene, const UnsidedSu
       faces.stop();
     }
   };
-  // A batch is listed to its end.
+  // A batch is always listed to its end.
   if (!faces.run(visit, maxWork - std::min(maxWork, kMostOfBatch)))
     result.within = std::min(result.within, faces.leastNotVisited());
   result.work = faces.work();
@@ -356,7 +356,7 @@ SurfaceContacts testTriangles(const UnsidedSurface& scene, const UnsidedSurface&
   ContactList list(out, kSamePlace * (scene.tree().size() + part.tree().size()));
   ListedPairs pairs(scene, part, sceneFromPart, within, list);
   const double rounding = pairs.rounding();
-  // Of the pairs that are not tested, none is nearer.
+  // Lower bound on the distance of pairs that are not tested.
   double notTested = held.within - held.travel;
   const auto spend = [&](std::uint64_t work) {
     const bool hasWork = result.work + work <= maxWork;
@@ -366,7 +366,7 @@ SurfaceContacts testTriangles(const UnsidedSurface& scene, const UnsidedSurface&
   if (!spend(held.pairs.size() / kPassedOver)) return result;
   for (TrianglePair& pair : held.pairs) {
     pair.gap = kUnbounded;
-    // A part goes on by small steps: what its last one says of most pairs is enough.
+    // A part moves in small steps, so the bound from the last one suffices for most pairs.
     pair.known = std::max(pair.known - held.travelSinceTest, pair.atLeast - held.travel);
     if (pair.known > within + rounding) continue;
     if (!spend(kWorkOfTest)) {
@@ -381,7 +381,7 @@ SurfaceContacts testTriangles(const UnsidedSurface& scene, const UnsidedSurface&
   if (list.isFull()) result.completeTo = std::min(result.completeTo, out.empty() ? 0.0 : out.back().distance);
   double least = std::min(within, notTested);
   if (result.count > 0) least = std::min(least, out[0].distance);
-  // What is no contact, as where surfaces pass through each other.
+  // Pairs without a contact count too, as where surfaces pass through each other.
   for (const TrianglePair& pair : held.pairs) {
     if (pair.gap >= least - rounding) continue;
     if (result.count > 0 && pairs.areBeyondAlong(out[0].direction, least - rounding, pair)) continue;

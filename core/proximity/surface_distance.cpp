@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Where bodies are, no two points are farther apart than this.
+/// Upper bound on the distance between any two points of the two bodies [m].
 double reachOf(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& pose) noexcept {
   const RigidTransform centred = centredPose(scene, part, pose);
   return scene.size() + part.size() + glm::length(centred.translation);

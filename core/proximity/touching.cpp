@@ -12,7 +12,7 @@
 namespace nearfit {
 namespace {
 
-/// Far enough beyond the tolerance that rounding does not decide.
+/// Multiple of a tolerance at which rounding no longer decides.
 constexpr double kBeyond = 2.0;
 
 double pointSegmentDistance(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) noexcept {
@@ -37,7 +37,8 @@ double segmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
   return nearest;
 }
 
-/// Convex sets of one plane: distance between outlines, or 0 when one holds a corner of the other.
+/// Entry as a convex set in a plane. Two sets are as far apart as their outlines, or not at all if one holds
+/// a corner of the other.
 class Piece {
  public:
   explicit Piece(const Minimum& m) : m_(m) {}
@@ -65,17 +66,17 @@ class Piece {
   const Minimum& m_;
 };
 
-/// Of a sphere about the scene point that holds the entry.
+/// Radius of a sphere about the scene point that holds the entry [m].
 double radius(const Minimum& m) noexcept {
   return m.dimension == 0 ? 0.0 : m.radius;
 }
 
-/// Of distances of minima that may be one: over a region that is not quite flat they differ.
+/// Tolerance between distances of minima that may be one [m]: they differ over a region that is not flat.
 double toleranceOfDistances(const Minimum& a, const Minimum& b, double lengths) noexcept {
   return lengths + 2.0 * kFlatTolerance * (radius(a) + radius(b));
 }
 
-/// What most pieces that touch have; found sooner than by their sides.
+/// Most pieces that touch have a common corner; this is found sooner than close sides.
 bool haveCommonCorner(const Piece& a, const Piece& b, double tolerance) noexcept {
   for (std::size_t i = 0; i < a.corners(); ++i) {
     for (std::size_t j = 0; j < b.corners(); ++j) {
@@ -86,7 +87,7 @@ bool haveCommonCorner(const Piece& a, const Piece& b, double tolerance) noexcept
   return false;
 }
 
-/// Whether a line beside one of a's sides, more than the tolerance away, has b on its other side: found
+/// True if a line beside one of a's sides, more than the tolerance away, has b on its other side: found
 /// sooner than that no two sides are near.
 bool isBeyondSide(const Minimum& a, const Piece& pa, const Piece& pb, double tolerance) noexcept {
   if (a.dimension != 2) return false;
@@ -102,7 +103,7 @@ bool isBeyondSide(const Minimum& a, const Piece& pa, const Piece& pb, double tol
   return false;
 }
 
-/// Whether a line along a side of `a` has all corners of `b` on its other side.
+/// True if the line along a side of `a` has all corners of `b` on its other side.
 bool isBeyondSide(const SidedPiece& a, std::size_t side, const Minimum& b, double tolerance) noexcept {
   const glm::dvec3 &from = a.piece.corners[side], &inward = a.sides.inward[side];
   for (std::size_t k = 0; k < b.cornerCount; ++k) {
@@ -112,8 +113,8 @@ bool isBeyondSide(const SidedPiece& a, std::size_t side, const Minimum& b, doubl
 }
 
 bool isApartAlongSide(const SidedPiece& a, const Minimum& b, double tolerance) noexcept {
-  // The side that has b's centroid farthest beyond it most likely has all of b there: tried first, since each
-  // side that is tried in vain is a branch that cannot be foretold.
+  // The side beyond which b's centroid lies farthest most likely has all of b beyond it. It is tried first,
+  // since each failed try is an unpredictable branch.
   std::size_t first = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < a.piece.cornerCount; ++i) {
@@ -122,7 +123,7 @@ bool isApartAlongSide(const SidedPiece& a, const Minimum& b, double tolerance) n
     first = isLess ? i : first;
     least = isLess ? height : least;
   }
-  // Where the centroid is well inside of a side, some corner is.
+  // If the centroid is well inside every side, each side has a corner of b inside it.
   if (least > kBeyond * tolerance) return false;
   if (isBeyondSide(a, first, b, tolerance)) return true;
   for (std::size_t i = 0; i < a.piece.cornerCount; ++i) {
@@ -159,7 +160,7 @@ double Closeness::ofOverlap(double distance) const noexcept {
 }
 
 double Closeness::margin(const Minimum& m) const noexcept {
-  // No pair is allowed more than a point at a region's rim; seen along their directions, pieces whose
+  // No pair has a larger tolerance than a point at a region's rim. Seen along their directions, pieces whose
   // directions differ may overlap beside each other.
   const double turn = kMergeFactor * kFlatTolerance + kRegionDirection;
   return kMergeFactor * base_ + gap_ + turn * (m.lmd.distance + radius(m));
@@ -173,7 +174,7 @@ bool canTouch(const Minimum& a, const Minimum& b, const Closeness& closeness) no
   const double radii = radius(a) + radius(b), reach = radii + tolerance;
   const glm::dvec3 apart = a.lmd.scenePoint - b.lmd.scenePoint;
   if (glm::dot(apart, apart) > reach * reach) return false;
-  // Two steps of the scene may face two steps of the part at one distance: regions one behind the other.
+  // Two steps of the scene may face two steps of the part at one distance: two regions, one behind the other.
   const glm::dvec3& across = a.dimension > b.dimension ? a.lmd.direction : b.lmd.direction;
   return std::abs(glm::dot(apart, across)) <= tolerance + 2.0 * kFlatTolerance * radii;
 }

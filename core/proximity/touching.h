@@ -9,37 +9,38 @@
 
 namespace nearfit {
 
-/// What counts as one length, for points and for pieces of flat regions.
+/// Tolerances by which points and pieces of flat regions count as touching.
 class Closeness {
  public:
-  /// @param size         Of both bodies together [m].
-  /// @param smallerSize  Of the smaller body [m].
+  /// @param size         Size of both bodies together [m].
+  /// @param smallerSize  Size of the smaller body [m].
   Closeness(double size, double smallerSize) noexcept;
 
-  /// Of two points of the scene that belong to minima whose directions differ.
+  /// Tolerance between scene points of two minima, whose directions may differ [m].
   double of(const Minimum& a, const Minimum& b) const noexcept;
-  /// By how much neighbouring pieces may overlap that only lie in planes which differ a little.
+  /// Max overlap of neighbouring pieces that only lie in slightly different planes [m].
+  /// @param distance  Distance of their minima [m].
   double ofOverlap(double distance) const noexcept;
-  /// How far about an entry its box reaches: boxes of entries that touch or overlap have a point in common.
+  /// Margin of an entry's box [m]: boxes of entries that touch or overlap share a point.
   double margin(const Minimum& m) const noexcept;
 
  private:
   double base_, gap_;  ///< [m]
 };
 
-/// Whether two entries can be of one set at all: at one distance, and pieces in one plane near each other.
+/// True if two entries may belong to one set: at one distance, and pieces in one plane near each other.
 bool canTouch(const Minimum& a, const Minimum& b, const Closeness& closeness) noexcept;
 
-/// Whether entries that can be of one set are: points that are one, pieces with a common point.
+/// True if two entries that may belong to one set do: points that coincide, pieces with a common point.
 bool touch(const Minimum& a, const Minimum& b, const Closeness& closeness) noexcept;
 
-/// The sides of a piece of faces, found once for all that it is held against.
+/// Sides of a piece of faces, found once for all its comparisons.
 struct PieceSides {
-  std::array<glm::dvec3, Minimum::kMaxCorners>
-      inward;                                       ///< Unit, in the piece's plane and square to the side.
+  /// Unit, inward, in the piece's plane and perpendicular to the side.
+  std::array<glm::dvec3, Minimum::kMaxCorners> inward;
   std::array<double, Minimum::kMaxCorners> length;  ///< [m]
 };
-/// @param sides  Of a piece of faces only; left as they are for others.
+/// Finds the sides of a piece of faces; leaves `sides` as it is for other entries.
 void findSides(const Minimum& piece, PieceSides& sides) noexcept;
 
 /// An entry and its sides.
@@ -48,11 +49,11 @@ struct SidedPiece {
   const PieceSides& sides;
 };
 
-/// Whether two pieces of one dimension cover more than a line (faces) or a point (edges) together, as those
-/// of coplanar faces of one mesh do. They lie in one plane but for tolerances.
+/// True if two pieces of one dimension share more than a line (faces) or a point (edges), as pieces of
+/// coplanar faces of one mesh do. They must lie in one plane within `tolerance` [m].
 bool overlap(const SidedPiece& a, const SidedPiece& b, double tolerance) noexcept;
 
-/// What holds an entry's points on the scene, and `margin` about them [m].
+/// Box of an entry's points on the scene, widened by `margin` [m].
 Aabb boxOf(const Minimum& m, double margin) noexcept;
 
 }  // namespace nearfit

@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kEnding = ".nearfit-tree";
 constexpr std::size_t kNameDigits = 64;
-/// How AtomicFile names what it has not put in place yet.
+/// Prefix that AtomicFile gives to files not yet in place.
 constexpr std::string_view kUnfinished = ".nearfit-";
-/// A file that nobody has finished by then never will be.
+/// An unfinished file this old has been abandoned.
 constexpr std::chrono::hours kAbandoned{1};
 
 struct Entry {
@@ -33,20 +33,19 @@ struct Entry {
   fs::file_time_type used;
 };
 
-/// The folder may be one that holds other things too: only what bears our kind of name is ever counted or
-/// removed.
+/// True for the name of a cache file. Other things in the folder are never counted or removed.
 bool isOurs(const std::string& name) {
   return name.size() == kNameDigits + kEnding.size() && name.ends_with(kEnding) &&
          std::all_of(name.begin(), name.begin() + kNameDigits,
                      [](unsigned char c) { return std::isxdigit(c) != 0; });
 }
 
-/// Files of ours in the folder, and those that were begun and abandoned.
+/// Lists the cache files in the folder, and unfinished files that were abandoned.
 std::vector<Entry> entriesOf(const fs::path& folder) {
   std::vector<Entry> entries;
   std::error_code failure;
   for (fs::directory_iterator it(folder, failure), end; !failure && it != end; it.increment(failure)) {
-    // Another process may remove it meanwhile: each question has its own answer.
+    // Another process may remove the file meanwhile, so any of these calls can fail.
     std::error_code unknown;
     if (!fs::is_regular_file(it->symlink_status(unknown))) continue;
     const fs::file_time_type used = fs::last_write_time(it->path(), unknown);
@@ -69,7 +68,7 @@ fs::path folderFromEnvironment() {
   const std::string own = variable("NEARFIT_CACHE");
   if (own == "off") return {};
   if (!own.empty()) return own;
-  // The XDG specification has relative paths ignored.
+  // The XDG specification says to ignore relative paths.
   if (const fs::path xdg = variable("XDG_CACHE_HOME"); xdg.is_absolute()) return xdg / "nearfit";
   if (const fs::path home = variable("HOME"); home.is_absolute()) return home / ".cache" / "nearfit";
   return {};
@@ -122,7 +121,7 @@ bool TreeCache::store(const TreeCacheKey& key, const CachedMesh& mesh, const Cac
     evict(path);
     return true;
   } catch (const std::exception&) {
-    return false;  // Disk full, folder not ours, no memory: the next time takes as long as this time.
+    return false;  // Disk full, folder not writable, no memory: the next time takes as long as this time.
   }
 }
 

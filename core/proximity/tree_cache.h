@@ -9,30 +9,31 @@
 
 namespace nearfit {
 
-/// Meshes of fewer triangles are not kept: reading the file and building the hierarchy takes some
+/// Meshes of fewer triangles are not cached: reading the file and building the hierarchy takes some
 /// milliseconds, and thousands of small files would push out the few large ones that take seconds.
 constexpr std::size_t kLeastCachedTriangles = 2000;
 
-/// How much the cache may hold unless NEARFIT_CACHE_SIZE says otherwise [bytes].
+/// Max size of the cache unless NEARFIT_CACHE_SIZE sets another [bytes].
 constexpr std::uint64_t kDefaultTreeCacheBytes = std::uint64_t{4} << 30;
 
+/// Settings of the cache; see treeCacheSettings().
 struct TreeCacheSettings {
-  std::filesystem::path folder;  ///< Empty: nothing is cached.
+  std::filesystem::path folder;  ///< Empty: the cache is off.
   std::uint64_t maxBytes = kDefaultTreeCacheBytes;
   std::size_t leastTriangles = kLeastCachedTriangles;
 };
 
-/// As the environment has it: NEARFIT_CACHE names the folder or says "off"; without it, it is `nearfit` in
-/// XDG_CACHE_HOME, or in `.cache` of HOME; NEARFIT_CACHE_SIZE is a number of bytes, or one with K, M, G or T
-/// (powers of 1024) behind; what makes no sense counts as not said.
+/// Reads the settings from the environment. NEARFIT_CACHE names the folder or is "off"; the default is
+/// `nearfit` in XDG_CACHE_HOME, or in `.cache` of HOME. NEARFIT_CACHE_SIZE is a number of bytes, or one
+/// followed by K, M, G or T (powers of 1024). Invalid values are ignored.
 TreeCacheSettings treeCacheSettings();
 
-/// Bytes as NEARFIT_CACHE_SIZE writes them; none when the text is anything else.
+/// Parses a number of bytes in the format of NEARFIT_CACHE_SIZE; no value if the text is anything else.
 std::optional<std::uint64_t> parseByteSize(const std::string& text);
 
-/// A folder of meshes with their hierarchies, known by the content of the mesh files. Any number of threads
-/// and processes may use one folder at once. It can only save time: a file that is damaged, or that another
-/// version wrote, is as good as none, and a folder that cannot be written stays as it is.
+/// Folder of meshes with their hierarchies, keyed by the content of the mesh files. Any number of threads and
+/// processes may use one folder at once. The cache can only save time: a damaged file, or one of another
+/// version, counts as absent, and a folder that cannot be written stays as it is.
 class TreeCache {
  public:
   explicit TreeCache(TreeCacheSettings settings = treeCacheSettings()) : settings_(std::move(settings)) {}
@@ -40,18 +41,21 @@ class TreeCache {
   bool isOn() const noexcept { return !settings_.folder.empty(); }
   const TreeCacheSettings& settings() const noexcept { return settings_; }
 
-  /// What is kept for the key, its parts not checked yet, and marks it as used just now.
+  /// Opens the file cached for the key, its parts not checked yet, and marks it as just used; no value if
+  /// there is none.
   std::optional<TreeCacheFile> find(const TreeCacheKey& key) const;
-  /// Keeps a mesh, with its hierarchy unless that is null, in place of what was kept for the key. Removes
-  /// what was not used for longest until the rest is no larger than allowed. False when nothing was kept.
+  /// Caches a mesh, with its hierarchy unless that is null, in place of what was cached for the key. Then
+  /// removes the least recently used files until the rest is within `maxBytes`. False if nothing was cached,
+  /// for whatever reason.
   bool store(const TreeCacheKey& key, const CachedMesh& mesh, const CachedTree* tree) const;
 
   struct Usage {
     std::size_t files = 0;
     std::uint64_t bytes = 0;
   };
+  /// Number and size of the cached files.
   Usage usage() const;
-  /// Removes all that is kept; returns what that was. Throws FileError when some of it cannot be removed.
+  /// Removes all cached files and returns what they were. Throws FileError if one cannot be removed.
   Usage clear() const;
 
  private:

@@ -18,13 +18,13 @@ namespace {
 
 using Tree = NormalConeTree;
 
-/// Larger than any coordinate of a mesh that was imported (see mesh_builder.cpp) [m].
+/// Larger than any coordinate of an imported mesh (see mesh_builder.cpp) [m].
 constexpr double kFarthest = 1e10;
 
-/// Elements that a thread looks at in one go.
+/// Elements per task of a thread.
 constexpr std::size_t kChunk = std::size_t{1} << 16;
 
-/// Whether isFine(part of the array) holds for all parts.
+/// True if isFine(chunk) holds for all chunks of the array.
 template <typename T, typename IsFine>
 bool areAllFine(std::span<const T> values, IsFine isFine) {
   std::atomic<bool> fine{true};
@@ -34,7 +34,7 @@ bool areAllFine(std::span<const T> values, IsFine isFine) {
   return fine;
 }
 
-/// As areAllFine for single elements; looks at all, so that it can be done many at a time.
+/// As areAllFine, for single elements; tests all without an early exit, so that the loop vectorises.
 template <typename T, typename IsFine>
 bool isEachFine(std::span<const T> values, IsFine isFine) {
   return areAllFine(values, [&](std::span<const T> part) {
@@ -59,7 +59,7 @@ bool areBelow(const Triangle& corners, std::size_t limit) {
   return (corners[0] < limit) & (corners[1] < limit) & (corners[2] < limit);
 }
 
-/// Ranges follow each other without gaps through an array of `total` elements.
+/// True if ranges that begin at `first` follow each other without gaps through an array of `total` elements.
 bool isPartition(std::span<const std::uint32_t> first, std::size_t total) {
   return !first.empty() && first.front() == 0 && first.back() == total && std::ranges::is_sorted(first);
 }
@@ -69,7 +69,7 @@ bool areEdgesSound(const TriangleMesh::Arrays& m) {
   std::uint64_t next = 0, last = 0;
   bool fine = true;
   for (const MeshEdge& e : m.edges.view()) {
-    // In rising order, so that none is there twice; the first vertex is never the higher one.
+    // Edges are in rising order, so none is there twice; the first vertex is always the lower one.
     const std::uint64_t name = std::uint64_t{e.v0} << 32 | e.v1;
     fine &= (e.v0 < e.v1) & (e.v1 < vertices) & (e.firstFace == next) & (e.faceCount > 0) & (name > last);
     next += e.faceCount;
@@ -78,7 +78,7 @@ bool areEdgesSound(const TriangleMesh::Arrays& m) {
   return fine && next == faces;
 }
 
-/// Whether isFine(index) holds for all indices below `count`.
+/// True if isFine(index) holds for all indices below `count`.
 template <typename IsFine>
 bool isFineAtEach(std::size_t count, IsFine isFine) {
   std::atomic<bool> fine{true};
@@ -91,8 +91,8 @@ bool isFineAtEach(std::size_t count, IsFine isFine) {
   return fine;
 }
 
-/// Whether triangles, edges and vertices name each other. Indices are in range by now, and there are as many
-/// names as there must be: where each is right and none is repeated, none is missing.
+/// True if triangles, edges and vertices name each other. Indices are known to be in range, and the number of
+/// names to be right: if each is right and none is repeated, none is missing.
 bool isAdjacencySound(const TriangleMesh::Arrays& m) {
   const auto rises = [](std::span<const std::uint32_t> names) {
     return std::ranges::adjacent_find(names, std::greater_equal<>()) == names.end();
@@ -124,7 +124,7 @@ bool isAdjacencySound(const TriangleMesh::Arrays& m) {
          });
 }
 
-/// Lanes hold numbers of the size of a mesh, or lie out of reach as the builder puts them there.
+/// True if used lanes hold numbers of the size of a mesh, and unused ones are out of reach as built.
 bool areBoundsSound(const Tree::Node& node) {
   bool fine = true;
   for (std::size_t lane = 0; lane < Tree::kWidth; ++lane) {
@@ -141,7 +141,7 @@ bool areBoundsSound(const Tree::Node& node) {
   return fine;
 }
 
-/// Follows children from the first node on: each node but the first, and each leaf, has one place.
+/// Follows children from the root: each node but the root, and each leaf, must have exactly one parent.
 class ShapeCheck {
  public:
   explicit ShapeCheck(const Tree::Arrays& tree)
@@ -160,7 +160,7 @@ class ShapeCheck {
     }
     depth_[0] = 1;
     for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
-      // Children stand behind their parents: one without a depth by now has none.
+      // Children come after their parents, so a node without a depth by now has no parent.
       if (depth_[i] == 0 || depth_[i] > Tree::kMaxDepth) return false;
       for (const std::uint32_t child : tree_.nodes[i].child) {
         if (child != Tree::kNoChild && !take(child, i)) return false;
@@ -185,7 +185,7 @@ class ShapeCheck {
   }
 
   const Tree::Arrays& tree_;
-  std::vector<std::uint8_t> depth_;  ///< 0: nobody's child yet.
+  std::vector<std::uint8_t> depth_;  ///< 0: no parent found yet.
   std::array<std::size_t, 3> counts_;
   std::array<std::vector<bool>, 3> isSeen_;
   std::size_t seen_ = 0;

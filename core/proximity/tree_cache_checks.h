@@ -3,8 +3,8 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/proximity/normal_cone_tree.h"
 
-/// Whether arrays that come from a file are such that no use of them leaves their memory or runs on for ever,
-/// whoever wrote them. That they are what was computed is for checksums to say. O(n), on all processors.
+/// True if arrays from a file, whoever wrote it, are safe: no use of them leaves their memory or loops
+/// forever. Checksums tell if they are what was computed. O(n), on all processors.
 namespace nearfit {
 
 bool isSound(const TriangleMesh::Arrays& mesh);

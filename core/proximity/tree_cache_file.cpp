@@ -20,7 +20,7 @@ bool isSameFile(const TreeCacheHeader& a, const TreeCacheHeader& b) {
          a.metresPerUnit == b.metresPerUnit && a.reserved == b.reserved;
 }
 
-/// The parts of a section that have a checksum each.
+/// Returns a block of a section, which has its own checksum.
 std::span<const std::byte> blockOf(std::span<const std::byte> section, std::size_t block) {
   const std::size_t first = block * kTreeCacheBlock;
   return section.subspan(first, std::min(kTreeCacheBlock, section.size() - first));

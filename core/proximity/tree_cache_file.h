@@ -10,36 +10,37 @@
 
 namespace nearfit {
 
-/// What a cached mesh is known by.
+/// Key of a cached mesh.
 struct TreeCacheKey {
-  std::string sha256;  ///< Of the mesh file's bytes, 64 hexadecimal digits.
-  double metresPerUnit = 1.0;
+  std::string sha256;          ///< Of the mesh file's bytes, 64 hexadecimal digits.
+  double metresPerUnit = 1.0;  ///< Unit of the mesh file [m].
 };
 
-/// A mesh file's mesh, and what loading found out about it.
+/// Mesh of a mesh file, and what loading found out about it.
 struct CachedMesh {
   TriangleMesh mesh;
   MeshBuildReport report;
   MassProperties mass;
 };
 
-/// The hierarchy of a mesh, and what is found out along with it. Copies share the arrays.
+/// Hierarchy of a mesh, and what is found out along with it. Copies share the arrays.
 struct CachedTree {
   NormalConeTree tree;
-  bool isSolid = false;  ///< As isSolidThroughout says.
+  bool isSolid = false;  ///< Result of isSolidThroughout.
 };
 
-/// A cache file that is mapped. Nothing in it is trusted: each part is checked as a whole, checksums and
-/// every index, before it is given away.
+/// Mapped cache file. Nothing in it is trusted: each part is checked as a whole, checksums and every index,
+/// before it is returned.
 class TreeCacheFile {
  public:
-  /// None when there is no such file, it is another's, older or newer, cut short, or its header is damaged.
+  /// Opens a cache file. No value if it does not exist, has another key, is of an older or newer version, is
+  /// truncated, or has a damaged header.
   static std::optional<TreeCacheFile> open(const std::filesystem::path& file, const TreeCacheKey& key);
 
-  /// None when it is damaged. What is returned keeps the mapping alive and uses it in place.
+  /// Returns the mesh; no value if it is damaged. The mesh uses the mapping in place and keeps it alive.
   std::optional<CachedMesh> mesh() const;
   bool hasTree() const noexcept { return header_.counts[index(TreeCacheSection::TreeFacts)] == 1; }
-  /// None when it is damaged or there is none.
+  /// Returns the hierarchy, likewise; no value if it is damaged or there is none.
   std::optional<CachedTree> tree() const;
 
  private:
@@ -61,9 +62,11 @@ class TreeCacheFile {
   TreeCacheLayout layout_;
 };
 
-/// Puts a file in place atomically. Not flushed to disk: what a crash damages, checksums find. `tree` may be
-/// null. Throws FileError; Error when the mesh cannot be cached (a warning with a zero in it).
-/// @param maxBytes  Writes nothing and returns 0 when the file would be larger; else its size.
+/// Writes a cache file atomically. Does not flush it to disk: checksums detect what a crash damages. `tree`
+/// may be null. Throws FileError, and Error if the mesh cannot be cached (a warning contains a zero) or the
+/// key has no SHA-256.
+/// @param maxBytes  If the file would be larger, or a section would have 2^32 elements or more, writes
+///                  nothing and returns 0; else returns the file's size.
 std::uint64_t writeTreeCacheFile(const std::filesystem::path& file, const TreeCacheKey& key,
                                  const CachedMesh& mesh, const CachedTree* tree, std::uint64_t maxBytes);
 

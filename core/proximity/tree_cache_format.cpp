@@ -11,7 +11,7 @@ namespace nearfit {
 namespace {
 
 constexpr std::array<char, 8> kMagic{'N', 'E', 'A', 'R', 'F', 'I', 'T', '\n'};
-/// Reads differently on a machine that stores the high byte first.
+/// Reads as another number on a big-endian machine.
 constexpr std::uint32_t kByteOrder = 0x01020304;
 
 constexpr std::array<std::uint32_t, kTreeCacheSections> kElementBytes{

@@ -24,7 +24,7 @@ std::string warningsText(const MeshBuildReport& report) {
   return text;
 }
 
-/// Gathers what the sections hold, which stays where it is.
+/// Collects the contents of the sections, without copying them.
 class Gatherer {
  public:
   template <typename T>
@@ -74,7 +74,7 @@ void addTree(Gatherer& out, const TreeFacts& facts, const NormalConeTree::Arrays
   out.add(tree.neighbours);
 }
 
-/// Header and checksums.
+/// Returns the header and checksums.
 std::vector<std::byte> beginning(TreeCacheHeader header, const TreeCacheLayout& layout,
                                  const Contents& contents) {
   std::vector<std::byte> bytes(layout.offsets[0]);

@@ -14,12 +14,12 @@ using simd::Triple;
 
 constexpr std::uint32_t kWidth = NormalConeTree::kWidth;
 
-/// A node that is opened against a bound of the other tree.
+/// A node to open against a bound of the other tree.
 struct Opening {
   EntryPair pair;
   const Node *opened, *other;
   std::uint32_t otherLane;
-  bool isScene;  ///< Whether the node that is opened is the scene's.
+  bool isScene;  ///< True if the node to open is the scene's.
 };
 
 NEARFIT_INLINE Opening take(TraversalWork& work) {
@@ -36,7 +36,7 @@ NEARFIT_INLINE Opening take(TraversalWork& work) {
   return o;
 }
 
-/// The bound that a node is opened against, in all lanes.
+/// The bound against which a node is opened, in all lanes.
 NEARFIT_INLINE Box<Floats8> otherOf(const Opening& o) {
   const Node& n = *o.other;
   const std::uint32_t lane = o.otherLane;
@@ -58,7 +58,7 @@ NEARFIT_INLINE Poses<Floats8> posesOf(const SinglePose& pose) {
   return {column(0), column(1), column(2), column(3)};
 }
 
-/// What an opener looks for: minima, minima at all poses of the work's sweep, or faces that are near.
+/// Targets of an opener: minima, minima at all poses of the work's sweep, or near faces.
 enum class Aim { Minima, SweptMinima, NearFaces };
 
 template <Aim kAim>
@@ -76,12 +76,12 @@ NEARFIT_INLINE simd::Lanes<Floats8> test(const TraversalWork& work, const Openin
   }
 }
 
-/// Whether a child is a leaf, but no face.
+/// True if a child is a leaf but not a face.
 NEARFIT_INLINE bool isPointOrEdge(std::uint32_t child) {
   return NormalConeTree::isLeaf(child) && NormalConeTree::leafKind(child) != FeatureKind::Face;
 }
 
-/// Takes in the lanes that survive: pairs of leaves, and pairs that wait to be opened.
+/// Keeps the lanes that survive: pairs of leaves, and pairs to open later.
 template <Aim kAim>
 NEARFIT_INLINE void keep(TraversalWork& work, const Opening& o, std::uint32_t lanes) {
   const EntryPair& p = o.pair;
@@ -98,9 +98,9 @@ NEARFIT_INLINE void keep(TraversalWork& work, const Opening& o, std::uint32_t la
     (o.isScene ? e.scene : e.part) = child;
     (o.isScene ? e.sceneLane : e.partLane) = node + lane;
     (o.isScene ? e.sceneSizeSquared : e.partSizeSquared) = size;
-    // Written to both lists: a branch that cannot be foretold costs more.
+    // Written to both lists: an unpredictable branch costs more.
     const bool isLeaves = NormalConeTree::isLeaf(e.scene) && NormalConeTree::isLeaf(e.part);
-    // Of a million triangles the node is in no cache, and it is opened soon.
+    // In a mesh of a million triangles the node is in no cache, and it will be opened soon.
     if (!NormalConeTree::isLeaf(child)) {
       const char* next = reinterpret_cast<const char*>((o.isScene ? work.scene : work.part) + child);
       for (std::size_t line = 0; line < sizeof(Node); line += 64)
@@ -168,7 +168,7 @@ NEARFIT_INLINE simd::Sweeps<Floats16> join(const simd::Sweeps<Floats8>& a, const
 }
 template <Aim kAim>
 NEARFIT_AVX512 void openAvx512(TraversalWork& work) noexcept {
-  // By whether the first node that is opened is the scene's, and the second.
+  // Indexed by whether the first node to open is the scene's, then the second.
   const Poses<Floats8> ofPart = posesOf(work.partFromScene), ofScene = posesOf(work.sceneFromPart);
   const Poses<Floats16> poses[2][2] = {{join(ofPart, ofPart), join(ofPart, ofScene)},
                                        {join(ofScene, ofPart), join(ofScene, ofScene)}};

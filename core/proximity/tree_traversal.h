@@ -11,17 +11,17 @@
 
 namespace nearfit {
 
-/// A child of each tree that may hold a minimum together, and where its bound stands.
+/// A child of each tree, which may hold a minimum together, and where their bounds are.
 struct EntryPair {
   std::uint32_t scene, part;                ///< Children, as in NormalConeTree::Node.
-  std::uint32_t sceneLane, partLane;        ///< kWidth * node + lane of their bounds.
-  float sceneSizeSquared, partSizeSquared;  ///< Of half diagonals [m^2].
+  std::uint32_t sceneLane, partLane;        ///< Where their bounds are: kWidth * node + lane.
+  float sceneSizeSquared, partSizeSquared;  ///< Squared half diagonals of their boxes [m^2].
 };
 
-/// What a traversal has before it: pairs to open, and pairs of leaves that it came to.
+/// State of a traversal: pairs waiting to be opened, and pairs of leaves reached.
 struct TraversalWork {
-  /// Pairs waiting up to which two are opened at once. Each alone leaves at most seven siblings waiting a
-  /// level, of two trees: the room beyond is never used up.
+  /// Max number of waiting pairs at which two are opened at once. Beyond, each leaves at most seven siblings
+  /// waiting per level of the two trees, so kRoom is never exceeded.
   static constexpr std::size_t kOpenTwo = 256;
   static constexpr std::size_t kRoom = kOpenTwo + 16 + std::size_t{7} * 2 * NormalConeTree::kMaxDepth + 1;
   static constexpr std::size_t kLeaves = 64;
@@ -34,25 +34,27 @@ struct TraversalWork {
   const NormalConeTree::Node *scene, *part;
   SinglePose sceneFromPart{RigidTransform{}}, partFromScene{RigidTransform{}};
   CullLimits limits;
-  CullSweep inScene, inPart;  ///< A sweep of the part, in either tree's frame; for swept openers.
+  CullSweep inScene, inPart;  ///< The part's sweep in either tree's frame; for swept openers.
 };
 
-/// Opens pairs, nearest the leaves first, until there are about kLeaves pairs of leaves, nothing is waiting,
+/// Opens pairs, those nearest the leaves first, until about kLeaves pairs of leaves are found, no pair waits,
 /// or maxNodePairs are opened. Never drops a pair of leaves that holds a minimum. Real-time safe.
 using Opener = void (*)(TraversalWork& work) noexcept;
 
-/// The opener for a level that the machine has.
+/// Returns the opener for an instruction set that the machine has.
 Opener opener(SimdLevel level) noexcept;
-/// The same for every pose along the sweep: about half as fast again.
+/// The same for every pose along the sweep; takes about half as long again.
 Opener sweptOpener(SimdLevel level) noexcept;
-/// For what comes within the cutoff of each other, whatever its direction: comes to pairs of faces only, and
-/// drops none of those. For surfaces without a side, and to tell whether bodies meet.
+/// Opener for faces within the cutoff of each other, whatever their directions: finds only pairs of faces,
+/// and drops none of those. For surfaces without a side, and to find out if bodies meet.
 Opener nearOpener(SimdLevel level) noexcept;
 
-/// Goes down two trees together and visits the pairs of leaves that survive the culls.
+/// Descends two trees together and visits the pairs of leaves that survive the culls. Real-time safe.
 class TreeTraversal {
  public:
+  /// @param scene, part    Not empty.
   /// @param sceneFromPart  Between the trees' centred frames.
+  /// @param work           One per thread; in use until the traversal ends.
   TreeTraversal(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
                 const CullLimits& limits, Opener open, TraversalWork& work) noexcept
       : open_(open), work_(work) {
@@ -63,13 +65,13 @@ class TreeTraversal {
     work.limits = limits;
   }
 
-  /// For a swept opener.
+  /// Sets the sweep for a swept opener.
   void setSweep(const CullSweep& inScene, const CullSweep& inPart) noexcept {
     work_.inScene = inScene;
     work_.inPart = inPart;
   }
 
-  /// Calls visit(EntryPair of two leaves) for each; stops after `maxNodePairs` and says false then.
+  /// Calls visit(EntryPair of two leaves) for each surviving pair. Returns false if `maxNodePairs` stops it.
   template <class Visit>
   bool run(Visit&& visit, std::uint64_t maxNodePairs = std::numeric_limits<std::uint64_t>::max()) noexcept {
     const std::uint32_t scene = work_.scene->child[0], part = work_.part->child[0];
@@ -82,7 +84,7 @@ class TreeTraversal {
     return goOn(visit, maxNodePairs);
   }
 
-  /// Goes on after run() said false, up to so many node pairs in all.
+  /// Continues after run() returned false, up to `maxNodePairs` in total.
   template <class Visit>
   bool goOn(Visit&& visit, std::uint64_t maxNodePairs) noexcept {
     work_.maxNodePairs = maxNodePairs;
@@ -96,12 +98,12 @@ class TreeTraversal {
     }
   }
 
-  /// From the next batch of leaves on, leaves out what is farther.
+  /// Lowers the cutoff [m] from the next batch of leaves on.
   void tighten(float cutoff) noexcept { work_.limits.cutoff = std::min(work_.limits.cutoff, cutoff); }
 
-  /// Lets the work of a visit count as so many pairs of nodes.
+  /// Counts the work of a visit as this many node pairs.
   void spend(std::uint64_t nodePairs) noexcept { work_.nodePairs += nodePairs; }
-  /// From within a visit: no more is opened, as if the bound of work were reached.
+  /// Call within a visit: opens no more pairs, as if the bound on the work were reached.
   void stop() noexcept { work_.maxNodePairs = work_.nodePairs; }
   std::uint64_t nodePairs() const noexcept { return work_.nodePairs; }
 

@@ -27,13 +27,13 @@ Two most(Two a, Two b) noexcept {
   return a > b ? a : b;
 }
 
-/// One triangle's corners over the other's face, and its sides through it.
+/// A triangle, to be tested against the face of another.
 struct Against {
   const TriangleCorners& corners;
-  const TriangleFrame& frame;  ///< Of the other.
+  const TriangleFrame& frame;  ///< Frame of the other.
 };
 
-/// The nearest of a triangle's corners to the inside of the other's face, or where a side passes through it.
+/// Closest points of a corner over the other's face, or the point where a side passes through the face.
 ClosestPoints closestToFace(const Against& t) noexcept {
   ClosestPoints best{{}, {}, std::numeric_limits<double>::infinity()};
   std::array<TriangleFrame::Coordinates, 3> at;
@@ -53,7 +53,7 @@ ClosestPoints closestToFace(const Against& t) noexcept {
   return best;
 }
 
-/// gapOfTriangles, where `squaredGap(own, other)` is what own's directions tell.
+/// gapOfTriangles, with `squaredGap(own, other)` the squared gap along own's directions.
 template <class Of, class T>
 double gapBy(Of squaredGap, const T& a, const T& b, double enough, bool& isSecond) noexcept {
   const double first = isSecond ? squaredGap(b, a) : squaredGap(a, b);
@@ -75,12 +75,12 @@ ClosestPoints closestOfSegments(const glm::dvec3& a0, const glm::dvec3& a1, cons
   const auto shareOfB = [&](const glm::dvec3& p) {
     return vv > 0.0 ? std::clamp(glm::dot(p - b0, v) / vv, 0.0, 1.0) : 0.0;
   };
-  // By the product of the directions, which says more of a small angle than the difference of squares.
+  // The cross product of the directions tells a small angle better than a difference of squares.
   const double start = nn > 0.0 ? std::clamp(glm::dot(glm::cross(w, v), normal) / nn, 0.0, 1.0) : 0.0;
   const glm::dvec3 q = b0 + shareOfB(a0 + start * u) * v;
   const glm::dvec3 p = a0 + shareOfA(q) * u;
   ClosestPoints best{p, q, squaredDistance(p, q)};
-  // Nearly parallel ones are nearest at an end, to rounding.
+  // Nearly parallel segments are nearest at an end, to rounding.
   constexpr double kParallel = 1e-14;
   if (nn > kParallel * uu * vv) return best;
   for (const glm::dvec3& end : {a0, a1}) {
@@ -183,7 +183,7 @@ double gapOfTriangles(const DirectedTriangle& a, const DirectedTriangle& b, doub
 
 double gapOfTriangles(const TriangleCorners& a, const TriangleCorners& b, double enough,
                       bool& isSecond) noexcept {
-  // The second's directions are seldom needed.
+  // The second triangle's directions are seldom needed.
   return gapBy([](const TriangleCorners& own,
                   const TriangleCorners& other) { return SeparatingDirections(own).squaredGap(other); },
                a, b, enough, isSecond);

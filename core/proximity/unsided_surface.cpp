@@ -11,7 +11,7 @@
 namespace nearfit {
 namespace {
 
-/// Finds what of a mesh can be touched.
+/// Finds the features of a mesh that can be touched, and their owners.
 class Owners {
  public:
   Owners(const TriangleMesh& mesh, const NormalConeTree& tree)
@@ -43,7 +43,7 @@ class Owners {
     return length > 0.0 ? d / length : glm::dvec3(0.0);
   }
 
-  /// Two faces that lie in one plane on either side of the edge.
+  /// True if the edge has two faces that lie in one plane, on either side of it.
   bool isFlat(std::uint32_t edge) const {
     const auto faces = mesh_.facesOfEdge(edge);
     if (faces.size() != 2) return false;
@@ -60,8 +60,9 @@ class Owners {
     return glm::length(normals[0] + normals[1]) < kFlatTolerance;
   }
 
-  /// A vertex sticks out where the directions of its edges fit in less than a half-space: elsewhere whatever
-  /// it is nearest to is as near to a face or an edge at it.
+  /// Gives a vertex that sticks out to a triangle. A vertex sticks out if the directions of its edges fit in
+  /// less than a half-space. Elsewhere, a point nearest to the vertex is as near to one of its faces or
+  /// edges.
   void addVertex(std::uint32_t v, std::vector<std::uint8_t>& owned) {
     directions_.clear();
     std::uint32_t owner = static_cast<std::uint32_t>(owned.size());

@@ -7,7 +7,7 @@ namespace nearfit {
 namespace {
 
 constexpr double kFirstBound = 1e-7;  ///< Upper bound of bin 0 [s].
-constexpr double kBinRatio = 1.01;    ///< Of the bounds of two neighbouring bins.
+constexpr double kBinRatio = 1.01;    ///< Ratio of the upper bounds of neighbouring bins.
 
 /// Upper bound of a bin [s], padded so that rounding in log and pow never makes it too small.
 double upperBound(std::size_t bin) noexcept {
@@ -35,7 +35,7 @@ double LatencyHistogram::percentile(double fraction) const noexcept {
   if (count_ == 0) return 0.0;
   const double rank = std::max(1.0, std::ceil(std::clamp(fraction, 0.0, 1.0) * static_cast<double>(count_)));
   double seen = 0.0;
-  // The last bin also holds everything that is too long for the others: only the maximum bounds it.
+  // The last bin also holds all longer durations; only the max bounds it.
   for (std::size_t bin = 0; bin + 1 < kBins; ++bin) {
     seen += static_cast<double>(bins_[bin]);
     if (seen >= rank) return std::min(upperBound(bin), max_);

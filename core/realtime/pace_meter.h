@@ -5,24 +5,26 @@
 
 namespace nearfit {
 
-/// How regularly something comes: means over the last few dozen of the time between two, and of how far that
-/// is off from its mean. Trivially copyable; real-time safe.
+/// Measures how regularly events arrive: mean interval and mean deviation from it, over the last few dozen
+/// events. Trivially copyable; real-time safe.
 class PaceMeter {
  public:
-  /// @param time  When it came, by a clock that never goes back [s]. One at the time of the last is the same.
+  /// Records an event.
+  /// @param time  Arrival time on a monotonic clock [s]. A time not after the last one counts as
+  ///              the same event.
   void see(double time) noexcept {
     const double passed = time - last_;
     if (count_ > 0 && !(passed > 0.0)) return;
     last_ = time;
     if (++count_ < 2) return;
-    // The first few count alike.
+    // A plain mean until the memory is full.
     const double share = count_ - 1 < kMemory ? 1.0 / static_cast<double>(count_ - 1) : 1.0 / kMemory;
     interval_ += share * (passed - interval_);
     jitter_ += share * (std::abs(passed - interval_) - jitter_);
   }
-  /// Mean time between two [s]; 0 before the second.
+  /// Mean time between events [s]; 0 before the second event.
   double interval() const noexcept { return interval_; }
-  /// Mean distance of that from its mean [s].
+  /// Mean absolute deviation of the intervals from their mean [s].
   double jitter() const noexcept { return jitter_; }
 
  private:

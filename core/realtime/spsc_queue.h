@@ -7,15 +7,15 @@
 
 namespace nearfit {
 
-/// Bounded queue from one producer thread to one consumer thread, without locks; counts what it drops when
-/// full.
+/// Bounded lock-free queue from one producer thread to one consumer thread. Counts the values dropped while
+/// it is full. Real-time safe.
 template <class T, std::size_t kCapacity>
 class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>);
   static_assert((kCapacity & (kCapacity - 1)) == 0, "capacity is a power of two");
 
  public:
-  /// Producer. False, and one more in dropped(), when the queue is full.
+  /// Producer: appends `value`. Returns false and counts a drop if the queue is full.
   bool push(const T& value) noexcept {
     const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
     if (tail - head_.load(std::memory_order_acquire) == kCapacity) {
@@ -26,7 +26,7 @@ class SpscQueue {
     tail_.store(tail + 1, std::memory_order_release);
     return true;
   }
-  /// Consumer. False when the queue is empty.
+  /// Consumer: takes the oldest value. Returns false if the queue is empty.
   bool pop(T& value) noexcept {
     const std::uint64_t head = head_.load(std::memory_order_relaxed);
     if (head == tail_.load(std::memory_order_acquire)) return false;
@@ -34,6 +34,7 @@ class SpscQueue {
     head_.store(head + 1, std::memory_order_release);
     return true;
   }
+  /// Any thread: values dropped so far.
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:

@@ -29,13 +29,13 @@ std::string thisBoot() {
   return id;
 }
 
-/// Of proc(5)'s stat.
+/// From /proc/<pid>/stat (proc(5)).
 struct ProcessState {
-  bool hasEnded = false;  ///< Only its parent's look at how is missing: a zombie.
+  bool hasEnded = false;  ///< A zombie, waiting for its parent, or dead.
   std::uint64_t start = 0;
 };
 
-/// Fields 3 and 22; the name before them stands in parentheses and may hold anything.
+/// Reads fields 3 and 22. The name before them is in parentheses and may contain anything.
 std::optional<ProcessState> stateOf(int pid) {
   const std::string stat = wholeText(fmt::format("/proc/{}/stat", pid));
   const std::size_t name = stat.rfind(')');

@@ -7,21 +7,23 @@
 
 namespace nearfit {
 
-/// Which process of which boot: a process id alone is given again.
+/// Identifies a process across boots; process IDs alone are reused.
 struct ProcessIdentity {
-  std::string boot;  ///< First digits of the kernel's id of this boot, hexadecimal.
+  std::string boot;  ///< First digits of the kernel's boot ID, hexadecimal.
   int pid = 0;
-  std::uint64_t start = 0;  ///< When it began, in clock ticks since the boot.
+  std::uint64_t start = 0;  ///< Start time, in clock ticks since boot.
   bool operator==(const ProcessIdentity&) const = default;
 };
 
+/// Identity of the calling process.
 ProcessIdentity thisProcess();
-/// Whether the process still runs; one that has ended and whose parent has not asked how yet does not. One
-/// that cannot be looked at is taken for running: better too careful.
+/// True if the process still runs. A zombie counts as ended. A process that cannot be inspected counts as
+/// running, to be safe.
 bool isRunning(const ProcessIdentity& process);
 
-/// As a piece of a file name: "0f3a9c12-4711-88123".
+/// Formats an identity for use in a file name: "0f3a9c12-4711-88123".
 std::string textOf(const ProcessIdentity& process);
+/// Parses textOf(); std::nullopt if the text is invalid.
 std::optional<ProcessIdentity> processFromText(std::string_view text);
 
 }  // namespace nearfit

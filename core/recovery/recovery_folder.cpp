@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 const char* const kJournalEnding = ".nearfit";
 const char* const kAsideEndings[] = {".damaged", ".older", ".discarded"};
 
-/// "<process>.nearfit", or "<process>.<number>.nearfit" of one taken over.
+/// Parses "<process>.nearfit", or "<process>.<number>.nearfit" for a journal taken over.
 std::optional<ProcessIdentity> ownerOf(const fs::path& journal) {
   if (journal.extension() != kJournalEnding) return std::nullopt;
   const std::string name = journal.stem().string();
@@ -64,7 +64,7 @@ void RecoveryFolder::write(const Scene& scene, const JournalHead& head) {
   const std::string text = journalText(scene, head);
   std::error_code failure;
   fs::create_directories(folder_.parent_path(), failure);
-  // Private from its first moment on.
+  // Private from the start.
   if (::mkdir(folder_.c_str(), S_IRWXU) == 0 || fs::is_directory(folder_, failure))
     fs::permissions(folder_, fs::perms::owner_all, failure);
   atomicWrite(ownJournal(), text, FileAccess::Private);
@@ -79,7 +79,7 @@ void RecoveryFolder::clear() noexcept {
 }
 
 bool RecoveryFolder::claim(fs::path& journal) {
-  // A rename happens once: of two processes that try, one finds nothing there.
+  // Renames are atomic: if two processes try, one of them fails.
   for (int number = 1;; ++number) {
     const fs::path mine = folder_ / fmt::format("{}.{}{}", textOf(self_), number, kJournalEnding);
     std::error_code failure;
@@ -121,7 +121,7 @@ FoundWork RecoveryFolder::takeLost() {
         examine(journal, found);
     }
   } catch (...) {
-    // What is found by then counts; the rest stays for the next time.
+    // Return what was found so far; the rest stays for the next time.
   }
   std::ranges::sort(found.lost, std::greater<>(), &LostWork::time);
   return found;
@@ -142,7 +142,7 @@ void RecoveryFolder::sweep() noexcept {
     for (const fs::path& file : filesIn(folder_)) {
       std::error_code failure;
       const bool isAside = std::ranges::find(kAsideEndings, file.extension()) != std::end(kAsideEndings);
-      // Of a process that died while it wrote.
+      // Left by a process that died while writing.
       const bool isHalfWritten = file.filename().string().starts_with(".nearfit-");
       if ((isAside || isHalfWritten) && fs::last_write_time(file, failure) < limit && !failure)
         fs::remove(file, failure);
@@ -154,7 +154,7 @@ void RecoveryFolder::sweep() noexcept {
 fs::path userRecoveryFolder() {
   const char* state = std::getenv("XDG_STATE_HOME");
   const char* home = std::getenv("HOME");
-  // As the XDG base directory specification has it, a relative path counts for nothing.
+  // The XDG base directory specification ignores relative paths.
   if (state != nullptr && fs::path(state).is_absolute()) return fs::path(state) / "nearfit" / "recovery";
   if (home == nullptr || *home == '\0') return {};
   return fs::path(home) / ".local" / "state" / "nearfit" / "recovery";

@@ -12,45 +12,46 @@
 
 namespace nearfit {
 
-/// Work that a process took with it when it died.
+/// Work lost when a process died.
 struct LostWork {
   std::filesystem::path journal;
   JournalHead head;
-  std::chrono::system_clock::time_point time;  ///< Of the last change that was kept.
+  std::chrono::system_clock::time_point time;  ///< Of the last change kept.
 };
 
-/// What a look at the folder found.
+/// Result of RecoveryFolder::takeLost().
 struct FoundWork {
   std::vector<LostWork> lost;                  ///< Newest first.
-  std::vector<std::filesystem::path> damaged;  ///< Kept aside there.
-  /// There are journals of other processes that run, of which one may be about to end.
+  std::vector<std::filesystem::path> damaged;  ///< Moved to these names in the folder.
+  /// True if other running processes have journals; one of them may be about to die.
   bool areOthersRunning = false;
 };
 
-/// The user's folder of recovery journals, one a process, its name saying whose it is: no process touches
-/// that of another that runs. Folder and journals are the user's alone to read. Any thread, but one at a time
-/// on one journal.
+/// The user's folder of recovery journals, one per process. A journal's name identifies its process; no
+/// process touches the journal of another that runs. Only the user can read folder and journals. Thread-safe
+/// as long as no two threads use the same journal.
 class RecoveryFolder {
  public:
-  /// How long what was put aside is kept.
+  /// How long files are kept after being set aside.
   static constexpr std::chrono::hours kKeptAside{24 * 30};
 
-  /// @param folder  Made when it is first written to.
-  /// @param self    Whose journal this writes; another only in tests.
+  /// @param folder  Created by the first write().
+  /// @param self    Owner of the journal written here; other values are for tests.
   explicit RecoveryFolder(std::filesystem::path folder, ProcessIdentity self = thisProcess());
 
-  /// Replaces this process's journal, as one step. Throws FileError and leaves the old one.
+  /// Replaces this process's journal atomically. Throws FileError and keeps the old one.
   void write(const Scene& scene, const JournalHead& head);
-  /// Removes this process's journal: there is nothing to lose.
+  /// Removes this process's journal: nothing can be lost.
   void clear() noexcept;
 
-  /// Takes over the journals of processes that have died, each by one process only, and says which hold what
-  /// was lost. What its file holds too is removed; what its file was saved after, and what is damaged, is put
-  /// aside. What was put aside long ago is removed. Never throws: a folder that cannot be read holds nothing.
+  /// Takes over the journals of dead processes and returns the lost work. Each journal goes to one process
+  /// only. Removes journals whose content is in their scene file. Sets aside journals that are damaged or
+  /// older than their scene file, and removes what was set aside before kKeptAside. Never throws: an
+  /// unreadable folder counts as empty.
   FoundWork takeLost();
-  /// Removes a journal whose work is restored and kept otherwise.
+  /// Removes a journal whose work was restored and is safe elsewhere.
   void forget(const LostWork& work) noexcept;
-  /// Puts a journal aside that the user does not want; it can be had back for kKeptAside.
+  /// Sets aside a journal that the user does not want; it can be recovered for kKeptAside.
   void discard(const LostWork& work) noexcept;
 
   const std::filesystem::path& path() const noexcept { return folder_; }
@@ -65,8 +66,7 @@ class RecoveryFolder {
   ProcessIdentity self_;
 };
 
-/// The folder of this user: below $XDG_STATE_HOME, else ~/.local/state. Empty when there is neither that nor
-/// a home.
+/// The user's recovery folder, below $XDG_STATE_HOME, else ~/.local/state. Empty if neither is defined.
 std::filesystem::path userRecoveryFolder();
 
 }  // namespace nearfit

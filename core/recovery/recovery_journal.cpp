@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Names the meshes of a scene file from the root, so that the scene means the same wherever it lies.
+/// Makes the mesh paths of a scene file absolute, so that the scene can be moved.
 void makePathsAbsolute(Json& scene, const fs::path& folder) {
   for (Json& part : scene.at("parts")) {
     Json& mesh = part.at("mesh");
@@ -27,7 +27,7 @@ void makePathsAbsolute(Json& scene, const fs::path& folder) {
   }
 }
 
-/// A file's JSON in the order that it stands there. Throws FileError, nlohmann::json::exception.
+/// Reads JSON, keeping the order of keys. Throws FileError, nlohmann::json::exception.
 Json readOrdered(const fs::path& file) {
   const std::vector<char> bytes = readWholeFile(file, {});
   return Json::parse(bytes.begin(), bytes.end());
@@ -38,7 +38,7 @@ Json readOrdered(const fs::path& file) {
                   "open the scene as it was last saved");
 }
 
-/// Runs `work` on JSON that may be anything.
+/// Runs `work` on untrusted JSON; JSON exceptions become "damaged".
 template <typename Work>
 auto guarded(const fs::path& journal, Work work) {
   try {
@@ -51,11 +51,11 @@ auto guarded(const fs::path& journal, Work work) {
 }  // namespace
 
 std::string journalText(const Scene& scene, const JournalHead& head) {
-  // Anywhere: the paths are made absolute below.
+  // Any folder will do: paths are made absolute below.
   const fs::path place = "/journal.nearfit";
   Json json = Json::parse(sceneFileText(scene, place));
   makePathsAbsolute(json, meshFolder(place));
-  // Whoever restores it may stand in another folder.
+  // The process that restores it may have another working directory.
   const std::string path = head.scene.empty() ? std::string() : normalisedPath(head.scene).string();
   if (!isUtf8(path)) {
     throw FileError(printableText(path), "the name of this scene file or of a folder above it is not UTF-8",
@@ -92,7 +92,7 @@ bool isSaved(const fs::path& journal, const JournalHead& head) {
   } catch (const FileError&) {
   } catch (const nlohmann::json::exception&) {
   }
-  return false;  // The file is gone, or is no scene: all that there is is the journal.
+  return false;  // The file is gone or not a scene: only the journal has the work.
 }
 
 }  // namespace nearfit

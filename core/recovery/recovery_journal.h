@@ -6,28 +6,30 @@
 
 #include "core/scene/scene.h"
 
-/// A recovery journal: a scene file (scene_file.h) with absolute paths to its meshes and one key more:
+/// A recovery journal is a scene file (scene_file.h) with absolute mesh paths and one more key:
 ///
 ///     "recovery": {
-///       "scene": "/home/me/pump.nearfit",   the file that the scene is saved in, or null
-///       "changes": 12,                      since then
-///       "sha256": "9f86d0..."               of the text of this file without this key
+///       "scene": "/home/me/pump.nearfit",   the scene's file, or null if it was never saved
+///       "changes": 12,                      number of steps since the last save
+///       "sha256": "9f86d0..."               of this file's text without this key
 ///     }
 namespace nearfit {
 
+/// Summary of a journal.
 struct JournalHead {
-  std::filesystem::path scene;  ///< Empty when it was never saved.
+  std::filesystem::path scene;  ///< The scene's file; empty if it was never saved.
+  /// Steps since the last save; number of parts.
   std::size_t changes = 0, parts = 0;
 };
 
-/// The text of a journal. Throws FileError when a path cannot be written as JSON.
+/// The text of a journal. `head.parts` is ignored. Throws FileError if a path is not UTF-8.
 std::string journalText(const Scene& scene, const JournalHead& head);
 
-/// What a journal is of, once it is checked to be whole; its parts are counted. The scene itself is read by
-/// readSceneFile. Throws FileError when it is damaged or cannot be read.
+/// Checks that a journal is intact and returns its summary. The scene itself is read by readSceneFile().
+/// Throws FileError if the journal is damaged or cannot be read.
 JournalHead readJournalHead(const std::filesystem::path& journal);
 
-/// Whether the journal's scene is the one that its file holds: nothing of it was lost.
+/// True if the scene's file holds the journal's scene, so that nothing is lost.
 bool isSaved(const std::filesystem::path& journal, const JournalHead& head);
 
 }  // namespace nearfit

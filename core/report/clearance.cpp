@@ -16,7 +16,7 @@
 namespace nearfit {
 namespace {
 
-/// Of a pair that are counted: beyond, "more than" is all that a table needs.
+/// Max minima counted per pair; for more, a table only needs "more than".
 constexpr std::size_t kMaxMinima = 10'000;
 constexpr std::uint64_t kAnyWork = std::numeric_limits<std::uint64_t>::max();
 
@@ -75,7 +75,7 @@ void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clear
       std::span(snapshot.released)
           .first(std::min<std::size_t>(snapshot.releasedCount, ServoSnapshot::kMaxReleased));
   for (PartClearance& each : clearances) {
-    // What is released has minima as well, of surfaces that pass through each other.
+    // Released parts have minima too, between surfaces that pass through each other.
     if (!each.isBetweenSolids || std::ranges::find(released, each.other) != released.end()) continue;
     const Lmd* nearest = nullptr;
     std::size_t count = 0;

@@ -11,40 +11,41 @@
 
 namespace nearfit {
 
-/// How near one part is to another. World frame.
+/// Clearance between one part and another. World frame.
 struct PartClearance {
   PartId other{};
-  /// Least distance between the surfaces, however far [m]; 0 where the parts overlap or touch.
+  /// Min distance between the surfaces, regardless of the cutoff [m]; 0 if the parts overlap or touch.
   double distance = 0.0;
-  /// Where the surfaces are nearest [m]: points of the part that was asked for, and of the other. Where one
-  /// lies inside the other they are of the surfaces too.
+  /// Nearest points of the surfaces, on the queried part and on the other [m]; on the surfaces even if one
+  /// part is inside the other.
   glm::dvec3 partPoint{0.0}, otherPoint{0.0};
-  std::size_t minima = 0;      ///< Local minimum distances within the cutoff; 0 where the parts overlap.
-  bool isEveryMinimum = true;  ///< False where there are more minima than the search holds.
-  /// Decided exactly (interference.h); `scene` there is the other part.
+  std::size_t minima = 0;      ///< Number of LMDs within the cutoff; 0 if the parts overlap.
+  bool isEveryMinimum = true;  ///< False if there are more minima than the search holds.
+  /// Exact (interference.h); its `scene` is the other part.
   InterferenceKind overlap = InterferenceKind::Disjoint;
-  /// Both are solid throughout: then the least local minimum distance is the least distance.
+  /// True if both are solid throughout: then the min LMD equals the min distance.
   bool isBetweenSolids = false;
 
   bool isOverlapping() const noexcept { return overlap != InterferenceKind::Disjoint; }
 };
 
-/// Clearances of a part against each other visible one, in the scene's order. An empty mesh has none.
-/// @param cutoff  For the number of minima [m]; > 0.
-/// Blocking (milliseconds a pair; hierarchies that are missing are built): not for the GUI's thread. Throws
-/// UsageError when there is no such part; Cancelled, between two pairs.
+/// Clearances of a part to all other visible parts, in scene order. Empty if the part's mesh is empty.
+/// @param cutoff  For counting minima [m]; finite, > 0.
+/// Blocking (milliseconds per pair; builds missing hierarchies): not for the GUI thread. Throws UsageError if
+/// there is no such part or the cutoff is invalid; Cancelled, between two pairs.
 std::vector<PartClearance> clearancesOf(const Scene& scene, PartId part, double cutoff,
                                         const ProgressCallback& progress = {});
 
-/// Brings clearances of the moving part up to date where a tick of the servo knows: pairs of solids within
-/// its cutoff. Others, and what overlaps, stay as they are. At once: for the GUI's thread.
+/// Updates clearances of the moving part from a servo tick, for pairs of solids within its cutoff. Other
+/// pairs stay unchanged, as do parts that the servo has released because they overlap. Fast enough for the
+/// GUI thread.
 void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clearances) noexcept;
 
 /// "no", "surfaces meet", "inside the other" or "the other inside".
 const char* nameOf(InterferenceKind overlap) noexcept;
 
-/// The same as CSV (UTF-8): `part`, `other`, `distance` [m], the points `part_x ... other_z` [m], `minima`,
-/// `every_minimum` (0 or 1), `overlap` as nameOf has it. One row a clearance.
+/// The clearances as CSV (UTF-8), one row each: `part`, `other`, `distance` [m], the points `part_x ...
+/// other_z` [m], `minima`, `every_minimum` (0 or 1), `overlap` (nameOf).
 std::string clearanceCsv(const Scene& scene, PartId part, const std::vector<PartClearance>& clearances);
 
 }  // namespace nearfit

@@ -5,8 +5,8 @@
 
 namespace nearfit {
 
-/// A field of a CSV file as RFC 4180 has it: in quotes, those inside doubled, where it holds a comma, a
-/// quote, a line break or blanks at its ends; else as it is.
+/// Formats a CSV field (RFC 4180). Quotes it, doubling quotes inside, if it contains a comma, a quote, a line
+/// break, or leading or trailing blanks.
 inline std::string csvField(std::string_view text) {
   const bool isPlain = text.find_first_of(",\"\r\n") == text.npos &&
                        (text.empty() || (text.front() != ' ' && text.back() != ' '));

@@ -8,7 +8,7 @@
 namespace nearfit {
 namespace {
 
-/// Work space beyond the limit on minima: a flat region is found in pieces.
+/// Work space relative to the limit on minima: a flat region is found in several pieces.
 constexpr std::size_t kHeadroom = 4;
 
 }  // namespace
@@ -24,7 +24,7 @@ LmdSet LmdCollector::grow(const BodyPairQuery& query, Find&& find) {
     set.isComplete = result.status == QueryStatus::Complete;
     if (set.isComplete || capacity_ / kHeadroom >= limit_) {
       set.lmds.resize(result.count);
-      // The pose may be any: where bodies interpenetrate nothing is known of the least distance.
+      // The bodies may interpenetrate, so there is no lower bound on the min distance.
       markBlocked(query.scene, query.part, query.sceneFromPart, set.lmds, 0.0, scratch_);
       return set;
     }

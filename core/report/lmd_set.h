@@ -13,37 +13,37 @@ namespace nearfit {
 
 /// All minima of one query.
 struct LmdSet {
-  std::vector<Lmd> lmds;   ///< Nearest first, points in the scene mesh's frame; blocked ones are marked.
-  bool isComplete = true;  ///< False when there are more than the collector's limit: its nearest are there.
-  double queryTime = 0.0;  ///< Of the query that gave this set alone [s].
+  std::vector<Lmd> lmds;   ///< Nearest first, in the scene mesh's frame; blocked ones are marked.
+  bool isComplete = true;  ///< False if there are more than the limit; the nearest are kept.
+  double queryTime = 0.0;  ///< Duration of the final query alone [s].
 };
 
-/// Finds whole sets for reports, with as much storage as they need. Not for servo code: it allocates.
+/// Finds complete sets of minima for reports, growing its storage as needed. Allocates: not for servo code.
 class LmdCollector {
  public:
-  /// @param limit     Minima that a set may hold; bounds memory at some kilobytes each.
-  /// @param capacity  Minima to begin with room for; > 0.
+  /// @param limit     Max minima in a set; bounds memory to some kilobytes each.
+  /// @param capacity  Initial room for minima; > 0.
   explicit LmdCollector(std::size_t limit, std::size_t capacity = LmdScratch::kDefaultCapacity)
       : limit_(limit), capacity_(capacity), scratch_(capacity) {}
 
-  /// As findLmds, and marks what is blocked; storage that proves too small is grown, and the query run again.
+  /// Runs findLmds() and marks blocked minima. Grows the storage and repeats the query if it was too small.
   LmdSet collect(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
                  double cutoff);
 
-  /// The same by following the part from pose to pose: what can become a minimum near a pose is searched
-  /// ahead, and the time of that is no part of `queryTime`.
+  /// Like collect(), but follows the part from pose to pose: searches ahead for what can become a minimum
+  /// near a pose. That time is not part of `queryTime`.
   LmdSet collectTracked(const NormalConeTree& scene, const NormalConeTree& part,
                         const RigidTransform& sceneFromPart, double cutoff);
 
  private:
-  /// @param find  (LmdScratch&, std::span<Lmd>) to LmdResult.
+  /// @param find  Maps (LmdScratch&, std::span<Lmd>) to LmdResult.
   template <class Find>
   LmdSet grow(const BodyPairQuery& query, Find&& find);
 
   std::size_t limit_;
   std::size_t capacity_;
   LmdScratch scratch_;
-  std::optional<LmdTracker> tracker_;  ///< Of the trees last followed.
+  std::optional<LmdTracker> tracker_;  ///< For the hierarchies last followed.
   CandidateList list_;
   const NormalConeTree *followedScene_ = nullptr, *followedPart_ = nullptr;
 };

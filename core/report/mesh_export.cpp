@@ -20,10 +20,10 @@ static_assert(std::endian::native == std::endian::little, "binary files are writ
 
 constexpr std::size_t kStlHeaderBytes = 80, kStlTriangleBytes = 50;
 constexpr std::size_t kPlyVertexBytes = 3 * sizeof(double) + 3, kPlyFaceBytes = 1 + 3 * sizeof(std::uint32_t);
-/// Of a line of an OBJ file, about.
+/// Approximate length of a line in an OBJ file.
 constexpr std::size_t kObjVertexBytes = 58, kObjFaceBytes = 24;
 
-/// Collects pieces for the file, and reports how far the work is.
+/// Buffers the file's content and reports progress.
 class MeshFile {
  public:
   MeshFile(const std::filesystem::path& file, std::uint64_t steps, const ProgressCallback& progress)
@@ -36,8 +36,7 @@ class MeshFile {
     std::memcpy(bytes, &value, sizeof(T));
     text_.append(bytes, sizeof(T));
   }
-  /// After each vertex or face: some thousand of them for each call of the system and look at the user's
-  /// wish.
+  /// Call after each vertex or face. Writes and checks for cancellation once per several thousand.
   void step() {
     constexpr std::size_t kBlock = 1 << 18;
     ++done_;

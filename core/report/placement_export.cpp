@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kPlacementVersion = 1;
-/// To each other part: keeps a file of a slip of the cutoff within some 10 MB a part.
+/// Max minima to each other part: keeps the file within some 10 MB per part if the cutoff is wrong.
 constexpr std::size_t kMaxLmds = 50'000;
 
 Json pointJson(const glm::dvec3& p) {
@@ -104,7 +104,7 @@ Json clearanceJson(const Scene& scene, const Part& moving) {
   return {{"cutoff", cutoff}, {"distance", least}, {"mass", massJson(moving)}, {"to", others}};
 }
 
-/// The moving part where it is now.
+/// The moving part at its present pose.
 Part movedPart(const Part& part, const RigidTransform& worldFromMoving) {
   Part moved = part;
   moved.worldFromPart = checkedPose(worldFromMoving);

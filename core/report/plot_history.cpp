@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Gathers what falls into one column.
+/// Collects the samples of one column.
 class Column {
  public:
   void take(double time, double value) {
@@ -26,7 +26,7 @@ class Column {
     if (!hasValue_ || value > high_.value) high_ = {time, value};
     hasValue_ = true;
   }
-  /// Appends what was gathered, in the order of time, and begins anew.
+  /// Appends the collected points in order of time, and starts over.
   void flush(std::vector<PlotPoint>& out) {
     const std::size_t begin = out.size();
     if (hasValue_) out.push_back(low_);
@@ -76,7 +76,7 @@ void PlotHistory::add(const PlotSample& sample) {
 }
 
 void PlotHistory::addGap() {
-  // Between the newest and the first that can come after what is missing.
+  // Halfway to the earliest sample that can follow the gap.
   constexpr double kHalfTick = 5e-4;
   if (isEmpty()) return;
   PlotSample nothing;

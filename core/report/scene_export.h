@@ -11,7 +11,7 @@
 
 namespace nearfit {
 
-/// What can be taken away of a scene.
+/// Kinds of files that a scene can be exported to.
 enum class ExportKind : std::uint8_t {
   PlacementJson,  ///< placement_export.h
   PlacementCsv,   ///< placement_table.h
@@ -20,21 +20,22 @@ enum class ExportKind : std::uint8_t {
   MeshPly,
 };
 
-/// What a file of that kind ends in: "json", "csv", "stl", "obj" or "ply".
+/// File name extension: "json", "csv", "stl", "obj" or "ply".
 std::string_view extensionOf(ExportKind kind) noexcept;
-/// The kind that a file's name tells; nothing where it tells none.
+/// The kind that a file's extension stands for, in any case; std::nullopt if none.
 std::optional<ExportKind> exportKindOf(const std::filesystem::path& file);
-/// The kind of mesh; nothing for placements.
+/// The kind of mesh file; std::nullopt for placements.
 std::optional<MeshFileKind> meshKindOf(ExportKind kind) noexcept;
 
+/// What to export.
 struct SceneExport {
   ExportKind kind = ExportKind::PlacementJson;
-  double metresPerUnit = 1e-3;  ///< Of a mesh file's numbers; placements are in metres.
+  double metresPerUnit = 1e-3;  ///< Unit of a mesh file's numbers [m]; placements are in metres.
   std::vector<PartId> only;     ///< Parts of a mesh; empty: all visible ones. Placements have all parts.
 };
 
-/// Writes it atomically. Blocking: builds hierarchies that a placement with clearances needs.
-/// @param worldFromMoving  Where the moving part is; unused when there is none.
+/// Exports a scene to a file, atomically. Blocking: a JSON placement builds missing hierarchies.
+/// @param worldFromMoving  Present pose of the moving part; unused if there is none.
 /// Throws FileError, UsageError, Cancelled (meshes).
 void exportScene(const Scene& scene, const RigidTransform& worldFromMoving, const SceneExport& what,
                  const std::filesystem::path& file, const ProgressCallback& progress = {});

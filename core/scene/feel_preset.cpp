@@ -19,7 +19,7 @@ FeelPreset usual(const char* name, double stiffness, const CouplingSettings& cou
 }  // namespace
 
 const std::array<FeelPreset, 3>& usualFeelPresets() {
-  // About a fifth and a half of what the usual device allows; the damping calms what is held loosely.
+  // About a fifth and a half of what the default device allows. The damping steadies a loosely held part.
   static const std::array<FeelPreset, 3> presets = {usual("Soft", 40.0,
                                                           {.isAutomatic = false,
                                                            .stiffness = 250.0,
@@ -38,7 +38,7 @@ const std::array<FeelPreset, 3>& usualFeelPresets() {
 
 HapticSettings withPreset(const HapticSettings& settings, const FeelPreset& preset) noexcept {
   HapticSettings next = settings;
-  // Numbers that are not used are no part of how it feels.
+  // Unused numbers do not affect the feel.
   next.coupling.isAutomatic = preset.settings.coupling.isAutomatic;
   if (!next.coupling.isAutomatic) next.coupling = preset.settings.coupling;
   next.springs = preset.settings.springs;

@@ -7,8 +7,8 @@
 
 namespace nearfit {
 
-/// The name that is wanted, or where it is taken the first free one with a number from 2 behind it, in place
-/// of a number that it has; cut at a character's end to keep within the limit [bytes of UTF-8].
+/// Returns `wanted`, or if it is taken, the first free name "wanted 2", "wanted 3", ... A number that
+/// `wanted` ends in is replaced. The stem is cut between characters to fit `maxBytes` [bytes of UTF-8].
 std::string freeName(const std::string& wanted, const std::unordered_set<std::string_view>& taken,
                      std::size_t maxBytes);
 

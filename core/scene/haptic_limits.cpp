@@ -48,7 +48,7 @@ void checkCoupling(const CouplingSettings& coupling) {
 }
 
 void checkGravity(const glm::dvec3& gravity) {
-  // By coordinate first: a length overflows where they do not.
+  // Check coordinates first: the length of huge ones would overflow.
   for (const double coordinate : {gravity.x, gravity.y, gravity.z})
     checkWithin("weight.gravity", coordinate, -kMaxGravity, kMaxGravity, "m/s^2");
   checkWithin("weight.gravity", glm::length(gravity), 0.0, kMaxGravity, "m/s^2");

@@ -7,7 +7,7 @@
 namespace nearfit {
 namespace {
 
-/// How long one who waits for another's work may take to see that it was cancelled itself.
+/// Max delay before a waiting thread notices its own cancellation.
 constexpr std::chrono::milliseconds kPatience{20};
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
@@ -22,7 +22,7 @@ std::optional<HierarchyOrigin> HierarchyOnDemand::origin() const {
 
 const NormalConeTree& HierarchyOnDemand::make(const TriangleMesh& mesh, const ProgressCallback& progress) {
   waitForTurn(progress);
-  // From here on this thread is the only one at it, or the hierarchy is there.
+  // Now either this thread alone makes the hierarchy, or it is ready.
   if (const NormalConeTree* tree = ready_.load(std::memory_order_acquire)) return *tree;
   const auto end = [this] {
     const std::lock_guard lock(mutex_);
@@ -63,7 +63,7 @@ void HierarchyOnDemand::findOrBuild(const TriangleMesh& mesh, const ProgressCall
   origin_ = {found.has_value(), secondsSince(start)};
   ready_.store(&*tree_, std::memory_order_release);
   if (!found && keep_) keep_(*tree_);
-  // Neither is asked again; what they hold, such as a mapped file, may go.
+  // Not called again: release what they hold, such as a mapped file.
   find_ = nullptr;
   keep_ = nullptr;
   if (progress) progress(1.0);

@@ -12,19 +12,19 @@
 
 namespace nearfit {
 
-/// Where a hierarchy came from, and how long that took.
+/// Where a hierarchy came from and how long it took.
 struct HierarchyOrigin {
   bool isFromCache = false;
-  double seconds = 0.0;  ///< To build it, or to map and check it; not what keeping it took.
+  double seconds = 0.0;  ///< Time to build it, or to map and check it; excludes storing it.
 };
 
-/// The hierarchy of one mesh, built when it is first needed, or taken from where one was kept. Any number of
-/// threads may ask: one builds, the others wait for it.
+/// Hierarchy of one mesh, built or taken from the cache when first needed. Thread-safe: one thread builds,
+/// others wait for it.
 class HierarchyOnDemand {
  public:
-  /// What was kept of the hierarchy; none when it must be built.
+  /// Looks up a stored hierarchy; std::nullopt if it must be built.
   using Find = std::function<std::optional<NormalConeTree>()>;
-  /// Keeps what was built.
+  /// Stores a newly built hierarchy.
   using Keep = std::function<void(const NormalConeTree&)>;
 
   explicit HierarchyOnDemand(Find find = {}, Keep keep = {})
@@ -32,15 +32,16 @@ class HierarchyOnDemand {
   HierarchyOnDemand(const HierarchyOnDemand&) = delete;
   HierarchyOnDemand& operator=(const HierarchyOnDemand&) = delete;
 
-  /// Whether get() answers at once.
+  /// True if get() returns at once. Real-time safe.
   bool isReady() const noexcept { return ready_.load(std::memory_order_acquire) != nullptr; }
-  /// Makes the hierarchy of `mesh`, always the same one, unless it is there. Throws what building does, and
-  /// Cancelled; the next call then starts anew.
+  /// Returns the hierarchy of `mesh`, which must be the same mesh in each call; builds it if
+  /// needed. Real-time safe once isReady(). Throws Cancelled and what building throws; the next
+  /// call then starts over.
   const NormalConeTree& get(const TriangleMesh& mesh, const ProgressCallback& progress = {}) {
     const NormalConeTree* tree = ready_.load(std::memory_order_acquire);
     return tree != nullptr ? *tree : make(mesh, progress);
   }
-  /// None before it is ready.
+  /// Origin of the hierarchy; std::nullopt until ready.
   std::optional<HierarchyOrigin> origin() const;
 
  private:
@@ -52,7 +53,7 @@ class HierarchyOnDemand {
   Keep keep_;
   std::mutex mutex_;
   std::condition_variable ended_;
-  bool isMaking_ = false;  ///< Guarded by the mutex; what follows belongs to who makes it until it is ready.
+  bool isMaking_ = false;  ///< Guarded by mutex_. Until ready, only the making thread uses the members below.
   std::optional<const NormalConeTree> tree_;
   HierarchyOrigin origin_;
   std::atomic<const NormalConeTree*> ready_{nullptr};

@@ -8,36 +8,37 @@
 
 namespace nearfit {
 
-/// A recording that is played: which of its rows counts at which time. What shows it tells it how time
-/// passes.
+/// Plays a recording: tracks the playback time and the row it selects. The caller advances the time.
 class MotionPlayback {
  public:
-  /// Slowest and fastest, as a multiple of the speed at which it was recorded.
+  /// Limits of the playback speed, as a multiple of the recorded speed.
   static constexpr double kMinSpeed = 0.01, kMaxSpeed = 100.0;
 
-  /// @param rows  Not empty; times begin with zero and never fall (readMotion).
+  /// @param rows  Not empty; times start at 0 and never decrease (readMotion).
   explicit MotionPlayback(std::vector<MotionRow> rows);
 
   const std::vector<MotionRow>& rows() const noexcept { return rows_; }
-  /// Of the last row [s].
+  /// Time of the last row [s].
   double duration() const noexcept { return rows_.back().time; }
-  /// Where it stands, from 0 to duration() [s].
+  /// Playback time, 0 to duration() [s].
   double time() const noexcept { return time_; }
-  /// The last row that is no later than time().
+  /// Index of the last row that is no later than time().
   std::size_t index() const noexcept { return index_; }
+  /// The row at index().
   const MotionRow& row() const noexcept { return rows_[index_]; }
 
-  /// To a time, within the recording; not a number is its beginning. O(log n).
+  /// Goes to a time [s], clamped to the recording; NaN goes to the start. O(log n).
   void seek(double time) noexcept;
-  /// To the row so many rows after (before, where negative) the one that counts.
+  /// Moves by a number of rows, backward if negative; clamped to the recording.
   void step(std::ptrdiff_t rows) noexcept;
-  /// Goes on by `seconds` of the viewer's time. Past the end it begins again where it loops, else it stays
-  /// there. False once it stands at the end.
+  /// Advances by `seconds` of viewing time, scaled by the speed. At the end it wraps if looping, else stops
+  /// there. Returns false once it has stopped at the end.
   bool advance(double seconds) noexcept;
 
-  /// Clamped to the limits; a number that is none changes nothing.
+  /// Sets the speed, clamped to the limits; NaN and infinity are ignored.
   void setSpeed(double speed) noexcept;
   double speed() const noexcept { return speed_; }
+  /// If true, playback restarts at the end.
   void setLooping(bool isLooping) noexcept { isLooping_ = isLooping; }
   bool isLooping() const noexcept { return isLooping_; }
 
@@ -48,9 +49,9 @@ class MotionPlayback {
   bool isLooping_ = false;
 };
 
-/// What a row tells, as a snapshot of the tick; its minima and contacts are counted there, and none are
-/// stored.
-/// @param moving  The part that was in hand.   @param out  Overwritten.
+/// Fills a snapshot from a row. Minima and contacts are counted, not stored.
+/// @param moving  The part that was moving.
+/// @param out     Overwritten.
 void takeRow(const MotionRow& row, const Part& moving, ServoSnapshot& out);
 
 }  // namespace nearfit

@@ -17,11 +17,11 @@ namespace nearfit {
 namespace {
 
 constexpr const char* kRemedy = "give a recording as nearfit or nearfit-cli place --record writes it";
-/// Between two looks at whether it is still wanted.
+/// Rows between two progress reports.
 constexpr std::size_t kRowsPerReport = 1000;
-/// Eleven days; more is no time of a recording [s].
+/// Max time in a recording: eleven days [s].
 constexpr double kLongest = 1e6;
-/// Of what a hand feels and a program measures; more is a slip, and would overflow what is drawn of it.
+/// Max magnitude of forces, energies and times. Larger values are errors, and would overflow in plots.
 constexpr double kLargest = 1e12;
 
 enum class Kind : std::uint8_t { Time, Number, Distance, Duration, Count, Pose };
@@ -32,7 +32,7 @@ struct Column {
   bool isRequired;
 };
 
-/// In the order of motionHeader, so that an index names what it is.
+/// In the order of motionHeader(), so that an index identifies a column.
 constexpr std::array kColumns = {
     Column{"t_s", Kind::Time, true},           Column{"handle_tx", Kind::Pose, true},
     Column{"handle_ty", Kind::Pose, true},     Column{"handle_tz", Kind::Pose, true},
@@ -86,7 +86,7 @@ bool isAllowed(Kind kind, double value) {
     case Kind::Pose:
       break;
   }
-  return true;  // By poseOf, which says more.
+  return true;  // Checked by poseOf(), with a better message.
 }
 
 double numberIn(std::string_view text, std::size_t index, std::size_t at, const csv::Place& place) {
@@ -112,7 +112,7 @@ Values valuesIn(std::string_view row, const Places& places, const csv::Place& pl
   return values;
 }
 
-/// What follows the wrench, in the order of the columns.
+/// Reads the columns after the wrench, in order.
 void takeRest(MotionRow& row, std::span<const double> v, const csv::Place& place) {
   constexpr double kMicro = 1e-6;
   const auto count = [&](std::size_t i) { return static_cast<std::uint32_t>(v[i]); };

@@ -9,27 +9,27 @@
 
 namespace nearfit {
 
-/// Longest recording that is read: more than an hour at 1 kHz, some gigabyte in memory.
+/// Max rows read: more than an hour at 1 kHz, about a gigabyte in memory.
 constexpr std::size_t kMaxMotionRows = 4'000'000;
 
-/// What a file holds of a recording.
+/// The content of a recording file.
 struct ReadMotion {
   std::vector<MotionRow> rows;
-  /// The file ends within a row, which is not among them: whatever wrote it was stopped.
+  /// True if the file ends in the middle of a row, which is dropped: writing was interrupted.
   bool isCut = false;
 };
 
-/// Reads a recording (MotionWriter). Columns are told by their names in the first row, in any order;
-/// unknown ones are passed over. Times, poses, force and torque must be there; a column that an older
-/// recording lacks is as in a MotionRow that nobody has set, and the distance infinite.
+/// Reads a recording written by MotionWriter. Columns are identified by the header and may come in any order;
+/// unknown ones are skipped. Time, poses, force and torque are required. Other missing columns take
+/// MotionRow's defaults, except the distance, which becomes infinite.
 ///
-/// Nothing that the file says is trusted. In what is returned, which is not empty: times begin with zero and
-/// never fall, poses are as checkedPose has them, forces and torques are finite, distances at least zero
-/// (infinity: nothing was within the cutoff), durations finite and at least zero.
+/// All values are checked. The result is not empty; times start at 0 and never decrease; poses are valid
+/// (checkedPose), forces and torques finite, distances >= 0 (infinity: nothing within the cutoff), durations
+/// finite and >= 0.
 /// Throws FileError with file, line, column and remedy; Cancelled.
 ReadMotion readRecording(const std::filesystem::path& file, const ProgressCallback& progress = {});
 
-/// The rows of readRecording.
+/// Returns the rows of readRecording().
 std::vector<MotionRow> readMotion(const std::filesystem::path& file, const ProgressCallback& progress = {});
 
 }  // namespace nearfit

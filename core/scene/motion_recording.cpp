@@ -88,13 +88,13 @@ std::optional<double> MotionWriter::keepWritten() {
   }
   if (!lastTime_) return std::nullopt;
   file_.cut(whole);
-  // A disk that has failed may refuse to flush.
+  // A failed disk may refuse to flush.
   file_.commit(AtomicFile::Flush::Later);
   return lastTime_;
 }
 
 void MotionWriter::writeLine(std::string_view line) {
-  // Some hundred rows for each call of the system.
+  // A few hundred rows per system call.
   constexpr std::size_t kBlock = 1 << 16;
   buffer_ += line;
   buffer_ += '\n';

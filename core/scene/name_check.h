@@ -5,8 +5,8 @@
 
 namespace nearfit {
 
-/// Throws UsageError when a name is empty, longer than so many bytes, or no printable UTF-8.
-/// @param kind  Of what it is the name, for the message: "part".
+/// Throws UsageError if a name is empty, longer than `maxBytes`, or not printable UTF-8.
+/// @param kind  What the name belongs to, for the message: "part".
 void checkName(const char* kind, const std::string& name, std::size_t maxBytes);
 
 }  // namespace nearfit

@@ -8,11 +8,11 @@
 namespace nearfit {
 namespace {
 
-/// Metres in the units that files of meshes are in by far most often: micrometre, millimetre, centimetre,
-/// inch, metre. Rarer ones would be guessed where one of these is meant.
+/// By far the most common units of mesh files [m]: micrometre, millimetre, centimetre, inch, metre. Adding
+/// rarer ones would cause wrong guesses.
 constexpr std::array<double, 5> kUnits{1e-6, 1e-3, 1e-2, 0.0254, 1.0};
 
-/// Diagonals of boxes [m].
+/// Range of bounding box diagonals [m].
 struct Sizes {
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
   void add(double size) {
@@ -22,7 +22,7 @@ struct Sizes {
   bool isEmpty() const { return most <= 0.0; }
 };
 
-/// The change of unit that takes `metresPerUnit` nearest to `wanted` times itself.
+/// Factor to a common unit that comes nearest to `wanted`.
 double nearestFactor(double metresPerUnit, double wanted) {
   double best = 1.0;
   for (const double unit : kUnits) {

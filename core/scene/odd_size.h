@@ -7,20 +7,20 @@
 
 namespace nearfit {
 
-/// How many times larger than the largest other part, or smaller than the smallest, parts must be for their
-/// unit to be doubted: fewer than the thousand from millimetres to metres, since parts differ among
-/// themselves.
+/// Size ratio beyond which a unit is doubted. Less than the thousand between millimetres and metres, since
+/// parts of one scene differ in size.
 constexpr double kOddSizeRatio = 300.0;
 
-/// Parts that their unit seems to have made far too large or too small.
+/// Parts that are far too large or too small, probably because of a wrong unit.
 struct OddSize {
-  double ratio = 1.0;   ///< Of their size to that of the others: > 1 when they are too large.
-  double factor = 1.0;  ///< Their size times this is near the others'; from one unit of CAD to another.
+  double ratio = 1.0;  ///< Their size over that of the others; > 1 if they are too large.
+  /// Factor on metresPerUnit, to a common CAD unit, that brings their size nearest to the others'.
+  double factor = 1.0;
 };
 
-/// Whether these parts, which came together, are all out of proportion to all others, by the diagonals of
-/// their boxes; empty when they are not, when there are no others, and when no change of unit would bring
-/// them nearer. O(parts). Parts that the scene does not have are left out.
+/// Checks whether all these parts are out of proportion to all other parts, by the diagonals of their
+/// bounding boxes. Returns std::nullopt if they are not, if there are no others, or if no change of unit
+/// would help. Ignores parts that are not in the scene. O(parts).
 std::optional<OddSize> oddSizeOf(const Scene& scene, std::span<const PartId> parts);
 
 }  // namespace nearfit

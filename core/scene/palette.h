@@ -6,8 +6,8 @@
 
 namespace nearfit {
 
-/// Colours for parts: of even lightness, told apart side by side also with the common colour blindnesses, and
-/// none as saturated as the glyphs that are drawn over them.
+/// Colours for parts: of even lightness, distinguishable with the common forms of colour blindness, and less
+/// saturated than the glyphs drawn over them.
 /// Source: P. Tol, Colour schemes, 2021 (the "muted" set, lightened), with steel first for machine parts.
 constexpr std::array<Colour, 10> kPartPalette{{
     {0.62F, 0.69F, 0.76F},  // steel

@@ -69,7 +69,7 @@ RigidTransform checkedPose(const RigidTransform& pose) {
     throw UsageError("quaternion", fmt::format("its length is {}, not 1", length),
                      "give a unit quaternion in the order w, x, y, z");
   }
-  // One that is unit up to rounding stays as it is, so that saving and loading changes no digit.
+  // Keep a quaternion that is unit up to rounding, so that saving and loading changes no digit.
   return std::abs(length - 1.0) <= 1e-15 ? pose : pose.normalized();
 }
 

@@ -12,7 +12,7 @@
 
 namespace nearfit {
 
-/// Names a part for as long as its scene lives; never used again after the part is deleted.
+/// Identifies a part within its scene; never reused.
 enum class PartId : std::uint32_t {};
 
 /// sRGB, each 0 to 1.
@@ -21,64 +21,69 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
-/// Longest name of a part [bytes of UTF-8].
+/// Max length of a part's name [bytes of UTF-8].
 constexpr std::size_t kMaxPartNameBytes = 200;
-/// Farthest from the origin that a part may stand on each axis [m]: to the moon and back. Beyond it double
-/// precision is coarser than a tenth of a micrometre, and the number is a slip of the unit.
+/// Max distance from the origin along each axis [m], more than twice the distance to the moon. Beyond it,
+/// double precision is coarser than a tenth of a micrometre, and the number is probably in the wrong unit.
 constexpr double kMaxPosition = 1e9;
 
-/// Of a part of which nobody has said what it is made of: water's, and most plastics' [kg/m^3].
+/// Density of a part whose material is not set: that of water and most plastics [kg/m^3].
 constexpr double kDefaultDensity = 1000.0;
-/// From a gas to fifty times the densest metal [kg/m^3]; beyond them a number is a slip of the unit.
+/// From a gas to fifty times the densest metal [kg/m^3]. A number beyond is probably in the wrong unit.
 constexpr double kMinDensity = 1e-3, kMaxDensity = 1e6;
 
+/// A named mesh with a pose in the scene.
 struct Part {
   PartId id{};
-  std::string name;  ///< Unique in its scene, not empty; UTF-8 without control characters.
+  std::string name;  ///< Unique in its scene; not empty; UTF-8 without control characters.
+  /// Mesh and derived data, in the part's frame; shared and immutable. May be null.
   PartGeometryPtr geometry;
+  /// Pose; unit quaternion.
   RigidTransform worldFromPart;
   Colour colour;
   double density = kDefaultDensity;  ///< [kg/m^3]
   double opacity = 1.0;              ///< kMinOpacity to 1.
-  /// What the gizmo turns it about, in its own frame [m]; none: its centre of mass.
+  /// Centre of rotation for the gizmo, in the part's frame [m]; std::nullopt: the centre of mass.
   std::optional<glm::dvec3> pivot;
-  bool isVisible = true;  ///< An invisible part is not felt either.
-  /// A locked part cannot be moved, renamed, made of another density or shape, given another pivot, put into
-  /// another group, deleted, or be the moving part; how it is shown (hidden, transparent, its colour) can be
-  /// changed. A group locks what it holds: Scene::isLocked says whether a part is locked for either reason.
+  bool isVisible = true;  ///< An invisible part cannot be felt.
+  /// Forbids moving, renaming, deleting and regrouping the part, changing its density, shape or pivot, and
+  /// making it the moving part. Visibility, opacity and colour can still change. A group also locks its
+  /// members; Scene::isLocked() covers both.
   bool isLocked = false;
-  std::optional<GroupId> group;  ///< None: it stands at the top.
-  /// While parts are isolated: whether it was visible before. Empty for parts that came since.
+  std::optional<GroupId> group;  ///< std::nullopt: at the top level.
+  /// During isolation: isVisible before it. std::nullopt for parts added since, and outside isolation.
   std::optional<bool> wasVisible;
 };
 
-/// Whether nothing of a part differs from another, its id included.
+/// True if all fields are equal, including the id.
 bool isSame(const Part& a, const Part& b) noexcept;
 
-/// Whether two states of a part differ at most in how it is shown and in the lock itself: a locked one may
-/// become the other.
+/// True if the parts differ at most in look (visibility, opacity, colour) and lock. A locked part may
+/// change in this way.
 bool isSameButForLook(const Part& a, const Part& b) noexcept;
 
-/// The faintest that a part is drawn: one that is felt must be seen.
+/// Min opacity: a part that can be felt must stay visible.
 constexpr double kMinOpacity = 0.05;
 
-/// Of the part, from its density and the volume of its mesh [kg]; 0 when it has no geometry.
+/// Mass from density and mesh volume [kg]; 0 without geometry.
 double massOf(const Part& part) noexcept;
 
-/// Throws UsageError when it is not finite or out of its limits.
+/// Throws UsageError if the value is not finite or out of range.
 void checkDensity(double density);
+/// Throws UsageError if the value is not between kMinOpacity and 1.
 void checkOpacity(double opacity);
+/// Throws UsageError if a channel is not between 0 and 1.
 void checkColour(const Colour& colour);
 
-/// Throws UsageError when the name is empty, too long, not UTF-8 or holds control characters.
+/// Throws UsageError if the name is empty, too long, not UTF-8 or holds control characters.
 void checkPartName(const std::string& name);
 
-/// Throws UsageError when a coordinate is not finite or beyond kMaxPosition.
+/// Throws UsageError if a coordinate is not finite or exceeds kMaxPosition.
 void checkPosition(const glm::dvec3& position);
-/// The pose with its quaternion normalised. Throws UsageError as checkPosition does, or when the
-/// quaternion's length is off 1 by more than kQuaternionSlack.
+/// Returns the pose with its quaternion normalised. Throws UsageError like checkPosition(), or if the
+/// quaternion's length differs from 1 by more than kQuaternionSlack.
 RigidTransform checkedPose(const RigidTransform& pose);
-/// How far off 1 a quaternion's length may be: covers numbers typed or printed with four digits, not slips.
+/// Tolerance on the length of a quaternion: covers numbers typed or printed with four digits.
 constexpr double kQuaternionSlack = 1e-3;
 
 }  // namespace nearfit

@@ -18,18 +18,17 @@
 namespace nearfit {
 namespace {
 
-/// How far loading is once the file's hash is known, and once the mesh is built; mass properties follow.
-/// About the shares of time.
+/// Progress after hashing, and after building the mesh; mass properties follow. Roughly the shares of time.
 constexpr double kHashed = 0.05, kImported = 0.95;
 
-/// Passes the progress of a stretch of work on; throws Cancelled when the user wants to stop.
+/// Maps progress of one stage to the whole; throws Cancelled if the user stops.
 std::function<void(double)> stretch(const ProgressCallback& progress, double from, double to) {
   return [&progress, from, to](double fraction) {
     if (progress && !progress(from + (to - from) * fraction)) throw Cancelled();
   };
 }
 
-/// One task's share of the progress of many: counts only what is new, whatever the task says.
+/// One task's share of the total progress. Never counts backward.
 class TaskProgress {
  public:
   TaskProgress(SharedProgress& all, double weight) : all_(all), weight_(weight) {}
@@ -48,7 +47,7 @@ class TaskProgress {
 };
 
 PartGeometryPtr makeGeometry(const MeshSource& source, std::string sha256, CachedMesh&& loaded) {
-  // Looked up again when the hierarchy is needed: another process may have kept it by then.
+  // Look again when the hierarchy is needed: another process may have stored it by then.
   const TreeCacheKey key{sha256, source.metresPerUnit};
   const auto surface = std::make_shared<SurfaceOnDemand>();
   const auto find = [key, surface]() -> std::optional<NormalConeTree> {
@@ -58,8 +57,7 @@ PartGeometryPtr makeGeometry(const MeshSource& source, std::string sha256, Cache
     surface->setSolid(kept->isSolid);
     return std::move(kept->tree);
   };
-  // Whether it is solid is found out along with the hierarchy: here one may wait, and it is kept for the next
-  // time.
+  // Determine solidity together with the hierarchy: waiting is acceptable here, and the result is cached.
   const auto keep = [key, loaded, surface](const NormalConeTree& tree) {
     const CachedTree kept{tree, surface->isSolid(loaded.mesh)};
     TreeCache().store(key, loaded, &kept);
@@ -69,7 +67,7 @@ PartGeometryPtr makeGeometry(const MeshSource& source, std::string sha256, Cache
       std::move(loaded.report), loaded.mass, std::make_shared<HierarchyOnDemand>(find, keep), surface});
 }
 
-/// Null when the file is not the one that is wanted.
+/// Null if the file's SHA-256 is not the required one.
 PartGeometryPtr load(const MeshSource& source, const ProgressCallback& progress) {
   checkMetresPerUnit(source.metresPerUnit);
   const TreeCache cache;
@@ -89,7 +87,7 @@ PartGeometryPtr load(const MeshSource& source, const ProgressCallback& progress)
       return true;
     };
     ImportedMesh imported = importMesh(source.file, options, import);
-    // It may have been replaced since it was hashed: what counts is what was read.
+    // The file may have changed since it was hashed. Its content when it was read counts.
     sha256 = std::move(imported.sha256);
     if (!isWanted(sha256)) return nullptr;
     kept = CachedMesh{std::move(imported.mesh), std::move(imported.report), {}};
@@ -100,7 +98,7 @@ PartGeometryPtr load(const MeshSource& source, const ProgressCallback& progress)
   return makeGeometry(source, std::move(sha256), std::move(*kept));
 }
 
-/// What loading the file costs, roughly.
+/// Rough cost of loading the file.
 double weightOf(const std::filesystem::path& file) {
   std::error_code failure;
   const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
@@ -154,7 +152,7 @@ void prepareHierarchies(std::span<const PartGeometryPtr> geometries, const Progr
   for (const PartGeometryPtr& geometry : geometries) {
     if (!geometry->hierarchy->isReady()) missing.push_back(geometry);
   }
-  // Many parts may share one; the largest begins first, so that the others fill the gaps that it leaves.
+  // Parts may share a geometry. Start with the largest, so that smaller ones fill the gaps.
   const auto weight = [](const PartGeometryPtr& geometry) {
     return 1.0 + static_cast<double>(geometry->mesh.triangles().size());
   };

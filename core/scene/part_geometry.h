@@ -16,65 +16,69 @@
 
 namespace nearfit {
 
-/// How many metres a unit of a mesh file may be: from nanometres to beyond miles.
+/// Limits of metres per file unit: from nanometres to beyond miles.
 constexpr double kMinMetresPerUnit = 1e-9, kMaxMetresPerUnit = 1e4;
-/// Throws UsageError when the unit is not finite or out of these limits.
+/// Throws UsageError if the unit is not finite or out of these limits.
 void checkMetresPerUnit(double metresPerUnit);
 
-/// A mesh file with everything that is derived from it once: mass properties at once, the hierarchy when it
-/// is first needed. Immutable but for that; shared by every part that shows the same file in the same unit.
+/// A mesh file and what is derived from it: mass properties on loading, hierarchy and unsided surface on
+/// demand. Otherwise immutable. Shared by all parts with the same file and unit.
 struct PartGeometry {
-  std::filesystem::path file;  ///< As normalisedPath gives it.
+  std::filesystem::path file;  ///< As normalisedPath() returns it.
   std::string sha256;          ///< Of the file's bytes, hexadecimal.
   double metresPerUnit = 1.0;
+  /// In metres, in the part's frame.
   TriangleMesh mesh;
   MeshBuildReport report;
   MassProperties mass;
   std::shared_ptr<HierarchyOnDemand> hierarchy = std::make_shared<HierarchyOnDemand>();
   std::shared_ptr<SurfaceOnDemand> surfaceOnDemand = std::make_shared<SurfaceOnDemand>();
 
-  /// What queries search; built now where it has not been (seconds for millions of triangles: call
-  /// prepareHierarchies first where nobody may wait). Any thread. Real-time safe once hierarchy->isReady().
+  /// Hierarchy for queries; built on first use (seconds for millions of triangles; call prepareHierarchies()
+  /// first if the caller must not wait). Thread-safe. Real-time safe once hierarchy->isReady().
   const NormalConeTree& tree() const { return hierarchy->get(mesh); }
 
-  /// Whether the mesh encloses its material: where it does not, distance is that of unsided surfaces.
+  /// True if the mesh encloses its material. If not, distances treat both sides of its surface alike.
+  /// Determined on first use.
   bool isSolid() const { return surfaceOnDemand->isSolid(mesh); }
-  /// The surface without sides, made when it is first asked for. Any thread.
+  /// The unsided surface, built on first use. Thread-safe.
   std::shared_ptr<const UnsidedSurface> surface() const { return surfaceOnDemand->get(mesh, tree()); }
 };
 
-/// The path from the root, with links among its folders resolved, so that paths to one file compare equal.
+/// Absolute path with symbolic links among its folders resolved, so that paths to one file compare equal.
 std::filesystem::path normalisedPath(const std::filesystem::path& file);
 
 using PartGeometryPtr = std::shared_ptr<const PartGeometry>;
 
-/// Imports a mesh and derives its mass properties, or takes both from the cache where the file is known there
-/// (tree_cache.h). Blocking: call it off the GUI and servo threads. Throws FileError, UsageError (the unit),
-/// Cancelled.
+/// Imports a mesh and computes its mass properties, or takes both from the cache (tree_cache.h). Blocking:
+/// not for the GUI or servo thread. Throws FileError, UsageError (invalid unit), Cancelled.
 PartGeometryPtr loadPartGeometry(const std::filesystem::path& file, double metresPerUnit,
                                  const ProgressCallback& progress = {});
 
+/// A mesh file to load.
 struct MeshSource {
   std::filesystem::path file;
   double metresPerUnit = 1.0;
-  std::string sha256;  ///< That the file must have; empty: any.
+  std::string sha256;  ///< Required SHA-256; empty: any.
 };
 
+/// Result of loading a MeshSource.
 struct LoadedPart {
-  PartGeometryPtr geometry;    ///< Null when there was a problem, or the file has another SHA-256.
-  std::exception_ptr problem;  ///< As loadPartGeometry throws it.
+  PartGeometryPtr geometry;    ///< Null if loading failed or the SHA-256 differs.
+  std::exception_ptr problem;  ///< What loadPartGeometry() throws.
 };
 
-/// Loads each source as loadPartGeometry does, in parallel. Throws Cancelled only.
+/// Loads sources in parallel, each like loadPartGeometry(). Results are in the order of `sources`.
+/// Throws only Cancelled.
 std::vector<LoadedPart> loadPartGeometries(std::span<const MeshSource> sources,
                                            const ProgressCallback& progress = {});
 
-/// Makes every hierarchy that is not there yet, so that tree() of each answers at once; in parallel, across
-/// parts and inside one, on as many threads as there are processors. Blocking, as loadPartGeometry. Throws
-/// Cancelled, also in the middle of one; what is done by then stays, the rest is made when needed.
+/// Builds all missing hierarchies, so that tree() returns at once. Parallel across and within parts, on all
+/// processors. Blocking, like loadPartGeometry(). Throws Cancelled, even in the middle of one hierarchy;
+/// keeps what is finished.
 void prepareHierarchies(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress = {});
 
-/// Whether tree() of each answers at once.
+/// True if tree() returns at once for all of them.
 bool areHierarchiesReady(std::span<const PartGeometryPtr> geometries) noexcept;
 
 }  // namespace nearfit

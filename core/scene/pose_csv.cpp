@@ -43,7 +43,7 @@ std::optional<std::string_view> Rows::next() {
     }
     hasEnd_ = !in_.eof();
     taken_ += static_cast<std::uint64_t>(in_.gcount());
-    // The count includes the line's end, where there is one.
+    // gcount() includes the line end, if there is one.
     std::string_view row(buffer_.data(), static_cast<std::size_t>(in_.gcount()) - (in_.eof() ? 0 : 1));
     if (place_.line == 1 && row.starts_with("\xEF\xBB\xBF")) row.remove_prefix(3);
     row = trimmed(row);
@@ -67,7 +67,7 @@ std::optional<double> parseNumber(std::string_view text) noexcept {
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  // Smaller than the smallest double is zero for a pose.
+  // Underflow counts as zero.
   if (error == std::errc::result_out_of_range && end == text.data() + text.size() &&
       text.find("e-") != text.npos) {
     return 0.0;

@@ -15,24 +15,25 @@
 
 namespace nearfit::csv {
 
-/// A place in a file, for messages.
+/// A place in a file, for error messages.
 struct Place {
   const std::filesystem::path& file;
   std::size_t line;
 
+  /// Throws FileError naming the file and the line.
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
 };
 
-/// Rows of a CSV file, without blank lines, comments (`#`) and what surrounds them. Throws FileError.
+/// Reads the rows of a CSV file, trimmed, without blank lines and comments (`#`). Throws FileError.
 class Rows {
  public:
   explicit Rows(const std::filesystem::path& file);
 
-  /// Nothing at the end. Valid until the next call.
+  /// The next row; std::nullopt at the end. Valid until the next call.
   std::optional<std::string_view> next();
-  /// What `parse` makes of the row that was read last. Nothing where it throws FileError and the row's end is
-  /// missing: a file of which only that row was not written to its end.
-  /// @param hasOthers  There are rows before it; a file of a single row that is wrong is wrong.
+  /// Returns parse() of the last row. Returns std::nullopt if parse() throws FileError and the row has no
+  /// line end: writing of the file was interrupted there.
+  /// @param hasOthers  True if valid rows precede it; the error of a file's only row is always thrown.
   template <typename Parse>
   auto parsed(bool hasOthers, const Parse& parse) const -> std::optional<decltype(parse())> {
     try {
@@ -43,32 +44,35 @@ class Rows {
     }
   }
   const Place& place() const noexcept { return place_; }
+  /// Size of the file [bytes]; 0 if unknown.
   std::uint64_t size() const noexcept { return size_; }
-  /// Bytes that have been read.
+  /// Bytes read so far.
   std::uint64_t taken() const noexcept { return taken_; }
 
  private:
-  /// Seven numbers need a tenth of it, a row of a recording a quarter. A binary file without line ends must
-  /// not fill memory.
+  /// Ten times what seven numbers need, four times a row of a recording. Keeps a binary file without line
+  /// ends from filling memory.
   static constexpr std::streamsize kMaxLineBytes = 4096;
 
   std::ifstream in_;
   Place place_;
   std::uint64_t size_ = 0, taken_ = 0;
-  bool hasEnd_ = false;  ///< The row that was read last.
+  bool hasEnd_ = false;  ///< Refers to the last row read.
   std::array<char, kMaxLineBytes> buffer_;
 };
 
+/// Removes leading and trailing blanks, tabs and carriage returns.
 std::string_view trimmed(std::string_view text) noexcept;
+/// Trimmed fields between commas; quotes have no meaning.
 std::vector<std::string_view> columnsOf(std::string_view row);
-/// The whole text; nothing when it is no number. `nan` and `inf` are numbers here.
+/// The whole text as a number; std::nullopt if it is not one. Accepts `nan` and `inf`.
 std::optional<double> parseNumber(std::string_view text) noexcept;
-/// The number in a column that must be finite; `column` counts from 0.
+/// A finite number from a column counted from 0. Throws FileError with `remedy`.
 double finiteNumber(std::string_view text, std::size_t column, const Place& place, const char* remedy);
 
-/// tx, ty, tz, qw, qx, qy, qz: near enough, and the quaternion of unit length to kQuaternionSlack;
-/// normalised.
-/// @param firstColumn  Of them in the file, from 0.
+/// Pose from tx, ty, tz [m], qw, qx, qy, qz, normalised. Throws FileError if a coordinate exceeds
+/// kMaxPosition or the quaternion's length differs from 1 by more than kQuaternionSlack.
+/// @param firstColumn  Column of tx in the file, from 0; for messages.
 RigidTransform poseOf(std::span<const double, 7> values, std::size_t firstColumn, const Place& place);
 
 }  // namespace nearfit::csv

@@ -64,7 +64,7 @@ void Scene::replace(Part part) {
   const Part& before = *parts_[index];
   checkValues(part);
   part.worldFromPart = checkedPose(part.worldFromPart);
-  // That the file of a locked part has changed does not move it.
+  // A changed file may replace the geometry of a locked part.
   Part reloaded = before;
   reloaded.geometry = part.geometry;
   if (!isSameButForLook(reloaded, part)) requireUnlocked(before);

@@ -14,78 +14,83 @@
 
 namespace nearfit {
 
-/// Parts, their groups and settings, as a value: copying it is cheap (parts are shared) and is how undo and
-/// threads keep one. Each change happens whole or throws UsageError and changes nothing.
+/// Parts, groups and haptic settings, as a value. Copies are cheap because they share parts and groups; undo
+/// and threads keep copies. Each change either succeeds as a whole or throws UsageError and changes nothing.
 class Scene {
  public:
   using PartPtr = std::shared_ptr<const Part>;
   using GroupPtr = std::shared_ptr<const Group>;
 
-  /// Oldest first, which is by their ids.
+  /// Oldest first, in ascending order of ID.
   const std::vector<PartPtr>& parts() const noexcept { return parts_; }
+  /// The part with this ID; null if there is none. Valid until the part changes. O(log n).
   const Part* find(PartId id) const noexcept;
+  /// The part with this name; null if there is none. Valid until the part changes. O(n).
   const Part* findByName(std::string_view name) const noexcept;
   std::optional<PartId> movingPart() const noexcept { return movingPart_; }
   const HapticSettings& haptics() const noexcept { return haptics_; }
 
-  /// Adds a copy of `part` with a fresh id; its name gets a number behind it when it is taken, its quaternion
-  /// is normalised. Returns the id. Throws UsageError when name, pose, colour, density or opacity are none
-  /// (see checkedPose), or its group is unknown or locked.
+  /// Adds a copy of `part` with a new ID and returns the ID. Appends a number to a name already taken;
+  /// normalises the quaternion. Throws UsageError if name, pose (see checkedPose), colour, density or opacity
+  /// is invalid, or the group is unknown or locked.
   PartId add(Part part);
-  /// Replaces the part of the same id. Throws UsageError when there is none, its new name is taken, it is the
-  /// moving part and would be locked, it is locked and would change (but for its look, see isSameButForLook,
-  /// and what its mesh file has become), or as add does.
+  /// Replaces the part with the same ID. Throws UsageError like add(), or if there is no such part, its new
+  /// name is taken, it is the moving part and would be locked, or it is locked and more than its look (see
+  /// isSameButForLook) or geometry would change.
   void replace(Part part);
-  /// The moving part, when it is this one, becomes none. Throws UsageError when there is no such part or it
-  /// is locked.
+  /// Removes a part. If it is the moving part, the scene has none afterwards. Throws UsageError if the part
+  /// is unknown or locked.
   void remove(PartId id);
-  /// Throws UsageError when the part is unknown or locked.
+  /// Sets the moving part; std::nullopt for none. Throws UsageError if the part is unknown or locked.
   void setMovingPart(std::optional<PartId> id);
-  /// Throws UsageError as checkHaptics does (haptic_limits.h); the orientation is normalised.
+  /// Sets the haptic settings, the orientation normalised. Throws UsageError like checkHaptics()
+  /// (haptic_limits.h).
   void setHaptics(const HapticSettings& haptics);
 
-  /// Groups, oldest first; what is in which, core/scene/scene_tree.h tells.
+  /// Groups, oldest first; for their members see core/scene/scene_tree.h.
   const std::vector<GroupPtr>& groups() const noexcept { return groups_; }
+  /// The group with this ID; null if there is none. Valid until the group changes. O(log n).
   const Group* findGroup(GroupId id) const noexcept;
-  /// Adds a copy with a fresh id and returns that. Throws UsageError when the name is none, its parent is
-  /// unknown or locked, or there would be more than kMaxGroups or kMaxGroupDepth of them.
+  /// Adds a copy of `group` with a new ID and returns the ID. Throws UsageError if the name is invalid, the
+  /// parent is unknown or locked, or kMaxGroups or kMaxGroupDepth would be exceeded.
   GroupId addGroup(Group group);
-  /// Replaces the group of the same id. Throws UsageError when there is none, it would hold itself, it is
-  /// locked and more than its own lock would change, it holds the moving part and would be locked, or as
-  /// addGroup does.
+  /// Replaces the group with the same ID. Throws UsageError like addGroup(), or if there is no such
+  /// group, it would contain itself, it is locked and more than its own lock would change, or it would
+  /// lock the moving part.
   void replaceGroup(Group group);
-  /// Throws UsageError when there is no such group, or it is locked or not empty.
+  /// Removes an empty group. Throws UsageError if it is unknown, locked or not empty.
   void removeGroup(GroupId id);
 
-  /// Whether it or a group that it is in, at any depth, is locked.
+  /// True if it, or a group that contains it at any depth, is locked.
   bool isLocked(const Part& part) const noexcept;
   bool isLocked(const Group& group) const noexcept;
-  /// Throws UsageError when it is, naming what locks it.
+  /// Throws UsageError if it is locked, naming what locks it.
   void requireUnlocked(const Part& part) const;
   void requireUnlocked(const Group& group) const;
 
-  /// Shows these parts and no others, and remembers what was visible before, when that is not remembered yet.
-  /// Throws UsageError when there are none, or one is unknown.
+  /// Shows only these parts. The first call remembers the previous visibility. Throws UsageError if `parts`
+  /// is empty or one is unknown.
   void isolate(const std::vector<PartId>& parts);
-  /// Shows exactly what was visible before; parts that came since stay as they are.
+  /// Restores the visibility from before isolate(). Parts added since stay as they are.
   void endIsolation();
+  /// True between isolate() and endIsolation().
   bool isIsolated() const noexcept;
 
-  /// Of all parts that have one, in their order; one that parts share stands there once for each.
+  /// Non-null geometries of all parts, in part order; a shared one appears once per part.
   std::vector<PartGeometryPtr> geometries() const;
 
-  /// A colour for the next part: the one of the palette that the fewest parts have.
+  /// The palette colour that the fewest parts have.
   Colour nextColour() const noexcept;
-  /// From now on gives no id that `other` may have given: undo must not bring back the id of another part.
+  /// Retires all IDs that `other` has given out, so that IDs stay unique across undo.
   void retireIdsOf(const Scene& other) noexcept;
 
  private:
   std::size_t indexOf(PartId id) const;
   std::size_t indexOf(GroupId id) const;
-  /// The nearest that is locked, from there upwards; null when none is.
+  /// Nearest locked group, from `group` upward; null if none.
   const Group* lockAt(std::optional<GroupId> group) const noexcept;
   void requireOpen(std::optional<GroupId> group) const;
-  /// Groups from there upwards.
+  /// Number of groups from `group` upward, itself included.
   std::size_t depthOf(std::optional<GroupId> group) const noexcept;
   bool isWithin(std::optional<GroupId> group, GroupId ancestor) const noexcept;
   void checkPlace(const Group& group) const;

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Whether the field says the first of two words; it must say one of them.
+/// True if the field holds the first word, false for the second; fails for any other.
 bool isFirstOf(const JsonField& field, const char* first, const char* second) {
   const std::string word = field.text(16);
   if (word != first && word != second) {
@@ -70,14 +70,14 @@ WorkspaceMapping readMapping(const JsonField& field) {
           readArray<3>(field.at("rotationLocks"), flag)};
 }
 
-/// The field below `field` that a path such as "springs.cutoff" names.
+/// The field that a path such as "springs.cutoff" leads to, from `field`.
 JsonField fieldAt(JsonField field, std::string_view path) {
   for (std::size_t dot; (dot = path.find('.')) != std::string_view::npos; path.remove_prefix(dot + 1))
     field = field.at(std::string(path.substr(0, dot)));
   return field.at(std::string(path));
 }
 
-/// @param field  Holds the sections, by the names that checkHaptics gives them.
+/// @param field  Holds the sections under the names that checkHaptics() uses.
 HapticSettings checked(const JsonField& field, const HapticSettings& settings) {
   try {
     checkHaptics(settings);

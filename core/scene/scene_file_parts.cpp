@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Longest path to a mesh [bytes]: as Linux allows.
+/// Max length of a mesh path [bytes]: Linux's limit.
 constexpr std::size_t kMaxPathBytes = 4095;
 
-/// Runs `check`, which throws UsageError, as a check of the field.
+/// Runs `check` and turns its UsageError into an error of the field.
 template <typename Check>
 auto checked(const JsonField& field, Check check) {
   try {
@@ -65,7 +65,7 @@ std::string readSha256(const JsonField& field) {
   return digits;
 }
 
-/// Which of so many groups, or none.
+/// Index of a group, or std::nullopt for null.
 std::optional<std::size_t> readGroupIndex(const JsonField& field, std::size_t count, const char* remedy) {
   if (field.isNull()) return std::nullopt;
   const double index = field.number();
@@ -74,7 +74,7 @@ std::optional<std::size_t> readGroupIndex(const JsonField& field, std::size_t co
   return static_cast<std::size_t>(index);
 }
 
-/// What version 3 says beside version 2.
+/// Reads what version 3 adds to version 2.
 void readPlaceAndLook(const JsonField& field, std::size_t groupCount, PartEntry& entry) {
   entry.part.opacity = field.at("opacity").number();
   checked(field.at("opacity"), [&] { checkOpacity(entry.part.opacity); });
@@ -83,7 +83,7 @@ void readPlaceAndLook(const JsonField& field, std::size_t groupCount, PartEntry&
   if (!wasVisible.isNull()) entry.part.wasVisible = wasVisible.isTrue();
 }
 
-/// What version 4 says beside version 3.
+/// Reads what version 4 adds to version 3.
 std::optional<glm::dvec3> readPivot(const JsonField& field) {
   if (field.isNull()) return std::nullopt;
   const auto [x, y, z] = numbers<3>(field);

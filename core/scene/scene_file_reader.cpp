@@ -45,8 +45,8 @@ void checkUnits(const JsonField& units) {
 /// Loads meshes, each file and unit once.
 class GeometryLoader {
  public:
-  /// @param changed  Takes the files that are not those of the scene; null: they fail.
-  /// Throws FileError when a mesh file is missing, Cancelled.
+  /// @param changed  Receives the files whose SHA-256 differs from the scene's; if null, such files fail.
+  /// Throws FileError if a mesh file is missing; Cancelled.
   GeometryLoader(const std::vector<PartEntry>& entries, const ProgressCallback& progress,
                  std::vector<fs::path>* changed)
       : changed_(changed) {
@@ -67,7 +67,7 @@ class GeometryLoader {
       entry.field.at("mesh").fail(e.where() + ": " + e.problem(), e.remedy());
     }
     if (loaded.geometry && loaded.geometry->sha256 == entry.sha256) return loaded.geometry;
-    // Of none there is a problem where the file may be any.
+    // Geometry is null only if the required SHA-256 differs.
     if (changed_ == nullptr || !loaded.geometry) failChanged(entry);
     if (std::ranges::find(*changed_, entry.mesh) == changed_->end()) changed_->push_back(entry.mesh);
     return loaded.geometry;
@@ -98,7 +98,7 @@ class GeometryLoader {
   std::vector<LoadedPart> loaded_;
 };
 
-/// Still open, so that it takes in what it holds.
+/// Unlocked for now, so that its members can be added.
 Group placed(const GroupEntry& entry, const std::vector<GroupId>& ids) {
   Group group = entry.group;
   group.isLocked = false;

@@ -16,12 +16,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The mesh's path from the scene file's folder, with `/` between names.
+/// Path of the mesh relative to the scene file's folder, with `/` between names.
 std::string meshPath(const std::filesystem::path& mesh, const std::filesystem::path& sceneFile) {
   std::filesystem::path path = mesh.lexically_relative(meshFolder(sceneFile));
   if (path.empty()) path = mesh;
   std::string text = path.generic_string();
-  // A path may hold control characters, which JSON can say; but JSON is UTF-8.
+  // JSON can escape control characters, but must be UTF-8.
   if (!isUtf8(text)) {
     throw FileError(printableText(text), "the name of this mesh file or of a folder above it is not UTF-8",
                     "rename it, then load it anew");
@@ -29,7 +29,7 @@ std::string meshPath(const std::filesystem::path& mesh, const std::filesystem::p
   return text;
 }
 
-/// Where each group stands in the file.
+/// Index of each group in the file.
 using GroupIndices = std::map<GroupId, std::size_t>;
 
 Json indexJson(std::optional<GroupId> group, const GroupIndices& indices) {

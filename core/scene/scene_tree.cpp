@@ -11,7 +11,7 @@
 namespace nearfit {
 namespace {
 
-/// Nodes looked up quickly.
+/// A set of nodes with fast look-up.
 class NodeSet {
  public:
   NodeSet(const Scene& scene, const SceneNodes& nodes)
@@ -30,7 +30,7 @@ class NodeSet {
 
   bool has(PartId part) const { return parts_.contains(part); }
   bool has(GroupId group) const { return groups_.contains(group); }
-  /// Whether the group, or one above it, is among the nodes.
+  /// True if the group or one of its ancestors is among the nodes.
   bool holds(std::optional<GroupId> group) const {
     while (group && !groups_.contains(*group))
       group = scene_.findGroup(*group)->parent;
@@ -43,7 +43,7 @@ class NodeSet {
   std::set<GroupId> groups_;
 };
 
-/// From the top down to the group, itself included.
+/// Groups from the top level down to `group`, inclusive.
 std::vector<GroupId> pathTo(const Scene& scene, std::optional<GroupId> group) {
   std::vector<GroupId> path;
   for (; group; group = scene.findGroup(*group)->parent)
@@ -69,7 +69,7 @@ void visitGroups(const Scene& scene, const std::function<void(const Group&, std:
   std::map<std::optional<GroupId>, std::vector<const Group*>> children;
   for (const Scene::GroupPtr& group : scene.groups())
     children[group->parent].push_back(group.get());
-  // As deep as kMaxGroupDepth at most.
+  // Recursion depth is at most kMaxGroupDepth.
   const std::function<void(std::optional<GroupId>, std::size_t)> descend = [&](auto parent,
                                                                                std::size_t depth) {
     for (const Group* group : children[parent]) {

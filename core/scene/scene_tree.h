@@ -7,10 +7,11 @@
 
 #include "core/scene/scene.h"
 
-/// The scene as a tree of groups and parts. Linear in the scene's size times the groups' depth.
+/// The scene as a tree of groups and parts. All functions are linear in the scene's size times
+/// the groups' depth.
 namespace nearfit {
 
-/// Some parts and groups of a scene; a group stands for all that it holds, to any depth.
+/// Some parts and groups of a scene; a group stands for all its members, to any depth.
 struct SceneNodes {
   std::vector<PartId> parts;
   std::vector<GroupId> groups;
@@ -18,21 +19,21 @@ struct SceneNodes {
   bool operator==(const SceneNodes&) const = default;
 };
 
-/// What stands directly in a group, or at the top; in the scene's order.
+/// Direct members of a group, or of the top level; in scene order.
 SceneNodes childrenOf(const Scene& scene, std::optional<GroupId> group);
 
-/// Visits each group after the one that holds it, and after the groups before it in the same one with all
-/// that they hold; `depth` counts the groups above.
+/// Visits groups depth-first, parents before children, siblings in scene order. `depth` is the
+/// number of ancestors.
 void visitGroups(const Scene& scene, const std::function<void(const Group& group, std::size_t depth)>& visit);
 
-/// All parts among the nodes and in their groups, each once, in the scene's order. Throws UsageError when the
-/// scene does not have one of the nodes; so do the following.
+/// All parts among the nodes and in their groups, to any depth, each once, in scene order. Throws UsageError
+/// if a node is not in the scene; so do the functions below.
 std::vector<PartId> partsOf(const Scene& scene, const SceneNodes& nodes);
-/// The groups among the nodes and those in them, the ones that hold others first.
+/// All groups among the nodes and in them, to any depth, parents first.
 std::vector<GroupId> groupsOf(const Scene& scene, const SceneNodes& nodes);
-/// Without what stands in one of the groups anyway; each once, in the scene's order.
+/// The nodes without those that a listed group contains; each once, in scene order.
 SceneNodes outermost(const Scene& scene, const SceneNodes& nodes);
-/// The innermost group that holds all of the nodes; none when only the scene does, or there are no nodes.
+/// Innermost group that contains all nodes; std::nullopt if there is none or `nodes` is empty.
 std::optional<GroupId> commonGroup(const Scene& scene, const SceneNodes& nodes);
 
 }  // namespace nearfit

@@ -8,20 +8,21 @@
 
 namespace nearfit {
 
-/// The surface without sides of one mesh, made when it is first needed: only meshes that enclose nothing need
-/// it, and what meets them. Any thread may ask; it waits for one that is making it.
+/// Solidity and unsided surface of one mesh, each determined when first needed. Only meshes that enclose
+/// nothing, and parts near them, need the surface. Thread-safe: one thread builds, others wait for it.
 class SurfaceOnDemand {
  public:
-  /// As isSolidThroughout, found out once.
+  /// isSolidThroughout() of `mesh`, computed once.
   bool isSolid(const TriangleMesh& mesh) {
     std::call_once(solidOnce_, [&] { isSolid_ = isSolidThroughout(mesh); });
     return isSolid_;
   }
-  /// What was found out about the mesh before; nothing where it is known already.
+  /// Supplies the result in advance, such as from the cache; no-op if already known.
   void setSolid(bool isSolid) {
     std::call_once(solidOnce_, [&] { isSolid_ = isSolid; });
   }
 
+  /// The unsided surface of `mesh`, which must be the same mesh in each call.
   std::shared_ptr<const UnsidedSurface> get(const TriangleMesh& mesh, const NormalConeTree& tree) {
     std::call_once(once_, [&] { surface_ = std::make_shared<const UnsidedSurface>(mesh, tree); });
     return surface_;

@@ -12,19 +12,20 @@
 namespace nearfit {
 namespace {
 
-/// Corners nearer to the plane lie in it, in parts of the mesh's size: more than what placing it rounds.
+/// Vertices nearer to the plane lie in it, as a fraction of the mesh's size: more than the
+/// rounding of its pose.
 constexpr double kInPlane = 1e-11;
-/// More would hold up whoever waits for the cap: so many take some 50 ms.
+/// Max segments of a filled outline: takes about 50 ms. More would delay the view.
 constexpr std::size_t kMostFilled = 25'000;
 
-/// The outline as it is gathered, one point for each edge that is cut.
+/// Builds the outline, with one point per cut edge.
 class Outline {
  public:
   Outline(const TriangleMesh& mesh, const CutPlane& plane, MeshSection& section)
       : mesh_(mesh), plane_(plane), section_(section) {}
 
   void cut(std::uint32_t triangle, const std::array<bool, 3>& isAway) {
-    // The corner that is alone on its side; seen from outside with the normal up, the segment runs from left
+    // `alone` is the corner on its own side. Seen from outside with the normal up, the segment runs from left
     // to right below a corner that is cut away.
     const int alone = isAway[1] == isAway[2] ? 0 : isAway[0] == isAway[2] ? 1 : 2;
     const auto& edges = mesh_.edgesOfTriangle(triangle);
@@ -44,7 +45,7 @@ class Outline {
       const glm::dvec3 a = mesh_.vertices()[mesh_.edges()[edge].v0];
       const glm::dvec3 b = mesh_.vertices()[mesh_.edges()[edge].v1];
       const double from = plane_.heightOf(a), to = plane_.heightOf(b);
-      // One end may lie beyond the plane by less than what counts.
+      // One end may be slightly beyond the plane, within tolerance.
       section_.points.push_back(a + std::clamp(from / (from - to), 0.0, 1.0) * (b - a));
     }
     return entry->second;
@@ -96,7 +97,7 @@ MeshSection sectionOf(const TriangleMesh& mesh, const CutPlane& plane) {
   try {
     fill(plane, mesh.topology().isOriented() ? FillRule::Wound : FillRule::Odd, section);
   } catch (const std::exception&) {
-    // The outline alone still says where the cut is.
+    // The outline alone still shows the cut.
     section.capPoints.clear();
     section.cap.clear();
     section.isCapped = false;

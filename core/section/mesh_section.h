@@ -13,35 +13,34 @@
 
 namespace nearfit {
 
-/// Where a plane cuts a mesh, in the mesh's frame.
+/// Section of a mesh by a plane, in the mesh's frame.
 struct MeshSection {
-  std::vector<glm::dvec3> points;  ///< Of the outline, on the mesh's edges [m].
-  /// Segments, ends by index; seen against the plane's normal, the material lies on the left.
+  std::vector<glm::dvec3> points;  ///< Points of the outline, on the mesh's edges [m].
+  /// Segments of the outline, as indices into `points`. Seen against the plane's normal, the
+  /// material is on the left.
   std::vector<std::array<std::uint32_t, 2>> outline;
   std::vector<glm::dvec3> capPoints;  ///< [m]
   std::vector<Triangle> cap;          ///< Fills the outline; anticlockwise seen against the normal.
-  bool isCapped = false;              ///< The mesh is closed: there is something to fill, and it is.
+  bool isCapped = false;              ///< True if the mesh is closed and its outline, if any, is filled.
 };
 
-/// Cuts a mesh by a plane. Corners in the plane, and as near to it as rounding may shift them, count as not
-/// cut away, so that each curve of a closed mesh closes whatever lies in the plane.
+/// Cuts a mesh by a plane. Vertices in the plane, within rounding, count as not cut away. So each curve of a
+/// closed mesh closes, whatever lies in the plane.
 ///
-/// Pieces may overlap and lie in each other: the cap is what the surface winds around. Where its triangles
-/// have no common sense, the cap goes by parity. An open mesh has none, nor has one cut 25,000 times.
-/// O(n) of the triangles, and O(k log k) of the k that are cut; at once where the plane misses the bounds.
-/// For the GUI thread.
+/// Components may overlap and be nested: the cap is what the surface winds around. If the mesh is not
+/// consistently oriented, the cap follows the even-odd rule. There is no cap if the mesh is open or the
+/// outline has more than 25,000 segments. O(n) in the triangles plus O(k log k) in the k that are cut;
+/// immediate if the plane misses the bounding box. For the GUI thread.
 MeshSection sectionOf(const TriangleMesh& mesh, const CutPlane& plane);
 
-/// Whether a point of the plane, in the mesh's frame, lies on the cap. O(n) of its triangles.
-///
-/// @param normal  The plane's; unit.
+/// True if a point of the plane, in the mesh's frame, is on the cap. O(n) in the cap's triangles.
+/// @param normal  Of the plane; unit.
 bool isOnCap(const MeshSection& section, const glm::dvec3& normal, const glm::dvec3& point) noexcept;
 
-/// What somebody means who points at a cap: the outline near by, as an edge, else the very point. Nothing
-/// where a face is looked for, or an axis and no outline is near.
-///
-/// @param point  Of the cap, in the mesh's frame [m]; becomes the point of the outline that is meant.
-/// @param reach  How far the outline may be to be meant [m]; >= 0.
+/// The feature that a user points at on a cap: a nearby segment of the outline, as an edge, otherwise the
+/// point itself. std::nullopt for FeatureFilter::Faces, and for Axes if no segment is near.
+/// @param point  On the cap, in the mesh's frame [m]; set to the nearest point of the segment found.
+/// @param reach  Max distance to the outline [m]; >= 0.
 std::optional<PickedFeature> pickFeature(const MeshSection& section, glm::dvec3& point, double reach,
                                          FeatureFilter filter = FeatureFilter::Any);
 

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Guards the parser: called for each event with the depth of nesting.
+/// Enforces the limits while parsing: check() is called for each parser event with the nesting depth.
 class ParseGuard {
  public:
   ParseGuard(const std::filesystem::path& file, const JsonLimits& limits) : file_(file), limits_(limits) {}
@@ -44,11 +44,11 @@ class ParseGuard {
 
   const std::filesystem::path& file_;
   const JsonLimits& limits_;
-  std::vector<std::set<std::string>> keys_;  ///< Of each object that is open.
+  std::vector<std::set<std::string>> keys_;  ///< Keys of each open object.
   std::size_t values_ = 0;
 };
 
-/// "12:7" for a 1-based byte of the text; columns count characters.
+/// Line and column, as "12:7", of a 1-based byte offset; columns count characters.
 std::string lineAndColumn(const std::vector<char>& text, std::size_t byte) {
   std::size_t line = 1, column = 1;
   for (std::size_t i = 0; i + 1 < byte && i < text.size(); ++i) {
@@ -62,7 +62,7 @@ std::string lineAndColumn(const std::vector<char>& text, std::size_t byte) {
   return fmt::format("{}:{}", line, column);
 }
 
-/// The library's message from `start` on, short and printable.
+/// The library's message from `start` on, shortened and made printable.
 std::string detail(const std::string& message, const char* start) {
   constexpr std::size_t kMaxDetail = 160;
   const std::size_t begin = message.find(start);

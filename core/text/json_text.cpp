@@ -14,7 +14,7 @@ bool isPlain(const nlohmann::ordered_json& value) {
   return true;
 }
 
-/// Recursion is as deep as the value, which this program made.
+/// Recurses to the depth of `value`, which this program made.
 void append(const nlohmann::ordered_json& value, std::size_t indent, std::string& text) {
   if (isPlain(value)) {
     if (!value.is_array()) {

@@ -6,12 +6,12 @@
 
 namespace nearfit {
 
-/// JSON as a person would lay it out: two spaces a level, arrays of plain values on one line, a newline at
-/// the end. Doubles with the fewest digits that read back as the same double. Strings must be UTF-8.
+/// Formats JSON for human readers: two spaces per level, arrays of plain values on one line, a newline at the
+/// end. Doubles have the fewest digits that read back as the same double. Strings must be UTF-8.
 std::string prettyJson(const nlohmann::ordered_json& value);
 
-/// The double with the fewest digits that is nearest to the float: 0.62, not 0.62000000476837158.
-/// Cast back to float it is the same float.
+/// Nearest double to the shortest decimal that reads back as `value`: 0.62, not 0.62000000476837158. Cast to
+/// float, it equals `value`.
 double shortestDouble(float value);
 
 }  // namespace nearfit

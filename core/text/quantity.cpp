@@ -17,12 +17,12 @@ namespace nearfit {
 namespace {
 
 constexpr std::size_t kDimensions = 4;
-using Scales = std::array<double, kDimensions>;  ///< Of length, angle, mass, time.
+using Scales = std::array<double, kDimensions>;  ///< For length, angle, mass, time.
 
-/// What functions must know: they are other ones when dimensions are looked at.
+/// State of an evaluation that functions depend on; trials find the dimension of the result.
 struct Pass {
   double angle = 1.0;    ///< Scale of angles.
-  bool isTrial = false;  ///< Numbers stand for any: what is chosen and where it is defined do not matter.
+  bool isTrial = false;  ///< Numbers are arbitrary; choices between them and domains do not matter.
 };
 
 const Pass& passOf(const void* data) {
@@ -38,7 +38,7 @@ double cosine(void* pass, double x) {
 double tangent(void* pass, double x) {
   return std::tan(x / passOf(pass).angle);
 }
-/// An inverse one; in a trial one that is defined everywhere.
+/// Inverse function; a trial uses one that is defined everywhere.
 template <double (*Of)(double)>
 double inverse(void* pass, double x) {
   const Pass& is = passOf(pass);
@@ -50,7 +50,7 @@ double root(void* pass, double x) {
 double magnitude(void* /*pass*/, double x) {
   return std::abs(x);
 }
-/// Of equal dimensions, which a sum in place of the choice shows.
+/// Min or max of arguments of equal dimension. A trial takes their sum, which reveals differing dimensions.
 template <bool IsMost>
 double extreme(void* pass, const double* values, int count) {
   double result = values[0];
@@ -100,7 +100,7 @@ std::string problemOf(mu::EErrorCodes code) {
   }
 }
 
-/// Evaluates one text, as often as needed with other values.
+/// Evaluates one text, repeatedly for trials.
 class Evaluation {
  public:
   Evaluation(std::string_view text, const Dimension& wanted)
@@ -117,9 +117,9 @@ class Evaluation {
 
   double value() { return evaluate({1.0, 1.0, 1.0, 1.0}, {}); }
 
-  /// Of the result; nothing when its terms do not go together.
+  /// Dimension of the result; std::nullopt if the dimensions of its terms do not match.
   std::optional<Dimension> dimension() {
-    // Other numbers where those of one trial happen to lie where a power or function has no value.
+    // More than one trial, since the numbers of one may lie outside the domain of a power or function.
     constexpr unsigned kTrials = 8;
     for (unsigned trial = 1; trial <= kTrials; ++trial) {
       if (!std::isfinite(evaluate({1.0, 1.0, 1.0, 1.0}, trial))) continue;
@@ -156,19 +156,19 @@ class Evaluation {
   [[noreturn]] void fail(const mu::ParserError& error) const {
     const int at = error.GetPos();
     const bool isInside = at >= 0 && static_cast<std::size_t>(at) < tokens_.origin.size();
-    // The parser tells where it noticed, which for what is missing is behind the last sign.
+    // The parser reports where it noticed the error; for missing tokens that is past the last one.
     const bool isAtEnd =
         error.GetCode() == mu::ecUNEXPECTED_EOF || error.GetCode() == mu::ecMISSING_PARENS || !isInside;
     fail(isAtEnd ? text_.size() : tokens_.origin[static_cast<std::size_t>(at)], problemOf(error.GetCode()),
          "write for example 12.5 mm or 2*(3 + 4)");
   }
 
-  /// @param trial  0: with the numbers as typed.
+  /// @param trial  0: with the numbers as typed; otherwise the seed of arbitrary ones.
   double evaluate(const Scales& scales, unsigned trial) {
     pass_ = {scales[1], trial != 0};
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       const QuantityTokens::Number& number = tokens_.numbers[i];
-      // The golden ratio's multiples are spread evenly, and no sum of a few of them is one of them.
+      // Multiples of the golden ratio are spread evenly, and no sum of a few of them equals another.
       const double any = 1.0 + std::fmod(0.6180339887498949 * double(i + 1) * double(trial), 1.0);
       numbers_[i] = trial == 0 || number.isExponent ? number.value : any;
     }
@@ -184,8 +184,8 @@ class Evaluation {
     }
   }
 
-  /// A sum of equal dimensions goes as a power of the size of units: measured in units half as large, a
-  /// length is twice the number, an area four times.
+  /// A sum of terms of one dimension scales as a power of the units' size: in units half as large, the number
+  /// of a length doubles and that of an area quadruples.
   std::optional<Dimension> dimensionOfTrial(unsigned trial) {
     constexpr double kRounding = 1e-7;
     const double plain = evaluate({1.0, 1.0, 1.0, 1.0}, trial);

@@ -8,52 +8,50 @@
 
 namespace nearfit {
 
-/// What a quantity is, as exponents: a force is a length by a mass by a time to the power of -2.
+/// Physical dimension as exponents; a force has {length 1, mass 1, time -2}.
 struct Dimension {
   int length = 0, angle = 0, mass = 0, time = 0;
   bool operator==(const Dimension&) const = default;
 };
 
-/// A unit, and what one of it is in SI: {.dimension = {.length = 1}, .inSi = 1e-3} is a millimetre.
+/// A unit and its size in SI; a millimetre is {.dimension = {.length = 1}, .inSi = 1e-3}.
 struct Unit {
   Dimension dimension;
   double inSi = 1.0;
 };
 
-/// A number that a user typed and that cannot be read.
+/// Typed text that is not a valid quantity.
 class QuantityError : public UsageError {
  public:
   QuantityError(std::size_t position, const std::string& text, const std::string& problem,
                 const std::string& remedy);
-  /// Where in the text the mistake is [bytes]; its length when something is missing at the end.
+  /// Position of the mistake in the text [bytes]; the text's length if something is missing at the end.
   std::size_t position() const noexcept { return position_; }
 
  private:
   std::size_t position_;
 };
 
-/// Longest text that is read [bytes].
+/// Max length of a text [bytes].
 constexpr std::size_t kMaxQuantityBytes = 1000;
 
-/// The unit of a text such as "mm", "N s/m", "kg/m³" or "%"; of no dimension for an empty one. Throws
-/// QuantityError.
+/// Unit written as "mm", "N s/m", "kg/m³" or "%"; dimensionless for an empty text. Throws QuantityError.
 Unit unitNamed(std::string_view text);
 
-/// A number with units and arithmetic, in SI: "12.5 mm", "1/4 in", "2*(3 mm + 0,5 cm)", "pi/6 rad",
-/// "20 mm * sin(30 deg)".
+/// Evaluates a number with units and arithmetic, and returns it in SI: "12.5 mm", "1/4 in",
+/// "2*(3 mm + 0,5 cm)", "pi/6 rad", "20 mm * sin(30 deg)".
 ///
-/// A unit multiplies all that stands before it up to the next + or -: 1/4 in is a quarter of an inch. Point
-/// and comma both are decimal separators, nothing separates thousands, and arguments are separated by
-/// semicolons: "max(1,5 mm; 2 mm)". Functions: sqrt abs min max, sin cos tan of an angle, asin acos atan.
-/// Dimensions are checked: an area is no length, and a number without unit cannot be added to a length.
+/// A unit multiplies everything before it back to the last + or -: 1/4 in is a quarter of an inch. Point and
+/// comma are both decimal separators; there is no thousands separator. Semicolons separate arguments:
+/// "max(1,5 mm; 2 mm)". Functions: sqrt, abs, min, max; sin, cos, tan of an angle; asin, acos, atan.
+/// Dimensions are checked: an area is not a length, and a number without unit cannot be added to a length.
 ///
-/// @param shown  Unit that a number without any is in, and dimension that the result must have.
-/// Throws QuantityError, also when the result is not finite. Not real-time safe.
+/// @param shown  Unit of a result without units, and the dimension required of any other result.
+/// Throws QuantityError, also if the result is not finite. Not real-time safe.
 double evaluateQuantity(std::string_view text, const Unit& shown);
 
-/// As evaluateQuantity; a text that begins with += or -= is added to what is there, or taken from it, and one
-/// that begins with *= or /= multiplies or divides it.
-/// @param present  What is there, in SI.
+/// Like evaluateQuantity(), but a text that begins with +=, -=, *= or /= changes the present value.
+/// @param present  Present value, in SI.
 double editedQuantity(std::string_view text, const Unit& shown, double present);
 
 }  // namespace nearfit

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array<std::string_view, 10> kFunctions = {"sqrt", "abs", "min",  "max",  "sin",
                                                          "cos",  "tan", "asin", "acos", "atan"};
-/// What is written for a sign that keyboards and word processors have.
+/// ASCII spelling of a sign that keyboards and word processors produce.
 struct Spelling {
   std::string_view sign, meaning;
 };
@@ -26,7 +26,7 @@ constexpr std::array<Spelling, 6> kSpellings = {
 bool isDigit(char c) noexcept {
   return c >= '0' && c <= '9';
 }
-/// Letters, and what belongs to longer characters.
+/// Letters, and bytes of multi-byte characters.
 bool isNameByte(char c) noexcept {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (static_cast<unsigned char>(c) & 0x80U) != 0;
 }
@@ -74,7 +74,7 @@ class Tokenizer {
   }
   bool endsOperand() const { return previous_ == 'n' || previous_ == 'u' || previous_ == ')'; }
 
-  /// Spaces that are no ASCII: the narrow and the wide one that do not break.
+  /// Non-ASCII spaces: no-break, narrow no-break and thin.
   bool takeSpace() {
     for (const std::string_view space : {"\u00a0", "\u202f", "\u2009"}) {
       if (!startsWith(space)) continue;
@@ -119,7 +119,7 @@ class Tokenizer {
     return true;
   }
 
-  /// 1e-3; not 2 e, nor 3 em.
+  /// Takes the exponent of 1e-3, but not the names in 2 e and 3 em.
   void takeExponent(std::string& digits) {
     if (at_ >= text_.size() || (text_[at_] != 'e' && text_[at_] != 'E')) return;
     std::size_t end = at_ + 1;
@@ -127,7 +127,7 @@ class Tokenizer {
     if (end >= text_.size() || !isDigit(text_[end])) return;
     while (end < text_.size() && isDigit(text_[end]))
       ++end;
-    // from_chars knows a minus in an exponent, and a plus too.
+    // from_chars accepts either sign in an exponent.
     digits += text_.substr(at_, end - at_);
     at_ = end;
   }
@@ -139,7 +139,7 @@ class Tokenizer {
     note('u');
   }
 
-  /// A unit that is no word: need not be followed by anything in particular.
+  /// Takes a unit that is a sign; no separator need follow.
   bool takeSignUnit() {
     for (const std::string_view sign : {"\"", "'", "″", "′", "°", "%"}) {
       if (!startsWith(sign)) continue;
@@ -154,7 +154,7 @@ class Tokenizer {
   bool takeName() {
     if (!isNameByte(text_[at_])) return false;
     const std::size_t from = at_;
-    // A sign of several bytes that means something by itself ends a name: m² is m, to the power of two.
+    // A multi-byte sign with a meaning of its own ends a name: m² is m to the power of two.
     while (at_ < text_.size() && isNameByte(text_[at_]) && !isSignHere())
       ++at_;
     if (at_ == from) ++at_;
@@ -206,7 +206,8 @@ class Tokenizer {
   std::string_view text_;
   Dimension wanted_;
   std::size_t at_ = 0;
-  char previous_ = ' ', beforePrevious_ = ' ';  ///< Of the last tokens: n, u, f, or the operator itself.
+  /// Kinds of the last tokens: n, u, f, or the operator itself.
+  char previous_ = ' ', beforePrevious_ = ' ';
   QuantityTokens tokens_;
 };
 

@@ -15,7 +15,7 @@ constexpr Dimension kForce{.length = 1, .mass = 1, .time = -2};
 struct NamedUnit {
   std::string_view name;
   Unit unit;
-  bool isListed = true;  ///< Other spellings are not.
+  bool isListed = true;  ///< False for alternative spellings.
 };
 
 constexpr std::array kUnits = std::to_array<NamedUnit>({

@@ -8,13 +8,14 @@
 
 namespace nearfit {
 
-/// A unit by its name or sign ("mm", "in", "\"", "°", "N"); nothing when there is none of that name.
+/// Unit with this name or sign ("mm", "in", "\"", "°", "N"); std::nullopt if unknown.
 std::optional<Unit> findUnit(std::string_view name) noexcept;
 
-/// The names of the units of a dimension, for messages: "nm, µm, mm, cm, m, km, in, ft". Empty when none is.
+/// Comma-separated units of a dimension, for messages: "nm, µm, mm, cm, m, km, thou, in, ft". Empty if there
+/// are none. Alternative spellings are left out.
 std::string unitNames(const Dimension& dimension);
 
-/// What a dimension is called, with its article: "a length", "an area".
+/// Name of a dimension with its article ("a length", "an area"), or "of another dimension".
 std::string nameOf(const Dimension& dimension);
 
 }  // namespace nearfit

@@ -5,7 +5,7 @@
 namespace nearfit {
 namespace {
 
-/// Bytes of the character that the text starts with; 0 when it starts with none.
+/// Length of the UTF-8 character at the start of the text [bytes]; 0 if there is none.
 std::size_t characterLength(std::string_view text) noexcept {
   const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const auto isContinuation = [&](std::size_t i, unsigned lower = 0x80, unsigned upper = 0xBF) {
@@ -26,7 +26,7 @@ std::size_t characterLength(std::string_view text) noexcept {
   return 0;
 }
 
-/// As characterLength; 0 also for control characters.
+/// Like characterLength(), but 0 for control characters.
 std::size_t printableLength(std::string_view text) noexcept {
   const std::size_t length = characterLength(text);
   const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };

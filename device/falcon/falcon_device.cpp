@@ -15,7 +15,7 @@ constexpr std::uint8_t kInterface = 0;
 constexpr std::uint8_t kVendorOut = 0x40;
 constexpr UsbLink::Timeout kTimeout{1000};
 
-/// About 9 N for a short while, as its maker says; damping and mass are estimates on the safe side.
+/// The maker states about 9 N for short periods; damping and mass are cautious estimates.
 DeviceLimits limits() noexcept {
   DeviceLimits limits;
   limits.maxForce = 9.0;
@@ -26,8 +26,7 @@ DeviceLimits limits() noexcept {
   return limits;
 }
 
-/// Each step of a greeting may wait for a device that does not answer: whether it is still wanted is asked
-/// before each.
+/// Checks for cancellation before each step of a greeting, since each may wait for a silent device.
 class LinkTransport final : public FtdiTransport {
  public:
   LinkTransport(UsbLink& link, std::uint8_t in, std::uint8_t out, const std::function<bool()>& isWanted)
@@ -105,7 +104,7 @@ ForceArmDevice::Opened FalconDevice::open(std::optional<UsbLink>& link, const Pr
 
 void FalconDevice::take(std::span<const std::byte> packet, Nanoseconds arrived) noexcept {
   const std::uint64_t damagedBefore = reader_.damaged();
-  // Packets with nothing but the chip's status come all the time.
+  // Packets that carry only the chip's status arrive all the time.
   for (const std::byte byte : FtdiPort::contentOf(packet)) {
     if (const auto report = reader_.take(byte)) take(*report, arrived);
   }
@@ -121,7 +120,7 @@ void FalconDevice::take(const falcon::Report& report, Nanoseconds arrived) noexc
   const bool wasHomed = std::exchange(isHomed_, report.homed == falcon::kAllHomed);
   if (isHomed_) {
     sample.joints = falcon::anglesOf(report.encoders);
-    // A letter in a frame that came over wrong looks like this too; more than a few in a row are no accident.
+    // A letter damaged in transit looks like this too; more than a few in a row are no accident.
     const auto place =
         falcon::isInRange(sample.joints) ? falcon::forward(sample.joints, last_) : std::nullopt;
     if (!place) return handle().reject(DeviceFault::OutOfReach);
@@ -130,7 +129,7 @@ void FalconDevice::take(const falcon::Report& report, Nanoseconds arrived) noexc
     sample.velocity = velocity_.update(last_, arrived);
     handle().supervisor().calibrated();
   } else if (wasHomed) {
-    // It has forgotten where its handle is.
+    // The device has forgotten where its handle is.
     handle().supervisor().stop(DeviceFault::OutOfReach);
   }
   handle().publish(arrived);

@@ -9,20 +9,21 @@
 
 namespace nearfit {
 
-/// A Novint Falcon over USB: three axes sensed and driven; its grip does not turn. It forgets its firmware
-/// when it is switched off: that is loaded from a file of the user's. Uncalibrated until its handle has been
+/// A Novint Falcon over USB: senses and drives three axes; its grip does not turn. It forgets its firmware
+/// when switched off, so start() loads it from a file of the user's. Uncalibrated until the handle has been
 /// moved out and in, past the encoders' indexes, while the servo runs.
 class FalconDevice final : public ForceArmDevice {
  public:
+  /// True if it is a Falcon and has the endpoints that this driver needs.
   static bool speaks(const UsbDescription& device) noexcept;
 
   /// Opens nothing yet.
-  /// @param firmware  May be empty as long as the device has its firmware.
+  /// @param firmware  File; may be empty while the device has its firmware.
   FalconDevice(UsbDescription device, std::filesystem::path firmware, const SafetyLimits& safety = {});
   ~FalconDevice() override { stop(); }
 
   std::string stateNote() const override;
-  /// It looks for its indexes by itself as long as it is uncalibrated.
+  /// No-op: while uncalibrated, the device searches for its indexes by itself.
   void calibrate() override {}
 
  private:
@@ -33,13 +34,13 @@ class FalconDevice final : public ForceArmDevice {
 
   const std::filesystem::path firmware_;
 
-  // The link thread's.
+  // Link's thread only.
   falcon::FrameReader reader_;
-  glm::dvec3 last_{0.0};  ///< Where the grip was.
+  glm::dvec3 last_{0.0};  ///< Last position of the grip [m].
   bool isHomed_ = false;
   VelocityFilter velocity_;
 
-  std::array<std::byte, falcon::kFrameSize> command_{};  ///< The servo thread's.
+  std::array<std::byte, falcon::kFrameSize> command_{};  ///< Servo thread only.
 };
 
 }  // namespace nearfit

@@ -13,11 +13,12 @@
 namespace nearfit::falcon {
 namespace {
 
-/// Of 3 MHz. The loader greets at 9600 baud, takes its data at 3 MHz / 21; the firmware talks at 1.5 MBaud.
+/// Divisors of 3 MHz: the loader greets at 9600 baud and takes data at 3 MHz / 21; the firmware
+/// runs at 1.5 MBaud.
 constexpr std::uint16_t kGreetingDivisor = 0x4138, kLoadingDivisor = 0x15, kRunningDivisor = 2;
-/// The loader's answers get lost with a shorter one [ms].
+/// With a shorter latency the loader's answers get lost [ms].
 constexpr std::uint8_t kLoadingLatency = 16, kRunningLatency = 1;
-/// A packet less the chip's status: what comes back of a block is one packet.
+/// A packet without the chip's status, so that each repeated block is one packet.
 constexpr std::size_t kBlockSize = FtdiPort::kPacketSize - FtdiPort::kStatusSize;
 constexpr int kGreetings = 20, kQuestions = 10;
 
@@ -25,7 +26,7 @@ constexpr std::array kGreeting{std::byte{0x0a}, std::byte{0x43}, std::byte{0x0d}
 constexpr std::array kAnswer{std::byte{0x0a}, std::byte{0x44}, std::byte{0x2c}, std::byte{0x0d}};
 constexpr std::array kStart{std::byte{0x41}};
 
-/// A step that failed, which may go better the next time.
+/// A failed step; it may succeed at the next attempt.
 struct Failure {
   std::string problem, remedy;
 };
@@ -33,7 +34,7 @@ struct Failure {
 constexpr const char* kPowerCycle =
     "switch the device off at its power supply, wait, switch it on and try again";
 
-/// The line may still carry a zero byte of the chip's reset before the answer.
+/// A zero byte from the chip's reset may come before the answer.
 bool isAnswer(std::span<const std::byte> got) {
   if (!got.empty() && got.front() == std::byte{0}) got = got.subspan(1);
   return got.size() >= kAnswer.size() && std::equal(kAnswer.begin(), kAnswer.end(), got.begin());
@@ -45,7 +46,7 @@ std::optional<Failure> greet(FtdiPort& port) {
   port.setDivisor(kGreetingDivisor);
   port.setPlainLine();
   port.setRts(false);
-  // The edge of DTR resets the processor into its loader.
+  // The edge on DTR resets the processor into its loader.
   port.setDtr(false);
   port.setDtr(true);
   for (int i = 0; i < kGreetings; ++i) {
@@ -68,7 +69,7 @@ std::optional<Failure> beginLoading(FtdiPort& port) {
   return Failure{"its loader does not take firmware", kPowerCycle};
 }
 
-/// Of all attempts together, as it never falls.
+/// Progress over all attempts; never falls.
 class Told {
  public:
   explicit Told(const ProgressCallback& progress) : progress_(progress) {}

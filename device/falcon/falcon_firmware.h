@@ -11,21 +11,23 @@
 
 namespace nearfit::falcon {
 
-/// Firmware is some tens of kilobytes [bytes].
+/// Bounds on the size of a firmware file, which has some tens of kilobytes [bytes].
 constexpr std::size_t kLeastFirmware = 256, kMostFirmware = std::size_t{1} << 20U;
 
-/// The file that the user has from the maker of the device. Throws DeviceError (NoFirmware) when there is no
-/// path or the size is none that firmware has, FileError when it cannot be read.
-/// @param where  The device, for messages.
+/// Reads the firmware file that the device's maker supplies. Throws DeviceError (NoFirmware) if `file` is
+/// empty or its size is out of bounds, FileError if it cannot be read.
+/// @param where  Name of the device, for messages.
 std::vector<std::byte> readFirmware(const std::filesystem::path& file, const std::string& where);
 
-/// Makes the port what the running firmware talks over, and asks whether it runs. Throws DeviceError.
+/// Sets the line as the running firmware uses it and returns true if the firmware
+/// answers. Throws DeviceError.
 bool isFirmwareRunning(FtdiPort& port);
 
-/// Loads firmware into a device that has just been switched on: greets its loader, sends blocks and compares
-/// what comes back, and asks whether it runs; up to kUploads times. Throws DeviceError that says which step
-/// failed and what to do; Cancelled.
-/// @param progress  By blocks that the device has repeated.
+/// Loads firmware into a device that was just switched on: greets its loader, sends blocks, compares what the
+/// loader repeats and checks that the firmware runs. Tries up to kUploads times. Throws DeviceError that says
+/// which step failed and what to do; Cancelled.
+/// @param where     Name of the device, for messages.
+/// @param progress  Fraction of the firmware that the device has repeated.
 /// Source: the sequence as libnifalcon documents it.
 void uploadFirmware(FtdiPort& port, std::span<const std::byte> firmware, const std::string& where,
                     const ProgressCallback& progress = {});

@@ -15,16 +15,16 @@ using namespace geometry;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// The squares of lengths are right to so much [m^2]: a picometre of the grip's place.
+/// Tolerance of the squared lengths [m^2]: about a picometre of the grip's position.
 constexpr double kConverged = 1e-13;
-/// A step of Newton's goes no farther [m]: beyond, the legs' circles have turned away from their tangents.
+/// Longest Newton step [m]: beyond it the legs' circles have turned away from their tangents.
 constexpr double kLongestStep = 0.03;
-/// A step that does not help is halved so often.
+/// Halvings of a step that does not reduce the residual.
 constexpr int kMostHalvings = 10;
-/// Thigh and shin nearer to one line than that are as good as locked [m].
+/// With a shorter lever, thigh and shin are nearly in line, as good as locked [m].
 constexpr double kLeastLever = 1e-3;
 
-/// The directions out and across of a leg, the same for each call.
+/// Outward direction of a leg; constant.
 struct Leg {
   double cosine, sine;
 };
@@ -37,12 +37,12 @@ const std::array<Leg, 3> kLegs = [] {
   return legs;
 }();
 
-/// The grip as a leg sees it.
+/// The grip as seen from a leg [m].
 struct Seen {
-  double out = 0.0;     ///< From the thigh's joint to the shin's end.
+  double out = 0.0;     ///< From the thigh's joint to the shin's end, outwards.
   double along = 0.0;   ///< The same, along z.
-  double across = 0.0;  ///< Of the bars' slant.
-  double bars = 0.0;    ///< The bars, seen from the side; not a number when they are too short.
+  double across = 0.0;  ///< Sideways slant of the bars.
+  double bars = 0.0;    ///< Length of the bars seen from the side; NaN if they are too short.
   double shin() const noexcept { return kShinJoints + bars; }
 };
 
@@ -55,12 +55,12 @@ Seen seenBy(const Leg& leg, const glm::dvec3& p) noexcept {
   return seen;
 }
 
-/// A leg's equation, squared: how far it is from being fulfilled, and how that changes.
+/// A leg's equation, squared: its residual and how that changes.
 struct Residual {
   double value = 0.0;        ///< [m^2]
-  glm::dvec3 gradient{0.0};  ///< By the grip's place [m].
-  double shinAlong = 0.0;    ///< Of the shin along z [m].
-  double lever = 0.0;        ///< Of the shin about the thigh's end, across the thigh [m].
+  glm::dvec3 gradient{0.0};  ///< With respect to the grip's position [m].
+  double shinAlong = 0.0;    ///< The shin's extent along z [m].
+  double lever = 0.0;        ///< The shin's extent across the thigh [m].
 };
 
 Residual residualOf(const Leg& leg, const glm::dvec3& p, double angle) noexcept {
@@ -68,7 +68,7 @@ Residual residualOf(const Leg& leg, const glm::dvec3& p, double angle) noexcept 
   const double cosine = std::cos(angle), sine = std::sin(angle);
   const double out = seen.out - kThigh * cosine, along = seen.along - kThigh * sine;
   const double shin = seen.shin();
-  // Half the derivatives along u, v and w.
+  // Half the derivatives by u, v and w are out, byAcross and along.
   const double byAcross = shin * seen.across / seen.bars;
   Residual residual;
   residual.value = out * out + along * along - shin * shin;
@@ -86,7 +86,7 @@ Residuals residualsOf(const glm::dvec3& p, const glm::dvec3& angles) noexcept {
           residualOf(kLegs[2], p, angles.z)};
 }
 
-/// The largest; not a number where one is.
+/// Returns the largest absolute residual; NaN if one is NaN.
 double sizeOf(const Residuals& residuals) noexcept {
   double size = 0.0;
   for (const Residual& each : residuals) {
@@ -95,7 +95,7 @@ double sizeOf(const Residuals& residuals) noexcept {
   return size;
 }
 
-/// Each row a leg's.
+/// Returns the matrix with these rows, one per leg.
 glm::dmat3 rows(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) noexcept {
   return glm::transpose(glm::dmat3(a, b, c));
 }
@@ -121,7 +121,7 @@ std::optional<glm::dvec3> search(const glm::dvec3& angles, glm::dvec3 p) noexcep
     if (size <= kConverged) return isPossible(at) ? std::optional(p) : std::nullopt;
     glm::dvec3 step = newtonStep(at);
     int halvings = 0;
-    // Out of reach the residual is not a number, and so no less.
+    // Out of reach the residual is NaN, which counts as no decrease.
     for (Residuals next = residualsOf(p + step, angles); !(sizeOf(next) < size);
          next = residualsOf(p + step, angles)) {
       if (++halvings > kMostHalvings) return std::nullopt;
@@ -153,7 +153,7 @@ std::optional<glm::dvec3> inverse(const glm::dvec3& position) noexcept {
   glm::dvec3 angles(0.0);
   for (int i = 0; i < 3; ++i) {
     const Seen seen = seenBy(kLegs[static_cast<std::size_t>(i)], position);
-    // Thigh and shin as two sides of a triangle.
+    // Law of cosines in the triangle that thigh and shin span.
     const double third = std::hypot(seen.out, seen.along), shin = seen.shin();
     const double cosine = (third * third + kThigh * kThigh - shin * shin) / (2.0 * third * kThigh);
     if (!(std::abs(cosine) <= 1.0)) return std::nullopt;
@@ -168,7 +168,7 @@ std::optional<glm::dvec3> forward(const glm::dvec3& angles, const glm::dvec3& st
 }
 
 glm::dmat3 jacobian(const glm::dvec3& position, const glm::dvec3& angles) noexcept {
-  // By the implicit function theorem: the residual falls by 2 a lever for each radian of the thigh.
+  // By the implicit function theorem: the residual falls by 2 a lever per radian of the thigh.
   const Residuals at = residualsOf(position, angles);
   const auto row = [](const Residual& each) { return each.gradient / (2.0 * kThigh * each.lever); };
   return glm::inverse(rows(row(at[0]), row(at[1]), row(at[2])));
@@ -176,7 +176,7 @@ glm::dmat3 jacobian(const glm::dvec3& position, const glm::dvec3& angles) noexce
 
 std::array<std::int16_t, 3> unitsFor(const glm::dvec3& force, const glm::dvec3& position,
                                      const glm::dvec3& angles) noexcept {
-  // The motors' unit counts against the thighs' angles.
+  // Motor units count against the thigh angles.
   glm::dvec3 units = -kUnitsPerNewtonMetre * (glm::transpose(jacobian(position, angles)) * force);
   const double most = std::max({std::abs(units.x), std::abs(units.y), std::abs(units.z)});
   if (!std::isfinite(units.x + units.y + units.z)) return {};

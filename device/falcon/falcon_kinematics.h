@@ -9,12 +9,12 @@
 
 namespace nearfit::falcon {
 
-/// The mechanics of the Novint Falcon: three legs about z, each a thigh on a motor and a shin of two parallel
+/// Kinematics of the Novint Falcon: three legs about z, each a thigh on a motor and a shin of two parallel
 /// bars, which keep the grip from turning (a translational platform after Tsai and Stamper). x to the right,
-/// y up, z towards the user; the origin is in the middle of the thighs' joints. [m], [rad]. Real-time safe.
+/// y up, z towards the user; the origin is the middle of the thighs' joints. [m], [rad]. Real-time safe.
 ///
-/// In the frame of a leg, u out from the axis, v across, w along z, the grip at (u, v, w): with q = (u - r +
-/// c, w) and thigh end k = a (cos t, sin t),
+/// In the frame of a leg, u points outwards from the axis, v across and w along z. With the grip at (u, v,
+/// w), q = (u - r + c, w) and the thigh's end k = a (cos t, sin t),
 ///
 ///     |q - k| = d + e + sqrt(b^2 - (v - s + f)^2)
 ///
@@ -23,52 +23,56 @@ namespace nearfit::falcon {
 namespace geometry {
 constexpr double kThigh = 0.060;              ///< a
 constexpr double kShin = 0.1025;              ///< b
-constexpr double kGripOut = 0.014;            ///< c: from the shin's end to the grip's middle, outwards.
+constexpr double kGripOut = 0.014;            ///< c: outwards, from the shin's end to the grip's middle.
 constexpr double kShinJoints = 0.0225;        ///< d + e: from thigh to bars, and from bars to grip.
-constexpr double kGripAcross = -0.025;        ///< f: as kGripOut, across.
-constexpr double kBaseOut = 0.037233758;      ///< r: from the axis to the thigh's joint, outwards.
-constexpr double kBaseAcross = -0.027330909;  ///< s: across.
-constexpr double kFirstLeg = 105.0;           ///< Where legs stand about z [degrees]; 120 less for each next.
-constexpr double kAngleAtIndex = 35.0;        ///< Of thighs where encoders count 0 [degrees].
-constexpr double kSlots = 320;                ///< Of an encoder's wheel; four counts each.
-constexpr double kGearRatio = 0.110 / 0.01425;  ///< Diameter of the thigh's drum over the motor's.
+constexpr double kGripAcross = -0.025;        ///< f: the same as kGripOut, across.
+constexpr double kBaseOut = 0.037233758;      ///< r: outwards, from the axis to the thigh's joint.
+constexpr double kBaseAcross = -0.027330909;  ///< s: the same, across.
+constexpr double kFirstLeg = 105.0;     ///< Angle of the first leg about z [degrees]; each next is 120 less.
+constexpr double kAngleAtIndex = 35.0;  ///< Thigh angle at encoder count 0 [degrees].
+constexpr double kSlots = 320;          ///< Slots in an encoder's wheel; four counts each.
+constexpr double kGearRatio = 0.110 / 0.01425;  ///< Drum diameter: thigh's over motor's.
 }  // namespace geometry
 
-/// Thighs are between these all over the workspace of four inches each way, with room: farther out an encoder
-/// has not found its index [rad].
+/// Range of the thighs over the whole workspace, four inches each way, with some margin [rad]. Beyond it an
+/// encoder has not found its index.
 constexpr double kLeastAngle = -1.0, kMostAngle = 2.1;
 
-/// A motor's own unit for each newton metre on its thigh, turning it back (libnifalcon); and the most that one is told,
-/// which no source gives: well above what the nine newtons that its maker promises need near the middle.
+/// Motor units per newton metre on a thigh, in the direction that turns it back (libnifalcon), and
+/// the largest command. No source gives that limit; it is well above what the maker's nine newtons
+/// need near the middle.
 constexpr double kUnitsPerNewtonMetre = 10'000.0;
 constexpr int kMostUnits = 4096;
 
-/// In the middle of the workspace.
+/// Middle of the workspace.
 constexpr glm::dvec3 kCentre{0.0, 0.0, 0.125};
 
+/// Returns the thigh angles for encoder counts from the indexes.
 glm::dvec3 anglesOf(const std::array<std::int16_t, 3>& encoders) noexcept;
+/// True if every angle is from kLeastAngle to kMostAngle.
 bool isInRange(const glm::dvec3& angles) noexcept;
 
-/// The thighs' angles for a place of the grip, knees outwards, in closed form; nothing beyond the legs'
-/// reach.
+/// Returns the thigh angles for a grip position, knees outwards, in closed form; std::nullopt
+/// beyond the legs' reach.
 std::optional<glm::dvec3> inverse(const glm::dvec3& position) noexcept;
 
-/// The place of the grip for the thighs' angles, before the knees, by Newton's method.
+/// Finds the grip position for the thigh angles, in front of the knees, by Newton's method.
 ///
-/// @param start  Near it: the place a moment ago. Where that leads nowhere, the search begins anew from
-///               kCentre.
-/// @return Nothing when it does not converge within kMostIterations, or to a pose that the device cannot have
-/// (knees inwards, grip behind them). What is returned fulfils the legs' equations to rounding and is not
-/// singular: that is checked, not taken from the iteration.
+/// @param start  A position near it, such as the last one. If that leads nowhere, the search
+///               begins again at kCentre.
+/// @return std::nullopt if it does not converge within kMostIterations, or converges to a pose that the
+///         device cannot have (knees inwards, grip behind them). Every result is checked: it fulfils the
+///         legs' equations to rounding and is not singular.
 std::optional<glm::dvec3> forward(const glm::dvec3& angles, const glm::dvec3& start) noexcept;
 constexpr int kMostIterations = 30;
 
-/// What the grip moves for each radian [m/rad]: a column a thigh. Not finite where it is singular.
-/// @param angles  Those of `position`.
+/// Returns the motion of the grip per radian of each thigh [m/rad], one column per thigh. Not
+/// finite where singular.
+/// @param angles  Thigh angles at `position`.
 glm::dmat3 jacobian(const glm::dvec3& position, const glm::dvec3& angles) noexcept;
 
-/// What to tell the motors so that the grip pushes with `force` [N]: J^T f, by virtual work. Where a motor
-/// cannot, all push less, so that the direction stays.
+/// Returns the motor commands that make the grip push with `force` [N]: J^T f, by virtual work. If one
+/// exceeds kMostUnits, all shrink alike to keep the direction. Zeros where singular.
 std::array<std::int16_t, 3> unitsFor(const glm::dvec3& force, const glm::dvec3& position,
                                      const glm::dvec3& angles) noexcept;
 

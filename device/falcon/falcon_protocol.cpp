@@ -9,7 +9,7 @@ constexpr std::uint8_t kBegin = '<', kEnd = '>', kZero = 'A';
 constexpr std::size_t kNumbersAt = 1, kLetters = 4, kFlagsAt = 13;
 constexpr std::uint8_t kHomingFlag = 1;
 
-/// Nothing where a letter is none that stands for four bits.
+/// Returns std::nullopt if a letter does not stand for four bits.
 std::optional<std::int16_t> numberOf(std::span<const std::uint8_t> letters) noexcept {
   unsigned number = 0;
   for (std::size_t i = 0; i < kLetters; ++i) {
@@ -26,7 +26,7 @@ std::optional<Report> decode(std::span<const std::uint8_t, kFrameSize> frame) no
     if (!number) return std::nullopt;
     report.encoders[i] = *number;
   }
-  // Unlike the others this one carries seven bits.
+  // Unlike the others, this letter carries seven bits.
   if (frame[kFlagsAt] < kZero) return std::nullopt;
   const unsigned flags = frame[kFlagsAt] - unsigned{kZero};
   report.homed = static_cast<std::uint8_t>(flags >> 4U & kAllHomed);

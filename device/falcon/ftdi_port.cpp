@@ -16,7 +16,7 @@ enum Request : std::uint8_t {
 
 constexpr std::uint16_t kPurgeIn = 1, kPurgeOut = 2;
 constexpr std::uint16_t kEightBits = 8, kNoFlowControl = 0;
-/// The upper byte says which line is meant, the lower what it becomes.
+/// The upper byte selects the line, the lower one sets it.
 constexpr std::uint16_t kDtr = 1, kRts = 2;
 
 std::uint16_t lineSetting(std::uint16_t line, bool isOn) noexcept {

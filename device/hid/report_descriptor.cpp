@@ -6,8 +6,7 @@
 namespace nearfit {
 namespace {
 
-/// Item types and tags as they stand in an item's first byte, without its two bits of size (6.2.2.4
-/// to 6.2.2.8).
+/// Item types and tags: an item's first byte without its two size bits (6.2.2.4 to 6.2.2.8).
 enum Item : std::uint8_t {
   kInput = 0x80,
   kOutput = 0x90,
@@ -95,7 +94,7 @@ class Parser {
         globals_.logicalMinimum = signedOf(value, size);
         return true;
       case kLogicalMaximum:
-        // Many a descriptor gives an unsigned maximum in a byte that is negative as a signed one.
+        // Many descriptors give an unsigned maximum in one byte, which reads as negative.
         globals_.logicalMaximum = signedOf(value, size);
         if (globals_.logicalMinimum >= 0 && globals_.logicalMaximum < 0 && size < 4)
           globals_.logicalMaximum = static_cast<std::int32_t>(value);
@@ -125,7 +124,7 @@ class Parser {
   }
 
   bool takeLocal(std::uint8_t item, std::uint32_t value, std::size_t size) {
-    // A usage of four bytes brings its own page.
+    // A four-byte usage carries its own page.
     const std::uint32_t usage = size == 4 ? value : (globals_.usagePage << 16U) | (value & 0xffffU);
     switch (item) {
       case kUsage:
@@ -142,7 +141,7 @@ class Parser {
 
   bool addUsages(std::uint32_t first, std::uint32_t last) {
     if (last < first || last - first >= kMostUsages - std::min(usages_.size(), kMostUsages)) return false;
-    // Counted, as the last may be the largest number there is.
+    // Counts from 0: `last` may be the largest value.
     for (std::uint32_t i = 0; i <= last - first; ++i)
       usages_.push_back(first + i);
     return true;
@@ -157,7 +156,7 @@ class Parser {
     if (isData) {
       if (reports_.fields.size() + globals_.reportCount > kMostHidFields) return false;
       for (std::uint32_t i = 0; i < globals_.reportCount; ++i) {
-        // The last usage stands for all that follow.
+        // The last usage holds for all remaining values.
         const std::uint32_t usage = usages_[std::min<std::size_t>(i, usages_.size() - 1)];
         reports_.fields.push_back({kind, globals_.reportId, usage, end + i * globals_.reportSize,
                                    globals_.reportSize, globals_.logicalMinimum, globals_.logicalMaximum,
@@ -166,7 +165,7 @@ class Parser {
     }
     end += static_cast<std::uint32_t>(bits);
     forgetLocals();
-    // The byte of the number comes first; reports without one have no id anywhere.
+    // Offsets omit the report number here; parseReportDescriptor() adds it.
     return true;
   }
 
@@ -187,7 +186,7 @@ class Parser {
   std::vector<std::uint32_t> usages_;
   std::uint32_t usageMinimum_ = 0;
   int depth_ = 0;
-  std::array<std::array<std::uint32_t, 256>, 3> ends_{};  ///< Bits so far, of each kind and report.
+  std::array<std::array<std::uint32_t, 256>, 3> ends_{};  ///< Bits so far, per kind and report number.
 };
 
 }  // namespace

@@ -10,12 +10,12 @@ namespace nearfit {
 
 enum class HidReportKind : std::uint8_t { Input, Output, Feature };
 
-/// One value of a report: where it stands in it, and what it means.
+/// A value in a report: its place and its meaning.
 struct HidField {
   HidReportKind kind = HidReportKind::Input;
-  std::uint8_t reportId = 0;    ///< 0 where the device numbers no reports.
+  std::uint8_t reportId = 0;    ///< 0 if the device does not number its reports.
   std::uint32_t usage = 0;      ///< Page in the upper 16 bits, usage in the lower.
-  std::uint32_t bitOffset = 0;  ///< From the report's first byte, the one with its number included.
+  std::uint32_t bitOffset = 0;  ///< From the first byte of the report, including its number.
   std::uint32_t bitCount = 0;   ///< 1 to 32.
   std::int32_t logicalMinimum = 0, logicalMaximum = 0;
   bool isRelative = false;
@@ -35,29 +35,30 @@ constexpr std::uint16_t page(std::uint32_t usage) noexcept {
 }
 }  // namespace hid_usage
 
-/// What a HID report descriptor says: all values that have a usage, in its order.
+/// Content of a HID report descriptor: all values that have a usage, in order.
 struct HidReports {
-  bool hasNumbers = false;                  ///< Reports begin with a byte that says which one it is.
-  std::vector<std::uint32_t> applications;  ///< Usages of the top collections.
+  bool hasNumbers = false;                  ///< Reports begin with a byte that identifies them.
+  std::vector<std::uint32_t> applications;  ///< Usages of the top-level collections.
   std::vector<HidField> fields;
 };
 
-/// Nothing when the descriptor is damaged: items that run past its end, collections that do not close, more
-/// than kMostHidFields values, reports of more than kMostReportBytes. Arrays of selectors (keyboards) are
-/// passed over. Source: Device Class Definition for HID 1.11, 6.2.2.
+/// Returns std::nullopt if the descriptor is damaged: items that run past its end, collections that
+/// do not close, more than kMostHidFields values, reports of more than kMostReportBytes. Skips arrays
+/// of selectors (keyboards).
+/// Source: Device Class Definition for HID 1.11, 6.2.2.
 std::optional<HidReports> parseReportDescriptor(std::span<const std::byte> descriptor);
 
-/// A damaged count must not fill the memory; a space mouse has some 60.
+/// Keeps a damaged count from filling the memory; a space mouse has some 60 values.
 constexpr std::size_t kMostHidFields = 4096;
-/// As much as a report over USB can be.
+/// Longest possible report over USB.
 constexpr std::uint32_t kMostReportBytes = 65535;
 
-/// The value of a field in a report; nothing when the report is too short or another one.
-/// @param report  As it came, its number included. Real-time safe.
+/// Returns the value of a field; std::nullopt if the report is too short or is another one. Real-time safe.
+/// @param report  As received, including its number.
 std::optional<std::int32_t> readField(std::span<const std::byte> report, const HidField& field,
                                       bool hasNumbers) noexcept;
 
-/// Writes a value into a report that is long enough; one that does not fit the field's bits is cut off.
+/// Writes a value into a report, cut to the field's bits. No-op if the report is too short. Real-time safe.
 void writeField(std::span<std::byte> report, const HidField& field, std::int32_t value) noexcept;
 
 }  // namespace nearfit

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of HID 1.11: longer ones do not exist in Linux (HID_MAX_DESCRIPTOR_SIZE) [bytes].
+/// Linux accepts no longer descriptor (HID_MAX_DESCRIPTOR_SIZE) [bytes].
 constexpr std::size_t kMostDescriptor = 4096;
 
 std::optional<std::vector<std::byte>> readAll(const fs::path& path) {
@@ -25,14 +25,14 @@ std::optional<std::vector<std::byte>> readAll(const fs::path& path) {
   return bytes;
 }
 
-/// "1-3:1.0" of device "1-3" and interface 0, whatever the configuration's number.
+/// True for folder "1-3:1.0", device "1-3" and interface 0, whatever the configuration's number.
 bool isInterface(const std::string& folder, const std::string& device, std::uint8_t number) {
   const std::string begin = device + ':', end = '.' + std::to_string(number);
   return folder.size() > begin.size() + end.size() && folder.compare(0, begin.size(), begin) == 0 &&
          folder.compare(folder.size() - end.size(), end.size(), end) == 0;
 }
 
-/// Its parts in a folder; none where it cannot be read: devices go while they are looked at.
+/// Returns a folder's entries; none if it cannot be read, since devices may vanish meanwhile.
 std::vector<fs::path> childrenOf(const fs::path& folder) {
   std::vector<fs::path> children;
   std::error_code error;

@@ -9,8 +9,8 @@
 
 namespace nearfit {
 
-/// The HID report descriptor of an interface as the system's own driver has read it: a look that opens
-/// nothing and takes nothing from anybody. Nothing where no such driver is bound to it. May allocate.
+/// Returns an interface's HID report descriptor as read by the kernel's own driver; opens nothing and
+/// disturbs nobody. Returns std::nullopt if no such driver is bound. May allocate.
 std::optional<std::vector<std::byte>> systemReportDescriptor(const UsbDescription& device,
                                                              std::uint8_t interfaceNumber);
 

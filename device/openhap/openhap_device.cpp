@@ -14,11 +14,11 @@ namespace {
 
 using openhap::PoseStatus;
 
-/// A wrench holds for a few periods of the device, and so long at least: room for a hiccup of this machine.
-/// Then its watchdog takes over.
+/// A wrench stays valid for a few periods of the device, and at least this long, to bridge a hiccup of this
+/// machine. Then the device's watchdog takes over.
 constexpr double kLeastTimeToLive = 10e-3, kPeriodsToLive = 3.0;  // [s]
 constexpr UsbLink::Timeout kRequestTimeout{500};
-/// The handle repositions the device while this is held.
+/// Holds the part while the hand repositions the device.
 constexpr std::uint16_t kClutchButton = 1;
 
 std::uint16_t timeToLiveMs(std::uint16_t rate) noexcept {
@@ -26,7 +26,7 @@ std::uint16_t timeToLiveMs(std::uint16_t rate) noexcept {
   return static_cast<std::uint16_t>(std::ceil(1e3 * time));
 }
 
-/// The interface of our version, or else one of another.
+/// Returns the interface of our version, else one of another version; null if there is none.
 const UsbInterface* openHapInterface(const UsbDescription& device) noexcept {
   const UsbInterface* found = nullptr;
   for (const UsbInterface& each : device.interfaces) {
@@ -187,7 +187,7 @@ void OpenHapDevice::calibrate() {
 
 void OpenHapDevice::reset() {
   if (state() != DeviceState::Fault) return;
-  // Makes it forget that its watchdog has tripped.
+  // Clears a tripped watchdog in the device.
   request(openhap::Request::Disarm);
   setFaultText({});
   handle_.supervisor().reset();
@@ -198,7 +198,7 @@ void OpenHapDevice::disarm() noexcept {
   try {
     if (link_ && state() != DeviceState::Lost) request(openhap::Request::Disarm);
   } catch (const Error&) {
-    // No force goes out any more, and its watchdog disarms it.
+    // No force goes out any more, and the device's watchdog disarms it.
   }
 }
 
@@ -231,7 +231,7 @@ bool OpenHapDevice::readHandle(HandleInput& handle) noexcept {
   handle.pose = RigidTransform{{q[0], q[1], q[2], q[3]}, vectorOf(report.position)}.normalized();
   handle.age = handle_.age();
   handle.patience = handle_.supervisor().patience();
-  // Wherever the handle is at first, the part does not jump there.
+  // The part must not jump to wherever the handle is at first.
   handle.isClutched = !hasPose_ || (report.buttons & kClutchButton) != 0;
   hasPose_ = handle_.hasReport();
   handle.hasOwnFrame = true;

@@ -12,17 +12,16 @@
 
 namespace nearfit {
 
-/// A device that speaks OpenHap (resources/docs/openhap.md), over USB.
+/// A device that speaks OpenHap (resources/docs/openhap.md) over USB.
 class OpenHapDevice final : public HapticDevice, private UsbPacketSink {
  public:
-  /// True for what has an OpenHap interface, of whatever version.
+  /// True if the device has an OpenHap interface, of any version.
   static bool speaks(const UsbDescription& device) noexcept;
-  /// When it speaks another version than ours.
+  /// Returns a reason if the device speaks another version; else std::nullopt.
   static std::optional<DeviceRefusal> refusal(const UsbDescription& device);
 
   /// Opens nothing yet.
-  /// @param limits  What the device says of itself may only tighten its speeds; it says whether it has a
-  ///                dead-man switch.
+  /// @param limits  The device may lower their speeds only. It says itself whether it has a dead-man switch.
   explicit OpenHapDevice(UsbDescription device, const SafetyLimits& limits = {});
   ~OpenHapDevice() override;
 
@@ -40,6 +39,7 @@ class OpenHapDevice final : public HapticDevice, private UsbPacketSink {
   void sendWrench(const Wrench& wrench) noexcept override;
 
   ReportCounters counters() const noexcept override { return handle_.counters(); }
+  /// USB counters of the open link; zeros while closed.
   UsbCounters linkCounters() const noexcept { return link_ ? link_->counters() : UsbCounters{}; }
 
  private:
@@ -60,14 +60,14 @@ class OpenHapDevice final : public HapticDevice, private UsbPacketSink {
   StreamedHandle<openhap::PoseReport> handle_;
 
   mutable std::mutex faultMutex_;
-  std::string faultText_;  ///< The device's own, of the fault that it reports.
+  std::string faultText_;  ///< The device's own text on the fault that it reports.
 
-  // The link thread's own.
+  // Link's thread only.
   bool hasSequence_ = false, wasFaulted_ = false;
   std::uint16_t lastSequence_ = 0;
 
-  // The servo thread's own.
-  bool hasPose_ = false;  ///< Something came from the device at an earlier reading.
+  // Servo thread only.
+  bool hasPose_ = false;  ///< An earlier reading had a report.
   glm::dvec3 velocity_{0.0};
 };
 

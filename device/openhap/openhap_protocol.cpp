@@ -10,7 +10,7 @@ namespace {
 enum ReportKind : std::uint8_t { kPoseKind = 1, kWrenchKind = 2, kCapabilitiesKind = 3 };
 constexpr std::size_t kChecksumSize = 2;
 
-/// A device of more than this is not one that a hand holds: [N], [m], [rad/s] and the like.
+/// Larger numbers are absurd for a device held by a hand: [N], [m], [rad/s] and the like.
 constexpr float kMostOfAnything = 1e6F;
 
 class Writer {
@@ -32,7 +32,7 @@ class Writer {
     for (const float value : values)
       f32(value);
   }
-  /// Zeros up to the checksum, and the checksum.
+  /// Pads with zeros and appends the checksum.
   void close() noexcept {
     while (at_ < bytes_.size() - kChecksumSize)
       u8(0);
@@ -57,7 +57,7 @@ class Reader {
     const std::uint32_t low = u16();
     return low | std::uint32_t{u16()} << 16U;
   }
-  /// Not finite or absurd ones are noted.
+  /// Reads a float; remembers if it is not finite or absurd.
   float f32() noexcept {
     const float value = std::bit_cast<float>(u32());
     if (!std::isfinite(value))

@@ -31,7 +31,7 @@ std::string textOf(const ErrorText& error) {
   throw DeviceError(DeviceProblem::Unsupported, file.string(), std::move(problem), std::move(remedy));
 }
 
-/// Its code runs as the user: nobody else may have written it.
+/// The plug-in's code runs as the user, so nobody else may have written it.
 void checkOwner(const fs::path& file) {
   struct stat status{};
   if (::stat(file.c_str(), &status) != 0) refuse(file, std::strerror(errno), "check the path");

@@ -10,23 +10,24 @@
 
 namespace nearfit {
 
-/// A plug-in that is loaded: it stays so until the last device of it is gone.
+/// A loaded plug-in; stays loaded until its last device is gone.
 class DevicePlugin {
  public:
-  /// Loads a shared library. It runs code of its own then: only files that nobody else can write are taken.
-  /// Throws DeviceError that says why not: not a library, not a plug-in, of another version, writable by
-  /// others.
+  /// Loads a shared library, whose code then runs with the user's rights. So only files that nobody else can
+  /// write are accepted. Throws DeviceError with the reason: not a library, not a plug-in, another version,
+  /// writable by others.
   static std::shared_ptr<const DevicePlugin> load(const std::filesystem::path& file);
   ~DevicePlugin();
   DevicePlugin(const DevicePlugin&) = delete;
   DevicePlugin& operator=(const DevicePlugin&) = delete;
 
+  /// The plug-in's functions; none is null. Valid while this lives.
   const NearfitDevicePlugin& functions() const noexcept { return *functions_; }
   std::string name() const { return functions_->name; }
   const std::filesystem::path& file() const noexcept { return file_; }
 
-  /// Devices that are plugged in, checked: finite numbers, texts that end. Throws DeviceError with the
-  /// plug-in's own words.
+  /// Returns the devices that are plugged in, checked: finite numbers, terminated texts. Throws DeviceError
+  /// with the plug-in's own message.
   std::vector<NearfitDeviceDescription> devices() const;
 
  private:
@@ -37,20 +38,22 @@ class DevicePlugin {
   const NearfitDevicePlugin* functions_ = nullptr;
 };
 
-/// What was found in the folders of plug-ins.
+/// Plug-ins found in the search folders.
 struct PluginSearch {
   std::vector<std::shared_ptr<const DevicePlugin>> plugins;
-  std::vector<std::string> problems;  ///< Of files that could not be loaded: what, where, and what to do.
+  /// One for each file that could not be loaded: what, where, and what to do.
+  std::vector<std::string> problems;
 };
 
-/// Loads all `*.so` in the folders, by name. A folder that is not there has none.
+/// Loads all `*.so` in the folders, by name. Missing folders are skipped.
 PluginSearch loadPlugins(const std::vector<std::filesystem::path>& folders);
 
-/// Where plug-ins are looked for: what NEARFIT_PLUGINS names (folders, with colons between), else
-/// `nearfit/plugins` in XDG_DATA_HOME (~/.local/share) and in /usr/local/lib and /usr/lib.
+/// Returns the folders searched for plug-ins: those that NEARFIT_PLUGINS lists, separated by colons; else
+/// `nearfit/plugins` in XDG_DATA_HOME (~/.local/share), /usr/local/lib and /usr/lib.
 std::vector<std::filesystem::path> pluginFolders();
 
-/// A device of a plug-in. @param index  Of the last devices().
+/// Creates a plug-in's device; opens nothing yet.
+/// @param index  Index in the latest devices().
 std::unique_ptr<HapticDevice> makePluginDevice(std::shared_ptr<const DevicePlugin> plugin, int index,
                                                const NearfitDeviceDescription& description);
 

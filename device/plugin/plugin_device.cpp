@@ -15,7 +15,7 @@ namespace nearfit {
 namespace {
 
 constexpr std::uint32_t kClutchButton = 1;
-/// As OpenHap's: rounding, and a maker's rounder arithmetic.
+/// Same as OpenHap: allows for rounding and imprecise arithmetic.
 constexpr double kQuaternionSlack = 1e-2;
 
 glm::dvec3 vectorOf(const double (&v)[3]) noexcept {
@@ -31,7 +31,7 @@ bool isSound(const NearfitDevicePose& pose) noexcept {
   return std::isfinite(sum) && std::abs(std::sqrt(lengthSquared) - 1.0) <= kQuaternionSlack;
 }
 
-/// What a plug-in does is its own business; here nothing of it is trusted.
+/// A device of a plug-in. Nothing that the plug-in returns is trusted.
 class PluginDevice final : public HapticDevice {
  public:
   PluginDevice(std::shared_ptr<const DevicePlugin> plugin, int index,
@@ -67,7 +67,7 @@ class PluginDevice final : public HapticDevice {
     }
   }
 
-  /// It is asked, so every answer counts.
+  /// The device is polled, so every answer counts as a report.
   ReportCounters counters() const noexcept override {
     return {poses_.load(std::memory_order_relaxed), rejected_.load(std::memory_order_relaxed)};
   }
@@ -90,7 +90,7 @@ class PluginDevice final : public HapticDevice {
     supervisor_.opened(limits, false);
     last_ = {};
     last_.rotation[0] = 1.0;
-    // What it says of its calibration.
+    // Reads the calibration flag.
     HandleInput ignored;
     readHandle(ignored);
   }
@@ -111,7 +111,7 @@ class PluginDevice final : public HapticDevice {
         DeviceProblem::Failed, description_.name,
         "it cannot be armed: " + std::string(error.data(), ::strnlen(error.data(), error.size())));
   }
-  /// Its maker's software sees to it.
+  /// No-op: the maker's software calibrates.
   void calibrate() override {}
   void reset() override { supervisor_.reset(); }
   void disarm() noexcept override {
@@ -120,7 +120,7 @@ class PluginDevice final : public HapticDevice {
     if (device_ != nullptr) plugin_->functions().set_forces(device_, 0, ignored.data(), ignored.size());
   }
 
-  /// It is asked, and tells nothing by itself: the servo paces it.
+  /// The device is polled, so the servo sets the pace.
   bool waitForHandle(Nanoseconds deadline) noexcept override {
     waitUntil(deadline);
     return false;

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kFormat = "nearfit-polhem-calibration";
 constexpr JsonLimits kLimits{.maxBytes = 64U << 10U, .maxDepth = 8, .maxValues = 1000};
 constexpr std::size_t kLongestName = 80;
-/// No device that a hand holds is bigger [m], or outside the base's own reach.
+/// Bounds on the lengths and offsets of a device held by a hand [m].
 constexpr double kShortest = 0.01, kLongest = 1.0;
 
 int integer(const JsonField& field, int lower, int upper) {
@@ -30,7 +30,7 @@ double angle(const JsonField& field) {
   return degrees(field.numberWithin(-360.0, 360.0));
 }
 
-/// The counts that 16 bits hold bound how far a joint can be from its rest.
+/// Throws FileError if the joint's range needs more counts than 16 bits hold.
 void requireCountable(const JsonField& field, const Joint& joint) {
   const double farthest = std::max(joint.upper - joint.restAngle, joint.restAngle - joint.lower);
   const double counts = farthest / (2.0 * std::numbers::pi) * joint.gearRatio * joint.countsPerTurn;

@@ -9,14 +9,14 @@ namespace nearfit {
 namespace {
 
 constexpr std::uint8_t kHidClass = 3;
-/// The firmware answers a command with a report; each way takes a frame of USB [s].
+/// The firmware answers a command with a report; each way takes a USB frame [s].
 constexpr double kLeastPeriod = 1e-3;
 
 bool isTeensy(const UsbDescription& device) noexcept {
   return device.vendor == polhem::kTeensyVendor && device.product == polhem::kTeensyProduct;
 }
 
-/// The HID interface that takes commands; a Teensy has another one, for text, with smaller packets.
+/// Returns the HID interface that takes commands. A Teensy has a second one, for text, with smaller packets.
 const UsbInterface* interfaceOf(const UsbDescription& device) noexcept {
   const std::size_t size = isTeensy(device) ? polhem::kRawHidSize : polhem::kPacketSize;
   const auto found =
@@ -79,7 +79,8 @@ ForceArmDevice::Opened PolhemDevice::open(std::optional<UsbLink>& link, const Pr
           std::max(kLeastPeriod, in->interval)};
 }
 
-/// The button's flag stays set in the device: one that was pressed before counts for nothing.
+/// True if the rest pose is declared now. The button's flag stays set in the device, so a press before the
+/// first report counts for nothing.
 bool PolhemDevice::isRestShown(const polhem::Report& report) noexcept {
   const bool isPressedNow = hasReport_ && report.isButtonPressed && !wasButtonPressed_;
   hasReport_ = true;

@@ -11,11 +11,12 @@
 
 namespace nearfit {
 
-/// A WoodenHaptics or Polhem over USB: six joints sensed where it has a gimbal, three driven. It counts from
-/// wherever it was switched on, and so is uncalibrated until it is held in its rest and told so.
+/// A WoodenHaptics or Polhem over USB: senses six joints with a gimbal, three without; drives three.
+/// It counts from wherever it was switched on, so it is uncalibrated until told that the hand holds
+/// it in its rest pose.
 class PolhemDevice final : public ForceArmDevice {
  public:
-  /// True for what has its ids, or those of a Teensy that speaks raw HID, and the endpoints.
+  /// True if it has the IDs of these devices, or of a Teensy that speaks raw HID, and the endpoints.
   static bool speaks(const UsbDescription& device) noexcept;
 
   /// Opens nothing yet.
@@ -24,8 +25,8 @@ class PolhemDevice final : public ForceArmDevice {
   ~PolhemDevice() override { stop(); }
 
   std::string stateNote() const override;
-  /// The hand holds the handle in its rest: from the next report on it is where the calibration says. The
-  /// device's own button does the same. Holds until it is unplugged or proves wrong.
+  /// Takes the pose at the next report as the rest pose of the calibration; the device's own button does the
+  /// same. Holds until the device is unplugged or proves wrong.
   void calibrate() override;
 
  private:
@@ -40,13 +41,13 @@ class PolhemDevice final : public ForceArmDevice {
   std::size_t packetSize_ = polhem::kPacketSize;
   std::atomic<bool> isCalibrationDue_{false};
 
-  // The link thread's; the controlling thread's while nothing streams.
+  // Link's thread; the controlling thread while nothing streams.
   bool isCalibrated_ = false;
   std::array<std::int16_t, 6> rest_{};
   VelocityFilter velocity_;
   bool hasReport_ = false, wasButtonPressed_ = false;
 
-  std::array<std::byte, polhem::kRawHidSize> command_{};  ///< The servo thread's.
+  std::array<std::byte, polhem::kRawHidSize> command_{};  ///< Servo thread only.
 };
 
 }  // namespace nearfit

@@ -13,7 +13,7 @@ namespace nearfit::polhem {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-/// Nearer to the column's axis its direction is an encoder's noise [m].
+/// Nearer to the column's axis, the base's direction is encoder noise [m].
 constexpr double kOnAxis = 1e-6;
 
 double angleOf(const Joint& joint, std::int16_t count, std::int16_t rest) noexcept {
@@ -63,7 +63,7 @@ glm::dvec3 Kinematics::positionOf(const glm::dvec3& arm) const noexcept {
 
 glm::dquat Kinematics::orientationOf(const Angles& angles) const noexcept {
   if (!is_.hasGimbal) return {1.0, 0.0, 0.0, 0.0};
-  // The upper arm, then roll, pitch and roll again.
+  // Upper arm, then roll, pitch and roll again.
   return about(2, angles.arm.x) * about(1, 0.5 * std::numbers::pi - angles.arm.z) *
          about(0, angles.gimbal.x) * about(1, angles.gimbal.y) * about(0, angles.gimbal.z);
 }
@@ -83,7 +83,7 @@ std::optional<glm::dvec3> Kinematics::armFor(const glm::dvec3& position) const n
   const double reach = std::hypot(out, up);
   const double lower = is_.lowerArm, upper = is_.upperArm;
   if (!(out > kOnAxis) || reach > lower + upper || reach < std::abs(lower - upper)) return std::nullopt;
-  // Angles from upright in the arms' plane; the law of cosines gives what each link leans away by.
+  // Angles from upright in the arms' plane; the law of cosines gives each link's lean from the aim.
   const double aim = std::atan2(out, up);
   const auto lean = [reach](double link, double other) {
     const double cosine = (reach * reach + link * link - other * other) / (2.0 * reach * link);
@@ -107,7 +107,7 @@ std::array<int, 3> Kinematics::milliampsFor(const glm::dvec3& force, const glm::
   std::array<int, 3> milliamps{};
   for (int i = 0; i < 3; ++i) {
     const double value = 1e3 * scale * current[i];
-    // Not finite: none.
+    // A current that is not finite becomes zero.
     if (std::isfinite(value)) milliamps[static_cast<std::size_t>(i)] = static_cast<int>(value);
   }
   return milliamps;

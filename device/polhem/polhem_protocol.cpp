@@ -23,7 +23,7 @@ std::optional<Report> decode(std::span<const std::byte> packet) noexcept {
 }
 
 std::array<std::byte, kRawHidSize> encode(const std::array<int, 3>& milliamps) noexcept {
-  // The fourth number is the command, 0 for these currents; the rest are its arguments, of which it has none.
+  // The fourth number is the command: 0 sets currents. The rest are arguments, of which it has none.
   std::array<std::byte, kRawHidSize> packet{};
   for (std::size_t i = 0; i < milliamps.size(); ++i) {
     const auto word = static_cast<std::uint16_t>(std::clamp(milliamps[i], -kMostMilliamps, kMostMilliamps));

@@ -44,7 +44,7 @@ bool WakeSignal::wait(Nanoseconds deadline) noexcept {
   std::atomic_ref(sleepers_).store(1, std::memory_order_seq_cst);
   std::uint32_t now = std::atomic_ref(rung_).load(std::memory_order_seq_cst);
   while (now == seen_ && monotonicNow() < deadline) {
-    // Absolute on CLOCK_MONOTONIC, which plain FUTEX_WAIT cannot.
+    // An absolute time on CLOCK_MONOTONIC, which plain FUTEX_WAIT does not take.
     ::syscall(SYS_futex, &rung_, FUTEX_WAIT_BITSET_PRIVATE, seen_, &until, nullptr, FUTEX_BITSET_MATCH_ANY);
     now = std::atomic_ref(rung_).load(std::memory_order_acquire);
   }

@@ -4,7 +4,7 @@
 
 namespace nearfit {
 
-/// On CLOCK_MONOTONIC [ns]: what deadlines of the servo and arrivals of reports are counted in.
+/// Time on CLOCK_MONOTONIC [ns], for deadlines of the servo and arrivals of reports.
 using Nanoseconds = std::int64_t;
 constexpr Nanoseconds kNanosecondsPerSecond = 1'000'000'000;
 
@@ -14,24 +14,25 @@ inline double toSeconds(Nanoseconds t) noexcept {
   return static_cast<double>(t) * 1e-9;
 }
 
-/// Sleeps till a little before the deadline, and spins for the rest (kSpin at most): the scheduler wakes a
+/// Sleeps until shortly before the deadline, then spins (kSpin at most): the scheduler wakes a
 /// thread some 30 us late.
 void waitUntil(Nanoseconds deadline) noexcept;
 
-/// Longer would burn a core; real-time threads that never sleep are stopped by the kernel.
+/// Spinning longer would waste a core, and the kernel stops real-time threads that never sleep.
 constexpr Nanoseconds kSpin = 50'000;
 
-/// A bell between two threads: one rings, one sleeps until it has rung since it last woke, or until a
-/// deadline. Rings that nobody waited for count as one. Neither side locks or allocates.
+/// A bell between two threads: one rings, the other sleeps until it rings or until a deadline. Rings that
+/// nobody waits for count as one. Neither side locks or allocates.
 class WakeSignal {
  public:
-  /// One system call, and that only when somebody sleeps.
+  /// Wakes the waiter; makes one system call, and only if it sleeps.
   void ring() noexcept;
-  /// True when it has rung since the last call. One waiting thread.
+  /// Sleeps until it rings or until `deadline`. Returns true if it rang since the last call. One
+  /// waiting thread only.
   bool wait(Nanoseconds deadline) noexcept;
 
  private:
-  std::uint32_t seen_ = 0;              ///< The waiter's.
+  std::uint32_t seen_ = 0;              ///< Used by the waiter.
   alignas(64) std::uint32_t rung_ = 0;  ///< Accessed atomically; a futex.
   std::uint32_t sleepers_ = 0;          ///< Accessed atomically.
 };

@@ -23,10 +23,10 @@ namespace {
 /// Above ordinary threaded interrupts (50), below the kernel's own watchdogs.
 constexpr int kPriority = 70;
 
-/// More than a tick and a query use of it.
+/// More than a tick and a query use.
 constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
 
-/// Locking is of the process: the last servo that ends unlocks it.
+/// Locking affects the whole process: the last servo to end unlocks it.
 std::atomic<int> memoryLocks{0};
 
 int setFifo(int priority) noexcept {
@@ -69,8 +69,8 @@ void requestRealtimeScheduling(RealtimeGrant& grant) noexcept {
 
 MemoryLock::MemoryLock(RealtimeGrant& grant) noexcept {
   if (mayLockWithoutLimit()) {
-    // On fault: what the servo needs has been touched when it was made; filling in every stack and reserve of
-    // the program would take seconds and gigabytes.
+    // On fault: the servo's memory was touched when it was made. Filling in every stack and reserve of the
+    // program would take seconds and gigabytes.
     isLocked_ = ::mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
     grant.lockError = isLocked_ ? 0 : errno;
   } else {

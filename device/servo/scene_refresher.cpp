@@ -7,12 +7,12 @@
 namespace nearfit {
 namespace {
 
-/// Between two looks at the pose: a quarter of a tick, so that nothing is seen late.
+/// A quarter of a tick, so that no pose is seen late.
 constexpr auto kPollPeriod = std::chrono::microseconds(250);
-/// Ticks from a pose until a search for it begins: this thread sleeps, and may have to wait for a processor.
+/// Ticks from a pose until its search begins: this thread sleeps, and may wait for a processor.
 constexpr double kWakeUp = 0.5;
-constexpr double kTick = 1e-3;  ///< Of the servo [s].
-/// After a failure (memory ran out): ticks search for themselves meanwhile.
+constexpr double kTick = 1e-3;  ///< Servo period [s].
+/// Pause after a failure (out of memory); meanwhile ticks search for themselves.
 constexpr auto kRetryPeriod = std::chrono::milliseconds(100);
 
 }  // namespace
@@ -47,9 +47,9 @@ void SceneRefresher::run() noexcept {
       const bool isToRenew = renewAfter_ != 0 && lastTick_ > renewAfter_;
       if (next || isToRenew || (hasMoved && tracker_.isDue(reach_))) {
         refresh();
-        // Not before, so that where memory ran out it is taken up again.
+        // Not earlier, so that a scene is retried if memory ran out.
         if (next) forgetPending(*next);
-        // The servo may still show the former scene in the next tick; the one after that is with this one.
+        // The servo may still show the former scene in the next tick; the one after that uses the new one.
         renewAfter_ = next ? lastTick_ + 2 : isToRenew ? 0 : renewAfter_;
       } else {
         std::this_thread::sleep_for(kPollPeriod);
@@ -69,7 +69,7 @@ bool SceneRefresher::takeReport() noexcept {
     tracker_.observeHand(report.worldFromHand, ticks);
     lastTick_ = report.tick;
   }
-  // Settings that are no numbers are for the tick to refuse.
+  // Non-finite settings are for the tick to refuse.
   if (std::isfinite(report.reach.cutoff) && std::isfinite(report.reach.contact)) reach_ = report.reach;
   tracker_.setWaiting(report.isWaiting);
   tracker_.setStarved(report.isStarved);
@@ -95,7 +95,7 @@ void SceneRefresher::refresh() {
   tracker_.setLead(kWakeUp + time / kTick);
   refreshTimes_.record(time);
   times_.publish(refreshTimes_);
-  // What it held may be the last that keeps a former scene's meshes.
+  // It may hold the last reference to a former scene's meshes.
   tracked_.back() = TrackedScene{};
 }
 

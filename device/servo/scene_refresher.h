@@ -12,40 +12,42 @@
 
 namespace nearfit {
 
-/// Keeps what the servo thread knows of the scene ahead of the motion, in a thread of its own: scenes come
-/// from the controlling thread, poses from the servo thread, and the newest TrackedScene goes to it.
+/// Searches the scene ahead of the motion, in its own thread: takes scenes from the controlling thread and
+/// poses from the servo thread, and passes the newest TrackedScene to the servo thread.
 class SceneRefresher {
  public:
-  /// The first TrackedScene is there when this returns. Not running yet.
+  /// Searches once, so that the first TrackedScene is ready; starts no thread.
   SceneRefresher(std::shared_ptr<const ServoScene> scene, const SearchReach& reach);
   ~SceneRefresher() { stop(); }
   SceneRefresher(const SceneRefresher&) = delete;
   SceneRefresher& operator=(const SceneRefresher&) = delete;
 
-  /// Throws std::system_error when no thread is to be had.
+  /// Throws std::system_error if no thread can be started.
   void start();
+  /// Joins the thread; no-op while stopped.
   void stop() noexcept;
 
-  /// Another scene for the servo, as soon as it is searched. Controlling thread.
+  /// Controlling thread: replaces the scene; the servo gets it as soon as it is searched.
   void setScene(std::shared_ptr<const ServoScene> scene);
 
-  /// The newest; stays as it is until the next call. Servo thread; real-time safe.
+  /// Servo thread; real-time safe: returns the newest TrackedScene, unchanged until the next call.
   const TrackedScene& latest() noexcept {
     tracked_.update();
     return tracked_.front();
   }
+  /// State of the servo after a tick.
   struct Report {
-    RigidTransform worldFromPart;  ///< Where the part is.
-    RigidTransform worldFromHand;  ///< Where the hand would have it.
-    SearchReach reach;             ///< How far is looked.
+    RigidTransform worldFromPart;  ///< Pose of the part.
+    RigidTransform worldFromHand;  ///< Pose that the hand wants for it.
+    SearchReach reach;             ///< How far to search.
     std::uint64_t tick = 0;
-    bool isWaiting = false;  ///< The proxy stands until it is known what it overlaps there.
-    bool isStarved = false;  ///< Lists of contacts do not reach where it would go.
+    bool isWaiting = false;  ///< The proxy waits until its overlaps are known.
+    bool isStarved = false;  ///< Contact lists do not reach where the proxy would go.
   };
   /// Servo thread; real-time safe.
   void report(const Report& report) noexcept { reports_.publish(report); }
 
-  /// How long searches took, as of the last one. Controlling thread.
+  /// Controlling thread: durations of all searches so far.
   const LatencyHistogram& refreshTimes() noexcept {
     times_.update();
     return times_.front();
@@ -54,7 +56,7 @@ class SceneRefresher {
  private:
   void run() noexcept;
   std::shared_ptr<const ServoScene> pendingScene();
-  /// Unless there is a newer one.
+  /// Drops the pending scene, unless a newer one replaced it.
   void forgetPending(const ServoScene& scene);
   bool takeReport() noexcept;
   void refresh();
@@ -66,10 +68,10 @@ class SceneRefresher {
   LatencyHistogram refreshTimes_;
   SearchReach reach_;
   std::uint64_t lastTick_ = 0;
-  std::uint64_t renewAfter_ = 0;  ///< Tick after which the servo has let go of a former scene; 0 for none.
+  std::uint64_t renewAfter_ = 0;  ///< The servo lets go of a former scene after this tick; 0 for none.
 
   std::mutex pendingMutex_;
-  std::shared_ptr<const ServoScene> pending_;  ///< Until the servo can have it.
+  std::shared_ptr<const ServoScene> pending_;  ///< Waits to be searched.
   std::atomic<bool> stopRequested_{false};
   std::thread thread_;
 };

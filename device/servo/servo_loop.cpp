@@ -26,13 +26,13 @@ namespace {
 constexpr Nanoseconds kPeriodNs = 1'000'000;
 static_assert(ServoLoop::kPeriod * 1e9 == static_cast<double>(kPeriodNs));
 
-/// Without a report for so many periods a tick runs all the same, so that the force fades.
+/// Periods without a report after which a tick runs anyway, so that the force fades.
 constexpr double kReportPatience = 2.0;
 
 /// Statistics are some 40 KB: copying them every tick would cost more than a tick's bookkeeping.
 constexpr std::uint64_t kTicksPerStatistics = 100;
 
-/// The lower of each limit; not a number on either side stays one, for the tick to refuse.
+/// Returns the lower of each limit; NaN on either side stays, for the tick to refuse.
 DeviceLimits lower(const DeviceLimits& a, const DeviceLimits& b) noexcept {
   const auto least = [](double x, double y) { return std::isnan(x) || x < y ? x : y; };
   DeviceLimits result = a;
@@ -47,11 +47,11 @@ DeviceLimits lower(const DeviceLimits& a, const DeviceLimits& b) noexcept {
 
 }  // namespace
 
-/// Everything that both threads see. The controlling thread makes and frees it; the servo thread is joined
-/// first.
+/// State shared by both threads. The controlling thread makes it, and frees it after
+/// joining the servo thread.
 ///
-/// The floating-point mode is left as it is (no flush to zero): the same pose must give the same minima here
-/// as in any other thread, and ServoTick keeps its filter out of the denormals.
+/// The floating-point mode stays the default (no flush to zero): a pose must give the same minima here as in
+/// any other thread. ServoTick keeps its filter out of the denormals.
 struct ServoLoop::Shared {
   Shared(HapticDevice& d, const DeviceInfo& info, std::shared_ptr<const ServoScene> scene,
          const ServoParameters& p, MotionQueue* r)
@@ -66,7 +66,7 @@ struct ServoLoop::Shared {
   void spawn();
   void serve() noexcept;
   Nanoseconds nextDeadline(Nanoseconds last, bool hasReport) noexcept;
-  /// @param late  The tick, behind its deadline; of no account where a report paces it [s].
+  /// @param late  Delay behind the deadline [s]; ignored if a report paces the tick.
   bool tickOnce(bool hasReport, Nanoseconds sinceStart, double late) noexcept;
 
   HapticDevice& device;
@@ -84,18 +84,18 @@ struct ServoLoop::Shared {
   std::atomic<bool> isRunning{false};
   std::atomic<bool> isClutched{false};
 
-  std::optional<SceneRefresher> refresher;  ///< Gone, with the scenes that it holds, once stopped.
+  std::optional<SceneRefresher> refresher;  ///< Reset, with the scenes it holds, by stop().
   TripleBuffer<ServoParameters> parameters;
   TripleBuffer<ServoSnapshot> snapshots;
   TripleBuffer<ServoStatistics> published;
 
-  // The servo thread's own while it runs.
+  // Used by the servo thread while it runs.
   ServoTick tick;
   ServoStatistics statistics;
   PaceMeter reports;
-  Nanoseconds lastBegin = 0;  ///< Of a tick; 0 before the first.
+  Nanoseconds lastBegin = 0;  ///< Start of the last tick; 0 before the first.
 
-  LatencyHistogram lastRefreshTimes;  ///< Once stopped; the controlling thread's.
+  LatencyHistogram lastRefreshTimes;  ///< Set by stop(); the controlling thread's.
 };
 
 void* ServoLoop::Shared::threadMain(void* self) noexcept {
@@ -109,12 +109,12 @@ void* ServoLoop::Shared::threadMain(void* self) noexcept {
 void ServoLoop::Shared::spawn() {
   memoryLock.emplace(grant);
   if (reportPatience > 0) awake.emplace(grant);
-  // Signals are for the other threads: a handler here would run inside a tick.
+  // Signals go to the other threads: a handler here would run inside a tick.
   sigset_t all, before;
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);
   isRunning.store(true);
-  // Not std::thread: it frees its state in the new thread.
+  // std::thread would free its state in the new thread.
   const int error = ::pthread_create(&thread, nullptr, threadMain, this);
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (error != 0) {
@@ -144,12 +144,12 @@ void ServoLoop::Shared::serve() noexcept {
 
 Nanoseconds ServoLoop::Shared::nextDeadline(Nanoseconds last, bool hasReport) noexcept {
   const Nanoseconds now = monotonicNow();
-  // The device's next report sets the pace; reports that came during a tick are one, the newest.
-  // In silence this loop does, so that the force of a slow one fades smoothly and it is stopped in time.
+  // The device's next report sets the pace; of those that came during a tick, only the newest counts. In
+  // silence this loop sets it, so that the force of a slow device fades smoothly and it is stopped in time.
   if (reportPatience > 0) return now + (hasReport ? reportPatience : std::min(reportPatience, kPeriodNs));
   const Nanoseconds next = last + kPeriodNs;
   if (now <= next) return next;
-  // Skip whole periods: a burst to catch up would send several wrenches for one moment of the hand.
+  // Skip whole periods: a burst to catch up would send several wrenches for one position of the hand.
   const Nanoseconds skipped = (now - next) / kPeriodNs + 1;
   statistics.overruns += static_cast<std::uint64_t>(skipped);
   return next + skipped * kPeriodNs;
@@ -157,12 +157,12 @@ Nanoseconds ServoLoop::Shared::nextDeadline(Nanoseconds last, bool hasReport) no
 
 bool ServoLoop::Shared::tickOnce(bool hasReport, Nanoseconds sinceStart, double late) noexcept {
   const Nanoseconds begin = monotonicNow();
-  // What really passed between two looks at the hand, not between two deadlines.
+  // The time between two readings of the hand, not between two deadlines.
   const Nanoseconds sinceLast = lastBegin == 0 ? kPeriodNs : begin - lastBegin;
   lastBegin = begin;
   HandleInput handle;
   if (!device.readHandle(handle)) return false;
-  // Behind the report's arrival.
+  // With a report, lateness counts from its arrival.
   if (hasReport) {
     statistics.lateness.record(handle.age);
     reports.see(toSeconds(sinceStart) - handle.age);
@@ -178,7 +178,7 @@ bool ServoLoop::Shared::tickOnce(bool hasReport, Nanoseconds sinceStart, double 
   const TrackedScene& tracked = refresher->latest();
   tick.feel(tracked, limited, handle, toSeconds(sinceLast), snapshot);
   device.sendWrench(snapshot.deviceWrench);
-  // The age counts from somewhere in readHandle: this is never too good.
+  // The age is measured after `begin`, so the sum is never too low.
   if (hasReport) statistics.roundTrip.record(handle.age + toSeconds(monotonicNow() - begin));
 
   tick.show(tracked, limited, snapshot);
@@ -222,7 +222,7 @@ void ServoLoop::start(HapticDevice& device, std::unique_ptr<const ServoScene> sc
 void ServoLoop::startWithOpen(HapticDevice& device, std::unique_ptr<const ServoScene> scene,
                               const ServoParameters& parameters, MotionQueue* record) {
   requireStartable(scene.get());
-  // What it can do may be known only once it is open.
+  // The device may know its limits only once it is open.
   auto shared = std::make_unique<Shared>(device, device.info(), std::move(scene), parameters, record);
   shared->refresher->start();
   shared->spawn();

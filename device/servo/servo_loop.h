@@ -12,22 +12,23 @@ namespace nearfit {
 
 /// Timing of a servo since its start; trivially copyable.
 struct ServoStatistics {
-  LatencyHistogram lateness;   ///< Wake-up behind its deadline, or behind the report that it follows.
-  LatencyHistogram tickTime;   ///< Work in a tick, from the device's pose to what is shown of it.
-  LatencyHistogram roundTrip;  ///< From a report's arrival to its wrench handed over, where reports pace it.
-  LatencyHistogram queryTime;
-  LatencyHistogram refreshTime;  ///< Of the thread beside that searches ahead, a time a search.
-  double reportInterval = 0.0;   ///< Of late, where reports pace it [s]; else 0.
-  double reportJitter = 0.0;     ///< Mean distance of that from its mean [s].
+  LatencyHistogram lateness;  ///< Wake-up after its deadline, or after the report that it follows.
+  LatencyHistogram tickTime;  ///< Work in a tick, from reading the pose to showing the result.
+  /// From a report's arrival to the wrench that answers it, if reports pace the servo.
+  LatencyHistogram roundTrip;
+  LatencyHistogram queryTime;    ///< Proximity queries in a tick.
+  LatencyHistogram refreshTime;  ///< Each search of the thread that searches ahead.
+  double reportInterval = 0.0;   ///< Recent mean, if reports pace the servo [s]; else 0.
+  double reportJitter = 0.0;     ///< Mean deviation of the interval from its mean [s].
   std::uint64_t ticks = 0;
-  /// Ticks that searched for themselves, as the thread beside had not caught up with the motion.
+  /// Ticks that searched for themselves because the search thread lagged behind the motion.
   std::uint64_t lateTicks = 0;
-  std::uint64_t overruns = 0;  ///< Ticks that were skipped because the one before ended too late.
+  std::uint64_t overruns = 0;  ///< Ticks skipped because the one before ended too late.
 };
 
-/// Ticks a device against a scene in a thread of its own: at each of its reports where it sends them at a
-/// rate, else at a fixed rate on absolute deadlines. All calls from one controlling thread. The servo thread
-/// allocates nothing, locks nothing, throws nothing.
+/// Ticks a device against a scene in its own thread: at each report if the device sends them at a rate, else
+/// at a fixed rate on absolute deadlines. Call it from one controlling thread. The servo thread allocates
+/// nothing, locks nothing, throws nothing.
 class ServoLoop {
  public:
   static constexpr double kPeriod = 1e-3;  ///< [s]: 1 kHz, the rate at which stiff contact feels hard.
@@ -37,37 +38,39 @@ class ServoLoop {
   ServoLoop(const ServoLoop&) = delete;
   ServoLoop& operator=(const ServoLoop&) = delete;
 
-  /// Starts the device and the ticking. The device stays the caller's, alive until stop(); forces are clamped
-  /// to its limits and to those of `parameters`, whichever are lower.
-  /// @param record  Takes a row of every tick until stop(), in order; counts what finds it full. May be null.
-  /// Throws UsageError (running already, no scene), Error (from the device, or no thread to be had).
+  /// Starts the device and the ticking. The caller keeps the device alive until stop(). Forces are clamped to
+  /// the lower of the device's limits and those of `parameters`. Throws UsageError (already running, no
+  /// scene), Error (from the device, or no thread available).
+  /// @param record  Receives a row of every tick until stop(), in order, and counts the rows that find it
+  ///                full; may be null.
   void start(HapticDevice& device, std::unique_ptr<const ServoScene> scene, const ServoParameters& parameters,
              MotionQueue* record = nullptr);
-  /// The same with a device that is open already, and stays open when this stops: others open and close it,
-  /// who can wait.
+  /// Like start(), with a device that is already open and stays open after stop(). For callers that open and
+  /// close it on a thread that may wait.
   void startWithOpen(HapticDevice& device, std::unique_ptr<const ServoScene> scene,
                      const ServoParameters& parameters, MotionQueue* record = nullptr);
-  /// Stops within a tick or two; sends a zero wrench last, stops the device. Harmless when stopped. Snapshot,
-  /// statistics and note stay readable until the next start().
+  /// Stops within a tick or two: sends a zero wrench last and stops the device if start() started it. No-op
+  /// while stopped. Snapshot, statistics and note stay readable until the next start().
   void stop() noexcept;
-  /// False also once the device has ended by itself; stop() is due then too.
+  /// True while the servo ticks; false also once the device has ended by itself, when stop() is still due.
   bool isRunning() const noexcept;
 
-  /// Puts another scene in place, once the thread beside the servo has searched it: a few milliseconds. The
-  /// old one is freed off the servo thread, later. Throws UsageError when `scene` is null.
+  /// Replaces the scene once the search thread has searched it: in a few milliseconds. The old scene is freed
+  /// later, off the servo thread. No-op while stopped. Throws UsageError if `scene` is null.
   void setScene(std::unique_ptr<const ServoScene> scene);
+  /// Applies from the next tick on.
   void setParameters(const ServoParameters& parameters);
-  /// While it is on, the part stays and nothing is felt: the hand brings the device elsewhere, as by a clutch
-  /// button that the device may have besides. Off after each start.
+  /// While on, the part stays and nothing is felt: the hand repositions the device, as with the device's own
+  /// clutch button. Off after each start.
   void setClutched(bool isClutched);
 
-  /// The newest snapshot; true when it is another than at the last call. One reader.
+  /// Takes the newest snapshot. Returns true if there is one since the last call. One reader.
   bool pollSnapshot();
-  /// What the last pollSnapshot() took; valid until the next one, or the next start().
+  /// Returns what the last pollSnapshot() took; valid until the next one, or the next start().
   const ServoSnapshot& snapshot() const noexcept;
-  /// Copies the statistics as of a tenth of a second ago at most; after stop(), of all ticks.
+  /// Returns statistics that are at most a tenth of a second old; after stop(), of all ticks.
   ServoStatistics statistics() const;
-  /// What real-time service the system granted ("SCHED_FIFO 70, memory locked", or why not and the remedy).
+  /// Returns the real-time service granted ("SCHED_FIFO 70, memory locked"), or why not and the remedy.
   std::string schedulingNote() const;
 
  private:

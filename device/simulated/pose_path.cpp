@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kColumns = 7;
 constexpr const char* kRowRemedy = "write each pose as tx,ty,tz,qw,qx,qy,qz (metres, unit quaternion)";
 
-/// A first row is a header when every column begins as a name does, and none is a number by name (nan, inf).
+/// True for a header: every column begins like a name, and none is a number by name (nan, inf).
 bool isHeader(std::string_view row) {
   const std::vector<std::string_view> columns = csv::columnsOf(row);
   return std::all_of(columns.begin(), columns.end(), [](std::string_view name) {

@@ -18,11 +18,11 @@ constexpr const char* kRemedy =
     "give a recording as nearfit-cli place --record writes it; for poses alone there is --path";
 constexpr std::array kNames = {"t_s",       "handle_tx", "handle_ty", "handle_tz",
                                "handle_qw", "handle_qx", "handle_qy", "handle_qz"};
-/// Between two looks at whether it is still wanted.
+/// Rows between two calls of `progress`.
 constexpr std::size_t kRowsPerReport = 1000;
-/// Eleven days; more is no time of a recording, and would not fit in nanoseconds with some to spare [s].
+/// Eleven days: longer than any recording, and well within the range of nanoseconds [s].
 constexpr double kLongest = 1e6;
-/// Less is no pace that anybody sends at, but two rows of one tick [s].
+/// Nothing sends at a shorter period; such rows belong to one tick [s].
 constexpr double kLeastPeriod = 1e-4;
 
 using Columns = std::array<std::size_t, kNames.size()>;
@@ -84,7 +84,7 @@ double ReplayDevice::reportPeriod() const noexcept {
 }
 
 DeviceInfo ReplayDevice::info() const {
-  // What was recorded has been through the workspace mapping.
+  // Recorded poses have already been through the workspace mapping.
   return {"Recording " + file_.filename().string(), 0, DeviceLimits{}, reportPeriod(), false};
 }
 
@@ -118,7 +118,7 @@ Nanoseconds ReplayDevice::dueTime(std::size_t pose) const noexcept {
 
 bool ReplayDevice::waitForHandle(Nanoseconds deadline) noexcept {
   if (begin_ == 0) begin_ = monotonicNow();
-  // At the end there is nothing to wait for: reading tells.
+  // After the end there is nothing to wait for: readHandle() says so.
   const bool isDue = next_ == motion_.size() || dueTime(next_) <= deadline;
   waitUntil(next_ == motion_.size() ? deadline : std::min(dueTime(next_), deadline));
   return isDue && next_ < motion_.size();
@@ -132,7 +132,7 @@ bool ReplayDevice::readHandle(HandleInput& handle) noexcept {
     state_.store(DeviceState::Present, std::memory_order_release);
     return false;
   }
-  // The newest wins, as with reports that came during a tick; the first is there at once.
+  // The newest pose wins, as with reports that come during a tick; the first one is due at once.
   const std::size_t before = next_;
   while (next_ < motion_.size() && dueTime(next_) <= now)
     ++next_;

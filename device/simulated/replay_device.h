@@ -12,25 +12,26 @@
 
 namespace nearfit {
 
-/// Where a hand was, and when.
+/// A pose of a hand, and its time.
 struct TimedPose {
-  double time = 0.0;  ///< Since the beginning [s]; never falling.
+  double time = 0.0;  ///< Since the start of the recording [s]; never falls.
   RigidTransform worldFromHandle;
 };
 
-/// Reads the hand's way out of a recording (MotionWriter): the columns t_s and handle_tx ... handle_qz, by
-/// their names in the first row; others may be there. Throws FileError with file, line and remedy, Cancelled.
+/// Reads the hand's motion from a recording (MotionWriter): the columns t_s and handle_tx ... handle_qz,
+/// found by name in the first row; others are ignored. Times begin at 0. A last row that was cut off is
+/// dropped. Throws FileError with file, line and remedy; Cancelled.
 std::vector<TimedPose> readHandMotion(const std::filesystem::path& file,
                                       const ProgressCallback& progress = {});
 
-/// A recorded hand, as a device: its reports come when they came then. Where the part was taken elsewhere the
-/// whole way is moved with it. It ends with the recording; takes any wrench, feels none.
+/// A recorded hand as a device: its reports come at their recorded times. The whole path is moved so that it
+/// begins at the part. Ends with the recording; takes any wrench, feels none.
 class ReplayDevice final : public PassiveDevice {
  public:
-  /// A file is read by start().
+  /// Opens nothing yet; start() reads the file.
   explicit ReplayDevice(std::filesystem::path file);
 
-  /// What a user writes for such a device, before the file's name.
+  /// Prefix of the file name by which a user asks for this device.
   static constexpr std::string_view kPrefix = "replay:";
 
   DeviceInfo info() const override;
@@ -52,9 +53,9 @@ class ReplayDevice final : public PassiveDevice {
   PosePatience patience_;
   std::atomic<DeviceState> state_{DeviceState::Present};
   std::atomic<std::uint64_t> poses_{0};
-  // The servo thread's own while it runs.
+  // Used by the servo thread while it runs.
   Nanoseconds begin_ = 0;  ///< When the first pose was given; 0 before.
-  std::size_t next_ = 0;   ///< Not given yet.
+  std::size_t next_ = 0;   ///< Next pose to give.
 };
 
 }  // namespace nearfit

@@ -10,18 +10,18 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Shares of the sweep: approach, slide, wobble, and the retreat has the rest.
+/// Shares of the sweep at which slide, wobble and retreat begin; the approach begins at 0.
 constexpr double kSlideBegins = 0.25, kWobbleBegins = 0.5, kRetreatBegins = 0.75;
 
-/// More would not fit in memory, and is a slip of the unit.
+/// More would not fit in memory, and means a wrong unit.
 constexpr double kMaxPoses = 1e8;
 
-/// From 0 to 1 with velocity and acceleration zero at both ends.
+/// Rises from 0 to 1 with zero velocity and acceleration at both ends.
 double ease(double x) {
   return x <= 0.0 ? 0.0 : x >= 1.0 ? 1.0 : x * x * x * (10.0 + x * (6.0 * x - 15.0));
 }
 
-/// How far `x` is between two shares of the sweep, eased.
+/// Returns the eased fraction of `x` between two shares of the sweep.
 double easeBetween(double x, double begin, double end) {
   return ease((x - begin) / (end - begin));
 }
@@ -43,7 +43,7 @@ struct Sweep {
 
 RigidTransform poseAt(const RigidTransform& rest, const Frame& frame, const Sweep& sweep, double x) {
   const double advance = easeBetween(x, 0.0, kSlideBegins) - easeBetween(x, kRetreatBegins, 1.0);
-  // A circle that starts and ends at its own rim point, so that the slide leaves no offset.
+  // The circle starts and ends at the same rim point, so that the slide leaves no offset.
   const double turn = 2.0 * kPi * easeBetween(x, kSlideBegins, kWobbleBegins);
   const glm::dvec3 slide =
       sweep.slideRadius * ((std::cos(turn) - 1.0) * frame.across + std::sin(turn) * frame.aside);

@@ -10,13 +10,13 @@
 
 namespace nearfit {
 
-/// Follows a list of poses, one a tick, then ends. Deterministic: no clock in it. Takes any wrench, feels
-/// none.
+/// Follows a list of poses, one per tick, then ends. Deterministic: no pose depends on a clock. Takes any
+/// wrench, feels none.
 class PathDevice final : public PassiveDevice {
  public:
   /// @param path     worldFromPart for each tick, whatever pose start() is given.
   /// @param repeats  Begins again after the last pose instead of ending.
-  /// Throws UsageError when the path is empty.
+  /// Throws UsageError if the path is empty.
   explicit PathDevice(std::vector<RigidTransform> path, bool repeats = false);
 
   DeviceInfo info() const override;
@@ -29,7 +29,7 @@ class PathDevice final : public PassiveDevice {
   bool readHandle(HandleInput& handle) noexcept override;
   void sendWrench(const Wrench& wrench) noexcept override;
 
-  /// What was sent last; to be read while no servo runs.
+  /// Returns the wrench sent last; call it only while no servo runs.
   const Wrench& lastWrench() const noexcept { return lastWrench_; }
 
  private:
@@ -40,11 +40,11 @@ class PathDevice final : public PassiveDevice {
   std::atomic<DeviceState> state_{DeviceState::Ready};
 };
 
-/// A pose that the controlling thread (the window: numbers, dragging) sets; the part follows at once. There
-/// is no hand to push: wrenches are for the picture alone.
+/// A hand whose pose the controlling thread sets (the window: numbers, dragging); the part follows at once.
+/// Nobody feels the wrench: it is only shown.
 class ManualDevice final : public PassiveDevice {
  public:
-  /// From the thread that calls start(), and from no other. The pose must be finite.
+  /// Sets the hand's pose; must be finite. Call it only from the thread that calls start().
   void setPose(const RigidTransform& worldFromPart) noexcept { pose_.publish(worldFromPart); }
 
   DeviceInfo info() const override;
@@ -62,33 +62,33 @@ class ManualDevice final : public PassiveDevice {
   std::atomic<DeviceState> state_{DeviceState::Ready};
 };
 
-/// Of a scripted hand that has no reason for another: three degrees [rad].
+/// Default wobble of a scripted hand: three degrees [rad].
 constexpr double kScriptedWobble = 0.052359877559829887;
 
-/// Radius of its circle, as a part of the reach.
+/// Default radius of its circle, as a share of the reach.
 constexpr double kScriptedSlide = 0.15;
 
-/// A scripted hand: one smooth sweep of approach (by `reach` along `approach`), slide (a circle across it),
-/// wobble (turning about the part's origin to and fro) and retreat to where it began. At rest at both
-/// ends, so that it can be repeated without a jolt. The same arguments give the same path.
+/// Returns the path of a scripted hand, one smooth sweep: approach (by `reach` along `approach`), slide (a
+/// circle across it), wobble (to and fro about the part's origin) and retreat to the start. At rest at both
+/// ends, so that it repeats without a jolt. The same arguments give the same path.
 ///
-/// @param worldFromPart  Where the part is: the first pose and the last.
+/// @param worldFromPart  First and last pose of the part.
 /// @param approach       Direction of the approach in the world; any length but zero.
-/// @param reach          How far the approach goes [m]; > 0.
-/// @param seconds        Duration of the whole sweep [s].
-/// @param period         Of a tick [s]; one pose for each.
+/// @param reach          Length of the approach [m]; > 0.
+/// @param seconds        Duration of the whole sweep [s]; > 0.
+/// @param period         Period of a tick [s]; > 0. One pose per tick, and one more.
 /// @param wobbleAngle    Amplitude of the wobble [rad].
-/// @param slideShare     Radius of the circle, as a part of the reach; >= 0.
+/// @param slideShare     Radius of the circle, as a share of the reach; >= 0.
 /// Throws UsageError for arguments that are not finite or out of range.
 std::vector<RigidTransform> scriptedHandPath(const RigidTransform& worldFromPart, const glm::dvec3& approach,
                                              double reach, double seconds, double period,
                                              double wobbleAngle = kScriptedWobble,
                                              double slideShare = kScriptedSlide);
 
-/// Reads poses from CSV: `tx,ty,tz,qw,qx,qy,qz` a row (metres, then a unit quaternion), `#` starts a comment
-/// line, blank lines are skipped, one header line is allowed. Quaternions are normalised; one that is off
-/// unit by more than kQuaternionSlack is refused, and so is a position beyond kMaxPosition. Throws FileError
-/// with file, line and remedy; memory is that of the poses.
+/// Reads poses from CSV, one `tx,ty,tz,qw,qx,qy,qz` per row (metres, unit quaternion). Skips comment lines
+/// (`#`), blank lines and one header line. Normalises quaternions; refuses one whose length is off by more
+/// than kQuaternionSlack, and a position beyond kMaxPosition. Throws FileError with file, line and remedy.
+/// Needs memory for the poses only.
 std::vector<RigidTransform> readPosePath(const std::filesystem::path& file);
 
 }  // namespace nearfit

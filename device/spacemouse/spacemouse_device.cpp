@@ -13,14 +13,14 @@
 namespace nearfit {
 namespace {
 
-/// Of the device's forces that there are none: a push of this on the handle stops it, as a firm hand would be
-/// [N], [N m].
+/// The device renders no force, so a push of this size on the handle stops it, as a firm hand would be
+/// stopped [N], [N m].
 constexpr double kLeashForce = 5.0, kLeashTorque = 0.25;
-/// While the cap is pushed reports come at least every 16 ms; after so long without one, the one that says
-/// that it is back was lost.
+/// A pushed cap sends reports at least every 16 ms; after so long without one, the report that the
+/// cap is back was lost.
 constexpr Nanoseconds kForgetAfter = kNanosecondsPerSecond / 10;
 
-/// Bits of its buttons.
+/// Button bits.
 constexpr std::uint64_t kClutchButton = 1, kLetGoButton = 2;
 
 /// HID 1.11, 7.1.1 and 7.2.2.
@@ -98,8 +98,7 @@ std::uint8_t SpaceMouseDevice::openAxes() {
     const bool isReadable = !descriptor.empty() && parseReportDescriptor(descriptor).has_value();
     if (!isReadable && unreadable == nullptr) unreadable = face;
   }
-  // One that says itself that it has no such axes is believed; what says nothing may be a model that is
-  // known.
+  // Believe a descriptor without the axes; a device without a readable one may still be a known model.
   if (unreadable == nullptr || !spacemouse::isKnownModel(device_)) {
     const DeviceRefusal refusal = spacemouse::noSixAxes();
     throw DeviceError(DeviceProblem::Unsupported, name(), refusal.reason, refusal.remedy);
@@ -110,7 +109,7 @@ std::uint8_t SpaceMouseDevice::openAxes() {
 }
 
 void SpaceMouseDevice::open(const UsbInterface& face) {
-  link_.reset();  // Gives the one before back.
+  link_.reset();  // Releases the previous interface.
   interfaceNumber_ = face.number;
   link_.emplace(device_, face.number);
 }
@@ -136,7 +135,7 @@ void SpaceMouseDevice::light(bool isOn) noexcept {
     link_->controlOut(kSetToInterface, kSetReport, value, interfaceNumber_,
                       std::span(report->bytes).first(report->size), kRequestTimeout);
   } catch (const DeviceError&) {
-    // It shines or not; either way it works.
+    // The light does not matter.
   }
 }
 
@@ -156,7 +155,7 @@ void SpaceMouseDevice::onPacket(std::span<const std::byte> packet, std::int64_t 
   }
   samples_.publish({newest_, arrived});
   shown_.publish(newest_);
-  // Last: who sees that it was counted, sees it.
+  // Counted last, so that whoever sees the count finds the report.
   reports_.fetch_add(1, std::memory_order_release);
 }
 

@@ -14,15 +14,14 @@
 
 namespace nearfit {
 
-/// A space mouse: pushing its cap drives the part by velocity. It feels nothing, so the wrench is for the
-/// picture, and keeps the handle from wandering off while the part stands at a wall. Works as it is plugged
-/// in; there is nothing to arm. While its first button is held the part stays; its second takes the handle
-/// back to where the part is.
+/// A space mouse: pushing its cap drives the handle by velocity. It renders no force; the wrench is shown,
+/// and keeps the handle from running on while the part stands at a wall. Needs no arming. The first button
+/// holds the part while pressed; the second takes the handle back to the part.
 class SpaceMouseDevice final : public PassiveDevice, public RateDriven, private UsbPacketSink {
  public:
-  /// True for 3Dconnexion's devices, also of the years when Logitech's name was on them.
+  /// True for devices of 3Dconnexion, including those that carry Logitech's name.
   static bool speaks(const UsbDescription& device) noexcept;
-  /// For those of them that are no space mice.
+  /// Returns a reason for those that are not space mice; else std::nullopt.
   static std::optional<DeviceRefusal> refusal(const UsbDescription& device);
 
   /// Opens nothing yet.
@@ -36,12 +35,13 @@ class SpaceMouseDevice final : public PassiveDevice, public RateDriven, private 
   std::string stateNote() const override;
   void start(const RigidTransform& worldFromPart, const ProgressCallback& progress = {}) override;
   void stop() noexcept override;
-  /// The servo paces it: reports come every 8 or 16 ms, and none while the cap rests.
+  /// Sleeps until the deadline: reports come every 8 or 16 ms, and none while the cap rests, so the
+  /// servo sets the pace.
   bool waitForHandle(Nanoseconds deadline) noexcept override;
   bool readHandle(HandleInput& handle) noexcept override;
   void sendWrench(const Wrench& wrench) noexcept override { wrench_ = wrench; }
 
-  /// Buttons that are down, and deflections, as of the last report. Controlling thread.
+  /// Controlling thread: returns buttons and deflections of the last report; valid until the next call.
   const SpaceMouseState& newest() noexcept;
   ReportCounters counters() const noexcept override;
 
@@ -53,10 +53,11 @@ class SpaceMouseDevice final : public PassiveDevice, public RateDriven, private 
 
   void onPacket(std::span<const std::byte> packet, std::int64_t arrived) noexcept override;
   void onLost(UsbLoss loss) noexcept override;
-  /// Opens the interface that has the six axes: link, reader, interface. @return Its endpoint's address.
+  /// Opens the interface that has the six axes: sets link, reader and interface number. Returns
+  /// its endpoint address.
   std::uint8_t openAxes();
   void open(const UsbInterface& face);
-  /// Empty when the device does not give it.
+  /// Returns an empty descriptor if the device gives none.
   std::vector<std::byte> readDescriptor();
   void light(bool isOn) noexcept;
   std::string name() const;
@@ -71,14 +72,14 @@ class SpaceMouseDevice final : public PassiveDevice, public RateDriven, private 
   std::atomic<std::uint64_t> reports_{0}, rejected_{0};
 
   TripleBuffer<RateSettings> settings_;
-  // From the link's thread: for the servo, and for whoever shows buttons.
+  // From the link's thread: one for the servo, one for display.
   TripleBuffer<Sample> samples_;
   TripleBuffer<SpaceMouseState> shown_;
 
-  // The link thread's own: reports tell of a part of the axes each.
+  // Link's thread only; kept because a report may carry only some of the axes.
   SpaceMouseState newest_;
 
-  // The servo thread's own.
+  // Servo thread only.
   RateControl control_;
   Wrench wrench_;
   Nanoseconds lastRead_ = 0;

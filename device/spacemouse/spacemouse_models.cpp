@@ -10,16 +10,16 @@ namespace nearfit::spacemouse {
 namespace {
 
 constexpr std::uint16_t kLogitech = 0x046d, k3Dconnexion = 0x256f;
-// Source of all numbers: spacenavd's lists of devices.
+// Source of all USB IDs: spacenavd's lists of devices.
 constexpr std::array<std::uint16_t, 11> kOfLogitech = {0xc603, 0xc605, 0xc606, 0xc621, 0xc623, 0xc625,
                                                        0xc626, 0xc627, 0xc628, 0xc629, 0xc62b};
-/// Of 3Dconnexion's own. Newer ones are recognised by their axes.
+/// 3Dconnexion's own IDs. Newer models are recognised by their axes.
 constexpr std::array<std::uint16_t, 7> kSpaceMice = {0xc62e, 0xc62f, 0xc631, 0xc632, 0xc633, 0xc635, 0xc636};
-/// CadMouse in all its kinds.
+/// All CadMouse models.
 constexpr std::array<std::uint16_t, 7> kOrdinaryMice = {0xc650, 0xc651, 0xc654, 0xc655,
                                                         0xc656, 0xc657, 0xc658};
 
-/// HID 1.11, 4.2 and 4.3: an interface that says it is a keyboard or a mouse.
+/// HID 1.11, 4.2 and 4.3: an interface that declares itself a keyboard or a mouse.
 constexpr std::uint8_t kHidClass = 3, kBootSubclass = 1;
 
 template <std::size_t Count>

@@ -8,22 +8,23 @@
 
 namespace nearfit::spacemouse {
 
-/// Whether 3Dconnexion made it and it has something to say; also of the years when Logitech's name was on its
-/// devices. Not all of those are space mice: see whyNone.
+/// True if 3Dconnexion made it, under its own or Logitech's name, and it sends reports. Not all of these are
+/// space mice: see whyNone().
 bool isOfMaker(const UsbDescription& device) noexcept;
 
-/// Known by its number to have six axes.
+/// True if its USB ID is known to have six axes.
 bool isKnownModel(const UsbDescription& device) noexcept;
 
-/// Interfaces that may have the six axes, the likeliest first. Those that say that they are a mouse or a
-/// keyboard, and those of which the system knows that they lack an axis, are left alone: opening one takes it
-/// from the user's desktop.
+/// Returns the interfaces that may have the six axes, the likeliest first. Leaves out those that declare
+/// themselves a mouse or keyboard, and those that the system knows to lack an axis: opening one takes it from
+/// the desktop. Pointers refer into `device`.
 std::vector<const UsbInterface*> candidates(const UsbDescription& device);
 
-/// Why it is no space mouse, as far as that shows without its being opened; nothing when it may be one.
+/// Returns why it is not a space mouse, as far as that shows without opening it;
+/// std::nullopt if it may be one.
 std::optional<DeviceRefusal> whyNone(const UsbDescription& device);
 
-/// For those that proved to have none once they were open.
+/// Returns the refusal for a device that had no six axes when opened.
 DeviceRefusal noSixAxes();
 
 }  // namespace nearfit::spacemouse

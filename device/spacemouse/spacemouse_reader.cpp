@@ -9,11 +9,11 @@ namespace {
 
 constexpr std::array<std::uint32_t, 6> kAxisUsages = {hid_usage::kX,  hid_usage::kY,  hid_usage::kZ,
                                                       hid_usage::kRx, hid_usage::kRy, hid_usage::kRz};
-/// To x right, y away, z up.
+/// Signs that turn it to x right, y away, z up.
 constexpr std::array<double, 6> kSigns = {1.0, -1.0, -1.0, 1.0, -1.0, -1.0};
-/// The cap's full deflection, where the descriptor has none or an absurd one.
+/// The cap's full deflection, if the descriptor gives none or an absurd one.
 constexpr std::int32_t kFullScale = 350;
-/// "Generic indicator" of the LED page.
+/// "Generic indicator" on the LED page.
 constexpr std::uint32_t kIndicator = 0x8004b;
 
 HidField axisField(std::uint8_t report, std::uint32_t usage, std::uint32_t byte) noexcept {
@@ -79,7 +79,7 @@ bool SpaceMouseReader::isOf(std::span<const std::byte> report, const HidField& f
   return !hasNumbers_ || (!report.empty() && std::to_integer<std::uint8_t>(report[0]) == field.reportId);
 }
 
-/// As the report has them: of two known places, the newer one where all of them fit.
+/// Of two known layouts, takes the newer one if all its axes fit in the report.
 const SpaceMouseReader::Axes* SpaceMouseReader::axesIn(std::span<const std::byte> report) const noexcept {
   const auto isWhole = [&](const Axes& axes) {
     return std::all_of(axes.begin(), axes.end(), [&](const HidField& field) {
@@ -94,7 +94,7 @@ const SpaceMouseReader::Axes* SpaceMouseReader::axesIn(std::span<const std::byte
 }
 
 bool SpaceMouseReader::read(std::span<const std::byte> report, SpaceMouseState& state) const noexcept {
-  // One that was cut off would turn the cap's push in a direction that nobody pushes in.
+  // A truncated report would push in a direction that nobody chose.
   const Axes* axes = axesIn(report);
   if (axes == nullptr) return false;
   bool isKnown = false;

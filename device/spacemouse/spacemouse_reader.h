@@ -10,37 +10,38 @@
 
 namespace nearfit {
 
-/// What a space mouse says: how far its cap is pushed and turned, and which buttons are down.
+/// State of a space mouse: deflections of the cap, and buttons.
 struct SpaceMouseState {
-  /// Deflections along x, y, z and about them, -1 to 1, in a right-handed frame as one sits before the
-  /// device: x to the right, y away from oneself, z up.
+  /// Deflections along and about x, y, z, -1 to 1, in the right-handed frame of a person in front of the
+  /// device: x to the right, y away, z up.
   std::array<double, 6> axes{};
-  std::uint64_t buttons = 0;  ///< Bit 0: the first.
+  std::uint64_t buttons = 0;  ///< Bit 0 is the first button.
 };
 
-/// Reads the reports of 3Dconnexion's devices (and of other multi-axis controllers). Pure: bytes in, state
-/// out.
+/// Decodes the reports of 3Dconnexion's devices and of other multi-axis controllers. Pure:
+/// bytes in, state out.
 ///
-/// The device's own frame has y towards the user and z down; here both are turned round. Which byte is which
-/// axis comes from the HID report descriptor, as newer models put six axes into one report where older ones
-/// have two.
+/// The device's own frame has y towards the user and z down; both are flipped here. The HID report descriptor
+/// says which byte is which axis: newer models put six axes into one report, older ones into two.
 class SpaceMouseReader {
  public:
-  /// By the descriptor; nothing when it has no six axes X to Rz.
+  /// Returns a reader for a descriptor; std::nullopt if it lacks one of the six axes X to Rz.
   static std::optional<SpaceMouseReader> fromDescriptor(std::span<const std::byte> reportDescriptor);
-  /// As all models so far send them: X Y Z in report 1 and, of older ones, Rx Ry Rz in report 2, of newer
-  /// ones behind those of report 1; buttons in report 3. For devices whose descriptor cannot be had.
+  /// Returns a reader for the layout that all models so far use: X Y Z in report 1; Rx Ry Rz behind
+  /// them (newer models) or in report 2 (older ones); buttons in report 3. For devices whose
+  /// descriptor cannot be read.
   static SpaceMouseReader withKnownLayout();
 
-  /// Takes over what the report says; the rest of `state` stays. False, and nothing is changed, when it is
-  /// none that is known, or too short. Real-time safe.
+  /// Updates `state` with what the report carries. Returns false, and changes nothing, if the report is
+  /// unknown or too short. Real-time safe.
   bool read(std::span<const std::byte> report, SpaceMouseState& state) const noexcept;
 
-  /// The report that lights its ring, number first; nothing where it has none.
+  /// An output report that sets the ring's light, number first.
   struct LedReport {
     std::array<std::byte, 8> bytes{};
     std::size_t size = 0;
   };
+  /// Returns the report that turns the light on or off; std::nullopt if the device has none.
   std::optional<LedReport> ledReport(bool isOn) const noexcept;
 
   static constexpr std::size_t kMostButtons = 64;
@@ -51,11 +52,11 @@ class SpaceMouseReader {
   SpaceMouseReader() = default;
   bool isComplete() const noexcept;
   bool isOf(std::span<const std::byte> report, const HidField& field) const noexcept;
-  /// Null when the report is too short for those that it has.
+  /// Returns the layout that the report follows; null if the report is too short for its axes.
   const Axes* axesIn(std::span<const std::byte> report) const noexcept;
 
   bool hasNumbers_ = true;
-  /// One report, or two of a kind: an axis may stand at either of two places in the known layout.
+  /// One layout, or two: in the known layout an axis may be in either of two places.
   Axes axes_{};
   Axes olderAxes_{};
   bool hasOlderLayout_ = false;

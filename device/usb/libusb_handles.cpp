@@ -11,7 +11,7 @@ struct ConfigFreer {
 };
 using Config = std::unique_ptr<libusb_config_descriptor, ConfigFreer>;
 
-/// USB 2.0, 9.6.6: milliseconds up to full speed, from high speed on a power of two of 125 us.
+/// USB 2.0, 9.6.6: milliseconds up to full speed, from high speed on 125 us times a power of two.
 double intervalOf(std::uint8_t interval, int speed) noexcept {
   if (interval == 0) return 0.0;
   return speed >= LIBUSB_SPEED_HIGH ? std::ldexp(125e-6, (interval > 16 ? 16 : interval) - 1)
@@ -22,7 +22,7 @@ UsbEndpoint endpointOf(const libusb_endpoint_descriptor& from, int speed) noexce
   UsbEndpoint endpoint;
   endpoint.address = from.bEndpointAddress;
   endpoint.type = static_cast<UsbTransferType>(from.bmAttributes & LIBUSB_TRANSFER_TYPE_MASK);
-  // Bits 11 and 12 count further packets in a microframe.
+  // Bits 11 and 12 count additional packets per microframe.
   endpoint.maxPacket = static_cast<std::uint16_t>(from.wMaxPacketSize & 0x7ffU);
   if (endpoint.type == UsbTransferType::Interrupt) endpoint.interval = intervalOf(from.bInterval, speed);
   return endpoint;
@@ -74,7 +74,7 @@ std::optional<UsbDescription> describe(libusb_device* device) {
   to.release = from.bcdDevice;
   to.bus = libusb_get_bus_number(device);
   to.address = libusb_get_device_address(device);
-  std::array<std::uint8_t, 7> ports{};  // USB 3.0, 10: seven tiers at most.
+  std::array<std::uint8_t, 7> ports{};  // USB 3.0, 10: at most seven tiers.
   const int count = libusb_get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
   if (count > 0) to.ports.assign(ports.begin(), ports.begin() + count);
   libusb_config_descriptor* config = nullptr;

@@ -9,7 +9,7 @@
 #include "device/device_error.h"
 #include "device/usb/usb_description.h"
 
-/// libusb's handles with an owner. For the .cpp files of this folder alone: nothing else sees libusb.
+/// Owning handles for libusb. Only for the .cpp files of this folder: nothing else sees libusb.
 namespace nearfit::usb {
 
 struct ContextCloser {
@@ -27,7 +27,7 @@ struct TransferFreer {
 };
 using Transfer = std::unique_ptr<libusb_transfer, TransferFreer>;
 
-/// All devices that a context sees, referenced as long as this lives.
+/// All devices that a context sees; references them while it lives.
 class DeviceList {
  public:
   /// Throws DeviceError.
@@ -44,15 +44,16 @@ class DeviceList {
   std::size_t count_ = 0;
 };
 
-/// Throws DeviceError when libusb cannot start.
+/// Starts libusb. Throws DeviceError if that fails.
 Context openContext();
 
-/// Nothing when its descriptors cannot be read: it is being unplugged, most likely.
+/// Reads a device's descriptors; std::nullopt if that fails, most likely because it is being unplugged.
 std::optional<UsbDescription> describe(libusb_device* device);
 
-/// @param code  Of libusb, < 0.
+/// Returns the DeviceProblem that a libusb error stands for.
+/// @param code  libusb error, < 0.
 DeviceProblem problemOf(int code) noexcept;
-/// What libusb calls it, in words.
+/// Returns libusb's own description of an error.
 std::string reasonOf(int code);
 
 }  // namespace nearfit::usb

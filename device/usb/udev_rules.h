@@ -4,11 +4,11 @@
 
 namespace nearfit {
 
-/// The udev rules that let users open devices, as installed or in the source tree. Throws FileError when they
-/// are in neither.
+/// Returns the path of the udev rules that let users open devices, installed or in the source tree. Throws
+/// FileError if there are none.
 std::string udevRulesFile();
 
-/// What gives the user permission to use devices: one line for a shell. Throws as udevRulesFile does.
+/// Returns a one-line shell command that lets the user open devices. Throws as udevRulesFile() does.
 std::string udevCommand();
 
 }  // namespace nearfit

@@ -12,7 +12,7 @@
 namespace nearfit {
 namespace {
 
-/// What the kernel calls the programs that have claimed an interface.
+/// The kernel's name for programs that have claimed an interface.
 constexpr const char* kProgram = "usbfs";
 
 class NodeFile {
@@ -26,7 +26,7 @@ class NodeFile {
   NodeFile& operator=(const NodeFile&) = delete;
 
   int error() const noexcept { return error_; }
-  /// Empty when nothing holds the interface.
+  /// Returns the driver that holds the interface; empty if none does.
   std::string holderOf(std::uint8_t interfaceNumber) const {
     usbdevfs_getdriver holder{};
     holder.interface = interfaceNumber;

@@ -9,15 +9,16 @@
 
 namespace nearfit {
 
-/// Whether a device could be opened now, found out without disturbing it or whoever uses it.
+/// Result of usbAccess().
 struct UsbAccess {
-  std::optional<DeviceProblem> problem;  ///< None: it could.
-  std::string reason, remedy;            ///< As of an Error.
-  std::string kernelDriver;  ///< That holds one of its interfaces, and lets go when it is opened; or empty.
+  std::optional<DeviceProblem> problem;  ///< Why not; empty if it could.
+  std::string reason, remedy;            ///< Explain `problem`, worded as in an Error.
+  std::string kernelDriver;              ///< Holds an interface now, and lets go on opening; may be empty.
 };
+/// Finds out whether a device could be opened, without disturbing it or its user.
 UsbAccess usbAccess(const UsbDescription& device);
 
-/// As it calls itself, printable ASCII; empty where it does not say.
+/// Return the device's own names, in printable ASCII; empty if it has none.
 std::string usbProductName(const UsbDescription& device);
 std::string usbMakerName(const UsbDescription& device);
 

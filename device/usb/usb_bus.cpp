@@ -26,7 +26,7 @@ struct UsbBus::Shared {
 
   void run() noexcept {
     while (!stopRequested.load(std::memory_order_acquire)) {
-      timeval second{1, 0};  // Only a net: the end of it all interrupts the wait.
+      timeval second{1, 0};  // Only a safety net: the destructor interrupts the wait.
       libusb_handle_events_timeout_completed(context.get(), &second, nullptr);
     }
   }

@@ -8,22 +8,22 @@
 
 namespace nearfit {
 
-/// The USB devices of this machine, and when they come and go. One controlling thread.
+/// The USB devices of this machine, and their coming and going. One controlling thread.
 class UsbBus {
  public:
-  /// Throws DeviceError when libusb or its thread cannot be had.
+  /// Throws DeviceError if libusb or its thread cannot start.
   UsbBus();
   ~UsbBus();
   UsbBus(const UsbBus&) = delete;
   UsbBus& operator=(const UsbBus&) = delete;
 
-  /// All devices that are plugged in, by bus and address. One whose descriptors cannot be read is left out:
-  /// that happens while it is being unplugged. Throws DeviceError.
+  /// Returns all devices that are plugged in, by bus and address. Leaves out those whose descriptors cannot
+  /// be read, as happens during unplugging. Throws DeviceError.
   std::vector<UsbDescription> list() const;
 
-  /// True when the system tells of devices that come and go; else list() has to be asked from time to time.
+  /// True if the system announces changes; otherwise list() must be polled.
   bool tellsOfChanges() const noexcept;
-  /// Rises each time that one comes or goes. Any thread.
+  /// Returns the number of changes so far. Any thread.
   std::uint64_t changes() const noexcept;
 
  private:

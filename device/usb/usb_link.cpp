@@ -17,7 +17,7 @@
 namespace nearfit {
 namespace {
 
-/// Which kernel driver or program has the interface, for the message.
+/// Says what holds the interface, a kernel driver or a program.
 std::string holderOf(libusb_device_handle* handle, std::uint8_t interfaceNumber) {
   return libusb_kernel_driver_active(handle, interfaceNumber) == 1 ? "a driver of the system holds it"
                                                                    : "another program holds it";
@@ -50,7 +50,7 @@ usb::Handle openHandle(libusb_context* context, const UsbDescription& wanted) {
   throwOpenFailed(wanted, LIBUSB_ERROR_NO_DEVICE);
 }
 
-/// Empty where it has none. False when the device does not answer at all.
+/// Reads a string, empty if there is none. Returns false if the device does not answer at all.
 bool readString(libusb_device_handle* handle, std::uint8_t index, std::string& result) {
   result.clear();
   if (index == 0) return true;
@@ -59,12 +59,12 @@ bool readString(libusb_device_handle* handle, std::uint8_t index, std::string& r
       libusb_get_string_descriptor_ascii(handle, index, text.data(), static_cast<int>(text.size()));
   if (length <= 0) return length != LIBUSB_ERROR_TIMEOUT && length != LIBUSB_ERROR_NO_DEVICE;
   for (const unsigned char c : std::span(text).first(static_cast<std::size_t>(length)))
-    result += c < 0x20 || c > 0x7e ? '?' : static_cast<char>(c);  // It ends up in a terminal.
+    result += c < 0x20 || c > 0x7e ? '?' : static_cast<char>(c);  // Safe for a terminal.
   return true;
 }
 
 unsigned milliseconds(UsbLink::Timeout timeout) noexcept {
-  // libusb waits for ever with 0.
+  // 0 would make libusb wait for ever.
   return static_cast<unsigned>(std::clamp<std::chrono::milliseconds::rep>(timeout.count(), 1, 60'000));
 }
 
@@ -108,7 +108,7 @@ struct UsbLink::Shared {
                       "plug it in again");
   }
 
-  /// Bytes, or libusb's error.
+  /// Returns the bytes transferred, or libusb's error.
   int request(const usb::ControlSetup& setup, std::span<std::byte> data, Timeout timeout) {
     assert(data.size() <= 0xffff);
     if (streamer) {
@@ -126,7 +126,7 @@ struct UsbLink::Shared {
                         "it has no interface " + std::to_string(interfaceNumber),
                         "check that it is the device it says it is");
     }
-    // Where the system cannot detach drivers, none holds it.
+    // May fail: a system that cannot detach drivers has none bound.
     libusb_set_auto_detach_kernel_driver(handle.get(), 1);
     const int code = libusb_claim_interface(handle.get(), interfaceNumber);
     if (code == 0) return;
@@ -148,7 +148,7 @@ UsbLink::UsbLink(const UsbDescription& device, std::uint8_t interfaceNumber)
 
 UsbLink::~UsbLink() {
   stop();
-  // Fails when it is unplugged: then there is nothing to give back.
+  // Fails if the device is unplugged, when there is nothing to release.
   libusb_release_interface(shared_->handle.get(), shared_->interfaceNumber);
 }
 
@@ -157,7 +157,7 @@ UsbLink::Strings UsbLink::strings() const {
   libusb_device_descriptor descriptor;
   if (libusb_get_device_descriptor(libusb_get_device(handle), &descriptor) != 0) return {};
   Strings strings;
-  // libusb waits a second for each: of a device that hangs, one is enough.
+  // libusb waits a second for each; stop at the first that a hung device leaves unanswered.
   [[maybe_unused]] const bool isAnswering =
       readString(handle, descriptor.iProduct, strings.product) &&
       readString(handle, descriptor.iManufacturer, strings.manufacturer) &&
@@ -189,7 +189,7 @@ void UsbLink::ask(std::uint8_t requestType, std::uint8_t request, std::uint16_t 
 
 std::size_t UsbLink::read(std::uint8_t endpoint, std::span<std::byte> data, Timeout timeout) {
   int count = 0;
-  // Debian's libusb sends interrupt transfers as bulk ones where the endpoint is one of those.
+  // Linux turns a bulk transfer on an interrupt endpoint into an interrupt transfer.
   const int code = libusb_bulk_transfer(shared_->handle.get(), endpoint, bytes(data),
                                         static_cast<int>(data.size()), &count, milliseconds(timeout));
   if (code != 0 && !(code == LIBUSB_ERROR_TIMEOUT && count > 0)) shared_->fail(code, "nothing came from it");
@@ -227,7 +227,7 @@ void UsbLink::stream(const Streams& streams, UsbPacketSink& sink) {
   stop();
   try {
     shared_->streamer.emplace(shared_->context.get(), shared_->handle.get(), *in, out, sink);
-    // Not before: the sink may ask for the streamer at once.
+    // Not earlier: the sink may use the streamer at once.
     shared_->streamer->begin();
   } catch (const std::system_error& error) {
     throw DeviceError(DeviceProblem::Failed, shared_->where(),

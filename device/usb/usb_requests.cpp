@@ -78,7 +78,7 @@ std::optional<int> Requests::run(const ControlSetup& setup, std::span<std::byte>
   return code;
 }
 
-/// The waiter may be gone as soon as it is told.
+/// Releases the waiter last: it may be gone at once.
 void LIBUSB_CALL Requests::onDone(libusb_transfer* transfer) noexcept {
   Waiter& waiter = *static_cast<Waiter*>(transfer->user_data);
   waiter.owner->end();
@@ -103,7 +103,7 @@ void Requests::ask(const ControlSetup& setup, std::size_t size, unsigned timeout
     else
       end();
   } catch (const std::bad_alloc&) {
-    // There is no answer, then.
+    // Without memory there is no answer.
   }
 }
 

@@ -12,11 +12,11 @@
 namespace nearfit::usb {
 namespace {
 
-/// A stall is cleared; one that comes back so often without a packet between is the device's last word.
+/// A stall is cleared. So many in a row, without a packet between, mean that the device is lost.
 constexpr unsigned kMostStalls = 3;
-/// Transfers end within a frame or two of being cancelled, and at once of an unplugged device.
+/// Cancelled transfers end within a frame or two; those of an unplugged device end at once.
 constexpr std::chrono::seconds kDrainTime{1};
-/// Only a net: whatever is to be seen ends the wait.
+/// Only a safety net: every event ends the wait.
 constexpr int kLongestWaitMs = 100;
 
 void addOne(std::atomic<std::uint64_t>& counter) noexcept {
@@ -50,7 +50,7 @@ void Streamer::makeSlots(Pipe& pipe, std::size_t count, const UsbEndpoint& endpo
     slot->pipe = &pipe;
     slot->transfer.reset(libusb_alloc_transfer(0));
     if (!slot->transfer) throw std::system_error(ENOMEM, std::generic_category(), "transfer");
-    // What comes is thrown away as too long beyond a packet; what goes may take several.
+    // A packet longer than the endpoint may send is dropped; a command may take several packets.
     slot->buffer.resize(endpoint.isIn() ? std::max<std::size_t>(endpoint.maxPacket, 1)
                                         : UsbLink::kMostPacket);
     const int size = static_cast<int>(slot->buffer.size());
@@ -74,7 +74,7 @@ void Streamer::stop() noexcept {
   libusb_set_pollfd_notifiers(context_, nullptr, nullptr, nullptr);
   for (Pipe* pipe : {&in_, &out_}) {
     for (std::unique_ptr<Slot>& slot : pipe->slots) {
-      // The kernel still holds its buffer: rather lost than written to after it is freed.
+      // The kernel still holds its buffer: leak it rather than have it written to after it is freed.
       if (slot->isInFlight) static_cast<void>(slot.release());
     }
   }
@@ -121,7 +121,7 @@ void Streamer::run() noexcept {
       sink_.onLost(loss());
     }
     if (isEnding && isOver(std::chrono::steady_clock::now() > drainEnd)) return;
-    // A command goes before libusb looks for events of its own: some system calls sooner.
+    // A command goes out before libusb looks for events of its own, some system calls sooner.
     if (wait() && !isEnding) submitCommand();
     timeval none{0, 0};
     libusb_handle_events_timeout_completed(context_, &none, nullptr);
@@ -154,7 +154,7 @@ bool Streamer::wait() noexcept {
   return wake_.take();
 }
 
-/// Requests are waited for however long they take: whoever made them sleeps till they end, as they do by
+/// Requests are waited for as long as they take: their callers sleep until they end, at the latest by
 /// their own timeouts.
 bool Streamer::isOver(bool isDrained) noexcept {
   return (isDrained || (in_.isIdle() && out_.isIdle())) && requests_.close();
@@ -187,21 +187,21 @@ void Streamer::onIn(Slot& slot) noexcept {
   if (!in_.isHalted) submit(slot);
 }
 
-/// Unplugging shows itself in each of these ways.
+/// Unplugging may show as any of these.
 void Streamer::onFailure(Pipe& pipe, libusb_transfer_status status) noexcept {
   switch (status) {
     case LIBUSB_TRANSFER_NO_DEVICE:
       lose(UsbLoss::Unplugged);
       return;
     case LIBUSB_TRANSFER_CANCELLED:
-      // Those of a halted endpoint are cancelled here.
+      // clearHalts() cancels the transfers of a halted endpoint.
       if (!stopRequested_.load(std::memory_order_relaxed) && !pipe.isHalted) lose(UsbLoss::Cancelled);
       return;
     case LIBUSB_TRANSFER_OVERFLOW:
       addOne(counters_.oversized);
       return;
     case LIBUSB_TRANSFER_STALL:
-      // All that are in flight may end with the one stall.
+      // All transfers in flight may end with the same stall.
       if (!std::exchange(pipe.isHalted, true)) addOne(counters_.stalls);
       return;
     default:
@@ -223,7 +223,7 @@ int LIBUSB_CALL Streamer::onLeft(libusb_context*, libusb_device* device, libusb_
 void Streamer::clearHalts() noexcept {
   for (Pipe* pipe : {&in_, &out_}) {
     if (!pipe->isHalted) continue;
-    // Clearing resets the endpoint's data toggle: nothing may be in flight then.
+    // Clearing resets the endpoint's data toggle: nothing may be in flight.
     if (pipe->isIdle())
       clearHalt(*pipe);
     else
@@ -273,7 +273,7 @@ bool Streamer::Pipe::isIdle() const noexcept {
   return std::none_of(slots.begin(), slots.end(), [](const auto& slot) { return slot->isInFlight; });
 }
 
-/// The first reason stays.
+/// Keeps the first reason.
 void Streamer::lose(UsbLoss loss) noexcept {
   UsbLoss none = UsbLoss::None;
   loss_.compare_exchange_strong(none, loss, std::memory_order_acq_rel);

@@ -19,27 +19,29 @@
 
 namespace nearfit::usb {
 
-/// Keeps transfers of one device in flight, on a thread of its own; UsbLink says what for.
+/// Keeps the transfers of one device in flight, on its own thread; UsbLink says what for.
 class Streamer {
  public:
-  /// Context and handle outlive this, and nobody else handles their events. Nothing comes before begin().
-  /// Throws std::system_error.
+  /// Starts the thread; packets are taken from begin() on. Context and handle must outlive this, and nobody
+  /// else may handle their events. Throws std::system_error.
   Streamer(libusb_context* context, libusb_device_handle* handle, const UsbEndpoint& in,
            const UsbEndpoint* out, UsbPacketSink& sink);
   ~Streamer() { stop(); }
   Streamer(const Streamer&) = delete;
   Streamer& operator=(const Streamer&) = delete;
 
-  /// Lets packets in; once.
+  /// Begins to take packets; call it once.
   void begin() noexcept { mayBegin_.release(); }
+  /// Cancels all transfers and joins the thread; no-op while stopped.
   void stop() noexcept;
+  /// Implements UsbLink::send().
   bool send(std::span<const std::byte> packet) noexcept;
-  /// For as long as the thread handles events.
+  /// Control requests; they work while the thread handles events.
   Requests& requests() noexcept { return requests_; }
 
   UsbLoss loss() const noexcept { return loss_.load(std::memory_order_acquire); }
   UsbCounters counters() const noexcept;
-  /// Once the thread runs.
+  /// Real-time service granted to the thread.
   RealtimeGrant grant() const noexcept { return grant_; }
 
  private:
@@ -49,7 +51,7 @@ class Streamer {
     std::uint64_t serial = 0;
   };
   struct Pipe;
-  /// A transfer with its buffer. What is in flight belongs to libusb.
+  /// A transfer with its buffer. While in flight, it belongs to libusb.
   struct Slot {
     Streamer* owner = nullptr;
     Pipe* pipe = nullptr;
@@ -61,7 +63,7 @@ class Streamer {
   struct Pipe {
     std::vector<std::unique_ptr<Slot>> slots;
     unsigned errorsInRow = 0, stallsInRow = 0;
-    bool isHalted = false;  ///< It stalled, and is to be cleared.
+    bool isHalted = false;  ///< Stalled; must be cleared.
 
     bool isIdle() const noexcept;
     void cancel() const noexcept;
@@ -69,9 +71,9 @@ class Streamer {
   struct Counters {
     std::atomic<std::uint64_t> packets{0}, oversized{0}, errors{0}, stalls{0}, commands{0}, replaced{0};
   };
-  /// In flight at once: what a device sends while the thread is kept from running is not lost.
+  /// Several at once: what a device sends while the thread cannot run is not lost.
   static constexpr std::size_t kInSlots = 4;
-  /// One is on its way while the next is filled.
+  /// One is sent while the next is filled.
   static constexpr std::size_t kOutSlots = 2;
 
   static void LIBUSB_CALL onDone(libusb_transfer* transfer) noexcept;
@@ -82,7 +84,7 @@ class Streamer {
 
   void makeSlots(Pipe& pipe, std::size_t count, const UsbEndpoint& endpoint);
   void run() noexcept;
-  /// Until there is something to do; true when that is what `wake_` rang for.
+  /// Sleeps until there is something to do. Returns true if `wake_` rang.
   bool wait() noexcept;
   bool isOver(bool isDrained) noexcept;
   void clearHalts() noexcept;
@@ -95,15 +97,15 @@ class Streamer {
   libusb_device_handle* handle_;
   UsbPacketSink& sink_;
   const bool hasOut_;
-  WakeEvent wake_;  ///< A command is there, or the end.
+  WakeEvent wake_;  ///< Rings for a command, and for the end.
   Requests requests_;
   Pipe in_, out_;
   libusb_hotplug_callback_handle leftCallback_{};
   bool hasLeftCallback_ = false;
 
   TripleBuffer<Command> commands_;
-  std::uint64_t nextSerial_ = 0;  ///< The sender's.
-  std::uint64_t lastSerial_ = 0;  ///< The thread's: of the last command taken.
+  std::uint64_t nextSerial_ = 0;  ///< Used by the sender.
+  std::uint64_t lastSerial_ = 0;  ///< Used by the thread: last command taken.
   std::vector<pollfd> polled_;
   std::atomic<bool> arePollsStale_{true};
   std::atomic<UsbLoss> loss_{UsbLoss::None};

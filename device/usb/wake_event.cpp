@@ -19,7 +19,7 @@ WakeEvent::~WakeEvent() {
 
 void WakeEvent::ring() const noexcept {
   const std::uint64_t one = 1;
-  // Full only when 2^64 - 2 rings wait: then it rings anyway.
+  // Fails only if 2^64 - 2 rings wait, and then it rings anyway.
   [[maybe_unused]] const ssize_t ignored = ::write(descriptor_, &one, sizeof one);
 }
 

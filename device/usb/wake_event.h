@@ -2,7 +2,7 @@
 
 namespace nearfit::usb {
 
-/// Wakes a thread that polls descriptors: an eventfd.
+/// Wakes a thread that polls descriptors; an eventfd.
 class WakeEvent {
  public:
   /// Throws std::system_error.
@@ -11,11 +11,11 @@ class WakeEvent {
   WakeEvent(const WakeEvent&) = delete;
   WakeEvent& operator=(const WakeEvent&) = delete;
 
-  /// To poll for input.
+  /// Descriptor to poll for input.
   int descriptor() const noexcept { return descriptor_; }
-  /// Any thread; one system call.
+  /// Wakes the thread. Any thread; makes one system call.
   void ring() const noexcept;
-  /// True when it has rung since the last time; never waits.
+  /// Returns true if it rang since the last call; never waits.
   bool take() const noexcept;
 
  private:

@@ -90,7 +90,7 @@ def _save(figure, file):
 
 
 def headline(table, file):
-    """Four pairs, distance and force: what the README shows."""
+    """Four pairs, distance and force: what error.md shows first."""
     looks = styles(table)
     pairs = [p for p in HEADLINE if p in table.pairs]
     figure, axes = plt.subplots(2, len(pairs), figsize=(3.6 * len(pairs), 7.4), squeeze=False)

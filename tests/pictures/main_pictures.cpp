@@ -1,5 +1,5 @@
 // nearfit-pictures FOLDER light|dark: pictures of the window at work, of each panel, menu and dialog, by the
-// real application; those whose names begin with "guide-" stand in the README. resources/scripts/pictures
+// real application; those whose names begin with "guide-" stand in the guide. resources/scripts/pictures
 // runs it in both themes and at two scales.
 #include <QAbstractButton>
 #include <QAbstractItemView>
@@ -297,7 +297,7 @@ class Pictures {
     devices_->devices = {
         {QStringLiteral("arm"), QStringLiteral("OpenHap at bus 1"), {}, true},
         {QStringLiteral("other"), QStringLiteral("Novint Falcon at bus 2"),
-         QStringLiteral("You have no permission to open it: see the README's udev rules."), false}};
+         QStringLiteral("You have no permission to open it: see resources/docs/devices.md."), false}};
     driver_.application.watcher().look();
     // Room for all of the panel, and nothing that overlaps.
     for (const char* dock : {"clearanceDock", "plotsDock", "timelineDock"})

@@ -35,7 +35,7 @@ void ClearanceModel::show(const std::vector<PartClearance>& clearances, const Sc
                       std::equal(rows.begin(), rows.end(), rows_.begin(), [](const Row& a, const Row& b) {
                         return a.clearance.other == b.clearance.other;
                       });
-  // A reset would lose the row that is selected.
+  // A reset would lose the selected row.
   if (!isSame) beginResetModel();
   rows_ = std::move(rows);
   if (!isSame) {

@@ -8,22 +8,25 @@
 
 namespace nearfit::ui {
 
-/// Clearances as a table: the other part, the least distance, minima within the cutoff, and what that means.
+/// Clearances as a table: the other part, the least distance, minima within the cutoff, and a verdict.
 class ClearanceModel : public QAbstractTableModel {
   Q_OBJECT
 
  public:
   enum Column { Other, Distance, Minima, Verdict, ColumnCount };
-  /// What a column is sorted by.
+  /// Role for the value that a column is sorted by.
   static constexpr int kSortRole = Qt::UserRole;
 
   using QAbstractTableModel::QAbstractTableModel;
 
-  /// @param scene  For the names.
+  /// Replaces the rows.
+  /// @param scene  Gives the parts' names.
   void show(const std::vector<PartClearance>& clearances, const Scene& scene);
-  /// Less than this is too near [m].
+  /// Sets the distance below which a pair is too near [m].
   void setThreshold(double metres);
+  /// Returns the clearance in a row; `row` must be valid.
   const PartClearance& at(int row) const { return rows_[static_cast<std::size_t>(row)].clearance; }
+  /// Returns the row of another part; std::nullopt if there is none.
   std::optional<int> rowOf(PartId other) const;
 
   int rowCount(const QModelIndex& parent = {}) const override;

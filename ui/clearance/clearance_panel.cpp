@@ -30,7 +30,7 @@ constexpr double kMillimetre = 1e-3;
 constexpr double kUsualThreshold = 1e-3, kThresholdStep = 1e-4, kMostThreshold = 1e3;  ///< [m]
 constexpr int kThresholdDecimals = 4;
 
-/// A number that somebody has edited may be none [m].
+/// Returns the threshold from the settings [m]; the usual one if somebody edited it to nonsense.
 double keptThreshold() {
   bool isNumber = false;
   const double kept = kMillimetre * QSettings().value(kThresholdKey).toDouble(&isNumber);
@@ -53,7 +53,7 @@ ClearancePanel::ClearancePanel(Session& session, ClearanceSearch& search, QWidge
   auto* thresholdLabel = new QLabel(tr("&Too near below"), this);
   partLabel->setBuddy(subject_);
   thresholdLabel->setBuddy(threshold_);
-  // On fine displays letters are a little wider than Qt reckons, and the last one was cut.
+  // On high-resolution displays letters are a little wider than Qt expects, and the last one was cut off.
   thresholdLabel->ensurePolished();
   thresholdLabel->setMinimumWidth(thresholdLabel->sizeHint().width() + 4);
   auto* fields = new QHBoxLayout;

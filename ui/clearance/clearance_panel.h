@@ -21,23 +21,27 @@ class ClearanceModel;
 class ClearanceSearch;
 class NumberField;
 
-/// How near a part is to each other one, as a table; the row that is chosen is a pair to look at.
+/// Shows in a table how near a part is to each other one; the chosen row is a pair to look at.
 class ClearancePanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// @param session, search  Outlive this.
+  /// @param session  Must outlive this.
+  /// @param search   Must outlive this.
   ClearancePanel(Session& session, ClearanceSearch& search, QWidget* parent = nullptr);
 
-  /// The pair of the chosen row, as it is now; nothing when none is chosen.
+  /// Returns the pair of the chosen row, as it is now; std::nullopt if no row is chosen or
+  /// the panel is hidden.
   std::optional<PartClearance> chosen() const;
 
  signals:
-  /// The user has chosen a row.
+  /// Emitted when the user chooses a row.
   void pairChosen(nearfit::PartId part, nearfit::PartId other);
-  /// What chosen() gives may be another.
+  /// Emitted when chosen() may return another pair.
   void chosenChanged();
+  /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
+  /// Emitted with a short note for the status bar.
   void noted(const QString& text);
 
  protected:
@@ -55,7 +59,7 @@ class ClearancePanel : public QWidget {
 
   Session& session_;
   ClearanceSearch& search_;
-  std::uint64_t sceneSerial_ = 0;  ///< Of the scene whose parts are offered.
+  std::uint64_t sceneSerial_ = 0;  ///< Serial of the scene whose parts are offered.
   ClearanceModel* model_;
   QSortFilterProxyModel* sorted_;
   QTableView* table_;

@@ -8,7 +8,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// At least between the beginnings of two searches, so that a drag or a feel leaves the processors alone.
+/// Shortest time between the starts of two searches, which leaves processors for a drag or the servo.
 constexpr int kEveryMs = 250;
 
 }  // namespace
@@ -47,7 +47,7 @@ void ClearanceSearch::showSnapshot(const ServoSnapshot& snapshot) {
     updateFrom(snapshot, clearances_);
     emit changed();
   }
-  // Of others, the part in hand is one; and the servo does not know of what is beyond its cutoff.
+  // The part in hand affects other parts' clearances too, and the servo knows nothing beyond its cutoff.
   const bool hasMoved =
       snapshot.proxy.translation != poseShown_.translation || snapshot.proxy.rotation != poseShown_.rotation;
   poseShown_ = snapshot.proxy;
@@ -61,7 +61,7 @@ void ClearanceSearch::request() {
 }
 
 void ClearanceSearch::search() {
-  // The end of what runs asks again.
+  // The search that runs asks again when it ends.
   if (task_.isRunning() || !isWanted_) return;
   isDue_ = false;
   timer_.start();
@@ -81,7 +81,7 @@ void ClearanceSearch::search() {
 
 void ClearanceSearch::finish(std::optional<PartId> part, const Scene& scene,
                              const std::vector<PartClearance>& found, const std::exception_ptr& error) {
-  // Of a part that was asked for before, or cancelled: what is due follows.
+  // Results for a former part, or of a cancelled search: what is due follows.
   if (part != subject() || !isWanted_ || (error && isDue_)) return;
   if (error) {
     emit failed(describe(tr("The clearances could not be found."), error));

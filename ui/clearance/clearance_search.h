@@ -13,32 +13,36 @@
 
 namespace nearfit::ui {
 
-/// Keeps the clearances of one part up to date while they are wanted: searched in another thread after a
-/// change, no more often than a few times a second; and, for the moving part in hand, of each tick that is
-/// shown.
+/// Keeps the clearances of one part up to date while they are wanted. Searches in another thread
+/// after a change, at most a few times a second; for the moving part in hand, also takes them from
+/// each tick that is shown.
 class ClearanceSearch : public QObject {
   Q_OBJECT
 
  public:
-  /// Where the moving part is now; anything when there is none.
+  /// Returns the moving part's worldFromPart now; anything if there is none.
   using PoseOfMoving = std::function<RigidTransform()>;
 
-  /// @param session  Outlives this.
+  /// @param session  Must outlive this.
   ClearanceSearch(Session& session, PoseOfMoving poseOfMoving, QObject* parent = nullptr);
 
-  /// Nothing is searched while it is not wanted.
+  /// Starts or stops searching; at first nothing is wanted.
   void setWanted(bool isWanted);
-  /// Nothing: the moving part, whichever that is.
+  /// Chooses the part; std::nullopt: the moving part, whichever that is.
   void setSubject(std::optional<PartId> part);
+  /// Returns the part whose clearances are kept; std::nullopt if there is none.
   std::optional<PartId> subject() const;
+  /// Returns the clearances found last.
   const std::vector<PartClearance>& clearances() const noexcept { return clearances_; }
-  /// Names and poses that the clearances are of.
+  /// Returns the scene in which they were found, with its names and poses.
   const Scene& scene() const noexcept { return searched_; }
-  /// The part in hand has moved.
+  /// Takes in a tick of the part in hand.
   void showSnapshot(const ServoSnapshot& snapshot);
 
  signals:
+  /// Emitted when clearances() changed.
   void changed();
+  /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
 
  private:
@@ -54,7 +58,7 @@ class ClearanceSearch : public QObject {
   std::optional<PartId> chosen_;
   Scene searched_;
   std::vector<PartClearance> clearances_;
-  RigidTransform poseShown_;  ///< Of the part in hand.
+  RigidTransform poseShown_;  ///< Pose of the part in hand at the last tick shown.
   bool isWanted_ = false, isDue_ = false;
 };
 

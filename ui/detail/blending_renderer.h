@@ -4,15 +4,15 @@
 
 namespace nearfit::ui {
 
-/// A renderer that spares itself VTK's passes for what shines through, which cost as much as a hundred
-/// thousand triangles in software, wherever the order of it does not matter.
+/// A renderer that skips VTK's passes for translucent geometry where their order does not matter. In software
+/// OpenGL those cost as much as a hundred thousand triangles.
 class BlendingRenderer : public vtkOpenGLRenderer {
  public:
   static BlendingRenderer* New();
   using Superclass = vtkOpenGLRenderer;
 
-  /// Whether things of several colours shine through one another. Else each is blended over what was there
-  /// before, which is as right, in whatever order, where they all have one colour.
+  /// Set true if translucent things of several colours may overlap: then VTK sorts them. Else each is blended
+  /// over what was drawn before, which is right in any order if all have one colour.
   void setManyColoured(bool is) noexcept { isManyColoured_ = is; }
 
   void DeviceRenderTranslucentPolygonalGeometry(vtkFrameBufferObjectBase* fbo = nullptr) override;

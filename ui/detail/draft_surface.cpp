@@ -12,12 +12,12 @@
 namespace nearfit::ui {
 namespace {
 
-/// Of a mesh that has drafts at all, and of a draft that there is a coarser one of.
+/// Min triangles of a mesh that gets drafts, and of a draft that gets a coarser one.
 constexpr vtkIdType kLeastTriangles = 500, kLeastOfADraft = 200;
-/// Cells along the longest side. Twice the first would take VTK five times as long; the last is for a
-/// thousand parts at once.
+/// Cells along the longest side. Twice the first number would take VTK five times as long; the last serves
+/// scenes of a thousand parts.
 constexpr std::array kDivisions{96, 28, 8, 4};
-constexpr double kFeatureAngle = 30.0;  ///< As of the surface itself [degrees].
+constexpr double kFeatureAngle = 30.0;  ///< As for the surface itself [degrees].
 
 DraftSurface clustered(vtkPolyData& surface, int divisions) {
   const double* bounds = surface.GetBounds();
@@ -28,7 +28,7 @@ DraftSurface clustered(vtkPolyData& surface, int divisions) {
   const auto along = [&](std::size_t axis) {
     return cell > 0.0 ? std::max(1, static_cast<int>(std::ceil(size[axis] / cell))) : 1;
   };
-  // Without what else the surface carries.
+  // Other attributes of the surface would only slow clustering down.
   vtkNew<vtkPolyData> bare;
   bare->SetPoints(surface.GetPoints());
   bare->SetPolys(surface.GetPolys());
@@ -55,7 +55,7 @@ std::vector<DraftSurface> draftsOf(vtkPolyData& surface) {
   for (const int divisions : kDivisions) {
     if (last->GetNumberOfPolys() < (drafts.empty() ? kLeastTriangles : kLeastOfADraft)) break;
     DraftSurface draft = clustered(*last, divisions);
-    // Each is made of the one before, which is quicker.
+    // Each draft is made from the one before, which is faster but adds up their deviations.
     draft.cell += off;
     if (draft.surface->GetNumberOfPolys() == 0 ||
         2 * draft.surface->GetNumberOfPolys() > last->GetNumberOfPolys())

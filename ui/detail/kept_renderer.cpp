@@ -18,10 +18,10 @@ void KeptRenderer::intoKept(bool isErased, const Act& draw) {
   if (window == nullptr) return;
   window->MakeCurrent();
   vtkOpenGLState* state = window->GetState();
-  // Others have drawn meanwhile.
+  // Others may have changed the OpenGL state meanwhile.
   state->Reset();
   state->Push();
-  // Blending of what shines through leaves depths switched off.
+  // Translucent blending leaves depth tests and writes off.
   state->vtkglEnable(GL_DEPTH_TEST);
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDepthFunc(GL_LEQUAL);
@@ -72,7 +72,7 @@ void KeptRenderer::paste() {
   state->vtkglBlitFramebuffer(0, 0, size[0], size[1], 0, 0, size[0], size[1], GL_COLOR_BUFFER_BIT,
                               GL_NEAREST);
   state->PopReadFramebufferBinding();
-  // OpenGL copies depths of one format alone, and the window's is VTK's affair.
+  // OpenGL blits depths only between equal formats, and VTK chooses the window's.
   window->TextureDepthBlit(kept_->GetDepthAttachmentAsTextureObject(), 0, 0, size[0] - 1, size[1] - 1, 0, 0,
                            size[0] - 1, size[1] - 1);
 }
@@ -84,7 +84,7 @@ void KeptRenderer::DeviceRenderOpaqueGeometry(vtkFrameBufferObjectBase* fbo) {
 
 int KeptRenderer::UpdateGeometry(vtkFrameBufferObjectBase* fbo) {
   if (!isKept_ || PropArrayCount > 0) return Superclass::UpdateGeometry(fbo);
-  // VTK's does nothing at all where nothing is to be drawn besides.
+  // VTK's version draws nothing if there are no other props.
   paste();
   if (!UseFXAA) return 0;
   if (FXAAFilter == nullptr) FXAAFilter = vtkOpenGLFXAAFilter::New();

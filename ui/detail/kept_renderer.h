@@ -10,20 +10,21 @@
 
 namespace nearfit::ui {
 
-/// A renderer that can keep a picture of opaque things, with its depths, and draw everything else over it. It
-/// is drawn a little at a time, so that nobody waits for millions of triangles.
+/// A renderer that can keep a picture of opaque props with its depth buffer, and draw everything else over
+/// it. The kept picture is drawn a little at a time, so that millions of triangles do not block events.
 class KeptRenderer : public BlendingRenderer {
  public:
   static KeptRenderer* New();
   using Superclass = BlendingRenderer;
 
-  /// Begins anew, with the background alone, as the camera sees it now.
+  /// Starts a new kept picture: the background alone, as the camera sees it now.
   void beginKeeping();
-  /// Adds things in their order until the time is over, at least one.
-  /// @return How many it added.
+  /// Draws props into the kept picture, in order, until `time` is over; at least one.
+  /// @return  The number of props drawn.
   std::size_t keep(std::span<vtkProp* const> props, std::chrono::microseconds time);
-  /// What has been added is what pictures begin with from now on.
+  /// From now on, pictures start from the kept picture.
   void finishKeeping() { isKept_ = true; }
+  /// From now on, pictures draw everything again.
   void dropKept() { isKept_ = false; }
   bool hasKept() const noexcept { return isKept_; }
 
@@ -35,7 +36,7 @@ class KeptRenderer : public BlendingRenderer {
   int UpdateGeometry(vtkFrameBufferObjectBase* fbo = nullptr) override;
 
  private:
-  /// @param draw  Draws into what is kept instead of the window.
+  /// @param draw  Draws into the kept picture instead of the window.
   template <typename Act>
   void intoKept(bool isErased, const Act& draw);
   void paste();

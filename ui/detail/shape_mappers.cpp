@@ -12,8 +12,7 @@ ShapeMappers::Mapper ShapeMappers::mapperOf(vtkPolyData* data) const {
 
 ShapeMappers::Mapper ShapeMappers::surfaceMapperOf(vtkPolyData* data) const {
   auto mapper = mapperOf(data);
-  // Surfaces step back a little, so that edge lines and the shapes they bound do not fight for the same
-  // depth.
+  // Push surfaces back a little, so that edge lines do not fight with them for the same depth.
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
   mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(1.0, 1.0);
   return mapper;

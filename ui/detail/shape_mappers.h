@@ -14,21 +14,20 @@
 
 namespace nearfit::ui {
 
-/// What the graphics card holds of a shape: one set of buffers, however many parts show it. One OpenGL
-/// context.
+/// The mappers of a shape: one set of GPU buffers, shared by all parts that show it. For one OpenGL context.
 class ShapeMappers {
  public:
   using Mapper = vtkSmartPointer<vtkPolyDataMapper>;
 
-  /// @param cut  In the world; what lies behind it is not drawn. Null: the shape is whole.
+  /// @param cut  Clipping plane in the world: only what lies on the side of its normal is drawn. Null: whole.
   explicit ShapeMappers(std::shared_ptr<const PartShape> shape, vtkPlane* cut = nullptr)
       : shape_(std::move(shape)), cut_(cut) {}
 
-  /// Of a level of the shape: its pieces, or the one draft. VTK builds a mapper anew whenever what is opaque
-  /// and what is not take turns on it, so each has its own.
+  /// Returns the mappers of one level: the surface's pieces, or the one draft. Opaque and translucent drawing
+  /// use separate mappers, as VTK rebuilds a mapper that alternates between them.
   const std::vector<Mapper>& surface(std::size_t level, bool isTranslucent);
   Mapper edges(bool isTranslucent);
-  /// Without light, over everything else.
+  /// For drawing the veil without lighting, over everything else.
   Mapper veil();
   Mapper veilEdges();
 
@@ -42,12 +41,12 @@ class ShapeMappers {
 
   std::shared_ptr<const PartShape> shape_;
   vtkSmartPointer<vtkPlane> cut_;
-  std::array<std::vector<std::vector<Mapper>>, 2> surfaces_;  ///< Opaque or translucent, then by level.
+  std::array<std::vector<std::vector<Mapper>>, 2> surfaces_;  ///< Opaque, translucent; by level.
   std::array<Mapper, 2> edges_;
   Mapper veil_, veilEdges_;
 };
 
-/// One set for each shape, and one for each plane that cuts it, while anyone holds it.
+/// Shares one set of mappers for each shape and clipping plane, as long as someone holds it.
 class MapperCache {
  public:
   std::shared_ptr<ShapeMappers> mappersOf(const std::shared_ptr<const PartShape>& shape,

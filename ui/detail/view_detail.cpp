@@ -12,16 +12,16 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Drawn in full at once, always.
+/// Scenes this small are always drawn in full at once [triangles].
 constexpr std::size_t kSmall = 20'000;
-/// What is drawn once nothing moves may take half a second.
+/// Drawing this much once everything rests may take half a second [triangles].
 constexpr std::size_t kBudgetAtRest = 1'000'000;
 constexpr std::size_t kFirstBudget = 120'000, kLeastBudget = 30'000, kMostBudget = 50'000'000;
-/// A picture that takes longer is drawn coarser the next time, one that takes less finer [ms]. Bringing it to
-/// the screen takes software another ten.
+/// A picture that takes longer is drawn coarser next time, one that takes less finer [ms]. Software OpenGL
+/// needs another 10 ms to bring it to the screen.
 constexpr qint64 kSlow = 36, kQuick = 15;
 constexpr int kStillMs = 150, kRestMs = 220;
-/// Of drawing what is kept between two looks at what the user does.
+/// Time for the kept picture before events are handled again.
 constexpr std::chrono::microseconds kTurn = 15ms;
 
 }  // namespace
@@ -71,27 +71,27 @@ void ViewDetail::beforePicture() {
   picture_.start();
   const Key now = key();
   if (keptKey_ && *keptKey_ != now) drop();
-  // What shines through cannot be kept: of that a still picture shows more, and no picture after it all.
+  // Translucent parts cannot be kept. The last picture at rest shows more of them, and need not be full.
   const bool isLast = isAtRest_ && renderer_.hasKept() && !parts_.hasLoose();
   const DetailChoice choice = parts_.applyDetail({isLast ? std::max(budget_, kBudgetAtRest) : budget_});
   detail_ = {choice.triangles, renderer_.hasKept(), choice.isExact};
   isLimited_ = !choice.isExact;
-  // What is coarse now is drawn once more at rest anyway.
+  // A coarse picture is drawn again at rest, so smoothing waits until then.
   const bool isSmooth = isAtRest_ || (choice.isExact && choice.triangles <= kSmall && !detail_.isKept);
   smooth(isSmooth);
-  // While something moves, what shines through is blended as it comes.
+  // While something moves, translucent parts are blended in the order they are drawn.
   renderer_.setManyColoured(isSmooth && parts_.hasTranslucent());
   detail_.isFull = detail_.isFull && isSmooth;
   isAtRest_ = false;
   isFinal_ = detail_.isFull || isLast;
-  // What would spoil what is kept begins it anew, what is drawn over it does not.
+  // Only a change that would spoil the kept picture restarts the wait for it; changes drawn over it do not.
   if (isFinal_ || key_ != now) still_.stop();
   resting_.stop();
   key_ = now;
 }
 
 void ViewDetail::smooth(bool isSmooth) {
-  // Once a picture: smoothing the last layer smooths what is under it too.
+  // Only one layer per picture: smoothing the last one smooths those under it too.
   vtkPropCollection* props = overlay_.GetViewProps();
   bool hasOverlay = false;
   vtkCollectionSimpleIterator it;
@@ -105,7 +105,7 @@ void ViewDetail::smooth(bool isSmooth) {
 void ViewDetail::afterPicture() {
   if (detail_.triangles > kSmall && !detail_.isFull) adaptBudget();
   if (isFinal_) return;
-  // From here, as a picture may take longer than these: it is what the user does after it that counts.
+  // Start counting now: drawing may take longer than these times, and only later events count as motion.
   resting_.start();
   if (!still_.isActive() && !holdsDepths()) still_.start();
 }

@@ -13,54 +13,58 @@
 
 namespace nearfit::ui {
 
-/// What of the parts a picture shows.
+/// How much of the parts a picture shows.
 struct PictureDetail {
-  std::size_t triangles = 0;  ///< Drawn for it, lines among them; without what was kept.
-  bool isKept = false;        ///< What does not move was drawn before and put in.
-  bool isFull = true;         ///< Nothing was left out to be quick.
+  std::size_t triangles = 0;  ///< Triangles and lines drawn for it, without the kept picture.
+  bool isKept = false;        ///< Resting parts come from the kept picture.
+  bool isFull = true;         ///< Nothing was left out for speed.
 };
 
-/// Keeps pictures quick while something moves and makes them whole when it stands still. Where there is more
-/// to draw than a moment allows, what moves is drawn coarsely; once the camera stands still, all that does
-/// not move is drawn as it is, a little at a time between events, and kept (KeptRenderer).
+/// Keeps pictures fast while something moves, and completes them at rest. Where there is too much to draw,
+/// moving parts are drawn coarsely. Once the camera stands still, all resting opaque parts are drawn in full,
+/// a little at a time between events, into a kept picture (KeptRenderer).
 class ViewDetail : public QObject {
   Q_OBJECT
 
  public:
-  /// All outlive this. @param overlay  Drawn over the parts.
+  /// @param renderer, parts  Outlive this.
+  /// @param overlay          Drawn over the parts; outlives this.
   ViewDetail(KeptRenderer& renderer, vtkRenderer& overlay, SceneRenderer& parts, QObject* parent = nullptr);
 
-  /// Just before and just after a picture is drawn.
+  /// Call just before and just after each picture.
   void beforePicture();
   void afterPicture();
   const PictureDetail& detail() const noexcept { return detail_; }
-  /// Whether the last picture is final: none that shows more follows by itself.
+  /// True if the last picture is final: no fuller one will follow by itself.
   bool isSettled() const;
-  /// Whether the depths that the camera sees must stay, as some are kept.
+  /// True if the clipping range must not change, as a kept picture depends on it.
   bool holdsDepths() const noexcept { return isKeeping_ || renderer_.hasKept(); }
 
-  /// Triangles while something moves; else as many as this machine draws in time.
+  /// Fixes the max number of triangles while something moves; without this call it adapts
+  /// to the machine's speed.
   void setBudget(std::size_t triangles);
-  /// Ends when the next picture will be a full one, however long that takes.
+  /// Prepares a full next picture, however long that takes. Does nothing if the last picture was full.
   void complete();
-  /// The same, whatever the last picture showed.
+  /// The same, even if the last picture was full.
   void completeAnew();
-  /// The next picture leaves nothing out that its triangles' budget allows.
+  /// Draws the next picture as at rest: smoothed, and with the larger budget if nothing else moves.
   void drawFullNext() { isAtRest_ = true; }
-  /// What is kept is no longer right.
+  /// Discards the kept picture, which is no longer right.
   void drop();
 
  signals:
+  /// Emitted when a fuller picture can be drawn.
   void pictureWanted();
-  /// The camera's depths are about to be kept: they should leave room for what moves.
+  /// Emitted before the clipping range is kept: set one with room for what moves.
   void depthsNeeded();
 
  private:
-  using Key = std::array<double, 16>;  ///< All that what is kept depends on.
+  using Key = std::array<double, 16>;  ///< Everything that a kept picture depends on.
 
   Key key() const;
-  /// The camera stands still: what does not move can be kept.
+  /// The camera stands still: starts a kept picture of the resting parts.
   void beginKeeping();
+  /// Draws on the kept picture for one turn.
   void keepMore();
   /// Nothing has moved for a while.
   void rest();
@@ -75,10 +79,10 @@ class ViewDetail : public QObject {
   PictureDetail detail_;
   std::optional<Key> key_, keptKey_;
   std::vector<vtkProp*> toKeep_;
-  std::size_t kept_ = 0;  ///< Of toKeep_.
+  std::size_t kept_ = 0;  ///< Number of toKeep_ drawn.
   bool isKeeping_ = false;
-  bool isAtRest_ = false;  ///< The next picture is to be a full one.
-  bool isFinal_ = true;    ///< None that shows more follows the picture that is being drawn.
+  bool isAtRest_ = false;  ///< The next picture is to be full.
+  bool isFinal_ = true;    ///< No fuller picture follows the one being drawn.
   bool isLimited_ = false;
   bool isBudgetFixed_ = false;
   std::size_t budget_;

@@ -8,15 +8,15 @@
 
 namespace nearfit::ui {
 
-/// What the bound of stability hangs on, and what of the settings is in force.
+/// Inputs of the stability bound, and the settings in force.
 struct CouplingBasis {
-  DeviceLimits device;
-  MassMetric metric;  ///< Of the moving part.
-  /// Nominal, or while the servo runs as measured [s].
+  DeviceLimits device;  ///< Limits of the device in hand, or of the usual one.
+  MassMetric metric;    ///< Metric of the moving part.
+  /// Nominal period, or the measured one while the servo runs [s].
   double period = 1e-3;
-  /// While the servo runs in the proxy mode.
+  /// Coupling in force; only while the servo runs in the proxy mode.
   std::optional<CouplingState> inForce;
-  /// Springs that push: while the servo runs in one of their modes.
+  /// Number of springs that push; only while the servo runs in a spring mode.
   std::optional<std::uint32_t> springs;
 };
 

@@ -59,11 +59,11 @@ Failure describeItems(const QString& summary, const QVector<FailedItem>& items) 
 
 void showFailure(const Failure& failure, QWidget* parent, const QList<QAction*>& actions) {
   auto* dialog = parent->findChild<FailureDialog*>(QString(), Qt::FindDirectChildrenOnly);
-  // One that was closed may still be about to go.
+  // A closed dialog may still await deletion.
   if (dialog == nullptr || !dialog->isVisible()) {
     dialog = new FailureDialog(parent);
     dialog->addActions(actions);
-    // Above a question that waits for its answer it could not be reached otherwise.
+    // A modal question would keep the dialog out of reach otherwise.
     if (QApplication::activeModalWidget() != nullptr) dialog->setWindowModality(Qt::ApplicationModal);
   }
   dialog->add(failure);

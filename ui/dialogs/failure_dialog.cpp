@@ -18,8 +18,8 @@ namespace {
 enum Column { Name, Reason, Remedy, ColumnCount };
 
 constexpr int kTextWidth = 400, kTableWidth = 760, kNameWidth = 200;
-constexpr int kRowHeight = 56, kMostHeight = 340;  ///< Of the table at first; the user may make it larger.
-/// Nobody reads more, and a table that long answers late; all are copied.
+constexpr int kRowHeight = 56, kMostHeight = 340;  ///< Initial size of the table; the user may enlarge it.
+/// Nobody reads more, and a longer table responds slowly; copying includes all rows.
 constexpr int kMostRows = 500;
 
 QLabel* addLabel(QVBoxLayout& layout, const char* name) {
@@ -36,7 +36,7 @@ QString counted(const QString& summary, int count) {
   return count == 1 ? summary : QObject::tr("%1 (%2 times)").arg(summary).arg(count);
 }
 
-/// A failure among others: its summary in place of a file's name.
+/// Returns a failure as a row among others: its summary stands in place of a file's name.
 FailedItem rowOf(const Failure& failure, int count) {
   const QStringList paragraphs = failure.details.split(QStringLiteral("\n\n"));
   return {

@@ -10,8 +10,8 @@ class QTableWidget;
 
 namespace nearfit::ui {
 
-/// Says what went wrong. It stops nothing: the window behind it goes on and can be used, above all to stop
-/// the servo. What fails while it is open joins what it shows.
+/// Says what went wrong. It blocks nothing: the window behind it stays usable, above all to stop the servo.
+/// Failures that follow while it is open are added to it.
 class FailureDialog : public QDialog {
   Q_OBJECT
 
@@ -21,7 +21,7 @@ class FailureDialog : public QDialog {
   void add(const Failure& failure);
 
  private:
-  /// What has failed in the same way several times stands there once.
+  /// A failure that occurred several times is listed once.
   struct Entry {
     Failure failure;
     int count = 1;

@@ -88,7 +88,7 @@ QWidget* FeelDialog::makeButtons() {
   revert_ = buttons->addButton(tr("Revert"), QDialogButtonBox::ResetRole);
   revert_->setObjectName(QStringLiteral("revert"));
   revert_->setToolTip(tr("Back to what was set when this window was opened"));
-  // Return takes over a number; it must not press a button besides.
+  // Return accepts a number; it must not press a button too.
   for (QAbstractButton* button : buttons->buttons())
     qobject_cast<QPushButton*>(button)->setAutoDefault(false);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
@@ -97,7 +97,7 @@ QWidget* FeelDialog::makeButtons() {
 }
 
 void FeelDialog::showEvent(QShowEvent* event) {
-  // Also told when the window comes back from being minimised.
+  // The event also comes when the window returns from being minimised.
   if (!event->spontaneous()) opened_ = settings_;
   refresh();
   QDialog::showEvent(event);

@@ -20,28 +20,31 @@ class SpringPage;
 class WeightPage;
 class WorkspacePage;
 
-/// How contact feels: mode, the mode's own numbers, weight, and the device's way into the scene. Each change
-/// counts at once; undo takes it back, and *Revert* all since the dialog was opened. Stays open beside the
-/// window.
+/// Edits how contact feels: mode, the mode's own numbers, weight, and the device's workspace. Each
+/// change applies at once; undo takes one back, *Revert* all since the dialog was opened. Stays open
+/// beside the window.
 class FeelDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// @param presets  Outlives this.
+  /// @param presets  Must outlive this.
   explicit FeelDialog(PresetStore& presets, QWidget* parent = nullptr);
 
-  /// The scene's settings, and what belongs to its moving part.
+  /// Shows the scene's settings, and what depends on its moving part.
   void showScene(const Scene& scene);
-  /// Says why a change was refused; empty when the last one was not.
+  /// Says why a change was refused; empty: the last one was accepted.
   void showRefusal(const QString& why);
-  /// How a space mouse drives; of the user, whatever the scene.
+  /// Shows how a space mouse drives the hand: a setting of the user's, whatever the scene.
   void showRate(const RateSettings& settings);
-  /// Of the device in hand, or of the usual one.
+  /// Sets the limits of the device in hand, or of the usual one.
   void setDevice(const DeviceLimits& limits);
+  /// Shows what is in force while the servo runs.
   void showSnapshot(const ServoSnapshot& snapshot);
+  /// Shows the nominal values again, once the servo has stopped.
   void clearSnapshot();
 
  signals:
+  /// Emitted when the user chooses a preset or edits a setting.
   void presetChosen(const nearfit::HapticSettings& settings, const QString& name);
   void settingsEdited(const nearfit::HapticSettings& settings);
   void rateEdited(const nearfit::RateSettings& settings);
@@ -52,7 +55,7 @@ class FeelDialog : public QDialog {
   QWidget* makeButtons();
   void edit(const HapticSettings& settings);
   void refresh();
-  /// Texts that wrap may need more room than the dialog has.
+  /// Makes room for texts that wrap.
   void growToContent();
   void showMovingPart(const Scene& scene);
   void showBasis();

@@ -13,50 +13,51 @@ namespace nearfit::ui {
 
 class NumberField;
 
-/// Some of the haptic settings as fields. Each change asks for the whole settings with that one value
-/// changed: the others stay what they were, also where a field shows them rounded.
+/// Shows some of the haptic settings as fields. Each edit asks for the whole settings with that one value
+/// changed; the others keep their exact values even if a field shows them rounded.
 class FeelPage : public QWidget {
   Q_OBJECT
 
  public:
   using QWidget::QWidget;
 
-  /// Is no edit. Leaves alone what is being typed unless something has changed.
+  /// Shows settings; counts as no edit. Leaves alone what is being typed unless something has changed.
   void showSettings(const HapticSettings& settings);
 
  signals:
+  /// Emitted with the settings that the user asks for.
   void edited(const nearfit::HapticSettings& settings);
 
  protected:
   struct Number {
-    const char* name;  ///< Of the object.
+    const char* name;  ///< Object name of the field.
     QString toolTip;
     QString unit;
-    double lower, upper;  ///< In SI.
+    double lower, upper;  ///< In SI units.
     int decimals = 3;
-    bool isLength = false;  ///< In the user's unit, then, and decimals are of millimetres.
+    bool isLength = false;  ///< In the user's unit; `decimals` are of millimetres.
   };
   using NumberOf = std::function<double&(HapticSettings&)>;
   using SwitchOf = std::function<bool&(HapticSettings&)>;
 
-  /// A field for a value; its limits stand in the tool tip.
+  /// Adds a field for a value; its tooltip tells the limits.
   NumberField* addNumber(const Number& number, const NumberOf& valueOf);
   QCheckBox* addSwitch(const QString& name, const QString& text, const QString& toolTip,
                        const SwitchOf& valueOf);
   QLabel* addNote();
 
   const HapticSettings& settings() const noexcept { return settings_; }
-  /// Takes the settings for its own and asks for them.
+  /// Adopts the settings and emits edited().
   void change(const HapticSettings& next);
-  /// As change, where other fields of this page than the one that was edited have to follow.
+  /// Same as change(), but also updates the other fields of this page.
   void replace(const HapticSettings& next);
-  /// After every change of settings(), for what depends on it.
+  /// Called after every change of settings(), to update what depends on it.
   virtual void refresh() {}
 
  private:
   HapticSettings settings_;
   bool hasShown_ = false;
-  std::vector<std::function<void()>> showers_;  ///< Each puts one value into its field.
+  std::vector<std::function<void()>> showers_;  ///< Each shows one value in its field.
 };
 
 }  // namespace nearfit::ui

@@ -21,7 +21,7 @@ namespace {
 
 const QStringList kAxes = {QStringLiteral("X"), QStringLiteral("Y"), QStringLiteral("Z")};
 
-/// A row of three fields, one for each axis, with their names before them.
+/// Returns a row of three fields, one for each axis, with their names before them.
 QHBoxLayout* axisRow(const std::array<NumberField*, 3>& fields) {
   auto* row = new QHBoxLayout;
   row->setSpacing(4);
@@ -84,7 +84,7 @@ void SpringPage::showBound() {
   const DeviceLimits device = limitsAtHandle(basis_.device, settings().mapping.scale);
   const double count = basis_.springs.value_or(1);
   const double most = stiffnessBound(device.damping, count * springs.damping, basis_.period);
-  // The slope of the law as printed is stiffness times cutoff at most.
+  // The slope of the printed law is at most stiffness times cutoff.
   const double each = most / (std::max(count, 1.0) * (isLinear ? 1.0 : springs.cutoff));
   const QString unit = isLinear ? tr(" N/m") : tr(" N/m²");
   QString text = tr("Not enforced: a bound on the stiffness of all springs together. What they make along "
@@ -100,7 +100,7 @@ void SpringPage::showBound() {
   const bool isBeyond = isKnown && springs.stiffness > each;
   const QString style =
       QStringLiteral("color: %1").arg((isBeyond ? colours::kWarning : colours::kMutedText).name());
-  // Sixty times a second: a style is expensive to set.
+  // Runs sixty times a second: setting a style is expensive.
   if (bound_->styleSheet() != style) bound_->setStyleSheet(style);
 }
 
@@ -192,7 +192,7 @@ void WorkspacePage::turn(int axis, double angle) {
 
 void WorkspacePage::refresh() {
   locks_->showSettings(settings());
-  // Angles that were typed stay, also where others turn the same way.
+  // Typed angles stay, even if others give the same rotation.
   if (rotationFromEulerAngles(angles_) != settings().mapping.orientationOffset)
     angles_ = eulerAnglesOf(settings().mapping.orientationOffset);
   for (int axis = 0; axis < 3; ++axis) {

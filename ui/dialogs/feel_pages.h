@@ -14,7 +14,7 @@ namespace nearfit::ui {
 
 class LocksPage;
 
-/// Stiffness and damping of the springs, what is enforced of their sum, and what is not.
+/// Stiffness and damping of the springs, with what is enforced on their sum and what is not.
 class SpringPage : public FeelPage {
   Q_OBJECT
 
@@ -29,19 +29,19 @@ class SpringPage : public FeelPage {
  private:
   void showBound();
 
-  NumberField *linear_, *printed_;  ///< The stiffness has a unit and limits for each law.
+  NumberField *linear_, *printed_;  ///< One for each law, with its unit and limits.
   QLabel *linearLabel_, *printedLabel_;
   QLabel *limits_, *bound_;
   CouplingBasis basis_;
 };
 
-/// Weight and inertia, on request.
+/// Weight and inertia, both optional.
 class WeightPage : public FeelPage {
   Q_OBJECT
 
  public:
   explicit WeightPage(QWidget* parent = nullptr);
-  /// @param name  Of the moving part; empty when there is none.
+  /// @param name  Name of the moving part; empty if there is none.
   /// @param mass  [kg]
   void showMass(const QString& name, double mass);
 
@@ -53,7 +53,7 @@ class WeightPage : public FeelPage {
   QLabel* mass_;
 };
 
-/// How the motion of a device becomes the hand's in the scene.
+/// How the motion of a device maps to the motion of the hand in the scene.
 class WorkspacePage : public FeelPage {
   Q_OBJECT
 
@@ -69,7 +69,7 @@ class WorkspacePage : public FeelPage {
 
   LocksPage* locks_;
   std::array<NumberField*, 3> angleFields_{};
-  glm::dvec3 angles_{0.0};  ///< Of the orientation offset [rad].
+  glm::dvec3 angles_{0.0};  ///< Angles of the orientation offset [rad].
 };
 
 }  // namespace nearfit::ui

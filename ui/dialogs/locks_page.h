@@ -7,12 +7,12 @@ class QGridLayout;
 
 namespace nearfit::ui {
 
-/// Which motions of the hand count: planes and axes by name, and each lock by itself.
+/// Chooses which motions of the hand count: planes and axes by name, and each lock by itself.
 class LocksPage : public FeelPage {
   Q_OBJECT
 
  public:
-  /// @param prefix  Of the objects' names: there are several such pages.
+  /// @param prefix  Prefix of the object names, since there are several such pages.
   explicit LocksPage(const QString& prefix, QWidget* parent = nullptr);
 
  protected:

@@ -12,7 +12,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// Quicker work than this shows no dialog: a flash would tell nothing [ms].
+/// Shorter work shows no dialog, which would only flash [ms].
 constexpr int kPatience = 300;
 constexpr int kSteps = 1000;
 

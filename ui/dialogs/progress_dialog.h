@@ -7,7 +7,7 @@ class QProgressBar;
 
 namespace nearfit::ui {
 
-/// What is being loaded, how far it is, and a button to stop it. Appears only when the work takes a while.
+/// Shows what is being loaded, how far it is, and a button to cancel. Appears only if the work takes a while.
 class ProgressDialog : public QDialog {
   Q_OBJECT
 
@@ -15,10 +15,11 @@ class ProgressDialog : public QDialog {
   explicit ProgressDialog(const QString& text, QWidget* parent);
 
  public slots:
-  /// 0 to 1.
+  /// Shows the fraction done, 0 to 1.
   void setFraction(double fraction);
 
  signals:
+  /// Emitted when the user cancels.
   void cancelled();
 
  protected:

@@ -17,7 +17,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// What a wished number comes to: in the warning colour where it is less than was wished.
+/// Shows the limit of a number, or in the warning colour what is in force if that is less than the wish.
 void showMost(QLabel& note, double most, double wished, double inForce, const QString& unit,
               bool isAutomatic) {
   const bool isHeld = !isAutomatic && inForce < wished;
@@ -25,7 +25,7 @@ void showMost(QLabel& note, double most, double wished, double inForce, const QS
                       : QObject::tr("at most %1%2").arg(formatNumber(most), unit));
   const QString style =
       QStringLiteral("color: %1").arg((isHeld ? colours::kWarning : colours::kMutedText).name());
-  // Sixty times a second: a style is expensive to set.
+  // Runs sixty times a second: setting a style is expensive.
   if (note.styleSheet() != style) note.setStyleSheet(style);
 }
 
@@ -146,7 +146,7 @@ void ProxyPage::showRow(const Row& row, const Line& line) {
   const bool isAutomatic = settings().coupling.isAutomatic;
   for (NumberField* field : {row.stiffness, row.damping}) {
     field->setEnabled(!isAutomatic);
-    // What is in force is read off the greyed fields; what was wished comes back when they are used.
+    // Greyed fields show what is in force; the wish comes back when they are used.
     if (field->hasFocus() && !isAutomatic) continue;
     const bool isStiffness = field == row.stiffness;
     const double wished = isStiffness ? line.wishedStiffness : line.wishedDamping;

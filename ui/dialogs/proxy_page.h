@@ -10,7 +10,7 @@ class QLabel;
 
 namespace nearfit::ui {
 
-/// Margin, friction, and the coupling with the bound that it is held to.
+/// Margin, friction, and the coupling with the bound that limits it.
 class ProxyPage : public FeelPage {
   Q_OBJECT
 
@@ -23,15 +23,16 @@ class ProxyPage : public FeelPage {
   void refresh() override;
 
  private:
-  /// One line of the coupling: stiffness and damping, each with what it is held to.
+  /// Widgets of one line of the coupling: stiffness and damping, each with a note on its limit.
   struct Row {
     NumberField *stiffness, *damping;
     QLabel *stiffnessNote, *dampingNote;
     QString stiffnessUnit, dampingUnit;
   };
+  /// Values for such a line.
   struct Line {
     double stiffness, damping;          ///< In force.
-    double mostStiffness, mostDamping;  ///< By the bound.
+    double mostStiffness, mostDamping;  ///< Limits by the bound.
     double wishedStiffness, wishedDamping;
   };
 
@@ -45,7 +46,7 @@ class ProxyPage : public FeelPage {
   std::array<Row, 2> rows_;  ///< Translation, rotation.
   QLabel* reason_;
   CouplingBasis basis_;
-  CouplingSettings wishedThen_;  ///< When the basis was told: later wishes are not in force yet.
+  CouplingSettings wishedThen_;  ///< Wish when the basis was set; later wishes are not in force yet.
 };
 
 }  // namespace nearfit::ui

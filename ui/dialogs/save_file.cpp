@@ -26,7 +26,7 @@ std::optional<QString> askForSave(const SaveRequest& request, QWidget* parent) {
   dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setNameFilters(request.filters);
   while (dialog.exec() == QDialog::Accepted) {
-    // The dialog's own way takes whatever follows the last dot of a name for its suffix.
+    // QFileDialog itself takes whatever follows the last dot for the suffix.
     QString named = dialog.selectedFiles().first();
     const bool hasSuffix = request.suffixes.contains(QFileInfo(named).suffix(), Qt::CaseInsensitive);
     if (hasSuffix) return named;
@@ -35,7 +35,7 @@ std::optional<QString> askForSave(const SaveRequest& request, QWidget* parent) {
     QString file = named;
     if (!file.endsWith('.')) file += QChar('.');
     file += request.suffixes.at(std::clamp<decltype(kind)>(kind, 0, last));
-    // Of this name the dialog has not asked.
+    // The dialog has not asked about this name.
     if (!QFileInfo::exists(file) || mayReplace(file, parent)) return file;
   }
   return std::nullopt;

@@ -8,18 +8,18 @@ class QWidget;
 
 namespace nearfit::ui {
 
-/// A file that a user is to name.
+/// Request for the name of a file to save.
 struct SaveRequest {
   QString title;
-  QString start;         ///< Folder and name that are offered first.
-  QStringList filters;   ///< As of QFileDialog, one for each kind.
-  QStringList suffixes;  ///< Without dots; of each kind its usual one first, in the filters' order where
-                         ///< there are several.
+  QString start;        ///< Folder and name that are offered first.
+  QStringList filters;  ///< Filters for QFileDialog, one for each kind.
+  /// Suffixes without dots: the usual one of each kind first, in the order of `filters` if there are several.
+  QStringList suffixes;
 };
 
-/// Asks where to. A name that ends in none of the suffixes gets that of the kind that is chosen, whatever
-/// dots are in it; what stands there is replaced only when the user says so.
-/// @return Nothing when the user cancels.
+/// Asks for a file to save to. A name that ends in none of the suffixes gets that of the chosen kind,
+/// whatever dots are in it. Asks before a file is replaced.
+/// @return std::nullopt if the user cancels.
 std::optional<QString> askForSave(const SaveRequest& request, QWidget* parent);
 
 }  // namespace nearfit::ui

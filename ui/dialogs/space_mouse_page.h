@@ -14,25 +14,26 @@ namespace nearfit::ui {
 
 class NumberField;
 
-/// How a space mouse drives the hand: dead zone, curve, speeds, and which axes, which way. The user's, not
-/// the scene's: it is kept from one run to the next, and undo leaves it alone.
+/// Edits how a space mouse drives the hand: dead zone, curve, speeds, and which axes in which direction. The
+/// settings belong to the user, not to the scene: they are kept between runs, and undo leaves them alone.
 class SpaceMousePage : public QWidget {
   Q_OBJECT
 
  public:
   explicit SpaceMousePage(QWidget* parent = nullptr);
 
-  /// Is no edit.
+  /// Shows settings; counts as no edit.
   void showSettings(const RateSettings& settings);
 
  signals:
+  /// Emitted with the settings that the user asks for.
   void edited(const nearfit::RateSettings& settings);
 
  private:
   struct Number {
     const char* name;
     QString toolTip, unit;
-    double lower, upper;  ///< In SI.
+    double lower, upper;  ///< In SI units.
     double RateSettings::* value;
   };
   NumberField* addNumber(const Number& number);
@@ -42,7 +43,7 @@ class SpaceMousePage : public QWidget {
   void change(const RateSettings& settings);
 
   RateSettings settings_;
-  std::vector<std::function<void()>> showers_;  ///< Each puts one value into its field.
+  std::vector<std::function<void()>> showers_;  ///< Each shows one value in its field.
 };
 
 }  // namespace nearfit::ui

@@ -7,10 +7,10 @@ class QWidget;
 
 namespace nearfit::ui {
 
-/// Asks in which unit the numbers of mesh files are, which they do not say themselves. Offers the unit chosen
-/// last and remembers the answer.
-/// @param what  The file, or how many files, for the question.
-/// @return Metres per unit; empty when the user cancelled.
+/// Asks for the unit of mesh files that do not store one. Offers the unit chosen last and
+/// remembers the answer.
+/// @param what  The file, or the number of files, for the question.
+/// @return Metres per unit; std::nullopt if the user cancels.
 std::optional<double> askForUnit(const QString& what, QWidget* parent);
 
 }  // namespace nearfit::ui

@@ -58,7 +58,7 @@ void PresetChoice::setManaged() {
   menu->setToolTipsVisible(true);
   menuButton_ = new QPushButton(tr("Manage"), this);
   menuButton_->setObjectName(QStringLiteral("presetMenu"));
-  // Return in a field is no press of it.
+  // Return in a field must not press it.
   menuButton_->setAutoDefault(false);
   menuButton_->setToolTip(tr("Save, rename and delete presets of your own"));
   menuButton_->setFocusPolicy(Qt::TabFocus);
@@ -78,7 +78,7 @@ void PresetChoice::listPresets() {
   for (const FeelPreset& preset : presets_.presets())
     box_->addItem(shownName(preset));
   box_->addItem(tr("Custom"));
-  // It is what it is once something has been changed: nothing to choose.
+  // "Custom" shows by itself once something was changed: nobody can choose it.
   auto* model = qobject_cast<QStandardItemModel*>(box_->model());
   model->item(box_->count() - 1)->setEnabled(false);
   showInForce();

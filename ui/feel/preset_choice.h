@@ -12,23 +12,25 @@ namespace nearfit::ui {
 
 class PresetStore;
 
-/// Which preset is in force, "Custom" when none is, and the choice of another; with a menu beside it that
-/// saves, renames and deletes the user's own.
+/// Shows the preset in force, or "Custom" if there is none, and lets the user choose another. A menu beside
+/// it saves, renames and deletes the user's own presets.
 class PresetChoice : public QWidget {
   Q_OBJECT
 
  public:
-  /// @param name  Of the list, as an object.   @param presets  Outlives this.
+  /// @param name     Object name of the list.
+  /// @param presets  Must outlive this.
   PresetChoice(const char* name, PresetStore& presets, QWidget* parent = nullptr);
 
-  /// Adds the menu.
+  /// Adds the menu that manages the user's own presets.
   void setManaged();
-  /// Is no choice.
+  /// Shows which preset these settings match; counts as no choice.
   void showSettings(const HapticSettings& settings);
 
  signals:
-  /// These are to count from now on.
-  /// @param name  Of the preset.
+  /// Emitted when the user chooses a preset.
+  /// @param settings  Settings that apply from now on.
+  /// @param name      Name of the preset.
   void chosen(const nearfit::HapticSettings& settings, const QString& name);
 
  private:
@@ -37,7 +39,7 @@ class PresetChoice : public QWidget {
   void saveAs();
   void renameChosen();
   void deleteChosen();
-  /// The name of the user's own that is in force; else empty.
+  /// Returns the name of the preset in force if it is the user's own; else empty.
   QString chosenOwn() const;
 
   PresetStore& presets_;

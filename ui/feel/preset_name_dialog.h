@@ -10,20 +10,21 @@ class QPushButton;
 
 namespace nearfit::ui {
 
-/// Asks for a name and says at each key whether it will do.
+/// Asks for a name and says at each keystroke whether it is accepted.
 class PresetNameDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// @param title, button  What is done with the name.
+  /// @param title   Title of the dialog.
+  /// @param button  Text of the button that accepts the name.
   explicit PresetNameDialog(const QString& title, const QString& button, QWidget* parent = nullptr);
 
   struct Verdict {
     bool isRefused = false;
-    QString note;  ///< Why, or what happens then; may be empty.
+    QString note;  ///< Why, or what will happen; may be empty.
   };
   using Judge = std::function<Verdict(const QString& name)>;
-  /// The name; nothing when the user wants none.
+  /// Shows the dialog. Returns the name without surrounding spaces; empty if the user cancels.
   QString ask(const QString& proposal, const Judge& judge);
 
  private:

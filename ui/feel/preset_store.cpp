@@ -25,7 +25,7 @@ auto named(std::string name) {
 QString shownName(const FeelPreset& preset) {
   const QString name = QString::fromStdString(preset.name);
   if (!preset.isOfStiffnessAlone) return name;
-  // The names that usualFeelPresets gives.
+  // The names in usualFeelPresets().
   const std::pair<const char*, QString> names[] = {{"Soft", PresetStore::tr("Soft")},
                                                    {"Medium", PresetStore::tr("Medium")},
                                                    {"Stiff", PresetStore::tr("Stiff")}};

@@ -10,58 +10,62 @@
 
 namespace nearfit::ui {
 
-/// What contact feels like, by name: the usual presets and the user's own. Those are kept in a file beside
-/// the settings, from one run to the next; what cannot be read of it is put aside and told, and nothing
-/// fails.
+/// Feel presets by name: the usual ones and the user's own. The user's own are kept between runs in a file
+/// beside the settings. What cannot be read of it is put aside with a note; nothing fails.
 class PresetStore : public QObject {
   Q_OBJECT
 
  public:
   /// Reads nothing yet.
   explicit PresetStore(std::filesystem::path file, QObject* parent = nullptr);
-  /// In the folder of the settings.
+  /// Returns the usual file, in the folder of the settings.
   static std::filesystem::path usualFile();
 
-  /// Of the file, as far as it can be read.
+  /// Reads the file as far as possible.
   void load();
 
-  /// The usual ones, then the user's by name.
+  /// Returns the usual presets, then the user's own by name.
   const std::vector<FeelPreset>& presets() const noexcept { return presets_; }
-  /// The one that makes the settings what they are; of several the one that was chosen last, else the first.
-  /// Null: they are the scene's own.
+  /// Returns the preset that the settings match: of several the one chosen last, else the first. Null if the
+  /// settings match none.
   const FeelPreset* inForce(const HapticSettings& settings) const noexcept;
-  /// It is chosen, as it is shown.
+  /// Makes a preset the one chosen last.
   void choose(const FeelPreset& preset);
+  /// True if the user has a preset of that name.
   bool isOwn(const QString& name) const;
-  /// Why a preset cannot have that name; empty when it can, one that is the user's included.
+  /// Returns why a preset cannot have that name; empty if it can, even if one of the user's own has it.
   QString refusalOf(const QString& name) const;
 
-  /// Under a name that refusalOf has nothing against; one of that name is replaced.
+  /// Keeps settings under a name that refusalOf() accepts; replaces a preset of that name.
   void keep(const QString& name, const HapticSettings& settings);
+  /// Renames a preset of the user's own; replaces one named `to`.
   void rename(const QString& from, const QString& to);
+  /// Deletes a preset of the user's own.
   void remove(const QString& name);
 
  signals:
-  /// There are others.
+  /// Emitted when the list of presets changed.
   void changed();
-  /// What inForce says may be another.
+  /// Emitted when inForce() may return another preset.
   void choiceChanged();
+  /// Emitted with a short note for the status bar.
   void noted(const QString& text);
+  /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
 
  private:
   void take(std::vector<FeelPreset> own);
-  /// What another window has written since is there too.
+  /// Reads the file again, to keep what another window has written, applies `change` and writes it.
   void edit(const std::function<void(std::vector<FeelPreset>&)>& change);
   std::vector<FeelPreset> own() const;
   void putAside(const QString& why);
 
   const std::filesystem::path file_;
   std::vector<FeelPreset> presets_;
-  std::string chosen_;  ///< Its name.
+  std::string chosen_;  ///< Name of the preset chosen last.
 };
 
-/// As it is shown: the usual ones in the user's language.
+/// Returns the name to show: the usual presets have one in the user's language.
 QString shownName(const FeelPreset& preset);
 
 }  // namespace nearfit::ui

@@ -4,18 +4,18 @@
 
 namespace nearfit::ui {
 
-/// Files and folders that a user gave, sorted out.
+/// Files and folders from the user, sorted.
 struct DroppedFiles {
   QStringList scenes, meshes;
-  QStringList emptyFolders;  ///< In which there is nothing that can be opened.
-  bool isCutOff = false;     ///< There were more than kMostInFolders.
+  QStringList emptyFolders;  ///< They hold nothing that can be opened.
+  bool isCutOff = false;     ///< There were more files than kMostInFolders.
 };
 
-/// How many files are taken out of folders: beyond it somebody has dropped a disk.
+/// Limit of files taken from folders: with more, somebody has dropped a disk.
 constexpr int kMostInFolders = 2000;
 
-/// Takes folders apart, in the order of names; links to folders are not followed. In folders only files of
-/// formats that can be read count, and scenes only where there is no mesh.
+/// Sorts files and searches folders, in order of name; does not follow links to folders. In folders only
+/// readable formats count, and scenes only if there is no mesh.
 DroppedFiles sortOut(const QStringList& filesAndFolders);
 
 }  // namespace nearfit::ui

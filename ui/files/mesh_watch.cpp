@@ -65,7 +65,7 @@ void MeshWatch::look(const QString& folder) {
     const QString& file = it.key();
     if (QFileInfo(file).absolutePath() != folder) continue;
     const Stamp now = stampOf(file);
-    // The watch of a file that was replaced has gone with it.
+    // Replacing a file ends its watch.
     if (now != Stamp{} && !watcher_.files().contains(file)) watcher_.addPath(file);
     if (now == it.value() || now == Stamp{}) continue;
     pending_[file] = now;
@@ -87,7 +87,7 @@ void MeshWatch::settle() {
       pending_.remove(file);
       quiet << file;
     } else if (now == Stamp{}) {
-      pending_.remove(file);  // Gone again; its folder tells when it comes back.
+      pending_.remove(file);  // Gone again; its folder tells when it returns.
     } else {
       pending_[file] = now;
     }
@@ -105,7 +105,7 @@ void MeshWatch::compare(const QStringList& files) {
           if (!progress(0.0)) throw Cancelled();
         });
       } catch (const FileError&) {
-        // It cannot be read now; what tells of its next change comes by again.
+        // It cannot be read now; its next change brings another look.
       }
     }
   };

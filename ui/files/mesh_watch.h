@@ -12,24 +12,25 @@
 
 namespace nearfit::ui {
 
-/// Tells when a file that a part of the scene was read from holds something else. Also sees files that are
-/// replaced as a whole, as most programs save: their folders are watched too. A file is looked at once it has
-/// stayed the same for a moment, and its content is compared in another thread.
+/// Notices when a file that a part was read from gets other content. Also notices files that are replaced as
+/// a whole, as most programs save, by watching their folders. A file is examined once it has stayed the same
+/// for a moment; its content is compared in another thread.
 class MeshWatch : public QObject {
   Q_OBJECT
 
  public:
-  /// How long a file must have stayed the same [ms].
+  /// Time for which a file must have stayed the same [ms].
   static constexpr int kSettle = 400;
 
-  /// @param session  Outlives this.
+  /// @param session  Must outlive this.
   explicit MeshWatch(Session& session, QObject* parent = nullptr);
 
  signals:
+  /// Emitted with the files whose content differs from what the parts were read from.
   void changed(const QStringList& files);
 
  private:
-  /// What a file looks like from outside.
+  /// Time of change and size of a file; -1 if it does not exist.
   struct Stamp {
     qint64 modified = -1, size = -1;
     bool operator==(const Stamp&) const = default;
@@ -43,8 +44,8 @@ class MeshWatch : public QObject {
 
   Session& session_;
   QFileSystemWatcher watcher_;
-  QMap<QString, Stamp> known_;    ///< As it was when it was last compared.
-  QMap<QString, Stamp> pending_;  ///< As it was when it was last seen to change.
+  QMap<QString, Stamp> known_;    ///< Stamps at the last comparison.
+  QMap<QString, Stamp> pending_;  ///< Stamps when a change was last seen.
   QTimer timer_;
   BackgroundTask task_;
 };

@@ -15,7 +15,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// The view's marker of orientation stands in the corner.
+/// Leaves the corner to the view's orientation marker [pixels].
 constexpr int kMargin = 10, kMarkerWidth = 130, kMostWidth = 760;
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace nearfit::ui {
 
-/// Offers that stand at the top of their parent until they are taken or waved away; nothing waits for them.
+/// Offers at the top of their parent, shown until they are taken or dismissed. Nothing waits for them.
 class NoticeBar : public QFrame {
   Q_OBJECT
 
@@ -20,11 +20,12 @@ class NoticeBar : public QFrame {
 
   explicit NoticeBar(QWidget* parent);
 
-  /// Shows an offer; one of the same key is replaced.
-  /// @param choices    One button each; the offer goes when one is clicked.
-  /// @param dismissed  Called when it is waved away.
+  /// Shows an offer; replaces one with the same key.
+  /// @param choices    One button each; a click withdraws the offer.
+  /// @param dismissed  Called when the user dismisses it.
   void offer(const QString& key, const QString& text, std::vector<Choice> choices,
              std::function<void()> dismissed = {});
+  /// Removes an offer; no-op if there is none with this key.
   void withdraw(const QString& key);
 
  protected:

@@ -27,7 +27,7 @@ const QString kReloadAlways = QStringLiteral("files/reloadAlways");
 const QString kReloadNotice = QStringLiteral("reload"), kRescaleNotice = QStringLiteral("rescale"),
               kOthersNotice = QStringLiteral("others");
 
-/// "a.stl, b.stl and 4 more"
+/// Returns "a.stl, b.stl and 4 more".
 QString namesOf(const QStringList& files) {
   constexpr int kNamed = 6;
   QStringList names;
@@ -36,7 +36,7 @@ QString namesOf(const QStringList& files) {
   return listOfNames(names, kNamed);
 }
 
-/// "1000", "25.4"
+/// Returns "1000" or "25.4".
 QString times(double factor) {
   return QLocale().toString(factor, 'g', factor >= 100.0 ? 4 : 3);
 }
@@ -78,11 +78,11 @@ void PartFiles::addActions(QMenu* menu) {
     reload_->setEnabled(!document_.isBusy() && !session_.scene().parts().empty());
   };
   connect(&document_, &Document::busyChanged, reload_, update);
-  // Parts come only after loading has ended, and go without any.
+  // Parts are added only after loading has ended, but removed without any loading.
   session_.onChange([self = QPointer<PartFiles>(this), update] {
     if (!self) return;
     update();
-    // Saved, or no longer there: nothing is left to say.
+    // It was saved, or is another scene: nothing is left to say.
     if (!self->session_.isModified() || self->session_.sceneSerial() != self->sceneOfOthers_)
       self->notices_.withdraw(kOthersNotice);
   });
@@ -108,7 +108,7 @@ void PartFiles::tellOfOthers(const QStringList& files) {
 }
 
 void PartFiles::offerReload() {
-  // What has left the scene meanwhile is nothing to ask about.
+  // Files that have left the scene meanwhile are not worth asking about.
   QStringList there;
   for (const QString& file : changed_) {
     if (!partsOf({file}).empty()) there << file;
@@ -136,7 +136,7 @@ std::vector<PartFiles::Wanted> PartFiles::partsOf(const QStringList& files) cons
   return wanted;
 }
 
-// By value: it may be changed_ itself. NOLINTNEXTLINE(performance-unnecessary-value-param)
+// By value: `files` may be changed_ itself. NOLINTNEXTLINE(performance-unnecessary-value-param)
 void PartFiles::reload(QStringList files) {
   if (document_.isBusy()) {
     waiting_ << files;
@@ -190,7 +190,7 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, Com
       if (!isSame) renewed.push_back({part->id, geometry});
     }
     try {
-      // Called by .* GCC 12's sanitizer reads a `this` that it has not set.
+      // If called with .*, GCC 12's sanitizer reads a `this` that it has not set.
       std::invoke(command, session_, renewed);
     } catch (...) {
       problems << describeItem({}, std::current_exception());

@@ -7,25 +7,27 @@ class QMenu;
 
 namespace nearfit::ui {
 
-/// The scenes opened and saved last, kept from run to run, and the menu that opens them again.
+/// The scenes opened or saved last, kept between runs, and the menu that opens them again.
 class RecentFiles : public QObject {
   Q_OBJECT
 
  public:
   static constexpr int kMost = 10;
 
-  /// @param menu  Filled each time that it opens; outlives this.
+  /// @param menu  Filled each time that it opens; must outlive this.
   explicit RecentFiles(QMenu* menu, QObject* parent = nullptr);
 
-  /// Newest first; also those that are not there any more.
+  /// Returns the files, newest first, including missing ones.
   static QStringList list();
-  /// Puts a file first.
+  /// Puts a file first; drops the oldest beyond kMost.
   static void remember(const QString& file);
+  /// Removes a file from the list.
   static void forget(const QString& file);
 
  signals:
+  /// Emitted when the user chooses a file that exists.
   void openRequested(const QString& file);
-  /// It is not there any more, and is no longer in the list.
+  /// Emitted when the user chooses a file that is missing; it was removed from the list.
   void missing(const QString& file);
 
  private:

@@ -13,7 +13,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// What is less is what rounding left [m], and would be shown as 0.0° [rad].
+/// Smaller shifts are left by rounding [m]; smaller angles would show as 0.0° [rad].
 constexpr double kLeastShift = 1e-8, kLeastAngle = 8.7e-4;
 
 }  // namespace

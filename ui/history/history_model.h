@@ -7,17 +7,17 @@
 
 namespace nearfit::ui {
 
-/// What undo and redo can go to, oldest first, with the present state marked and what is undone faint.
+/// Steps that undo and redo can go to, oldest first; marks the present state and shows undone steps faintly.
 class HistoryModel : public QAbstractListModel {
   Q_OBJECT
 
  public:
   using QAbstractListModel::QAbstractListModel;
 
-  /// @param steps    As Session::history gives them.
+  /// @param steps  Steps from Session::history().
   /// @param current  Index of the present state.
   void show(std::vector<Session::Step> steps, int current);
-  /// Lengths are in another unit now.
+  /// Updates the texts after a change of the unit of length.
   void refresh();
   int current() const noexcept { return current_; }
 

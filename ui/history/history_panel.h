@@ -12,15 +12,15 @@ namespace nearfit::ui {
 
 class HistoryModel;
 
-/// Lists the steps of undo and redo; a click, or Return, goes to one.
+/// Lists the steps of undo and redo; a click or Return goes to one.
 class HistoryPanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// @param session  Outlives this.
+  /// @param session  Must outlive this.
   explicit HistoryPanel(Session& session, QWidget* parent = nullptr);
 
-  /// Lengths are in another unit now.
+  /// Updates the texts after a change of the unit of length.
   void refresh();
 
  private:

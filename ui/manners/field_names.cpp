@@ -14,7 +14,7 @@ QString plain(QString text) {
   return text.section('\n', 0, 0).trimmed();
 }
 
-/// Of a label that speaks for the widget or for what it is a part of.
+/// Returns the text of a label whose buddy is the widget, or one that contains it.
 QString nameByBuddy(const QWidget& widget) {
   const QList<QLabel*> labels = widget.window()->findChildren<QLabel*>();
   for (const QWidget* part = &widget; part != nullptr && !part->isWindow(); part = part->parentWidget()) {
@@ -25,7 +25,7 @@ QString nameByBuddy(const QWidget& widget) {
   return {};
 }
 
-/// Of the nearest label before it in its row.
+/// Returns the text of the nearest label before the widget in its row.
 QString nameByRow(const QWidget& widget) {
   const QWidget* parent = widget.parentWidget();
   auto* grid = parent != nullptr ? qobject_cast<QGridLayout*>(parent->layout()) : nullptr;
@@ -47,7 +47,7 @@ bool hasAccessibleName(const QWidget& widget) {
   if (!widget.accessibleName().isEmpty()) return true;
   if (const auto* button = qobject_cast<const QAbstractButton*>(&widget)) return !button->text().isEmpty();
   if (const auto* group = qobject_cast<const QGroupBox*>(&widget)) return !group->title().isEmpty();
-  if (qobject_cast<const QLabel*>(&widget) != nullptr) return true;  // Says itself.
+  if (qobject_cast<const QLabel*>(&widget) != nullptr) return true;  // Names itself.
   const QList<QLabel*> labels = widget.window()->findChildren<QLabel*>();
   for (const QLabel* label : labels) {
     if (label->buddy() == &widget) return true;

@@ -4,11 +4,11 @@ class QWidget;
 
 namespace nearfit::ui {
 
-/// Gives every widget below `root` that takes the keyboard, and that nobody has named, an accessible name:
-/// that of the label beside it, or else its tooltip. What says itself, as a button with a text, is left.
+/// Gives an accessible name to every widget below `root` that takes the keyboard and has none: the text of
+/// the label beside it, else its tooltip. Skips widgets that name themselves, such as a button with a text.
 void nameFields(QWidget& root);
 
-/// Whether a screen reader has something to say of the widget but its kind.
+/// True if a screen reader can say more about the widget than its kind.
 bool hasAccessibleName(const QWidget& widget);
 
 }  // namespace nearfit::ui

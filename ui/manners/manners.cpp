@@ -25,7 +25,7 @@ QAction* addAction(QMenu* menu, const char* name, const QString& text, const QSt
   return action;
 }
 
-/// Whether all have more to say than their text.
+/// True if each action's tooltip says more than its text.
 bool areExplained(const QList<QAction*>& actions) {
   return std::ranges::all_of(actions, [](const QAction* action) {
     return action->isSeparator() || action->menu() != nullptr ||
@@ -51,7 +51,7 @@ Manners::Manners(QMainWindow* window, QMenu* view, QMenu* help)
 }
 
 void Manners::settle() {
-  // A menu keeps what its commands do to itself unless it is told.
+  // Menus hide the tooltips of their actions unless told otherwise.
   for (QMenu* menu : window_->findChildren<QMenu*>())
     menu->setToolTipsVisible(areExplained(menu->actions()));
   layout_ = new WindowLayout(window_);

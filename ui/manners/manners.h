@@ -12,32 +12,36 @@ class ShortcutsDialog;
 class Tour;
 class WindowLayout;
 
-/// What makes a user at home in a window: the overview of shortcuts, the theme, the layout, the tour.
+/// Conveniences of a window: the overview of shortcuts, the theme, the layout, the tour.
 class Manners : public QObject {
   Q_OBJECT
 
  public:
-  /// @param view, help  Menus that get the actions.
+  /// @param view  Menu that receives the actions on theme and layout.
+  /// @param help  Menu that receives the actions on tour and shortcuts.
   Manners(QMainWindow* window, QMenu* view, QMenu* help);
 
-  /// Once the window has all its docks: puts them where they were, and names what nobody has named.
+  /// Call it once the window has all its docks: restores the layout and names unnamed fields.
   void settle();
 
+  /// Returns the action that starts the tour.
   QAction* tour() const noexcept { return tourAction_; }
+  /// Returns the layout; only after settle().
   WindowLayout& layout() noexcept { return *layout_; }
 
  signals:
-  /// The tour is to begin: the scene should have something to speak of.
+  /// Emitted when the user asks for the tour: the scene should have something to show.
   void tourRequested();
 
  public slots:
+  /// Shows the tour.
   void beginTour();
 
  private:
   void addThemes(QMenu* view);
 
   QMainWindow* window_;
-  WindowLayout* layout_ = nullptr;  ///< Once it is settled.
+  WindowLayout* layout_ = nullptr;  ///< Null until settle().
   ShortcutsDialog* shortcuts_;
   Tour* tour_;
   QAction* tourAction_;

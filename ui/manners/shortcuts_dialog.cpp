@@ -18,7 +18,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// A menu's text without its keys of the alphabet: "&&" is an ampersand.
+/// Returns a menu's text without mnemonics and ellipsis; "&&" is an ampersand.
 QString plainText(const QString& text) {
   QString plain = text;
   plain.replace(QStringLiteral("&&"), QStringLiteral("\x01")).remove(QChar('&')).replace('\x01', '&');
@@ -32,7 +32,7 @@ QString keysOf(const QAction& action) {
   return keys.join(QObject::tr(" or "));
 }
 
-/// As wide as the others: names stand below each other.
+/// An empty icon as wide as the others, so that names align.
 QIcon noIcon() {
   QPixmap empty(32, 32);
   empty.fill(Qt::transparent);
@@ -49,7 +49,8 @@ QTreeWidgetItem* addGroup(QTreeWidget* list, const QString& title) {
   return group;
 }
 
-/// @param menu  Before what stands in it: "Drop to contact: down"; empty for a menu of the bar.
+/// Adds the actions that have keys and are not listed yet.
+/// @param menu  Prefix for actions of a submenu, such as "Drop to contact: "; empty for a menu of the bar.
 void listActions(QTreeWidgetItem* group, const QList<QAction*>& actions, QSet<const QAction*>& listed,
                  const QString& menu = {}) {
   for (QAction* action : actions) {
@@ -120,7 +121,7 @@ void ShortcutsDialog::open() {
   raise();
 }
 
-/// Both columns are to be read, whatever the size of letters, as far as the screen goes.
+/// Makes both columns readable at any font size, as far as the screen allows.
 void ShortcutsDialog::fitToContent() {
   constexpr int kRows = 26;
   const int around = 2 * style()->pixelMetric(QStyle::PM_LayoutLeftMargin) +

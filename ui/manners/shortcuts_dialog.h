@@ -8,16 +8,16 @@ class QTreeWidget;
 
 namespace nearfit::ui {
 
-/// Every action of a window with the keys that trigger it, by menu, and what mouse and keys do in the view;
-/// made anew from the actions each time that it is shown, so that it cannot lag behind them.
+/// Lists every action of a window with its keys, by menu, and what mouse and keys do in the view. Rebuilt
+/// from the actions each time that it is shown, so that it cannot lag behind them.
 class ShortcutsDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// @param window  Whose actions; outlives this.
+  /// @param window  Window whose actions are listed; must outlive this.
   explicit ShortcutsDialog(QMainWindow* window);
 
-  /// Shows it, filled anew, with the search ready to be typed into.
+  /// Rebuilds the list and shows it, with the focus in the search.
   void open() override;
 
  private:

@@ -92,7 +92,7 @@ void Tour::end() {
   emit ended();
 }
 
-/// Beside what it speaks of, on the side where there is most room; over it when there is none.
+/// Places the callout beside what it is about, on the side with most room; over it if no side has enough.
 void Tour::place() {
   QWidget* where = stops_[current_].where;
   if (where == nullptr) return;

@@ -9,21 +9,23 @@ class QPushButton;
 
 namespace nearfit::ui {
 
-/// Callouts that say in turn what the parts of a window are for; each can be passed over, and all be left.
+/// Callouts that explain the parts of a window one by one. The user can pass over each, or leave the tour.
 class Tour : public QFrame {
   Q_OBJECT
 
  public:
   struct Stop {
-    QPointer<QWidget> where;  ///< One that is not shown is passed over.
+    QPointer<QWidget> where;  ///< Passed over if it is not visible.
     QString title, text;
   };
 
   explicit Tour(QWidget* window);
 
+  /// Starts at the first visible stop; no-op if there is none.
   void begin(std::vector<Stop> stops);
 
  signals:
+  /// Emitted when the tour ends, completed or not.
   void ended();
 
  protected:
@@ -40,7 +42,7 @@ class Tour : public QFrame {
   std::size_t current_ = 0;
   QLabel *title_, *text_, *count_;
   QPushButton *next_, *leave_;
-  QFrame* frame_;  ///< Around what is spoken of.
+  QFrame* frame_;  ///< Frames what the callout is about.
 };
 
 }  // namespace nearfit::ui

@@ -8,7 +8,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// To be raised when docks change so that what was kept of them makes no sense.
+/// Raise it when docks change so that a saved layout no longer fits.
 constexpr int kVersion = 1;
 const QString kKey = QStringLiteral("window/layout");
 
@@ -19,7 +19,7 @@ WindowLayout::WindowLayout(QMainWindow* window)
 
 void WindowLayout::restore() {
   window_->restoreGeometry(Preferences::windowGeometry());
-  // What is none, or of another version, changes nothing.
+  // Does nothing without a saved layout of this version.
   window_->restoreState(QSettings().value(kKey).toByteArray(), kVersion);
 }
 

@@ -7,17 +7,18 @@ class QMainWindow;
 
 namespace nearfit::ui {
 
-/// A window's place, size and docks, kept from run to run. Made once all docks are there.
+/// A window's position, size and docks, kept between runs. Make it once all docks exist.
 class WindowLayout : public QObject {
   Q_OBJECT
 
  public:
   explicit WindowLayout(QMainWindow* window);
 
-  /// As it was when the program was closed last.
+  /// Restores the layout of the last run.
   void restore();
+  /// Saves the layout for the next run.
   void remember() const;
-  /// As it is in a fresh start.
+  /// Restores the docks of a fresh start.
   void reset();
 
  private:

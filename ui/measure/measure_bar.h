@@ -13,20 +13,22 @@ class QPushButton;
 
 namespace nearfit::ui {
 
-/// What the measuring tool asks for and tells, over the lower edge of the view.
+/// The measuring tool's bar: prompt, values, copy and close.
 class MeasureBar : public ViewBar {
   Q_OBJECT
 
  public:
   explicit MeasureBar(QWidget* view);
 
-  /// @param hint  What is under the pointer; may be empty.
+  /// Shows what to do next.
+  /// @param hint  The feature under the pointer; may be empty.
   void showPrompt(const QString& prompt, const QString& hint);
-  /// Nothing: there is none yet.
-  /// @param measurement  In the world.
+  /// Shows the values in that unit; nullopt clears them.
+  /// @param measurement  World frame.
   void showMeasurement(const std::optional<Measurement>& measurement, LengthUnit unit);
 
  signals:
+  /// Emitted by Close.
   void closed();
 
  private:

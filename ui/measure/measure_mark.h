@@ -17,21 +17,22 @@ namespace nearfit::ui {
 
 class Viewport;
 
-/// A measured distance in the view: its line with a label in the middle, and the way along the world's axes
-/// in their colours. Over all parts.
+/// Draws a measured distance over all parts: a line with a label at its middle, and its components along the
+/// world axes in their colours.
 class MeasureMark {
  public:
-  /// @param view  Outlives this, or takes what is drawn with it.
+  /// @param view  May be destroyed first; after that only the destructor may be called.
   explicit MeasureMark(Viewport& view);
   ~MeasureMark();
   MeasureMark(const MeasureMark&) = delete;
   MeasureMark& operator=(const MeasureMark&) = delete;
 
-  /// @param measurement  In the world.
+  /// @param measurement  World frame.
+  /// @param text         Of the label.
   void show(const Measurement& measurement, const QString& text);
   void clear();
   bool isShown() const noexcept { return shown_.has_value(); }
-  /// The label stands where the line is seen now; once a picture has been drawn.
+  /// Moves the label to where the line is seen now; call after each picture.
   void placeLabel();
 
  private:

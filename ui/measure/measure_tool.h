@@ -14,9 +14,9 @@ namespace nearfit::ui {
 class MeasureBar;
 class Viewport;
 
-/// Measures between two clicks in the view, each on a corner, edge, circle or face of a part, the same one or
-/// two. What is measured goes with its parts, however they are moved, and with a part that leaves it is gone;
-/// a third click begins anew, Escape leaves.
+/// Measures between two clicks in the view, each on a corner, edge, circle or face of the same or two parts.
+/// The measurement follows its parts and disappears when one leaves the scene. A third click starts a new
+/// one; Escape ends the tool.
 class MeasureTool : public QObject {
   Q_OBJECT
 
@@ -25,17 +25,17 @@ class MeasureTool : public QObject {
   MeasureTool(const Session& session, Viewport& view, QObject* parent);
   ~MeasureTool() override;
 
-  /// Switches it on and off.
+  /// Starts and stops the tool.
   QAction* action() const noexcept { return action_; }
 
  public slots:
-  /// The parts are elsewhere, or the unit of length is another.
+  /// Updates the measurement after parts have moved or the length unit has changed.
   void refresh();
 
  private:
   struct End {
     PartId part{};
-    PartGeometryPtr geometry;  ///< That was pointed at: the part may get another.
+    PartGeometryPtr geometry;  ///< The geometry picked; the part may get another one.
     MeasureEnd inPart;
     QString name;
   };
@@ -45,7 +45,7 @@ class MeasureTool : public QObject {
   void take(const FeaturePick& pick);
   void forget();
   void light(FeatureHighlight& highlight, const FeaturePick& pick);
-  /// In the world as it is shown.
+  /// Returns the end in the world, with its part as shown; nullopt if the part or its geometry is gone.
   std::optional<MeasureEnd> shown(const End& end) const;
   void tell(const QString& hint);
 

@@ -16,12 +16,12 @@ namespace nearfit::ui {
 namespace {
 
 constexpr double kHalo[3] = {0.08, 0.10, 0.12};
-/// Opacity of what is blocked: seen when it is looked for.
+/// Opacity of blocked minima: visible to those who look for them.
 constexpr double kFaint = 0.35;
-/// Length of a normal.
+/// Length of a normal, as a fraction of the cutoff.
 constexpr double kPinOfCutoff = 0.4;
 
-/// Sizes are in pixels, so that a gap of micrometres between metre-long parts is still seen.
+/// Sizes are in pixels, so that gaps of micrometres between parts of metres are visible.
 void setUp(vtkActor& actor, vtkPolyData& data, bool isColoured, float lineWidth, float pointSize) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(&data);
@@ -39,13 +39,13 @@ void setUp(vtkActor& actor, vtkPolyData& data, bool isColoured, float lineWidth,
   property->SetPointSize(devicePixels(pointSize));
 }
 
-/// What is drawn of a set of minima.
+/// Collects lines and points of a set of minima.
 struct Glyphs {
   Glyphs() { points->SetDataTypeToDouble(); }
 
   void add(const Lmd& lmd, double cutoff) { addLine(lmd.scenePoint, lmd.partPoint, lmd.distance / cutoff); }
 
-  /// Normals of both surfaces.
+  /// Adds the normals at both points.
   void addPins(const Lmd& lmd, double cutoff) {
     const glm::dvec3 pin = kPinOfCutoff * cutoff * lmd.direction;
     addLine(lmd.scenePoint, lmd.scenePoint + pin, lmd.distance / cutoff);
@@ -78,7 +78,7 @@ struct Glyphs {
 }  // namespace
 
 LmdOverlay::LmdOverlay(vtkRenderer& renderer) {
-  // Later actors win where depths are equal: the dark halo first, colours over it.
+  // Later actors win at equal depth: the dark halo first, colours over it.
   setUp(*halo_, *segments_.Get(), false, 4.5F, 1.0F);
   setUp(*lines_, *segments_.Get(), true, 2.5F, 1.0F);
   setUp(*pins_, *normals_.Get(), true, 1.5F, 1.0F);
@@ -142,7 +142,7 @@ void LmdOverlay::applyVisibility() {
 std::vector<SnapshotLmd> chosenMinima(std::span<const SnapshotLmd> lmds, double cutoff,
                                       const MinimaChoice& choice) {
   std::vector<SnapshotLmd> chosen;
-  // None was found beyond the cutoff: there is nothing to leave out but what rounding has put there.
+  // No minimum was found beyond the cutoff; comparing would only drop some by rounding.
   const bool isAll = choice.nearerThan >= 1.0;
   for (const SnapshotLmd& entry : lmds) {
     if (isAll || entry.lmd.distance <= choice.nearerThan * cutoff) chosen.push_back(entry);

@@ -14,20 +14,20 @@
 
 namespace nearfit::ui {
 
-/// Draws minima as segments with their two points, coloured by distance, the nearest larger; a blocked one,
-/// which exerts no force, as a faint line alone. Normals are short lines from either point towards the other
-/// surface: as long in a gap of a micrometre as in one of the cutoff.
+/// Draws minima as segments with their two points, coloured by distance, the nearest one larger. A blocked
+/// minimum, which exerts no force, is a faint line alone. Normals are short lines from both points towards
+/// the other surface, of the same length whatever the gap.
 class LmdOverlay {
  public:
   /// @param renderer  Outlives this.
   explicit LmdOverlay(vtkRenderer& renderer);
 
-  /// @param lmds    In world coordinates [m].
-  /// @param cutoff  Distance that gets the last colour [m]; > 0.
+  /// @param lmds    World frame [m].
+  /// @param cutoff  Distance at the end of the colour scale [m]; > 0.
   void show(std::span<const SnapshotLmd> lmds, double cutoff);
   void clear() { show({}, 1.0); }
   void setVisible(bool isVisible);
-  /// Counts from the next show() on.
+  /// Sets what is drawn; counts from the next show() on.
   void setChoice(const MinimaChoice& choice);
 
  private:
@@ -39,7 +39,7 @@ class LmdOverlay {
   vtkNew<vtkActor> halo_, lines_, dots_, pins_, faint_, nearestHalo_, nearestLine_, nearestDots_;
 };
 
-/// Those of the minima that are drawn: the nearest, as many and as near as is chosen, nearest first.
+/// Returns the minima to draw, as many and as near as `choice` allows, nearest first.
 std::vector<SnapshotLmd> chosenMinima(std::span<const SnapshotLmd> lmds, double cutoff,
                                       const MinimaChoice& choice);
 

@@ -14,7 +14,7 @@ const QString kMost = QStringLiteral("minima/most"), kNearerThan = QStringLitera
 constexpr std::array<std::size_t, 5> kCounts{0, 100, 30, 10, 1};
 constexpr std::array kPercents{100, 50, 25, 10};
 
-/// What is kept, or the usual where it makes no sense.
+/// Returns the stored choice, with defaults for values that are not in the menu.
 MinimaChoice kept() {
   const QSettings settings;
   MinimaChoice choice;

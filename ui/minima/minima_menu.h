@@ -6,8 +6,8 @@
 
 namespace nearfit::ui {
 
-/// The choice of what the view draws of minima: segments, points, normals, how many of the nearest and how
-/// near. Remembered from one run to the next.
+/// Menu of what the view draws of minima: segments, points, normals, how many and how
+/// near. Kept between runs.
 class MinimaMenu : public QMenu {
   Q_OBJECT
 
@@ -17,6 +17,7 @@ class MinimaMenu : public QMenu {
   const MinimaChoice& choice() const noexcept { return choice_; }
 
  signals:
+  /// Emitted when the user has changed the choice.
   void choiceChanged(const nearfit::ui::MinimaChoice& choice);
 
  private:

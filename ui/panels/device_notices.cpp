@@ -20,7 +20,7 @@ DeviceNotices::DeviceNotices(QWidget* parent)
   none_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
   text_->setObjectName(QStringLiteral("deviceNotices"));
   text_->setWordWrap(true);
-  // A path may be long and has no spaces: the panel must not grow with it.
+  // A long path has no spaces to break at: the panel must not grow with it.
   text_->setTextFormat(Qt::PlainText);
   text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);

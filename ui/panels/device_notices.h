@@ -9,8 +9,8 @@ class QPushButton;
 
 namespace nearfit::ui {
 
-/// What keeps devices from being used, as far as the user can do something about it, and the command that
-/// does; or that there is none. Hidden when there is nothing to say.
+/// Says what keeps devices from being used if the user can fix it, and offers the command that does; or says
+/// that there is no device. Hidden if there is nothing to say.
 class DeviceNotices : public QWidget {
   Q_OBJECT
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLongWait = 0.25;  ///< [s]
 
-/// "Base", "Base and Lid", "Base, Lid and 3 more".
+/// Returns "Base", "Base and Lid" or "Base, Lid and 3 more".
 QString namesOf(const ServoSnapshot& snapshot, const Scene& scene) {
   QStringList names;
   const std::size_t stored = std::min<std::size_t>(snapshot.releasedCount, ServoSnapshot::kMaxReleased);

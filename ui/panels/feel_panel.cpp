@@ -32,7 +32,7 @@ FeelPanel::FeelPanel(const Parts& parts, QWidget* parent)
       felt_(new Readouts(tr("Felt"), this)),
       servo_(new Readouts(tr("Servo"), this)) {
   setUpReadouts();
-  // All of it is more than a small window has room for.
+  // A small window has not enough room for all of it.
   auto* scroll = new QScrollArea(this);
   scroll->setObjectName(QStringLiteral("feelScroll"));
   scroll->setFrameShape(QFrame::NoFrame);
@@ -40,7 +40,7 @@ FeelPanel::FeelPanel(const Parts& parts, QWidget* parent)
   scroll->setWidgetResizable(true);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setWidget(makeChoices(parts));
-  // As wide as the widest of it, which may come later, beside the bar: nothing is cut off.
+  // As wide as its widest content, which may come later, and the scroll bar: nothing is cut off.
   workspace_->showHand(Hand::Device);
   scroll->setMinimumWidth(scroll->widget()->minimumSizeHint().width() +
                           scroll->verticalScrollBar()->sizeHint().width());
@@ -87,7 +87,7 @@ QWidget* FeelPanel::makeChoices(const Parts& parts) {
         static_cast<QWidget*>(servo_)})
     layout->addWidget(each);
   layout->addStretch(1);
-  // As they stand; the button was there before the others.
+  // Tab order as on screen; the button was created before the others.
   setTabOrder(startStop_, parts.settingsButton);
   return content;
 }

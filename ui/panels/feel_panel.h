@@ -22,37 +22,38 @@ class PresetChoice;
 class PresetStore;
 class Readouts;
 
-/// Start and stop of the servo, whose hand it is, the mode, and what is felt: wrench, minima, contact and
+/// Starts and stops the servo, chooses hand and mode, and shows what is felt: wrench, minima, contact and
 /// timing in numbers.
 class FeelPanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// What others bring.
+  /// Widgets and presets that other classes provide.
   struct Parts {
-    QWidget* settingsButton;  ///< Opens the settings; becomes part of this panel.
+    QWidget* settingsButton;  ///< Opens the settings; this panel becomes its parent.
     QAction* clutch;
-    PresetStore& presets;  ///< Outlives this.
+    PresetStore& presets;  ///< Must outlive this.
   };
   explicit FeelPanel(const Parts& parts, QWidget* parent = nullptr);
 
   Hand hand() const;
-  /// Of the device that is chosen as hand; else empty.
+  /// Returns the id of the device chosen as hand; empty for other hands.
   QString device() const;
-  /// The recorded hand is chosen, and no recording.
+  /// True if the recorded hand is chosen, but no recording.
   bool isRecordingMissing() const;
-  /// Does nothing where it is not in the list.
+  /// Chooses a device; no-op if it is not in the list.
   void chooseDevice(const QString& device);
   void showDevices(const QVector<DeviceChoice>& devices);
   void setStartable(bool isStartable);
   void showStatus(const ServoStatus& status);
-  /// The scene's settings.
+  /// Shows the scene's settings.
   void showSettings(const HapticSettings& settings);
-  /// @param scene  For the names of the parts.
+  /// @param scene  Holds the parts' names.
   void showSnapshot(const ServoSnapshot& snapshot, const Scene& scene);
   void clearSnapshot();
 
  signals:
+  /// Each is emitted when the user asks for what its name says.
   void startRequested();
   void stopRequested();
   void restartRequested();

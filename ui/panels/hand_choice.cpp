@@ -16,9 +16,9 @@ namespace nearfit::ui {
 namespace {
 
 constexpr int kDeviceRole = Qt::UserRole + 1, kNoteRole = Qt::UserRole + 2;
-/// The scripted and the manual hand, and a recording, are always there.
+/// The scripted hand, the manual hand and the recording are always there.
 constexpr int kManual = 1, kRecording = 2, kFirstDevice = 3;
-/// What a recording's id begins with, as of devices that are replays.
+/// Prefix of a recording's id.
 const QString kReplay = QStringLiteral("replay:");
 constexpr int kOpeningSteps = 1000;
 
@@ -150,7 +150,7 @@ void HandChoice::showChosen() {
   const QString text = isTaken ? status_.deviceState : box_->currentData(kNoteRole).toString();
   recording_->setVisible(isRecorded());
   opening_->setVisible(status_.isOpening);
-  // As long as it is not known how far it is, the bar moves to and fro.
+  // Until progress is known, the bar moves to and fro.
   opening_->setRange(0, status_.openingFraction > 0.0 ? kOpeningSteps : 0);
   opening_->setValue(static_cast<int>(status_.openingFraction * kOpeningSteps));
   state_->setText(text);

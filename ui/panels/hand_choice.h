@@ -14,8 +14,8 @@ namespace nearfit::ui {
 
 class DeviceNotices;
 
-/// Whose hand it is: the script's, the user's by numbers and keys, or a device's; of a device also what state
-/// it is in, and whether its forces are let out.
+/// Chooses the hand: the script's, the user's by numbers and keys, or a device's. Also shows a device's
+/// state, and buttons to arm, calibrate and reset it.
 class HandChoice : public QWidget {
   Q_OBJECT
 
@@ -23,19 +23,20 @@ class HandChoice : public QWidget {
   explicit HandChoice(QWidget* parent = nullptr);
 
   Hand hand() const;
-  /// Of the device that is chosen; empty for other hands.
+  /// Returns the id of the chosen device; empty for other hands.
   QString device() const;
-  /// A device of the list, or a recording ("replay:FILE"); does nothing for what is not there.
+  /// Chooses a device of the list, or a recording ("replay:FILE"); no-op for anything else.
   void choose(const QString& device);
-  /// The recorded hand is chosen, whether a recording is or not.
+  /// True if the recorded hand is chosen, with or without a recording.
   bool isRecorded() const;
-  /// The recorded hand is chosen, and none is recorded: there is no device yet.
+  /// True if the recorded hand is chosen without a recording: there is no device yet.
   bool isRecordingMissing() const;
-  /// Devices come and go; what is chosen stays chosen where it is still there, else the scripted hand is.
+  /// Lists the devices. Keeps the choice if it is still there, else chooses the scripted hand.
   void showDevices(const QVector<DeviceChoice>& devices);
   void showStatus(const ServoStatus& status);
 
  signals:
+  /// Each is emitted when the user asks for what its name says; handChanged() when another hand was chosen.
   void handChanged();
   void armRequested(bool isArmed);
   void calibrateRequested();

@@ -11,8 +11,8 @@ namespace nearfit::ui {
 
 class LocksPage;
 
-/// The hand's way into the scene, at hand while it feels: scale and clutch of a device, and which motions
-/// count. Of a scripted hand there is nothing to set.
+/// Settings of the hand's workspace, within reach while it feels: scale and clutch of a device, and which
+/// motions count. A scripted hand has nothing to set.
 class HandWorkspace : public FeelPage {
   Q_OBJECT
 
@@ -20,12 +20,12 @@ class HandWorkspace : public FeelPage {
   /// @param clutch  Holds the part while it is on.
   explicit HandWorkspace(QAction* clutch, QWidget* parent = nullptr);
 
-  /// @param isRecorded  It is a recording, which has been through scale and locks when it was made: instead
-  ///                    of them stands why.
+  /// Shows what this hand can set.
+  /// @param isRecorded  True for a recording, which contains scale and locks already: a note says so.
   void showHand(Hand hand, bool isRecorded = false);
-  /// Whether the part stays though the hand moves, by the clutch here or by one of the device's own.
+  /// Shows whether the part stays, by the clutch here or by the device's own.
   void showClutched(bool isClutched);
-  /// Then the part stays, whatever the clutch is.
+  /// Says that the part stays until the device is calibrated, whatever the clutch does.
   void showUncalibrated(bool isUncalibrated);
 
  protected:

@@ -17,7 +17,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// Parts from which on a name is rather looked for than seen.
+/// With more parts the filter is shown.
 constexpr std::size_t kMany = 12;
 
 }  // namespace
@@ -68,7 +68,7 @@ void PartsPanel::setScene(const Scene& scene) {
   const std::unordered_set<GroupId> before(known_.begin(), known_.end());
   scene_ = scene;
   model_->setScene(scene);
-  // A reset of the model closes every group and drops what was selected, without a signal.
+  // A reset of the model closes every group and drops the selection, without a signal.
   known_.clear();
   for (const Scene::GroupPtr& group : scene.groups()) {
     known_.push_back(group->id);
@@ -83,7 +83,7 @@ void PartsPanel::setScene(const Scene& scene) {
   if (!areMany) filter_->clear();
   filter_->setVisible(areMany);
   if (!filter_->text().isEmpty()) view_->setFilter(filter_->text());
-  // A group that was closed stays so, whatever it holds.
+  // A closed group stays closed, whatever it holds.
   showSelection(Reveal::No);
 }
 
@@ -104,7 +104,7 @@ void PartsPanel::takeSelection() {
   }
   const std::vector<PartId> chosen = partsOf(scene_, rows);
   const std::unordered_set<PartId> left(chosen.begin(), chosen.end());
-  // Those that stay keep their order, so that the current one stays what it is.
+  // Those that stay keep their order, so that the current one stays current.
   std::vector<PartId> parts = selection_.parts();
   std::erase_if(parts, [&](PartId part) { return !left.contains(part); });
   const std::unordered_set<PartId> kept(parts.begin(), parts.end());
@@ -129,7 +129,7 @@ void PartsPanel::showSelection(Reveal reveal) {
   if (!model.isSelected(model.currentIndex())) {
     const QModelIndex current = selection_.current() ? model_->indexOf(*selection_.current()) : QModelIndex();
     if (current.isValid() && reveal == Reveal::Yes) view_->scrollTo(current);
-    // The view scrolls by itself to what becomes current.
+    // The view scrolls by itself to a new current row.
     view_->setAutoScroll(reveal == Reveal::Yes);
     model.setCurrentIndex(current, QItemSelectionModel::NoUpdate);
     view_->setAutoScroll(true);
@@ -173,7 +173,7 @@ void PartsPanel::toggleVisible(const QModelIndex& index) {
   std::vector<PartId> here;
   if (const std::optional<PartId> part = model_->partAt(index)) here = {*part};
   if (const std::optional<GroupId> group = model_->groupAt(index)) here = partsOf(scene_, {{}, {*group}});
-  // The row that was clicked says which way all go.
+  // The clicked row decides which way all go.
   const bool isShown = std::ranges::all_of(here, [this](PartId id) { return scene_.find(id)->isVisible; });
   emit visibilityRequested(partsOf(scene_, nodesOf(index)), !isShown);
 }

@@ -14,24 +14,24 @@ class PartsModel;
 class PartsView;
 class Selection;
 
-/// The tree of groups and parts: choose some, rename one in place, click its icons, drag them into another
-/// group, look for a name. Asks for changes by signals.
+/// The tree of groups and parts: selects, renames in place, toggles icons, drags to other groups, filters by
+/// name. Requests changes through signals.
 class PartsPanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// @param selection  Outlives this.
+  /// @param selection  Must outlive this.
   explicit PartsPanel(Selection& selection, QWidget* parent = nullptr);
 
   void setScene(const Scene& scene);
-  /// Actions of the context menu.
+  /// Sets the actions of the context menu.
   void setMenuActions(const QList<QAction*>& actions);
-  /// Starts editing the name of the current row: of the current part, or of the group that was chosen.
+  /// Edits the name in the current row, of a part or a group; no-op unless the row is selected.
   void editName();
 
  signals:
   void renameRequested(nearfit::PartId part, const QString& name);
-  /// A name that was typed was not taken, and is gone.
+  /// Emitted when a typed name was refused and discarded.
   void renameRefused(const QString& reason);
   void groupRenameRequested(nearfit::GroupId group, const QString& name);
   void movingPartRequested(std::optional<nearfit::PartId> part);
@@ -43,13 +43,14 @@ class PartsPanel : public QWidget {
   void clickCell(const QModelIndex& index);
   void toggleVisible(const QModelIndex& index);
   void toggleLock(const QModelIndex& index);
-  /// What a switch in this row is about: all that is selected when the row is, else the row alone.
+  /// Returns what a click in this row affects: the whole selection if it includes the row,
+  /// else the row alone.
   SceneNodes nodesOf(const QModelIndex& index) const;
   void takeSelection();
   enum class Reveal { Yes, No };
-  /// @param reveal  Whether the current part is scrolled to, and the groups opened that it is in.
+  /// @param reveal  Whether to scroll to the current part and to open the groups around it.
   void showSelection(Reveal reveal);
-  /// Groups whose rows show what they hold.
+  /// Returns the groups whose rows are open.
   std::vector<GroupId> expandedGroups() const;
 
   Selection& selection_;
@@ -57,8 +58,8 @@ class PartsPanel : public QWidget {
   PartsView* view_;
   QLineEdit* filter_;
   Scene scene_;
-  std::vector<GroupId> known_;  ///< Groups that were there before: new ones are opened.
-  bool isShowing_ = false;      ///< The rows follow the selection, not the user.
+  std::vector<GroupId> known_;  ///< Groups that were there before; new ones are opened.
+  bool isShowing_ = false;      ///< Rows follow the selection, not the user.
 };
 
 }  // namespace nearfit::ui

@@ -20,8 +20,8 @@ namespace {
 
 constexpr double kFarthest = 1e4;  ///< [m]
 
-/// Whether a key is one of the window's commands, such as Ctrl+S, that a line editor has no use for here. It
-/// claims some of them all the same: Ctrl+E to go to the end of the line, Ctrl+D to delete.
+/// True for a command of the window, such as Ctrl+S, that a line editor has no use for here. Editors claim
+/// some of them all the same: Ctrl+E to go to the end of the line, Ctrl+D to delete.
 bool isCommand(const QKeyEvent& key) {
   const Qt::KeyboardModifiers modifiers = key.modifiers() & ~Qt::ShiftModifier;
   if (modifiers != Qt::ControlModifier || key.key() < Qt::Key_A || key.key() > Qt::Key_Z) return false;
@@ -118,7 +118,7 @@ NumberField* PosePanel::makeAngle(const QString& name, double limit) {
 
 NumberField* PosePanel::prepared(NumberField* field, const QString& name) {
   field->setObjectName(name);
-  // A number as short as most, beside the arrows, whatever the size of letters.
+  // Wide enough for most numbers beside the arrows, in any font size.
   constexpr int kArrows = 26;
   field->setMinimumWidth(field->fontMetrics().horizontalAdvance(QStringLiteral("-00.0000 mm")) + kArrows);
   field->findChild<QLineEdit*>()->installEventFilter(this);
@@ -127,7 +127,7 @@ NumberField* PosePanel::prepared(NumberField* field, const QString& name) {
 }
 
 bool PosePanel::eventFilter(QObject* watched, QEvent* event) {
-  // A line editor claims the undo keys even when it has nothing to undo; then they are meant for the scene.
+  // A line editor claims the undo keys even if it has nothing to undo; then they are meant for the scene.
   if (event->type() == QEvent::ShortcutOverride) {
     auto* key = static_cast<QKeyEvent*>(event);
     auto* editor = qobject_cast<QLineEdit*>(watched);
@@ -148,7 +148,7 @@ bool PosePanel::eventFilter(QObject* watched, QEvent* event) {
 
 void PosePanel::showPart(const QString& name, const QString& refusal, const QString& help) {
   const QString heading = name.isEmpty() ? tr("No part selected") : name;
-  // What was typed for one part is not meant for another.
+  // Text typed for one part is not meant for another.
   if (heading != heading_->text()) {
     for (NumberField* field : fields_)
       if (field->isUnsettled()) field->takeBack();

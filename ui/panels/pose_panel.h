@@ -20,38 +20,39 @@ namespace nearfit::ui {
 class ElidedLabel;
 class NumberField;
 
-/// The pose of one part in numbers: position in the user's unit, rotation as angles about the fixed axes x,
-/// y, z; and its density. Numbers that the user leaves alone stay exactly what they were.
+/// Shows and edits the pose of one part in numbers: position in the user's unit, rotation as angles about the
+/// fixed axes x, y, z; and its density. Numbers that the user leaves alone keep their exact values.
 class PosePanel : public QWidget {
   Q_OBJECT
 
  public:
   explicit PosePanel(QWidget* parent = nullptr);
 
-  /// @param name     Of the part, for the heading; empty when no part is chosen, then nothing can be edited.
-  /// @param refusal  Why the pose cannot be edited; empty when it can.
+  /// @param name     Name of the part, for the heading; empty if none is chosen, and then
+  ///                 nothing can be edited.
+  /// @param refusal  Why the pose cannot be edited; empty if it can.
   /// @param help     Says more than the heading has room for.
   void showPart(const QString& name, const QString& refusal = {}, const QString& help = {});
-  /// Of a part that stands somewhere. Where it has been moved by other means, what was typed and could not be
-  /// read makes room for the true numbers.
+  /// Shows the pose of a part. If it was moved by other means, true numbers replace text that
+  /// could not be read.
   void showPose(const RigidTransform& worldFromPart);
-  /// For a part that stays behind the hand: the numbers are the part's. One that is typed becomes the hand's,
-  /// a step moves the hand on from where it is, and the rest of the hand's pose stays.
+  /// Shows a part that lags behind the hand: the numbers are the part's. A typed number becomes the hand's, a
+  /// step moves the hand from where it is, and the rest of the hand's pose stays.
   void showPose(const RigidTransform& worldFromPart, const RigidTransform& worldFromHand);
-  /// The density of the parts, and their mass together.
-  /// @param isLocked  One of them, or a group that it is in.
+  /// Shows the density of the parts and their total mass.
+  /// @param isLocked  True if one of them, or a group around it, is locked.
   void showMass(const std::vector<const Part*>& parts, bool isLocked = false);
-  /// Takes over a number that is still being typed, as leaving its field does.
+  /// Accepts a number that is still being typed, as leaving its field does.
   void commit();
-  /// How far an arrow key moves a part [m].
+  /// Returns how far an arrow key moves a part [m].
   double step() const;
-  /// How far one turns it, with Shift [rad].
+  /// Returns how far an arrow key with Shift turns it [rad].
   double turnStep() const;
 
  signals:
-  /// Of the part, or of the hand that holds it.
+  /// Emitted with the new pose of the part, or of the hand that holds it.
   void poseEdited(const nearfit::RigidTransform& worldFromPart);
-  /// [kg/m^3]
+  /// Emitted with the new density [kg/m^3].
   void densityEdited(double density);
 
  protected:
@@ -72,9 +73,9 @@ class PosePanel : public QWidget {
   NumberField *step_ = nullptr, *turnStep_ = nullptr, *density_ = nullptr;
   QLabel* mass_ = nullptr;
   RigidTransform pose_, hand_;
-  glm::dvec3 handAngles_{0.0};     ///< Of hand_ [rad].
-  std::array<double, 6> shown_{};  ///< What stands in the fields.
-  bool isEditing_ = false;         ///< What moves the part is a number typed here.
+  glm::dvec3 handAngles_{0.0};     ///< Angles of hand_ [rad].
+  std::array<double, 6> shown_{};  ///< Numbers in the fields.
+  bool isEditing_ = false;         ///< The part moves because a number is typed here.
 };
 
 }  // namespace nearfit::ui

@@ -7,19 +7,20 @@ class QVBoxLayout;
 
 namespace nearfit::ui {
 
-/// Numbers by name, one below the other, with a heading.
+/// A heading with named numbers below it.
 class Readouts : public QWidget {
   Q_OBJECT
 
  public:
   explicit Readouts(const QString& heading, QWidget* parent = nullptr);
 
-  /// @param objectName  Of the number's label.
+  /// Adds a number and returns its label.
+  /// @param objectName  Object name of the label.
   QLabel* add(const QString& name, const char* objectName, const QString& toolTip = {});
-  /// A text below them, in that colour of the light theme; keeps its line while it is empty, so that nothing
-  /// jumps.
+  /// Adds a text below the numbers, in a colour of the light theme, and returns its label. The text keeps its
+  /// line while empty, so that nothing jumps.
   QLabel* addNote(const char* objectName, const QColor& colour);
-  /// What stands where there is no number.
+  /// Text in place of a missing number.
   static QString nothing() { return QStringLiteral("–"); }
 
  private:

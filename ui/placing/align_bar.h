@@ -12,29 +12,38 @@ namespace nearfit::ui {
 
 class NumberField;
 
-/// What the align tool asks for, over the lower edge of the view: what to point at, flip, distance, apply.
+/// The align tool's bar: prompt, filter, flip, distance, apply and cancel.
 class AlignBar : public ViewBar {
   Q_OBJECT
 
  public:
   explicit AlignBar(QWidget* view);
 
-  /// @param hint  What is under the pointer; may be empty.
+  /// Shows what to do next.
+  /// @param hint  The feature under the pointer; may be empty.
   void showPrompt(const QString& prompt, const QString& hint);
-  /// What can be chosen of the pair that is picked; nothing of it before there is one.
+  /// Shows the options of the picked pair; hides them before there is one.
+  /// @param isPicked   Both features are picked.
+  /// @param canFlip    Flipping makes a difference.
+  /// @param canOffset  A distance can be left between them.
   void showPair(bool isPicked, bool canFlip, bool canOffset);
+  /// Resets flip and distance and hides the options.
   void reset();
 
   FeatureFilter filter() const;
+  /// False while flipping is not possible.
   bool isFlipped() const;
-  /// [m]
+  /// Distance between the features [m].
   double offset() const;
 
  signals:
+  /// Emitted when the user chose which features can be picked.
   void filterChosen(nearfit::FeatureFilter filter);
-  /// Flip or distance.
+  /// Emitted when flip or distance changed.
   void optionsEdited();
+  /// Emitted by Apply; not while the distance cannot be read.
   void applied();
+  /// Emitted by Cancel.
   void cancelled();
 
  private:

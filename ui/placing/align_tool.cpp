@@ -66,7 +66,7 @@ void AlignTool::stop() {
   const QSignalBlocker blocker(action_);
   action_->setChecked(false);
   if (!picker_.isActive()) return;
-  // First: their parts may have left the scene, and the picker tells once more of what it shows.
+  // Before picker_.stop(), which reports once more what it shows: these parts may have left the scene.
   moving_.reset();
   fixed_.reset();
   picker_.stop();
@@ -83,7 +83,7 @@ bool AlignTool::isMoved(PartId part) const {
   return start_.contains(part);
 }
 
-/// Whether what was picked still stands where it was.
+/// True if what was picked is still where it was.
 bool AlignTool::isSound() const {
   if (fixed_ && session_.scene().find(fixed_->part) == nullptr) return false;
   return std::all_of(start_.begin(), start_.end(), [this](const auto& entry) {

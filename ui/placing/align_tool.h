@@ -18,9 +18,9 @@ class MoveGuard;
 class Selection;
 class Viewport;
 
-/// Aligns a part by two clicks in the view: on a feature of it, then on one of another part that it is to
-/// meet. Shows where the part would be; Apply or Return puts it there as one step of undo, Escape leaves
-/// everything as it was. A selected part takes the other selected ones with it. Locked parts refuse to move.
+/// Aligns a part by two clicks in the view: on a feature of the part, then on the feature of another part
+/// that it is to meet. Previews the result; Apply or Return makes it one undo step, Escape discards it. A
+/// selected part takes the other selected parts along. Locked parts cannot be moved.
 class AlignTool : public QObject {
   Q_OBJECT
 
@@ -29,18 +29,20 @@ class AlignTool : public QObject {
   AlignTool(Session& session, Selection& selection, Viewport& view, const MoveGuard& guard, QObject* parent);
   ~AlignTool() override;
 
-  /// Switches it on and off.
+  /// Starts and stops the tool.
   QAction* action() const noexcept { return action_; }
-  /// Whether it can be used now; it stops when it no longer can.
-  /// @param isBusy  Something is being loaded or prepared: it cannot be begun, but what was begun goes on.
+  /// Enables the tool; false also stops it.
+  /// @param isBusy  Something is being loaded or prepared: the tool cannot start, but
+  ///                goes on if it has started.
   void setAvailable(bool isAvailable, bool isBusy);
 
  signals:
-  /// These parts are to move together so that the lead comes to stand there.
+  /// Emitted on Apply: the parts are to move together so that `lead` gets that pose.
   void moveWanted(const std::vector<nearfit::PartId>& parts, nearfit::PartId lead,
                   const nearfit::RigidTransform& worldFromLead);
+  /// Emitted with a note for the status bar.
   void noted(const QString& text);
-  /// It asks for features and shows where parts would go, or no longer.
+  /// Emitted when the tool starts or stops.
   void activeChanged(bool isActive);
 
  private:
@@ -65,7 +67,7 @@ class AlignTool : public QObject {
   FeaturePicker picker_;
   FeatureHighlight movingLight_, fixedLight_;
   std::optional<FeaturePick> moving_, fixed_;
-  std::map<PartId, RigidTransform> start_;  ///< worldFromPart of those that move, when the first was picked.
+  std::map<PartId, RigidTransform> start_;  ///< worldFromPart of the moving parts at the first pick.
   RigidTransform motion_;
 };
 

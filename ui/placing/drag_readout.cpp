@@ -13,7 +13,7 @@ namespace nearfit::ui {
 namespace {
 
 constexpr QChar kMinus(0x2212);
-constexpr int kBeside = 18;  ///< From the pointer [pixels].
+constexpr int kBeside = 18;  ///< Distance from the pointer [pixels].
 constexpr int kMostDecimals = 6;
 
 QString signedNumber(double value, int decimals) {
@@ -58,7 +58,7 @@ QString dragText(const GizmoDrag& drag, const glm::dvec3& shift, double angle, d
     const double degrees = angle * 180.0 / std::numbers::pi;
     return signedNumber(degrees, 1) + QChar(0xB0);
   }
-  // A tenth of what a pixel is.
+  // Down to about a tenth of a pixel.
   const double metres = metresOf(unit);
   const double pixelInUnits = std::max(pixel / metres, 1e-9);
   const int decimals =

@@ -204,7 +204,7 @@ DropTool::Outcome DropTool::pushed(const Scene& scene, const std::vector<PartId>
       outcome.problem = freeWayText(name);
       break;
     case PushResult::Outcome::Held:
-      // Nearer than that nothing is told apart from what has been pushed there before.
+      // A part that was pushed there before may move by so little again.
       if (outcome.travel <= dropGap(lead.geometry->mesh.bounds().diagonal()))
         outcome.problem = tr("%1 is held by %2 already: it stays where it is.").arg(name, outcome.against);
       break;

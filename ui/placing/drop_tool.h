@@ -22,26 +22,29 @@ class ProgressDialog;
 class Selection;
 class Viewport;
 
-/// Moves the selected parts until they touch something: "Drop" straight along a direction to the first
-/// contact, "Push" on from there along what they touch, until they are held. Down, up, along each axis of the
-/// world, or towards a face that is clicked in the view. One step of undo each; computed in another thread,
-/// with a way to stop it.
+/// Moves the selected parts to contact. Drop goes straight along a direction to the first contact; Push
+/// goes on along what the parts touch until they are held. The direction is a world axis, either way,
+/// or towards a clicked face. Each is one undo step, computed in another thread behind a progress
+/// dialog that can cancel it.
 class DropTool : public QObject {
   Q_OBJECT
 
  public:
-  /// Makes what it takes to compute ready, and calls back with whether it is.
+  /// Prepares what the computation needs, then calls back; isReady is false if that failed.
   using Prepare = std::function<void(std::function<void(bool isReady)>)>;
   /// @param session, selection, view  Outlive this.
   DropTool(Session& session, Selection& selection, Viewport& view, Prepare prepare, QWidget* window);
   ~DropTool() override;
 
+  /// Adds a submenu for each of drop and push.
   void addTo(QMenu& menu);
-  /// Whether parts can be moved now.
+  /// Enables the actions; false also stops asking for a face. They stay disabled while a move is computed.
   void setAvailable(bool isAvailable);
 
  signals:
+  /// Emitted when a move failed by an exception.
   void failed(const nearfit::ui::Failure& failure);
+  /// Emitted with a note for the status bar: a prompt, the result, or why nothing moves.
   void noted(const QString& text);
 
  private:
@@ -49,8 +52,8 @@ class DropTool : public QObject {
   struct Outcome {
     RigidTransform worldFromLead;
     double travel = 0.0;  ///< [m]
-    QString problem;      ///< Why nothing moves; empty when something does.
-    QString against;
+    QString problem;      ///< Why nothing moves; empty if something does.
+    QString against;      ///< Names of the parts touched.
   };
 
   QMenu* makeMenu(Kind kind);

@@ -13,10 +13,10 @@
 namespace nearfit::ui {
 namespace {
 
-/// How far an axis is drawn to either side, as a share of the mesh.
+/// Half the length of a drawn axis, as a fraction of the mesh's diagonal.
 constexpr double kAxisLength = 0.6;
 
-/// Vertices of a mesh as points of a picture, each once.
+/// Collects vertices of a mesh as VTK points, each once.
 class Points {
  public:
   explicit Points(const TriangleMesh& mesh) : mesh_(mesh) { points_->SetDataTypeToDouble(); }
@@ -70,7 +70,7 @@ void fillLines(vtkPolyData& data, const TriangleMesh& mesh, const PickedFeature&
 void fillPoint(vtkPolyData& data, const TriangleMesh& mesh, const PickedFeature& picked) {
   Points points(mesh);
   vtkNew<vtkCellArray> cells;
-  // The edge of a cut face is none of the mesh: a point of it stands for it.
+  // The edge of a cut face is no edge of the mesh; show one of its points instead.
   const bool isOfNoMesh = picked.triangles.empty() && picked.vertices.empty();
   const FeatureShape shape = picked.feature.shape;
   if (isOfNoMesh || shape == FeatureShape::Point || shape == FeatureShape::Circle) {
@@ -89,7 +89,8 @@ FeatureHighlight::FeatureHighlight(vtkRenderer& renderer, const QColor& colour) 
   style(*line_.Get(), *lines_.Get(), colour.darker(125));
   style(*point_.Get(), *points_.Get(), colour.darker(125));
   face_->GetProperty()->SetOpacity(0.5);
-  // Lines and dots that lie in the face are seen in all their width: it is as deep as it is beside them.
+  // Push the face back by more than its depth changes across lines and dots in it, so that
+  // these show in full width.
   constexpr double kBehindLines = 8.0, kDeeper = 100.0;
   face_->GetMapper()->SetResolveCoincidentTopologyToPolygonOffset();
   face_->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(

@@ -14,7 +14,7 @@
 
 namespace nearfit::ui {
 
-/// A feature lit up in the view: its face, the line of its edge, its axis, its point.
+/// Highlights a feature in the view: its face, edge, axis or point.
 class FeatureHighlight {
  public:
   FeatureHighlight(vtkRenderer& renderer, const QColor& colour);
@@ -22,6 +22,8 @@ class FeatureHighlight {
   FeatureHighlight(const FeatureHighlight&) = delete;
   FeatureHighlight& operator=(const FeatureHighlight&) = delete;
 
+  /// Shows a feature of a mesh.
+  /// @param picked  In the part's frame.
   void show(const TriangleMesh& mesh, const PickedFeature& picked, const RigidTransform& worldFromPart);
   void setPose(const RigidTransform& worldFromPart);
   void clear();
@@ -30,7 +32,7 @@ class FeatureHighlight {
  private:
   void style(vtkActor& actor, vtkPolyData& data, const QColor& colour) const;
 
-  vtkSmartPointer<vtkRenderer> renderer_;  ///< Held: a view may go before the tools that draw in it.
+  vtkSmartPointer<vtkRenderer> renderer_;  ///< Owned: the view may be destroyed before its tools.
   vtkNew<vtkPolyData> faces_, lines_, points_;
   vtkNew<vtkActor> face_, line_, point_;
   vtkNew<vtkMatrix4x4> pose_;

@@ -13,7 +13,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// How near to a corner or an edge the pointer has to be to mean it [pixels].
+/// Max distance of the pointer from a corner or edge to pick it [pixels].
 constexpr double kReach = 8.0;
 
 }  // namespace
@@ -107,7 +107,7 @@ bool FeaturePicker::press(const QMouseEvent& event) {
 bool FeaturePicker::move(const QMouseEvent& event) {
   if (pressed_ != nullptr) {
     if ((event.pos() - pressed_->pos()).manhattanLength() < QApplication::startDragDistance()) return true;
-    // It is a drag: the view gets it from its beginning.
+    // A drag: pass it to the view, from the press on.
     const std::unique_ptr<QMouseEvent> beginning = std::exchange(pressed_, nullptr);
     isReplaying_ = true;
     QApplication::sendEvent(&view_, beginning.get());
@@ -117,7 +117,7 @@ bool FeaturePicker::move(const QMouseEvent& event) {
   if (event.buttons() != Qt::NoButton) return false;
   pointer_ = event.pos();
   if (isHoverQueued_) return false;
-  // Once for all moves that have come by then.
+  // Pick once for all moves queued by then.
   isHoverQueued_ = true;
   QTimer::singleShot(0, this, [this] {
     isHoverQueued_ = false;

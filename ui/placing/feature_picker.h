@@ -16,43 +16,49 @@ namespace nearfit::ui {
 
 class Viewport;
 
-/// A feature of a part.
+/// A picked feature of a part.
 struct FeaturePick {
   PartId part{};
   PickedFeature picked;  ///< In the part's frame.
-  glm::dvec3 hit{0.0};   ///< The point of the surface that was pointed at, in the part's frame [m].
+  glm::dvec3 hit{0.0};   ///< The surface point under the pointer, in the part's frame [m].
 };
 
-/// What a feature is called: "Flat face", "Cylinder ⌀ 12.0 mm".
+/// Returns the name of a feature: "Flat face", "Circle ⌀ 12.0 mm".
 QString describeFeature(const AlignFeature& feature);
 
-/// Lets the user point at features in the view: lights up the one under the pointer, and tells of a click on
-/// it. Drags, the wheel and the other buttons stay the view's. One at a time: who starts sends others away.
+/// Lets the user pick features in the view: highlights the one under the pointer and reports
+/// clicks on it. Drags, the wheel and other buttons still control the view. One at a time: starting a
+/// picker cancels any other.
 class FeaturePicker : public QObject {
   Q_OBJECT
 
  public:
   /// @param session, view  Outlive this.
+  /// @param colour  Of the highlight.
   FeaturePicker(const Session& session, Viewport& view, const QColor& colour, QObject* parent);
   ~FeaturePicker() override;
 
-  /// Why a part cannot be picked; empty: it can.
+  /// Returns why a part cannot be picked; empty if it can.
   using Refusal = std::function<QString(const Part&)>;
+  /// Starts picking; if already active, only replaces the refusal. Null: every part can be picked.
   void start(Refusal refusal);
   void stop();
   bool isActive() const noexcept { return isActive_; }
+  /// Sets which features can be picked.
   void setFilter(FeatureFilter filter);
-  /// What is under the pointer.
+  /// The feature under the pointer; nullopt if there is none.
   const std::optional<FeaturePick>& hovered() const noexcept { return hovered_; }
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  signals:
-  /// What would be picked, or why nothing is; empty over the background.
+  /// Emitted with what a click would pick, or why it would pick nothing; empty over the background.
   void told(const QString& text);
+  /// Emitted when a feature is clicked.
   void picked(const nearfit::ui::FeaturePick& pick);
-  /// Return, or Escape, in the view.
+  /// Emitted on Return in the view.
   void accepted();
+  /// Emitted on Escape, or when another tool takes the clicks. The receiver calls stop().
   void cancelled();
 
  private:
@@ -71,7 +77,7 @@ class FeaturePicker : public QObject {
   Refusal refusal_;
   FeatureFilter filter_ = FeatureFilter::Any;
   std::optional<FeaturePick> hovered_;
-  std::unique_ptr<QMouseEvent> pressed_;  ///< Held back until it is known whether it is a click.
+  std::unique_ptr<QMouseEvent> pressed_;  ///< Held back until it turns out to be a click or a drag.
   QPoint pointer_;
   bool isActive_ = false, isReplaying_ = false, isHoverQueued_ = false;
 };

@@ -12,7 +12,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// A pointer that has gone so far drags; before that it was a click [pixels].
+/// Distance at which a press becomes a drag instead of a click [pixels].
 constexpr int kDragDistance = 4;
 
 glm::dvec2 pixelOf(const QPoint& point) {
@@ -75,7 +75,7 @@ bool GizmoControl::eventFilter(QObject* watched, QEvent* event) {
 
 bool GizmoControl::press(const QMouseEvent& event) {
   if (isDragging()) {
-    // Another button lets go of it.
+    // Any other button cancels the drag.
     if (event.button() != Qt::LeftButton) cancel();
     return true;
   }
@@ -104,9 +104,9 @@ bool GizmoControl::move(const QMouseEvent& event) {
   }
   if (isDragging()) follow();
   if (isDragging() || pressed_ || isSwallowing_) return true;
-  // While a button is down the pointer orbits, and touches nothing.
+  // With a button down the pointer orbits; it highlights nothing.
   if (event.buttons() == Qt::NoButton) hover(event.pos());
-  // What lies under a handle is not pointed at.
+  // A handle hides what lies under it.
   return hot_ != GizmoHandle::None;
 }
 
@@ -125,7 +125,7 @@ bool GizmoControl::release(const QMouseEvent& event) {
   return true;
 }
 
-/// The button is up: also where nobody was told.
+/// Handles the release of the button, even if its event was missed.
 void GizmoControl::letGo() {
   isSwallowing_ = false;
   pressed_.reset();

@@ -17,57 +17,62 @@ class DragReadout;
 class GizmoOverlay;
 class Viewport;
 
-/// The gizmo as the mouse has it: shows it over a view, lights up what is under the pointer, and turns drags
-/// into motions. Knows nothing of parts. Whatever is no drag of a handle, or of what may be dragged directly,
-/// is the view's.
+/// Operates a gizmo by mouse: shows it over a view, highlights the handle under the pointer and turns drags
+/// into motions. Knows nothing of parts. Takes only drags of a handle, or of what setDirectDrag() allows; all
+/// other events pass on to the view.
 class GizmoControl : public QObject {
   Q_OBJECT
 
  public:
-  /// @param view  Outlives this.
-  /// @param name, readout  Of what is drawn of it, and of what a drag says.
+  /// @param view     Outlives this; the parent.
+  /// @param name     Object name of the gizmo's overlay.
+  /// @param readout  Object name of the drag's readout.
   explicit GizmoControl(Viewport& view, const QString& name = QStringLiteral("gizmo"),
                         const QString& readout = QStringLiteral("dragReadout"));
 
-  /// Where it stands; nothing: there is none. A drag goes on.
+  /// Sets where the gizmo stands in the world; nullopt hides it. Does not end a drag.
   void setFrame(const std::optional<GizmoFrame>& frame);
+  /// Sets which handles the gizmo has.
   void setMode(GizmoMode mode);
-  /// What turns and shifts snap to, whenever they do.
+  /// Sets the steps for snapping.
   void setSteps(const SnapSteps& steps) { steps_ = steps; }
-  /// Whether they do; Ctrl makes it the other way round while it is held.
+  /// Turns snapping on or off; Ctrl inverts that while held.
   void setSnapping(bool isSnapping);
-  /// Says of a place of the view which point of the world is dragged directly from there; nothing: none.
+  /// Sets a function that returns the world point grabbed by a direct drag from a pixel of
+  /// the view; nullopt: none.
   void setDirectDrag(std::function<std::optional<glm::dvec3>(const QPoint&)> grab) {
     grab_ = std::move(grab);
   }
 
-  /// Says beside the pointer what a drag has come to, instead of how far it has gone; empty: the latter.
+  /// Sets a function for the text beside the pointer during a drag; if that is empty, the shift or turn.
   void setReadout(std::function<QString()> text) { text_ = std::move(text); }
 
   bool isDragging() const noexcept { return drag_.has_value(); }
-  /// Of the drag.
+  /// The handle dragged; only while dragging.
   GizmoHandle handle() const noexcept { return drag_->handle(); }
-  /// Of the drag, as it stood when that began.
+  /// The frame when the drag began; only while dragging.
   const GizmoFrame& frameAtStart() const noexcept { return drag_->frame(); }
-  /// Shows how far what is dragged has come, which may be less than the pointer asks for.
-  /// @param note  What is in the way; may be empty.
+  /// Shows how far the dragged object has come, which may be less than the pointer asks for.
+  /// @param motion  As in dragged().
+  /// @param note    What is in the way; may be empty.
   void showReached(const RigidTransform& motion, const QString& note);
-  /// Ends a drag without telling anybody.
+  /// Ends a drag without a signal.
   void abandon();
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  signals:
-  /// A drag begins; whoever cannot follow calls abandon().
+  /// Emitted when a drag begins; a receiver that cannot follow calls abandon().
   void began(nearfit::GizmoHandle handle);
-  /// What stood at a point p of the world at the start is wanted at motion(p).
+  /// Emitted when a drag moves: what was at a world point p at its start is wanted at motion(p).
   void dragged(const nearfit::RigidTransform& motion);
+  /// Emitted when the button is released.
   void ended();
-  /// By Escape or another button: all is to be as it was.
+  /// Emitted when Escape or another button cancels the drag: everything must be as before.
   void cancelled();
 
  private:
-  /// What was pressed and may become a drag.
+  /// A press that may become a drag.
   struct Pressed {
     QPoint at;
     GizmoHandle handle = GizmoHandle::None;
@@ -99,7 +104,7 @@ class GizmoControl : public QObject {
 
   std::optional<Pressed> pressed_;
   std::optional<GizmoDrag> drag_;
-  bool isSwallowing_ = false;  ///< The button of a drag that is over is still down.
+  bool isSwallowing_ = false;  ///< A drag is over, but its button is still down.
   QPoint pointer_;
   GizmoHandle hot_ = GizmoHandle::None;
   RigidTransform reached_;

@@ -9,7 +9,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// Room around what is drawn, for widths and rims [pixels].
+/// Margin around the figures, for line widths and rims [pixels].
 constexpr int kRoom = 8;
 constexpr double kLine = 3.0, kRing = 2.6, kFarSide = 1.5, kOutline = 1.5, kHotter = 1.4, kRim = 2.6;
 constexpr double kSquareFill = 0.38, kHotFill = 0.75, kSteppedBack = 0.22, kRimOpacity = 0.8;

@@ -8,24 +8,24 @@
 
 namespace nearfit::ui {
 
-/// What of a gizmo is to be seen.
+/// The state in which a gizmo is drawn.
 struct GizmoPicture {
   GizmoLayout layout;
-  GizmoHandle hot = GizmoHandle::None;  ///< Under the pointer, or dragged.
-  bool isDragging = false;              ///< The others step back.
+  GizmoHandle hot = GizmoHandle::None;  ///< The handle under the pointer, or dragged.
+  bool isDragging = false;              ///< Fades all handles but the hot one.
   std::optional<GizmoGuide> guide;
 };
 
-/// Draws a gizmo over a view, as sharp as the screen allows: over all parts, and light-rimmed, so that it is
-/// read on light and dark ones. As large as what it shows; the mouse goes through.
+/// Paints a gizmo over a view and all its parts, antialiased at the screen's resolution. A light rim keeps it
+/// readable on any part. Only as large as what it shows; ignores the mouse.
 class GizmoOverlay : public QWidget {
   Q_OBJECT
 
  public:
-  /// @param view  What it lies over; pixels of pictures are this widget's.
+  /// @param view  The parent; layouts are in its pixels.
   explicit GizmoOverlay(QWidget* view);
 
-  /// Nothing is shown of an empty layout.
+  /// Shows a gizmo; hides it if its layout is empty.
   void showPicture(GizmoPicture picture);
   void clear();
   const std::optional<GizmoPicture>& picture() const noexcept { return picture_; }

@@ -8,8 +8,8 @@
 
 namespace nearfit::ui {
 
-/// Says which parts may be moved now, and why not: every way of moving asks here, whether by gizmo, mouse,
-/// number, key, drop or alignment.
+/// Decides which parts may be moved now, and says why not. Every way of moving asks it: gizmo, mouse,
+/// numbers, keys, drop and alignment.
 class MoveGuard : public QObject {
   Q_OBJECT
 
@@ -20,19 +20,21 @@ class MoveGuard : public QObject {
   /// @param session  Outlives this.
   explicit MoveGuard(const Session& session, QObject* parent = nullptr);
 
+  /// Sets who holds the moving part.
   void setHolder(Holder holder);
-  /// Whether a recording shows the part in hand somewhere else than it is.
+  /// Set true while a recording shows the moving part away from its pose.
   void setReplaying(bool isReplaying);
-  /// Whether a recording shows this part.
+  /// True if a recording shows this part.
   bool isReplayed(PartId part) const;
 
-  /// Why a part cannot be moved, as a sentence without a full stop; empty when it can.
+  /// Returns why a part cannot be moved, as a sentence without a full stop; empty if it can.
   QString refusalOf(const Part& part) const;
-  /// The same of parts that are moved together; empty for none. The manual hand leads its part alone.
+  /// The same for parts moved together; empty if there are none. The part of the manual
+  /// hand moves only alone.
   QString refusalOf(const std::vector<PartId>& parts) const;
 
  signals:
-  /// The answers are others, and the session is not.
+  /// Emitted when refusals changed without a change of the session.
   void changed();
 
  private:

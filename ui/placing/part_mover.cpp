@@ -24,7 +24,7 @@ void PartMover::moveTo(const RigidTransform& motion) {
   if (!isUnderWay() || isEnding_) return;
   if (isSolid_) {
     wanted_ = runner_.want(motion);
-    // Until the first answer they stand.
+    // They stand still until the first answer; show that contact is being prepared.
     if (!hasReached_) emit moved();
     return;
   }

@@ -11,52 +11,56 @@
 
 namespace nearfit::ui {
 
-/// Parts under way: where a drag has them, until it ends in one pose for each, or is given up. Nothing of it
-/// is in the session meanwhile, so that giving up restores exactly.
+/// Moves parts by a drag until end() makes their poses final or giveUp() discards them. The session does not
+/// change meanwhile, so that giving up restores the exact state.
 ///
-/// Solid parts stop at contact, and so may come later than the pointer: an end waits until they have settled
-/// where they were wanted last.
+/// Solid parts stop at contact, so they may lag behind the pointer: end() waits until they have settled
+/// for the last moveTo().
 class PartMover : public QObject {
   Q_OBJECT
 
  public:
   explicit PartMover(QObject* parent = nullptr);
 
-  /// @param scene  Where all parts are now.   @param parts  Of it; not empty; with geometries.
+  /// Starts a move and gives up any other.
+  /// @param scene    All parts where they are now.
+  /// @param parts    Parts of `scene` with geometry; not empty.
+  /// @param isSolid  They stop at contact.
   void begin(const Scene& scene, const std::vector<PartId>& parts, bool isSolid);
   bool isUnderWay() const noexcept { return !parts_.empty(); }
-  /// Whether they only come to rest where they were wanted last.
+  /// True after end() while solid parts still settle.
   bool isEnding() const noexcept { return isEnding_; }
 
-  /// What stood at a point p of the world at the start is wanted at motion(p).
+  /// Sets where the parts are wanted: what was at a world point p at the start is wanted at motion(p).
   void moveTo(const RigidTransform& motion);
-  /// Where they are then is final: says so by `ended`, at once or when they have settled.
+  /// Makes the poses final: emits ended() at once, or when solid parts have settled. moveTo()
+  /// is ignored from then on.
   void end();
-  /// As end(), where they are now.
+  /// Makes the present poses final: emits ended() at once.
   void endHere();
-  /// Says nothing.
+  /// Discards the move without a signal.
   void giveUp();
 
   const std::vector<PartId>& parts() const noexcept { return parts_; }
-  /// worldFromPart of each when it began.
+  /// worldFromPart of each part at the start.
   const std::map<PartId, RigidTransform>& start() const noexcept { return start_; }
-  /// worldFromPart of each.
+  /// worldFromPart of each part now.
   const std::map<PartId, RigidTransform>& poses() const noexcept { return poses_; }
-  /// From the start to where they are.
+  /// World motion from the start to now.
   const RigidTransform& motion() const noexcept { return motion_; }
-  /// Whether they are where they were wanted last.
+  /// True if the parts are exactly where they were last wanted.
   bool hasArrived() const noexcept { return hasArrived_; }
-  /// What holds them back.
+  /// Parts that hold them back.
   const std::vector<PartId>& touching() const noexcept { return touching_; }
-  /// Whether what they may touch is still being prepared: they do not move before.
+  /// True while solid parts wait for contact to be prepared; they do not move until then.
   bool isPreparing() const noexcept { return isSolid_ && !hasReached_; }
 
  signals:
-  /// They are elsewhere.
+  /// Emitted when poses, motion or touched parts have changed.
   void moved();
-  /// The poses are final; giveUp() has yet to be called.
+  /// Emitted when the poses are final. The receiver reads them and calls giveUp().
   void ended();
-  /// It could not be found out what is in the way; they are given up.
+  /// Emitted when contact could not be computed; the move has been given up.
   void failed(const std::exception_ptr& error);
 
  private:
@@ -67,8 +71,8 @@ class PartMover : public QObject {
   std::map<PartId, RigidTransform> start_, poses_;
   RigidTransform motion_;
   std::vector<PartId> touching_;
-  std::uint64_t wanted_ = 0;   ///< Of the runner, what was wanted last.
-  std::uint64_t settled_ = 0;  ///< And what they have settled at.
+  std::uint64_t wanted_ = 0;   ///< Last want() of the runner.
+  std::uint64_t settled_ = 0;  ///< The want() for which they have settled.
   bool isSolid_ = false, isEnding_ = false, hasReached_ = false, hasArrived_ = false;
 };
 

@@ -32,7 +32,7 @@ void keep(const char* key, const QVariant& value) {
   QSettings().setValue(QStringLiteral("placing/") + QLatin1String(key), value);
 }
 
-/// A number that somebody has edited may be none.
+/// Returns the stored step, or the usual one if the settings hold no valid number.
 double keptStep(const char* key, double usual, double least, double most) {
   const double value = kept(key, usual).toDouble();
   return value >= least && value <= most ? value : usual;

@@ -15,8 +15,8 @@ namespace nearfit::ui {
 
 class NumberField;
 
-/// What is chosen about placing by hand: actions, their menu and their toolbar. What is chosen is remembered
-/// from run to run. Knows what can be chosen, not what comes of it.
+/// Actions, menu and toolbar for placing by hand. Keeps the choices between runs. Knows the
+/// choices, not their effects.
 class PlacingActions : public QObject {
   Q_OBJECT
 
@@ -27,15 +27,18 @@ class PlacingActions : public QObject {
   QAction *localAxes, *snap, *solid;
   QAction *movePivot, *pivotAtMass, *pivotAtBox;
 
+  /// Adds the actions to a menu.
   void addTo(QMenu& menu);
+  /// Makes the toolbar; `window` becomes its parent. Call once.
   QToolBar* makeToolBar(QMainWindow& window);
 
+  /// Returns the gizmo mode chosen; without regard to movePivot.
   GizmoMode mode() const;
-  /// Of shifts and turns, whether they are on or not.
+  /// Returns the steps chosen for shifts and turns, whether snapping is on or not.
   SnapSteps steps() const;
 
  signals:
-  /// Of mode, axes, snapping, steps or solidity.
+  /// Emitted when mode, axes, snapping, steps, solidity or movePivot has changed.
   void changed();
 
  private:

@@ -81,7 +81,7 @@ void PlacingTools::setAside(bool isAside) {
   showFrame();
 }
 
-/// Whether what is dragged still stands in the scene where the drag took it up.
+/// True if the dragged parts are still where the drag started, in the scene, and may be moved.
 bool PlacingTools::isDragSound() const {
   if (isPutting_) return true;
   if (drag_ == Drag::Hand || drag_ == Drag::Pivot) return frame().has_value();
@@ -94,14 +94,14 @@ bool PlacingTools::isDragSound() const {
 }
 
 void PlacingTools::showActions() {
-  // While the pivot is moved there is nothing to turn.
+  // A pivot can be moved, but not turned.
   control_->setMode(actions_->movePivot->isChecked() ? GizmoMode::Move : actions_->mode());
   control_->setSteps(actions_->steps());
   control_->setSnapping(actions_->snap->isChecked());
   showFrame();
 }
 
-/// Of all that is selected; nothing: their centre of mass again.
+/// Sets the pivot of all selected parts; nullopt: back to their centre of mass.
 void PlacingTools::setPivot(const std::optional<glm::dvec3>& inWorld) {
   commit();
   std::vector<Session::NewPivot> pivots;
@@ -136,7 +136,7 @@ std::optional<RigidTransform> PlacingTools::draggedPose(PartId part) const {
   return found == mover_.poses().end() ? std::nullopt : std::optional(found->second);
 }
 
-/// All that is selected, or nothing when one of it may not be moved.
+/// Returns the selected parts; empty if one of them may not be moved.
 std::vector<PlacedPart> PlacingTools::placedParts() const {
   return placed(selection_.parts());
 }
@@ -159,7 +159,7 @@ std::optional<GizmoFrame> PlacingTools::frame() const {
   GizmoFrame frame;
   const std::optional<glm::dvec3> given = draggedPivot_ ? draggedPivot_ : sharedPivot(parts);
   frame.pivot = given ? *given : centreOfMass(parts);
-  // The numbers are of the current part: so are its axes.
+  // The pose panel shows the current part, so use its axes too.
   if (actions_->localAxes->isChecked()) frame.axes = glm::mat3_cast(parts.back().worldFromPart.rotation);
   return frame;
 }
@@ -172,7 +172,7 @@ std::optional<glm::dvec3> PlacingTools::grab(const QPoint& position) const {
   if (actions_->movePivot->isChecked()) return std::nullopt;
   const std::vector<PlacedPart> parts = placedParts();
   const ViewRay ray = view_.projection().rayThrough({position.x(), position.y()});
-  // Looking closely takes its time where there are many triangles: only where it may help.
+  // Picking is slow with many triangles, so try the bounding boxes first.
   if (std::ranges::none_of(parts, [&](const PlacedPart& part) { return meetsBox(ray, part); }))
     return std::nullopt;
   const std::optional<PickedPoint> picked = view_.pointAt(position);
@@ -181,7 +181,7 @@ std::optional<glm::dvec3> PlacingTools::grab(const QPoint& position) const {
 }
 
 void PlacingTools::begin(GizmoHandle handle) {
-  // What still settles from the last drag stays where it has come to.
+  // Parts still settling from the last drag stay where they are.
   commit();
   handle_ = handle;
   if (actions_->movePivot->isChecked()) {
@@ -196,7 +196,7 @@ void PlacingTools::begin(GizmoHandle handle) {
   }
 }
 
-/// The scene with what is in hand where the servo has it: it is in the way there.
+/// Returns the scene with the part in hand at the servo's pose, where it is in the way.
 Scene PlacingTools::sceneNow() const {
   Scene scene = session_.scene();
   const Part* inHand = held_ ? scene.find(held_->part) : nullptr;
@@ -287,7 +287,7 @@ void PlacingTools::abandon() {
   giveUpParts();
 }
 
-/// The parts are in the view as the scene has them again.
+/// Shows the parts at their poses in the scene again.
 void PlacingTools::giveUpParts() {
   brought_.reset();
   if (!mover_.isUnderWay()) return;
@@ -306,7 +306,7 @@ void PlacingTools::putMoved() {
   if (!stoppedBy.isEmpty()) emit noted(stoppedBy);
 }
 
-/// All together, so that the lead stands there.
+/// Moves the parts together so that the lead gets its pose.
 void PlacingTools::put(const std::vector<PartId>& parts, const Brought& where) {
   isPutting_ = true;
   try {

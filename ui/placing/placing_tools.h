@@ -25,12 +25,12 @@ class Viewport;
 struct HeldPart {
   PartId part{};
   RigidTransform worldFromPart;  ///< Where the servo has it.
-  RigidTransform worldFromHand;  ///< Where the hand would have it.
-  bool isManual = false;         ///< The hand can be led from here.
+  RigidTransform worldFromHand;  ///< Where the hand wants it.
+  bool isManual = false;         ///< The hand can be moved by these tools.
 };
 
-/// Placing by gizmo and by direct drag: the selected parts together, each drag one step of undo. A part that
-/// the manual hand holds is led by that hand; one that another hand holds, and locked ones, have no gizmo.
+/// Places the selected parts together by gizmo and direct drag; each drag is one undo step. A part in the
+/// manual hand is moved by moving that hand. Locked parts and parts in any other hand get no gizmo.
 class PlacingTools : public QObject {
   Q_OBJECT
 
@@ -39,37 +39,40 @@ class PlacingTools : public QObject {
   PlacingTools(Session& session, Selection& selection, Viewport& view, const MoveGuard& guard,
                QObject* parent = nullptr);
 
-  /// Its actions, and a toolbar in a row of its own.
+  /// Adds the actions to `menu`, and a toolbar on its own row to `window`.
   void addTo(QMainWindow& window, QMenu& menu);
 
-  /// Nothing: the servo does not run.
+  /// Sets the part in hand; nullopt: the servo does not run.
   void setHeld(const std::optional<HeldPart>& held);
-  /// Another tool moves parts: there is no gizmo meanwhile.
+  /// Hides the gizmo while another tool moves parts.
   void setAside(bool isAside);
-  /// Puts what is on its way where it is now; for whoever needs the scene.
+  /// Ends a move that is still settling and puts its present poses into the session; for
+  /// those who need the scene.
   void commit();
-  /// Moves parts together so that the lead comes to stand there, or as near as it can where parts are solid;
-  /// one step of undo; says so when one of them may not be moved. Not for a part in hand.
-  /// @param verb  What undo calls the step, before the part's name.
+  /// Moves parts together so that the lead gets that pose, as one undo step. Solid parts move asynchronously,
+  /// as near to it as contact allows. If one of the parts may not be moved, emits noted() and does nothing.
+  /// Not for a part in hand.
+  /// @param verb  Name of the undo step, before the part's name; a string literal.
   void bring(const std::vector<PartId>& parts, PartId lead, const RigidTransform& worldFromLead,
              const char* verb);
-  /// The selected ones, by the current one.
+  /// The same for the selected parts, with the current part as the lead.
   void bring(const RigidTransform& worldFromCurrent);
-  /// Where a part is shown while it is dragged; nothing for all others.
+  /// Returns where a part is shown while it is dragged; nullopt for all other parts.
   std::optional<RigidTransform> draggedPose(PartId part) const;
 
  signals:
-  /// Parts are dragged, or have been put back.
+  /// Emitted when dragged parts have moved or are back at their poses.
   void draggedPosesChanged();
-  /// The manual hand is to go there.
+  /// Emitted when the manual hand is to want the part there.
   void handWanted(const nearfit::RigidTransform& worldFromPart);
-  /// What may be touched has no hierarchies yet: they had better be there before a drag.
+  /// Emitted when solid moves are switched on: hierarchies should be ready before a drag.
   void hierarchiesWanted();
   void failed(const nearfit::ui::Failure& failure);
+  /// Emitted with a note for the status bar.
   void noted(const QString& text);
 
  private:
-  /// A move to a pose that is known, to the last bit.
+  /// A move to a known pose, which it must reach exactly.
   struct Brought {
     PartId lead{};
     RigidTransform worldFromLead;
@@ -80,7 +83,7 @@ class PlacingTools : public QObject {
   std::vector<PlacedPart> placed(const std::vector<PartId>& parts) const;
   bool isMovable(const Part& part) const;
   RigidTransform shownPose(const Part& part) const;
-  /// The selected parts are the one that the manual hand holds.
+  /// True if the selection is exactly the part in the manual hand.
   bool leadsHand() const;
   std::optional<GizmoFrame> frame() const;
   std::optional<glm::dvec3> grab(const QPoint& position) const;
@@ -117,7 +120,7 @@ class PlacingTools : public QObject {
   std::optional<glm::dvec3> draggedPivot_;  ///< In the world [m].
   std::optional<Brought> brought_;
   bool isAside_ = false;
-  bool isPutting_ = false;  ///< The session changes by this.
+  bool isPutting_ = false;  ///< This is changing the session.
 };
 
 }  // namespace nearfit::ui

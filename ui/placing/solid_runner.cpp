@@ -8,7 +8,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// Between two looks at what is wanted now: few enough that a drag is followed at once.
+/// Ticks between checks for a newer want(): few enough to follow a drag at once.
 constexpr int kTicksAtOnce = 6;
 
 }  // namespace
@@ -82,7 +82,7 @@ void SolidRunner::work() {
     try {
       runJob(*job);
     } catch (const Cancelled&) {
-      // Nobody waits for it any more.
+      // Another move or a stop has ended it.
     } catch (...) {
       publishFailure(job->serial, std::current_exception());
     }

@@ -13,36 +13,39 @@
 
 namespace nearfit::ui {
 
-/// Where a SolidMove has brought its parts.
+/// Poses that a SolidMove has reached.
 struct SolidReached {
-  std::uint64_t wanted = 0;           ///< Which want() they were on the way to.
+  std::uint64_t wanted = 0;           ///< The want() they were moving towards.
   std::vector<RigidTransform> poses;  ///< worldFromPart, in the order of the parts.
-  RigidTransform motion;              ///< From the start to there.
+  RigidTransform motion;              ///< World motion from the start to these poses.
   std::vector<PartId> touching;
   bool isSettled = false;   ///< They go no farther.
-  bool hasArrived = false;  ///< Where they were wanted, to the last bit.
+  bool hasArrived = false;  ///< They are exactly where they were wanted.
 };
 
-/// A SolidMove in a thread of its own: whoever drags never waits for it, and sees the newest that it has
-/// reached. What has to be prepared before is prepared there too.
+/// Runs a SolidMove in its own thread, so that a drag never waits for it, and reports the newest poses.
+/// Missing hierarchies are built in that thread too.
 class SolidRunner : public QObject {
   Q_OBJECT
 
  public:
   explicit SolidRunner(QObject* parent = nullptr);
-  /// Stops the thread; waits for no more than a few ticks.
+  /// Stops and joins the thread; takes a few ticks at most.
   ~SolidRunner() override;
 
-  /// Begins with parts where the scene has them; whatever was under way is forgotten.
+  /// Starts a move with the parts at their poses in `scene`; drops any other move.
   void start(Scene scene, std::vector<PartId> moved);
-  /// Where they are to go from now on. @param motion  As for SolidMove::advance.
-  /// @return What SolidReached::wanted will be.
+  /// Sets where the parts are to go.
+  /// @param motion  As for SolidMove::advance.
+  /// @return  The value of SolidReached::wanted that will refer to this call.
   std::uint64_t want(const RigidTransform& motion);
+  /// Ends the move; its results are no longer reported.
   void stop();
 
  signals:
-  /// On this object's thread, for the newest only.
+  /// Emitted on this object's thread with the newest poses; older ones may be skipped.
   void reached(const nearfit::ui::SolidReached& reached);
+  /// Emitted on this object's thread when the move has failed.
   void failed(const std::exception_ptr& error);
 
  private:
@@ -59,14 +62,14 @@ class SolidRunner : public QObject {
   void work();
   void runJob(const Job& job);
   std::optional<Job> nextJob();
-  /// Waits until something is wanted that is not `done`; nothing once the job is not the present one.
+  /// Waits for a want() newer than `done`; nullopt once `job` is no longer the current one.
   std::optional<Wanted> nextWanted(std::uint64_t job, std::uint64_t done);
   bool isPresent(std::uint64_t job);
   void publish(std::uint64_t job, SolidReached reached);
   void publishFailure(std::uint64_t job, const std::exception_ptr& error);
   void deliver();
 
-  std::mutex mutex_;  ///< Guards all that follows but the thread.
+  std::mutex mutex_;  ///< Guards all members below except thread_.
   std::condition_variable changed_;
   Job job_;
   Wanted wanted_;

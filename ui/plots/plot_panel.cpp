@@ -90,7 +90,7 @@ const PlotHistory& PlotPanel::shown() const {
 }
 
 void PlotPanel::add(const std::vector<MotionRow>& rows, quint64 lost) {
-  // A new run begins, whose ticks are all there so far.
+  // A new run begins, with no ticks missing so far.
   const bool isNewRun = !rows.empty() && rows.front().time < live_.endTime();
   for (const MotionRow& row : rows)
     live_.add(plotSample(row));

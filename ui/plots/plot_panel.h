@@ -15,7 +15,7 @@ namespace nearfit::ui {
 
 class PlotView;
 
-/// What is felt, and how the servo keeps up, over time: live, or of a recording that is played.
+/// Plots what is felt, and how the servo keeps up, over time: live, or of a recording that is played.
 class PlotPanel : public QWidget {
   Q_OBJECT
 
@@ -23,17 +23,20 @@ class PlotPanel : public QWidget {
   explicit PlotPanel(QWidget* parent = nullptr);
   ~PlotPanel() override;
 
-  /// Ticks that were done since the last time, in order. What is plotted meanwhile may be a recording.
-  /// @param lost  Ticks after these that are missing: the lines have a gap there, and the note says so.
+  /// Adds the ticks since the last call, in order; also while a recording is plotted.
+  /// @param lost  Ticks missing after these: the lines have a gap there, and the note says so.
   void add(const std::vector<MotionRow>& rows, quint64 lost = 0);
-  /// Plots a recording instead.
+  /// Plots a recording instead of live ticks.
   void showRecording(const std::vector<MotionRow>& rows);
-  /// The time of it that is looked at [s].
+  /// Marks a time of the recording [s].
   void setRecordingTime(double time);
+  /// Plots live ticks again.
   void showLive();
 
  signals:
+  /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
+  /// Emitted with a short note for the status bar.
   void noted(const QString& text);
 
  private:
@@ -52,7 +55,7 @@ class PlotPanel : public QWidget {
   QLabel* note_;
   PlotHistory live_;
   std::optional<PlotHistory> paused_, recording_;
-  quint64 lost_ = 0;  ///< Ticks that are missing in what is live.
+  quint64 lost_ = 0;  ///< Ticks missing in the live plots.
 };
 
 }  // namespace nearfit::ui

@@ -11,7 +11,7 @@ namespace {
 
 const QColor kClearance(0x0b, 0x84, 0x84), kTick(0x1f, 0x73, 0xd0), kLate(0xe2, 0x71, 0x1d);
 
-/// Zero below, and room for the title above the greatest; something where there is nothing.
+/// Returns a range from zero to above the greatest value, with room for the title; never empty.
 QCPRange valueRange(double greatest) {
   constexpr double kRoom = 1.35;
   return {0.0, greatest > 0.0 ? kRoom * greatest : 1.0};
@@ -25,7 +25,7 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent) {
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(320, 180);
   setAutoAddPlottableToLegend(false);
-  // Many short lines: nobody sees the difference, and it costs several times as much.
+  // With many short lines antialiasing is invisible, and costs several times as much.
   setNotAntialiasedElements(QCP::aePlottables);
   setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
   plotLayout()->clear();
@@ -50,7 +50,7 @@ void PlotView::addPane(int row, int column, const QString& label,
   plotLayout()->addElement(row, column, pane.rect);
   QCPAxis* time = pane.rect->axis(QCPAxis::atBottom);
   QCPAxis* value = pane.rect->axis(QCPAxis::atLeft);
-  // Beside the axis it would be cut off where there is little height.
+  // Inside the pane: beside the axis a low plot would cut it off.
   auto* title = new QCPTextElement(this, label);
   pane.rect->insetLayout()->addElement(title, Qt::AlignTop | Qt::AlignLeft);
   // Clear of the axis and its ticks.
@@ -60,7 +60,7 @@ void PlotView::addPane(int row, int column, const QString& label,
   time->setLabel(row == 1 ? tr("Time [s]") : QString());
   value->ticker()->setTickCount(4);
   pane.rect->setMinimumMargins({0, 4, 6, 0});
-  // The values scale themselves.
+  // The value axis scales itself.
   pane.rect->setRangeZoom(Qt::Horizontal);
   pane.rect->setRangeDrag(Qt::Horizontal);
   connect(time, QOverload<const QCPRange&>::of(&QCPAxis::rangeChanged), this, &PlotView::takeUserRange);
@@ -133,7 +133,7 @@ void PlotView::setHistory(const PlotHistory* history) {
 
 void PlotView::refresh() {
   isDue_ = true;
-  // The first at once, so that a scrubbed time does not lag behind.
+  // Draw the first change at once, so that a scrubbed time does not lag behind.
   if (isVisible() && !timer_.isActive()) drawPanes();
 }
 

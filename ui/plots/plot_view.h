@@ -11,9 +11,9 @@
 
 namespace nearfit::ui {
 
-/// Draws what a run felt over time: force, torque, clearance, and the servo's times, four plots over one
-/// time. Follows the newest until the user zooms (wheel) or drags. Draws at most thirty times a second, and
-/// not at all while hidden or when nothing is new. No peak is lost, however long the time shown is.
+/// Draws what a run felt over time, in four plots with one time axis: force, torque, clearance, and the
+/// servo's times. Follows the newest ticks until the user zooms (wheel) or drags. Draws at most thirty times
+/// a second, and not at all while hidden or without new data. No peak is lost, however long the time shown.
 class PlotView : public QCustomPlot {
   Q_OBJECT
 
@@ -22,22 +22,22 @@ class PlotView : public QCustomPlot {
 
   explicit PlotView(QWidget* parent = nullptr);
 
-  /// Draws that from now on; null draws nothing. It outlives this, or the next call.
+  /// Sets what to draw; null draws nothing. It must outlive this, or stay until the next call.
   void setHistory(const PlotHistory* history);
-  /// What setHistory gave has changed.
+  /// Draws again after the history has changed.
   void refresh();
-  /// The newest so many seconds, and following them; infinity: all that there is.
+  /// Shows the newest `seconds` and follows them; infinity shows all.
   void follow(double seconds);
   bool isFollowing() const noexcept { return isFollowing_; }
-  /// A vertical line at a time [s]; nothing: none.
+  /// Draws a vertical line at a time [s]; std::nullopt removes it.
   void setCursorTime(std::optional<double> time);
-  /// The time that is shown [s].
+  /// Returns the time range shown [s].
   QCPRange timeRange() const;
-  /// Pictures drawn since the start, for tests.
+  /// Returns the number of pictures drawn so far, for tests.
   int redrawCount() const noexcept { return redraws_; }
 
  signals:
-  /// The user has zoomed or dragged, or follow() was called.
+  /// Emitted with false when the user zoomed or dragged, with true when follow() was called.
   void followingChanged(bool isFollowing);
 
  protected:
@@ -49,7 +49,7 @@ class PlotView : public QCustomPlot {
   struct Line {
     PlotChannel channel;
     QCPGraph* graph;
-    double scale;  ///< Units drawn to the SI unit.
+    double scale;  ///< Drawn units per SI unit.
   };
   struct Pane {
     QCPAxisRect* rect;
@@ -64,7 +64,7 @@ class PlotView : public QCustomPlot {
   void drawPanes();
   void drawPane(Pane& pane, const QCPRange& range);
   QCPRange followedRange() const;
-  /// The values with room above them for the pane's title and legend.
+  /// Returns the range extended at the top, to make room for the pane's title and legend.
   QCPRange belowTitle(const QCPRange& values, const Pane& pane) const;
 
   const PlotHistory* history_ = nullptr;

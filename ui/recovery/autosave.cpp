@@ -42,7 +42,7 @@ Autosave::Autosave(Session& session, std::shared_ptr<RecoveryFolder> folder,
 }
 
 void Autosave::noteChange() {
-  // Not begun anew by each change: work that never pauses is kept too.
+  // A change does not restart the delay, so that work without a pause is kept too.
   if (task_ && !changed_.isActive()) changed_.start();
 }
 

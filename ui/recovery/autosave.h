@@ -14,37 +14,38 @@
 
 namespace nearfit::ui {
 
-/// Keeps what is not saved in this process's recovery journal: written in another thread shortly after a
-/// change, never when nothing has changed, removed when there is nothing to lose.
+/// Keeps unsaved work in this process's recovery journal: writes it in another thread shortly after a change,
+/// never without one, and removes it when there is nothing to lose.
 class Autosave : public QObject {
   Q_OBJECT
 
  public:
-  /// How long after a change, and how often while a part is in hand [ms].
+  /// Delay after a change, and interval while a part is in hand [ms].
   static constexpr int kDelay = 1000, kMotionInterval = 2000;
-  /// The part in hand and where it is; empty when none is.
+  /// The part in hand and its worldFromPart; empty if there is none.
   using PoseInHand = std::optional<std::pair<PartId, RigidTransform>>;
 
-  /// @param session  Outlives this.
+  /// @param session     Must outlive this.
+  /// @param poseInHand  Returns the part in hand and its pose; called on this object's thread.
   Autosave(Session& session, std::shared_ptr<RecoveryFolder> folder, std::function<PoseInHand()> poseInHand,
            QObject* parent = nullptr);
 
-  /// The part in hand may have moved: its pose is kept too, without a step of undo.
+  /// Keeps the pose of the part in hand soon, without an undo step.
   void noteMotion();
-  /// Without a delay; `written` or `failed` tells of it.
+  /// Writes without delay; written() or failed() tells the outcome.
   void writeNow();
   bool isWriting() const noexcept { return task_ && task_->isRunning(); }
-  /// A clean exit: nothing is written any more, and the journal is removed.
+  /// For a clean exit: writes nothing any more and removes the journal.
   void finish();
 
  signals:
-  /// The journal holds the scene as it was when writing began.
+  /// Emitted when the journal holds the scene as it was when writing began.
   void written();
-  /// It could not be written; told once, until it can be again.
+  /// Emitted when the journal could not be written; once, until it can be again.
   void failed(const QString& cause);
 
  private:
-  /// What tells one content of the journal from another.
+  /// Tells one content of the journal from another.
   struct Content {
     std::uint64_t serial = 0;
     std::filesystem::path file;
@@ -60,7 +61,7 @@ class Autosave : public QObject {
   std::function<PoseInHand()> poseInHand_;
   QTimer changed_, moved_;
   std::unique_ptr<BackgroundTask> task_;
-  std::optional<Content> content_;  ///< Of the journal, when there is one.
+  std::optional<Content> content_;  ///< Content of the journal; empty if there is none.
   bool hasFailed_ = false, isDue_ = false;
 };
 

@@ -59,7 +59,7 @@ void Recovery::show(FoundWork found) {
 
 void Recovery::restore(const LostWork& work) {
   if (document_.isBusy()) {
-    // What the command line names is still being opened.
+    // Files from the command line are still being opened.
     auto* once = new QObject(this);
     connect(
         &document_, &Document::busyChanged, once,
@@ -72,7 +72,7 @@ void Recovery::restore(const LostWork& work) {
     return;
   }
   document_.openLost(fromPath(work.journal), work.head.scene, [this, work] {
-    // The old journal goes when the new one holds its work, not before.
+    // The old journal goes only when the new one holds its work.
     auto* once = new QObject(this);
     connect(autosave_, &Autosave::written, once, [once, work, folder = folder_] {
       folder->forget(work);

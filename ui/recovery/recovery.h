@@ -13,29 +13,32 @@ namespace nearfit::ui {
 
 class Document;
 
-/// That nothing is lost when the program dies: keeps a journal of this run, and offers what earlier runs
-/// left.
+/// Protects work from a crash: keeps a journal of this run, and offers what earlier runs left.
 class Recovery : public QObject {
   Q_OBJECT
 
  public:
-  /// @param folder            As userRecoveryFolder gives it; not empty.
-  /// @param session, document, window  Outlive this.
+  /// @param folder      Folder from userRecoveryFolder(); not empty.
+  /// @param session     Must outlive this.
+  /// @param document    Must outlive this.
+  /// @param poseInHand  See Autosave.
+  /// @param window      Must outlive this.
   Recovery(const std::filesystem::path& folder, Session& session, Document& document,
            std::function<Autosave::PoseInHand()> poseInHand, QWidget* window);
 
   Autosave& autosave() noexcept { return *autosave_; }
-  /// After which a process that was ending has ended, also where it held much [ms].
+  /// Times by which a process that was ending has ended, even if it held much memory [ms].
   static constexpr int kSecondLookMs = 2500, kThirdLookMs = 10'000;
-  /// Looks in another thread for what was lost, and asks about it when there is something. Where others run,
-  /// it looks again: who starts anew at once after a crash may be faster than the end of what crashed.
+  /// Searches for lost work in another thread, and offers what it finds. Searches again while other processes
+  /// run: a program restarted right after a crash may be faster than the end of the crashed one.
   void offer();
 
  signals:
-  /// It has looked, and offers what it found.
+  /// Emitted after each search, when what it found has been offered.
   void looked();
-  /// A quiet word for the status bar.
+  /// Emitted with a short note for the status bar.
   void noted(const QString& text);
+  /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
 
  private:

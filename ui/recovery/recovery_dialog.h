@@ -9,8 +9,8 @@ class QVBoxLayout;
 
 namespace nearfit::ui {
 
-/// Offers each piece of lost work to be restored, discarded, or left for later. Closing it leaves the rest
-/// for later.
+/// Offers to restore each piece of lost work, to discard it, or to leave it for later. Closing the dialog
+/// leaves the rest for later.
 class RecoveryDialog : public QDialog {
   Q_OBJECT
 
@@ -18,8 +18,9 @@ class RecoveryDialog : public QDialog {
   RecoveryDialog(const std::vector<LostWork>& lost, QWidget* parent);
 
  signals:
-  /// The dialog then closes: one scene is open at a time.
+  /// Emitted when the user restores one; the dialog closes, since only one scene is open at a time.
   void restoreRequested(const nearfit::LostWork& work);
+  /// Emitted when the user discards one.
   void discardRequested(const nearfit::LostWork& work);
 
  private:

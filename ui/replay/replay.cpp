@@ -17,7 +17,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// For each picture of a 60 Hz display.
+/// One step for each picture of a 60 Hz display.
 constexpr int kEveryMs = 16;
 
 bool isCancelled(const std::exception_ptr& error) {
@@ -110,7 +110,7 @@ void Replay::open(const QString& file) {
 }
 
 void Replay::begin(const QString& file, std::vector<MotionRow> rows) {
-  // It may be gone, or in hand, meanwhile.
+  // The moving part may be gone, or in hand, meanwhile.
   if (!isAllowed_ || !session_.scene().movingPart()) return;
   moving_ = *session_.scene().movingPart();
   playback_.emplace(std::move(rows));
@@ -134,7 +134,7 @@ void Replay::close() {
 
 void Replay::setPlaying(bool isPlaying) {
   if (!playback_) return;
-  // At the end it begins again, as there is nothing more to play.
+  // At the end there is nothing more to play: begin again.
   if (isPlaying && playback_->time() >= playback_->duration()) playback_->seek(0.0);
   isPlaying ? timer_.start() : timer_.stop();
   sinceLast_.restart();

@@ -20,33 +20,42 @@ namespace nearfit::ui {
 class ProgressDialog;
 class Timeline;
 
-/// Plays a recording: reads it in another thread, lets time pass, and says what is to be shown. The session
-/// is not changed; when the recording is closed, everything is as it was.
+/// Plays a recording: reads it in another thread, lets time pass, and tells what to show. Does not change the
+/// session; when the recording is closed, everything is as it was.
 class Replay : public QObject {
   Q_OBJECT
 
  public:
-  /// @param session, timeline, window  Outlive this.
+  /// @param session   Must outlive this.
+  /// @param timeline  Must outlive this.
+  /// @param window    Must outlive this.
   Replay(Session& session, Timeline& timeline, QWidget* window);
   ~Replay() override;
 
   bool isOpen() const noexcept { return playback_.has_value(); }
+  /// Returns the rows of the recording; only while one is open.
   const std::vector<MotionRow>& rows() const { return playback_->rows(); }
 
   /// Asks for a file and opens it.
   void askAndOpen();
+  /// Opens a recording; no-op while another is being read, or while not allowed.
   void open(const QString& file);
-  /// Only one moves the part: while the servo does, nothing is shown, and what is open is closed.
+  /// Allows replay, or closes an open recording and shows nothing: only one may move the part,
+  /// and the servo does.
   void setAllowed(bool isAllowed);
-  /// Puts everything back. Harmless when nothing is open.
+  /// Closes the recording and puts everything back; no-op if none is open.
   void close();
 
  signals:
+  /// Emitted when a recording is open.
   void opened();
-  /// The row that counts is another.
+  /// Emitted with the row to show, as a snapshot.
   void rowShown(const nearfit::ServoSnapshot& snapshot);
+  /// Emitted when the recording was closed.
   void closed();
+  /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
+  /// Emitted with a short note for the status bar.
   void noted(const QString& text);
 
  private:
@@ -64,7 +73,7 @@ class Replay : public QObject {
   BackgroundTask task_;
   QPointer<ProgressDialog> progress_;
   std::optional<MotionPlayback> playback_;
-  PartId moving_{};  ///< That the recording moves.
+  PartId moving_{};  ///< Part that the recording moves.
   std::unique_ptr<ServoSnapshot> shown_;
   QTimer timer_;
   QElapsedTimer sinceLast_;

@@ -24,14 +24,14 @@ namespace {
 constexpr int kScaleSteps = 100'000;
 constexpr double kSpeeds[] = {0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 10.0};
 constexpr int kRealTime = 3;
-/// Rows that a press with Shift goes: a tenth of a second at 1 kHz.
+/// Rows that a press with Shift skips: a tenth of a second at 1 kHz.
 constexpr int kManyRows = 100;
 
 QString timeText(double time) {
   return QObject::tr("%1 s").arg(formatFixed(time, 3));
 }
 
-/// A slider that goes where it is pressed, as that of a player does.
+/// A slider that jumps to where it is pressed, as that of a player does.
 class Scale : public QSlider {
  public:
   using QSlider::QSlider;
@@ -148,7 +148,7 @@ void Timeline::showRecording(const QString& name, double duration) {
 
 void Timeline::showTime(double time, const QString& note) {
   const QSignalBlocker blocker(scale_);
-  // While it is dragged it is where the mouse is.
+  // A dragged slider stays where the mouse is.
   if (!scale_->isSliderDown())
     scale_->setValue(duration_ > 0.0 ? static_cast<int>(std::lround(kScaleSteps * time / duration_)) : 0);
   time_->setText(timeText(time) + QStringLiteral(" / ") + timeText(duration_));

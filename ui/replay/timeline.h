@@ -9,20 +9,24 @@ class QToolButton;
 
 namespace nearfit::ui {
 
-/// The buttons and the scale with which a recording is played. Knows times, nothing of what is played.
+/// Buttons and time scale for playing a recording. Knows times, but nothing of what is played.
 class Timeline : public QWidget {
   Q_OBJECT
 
  public:
   explicit Timeline(QWidget* parent = nullptr);
 
-  /// @param name  Of the recording; empty: there is none, and nothing can be pressed.
+  /// @param name      Name of the recording; empty: there is none, and the controls are disabled.
+  /// @param duration  [s]
   void showRecording(const QString& name, double duration);
+  /// @param time  [s]
   /// @param note  What the row there says, in words.
   void showTime(double time, const QString& note);
   void showPlaying(bool isPlaying);
 
  signals:
+  /// Each is emitted when the user asks for what its name says. `time` is in [s], negative `rows` go back,
+  /// `speed` is a multiple of real time.
   void playToggled();
   void sought(double time);
   void stepped(int rows);

@@ -18,13 +18,13 @@
 namespace nearfit::ui {
 namespace {
 
-/// Of a stripe's width the dark line, and how dark it is.
+/// Width of the texture, the dark line's share of it, and that line's brightness.
 constexpr int kHatchSize = 32;
 constexpr double kLineShare = 0.16, kLineShade = 0.5;
-/// The cut face is lighter than the part's surface.
+/// How much lighter the cut face is than the part's surface.
 constexpr double kTint = 0.30;
 constexpr double kDepth = 0.3, kDepthStep = 0.1;
-/// Angles that stripes take in turn, to the plane's first axis [rad].
+/// Angles that stripes take in turn, from the plane's first axis [rad].
 constexpr double kLeans[] = {0.25 * std::numbers::pi, 0.75 * std::numbers::pi, std::numbers::pi / 6.0,
                              2.0 * std::numbers::pi / 3.0};
 
@@ -51,12 +51,12 @@ vtkSmartPointer<vtkCellArray> cellsOf(const std::vector<std::array<std::uint32_t
   return all;
 }
 
-/// @param depth  How far it steps back, in units of what keeps lines before surfaces.
+/// @param depth  Polygon offset, relative to that of the parts' surfaces.
 void addTo(vtkRenderer& renderer, vtkActor& actor, vtkPolyData& data, vtkMatrix4x4& pose, double depth) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(&data);
   mapper->ScalarVisibilityOff();
-  // The face steps back behind its outline, by less than the parts' surfaces: one may lie in it.
+  // Push the face behind its outline, but less than the parts' surfaces, one of which may lie in it.
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
   mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(depth, depth);
   actor.SetMapper(mapper);
@@ -71,7 +71,7 @@ vtkSmartPointer<vtkTexture> makeHatch() {
   image->SetDimensions(kHatchSize, 1, 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   for (int x = 0; x < kHatchSize; ++x) {
-    // Soft at its sides, so that it does not flicker from afar.
+    // Soft edges, so that the hatch does not flicker at a distance.
     const double off = std::abs(x + 0.5 - 0.5 * kHatchSize) / kHatchSize - 0.5 * kLineShare;
     const double light = std::clamp(0.5 + off * 0.5 * kHatchSize, 0.0, 1.0);
     auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(x, 0, 0));
@@ -87,7 +87,8 @@ vtkSmartPointer<vtkTexture> makeHatch() {
 }
 
 PartCap::PartCap(vtkRenderer& renderer, vtkTexture* hatch, unsigned lean) : renderer_(renderer), lean_(lean) {
-  // Where parts overlap, one covers the other instead of fighting for the same depth.
+  // Different offsets let one of two overlapping parts cover the other, instead of
+  // fighting for the same depth.
   const double depth = kDepth + kDepthStep * static_cast<double>(lean_ % std::size(kLeans));
   addTo(renderer_, *face_.Get(), *faces_.Get(), *pose_.Get(), depth);
   addTo(renderer_, *outline_.Get(), *lines_.Get(), *pose_.Get(), depth);
@@ -129,7 +130,7 @@ void PartCap::fill(const std::array<glm::dvec3, 2>& stripes, double spacing) {
   places->SetNumberOfComponents(2);
   normals->SetNumberOfComponents(3);
   for (const glm::dvec3& p : section_->capPoints) {
-    // From the part's own origin: the stripes go with the part.
+    // Measured from the part's origin, so that the stripes move with the part.
     places->InsertNextTuple2(glm::dot(p, across), 0.5);
     normals->InsertNextTuple3(plane_.normal.x, plane_.normal.y, plane_.normal.z);
   }

@@ -14,31 +14,32 @@
 
 namespace nearfit::ui {
 
-/// Stripes for cut faces: one for all parts.
+/// Makes the stripes for cut faces; one texture serves all parts.
 vtkSmartPointer<vtkTexture> makeHatch();
 
-/// Where one part is cut open: its cut face in the part's colour, hatched, with its outline. In the renderer
-/// from construction to destruction.
+/// The cut face of one part: in the part's colour, hatched, with its outline. In the renderer from
+/// construction to destruction.
 class PartCap {
  public:
   /// @param renderer  Outlives this.
-  /// @param lean      Which way the stripes lean, as neighbours lean differently: any number.
+  /// @param lean      Selects the angle of the stripes; any number. Neighbours should differ.
   PartCap(vtkRenderer& renderer, vtkTexture* hatch, unsigned lean);
   ~PartCap();
   PartCap(const PartCap&) = delete;
   PartCap& operator=(const PartCap&) = delete;
 
-  /// Cuts anew where something of it has changed.
-  /// @param plane    In the world.
-  /// @param spacing  Of the stripes [m].
+  /// Computes the section, unless nothing has changed.
+  /// @param plane    World frame.
+  /// @param spacing  Distance of the stripes [m].
   void show(const PartGeometryPtr& geometry, const RigidTransform& worldFromPart, const CutPlane& plane,
             double spacing);
-  /// As the part looks now.
-  /// @param edges  Whose look the outline shares.
+  /// Makes the cut face look like the part.
+  /// @param colour  RGB, 0 to 1.
+  /// @param edges   The part's edge property; the outline shares it.
   void setLook(const double colour[3], double opacity, vtkProperty* edges);
 
   vtkActor* face() const noexcept { return face_; }
-  /// In the part's frame.
+  /// The section in the part's frame; null before show().
   const std::shared_ptr<const MeshSection>& section() const noexcept { return section_; }
 
  private:

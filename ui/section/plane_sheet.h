@@ -13,20 +13,21 @@ class QColor;
 
 namespace nearfit::ui {
 
-/// Shows where a plane cuts: the outline of a rectangle in it.
+/// Shows a cutting plane by the outline of a rectangle in it.
 class PlaneSheet {
  public:
+  /// @param renderer  May be destroyed before this.
   explicit PlaneSheet(vtkRenderer& renderer);
   ~PlaneSheet();
   PlaneSheet(const PlaneSheet&) = delete;
   PlaneSheet& operator=(const PlaneSheet&) = delete;
 
-  /// As large as a box in the world is, seen against the normal.
+  /// Shows the outline, as large as `box` seen along the normal; both in the world. `box` must not be empty.
   void show(const CutPlane& plane, const Aabb& box, const QColor& colour);
   void clear();
 
  private:
-  vtkWeakPointer<vtkRenderer> renderer_;  ///< The view may go first.
+  vtkWeakPointer<vtkRenderer> renderer_;  ///< Weak: the view may be destroyed first.
   vtkNew<vtkPoints> corners_;
   vtkNew<vtkPolyData> outline_;
   vtkNew<vtkActor> actor_;

@@ -8,13 +8,13 @@
 namespace nearfit::ui {
 namespace {
 
-/// So many stripes across the scene.
+/// Number of stripes across the scene.
 constexpr double kStripes = 50.0;
-/// Surfaces are drawn so far beyond the plane, in parts of the scene's size: faces that lie in it stay whole
-/// in the single precision of the graphics card.
+/// Surfaces are drawn this far beyond the plane, as a fraction of the scene's size. That keeps faces that lie
+/// in the plane, despite the GPU's single precision.
 constexpr double kOver = 2e-6;
 
-/// Of steps a factor of two apart: stripes do not change with each move of a part.
+/// Rounds to a power of two, so that stripes do not change whenever a part moves.
 double stepped(double length) {
   return length > 0.0 ? std::exp2(std::round(std::log2(length))) : 1.0;
 }

@@ -16,34 +16,36 @@ namespace nearfit::ui {
 
 /// How the view is cut open.
 struct ViewCut {
-  CutPlane plane;             ///< In the world.
+  CutPlane plane;             ///< World frame.
   bool sparesMoving = false;  ///< The moving part stays whole.
   bool operator==(const ViewCut&) const = default;
 };
 
-/// The plane that parts are cut by, and what closes the cut, as far as the parts are closed.
+/// The plane that cuts the parts, and the caps of those that can be closed.
 class SceneCut {
  public:
   /// @param renderer  Outlives this.
   explicit SceneCut(vtkRenderer& renderer);
 
-  /// Nothing: all parts are whole.
+  /// Sets the cut; nullopt: all parts are whole.
   void set(const std::optional<ViewCut>& cut) { cut_ = cut; }
   const std::optional<ViewCut>& cut() const noexcept { return cut_; }
+  /// True if a part is cut; `isMoving` says that it is the moving part.
   bool cuts(bool isMoving) const noexcept { return cut_ && !(isMoving && cut_->sparesMoving); }
-  /// For mappers: what lies on the side of its normal stays.
+  /// Clipping plane for mappers: what lies on the side of its normal stays.
   vtkPlane* plane() const noexcept { return plane_; }
 
-  /// Before each picture and each pick: follows parts that came, left, moved or look differently. Cuts only
-  /// what has moved against the plane.
-  /// @param size  Of the whole scene [m]: stripes are as wide as suits it.
+  /// Makes the cut follow the parts. Before each picture and each pick, call begin(), close() for each cut
+  /// part in the scene's order, and end(). Computes only sections of parts that moved against the plane.
+  /// @param size  Diagonal of the whole scene [m]; sets the distance of stripes.
   void begin(double size);
+  /// Adds or updates the cap of one part.
   void close(const Part& part, const PartActor& actor, const RigidTransform& worldFromPart);
-  /// Takes the caps of those that were not closed since begin().
+  /// Removes the caps of parts for which close() was not called since begin().
   void end();
 
   const std::map<PartId, std::unique_ptr<PartCap>>& caps() const noexcept { return caps_; }
-  /// Parts that are cut and cannot be closed.
+  /// Parts that are cut but cannot be closed.
   const std::vector<PartId>& open() const noexcept { return open_; }
 
  private:
@@ -52,7 +54,7 @@ class SceneCut {
   vtkNew<vtkPlane> plane_;
   vtkSmartPointer<vtkTexture> hatch_;
   std::map<PartId, std::unique_ptr<PartCap>> caps_;
-  std::vector<PartId> closed_, open_;  ///< In the scene's order, which is by their ids.
+  std::vector<PartId> closed_, open_;  ///< In the scene's order, which is by id.
   double spacing_ = 1.0;
 };
 

@@ -19,7 +19,7 @@ namespace {
 constexpr double kFarthest = 1e6;  ///< [m]
 constexpr int kSliderSteps = 1000, kSliderWidth = 150, kLetterWidth = 30;
 
-/// Which one is down has to be seen at a glance.
+/// Makes the checked button stand out.
 constexpr const char* kAxisSheet =
     "QToolButton { border: 1px solid #c9d2db; border-radius: 4px; padding: 2px 7px; background: #ffffff; %1 }"
     "QToolButton:hover { background: #e6eef7; border-color: #9fc4ec; }"
@@ -90,7 +90,7 @@ void SectionBar::addAxes(QHBoxLayout& row) {
   for (QToolButton* button : axes_) {
     connect(button, &QToolButton::clicked, this, [this, axis = static_cast<SectionAxis>(next++)] {
       const bool wasPicking = isPicking_;
-      // Which one is down is told by whoever lays the plane.
+      // Undo the click's own check: the tool that lays the plane sets it.
       showAxis(axis_);
       if (axis == SectionAxis::Face) return emit faceWanted(!wasPicking);
       emit axisChosen(axis);

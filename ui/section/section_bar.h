@@ -17,36 +17,43 @@ namespace nearfit::ui {
 
 class NumberField;
 
-/// What a plane was laid across: an axis of the world, the direction of sight as it was then, or a face.
+/// Ways to lay the plane: across a world axis or the direction of view at that time, or through a face.
 enum class SectionAxis { X, Y, Z, Sight, Face };
 
-/// What a section is set by, over the lower edge of the view.
+/// The section tool's bar: axis, position, flip, and whether the moving part stays whole.
 class SectionBar : public ViewBar {
   Q_OBJECT
 
  public:
   explicit SectionBar(QWidget* view);
 
-  /// Nothing: the plane has been tilted since.
+  /// Checks the button of that axis; nullopt: the plane was tilted since.
   void showAxis(std::optional<SectionAxis> axis);
-  /// A face is being asked for.
+  /// Shows whether a face is being asked for.
   void showPicking(bool isPicking);
-  /// Along the plane's direction [m].
+  /// Shows the plane's position.
+  /// @param position  Along the plane's direction [m].
+  /// @param reach     Ends of the slider [m].
   void showPosition(double position, const std::pair<double, double>& reach);
+  /// True if the moving part stays whole.
   bool isMovingSpared() const;
+  /// Sets that without a signal.
   void spareMoving(bool isSpared);
-  /// What is asked for, or cannot be closed; may be empty.
+  /// Shows a prompt, or what cannot be closed; empty hides it.
   void showNote(const QString& note);
 
  signals:
-  /// Also when the same is chosen again; not Face.
+  /// Emitted when an axis is chosen, also the same one again; never with Face.
   void axisChosen(nearfit::ui::SectionAxis axis);
-  /// A face shall be asked for, or shall not any more.
+  /// Emitted when the user starts or stops asking for a face.
   void faceWanted(bool isWanted);
-  /// [m]
+  /// Emitted when the plane is moved by slider or number [m].
   void positionEdited(double position);
+  /// Emitted by Flip: cut away the other side.
   void flipped();
+  /// Emitted when the user chose whether the moving part stays whole.
   void sparingEdited(bool isSpared);
+  /// Emitted by Close.
   void closed();
 
  private:
@@ -63,7 +70,7 @@ class SectionBar : public ViewBar {
   QLabel* note_;
   std::optional<SectionAxis> axis_;
   bool isPicking_ = false;
-  std::pair<double, double> reach_{0.0, 1.0};  ///< Of the slider [m].
+  std::pair<double, double> reach_{0.0, 1.0};  ///< Ends of the slider [m].
 };
 
 }  // namespace nearfit::ui

@@ -19,14 +19,14 @@ namespace nearfit::ui {
 namespace {
 
 const QString kAxisKey = QStringLiteral("section/axis"), kSpareKey = QStringLiteral("section/sparesMoving");
-/// With Ctrl a plane is tilted in such steps [rad].
+/// Step of tilts with Ctrl [rad].
 constexpr double kTiltStep = std::numbers::pi / 12.0;
 
 bool isAxis(SectionAxis axis) {
   return axis <= SectionAxis::Z;
 }
 
-/// A frame whose third axis is a direction.
+/// Returns axes of which the third is that direction.
 glm::dmat3 axesAbout(const glm::dvec3& direction) {
   const auto [right, up] = axesOf(CutPlane{direction, 0.0});
   return {right, up, direction};
@@ -58,7 +58,7 @@ SectionTool::SectionTool(const Session& session, Viewport& view, QWidget* window
 
 SectionTool::~SectionTool() = default;
 
-/// Keys come here that nobody in the window has taken: tools that are asking have taken theirs.
+/// Gets only keys that nothing else in the window has handled, so active tools see Escape first.
 bool SectionTool::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() != QEvent::KeyPress || !action_->isChecked()) return QObject::eventFilter(watched, event);
   if (static_cast<QKeyEvent*>(event)->key() != Qt::Key_Escape) return false;
@@ -119,7 +119,7 @@ void SectionTool::start() {
   if (isLaid_ && !box.isEmpty()) {
     const auto [low, high] = reachAlong(box, direction());
     const double offset = glm::dot(frame_.pivot, direction());
-    // The one from before, unless the parts are elsewhere now.
+    // Keep the last plane, unless the parts are elsewhere now.
     if (offset >= low && offset <= high) return lay(axis_, frame_, across_, origin_);
   }
   const int kept = QSettings().value(kAxisKey, 0).toInt();

@@ -28,7 +28,7 @@ BoxSelect::BoxSelect(Selection& selection, Viewport& view, QObject* parent)
 }
 
 void BoxSelect::begin() {
-  // Each time anew: whoever is installed last is asked first.
+  // Each time: the event filter installed last is called first.
   view_.installEventFilter(this);
   view_.setFocus();
   view_.setCursor(Qt::CrossCursor);
@@ -55,7 +55,7 @@ bool BoxSelect::eventFilter(QObject* watched, QEvent* event) {
     case QEvent::MouseButtonRelease:
       return release(*static_cast<QMouseEvent*>(event));
     case QEvent::ShortcutOverride:
-      // Before tools that Escape ends too.
+      // Before other tools that Escape ends.
       if (static_cast<QKeyEvent*>(event)->key() != Qt::Key_Escape) return false;
       event->accept();
       return true;
@@ -68,7 +68,7 @@ bool BoxSelect::eventFilter(QObject* watched, QEvent* event) {
 
 bool BoxSelect::press(const QMouseEvent& event) {
   const bool isOnlyOne = event.buttons() == event.button();
-  // That the others were let go of was told to nobody.
+  // The release of other buttons was missed.
   if (state_ == State::Abandoned && isOnlyOne) state_ = State::Off;
   if (state_ == State::Off) return false;
   if (state_ == State::Dragging && !isOnlyOne) {

@@ -13,9 +13,9 @@ namespace nearfit::ui {
 class Selection;
 class Viewport;
 
-/// Selects parts by a rectangle: once switched on, the next left drag in the view draws it instead of
-/// orbiting, and whatever of a part is seen in it selects the part. As with clicks, Shift adds and Ctrl adds
-/// or takes out. The other buttons and the wheel stay the view's, and a tool that takes clicks stays on.
+/// Selects parts by a rectangle. While on, the next left drag in the view draws one instead of orbiting; it
+/// selects every part seen in it. As with clicks, Shift adds and Ctrl adds or removes. Other buttons and the
+/// wheel still control the view. A tool that takes clicks stays on.
 class BoxSelect : public QObject {
   Q_OBJECT
 
@@ -23,20 +23,21 @@ class BoxSelect : public QObject {
   /// @param selection, view  Outlive this.
   BoxSelect(Selection& selection, Viewport& view, QObject* parent);
 
-  /// On until a rectangle has been drawn, or Escape is pressed.
+  /// On until a rectangle has been drawn or Escape is pressed.
   QAction* action() const noexcept { return action_; }
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  signals:
+  /// Emitted with a prompt for the status bar.
   void noted(const QString& text);
 
  private:
   enum class State {
     Off,
-    Waiting,  ///< For the drag.
+    Waiting,  ///< For a drag.
     Dragging,
-    Abandoned,  ///< Buttons of a drag that is over are still down: nobody is to take them for a drag.
+    Abandoned,  ///< A drag is over, but buttons are still down: swallow their events.
   };
   void begin();
   void end();

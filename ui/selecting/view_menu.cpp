@@ -43,7 +43,7 @@ bool ViewMenu::eventFilter(QObject* watched, QEvent* event) {
     default:
       break;
   }
-  // The view needs to hear of all of it, too.
+  // The view needs these events too.
   return QObject::eventFilter(watched, event);
 }
 
@@ -54,7 +54,7 @@ void ViewMenu::press(const QMouseEvent& event) {
 
 void ViewMenu::release(const QMouseEvent& event) {
   if (event.button() != Qt::RightButton || !std::exchange(pressedAt_, std::nullopt)) return;
-  // Later: the view has yet to learn that the button is up.
+  // Deferred: the view must handle the release first.
   QTimer::singleShot(0, this, [this, at = event.pos()] { openAt(at); });
 }
 

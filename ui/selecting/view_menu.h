@@ -13,15 +13,15 @@ namespace nearfit::ui {
 class Selection;
 class Viewport;
 
-/// The context menu of the view, for a right click that drags nothing, or the menu key: what can be done with
-/// the part that is clicked, which is selected where it is not yet. A right drag is the view's.
+/// The view's context menu, for a right click without a drag and the menu key. Offers what can be done with
+/// the clicked part; selects it if it is not selected. A right drag controls the view.
 class ViewMenu : public QObject {
   Q_OBJECT
 
  public:
   /// @param selection, view  Outlive this.
-  /// @param ofParts   Actions for what is selected.
-  /// @param ofNothing  Those for a click beside all parts.
+  /// @param ofParts    Actions for the selected parts.
+  /// @param ofNothing  Actions for a click beside all parts.
   ViewMenu(Selection& selection, Viewport& view, QList<QAction*> ofParts, QList<QAction*> ofNothing,
            QObject* parent);
 

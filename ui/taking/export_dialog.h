@@ -10,16 +10,17 @@ class QRadioButton;
 
 namespace nearfit::ui {
 
-/// Asks what is taken away of the scene (format, parts, unit), and says what will be in the file. Remembers
-/// the choices from one time to the next.
+/// Asks what to export (format, parts, unit), and says what the file will hold. Remembers the choices from
+/// one time to the next.
 class ExportDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// @param scene     With the moving part where it is now.
-  /// @param selected  Parts that are selected; may be empty.
+  /// @param scene     Holds the moving part where it is now.
+  /// @param selected  Selected parts; may be empty.
   ExportDialog(Scene scene, std::vector<PartId> selected, QWidget* parent);
 
+  /// Returns what the user chose.
   SceneExport choice() const;
 
  private:

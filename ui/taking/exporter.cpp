@@ -27,7 +27,7 @@ bool isCancelled(const std::exception_ptr& error) {
   return false;
 }
 
-/// "placement" or, of meshes, what they are called together.
+/// Returns "placement" or, for meshes, the scene's name or "parts".
 QString nameFor(const Session& session, ExportKind kind) {
   if (!meshKindOf(kind)) return QStringLiteral("placement");
   return session.file().empty() ? QStringLiteral("parts") : fromPath(session.file().stem());

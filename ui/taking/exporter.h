@@ -17,26 +17,30 @@ namespace nearfit::ui {
 class ProgressDialog;
 class Selection;
 
-/// Takes the scene's placements and meshes away: asks what and where to, writes it in another thread, copies
-/// a pose to the clipboard.
+/// Exports the scene's placements and meshes: asks what and where to, writes it in another thread; copies a
+/// pose to the clipboard.
 class Exporter : public QObject {
   Q_OBJECT
 
  public:
-  /// Where the moving part is now; anything when there is none.
+  /// Returns the moving part's worldFromPart now; anything if there is none.
   using PoseOfMoving = std::function<RigidTransform()>;
 
-  /// @param session, selection, window  Outlive this.
+  /// @param session    Must outlive this.
+  /// @param selection  Must outlive this.
+  /// @param window     Must outlive this.
   Exporter(Session& session, Selection& selection, PoseOfMoving poseOfMoving, QWidget* window);
   ~Exporter() override;
 
-  /// Does nothing while something is being written.
+  /// Asks what to export and writes it; no-op while something is being written.
   void askAndExport();
-  /// The current part's pose as a matrix (matrixText); the moving part's when none is selected.
+  /// Copies the current part's pose as a matrix (matrixText()); the moving part's if none is selected.
   void copyPlacement();
 
  signals:
+  /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
+  /// Emitted with a short note for the status bar.
   void noted(const QString& text);
 
  private:

@@ -21,10 +21,10 @@ using Ground = PictureStyle::Ground;
 const QString kScaleKey = QStringLiteral("picture/scale"), kGroundKey = QStringLiteral("picture/ground"),
               kAxesKey = QStringLiteral("picture/axes"), kLabelsKey = QStringLiteral("picture/labels");
 
-constexpr int kOwn = 0;  ///< A width of the user's own; the other sizes are by how much larger they are.
+constexpr int kOwn = 0;  ///< Stands for a width of the user's own; other sizes are factors.
 constexpr int kLeastWidth = 64;
 constexpr QSize kPreview(400, 250);
-constexpr int kCheck = 8;  ///< Squares that shine through where the picture is transparent.
+constexpr int kCheck = 8;  ///< Size of the squares that show through a transparent picture.
 
 QPixmap framed(const QImage& picture, double ratio) {
   const QImage small = picture.scaled(kPreview * ratio, Qt::KeepAspectRatio, Qt::SmoothTransformation);
@@ -52,7 +52,7 @@ PictureDialog::PictureDialog(ViewPicture& pictures, QWidget* parent)
   setUpButtons();
   restore();
   showSize();
-  // One for all that changes at once, and not before the dialog is seen.
+  // One preview for all changes at once, and none before the dialog is visible.
   later_.setSingleShot(true);
   later_.setInterval(0);
   connect(&later_, &QTimer::timeout, this, &PictureDialog::showPreview);

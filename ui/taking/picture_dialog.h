@@ -13,20 +13,21 @@ class QSpinBox;
 
 namespace nearfit::ui {
 
-/// Asks how a picture of the view is to look (size, background, what besides the parts), and shows a small
-/// one meanwhile. Remembers the choices from one time to the next.
+/// Asks how a picture of the view should look (size, background, what besides the parts), with a small
+/// preview. Remembers the choices from one time to the next.
 class PictureDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// @param pictures  Outlives this.
+  /// @param pictures  Must outlive this.
   PictureDialog(ViewPicture& pictures, QWidget* parent);
 
+  /// Returns the style that the user chose.
   PictureStyle style() const;
-  /// The picture is wanted on the clipboard, not in a file.
+  /// True if the picture is for the clipboard, not for a file.
   bool isForClipboard() const noexcept { return isForClipboard_; }
 
-  /// As it was chosen last; its size may be too large for the view as it is now.
+  /// Returns the style chosen last; its size may be too large for the present view.
   static PictureStyle remembered();
 
  private:

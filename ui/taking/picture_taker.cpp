@@ -20,9 +20,9 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr int kJpegQuality = 92;  ///< Of 100: edges of parts stay clean.
+constexpr int kJpegQuality = 92;  ///< Out of 100: edges of parts stay clean.
 
-/// Throws FileError.
+/// Returns the picture as PNG, or as JPEG if the file's suffix says so. Throws FileError.
 QByteArray encoded(const QImage& picture, const QString& file) {
   const QString suffix = QFileInfo(file).suffix().toLower();
   const bool isJpeg = suffix == QLatin1String("jpg") || suffix == QLatin1String("jpeg");
@@ -63,7 +63,7 @@ void PictureTaker::askAndSave() {
   if (task_.isRunning()) return;
   PictureDialog dialog(pictures_, window_);
   if (dialog.exec() != QDialog::Accepted) return;
-  // What the view shows now: a part in hand moves on while a file is chosen.
+  // Take the present view: a part in hand moves on while a file is chosen.
   const QImage picture = pictures_.take(dialog.style());
   if (dialog.isForClipboard()) {
     putOnClipboard(picture);

@@ -13,23 +13,27 @@ namespace nearfit::ui {
 
 class ViewPicture;
 
-/// Takes pictures of the view away: to a file (PNG or JPEG) or the clipboard. Files are written in another
-/// thread, whole or not at all.
+/// Saves pictures of the view to a file (PNG or JPEG) or copies them to the clipboard. Files are written in
+/// another thread, whole or not at all.
 class PictureTaker : public QObject {
   Q_OBJECT
 
  public:
-  /// All outlive this. @param session  After whose file pictures are named.
+  /// @param session   Its file gives pictures their name; must outlive this.
+  /// @param pictures  Must outlive this.
+  /// @param window    Must outlive this.
   PictureTaker(const Session& session, ViewPicture& pictures, QWidget* window);
   ~PictureTaker() override;
 
-  /// *Save picture…*
+  /// Returns the action *Save picture…*.
   QAction* save() const noexcept { return save_; }
-  /// *Copy picture*: looks as the last one that was saved.
+  /// Returns the action *Copy picture*, which uses the style chosen last.
   QAction* copy() const noexcept { return copy_; }
 
  signals:
+  /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
+  /// Emitted with a short note for the status bar.
   void noted(const QString& text);
 
  private:

@@ -65,10 +65,10 @@ void TakingAway::setUpDocks() {
   clearanceDock_ = addDock("clearanceDock", tr("Clearances"), clearances_, Qt::BottomDockWidgetArea);
   plotsDock_ = addDock("plotsDock", tr("Plots"), plots_, Qt::BottomDockWidgetArea);
   timelineDock_ = addDock("timelineDock", tr("Timeline"), timeline_, Qt::BottomDockWidgetArea);
-  // The timeline as wide as the window below the two, which stand side by side.
+  // The timeline is as wide as the window, below the two others side by side.
   window_.window.splitDockWidget(clearanceDock_, timelineDock_, Qt::Vertical);
   window_.window.splitDockWidget(clearanceDock_, plotsDock_, Qt::Horizontal);
-  // By what they ask for, curves would get a strip beside the table.
+  // By their size hints, curves would get a strip beside the table.
   const auto share = [this](bool isShown) {
     if (!isShown || !clearanceDock_->isVisible() || !plotsDock_->isVisible()) return;
     const int both = clearanceDock_->width() + plotsDock_->width();

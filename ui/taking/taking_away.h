@@ -28,9 +28,8 @@ class Selection;
 class Timeline;
 class Viewport;
 
-/// What a user takes away and looks back at, in docks that are hidden at first: exports, the clearance table,
-/// plots, recordings and the timeline on which they are played. Puts these together; each knows nothing of
-/// the others.
+/// Puts together what a user exports and looks back at: exports, the clearance table, plots, recordings and
+/// the timeline that plays them, in docks that are hidden at first. None of these knows the others.
 class TakingAway : public QObject {
   Q_OBJECT
 
@@ -38,43 +37,54 @@ class TakingAway : public QObject {
   struct Menus {
     QMenu *file, *feel, *panels;
     QToolBar* toolBar;
-    QAction* exportAction;  ///< That others stand beside.
+    QAction* exportAction;  ///< Others are inserted beside it.
   };
-  /// All outlive this.
+  /// All must outlive this.
   struct Window {
     QMainWindow& window;
     Session& session;
     Selection& selection;
     Viewport& viewport;
-    std::function<RigidTransform()> poseOfMoving;  ///< Where the moving part is now.
+    std::function<RigidTransform()> poseOfMoving;  ///< Returns the moving part's worldFromPart now.
   };
   explicit TakingAway(const Window& window);
   ~TakingAway() override;
 
+  /// Adds the actions to menus and tool bar.
   void addTo(const Menus& menus);
 
  public slots:
+  /// Asks what to export and writes it.
   void exportScene();
+  /// Opens a recording on the timeline.
   void openRecording(const QString& file);
-  /// A part is in hand, or no more.
+  /// Tells whether a part is in hand: no recording is played then.
   void showTaken(bool isTaken);
+  /// Updates the clearances of the part in hand.
   void showSnapshot(const nearfit::ServoSnapshot& snapshot);
-  /// @param lost  Ticks after these that are missing.
+  /// Plots ticks.
+  /// @param lost  Ticks missing after these.
   void showTicks(const std::vector<nearfit::MotionRow>& rows, quint64 lost);
-  /// What is recorded or will be; empty: nothing.
+  /// Shows what is recorded, or will be; empty: nothing.
+  /// @param seconds  Length so far [s].
   void showRecording(const QString& file, double seconds);
+  /// Tells that a recording is complete.
+  /// @param seconds  Its length [s].
+  /// @param lost     Ticks missing in it.
   void showRecorded(const QString& file, double seconds, quint64 lost);
-  /// The failure itself is told elsewhere.
+  /// Tells that recording has ended early; the failure itself is shown elsewhere.
   void showRecordingFailed();
 
  signals:
-  /// Record to that file; empty: no more.
+  /// Emitted with the file to record to; empty: stop recording.
   void recordRequested(const QString& file);
-  /// Numbers that are still being typed count now.
+  /// Emitted before an export: numbers that are still being typed count now.
   void sceneNeeded();
-  /// Whether a recording moves the part in hand in the view.
+  /// Emitted when a recording starts or ceases to move the part in the view.
   void replayingChanged(bool isReplaying);
+  /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
+  /// Emitted with a short note for the status bar.
   void noted(const QString& text);
 
  private:

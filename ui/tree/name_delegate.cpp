@@ -52,7 +52,7 @@ bool NameDelegate::eventFilter(QObject* watched, QEvent* event) {
   auto* editor = qobject_cast<QWidget*>(watched);
   const bool isDone = event->type() == QEvent::KeyPress && isFinish(static_cast<QKeyEvent*>(event)->key());
   if (editor != nullptr && isDone && mark(*editor)) return true;
-  // It waits for whoever comes back to it; the editor itself has to know that it has lost the focus.
+  // The editor waits for the user to return, but must know that it has lost the focus.
   if (editor != nullptr && event->type() == QEvent::FocusOut && mark(*editor)) return false;
   return QStyledItemDelegate::eventFilter(watched, event);
 }

@@ -5,13 +5,13 @@
 
 namespace nearfit::ui {
 
-/// Edits a name in its row. One that would be refused stays in the editor, marked and with the reason below
-/// it, until it is mended, or taken back by Escape.
+/// Edits a name in its row. A name that would be refused stays in the editor, marked and with the reason
+/// below it, until it is corrected, or discarded with Escape.
 class NameDelegate : public QStyledItemDelegate {
   Q_OBJECT
 
  public:
-  /// Says why a row cannot have a name; empty when it can.
+  /// Returns why a row cannot have a name; empty if it can.
   using Refusal = std::function<QString(const QModelIndex&, const QString&)>;
 
   explicit NameDelegate(Refusal refusal, QObject* parent = nullptr);
@@ -21,14 +21,14 @@ class NameDelegate : public QStyledItemDelegate {
   void setModelData(QWidget* editor, QAbstractItemModel* model, const QModelIndex& index) const override;
 
  signals:
-  /// What was typed is gone, as its row was left.
+  /// Emitted when a refused name was discarded because its row was left.
   void refused(const QString& reason) const;
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  /// Whether it is refused; then it is marked.
+  /// Marks a name that is refused. Returns true if it is.
   bool mark(QWidget& editor) const;
 
   Refusal refusal_;

@@ -13,7 +13,7 @@
 namespace nearfit::ui {
 namespace {
 
-/// Else the style tints pictures in selected rows until they look disabled.
+/// Otherwise the style tints icons in selected rows until they look disabled.
 QIcon sameWhenSelected(const QPixmap& pixmap) {
   QIcon result(pixmap);
   result.addPixmap(pixmap, QIcon::Selected);
@@ -31,7 +31,7 @@ QIcon listIcon(const QString& name) {
   return sameWhenSelected(pixmap);
 }
 
-/// Transparent parts show the ground through a corner.
+/// Draws a square in a part's colour and opacity.
 QIcon swatch(const Colour& colour, double opacity) {
   constexpr int kSize = 32;
   QPixmap pixmap(kSize, kSize);

@@ -8,15 +8,18 @@
 
 namespace nearfit::ui {
 
-/// What stands in the cells of a part's row (columns: PartsModel::Column).
+/// Contents of the cells in a part's row (columns: PartsModel::Column).
 class PartCell {
   Q_DECLARE_TR_FUNCTIONS(PartCell)
 
  public:
-  /// @param scene, part  Outlive this.
+  /// @param scene  Must outlive this.
+  /// @param part   Must outlive this.
   PartCell(const Scene& scene, const Part& part) : scene_(scene), part_(part) {}
 
+  /// Returns a cell's icon; null if it has none.
   QIcon picture(int column) const;
+  /// Returns a cell's tooltip.
   QString toolTip(int column) const;
 
  private:
@@ -27,12 +30,13 @@ class PartCell {
   const Part& part_;
 };
 
-/// The same for a group.
+/// Contents of the cells in a group's row.
 class GroupCell {
   Q_DECLARE_TR_FUNCTIONS(GroupCell)
 
  public:
-  /// @param scene, group  Outlive this.
+  /// @param scene  Must outlive this.
+  /// @param group  Must outlive this.
   GroupCell(const Scene& scene, const Group& group) : scene_(scene), group_(group) {}
 
   QIcon picture(int column) const;

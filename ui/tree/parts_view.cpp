@@ -27,7 +27,7 @@ PartsView::PartsView(QWidget* parent) : QTreeView(parent) {
   showHighlight();
 }
 
-// The style fills the indentation of a selected row by itself: as the style sheet fills the row.
+// The style itself fills the indentation of a selected row: let it use the style sheet's colour.
 void PartsView::showHighlight() {
   const QColor fill = themed(QColor(0xd3, 0xe5, 0xf8));
   QPalette pale = QApplication::palette();
@@ -49,7 +49,7 @@ void PartsView::setFilter(const QString& text) {
 
 bool PartsView::filterRow(int row, const QModelIndex& parent, const QString& text, bool isWithinMatch) {
   const QModelIndex index = model()->index(row, PartsModel::Name, parent);
-  // What a group that is looked for holds stays, too.
+  // Members of a matching group stay too.
   const bool isMatch = isWithinMatch || index.data().toString().contains(text, Qt::CaseInsensitive);
   bool stays = isMatch;
   for (int child = 0; child < model()->rowCount(index); ++child)

@@ -4,14 +4,15 @@
 
 namespace nearfit::ui {
 
-/// The tree of parts: a click on a switch in a row switches, and selects nothing.
+/// The tree of parts. A click on an icon in a row toggles it and selects nothing.
 class PartsView : public QTreeView {
   Q_OBJECT
 
  public:
   explicit PartsView(QWidget* parent = nullptr);
 
-  /// Rows whose names hold the text and all that leads to them, or all when it is empty.
+  /// Shows the rows whose names contain the text, with the groups around them and all that matching groups
+  /// hold; shows all rows if it is empty.
   void setFilter(const QString& text);
 
  protected:
@@ -21,7 +22,7 @@ class PartsView : public QTreeView {
 
  private:
   void showHighlight();
-  /// Whether the row or one below it stays.
+  /// Hides a row unless it, a row below it or a group around it matches. Returns true if it stays.
   bool filterRow(int row, const QModelIndex& parent, const QString& text, bool isWithinMatch);
 };
 

@@ -133,7 +133,7 @@ void TreeActions::endIsolation() {
 void TreeActions::setOpacity(double opacity) {
   attempt_(tr("The parts could not be made transparent."),
            [&] { session_.setOpacity(selection_.parts(), opacity); });
-  // A click unchecks what stays as it is.
+  // A click on the checked action unchecks it, even if the opacity stays.
   update(false);
 }
 

@@ -20,27 +20,29 @@ namespace nearfit::ui {
 
 class Selection;
 
-/// What is done with the selected groups and parts: group and ungroup, hide and show, lock, isolate, make
-/// transparent. Issues the session's commands; each is one step of undo.
+/// Actions on the selected groups and parts: group and ungroup, hide and show, lock, isolate, make
+/// transparent. Each runs a command of the session, one undo step.
 class TreeActions : public QObject {
   Q_OBJECT
 
  public:
-  /// Runs a command; shows its refusal under that heading.
+  /// Runs a command; shows its refusal under a heading.
   using Attempt = std::function<void(const QString& heading, const std::function<void()>& command)>;
 
-  /// @param session, selection  Outlive this.
+  /// @param session    Must outlive this.
+  /// @param selection  Must outlive this.
   TreeActions(Session& session, Selection& selection, Attempt attempt, QObject* parent = nullptr);
   ~TreeActions() override;
 
-  /// Puts them into a menu, behind what is there.
+  /// Appends the actions to a menu.
   void addTo(QMenu& menu) const;
-  /// For a context menu.
+  /// Returns the actions for a context menu.
   QList<QAction*> list() const;
-  /// What can be done now.
+  /// Enables the actions that are possible now.
   void update(bool isBusy);
 
  signals:
+  /// Emitted when the user locks or unlocks the selected nodes.
   void lockRequested(const nearfit::SceneNodes& nodes, bool isLocked);
 
  private:
@@ -54,9 +56,9 @@ class TreeActions : public QObject {
   void isolate();
   void endIsolation();
   void setOpacity(double opacity);
-  /// Whether all selected parts, and there are some, are so.
+  /// True if there are selected parts and all of them fulfil the predicate.
   bool areAll(const std::function<bool(const Part&)>& predicate) const;
-  /// The locks of the selected nodes themselves.
+  /// True if all selected nodes are locked by themselves.
   bool areNodesLocked() const;
 
   Session& session_;

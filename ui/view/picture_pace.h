@@ -6,7 +6,7 @@
 
 namespace nearfit::ui {
 
-/// When a view draws: at most as often as the display shows pictures, and only after it was asked to.
+/// Decides when a view draws: only on request, and at most as often as the display refreshes.
 class PicturePace : public QObject {
   Q_OBJECT
 
@@ -14,12 +14,13 @@ class PicturePace : public QObject {
   /// @param view  Outlives this.
   explicit PicturePace(QWidget& view) : view_(view) {}
 
-  /// A picture is wanted; one answers all requests until it is due.
+  /// Requests a picture. Requests until it is due are answered by one.
   void request();
-  /// A picture has been drawn, asked for or not.
+  /// Notes that a picture was drawn, requested or not.
   void noteDrawn() { sincePicture_.start(); }
 
  signals:
+  /// Emitted when the view is to draw; not while it is hidden.
   void pictureDue();
 
  private:

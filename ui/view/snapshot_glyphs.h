@@ -16,23 +16,26 @@ namespace nearfit::ui {
 
 class ColourLegend;
 
-/// What is drawn beside the parts of a servo snapshot: minima, contacts, force and torque, the hand, and the
-/// legend that says in numbers what the glyphs show. All follow one snapshot.
+/// Draws a servo snapshot beside its parts: minima, contacts, force and torque, the hand's ghost, and the
+/// legend with their numbers.
 class SnapshotGlyphs {
  public:
-  /// All outlive this. @param parts  Where the hand's ghost stands. @param view  Has the legend in its
-  /// corner.
+  /// @param parts    Draws the ghost's copy of the part; outlives this.
+  /// @param overlay  Draws all other glyphs over the parts; outlives this.
+  /// @param view     Gets the legend in its lower left corner; outlives this.
   SnapshotGlyphs(vtkRenderer& parts, vtkRenderer& overlay, QWidget& view);
 
-  /// @param cutoff  Distance that gets the last colour [m]; > 0.
-  /// @param moving  The part in hand; null: there is none.
+  /// Shows the glyphs of a snapshot.
+  /// @param cutoff  Distance at the end of the colour scale [m]; > 0.
+  /// @param moving  The part in hand; null if there is none.
   void show(const ServoSnapshot& snapshot, double cutoff, const Part* moving);
-  /// The numbers become those of the glyphs: just before these are drawn, or they would be ahead of them.
+  /// Shows the legend with the snapshot's numbers. Call just before the glyphs are drawn, or the numbers
+  /// would be ahead of them.
   void showNumbers(const ServoSnapshot& snapshot);
   void clear();
-  /// As of the scene, before any snapshot.
+  /// Sets the legend's cutoff to the scene's [m], before any snapshot.
   void setCutoff(double cutoff);
-  /// After the view has another size.
+  /// Moves the legend into its corner; call after the view was resized.
   void placeLegend();
 
   HandGhost& hand() noexcept { return hand_; }

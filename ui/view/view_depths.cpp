@@ -18,7 +18,8 @@ bool keepDepths(vtkRenderer& renderer, const vtkBoundingBox& box) {
   camera.GetClippingRange(kept);
   fitDepths(renderer, box);
   const double* needed = camera.GetClippingRange();
-  // From within the scene VTK begins at a part of the farthest depth, which room around it makes no nearer.
+  // From inside the scene, VTK puts the near plane at a fraction of the far one; room around the
+  // box moves it no nearer.
   const bool beginsAtTheEye = kept[0] <= 1.01 * renderer.GetNearClippingPlaneTolerance() * kept[1];
   if ((needed[0] < kept[0] && !beginsAtTheEye) || needed[1] > kept[1]) return false;
   camera.SetClippingRange(kept);

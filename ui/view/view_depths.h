@@ -5,12 +5,12 @@
 
 namespace nearfit::ui {
 
-/// Sets the depths that the camera sees.
-/// @param box   In the world [m]; nothing is done where it is empty.
-/// @param room  Around it, in parts of its size.
+/// Fits the camera's clipping range to a box.
+/// @param box   World [m]; nothing happens if it is empty.
+/// @param room  Margin around the box, as a fraction of its longest side.
 void fitDepths(vtkRenderer& renderer, vtkBoundingBox box, double room = 0.0);
-/// Leaves the depths that the camera sees where the box lies within them, and fits them to it otherwise.
-/// @return Whether they stayed.
+/// Keeps the clipping range if the box lies within it; else fits it to the box.
+/// @return  True if it was kept.
 bool keepDepths(vtkRenderer& renderer, const vtkBoundingBox& box);
 
 }  // namespace nearfit::ui

@@ -26,14 +26,14 @@ namespace {
 
 constexpr const char* kInPictures = "inPictures";
 
-/// A poster's worth. Each pixel takes some 25 bytes while it is drawn.
+/// Poster size. Drawing takes some 25 bytes per pixel.
 constexpr double kMostPixels = 36e6;
 
 vtkOpenGLRenderWindow& windowOf(vtkRenderer& renderer) {
   return *vtkOpenGLRenderWindow::SafeDownCast(renderer.GetRenderWindow());
 }
 
-/// Lines and dots of other widths, for as long as this lives.
+/// Scales line widths and point sizes while it exists.
 class LargerLines {
  public:
   LargerLines(std::initializer_list<vtkRenderer*> renderers, double scale) {
@@ -62,10 +62,10 @@ class LargerLines {
  private:
   struct Widths {
     vtkSmartPointer<vtkProperty>
-        look;  ///< Drawing may take its actor out of the view: a cut that follows its parts.
+        look;  ///< Owned: drawing may remove its actor from the view, such as a cut that follows its parts.
     float line, point;
   };
-  /// Several actors may share one.
+  /// Adds a property once, though several actors may share it.
   void add(vtkProperty* look) {
     const bool isKnown =
         std::any_of(before_.begin(), before_.end(), [look](const Widths& w) { return w.look.Get() == look; });
@@ -75,7 +75,7 @@ class LargerLines {
   std::vector<Widths> before_;
 };
 
-/// Another background, for as long as this lives.
+/// Replaces the background while it exists.
 class OtherGround {
  public:
   explicit OtherGround(vtkRenderer& renderer)
@@ -100,8 +100,8 @@ class OtherGround {
   bool isGradient_;
 };
 
-/// What was drawn over black and over white shows how much each pixel covers: whatever was blended, and
-/// however edges were smoothed.
+/// Computes colour and alpha of each pixel from pictures over black and over white; exact for any blending
+/// and smoothing of edges.
 QImage uncovered(const QImage& overBlack, const QImage& overWhite) {
   QImage picture(overBlack.size(), QImage::Format_ARGB32_Premultiplied);
   for (int y = 0; y < picture.height(); ++y) {
@@ -110,8 +110,7 @@ QImage uncovered(const QImage& overBlack, const QImage& overWhite) {
     auto* line = reinterpret_cast<QRgb*>(picture.scanLine(y));
     for (int x = 0; x < picture.width(); ++x) {
       const QRgb b = black[x], w = white[x];
-      // Of three channels that differ by rounding, the one that covers most: a colour never exceeds its
-      // cover.
+      // The channels differ by rounding. Take the largest alpha: no premultiplied colour may exceed it.
       const int shows = std::min({qRed(w) - qRed(b), qGreen(w) - qGreen(b), qBlue(w) - qBlue(b)});
       const int cover = std::max({255 - shows, qRed(b), qGreen(b), qBlue(b)});
       line[x] = qRgba(qRed(b), qGreen(b), qBlue(b), std::min(cover, 255));
@@ -173,7 +172,7 @@ QImage ViewPicture::take(const PictureStyle& style, Detail detail) {
   sizeOrientationMarker(view_.axes, 1.0);
   if (hasAxes) view_.axes.On();
   view_.detail.drop();
-  // What was drawn last is what the window shows when it is asked to.
+  // The window shows the picture drawn last.
   window.Render();
   if (style.hasLabels) paintLabels(picture, scale * view_.widget.devicePixelRatioF());
   return picture;

@@ -10,27 +10,27 @@ namespace nearfit::ui {
 
 class ViewDetail;
 
-/// How a picture that is taken away shows the view.
+/// How an exported picture shows the view.
 struct PictureStyle {
   enum class Ground {
-    View,         ///< As the view has it.
+    View,         ///< The view's own background.
     White,        ///< For paper.
     Transparent,  ///< For pages of any colour.
   };
-  double scale = 1.0;  ///< Of the view's own pixels; lines, dots and letters grow with it.
+  double scale = 1.0;  ///< Relative to the view's size; lines, dots and text grow with it.
   Ground ground = Ground::View;
-  bool hasAxes = true;    ///< Those in the corner.
-  bool hasLabels = true;  ///< The legend, and what is measured.
+  bool hasAxes = true;    ///< The axes in the corner.
+  bool hasLabels = true;  ///< Legend and measurements.
 };
 
-/// Marks what stands over the view and belongs in its pictures, as handles and bars of tools do not.
+/// Marks a child widget of the view to be painted into exported pictures; handles and tool bars are not.
 void setInPictures(QWidget& label);
 
-/// Takes pictures of a view away from the screen: whole, whatever the view leaves out to be quick, and in
-/// another size. The view is as it was after that, and drawn anew.
+/// Exports pictures of the view: in full detail, whatever the view leaves out for speed, and in any size.
+/// Restores and redraws the view afterwards.
 class ViewPicture {
  public:
-  /// All outlive this.
+  /// Parts of the view; all outlive this.
   struct View {
     QWidget& widget;
     vtkRenderer& parts;
@@ -40,14 +40,16 @@ class ViewPicture {
   };
   explicit ViewPicture(const View& view) : view_(view) {}
 
-  /// The view's own size, and the largest one that the machine can draw [pixels].
+  /// The view's size [device pixels].
   QSize size() const;
+  /// The largest size that the machine can draw, in the same proportion [pixels].
   QSize largestSize() const;
 
-  /// @param style  Its scale is held to what largestSize() allows.
-  /// @return Null when there is nothing to draw on.
+  /// Draws a picture.
+  /// @param style  Its scale is clamped to what largestSize() allows.
+  /// @return  Null if the view has not been drawn yet.
   QImage take(const PictureStyle& style);
-  /// The same, only as much of the parts as a quick picture shows.
+  /// The same with only the detail of a quick picture.
   QImage preview(const PictureStyle& style);
 
  private:

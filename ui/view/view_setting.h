@@ -4,9 +4,9 @@
 
 namespace nearfit::ui {
 
-/// Lights that go with the camera.
+/// Adds lights that move with the camera.
 void setUpLights(vtkRenderer& renderer);
-/// The background: light or dark, as the theme is.
+/// Sets the background, light or dark as the theme is.
 void setUpBackground(vtkRenderer& renderer);
 
 }  // namespace nearfit::ui

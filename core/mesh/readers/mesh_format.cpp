@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kExportMesh = "export it as STL, OBJ, PLY or OFF";
 
-/// Formats that people may well try, by their first bytes.
+/// Rejects common unsupported formats, recognised by their first bytes, with a helpful message.
 void refuseForeignFormats(const ReaderInput& input, std::string_view text) {
   struct Signature {
     std::string_view start;
@@ -46,7 +46,7 @@ bool isBinaryStlOfThatLength(std::span<const char> bytes) {
          bytes.size() == kStlHeaderBytes + std::uint64_t{stlFacetCount(bytes)} * kStlFacetBytes;
 }
 
-/// Text has no byte below a tab and no other control characters than white space; a few hundred bytes tell.
+/// Text has no control characters except white space; its first bytes suffice to tell.
 bool looksLikeText(std::span<const char> bytes) {
   constexpr std::size_t kLookAt = 1024;
   return std::ranges::none_of(bytes.first(std::min(kLookAt, bytes.size())), [](char c) {

@@ -6,14 +6,13 @@ namespace nearfit {
 
 enum class MeshFormat { StlText, StlBinary, Obj, Ply, Off };
 
-/// Tells the format by content where that can tell it, else by the name's ending.
-/// @param extension  Lower case without the dot.
-/// Throws FileError for an empty file and for what is none of the formats, saying what it is where that is
-/// known.
+/// Detects the format by content if possible, else by the file name.
+/// @param extension  Lower case, without the dot.
+/// Throws FileError if the file is empty or in no supported format, and names the actual format if known.
 MeshFormat detectMeshFormat(const ReaderInput& input, const std::string& extension);
 
-/// Text in UTF-16 with a byte order mark as one byte a character, what is not ASCII as '?'; UTF-8 without its
-/// byte order mark. Other bytes are left as they are.
+/// Converts UTF-16 text with a byte order mark to one byte per character ('?' for non-ASCII), and removes the
+/// byte order mark of UTF-8. Leaves other bytes as they are.
 std::vector<char> withoutByteOrderMark(std::vector<char> bytes);
 
 }  // namespace nearfit

@@ -1,8 +1,8 @@
-// Read here, because the libraries at hand misread this format (tried on hostile and odd files):
-// OpenMesh 9 keeps single precision only, takes a vertex line that it cannot parse as not being there (all
-// later indices then name other vertices), removes repeated corners from bridged polygons, passes indices out
-// of range on, and opens whatever file `mtllib` names. CGAL 5.5 refuses line continuations, takes index 0 for
-// 2^64 - 1. Neither says which line is at fault.
+// Own parser, since the available libraries misread this format (tried on malicious and unusual files).
+// OpenMesh 9 keeps only single precision, drops vertex lines that it cannot parse (so that later indices name
+// other vertices), removes repeated corners from bridged polygons, accepts indices out of range, and opens
+// any file that `mtllib` names. CGAL 5.5 rejects line continuations and reads index 0 as 2^64 - 1. Neither
+// reports the faulty line.
 #include "core/mesh/readers/obj_reader.h"
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Counts {
   std::size_t vertices = 0, faces = 0;
 };
 
-/// Faces may name vertices that follow, so the number of vertices has to be known first.
+/// Faces may name later vertices, so count the vertices first.
 Counts countElements(const ReaderInput& input) {
   const ReaderInput silent{input.name, input.bytes, {}};
   TextCursor cursor(silent, kSyntax);
@@ -34,7 +34,7 @@ Counts countElements(const ReaderInput& input) {
   return counts;
 }
 
-/// The vertex of a corner like 7, 7/1, 7//3 or 7/1/3, counted from 0.
+/// Vertex index, from 0, of a corner such as 7, 7/1, 7//3 or 7/1/3.
 std::uint32_t cornerVertex(const TextCursor& cursor, std::string_view corner, std::size_t vertices,
                            std::size_t verticesSoFar) {
   const std::optional<std::int64_t> index = parseInteger(corner.substr(0, corner.find('/')));

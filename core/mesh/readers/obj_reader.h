@@ -4,9 +4,8 @@
 
 namespace nearfit {
 
-/// Vertices and faces of a Wavefront OBJ file; everything else in it is passed over, and no other file is
-/// opened. Understands line continuations, negative indices, extra numbers behind a vertex. Throws FileError,
-/// Cancelled.
+/// Reads vertices and faces of a Wavefront OBJ file. Skips everything else and opens no other file. Handles
+/// line continuations, negative indices and extra numbers after a vertex. Throws FileError, Cancelled.
 ReaderResult readObj(const ReaderInput& input);
 
 }  // namespace nearfit

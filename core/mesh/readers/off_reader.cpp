@@ -1,8 +1,8 @@
-// Read here, because the libraries at hand misread this format (tried on hostile and odd files): OpenMesh 9
-// keeps single precision only, refuses comments, fills memory or runs for hours on the counts of
-// off_huge_count and two-line files like it, and goes on in silence after text that is no number. CGAL 5.5
-// refuses counts behind the keyword, throws bad_alloc on huge counts, and passes indices out of range on.
-// Neither says which line is at fault.
+// Own parser, since the available libraries misread this format (tried on malicious and unusual files).
+// OpenMesh 9 keeps only single precision, rejects comments, fills memory or runs for hours on the counts of
+// off_huge_count and similar two-line files, and silently continues after text that is not a number. CGAL 5.5
+// rejects counts after the keyword, throws bad_alloc on huge counts, and accepts indices out of range.
+// Neither reports the faulty line.
 #include "core/mesh/readers/off_reader.h"
 
 #include <algorithm>
@@ -15,11 +15,11 @@
 namespace nearfit {
 namespace {
 
-/// The parts of "[ST][C][N][4][n]OFF[count]".
+/// The fields of "[ST][C][N][4][n]OFF[count]".
 struct Keyword {
   bool isHomogeneous = false;  ///< "4": a fourth coordinate divides the others.
-  bool hasDimension = false;   ///< "n": the number of dimensions stands before the counts.
-  std::string_view rest;       ///< What is glued to the keyword.
+  bool hasDimension = false;   ///< "n": the number of dimensions precedes the counts.
+  std::string_view rest;       ///< Text directly after "OFF".
 };
 
 std::optional<Keyword> parseKeyword(std::string_view token) {
@@ -45,7 +45,7 @@ struct Header {
   bool isHomogeneous = false;
 };
 
-/// A count that the rest of the file has room for. `smallest` is the least number of bytes one item can take.
+/// Checks that the rest of the file has room for a count. `smallest` is the min size of one item [bytes].
 std::size_t checkedCount(const TextCursor& cursor, std::int64_t count, std::size_t smallest,
                          std::string_view what) {
   if (count < 0) cursor.fail(fmt::format("it promises {} {}", count, what), "export the file again");
@@ -62,7 +62,7 @@ std::size_t checkedCount(const TextCursor& cursor, std::int64_t count, std::size
 Header readHeader(TextCursor& cursor) {
   Header header;
   std::string_view first = cursor.tokenAcrossLines();
-  std::optional<std::int64_t> vertices = parseInteger(first);  // The keyword may be missing.
+  std::optional<std::int64_t> vertices = parseInteger(first);  // The keyword is optional.
   if (!vertices) {
     const std::optional<Keyword> keyword = parseKeyword(first);
     if (!keyword) cursor.fail("it does not begin with OFF", "check that this is an OFF file");
@@ -79,7 +79,7 @@ Header readHeader(TextCursor& cursor) {
     vertices = cursor.asInteger(first, "the number of vertices");
   }
   const std::int64_t faces = cursor.integer("the number of faces");
-  cursor.skipRest();  // The number of edges, which nobody counts right.
+  cursor.skipRest();  // The number of edges is often wrong.
   header.vertices = checkedCount(cursor, *vertices, std::string_view("0 0 0\n").size(), "vertices");
   header.faces = checkedCount(cursor, faces, std::string_view("0\n").size(), "faces");
   return header;

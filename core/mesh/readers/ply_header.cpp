@@ -75,7 +75,7 @@ PlyProperty parseProperty(TextCursor& cursor) {
   return property;
 }
 
-/// Whether the lines of a text end in a lone carriage return; a line feed behind one is data then.
+/// True if lines end in a lone carriage return; a line feed after it is then data.
 bool hasLoneReturns(std::span<const char> bytes) {
   const auto lineEnd = std::ranges::find_if(bytes, [](char c) { return c == '\n' || c == '\r'; });
   return lineEnd != bytes.end() && *lineEnd == '\r' && lineEnd + 1 != bytes.end() && lineEnd[1] != '\n';

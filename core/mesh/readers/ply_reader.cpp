@@ -1,9 +1,9 @@
-// Read here, because the libraries at hand misread this format (tried on hostile and odd files): OpenMesh 9
-// makes single precision of doubles, loses its place behind a CRLF header (ply_crlf_header_binary comes out
-// as noise), never ends or fills memory where a header or a list is cut off, and does not know all types of
-// list counts. CGAL 5.5 is right about good files, but throws bad_alloc on large or negative list counts,
-// refuses NaN in text, and passes indices out of range on. Neither says which line or byte is at fault, so
-// that each list would have to be walked here first, which leaves them nothing to do.
+// Own parser, since the available libraries misread this format (tried on malicious and unusual files).
+// OpenMesh 9 reduces doubles to single precision, loses its place after a CRLF header (ply_crlf_header_binary
+// becomes noise), hangs or fills memory if a header or list is cut off, and does not know all types of list
+// counts. CGAL 5.5 reads valid files correctly, but throws bad_alloc on large or negative list counts,
+// rejects NaN in text, and accepts indices out of range. Neither reports the faulty line or byte, so each
+// list would have to be checked here first, which leaves them nothing to do.
 #include "core/mesh/readers/ply_reader.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ static_assert(std::endian::native == std::endian::little,
 
 constexpr const char* kCutOff = "it is cut off or damaged: export or copy it again";
 
-/// Values of a text file.
+/// Reads values of a text file.
 class TextValues {
  public:
   TextValues(const ReaderInput& input, const PlyHeader& header)
@@ -47,7 +47,7 @@ class TextValues {
   TextCursor cursor_;
 };
 
-/// Values of a binary file.
+/// Reads values of a binary file.
 class BinaryValues {
  public:
   BinaryValues(const ReaderInput& input, const PlyHeader& header)
@@ -111,7 +111,7 @@ class BinaryValues {
   bool isSwapped_;
 };
 
-/// Throws when the rest of the file is too short for the elements that the header promises.
+/// Throws if the rest of the file is too short for the elements that the header promises.
 template <typename Values>
 void checkRoom(const Values& values, const PlyElement& element) {
   std::size_t smallest = 0;

@@ -4,8 +4,8 @@
 
 namespace nearfit {
 
-/// Vertices and faces of a PLY file, text or binary in either byte order; other elements and properties are
-/// passed over. Throws FileError, Cancelled.
+/// Reads vertices and faces of a PLY file, text or binary in either byte order. Skips other elements and
+/// properties. Throws FileError, Cancelled.
 ReaderResult readPly(const ReaderInput& input);
 
 }  // namespace nearfit

@@ -9,9 +9,10 @@
 
 namespace nearfit {
 
-/// What each format's reader gets: a whole file in memory.
+/// Input of each format's reader: a whole file in memory.
 struct ReaderInput {
   std::string name;  ///< The file's path, for messages.
+  /// The whole file; must outlive the reader.
   std::span<const char> bytes;
   std::function<void(double fraction)> progress;  ///< Called now and then; throws Cancelled. May be empty.
 
@@ -20,13 +21,13 @@ struct ReaderInput {
   }
 };
 
-/// What each format's reader returns.
+/// Output of each format's reader.
 struct ReaderResult {
   PolygonSoup soup;
   std::vector<std::string> warnings;  ///< Sentences about the file, not about the shape.
 };
 
-/// A piece of a file fit for a message: shortened, control and non-ASCII characters replaced, in quotes.
+/// Quotes text from a file for a message: shortened, with control and non-ASCII characters replaced.
 std::string inQuotes(std::string_view text);
 
 }  // namespace nearfit

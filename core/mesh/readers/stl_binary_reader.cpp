@@ -1,6 +1,6 @@
-// Through OpenMesh, whose reader is right about this dialect once the length is checked: the format itself is
-// in single precision. Two things are kept from it: facets that are not finite, since it orders vertices by
-// comparisons that NaN breaks, and a count that the file does not hold, since it does not notice the end.
+// Uses OpenMesh, whose reader handles this dialect correctly once the length is checked; the format itself is
+// single precision. Two things are hidden from it: facets that are not finite, because it orders vertices by
+// comparisons that NaN breaks, and a count larger than the file, because it does not notice the end.
 #include "core/mesh/readers/stl_binary_reader.h"
 
 #include <array>
@@ -21,20 +21,20 @@
 namespace nearfit {
 namespace {
 
-/// Bytes of the facet's normal, before its corners.
+/// Size of the facet's normal, which precedes its corners.
 constexpr std::size_t kNormalBytes = 12;
 
 bool isFiniteFacet(const char* facet) {
   std::array<float, 9> coordinates;
   std::memcpy(coordinates.data(), facet + kNormalBytes, sizeof(coordinates));
-  // Any NaN or infinity makes the sum of differences NaN.
+  // NaN or infinity makes the sum of differences NaN.
   float sum = 0.0F;
   for (const float c : coordinates)
     sum += c - c;
   return sum == 0.0F;
 }
 
-/// A binary STL file as OpenMesh may read it: header, count of finite facets, finite facets. Copies nothing.
+/// Presents a binary STL file to OpenMesh: header, number of finite facets, finite facets. Copies nothing.
 class FiniteFacets : public std::streambuf {
  public:
   FiniteFacets(std::span<const char> bytes, std::uint32_t facets)
@@ -55,7 +55,7 @@ class FiniteFacets : public std::streambuf {
     while (position_ != end_ && isFiniteFacet(position_))
       position_ += kStlFacetBytes;
     if (start == position_) return traits_type::eof();
-    // A stream buffer's read area is not const, though reading leaves it alone.
+    // A stream buffer's get area is not const, but reading does not modify it.
     setg(const_cast<char*>(start), const_cast<char*>(start), const_cast<char*>(position_));
     return traits_type::to_int_type(*start);
   }
@@ -66,8 +66,8 @@ class FiniteFacets : public std::streambuf {
   std::uint32_t finiteCount_ = 0;
 };
 
-/// Collects what an OpenMesh reader finds as plain polygons. OpenMesh's own importer would build a halfedge
-/// mesh, which leaves non-manifold faces out.
+/// Collects the output of an OpenMesh reader as plain polygons. OpenMesh's own importer would build a
+/// halfedge mesh, which drops non-manifold faces.
 class SoupImporter : public OpenMesh::IO::BaseImporter {
  public:
   /// @param onFaces  Called now and then with the number of faces so far; may throw.
@@ -99,7 +99,7 @@ class SoupImporter : public OpenMesh::IO::BaseImporter {
   std::size_t n_faces() const override { return soup_.polygonCount(); }
   std::size_t n_edges() const override { return 0; }
 
-  // Attributes and halfedges: nothing that a soup keeps.
+  // Attributes and halfedges: a soup keeps none.
   OpenMesh::HalfedgeHandle add_edge(OpenMesh::VertexHandle, OpenMesh::VertexHandle) override {
     return OpenMesh::HalfedgeHandle();
   }
@@ -151,8 +151,7 @@ void addPolygon(PolygonSoup& soup, std::uint32_t vertex, std::size_t times) {
   }
 }
 
-/// Facets that OpenMesh did not deliver go into the soup as what they are, so that they are counted and
-/// reported.
+/// Adds facets that OpenMesh did not deliver, so that they are counted and reported.
 void addUndelivered(PolygonSoup& soup, std::size_t nonFinite, std::size_t degenerate) {
   if (degenerate > 0) addPolygon(soup, 0, degenerate);
   if (nonFinite == 0) return;

@@ -4,12 +4,13 @@
 
 namespace nearfit {
 
+/// Sizes in a binary STL file [bytes]; the header includes the facet count.
 constexpr std::size_t kStlHeaderBytes = 84, kStlFacetBytes = 50;
 
-/// Number of facets that a binary STL file's header promises; at least kStlHeaderBytes bytes.
+/// Number of facets according to the header of a binary STL file. `bytes` has at least kStlHeaderBytes.
 std::uint32_t stlFacetCount(std::span<const char> bytes);
 
-/// Facets of a binary STL file, through OpenMesh. Corners with equal coordinates share a vertex.
+/// Reads the facets of a binary STL file, through OpenMesh. Corners with equal coordinates share a vertex.
 /// Throws FileError, Cancelled.
 ReaderResult readStlBinary(const ReaderInput& input);
 

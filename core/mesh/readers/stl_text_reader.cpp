@@ -1,7 +1,7 @@
-// Read here, because the libraries at hand misread this dialect (tried on hostile and odd files): OpenMesh 9
-// keeps single precision only, finds "outer" in a solid's name, takes text that is no number for 0, and takes
-// a file that is cut off, or has CR line ends, for a shorter or empty one. CGAL 5.5 reads a file that begins
-// with a comment as a binary one, facets of noise included. Neither says which line is at fault.
+// Own parser, since the available libraries misread this dialect (tried on malicious and unusual files).
+// OpenMesh 9 keeps only single precision, finds "outer" in a solid's name, reads text that is not a number as
+// 0, and takes a file that is cut off or has CR line ends for a shorter or empty one. CGAL 5.5 reads a file
+// that begins with a comment as binary, and returns facets of noise. Neither reports the faulty line.
 #include "core/mesh/readers/stl_text_reader.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ void expect(TextCursor& cursor, std::string_view word) {
   }
 }
 
-/// Goes past "normal x y z" and "outer". Some programs leave the numbers out or write what is none.
+/// Skips "normal x y z" and "outer". Some programs omit the numbers or write invalid ones.
 void skipToOuter(TextCursor& cursor) {
   constexpr int kMostTokens = 5;
   for (int i = 0; i < kMostTokens; ++i) {
@@ -41,7 +41,7 @@ void skipToOuter(TextCursor& cursor) {
   cursor.fail("a facet has no 'outer loop'", kCorrectLine);
 }
 
-/// A facet behind the word "facet", to "endfacet".
+/// Reads a facet from after the word "facet" to "endfacet".
 void readFacet(TextCursor& cursor, PolygonSoup& soup) {
   skipToOuter(cursor);
   expect(cursor, "loop");
@@ -67,10 +67,10 @@ void readFacet(TextCursor& cursor, PolygonSoup& soup) {
 }  // namespace
 
 ReaderResult readStlText(const ReaderInput& input) {
-  // As little as a facet can take; one allocation instead of many.
+  // Min size of a facet.
   constexpr std::string_view kShortestFacet =
       "facet outer loop vertex 0 0 0 vertex 0 0 0 vertex 0 0 0 endloop endfacet ";
-  // Facets as programs write them take some 250 bytes.
+  // Typical facets take some 250 bytes. One allocation instead of many.
   constexpr std::size_t kUsualFacetBytes = 3 * kShortestFacet.size();
   ReaderResult result;
   result.soup.vertices.reserve(3 * (input.bytes.size() / kUsualFacetBytes));
@@ -82,7 +82,7 @@ ReaderResult readStlText(const ReaderInput& input) {
     if (token.empty()) break;
     if (isWord(token, "solid") || isWord(token, "endsolid")) {
       isSolidOpen = isWord(token, "solid");
-      cursor.skipRest();  // A name.
+      cursor.skipRest();  // The solid's name.
     } else if (isWord(token, "facet")) {
       readFacet(cursor, result.soup);
     } else {

@@ -4,8 +4,8 @@
 
 namespace nearfit {
 
-/// Facets of an ASCII STL file, of all solids in it; keywords in any case, `#` comments allowed, normals
-/// passed over. Throws FileError, Cancelled.
+/// Reads the facets of all solids in an ASCII STL file. Keywords may have any case, `#` starts a comment,
+/// normals are skipped. Throws FileError, Cancelled.
 ReaderResult readStlText(const ReaderInput& input);
 
 }  // namespace nearfit

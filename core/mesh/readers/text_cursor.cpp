@@ -25,7 +25,7 @@ std::string_view withoutPlus(std::string_view token) {
   return hasPlus ? token.substr(1) : token;
 }
 
-/// A well-formed number out of double's range: infinite or zero, which its size as a long double tells.
+/// Converts a well-formed number beyond double's range to infinity or zero, through long double.
 std::optional<double> parseExtremeNumber(std::string_view digits) {
   long double wide = 0.0L;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), wide);

@@ -10,53 +10,55 @@
 
 namespace nearfit {
 
-/// A decimal number as mesh files write it: leading plus signs, "inf" and "nan" are allowed, a number too
-/// large for double becomes infinite, one too small zero. The same in every locale. Empty when it is no
-/// number.
+/// Parses a decimal number as in mesh files: leading plus signs, "inf" and "nan" are allowed; overflow gives
+/// infinity, underflow zero. Independent of the locale. std::nullopt if it is not a number.
 std::optional<double> parseNumber(std::string_view token);
 
-/// A decimal integer; empty when it is none or does not fit.
+/// Parses a decimal integer; std::nullopt if it is not one or does not fit.
 std::optional<std::int64_t> parseInteger(std::string_view token);
 
-/// Walks a text file token by token and knows the line it is on. Lines end in LF, CRLF or CR.
-/// Never allocates for tokens: they are views into the file.
+/// Reads a text file token by token and tracks the line. Lines end in LF, CRLF or CR. Tokens are views into
+/// the file: no allocation.
 class TextCursor {
  public:
   struct Syntax {
-    char comment = '#';             ///< From here to the end of its line nothing counts.
+    char comment = '#';             ///< Starts a comment that ends with the line.
     bool hasContinuations = false;  ///< A backslash at the end of a line joins it with the next.
   };
 
-  /// Starts at the beginning of the first line. `input` must outlive the cursor.
+  /// Starts at the beginning of the file. `input` must outlive the cursor.
   TextCursor(const ReaderInput& input, Syntax syntax);
-  /// Starts at byte `offset`, which lies in line `line`.
+  /// Starts at byte `offset`, which is in line `line`.
   TextCursor(const ReaderInput& input, Syntax syntax, std::size_t offset, std::size_t line);
 
-  /// Goes to the start of the next line; false when there is none.
+  /// Goes to the start of the next line; false if there is none.
   bool nextLine();
-  /// The next token on this line; empty at the line's end.
+  /// The next token on this line; empty at its end.
   std::string_view token();
-  /// The next token on this line or on one of those that follow; empty at the end of the file.
+  /// The next token on this or a later line; empty at the end of the file.
   std::string_view tokenAcrossLines();
 
-  /// Passes over what is left of this line, continuations included, up to its end.
+  /// Skips the rest of this line, continuations included.
   void skipRest();
 
-  /// A token as a number. Throws FileError when it is none; `what` says what should have stood here.
+  /// A token as a number. Throws FileError if it is not one; `what` names the expected item.
   double asNumber(std::string_view token, std::string_view what) const;
+  /// A token as an integer. Throws FileError if it is not one; `what` names the expected item.
   std::int64_t asInteger(std::string_view token, std::string_view what) const;
-  /// The next token (across lines) as a number. Throws FileError when it is none or the file ends; `what`
-  /// says what should have stood here.
+  /// The next token, on this or a later line, as a number. Throws FileError if it is not one or the file
+  /// ends; `what` names the expected item.
   double number(std::string_view what);
-  /// The same for an integer.
+  /// Like number(), for an integer.
   std::int64_t integer(std::string_view what);
 
+  /// Current line, from 1.
   std::size_t line() const noexcept { return line_; }
-  /// Byte of the file that comes next.
+  /// Offset of the next byte in the file.
   std::size_t offset() const noexcept { return static_cast<std::size_t>(position_ - begin_); }
   std::size_t bytesLeft() const noexcept { return static_cast<std::size_t>(end_ - position_); }
-  /// Throws a FileError that names the file and the line.
+  /// Throws a FileError naming the file and the line.
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
+  /// Throws a FileError that the file ends where `what` is expected.
   [[noreturn]] void failAtEnd(std::string_view what) const;
 
  private:
