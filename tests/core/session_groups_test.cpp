@@ -323,6 +323,7 @@ TEST_F(SessionGroups, RandomCommandsKeepTheTreeAndUndoneInFullGiveBackTheBeginni
       commands[random() % commands.size()]();
     } catch (const UsageError&) {
       EXPECT_EQ(describe(session_.scene()), before);
+      EXPECT_EQ(session_.undoText(), label);
     }
     expectTree(session_.scene());
     if (describe(session_.scene()) != before) states.push_back(describe(session_.scene()));

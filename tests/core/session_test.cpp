@@ -301,6 +301,7 @@ TEST(Session, RandomCommandsUndoneInFullGiveBackTheBeginning) {
       }
     } catch (const UsageError&) {
       EXPECT_EQ(describe(session.scene()), before);
+      EXPECT_EQ(session.undoText(), undoText);
     }
     if (describe(session.scene()) != before) states.push_back(describe(session.scene()));
   }

@@ -31,7 +31,7 @@ TEST(VelocityFilter, ReportsThatComeAllAtOnceDoNotLookFast) {
   for (int burst = 0; burst < 50; ++burst) {
     for (int i = 0; i < 8; ++i) {
       const double x = 1e-3 * (8 * burst + i);
-      most = std::fmax(most, filter.update({x, 0.0, 0.0}, burst * 8 * kMillisecond).x);
+      most = std::fmax(most, filter.update({x, 0.0, 0.0}, Nanoseconds{burst} * 8 * kMillisecond).x);
     }
   }
   // A burst of eight millimetres over the lag of four milliseconds, and what was left of the one before:

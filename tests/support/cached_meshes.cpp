@@ -13,6 +13,7 @@ namespace {
 
 template <typename T>
 bool areSameBytes(const T& a, const T& b) {
+  // Bit for bit is what a cache promises. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
   return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 

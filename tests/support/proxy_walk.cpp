@@ -1,5 +1,7 @@
 #include "tests/support/proxy_walk.h"
 
+#include <utility>
+
 #include "tests/support/part_geometries.h"
 
 namespace nearfit::test {
@@ -20,7 +22,7 @@ void ProxyWalk::setScene(std::shared_ptr<ServoScene> scene) {
   for (const ServoScene::Body& body : scene->bodies)
     body.geometry->tree();
   scene->prepareSurfaces();
-  scene_ = scene;
+  scene_ = std::move(scene);
   tracker_.setScene(scene_);
 }
 

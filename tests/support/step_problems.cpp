@@ -149,7 +149,8 @@ class Maker {
     const double bore = 0.4 * radius_, facet = decade(1e-8, 1e-2);
     const double tilt = uniform(0.0, kTurn);
     for (std::size_t i = 0; i < count_; ++i) {
-      const double angle = kTurn * static_cast<double>(i / 2) / static_cast<double>(count_) * 2.0;
+      const std::size_t pair = i / 2;
+      const double angle = kTurn * static_cast<double>(pair) / static_cast<double>(count_) * 2.0;
       const glm::dvec3 out(std::cos(angle), std::sin(angle), 0.0);
       const glm::dvec3 at = bore * out + glm::dvec3(0.0, 0.0, (i % 2 ? 0.8 : -0.8) * radius_);
       add(nearly(-out, facet), at, margin_ * (1.0 + 0.3 * std::cos(angle - tilt) + facet * uniform()));
@@ -161,8 +162,9 @@ class Maker {
     const double rounding = choose({0.0, 1e-9, 1e-6});
     problem_.goal.wanted[2] -= 10.0 * margin_;
     for (std::size_t i = 0; i < count_; ++i) {
-      const double x = side < 2 ? 0.0 : static_cast<double>(i % side) / static_cast<double>(side - 1) - 0.5;
-      const double y = side < 2 ? 0.0 : static_cast<double>(i / side) / static_cast<double>(side - 1) - 0.5;
+      const std::size_t row = i / side, column = i % side;
+      const double x = side < 2 ? 0.0 : static_cast<double>(column) / static_cast<double>(side - 1) - 0.5;
+      const double y = side < 2 ? 0.0 : static_cast<double>(row) / static_cast<double>(side - 1) - 0.5;
       add(nearly({0.0, 0.0, 1.0}, rounding), radius_ * glm::dvec3(x, y, -0.5),
           margin_ * (1.0 + rounding * uniform()));
     }

@@ -131,7 +131,8 @@ TEST_F(LmdCommand, CubeOnItsCornerHasAVertexOverAFace) {
 TEST_F(LmdCommand, FollowingThePartFindsTheSameSetsAsSearchingAnewForEachPose) {
   std::string poses;
   for (int i = 0; i < 200; ++i) {
-    const double angle = 0.005 * i, jump = i / 50;
+    const double angle = 0.005 * i;
+    const int jump = i / 50;
     poses += fmt::format("{},{},{},{:.17g},0,{:.17g},0\n", 0.01 * i - 0.7 * jump, 0.3 * std::sin(0.05 * i),
                          1.6 - 0.002 * i, std::cos(angle), std::sin(angle));
   }

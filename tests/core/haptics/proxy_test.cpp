@@ -378,8 +378,10 @@ TEST(Proxy, AGapBelowRoundingIsLetGoLikeAnOverlap) {
 TEST(Proxy, ManyBodiesInContactAtOnceHoldItAndLetItGo) {
   std::vector<ProxyWalk::Fixed> pins;
   const TriangleMesh pin = test::boxMesh({0.01, 0.01, 0.1}, {0.0, 0.0, -0.05});
-  for (int i = 0; i < 100; ++i)
-    pins.push_back({pin, at({0.02 * (i % 10), 0.02 * (i / 10), 0.0})});
+  for (int i = 0; i < 100; ++i) {
+    const int row = i / 10, column = i % 10;
+    pins.push_back({pin, at({0.02 * column, 0.02 * row, 0.0})});
+  }
   ProxyWalk walk(std::move(pins), test::boxMesh({0.3, 0.3, 0.02}, {0.09, 0.09, 0.01}), at({0.0, 0.0, 0.01}),
                  {kMargin, 0.0});
   walk.hold(at({0.0, 0.0, -0.02}), 60);

@@ -83,7 +83,8 @@ TEST(SceneTracker, NoMinimumOfAnyBodyIsMissedAlongAPathAndItsTeleports) {
   std::size_t late = 0, minima = 0, refreshes = 0, bodies = 0;
   constexpr int kTicks = 600 / static_cast<int>(test::kPoseShare);
   for (int tick = 0; tick < kTicks; ++tick) {
-    const double t = 0.004 * tick + (tick / 150);  // A jump every 150 ticks.
+    const auto jumps = tick / 150;
+    const double t = 0.004 * tick + static_cast<double>(jumps);
     const RigidTransform pose{glm::angleAxis(0.8 * t, glm::normalize(glm::dvec3(1, 1, 0))),
                               {0.9 * std::sin(t), 0.7 * std::sin(1.7 * t), 1.35 + 0.1 * std::cos(2.0 * t)}};
     if (tick == 0 || tracker.isDue({kCutoff})) {
@@ -130,7 +131,8 @@ TEST(SceneTracker, BodiesFarAwayAreNotLookedAtInATick) {
   scene->moving = {PartId{1}, ball, at({0.0, 0.0, 0.0})};
   constexpr std::uint32_t kBodies = 10000;
   for (std::uint32_t i = 0; i < kBodies; ++i) {
-    scene->bodies.push_back({PartId{10 + i}, ball, at({1.0 + (i % 100), static_cast<double>(i / 100), 0.0})});
+    const std::uint32_t row = i / 100, column = i % 100;
+    scene->bodies.push_back({PartId{10 + i}, ball, at({1.0 + column, static_cast<double>(row), 0.0})});
   }
   SceneTracker tracker;
   tracker.setScene(scene);

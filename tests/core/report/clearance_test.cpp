@@ -69,8 +69,8 @@ TEST(Clearance, DistancesPointsMinimaAndOverlapsAreThoseOfBruteForce) {
       pose.translation *= reach;
       return scene.add(test::partOf(test::geometryOf(rock(seed)), name, pose));
     };
-    const PartId part = place("part", 2 * round, 0.0);
-    place("near", 2 * round + 1, 2.2);
+    const PartId part = place("part", std::uint64_t{2} * round, 0.0);
+    place("near", std::uint64_t{2} * round + 1, 2.2);
     place("far", 2 * round + 7, 6.0);
     const auto clearances = clearancesOf(scene, part, kCutoff);
     ASSERT_EQ(clearances.size(), 2U);

@@ -14,7 +14,8 @@ TriangleMesh bedOfTetrahedra(int count) {
   std::vector<Triangle> triangles;
   for (int i = 0; i < count * count; ++i) {
     const auto first = static_cast<std::uint32_t>(vertices.size());
-    const glm::dvec3 foot{4.0 * (i % count), 4.0 * (i / count), 0.0};
+    const auto row = i / count, column = i % count;
+    const glm::dvec3 foot{4.0 * column, 4.0 * row, 0.0};
     for (const glm::dvec3& v : {glm::dvec3{0, 0, 2}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}})
       vertices.push_back(foot + v);
     for (const Triangle& t : {Triangle{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}) {

@@ -2,6 +2,7 @@
 #include <random>
 #include <tuple>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -176,7 +177,7 @@ TEST_F(SceneFileFaults, EveryKeyIsNeeded) {
     if (!values.is_object()) continue;
     for (const auto& [key, value] : values.items()) {
       EXPECT_THAT(errorWithout("/haptics/" + section, key),
-                  HasSubstr("haptics." + section + "." + key + ": it is missing"));
+                  HasSubstr(fmt::format("haptics.{}.{}: it is missing", section, key)));
     }
   }
   for (const auto& [key, value] : json_["parts"][2].items()) {

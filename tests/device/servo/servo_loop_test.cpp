@@ -315,7 +315,7 @@ TEST(ServoLoop, SaysWhatSchedulingItGotAndWhatToDoWhenItGotNone) {
   loop.start(device, test::coneOverFloor(), softSprings());
   const std::string note = loop.schedulingNote();
   const bool isGranted = note == "SCHED_FIFO 70, memory locked";
-  const bool hasRemedy = note.find("limits.d") != std::string::npos && note.find("(") != std::string::npos;
+  const bool hasRemedy = note.find("limits.d") != std::string::npos && note.find('(') != std::string::npos;
   EXPECT_TRUE(isGranted || hasRemedy) << note;
 }
 

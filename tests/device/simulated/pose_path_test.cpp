@@ -112,7 +112,7 @@ TEST_F(PosePath, AFileWithoutLineEndsIsRefusedEarly) {
 }
 
 TEST_F(PosePath, ZeroBytesAreNoLineEnds) {
-  EXPECT_THAT(refusal(std::string("0,0,0,1,0,0,0\0,9\n", 18)), HasSubstr(":1: "));
+  EXPECT_THAT(refusal(std::string("0,0,0,1,0,0,0\0,9\n", 17)), HasSubstr(":1: "));
 }
 
 TEST_F(PosePath, MissingFilesAndFoldersAreNamed) {
