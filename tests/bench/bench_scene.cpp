@@ -58,8 +58,9 @@ BenchScene pegInHole(std::string name, std::uint32_t fineness) {
   return scene;
 }
 
-SceneEntry generatedPair(const char* name, const char* description, std::function<TriangleMesh()> scene,
-                         std::function<TriangleMesh()> part) {
+SceneEntry generatedPair(const char* name, const char* description,
+                         const std::function<TriangleMesh()>& scene,
+                         const std::function<TriangleMesh()>& part) {
   return {name, description, [=] { return unitPair(name, scene(), part()); }};
 }
 

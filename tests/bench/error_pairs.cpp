@@ -57,7 +57,7 @@ using FloorContact = std::function<std::optional<TrueContact>(const RigidTransfo
 
 /// A solid above a wide slab: turned at random, then lifted until its gap is what is wanted.
 ErrorPair onFloor(std::string name, std::string description, std::function<TriangleMesh(std::uint32_t)> part,
-                  FloorContact contact, std::function<glm::dquat(Random&)> turn) {
+                  const FloorContact& contact, std::function<glm::dquat(Random&)> turn) {
   ErrorPair pair{std::move(name), std::move(description)};
   pair.scene = [](std::uint32_t) { return test::boxMesh({4.0, 4.0, 0.5}, {0.0, 0.0, -0.25}); };
   pair.part = std::move(part);

@@ -25,7 +25,7 @@ constexpr double kDegree = pi / 180.0;
 FeelScene feelScene(const TriangleMesh& scene, const TriangleMesh& part, PressingMotion motion) {
   FeelScene out;
   out.scene = solidScene(scene, part, motion.start);
-  out.motion = std::move(motion);
+  out.motion = motion;
   out.size = std::max(scene.bounds().diagonal(), part.bounds().diagonal());
   out.motion.centreInPart = out.scene->centreInPart;
   return out;

@@ -167,7 +167,7 @@ std::vector<FeelRow> smoothnessRows(const std::string& name, const FeelScene& sc
       const std::string of = SmoothnessRun::kModes[mode];
       // Without damping the springs know nothing of time.
       if (!isSamePeriod && mode > 0) continue;
-      const std::string run = of + " " + times + (isSamePeriod ? "" : " same speed");
+      const std::string run = fmt::format("{} {}{}", of, times, isSamePeriod ? "" : " same speed");
       const Rows before = rowsOf(name, of + " x1", plain.changes[mode]);
       const Rows after = rowsOf(name, run, refined.changes[mode]);
       if (isSamePeriod) rows.insert(rows.end(), {before.size, before.force, before.torque});

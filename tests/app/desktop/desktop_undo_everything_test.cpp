@@ -29,8 +29,8 @@ struct UndoDesk : DesktopDriver {
       session().movePart(ids[i], {{1, 0, 0, 0}, {0.1 * double(i), 0.01, -0.02}});
     }
     session().setOpacity({ids[1]}, 0.75);
-    session().setVisible({ids[2]}, false);
-    session().setDensity({ids[0]}, 7850.0);
+    session().setVisible(ids[2], false);
+    session().setDensity(ids[0], 7850.0);
     frame = session().group({{ids[3]}, {}}, "Frame");
     session().setMovingPart(ids[0]);
     window().selection().select(std::nullopt);
