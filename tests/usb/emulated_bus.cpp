@@ -50,7 +50,8 @@ std::string recordHid(const EmulatedInterface& face, const std::string& path) {
 /// Where such interfaces are, below /sys. The address makes the number that ends it the system's only one.
 std::string hidPath(const EmulatedDescription& device, unsigned port, unsigned address, std::size_t number) {
   return fmt::format("/devices/pci0000:00/usb{0}/{0}-{1}/{0}-{1}:1.{2}/0003:{3:04X}:{4:04X}.{5:04X}",
-                     EmulatedBus::kBus, port, number, device.vendor, device.product, 16 * address + number);
+                     EmulatedBus::kBus, port, number, device.vendor, device.product,
+                     std::size_t{16} * address + number);
 }
 
 }  // namespace
@@ -70,7 +71,7 @@ EmulatedBus::~EmulatedBus() {
     unplug(*plugged_.back().device);
 }
 
-std::uint8_t EmulatedBus::plug(std::shared_ptr<EmulatedDevice> device, unsigned port) {
+std::uint8_t EmulatedBus::plug(const std::shared_ptr<EmulatedDevice>& device, unsigned port) {
   const std::uint8_t address = ++lastAddress_;
   Plugged plugged{device, fmt::format("/dev/bus/usb/{:03}/{:03}", kBus, address),
                   fmt::format("/sys/devices/pci0000:00/usb{0}/{0}-{1}", kBus, port)};

@@ -26,7 +26,7 @@ class EmulatedBus {
   /// The system tells its listeners before this returns; when they see to it is their matter.
   /// @param port  Of the root hub; a device that is plugged in again gets a new address, as by Linux.
   /// @return      Its address.
-  std::uint8_t plug(std::shared_ptr<EmulatedDevice> device, unsigned port = 1);
+  std::uint8_t plug(const std::shared_ptr<EmulatedDevice>& device, unsigned port = 1);
   void unplug(EmulatedDevice& device, Unplugging how = Unplugging::Shutdown);
 
  private:

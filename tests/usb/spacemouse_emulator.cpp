@@ -40,7 +40,8 @@ void SpaceMouseEmulator::stream(std::function<void(SpaceMouseFirmware&, double)>
   plan.isPatient = true;
   plan.report = [this, perMoment, rate, hand = std::move(hand)](std::uint64_t number) {
     const std::lock_guard lock(mutex_);
-    if (number % perMoment == 0) hand(firmware_, static_cast<double>(number / perMoment) / rate);
+    const std::uint64_t moment = number / perMoment;
+    if (number % perMoment == 0) hand(firmware_, static_cast<double>(moment) / rate);
     return firmware_.reports().at(number % perMoment);
   };
   reports_.emplace(*device_, std::move(plan));

@@ -137,10 +137,12 @@ int open64(const char* path, int flags, ...) {
   return rig::openAnything(rig::nextOpen64, "open64", path, flags, mode);
 }
 
+// The C library's own names of an open() that it checks. NOLINTNEXTLINE(bugprone-reserved-identifier)
 int __open_2(const char* path, int flags) {
   return rig::openAnything(rig::nextOpen, "open", path, flags, 0);
 }
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
 int __open64_2(const char* path, int flags) {
   return rig::openAnything(rig::nextOpen64, "open64", path, flags, 0);
 }
