@@ -35,7 +35,9 @@ glm::dvec3 slewed(const glm::dvec3& from, const glm::dvec3& to, double most, boo
 /// Share of the wanted wrench that an input of that age is worth; 0 if any number is NaN.
 double worthOf(double age, const PosePatience& patience) noexcept {
   if (!(age < patience.silence)) return 0.0;
-  if (!(age > patience.hold)) return std::isnan(patience.hold) ? 0.0 : 1.0;
+  if (std::isnan(patience.hold)) return 0.0;
+  // An infinite silence never fades; the line below would make NaN of it.
+  if (!(age > patience.hold) || std::isinf(patience.silence)) return 1.0;
   return (patience.silence - age) / (patience.silence - patience.hold);
 }
 

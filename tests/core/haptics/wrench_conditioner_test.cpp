@@ -174,6 +174,12 @@ TEST(WrenchConditioner, PatienceThatIsNoNumberIsNone) {
   }
 }
 
+TEST(WrenchConditioner, PatienceWithoutEndNeverFades) {
+  WrenchConditioner conditioner = sending(kWanted, fastDevice());
+  const PosePatience endless{0.005, std::numeric_limits<double>::infinity()};
+  EXPECT_EQ(conditioner.condition(kWanted, 1e6, kPeriod, fastDevice(), endless).wrench.force, kWanted.force);
+}
+
 TEST(WrenchConditioner, RecoversFromStaleInputByARamp) {
   WrenchConditioner conditioner = sending(kWanted, fastDevice());
   EXPECT_EQ(conditioner.condition(kWanted, 1.0, kPeriod, fastDevice()).wrench.force, glm::dvec3(0.0));
