@@ -1,6 +1,7 @@
 /// What the sanitizers are to leave out, for programs with the rig: GLib locks with futexes of its own, which
 /// the thread sanitizer does not see, so that everything umockdev hands from thread to thread looks raced
 /// for; libudev seeds its hashes in any thread.
+// The sanitizer's own name. NOLINTNEXTLINE(bugprone-reserved-identifier)
 extern "C" const char* __tsan_default_suppressions() {
   return "called_from_lib:libumockdev.so\n"
          "called_from_lib:libglib-2.0.so\n"
@@ -15,6 +16,7 @@ extern "C" const char* __tsan_default_suppressions() {
          "race:libumockdev.so\n";
 }
 
+// The sanitizer's own name. NOLINTNEXTLINE(bugprone-reserved-identifier)
 extern "C" const char* __lsan_default_suppressions() {
   // Types and the main context, kept till the end.
   return "leak:libglib-2.0.so\n"
