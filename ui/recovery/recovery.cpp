@@ -36,12 +36,12 @@ void Recovery::look(int number) {
               [this, found, number](const std::exception_ptr&) {
                 if (found->areOthersRunning && number < static_cast<int>(std::size(kLater)))
                   QTimer::singleShot(kLater[number], this, [this, number] { look(number + 1); });
-                show(std::move(*found));
+                show(*found);
                 emit looked();
               });
 }
 
-void Recovery::show(FoundWork found) {
+void Recovery::show(const FoundWork& found) {
   if (!found.damaged.empty()) {
     QStringList files;
     for (const std::filesystem::path& file : found.damaged)

@@ -43,7 +43,7 @@ class Recovery : public QObject {
 
  private:
   void look(int number);
-  void show(FoundWork found);
+  void show(const FoundWork& found);
   void restore(const LostWork& work);
 
   std::shared_ptr<RecoveryFolder> folder_;
