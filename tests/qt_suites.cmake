@@ -20,8 +20,15 @@ function(nearfit_add_qt_program name)
   cmake_parse_arguments(arg "" "" "FILES;LIBS" ${ARGN})
   add_executable(${name} ${arg_FILES} $<TARGET_OBJECTS:nearfit_qt_test_headers> ${no_user_cache})
   target_link_libraries(${name} PRIVATE nearfit_test_flags nearfit_test_support nearfit_exact_oracle Qt5::Test ${arg_LIBS})
-  # Most of what a file takes is parsing VTK's and our own headers: eight files take little longer than one.
-  set_target_properties(${name} PROPERTIES AUTOMOC ON UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  # Most of what a file takes is parsing VTK's and our own headers: eight files take little longer than one. Which eight is
+  # said here: versions of CMake count Qt's generated files differently, and local names differ among the eight alone.
+  set(count 0)
+  foreach(file IN LISTS arg_FILES)
+    math(EXPR group "${count} / 8")
+    set_source_files_properties(${file} PROPERTIES UNITY_GROUP ${name}_${group})
+    math(EXPR count "${count} + 1")
+  endforeach()
+  set_target_properties(${name} PROPERTIES AUTOMOC ON UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   if(NEARFIT_PRECOMPILE)
     target_precompile_headers(${name} REUSE_FROM nearfit_qt_test_headers)
   endif()
