@@ -3,6 +3,8 @@
 #include <QtTest>
 #include <memory>
 
+#include <vtkVersion.h>
+
 #include "core/session.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
@@ -20,7 +22,10 @@ using test::PictureDifference;
 
 namespace {
 
-const QString kBaseline = QStringLiteral(NEARFIT_SOURCE_DIR "/tests/ui/baseline/");
+/// Each version of VTK shades and draws lines a little differently.
+const QString kBaseline = QStringLiteral(NEARFIT_SOURCE_DIR "/tests/ui/baseline/vtk-%1.%2/")
+                              .arg(vtkVersion::GetVTKMajorVersion())
+                              .arg(vtkVersion::GetVTKMinorVersion());
 
 SnapshotLmd minimum(const glm::dvec3& scenePoint, const glm::dvec3& partPoint, bool isBlocked = false) {
   SnapshotLmd minimum;

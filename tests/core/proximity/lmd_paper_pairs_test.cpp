@@ -56,7 +56,7 @@ void expectPaperPairAgrees(const BodyPair& pair, std::size_t poses) {
   const LmdTally tally = test::compareWithOracle(pair, poses, 0.05, 2003);
   EXPECT_EQ(tally.poses, poses);
   // The poses are near contact: there is something to compare, if little at the few poses of sanitized builds.
-  EXPECT_GT(tally.minima, test::kPoseShare == 1 ? poses / 8 : 0);
+  EXPECT_GE(tally.minima, test::kPoseShare == 1 ? poses / 8 : 1);
   EXPECT_LT(tally.marginal, tally.minima / 1000 + 5);
 }
 
