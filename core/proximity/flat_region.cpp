@@ -138,34 +138,66 @@ constexpr double kLeastFlatShare = 0.5;
 
 class RegionUnion {
  public:
+  /// @param dimension  Of the pieces that count; at least one piece has it.
   RegionUnion(std::span<const Minimum> minima, std::span<const std::uint32_t> group,
-              const RegionNeighbours& neighbours, double tolerance) noexcept
+              const RegionNeighbours& neighbours, double tolerance, std::uint8_t dimension) noexcept
       : minima_(minima),
         group_(group),
         neighbours_(neighbours),
         tolerance_(tolerance),
-        largest_(largestPiece(minima, group)),
+        dimension_(dimension),
+        largest_(largestPiece()),
         direction_(meanDirection()),
         plane_(largest_.lmd.scenePoint, direction_) {}
 
-  Lmd unite() const noexcept {
-    Moments moments;
+  /// Moments of the union of the pieces.
+  Moments moments() const noexcept {
+    Moments sum;
+    for (const std::uint32_t i : group_) {
+      if (isPiece(minima_[i])) addPiece(i, sum);
+    }
+    // If slivers cover each other, rounding may leave nothing, or less.
+    if (!(sum.measure > kLeastFlatShare * largest_.weight)) {
+      sum = {};
+      addOutline(sum);
+    }
+    return sum;
+  }
+
+  /// Returns whether the pieces are faces whose overlap is only a strip, no wider than the tolerance for
+  /// parallel edges allows, while edges of the region lead beyond the ends of the strip. Two edges that are
+  /// parallel to kFlatTolerance diverge by up to that times their length. The overlap of two faces shifts by up
+  /// to that times their distance when it is seen along the normal of the other face. So such edges may face
+  /// each other over their full length, while the faces beside them overlap near one end, or nowhere: which of
+  /// the two is below the tolerance. A representative of the strip alone would leave out most of the region.
+  /// @param area  Of the union of the pieces [m^2].
+  bool isStripOfLongerEdges(double area) const noexcept {
+    if (dimension_ != 2) return false;
+    const double distance = largest_.lmd.distance;
+    const auto isStrip = [&](double reach, double length) {
+      return area <= kFlatTolerance * (reach + distance) * length;
+    };
+    // An upper bound of both lengths rules out nearly all regions, at the cost of one pass.
+    const double most = 2.0 * radius();
+    if (!isStrip(most, most)) return false;
+    const glm::dvec3 start = farthest(2, largest_.lmd.scenePoint), end = farthest(2, start);
+    const double length = glm::distance(start, end);
+    const double reach =
+        std::max(glm::distance(start, farthest(1, start)), glm::distance(end, farthest(1, end)));
+    return length < (1.0 - kFlatTolerance) * reach && isStrip(reach, length);
+  }
+
+  Lmd unite(const Moments& moments) const noexcept {
     bool isMarginal = true;
     double weight = 0.0, height = 0.0, distance = 0.0, least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t i : group_) {
       const Minimum& piece = minima_[i];
       least = std::min(least, piece.least);
       if (!isPiece(piece)) continue;
-      addPiece(i, moments);
       isMarginal = isMarginal && piece.lmd.isMarginal;
       weight += piece.weight;
       height += piece.weight * plane_.height(piece.lmd.scenePoint);
       distance += piece.weight * piece.lmd.distance;
-    }
-    // If slivers cover each other, rounding may leave nothing, or less.
-    if (!(moments.measure > kLeastFlatShare * largest_.weight)) {
-      moments = {};
-      addOutline(moments);
     }
     Lmd lmd = largest_.lmd;
     lmd.isMarginal = isMarginal;
@@ -181,14 +213,35 @@ class RegionUnion {
   }
 
  private:
-  static const Minimum& largestPiece(std::span<const Minimum> minima,
-                                     std::span<const std::uint32_t> group) noexcept {
-    return minima[*std::max_element(group.begin(), group.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return minima[a].dimension != minima[b].dimension ? minima[a].dimension < minima[b].dimension
-                                                        : minima[a].weight < minima[b].weight;
+  const Minimum& largestPiece() const noexcept {
+    const auto weight = [&](std::uint32_t i) { return isPiece(minima_[i]) ? minima_[i].weight : -1.0; };
+    return minima_[*std::max_element(group_.begin(), group_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return weight(a) < weight(b);
     })];
   }
-  bool isPiece(const Minimum& m) const noexcept { return m.dimension == largest_.dimension; }
+  bool isPiece(const Minimum& m) const noexcept { return m.dimension == dimension_; }
+  /// Radius of a sphere about the largest piece's centroid that contains all pieces, of faces and edges [m].
+  double radius() const noexcept {
+    double most = 0.0;
+    for (const std::uint32_t i : group_) {
+      const Minimum& m = minima_[i];
+      if (m.dimension == 0) continue;
+      most = std::max(most, glm::distance(m.lmd.scenePoint, largest_.lmd.scenePoint) + m.radius);
+    }
+    return most;
+  }
+  /// Returns the corner farthest from a point among the pieces of a dimension, or the point if there are none.
+  glm::dvec3 farthest(std::uint8_t dimension, const glm::dvec3& from) const noexcept {
+    glm::dvec3 corner = from;
+    for (const std::uint32_t i : group_) {
+      const Minimum& m = minima_[i];
+      if (m.dimension != dimension) continue;
+      for (std::size_t k = 0; k < m.cornerCount; ++k) {
+        if (glm::distance(m.corners[k], from) > glm::distance(corner, from)) corner = m.corners[k];
+      }
+    }
+    return corner;
+  }
   glm::dvec3 meanDirection() const noexcept {
     glm::dvec3 sum(0.0);
     for (const std::uint32_t i : group_) {
@@ -201,8 +254,8 @@ class RegionUnion {
   void addOutline(Moments& moments) const noexcept {
     const Outline outline(largest_, plane_);
     for (std::size_t k = 0; k < outline.sides(); ++k) {
-      largest_.dimension == 2 ? moments.addBoundary(outline.from(k), outline.to(k))
-                              : moments.addSegment(outline.from(k), outline.to(k));
+      dimension_ == 2 ? moments.addBoundary(outline.from(k), outline.to(k))
+                      : moments.addSegment(outline.from(k), outline.to(k));
     }
   }
 
@@ -266,12 +319,12 @@ class RegionUnion {
     constexpr double kRound = 1e-9;
     const double angle = spread > kRound * mean ? 0.5 * std::atan2(2.0 * xy, xx - yy) : 0.0;
     const glm::dvec2 axis(std::cos(angle), std::sin(angle)), across(-axis.y, axis.x);
-    extent.dimension = largest_.dimension;
+    extent.dimension = dimension_;
     extent.measure = m.measure;
     extent.axis = plane_.along(axis);
     // The second moment of a rectangle is a third of its half length squared.
     extent.halfLength = std::sqrt(3.0 * std::max(0.0, mean + spread));
-    extent.halfWidth = largest_.dimension == 2 ? std::sqrt(3.0 * std::max(0.0, mean - spread)) : 0.0;
+    extent.halfWidth = dimension_ == 2 ? std::sqrt(3.0 * std::max(0.0, mean - spread)) : 0.0;
     const glm::dvec2 inside = pointInside(centroid) - centroid;
     extent.inside = {glm::dot(inside, axis), glm::dot(inside, across)};
   }
@@ -292,6 +345,7 @@ class RegionUnion {
   std::span<const std::uint32_t> group_;
   const RegionNeighbours& neighbours_;
   double tolerance_;
+  std::uint8_t dimension_;
   const Minimum& largest_;
   glm::dvec3 direction_;
   Plane plane_;
@@ -301,7 +355,14 @@ class RegionUnion {
 
 Lmd uniteRegion(std::span<const Minimum> minima, std::span<const std::uint32_t> group,
                 const RegionNeighbours& neighbours, double tolerance) noexcept {
-  return RegionUnion(minima, group, neighbours, tolerance).unite();
+  std::uint8_t dimension = 0;
+  for (const std::uint32_t i : group)
+    dimension = std::max(dimension, minima[i].dimension);
+  const RegionUnion region(minima, group, neighbours, tolerance, dimension);
+  const Moments moments = region.moments();
+  if (!region.isStripOfLongerEdges(moments.measure)) return region.unite(moments);
+  const RegionUnion edges(minima, group, neighbours, tolerance, 1);
+  return edges.unite(edges.moments());
 }
 
 }  // namespace nearfit

@@ -16,7 +16,9 @@ struct RegionNeighbours {
 
 /// Returns the representative of a flat region. Its centroid and extent are those of the union of the pieces
 /// of the highest dimension: means over area (or length), which do not depend on the meshing of the bodies.
-/// Its distance is the min of all pieces, its features are the largest piece's. It is marginal if all are.
+/// Exception: if faces overlap only in a strip that is shorter than the edges beside it and no wider than
+/// kFlatTolerance times their length and distance, the edges count instead of the faces. Its distance is the
+/// min of all pieces, its features are the largest piece's. It is marginal if all are.
 ///
 /// @param group       Indices in `minima` of the pieces and of the points at their rims; at least one piece.
 /// @param neighbours  For all entries of `minima`.

@@ -148,6 +148,44 @@ TEST(FlatRegion, ParallelEdgesStayOneRegionWithinTheTolerance) {
   }
 }
 
+TEST(FlatRegion, EdgesParallelToTheToleranceAreTheRegionThoughFacesOverlapAtOneEnd) {
+  // Two boxes diagonally above each other, edge over edge. Turned about the direction between the edges, their
+  // faces overlap in a triangle at one end, less than a micrometre wide. The shift narrows it.
+  const TriangleMesh left = test::boxMesh({1, 1, 1}, {-0.5, 0, -0.5}),
+                     right = test::boxMesh({1, 1, 1}, {0.5, 0, 0.5});
+  for (const double turn : {0.9e-6, -0.9e-6}) {
+    for (const double shift : {0.0, 1e-9, 1e-7, 3e-7, 0.44e-6}) {
+      SCOPED_TRACE(fmt::format("{}, {}", turn, shift));
+      const RigidTransform pose{glm::angleAxis(turn, glm::dvec3(0, 0, 1)), {shift, 0.0, 0.1}};
+      for (const bool isSwapped : {false, true}) {
+        const auto found = isSwapped ? query(right, left, pose.inverse()) : query(left, right, pose);
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_TRUE(found[0].isRegion);
+        EXPECT_EQ(found[0].extent.dimension, 1);
+        // Up to 0.5e-6 of each box's adjacent edge also lies over the other box.
+        EXPECT_NEAR(found[0].extent.measure, 1.0, 4e-6);
+        EXPECT_NEAR(found[0].extent.halfLength, 0.5, 4e-6);
+        EXPECT_NEAR(found[0].distance, 0.1, 1e-11);
+        const glm::dvec3 middle = isSwapped ? pose.applyToPoint(found[0].partPoint) : found[0].scenePoint;
+        expectNear(middle, {0, 0, 0}, 4e-6);
+      }
+    }
+  }
+}
+
+TEST(FlatRegion, StripAsLongAsTheEdgesBesideItIsARegionOfFaces) {
+  const TriangleMesh left = test::boxMesh({1, 1, 1}, {-0.5, 0, -0.5}),
+                     right = test::boxMesh({1, 1, 1}, {0.5, 0, 0.5});
+  for (const double width : {1e-3, 1e-5, 1e-6, 1e-7}) {
+    const auto found = query(left, right, at({-width, 0.0, 0.1}));
+    ASSERT_EQ(found.size(), 1U) << width;
+    EXPECT_EQ(found[0].extent.dimension, 2);
+    EXPECT_NEAR(found[0].extent.measure, width, 1e-12);
+    EXPECT_NEAR(found[0].extent.halfLength, 0.5, 1e-6);
+    expectNear(found[0].scenePoint, {-0.5 * width, 0, 0}, 1e-9);
+  }
+}
+
 TEST(FlatRegion, CentroidAndExtentDoNotDependOnTheMesh) {
   for (const std::uint32_t divisions : {1U, 2U, 8U}) {  // 2, 8 and 128 triangles a side.
     for (const std::uint32_t others : {1U, 3U, 8U}) {

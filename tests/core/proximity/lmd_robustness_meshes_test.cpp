@@ -76,6 +76,24 @@ TEST(LmdRobustness, NeedlesAMillionTimesAsLongAsWideHaveTheExactSet) {
   }
 }
 
+TEST(LmdRobustness, NeedlesOfFacesThatOverlapAtOneEndOfTheirEdgesHaveTheExactSet) {
+  // Two edges, 0.5 m long, face each other. The tips of needles are nearest at one end. At the other end the
+  // faces of the boxes overlap in a strip 2e-8 m wide and 0.03 m long. The representative of the region was
+  // that strip alone, so that no region held the minima at the tips. At some of these poses the strip appears
+  // only with the bodies swapped, at others in both orders.
+  const TriangleMesh box = test::withNeedles(test::boxMesh({0.6, 0.4, 0.5}), 1e6, 0.5);
+  const BodyPair pair{"box of needles, edge over edge", box, box};
+  ExactComparison comparison(pair);
+  const auto check = [&](const glm::dvec3& translation) {
+    comparison.checkPose({{1, 0, 0, 0}, translation}, 0.0877);
+  };
+  for (const double along : {0.0, 1.9e-9, 5.4e-7}) {
+    for (const double overlap : {0.0, 1e-9, 2.6e-8, 1e-7, 1.6e-7, -9.2e-9})
+      check({-0.6 + overlap, 0.44387487329499586, along});
+  }
+  EXPECT_GT(comparison.tally().minima, 0U);
+}
+
 TEST(LmdRobustness, DuplicateFacesHaveTheExactSet) {
   check("duplicates", test::withDuplicates(test::starMesh(5, 0.5, 1, 0.3)), 24, 35);
   check("box with duplicates", test::withDuplicates(test::boxMesh({0.6, 0.4, 0.5})), 24, 36);
