@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <vtkBoundingBox.h>
 #include <vtkBox.h>
 #include <vtkCamera.h>
 #include <vtkGenericCell.h>
@@ -12,6 +13,11 @@
 // SceneRenderer: levels of detail, picking and what is seen, which depend on the camera.
 namespace nearfit::ui {
 namespace {
+
+/// How far from a triangle or a box a ray still meets it, as a fraction of the part's largest coordinate: the boxes of
+/// triangles that lie across an axis are flat, and rounding alone would let the ray miss them. A hundred times what
+/// rounding needs, and a millionth of a pixel for a part that fills the view.
+constexpr double kRaySlack = 1e-9;
 
 struct Ray {
   glm::dvec3 begin, end;
@@ -59,14 +65,20 @@ struct Hit {
 /// Finds the first triangle on a ray in the part's frame. True, with `hit` updated, if
 /// it is nearer than `hit`.
 bool hitFirst(const PartShape& shape, const Ray& ray, vtkGenericCell& cell, Hit& hit) {
-  double direction[3], at[3], t = 0.0;
+  const double* bounds = shape.surface->GetBounds();
+  vtkBoundingBox box(bounds);
+  const auto size = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const double slack = kRaySlack * std::abs(*std::max_element(bounds, bounds + 6, size));
+  box.Inflate(slack);
+  double padded[6], direction[3], at[3], t = 0.0;
+  box.GetBounds(padded);
   for (int axis = 0; axis < 3; ++axis)
     direction[axis] = ray.end[axis] - ray.begin[axis];
-  if (vtkBox::IntersectBox(shape.surface->GetBounds(), &ray.begin.x, direction, at, t) == 0) return false;
+  if (vtkBox::IntersectBox(padded, &ray.begin.x, direction, at, t) == 0) return false;
   double point[3], parametric[3];
   int part = 0;
   vtkIdType triangle = -1;
-  const int isHit = shape.locator->IntersectWithLine(&ray.begin.x, &ray.end.x, 0.0, t, point, parametric,
+  const int isHit = shape.locator->IntersectWithLine(&ray.begin.x, &ray.end.x, slack, t, point, parametric,
                                                      part, triangle, &cell);
   const double fraction = ray.from + t * (ray.to - ray.from);
   if (isHit == 0 || triangle < 0 || fraction >= hit.fraction) return false;

@@ -89,9 +89,9 @@ struct PictureDesk : DesktopDriver {
   QSize shownSize() { return window().viewport().grabFramebuffer().size(); }
 };
 
-/// Where the view shows the middle of the moving cube, which is opaque.
+/// Where the view shows a place within the moving cube's front face, off all edges.
 QPoint onMovingCube(PictureDesk& d) {
-  const glm::dvec2 pixel = d.window().viewport().projection().pixelOf({0.0, 0.0, 0.035}).value();
+  const glm::dvec2 pixel = d.window().viewport().projection().pixelOf({0.003, -0.01, 0.036}).value();
   return QPoint(qRound(pixel.x), qRound(pixel.y)) * d.window().viewport().devicePixelRatioF();
 }
 
