@@ -9,7 +9,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace {
 

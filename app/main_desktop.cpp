@@ -6,8 +6,8 @@
 
 #include "app/desktop/application.h"
 #include "app/desktop/command_line.h"
+#include "app/desktop/device_led_session.h"
 #include "app/desktop/display_check.h"
-#include "app/desktop/led_session.h"
 #include "app/desktop/screenshot.h"
 #include "core/recovery/recovery_folder.h"
 
@@ -35,7 +35,7 @@ int run(int argc, char** argv) {
   desktop::Application application;
   const QStringList files = fileNames(options.files);
   std::optional<desktop::Screenshot> screenshot;
-  std::optional<desktop::LedSession> led;
+  std::optional<desktop::DeviceLedSession> led;
   if (!options.record.empty()) application.servo().recordTo(fileNames({options.record}).first());
   // A run that nobody watches, or that ends by itself, must not ask questions.
   const std::filesystem::path recovery = userRecoveryFolder();

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/part_geometry.h"
 #include "core/scene/scene.h"
 

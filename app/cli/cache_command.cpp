@@ -8,8 +8,8 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
-#include "core/error.h"
-#include "core/proximity/tree_cache.h"
+#include "core/base/error.h"
+#include "core/proximity/cache/tree_cache.h"
 #include "core/text/utf8.h"
 
 namespace nearfit::cli {
@@ -75,7 +75,7 @@ void addCacheCommand(CLI::App& program) {
       "  NEARFIT_CACHE       Folder of the cache, or \"off\"; without it, nearfit in XDG_CACHE_HOME or "
       "~/.cache\n"
       "  NEARFIT_CACHE_SIZE  Limit in bytes, or with K, M, G or T behind; without it, 4G",
-      kLeastCachedTriangles));
+      kMinCachedTriangles));
   command->callback([options] { runCache(*options); });
 }
 

@@ -1,7 +1,7 @@
 #include "app/cli/device_armer.h"
 
 #include "app/cli/output.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace nearfit::cli {
 

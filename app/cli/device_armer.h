@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "device/haptic_device.h"
+#include "device/interface/haptic_device.h"
 
 namespace nearfit::cli {
 

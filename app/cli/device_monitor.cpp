@@ -11,7 +11,7 @@
 #include "app/cli/monitor_damping.h"
 #include "app/cli/output.h"
 #include "app/cli/ticked_device.h"
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 
 namespace nearfit::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "device/device_list.h"
+#include "device/registry/device_list.h"
 
 namespace CLI {
 class App;

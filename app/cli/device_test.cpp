@@ -16,7 +16,7 @@
 #include "app/cli/device_test_steps.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/output.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace nearfit::cli {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "device/haptic_device.h"
+#include "device/interface/haptic_device.h"
 
 namespace nearfit::cli {
 

@@ -8,18 +8,18 @@
 #include <glm/geometric.hpp>
 
 #include "app/cli/interrupt.h"
-#include "device/device_supervisor.h"
+#include "device/interface/device_supervisor.h"
 
 namespace nearfit::cli {
 namespace {
 
 constexpr double kWatchSeconds = 2.0, kPushSeconds = 1.0;
 /// The servo copes with half the nominal rate, with softer contact; less means a bad cable or hub.
-constexpr double kLeastRate = 0.5;
+constexpr double kMinRate = 0.5;
 /// Shortest time over which speed is measured, since two reports may come at once [s].
 constexpr double kSpeedTime = 0.01;
 /// Limits for half a newton on a handle that is held.
-constexpr double kMostWay = 0.05, kMostSpeed = 0.5;  // [m], [m/s]
+constexpr double kMaxWay = 0.05, kMaxSpeed = 0.5;  // [m], [m/s]
 
 using Result = TestStep::Result;
 
@@ -86,7 +86,7 @@ TestStep judgeRate(const TickedDevice& ticked, const Watched& watched, double pe
     return step;
   }
   step.text += fmt::format("; {:.1f} Hz is its own", 1.0 / period);
-  const bool isTooSlow = watched.rate < kLeastRate / period;
+  const bool isTooSlow = watched.rate < kMinRate / period;
   if (isTooSlow || watched.counters.rejected > watched.counters.poses) step.result = Result::Failed;
   return step;
 }
@@ -106,8 +106,8 @@ std::string motionTrouble(const HapticDevice& device, double way, double speed) 
     const std::string note = device.stateNote();
     return note.empty() ? "it is no longer armed" : note;
   }
-  if (!(way <= kMostWay)) return fmt::format("the handle went {:.3f} m: it has to be held", way);
-  if (!(speed <= kMostSpeed)) return fmt::format("the handle ran away at {:.2f} m/s", speed);
+  if (!(way <= kMaxWay)) return fmt::format("the handle went {:.3f} m: it has to be held", way);
+  if (!(speed <= kMaxSpeed)) return fmt::format("the handle ran away at {:.2f} m/s", speed);
   return {};
 }
 

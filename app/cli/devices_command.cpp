@@ -19,7 +19,7 @@
 #include "app/cli/interrupt.h"
 #include "app/cli/output.h"
 #include "app/cli/rate_options.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "device/usb/udev_rules.h"
 
 namespace nearfit::cli {

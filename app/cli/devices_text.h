@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "device/device_list.h"
+#include "device/registry/device_list.h"
 
 namespace nearfit::cli {
 

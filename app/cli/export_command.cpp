@@ -9,7 +9,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/report/scene_export.h"
 #include "core/scene/scene_file.h"
 

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/arguments.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/haptic_limits.h"
 
 namespace nearfit::cli {

@@ -11,7 +11,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/report/lmd_set.h"
 #include "core/scene/part_geometry.h"
 #include "core/scene/scene.h"

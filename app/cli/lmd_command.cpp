@@ -14,7 +14,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/haptics/spring_law.h"
 #include "core/math/finite.h"
 #include "core/report/lmd_set.h"

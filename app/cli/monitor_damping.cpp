@@ -19,7 +19,7 @@ Wrench MonitorDamping::step(const HandleInput& handle, bool isArmed, Nanoseconds
   if (!(speed > 0.0 && speed < kNoneFrom) || !(handle.age <= kFresh)) return {};
   const double in = std::min(toSeconds(now - pushingSince_) / kFadeIn, 1.0);
   const double slow = std::clamp((kNoneFrom - speed) / (kNoneFrom - kAllUpTo), 0.0, 1.0);
-  const double size = in * slow * std::min(kDamping * speed, kMost);
+  const double size = in * slow * std::min(kDamping * speed, kMax);
   return {-size / speed * velocity, glm::dvec3(0.0)};
 }
 

@@ -6,7 +6,7 @@
 #include <new>
 #include <system_error>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/text/utf8.h"
 
 namespace nearfit::cli {

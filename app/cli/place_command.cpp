@@ -14,7 +14,7 @@
 #include "app/cli/place_run.h"
 #include "app/cli/place_summary.h"
 #include "app/cli/rate_options.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/report/placement_export.h"
 #include "core/scene/scene_file.h"
 #include "device/simulated/replay_device.h"

@@ -9,11 +9,11 @@
 
 #include "app/cli/device_armer.h"
 #include "app/cli/interrupt.h"
-#include "core/error.h"
-#include "core/haptics/scene_tracker.h"
-#include "device/servo/monotonic_clock.h"
+#include "core/base/error.h"
+#include "core/servo/scene_tracker.h"
 #include "device/servo/servo_loop.h"
 #include "device/simulated/simulated_device.h"
+#include "device/thread/monotonic_clock.h"
 
 namespace nearfit::cli {
 namespace {

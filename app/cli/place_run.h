@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/haptics/servo_tick.h"
 #include "core/realtime/latency_histogram.h"
-#include "core/scene/motion_recording.h"
-#include "device/haptic_device.h"
+#include "core/servo/motion_recording.h"
+#include "core/servo/servo_tick.h"
+#include "device/interface/haptic_device.h"
 
 namespace nearfit::cli {
 

@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "device/rate_control.h"
+#include "core/base/error.h"
+#include "device/common/rate_control.h"
 
 namespace nearfit::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/haptics/rate_settings.h"
-#include "device/haptic_device.h"
+#include "device/interface/haptic_device.h"
 
 namespace CLI {
 class App;

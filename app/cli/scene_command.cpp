@@ -15,7 +15,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/haptic_options.h"
 #include "app/cli/output.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/haptic_limits.h"
 #include "core/scene/scene_file.h"
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 
 #include "core/realtime/latency_histogram.h"
-#include "device/haptic_device.h"
-#include "device/servo/monotonic_clock.h"
-#include "device/servo/realtime_thread.h"
+#include "device/interface/haptic_device.h"
+#include "device/thread/monotonic_clock.h"
+#include "device/thread/realtime_thread.h"
 
 namespace nearfit::cli {
 

@@ -5,11 +5,11 @@
 #include <QTimer>
 
 #include "app/desktop/resource_files.h"
-#include "ui/document.h"
-#include "ui/preferences.h"
-#include "ui/taking/taking_away.h"
-#include "ui/theme.h"
-#include "ui/viewport.h"
+#include "ui/files/document.h"
+#include "ui/shell/taking_away.h"
+#include "ui/view3d/viewport.h"
+#include "ui/widgets/preferences.h"
+#include "ui/widgets/theme.h"
 
 namespace nearfit::desktop {
 

@@ -6,8 +6,8 @@
 
 #include "app/desktop/device_watcher.h"
 #include "app/desktop/servo_controller.h"
-#include "core/session.h"
-#include "ui/main_window.h"
+#include "core/session/session.h"
+#include "ui/shell/main_window.h"
 
 namespace nearfit::desktop {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "device/device_list.h"
+#include "device/registry/device_list.h"
 
 namespace nearfit::desktop {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "device/haptic_device.h"
-#include "ui/device_choice.h"
+#include "device/interface/haptic_device.h"
+#include "ui/model/device_choice.h"
 
 namespace nearfit::desktop {
 

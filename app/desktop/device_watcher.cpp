@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/error.h"
-#include "device/device_registry.h"
+#include "core/base/error.h"
+#include "device/registry/device_registry.h"
 
 namespace nearfit::desktop {
 namespace {

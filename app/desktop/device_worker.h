@@ -10,7 +10,7 @@
 #include <mutex>
 #include <thread>
 
-#include "core/progress.h"
+#include "core/base/progress.h"
 
 namespace nearfit::desktop {
 

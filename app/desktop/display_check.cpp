@@ -3,7 +3,7 @@
 #include <QOpenGLContext>
 #include <QtGlobal>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace nearfit::desktop {
 

@@ -9,11 +9,11 @@
 #include <glm/geometric.hpp>
 
 #include "core/haptics/virtual_coupling.h"
-#include "core/proximity/lmd_query.h"
+#include "core/proximity/query/lmd_query.h"
 #include "device/servo/servo_loop.h"
 #include "device/simulated/replay_device.h"
 #include "device/simulated/simulated_device.h"
-#include "ui/paths.h"
+#include "ui/widgets/paths.h"
 
 namespace nearfit::desktop {
 namespace {
@@ -30,7 +30,7 @@ constexpr double kPress = 7.0;
 /// Radius of its circle on contact, as a share of the depth that it presses beyond.
 constexpr double kSlides = 0.5;
 /// Largest depth beyond contact, as a share of the moving part's diagonal.
-constexpr double kMostBeyond = 0.05;
+constexpr double kMaxBeyond = 0.05;
 
 /// Direction in which the hand goes straight on, before it circles across.
 struct Approach {
@@ -86,7 +86,7 @@ Sweep sweepOfSprings(const ServoScene& scene, const Approach& approach) {
 /// Goes beyond contact, and in a circle on it.
 Sweep sweepOfProxy(const ServoScene& scene, const Approach& approach, const CouplingSettings& wish) {
   const CouplingState coupling = boundedCoupling(wish, DeviceLimits{}, scene.metric, ServoLoop::kPeriod);
-  const double most = kMostBeyond * sizeOf(scene);
+  const double most = kMaxBeyond * sizeOf(scene);
   const double beyond = coupling.stiffness > 0.0 ? std::min(kPress / coupling.stiffness, most) : most;
   return {approach.direction, approach.gap + beyond, kSlides * beyond, kScriptedWobble};
 }

@@ -5,9 +5,9 @@
 #include <memory>
 #include <optional>
 
-#include "core/haptics/servo_tick.h"
-#include "device/haptic_device.h"
-#include "ui/servo_status.h"
+#include "core/servo/servo_tick.h"
+#include "device/interface/haptic_device.h"
+#include "ui/model/servo_status.h"
 
 namespace nearfit::desktop {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scene/motion_recording.h"
+#include "core/servo/motion_recording.h"
 
 namespace nearfit::desktop {
 

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <utility>
 
-#include "ui/document.h"
-#include "ui/viewport.h"
+#include "ui/files/document.h"
+#include "ui/view3d/viewport.h"
 
 namespace nearfit::desktop {
 namespace {

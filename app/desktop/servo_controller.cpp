@@ -6,8 +6,8 @@
 
 #include "app/desktop/device_text.h"
 #include "app/desktop/hands.h"
-#include "device/device_error.h"
-#include "device/rate_control.h"
+#include "device/common/rate_control.h"
+#include "device/interface/device_error.h"
 #include "device/simulated/replay_device.h"
 #include "device/simulated/simulated_device.h"
 

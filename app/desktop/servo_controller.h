@@ -10,10 +10,10 @@
 #include "app/desktop/servo_meter.h"
 #include "app/desktop/servo_rows.h"
 #include "core/haptics/rate_settings.h"
-#include "core/session.h"
+#include "core/session/session.h"
 #include "device/servo/servo_loop.h"
-#include "ui/dialogs/error_box.h"
-#include "ui/servo_status.h"
+#include "ui/model/servo_status.h"
+#include "ui/widgets/error_box.h"
 
 namespace nearfit::desktop {
 

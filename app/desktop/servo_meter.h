@@ -3,7 +3,7 @@
 #include <QElapsedTimer>
 
 #include "device/servo/servo_loop.h"
-#include "ui/servo_status.h"
+#include "ui/model/servo_status.h"
 
 namespace nearfit::desktop {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "ui/paths.h"
+#include "ui/widgets/paths.h"
 
 namespace nearfit::desktop {
 

@@ -38,7 +38,7 @@ class Winding {
       most = std::max({most, points[s[0]].y, points[s[1]].y});
     }
     least_ = least;
-    strips_.resize(std::clamp<std::size_t>(segments.size() / 4, 1, kMostStrips));
+    strips_.resize(std::clamp<std::size_t>(segments.size() / 4, 1, kMaxStrips));
     perMetre_ = most > least ? static_cast<double>(strips_.size()) / (most - least) : 0.0;
     for (std::uint32_t i = 0; i < segments.size(); ++i) {
       const auto [low, high] =
@@ -66,7 +66,7 @@ class Winding {
   }
 
  private:
-  static constexpr std::size_t kMostStrips = 4096;
+  static constexpr std::size_t kMaxStrips = 4096;
   std::size_t stripOf(double y) const {
     const double strip = (y - least_) * perMetre_;
     return strip > 0.0 ? std::min(static_cast<std::size_t>(strip), strips_.size() - 1) : 0;

@@ -5,7 +5,7 @@
 
 #include <sys/mman.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/files/input_file.h"
 
 namespace nearfit {

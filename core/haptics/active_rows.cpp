@@ -13,7 +13,7 @@ constexpr double kOnceIsEnough = 0.5;
 template <class Matrix>
 inline ProgramVector products(const Matrix& byRow, const ProgramVector& v) noexcept {
   ProgramVector out{};
-  for (std::size_t k = 0; k < ActiveRows::kMost; ++k)
+  for (std::size_t k = 0; k < ActiveRows::kMax; ++k)
     for (std::size_t i = 0; i < out.size(); ++i)
       out[i] += byRow[k][i] * v[k];
   return out;
@@ -48,7 +48,7 @@ ActiveRows::Split ActiveRows::split(const ProgramVector& n) const noexcept {
     if (out.remainderSquared > kOnceIsEnough * squared) break;
   }
   out.r = backSubstituted(out.q);
-  out.isDependent = size_ == kMost || out.remainderSquared <= kDependence * kDependence * squared;
+  out.isDependent = size_ == kMax || out.remainderSquared <= kDependence * kDependence * squared;
   return out;
 }
 

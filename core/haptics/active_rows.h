@@ -31,7 +31,7 @@ inline ProgramVector along(const ProgramVector& a, double factor, const ProgramV
 class ActiveRows {
  public:
   /// Max number of active rows.
-  static constexpr std::size_t kMost = 7;
+  static constexpr std::size_t kMax = 7;
 
   /// A normal counts as dependent if its component orthogonal to the active normals is smaller than
   /// this fraction of it. Two rows at an angle e can be active together only if the violation of one is
@@ -81,7 +81,7 @@ class ActiveRows {
   void setColumn(std::size_t i, std::size_t id, const ProgramVector& n, double b) noexcept;
   ProgramVector backSubstituted(ProgramVector q) const noexcept;
 
-  std::array<std::size_t, kMost> ids_{};
+  std::array<std::size_t, kMax> ids_{};
   ProgramVector b_{}, multipliers_{}, inverseDiagonal_{};
   Matrix n_{}, nByRow_{}, q_{}, qByRow_{}, r_{}, rByRow_{};  ///< First index: column, or row for ByRow.
   std::size_t size_ = 0;

@@ -7,7 +7,7 @@
 
 #include "core/haptics/mass_metric.h"
 #include "core/math/rigid_transform.h"
-#include "core/proximity/contact_query.h"
+#include "core/proximity/query/contact_query.h"
 
 namespace nearfit {
 

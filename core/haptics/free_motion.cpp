@@ -31,18 +31,18 @@ glm::dvec3 sag(const glm::dvec3& weight, double stiffness) noexcept {
 
 }  // namespace
 
-Felt feltBody(const WeightSettings& settings, double mass, double maxForce) noexcept {
-  Felt felt;
+FeltMass feltBody(const WeightSettings& settings, double mass, double maxForce) noexcept {
+  FeltMass felt;
   if (!std::isfinite(mass) || !(mass > 0.0)) return felt;
   if (settings.hasInertia) felt.mass = mass;
   if (!settings.hasWeight) return felt;
-  const double most = kMostWeightShare * maxForce, weight = mass * glm::length(settings.gravity);
+  const double most = kMaxWeightShare * maxForce, weight = mass * glm::length(settings.gravity);
   felt.isLightened = weight > most;
   felt.weight = settings.gravity * (felt.isLightened ? mass * (most / weight) : mass);
   return felt;
 }
 
-BodyMotion freeStep(const Felt& felt, const CouplingState& coupling, const MassMetric& metric,
+BodyMotion freeStep(const FeltMass& felt, const CouplingState& coupling, const MassMetric& metric,
                     const glm::dvec3& centreInPart, const BodyMotion& handle, const BodyMotion& part,
                     double dt) noexcept {
   if (!(felt.mass > 0.0)) {
@@ -67,7 +67,7 @@ BodyMotion freeStep(const Felt& felt, const CouplingState& coupling, const MassM
   return next;
 }
 
-double kineticEnergy(const Felt& felt, const MassMetric& metric, const BodyMotion& part) noexcept {
+double kineticEnergy(const FeltMass& felt, const MassMetric& metric, const BodyMotion& part) noexcept {
   const glm::dquat principalFromWorld = metric.principalFromWorld(part.pose);
   const glm::dvec3 spin = metric.gyration * (principalFromWorld * part.twist.angular);
   return 0.5 * felt.mass * (glm::dot(part.twist.linear, part.twist.linear) + glm::dot(spin, spin));

@@ -7,20 +7,20 @@
 namespace nearfit {
 
 /// Mass and weight of the part that the hand is to feel.
-struct Felt {
+struct FeltMass {
   double mass = 0.0;         ///< Resists acceleration [kg]; 0 for no inertia.
   glm::dvec3 weight{0.0};    ///< World frame [N].
-  bool isLightened = false;  ///< The weight was reduced to kMostWeightShare of the device's force.
+  bool isLightened = false;  ///< The weight was reduced to kMaxWeightShare of the device's force.
 };
 
 /// Max part of the device's force used for weight; the rest is left to feel contact.
-inline constexpr double kMostWeightShare = 0.5;
+inline constexpr double kMaxWeightShare = 0.5;
 
-/// Mass and weight that the settings ask for; the weight is limited to kMostWeightShare of `maxForce`.
+/// Mass and weight that the settings ask for; the weight is limited to kMaxWeightShare of `maxForce`.
 /// @param mass      Of the part [kg]; counts as 0 if negative or not finite.
 /// @param maxForce  Of the device [N].
 /// Real-time safe.
-Felt feltBody(const WeightSettings& settings, double mass, double maxForce) noexcept;
+FeltMass feltBody(const WeightSettings& settings, double mass, double maxForce) noexcept;
 
 /// Moves a part that hangs on the coupling and touches nothing by one step. The result is the proxy's target.
 ///
@@ -37,11 +37,11 @@ Felt feltBody(const WeightSettings& settings, double mass, double maxForce) noex
 /// @param part          At the start of the step.
 /// @param dt            Step [s]; > 0.
 /// @return Pose and twist after the step. NaN and infinity propagate. Real-time safe.
-BodyMotion freeStep(const Felt& felt, const CouplingState& coupling, const MassMetric& metric,
+BodyMotion freeStep(const FeltMass& felt, const CouplingState& coupling, const MassMetric& metric,
                     const glm::dvec3& centreInPart, const BodyMotion& handle, const BodyMotion& part,
                     double dt) noexcept;
 
 /// Kinetic energy of a moving part with the felt mass and the metric's inertia [J]. Real-time safe.
-double kineticEnergy(const Felt& felt, const MassMetric& metric, const BodyMotion& part) noexcept;
+double kineticEnergy(const FeltMass& felt, const MassMetric& metric, const BodyMotion& part) noexcept;
 
 }  // namespace nearfit

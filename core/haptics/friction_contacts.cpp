@@ -142,7 +142,7 @@ StepVector FrictionContacts::pushed(StepVector y) const noexcept {
 
 bool FrictionContacts::follow(const StepRows& rows, const ActiveRows& active, const glm::dvec3* arms,
                               const ArmMetric& metric) noexcept {
-  const std::array<Contact, ActiveRows::kMost> old = contacts_;
+  const std::array<Contact, ActiveRows::kMax> old = contacts_;
   const auto oldEnd = old.begin() + static_cast<std::ptrdiff_t>(size_);
   std::size_t kept = 0;
   const auto isPushed = [](const Contact& contact) { return contact.push != glm::dvec2(0.0); };
@@ -172,8 +172,8 @@ bool FrictionContacts::follow(const StepRows& rows, const ActiveRows& active, co
 
 double FrictionContacts::relax(const ActiveRows& active, const StepVector& y, double coefficient,
                                double length, double share) noexcept {
-  std::array<Local, ActiveRows::kMost> locals;
-  std::array<glm::dvec2, ActiveRows::kMost> before;
+  std::array<Local, ActiveRows::kMax> locals;
+  std::array<glm::dvec2, ActiveRows::kMax> before;
   for (std::size_t i = 0; i < size_; ++i) {
     locals[i] = localOf(active, contacts_[i]);
     before[i] = contacts_[i].push;
@@ -193,7 +193,7 @@ double FrictionContacts::relax(const ActiveRows& active, const StepVector& y, do
   const double largest = coefficient * kGrowth * most;
 
   double change = length;
-  for (unsigned round = 0; round < kMostRounds && change > kRounding * length; ++round) {
+  for (unsigned round = 0; round < kMaxRounds && change > kRounding * length; ++round) {
     change = 0.0;
     for (std::size_t i = 0; i < size_; ++i) {
       Contact& contact = contacts_[i];
@@ -202,7 +202,7 @@ double FrictionContacts::relax(const ActiveRows& active, const StepVector& y, do
       const double radius = std::clamp(coefficient * multipliers[local.activeIndex], 0.0, largest);
       const glm::dvec2 next = locallySettled(local, contact.push, slip, radius);
       // Late rounds go half the way, since rounds that have not settled oscillate.
-      const glm::dvec2 step = (2 * round < kMostRounds ? 1.0 : 0.5) * (next - contact.push);
+      const glm::dvec2 step = (2 * round < kMaxRounds ? 1.0 : 0.5) * (next - contact.push);
       contact.push += step;
       for (std::size_t c = 0; c < 2; ++c) {
         const double part = step[static_cast<glm::length_t>(c)];

@@ -22,7 +22,7 @@ struct ArmMetric {
 class FrictionContacts {
  public:
   /// Max rounds over all contacts for one set of active rows.
-  static constexpr unsigned kMostRounds = 12;
+  static constexpr unsigned kMaxRounds = 12;
   /// Changes below this fraction of the lengths involved count as rounding.
   static constexpr double kRounding = 1e-14;
 
@@ -71,7 +71,7 @@ class FrictionContacts {
  private:
   ProgramVector effect() const noexcept;
 
-  std::array<Contact, ActiveRows::kMost> contacts_;
+  std::array<Contact, ActiveRows::kMax> contacts_;
   std::size_t size_ = 0;
   ProgramVector gone_{};  ///< Effect of the pushes that the last follow() dropped.
 };

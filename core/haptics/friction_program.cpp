@@ -35,7 +35,7 @@ DualStepSolver::Point FrictionProgram::alternate(const StepRows& rows, const Fri
   const ArmMetric metric{goal.principalFromStep, goal.step.gyration};
   const double length = lengthOf(wanted, goal.step.cost.margin);
   best.unsettled = std::numeric_limits<double>::infinity();
-  for (unsigned sweep = 1; sweep <= kMostSweeps; ++sweep) {
+  for (unsigned sweep = 1; sweep <= kMaxSweeps; ++sweep) {
     Attempt attempt{contacts_};
     const DualStepSolver::Point point = solver_.solve(contacts_.pushed(wanted));
     ++sweeps_;
@@ -62,13 +62,13 @@ FrictionSolution FrictionProgram::solve(const StepRows& rows, const FrictionGoal
     out.step = standStill(rows);
     return out;
   }
-  solver_.begin(rows, goal.step.cost, kMostChanges);
+  solver_.begin(rows, goal.step.cost, kMaxChanges);
   contacts_.clear();
   sweeps_ = 0;
   Kept attempts;
   double lastScale = 1.0;
   out.step = searchStep(
-      solver_, goal.step, kMostScales,
+      solver_, goal.step, kMaxScales,
       [&](const StepVector& wanted, double scale) noexcept {
         // Pushes are roughly proportional to the goal.
         contacts_.scale(lastScale > 0.0 ? scale / lastScale : 0.0);

@@ -33,7 +33,7 @@ struct FrictionPush {
 /// A step with friction.
 struct FrictionSolution {
   StepSolution step;  ///< Optimum for s y0 plus the pushes; rows and reach hold whatever the pushes are.
-  std::array<FrictionPush, ActiveRows::kMost> pushes{};
+  std::array<FrictionPush, ActiveRows::kMax> pushes{};
   std::size_t pushCount = 0;
   unsigned sweeps = 0;  ///< Programs solved in total.
   /// Max change of a push in another sweep [m].
@@ -48,7 +48,7 @@ struct FrictionSolution {
 /// can; otherwise it opposes the sliding.
 ///
 /// Alternates between the program for y0 plus the pushes and a Gauss-Seidel relaxation of pushes, slip and
-/// multipliers with fixed active rows; at most `kMostSweeps` times for each scale of the goal.
+/// multipliers with fixed active rows; at most `kMaxSweeps` times for each scale of the goal.
 ///
 /// Approximations: Coulomb's isotropic cone, at points, for each step by itself (no memory of where a contact
 /// stuck, one coefficient for sticking and sliding, no torque against spinning about the direction). Steps
@@ -63,9 +63,9 @@ struct FrictionSolution {
 class FrictionProgram {
  public:
   /// Max sweeps for each scale of the goal.
-  static constexpr unsigned kMostSweeps = 8;
+  static constexpr unsigned kMaxSweeps = 8;
   /// Max scales of the goal that are tried to fit the reach.
-  static constexpr unsigned kMostScales = 4;
+  static constexpr unsigned kMaxScales = 4;
   /// From this sweep on, pushes go half the way, since pushes that have not settled oscillate.
   static constexpr unsigned kDampedSweep = 5;
   /// Pushes are settled if none would change by more than this fraction of the lengths involved (y0 and the
@@ -74,7 +74,7 @@ class FrictionProgram {
   /// From this sweep on, settled pushes are accepted. A single contact is exact sooner.
   static constexpr unsigned kPatience = 3;
   /// Max changes of the active rows in a call.
-  static constexpr unsigned kMostChanges = 512;
+  static constexpr unsigned kMaxChanges = 512;
 
   /// Finds the step for a goal. If the goal is not usable (also if an arm is missing, or the coefficient is
   /// negative or not finite) the part stands still.

@@ -7,7 +7,7 @@
 namespace nearfit {
 
 /// Fading of forces with the age of a pose: full up to `hold`, then linearly down to zero at `silence`.
-struct PosePatience {
+struct PoseFade {
   double hold = 5e-3;      ///< [s]; five reports of a device at 1 kHz.
   double silence = 20e-3;  ///< [s]
 };
@@ -16,7 +16,7 @@ struct PosePatience {
 struct HandleInput {
   RigidTransform pose;      ///< Pose of the device's handle, in the device's frame.
   double age = 0.0;         ///< Time since the device measured it [s]; forces fade with it.
-  PosePatience patience{};  ///< How forces fade with the age.
+  PoseFade patience{};      ///< How forces fade with the age.
   bool isClutched = false;  ///< The hand repositions the device; the part stays.
   bool isArmed = true;      ///< The device may render force. When it is armed, the force ramps up from zero.
   /// True if the device has a frame of its own: the handle starts at the part, wherever the device is.
@@ -24,7 +24,7 @@ struct HandleInput {
   bool hasOwnFrame = false;
   /// In this tick the handle returns to the part's pose and leads on from there. Only for devices that render
   /// no force, since the force ends at once.
-  bool isLettingGo = false;
+  bool returnsToPart = false;
   std::uint64_t buttons = 0;  ///< Buttons that are down; bit 0 is the first.
 };
 

@@ -29,7 +29,7 @@ glm::dquat rotationFromAxes(const std::array<glm::dvec3, 3>& axes) {
 /// Limits the gyration: partly inverted surfaces can have impossible moments, even negative ones.
 double safeGyration(double momentOverMass, double radius) {
   const double gyration = momentOverMass > 0.0 ? std::sqrt(momentOverMass) : 0.0;
-  return std::clamp(gyration, kLeastGyration * radius, radius);
+  return std::clamp(gyration, kMinGyration * radius, radius);
 }
 
 }  // namespace

@@ -29,9 +29,9 @@ struct MassMetric {
 /// Min radius of gyration, as a fraction of the metric's radius. Without it a needle could turn about itself
 /// by any angle at no cost, and the metric's condition would be unbounded. It affects only pins more than
 /// some fourteen times as long as wide.
-inline constexpr double kLeastGyration = 0.05;
+inline constexpr double kMinGyration = 0.05;
 
-/// The metric of a part, valid for bodies of any shape: the radii of gyration are within [kLeastGyration, 1]
+/// The metric of a part, valid for bodies of any shape: the radii of gyration are within [kMinGyration, 1]
 /// times the radius, whatever the mass properties are. A mesh without extent gets a gyration of 1 m and the
 /// radius 0. O(triangles); not for the servo thread.
 MassMetric massMetric(const MassProperties& mass, const TriangleMesh& mesh);

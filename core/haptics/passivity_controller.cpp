@@ -67,7 +67,7 @@ void PassivityController::observe(const HandInterval& interval, const DeviceLimi
   velocity_ = velocity;
   energyToHand_ += given;
   const double most = (doubt_ > 0.0 ? 0.0 : kSlack) + (stored > 0.0 ? stored : 0.0);
-  balance_ = std::clamp(balance_ + (earned - given), -kMostDebt, most);
+  balance_ = std::clamp(balance_ + (earned - given), -kMaxDebt, most);
   if (balance_ < 0.0) doubt_ = 1.0;
 }
 

@@ -35,7 +35,7 @@ struct HandInterval {
 ///
 /// A debt is paid by damping that would remove it in one tick at the hand's velocity: first along the force
 /// (energy enters through force times velocity, and sliding is to stay free), the rest across it. The damping
-/// is at most leastMass / (2 period): more would reverse a light hand within a tick. Debt beyond kMostDebt is
+/// is at most leastMass / (2 period): more would reverse a light hand within a tick. Debt beyond kMaxDebt is
 /// forgotten: the hand has spent it.
 ///
 /// Real-time safe throughout. Source: Hannaford & Ryu 2002, Time-domain passivity control of haptic
@@ -45,7 +45,7 @@ struct HandInterval {
 class PassivityController {
  public:
   /// Max debt [J]: enough to move a hand of 100 g at 1 m/s.
-  static constexpr double kMostDebt = 0.05;
+  static constexpr double kMaxDebt = 0.05;
   /// The balance may exceed the stored energy by this [J]. Rendered damping pays half a tick late, and that
   /// delay (some B v^2 T, for 0.2 N s/m at 0.2 m/s) is no fault. It moves a hand of 200 g at 1 cm/s.
   static constexpr double kSlack = 1e-5;
@@ -61,7 +61,7 @@ class PassivityController {
   /// damping is not credited.
   /// @param limits  Limits at the handle (limitsAtHandle()).
   /// @param stored  Upper bound on the energy that can return to the hand after the interval, before the part
-  ///                moves on [J]: storedEnergy() plus kineticEnergy(), or kMostDebt if unknown.
+  ///                moves on [J]: storedEnergy() plus kineticEnergy(), or kMaxDebt if unknown.
   void observe(const HandInterval& interval, const DeviceLimits& limits, double stored) noexcept;
 
   /// Damping to add to the wrench of the next tick, before that is clamped. Zero without debt or if the hand

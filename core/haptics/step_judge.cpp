@@ -14,7 +14,7 @@ constexpr double kFloor = 1.0 / 64.0, kFloorOfFirst = 0.25;
 /// Error of distances, as a fraction of the lengths involved.
 constexpr double kRounding = 1e-11;
 /// Min share to which a step is shortened at a time.
-constexpr double kLeastShare = 1.0 / 64.0;
+constexpr double kMinShare = 1.0 / 64.0;
 
 }  // namespace
 
@@ -42,7 +42,7 @@ bool StepTrial::isGain(double distance) noexcept {
   // Lowest point of the parabola through both costs that has the program's slope here.
   const double bend = after - before - slope_;
   const double best = bend > 0.0 ? -slope_ / (2.0 * bend) : StepJudge::kHalf;
-  bestShare_ = std::clamp(best, kLeastShare, StepJudge::kHalf);
+  bestShare_ = std::clamp(best, kMinShare, StepJudge::kHalf);
   return after < before;
 }
 

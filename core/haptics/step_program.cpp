@@ -75,9 +75,9 @@ StepSolution standStill(const StepRows& rows) noexcept {
 
 StepSolution StepProgram::solve(const StepRows& rows, const StepGoal& goal) noexcept {
   if (!isUsable(goal)) return standStill(rows);
-  solver_.begin(rows, goal.cost, kMostChanges);
+  solver_.begin(rows, goal.cost, kMaxChanges);
   return searchStep(
-      solver_, goal, kMostSolves,
+      solver_, goal, kMaxSolves,
       [this](const StepVector& wanted, double) noexcept { return solver_.solve(wanted); }, KeepNothing{});
 }
 

@@ -39,7 +39,7 @@ struct StepSolution {
   StepVector y{};      ///< The step [m].
   double t = 0.0;      ///< Clearance that all rows keep, to first order [m].
   double scale = 0.0;  ///< s: y is the optimum for s y0.
-  std::array<ActivePair, ActiveRows::kMost> active{};
+  std::array<ActivePair, ActiveRows::kMax> active{};
   std::size_t activeCount = 0;
   double floorMultiplier = 0.0;  ///< Multiplier of the floor, on the scale of those of rows; >= 0.
   double displacement = 0.0;     ///< displacementOf(y): no point of the part moves farther [m].
@@ -82,9 +82,9 @@ bool isUsable(const StepGoal& goal) noexcept;
 class StepProgram {
  public:
   /// Max changes of the active rows in a call; contact problems take some ten.
-  static constexpr unsigned kMostChanges = 256;
+  static constexpr unsigned kMaxChanges = 256;
   /// Max solves in a call, for different values of s.
-  static constexpr unsigned kMostSolves = 10;
+  static constexpr unsigned kMaxSolves = 10;
 
   /// Finds the step for a goal. If the goal is not usable, the part stands still and the result is not exact.
   StepSolution solve(const StepRows& rows, const StepGoal& goal) noexcept;

@@ -18,7 +18,7 @@ StepSolution standStill(const StepRows& rows) noexcept;
 
 /// If no scale was found at which a step uses this share of the reach, a step that is too long is shortened
 /// instead: while a part turns flat, its step depends on the scale only for scales near zero.
-inline constexpr double kLeastUse = 0.5;
+inline constexpr double kMinUse = 0.5;
 
 /// The `keep` of callers that need nothing but the step.
 struct KeepNothing {
@@ -59,7 +59,7 @@ StepSolution searchStep(const DualStepSolver& solver, const StepGoal& goal, unsi
       keep.above();
     }
   }
-  if (hasAbove && best.displacement < kLeastUse * goal.reach) {
+  if (hasAbove && best.displacement < kMinUse * goal.reach) {
     best = above;
     keep.useAbove();
   }

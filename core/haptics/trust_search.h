@@ -5,12 +5,12 @@
 namespace nearfit {
 
 /// Finds s in [0, 1] at which a continuous, nearly linear function that is zero or small at s = 0 lies
-/// within [kLeastShare, 1] of a bound; s = 1 if it is below the bound there. Regula falsi, with halving
+/// within [kMinShare, 1] of a bound; s = 1 if it is below the bound there. Regula falsi, with halving
 /// when it stalls. The caller evaluates: until isDone(), compute the value at scale() and report() it.
 /// Real-time safe.
 class TrustSearch {
  public:
-  static constexpr double kLeastShare = 0.9;
+  static constexpr double kMinShare = 0.9;
   /// Share of the bound that is aimed at: rounding and kinks may put the value beside it.
   static constexpr double kAim = 0.95;
   /// After this many values, all above the bound, s = 0 is tried whatever the last two predict.
@@ -38,7 +38,7 @@ class TrustSearch {
       high_ = scale_;
       highValue_ = value;
     }
-    const bool isEnough = isWithin && (scale_ == 1.0 || value >= kLeastShare * bound_);
+    const bool isEnough = isWithin && (scale_ == 1.0 || value >= kMinShare * bound_);
     isDone_ = isEnough || values_ == mostValues_ || high_ <= std::max(low_, 0.0);
     repeats_ = isWithin == lastWasWithin_ ? repeats_ + 1 : 0;
     lastWasWithin_ = isWithin;

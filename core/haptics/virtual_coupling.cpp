@@ -23,8 +23,7 @@ struct SpringDamper {
 };
 
 SpringDamper heldTo(const SpringDamper& wish, double deviceDamping, double period) noexcept {
-  const double damping =
-      std::min(finiteOrZero(wish.damping), kMostDampingShare * finiteOrZero(deviceDamping));
+  const double damping = std::min(finiteOrZero(wish.damping), kMaxDampingShare * finiteOrZero(deviceDamping));
   const double bound = stiffnessBound(deviceDamping, damping, period);
   return {std::min(finiteOrZero(wish.stiffness), bound), damping};
 }
@@ -115,7 +114,7 @@ double turnScale(const CouplingState& coupling, const MassMetric& metric) noexce
   const double gyration = largestGyration(metric);
   const double scale =
       std::sqrt(coupling.rotationalStiffness / coupling.stiffness) / (gyration > 0.0 ? gyration : 1.0);
-  return std::isfinite(scale) && scale > 0.0 ? std::clamp(scale, kLeastTurnScale, kMostTurnScale) : 1.0;
+  return std::isfinite(scale) && scale > 0.0 ? std::clamp(scale, kMinTurnScale, kMaxTurnScale) : 1.0;
 }
 
 glm::dvec3 turnBetween(const glm::dquat& from, const glm::dquat& to) noexcept {

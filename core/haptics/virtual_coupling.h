@@ -29,7 +29,7 @@ inline constexpr double kAutomaticDampingShare = 0.2;
 /// Part of the bound that the automatic coupling uses: a device's damping is seldom known better than that.
 inline constexpr double kAutomaticStiffnessShare = 0.8;
 /// Requested damping is limited to this part of the device's own, so that the bound leaves a stiffness.
-inline constexpr double kMostDampingShare = 0.5;
+inline constexpr double kMaxDampingShare = 0.5;
 
 /// Max stiffness K of a wall, sampled and held, that is passive in anyone's hand: b > K T / 2 + |B|. For
 /// translation [N/m] from [N s/m], for rotation [N m/rad] from [N m s/rad].
@@ -46,7 +46,7 @@ double stiffnessBound(double deviceDamping, double couplingDamping, double perio
 /// device's, the stiffness kAutomaticStiffnessShare of the bound that this leaves. As far as their own bound
 /// allows, rotational values are these times the square of the part's largest gyration, as in its metric, so
 /// that the wrench is orthogonal to what holds the part. Not automatic: each number as requested, limited to
-/// kMostDampingShare and to the bound.
+/// kMaxDampingShare and to the bound.
 ///
 /// @param device  Limits at the handle (limitsAtHandle()).
 /// @param period  Measured (PeriodMeter) [s].
@@ -58,10 +58,10 @@ CouplingState boundedCoupling(const CouplingSettings& wish, const DeviceLimits& 
 /// Factor on the radii of gyration with which the metric weighs rotation against translation as the
 /// coupling's energy does. A proxy that is nearest in any other metric would gain energy for nothing, by
 /// giving way in one metric to be nearer in the other. 1 if the stiffnesses agree with the metric, or one of
-/// them is zero. Limited to [kLeastTurnScale, kMostTurnScale] for the program's condition; the passivity
+/// them is zero. Limited to [kMinTurnScale, kMaxTurnScale] for the program's condition; the passivity
 /// controller handles the rest. Real-time safe.
 double turnScale(const CouplingState& coupling, const MassMetric& metric) noexcept;
-inline constexpr double kLeastTurnScale = 0.1, kMostTurnScale = 20.0;
+inline constexpr double kMinTurnScale = 0.1, kMaxTurnScale = 20.0;
 
 /// Wrench on the hand of the spring and damper from handle to part, about the centre of mass of the handle's
 /// pose; world frame. The spring's force is `stiffness` times the offset of the centres. Its torque is that

@@ -12,7 +12,7 @@ using Locks = std::array<bool, 3>;
 
 /// A twist is well defined while the squared length of its part of the quaternion is above this: the squared
 /// cosine of half a quarter turn.
-constexpr double kLeastTwistSquared = 0.5;
+constexpr double kMinTwistSquared = 0.5;
 /// Below this it is undefined, as after a jump of half a turn within one call.
 constexpr double kNoTwistSquared = 1e-12;
 
@@ -56,7 +56,7 @@ FreeTurn freeTurn(const glm::dquat& turn, const Locks& locks) noexcept {
   const double squared = turn.w * turn.w + along[axis] * along[axis];
   if (squared < kNoTwistSquared) return {turn, true, false};
   const glm::dquat twist = glm::dquat(turn.w, along) / std::sqrt(squared);
-  return {locked == 1 ? turn * glm::conjugate(twist) : twist, squared < kLeastTwistSquared, true};
+  return {locked == 1 ? turn * glm::conjugate(twist) : twist, squared < kMinTwistSquared, true};
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ glm::dvec3 slewed(const glm::dvec3& from, const glm::dvec3& to, double most, boo
 }
 
 /// Share of the wanted wrench that an input of that age is worth; 0 if any number is NaN.
-double worthOf(double age, const PosePatience& patience) noexcept {
+double worthOf(double age, const PoseFade& patience) noexcept {
   if (!(age < patience.silence)) return 0.0;
   if (std::isnan(patience.hold)) return 0.0;
   // An infinite silence never fades; the line below would make NaN of it.
@@ -65,7 +65,7 @@ void WrenchConditioner::disengage() noexcept {
   isEngaged_ = false;
 }
 
-double WrenchConditioner::nextGain(double inputAge, double period, const PosePatience& patience) noexcept {
+double WrenchConditioner::nextGain(double inputAge, double period, const PoseFade& patience) noexcept {
   // Falls with the age at once but rises only in time; otherwise each report of a stuttering device
   // would be a knock.
   freshness_ = std::min(worthOf(inputAge, patience), freshness_ + period / kRecoveryTime);
@@ -76,7 +76,7 @@ double WrenchConditioner::nextGain(double inputAge, double period, const PosePat
 
 ConditionedWrench WrenchConditioner::condition(const Wrench& wanted, double inputAge, double period,
                                                const DeviceLimits& limits,
-                                               const PosePatience& patience) noexcept {
+                                               const PoseFade& patience) noexcept {
   ConditionedWrench result;
   if (!isFinite(wanted.force) || !isFinite(wanted.torque)) {
     last_ = Wrench{};

@@ -48,10 +48,10 @@ class WrenchConditioner {
   /// If a wanted number is not finite, the result is zero at once and the ramp starts again, as after
   /// engaging. On a fault the caller need do nothing more, and later calls are not affected.
   ConditionedWrench condition(const Wrench& wanted, double inputAge, double period,
-                              const DeviceLimits& limits, const PosePatience& patience = {}) noexcept;
+                              const DeviceLimits& limits, const PoseFade& patience = {}) noexcept;
 
  private:
-  double nextGain(double inputAge, double period, const PosePatience& patience) noexcept;
+  double nextGain(double inputAge, double period, const PoseFade& patience) noexcept;
 
   bool isEngaged_ = false;
   double ramp_ = 0.0;       ///< Part of kRampTime that has passed.

@@ -35,8 +35,8 @@ class Swapper {
   /// thinner triangle fatter, or an edge shorter without making any thinner. The limit stops cycles in
   /// badly damaged meshes.
   std::uint64_t run(std::vector<std::uint32_t> flat) {
-    constexpr std::uint64_t kMostSwapsEach = 20;
-    const std::uint64_t mostSwaps = kMostSwapsEach * flat.size();
+    constexpr std::uint64_t kMaxSwapsEach = 20;
+    const std::uint64_t mostSwaps = kMaxSwapsEach * flat.size();
     std::uint64_t swapped = 0;
     std::ranges::reverse(flat);
     while (!flat.empty() && swapped < mostSwaps) {
@@ -105,16 +105,16 @@ class Swapper {
   /// True if an edge joins the origin of `start` to `vertex`, searching the connected fan of faces. Returns
   /// true for very large fans, which bounds the time for malicious files.
   bool hasNeighbour(Side start, std::uint32_t vertex) const {
-    constexpr int kMostFaces = 1000;
+    constexpr int kMaxFaces = 1000;
     int faces = 0;
     Side s = start;
     do {
-      if (origin(nextSide(s)) == vertex || opposite(s) == vertex || ++faces > kMostFaces) return true;
+      if (origin(nextSide(s)) == vertex || opposite(s) == vertex || ++faces > kMaxFaces) return true;
       s = twin_[previousSide(s)];
     } while (s != kNoSide && s != start);
     if (s == start) return false;
     for (s = twin_[start]; s != kNoSide; s = twin_[nextSide(s)]) {
-      if (opposite(nextSide(s)) == vertex || opposite(s) == vertex || ++faces > kMostFaces) return true;
+      if (opposite(nextSide(s)) == vertex || opposite(s) == vertex || ++faces > kMaxFaces) return true;
     }
     return false;
   }

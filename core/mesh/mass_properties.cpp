@@ -13,9 +13,9 @@ namespace {
 
 /// A closed mesh with less volume than this fraction of area times size is a sheet: its volume is rounding
 /// (1e-16 of area times size), and its inertia would be singular.
-constexpr double kLeastThickness = 1e-12;
+constexpr double kMinThickness = 1e-12;
 /// Min thickness and width of the substitute box, as a fraction of its length.
-constexpr double kLeastBoxThickness = 1e-3;
+constexpr double kMinBoxThickness = 1e-3;
 
 /// Sums over the tetrahedra between a reference point and each face.
 struct Moments {
@@ -51,7 +51,7 @@ std::optional<MassProperties> fromVolume(const TriangleMesh& mesh) {
   if (!mesh.topology().isClosed() || !mesh.topology().isOriented()) return std::nullopt;
   const glm::dvec3 origin = mesh.bounds().centre();
   const Moments moments = momentsAbout(mesh, origin);
-  if (!(moments.volume > kLeastThickness * moments.area * mesh.bounds().diagonal())) return std::nullopt;
+  if (!(moments.volume > kMinThickness * moments.area * mesh.bounds().diagonal())) return std::nullopt;
   const glm::dvec3 centre = moments.first / moments.volume;
   const glm::dmat3 second = moments.second - moments.volume * glm::outerProduct(centre, centre);
   return MassProperties{moments.volume, origin + centre, inertiaOf(second), MassBasis::VolumeIntegrals};
@@ -59,7 +59,7 @@ std::optional<MassProperties> fromVolume(const TriangleMesh& mesh) {
 
 MassProperties fromBox(OrientedBox box) {
   const double longest = std::max({box.halfSize.x, box.halfSize.y, box.halfSize.z});
-  box.halfSize = glm::max(box.halfSize, glm::dvec3(kLeastBoxThickness * longest));
+  box.halfSize = glm::max(box.halfSize, glm::dvec3(kMinBoxThickness * longest));
   const glm::dvec3 moments = box.volume() / 3.0 * box.halfSize * box.halfSize;
   glm::dmat3 second(0.0);
   for (int i = 0; i < 3; ++i)

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/math/finite.h"
 #include "core/mesh/flat_triangles.h"
 #include "core/mesh/polygon_triangulation.h"

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace nearfit {
 namespace {

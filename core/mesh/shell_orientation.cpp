@@ -12,11 +12,11 @@ namespace nearfit {
 namespace {
 
 /// Max number of closed components that are compared pairwise.
-constexpr std::size_t kMostComparedPieces = 5000;
+constexpr std::size_t kMaxComparedPieces = 5000;
 
 /// A component with less volume than this fraction of the mesh's diagonal cubed is a sheet and has no inside:
 /// its volume is rounding.
-constexpr double kLeastVolume = 1e-14;
+constexpr double kMinVolume = 1e-14;
 
 struct Piece {
   bool isShell = true;  ///< Closed, oriented, and has a volume.
@@ -75,7 +75,7 @@ std::vector<Piece> measure(const TriangleMesh& mesh, const std::vector<std::uint
     }
   }
   const double diagonal = mesh.bounds().diagonal();
-  const double least = kLeastVolume * diagonal * diagonal * diagonal;
+  const double least = kMinVolume * diagonal * diagonal * diagonal;
   for (Piece& piece : pieces)
     piece.isShell = piece.isShell && std::abs(piece.volume6) > least;
   return pieces;
@@ -96,7 +96,7 @@ void turnAllIfInsideOut(std::vector<Piece>& shells) {
 }
 
 void turnThoseThatAreNoCavities(std::vector<Piece>& pieces) {
-  if (std::ranges::count(pieces, true, &Piece::isShell) > static_cast<std::ptrdiff_t>(kMostComparedPieces))
+  if (std::ranges::count(pieces, true, &Piece::isShell) > static_cast<std::ptrdiff_t>(kMaxComparedPieces))
     return;
   for (Piece& piece : pieces) {
     const double volume = piece.isTurned ? -piece.volume6 : piece.volume6;

@@ -7,8 +7,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/base/shared_array.h"
 #include "core/math/aabb.h"
-#include "core/shared_array.h"
 
 namespace nearfit {
 

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <mutex>
 
-#include "core/progress.h"
+#include "core/base/progress.h"
 
 namespace nearfit {
 

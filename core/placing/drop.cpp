@@ -6,9 +6,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/placing/straight_contact.h"
-#include "core/proximity/interference.h"
+#include "core/proximity/overlap/interference.h"
 
 namespace nearfit {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/progress.h"
+#include "core/base/progress.h"
 #include "core/scene/scene.h"
 
 namespace nearfit {

@@ -16,7 +16,7 @@ namespace nearfit {
 namespace {
 
 /// Max number of triangles around the point to search for corners and edges.
-constexpr std::size_t kMostAround = 400;
+constexpr std::size_t kMaxAround = 400;
 
 double distanceToEdge(const TriangleMesh& mesh, std::uint32_t edge, const glm::dvec3& point) {
   const MeshEdge& e = mesh.edges()[edge];
@@ -32,7 +32,7 @@ std::vector<std::uint32_t> trianglesAround(const TriangleMesh& mesh, const Surfa
     return std::any_of(edges.begin(), edges.end(),
                        [&](std::uint32_t edge) { return distanceToEdge(mesh, edge, hit.point) <= reach; });
   };
-  return grownRegion(mesh, hit.triangle, isNear, kMostAround);
+  return grownRegion(mesh, hit.triangle, isNear, kMaxAround);
 }
 
 /// True for a corner of the shape, not just of the triangulation.

@@ -9,7 +9,7 @@
 namespace nearfit {
 
 /// The parts of a gizmo that can be grabbed.
-enum class GizmoHandle : std::uint8_t {
+enum class GizmoGrip : std::uint8_t {
   None,
   MoveX,  ///< Arrows: along an axis.
   MoveY,
@@ -41,19 +41,19 @@ struct GizmoFrame {
   glm::dmat3 axes{1.0};   ///< Columns: x, y and z axes in the world frame; unit, mutually perpendicular.
 };
 
-inline constexpr std::array kArrows{GizmoHandle::MoveX, GizmoHandle::MoveY, GizmoHandle::MoveZ};
-inline constexpr std::array kPlanes{GizmoHandle::PlaneX, GizmoHandle::PlaneY, GizmoHandle::PlaneZ};
-inline constexpr std::array kRings{GizmoHandle::TurnX, GizmoHandle::TurnY, GizmoHandle::TurnZ};
+inline constexpr std::array kArrows{GizmoGrip::MoveX, GizmoGrip::MoveY, GizmoGrip::MoveZ};
+inline constexpr std::array kPlanes{GizmoGrip::PlaneX, GizmoGrip::PlaneY, GizmoGrip::PlaneZ};
+inline constexpr std::array kRings{GizmoGrip::TurnX, GizmoGrip::TurnY, GizmoGrip::TurnZ};
 
-constexpr bool isArrow(GizmoHandle handle) noexcept {
-  return handle >= GizmoHandle::MoveX && handle <= GizmoHandle::MoveZ;
+constexpr bool isArrow(GizmoGrip handle) noexcept {
+  return handle >= GizmoGrip::MoveX && handle <= GizmoGrip::MoveZ;
 }
-constexpr bool isPlane(GizmoHandle handle) noexcept {
-  return handle >= GizmoHandle::PlaneX && handle <= GizmoHandle::PlaneZ;
+constexpr bool isPlane(GizmoGrip handle) noexcept {
+  return handle >= GizmoGrip::PlaneX && handle <= GizmoGrip::PlaneZ;
 }
 /// True if the handle rotates; the others translate.
-constexpr bool isRing(GizmoHandle handle) noexcept {
-  return handle >= GizmoHandle::TurnX && handle <= GizmoHandle::TurnView;
+constexpr bool isRing(GizmoGrip handle) noexcept {
+  return handle >= GizmoGrip::TurnX && handle <= GizmoGrip::TurnView;
 }
 
 /// Axis perpendicular to the plane of an Across mode: 0, 1 or 2; -1 for other modes.
@@ -62,12 +62,11 @@ constexpr int axisOf(GizmoMode mode) noexcept {
 }
 
 /// Axis of a handle: 0, 1 or 2; -1 for None and the view's handles.
-constexpr int axisOf(GizmoHandle handle) noexcept {
-  if (handle == GizmoHandle::None || handle == GizmoHandle::MoveFree || handle == GizmoHandle::TurnView)
-    return -1;
-  const int first = isArrow(handle)   ? static_cast<int>(GizmoHandle::MoveX)
-                    : isPlane(handle) ? static_cast<int>(GizmoHandle::PlaneX)
-                                      : static_cast<int>(GizmoHandle::TurnX);
+constexpr int axisOf(GizmoGrip handle) noexcept {
+  if (handle == GizmoGrip::None || handle == GizmoGrip::MoveFree || handle == GizmoGrip::TurnView) return -1;
+  const int first = isArrow(handle)   ? static_cast<int>(GizmoGrip::MoveX)
+                    : isPlane(handle) ? static_cast<int>(GizmoGrip::PlaneX)
+                                      : static_cast<int>(GizmoGrip::TurnX);
   return static_cast<int>(handle) - first;
 }
 

@@ -27,11 +27,11 @@ double rounded(double value, double step) noexcept {
   return step > 0.0 ? step * std::round(value / step) : value;
 }
 
-glm::dvec3 axisIn(const GizmoFrame& frame, GizmoHandle handle, const ViewProjection& view) noexcept {
+glm::dvec3 axisIn(const GizmoFrame& frame, GizmoGrip handle, const ViewProjection& view) noexcept {
   const int axis = axisOf(handle);
   if (axis >= 0) return frame.axes[axis];
   // Toward the viewer, so that anticlockwise on the screen is a positive rotation.
-  return handle == GizmoHandle::TurnView ? -view.sightOf(frame.pivot) : -view.away();
+  return handle == GizmoGrip::TurnView ? -view.sightOf(frame.pivot) : -view.away();
 }
 
 /// Zero direction for angles about an axis; unit.
@@ -42,12 +42,12 @@ glm::dvec3 zeroArm(const glm::dvec3& axis) noexcept {
 
 }  // namespace
 
-GizmoDrag::GizmoDrag(const ViewProjection& view, const GizmoFrame& frame, GizmoHandle handle,
+GizmoDrag::GizmoDrag(const ViewProjection& view, const GizmoFrame& frame, GizmoGrip handle,
                      const glm::dvec2& pixel, const std::optional<glm::dvec3>& grabbed)
     : frame_(frame),
       handle_(handle),
       axis_(axisIn(frame, handle, view)),
-      anchor_(grabbed && handle == GizmoHandle::MoveFree ? *grabbed : frame.pivot),
+      anchor_(grabbed && handle == GizmoGrip::MoveFree ? *grabbed : frame.pivot),
       pressed_(pixel) {
   const double facing = std::abs(glm::dot(axis_, view.sightOf(anchor_)));
   isOnEdge_ = !isArrow(handle) && facing < kOnEdge;

@@ -24,14 +24,14 @@ struct SnapSteps {
 class GizmoDrag {
  public:
   /// @param grabbed  For MoveFree: the point that stays under the pointer; default: the pivot.
-  GizmoDrag(const ViewProjection& view, const GizmoFrame& frame, GizmoHandle handle, const glm::dvec2& pixel,
+  GizmoDrag(const ViewProjection& view, const GizmoFrame& frame, GizmoGrip handle, const glm::dvec2& pixel,
             const std::optional<glm::dvec3>& grabbed = std::nullopt);
 
   /// Moves the pointer to a pixel; non-finite pixels are ignored. Rotation accumulates over any
   /// number of turns.
   void moveTo(const ViewProjection& view, const glm::dvec2& pixel);
 
-  GizmoHandle handle() const noexcept { return handle_; }
+  GizmoGrip handle() const noexcept { return handle_; }
   /// The gizmo's pose when the drag began.
   const GizmoFrame& frame() const noexcept { return frame_; }
 
@@ -60,7 +60,7 @@ class GizmoDrag {
   void follow(const ViewProjection& view, const glm::dvec2& pixel) noexcept;
 
   GizmoFrame frame_;
-  GizmoHandle handle_;
+  GizmoGrip handle_;
   glm::dvec3 axis_;    ///< Along an arrow, normal of a plane, or axis of rotation; unit.
   glm::dvec3 anchor_;  ///< A point on the axis or plane.
   bool isOnEdge_ = false;

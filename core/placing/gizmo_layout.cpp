@@ -26,7 +26,7 @@ constexpr double kArrowGone = 0.14, kArrowWhole = 0.28, kSquareGone = 0.12, kSqu
 /// Max distance at which the pointer is on a line [pixels].
 constexpr double kOnLine = 3.0;
 /// Min opacity of what can be grabbed.
-constexpr double kLeastGrabbed = 0.35;
+constexpr double kMinGrabbed = 0.35;
 /// The far side of a ring is faint, unless the ring is seen as a circle.
 constexpr double kFarOpacity = 0.38, kRound = 0.9, kQuiteRound = 0.98;
 constexpr int kArcPoints = 48;
@@ -90,7 +90,7 @@ void GizmoLayout::addArrow(const ViewProjection& view, const GizmoFrame& frame, 
   const double sine = glm::length(glm::cross(unit, view.sightOf(frame.pivot)));
   const double opacity = ramp(sine, kArrowGone, kArrowWhole);
   if (opacity == 0.0) return;
-  const GizmoHandle handle = kArrows[static_cast<std::size_t>(axis)];
+  const GizmoGrip handle = kArrows[static_cast<std::size_t>(axis)];
   const glm::dvec3 base = frame.pivot + scale * (length - kHeadLength) * unit;
   const std::array shaft{frame.pivot + scale * kShaftFrom * unit, base};
   figures_.push_back({handle, pixelsOf(view, shaft), false, opacity, false});
@@ -133,7 +133,7 @@ void GizmoLayout::addPlanes(const ViewProjection& view, const GizmoFrame& frame)
 void GizmoLayout::addMiddle(const ViewProjection& view, const GizmoFrame& frame) {
   const double radius = kMiddleRadius * view.metresPerPixel(frame.pivot);
   figures_.push_back(
-      {GizmoHandle::MoveFree,
+      {GizmoGrip::MoveFree,
        arc(view, frame.pivot, radius * view.right(), radius * view.up(), 0.0, 2.0 * std::numbers::pi), true,
        1.0, false});
 }
@@ -150,7 +150,7 @@ void GizmoLayout::addRings(const ViewProjection& view, const GizmoFrame& frame, 
     const glm::dvec3 flat = glm::dot(unit, sight) * unit - sight;
     const glm::dvec3 first = radius * (glm::length(flat) > 1e-9 ? glm::normalize(flat) : across(unit)[0]);
     const glm::dvec3 second = glm::cross(unit, first);
-    const GizmoHandle handle = kRings[static_cast<std::size_t>(axis)];
+    const GizmoGrip handle = kRings[static_cast<std::size_t>(axis)];
     const double farOpacity = std::max(kFarOpacity, ramp(facing, kRound, kQuiteRound));
     figures_.push_back({handle,
                         arc(view, frame.pivot, first, second, 0.5 * std::numbers::pi, 1.5 * std::numbers::pi),
@@ -165,21 +165,21 @@ void GizmoLayout::addRings(const ViewProjection& view, const GizmoFrame& frame, 
 void GizmoLayout::addViewRing(const ViewProjection& view, const GizmoFrame& frame) {
   const double radius = kViewRingRadius * view.metresPerPixel(frame.pivot);
   figures_.push_back(
-      {GizmoHandle::TurnView,
+      {GizmoGrip::TurnView,
        arc(view, frame.pivot, radius * view.right(), radius * view.up(), 0.0, 2.0 * std::numbers::pi), false,
        1.0, false});
 }
 
-bool GizmoLayout::has(GizmoHandle handle) const noexcept {
+bool GizmoLayout::has(GizmoGrip handle) const noexcept {
   return std::ranges::any_of(figures_, [handle](const GizmoFigure& f) { return f.handle == handle; });
 }
 
-GizmoHandle GizmoLayout::pick(const glm::dvec2& pixel) const noexcept {
-  GizmoHandle nearest = GizmoHandle::None;
+GizmoGrip GizmoLayout::pick(const glm::dvec2& pixel) const noexcept {
+  GizmoGrip nearest = GizmoGrip::None;
   double least = kGrabDistance;
   // What is drawn last is on top.
   for (const GizmoFigure& figure : std::views::reverse(figures_)) {
-    if (figure.isFarSide || figure.opacity < kLeastGrabbed) continue;
+    if (figure.isFarSide || figure.opacity < kMinGrabbed) continue;
     const double distance = distanceToLine(figure.points, pixel);
     const bool isOnIt = figure.isArea ? isInside(figure.points, pixel) : distance < kOnLine;
     if (isOnIt) return figure.handle;
@@ -197,8 +197,8 @@ GizmoGuide gizmoGuide(const ViewProjection& view, const GizmoDrag& drag, const g
   const double scale = view.metresPerPixel(pivot);
   GizmoGuide guide;
   if (isRing(drag.handle())) {
-    const double radius = scale * (drag.handle() == GizmoHandle::TurnView ? GizmoLayout::kViewRingRadius
-                                                                          : GizmoLayout::kRingRadius);
+    const double radius = scale * (drag.handle() == GizmoGrip::TurnView ? GizmoLayout::kViewRingRadius
+                                                                        : GizmoLayout::kRingRadius);
     const glm::dvec3 first = radius * drag.grabbedArm(), second = glm::cross(drag.turnAxis(), first);
     guide.sector = arc(view, pivot, first, second, 0.0,
                        std::clamp(angle, -2.0 * std::numbers::pi, 2.0 * std::numbers::pi));

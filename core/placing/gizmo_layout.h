@@ -14,7 +14,7 @@ class GizmoDrag;
 
 /// What is drawn and grabbed of one handle: a line or an area, in pixels.
 struct GizmoFigure {
-  GizmoHandle handle = GizmoHandle::None;
+  GizmoGrip handle = GizmoGrip::None;
   std::vector<glm::dvec2> points;
   bool isArea = false;     ///< Closed and filled; otherwise an open line.
   double opacity = 1.0;    ///< Below 1 if the view shows too little of it to be useful.
@@ -38,9 +38,9 @@ class GizmoLayout {
   /// In drawing order.
   std::span<const GizmoFigure> figures() const noexcept { return figures_; }
   /// True if the handle is shown.
-  bool has(GizmoHandle handle) const noexcept;
+  bool has(GizmoGrip handle) const noexcept;
   /// The handle that the pointer would grab; None if it is beside all.
-  GizmoHandle pick(const glm::dvec2& pixel) const noexcept;
+  GizmoGrip pick(const glm::dvec2& pixel) const noexcept;
 
  private:
   /// Arrows that point away from the viewer lie behind the squares.

@@ -3,9 +3,9 @@
 #include <memory>
 #include <span>
 
-#include "core/haptics/servo_scene.h"
-#include "core/progress.h"
+#include "core/base/progress.h"
 #include "core/scene/scene.h"
+#include "core/servo/servo_scene.h"
 
 namespace nearfit {
 

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/math/aabb.h"
 #include "core/placing/drop.h"
 #include "core/placing/solid_move.h"
@@ -16,7 +16,7 @@ namespace nearfit {
 namespace {
 
 /// Ticks between two progress reports, and max ticks of a push.
-constexpr int kBetweenReports = 20, kMostTicks = 4 * SolidMove::kMostTicks;
+constexpr int kBetweenReports = 20, kMaxTicks = 4 * SolidMove::kMaxTicks;
 
 /// The extent of everything visible: a part that has moved this far is past it all [m].
 double wholeWay(const Scene& scene) {
@@ -90,9 +90,9 @@ PushResult pushParts(const Scene& scene, std::span<const PartId> moved, const gl
   RigidTransform wanted;
   wanted.translation = wholeWay(scene) * glm::normalize(direction);
   SolidMove::Progress reached;
-  for (int ticks = 0; ticks < kMostTicks && !reached.isSettled; ticks += kBetweenReports) {
+  for (int ticks = 0; ticks < kMaxTicks && !reached.isSettled; ticks += kBetweenReports) {
     reached = move.advance(wanted, kBetweenReports);
-    const double share = static_cast<double>(ticks) / kMostTicks;
+    const double share = static_cast<double>(ticks) / kMaxTicks;
     if (progress && !progress(0.5 + 0.5 * share)) throw Cancelled();
   }
   if (reached.hasArrived || !reached.isSettled) {

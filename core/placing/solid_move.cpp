@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/placing/placing_scene.h"
 #include "core/scene/haptic_limits.h"
 
@@ -163,8 +163,8 @@ std::vector<PartId> SolidMove::released() const {
 std::vector<RigidTransform> movedSolidly(const Scene& scene, std::span<const PartId> moved,
                                          const RigidTransform& motion, const ProgressCallback& progress) {
   SolidMove move(scene, moved, progress);
-  for (int ticks = 0; ticks < SolidMove::kMostTicks; ticks += kTicksAtOnce) {
-    if (progress && !progress(static_cast<double>(ticks) / SolidMove::kMostTicks)) throw Cancelled();
+  for (int ticks = 0; ticks < SolidMove::kMaxTicks; ticks += kTicksAtOnce) {
+    if (progress && !progress(static_cast<double>(ticks) / SolidMove::kMaxTicks)) throw Cancelled();
     if (move.advance(motion, kTicksAtOnce).isSettled) break;
   }
   return move.poses();

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "core/haptics/proxy.h"
-#include "core/haptics/scene_tracker.h"
-#include "core/progress.h"
+#include "core/base/progress.h"
 #include "core/scene/scene.h"
+#include "core/servo/proxy.h"
+#include "core/servo/scene_tracker.h"
 
 namespace nearfit {
 
@@ -26,7 +26,7 @@ namespace nearfit {
 class SolidMove {
  public:
   /// Max ticks of a whole motion. In contact, a tick covers about twenty margins.
-  static constexpr int kMostTicks = 4000;
+  static constexpr int kMaxTicks = 4000;
 
   /// Builds the scene with makePlacingScene() and throws what that throws.
   SolidMove(const Scene& scene, std::span<const PartId> moved, const ProgressCallback& progress = {});

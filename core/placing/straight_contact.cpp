@@ -10,8 +10,8 @@
 
 #include "core/placing/sweep_stretch.h"
 #include "core/placing/triangle_sweep.h"
-#include "core/proximity/near_faces.h"
-#include "core/proximity/normal_cone_tree.h"
+#include "core/proximity/hierarchy/normal_cone_tree.h"
+#include "core/proximity/surface/near_faces.h"
 
 namespace nearfit {
 namespace {

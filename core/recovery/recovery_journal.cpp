@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/files/input_file.h"
 #include "core/files/sha256.h"
 #include "core/scene/part_geometry.h"

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/proximity/surface_distance.h"
+#include "core/base/error.h"
+#include "core/proximity/surface/surface_distance.h"
 #include "core/report/csv_text.h"
 #include "core/report/lmd_set.h"
 

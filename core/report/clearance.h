@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "core/haptics/servo_snapshot.h"
-#include "core/progress.h"
-#include "core/proximity/interference.h"
+#include "core/base/progress.h"
+#include "core/proximity/overlap/interference.h"
 #include "core/scene/scene.h"
+#include "core/servo/servo_snapshot.h"
 
 namespace nearfit {
 

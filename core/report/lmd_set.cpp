@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "core/proximity/blocked_minima.h"
+#include "core/proximity/query/blocked_minima.h"
 
 namespace nearfit {
 namespace {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/mesh/mass_properties.h"
-#include "core/proximity/candidate_list.h"
-#include "core/proximity/lmd_query.h"
-#include "core/proximity/lmd_tracker.h"
+#include "core/proximity/query/lmd_query.h"
+#include "core/proximity/tracking/candidate_list.h"
+#include "core/proximity/tracking/lmd_tracker.h"
 
 namespace nearfit {
 

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/files/atomic_write.h"
 
 namespace nearfit {
@@ -163,10 +163,10 @@ void writePly(MeshFile& out, std::span<const Scene::PartPtr> parts, const MeshEx
 }
 
 void requireExportable(const MeshExportSize& size) {
-  constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max();
   if (size.triangles == 0)
     throw UsageError("mesh export", "there is nothing to write", "choose parts, or show some");
-  if (size.triangles > kMost || size.vertices > kMost)
+  if (size.triangles > kMax || size.vertices > kMax)
     throw UsageError("mesh export",
                      fmt::format("{} triangles are more than a file can count", size.triangles),
                      "export fewer parts at a time");

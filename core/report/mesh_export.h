@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/base/progress.h"
 #include "core/scene/scene.h"
 
 namespace nearfit {

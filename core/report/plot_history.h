@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/motion_recording.h"
+#include "core/servo/motion_recording.h"
 
 namespace nearfit {
 

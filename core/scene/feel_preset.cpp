@@ -1,6 +1,6 @@
 #include "core/scene/feel_preset.h"
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/haptic_limits.h"
 #include "core/scene/name_check.h"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "core/scene/feel_preset.h"
 #include "core/scene/scene_file_haptics.h"

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace nearfit {
 namespace {

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <optional>
 
-#include "core/progress.h"
-#include "core/proximity/normal_cone_tree.h"
+#include "core/base/progress.h"
+#include "core/proximity/hierarchy/normal_cone_tree.h"
 
 namespace nearfit {
 

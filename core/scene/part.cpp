@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/name_check.h"
 
 namespace nearfit {
 
-bool isSameButForLook(const Part& a, const Part& b) noexcept {
+bool differsOnlyInLookOrLock(const Part& a, const Part& b) noexcept {
   return a.id == b.id && a.name == b.name && a.geometry == b.geometry &&
          a.worldFromPart.rotation == b.worldFromPart.rotation &&
          a.worldFromPart.translation == b.worldFromPart.translation && a.density == b.density &&
@@ -17,7 +17,7 @@ bool isSameButForLook(const Part& a, const Part& b) noexcept {
 }
 
 bool isSame(const Part& a, const Part& b) noexcept {
-  return isSameButForLook(a, b) && a.colour == b.colour && a.opacity == b.opacity &&
+  return differsOnlyInLookOrLock(a, b) && a.colour == b.colour && a.opacity == b.opacity &&
          a.isVisible == b.isVisible && a.isLocked == b.isLocked && a.wasVisible == b.wasVisible;
 }
 

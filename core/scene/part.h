@@ -60,7 +60,7 @@ bool isSame(const Part& a, const Part& b) noexcept;
 
 /// True if the parts differ at most in look (visibility, opacity, colour) and lock. A locked part may
 /// change in this way.
-bool isSameButForLook(const Part& a, const Part& b) noexcept;
+bool differsOnlyInLookOrLock(const Part& a, const Part& b) noexcept;
 
 /// Min opacity: a part that can be felt must stay visible.
 constexpr double kMinOpacity = 0.05;

@@ -9,11 +9,11 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/files/sha256.h"
 #include "core/parallel/parallel_for.h"
 #include "core/parallel/shared_progress.h"
-#include "core/proximity/tree_cache.h"
+#include "core/proximity/cache/tree_cache.h"
 
 namespace nearfit {
 namespace {

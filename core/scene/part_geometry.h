@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "core/import/mesh_import.h"
 #include "core/mesh/mass_properties.h"
-#include "core/mesh/mesh_import.h"
 #include "core/mesh/triangle_mesh.h"
-#include "core/proximity/normal_cone_tree.h"
+#include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/scene/hierarchy_on_demand.h"
 #include "core/scene/surface_on_demand.h"
 

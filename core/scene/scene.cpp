@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/free_name.h"
 #include "core/scene/haptic_limits.h"
 #include "core/scene/palette.h"
@@ -67,7 +67,7 @@ void Scene::replace(Part part) {
   // A changed file may replace the geometry of a locked part.
   Part reloaded = before;
   reloaded.geometry = part.geometry;
-  if (!isSameButForLook(reloaded, part)) requireUnlocked(before);
+  if (!differsOnlyInLookOrLock(reloaded, part)) requireUnlocked(before);
   if (part.group != before.group) requireOpen(part.group);
   const Part* namesake = part.name != before.name ? findByName(part.name) : nullptr;
   if (namesake != nullptr && namesake->id != part.id) {

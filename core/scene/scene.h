@@ -36,7 +36,7 @@ class Scene {
   PartId add(Part part);
   /// Replaces the part with the same ID. Throws UsageError like add(), or if there is no such part, its new
   /// name is taken, it is the moving part and would be locked, or it is locked and more than its look (see
-  /// isSameButForLook) or geometry would change.
+  /// differsOnlyInLookOrLock) or geometry would change.
   void replace(Part part);
   /// Removes a part. If it is the moving part, the scene has none afterwards. Throws UsageError if the part
   /// is unknown or locked.

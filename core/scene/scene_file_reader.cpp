@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_file_haptics.h"
 #include "core/scene/scene_file_parts.h"

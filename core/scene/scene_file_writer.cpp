@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_file_haptics.h"

@@ -3,8 +3,8 @@
 #include <memory>
 #include <mutex>
 
-#include "core/proximity/solidity.h"
-#include "core/proximity/unsided_surface.h"
+#include "core/proximity/surface/solidity.h"
+#include "core/proximity/surface/unsided_surface.h"
 
 namespace nearfit {
 

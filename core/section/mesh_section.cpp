@@ -16,7 +16,7 @@ namespace {
 /// rounding of its pose.
 constexpr double kInPlane = 1e-11;
 /// Max segments of a filled outline: takes about 50 ms. More would delay the view.
-constexpr std::size_t kMostFilled = 25'000;
+constexpr std::size_t kMaxFilled = 25'000;
 
 /// Builds the outline, with one point per cut edge.
 class Outline {
@@ -92,7 +92,7 @@ MeshSection sectionOf(const TriangleMesh& mesh, const CutPlane& plane) {
   const auto [low, high] = reachAlong(mesh.bounds(), plane.normal);
   if (plane.offset < low || plane.offset > high) return section;
   gatherOutline(mesh, plane, section);
-  section.isCapped = section.isCapped && section.outline.size() <= kMostFilled;
+  section.isCapped = section.isCapped && section.outline.size() <= kMaxFilled;
   if (!section.isCapped || section.outline.empty()) return section;
   try {
     fill(plane, mesh.topology().isOriented() ? FillRule::Wound : FillRule::Odd, section);
@@ -103,6 +103,16 @@ MeshSection sectionOf(const TriangleMesh& mesh, const CutPlane& plane) {
     section.isCapped = false;
   }
   return section;
+}
+
+bool isOnCap(const MeshSection& section, const glm::dvec3& normal, const glm::dvec3& point) noexcept {
+  const auto isLeft = [&](const glm::dvec3& from, const glm::dvec3& to) {
+    return glm::dot(glm::cross(to - from, point - from), normal) >= 0.0;
+  };
+  return std::ranges::any_of(section.cap, [&](const Triangle& t) {
+    const glm::dvec3 &a = section.capPoints[t[0]], &b = section.capPoints[t[1]], &c = section.capPoints[t[2]];
+    return isLeft(a, b) && isLeft(b, c) && isLeft(c, a);
+  });
 }
 
 }  // namespace nearfit

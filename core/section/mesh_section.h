@@ -2,13 +2,11 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "core/mesh/triangle_mesh.h"
-#include "core/placing/feature_pick.h"
 #include "core/section/cut_plane.h"
 
 namespace nearfit {
@@ -36,12 +34,5 @@ MeshSection sectionOf(const TriangleMesh& mesh, const CutPlane& plane);
 /// True if a point of the plane, in the mesh's frame, is on the cap. O(n) in the cap's triangles.
 /// @param normal  Of the plane; unit.
 bool isOnCap(const MeshSection& section, const glm::dvec3& normal, const glm::dvec3& point) noexcept;
-
-/// The feature that a user points at on a cap: a nearby segment of the outline, as an edge, otherwise the
-/// point itself. std::nullopt for FeatureFilter::Faces, and for Axes if no segment is near.
-/// @param point  On the cap, in the mesh's frame [m]; set to the nearest point of the segment found.
-/// @param reach  Max distance to the outline [m]; >= 0.
-std::optional<PickedFeature> pickFeature(const MeshSection& section, glm::dvec3& point, double reach,
-                                         FeatureFilter filter = FeatureFilter::Any);
 
 }  // namespace nearfit

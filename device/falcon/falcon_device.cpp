@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "device/device_error.h"
 #include "device/falcon/falcon_firmware.h"
 #include "device/falcon/falcon_kinematics.h"
+#include "device/interface/device_error.h"
 
 namespace nearfit {
 namespace {

@@ -3,9 +3,9 @@
 #include <array>
 #include <filesystem>
 
+#include "device/common/force_arm_device.h"
+#include "device/common/velocity_filter.h"
 #include "device/falcon/falcon_protocol.h"
-#include "device/force_arm_device.h"
-#include "device/velocity_filter.h"
 
 namespace nearfit {
 

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/files/input_file.h"
-#include "device/device_error.h"
 #include "device/falcon/falcon_protocol.h"
+#include "device/interface/device_error.h"
 
 namespace nearfit::falcon {
 namespace {
@@ -122,10 +122,10 @@ std::vector<std::byte> readFirmware(const std::filesystem::path& file, const std
                       "give the firmware file that came with its maker's driver");
   }
   const std::uint64_t size = InputFile(file).size();
-  if (size < kLeastFirmware || size > kMostFirmware) {
+  if (size < kMinFirmware || size > kMaxFirmware) {
     throw DeviceError(DeviceProblem::NoFirmware, where,
                       fmt::format("{} has {} bytes, and firmware has {} to {}", file.string(), size,
-                                  kLeastFirmware, kMostFirmware),
+                                  kMinFirmware, kMaxFirmware),
                       "give the firmware file that came with its maker's driver");
   }
   const std::vector<char> content = readWholeFile(file);

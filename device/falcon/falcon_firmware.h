@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "core/progress.h"
+#include "core/base/progress.h"
 #include "device/falcon/ftdi_port.h"
 
 namespace nearfit::falcon {
 
 /// Bounds on the size of a firmware file, which has some tens of kilobytes [bytes].
-constexpr std::size_t kLeastFirmware = 256, kMostFirmware = std::size_t{1} << 20U;
+constexpr std::size_t kMinFirmware = 256, kMaxFirmware = std::size_t{1} << 20U;
 
 /// Reads the firmware file that the device's maker supplies. Throws DeviceError (NoFirmware) if `file` is
 /// empty or its size is out of bounds, FileError if it cannot be read.

@@ -20,9 +20,9 @@ constexpr double kConverged = 1e-13;
 /// Longest Newton step [m]: beyond it the legs' circles have turned away from their tangents.
 constexpr double kLongestStep = 0.03;
 /// Halvings of a step that does not reduce the residual.
-constexpr int kMostHalvings = 10;
+constexpr int kMaxHalvings = 10;
 /// With a shorter lever, thigh and shin are nearly in line, as good as locked [m].
-constexpr double kLeastLever = 1e-3;
+constexpr double kMinLever = 1e-3;
 
 /// Outward direction of a leg; constant.
 struct Leg {
@@ -110,12 +110,12 @@ glm::dvec3 newtonStep(const Residuals& at) noexcept {
 
 bool isPossible(const Residuals& at) noexcept {
   return std::all_of(at.begin(), at.end(),
-                     [](const Residual& each) { return each.shinAlong > 0.0 && each.lever > kLeastLever; });
+                     [](const Residual& each) { return each.shinAlong > 0.0 && each.lever > kMinLever; });
 }
 
 std::optional<glm::dvec3> search(const glm::dvec3& angles, glm::dvec3 p) noexcept {
   Residuals at = residualsOf(p, angles);
-  for (int i = 0; i < kMostIterations; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     const double size = sizeOf(at);
     if (!std::isfinite(size)) return std::nullopt;
     if (size <= kConverged) return isPossible(at) ? std::optional(p) : std::nullopt;
@@ -124,7 +124,7 @@ std::optional<glm::dvec3> search(const glm::dvec3& angles, glm::dvec3 p) noexcep
     // Out of reach the residual is NaN, which counts as no decrease.
     for (Residuals next = residualsOf(p + step, angles); !(sizeOf(next) < size);
          next = residualsOf(p + step, angles)) {
-      if (++halvings > kMostHalvings) return std::nullopt;
+      if (++halvings > kMaxHalvings) return std::nullopt;
       step *= 0.5;
     }
     p += step;
@@ -144,7 +144,7 @@ glm::dvec3 anglesOf(const std::array<std::int16_t, 3>& encoders) noexcept {
 
 bool isInRange(const glm::dvec3& angles) noexcept {
   for (int i = 0; i < 3; ++i) {
-    if (!(angles[i] >= kLeastAngle && angles[i] <= kMostAngle)) return false;
+    if (!(angles[i] >= kMinAngle && angles[i] <= kMaxAngle)) return false;
   }
   return true;
 }
@@ -180,7 +180,7 @@ std::array<std::int16_t, 3> unitsFor(const glm::dvec3& force, const glm::dvec3& 
   glm::dvec3 units = -kUnitsPerNewtonMetre * (glm::transpose(jacobian(position, angles)) * force);
   const double most = std::max({std::abs(units.x), std::abs(units.y), std::abs(units.z)});
   if (!std::isfinite(units.x + units.y + units.z)) return {};
-  if (most > kMostUnits) units *= kMostUnits / most;
+  if (most > kMaxUnits) units *= kMaxUnits / most;
   return {static_cast<std::int16_t>(units.x), static_cast<std::int16_t>(units.y),
           static_cast<std::int16_t>(units.z)};
 }

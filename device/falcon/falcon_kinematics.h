@@ -36,20 +36,20 @@ constexpr double kGearRatio = 0.110 / 0.01425;  ///< Drum diameter: thigh's over
 
 /// Range of the thighs over the whole workspace, four inches each way, with some margin [rad]. Beyond it an
 /// encoder has not found its index.
-constexpr double kLeastAngle = -1.0, kMostAngle = 2.1;
+constexpr double kMinAngle = -1.0, kMaxAngle = 2.1;
 
 /// Motor units per newton metre on a thigh, in the direction that turns it back (libnifalcon), and
 /// the largest command. No source gives that limit; it is well above what the maker's nine newtons
 /// need near the middle.
 constexpr double kUnitsPerNewtonMetre = 10'000.0;
-constexpr int kMostUnits = 4096;
+constexpr int kMaxUnits = 4096;
 
 /// Middle of the workspace.
 constexpr glm::dvec3 kCentre{0.0, 0.0, 0.125};
 
 /// Returns the thigh angles for encoder counts from the indexes.
 glm::dvec3 anglesOf(const std::array<std::int16_t, 3>& encoders) noexcept;
-/// True if every angle is from kLeastAngle to kMostAngle.
+/// True if every angle is from kMinAngle to kMaxAngle.
 bool isInRange(const glm::dvec3& angles) noexcept;
 
 /// Returns the thigh angles for a grip position, knees outwards, in closed form; std::nullopt
@@ -60,11 +60,11 @@ std::optional<glm::dvec3> inverse(const glm::dvec3& position) noexcept;
 ///
 /// @param start  A position near it, such as the last one. If that leads nowhere, the search
 ///               begins again at kCentre.
-/// @return std::nullopt if it does not converge within kMostIterations, or converges to a pose that the
+/// @return std::nullopt if it does not converge within kMaxIterations, or converges to a pose that the
 ///         device cannot have (knees inwards, grip behind them). Every result is checked: it fulfils the
 ///         legs' equations to rounding and is not singular.
 std::optional<glm::dvec3> forward(const glm::dvec3& angles, const glm::dvec3& start) noexcept;
-constexpr int kMostIterations = 30;
+constexpr int kMaxIterations = 30;
 
 /// Returns the motion of the grip per radian of each thigh [m/rad], one column per thigh. Not
 /// finite where singular.
@@ -72,7 +72,7 @@ constexpr int kMostIterations = 30;
 glm::dmat3 jacobian(const glm::dvec3& position, const glm::dvec3& angles) noexcept;
 
 /// Returns the motor commands that make the grip push with `force` [N]: J^T f, by virtual work. If one
-/// exceeds kMostUnits, all shrink alike to keep the direction. Zeros where singular.
+/// exceeds kMaxUnits, all shrink alike to keep the direction. Zeros where singular.
 std::array<std::int16_t, 3> unitsFor(const glm::dvec3& force, const glm::dvec3& position,
                                      const glm::dvec3& angles) noexcept;
 

@@ -54,7 +54,7 @@ void FtdiPort::setDtr(bool isOn) {
 
 std::size_t FtdiPort::read(std::span<std::byte> data) {
   std::size_t done = 0;
-  for (int empty = 0; done < data.size() && empty < kMostEmpty;) {
+  for (int empty = 0; done < data.size() && empty < kMaxEmpty;) {
     if (rest_.empty()) rest_ = contentOf(std::span(packet_).first(transport_.read(packet_, kReadTimeout)));
     empty = rest_.empty() ? empty + 1 : 0;
     const std::size_t taken = std::min(rest_.size(), data.size() - done);

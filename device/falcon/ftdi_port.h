@@ -45,7 +45,7 @@ class FtdiPort {
   void setDtr(bool isOn);
 
   void write(std::span<const std::byte> data) { transport_.write(data); }
-  /// Reads until `data` is full, or until kMostEmpty packets in a row were empty. Returns the
+  /// Reads until `data` is full, or until kMaxEmpty packets in a row were empty. Returns the
   /// number of bytes read.
   std::size_t read(std::span<std::byte> data);
 
@@ -55,7 +55,7 @@ class FtdiPort {
   }
 
  private:
-  static constexpr int kMostEmpty = 20;
+  static constexpr int kMaxEmpty = 20;
   /// Longer than any latency set here, so that an empty packet comes in time.
   static constexpr FtdiTransport::Timeout kReadTimeout{25};
 

@@ -28,8 +28,8 @@ enum Item : std::uint8_t {
 constexpr std::uint8_t kLongItem = 0xfe;
 constexpr std::uint32_t kConstant = 0x1, kVariable = 0x2, kRelativeFlag = 0x4;
 constexpr std::uint32_t kApplication = 1;
-constexpr std::size_t kMostPushed = 16;
-constexpr std::size_t kMostUsages = 1024;
+constexpr std::size_t kMaxPushed = 16;
+constexpr std::size_t kMaxUsages = 1024;
 
 struct Globals {
   std::uint32_t usagePage = 0;
@@ -110,7 +110,7 @@ class Parser {
         reports_.hasNumbers = true;
         return value >= 1 && value <= 255;
       case kPush:
-        if (pushed_.size() == kMostPushed) return false;
+        if (pushed_.size() == kMaxPushed) return false;
         pushed_.push_back(globals_);
         return true;
       case kPop:
@@ -140,7 +140,7 @@ class Parser {
   }
 
   bool addUsages(std::uint32_t first, std::uint32_t last) {
-    if (last < first || last - first >= kMostUsages - std::min(usages_.size(), kMostUsages)) return false;
+    if (last < first || last - first >= kMaxUsages - std::min(usages_.size(), kMaxUsages)) return false;
     // Counts from 0: `last` may be the largest value.
     for (std::uint32_t i = 0; i <= last - first; ++i)
       usages_.push_back(first + i);
@@ -150,11 +150,11 @@ class Parser {
   bool takeMain(HidReportKind kind, std::uint32_t flags) {
     const std::uint64_t bits = std::uint64_t{globals_.reportSize} * globals_.reportCount;
     std::uint32_t& end = ends_[static_cast<std::size_t>(kind)][globals_.reportId];
-    if (globals_.reportSize > 0xffff || bits + end > 8 * std::uint64_t{kMostReportBytes}) return false;
+    if (globals_.reportSize > 0xffff || bits + end > 8 * std::uint64_t{kMaxReportBytes}) return false;
     const bool isData = (flags & kConstant) == 0 && (flags & kVariable) != 0 && globals_.reportSize >= 1 &&
                         globals_.reportSize <= 32 && !usages_.empty();
     if (isData) {
-      if (reports_.fields.size() + globals_.reportCount > kMostHidFields) return false;
+      if (reports_.fields.size() + globals_.reportCount > kMaxHidFields) return false;
       for (std::uint32_t i = 0; i < globals_.reportCount; ++i) {
         // The last usage holds for all remaining values.
         const std::uint32_t usage = usages_[std::min<std::size_t>(i, usages_.size() - 1)];

@@ -43,15 +43,15 @@ struct HidReports {
 };
 
 /// Returns std::nullopt if the descriptor is damaged: items that run past its end, collections that
-/// do not close, more than kMostHidFields values, reports of more than kMostReportBytes. Skips arrays
+/// do not close, more than kMaxHidFields values, reports of more than kMaxReportBytes. Skips arrays
 /// of selectors (keyboards).
 /// Source: Device Class Definition for HID 1.11, 6.2.2.
 std::optional<HidReports> parseReportDescriptor(std::span<const std::byte> descriptor);
 
 /// Keeps a damaged count from filling the memory; a space mouse has some 60 values.
-constexpr std::size_t kMostHidFields = 4096;
+constexpr std::size_t kMaxHidFields = 4096;
 /// Longest possible report over USB.
-constexpr std::uint32_t kMostReportBytes = 65535;
+constexpr std::uint32_t kMaxReportBytes = 65535;
 
 /// Returns the value of a field; std::nullopt if the report is too short or is another one. Real-time safe.
 /// @param report  As received, including its number.

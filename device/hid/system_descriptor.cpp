@@ -10,11 +10,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Linux accepts no longer descriptor (HID_MAX_DESCRIPTOR_SIZE) [bytes].
-constexpr std::size_t kMostDescriptor = 4096;
+constexpr std::size_t kMaxDescriptor = 4096;
 
 std::optional<std::vector<std::byte>> readAll(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
-  std::vector<char> text(kMostDescriptor);
+  std::vector<char> text(kMaxDescriptor);
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   const auto size = static_cast<std::size_t>(file.gcount());
   if (size == 0) return std::nullopt;

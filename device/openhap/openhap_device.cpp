@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 
 namespace nearfit {
 namespace {
@@ -16,13 +16,13 @@ using openhap::PoseStatus;
 
 /// A wrench stays valid for a few periods of the device, and at least this long, to bridge a hiccup of this
 /// machine. Then the device's watchdog takes over.
-constexpr double kLeastTimeToLive = 10e-3, kPeriodsToLive = 3.0;  // [s]
+constexpr double kMinTimeToLive = 10e-3, kPeriodsToLive = 3.0;  // [s]
 constexpr UsbLink::Timeout kRequestTimeout{500};
 /// Holds the part while the hand repositions the device.
 constexpr std::uint16_t kClutchButton = 1;
 
 std::uint16_t timeToLiveMs(std::uint16_t rate) noexcept {
-  const double time = std::max(kLeastTimeToLive, kPeriodsToLive / std::max<double>(rate, 1.0));
+  const double time = std::max(kMinTimeToLive, kPeriodsToLive / std::max<double>(rate, 1.0));
   return static_cast<std::uint16_t>(std::ceil(1e3 * time));
 }
 

@@ -4,10 +4,10 @@
 #include <mutex>
 #include <optional>
 
-#include "device/device_error.h"
-#include "device/haptic_device.h"
+#include "device/common/streamed_handle.h"
+#include "device/interface/device_error.h"
+#include "device/interface/haptic_device.h"
 #include "device/openhap/openhap_protocol.h"
-#include "device/streamed_handle.h"
 #include "device/usb/usb_link.h"
 
 namespace nearfit {

@@ -11,7 +11,7 @@ enum ReportKind : std::uint8_t { kPoseKind = 1, kWrenchKind = 2, kCapabilitiesKi
 constexpr std::size_t kChecksumSize = 2;
 
 /// Larger numbers are absurd for a device held by a hand: [N], [m], [rad/s] and the like.
-constexpr float kMostOfAnything = 1e6F;
+constexpr float kMaxOfAnything = 1e6F;
 
 class Writer {
  public:
@@ -62,7 +62,7 @@ class Reader {
     const float value = std::bit_cast<float>(u32());
     if (!std::isfinite(value))
       areFinite_ = false;
-    else if (std::abs(value) > kMostOfAnything)
+    else if (std::abs(value) > kMaxOfAnything)
       areInRange_ = false;
     return value;
   }

@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 
 namespace nearfit {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "device/haptic_device.h"
+#include "device/interface/haptic_device.h"
 #include "device/plugin/nearfit_device.h"
 
 namespace nearfit {

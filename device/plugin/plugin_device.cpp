@@ -6,10 +6,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "device/device_error.h"
-#include "device/device_supervisor.h"
+#include "device/interface/device_error.h"
+#include "device/interface/device_supervisor.h"
 #include "device/plugin/device_plugin.h"
-#include "device/servo/monotonic_clock.h"
+#include "device/thread/monotonic_clock.h"
 
 namespace nearfit {
 namespace {

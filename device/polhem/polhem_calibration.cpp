@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/text/json_file.h"
-#include "device/haptic_device.h"
+#include "device/interface/haptic_device.h"
 #include "device/polhem/polhem_protocol.h"
 
 namespace nearfit::polhem {
@@ -64,7 +64,7 @@ DrivenJoint readDrivenJoint(const JsonField& field) {
   DrivenJoint driven;
   driven.joint = readJoint(field);
   driven.torqueConstant = field.at("torqueConstant").numberWithin(1e-4, 10.0);
-  driven.maxCurrent = field.at("maxCurrent").numberWithin(0.0, 1e-3 * kMostMilliamps);
+  driven.maxCurrent = field.at("maxCurrent").numberWithin(0.0, 1e-3 * kMaxMilliamps);
   return driven;
 }
 

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 
 namespace nearfit {
 namespace {
 
 constexpr std::uint8_t kHidClass = 3;
 /// The firmware answers a command with a report; each way takes a USB frame [s].
-constexpr double kLeastPeriod = 1e-3;
+constexpr double kMinPeriod = 1e-3;
 
 bool isTeensy(const UsbDescription& device) noexcept {
   return device.vendor == polhem::kTeensyVendor && device.product == polhem::kTeensyProduct;
@@ -76,7 +76,7 @@ ForceArmDevice::Opened PolhemDevice::open(std::optional<UsbLink>& link, const Pr
   return {{in->address, face->streaming(false)->address},
           isCalibrated_,
           restSample(),
-          std::max(kLeastPeriod, in->interval)};
+          std::max(kMinPeriod, in->interval)};
 }
 
 /// True if the rest pose is declared now. The button's flag stays set in the device, so a press before the

@@ -4,10 +4,10 @@
 #include <atomic>
 #include <cstdint>
 
-#include "device/force_arm_device.h"
+#include "device/common/force_arm_device.h"
+#include "device/common/velocity_filter.h"
 #include "device/polhem/polhem_kinematics.h"
 #include "device/polhem/polhem_protocol.h"
-#include "device/velocity_filter.h"
 
 namespace nearfit {
 

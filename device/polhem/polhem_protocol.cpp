@@ -26,7 +26,7 @@ std::array<std::byte, kRawHidSize> encode(const std::array<int, 3>& milliamps) n
   // The fourth number is the command: 0 sets currents. The rest are arguments, of which it has none.
   std::array<std::byte, kRawHidSize> packet{};
   for (std::size_t i = 0; i < milliamps.size(); ++i) {
-    const auto word = static_cast<std::uint16_t>(std::clamp(milliamps[i], -kMostMilliamps, kMostMilliamps));
+    const auto word = static_cast<std::uint16_t>(std::clamp(milliamps[i], -kMaxMilliamps, kMaxMilliamps));
     packet[2 * i] = static_cast<std::byte>(word & 0xffU);
     packet[2 * i + 1] = static_cast<std::byte>(word >> 8U);
   }

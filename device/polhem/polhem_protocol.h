@@ -30,9 +30,9 @@ struct Report {
 std::optional<Report> decode(std::span<const std::byte> packet) noexcept;
 
 /// The amplifiers bear no more for long [mA].
-constexpr int kMostMilliamps = 2000;
+constexpr int kMaxMilliamps = 2000;
 
-/// Returns the command for these motor currents, each clamped to kMostMilliamps; padded with zeros to
+/// Returns the command for these motor currents, each clamped to kMaxMilliamps; padded with zeros to
 /// a Teensy's packet.
 std::array<std::byte, kRawHidSize> encode(const std::array<int, 3>& milliamps) noexcept;
 

@@ -6,9 +6,9 @@
 #include <mutex>
 #include <thread>
 
-#include "core/haptics/scene_tracker.h"
 #include "core/realtime/latency_histogram.h"
 #include "core/realtime/triple_buffer.h"
+#include "core/servo/scene_tracker.h"
 
 namespace nearfit {
 

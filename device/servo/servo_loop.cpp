@@ -13,12 +13,12 @@
 #include <signal.h>
 #include <time.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/realtime/pace_meter.h"
 #include "core/realtime/triple_buffer.h"
-#include "device/servo/monotonic_clock.h"
-#include "device/servo/realtime_thread.h"
 #include "device/servo/scene_refresher.h"
+#include "device/thread/monotonic_clock.h"
+#include "device/thread/realtime_thread.h"
 
 namespace nearfit {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/pose_csv.h"
 #include "device/simulated/simulated_device.h"
 

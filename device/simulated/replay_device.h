@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/progress.h"
-#include "device/passive_device.h"
-#include "device/servo/monotonic_clock.h"
+#include "core/base/progress.h"
+#include "device/common/passive_device.h"
+#include "device/thread/monotonic_clock.h"
 
 namespace nearfit {
 
@@ -50,7 +50,7 @@ class ReplayDevice final : public PassiveDevice {
 
   const std::filesystem::path file_;
   std::vector<TimedPose> motion_;
-  PosePatience patience_;
+  PoseFade patience_;
   std::atomic<DeviceState> state_{DeviceState::Present};
   std::atomic<std::uint64_t> poses_{0};
   // Used by the servo thread while it runs.

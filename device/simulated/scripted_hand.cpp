@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "device/simulated/simulated_device.h"
 
 namespace nearfit {

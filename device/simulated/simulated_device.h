@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/realtime/triple_buffer.h"
-#include "device/passive_device.h"
-#include "device/servo/monotonic_clock.h"
+#include "device/common/passive_device.h"
+#include "device/thread/monotonic_clock.h"
 
 namespace nearfit {
 

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "device/device_error.h"
-#include "device/device_supervisor.h"
+#include "device/interface/device_error.h"
+#include "device/interface/device_supervisor.h"
 #include "device/spacemouse/spacemouse_models.h"
 
 namespace nearfit {
@@ -27,7 +27,7 @@ constexpr std::uint64_t kClutchButton = 1, kLetGoButton = 2;
 constexpr std::uint8_t kGetFromInterface = 0x81, kGetDescriptor = 0x06, kSetToInterface = 0x21,
                        kSetReport = 0x09;
 constexpr std::uint16_t kReportDescriptor = 0x2200, kOutputReport = 0x0200;
-constexpr std::size_t kMostDescriptor = 4096;
+constexpr std::size_t kMaxDescriptor = 4096;
 constexpr UsbLink::Timeout kRequestTimeout{500};
 
 }  // namespace
@@ -115,7 +115,7 @@ void SpaceMouseDevice::open(const UsbInterface& face) {
 }
 
 std::vector<std::byte> SpaceMouseDevice::readDescriptor() {
-  std::vector<std::byte> descriptor(kMostDescriptor);
+  std::vector<std::byte> descriptor(kMaxDescriptor);
   try {
     descriptor.resize(link_->controlIn(kGetFromInterface, kGetDescriptor, kReportDescriptor, interfaceNumber_,
                                        descriptor, kRequestTimeout));
@@ -188,9 +188,9 @@ bool SpaceMouseDevice::readHandle(HandleInput& handle) noexcept {
   const bool isDriven = isFresh && !handle.isClutched;
   handle.pose =
       control_.step(isDriven ? sample.state.axes : std::array<double, 6>{}, settings_.front(), wrench_, time);
-  const bool isLettingGo = (buttons & kLetGoButton) != 0;
-  handle.isLettingGo = isLettingGo && !wasLettingGo_;
-  wasLettingGo_ = isLettingGo;
+  const bool returnsToPart = (buttons & kLetGoButton) != 0;
+  handle.returnsToPart = returnsToPart && !wasLettingGo_;
+  wasLettingGo_ = returnsToPart;
   handle.hasOwnFrame = true;
   handle.buttons = buttons;
   return true;

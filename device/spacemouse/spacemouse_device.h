@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "core/realtime/triple_buffer.h"
-#include "device/device_error.h"
-#include "device/passive_device.h"
-#include "device/rate_control.h"
-#include "device/servo/monotonic_clock.h"
+#include "device/common/passive_device.h"
+#include "device/common/rate_control.h"
+#include "device/interface/device_error.h"
 #include "device/spacemouse/spacemouse_reader.h"
+#include "device/thread/monotonic_clock.h"
 #include "device/usb/usb_link.h"
 
 namespace nearfit {

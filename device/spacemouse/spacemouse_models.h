@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 #include "device/usb/usb_description.h"
 
 namespace nearfit::spacemouse {

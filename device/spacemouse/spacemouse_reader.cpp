@@ -42,7 +42,7 @@ std::optional<SpaceMouseReader> SpaceMouseReader::fromDescriptor(
       HidField& place = reader.axes_[static_cast<std::size_t>(axis - kAxisUsages.begin())];
       if (place.bitCount == 0) place = field;
     } else if (hid_usage::page(field.usage) == hid_usage::kButtonPage && field.bitCount == 1 &&
-               reader.buttonCount_ < kMostButtons) {
+               reader.buttonCount_ < kMaxButtons) {
       reader.buttons_[reader.buttonCount_++] = field;
     }
   }
@@ -57,7 +57,7 @@ SpaceMouseReader SpaceMouseReader::withKnownLayout() {
     reader.olderAxes_[i] = axisField(i < 3 ? 1 : 2, kAxisUsages[i], 1 + 2 * (i % 3));
   }
   reader.hasOlderLayout_ = true;
-  for (std::uint32_t i = 0; i < kMostButtons; ++i)
+  for (std::uint32_t i = 0; i < kMaxButtons; ++i)
     reader.buttons_[i] = {HidReportKind::Input,
                           3,
                           (std::uint32_t{hid_usage::kButtonPage} << 16U) | (i + 1),
@@ -66,7 +66,7 @@ SpaceMouseReader SpaceMouseReader::withKnownLayout() {
                           0,
                           1,
                           false};
-  reader.buttonCount_ = kMostButtons;
+  reader.buttonCount_ = kMaxButtons;
   reader.led_ = {HidReportKind::Output, 4, kIndicator, 8, 1, 0, 1, false};
   return reader;
 }

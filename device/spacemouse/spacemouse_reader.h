@@ -44,7 +44,7 @@ class SpaceMouseReader {
   /// Returns the report that turns the light on or off; std::nullopt if the device has none.
   std::optional<LedReport> ledReport(bool isOn) const noexcept;
 
-  static constexpr std::size_t kMostButtons = 64;
+  static constexpr std::size_t kMaxButtons = 64;
 
  private:
   using Axes = std::array<HidField, 6>;
@@ -60,7 +60,7 @@ class SpaceMouseReader {
   Axes axes_{};
   Axes olderAxes_{};
   bool hasOlderLayout_ = false;
-  std::array<HidField, kMostButtons> buttons_{};
+  std::array<HidField, kMaxButtons> buttons_{};
   std::size_t buttonCount_ = 0;
   HidField led_{};
 };

@@ -6,7 +6,7 @@
 
 #include <libusb.h>
 
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 #include "device/usb/usb_description.h"
 
 /// Owning handles for libusb. Only for the .cpp files of this folder: nothing else sees libusb.

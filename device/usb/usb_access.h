@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 #include "device/usb/usb_description.h"
 
 namespace nearfit {

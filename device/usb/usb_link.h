@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "device/servo/realtime_thread.h"
+#include "device/thread/realtime_thread.h"
 #include "device/usb/usb_description.h"
 
 namespace nearfit {
@@ -19,7 +19,7 @@ enum class UsbLoss : std::uint8_t {
   Unplugged,  ///< The system says so.
   Refused,    ///< It accepts no more transfers.
   Cancelled,  ///< The system ended transfers that we had not cancelled.
-  Errors,     ///< kMostErrors transmission errors in a row, and nothing else.
+  Errors,     ///< kMaxErrors transmission errors in a row, and nothing else.
   Stalled,    ///< It stalls again whenever its endpoint is cleared.
 };
 
@@ -54,8 +54,8 @@ struct UsbCounters {
 /// that. The servo's side (`send`) copies a packet and writes to an eventfd.
 class UsbLink {
  public:
-  static constexpr std::size_t kMostPacket = 1024;  ///< Longest packet of an interrupt endpoint [bytes].
-  static constexpr unsigned kMostErrors = 8;        ///< Some ways of unplugging begin with a burst of errors.
+  static constexpr std::size_t kMaxPacket = 1024;  ///< Longest packet of an interrupt endpoint [bytes].
+  static constexpr unsigned kMaxErrors = 8;        ///< Some ways of unplugging begin with a burst of errors.
 
   /// Throws DeviceError with the reason and the remedy.
   UsbLink(const UsbDescription& device, std::uint8_t interfaceNumber);
@@ -97,7 +97,7 @@ class UsbLink {
   /// Stops streaming: nothing is in flight afterwards, and the sink is not called again.
   void stop() noexcept;
 
-  /// Sends the newest packet to the device; replaces one that is not sent yet. At most kMostPacket bytes. One
+  /// Sends the newest packet to the device; replaces one that is not sent yet. At most kMaxPacket bytes. One
   /// thread (the servo's); allocates nothing, locks nothing. Returns false if the device is lost.
   bool send(std::span<const std::byte> packet) noexcept;
 

@@ -7,13 +7,13 @@
 #include <system_error>
 #include <utility>
 
-#include "device/servo/monotonic_clock.h"
+#include "device/thread/monotonic_clock.h"
 
 namespace nearfit::usb {
 namespace {
 
 /// A stall is cleared. So many in a row, without a packet between, mean that the device is lost.
-constexpr unsigned kMostStalls = 3;
+constexpr unsigned kMaxStalls = 3;
 /// Cancelled transfers end within a frame or two; those of an unplugged device end at once.
 constexpr std::chrono::seconds kDrainTime{1};
 /// Only a safety net: every event ends the wait.
@@ -51,8 +51,7 @@ void Streamer::makeSlots(Pipe& pipe, std::size_t count, const UsbEndpoint& endpo
     slot->transfer.reset(libusb_alloc_transfer(0));
     if (!slot->transfer) throw std::system_error(ENOMEM, std::generic_category(), "transfer");
     // A packet longer than the endpoint may send is dropped; a command may take several packets.
-    slot->buffer.resize(endpoint.isIn() ? std::max<std::size_t>(endpoint.maxPacket, 1)
-                                        : UsbLink::kMostPacket);
+    slot->buffer.resize(endpoint.isIn() ? std::max<std::size_t>(endpoint.maxPacket, 1) : UsbLink::kMaxPacket);
     const int size = static_cast<int>(slot->buffer.size());
     if (endpoint.type == UsbTransferType::Bulk) {
       libusb_fill_bulk_transfer(slot->transfer.get(), handle_, endpoint.address, slot->buffer.data(), size,
@@ -81,7 +80,7 @@ void Streamer::stop() noexcept {
 }
 
 bool Streamer::send(std::span<const std::byte> packet) noexcept {
-  if (!hasOut_ || packet.size() > UsbLink::kMostPacket || loss() != UsbLoss::None) return false;
+  if (!hasOut_ || packet.size() > UsbLink::kMaxPacket || loss() != UsbLoss::None) return false;
   Command& command = commands_.back();
   std::copy(packet.begin(), packet.end(), command.bytes.begin());
   command.size = packet.size();
@@ -206,7 +205,7 @@ void Streamer::onFailure(Pipe& pipe, libusb_transfer_status status) noexcept {
       return;
     default:
       addOne(counters_.errors);
-      if (++pipe.errorsInRow >= UsbLink::kMostErrors) lose(UsbLoss::Errors);
+      if (++pipe.errorsInRow >= UsbLink::kMaxErrors) lose(UsbLoss::Errors);
   }
 }
 
@@ -232,7 +231,7 @@ void Streamer::clearHalts() noexcept {
 }
 
 void Streamer::clearHalt(Pipe& pipe) noexcept {
-  if (++pipe.stallsInRow > kMostStalls) return lose(UsbLoss::Stalled);
+  if (++pipe.stallsInRow > kMaxStalls) return lose(UsbLoss::Stalled);
   const int code = libusb_clear_halt(handle_, pipe.slots.front()->transfer->endpoint);
   if (code == LIBUSB_ERROR_NO_DEVICE) return lose(UsbLoss::Unplugged);
   pipe.isHalted = false;

@@ -46,7 +46,7 @@ class Streamer {
 
  private:
   struct Command {
-    std::array<std::byte, UsbLink::kMostPacket> bytes{};
+    std::array<std::byte, UsbLink::kMaxPacket> bytes{};
     std::size_t size = 0;
     std::uint64_t serial = 0;
   };

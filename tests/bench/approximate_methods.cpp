@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "core/math/tolerances.h"
-#include "core/proximity/lmd_query.h"
-#include "core/proximity/query_workspace.h"
-#include "core/proximity/tree_traversal.h"
+#include "core/proximity/query/lmd_query.h"
+#include "core/proximity/query/query_workspace.h"
+#include "core/proximity/query/tree_traversal.h"
 #include "tests/bench/decimated_mesh.h"
 #include "tests/bench/error_method.h"
 #include "tests/bench/float_leaf_tests.h"

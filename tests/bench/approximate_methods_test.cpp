@@ -8,7 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-#include "core/proximity/normal_cone_tree.h"
+#include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "tests/bench/bench_shapes.h"
 #include "tests/bench/decimated_mesh.h"
 #include "tests/bench/error_method.h"

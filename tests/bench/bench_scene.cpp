@@ -4,7 +4,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/mesh/mesh_import.h"
+#include "core/import/mesh_import.h"
 #include "tests/bench/bench_shapes.h"
 #include "tests/support/mesh_generators.h"
 

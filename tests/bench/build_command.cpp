@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/files/atomic_write.h"
-#include "core/mesh/mesh_import.h"
+#include "core/import/mesh_import.h"
 #include "tests/bench/commands.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/query_method.h"

@@ -1,9 +1,9 @@
 #include <array>
 #include <filesystem>
 
-#include "core/error.h"
-#include "core/proximity/lmd_query.h"
-#include "core/proximity/tree_cache.h"
+#include "core/base/error.h"
+#include "core/proximity/cache/tree_cache.h"
+#include "core/proximity/query/lmd_query.h"
 #include "tests/bench/query_method.h"
 #include "tests/support/temporary_folder.h"
 

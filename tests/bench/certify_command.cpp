@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/scene_file.h"
 #include "tests/bench/commands.h"
 #include "tests/bench/pose_record.h"

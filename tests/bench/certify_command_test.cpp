@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/scene/motion_recording.h"
+#include "core/base/error.h"
 #include "core/scene/scene_file.h"
+#include "core/servo/motion_recording.h"
 #include "tests/bench/commands.h"
 #include "tests/bench/pose_record.h"
 #include "tests/support/mesh_files.h"

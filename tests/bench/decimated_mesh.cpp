@@ -7,7 +7,7 @@
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace nearfit::bench {
 namespace {
@@ -20,7 +20,7 @@ using Halfedges = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
 
 constexpr std::size_t kFewTriangles = 48;
 /// Of a triangle, in a collapse [degrees].
-constexpr float kMostTurn = 60.0F;
+constexpr float kMaxTurn = 60.0F;
 
 Halfedges halfedgesOf(const TriangleMesh& mesh) {
   Halfedges out;
@@ -65,7 +65,7 @@ TriangleMesh decimatedMesh(const TriangleMesh& mesh, std::size_t factor) {
   // Within a plane every collapse is for free, those that fold the surface over itself as well.
   OpenMesh::Decimater::ModNormalFlippingT<Halfedges>::Handle flipping;
   decimater.add(flipping);
-  decimater.module(flipping).set_max_normal_deviation(kMostTurn);
+  decimater.module(flipping).set_max_normal_deviation(kMaxTurn);
   decimater.initialize();
   decimater.decimate_to_faces(0, mesh.triangles().size() / factor);
   halfedges.garbage_collection();

@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/bench/bench_shapes.h"
 #include "tests/bench/error_shapes.h"
 #include "tests/bench/portable_random.h"
@@ -26,7 +26,7 @@ constexpr glm::dvec3 kVertical{0.0, 0.0, 1.0};
 
 /// Share of the cutoff: nearest minimum, farthest that counts, and nearest that does not.
 constexpr double kNearest = 0.35, kFarthest = 0.85, kBeyond = 1.25;
-constexpr int kMostProposals = 100'000;
+constexpr int kMaxProposals = 100'000;
 
 double between(Random& random, double low, double high) {
   return low + (high - low) * uniform(random);
@@ -232,8 +232,8 @@ std::vector<ErrorPair> floorPairs() {
 bool isUsable(const Contacts& contacts) {
   const auto isNear = [](const TrueContact& c) { return c.distance <= kBeyond * kCutoff; };
   const auto isBad = [&](const TrueContact& c) {
-    return isNear(c) && (c.distance < kNearest * kCutoff || c.distance > kFarthest * kCutoff ||
-                         !(c.spread <= kMostSpread));
+    return isNear(c) &&
+           (c.distance < kNearest * kCutoff || c.distance > kFarthest * kCutoff || !(c.spread <= kMaxSpread));
   };
   return std::any_of(contacts.begin(), contacts.end(), isNear) &&
          std::none_of(contacts.begin(), contacts.end(), isBad);
@@ -253,7 +253,7 @@ std::vector<ErrorPose> randomPoses(const ErrorPair& pair, std::size_t count, std
   Random random(seed);
   std::vector<ErrorPose> poses;
   for (int proposal = 0; poses.size() < count; ++proposal) {
-    if (proposal == kMostProposals)
+    if (proposal == kMaxProposals)
       throw Error(pair.name, "proposed poses do not do", "widen what its proposals are drawn from");
     const RigidTransform pose = pair.proposePose(random).normalized();
     Contacts contacts = pair.contacts(pose);

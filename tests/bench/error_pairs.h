@@ -48,10 +48,10 @@ std::vector<ErrorPair> errorPairs();
 
 /// Random poses of a pair; the same for the same seed, whatever the meshes. Each has a minimum between 0.35
 /// and 0.85 of the cutoff and none nearer, none between 0.85 and 1.25 of it (a coarse mesh may have it on
-/// either side), and none that hardly is one: kMostSpread. Throws Error when proposals do not do.
+/// either side), and none that hardly is one: kMaxSpread. Throws Error when proposals do not do.
 std::vector<ErrorPose> randomPoses(const ErrorPair& pair, std::size_t count, std::uint64_t seed);
 
 /// Of a pose's minima: beyond this their place is lost in a coarse tessellation.
-inline constexpr double kMostSpread = 12.0;
+inline constexpr double kMaxSpread = 12.0;
 
 }  // namespace nearfit::bench

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "core/haptics/servo_scene.h"
+#include "core/servo/servo_scene.h"
 #include "tests/bench/feel_report.h"
 
 namespace nearfit::bench {

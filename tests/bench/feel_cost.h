@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/haptics/servo_scene.h"
+#include "core/servo/servo_scene.h"
 #include "tests/bench/bench_clock.h"
 #include "tests/bench/feel_report.h"
 

@@ -9,7 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/math/rotation_vector.h"
-#include "core/proximity/lmd_query.h"
+#include "core/proximity/query/lmd_query.h"
 #include "device/servo/servo_loop.h"
 #include "tests/bench/scene_path.h"
 

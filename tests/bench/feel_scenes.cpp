@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/mesh/mesh_import.h"
+#include "core/import/mesh_import.h"
 #include "core/scene/scene.h"
 #include "tests/bench/bench_shapes.h"
 #include "tests/support/mesh_generators.h"

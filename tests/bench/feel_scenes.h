@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/haptics/servo_scene.h"
 #include "core/mesh/triangle_mesh.h"
+#include "core/servo/servo_scene.h"
 #include "tests/bench/feel_motion.h"
 
 namespace nearfit::bench {

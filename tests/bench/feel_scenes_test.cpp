@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/haptics/overlap_check.h"
-#include "core/haptics/tracked_scene.h"
 #include "core/haptics/virtual_coupling.h"
+#include "core/servo/overlap_check.h"
+#include "core/servo/tracked_scene.h"
 #include "tests/support/mesh_generators.h"
 
 namespace nearfit::bench::feel_scenes_test {

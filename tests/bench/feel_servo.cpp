@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/bench/arrival_delay.h"
 
 namespace nearfit::bench {

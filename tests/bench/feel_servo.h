@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/haptics/scene_tracker.h"
-#include "core/haptics/servo_tick.h"
+#include "core/servo/scene_tracker.h"
+#include "core/servo/servo_tick.h"
 #include "tests/bench/bench_clock.h"
 
 namespace nearfit::bench {

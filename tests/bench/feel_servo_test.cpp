@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "device/servo/servo_loop.h"
 #include "tests/support/servo_fixtures.h"
 

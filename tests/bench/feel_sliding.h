@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/haptics/servo_scene.h"
+#include "core/servo/servo_scene.h"
 #include "tests/bench/feel_report.h"
 
 namespace nearfit::bench {

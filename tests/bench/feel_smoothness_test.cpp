@@ -6,7 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-#include "core/haptics/servo_tick.h"
+#include "core/servo/servo_tick.h"
 #include "tests/support/mesh_generators.h"
 
 namespace nearfit::bench::feel_smoothness_test {

@@ -22,7 +22,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr std::size_t kMostTicks = 3000;
+constexpr std::size_t kMaxTicks = 3000;
 /// Ticks without motion after which it is at rest: a pose that is the same twice could be waiting for a list.
 constexpr std::size_t kStillTicks = 30;
 /// Vertices on a surface are on it to this [m].
@@ -160,7 +160,7 @@ RestResult restOf(const RestScene& scene, std::uint32_t fineness) {
   result.meshDifference = scene.meshDifference(sceneMesh, partMesh);
   test::ProxyWalk walk({{sceneMesh, {}}}, partMesh, scene.start, {.margin = kRestMargin});
   std::size_t still = 0;
-  while (result.ticks < kMostTicks && still < kStillTicks) {
+  while (result.ticks < kMaxTicks && still < kStillTicks) {
     const RigidTransform before = walk.pose();
     walk.lead(scene.hand);
     result.poses.push_back(walk.pose());

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "core/haptics/servo_scene.h"
 #include "core/haptics/wrench.h"
 #include "core/math/rigid_transform.h"
 #include "core/mesh/triangle_mesh.h"
+#include "core/servo/servo_scene.h"
 #include "tests/bench/feel_report.h"
 
 namespace nearfit::bench {

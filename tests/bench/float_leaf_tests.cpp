@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/proximity/polygon_clip.h"
+#include "core/proximity/query/polygon_clip.h"
 
 namespace nearfit::bench {
 namespace {

@@ -7,8 +7,8 @@
 #include <glm/vec3.hpp>
 
 #include "core/math/rigid_transform.h"
+#include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/proximity/minimum.h"
-#include "core/proximity/normal_cone_tree.h"
 
 namespace nearfit::bench {
 

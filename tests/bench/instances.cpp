@@ -10,8 +10,8 @@
 #include <malloc.h>
 #include <unistd.h>
 
-#include "core/haptics/scene_tracker.h"
 #include "core/scene/scene_file.h"
+#include "core/servo/scene_tracker.h"
 #include "tests/bench/bench_clock.h"
 #include "tests/bench/units.h"
 #include "tests/support/mesh_generators.h"

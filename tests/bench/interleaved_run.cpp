@@ -11,7 +11,7 @@
 #include <sched.h>
 #include <sys/resource.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace nearfit::bench {
 namespace {

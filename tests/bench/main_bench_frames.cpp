@@ -6,15 +6,15 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/session.h"
+#include "core/base/error.h"
+#include "core/session/session.h"
 #include "tests/bench/bench_shapes.h"
 #include "tests/bench/digest.h"
 #include "tests/bench/instances.h"
 #include "tests/bench/skip_row.h"
 #include "tests/support/part_geometries.h"
-#include "ui/selection.h"
-#include "ui/viewport.h"
+#include "ui/model/selection.h"
+#include "ui/view3d/viewport.h"
 
 /// Times the frames of a view in which nothing changes, and the same drawn all the same; writes the row for
 /// "nearfit-bench skips" to the standard output.

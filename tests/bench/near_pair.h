@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/haptics/servo_scene.h"
+#include "core/servo/servo_scene.h"
 #include "tests/bench/far_parts.h"
 #include "tests/bench/query_method.h"
 

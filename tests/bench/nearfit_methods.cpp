@@ -1,8 +1,8 @@
 #include <limits>
 #include <span>
 
-#include "core/proximity/blocked_minima.h"
-#include "core/proximity/lmd_query.h"
+#include "core/proximity/query/blocked_minima.h"
+#include "core/proximity/query/lmd_query.h"
 #include "tests/bench/query_method.h"
 #include "tests/bench/tracked_query.h"
 

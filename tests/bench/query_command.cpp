@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "device/simulated/simulated_device.h"
 #include "tests/bench/commands.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/math/rigid_transform.h"
-#include "core/proximity/normal_cone_tree.h"
+#include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "tests/bench/bench_scene.h"
 
 namespace nearfit::bench {

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/files/atomic_write.h"
-#include "core/proximity/lmd_query.h"
+#include "core/proximity/query/lmd_query.h"
 
 namespace nearfit::bench {
 namespace {

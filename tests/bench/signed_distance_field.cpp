@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/parallel/parallel_for.h"
-#include "core/proximity/containment.h"
+#include "core/proximity/overlap/containment.h"
 #include "tests/bench/mesh_distance.h"
 
 namespace nearfit::bench {
@@ -23,7 +23,7 @@ SignedDistanceField::SignedDistanceField(const MeshBody& body, std::size_t cells
 
   const MeshDistance distance(mesh);
   const PlacedMesh placed(body, nullptr);
-  const MeshPieces pieces = piecesOf(mesh);
+  const MeshComponents pieces = piecesOf(mesh);
   const PlacedSolid solid(placed, pieces);
   parallelFor(count_[2], [&](std::size_t z) {
     for (std::size_t y = 0; y < count_[1]; ++y) {

@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/proximity/interference.h"
+#include "core/proximity/overlap/interference.h"
 
 namespace nearfit::bench {
 

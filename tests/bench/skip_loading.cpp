@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/haptics/scene_tracker.h"
-#include "core/haptics/servo_tick.h"
-#include "core/proximity/lmd_query.h"
+#include "core/base/error.h"
+#include "core/proximity/query/lmd_query.h"
+#include "core/servo/scene_tracker.h"
+#include "core/servo/servo_tick.h"
 #include "device/servo/servo_loop.h"
 #include "tests/bench/bench_scene.h"
 #include "tests/bench/bench_shapes.h"
@@ -111,10 +111,10 @@ Scene sceneOfManyMeshes(const std::vector<TriangleMesh>& meshes) {
 }
 
 SkipRow measureLaziness(const SkipOptions& options) {
-  constexpr std::uint32_t kLeastTeeth = 20, kTeeth = 20;  // 5,000 to 10,000 triangles.
+  constexpr std::uint32_t kMinTeeth = 20, kTeeth = 20;  // 5,000 to 10,000 triangles.
   std::vector<TriangleMesh> meshes;
   for (std::uint32_t i = 0; i < std::max(options.sceneParts, kShown + 1); ++i)
-    meshes.push_back(gearMesh(kLeastTeeth + i % kTeeth));
+    meshes.push_back(gearMesh(kMinTeeth + i % kTeeth));
   const double cutoff = kAcrossTheGrid * meshes.front().bounds().diagonal();
   SkipRow row{"laziness", fmt::format("{} parts", meshes.size()), "to first tick", {}, {}, {}};
   FirstTick with, without;

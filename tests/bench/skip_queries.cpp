@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "core/proximity/blocked_minima.h"
-#include "core/proximity/lmd_query.h"
+#include "core/proximity/query/blocked_minima.h"
+#include "core/proximity/query/lmd_query.h"
 #include "tests/bench/bench_scene.h"
 #include "tests/bench/digest.h"
 #include "tests/bench/scene_path.h"

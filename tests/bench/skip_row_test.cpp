@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/bench/skips.h"
 
 namespace nearfit::bench::skip_row_test {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/haptics/servo_tick.h"
+#include "core/servo/servo_tick.h"
 #include "tests/bench/near_pair.h"
 #include "tests/bench/scene_path.h"
 #include "tests/bench/selection.h"

@@ -22,7 +22,7 @@ constexpr StepProblemKind kKinds[] = {StepProblemKind::Ring, StepProblemKind::Fl
 /// At which Gauss and Seidel's method may stop, as a fraction of the margin: coarse beside what the others
 /// give.
 constexpr double kGaussSeidelTolerance = 1e-6;
-constexpr unsigned kMostSweeps = 2000;
+constexpr unsigned kMaxSweeps = 2000;
 
 constexpr double kFriction = 0.2;
 
@@ -101,7 +101,7 @@ class Measurement {
     for (double& y : problem.goal.wanted)
       y *= step.scale;
     const double startOnce = now();
-    solver_.begin(written_, problem.goal.cost, StepProgram::kMostChanges);
+    solver_.begin(written_, problem.goal.cost, StepProgram::kMaxChanges);
     const DualStepSolver::Point point = solver_.solve(problem.goal.wanted);
     const double once = now() - startOnce;
     const auto differs = [&](StepVector y) {
@@ -119,7 +119,7 @@ class Measurement {
       const double start = now();
       const GaussSeidelStep step =
           gaussSeidelStep(written_, problem.goal.cost, problem.goal.wanted,
-                          kGaussSeidelTolerance * problem.goal.cost.margin, kMostSweeps);
+                          kGaussSeidelTolerance * problem.goal.cost.margin, kMaxSweeps);
       gaussSeidel_.add(now() - start, 1.0, step.sweeps, step.isSettled, differs(step.y));
     }
     if (index % options_.exactStride == 0) {

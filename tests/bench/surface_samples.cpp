@@ -50,8 +50,8 @@ class Grid {
             static_cast<std::int64_t>(std::floor(p.z / side_))};
   }
   static std::int64_t keyOf(const Cell& c) {
-    constexpr std::int64_t kMost = 1 << 20;
-    return ((c[0] + kMost) * 2 * kMost + c[1] + kMost) * 2 * kMost + c[2] + kMost;
+    constexpr std::int64_t kMax = 1 << 20;
+    return ((c[0] + kMax) * 2 * kMax + c[1] + kMax) * 2 * kMax + c[2] + kMax;
   }
 
   double side_;

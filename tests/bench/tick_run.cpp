@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/haptics/scene_tracker.h"
+#include "core/servo/scene_tracker.h"
 #include "device/servo/servo_loop.h"
 #include "tests/bench/digest.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/haptics/servo_tick.h"
+#include "core/servo/servo_tick.h"
 #include "tests/bench/interleaved_run.h"
 
 namespace nearfit::bench {

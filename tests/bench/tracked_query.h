@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/proximity/candidate_list.h"
-#include "core/proximity/lmd_tracker.h"
+#include "core/proximity/tracking/candidate_list.h"
+#include "core/proximity/tracking/lmd_tracker.h"
 #include "tests/bench/query_method.h"
 
 namespace nearfit::bench {

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/proximity/candidate_list.h"
-#include "core/proximity/lmd_query.h"
+#include "core/proximity/query/lmd_query.h"
+#include "core/proximity/tracking/candidate_list.h"
 #include "tests/exact/target_pose.h"
 
 namespace nearfit::test {

@@ -27,7 +27,7 @@ constexpr double kSamePlace = 4e-12, kSameWay = 1.0 - 1e-6;
 constexpr double kTouching = 1e-13;
 
 /// Found ones may miss a condition by this many times what is promised to be resolved.
-constexpr double kLeastMargin = -2.0;
+constexpr double kMinMargin = -2.0;
 
 /// Exact ones that meet all conditions by as much are found at their own place, once: nearer to the end of a
 /// feature they may have become one with what its neighbour says.
@@ -69,7 +69,7 @@ ExactJudge::ExactJudge(const BodyPair& pair)
 
 std::vector<ExactMinimum> ExactJudge::minimaAt(const RigidTransform& pose, double cutoff) const {
   // What is flat is told at the features' middles: elsewhere a tilted region is nearer.
-  return oracle_.minima(pose, cutoff + kFlatRegion * size(), kLeastMargin);
+  return oracle_.minima(pose, cutoff + kFlatRegion * size(), kMinMargin);
 }
 
 double ExactJudge::pointTolerance(const Lmd& f) const {

@@ -37,7 +37,7 @@ void checkPolhem(ByteSource& source) {
   require(isPose({kinematics.orientationOf(angles), place}), "orientations are unit");
   const glm::dvec3 force = someForce(source);
   for (const int milliamps : kinematics.milliampsFor(force, angles.arm))
-    require(std::abs(milliamps) <= polhem::kMostMilliamps, "currents are within their limit");
+    require(std::abs(milliamps) <= polhem::kMaxMilliamps, "currents are within their limit");
 }
 
 void checkFalcon(ByteSource& source) {
@@ -59,7 +59,7 @@ void checkFalcon(ByteSource& source) {
       require(std::abs((*back)[i] - angles[i]) < 1e-6, "there and back is the same");
     last = *place;
     for (const std::int16_t units : falcon::unitsFor(force, *place, angles))
-      require(std::abs(units) <= falcon::kMostUnits, "motors are within their limit");
+      require(std::abs(units) <= falcon::kMaxUnits, "motors are within their limit");
   }
 }
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <set>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "device/polhem/polhem_calibration.h"
 #include "device/polhem/polhem_kinematics.h"
 #include "device/polhem/polhem_protocol.h"
@@ -30,7 +30,7 @@ void checkMotion(const Calibration& calibration) {
             "a count is a pose");
     const glm::dvec3 force(calibration.maxForce);
     for (const int milliamps : kinematics.milliampsFor(force, angles.arm))
-      require(std::abs(milliamps) <= polhem::kMostMilliamps, "currents are within their limit");
+      require(std::abs(milliamps) <= polhem::kMaxMilliamps, "currents are within their limit");
   }
 }
 

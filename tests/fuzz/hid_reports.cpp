@@ -11,10 +11,10 @@ namespace nearfit::fuzz {
 namespace {
 
 void checkFields(const HidReports& reports) {
-  require(reports.fields.size() <= kMostHidFields, "no more fields than allowed");
+  require(reports.fields.size() <= kMaxHidFields, "no more fields than allowed");
   for (const HidField& field : reports.fields) {
     require(field.bitCount >= 1 && field.bitCount <= 32, "a value has 1 to 32 bits");
-    require(field.bitOffset + field.bitCount <= 8 * (kMostReportBytes + 1), "a value lies within a report");
+    require(field.bitOffset + field.bitCount <= 8 * (kMaxReportBytes + 1), "a value lies within a report");
     require(reports.hasNumbers || field.reportId == 0, "no numbers where there are none");
   }
 }

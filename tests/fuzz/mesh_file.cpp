@@ -4,11 +4,11 @@
 #include <cmath>
 #include <span>
 
-#include "core/error.h"
+#include "core/base/error.h"
+#include "core/import/mesh_import.h"
 #include "core/mesh/mass_properties.h"
-#include "core/mesh/mesh_import.h"
-#include "core/proximity/normal_cone_tree.h"
-#include "core/proximity/unsided_surface.h"
+#include "core/proximity/hierarchy/normal_cone_tree.h"
+#include "core/proximity/surface/unsided_surface.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace nearfit::fuzz {

@@ -1,8 +1,8 @@
 // Files of hand poses, and recordings: what is read are poses, as far from the origin as allowed, at times
 // that never fall, or there is a FileError.
-#include "core/error.h"
-#include "core/scene/motion_reader.h"
+#include "core/base/error.h"
 #include "core/scene/scene.h"
+#include "core/servo/motion_reader.h"
 #include "device/simulated/replay_device.h"
 #include "device/simulated/simulated_device.h"
 #include "tests/fuzz/fuzz_target.h"

@@ -8,11 +8,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/error.h"
-#include "core/haptics/scene_tracker.h"
-#include "core/haptics/servo_tick.h"
+#include "core/base/error.h"
 #include "core/mesh/mass_properties.h"
 #include "core/scene/haptic_limits.h"
+#include "core/servo/scene_tracker.h"
+#include "core/servo/servo_tick.h"
 #include "tests/exact/pose_certifier.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/small_mesh.h"
@@ -21,7 +21,7 @@ namespace nearfit::fuzz {
 namespace {
 
 constexpr double kPeriod = 1e-3;
-constexpr int kMostTicks = 12;
+constexpr int kMaxTicks = 12;
 
 PartGeometryPtr geometryOf(TriangleMesh mesh) {
   const MassProperties mass = massProperties(mesh);
@@ -162,7 +162,7 @@ void run(ByteSource& bytes) {
   snapshot->proxy = snapshot->handle = start;
   RigidTransform hand = start;
   bool isFirst = true;
-  for (int i = 0; i < kMostTicks && !bytes.isEmpty(); ++i) {
+  for (int i = 0; i < kMaxTicks && !bytes.isEmpty(); ++i) {
     const std::uint8_t kind = bytes.byte();
     if (kind < 16) {
       hand = bytes.anyPose();

@@ -11,13 +11,13 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/proximity/blocked_minima.h"
-#include "core/proximity/candidate_list.h"
-#include "core/proximity/contact_query.h"
-#include "core/proximity/interference.h"
-#include "core/proximity/surface_contacts.h"
-#include "core/proximity/surface_distance.h"
-#include "core/proximity/unsided_surface.h"
+#include "core/proximity/overlap/interference.h"
+#include "core/proximity/query/blocked_minima.h"
+#include "core/proximity/query/contact_query.h"
+#include "core/proximity/surface/surface_contacts.h"
+#include "core/proximity/surface/surface_distance.h"
+#include "core/proximity/surface/unsided_surface.h"
+#include "core/proximity/tracking/candidate_list.h"
 #include "tests/exact/exact_comparison.h"
 #include "tests/exact/exact_meeting.h"
 #include "tests/fuzz/fuzz_target.h"

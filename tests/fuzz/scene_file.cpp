@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/files/sha256.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/support/mesh_generators.h"

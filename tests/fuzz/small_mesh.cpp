@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/mesh/mesh_builder.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/support/degenerate_meshes.h"
@@ -73,7 +73,7 @@ void changeVertices(ByteSource& bytes, std::vector<glm::dvec3>& vertices) {
     const glm::dvec3 v = changed(bytes, old, vertices);
     if (at < vertices.size()) {
       vertices[at] = v;
-    } else if (at < kMostVertices) {
+    } else if (at < kMaxVertices) {
       vertices.push_back(v);
     }
   }
@@ -81,7 +81,7 @@ void changeVertices(ByteSource& bytes, std::vector<glm::dvec3>& vertices) {
 
 void changeFaces(ByteSource& bytes, Faces& faces, std::size_t vertices) {
   for (std::size_t i = bytes.below(16); i > 0; --i) {
-    const std::size_t at = bytes.below(kMostTriangles + 1);
+    const std::size_t at = bytes.below(kMaxTriangles + 1);
     const auto corner = [&] { return static_cast<std::uint32_t>(bytes.below(vertices)); };
     if (at >= faces.size()) {
       faces.push_back({corner(), corner(), corner()});
@@ -169,9 +169,9 @@ RigidTransform smallPose(ByteSource& bytes) {
 }
 
 bool isPromised(const TriangleMesh& mesh) {
-  constexpr double kLeast = 1e-6, kMost = 1e6, kFarthest = 1e6, kSlimmest = 1e-6, kDetail = 1e-6;
+  constexpr double kMin = 1e-6, kMax = 1e6, kFarthest = 1e6, kSlimmest = 1e-6, kDetail = 1e-6;
   const double size = mesh.bounds().diagonal();
-  return size >= kLeast && size <= kMost && glm::length(mesh.bounds().centre()) <= kFarthest * size &&
+  return size >= kMin && size <= kMax && glm::length(mesh.bounds().centre()) <= kFarthest * size &&
          slimmest(mesh) >= kSlimmest && shortestEdge(mesh) >= kDetail * size;
 }
 

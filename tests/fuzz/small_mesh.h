@@ -7,7 +7,7 @@
 
 namespace nearfit::fuzz {
 
-constexpr std::size_t kMostVertices = 24, kMostTriangles = 48;
+constexpr std::size_t kMaxVertices = 24, kMaxTriangles = 48;
 
 /// A mesh of a few triangles, as MeshBuilder makes it of what the bytes say: a simple solid or nothing, its
 /// vertices moved, scaled, put on lines and planes through others or within some roundings of them, its

@@ -1,6 +1,6 @@
 // Files of the cache: arrays of a small mesh and its hierarchy, changed at will and given right checksums, or
 // any bytes. What the cache takes can be worked with like a mesh that was imported.
-#include "core/proximity/tree_cache.h"
+#include "core/proximity/cache/tree_cache.h"
 
 #include <cmath>
 #include <cstring>
@@ -10,10 +10,10 @@
 
 #include "core/files/checksum.h"
 #include "core/haptics/mass_metric.h"
-#include "core/proximity/candidate_list.h"
-#include "core/proximity/interference.h"
-#include "core/proximity/surface_contacts.h"
-#include "core/proximity/surface_distance.h"
+#include "core/proximity/overlap/interference.h"
+#include "core/proximity/surface/surface_contacts.h"
+#include "core/proximity/surface/surface_distance.h"
+#include "core/proximity/tracking/candidate_list.h"
 #include "tests/fuzz/byte_source.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/support/cached_meshes.h"
@@ -86,8 +86,8 @@ void change(ByteSource& bytes, Sections& sections) {
       if (at < section.size()) section[at] = static_cast<char>(section[at] ^ static_cast<char>(bytes.byte()));
       return;
     default:
-      constexpr std::size_t kMost = 64;
-      section.resize(header.elementBytes[which] * (at % kMost), '\0');
+      constexpr std::size_t kMax = 64;
+      section.resize(header.elementBytes[which] * (at % kMax), '\0');
   }
 }
 
@@ -144,8 +144,8 @@ void run(ByteSource& bytes) {
     return;
   }
   Sections sections = kMeshes[choice];
-  constexpr int kMostChanges = 16;
-  for (int i = 0; i < kMostChanges && !bytes.isEmpty(); ++i)
+  constexpr int kMaxChanges = 16;
+  for (int i = 0; i < kMaxChanges && !bytes.isEmpty(); ++i)
     change(bytes, sections);
   use(folder.write("changed", sections.file()));
 }

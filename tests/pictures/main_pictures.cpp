@@ -15,16 +15,16 @@
 #include <cstdio>
 
 #include "core/recovery/recovery_folder.h"
-#include "core/scene/motion_recording.h"
+#include "core/servo/motion_recording.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/app/desktop/fake_device.h"
-#include "ui/actions.h"
-#include "ui/dialogs/error_box.h"
-#include "ui/dialogs/progress_dialog.h"
-#include "ui/dialogs/unit_dialog.h"
-#include "ui/recovery/recovery_dialog.h"
-#include "ui/selection.h"
-#include "ui/theme.h"
+#include "ui/files/recovery/recovery_dialog.h"
+#include "ui/files/unit_dialog.h"
+#include "ui/model/selection.h"
+#include "ui/shell/actions.h"
+#include "ui/widgets/error_box.h"
+#include "ui/widgets/progress_dialog.h"
+#include "ui/widgets/theme.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

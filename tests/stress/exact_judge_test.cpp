@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/proximity/lmd_query.h"
+#include "core/proximity/query/lmd_query.h"
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
 

@@ -12,7 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/bench/bench_clock.h"
 #include "tests/stress/commands.h"
 #include "tests/stress/hand_run.h"

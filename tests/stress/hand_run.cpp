@@ -50,9 +50,9 @@ class HandRun {
     result_.certified = poses_.certified();
     result_.meetings = poses_.meetings();
     result_.energyGain = std::max(largestGain_, ledger_.largestGain());
-    if (!result_.failure && scene_.isEnergyBound && result_.energyGain > kMostEnergyGain)
+    if (!result_.failure && scene_.isEnergyBound && result_.energyGain > kMaxEnergyGain)
       result_.failure = fmt::format("the hand gained {:.3g} J", result_.energyGain);
-    if (!result_.failure && result_.ledgerError > kMostLedgerError)
+    if (!result_.failure && result_.ledgerError > kMaxLedgerError)
       result_.failure = fmt::format("the servo's account of energy is off by {:.3g}", result_.ledgerError);
     if (poses_.firstBad()) noteBadPose();
     return result_;

@@ -32,7 +32,7 @@ TEST_P(AdversarialHand, NeverBringsThePartIntoTheScene) {
   EXPECT_GT(result.extremes.inContact, 0U);
   // The servo's account of energy is that of one who only sees what goes over the border.
   EXPECT_LT(result.ledgerError, 1e-9);
-  EXPECT_TRUE(!scene.isEnergyBound || result.energyGain <= kMostEnergyGain);
+  EXPECT_TRUE(!scene.isEnergyBound || result.energyGain <= kMaxEnergyGain);
 }
 
 INSTANTIATE_TEST_SUITE_P(Stress, AdversarialHand,

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/stress/commands.h"
 #include "tests/stress/long_run.h"
 
@@ -17,7 +17,7 @@ void run(double hours) {
       "ticks,cycles,free drift m,contact drift m,late drift m,force drift N,energy drift J,growth bytes\n");
   fmt::print("{},{},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},{}\n", r.ticks, r.cycles, r.freeDrift, r.contactDrift,
              r.lateDrift, r.forceDrift, r.energyDrift, r.memoryGrowth);
-  if (r.freeDrift > 0.0 || r.contactDrift > kMostDrift || r.memoryGrowth > kMostGrowth)
+  if (r.freeDrift > 0.0 || r.contactDrift > kMaxDrift || r.memoryGrowth > kMaxGrowth)
     throw Error("hours", "the servo drifts or grows", "compare with a shorter run");
 }
 

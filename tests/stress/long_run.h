@@ -21,8 +21,8 @@ struct LongRunResult {
 LongRunResult runLong(double seconds);
 
 /// What a drift may be: the proxy comes to rest to a thousandth of the margin.
-constexpr double kLongMargin = 1e-4, kMostDrift = 2e-3 * kLongMargin;
+constexpr double kLongMargin = 1e-4, kMaxDrift = 2e-3 * kLongMargin;
 /// Allocators keep some.
-constexpr std::int64_t kMostGrowth = 2 << 20;  // [bytes]
+constexpr std::int64_t kMaxGrowth = 2 << 20;  // [bytes]
 
 }  // namespace nearfit::stress

@@ -13,11 +13,11 @@ TEST(LongRun, NeitherDriftsNorGrowsInMinutes) {
 #endif
   const LongRunResult result = runLong(kSeconds);
   EXPECT_EQ(result.freeDrift, 0.0);
-  EXPECT_LE(result.contactDrift, kMostDrift);
+  EXPECT_LE(result.contactDrift, kMaxDrift);
   EXPECT_LE(result.forceDrift, 1e-3);
 #ifndef NEARFIT_SANITIZED
   // Sanitizers keep what was freed.
-  EXPECT_LE(result.memoryGrowth, kMostGrowth);
+  EXPECT_LE(result.memoryGrowth, kMaxGrowth);
 #endif
 }
 

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "core/proximity/lmd_query.h"
+#include "core/proximity/query/lmd_query.h"
 #include "tests/stress/oracle_poses.h"
 #include "tests/support/region_oracle.h"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/stress/commands.h"
 #include "tests/stress/oracle_campaign.h"
 #include "tests/stress/oracle_pairs.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/mesh/mesh_import.h"
+#include "core/import/mesh_import.h"
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
 

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/bench/selection.h"
 #include "tests/stress/commands.h"
 #include "tests/stress/press_trial.h"
@@ -16,7 +16,7 @@ namespace {
 
 /// A trial has so many ticks at least: until then the servo may still learn what its longest periods are, and
 /// let the stiffness down for them. At 10 ms and lost ticks it did so for eleven seconds.
-constexpr double kLeastRestTicks = 3000.0;
+constexpr double kMinRestTicks = 3000.0;
 
 void run(double seconds, const std::vector<std::string>& names) {
   fmt::print(
@@ -32,7 +32,7 @@ void run(double seconds, const std::vector<std::string>& names) {
                                      .period = period,
                                      .isRough = isRough,
                                      .friction = friction,
-                                     .seconds = std::max(seconds, kLeastRestTicks * period)};
+                                     .seconds = std::max(seconds, kMinRestTicks * period)};
           const PressResult r = press(scene, options);
           const bool isCalm = isAtRest(r, options) && r.isKept;
           restless += isCalm ? 0 : 1;

@@ -7,8 +7,8 @@
 #include <glm/vec4.hpp>
 
 #include "core/haptics/period_meter.h"
-#include "core/haptics/servo_tick.h"
 #include "core/haptics/virtual_coupling.h"
+#include "core/servo/servo_tick.h"
 #include "tests/stress/stress_scene.h"
 #include "tests/stress/stress_servo.h"
 #include "tests/support/simulated_hand.h"

@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
-#include "core/error.h"
-#include "core/proximity/broad_phase.h"
+#include "core/base/error.h"
+#include "core/proximity/query/broad_phase.h"
 #include "tests/bench/feel_scenes.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"

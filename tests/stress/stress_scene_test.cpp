@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/exact/pose_certifier.h"
 
 namespace nearfit::stress::stress_scene_test {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <random>
 
-#include "core/haptics/scene_tracker.h"
-#include "core/haptics/servo_tick.h"
+#include "core/servo/scene_tracker.h"
+#include "core/servo/servo_tick.h"
 
 namespace nearfit::stress {
 

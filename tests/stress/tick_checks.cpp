@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "core/haptics/servo_faults.h"
 #include "core/haptics/virtual_coupling.h"
-#include "core/haptics/work_bound.h"
+#include "core/servo/servo_faults.h"
+#include "core/servo/work_bound.h"
 
 namespace nearfit::stress {
 namespace {
@@ -56,7 +56,7 @@ void EnergyLedger::add(const ServoScene& scene, const ServoParameters& parameter
   const double damped =
       (limits.damping * glm::dot(shift, shift) + limits.rotationalDamping * glm::dot(turn, turn)) / period;
   // The part moved in the tick before, under its weight.
-  const Felt felt = feltBody(parameters.haptics.weight, scene.mass, limits.maxForce);
+  const FeltMass felt = feltBody(parameters.haptics.weight, scene.mass, limits.maxForce);
   const double fallen = glm::dot(felt.weight, now.centre - before.centre);
   gain_ += given - damped - fallen;
   const Twist twist{(now.centre - before.centre) / period,

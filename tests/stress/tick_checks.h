@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/haptics/servo_tick.h"
+#include "core/servo/servo_tick.h"
 
 namespace nearfit::stress {
 
@@ -35,12 +35,12 @@ class EnergyLedger {
 
 /// The servo's account of the energy given to the hand may differ from one kept beside it by so much of what
 /// went to and fro: both are sums of millions of small numbers.
-constexpr double kMostLedgerError = 1e-6;
+constexpr double kMaxLedgerError = 1e-6;
 
 /// The most that a hand may gain [J]: the controller's largest debt and slack, and what a force that the slew
 /// limit only lets down from the device's most (10 N at 2000 N/s) gives a hand that goes with it at 2 m/s.
-constexpr double kMostEnergyGain =
-    PassivityController::kMostDebt + PassivityController::kSlack + 0.5 * 10.0 * (10.0 / 2000.0) * 2.0;
+constexpr double kMaxEnergyGain =
+    PassivityController::kMaxDebt + PassivityController::kSlack + 0.5 * 10.0 * (10.0 / 2000.0) * 2.0;
 
 /// What a tick may be at worst.
 struct TickExtremes {

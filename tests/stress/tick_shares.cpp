@@ -8,7 +8,7 @@ namespace {
 
 /// Ticks of a scene by what a scene whose tick costs one has.
 std::uint64_t ticksOf(double cost, double ofOne) {
-  return std::max(kLeastTicks, static_cast<std::uint64_t>(ofOne / std::sqrt(cost)));
+  return std::max(kMinTicks, static_cast<std::uint64_t>(ofOne / std::sqrt(cost)));
 }
 
 std::uint64_t sumOf(std::span<const double> costs, double ofOne) {
@@ -24,7 +24,7 @@ std::vector<std::uint64_t> shareTicks(std::span<const double> costs, std::uint64
   const std::size_t count = costs.size();
   std::vector<std::uint64_t> shares(count);
   if (count == 0) return shares;
-  if (total / count < kLeastTicks) {
+  if (total / count < kMinTicks) {
     for (std::size_t i = 0; i < count; ++i)
       shares[i] = total / count + (i < total % count ? 1 : 0);
     return shares;

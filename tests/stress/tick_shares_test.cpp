@@ -25,7 +25,7 @@ TEST(TickShares, NoSceneGoesWithLessThanTheLeast) {
   // The dear scene would have a thousandth of the others', which share what it leaves.
   const std::vector<std::uint64_t> shares = shareTicks(std::array{1.0, 1e6, 1.0}, 2'000'000);
   EXPECT_EQ(sumOf(shares), 2'000'000U);
-  EXPECT_EQ(shares[1], kLeastTicks);
+  EXPECT_EQ(shares[1], kMinTicks);
   EXPECT_NEAR(static_cast<double>(shares[0]), 950'000.0, 2.0);
   EXPECT_NEAR(static_cast<double>(shares[2]), 950'000.0, 2.0);
 }
@@ -33,7 +33,7 @@ TEST(TickShares, NoSceneGoesWithLessThanTheLeast) {
 TEST(TickShares, AShortRunIsSharedEqually) {
   EXPECT_EQ(shareTicks(std::array{1.0, 1000.0, 5.0}, 100'001),
             (std::vector<std::uint64_t>{33334, 33334, 33333}));
-  EXPECT_EQ(shareTicks(std::array{1.0, 9.0}, 2 * kLeastTicks), (std::vector<std::uint64_t>(2, kLeastTicks)));
+  EXPECT_EQ(shareTicks(std::array{1.0, 9.0}, 2 * kMinTicks), (std::vector<std::uint64_t>(2, kMinTicks)));
   EXPECT_TRUE(shareTicks({}, 5).empty());
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/proximity/tree_cache.h"
+#include "core/proximity/cache/tree_cache.h"
 
 /// Meshes to put into a cache, and cache files to spoil.
 namespace nearfit::test {

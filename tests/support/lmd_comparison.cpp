@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/proximity/lmd_query.h"
+#include "core/proximity/query/lmd_query.h"
 #include "tests/support/lmd_oracle.h"
 #include "tests/support/region_oracle.h"
 

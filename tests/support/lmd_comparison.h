@@ -8,8 +8,8 @@
 
 #include "core/math/rigid_transform.h"
 #include "core/mesh/triangle_mesh.h"
+#include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/proximity/lmd.h"
-#include "core/proximity/normal_cone_tree.h"
 
 /// Comparison of the engine's sets with those of the brute-force oracle; differences are reported to
 /// GoogleTest.

@@ -6,8 +6,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/proximity/leaf_tests.h"
-#include "core/proximity/query_workspace.h"
+#include "core/proximity/query/leaf_tests.h"
+#include "core/proximity/query/query_workspace.h"
 
 namespace nearfit::test {
 namespace {
@@ -131,7 +131,7 @@ std::vector<Minimum> unmergedMinima(const NormalConeTree& scene, const NormalCon
   return minima;
 }
 
-std::vector<std::uint32_t> setsByAllPairs(std::vector<Minimum>& minima, const Closeness& closeness) {
+std::vector<std::uint32_t> setsByAllPairs(std::vector<Minimum>& minima, const TouchTolerances& closeness) {
   std::vector<std::uint32_t> first(minima.size());
   std::iota(first.begin(), first.end(), 0U);
   for (std::uint32_t i = 0; i < minima.size(); ++i) {

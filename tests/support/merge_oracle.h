@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/proximity/minimum.h"
-#include "core/proximity/normal_cone_tree.h"
-#include "core/proximity/touching.h"
+#include "core/proximity/query/touching.h"
 
 /// The grouping of minima by brute force: every two are held against each other.
 namespace nearfit::test {
@@ -17,6 +17,6 @@ std::vector<Minimum> unmergedMinima(const NormalConeTree& scene, const NormalCon
 
 /// Of each entry the first of its set, sets being the transitive closure of touching. Marks those that
 /// overlap. O(n^2).
-std::vector<std::uint32_t> setsByAllPairs(std::vector<Minimum>& minima, const Closeness& closeness);
+std::vector<std::uint32_t> setsByAllPairs(std::vector<Minimum>& minima, const TouchTolerances& closeness);
 
 }  // namespace nearfit::test

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/haptics/proxy.h"
-#include "core/haptics/scene_tracker.h"
 #include "core/mesh/triangle_mesh.h"
+#include "core/servo/proxy.h"
+#include "core/servo/scene_tracker.h"
 
 namespace nearfit::test {
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/haptics/servo_tick.h"
+#include "core/servo/servo_tick.h"
 
 /// A scene whose every force is known: a cone, tip down, over a floor.
 namespace nearfit::test {

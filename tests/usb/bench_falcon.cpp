@@ -18,12 +18,12 @@ namespace {
 /// Some blocks and a part of one.
 const std::string kImage(1000, 'f');
 /// Of 0.036 degrees of a thigh each.
-constexpr int kMostThighCounts = 250;
+constexpr int kMaxThighCounts = 250;
 /// Far less than a count, which is 40 um; far more than what Newton's method leaves [m].
 constexpr double kSlack = 1e-6;
 
 std::array<std::int16_t, 3> encodersAt(int i) {
-  const auto count = static_cast<std::int16_t>(toAndFro(i, kMostThighCounts));
+  const auto count = static_cast<std::int16_t>(toAndFro(i, kMaxThighCounts));
   return {count, 0, static_cast<std::int16_t>(-count)};
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kStep = 1e-5;  ///< Of the handle, from place to place [m].
 /// As far as it goes to and fro: 5 cm, the workspace's half.
-constexpr int kMostSteps = 2500;
+constexpr int kMaxSteps = 2500;
 
 openhap::Capabilities lenient() {
   openhap::Capabilities is = OpenHapEmulator::usualCapabilities();
@@ -46,12 +46,12 @@ class OpenHapBench final : public DriverBench {
   void start(HapticDevice& device) override { device.start({}); }
   void hold(int i) override {
     emulator_.withFirmware([&](OpenHapFirmware& firmware) {
-      firmware.handle.position = {static_cast<float>(kStep * toAndFro(i, kMostSteps)), 0.02F, -0.03F};
+      firmware.handle.position = {static_cast<float>(kStep * toAndFro(i, kMaxSteps)), 0.02F, -0.03F};
     });
   }
   void expectHeld(HapticDevice&, const HandleInput& handle, int i) override {
     EXPECT_EQ(handle.pose.translation,
-              glm::dvec3(static_cast<float>(kStep * toAndFro(i, kMostSteps)), 0.02F, -0.03F));
+              glm::dvec3(static_cast<float>(kStep * toAndFro(i, kMaxSteps)), 0.02F, -0.03F));
   }
   bool round(HapticDevice& device, const Wrench& wrench, HandleInput& handle) override {
     const std::uint64_t before = commands();

@@ -13,13 +13,13 @@ namespace nearfit::test {
 namespace {
 
 /// Of 32,000 counts a turn: 28 degrees to either side, of 100.
-constexpr int kMostJointCounts = 2500;
+constexpr int kMaxJointCounts = 2500;
 /// Where it is switched on, which is its rest.
 constexpr std::array<std::int16_t, 6> kRest{1000, -200, 30, 0, 0, 0};
 
 std::array<std::int16_t, 6> jointCountsAt(int i) {
   std::array<std::int16_t, 6> counts = kRest;
-  const int turned = toAndFro(i, kMostJointCounts);
+  const int turned = toAndFro(i, kMaxJointCounts);
   counts[0] = static_cast<std::int16_t>(counts[0] + turned);
   counts[1] = static_cast<std::int16_t>(counts[1] + turned / 2);
   counts[2] = static_cast<std::int16_t>(counts[2] - turned / 2);

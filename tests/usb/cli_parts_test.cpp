@@ -6,7 +6,7 @@
 
 #include "app/cli/monitor_damping.h"
 #include "app/cli/rate_options.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace nearfit::cli::cli_parts_test {
 namespace {

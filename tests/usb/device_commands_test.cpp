@@ -20,7 +20,7 @@
 #include "app/cli/output.h"
 #include "app/cli/place_run.h"
 #include "app/cli/rate_options.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "device/openhap/openhap_device.h"
 #include "device/spacemouse/spacemouse_device.h"
 #include "tests/support/servo_fixtures.h"
@@ -374,15 +374,15 @@ TEST_F(SpaceMouseCommand, TheFirstButtonHoldsThePartAndTheSecondLetsGoOnce) {
   };
   const HandleInput held = press(1);
   EXPECT_TRUE(held.isClutched);
-  EXPECT_FALSE(held.isLettingGo);
+  EXPECT_FALSE(held.returnsToPart);
   HandleInput next;
   ASSERT_TRUE(device->readHandle(next));
   EXPECT_EQ(next.pose.translation, held.pose.translation) << "the cap is pushed, and nothing moves";
   const HandleInput back = press(2);
   EXPECT_FALSE(back.isClutched);
-  EXPECT_TRUE(back.isLettingGo);
+  EXPECT_TRUE(back.returnsToPart);
   ASSERT_TRUE(device->readHandle(next));
-  EXPECT_FALSE(next.isLettingGo) << "once each time that it is pressed";
+  EXPECT_FALSE(next.returnsToPart) << "once each time that it is pressed";
 }
 
 TEST_F(SpaceMouseCommand, ATestFindsNothingToPushWith) {

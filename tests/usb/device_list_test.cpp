@@ -1,9 +1,9 @@
-#include "device/device_list.h"
+#include "device/registry/device_list.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 #include "tests/usb/emulated_bus.h"
 #include "tests/usb/openhap_emulator.h"
 #include "tests/usb/usb_fixture.h"

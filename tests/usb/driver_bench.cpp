@@ -5,7 +5,7 @@
 
 #include <glm/matrix.hpp>
 
-#include "device/servo/monotonic_clock.h"
+#include "device/thread/monotonic_clock.h"
 
 namespace nearfit::test {
 namespace {

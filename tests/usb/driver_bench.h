@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "device/device_error.h"
-#include "device/device_registry.h"
-#include "device/device_supervisor.h"
+#include "device/interface/device_error.h"
+#include "device/interface/device_supervisor.h"
+#include "device/registry/device_registry.h"
 #include "tests/usb/emulated_device.h"
 #include "tests/usb/hand_servo.h"
 
@@ -37,7 +37,7 @@ class DriverBench {
     DeviceState opened = DeviceState::Ready;  ///< When it is open and nobody has seen to it yet.
     std::optional<DeviceProblem> whenSilent;  ///< Opening it fails so when it answers nothing.
     std::optional<DeviceProblem> whenRefusing;  ///< And when it refuses its driver's requests.
-    bool isStoppedByGarbage = true;             ///< By kMostRejectedInRow bad reports in a row.
+    bool isStoppedByGarbage = true;             ///< By kMaxRejectedInRow bad reports in a row.
     std::uint8_t in = 0x81, out = 0x01;         ///< Endpoints; of `out`, 0 for none.
   };
 

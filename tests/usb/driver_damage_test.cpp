@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "device/streamed_handle.h"
+#include "device/common/streamed_handle.h"
 #include "tests/usb/driver_fixture.h"
 
 namespace nearfit::driver_damage_test {
@@ -26,7 +26,7 @@ class DriverWithBadReports : public test::EachDriver {
     return all.back();
   }
 
-  static constexpr unsigned kMost = StreamedHandle<int>::kMostRejectedInRow;
+  static constexpr unsigned kMax = StreamedHandle<int>::kMaxRejectedInRow;
 };
 
 TEST_P(DriverWithBadReports, OfEachSortIsCountedAndNotBelievedAndTheNextGoodOneIs) {
@@ -58,7 +58,7 @@ TEST_P(DriverWithBadReports, OfEachSortIsCountedAndNotBelievedAndTheNextGoodOneI
 TEST_P(DriverWithBadReports, InARowThatEndsInTimeStopNothing) {
   bringUp();
   for (int again = 0; again < 3; ++again) {
-    for (unsigned i = 0; i + 1 < kMost; ++i)
+    for (unsigned i = 0; i + 1 < kMax; ++i)
       sendBad(garbage());
     ASSERT_TRUE(bench->round(*device, push, handle));
     EXPECT_EQ(device->state(), DeviceState::Armed) << device->stateNote();
@@ -67,7 +67,7 @@ TEST_P(DriverWithBadReports, InARowThatEndsInTimeStopNothing) {
 
 TEST_P(DriverWithBadReports, WithoutEndStopItWithoutForce) {
   bringUp();
-  for (unsigned i = 0; i < kMost; ++i)
+  for (unsigned i = 0; i < kMax; ++i)
     sendBad(garbage());
   if (!bench->traits().isStoppedByGarbage) {
     EXPECT_EQ(device->state(), DeviceState::Armed);

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "device/device_supervisor.h"
+#include "device/interface/device_supervisor.h"
 #include "tests/app/cli/place_fixture.h"
 #include "tests/support/eventually.h"
 

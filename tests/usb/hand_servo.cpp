@@ -1,6 +1,6 @@
 #include "tests/usb/hand_servo.h"
 
-#include "device/servo/monotonic_clock.h"
+#include "device/thread/monotonic_clock.h"
 #include "tests/support/eventually.h"
 
 namespace nearfit::test {

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <thread>
 
-#include "device/haptic_device.h"
+#include "device/interface/haptic_device.h"
 
 namespace nearfit::test {
 

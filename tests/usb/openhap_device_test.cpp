@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 #include "tests/usb/hand_servo.h"
 #include "tests/usb/openhap_emulator.h"
 #include "tests/usb/usb_fixture.h"

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "core/realtime/latency_histogram.h"
-#include "device/servo/monotonic_clock.h"
+#include "device/thread/monotonic_clock.h"
 #include "tests/usb/emulated_device.h"
 #include "tests/usb/openhap_firmware.h"
 #include "tests/usb/report_stream.h"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 #include "device/polhem/polhem_device.h"
 #include "device/usb/usb_bus.h"
 #include "tests/usb/emulated_bus.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "device/servo/realtime_thread.h"
+#include "device/thread/realtime_thread.h"
 
 namespace nearfit::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <thread>
 
-#include "device/servo/monotonic_clock.h"
+#include "device/thread/monotonic_clock.h"
 #include "tests/usb/emulated_device.h"
 
 namespace nearfit::test {

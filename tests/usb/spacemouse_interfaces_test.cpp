@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "device/device_error.h"
-#include "device/device_list.h"
+#include "device/interface/device_error.h"
+#include "device/registry/device_list.h"
 #include "device/spacemouse/spacemouse_device.h"
 #include "tests/usb/emulated_bus.h"
 #include "tests/usb/report_stream.h"

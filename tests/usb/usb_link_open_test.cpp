@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 #include "tests/usb/usb_fixture.h"
 
 namespace nearfit::usb_link_open_test {

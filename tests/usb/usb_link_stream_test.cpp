@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 #include "tests/usb/usb_fixture.h"
 
 namespace nearfit::usb_link_stream_test {
@@ -134,7 +134,7 @@ TEST_F(UsbLinkStream, CommandsThatAreTooLongOrHaveNoEndpointAreRefused) {
   link.stream({test::kIn, 0}, sink);
   EXPECT_FALSE(link.send(numbered(1)));
   link.stream(kBoth, sink);
-  EXPECT_FALSE(link.send(numbered(1, UsbLink::kMostPacket + 1)));
+  EXPECT_FALSE(link.send(numbered(1, UsbLink::kMaxPacket + 1)));
   EXPECT_TRUE(link.send(numbered(1, 32)));
   EXPECT_TRUE(eventually([&] { return commands().size() == 1; }));
 }

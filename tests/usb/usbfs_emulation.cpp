@@ -17,7 +17,7 @@ namespace nearfit::test {
 namespace {
 
 /// Descriptors above are never nodes: far more than a test has open.
-constexpr std::size_t kMostDescriptors = 4096;
+constexpr std::size_t kMaxDescriptors = 4096;
 
 struct Nodes {
   std::mutex mutex;
@@ -33,10 +33,10 @@ Nodes& nodes() {
 
 // Constant initialised, since they are asked before any initialiser has run.
 std::atomic<bool> isEnabled{false};
-std::array<std::atomic<bool>, kMostDescriptors> isNode{};
+std::array<std::atomic<bool>, kMaxDescriptors> isNode{};
 
 bool isOurs(int descriptor) noexcept {
-  return descriptor >= 0 && static_cast<std::size_t>(descriptor) < kMostDescriptors &&
+  return descriptor >= 0 && static_cast<std::size_t>(descriptor) < kMaxDescriptors &&
          isNode[static_cast<std::size_t>(descriptor)].load(std::memory_order_acquire);
 }
 

@@ -4,7 +4,7 @@
 #include <QFileInfo>
 #include <algorithm>
 
-#include "core/mesh/mesh_import.h"
+#include "core/import/mesh_import.h"
 
 namespace nearfit::ui {
 namespace {
@@ -25,7 +25,7 @@ void addFolder(const QString& folder, DroppedFiles& dropped) {
     const QString file = it.next();
     if (isScene(file)) scenes << file;
     if (isMesh(file)) meshes << file;
-    dropped.isCutOff = dropped.meshes.size() + meshes.size() >= kMostInFolders;
+    dropped.isCutOff = dropped.meshes.size() + meshes.size() >= kMaxInFolders;
   }
   scenes.sort();
   meshes.sort();

@@ -8,11 +8,11 @@ namespace nearfit::ui {
 struct DroppedFiles {
   QStringList scenes, meshes;
   QStringList emptyFolders;  ///< They hold nothing that can be opened.
-  bool isCutOff = false;     ///< There were more files than kMostInFolders.
+  bool isCutOff = false;     ///< There were more files than kMaxInFolders.
 };
 
 /// Limit of files taken from folders: with more, somebody has dropped a disk.
-constexpr int kMostInFolders = 2000;
+constexpr int kMaxInFolders = 2000;
 
 /// Sorts files and searches folders, in order of name; does not follow links to folders. In folders only
 /// readable formats count, and scenes only if there is no mesh.

@@ -5,9 +5,9 @@
 #include <QPointer>
 #include <memory>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/files/sha256.h"
-#include "ui/paths.h"
+#include "ui/widgets/paths.h"
 
 namespace nearfit::ui {
 

@@ -7,8 +7,8 @@
 #include <QStringList>
 #include <QTimer>
 
-#include "core/session.h"
-#include "ui/background_task.h"
+#include "core/session/session.h"
+#include "ui/widgets/background_task.h"
 
 namespace nearfit::ui {
 

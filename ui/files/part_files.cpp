@@ -13,12 +13,12 @@
 #include <utility>
 
 #include "core/scene/odd_size.h"
-#include "ui/document.h"
+#include "ui/files/document.h"
 #include "ui/files/mesh_watch.h"
-#include "ui/files/notice_bar.h"
-#include "ui/names.h"
-#include "ui/paths.h"
-#include "ui/theme.h"
+#include "ui/widgets/names.h"
+#include "ui/widgets/notice_bar.h"
+#include "ui/widgets/paths.h"
+#include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
 namespace {

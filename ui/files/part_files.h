@@ -4,9 +4,9 @@
 #include <QStringList>
 #include <vector>
 
-#include "core/session.h"
-#include "ui/background_task.h"
-#include "ui/dialogs/error_box.h"
+#include "core/session/session.h"
+#include "ui/widgets/background_task.h"
+#include "ui/widgets/error_box.h"
 
 class QAction;
 class QMenu;

@@ -6,7 +6,7 @@
 #include <QMenu>
 #include <QSettings>
 
-#include "ui/names.h"
+#include "ui/widgets/names.h"
 
 namespace nearfit::ui {
 namespace {
@@ -29,7 +29,7 @@ RecentFiles::RecentFiles(QMenu* menu, QObject* parent) : QObject(parent), menu_(
 }
 
 QStringList RecentFiles::list() {
-  return QStringList(QSettings().value(kKey).toStringList().mid(0, kMost));
+  return QStringList(QSettings().value(kKey).toStringList().mid(0, kMax));
 }
 
 void RecentFiles::remember(const QString& file) {
@@ -37,7 +37,7 @@ void RecentFiles::remember(const QString& file) {
   QStringList files = list();
   files.removeAll(path);
   files.prepend(path);
-  QSettings().setValue(kKey, QStringList(files.mid(0, kMost)));
+  QSettings().setValue(kKey, QStringList(files.mid(0, kMax)));
 }
 
 void RecentFiles::forget(const QString& file) {

@@ -12,14 +12,14 @@ class RecentFiles : public QObject {
   Q_OBJECT
 
  public:
-  static constexpr int kMost = 10;
+  static constexpr int kMax = 10;
 
   /// @param menu  Filled each time that it opens; must outlive this.
   explicit RecentFiles(QMenu* menu, QObject* parent = nullptr);
 
   /// Returns the files, newest first, including missing ones.
   static QStringList list();
-  /// Puts a file first; drops the oldest beyond kMost.
+  /// Puts a file first; drops the oldest beyond kMax.
   static void remember(const QString& file);
   /// Removes a file from the list.
   static void forget(const QString& file);

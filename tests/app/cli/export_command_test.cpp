@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/mesh/mesh_import.h"
+#include "core/import/mesh_import.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"
 #include "tests/support/run_process.h"

@@ -11,8 +11,8 @@
 #include <unistd.h>
 
 #include "core/haptics/wrench_conditioner.h"
-#include "core/scene/motion_recording.h"
 #include "core/scene/scene_file.h"
+#include "core/servo/motion_recording.h"
 #include "tests/app/cli/place_fixture.h"
 #include "tests/support/eventually.h"
 #include "tests/support/mesh_generators.h"

@@ -4,7 +4,7 @@
 #include <QStatusBar>
 
 #include "tests/app/desktop/view_pointer.h"
-#include "ui/parts_model.h"
+#include "ui/model/parts_model.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

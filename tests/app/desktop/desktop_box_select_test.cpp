@@ -3,7 +3,7 @@
 #include <QRubberBand>
 
 #include "tests/app/desktop/view_pointer.h"
-#include "ui/selection.h"
+#include "ui/model/selection.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

@@ -11,8 +11,8 @@
 #include "core/scene/scene_file.h"
 #include "tests/app/desktop/file_drop.h"
 #include "tests/support/mesh_files.h"
-#include "ui/parts_model.h"
-#include "ui/selection.h"
+#include "ui/model/parts_model.h"
+#include "ui/model/selection.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

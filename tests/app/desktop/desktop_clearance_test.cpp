@@ -6,9 +6,9 @@
 #include <QTableView>
 
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/clearance/clearance_model.h"
-#include "ui/parts_model.h"
-#include "ui/selection.h"
+#include "ui/model/clearance_model.h"
+#include "ui/model/parts_model.h"
+#include "ui/model/selection.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

@@ -6,7 +6,7 @@
 
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/app/desktop/fake_device.h"
-#include "ui/dialogs/error_box.h"
+#include "ui/widgets/error_box.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

@@ -21,16 +21,16 @@
 #include <optional>
 
 #include "app/desktop/application.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/mesh/triangle_mesh.h"
 #include "tests/app/desktop/menus.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/qt/qt_patience.h"
 #include "tests/support/qt/qt_suite.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/document.h"
-#include "ui/theme.h"
-#include "ui/viewport.h"
+#include "ui/files/document.h"
+#include "ui/view3d/viewport.h"
+#include "ui/widgets/theme.h"
 
 /// Drives the desktop application as a user does: by its widgets, with real events.
 namespace nearfit::test {

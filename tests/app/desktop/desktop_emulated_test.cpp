@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/scene/scene_file.h"
-#include "device/device_supervisor.h"
+#include "device/interface/device_supervisor.h"
 #include "tests/app/cli/place_fixture.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/support/eventually.h"

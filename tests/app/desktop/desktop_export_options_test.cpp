@@ -2,10 +2,10 @@
 #include <QStatusBar>
 #include <sstream>
 
-#include "core/mesh/mesh_import.h"
+#include "core/import/mesh_import.h"
 #include "tests/app/desktop/export_driver.h"
-#include "ui/parts_model.h"
-#include "ui/selection.h"
+#include "ui/model/parts_model.h"
+#include "ui/model/selection.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

@@ -3,11 +3,11 @@
 #include <QMessageBox>
 #include <QStatusBar>
 
-#include "core/mesh/mesh_import.h"
+#include "core/import/mesh_import.h"
 #include "core/report/placement_table.h"
 #include "tests/app/desktop/export_driver.h"
-#include "ui/dialogs/error_box.h"
-#include "ui/parts_model.h"
+#include "ui/model/parts_model.h"
+#include "ui/widgets/error_box.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

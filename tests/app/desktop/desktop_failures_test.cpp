@@ -3,7 +3,7 @@
 #include <QStatusBar>
 #include <QTableWidget>
 
-#include "core/scene/motion_reader.h"
+#include "core/servo/motion_reader.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/support/file_size_limit.h"
 
@@ -86,7 +86,7 @@ void DesktopFailuresTest::aRecordingThatFailsKeepsWhatWasFeltUntilThen() {
     f.feel();
     QTRY_VERIFY(f.box() != nullptr);
   }
-  const ReadMotion kept = readRecording(f.file());
+  const Recording kept = readRecording(f.file());
   QVERIFY(!kept.isCut);
   QVERIFY(kept.rows.size() > 100);
   const QString summary = f.d.text("errorSummary"), status = f.d.window().statusBar()->currentMessage();
@@ -121,7 +121,7 @@ void DesktopFailuresTest::aRecordingThatIsCutIsPlayedAndSaysSo() {
   QTRY_VERIFY(f.d.widget<QDockWidget>("timelineDock")->isVisible());
   const QString status = f.d.window().statusBar()->currentMessage();
   QVERIFY2(status.contains(QStringLiteral("not written to its end")), qPrintable(status));
-  const ReadMotion read = readRecording(f.file());
+  const Recording read = readRecording(f.file());
   QVERIFY(read.isCut);
   QVERIFY(read.rows.back().time < whole);
 }

@@ -3,8 +3,8 @@
 #include <QStatusBar>
 
 #include "tests/app/desktop/view_pointer.h"
-#include "ui/selection.h"
-#include "ui/taking/picture_dialog.h"
+#include "ui/files/export/picture_dialog.h"
+#include "ui/model/selection.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -92,8 +92,7 @@ void DesktopFineScreenTest::anArrowMovesThePartAsFarAsTheMouse() {
   FineScreen b;
   QVERIFY(b.clicked(b.mouse.seen({0.005, -0.01, 0.04})) == b.d.partId("moving"));
   QTRY_VERIFY(b.mouse.overlay().picture().has_value());
-  const std::pair<GizmoHandle, QPoint> drags[] = {{GizmoHandle::MoveX, {50, 0}},
-                                                  {GizmoHandle::MoveZ, {0, -30}}};
+  const std::pair<GizmoGrip, QPoint> drags[] = {{GizmoGrip::MoveX, {50, 0}}, {GizmoGrip::MoveZ, {0, -30}}};
   for (const auto& [handle, way] : drags) {
     const glm::dvec3 centre = b.d.part("moving").worldFromPart.applyToPoint({0, 0, 0.035});
     const QPoint before = b.mouse.seen(centre);
@@ -103,7 +102,7 @@ void DesktopFineScreenTest::anArrowMovesThePartAsFarAsTheMouse() {
     QVERIFY2((gone - way).manhattanLength() <= 2,
              qPrintable(QStringLiteral("%1 %2").arg(gone.x()).arg(gone.y())));
     // And the gizmo with it.
-    QVERIFY((b.mouse.handle(GizmoHandle::MoveFree) - b.mouse.seen(now)).manhattanLength() <= 2);
+    QVERIFY((b.mouse.handle(GizmoGrip::MoveFree) - b.mouse.seen(now)).manhattanLength() <= 2);
   }
 }
 

@@ -1,7 +1,7 @@
 #include <QSettings>
 
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/preferences.h"
+#include "ui/widgets/preferences.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

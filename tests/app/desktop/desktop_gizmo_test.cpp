@@ -7,9 +7,9 @@
 #include "core/math/rotation_vector.h"
 #include "tests/app/desktop/view_driver.h"
 #include "tests/exact/pose_certifier.h"
-#include "ui/number_field.h"
-#include "ui/placing/placing_tools.h"
-#include "ui/selection.h"
+#include "ui/model/selection.h"
+#include "ui/tools/placing/placing_tools.h"
+#include "ui/widgets/number_field.h"
 
 using namespace nearfit;
 using test::DesktopDriver;
@@ -83,7 +83,7 @@ void DesktopGizmoTest::anArrowMovesAlongItsAxisInOneStepOfUndo() {
   Bench b;
   const RigidTransform before = b.pose();
   const std::size_t steps = b.steps();
-  b.drag(b.handle(GizmoHandle::MoveX), {60, -25});
+  b.drag(b.handle(GizmoGrip::MoveX), {60, -25});
   const glm::dvec3 way = b.pose().translation - before.translation;
   const double pixel = b.view().projection().metresPerPixel(b.pose().translation + glm::dvec3(0, 0, 0.035));
   QVERIFY2(std::abs(way.x - 60.0 * pixel) < 1.5 * pixel, qPrintable(QString::number(way.x / pixel)));
@@ -99,15 +99,15 @@ void DesktopGizmoTest::aSquareMovesInItsPlane() {
   Bench b;
   b.look("viewIso");
   const RigidTransform before = b.pose();
-  b.drag(b.handle(GizmoHandle::PlaneZ), {40, 30});
+  b.drag(b.handle(GizmoGrip::PlaneZ), {40, 30});
   const glm::dvec3 way = b.pose().translation - before.translation;
   QCOMPARE(way.z, 0.0);
   QVERIFY(std::abs(way.x) > 1e-4 && std::abs(way.y) > 1e-4);
 }
 
 void DesktopGizmoTest::eachSquareMovesAcrossItsAxisWithThePointer() {
-  const std::pair<GizmoHandle, int> squares[] = {
-      {GizmoHandle::PlaneX, 0}, {GizmoHandle::PlaneY, 1}, {GizmoHandle::PlaneZ, 2}};
+  const std::pair<GizmoGrip, int> squares[] = {
+      {GizmoGrip::PlaneX, 0}, {GizmoGrip::PlaneY, 1}, {GizmoGrip::PlaneZ, 2}};
   for (const auto& [square, axis] : squares) {
     Bench b;
     b.look("viewIso");
@@ -130,7 +130,7 @@ void DesktopGizmoTest::aRingTurnsAboutTheCentreOfMass() {
   b.look("viewIso");
   const RigidTransform before = b.pose();
   const glm::dvec3 centre = b.driver.part("moving").geometry->mass.centre;
-  b.drag(b.handle(GizmoHandle::TurnZ), {40, -10});
+  b.drag(b.handle(GizmoGrip::TurnZ), {40, -10});
   QVERIFY(angleBetween(before, b.pose()) > 0.1);
   const glm::dvec3 axis = rotationVector(b.pose().rotation * glm::conjugate(before.rotation));
   QVERIFY(std::abs(std::abs(glm::normalize(axis).z) - 1.0) < 1e-9);
@@ -193,7 +193,7 @@ void DesktopGizmoTest::escapeRestoresExactly() {
   Bench b;
   const RigidTransform before = b.pose();
   const std::size_t steps = b.steps();
-  const QPoint from = b.handle(GizmoHandle::MoveZ);
+  const QPoint from = b.handle(GizmoGrip::MoveZ);
   b.view().setFocus();
   b.press(from);
   b.moveTo(from + QPoint(3, -70));
@@ -215,7 +215,7 @@ void DesktopGizmoTest::escapeRestoresExactly() {
 void DesktopGizmoTest::anotherButtonRestoresToo() {
   Bench b;
   const RigidTransform before = b.pose();
-  const QPoint from = b.handle(GizmoHandle::MoveX);
+  const QPoint from = b.handle(GizmoGrip::MoveX);
   b.press(from);
   b.moveTo(from + QPoint(40, 0));
   b.send(QEvent::MouseButtonPress, from + QPoint(40, 0), {}, Qt::RightButton);
@@ -227,7 +227,7 @@ void DesktopGizmoTest::anotherButtonRestoresToo() {
 void DesktopGizmoTest::aClickOnAHandleIsNoStep() {
   Bench b;
   const std::size_t steps = b.steps();
-  const QPoint at = b.handle(GizmoHandle::MoveFree);
+  const QPoint at = b.handle(GizmoGrip::MoveFree);
   b.press(at);
   b.release(at);
   QCOMPARE(b.steps(), steps);
@@ -238,18 +238,18 @@ void DesktopGizmoTest::aClickOnAHandleIsNoStep() {
 void DesktopGizmoTest::theHandleUnderThePointerLightsUpWithoutAPicture() {
   Bench b;
   QTRY_VERIFY(b.overlay().isVisible());
-  const QPoint arrow = b.handle(GizmoHandle::MoveX);
+  const QPoint arrow = b.handle(GizmoGrip::MoveX);
   b.moveTo({5, 5});
   QTest::qWait(100);
   const int pictures = b.view().pictureCount();
   const QImage dark = b.overlay().grab().toImage();
   b.moveTo(arrow);
-  QCOMPARE(b.overlay().picture()->hot, GizmoHandle::MoveX);
+  QCOMPARE(b.overlay().picture()->hot, GizmoGrip::MoveX);
   QVERIFY(b.overlay().grab().toImage() != dark);
   QTest::qWait(100);
   QCOMPARE(b.view().pictureCount(), pictures);
   b.moveTo({5, 5});
-  QCOMPARE(b.overlay().picture()->hot, GizmoHandle::None);
+  QCOMPARE(b.overlay().picture()->hot, GizmoGrip::None);
 }
 
 void DesktopGizmoTest::stepsAreTakenWithTheSwitchAndControlTurnsItRound() {
@@ -257,7 +257,7 @@ void DesktopGizmoTest::stepsAreTakenWithTheSwitchAndControlTurnsItRound() {
   b.driver.type<ui::NumberField>("snapLength", "2.5");
   b.driver.choose("snap");
   const RigidTransform before = b.pose();
-  const QPoint from = b.handle(GizmoHandle::MoveX);
+  const QPoint from = b.handle(GizmoGrip::MoveX);
   b.press(from);
   b.moveTo(from + QPoint(47, 0));
   const auto way = [&] {
@@ -276,22 +276,22 @@ void DesktopGizmoTest::stepsAreTakenWithTheSwitchAndControlTurnsItRound() {
   QVERIFY(std::abs(b.pose().translation.x - before.translation.x - snapped) < 1e-15);
   // The other way round.
   b.driver.choose("snap");
-  b.drag(b.handle(GizmoHandle::MoveZ), {0, -53}, Qt::ControlModifier);
+  b.drag(b.handle(GizmoGrip::MoveZ), {0, -53}, Qt::ControlModifier);
   QVERIFY(std::abs(std::remainder(b.pose().translation.z - before.translation.z, 0.0025)) < 1e-12);
 }
 
 void DesktopGizmoTest::keysChooseTheGizmoAndItsAxes() {
   Bench b;
   b.view().setFocus();
-  const auto has = [&](GizmoHandle handle) {
+  const auto has = [&](GizmoGrip handle) {
     return b.overlay().picture() && b.overlay().picture()->layout.has(handle);
   };
   pressInView(b.driver, Qt::Key_E);
-  QVERIFY(has(GizmoHandle::TurnZ) && !has(GizmoHandle::MoveX));
+  QVERIFY(has(GizmoGrip::TurnZ) && !has(GizmoGrip::MoveX));
   pressInView(b.driver, Qt::Key_R);
-  QVERIFY(has(GizmoHandle::TurnZ) && has(GizmoHandle::MoveX));
+  QVERIFY(has(GizmoGrip::TurnZ) && has(GizmoGrip::MoveX));
   pressInView(b.driver, Qt::Key_W);
-  QVERIFY(!has(GizmoHandle::TurnZ) && has(GizmoHandle::MoveX));
+  QVERIFY(!has(GizmoGrip::TurnZ) && has(GizmoGrip::MoveX));
   pressInView(b.driver, Qt::Key_Q);
   QVERIFY(!b.overlay().isVisible());
   pressInView(b.driver, Qt::Key_W);
@@ -302,7 +302,7 @@ void DesktopGizmoTest::keysChooseTheGizmoAndItsAxes() {
   const RigidTransform before = b.pose();
   pressInView(b.driver, Qt::Key_X);
   QVERIFY(b.driver.action("localAxes")->isChecked());
-  b.drag(b.handle(GizmoHandle::MoveX), {60, 30});
+  b.drag(b.handle(GizmoGrip::MoveX), {60, 30});
   const glm::dvec3 way = glm::normalize(b.pose().translation - before.translation);
   QVERIFY(glm::distance(way, turned * glm::dvec3(1, 0, 0)) < 1e-9);
 }
@@ -313,34 +313,34 @@ void DesktopGizmoTest::thePivotIsMovedAndPutBack() {
   const glm::dvec3 centre = b.driver.part("moving").geometry->mass.centre;
   const std::size_t steps = b.steps();
   b.driver.choose("movePivot");
-  const QPoint at = b.handle(GizmoHandle::MoveFree);
-  b.drag(b.handle(GizmoHandle::MoveX), {50, 0});
+  const QPoint at = b.handle(GizmoGrip::MoveFree);
+  b.drag(b.handle(GizmoGrip::MoveX), {50, 0});
   QCOMPARE(b.pose().translation, before.translation);
   // It is a step like any other, and the gizmo goes with it.
   QCOMPARE(b.steps(), steps + 1);
   QCOMPARE(b.driver.session().undoText(), std::string("Move the pivot of moving"));
-  QVERIFY((b.handle(GizmoHandle::MoveFree) - at - QPoint(50, 0)).manhattanLength() <= 2);
+  QVERIFY((b.handle(GizmoGrip::MoveFree) - at - QPoint(50, 0)).manhattanLength() <= 2);
   b.driver.choose("undo");
-  QCOMPARE(b.handle(GizmoHandle::MoveFree), at);
+  QCOMPARE(b.handle(GizmoGrip::MoveFree), at);
   b.driver.choose("redo");
-  QVERIFY((b.handle(GizmoHandle::MoveFree) - at - QPoint(50, 0)).manhattanLength() <= 2);
+  QVERIFY((b.handle(GizmoGrip::MoveFree) - at - QPoint(50, 0)).manhattanLength() <= 2);
   // Escape takes a drag of it back, and that is no step.
-  b.press(b.handle(GizmoHandle::MoveX));
-  b.moveTo(b.handle(GizmoHandle::MoveX) + QPoint(30, 0));
+  b.press(b.handle(GizmoGrip::MoveX));
+  b.moveTo(b.handle(GizmoGrip::MoveX) + QPoint(30, 0));
   pressInView(b.driver, Qt::Key_Escape);
   b.release(at);
   QCOMPARE(b.steps(), steps + 1);
-  QVERIFY((b.handle(GizmoHandle::MoveFree) - at - QPoint(50, 0)).manhattanLength() <= 2);
+  QVERIFY((b.handle(GizmoGrip::MoveFree) - at - QPoint(50, 0)).manhattanLength() <= 2);
   b.driver.choose("movePivot");
   b.driver.choose("gizmoTurn");
   // Seen from the front, the ring about y is round: half a turn puts the part to the other side of the pivot.
-  b.drag(b.handle(GizmoHandle::TurnY), {-20, 35});
+  b.drag(b.handle(GizmoGrip::TurnY), {-20, 35});
   QVERIFY(angleBetween(before, b.pose()) > 0.1);
   QVERIFY(glm::distance(before.applyToPoint(centre), b.pose().applyToPoint(centre)) > 1e-3);
   // It has gone with the part, and can be put back.
   b.driver.choose("pivotAtMass");
   const RigidTransform then = b.pose();
-  b.drag(b.handle(GizmoHandle::TurnY), {-20, 35});
+  b.drag(b.handle(GizmoGrip::TurnY), {-20, 35});
   QVERIFY(angleBetween(then, b.pose()) > 0.1);
   QVERIFY(glm::distance(then.applyToPoint(centre), b.pose().applyToPoint(centre)) < 1e-12);
 }
@@ -353,7 +353,7 @@ void DesktopGizmoTest::thePivotOfSeveralIsTheirBoxesMiddleAndStaysTheirs() {
   QCOMPARE(b.driver.session().undoText(), std::string("Move the pivot of 2 parts"));
   // The cubes are from -20 to 20 and from 25 to 45 mm high: their middle is 12.5 mm up; the masses' is lower.
   const auto isAtHeight = [&](double z) {
-    return (b.handle(GizmoHandle::MoveFree) - b.seen({0.0, 0.0, z})).manhattanLength() <= 1;
+    return (b.handle(GizmoGrip::MoveFree) - b.seen({0.0, 0.0, z})).manhattanLength() <= 1;
   };
   QVERIFY(isAtHeight(0.0125));
   b.select("moving");
@@ -367,13 +367,13 @@ void DesktopGizmoTest::thePivotOfSeveralIsTheirBoxesMiddleAndStaysTheirs() {
 
 void DesktopGizmoTest::theGizmoFollowsUndoAndNumbers() {
   Bench b;
-  const QPoint at = b.handle(GizmoHandle::MoveFree);
-  b.drag(b.handle(GizmoHandle::MoveX), {60, 0});
-  QVERIFY((b.handle(GizmoHandle::MoveFree) - at - QPoint(60, 0)).manhattanLength() <= 2);
+  const QPoint at = b.handle(GizmoGrip::MoveFree);
+  b.drag(b.handle(GizmoGrip::MoveX), {60, 0});
+  QVERIFY((b.handle(GizmoGrip::MoveFree) - at - QPoint(60, 0)).manhattanLength() <= 2);
   b.driver.choose("undo");
-  QCOMPARE(b.handle(GizmoHandle::MoveFree), at);
+  QCOMPARE(b.handle(GizmoGrip::MoveFree), at);
   b.driver.session().movePart(b.driver.partId("moving"), {b.pose().rotation, {0.01, 0.0, 0.0}});
-  QVERIFY(b.handle(GizmoHandle::MoveFree).x() > at.x() + 5);
+  QVERIFY(b.handle(GizmoGrip::MoveFree).x() > at.x() + 5);
 }
 
 void DesktopGizmoTest::lockedAndHiddenPartsHaveNoGizmo() {
@@ -394,7 +394,7 @@ void DesktopGizmoTest::lockedAndHiddenPartsHaveNoGizmo() {
 void DesktopGizmoTest::theNumbersFollowADrag() {
   Bench b;
   auto* x = b.driver.widget<ui::NumberField>("positionX");
-  const QPoint from = b.handle(GizmoHandle::MoveX);
+  const QPoint from = b.handle(GizmoGrip::MoveX);
   b.press(from);
   b.moveTo(from + QPoint(60, 0));
   QVERIFY(x->value() > 1.0);
@@ -407,7 +407,7 @@ void DesktopGizmoTest::theNumbersFollowADrag() {
 
 void DesktopGizmoTest::aSceneThatChangesUnderADragEndsIt() {
   Bench b;
-  const QPoint from = b.handle(GizmoHandle::MoveX);
+  const QPoint from = b.handle(GizmoGrip::MoveX);
   b.press(from);
   b.moveTo(from + QPoint(60, 0));
   b.driver.session().deletePart(b.driver.partId("moving"));
@@ -442,7 +442,7 @@ void DesktopGizmoTest::theManualHandIsLedByTheGizmo() {
   QTRY_VERIFY(b.driver.action("stop")->isEnabled());
   QTRY_VERIFY(b.overlay().picture().has_value());
   // Down into the fixed cube: it stops a margin above, however far the pointer goes.
-  const QPoint from = b.handle(GizmoHandle::MoveZ);
+  const QPoint from = b.handle(GizmoGrip::MoveZ);
   b.drag(from, {0, 200});
   auto* z = b.driver.widget<ui::NumberField>("positionZ");
   QTRY_VERIFY2(std::abs(z->value() + 4.9) < 0.02, qPrintable(QString::number(z->value())));
@@ -502,7 +502,7 @@ void DesktopGizmoTest::aSolidDragThatStillSettlesIsUndoneWhole() {
   Bench b;
   b.driver.choose("solid");
   const RigidTransform before = b.pose();
-  b.drag(b.handle(GizmoHandle::MoveZ), {0, 150});
+  b.drag(b.handle(GizmoGrip::MoveZ), {0, 150});
   b.driver.choose("undo");
   QTest::qWait(50);
   QCOMPARE(b.pose().translation, before.translation);
@@ -529,14 +529,14 @@ void DesktopGizmoTest::severalPartsAreMovedAsOneInOneStep() {
     if (b.driver.action("solid")->isChecked() != isSolid) b.driver.choose("solid");
     b.driver.window().selection().set({b.driver.partId("fixed"), b.driver.partId("moving")});
     const std::size_t steps = b.steps();
-    b.drag(b.handle(GizmoHandle::MoveX), {70, 0});
+    b.drag(b.handle(GizmoGrip::MoveX), {70, 0});
     QTRY_COMPARE(b.steps(), steps + 1);
     QVERIFY(b.pose().translation.x > 1e-3);
     QVERIFY(glm::distance(b.pose("fixed").translation, b.pose().translation) < 1e-12);
     // Turned about what both weigh together, they keep their places to each other.
     b.driver.choose("gizmoTurn");
     const RigidTransform before = b.pose("fixed").inverse() * b.pose();
-    b.drag(b.handle(GizmoHandle::TurnY), {-20, 35});
+    b.drag(b.handle(GizmoGrip::TurnY), {-20, 35});
     QTRY_COMPARE(b.steps(), steps + 2);
     const RigidTransform after = b.pose("fixed").inverse() * b.pose();
     QVERIFY(angleBetween(b.pose("fixed"), {}) > 0.05);

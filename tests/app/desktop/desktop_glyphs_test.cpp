@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/app/desktop/view_driver.h"
-#include "ui/parts_model.h"
+#include "ui/model/parts_model.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -37,13 +37,13 @@ int changedPixels(const QImage& a, const QImage& b) {
 
 /// Pixels that are of a colour, however brightly it is lit.
 int pixelsOf(const QColor& colour, const QImage& picture) {
-  constexpr int kHue = 8, kLeastSaturation = 100;
+  constexpr int kHue = 8, kMinSaturation = 100;
   int count = 0;
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       const QColor pixel = picture.pixelColor(x, y);
       const int away = std::abs(pixel.hsvHue() - colour.hsvHue());
-      if (pixel.hsvSaturation() >= kLeastSaturation && std::min(away, 360 - away) <= kHue) ++count;
+      if (pixel.hsvSaturation() >= kMinSaturation && std::min(away, 360 - away) <= kHue) ++count;
     }
   }
   return count;
@@ -163,12 +163,12 @@ void DesktopGlyphsTest::eachSwitchTakesAwayWhatItNamesAndBringsItBack() {
   f.selectNothing();
   QVERIFY(f.d.action(name)->isChecked());
   const QImage with = f.settledPicture();
-  constexpr int kLeast = 60;
+  constexpr int kMin = 60;
   f.d.choose(name);
   QVERIFY(!f.d.action(name)->isChecked());
-  QTRY_VERIFY(changedPixels(with, f.d.picture()) > kLeast);
+  QTRY_VERIFY(changedPixels(with, f.d.picture()) > kMin);
   const QImage without = f.d.picture();
-  if (colour.isValid()) QVERIFY(pixelsOf(colour, with) > pixelsOf(colour, without) + kLeast);
+  if (colour.isValid()) QVERIFY(pixelsOf(colour, with) > pixelsOf(colour, without) + kMin);
   f.d.choose(name);
   QVERIFY(f.d.action(name)->isChecked());
   const int effect = changedPixels(with, without);
@@ -183,16 +183,16 @@ void DesktopGlyphsTest::forceContactAndHandAreThereOnlyWhileItIsPressed() {
   const QImage apart = f.settledPicture();
   f.press();
   f.selectNothing();
-  constexpr int kLeast = 60;
+  constexpr int kMin = 60;
   const std::pair<const char*, QColor> glyphs[] = {
       {"force", ui::colours::kForce}, {"contact", ui::colours::kContact}, {"hand", ui::colours::kHand}};
   for (const auto& [name, colour] : glyphs)
-    QTRY_VERIFY2(pixelsOf(colour, f.d.picture()) > pixelsOf(colour, apart) + kLeast, name);
+    QTRY_VERIFY2(pixelsOf(colour, f.d.picture()) > pixelsOf(colour, apart) + kMin, name);
   f.d.clickPart(1, ui::PartsModel::Name);
   f.d.type<QDoubleSpinBox>("positionZ", "0");
   QTRY_COMPARE(f.d.text("force"), QStringLiteral("0.00 N"));
   f.selectNothing();
-  QTRY_VERIFY(changedPixels(apart, f.d.picture()) < kLeast);
+  QTRY_VERIFY(changedPixels(apart, f.d.picture()) < kMin);
 }
 
 void DesktopGlyphsTest::theGapsHaveTheMinimaThatTheyAreBuiltWith() {

@@ -14,11 +14,11 @@
 #include <vtkRendererCollection.h>
 
 #include "core/math/rotation_vector.h"
-#include "device/passive_device.h"
-#include "device/rate_control.h"
-#include "device/servo/monotonic_clock.h"
+#include "device/common/passive_device.h"
+#include "device/common/rate_control.h"
+#include "device/thread/monotonic_clock.h"
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/preferences.h"
+#include "ui/widgets/preferences.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

@@ -4,9 +4,9 @@
 #include <QDockWidget>
 
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/dialogs/feel_dialog.h"
-#include "ui/taking/export_dialog.h"
-#include "ui/taking/picture_dialog.h"
+#include "ui/files/export/export_dialog.h"
+#include "ui/files/export/picture_dialog.h"
+#include "ui/panels/feel/feel_dialog.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

@@ -14,9 +14,9 @@
 
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/app/desktop/fake_device.h"
-#include "ui/format.h"
-#include "ui/number_field.h"
-#include "ui/parts_model.h"
+#include "ui/model/parts_model.h"
+#include "ui/widgets/format.h"
+#include "ui/widgets/number_field.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

@@ -2,9 +2,9 @@
 
 #include "tests/app/desktop/export_driver.h"
 #include "tests/app/desktop/view_pointer.h"
-#include "tests/ui/picture_comparison.h"
-#include "ui/parts_model.h"
-#include "ui/selection.h"
+#include "tests/ui/view3d/picture_comparison.h"
+#include "ui/model/parts_model.h"
+#include "ui/model/selection.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -88,7 +88,7 @@ void DesktopManyPartsTest::allAreMovedAsOneAndOneByOne() {
   const Part& corner = d.part(8, 0, 8);
   pointer.click(corner.worldFromPart.applyToPoint({0.003, -0.02, 0.004}));
   const double before = corner.worldFromPart.translation.z;
-  pointer.drag(pointer.handle(GizmoHandle::MoveZ), {0, -40});
+  pointer.drag(pointer.handle(GizmoGrip::MoveZ), {0, -40});
   QVERIFY(d.part(8, 0, 8).worldFromPart.translation.z > before + 1e-3);
   QCOMPARE(d.session().historyIndex(), steps + 2);
   d.choose("undo");

@@ -2,11 +2,11 @@
 #include <QStatusBar>
 #include <QToolButton>
 
-#include "core/scene/motion_recording.h"
+#include "core/servo/motion_recording.h"
 #include "tests/app/desktop/view_driver.h"
-#include "ui/number_field.h"
-#include "ui/parts_model.h"
-#include "ui/selection.h"
+#include "ui/model/parts_model.h"
+#include "ui/model/selection.h"
+#include "ui/widgets/number_field.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -65,7 +65,7 @@ void DesktopMovableTest::whatARecordingShowsIsMovedByNoTool() {
   ViewDriver view(d);
   view.look("viewFront");
   QTRY_VERIFY(view.overlay().picture().has_value());
-  const QPoint arrow = view.handle(GizmoHandle::MoveX);
+  const QPoint arrow = view.handle(GizmoGrip::MoveX);
   const QString file = writeRecording(d.folder.path() / "felt.csv");
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, file); });
   d.choose("openRecording");

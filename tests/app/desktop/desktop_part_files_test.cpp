@@ -10,7 +10,7 @@
 #include "tests/app/desktop/file_drop.h"
 #include "tests/support/mesh_files.h"
 #include "ui/files/recent_files.h"
-#include "ui/parts_model.h"
+#include "ui/model/parts_model.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

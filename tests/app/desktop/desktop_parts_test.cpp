@@ -3,7 +3,7 @@
 #include <QDoubleSpinBox>
 
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/parts_model.h"
+#include "ui/model/parts_model.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

@@ -5,9 +5,9 @@
 #include <QStatusBar>
 
 #include "tests/app/desktop/export_driver.h"
-#include "tests/ui/picture_comparison.h"
-#include "ui/dialogs/error_box.h"
-#include "ui/taking/picture_dialog.h"
+#include "tests/ui/view3d/picture_comparison.h"
+#include "ui/files/export/picture_dialog.h"
+#include "ui/widgets/error_box.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

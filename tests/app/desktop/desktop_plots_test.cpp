@@ -12,10 +12,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/scene/motion_recording.h"
+#include "core/servo/motion_recording.h"
 #include "tests/app/desktop/export_driver.h"
-#include "ui/parts_model.h"
-#include "ui/plots/plot_view.h"
+#include "ui/model/parts_model.h"
+#include "ui/panels/plots/plot_view.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -319,7 +319,7 @@ void DesktopPlotsTest::whilePausedNothingChangesAndNothingIsLost() {
   // What was on its way when it was pressed is drawn yet.
   QTRY_VERIFY([&] {
     const int before = f.plots()->redrawCount();
-    QTest::qWait(4 * ui::PlotView::kLeastRedrawMs);
+    QTest::qWait(4 * ui::PlotView::kMinRedrawMs);
     return f.plots()->redrawCount() == before;
   }());
   const auto paused = drawn(*f.plots());

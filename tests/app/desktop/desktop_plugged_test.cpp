@@ -12,12 +12,12 @@
 #include <glm/geometric.hpp>
 
 #include "app/desktop/device_source.h"
-#include "core/scene/motion_reader.h"
+#include "core/servo/motion_reader.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/exact/pose_certifier.h"
 #include "tests/support/eventually.h"
-#include "ui/dialogs/error_box.h"
-#include "ui/number_field.h"
+#include "ui/widgets/error_box.h"
+#include "ui/widgets/number_field.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

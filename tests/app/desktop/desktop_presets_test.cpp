@@ -8,8 +8,8 @@
 
 #include "core/scene/feel_preset.h"
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/feel/preset_store.h"
-#include "ui/number_field.h"
+#include "ui/model/preset_store.h"
+#include "ui/widgets/number_field.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

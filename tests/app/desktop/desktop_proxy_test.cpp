@@ -4,8 +4,8 @@
 
 #include "core/scene/haptic_limits.h"
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/feel_mode.h"
-#include "ui/parts_model.h"
+#include "ui/model/feel_mode.h"
+#include "ui/model/parts_model.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

@@ -9,9 +9,9 @@
 #include "core/scene/scene_file.h"
 #include "tests/app/desktop/recovery_driver.h"
 #include "tests/support/process_identity_of.h"
-#include "ui/parts_model.h"
-#include "ui/recovery/autosave.h"
-#include "ui/recovery/recovery.h"
+#include "ui/files/recovery/autosave.h"
+#include "ui/files/recovery/recovery.h"
+#include "ui/model/parts_model.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

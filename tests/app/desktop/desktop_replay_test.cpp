@@ -1,9 +1,9 @@
 #include <QComboBox>
 #include <cmath>
 
-#include "core/scene/motion_recording.h"
+#include "core/servo/motion_recording.h"
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/dialogs/error_box.h"
+#include "ui/widgets/error_box.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

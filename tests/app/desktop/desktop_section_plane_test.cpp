@@ -52,12 +52,12 @@ void DesktopSectionPlaneTest::sliderNumberAndArrowMoveThePlane() {
   QCOMPARE(cut.position(), 20.0);
   cut.goTo("0");
   QTRY_VERIFY(cut.handle().picture());
-  cut.pointer.drag(cut.handleAt(GizmoHandle::MoveX), QPoint(60, 0));
+  cut.pointer.drag(cut.handleAt(GizmoGrip::MoveX), QPoint(60, 0));
   const double pixel = 1e3 * cut.view().projection().metresPerPixel({0.0, 0.0, 0.0125});
   QVERIFY(std::abs(cut.position() - 60.0 * pixel) < 3.0 * pixel);
   // The arrow goes with the plane.
   const double reached = cut.position();
-  cut.pointer.drag(cut.handleAt(GizmoHandle::MoveX), QPoint(-60, 0));
+  cut.pointer.drag(cut.handleAt(GizmoGrip::MoveX), QPoint(-60, 0));
   QVERIFY(std::abs(cut.position()) < 3.0 * pixel && reached > 10.0 * pixel);
 }
 
@@ -66,7 +66,7 @@ void DesktopSectionPlaneTest::escapeTakesADragOfTheArrowBack() {
   cut.begin("sectionX");
   cut.goTo("3");
   QTRY_VERIFY(cut.handle().picture());
-  const QPoint from = cut.handleAt(GizmoHandle::MoveX);
+  const QPoint from = cut.handleAt(GizmoGrip::MoveX);
   cut.pointer.press(from);
   for (int i = 1; i <= 10; ++i)
     cut.pointer.moveTo(from + QPoint(5 * i, 0));
@@ -82,7 +82,7 @@ void DesktopSectionPlaneTest::ringsTiltThePlane() {
   SectionDriver cut("viewIso");
   cut.begin("sectionY");
   QTRY_VERIFY(cut.handle().picture());
-  const QPoint from = cut.handleAt(GizmoHandle::TurnX);
+  const QPoint from = cut.handleAt(GizmoGrip::TurnX);
   cut.pointer.drag(from, QPoint(12, 18));
   // No longer across an axis, and counted from where it is now.
   QVERIFY(!cut.isDown("sectionX") && !cut.isDown("sectionY") && !cut.isDown("sectionZ"));
@@ -99,9 +99,9 @@ void DesktopSectionPlaneTest::ringsTiltThePlane() {
   QVERIFY(std::abs(left->point.y - slope * (left->point.z - 0.0125)) < 1e-6);
   // Escape in the middle of another turn takes that back alone.
   const glm::dvec3 before = deep->point;
-  cut.pointer.press(cut.handleAt(GizmoHandle::TurnX));
+  cut.pointer.press(cut.handleAt(GizmoGrip::TurnX));
   for (int i = 1; i <= 5; ++i)
-    cut.pointer.moveTo(cut.handleAt(GizmoHandle::TurnX) + QPoint(-2 * i, -4 * i));
+    cut.pointer.moveTo(cut.handleAt(GizmoGrip::TurnX) + QPoint(-2 * i, -4 * i));
   QTest::keyClick(&cut.view(), Qt::Key_Escape);
   cut.pointer.release(from);
   const auto after = cut.picked({0.008, 0.0, 0.0});

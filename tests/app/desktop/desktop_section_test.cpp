@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "tests/app/desktop/section_driver.h"
-#include "ui/detail/view_detail.h"
-#include "ui/parts_model.h"
+#include "ui/model/parts_model.h"
+#include "ui/view3d/view_detail.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

@@ -1,6 +1,6 @@
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/parts_model.h"
-#include "ui/selection.h"
+#include "ui/model/parts_model.h"
+#include "ui/model/selection.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

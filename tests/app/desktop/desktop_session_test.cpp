@@ -16,9 +16,9 @@
 #include "tests/app/desktop/recovery_driver.h"
 #include "tests/app/desktop/view_driver.h"
 #include "tests/exact/pose_certifier.h"
-#include "ui/number_field.h"
-#include "ui/parts_model.h"
-#include "ui/selection.h"
+#include "ui/model/parts_model.h"
+#include "ui/model/selection.h"
+#include "ui/widgets/number_field.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -168,7 +168,7 @@ void Worker::pressPegOntoHoleByGizmo() {
   REQUIRE_SOON(!d_.window().document().isBusy());
   view_.look("viewFront");
   REQUIRE_SOON(view_.overlay().picture().has_value());
-  const QPoint from = view_.handle(GizmoHandle::MoveZ);
+  const QPoint from = view_.handle(GizmoGrip::MoveZ);
   const std::size_t steps = d_.session().historyIndex();
   view_.press(from);
   for (int i = 1; i <= 30; ++i)

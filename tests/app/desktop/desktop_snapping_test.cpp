@@ -6,7 +6,7 @@
 
 #include "core/math/rotation_vector.h"
 #include "tests/app/desktop/section_driver.h"
-#include "ui/number_field.h"
+#include "ui/widgets/number_field.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -23,7 +23,7 @@ struct SnappingBench {
   }
   RigidTransform pose() { return d.part("moving").worldFromPart; }
   /// Along the ring from where it is grabbed, for a seventh of what is seen of it.
-  std::vector<QPoint> wayAlong(GizmoHandle ring) {
+  std::vector<QPoint> wayAlong(GizmoGrip ring) {
     for (const GizmoFigure& figure : mouse.overlay().picture().value().layout.figures()) {
       const std::size_t first = figure.points.size() / 3, count = figure.points.size() / 7;
       if (figure.handle != ring || mouse.handle(ring) != pixel(figure.points[first])) continue;
@@ -35,7 +35,7 @@ struct SnappingBench {
     throw Error("ring", "it is not to be seen");
   }
   /// About which axis, and how far, a drag along the ring turns the part; it is undone then.
-  glm::dvec3 turnBy(GizmoHandle ring, Qt::KeyboardModifiers keys = {}) {
+  glm::dvec3 turnBy(GizmoGrip ring, Qt::KeyboardModifiers keys = {}) {
     const std::vector<QPoint> way = wayAlong(ring);
     mouse.press(way.front(), keys);
     for (const QPoint& at : way)
@@ -76,17 +76,17 @@ void DesktopSnappingTest::ringsTurnInStepsOfTheAngle_data() {
   QTest::addColumn<int>("ring");
   QTest::addColumn<int>("axis");
   QTest::addColumn<double>("angle");
-  QTest::newRow("x, the usual angle") << int(GizmoHandle::TurnX) << 0 << 15.0;
-  QTest::newRow("y, the usual angle") << int(GizmoHandle::TurnY) << 1 << 15.0;
-  QTest::newRow("z, the usual angle") << int(GizmoHandle::TurnZ) << 2 << 15.0;
-  QTest::newRow("z, one that is typed") << int(GizmoHandle::TurnZ) << 2 << 7.0;
+  QTest::newRow("x, the usual angle") << int(GizmoGrip::TurnX) << 0 << 15.0;
+  QTest::newRow("y, the usual angle") << int(GizmoGrip::TurnY) << 1 << 15.0;
+  QTest::newRow("z, the usual angle") << int(GizmoGrip::TurnZ) << 2 << 15.0;
+  QTest::newRow("z, one that is typed") << int(GizmoGrip::TurnZ) << 2 << 7.0;
 }
 
 void DesktopSnappingTest::ringsTurnInStepsOfTheAngle() {
   QFETCH(int, ring);
   QFETCH(int, axis);
   QFETCH(double, angle);
-  const auto handle = static_cast<GizmoHandle>(ring);
+  const auto handle = static_cast<GizmoGrip>(ring);
   const double step = angle * kDegree;
   SnappingBench b;
   b.d.choose("gizmoTurn");
@@ -112,11 +112,11 @@ void DesktopSnappingTest::aSquareGoesInStepsAlongBothOfItsAxes() {
   SnappingBench b;
   b.d.type<ui::NumberField>("snapLength", "2.5");
   const glm::dvec3 before = b.pose().translation;
-  const QPoint square = b.mouse.handle(GizmoHandle::PlaneZ);
+  const QPoint square = b.mouse.handle(GizmoGrip::PlaneZ);
   b.mouse.drag(square, {70, 5});
   const glm::dvec3 free = b.pose().translation - before;
   b.d.choose("undo");
-  b.mouse.drag(b.mouse.handle(GizmoHandle::PlaneZ), {70, 5}, Qt::ControlModifier);
+  b.mouse.drag(b.mouse.handle(GizmoGrip::PlaneZ), {70, 5}, Qt::ControlModifier);
   const glm::dvec3 way = b.pose().translation - before;
   for (const int axis : {0, 1}) {
     QVERIFY(offStep(free[axis], 0.0025) > 1e-6);
@@ -133,7 +133,7 @@ void DesktopSnappingTest::stepsAreAlongTheAxesOfAPartThatIsTurned() {
   b.d.type<ui::NumberField>("snapLength", "2.5");
   b.d.choose("snap");
   b.d.choose("localAxes");
-  b.mouse.drag(b.mouse.handle(GizmoHandle::MoveX), {71, 33});
+  b.mouse.drag(b.mouse.handle(GizmoGrip::MoveX), {71, 33});
   const glm::dvec3 way = b.pose().translation;
   QVERIFY(glm::length(way) > 0.002 && offStep(glm::length(way), 0.0025) < 1e-12);
   QVERIFY(glm::distance(glm::normalize(way), turned * glm::dvec3(1, 0, 0)) < 1e-9);
@@ -163,7 +163,7 @@ void DesktopSnappingTest::withCtrlTheSectionIsTiltedInFifteens() {
     cut.begin("sectionY");
     QTRY_VERIFY(cut.handle().picture());
     QVERIFY(std::abs(tiltOf(cut)) < 1e-4);
-    cut.pointer.drag(cut.handleAt(GizmoHandle::TurnX), way, keys);
+    cut.pointer.drag(cut.handleAt(GizmoGrip::TurnX), way, keys);
     angle = tiltOf(cut);
   };
   // How far a drag turns depends on the size of the view: take the first that ends well beside a step.

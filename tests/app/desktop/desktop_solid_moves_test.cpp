@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/app/desktop/solid_driver.h"
-#include "ui/number_field.h"
+#include "ui/widgets/number_field.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -225,7 +225,7 @@ void DesktopSolidMovesTest::aRingStopsBetweenTwoPlates() {
     met += b.doPlatesMeet(*pose) ? 1 : 0;
   });
   // 70 degrees round the middle; the ring about y is seen as a circle from the front.
-  const QPoint middle = b.seen(glm::dvec3(0.0)), from = b.handle(GizmoHandle::TurnY);
+  const QPoint middle = b.seen(glm::dvec3(0.0)), from = b.handle(GizmoGrip::TurnY);
   const auto at = [&](double angle) {
     const QPointF arm = from - middle;
     return middle + QPointF(arm.x() * std::cos(angle) - arm.y() * std::sin(angle),
@@ -278,7 +278,7 @@ void DesktopSolidMovesTest::severalTogetherStopWhereOneOfThemDoes() {
   } else {
     QTRY_VERIFY(b.overlay().picture().has_value());
     const QPoint way = b.seen({0.06, 0, 0}) - b.seen(glm::dvec3(0.0));
-    b.drag(b.handle(GizmoHandle::MoveX), {way.x(), 0});
+    b.drag(b.handle(GizmoGrip::MoveX), {way.x(), 0});
   }
   b.settle("front");
   QCOMPARE(b.steps(), steps + 1);

@@ -5,11 +5,11 @@
 #include <QToolButton>
 #include <QWheelEvent>
 
-#include "core/scene/motion_reader.h"
+#include "core/servo/motion_reader.h"
 #include "tests/app/desktop/export_driver.h"
-#include "ui/dialogs/error_box.h"
-#include "ui/parts_model.h"
-#include "ui/plots/plot_view.h"
+#include "ui/model/parts_model.h"
+#include "ui/panels/plots/plot_view.h"
+#include "ui/widgets/error_box.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

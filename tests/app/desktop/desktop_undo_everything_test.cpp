@@ -8,9 +8,9 @@
 #include <array>
 
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/number_field.h"
-#include "ui/parts_model.h"
-#include "ui/selection.h"
+#include "ui/model/parts_model.h"
+#include "ui/model/selection.h"
+#include "ui/widgets/number_field.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

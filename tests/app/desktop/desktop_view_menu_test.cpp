@@ -3,8 +3,8 @@
 #include <QMenu>
 
 #include "tests/app/desktop/view_pointer.h"
-#include "ui/parts_model.h"
-#include "ui/selection.h"
+#include "ui/model/parts_model.h"
+#include "ui/model/selection.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

@@ -6,7 +6,7 @@
 
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/app/desktop/fake_device.h"
-#include "ui/number_field.h"
+#include "ui/widgets/number_field.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

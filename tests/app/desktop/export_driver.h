@@ -4,7 +4,7 @@
 #include <QRadioButton>
 
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/taking/export_dialog.h"
+#include "ui/files/export/export_dialog.h"
 
 namespace nearfit::test {
 

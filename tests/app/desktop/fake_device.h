@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "app/desktop/device_source.h"
-#include "core/error.h"
-#include "device/device_supervisor.h"
-#include "device/servo/monotonic_clock.h"
+#include "core/base/error.h"
+#include "device/interface/device_supervisor.h"
+#include "device/thread/monotonic_clock.h"
 
 namespace nearfit::test {
 

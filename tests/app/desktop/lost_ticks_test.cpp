@@ -5,7 +5,7 @@
 
 #include "app/desktop/servo_rows.h"
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/plots/plot_panel.h"
+#include "ui/panels/plots/plot_panel.h"
 
 using namespace nearfit;
 using namespace nearfit::test;

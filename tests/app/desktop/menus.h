@@ -10,7 +10,7 @@
 #include <QtTest>
 #include <ranges>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/qt/qt_patience.h"
 
 /// Commands as a user gives them: by clicks through the menus down to an entry, or on a button of a toolbar.

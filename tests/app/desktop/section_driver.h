@@ -7,7 +7,7 @@
 #include <QToolButton>
 
 #include "tests/app/desktop/view_pointer.h"
-#include "ui/selection.h"
+#include "ui/model/selection.h"
 
 namespace nearfit::test {
 
@@ -74,7 +74,7 @@ struct SectionDriver {
   ui::Viewport& view() { return pointer.view(); }
   ui::GizmoOverlay& handle() { return *d.widget<ui::GizmoOverlay>("sectionHandle"); }
   /// Where the section's handle can be grabbed.
-  QPoint handleAt(GizmoHandle which) {
+  QPoint handleAt(GizmoGrip which) {
     for (const GizmoFigure& figure : handle().picture().value().layout.figures()) {
       if (figure.handle != which || figure.isFarSide || figure.isArea != isArrow(which)) continue;
       glm::dvec2 place = figure.points[figure.points.size() / 3];

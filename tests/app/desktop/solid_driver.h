@@ -8,8 +8,8 @@
 #include "core/math/rotation_vector.h"
 #include "tests/app/desktop/view_driver.h"
 #include "tests/exact/pose_certifier.h"
-#include "ui/parts_model.h"
-#include "ui/placing/placing_tools.h"
+#include "ui/model/parts_model.h"
+#include "ui/tools/placing/placing_tools.h"
 
 namespace nearfit::test {
 

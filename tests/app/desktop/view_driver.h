@@ -4,7 +4,7 @@
 
 #include "core/placing/gizmo_layout.h"
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/placing/gizmo_overlay.h"
+#include "ui/view3d/gizmo_overlay.h"
 
 namespace nearfit::test {
 
@@ -29,7 +29,7 @@ class ViewDriver {
     return {static_cast<int>(std::lround(pixel.x)), static_cast<int>(std::lround(pixel.y))};
   }
   /// Where the gizmo shows a handle so that it can be grabbed.
-  QPoint handle(GizmoHandle handle) {
+  QPoint handle(GizmoGrip handle) {
     const GizmoLayout& layout = overlay().picture().value().layout;
     for (const GizmoFigure& figure : layout.figures()) {
       if (figure.handle != handle) continue;

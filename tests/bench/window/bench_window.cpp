@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/bench/bench_clock.h"
-#include "ui/detail/view_detail.h"
-#include "ui/document.h"
+#include "ui/files/document.h"
+#include "ui/view3d/view_detail.h"
 
 namespace nearfit::bench {
 namespace {

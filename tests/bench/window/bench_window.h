@@ -8,7 +8,7 @@
 
 #include "app/desktop/application.h"
 #include "core/scene/scene.h"
-#include "ui/viewport.h"
+#include "ui/view3d/viewport.h"
 
 namespace nearfit::bench {
 

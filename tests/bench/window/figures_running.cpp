@@ -15,7 +15,7 @@
 #include "tests/bench/window/figures.h"
 #include "tests/bench/window/plain_window.h"
 #include "tests/support/part_geometries.h"
-#include "ui/detail/view_detail.h"
+#include "ui/view3d/view_detail.h"
 
 /// Frames and what runs beside them.
 namespace nearfit::bench {

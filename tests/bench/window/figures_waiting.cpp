@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "app/desktop/display_check.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/recovery/recovery_folder.h"
 #include "tests/bench/bench_shapes.h"
 #include "tests/bench/instances.h"
@@ -26,8 +26,8 @@
 #include "tests/support/run_process.h"
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/detail/view_detail.h"
-#include "ui/document.h"
+#include "ui/files/document.h"
+#include "ui/view3d/view_detail.h"
 
 /// What a user waits for.
 namespace nearfit::bench {

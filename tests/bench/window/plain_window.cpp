@@ -13,8 +13,8 @@
 #include <vtkRenderer.h>
 
 #include "tests/bench/window/bench_window.h"
-#include "ui/part_shape.h"
-#include "ui/vtk_convert.h"
+#include "ui/view3d/parts/part_shape.h"
+#include "ui/view3d/vtk/vtk_convert.h"
 
 namespace nearfit::bench {
 

@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit::atomic_write_test {

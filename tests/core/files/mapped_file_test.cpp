@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/files/atomic_write.h"
 #include "core/files/checksum.h"
 #include "tests/support/temporary_folder.h"

@@ -9,7 +9,7 @@
 namespace nearfit::contact_thinning_test {
 namespace {
 
-constexpr std::size_t kMost = ContactThinning::kMaxKept;
+constexpr std::size_t kMax = ContactThinning::kMaxKept;
 const glm::dquat kUnturned{1, 0, 0, 0};
 
 /// Through the centre of mass, so that it says nothing of turns.
@@ -25,7 +25,7 @@ struct Thinned {
   double completeTo;
 };
 
-Thinned thinned(const std::vector<BodyContact>& all, std::size_t room = kMost) {
+Thinned thinned(const std::vector<BodyContact>& all, std::size_t room = kMax) {
   ContactThinning thinning;
   for (const BodyContact& contact : all)
     EXPECT_TRUE(thinning.add(contact));
@@ -54,7 +54,7 @@ std::vector<BodyContact> bundle(std::size_t count, double distance) {
 }
 
 TEST(ContactThinning, WhatFitsIsKeptAsItIs) {
-  const std::vector<BodyContact> all = bundle(kMost, 1e-4);
+  const std::vector<BodyContact> all = bundle(kMax, 1e-4);
   EXPECT_EQ(thinned(all).contacts.size(), all.size());
 }
 
@@ -62,17 +62,17 @@ TEST(ContactThinning, OfManyThatAgreeTheNearestAreKeptAndNotOneAlone) {
   // A nut's flank lies on the bolt's with hundreds of contacts, equally near and all but parallel. With one
   // of them for all a step along it was square to the others by a few degrees too little: each brought
   // another nearer, none was a gain, and the nut stood and leapt by turns.
-  std::vector<BodyContact> all = bundle(2 * kMost, 1e-4);
+  std::vector<BodyContact> all = bundle(2 * kMax, 1e-4);
   all.push_back(contactAlong({1, 0, 0}, 3e-4));
   const Thinned out = thinned(all);
-  for (std::size_t i = 0; i < kMost / 8; ++i)
+  for (std::size_t i = 0; i < kMax / 8; ++i)
     EXPECT_TRUE(holds(out, all[i])) << i;
   EXPECT_TRUE(holds(out, all.back()));
-  EXPECT_EQ(out.contacts.size(), kMost);
+  EXPECT_EQ(out.contacts.size(), kMax);
 }
 
 TEST(ContactThinning, OfEachDirectionTheNearestIsKeptWhereThereIsRoom) {
-  std::vector<BodyContact> all = bundle(2 * kMost, 1e-4), apart;
+  std::vector<BodyContact> all = bundle(2 * kMax, 1e-4), apart;
   // Some tenth of a radian from each other, all farther away than the bundle.
   for (int x = -3; x <= 3; ++x) {
     for (int y = -3; y <= 3; ++y)

@@ -27,7 +27,7 @@ double dampedOscillation(double mass, double stiffness, double damping, double t
 
 /// Where a part ends that starts at rest, shifted by `shift` and turned by `turn` from a handle that stays at
 /// the origin: shift of the centre and rotation vector.
-std::array<glm::dvec3, 2> letGo(const Felt& felt, const glm::dvec3& shift, const glm::dvec3& turn,
+std::array<glm::dvec3, 2> letGo(const FeltMass& felt, const glm::dvec3& shift, const glm::dvec3& turn,
                                 double time, int steps) {
   const BodyMotion handle;
   BodyMotion part;
@@ -75,7 +75,7 @@ TEST(FreeStep, WithoutMassAndWeightTheTargetIsTheHandleItself) {
 
 TEST(FreeStep, WeightWithoutMassSagsUntilTheHandCarriesIt) {
   const BodyMotion handle{{rotationOf({0.1, 0.2, 0.3}), {1, 2, 3}}, {}};
-  const Felt felt{0.0, {0, 0, -2.0}};
+  const FeltMass felt{0.0, {0, 0, -2.0}};
   const BodyMotion next = freeStep(felt, kCoupling, kMetric, kCentre, handle, {}, 1e-3);
   EXPECT_NEAR(glm::distance(next.pose.translation, {1, 2, 3 - 2.0 / 500.0}), 0.0, 1e-15);
   EXPECT_EQ(next.pose.rotation, handle.pose.rotation);
@@ -101,7 +101,7 @@ TEST(FreeStep, WithMassAndWeightItComesToRestAtTheSameSag) {
 TEST(FreeStep, WithoutCouplingItFallsFreelyAndTurnsOn) {
   BodyMotion part;
   part.twist = {{0.1, 0, 0}, {0, 0, 0.5}};
-  const Felt felt{0.5, {0, 0, -5.0}};
+  const FeltMass felt{0.5, {0, 0, -5.0}};
   const double dt = 1e-3;
   const int steps = 200;
   for (int i = 0; i < steps; ++i)
@@ -130,7 +130,7 @@ TEST(FreeStep, NeverGainsEnergyWhateverTheNumbers) {
   const auto positive = [&] { return std::pow(10.0, exponent(engine)); };
   for (int run = 0; run < 300; ++run) {
     const CouplingState c{positive(), positive(), positive(), positive(), false};
-    const Felt felt{positive(), {}};
+    const FeltMass felt{positive(), {}};
     const double dt = 1e-3 * positive();
     const MassMetric metric{{1, 0, 0, 0}, glm::dvec3(0.1), 0.1};
     BodyMotion part;
@@ -164,20 +164,20 @@ TEST(KineticEnergy, IsThatOfTranslationAndOfTheSpinAboutThePrincipalAxes) {
 }
 
 TEST(FeltBody, IsNothingUnlessAskedFor) {
-  const Felt felt = feltBody({}, 3.0, 10.0);
+  const FeltMass felt = feltBody({}, 3.0, 10.0);
   EXPECT_EQ(felt.mass, 0.0);
   EXPECT_EQ(felt.weight, glm::dvec3(0.0));
 }
 
 TEST(FeltBody, WeighsMassTimesGravityUpToItsShareOfTheDevice) {
   WeightSettings settings{true, true, {0, 0, -10.0}};
-  const Felt light = feltBody(settings, 0.2, 10.0);
+  const FeltMass light = feltBody(settings, 0.2, 10.0);
   EXPECT_EQ(light.mass, 0.2);
   EXPECT_NEAR(glm::distance(light.weight, {0, 0, -2}), 0.0, 1e-15);
   EXPECT_FALSE(light.isLightened);
-  const Felt heavy = feltBody(settings, 50.0, 10.0);
+  const FeltMass heavy = feltBody(settings, 50.0, 10.0);
   EXPECT_EQ(heavy.mass, 50.0);
-  EXPECT_NEAR(glm::distance(heavy.weight, {0, 0, -kMostWeightShare * 10.0}), 0.0, 1e-14);
+  EXPECT_NEAR(glm::distance(heavy.weight, {0, 0, -kMaxWeightShare * 10.0}), 0.0, 1e-14);
   EXPECT_TRUE(heavy.isLightened);
 }
 

@@ -178,7 +178,7 @@ TEST(FrictionProgram, WhatHasSettledMeetsCoulombsLaw) {
         const std::size_t holding =
             solution.step.activeCount + (solution.step.floorMultiplier > 0.0 ? 1u : 0u);
         for (const ActivePair& pair : solution.step.pairs()) {
-          if (holding > ActiveRows::kMost - 2) continue;
+          if (holding > ActiveRows::kMax - 2) continue;
           const glm::dvec3 lack = coulombLack(solution, goal, problem.rows, pair);
           StepGoal nearer = pushed;
           addTo(nearer.wanted, 1.0, pushAt(lack, problem.arms[pair.row], goal));
@@ -218,8 +218,8 @@ TEST(FrictionProgram, RowsAndReachHoldWhetherPushesSettleOrNot) {
         EXPECT_GE(problem.rows.leastClearance(solution.step.y).clearance,
                   solution.step.t - 1e-12 * test::lengthOf(problem))
             << nameOf(kind) << " " << rows << " " << seed;
-        EXPECT_LE(solution.sweeps, (FrictionProgram::kMostSweeps + 1) * FrictionProgram::kMostScales);
-        EXPECT_LE(solution.step.changes, FrictionProgram::kMostChanges + 8 * solution.sweeps);
+        EXPECT_LE(solution.sweeps, (FrictionProgram::kMaxSweeps + 1) * FrictionProgram::kMaxScales);
+        EXPECT_LE(solution.step.changes, FrictionProgram::kMaxChanges + 8 * solution.sweeps);
         if (!solution.isSettled) ++unsettled;
       }
   EXPECT_GT(unsettled, 0u);

@@ -21,7 +21,7 @@ void expectSafe(const MassMetric& metric) {
   EXPECT_TRUE(std::isfinite(metric.radius));
   EXPECT_NEAR(glm::length(metric.partFromPrincipal), 1.0, 1e-12);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_GE(metric.gyration[i], kLeastGyration * metric.radius);
+    EXPECT_GE(metric.gyration[i], kMinGyration * metric.radius);
     EXPECT_LE(metric.gyration[i], metric.radius);
   }
 }
@@ -62,7 +62,7 @@ TEST(MassMetric, SphereHasItsGyrationAboutEveryAxis) {
 TEST(MassMetric, NeedleAndPlateKeepAGyrationThatIsWorthItsName) {
   const MassMetric needle = metricOf(test::boxMesh({1e-6, 1e-6, 1.0}));
   expectSafe(needle);
-  EXPECT_DOUBLE_EQ(needle.gyration.x, kLeastGyration * needle.radius);
+  EXPECT_DOUBLE_EQ(needle.gyration.x, kMinGyration * needle.radius);
   EXPECT_NEAR(needle.gyration.z, 1.0 / std::sqrt(12.0), 1e-9);
   expectSafe(metricOf(test::boxMesh({1e-6, 1.0, 1.0})));
 }

@@ -200,7 +200,7 @@ TEST(PassivityController, FreeMotionEarnsNothing) {
 TEST(PassivityController, DebtIsForgottenBeyondWhatAHandKeeps) {
   PassivityController controller;
   controller.observe(interval({{1000, 0, 0}, {}}, {1, 0, 0}), bareDevice(), 0.0);
-  EXPECT_EQ(controller.debt(), PassivityController::kMostDebt);
+  EXPECT_EQ(controller.debt(), PassivityController::kMaxDebt);
   EXPECT_EQ(controller.energyToHand(), 1000.0);
   controller.reset();
   EXPECT_EQ(controller.debt(), 0.0);
@@ -239,7 +239,7 @@ TEST(PassivityController, RandomHistoriesStayFiniteAndWithinTheLimits) {
     const Wrench extra = controller.damping({}, kPeriod);
     ASSERT_LE(glm::length(extra.force), 10.0 * (1.0 + 1e-12));
     ASSERT_LE(glm::length(extra.torque), 1.0 * (1.0 + 1e-12));
-    ASSERT_TRUE(controller.debt() <= PassivityController::kMostDebt);
+    ASSERT_TRUE(controller.debt() <= PassivityController::kMaxDebt);
   }
 }
 

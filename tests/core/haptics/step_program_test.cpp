@@ -155,7 +155,7 @@ TEST(StepProgram, SolutionsMeetTheConditionsOfKarushKuhnAndTucker) {
     const StepSolution solution = program.solve(problem.rows, problem.goal);
     expectOptimal(problem, solution);
     EXPECT_EQ(solution.scale, 1.0);
-    EXPECT_LE(solution.changes, StepProgram::kMostChanges);
+    EXPECT_LE(solution.changes, StepProgram::kMaxChanges);
   });
 }
 
@@ -181,8 +181,8 @@ TEST(StepProgram, NoPointMovesFartherThanTheReachAndTheStepIsTheOptimumForAShort
       ASSERT_TRUE(solution.isExact);
       EXPECT_LE(displacementOf(solution.y, problem.goal), problem.goal.reach);
       EXPECT_LE(violation(problem, solution.y, solution.t), kRows * test::lengthOf(problem));
-      EXPECT_LE(solution.solves, StepProgram::kMostSolves);
-      EXPECT_LE(solution.changes, StepProgram::kMostChanges);
+      EXPECT_LE(solution.solves, StepProgram::kMaxSolves);
+      EXPECT_LE(solution.changes, StepProgram::kMaxChanges);
       if (solution.share < 1.0) {
         ++parts;
         EXPECT_GE(solution.displacement, (1.0 - 1e-9) * problem.goal.reach);

@@ -91,7 +91,7 @@ TEST(BoundedCoupling, WishBeyondTheBoundIsHeldToItAndSaidToBe) {
   EXPECT_DOUBLE_EQ(stiff.stiffness, 1500.0);
   EXPECT_TRUE(stiff.isHeldToBound);
   const CouplingState damped = boundedCoupling(wishFor(100.0, 50.0, 0.5, 0.0), device, metric, 1e-3);
-  EXPECT_DOUBLE_EQ(damped.damping, kMostDampingShare * 1.0);
+  EXPECT_DOUBLE_EQ(damped.damping, kMaxDampingShare * 1.0);
   EXPECT_DOUBLE_EQ(damped.stiffness, 100.0);
   EXPECT_TRUE(damped.isHeldToBound);
   const CouplingState turned = boundedCoupling(wishFor(100.0, 0.0, 9.0, 0.0), device, metric, 1e-3);
@@ -228,8 +228,8 @@ TEST(TurnScale, MakesTheMetricWeighTurnsAsTheCouplingDoes) {
   EXPECT_DOUBLE_EQ(turnScale({100.0, 0.0, 4.0, 0.0}, metric), std::sqrt(4.0 / 100.0) / 0.04);
   EXPECT_EQ(turnScale({0.0, 0.0, 1.0, 0.0}, metric), 1.0);
   EXPECT_EQ(turnScale({1000.0, 0.0, 0.0, 0.0}, metric), 1.0);
-  EXPECT_EQ(turnScale({1e6, 0.0, 1e-6, 0.0}, metric), kLeastTurnScale);
-  EXPECT_EQ(turnScale({1.0, 0.0, 1e6, 0.0}, metric), kMostTurnScale);
+  EXPECT_EQ(turnScale({1e6, 0.0, 1e-6, 0.0}, metric), kMinTurnScale);
+  EXPECT_EQ(turnScale({1.0, 0.0, 1e6, 0.0}, metric), kMaxTurnScale);
 }
 
 TEST(CouplingWrench, IsSquareToWhatTheMetricCallsFree) {

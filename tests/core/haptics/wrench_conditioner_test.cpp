@@ -157,17 +157,17 @@ TEST(WrenchConditioner, StaleInputFadesToNothing) {
 
 TEST(WrenchConditioner, AHandThatIsSlowByItsNatureIsWaitedFor) {
   WrenchConditioner conditioner = sending(kWanted, fastDevice());
-  const auto forceAt = [&](double age, const PosePatience& patience) {
+  const auto forceAt = [&](double age, const PoseFade& patience) {
     return glm::length(conditioner.condition(kWanted, age, kPeriod, fastDevice(), patience).wrench.force);
   };
-  const PosePatience slow{0.020, 0.040};
+  const PoseFade slow{0.020, 0.040};
   EXPECT_NEAR(forceAt(0.020, slow), 5.0, 1e-12);
   EXPECT_NEAR(forceAt(0.030, slow), 2.5, 1e-12);
   EXPECT_EQ(forceAt(0.040, slow), 0.0);
 }
 
 TEST(WrenchConditioner, PatienceThatIsNoNumberIsNone) {
-  for (const PosePatience& patience : {PosePatience{kNan, 0.02}, {0.005, kNan}, {0.005, 0.001}}) {
+  for (const PoseFade& patience : {PoseFade{kNan, 0.02}, {0.005, kNan}, {0.005, 0.001}}) {
     WrenchConditioner conditioner = sending(kWanted, fastDevice());
     EXPECT_EQ(conditioner.condition(kWanted, 0.004, kPeriod, fastDevice(), patience).wrench.force,
               glm::dvec3(0.0));
@@ -176,7 +176,7 @@ TEST(WrenchConditioner, PatienceThatIsNoNumberIsNone) {
 
 TEST(WrenchConditioner, PatienceWithoutEndNeverFades) {
   WrenchConditioner conditioner = sending(kWanted, fastDevice());
-  const PosePatience endless{0.005, std::numeric_limits<double>::infinity()};
+  const PoseFade endless{0.005, std::numeric_limits<double>::infinity()};
   EXPECT_EQ(conditioner.condition(kWanted, 1e6, kPeriod, fastDevice(), endless).wrench.force, kWanted.force);
 }
 

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/mesh/mass_properties.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"

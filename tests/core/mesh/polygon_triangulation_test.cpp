@@ -10,7 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace nearfit::polygon_triangulation_test {
 namespace {

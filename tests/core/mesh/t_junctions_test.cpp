@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/import/mesh_import.h"
 #include "core/mesh/mass_properties.h"
 #include "core/mesh/mesh_builder.h"
-#include "core/mesh/mesh_import.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/temporary_folder.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/mesh_generators.h"
 
 namespace nearfit::triangle_mesh_test {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/parallel/shared_progress.h"
 
 namespace nearfit::parallel_for_test {

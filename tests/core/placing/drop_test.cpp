@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/proximity/interference.h"
-#include "core/proximity/surface_distance.h"
+#include "core/base/error.h"
+#include "core/proximity/overlap/interference.h"
+#include "core/proximity/surface/surface_distance.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 

@@ -31,7 +31,7 @@ TEST(GizmoDrag, AnArrowFollowsThePointerAlongItsAxis) {
   for (const bool isParallel : {false, true}) {
     const TestView view = test::aslant(isParallel);
     const GizmoFrame frame = turnedFrame();
-    for (const GizmoHandle arrow : kArrows) {
+    for (const GizmoGrip arrow : kArrows) {
       const glm::dvec3 axis = frame.axes[axisOf(arrow)];
       GizmoDrag drag(view.projection(), frame, arrow, view.pixelOf(frame.pivot + 0.04 * axis));
       for (const double way : {0.01, 0.2, -0.15, 0.003}) {
@@ -48,7 +48,7 @@ TEST(GizmoDrag, WhatThePointerGoesAcrossAnArrowMovesNothing) {
   const GizmoFrame frame = turnedFrame();
   const glm::dvec2 from = view.pixelOf(frame.pivot), to = view.pixelOf(frame.pivot + 0.05 * frame.axes[0]);
   const glm::dvec2 along = glm::normalize(to - from), across(-along.y, along.x);
-  GizmoDrag drag(view.projection(), frame, GizmoHandle::MoveX, to + 4.0 * across);
+  GizmoDrag drag(view.projection(), frame, GizmoGrip::MoveX, to + 4.0 * across);
   drag.moveTo(view.projection(), to - 90.0 * across);
   EXPECT_LT(glm::length(drag.shift()), 1e-12);
 }
@@ -56,7 +56,7 @@ TEST(GizmoDrag, WhatThePointerGoesAcrossAnArrowMovesNothing) {
 TEST(GizmoDrag, AnAxisAlongTheSightStandsStill) {
   for (const bool isParallel : {false, true}) {
     const TestView view = test::along({0, 0, -1}, {0, 1, 0}, isParallel);
-    GizmoDrag drag(view.projection(), {}, GizmoHandle::MoveZ, {450.0, 300.0});
+    GizmoDrag drag(view.projection(), {}, GizmoGrip::MoveZ, {450.0, 300.0});
     for (int i = 0; i < 300; ++i) {
       drag.moveTo(view.projection(), {450.0 + i, 300.0 - 2.0 * i});
       EXPECT_EQ(drag.shift(), glm::dvec3(0.0));
@@ -69,7 +69,7 @@ TEST(GizmoDrag, BeyondThePointWhereAnAxisVanishesNothingTurnsRound) {
   const TestView view = test::along({0.05, 0.1, -1.0});
   const glm::dvec2 pivot = view.pixelOf(glm::dvec3(0.0));
   const glm::dvec2 towards = glm::normalize(view.pixelOf({0, 0, -0.2}) - pivot);
-  GizmoDrag drag(view.projection(), {}, GizmoHandle::MoveZ, pivot);
+  GizmoDrag drag(view.projection(), {}, GizmoGrip::MoveZ, pivot);
   double last = 0.0;
   for (int i = 0; i <= 1000; ++i) {
     drag.moveTo(view.projection(), pivot + double(i) * towards);
@@ -87,7 +87,7 @@ TEST(GizmoDrag, ASquareKeepsWhatWasGrabbedUnderThePointer) {
   for (const bool isParallel : {false, true}) {
     const TestView view = test::aslant(isParallel);
     const GizmoFrame frame = turnedFrame();
-    for (const GizmoHandle plane : kPlanes) {
+    for (const GizmoGrip plane : kPlanes) {
       const glm::dvec3 a = frame.axes[(axisOf(plane) + 1) % 3], b = frame.axes[(axisOf(plane) + 2) % 3];
       const glm::dvec3 grabbed = frame.pivot + 0.02 * a + 0.02 * b;
       GizmoDrag drag(view.projection(), frame, plane, view.pixelOf(grabbed));
@@ -102,7 +102,7 @@ TEST(GizmoDrag, APlaneOnEdgeFollowsWhatTheViewShowsOfIt) {
   // The plane across z, seen from the side.
   const TestView view = test::along({0, 1, 0});
   const double pixel = view.projection().metresPerPixel(glm::dvec3(0.0));
-  GizmoDrag drag(view.projection(), {}, GizmoHandle::PlaneZ, {470.0, 300.0});
+  GizmoDrag drag(view.projection(), {}, GizmoGrip::PlaneZ, {470.0, 300.0});
   for (int i = 1; i < 200; ++i) {
     drag.moveTo(view.projection(), {470.0 + i, 300.0 + (i % 7 - 3)});
     EXPECT_LT(distance(drag.shift(), {i * pixel, 0.0, 0.0}), 1e-12);
@@ -113,7 +113,7 @@ TEST(GizmoDrag, NearlyOnEdgeNoPixelIsAJump) {
   for (const double tilt : {0.0, 0.02, 0.1, 0.149, 0.151, 0.2}) {
     const TestView view = test::along({0.0, std::cos(tilt), -std::sin(tilt)});
     const double pixel = view.projection().metresPerPixel(glm::dvec3(0.0));
-    GizmoDrag drag(view.projection(), {}, GizmoHandle::PlaneZ, {450.0, 320.0});
+    GizmoDrag drag(view.projection(), {}, GizmoGrip::PlaneZ, {450.0, 320.0});
     glm::dvec3 last(0.0);
     for (int i = 0; i < 40; ++i) {
       drag.moveTo(view.projection(), {450.0 + i, 320.0 + (i % 2 == 0 ? i : -i) / 10.0});
@@ -126,7 +126,7 @@ TEST(GizmoDrag, NearlyOnEdgeNoPixelIsAJump) {
 
 TEST(GizmoDrag, AboveThePlanesHorizonItStaysWhereItWas) {
   const TestView view = test::along({0.0, 1.0, -0.18});
-  GizmoDrag drag(view.projection(), {}, GizmoHandle::PlaneZ, {450.0, 300.0});
+  GizmoDrag drag(view.projection(), {}, GizmoGrip::PlaneZ, {450.0, 300.0});
   for (double y = 300.0; y > -400.0; y -= 1.0) {
     drag.moveTo(view.projection(), {450.0, y});
     EXPECT_GE(drag.shift().y, -1e-12);
@@ -141,7 +141,7 @@ TEST(GizmoDrag, AFreeMoveKeepsTheGrabbedPointUnderThePointer) {
   for (const bool isParallel : {false, true}) {
     const TestView view = test::aslant(isParallel);
     const glm::dvec3 grabbed(0.1, -0.1, 0.12);
-    GizmoDrag drag(view.projection(), turnedFrame(), GizmoHandle::MoveFree, view.pixelOf(grabbed), grabbed);
+    GizmoDrag drag(view.projection(), turnedFrame(), GizmoGrip::MoveFree, view.pixelOf(grabbed), grabbed);
     const glm::dvec2 to = view.pixelOf(grabbed) + glm::dvec2(130.0, -75.0);
     drag.moveTo(view.projection(), to);
     EXPECT_LT(glm::distance(view.pixelOf(grabbed + drag.shift()), to), 1e-8);
@@ -160,7 +160,7 @@ TEST(GizmoDrag, ARingTurnsByTheAngleThatThePointerGoes) {
     const TestView view = test::aslant(isParallel);
     const GizmoFrame frame = turnedFrame();
     const glm::dvec3 sight = view.projection().sightOf(frame.pivot);
-    for (const GizmoHandle ring : kRings) {
+    for (const GizmoGrip ring : kRings) {
       const glm::dvec3 axis = frame.axes[axisOf(ring)];
       GizmoDrag drag(view.projection(), frame, ring, view.pixelOf(onRing(frame, axis, sight, 0.2)));
       // Two rounds and a half, and back by one.
@@ -183,14 +183,14 @@ TEST(GizmoDrag, ARingTurnsByTheAngleThatThePointerGoes) {
 TEST(GizmoDrag, WhatHasComeLessFarIsToldInTheRoundOfThePointer) {
   const TestView view = test::along({0, 0, -1}, {0, 1, 0});
   const glm::dvec2 middle = view.pixelOf(glm::dvec3(0.0));
-  GizmoDrag drag(view.projection(), {}, GizmoHandle::TurnZ, middle + glm::dvec2(80.0, 0.0));
+  GizmoDrag drag(view.projection(), {}, GizmoGrip::TurnZ, middle + glm::dvec2(80.0, 0.0));
   for (double angle = 0.0; angle < 7.0; angle += 0.25)
     drag.moveTo(view.projection(), middle + 80.0 * glm::dvec2(std::cos(angle), -std::sin(angle)));
   EXPECT_NEAR(drag.angle(), 6.75, 1e-6);
   EXPECT_NEAR(drag.angleIn(drag.motion()), drag.angle(), 1e-9);
   EXPECT_NEAR(drag.angleIn({glm::angleAxis(6.5, glm::dvec3(0, 0, 1)), {}}), 6.5, 1e-9);
   EXPECT_NEAR(drag.angleIn({glm::angleAxis(6.2, glm::dvec3(0, 0, 1)), {}}), 6.2, 1e-9);
-  GizmoDrag arrow(view.projection(), {}, GizmoHandle::MoveX, middle);
+  GizmoDrag arrow(view.projection(), {}, GizmoGrip::MoveX, middle);
   EXPECT_EQ(arrow.shiftIn({{1, 0, 0, 0}, {0.1, 0.2, 0.3}}), (glm::dvec3{0.1, 0.2, 0.3}));
 }
 
@@ -198,7 +198,7 @@ TEST(GizmoDrag, TheOuterRingTurnsAnticlockwiseOnTheScreen) {
   const TestView view = test::aslant();
   const GizmoFrame frame = turnedFrame();
   const glm::dvec2 middle = view.pixelOf(frame.pivot);
-  GizmoDrag drag(view.projection(), frame, GizmoHandle::TurnView, middle + glm::dvec2(98.0, 0.0));
+  GizmoDrag drag(view.projection(), frame, GizmoGrip::TurnView, middle + glm::dvec2(98.0, 0.0));
   drag.moveTo(view.projection(), middle + glm::dvec2(0.0, -98.0));
   // Perspective skews the circle a little where it is not in the middle of the view.
   EXPECT_NEAR(drag.angle(), 0.5 * kPi, 0.01);
@@ -209,7 +209,7 @@ TEST(GizmoDrag, TheOuterRingTurnsAnticlockwiseOnTheScreen) {
 TEST(GizmoDrag, ARingOnEdgeRollsUnderThePointer) {
   const TestView view = test::along({0, 1, 0});
   const glm::dvec2 middle = view.pixelOf(glm::dvec3(0.0));
-  GizmoDrag drag(view.projection(), {}, GizmoHandle::TurnZ, middle + glm::dvec2(30.0, 0.0));
+  GizmoDrag drag(view.projection(), {}, GizmoGrip::TurnZ, middle + glm::dvec2(30.0, 0.0));
   double last = 0.0;
   for (int i = 1; i <= 200; ++i) {
     drag.moveTo(view.projection(), middle + glm::dvec2(30.0 + i, i % 3));
@@ -224,7 +224,7 @@ TEST(GizmoDrag, ARingOnEdgeRollsUnderThePointer) {
 TEST(GizmoDrag, ThroughTheMiddleOfARingNothingIsUndefined) {
   const TestView view = test::along({0, 0, -1}, {0, 1, 0});
   const glm::dvec2 middle = view.pixelOf(glm::dvec3(0.0));
-  GizmoDrag drag(view.projection(), {}, GizmoHandle::TurnZ, middle + glm::dvec2(80.0, 0.0));
+  GizmoDrag drag(view.projection(), {}, GizmoGrip::TurnZ, middle + glm::dvec2(80.0, 0.0));
   for (int i = 80; i >= -80; --i)
     drag.moveTo(view.projection(), middle + glm::dvec2(i, 0.0));
   EXPECT_NEAR(std::abs(drag.angle()), kPi, 1e-9);
@@ -235,24 +235,24 @@ TEST(GizmoDrag, StepsCountFromWhereTheDragBegan) {
   const GizmoFrame frame = turnedFrame();
   const SnapSteps steps{0.01, kPi / 12.0};
   const glm::dvec3 x = frame.axes[0], y = frame.axes[1];
-  GizmoDrag arrow(view.projection(), frame, GizmoHandle::MoveX, view.pixelOf(frame.pivot + 0.0333 * x));
+  GizmoDrag arrow(view.projection(), frame, GizmoGrip::MoveX, view.pixelOf(frame.pivot + 0.0333 * x));
   arrow.moveTo(view.projection(), view.pixelOf(frame.pivot + (0.0333 + 0.0261) * x));
   EXPECT_LT(distance(arrow.shift(steps), 0.03 * x), 1e-12);
   EXPECT_LT(distance(arrow.shift(), 0.0261 * x), 1e-10);
 
-  GizmoDrag square(view.projection(), frame, GizmoHandle::PlaneZ, view.pixelOf(frame.pivot));
+  GizmoDrag square(view.projection(), frame, GizmoGrip::PlaneZ, view.pixelOf(frame.pivot));
   square.moveTo(view.projection(), view.pixelOf(frame.pivot + 0.0261 * x - 0.0149 * y));
   EXPECT_LT(distance(square.shift(steps), 0.03 * x - 0.01 * y), 1e-12);
 
   const glm::dvec3 sight = view.projection().sightOf(frame.pivot);
-  GizmoDrag ring(view.projection(), frame, GizmoHandle::TurnY, view.pixelOf(onRing(frame, y, sight, 0.0)));
+  GizmoDrag ring(view.projection(), frame, GizmoGrip::TurnY, view.pixelOf(onRing(frame, y, sight, 0.0)));
   ring.moveTo(view.projection(), view.pixelOf(onRing(frame, y, sight, 0.7)));
   EXPECT_NEAR(ring.angle(steps), kPi / 4.0, 1e-12);
 }
 
 TEST(GizmoDrag, APointerThatIsNoNumberMovesNothing) {
   const TestView view = test::aslant();
-  for (const GizmoHandle handle : {GizmoHandle::MoveX, GizmoHandle::PlaneY, GizmoHandle::TurnZ}) {
+  for (const GizmoGrip handle : {GizmoGrip::MoveX, GizmoGrip::PlaneY, GizmoGrip::TurnZ}) {
     GizmoDrag drag(view.projection(), {}, handle, {440.0, 310.0});
     drag.moveTo(view.projection(), {std::nan(""), 300.0});
     EXPECT_EQ(drag.shift(), glm::dvec3(0.0));

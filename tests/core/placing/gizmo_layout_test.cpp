@@ -54,18 +54,18 @@ TEST(GizmoLayout, WhatIsDrawnOfAnArrowIsWhatGrabsIt) {
   const TestView view = test::aslant();
   const GizmoLayout layout = layoutOf(view, GizmoMode::Move);
   const double scale = view.projection().metresPerPixel(glm::dvec3(0.0));
-  for (const GizmoHandle arrow : kArrows) {
+  for (const GizmoGrip arrow : kArrows) {
     glm::dvec3 axis(0.0);
     axis[axisOf(arrow)] = 1.0;
     // A square may stand before the middle of the one that points away.
-    const bool pointsAway = arrow == GizmoHandle::MoveY;
+    const bool pointsAway = arrow == GizmoGrip::MoveY;
     for (const double reach : {20.0, pointsAway ? 22.0 : 60.0, 85.0, 90.0})
       EXPECT_EQ(layout.pick(view.pixelOf(scale * reach * axis)), arrow) << reach;
     EXPECT_NE(layout.pick(view.pixelOf(scale * 110.0 * axis)), arrow);
     EXPECT_NE(layout.pick(view.pixelOf(-scale * 60.0 * axis)), arrow);
   }
-  EXPECT_EQ(layout.pick(view.pixelOf(glm::dvec3(0.0)) + glm::dvec2(3.0, -2.0)), GizmoHandle::MoveFree);
-  EXPECT_EQ(layout.pick(view.pixelOf(glm::dvec3(0.0)) + glm::dvec2(200.0, 0.0)), GizmoHandle::None);
+  EXPECT_EQ(layout.pick(view.pixelOf(glm::dvec3(0.0)) + glm::dvec2(3.0, -2.0)), GizmoGrip::MoveFree);
+  EXPECT_EQ(layout.pick(view.pixelOf(glm::dvec3(0.0)) + glm::dvec2(200.0, 0.0)), GizmoGrip::None);
 }
 
 TEST(GizmoLayout, SquaresStandInTheQuarterTowardsTheViewer) {
@@ -73,21 +73,19 @@ TEST(GizmoLayout, SquaresStandInTheQuarterTowardsTheViewer) {
   const GizmoLayout layout = layoutOf(view, GizmoMode::Move);
   const double step = 38.0 * view.projection().metresPerPixel(glm::dvec3(0.0));
   // The eye is at positive x, negative y and positive z.
-  EXPECT_EQ(layout.pick(view.pixelOf({step, -step, 0.0})), GizmoHandle::PlaneZ);
-  EXPECT_EQ(layout.pick(view.pixelOf({step, 0.0, step})), GizmoHandle::PlaneY);
-  EXPECT_EQ(layout.pick(view.pixelOf({0.0, -step, step})), GizmoHandle::PlaneX);
+  EXPECT_EQ(layout.pick(view.pixelOf({step, -step, 0.0})), GizmoGrip::PlaneZ);
+  EXPECT_EQ(layout.pick(view.pixelOf({step, 0.0, step})), GizmoGrip::PlaneY);
+  EXPECT_EQ(layout.pick(view.pixelOf({0.0, -step, step})), GizmoGrip::PlaneX);
 }
 
 TEST(GizmoLayout, ARingIsGrabbedOnItsNearSideOnly) {
   const TestView view = farAlong({0.0, 0.6, -0.8}, {0, 0, 1});
   const GizmoLayout layout = layoutOf(view, GizmoMode::Turn);
   const double radius = GizmoLayout::kRingRadius * view.projection().metresPerPixel(glm::dvec3(0.0));
-  EXPECT_EQ(layout.pick(view.pixelOf(radius * glm::normalize(glm::dvec3(0.5, -1.0, 0.0)))),
-            GizmoHandle::TurnZ);
-  EXPECT_EQ(layout.pick(view.pixelOf(radius * glm::normalize(glm::dvec3(0.5, 1.0, 0.0)))), GizmoHandle::None);
-  EXPECT_EQ(layout.pick(view.pixelOf(radius * glm::normalize(glm::dvec3(0.0, -1.0, 2.0)))),
-            GizmoHandle::TurnX);
-  EXPECT_EQ(layout.pick(view.pixelOf(glm::dvec3(0.0)) + glm::dvec2(-98.0, 0.0)), GizmoHandle::TurnView);
+  EXPECT_EQ(layout.pick(view.pixelOf(radius * glm::normalize(glm::dvec3(0.5, -1.0, 0.0)))), GizmoGrip::TurnZ);
+  EXPECT_EQ(layout.pick(view.pixelOf(radius * glm::normalize(glm::dvec3(0.5, 1.0, 0.0)))), GizmoGrip::None);
+  EXPECT_EQ(layout.pick(view.pixelOf(radius * glm::normalize(glm::dvec3(0.0, -1.0, 2.0)))), GizmoGrip::TurnX);
+  EXPECT_EQ(layout.pick(view.pixelOf(glm::dvec3(0.0)) + glm::dvec2(-98.0, 0.0)), GizmoGrip::TurnView);
 }
 
 TEST(GizmoLayout, ARingThatIsSeenAsACircleIsGrabbedAllRound) {
@@ -96,20 +94,20 @@ TEST(GizmoLayout, ARingThatIsSeenAsACircleIsGrabbedAllRound) {
   const glm::dvec2 middle = view.pixelOf(glm::dvec3(0.0));
   for (double angle = 0.3; angle < 6.5; angle += 0.7) {
     const glm::dvec2 arm(std::cos(angle), std::sin(angle));
-    EXPECT_EQ(layout.pick(middle + GizmoLayout::kRingRadius * arm), GizmoHandle::TurnZ) << angle;
+    EXPECT_EQ(layout.pick(middle + GizmoLayout::kRingRadius * arm), GizmoGrip::TurnZ) << angle;
   }
 }
 
 TEST(GizmoLayout, AnAxisAlongTheSightAndAPlaneOnEdgeAreNotThere) {
   const TestView view = farAlong({0, 0, -1}, {0, 1, 0});
   const GizmoLayout layout = layoutOf(view, GizmoMode::MoveAndTurn);
-  EXPECT_FALSE(layout.has(GizmoHandle::MoveZ));
-  EXPECT_FALSE(layout.has(GizmoHandle::PlaneX));
-  EXPECT_FALSE(layout.has(GizmoHandle::PlaneY));
-  EXPECT_TRUE(layout.has(GizmoHandle::MoveX));
-  EXPECT_TRUE(layout.has(GizmoHandle::PlaneZ));
+  EXPECT_FALSE(layout.has(GizmoGrip::MoveZ));
+  EXPECT_FALSE(layout.has(GizmoGrip::PlaneX));
+  EXPECT_FALSE(layout.has(GizmoGrip::PlaneY));
+  EXPECT_TRUE(layout.has(GizmoGrip::MoveX));
+  EXPECT_TRUE(layout.has(GizmoGrip::PlaneZ));
   // Rings on edge are lines that can be rolled.
-  EXPECT_EQ(layout.pick(view.pixelOf(glm::dvec3(0.0)) + glm::dvec2(0.0, 55.0)), GizmoHandle::TurnX);
+  EXPECT_EQ(layout.pick(view.pixelOf(glm::dvec3(0.0)) + glm::dvec2(0.0, 55.0)), GizmoGrip::TurnX);
 }
 
 TEST(GizmoLayout, BehindTheEyeThereIsNoGizmo) {
@@ -117,14 +115,14 @@ TEST(GizmoLayout, BehindTheEyeThereIsNoGizmo) {
   const GizmoFrame frame{view.camera.eye - view.camera.away, glm::dmat3(1.0)};
   const GizmoLayout layout = layoutOf(view, GizmoMode::MoveAndTurn, frame);
   EXPECT_TRUE(layout.figures().empty());
-  EXPECT_EQ(layout.pick({450.0, 300.0}), GizmoHandle::None);
+  EXPECT_EQ(layout.pick({450.0, 300.0}), GizmoGrip::None);
   EXPECT_TRUE(layoutOf(view, GizmoMode::Hidden).figures().empty());
 }
 
 TEST(GizmoGuide, TheSectorOfATurnReachesFromWhereItWasGrabbedByTheAngle) {
   const TestView view = farAlong({0, 0, -1}, {0, 1, 0});
   const glm::dvec2 middle = view.pixelOf(glm::dvec3(0.0));
-  const GizmoDrag drag(view.projection(), {}, GizmoHandle::TurnZ, middle + glm::dvec2(80.0, 0.0));
+  const GizmoDrag drag(view.projection(), {}, GizmoGrip::TurnZ, middle + glm::dvec2(80.0, 0.0));
   const GizmoGuide guide = gizmoGuide(view.projection(), drag, glm::dvec3(0.0), 0.5);
   ASSERT_GT(guide.sector.size(), 3U);
   EXPECT_LT(glm::distance(guide.sector.front(), middle + glm::dvec2(80.0, 0.0)), 0.01);
@@ -136,7 +134,7 @@ TEST(GizmoGuide, TheSectorOfATurnReachesFromWhereItWasGrabbedByTheAngle) {
 
 TEST(GizmoGuide, TheLineOfAnArrowRunsThroughTheWholeView) {
   const TestView view = test::aslant();
-  const GizmoDrag drag(view.projection(), {}, GizmoHandle::MoveX, view.pixelOf({0.02, 0.0, 0.0}));
+  const GizmoDrag drag(view.projection(), {}, GizmoGrip::MoveX, view.pixelOf({0.02, 0.0, 0.0}));
   const GizmoGuide guide = gizmoGuide(view.projection(), drag, {0.05, 0.0, 0.0}, 0.0);
   ASSERT_EQ(guide.line.size(), 2U);
   EXPECT_LT(distanceToLine(guide.line, view.pixelOf({0.1, 0.0, 0.0})), 1e-6);
@@ -164,10 +162,10 @@ TEST(GizmoLayout, APlaneIsShiftedByOneArrowAndTiltedByTwoRings) {
       EXPECT_EQ(layout.has(kRings[other]), other != axis);
       EXPECT_FALSE(layout.has(kPlanes[other]));
     }
-    EXPECT_FALSE(layout.has(GizmoHandle::MoveFree) || layout.has(GizmoHandle::TurnView));
+    EXPECT_FALSE(layout.has(GizmoGrip::MoveFree) || layout.has(GizmoGrip::TurnView));
   }
   // Seen from its tip an arrow would say nothing of the way.
-  EXPECT_FALSE(layoutOf(farAlong({0, 0, -1}, {0, 1, 0}), GizmoMode::AcrossZ).has(GizmoHandle::MoveZ));
+  EXPECT_FALSE(layoutOf(farAlong({0, 0, -1}, {0, 1, 0}), GizmoMode::AcrossZ).has(GizmoGrip::MoveZ));
 }
 
 }  // namespace

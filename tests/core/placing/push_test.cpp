@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/proximity/interference.h"
+#include "core/base/error.h"
+#include "core/proximity/overlap/interference.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 

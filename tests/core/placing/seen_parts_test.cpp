@@ -22,7 +22,7 @@ using testing::IsEmpty;
 /// What is shown, and by whom it is looked at.
 class Show {
  public:
-  explicit Show(test::TestView view) : view_(view) { parts_.reserve(kMost); }
+  explicit Show(test::TestView view) : view_(view) { parts_.reserve(kMax); }
 
   PartId add(TriangleMesh mesh, const RigidTransform& worldFromPart, bool isOpaque = true,
              bool isCut = false) {
@@ -50,7 +50,7 @@ class Show {
   }
 
  private:
-  static constexpr std::size_t kMost = 64;
+  static constexpr std::size_t kMax = 64;
 
   glm::dvec3 worldOf(int x, int y, double depth) const {
     const double aspect = test::kViewWidth / test::kViewHeight, half = view_.camera.halfHeight;

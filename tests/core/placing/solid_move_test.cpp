@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/exact/pose_certifier.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
@@ -65,7 +65,7 @@ struct CubeAndWall : Bench {
 };
 
 SolidMove::Progress settle(SolidMove& move, const RigidTransform& motion) {
-  return move.advance(motion, SolidMove::kMostTicks);
+  return move.advance(motion, SolidMove::kMaxTicks);
 }
 
 TEST(SolidMove, WhereNothingIsInTheWayPartsArriveToTheLastBit) {

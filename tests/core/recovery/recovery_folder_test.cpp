@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/session.h"
+#include "core/session/session.h"
 #include "tests/core/scene/scene_file_fixture.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/process_identity_of.h"

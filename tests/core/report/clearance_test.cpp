@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/exact/exact_meeting.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/lmd_oracle.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/proximity/normal_cone_tree.h"
+#include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "tests/support/mesh_generators.h"
 
 namespace nearfit::lmd_set_test {

@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/mesh/mesh_import.h"
+#include "core/base/error.h"
+#include "core/import/mesh_import.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 #include "tests/support/random_values.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"
 #include "tests/support/temporary_folder.h"

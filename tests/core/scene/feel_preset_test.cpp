@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/haptics/virtual_coupling.h"
 #include "core/scene/haptic_limits.h"
 #include "tests/support/temporary_folder.h"

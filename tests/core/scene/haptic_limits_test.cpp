@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/scene.h"
 
 namespace nearfit::haptic_limits_test {

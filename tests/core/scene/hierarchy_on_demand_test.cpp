@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/cached_meshes.h"
 #include "tests/support/mesh_generators.h"
 

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/files/sha256.h"
 #include "tests/support/cached_meshes.h"
 #include "tests/support/mesh_files.h"

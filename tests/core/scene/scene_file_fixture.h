@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/scene_file.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/scene_tree.h"
-#include "core/session.h"
+#include "core/session/session.h"
 #include "tests/core/scene/scene_file_fixture.h"
 
 namespace nearfit::scene_file_test {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/palette.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"

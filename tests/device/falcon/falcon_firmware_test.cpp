@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/usb/falcon_firmware.h"
 
@@ -167,11 +167,11 @@ TEST(FalconFirmwareFile, WithoutAPathItSaysWhatIsWanted) {
 
 TEST(FalconFirmwareFile, OfAnotherSizeThanFirmwareHasIsRefused) {
   const test::TemporaryFolder folder;
-  EXPECT_THROW(readFirmware(folder.write("small", std::string(kLeastFirmware - 1, 'x')), "Falcon"),
+  EXPECT_THROW(readFirmware(folder.write("small", std::string(kMinFirmware - 1, 'x')), "Falcon"),
                DeviceError);
-  EXPECT_THROW(readFirmware(folder.write("big", std::string(kMostFirmware + 1, 'x')), "Falcon"), DeviceError);
-  EXPECT_EQ(readFirmware(folder.write("least", std::string(kLeastFirmware, 'x')), "Falcon").size(),
-            kLeastFirmware);
+  EXPECT_THROW(readFirmware(folder.write("big", std::string(kMaxFirmware + 1, 'x')), "Falcon"), DeviceError);
+  EXPECT_EQ(readFirmware(folder.write("least", std::string(kMinFirmware, 'x')), "Falcon").size(),
+            kMinFirmware);
 }
 
 TEST(FalconFirmwareFile, ThatIsNotThereOrAFolderIsRefused) {

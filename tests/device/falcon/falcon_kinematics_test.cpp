@@ -103,8 +103,8 @@ TEST(FalconKinematics, AnglesThatTheLegsCannotHaveTogetherAreRefused) {
   test::RandomValues random(3);
   int refused = 0;
   for (int i = 0; i < 5000; ++i) {
-    const glm::dvec3 angles(random.in(kLeastAngle, kMostAngle), random.in(kLeastAngle, kMostAngle),
-                            random.in(kLeastAngle, kMostAngle));
+    const glm::dvec3 angles(random.in(kMinAngle, kMaxAngle), random.in(kMinAngle, kMaxAngle),
+                            random.in(kMinAngle, kMaxAngle));
     const auto place = forward(angles, kCentre);
     if (!place) {
       ++refused;
@@ -152,7 +152,7 @@ TEST(FalconKinematics, MotorsDoTheWorkThatTheHandFeels) {
     const glm::dvec3 angles = *inverse(p), force = random.vector(1.0), moved = random.vector(1e-7);
     const glm::dvec3 turn = *inverse(p + moved) - angles;
     const auto units = unitsFor(force, p, angles);
-    if (std::any_of(units.begin(), units.end(), [](int each) { return std::abs(each) >= kMostUnits - 1; }))
+    if (std::any_of(units.begin(), units.end(), [](int each) { return std::abs(each) >= kMaxUnits - 1; }))
       continue;
     double work = 0.0, rounded = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -175,7 +175,7 @@ TEST(FalconKinematics, TheLegsShareAPullAlongTheAxis) {
   const auto units = unitsFor({0.0, 0.0, 9.0}, *place, glm::dvec3(0.6));
   for (const int each : units) {
     EXPECT_NEAR(each, -3.0 * rise * kUnitsPerNewtonMetre, 1.0) << "rounding towards zero";
-    EXPECT_LT(std::abs(each), kMostUnits) << "nine newtons are within the motors' reach";
+    EXPECT_LT(std::abs(each), kMaxUnits) << "nine newtons are within the motors' reach";
   }
 }
 
@@ -188,8 +188,8 @@ TEST(FalconKinematics, LimitsKeepTheForcesDirection) {
     most = std::max(most, std::abs(int{units[static_cast<std::size_t>(i)]}));
     torque[i] = -units[static_cast<std::size_t>(i)] / kUnitsPerNewtonMetre;
   }
-  EXPECT_LE(most, kMostUnits);
-  EXPECT_GE(most, kMostUnits - 1);
+  EXPECT_LE(most, kMaxUnits);
+  EXPECT_GE(most, kMaxUnits - 1);
   const glm::dvec3 felt = glm::inverse(glm::transpose(jacobian(kCentre, angles))) * torque;
   EXPECT_NEAR(glm::dot(glm::normalize(felt), glm::normalize(force)), 1.0, 1e-6);
 }

@@ -118,7 +118,7 @@ TEST(ReportDescriptor, EveryPrefixAndEveryDamagedByteEndsWell) {
     for (int n = 0; n < 3; ++n)
       damaged[random() % damaged.size()] = static_cast<std::byte>(random());
     if (const std::optional<HidReports> reports = parseReportDescriptor(damaged)) {
-      EXPECT_LE(reports->fields.size(), kMostHidFields);
+      EXPECT_LE(reports->fields.size(), kMaxHidFields);
       std::array<std::byte, 16> report{};
       for (const HidField& field : reports->fields)
         readField(report, field, reports->hasNumbers);

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "device/device_error.h"
+#include "device/interface/device_error.h"
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temporary_folder.h"
 

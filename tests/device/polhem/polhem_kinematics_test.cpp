@@ -138,8 +138,8 @@ TEST(PolhemKinematics, LimitsOfCurrentKeepTheForcesDirection) {
     most = std::max(most, std::abs(milliamps[index]));
     torque[i] = 1e-3 * milliamps[index] * 0.0259 * calibration.joints[index].joint.gearRatio;
   }
-  EXPECT_GE(most, kMostMilliamps - 1);
-  EXPECT_LE(most, kMostMilliamps);
+  EXPECT_GE(most, kMaxMilliamps - 1);
+  EXPECT_LE(most, kMaxMilliamps);
   // What is felt is what undoes those torques.
   const glm::dvec3 felt = glm::inverse(glm::transpose(kinematics.jacobian(arm))) * torque;
   EXPECT_NEAR(glm::dot(glm::normalize(felt), glm::normalize(force)), 1.0, 1e-6);
@@ -157,7 +157,7 @@ TEST(PolhemKinematics, AMotorsOwnLimitHolds) {
 TEST(PolhemKinematics, AForceThatIsNoNumberMovesNoMotor) {
   const auto milliamps = Kinematics({}).milliampsFor({NAN, 1.0, INFINITY}, {0.1, 0.2, 1.0});
   for (const int each : milliamps)
-    EXPECT_LE(std::abs(each), kMostMilliamps);
+    EXPECT_LE(std::abs(each), kMaxMilliamps);
   EXPECT_EQ(Kinematics({}).milliampsFor({NAN, NAN, NAN}, {0.1, 0.2, 1.0}), (std::array<int, 3>{0, 0, 0}));
 }
 

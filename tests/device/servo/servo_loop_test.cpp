@@ -11,10 +11,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "device/passive_device.h"
-#include "device/servo/monotonic_clock.h"
+#include "core/base/error.h"
+#include "device/common/passive_device.h"
 #include "device/simulated/simulated_device.h"
+#include "device/thread/monotonic_clock.h"
 #include "tests/support/eventually.h"
 #include "tests/support/servo_fixtures.h"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "device/passive_device.h"
+#include "device/common/passive_device.h"
 #include "device/servo/servo_loop.h"
 #include "device/simulated/simulated_device.h"
 #include "tests/support/allocation_hook.h"

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "device/simulated/simulated_device.h"
 #include "tests/support/temporary_folder.h"
 

@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/scene/motion_recording.h"
+#include "core/base/error.h"
+#include "core/servo/motion_recording.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nearfit::replay_device_test {

@@ -17,7 +17,7 @@
 #include <linux/usb/functionfs.h>
 #include <unistd.h>
 
-#include "device/servo/monotonic_clock.h"
+#include "device/thread/monotonic_clock.h"
 #include "tests/usb/openhap_firmware.h"
 
 /// nearfit-gadget FOLDER RATE: the reference firmware of OpenHap behind FunctionFS, so that a Linux kernel

@@ -17,7 +17,7 @@ using namespace monkey;
 
 namespace {
 
-constexpr int kBetweenMs = 5, kMostTries = 10;
+constexpr int kBetweenMs = 5, kMaxTries = 10;
 
 }  // namespace
 
@@ -64,7 +64,7 @@ void DialogAnswers::close(QWidget& widget) {
 }
 
 void DialogAnswers::answerPopup(QWidget& popup) {
-  if (triesWith(popup) > kMostTries) return close(popup);
+  if (triesWith(popup) > kMaxTries) return close(popup);
   const double how = random_.in(0.0, 1.0);
   if (how < 0.2) {
     const QPoint at = placeIn(popup, random_);
@@ -88,7 +88,7 @@ void DialogAnswers::answerFiles(QFileDialog& dialog) {
 }
 
 void DialogAnswers::answerDialog(QWidget& dialog) {
-  if (triesWith(dialog) > kMostTries) return close(dialog);
+  if (triesWith(dialog) > kMaxTries) return close(dialog);
   QList<QWidget*> usable;
   for (QWidget* child : dialog.findChildren<QWidget*>()) {
     if (child->isVisible() && child->isEnabled() && child->window() == &dialog) usable << child;

@@ -11,8 +11,8 @@
 #include <QUrl>
 
 #include "tests/app/desktop/monkey/monkey_hands.h"
-#include "ui/placing/placing_tools.h"
-#include "ui/selection.h"
+#include "ui/model/selection.h"
+#include "ui/tools/placing/placing_tools.h"
 
 namespace nearfit::test {
 
@@ -20,7 +20,7 @@ using namespace monkey;
 
 namespace {
 
-constexpr std::size_t kMostParts = 24;
+constexpr std::size_t kMaxParts = 24;
 constexpr int kPatienceMs = 60'000;
 
 QString placeText(const QPoint& at) {
@@ -77,7 +77,7 @@ void RandomUser::act() {
 
 /// Copies of copies of all would be more than any machine holds.
 void RandomUser::keepSmall() {
-  if (d_.session().scene().parts().size() <= kMostParts) return;
+  if (d_.session().scene().parts().size() <= kMaxParts) return;
   say(QStringLiteral("too many parts: a new scene"));
   emit window().servoStopRequested();
   d_.session().reset();

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/haptics/haptic_settings.h"
-#include "ui/paths.h"
-#include "ui/selection.h"
+#include "ui/model/selection.h"
+#include "ui/widgets/paths.h"
 
 namespace nearfit::test {
 namespace {

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/mesh/mesh_builder.h"
+
+namespace nearfit {
+
+/// A mesh read from a file, in metres.
+struct ImportedMesh {
+  TriangleMesh mesh;
+  MeshBuildReport report;
+  std::string sha256;  ///< Of the file's bytes, 64 lower-case hexadecimal digits.
+};
+
+/// Reads STL (ASCII or binary), OBJ, PLY or OFF. Detects the format by content if possible, else by the file
+/// name. Robust against malformed and malicious files; memory stays within a few times the file's size.
+/// Throws FileError naming the file, the line or byte, and the remedy; UsageError if an option is
+/// invalid; Cancelled.
+ImportedMesh importMesh(const std::filesystem::path& file, const MeshBuildOptions& options,
+                        const ProgressCallback& progress = {});
+
+/// Like importMesh(), for a file's bytes in memory. `file` only names the format and appears in messages;
+/// it is not opened.
+ImportedMesh importMeshBytes(const std::filesystem::path& file, std::vector<char> bytes,
+                             const MeshBuildOptions& options, const ProgressCallback& progress = {});
+
+/// File name extensions that importMesh() can read: lower case, without the dot.
+const std::vector<std::string>& importableExtensions();
+
+}  // namespace nearfit

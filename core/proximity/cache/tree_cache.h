@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/proximity/cache/tree_cache_file.h"
+
+namespace nearfit {
+
+/// Meshes of fewer triangles are not cached: reading the file and building the hierarchy takes some
+/// milliseconds, and thousands of small files would push out the few large ones that take seconds.
+constexpr std::size_t kMinCachedTriangles = 2000;
+
+/// Max size of the cache unless NEARFIT_CACHE_SIZE sets another [bytes].
+constexpr std::uint64_t kDefaultTreeCacheBytes = std::uint64_t{4} << 30;
+
+/// Settings of the cache; see treeCacheSettings().
+struct TreeCacheSettings {
+  std::filesystem::path folder;  ///< Empty: the cache is off.
+  std::uint64_t maxBytes = kDefaultTreeCacheBytes;
+  std::size_t leastTriangles = kMinCachedTriangles;
+};
+
+/// Reads the settings from the environment. NEARFIT_CACHE names the folder or is "off"; the default is
+/// `nearfit` in XDG_CACHE_HOME, or in `.cache` of HOME. NEARFIT_CACHE_SIZE is a number of bytes, or one
+/// followed by K, M, G or T (powers of 1024). Invalid values are ignored.
+TreeCacheSettings treeCacheSettings();
+
+/// Parses a number of bytes in the format of NEARFIT_CACHE_SIZE; no value if the text is anything else.
+std::optional<std::uint64_t> parseByteSize(const std::string& text);
+
+/// Folder of meshes with their hierarchies, keyed by the content of the mesh files. Any number of threads and
+/// processes may use one folder at once. The cache can only save time: a damaged file, or one of another
+/// version, counts as absent, and a folder that cannot be written stays as it is.
+class TreeCache {
+ public:
+  explicit TreeCache(TreeCacheSettings settings = treeCacheSettings()) : settings_(std::move(settings)) {}
+
+  bool isOn() const noexcept { return !settings_.folder.empty(); }
+  const TreeCacheSettings& settings() const noexcept { return settings_; }
+
+  /// Opens the file cached for the key, its parts not checked yet, and marks it as just used; no value if
+  /// there is none.
+  std::optional<TreeCacheFile> find(const TreeCacheKey& key) const;
+  /// Caches a mesh, with its hierarchy unless that is null, in place of what was cached for the key. Then
+  /// removes the least recently used files until the rest is within `maxBytes`. False if nothing was cached,
+  /// for whatever reason.
+  bool store(const TreeCacheKey& key, const CachedMesh& mesh, const CachedTree* tree) const;
+
+  struct Usage {
+    std::size_t files = 0;
+    std::uint64_t bytes = 0;
+  };
+  /// Number and size of the cached files.
+  Usage usage() const;
+  /// Removes all cached files and returns what they were. Throws FileError if one cannot be removed.
+  Usage clear() const;
+
+ private:
+  std::filesystem::path pathOf(const TreeCacheKey& key) const;
+  void evict(const std::filesystem::path& newest) const;
+
+  TreeCacheSettings settings_;
+};
+
+}  // namespace nearfit

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/files/mapped_file.h"
+#include "core/proximity/cache/tree_cache_format.h"
+
+namespace nearfit {
+
+/// Key of a cached mesh.
+struct TreeCacheKey {
+  std::string sha256;          ///< Of the mesh file's bytes, 64 hexadecimal digits.
+  double metresPerUnit = 1.0;  ///< Unit of the mesh file [m].
+};
+
+/// Mesh of a mesh file, and what loading found out about it.
+struct CachedMesh {
+  TriangleMesh mesh;
+  MeshBuildReport report;
+  MassProperties mass;
+};
+
+/// Hierarchy of a mesh, and what is found out along with it. Copies share the arrays.
+struct CachedTree {
+  NormalConeTree tree;
+  bool isSolid = false;  ///< Result of isSolidThroughout.
+};
+
+/// Mapped cache file. Nothing in it is trusted: each part is checked as a whole, checksums and every index,
+/// before it is returned.
+class TreeCacheFile {
+ public:
+  /// Opens a cache file. No value if it does not exist, has another key, is of an older or newer version, is
+  /// truncated, or has a damaged header.
+  static std::optional<TreeCacheFile> open(const std::filesystem::path& file, const TreeCacheKey& key);
+
+  /// Returns the mesh; no value if it is damaged. The mesh uses the mapping in place and keeps it alive.
+  std::optional<CachedMesh> mesh() const;
+  bool hasTree() const noexcept { return header_.counts[index(TreeCacheSection::TreeFacts)] == 1; }
+  /// Returns the hierarchy, likewise; no value if it is damaged or there is none.
+  std::optional<CachedTree> tree() const;
+
+ private:
+  static constexpr std::size_t index(TreeCacheSection section) { return static_cast<std::size_t>(section); }
+
+  TreeCacheFile(std::shared_ptr<const MappedFile> file, const TreeCacheHeader& header,
+                const TreeCacheLayout& layout)
+      : file_(std::move(file)), header_(header), layout_(layout) {}
+  bool isIntact(TreeCacheSection first, TreeCacheSection last) const;
+  std::size_t count(TreeCacheSection section) const noexcept {
+    return static_cast<std::size_t>(header_.counts[index(section)]);
+  }
+  template <typename T>
+  SharedArray<T> array(TreeCacheSection section) const;
+  std::optional<MeshBuildReport> report(const MeshFacts& facts) const;
+
+  std::shared_ptr<const MappedFile> file_;
+  TreeCacheHeader header_;
+  TreeCacheLayout layout_;
+};
+
+/// Writes a cache file atomically. Does not flush it to disk: checksums detect what a crash damages. `tree`
+/// may be null. Throws FileError, and Error if the mesh cannot be cached (a warning contains a zero) or the
+/// key has no SHA-256.
+/// @param maxBytes  If the file would be larger, or a section would have 2^32 elements or more, writes
+///                  nothing and returns 0; else returns the file's size.
+std::uint64_t writeTreeCacheFile(const std::filesystem::path& file, const TreeCacheKey& key,
+                                 const CachedMesh& mesh, const CachedTree* tree, std::uint64_t maxBytes);
+
+}  // namespace nearfit

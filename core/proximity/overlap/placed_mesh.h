@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/exact/triangle_predicates.h"
+#include "core/math/aabb.h"
+#include "core/math/rigid_transform.h"
+#include "core/proximity/overlap/interference.h"
+
+namespace nearfit {
+
+/// Mesh of a body at a pose in some frame, with its vertices rounded to double precision there.
+class PlacedMesh {
+ public:
+  /// @param body           Kept by reference.
+  /// @param frameFromMesh  Kept by pointer; null for the mesh's own frame, where nothing is rounded.
+  PlacedMesh(const MeshBody& body, const RigidTransform* frameFromMesh)
+      : body_(body), frameFromMesh_(frameFromMesh), loose_(facesNotIn(body)) {}
+
+  const TriangleMesh& mesh() const noexcept { return body_.mesh; }
+  const NormalConeTree& tree() const noexcept { return body_.tree; }
+  /// Indices of triangles too thin to have a face in the hierarchy.
+  const std::vector<std::uint32_t>& looseTriangles() const noexcept { return loose_; }
+
+  /// Position of a mesh vertex in the pose's frame [m].
+  glm::dvec3 vertex(std::uint32_t v) const noexcept {
+    const glm::dvec3& p = body_.mesh.vertices()[v];
+    return frameFromMesh_ == nullptr ? p : frameFromMesh_->applyToPoint(p);
+  }
+  /// Corners of a mesh triangle in the pose's frame [m].
+  TriangleCorners corners(std::uint32_t triangle) const noexcept {
+    const Triangle& t = body_.mesh.triangles()[triangle];
+    return {vertex(t[0]), vertex(t[1]), vertex(t[2])};
+  }
+  /// Maps a point from the pose's frame to the hierarchy's centred frame, to rounding.
+  glm::dvec3 toTree(const glm::dvec3& point) const noexcept;
+
+ private:
+  static std::vector<std::uint32_t> facesNotIn(const MeshBody& body);
+
+  const MeshBody& body_;
+  const RigidTransform* frameFromMesh_;  ///< Null: the mesh's own frame, without rounding.
+  std::vector<std::uint32_t> loose_;
+};
+
+inline Aabb boxOf(const TriangleCorners& corners) noexcept {
+  Aabb box;
+  for (const glm::dvec3& p : corners)
+    box.add(p);
+  return box;
+}
+/// True if the boxes, boundaries included, share a point.
+inline bool doOverlap(const Aabb& a, const Aabb& b) noexcept {
+  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
+         b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+}
+
+}  // namespace nearfit

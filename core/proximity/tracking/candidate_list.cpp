@@ -1,0 +1,302 @@
+#include "core/proximity/tracking/candidate_list.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "core/proximity/query/leaf_tests.h"
+#include "core/proximity/query/query_workspace.h"
+
+namespace nearfit {
+namespace {
+
+constexpr std::size_t kNodeWidth = NormalConeTree::kWidth;
+static_assert(kNodeWidth == kListedAtOnce);
+
+constexpr std::size_t blocksOf(std::size_t pairs) noexcept {
+  return (pairs + kNodeWidth - 1) / kNodeWidth;
+}
+
+/// Number of pairs that can be listed within so much work.
+constexpr std::uint64_t listable(std::uint64_t work) noexcept {
+  constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max() / kListedAtOnce;
+  return kListedAtOnce * std::min(work, kMax);
+}
+
+void copyLane(const NormalConeTree::Node& from, std::size_t lane, NormalConeTree::Node& to,
+              std::size_t at) noexcept {
+  for (std::size_t k = 0; k < 3; ++k) {
+    to.centre[k][at] = from.centre[k][lane];
+    to.n[k][at] = from.n[k][lane];
+    to.u[k][at] = from.u[k][lane];
+    to.half[k][at] = from.half[k][lane];
+  }
+  to.leastN[at] = from.leastN[lane];
+  to.mostU[at] = from.mostU[lane];
+  to.mostV[at] = from.mostV[lane];
+  to.child[at] = from.child[lane];
+}
+
+/// Tests pairs one by one: for all minima with half of the work allowed, then for the nearest only.
+class BoundedTests {
+ public:
+  /// @param query   Its pose is between the centred frames.
+  /// @param limits  Limits of the culls before the tests; tightened on the way.
+  BoundedTests(const BodyPairQuery& query, std::uint64_t maxTests, MinimaCollector& collector,
+               CullLimits& limits) noexcept
+      : tests_(query.scene, query.part, query.sceneFromPart, query.cutoff),
+        collector_(collector),
+        limits_(limits),
+        cutoff_(query.cutoff),
+        maxTests_(maxTests) {}
+
+  void test(std::uint32_t sceneLeaf, std::uint32_t partLeaf) noexcept {
+    if (count_ == maxTests_) {
+      isSpent_ = true;
+      return;
+    }
+    ++count_;
+    Minimum& slot = collector_.slot();
+    if (tests_.test(sceneLeaf, partLeaf, slot)) {
+      nearest_ = std::min(nearest_, slot.lmd.distance);
+      collector_.add();
+    }
+    if (count_ > maxTests_ / 2)
+      limits_.cutoff = std::min(limits_.cutoff, static_cast<float>(kNearestSlack * nearest_));
+  }
+
+  std::uint64_t count() const noexcept { return count_; }
+  /// Every minimum nearer than this was found [m].
+  double completeTo() const noexcept {
+    return isSpent_ ? 0.0 : count_ > maxTests_ / 2 ? std::min(cutoff_, nearest_) : cutoff_;
+  }
+
+ private:
+  const LeafTests tests_;
+  MinimaCollector& collector_;
+  CullLimits& limits_;
+  double cutoff_, nearest_ = std::numeric_limits<double>::infinity();
+  std::uint64_t maxTests_, count_ = 0;
+  bool isSpent_ = false;
+};
+
+}  // namespace
+
+RangeLimits CandidateList::limitsWithin(double share) const noexcept {
+  return rangeLimits({*scene_, *part_, {}, cutoff_}, pose_, relaxed(share * range_, cutoff_, relaxation_));
+}
+
+void CandidateList::build(const BodyPairQuery& query, const MotionRange& range, LmdScratch& scratch,
+                          const Bounds& bounds, double relaxation) {
+  scene_ = &query.scene;
+  part_ = &query.part;
+  cutoff_ = query.cutoff;
+  relaxation_ = relaxation;
+  range_ = range;
+  isUsable_ = true;
+  found_.clear();
+  levelEnds_.fill(0);
+  if (!isQueryValid(query.scene, query.part, query.sceneFromPart, query.cutoff)) return;
+  pose_ = centredPose(query.scene, query.part, query.sceneFromPart);
+  LmdScratch::Data& workspace = scratch.data();
+  const RangeLimits limits = limitsWithin(1.0);
+  TreeTraversal traversal(*scene_, *part_, pose_, limits.still, workspace.openSwept, workspace.traversal);
+  traversal.setSweep(limits.inScene, limits.inPart);
+  isUsable_ = traversal.run(
+      [&](const EntryPair& pair) {
+        if (relaxation_ > 0.0 && !spansContact(pair.scene, pair.part)) return;
+        if (found_.size() <= bounds.pairs)
+          found_.push_back({pair.sceneLane, pair.partLane, kLevels.size() - 1});
+      },
+      bounds.nodePairs);
+  isUsable_ = isUsable_ && found_.size() <= bounds.pairs;
+  if (!isUsable_) {
+    found_.clear();
+    return;
+  }
+  findLevels(workspace);
+  pack();
+}
+
+void CandidateList::findLevels(const LmdScratch::Data& workspace) noexcept {
+  const SinglePose pose(pose_);
+  std::array<RangeLimits, kLevels.size()> limits;
+  for (std::size_t level = 0; level < kLevels.size(); ++level)
+    limits[level] = limitsWithin(kLevels[level]);
+  BoundPairs block;
+  for (std::size_t base = 0; base < found_.size(); base += kNodeWidth) {
+    const std::size_t count = std::min(kNodeWidth, found_.size() - base);
+    // Unused lanes repeat the first pair.
+    for (std::size_t i = 0; i < kNodeWidth; ++i)
+      copyPair(found_[base + (i < count ? i : 0)], block, i);
+    for (std::size_t level = kLevels.size() - 1; level-- > 0;) {
+      const std::uint32_t alive =
+          workspace.sweptPairCull(block, pose, limits[level].still, limits[level].inScene);
+      for (std::size_t i = 0; i < count; ++i) {
+        LanePair& pair = found_[base + i];
+        if (pair.level == level + 1 && (alive >> i & 1U) != 0) pair.level = static_cast<std::uint8_t>(level);
+      }
+    }
+  }
+}
+
+void CandidateList::pack() {
+  for (const LanePair& pair : found_)
+    ++levelEnds_[pair.level];
+  std::array<std::size_t, kLevels.size()> next{};
+  for (std::size_t level = 0, sum = 0; level < kLevels.size(); ++level) {
+    next[level] = sum;
+    sum += levelEnds_[level];
+    levelEnds_[level] = sum;
+  }
+  blocks_.resize(std::max(blocks_.size(), blocksOf(found_.size())));
+  for (const LanePair& pair : found_) {
+    const std::size_t at = next[pair.level]++;
+    copyPair(pair, blocks_[at / kNodeWidth], at % kNodeWidth);
+  }
+  // Unused lanes of the last block repeat its first pair; they are never counted.
+  for (std::size_t i = found_.size(); i % kNodeWidth != 0; ++i) {
+    BoundPairs& block = blocks_[i / kNodeWidth];
+    copyLane(block.scene, 0, block.scene, i % kNodeWidth);
+    copyLane(block.part, 0, block.part, i % kNodeWidth);
+  }
+}
+
+void CandidateList::copyPair(const LanePair& pair, BoundPairs& block, std::size_t at) const noexcept {
+  copyLane(scene_->nodes()[pair.sceneLane / kNodeWidth], pair.sceneLane % kNodeWidth, block.scene, at);
+  copyLane(part_->nodes()[pair.partLane / kNodeWidth], pair.partLane % kNodeWidth, block.part, at);
+}
+
+double CandidateList::spentAt(const RigidTransform& centred) const noexcept {
+  return spentShare(range_, pose_, centred, 0.5 * part_->size());
+}
+
+MotionBudget CandidateList::asideOf(const RigidTransform& centred) const noexcept {
+  const double radius = 0.5 * part_->size();
+  const double time = nearestTime(range_.stretch, pose_, centred, radius);
+  return motionBetween(poseOn(range_.stretch, pose_, time), centred, radius);
+}
+
+double CandidateList::spent(const RigidTransform& sceneFromPart) const noexcept {
+  if (!isUsable_ || !sceneFromPart.isFinite()) return std::numeric_limits<double>::infinity();
+  return spentAt(centredPose(*scene_, *part_, sceneFromPart));
+}
+
+double CandidateList::roomLeft(const RigidTransform& sceneFromPart) const noexcept {
+  if (!isUsable_ || !sceneFromPart.isFinite()) return -std::numeric_limits<double>::infinity();
+  return 1.0 - spentShare(asideOf(centredPose(*scene_, *part_, sceneFromPart)), range_.budget);
+}
+
+bool CandidateList::covers(const RigidTransform& sceneFromPart, double cutoff) const noexcept {
+  return cutoff <= cutoff_ && spent(sceneFromPart) <= 1.0;
+}
+
+std::size_t CandidateList::countFor(double share) const noexcept {
+  for (std::size_t level = 0; level < kLevels.size(); ++level) {
+    if (share <= kLevels[level]) return levelEnds_[level];
+  }
+  return levelEnds_.back();
+}
+
+std::optional<CandidateList::CoveredPose> CandidateList::covered(const RigidTransform& sceneFromPart,
+                                                                 double cutoff) const noexcept {
+  if (!isUsable_ || !(cutoff <= cutoff_) || !sceneFromPart.isFinite()) return std::nullopt;
+  const RigidTransform pose = centredPose(*scene_, *part_, sceneFromPart);
+  const double share = spentAt(pose);
+  if (!(share <= 1.0)) return std::nullopt;
+  const bool isValid = isQueryValid(*scene_, *part_, sceneFromPart, cutoff);
+  return CoveredPose{pose, isValid ? countFor(share) : 0};
+}
+
+template <class Visit>
+std::size_t CandidateList::visitPairs(const RigidTransform& centred, std::size_t count,
+                                      const CullLimits& limits, LmdScratch& scratch,
+                                      Visit&& visit) const noexcept {
+  const SinglePose inSingle(centred);
+  for (std::size_t base = 0; base < count; base += kNodeWidth) {
+    const BoundPairs& block = blocks_[base / kNodeWidth];
+    std::uint32_t lanes = scratch.data().pairCull(block, inSingle, limits);
+    if (count - base < kNodeWidth) lanes &= (1U << (count - base)) - 1U;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      if (!visit(block.scene.child[lane], block.part.child[lane])) return base / kNodeWidth + 1;
+    }
+  }
+  return blocksOf(count);
+}
+
+std::optional<LmdResult> CandidateList::query(const RigidTransform& sceneFromPart, double cutoff,
+                                              LmdScratch& scratch, std::span<Lmd> out,
+                                              std::uint64_t maxWork) const noexcept {
+  const std::optional<CoveredPose> pose = covered(sceneFromPart, cutoff);
+  if (!pose) return std::nullopt;
+  LmdResult result;
+  result.completeTo = cutoff;
+  if (pose->count == 0) return result;
+  const std::uint64_t blocks = blocksOf(pose->count);
+  if (blocks >= maxWork) {
+    result.status = QueryStatus::Truncated;
+    result.completeTo = 0.0;
+    return result;
+  }
+  result.nodePairs = blocks;
+  MinimaCollector collector(scratch.data(), result);
+  CullLimits limits = cullLimits(*scene_, *part_, pose->centred, cutoff);
+  BoundedTests tests({*scene_, *part_, pose->centred, cutoff}, maxWork - blocks, collector, limits);
+  visitPairs(pose->centred, pose->count, limits, scratch,
+             [&](std::uint32_t sceneLeaf, std::uint32_t partLeaf) {
+               tests.test(sceneLeaf, partLeaf);
+               return true;
+             });
+  result.leafPairs = tests.count();
+  result.completeTo = tests.completeTo();
+  if (result.completeTo < cutoff) result.status = QueryStatus::Truncated;
+  collector.finish(*scene_, *part_, out);
+  return result;
+}
+
+std::optional<NearbyPairs> CandidateList::nearbyPairs(const RigidTransform& sceneFromPart,
+                                                      const ContactReach& reach, const MotionBudget& slack,
+                                                      LmdScratch& scratch, std::span<LeafPair> out,
+                                                      std::uint64_t maxWork) const noexcept {
+  if (!(reach.turn <= relaxation_)) return std::nullopt;
+  const std::optional<CoveredPose> pose = covered(sceneFromPart, reach.distance);
+  if (!pose) return std::nullopt;
+  NearbyPairs result;
+  // The budget left for deviation does not depend on the place along the stretch.
+  const MotionBudget aside = asideOf(pose->centred);
+  result.holds = {std::clamp(range_.budget.travel - aside.travel, 0.0, slack.travel),
+                  std::clamp(range_.budget.turn - aside.turn, 0.0, slack.turn)};
+  result.isComplete = true;
+  // Pairs that matter only farther from the middle do not matter at the pose itself.
+  const bool isForPose = !(slack.travel > 0.0) && !(slack.turn > 0.0);
+  const std::size_t count = isForPose ? pose->count : size();
+  if (count == 0) return result;
+  result.isComplete = blocksOf(count) <= maxWork;
+  if (!result.isComplete) return result;
+  const std::span<LeafPair> room = out.first(
+      static_cast<std::size_t>(std::min<std::uint64_t>(out.size(), listable(maxWork - blocksOf(count)))));
+  const BodyPairQuery within{*scene_, *part_, sceneFromPart, reach.distance};
+  result.work =
+      visitPairs(pose->centred, count, contactLimits(within, pose->centred, reach.turn, result.holds),
+                 scratch, [&](std::uint32_t sceneLeaf, std::uint32_t partLeaf) {
+                   result.isComplete = result.count < room.size();
+                   if (result.isComplete) room[result.count++] = {sceneLeaf, partLeaf};
+                   return result.isComplete;
+                 });
+  result.work += blocksOf(result.count);
+  return result;
+}
+
+bool isClearWithin(const BodyPairQuery& query, const MotionBudget& budget, LmdScratch& scratch,
+                   std::uint64_t maxNodePairs) noexcept {
+  if (!isQueryValid(query.scene, query.part, query.sceneFromPart, query.cutoff)) return true;
+  const RigidTransform pose = centredPose(query.scene, query.part, query.sceneFromPart);
+  LmdScratch::Data& workspace = scratch.data();
+  const CullLimits limits = rangeLimits(query, pose, {{}, budget}).still;
+  TreeTraversal traversal(query.scene, query.part, pose, limits, workspace.open, workspace.traversal);
+  bool isClear = true;
+  return traversal.run([&](const EntryPair&) { isClear = false; }, maxNodePairs) && isClear;
+}
+
+}  // namespace nearfit

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "core/math/rigid_transform.h"
+#include "core/proximity/query/motion_budget.h"
+
+namespace nearfit {
+
+/// Plan of a search ahead: the middle of a stretch of the path, and the range about it.
+struct SearchPlan {
+  RigidTransform pose;
+  MotionRange range;
+};
+
+/// Forecasts a part's motion from its recent motion, to plan searches for what its next ticks need.
+///
+/// A search's result serves from the end of that search to the end of the next. The plan follows the path
+/// that the part would take by itself in that time, give or take the deviation seen recently. Real-time safe.
+class MotionForecast {
+ public:
+  MotionForecast() = default;
+  /// @param centre  Centre of the part in its own frame [m].
+  /// @param radius  Radius of a sphere about the centre that holds the part [m].
+  MotionForecast(const glm::dvec3& centre, double radius) noexcept : centre_(centre), radius_(radius) {}
+
+  /// Records the part's current pose; ignores one that is not finite.
+  /// @param ticks  Ticks since the last call; > 0.
+  void observe(const RigidTransform& pose, double ticks) noexcept;
+  const RigidTransform& pose() const noexcept { return pose_; }  ///< Latest pose.
+
+  /// Until the next observe(), treats the part as held up where it is, then moving as its leader does. Its
+  /// own motion only shows how long it waited, not where it will go.
+  /// @param leader  Forecast of the hand that leads it; ignored if it has observed nothing.
+  void goAs(const MotionForecast& leader) noexcept;
+
+  /// Reports the lead: ticks from the start of a search until a tick has its result; 0 if the tick waits for
+  /// it. The longest recent lead counts.
+  void setLead(double ticks) noexcept;
+
+  /// Returns the pose expected in the first tick after a search that starts now; in the next if held up.
+  RigidTransform poseWhenReady() const noexcept;
+
+  /// Plans a search that starts now.
+  /// @param cutoff  Cutoff of the search [m]; bounds the budget for deviation.
+  /// @param share   Share of the time that the result should serve; a smaller share leaves less to find.
+  SearchPlan plan(double cutoff, double share = 1.0) const noexcept;
+
+ private:
+  RigidTransform poseAhead(double ticks) const noexcept;
+  void checkProbe(const RigidTransform& centred, double ticks) noexcept;
+
+  glm::dvec3 centre_{0.0};
+  double radius_ = 0.0;
+  RigidTransform pose_;
+  bool hasPose_ = false;
+  bool isHeldUp_ = false;
+  bool wasJump_ = false;
+  /// Motion of the centre per tick, and its growth from tick to tick.
+  MotionStretch velocity_, trend_;
+  MotionBudget fastest_;  ///< Fastest recent motion, per tick.
+  /// Path forecast some ticks ago, to compare with the one taken.
+  struct Probe {
+    RigidTransform from;  ///< Pose of the centre.
+    MotionStretch velocity, trend;
+    double age = 0.0;  ///< [ticks]
+  };
+  Probe probe_;
+  MotionBudget error_;       ///< Max recent deviation from the forecast path, one tick ahead.
+  double lead_ = 0.0;        ///< [ticks]
+  double generosity_ = 1.0;  ///< Factor of the budget for deviation.
+};
+
+}  // namespace nearfit

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/proximity/query/lmd_query.h"
+#include "core/servo/minima_allowance.h"
+#include "core/servo/servo_snapshot.h"
+#include "core/servo/tracked_scene.h"
+
+namespace nearfit {
+
+/// Finds the exact minima of the moving part with all bodies around it, for display and springs.
+class MinimaFinder {
+ public:
+  /// Max minima kept for each body. If there are more, the nearest are kept, and the result says truncated.
+  static constexpr std::size_t kMaxPerBody = 4096;
+  /// Max work of a tick on bodies that are searched anew: some 1.5 ms on a slow core. Beyond it the nearest
+  /// minima of a body are kept, and the result says truncated.
+  static constexpr std::uint64_t kMaxNodePairs = 1U << 15;
+  /// For springs, whose force depends on the minima: as much as lists and work space hold.
+  static constexpr MinimaAllowance kFelt{1U << 18, mostMergeWork(LmdScratch::kDefaultCapacity)};
+  /// For minima that are only shown: on a slow core some 0.4 ms of search and 1.6 ms of merging, enough
+  /// for 400 pieces.
+  static constexpr MinimaAllowance kShown{1U << 13, 1U << 15};
+
+  struct Result {
+    std::uint32_t count = 0;       ///< Minima found, of all bodies.
+    std::uint32_t lateBodies = 0;  ///< Bodies searched anew, since no list covered the pose.
+    bool isTruncated = false;      ///< Minima may be missing.
+    bool isPoseBad = false;        ///< The pose of a body is invalid.
+    double distance = 0.0;         ///< Distance of the nearest minimum [m]; infinity if there is none.
+    double completeTo = 0.0;       ///< Every minimum nearer than this was found [m].
+    /// Pairs of nodes and features visited, and merging. For a reused result, the work that it
+    /// took originally.
+    std::uint64_t work = 0;
+  };
+
+  /// Max bodies whose minima are kept for reuse in the next tick.
+  static constexpr std::size_t kMaxKeptBodies = 256;
+
+  /// Allocates all work space.
+  MinimaFinder();
+
+  /// Finds the minima within the cutoff, with an allowance of work for all bodies together. Beyond the
+  /// allowance minima are left out, the nearest last, and the result says truncated.
+  ///
+  /// Calls feel(span of minima in world coordinates) once for each body that may be near; the span may be
+  /// empty. Minima come from the lists where they cover the pose, else from a search bounded by
+  /// kMaxNodePairs. Far bodies cost nothing. If nothing has changed since the last call (the tracked scene by
+  /// its serial, all else bit for bit), nothing is searched: feel() gets the same minima again.
+  ///
+  /// @param cutoff     [m]; finite, > 0.
+  /// @param apart      Lower bound on the distance to the bodies that do not overlap the part
+  ///                   [m]; 0 if unknown.
+  /// @param allowance  kFelt, or kShown if no force depends on the minima.
+  /// Real-time safe.
+  template <class Feel>
+  Result find(const TrackedScene& tracked, const RigidTransform& worldFromPart, double cutoff, double apart,
+              const MinimaAllowance& allowance, Feel&& feel) noexcept {
+    const Question question = questionOf(tracked, worldFromPart, {cutoff, apart}, allowance);
+    if (isAnswerKept_ && tracked.serial != 0 && question == asked_) {
+      result_.lateBodies = 0;
+      for (const std::span<const Lmd> found : std::span(kept_).first(keptCount_))
+        feel(found);
+      return result_;
+    }
+    begin(question, allowance);
+    if (tracked.scene->moving.geometry == nullptr) return result_;
+    tracked.visitNear(worldFromPart, cutoff, [&](std::uint32_t body, const TrackedScene::Near* known) {
+      const CandidateList* list = known != nullptr ? known->list.get() : nullptr;
+      const bool overlaps = tracked.clearance.overlaps(body);
+      const Task task{*tracked.scene, body, list, overlaps ? 0.0 : apart};
+      const std::span<const Lmd> found = findOne(task, worldFromPart, cutoff);
+      feel(found);
+      keep(found);
+    });
+    isAnswerKept_ = isAnswerKept_ && !result_.isPoseBad;
+    return result_;
+  }
+
+  /// Writes the nearest minima of the last find(), and its counts, to the snapshot. Real-time safe.
+  void write(ServoSnapshot& snapshot) const noexcept;
+
+ private:
+  /// Everything that a result depends on, bit for bit: +0 and -0 differ.
+  using Question = std::array<std::uint64_t, 12>;
+  /// @param lengths  Cutoff, and lower bound on the distance [m].
+  static Question questionOf(const TrackedScene& tracked, const RigidTransform& worldFromPart,
+                             const std::array<double, 2>& lengths, const MinimaAllowance& allowance) noexcept;
+
+  struct Task {
+    const ServoScene& scene;
+    std::uint32_t body;
+    const CandidateList* list;  ///< May be null.
+    double apart;
+  };
+
+  void begin(const Question& question, const MinimaAllowance& allowance) noexcept;
+  void spend(const LmdResult& result) noexcept;
+  /// Room for the minima of one more body.
+  std::span<Lmd> roomForOne() noexcept;
+  void keep(std::span<const Lmd> found) noexcept;
+  std::span<const Lmd> findOne(const Task& task, const RigidTransform& worldFromPart, double cutoff) noexcept;
+  LmdResult search(const Task& task, const RigidTransform& bodyFromPart, double cutoff,
+                   std::span<Lmd> out) noexcept;
+  void keepForDisplay(PartId other, std::span<const Lmd> found) noexcept;
+
+  LmdScratch scratch_;
+  std::vector<Lmd> lmds_;                   ///< Minima of one body after another, while there is room.
+  std::vector<std::span<const Lmd>> kept_;  ///< Minima of each body; the first keptCount_ are in use.
+  std::size_t usedLmds_ = 0, keptCount_ = 0;
+  Question asked_{};
+  bool isAnswerKept_ = false;  ///< The minima found for the last question are all kept.
+  /// Nearest minima of all bodies so far; the first displayCount_ are in use.
+  std::vector<SnapshotLmd> display_;
+  std::size_t displayCount_ = 0;
+  MinimaAllowance left_;
+  std::uint64_t nodePairsLeft_ = 0;
+  bool displayWasCut_ = false;
+  Result result_;
+};
+
+}  // namespace nearfit

@@ -1,0 +1,204 @@
+#include "core/servo/scene_tracker.h"
+
+#include <algorithm>
+#include <atomic>
+#include <iterator>
+#include <utility>
+
+#include "core/servo/overlap_check.h"
+
+namespace nearfit {
+namespace {
+
+/// Other bodies must be clear by this multiple of the lists' budget: looking at them again is cheap, but
+/// every listed body costs each tick a little.
+constexpr double kClearance = 8.0;
+
+/// Unique among all trackers.
+std::uint64_t nextSerial() noexcept {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
+bool isBefore(const TrackedScene::Near& a, const TrackedScene::Near& b) noexcept {
+  return a.body < b.body;
+}
+
+}  // namespace
+
+void SceneTracker::setScene(std::shared_ptr<const ServoScene> scene) {
+  TrackedScene next = untracked(std::move(scene));
+  const auto isSame = [](const ServoScene::Body& a, const ServoScene::Body& b) {
+    return a.id == b.id && a.geometry == b.geometry;
+  };
+  if (current_.scene && isSame(current_.scene->moving, next.scene->moving)) {
+    for (const TrackedScene::Near& entry : current_.near) {
+      const ServoScene::Body& body = current_.scene->bodies[entry.body];
+      const auto found = std::find_if(next.scene->bodies.begin(), next.scene->bodies.end(),
+                                      [&](const ServoScene::Body& b) { return isSame(b, body); });
+      if (found == next.scene->bodies.end()) continue;
+      next.near.push_back(
+          {static_cast<std::uint32_t>(found - next.scene->bodies.begin()), entry.list, entry.contacts});
+    }
+    std::sort(next.near.begin(), next.near.end(), isBefore);
+  } else if (next.scene->moving.geometry) {
+    const Aabb& box = next.scene->moving.geometry->mesh.bounds();
+    forecast_ = hand_ = MotionForecast(box.centre(), 0.5 * box.diagonal());
+    forecast_.observe(next.scene->moving.worldFromPart, 1.0);
+  }
+  current_ = std::move(next);
+  memory_.assign(current_.scene->bodies.size(), {});
+}
+
+void SceneTracker::observeTick(const ServoSnapshot& snapshot, double ticks) noexcept {
+  observe(snapshot.proxy, ticks);
+  observeHand(snapshot.handle, ticks);
+  setWaiting(snapshot.isWaiting);
+  setStarved(snapshot.isStarved);
+}
+
+TrackedPair SceneTracker::pairOf(std::uint32_t index) const noexcept {
+  const ServoScene::Body& body = current_.scene->bodies[index];
+  return {body.geometry->tree(), current_.scene->moving.geometry->tree(), body.worldFromPart};
+}
+
+ListPurpose SceneTracker::forMinima(const SearchReach& reach) const noexcept {
+  ListPurpose purpose{.cutoff = reach.cutoff, .planCutoff = reach.cutoff};
+  // If minima are only shown, contacts must not wait for a long search.
+  if (reach.contact > 0.0) purpose.part = purpose.least = purpose.whole;
+  return purpose;
+}
+
+ListPurpose SceneTracker::forContacts(const SearchReach& reach) const noexcept {
+  const double turn = contactTurn(reach.contact, current_.scene->metric.radius);
+  // The proxy tries steps before it takes them, so there must be room for some, even around a part at rest.
+  return {.cutoff = reach.contact,
+          .planCutoff = reach.widest(),
+          .relaxation = turn,
+          .leastRoom = {reach.contact, turn},
+          .whole = {1U << 15, 1U << 16},
+          // A tick goes through a whole list several times.
+          .part = {1U << 16, 1U << 18},
+          .least = {1U << 17, 1U << 20},
+          // A starved part gets a list around it; if it is already at the middle of one, no other is better.
+          .roomToKeep = isStarved_ ? 0.98 : 0.5};
+}
+
+bool SceneTracker::willServe(const TrackedScene::Near& entry, const SearchReach& reach) const noexcept {
+  const TrackedPair pair = pairOf(entry.body);
+  if (entry.list && !nearfit::willServe(*entry.list, pair, forecast_, forMinima(reach))) return false;
+  if (entry.contacts) return nearfit::willServe(*entry.contacts, pair, forecast_, forContacts(reach));
+  // There may have been too many pairs for the motion predicted then.
+  return !(isStarved_ && hasContacts(entry.body, reach));
+}
+
+bool SceneTracker::hasContacts(std::uint32_t body, const SearchReach& reach) const noexcept {
+  return reach.contact > 0.0 && !current_.scene->bodies[body].surface;
+}
+
+bool SceneTracker::isClearanceDue(const SearchReach& reach) const noexcept {
+  if (reach.contact <= 0.0) return false;
+  const Clearance& known = current_.clearance;
+  if (known.serial == 0) return true;
+  const RigidTransform &then = known.worldFromPart, &now = forecast_.pose();
+  const bool hasMoved = then.translation != now.translation || then.rotation != now.rotation;
+  // Bodies that overlapped may have come apart.
+  return isWaiting_ ? hasMoved || known.distance > 0.0 : hasMoved && !known.overlapping->empty();
+}
+
+bool SceneTracker::isDue(const SearchReach& reach) const noexcept {
+  if (!current_.scene || !current_.scene->moving.geometry) return false;
+  if (isClearanceDue(reach)) return true;
+  if (current_.reach != reach || !(current_.spent(forecast_.pose(), reach.widest()) <= 1.0) ||
+      !(current_.spent(forecast_.poseWhenReady(), reach.widest()) <= 1.0)) {
+    return true;
+  }
+  return std::any_of(current_.near.begin(), current_.near.end(),
+                     [&](const TrackedScene::Near& entry) { return !willServe(entry, reach); });
+}
+
+void SceneTracker::refresh(const SearchReach& reach, TrackedScene& out) {
+  const double cutoff = reach.widest();
+  if (current_.scene->moving.geometry) {
+    const SearchPlan plan = forecast_.plan(cutoff);
+    const double radius = 0.5 * current_.scene->moving.geometry->mesh.bounds().diagonal();
+    const std::vector<TrackedScene::Near> former = std::exchange(current_.near, {});
+    current_.worldFromPart = plan.pose;
+    current_.cutoff = 0.0;  // If memory runs out below, nothing is known.
+    const auto wide =
+        std::find_if(std::begin(kWideClearances), std::end(kWideClearances), [&](double factor) {
+          current_.clear = clearance(factor, plan, radius);
+          return isAllClear(cutoff, former);
+        });
+    if (wide == std::end(kWideClearances)) {
+      current_.clear = clearance(kClearance, plan, radius);
+      findNear(reach, former);
+    }
+    current_.cutoff = cutoff;
+    current_.reach = reach;
+    if (isClearanceDue(reach)) {
+      current_.clearance =
+          findClearance(*current_.scene, *current_.bounds, forecast_.pose(), reach.widest(), scratch_);
+      current_.clearance.serial = ++lastSerial_;
+    }
+  }
+  current_.serial = nextSerial();
+  out = current_;
+}
+
+bool SceneTracker::isClearOf(std::uint32_t body, double cutoff) noexcept {
+  // An unsided surface is near if its box is: minima do not tell.
+  if (current_.scene->bodies[body].surface) return false;
+  const BodyPairQuery query = pairOf(body).queryAt(current_.worldFromPart, cutoff);
+  // The tick reports invalid poses.
+  return query.sceneFromPart.isFinite() && isClearWithin(query, current_.clear, scratch_, kClearNodePairs);
+}
+
+bool SceneTracker::isAllClear(double cutoff, const std::vector<TrackedScene::Near>& former) noexcept {
+  const auto isClear = [&](std::uint32_t body) { return isClearOf(body, cutoff); };
+  // Former near bodies most likely still are; ask them before the thousands that so wide a sphere may hold.
+  if (!std::all_of(former.begin(), former.end(), [&](const auto& entry) { return isClear(entry.body); }))
+    return false;
+  const MovingBounds moving = movingBounds(*current_.scene, current_.worldFromPart);
+  return current_.bounds->isEachNear(moving.centre, moving.radius + cutoff + current_.clear.travel, isClear);
+}
+
+void SceneTracker::findNear(const SearchReach& reach, const std::vector<TrackedScene::Near>& former) {
+  const MovingBounds moving = movingBounds(*current_.scene, current_.worldFromPart);
+  const double cutoff = reach.widest();
+  current_.bounds->visitNear(moving.centre, moving.radius + cutoff + current_.clear.travel,
+                             [&](std::uint32_t body) { current_.near.push_back({body, nullptr, nullptr}); });
+  std::sort(current_.near.begin(), current_.near.end(), isBefore);
+  std::erase_if(current_.near, [&](TrackedScene::Near& entry) {
+    TrackedScene::Near old{};
+    const auto found = std::lower_bound(former.begin(), former.end(), entry, isBefore);
+    if (found != former.end() && found->body == entry.body) old = *found;
+    const bool wasListed = old.list && willServe({entry.body, old.list, nullptr}, reach);
+    if (!wasListed && isClearOf(entry.body, cutoff)) return true;
+    // With springs a tick needs all minima: making a list is worth any attempt.
+    Memory& memory = memory_[entry.body];
+    if (!(reach.contact > 0.0)) memory = {};
+    entry.list = renewed(old.list, entry.body, forMinima(reach), memory.minima);
+    if (hasContacts(entry.body, reach))
+      entry.contacts = renewed(old.contacts, entry.body, forContacts(reach), memory.contacts);
+    return false;
+  });
+}
+
+std::shared_ptr<const CandidateList> SceneTracker::renewed(const std::shared_ptr<const CandidateList>& former,
+                                                           std::uint32_t body, const ListPurpose& purpose,
+                                                           PlanMemory& memory) {
+  if (former && nearfit::willServe(*former, pairOf(body), forecast_, purpose)) return former;
+  const std::shared_ptr<CandidateList> list = spareList();
+  return buildForPlan(*list, pairOf(body), forecast_, purpose, scratch_, memory) ? list : nullptr;
+}
+
+std::shared_ptr<CandidateList> SceneTracker::spareList() {
+  // Only this thread changes the counts: the servo thread never copies a list.
+  for (const std::shared_ptr<CandidateList>& list : pool_) {
+    if (list.use_count() == 1) return list;
+  }
+  return pool_.emplace_back(std::make_shared<CandidateList>());
+}
+
+}  // namespace nearfit

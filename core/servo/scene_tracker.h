@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/proximity/query/lmd_query.h"
+#include "core/proximity/tracking/lmd_tracker.h"
+#include "core/proximity/tracking/motion_forecast.h"
+#include "core/servo/servo_snapshot.h"
+#include "core/servo/tracked_scene.h"
+
+namespace nearfit {
+
+/// Keeps a TrackedScene ahead of the motion of its moving part. For a thread beside the servo: it allocates,
+/// and its work is not bounded.
+///
+/// Each near body has its own list, which is searched anew only when it will soon no longer serve. Other
+/// bodies are looked at again when the motion could have brought one near. A late search costs the servo a
+/// cold query, never the exactness of the set.
+class SceneTracker {
+ public:
+  SceneTracker() = default;
+
+  /// Replaces the scene. Lists stay in use for bodies whose geometry, and that of the moving part,
+  /// are unchanged.
+  void setScene(std::shared_ptr<const ServoScene> scene);
+
+  /// Records the pose of the moving part.
+  /// @param ticks  Servo ticks since the last call; > 0.
+  void observe(const RigidTransform& worldFromPart, double ticks) noexcept {
+    forecast_.observe(worldFromPart, ticks);
+  }
+  /// Records the pose where the hand wants the part. If it is known, a part that waits for lists is expected
+  /// to go on as the hand does.
+  void observeHand(const RigidTransform& worldFromPart, double ticks) noexcept {
+    hand_.observe(worldFromPart, ticks);
+  }
+  /// Records all that a tick tells about its part, its hand and what the proxy waits for. Must be called for
+  /// each tick: a proxy that starves unnoticed stands still for good.
+  void observeTick(const ServoSnapshot& snapshot, double ticks) noexcept;
+  /// See MotionForecast::setLead().
+  void setLead(double ticks) noexcept { forecast_.setLead(ticks); }
+
+  /// Sets whether the servo's proxy waits to know what it overlaps where it is now.
+  void setWaiting(bool isWaiting) noexcept { isWaiting_ = isWaiting; }
+  /// Sets whether lists of contacts fall short of where the proxy would go from where it was last observed.
+  /// They are then renewed around it, unless they were made there, and tried again where none could be made.
+  void setStarved(bool isStarved) noexcept {
+    isStarved_ = isStarved;
+    if (isStarved) forecast_.goAs(hand_);
+  }
+
+  /// True if the known data will no longer serve when a search that starts now has ended.
+  bool isDue(const SearchReach& reach) const noexcept;
+
+  /// Renews what is due for the time ahead, and copies everything to `out`.
+  /// @param reach  searchReach() of the settings.
+  void refresh(const SearchReach& reach, TrackedScene& out);
+
+ private:
+  bool willServe(const TrackedScene::Near& entry, const SearchReach& reach) const noexcept;
+  bool hasContacts(std::uint32_t body, const SearchReach& reach) const noexcept;
+  ListPurpose forMinima(const SearchReach& reach) const noexcept;
+  ListPurpose forContacts(const SearchReach& reach) const noexcept;
+  bool isClearanceDue(const SearchReach& reach) const noexcept;
+  bool isClearOf(std::uint32_t body, double cutoff) noexcept;
+  bool isAllClear(double cutoff, const std::vector<TrackedScene::Near>& former) noexcept;
+  void findNear(const SearchReach& reach, const std::vector<TrackedScene::Near>& former);
+  std::shared_ptr<const CandidateList> renewed(const std::shared_ptr<const CandidateList>& former,
+                                               std::uint32_t body, const ListPurpose& purpose,
+                                               PlanMemory& memory);
+  std::shared_ptr<CandidateList> spareList();
+  TrackedPair pairOf(std::uint32_t body) const noexcept;
+
+  TrackedScene current_;
+  /// For each body of the scene: how much of a plan its recent lists could cover.
+  struct Memory {
+    PlanMemory minima, contacts;
+  };
+  std::vector<Memory> memory_;
+  std::uint64_t lastSerial_ = 0;  ///< Of the last clearance.
+  bool isWaiting_ = false, isStarved_ = false;
+  MotionForecast forecast_, hand_;
+  LmdScratch scratch_;
+  /// Lists return here, with their storage, when the last TrackedScene that uses them is overwritten.
+  std::vector<std::shared_ptr<CandidateList>> pool_;
+};
+
+}  // namespace nearfit

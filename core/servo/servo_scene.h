@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/haptics/mass_metric.h"
+#include "core/math/rigid_transform.h"
+#include "core/proximity/surface/unsided_surface.h"
+#include "core/scene/scene.h"
+
+namespace nearfit {
+
+/// Data that the servo thread needs of a scene. Immutable once shared; made and destroyed off the servo
+/// thread. Keeps the geometry alive.
+struct ServoScene {
+  /// A part as the servo knows it.
+  struct Body {
+    PartId id{};
+    PartGeometryPtr geometry;
+    RigidTransform worldFromPart;
+    /// Set if the moving part or this one has no inside (is open or has no consistent orientation): contact
+    /// then counts from any side. Otherwise null.
+    std::shared_ptr<const UnsidedSurface> surface{};
+  };
+  std::vector<Body> bodies;      ///< Visible parts other than the moving one.
+  Body moving;                   ///< The moving part; its geometry is null if there is none.
+  glm::dvec3 centreInPart{0.0};  ///< Centre of mass of the moving part, in its frame [m].
+  double mass = 1.0;             ///< Mass of the moving part [kg]; > 0.
+  MassMetric metric;             ///< Metric of the moving part.
+
+  /// Sets the moving part and everything that belongs to it except its mass.
+  void setMoving(const Body& body);
+  /// Sets the surfaces of bodies that have no inside, and of what meets them. To be called last.
+  void prepareSurfaces();
+  /// True if some contacts are between unsided surfaces.
+  bool hasSurfaces() const noexcept { return moving.surface != nullptr; }
+};
+
+/// The scene for the servo. It has no bodies while the moving part is invisible, so nothing is felt. Builds
+/// missing hierarchies, which takes seconds for millions of triangles; prepareHierarchies() does so
+/// beforehand, with progress. Throws UsageError if the scene has no moving part.
+std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene);
+
+}  // namespace nearfit

@@ -1,0 +1,229 @@
+#include "core/servo/servo_tick.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "core/haptics/spring_law.h"
+#include "core/math/finite.h"
+#include "core/servo/servo_faults.h"
+
+namespace nearfit {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begin) noexcept {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Zero for tiny velocities: one that decays at rest would stay among the denormals, where
+/// arithmetic is slow.
+glm::dvec3 withoutTraces(const glm::dvec3& velocity) noexcept {
+  return glm::length(velocity) < 1e-100 ? glm::dvec3(0.0) : velocity;
+}
+
+/// Mean velocity between two poses, at a point that both carry.
+Twist twistBetween(const RigidTransform& from, const RigidTransform& to, const glm::dvec3& centre,
+                   double period) noexcept {
+  return {(to.applyToPoint(centre) - from.applyToPoint(centre)) / period,
+          turnBetween(from.rotation, to.rotation) / period};
+}
+
+void clearOutputs(ServoSnapshot& snapshot) noexcept {
+  snapshot.wrench = snapshot.unclampedWrench = snapshot.deviceWrench = Wrench{};
+  snapshot.distance = std::numeric_limits<double>::infinity();
+  snapshot.queryTime = snapshot.proxyTime = 0.0;
+  snapshot.work = 0;
+  snapshot.lmdCount = snapshot.storedLmds = snapshot.lateBodies = 0;
+  snapshot.subSteps = snapshot.shortenedSteps = snapshot.refusedSteps = 0;
+  snapshot.constraintCount = snapshot.contactCount = snapshot.storedContacts = snapshot.releasedCount = 0;
+  snapshot.isTruncated = snapshot.isClamped = snapshot.isWaiting = snapshot.isStarved = false;
+  snapshot.coupling = {};
+}
+
+}  // namespace
+
+void ServoTick::reset() noexcept {
+  mapper_ = {};
+  periodMeter_ = PeriodMeter{};
+  passivity_.reset();
+  conditioner_ = {};
+  partStep_ = {};
+  held_ = {};
+  hasPose_ = false;
+  shownReach_.reset();
+  isToBeShown_ = false;
+  fault_ = ServoFault::None;
+}
+
+void ServoTick::run(const TrackedScene& tracked, const ServoParameters& parameters, const HandleInput& input,
+                    double period, ServoSnapshot& snapshot) noexcept {
+  feel(tracked, parameters, input, period, snapshot);
+  show(tracked, parameters, snapshot);
+}
+
+void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& parameters, const HandleInput& input,
+                     double period, ServoSnapshot& snapshot) noexcept {
+  const ServoScene& scene = *tracked.scene;
+  const HapticSettings& settings = parameters.haptics;
+  clearOutputs(snapshot);
+  isToBeShown_ = false;
+  snapshot.moving = scene.moving.id;
+  snapshot.mode = settings.mode;
+  snapshot.isClutched = input.isClutched;
+  if (scene.moving.id != moving_) {
+    hasPose_ = false;
+    shownReach_.reset();
+  }
+  moving_ = scene.moving.id;
+  if (fault_ == ServoFault::None) fault_ = faultOfInput(settings, parameters.limits, input.pose, period);
+  if (!hasPose_) handle_.pose = part_.pose = scene.moving.worldFromPart;
+
+  const DeviceLimits limits = limitsAtHandle(parameters.limits, settings.mapping.scale);
+  const Tick tick{{tracked, scene, settings, snapshot}, limits, period};
+  if (fault_ == ServoFault::None) {
+    periodMeter_.add(period);
+    // The pivot is the centre of mass, about which torques are.
+    const RigidTransform device = input.pose.normalized();
+    if (!hasPose_)
+      mapper_.engageAt(device, input.hasOwnFrame ? part_.pose.normalized() : device, scene.centreInPart);
+    if (input.returnsToPart && hasPose_) letGo(device, scene.centreInPart);
+    takePose(tick, mapper_.map(device, input.isClutched, settings.mapping));
+    const bool isFelt = input.isArmed && !input.isClutched;
+    if (isFelt != conditioner_.isEngaged()) isFelt ? conditioner_.engage() : conditioner_.disengage();
+    Wrench wrench = settings.mode == HapticMode::Proxy ? feelProxy(tick) : feelSprings(tick);
+    const Wrench damping = passivity_.damping(limits, period);
+    wrench.force += damping.force;
+    wrench.torque += damping.torque;
+    const bool isUsable = isFinite(wrench.force) && isFinite(wrench.torque);
+    if (fault_ == ServoFault::None && !isUsable) fault_ = ServoFault::WrenchNotFinite;
+    if (fault_ == ServoFault::None) send(tick, wrench, input);
+  }
+  if (fault_ != ServoFault::None) {
+    conditioner_ = {};
+    held_ = {};
+  }
+  snapshot.handle = handle_.pose;
+  snapshot.proxy = part_.pose;
+  snapshot.centre = part_.pose.applyToPoint(scene.centreInPart);
+  snapshot.period = periodMeter_.heldPeriod();
+  snapshot.energyToHand = passivity_.energyToHand();
+  snapshot.fault = fault_;
+}
+
+void ServoTick::letGo(const RigidTransform& device, const glm::dvec3& centreInPart) noexcept {
+  // At rest: the way back is not motion of the hand.
+  handle_ = {part_.pose.normalized(), {}};
+  mapper_.engageAt(device, handle_.pose, centreInPart);
+}
+
+BodyMotion ServoTick::smoothed(const BodyMotion& before, const RigidTransform& pose, const glm::dvec3& centre,
+                               double period) const noexcept {
+  const Twist now = twistBetween(before.pose, pose, centre, period);
+  const double share = period / (kVelocityTimeConstant + period);
+  return {pose,
+          {withoutTraces(before.twist.linear + share * (now.linear - before.twist.linear)),
+           withoutTraces(before.twist.angular + share * (now.angular - before.twist.angular))}};
+}
+
+void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcept {
+  const bool isProxy = tick.settings.mode == HapticMode::Proxy;
+  coupling_ =
+      boundedCoupling(tick.settings.coupling, tick.limits, tick.scene.metric, periodMeter_.heldPeriod());
+  felt_ = feltBody(tick.settings.weight, tick.scene.mass, tick.limits.maxForce);
+  if (!hasPose_) {
+    handle_ = {handle, {}};
+    part_ = {isProxy ? tick.scene.moving.worldFromPart.normalized() : handle, {}};
+    partStep_ = {};
+    partShift_ = glm::dvec3(0.0);
+    proxy_.place(part_.pose);
+    conditioner_.engage();
+    hasPose_ = true;
+  } else {
+    const RigidTransform before = handle_.pose;
+    handle_ = smoothed(handle_, handle, tick.scene.centreInPart, tick.period);
+    account(tick, before);
+    // With springs the part may be anywhere, so what it overlaps is not known.
+    if (isProxy && mode_ != HapticMode::Proxy) proxy_.place(part_.pose);
+  }
+  mode_ = tick.settings.mode;
+}
+
+void ServoTick::movePart(const Tick& tick, const RigidTransform& pose) noexcept {
+  partStep_ = twistBetween(part_.pose, pose, tick.scene.centreInPart, tick.period);
+  partShift_ = tick.period * partStep_.linear;
+  part_ = smoothed(part_, pose, tick.scene.centreInPart, tick.period);
+}
+
+Wrench ServoTick::feelSprings(const Tick& tick) noexcept {
+  movePart(tick, handle_.pose);
+  Wrench sum{felt_.weight, glm::dvec3(0.0)};
+  findMinima(tick, 1.0, &tick.settings.springs, sum);
+  return sum;
+}
+
+bool ServoTick::areBodiesPlaced(const Tick& tick) const noexcept {
+  bool arePlaced = true;
+  tick.tracked.visitNear(part_.pose, tick.settings.springs.cutoff,
+                         [&](std::uint32_t body, const TrackedScene::Near*) {
+                           arePlaced = arePlaced && isPose(tick.scene.bodies[body].worldFromPart);
+                         });
+  return arePlaced;
+}
+
+Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
+  const ServoScene& scene = tick.scene;
+  tick.snapshot.coupling = coupling_;
+  isToBeShown_ = true;
+  if (scene.moving.geometry == nullptr) {
+    movePart(tick, handle_.pose);
+  } else {
+    const BodyMotion target = freeStep(felt_, coupling_, scene.metric, scene.centreInPart, handle_,
+                                       {part_.pose, partStep_}, tick.period);
+    const Clock::time_point begin = Clock::now();
+    // The target is not normalised: a free part must match the hand bit for bit, so that there is no force.
+    if (!areBodiesPlaced(tick))
+      fault_ = ServoFault::PoseNotFinite;
+    else if (isPose(target.pose))
+      proxy_.follow(tick.tracked, target.pose, tick.settings.proxy, turnScale(coupling_, scene.metric));
+    else
+      fault_ = ServoFault::WrenchNotFinite;
+    tick.snapshot.proxyTime = secondsSince(begin) - proxy_.queryTime();
+    tick.snapshot.queryTime += proxy_.queryTime();
+    movePart(tick, proxy_.pose());
+  }
+  return couplingWrench(coupling_, scene.metric, scene.centreInPart, handle_, part_);
+}
+
+void ServoTick::account(const Tick& tick, const RigidTransform& handleBefore) noexcept {
+  const glm::dvec3& centre = tick.scene.centreInPart;
+  HandInterval interval;
+  interval.held = held_;
+  interval.shift = handle_.pose.applyToPoint(centre) - handleBefore.applyToPoint(centre);
+  interval.turn = turnBetween(handleBefore.rotation, handle_.pose.rotation);
+  interval.duration = tick.period;
+  interval.weight = felt_.weight;
+  interval.partShift = partShift_;
+  double stored = PassivityController::kMaxDebt;
+  if (tick.settings.mode == HapticMode::Proxy) {
+    stored = storedEnergy(coupling_, tick.scene.metric, centre, handle_.pose, part_.pose, tick.limits) +
+             kineticEnergy(felt_, tick.scene.metric, {part_.pose, partStep_});
+  }
+  passivity_.observe(interval, tick.limits, stored);
+}
+
+void ServoTick::send(const Tick& tick, const Wrench& wrench, const HandleInput& input) noexcept {
+  const ConditionedWrench sent =
+      conditioner_.condition(wrench, input.age, tick.period, tick.limits, input.patience);
+  tick.snapshot.unclampedWrench = wrench;
+  tick.snapshot.wrench = sent.wrench;
+  tick.snapshot.isClamped = sent.isClamped;
+  tick.snapshot.deviceWrench = wrenchOnDevice(sent.wrench, tick.settings.mapping);
+  held_ = sent.wrench;
+}
+
+}  // namespace nearfit

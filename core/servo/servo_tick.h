@@ -1,0 +1,134 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/haptics/device_limits.h"
+#include "core/haptics/free_motion.h"
+#include "core/haptics/handle_input.h"
+#include "core/haptics/haptic_settings.h"
+#include "core/haptics/passivity_controller.h"
+#include "core/haptics/period_meter.h"
+#include "core/haptics/workspace_mapper.h"
+#include "core/haptics/wrench_conditioner.h"
+#include "core/servo/minima_finder.h"
+#include "core/servo/proxy.h"
+#include "core/servo/servo_snapshot.h"
+#include "core/servo/shown_reach.h"
+#include "core/servo/tracked_scene.h"
+
+namespace nearfit {
+
+/// Settings and device limits of a tick.
+struct ServoParameters {
+  HapticSettings haptics;
+  DeviceLimits limits;  ///< Of the device itself: not scaled by limitsAtHandle().
+};
+
+/// One servo tick: the device's pose in, wrench and snapshot out. Depends only on its inputs and the ticks
+/// before. It owns no thread and no device, and reads the clock only to measure times.
+///
+/// The device's pose becomes the handle's (WorkspaceMapper). In the proxy mode the part follows the handle as
+/// far as it can (Proxy), and the hand feels the coupling between the two. In the springs mode the part is
+/// where the handle is, and the hand feels the sum of the springs. The wrench is kept passive
+/// (PassivityController) and within the device's limits (WrenchConditioner).
+///
+/// A tick has two halves: feel() computes what the hand waits for, show() what only others look at. In the
+/// proxy mode that is the minima: they are found when the wrench is on its way.
+///
+/// No tick does more than mostWork() (work_bound.h). In the proxy mode, where no force depends on minima,
+/// their cutoff is shortened while they take more time than there is (a nut on its thread has thousands), and
+/// the snapshot says truncated.
+class ServoTick {
+ public:
+  /// Time constant of the velocity filter [s]: long enough to smooth encoder steps, short enough (80 Hz) that
+  /// damping still damps.
+  static constexpr double kVelocityTimeConstant = 2e-3;
+
+  ServoTick() = default;
+
+  /// Forgets velocities, energies, the proxy and the fault, as if it had never run. Real-time safe.
+  void reset() noexcept;
+
+  /// Computes the wrench and what it comes from; `deviceWrench` is then final. show() must follow before
+  /// the next feel().
+  ///
+  /// Velocities, for damping, are pose differences through a first-order low-pass of `kVelocityTimeConstant`.
+  /// NaN, infinity or an invalid parameter anywhere gives a zero wrench, leaves the part where it was and
+  /// latches the fault until reset().
+  ///
+  /// @param tracked   What to feel; must stay alive and unchanged until show() has returned. Where it does
+  ///                  not cover the pose, the tick searches for itself, within a bound (`lateBodies`).
+  /// @param input     From the device; its quaternion is normalised.
+  /// @param period    Time since the last tick [s]; > 0.
+  /// Real-time safe.
+  void feel(const TrackedScene& tracked, const ServoParameters& parameters, const HandleInput& input,
+            double period, ServoSnapshot& snapshot) noexcept;
+
+  /// Completes the snapshot of feel(): minima, min distance, contacts, parts that are not felt. Does nothing
+  /// in the springs mode, where feel() has filled it.
+  ///
+  /// @param snapshot  As feel() left it. Complete afterwards, except for `tick`, `time` and `tickTime`, which
+  ///                  the caller sets.
+  /// An invalid pose of a body that came near in this tick faults from the next tick on. Real-time safe.
+  void show(const TrackedScene& tracked, const ServoParameters& parameters, ServoSnapshot& snapshot) noexcept;
+
+  /// Calls feel() and show(), for callers with no device to answer in between. Real-time safe.
+  void run(const TrackedScene& tracked, const ServoParameters& parameters, const HandleInput& input,
+           double period, ServoSnapshot& snapshot) noexcept;
+
+ private:
+  /// Context that both halves share.
+  struct Subject {
+    const TrackedScene& tracked;
+    const ServoScene& scene;
+    const HapticSettings& settings;
+    ServoSnapshot& snapshot;
+  };
+  struct Tick : Subject {
+    const DeviceLimits& limits;  ///< Limits at the handle.
+    double period;
+  };
+
+  void letGo(const RigidTransform& device, const glm::dvec3& centreInPart) noexcept;
+  void takePose(const Tick& tick, const RigidTransform& handle) noexcept;
+  /// True if every body searched for minima has a valid pose.
+  bool areBodiesPlaced(const Tick& tick) const noexcept;
+  Wrench feelSprings(const Tick& tick) noexcept;
+  Wrench feelProxy(const Tick& tick) noexcept;
+  /// Finds the minima within `share` of the cutoff and writes them to the snapshot. Adds the wrench of
+  /// `springs`, unless null, to `sum`.
+  MinimaFinder::Result findMinima(const Subject& subject, double share, const SpringParameters* springs,
+                                  Wrench& sum) noexcept;
+  void showMinima(const Subject& subject) noexcept;
+  /// Min distance according to the contacts if it is within their reach, else infinity [m].
+  double distanceOfContacts(const Subject& subject) const noexcept;
+  void movePart(const Tick& tick, const RigidTransform& pose) noexcept;
+  void describeProxy(const Subject& subject) noexcept;
+  /// Accounts for what the hand did since the last tick, before the part moves on.
+  void account(const Tick& tick, const RigidTransform& handleBefore) noexcept;
+  void send(const Tick& tick, const Wrench& wrench, const HandleInput& input) noexcept;
+  BodyMotion smoothed(const BodyMotion& before, const RigidTransform& pose, const glm::dvec3& centre,
+                      double period) const noexcept;
+
+  WorkspaceMapper mapper_;
+  PeriodMeter periodMeter_;
+  Proxy proxy_;
+  MinimaFinder minima_;
+  PassivityController passivity_;
+  WrenchConditioner conditioner_;
+
+  BodyMotion handle_, part_;   ///< Twists are filtered.
+  Twist partStep_;             ///< Unfiltered twist of the part in the last tick.
+  glm::dvec3 partShift_{0.0};  ///< Translation of its centre in the last tick [m].
+  Wrench held_;                ///< The wrench sent in the last tick.
+  FeltMass felt_;
+  CouplingState coupling_;
+  ShownReach shownReach_;  ///< Proxy mode only.
+  PartId moving_{};
+  HapticMode mode_ = HapticMode::Proxy;
+  bool hasPose_ = false;
+  bool isToBeShown_ = false;  ///< The proxy has moved, and the minima at its pose are not known yet.
+  ServoFault fault_ = ServoFault::None;
+};
+
+}  // namespace nearfit

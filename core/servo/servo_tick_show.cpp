@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "core/haptics/spring_law.h"
+#include "core/servo/servo_tick.h"
+
+/// The part of ServoTick that finds minima, to show them or as springs, and describes the proxy.
+namespace nearfit {
+
+void ServoTick::show(const TrackedScene& tracked, const ServoParameters& parameters,
+                     ServoSnapshot& snapshot) noexcept {
+  if (!isToBeShown_) return;
+  isToBeShown_ = false;
+  const Subject subject{tracked, *tracked.scene, parameters.haptics, snapshot};
+  showMinima(subject);
+  describeProxy(subject);
+  snapshot.fault = fault_;
+}
+
+MinimaFinder::Result ServoTick::findMinima(const Subject& subject, double share,
+                                           const SpringParameters* springs, Wrench& sum) noexcept {
+  const auto begin = std::chrono::steady_clock::now();
+  const glm::dvec3 centre = part_.pose.applyToPoint(subject.scene.centreInPart);
+  const double cutoff = share * subject.settings.springs.cutoff;
+  // With springs nothing keeps the part from passing through, so no distance can be relied on.
+  const double apart = springs == nullptr ? proxy_.distance() : 0.0;
+  const MinimaAllowance& allowance = springs == nullptr ? MinimaFinder::kShown : MinimaFinder::kFelt;
+  const MinimaFinder::Result result =
+      minima_.find(subject.tracked, part_.pose, cutoff, apart, allowance, [&](std::span<const Lmd> lmds) {
+        if (springs == nullptr) return;
+        const Wrench wrench = springWrench(lmds, *springs, centre, part_.twist);
+        sum.force += wrench.force;
+        sum.torque += wrench.torque;
+      });
+  if (result.isPoseBad) fault_ = ServoFault::PoseNotFinite;
+  minima_.write(subject.snapshot);
+  if (share < 1.0) subject.snapshot.isTruncated = true;
+  subject.snapshot.lateBodies += result.lateBodies;
+  subject.snapshot.work += result.work;
+  subject.snapshot.queryTime +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  // Of solid bodies that are apart, the distance of the nearest minimum is the distance.
+  if (!subject.scene.hasSurfaces())
+    proxy_.noteDistance(std::min({result.distance, result.completeTo, cutoff}));
+  return result;
+}
+
+void ServoTick::showMinima(const Subject& subject) noexcept {
+  const double cutoff = subject.settings.springs.cutoff;
+  Wrench none;
+  const MinimaFinder::Result result = findMinima(subject, shownReach_.share(), nullptr, none);
+  // The minima found may then reach less far than the contacts.
+  if (result.completeTo < std::min(result.distance, cutoff))
+    subject.snapshot.distance = std::min(subject.snapshot.distance, distanceOfContacts(subject));
+  shownReach_.observe(result.work, subject.snapshot.distance / cutoff);
+}
+
+double ServoTick::distanceOfContacts(const Subject& subject) const noexcept {
+  const double known = proxy_.distance();
+  return known < kContactReach * subject.settings.proxy.margin ? known
+                                                               : std::numeric_limits<double>::infinity();
+}
+
+void ServoTick::describeProxy(const Subject& subject) noexcept {
+  ServoSnapshot& snapshot = subject.snapshot;
+  const ProxyAccount& account = proxy_.account();
+  snapshot.subSteps = account.subSteps;
+  snapshot.shortenedSteps = account.shortenedSteps;
+  snapshot.refusedSteps = account.refusedSteps;
+  snapshot.constraintCount = account.constraintCount;
+  snapshot.isWaiting = account.isWaiting;
+  snapshot.isStarved = account.isStarved;
+  snapshot.lateBodies += proxy_.lateBodies();
+  snapshot.work += proxy_.work();
+  // Contacts hold indices into the scene that they were found in.
+  if (subject.scene.moving.geometry == nullptr || fault_ != ServoFault::None) return;
+  snapshot.contactCount = static_cast<std::uint32_t>(proxy_.contacts().size());
+  for (const ProxyContact& holding : proxy_.contacts()) {
+    if (snapshot.storedContacts == ServoSnapshot::kMaxContacts) break;
+    const ContactPair& pair = holding.contact.pair;
+    snapshot.contacts[snapshot.storedContacts++] = {pair.point, pair.direction,
+                                                    coupling_.stiffness * holding.push,
+                                                    subject.scene.bodies[holding.contact.body].id};
+  }
+  const Clearance& clearance = subject.tracked.clearance;
+  if (!clearance.overlapping) return;
+  snapshot.releasedCount = static_cast<std::uint32_t>(clearance.overlapping->size());
+  const std::size_t shown = std::min(clearance.overlapping->size(), ServoSnapshot::kMaxReleased);
+  for (std::size_t i = 0; i < shown; ++i)
+    snapshot.released[i] = subject.scene.bodies[(*clearance.overlapping)[i]].id;
+}
+
+}  // namespace nearfit

@@ -1,0 +1,188 @@
+#include "core/session/session.h"
+
+#include <algorithm>
+#include <ranges>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/scene/scene_file.h"
+#include "core/session/session_labels.h"
+
+namespace nearfit {
+namespace {
+
+/// Names the one setting that differs; a general label if several do.
+const char* labelOfChange(const HapticSettings& from, const HapticSettings& to) {
+  using Take = void (*)(HapticSettings&, const HapticSettings&);
+  constexpr std::pair<const char*, Take> kChanges[] = {
+      {"Change the springs", [](auto& a, const auto& b) { a.springs = b.springs; }},
+      {"Change the margin", [](auto& a, const auto& b) { a.proxy.margin = b.proxy.margin; }},
+      {"Change the friction", [](auto& a, const auto& b) { a.proxy.friction = b.proxy.friction; }},
+      {"Change the coupling", [](auto& a, const auto& b) { a.coupling = b.coupling; }},
+      {"Change the weight that is felt", [](auto& a, const auto& b) { a.weight = b.weight; }},
+      {"Change the hand's scale", [](auto& a, const auto& b) { a.mapping.scale = b.mapping.scale; }},
+      {"Change the locked axes",
+       [](auto& a, const auto& b) {
+         a.mapping.translationLocks = b.mapping.translationLocks;
+         a.mapping.rotationLocks = b.mapping.rotationLocks;
+       }},
+  };
+  if (from.mode != to.mode) return "Change the mode";
+  for (const auto& [label, take] : kChanges) {
+    HapticSettings changed = from;
+    take(changed, to);
+    if (changed == to) return label;
+  }
+  return "Change how contact feels";
+}
+
+PartId addTo(Scene& scene, PartGeometryPtr geometry, const std::string& name,
+             const RigidTransform& worldFromPart) {
+  Part part;
+  part.name = name;
+  part.geometry = std::move(geometry);
+  part.worldFromPart = worldFromPart;
+  part.colour = scene.nextColour();
+  return scene.add(std::move(part));
+}
+
+}  // namespace
+
+void Session::commit(Scene scene, Step step) {
+  past_.push_back(std::exchange(current_, {std::move(scene), std::move(step), nextSerial_++}));
+  if (past_.size() > kMaxUndo) past_.pop_front();
+  future_.clear();
+  notify();
+}
+
+PartId Session::addPart(PartGeometryPtr geometry, const std::string& name,
+                        const RigidTransform& worldFromPart) {
+  Scene next = scene();
+  const PartId id = addTo(next, std::move(geometry), name, worldFromPart);
+  const std::string label = "Add " + next.find(id)->name;
+  commit(std::move(next), label);
+  return id;
+}
+
+std::vector<PartId> Session::addParts(const std::vector<NewPart>& parts) {
+  Scene next = scene();
+  SceneNodes added;
+  for (const NewPart& each : parts)
+    added.parts.push_back(addTo(next, each.geometry, each.name, {}));
+  if (added.isEmpty()) return {};
+  const std::string label = "Add " + nameOf(next, added);
+  commit(std::move(next), label);
+  return added.parts;
+}
+
+void Session::setMovingPart(std::optional<PartId> id) {
+  if (scene().movingPart() == id) return;
+  Scene next = scene();
+  next.setMovingPart(id);
+  const std::string label =
+      id ? fmt::format("Make {} the moving part", next.find(*id)->name) : "Let go of the moving part";
+  commit(std::move(next), label);
+}
+
+void Session::setHaptics(const HapticSettings& haptics, const std::string& label) {
+  Scene next = scene();
+  next.setHaptics(haptics);
+  if (next.haptics() == scene().haptics()) return;
+  const std::string change = label.empty() ? labelOfChange(scene().haptics(), next.haptics()) : label;
+  commit(std::move(next), change);
+}
+
+void Session::begin(Scene scene, const std::filesystem::path& file) {
+  current_ = {std::move(scene), {}, nextSerial_++};
+  past_.clear();
+  future_.clear();
+  file_ = file;
+  ++sceneSerial_;
+}
+
+void Session::reset(Scene scene, const std::filesystem::path& file) {
+  begin(std::move(scene), file);
+  savedSerial_ = current_.serial;
+  notify();
+}
+
+void Session::restore(Scene scene, const std::filesystem::path& file) {
+  begin(std::move(scene), file);
+  savedSerial_ = nextSerial_++;  // Matches no state.
+  notify();
+}
+
+void Session::save(const std::filesystem::path& file) {
+  writeSceneFile(scene(), file);
+  file_ = file;
+  savedSerial_ = current_.serial;
+  notify();
+}
+
+void Session::stepBack() {
+  future_.push_back(std::exchange(current_, std::move(past_.back())));
+  past_.pop_back();
+  current_.scene.retireIdsOf(future_.back().scene);
+}
+
+void Session::stepOn() {
+  past_.push_back(std::exchange(current_, std::move(future_.back())));
+  future_.pop_back();
+  current_.scene.retireIdsOf(past_.back().scene);
+}
+
+void Session::undo() {
+  if (past_.empty()) return;
+  stepBack();
+  notify();
+}
+
+void Session::redo() {
+  if (future_.empty()) return;
+  stepOn();
+  notify();
+}
+
+std::vector<Session::Step> Session::history() const {
+  std::vector<Step> steps;
+  steps.reserve(past_.size() + 1 + future_.size());
+  for (const State& state : past_)
+    steps.push_back(state.step);
+  steps.push_back(current_.step);
+  for (const State& state : std::views::reverse(future_))
+    steps.push_back(state.step);
+  return steps;
+}
+
+void Session::goTo(std::size_t index) {
+  if (index == past_.size() || index > past_.size() + future_.size()) return;
+  while (past_.size() > index)
+    stepBack();
+  while (past_.size() < index)
+    stepOn();
+  notify();
+}
+
+std::size_t Session::changesSinceSave() const noexcept {
+  const auto isSaved = [this](const State& state) { return state.serial == savedSerial_; };
+  if (isSaved(current_)) return 0;
+  const auto before = std::find_if(past_.rbegin(), past_.rend(), isSaved);
+  if (before != past_.rend()) return static_cast<std::size_t>(before - past_.rbegin()) + 1;
+  const auto after = std::find_if(future_.rbegin(), future_.rend(), isSaved);
+  if (after != future_.rend()) return static_cast<std::size_t>(after - future_.rbegin()) + 1;
+  return past_.size() + 1;
+}
+
+void Session::onChange(std::function<void()> listener) {
+  listeners_.push_back(std::move(listener));
+}
+
+void Session::notify() const {
+  // A copy, since a listener may register another.
+  const std::vector<std::function<void()>> listeners = listeners_;
+  for (const std::function<void()>& listener : listeners)
+    listener();
+}
+
+}  // namespace nearfit

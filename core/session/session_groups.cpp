@@ -1,0 +1,180 @@
+// Commands about groups, and about parts and groups alike.
+#include <algorithm>
+#include <map>
+#include <ranges>
+#include <unordered_set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/scene/free_name.h"
+#include "core/session/session.h"
+#include "core/session/session_labels.h"
+
+namespace nearfit {
+namespace {
+
+std::string freeGroupName(const Scene& scene, const std::string& wanted) {
+  std::unordered_set<std::string_view> taken;
+  for (const Scene::GroupPtr& group : scene.groups())
+    taken.insert(group->name);
+  return freeName(wanted, taken, kMaxGroupNameBytes);
+}
+
+/// The group, or its nearest ancestor that is not locked.
+std::optional<GroupId> openPlace(const Scene& scene, std::optional<GroupId> group) {
+  while (group && scene.isLocked(*scene.findGroup(*group)))
+    group = scene.findGroup(*group)->parent;
+  return group;
+}
+
+/// Copies nodes within a scene.
+class Copier {
+ public:
+  Copier(Scene& scene, const SceneNodes& outer) : scene_(scene), outer_(outer) {}
+
+  SceneNodes copy() {
+    const Scene before = scene_;
+    for (const GroupId id : groupsOf(before, outer_)) {
+      Group group = *before.findGroup(id);
+      const auto parent = group.parent ? copyOf_.find(*group.parent) : copyOf_.end();
+      const bool isOuter = parent == copyOf_.end();
+      if (isOuter) group.name = freeGroupName(scene_, group.name);
+      group.parent = isOuter ? openPlace(before, group.parent) : parent->second;
+      group.isLocked = false;
+      copyOf_[id] = scene_.addGroup(group);
+      if (isOuter) copies_.groups.push_back(copyOf_[id]);
+    }
+    const std::vector<PartId> parts = partsOf(before, outer_);
+    for (const PartId id : parts)
+      copyPart(*before.find(id), parts.size() == 1);
+    return copies_;
+  }
+
+ private:
+  void copyPart(Part part, bool isAlone) {
+    const auto group = part.group ? copyOf_.find(*part.group) : copyOf_.end();
+    const bool isOuter = group == copyOf_.end();
+    part.group = isOuter ? openPlace(scene_, part.group) : group->second;
+    part.isLocked = false;
+    part.wasVisible.reset();
+    if (isAlone) part.colour = scene_.nextColour();
+    const PartId copy = scene_.add(std::move(part));
+    if (isOuter) copies_.parts.push_back(copy);
+  }
+
+  Scene& scene_;
+  const SceneNodes& outer_;
+  std::map<GroupId, GroupId> copyOf_;
+  SceneNodes copies_;
+};
+
+void putInto(Scene& scene, const SceneNodes& outer, std::optional<GroupId> target) {
+  for (const GroupId id : outer.groups) {
+    Group group = *scene.findGroup(id);
+    if (std::exchange(group.parent, target) != target) scene.replaceGroup(std::move(group));
+  }
+  for (const PartId id : outer.parts) {
+    Part part = *scene.find(id);
+    if (std::exchange(part.group, target) != target) scene.replace(std::move(part));
+  }
+}
+
+}  // namespace
+
+void Session::setLocked(const SceneNodes& nodes, bool locked) {
+  Scene next = scene();
+  SceneNodes changed;
+  // Throws if a node does not exist.
+  const std::vector<PartId> parts = partsOf(scene(), nodes);
+  const bool isMoving = next.movingPart() && std::ranges::count(parts, *next.movingPart()) > 0;
+  if (locked && isMoving) next.setMovingPart(std::nullopt);
+  for (const GroupId id : nodes.groups) {
+    Group group = *next.findGroup(id);
+    if (std::exchange(group.isLocked, locked) == locked) continue;
+    next.replaceGroup(std::move(group));
+    changed.groups.push_back(id);
+  }
+  for (const PartId id : nodes.parts) {
+    Part part = *next.find(id);
+    if (std::exchange(part.isLocked, locked) == locked) continue;
+    next.replace(std::move(part));
+    changed.parts.push_back(id);
+  }
+  if (changed.isEmpty()) return;
+  commit(std::move(next), (locked ? "Lock " : "Unlock ") + nameOf(scene(), changed));
+}
+
+void Session::renameGroup(GroupId id, const std::string& name) {
+  outermost(scene(), {{}, {id}});
+  Group group = *scene().findGroup(id);
+  scene().requireUnlocked(group);
+  if (group.name == name) return;
+  const std::string label = fmt::format("Rename {} to {}", group.name, name);
+  group.name = name;
+  Scene next = scene();
+  next.replaceGroup(std::move(group));
+  commit(std::move(next), label);
+}
+
+void Session::deleteNodes(const SceneNodes& nodes) {
+  if (nodes.isEmpty()) return;
+  Scene next = scene();
+  for (const PartId id : partsOf(scene(), nodes))
+    next.remove(id);
+  for (const GroupId id : groupsOf(scene(), nodes) | std::views::reverse)
+    next.removeGroup(id);
+  commit(std::move(next), "Delete " + nameOf(scene(), nodes));
+}
+
+SceneNodes Session::duplicate(const SceneNodes& nodes) {
+  const SceneNodes outer = outermost(scene(), nodes);
+  if (outer.isEmpty()) return {};
+  Scene next = scene();
+  SceneNodes copies = Copier(next, outer).copy();
+  commit(std::move(next), "Duplicate " + nameOf(scene(), outer));
+  return copies;
+}
+
+GroupId Session::group(const SceneNodes& nodes, const std::string& name) {
+  const SceneNodes outer = outermost(scene(), nodes);
+  Scene next = scene();
+  Group group;
+  group.name = freeGroupName(next, name);
+  group.parent = commonGroup(next, outer);
+  const GroupId id = next.addGroup(std::move(group));
+  putInto(next, outer, id);
+  commit(std::move(next), "Group " + (outer.isEmpty() ? std::string("nothing") : nameOf(scene(), outer)));
+  return id;
+}
+
+void Session::ungroup(const std::vector<GroupId>& ids) {
+  if (ids.empty()) return;
+  const std::string label = "Ungroup " + nameOf(scene(), {{}, ids});
+  Scene next = scene();
+  for (const GroupId id : ids) {
+    const Group* group = next.findGroup(id);
+    if (group == nullptr) continue;  // Listed twice.
+    next.requireUnlocked(*group);
+    putInto(next, childrenOf(next, id), group->parent);
+    next.removeGroup(id);
+  }
+  commit(std::move(next), label);
+}
+
+void Session::regroup(const SceneNodes& nodes, std::optional<GroupId> target) {
+  const SceneNodes outer = outermost(scene(), nodes);
+  SceneNodes moving;
+  for (const PartId id : outer.parts)
+    if (scene().find(id)->group != target) moving.parts.push_back(id);
+  for (const GroupId id : outer.groups)
+    if (scene().findGroup(id)->parent != target) moving.groups.push_back(id);
+  if (moving.isEmpty()) return;
+  Scene next = scene();
+  putInto(next, moving, target);
+  const std::string where = target ? "into " + next.findGroup(*target)->name : "at the top";
+  commit(std::move(next), fmt::format("Put {} {}", nameOf(scene(), moving), where));
+}
+
+}  // namespace nearfit

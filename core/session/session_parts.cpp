@@ -1,0 +1,162 @@
+// Commands about parts.
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "core/math/rotation_vector.h"
+#include "core/session/session.h"
+#include "core/session/session_labels.h"
+
+namespace nearfit {
+namespace {
+
+const Part& existing(const Scene& scene, PartId id) {
+  const Part* part = scene.find(id);
+  if (part != nullptr) return *part;
+  throw UsageError(fmt::format("part {}", static_cast<std::uint32_t>(id)), "the scene has no such part",
+                   "choose one that is in the scene");
+}
+
+/// `pose` after the motion from `from` to `to`. A pure translation keeps the rotation bit for bit.
+RigidTransform moved(const RigidTransform& pose, const RigidTransform& from, const RigidTransform& to) {
+  if (from.rotation == to.rotation)
+    return {pose.rotation, pose.translation + (to.translation - from.translation)};
+  const glm::dquat turn = to.rotation * glm::conjugate(from.rotation);
+  return RigidTransform{turn * pose.rotation, turn * (pose.translation - from.translation) + to.translation}
+      .normalized();
+}
+
+std::vector<PartId> partsOf(const std::vector<Session::NewGeometry>& renewed) {
+  std::vector<PartId> ids;
+  ids.reserve(renewed.size());
+  for (const Session::NewGeometry& each : renewed)
+    ids.push_back(each.part);
+  return ids;
+}
+
+std::vector<PartId> partsOf(const std::vector<Session::NewPivot>& pivots) {
+  std::vector<PartId> ids;
+  ids.reserve(pivots.size());
+  for (const Session::NewPivot& each : pivots)
+    ids.push_back(each.part);
+  return ids;
+}
+
+PartGeometryPtr geometryFor(const Part& part, const std::vector<Session::NewGeometry>& renewed) {
+  return std::ranges::find(renewed, part.id, &Session::NewGeometry::part)->geometry;
+}
+
+}  // namespace
+
+void Session::change(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change) {
+  Scene next = scene();
+  SceneNodes changed;
+  for (const PartId id : ids) {
+    Part part = existing(next, id);
+    change(part);
+    if (isSame(part, *next.find(id))) continue;
+    next.replace(std::move(part));
+    changed.parts.push_back(id);
+  }
+  if (changed.isEmpty()) return;
+  verb.label += " " + nameOf(scene(), changed);
+  commit(std::move(next), std::move(verb));
+}
+
+void Session::changeUnlocked(const std::vector<PartId>& ids, Step verb,
+                             const std::function<void(Part&)>& change) {
+  for (const PartId id : ids)
+    scene().requireUnlocked(existing(scene(), id));
+  this->change(ids, std::move(verb), change);
+}
+
+void Session::renamePart(PartId id, const std::string& name) {
+  Part part = existing(scene(), id);
+  scene().requireUnlocked(part);
+  if (part.name == name) return;
+  const std::string label = fmt::format("Rename {} to {}", part.name, name);
+  part.name = name;
+  Scene next = scene();
+  next.replace(std::move(part));
+  commit(std::move(next), label);
+}
+
+void Session::moveParts(const std::vector<PartId>& ids, PartId lead, const RigidTransform& worldFromLead,
+                        const std::string& verb) {
+  const Part& before = existing(scene(), lead);
+  const RigidTransform from = before.worldFromPart;
+  const RigidTransform to = checkedPose(worldFromLead);
+  if (from.rotation == to.rotation && from.translation == to.translation) {
+    // Nothing moves, but locked parts must still be refused.
+    return changeUnlocked(ids, verb.c_str(), [](Part&) {});
+  }
+  const glm::dvec3 centre = before.geometry != nullptr ? before.geometry->mass.centre : glm::dvec3(0.0);
+  const double shift = glm::distance(from.applyToPoint(centre), to.applyToPoint(centre));
+  const double angle = glm::length(rotationVector(to.rotation * glm::conjugate(from.rotation)));
+  changeUnlocked(ids, Step{verb, shift, angle}, [&](Part& part) {
+    part.worldFromPart = part.id == lead ? to : moved(part.worldFromPart, from, to);
+  });
+}
+
+void Session::setVisible(const std::vector<PartId>& ids, bool visible) {
+  change(ids, visible ? "Show" : "Hide", [visible](Part& part) { part.isVisible = visible; });
+}
+
+void Session::setColour(const std::vector<PartId>& ids, const Colour& colour) {
+  change(ids, "Recolour", [&colour](Part& part) { part.colour = colour; });
+}
+
+void Session::setOpacity(const std::vector<PartId>& ids, double opacity) {
+  change(ids, "Change the transparency of", [opacity](Part& part) { part.opacity = opacity; });
+}
+
+void Session::setDensity(const std::vector<PartId>& ids, double density) {
+  changeUnlocked(ids, "Change the density of", [density](Part& part) { part.density = density; });
+}
+
+void Session::setPivots(const std::vector<NewPivot>& pivots) {
+  const bool isReset =
+      std::ranges::none_of(pivots, [](const NewPivot& each) { return each.inPart.has_value(); });
+  for (const NewPivot& each : pivots) {
+    if (each.inPart) checkPosition(*each.inPart);
+  }
+  changeUnlocked(partsOf(pivots), isReset ? "Reset the pivot of" : "Move the pivot of", [&](Part& part) {
+    part.pivot = std::ranges::find(pivots, part.id, &NewPivot::part)->inPart;
+  });
+}
+
+void Session::reloadParts(const std::vector<NewGeometry>& parts) {
+  change(partsOf(parts), "Reload", [&parts](Part& part) { part.geometry = geometryFor(part, parts); });
+}
+
+void Session::rescaleParts(const std::vector<NewGeometry>& parts) {
+  changeUnlocked(partsOf(parts), "Rescale", [&parts](Part& part) {
+    PartGeometryPtr rescaled = geometryFor(part, parts);
+    if (part.pivot) {
+      *part.pivot *= rescaled->metresPerUnit / part.geometry->metresPerUnit;
+      checkPosition(*part.pivot);
+    }
+    part.geometry = std::move(rescaled);
+  });
+}
+
+void Session::isolate(const std::vector<PartId>& ids) {
+  Scene next = scene();
+  next.isolate(ids);
+  const bool isSameView = std::ranges::equal(next.parts(), scene().parts(),
+                                             [](const auto& a, const auto& b) { return isSame(*a, *b); });
+  if (isSameView) return;
+  commit(std::move(next), "Isolate " + nameOf(scene(), {ids, {}}));
+}
+
+void Session::endIsolation() {
+  if (!scene().isIsolated()) return;
+  Scene next = scene();
+  next.endIsolation();
+  commit(std::move(next), "End the isolation");
+}
+
+}  // namespace nearfit

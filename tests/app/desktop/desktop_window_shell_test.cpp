@@ -1,0 +1,403 @@
+#include <QAbstractButton>
+#include <QAbstractItemView>
+#include <QAbstractSpinBox>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QGroupBox>
+#include <QImage>
+#include <QMenuBar>
+#include <QPainter>
+#include <QPixmapCache>
+#include <QScrollArea>
+#include <QSet>
+#include <QTabBar>
+#include <QToolBar>
+#include <QToolButton>
+#include <QTreeWidget>
+
+#include "tests/app/desktop/desktop_driver.h"
+#include "ui/widgets/theme.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+/// A piece of a widget of Qt's that is reached through that widget, not by itself.
+bool isPieceOfAnother(const QWidget& widget) {
+  const QWidget* parent = widget.parentWidget();
+  if (widget.objectName().startsWith(QStringLiteral("qt_"))) return true;
+  for (; parent != nullptr; parent = parent->parentWidget()) {
+    if (qobject_cast<const QAbstractSpinBox*>(parent) != nullptr ||
+        qobject_cast<const QComboBox*>(parent) != nullptr ||
+        qobject_cast<const QTabBar*>(parent) != nullptr ||
+        qobject_cast<const QAbstractItemView*>(parent) != nullptr ||
+        qobject_cast<const QDialogButtonBox*>(parent) != nullptr)
+      return true;
+  }
+  return qobject_cast<const QTabBar*>(&widget) != nullptr ||
+         qobject_cast<const QMenuBar*>(&widget) != nullptr ||
+         qobject_cast<const QMenu*>(&widget) != nullptr ||
+         qobject_cast<const QScrollArea*>(&widget) != nullptr ||
+         qobject_cast<const QDialog*>(&widget) != nullptr ||
+         qobject_cast<const QDockWidget*>(&widget) != nullptr;
+}
+
+bool hasName(const QWidget& widget) {
+  if (!widget.accessibleName().isEmpty()) return true;
+  if (const auto* button = qobject_cast<const QAbstractButton*>(&widget))
+    return !button->text().isEmpty() || !button->toolTip().isEmpty();
+  if (const auto* group = qobject_cast<const QGroupBox*>(&widget)) return !group->title().isEmpty();
+  if (qobject_cast<const QLabel*>(&widget) != nullptr) return true;  // Says itself.
+  const QList<QLabel*> labels = widget.window()->findChildren<QLabel*>();
+  return std::any_of(labels.begin(), labels.end(),
+                     [&](const QLabel* label) { return label->buddy() == &widget; });
+}
+
+QString pathOf(const QWidget* widget) {
+  QStringList names;
+  for (; widget != nullptr; widget = widget->parentWidget())
+    names.prepend(QLatin1String(widget->metaObject()->className()) + QChar(' ') + widget->objectName());
+  return names.join(QStringLiteral(" > "));
+}
+
+QList<QAction*> allActions(QMainWindow& window) {
+  QList<QAction*> actions = window.findChildren<QAction*>();
+  QList<QAction*> wanted;
+  for (QAction* action : actions) {
+    if (!action->isSeparator() && !action->objectName().startsWith(QStringLiteral("_q")) &&
+        !action->objectName().isEmpty() && action->menu() == nullptr)
+      wanted << action;
+  }
+  return wanted;
+}
+
+int lightnessAt(QWidget& widget, const QPoint& point) {
+  return QColor(widget.grab().toImage().pixel(point)).lightness();
+}
+
+/// Farthest apart of the lightness of two pixels of an icon on its ground.
+int contrastOf(const QIcon& icon, const QColor& ground) {
+  QImage image(24, 24, QImage::Format_RGB32);
+  image.fill(ground);
+  QPainter painter(&image);
+  icon.paint(&painter, QRect(0, 0, 24, 24));
+  painter.end();
+  int contrast = 0;
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 24; ++x)
+      contrast = std::max(contrast, std::abs(QColor(image.pixel(x, y)).lightness() - ground.lightness()));
+  }
+  return contrast;
+}
+
+}  // namespace
+
+class DesktopWindowShellTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void cleanup() { ui::setColourScheme(ui::ColourScheme::Light); }
+  void everyWidgetThatTakesTheFocusHasAName();
+  void everyActionHasATooltipAndNoTwoShareAShortcut();
+  void shortcutsAreListedAndSearched();
+  void themeIsSwitchedAtOnceAndKept();
+  void themeIsSwitchedAfterDialogsHaveCome();
+  void iconsAreLegibleInBothThemes();
+  void layoutIsRememberedAndReset();
+  void tourExplainsTheDemoAndCanBeLeft();
+  void theTourIsLedByReturnToo();
+  void theTreeFollowsTheTheme();
+  void theTabKeyGoesDownTheFeelPanel();
+  void largerLettersAreNotCut();
+  void toolbarsFitANarrowWindow();
+};
+
+void DesktopWindowShellTest::everyWidgetThatTakesTheFocusHasAName() {
+  DesktopDriver d;
+  d.addCubes();
+  QStringList nameless;
+  for (const QWidget* widget : d.window().findChildren<QWidget*>()) {
+    if (widget->focusPolicy() == Qt::NoFocus || isPieceOfAnother(*widget) || hasName(*widget)) continue;
+    nameless << pathOf(widget);
+    qInfo("no name: %s", qPrintable(nameless.last()));
+  }
+  QVERIFY2(nameless.isEmpty(), qPrintable(QChar('\n') + nameless.join('\n')));
+}
+
+void DesktopWindowShellTest::everyActionHasATooltipAndNoTwoShareAShortcut() {
+  DesktopDriver d;
+  QMap<QString, QString> owners;
+  const QList<QAction*> actions = allActions(d.window());
+  QVERIFY(actions.size() > 20);
+  QStringList unexplained;
+  for (const QAction* action : actions) {
+    // Without one of its own an action shows its text. Of several choices the menu says what is chosen.
+    const QString usual = QAction(action->text()).toolTip();
+    const bool isExplained = !action->toolTip().isEmpty() && action->toolTip() != usual;
+    if (!isExplained && action->actionGroup() == nullptr) unexplained << action->objectName();
+    for (const QKeySequence& keys : action->shortcuts()) {
+      const QString text = keys.toString();
+      QVERIFY2(!owners.contains(text),
+               qPrintable(text + QStringLiteral(": ") + action->objectName() + ' ' + owners[text]));
+      owners[text] = action->objectName();
+    }
+  }
+  QVERIFY2(unexplained.isEmpty(), qPrintable(unexplained.join(QStringLiteral(", "))));
+  // Most of them can be found in menus alone.
+  for (const char* name : {"quit", "rename", "fitSelection", "letGo", "minimaSegments", "tour"}) {
+    const QList<QWidget*> where = d.action(name)->associatedWidgets();
+    const auto isSaid = [](QWidget* widget) {
+      const auto* menu = qobject_cast<QMenu*>(widget);
+      return menu != nullptr && menu->toolTipsVisible();
+    };
+    QVERIFY2(std::any_of(where.begin(), where.end(), isSaid), name);
+  }
+}
+
+void DesktopWindowShellTest::shortcutsAreListedAndSearched() {
+  DesktopDriver d;
+  pressShortcut(d, Qt::Key_F1);
+  auto* dialog = d.widget<QDialog>("shortcutsDialog");
+  QTRY_VERIFY(dialog->isVisible());
+  auto* list = d.widget<QTreeWidget>("shortcutList");
+  const auto shown = [list] {
+    QStringList texts;
+    for (QTreeWidgetItemIterator it(list, QTreeWidgetItemIterator::NotHidden); *it != nullptr; ++it) {
+      if ((*it)->childCount() == 0) texts << (*it)->text(0) + '|' + (*it)->text(1);
+    }
+    return texts;
+  };
+  const QStringList all = shown();
+  for (const QAction* action : allActions(d.window())) {
+    if (action->shortcut().isEmpty()) continue;
+    const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+    QVERIFY2(!all.filter(keys).isEmpty(), qPrintable(action->objectName()));
+  }
+  QTest::keyClicks(d.widget<QLineEdit>("shortcutSearch"), QStringLiteral("undo"));
+  QCOMPARE(shown(), QStringList{QStringLiteral("Undo|Ctrl+Z")});
+  QTest::keyClick(dialog, Qt::Key_Escape);
+  QVERIFY(!dialog->isVisible());
+}
+
+void DesktopWindowShellTest::themeIsSwitchedAtOnceAndKept() {
+  DesktopDriver d;
+  d.addCubes();
+  d.choose("themeLight");
+  auto* dock = d.widget<QDockWidget>("feelDock");
+  const QPoint corner(dock->width() - 4, dock->height() - 4);
+  QVERIFY(lightnessAt(*dock, corner) > 200);
+  d.choose("themeDark");
+  QTRY_VERIFY(lightnessAt(*dock, corner) < 80);
+  QCOMPARE(ui::colourScheme(), ui::ColourScheme::Dark);
+  const QPoint viewCorner(6, 6);
+  QTRY_VERIFY(d.window().viewport().grabFramebuffer().pixelColor(viewCorner).lightness() < 120);
+  // What a widget says of its own colours is translated too, before and after.
+  auto* label = d.widget<QLabel>("statusRate");
+  QVERIFY2(!label->styleSheet().contains(QStringLiteral("#5d6874")), qPrintable(label->styleSheet()));
+  QLabel late(QStringLiteral("late"));
+  late.setStyleSheet(QStringLiteral("color: #5d6874"));
+  QTRY_COMPARE(late.styleSheet(), QStringLiteral("color: #9ba7b3"));
+  d.choose("themeLight");
+  QTRY_VERIFY(lightnessAt(*dock, corner) > 200);
+  QCOMPARE(late.styleSheet(), QStringLiteral("color: #5d6874"));
+  QTRY_VERIFY(d.window().viewport().grabFramebuffer().pixelColor(viewCorner).lightness() > 150);
+}
+
+// Qt 5.15 remembers widgets that a style sheet gave a font or a palette, also once they are gone: a sheet in
+// place of another was told to them, and the window crashed. It did so after steps like these, now and then:
+// they do not bring it about at will.
+void DesktopWindowShellTest::themeIsSwitchedAfterDialogsHaveCome() {
+  DesktopDriver d;
+  d.addCubes();
+  for (int round = 0; round < 3; ++round) {
+    for (const char* opens : {"exportPlacement", "open", "saveAs"}) {
+      whenModal<QDialog>([](QDialog* dialog) { QTest::keyClick(dialog, Qt::Key_Escape); });
+      d.choose(opens);
+    }
+    {
+      QDialog dialog(&d.window());
+      dialog.setStyleSheet(QStringLiteral("QLabel { color: #5d6874; font-weight: bold }"));
+      new QLabel(QStringLiteral("gone soon"), &dialog);
+      new QComboBox(&dialog);
+      dialog.show();
+      QVERIFY(QTest::qWaitForWindowExposed(&dialog));
+    }
+    d.choose(round % 2 == 0 ? "themeDark" : "themeLight");
+    QCoreApplication::processEvents();
+  }
+  QCOMPARE(ui::colourScheme(), ui::ColourScheme::Dark);
+  QVERIFY(d.window().isVisible());
+}
+
+void DesktopWindowShellTest::iconsAreLegibleInBothThemes() {
+  DesktopDriver d;
+  for (const bool isDark : {false, true}) {
+    ui::setColourScheme(isDark ? ui::ColourScheme::Dark : ui::ColourScheme::Light);
+    const QColor ground = QApplication::palette().color(QPalette::Window);
+    for (const QAction* action : allActions(d.window())) {
+      if (action->icon().isNull()) continue;
+      QVERIFY2(contrastOf(action->icon(), ground) > 40, qPrintable(action->objectName()));
+    }
+  }
+}
+
+void DesktopWindowShellTest::layoutIsRememberedAndReset() {
+  {
+    DesktopDriver d;
+    auto* dock = d.widget<QDockWidget>("poseDock");
+    QVERIFY(dock->isVisible());
+    dock->close();
+    QVERIFY(d.window().close());
+  }
+  DesktopDriver d;
+  QVERIFY(!d.widget<QDockWidget>("poseDock")->isVisible());
+  d.choose("resetLayout");
+  QTRY_VERIFY(d.widget<QDockWidget>("poseDock")->isVisible());
+  QVERIFY(d.window().close());
+}
+
+void DesktopWindowShellTest::tourExplainsTheDemoAndCanBeLeft() {
+  DesktopDriver d;
+  QTest::mouseClick(d.widget<QPushButton>("tourButton"), Qt::LeftButton);
+  auto* tour = d.widget<QFrame>("tour");
+  QTRY_VERIFY(tour->isVisible());
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{4});
+  QSet<QString> titles;
+  auto* next = d.widget<QPushButton>("tourNext");
+  while (tour->isVisible()) {
+    const QString title = d.text("tourTitle");
+    QVERIFY2(!titles.contains(title), qPrintable(title));
+    titles << title;
+    QVERIFY(!d.text("tourText").isEmpty());
+    QVERIFY(d.window().rect().contains(tour->geometry()));
+    QTest::mouseClick(next, Qt::LeftButton);
+  }
+  QVERIFY(titles.size() >= 4);
+  d.choose("tour");
+  QTRY_VERIFY(tour->isVisible());
+  QTest::keyClick(next, Qt::Key_Escape);
+  QVERIFY(!tour->isVisible());
+}
+
+void DesktopWindowShellTest::theTourIsLedByReturnToo() {
+  DesktopDriver d;
+  QTest::mouseClick(d.widget<QPushButton>("tourButton"), Qt::LeftButton);
+  auto* tour = d.widget<QFrame>("tour");
+  QTRY_VERIFY(tour->isVisible());
+  const QString first = d.text("tourTitle");
+  QTest::keyClick(d.widget<QPushButton>("tourNext"), Qt::Key_Return);
+  QVERIFY(tour->isVisible());
+  QVERIFY(d.text("tourTitle") != first);
+  d.widget<QPushButton>("tourLeave")->setFocus();
+  QTest::keyClick(d.widget<QPushButton>("tourLeave"), Qt::Key_Return);
+  QVERIFY(!tour->isVisible());
+}
+
+void DesktopWindowShellTest::theTreeFollowsTheTheme() {
+  DesktopDriver d;
+  d.addCubes();
+  const auto symbols = [&d] {
+    QTreeView* view = d.partsView();
+    QTest::qWait(0);
+    return view->viewport()->grab().toImage();
+  };
+  const QImage light = symbols();
+  d.choose("themeDark");
+  const QImage dark = symbols();
+  QVERIFY(dark != light);
+  // As a program that was dark from the start shows them.
+  QPixmapCache::clear();
+  d.partsView()->viewport()->update();
+  QCOMPARE(symbols(), dark);
+}
+
+void DesktopWindowShellTest::theTabKeyGoesDownTheFeelPanel() {
+  DesktopDriver d;
+  d.addCubes();
+  auto* panel = d.widget<QWidget>("feelScroll");
+  auto* first = panel->findChild<QComboBox*>(QStringLiteral("hand"));
+  QVERIFY(first != nullptr);
+  first->setFocus();
+  int lowest = 0, count = 0;
+  while (QApplication::focusWidget() != nullptr && panel->isAncestorOf(QApplication::focusWidget())) {
+    const QWidget* here = QApplication::focusWidget();
+    const int top = here->mapTo(&d.window(), QPoint()).y();
+    QVERIFY2(top >= lowest - here->height(), qPrintable(pathOf(here)));
+    lowest = std::max(lowest, top);
+    if (++count > 40) break;
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
+  }
+  QVERIFY(count >= 4 && count <= 40);
+}
+
+void DesktopWindowShellTest::largerLettersAreNotCut() {
+  const QFont before = QApplication::font();
+  QFont large = before;
+  large.setPointSizeF(1.6 * before.pointSizeF());
+  QApplication::setFont(large);
+  {
+    DesktopDriver d;
+    d.addCubes();
+    auto* legend = d.widget<QWidget>("colourLegend");
+    QVERIFY(legend->sizeHint().width() > 300);
+    pressShortcut(d, Qt::Key_F1);
+    auto* list = d.widget<QTreeWidget>("shortcutList");
+    QTRY_VERIFY(list->isVisible());
+    keepPictures(*list->window(), QStringLiteral("shortcuts-large"));
+    for (QTreeWidgetItemIterator it(list); *it != nullptr; ++it) {
+      const int room = list->columnWidth(0) - (list->visualItemRect(*it).left() + list->iconSize().width());
+      QVERIFY2((*it)->childCount() > 0 || list->fontMetrics().horizontalAdvance((*it)->text(0)) <= room,
+               qPrintable((*it)->text(0)));
+    }
+    d.clickPart(1, 0);
+    const std::pair<const char*, const char*> numbers[] = {
+        {"positionX", "-12.3456"}, {"rotationX", "-123.456"}, {"density", "2712.5"}};
+    for (const auto& [name, number] : numbers) {
+      auto* field = d.widget<QDoubleSpinBox>(name);
+      QVERIFY2(field != nullptr, name);
+      d.type<QDoubleSpinBox>(name, number);
+      const QString text = field->text();
+      const auto* line = field->findChild<QLineEdit*>();
+      const int needed = line->fontMetrics().horizontalAdvance(text);
+      QVERIFY2(needed <= line->width(), qPrintable(QStringLiteral("%1: \"%2\" needs %3 pixels, and has %4")
+                                                       .arg(QLatin1String(name), text)
+                                                       .arg(needed)
+                                                       .arg(line->width())));
+    }
+    const auto* mass = d.widget<QLabel>("mass");
+    QVERIFY(mass != nullptr && !mass->text().isEmpty());
+    QTRY_VERIFY(mass->width() >= mass->fontMetrics().horizontalAdvance(mass->text()));
+  }
+  QApplication::setFont(before);
+}
+
+void DesktopWindowShellTest::toolbarsFitANarrowWindow() {
+  DesktopDriver d;
+  d.addCubes();
+  d.window().resize(1200, 760);
+  for (const char* name : {"toolBar", "placingBar"}) {
+    auto* bar = d.widget<QToolBar>(name);
+    QTRY_VERIFY(bar->width() > 1000);
+    QVERIFY2(bar->sizeHint().width() <= bar->width(), qPrintable(QString::number(bar->sizeHint().width())));
+    const auto* more = bar->findChild<QWidget*>(QStringLiteral("qt_toolbar_ext_button"));
+    QVERIFY(more == nullptr || !more->isVisible());
+  }
+  // A narrower one shows that there is more, and has it.
+  d.window().resize(960, 700);
+  auto* bar = d.widget<QToolBar>("toolBar");
+  auto* more = bar->findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
+  QTRY_VERIFY(more != nullptr && more->isVisible());
+  QVERIFY2(more->width() >= 20, qPrintable(QString::number(more->width())));
+  keepPictures(*bar, QStringLiteral("narrow-bar"));
+  d.window().resize(1200, 760);
+  // The views share a button, which goes where the last one went.
+  auto* views = d.widget<QToolButton>("viewsButton");
+  QCOMPARE(views->defaultAction(), d.action("viewIso"));
+  pressShortcut(d, Qt::Key_3);
+  QCOMPARE(views->defaultAction(), d.action("viewTop"));
+}
+
+NEARFIT_QT_SUITE(DesktopWindowShellTest, runDesktopTest<DesktopWindowShellTest>)
+#include "desktop_window_shell_test.moc"

@@ -1,0 +1,183 @@
+#include "core/proximity/hierarchy/normal_cone_tree.h"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/support/lmd_comparison.h"
+#include "tests/support/mesh_generators.h"
+
+namespace nearfit::normal_cone_tree_test {
+namespace {
+
+/// Roundings of a box or a limit in single precision, on meshes of size one.
+constexpr double kRounding = 1e-6;
+
+/// Calls back for each lane and each leaf below it.
+void forEachLeafBelow(const NormalConeTree& tree,
+                      const std::function<void(const NormalConeTree::Bound&, std::uint32_t leaf)>& visit) {
+  std::function<void(std::uint32_t, std::vector<NormalConeTree::Bound>&)> descend =
+      [&](std::uint32_t child, std::vector<NormalConeTree::Bound>& above) {
+        if (NormalConeTree::isLeaf(child)) {
+          for (const NormalConeTree::Bound& b : above)
+            visit(b, child);
+          return;
+        }
+        const NormalConeTree::Node& node = tree.nodes()[child];
+        for (std::size_t lane = 0; lane < NormalConeTree::kWidth; ++lane) {
+          if (node.child[lane] == NormalConeTree::kNoChild) continue;
+          above.push_back(node.bound(lane));
+          descend(node.child[lane], above);
+          above.pop_back();
+        }
+      };
+  std::vector<NormalConeTree::Bound> above;
+  descend(0, above);
+}
+
+glm::dvec3 toVector(const std::array<float, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+std::vector<glm::dvec3> cornersOf(const NormalConeTree& tree, std::uint32_t leaf) {
+  const auto x = tree.positions();
+  const std::uint32_t i = NormalConeTree::leafIndex(leaf);
+  switch (NormalConeTree::leafKind(leaf)) {
+    case FeatureKind::Vertex:
+      return {x[tree.vertices()[i].vertex]};
+    case FeatureKind::Edge:
+      return {x[tree.edges()[i].v0], x[tree.edges()[i].v1]};
+    default:
+      const Triangle& t = tree.faces()[i].corners;
+      return {x[t[0]], x[t[1]], x[t[2]]};
+  }
+}
+
+/// Directions in which a feature carries minima, by the conditions of the definition: a face's normal,
+/// and random directions that lead away from an edge's faces or from a vertex's neighbours.
+std::vector<glm::dvec3> directionsOf(const NormalConeTree& tree, std::uint32_t leaf,
+                                     std::mt19937_64& random) {
+  const auto x = tree.positions();
+  const std::uint32_t i = NormalConeTree::leafIndex(leaf);
+  const std::vector<glm::dvec3> c = cornersOf(tree, leaf);
+  if (c.size() == 3) return {glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]))};
+  std::vector<glm::dvec3> away, out;
+  if (c.size() == 2) {
+    for (const std::uint32_t opposite : tree.edges()[i].opposite)
+      away.push_back(x[opposite] - c[0]);
+  } else {
+    for (const std::uint32_t neighbour : tree.neighbours(tree.vertices()[i]))
+      away.push_back(x[neighbour] - c[0]);
+  }
+  constexpr int kTries = 24;
+  for (int n = 0; n < kTries; ++n) {
+    glm::dvec3 d = test::randomRotation(random).rotation * glm::dvec3(0, 0, 1);
+    if (c.size() == 2)
+      d = glm::normalize(d - (c[1] - c[0]) * (glm::dot(d, c[1] - c[0]) / glm::dot(c[1] - c[0], c[1] - c[0])));
+    bool isPolar = true;
+    for (const glm::dvec3& a : away)
+      isPolar = isPolar && glm::dot(d, a) <= 0.0;
+    if (isPolar) out.push_back(d);
+  }
+  return out;
+}
+
+TEST(NormalConeTree, EachBoundHoldsTheFeaturesBelowIt) {
+  std::size_t checked = 0;
+  for (const double roughness : {0.05, 0.4, 0.8}) {
+    const NormalConeTree tree(
+        test::starMesh(static_cast<std::uint64_t>(100.0 * roughness), 1.0, 4, roughness));
+    forEachLeafBelow(tree, [&](const NormalConeTree::Bound& b, std::uint32_t leaf) {
+      for (const glm::dvec3& p : cornersOf(tree, leaf)) {
+        const glm::dvec3 w = p - toVector(b.centre);
+        EXPECT_LE(std::abs(glm::dot(w, toVector(b.n))), static_cast<double>(b.half[0]) + kRounding);
+        EXPECT_LE(std::abs(glm::dot(w, toVector(b.u))), static_cast<double>(b.half[1]) + kRounding);
+        EXPECT_LE(std::abs(glm::dot(w, toVector(b.v))), static_cast<double>(b.half[2]) + kRounding);
+        ++checked;
+      }
+    });
+  }
+  EXPECT_GT(checked, 10000U);
+}
+
+TEST(NormalConeTree, EachBoundHoldsTheDirectionsOfTheFeaturesBelowIt) {
+  // Rougher meshes have wider cones: bounded exactly, or by rays where they are narrow.
+  std::mt19937_64 random(3);
+  std::size_t checked = 0;
+  for (const double roughness : {0.01, 0.05, 0.4, 0.8}) {
+    const NormalConeTree tree(
+        test::starMesh(static_cast<std::uint64_t>(100.0 * roughness), 1.0, 3, roughness));
+    forEachLeafBelow(tree, [&](const NormalConeTree::Bound& b, std::uint32_t leaf) {
+      for (const glm::dvec3& d : directionsOf(tree, leaf, random)) {
+        const glm::dvec3 local(glm::dot(d, toVector(b.n)), glm::dot(d, toVector(b.u)),
+                               glm::dot(d, toVector(b.v)));
+        EXPECT_GE(local.x, static_cast<double>(b.leastN));
+        EXPECT_LE(std::abs(local.y), static_cast<double>(b.mostU));
+        EXPECT_LE(std::abs(local.z), static_cast<double>(b.mostV));
+        ++checked;
+      }
+    });
+  }
+  EXPECT_GT(checked, 10000U);
+}
+
+/// Each minimum, feature by feature, to the last bit.
+void expectSame(const std::vector<Lmd>& a, const std::vector<Lmd>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].distance, b[i].distance);
+    EXPECT_EQ(a[i].scenePoint, b[i].scenePoint);
+    EXPECT_EQ(a[i].partPoint, b[i].partPoint);
+    EXPECT_EQ(a[i].sceneFeature, b[i].sceneFeature);
+    EXPECT_EQ(a[i].sceneIndex, b[i].sceneIndex);
+    EXPECT_EQ(a[i].isRegion, b[i].isRegion);
+  }
+}
+
+TEST(NormalConeTree, FeaturesThatCarryNoMinimumChangeNoAnswer) {
+  const test::BodyPair pairs[] = {
+      {"bore", test::tubeMesh(0.5, 1.0, 0.4, 16), test::cylinderMesh(0.4, 0.6, 12)},
+      {"boxes", test::subdivided(test::boxMesh({1.0, 2.0, 3.0}), 2),
+       test::subdivided(test::boxMesh(glm::dvec3(0.5)), 2)},
+      {"stars", test::starMesh(1, 1.0, 2, 0.3), test::starMesh(2, 1.0, 2, 0.3)},
+  };
+  std::mt19937_64 random(5);
+  for (const test::BodyPair& pair : pairs) {
+    const NormalConeTree scene(pair.scene), part(pair.part),
+        idleScene = NormalConeTree::withIdleFeatures(pair.scene),
+        idlePart = NormalConeTree::withIdleFeatures(pair.part);
+    EXPECT_GT(idleScene.keptFeatures().total(), scene.keptFeatures().total()) << pair.name;
+    std::size_t minima = 0;
+    for (std::size_t i = 0; i < 200 / test::kPoseShare; ++i) {
+      const RigidTransform pose = test::poseNearContact(pair, 0.2, random);
+      const std::vector<Lmd> expected = test::allLmds(scene, part, pose, 0.2);
+      expectSame(test::allLmds(idleScene, idlePart, pose, 0.2), expected);
+      minima += expected.size();
+    }
+    EXPECT_GT(minima, 20U / test::kPoseShare) << pair.name;
+  }
+}
+
+TEST(NormalConeTree, AFeatureThatCarriesNoMinimumIsKnownByItsPlace) {
+  const NormalConeTree box = NormalConeTree::withIdleFeatures(test::boxMesh(glm::dvec3(1.0)));
+  ASSERT_EQ(box.edges().size(), 18U);
+  std::size_t idle = 0;
+  for (std::uint32_t i = 0; i < 18; ++i) {
+    const NormalConeTree::EdgeLeaf& edge = box.edges()[i];
+    // The sides of the cube are as long as it is, the diagonals are not.
+    const bool isDiagonal = glm::distance(box.positions()[edge.v0], box.positions()[edge.v1]) > 1.2;
+    EXPECT_EQ(box.isIdle(FeatureKind::Edge, i), isDiagonal);
+    idle += isDiagonal ? 1 : 0;
+  }
+  EXPECT_EQ(idle, 6U);
+  EXPECT_FALSE(box.isIdle(FeatureKind::Vertex, 7));
+  EXPECT_FALSE(box.isIdle(FeatureKind::Face, 11));
+}
+
+}  // namespace
+}  // namespace nearfit::normal_cone_tree_test

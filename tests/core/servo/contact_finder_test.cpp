@@ -1,0 +1,95 @@
+#include "core/servo/contact_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/support/allocation_hook.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/proxy_walk.h"
+
+namespace nearfit::contact_finder_test {
+namespace {
+
+constexpr double kReach = 2.6e-3;
+
+RigidTransform raised(double z) {
+  return {{1, 0, 0, 0}, {0.003, 0.002, z}};
+}
+
+/// Two open sheets of thousands of triangles, all of them near.
+test::ProxyWalk sheets() {
+  return test::ProxyWalk({{test::squareMesh(1.0, 100), {}}}, test::squareMesh(1.0, 100), raised(0.1),
+                         {1e-3, 0.0});
+}
+
+TEST(ContactFinder, ATickAmongOpenSheetsEndsWithinItsWork) {
+  test::ProxyWalk walk = sheets();
+  walk.lead(walk.pose());
+  ContactFinder finder;
+  std::vector<BodyContact> out(ContactFinder::kMaxContacts);
+  std::uint64_t most = 0;
+  for (int tick = 0; tick < 3; ++tick) {
+    finder.beginTick();
+    for (int look = 0; look < 24; ++look) {
+      const double z = 1e-3 + 1e-5 * look;
+      const Surroundings around = finder.find(walk.tracked(), raised(z), kReach, 1e-3, out);
+      EXPECT_LE(around.distance, z);
+      if (finder.isWorkSpent()) break;
+    }
+    most = std::max(most, finder.work());
+  }
+  // And some for asking which bodies are near.
+  EXPECT_LE(most, ContactFinder::kMaxSurfaceWork + 64);
+  EXPECT_GT(most, ContactFinder::kMaxSurfaceWork / 2);
+}
+
+/// Waves in phase, one above the other: their boxes overlap down to the leaves.
+TriangleMesh waves() {
+  const TriangleMesh flat = test::squareMesh(1.0, 18);
+  std::vector<glm::dvec3> vertices;
+  for (const glm::dvec3& p : flat.vertices())
+    vertices.emplace_back(p.x, p.y, 0.02 * std::sin(20.0 * p.x));
+  return {std::move(vertices), {flat.triangles().begin(), flat.triangles().end()}};
+}
+
+// A search that was left off with its nodes still overlapping says of nothing that it is away. Taken for an
+// answer, it left no work for a shorter look: a part that slid among coils took one step a tick. Here even the
+// shortest says nothing within what surfaces have of a tick: those that follow may take more.
+TEST(ContactFinder, WhereALookSaysNothingAShorterOneDoes) {
+  test::ProxyWalk walk({{waves(), {}}}, waves(), raised(0.1), {1e-3, 0.0});
+  walk.lead(walk.pose());
+  ContactFinder finder;
+  std::vector<BodyContact> out(ContactFinder::kMaxContacts);
+  for (int tick = 0; tick < 8; ++tick) {
+    finder.beginTick();
+    const RigidTransform pose{{1, 0, 0, 0}, {0.0, 0.0, 1.2e-3 + 1e-5 * tick}};
+    const Surroundings around = finder.find(walk.tracked(), pose, kReach, 1e-3, out);
+    // The first ticks learn that there is too much for longer ones.
+    if (tick < 4) continue;
+    EXPECT_GT(around.completeTo, 0.0);
+    EXPECT_GT(around.distance, 0.2e-3);
+    EXPECT_LE(around.distance, pose.translation.z);
+  }
+}
+
+TEST(ContactFinder, LooksAmongOpenSheetsAllocateNothing) {
+  test::ProxyWalk walk = sheets();
+  walk.lead(walk.pose());
+  ContactFinder finder;
+  std::vector<BodyContact> out(ContactFinder::kMaxContacts);
+  test::resetAllocationCount();
+  test::startCountingAllocations();
+  for (int look = 0; look < 24; ++look) {
+    finder.beginTick();
+    finder.find(walk.tracked(), raised(1e-3 + 1e-4 * look), kReach, 1e-3, out);
+  }
+  test::stopCountingAllocations();
+  EXPECT_EQ(test::countedAllocations(), 0U);
+}
+
+}  // namespace
+}  // namespace nearfit::contact_finder_test

@@ -1,0 +1,324 @@
+// The servo's tick in the proxy mode: what the hand feels, and what becomes of it when modes, clutch, age and
+// scene change.
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "core/math/rotation_vector.h"
+#include "core/servo/scene_tracker.h"
+#include "core/servo/servo_tick.h"
+#include "tests/support/allocation_hook.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/part_geometries.h"
+
+namespace nearfit::servo_tick_proxy_test {
+namespace {
+
+constexpr double kPeriod = 1e-3, kMargin = 1e-3;
+
+RigidTransform at(const glm::dvec3& translation) {
+  return {{1, 0, 0, 0}, translation};
+}
+
+/// A cube of side 0.2 in hand over a floor at z = 0, ticked as the servo does it.
+class ServoTickWithProxy : public testing::Test {
+ protected:
+  ServoTickWithProxy() {
+    auto scene = std::make_shared<ServoScene>();
+    scene->setMoving({PartId{1}, test::geometryOf(test::boxMesh({0.2, 0.2, 0.2})), at({0.0, 0.0, 0.2})});
+    scene->bodies.push_back(
+        {PartId{2}, test::geometryOf(test::boxMesh({4.0, 4.0, 1.0}, {0.0, 0.0, -0.5})), {}});
+    setScene(scene);
+    parameters_.haptics.springs.cutoff = 0.05;
+    parameters_.haptics.proxy.margin = kMargin;
+  }
+
+  void setScene(const std::shared_ptr<const ServoScene>& scene) {
+    scene_ = scene;
+    tracker_.setScene(scene);
+  }
+
+  const ServoSnapshot& tick(const RigidTransform& device, double age = 0.0, bool isClutched = false) {
+    const SearchReach reach = searchReach(parameters_.haptics);
+    if (snapshot_->tick > 0) tracker_.observe(snapshot_->proxy, 1.0);
+    tracker_.setWaiting(snapshot_->isWaiting);
+    if (tracker_.isDue(reach)) tracker_.refresh(reach, tracked_);
+    tick_.run(tracked_, parameters_, {.pose = device, .age = age, .isClutched = isClutched}, kPeriod,
+              *snapshot_);
+    ++snapshot_->tick;
+    return *snapshot_;
+  }
+  const ServoSnapshot& letGo(const RigidTransform& device) {
+    tick_.run(tracked_, parameters_, {.pose = device, .returnsToPart = true}, kPeriod, *snapshot_);
+    ++snapshot_->tick;
+    return *snapshot_;
+  }
+  const ServoSnapshot& hold(const RigidTransform& device, int ticks) {
+    for (int i = 0; i < ticks; ++i)
+      tick(device);
+    return *snapshot_;
+  }
+
+  std::shared_ptr<const ServoScene> scene_;
+  SceneTracker tracker_;
+  TrackedScene tracked_;
+  ServoTick tick_;
+  ServoParameters parameters_;
+  const std::unique_ptr<ServoSnapshot> snapshot_ = std::make_unique<ServoSnapshot>();
+};
+
+TEST_F(ServoTickWithProxy, FreeMotionAndRestAreFeltAsExactlyNothing) {
+  for (int i = 0; i < 500; ++i) {
+    const ServoSnapshot& s =
+        tick({glm::angleAxis(0.002 * i, glm::dvec3(0, 0, 1)),
+              {0.05 * std::sin(0.01 * i), 0.0, 0.2 + 0.01 * (1.0 - std::cos(0.02 * i))}});
+    ASSERT_EQ(s.proxy.translation, s.handle.translation);
+    ASSERT_EQ(s.wrench.force, glm::dvec3(0.0)) << i;
+    ASSERT_EQ(s.wrench.torque, glm::dvec3(0.0)) << i;
+  }
+}
+
+TEST_F(ServoTickWithProxy, LettingGoTakesTheHandleToThePartAndLeadsItOnFromThere) {
+  parameters_.haptics.coupling = {.isAutomatic = false, .stiffness = 500.0};
+  tick(at({0.0, 0.0, 0.2}));
+  // What rests is a hundredth of the margin within it.
+  const double slack = 0.02 * kMargin;
+  // Its bottom is 8 mm in the floor, where the part does not follow.
+  const double rest = hold(at({0.0, 0.0, 0.092}), 300).proxy.translation.z;
+  ASSERT_NEAR(rest, 0.1 + kMargin, slack);
+  ASSERT_GT(snapshot_->unclampedWrench.force.z, 500.0 * 8e-3);
+  const ServoSnapshot& free = letGo(at({0.0, 0.0, 0.092}));
+  EXPECT_NEAR(free.handle.translation.z, rest, slack);
+  EXPECT_NEAR(free.proxy.translation.z, rest, slack);
+  EXPECT_LT(glm::length(free.unclampedWrench.force), 500.0 * slack) << "not even damping of the way back";
+  // Up by 2 mm from there, at once: not by what it had pressed before.
+  EXPECT_NEAR(hold(at({0.0, 0.0, 0.094}), 300).proxy.translation.z, rest + 2e-3, slack);
+}
+
+TEST_F(ServoTickWithProxy, ThePressedHandIsPushedBackByTheCouplingsStiffness) {
+  parameters_.haptics.coupling = {.isAutomatic = false, .stiffness = 500.0};
+  const ServoSnapshot& s = hold(at({0.0, 0.0, 0.1 + kMargin - 0.01}), 600);
+  EXPECT_NEAR(s.proxy.translation.z, 0.1 + kMargin, 0.02 * kMargin);
+  EXPECT_NEAR(s.wrench.force.z, 500.0 * 0.01, 500.0 * 0.02 * kMargin);
+  EXPECT_NEAR(s.wrench.force.x, 0.0, 1e-9);
+  EXPECT_EQ(s.mode, HapticMode::Proxy);
+  EXPECT_GE(s.contactCount, 1U);
+  double held = 0.0;
+  for (std::size_t i = 0; i < s.storedContacts; ++i) {
+    EXPECT_EQ(s.contacts[i].other, PartId{2});
+    EXPECT_NEAR(s.contacts[i].direction.z, 1.0, 1e-9);
+    held += s.contacts[i].force;
+  }
+  EXPECT_NEAR(held, s.wrench.force.z, 0.05);
+}
+
+TEST_F(ServoTickWithProxy, StiffnessIsHeldToTheBoundOfTheDevice) {
+  parameters_.haptics.coupling = {.isAutomatic = false, .stiffness = 1e5};
+  const ServoSnapshot& s = tick(at({0.0, 0.0, 0.2}));
+  EXPECT_TRUE(s.coupling.isHeldToBound);
+  EXPECT_LE(s.coupling.stiffness, stiffnessBound(parameters_.limits.damping, 0.0, kPeriod));
+  EXPECT_GT(s.coupling.stiffness, 0.0);
+}
+
+TEST_F(ServoTickWithProxy, APressedHandIsFadedInAndNeverJoltedByTheSlewLimit) {
+  parameters_.limits.forceSlew = 100.0;
+  double before = 0.0;
+  for (int i = 0; i < 800; ++i) {
+    const double force = tick(at({0.0, 0.0, 0.09})).wrench.force.z;
+    EXPECT_LE(std::abs(force - before), 100.0 * kPeriod + 1e-12) << i;
+    before = force;
+  }
+  EXPECT_GT(before, 5.0);
+}
+
+TEST_F(ServoTickWithProxy, StaleInputFadesToNothingAndComesBack) {
+  hold(at({0.0, 0.0, 0.095}), 600);
+  const double full = snapshot_->wrench.force.z;
+  ASSERT_GT(full, 1.0);
+  for (int i = 0; i < 200; ++i)
+    tick(at({0.0, 0.0, 0.095}), 0.001 * i);
+  EXPECT_EQ(snapshot_->wrench.force.z, 0.0);
+  hold(at({0.0, 0.0, 0.095}), 600);
+  EXPECT_NEAR(snapshot_->wrench.force.z, full, 1e-6);
+}
+
+TEST_F(ServoTickWithProxy, ModesChangeLiveAndAPartThatSpringsLeftInsideIsReleased) {
+  hold(at({0.0, 0.0, 0.09}), 300);
+  EXPECT_GT(snapshot_->proxy.translation.z, 0.1);
+  parameters_.haptics.mode = HapticMode::Springs;
+  const ServoSnapshot& s = hold(at({0.0, 0.0, 0.09}), 5);
+  EXPECT_EQ(s.mode, HapticMode::Springs);
+  EXPECT_EQ(s.proxy.translation.z, 0.09) << "through the floor, as springs let it";
+  parameters_.haptics.mode = HapticMode::Proxy;
+  hold(at({0.0, 0.0, 0.09}), 10);
+  EXPECT_EQ(s.releasedCount, 1U);
+  EXPECT_EQ(s.released[0], PartId{2});
+  EXPECT_EQ(s.proxy.translation.z, 0.09);
+  hold(at({0.0, 0.0, 0.15}), 100);
+  EXPECT_EQ(s.releasedCount, 0U);
+  hold(at({0.0, 0.0, 0.05}), 100);
+  EXPECT_NEAR(s.proxy.translation.z, 0.1 + kMargin, 0.02 * kMargin);
+}
+
+TEST_F(ServoTickWithProxy, WhileClutchedThePartStaysAndNothingIsFelt) {
+  hold(at({0.0, 0.0, 0.095}), 600);
+  const RigidTransform there = snapshot_->handle;
+  for (int i = 0; i < 100; ++i)
+    tick(at({0.001 * i, 0.0, 0.095}), 0.0, true);
+  EXPECT_EQ(snapshot_->handle.translation, there.translation);
+  EXPECT_EQ(snapshot_->wrench.force, glm::dvec3(0.0));
+  hold(at({0.099, 0.0, 0.095}), 600);
+  EXPECT_NEAR(snapshot_->handle.translation.x, 0.0, 1e-12) << "goes on from where it was";
+  EXPECT_GT(snapshot_->wrench.force.z, 1.0);
+}
+
+TEST_F(ServoTickWithProxy, LockedAxesAndScaleActOnTheHandle) {
+  tick(at({0.0, 0.0, 0.2}));
+  parameters_.haptics.mapping.scale = 0.5;
+  parameters_.haptics.mapping.translationLocks = {true, false, false};
+  tick(at({0.0, 0.0, 0.2}));
+  const ServoSnapshot& s = hold(at({0.1, 0.1, 0.2}), 100);
+  EXPECT_NEAR(s.proxy.translation.x, 0.0, 1e-12);
+  EXPECT_NEAR(s.proxy.translation.y, 0.05, 1e-12);
+}
+
+TEST_F(ServoTickWithProxy, WeightHangsInTheHandAndRestsOnTheFloor) {
+  auto heavy = std::make_shared<ServoScene>(*scene_);
+  heavy->mass = 0.2;
+  setScene(heavy);
+  parameters_.haptics.weight.hasWeight = true;
+  const double weight = 0.2 * 9.80665;
+  hold(at({0.0, 0.0, 0.3}), 800);
+  EXPECT_NEAR(snapshot_->wrench.force.z, -weight, 1e-6);
+  EXPECT_NEAR(snapshot_->proxy.translation.z, 0.3 - weight / snapshot_->coupling.stiffness, 1e-9);
+  // Set down: a hand at the part's own height feels none of it.
+  const double rest = 0.1 + kMargin;
+  hold(at({0.0, 0.0, rest}), 800);
+  EXPECT_NEAR(snapshot_->wrench.force.z, 0.0, 0.02 * kMargin * snapshot_->coupling.stiffness);
+}
+
+TEST_F(ServoTickWithProxy, InertiaResistsAndThePartComesToRestAtTheHand) {
+  auto heavy = std::make_shared<ServoScene>(*scene_);
+  heavy->mass = 0.5;
+  setScene(heavy);
+  parameters_.haptics.weight.hasInertia = true;
+  hold(at({0.0, 0.0, 0.3}), 1500);
+  tick(at({0.002, 0.0, 0.3}));
+  EXPECT_LT(snapshot_->proxy.translation.x, 0.001) << "it lags behind a jerk";
+  EXPECT_LT(snapshot_->wrench.force.x, -0.5) << "which the hand feels";
+  hold(at({0.002, 0.0, 0.3}), 3000);
+  EXPECT_NEAR(snapshot_->proxy.translation.x, 0.002, 5e-5) << "within a decay of mass over damping";
+}
+
+TEST_F(ServoTickWithProxy, AFaultSilencesAndHoldsThePartUntilReset) {
+  hold(at({0.0, 0.0, 0.095}), 400);
+  ASSERT_GT(snapshot_->wrench.force.z, 1.0);
+  const RigidTransform before = snapshot_->proxy;
+  RigidTransform bad = at({0.0, 0.0, 0.095});
+  bad.translation.x = std::numeric_limits<double>::quiet_NaN();
+  const ServoSnapshot& s = tick(bad);
+  EXPECT_EQ(s.fault, ServoFault::PoseNotFinite);
+  EXPECT_EQ(s.wrench.force, glm::dvec3(0.0));
+  EXPECT_EQ(s.deviceWrench.force, glm::dvec3(0.0));
+  hold(at({0.3, 0.0, 0.3}), 20);
+  EXPECT_EQ(s.fault, ServoFault::PoseNotFinite) << "latched";
+  EXPECT_EQ(s.proxy.translation, before.translation);
+  EXPECT_NE(std::string(faultReason(s.fault)), "");
+  tick_.reset();
+  EXPECT_EQ(hold(at({0.0, 0.0, 0.3}), 3).fault, ServoFault::None);
+}
+
+TEST_F(ServoTickWithProxy, WhatIsFeltIsThereBeforeWhatIsShownAndDoesNotChangeByIt) {
+  hold(at({0.0, 0.0, 0.095}), 400);
+  tick_.feel(tracked_, parameters_, {.pose = at({0.0, 0.0, 0.094})}, kPeriod, *snapshot_);
+  const ServoSnapshot felt = *snapshot_;
+  EXPECT_GT(felt.deviceWrench.force.z, 1.0);
+  EXPECT_EQ(felt.lmdCount, 0U) << "nobody has looked for minima yet";
+  EXPECT_EQ(felt.contactCount, 0U);
+
+  tick_.show(tracked_, parameters_, *snapshot_);
+  EXPECT_EQ(snapshot_->deviceWrench.force, felt.deviceWrench.force);
+  EXPECT_EQ(snapshot_->deviceWrench.torque, felt.deviceWrench.torque);
+  EXPECT_EQ(snapshot_->proxy.translation, felt.proxy.translation);
+  EXPECT_EQ(snapshot_->lmdCount, 1U);
+  EXPECT_NEAR(snapshot_->distance, snapshot_->proxy.translation.z - 0.1, 1e-9)
+      << "the cube's gap to the floor";
+  EXPECT_GT(snapshot_->contactCount, 0U);
+}
+
+TEST_F(ServoTickWithProxy, TicksThatNobodyIsShownAreFeltAllTheSame) {
+  hold(at({0.0, 0.0, 0.095}), 400);
+  const glm::dvec3 force = snapshot_->wrench.force;
+  for (int i = 0; i < 20; ++i)
+    tick_.feel(tracked_, parameters_, {.pose = at({0.0, 0.0, 0.095})}, kPeriod, *snapshot_);
+  EXPECT_NEAR(snapshot_->wrench.force.z, force.z, 1e-6 * force.z);
+  EXPECT_EQ(snapshot_->fault, ServoFault::None);
+}
+
+TEST_F(ServoTickWithProxy, ABadPoseOfAnotherBodyIsAFaultBeforeAnythingIsFelt) {
+  hold(at({0.0, 0.0, 0.095}), 400);
+  const RigidTransform before = snapshot_->proxy;
+  auto broken = std::make_shared<ServoScene>(*scene_);
+  broken->bodies[0].worldFromPart.translation.z = std::numeric_limits<double>::quiet_NaN();
+  tracked_.scene = broken;
+  tick_.feel(tracked_, parameters_, {.pose = at({0.0, 0.0, 0.09})}, kPeriod, *snapshot_);
+  EXPECT_EQ(snapshot_->fault, ServoFault::PoseNotFinite);
+  EXPECT_EQ(snapshot_->deviceWrench.force, glm::dvec3(0.0));
+  EXPECT_EQ(snapshot_->proxy.translation, before.translation);
+}
+
+TEST_F(ServoTickWithProxy, SenselessSettingsAreAFault) {
+  const ServoParameters good = parameters_;
+  const auto faultWith = [&](auto change) {
+    parameters_ = good;
+    change(parameters_);
+    tick_.reset();
+    return tick(at({0.0, 0.0, 0.2})).fault;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double bad : {nan, std::numeric_limits<double>::infinity(), -1.0}) {
+    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.haptics.proxy.margin = bad; }),
+              ServoFault::ParametersInvalid);
+    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.haptics.proxy.friction = bad; }),
+              ServoFault::ParametersInvalid);
+    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.haptics.coupling.stiffness = bad; }),
+              ServoFault::ParametersInvalid);
+    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.haptics.mapping.scale = bad; }),
+              ServoFault::ParametersInvalid);
+    EXPECT_EQ(faultWith([&](ServoParameters& p) { p.limits.damping = bad; }), ServoFault::ParametersInvalid);
+  }
+  EXPECT_EQ(faultWith([&](ServoParameters& p) { p.haptics.weight.gravity.x = nan; }),
+            ServoFault::ParametersInvalid);
+  EXPECT_EQ(faultWith([](ServoParameters&) {}), ServoFault::None);
+}
+
+TEST_F(ServoTickWithProxy, AHandThatPressesAndLetsGoGetsNoMoreThanTheDevicesDampingTakes) {
+  // A sampled spring gives more than it took, by K T / 2 for each speed squared and second: within the bound
+  // of stability that is less than the device's own damping.
+  double taken = 0.0, before = 0.11;
+  for (int i = 0; i < 4000; ++i) {
+    const double height = 0.11 - 0.01 * (1.0 - std::cos(0.004 * i));
+    const double energy = tick(at({0.0, 0.0, height})).energyToHand;
+    taken += parameters_.limits.damping * (height - before) * (height - before) / kPeriod;
+    before = height;
+    ASSERT_LE(energy, taken + 1e-12) << i;
+  }
+  EXPECT_GT(taken, 1e-4);
+}
+
+TEST_F(ServoTickWithProxy, TicksInContactAllocateNothing) {
+  hold(at({0.0, 0.0, 0.09}), 50);
+  test::resetAllocationCount();
+  test::startCountingAllocations();
+  for (int i = 0; i < 50; ++i) {
+    tick_.run(tracked_, parameters_, {.pose = at({0.001 * i, 0.0, 0.09 - 0.001 * i})}, kPeriod, *snapshot_);
+  }
+  test::stopCountingAllocations();
+  EXPECT_EQ(test::countedAllocations(), 0U);
+}
+
+}  // namespace
+}  // namespace nearfit::servo_tick_proxy_test

@@ -1,0 +1,138 @@
+// A part that is near more pairs of features than a tick may search for goes on only with lists: an engaged
+// nut once stood still on its bolt for what these tests hold, each by itself. Here a rod in a tube, ringed
+// alike, which is turned.
+#include <cmath>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <gtest/gtest.h>
+
+#include "core/servo/contact_finder.h"
+#include "core/servo/proxy.h"
+#include "core/servo/scene_tracker.h"
+#include "tests/support/part_geometries.h"
+#include "tests/support/ringed_pair.h"
+
+namespace nearfit::starved_part_test {
+namespace {
+
+constexpr double kMargin = 0.008;
+constexpr double kReach = kContactReach * kMargin;
+
+RigidTransform turnedBy(double angle) {
+  return {glm::angleAxis(angle, glm::dvec3(0.0, 0.0, 1.0)), glm::dvec3(0.0)};
+}
+
+double angleOf(const RigidTransform& pose) {
+  return 2.0 * std::atan2(pose.rotation.z, pose.rotation.w);
+}
+
+class StarvedRod : public testing::Test {
+ protected:
+  StarvedRod() {
+    const test::RingedPair pair{.detail = 4};
+    auto scene = std::make_shared<ServoScene>();
+    scene->setMoving({PartId{1}, test::solidGeometryOf(pair.rod()), {}});
+    scene->bodies.push_back({PartId{2}, test::solidGeometryOf(pair.tube()), {}});
+    scene->prepareSurfaces();
+    scene_ = scene;
+    tracker_.setScene(scene);
+  }
+
+  /// Ticks at which the part is seen turning by so much each.
+  void observe(int ticks, double rate) {
+    for (int i = 0; i < ticks; ++i)
+      tracker_.observe(turnedBy(seen_ += rate), 1.0);
+  }
+  TrackedScene refreshed() {
+    TrackedScene tracked;
+    tracker_.refresh(reach_, tracked);
+    return tracked;
+  }
+  static bool holds(const TrackedScene& tracked, const RigidTransform& pose) {
+    const CandidateList* list = tracked.near.at(0).contacts.get();
+    return list != nullptr && list->spent(pose) <= 1.0;
+  }
+
+  SearchReach reach_{kReach, kReach};
+  std::shared_ptr<const ServoScene> scene_;
+  SceneTracker tracker_;
+  double seen_ = 0.0;
+};
+
+TEST_F(StarvedRod, NoTickMaySearchForThePairsThatAreNearIt) {
+  const NormalConeTree &tube = scene_->bodies[0].geometry->tree(), &rod = scene_->moving.geometry->tree();
+  LmdScratch scratch(1);
+  std::vector<LeafPair> pairs(1U << 16);
+  const NearbyPairs nearby =
+      findNearbyPairs({tube, rod, {}, kReach}, {kReach, contactTurn(kReach, scene_->metric.radius)}, {},
+                      scratch, pairs, std::uint64_t{1} << 30U);
+  EXPECT_TRUE(nearby.isComplete);
+  EXPECT_GT(nearby.work, 2 * ContactFinder::kMaxSearchWork);
+}
+
+// Where it was free, nothing was said, and nothing was searched for.
+TEST_F(StarvedRod, AFreeStepThatListsDoNotCoverIsToldToBeStarved) {
+  const TrackedScene tracked = refreshed();
+  Proxy proxy;
+  proxy.place({});
+  const ProxySettings settings{kMargin, 0.0};
+  proxy.follow(tracked, {}, settings);
+  ASSERT_FALSE(proxy.account().isWaiting);
+  ASSERT_GT(proxy.distance(), 1.7 * kMargin) << "free";
+  ASSERT_FALSE(holds(tracked, turnedBy(0.5)));
+  proxy.follow(tracked, turnedBy(0.5), settings);
+  EXPECT_LT(angleOf(proxy.pose()), 0.4);
+  EXPECT_TRUE(proxy.account().isStarved);
+  // With lists renewed around it, it goes on, each time it is told.
+  double before = angleOf(proxy.pose());
+  for (int i = 0; i < 4; ++i) {
+    tracker_.observe(proxy.pose(), 1.0);
+    tracker_.observeHand(turnedBy(0.5), 1.0);
+    tracker_.setStarved(proxy.account().isStarved);
+    ASSERT_TRUE(tracker_.isDue(reach_));
+    proxy.follow(refreshed(), turnedBy(0.5), settings);
+    EXPECT_GT(angleOf(proxy.pose()), before);
+    before = angleOf(proxy.pose());
+  }
+}
+
+// For the way of a fast part there were too many pairs to list. Where there was no list, none was ever due.
+TEST_F(StarvedRod, WhereThereWasNoListOneIsDueOnceItStarves) {
+  reach_ = {5.0 * kReach, 5.0 * kReach};
+  observe(40, 0.3);
+  ASSERT_FALSE(refreshed().near.at(0).contacts);
+  // It stands, and is looked at again until nothing is due any more.
+  observe(40, 0.0);
+  tracker_.setStarved(false);
+  for (int i = 0; i < 8 && tracker_.isDue(reach_); ++i)
+    refreshed();
+  ASSERT_FALSE(tracker_.isDue(reach_));
+  tracker_.setStarved(true);
+  TrackedScene tracked;
+  for (int i = 0; i < 20 && tracker_.isDue(reach_); ++i)
+    tracked = refreshed();
+  ASSERT_EQ(tracked.near.size(), 1U);
+  EXPECT_TRUE(holds(tracked, turnedBy(seen_)));
+}
+
+// A part that waited was foretold to stand: each list held where it stood, and no way on.
+TEST_F(StarvedRod, ListsOfOneThatWaitsHoldTheWayThatItsHandGoes) {
+  constexpr double kRate = 0.02;
+  constexpr int kLead = 3;
+  for (const bool isHandSeen : {false, true}) {
+    tracker_ = {};
+    tracker_.setScene(scene_);
+    for (int i = 0; i < 40; ++i) {
+      tracker_.observe({}, 1.0);
+      if (isHandSeen) tracker_.observeHand(turnedBy(kRate * i), 1.0);
+      tracker_.setLead(kLead);
+    }
+    tracker_.setStarved(true);
+    const TrackedScene tracked = refreshed();
+    EXPECT_EQ(holds(tracked, turnedBy(kRate * kLead)), isHandSeen);
+  }
+}
+
+}  // namespace
+}  // namespace nearfit::starved_part_test

@@ -1,0 +1,53 @@
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/session/session.h"
+
+namespace nearfit::session_parts_test {
+namespace {
+
+TEST(SessionParts, PartsThatComeTogetherAreOneStep) {
+  Session session;
+  int changes = 0;
+  session.onChange([&] { ++changes; });
+  const std::vector<PartId> added = session.addParts({{{}, "Peg"}, {{}, "Peg"}, {{}, "Hole"}});
+  ASSERT_EQ(added.size(), 3U);
+  EXPECT_EQ(changes, 1);
+  EXPECT_EQ(session.undoText(), "Add 3 parts");
+  EXPECT_EQ(session.scene().find(added[1])->name, "Peg 2");
+  EXPECT_NE(session.scene().find(added[0])->colour, session.scene().find(added[1])->colour);
+  session.undo();
+  EXPECT_TRUE(session.scene().parts().empty());
+  EXPECT_FALSE(session.canUndo());
+}
+
+TEST(SessionParts, OnePartIsNamedAndNoneIsNoStep) {
+  Session session;
+  EXPECT_TRUE(session.addParts({}).empty());
+  EXPECT_FALSE(session.canUndo());
+  session.addParts({{{}, "Peg"}});
+  EXPECT_EQ(session.undoText(), "Add Peg");
+}
+
+TEST(SessionParts, ARefusedOneLeavesAllOut) {
+  Session session;
+  EXPECT_THROW(session.addParts({{{}, "Peg"}, {{}, ""}}), UsageError);
+  EXPECT_TRUE(session.scene().parts().empty());
+  EXPECT_FALSE(session.canUndo());
+}
+
+TEST(SessionParts, AnotherSceneHasAnotherSerialAndEditsHaveNot) {
+  Session session;
+  const std::uint64_t first = session.sceneSerial();
+  session.addPart({}, "Peg");
+  session.undo();
+  EXPECT_EQ(session.sceneSerial(), first);
+  session.reset();
+  const std::uint64_t second = session.sceneSerial();
+  EXPECT_NE(second, first);
+  session.restore({}, {});
+  EXPECT_NE(session.sceneSerial(), second);
+}
+
+}  // namespace
+}  // namespace nearfit::session_parts_test

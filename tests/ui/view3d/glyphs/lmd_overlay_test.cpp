@@ -1,0 +1,175 @@
+#include "ui/view3d/glyphs/lmd_overlay.h"
+
+#include <QApplication>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <vector>
+
+#include <vtkActorCollection.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+
+#include "tests/support/qt/qt_suite.h"
+#include "ui/panels/view/minima_menu.h"
+
+using namespace nearfit;
+
+namespace {
+
+constexpr double kCutoff = 1e-3;
+
+/// One minimum each at 0.1, 0.2 ... of the cutoff, in another order; one of them blocked.
+std::vector<SnapshotLmd> tenMinima(std::size_t blocked = 10) {
+  std::vector<SnapshotLmd> all;
+  for (const int tenths : {7, 3, 10, 1, 5, 9, 2, 8, 4, 6}) {
+    SnapshotLmd entry;
+    entry.lmd.distance = 0.1 * tenths * kCutoff;
+    entry.lmd.direction = {0.0, 0.0, 1.0};
+    entry.lmd.scenePoint = {static_cast<double>(tenths), 0.0, 0.0};
+    entry.lmd.partPoint = entry.lmd.scenePoint + entry.lmd.distance * entry.lmd.direction;
+    entry.lmd.isBlocked = all.size() == blocked;
+    all.push_back(entry);
+  }
+  return all;
+}
+
+/// What the actors that are seen have: lines with the longest of them [m], and dots.
+struct Seen {
+  vtkIdType lines = 0, dots = 0;
+  double widest = 0.0;
+};
+Seen seenIn(vtkRenderer& renderer) {
+  Seen seen;
+  // Asked for again the collection begins anew.
+  vtkActorCollection* actors = renderer.GetActors();
+  actors->InitTraversal();
+  while (vtkActor* actor = actors->GetNextActor()) {
+    if (!actor->GetVisibility()) continue;
+    const vtkPolyData* data = vtkPolyDataMapper::SafeDownCast(actor->GetMapper())->GetInput();
+    auto& input = const_cast<vtkPolyData&>(*data);
+    const bool isDots = actor->GetProperty()->GetRepresentation() == VTK_POINTS;
+    seen.lines += isDots ? 0 : input.GetNumberOfLines();
+    seen.dots += isDots ? input.GetNumberOfPoints() : input.GetNumberOfVerts();
+    if (input.GetNumberOfPoints() > 0)
+      seen.widest = std::max(seen.widest, static_cast<double>(actor->GetProperty()->GetLineWidth()));
+  }
+  return seen;
+}
+
+}  // namespace
+
+class LmdOverlayTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase();
+  void init();
+  void nearestAreChosenByCountAndDistance();
+  void formsAreDrawnAsChosen();
+  void nearestThatIsNotBlockedIsDrawnLarger();
+  void menuChoosesAndRemembers();
+
+ private:
+  QTemporaryDir settings_;
+};
+
+void LmdOverlayTest::initTestCase() {
+  QVERIFY(settings_.isValid());
+  QSettings::setDefaultFormat(QSettings::IniFormat);
+  QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings_.path());
+}
+
+void LmdOverlayTest::init() {
+  QSettings().clear();
+}
+
+void LmdOverlayTest::nearestAreChosenByCountAndDistance() {
+  const std::vector<SnapshotLmd> all = tenMinima();
+  const auto tenths = [&](const ui::MinimaChoice& choice) {
+    QList<int> out;
+    for (const SnapshotLmd& entry : ui::chosenMinima(all, kCutoff, choice))
+      out << qRound(10.0 * entry.lmd.distance / kCutoff);
+    return out;
+  };
+  QCOMPARE(tenths({}), (QList<int>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+  QCOMPARE(tenths({.most = 3}), (QList<int>{1, 2, 3}));
+  QCOMPARE(tenths({.nearerThan = 0.45}), (QList<int>{1, 2, 3, 4}));
+  QCOMPARE(tenths({.most = 30, .nearerThan = 0.25}), (QList<int>{1, 2}));
+  QCOMPARE(tenths({.nearerThan = 0.05}), QList<int>());
+}
+
+void LmdOverlayTest::formsAreDrawnAsChosen() {
+  vtkNew<vtkRenderer> renderer;
+  ui::LmdOverlay overlay(*renderer.Get());
+  const std::vector<SnapshotLmd> all = tenMinima();
+  const auto shown = [&](const ui::MinimaChoice& choice) {
+    overlay.setChoice(choice);
+    overlay.show(all, kCutoff);
+    return seenIn(*renderer.Get());
+  };
+  // Each line has a halo; the nearest is there once more.
+  QCOMPARE(shown({}).lines, 22);
+  QCOMPARE(shown({}).dots, 22);
+  QCOMPARE(shown({.hasPoints = false}).dots, 0);
+  QCOMPARE(shown({.hasSegments = false}).lines, 0);
+  QCOMPARE(shown({.hasSegments = false, .hasNormals = true}).lines, 20);
+  QCOMPARE(shown({.most = 4}).dots, 10);
+  overlay.setVisible(false);
+  QCOMPARE(shown({.hasNormals = true}).lines, 0);
+  overlay.setVisible(true);
+  QCOMPARE(seenIn(*renderer.Get()).lines, 42);
+}
+
+void LmdOverlayTest::nearestThatIsNotBlockedIsDrawnLarger() {
+  vtkNew<vtkRenderer> renderer;
+  ui::LmdOverlay overlay(*renderer.Get());
+  overlay.show(tenMinima(), kCutoff);
+  QVERIFY(seenIn(*renderer.Get()).widest >= 8.0);
+  // The fourth is the nearest. What bars it exerts no force: the next is drawn larger.
+  const std::vector<SnapshotLmd> barred = tenMinima(3);
+  overlay.show(barred, kCutoff);
+  vtkActorCollection* actors = renderer->GetActors();
+  actors->InitTraversal();
+  bool isFound = false;
+  while (vtkActor* actor = actors->GetNextActor()) {
+    if (actor->GetProperty()->GetRepresentation() != VTK_POINTS) continue;
+    vtkPolyData* data = vtkPolyDataMapper::SafeDownCast(actor->GetMapper())->GetInput();
+    QCOMPARE(data->GetNumberOfPoints(), 2);
+    QCOMPARE(data->GetPoint(0)[0], 2.0);
+    isFound = true;
+  }
+  QVERIFY(isFound);
+}
+
+void LmdOverlayTest::menuChoosesAndRemembers() {
+  {
+    ui::MinimaMenu menu(nullptr);
+    QCOMPARE(menu.choice(), ui::MinimaChoice());
+    QSignalSpy changes(&menu, &ui::MinimaMenu::choiceChanged);
+    const auto action = [&](const char* name) { return menu.findChild<QAction*>(QLatin1String(name)); };
+    for (const char* name : {"minimaNormals", "minimaPoints", "minimaMost10", "minimaWithin25"}) {
+      QVERIFY2(action(name) != nullptr, name);
+      action(name)->trigger();
+    }
+    QCOMPARE(changes.count(), 4);
+    QVERIFY(action("minimaMost10")->isChecked() && !action("minimaMost0")->isChecked());
+    action("minimaMost10")->trigger();
+    QCOMPARE(changes.count(), 4);
+  }
+  const ui::MinimaMenu again(nullptr);
+  const ui::MinimaChoice expected{.hasPoints = false, .hasNormals = true, .most = 10, .nearerThan = 0.25};
+  QCOMPARE(again.choice(), expected);
+  QVERIFY(again.findChild<QAction*>(QStringLiteral("minimaWithin25"))->isChecked());
+  // What makes no sense counts for nothing.
+  QSettings().setValue(QStringLiteral("minima/most"), -3);
+  QSettings().setValue(QStringLiteral("minima/nearerThanPercent"), QStringLiteral("near"));
+  const ui::MinimaMenu usual(nullptr);
+  QCOMPARE(usual.choice().most, std::size_t{0});
+  QCOMPARE(usual.choice().nearerThan, 1.0);
+}
+
+NEARFIT_QT_SUITE(LmdOverlayTest, test::runQtTest<LmdOverlayTest>)
+#include "lmd_overlay_test.moc"

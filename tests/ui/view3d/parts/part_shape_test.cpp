@@ -1,0 +1,91 @@
+#include "ui/view3d/parts/part_shape.h"
+
+#include <QtTest>
+#include <thread>
+
+#include <glm/geometric.hpp>
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+
+#include "tests/support/mesh_generators.h"
+#include "tests/support/qt/qt_suite.h"
+
+using namespace nearfit;
+
+namespace {
+
+PartGeometryPtr geometryOf(TriangleMesh mesh) {
+  return std::make_shared<PartGeometry>(PartGeometry{"", "", 1.0, std::move(mesh), {}, {}});
+}
+
+}  // namespace
+
+class PartShapeTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void boxShowsItsTwelveEdges();
+  void openSquareShowsItsRim();
+  void fineCylinderShowsOnlyItsRims();
+  void normalsOfABoxPointOutOfItsFaces();
+  void oneGeometryHasOneShape();
+  void threadsMayAskAtOnce();
+};
+
+void PartShapeTest::boxShowsItsTwelveEdges() {
+  const ui::PartShape shape = ui::makePartShape(test::boxMesh(glm::dvec3(1.0)));
+  QCOMPARE(shape.edges->GetNumberOfLines(), vtkIdType{12});
+  QCOMPARE(shape.surface->GetNumberOfPolys(), vtkIdType{12});
+}
+
+void PartShapeTest::openSquareShowsItsRim() {
+  constexpr std::uint32_t kDivisions = 5;
+  const ui::PartShape shape = ui::makePartShape(test::squareMesh(1.0, kDivisions));
+  QCOMPARE(shape.edges->GetNumberOfLines(), vtkIdType{4} * kDivisions);
+}
+
+void PartShapeTest::fineCylinderShowsOnlyItsRims() {
+  constexpr std::uint32_t kSegments = 36;  // Facets meet at 10 degrees.
+  const ui::PartShape shape = ui::makePartShape(test::cylinderMesh(1.0, 2.0, kSegments));
+  QCOMPARE(shape.edges->GetNumberOfLines(), vtkIdType{2} * kSegments);
+}
+
+void PartShapeTest::normalsOfABoxPointOutOfItsFaces() {
+  const ui::PartShape shape = ui::makePartShape(test::boxMesh(glm::dvec3(2.0)));
+  vtkDataArray* normals = shape.surface->GetPointData()->GetNormals();
+  // Split along the edges: each of the 8 corners once for each of its 3 faces.
+  QCOMPARE(normals->GetNumberOfTuples(), vtkIdType{24});
+  for (vtkIdType i = 0; i < normals->GetNumberOfTuples(); ++i) {
+    double n[3], p[3];
+    normals->GetTuple(i, n);
+    shape.surface->GetPoint(i, p);
+    // On a cube of half side 1 about the origin a face's plane is n.p = 1.
+    QVERIFY(std::abs(n[0] * p[0] + n[1] * p[1] + n[2] * p[2] - 1.0) < 1e-6);
+  }
+}
+
+void PartShapeTest::oneGeometryHasOneShape() {
+  ui::PartShapeCache cache;
+  PartGeometryPtr geometry = geometryOf(test::boxMesh(glm::dvec3(1.0)));
+  const auto first = cache.shapeOf(geometry);
+  QCOMPARE(cache.shapeOf(geometry).get(), first.get());
+  const PartGeometryPtr other = geometryOf(test::boxMesh(glm::dvec3(2.0)));
+  QVERIFY(cache.shapeOf(other).get() != first.get());
+}
+
+void PartShapeTest::threadsMayAskAtOnce() {
+  ui::PartShapeCache cache;
+  const PartGeometryPtr geometry = geometryOf(test::icosphereMesh(1.0, 3));
+  std::vector<std::thread> threads;
+  std::array<vtkIdType, 4> polygons{};
+  for (vtkIdType& count : polygons) {
+    threads.emplace_back([&] { count = cache.shapeOf(geometry)->surface->GetNumberOfPolys(); });
+  }
+  for (std::thread& thread : threads)
+    thread.join();
+  for (const vtkIdType count : polygons)
+    QCOMPARE(count, vtkIdType{20} * 64);
+}
+
+NEARFIT_QT_SUITE(PartShapeTest, test::runQtTest<PartShapeTest, QCoreApplication>)
+#include "part_shape_test.moc"

@@ -1,0 +1,112 @@
+#include "ui/view3d/parts/scene_renderer.h"
+
+#include <QtTest>
+#include <array>
+
+#include <vtkActorCollection.h>
+#include <vtkCamera.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+
+#include "tests/support/mesh_generators.h"
+#include "tests/support/qt/qt_suite.h"
+#include "ui/widgets/theme.h"
+
+using namespace nearfit;
+
+class SceneRendererTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void partsThatOverlapAreTintedAndGetTheirColourBack();
+  void boundsOfAPartAreThoseInTheWorld();
+  void edgesThatWouldCoverAPartAreLeftOut();
+
+ private:
+  static PartGeometryPtr cube() {
+    auto geometry = std::make_shared<PartGeometry>();
+    geometry->mesh = test::boxMesh(glm::dvec3(0.02));
+    return geometry;
+  }
+  static Part partOf(const char* name) {
+    Part part;
+    part.name = name;
+    part.geometry = cube();
+    part.colour = {0.0F, 0.0F, 1.0F};
+    return part;
+  }
+  int countOf(const QColor& colour) {
+    int count = 0;
+    vtkActorCollection* actors = renderer_->GetActors();
+    actors->InitTraversal();
+    while (vtkActor* actor = actors->GetNextActor()) {
+      const double* rgb = actor->GetProperty()->GetColor();
+      const bool isSame = std::abs(rgb[0] - colour.redF()) < 1e-3 &&
+                          std::abs(rgb[1] - colour.greenF()) < 1e-3 &&
+                          std::abs(rgb[2] - colour.blueF()) < 1e-3;
+      if (isSame) ++count;
+    }
+    return count;
+  }
+
+  /// Of what is drawn without light.
+  int visibleLines() {
+    int count = 0;
+    vtkActorCollection* actors = renderer_->GetActors();
+    actors->InitTraversal();
+    while (vtkActor* actor = actors->GetNextActor())
+      count += actor->GetVisibility() != 0 && !actor->GetProperty()->GetLighting() ? 1 : 0;
+    return count;
+  }
+
+  vtkNew<vtkRenderer> renderer_;
+  ui::SceneRenderer parts_{*renderer_.Get(), std::make_shared<ui::PartShapeCache>()};
+};
+
+void SceneRendererTest::partsThatOverlapAreTintedAndGetTheirColourBack() {
+  Scene scene;
+  const PartId a = scene.add(partOf("a"));
+  scene.add(partOf("b"));
+  parts_.setScene(scene);
+  QCOMPARE(countOf(Qt::blue), 2);
+  const std::array overlapping{a};
+  parts_.setOverlapping(overlapping);
+  QCOMPARE(countOf(ui::colours::kOverlap), 1);
+  QCOMPARE(countOf(Qt::blue), 1);
+  parts_.setOverlapping({});
+  QCOMPARE(countOf(ui::colours::kOverlap), 0);
+  QCOMPARE(countOf(Qt::blue), 2);
+}
+
+void SceneRendererTest::boundsOfAPartAreThoseInTheWorld() {
+  Scene scene;
+  Part part = partOf("a");
+  part.worldFromPart.translation = {0.1, 0.0, 0.0};
+  const PartId a = scene.add(part);
+  parts_.setScene(scene);
+  double bounds[6];
+  QVERIFY(parts_.boundsOf(a, bounds));
+  QVERIFY(std::abs(bounds[0] - 0.09) < 1e-9 && std::abs(bounds[1] - 0.11) < 1e-9);
+  QVERIFY(!parts_.boundsOf(PartId{99}, bounds));
+}
+
+void SceneRendererTest::edgesThatWouldCoverAPartAreLeftOut() {
+  vtkNew<vtkRenderWindow> window;
+  window->SetSize(600, 600);
+  window->AddRenderer(renderer_);
+  Scene scene;
+  scene.add(partOf("a"));
+  parts_.setScene(scene);
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  // A cube of 20 mm, so many pixels wide.
+  for (const auto& [pixels, lines] : {std::pair{300.0, 1}, {40.0, 1}, {4.0, 0}, {300.0, 1}}) {
+    camera->SetParallelScale(0.02 / pixels * 300.0);
+    parts_.applyDetail({1'000'000});
+    QCOMPARE(visibleLines(), lines);
+  }
+  window->RemoveRenderer(renderer_);
+}
+
+NEARFIT_QT_SUITE(SceneRendererTest, test::runQtTest<SceneRendererTest>)
+#include "scene_renderer_test.moc"

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <QObject>
+#include <QPointer>
+#include <QStringList>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/session/session.h"
+#include "ui/view3d/parts/part_shape.h"
+#include "ui/widgets/background_task.h"
+#include "ui/widgets/error_box.h"
+
+class QWidget;
+
+namespace nearfit::ui {
+
+class ProgressDialog;
+struct DroppedFiles;
+
+/// Opens, saves and extends the session's scene, with the dialogs for that. Loads in another thread; the open
+/// scene stays until the new one is completely loaded. Failures go to failed(). Use from the GUI thread.
+class Document : public QObject {
+  Q_OBJECT
+
+ public:
+  /// @param session, window  Outlive this.
+  Document(Session& session, std::shared_ptr<PartShapeCache> shapes, QWidget* window);
+  ~Document() override;
+
+  /// The shapes that loading prepares for drawing.
+  const std::shared_ptr<PartShapeCache>& shapes() const noexcept { return shapes_; }
+  /// True while a job of load() runs.
+  bool isBusy() const noexcept { return task_.isRunning(); }
+  /// Asks whether to save unsaved changes. False if the user cancels, or saving fails.
+  bool mayLeaveScene();
+
+  /// Starts an empty scene after asking about unsaved changes.
+  void newScene();
+  /// Lets the user choose a scene, then calls openScene().
+  void askAndOpen();
+  /// Opens a scene after asking about unsaved changes. Does nothing while busy.
+  void openScene(const QString& file);
+  /// Opens a scene that must not be overwritten: it becomes an unnamed scene, so that saving asks for a file.
+  /// Asks about unsaved changes. False if the user cancels, or while busy.
+  bool openExample(const QString& file);
+  /// Opens a scene that was lost before it was saved, after asking about unsaved changes.
+  /// Does nothing while busy.
+  /// @param journal    The scene file to read.
+  /// @param sceneFile  The file that the scene belongs to; empty if none.
+  /// @param restored   Called once the scene is open; not if that fails.
+  void openRecovered(const QString& journal, const std::filesystem::path& sceneFile,
+                     std::function<void()> restored);
+  /// Lets the user choose mesh files and their unit, then calls addParts().
+  void askAndAddParts();
+  /// Loads mesh files as new parts. Does nothing while busy.
+  /// @param metresPerUnit  Metres per unit of the numbers in the files.
+  void addParts(const QStringList& files, double metresPerUnit);
+  /// Opens any mix of meshes and at most one scene. The scene is opened first; the meshes use the unit chosen
+  /// last (Preferences::metresPerUnit()).
+  void openFiles(const QStringList& files);
+  /// Like openFiles, for files and folders dropped on the window; asks once for the unit of all meshes. While
+  /// busy it only emits noted().
+  void dropFiles(const QStringList& filesAndFolders);
+  /// Runs a job in another thread behind a progress dialog. Must not be called while busy.
+  /// @param done  Called on the GUI thread with what the job threw, Cancelled included, or null.
+  void load(const QString& text, BackgroundTask::Job job, std::function<void(std::exception_ptr)> done);
+  /// Builds the missing hierarchies of all parts in another thread, after any load that is running. Calls
+  /// `done` at once if none is missing; isReady is false if the user cancelled or building failed.
+  void prepareHierarchies(std::function<void(bool isReady)> done);
+  /// Saves to the session's file, or asks for one if it has none. False if nothing was written.
+  bool save();
+  /// Asks for a file and saves to it. False if nothing was written.
+  bool askAndSaveAs();
+
+ signals:
+  /// Emitted before the scene is saved or left. Whoever holds a part must put its pose into the session now.
+  void sceneNeeded();
+  /// Emitted when isBusy() changes.
+  void busyChanged();
+  /// Emitted when something failed that the user must see.
+  void failed(const nearfit::ui::Failure& failure);
+  /// Emitted with a short note for the status bar.
+  void noted(const QString& text);
+  /// Emitted with parts that were added in one step.
+  void partsAdded(const std::vector<nearfit::PartId>& parts);
+  /// Emitted when a scene is open and parts given with it are still to be loaded.
+  void sceneOpened();
+  /// Emitted after opening a scene some of whose mesh files have changed since it was saved.
+  void meshesHaveChanged(const QStringList& files);
+  /// Emitted when opening or adding ends; `isComplete` is false if anything failed or was cancelled.
+  void loaded(bool isComplete);
+
+ private:
+  /// Serves the calls that wait for hierarchies, unless busy.
+  void prepareNext();
+  /// @param metresPerUnit  Unit of `partsAfter`, which are added once the scene is open.
+  void loadScene(const QString& file, const QStringList& partsAfter, double metresPerUnit);
+  /// Reads a scene and prepares its shapes.
+  /// @param opened   Puts the scene into the session; gets the mesh files that have
+  ///                 changed since it was saved.
+  void readScene(const QString& file, const QString& name,
+                 const std::function<void(Scene, const QStringList& changed)>& opened);
+  void open(const DroppedFiles& files, double metresPerUnit);
+  bool saveTo(const QString& file);
+  void finishParts(const QStringList& files, const std::vector<PartGeometryPtr>& geometries,
+                   const QVector<FailedItem>& problems);
+
+  Session& session_;
+  std::shared_ptr<PartShapeCache> shapes_;
+  QWidget* window_;
+  BackgroundTask task_;
+  QPointer<ProgressDialog> progress_;
+  std::vector<std::function<void(bool isReady)>> waiting_;  ///< Unanswered prepareHierarchies() calls.
+};
+
+/// Map the progress of reading meshes, and of building their shapes, to shares of `whole`, about half each.
+ProgressCallback progressOfReading(const ProgressCallback& whole);
+ProgressCallback progressOfShapes(const ProgressCallback& whole);
+
+/// True if `error` is Cancelled; false if null.
+bool isCancelled(const std::exception_ptr& error);
+
+}  // namespace nearfit::ui

@@ -1,0 +1,176 @@
+#include "ui/files/export/export_dialog.h"
+
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QLocale>
+#include <QPushButton>
+#include <QRadioButton>
+#include <QSettings>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "ui/widgets/names.h"
+
+namespace nearfit::ui {
+namespace {
+
+const QString kKindKey = QStringLiteral("export/kind"), kUnitKey = QStringLiteral("export/metresPerUnit");
+
+struct Unit {
+  const char* name;
+  const char* sign;
+  double metres;
+};
+constexpr std::array<Unit, 4> kUnits = {{{QT_TRANSLATE_NOOP("Unit", "Millimetres"), "mm", 1e-3},
+                                         {QT_TRANSLATE_NOOP("Unit", "Centimetres"), "cm", 1e-2},
+                                         {QT_TRANSLATE_NOOP("Unit", "Metres"), "m", 1.0},
+                                         {QT_TRANSLATE_NOOP("Unit", "Inches"), "in", 0.0254}}};
+
+QString partsText(std::size_t count) {
+  return count == 1 ? QObject::tr("1 part") : QObject::tr("%1 parts").arg(count);
+}
+
+QString sizeText(std::uint64_t bytes) {
+  return QLocale().formattedDataSize(static_cast<qint64>(bytes), 1, QLocale::DataSizeSIFormat);
+}
+
+}  // namespace
+
+ExportDialog::ExportDialog(Scene scene, std::vector<PartId> selected, QWidget* parent)
+    : QDialog(parent), scene_(std::move(scene)), selected_(std::move(selected)) {
+  setObjectName(QStringLiteral("exportDialog"));
+  setWindowTitle(tr("Export"));
+  setUpFields();
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Save | QDialogButtonBox::Cancel, this);
+  buttons->button(QDialogButtonBox::Save)->setText(tr("Export…"));
+  connect(buttons, &QDialogButtonBox::accepted, this, [this] {
+    remember();
+    accept();
+  });
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  layout()->addWidget(buttons);
+  restore();
+  for (QComboBox* box : {kind_, unit_})
+    connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &ExportDialog::showSummary);
+  connect(chosen_, &QRadioButton::toggled, this, &ExportDialog::showSummary);
+  showSummary();
+}
+
+void ExportDialog::setUpFields() {
+  kind_ = new QComboBox(this);
+  kind_->setObjectName(QStringLiteral("exportKind"));
+  const auto add = [this](const QString& text, ExportKind kind) {
+    kind_->addItem(text, static_cast<int>(kind));
+  };
+  add(tr("Placement and clearances (JSON)"), ExportKind::PlacementJson);
+  add(tr("Placement table (CSV)"), ExportKind::PlacementCsv);
+  add(tr("Merged mesh (binary STL)"), ExportKind::MeshStl);
+  add(tr("Merged mesh (OBJ, with names)"), ExportKind::MeshObj);
+  add(tr("Merged mesh (PLY, with colours)"), ExportKind::MeshPly);
+  visible_ = new QRadioButton(tr("All &visible"), this);
+  chosen_ = new QRadioButton(tr("&Selected (%1)").arg(selected_.size()), this);
+  visible_->setObjectName(QStringLiteral("exportVisible"));
+  chosen_->setObjectName(QStringLiteral("exportSelected"));
+  visible_->setChecked(true);
+  unit_ = new QComboBox(this);
+  unit_->setObjectName(QStringLiteral("exportUnit"));
+  for (const Unit& unit : kUnits)
+    unit_->addItem(tr(unit.name), unit.metres);
+  summary_ = new QLabel(this);
+  summary_->setObjectName(QStringLiteral("exportSummary"));
+  summary_->setWordWrap(true);
+  summary_->setAlignment(Qt::AlignTop);
+  summary_->setMinimumHeight(6 * summary_->fontMetrics().lineSpacing());
+  auto* parts = new QHBoxLayout;
+  parts->addWidget(visible_);
+  parts->addWidget(chosen_);
+  parts->addStretch();
+  auto* form = new QFormLayout;
+  form->addRow(tr("&Format"), kind_);
+  partsLabel_ = new QLabel(tr("Parts"), this);
+  form->addRow(partsLabel_, parts);
+  unitLabel_ = new QLabel(tr("&Unit"), this);
+  unitLabel_->setBuddy(unit_);
+  form->addRow(unitLabel_, unit_);
+  form->addRow(tr("What is written"), summary_);
+  auto* column = new QVBoxLayout(this);
+  column->addLayout(form);
+  setMinimumWidth(480);
+}
+
+void ExportDialog::restore() {
+  const QSettings settings;
+  const int kind = kind_->findData(settings.value(kKindKey, 0).toInt());
+  const int unit = unit_->findData(settings.value(kUnitKey, 1e-3).toDouble());
+  kind_->setCurrentIndex(std::max(kind, 0));
+  unit_->setCurrentIndex(std::max(unit, 0));
+}
+
+void ExportDialog::remember() const {
+  QSettings settings;
+  settings.setValue(kKindKey, kind_->currentData());
+  settings.setValue(kUnitKey, unit_->currentData());
+}
+
+SceneExport ExportDialog::choice() const {
+  SceneExport what{
+      static_cast<ExportKind>(kind_->currentData().toInt()), unit_->currentData().toDouble(), {}};
+  if (chosen_->isChecked()) what.only = selected_;
+  return what;
+}
+
+void ExportDialog::showSummary() {
+  const auto mesh = meshKindOf(choice().kind);
+  for (QWidget* field : {static_cast<QWidget*>(unit_), static_cast<QWidget*>(unitLabel_),
+                         static_cast<QWidget*>(partsLabel_), static_cast<QWidget*>(visible_)})
+    field->setEnabled(mesh.has_value());
+  chosen_->setEnabled(mesh.has_value() && !selected_.empty());
+  summary_->setText(mesh ? meshSummary(*mesh) : placementSummary());
+  findChild<QDialogButtonBox*>()
+      ->button(QDialogButtonBox::Save)
+      ->setEnabled(!mesh || !chosenParts(scene_, choice().only).empty());
+}
+
+QString ExportDialog::meshSummary(MeshFileKind kind) const {
+  const auto parts = chosenParts(scene_, choice().only);
+  if (parts.empty()) return tr("Nothing: no part is visible.");
+  const MeshExportSize size = meshExportSize(parts, kind);
+  const QLocale locale;
+  const QString unit = QLatin1String(kUnits[static_cast<std::size_t>(unit_->currentIndex())].sign);
+  const QString text =
+      tr("%1 as one mesh in the world frame, in %2: %3 triangles, about %4.")
+          .arg(partsText(size.parts), unit, locale.toString(static_cast<qulonglong>(size.triangles)),
+               sizeText(size.bytes));
+  switch (kind) {
+    case MeshFileKind::StlBinary:
+      return text + QChar(' ') + tr("Single precision (seven figures); no names.");
+    case MeshFileKind::Obj:
+      return text + QChar(' ') + tr("Double precision; each part is an object and a group of its name.");
+    case MeshFileKind::Ply:
+      break;
+  }
+  return text + QChar(' ') + tr("Double precision; each part in its colour.");
+}
+
+QString ExportDialog::placementSummary() const {
+  const QString parts = partsText(scene_.parts().size());
+  if (choice().kind == ExportKind::PlacementCsv)
+    return tr("A table of %1: name, mesh file and SHA-256, position [m], quaternion (w x y z) and the 4x4 "
+              "matrix "
+              "by rows, all in the world frame.")
+        .arg(parts);
+  const Part* moving = scene_.movingPart() ? scene_.find(*scene_.movingPart()) : nullptr;
+  const QString poses = tr("Where %1 stand: name, mesh file and SHA-256, position [m], quaternion and 4x4 "
+                           "matrix in the world frame.")
+                            .arg(parts);
+  if (moving == nullptr) return poses + QChar(' ') + tr("No clearances, as no part is in hand.");
+  return poses + QChar(' ') +
+         tr("Then every local minimum distance within the cutoff between %1 and each other visible part.")
+             .arg(breakable(shortName(moving->name)));
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,97 @@
+#include "ui/files/export/exporter.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QFileInfo>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/report/placement_table.h"
+#include "ui/files/export/export_dialog.h"
+#include "ui/model/selection.h"
+#include "ui/widgets/paths.h"
+#include "ui/widgets/preferences.h"
+#include "ui/widgets/progress_dialog.h"
+#include "ui/widgets/save_file.h"
+
+namespace nearfit::ui {
+namespace {
+
+bool isCancelled(const std::exception_ptr& error) {
+  try {
+    if (error) std::rethrow_exception(error);
+  } catch (const Cancelled&) {
+    return true;
+  } catch (...) {
+  }
+  return false;
+}
+
+/// Returns "placement" or, for meshes, the scene's name or "parts".
+QString nameFor(const Session& session, ExportKind kind) {
+  if (!meshKindOf(kind)) return QStringLiteral("placement");
+  return session.file().empty() ? QStringLiteral("parts") : fromPath(session.file().stem());
+}
+
+}  // namespace
+
+Exporter::Exporter(Session& session, Selection& selection, PoseOfMoving poseOfMoving, QWidget* window)
+    : QObject(window),
+      session_(session),
+      selection_(selection),
+      poseOfMoving_(std::move(poseOfMoving)),
+      window_(window) {}
+
+Exporter::~Exporter() = default;
+
+void Exporter::askAndExport() {
+  if (task_.isRunning() || session_.scene().parts().empty()) return;
+  ExportDialog dialog(placedScene(session_.scene(), poseOfMoving_()), selection_.parts(), window_);
+  if (dialog.exec() != QDialog::Accepted) return;
+  const SceneExport what = dialog.choice();
+  const QString suffix =
+      QString::fromLatin1(extensionOf(what.kind).data(), static_cast<int>(extensionOf(what.kind).size()));
+  const std::optional<QString> file =
+      askForSave({tr("Export"),
+                  Preferences::lastFolder() + QChar('/') + nameFor(session_, what.kind) + QChar('.') + suffix,
+                  {tr("%1 files (*.%2)").arg(suffix.toUpper(), suffix)},
+                  {suffix}},
+                 window_);
+  if (file) write(what, *file);
+}
+
+void Exporter::write(const SceneExport& what, const QString& file) {
+  const auto job = [scene = session_.scene(), pose = poseOfMoving_(), what, path = toPath(file)](
+                       const ProgressCallback& progress) { exportScene(scene, pose, what, path, progress); };
+  const QString name = QFileInfo(file).fileName();
+  progress_ = new ProgressDialog(tr("Writing %1").arg(name), window_);
+  connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
+  connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
+  task_.run(job, [this, file, name](const std::exception_ptr& error) {
+    delete progress_;
+    if (isCancelled(error)) return;
+    if (error) {
+      emit failed(describe(tr("Nothing was exported."), error));
+      return;
+    }
+    Preferences::rememberFolderOf(file);
+    emit noted(tr("Exported %1").arg(name));
+  });
+}
+
+void Exporter::copyPlacement() {
+  const Scene& scene = session_.scene();
+  const std::optional<PartId> current = selection_.current();
+  const std::optional<PartId> id = current ? current : scene.movingPart();
+  const Part* part = id ? scene.find(*id) : nullptr;
+  if (part == nullptr) {
+    emit noted(tr("Select the part whose placement is to be copied."));
+    return;
+  }
+  const RigidTransform pose = scene.movingPart() == id ? poseOfMoving_() : part->worldFromPart;
+  QApplication::clipboard()->setText(QString::fromStdString(matrixText(pose)));
+  emit noted(tr("Copied the placement of %1: a 4x4 matrix by rows, in metres")
+                 .arg(QString::fromStdString(part->name)));
+}
+
+}  // namespace nearfit::ui

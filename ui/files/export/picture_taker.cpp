@@ -1,0 +1,111 @@
+#include "ui/files/export/picture_taker.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QBuffer>
+#include <QClipboard>
+#include <QFileInfo>
+#include <QImage>
+#include <string_view>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/files/atomic_write.h"
+#include "ui/files/export/picture_dialog.h"
+#include "ui/widgets/paths.h"
+#include "ui/widgets/preferences.h"
+#include "ui/widgets/save_file.h"
+#include "ui/widgets/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+constexpr int kJpegQuality = 92;  ///< Out of 100: edges of parts stay clean.
+
+/// Returns the picture as PNG, or as JPEG if the file's suffix says so. Throws FileError.
+QByteArray encoded(const QImage& picture, const QString& file) {
+  const QString suffix = QFileInfo(file).suffix().toLower();
+  const bool isJpeg = suffix == QLatin1String("jpg") || suffix == QLatin1String("jpeg");
+  QBuffer buffer;
+  buffer.open(QIODevice::WriteOnly);
+  if (!picture.save(&buffer, isJpeg ? "JPG" : "PNG", isJpeg ? kJpegQuality : -1))
+    throw FileError(toPath(file).string(), "the picture could not be encoded", "choose a smaller size");
+  return buffer.data();
+}
+
+QString sizeText(const QImage& picture) {
+  return QObject::tr("%1 × %2 pixels").arg(picture.width()).arg(picture.height());
+}
+
+}  // namespace
+
+PictureTaker::PictureTaker(const Session& session, ViewPicture& pictures, QWidget* window)
+    : QObject(window),
+      session_(session),
+      pictures_(pictures),
+      window_(window),
+      save_(new QAction(icon(QStringLiteral("picture")), tr("Save p&icture…"), this)),
+      copy_(new QAction(tr("Cop&y picture"), this)) {
+  save_->setObjectName(QStringLiteral("savePicture"));
+  save_->setShortcut(QKeySequence(QStringLiteral("Ctrl+Shift+P")));
+  save_->setToolTip(tr("Save a picture of the view, in any size"));
+  copy_->setObjectName(QStringLiteral("copyPicture"));
+  copy_->setShortcut(QKeySequence(QStringLiteral("Ctrl+Alt+C")));
+  copy_->setToolTip(tr("Put a picture of the view on the clipboard, as the last one was saved"));
+  connect(save_, &QAction::triggered, this, &PictureTaker::askAndSave);
+  connect(copy_, &QAction::triggered, this,
+          [this] { putOnClipboard(pictures_.take(PictureDialog::remembered())); });
+}
+
+PictureTaker::~PictureTaker() = default;
+
+void PictureTaker::askAndSave() {
+  if (task_.isRunning()) return;
+  PictureDialog dialog(pictures_, window_);
+  if (dialog.exec() != QDialog::Accepted) return;
+  // Take the present view: a part in hand moves on while a file is chosen.
+  const QImage picture = pictures_.take(dialog.style());
+  if (dialog.isForClipboard()) {
+    putOnClipboard(picture);
+  } else {
+    saveTo(picture);
+  }
+}
+
+void PictureTaker::saveTo(const QImage& picture) {
+  const QString name = session_.file().empty() ? QStringLiteral("nearfit") : fromPath(session_.file().stem());
+  SaveRequest request{tr("Save picture"),
+                      Preferences::lastFolder() + QChar('/') + name + QStringLiteral(".png"),
+                      {tr("PNG pictures (*.png)")},
+                      {QStringLiteral("png")}};
+  if (!picture.hasAlphaChannel()) {
+    request.filters << tr("JPEG pictures (*.jpg *.jpeg)");
+    request.suffixes << QStringLiteral("jpg") << QStringLiteral("jpeg");
+  }
+  if (const std::optional<QString> file = askForSave(request, window_)) write(picture, *file);
+}
+
+void PictureTaker::write(QImage picture, const QString& file) {
+  picture.setText(QStringLiteral("Software"), QStringLiteral("Nearfit"));
+  const QString told = tr("Saved %1, %2").arg(QFileInfo(file).fileName(), sizeText(picture));
+  const auto job = [picture = std::move(picture), file](const ProgressCallback&) {
+    const QByteArray bytes = encoded(picture, file);
+    atomicWrite(toPath(file), std::string_view(bytes.constData(), static_cast<std::size_t>(bytes.size())));
+  };
+  task_.run(job, [this, file, told](const std::exception_ptr& error) {
+    if (error) {
+      emit failed(describe(tr("The picture was not saved."), error));
+      return;
+    }
+    Preferences::rememberFolderOf(file);
+    emit noted(told);
+  });
+}
+
+void PictureTaker::putOnClipboard(const QImage& picture) {
+  if (picture.isNull()) return;
+  QApplication::clipboard()->setImage(picture);
+  emit noted(tr("Copied a picture of the view, %1").arg(sizeText(picture)));
+}
+
+}  // namespace nearfit::ui

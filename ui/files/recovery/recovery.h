@@ -1,0 +1,56 @@
+#pragma once
+
+#include <QObject>
+#include <filesystem>
+#include <memory>
+
+#include "core/recovery/recovery_folder.h"
+#include "ui/files/recovery/autosave.h"
+#include "ui/widgets/background_task.h"
+#include "ui/widgets/error_box.h"
+
+namespace nearfit::ui {
+
+class Document;
+
+/// Protects work from a crash: keeps a journal of this run, and offers what earlier runs left.
+class Recovery : public QObject {
+  Q_OBJECT
+
+ public:
+  /// @param folder      Folder from userRecoveryFolder(); not empty.
+  /// @param session     Must outlive this.
+  /// @param document    Must outlive this.
+  /// @param poseInHand  See Autosave.
+  /// @param window      Must outlive this.
+  Recovery(const std::filesystem::path& folder, Session& session, Document& document,
+           std::function<Autosave::PoseInHand()> poseInHand, QWidget* window);
+
+  Autosave& autosave() noexcept { return *autosave_; }
+  /// Times by which a process that was ending has ended, even if it held much memory [ms].
+  static constexpr int kSecondLookMs = 2500, kThirdLookMs = 10'000;
+  /// Searches for lost work in another thread, and offers what it finds. Searches again while other processes
+  /// run: a program restarted right after a crash may be faster than the end of the crashed one.
+  void offer();
+
+ signals:
+  /// Emitted after each search, when what it found has been offered.
+  void looked();
+  /// Emitted with a short note for the status bar.
+  void noted(const QString& text);
+  /// Emitted when something failed that the user must see.
+  void failed(const nearfit::ui::Failure& failure);
+
+ private:
+  void look(int number);
+  void show(const FoundWork& found);
+  void restore(const LostWork& work);
+
+  std::shared_ptr<RecoveryFolder> folder_;
+  Document& document_;
+  QWidget* window_;
+  Autosave* autosave_;
+  BackgroundTask search_;
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,70 @@
+#include "ui/model/feel_mode.h"
+
+#include <QComboBox>
+#include <QObject>
+
+#include "core/scene/haptic_limits.h"
+
+namespace nearfit::ui {
+namespace {
+
+QString nameOf(FeelMode mode) {
+  switch (mode) {
+    case FeelMode::LinearSprings:
+      return QObject::tr("Springs, linear");
+    case FeelMode::PrintedSprings:
+      return QObject::tr("Springs, as printed");
+    case FeelMode::Proxy:
+      break;
+  }
+  return QObject::tr("Proxy: stops at contact");
+}
+
+}  // namespace
+
+FeelMode feelModeOf(const HapticSettings& settings) noexcept {
+  if (settings.mode == HapticMode::Proxy) return FeelMode::Proxy;
+  return settings.springs.law == SpringLaw::Linear ? FeelMode::LinearSprings : FeelMode::PrintedSprings;
+}
+
+HapticSettings withMode(const HapticSettings& settings, FeelMode mode) noexcept {
+  HapticSettings next = settings;
+  next.mode = mode == FeelMode::Proxy ? HapticMode::Proxy : HapticMode::Springs;
+  if (mode == FeelMode::LinearSprings) next.springs = withLaw(settings.springs, SpringLaw::Linear);
+  if (mode == FeelMode::PrintedSprings) next.springs = withLaw(settings.springs, SpringLaw::Printed);
+  return next;
+}
+
+QString explanationOf(FeelMode mode) {
+  switch (mode) {
+    case FeelMode::LinearSprings:
+      return QObject::tr(
+          "The part is where the hand is. Each minimum pushes with stiffness × (cutoff − distance): most at "
+          "contact. A hand that pushes harder goes through.");
+    case FeelMode::PrintedSprings:
+      return QObject::tr(
+          "As linear springs, but each minimum pushes with stiffness × (cutoff − distance) × distance, as "
+          "the "
+          "paper prints it: nothing at contact, most at half the cutoff.");
+    case FeelMode::Proxy:
+      break;
+  }
+  return QObject::tr(
+      "The part stops at contact. It follows the hand as far as the others let it, and slides along them; "
+      "the hand is pulled towards it.");
+}
+
+void addModes(QComboBox& box) {
+  for (const FeelMode mode : {FeelMode::Proxy, FeelMode::LinearSprings, FeelMode::PrintedSprings}) {
+    box.addItem(nameOf(mode), QVariant::fromValue(mode));
+    box.setItemData(box.count() - 1, explanationOf(mode), Qt::ToolTipRole);
+  }
+}
+
+void showMode(QComboBox& box, FeelMode mode) {
+  for (int i = 0; i < box.count(); ++i) {
+    if (box.itemData(i).value<FeelMode>() == mode) box.setCurrentIndex(i);
+  }
+}
+
+}  // namespace nearfit::ui

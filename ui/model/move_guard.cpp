@@ -1,0 +1,58 @@
+#include "ui/model/move_guard.h"
+
+#include <utility>
+
+#include "ui/widgets/names.h"
+
+namespace nearfit::ui {
+
+MoveGuard::MoveGuard(const Session& session, QObject* parent) : QObject(parent), session_(session) {}
+
+void MoveGuard::setHolder(Holder holder) {
+  if (std::exchange(holder_, holder) != holder) emit changed();
+}
+
+void MoveGuard::setReplaying(bool isReplaying) {
+  if (std::exchange(isReplaying_, isReplaying) != isReplaying) emit changed();
+}
+
+bool MoveGuard::isReplayed(PartId part) const {
+  return isReplaying_ && session_.scene().movingPart() == part;
+}
+
+QString MoveGuard::lockOf(const Part& part) const {
+  const Scene& scene = session_.scene();
+  const QString name = shortName(part.name);
+  if (part.isLocked) return tr("%1 is locked: unlock it to move it").arg(name);
+  for (std::optional<GroupId> id = part.group; id; id = scene.findGroup(*id)->parent) {
+    const Group& group = *scene.findGroup(*id);
+    if (group.isLocked)
+      return tr("%1 is locked by its group %2: unlock that").arg(name, shortName(group.name));
+  }
+  return {};
+}
+
+QString MoveGuard::refusalOf(const Part& part) const {
+  const QString lock = lockOf(part);
+  if (!lock.isEmpty()) return lock;
+  if (isReplayed(part.id))
+    return tr("A recording moves %1: close the recording to place it").arg(shortName(part.name));
+  if (session_.scene().movingPart() != part.id) return {};
+  if (holder_ == Holder::Device) return tr("The device holds this part");
+  return holder_ == Holder::ScriptedHand ? tr("The scripted hand holds this part") : QString();
+}
+
+QString MoveGuard::refusalOf(const std::vector<PartId>& parts) const {
+  bool isLed = false;
+  for (const PartId id : parts) {
+    const Part* part = session_.scene().find(id);
+    if (part == nullptr) continue;
+    const QString refusal = refusalOf(*part);
+    if (!refusal.isEmpty()) return refusal;
+    isLed = isLed || (holder_ == Holder::ManualHand && session_.scene().movingPart() == id);
+  }
+  if (!isLed || parts.size() == 1) return {};
+  return tr("One of these parts is in hand: stop feeling it, or select the others alone");
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <vector>
+
+#include "core/session/session.h"
+
+namespace nearfit::ui {
+
+/// Decides which parts may be moved now, and says why not. Every way of moving asks it: gizmo, mouse,
+/// numbers, keys, drop and alignment.
+class MoveGuard : public QObject {
+  Q_OBJECT
+
+ public:
+  /// Who moves the part in hand.
+  enum class Holder { Nobody, ManualHand, ScriptedHand, Device };
+
+  /// @param session  Outlives this.
+  explicit MoveGuard(const Session& session, QObject* parent = nullptr);
+
+  /// Sets who holds the moving part.
+  void setHolder(Holder holder);
+  /// Set true while a recording shows the moving part away from its pose.
+  void setReplaying(bool isReplaying);
+  /// True if a recording shows this part.
+  bool isReplayed(PartId part) const;
+
+  /// Returns why a part cannot be moved, as a sentence without a full stop; empty if it can.
+  QString refusalOf(const Part& part) const;
+  /// The same for parts moved together; empty if there are none. The part of the manual
+  /// hand moves only alone.
+  QString refusalOf(const std::vector<PartId>& parts) const;
+
+ signals:
+  /// Emitted when refusals changed without a change of the session.
+  void changed();
+
+ private:
+  QString lockOf(const Part& part) const;
+
+  const Session& session_;
+  Holder holder_ = Holder::Nobody;
+  bool isReplaying_ = false;
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,143 @@
+#include "ui/model/part_cells.h"
+
+#include <QPainter>
+#include <QPixmap>
+#include <QPixmapCache>
+#include <algorithm>
+
+#include "core/scene/scene_tree.h"
+#include "ui/model/parts_model.h"
+#include "ui/widgets/format.h"
+#include "ui/widgets/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+/// Otherwise the style tints icons in selected rows until they look disabled.
+QIcon sameWhenSelected(const QPixmap& pixmap) {
+  QIcon result(pixmap);
+  result.addPixmap(pixmap, QIcon::Selected);
+  return result;
+}
+
+QIcon listIcon(const QString& name) {
+  constexpr int kSize = 36;
+  const QString key = QStringLiteral("nearfit-list-%1-%2").arg(name).arg(isThemeDark() ? 1 : 0);
+  QPixmap pixmap;
+  if (!QPixmapCache::find(key, &pixmap)) {
+    pixmap = icon(name).pixmap(kSize, kSize);
+    QPixmapCache::insert(key, pixmap);
+  }
+  return sameWhenSelected(pixmap);
+}
+
+/// Draws a square in a part's colour and opacity.
+QIcon swatch(const Colour& colour, double opacity) {
+  constexpr int kSize = 32;
+  QPixmap pixmap(kSize, kSize);
+  pixmap.fill(Qt::transparent);
+  QPainter painter(&pixmap);
+  painter.setRenderHint(QPainter::Antialiasing);
+  QColor fill = QColor::fromRgbF(static_cast<double>(colour.r), static_cast<double>(colour.g),
+                                 static_cast<double>(colour.b));
+  painter.setPen(QPen(fill.darker(150), 2.0));
+  fill.setAlphaF(opacity);
+  painter.setBrush(fill);
+  painter.drawRoundedRect(QRectF(4, 4, 24, 24), 6, 6);
+  return sameWhenSelected(pixmap);
+}
+
+enum class Shown { None, Some, All };
+
+Shown shownOf(const Scene& scene, const Group& group) {
+  const std::vector<PartId> parts = partsOf(scene, {{}, {group.id}});
+  const auto shown = std::ranges::count_if(parts, [&](PartId part) { return scene.find(part)->isVisible; });
+  if (shown == 0 && !parts.empty()) return Shown::None;
+  return static_cast<std::size_t>(shown) == parts.size() ? Shown::All : Shown::Some;
+}
+
+}  // namespace
+
+QIcon PartCell::picture(int column) const {
+  switch (column) {
+    case PartsModel::Name:
+      return swatch(part_.colour, part_.opacity);
+    case PartsModel::Moving:
+      return listIcon(scene_.movingPart() == part_.id ? QStringLiteral("hand") : QStringLiteral("hand-off"));
+    case PartsModel::Visible:
+      return listIcon(part_.isVisible ? QStringLiteral("eye") : QStringLiteral("eye-off"));
+    case PartsModel::Locked:
+      return listIcon(scene_.isLocked(part_) ? QStringLiteral("lock") : QStringLiteral("unlock"));
+    default:
+      return {};
+  }
+}
+
+QString PartCell::toolTip(int column) const {
+  switch (column) {
+    case PartsModel::Moving:
+      return scene_.movingPart() == part_.id ? tr("In hand") : tr("Take in hand: make it the moving part");
+    case PartsModel::Visible:
+      return part_.isVisible ? tr("Shown and felt: hide it") : tr("Hidden and not felt: show it");
+    case PartsModel::Locked:
+      return lockText();
+    default:
+      return description();
+  }
+}
+
+QString PartCell::lockText() const {
+  if (part_.isLocked) return tr("Locked: unlock it");
+  return scene_.isLocked(part_) ? tr("Locked by its group") : tr("Lock it against changes");
+}
+
+QString PartCell::description() const {
+  const TriangleMesh& mesh = part_.geometry->mesh;
+  const glm::dvec3 size = mesh.bounds().upper - mesh.bounds().lower;
+  QString text =
+      tr("%1\n%2\n%L3 triangles, %4 × %5 × %6")
+          .arg(QString::fromStdString(part_.name), QString::fromStdString(part_.geometry->file.string()))
+          .arg(mesh.triangles().size())
+          .arg(formatLength(size.x), formatLength(size.y), formatLength(size.z));
+  for (const std::string& warning : part_.geometry->report.warnings)
+    text += '\n' + QString::fromStdString(warning);
+  return text;
+}
+
+QIcon GroupCell::picture(int column) const {
+  switch (column) {
+    case PartsModel::Name:
+      return listIcon(QStringLiteral("folder"));
+    case PartsModel::Visible: {
+      const Shown shown = shownOf(scene_, group_);
+      return listIcon(shown == Shown::All    ? QStringLiteral("eye")
+                      : shown == Shown::Some ? QStringLiteral("eye-part")
+                                             : QStringLiteral("eye-off"));
+    }
+    case PartsModel::Locked:
+      return listIcon(scene_.isLocked(group_) ? QStringLiteral("lock") : QStringLiteral("unlock"));
+    default:
+      return {};
+  }
+}
+
+QString GroupCell::toolTip(int column) const {
+  switch (column) {
+    case PartsModel::Name: {
+      const std::size_t parts = partsOf(scene_, {{}, {group_.id}}).size();
+      const QString name = QString::fromStdString(group_.name);
+      return parts == 1 ? tr("%1\n1 part").arg(name) : tr("%1\n%2 parts").arg(name).arg(parts);
+    }
+    case PartsModel::Visible:
+      return shownOf(scene_, group_) == Shown::All ? tr("All are shown and felt: hide them")
+                                                   : tr("Not all are shown: show them");
+    case PartsModel::Locked:
+      return group_.isLocked           ? tr("Locked with all that it holds: unlock it")
+             : scene_.isLocked(group_) ? tr("Locked by the group that it is in")
+                                       : tr("Lock it with all that it holds");
+    default:
+      return {};
+  }
+}
+
+}  // namespace nearfit::ui

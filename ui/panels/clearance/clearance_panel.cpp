@@ -1,0 +1,224 @@
+#include "ui/panels/clearance/clearance_panel.h"
+
+#include <QComboBox>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QSettings>
+#include <QSignalBlocker>
+#include <QSortFilterProxyModel>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <utility>
+
+#include "core/files/atomic_write.h"
+#include "ui/model/clearance_model.h"
+#include "ui/panels/clearance/clearance_search.h"
+#include "ui/widgets/number_field.h"
+#include "ui/widgets/paths.h"
+#include "ui/widgets/preferences.h"
+#include "ui/widgets/save_file.h"
+#include "ui/widgets/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+const QString kThresholdKey = QStringLiteral("clearance/thresholdMillimetres");
+constexpr double kMillimetre = 1e-3;
+constexpr double kUsualThreshold = 1e-3, kThresholdStep = 1e-4, kMaxThreshold = 1e3;  ///< [m]
+constexpr int kThresholdDecimals = 4;
+
+/// Returns the threshold from the settings [m]; the usual one if somebody edited it to nonsense.
+double keptThreshold() {
+  bool isNumber = false;
+  const double kept = kMillimetre * QSettings().value(kThresholdKey).toDouble(&isNumber);
+  return isNumber && kept >= 0.0 && kept <= kMaxThreshold ? kept : kUsualThreshold;
+}
+
+}  // namespace
+
+ClearancePanel::ClearancePanel(Session& session, ClearanceSearch& search, QWidget* parent)
+    : QWidget(parent), session_(session), search_(search), model_(new ClearanceModel(this)) {
+  setUpFields();
+  setUpTable();
+  note_ = new QLabel(this);
+  note_->setObjectName(QStringLiteral("clearanceNote"));
+  note_->setWordWrap(true);
+  export_ = new QPushButton(icon(QStringLiteral("export")), tr("Export table…"), this);
+  export_->setObjectName(QStringLiteral("exportClearances"));
+  connect(export_, &QPushButton::clicked, this, &ClearancePanel::exportTable);
+  auto* partLabel = new QLabel(tr("&Part"), this);
+  auto* thresholdLabel = new QLabel(tr("&Too near below"), this);
+  partLabel->setBuddy(subject_);
+  thresholdLabel->setBuddy(threshold_);
+  // On high-resolution displays letters are a little wider than Qt expects, and the last one was cut off.
+  thresholdLabel->ensurePolished();
+  thresholdLabel->setMinimumWidth(thresholdLabel->sizeHint().width() + 4);
+  auto* fields = new QHBoxLayout;
+  fields->addWidget(partLabel);
+  fields->addWidget(subject_, 1);
+  fields->addWidget(thresholdLabel);
+  fields->addWidget(threshold_);
+  auto* below = new QHBoxLayout;
+  below->addWidget(note_, 1);
+  below->addWidget(export_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(8, 6, 8, 6);
+  column->setSpacing(4);
+  column->addLayout(fields);
+  column->addWidget(table_, 1);
+  column->addLayout(below);
+  connect(&search_, &ClearanceSearch::changed, this, &ClearancePanel::showClearances);
+  connect(&search_, &ClearanceSearch::failed, this, &ClearancePanel::failed);
+  session_.onChange([this] { showSubjects(); });
+  showSubjects();
+  showClearances();
+}
+
+void ClearancePanel::setUpFields() {
+  subject_ = new QComboBox(this);
+  subject_->setObjectName(QStringLiteral("clearancePart"));
+  subject_->setToolTip(tr("The part whose distances to all other visible ones are listed"));
+  subject_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  connect(subject_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
+    const QVariant id = subject_->currentData();
+    search_.setSubject(id.isValid() ? std::optional(PartId{id.toUInt()}) : std::nullopt);
+  });
+  threshold_ = new NumberField(this);
+  threshold_->setObjectName(QStringLiteral("clearanceThreshold"));
+  threshold_->setTrimmed(true);
+  threshold_->setLength(kThresholdDecimals);
+  threshold_->setQuantityRange(0.0, kMaxThreshold);
+  threshold_->setQuantityStep(kThresholdStep);
+  threshold_->setHelp(tr("Pairs that are nearer are marked"));
+  threshold_->showQuantity(keptThreshold());
+  model_->setThreshold(threshold_->quantity());
+  connect(threshold_, &NumberField::quantityEdited, this, [this](double metres) {
+    model_->setThreshold(metres);
+    QSettings().setValue(kThresholdKey, metres / kMillimetre);
+    showClearances();
+  });
+}
+
+void ClearancePanel::setUpTable() {
+  sorted_ = new QSortFilterProxyModel(this);
+  sorted_->setSourceModel(model_);
+  sorted_->setSortRole(ClearanceModel::kSortRole);
+  sorted_->setSortCaseSensitivity(Qt::CaseInsensitive);
+  table_ = new QTableView(this);
+  table_->setObjectName(QStringLiteral("clearanceTable"));
+  table_->setAccessibleName(tr("Clearances"));
+  table_->setModel(sorted_);
+  table_->setSortingEnabled(true);
+  table_->sortByColumn(ClearanceModel::Distance, Qt::AscendingOrder);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setTabKeyNavigation(false);
+  table_->setShowGrid(false);
+  table_->setAlternatingRowColors(true);
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(24);
+  table_->setMinimumSize(360, 90);
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table_->horizontalHeader()->setSectionResizeMode(ClearanceModel::Other, QHeaderView::Stretch);
+  table_->horizontalHeader()->setHighlightSections(false);
+  connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &ClearancePanel::choose);
+}
+
+void ClearancePanel::showSubjects() {
+  const Scene& scene = session_.scene();
+  const bool isSameScene = std::exchange(sceneSerial_, session_.sceneSerial()) == session_.sceneSerial();
+  const QVariant before = isSameScene ? subject_->currentData() : QVariant();
+  QStringList names, shown;
+  const Part* moving = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
+  names << (moving != nullptr ? tr("In hand: %1").arg(QString::fromStdString(moving->name))
+                              : tr("In hand (none)"));
+  for (const Scene::PartPtr& part : scene.parts())
+    names << QString::fromStdString(part->name);
+  for (int i = 0; i < subject_->count(); ++i)
+    shown << subject_->itemText(i);
+  if (names == shown && isSameScene) return;
+  const QSignalBlocker blocker(subject_);
+  subject_->clear();
+  subject_->addItem(names.first());
+  for (const Scene::PartPtr& part : scene.parts())
+    subject_->addItem(QString::fromStdString(part->name), static_cast<uint>(part->id));
+  const int index = before.isValid() ? subject_->findData(before) : 0;
+  subject_->setCurrentIndex(std::max(index, 0));
+  if (index < 0 || !isSameScene) search_.setSubject(std::nullopt);
+}
+
+void ClearancePanel::showClearances() {
+  model_->show(search_.clearances(), search_.scene());
+  export_->setEnabled(model_->rowCount() > 0);
+  showNote();
+  emit chosenChanged();
+}
+
+void ClearancePanel::showNote() {
+  const bool hasRows = model_->rowCount() > 0;
+  QString note;
+  if (!search_.subject()) {
+    note = tr("Choose a part, or take one in hand.");
+  } else if (!hasRows) {
+    note = session_.scene().parts().size() > 1
+               ? tr("No other part is visible, or the search is not done yet.")
+               : tr("There is no other part.");
+  } else if (const std::optional<PartClearance> pair = chosen(); !pair) {
+    note = tr("Choose a row to see where the two are nearest.");
+  } else if (!pair->isOverlapping()) {
+    note = tr("The line in the view joins the points where the two are nearest.");
+  }
+  note_->setText(note);
+}
+
+std::optional<PartClearance> ClearancePanel::chosen() const {
+  const QModelIndexList rows = table_->selectionModel()->selectedRows();
+  if (rows.isEmpty() || !isVisible()) return std::nullopt;
+  return model_->at(sorted_->mapToSource(rows.first()).row());
+}
+
+void ClearancePanel::choose() {
+  const std::optional<PartClearance> pair = chosen();
+  const std::optional<PartId> part = search_.subject();
+  if (pair && part) emit pairChosen(*part, pair->other);
+  showNote();
+  emit chosenChanged();
+}
+
+void ClearancePanel::exportTable() {
+  const std::optional<PartId> part = search_.subject();
+  if (!part) return;
+  const std::optional<QString> file =
+      askForSave({tr("Export clearances"),
+                  Preferences::lastFolder() + QStringLiteral("/clearances.csv"),
+                  {tr("Tables (*.csv)")},
+                  {QStringLiteral("csv")}},
+                 this);
+  if (!file) return;
+  try {
+    atomicWrite(toPath(*file), clearanceCsv(search_.scene(), *part, search_.clearances()));
+  } catch (...) {
+    emit failed(describe(tr("The clearances could not be exported."), std::current_exception()));
+    return;
+  }
+  Preferences::rememberFolderOf(*file);
+  emit noted(tr("Exported %1").arg(QFileInfo(*file).fileName()));
+}
+
+void ClearancePanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  search_.setWanted(true);
+  emit chosenChanged();
+}
+
+void ClearancePanel::hideEvent(QHideEvent* event) {
+  QWidget::hideEvent(event);
+  search_.setWanted(false);
+  emit chosenChanged();
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,95 @@
+#include "ui/panels/clearance/clearance_search.h"
+
+#include <memory>
+#include <utility>
+
+#include "core/report/mesh_export.h"
+
+namespace nearfit::ui {
+namespace {
+
+/// Shortest time between the starts of two searches, which leaves processors for a drag or the servo.
+constexpr int kEveryMs = 250;
+
+}  // namespace
+
+ClearanceSearch::ClearanceSearch(Session& session, PoseOfMoving poseOfMoving, QObject* parent)
+    : QObject(parent), session_(session), poseOfMoving_(std::move(poseOfMoving)) {
+  timer_.setSingleShot(true);
+  timer_.setInterval(kEveryMs);
+  connect(&timer_, &QTimer::timeout, this, [this] {
+    if (isDue_) search();
+  });
+  session_.onChange([this] { request(); });
+}
+
+void ClearanceSearch::setWanted(bool isWanted) {
+  if (isWanted == std::exchange(isWanted_, isWanted)) return;
+  isWanted ? request() : task_.cancel();
+}
+
+void ClearanceSearch::setSubject(std::optional<PartId> part) {
+  chosen_ = part;
+  clearances_.clear();
+  emit changed();
+  request();
+}
+
+std::optional<PartId> ClearanceSearch::subject() const {
+  const Scene& scene = session_.scene();
+  if (chosen_ && scene.find(*chosen_) != nullptr) return chosen_;
+  return scene.movingPart();
+}
+
+void ClearanceSearch::showSnapshot(const ServoSnapshot& snapshot) {
+  if (!isWanted_) return;
+  if (subject() == snapshot.moving) {
+    updateFrom(snapshot, clearances_);
+    emit changed();
+  }
+  // The part in hand affects other parts' clearances too, and the servo knows nothing beyond its cutoff.
+  const bool hasMoved =
+      snapshot.proxy.translation != poseShown_.translation || snapshot.proxy.rotation != poseShown_.rotation;
+  poseShown_ = snapshot.proxy;
+  if (hasMoved) request();
+}
+
+void ClearanceSearch::request() {
+  if (!isWanted_) return;
+  isDue_ = true;
+  if (!timer_.isActive() && !task_.isRunning()) search();
+}
+
+void ClearanceSearch::search() {
+  // The search that runs asks again when it ends.
+  if (task_.isRunning() || !isWanted_) return;
+  isDue_ = false;
+  timer_.start();
+  const std::optional<PartId> part = subject();
+  auto scene = std::make_shared<const Scene>(placedScene(session_.scene(), poseOfMoving_()));
+  if (!part) return finish(part, *scene, {}, nullptr);
+  auto found = std::make_shared<std::vector<PartClearance>>();
+  const double cutoff = scene->haptics().springs.cutoff;
+  const auto job = [scene, found, part, cutoff](const ProgressCallback& progress) {
+    *found = clearancesOf(*scene, *part, cutoff, progress);
+  };
+  task_.run(job, [this, scene, found, part](const std::exception_ptr& error) {
+    finish(part, *scene, *found, error);
+    if (isDue_ && !timer_.isActive()) search();
+  });
+}
+
+void ClearanceSearch::finish(std::optional<PartId> part, const Scene& scene,
+                             const std::vector<PartClearance>& found, const std::exception_ptr& error) {
+  // Results for a former part, or of a cancelled search: what is due follows.
+  if (part != subject() || !isWanted_ || (error && isDue_)) return;
+  if (error) {
+    emit failed(describe(tr("The clearances could not be found."), error));
+    return;
+  }
+  searched_ = scene;
+  clearances_ = found;
+  emit changed();
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/report/clearance.h"
+#include "core/session/session.h"
+#include "ui/widgets/background_task.h"
+#include "ui/widgets/error_box.h"
+
+namespace nearfit::ui {
+
+/// Keeps the clearances of one part up to date while they are wanted. Searches in another thread
+/// after a change, at most a few times a second; for the moving part in hand, also takes them from
+/// each tick that is shown.
+class ClearanceSearch : public QObject {
+  Q_OBJECT
+
+ public:
+  /// Returns the moving part's worldFromPart now; anything if there is none.
+  using PoseOfMoving = std::function<RigidTransform()>;
+
+  /// @param session  Must outlive this.
+  ClearanceSearch(Session& session, PoseOfMoving poseOfMoving, QObject* parent = nullptr);
+
+  /// Starts or stops searching; at first nothing is wanted.
+  void setWanted(bool isWanted);
+  /// Chooses the part; std::nullopt: the moving part, whichever that is.
+  void setSubject(std::optional<PartId> part);
+  /// Returns the part whose clearances are kept; std::nullopt if there is none.
+  std::optional<PartId> subject() const;
+  /// Returns the clearances found last.
+  const std::vector<PartClearance>& clearances() const noexcept { return clearances_; }
+  /// Returns the scene in which they were found, with its names and poses.
+  const Scene& scene() const noexcept { return searched_; }
+  /// Takes in a tick of the part in hand.
+  void showSnapshot(const ServoSnapshot& snapshot);
+
+ signals:
+  /// Emitted when clearances() changed.
+  void changed();
+  /// Emitted when something failed that the user must see.
+  void failed(const nearfit::ui::Failure& failure);
+
+ private:
+  void request();
+  void search();
+  void finish(std::optional<PartId> part, const Scene& scene, const std::vector<PartClearance>& found,
+              const std::exception_ptr& error);
+
+  Session& session_;
+  const PoseOfMoving poseOfMoving_;
+  BackgroundTask task_;
+  QTimer timer_;
+  std::optional<PartId> chosen_;
+  Scene searched_;
+  std::vector<PartClearance> clearances_;
+  RigidTransform poseShown_;  ///< Pose of the part in hand at the last tick shown.
+  bool isWanted_ = false, isDue_ = false;
+};
+
+}  // namespace nearfit::ui

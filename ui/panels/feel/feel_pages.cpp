@@ -1,0 +1,204 @@
+#include "ui/panels/feel/feel_pages.h"
+
+#include <QCheckBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "core/haptics/workspace_mapper.h"
+#include "core/math/euler_angles.h"
+#include "core/scene/haptic_limits.h"
+#include "ui/panels/feel/locks_page.h"
+#include "ui/widgets/format.h"
+#include "ui/widgets/names.h"
+#include "ui/widgets/number_field.h"
+#include "ui/widgets/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+const QStringList kAxes = {QStringLiteral("X"), QStringLiteral("Y"), QStringLiteral("Z")};
+
+/// Returns a row of three fields, one for each axis, with their names before them.
+QHBoxLayout* axisRow(const std::array<NumberField*, 3>& fields) {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(4);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    row->addWidget(new QLabel(kAxes[static_cast<int>(axis)]));
+    row->addWidget(fields[axis], 1);
+    if (axis < 2) row->addSpacing(6);
+  }
+  return row;
+}
+
+}  // namespace
+
+SpringPage::SpringPage(QWidget* parent) : FeelPage(parent) {
+  const auto stiffness = [](HapticSettings& s) -> double& { return s.springs.stiffness; };
+  const QString toolTip = tr("How hard each spring pushes");
+  linear_ = addNumber({"stiffness", toolTip, tr(" N/m"), kMinStiffness, kMaxStiffness}, stiffness);
+  printed_ =
+      addNumber({"printedStiffness", toolTip, tr(" N/m²"), kMinStiffness, kMaxPrintedStiffness}, stiffness);
+  NumberField* damping = addNumber({"damping", tr("Resistance to approach along each minimum; never pulls"),
+                                    tr(" N·s/m"), kMinDamping, kMaxDamping},
+                                   [](HapticSettings& s) -> double& { return s.springs.damping; });
+  linearLabel_ = new QLabel(tr("Stiffness"), this);
+  printedLabel_ = new QLabel(tr("Stiffness"), this);
+  auto* form = new QFormLayout(this);
+  form->addRow(linearLabel_, linear_);
+  form->addRow(printedLabel_, printed_);
+  form->addRow(tr("Damping"), damping);
+  limits_ = addNote();
+  limits_->setObjectName(QStringLiteral("springLimits"));
+  bound_ = addNote();
+  bound_->setObjectName(QStringLiteral("springBound"));
+  form->addRow(limits_);
+  form->addRow(bound_);
+}
+
+void SpringPage::showBasis(const CouplingBasis& basis) {
+  basis_ = basis;
+  refresh();
+}
+
+void SpringPage::refresh() {
+  const bool isLinear = settings().springs.law == SpringLaw::Linear;
+  for (QWidget* widget : {static_cast<QWidget*>(linear_), static_cast<QWidget*>(linearLabel_)})
+    widget->setVisible(isLinear);
+  for (QWidget* widget : {static_cast<QWidget*>(printed_), static_cast<QWidget*>(printedLabel_)})
+    widget->setVisible(!isLinear);
+  const DeviceLimits& device = basis_.device;
+  limits_->setText(tr("Enforced on what the device gets: at most %1 N and %2 N·m, changing by at most %3 N/s "
+                      "and %4 N·m/s. "
+                      "Energy that the hand gets beyond what it gave is damped away.")
+                       .arg(formatNumber(device.maxForce), formatNumber(device.maxTorque),
+                            formatNumber(device.forceSlew), formatNumber(device.torqueSlew)));
+  showBound();
+}
+
+void SpringPage::showBound() {
+  const SpringParameters& springs = settings().springs;
+  const bool isLinear = springs.law == SpringLaw::Linear;
+  const DeviceLimits device = limitsAtHandle(basis_.device, settings().mapping.scale);
+  const double count = basis_.springs.value_or(1);
+  const double most = stiffnessBound(device.damping, count * springs.damping, basis_.period);
+  // The slope of the printed law is at most stiffness times cutoff.
+  const double each = most / (std::max(count, 1.0) * (isLinear ? 1.0 : springs.cutoff));
+  const QString unit = isLinear ? tr(" N/m") : tr(" N/m²");
+  QString text = tr("Not enforced: a bound on the stiffness of all springs together. What they make along "
+                    "one line is passive "
+                    "in anyone's hand up to %1 N/m, at %2 with the device's damping of %3 N·s/m")
+                     .arg(formatNumber(most), formatDuration(basis_.period), formatNumber(device.damping));
+  const bool isKnown = basis_.springs && *basis_.springs > 0;
+  text += isKnown ? tr("; shared by the springs of all minima, now %n: %1%2 each.", nullptr,
+                       static_cast<int>(*basis_.springs))
+                        .arg(formatNumber(each), unit)
+                  : tr("; shared by the springs of all minima.");
+  bound_->setText(text);
+  const bool isBeyond = isKnown && springs.stiffness > each;
+  const QString style =
+      QStringLiteral("color: %1").arg((isBeyond ? colours::kWarning : colours::kMutedText).name());
+  // Runs sixty times a second: setting a style is expensive.
+  if (bound_->styleSheet() != style) bound_->setStyleSheet(style);
+}
+
+WeightPage::WeightPage(QWidget* parent) : FeelPage(parent) {
+  QCheckBox* weight = addSwitch(QStringLiteral("weight"), tr("Weight: the part hangs in the hand"),
+                                tr("What the device cannot hold is left out"),
+                                [](HapticSettings& s) -> bool& { return s.weight.hasWeight; });
+  inertia_ = addSwitch(QStringLiteral("inertia"), tr("Inertia: the part resists being accelerated"),
+                       tr("In the proxy mode alone: springs leave the part where the hand is"),
+                       [](HapticSettings& s) -> bool& { return s.weight.hasInertia; });
+  std::array<NumberField*, 3> gravity{};
+  const char* names[3] = {"gravityX", "gravityY", "gravityZ"};
+  for (int axis = 0; axis < 3; ++axis) {
+    gravity[static_cast<std::size_t>(axis)] =
+        addNumber({names[axis],
+                   tr("Gravity along the world's %1; its length may be up to %2 m/s²")
+                       .arg(kAxes[axis], formatNumber(kMaxGravity)),
+                   {},
+                   -kMaxGravity,
+                   kMaxGravity,
+                   5},
+                  [axis](HapticSettings& s) -> double& { return s.weight.gravity[axis]; });
+  }
+  mass_ = addNote();
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(weight);
+  layout->addWidget(inertia_);
+  layout->addSpacing(6);
+  layout->addWidget(new QLabel(tr("Gravity [m/s²]"), this));
+  layout->addLayout(axisRow(gravity));
+  layout->addSpacing(6);
+  layout->addWidget(mass_);
+  layout->addStretch(1);
+}
+
+void WeightPage::refresh() {
+  inertia_->setEnabled(settings().mode == HapticMode::Proxy);
+}
+
+void WeightPage::showMass(const QString& name, double mass) {
+  mass_->setText(name.isEmpty() ? tr("No part is in hand.")
+                                : tr("%1 has a mass of %2; its density is set in the pose panel.")
+                                      .arg(breakable(shortName(name)), formatMass(mass)));
+}
+
+WorkspacePage::WorkspacePage(QWidget* parent) : FeelPage(parent) {
+  NumberField* scale =
+      addNumber({"scale", tr("Metres in the scene to a metre of the device"), tr(" ×"), kMinScale, kMaxScale},
+                [](HapticSettings& s) -> double& { return s.mapping.scale; });
+  makeAngles();
+  locks_ = new LocksPage({}, this);
+  connect(locks_, &FeelPage::edited, this, &WorkspacePage::change);
+  QLabel* note = addNote();
+  note->setText(tr("The manual hand takes numbers of the scene itself: for it only the locks count."));
+  auto* scaleRow = new QFormLayout;
+  scaleRow->addRow(tr("Scale"), scale);
+  auto* layout = new QVBoxLayout(this);
+  layout->addLayout(scaleRow);
+  layout->addWidget(new QLabel(tr("Orientation of the device"), this));
+  layout->addLayout(axisRow(angleFields_));
+  layout->addSpacing(6);
+  layout->addWidget(new QLabel(tr("Motions that count, by axes of the world"), this));
+  layout->addWidget(locks_);
+  layout->addSpacing(6);
+  layout->addWidget(note);
+  layout->addStretch(1);
+}
+
+void WorkspacePage::makeAngles() {
+  const char* names[3] = {"orientationX", "orientationY", "orientationZ"};
+  for (int axis = 0; axis < 3; ++axis) {
+    auto* field = new NumberField(this);
+    field->setObjectName(QLatin1String(names[axis]));
+    field->setTrimmed(true);
+    field->setRange(-360.0, 360.0);
+    field->setUnit(QString(QChar(0xB0)));
+    field->setToolTip(tr("Turns the device's frame into the world's: about the fixed axes x, y, z in turn"));
+    connect(field, &NumberField::quantityEdited, this, [this, axis](double angle) { turn(axis, angle); });
+    angleFields_[static_cast<std::size_t>(axis)] = field;
+  }
+}
+
+void WorkspacePage::turn(int axis, double angle) {
+  angles_[axis] = angle;
+  HapticSettings next = settings();
+  next.mapping.orientationOffset = rotationFromEulerAngles(angles_);
+  change(next);
+}
+
+void WorkspacePage::refresh() {
+  locks_->showSettings(settings());
+  // Typed angles stay, even if others give the same rotation.
+  if (rotationFromEulerAngles(angles_) != settings().mapping.orientationOffset)
+    angles_ = eulerAnglesOf(settings().mapping.orientationOffset);
+  for (int axis = 0; axis < 3; ++axis) {
+    NumberField* field = angleFields_[static_cast<std::size_t>(axis)];
+    field->showQuantity(angles_[axis]);
+  }
+}
+
+}  // namespace nearfit::ui

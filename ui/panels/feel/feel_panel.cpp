@@ -1,0 +1,213 @@
+#include "ui/panels/feel/feel_panel.h"
+
+#include <QComboBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QVBoxLayout>
+
+#include <glm/geometric.hpp>
+
+#include "ui/model/hand_lead.h"
+#include "ui/panels/feel/feel_notice.h"
+#include "ui/panels/feel/hand_choice.h"
+#include "ui/panels/feel/hand_workspace.h"
+#include "ui/panels/feel/preset_choice.h"
+#include "ui/panels/feel/readouts.h"
+#include "ui/widgets/format.h"
+#include "ui/widgets/theme.h"
+
+namespace nearfit::ui {
+
+FeelPanel::FeelPanel(const Parts& parts, QWidget* parent)
+    : QWidget(parent),
+      hand_(new HandChoice(this)),
+      mode_(new QComboBox(this)),
+      preset_(new PresetChoice("panelPreset", parts.presets, this)),
+      startStop_(new QPushButton(this)),
+      notice_(new FeelNotice(this)),
+      workspace_(new HandWorkspace(parts.clutch, this)),
+      device_(new Readouts(tr("Device"), this)),
+      felt_(new Readouts(tr("Felt"), this)),
+      servo_(new Readouts(tr("Servo"), this)) {
+  setUpReadouts();
+  // A small window has not enough room for all of it.
+  auto* scroll = new QScrollArea(this);
+  scroll->setObjectName(QStringLiteral("feelScroll"));
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(makeChoices(parts));
+  // As wide as its widest content, which may come later, and the scroll bar: nothing is cut off.
+  workspace_->showHand(Hand::Device);
+  scroll->setMinimumWidth(scroll->widget()->minimumSizeHint().width() +
+                          scroll->verticalScrollBar()->sizeHint().width());
+  showHand();
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(scroll);
+
+  connect(startStop_, &QPushButton::clicked, this,
+          [this] { emit(isTaken_ ? stopRequested() : startRequested()); });
+  connect(hand_, &HandChoice::handChanged, this, [this] {
+    showHand();
+    emit handChanged();
+  });
+  connect(hand_, &HandChoice::armRequested, this, &FeelPanel::armRequested);
+  connect(hand_, &HandChoice::calibrateRequested, this, &FeelPanel::calibrateRequested);
+  connect(hand_, &HandChoice::recordingWanted, this, &FeelPanel::recordingWanted);
+  connect(hand_, &HandChoice::resetRequested, this, &FeelPanel::resetRequested);
+  connect(mode_, QOverload<int>::of(&QComboBox::activated), this,
+          [this] { emit modeRequested(mode_->currentData().value<FeelMode>()); });
+  connect(preset_, &PresetChoice::chosen, this, &FeelPanel::presetChosen);
+  connect(workspace_, &FeelPage::edited, this, &FeelPanel::settingsEdited);
+  connect(notice_, &FeelNotice::restartRequested, this, &FeelPanel::restartRequested);
+  showStatus({});
+  clearSnapshot();
+}
+
+QWidget* FeelPanel::makeChoices(const Parts& parts) {
+  mode_->setObjectName(QStringLiteral("panelMode"));
+  mode_->setToolTip(tr("How contact feels; the settings explain it"));
+  addModes(*mode_);
+  mode_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  startStop_->setObjectName(QStringLiteral("startStop"));
+  startStop_->setMinimumHeight(34);
+  startStop_->setIconSize(QSize(20, 20));
+  auto* content = new QWidget(this);
+  auto* layout = new QVBoxLayout(content);
+  layout->setContentsMargins(12, 10, 12, 12);
+  layout->setSpacing(6);
+  for (QWidget* each :
+       {static_cast<QWidget*>(hand_), static_cast<QWidget*>(mode_), static_cast<QWidget*>(preset_),
+        static_cast<QWidget*>(startStop_), parts.settingsButton, static_cast<QWidget*>(notice_),
+        static_cast<QWidget*>(felt_), static_cast<QWidget*>(device_), static_cast<QWidget*>(workspace_),
+        static_cast<QWidget*>(servo_)})
+    layout->addWidget(each);
+  layout->addStretch(1);
+  // Tab order as on screen; the button was created before the others.
+  setTabOrder(startStop_, parts.settingsButton);
+  return content;
+}
+
+void FeelPanel::setUpReadouts() {
+  reports_ = device_->add(tr("Reports"), "reportRate", tr("Poses that come from the device in a second"));
+  jitter_ = device_->add(tr("Jitter"), "reportJitter",
+                         tr("How far the time between two of them is off its mean, on average"));
+  lost_ = device_->add(tr("Missing"), "reportsLost",
+                       tr("Reports that were lost or damaged since it was taken in hand"));
+  force_ = felt_->add(tr("Force"), "force");
+  torque_ = felt_->add(tr("Torque"), "torque");
+  distance_ = felt_->add(tr("Least distance"), "distance");
+  minima_ = felt_->add(tr("Local minima"), "minima");
+  contacts_ = felt_->add(tr("Contacts"), "contacts", tr("Minima that hold the part"));
+  lead_ = felt_->add(tr("Hand ahead"), "lead", tr("From the part to where the hand wants it"));
+  energy_ = felt_->add(tr("Energy to hand"), "energy",
+                       tr("Given to the hand since the start, less what came back"));
+  clamped_ = felt_->addNote("clamped", colours::kForce);
+  rate_ = servo_->add(tr("Rate"), "rate");
+  lateness_ = servo_->add(tr("Lateness, p99"), "lateness");
+  tick_ = servo_->add(tr("Tick, p99"), "tick");
+  subSteps_ = servo_->add(tr("Sub-steps"), "subSteps", tr("Steps of the proxy in a tick"));
+  overruns_ = servo_->add(tr("Overruns"), "overruns");
+  scheduling_ = servo_->addNote("scheduling", colours::kMutedText);
+}
+
+Hand FeelPanel::hand() const {
+  return hand_->hand();
+}
+
+QString FeelPanel::device() const {
+  return hand_->device();
+}
+
+bool FeelPanel::isRecordingMissing() const {
+  return hand_->isRecordingMissing();
+}
+
+void FeelPanel::chooseDevice(const QString& device) {
+  hand_->choose(device);
+  showHand();
+}
+
+void FeelPanel::showDevices(const QVector<DeviceChoice>& devices) {
+  hand_->showDevices(devices);
+  showHand();
+}
+
+void FeelPanel::showHand() {
+  workspace_->showHand(hand(), hand_->isRecorded());
+}
+
+void FeelPanel::setStartable(bool isStartable) {
+  isStartable_ = isStartable;
+  startStop_->setEnabled(isStartable_ || isTaken_);
+}
+
+void FeelPanel::showStatus(const ServoStatus& status) {
+  isTaken_ = status.isTaken();
+  hand_->showStatus(status);
+  workspace_->showUncalibrated(status.isRunning && status.isUncalibrated);
+  startStop_->setText(status.isOpening ? tr("Cancel") : isTaken_ ? tr("Stop") : tr("Feel"));
+  startStop_->setIcon(icon(isTaken_ ? QStringLiteral("stop") : QStringLiteral("start")));
+  setStartable(isStartable_);
+  const bool hasTimes = status.isRunning && status.ticks > 0;
+  rate_->setText(hasTimes ? QStringLiteral("%1 Hz").arg(status.rate, 0, 'f', 0) : Readouts::nothing());
+  rate_->setStyleSheet(status.isTooSlow() ? QStringLiteral("color: %1").arg(colours::kWarning.name())
+                                          : QString());
+  lateness_->setText(hasTimes ? formatDuration(status.latenessP99) : Readouts::nothing());
+  tick_->setText(hasTimes ? formatDuration(status.tickP99) : Readouts::nothing());
+  overruns_->setText(hasTimes ? QString::number(status.overruns) : Readouts::nothing());
+  scheduling_->setText(status.scheduling);
+  showDevice(status);
+}
+
+void FeelPanel::showDevice(const ServoStatus& status) {
+  device_->setVisible(status.isRunning && status.hand == Hand::Device);
+  const bool hasReports = status.reportRate > 0.0;
+  reports_->setText(hasReports ? QStringLiteral("%1 Hz").arg(status.reportRate, 0, 'f', 0)
+                               : Readouts::nothing());
+  const bool hasJitter = hasReports && status.reportJitter > 0.0;
+  jitter_->setText(hasJitter ? QStringLiteral("± ") + formatDuration(status.reportJitter)
+                             : Readouts::nothing());
+  lost_->setText(hasReports || status.reportsLost > 0 ? QString::number(status.reportsLost)
+                                                      : Readouts::nothing());
+}
+
+void FeelPanel::showSettings(const HapticSettings& settings) {
+  showMode(*mode_, feelModeOf(settings));
+  preset_->showSettings(settings);
+  workspace_->showSettings(settings);
+}
+
+void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) {
+  force_->setText(formatForce(glm::length(snapshot.wrench.force)));
+  torque_->setText(formatTorque(glm::length(snapshot.wrench.torque)));
+  distance_->setText(formatLength(snapshot.distance));
+  minima_->setText(QString::number(snapshot.lmdCount) +
+                   (snapshot.isTruncated ? QStringLiteral("+") : QString()));
+  energy_->setText(formatEnergy(snapshot.energyToHand));
+  clamped_->setText(snapshot.isClamped ? tr("Held at the device's limit.") : QString());
+  notice_->showSnapshot(snapshot, scene);
+  workspace_->showClutched(snapshot.isClutched);
+  showProxy(snapshot);
+}
+
+void FeelPanel::showProxy(const ServoSnapshot& snapshot) {
+  const bool isProxy = snapshot.mode == HapticMode::Proxy;
+  contacts_->setText(isProxy ? QString::number(snapshot.contactCount) : Readouts::nothing());
+  lead_->setText(isProxy ? formatLead(handLeadOf(snapshot)) : Readouts::nothing());
+  subSteps_->setText(isProxy ? QString::number(snapshot.subSteps) : Readouts::nothing());
+}
+
+void FeelPanel::clearSnapshot() {
+  for (QLabel* label : {force_, torque_, distance_, minima_, contacts_, lead_, energy_, subSteps_})
+    label->setText(Readouts::nothing());
+  clamped_->clear();
+  notice_->clear();
+  workspace_->showClutched(false);
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <QWidget>
+
+#include "core/servo/servo_snapshot.h"
+#include "ui/model/device_choice.h"
+#include "ui/model/feel_mode.h"
+#include "ui/model/servo_status.h"
+
+class QAction;
+class QComboBox;
+class QLabel;
+class QPushButton;
+class QVBoxLayout;
+
+namespace nearfit::ui {
+
+class FeelNotice;
+class HandChoice;
+class HandWorkspace;
+class PresetChoice;
+class PresetStore;
+class Readouts;
+
+/// Starts and stops the servo, chooses hand and mode, and shows what is felt: wrench, minima, contact and
+/// timing in numbers.
+class FeelPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// Widgets and presets that other classes provide.
+  struct Parts {
+    QWidget* settingsButton;  ///< Opens the settings; this panel becomes its parent.
+    QAction* clutch;
+    PresetStore& presets;  ///< Must outlive this.
+  };
+  explicit FeelPanel(const Parts& parts, QWidget* parent = nullptr);
+
+  Hand hand() const;
+  /// Returns the id of the device chosen as hand; empty for other hands.
+  QString device() const;
+  /// True if the recorded hand is chosen, but no recording.
+  bool isRecordingMissing() const;
+  /// Chooses a device; no-op if it is not in the list.
+  void chooseDevice(const QString& device);
+  void showDevices(const QVector<DeviceChoice>& devices);
+  void setStartable(bool isStartable);
+  void showStatus(const ServoStatus& status);
+  /// Shows the scene's settings.
+  void showSettings(const HapticSettings& settings);
+  /// @param scene  Holds the parts' names.
+  void showSnapshot(const ServoSnapshot& snapshot, const Scene& scene);
+  void clearSnapshot();
+
+ signals:
+  /// Each is emitted when the user asks for what its name says.
+  void startRequested();
+  void stopRequested();
+  void restartRequested();
+  void handChanged();
+  void armRequested(bool isArmed);
+  void calibrateRequested();
+  void recordingWanted();
+  void resetRequested();
+  void modeRequested(nearfit::ui::FeelMode mode);
+  void settingsEdited(const nearfit::HapticSettings& settings);
+  void presetChosen(const nearfit::HapticSettings& settings, const QString& name);
+
+ private:
+  QWidget* makeChoices(const Parts& parts);
+  void setUpReadouts();
+  void showDevice(const ServoStatus& status);
+  void showHand();
+  void showProxy(const ServoSnapshot& snapshot);
+
+  HandChoice* hand_;
+  QComboBox* mode_;
+  PresetChoice* preset_;
+  QPushButton* startStop_;
+  FeelNotice* notice_;
+  HandWorkspace* workspace_;
+  Readouts *device_, *felt_, *servo_;
+  QLabel *force_, *torque_, *distance_, *minima_, *contacts_, *lead_, *energy_, *clamped_;
+  QLabel *reports_, *jitter_, *lost_;
+  QLabel *rate_, *lateness_, *tick_, *subSteps_, *overruns_, *scheduling_;
+  bool isTaken_ = false, isStartable_ = false;
+};
+
+}  // namespace nearfit::ui

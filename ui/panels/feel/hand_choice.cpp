@@ -1,0 +1,166 @@
+#include "ui/panels/feel/hand_choice.h"
+
+#include <QComboBox>
+#include <QFileInfo>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QStandardItemModel>
+#include <QVBoxLayout>
+
+#include "ui/panels/feel/device_notices.h"
+#include "ui/widgets/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+constexpr int kDeviceRole = Qt::UserRole + 1, kNoteRole = Qt::UserRole + 2;
+/// The scripted hand, the manual hand and the recording are always there.
+constexpr int kManual = 1, kRecording = 2, kFirstDevice = 3;
+/// Prefix of a recording's id.
+const QString kReplay = QStringLiteral("replay:");
+constexpr int kOpeningSteps = 1000;
+
+}  // namespace
+
+HandChoice::HandChoice(QWidget* parent)
+    : QWidget(parent),
+      box_(new QComboBox(this)),
+      state_(new QLabel(this)),
+      arm_(new QPushButton(this)),
+      calibrate_(new QPushButton(tr("Calibrate"), this)),
+      reset_(new QPushButton(tr("Reset"), this)),
+      recording_(new QPushButton(tr("Choose recording…"), this)),
+      opening_(new QProgressBar(this)),
+      notices_(new DeviceNotices(this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(6);
+  box_->setObjectName(QStringLiteral("hand"));
+  box_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box_->addItem(icon(QStringLiteral("hand")), tr("Scripted hand"), QVariant::fromValue(Hand::Scripted));
+  box_->addItem(icon(QStringLiteral("rename")), tr("Manual hand"), QVariant::fromValue(Hand::Manual));
+  box_->addItem(icon(QStringLiteral("start")), tr("Recorded hand"), QVariant::fromValue(Hand::Device));
+  box_->setItemData(kManual,
+                    tr("In the view, with Shift: the left button moves it, the right one turns it, the "
+                       "wheel goes to and fro. Keys step; with Shift they turn."),
+                    kNoteRole);
+  box_->setItemData(kRecording, tr("No recording is chosen yet."), kNoteRole);
+  box_->setToolTip(
+      tr("Who holds the moving part while the servo runs: a script that presses it against the nearest "
+         "part, you by numbers, keys and mouse, a hand that was recorded, or you by a device that is plugged "
+         "in"));
+  recording_->setObjectName(QStringLiteral("chooseRecording"));
+  connect(recording_, &QPushButton::clicked, this, &HandChoice::recordingWanted);
+  state_->setObjectName(QStringLiteral("deviceState"));
+  state_->setWordWrap(true);
+  state_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
+  arm_->setObjectName(QStringLiteral("arm"));
+  arm_->setToolTip(
+      tr("Lets the device push, or no more. It is never armed by itself: hold its handle first"));
+  for (QWidget* widget :
+       {static_cast<QWidget*>(box_), static_cast<QWidget*>(state_), static_cast<QWidget*>(arm_)})
+    layout->addWidget(widget);
+  calibrate_->setObjectName(QStringLiteral("calibrate"));
+  calibrate_->setToolTip(
+      tr("The handle is held in its rest, or left free to find itself: it is taken from there"));
+  layout->addWidget(calibrate_);
+  reset_->setObjectName(QStringLiteral("resetDevice"));
+  reset_->setToolTip(tr("Let go of the handle first. It can be armed again then; it is not by itself"));
+  layout->addWidget(reset_);
+  layout->addWidget(recording_);
+  opening_->setObjectName(QStringLiteral("opening"));
+  opening_->setMaximumHeight(8);
+  opening_->setTextVisible(false);
+  layout->insertWidget(1, opening_);
+  layout->addWidget(notices_);
+  connect(reset_, &QPushButton::clicked, this, &HandChoice::resetRequested);
+  connect(calibrate_, &QPushButton::clicked, this, &HandChoice::calibrateRequested);
+  connect(box_, QOverload<int>::of(&QComboBox::activated), this, [this] {
+    showChosen();
+    emit handChanged();
+  });
+  connect(arm_, &QPushButton::clicked, this, [this] { emit armRequested(!status_.isArmed); });
+  showChosen();
+}
+
+Hand HandChoice::hand() const {
+  return box_->currentData().value<Hand>();
+}
+
+QString HandChoice::device() const {
+  return box_->currentData(kDeviceRole).toString();
+}
+
+void HandChoice::choose(const QString& device) {
+  if (device.startsWith(kReplay)) {
+    box_->setItemData(kRecording, device, kDeviceRole);
+    box_->setItemData(kRecording, QFileInfo(device.mid(kReplay.size())).fileName(), kNoteRole);
+  }
+  if (const int row = rowOf(device); row >= 0) box_->setCurrentIndex(row);
+  showChosen();
+}
+
+bool HandChoice::isRecorded() const {
+  return box_->currentIndex() == kRecording;
+}
+
+bool HandChoice::isRecordingMissing() const {
+  return isRecorded() && device().isEmpty();
+}
+
+int HandChoice::rowOf(const QString& device) const {
+  return device.isEmpty() ? -1 : box_->findData(device, kDeviceRole);
+}
+
+void HandChoice::showDevices(const QVector<DeviceChoice>& devices) {
+  notices_->showDevices(devices);
+  const QSignalBlocker quiet(box_);
+  const Hand hand = this->hand();
+  const QString chosen = device();
+  const bool isRecording = isRecorded();
+  while (box_->count() > kFirstDevice)
+    box_->removeItem(kFirstDevice);
+  auto* model = qobject_cast<QStandardItemModel*>(box_->model());
+  for (const DeviceChoice& each : devices) {
+    if (each.id.isEmpty()) continue;
+    const int row = box_->count();
+    box_->addItem(icon(QStringLiteral("hand")), each.name, QVariant::fromValue(Hand::Device));
+    box_->setItemData(row, each.id, kDeviceRole);
+    box_->setItemData(row, each.note, kNoteRole);
+    box_->setItemData(row, each.note, Qt::ToolTipRole);
+    model->item(row)->setEnabled(each.isUsable);
+  }
+  const int row = isRecording            ? kRecording
+                  : hand == Hand::Device ? rowOf(chosen)
+                                         : box_->findData(QVariant::fromValue(hand));
+  box_->setCurrentIndex(row < 0 ? 0 : row);
+  showChosen();
+}
+
+void HandChoice::showStatus(const ServoStatus& status) {
+  status_ = status;
+  showChosen();
+}
+
+void HandChoice::showChosen() {
+  const bool isInHand = status_.isRunning && status_.hand == Hand::Device;
+  const bool isTaken = isInHand || status_.isOpening;
+  const QString text = isTaken ? status_.deviceState : box_->currentData(kNoteRole).toString();
+  recording_->setVisible(isRecorded());
+  opening_->setVisible(status_.isOpening);
+  // Until progress is known, the bar moves to and fro.
+  opening_->setRange(0, status_.openingFraction > 0.0 ? kOpeningSteps : 0);
+  opening_->setValue(static_cast<int>(status_.openingFraction * kOpeningSteps));
+  state_->setText(text);
+  state_->setVisible(!text.isEmpty());
+  calibrate_->setVisible(isInHand && status_.isUncalibrated);
+  reset_->setVisible(isInHand && status_.isFaulted);
+  arm_->setVisible(isInHand && status_.isArmable && !status_.isUncalibrated && !status_.isFaulted);
+  for (QPushButton* button : {calibrate_, reset_})
+    button->setEnabled(!status_.isBusy);
+  arm_->setText(status_.isArmed ? tr("Disarm") : tr("Arm: let it push"));
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,69 @@
+#include "ui/panels/feel/locks_page.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QStandardItemModel>
+#include <QVBoxLayout>
+
+#include "core/haptics/motion_freedom.h"
+
+namespace nearfit::ui {
+
+LocksPage::LocksPage(const QString& prefix, QWidget* parent)
+    : FeelPage(parent), freedom_(new QComboBox(this)) {
+  freedom_->setObjectName(prefix + QStringLiteral("freedom"));
+  freedom_->setAccessibleName(tr("Motions that count"));
+  freedom_->setToolTip(tr("Motions of the hand that the part follows; for the manual hand too"));
+  freedom_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  // In the order of MotionFreedom.
+  freedom_->addItems({tr("Moves and turns freely"), tr("In the plane XY"), tr("In the plane YZ"),
+                      tr("In the plane ZX"), tr("Along X alone"), tr("Along Y alone"), tr("Along Z alone"),
+                      tr("Moves without turning"), tr("Turns in its place"), tr("Other locks")});
+  auto* model = qobject_cast<QStandardItemModel*>(freedom_->model());
+  model->item(static_cast<int>(MotionFreedom::Other))->setEnabled(false);
+  connect(freedom_, QOverload<int>::of(&QComboBox::activated), this, [this](int row) {
+    HapticSettings next = settings();
+    next.mapping = withFreedom(next.mapping, static_cast<MotionFreedom>(row));
+    replace(next);
+  });
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(4);
+  layout->addWidget(freedom_);
+  layout->addLayout(makeLocks(prefix));
+}
+
+QGridLayout* LocksPage::makeLocks(const QString& prefix) {
+  const QString axes[3] = {QStringLiteral("X"), QStringLiteral("Y"), QStringLiteral("Z")};
+  auto* locks = new QGridLayout;
+  locks->setHorizontalSpacing(8);
+  locks->setVerticalSpacing(4);
+  locks->addWidget(new QLabel(tr("Stays along"), this), 0, 0);
+  locks->addWidget(new QLabel(tr("No turn about"), this), 1, 0);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const QString& name = axes[axis];
+    const int column = static_cast<int>(axis) + 1;
+    QCheckBox* move = addSwitch(
+        prefix + QStringLiteral("lock") + name, name, tr("The hand stays where it is along %1").arg(name),
+        [axis](HapticSettings& s) -> bool& { return s.mapping.translationLocks[axis]; });
+    QCheckBox* turn = addSwitch(prefix + QStringLiteral("lockR") + name.toLower(), name,
+                                tr("The hand does not turn about %1").arg(name),
+                                [axis](HapticSettings& s) -> bool& { return s.mapping.rotationLocks[axis]; });
+    move->setAccessibleName(move->toolTip());
+    turn->setAccessibleName(turn->toolTip());
+    locks->addWidget(move, 0, column);
+    locks->addWidget(turn, 1, column);
+  }
+  locks->setColumnStretch(4, 1);
+  return locks;
+}
+
+void LocksPage::refresh() {
+  const QSignalBlocker quiet(freedom_);
+  freedom_->setCurrentIndex(static_cast<int>(freedomOf(settings().mapping)));
+}
+
+}  // namespace nearfit::ui

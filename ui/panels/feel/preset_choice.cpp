@@ -1,0 +1,139 @@
+#include "ui/panels/feel/preset_choice.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QMenu>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QStandardItemModel>
+
+#include "ui/model/preset_store.h"
+#include "ui/panels/feel/preset_name_dialog.h"
+#include "ui/widgets/theme.h"
+
+namespace nearfit::ui {
+
+PresetChoice::PresetChoice(const char* name, PresetStore& presets, QWidget* parent)
+    : QWidget(parent), presets_(presets), box_(new QComboBox(this)) {
+  box_->setObjectName(QLatin1String(name));
+  box_->setAccessibleName(tr("Preset"));
+  box_->setToolTip(
+      tr("How hard contact feels. What your device cannot bear is held back, whatever is chosen."));
+  box_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  setFocusProxy(box_);
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(4);
+  layout->addWidget(box_, 1);
+  connect(box_, QOverload<int>::of(&QComboBox::activated), this, [this](int row) {
+    const auto index = static_cast<std::size_t>(row);
+    if (index >= presets_.presets().size()) return showInForce();
+    const FeelPreset preset = presets_.presets()[index];
+    presets_.choose(preset);
+    emit chosen(withPreset(settings_, preset), shownName(preset));
+  });
+  connect(&presets_, &PresetStore::changed, this, &PresetChoice::listPresets);
+  connect(&presets_, &PresetStore::choiceChanged, this, &PresetChoice::showInForce);
+  listPresets();
+}
+
+void PresetChoice::setManaged() {
+  auto* menu = new QMenu(this);
+  const auto add = [&](const char* name, const QString& text, const char* iconName, const QString& tip,
+                       void (PresetChoice::*act)()) {
+    QAction* action = menu->addAction(icon(QLatin1String(iconName)), text);
+    action->setObjectName(QLatin1String(name));
+    action->setToolTip(tip);
+    connect(action, &QAction::triggered, this, act);
+    return action;
+  };
+  add("savePreset", tr("&Save as…"), "save-as", tr("Keep how contact feels now under a name, for any scene"),
+      &PresetChoice::saveAs);
+  rename_ = add("renamePreset", tr("Re&name…"), "rename", tr("Give your preset another name"),
+                &PresetChoice::renameChosen);
+  delete_ = add("deletePreset", tr("&Delete"), "delete", tr("Forget your preset; scenes stay as they are"),
+                &PresetChoice::deleteChosen);
+  menu->setToolTipsVisible(true);
+  menuButton_ = new QPushButton(tr("Manage"), this);
+  menuButton_->setObjectName(QStringLiteral("presetMenu"));
+  // Return in a field must not press it.
+  menuButton_->setAutoDefault(false);
+  menuButton_->setToolTip(tr("Save, rename and delete presets of your own"));
+  menuButton_->setFocusPolicy(Qt::TabFocus);
+  menuButton_->setMenu(menu);
+  layout()->addWidget(menuButton_);
+  showInForce();
+}
+
+void PresetChoice::showSettings(const HapticSettings& settings) {
+  settings_ = settings;
+  showInForce();
+}
+
+void PresetChoice::listPresets() {
+  const QSignalBlocker quiet(box_);
+  box_->clear();
+  for (const FeelPreset& preset : presets_.presets())
+    box_->addItem(shownName(preset));
+  box_->addItem(tr("Custom"));
+  // "Custom" shows by itself once something was changed: nobody can choose it.
+  auto* model = qobject_cast<QStandardItemModel*>(box_->model());
+  model->item(box_->count() - 1)->setEnabled(false);
+  showInForce();
+}
+
+void PresetChoice::showInForce() {
+  const QSignalBlocker quiet(box_);
+  const FeelPreset* preset = presets_.inForce(settings_);
+  const FeelPreset* first = presets_.presets().data();
+  box_->setCurrentIndex(preset != nullptr ? static_cast<int>(preset - first) : box_->count() - 1);
+  for (QAction* action : {rename_, delete_}) {
+    if (action != nullptr) action->setEnabled(!chosenOwn().isEmpty());
+  }
+}
+
+QString PresetChoice::chosenOwn() const {
+  const FeelPreset* preset = presets_.inForce(settings_);
+  return preset != nullptr && !preset->isOfStiffnessAlone ? QString::fromStdString(preset->name) : QString();
+}
+
+void PresetChoice::saveAs() {
+  PresetNameDialog dialog(tr("Save the feel"), tr("Save"), this);
+  const QString own = chosenOwn();
+  const QString name = dialog.ask(own.isEmpty() ? tr("My feel") : own, [this](const QString& wanted) {
+    const QString refusal = presets_.refusalOf(wanted);
+    if (!refusal.isEmpty()) return PresetNameDialog::Verdict{true, refusal};
+    return PresetNameDialog::Verdict{
+        false, presets_.isOwn(wanted) ? tr("Your preset of this name is replaced.") : QString()};
+  });
+  if (!name.isEmpty()) presets_.keep(name, settings_);
+}
+
+void PresetChoice::renameChosen() {
+  PresetNameDialog dialog(tr("Rename the preset"), tr("Rename"), this);
+  const QString before = chosenOwn();
+  const QString name = dialog.ask(before, [this, before](const QString& wanted) {
+    const bool isTaken = wanted != before && presets_.isOwn(wanted);
+    const QString refusal =
+        isTaken ? tr("Another preset of yours has this name.") : presets_.refusalOf(wanted);
+    return PresetNameDialog::Verdict{!refusal.isEmpty(), refusal};
+  });
+  if (!name.isEmpty()) presets_.rename(before, name);
+}
+
+void PresetChoice::deleteChosen() {
+  const QString name = chosenOwn();
+  QMessageBox box(QMessageBox::Question, tr("Delete the preset"), tr("Delete the preset “%1”?").arg(name),
+                  QMessageBox::Cancel, this);
+  box.setObjectName(QStringLiteral("deletePresetBox"));
+  box.setInformativeText(tr("How this and other scenes feel does not change."));
+  auto* confirm = box.addButton(tr("Delete"), QMessageBox::DestructiveRole);
+  confirm->setObjectName(QStringLiteral("confirmDeletePreset"));
+  box.setDefaultButton(QMessageBox::Cancel);
+  box.exec();
+  if (box.clickedButton() == confirm) presets_.remove(name);
+}
+
+}  // namespace nearfit::ui

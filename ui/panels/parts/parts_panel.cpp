@@ -1,0 +1,189 @@
+#include "ui/panels/parts/parts_panel.h"
+
+#include <QAction>
+#include <QHeaderView>
+#include <QLineEdit>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "ui/model/parts_model.h"
+#include "ui/model/selection.h"
+#include "ui/panels/parts/name_delegate.h"
+#include "ui/panels/parts/parts_view.h"
+
+namespace nearfit::ui {
+namespace {
+
+/// With more parts the filter is shown.
+constexpr std::size_t kMany = 12;
+
+}  // namespace
+
+PartsPanel::PartsPanel(Selection& selection, QWidget* parent)
+    : QWidget(parent),
+      selection_(selection),
+      model_(new PartsModel(this)),
+      view_(new PartsView(this)),
+      filter_(new QLineEdit(this)) {
+  view_->setObjectName(QStringLiteral("partsView"));
+  view_->setAccessibleName(tr("Groups and parts"));
+  view_->setModel(model_);
+  auto* names = new NameDelegate(
+      [this](const QModelIndex& row, const QString& name) { return model_->renameRefusal(row, name); }, this);
+  view_->setItemDelegateForColumn(PartsModel::Name, names);
+  connect(names, &NameDelegate::refused, this, &PartsPanel::renameRefused);
+  QHeaderView* header = view_->header();
+  header->setStretchLastSection(false);
+  header->setMinimumSectionSize(28);
+  header->setSectionResizeMode(PartsModel::Name, QHeaderView::Stretch);
+  for (const int column : {PartsModel::Moving, PartsModel::Visible, PartsModel::Locked}) {
+    header->setSectionResizeMode(column, QHeaderView::Fixed);
+    header->resizeSection(column, 30);
+  }
+  filter_->setObjectName(QStringLiteral("partsFilter"));
+  filter_->setPlaceholderText(tr("Find a part or group"));
+  filter_->setAccessibleName(filter_->placeholderText());
+  filter_->setClearButtonEnabled(true);
+  filter_->hide();
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(filter_);
+  layout->addWidget(view_);
+
+  connect(filter_, &QLineEdit::textChanged, view_, &PartsView::setFilter);
+  connect(view_, &QTreeView::clicked, this, &PartsPanel::clickCell);
+  connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &PartsPanel::takeSelection);
+  connect(&selection_, &Selection::changed, this, [this] { showSelection(Reveal::Yes); });
+  connect(model_, &PartsModel::renameRequested, this, &PartsPanel::renameRequested);
+  connect(model_, &PartsModel::groupRenameRequested, this, &PartsPanel::groupRenameRequested);
+  connect(model_, &PartsModel::regroupRequested, this, &PartsPanel::regroupRequested);
+}
+
+void PartsPanel::setScene(const Scene& scene) {
+  const std::vector<GroupId> expanded = expandedGroups();
+  const std::unordered_set<GroupId> before(known_.begin(), known_.end());
+  scene_ = scene;
+  model_->setScene(scene);
+  // A reset of the model closes every group and drops the selection, without a signal.
+  known_.clear();
+  for (const Scene::GroupPtr& group : scene.groups()) {
+    known_.push_back(group->id);
+    if (!before.contains(group->id)) view_->expand(model_->indexOf(group->id));
+  }
+  for (const GroupId group : expanded) {
+    const QModelIndex index = model_->indexOf(group);
+    if (index.isValid()) view_->expand(index);
+  }
+  view_->setRootIsDecorated(!scene.groups().empty());
+  const bool areMany = scene.parts().size() > kMany;
+  if (!areMany) filter_->clear();
+  filter_->setVisible(areMany);
+  if (!filter_->text().isEmpty()) view_->setFilter(filter_->text());
+  // A closed group stays closed, whatever it holds.
+  showSelection(Reveal::No);
+}
+
+std::vector<GroupId> PartsPanel::expandedGroups() const {
+  std::vector<GroupId> expanded;
+  for (const GroupId group : known_) {
+    if (view_->isExpanded(model_->indexOf(group))) expanded.push_back(group);
+  }
+  return expanded;
+}
+
+void PartsPanel::takeSelection() {
+  if (isShowing_) return;
+  SceneNodes rows;
+  for (const QModelIndex& row : view_->selectionModel()->selectedRows()) {
+    if (const std::optional<PartId> part = model_->partAt(row)) rows.parts.push_back(*part);
+    if (const std::optional<GroupId> group = model_->groupAt(row)) rows.groups.push_back(*group);
+  }
+  const std::vector<PartId> chosen = partsOf(scene_, rows);
+  const std::unordered_set<PartId> left(chosen.begin(), chosen.end());
+  // Those that stay keep their order, so that the current one stays current.
+  std::vector<PartId> parts = selection_.parts();
+  std::erase_if(parts, [&](PartId part) { return !left.contains(part); });
+  const std::unordered_set<PartId> kept(parts.begin(), parts.end());
+  const std::optional<PartId> current = model_->partAt(view_->currentIndex());
+  for (const PartId part : chosen) {
+    if (!kept.contains(part)) parts.push_back(part);
+  }
+  if (current && left.contains(*current) && !kept.contains(*current)) parts.push_back(*current);
+  selection_.set(parts, rows.groups);
+}
+
+void PartsPanel::showSelection(Reveal reveal) {
+  QItemSelection rows;
+  const SceneNodes outer = outermost(scene_, selection_.nodes());
+  for (const GroupId group : outer.groups)
+    rows.select(model_->indexOf(group), model_->indexOf(group));
+  for (const PartId part : outer.parts)
+    rows.select(model_->indexOf(part), model_->indexOf(part));
+  const bool wasShowing = std::exchange(isShowing_, true);
+  QItemSelectionModel& model = *view_->selectionModel();
+  model.select(rows, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+  if (!model.isSelected(model.currentIndex())) {
+    const QModelIndex current = selection_.current() ? model_->indexOf(*selection_.current()) : QModelIndex();
+    if (current.isValid() && reveal == Reveal::Yes) view_->scrollTo(current);
+    // The view scrolls by itself to a new current row.
+    view_->setAutoScroll(reveal == Reveal::Yes);
+    model.setCurrentIndex(current, QItemSelectionModel::NoUpdate);
+    view_->setAutoScroll(true);
+  }
+  isShowing_ = wasShowing;
+}
+
+void PartsPanel::setMenuActions(const QList<QAction*>& actions) {
+  view_->addActions(actions);
+}
+
+void PartsPanel::editName() {
+  const QModelIndex row = view_->currentIndex().siblingAtColumn(PartsModel::Name);
+  if (row.isValid() && view_->selectionModel()->isSelected(row)) view_->edit(row);
+}
+
+SceneNodes PartsPanel::nodesOf(const QModelIndex& index) const {
+  if (view_->selectionModel()->isSelected(index)) return outermost(scene_, selection_.nodes());
+  SceneNodes nodes;
+  if (const std::optional<PartId> part = model_->partAt(index)) nodes.parts.push_back(*part);
+  if (const std::optional<GroupId> group = model_->groupAt(index)) nodes.groups.push_back(*group);
+  return nodes;
+}
+
+void PartsPanel::clickCell(const QModelIndex& index) {
+  switch (index.column()) {
+    case PartsModel::Moving:
+      if (const std::optional<PartId> part = model_->partAt(index))
+        emit movingPartRequested(scene_.movingPart() == part ? std::nullopt : part);
+      break;
+    case PartsModel::Visible:
+      return toggleVisible(index);
+    case PartsModel::Locked:
+      return toggleLock(index);
+    default:
+      break;
+  }
+}
+
+void PartsPanel::toggleVisible(const QModelIndex& index) {
+  std::vector<PartId> here;
+  if (const std::optional<PartId> part = model_->partAt(index)) here = {*part};
+  if (const std::optional<GroupId> group = model_->groupAt(index)) here = partsOf(scene_, {{}, {*group}});
+  // The clicked row decides which way all go.
+  const bool isShown = std::ranges::all_of(here, [this](PartId id) { return scene_.find(id)->isVisible; });
+  emit visibilityRequested(partsOf(scene_, nodesOf(index)), !isShown);
+}
+
+void PartsPanel::toggleLock(const QModelIndex& index) {
+  bool isLocked = false;
+  if (const std::optional<PartId> part = model_->partAt(index)) isLocked = scene_.find(*part)->isLocked;
+  if (const std::optional<GroupId> group = model_->groupAt(index))
+    isLocked = scene_.findGroup(*group)->isLocked;
+  emit lockRequested(nodesOf(index), !isLocked);
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,140 @@
+#include "ui/panels/parts/tree_actions.h"
+
+#include <QAction>
+#include <QMenu>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/session/session.h"
+#include "ui/model/selection.h"
+#include "ui/widgets/theme.h"
+
+namespace nearfit::ui {
+
+TreeActions::TreeActions(Session& session, Selection& selection, Attempt attempt, QObject* parent)
+    : QObject(parent), session_(session), selection_(selection), attempt_(std::move(attempt)) {
+  group_ = make("group", tr("&Group"), "folder", "Ctrl+G", &TreeActions::groupSelected);
+  group_->setToolTip(tr("Put what is selected into a new group"));
+  ungroup_ = make("ungroup", tr("U&ngroup"), {}, "Ctrl+Shift+G", &TreeActions::ungroupSelected);
+  ungroup_->setToolTip(tr("Put what the selected groups hold in their place"));
+  visible_ = make("toggleVisible", tr("&Hide"), "eye", "H", &TreeActions::toggleVisible);
+  lock_ = make("toggleLock", tr("Loc&k"), "lock", "Ctrl+L", &TreeActions::toggleLock);
+  visible_->setToolTip(tr("Hide or show what is selected; what is hidden is not felt (H)"));
+  lock_->setToolTip(tr("Keep what is selected where it is, or let it go (Ctrl+L)"));
+  isolate_ = make("isolate", tr("&Isolate"), "isolate", "I", &TreeActions::isolate);
+  isolate_->setToolTip(tr("Show what is selected and nothing else; what is hidden is not felt"));
+  endIsolation_ = make("endIsolation", tr("&End isolation"), {}, "Shift+I", &TreeActions::endIsolation);
+  endIsolation_->setToolTip(tr("Show exactly what was visible before"));
+  setUpTransparency();
+  connect(&selection_, &Selection::changed, this, [this] { update(false); });
+}
+
+TreeActions::~TreeActions() = default;
+
+QAction* TreeActions::make(const char* name, const QString& text, const QString& iconName,
+                           const QString& keys, void (TreeActions::*run)()) {
+  auto* action = new QAction(text, this);
+  action->setObjectName(QLatin1String(name));
+  if (!iconName.isEmpty()) action->setIcon(icon(iconName));
+  action->setShortcut(QKeySequence(keys));
+  connect(action, &QAction::triggered, this, run);
+  return action;
+}
+
+void TreeActions::setUpTransparency() {
+  transparency_ = std::make_unique<QMenu>(tr("&Transparency"));
+  transparency_->setObjectName(QStringLiteral("transparencyMenu"));
+  for (const int percent : {0, 25, 50, 75, 90}) {
+    QAction* action = transparency_->addAction(percent == 0 ? tr("Opaque") : tr("%1 %").arg(percent));
+    const double opacity = 1.0 - percent / 100.0;
+    action->setObjectName(QStringLiteral("transparency%1").arg(percent));
+    action->setCheckable(true);
+    action->setData(opacity);
+    connect(action, &QAction::triggered, this, [this, opacity] { setOpacity(opacity); });
+    opacities_.push_back(action);
+  }
+}
+
+void TreeActions::addTo(QMenu& menu) const {
+  menu.addSeparator();
+  menu.addActions({group_, ungroup_, visible_, lock_, isolate_, endIsolation_});
+  menu.addMenu(transparency_.get());
+}
+
+QList<QAction*> TreeActions::list() const {
+  return {group_, ungroup_, visible_, lock_, isolate_, endIsolation_, transparency_->menuAction()};
+}
+
+bool TreeActions::areAll(const std::function<bool(const Part&)>& predicate) const {
+  const std::vector<PartId>& parts = selection_.parts();
+  return !parts.empty() && std::ranges::all_of(parts, [&](PartId id) {
+    const Part* part = session_.scene().find(id);
+    return part != nullptr && predicate(*part);
+  });
+}
+
+void TreeActions::update(bool isBusy) {
+  const bool hasParts = !selection_.parts().empty();
+  for (QAction* action : {visible_, isolate_, transparency_->menuAction()})
+    action->setEnabled(!isBusy && hasParts);
+  for (QAction* action : {group_, lock_})
+    action->setEnabled(!isBusy && !selection_.isEmpty());
+  ungroup_->setEnabled(!isBusy && !selection_.groups().empty());
+  endIsolation_->setEnabled(!isBusy && session_.scene().isIsolated());
+  const bool areShown = areAll([](const Part& part) { return part.isVisible; });
+  visible_->setText(areShown || !hasParts ? tr("&Hide") : tr("S&how"));
+  visible_->setIcon(icon(areShown || !hasParts ? QStringLiteral("eye-off") : QStringLiteral("eye")));
+  lock_->setText(areNodesLocked() ? tr("Unloc&k") : tr("Loc&k"));
+  for (QAction* action : opacities_) {
+    const double opacity = action->data().toDouble();
+    action->setChecked(areAll([&](const Part& part) { return std::abs(part.opacity - opacity) < 1e-9; }));
+  }
+}
+
+void TreeActions::groupSelected() {
+  attempt_(tr("The parts could not be grouped."), [this] {
+    const SceneNodes nodes = selection_.nodes();
+    const GroupId group = session_.group(nodes);
+    selection_.set(nodes.parts, {group});
+  });
+}
+
+void TreeActions::ungroupSelected() {
+  attempt_(tr("The group could not be taken apart."), [this] { session_.ungroup(selection_.groups()); });
+}
+
+void TreeActions::toggleVisible() {
+  const bool areShown = areAll([](const Part& part) { return part.isVisible; });
+  attempt_(tr("The parts could not be hidden or shown."),
+           [&] { session_.setVisible(selection_.parts(), !areShown); });
+}
+
+bool TreeActions::areNodesLocked() const {
+  const SceneNodes nodes = outermost(session_.scene(), selection_.nodes());
+  const auto isPart = [this](PartId id) { return session_.scene().find(id)->isLocked; };
+  const auto isGroup = [this](GroupId id) { return session_.scene().findGroup(id)->isLocked; };
+  return !nodes.isEmpty() && std::ranges::all_of(nodes.parts, isPart) &&
+         std::ranges::all_of(nodes.groups, isGroup);
+}
+
+void TreeActions::toggleLock() {
+  emit lockRequested(outermost(session_.scene(), selection_.nodes()), !areNodesLocked());
+}
+
+void TreeActions::isolate() {
+  attempt_(tr("The parts could not be isolated."), [this] { session_.isolate(selection_.parts()); });
+}
+
+void TreeActions::endIsolation() {
+  session_.endIsolation();
+}
+
+void TreeActions::setOpacity(double opacity) {
+  attempt_(tr("The parts could not be made transparent."),
+           [&] { session_.setOpacity(selection_.parts(), opacity); });
+  // A click on the checked action unchecks it, even if the opacity stays.
+  update(false);
+}
+
+}  // namespace nearfit::ui

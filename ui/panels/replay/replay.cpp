@@ -1,0 +1,168 @@
+#include "ui/panels/replay/replay.h"
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "core/servo/motion_reader.h"
+#include "ui/panels/replay/timeline.h"
+#include "ui/widgets/format.h"
+#include "ui/widgets/paths.h"
+#include "ui/widgets/preferences.h"
+#include "ui/widgets/progress_dialog.h"
+
+namespace nearfit::ui {
+namespace {
+
+/// One step for each picture of a 60 Hz display.
+constexpr int kEveryMs = 16;
+
+bool isCancelled(const std::exception_ptr& error) {
+  try {
+    if (error) std::rethrow_exception(error);
+  } catch (const Cancelled&) {
+    return true;
+  } catch (...) {
+  }
+  return false;
+}
+
+QString noteOf(const MotionRow& row) {
+  return QObject::tr("Force %1    Torque %2    Clearance %3    Contacts %4")
+      .arg(formatForce(glm::length(row.wrench.force)), formatTorque(glm::length(row.wrench.torque)),
+           formatLength(row.distance))
+      .arg(row.contacts);
+}
+
+}  // namespace
+
+Replay::Replay(Session& session, Timeline& timeline, QWidget* window)
+    : QObject(window),
+      session_(session),
+      timeline_(timeline),
+      window_(window),
+      shown_(std::make_unique<ServoSnapshot>()) {
+  timer_.setTimerType(Qt::PreciseTimer);
+  timer_.setInterval(kEveryMs);
+  connect(&timer_, &QTimer::timeout, this, &Replay::goOn);
+  connectTimeline();
+  session_.onChange([this] { followSession(); });
+}
+
+Replay::~Replay() = default;
+
+void Replay::connectTimeline() {
+  connect(&timeline_, &Timeline::openWanted, this, &Replay::askAndOpen);
+  connect(&timeline_, &Timeline::closeWanted, this, &Replay::close);
+  connect(&timeline_, &Timeline::playToggled, this, [this] { setPlaying(!timer_.isActive()); });
+  connect(&timeline_, &Timeline::sought, this, &Replay::seek);
+  connect(&timeline_, &Timeline::stepped, this, [this](int rows) {
+    if (!playback_) return;
+    setPlaying(false);
+    playback_->step(rows);
+    show();
+  });
+  connect(&timeline_, &Timeline::speedChosen, this, [this](double speed) {
+    if (playback_) playback_->setSpeed(speed);
+  });
+  connect(&timeline_, &Timeline::loopingChosen, this, [this](bool isLooping) {
+    if (playback_) playback_->setLooping(isLooping);
+  });
+}
+
+void Replay::askAndOpen() {
+  const QString file =
+      QFileDialog::getOpenFileName(window_, tr("Open recording"), Preferences::lastFolder(),
+                                   tr("Recordings of nearfit and nearfit-cli (*.csv);;All files (*)"));
+  if (!file.isEmpty()) open(file);
+}
+
+void Replay::open(const QString& file) {
+  if (task_.isRunning() || !isAllowed_) return;
+  if (!session_.scene().movingPart()) {
+    emit failed(
+        {tr("The recording cannot be shown."),
+         tr("No part is in hand, so that there is none to move. Take the one in hand that was recorded.")});
+    return;
+  }
+  close();
+  Preferences::rememberFolderOf(file);
+  auto read = std::make_shared<Recording>();
+  progress_ = new ProgressDialog(tr("Reading %1").arg(QFileInfo(file).fileName()), window_);
+  connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
+  connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
+  const auto job = [read, path = toPath(file)](const ProgressCallback& progress) {
+    *read = readRecording(path, progress);
+  };
+  task_.run(job, [this, read, file](const std::exception_ptr& error) {
+    delete progress_;
+    if (!error) {
+      if (read->isCut)
+        emit noted(tr("The recording was not written to its end: the last whole row is at %1 s")
+                       .arg(read->rows.back().time, 0, 'f', 3));
+      return begin(file, std::move(read->rows));
+    }
+    if (!isCancelled(error)) emit failed(describe(tr("The recording could not be opened."), error));
+  });
+}
+
+void Replay::begin(const QString& file, std::vector<MotionRow> rows) {
+  // The moving part may be gone, or in hand, meanwhile.
+  if (!isAllowed_ || !session_.scene().movingPart()) return;
+  moving_ = *session_.scene().movingPart();
+  playback_.emplace(std::move(rows));
+  timeline_.showRecording(QFileInfo(file).fileName(), playback_->duration());
+  emit opened();
+  show();
+}
+
+void Replay::setAllowed(bool isAllowed) {
+  isAllowed_ = isAllowed;
+  if (!isAllowed) close();
+}
+
+void Replay::close() {
+  if (!playback_) return;
+  timer_.stop();
+  playback_.reset();
+  timeline_.showRecording({}, 0.0);
+  emit closed();
+}
+
+void Replay::setPlaying(bool isPlaying) {
+  if (!playback_) return;
+  // At the end there is nothing more to play: begin again.
+  if (isPlaying && playback_->time() >= playback_->duration()) playback_->seek(0.0);
+  isPlaying ? timer_.start() : timer_.stop();
+  sinceLast_.restart();
+  timeline_.showPlaying(isPlaying);
+}
+
+void Replay::seek(double time) {
+  if (!playback_) return;
+  playback_->seek(time);
+  show();
+}
+
+void Replay::goOn() {
+  const double passed = 1e-3 * static_cast<double>(sinceLast_.restart());
+  if (!playback_->advance(passed)) setPlaying(false);
+  show();
+}
+
+void Replay::show() {
+  const Part* part = session_.scene().find(moving_);
+  if (part == nullptr) return;
+  takeRow(playback_->row(), *part, *shown_);
+  timeline_.showTime(playback_->time(), noteOf(playback_->row()));
+  emit rowShown(*shown_);
+}
+
+void Replay::followSession() {
+  if (playback_ && session_.scene().movingPart() != moving_) close();
+}
+
+}  // namespace nearfit::ui

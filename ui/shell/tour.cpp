@@ -1,0 +1,128 @@
+#include "ui/shell/tour.h"
+
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "ui/widgets/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+constexpr int kWidth = 330, kGap = 12;
+
+}  // namespace
+
+Tour::Tour(QWidget* window)
+    : QFrame(window),
+      title_(new QLabel(this)),
+      text_(new QLabel(this)),
+      count_(new QLabel(this)),
+      next_(new QPushButton(tr("Next"), this)),
+      leave_(new QPushButton(tr("Leave the tour"), this)),
+      frame_(new QFrame(window)) {
+  setObjectName(QStringLiteral("tour"));
+  setAccessibleName(tr("Tour"));
+  setAutoFillBackground(true);
+  setFrameShape(QFrame::StyledPanel);
+  frame_->setObjectName(QStringLiteral("tourFrame"));
+  frame_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  frame_->setStyleSheet(QStringLiteral("#tourFrame { border: 2px solid %1; border-radius: 4px; }")
+                            .arg(colours::kAccent.name()));
+  frame_->hide();
+  QFont bold = title_->font();
+  bold.setBold(true);
+  title_->setFont(bold);
+  title_->setObjectName(QStringLiteral("tourTitle"));
+  text_->setWordWrap(true);
+  text_->setObjectName(QStringLiteral("tourText"));
+  next_->setObjectName(QStringLiteral("tourNext"));
+  leave_->setObjectName(QStringLiteral("tourLeave"));
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(count_, 1);
+  buttons->addWidget(leave_);
+  buttons->addWidget(next_);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(14, 12, 14, 12);
+  layout->addWidget(title_);
+  layout->addWidget(text_);
+  layout->addLayout(buttons);
+  connect(next_, &QPushButton::clicked, this, &Tour::next);
+  connect(leave_, &QPushButton::clicked, this, &Tour::end);
+  window->installEventFilter(this);
+  hide();
+}
+
+void Tour::begin(std::vector<Stop> stops) {
+  stops_ = std::move(stops);
+  std::erase_if(stops_, [](const Stop& stop) { return stop.where == nullptr || !stop.where->isVisible(); });
+  if (stops_.empty()) return;
+  show(0);
+}
+
+void Tour::show(std::size_t stop) {
+  current_ = stop;
+  title_->setText(stops_[stop].title);
+  text_->setText(stops_[stop].text);
+  count_->setText(tr("%1 of %2").arg(stop + 1).arg(stops_.size()));
+  next_->setText(stop + 1 < stops_.size() ? tr("Next") : tr("Done"));
+  frame_->show();
+  frame_->raise();
+  QFrame::show();
+  raise();
+  place();
+  next_->setFocus();
+}
+
+void Tour::next() {
+  for (std::size_t stop = current_ + 1; stop < stops_.size(); ++stop) {
+    if (stops_[stop].where != nullptr && stops_[stop].where->isVisible()) return show(stop);
+  }
+  end();
+}
+
+void Tour::end() {
+  hide();
+  frame_->hide();
+  emit ended();
+}
+
+/// Places the callout beside what it is about, on the side with most room; over it if no side has enough.
+void Tour::place() {
+  QWidget* where = stops_[current_].where;
+  if (where == nullptr) return;
+  const QRect around(where->mapTo(parentWidget(), QPoint(0, 0)), where->size());
+  const QRect whole = parentWidget()->rect();
+  frame_->setGeometry(around.adjusted(-2, -2, 2, 2).intersected(whole));
+  resize(kWidth, layout()->hasHeightForWidth() ? layout()->totalHeightForWidth(kWidth)
+                                               : layout()->totalSizeHint().height());
+  const int left = around.left(), right = whole.width() - around.right();
+  const int top = around.top(), bottom = whole.height() - around.bottom();
+  QPoint corner(around.center().x() - width() / 2, around.center().y() - height() / 2);
+  if (std::max(left, right) >= width() + 2 * kGap) {
+    corner.setX(right >= left ? around.right() + kGap : around.left() - kGap - width());
+  } else if (std::max(top, bottom) >= height() + 2 * kGap) {
+    corner.setY(bottom >= top ? around.bottom() + kGap : around.top() - kGap - height());
+  }
+  move(std::clamp(corner.x(), kGap, std::max(kGap, whole.width() - width() - kGap)),
+       std::clamp(corner.y(), kGap, std::max(kGap, whole.height() - height() - kGap)));
+}
+
+bool Tour::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize && isVisible()) place();
+  return QFrame::eventFilter(watched, event);
+}
+
+void Tour::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Escape) return end();
+  if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter)
+    return leave_->hasFocus() ? end() : next();
+  QFrame::keyPressEvent(event);
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,170 @@
+#include "ui/tools/placing/align_tool.h"
+
+#include <QAction>
+#include <QSignalBlocker>
+#include <algorithm>
+#include <utility>
+
+#include "ui/model/move_guard.h"
+#include "ui/model/selection.h"
+#include "ui/tools/placing/align_bar.h"
+#include "ui/view3d/viewport.h"
+#include "ui/widgets/names.h"
+#include "ui/widgets/theme.h"
+
+namespace nearfit::ui {
+
+AlignTool::AlignTool(Session& session, Selection& selection, Viewport& view, const MoveGuard& guard,
+                     QObject* parent)
+    : QObject(parent),
+      session_(session),
+      selection_(selection),
+      view_(view),
+      guard_(guard),
+      action_(new QAction(icon(QStringLiteral("align")), tr("&Align…"), this)),
+      bar_(new AlignBar(&view)),
+      picker_(session, view, colours::kAccent, this),
+      movingLight_(view.overlay(), colours::kMoving),
+      fixedLight_(view.overlay(), colours::kHand) {
+  action_->setObjectName(QStringLiteral("align"));
+  action_->setCheckable(true);
+  action_->setShortcut(QKeySequence(Qt::Key_A));
+  action_->setToolTip(tr("Align a face, axis or point of a part with one of another (A)"));
+  connect(action_, &QAction::toggled, this, [this](bool isOn) { isOn ? start() : stop(); });
+  connect(&picker_, &FeaturePicker::picked, this, &AlignTool::take);
+  connect(&picker_, &FeaturePicker::told, this, &AlignTool::tell);
+  connect(&picker_, &FeaturePicker::accepted, this, &AlignTool::apply);
+  connect(&picker_, &FeaturePicker::cancelled, this, &AlignTool::stop);
+  connect(bar_, &AlignBar::filterChosen, &picker_, &FeaturePicker::setFilter);
+  connect(bar_, &AlignBar::optionsEdited, this, &AlignTool::preview);
+  connect(bar_, &AlignBar::applied, this, &AlignTool::apply);
+  connect(bar_, &AlignBar::cancelled, this, &AlignTool::stop);
+  const auto look = [this] {
+    if (picker_.isActive() && !isSound()) stop();
+  };
+  session_.onChange(look);
+  connect(&guard_, &MoveGuard::changed, this, look);
+}
+
+AlignTool::~AlignTool() = default;
+
+void AlignTool::setAvailable(bool isAvailable, bool isBusy) {
+  if (!isAvailable) stop();
+  action_->setEnabled(isAvailable && (!isBusy || picker_.isActive()));
+}
+
+void AlignTool::start() {
+  bar_->reset();
+  picker_.setFilter(bar_->filter());
+  picker_.start([this](const Part& part) { return refusalOf(part); });
+  bar_->show();
+  tell({});
+  emit activeChanged(true);
+}
+
+void AlignTool::stop() {
+  const QSignalBlocker blocker(action_);
+  action_->setChecked(false);
+  if (!picker_.isActive()) return;
+  // Before picker_.stop(), which reports once more what it shows: these parts may have left the scene.
+  moving_.reset();
+  fixed_.reset();
+  picker_.stop();
+  bar_->hide();
+  view_.setDragged({});
+  movingLight_.clear();
+  fixedLight_.clear();
+  start_.clear();
+  view_.requestRender();
+  emit activeChanged(false);
+}
+
+bool AlignTool::isMoved(PartId part) const {
+  return start_.contains(part);
+}
+
+/// True if what was picked is still where it was.
+bool AlignTool::isSound() const {
+  if (fixed_ && session_.scene().find(fixed_->part) == nullptr) return false;
+  return std::all_of(start_.begin(), start_.end(), [this](const auto& entry) {
+    const Part* part = session_.scene().find(entry.first);
+    return part != nullptr && guard_.refusalOf(*part).isEmpty() &&
+           part->worldFromPart.translation == entry.second.translation &&
+           part->worldFromPart.rotation == entry.second.rotation;
+  });
+}
+
+QString AlignTool::refusalOf(const Part& part) const {
+  const QString name = shortName(part.name);
+  if (moving_) return isMoved(part.id) ? tr("%1 is what moves: point at another part").arg(name) : QString();
+  const QString refusal = guard_.refusalOf(part);
+  if (!refusal.isEmpty() || !selection_.contains(part.id)) return refusal;
+  const QString ofOthers = guard_.refusalOf(selection_.parts());
+  return ofOthers.isEmpty() ? QString() : tr("Selected with it: %1").arg(ofOthers);
+}
+
+void AlignTool::take(const FeaturePick& pick) {
+  const Part* part = session_.scene().find(pick.part);
+  if (part == nullptr) return;
+  if (!moving_) {
+    if (!selection_.contains(pick.part)) selection_.select(pick.part);
+    for (const PartId id : selection_.parts())
+      start_[id] = session_.scene().find(id)->worldFromPart;
+    moving_ = pick;
+    movingLight_.show(part->geometry->mesh, pick.picked, part->worldFromPart);
+    picker_.start([this](const Part& other) { return refusalOf(other); });
+  } else {
+    fixed_ = pick;
+    fixedLight_.show(part->geometry->mesh, pick.picked, part->worldFromPart);
+    bar_->showPair(true, canBeFlipped(moving_->picked.feature.shape, pick.picked.feature.shape),
+                   canBeOffset(moving_->picked.feature.shape, pick.picked.feature.shape));
+    preview();
+  }
+  tell({});
+  view_.requestRender();
+}
+
+void AlignTool::preview() {
+  if (!moving_ || !fixed_) return;
+  const RigidTransform& worldFromMoving = start_.at(moving_->part);
+  const AlignFeature moving = placed(moving_->picked.feature, worldFromMoving);
+  const AlignFeature fixed =
+      placed(fixed_->picked.feature, session_.scene().find(fixed_->part)->worldFromPart);
+  motion_ = alignMotion(moving, fixed, {bar_->isFlipped(), bar_->offset()});
+  std::map<PartId, RigidTransform> poses;
+  for (const auto& [id, pose] : start_)
+    poses[id] = (motion_ * pose).normalized();
+  movingLight_.setPose(poses.at(moving_->part));
+  view_.setDragged(std::move(poses));
+  tell({});
+}
+
+void AlignTool::apply() {
+  if (!moving_ || !fixed_) return;
+  const PartId lead = moving_->part;
+  const RigidTransform pose = (motion_ * start_.at(lead)).normalized();
+  std::vector<PartId> moved;
+  moved.reserve(start_.size());
+  for (const auto& [id, was] : start_)
+    moved.push_back(id);
+  stop();
+  emit moveWanted(moved, lead, pose);
+}
+
+QString AlignTool::prompt() const {
+  if (!moving_) return tr("Click a face, axis or point of the part to move");
+  if (!fixed_) return tr("Click what it is to be aligned with");
+  return tr("%1 to %2")
+      .arg(describeFeature(moving_->picked.feature), describeFeature(fixed_->picked.feature).toLower());
+}
+
+void AlignTool::tell(const QString& hint) {
+  const QString idle = !moving_  ? tr("Locked parts stay; selected ones go together")
+                       : !fixed_ ? tr("%1 of %2")
+                                       .arg(describeFeature(moving_->picked.feature),
+                                            shortName(session_.scene().find(moving_->part)->name))
+                                 : tr("Return applies, Escape leaves it; click another to change it");
+  bar_->showPrompt(prompt(), hint.isEmpty() ? idle : hint);
+}
+
+}  // namespace nearfit::ui

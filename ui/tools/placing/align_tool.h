@@ -1,0 +1,74 @@
+#pragma once
+
+#include <QObject>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "core/placing/align.h"
+#include "core/session/session.h"
+#include "ui/tools/placing/feature_picker.h"
+
+class QAction;
+
+namespace nearfit::ui {
+
+class AlignBar;
+class MoveGuard;
+class Selection;
+class Viewport;
+
+/// Aligns a part by two clicks in the view: on a feature of the part, then on the feature of another part
+/// that it is to meet. Previews the result; Apply or Return makes it one undo step, Escape discards it. A
+/// selected part takes the other selected parts along. Locked parts cannot be moved.
+class AlignTool : public QObject {
+  Q_OBJECT
+
+ public:
+  /// @param session, selection, view, guard  Outlive this.
+  AlignTool(Session& session, Selection& selection, Viewport& view, const MoveGuard& guard, QObject* parent);
+  ~AlignTool() override;
+
+  /// Starts and stops the tool.
+  QAction* action() const noexcept { return action_; }
+  /// Enables the tool; false also stops it.
+  /// @param isBusy  Something is being loaded or prepared: the tool cannot start, but
+  ///                goes on if it has started.
+  void setAvailable(bool isAvailable, bool isBusy);
+
+ signals:
+  /// Emitted on Apply: the parts are to move together so that `lead` gets that pose.
+  void moveWanted(const std::vector<nearfit::PartId>& parts, nearfit::PartId lead,
+                  const nearfit::RigidTransform& worldFromLead);
+  /// Emitted with a note for the status bar.
+  void noted(const QString& text);
+  /// Emitted when the tool starts or stops.
+  void activeChanged(bool isActive);
+
+ private:
+  void start();
+  void stop();
+  void take(const FeaturePick& pick);
+  void retake();
+  void preview();
+  void apply();
+  void tell(const QString& hint);
+  QString prompt() const;
+  QString refusalOf(const Part& part) const;
+  bool isMoved(PartId part) const;
+  bool isSound() const;
+
+  Session& session_;
+  Selection& selection_;
+  Viewport& view_;
+  const MoveGuard& guard_;
+  QAction* action_;
+  AlignBar* bar_;
+  FeaturePicker picker_;
+  FeatureHighlight movingLight_, fixedLight_;
+  std::optional<FeaturePick> moving_, fixed_;
+  std::map<PartId, RigidTransform> start_;  ///< worldFromPart of the moving parts at the first pick.
+  RigidTransform motion_;
+};
+
+}  // namespace nearfit::ui

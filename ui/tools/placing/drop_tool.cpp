@@ -1,0 +1,235 @@
+#include "ui/tools/placing/drop_tool.h"
+
+#include <QAction>
+#include <QMenu>
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "core/placing/drop.h"
+#include "core/placing/push.h"
+#include "ui/model/selection.h"
+#include "ui/view3d/viewport.h"
+#include "ui/widgets/format.h"
+#include "ui/widgets/names.h"
+#include "ui/widgets/progress_dialog.h"
+#include "ui/widgets/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+struct Way {
+  const char* name;
+  const char* text;
+  glm::dvec3 direction;
+};
+const Way kWays[] = {{"Down", QT_TRANSLATE_NOOP("DropTool", "&Down (−Z)"), {0, 0, -1}},
+                     {"Up", QT_TRANSLATE_NOOP("DropTool", "&Up (+Z)"), {0, 0, 1}},
+                     {"Left", QT_TRANSLATE_NOOP("DropTool", "&Left (−X)"), {-1, 0, 0}},
+                     {"Right", QT_TRANSLATE_NOOP("DropTool", "&Right (+X)"), {1, 0, 0}},
+                     {"Front", QT_TRANSLATE_NOOP("DropTool", "To the &front (−Y)"), {0, -1, 0}},
+                     {"Back", QT_TRANSLATE_NOOP("DropTool", "To the &back (+Y)"), {0, 1, 0}}};
+
+QString nameOf(const Scene& scene, PartId part) {
+  const Part* found = scene.find(part);
+  return found != nullptr ? shortName(found->name) : QString();
+}
+
+constexpr int kNamed = 3;
+
+QString overlapText(const QString& name, const QString& against) {
+  return DropTool::tr("%1 already touches or overlaps %2: move them apart, or hide %2.").arg(name, against);
+}
+
+QString freeWayText(const QString& name) {
+  return DropTool::tr("Nothing is in the way of %1 there: it stays where it is.").arg(name);
+}
+
+bool isCancelled(const std::exception_ptr& error) {
+  try {
+    if (error) std::rethrow_exception(error);
+  } catch (const Cancelled&) {
+    return true;
+  } catch (...) {
+  }
+  return false;
+}
+
+}  // namespace
+
+DropTool::DropTool(Session& session, Selection& selection, Viewport& view, Prepare prepare, QWidget* window)
+    : QObject(window),
+      session_(session),
+      selection_(selection),
+      view_(view),
+      prepare_(std::move(prepare)),
+      window_(window),
+      picker_(session, view, colours::kAccent, this) {
+  picker_.setFilter(FeatureFilter::Faces);
+  connect(&picker_, &FeaturePicker::picked, this, &DropTool::take);
+  connect(&picker_, &FeaturePicker::cancelled, this, &DropTool::stopAsking);
+  connect(&picker_, &FeaturePicker::told, this, [this](const QString& text) {
+    if (picker_.isActive() && !text.isEmpty()) emit noted(text);
+  });
+}
+
+DropTool::~DropTool() = default;
+
+void DropTool::addTo(QMenu& menu) {
+  menu.addMenu(makeMenu(Kind::Drop));
+  menu.addMenu(makeMenu(Kind::Push));
+}
+
+QMenu* DropTool::makeMenu(Kind kind) {
+  const bool isDrop = kind == Kind::Drop;
+  auto* menu = new QMenu(isDrop ? tr("&Drop to contact") : tr("&Push until held"), window_);
+  menu->setIcon(icon(isDrop ? QStringLiteral("drop") : QStringLiteral("push")));
+  menu->setToolTipsVisible(true);
+  const QString tip = isDrop ? tr("Straight on, to the first contact")
+                             : tr("To the first contact, and on along what is touched, until held");
+  const auto add = [&](const QString& name, const QString& text) {
+    QAction* action = menu->addAction(text);
+    action->setObjectName((isDrop ? QStringLiteral("drop") : QStringLiteral("push")) + name);
+    action->setToolTip(tip);
+    actions_.push_back(action);
+    return action;
+  };
+  for (const Way& way : kWays) {
+    connect(add(QLatin1String(way.name), tr(way.text)), &QAction::triggered, this,
+            [this, kind, direction = way.direction] { run(kind, direction); });
+  }
+  if (isDrop) actions_[0]->setShortcut(QKeySequence(Qt::Key_D));
+  menu->addSeparator();
+  connect(add(QStringLiteral("ToFace"), tr("Towards a &face…")), &QAction::triggered, this,
+          [this, kind] { askForFace(kind); });
+  return menu;
+}
+
+void DropTool::setAvailable(bool isAvailable) {
+  const bool isUsable = isAvailable && !task_.isRunning();
+  for (QAction* action : actions_)
+    action->setEnabled(isUsable);
+  if (!isUsable) stopAsking();
+}
+
+void DropTool::askForFace(Kind kind) {
+  wanted_ = kind;
+  picker_.start([this](const Part& part) {
+    return selection_.contains(part.id) ? tr("Click a flat face of another part") : QString();
+  });
+  emit noted(tr("Click the flat face that the part is to go towards; Escape leaves it"));
+}
+
+void DropTool::stopAsking() {
+  picker_.stop();
+}
+
+void DropTool::take(const FeaturePick& pick) {
+  const Part* part = session_.scene().find(pick.part);
+  stopAsking();
+  if (part != nullptr) run(wanted_, -placed(pick.picked.feature, part->worldFromPart).direction);
+}
+
+void DropTool::run(Kind kind, const glm::dvec3& direction) {
+  const std::vector<PartId> parts = selection_.parts();
+  if (parts.empty() || task_.isRunning()) return;
+  prepare_([this, kind, parts, direction](bool isReady) {
+    if (isReady && parts == selection_.parts() && !task_.isRunning()) compute(kind, parts, direction);
+  });
+}
+
+void DropTool::compute(Kind kind, const std::vector<PartId>& parts, const glm::dvec3& direction) {
+  const auto outcome = std::make_shared<Outcome>();
+  const Scene scene = session_.scene();
+  const auto job = [kind, parts, direction, scene, outcome](const ProgressCallback& progress) {
+    *outcome = kind == Kind::Drop ? dropped(scene, parts, direction, progress)
+                                  : pushed(scene, parts, direction, progress);
+  };
+  progress_ = new ProgressDialog(
+      kind == Kind::Drop ? tr("Looking for the first contact") : tr("Pushing until the part is held"),
+      window_);
+  progress_->setWindowTitle(tr("Nearfit"));
+  connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
+  connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
+  task_.run(job, [=, this](const std::exception_ptr& error) {
+    delete progress_;
+    if (!error) return finish(kind, parts, scene, *outcome);
+    if (!isCancelled(error)) emit failed(describe(tr("The part could not be moved."), error));
+  });
+}
+
+DropTool::Outcome DropTool::dropped(const Scene& scene, const std::vector<PartId>& parts,
+                                    const glm::dvec3& direction, const ProgressCallback& progress) {
+  const DropResult result = dropParts(scene, parts, {direction, 0.0}, progress);
+  Outcome outcome;
+  outcome.against = nameOf(scene, result.against);
+  outcome.travel = result.travel;
+  outcome.worldFromLead = scene.find(parts.back())->worldFromPart;
+  outcome.worldFromLead.translation += result.shift;
+  const QString name = nameOf(scene, result.moved);
+  if (result.outcome == DropResult::Outcome::Overlapping) {
+    outcome.problem = overlapText(name, outcome.against);
+  } else if (result.outcome == DropResult::Outcome::NothingMet) {
+    outcome.problem = freeWayText(nameOf(scene, parts.back()));
+  } else if (result.travel == 0.0) {
+    outcome.problem = tr("%1 touches %2 already: it stays where it is.").arg(name, outcome.against);
+  }
+  return outcome;
+}
+
+DropTool::Outcome DropTool::pushed(const Scene& scene, const std::vector<PartId>& parts,
+                                   const glm::dvec3& direction, const ProgressCallback& progress) {
+  const PushResult result = pushParts(scene, parts, direction, progress);
+  const Part& lead = *scene.find(parts.back());
+  const QString name = shortName(lead.name);
+  QStringList against;
+  for (const PartId id : result.against)
+    against << QString::fromStdString(scene.find(id)->name);
+  Outcome outcome;
+  outcome.against = listOfNames(against, kNamed);
+  outcome.worldFromLead = result.poses.back();
+  outcome.travel = glm::distance(outcome.worldFromLead.translation, lead.worldFromPart.translation);
+  switch (result.outcome) {
+    case PushResult::Outcome::Overlapping:
+      outcome.problem = overlapText(name, outcome.against);
+      break;
+    case PushResult::Outcome::SlippedPast:
+      outcome.problem = tr("Nothing holds %1 there: it would slide past %2. It stays where it is.")
+                            .arg(name, outcome.against);
+      break;
+    case PushResult::Outcome::NothingMet:
+      outcome.problem = freeWayText(name);
+      break;
+    case PushResult::Outcome::Held:
+      // A part that was pushed there before may move by so little again.
+      if (outcome.travel <= dropGap(lead.geometry->mesh.bounds().diagonal()))
+        outcome.problem = tr("%1 is held by %2 already: it stays where it is.").arg(name, outcome.against);
+      break;
+  }
+  return outcome;
+}
+
+void DropTool::finish(Kind kind, const std::vector<PartId>& parts, const Scene& before,
+                      const Outcome& outcome) {
+  if (!outcome.problem.isEmpty()) {
+    emit noted(outcome.problem);
+    return;
+  }
+  const Part *was = before.find(parts.back()), *is = session_.scene().find(parts.back());
+  const bool isSame = is != nullptr && is->worldFromPart.translation == was->worldFromPart.translation &&
+                      is->worldFromPart.rotation == was->worldFromPart.rotation;
+  if (!isSame) return;
+  try {
+    session_.moveParts(parts, parts.back(), outcome.worldFromLead, kind == Kind::Drop ? "Drop" : "Push");
+  } catch (...) {
+    emit failed(describe(tr("The part could not be moved."), std::current_exception()));
+    return;
+  }
+  emit noted(tr("%1 went %2 and touches %3")
+                 .arg(nameOf(before, parts.back()), formatLength(outcome.travel), outcome.against));
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,186 @@
+#include "ui/tools/placing/feature_picker.h"
+
+#include <QApplication>
+#include <QKeyEvent>
+#include <QShortcut>
+#include <QTimer>
+#include <utility>
+
+#include "core/placing/section_pick.h"
+#include "ui/view3d/viewport.h"
+#include "ui/widgets/format.h"
+#include "ui/widgets/names.h"
+
+namespace nearfit::ui {
+namespace {
+
+/// Max distance of the pointer from a corner or edge to pick it [pixels].
+constexpr double kReach = 8.0;
+
+}  // namespace
+
+QString describeFeature(const AlignFeature& feature) {
+  switch (feature.shape) {
+    case FeatureShape::Plane:
+      return QObject::tr("Flat face");
+    case FeatureShape::Circle:
+      return QObject::tr("Circle ⌀ %1").arg(formatLength(2.0 * feature.radius));
+    case FeatureShape::Axis:
+      return feature.radius > 0.0
+                 ? QObject::tr("Axis of a cylinder ⌀ %1").arg(formatLength(2.0 * feature.radius))
+                 : QObject::tr("Straight edge");
+    default:
+      return QObject::tr("Point");
+  }
+}
+
+FeaturePicker::FeaturePicker(const Session& session, Viewport& view, const QColor& colour, QObject* parent)
+    : QObject(parent),
+      session_(session),
+      view_(view),
+      highlight_(view.overlay(), colour),
+      escape_(new QShortcut(QKeySequence(Qt::Key_Escape), &view, nullptr, nullptr, Qt::WindowShortcut)) {
+  escape_->setEnabled(false);
+  connect(escape_, &QShortcut::activated, this, &FeaturePicker::cancelled);
+  connect(&view_, &Viewport::clicksTaken, this, [this](QObject* tool) {
+    if (isActive_ && tool != this) emit cancelled();
+  });
+  connect(&view_, &Viewport::posesChanged, this, [this] {
+    const std::optional<RigidTransform> pose = hovered_ ? view_.shownPose(hovered_->part) : std::nullopt;
+    if (pose) highlight_.setPose(*pose);
+  });
+}
+
+FeaturePicker::~FeaturePicker() = default;
+
+void FeaturePicker::start(Refusal refusal) {
+  refusal_ = std::move(refusal);
+  view_.takeClicks(this);
+  if (isActive_) return forgetHover();
+  isActive_ = true;
+  escape_->setEnabled(true);
+  view_.installEventFilter(this);
+  view_.setCursor(Qt::CrossCursor);
+  view_.setFocus();
+}
+
+void FeaturePicker::stop() {
+  if (!isActive_) return;
+  isActive_ = false;
+  escape_->setEnabled(false);
+  view_.removeEventFilter(this);
+  view_.unsetCursor();
+  pressed_.reset();
+  forgetHover();
+}
+
+void FeaturePicker::setFilter(FeatureFilter filter) {
+  filter_ = filter;
+  forgetHover();
+}
+
+bool FeaturePicker::eventFilter(QObject* watched, QEvent* event) {
+  if (!isActive_ || isReplaying_) return QObject::eventFilter(watched, event);
+  switch (event->type()) {
+    case QEvent::MouseButtonPress:
+    case QEvent::MouseButtonDblClick:
+      return press(*static_cast<QMouseEvent*>(event));
+    case QEvent::MouseMove:
+      return move(*static_cast<QMouseEvent*>(event));
+    case QEvent::MouseButtonRelease:
+      return release(*static_cast<QMouseEvent*>(event));
+    case QEvent::KeyPress:
+      return key(*event);
+    case QEvent::Leave:
+      forgetHover();
+      return false;
+    default:
+      return false;
+  }
+}
+
+bool FeaturePicker::press(const QMouseEvent& event) {
+  if (event.button() != Qt::LeftButton || event.modifiers() != Qt::NoModifier) return false;
+  pressed_ = std::make_unique<QMouseEvent>(event);
+  return true;
+}
+
+bool FeaturePicker::move(const QMouseEvent& event) {
+  if (pressed_ != nullptr) {
+    if ((event.pos() - pressed_->pos()).manhattanLength() < QApplication::startDragDistance()) return true;
+    // A drag: pass it to the view, from the press on.
+    const std::unique_ptr<QMouseEvent> beginning = std::exchange(pressed_, nullptr);
+    isReplaying_ = true;
+    QApplication::sendEvent(&view_, beginning.get());
+    isReplaying_ = false;
+    return false;
+  }
+  if (event.buttons() != Qt::NoButton) return false;
+  pointer_ = event.pos();
+  if (isHoverQueued_) return false;
+  // Pick once for all moves queued by then.
+  isHoverQueued_ = true;
+  QTimer::singleShot(0, this, [this] {
+    isHoverQueued_ = false;
+    if (isActive_) hoverAt(pointer_);
+  });
+  return false;
+}
+
+bool FeaturePicker::release(const QMouseEvent& event) {
+  if (pressed_ == nullptr || event.button() != Qt::LeftButton) return false;
+  pressed_.reset();
+  hoverAt(event.pos());
+  if (hovered_) emit picked(FeaturePick(*hovered_));
+  return true;
+}
+
+bool FeaturePicker::key(QEvent& event) {
+  const int key = static_cast<QKeyEvent&>(event).key();
+  if (key != Qt::Key_Return && key != Qt::Key_Enter) return false;
+  emit accepted();
+  return true;
+}
+
+void FeaturePicker::hoverAt(const QPoint& position) {
+  hovered_.reset();
+  const std::optional<PickedPoint> seen = view_.pointAt(position);
+  const Part* part = seen ? session_.scene().find(seen->part) : nullptr;
+  QString text;
+  if (part != nullptr) {
+    text = refusal_ ? refusal_(*part) : QString();
+    if (text.isEmpty()) {
+      const RigidTransform pose = view_.shownPose(part->id).value_or(part->worldFromPart);
+      SurfaceHit hit{seen->triangle, pose.inverse().applyToPoint(seen->point)};
+      const double reach = kReach * view_.projection().metresPerPixel(seen->point);
+      if (auto found = seen->cut ? pickFeature(*seen->cut, hit.point, reach, filter_)
+                                 : pickFeature(part->geometry->mesh, hit, reach, filter_)) {
+        text = tr("%1 of %2").arg(describeFeature(found->feature), shortName(part->name));
+        hovered_ = {seen->part, std::move(*found), hit.point};
+      }
+    }
+  }
+  showHovered();
+  emit told(text);
+}
+
+void FeaturePicker::forgetHover() {
+  hovered_.reset();
+  showHovered();
+  emit told({});
+}
+
+void FeaturePicker::showHovered() {
+  const Part* part = hovered_ ? session_.scene().find(hovered_->part) : nullptr;
+  if (part != nullptr) {
+    highlight_.show(part->geometry->mesh, hovered_->picked,
+                    view_.shownPose(part->id).value_or(part->worldFromPart));
+  } else if (highlight_.isShown()) {
+    highlight_.clear();
+  } else {
+    return;
+  }
+  view_.requestRender();
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <QMouseEvent>
+#include <QObject>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "core/placing/feature_pick.h"
+#include "core/session/session.h"
+#include "ui/view3d/feature_highlight.h"
+
+class QShortcut;
+
+namespace nearfit::ui {
+
+class Viewport;
+
+/// A picked feature of a part.
+struct FeaturePick {
+  PartId part{};
+  PickedFeature picked;  ///< In the part's frame.
+  glm::dvec3 hit{0.0};   ///< The surface point under the pointer, in the part's frame [m].
+};
+
+/// Returns the name of a feature: "Flat face", "Circle ⌀ 12.0 mm".
+QString describeFeature(const AlignFeature& feature);
+
+/// Lets the user pick features in the view: highlights the one under the pointer and reports
+/// clicks on it. Drags, the wheel and other buttons still control the view. One at a time: starting a
+/// picker cancels any other.
+class FeaturePicker : public QObject {
+  Q_OBJECT
+
+ public:
+  /// @param session, view  Outlive this.
+  /// @param colour  Of the highlight.
+  FeaturePicker(const Session& session, Viewport& view, const QColor& colour, QObject* parent);
+  ~FeaturePicker() override;
+
+  /// Returns why a part cannot be picked; empty if it can.
+  using Refusal = std::function<QString(const Part&)>;
+  /// Starts picking; if already active, only replaces the refusal. Null: every part can be picked.
+  void start(Refusal refusal);
+  void stop();
+  bool isActive() const noexcept { return isActive_; }
+  /// Sets which features can be picked.
+  void setFilter(FeatureFilter filter);
+  /// The feature under the pointer; nullopt if there is none.
+  const std::optional<FeaturePick>& hovered() const noexcept { return hovered_; }
+
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ signals:
+  /// Emitted with what a click would pick, or why it would pick nothing; empty over the background.
+  void told(const QString& text);
+  /// Emitted when a feature is clicked.
+  void picked(const nearfit::ui::FeaturePick& pick);
+  /// Emitted on Return in the view.
+  void accepted();
+  /// Emitted on Escape, or when another tool takes the clicks. The receiver calls stop().
+  void cancelled();
+
+ private:
+  bool press(const QMouseEvent& event);
+  bool move(const QMouseEvent& event);
+  bool release(const QMouseEvent& event);
+  bool key(QEvent& event);
+  void hoverAt(const QPoint& position);
+  void forgetHover();
+  void showHovered();
+
+  const Session& session_;
+  Viewport& view_;
+  FeatureHighlight highlight_;
+  QShortcut* escape_;
+  Refusal refusal_;
+  FeatureFilter filter_ = FeatureFilter::Any;
+  std::optional<FeaturePick> hovered_;
+  std::unique_ptr<QMouseEvent> pressed_;  ///< Held back until it turns out to be a click or a drag.
+  QPoint pointer_;
+  bool isActive_ = false, isReplaying_ = false, isHoverQueued_ = false;
+};
+
+}  // namespace nearfit::ui

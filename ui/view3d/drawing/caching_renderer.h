@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <span>
+
+#include <vtkNew.h>
+#include <vtkOpenGLFramebufferObject.h>
+
+#include "ui/view3d/drawing/blending_renderer.h"
+
+namespace nearfit::ui {
+
+/// A renderer that can keep a picture of opaque props with its depth buffer, and draw everything else over
+/// it. The kept picture is drawn a little at a time, so that millions of triangles do not block events.
+class CachingRenderer : public BlendingRenderer {
+ public:
+  static CachingRenderer* New();
+  using Superclass = BlendingRenderer;
+
+  /// Starts a new kept picture: the background alone, as the camera sees it now.
+  void beginKeeping();
+  /// Draws props into the kept picture, in order, until `time` is over; at least one.
+  /// @return  The number of props drawn.
+  std::size_t keep(std::span<vtkProp* const> props, std::chrono::microseconds time);
+  /// From now on, pictures start from the kept picture.
+  void finishKeeping() { isKept_ = true; }
+  /// From now on, pictures draw everything again.
+  void dropKept() { isKept_ = false; }
+  bool hasKept() const noexcept { return isKept_; }
+
+  void DeviceRenderOpaqueGeometry(vtkFrameBufferObjectBase* fbo = nullptr) override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+
+ protected:
+  CachingRenderer() = default;
+  int UpdateGeometry(vtkFrameBufferObjectBase* fbo = nullptr) override;
+
+ private:
+  /// @param draw  Draws into the kept picture instead of the window.
+  template <typename Act>
+  void intoKept(bool isErased, const Act& draw);
+  void paste();
+
+  vtkNew<vtkOpenGLFramebufferObject> kept_;
+  bool isKept_ = false;
+};
+
+}  // namespace nearfit::ui

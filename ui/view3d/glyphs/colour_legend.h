@@ -1,0 +1,40 @@
+#pragma once
+
+#include <QWidget>
+
+#include "core/servo/servo_snapshot.h"
+
+namespace nearfit::ui {
+
+/// A card over the 3-D view that explains its glyphs: the colour scale of distances from contact to the
+/// cutoff, and force, torque, contacts and hand with their current values. Ignores the mouse.
+class ColourLegend : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ColourLegend(QWidget* parent = nullptr);
+
+  /// @param cutoff  Distance at the end of the colour scale [m].
+  void setCutoff(double cutoff);
+  /// Shows the snapshot's values and resizes to fit. Contacts and hand appear in proxy mode only.
+  void showSnapshot(const ServoSnapshot& snapshot);
+
+  QSize sizeHint() const override;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  /// Factor from the layout's constants to the widget's font; at least 1.
+  double scale() const;
+  /// The widget's font at the size that the constants assume; the painter scales it.
+  QFont letters() const;
+  void paintScale(QPainter& painter);
+  void paintRow(QPainter& painter, int y, const QString& name, const QString& value);
+
+  double cutoff_ = 0.01;
+  QString force_, torque_, contacts_, lead_;
+  bool hasProxy_ = true;
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <vtkActor.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+
+#include "core/servo/servo_snapshot.h"
+#include "ui/view3d/glyphs/minima_choice.h"
+
+namespace nearfit::ui {
+
+/// Draws minima as segments with their two points, coloured by distance, the nearest one larger. A blocked
+/// minimum, which exerts no force, is a faint line alone. Normals are short lines from both points towards
+/// the other surface, of the same length whatever the gap.
+class LmdOverlay {
+ public:
+  /// @param renderer  Outlives this.
+  explicit LmdOverlay(vtkRenderer& renderer);
+
+  /// @param lmds    World frame [m].
+  /// @param cutoff  Distance at the end of the colour scale [m]; > 0.
+  void show(std::span<const SnapshotLmd> lmds, double cutoff);
+  void clear() { show({}, 1.0); }
+  void setVisible(bool isVisible);
+  /// Sets what is drawn; counts from the next show() on.
+  void setChoice(const MinimaChoice& choice);
+
+ private:
+  void applyVisibility();
+
+  MinimaChoice choice_;
+  bool isVisible_ = true;
+  vtkNew<vtkPolyData> segments_, points_, normals_, blocked_, nearest_;
+  vtkNew<vtkActor> halo_, lines_, dots_, pins_, faint_, nearestHalo_, nearestLine_, nearestDots_;
+};
+
+/// Returns the minima to draw, as many and as near as `choice` allows, nearest first.
+std::vector<SnapshotLmd> chosenMinima(std::span<const SnapshotLmd> lmds, double cutoff,
+                                      const MinimaChoice& choice);
+
+}  // namespace nearfit::ui

@@ -1,0 +1,192 @@
+#include "ui/view3d/parts/part_actor.h"
+
+#include <numbers>
+#include <utility>
+
+#include <vtkBoundingBox.h>
+
+#include "ui/view3d/vtk/pixel_sizes.h"
+#include "ui/view3d/vtk/vtk_convert.h"
+#include "ui/widgets/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+constexpr double kTranslucentOpacity = 0.28, kWarningOpacity = 0.45;
+/// Faint enough to leave the shape and colour of parts in front visible.
+constexpr double kVeilOpacity = 0.13, kVeilEdgeOpacity = 0.55;
+constexpr float kEdgeWidth = 1.3F;
+/// Share of edges on the near side, and max share of the enclosing disc that they may cover: with more, a
+/// small part would be a blot.
+constexpr double kSeenEdges = 0.5, kMaxInk = 0.4;
+
+void setEdgeColour(vtkProperty& property, const PartLook& look) {
+  const QColor dark(0x1a, 0x22, 0x2b);
+  const QColor colour = look.isSelected      ? colours::kAccent
+                        : look.isMoving      ? colours::kMoving.darker(150)
+                        : look.isOverlapping ? colours::kOverlap.darker(150)
+                                             : dark;
+  property.SetColor(colour.redF(), colour.greenF(), colour.blueF());
+  property.SetLineWidth(devicePixels(look.isSelected ? 2.4F : kEdgeWidth));
+  property.SetOpacity(look.isTranslucent && !look.isSelected ? 0.55 : 1.0);
+}
+
+}  // namespace
+
+PartActor::PartActor(vtkRenderer& renderer, std::shared_ptr<ShapeMappers> mappers, vtkRenderer* over)
+    : renderer_(renderer), mappers_(std::move(mappers)), over_(over) {
+  look_->SetInterpolationToPhong();
+  look_->SetAmbient(0.12);
+  look_->SetDiffuse(0.82);
+  look_->SetSpecular(0.22);
+  look_->SetSpecularPower(28.0);
+  for (std::size_t i = 0; i < shape().pieces.size(); ++i) {
+    auto piece = vtkSmartPointer<vtkActor>::New();
+    piece->SetProperty(look_);
+    piece->SetUserMatrix(pose_);
+    renderer_.AddActor(piece);
+    pieces_.push_back(piece);
+  }
+  edges_->SetUserMatrix(pose_);
+  edges_->PickableOff();
+  edges_->GetProperty()->LightingOff();
+  renderer_.AddActor(edges_);
+  showPieces();
+}
+
+PartActor::~PartActor() {
+  setThrough(false);
+  for (vtkActor* piece : pieces_)
+    renderer_.RemoveActor(piece);
+  renderer_.RemoveActor(edges_);
+}
+
+bool PartActor::setPose(const RigidTransform& worldFromPart) {
+  if (worldFromPart_ && worldFromPart_->rotation == worldFromPart.rotation &&
+      worldFromPart_->translation == worldFromPart.translation)
+    return false;
+  worldFromPart_ = worldFromPart;
+  setMatrix(*pose_, worldFromPart);
+  return true;
+}
+
+bool PartActor::setAppearance(const Colour& colour, bool isVisible, const PartLook& look) {
+  if (shownLook_ == look && isVisible_ == isVisible && colour_ == colour) return false;
+  shownLook_ = look;
+  isVisible_ = isVisible;
+  colour_ = colour;
+  if (look.isOverlapping) {
+    look_->SetColor(colours::kOverlap.redF(), colours::kOverlap.greenF(), colours::kOverlap.blueF());
+  } else {
+    look_->SetColor(static_cast<double>(colour.r), static_cast<double>(colour.g),
+                    static_cast<double>(colour.b));
+  }
+  look_->SetOpacity(look.opacity * (!look.isTranslucent  ? 1.0
+                                    : look.isOverlapping ? kWarningOpacity
+                                                         : kTranslucentOpacity));
+  hideBackFaces();
+  setEdgeColour(*edges_->GetProperty(), look);
+  showPieces();
+  setThrough(isVisible && look.isSelected);
+  return true;
+}
+
+void PartActor::hideBackFaces() {
+  // Back faces are half of the work of a closed surface; a part cut open shows them.
+  look_->SetBackfaceCulling(shape().hidesItsInside && isOpaque() && !mappers_->isCut());
+}
+
+void PartActor::setMappers(std::shared_ptr<ShapeMappers> mappers) {
+  mappers_ = std::move(mappers);
+  hideBackFaces();
+  showPieces();
+  if (veil_ == nullptr) return;
+  veil_->SetMapper(mappers_->veil());
+  veilEdges_->SetMapper(mappers_->veilEdges());
+}
+
+bool PartActor::isOpaque() const noexcept {
+  return look_->GetOpacity() >= 1.0;
+}
+
+void PartActor::setScale(double pixelsPerMetre) {
+  double own[6];
+  shape().surface->GetBounds(own);
+  const double diagonal = vtkBoundingBox(own).GetDiagonalLength();
+  const double inked = kSeenEdges * shape().edgeLength * static_cast<double>(devicePixels(kEdgeWidth));
+  const double disc = std::numbers::pi * 0.25 * diagonal * diagonal * pixelsPerMetre;
+  if (std::exchange(areEdgesApart_, inked <= kMaxInk * disc) == areEdgesApart_) return;
+  showPieces();
+  if (veilEdges_ != nullptr) veilEdges_->SetVisibility(areEdgesApart_);
+}
+
+void PartActor::setLevel(std::size_t level) {
+  if (level == level_) return;
+  level_ = level;
+  showPieces();
+}
+
+void PartActor::setKept(bool isKept) {
+  if (isKept == isKept_) return;
+  isKept_ = isKept;
+  showPieces();
+}
+
+void PartActor::showPieces() {
+  const bool isDrawn = isVisible_ && !isKept_;
+  const std::vector<ShapeMappers::Mapper>& mappers = mappers_->surface(level_, !isOpaque());
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    if (i < mappers.size()) pieces_[i]->SetMapper(mappers[i]);
+    pieces_[i]->SetVisibility(isDrawn && i < mappers.size());
+  }
+  edges_->SetMapper(mappers_->edges(edges_->GetProperty()->GetOpacity() < 1.0));
+  edges_->SetVisibility(isDrawn && level_ == 0 && areEdgesApart_ && shownLook_ && shownLook_->hasEdges);
+}
+
+void PartActor::bounds(double bounds[6]) const {
+  double own[6];
+  mappers_->shape()->surface->GetBounds(own);
+  vtkBoundingBox box;
+  for (int corner = 0; corner < 8; ++corner) {
+    const double p[4] = {own[corner & 1], own[2 + (corner >> 1 & 1)], own[4 + (corner >> 2 & 1)], 1.0};
+    double world[4];
+    pose_->MultiplyPoint(p, world);
+    box.AddPoint(world);
+  }
+  box.GetBounds(bounds);
+}
+
+void PartActor::addTo(std::vector<vtkProp*>& props) const {
+  props.insert(props.end(), pieces_.begin(), pieces_.end());
+  if (shownLook_ && shownLook_->hasEdges && areEdgesApart_) props.push_back(edges_);
+}
+
+void PartActor::setThrough(bool isThrough) {
+  if (over_ == nullptr || isThrough == (veil_ != nullptr)) return;
+  if (!isThrough) {
+    over_->RemoveActor(veil_);
+    over_->RemoveActor(veilEdges_);
+    veil_ = veilEdges_ = nullptr;
+    return;
+  }
+  const auto make = [this](vtkMapper* mapper, double opacity) {
+    auto actor = vtkSmartPointer<vtkActor>::New();
+    actor->SetMapper(mapper);
+    actor->SetUserMatrix(pose_);
+    actor->PickableOff();
+    vtkProperty* property = actor->GetProperty();
+    property->LightingOff();
+    property->SetColor(colours::kAccent.redF(), colours::kAccent.greenF(), colours::kAccent.blueF());
+    property->SetOpacity(opacity);
+    over_->AddActor(actor);
+    return actor;
+  };
+  veil_ = make(mappers_->veil(), kVeilOpacity);
+  // One layer of a closed surface, not two.
+  veil_->GetProperty()->BackfaceCullingOn();
+  veilEdges_ = make(mappers_->veilEdges(), kVeilEdgeOpacity);
+  veilEdges_->GetProperty()->SetLineWidth(devicePixels(1.6F));
+  veilEdges_->SetVisibility(areEdgesApart_);
+}
+
+}  // namespace nearfit::ui

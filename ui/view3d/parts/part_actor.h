@@ -1,0 +1,91 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <vtkActor.h>
+#include <vtkNew.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+
+#include "core/scene/scene.h"
+#include "ui/view3d/parts/shape_mappers.h"
+
+namespace nearfit::ui {
+
+/// How a part is drawn, apart from its own colour.
+struct PartLook {
+  bool isMoving = false;
+  bool isSelected = false;
+  bool isTranslucent = false;
+  bool isOverlapping = false;  ///< Overlaps the moving part, which therefore cannot feel it.
+  bool hasEdges = true;
+  double opacity = 1.0;  ///< The part's own opacity, 0 to 1.
+  bool operator==(const PartLook&) const = default;
+};
+
+/// The actors of one part: surface and edge lines. In the renderer from construction to destruction.
+/// While the part is selected, a faint veil and its edges are also drawn over everything, so that it
+/// shows behind other parts.
+class PartActor {
+ public:
+  /// @param renderer  Outlives this.
+  /// @param over      Draws the veil over everything; outlives this. Null: no veil.
+  PartActor(vtkRenderer& renderer, std::shared_ptr<ShapeMappers> mappers, vtkRenderer* over = nullptr);
+  ~PartActor();
+  PartActor(const PartActor&) = delete;
+  PartActor& operator=(const PartActor&) = delete;
+
+  /// Moves the part; true if that changed its pose.
+  bool setPose(const RigidTransform& worldFromPart);
+  /// True if the appearance changed.
+  bool setAppearance(const Colour& colour, bool isVisible, const PartLook& look);
+  /// Sets the scale at which it is seen; hides edge lines, the veil's too, where they would cover the part.
+  void setScale(double pixelsPerMetre);
+  /// Draws one of the shape's levels. Edge lines are drawn with level 0, the mesh itself, only.
+  void setLevel(std::size_t level);
+  /// Exchanges the mappers: cut open or whole, of the same shape.
+  void setMappers(std::shared_ptr<ShapeMappers> mappers);
+  /// Hides the part while a kept picture shows it (CachingRenderer).
+  void setKept(bool isKept);
+
+  const PartShape& shape() const noexcept { return *mappers_->shape(); }
+  const ShapeMappers& mappers() const noexcept { return *mappers_; }
+  bool isVisible() const noexcept { return isVisible_; }
+  bool isOpaque() const noexcept;
+  std::size_t level() const noexcept { return level_; }
+  bool isKept() const noexcept { return isKept_; }
+  /// Gets the bounds of the mesh itself in the world, VTK's order [m].
+  void bounds(double bounds[6]) const;
+  /// Appends the actors that draw the visible part, piece by piece.
+  void addTo(std::vector<vtkProp*>& props) const;
+  /// Actors of the surface's pieces.
+  const std::vector<vtkSmartPointer<vtkActor>>& pieces() const noexcept { return pieces_; }
+  /// Shared by all pieces.
+  vtkProperty& look() const noexcept { return *look_.Get(); }
+  vtkProperty& edgeLook() const noexcept { return *edges_->GetProperty(); }
+
+ private:
+  void showPieces();
+  void hideBackFaces();
+  void setThrough(bool isThrough);
+
+  vtkRenderer& renderer_;
+  std::shared_ptr<ShapeMappers> mappers_;
+  vtkRenderer* over_;
+  std::vector<vtkSmartPointer<vtkActor>> pieces_;  ///< The first one also draws drafts.
+  vtkNew<vtkProperty> look_;
+  vtkNew<vtkActor> edges_;
+  /// In over_ while selected; else null.
+  vtkSmartPointer<vtkActor> veil_, veilEdges_;
+  vtkNew<vtkMatrix4x4> pose_;
+  std::optional<RigidTransform> worldFromPart_;
+  std::optional<PartLook> shownLook_;
+  Colour colour_;
+  std::size_t level_ = 0;
+  bool isVisible_ = true, isKept_ = false;
+  bool areEdgesApart_ = true;  ///< At the present scale edge lines do not cover the part.
+};
+
+}  // namespace nearfit::ui

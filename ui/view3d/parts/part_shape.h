@@ -1,0 +1,63 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStaticCellLocator.h>
+
+#include "core/base/progress.h"
+#include "core/scene/part_geometry.h"
+#include "ui/view3d/parts/detail_choice.h"
+
+namespace nearfit::ui {
+
+/// A mesh prepared for drawing and picking, in the part's frame [m]. Immutable once made.
+struct PartShape {
+  vtkSmartPointer<vtkPolyData> surface;  ///< Triangles with point normals; vertices split along sharp edges.
+  vtkSmartPointer<vtkPolyData> edges;    ///< Sharp, open and non-manifold edges.
+  double edgeLength = 0.0;               ///< Total length of `edges` [m].
+  /// `surface` in pieces that each draw quickly; they share its points.
+  std::vector<vtkSmartPointer<vtkPolyData>> pieces;
+  /// Ever coarser stand-ins with normals, for motion in large scenes; empty for a small mesh.
+  std::vector<vtkSmartPointer<vtkPolyData>> drafts;
+  std::vector<DetailLevel> levels;  ///< The level of `surface`, then one for each draft.
+  /// Search structure of `surface` for picking. Not thread-safe.
+  vtkSmartPointer<vtkStaticCellLocator> locator;
+  /// True if no back face is visible from outside.
+  bool hidesItsInside = false;
+
+  /// Returns the finest draft, or the surface if there is none; fine enough for a veil.
+  vtkPolyData* finestDraft() const { return drafts.empty() ? surface.Get() : drafts.front().Get(); }
+};
+
+/// Builds the shape of a mesh; seconds for millions of triangles. Throws Cancelled.
+PartShape makePartShape(const TriangleMesh& mesh, const ProgressCallback& progress = {});
+
+/// Caches one shape for each geometry, as long as that geometry exists. Thread-safe: loading
+/// fills it before drawing.
+class PartShapeCache {
+ public:
+  /// Returns the shape; the first call for a geometry builds it, which takes seconds for millions of
+  /// triangles. Throws Cancelled.
+  std::shared_ptr<const PartShape> shapeOf(const PartGeometryPtr& geometry,
+                                           const ProgressCallback& progress = {});
+  /// Builds the missing shapes of all. Throws Cancelled.
+  void prepare(std::span<const PartGeometryPtr> geometries, const ProgressCallback& progress);
+
+ private:
+  struct Entry {
+    std::weak_ptr<const PartGeometry> geometry;
+    std::shared_ptr<const PartShape> shape;
+  };
+  void dropUnused();
+
+  std::mutex mutex_;
+  std::map<const PartGeometry*, Entry> entries_;
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "core/placing/seen_parts.h"
+#include "core/scene/scene.h"
+#include "ui/view3d/parts/detail_choice.h"
+#include "ui/view3d/parts/part_actor.h"
+#include "ui/view3d/parts/scene_cut.h"
+
+namespace nearfit::ui {
+
+/// The surface point seen at a pixel of the view.
+struct PickedPoint {
+  PartId part{};
+  glm::dvec3 point{0.0};       ///< In the world [m].
+  std::uint32_t triangle = 0;  ///< Index in the part's mesh; 0 on a cut face.
+  /// The part's cut face, in the part's frame; null if its own surface is seen.
+  std::shared_ptr<const MeshSection> cut;
+};
+
+/// Keeps one PartActor for each part of the scene. Knows no widget; never renders by itself.
+class SceneRenderer {
+ public:
+  /// @param renderer  Outlives this.
+  /// @param over      Drawn over `renderer`; shows selected parts through others. Outlives this; may be null.
+  SceneRenderer(vtkRenderer& renderer, std::shared_ptr<PartShapeCache> shapes, vtkRenderer* over = nullptr);
+
+  void setScene(const Scene& scene);
+  void setSelected(std::vector<PartId> parts);
+  /// While there is a moving part, makes all others translucent, so that gaps between them can be seen.
+  void setSeeThrough(bool isSeeThrough);
+  void setEdgesVisible(bool isVisible);
+  /// Shows the moving part at the pose that the servo has, instead of its pose in the
+  /// scene; nullopt ends that.
+  void setPoseInHand(std::optional<RigidTransform> worldFromMoving);
+
+  /// Shows parts at the poses that a drag has, instead of their poses in the scene; empty ends that.
+  void setDragged(std::map<PartId, RigidTransform> worldFromPart);
+
+  /// Returns where a part is shown (worldFromPart): by a drag, else by the servo, else by the scene.
+  RigidTransform shownPose(const Part& part) const;
+
+  /// Cuts the parts open; nullopt: they are whole.
+  void setCut(const std::optional<ViewCut>& cut);
+  /// Makes the cut follow the parts; call before each picture.
+  void updateCut();
+  /// Clipping plane of the moving part, for what is drawn with it: see SceneCut::plane. Null: it is whole.
+  vtkPlane* cutOfMoving() const noexcept { return cut_.cuts(true) ? cut_.plane() : nullptr; }
+  /// Parts that are cut but cannot be closed, as of the last picture.
+  const std::vector<PartId>& openlyCut() const noexcept { return cut_.open(); }
+
+  /// Tints the parts that the moving part overlaps.
+  void setOverlapping(std::span<const PartId> parts);
+
+  /// Chooses what the next picture draws of each part, except of parts shown by a kept picture.
+  /// @return  The choice for those drawn.
+  DetailChoice applyDetail(const DetailLimits& limits);
+  /// Chooses what a kept picture is to show, and returns its props: visible opaque parts that rest. They
+  /// are drawn as usual until showKept().
+  std::vector<vtkProp*> keep();
+  /// Sets the chosen parts to full detail, whatever the last picture drew. Call before each turn of
+  /// drawing the kept picture.
+  void prepareKept();
+  /// The kept picture is complete: the chosen parts are no longer drawn, until letGoOfKept().
+  void showKept();
+  /// Draws all parts again; there is no kept picture any more.
+  void letGoOfKept();
+  /// Changes whenever a kept picture becomes wrong.
+  std::uint64_t revision() const noexcept { return revision_; }
+  /// Returns the part's actor; null if it is not in the scene.
+  const PartActor* find(PartId part) const;
+  /// True if parts have moved since the last settle(); those cannot be kept.
+  bool hasLoose() const noexcept { return !loose_.empty(); }
+  /// True if a visible part is translucent.
+  bool hasTranslucent() const;
+  /// Regards all parts as resting from now on.
+  void settle();
+
+  /// Gets the bounds of all visible parts, VTK's order (xmin, xmax, ...), in the world [m];
+  /// false if there are none.
+  bool visibleBounds(double bounds[6]) const;
+  /// Gets the bounds of one part, visible or not; false if it is not in the scene.
+  bool boundsOf(PartId part, double bounds[6]) const;
+  /// Returns the part seen at a point in VTK display coordinates: device pixels from the lower left.
+  std::optional<PartId> pick(double x, double y) {
+    const std::optional<PickedPoint> picked = pickPoint(x, y);
+    return picked ? std::optional(picked->part) : std::nullopt;
+  }
+  /// Like pick(), with the point of its surface.
+  std::optional<PickedPoint> pickPoint(double x, double y);
+  /// Returns the parts seen at some pixel of a box, in the scene's order. Translucent parts hide nothing.
+  std::vector<PartId> seenIn(const ViewProjection& view, const PixelBox& pixels) const;
+
+ private:
+  struct View;
+  PartActor& actorOf(const Part& part);
+  void applyAppearance(const Part& part);
+  void applyAll();
+  void place(const Part& part);
+  void open(PartActor& actor, bool isCut);
+  View view() const;
+  /// Returns the part whose cut face contains a point of the plane.
+  std::optional<PickedPoint> capAt(const glm::dvec3& point) const;
+
+  vtkRenderer& renderer_;
+  std::shared_ptr<PartShapeCache> shapes_;
+  vtkRenderer* over_;
+  MapperCache mappers_;
+  Scene scene_;
+  std::map<PartId, std::unique_ptr<PartActor>> actors_;
+  std::vector<PartId> selected_;  ///< Sorted.
+  std::optional<RigidTransform> poseInHand_;
+  std::map<PartId, RigidTransform> dragged_;
+  std::vector<PartId> overlapping_;
+  SceneCut cut_;
+  bool isSeeThrough_ = false;
+  bool hasEdges_ = true;
+  std::set<PartId> loose_;
+  std::vector<PartActor*> beingKept_;
+  std::uint64_t revision_ = 0;
+};
+
+}  // namespace nearfit::ui

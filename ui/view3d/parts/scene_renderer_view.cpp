@@ -1,0 +1,223 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <vtkBoundingBox.h>
+#include <vtkBox.h>
+#include <vtkCamera.h>
+#include <vtkGenericCell.h>
+
+#include "ui/view3d/parts/scene_renderer.h"
+
+// SceneRenderer: levels of detail, picking and what is seen, which depend on the camera.
+namespace nearfit::ui {
+namespace {
+
+/// How far from a triangle or a box a ray still meets it, as a fraction of the part's largest coordinate: the boxes of
+/// triangles that lie across an axis are flat, and rounding alone would let the ray miss them. A hundred times what
+/// rounding needs, and a millionth of a pixel for a part that fills the view.
+constexpr double kRaySlack = 1e-9;
+
+struct Ray {
+  glm::dvec3 begin, end;
+  double from = 0.0, to = 1.0;  ///< Range within the whole ray, as fractions.
+
+  glm::dvec3 at(double fraction) const { return begin + fraction * (end - begin); }
+};
+
+/// Returns the fraction at which a whole ray crosses a plane; nullopt if it does not.
+std::optional<double> throughPlane(const Ray& ray, const CutPlane& plane) {
+  const double first = plane.heightOf(ray.begin), last = plane.heightOf(ray.end);
+  return (first > 0.0) != (last > 0.0) ? std::optional(first / (first - last)) : std::nullopt;
+}
+
+/// Returns the piece of a whole ray that is not cut away; nullopt if none is left.
+std::optional<Ray> behind(const Ray& ray, const CutPlane& plane) {
+  const bool isAway = plane.heightOf(ray.begin) > 0.0;
+  const std::optional<double> through = throughPlane(ray, plane);
+  if (!through) return isAway ? std::nullopt : std::optional(ray);
+  return isAway ? Ray{ray.at(*through), ray.end, *through, 1.0}
+                : Ray{ray.begin, ray.at(*through), 0.0, *through};
+}
+
+/// Returns the plane that clips surfaces as drawn: a hair beyond the cut plane, to keep faces that lie in it.
+CutPlane planeOf(vtkPlane& drawn) {
+  glm::dvec3 stays, origin;
+  drawn.GetNormal(&stays.x);
+  drawn.GetOrigin(&origin.x);
+  return {-stays, -glm::dot(stays, origin)};
+}
+
+glm::dvec3 worldOf(vtkRenderer& renderer, double x, double y, double depth) {
+  renderer.SetDisplayPoint(x, y, depth);
+  renderer.DisplayToWorld();
+  const double* p = renderer.GetWorldPoint();
+  return glm::dvec3(p[0], p[1], p[2]) / p[3];
+}
+
+struct Hit {
+  double fraction = 2.0;  ///< Along the ray; above 1: no hit yet.
+  std::uint32_t triangle = 0;
+  glm::dvec3 point{0.0};  ///< In the part's frame [m].
+};
+
+/// Finds the first triangle on a ray in the part's frame. True, with `hit` updated, if
+/// it is nearer than `hit`.
+bool hitFirst(const PartShape& shape, const Ray& ray, vtkGenericCell& cell, Hit& hit) {
+  const double* bounds = shape.surface->GetBounds();
+  vtkBoundingBox box(bounds);
+  const auto size = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const double slack = kRaySlack * std::abs(*std::max_element(bounds, bounds + 6, size));
+  box.Inflate(slack);
+  double padded[6], direction[3], at[3], t = 0.0;
+  box.GetBounds(padded);
+  for (int axis = 0; axis < 3; ++axis)
+    direction[axis] = ray.end[axis] - ray.begin[axis];
+  if (vtkBox::IntersectBox(padded, &ray.begin.x, direction, at, t) == 0) return false;
+  double point[3], parametric[3];
+  int part = 0;
+  vtkIdType triangle = -1;
+  const int isHit = shape.locator->IntersectWithLine(&ray.begin.x, &ray.end.x, slack, t, point, parametric,
+                                                     part, triangle, &cell);
+  const double fraction = ray.from + t * (ray.to - ray.from);
+  if (isHit == 0 || triangle < 0 || fraction >= hit.fraction) return false;
+  // Making normals splits vertices but keeps the order of triangles, so the index is the mesh's.
+  hit = {fraction, static_cast<std::uint32_t>(triangle), {point[0], point[1], point[2]}};
+  return true;
+}
+
+}  // namespace
+
+/// The camera's position, scale and frustum.
+struct SceneRenderer::View {
+  glm::dvec3 eye;
+  bool isParallel = false;
+  double pixelsAtOne = 1.0;  ///< Pixels per metre, at 1 m from the eye in perspective.
+  double planes[24];         ///< Frustum planes; negative outside.
+
+  double pixelsPerMetre(const glm::dvec3& centre, double radius) const {
+    if (isParallel) return pixelsAtOne;
+    // A part around the eye counts as very near, not as infinitely large.
+    return pixelsAtOne / std::max(glm::distance(eye, centre) - radius, 1e-3 * radius + 1e-12);
+  }
+  bool sees(const glm::dvec3& centre, double radius) const {
+    for (std::size_t plane = 0; plane < 6; ++plane) {
+      const double* p = planes + 4 * plane;
+      if (p[0] * centre.x + p[1] * centre.y + p[2] * centre.z + p[3] < -radius) return false;
+    }
+    return true;
+  }
+};
+
+SceneRenderer::View SceneRenderer::view() const {
+  vtkCamera* camera = renderer_.GetActiveCamera();
+  View view;
+  camera->GetPosition(&view.eye.x);
+  view.isParallel = camera->GetParallelProjection() != 0;
+  const double height = std::max(1, renderer_.GetSize()[1]);
+  view.pixelsAtOne = view.isParallel ? height / (2.0 * camera->GetParallelScale())
+                                     : height / (2.0 * std::tan(0.5 * glm::radians(camera->GetViewAngle())));
+  camera->GetFrustumPlanes(renderer_.GetTiledAspectRatio(), view.planes);
+  return view;
+}
+
+DetailChoice SceneRenderer::applyDetail(const DetailLimits& limits) {
+  const View view = this->view();
+  std::vector<DetailCandidate> candidates;
+  std::vector<PartActor*> drawn;
+  for (const auto& [id, actor] : actors_) {
+    if (!actor->isVisible() || actor->isKept()) continue;
+    double b[6];
+    actor->bounds(b);
+    const glm::dvec3 lower(b[0], b[2], b[4]), upper(b[1], b[3], b[5]), centre = 0.5 * (lower + upper);
+    const double radius = 0.5 * glm::distance(lower, upper);
+    const double scale = view.pixelsPerMetre(centre, radius);
+    actor->setScale(scale);
+    candidates.push_back({actor->shape().levels, scale, view.sees(centre, radius)});
+    drawn.push_back(actor.get());
+  }
+  DetailChoice choice = chooseDetail(candidates, limits);
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    drawn[i]->setLevel(choice.levels[i]);
+  return choice;
+}
+
+bool SceneRenderer::hasTranslucent() const {
+  return std::ranges::any_of(
+      actors_, [](const auto& entry) { return entry.second->isVisible() && !entry.second->isOpaque(); });
+}
+
+std::vector<vtkProp*> SceneRenderer::keep() {
+  std::vector<vtkProp*> props;
+  beingKept_.clear();
+  for (const auto& [id, actor] : actors_) {
+    if (!actor->isVisible() || !actor->isOpaque() || loose_.contains(id)) continue;
+    actor->addTo(props);
+    beingKept_.push_back(actor.get());
+  }
+  return props;
+}
+
+void SceneRenderer::prepareKept() {
+  for (PartActor* actor : beingKept_)
+    actor->setLevel(0);
+}
+
+void SceneRenderer::showKept() {
+  for (PartActor* actor : beingKept_)
+    actor->setKept(true);
+}
+
+void SceneRenderer::letGoOfKept() {
+  for (PartActor* actor : beingKept_)
+    actor->setKept(false);
+  beingKept_.clear();
+}
+
+std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y) {
+  updateCut();
+  const Ray whole{worldOf(renderer_, x, y, 0.0), worldOf(renderer_, x, y, 1.0)};
+  std::optional<PickedPoint> picked;
+  Hit hit;
+  if (const auto through = cut_.cut() ? throughPlane(whole, cut_.cut()->plane) : std::nullopt) {
+    picked = capAt(whole.at(*through));
+    if (picked) hit.fraction = *through;
+  }
+  vtkNew<vtkGenericCell> cell;
+  for (const auto& [id, actor] : actors_) {
+    const Part* part = scene_.find(id);
+    if (part == nullptr || !actor->isVisible()) continue;
+    const auto seen = actor->mappers().isCut() ? behind(whole, planeOf(*cut_.plane())) : std::optional(whole);
+    if (!seen) continue;
+    const RigidTransform worldFromPart = shownPose(*part), partFromWorld = worldFromPart.inverse();
+    const Ray ray{partFromWorld.applyToPoint(seen->begin), partFromWorld.applyToPoint(seen->end), seen->from,
+                  seen->to};
+    if (hitFirst(actor->shape(), ray, *cell, hit))
+      picked = PickedPoint{id, worldFromPart.applyToPoint(hit.point), hit.triangle, nullptr};
+  }
+  return picked;
+}
+
+std::vector<PartId> SceneRenderer::seenIn(const ViewProjection& view, const PixelBox& pixels) const {
+  std::vector<ShownPart> shown;
+  for (const Scene::PartPtr& part : scene_.parts()) {
+    const PartActor* actor = find(part->id);
+    if (actor == nullptr || !actor->isVisible()) continue;
+    const bool isCut = cut_.cuts(scene_.movingPart() == part->id);
+    shown.push_back({{part.get(), shownPose(*part)}, actor->isOpaque(), isCut});
+  }
+  return partsSeenIn(shown, view, pixels, cut_.cut() ? std::optional(cut_.cut()->plane) : std::nullopt);
+}
+
+std::optional<PickedPoint> SceneRenderer::capAt(const glm::dvec3& point) const {
+  for (const auto& [id, cap] : cut_.caps()) {
+    const RigidTransform partFromWorld = shownPose(*scene_.find(id)).inverse();
+    if (isOnCap(*cap->section(), partFromWorld.applyToVector(cut_.cut()->plane.normal),
+                partFromWorld.applyToPoint(point)))
+      return PickedPoint{id, point, 0, cap->section()};
+  }
+  return std::nullopt;
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include <vtkRenderer.h>
+
+#include "core/scene/scene.h"
+#include "core/servo/servo_snapshot.h"
+#include "ui/view3d/glyphs/contact_glyphs.h"
+#include "ui/view3d/glyphs/hand_ghost.h"
+#include "ui/view3d/glyphs/lmd_overlay.h"
+#include "ui/view3d/glyphs/wrench_arrows.h"
+
+namespace nearfit::ui {
+
+class ColourLegend;
+
+/// Draws a servo snapshot beside its parts: minima, contacts, force and torque, the hand's ghost, and the
+/// legend with their numbers.
+class SnapshotGlyphs {
+ public:
+  /// @param parts    Draws the ghost's copy of the part; outlives this.
+  /// @param overlay  Draws all other glyphs over the parts; outlives this.
+  /// @param view     Gets the legend in its lower left corner; outlives this.
+  SnapshotGlyphs(vtkRenderer& parts, vtkRenderer& overlay, QWidget& view);
+
+  /// Shows the glyphs of a snapshot.
+  /// @param cutoff  Distance at the end of the colour scale [m]; > 0.
+  /// @param moving  The part in hand; null if there is none.
+  void show(const ServoSnapshot& snapshot, double cutoff, const Part* moving);
+  /// Shows the legend with the snapshot's numbers. Call just before the glyphs are drawn, or the numbers
+  /// would be ahead of them.
+  void showNumbers(const ServoSnapshot& snapshot);
+  void clear();
+  /// Sets the legend's cutoff to the scene's [m], before any snapshot.
+  void setCutoff(double cutoff);
+  /// Moves the legend into its corner; call after the view was resized.
+  void placeLegend();
+
+  HandGhost& hand() noexcept { return hand_; }
+  LmdOverlay& minima() noexcept { return minima_; }
+  ContactGlyphs& contacts() noexcept { return contacts_; }
+  WrenchArrows& arrows() noexcept { return arrows_; }
+
+ private:
+  QWidget& view_;
+  HandGhost hand_;
+  LmdOverlay minima_;
+  ContactGlyphs contacts_;
+  WrenchArrows arrows_;
+  ColourLegend* legend_;
+};
+
+}  // namespace nearfit::ui

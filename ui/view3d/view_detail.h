@@ -1,0 +1,92 @@
+#pragma once
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QTimer>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "ui/view3d/drawing/caching_renderer.h"
+#include "ui/view3d/parts/scene_renderer.h"
+
+namespace nearfit::ui {
+
+/// How much of the parts a picture shows.
+struct PictureDetail {
+  std::size_t triangles = 0;  ///< Triangles and lines drawn for it, without the kept picture.
+  bool isKept = false;        ///< Resting parts come from the kept picture.
+  bool isFull = true;         ///< Nothing was left out for speed.
+};
+
+/// Keeps pictures fast while something moves, and completes them at rest. Where there is too much to draw,
+/// moving parts are drawn coarsely. Once the camera stands still, all resting opaque parts are drawn in full,
+/// a little at a time between events, into a kept picture (CachingRenderer).
+class ViewDetail : public QObject {
+  Q_OBJECT
+
+ public:
+  /// @param renderer, parts  Outlive this.
+  /// @param overlay          Drawn over the parts; outlives this.
+  ViewDetail(CachingRenderer& renderer, vtkRenderer& overlay, SceneRenderer& parts,
+             QObject* parent = nullptr);
+
+  /// Call just before and just after each picture.
+  void beforePicture();
+  void afterPicture();
+  const PictureDetail& detail() const noexcept { return detail_; }
+  /// True if the last picture is final: no fuller one will follow by itself.
+  bool isSettled() const;
+  /// True if the clipping range must not change, as a kept picture depends on it.
+  bool holdsDepths() const noexcept { return isKeeping_ || renderer_.hasKept(); }
+
+  /// Fixes the max number of triangles while something moves; without this call it adapts
+  /// to the machine's speed.
+  void setBudget(std::size_t triangles);
+  /// Prepares a full next picture, however long that takes. Does nothing if the last picture was full.
+  void complete();
+  /// The same, even if the last picture was full.
+  void completeAnew();
+  /// Draws the next picture as at rest: smoothed, and with the larger budget if nothing else moves.
+  void drawFullNext() { isAtRest_ = true; }
+  /// Discards the kept picture, which is no longer right.
+  void drop();
+
+ signals:
+  /// Emitted when a fuller picture can be drawn.
+  void pictureWanted();
+  /// Emitted before the clipping range is kept: set one with room for what moves.
+  void depthsNeeded();
+
+ private:
+  using Key = std::array<double, 16>;  ///< Everything that a kept picture depends on.
+
+  Key key() const;
+  /// The camera stands still: starts a kept picture of the resting parts.
+  void beginKeeping();
+  /// Draws on the kept picture for one turn.
+  void keepMore();
+  /// Nothing has moved for a while.
+  void rest();
+  void smooth(bool isSmooth);
+  void adaptBudget();
+
+  CachingRenderer& renderer_;
+  vtkRenderer& overlay_;
+  SceneRenderer& parts_;
+  QTimer still_, resting_, next_;
+  QElapsedTimer picture_;
+  PictureDetail detail_;
+  std::optional<Key> key_, keptKey_;
+  std::vector<vtkProp*> toKeep_;
+  std::size_t kept_ = 0;  ///< Number of toKeep_ drawn.
+  bool isKeeping_ = false;
+  bool isAtRest_ = false;  ///< The next picture is to be full.
+  bool isFinal_ = true;    ///< No fuller picture follows the one being drawn.
+  bool isLimited_ = false;
+  bool isBudgetFixed_ = false;
+  std::size_t budget_;
+};
+
+}  // namespace nearfit::ui

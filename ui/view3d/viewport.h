@@ -1,0 +1,165 @@
+#pragma once
+
+#include <QPoint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkBoundingBox.h>
+#include <vtkCameraOrientationWidget.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+
+#include "core/placing/view_projection.h"
+#include "core/scene/scene.h"
+#include "core/servo/servo_tick.h"
+#include "ui/view3d/camera/camera_views.h"
+#include "ui/view3d/drawing/caching_renderer.h"
+#include "ui/view3d/glyphs/minima_choice.h"
+#include "ui/view3d/parts/scene_renderer.h"
+
+namespace nearfit::ui {
+
+class HandDrag;
+class PicturePace;
+class Selection;
+class SnapshotGlyphs;
+class ViewDetail;
+class ViewPicture;
+
+/// The 3-D view: the scene's parts, and over them the newest servo snapshot. Draws only after a change.
+///
+/// Left drag or Ctrl+middle drag orbits, middle drag pans, wheel or right drag zooms. A click selects; with
+/// Ctrl it adds or removes, with Shift it adds. BoxSelect draws rectangles on the view.
+class Viewport : public QVTKOpenGLNativeWidget {
+  Q_OBJECT
+
+ public:
+  /// @param selection  Outlives this.
+  Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection, QWidget* parent = nullptr);
+  ~Viewport() override;
+
+  /// Sets the OpenGL surface format of all windows. Call before constructing the QApplication.
+  static void setDefaultSurfaceFormat();
+
+  /// Shows a scene; turns to the isometric view if none of its parts has been shown before.
+  void setScene(const Scene& scene);
+  /// Shows the part in hand, the hand's ghost, minima, contacts, wrench and overlapping parts. Draws nothing
+  /// if none of these changed.
+  void showSnapshot(const ServoSnapshot& snapshot);
+  /// Removes the snapshot and shows the scene alone.
+  void clearSnapshot();
+
+  /// See SceneRenderer::setDragged().
+  void setDragged(std::map<PartId, RigidTransform> worldFromPart);
+  /// Returns where a part is shown now (worldFromPart); nullopt if it is not in the scene.
+  std::optional<RigidTransform> shownPose(PartId part) const;
+  /// Returns how the view projects the world now, in the widget's device-independent pixels.
+  ViewProjection projection() const;
+  /// Returns the bounds of all visible parts, uncut, in the world [m]; empty if there are none.
+  Aabb visibleBounds() const;
+  /// Cuts the parts open; nullopt: they are whole.
+  void setCut(const std::optional<ViewCut>& cut);
+  /// Parts that are cut but cannot be closed, as of the last picture.
+  const std::vector<PartId>& openlyCut() const noexcept { return parts_.openlyCut(); }
+  /// Returns what is seen at a pixel of the widget; nullopt over the background.
+  std::optional<PickedPoint> pointAt(const QPoint& position);
+  /// Returns the parts seen somewhere in a rectangle of the widget, in the scene's order.
+  std::vector<PartId> partsIn(const QRect& place) const;
+  /// Selects as a click at that pixel does.
+  void pickAt(const QPoint& position, Qt::KeyboardModifiers modifiers);
+
+  /// Gives clicks to a tool: other tools that take clicks stop, at clicksTaken().
+  void takeClicks(QObject* tool) { emit clicksTaken(tool); }
+
+  /// Renderer drawn over the scene, for tools to add actors; call requestRender() after a change.
+  vtkRenderer& overlay() noexcept { return *overlay_.Get(); }
+  vtkCamera* camera() { return renderer_->GetActiveCamera(); }
+  /// Requests a picture; several requests until it is due are answered by one.
+  void requestRender();
+
+  /// The mouse as the manual hand.
+  HandDrag& handDrag() noexcept { return *handDrag_; }
+
+  /// Fits all visible parts into the view.
+  void fit();
+  /// Fits these parts into the view, with some room around them.
+  void fitParts(const std::vector<PartId>& parts);
+  /// Turns to a standard view and fits all visible parts.
+  void setView(StandardView view);
+  void setSeeThrough(bool isSeeThrough);
+  void setEdgesVisible(bool isVisible);
+  void setMinimaVisible(bool isVisible);
+  void setMinimaChoice(const MinimaChoice& choice);
+  void setContactsVisible(bool isVisible);
+  void setHandVisible(bool isVisible);
+  void setWrenchVisible(bool isVisible);
+
+  /// How much of the parts the last picture shows, and the limits while something moves.
+  ViewDetail& detail() noexcept { return *detail_; }
+  SceneRenderer& parts() noexcept { return parts_; }
+  /// Draws a picture in full detail, however long that takes; for screenshots.
+  void completePicture();
+  /// Exports pictures of the view.
+  ViewPicture& pictures() noexcept { return *pictures_; }
+
+  /// Number of pictures drawn so far; tests use it to check that an idle view stays idle.
+  int pictureCount() const noexcept { return pictureCount_; }
+
+ signals:
+  /// Emitted after each picture, requested here or elsewhere.
+  void drawn();
+  /// Emitted when parts came, left or are shown elsewhere. Tools that follow parts update
+  /// before the next picture.
+  void posesChanged();
+  /// Emitted when `tool` takes the clicks; see takeClicks().
+  void clicksTaken(QObject* tool);
+  /// Emitted for an arrow or page key: a step of the current part along one world axis; each
+  /// component is -1, 0 or 1.
+  void nudged(int x, int y, int z);
+  /// The same with Shift: a turn about that axis.
+  void turned(int x, int y, int z);
+
+ protected:
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
+  void paintGL() override;
+
+ private:
+  void setUpRenderers();
+  void setUpInteraction();
+  void prepareRender();
+  void adjustClipping();
+  /// Bounds of everything that the next picture shows, in the world [m].
+  vtkBoundingBox drawnBounds();
+  void countPicture();
+  void showMovingPart();
+  void showSelection();
+
+  vtkNew<vtkGenericOpenGLRenderWindow> window_;
+  vtkNew<CachingRenderer> renderer_;
+  vtkNew<BlendingRenderer> overlay_;
+  vtkNew<vtkCameraOrientationWidget> marker_;
+  std::shared_ptr<PartShapeCache> shapes_;
+  Selection& selection_;
+  SceneRenderer parts_;
+  std::unique_ptr<ViewDetail> detail_;
+  std::unique_ptr<SnapshotGlyphs> glyphs_;
+  std::unique_ptr<PicturePace> pace_;
+  std::unique_ptr<ViewPicture> pictures_;
+  HandDrag* handDrag_;
+  std::unique_ptr<ServoSnapshot> shown_;
+  bool hasNewNumbers_ = false;  ///< shown_ has not been drawn yet.
+  Scene scene_;
+  std::set<PartId> known_;  ///< Parts shown so far, including ones that have left.
+  QPoint pressedAt_;
+  int pictureCount_ = 0;
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,97 @@
+#include "ui/widgets/format.h"
+
+#include <QLocale>
+#include <algorithm>
+#include <cmath>
+
+namespace nearfit::ui {
+namespace {
+
+constexpr QChar kMicro(0xB5);
+constexpr QChar kDot(0xB7);
+
+/// Three figures or more from 1 up, two decimals below; no exponent.
+QString figures(double value) {
+  const double magnitude = std::abs(value);
+  const int decimals = magnitude < 9.995 ? 2 : magnitude < 99.95 ? 1 : 0;
+  return formatFixed(value, decimals);
+}
+
+/// Three figures below one too: 0.0484.
+QString threeFigures(double value) {
+  const double magnitude = std::abs(value);
+  if (magnitude == 0.0 || magnitude >= 0.9995) return figures(value);
+  const int zeros = static_cast<int>(std::floor(-std::log10(magnitude)));
+  return formatFixed(value, zeros + 3);
+}
+
+}  // namespace
+
+QString formatFixed(double value, int decimals) {
+  QLocale locale;
+  locale.setNumberOptions(QLocale::OmitGroupSeparator);
+  return locale.toString(value, 'f', decimals);
+}
+
+QString formatLength(double metres) {
+  return formatLength(metres, shownLengthUnit());
+}
+
+QString formatLength(double metres, LengthUnit unit) {
+  constexpr double kMicrons = 1e6;
+  if (!std::isfinite(metres)) return QStringLiteral("–");
+  const double magnitude = std::abs(metres);
+  if (unit == LengthUnit::Millimetre && magnitude >= 1.0) return figures(metres) + QStringLiteral(" m");
+  const double number = metres / metresOf(unit);
+  const bool isInch = unit == LengthUnit::Inch;
+  // Short: below 0.1 mm, or 0.001 in.
+  const bool isShort = isInch ? std::abs(number) < 1e-3 : magnitude < 1e-4;
+  if (isShort && magnitude > 0.0) {
+    return figures(kMicrons * (isInch ? number : metres)) + QChar(' ') + kMicro +
+           QLatin1String(isInch ? "in" : "m");
+  }
+  const QString text = unit == LengthUnit::Millimetre ? figures(number) : threeFigures(number);
+  return text + QChar(' ') + symbolOf(unit);
+}
+
+QString formatForce(double newtons) {
+  return figures(newtons) + QStringLiteral(" N");
+}
+
+QString formatTorque(double newtonMetres) {
+  const bool isSmall = std::abs(newtonMetres) < 1.0;
+  const QString number = figures(isSmall ? newtonMetres * 1e3 : newtonMetres);
+  return number + (isSmall ? QStringLiteral(" mN") : QStringLiteral(" N")) + kDot + QChar('m');
+}
+
+QString formatEnergy(double joules) {
+  if (std::abs(joules) >= 1.0) return figures(joules) + QStringLiteral(" J");
+  if (std::abs(joules) >= 1e-3 || joules == 0.0) return figures(joules * 1e3) + QStringLiteral(" mJ");
+  return figures(joules * 1e6) + QChar(' ') + kMicro + QChar('J');
+}
+
+QString formatMass(double kilograms) {
+  if (kilograms >= 1.0) return figures(kilograms) + QStringLiteral(" kg");
+  if (kilograms >= 1e-3) return figures(kilograms * 1e3) + QStringLiteral(" g");
+  return figures(kilograms * 1e6) + QStringLiteral(" mg");
+}
+
+QString formatNumber(double value) {
+  constexpr int kFigures = 4, kMaxDecimals = 12;
+  if (!std::isfinite(value)) return QStringLiteral("–");
+  if (value == 0.0) return QStringLiteral("0");
+  const int before = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  int decimals = std::clamp(kFigures - before, 0, kMaxDecimals);
+  const QString digits = QString::number(value, 'f', decimals);
+  for (int last = digits.size() - 1; decimals > 0 && digits[last] == QChar('0'); --last)
+    --decimals;
+  return formatFixed(value, decimals);
+}
+
+QString formatDuration(double seconds) {
+  if (std::abs(seconds) >= 1.0) return figures(seconds) + QStringLiteral(" s");
+  if (std::abs(seconds) >= 1e-3) return figures(seconds * 1e3) + QStringLiteral(" ms");
+  return figures(seconds * 1e6) + QChar(' ') + kMicro + QChar('s');
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <QString>
+
+#include "ui/widgets/length_unit.h"
+
+namespace nearfit::ui {
+
+// Text for people: decimals as in the user's locale, as in number fields, and no thousands separators.
+// Exported files have a decimal point instead.
+
+/// Formats with that many decimals.
+QString formatFixed(double value, int decimals);
+/// Formats a length in the unit that the user chose (shownLengthUnit()): "12.3 mm", three figures or more.
+/// Millimetres become "1.20 m" from 1 m up. Short lengths have a unit of their own: "85.0 µm" below 0.1 mm,
+/// "850 µin" below 0.001 in. Returns a dash if not finite.
+QString formatLength(double metres);
+QString formatLength(double metres, LengthUnit unit);
+/// Formats a force [N]: "3.42 N".
+QString formatForce(double newtons);
+/// Formats a torque [N m]: "12.3 mN·m", "1.20 N·m".
+QString formatTorque(double newtonMetres);
+/// Formats a mass [kg]: "1.23 kg", "45.6 g", "0.50 mg".
+QString formatMass(double kilograms);
+/// Formats at most four figures, without exponent or trailing zeros: "1600", "0.2", "0.00005". Digits before
+/// the point are all kept. Returns a dash if not finite.
+QString formatNumber(double value);
+/// Formats an energy [J]: "1.23 mJ", "45.6 µJ".
+QString formatEnergy(double joules);
+/// Formats a duration [s]: "12.0 µs", "1.30 ms".
+QString formatDuration(double seconds);
+
+}  // namespace nearfit::ui

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <QByteArray>
+#include <QString>
+
+#include "core/haptics/rate_settings.h"
+#include "ui/widgets/length_unit.h"
+
+namespace nearfit::ui {
+
+/// Settings that the program keeps for a user between runs (QSettings); nothing that belongs to a scene.
+class Preferences {
+ public:
+  /// Metres per unit of the mesh files added last; 1e-3 (millimetres) at first.
+  static double metresPerUnit();
+  static void setMetresPerUnit(double metresPerUnit);
+
+  /// Folder of the file chosen last; the user's documents folder, or home, at first or
+  /// if it no longer exists.
+  static QString lastFolder();
+  /// Remembers the folder of `file`.
+  static void rememberFolderOf(const QString& file);
+
+  /// How a space mouse drives; the defaults at first, or if the stored settings are out of range.
+  static RateSettings rate();
+  static void setRate(const RateSettings& settings);
+
+  /// Unit of the lengths shown; millimetres at first.
+  static LengthUnit lengthUnit();
+  static void setLengthUnit(LengthUnit unit);
+
+  /// Returns true the first time the program runs for this user, and false from then on.
+  static bool takeFirstRun();
+
+  /// As QWidget::saveGeometry() gives it; empty at first.
+  static QByteArray windowGeometry();
+  static void setWindowGeometry(const QByteArray& geometry);
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,48 @@
+#include "ui/widgets/progress_dialog.h"
+
+#include <QDialogButtonBox>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include "ui/widgets/names.h"
+
+namespace nearfit::ui {
+namespace {
+
+/// Shorter work shows no dialog, which would only flash [ms].
+constexpr int kPatience = 300;
+constexpr int kSteps = 1000;
+
+}  // namespace
+
+ProgressDialog::ProgressDialog(const QString& text, QWidget* parent)
+    : QDialog(parent), bar_(new QProgressBar(this)) {
+  setObjectName(QStringLiteral("progressDialog"));
+  setWindowTitle(tr("Loading"));
+  setWindowModality(Qt::WindowModal);
+  setMinimumWidth(380);
+  bar_->setRange(0, kSteps);
+  bar_->setAccessibleName(tr("Progress"));
+  auto* label = new QLabel(breakable(text), this);
+  label->setWordWrap(true);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+  connect(buttons, &QDialogButtonBox::rejected, this, &ProgressDialog::reject);
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(label);
+  layout->addWidget(bar_);
+  layout->addWidget(buttons);
+  QTimer::singleShot(kPatience, this, &QWidget::show);
+}
+
+void ProgressDialog::setFraction(double fraction) {
+  bar_->setValue(static_cast<int>(fraction * kSteps));
+}
+
+void ProgressDialog::reject() {
+  emit cancelled();
+}
+
+}  // namespace nearfit::ui

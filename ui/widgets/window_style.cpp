@@ -1,0 +1,94 @@
+#include "ui/widgets/window_style.h"
+
+#include <QHash>
+#include <QPair>
+#include <QStyleFactory>
+#include <QStyleOption>
+
+#include "ui/widgets/theme.h"
+
+namespace nearfit::ui {
+namespace {
+
+/// Colours that Fusion derives frames from in the dark theme: of check boxes and radio
+/// buttons, and of fields.
+constexpr QRgb kFrameInDark = 0xffb4c0cc, kFieldFrameInDark = 0xff7d8995;
+
+/// Returns a palette with another colour for frames. Equal arguments give the same palette, as Fusion
+/// caches pixmaps by its key.
+QPalette framed(const QPalette& own, QRgb frame) {
+  constexpr int kMax = 64;
+  static QHash<QPair<qint64, QRgb>, QPalette> known;
+  if (known.size() >= kMax) known.clear();
+  QPalette& palette = known[{own.cacheKey(), frame}];
+  if (palette.color(QPalette::Window) != QColor(frame)) {
+    palette = own;
+    palette.setColor(QPalette::Window, QColor(frame));
+  }
+  return palette;
+}
+
+template <class Option>
+bool takesFrom(const QStyleOption* option, Option& out, QRgb frame = kFrameInDark) {
+  const Option* own = qstyleoption_cast<const Option*>(option);
+  if (own == nullptr) return false;
+  out = *own;
+  out.palette = framed(own->palette, frame);
+  return true;
+}
+
+}  // namespace
+
+WindowStyle::WindowStyle() : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusion"))) {}
+
+void WindowStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                                const QWidget* widget) const {
+  QStyleOptionButton button;
+  QStyleOptionViewItem item;
+  QStyleOptionFrame field;
+  const bool isButton = element == PE_IndicatorCheckBox || element == PE_IndicatorRadioButton;
+  if (isThemeDark() && isButton && takesFrom(option, button)) {
+    QProxyStyle::drawPrimitive(element, &button, painter, widget);
+  } else if (isThemeDark() && element == PE_IndicatorItemViewItemCheck && takesFrom(option, item)) {
+    QProxyStyle::drawPrimitive(element, &item, painter, widget);
+  } else if (isThemeDark() && element == PE_FrameLineEdit && takesFrom(option, field, kFieldFrameInDark)) {
+    QProxyStyle::drawPrimitive(element, &field, painter, widget);
+  } else {
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+  }
+}
+
+void WindowStyle::drawComplexControl(ComplexControl control, const QStyleOptionComplex* option,
+                                     QPainter* painter, const QWidget* widget) const {
+  QStyleOptionSpinBox field;
+  const bool isField = isThemeDark() && control == CC_SpinBox && takesFrom(option, field, kFieldFrameInDark);
+  QProxyStyle::drawComplexControl(control, isField ? &field : option, painter, widget);
+}
+
+void WindowStyle::drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
+                              const QWidget* widget) const {
+  const auto* box = qstyleoption_cast<const QStyleOptionComboBox*>(option);
+  if (element != CE_ComboBoxLabel || box == nullptr || box->editable)
+    return QProxyStyle::drawControl(element, option, painter, widget);
+  // Fusion clips long text without an ellipsis.
+  QStyleOptionComboBox elided = *box;
+  const QRect room = subControlRect(CC_ComboBox, box, SC_ComboBoxEditField, widget);
+  const int icon = box->currentIcon.isNull() ? 0 : box->iconSize.width() + 4;
+  elided.currentText =
+      box->fontMetrics.elidedText(box->currentText, Qt::ElideMiddle, room.width() - icon - 2);
+  QProxyStyle::drawControl(element, &elided, painter, widget);
+}
+
+QIcon WindowStyle::standardIcon(StandardPixmap which, const QStyleOption* option,
+                                const QWidget* widget) const {
+  // Fusion's is black in both themes.
+  return which == SP_ToolBarHorizontalExtensionButton ? icon(QStringLiteral("more"))
+                                                      : QProxyStyle::standardIcon(which, option, widget);
+}
+
+int WindowStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const {
+  constexpr int kMoreTools = 26;
+  return metric == PM_ToolBarExtensionExtent ? kMoreTools : QProxyStyle::pixelMetric(metric, option, widget);
+}
+
+}  // namespace nearfit::ui
