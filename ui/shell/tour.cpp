@@ -121,7 +121,7 @@ bool Tour::eventFilter(QObject* watched, QEvent* event) {
 void Tour::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Escape) return end();
   if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter)
-    return leave_->hasFocus() ? end() : next();
+    return focusWidget() == leave_ ? end() : next();
   QFrame::keyPressEvent(event);
 }
 

@@ -145,10 +145,10 @@ void DesktopProxyTest::scriptedHandPressesAndSlides() {
   d.addCubes();
   Watch watch(d);
   start(d, ui::Hand::Scripted);
-  // A sweep takes 4 s.
+  // A sweep takes 4 s; on a loaded machine the window hears of too few ticks of one.
   QTRY_VERIFY(watch.newest.tick > 3900);
-  QVERIFY2(watch.most > 1.0, "it presses well");
-  QVERIFY2(watch.highest - watch.lowest > 1e-3, "it slides along contact");
+  QTRY_VERIFY2(watch.most > 1.0, "it presses well");
+  QTRY_VERIFY2(watch.highest - watch.lowest > 1e-3, "it slides along contact");
   QVERIFY2(watch.least > 0.25 * kMargin, qPrintable(QString::number(watch.least)));
   pressShortcut(d, Qt::Key_F6);
 }
