@@ -10,8 +10,7 @@ constexpr std::size_t kStlHeaderBytes = 84, kStlFacetBytes = 50;
 /// Number of facets according to the header of a binary STL file. `bytes` has at least kStlHeaderBytes.
 std::uint32_t stlFacetCount(std::span<const char> bytes);
 
-/// Reads the facets of a binary STL file, through OpenMesh. Corners with equal coordinates share a vertex.
-/// Throws FileError, Cancelled.
+/// Reads the facets of a binary STL file, each with three vertices of its own; MeshBuilder welds them. Throws FileError, Cancelled.
 ReaderResult readStlBinary(const ReaderInput& input);
 
 }  // namespace nearfit

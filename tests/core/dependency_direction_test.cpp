@@ -1,6 +1,9 @@
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -73,6 +76,91 @@ TEST(DependencyDirection, ForeignGeometryStaysInSourceFiles) {
   expectNoInclude("core", "^muParser", ".h");
   for (const char* folder : {"app", "device", "ui"})
     expectNoInclude(folder, "^(OpenMesh/|CGAL/|openssl/|muParser)");
+}
+
+using Folders = std::set<std::string>;
+
+/// A row of the tables of folders in architecture.md.
+struct FolderRow {
+  std::string folder;
+  Folders includes;  ///< Whole paths, of the same library.
+};
+
+/// Reads the rows "| `folder` | includes | what it holds |", where "includes" lists folders of the same library without
+/// its name, separated by spaces; a dash stands for none.
+std::vector<FolderRow> foldersOfThePage() {
+  static const std::regex kRow(R"(^\| `((core|device|ui)/[a-z0-9_/]+)` \| ([^|]*) \|.*)");
+  std::ifstream page(fs::path(NEARFIT_SOURCE_DIR) / "resources" / "docs" / "architecture.md");
+  std::vector<FolderRow> rows;
+  for (std::string line; std::getline(page, line);) {
+    std::smatch match;
+    if (!std::regex_match(line, match, kRow)) continue;
+    FolderRow row{match[1], {}};
+    std::istringstream names(match[3]);
+    for (std::string name; names >> name;)
+      if (name != "-") row.includes.insert(match[2].str() + "/" + name);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Which folders of its own library each folder includes.
+std::map<std::string, Folders> foldersOfTheCode() {
+  std::map<std::string, Folders> folders;
+  for (const std::string library : {"core", "device", "ui"}) {
+    for (const Include& i : includesBelow(library)) {
+      const std::string from = fs::relative(i.file.parent_path(), NEARFIT_SOURCE_DIR).generic_string();
+      Folders& includes = folders[from];
+      const std::string to = fs::path(i.target).parent_path().generic_string();
+      if (i.target.starts_with(library + "/") && to != from) includes.insert(to);
+    }
+  }
+  return folders;
+}
+
+TEST(DependencyDirection, FoldersIncludeWhatTheArchitecturePageSays) {
+  std::map<std::string, Folders> page;
+  for (const FolderRow& row : foldersOfThePage())
+    EXPECT_TRUE(page.emplace(row.folder, row.includes).second) << row.folder << " has two rows";
+  const std::map<std::string, Folders> code = foldersOfTheCode();
+  EXPECT_GT(code.size(), 40U);
+  for (const auto& [folder, includes] : code) {
+    const auto row = page.find(folder);
+    if (row == page.end()) {
+      ADD_FAILURE() << folder << " has no row in resources/docs/architecture.md";
+      continue;
+    }
+    for (const std::string& other : includes)
+      EXPECT_TRUE(row->second.contains(other)) << folder << " includes " << other << "; its row does not";
+    for (const std::string& other : row->second)
+      EXPECT_TRUE(includes.contains(other)) << folder << " does not include " << other << "; its row does";
+  }
+  for (const auto& row : page)
+    EXPECT_TRUE(code.contains(row.first)) << row.first << " has a row but no sources";
+}
+
+TEST(DependencyDirection, AFolderIncludesOnlyThoseInRowsAboveItsOwn) {
+  Folders above;
+  for (const FolderRow& row : foldersOfThePage()) {
+    for (const std::string& other : row.includes)
+      EXPECT_TRUE(above.contains(other)) << row.folder << " includes " << other << ", which is not above it";
+    above.insert(row.folder);
+  }
+}
+
+TEST(DependencyDirection, PanelsToolsAndFilesOfTheWindowDoNotMeet) {
+  const std::vector<std::string> layers{"ui/panels", "ui/tools", "ui/files"};
+  const auto layerOf = [&](const std::string& folder) -> std::string {
+    for (const std::string& layer : layers)
+      if (folder == layer || folder.starts_with(layer + "/")) return layer;
+    return {};
+  };
+  for (const auto& [folder, includes] : foldersOfTheCode()) {
+    if (layerOf(folder).empty()) continue;
+    for (const std::string& other : includes)
+      EXPECT_TRUE(layerOf(other).empty() || layerOf(other) == layerOf(folder))
+          << folder << " includes " << other;
+  }
 }
 
 TEST(DependencyDirection, IncludesOfOursAreRooted) {
