@@ -114,10 +114,7 @@ void SolidMove::findStartDistance() {
 /// Runs one tick. True if the proxy waits for missing information.
 bool SolidMove::tick(const RigidTransform& target, double turnScale) {
   const ProxyAccount& last = proxy_->account();
-  tracker_.observe(pose_, 1.0);
-  tracker_.observeHand(target, 1.0);
-  tracker_.setWaiting(last.isWaiting);
-  tracker_.setStarved(last.isStarved);
+  tracker_.update({pose_, target, last.isWaiting, last.isStarved}, 1.0);
   if (tracker_.isDue(reach_)) tracker_.refresh(reach_, tracked_);
   proxy_->follow(tracked_, target, settings_, turnScale);
   pose_ = proxy_->pose();
