@@ -4,22 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "core/base/error.h"
 #include "core/mesh/mass_properties.h"
 
 namespace nearfit {
 namespace {
-
-const Part& partOf(const Scene& scene, PartId id) {
-  const Part* part = scene.find(id);
-  if (part == nullptr) {
-    throw UsageError(fmt::format("part {}", static_cast<std::uint32_t>(id)), "the scene has no such part",
-                     "choose one that is in the scene");
-  }
-  return *part;
-}
 
 /// Merges the meshes, in the frame of `worldFromAll`. Where meshes cross, the result has no inside, and
 /// contact counts from either side.
@@ -44,10 +33,10 @@ PartGeometryPtr joined(std::span<const Part* const> parts, const RigidTransform&
 
 std::shared_ptr<const ServoScene> makePlacingScene(const Scene& scene, std::span<const PartId> moved,
                                                    const ProgressCallback& progress) {
-  const Part& first = partOf(scene, moved.front());
+  const Part& first = scene.get(moved.front());
   std::vector<const Part*> felt;
   for (const PartId id : moved) {
-    const Part& part = partOf(scene, id);
+    const Part& part = scene.get(id);
     if (part.isVisible && part.geometry != nullptr) felt.push_back(&part);
   }
   auto result = std::make_shared<ServoScene>();
