@@ -141,10 +141,10 @@ PlaceResult placeFast(PlaceJob job) {
   while (!InterruptGuard::isInterrupted() && device.readHandle(handle)) {
     // There is no search thread: what is due is searched before the tick, around the part. With springs the
     // part is where the hand wants it, and nothing is late.
-    tracker.observe(isProxy ? result.end : handle.pose, 1.0);
-    if (result.ticks > 0) tracker.observeHand(snapshot->handle, 1.0);
-    tracker.setWaiting(snapshot->isWaiting);
-    tracker.setStarved(snapshot->isStarved);
+    TickObservation observation = observationOf(*snapshot);
+    observation.worldFromPart = isProxy ? result.end : handle.pose;
+    if (result.ticks == 0) observation.worldFromHand.reset();
+    tracker.update(observation, 1.0);
     if (result.ticks == 0 || tracker.isDue(reach)) {
       const Clock::time_point begin = Clock::now();
       tracker.refresh(reach, tracked);

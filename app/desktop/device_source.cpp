@@ -2,10 +2,10 @@
 
 #include <QObject>
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 
+#include "core/files/user_folders.h"
 #include "device/registry/device_list.h"
 
 namespace nearfit::desktop {
@@ -45,12 +45,8 @@ ui::DeviceChoice noticeOf(const std::string& problem) {
 /// Returns the files in ~/.config/nearfit that exist under their usual names.
 DeviceFiles userFiles() {
   DeviceFiles files;
-  const char* home = std::getenv("HOME");
-  const char* config = std::getenv("XDG_CONFIG_HOME");
-  if (home == nullptr && config == nullptr) return files;
-  const std::filesystem::path folder =
-      (config != nullptr ? std::filesystem::path(config) : std::filesystem::path(home) / ".config") /
-      "nearfit";
+  const std::filesystem::path folder = userFolder(UserFiles::Config);
+  if (folder.empty()) return files;
   std::error_code ignored;
   const auto existing = [&](const char* name) {
     const std::filesystem::path file = folder / name;

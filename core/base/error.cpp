@@ -19,4 +19,14 @@ Error::Error(std::string where, std::string problem, std::string remedy)
       problem_(std::move(problem)),
       remedy_(std::move(remedy)) {}
 
+bool isCancelled(const std::exception_ptr& error) {
+  try {
+    if (error) std::rethrow_exception(error);
+  } catch (const Cancelled&) {
+    return true;
+  } catch (...) {
+  }
+  return false;
+}
+
 }  // namespace nearfit

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -40,5 +41,8 @@ class Cancelled : public Error {
  public:
   Cancelled() : Error("", "cancelled") {}
 };
+
+/// True if `error` is Cancelled; false if null.
+bool isCancelled(const std::exception_ptr& error);
 
 }  // namespace nearfit

@@ -30,7 +30,7 @@ struct NormalSpanFeatures {
   std::vector<glm::dvec3> walls;
 };
 
-/// Finds the features for the normal-span rule. For measurements only.
+/// Finds the features for the normal-span rule. Only `nearfit-cli lmd --rule normal-span` and benchmarks use it.
 /// @param onProgress  Called now and then with the fraction done; may throw to stop the work. May be empty.
 NormalSpanFeatures findNormalSpanFeatures(const TriangleMesh& mesh,
                                           const std::function<void(double fraction)>& onProgress = {});

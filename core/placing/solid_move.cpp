@@ -1,11 +1,12 @@
 #include "core/placing/solid_move.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/placing/placing_scene.h"
+#include "core/mesh/mass_properties.h"
 #include "core/scene/haptic_limits.h"
 
 namespace nearfit {
@@ -37,6 +38,59 @@ bool turns(const RigidTransform& motion) {
 double travelBetween(const ServoScene& scene, const RigidTransform& from, const RigidTransform& to) {
   const glm::dvec3 shift = to.applyToPoint(scene.centreInPart) - from.applyToPoint(scene.centreInPart);
   return glm::length(shift) + scene.metric.radius * glm::length(turnBetween(from.rotation, to.rotation));
+}
+
+/// Merges the meshes, in the frame of `worldFromAll`. Where meshes cross, the result has no inside, and
+/// contact counts from either side.
+PartGeometryPtr joined(std::span<const Part* const> parts, const RigidTransform& worldFromAll) {
+  std::vector<glm::dvec3> vertices;
+  std::vector<Triangle> triangles;
+  for (const Part* part : parts) {
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    const RigidTransform allFromPart = (worldFromAll.inverse() * part->worldFromPart).normalized();
+    for (const glm::dvec3& vertex : part->geometry->mesh.vertices())
+      vertices.push_back(allFromPart.applyToPoint(vertex));
+    for (const Triangle& t : part->geometry->mesh.triangles())
+      triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  PartGeometry geometry;
+  geometry.mesh = TriangleMesh(std::move(vertices), std::move(triangles));
+  geometry.mass = massProperties(geometry.mesh);
+  return std::make_shared<const PartGeometry>(std::move(geometry));
+}
+
+/// Builds a servo scene in which some parts, as one rigid body, are the moving part among all other visible
+/// parts. A single part stays as it is, in its own frame; several become one mesh, in the frame of the first.
+/// Invisible parts are left out; if no moved part remains, nothing can be touched. Builds missing hierarchies.
+/// @param moved  Not empty.
+/// Throws UsageError if a part is not in the scene; Cancelled.
+std::shared_ptr<const ServoScene> makePlacingScene(const Scene& scene, std::span<const PartId> moved,
+                                                   const ProgressCallback& progress) {
+  const Part& first = scene.get(moved.front());
+  std::vector<const Part*> felt;
+  for (const PartId id : moved) {
+    const Part& part = scene.get(id);
+    if (part.isVisible && part.geometry != nullptr) felt.push_back(&part);
+  }
+  auto result = std::make_shared<ServoScene>();
+  if (felt.empty()) {
+    result->setMoving({first.id, nullptr, first.worldFromPart});
+    return result;
+  }
+  const bool isAlone = felt.size() == 1 && felt.front() == &first;
+  result->setMoving(
+      {first.id, isAlone ? first.geometry : joined(felt, first.worldFromPart), first.worldFromPart});
+  for (const Scene::PartPtr& part : scene.parts()) {
+    const bool isMoved = std::ranges::find(moved, part->id) != moved.end();
+    if (isMoved || !part->isVisible || part->geometry == nullptr) continue;
+    result->bodies.push_back({part->id, part->geometry, part->worldFromPart});
+  }
+  std::vector<PartGeometryPtr> geometries{result->moving.geometry};
+  for (const ServoScene::Body& body : result->bodies)
+    geometries.push_back(body.geometry);
+  prepareHierarchies(geometries, progress);
+  result->prepareSurfaces();
+  return result;
 }
 
 }  // namespace
@@ -114,10 +168,7 @@ void SolidMove::findStartDistance() {
 /// Runs one tick. True if the proxy waits for missing information.
 bool SolidMove::tick(const RigidTransform& target, double turnScale) {
   const ProxyAccount& last = proxy_->account();
-  tracker_.observe(pose_, 1.0);
-  tracker_.observeHand(target, 1.0);
-  tracker_.setWaiting(last.isWaiting);
-  tracker_.setStarved(last.isStarved);
+  tracker_.update({pose_, target, last.isWaiting, last.isStarved}, 1.0);
   if (tracker_.isDue(reach_)) tracker_.refresh(reach_, tracked_);
   proxy_->follow(tracked_, target, settings_, turnScale);
   pose_ = proxy_->pose();

@@ -28,7 +28,10 @@ class SolidMove {
   /// Max ticks of a whole motion. In contact, a tick covers about twenty margins.
   static constexpr int kMaxTicks = 4000;
 
-  /// Builds the scene with makePlacingScene() and throws what that throws.
+  /// Joins several parts into one mesh, in the frame of the first, and leaves out invisible ones. Builds missing
+  /// hierarchies, which takes seconds for millions of triangles (prepareHierarchies() can do so beforehand).
+  /// @param moved  Not empty.
+  /// Throws UsageError if a part is not in the scene; Cancelled.
   SolidMove(const Scene& scene, std::span<const PartId> moved, const ProgressCallback& progress = {});
 
   struct Progress {

@@ -1,6 +1,9 @@
 #include "core/placing/straight_contact.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <vector>
@@ -8,8 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/placing/sweep_stretch.h"
-#include "core/placing/triangle_sweep.h"
+#include "core/math/triangle_corners.h"
 #include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/proximity/surface/near_faces.h"
 
@@ -19,8 +21,121 @@ namespace {
 /// Max error of a node's single-precision box, as a fraction of its size: its axes are unit and
 /// perpendicular to 1e-7.
 constexpr double kBoxSlack = 1e-6;
+/// Edges nearer to parallel than this have no reliable common normal [rad].
+constexpr double kParallel = 1e-12;
 /// Pairs of nodes between two calls of onWork.
 constexpr std::uint64_t kBetweenCalls = 2048;
+
+/// The range of a straight motion on which no tested axis separates two convex bodies.
+struct SweepStretch {
+  /// Travel along the direction [m].
+  double from = 0.0, to = std::numeric_limits<double>::infinity();
+
+  bool isEmpty() const noexcept { return from > to; }
+
+  /// Removes the range on which an axis separates them.
+  /// @param gap    From the fixed body's upper end on the axis to the moving one's lower end, at the start.
+  /// @param depth  From the fixed body's lower end to the moving one's upper end.
+  /// @param speed  Of the moving body along the axis.
+  /// @return True if this axis now determines where they touch.
+  bool cut(double gap, double depth, double speed) noexcept {
+    if (speed == 0.0) {
+      if (gap > 0.0 || depth < 0.0) to = -1.0;
+      return false;
+    }
+    const double enter = speed < 0.0 ? -gap / speed : -depth / speed;
+    const double leave = speed < 0.0 ? -depth / speed : -gap / speed;
+    to = std::fmin(to, leave);
+    if (!(enter > from)) return false;
+    from = enter;
+    return true;
+  }
+};
+
+/// The first contact of two triangles in a straight motion.
+struct SweepHit {
+  double travel = 0.0;  ///< Along the direction; infinity if they never touch.
+  /// Of the plane in which they touch, against the direction; unit. Zero if they touch at the start.
+  glm::dvec3 normal{0.0};
+};
+
+struct Shadow {
+  double lower, upper;
+};
+Shadow shadowOf(const TriangleCorners& corners, const glm::dvec3& axis) noexcept {
+  const double a = glm::dot(corners[0], axis), b = glm::dot(corners[1], axis), c = glm::dot(corners[2], axis);
+  return {std::min({a, b, c}), std::max({a, b, c})};
+}
+
+struct Edges {
+  std::array<glm::dvec3, 3> edge;
+  glm::dvec3 normal;  ///< Not unit.
+};
+Edges edgesOf(const TriangleCorners& t) noexcept {
+  return {{t[1] - t[0], t[2] - t[1], t[0] - t[2]}, glm::cross(t[1] - t[0], t[2] - t[0])};
+}
+
+class Sweep {
+ public:
+  Sweep(const TriangleCorners& fixed, const TriangleCorners& moving, const glm::dvec3& direction,
+        double within) noexcept
+      : fixed_(fixed), moving_(moving), direction_(direction) {
+    stretch_.to = within;
+  }
+
+  /// @param longest  Length that the axis would have if its factors were perpendicular.
+  /// @return False once the triangles can never touch.
+  bool look(const glm::dvec3& axis, double longest) noexcept {
+    const double length = glm::length(axis);
+    if (!(length > kParallel * longest)) return true;
+    const glm::dvec3 unit = axis / length;
+    const Shadow a = shadowOf(fixed_, unit), b = shadowOf(moving_, unit);
+    const double speed = glm::dot(direction_, unit);
+    if (stretch_.cut(b.lower - a.upper, b.upper - a.lower, speed)) normal_ = speed < 0.0 ? unit : -unit;
+    return !stretch_.isEmpty();
+  }
+
+  SweepHit hit() const noexcept { return {stretch_.from, normal_}; }
+
+ private:
+  const TriangleCorners &fixed_, &moving_;
+  glm::dvec3 direction_;
+  SweepStretch stretch_;
+  glm::dvec3 normal_{0.0};
+};
+
+bool lookAll(Sweep& sweep, const Edges& a, const Edges& b) noexcept {
+  for (const Edges* t : {&a, &b}) {
+    const double longest =
+        std::max({glm::length(t->edge[0]), glm::length(t->edge[1]), glm::length(t->edge[2])});
+    if (!sweep.look(t->normal, longest * longest)) return false;
+    for (const glm::dvec3& edge : t->edge) {
+      if (!sweep.look(glm::cross(t->normal, edge), glm::length(t->normal) * glm::length(edge))) return false;
+    }
+  }
+  for (const glm::dvec3& e : a.edge) {
+    for (const glm::dvec3& f : b.edge) {
+      if (!sweep.look(glm::cross(e, f), glm::length(e) * glm::length(f))) return false;
+    }
+  }
+  return true;
+}
+
+/// How far `moving` goes along `direction`, without rotation, until it touches `fixed`; 0 if they already
+/// touch. A triangle is the convex hull of its corners; both sides count.
+///
+/// @param direction  Unit.
+/// @param within     Max travel of interest; longer ones may be returned as infinity.
+/// Before the returned travel the triangles are apart, up to rounding of the corners. If rounding alone
+/// decides a grazing motion, they touch.
+/// Exact separating axes of moving polytopes (S. Gottschalk's, in D. Eberly's dynamic form), including those
+/// in the triangles' planes for parallel pairs.
+SweepHit sweepTriangles(const TriangleCorners& fixed, const TriangleCorners& moving,
+                        const glm::dvec3& direction, double within) noexcept {
+  Sweep sweep(fixed, moving, direction, within);
+  if (lookAll(sweep, edgesOf(fixed), edgesOf(moving))) return sweep.hit();
+  return {std::numeric_limits<double>::infinity(), glm::dvec3(0.0)};
+}
 
 struct Box {
   glm::dvec3 centre{0.0};

@@ -1,7 +1,6 @@
 #include "core/recovery/recovery_folder.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/files/atomic_write.h"
+#include "core/files/user_folders.h"
 
 namespace nearfit {
 namespace {
@@ -152,12 +152,8 @@ void RecoveryFolder::sweep() noexcept {
 }
 
 fs::path userRecoveryFolder() {
-  const char* state = std::getenv("XDG_STATE_HOME");
-  const char* home = std::getenv("HOME");
-  // The XDG base directory specification ignores relative paths.
-  if (state != nullptr && fs::path(state).is_absolute()) return fs::path(state) / "nearfit" / "recovery";
-  if (home == nullptr || *home == '\0') return {};
-  return fs::path(home) / ".local" / "state" / "nearfit" / "recovery";
+  const fs::path folder = userFolder(UserFiles::State);
+  return folder.empty() ? folder : folder / "recovery";
 }
 
 }  // namespace nearfit

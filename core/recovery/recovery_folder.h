@@ -66,7 +66,8 @@ class RecoveryFolder {
   ProcessIdentity self_;
 };
 
-/// The user's recovery folder, below $XDG_STATE_HOME, else ~/.local/state. Empty if neither is defined.
+/// The user's recovery folder, below $XDG_STATE_HOME, else ~/.local/state. Empty if neither is known; see
+/// userFolder().
 std::filesystem::path userRecoveryFolder();
 
 }  // namespace nearfit

@@ -3,6 +3,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,8 +12,9 @@
 #include "core/mesh/mass_properties.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/proximity/hierarchy/normal_cone_tree.h"
+#include "core/proximity/surface/solidity.h"
+#include "core/proximity/surface/unsided_surface.h"
 #include "core/scene/hierarchy_on_demand.h"
-#include "core/scene/surface_on_demand.h"
 
 namespace nearfit {
 
@@ -20,6 +22,32 @@ namespace nearfit {
 constexpr double kMinMetresPerUnit = 1e-9, kMaxMetresPerUnit = 1e4;
 /// Throws UsageError if the unit is not finite or out of these limits.
 void checkMetresPerUnit(double metresPerUnit);
+
+/// Solidity and unsided surface of one mesh, each determined when first needed. Only meshes that enclose
+/// nothing, and parts near them, need the surface. Thread-safe: one thread builds, others wait for it.
+class SurfaceOnDemand {
+ public:
+  /// isSolidThroughout() of `mesh`, computed once.
+  bool isSolid(const TriangleMesh& mesh) {
+    std::call_once(solidOnce_, [&] { isSolid_ = isSolidThroughout(mesh); });
+    return isSolid_;
+  }
+  /// Supplies the result in advance, such as from the cache; no-op if already known.
+  void setSolid(bool isSolid) {
+    std::call_once(solidOnce_, [&] { isSolid_ = isSolid; });
+  }
+
+  /// The unsided surface of `mesh`, which must be the same mesh in each call.
+  std::shared_ptr<const UnsidedSurface> get(const TriangleMesh& mesh, const NormalConeTree& tree) {
+    std::call_once(once_, [&] { surface_ = std::make_shared<const UnsidedSurface>(mesh, tree); });
+    return surface_;
+  }
+
+ private:
+  std::once_flag solidOnce_, once_;
+  bool isSolid_ = false;
+  std::shared_ptr<const UnsidedSurface> surface_;
+};
 
 /// A mesh file and what is derived from it: mass properties on loading, hierarchy and unsided surface on
 /// demand. Otherwise immutable. Shared by all parts with the same file and unit.

@@ -28,6 +28,10 @@ const Part* Scene::find(PartId id) const noexcept {
   return it == parts_.end() || (*it)->id != id ? nullptr : it->get();
 }
 
+const Part& Scene::get(PartId id) const {
+  return *parts_[indexOf(id)];
+}
+
 const Part* Scene::findByName(std::string_view name) const noexcept {
   const auto it =
       std::find_if(parts_.begin(), parts_.end(), [name](const PartPtr& p) { return p->name == name; });

@@ -25,6 +25,8 @@ class Scene {
   const std::vector<PartPtr>& parts() const noexcept { return parts_; }
   /// The part with this ID; null if there is none. Valid until the part changes. O(log n).
   const Part* find(PartId id) const noexcept;
+  /// The same; throws UsageError if there is none.
+  const Part& get(PartId id) const;
   /// The part with this name; null if there is none. Valid until the part changes. O(n).
   const Part* findByName(std::string_view name) const noexcept;
   std::optional<PartId> movingPart() const noexcept { return movingPart_; }

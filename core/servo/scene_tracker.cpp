@@ -26,6 +26,10 @@ bool isBefore(const TrackedScene::Near& a, const TrackedScene::Near& b) noexcept
 
 }  // namespace
 
+TickObservation observationOf(const ServoSnapshot& snapshot) noexcept {
+  return {snapshot.proxy, snapshot.handle, snapshot.isWaiting, snapshot.isStarved};
+}
+
 void SceneTracker::setScene(std::shared_ptr<const ServoScene> scene) {
   TrackedScene next = untracked(std::move(scene));
   const auto isSame = [](const ServoScene::Body& a, const ServoScene::Body& b) {
@@ -50,11 +54,12 @@ void SceneTracker::setScene(std::shared_ptr<const ServoScene> scene) {
   memory_.assign(current_.scene->bodies.size(), {});
 }
 
-void SceneTracker::observeTick(const ServoSnapshot& snapshot, double ticks) noexcept {
-  observe(snapshot.proxy, ticks);
-  observeHand(snapshot.handle, ticks);
-  setWaiting(snapshot.isWaiting);
-  setStarved(snapshot.isStarved);
+void SceneTracker::update(const TickObservation& tick, double ticks) noexcept {
+  forecast_.observe(tick.worldFromPart, ticks);
+  if (tick.worldFromHand) hand_.observe(*tick.worldFromHand, ticks);
+  isWaiting_ = tick.isWaiting;
+  isStarved_ = tick.isStarved;
+  if (isStarved_) forecast_.goAs(hand_);
 }
 
 TrackedPair SceneTracker::pairOf(std::uint32_t index) const noexcept {

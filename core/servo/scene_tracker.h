@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/proximity/query/lmd_query.h"
@@ -11,6 +12,22 @@
 #include "core/servo/tracked_scene.h"
 
 namespace nearfit {
+
+/// What a search ahead needs from a tick. No field has a default, so that GCC refuses to leave one out:
+/// a proxy that starves unnoticed stands still for good.
+struct TickObservation {
+  RigidTransform worldFromPart;  ///< Pose of the moving part.
+  /// Pose where the hand wants the part, if known. A part that waits for lists is then expected to go on as
+  /// the hand does.
+  std::optional<RigidTransform> worldFromHand;
+  bool isWaiting;  ///< The proxy waits until it is known what it overlaps.
+  /// Lists of contacts fell short of where the proxy would go. They are then renewed around it, unless they
+  /// were made there, and tried again where none could be made.
+  bool isStarved;
+};
+
+/// Returns what a search ahead needs from a tick. Real-time safe.
+TickObservation observationOf(const ServoSnapshot& snapshot) noexcept;
 
 /// Keeps a TrackedScene ahead of the motion of its moving part. For a thread beside the servo: it allocates,
 /// and its work is not bounded.
@@ -26,30 +43,11 @@ class SceneTracker {
   /// are unchanged.
   void setScene(std::shared_ptr<const ServoScene> scene);
 
-  /// Records the pose of the moving part.
+  /// Records the newest tick; earlier ones may be skipped. Real-time safe.
   /// @param ticks  Servo ticks since the last call; > 0.
-  void observe(const RigidTransform& worldFromPart, double ticks) noexcept {
-    forecast_.observe(worldFromPart, ticks);
-  }
-  /// Records the pose where the hand wants the part. If it is known, a part that waits for lists is expected
-  /// to go on as the hand does.
-  void observeHand(const RigidTransform& worldFromPart, double ticks) noexcept {
-    hand_.observe(worldFromPart, ticks);
-  }
-  /// Records all that a tick tells about its part, its hand and what the proxy waits for. Must be called for
-  /// each tick: a proxy that starves unnoticed stands still for good.
-  void observeTick(const ServoSnapshot& snapshot, double ticks) noexcept;
+  void update(const TickObservation& tick, double ticks) noexcept;
   /// See MotionForecast::setLead().
   void setLead(double ticks) noexcept { forecast_.setLead(ticks); }
-
-  /// Sets whether the servo's proxy waits to know what it overlaps where it is now.
-  void setWaiting(bool isWaiting) noexcept { isWaiting_ = isWaiting; }
-  /// Sets whether lists of contacts fall short of where the proxy would go from where it was last observed.
-  /// They are then renewed around it, unless they were made there, and tried again where none could be made.
-  void setStarved(bool isStarved) noexcept {
-    isStarved_ = isStarved;
-    if (isStarved) forecast_.goAs(hand_);
-  }
 
   /// True if the known data will no longer serve when a search that starts now has ended.
   bool isDue(const SearchReach& reach) const noexcept;

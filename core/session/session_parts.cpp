@@ -13,13 +13,6 @@
 namespace nearfit {
 namespace {
 
-const Part& existing(const Scene& scene, PartId id) {
-  const Part* part = scene.find(id);
-  if (part != nullptr) return *part;
-  throw UsageError(fmt::format("part {}", static_cast<std::uint32_t>(id)), "the scene has no such part",
-                   "choose one that is in the scene");
-}
-
 /// `pose` after the motion from `from` to `to`. A pure translation keeps the rotation bit for bit.
 RigidTransform moved(const RigidTransform& pose, const RigidTransform& from, const RigidTransform& to) {
   if (from.rotation == to.rotation)
@@ -55,7 +48,7 @@ void Session::change(const std::vector<PartId>& ids, Step verb, const std::funct
   Scene next = scene();
   SceneNodes changed;
   for (const PartId id : ids) {
-    Part part = existing(next, id);
+    Part part = next.get(id);
     change(part);
     if (isSame(part, *next.find(id))) continue;
     next.replace(std::move(part));
@@ -69,12 +62,12 @@ void Session::change(const std::vector<PartId>& ids, Step verb, const std::funct
 void Session::changeUnlocked(const std::vector<PartId>& ids, Step verb,
                              const std::function<void(Part&)>& change) {
   for (const PartId id : ids)
-    scene().requireUnlocked(existing(scene(), id));
+    scene().requireUnlocked(scene().get(id));
   this->change(ids, std::move(verb), change);
 }
 
 void Session::renamePart(PartId id, const std::string& name) {
-  Part part = existing(scene(), id);
+  Part part = scene().get(id);
   scene().requireUnlocked(part);
   if (part.name == name) return;
   const std::string label = fmt::format("Rename {} to {}", part.name, name);
@@ -86,7 +79,7 @@ void Session::renamePart(PartId id, const std::string& name) {
 
 void Session::moveParts(const std::vector<PartId>& ids, PartId lead, const RigidTransform& worldFromLead,
                         const std::string& verb) {
-  const Part& before = existing(scene(), lead);
+  const Part& before = scene().get(lead);
   const RigidTransform from = before.worldFromPart;
   const RigidTransform to = checkedPose(worldFromLead);
   if (from.rotation == to.rotation && from.translation == to.translation) {

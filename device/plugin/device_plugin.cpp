@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/files/user_folders.h"
 #include "device/interface/device_error.h"
 
 namespace nearfit {
@@ -145,12 +146,7 @@ std::vector<fs::path> pluginFolders() {
     }
     return folders;
   }
-  const char* data = std::getenv("XDG_DATA_HOME");
-  const char* home = std::getenv("HOME");
-  if (data != nullptr && data[0] == '/')
-    folders.push_back(fs::path(data) / "nearfit/plugins");
-  else if (home != nullptr && home[0] == '/')
-    folders.push_back(fs::path(home) / ".local/share/nearfit/plugins");
+  if (const fs::path data = userFolder(UserFiles::Data); !data.empty()) folders.push_back(data / "plugins");
   folders.emplace_back("/usr/local/lib/nearfit/plugins");
   folders.emplace_back("/usr/lib/nearfit/plugins");
   return folders;

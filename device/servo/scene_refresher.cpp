@@ -64,15 +64,11 @@ bool SceneRefresher::takeReport() noexcept {
   if (!reports_.update()) return false;
   const Report& report = reports_.front();
   if (report.tick > lastTick_) {
-    const auto ticks = static_cast<double>(report.tick - lastTick_);
-    tracker_.observe(report.worldFromPart, ticks);
-    tracker_.observeHand(report.worldFromHand, ticks);
+    tracker_.update(report.observation, static_cast<double>(report.tick - lastTick_));
     lastTick_ = report.tick;
   }
   // Non-finite settings are for the tick to refuse.
   if (std::isfinite(report.reach.cutoff) && std::isfinite(report.reach.contact)) reach_ = report.reach;
-  tracker_.setWaiting(report.isWaiting);
-  tracker_.setStarved(report.isStarved);
   return true;
 }
 

@@ -37,12 +37,9 @@ class SceneRefresher {
   }
   /// State of the servo after a tick.
   struct Report {
-    RigidTransform worldFromPart;  ///< Pose of the part.
-    RigidTransform worldFromHand;  ///< Pose that the hand wants for it.
-    SearchReach reach;             ///< How far to search.
-    std::uint64_t tick = 0;
-    bool isWaiting = false;  ///< The proxy waits until its overlaps are known.
-    bool isStarved = false;  ///< Contact lists do not reach where the proxy would go.
+    TickObservation observation{};
+    SearchReach reach;       ///< How far to search.
+    std::uint64_t tick = 0;  ///< Number of the tick, from 1; ascending.
   };
   /// Servo thread; real-time safe.
   void report(const Report& report) noexcept { reports_.publish(report); }

@@ -183,8 +183,7 @@ bool ServoLoop::Shared::tickOnce(bool hasReport, Nanoseconds sinceStart, double 
 
   tick.show(tracked, limited, snapshot);
   snapshot.tick = ++statistics.ticks;
-  refresher->report({snapshot.proxy, snapshot.handle, searchReach(limited.haptics), snapshot.tick,
-                     snapshot.isWaiting, snapshot.isStarved});
+  refresher->report({observationOf(snapshot), searchReach(limited.haptics), snapshot.tick});
   if (snapshot.lateBodies > 0) ++statistics.lateTicks;
   snapshot.time = toSeconds(sinceStart);
   snapshot.tickTime = toSeconds(monotonicNow() - begin);

@@ -46,7 +46,7 @@ const ServoSnapshot& FeelServo::tick(const RigidTransform& hand, double period) 
 }
 
 void FeelServo::workBeside() {
-  tracker_.observeTick(*snapshot_, 1.0);
+  tracker_.update(observationOf(*snapshot_), 1.0);
   if (isUnderWay_ || !tracker_.isDue(reach_)) return;
   const double start = secondsBy(clock_);
   tracker_.refresh(reach_, tracked_[1 - front_]);

@@ -10,6 +10,7 @@
 #include "tests/bench/scene_path.h"
 #include "tests/bench/selection.h"
 #include "tests/bench/skips.h"
+#include "tests/support/idle_features.h"
 
 namespace nearfit::bench {
 namespace {
@@ -17,10 +18,11 @@ namespace {
 const std::vector<std::string> kScenes{"gear-disc", "crankshaft-gear", "teapot-spring", "organic-70k"};
 const std::vector<std::string> kMeshes{"gear-6k", "spring-24k", "organic-70k"};
 
-/// Cold queries of two hierarchies.
+/// Cold queries of two hierarchies of one kind.
+template <class Hierarchy>
 class ColdWay {
  public:
-  ColdWay(const NormalConeTree& scene, const NormalConeTree& part, double cutoff)
+  ColdWay(const Hierarchy& scene, const Hierarchy& part, double cutoff)
       : scene_(scene), part_(part), cutoff_(cutoff), scratch_(kQueryCapacity), lmds_(kQueryCapacity) {}
 
   void find(const RigidTransform& pose) {
@@ -42,7 +44,7 @@ class ColdWay {
   double pairsPerQuery() const { return leafPairs_ / queries_; }
 
  private:
-  const NormalConeTree &scene_, &part_;
+  const Hierarchy &scene_, &part_;
   double cutoff_;
   LmdScratch scratch_;
   std::vector<Lmd> lmds_;
@@ -58,12 +60,12 @@ std::string featuresRemark(const NormalConeTree& tree) {
 SkipRow queryWithoutFeatures(const SceneEntry& entry, const SkipOptions& options) {
   const PreparedScene prepared(entry.make(), kUsualCutoffFraction);
   const std::vector<RigidTransform> path = makePath(prepared, options.path);
-  const NormalConeTree scene = NormalConeTree::withIdleFeatures(prepared.meshes.scene),
-                       part = NormalConeTree::withIdleFeatures(prepared.meshes.part);
-  ColdWay with(prepared.sceneTree, prepared.partTree, prepared.cutoff), without(scene, part, prepared.cutoff);
+  const test::FullHierarchy scene(prepared.meshes.scene), part(prepared.meshes.part);
+  ColdWay with(prepared.sceneTree, prepared.partTree, prepared.cutoff);
+  ColdWay without(scene, part, prepared.cutoff);
   SkipRow row{"features", entry.name, "cold query", {}, {}, {}};
   row.with.bytes = prepared.sceneTree.byteSize() + prepared.partTree.byteSize();
-  row.without.bytes = scene.byteSize() + part.byteSize();
+  row.without.bytes = scene.tree().byteSize() + part.tree().byteSize();
   takeTurns(row, path.size(), {[&](std::size_t i) { with.find(path[i]); }, [&] { return with.digest(); }},
             {[&](std::size_t i) { without.find(path[i]); }, [&] { return without.digest(); }}, options.run);
   row.remark =
@@ -74,7 +76,8 @@ SkipRow queryWithoutFeatures(const SceneEntry& entry, const SkipOptions& options
 
 SkipRow buildWithoutFeatures(const MeshEntry& entry, const SkipOptions& options) {
   const TriangleMesh mesh = entry.make();
-  std::unique_ptr<NormalConeTree> with, without;
+  std::unique_ptr<NormalConeTree> with;
+  std::unique_ptr<test::FullHierarchy> without;
   const auto digestOf = [](std::size_t vertices, std::size_t edges, std::size_t faces) {
     return std::uint64_t{vertices} << 42 ^ std::uint64_t{edges} << 21 ^ faces;
   };
@@ -90,17 +93,15 @@ SkipRow buildWithoutFeatures(const MeshEntry& entry, const SkipOptions& options)
                const FeatureCounts kept = with->keptFeatures();
                return digestOf(kept.vertices, kept.edges, kept.faces);
              }},
-            {[&](std::size_t) {
-               without = std::make_unique<NormalConeTree>(NormalConeTree::withIdleFeatures(mesh));
-             },
+            {[&](std::size_t) { without = std::make_unique<test::FullHierarchy>(mesh); },
              [&] {
                // Those that can carry a minimum.
-               const FeatureCounts kept = without->keptFeatures(), idle = without->arrays().idle;
+               const FeatureCounts kept = without->tree().keptFeatures(), idle = without->idle();
                return digestOf(kept.vertices - idle.vertices, kept.edges - idle.edges, kept.faces);
              }},
             turns);
   row.with.bytes = with->byteSize();
-  row.without.bytes = without->byteSize();
+  row.without.bytes = without->tree().byteSize();
   row.remark = featuresRemark(*with);
   return row;
 }

@@ -44,9 +44,9 @@ class TickLane {
   void keepAhead(const RigidTransform& pose, bool isTimed) {
     const SearchReach reach = searchReach(parameters_.haptics);
     // Springs let the part be where the hand is.
-    tracker_.observe(parameters_.haptics.mode == HapticMode::Springs ? pose : snapshot_->proxy, 1.0);
-    tracker_.setWaiting(snapshot_->isWaiting);
-    tracker_.setStarved(snapshot_->isStarved);
+    const bool isAtHand = parameters_.haptics.mode == HapticMode::Springs;
+    tracker_.update(
+        {isAtHand ? pose : snapshot_->proxy, std::nullopt, snapshot_->isWaiting, snapshot_->isStarved}, 1.0);
     if (tracked_.scene && !tracker_.isDue(reach)) return;
     const double start = secondsBy(options_.clock);
     tracker_.refresh(reach, tracked_);

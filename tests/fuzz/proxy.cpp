@@ -173,7 +173,7 @@ void run(ByteSource& bytes) {
     }
     const SearchReach reach = searchReach(parameters.haptics);
     if (isTracked) {
-      if (i > 0) tracker.observeTick(*snapshot, 1.0);
+      if (i > 0) tracker.update(observationOf(*snapshot), 1.0);
       if (tracker.isDue(reach)) tracker.refresh(reach, tracked);
     }
     const double period = kind == 255 ? bytes.number() : kPeriod;

@@ -31,7 +31,7 @@ const ServoSnapshot& StressServo::tick(const HandleInput& input, double period) 
 }
 
 void StressServo::workBeside() {
-  tracker_.observeTick(*snapshot_, 1.0);
+  tracker_.update(observationOf(*snapshot_), 1.0);
   if (isUnderWay_) return;
   const SearchReach reach = searchReach(parameters_.haptics);
   if (!tracker_.isDue(reach)) return;

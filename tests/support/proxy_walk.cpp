@@ -1,5 +1,6 @@
 #include "tests/support/proxy_walk.h"
 
+#include <optional>
 #include <utility>
 
 #include "tests/support/part_geometries.h"
@@ -28,9 +29,8 @@ void ProxyWalk::setScene(std::shared_ptr<ServoScene> scene) {
 
 const ProxyAccount& ProxyWalk::lead(const RigidTransform& hand) {
   const SearchReach reach{20.0 * settings_.margin, kContactReach * settings_.margin};
-  tracker_.observe(proxy_.pose(), 1.0);
-  tracker_.setWaiting(proxy_.account().isWaiting);
-  tracker_.setStarved(proxy_.account().isStarved);
+  const ProxyAccount& last = proxy_.account();
+  tracker_.update({proxy_.pose(), std::nullopt, last.isWaiting, last.isStarved}, 1.0);
   if (tracker_.isDue(reach)) tracker_.refresh(reach, tracked_);
   proxy_.follow(tracked_, hand, settings_);
   return proxy_.account();

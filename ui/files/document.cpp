@@ -55,16 +55,6 @@ QString notAdded(const QStringList& files, const QVector<FailedItem>& problems) 
 
 }  // namespace
 
-bool isCancelled(const std::exception_ptr& error) {
-  try {
-    if (error) std::rethrow_exception(error);
-  } catch (const Cancelled&) {
-    return true;
-  } catch (...) {
-  }
-  return false;
-}
-
 ProgressCallback progressOfReading(const ProgressCallback& whole) {
   return [whole](double fraction) { return !whole || whole(kReading * fraction); };
 }

@@ -120,7 +120,4 @@ class Document : public QObject {
 ProgressCallback progressOfReading(const ProgressCallback& whole);
 ProgressCallback progressOfShapes(const ProgressCallback& whole);
 
-/// True if `error` is Cancelled; false if null.
-bool isCancelled(const std::exception_ptr& error);
-
 }  // namespace nearfit::ui

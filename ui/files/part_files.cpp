@@ -12,6 +12,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/error.h"
 #include "core/scene/odd_size.h"
 #include "ui/files/document.h"
 #include "ui/files/mesh_watch.h"

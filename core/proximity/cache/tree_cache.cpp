@@ -14,6 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/files/sha256.h"
+#include "core/files/user_folders.h"
 
 namespace nearfit {
 namespace {
@@ -68,10 +69,7 @@ fs::path folderFromEnvironment() {
   const std::string own = variable("NEARFIT_CACHE");
   if (own == "off") return {};
   if (!own.empty()) return own;
-  // The XDG specification says to ignore relative paths.
-  if (const fs::path xdg = variable("XDG_CACHE_HOME"); xdg.is_absolute()) return xdg / "nearfit";
-  if (const fs::path home = variable("HOME"); home.is_absolute()) return home / ".cache" / "nearfit";
-  return {};
+  return userFolder(UserFiles::Cache);
 }
 
 }  // namespace

@@ -28,13 +28,6 @@ NormalConeTree::NormalConeTree(const TriangleMesh& mesh, const ProgressCallback&
                                AcceptanceRule rule)
     : arrays_(NormalConeTreeBuilder(mesh, progress, rule).build()) {}
 
-NormalConeTree NormalConeTree::withIdleFeatures(const TriangleMesh& mesh) {
-  const ProgressCallback nobody;
-  NormalConeTreeBuilder builder(mesh, nobody, AcceptanceRule::Exact);
-  builder.keepIdleFeatures();
-  return NormalConeTree(builder.build());
-}
-
 std::size_t NormalConeTree::byteSize() const noexcept {
   return arrays_.nodes.byteSize() + arrays_.positions.byteSize() + arrays_.vertices.byteSize() +
          arrays_.edges.byteSize() + arrays_.faces.byteSize() + arrays_.neighbours.byteSize() +

@@ -11,10 +11,17 @@
 #include "core/base/progress.h"
 #include "core/base/shared_array.h"
 #include "core/mesh/triangle_mesh.h"
-#include "core/proximity/hierarchy/acceptance_rule.h"
 #include "core/proximity/lmd.h"
 
 namespace nearfit {
+
+/// Rule by which a pair of features counts as a local minimum distance. A hierarchy is built for one rule.
+enum class AcceptanceRule : std::uint8_t {
+  Exact,  ///< The conditions that define a minimum.
+  /// Approximate, as in Johnson & Willemsen 2003: the two points are nearest between a pair of triangles, and
+  /// the segment between them lies in the span of the surface normals at each end. See normal_span.h.
+  NormalSpan,
+};
 
 /// Numbers of features by kind.
 struct FeatureCounts {
@@ -92,17 +99,12 @@ class NormalConeTree {
     SharedArray<std::uint32_t> neighbours;
     AcceptanceRule rule = AcceptanceRule::Exact;
     SharedArray<glm::dvec3> walls{};  ///< Only for AcceptanceRule::NormalSpan: see NormalSpanFeatures.
-    /// Number of features at the end of `vertices` and `edges` that carry no minimum; see withIdleFeatures().
-    FeatureCounts idle{};
   };
 
   /// Builds on all processors (see parallelFor). Throws Cancelled, and Error for 2^29 edges or more.
   /// @param rule  Rule by which queries judge this body's feature of a pair.
   explicit NormalConeTree(const TriangleMesh& mesh, const ProgressCallback& progress = {},
                           AcceptanceRule rule = AcceptanceRule::Exact);
-  /// Builds a hierarchy that also holds the features that cannot carry a minimum. Queries test their pairs,
-  /// then reject them, so answers are the same. For measuring what leaving them out saves.
-  static NormalConeTree withIdleFeatures(const TriangleMesh& mesh);
   /// Takes over the arrays of another hierarchy; checks nothing.
   explicit NormalConeTree(Arrays arrays) : arrays_(std::move(arrays)) {}
 
@@ -140,12 +142,6 @@ class NormalConeTree {
   const glm::dvec3& centre() const noexcept { return arrays_.centre; }
   /// Diagonal of the mesh's bounding box [m].
   double size() const noexcept { return arrays_.size; }
-
-  /// True if the leaf's feature carries no minimum; see withIdleFeatures().
-  bool isIdle(FeatureKind kind, std::uint32_t index) const noexcept {
-    return (kind == FeatureKind::Vertex && index >= arrays_.vertices.size() - arrays_.idle.vertices) ||
-           (kind == FeatureKind::Edge && index >= arrays_.edges.size() - arrays_.idle.edges);
-  }
 
   /// Counts of the features in the hierarchy.
   FeatureCounts keptFeatures() const noexcept {

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/mesh/idle_features.h"
 #include "core/mesh/normal_span.h"
 #include "core/parallel/parallel_for.h"
 #include "core/proximity/hierarchy/subtree_builder.h"
@@ -55,11 +54,14 @@ NormalConeTree::Arrays NormalConeTreeBuilder::build() {
           std::move(tree_.faces),
           std::move(features_.neighbours),
           rule_,
-          std::move(walls_),
-          idle_};
+          std::move(walls_)};
 }
 
 void NormalConeTreeBuilder::findFeaturesOfMesh() {
+  if (hasFeatures_) {
+    progress_.add(kFeaturesShare);
+    return;
+  }
   double reported = 0.0;
   const auto report = [&](double fraction) {
     progress_.add(kFeaturesShare * (fraction - reported));
@@ -72,10 +74,6 @@ void NormalConeTreeBuilder::findFeaturesOfMesh() {
   } else {
     features_ = findFeatures(mesh_, report);
   }
-  if (!keepsIdle_) return;
-  const std::size_t vertices = features_.vertices.size(), edges = features_.edges.size();
-  addIdleFeatures(mesh_, features_);
-  idle_ = {features_.vertices.size() - vertices, features_.edges.size() - edges, 0};
 }
 
 void NormalConeTreeBuilder::fillLeaves() {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -23,8 +24,9 @@ class NormalConeTreeBuilder {
  public:
   NormalConeTreeBuilder(const TriangleMesh& mesh, const ProgressCallback& progress, AcceptanceRule rule)
       : mesh_(mesh), progress_(progress, 1.0), rule_(rule) {}
-  /// See NormalConeTree::withIdleFeatures().
-  void keepIdleFeatures() noexcept { keepsIdle_ = true; }
+  /// For these features of the mesh in place of those that findFeatures() finds.
+  NormalConeTreeBuilder(const TriangleMesh& mesh, const ProgressCallback& progress, MeshFeatures features)
+      : mesh_(mesh), progress_(progress, 1.0), features_(std::move(features)), hasFeatures_(true) {}
   /// Call once. Throws Cancelled, and Error if the mesh is too large.
   NormalConeTree::Arrays build();
 
@@ -70,12 +72,11 @@ class NormalConeTreeBuilder {
 
   const TriangleMesh& mesh_;
   SharedProgress progress_;
-  AcceptanceRule rule_;
+  AcceptanceRule rule_ = AcceptanceRule::Exact;
   double splitsReported_ = 0.0;
-  bool keepsIdle_ = false;
-  FeatureCounts idle_;
   Growing tree_;
   MeshFeatures features_;
+  bool hasFeatures_ = false;
   std::vector<glm::dvec3> walls_;
   std::optional<FeatureGeometry> geometry_;
 };

@@ -178,12 +178,9 @@ EdgePairKernel edgePairKernel(SimdLevel level) noexcept {
 
 std::size_t packEdgePairs(const NormalConeTree& scene, const NormalConeTree& part, std::span<LeafPair> pairs,
                           std::span<EdgePairs> blocks) noexcept {
-  const auto isActiveEdge = [](const NormalConeTree& tree, std::uint32_t leaf) {
-    return NormalConeTree::leafKind(leaf) == FeatureKind::Edge &&
-           !tree.isIdle(FeatureKind::Edge, NormalConeTree::leafIndex(leaf));
-  };
+  const auto isEdge = [](std::uint32_t leaf) { return NormalConeTree::leafKind(leaf) == FeatureKind::Edge; };
   const auto rest = std::partition(pairs.begin(), pairs.end(), [&](const LeafPair& pair) {
-    return isActiveEdge(scene, pair.scene) && isActiveEdge(part, pair.part);
+    return isEdge(pair.scene) && isEdge(pair.part);
   });
   const auto count = static_cast<std::size_t>(rest - pairs.begin());
   const std::size_t filled = std::min(blocks.size(), count / kLanes);

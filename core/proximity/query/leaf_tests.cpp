@@ -56,7 +56,7 @@ bool LeafTests::test(std::uint32_t sceneLeaf, std::uint32_t partLeaf, Minimum& o
   if (a == Edge && b == Face) found = edgeFace(scene_, i, part_, j, out);
   if (a == Face && b == Edge) found = edgeFace(part_, j, scene_, i, out);
   if (a == Face && b == Face) found = faceFace(i, j, out);
-  if (!found || scene_.tree.isIdle(a, i) || part_.tree.isIdle(b, j)) return false;
+  if (!found) return false;
   const auto meshIndex = [](const NormalConeTree& tree, FeatureKind kind, std::uint32_t index) {
     return kind == Vertex ? tree.vertices()[index].vertex
            : kind == Edge ? tree.edges()[index].edge

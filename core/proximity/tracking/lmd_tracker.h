@@ -62,8 +62,8 @@ struct PlanMemory {
 bool buildForPlan(CandidateList& list, const TrackedPair& pair, const MotionForecast& forecast,
                   const ListPurpose& purpose, LmdScratch& scratch, PlanMemory& memory);
 
-/// Decides when to renew the list of two bodies, where to search, and how far around. SceneTracker does the
-/// same for a scene.
+/// Decides when to renew the list of two bodies, where to search, and how far around. SceneTracker does so for
+/// a scene, by the functions above.
 class LmdTracker {
  public:
   /// @param scene, part  Must outlive the tracker.

@@ -13,6 +13,7 @@
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
+#include "tests/support/tick_observation.h"
 
 namespace nearfit::scene_tracker_test {
 namespace {
@@ -96,7 +97,7 @@ TEST(SceneTracker, NoMinimumOfAnyBodyIsMissedAlongAPathAndItsTeleports) {
     for (const auto& [body, points] : expected)
       minima += points.size();
     bodies += expected.size();
-    tracker.observe(pose, 1.0);
+    tracker.update(test::partAt(pose), 1.0);
   }
   EXPECT_GT(minima, static_cast<std::size_t>(kTicks));
   EXPECT_GT(bodies, static_cast<std::size_t>(kTicks) / 2);
@@ -109,7 +110,7 @@ TEST(SceneTracker, ABodyThatIsMovedOrAddedIsFeltFromTheNextTrackedSceneOn) {
   SceneTracker tracker;
   tracker.setScene(scene);
   const RigidTransform pose = at({0.0, 0.0, 1.5});
-  tracker.observe(pose, 1.0);
+  tracker.update(test::partAt(pose), 1.0);
   TrackedScene tracked;
   tracker.refresh({kCutoff}, tracked);
   auto next = std::make_shared<ServoScene>(*scene);
@@ -137,7 +138,7 @@ TEST(SceneTracker, BodiesFarAwayAreNotLookedAtInATick) {
   SceneTracker tracker;
   tracker.setScene(scene);
   const RigidTransform pose = at({0.1, 0.0, 0.0});
-  tracker.observe(pose, 1.0);
+  tracker.update(test::partAt(pose), 1.0);
   TrackedScene tracked;
   tracker.refresh({kCutoff}, tracked);
   std::size_t visited = 0;
@@ -161,7 +162,7 @@ TEST(SceneTracker, WithNothingAnywhereNearThereIsNothingToDoForLong) {
   TrackedScene tracked;
   std::size_t refreshes = 0;
   for (int tick = 0; tick < 2000; ++tick) {
-    tracker.observe(at({1e-3 * tick, 0.0, 0.0}), 1.0);
+    tracker.update(test::partAt(at({1e-3 * tick, 0.0, 0.0})), 1.0);
     if (!tracker.isDue({kCutoff})) continue;
     tracker.refresh({kCutoff}, tracked);
     EXPECT_TRUE(tracked.near.empty());
@@ -173,7 +174,7 @@ TEST(SceneTracker, WithNothingAnywhereNearThereIsNothingToDoForLong) {
 TEST(SceneTracker, AnotherCutoffIsSearchedAnew) {
   SceneTracker tracker;
   tracker.setScene(starsAbout());
-  tracker.observe(at({0.0, 0.0, 1.5}), 1.0);
+  tracker.update(test::partAt(at({0.0, 0.0, 1.5})), 1.0);
   TrackedScene tracked;
   tracker.refresh({kCutoff}, tracked);
   EXPECT_FALSE(tracker.isDue({kCutoff}));
@@ -186,7 +187,7 @@ TEST(SceneTracker, ABodyWhosePoseIsNoPoseStaysForTheTickToRefuse) {
   scene->bodies[3].worldFromPart.translation.x = std::numeric_limits<double>::quiet_NaN();
   SceneTracker tracker;
   tracker.setScene(scene);
-  tracker.observe(at({0.0, 0.0, 1.5}), 1.0);
+  tracker.update(test::partAt(at({0.0, 0.0, 1.5})), 1.0);
   TrackedScene tracked;
   tracker.refresh({kCutoff}, tracked);
   std::vector<std::uint32_t> visited;

@@ -41,7 +41,7 @@ class ServosAtRest : public testing::TestWithParam<HapticMode> {
   void tick(const RigidTransform& hand) {
     still_.run(tracked_, parameters_, {.pose = hand}, kPeriod, *a_);
     plain_.run(anew_, parameters_, {.pose = hand}, kPeriod, *b_);
-    tracker_.observeTick(*a_, 1.0);
+    tracker_.update(observationOf(*a_), 1.0);
     expectSame();
     if (tracker_.isDue(searchReach(parameters_.haptics))) refresh();
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -43,8 +44,8 @@ class ServoTickWithProxy : public testing::Test {
 
   const ServoSnapshot& tick(const RigidTransform& device, double age = 0.0, bool isClutched = false) {
     const SearchReach reach = searchReach(parameters_.haptics);
-    if (snapshot_->tick > 0) tracker_.observe(snapshot_->proxy, 1.0);
-    tracker_.setWaiting(snapshot_->isWaiting);
+    if (snapshot_->tick > 0)
+      tracker_.update({snapshot_->proxy, std::nullopt, snapshot_->isWaiting, false}, 1.0);
     if (tracker_.isDue(reach)) tracker_.refresh(reach, tracked_);
     tick_.run(tracked_, parameters_, {.pose = device, .age = age, .isClutched = isClutched}, kPeriod,
               *snapshot_);

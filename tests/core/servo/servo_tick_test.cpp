@@ -12,6 +12,7 @@
 #include "core/servo/scene_tracker.h"
 #include "tests/support/allocation_hook.h"
 #include "tests/support/servo_fixtures.h"
+#include "tests/support/tick_observation.h"
 
 namespace nearfit::servo_tick_test {
 namespace {
@@ -61,7 +62,7 @@ class ServoTickOnFloor : public testing::Test {
   TrackedScene trackedAt(const RigidTransform& pose) {
     SceneTracker tracker;
     tracker.setScene(test::untrackedView(scene_).scene);
-    tracker.observe(pose, 1.0);
+    tracker.update(test::partAt(pose), 1.0);
     TrackedScene tracked;
     tracker.refresh({parameters_.haptics.springs.cutoff}, tracked);
     return tracked;

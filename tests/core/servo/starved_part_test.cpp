@@ -2,6 +2,7 @@
 // nut once stood still on its bolt for what these tests hold, each by itself. Here a rod in a tube, ringed
 // alike, which is turned.
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
@@ -12,6 +13,7 @@
 #include "core/servo/scene_tracker.h"
 #include "tests/support/part_geometries.h"
 #include "tests/support/ringed_pair.h"
+#include "tests/support/tick_observation.h"
 
 namespace nearfit::starved_part_test {
 namespace {
@@ -42,7 +44,7 @@ class StarvedRod : public testing::Test {
   /// Ticks at which the part is seen turning by so much each.
   void observe(int ticks, double rate) {
     for (int i = 0; i < ticks; ++i)
-      tracker_.observe(turnedBy(seen_ += rate), 1.0);
+      tracker_.update(test::partAt(turnedBy(seen_ += rate)), 1.0);
   }
   TrackedScene refreshed() {
     TrackedScene tracked;
@@ -87,9 +89,7 @@ TEST_F(StarvedRod, AFreeStepThatListsDoNotCoverIsToldToBeStarved) {
   // With lists renewed around it, it goes on, each time it is told.
   double before = angleOf(proxy.pose());
   for (int i = 0; i < 4; ++i) {
-    tracker_.observe(proxy.pose(), 1.0);
-    tracker_.observeHand(turnedBy(0.5), 1.0);
-    tracker_.setStarved(proxy.account().isStarved);
+    tracker_.update({proxy.pose(), turnedBy(0.5), false, proxy.account().isStarved}, 1.0);
     ASSERT_TRUE(tracker_.isDue(reach_));
     proxy.follow(refreshed(), turnedBy(0.5), settings);
     EXPECT_GT(angleOf(proxy.pose()), before);
@@ -104,11 +104,10 @@ TEST_F(StarvedRod, WhereThereWasNoListOneIsDueOnceItStarves) {
   ASSERT_FALSE(refreshed().near.at(0).contacts);
   // It stands, and is looked at again until nothing is due any more.
   observe(40, 0.0);
-  tracker_.setStarved(false);
   for (int i = 0; i < 8 && tracker_.isDue(reach_); ++i)
     refreshed();
   ASSERT_FALSE(tracker_.isDue(reach_));
-  tracker_.setStarved(true);
+  tracker_.update({turnedBy(seen_), std::nullopt, false, true}, 1.0);
   TrackedScene tracked;
   for (int i = 0; i < 20 && tracker_.isDue(reach_); ++i)
     tracked = refreshed();
@@ -119,16 +118,16 @@ TEST_F(StarvedRod, WhereThereWasNoListOneIsDueOnceItStarves) {
 // A part that waited was foretold to stand: each list held where it stood, and no way on.
 TEST_F(StarvedRod, ListsOfOneThatWaitsHoldTheWayThatItsHandGoes) {
   constexpr double kRate = 0.02;
-  constexpr int kLead = 3;
+  constexpr int kLead = 3, kTicks = 40;
   for (const bool isHandSeen : {false, true}) {
     tracker_ = {};
     tracker_.setScene(scene_);
-    for (int i = 0; i < 40; ++i) {
-      tracker_.observe({}, 1.0);
-      if (isHandSeen) tracker_.observeHand(turnedBy(kRate * i), 1.0);
+    for (int i = 0; i < kTicks; ++i) {
+      std::optional<RigidTransform> hand;
+      if (isHandSeen) hand = turnedBy(kRate * i);
+      tracker_.update({{}, hand, false, i == kTicks - 1}, 1.0);
       tracker_.setLead(kLead);
     }
-    tracker_.setStarved(true);
     const TrackedScene tracked = refreshed();
     EXPECT_EQ(holds(tracked, turnedBy(kRate * kLead)), isHandSeen);
   }

@@ -11,6 +11,7 @@
 #include "core/servo/servo_tick.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
+#include "tests/support/tick_observation.h"
 
 namespace nearfit::work_bound_test {
 namespace {
@@ -36,7 +37,7 @@ class FlatPlates : public testing::Test {
 
   const ServoSnapshot& tick(double gap) {
     const SearchReach reach = searchReach(parameters_.haptics);
-    if (ticks_++ > 0) tracker_.observe(snapshot_->proxy, 1.0);
+    if (ticks_++ > 0) tracker_.update(test::partAt(snapshot_->proxy), 1.0);
     if (tracker_.isDue(reach)) tracker_.refresh(reach, tracked_);
     tick_.run(tracked_, parameters_, {.pose = atGap(gap)}, kPeriod, *snapshot_);
     return *snapshot_;

@@ -17,16 +17,6 @@
 namespace nearfit::ui {
 namespace {
 
-bool isCancelled(const std::exception_ptr& error) {
-  try {
-    if (error) std::rethrow_exception(error);
-  } catch (const Cancelled&) {
-    return true;
-  } catch (...) {
-  }
-  return false;
-}
-
 /// Returns "placement" or, for meshes, the scene's name or "parts".
 QString nameFor(const Session& session, ExportKind kind) {
   if (!meshKindOf(kind)) return QStringLiteral("placement");

@@ -20,16 +20,6 @@ namespace {
 /// One step for each picture of a 60 Hz display.
 constexpr int kEveryMs = 16;
 
-bool isCancelled(const std::exception_ptr& error) {
-  try {
-    if (error) std::rethrow_exception(error);
-  } catch (const Cancelled&) {
-    return true;
-  } catch (...) {
-  }
-  return false;
-}
-
 QString noteOf(const MotionRow& row) {
   return QObject::tr("Force %1    Torque %2    Clearance %3    Contacts %4")
       .arg(formatForce(glm::length(row.wrench.force)), formatTorque(glm::length(row.wrench.torque)),

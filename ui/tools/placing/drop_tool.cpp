@@ -48,16 +48,6 @@ QString freeWayText(const QString& name) {
   return DropTool::tr("Nothing is in the way of %1 there: it stays where it is.").arg(name);
 }
 
-bool isCancelled(const std::exception_ptr& error) {
-  try {
-    if (error) std::rethrow_exception(error);
-  } catch (const Cancelled&) {
-    return true;
-  } catch (...) {
-  }
-  return false;
-}
-
 }  // namespace
 
 DropTool::DropTool(Session& session, Selection& selection, Viewport& view, Prepare prepare, QWidget* window)

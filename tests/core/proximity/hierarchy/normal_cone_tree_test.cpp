@@ -126,58 +126,5 @@ TEST(NormalConeTree, EachBoundHoldsTheDirectionsOfTheFeaturesBelowIt) {
   EXPECT_GT(checked, 10000U);
 }
 
-/// Each minimum, feature by feature, to the last bit.
-void expectSame(const std::vector<Lmd>& a, const std::vector<Lmd>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].distance, b[i].distance);
-    EXPECT_EQ(a[i].scenePoint, b[i].scenePoint);
-    EXPECT_EQ(a[i].partPoint, b[i].partPoint);
-    EXPECT_EQ(a[i].sceneFeature, b[i].sceneFeature);
-    EXPECT_EQ(a[i].sceneIndex, b[i].sceneIndex);
-    EXPECT_EQ(a[i].isRegion, b[i].isRegion);
-  }
-}
-
-TEST(NormalConeTree, FeaturesThatCarryNoMinimumChangeNoAnswer) {
-  const test::BodyPair pairs[] = {
-      {"bore", test::tubeMesh(0.5, 1.0, 0.4, 16), test::cylinderMesh(0.4, 0.6, 12)},
-      {"boxes", test::subdivided(test::boxMesh({1.0, 2.0, 3.0}), 2),
-       test::subdivided(test::boxMesh(glm::dvec3(0.5)), 2)},
-      {"stars", test::starMesh(1, 1.0, 2, 0.3), test::starMesh(2, 1.0, 2, 0.3)},
-  };
-  std::mt19937_64 random(5);
-  for (const test::BodyPair& pair : pairs) {
-    const NormalConeTree scene(pair.scene), part(pair.part),
-        idleScene = NormalConeTree::withIdleFeatures(pair.scene),
-        idlePart = NormalConeTree::withIdleFeatures(pair.part);
-    EXPECT_GT(idleScene.keptFeatures().total(), scene.keptFeatures().total()) << pair.name;
-    std::size_t minima = 0;
-    for (std::size_t i = 0; i < 200 / test::kPoseShare; ++i) {
-      const RigidTransform pose = test::poseNearContact(pair, 0.2, random);
-      const std::vector<Lmd> expected = test::allLmds(scene, part, pose, 0.2);
-      expectSame(test::allLmds(idleScene, idlePart, pose, 0.2), expected);
-      minima += expected.size();
-    }
-    EXPECT_GT(minima, 20U / test::kPoseShare) << pair.name;
-  }
-}
-
-TEST(NormalConeTree, AFeatureThatCarriesNoMinimumIsKnownByItsPlace) {
-  const NormalConeTree box = NormalConeTree::withIdleFeatures(test::boxMesh(glm::dvec3(1.0)));
-  ASSERT_EQ(box.edges().size(), 18U);
-  std::size_t idle = 0;
-  for (std::uint32_t i = 0; i < 18; ++i) {
-    const NormalConeTree::EdgeLeaf& edge = box.edges()[i];
-    // The sides of the cube are as long as it is, the diagonals are not.
-    const bool isDiagonal = glm::distance(box.positions()[edge.v0], box.positions()[edge.v1]) > 1.2;
-    EXPECT_EQ(box.isIdle(FeatureKind::Edge, i), isDiagonal);
-    idle += isDiagonal ? 1 : 0;
-  }
-  EXPECT_EQ(idle, 6U);
-  EXPECT_FALSE(box.isIdle(FeatureKind::Vertex, 7));
-  EXPECT_FALSE(box.isIdle(FeatureKind::Face, 11));
-}
-
 }  // namespace
 }  // namespace nearfit::normal_cone_tree_test

@@ -1,13 +1,16 @@
-#include "core/mesh/idle_features.h"
+#include "tests/support/idle_features.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
-namespace nearfit {
+#include "core/proximity/hierarchy/normal_cone_tree_builder.h"
+#include "core/proximity/query/leaf_tests.h"
+#include "core/proximity/query/query_workspace.h"
+
+namespace nearfit::test {
 namespace {
 
 /// Max rounding error of half the angle between two face normals [rad].
@@ -85,10 +88,52 @@ class IdleFeatureFinder {
   std::vector<NormalCone> cones_;
 };
 
+/// Builds a hierarchy with idle features, and counts them.
+NormalConeTree fullTree(const TriangleMesh& mesh, FeatureCounts& idle) {
+  MeshFeatures features = findFeatures(mesh);
+  const std::size_t vertices = features.vertices.size(), edges = features.edges.size();
+  addIdleFeatures(mesh, features);
+  idle = {features.vertices.size() - vertices, features.edges.size() - edges, 0};
+  const ProgressCallback nobody;
+  return NormalConeTree(NormalConeTreeBuilder(mesh, nobody, std::move(features)).build());
+}
+
 }  // namespace
 
 void addIdleFeatures(const TriangleMesh& mesh, MeshFeatures& features) {
   IdleFeatureFinder(mesh, features).add();
 }
 
-}  // namespace nearfit
+FullHierarchy::FullHierarchy(const TriangleMesh& mesh) : tree_(fullTree(mesh, idle_)) {}
+
+bool FullHierarchy::isIdle(std::uint32_t leaf) const noexcept {
+  const FeatureKind kind = NormalConeTree::leafKind(leaf);
+  const std::uint32_t index = NormalConeTree::leafIndex(leaf);
+  return (kind == FeatureKind::Vertex && index >= tree_.vertices().size() - idle_.vertices) ||
+         (kind == FeatureKind::Edge && index >= tree_.edges().size() - idle_.edges);
+}
+
+LmdResult findLmds(const FullHierarchy& scene, const FullHierarchy& part, const RigidTransform& sceneFromPart,
+                   double cutoff, LmdScratch& scratch, std::span<Lmd> out) noexcept {
+  const NormalConeTree &sceneTree = scene.tree(), &partTree = part.tree();
+  if (!isQueryValid(sceneTree, partTree, sceneFromPart, cutoff)) return LmdResult{.completeTo = cutoff};
+  LmdScratch::Data& workspace = scratch.data();
+  const RigidTransform pose = centredPose(sceneTree, partTree, sceneFromPart);
+  const LeafTests tests(sceneTree, partTree, pose, cutoff);
+  LmdResult result;
+  result.completeTo = cutoff;
+  MinimaCollector collector(workspace, result);
+  TreeTraversal traversal(sceneTree, partTree, pose, cullLimits(sceneTree, partTree, pose, cutoff),
+                          workspace.open, workspace.traversal);
+  traversal.run([&](const EntryPair& pair) {
+    ++result.leafPairs;
+    traversal.spend(1);
+    const bool isFound = tests.test(pair.scene, pair.part, collector.slot());
+    if (isFound && !scene.isIdle(pair.scene) && !part.isIdle(pair.part)) collector.add();
+  });
+  result.nodePairs = traversal.nodePairs() - result.leafPairs;
+  collector.finish(sceneTree, partTree, out);
+  return result;
+}
+
+}  // namespace nearfit::test
