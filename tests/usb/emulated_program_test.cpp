@@ -181,7 +181,7 @@ TEST_F(EmulatedProgram, APulledPlugEndsItWithAReasonAndWholeFiles) {
                                        {"place", "fit.nearfit", "--part", "Cone", "--device", "--seconds",
                                         "120", "--record", how + ".csv", "--export", how + ".json"});
       EXPECT_EQ(result.exitCode, 1) << how;
-      EXPECT_THAT(result.err, HasSubstr("the files hold what was done till then")) << how;
+      EXPECT_THAT(result.err, HasSubstr("the files contain everything up to then")) << how;
       EXPECT_TRUE(std::filesystem::exists(file(how + ".json"))) << how;
       rows = Record(file(how + ".csv")).rows();
       if (rows > 0) break;
