@@ -41,7 +41,7 @@ TEST_F(PlaceFeel, OptionsOfTheFeelCountForThisRunAlone) {
 TEST_F(PlaceFeel, OptionsOfTheFeelThatMakeNoSenseAreRefused) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{"--mode", "soft"}, "--mode"},
-      {{"--margin", "0.2"}, "--margin: 0.2 m is more than the cutoff, 0.1 m"},
+      {{"--margin", "0.2"}, "--margin: 0.2 m is greater than the cutoff, 0.1 m"},
       {{"--scale", "1e4"}, "--scale: 10000 is out of range"},
       {{"--lock", "up"}, "--lock: \"up\" is not a list of axes"},
   };

@@ -175,7 +175,7 @@ TEST_F(SceneNewCommand, WrongUsageIsToldInOneLineAndWritesNothing) {
       {{"fit.nearfit", "--part", hole + "@0,0,1e10,1,0,0,0"}, "position"},
       {{"fit.nearfit", "--part", hole, "--cutoff", "0"}, "--cutoff: 0 m is out of range"},
       {{"fit.nearfit", "--part", hole, "--mode", "soft"}, "--mode"},
-      {{"fit.nearfit", "--part", hole, "--margin", "0.02"}, "--margin: 0.02 m is more than the cutoff"},
+      {{"fit.nearfit", "--part", hole, "--margin", "0.02"}, "--margin: 0.02 m is greater than the cutoff"},
       {{"fit.nearfit", "--part", hole, "--margin", "nan"}, "--margin"},
       {{"fit.nearfit", "--part", hole, "--friction", "2.5"}, "--friction: 2.5 is out of range"},
       {{"fit.nearfit", "--part", hole, "--coupling-stiffness", "-1"}, "--coupling-stiffness"},

@@ -224,7 +224,7 @@ void DesktopProxyTest::marginBeyondTheCutoffIsExplained() {
   const std::string before = d.session().undoText();
   // The cutoff is 10 mm.
   d.type<QDoubleSpinBox>("margin", "20");
-  QVERIFY(d.text("refusal").contains(QStringLiteral("more than the cutoff")));
+  QVERIFY(d.text("refusal").contains(QStringLiteral("greater than the cutoff")));
   QVERIFY(d.widget<QLabel>("refusal")->isVisible());
   QCOMPARE(d.session().scene().haptics().proxy.margin, kMargin);
   QCOMPARE(value(d, "margin"), 0.1);
