@@ -16,7 +16,7 @@
 namespace nearfit {
 namespace {
 
-constexpr const char* kRemedy = "give a recording as nearfit or nearfit-cli place --record writes it";
+constexpr const char* kRemedy = "give a recording written by nearfit or by nearfit-cli place --record";
 /// Rows between two progress reports.
 constexpr std::size_t kRowsPerReport = 1000;
 /// Max time in a recording: eleven days [s].

@@ -106,7 +106,7 @@ TEST_F(EmulatedProgram, AFalconIsGivenTheFirmwareThatItTakes) {
   EXPECT_EQ(monitor("right.bin").exitCode, 0);
   const ProcessResult wrong = monitor("wrong.bin");
   EXPECT_EQ(wrong.exitCode, 1);
-  EXPECT_THAT(wrong.err, HasSubstr("it took the firmware and does not run it"));
+  EXPECT_THAT(wrong.err, HasSubstr("it accepted the firmware but does not run it"));
 }
 
 TEST_F(EmulatedProgram, ADeviceLeadsThePartWithPosesInAndWrenchesOut) {
