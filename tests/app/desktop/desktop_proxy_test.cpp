@@ -160,7 +160,8 @@ void DesktopProxyTest::partThatOverlapsIsNamed() {
   start(d, ui::Hand::Manual);
   auto* notice = d.widget<QFrame>("feelNotice");
   QTRY_VERIFY(notice->isVisible());
-  QCOMPARE(d.text("noticeText"), QStringLiteral("Overlaps fixed: not felt until they are apart."));
+  QCOMPARE(d.text("noticeText"),
+           QStringLiteral("Overlaps fixed, which is not felt until the two are apart."));
   QVERIFY(!d.widget<QPushButton>("restart")->isVisible());
   // Pulled out, it is felt again.
   d.type<QDoubleSpinBox>("positionZ", "2");

@@ -168,7 +168,7 @@ void DesktopTimelineTest::withoutAPartInHandThereIsNothingToMove() {
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, f.file("felt.csv")); });
   pressShortcut(f.d, Qt::Key_F8, Qt::ShiftModifier);
   QTRY_COMPARE(f.failures.size(), 1);
-  QVERIFY(f.failures[0].details.contains(QStringLiteral("Take the one in hand")));
+  QVERIFY(f.failures[0].details.contains(QStringLiteral("Take in hand the part")));
 }
 
 void DesktopTimelineTest::whatIsFeltIsRecordedFromTheButtonAndPlayed() {
