@@ -341,7 +341,7 @@ void FeelDialogTest::refusedValuesGoBackWithTheReason() {
   const HapticSettings before;
   type("margin", "20");
   QCOMPARE(edited_->proxy.margin, 0.02);
-  dialog_->showRefusal(QStringLiteral("Not taken over"));
+  dialog_->showRefusal(QStringLiteral("Not applied"));
   show(before);
   QCOMPARE(field("margin")->value(), 0.1);
   QVERIFY(!widget<QLabel>("refusal")->isHidden());
