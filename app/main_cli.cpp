@@ -16,10 +16,10 @@ namespace {
 constexpr int kFailure = 1, kUsage = 2;
 
 constexpr const char* kFooter =
-    "nearfit-cli COMMAND --help tells what a command takes and prints.\n"
+    "nearfit-cli COMMAND --help describes the options and output of a command.\n"
     "Lengths are in metres, forces in newtons, times in seconds unless said otherwise; quaternions are w, x, "
     "y, z.\n"
-    "Exit code: 0 when all went well, 2 for wrong usage, 1 for anything else, with one line on stderr.";
+    "Exit code: 0 for success, 2 for wrong usage, 1 for any other failure, with one line on stderr.";
 
 int report(const char* message, int exitCode) {
   nearfit::cli::printError(message);

@@ -37,7 +37,7 @@ double parseUnit(const std::string& text) {
   }
   const std::optional<double> metres = parseNumber(text);
   if (!metres) {
-    throw UsageError("--unit", fmt::format("\"{}\" is no unit", text),
+    throw UsageError("--unit", fmt::format("\"{}\" is not a unit", text),
                      "give m, cm, mm, um, in, ft, or a number of metres");
   }
   checkMetresPerUnit(*metres);
@@ -57,8 +57,8 @@ bool parseNumbersIfAny(std::string_view text, std::span<double> numbers) {
 }
 
 void failNumbers(const std::string& option, const std::string& text, std::size_t count) {
-  throw UsageError(option, fmt::format("\"{}\" is not what it takes", text),
-                   count == 1 ? "give a number" : fmt::format("give {} numbers with commas between", count));
+  throw UsageError(option, fmt::format("\"{}\" is not a valid value", text),
+                   count == 1 ? "give a number" : fmt::format("give {} numbers separated by commas", count));
 }
 
 std::optional<RigidTransform> parsePoseIfAny(const std::string& text) {
@@ -74,7 +74,7 @@ std::optional<RigidTransform> parsePoseIfAny(const std::string& text) {
 RigidTransform parsePose(const std::string& option, const std::string& text) {
   const std::optional<RigidTransform> pose = parsePoseIfAny(text);
   if (!pose)
-    throw UsageError(option, fmt::format("\"{}\" is no pose", text), std::string("give ") + kPoseHelp);
+    throw UsageError(option, fmt::format("\"{}\" is not a pose", text), std::string("give ") + kPoseHelp);
   return *pose;
 }
 

@@ -23,8 +23,8 @@ struct CacheOptions {
 void checkSize() {
   const char* text = std::getenv("NEARFIT_CACHE_SIZE");
   if (text == nullptr || *text == '\0' || parseByteSize(text)) return;
-  throw UsageError("NEARFIT_CACHE_SIZE", fmt::format("\"{}\" is no size", printableText(text)),
-                   "give a number of bytes, or one with K, M, G or T behind");
+  throw UsageError("NEARFIT_CACHE_SIZE", fmt::format("\"{}\" is not a size", printableText(text)),
+                   "give a number of bytes, or a number followed by K, M, G or T");
 }
 
 std::string cacheText(const TreeCache& cache, const TreeCache::Usage& usage, bool isCleared) {
@@ -60,21 +60,18 @@ void runCache(const CacheOptions& options) {
 
 void addCacheCommand(CLI::App& program) {
   const auto options = std::make_shared<CacheOptions>();
-  CLI::App* command = program.add_subcommand(
-      "cache", "Says where meshes with their hierarchies are kept, and how much; or removes them.");
-  command->add_flag("--clear", options->isCleared, "Remove all that is kept");
+  CLI::App* command =
+      program.add_subcommand("cache", "Shows or clears the cache of meshes and their hierarchies.");
+  command->add_flag("--clear", options->isCleared, "Delete everything in the cache");
   command->add_flag("--json", options->isJson, "Print one JSON object");
   command->footer(fmt::format(
-      "A mesh of {} triangles or more is kept with what was derived from it, known by the content of its "
-      "file\n"
-      "and its unit, so that the next program that opens it need not read or build it again. What is kept "
-      "is\n"
-      "checked before it is used, and made anew when anything is wrong with it: clearing loses nothing but\n"
-      "time. What was not used for longest goes when the limit is reached.\n"
+      "The cache holds meshes of {} triangles or more with the data derived from them, by file\n"
+      "content and unit, so that the next program that opens a mesh need not read and build it again.\n"
+      "Cached data is checked before it is used and rebuilt if anything is wrong: clearing the cache\n"
+      "costs only time. When the limit is reached, the entries unused for longest are deleted.\n"
       "Environment:\n"
-      "  NEARFIT_CACHE       Folder of the cache, or \"off\"; without it, nearfit in XDG_CACHE_HOME or "
-      "~/.cache\n"
-      "  NEARFIT_CACHE_SIZE  Limit in bytes, or with K, M, G or T behind; without it, 4G",
+      "  NEARFIT_CACHE       Folder, or \"off\"; default: nearfit in XDG_CACHE_HOME or ~/.cache\n"
+      "  NEARFIT_CACHE_SIZE  Limit in bytes, or with K, M, G or T; default: 4G",
       kMinCachedTriangles));
   command->callback([options] { runCache(*options); });
 }

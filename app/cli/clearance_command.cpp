@@ -27,7 +27,7 @@ PartId chosenPart(const Scene& scene, const std::string& name) {
   }
   const Part* part = scene.findByName(name);
   if (part == nullptr)
-    throw UsageError("--part", fmt::format("there is no part \"{}\"", name), "name one of the scene");
+    throw UsageError("--part", fmt::format("there is no part \"{}\"", name), "name a part of the scene");
   return part->id;
 }
 
@@ -44,17 +44,17 @@ void runClearance(const ClearanceOptions& options) {
 void addClearanceCommand(CLI::App& program) {
   const auto options = std::make_shared<ClearanceOptions>();
   CLI::App* command = program.add_subcommand(
-      "clearance", "Prints how near a part of a scene is to each other visible one, as CSV.");
+      "clearance", "Prints the clearance between a part and each other visible part, as CSV.");
   command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required()->type_name("SCENE");
-  command->add_option("--part", options->part, "The part; the moving one without it")->type_name("NAME");
+  command->add_option("--part", options->part, "Name of the part; default: the moving part")
+      ->type_name("NAME");
   command->add_option("--cutoff", options->cutoff,
-                      "Minima are counted within that [m]; the scene's without it");
+                      "Count minima within this distance [m]; default: the scene's cutoff");
   command->footer(
-      "Columns: part, other, distance [m] (however far; 0 where they overlap), the points where it is, x y z "
-      "of\n"
-      "each [m] in the world frame, minima within the cutoff, every_minimum (0 where there are more than "
-      "are\n"
-      "looked for), overlap (decided exactly: no, surfaces meet, inside the other, the other inside).");
+      "Columns: part; other; distance [m] (not limited by the cutoff; 0 if they overlap); the nearest\n"
+      "points of the two, x y z each [m] in the world frame; minima, their number within the cutoff;\n"
+      "every_minimum (0 if there are more than are looked for); overlap, decided exactly (no, surfaces\n"
+      "meet, inside the other, the other inside).");
   command->callback([options] { runClearance(*options); });
 }
 

@@ -119,9 +119,9 @@ void requireForces(const HapticDevice& device, const MonitorOptions& options) {
 
 std::string heading(const HapticDevice& device, const MonitorOptions& options) {
   const char* forces = options.isArming
-                           ? "it is armed once it is ready, and resists motion weakly: hold its handle"
+                           ? "it is armed as soon as it is ready, then resists motion weakly: hold its handle"
                            : "its forces are off";
-  return oneLine(device.info().name) + ": " + forces + "; Ctrl+C ends\n";
+  return oneLine(device.info().name) + ": " + forces + "; press Ctrl+C to end\n";
 }
 
 }  // namespace

@@ -11,12 +11,13 @@ void addDeviceFileOptions(CLI::App& command, DeviceFiles& files) {
   constexpr const char* kGroup = "Devices";
   command
       .add_option("--falcon-firmware", files.falconFirmware,
-                  "Novint Falcon: its firmware, from the maker's own software")
+                  "Firmware of a Novint Falcon, from its maker's software")
       ->type_name("FILE")
       ->group(kGroup);
   command
       .add_option("--polhem-calibration", files.polhemCalibration,
-                  "WoodenHaptics and Polhem: lengths, counts and currents (resources/devices)")
+                  "Calibration of a WoodenHaptics or Polhem: lengths, counts and currents (examples: "
+                  "resources/devices)")
       ->type_name("FILE")
       ->group(kGroup);
 }

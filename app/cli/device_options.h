@@ -15,9 +15,7 @@ namespace nearfit::cli {
 
 /// Help text on what --calibrate does.
 inline constexpr const char* kCalibrateHelp =
-    "The handle is held in its rest, or left free to find itself: devices that do not know where it is take "
-    "it "
-    "from there";
+    "Find where the handle is: hold it in its rest, or leave it free if the device finds its position itself";
 
 /// Adds the options for files that some devices need.
 /// @param files  Must outlive the command.

@@ -85,8 +85,8 @@ std::optional<std::string> typedLine() {
 /// Ticks the device while it waits, since some devices need that.
 bool asksForConsent(TickedDevice& ticked, double force) {
   print(
-      fmt::format("Hold the handle. It will be pushed with up to {:.2f} N, {} s along each axis.\n"
-                  "Type yes to let forces out: ",
+      fmt::format("Hold the handle. The device will push it with up to {:.2f} N for {} s along each axis.\n"
+                  "Type yes to arm the device: ",
                   force, 1));
   flushOutput();
   while (!InterruptGuard::isInterrupted() && ticked.tick()) {
@@ -107,7 +107,7 @@ TestStep waitForCalibration(TickedDevice& ticked, bool isJson) {
   }
   const bool isReady = device.state() == DeviceState::Ready;
   return {"calibrate", isReady ? Result::Passed : Result::Failed,
-          isReady ? "it knows where its handle is" : device.stateNote()};
+          isReady ? "the position of its handle is known" : device.stateNote()};
 }
 
 TestStep armed(HapticDevice& device) {
@@ -130,11 +130,11 @@ TestStep disarmed(TickedDevice& ticked) {
 void testForces(TickedDevice& ticked, Steps& steps, const DeviceTestOptions& options) {
   HapticDevice& device = ticked.device();
   const DeviceInfo info = device.info();
-  if (info.forceAxes == 0) return steps.add({"forces", Result::Skipped, "it does not push"});
+  if (info.forceAxes == 0) return steps.add({"forces", Result::Skipped, "this device does not push"});
   const double force = std::min(kTestForce, info.limits.maxForce);
   const bool canAsk = !options.isJson && ::isatty(STDIN_FILENO) == 1 && ::isatty(STDOUT_FILENO) == 1;
   if (!options.hasConsent && !(canAsk && asksForConsent(ticked, force)))
-    return steps.add({"forces", Result::Skipped, "nobody agreed to them: type yes, or give --yes"});
+    return steps.add({"forces", Result::Skipped, "not confirmed: type yes, or give --yes"});
   if (device.state() == DeviceState::Uncalibrated) {
     steps.add(waitForCalibration(ticked, options.isJson));
     if (steps.failed() > 0) return;
@@ -169,7 +169,7 @@ void testDevice(HapticDevice& device, const DeviceTestOptions& options) {
   if (InterruptGuard::isInterrupted()) throw Error("devices --test", "interrupted", "run it again");
   if (steps.failed() > 0) {
     throw Error(name, fmt::format("{} of {} steps failed", steps.failed(), steps.count()),
-                "plug it in again, straight into the computer, and repeat");
+                "plug it in again, straight into the computer, and repeat the test");
   }
 }
 

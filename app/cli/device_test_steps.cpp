@@ -77,15 +77,15 @@ TestStep judgeRate(const TickedDevice& ticked, const Watched& watched, double pe
                    const std::string& note) {
   TestStep step{"reports", Result::Passed, {}};
   const LatencyHistogram& intervals = ticked.meter().intervals();
-  step.text = fmt::format("{:.1f} Hz, p50 {:.2f} and p99 {:.2f} ms between two, {} missing, {} rejected",
+  step.text = fmt::format("{:.1f} Hz, interval p50 {:.2f} and p99 {:.2f} ms, {} missing, {} rejected",
                           watched.rate, 1e3 * intervals.percentile(0.5), 1e3 * intervals.percentile(0.99),
                           watched.counters.missing, watched.counters.rejected);
   if (watched.isLost) return {"reports", Result::Failed, note};
   if (period <= 0.0) {
-    step.text += watched.counters.poses == 0 ? " (it sends while it is pushed)" : "";
+    step.text += watched.counters.poses == 0 ? " (it sends only while it is pushed)" : "";
     return step;
   }
-  step.text += fmt::format("; {:.1f} Hz is its own", 1.0 / period);
+  step.text += fmt::format("; its nominal rate is {:.1f} Hz", 1.0 / period);
   const bool isTooSlow = watched.rate < kMinRate / period;
   if (isTooSlow || watched.counters.rejected > watched.counters.poses) step.result = Result::Failed;
   return step;
@@ -94,9 +94,9 @@ TestStep judgeRate(const TickedDevice& ticked, const Watched& watched, double pe
 TestStep judgePoses(const Watched& watched) {
   if (!watched.isFinite) return {"poses", Result::Failed, "a pose is not finite"};
   const bool isTooFast = !(watched.mostSpeed <= SafetyLimits{}.faultSpeed);
-  return {"poses", isTooFast ? Result::Failed : Result::Passed,
-          fmt::format("finite, at most {:.3f} m/s{}", watched.mostSpeed,
-                      isTooFast ? ": no hand is so fast" : "")};
+  return {
+      "poses", isTooFast ? Result::Failed : Result::Passed,
+      fmt::format("finite, max {:.3f} m/s{}", watched.mostSpeed, isTooFast ? ": faster than any hand" : "")};
 }
 
 /// Returns why a push is given up; empty if it goes on.
@@ -106,7 +106,7 @@ std::string motionTrouble(const HapticDevice& device, double way, double speed) 
     const std::string note = device.stateNote();
     return note.empty() ? "it is no longer armed" : note;
   }
-  if (!(way <= kMaxWay)) return fmt::format("the handle went {:.3f} m: it has to be held", way);
+  if (!(way <= kMaxWay)) return fmt::format("the handle moved {:.3f} m: hold it", way);
   if (!(speed <= kMaxSpeed)) return fmt::format("the handle ran away at {:.2f} m/s", speed);
   return {};
 }
@@ -141,9 +141,9 @@ TestStep push(TickedDevice& ticked, const std::string& name, const glm::dvec3& a
     held += ticked.handle().isArmed ? 1 : 0;
   }
   ticked.tick();
-  if (2 * held < ticks) return {name, Result::Failed, "no force went out: hold its dead-man's switch"};
+  if (2 * held < ticks) return {name, Result::Failed, "it exerted no force: hold its dead-man's switch"};
   return {name, Result::Passed,
-          fmt::format("up to {:.2f} N, the handle gave way by {:.4f} m", force, mostWay)};
+          fmt::format("up to {:.2f} N, the handle moved up to {:.4f} m", force, mostWay)};
 }
 
 }  // namespace nearfit::cli

@@ -27,12 +27,12 @@ namespace {
 
 constexpr const char* kDevicesFooter =
     R"(DEVICE is a driver (openhap, spacemouse, falcon, polhem, plugin), an id (046d:c626), a place (1-4.2), a node of
-/dev or a part of the name; without it, the first that can be used.
---test opens the device, watches its reports and poses for 2 s and then, only if you type yes or give --yes,
-arms it and pushes with at most 0.5 N for a second along each axis, while you hold the handle.
---monitor --arm arms it once it is ready and resists motion as syrup would: 2 N s/m, at most 0.5 N, none beyond 0.6 m/s.
-Nothing is armed otherwise, and no force goes out.
-Exit code: 0 also when nothing is plugged in; 1 when the device that is meant is missing, is lost or fails the test.)";
+/dev or a part of the name; default: the first usable device.
+--test opens the device and watches its reports and poses for 2 s. Then, only if you type yes or give --yes, it
+arms the device and pushes with at most 0.5 N for a second along each axis, while you hold the handle.
+--monitor --arm arms it as soon as it is ready; it then damps motion with 2 N s/m, at most 0.5 N, none above 0.6 m/s.
+Otherwise no device is armed, and none pushes.
+Exit code: 0 even if nothing is plugged in; 1 if the chosen device is missing, is lost or fails the test.)";
 
 constexpr std::chrono::milliseconds kLook{100};
 /// Covers systems that do not announce changes, and devices of plug-ins.
@@ -52,7 +52,7 @@ void printRules() {
   const std::string file = udevRulesFile();
   std::ifstream in(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in || text.empty()) throw FileError(file, "it cannot be read", "install Nearfit anew");
+  if (!in || text.empty()) throw FileError(file, "it cannot be read", "install Nearfit again");
   print(text);
 }
 
@@ -128,11 +128,12 @@ void runDevices(const DevicesOptions& options) {
 void addDevicesCommand(CLI::App& program) {
   const auto options = std::make_shared<DevicesOptions>();
   CLI::App* command = program.add_subcommand(
-      "devices", "Says which devices are plugged in and whether they can be used; shows and tests one.");
+      "devices",
+      "Lists the devices that are plugged in and whether they can be used; monitors or tests one.");
   CLI::Option* rules =
       command->add_flag("--udev-rules", options->printsRules, "Print the udev rules that give permission");
-  CLI::Option* watched =
-      command->add_flag("--watch", options->watches, "Tell of devices that come and go until Ctrl+C");
+  CLI::Option* watched = command->add_flag("--watch", options->watches,
+                                           "Report devices as they are plugged in and out, until Ctrl+C");
   options->monitor = command->add_option("--monitor", options->monitored,
                                          "Show pose, rate, jitter, buttons, force and state until Ctrl+C");
   options->test = command->add_option("--test", options->tested, "Test a device, step by step");
@@ -141,13 +142,14 @@ void addDevicesCommand(CLI::App& program) {
   rules->excludes(watched)->excludes(options->monitor)->excludes(options->test);
   watched->excludes(options->monitor)->excludes(options->test);
   options->monitor->excludes(options->test);
-  command->add_option("--seconds", options->seconds, "End --watch or --monitor after so long")
+  command->add_option("--seconds", options->seconds, "End --watch or --monitor after this time [s]")
       ->type_name("S");
-  command->add_flag("--yes", options->hasConsent, "Agree to the forces of --test: somebody holds the handle");
+  command->add_flag("--yes", options->hasConsent,
+                    "Confirm the forces of --test: somebody must hold the handle");
   command->add_flag("--arm", options->isArming,
-                    "With --monitor: let a weak resistance out, 0.5 N at most; hold the handle");
+                    "With --monitor: resist motion weakly, at most 0.5 N; hold the handle");
   command->add_flag("--calibrate", options->isCalibrating, kCalibrateHelp);
-  command->add_flag("--json", options->isJson, "Print JSON, an object a line");
+  command->add_flag("--json", options->isJson, "Print JSON, one object per line");
   addDeviceFileOptions(*command, options->files);
   addRateOptions(*command, options->rate);
   command->footer(kDevicesFooter);

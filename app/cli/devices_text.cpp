@@ -48,7 +48,7 @@ std::string conditionText(const DeviceListing& device) {
     return "cannot be used: " + device.reason + (device.remedy.empty() ? "" : "; " + device.remedy);
   std::string text = "can be used";
   if (!device.needs.empty()) text += "; needs " + device.needs;
-  if (!device.kernelDriver.empty()) text += "; " + device.kernelDriver + " gives it up meanwhile";
+  if (!device.kernelDriver.empty()) text += "; " + device.kernelDriver + " gives it up while it is used";
   return text;
 }
 
@@ -87,7 +87,7 @@ std::string devicesText(std::span<const DeviceListing> devices) {
   std::string text;
   for (const DeviceListing& device : devices)
     text += listingLine(device) + "\n";
-  if (devices.empty()) text = "No device that Nearfit knows is plugged in.\n";
+  if (devices.empty()) text = "No supported device is plugged in.\n";
   text += "Without a device:\n";
   for (const SimulatedHand& hand : kSimulatedHands)
     text += fmt::format("{:<10}  {}: {}\n", hand.id, hand.name, hand.use);

@@ -22,14 +22,13 @@ struct ExportOptions {
 };
 
 constexpr const char* kExportFooter =
-    "What is written follows from the name of OUT:\n"
-    "  .json  where each part is, and what is left between the moving part and each other one\n"
-    "  .csv   where each part is, a row a part: position [m], quaternion, matrix by rows\n"
+    "The suffix of OUT chooses the format:\n"
+    "  .json  poses of all parts, and the clearances of the moving part\n"
+    "  .csv   poses of all parts, one row per part: position [m], quaternion, matrix by rows\n"
     "  .stl   the parts as one mesh in the world frame, binary, single precision\n"
     "  .obj   the same in double precision, each part an object and a group of its name\n"
     "  .ply   the same, binary, in double precision, with the parts' colours\n"
-    "A mesh has all visible parts, or those that --part names. A file of that name is replaced, as one "
-    "step.\n"
+    "A mesh contains all visible parts, or those named by --part. An existing OUT is replaced.\n"
     "Example: nearfit-cli export fit.nearfit fit.stl --unit mm --part Peg";
 
 std::vector<PartId> partsNamed(const Scene& scene, const std::vector<std::string>& names) {
@@ -37,7 +36,7 @@ std::vector<PartId> partsNamed(const Scene& scene, const std::vector<std::string
   for (const std::string& name : names) {
     const Part* part = scene.findByName(name);
     if (part == nullptr)
-      throw UsageError("--part", fmt::format("there is no part \"{}\"", name), "name one of the scene");
+      throw UsageError("--part", fmt::format("there is no part \"{}\"", name), "name a part of the scene");
     parts.push_back(part->id);
   }
   return parts;
@@ -46,9 +45,10 @@ std::vector<PartId> partsNamed(const Scene& scene, const std::vector<std::string
 void runExport(const ExportOptions& options) {
   const auto kind = exportKindOf(options.out);
   if (!kind)
-    throw UsageError(options.out, "its ending tells no format", "end it in .json, .csv, .stl, .obj or .ply");
+    throw UsageError(options.out, "its suffix is not that of a known format",
+                     "use .json, .csv, .stl, .obj or .ply");
   if (!meshKindOf(*kind) && !options.parts.empty())
-    throw UsageError("--part", "a placement has all parts", "leave it out, or write a mesh");
+    throw UsageError("--part", "a placement always has all parts", "leave it out, or write a mesh");
   SceneExport what{*kind, parseUnit(options.unit), {}};
   const std::filesystem::path sceneFile = options.scene;
   checkTarget(options.out, std::span(&sceneFile, 1));
@@ -66,10 +66,10 @@ void runExport(const ExportOptions& options) {
 void addExportCommand(CLI::App& program) {
   const auto options = std::make_shared<ExportOptions>();
   CLI::App* command =
-      program.add_subcommand("export", "Writes where the parts of a scene are, or them as one mesh.");
+      program.add_subcommand("export", "Exports the poses of a scene's parts, or the parts as one mesh.");
   command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required()->type_name("SCENE");
   command->add_option("out", options->out, "File to write")->required()->type_name("OUT");
-  command->add_option("--part", options->parts, "Of a mesh: a part; once for each")
+  command->add_option("--part", options->parts, "For a mesh: name of a part to include; repeat it for more")
       ->allow_extra_args(false)
       ->type_name("NAME");
   command

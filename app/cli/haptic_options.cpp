@@ -59,46 +59,47 @@ class OptionAdder {
 
 void addModeOptions(OptionAdder& adder, HapticOptions& options, const HapticSettings& defaults) {
   adder
-      .add(
-          "--mode", options.mode, "MODE", "proxy",
-          "proxy: the part stops where it touches. spring: it goes where the hand is, each minimum pushes as "
-          "a spring. printed: the same with the law as the paper prints it")
+      .add("--mode", options.mode, "MODE", "proxy",
+           "proxy: the part stops at contact. spring: the part is where the hand is, and each minimum pushes "
+           "as a spring. printed: the same, with the spring law as printed in the paper")
       ->check(CLI::IsMember({"proxy", "spring", "printed"}));
   adder.add("--cutoff", options.cutoff, "METRES", defaults.springs.cutoff,
-            "How far minima are looked for, and rest length of the springs [m]");
+            "Range of the search for minima, and rest length of the springs [m]");
   adder.add("--stiffness", options.stiffness, "K", defaults.springs.stiffness,
-            "Of each spring [N/m], or [N/m^2] in the printed mode");
-  adder.add("--damping", options.damping, "B", defaults.springs.damping, "Of each spring [N s/m]");
+            "Stiffness of each spring [N/m], or [N/m^2] in the printed mode");
+  adder.add("--damping", options.damping, "B", defaults.springs.damping, "Damping of each spring [N s/m]");
   adder.add("--margin", options.margin, "METRES", "1 % of the cutoff",
-            "Proxy: the distance at which contact holds [m]");
-  adder.add("--friction", options.friction, "MU", defaults.proxy.friction, "Proxy: Coulomb's coefficient");
+            "Proxy: gap that the part keeps in contact [m]");
+  adder.add("--friction", options.friction, "MU", defaults.proxy.friction,
+            "Proxy: coefficient of Coulomb friction");
 }
 
 void addCouplingOptions(OptionAdder& adder, HapticOptions& options) {
   constexpr const char* kAutomatic = "automatic";
   adder.add("--coupling-stiffness", options.couplingStiffness, "K", kAutomatic,
-            "Proxy: of the spring between hand and part [N/m]");
-  adder.add("--coupling-damping", options.couplingDamping, "B", kAutomatic, "Proxy: its damping [N s/m]");
+            "Proxy: stiffness of the coupling between hand and part [N/m]");
+  adder.add("--coupling-damping", options.couplingDamping, "B", kAutomatic,
+            "Proxy: damping of the coupling [N s/m]");
   adder.add("--rotational-stiffness", options.rotationalStiffness, "K", kAutomatic,
-            "Proxy: of the same for rotation [N m/rad]");
+            "Proxy: rotational stiffness of the coupling [N m/rad]");
   adder.add("--rotational-damping", options.rotationalDamping, "B", kAutomatic,
-            "Proxy: its damping [N m s/rad]");
+            "Proxy: rotational damping of the coupling [N m s/rad]");
 }
 
 void addWeightOptions(OptionAdder& adder, HapticOptions& options) {
-  adder.addFlag("--weight,!--no-weight", options.hasWeight, "The part hangs in the hand");
-  adder.addFlag("--inertia,!--no-inertia", options.hasInertia, "Proxy: the part resists being accelerated");
-  adder.add("--gravity", options.gravity, "X,Y,Z", "0,0,-9.80665", "In the world frame [m/s^2]");
+  adder.addFlag("--weight,!--no-weight", options.hasWeight, "The part's weight is felt");
+  adder.addFlag("--inertia,!--no-inertia", options.hasInertia, "Proxy: the part resists acceleration");
+  adder.add("--gravity", options.gravity, "X,Y,Z", "0,0,-9.80665", "Gravity in the world frame [m/s^2]");
 }
 
 void addMappingOptions(OptionAdder& adder, HapticOptions& options, const HapticSettings& defaults) {
   adder.add("--scale", options.scale, "S", defaults.mapping.scale,
-            "Metres in the scene to a metre of the device");
+            "Metres in the scene per metre of the device");
   adder.add("--orientation", options.orientation, "QW,QX,QY,QZ", "1,0,0,0",
-            "Turns the device's frame into the world's; unit quaternion");
+            "Rotation from the device's frame to the world frame; unit quaternion");
   adder.add("--lock", options.locks, "LIST", "none",
-            "World axes along (tx,ty,tz) and about (rx,ry,rz) which the part stays, with commas between, or "
-            "none");
+            "World axes along (tx,ty,tz) or about (rx,ry,rz) which the part cannot move, separated by "
+            "commas, or none");
 }
 
 void take(const std::optional<double>& from, double& to) {
@@ -135,8 +136,8 @@ void applyLocks(const std::string& text, WorkspaceMapping& mapping) {
     if (name.size() == rest.size()) return;
     rest.remove_prefix(name.size() + 1);
   }
-  throw UsageError("--lock", fmt::format("\"{}\" is no list of axes", text),
-                   "give some of tx, ty, tz, rx, ry and rz with commas between, or none");
+  throw UsageError("--lock", fmt::format("\"{}\" is not a list of axes", text),
+                   "give some of tx, ty, tz, rx, ry and rz separated by commas, or none");
 }
 
 void applyTexts(const HapticOptions& options, HapticSettings& settings) {

@@ -174,29 +174,27 @@ void runInfo(const InfoOptions& options) {
 
 void addInfoCommand(CLI::App& program) {
   const auto options = std::make_shared<InfoOptions>();
-  CLI::App* command =
-      program.add_subcommand("info", "Says what meshes hold and how they depart from closed bodies.");
+  CLI::App* command = program.add_subcommand(
+      "info", "Prints the size, mass and topology of meshes, and where they are open or inconsistent.");
   command->add_option("mesh", options->meshes, "Mesh files: STL, OBJ, PLY or OFF")
       ->required()
       ->type_name("FILE");
   command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
-  command
-      ->add_option("--density", options->density,
-                   "Say mass and inertia too, of a body of this density [kg/m^3]")
+  command->add_option("--density", options->density, "Also print mass and inertia, for this density [kg/m^3]")
       ->type_name("D");
-  command->add_flag("--json", options->isJson, "Print one JSON object a mesh, each on a line of its own");
+  command->add_flag("--json", options->isJson, "Print one JSON object per mesh, each on its own line");
   command->footer(
       "closed       Every edge has two faces; open edges have one, non-manifold ones three or more.\n"
       "oriented     The two faces of each edge agree on which side is outside (else: inconsistent).\n"
-      "components   Sets of faces that hang together through edges.\n"
-      "features     Vertices, edges and faces that can carry a local minimum distance, of all there are;\n"
-      "             the others are left out of the hierarchy.\n"
-      "mass         By volume integrals where the mesh is closed and oriented, else by its oriented\n"
+      "components   Sets of faces that are connected through edges.\n"
+      "features     Vertices, edges and faces that can carry a local minimum distance, out of all;\n"
+      "             the hierarchy leaves the others out.\n"
+      "mass         By volume integrals if the mesh is closed and oriented, else by its oriented\n"
       "             bounding box.\n"
-      "inertia      About the centre, in the mesh's frame, by rows; of the density given.\n"
-      "hierarchy    What distance queries search: built now, or taken from the cache (see nearfit-cli "
+      "inertia      About the centre, in the mesh's frame, by rows; for the given density.\n"
+      "hierarchy    What distance queries search: built now, or read from the cache (see nearfit-cli "
       "cache).\n"
-      "bytes        Of memory.\n"
+      "bytes        Memory that it takes.\n"
       "Lengths are in metres. A mesh that cannot be read gets a line on stderr, the others are still "
       "reported,\n"
       "and the exit code is 1.\n"

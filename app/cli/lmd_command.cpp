@@ -62,7 +62,7 @@ std::string poseLine(std::size_t pose, const LmdSet& set, const Wrench& wrench) 
                 "give a smaller cutoff");
   }
   if (!isFinite(wrench.force) || !isFinite(wrench.torque)) {
-    throw Error(where, "the force is beyond what a number holds", "give a smaller stiffness");
+    throw Error(where, "the force is too large for a number", "give a smaller stiffness");
   }
   std::string text = fmt::format(R"({{"pose":{},"lmds":[)", pose);
   for (std::size_t i = 0; i < set.lmds.size(); ++i)
@@ -137,33 +137,33 @@ void runLmd(const LmdOptions& options) {
 
 // clang-format off
 constexpr const char* kLmdFooter =
-    R"(Prints one JSON object a pose, each on a line of its own:
+    R"(Prints one JSON object per pose, each on its own line:
   {"pose":0,"lmds":[{"distance":d,"scene":[x,y,z],"part":[x,y,z],"features":["vertex","face"],
    "region":false,"blocked":false,"marginal":false}],"force":[x,y,z],"torque":[x,y,z],"query_us":t}
-lmds      All local minimum distances within the cutoff, nearest first. "scene" and "part" are the two
-          points, both in the scene mesh's frame [m]; "features" what carries them (vertex, edge, face),
-          the scene's first; "region" whether the pair stands for a flat set of equal minima (faces or
-          edges that are parallel to a microradian): the points are then at its centroid, which may lie
-          beside it, as that of a ring does; "blocked" whether the way between the points is barred by
-          another part of either surface; "marginal" whether double precision cannot tell that it is one,
-          or that not another feature beside the named one carries it: a condition, or the cutoff, decides
-          by no more than rounding.
-          A region has "extent":{"dimension":2,"measure":m,"axis":[x,y,z],"half":[a,b]} besides:
-          dimension 2 and its area [m^2] where faces face each other, 1 and its length [m] where an edge
-          faces an edge or a face; half lengths [m] along the axis and across it, of the rectangle that
-          has the same area's second moments.
-force     Sum of the springs on the part [N], those of blocked minima left out, in the scene mesh's frame;
-          torque [N m] about the part's centre of mass. Nothing moves, so nothing is damped.
-query_us  Time of the query alone [us]; with --mode tracked without that of the search ahead, which in
-          the servo is another thread's.
---rule    normal-span accepts a pair when the way between its points lies in the span of the surface
-          normals at both, as Johnson and Willemsen (2003) do. On convex vertices, edges and faces that
-          is exact. At saddles and jagged vertices it adds pairs that are no minima: a neighbouring face
-          is nearer. On closed meshes it misses none; on open ones it misses those of rims. Hierarchies
-          for it are made anew in each run.
-Poses are scene from part: p_scene = R(q) p_part + t. Cutoff and translations are in metres whatever
-the unit of the meshes is. A quaternion is normalised; one that is off unit length by more than 0.001 is
-refused.
+lmds      All local minimum distances within the cutoff, nearest first. "scene" and "part": the two
+          points, both in the scene mesh's frame [m]. "features": what carries them (vertex, edge, face),
+          the scene's first. "region": true if the pair stands for a flat set of equal minima (faces or
+          edges parallel to within a microradian); its points are then at the centroid of the set, which
+          may lie outside it, as that of a ring does. "blocked": true if the segment between the points
+          passes through either surface. "marginal": true if rounding decides a condition or the cutoff,
+          so that double precision cannot tell whether the pair is a minimum, or whether a neighbouring
+          feature carries it.
+          A region also has "extent":{"dimension":2,"measure":m,"axis":[x,y,z],"half":[a,b]}. A region
+          between faces has dimension 2 and its area [m^2]; one of an edge with an edge or face has
+          dimension 1 and its length [m]. "half": half lengths [m], along the axis and across it, of the
+          rectangle with the same second moments of area.
+force     Sum of the spring forces on the part [N], without those of blocked minima, in the scene mesh's
+          frame; torque [N m] about the part's centre of mass. Nothing moves, so damping has no effect.
+query_us  Time of the query alone [us]; with --mode tracked, without the search ahead, which the servo
+          leaves to another thread.
+--rule    normal-span accepts a pair if the segment between its points lies in the span of the surface
+          normals at both, as in Johnson and Willemsen (2003). On convex vertices, edges and faces that
+          is exact. At saddles and jagged vertices it adds pairs that are not minima: a neighbouring face
+          is nearer. On closed meshes it misses none; on open ones it misses minima at rims. Its
+          hierarchies are built again in each run.
+A pose maps from the part's frame to the scene's: p_scene = R(q) p_part + t. The cutoff and translations
+are in metres, whatever the unit of the meshes. Quaternions are normalised; one whose length is off by
+more than 0.001 is refused.
 Example: nearfit-cli lmd --unit mm hole.stl peg.stl --cutoff 0.002 --pose 0,0,0.01,1,0,0,0)";
 // clang-format on
 
@@ -172,27 +172,27 @@ Example: nearfit-cli lmd --unit mm hole.stl peg.stl --cutoff 0.002 --pose 0,0,0.
 void addLmdCommand(CLI::App& program) {
   const auto options = std::make_shared<LmdOptions>();
   CLI::App* command = program.add_subcommand(
-      "lmd",
-      "Finds all local minimum distances between two meshes at one pose or many, and the force they make.");
-  command->add_option("scene_mesh", options->sceneMesh, "Mesh that stays: STL, OBJ, PLY or OFF")
+      "lmd", "Finds all local minimum distances between two meshes at one or more poses, and their force.");
+  command->add_option("scene_mesh", options->sceneMesh, "Mesh at rest: STL, OBJ, PLY or OFF")
       ->required()
       ->type_name("FILE");
-  command->add_option("part_mesh", options->partMesh, "Mesh of the part that the poses move")
+  command->add_option("part_mesh", options->partMesh, "Mesh of the part that is put at each pose")
       ->required()
       ->type_name("FILE");
-  command->add_option("--cutoff", options->springs.cutoff, "Farthest distance to look for [m]")
+  command->add_option("--cutoff", options->springs.cutoff, "Largest distance to look for [m]")
       ->required()
       ->type_name("METRES");
   CLI::Option_group* where = command->add_option_group("Poses");
   where->add_option("--pose", options->pose, kPoseHelp)->type_name("POSE");
   where
-      ->add_option("--poses", options->poses,
-                   "CSV file of poses, one a row; lines that start with # are comments, a header is allowed")
+      ->add_option(
+          "--poses", options->poses,
+          "CSV file of poses, one per row; lines that start with # are comments, a header is allowed")
       ->type_name("FILE");
   where->require_option(1);
   command
       ->add_option("--stiffness", options->springs.stiffness,
-                   "Of each spring [N/m], or [N/m^2] in the printed law")
+                   "Stiffness of each spring [N/m], or [N/m^2] with the printed law")
       ->capture_default_str()
       ->type_name("K");
   command
@@ -202,10 +202,9 @@ void addLmdCommand(CLI::App& program) {
       ->check(CLI::IsMember({"linear", "printed"}))
       ->capture_default_str();
   command
-      ->add_option(
-          "--mode", options->mode,
-          "cold searches anew for each pose; tracked follows the part from pose to pose, as the servo "
-          "does. The sets are the same")
+      ->add_option("--mode", options->mode,
+                   "cold searches each pose from scratch; tracked follows the part from pose to pose, as the "
+                   "servo does. Both find the same minima")
       ->check(CLI::IsMember({"cold", "tracked"}))
       ->capture_default_str();
   command

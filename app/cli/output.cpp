@@ -33,7 +33,7 @@ void checkTarget(const std::filesystem::path& target, std::span<const std::files
   for (const std::filesystem::path& input : inputs) {
     std::error_code missing;
     if (std::filesystem::equivalent(target, input, missing)) {
-      throw UsageError(target.string(), "it is read by this command and would be overwritten",
+      throw UsageError(target.string(), "it is an input of this command and would be overwritten",
                        "name another file to write");
     }
   }

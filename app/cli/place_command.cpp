@@ -24,20 +24,20 @@ namespace nearfit::cli {
 namespace {
 
 constexpr const char* kPlaceFooter =
-    R"(The part starts at the first pose of the path or the recording, or stays where it is until a device moves; the scene file stays as it is. Options of the feel count for this
-run, instead of what the scene says.
---record  CSV with a header and a row a tick, in the world frame: t_s; handle_tx ... handle_qz and
+    R"(The part starts at the first pose of the path or recording; led by any other device, it stays where it is
+until the device moves. The scene file does not change. Feel options replace the scene's for this run.
+--record  CSV with a header and one row per tick, in the world frame: t_s; handle_tx ... handle_qz and
           proxy_tx ... proxy_qz (tx ty tz qw qx qy qz each; the proxy is where the part is); force_x ...
           force_z [N] and torque_x ... torque_z [N m] about the part's centre of mass, as sent to the device
-          and so within its limits; lmds; distance, the least [m], "inf" when nothing is within the cutoff;
-          query_us; tick_us; late_bodies, those that the tick searched anew as the lists were not ready;
+          and so within its limits; lmds; distance, the min [m], "inf" if nothing is within the cutoff;
+          query_us; tick_us; late_bodies, parts that the tick searched itself because no list was ready;
           energy, given to the hand since the start, less what came back [J]; sub_steps, of the proxy in
-          this tick; shortened and refused, those of them that would have met something; constraints and
-          contacts, minima that its last step kept in mind and those that held it; released, parts that are
-          overlapped and not felt; proxy_us, of tick_us without queries; clamped, 0 or 1; fault, 0 for none
-          (the summary says which).
---export  JSON: each part's pose and mesh, and the minima left between the part that was led and each other.
-A tick that ends too late skips periods instead of rows: the path then takes longer, and the summary says so.
+          this tick; shortened and refused, those cut short or not taken because of a collision;
+          constraints and contacts, minima that limited its last step and those that held it; released,
+          parts that the moving part overlaps and that are not felt; proxy_us, time of the proxy without its
+          queries; clamped, 0 or 1; fault, 0 for none (the summary says which).
+--export  JSON: each part's pose and mesh, and the minima between the led part and each other part.
+A tick that ends late skips periods, not rows: the run then takes longer, and the summary says so.
 Examples: nearfit-cli place fit.nearfit --part Peg --path hand.csv --record felt.csv --export placed.json
           nearfit-cli place fit.nearfit --part Peg --device openhap --arm --record felt.csv
           nearfit-cli place fit.nearfit --part Peg --device replay:felt.csv --record again.csv)";
@@ -88,7 +88,7 @@ void checkTargets(const PlaceOptions& options) {
     std::error_code ignored;
     const std::filesystem::path folder = file.parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
-      throw FileError(file.string(), "there is no folder " + folder.string(), "make it, or choose another");
+      throw FileError(file.string(), "there is no folder " + folder.string(), "create it, or choose another");
     }
     if (std::filesystem::is_directory(file, ignored)) {
       throw FileError(file.string(), "it is a folder", "give a file name");
@@ -110,13 +110,13 @@ void checkInputsAreKept(const Scene& scene, const PlaceOptions& options) {
 void throwIfIncomplete(const PlaceResult& result, std::size_t poses) {
   if (result.fault != ServoFault::None) throw Error("servo", faultReason(result.fault));
   if (result.device && !result.device->trouble.empty()) {
-    throw Error(result.device->name, result.device->trouble, "the files hold what was done till then");
+    throw Error(result.device->name, result.device->trouble, "the files contain everything up to then");
   }
   if (result.isInterrupted) {
     throw Error(
         "place",
         "interrupted after " + std::to_string(result.ticks) + " of " + std::to_string(poses) + " ticks",
-        "the files hold what was done till then");
+        "the files contain everything up to then");
   }
   if (result.lostRows > 0) {
     throw Error("place", std::to_string(result.lostRows) + " ticks were not recorded: the disk was too slow",
@@ -128,7 +128,7 @@ void checkLead(const PlaceOptions& options) {
   if (options.isLedByDevice != options.path.empty()) {
     throw UsageError("place",
                      options.isLedByDevice ? "--path and --device are both given" : "nothing leads the part",
-                     "give --path FILE or --device, one of them");
+                     "give either --path FILE or --device");
   }
   if (options.isLedByDevice && options.isFast)
     throw UsageError("--fast", "a device sets its own pace", "leave it out");
@@ -189,24 +189,24 @@ void runPlace(const PlaceOptions& options) {
 void addPlaceCommand(CLI::App& program) {
   const auto options = std::make_shared<PlaceOptions>();
   CLI::App* command = program.add_subcommand(
-      "place",
-      "Leads a part along a path of poses, or by a device, with the 1 kHz servo and says what it felt.");
+      "place", "Leads a part along a path or by a device with the 1 kHz servo, and prints what was felt.");
   command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required();
   command->add_option("--part", options->part, "Name of the part to lead")->required();
   command->add_option(
       "--path", options->path,
-      "CSV file of poses, world from part: tx,ty,tz,qw,qx,qy,qz a row, one row a tick of 1 ms");
+      "CSV file of poses in the world frame: tx,ty,tz,qw,qx,qy,qz per row, one row per tick of 1 ms");
   CLI::Option* device = command->add_option(
       "--device", options->device,
-      "Instead of a path: a device that is plugged in (see nearfit-cli devices); the first without "
-      "a name. Ctrl+C ends. replay:FILE is the hand of a recording (--record), with its own times");
+      "Instead of a path: a device that is plugged in (see nearfit-cli devices); default: the first usable "
+      "one. Ctrl+C ends. replay:FILE plays back the hand of a recording (--record) with its own timing");
   device->type_name("[DEVICE]")->expected(0, 1);
-  command->add_flag("--arm", options->isArming, "Let the device's forces out; else they are only told");
+  command->add_flag("--arm", options->isArming, "Let the device push; otherwise forces are only reported");
   command->add_flag("--calibrate", options->isCalibrating, kCalibrateHelp);
-  command->add_option("--seconds", options->seconds, "With --device: end after so long")->type_name("S");
+  command->add_option("--seconds", options->seconds, "With --device: end after this time [s]")
+      ->type_name("S");
   addDeviceFileOptions(*command, options->deviceFiles);
   addRateOptions(*command, options->rate);
-  command->add_flag("--fast", options->isFast, "As fast as it goes, instead of in real time");
+  command->add_flag("--fast", options->isFast, "As fast as possible instead of in real time");
   command->add_option("--record", options->record,
                       "Write poses, wrench and minima of every tick to this CSV file");
   command->add_option("--export", options->exportFile, "Write the placement at the end to this JSON file");

@@ -32,19 +32,19 @@ nlohmann::ordered_json timesJson(const LatencyHistogram& h) {
 
 std::string paceText(const PlaceResult& result) {
   if (result.device) return fmt::format(" in {:.3f} s", result.device->seconds);
-  if (result.schedulingNote.empty()) return ", as fast as it goes";
+  if (result.schedulingNote.empty()) return ", as fast as possible";
   const double seconds = static_cast<double>(result.ticks + result.overruns) * ServoLoop::kPeriod;
   return fmt::format(" in {:.3f} s", seconds);
 }
 
 std::string overrunsText(std::uint64_t overruns) {
   return overruns == 0 ? "none"
-                       : fmt::format("{} periods of 1 ms were skipped, since ticks ended too late", overruns);
+                       : fmt::format("{} periods of 1 ms were skipped because ticks ended late", overruns);
 }
 
 std::string distanceText(const PlaceResult& result) {
   if (!std::isfinite(result.leastDistance)) return "nothing came within the cutoff";
-  return fmt::format("least {:.6g} m at {:.3f} s", result.leastDistance, result.leastDistanceTime);
+  return fmt::format("min {:.6g} m at {:.3f} s", result.leastDistance, result.leastDistanceTime);
 }
 
 const char* modeName(const HapticSettings& haptics) {
@@ -70,7 +70,7 @@ std::string summaryLine(const char* name, const std::string& text) {
 std::string couplingText(const CouplingState& c) {
   return fmt::format("{:.6g} N/m, {:.6g} N s/m; {:.6g} N m/rad, {:.6g} N m s/rad{}", c.stiffness, c.damping,
                      c.rotationalStiffness, c.rotationalDamping,
-                     c.isHeldToBound ? " (less than was wished)" : "");
+                     c.isHeldToBound ? " (limited to the bound)" : "");
 }
 
 /// Stiffness up to which the coupling is passive in any hand, at the period that the servo assumes.
@@ -91,14 +91,15 @@ std::string proxyText(const PlaceSummary& s) {
   const StiffnessBounds bounds = boundsOf(s);
   std::string text = summaryLine("coupling", couplingText(r.coupling));
   text += summaryLine(
-      "bound", fmt::format("{:.6g} N/m; {:.6g} N m/rad: passive at {:.3g} ms with the device's damping",
-                           bounds.linear, bounds.rotational, 1e3 * r.period));
-  text += summaryLine("steps", fmt::format("{} in a tick at most, {} shortened, {} refused", r.maxSubSteps,
+      "bound",
+      fmt::format("{:.6g} N/m; {:.6g} N m/rad: max for passivity at {:.3g} ms with the device's damping",
+                  bounds.linear, bounds.rotational, 1e3 * r.period));
+  text += summaryLine("steps", fmt::format("max {} per tick, {} shortened, {} refused", r.maxSubSteps,
                                            r.shortenedSteps, r.refusedSteps));
   if (r.releasedTicks > 0) {
     text += summaryLine(
         "released",
-        fmt::format("{} ticks overlapped a part, which is not felt until they are apart", r.releasedTicks));
+        fmt::format("{} ticks overlapped a part; it is not felt until the two are apart", r.releasedTicks));
   }
   return text + summaryLine("proxy", timesText(r.proxyTime));
 }
@@ -153,22 +154,21 @@ std::string summaryText(const PlaceSummary& s) {
   text += summaryLine("ticks", fmt::format("{}{}{}", r.ticks, all, paceText(r)));
   if (r.device) text += deviceText(*r.device);
   text += summaryLine("mode", modeText(s.parameters.haptics));
-  text += summaryLine("minima", fmt::format("{} at once at most", r.maxLmds));
+  text += summaryLine("minima", fmt::format("max {} at once", r.maxLmds));
   text += summaryLine("distance", distanceText(r));
   text += summaryLine("force", fmt::format("peak {:.6g} N at {:.3f} s", r.force.value, r.force.time));
   text += summaryLine("torque", fmt::format("peak {:.6g} N m at {:.3f} s", r.torque.value, r.torque.time));
-  text += summaryLine("energy", fmt::format("{:.6g} J given to the hand at most", r.maxEnergyToHand));
+  text += summaryLine("energy", fmt::format("max {:.6g} J given to the hand", r.maxEnergyToHand));
   if (s.parameters.haptics.mode == HapticMode::Proxy) text += proxyText(s);
   if (r.clampedTicks > 0)
     text += summaryLine("clamped", fmt::format("force or torque in {} ticks", r.clampedTicks));
   if (r.truncatedTicks > 0) {
-    text += summaryLine("truncated", fmt::format("more minima or more work than a tick allows in {} ticks",
-                                                 r.truncatedTicks));
+    text += summaryLine("truncated",
+                        fmt::format("more minima or work than a tick allows in {} ticks", r.truncatedTicks));
   }
   if (r.lateTicks > 0) {
     text += summaryLine(
-        "late",
-        fmt::format("{} ticks searched for themselves: the motion was ahead of the lists", r.lateTicks));
+        "late", fmt::format("{} ticks ran their own search: the motion was off the forecast", r.lateTicks));
   }
   text += summaryLine("refresh",
                       fmt::format("{} searches ahead, {}", r.refreshTime.count(), timesText(r.refreshTime)));

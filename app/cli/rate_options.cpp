@@ -19,9 +19,9 @@ void takeAxis(const std::string& word, RateSettings& settings) {
   const std::string name = word.substr(isInverted ? 1 : 0);
   const auto found = std::find(kRateAxes.begin(), kRateAxes.end(), name);
   if (found == kRateAxes.end()) {
-    throw UsageError(kAxes, "\"" + word + "\" is no axis",
-                     "name some of x, y, z, rx, ry, rz with commas between them, a minus before those that "
-                     "are to go the other way");
+    throw UsageError(
+        kAxes, "\"" + word + "\" is not an axis",
+        "name some of x, y, z, rx, ry, rz separated by commas, with a minus before those to reverse");
   }
   const auto axis = static_cast<std::size_t>(found - kRateAxes.begin());
   if (settings.isEnabled[axis]) throw UsageError(kAxes, "\"" + name + "\" is named twice", "name it once");
@@ -46,19 +46,21 @@ void addRateOptions(CLI::App& command, RateOptions& options) {
     command.add_option(name, value, text)->type_name(type)->group(kGroup);
   };
   add("--dead-zone", options.deadZone,
-      fmt::format("Deflection below which nothing moves, of 1; {} without it", usual.deadZone), "SHARE");
+      fmt::format("Deflection below which nothing moves, as a share of the full one; default: {}",
+                  usual.deadZone),
+      "SHARE");
   add("--curve", options.exponent,
-      fmt::format("Exponent from there on: 1 is straight, more is finer near the middle; {} without it",
+      fmt::format("Exponent beyond the dead zone: 1 is linear, more is finer near the middle; default: {}",
                   usual.exponent),
       "NUMBER");
   add("--speed", options.fullSpeed,
-      fmt::format("At full deflection [m/s], before the scale; {} without it", usual.fullSpeed), "SPEED");
+      fmt::format("Speed at full deflection [m/s], before the scale; default: {}", usual.fullSpeed), "SPEED");
   add("--turn-speed", options.fullTurn,
-      fmt::format("The same of turning [rad/s]; {} without it", usual.fullTurn), "SPEED");
+      fmt::format("Speed of turning at full deflection [rad/s]; default: {}", usual.fullTurn), "SPEED");
   command
       .add_option(kAxes, options.axes,
-                  "Only these axes of x,y,z,rx,ry,rz drive, those with a minus the other way: x,y,-rz (and "
-                  "--axes=-x,y, with an equals sign, where a minus is first)")
+                  "Only these axes of x,y,z,rx,ry,rz drive; a minus reverses one: x,y,-rz (if a minus comes "
+                  "first, with an equals sign: --axes=-x,y)")
       ->type_name("LIST")
       ->group(kGroup);
 }
@@ -78,7 +80,7 @@ void applyRateOptions(const RateOptions& options, HapticDevice& device) {
   const RateSettings settings = rateSettings(options);
   if (auto* driven = dynamic_cast<RateDriven*>(&device)) return driven->setRate(settings);
   if (!options.isGiven()) return;
-  throw UsageError(device.info().name, "it is no space mouse, and options of such are given",
+  throw UsageError(device.info().name, "it is not a space mouse, but options of space mice are given",
                    "leave out --dead-zone, --curve, --speed, --turn-speed and --axes");
 }
 

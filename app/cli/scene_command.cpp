@@ -37,7 +37,7 @@ struct PartArgument {
 PartArgument parsePart(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-    throw UsageError("--part", fmt::format("\"{}\" is no part", text), "give NAME=FILE or NAME=FILE@POSE");
+    throw UsageError("--part", fmt::format("\"{}\" is not a part", text), "give NAME=FILE or NAME=FILE@POSE");
   }
   PartArgument part{text.substr(0, equals), text.substr(equals + 1), {}};
   const std::size_t at = part.file.rfind('@');
@@ -52,7 +52,7 @@ PartArgument parsePart(const std::string& text) {
   const bool looksLikePose =
       !tail.empty() && tail.find_first_not_of("0123456789+-.,eE ") == std::string::npos;
   if (looksLikePose && !std::filesystem::exists(part.file, failure)) {
-    throw UsageError("--part", fmt::format("\"{}\" is no pose", tail), std::string("give ") + kPoseHelp);
+    throw UsageError("--part", fmt::format("\"{}\" is not a pose", tail), std::string("give ") + kPoseHelp);
   }
   return part;
 }
@@ -61,7 +61,7 @@ PartArgument parsePart(const std::string& text) {
 void setDensity(Scene& scene, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw UsageError("--density", fmt::format("\"{}\" is no density of a part", text), "give NAME=VALUE");
+    throw UsageError("--density", fmt::format("\"{}\" is not a part's density", text), "give NAME=VALUE");
   }
   const Part* known = scene.findByName(text.substr(0, equals));
   if (known == nullptr) {
@@ -132,28 +132,27 @@ void runSceneNew(const SceneNewOptions& options) {
 }
 
 constexpr const char* kSceneFooter =
-    "A part is NAME=FILE[@POSE]: its name (without =), its mesh file, and where it stands in the world,\n"
-    "tx,ty,tz,qw,qx,qy,qz: translation [m] and unit quaternion, without which it stands at the origin.\n"
-    "A file name may hold @ where what follows the last one is no pose.\n"
-    "The scene file names each mesh by its path from the scene file's folder and by its SHA-256. A file of "
-    "that\n"
-    "name is replaced.\n"
+    "A part is NAME=FILE[@POSE]: its name (without =), its mesh file, and its pose in the world,\n"
+    "tx,ty,tz,qw,qx,qy,qz: translation [m] and unit quaternion; default: at the origin.\n"
+    "A file name may contain @ if what follows the last one is not a pose.\n"
+    "The scene file refers to each mesh by its path from the scene file's folder and by its SHA-256.\n"
+    "An existing OUT is replaced.\n"
     "Example: nearfit-cli scene new fit.nearfit --unit mm --part Hole=hole.stl\n"
     "             --part Peg=peg.stl@0,0,0.05,1,0,0,0 --moving Peg --cutoff 0.005 --density Peg=7850";
 
 void addSceneNew(CLI::App& scene) {
   const auto options = std::make_shared<SceneNewOptions>();
-  CLI::App* command = scene.add_subcommand("new", "Makes a scene file of meshes.");
+  CLI::App* command = scene.add_subcommand("new", "Makes a scene file from meshes.");
   command->add_option("out", options->out, "Scene file to write (*.nearfit)")->required()->type_name("OUT");
-  command->add_option("--part", options->parts, "A part; once for each")
+  command->add_option("--part", options->parts, "A part to add; repeat it for more")
       ->required()
       ->allow_extra_args(false)
       ->type_name("NAME=FILE[@POSE]");
-  command->add_option("--moving", options->moving, "The part that the hand moves")->type_name("NAME");
+  command->add_option("--moving", options->moving, "Name of the moving part")->type_name("NAME");
   command
       ->add_option(
           "--density", options->densities,
-          fmt::format("Of a part, by its name [kg/m^3]; {} without it; once for each", kDefaultDensity))
+          fmt::format("Density of a part [kg/m^3], default: {}; repeat it for more", kDefaultDensity))
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
   command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();

@@ -14,38 +14,39 @@ constexpr int kUsage = 2;
 std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
   CLI::App program("Feel one part against the others before any of them exists.", "nearfit");
   program.footer(
-      "Without files it starts empty; the very first time with the demo scene and a short tour. Mesh files "
-      "are read in the unit that was used last (at first mm).");
+      "Without files it starts with an empty scene; the first time, with the demo scene and a short tour. "
+      "Mesh files are read in the unit that was used last (at first mm).");
   program.set_version_flag("--version", std::string("nearfit ") + NEARFIT_VERSION);
   Options options;
   CLI::Option* files =
       program.add_option("FILE", options.files, "Scene (*.nearfit) or mesh (STL, OBJ, PLY, OFF) to open");
-  CLI::Option* demo =
-      program.add_flag("--demo", options.isDemo, "Open the demo scene: a copy, nothing is saved over it")
-          ->excludes(files);
+  CLI::Option* demo = program
+                          .add_flag("--demo", options.isDemo,
+                                    "Open a copy of the demo scene; the original is never overwritten")
+                          ->excludes(files);
   program.add_option(
       "--screenshot", options.screenshot,
-      "Write a picture (PNG) of the window with the files and end; a moving part is felt for it");
+      "Write a picture (PNG) of the window with the files, then exit; the scripted hand leads a moving part");
   std::string device;
   CLI::Option* hand =
       program
           .add_option("--device", device,
-                      "Take the moving part in hand at once: with a device that is plugged in (see "
-                      "nearfit-cli devices), the first without a name, or with a recorded hand, replay:FILE")
+                      "Feel the moving part at once, led by a device that is plugged in (see nearfit-cli "
+                      "devices; default: the first usable one) or by a recorded hand, replay:FILE")
           ->type_name("[DEVICE]")
           ->expected(0, 1);
-  program.add_flag("--arm", options.isArming, "With --device: let its forces out as soon as it is ready")
+  program.add_flag("--arm", options.isArming, "With --device: let it push as soon as it is ready")
       ->needs(hand);
   program
       .add_option("--seconds", options.seconds,
-                  "With --device: end after so long, and say what was done (round trip in us)")
+                  "With --device: exit after this time [s] and print a summary (round trip in us)")
       ->type_name("S")
       ->check(CLI::Range(0.01, 1e6))
       ->needs(hand);
   program
-      .add_option("--record", options.record,
-                  "Write every tick of what is felt to this CSV file, as nearfit-cli place --record does; "
-                  "anew each time that it is begun")
+      .add_option(
+          "--record", options.record,
+          "Write every tick to this CSV file, as nearfit-cli place --record does; each new run replaces it")
       ->type_name("FILE");
   hand->excludes("--screenshot");
   demo->excludes(hand)->excludes("--screenshot");

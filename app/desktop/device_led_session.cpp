@@ -40,7 +40,7 @@ void DeviceLedSession::take(bool isComplete) {
   disconnect(&application_.window().document(), &ui::Document::loaded, this, nullptr);
   if (!isComplete) return fail(tr("the files could not be opened"));
   if (!application_.session().scene().movingPart())
-    return fail(tr("no part of the scene is in hand; take one in hand and save it"));
+    return fail(tr("no part of the scene is in hand; take one in hand and save the scene"));
   try {
     const bool isRecording = recordingOf(options_.device).has_value();
     application_.window().feelWith(isRecording ? options_.device

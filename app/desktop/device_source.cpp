@@ -91,7 +91,7 @@ class PluggedIn final : public DeviceSource {
     const auto found = std::find_if(devices_.begin(), devices_.end(),
                                     [&](const DeviceListing& each) { return idOf(each) == id; });
     if (found == devices_.end()) {
-      throw DeviceError(DeviceProblem::Gone, id.toStdString(), "it is not plugged in any more",
+      throw DeviceError(DeviceProblem::Gone, id.toStdString(), "it is no longer plugged in",
                         "plug it in again");
     }
     return makeDevice(*found, userFiles());

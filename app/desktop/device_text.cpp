@@ -15,7 +15,7 @@ QString deviceText(DeviceState state, bool isPushing, const QString& note) {
     case DeviceState::Uncalibrated:
       return QObject::tr("Not calibrated%1.").arg(because);
     case DeviceState::Fault:
-      return QObject::tr("Stopped%1. It pushes no more until it is reset and armed anew.").arg(because);
+      return QObject::tr("Stopped%1. It does not push until it is reset and armed again.").arg(because);
     case DeviceState::Lost:
       return QObject::tr("Lost%1.").arg(because);
     default:

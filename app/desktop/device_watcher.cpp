@@ -20,8 +20,8 @@ ui::DeviceChoice noDevice() {
   ui::DeviceChoice notice;
   notice.name = QObject::tr("No device is plugged in.");
   notice.note = QObject::tr(
-                    "These can be used: %1; others by a plug-in. resources/docs/devices.md says what each "
-                    "needs. One that is plugged in now appears here at once.")
+                    "Supported devices: %1; others need a plug-in. See resources/docs/devices.md for what "
+                    "each needs. A device appears here as soon as you plug it in.")
                     .arg(kinds.join(QStringLiteral(", ")));
   return notice;
 }

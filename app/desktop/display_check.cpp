@@ -19,7 +19,7 @@ void requireOpenGl() {
   QOpenGLContext context;
   const bool isUsable = context.create() && context.format().version() >= qMakePair(3, 2);
   if (!isUsable) {
-    throw Error("", "there is no OpenGL 3.2 on this display",
+    throw Error("", "this display does not support OpenGL 3.2",
                 "install a graphics driver, or Mesa's software one (libgl1-mesa-dri)");
   }
 }

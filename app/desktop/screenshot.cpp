@@ -67,7 +67,7 @@ void Screenshot::write() {
   application_.window().viewport().completePicture();
   const QPixmap picture = application_.window().grab();
   if (!picture.save(output_, "PNG")) {
-    fail(tr("%1: the picture could not be written; choose a folder that can be written to").arg(output_));
+    fail(tr("%1: the picture could not be written; choose a folder that you can write to").arg(output_));
     return;
   }
   QCoreApplication::exit(0);

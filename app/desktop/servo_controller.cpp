@@ -35,7 +35,7 @@ ServoController::ServoController(Session& session, DeviceSource& devices)
   connect(&rows_, &ServoRows::failed, this,
           [this](const std::exception_ptr& error, const QString& file, double seconds) {
             fail(file.isEmpty() ? tr("The motion could not be recorded.")
-                                : tr("The recording stopped after %1 s. %2 has what was felt until then.")
+                                : tr("The recording stopped after %1 s. %2 contains everything up to then.")
                                       .arg(seconds, 0, 'f', 1)
                                       .arg(QFileInfo(file).fileName()),
                  error);
@@ -190,7 +190,7 @@ void ServoController::commitPose() {
   try {
     session_.movePart(moving_, snapshot.proxy, "Feel");
   } catch (...) {
-    fail(tr("The part's place could not be kept."), std::current_exception());
+    fail(tr("The part's new pose could not be kept."), std::current_exception());
   }
   isCommitting_ = false;
 }

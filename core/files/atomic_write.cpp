@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
   const bool isFull = error == ENOSPC || error == EDQUOT;
   throw FileError(file.string(), what + ": " + std::system_category().message(error),
                   isPathFault ? "check that its folder exists"
-                  : isRefused ? "choose a folder that you may write to"
+                  : isRefused ? "choose a folder that you can write to"
                   : isFull    ? "free some space or choose another disk"
                               : "check the disk and try again");
 }
@@ -64,7 +64,7 @@ fs::path visibleName(const fs::path& target, unsigned number) {
 
 AtomicFile::AtomicFile(const fs::path& file, FileAccess access, Unfinished unfinished) {
   if (file.filename().empty())
-    throw FileError(file.string(), "it names no file", "add a file name to the path");
+    throw FileError(file.string(), "the path has no file name", "add a file name to the path");
   target_ = followLinks(file);
   open(access == FileAccess::Private ? S_IRUSR | S_IWUSR : 0666, unfinished);
   if (access == FileAccess::Private) return;
@@ -105,7 +105,7 @@ void AtomicFile::keepPermissionsOfTarget() {
   if (::stat(target_.c_str(), &status) != 0) return;
   if (S_ISDIR(status.st_mode)) throw FileError(target_.string(), "it is a folder", "choose another name");
   if (::fchmod(descriptor_, status.st_mode & 07777) != 0)
-    fail(target_, "its permissions cannot be kept", errno);
+    fail(target_, "its permissions cannot be preserved", errno);
 }
 
 void AtomicFile::write(std::string_view content) {
@@ -121,7 +121,7 @@ void AtomicFile::write(std::string_view content) {
 void AtomicFile::cut(std::uint64_t size) {
   const auto offset = static_cast<::off_t>(size);
   if (::ftruncate(descriptor_, offset) != 0 || ::lseek(descriptor_, offset, SEEK_SET) != offset)
-    fail(target_, "it cannot be cut", errno);
+    fail(target_, "it cannot be truncated", errno);
   size_ = size;
 }
 

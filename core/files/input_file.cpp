@@ -23,7 +23,8 @@ constexpr std::size_t kBlockBytes = std::size_t{4} << 20;
       throw FileError(file.string(), "there is no such file", "check the path");
     case EACCES:
     case EPERM:
-      throw FileError(file.string(), "you may not read it", "change its permissions or open a copy");
+      throw FileError(file.string(), "you have no permission to read it",
+                      "change its permissions or open a copy");
     default:
       throw FileError(file.string(), "it cannot be opened: " + std::system_category().message(error),
                       "check the path and the disk");
@@ -82,7 +83,7 @@ std::vector<char> readWholeFile(const std::filesystem::path& file,
   }
   if (filled < bytes.size()) {
     throw FileError(file.string(), "it shrank while it was being read",
-                    "try again when nothing writes to it");
+                    "try again when no program writes to it");
   }
   return bytes;
 }

@@ -29,12 +29,12 @@ void refuseForeignFormats(const ReaderInput& input, std::string_view text) {
       Signature{"\xfd"
                 "7zXZ",
                 "it is compressed (xz)", "unpack it with unxz first"},
-      Signature{"PK\x03\x04", "it is an archive (zip, 3MF), not a format that is read",
+      Signature{"PK\x03\x04", "it is an archive (zip, 3MF), which Nearfit does not read",
                 "unpack it, or export STL, OBJ, PLY or OFF"},
-      Signature{"ISO-10303-21", "it is a STEP file, not a format that is read", kExportMesh},
-      Signature{"glTF", "it is a glTF file, not a format that is read", kExportMesh},
-      Signature{"{", "it is a JSON or glTF file, not a format that is read", kExportMesh},
-      Signature{"<", "it is an XML file, not a format that is read", kExportMesh},
+      Signature{"ISO-10303-21", "it is a STEP file, which Nearfit does not read", kExportMesh},
+      Signature{"glTF", "it is a glTF file, which Nearfit does not read", kExportMesh},
+      Signature{"{", "it is a JSON or glTF file, which Nearfit does not read", kExportMesh},
+      Signature{"<", "it is an XML file, which Nearfit does not read", kExportMesh},
   };
   for (const Signature& s : kSignatures) {
     if (text.starts_with(s.start)) throw FileError(input.name, s.problem, s.remedy);
@@ -77,7 +77,7 @@ MeshFormat detectMeshFormat(const ReaderInput& input, const std::string& extensi
   if (extension == "obj") return MeshFormat::Obj;
   if (extension == "ply") return MeshFormat::Ply;
   if (extension == "off") return MeshFormat::Off;
-  throw FileError(input.name, "it is not a format that is read", kExportMesh);
+  throw FileError(input.name, "Nearfit does not read its format", kExportMesh);
 }
 
 std::vector<char> withoutByteOrderMark(std::vector<char> bytes) {

@@ -102,7 +102,7 @@ ImportedMesh naming(const std::filesystem::path& file, Work work) {
     throw FileError(error.where().empty() ? file.string() : file.string() + ", " + error.where(),
                     error.problem(), error.remedy());
   } catch (const std::bad_alloc&) {
-    throw FileError(file.string(), "it needs more memory than there is",
+    throw FileError(file.string(), "there is not enough memory for it",
                     "close other programs or reduce the mesh");
   }
 }

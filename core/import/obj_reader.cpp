@@ -39,13 +39,13 @@ std::uint32_t cornerVertex(const TextCursor& cursor, std::string_view corner, st
                            std::size_t verticesSoFar) {
   const std::optional<std::int64_t> index = parseInteger(corner.substr(0, corner.find('/')));
   if (!index) {
-    cursor.fail(fmt::format("a vertex number should stand here, but {} is none", inQuotes(corner)),
+    cursor.fail(fmt::format("expected a vertex number, but {} is not one", inQuotes(corner)),
                 "correct the line or export the file again");
   }
   const auto before = static_cast<std::int64_t>(verticesSoFar);
   const std::int64_t fromZero = *index < 0 ? before + *index : *index - 1;
   if (*index == 0 || fromZero < 0 || fromZero >= static_cast<std::int64_t>(vertices)) {
-    cursor.fail(fmt::format("the face names vertex {} of {}", *index, vertices),
+    cursor.fail(fmt::format("the face refers to vertex {} of {}", *index, vertices),
                 *index == 0 ? "vertices count from 1: export the file again" : "export the file again");
   }
   return static_cast<std::uint32_t>(fromZero);

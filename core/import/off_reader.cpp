@@ -48,11 +48,11 @@ struct Header {
 /// Checks that the rest of the file has room for a count. `smallest` is the min size of one item [bytes].
 std::size_t checkedCount(const TextCursor& cursor, std::int64_t count, std::size_t smallest,
                          std::string_view what) {
-  if (count < 0) cursor.fail(fmt::format("it promises {} {}", count, what), "export the file again");
+  if (count < 0) cursor.fail(fmt::format("it declares {} {}", count, what), "export the file again");
   // The last line may lack its line end.
   const std::size_t room = (cursor.bytesLeft() + 1) / smallest;
   if (static_cast<std::uint64_t>(count) > room) {
-    cursor.fail(fmt::format("it promises {} {}, but the {} bytes that follow cannot hold them", count, what,
+    cursor.fail(fmt::format("it declares {} {}, more than the {} bytes that follow can hold", count, what,
                             cursor.bytesLeft()),
                 "the file is cut off or damaged: export or copy it again");
   }
@@ -69,7 +69,7 @@ Header readHeader(TextCursor& cursor) {
     header.isHomogeneous = keyword->isHomogeneous;
     vertices = parseInteger(keyword->rest);
     if (keyword->hasDimension && cursor.integer("the number of dimensions") != 3) {
-      cursor.fail("it has other than three dimensions", "export it as a mesh in three dimensions");
+      cursor.fail("the mesh is not three-dimensional", "export it as a mesh in three dimensions");
     }
   }
   if (!vertices) {
@@ -100,7 +100,7 @@ void readFace(TextCursor& cursor, std::size_t vertices, PolygonSoup& soup) {
   for (std::int64_t i = 0; i < corners; ++i) {
     const std::int64_t index = cursor.integer("the number of a vertex");
     if (index < 0 || index >= static_cast<std::int64_t>(vertices)) {
-      cursor.fail(fmt::format("the face names vertex {}, but vertices go from 0 to {}", index,
+      cursor.fail(fmt::format("the face refers to vertex {}, but vertices go from 0 to {}", index,
                               static_cast<std::int64_t>(vertices) - 1),
                   "export the file again");
     }

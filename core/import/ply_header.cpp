@@ -15,7 +15,7 @@ constexpr const char* kExportAgain = "export the file again";
 
 PlyType parseType(const TextCursor& cursor, std::string_view word) {
   using enum PlyType;
-  if (word.empty()) cursor.fail("a type should stand here, but the line ends", kExportAgain);
+  if (word.empty()) cursor.fail("expected a type, but the line ends", kExportAgain);
   constexpr std::array<std::pair<std::string_view, PlyType>, 16> kNames{{{"char", Int8},
                                                                          {"int8", Int8},
                                                                          {"uchar", UInt8},
@@ -34,7 +34,7 @@ PlyType parseType(const TextCursor& cursor, std::string_view word) {
                                                                          {"float64", Float64}}};
   const auto* const found = std::ranges::find(kNames, word, &std::pair<std::string_view, PlyType>::first);
   if (found == kNames.end())
-    cursor.fail(fmt::format("a type should stand here, but {} is none", inQuotes(word)), kExportAgain);
+    cursor.fail(fmt::format("expected a type, but {} is not one", inQuotes(word)), kExportAgain);
   return found->second;
 }
 
@@ -55,8 +55,7 @@ PlyElement parseElement(TextCursor& cursor, const PlyHeader& header) {
     cursor.fail("an element needs a name and a count", kExportAgain);
   }
   if (header.find(element.name) != nullptr) {
-    cursor.fail(fmt::format("the element {} stands here for the second time", inQuotes(element.name)),
-                kExportAgain);
+    cursor.fail(fmt::format("the element {} is declared twice", inQuotes(element.name)), kExportAgain);
   }
   element.count = static_cast<std::uint64_t>(*value);
   return element;
@@ -108,7 +107,7 @@ PlyHeader readPlyHeader(const ReaderInput& input) {
     } else if (keyword == "element") {
       header.elements.push_back(parseElement(cursor, header));
     } else if (keyword == "property") {
-      if (header.elements.empty()) cursor.fail("a property stands before the first element", kExportAgain);
+      if (header.elements.empty()) cursor.fail("a property comes before the first element", kExportAgain);
       header.elements.back().properties.push_back(parseProperty(cursor));
     } else if (keyword == "end_header") {
       if (!hasFormat) cursor.fail("the header names no format", kExportAgain);
@@ -117,7 +116,7 @@ PlyHeader readPlyHeader(const ReaderInput& input) {
       header.dataLine = cursor.line() + 1;
       return header;
     } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
-      cursor.fail(fmt::format("{} is no keyword of a PLY header", inQuotes(keyword)), kExportAgain);
+      cursor.fail(fmt::format("{} is not a keyword of a PLY header", inQuotes(keyword)), kExportAgain);
     }
   }
   cursor.failAtEnd("'end_header'");

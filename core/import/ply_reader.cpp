@@ -119,10 +119,9 @@ void checkRoom(const Values& values, const PlyElement& element) {
     smallest += Values::smallestByteCount(p.listCountType.value_or(p.type));
   }
   if (smallest > 0 && element.count > values.bytesLeft() / smallest) {
-    values.fail(
-        fmt::format("the header promises {} elements {}, but the {} bytes that follow cannot hold them",
-                    element.count, inQuotes(element.name), values.bytesLeft()),
-        kCutOff);
+    values.fail(fmt::format("the header declares {} elements {}, more than the {} bytes that follow can hold",
+                            element.count, inQuotes(element.name), values.bytesLeft()),
+                kCutOff);
   }
 }
 
@@ -178,7 +177,7 @@ void readCorners(Values& values, const PlyProperty& list, std::uint64_t vertices
   for (std::uint64_t i = 0; i < count; ++i) {
     const double index = values.number(list.type);
     if (!(index >= 0.0) || index >= static_cast<double>(vertices) || index != std::floor(index)) {
-      values.fail(fmt::format("a face names vertex {}, but vertices go from 0 to {}", index,
+      values.fail(fmt::format("a face refers to vertex {}, but vertices go from 0 to {}", index,
                               static_cast<std::int64_t>(vertices) - 1),
                   "export the file again");
     }
@@ -220,7 +219,7 @@ PolygonSoup readElements(Values values, const PlyHeader& header) {
     } else if (element.name == "face") {
       readFaces(values, element, vertexElement->count, soup);
     } else if (element.name == "tristrips" && element.count > 0) {
-      values.fail("it holds strips of triangles, which are not read", "export it with plain faces");
+      values.fail("it holds triangle strips, which Nearfit does not read", "export it with plain faces");
     } else if (!element.properties.empty()) {
       checkRoom(values, element);
       for (std::uint64_t i = 0; i < element.count; ++i) {

@@ -28,16 +28,16 @@ ReaderResult readStlBinary(const ReaderInput& input) {
     throw FileError(
         input.name,
         fmt::format("it has {} bytes, fewer than the header of a binary STL file", input.bytes.size()),
-        "it is cut off or no STL file: export or copy it again");
+        "it is cut off or not an STL file: export or copy it again");
   }
   const std::uint32_t facets = stlFacetCount(input.bytes);
   const std::uint64_t expected = kStlHeaderBytes + std::uint64_t{facets} * kStlFacetBytes;
   if (input.bytes.size() < expected) {
     throw FileError(
         fmt::format("{}: byte {}", input.name, input.bytes.size()),
-        fmt::format("the file ends here, but its header promises {} triangles, which take {} bytes", facets,
+        fmt::format("the file ends here, but its header declares {} triangles, which take {} bytes", facets,
                     expected),
-        "it is cut off or no STL file: export or copy it again");
+        "it is cut off or not an STL file: export or copy it again");
   }
   ReaderResult result;
   PolygonSoup& soup = result.soup;
@@ -56,7 +56,7 @@ ReaderResult readStlBinary(const ReaderInput& input) {
     soup.closePolygon();
   }
   if (input.bytes.size() > expected) {
-    result.warnings.push_back(fmt::format("{} bytes behind the last of {} triangles were left out.",
+    result.warnings.push_back(fmt::format("{} bytes after the last of {} triangles were ignored.",
                                           input.bytes.size() - expected, facets));
   }
   return result;

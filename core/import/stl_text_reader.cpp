@@ -25,8 +25,7 @@ void expect(TextCursor& cursor, std::string_view word) {
   const std::string_view token = cursor.tokenAcrossLines();
   if (token.empty()) cursor.failAtEnd(inQuotes(word));
   if (!isWord(token, word)) {
-    cursor.fail(fmt::format("{} should stand here, but {} does", inQuotes(word), inQuotes(token)),
-                kCorrectLine);
+    cursor.fail(fmt::format("expected {}, but found {}", inQuotes(word), inQuotes(token)), kCorrectLine);
   }
 }
 
@@ -50,8 +49,7 @@ void readFacet(TextCursor& cursor, PolygonSoup& soup) {
        token = cursor.tokenAcrossLines(), ++corners) {
     if (token.empty()) cursor.failAtEnd("'endloop'");
     if (!isWord(token, "vertex")) {
-      cursor.fail(fmt::format("'vertex' or 'endloop' should stand here, but {} does", inQuotes(token)),
-                  kCorrectLine);
+      cursor.fail(fmt::format("expected 'vertex' or 'endloop', but found {}", inQuotes(token)), kCorrectLine);
     }
     glm::dvec3 p;
     for (int i = 0; i < 3; ++i)
@@ -86,8 +84,7 @@ ReaderResult readStlText(const ReaderInput& input) {
     } else if (isWord(token, "facet")) {
       readFacet(cursor, result.soup);
     } else {
-      cursor.fail(fmt::format("'facet' or 'endsolid' should stand here, but {} does", inQuotes(token)),
-                  kCorrectLine);
+      cursor.fail(fmt::format("expected 'facet' or 'endsolid', but found {}", inQuotes(token)), kCorrectLine);
     }
   }
   if (isSolidOpen) result.warnings.emplace_back("The file ends without 'endsolid': it may be cut off.");

@@ -149,12 +149,12 @@ void TextCursor::fail(const std::string& problem, const std::string& remedy) con
 }
 
 void TextCursor::failAtEnd(std::string_view what) const {
-  fail(fmt::format("the file ends where {} should stand", what), "it is cut off: export or copy it again");
+  fail(fmt::format("the file ends where {} is expected", what), "it is cut off: export or copy it again");
 }
 
 void TextCursor::failNotA(std::string_view kind, std::string_view token, std::string_view what) const {
   const bool hasComma = token.find(',') != std::string_view::npos;
-  fail(fmt::format("{} should stand here, but {} is no {}", what, inQuotes(token), kind),
+  fail(fmt::format("expected {}, but {} is not a {}", what, inQuotes(token), kind),
        hasComma ? "export it with decimal points instead of commas"
                 : "correct the line or export the file again");
 }

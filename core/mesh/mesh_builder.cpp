@@ -29,12 +29,12 @@ constexpr double kMaxExtent = 1e9;
 
 void checkOptions(const MeshBuildOptions& options) {
   if (!std::isfinite(options.metresPerUnit) || !(options.metresPerUnit > 0.0)) {
-    throw UsageError("unit", fmt::format("{} metres per unit make no sense", options.metresPerUnit),
+    throw UsageError("unit", fmt::format("{} metres per unit is not a valid scale", options.metresPerUnit),
                      "give a finite number greater than 0");
   }
   if (!(options.weldTolerance >= 0.0) || options.weldTolerance > 0.1) {
     throw UsageError("weld tolerance",
-                     fmt::format("{} of the diagonal makes no sense", options.weldTolerance),
+                     fmt::format("{} of the diagonal is out of range", options.weldTolerance),
                      "give a number from 0 to 0.1");
   }
 }
@@ -47,13 +47,13 @@ void checkSoup(const PolygonSoup& soup) {
   }
   if (soup.firstCorner.empty() || soup.firstCorner.front() != 0 ||
       soup.firstCorner.back() != soup.corners.size() || !std::ranges::is_sorted(soup.firstCorner)) {
-    throw Error("", "its list of faces contradicts itself", "export the part again");
+    throw Error("", "its list of faces is inconsistent", "export the part again");
   }
   for (std::size_t i = 0; i < soup.polygonCount(); ++i) {
     for (std::uint32_t k = soup.firstCorner[i]; k < soup.firstCorner[i + 1]; ++k) {
       if (soup.corners[k] < soup.vertices.size()) continue;
       throw Error(fmt::format("face {}", i),
-                  fmt::format("it names vertex {} of {}", soup.corners[k], soup.vertices.size()),
+                  fmt::format("it refers to vertex {} of {}", soup.corners[k], soup.vertices.size()),
                   "export the part again");
     }
   }
@@ -114,7 +114,7 @@ class Builder {
       throw Error("", "none of its faces has finite coordinates", "export the part again");
     const glm::dvec3 reach = glm::max(glm::abs(box.lower), glm::abs(box.upper));
     if (const double farthest = std::max({reach.x, reach.y, reach.z}); farthest > kMaxExtent) {
-      throw Error("", fmt::format("a coordinate is {:.3g} m from the origin", farthest),
+      throw Error("", fmt::format("a coordinate is too far from the origin: {:.3g} m", farthest),
                   "check the unit, or export the part again");
     }
     tolerance_ = options_.weldTolerance * box.diagonal();
@@ -239,7 +239,7 @@ void addWarnings(const MeshTopology& topology, MeshBuildReport& report) {
   warn(topology.inconsistentEdges, "edge", "is inconsistent (its two faces have opposite senses).",
        "are inconsistent (their two faces have opposite senses).");
   if (report.turnedInsideOut)
-    report.warnings.emplace_back("The mesh was inside out; all its faces were turned.");
+    report.warnings.emplace_back("The mesh was inside out; all its faces were flipped.");
 }
 
 /// Closes cracks. Most meshes have none and are not rebuilt.
@@ -258,8 +258,8 @@ TriangleMesh outsideOut(TriangleMesh mesh, MeshBuildReport& report) {
   if (shells.turnedPieces == 0) return mesh;
   report.turnedInsideOut = true;
   report.warnings.push_back(shells.closedPieces == 1
-                                ? "The mesh was inside out; its faces were turned."
-                                : fmt::format("{} of {} closed pieces {} inside out and turned.",
+                                ? "The mesh was inside out; its faces were flipped."
+                                : fmt::format("{} of {} closed components {} inside out and flipped.",
                                               shells.turnedPieces, shells.closedPieces,
                                               shells.turnedPieces == 1 ? "was" : "were"));
   return {{mesh.vertices().begin(), mesh.vertices().end()}, std::move(shells.triangles)};

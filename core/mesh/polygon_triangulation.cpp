@@ -134,7 +134,7 @@ std::uint32_t PolygonTriangulator::findEar(std::uint32_t start, std::size_t left
   for (std::size_t i = 0; i < left; ++i, corner = corners_[corner].next) {
     if (tests_ > kMaxTests) {
       throw Error("polygon of " + std::to_string(corners_.size()) + " corners",
-                  "cutting it into triangles takes too long", "export the part as triangles");
+                  "splitting it into triangles takes too long", "export the part as triangles");
     }
     if (isEar(corner)) return corner;
     ++tests_;

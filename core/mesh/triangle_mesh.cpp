@@ -27,12 +27,12 @@ void validate(const std::vector<glm::dvec3>& vertices, const std::vector<Triangl
     for (const std::uint32_t v : t) {
       if (v >= vertices.size()) {
         throw Error("triangle " + std::to_string(i),
-                    "it names vertex " + std::to_string(v) + " of " + std::to_string(vertices.size()),
+                    "it refers to vertex " + std::to_string(v) + " of " + std::to_string(vertices.size()),
                     "repair the mesh");
       }
     }
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
-      throw Error("triangle " + std::to_string(i), "it names a vertex twice", "clean the mesh first");
+      throw Error("triangle " + std::to_string(i), "it uses a vertex twice", "clean the mesh first");
     }
   }
 }

@@ -47,7 +47,7 @@ bool doMeet(const Pair& pair, const glm::dvec3& shift) {
 
 const Part& movablePart(const Scene& scene, PartId id) {
   const Part* part = scene.find(id);
-  if (part == nullptr) throw UsageError("part", "there is no such part", "choose one of the scene");
+  if (part == nullptr) throw UsageError("part", "there is no such part", "choose a part of the scene");
   if (scene.isLocked(*part))
     throw UsageError(part->name, "the part is locked", "unlock it, or its group, first");
   return *part;
@@ -136,7 +136,7 @@ DropResult dropParts(const Scene& scene, std::span<const PartId> moved, const Dr
                      const ProgressCallback& progress) {
   const double length = glm::length(options.direction);
   if (!(length > 0.0) || !std::isfinite(length))
-    throw UsageError("direction", "it has no length or is not finite", "give one with a length");
+    throw UsageError("direction", "it is zero or not finite", "give a finite direction other than zero");
   if (!(options.gap >= 0.0) || !std::isfinite(options.gap))
     throw UsageError("gap", "it is negative or not finite", "give 0 or more metres");
   const std::vector<Pair> pairs = pairsOf(scene, moved);

@@ -58,8 +58,8 @@ std::string journalText(const Scene& scene, const JournalHead& head) {
   // The process that restores it may have another working directory.
   const std::string path = head.scene.empty() ? std::string() : normalisedPath(head.scene).string();
   if (!isUtf8(path)) {
-    throw FileError(printableText(path), "the name of this scene file or of a folder above it is not UTF-8",
-                    "save it under another name");
+    throw FileError(printableText(path), "the path of this scene file is not UTF-8",
+                    "save it under another path");
   }
   const std::string sha256 = sha256OfBytes(prettyJson(json));
   json["recovery"] = {

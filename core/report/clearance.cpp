@@ -53,9 +53,10 @@ bool hasSurface(const Part& part) {
 std::vector<PartClearance> clearancesOf(const Scene& scene, PartId id, double cutoff,
                                         const ProgressCallback& progress) {
   const Part* part = scene.find(id);
-  if (part == nullptr) throw UsageError("clearance", "there is no such part", "choose one of the scene");
+  if (part == nullptr) throw UsageError("clearance", "there is no such part", "choose a part of the scene");
   if (!(cutoff > 0.0) || !std::isfinite(cutoff))
-    throw UsageError("clearance", fmt::format("{} m is no cutoff", cutoff), "give a length above zero");
+    throw UsageError("clearance", fmt::format("{} m is not a valid cutoff", cutoff),
+                     "give a length greater than 0");
   std::vector<PartClearance> result;
   if (!hasSurface(*part)) return result;
   Workspace work;

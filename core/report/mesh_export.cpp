@@ -165,10 +165,9 @@ void writePly(MeshFile& out, std::span<const Scene::PartPtr> parts, const MeshEx
 void requireExportable(const MeshExportSize& size) {
   constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max();
   if (size.triangles == 0)
-    throw UsageError("mesh export", "there is nothing to write", "choose parts, or show some");
+    throw UsageError("mesh export", "there is nothing to write", "select parts, or show some");
   if (size.triangles > kMax || size.vertices > kMax)
-    throw UsageError("mesh export",
-                     fmt::format("{} triangles are more than a file can count", size.triangles),
+    throw UsageError("mesh export", fmt::format("{} triangles are more than a file can hold", size.triangles),
                      "export fewer parts at a time");
 }
 

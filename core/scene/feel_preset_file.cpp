@@ -26,9 +26,9 @@ FeelPreset readPreset(const JsonField& field) {
 }
 
 void requireFormat(const JsonField& root) {
-  if (root.at("format").text(64) != kFormat) root.at("format").fail("these are no feel presets");
+  if (root.at("format").text(64) != kFormat) root.at("format").fail("this is not a file of feel presets");
   if (root.at("version").number() != kVersion)
-    root.at("version").fail("another version has written this file", "update Nearfit");
+    root.at("version").fail("the file was written by another version of Nearfit", "update Nearfit");
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ FeelPresetFile readFeelPresets(const std::filesystem::path& file) {
       result.problems.emplace_back(error.what());
     }
   }
-  if (entries.size() > count) result.problems.emplace_back("there are more presets than can be kept");
+  if (entries.size() > count) result.problems.emplace_back("there are too many presets");
   return result;
 }
 

@@ -32,9 +32,7 @@ void checkProxy(const ProxySettings& proxy, double cutoff) {
   checkWithin("proxy.friction", proxy.friction, kMinFriction, kMaxFriction, "");
   if (proxy.margin <= cutoff) return;
   throw UsageError(
-      "proxy.margin",
-      fmt::format("{} m is more than the cutoff, {} m, beyond which nothing is looked for", proxy.margin,
-                  cutoff),
+      "proxy.margin", fmt::format("{} m is greater than the cutoff, {} m", proxy.margin, cutoff),
       fmt::format("lower the margin, for example to {} m, or raise the cutoff", defaultMargin(cutoff)));
 }
 

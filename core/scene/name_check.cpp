@@ -8,7 +8,7 @@
 namespace nearfit {
 
 void checkName(const char* kind, const std::string& name, std::size_t maxBytes) {
-  if (name.empty()) throw UsageError("name", fmt::format("a {}'s name is empty", kind), "give it one");
+  if (name.empty()) throw UsageError("name", fmt::format("a {}'s name is empty", kind), "give it a name");
   if (name.size() > maxBytes) {
     throw UsageError("name", fmt::format("a {}'s name is longer than {} bytes", kind, maxBytes),
                      "shorten it");

@@ -34,14 +34,14 @@ void checkDensity(double density) {
 void checkOpacity(double opacity) {
   if (opacity >= kMinOpacity && opacity <= 1.0) return;
   throw UsageError("opacity", fmt::format("{} is out of range", opacity),
-                   fmt::format("give a value from {} to 1; what is not to be seen is hidden", kMinOpacity));
+                   fmt::format("give a value from {} to 1; hide the part to make it invisible", kMinOpacity));
 }
 
 void checkColour(const Colour& colour) {
   for (const float channel : {colour.r, colour.g, colour.b}) {
     if (!(channel >= 0.0F && channel <= 1.0F)) {
-      throw UsageError("colour", fmt::format("a channel is {}", channel),
-                       "give each of r, g and b from 0 to 1");
+      throw UsageError("colour", fmt::format("a channel of {} is out of range", channel),
+                       "give r, g and b from 0 to 1");
     }
   }
 }
@@ -57,7 +57,7 @@ void checkGroupName(const std::string& name) {
 void checkPosition(const glm::dvec3& position) {
   for (const double coordinate : {position.x, position.y, position.z}) {
     if (std::isfinite(coordinate) && std::abs(coordinate) <= kMaxPosition) continue;
-    throw UsageError("position", fmt::format("a coordinate is {} m", coordinate),
+    throw UsageError("position", fmt::format("a coordinate of {} m is out of range", coordinate),
                      fmt::format("stay within {} m of the origin", kMaxPosition));
   }
 }

@@ -117,7 +117,7 @@ std::filesystem::path normalisedPath(const std::filesystem::path& file) {
 
 void checkMetresPerUnit(double metresPerUnit) {
   if (metresPerUnit >= kMinMetresPerUnit && metresPerUnit <= kMaxMetresPerUnit) return;
-  throw UsageError("unit", fmt::format("{} metres to the unit is out of range", metresPerUnit),
+  throw UsageError("unit", fmt::format("{} metres per unit is out of range", metresPerUnit),
                    fmt::format("give a value from {} to {} m", kMinMetresPerUnit, kMaxMetresPerUnit));
 }
 

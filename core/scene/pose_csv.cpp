@@ -26,7 +26,7 @@ std::string_view trimmed(std::string_view text) noexcept {
 Rows::Rows(const std::filesystem::path& file) : in_(file, std::ios::binary), place_{file, 0} {
   std::error_code ignored;
   if (!in_ || std::filesystem::is_directory(file, ignored)) {
-    throw FileError(file.string(), fmt::format("cannot be read ({})", std::strerror(in_ ? EISDIR : errno)),
+    throw FileError(file.string(), fmt::format("it cannot be read ({})", std::strerror(in_ ? EISDIR : errno)),
                     "check the name and the permissions");
   }
   const std::uintmax_t size = std::filesystem::file_size(file, ignored);
@@ -88,7 +88,7 @@ double finiteNumber(std::string_view text, std::size_t column, const Place& plac
 RigidTransform poseOf(std::span<const double, 7> v, std::size_t firstColumn, const Place& place) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (std::abs(v[i]) > kMaxPosition) {
-      place.fail(fmt::format("column {}: {} m is too far away", firstColumn + i + 1, v[i]),
+      place.fail(fmt::format("column {}: {} m is too far from the origin", firstColumn + i + 1, v[i]),
                  fmt::format("give metres, within {} of the origin", kMaxPosition));
     }
   }

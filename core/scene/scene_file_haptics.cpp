@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 bool isFirstOf(const JsonField& field, const char* first, const char* second) {
   const std::string word = field.text(16);
   if (word != first && word != second) {
-    field.fail("this word is not known", std::string("say \"") + first + "\" or \"" + second + "\"");
+    field.fail("this value is not known", std::string("give \"") + first + "\" or \"" + second + "\"");
   }
   return word == first;
 }

@@ -59,7 +59,7 @@ std::string readSha256(const JsonField& field) {
   const bool isHash = digits.size() == 64 && std::all_of(digits.begin(), digits.end(), [](unsigned char c) {
                         return std::isxdigit(c) != 0;
                       });
-  if (!isHash) field.fail("it is no SHA-256", "give 64 hexadecimal digits");
+  if (!isHash) field.fail("it is not a SHA-256", "give 64 hexadecimal digits");
   std::transform(digits.begin(), digits.end(), digits.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return digits;
@@ -70,7 +70,7 @@ std::optional<std::size_t> readGroupIndex(const JsonField& field, std::size_t co
   if (field.isNull()) return std::nullopt;
   const double index = field.number();
   if (!(index >= 0.0 && index < static_cast<double>(count) && index == std::floor(index)))
-    field.fail(fmt::format("{} is none of {} groups", index, count), remedy);
+    field.fail(fmt::format("{} is not the number of one of the {} groups", index, count), remedy);
   return static_cast<std::size_t>(index);
 }
 
@@ -126,11 +126,12 @@ std::vector<GroupEntry> readGroups(const JsonField& field) {
     entry.group.name = field.at(i).at("name").text(kMaxGroupNameBytes);
     checked(field.at(i).at("name"), [&] { checkGroupName(entry.group.name); });
     entry.group.isLocked = entry.isLockedAnyhow = field.at(i).at("locked").isTrue();
-    entry.parent = readGroupIndex(place, i, "give the number of one before this, from 0, or null");
+    entry.parent = readGroupIndex(place, i, "give the number of an earlier group, from 0, or null");
     if (!entry.parent) continue;
     depths[i] = depths[*entry.parent] + 1;
     if (depths[i] > kMaxGroupDepth)
-      place.fail(fmt::format("groups are more than {} deep", kMaxGroupDepth), "put it higher up");
+      place.fail(fmt::format("groups are nested more than {} deep", kMaxGroupDepth),
+                 "move it to a higher level");
     entry.isLockedAnyhow = entry.isLockedAnyhow || entries[*entry.parent].isLockedAnyhow;
   }
   return entries;
@@ -147,7 +148,7 @@ std::vector<PartEntry> readParts(const JsonField& field, const std::vector<Group
     const auto [known, isNew] = indexOfName.emplace(entries.back().part.name, i);
     if (!isNew)
       field.at(i).at("name").fail(fmt::format("parts[{}] has the same name", known->second),
-                                  "give each part its own");
+                                  "give each part its own name");
   }
   return entries;
 }
@@ -159,10 +160,10 @@ std::optional<std::size_t> readMovingPart(const JsonField& field, const std::vec
   const auto it =
       std::find_if(entries.begin(), entries.end(), [&](const PartEntry& e) { return e.part.name == name; });
   if (it == entries.end()) {
-    field.fail(fmt::format("there is no part \"{}\"", printableText(name)), "name a part, or say null");
+    field.fail(fmt::format("there is no part \"{}\"", printableText(name)), "name a part, or give null");
   }
   if (it->part.isLocked || (it->group && groups[*it->group].isLockedAnyhow))
-    field.fail("this part is locked and cannot be the moving part", "unlock it, or say null");
+    field.fail("this part is locked and cannot be the moving part", "unlock it, or give null");
   return static_cast<std::size_t>(it - entries.begin());
 }
 

@@ -21,13 +21,13 @@ namespace fs = std::filesystem;
 
 int readVersion(const JsonField& root) {
   if (!root.has("nearfit"))
-    root.fail("it is no Nearfit scene: the key \"nearfit\" is missing", "open a *.nearfit file");
+    root.fail("it is not a Nearfit scene: the key \"nearfit\" is missing", "open a *.nearfit file");
   const JsonField field = root.at("nearfit");
   const double version = field.number();
   for (int known = kOldestSceneFileVersion; known <= kSceneFileVersion; ++known) {
     if (version == known) return known;
   }
-  field.fail(fmt::format("this is version {} of the scene format, and this program reads versions {} to {}",
+  field.fail(fmt::format("this is version {} of the scene format, but this program reads versions {} to {}",
                          version, kOldestSceneFileVersion, kSceneFileVersion),
              version > kSceneFileVersion ? "open it with a newer Nearfit"
                                          : "save it again with the Nearfit that made it");
@@ -82,15 +82,15 @@ class GeometryLoader {
     if (fs::exists(entry.mesh, failure)) return;
     entry.field.at("mesh").fail(
         fmt::format("the mesh file {} is missing", printableText(entry.mesh.string())),
-        "put it back there, or make the scene anew with the mesh that you have");
+        "put it back, or make the scene again with another mesh");
   }
 
   [[noreturn]] static void failChanged(const PartEntry& entry) {
     entry.field.at("sha256").fail(
-        fmt::format("the mesh file {} is not the one that the scene was made with (its SHA-256 differs)",
+        fmt::format("the mesh file {} has changed since the scene was saved (its SHA-256 differs)",
                     printableText(entry.mesh.string())),
-        "put the old file back, or open the scene in the desktop application and save it there, which "
-        "takes over the changed mesh");
+        "put the old file back, or accept the new mesh: open the scene in the desktop application and save "
+        "it");
   }
 
   std::vector<fs::path>* changed_;

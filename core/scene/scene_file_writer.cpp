@@ -23,8 +23,8 @@ std::string meshPath(const std::filesystem::path& mesh, const std::filesystem::p
   std::string text = path.generic_string();
   // JSON can escape control characters, but must be UTF-8.
   if (!isUtf8(text)) {
-    throw FileError(printableText(text), "the name of this mesh file or of a folder above it is not UTF-8",
-                    "rename it, then load it anew");
+    throw FileError(printableText(text), "the path of this mesh file is not UTF-8",
+                    "rename the file or its folder, then load it again");
   }
   return text;
 }

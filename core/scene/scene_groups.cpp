@@ -56,7 +56,7 @@ void Scene::requireOpen(std::optional<GroupId> group) const {
   if (!group) return;
   indexOf(*group);
   if (const Group* lock = lockAt(group))
-    throw UsageError(quoted(*lock), "it is locked: nothing goes in or out", "unlock it first");
+    throw UsageError(quoted(*lock), "it is locked: nothing can be added or taken out", "unlock it first");
 }
 
 void Scene::checkPlace(const Group& group) const {
@@ -69,8 +69,8 @@ void Scene::checkPlace(const Group& group) const {
     if (isWithin(other, group.id)) below = std::max(below, 1 + depthOf(other) - depth);
   }
   if (depthOf(group.parent) + below <= kMaxGroupDepth) return;
-  throw UsageError(quoted(group), fmt::format("groups would be more than {} deep", kMaxGroupDepth),
-                   "put it higher up");
+  throw UsageError(quoted(group), fmt::format("groups would be nested more than {} deep", kMaxGroupDepth),
+                   "move it to a higher level");
 }
 
 GroupId Scene::addGroup(Group group) {
@@ -95,13 +95,13 @@ void Scene::replaceGroup(Group group) {
   if (group.parent != before.parent) {
     if (group.parent) indexOf(*group.parent);
     if (isWithin(group.parent, group.id))
-      throw UsageError(quoted(before), "it would be in itself", "put it into another group");
+      throw UsageError(quoted(before), "a group cannot contain itself", "put it into another group");
     checkPlace(group);
   }
   const Part* moving = movingPart_ ? find(*movingPart_) : nullptr;
   if (group.isLocked && moving != nullptr && isWithin(moving->group, group.id)) {
     throw UsageError(quoted(before),
-                     fmt::format("the moving part \"{}\" is in it and cannot be locked", moving->name),
+                     fmt::format("it contains the moving part \"{}\", which cannot be locked", moving->name),
                      "choose another moving part, or none, first");
   }
   groups_[index] = std::make_shared<const Group>(std::move(group));
@@ -138,7 +138,7 @@ void Scene::requireUnlocked(const Group& group) const {
 }
 
 void Scene::isolate(const std::vector<PartId>& parts) {
-  if (parts.empty()) throw UsageError("isolation", "no part is named", "select those to be shown");
+  if (parts.empty()) throw UsageError("isolation", "no part is given", "select the parts to show");
   std::unordered_set<PartId> shown;
   for (const PartId id : parts)
     shown.insert(parts_[indexOf(id)]->id);

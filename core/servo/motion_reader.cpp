@@ -16,7 +16,7 @@
 namespace nearfit {
 namespace {
 
-constexpr const char* kRemedy = "give a recording as nearfit or nearfit-cli place --record writes it";
+constexpr const char* kRemedy = "give a recording written by nearfit or by nearfit-cli place --record";
 /// Rows between two progress reports.
 constexpr std::size_t kRowsPerReport = 1000;
 /// Max time in a recording: eleven days [s].
@@ -94,7 +94,7 @@ double numberIn(std::string_view text, std::size_t index, std::size_t at, const 
   std::optional<double> number = csv::parseNumber(text);
   if (column.kind != Kind::Distance) number = csv::finiteNumber(text, at, place, kRemedy);
   if (!number || !isAllowed(column.kind, *number))
-    place.fail(fmt::format("column {}: \"{}\" cannot be {}", at + 1, text.substr(0, 40), column.name),
+    place.fail(fmt::format("column {}: \"{}\" is not a valid {}", at + 1, text.substr(0, 40), column.name),
                kRemedy);
   return *number;
 }
@@ -131,7 +131,7 @@ void takeRest(MotionRow& row, std::span<const double> v, const csv::Place& place
   row.proxyTime = kMicro * v[12];
   row.isClamped = v[13] != 0.0;
   if (v[14] > static_cast<double>(ServoFault::ParametersInvalid))
-    place.fail(fmt::format("there is no fault {}", v[14]), kRemedy);
+    place.fail(fmt::format("no fault has the number {}", v[14]), kRemedy);
   row.fault = static_cast<ServoFault>(count(14));
   row.isTruncated = v[15] != 0.0;
   row.lateness = kMicro * v[16];
@@ -160,7 +160,7 @@ void reportProgress(const csv::Rows& rows, const ProgressCallback& progress) {
 Recording readRecording(const std::filesystem::path& file, const ProgressCallback& progress) {
   csv::Rows rows(file);
   const std::optional<std::string_view> header = rows.next();
-  if (!header) throw FileError(file.string(), "there is nothing in it", kRemedy);
+  if (!header) throw FileError(file.string(), "it is empty", kRemedy);
   const Places places = placesIn(*header, rows.place());
   Recording read;
   std::vector<MotionRow>& motion = read.rows;
@@ -174,10 +174,10 @@ Recording readRecording(const std::filesystem::path& file, const ProgressCallbac
     }
     motion.push_back(*row);
     if (motion.size() > 1 && motion.back().time < motion[motion.size() - 2].time)
-      rows.place().fail("it is earlier than the row before", kRemedy);
+      rows.place().fail("its time is earlier than that of the row before", kRemedy);
     if (motion.size() % kRowsPerReport == 0) reportProgress(rows, progress);
   }
-  if (motion.empty()) throw FileError(file.string(), "there are no rows in it", kRemedy);
+  if (motion.empty()) throw FileError(file.string(), "it has no rows", kRemedy);
   const double begin = motion.front().time;
   for (MotionRow& row : motion)
     row.time -= begin;

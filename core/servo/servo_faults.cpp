@@ -37,14 +37,14 @@ const char* faultReason(ServoFault fault) noexcept {
     case ServoFault::None:
       return "";
     case ServoFault::PoseNotFinite:
-      return "a pose was not finite or not a rotation; check the device, then start the servo anew";
+      return "a pose was not finite or not a rotation; check the device, then start the servo again";
     case ServoFault::WrenchNotFinite:
-      return "the force was not finite; lower stiffness or damping, then start the servo anew";
+      return "the force was not finite; lower stiffness or damping, then start the servo again";
     case ServoFault::ParametersInvalid:
-      return "cutoff, margin, stiffness, damping, limits or period made no sense; set them, then start the "
-             "servo anew";
+      return "cutoff, margin, stiffness, damping, limits or period were invalid; correct them, then start "
+             "the servo again";
   }
-  return "unknown fault; start the servo anew";
+  return "unknown fault; start the servo again";
 }
 
 bool isPose(const RigidTransform& pose) noexcept {

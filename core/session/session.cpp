@@ -20,8 +20,8 @@ const char* labelOfChange(const HapticSettings& from, const HapticSettings& to) 
       {"Change the margin", [](auto& a, const auto& b) { a.proxy.margin = b.proxy.margin; }},
       {"Change the friction", [](auto& a, const auto& b) { a.proxy.friction = b.proxy.friction; }},
       {"Change the coupling", [](auto& a, const auto& b) { a.coupling = b.coupling; }},
-      {"Change the weight that is felt", [](auto& a, const auto& b) { a.weight = b.weight; }},
-      {"Change the hand's scale", [](auto& a, const auto& b) { a.mapping.scale = b.mapping.scale; }},
+      {"Change the weight settings", [](auto& a, const auto& b) { a.weight = b.weight; }},
+      {"Change the workspace scale", [](auto& a, const auto& b) { a.mapping.scale = b.mapping.scale; }},
       {"Change the locked axes",
        [](auto& a, const auto& b) {
          a.mapping.translationLocks = b.mapping.translationLocks;
@@ -34,7 +34,7 @@ const char* labelOfChange(const HapticSettings& from, const HapticSettings& to) 
     take(changed, to);
     if (changed == to) return label;
   }
-  return "Change how contact feels";
+  return "Change the feel settings";
 }
 
 PartId addTo(Scene& scene, PartGeometryPtr geometry, const std::string& name,
@@ -81,7 +81,7 @@ void Session::setMovingPart(std::optional<PartId> id) {
   Scene next = scene();
   next.setMovingPart(id);
   const std::string label =
-      id ? fmt::format("Make {} the moving part", next.find(*id)->name) : "Let go of the moving part";
+      id ? fmt::format("Make {} the moving part", next.find(*id)->name) : "Clear the moving part";
   commit(std::move(next), label);
 }
 

@@ -145,7 +145,7 @@ GroupId Session::group(const SceneNodes& nodes, const std::string& name) {
   group.parent = commonGroup(next, outer);
   const GroupId id = next.addGroup(std::move(group));
   putInto(next, outer, id);
-  commit(std::move(next), "Group " + (outer.isEmpty() ? std::string("nothing") : nameOf(scene(), outer)));
+  commit(std::move(next), "Group " + (outer.isEmpty() ? std::string("(empty)") : nameOf(scene(), outer)));
   return id;
 }
 
@@ -173,8 +173,8 @@ void Session::regroup(const SceneNodes& nodes, std::optional<GroupId> target) {
   if (moving.isEmpty()) return;
   Scene next = scene();
   putInto(next, moving, target);
-  const std::string where = target ? "into " + next.findGroup(*target)->name : "at the top";
-  commit(std::move(next), fmt::format("Put {} {}", nameOf(scene(), moving), where));
+  const std::string where = target ? "into " + next.findGroup(*target)->name : "to the top level";
+  commit(std::move(next), fmt::format("Move {} {}", nameOf(scene(), moving), where));
 }
 
 }  // namespace nearfit

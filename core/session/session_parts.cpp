@@ -149,7 +149,7 @@ void Session::endIsolation() {
   if (!scene().isIsolated()) return;
   Scene next = scene();
   next.endIsolation();
-  commit(std::move(next), "End the isolation");
+  commit(std::move(next), "End isolation");
 }
 
 }  // namespace nearfit

@@ -37,7 +37,7 @@ class ParseGuard {
  private:
   void checkKey(const std::string& key) {
     if (!keys_.back().insert(key).second) {
-      fail(fmt::format("an object says the key \"{}\" twice", printableText(truncatedUtf8(key, 80))));
+      fail(fmt::format("an object has the key \"{}\" twice", printableText(truncatedUtf8(key, 80))));
     }
   }
   [[noreturn]] void fail(const std::string& problem) const { throw FileError(file_.string(), problem); }
@@ -74,7 +74,7 @@ std::string detail(const std::string& message, const char* start) {
 
 Json readJsonFile(const std::filesystem::path& file, const JsonLimits& limits) {
   if (InputFile(file).size() > limits.maxBytes) {
-    throw FileError(file.string(), fmt::format("it is bigger than {} bytes", limits.maxBytes),
+    throw FileError(file.string(), fmt::format("it is larger than {} bytes", limits.maxBytes),
                     "check that it is the right file");
   }
   const std::vector<char> text = readWholeFile(file);
@@ -88,10 +88,10 @@ Json readJsonFile(const std::filesystem::path& file, const JsonLimits& limits) {
   } catch (const Json::parse_error& e) {
     throw FileError(file.string() + ":" + lineAndColumn(text, e.byte),
                     "this is not valid JSON: " + detail(e.what(), "syntax error"),
-                    "mend the file or restore a copy");
+                    "correct the file or restore a copy");
   } catch (const Json::exception& e) {
     throw FileError(file.string(), "it is not valid JSON: " + detail(e.what(), "number overflow"),
-                    "mend the file or restore a copy");
+                    "correct the file or restore a copy");
   }
 }
 
@@ -100,7 +100,7 @@ void JsonField::fail(const std::string& problem, const std::string& remedy) cons
 }
 
 void JsonField::require(bool isOfType, const char* wanted) const {
-  if (!isOfType) fail(fmt::format("it is of type {} where {} is wanted", value_->type_name(), wanted));
+  if (!isOfType) fail(fmt::format("it is of type {}, but {} is expected", value_->type_name(), wanted));
 }
 
 bool JsonField::has(const std::string& key) const {
@@ -124,7 +124,7 @@ std::size_t JsonField::size() const {
 }
 
 void JsonField::requireSize(std::size_t count) const {
-  if (size() != count) fail(fmt::format("it has {} elements where {} are wanted", size(), count));
+  if (size() != count) fail(fmt::format("it has {} elements, but {} are expected", size(), count));
 }
 
 double JsonField::number() const {

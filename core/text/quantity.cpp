@@ -77,16 +77,16 @@ std::string problemOf(mu::EErrorCodes code) {
   switch (code) {
     case mu::ecUNEXPECTED_EOF:
     case mu::ecUNEXPECTED_CONDITIONAL:
-      return "something is missing at the end";
+      return "the expression is incomplete";
     case mu::ecMISSING_PARENS:
       return "a bracket is not closed";
     case mu::ecUNEXPECTED_PARENS:
-      return "a bracket that does not belong here";
+      return "unexpected bracket";
     case mu::ecUNEXPECTED_OPERATOR:
-      return "an operator that does not belong here";
+      return "unexpected operator";
     case mu::ecUNEXPECTED_ARG_SEP:
     case mu::ecUNEXPECTED_ARG:
-      return "a semicolon outside of a function";
+      return "semicolon outside a function";
     case mu::ecTOO_FEW_PARAMS:
       return "the function needs more arguments";
     case mu::ecTOO_MANY_PARAMS:
@@ -94,9 +94,9 @@ std::string problemOf(mu::EErrorCodes code) {
     case mu::ecUNEXPECTED_VAR:
     case mu::ecUNEXPECTED_VAL:
     case mu::ecUNEXPECTED_FUN:
-      return "no operator before this";
+      return "an operator is missing before this";
     default:
-      return "it cannot be read from here on";
+      return "it cannot be read beyond this point";
   }
 }
 
@@ -228,7 +228,7 @@ Unit unitNamed(std::string_view text) {
   if (text.find_first_not_of(' ') == std::string_view::npos) return {};
   Evaluation evaluation(text, {});
   const std::optional<Dimension> dimension = evaluation.dimension();
-  if (!dimension) evaluation.fail(0, "it is no unit", "use for example mm or N s/m");
+  if (!dimension) evaluation.fail(0, "it is not a unit", "use for example mm or N s/m");
   return {*dimension, evaluation.value()};
 }
 
@@ -239,17 +239,16 @@ double evaluateQuantity(std::string_view text, const Unit& shown) {
   Evaluation evaluation(text, shown.dimension);
   const std::optional<Dimension> dimension = evaluation.dimension();
   if (!dimension) {
-    evaluation.fail(0, "its units do not go together",
-                    "give each number of a sum a unit of the same kind, or none of them one");
+    evaluation.fail(0, "its units do not match", "give all numbers of a sum units of the same kind, or none");
   }
   if (*dimension != Dimension{} && *dimension != shown.dimension) {
-    evaluation.fail(0, "it is " + nameOf(*dimension) + ", and " + nameOf(shown.dimension) + " is wanted",
+    evaluation.fail(0, "it is " + nameOf(*dimension) + ", but " + nameOf(shown.dimension) + " is expected",
                     fitting);
   }
   const double value = evaluation.value() * (*dimension == Dimension{} ? shown.inSi : 1.0);
   if (!std::isfinite(value)) {
     evaluation.fail(0, "its value is not finite",
-                    "mend a division by zero, a root of a negative number or the like");
+                    "look for a division by zero or a root of a negative number");
   }
   return value;
 }

@@ -45,7 +45,7 @@ class Tokenizer {
       } else if (std::string_view("+-*/^();").find(c) != std::string_view::npos) {
         takeOperator();
       } else {
-        fail(at_, "“" + printableText(text_.substr(at_, 1)) + "” has no meaning here",
+        fail(at_, "“" + printableText(text_.substr(at_, 1)) + "” is not allowed here",
              "use numbers, units, + - * / ^, brackets and functions");
       }
     }
@@ -107,14 +107,15 @@ class Tokenizer {
     for (; at_ < text_.size() && (isDigit(text_[at_]) || isSeparator(text_[at_])); ++at_) {
       if (isSeparator(text_[at_]) && ++separators > 1)
         fail(at_, "a second decimal separator",
-             "write thousands without one, and the arguments of a function with ; between them");
+             "write thousands without a separator, and separate the arguments of a function with ;");
       digits += isSeparator(text_[at_]) ? '.' : text_[at_];
     }
     takeExponent(digits);
     double value = 0.0;
     const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (read.ec != std::errc()) fail(from, "a number out of all limits", "write a smaller one");
-    if (endsOperand()) fail(from, "two numbers with nothing between them", "put + - * or / between them");
+    if (read.ec != std::errc()) fail(from, "a number out of range", "write one between 1e-300 and 1e300");
+    if (endsOperand())
+      fail(from, "two numbers without an operator between them", "put + - * or / between them");
     emitNumber(value, from);
     return true;
   }
@@ -164,7 +165,8 @@ class Tokenizer {
       ++behind;
     const bool isCall = behind < text_.size() && text_[behind] == '(';
     if (isCall && isQuantityFunction(name)) {
-      if (endsOperand()) fail(from, "no operator before “" + std::string(name) + "”", "put + - * or / there");
+      if (endsOperand())
+        fail(from, "an operator is missing before “" + std::string(name) + "”", "put + - * or / there");
       emit(name, from);
       note('f');
     } else if (name == "pi" || name == "π") {
@@ -191,9 +193,10 @@ class Tokenizer {
 
   [[noreturn]] void failName(std::size_t from, const std::string& name) const {
     if (isQuantityFunction(name))
-      fail(at_, "nothing to take “" + name + "” of", "put its argument in brackets: " + name + "(…)");
+      fail(at_, "the function “" + name + "” has no argument",
+           "put its argument in brackets: " + name + "(…)");
     const std::string units = unitNames(wanted_);
-    fail(from, "“" + name + "” is no unit and no function",
+    fail(from, "“" + name + "” is neither a unit nor a function",
          units.empty() ? "leave it out" : "use one of " + units);
   }
 

@@ -61,7 +61,7 @@ constexpr std::array kNames = std::to_array<std::pair<Dimension, std::string_vie
     {kLength, "a length"},
     {{.length = 2}, "an area"},
     {{.length = 3}, "a volume"},
-    {{.length = -1}, "one over a length"},
+    {{.length = -1}, "an inverse length"},
     {kAngle, "an angle"},
     {{.angle = 2}, "an angle squared"},
     {kMass, "a mass"},

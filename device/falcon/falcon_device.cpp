@@ -73,14 +73,14 @@ FalconDevice::FalconDevice(UsbDescription device, std::filesystem::path firmware
     : ForceArmDevice(std::move(device), "Novint Falcon", limits(), safety), firmware_(std::move(firmware)) {}
 
 std::string FalconDevice::stateNote() const {
-  return handle().note("it does not know where its handle is: pull it all the way out, then push it in");
+  return handle().note("the position of its handle is not known: pull it all the way out, then push it in");
 }
 
 ForceArmDevice::Opened FalconDevice::open(std::optional<UsbLink>& link, const ProgressCallback& progress) {
   const UsbInterface* face = interfaceOf(description());
   if (face == nullptr) {
-    throw DeviceError(DeviceProblem::Unsupported, name(),
-                      "its interface lacks the endpoints that it should have", "plug it in again");
+    throw DeviceError(DeviceProblem::Unsupported, name(), "its interface lacks the expected endpoints",
+                      "plug it in again");
   }
   link.emplace(description(), kInterface);
   const std::uint8_t in = face->streaming(true)->address, out = face->streaming(false)->address;

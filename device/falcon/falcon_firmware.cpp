@@ -66,7 +66,7 @@ std::optional<Failure> beginLoading(FtdiPort& port) {
   port.write(kStart);
   std::array<std::byte, kStart.size()> got{};
   if (port.read(got) == got.size() && got == kStart) return std::nullopt;
-  return Failure{"its loader does not take firmware", kPowerCycle};
+  return Failure{"its loader does not accept firmware", kPowerCycle};
 }
 
 /// Progress over all attempts; never falls.
@@ -92,12 +92,13 @@ std::optional<Failure> sendBlocks(FtdiPort& port, std::span<const std::byte> fir
     const std::span<std::byte> echo = std::span(buffer).first(block.size());
     const std::size_t count = port.read(echo);
     if (count < echo.size())
-      return Failure{fmt::format("it stopped taking firmware at byte {} of {}", at + count, firmware.size()),
-                     kPowerCycle};
+      return Failure{
+          fmt::format("it stopped accepting firmware at byte {} of {}", at + count, firmware.size()),
+          kPowerCycle};
     const auto wrong = std::mismatch(block.begin(), block.end(), echo.begin()).first;
     if (wrong != block.end()) {
       const std::size_t byte = at + static_cast<std::size_t>(wrong - block.begin());
-      return Failure{fmt::format("it repeated byte {} of the firmware wrongly", byte),
+      return Failure{fmt::format("it echoed byte {} of the firmware incorrectly", byte),
                      "plug it straight into the computer, not into a hub, and try again"};
     }
   }
@@ -109,7 +110,7 @@ std::optional<Failure> tryUpload(FtdiPort& port, std::span<const std::byte> firm
   if (auto failure = beginLoading(port)) return failure;
   if (auto failure = sendBlocks(port, firmware, told)) return failure;
   if (isFirmwareRunning(port)) return std::nullopt;
-  return Failure{"it took the firmware and does not run it",
+  return Failure{"it accepted the firmware but does not run it",
                  "check that the file is the firmware of the Novint Falcon"};
 }
 
@@ -118,13 +119,13 @@ std::optional<Failure> tryUpload(FtdiPort& port, std::span<const std::byte> firm
 std::vector<std::byte> readFirmware(const std::filesystem::path& file, const std::string& where) {
   if (file.empty()) {
     throw DeviceError(DeviceProblem::NoFirmware, where,
-                      "it has no firmware since it was switched on, and no file with it is set",
+                      "it needs its firmware after it is switched on, and no firmware file is set",
                       "give the firmware file that came with its maker's driver");
   }
   const std::uint64_t size = InputFile(file).size();
   if (size < kMinFirmware || size > kMaxFirmware) {
     throw DeviceError(DeviceProblem::NoFirmware, where,
-                      fmt::format("{} has {} bytes, and firmware has {} to {}", file.string(), size,
+                      fmt::format("{} has {} bytes, but firmware has {} to {}", file.string(), size,
                                   kMinFirmware, kMaxFirmware),
                       "give the firmware file that came with its maker's driver");
   }

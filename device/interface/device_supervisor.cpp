@@ -17,11 +17,11 @@ const char* faultReason(DeviceFault fault) noexcept {
     case DeviceFault::TooFast:
       return "its handle moved too fast";
     case DeviceFault::Reported:
-      return "it reports a fault of its own";
+      return "it reported a fault";
     case DeviceFault::Garbage:
-      return "what it sends cannot be read";
+      return "its reports cannot be read";
     case DeviceFault::OutOfReach:
-      return "its joints are where they cannot be, so that its calibration is wrong";
+      return "its joints are outside their range, so its calibration is wrong";
   }
   return "";
 }
@@ -82,7 +82,8 @@ void DeviceSupervisor::requireCalibratable(const std::string& device) const {
     case DeviceState::Uncalibrated:
       return;
     case DeviceState::Armed:
-      throw DeviceError(DeviceProblem::Failed, device, "it is armed, and its pose would jump",
+      throw DeviceError(DeviceProblem::Failed, device,
+                        "it is armed, and calibration would make its pose jump",
                         "disarm it, then calibrate it");
     case DeviceState::Lost:
       throw DeviceError(DeviceProblem::Gone, device, "it was unplugged", "plug it in again and open it");

@@ -37,10 +37,10 @@ const UsbInterface* openHapInterface(const UsbDescription& device) noexcept {
   return found;
 }
 
-constexpr const char* kUpdate = "install the newer program or firmware";
+constexpr const char* kUpdate = "install a newer Nearfit or newer firmware";
 
 std::string otherVersion(int version) {
-  return fmt::format("it speaks version {} of OpenHap, this program version {}", version,
+  return fmt::format("it speaks version {} of OpenHap, but this program speaks version {}", version,
                      openhap::kMajorVersion);
 }
 
@@ -90,7 +90,7 @@ DeviceInfo OpenHapDevice::info() const {
 }
 
 std::string OpenHapDevice::stateNote() const {
-  const std::string note = handle_.note("it does not know where its handle is: home it");
+  const std::string note = handle_.note("the position of its handle is not known: home it");
   if (state() != DeviceState::Fault || handle_.supervisor().fault() != DeviceFault::Reported) return note;
   const std::lock_guard lock(faultMutex_);
   return faultText_.empty() ? note : note + ": " + faultText_;
@@ -151,7 +151,7 @@ openhap::Capabilities OpenHapDevice::readCapabilities() {
                       kUpdate);
   }
   if (reject != openhap::Reject::None) {
-    throw DeviceError(DeviceProblem::NotAnswering, name(), "what it says about itself cannot be read",
+    throw DeviceError(DeviceProblem::NotAnswering, name(), "its description of itself cannot be read",
                       "plug it in again; if that does not help, ask its maker for newer firmware");
   }
   return capabilities;

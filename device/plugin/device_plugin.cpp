@@ -36,27 +36,28 @@ std::string textOf(const ErrorText& error) {
 void checkOwner(const fs::path& file) {
   struct stat status{};
   if (::stat(file.c_str(), &status) != 0) refuse(file, std::strerror(errno), "check the path");
-  if (!S_ISREG(status.st_mode)) refuse(file, "it is no file", "put the plug-in itself there");
+  if (!S_ISREG(status.st_mode)) refuse(file, "it is not a file", "put the plug-in file there");
   const bool isTrusted = status.st_uid == 0 || status.st_uid == ::geteuid();
   if (!isTrusted)
     refuse(file, "it belongs to another user", "have it installed by root, or copy it yourself");
   if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0)
-    refuse(file, "others may write to it", "chmod go-w " + file.string());
+    refuse(file, "other users can write to it", "run: chmod go-w " + file.string());
 }
 
 void checkFunctions(const fs::path& file, const NearfitDevicePlugin* functions) {
-  if (functions == nullptr) refuse(file, "it is a plug-in that offers nothing", "ask its maker for another");
+  if (functions == nullptr)
+    refuse(file, "the plug-in offers no functions", "ask its maker for a working version");
   if (functions->version != NEARFIT_DEVICE_VERSION || functions->size != sizeof(NearfitDevicePlugin)) {
     refuse(file,
            "it is made for version " + std::to_string(functions->version) +
-               " of the plug-in interface, this is version " + std::to_string(NEARFIT_DEVICE_VERSION),
+               " of the plug-in interface, but this is version " + std::to_string(NEARFIT_DEVICE_VERSION),
            "install the plug-in for this version of Nearfit");
   }
   const bool isWhole = functions->name != nullptr && functions->count != nullptr &&
                        functions->describe != nullptr && functions->open != nullptr &&
                        functions->close != nullptr && functions->set_forces != nullptr &&
                        functions->read != nullptr && functions->write != nullptr;
-  if (!isWhole) refuse(file, "it leaves functions out", "ask its maker for another");
+  if (!isWhole) refuse(file, "it lacks required functions", "ask its maker for a working version");
 }
 
 template <std::size_t n>
@@ -80,11 +81,12 @@ std::shared_ptr<const DevicePlugin> DevicePlugin::load(const fs::path& file) {
   plugin->file_ = file;
   plugin->library_ = ::dlopen(fs::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (plugin->library_ == nullptr)
-    refuse(file, std::string("it cannot be loaded: ") + ::dlerror(), "install what it needs, or remove it");
+    refuse(file, std::string("it cannot be loaded: ") + ::dlerror(),
+           "install the libraries that it needs, or remove it");
   using Entry = const NearfitDevicePlugin* (*)();
   const auto entry = reinterpret_cast<Entry>(::dlsym(plugin->library_, "nearfit_device_plugin"));
   if (entry == nullptr)
-    refuse(file, "it is a library, but no plug-in for devices", "remove it from this folder");
+    refuse(file, "it is a library, but not a device plug-in", "remove it from this folder");
   const NearfitDevicePlugin* functions = entry();
   checkFunctions(file, functions);
   plugin->functions_ = functions;
@@ -110,8 +112,8 @@ std::vector<NearfitDeviceDescription> DevicePlugin::devices() const {
     endText(device.serial);
     if (!isUsable(device)) {
       throw DeviceError(DeviceProblem::Unsupported, name(),
-                        std::string("what it says of ") + device.name + " makes no sense",
-                        "ask the plug-in's maker for another");
+                        std::string("its description of ") + device.name + " is not valid",
+                        "ask the plug-in's maker for a working version");
     }
   }
   return found;

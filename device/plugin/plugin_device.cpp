@@ -59,7 +59,7 @@ class PluginDevice final : public HapticDevice {
       case DeviceState::Fault:
         return faultReason(supervisor_.fault());
       case DeviceState::Lost:
-        return "it does not answer any more";
+        return "it no longer answers";
       case DeviceState::Uncalibrated:
         return "it is not calibrated";
       default:
@@ -82,7 +82,7 @@ class PluginDevice final : public HapticDevice {
       throw DeviceError(
           DeviceProblem::Failed, description_.name,
           "it could not be opened: " + std::string(error.data(), ::strnlen(error.data(), error.size())),
-          "close other programs that use it, plug it in again");
+          "close other programs that use it, or plug it in again");
     }
     SafetyLimits limits;
     limits.hasDeadMan = description_.has_dead_man != 0;

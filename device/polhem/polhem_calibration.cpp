@@ -35,10 +35,9 @@ void requireCountable(const JsonField& field, const Joint& joint) {
   const double farthest = std::max(joint.upper - joint.restAngle, joint.restAngle - joint.lower);
   const double counts = farthest / (2.0 * std::numbers::pi) * joint.gearRatio * joint.countsPerTurn;
   if (counts < std::numeric_limits<std::int16_t>::max()) return;
-  field.fail(
-      fmt::format("from its rest to the end of its range are {:.0f} counts, and the device counts to {}",
-                  counts, std::numeric_limits<std::int16_t>::max()),
-      "check countsPerTurn, gearRatio and rangeDegrees");
+  field.fail(fmt::format("its range extends {:.0f} counts from its rest, but the device counts only to {}",
+                         counts, std::numeric_limits<std::int16_t>::max()),
+             "check countsPerTurn, gearRatio and rangeDegrees");
 }
 
 Joint readJoint(const JsonField& field) {
@@ -52,10 +51,9 @@ Joint readJoint(const JsonField& field) {
   range.requireSize(2);
   joint.lower = angle(range.at(0));
   joint.upper = angle(range.at(1));
-  if (!(joint.lower < joint.upper)) range.fail("its first angle is not the lower one");
+  if (!(joint.lower < joint.upper)) range.fail("its first angle is not less than its second");
   if (joint.restAngle < joint.lower || joint.restAngle > joint.upper)
-    field.at("restDegrees")
-        .fail("it is outside rangeDegrees", "give the angle that the joint has in the rest");
+    field.at("restDegrees").fail("it is outside rangeDegrees", "give the joint's angle in the rest");
   requireCountable(field, joint);
   return joint;
 }
@@ -82,7 +80,7 @@ void requireDistinctEncoders(const JsonField& root, const Calibration& calibrati
 
 void requireFormat(const JsonField& root) {
   if (root.at("format").text(kLongestName) != kFormat) {
-    root.at("format").fail("this is no calibration of a Polhem or WoodenHaptics",
+    root.at("format").fail("this is not a calibration of a Polhem or WoodenHaptics",
                            fmt::format("give a file whose format is \"{}\"", kFormat));
   }
   if (root.at("version").number() != 1.0)

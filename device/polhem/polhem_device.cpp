@@ -44,7 +44,7 @@ PolhemDevice::PolhemDevice(UsbDescription device, const polhem::Calibration& cal
       kinematics_(calibration) {}
 
 std::string PolhemDevice::stateNote() const {
-  return handle().note("it does not know where its handle is: hold it in its rest and calibrate it");
+  return handle().note("the position of its handle is not known: hold it in its rest and calibrate it");
 }
 
 void PolhemDevice::calibrate() {
@@ -63,8 +63,7 @@ ArmSample PolhemDevice::restSample() const noexcept {
 ForceArmDevice::Opened PolhemDevice::open(std::optional<UsbLink>& link, const ProgressCallback&) {
   const UsbInterface* face = interfaceOf(description());
   if (face == nullptr) {
-    throw DeviceError(DeviceProblem::Unsupported, name(),
-                      "its interface lacks the endpoints that it should have",
+    throw DeviceError(DeviceProblem::Unsupported, name(), "its interface lacks the expected endpoints",
                       "install the firmware of WoodenHaptics or Polhem on it");
   }
   link.emplace(description(), face->number);

@@ -146,11 +146,11 @@ const DeviceListing& chooseDevice(const std::vector<DeviceListing>& devices, std
                       unusable->remedy);
   }
   if (devices.empty()) {
-    throw DeviceError(DeviceProblem::Gone, "devices", "no device that Nearfit knows is plugged in",
+    throw DeviceError(DeviceProblem::Gone, "devices", "no supported device is plugged in",
                       "plug one in; nearfit-cli devices lists them");
   }
   throw DeviceError(DeviceProblem::Gone, "device \"" + std::string(wanted) + "\"", "it is not plugged in",
-                    "choose one of those that are: " + namesOf(devices));
+                    "choose one that is plugged in: " + namesOf(devices));
 }
 
 std::unique_ptr<HapticDevice> makeDevice(const DeviceListing& device, const DeviceFiles& files) {

@@ -32,27 +32,27 @@ Made makePolhem(const UsbDescription& device, const DeviceFiles& files) {
 
 /// The first driver that accepts a device gets it. A new driver is one more row here.
 constexpr std::array kDrivers = {
-    Driver{DeviceDriver::OpenHap, "OpenHap device", "feels 6 axes, pushes along 3 or 6", "",
+    Driver{DeviceDriver::OpenHap, "OpenHap device", "senses 6 axes, pushes along 3 or 6", "",
            &OpenHapDevice::speaks,
            [](const UsbDescription& device, const DeviceFiles&) -> Made {
              return std::make_unique<OpenHapDevice>(device);
            },
            &OpenHapDevice::refusal},
-    Driver{DeviceDriver::SpaceMouse, "3Dconnexion SpaceMouse", "pushed along 6 axes, feels nothing", "",
+    Driver{DeviceDriver::SpaceMouse, "3Dconnexion SpaceMouse", "senses 6 axes, does not push", "",
            &SpaceMouseDevice::speaks,
            [](const UsbDescription& device, const DeviceFiles&) -> Made {
              return std::make_unique<SpaceMouseDevice>(device);
            },
            &SpaceMouseDevice::refusal},
-    Driver{DeviceDriver::Falcon, "Novint Falcon", "feels 3 axes, pushes along 3",
-           "the firmware file of its maker each time that it is switched on, and its handle moved out and in",
+    Driver{DeviceDriver::Falcon, "Novint Falcon", "senses 3 axes, pushes along 3",
+           "its maker's firmware file each time that it is switched on, and its handle moved out and in",
            &FalconDevice::speaks,
            [](const UsbDescription& device, const DeviceFiles& files) -> Made {
              return std::make_unique<FalconDevice>(device, files.falconFirmware);
            }},
-    Driver{DeviceDriver::Polhem, "WoodenHaptics or Polhem", "feels 3 or 6 axes, pushes along 3",
-           "its calibration file, and to be held in its rest once it is plugged in", &PolhemDevice::speaks,
-           &makePolhem}};
+    Driver{DeviceDriver::Polhem, "WoodenHaptics or Polhem", "senses 3 or 6 axes, pushes along 3",
+           "its calibration file, and its handle held in its rest after it is plugged in",
+           &PolhemDevice::speaks, &makePolhem}};
 
 constexpr std::uint16_t kAnyProduct = 0;
 
@@ -61,21 +61,20 @@ struct Foreign {
   std::uint16_t vendor, product;
   const char *name, *kind, *why;
 };
-constexpr const char* kSeeDocument = "see resources/docs/devices.md for what can be done";
-constexpr const char* kPlugin =
-    "its protocol is its maker's own: it needs its maker's software and a plug-in for it";
+constexpr const char* kSeeDocument = "see resources/docs/devices.md";
+constexpr const char* kPlugin = "its protocol is proprietary: it needs its maker's software and a plug-in";
 constexpr std::array kForeign = {
-    Foreign{0x1451, kAnyProduct, "Force Dimension haptic device", "feels 3 to 7 axes, pushes along 3 to 7",
+    Foreign{0x1451, kAnyProduct, "Force Dimension haptic device", "senses 3 to 7 axes, pushes along 3 to 7",
             kPlugin},
-    Foreign{0x2988, kAnyProduct, "3D Systems Touch", "feels 6 axes, pushes along 3", kPlugin},
+    Foreign{0x2988, kAnyProduct, "3D Systems Touch", "senses 6 axes, pushes along 3", kPlugin},
     // The first models with USB have vendor and product swapped.
-    Foreign{0x0301, 0x2988, "3D Systems Touch", "feels 6 axes, pushes along 3", kPlugin},
+    Foreign{0x0301, 0x2988, "3D Systems Touch", "senses 6 axes, pushes along 3", kPlugin},
     // Haply builds it in, under the ID that every Teensy has.
     Foreign{polhem::kTeensyVendor, 0x0483, "Teensy, if it is in a Haply Inverse3",
-            "feels 3 axes, pushes along 3",
-            "if it is in a Haply Inverse3, it needs its maker's software and a plug-in for it; any other "
-            "Teensy has nothing to do here"},
-    Foreign{0x1532, 0x0300, "Razer Hydra", "feels 6 axes with each hand, does not push",
+            "senses 3 axes, pushes along 3",
+            "if it is in a Haply Inverse3, it needs its maker's software and a plug-in; any other Teensy is "
+            "not supported"},
+    Foreign{0x1532, 0x0300, "Razer Hydra", "senses 6 axes with each hand, does not push",
             "there is no driver for it"}};
 
 const Driver* driverFor(const UsbDescription& device) noexcept {
@@ -123,7 +122,7 @@ std::optional<DeviceMatch> recogniseByName(std::string_view makerAndProduct) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const char* haply : {"haply", "inverse3", "versegrip"}) {
     if (name.find(haply) != std::string::npos)
-      return DeviceMatch{DeviceDriver::None, "Haply device", "feels 3 or 6 axes, pushes along 3", kPlugin,
+      return DeviceMatch{DeviceDriver::None, "Haply device", "senses 3 or 6 axes, pushes along 3", kPlugin,
                          kSeeDocument};
   }
   return std::nullopt;
@@ -135,8 +134,8 @@ std::unique_ptr<HapticDevice> makeDevice(const UsbDescription& device, const Dev
   const std::string where = "USB device " + device.id() + " at " + device.node();
   const std::optional<DeviceMatch> match = recognise(device);
   if (!match) {
-    throw DeviceError(DeviceProblem::Unsupported, where, "it is no haptic device that is known",
-                      "give the number of another one");
+    throw DeviceError(DeviceProblem::Unsupported, where, "it is not a supported haptic device",
+                      "choose another device");
   }
   throw DeviceError(
       DeviceProblem::Unsupported, match->name + " (" + device.id() + ")", match->needs,

@@ -25,7 +25,7 @@ bool isHeader(std::string_view row) {
 RigidTransform parseRow(std::string_view row, const csv::Place& place) {
   const std::vector<std::string_view> columns = csv::columnsOf(row);
   if (columns.size() != kColumns)
-    place.fail(fmt::format("{} values where 7 belong", columns.size()), kRowRemedy);
+    place.fail(fmt::format("{} values instead of 7", columns.size()), kRowRemedy);
   std::array<double, kColumns> v{};
   for (std::size_t i = 0; i < kColumns; ++i)
     v[i] = csv::finiteNumber(columns[i], i, place, kRowRemedy);
@@ -42,7 +42,7 @@ std::vector<RigidTransform> readPosePath(const std::filesystem::path& file) {
     if (std::exchange(isFirstRow, false) && isHeader(*row)) continue;
     path.push_back(parseRow(*row, rows.place()));
   }
-  if (path.empty()) throw FileError(file.string(), "there are no poses in it", kRowRemedy);
+  if (path.empty()) throw FileError(file.string(), "it has no poses", kRowRemedy);
   return path;
 }
 

@@ -15,7 +15,7 @@ namespace nearfit {
 namespace {
 
 constexpr const char* kRemedy =
-    "give a recording as nearfit-cli place --record writes it; for poses alone there is --path";
+    "give a recording written by nearfit-cli place --record; for a file of poses alone, use --path";
 constexpr std::array kNames = {"t_s",       "handle_tx", "handle_ty", "handle_tz",
                                "handle_qw", "handle_qx", "handle_qy", "handle_qz"};
 /// Rows between two calls of `progress`.
@@ -45,8 +45,7 @@ TimedPose parseRow(std::string_view row, const Columns& columns, const csv::Plac
     if (columns[i] >= texts.size()) place.fail(fmt::format("it ends before column {}", kNames[i]), kRemedy);
     values[i] = csv::finiteNumber(texts[columns[i]], columns[i], place, kRemedy);
   }
-  if (std::abs(values[0]) > kLongest)
-    place.fail(fmt::format("{} s is no time of a recording", values[0]), kRemedy);
+  if (std::abs(values[0]) > kLongest) place.fail(fmt::format("{} s is not a valid time", values[0]), kRemedy);
   return {values[0], csv::poseOf(std::span(values).last<7>(), columns[1], place)};
 }
 
@@ -55,7 +54,7 @@ TimedPose parseRow(std::string_view row, const Columns& columns, const csv::Plac
 std::vector<TimedPose> readHandMotion(const std::filesystem::path& file, const ProgressCallback& progress) {
   csv::Rows rows(file);
   const std::optional<std::string_view> header = rows.next();
-  if (!header) throw FileError(file.string(), "there is nothing in it", kRemedy);
+  if (!header) throw FileError(file.string(), "it is empty", kRemedy);
   const Columns columns = columnsNamed(*header, rows.place());
   std::vector<TimedPose> motion;
   while (const std::optional<std::string_view> row = rows.next()) {
@@ -63,12 +62,12 @@ std::vector<TimedPose> readHandMotion(const std::filesystem::path& file, const P
     if (!pose) break;
     motion.push_back(*pose);
     if (motion.size() > 1 && motion.back().time < motion[motion.size() - 2].time)
-      rows.place().fail("it is earlier than the row before", kRemedy);
+      rows.place().fail("its time is earlier than that of the row before", kRemedy);
     if (!progress || motion.size() % kRowsPerReport != 0 || rows.size() == 0) continue;
     const double share = static_cast<double>(rows.taken()) / static_cast<double>(rows.size());
     if (!progress(std::min(share, 1.0))) throw Cancelled();
   }
-  if (motion.empty()) throw FileError(file.string(), "there are no poses in it", kRemedy);
+  if (motion.empty()) throw FileError(file.string(), "it has no poses", kRemedy);
   const double begin = motion.front().time;
   for (TimedPose& each : motion)
     each.time -= begin;

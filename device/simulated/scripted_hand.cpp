@@ -71,7 +71,7 @@ std::vector<RigidTransform> scriptedHandPath(const RigidTransform& worldFromPart
   if (!std::isfinite(reach) || !(reach > 0.0) || !std::isfinite(seconds) || !(seconds > 0.0) ||
       !std::isfinite(wobbleAngle) || !std::isfinite(slideShare) || slideShare < 0.0 ||
       !std::isfinite(period) || !(period > 0.0) || seconds / period > kMaxPoses) {
-    throw UsageError("scripted hand", "reach, duration, period or slide is not a sensible positive number",
+    throw UsageError("scripted hand", "reach, duration, period or slide is not a valid positive number",
                      "give metres and seconds above zero");
   }
   const RigidTransform rest = worldFromPart.normalized();

@@ -73,15 +73,14 @@ std::vector<const UsbInterface*> candidates(const UsbDescription& device) {
 
 std::optional<DeviceRefusal> whyNone(const UsbDescription& device) {
   if (isOrdinaryMouse(device)) {
-    return DeviceRefusal{"it is an ordinary mouse, without a cap to push along six axes",
-                         "leave it to the desktop"};
+    return DeviceRefusal{"it is an ordinary mouse, not a space mouse with six axes", "choose a space mouse"};
   }
   if (candidates(device).empty()) return noSixAxes();
   return std::nullopt;
 }
 
 DeviceRefusal noSixAxes() {
-  return {"it has not the six axes of a space mouse", "leave it to the desktop"};
+  return {"it lacks the six axes of a space mouse", "choose a space mouse"};
 }
 
 }  // namespace nearfit::spacemouse

@@ -107,13 +107,12 @@ std::string RealtimeGrant::describe() const {
   if (lockError != 0) text += fmt::format(", memory not locked ({})", std::strerror(lockError));
   if (areProcessorsAwake) text += ", processors kept awake";
   if (awakeError == EACCES || awakeError == EPERM)
-    text += fmt::format(", processors may sleep ({}; Nearfit's udev rules allow to keep them awake)",
+    text += fmt::format(", processors may sleep ({}; Nearfit's udev rules permit keeping them awake)",
                         std::strerror(awakeError));
   if (priority == 0 || lockError != 0) {
     text +=
-        "; to allow it put \"USER - rtprio 70\" and \"USER - memlock unlimited\", with your own name for "
-        "USER, in "
-        "/etc/security/limits.d/nearfit.conf and log in anew";
+        "; to permit it, put \"USER - rtprio 70\" and \"USER - memlock unlimited\", with your user name for "
+        "USER, in /etc/security/limits.d/nearfit.conf and log in again";
   }
   return text;
 }

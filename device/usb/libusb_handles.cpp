@@ -60,7 +60,7 @@ Context openContext() {
   const int code = libusb_init(&context);
   if (code != 0) {
     throw DeviceError(problemOf(code), "USB", "it could not be started: " + reasonOf(code),
-                      "check that /dev/bus/usb is there");
+                      "check that /dev/bus/usb exists");
   }
   return Context(context);
 }

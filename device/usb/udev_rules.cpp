@@ -19,7 +19,7 @@ std::string udevRulesFile() {
   for (const fs::path& file : places) {
     if (fs::is_regular_file(file, ignored)) return file.string();
   }
-  throw FileError(places[0].string(), "the udev rules are not there", "install Nearfit anew");
+  throw FileError(places[0].string(), "the file of udev rules is missing", "install Nearfit again");
 }
 
 std::string udevCommand() {

@@ -45,7 +45,7 @@ UsbAccess refused(int error) {
       return {DeviceProblem::NoPermission, "you have no permission to open it", "install the udev rules", {}};
     case ENOENT:
     case ENODEV:
-      return {DeviceProblem::Gone, "it is not there any more", "plug it in again", {}};
+      return {DeviceProblem::Gone, "it is no longer plugged in", "plug it in again", {}};
     default:
       return {DeviceProblem::Failed,
               std::string("it cannot be opened: ") + std::strerror(error),
@@ -73,7 +73,7 @@ UsbAccess usbAccess(const UsbDescription& device) {
     const std::string holder = node.holderOf(each.number);
     if (holder == kProgram) {
       return {DeviceProblem::Busy,
-              "another program holds it",
+              "another program is using it",
               "close the program that uses it (another Nearfit, or its maker's)",
               {}};
     }

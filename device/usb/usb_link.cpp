@@ -19,8 +19,8 @@ namespace {
 
 /// Says what holds the interface, a kernel driver or a program.
 std::string holderOf(libusb_device_handle* handle, std::uint8_t interfaceNumber) {
-  return libusb_kernel_driver_active(handle, interfaceNumber) == 1 ? "a driver of the system holds it"
-                                                                   : "another program holds it";
+  return libusb_kernel_driver_active(handle, interfaceNumber) == 1 ? "a system driver is using it"
+                                                                   : "another program is using it";
 }
 
 [[noreturn]] void throwOpenFailed(const UsbDescription& device, int code) {
@@ -32,7 +32,7 @@ std::string holderOf(libusb_device_handle* handle, std::uint8_t interfaceNumber)
           cause, where, "you have no permission to open it",
           "install the udev rules (nearfit-cli devices prints the command) and plug it in again");
     case DeviceProblem::Gone:
-      throw DeviceError(cause, where, "it is not there any more", "plug it in again");
+      throw DeviceError(cause, where, "it is no longer plugged in", "plug it in again");
     default:
       throw DeviceError(cause, where, "it could not be opened: " + usb::reasonOf(code), "plug it in again");
   }
@@ -81,13 +81,13 @@ const char* lossReason(UsbLoss loss) noexcept {
     case UsbLoss::Unplugged:
       return "it was unplugged";
     case UsbLoss::Refused:
-      return "it takes no more transfers, as when it is unplugged";
+      return "it accepts no more transfers, as if it were unplugged";
     case UsbLoss::Cancelled:
-      return "the system ended its transfers, as when it is unplugged";
+      return "the system ended its transfers, as if it were unplugged";
     case UsbLoss::Errors:
-      return "nothing but transmission errors came from it";
+      return "it sent only transmission errors";
     case UsbLoss::Stalled:
-      return "it stalls again each time that it is cleared";
+      return "it stalls again each time the stall is cleared";
   }
   return "";
 }
@@ -124,7 +124,7 @@ struct UsbLink::Shared {
     if (device.findInterface(interfaceNumber) == nullptr) {
       throw DeviceError(DeviceProblem::Unsupported, where(),
                         "it has no interface " + std::to_string(interfaceNumber),
-                        "check that it is the device it says it is");
+                        "check that it is a supported device");
     }
     // May fail: a system that cannot detach drivers has none bound.
     libusb_set_auto_detach_kernel_driver(handle.get(), 1);
@@ -203,8 +203,8 @@ void UsbLink::write(std::uint8_t endpoint, std::span<const std::byte> data, Time
     const std::span<const std::byte> rest = data.subspan(done);
     const int code = libusb_bulk_transfer(shared_->handle.get(), endpoint, bytes(rest),
                                           static_cast<int>(rest.size()), &count, milliseconds(timeout));
-    if (code != 0) shared_->fail(code, "it did not take what was sent");
-    if (count == 0) shared_->fail(LIBUSB_ERROR_TIMEOUT, "it did not take what was sent");
+    if (code != 0) shared_->fail(code, "it did not accept what was sent");
+    if (count == 0) shared_->fail(LIBUSB_ERROR_TIMEOUT, "it did not accept what was sent");
     done += static_cast<std::size_t>(count);
   }
 }
@@ -221,8 +221,7 @@ void UsbLink::stream(const Streams& streams, UsbPacketSink& sink) {
   const UsbEndpoint* out = streams.out == 0 ? nullptr : typeOf(streams.out);
   if (in == nullptr || !in->isIn() || (streams.out != 0 && (out == nullptr || out->isIn()))) {
     throw DeviceError(DeviceProblem::Unsupported, shared_->where(),
-                      "it lacks the endpoint that its driver needs",
-                      "check that it is the device it says it is");
+                      "it lacks the endpoint that its driver needs", "check that it is a supported device");
   }
   stop();
   try {
@@ -231,7 +230,7 @@ void UsbLink::stream(const Streams& streams, UsbPacketSink& sink) {
     shared_->streamer->begin();
   } catch (const std::system_error& error) {
     throw DeviceError(DeviceProblem::Failed, shared_->where(),
-                      std::string("it could not be streamed from: ") + error.what(),
+                      std::string("its reports could not be streamed: ") + error.what(),
                       "close other programs and try again");
   }
 }

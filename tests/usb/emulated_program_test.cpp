@@ -106,7 +106,7 @@ TEST_F(EmulatedProgram, AFalconIsGivenTheFirmwareThatItTakes) {
   EXPECT_EQ(monitor("right.bin").exitCode, 0);
   const ProcessResult wrong = monitor("wrong.bin");
   EXPECT_EQ(wrong.exitCode, 1);
-  EXPECT_THAT(wrong.err, HasSubstr("it took the firmware and does not run it"));
+  EXPECT_THAT(wrong.err, HasSubstr("it accepted the firmware but does not run it"));
 }
 
 TEST_F(EmulatedProgram, ADeviceLeadsThePartWithPosesInAndWrenchesOut) {
@@ -181,7 +181,7 @@ TEST_F(EmulatedProgram, APulledPlugEndsItWithAReasonAndWholeFiles) {
                                        {"place", "fit.nearfit", "--part", "Cone", "--device", "--seconds",
                                         "120", "--record", how + ".csv", "--export", how + ".json"});
       EXPECT_EQ(result.exitCode, 1) << how;
-      EXPECT_THAT(result.err, HasSubstr("the files hold what was done till then")) << how;
+      EXPECT_THAT(result.err, HasSubstr("the files contain everything up to then")) << how;
       EXPECT_TRUE(std::filesystem::exists(file(how + ".json"))) << how;
       rows = Record(file(how + ".csv")).rows();
       if (rows > 0) break;

@@ -119,7 +119,7 @@ TEST_F(FalconOverUsb, OpeningEndsWithTheNextRequestOnceNobodyWantsIt) {
 
 TEST_F(FalconOverUsb, AFailedUploadLeavesItClosed) {
   with([](test::FalconFirmware& firmware) { firmware.mostBytes = 100; });
-  EXPECT_THAT(errorOfStart().problem(), HasSubstr("stopped taking firmware"));
+  EXPECT_THAT(errorOfStart().problem(), HasSubstr("stopped accepting firmware"));
   EXPECT_EQ(device->state(), DeviceState::Present);
   EXPECT_FALSE(emulator.device()->isOpen());
 }

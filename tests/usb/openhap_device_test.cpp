@@ -113,7 +113,7 @@ TEST_F(OpenHapOverUsb, TheFirmwaresWatchdogStopsItAndIsReported) {
   // No servo answers.
   ASSERT_TRUE(eventually([&] { return device->state() == DeviceState::Fault; }));
   EXPECT_FALSE(isArmed());
-  EXPECT_EQ(device->stateNote(), "it reports a fault of its own");
+  EXPECT_EQ(device->stateNote(), "it reported a fault");
   EXPECT_THROW(device->arm(), DeviceError);
   // Only being reset makes both sides forget it, and does not arm.
   device->reset();
@@ -138,7 +138,7 @@ TEST_F(OpenHapOverUsb, AFaultOfItsOwnIsToldInTheDevicesWordsUntilItIsReset) {
   const auto saysOf = [&](const std::string& fault) {
     emulator->withFirmware([&](auto& firmware) { firmware.fault = fault; });
     return eventually([&] { return device->state() == DeviceState::Fault; }) &&
-                   eventually([&] { return device->stateNote() != "it reports a fault of its own"; })
+                   eventually([&] { return device->stateNote() != "it reported a fault"; })
                ? device->stateNote()
                : "nothing";
   };
@@ -148,7 +148,7 @@ TEST_F(OpenHapOverUsb, AFaultOfItsOwnIsToldInTheDevicesWordsUntilItIsReset) {
         {"cable\x1b[2J broken\n", "cable?[2J broken?"},
         {std::string(100, 'x'), std::string(64, 'x')}}) {
     device->arm();
-    EXPECT_EQ(saysOf(fault), "it reports a fault of its own: " + told);
+    EXPECT_EQ(saysOf(fault), "it reported a fault: " + told);
     // Over now; the reports that tell of it may be on their way still.
     emulator->withFirmware([](auto& firmware) { firmware.fault.clear(); });
     const std::uint64_t poses = device->counters().poses;

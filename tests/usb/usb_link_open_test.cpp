@@ -55,7 +55,7 @@ TEST_F(UsbLinkOpen, WhatAnotherProgramHoldsIsBusy) {
   device->claimElsewhere(0, true);
   const DeviceError error = failureOf(seen());
   EXPECT_EQ(error.cause(), DeviceProblem::Busy);
-  EXPECT_THAT(error.what(), HasSubstr("another program holds it"));
+  EXPECT_THAT(error.what(), HasSubstr("another program is using it"));
   EXPECT_THAT(error.remedy(), HasSubstr("close the program"));
   EXPECT_FALSE(device->isOpen());
   device->claimElsewhere(0, false);

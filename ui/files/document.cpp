@@ -38,7 +38,7 @@ QString sceneFilter() {
 /// Names the meshes in the question for their unit.
 QString describeMeshes(const QStringList& files) {
   return files.size() == 1 ? QObject::tr("“%1”").arg(QFileInfo(files.first()).fileName())
-                           : QObject::tr("what these %n files hold", nullptr, files.size());
+                           : QObject::tr("these %n files", nullptr, files.size());
 }
 
 /// Stands for a file name in a failure that concerns all files.
@@ -101,7 +101,7 @@ void Document::prepareNext() {
   const auto job = [geometries](const ProgressCallback& progress) {
     nearfit::prepareHierarchies(geometries, progress);
   };
-  load(tr("Preparing the parts to be felt"), job, [this, answer](const std::exception_ptr& error) {
+  load(tr("Preparing the parts"), job, [this, answer](const std::exception_ptr& error) {
     if (error && !isCancelled(error)) emit failed(describe(tr("The parts could not be prepared."), error));
     answer(!error);
   });
@@ -110,10 +110,10 @@ void Document::prepareNext() {
 bool Document::mayLeaveScene() {
   emit sceneNeeded();
   if (!session_.isModified()) return true;
-  QMessageBox box(QMessageBox::Question, tr("Nearfit"), tr("The scene has changes that are not saved."),
+  QMessageBox box(QMessageBox::Question, tr("Nearfit"), tr("The scene has unsaved changes."),
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, window_);
   box.setObjectName(QStringLiteral("unsavedBox"));
-  box.setInformativeText(tr("Save them before they are lost?"));
+  box.setInformativeText(tr("Save them first?"));
   box.setDefaultButton(QMessageBox::Save);
   switch (box.exec()) {
     case QMessageBox::Save:
@@ -198,7 +198,7 @@ void Document::loadScene(const QString& file, const QStringList& partsAfter, dou
 void Document::openRecovered(const QString& journal, const std::filesystem::path& sceneFile,
                              std::function<void()> restored) {
   if (isBusy() || !mayLeaveScene()) return;
-  const QString name = sceneFile.empty() ? tr("lost work") : fromPath(sceneFile.filename());
+  const QString name = sceneFile.empty() ? tr("unsaved work") : fromPath(sceneFile.filename());
   readScene(journal, name, [=, this, restored = std::move(restored)](Scene scene, const QStringList&) {
     session_.restore(std::move(scene), sceneFile);
     emit loaded(true);
@@ -271,10 +271,10 @@ void Document::finishParts(const QStringList& files, const std::vector<PartGeome
   // The status bar would cut several off and soon clear them; the part list keeps them.
   if (warnings.size() == 1) emit noted(warnings.first());
   if (warnings.size() > 1)
-    emit noted((warned == 1
-                    ? tr("A mesh is open or degenerate: the list of parts says more under the mouse")
-                    : tr("%1 meshes are open or degenerate: the list of parts says more under the mouse")
-                          .arg(warned)));
+    emit noted(
+        (warned == 1
+             ? tr("A mesh is open or degenerate: see its tooltip in the list of parts")
+             : tr("%1 meshes are open or degenerate: see their tooltips in the list of parts").arg(warned)));
   if (!problems.isEmpty()) emit failed(describeItems(notAdded(files, problems), problems));
   if (!added.empty()) emit partsAdded(added);
   emit loaded(problems.isEmpty());
@@ -285,7 +285,7 @@ void Document::openFiles(const QStringList& files) {
 }
 
 void Document::dropFiles(const QStringList& filesAndFolders) {
-  if (isBusy()) return emit noted(tr("Something is being loaded; drop it again then."));
+  if (isBusy()) return emit noted(tr("Files are being loaded; drop these again afterwards."));
   const DroppedFiles dropped = sortOut(filesAndFolders);
   double metresPerUnit = Preferences::metresPerUnit();
   if (!dropped.meshes.isEmpty() && dropped.scenes.size() <= 1) {
@@ -299,14 +299,15 @@ void Document::dropFiles(const QStringList& filesAndFolders) {
 void Document::open(const DroppedFiles& files, double metresPerUnit) {
   if (files.isCutOff) {
     emit failed({tr("There are too many files."),
-                 tr("More than %1 meshes are in these folders. Drop fewer at a time.").arg(kMaxInFolders)});
+                 tr("These folders contain more than %1 meshes. Drop fewer at a time.").arg(kMaxInFolders)});
     emit loaded(false);
     return;
   }
   if (!files.emptyFolders.isEmpty())
     emit noted(tr("Nothing to open in %1").arg(files.emptyFolders.join(QStringLiteral(", "))));
   if (files.scenes.size() > 1) {
-    emit failed({tr("Only one scene can be open."), tr("Give one .nearfit file; parts can be added to it.")});
+    emit failed(
+        {tr("Only one scene can be open."), tr("Choose one .nearfit file; you can add parts to it.")});
     emit loaded(false);
   } else if (files.scenes.size() == 1) {
     if (!isBusy() && mayLeaveScene()) loadScene(files.scenes.first(), files.meshes, metresPerUnit);

@@ -65,12 +65,12 @@ PartFiles::PartFiles(Session& session, Document& document, NoticeBar& notices, Q
 void PartFiles::addActions(QMenu* menu) {
   reload_ = menu->addAction(icon(QStringLiteral("reload")), tr("&Reload parts from disk"));
   reload_->setObjectName(QStringLiteral("reloadParts"));
-  reload_->setToolTip(tr("Read every part's file again; poses stay"));
+  reload_->setToolTip(tr("Read the mesh files of all parts again; poses stay"));
   reload_->setShortcut(QKeySequence(QStringLiteral("Ctrl+R")));
   connect(reload_, &QAction::triggered, this, [this] { reload({}); });
   reloadAlways_ = menu->addAction(tr("Reload changed parts &without asking"));
   reloadAlways_->setObjectName(QStringLiteral("reloadAlways"));
-  reloadAlways_->setToolTip(tr("Follow changes of the parts' files on disk at once"));
+  reloadAlways_->setToolTip(tr("Reload a mesh as soon as its file changes on disk"));
   reloadAlways_->setCheckable(true);
   reloadAlways_->setChecked(QSettings().value(kReloadAlways, false).toBool());
   connect(reloadAlways_, &QAction::toggled, this,
@@ -100,11 +100,10 @@ void PartFiles::seeChange(const QStringList& files) {
 void PartFiles::tellOfOthers(const QStringList& files) {
   if (!session_.isModified()) return;
   sceneOfOthers_ = session_.sceneSerial();
-  const QString text = files.size() == 1
-                           ? tr("%1 has changed since this scene was saved. It is shown as it is "
-                                "now; save the scene to keep it so.")
-                           : tr("%1 have changed since this scene was saved. They are shown as "
-                                "they are now; save the scene to keep them so.");
+  const QString text = files.size() == 1 ? tr("%1 has changed since this scene was saved. The new version is "
+                                              "shown; save the scene to accept it.")
+                                         : tr("%1 have changed since this scene was saved. The new versions "
+                                              "are shown; save the scene to accept them.");
   notices_.offer(kOthersNotice, text.arg(namesOf(files)), {{tr("OK"), [] {}}});
 }
 
@@ -148,7 +147,7 @@ void PartFiles::reload(QStringList files) {
   if (files.isEmpty()) changed_.clear();
   offerReload();
   load(tr("Reloading %1").arg(files.isEmpty() ? tr("all parts") : namesOf(files)), partsOf(files),
-       &Session::reloadParts, tr("Not everything could be reloaded; those parts stay as they were."));
+       &Session::reloadParts, tr("Some parts could not be reloaded; they stay as they were."));
 }
 
 void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, Command command,
@@ -199,7 +198,7 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, Com
     if (!problems.isEmpty())
       emit failed(describeItems(failure, problems));
     else
-      emit noted(renewed.empty() ? tr("No file has changed") : tr("Undo takes it back"));
+      emit noted(renewed.empty() ? tr("No file has changed") : tr("Undo reverts this change"));
   });
 }
 

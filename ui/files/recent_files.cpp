@@ -55,11 +55,11 @@ void RecentFiles::fill() {
     action->setStatusTip(action->toolTip());
     connect(action, &QAction::triggered, this, [this, file] { open(file); });
   }
-  if (number == 0) menu_->addAction(tr("No scene yet"))->setEnabled(false);
+  if (number == 0) menu_->addAction(tr("No recent scenes"))->setEnabled(false);
   menu_->addSeparator();
-  QAction* clear = menu_->addAction(tr("&Clear this list"));
+  QAction* clear = menu_->addAction(tr("&Clear list"));
   clear->setObjectName(QStringLiteral("clearRecent"));
-  clear->setToolTip(tr("Empty this list; the files stay"));
+  clear->setToolTip(tr("Clear the list of recent scenes; the files stay"));
   clear->setEnabled(number > 0);
   connect(clear, &QAction::triggered, this, [] { QSettings().remove(kKey); });
 }

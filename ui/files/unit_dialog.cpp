@@ -32,7 +32,8 @@ std::optional<double> askForUnit(const QString& what, QWidget* parent) {
   dialog.setObjectName(QStringLiteral("unitDialog"));
   dialog.setWindowTitle(QObject::tr("Unit of length"));
   auto* question = new QLabel(
-      QObject::tr("Mesh files carry no unit. In which unit is %1?").arg(breakable(shortName(what))), &dialog);
+      QObject::tr("These formats store no unit. What is the unit of %1?").arg(breakable(shortName(what))),
+      &dialog);
   question->setWordWrap(true);
   auto* box = new QComboBox(&dialog);
   box->setObjectName(QStringLiteral("unit"));

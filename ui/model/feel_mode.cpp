@@ -39,18 +39,17 @@ QString explanationOf(FeelMode mode) {
   switch (mode) {
     case FeelMode::LinearSprings:
       return QObject::tr(
-          "The part is where the hand is. Each minimum pushes with stiffness × (cutoff − distance): most at "
-          "contact. A hand that pushes harder goes through.");
+          "The part is where the hand is. Each minimum pushes with stiffness × (cutoff − distance), the most "
+          "at contact. A hand that pushes harder goes through.");
     case FeelMode::PrintedSprings:
       return QObject::tr(
-          "As linear springs, but each minimum pushes with stiffness × (cutoff − distance) × distance, as "
-          "the "
-          "paper prints it: nothing at contact, most at half the cutoff.");
+          "Like linear springs, but each minimum pushes with stiffness × (cutoff − distance) × distance, as "
+          "printed in the paper: zero at contact, the most at half the cutoff.");
     case FeelMode::Proxy:
       break;
   }
   return QObject::tr(
-      "The part stops at contact. It follows the hand as far as the others let it, and slides along them; "
+      "The part stops at contact. It follows the hand as far as other parts allow, and slides along them; "
       "the hand is pulled towards it.");
 }
 

@@ -53,7 +53,7 @@ QVariant HistoryModel::data(const QModelIndex& index, int role) const {
     case Qt::DisplayRole:
       return text(row);
     case Qt::ToolTipRole:
-      if (row == current_) return tr("The scene is as it was after this step");
+      if (row == current_) return tr("The present state of the scene");
       return row < current_ ? tr("Undo back to here") : tr("Redo up to here");
     case Qt::AccessibleTextRole:
       if (row == current_) return tr("%1, present state").arg(text(row));

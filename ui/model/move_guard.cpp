@@ -27,7 +27,7 @@ QString MoveGuard::lockOf(const Part& part) const {
   for (std::optional<GroupId> id = part.group; id; id = scene.findGroup(*id)->parent) {
     const Group& group = *scene.findGroup(*id);
     if (group.isLocked)
-      return tr("%1 is locked by its group %2: unlock that").arg(name, shortName(group.name));
+      return tr("%1 is locked by its group %2: unlock the group to move it").arg(name, shortName(group.name));
   }
   return {};
 }
@@ -52,7 +52,7 @@ QString MoveGuard::refusalOf(const std::vector<PartId>& parts) const {
     isLed = isLed || (holder_ == Holder::ManualHand && session_.scene().movingPart() == id);
   }
   if (!isLed || parts.size() == 1) return {};
-  return tr("One of these parts is in hand: stop feeling it, or select the others alone");
+  return tr("One of these parts is in hand: stop feeling it, or select only the others");
 }
 
 }  // namespace nearfit::ui

@@ -88,7 +88,7 @@ QString PartCell::toolTip(int column) const {
 
 QString PartCell::lockText() const {
   if (part_.isLocked) return tr("Locked: unlock it");
-  return scene_.isLocked(part_) ? tr("Locked by its group") : tr("Lock it against changes");
+  return scene_.isLocked(part_) ? tr("Locked by its group") : tr("Unlocked: lock it");
 }
 
 QString PartCell::description() const {
@@ -129,12 +129,12 @@ QString GroupCell::toolTip(int column) const {
       return parts == 1 ? tr("%1\n1 part").arg(name) : tr("%1\n%2 parts").arg(name).arg(parts);
     }
     case PartsModel::Visible:
-      return shownOf(scene_, group_) == Shown::All ? tr("All are shown and felt: hide them")
-                                                   : tr("Not all are shown: show them");
+      return shownOf(scene_, group_) == Shown::All ? tr("All shown and felt: hide them")
+                                                   : tr("Not all shown: show them");
     case PartsModel::Locked:
-      return group_.isLocked           ? tr("Locked with all that it holds: unlock it")
-             : scene_.isLocked(group_) ? tr("Locked by the group that it is in")
-                                       : tr("Lock it with all that it holds");
+      return group_.isLocked           ? tr("Locked with all its contents: unlock it")
+             : scene_.isLocked(group_) ? tr("Locked by its group")
+                                       : tr("Unlocked: lock it with all its contents");
     default:
       return {};
   }

@@ -60,8 +60,8 @@ void PresetStore::putAside(const QString& why) {
   aside.replace_extension(".damaged.json");
   std::error_code error;
   std::filesystem::copy_file(file_, aside, std::filesystem::copy_options::overwrite_existing, error);
-  QString text = tr("Not every feel preset could be read (%1).").arg(why);
-  if (!error) text += QChar(' ') + tr("What was there is kept in %1.").arg(fromPath(aside));
+  QString text = tr("Some feel presets could not be read (%1).").arg(why);
+  if (!error) text += QChar(' ') + tr("The old file is kept as %1.").arg(fromPath(aside));
   emit noted(text);
 }
 
@@ -102,7 +102,7 @@ bool PresetStore::isOwn(const QString& name) const {
 QString PresetStore::refusalOf(const QString& name) const {
   for (const FeelPreset& preset : usualFeelPresets()) {
     if (isSameName(name, shownName(preset)) || isSameName(name, QString::fromStdString(preset.name)))
-      return tr("One of the usual presets has this name.");
+      return tr("A built-in preset has this name.");
   }
   if (!isOwn(name) && own().size() >= kMaxFeelPresets) return tr("There are too many presets: delete one.");
   try {
@@ -122,7 +122,7 @@ void PresetStore::edit(const std::function<void(std::vector<FeelPreset>&)>& chan
   try {
     writeFeelPresets(file_, next);
   } catch (...) {
-    emit failed(describe(tr("The feel presets could not be kept."), std::current_exception()));
+    emit failed(describe(tr("The feel presets could not be saved."), std::current_exception()));
     return;
   }
   take(std::move(next));

@@ -36,7 +36,7 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   takeInHand = make("takeInHand", tr("&Take in hand"), "hand", QKeySequence(QStringLiteral("Ctrl+H")));
   takeInHand->setToolTip(tr("Make the selected part the moving part"));
   selectAll = make("selectAll", tr("Select &all"), {}, QKeySequence::SelectAll);
-  selectAll->setToolTip(tr("Select all parts that are shown"));
+  selectAll->setToolTip(tr("Select all visible parts"));
   selectNone = make("selectNone", tr("Select n&one"), {}, QKeySequence(QStringLiteral("Ctrl+Shift+A")));
   remove = make("remove", tr("De&lete"), "delete", QKeySequence::Delete);
 
@@ -45,10 +45,10 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
   stop = make("stop", tr("S&top"), "stop", QKeySequence(Qt::Key_F6));
   stop->setToolTip(tr("Stop the servo and leave the part where it is (F6)"));
   letGo = make("letGo", tr("&Let go"), "hand-off", QKeySequence(Qt::Key_F7));
-  letGo->setToolTip(tr("The manual hand goes back to where the part is, and presses no more (F7)"));
+  letGo->setToolTip(tr("Move the manual hand back to the part, so that it no longer presses (F7)"));
   clutch = makeSwitch("clutch", tr("&Clutch"), "clutch", false);
   clutch->setShortcut(QKeySequence(Qt::Key_F9));
-  clutch->setToolTip(tr("The part stays while you bring the device back to where it is handy (F9)"));
+  clutch->setToolTip(tr("The part stays while you move the device to a comfortable position (F9)"));
   feelSettings = make("feelSettings", tr("Feel s&ettings…"), "springs");
   feelSettings->setToolTip(tr("Mode, cutoff, margin, stiffness, weight and workspace"));
 
@@ -77,32 +77,32 @@ Actions::Actions(QMainWindow* window) : QObject(window) {
 
 void Actions::explain() {
   const std::pair<QAction*, QString> tips[] = {
-      {newScene, tr("Begin an empty scene")},
-      {open, tr("Open a scene (*.nearfit) instead of this one")},
-      {openDemo, tr("Open the scene that comes with Nearfit: a piston to be fitted into its cylinder")},
-      {addParts, tr("Add meshes (STL, OBJ, PLY, OFF) to the scene; files and whole folders can be dropped on "
-                    "the window too")},
+      {newScene, tr("Start an empty scene")},
+      {open, tr("Open a scene (*.nearfit) in place of this one")},
+      {openDemo, tr("Open the demo scene: a piston to fit into its cylinder")},
+      {addParts,
+       tr("Add meshes (STL, OBJ, PLY, OFF) to the scene; you can also drop files and folders on the window")},
       {save, tr("Save the scene and where its parts are")},
       {saveAs, tr("Save the scene under another name")},
-      {exportPlacement, tr("Write where the parts ended up: JSON, CSV, matrices or one mesh")},
-      {quit, tr("End Nearfit; asks first where something is not saved")},
-      {duplicate, tr("Add a copy of what is selected, which shares its mesh")},
+      {exportPlacement, tr("Export the poses of the parts (JSON, CSV) or the parts as one mesh")},
+      {quit, tr("Quit Nearfit; asks first if there are unsaved changes")},
+      {duplicate, tr("Add a copy of the selected parts and groups; it shares their meshes")},
       {rename, tr("Give the selected part or group another name")},
-      {recolour, tr("Choose another colour for what is selected")},
-      {remove, tr("Take what is selected out of the scene; its file stays")},
+      {recolour, tr("Choose another colour for the selected parts")},
+      {remove, tr("Delete the selected parts and groups from the scene; their files stay")},
       {selectNone, tr("Select nothing")},
-      {fit, tr("Show all parts, as large as the view allows")},
-      {fitSelection, tr("Show what is selected, as large as the view allows")},
+      {fit, tr("Zoom the view to all parts")},
+      {fitSelection, tr("Zoom the view to the selected parts")},
       {viewIso, tr("Look from the corner between front, right and top")},
       {viewFront, tr("Look from the front, along Y")},
       {viewRight, tr("Look from the right, along X")},
       {viewTop, tr("Look from above, along Z")},
-      {seeThrough, tr("See the moving part through the others")},
+      {seeThrough, tr("Make the other parts translucent, to see the moving part through them")},
       {edges, tr("Draw the sharp edges of parts as lines")},
       {minima, tr("Draw each local minimum distance while a part is in hand")},
       {contacts, tr("Mark where the part in hand touches")},
-      {hand, tr("Draw where the hand is, ahead of a part that is held by contact")},
-      {wrench, tr("Draw the force and the torque that are felt as arrows")},
+      {hand, tr("Draw where the hand wants a part that is held by contact")},
+      {wrench, tr("Draw the felt force and torque as arrows")},
       {about, tr("Version, method and licence")},
   };
   for (const auto& [action, tip] : tips) {
@@ -214,8 +214,8 @@ void Actions::update(const Session& session, const Availability& availability) {
     const QString tip = QStringLiteral("%1%2 (%3)").arg(explained, what, keys);
     action->setToolTip(QStringLiteral("<qt>%1</qt>").arg(tip.toHtmlEscaped()));
   };
-  show(undo, tr("&Undo"), tr("Take back the last step"), session.undoText());
-  show(redo, tr("&Redo"), tr("Do again what was taken back"), session.redoText());
+  show(undo, tr("&Undo"), tr("Undo the last step"), session.undoText());
+  show(redo, tr("&Redo"), tr("Redo the last undone step"), session.redoText());
 
   const bool canChange = isFree && availability.hasSelection && !availability.isSelectionLocked;
   // Locks prevent neither copying a part nor changing its look.

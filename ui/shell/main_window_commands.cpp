@@ -60,8 +60,8 @@ void MainWindow::setUpFiles() {
   auto* recent = new RecentFiles(actions_->recentMenu, this);
   connect(recent, &RecentFiles::openRequested, document_.get(), &Document::openScene);
   connect(recent, &RecentFiles::missing, this, [this](const QString& file) {
-    showFailure({tr("This scene is not there any more."),
-                 tr("It was moved or deleted, and is no longer in the list.\n\nWhere: %1").arg(file)});
+    showFailure({tr("This scene no longer exists."),
+                 tr("Its file was moved or deleted. It was removed from the list.\n\nWhere: %1").arg(file)});
   });
   auto* parts = new PartFiles(session_, *document_, *new NoticeBar(viewport_), actions_->reloadMenu, this);
   connect(parts, &PartFiles::noted, this, &MainWindow::showNote);
@@ -134,7 +134,7 @@ void MainWindow::connectPanels() {
   connect(partsPanel_, &PartsPanel::regroupRequested, this,
           [this](const SceneNodes& nodes, std::optional<GroupId> target) {
             QTimer::singleShot(0, this, [this, nodes, target] {
-              attempt(tr("The parts could not be put there."), [&] { session_.regroup(nodes, target); });
+              attempt(tr("The parts could not be moved there."), [&] { session_.regroup(nodes, target); });
             });
           });
   connect(posePanel_, &PosePanel::poseEdited, this, &MainWindow::moveSelected);
@@ -168,10 +168,11 @@ void MainWindow::lockNodes(const SceneNodes& nodes, bool isLocked) {
   const std::optional<PartId> moving = session_.scene().movingPart();
   const bool isMoving = isLocked && moving && std::ranges::count(parts, *moving) > 0;
   const QString name = isMoving ? shortName(session_.scene().find(*moving)->name) : QString();
-  if (isMoving && servo_.isTaken()) return showNote(tr("%1 is being felt: stop (F6) to lock it").arg(name));
+  if (isMoving && servo_.isTaken())
+    return showNote(tr("%1 is being felt: stop (F6) before you lock it").arg(name));
   attempt(tr("The parts could not be locked or unlocked."), [&] {
     session_.setLocked(nodes, isLocked);
-    if (isMoving) showNote(tr("%1 is locked, and so no longer in hand").arg(name));
+    if (isMoving) showNote(tr("%1 is locked and no longer in hand").arg(name));
   });
 }
 

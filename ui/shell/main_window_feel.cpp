@@ -70,7 +70,7 @@ void MainWindow::changeHaptics(const HapticSettings& settings, const QString& la
   try {
     session_.setHaptics(settings, label.toStdString());
   } catch (const UsageError& error) {
-    refusal = tr("Not taken over: %1. To mend it, %2.")
+    refusal = tr("Not applied: %1. To fix it, %2.")
                   .arg(QString::fromStdString(error.problem()), QString::fromStdString(error.remedy()));
   }
   feelDialog_->showRefusal(refusal);

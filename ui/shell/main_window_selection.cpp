@@ -50,7 +50,7 @@ void MainWindow::showSelection() {
   const QString heading = headingOf(scene, *selection_);
   QString help = heading;
   if (selection.size() > 1)
-    help += QChar('\n') + tr("The pose is that of %1").arg(QString::fromStdString(part->name));
+    help += QChar('\n') + tr("The pose shown is that of %1").arg(QString::fromStdString(part->name));
   posePanel_->showPart(heading, guard_->refusalOf(selection), help);
   std::vector<const Part*> parts;
   for (const PartId each : selection)

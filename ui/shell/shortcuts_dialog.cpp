@@ -69,13 +69,13 @@ void addView(QTreeWidget* list) {
   QTreeWidgetItem* group = addGroup(list, QObject::tr("Mouse and keys in the view"));
   const std::pair<QString, QString> entries[] = {
       {QObject::tr("Orbit"), QObject::tr("Left drag")},
-      {QObject::tr("Orbit, also over what a drag would move"), QObject::tr("Ctrl+Middle drag")},
+      {QObject::tr("Orbit, even where a drag would move a part"), QObject::tr("Ctrl+Middle drag")},
       {QObject::tr("Pan"), QObject::tr("Middle drag")},
       {QObject::tr("Zoom"), QObject::tr("Wheel, or right drag")},
       {QObject::tr("Select a part"), QObject::tr("Click")},
-      {QObject::tr("Add to the selection, or take out of it"), QObject::tr("Ctrl+Click")},
-      {QObject::tr("What can be done with a part"), QObject::tr("Right click, or the Menu key")},
-      {QObject::tr("Select what is seen in a box"), QObject::tr("B, then left drag")},
+      {QObject::tr("Add to the selection, or remove from it"), QObject::tr("Ctrl+Click")},
+      {QObject::tr("Menu of commands for a part"), QObject::tr("Right click, or the Menu key")},
+      {QObject::tr("Select the parts seen in a box"), QObject::tr("B, then left drag")},
       {QObject::tr("Move the part by a step"), QObject::tr("Arrow keys, Page up, Page down")},
       {QObject::tr("Turn the part by a step"), QObject::tr("Shift+Arrow keys, Shift+Page up or down")},
       {QObject::tr("Move the manual hand"), QObject::tr("Shift+Left drag, Shift+Wheel")},

@@ -30,7 +30,7 @@ StatusReadout::StatusReadout(QStatusBar* bar)
       rate_(addLabel(bar, QStringLiteral("statusRate"), tr("Servo 1000 Hz"))),
       lateness_(addLabel(bar, QStringLiteral("statusLateness"), tr("Late 0.00 ms (p99)"))),
       minima_(addLabel(bar, QStringLiteral("statusMinima"), tr("LMDs 0000"))),
-      distance_(addLabel(bar, QStringLiteral("statusDistance"), tr("Least distance 0000 mm"))) {
+      distance_(addLabel(bar, QStringLiteral("statusDistance"), tr("Min distance 0000 mm"))) {
   showStatus({});
   clearSnapshot();
 }
@@ -38,8 +38,8 @@ StatusReadout::StatusReadout(QStatusBar* bar)
 void StatusReadout::showStatus(const ServoStatus& status) {
   rate_->setText(status.isRunning ? tr("Servo %1 Hz").arg(status.rate, 0, 'f', 0) : tr("Servo off"));
   setColour(*rate_, status.isTooSlow() ? colours::kWarning : colours::kMutedText);
-  rate_->setToolTip(status.isTooSlow() ? tr("Ticks are lost: contact feels softer than it is set to. Use a "
-                                            "smaller cutoff, or hide parts that do not matter.")
+  rate_->setToolTip(status.isTooSlow() ? tr("Ticks are lost, so contact feels softer than its settings. Use "
+                                            "a smaller cutoff, or hide parts that do not matter.")
                                        : QString());
   lateness_->setText(status.isRunning ? tr("Late %1 (p99)").arg(formatDuration(status.latenessP99))
                                       : tr("Late –"));
@@ -47,12 +47,12 @@ void StatusReadout::showStatus(const ServoStatus& status) {
 
 void StatusReadout::showSnapshot(const ServoSnapshot& snapshot) {
   minima_->setText(tr("LMDs %1").arg(snapshot.lmdCount));
-  distance_->setText(tr("Least distance %1").arg(formatLength(snapshot.distance)));
+  distance_->setText(tr("Min distance %1").arg(formatLength(snapshot.distance)));
 }
 
 void StatusReadout::clearSnapshot() {
   minima_->setText(tr("LMDs –"));
-  distance_->setText(tr("Least distance –"));
+  distance_->setText(tr("Min distance –"));
 }
 
 }  // namespace nearfit::ui

@@ -88,11 +88,11 @@ void TakingAway::setUpActions() {
     return action;
   };
   copy_ = make("copyPlacement", tr("&Copy placement"), "copy", "Ctrl+Shift+C");
-  copy_->setToolTip(tr("The selected part's place as a 4x4 matrix by rows, in metres"));
+  copy_->setToolTip(tr("Copy the selected part's placement as a 4x4 matrix by rows, in metres"));
   connect(copy_, &QAction::triggered, exporter_, &Exporter::copyPlacement);
   record_ = make("record", tr("&Record…"), "record", "F8");
   record_->setCheckable(true);
-  record_->setToolTip(tr("Record what is felt to a file, until the part is put down"));
+  record_->setToolTip(tr("Record what is felt to a file, until you stop feeling the part"));
   connect(record_, &QAction::triggered, this, &TakingAway::toggleRecord);
   openRecording_ = make("openRecording", tr("&Play a recording…"), "start", "Shift+F8");
   openRecording_->setToolTip(tr("Show a recorded motion on a timeline"));
@@ -199,7 +199,7 @@ void TakingAway::toggleRecord(bool isOn) {
   Preferences::rememberFolderOf(*file);
   emit recordRequested(*file);
   if (!isTaken_)
-    emit noted(tr("What is felt next is recorded to %1").arg(shortName(QFileInfo(*file).fileName())));
+    emit noted(tr("The next feel will be recorded to %1").arg(shortName(QFileInfo(*file).fileName())));
 }
 
 void TakingAway::showRecording(const QString& file, double seconds) {
@@ -207,18 +207,19 @@ void TakingAway::showRecording(const QString& file, double seconds) {
   record_->setChecked(isOn);
   QString text = tr("&Record…");
   if (isOn && seconds > 0.0) text = tr("Stop &recording (%1 s)").arg(seconds, 0, 'f', 0);
-  if (isOn && !(seconds > 0.0)) text = tr("Do not &record to %1").arg(shortName(QFileInfo(file).fileName()));
+  if (isOn && !(seconds > 0.0))
+    text = tr("Cancel &recording to %1").arg(shortName(QFileInfo(file).fileName()));
   if (record_->text() != text) record_->setText(text);
 }
 
 void TakingAway::showRecordingFailed() {
-  emit noted(tr("Nothing is being recorded any more"));
+  emit noted(tr("The recording has stopped"));
 }
 
 void TakingAway::showRecorded(const QString& file, double seconds, quint64 lost) {
   QString text =
       tr("Recorded %1 s to %2").arg(formatFixed(seconds, 1), shortName(QFileInfo(file).fileName()));
-  if (lost > 0) text += tr("; %1 ticks are missing, as the window was busy").arg(lost);
+  if (lost > 0) text += tr("; %1 ticks are missing because the window was busy").arg(lost);
   emit noted(text);
 }
 

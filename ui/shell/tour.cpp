@@ -24,7 +24,7 @@ Tour::Tour(QWidget* window)
       text_(new QLabel(this)),
       count_(new QLabel(this)),
       next_(new QPushButton(tr("Next"), this)),
-      leave_(new QPushButton(tr("Leave the tour"), this)),
+      leave_(new QPushButton(tr("End the tour"), this)),
       frame_(new QFrame(window)) {
   setObjectName(QStringLiteral("tour"));
   setAccessibleName(tr("Tour"));

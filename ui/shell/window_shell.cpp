@@ -38,14 +38,16 @@ bool areExplained(const QList<QAction*>& actions) {
 WindowShell::WindowShell(QMainWindow* window, QMenu* view, QMenu* help)
     : QObject(window), window_(window), shortcuts_(new ShortcutsDialog(window)), tour_(new Tour(window)) {
   addThemes(view);
-  QAction* reset = addAction(view, "resetLayout", tr("Reset la&yout"), tr("Put all panels back in place"));
+  QAction* reset =
+      addAction(view, "resetLayout", tr("Reset la&yout"), tr("Put all panels back in their original places"));
   connect(reset, &QAction::triggered, this, [this] { layout_->reset(); });
 
-  tourAction_ = addAction(help, "tour", tr("Short &tour"), tr("What is where in this window"));
+  tourAction_ =
+      addAction(help, "tour", tr("Short &tour"), tr("Explain the panels of this window, one by one"));
   tourAction_->setIcon(icon(QStringLiteral("about")));
   connect(tourAction_, &QAction::triggered, this, &WindowShell::tourRequested);
   QAction* keys = addAction(help, "shortcuts", tr("&Keyboard shortcuts"),
-                            tr("All commands with their keys, to be searched"));
+                            tr("List and search all commands and their keys"));
   keys->setShortcuts({QKeySequence(Qt::Key_F1), QKeySequence(QStringLiteral("Ctrl+/"))});
   connect(keys, &QAction::triggered, shortcuts_, &ShortcutsDialog::open);
 }
@@ -64,7 +66,7 @@ void WindowShell::addThemes(QMenu* view) {
   auto* group = new QActionGroup(this);
   const std::pair<ColourScheme, QAction*> schemes[] = {
       {ColourScheme::System,
-       addAction(menu, "themeSystem", tr("As the &desktop"), tr("Light or dark as the desktop is"))},
+       addAction(menu, "themeSystem", tr("Same as &desktop"), tr("Light or dark, following the desktop"))},
       {ColourScheme::Light, addAction(menu, "themeLight", tr("&Light"), tr("Dark text on light panels"))},
       {ColourScheme::Dark, addAction(menu, "themeDark", tr("&Dark"), tr("Light text on dark panels"))}};
   for (const auto& [scheme, action] : schemes) {
@@ -79,19 +81,19 @@ void WindowShell::beginTour() {
   const auto find = [this](const char* name) { return window_->findChild<QWidget*>(QLatin1String(name)); };
   tour_->begin({
       {find("partsDock"), tr("Parts"),
-       tr("Every part of the scene. The eye hides one, the lock keeps it where it is, and the hand makes it "
+       tr("All parts of the scene. The eye hides a part, the lock keeps it in place, and the hand makes it "
           "the moving part: the one that you feel.")},
       {window_->centralWidget(), tr("The view"),
-       tr("Left drag orbits, the wheel zooms, a click selects. Arrow keys move the selected part. While you "
-          "feel, coloured lines show each least distance, arrows the force and torque.")},
+       tr("A left drag orbits, the wheel zooms, a click selects. Arrow keys move the selected part. While "
+          "you feel, coloured lines show the local minimum distances, and arrows show force and torque.")},
       {find("poseDock"), tr("Pose and mass"),
-       tr("Where the selected part is, in numbers that you can type, and what it weighs.")},
+       tr("The position, rotation, density and mass of the selected part. You can edit the numbers.")},
       {find("feelDock"), tr("Feel"),
-       tr("Choose what holds the part: a device, a recording, or the mouse. Press Feel (F5), then push the "
+       tr("Choose what leads the part: a device, a recording, or the mouse. Press Feel (F5), then push the "
           "part against the others: it stops at contact.")},
       {find("toolBar"), tr("Tools"),
-       tr("Everything here is in the menus too. F1 lists all keys; History beside the parts takes you back "
-          "to any step.")},
+       tr("All these commands are in the menus too. F1 lists all keys; History, beside the parts, takes you "
+          "back to any step.")},
   });
 }
 

@@ -85,7 +85,7 @@ FailureDialog::FailureDialog(QWidget* parent) : QDialog(parent), table_(new QTab
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   QPushButton* copy = buttons->addButton(tr("Copy details"), QDialogButtonBox::ActionRole);
   copy->setObjectName(QStringLiteral("copyDetails"));
-  copy->setToolTip(tr("Puts this message on the clipboard"));
+  copy->setToolTip(tr("Copy this message to the clipboard"));
   copy->setAutoDefault(false);
   connect(copy, &QPushButton::clicked, this, [this] { QGuiApplication::clipboard()->setText(text()); });
   buttons->button(QDialogButtonBox::Ok)->setDefault(true);
@@ -115,7 +115,7 @@ void FailureDialog::showAll() {
   const Entry& first = entries_.front();
   const bool hasTable = !isOne || !first.failure.items.isEmpty();
   summary_->setText(isOne ? counted(first.failure.summary, first.count)
-                          : tr("%n things went wrong.", nullptr, static_cast<int>(entries_.size())));
+                          : tr("%n failures.", nullptr, static_cast<int>(entries_.size())));
   details_->setText(isOne && !hasTable ? first.failure.details : QString());
   details_->setVisible(!details_->text().isEmpty());
   table_->setVisible(hasTable);

@@ -58,7 +58,7 @@ void NoticeBar::offer(const QString& key, const QString& text, std::vector<Choic
   close->setObjectName(QStringLiteral("dismiss"));
   close->setAutoRaise(true);
   close->setIcon(style()->standardIcon(QStyle::SP_TitleBarCloseButton));
-  close->setToolTip(tr("Leave it as it is"));
+  close->setToolTip(tr("Dismiss and change nothing"));
   close->setAccessibleName(tr("Dismiss: %1").arg(text));
   connect(close, &QToolButton::clicked, this, [this, key, dismissed = std::move(dismissed)] {
     withdraw(key);

@@ -169,14 +169,14 @@ NumberField::Reading NumberField::read(const QString& text) const {
     reading.quantity = editedQuantity(view, unit_, quantity());
   } catch (const QuantityError& error) {
     reading.position = QString::fromUtf8(bytes.left(static_cast<int>(error.position()))).size();
-    reading.fault = tr("Character %1: %2.\nTo mend it, %3.")
+    reading.fault = tr("Character %1: %2.\nTo fix it, %3.")
                         .arg(reading.position + 1)
                         .arg(QString::fromStdString(error.problem()), QString::fromStdString(error.remedy()));
     return reading;
   }
   const double shown = reading.quantity / unit_.inSi, rounding = 1e-12 * std::abs(shown);
   if (shown < minimum() - rounding || shown > maximum() + rounding) {
-    reading.fault = tr("%1%2 is out of limits.\n%3.").arg(formatNumber(shown), unitText_, limitsText());
+    reading.fault = tr("%1%2 is out of range.\n%3.").arg(formatNumber(shown), unitText_, limitsText());
   }
   return reading;
 }
@@ -205,7 +205,7 @@ bool NumberField::event(QEvent* event) {
   if (event->type() != QEvent::ToolTip) return QDoubleSpinBox::event(event);
   const QString help =
       tr("Takes units and arithmetic: 12.5 mm, 1/4 in, 2*(3 + 0,5), 90 deg.\n"
-         "+= 5 adds to what is there; so do -=, *= and /=.");
+         "+= 5 adds to the present value; -=, *= and /= work likewise.");
   QStringList text;
   if (!toolTip().isEmpty()) text << toolTip();
   // Useless while nothing can be typed.

@@ -11,7 +11,7 @@ namespace {
 
 bool mayReplace(const QString& file, QWidget* parent) {
   QMessageBox box(QMessageBox::Warning, QObject::tr("Replace the file?"),
-                  QObject::tr("%1 is there already. Replace it?").arg(QFileInfo(file).fileName()),
+                  QObject::tr("%1 already exists. Replace it?").arg(QFileInfo(file).fileName()),
                   QMessageBox::Cancel, parent);
   box.setObjectName(QStringLiteral("replaceFile"));
   QPushButton* replace = box.addButton(QObject::tr("Replace"), QMessageBox::DestructiveRole);

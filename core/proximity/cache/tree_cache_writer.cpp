@@ -17,7 +17,7 @@ std::string warningsText(const MeshBuildReport& report) {
   std::string text;
   for (const std::string& warning : report.warnings) {
     if (warning.find('\0') != std::string::npos)
-      throw Error("mesh", "a warning about it cannot be kept", "load it from its own file");
+      throw Error("mesh", "a warning about it cannot be cached", "load the mesh file itself");
     text += warning;
     text += '\0';
   }

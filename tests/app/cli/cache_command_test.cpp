@@ -104,7 +104,7 @@ TEST_F(CacheCommand, LimitBoundsItAndOneThatMakesNoSenseIsSaid) {
   const ScopedVariable senseless("NEARFIT_CACHE_SIZE", "plenty");
   const ProcessResult result = runCli({"cache"});
   EXPECT_EQ(result.exitCode, 2);
-  EXPECT_THAT(result.err, HasSubstr("NEARFIT_CACHE_SIZE: \"plenty\" is no size"));
+  EXPECT_THAT(result.err, HasSubstr("NEARFIT_CACHE_SIZE: \"plenty\" is not a size"));
   EXPECT_EQ(runCli({"info", ball_}).exitCode, 0);
 }
 

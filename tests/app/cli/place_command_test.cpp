@@ -142,7 +142,7 @@ TEST_F(PlaceCommand, BadInputIsNamedBeforeAnythingIsWritten) {
   folder_.write("path.csv", "0,0,0,1,0,0,0\n0,0,0,1,0,0\n");
   const ProcessResult badRow = placeCone({"--fast", "--record", "out.csv"});
   EXPECT_EQ(badRow.exitCode, 1);
-  EXPECT_THAT(badRow.err, HasSubstr("path.csv:2: 6 values where 7 belong"));
+  EXPECT_THAT(badRow.err, HasSubstr("path.csv:2: 6 values instead of 7"));
   folder_.write("path.csv", pathText(3));
   const ProcessResult noFolder = placeCone({"--fast", "--record", "out.csv", "--export", "missing/out.json"});
   EXPECT_EQ(noFolder.exitCode, 1);

@@ -34,9 +34,9 @@ class PlaceSummaryOfAProxy : public ::testing::Test {
 TEST_F(PlaceSummaryOfAProxy, TellsTheBoundAtTheMeasuredPeriod) {
   // K <= 2 (b - B) / T.
   result_.period = 1e-3;
-  EXPECT_THAT(text(), HasSubstr("1600 N/m; 2 N m/rad: passive at 1 ms with the device's damping"));
+  EXPECT_THAT(text(), HasSubstr("1600 N/m; 2 N m/rad: max for passivity at 1 ms with the device's damping"));
   result_.period = 2e-3;
-  EXPECT_THAT(text(), HasSubstr("800 N/m; 1 N m/rad: passive at 2 ms with the device's damping"));
+  EXPECT_THAT(text(), HasSubstr("800 N/m; 1 N m/rad: max for passivity at 2 ms with the device's damping"));
   EXPECT_DOUBLE_EQ(coupling()["stiffness_bound"].get<double>(), 800.0);
   EXPECT_DOUBLE_EQ(coupling()["rotational_stiffness_bound"].get<double>(), 1.0);
   EXPECT_DOUBLE_EQ(coupling()["period"].get<double>(), 2e-3);

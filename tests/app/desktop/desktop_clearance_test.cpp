@@ -216,7 +216,7 @@ void DesktopClearanceTest::plotsBesideTheTableGetHalfOfTheWidth() {
 void DesktopClearanceTest::theNoteFollowsWhatIsChosen() {
   ClearanceFixture f;
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
-  QVERIFY(f.d.text("clearanceNote").startsWith(QStringLiteral("Choose a row")));
+  QVERIFY(f.d.text("clearanceNote").startsWith(QStringLiteral("Select a row")));
   f.clickRow(0);
   QVERIFY(f.d.text("clearanceNote").startsWith(QStringLiteral("The line in the view")));
   // They overlap: no line says where.

@@ -71,7 +71,7 @@ void DesktopExportTest::thePlacementTableHasThePoseInHand() {
   d.startWith(ui::Hand::Manual);
   d.clickPart(1, ui::PartsModel::Name);
   d.type<QDoubleSpinBox>("positionZ", "1.5");
-  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 6.50 mm"));
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Min distance 6.50 mm"));
   const auto file = d.folder.path() / "table.csv";
   chooseExport(1, false);
   whenModal<QFileDialog>(

@@ -198,7 +198,7 @@ void DesktopFilesTest::exportsThePlacementInHand() {
   d.startWith(ui::Hand::Manual);
   d.clickPart(1, ui::PartsModel::Name);
   d.type<QDoubleSpinBox>("positionZ", "1.5");
-  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 6.50 mm"));
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Min distance 6.50 mm"));
   const auto file = d.folder.path() / "placement.json";
   whenModal<QDialog>(
       [](QDialog* dialog) {

@@ -254,7 +254,7 @@ void DesktopGlyphsTest::minimaFartherThanChosenAreNotDrawn() {
   // The hand brings the 5 mm to 4: clear of the half of the cutoff of 10 mm. The ceiling is then at 3.
   g.d.clickPart(1, ui::PartsModel::Name);
   g.d.type<QDoubleSpinBox>("positionZ", "-1");
-  QTRY_COMPARE(g.d.text("statusDistance"), QStringLiteral("Least distance 3.00 mm"));
+  QTRY_COMPARE(g.d.text("statusDistance"), QStringLiteral("Min distance 3.00 mm"));
   g.selectNothing();
   g.minima.clear();
   for (std::size_t i = 0; i < g.newest.storedLmds; ++i)

@@ -123,7 +123,9 @@ struct LimitsFixture {
     d->type<ui::NumberField>("positionZ", "-8");
     QTRY_VERIFY(newest.contactCount > 0 && isNear(newest.proxy.translation.z, -0.0049, 1.1e-5));
   }
-  QString held(double stiffness) { return QStringLiteral("held to %1 N/m").arg(ui::formatNumber(stiffness)); }
+  QString held(double stiffness) {
+    return QStringLiteral("limited to %1 N/m").arg(ui::formatNumber(stiffness));
+  }
 
   std::shared_ptr<Handle> handle;
   std::shared_ptr<LimitedDevice::Sent> sent;
@@ -197,7 +199,7 @@ void DesktopLimitsTest::whatIsWishedBeyondTheDeviceIsHeldAndTold() {
   QTRY_COMPARE(f.newest.coupling.stiffness, 100.0);
   QTRY_VERIFY2(note().startsWith(QStringLiteral("at most ")), qPrintable(note()));
   f.d->type<ui::NumberField>("couplingStiffness", "1500");
-  QTRY_VERIFY2(note().startsWith(QStringLiteral("held to ")), qPrintable(note()));
+  QTRY_VERIFY2(note().startsWith(QStringLiteral("limited to ")), qPrintable(note()));
   f.d->choose("stop");
   QTRY_COMPARE(note(), QStringLiteral("at most 2000 N/m"));
 }
@@ -217,7 +219,7 @@ void DesktopLimitsTest::aForceBeyondTheDeviceIsHeldAndSaidToBe() {
   QTRY_VERIFY(glm::length(f.newest.wrench.force) > 0.05);
   QCOMPARE(f.d->text("clamped"), QString());
   f.handle->moveTo({0.0, 0.0, -0.009});
-  QTRY_COMPARE(f.d->text("clamped"), QStringLiteral("Held at the device's limit."));
+  QTRY_COMPARE(f.d->text("clamped"), QStringLiteral("Limited to what the device allows."));
   QVERIFY(f.d->widget<QLabel>("clamped")->isVisible());
   QTRY_COMPARE(f.d->text("force"), QStringLiteral("1.50 N"));
   QTRY_VERIFY(glm::length(f.newest.unclampedWrench.force) > 1.55);

@@ -129,7 +129,7 @@ void DesktopManyPartsTest::thePartInHandMeetsItsNeighboursAlone() {
   // Nothing is within the cutoff of 10 mm until it goes to the one above.
   QTRY_COMPARE_WITH_TIMEOUT(d.text("statusMinima"), QStringLiteral("LMDs 0"), 30'000);
   d.type<QDoubleSpinBox>("positionZ", "+= 15 mm");
-  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 5.00 mm"));
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Min distance 5.00 mm"));
   d.type<QDoubleSpinBox>("positionZ", "+= 15 mm");
   // It is held a margin before the face.
   QTRY_VERIFY(d.felt && std::abs(d.felt->translation.z - (5 * kSpacing + 0.02 - 1e-4)) < 2e-5);

@@ -194,15 +194,15 @@ void DesktopMovableTest::whatHasBeenDroppedOrPushedIsNoStepTheSecondTime() {
   const std::size_t dropped = d.steps();
   const double z = d.part("moving").worldFromPart.translation.z;
   d.choose("dropDown");
-  QTRY_VERIFY(d.isNoted("moving touches fixed already"));
+  QTRY_VERIFY(d.isNoted("moving already touches fixed"));
   QCOMPARE(d.steps(), dropped);
   QCOMPARE(d.part("moving").worldFromPart.translation.z, z);
 
   d.choose("pushDown");
-  QTRY_VERIFY(d.steps() > dropped || d.isNoted("is held by fixed already"));
+  QTRY_VERIFY(d.steps() > dropped || d.isNoted("is already held by fixed"));
   const std::size_t pushed = d.steps();
   d.choose("pushDown");
-  QTRY_VERIFY(d.isNoted("is held by fixed already"));
+  QTRY_VERIFY(d.isNoted("is already held by fixed"));
   QCOMPARE(d.steps(), pushed);
 }
 

@@ -211,7 +211,7 @@ void DesktopPresetsTest::aDamagedFileIsPutAsideAndTold() {
   std::filesystem::create_directories(file.parent_path());
   std::ofstream(file) << "{\"format\": \"nearfit feel pres";
   PresetsFixture f;
-  QVERIFY2(f.d.window().statusBar()->currentMessage().contains(QStringLiteral("could be read")),
+  QVERIFY2(f.d.window().statusBar()->currentMessage().contains(QStringLiteral("could not be read")),
            qPrintable(f.d.window().statusBar()->currentMessage()));
   QCOMPARE(f.panel()->count(), 4);
   std::filesystem::path aside = file;

@@ -160,7 +160,8 @@ void DesktopProxyTest::partThatOverlapsIsNamed() {
   start(d, ui::Hand::Manual);
   auto* notice = d.widget<QFrame>("feelNotice");
   QTRY_VERIFY(notice->isVisible());
-  QCOMPARE(d.text("noticeText"), QStringLiteral("Overlaps fixed: not felt until they are apart."));
+  QCOMPARE(d.text("noticeText"),
+           QStringLiteral("Overlaps fixed, which is not felt until the two are apart."));
   QVERIFY(!d.widget<QPushButton>("restart")->isVisible());
   // Pulled out, it is felt again.
   d.type<QDoubleSpinBox>("positionZ", "2");
@@ -224,7 +225,7 @@ void DesktopProxyTest::marginBeyondTheCutoffIsExplained() {
   const std::string before = d.session().undoText();
   // The cutoff is 10 mm.
   d.type<QDoubleSpinBox>("margin", "20");
-  QVERIFY(d.text("refusal").contains(QStringLiteral("more than the cutoff")));
+  QVERIFY(d.text("refusal").contains(QStringLiteral("greater than the cutoff")));
   QVERIFY(d.widget<QLabel>("refusal")->isVisible());
   QCOMPARE(d.session().scene().haptics().proxy.margin, kMargin);
   QCOMPARE(value(d, "margin"), 0.1);

@@ -301,7 +301,7 @@ void DesktopRecoveryTest::folderThatCannotBeWrittenGivesOneQuietNote() {
   d.addCubes();
   QTRY_COMPARE_WITH_TIMEOUT(failed.count(), 1, 30'000);
   QTRY_VERIFY_WITH_TIMEOUT(
-      d.window().statusBar()->currentMessage().contains(QStringLiteral("cannot be kept")), 30'000);
+      d.window().statusBar()->currentMessage().contains(QStringLiteral("cannot be protected")), 30'000);
   autosave->writeNow();
   QTRY_VERIFY_WITH_TIMEOUT(!autosave->isWriting(), 30'000);
   QCOMPARE(failed.count(), 1);

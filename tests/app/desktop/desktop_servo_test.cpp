@@ -90,7 +90,7 @@ void DesktopServoTest::showsTheOneMinimumBetweenTwoFaces() {
   QCOMPARE(d.text("statusRate"), QStringLiteral("Servo off"));
   startWith(d, ui::Hand::Manual);
   QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
-  QCOMPARE(d.text("statusDistance"), QStringLiteral("Least distance 5.00 mm"));
+  QCOMPARE(d.text("statusDistance"), QStringLiteral("Min distance 5.00 mm"));
   // 200 N/m over the 5 mm that are left to the cutoff of 10 mm, once the force has been let in.
   QTRY_COMPARE(d.text("force"), QStringLiteral("1.00 N"));
   QTRY_VERIFY(d.text("statusRate").startsWith(QStringLiteral("Servo ")) &&
@@ -130,14 +130,14 @@ void DesktopServoTest::manualHandFollowsKeysAndNumbers() {
   d.clickPart(1, ui::PartsModel::Name);
   d.type<QDoubleSpinBox>("nudgeStep", "0.5");
   startWith(d, ui::Hand::Manual);
-  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 5.00 mm"));
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Min distance 5.00 mm"));
   ui::Viewport& view = d.window().viewport();
   view.setFocus();
   for (int i = 0; i < 4; ++i)
     QTest::keyClick(&view, Qt::Key_PageDown);
-  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 3.00 mm"));
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Min distance 3.00 mm"));
   d.type<QDoubleSpinBox>("positionZ", "1");
-  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 6.00 mm"));
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Min distance 6.00 mm"));
   // Up by a drag with Shift: in the view from the front that is along z, and along no other axis.
   QTest::keyClick(&view, Qt::Key_1);
   QTest::mousePress(&view, Qt::LeftButton, Qt::ShiftModifier, {200, 200});
@@ -150,7 +150,7 @@ void DesktopServoTest::manualHandFollowsKeysAndNumbers() {
   QCOMPARE(d.widget<QDoubleSpinBox>("positionX")->value(), 0.0);
   QCOMPARE(d.widget<QDoubleSpinBox>("positionY")->value(), 0.0);
   d.type<QDoubleSpinBox>("positionZ", "1");
-  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 6.00 mm"));
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Min distance 6.00 mm"));
   // Until it is put down, the scene has the part where it was.
   QCOMPARE(d.part("moving").worldFromPart.translation.z, 0.0);
   QTest::mouseClick(d.widget<QPushButton>("startStop"), Qt::LeftButton);
@@ -245,7 +245,7 @@ void DesktopServoTest::partsComeAndGoWhileItRuns() {
   // Its lower face is 2 mm above the moving cube.
   d.add({ceiling});
   QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 2"));
-  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Least distance 2.00 mm"));
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Min distance 2.00 mm"));
   d.clickPart(2, ui::PartsModel::Visible);
   QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
   QVERIFY(d.application.servo().isRunning());

@@ -340,7 +340,7 @@ void DesktopSessionTest::aDaysWorkSurvivesTheEndOfItsProcess() {
     texts += label->text() + QChar('\n');
   // What was saved is not offered, nor counted.
   QVERIFY2(texts.contains(QStringLiteral("work.nearfit")), qPrintable(texts));
-  QVERIFY2(texts.contains(QStringLiteral("one change not saved")), qPrintable(texts));
+  QVERIFY2(texts.contains(QStringLiteral("1 unsaved change")), qPrintable(texts));
   QVERIFY(dialog->findChild<QPushButton*>(QStringLiteral("restore2")) == nullptr);
   clickIn(dialog, "restore1");
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{4});

@@ -168,7 +168,7 @@ void DesktopTimelineTest::withoutAPartInHandThereIsNothingToMove() {
   whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, f.file("felt.csv")); });
   pressShortcut(f.d, Qt::Key_F8, Qt::ShiftModifier);
   QTRY_COMPARE(f.failures.size(), 1);
-  QVERIFY(f.failures[0].details.contains(QStringLiteral("Take the one in hand")));
+  QVERIFY(f.failures[0].details.contains(QStringLiteral("Take in hand the part")));
 }
 
 void DesktopTimelineTest::whatIsFeltIsRecordedFromTheButtonAndPlayed() {
@@ -180,7 +180,7 @@ void DesktopTimelineTest::whatIsFeltIsRecordedFromTheButtonAndPlayed() {
   QVERIFY(f.d.action("record")->isChecked());
   f.d.clickPart(1, ui::PartsModel::Name);
   f.d.type<QDoubleSpinBox>("positionZ", "2");
-  QTRY_COMPARE(f.d.text("statusDistance"), QStringLiteral("Least distance 7.00 mm"));
+  QTRY_COMPARE(f.d.text("statusDistance"), QStringLiteral("Min distance 7.00 mm"));
   pressShortcut(f.d, Qt::Key_F8, Qt::NoModifier);
   QVERIFY(!f.d.action("record")->isChecked());
   QVERIFY(f.d.application.servo().isRunning());

@@ -136,7 +136,7 @@ int importOutcome(const std::filesystem::path& file) {
     importMesh(file, {});
     return kLoaded;
   } catch (const FileError& error) {
-    return error.problem().find("more memory") != std::string::npos ? kOutOfMemory : kRefused;
+    return error.problem().find("not enough memory") != std::string::npos ? kOutOfMemory : kRefused;
   }
 }
 

@@ -238,7 +238,7 @@ TEST_F(MeshImport, BinaryStlFacetsWithEqualCornersAreCounted) {
 TEST_F(MeshImport, BytesBehindABinaryStlAreLeftOutWithAWarning) {
   const std::string bytes = test::stlBinary(test::boxMesh({1, 2, 3})) + std::string(7, '\0');
   EXPECT_THAT(import("x.stl", bytes).report.warnings,
-              Contains(HasSubstr("7 bytes behind the last of 12 triangles")));
+              Contains(HasSubstr("7 bytes after the last of 12 triangles")));
 }
 
 TEST_F(MeshImport, StlTextIsReadAsProgramsWriteIt) {
@@ -328,47 +328,47 @@ TEST_F(MeshImport, FaultsAreNamedWithTheirPlace) {
   const std::string ply = kPlyStart + "element vertex 3\n" + kPlyXyz + plyFaces;
   const std::vector<Case> cases{
       {"x.obj", "v 0 0 0\nv 1 0 0\nv 0 1\nf 1 2 3\n", ":3", "fewer than three coordinates"},
-      {"x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 3.1+e2\n", ":3", "'3.1+e2' is no number"},
-      {"x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0x1\n", ":3", "'0x1' is no number"},
+      {"x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 3.1+e2\n", ":3", "'3.1+e2' is not a number"},
+      {"x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0x1\n", ":3", "'0x1' is not a number"},
       {"x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", ":4", "vertex 4 of 3"},
       {"x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 0 1 2\n", ":5", "vertex 0 of 3"},
       {"x.obj", "v 0 0 0\nf -2 1 1\nv 1 0 0\nv 0 1 0\n", ":2", "vertex -2 of 3"},
-      {"x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n", ":4", "is none"},
-      {"x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 /2 3\n", ":4", "'/2' is none"},
+      {"x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n", ":4", "is not one"},
+      {"x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 /2 3\n", ":4", "'/2' is not one"},
       {"x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "x.obj", "3 points but no faces"},
       {"x.obj", "hello\n", "x.obj", "no faces"},
       {"x.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "x.obj", "none of its faces has an area"},
-      {"x.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n", "x.obj", "1e+30 m from the origin"},
+      {"x.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n", "x.obj", "from the origin: 1e+30 m"},
       {"x.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":6", "vertices go from 0 to 2"},
       {"x.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", ":7", "the file ends where"},
-      {"x.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2000000000 0 1 2\n", ":6", "promises 2000000000 corners"},
-      {"x.off", "OFF\n3 4000000000 0\n0 0 0\n1 0 0\n0 1 0\n", ":2", "promises 4000000000 faces"},
-      {"x.off", "OFF\n-3 1 0\n", ":2", "promises -3 vertices"},
+      {"x.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2000000000 0 1 2\n", ":6", "declares 2000000000 corners"},
+      {"x.off", "OFF\n3 4000000000 0\n0 0 0\n1 0 0\n0 1 0\n", ":2", "declares 4000000000 faces"},
+      {"x.off", "OFF\n-3 1 0\n", ":2", "declares -3 vertices"},
       {"x.off", "OFF BINARY\n", ":1", "binary OFF"},
-      {"x.off", "nOFF\n4\n1 1 0\n", ":2", "other than three dimensions"},
+      {"x.off", "nOFF\n4\n1 1 0\n", ":2", "not three-dimensional"},
       {"x.off", "hello\n", ":1", "does not begin with OFF"},
       {"x.stl", "solid x\n" + facet + "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0\n", ":13",
        "the file ends where"},
       {"x.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\n",
        ":6", "fewer than three vertices"},
       {"x.stl", "solid x\nfacet normal 0 0 1\nvertex 0 0 0\n", ":", "'outer"},
-      {"x.stl", "solid x\n" + facet + "facett\n", ":9", "'facett' does"},
+      {"x.stl", "solid x\n" + facet + "facett\n", ":9", "found 'facett'"},
       {"x.stl", "solid x\nendsolid x\n", "x.stl", "no faces"},
       {"x.stl", test::stlBinary(test::boxMesh({1, 1, 1})).substr(0, 400), "byte 400",
-       "promises 12 triangles"},
+       "declares 12 triangles"},
       {"x.stl", std::string("\0\0\0", 3), "x.stl", "fewer than the header"},
-      {"x.ply", ply + "3 0 1 -1\n", ":13", "a face names vertex -1"},
+      {"x.ply", ply + "3 0 1 -1\n", ":13", "a face refers to vertex -1"},
       {"x.ply", ply + "3 0 1 3\n", ":13", "vertices go from 0 to 2"},
-      {"x.ply", ply + "3 0 1 1.5\n", ":13", "a face names vertex 1.5"},
+      {"x.ply", ply + "3 0 1 1.5\n", ":13", "a face refers to vertex 1.5"},
       {"x.ply", ply + "-3 0 1 2\n", ":13", "a list has -3 values"},
       {"x.ply", ply + "999999999 0 1 2\n", ":13", "does not fit"},
       {"x.ply", ply + "3 0 1\n", ":14", "the file ends where"},
       {"x.ply", kPlyStart + "element vertex 4000000000\n" + kPlyXyz + plyFaces, ":10",
-       "promises 4000000000 elements 'vertex'"},
+       "declares 4000000000 elements 'vertex'"},
       {"x.ply", kPlyStart + "element vertex 99999999999999999999\n", ":3", "needs a name and a count"},
       {"x.ply", kPlyStart + "element vertex 3\nproperty float x\n", ":", "the file ends where 'end_header'"},
-      {"x.ply", kPlyStart + "element vertex 3\nproperty floot x\n", ":4", "'floot' is none"},
-      {"x.ply", kPlyStart + "element vertex 3\nelement vertex 3\n", ":4", "second time"},
+      {"x.ply", kPlyStart + "element vertex 3\nproperty floot x\n", ":4", "'floot' is not one"},
+      {"x.ply", kPlyStart + "element vertex 3\nelement vertex 3\n", ":4", "declared twice"},
       {"x.ply", kPlyStart + "property float x\n", ":3", "before the first element"},
       {"x.ply", kPlyStart + "element vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n", ":",
        "one property 'z'"},
@@ -380,12 +380,12 @@ TEST_F(MeshImport, FaultsAreNamedWithTheirPlace) {
        ":", "strips"},
       {"x.ply", "hello\n", ":1", "does not begin with 'ply'"},
       {"x.stl", "", "x.stl", "is empty"},
-      {"x.xyz", "hello\n", "x.xyz", "not a format"},
+      {"x.xyz", "hello\n", "x.xyz", "Nearfit does not read"},
       {"x.ply.gz", "\x1f\x8b\x08", "x.ply.gz", "compressed"},
-      {"x.stl", "ISO-10303-21;\n", "x.stl", "STEP file, not a format"},
-      {"x.glb", "glTF\x02", "x.glb", "glTF file, not a format"},
-      {"x.gltf", "{}", "x.gltf", "glTF file, not a format"},
-      {"x.3mf", "PK\x03\x04", "x.3mf", "not a format"},
+      {"x.stl", "ISO-10303-21;\n", "x.stl", "STEP file, which Nearfit does not read"},
+      {"x.glb", "glTF\x02", "x.glb", "glTF file, which Nearfit does not read"},
+      {"x.gltf", "{}", "x.gltf", "glTF file, which Nearfit does not read"},
+      {"x.3mf", "PK\x03\x04", "x.3mf", "Nearfit does not read"},
   };
   for (const Case& c : cases) {
     const FileError error = refusal(c.name, c.content);
@@ -406,7 +406,7 @@ TEST_F(MeshImport, FileThatMayNotBeReadIsRefused) {
   const std::filesystem::path file = folder_.write("x.obj", kBoxObj);
   ASSERT_EQ(::chmod(file.c_str(), 0), 0);
   if (::geteuid() != 0) {
-    EXPECT_THAT(refusal(file).problem(), HasSubstr("may not read"));
+    EXPECT_THAT(refusal(file).problem(), HasSubstr("no permission to read"));
   } else {
     EXPECT_EQ(importMesh(file, {}).mesh.triangles().size(), 12U);  // The administrator may read everything.
   }

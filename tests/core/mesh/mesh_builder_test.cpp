@@ -161,7 +161,7 @@ TEST(MeshBuilder, PieceThatIsInsideOutIsTurnedBesideOthersThatAreNot) {
     MeshBuildReport report;
     const TriangleMesh mesh = buildMesh(test::soupOf(both), {}, report);
     EXPECT_NEAR(massProperties(mesh).volume, 9.0, 1e-14);
-    EXPECT_THAT(report.warnings, Contains("1 of 2 closed pieces was inside out and turned."));
+    EXPECT_THAT(report.warnings, Contains("1 of 2 closed components was inside out and flipped."));
   }
 }
 

@@ -110,8 +110,8 @@ TEST(HapticLimits, MarginAboveTheCutoffIsRefusedWithWhatToDo) {
     FAIL() << "a margin above the cutoff was taken";
   } catch (const UsageError& e) {
     EXPECT_STREQ(e.what(),
-                 "proxy.margin: 0.003 m is more than the cutoff, 0.002 m, beyond which nothing is looked "
-                 "for; lower the margin, for example to 2e-05 m, or raise the cutoff");
+                 "proxy.margin: 0.003 m is greater than the cutoff, 0.002 m; lower the margin, for example "
+                 "to 2e-05 m, or raise the cutoff");
   }
 }
 

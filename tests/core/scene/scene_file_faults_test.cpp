@@ -30,8 +30,8 @@ TEST_F(SceneFileFaults, UnknownVersionSaysWhichOneThisProgramReads) {
   EXPECT_THAT(errorWith("/nearfit", 0), HasSubstr("with the Nearfit that made it"));
   EXPECT_THAT(errorWith("/nearfit", 1.5), HasSubstr("this is version 1.5"));
   EXPECT_THAT(errorWith("/nearfit", "1"), HasSubstr("nearfit: it is of type string"));
-  EXPECT_THAT(errorOf(R"({"asset": {"version": "2.0"}})"), HasSubstr("no Nearfit scene"));
-  EXPECT_THAT(errorOf("[]"), HasSubstr("it is of type array where an object is wanted"));
+  EXPECT_THAT(errorOf(R"({"asset": {"version": "2.0"}})"), HasSubstr("not a Nearfit scene"));
+  EXPECT_THAT(errorOf("[]"), HasSubstr("it is of type array, but an object is expected"));
 }
 
 TEST_F(SceneFileFaults, MissingMeshSaysWhichFileAndPart) {
@@ -81,17 +81,17 @@ TEST_F(SceneFileFaults, EveryFieldIsCheckedAndNamed) {
   const std::vector<std::tuple<std::string, Json, std::string>> faults = {
       {"/units", 1, "units: it is of type number"},
       {"/units/length", "mm", "units.length: this unit is not known; give values in m"},
-      {"/haptics", nullptr, "haptics: it is of type null where an object is wanted"},
-      {"/haptics/mode", "soft", "haptics.mode: this word is not known; say \"proxy\" or \"springs\""},
+      {"/haptics", nullptr, "haptics: it is of type null, but an object is expected"},
+      {"/haptics/mode", "soft", "haptics.mode: this value is not known; give \"proxy\" or \"springs\""},
       {"/haptics/springs", 1, "haptics.springs: it is of type number"},
       {"/haptics/springs/cutoff", 0, "haptics.springs.cutoff: 0 m is out of range"},
       {"/haptics/springs/cutoff", "1", "haptics.springs.cutoff: it is of type string"},
       {"/haptics/springs/stiffness", -1, "haptics.springs.stiffness: -1 N/m^2 is out of range"},
       {"/haptics/springs/damping", 1e300, "haptics.springs.damping: 1e+300 N s/m is out of range"},
-      {"/haptics/springs/law", "cubic", "haptics.springs.law: this word is not known; say \"linear\""},
+      {"/haptics/springs/law", "cubic", "haptics.springs.law: this value is not known; give \"linear\""},
       {"/haptics/proxy/margin", 0,
        "haptics.proxy.margin: 0 m is out of range; give a value from 1e-09 to 1 m"},
-      {"/haptics/proxy/margin", 0.5, "haptics.proxy.margin: 0.5 m is more than the cutoff"},
+      {"/haptics/proxy/margin", 0.5, "haptics.proxy.margin: 0.5 m is greater than the cutoff"},
       {"/haptics/proxy/friction", -0.1, "haptics.proxy.friction: -0.1 is out of range"},
       {"/haptics/coupling/automatic", 1, "haptics.coupling.automatic: it is of type number"},
       {"/haptics/coupling/stiffness", 1e7, "haptics.coupling.stiffness: 10000000 N/m is out of range"},
@@ -101,7 +101,7 @@ TEST_F(SceneFileFaults, EveryFieldIsCheckedAndNamed) {
       {"/haptics/coupling/rotationalDamping", "", "haptics.coupling.rotationalDamping: it is of type string"},
       {"/haptics/weight/weight", 0, "haptics.weight.weight: it is of type number where true or false"},
       {"/haptics/weight/inertia", nullptr, "haptics.weight.inertia: it is of type null"},
-      {"/haptics/weight/gravity", {0, 1}, "haptics.weight.gravity: it has 2 elements where 3 are wanted"},
+      {"/haptics/weight/gravity", {0, 1}, "haptics.weight.gravity: it has 2 elements, but 3 are expected"},
       {"/haptics/weight/gravity", {0, 0, 2000}, "haptics.weight.gravity: 2000 m/s^2 is out of range"},
       {"/haptics/mapping/scale", 0, "haptics.mapping.scale: 0 is out of range"},
       {"/haptics/mapping/orientation", {1, 1, 0, 0}, "haptics.mapping.orientation: its length is 1.414"},
@@ -112,8 +112,8 @@ TEST_F(SceneFileFaults, EveryFieldIsCheckedAndNamed) {
       {"/moving", 3, "moving: it is of type number"},
       {"/moving", "Pin", "moving: there is no part \"Pin\""},
       {"/moving", "Hole \xC3\xA4", "moving: this part is locked"},
-      {"/parts", nullptr, "parts: it is of type null where an array is wanted"},
-      {"/parts/1", 7, "parts[1]: it is of type number where an object is wanted"},
+      {"/parts", nullptr, "parts: it is of type null, but an array is expected"},
+      {"/parts/1", 7, "parts[1]: it is of type number, but an object is expected"},
       {"/parts/1/name", "", "parts[1].name: a part's name is empty"},
       {"/parts/1/name", "a\nb", "parts[1].name: a part's name holds control characters"},
       {"/parts/1/name", longName, "parts[1].name: it is longer than 200 bytes"},
@@ -124,10 +124,10 @@ TEST_F(SceneFileFaults, EveryFieldIsCheckedAndNamed) {
       {"/parts/1/mesh", std::string(4000, 'x'), "parts[1].mesh: the mesh file"},
       {"/parts/1/mesh", "..", "parts[1].mesh: "},
       {"/parts/1/mesh", "/dev/zero", "parts[1].mesh: /dev/zero: "},
-      {"/parts/1/sha256", "abc", "parts[1].sha256: it is no SHA-256"},
-      {"/parts/1/sha256", std::string(64, 'g'), "parts[1].sha256: it is no SHA-256"},
-      {"/parts/1/metresPerUnit", 0, "parts[1].metresPerUnit: 0 metres to the unit is out of range"},
-      {"/parts/1/position", {0, 0}, "parts[1].position: it has 2 elements where 3 are wanted"},
+      {"/parts/1/sha256", "abc", "parts[1].sha256: it is not a SHA-256"},
+      {"/parts/1/sha256", std::string(64, 'g'), "parts[1].sha256: it is not a SHA-256"},
+      {"/parts/1/metresPerUnit", 0, "parts[1].metresPerUnit: 0 metres per unit is out of range"},
+      {"/parts/1/position", {0, 0}, "parts[1].position: it has 2 elements, but 3 are expected"},
       {"/parts/1/position", {0, 0, "1"}, "parts[1].position[2]: it is of type string"},
       {"/parts/1/position", {0, 0, 1e10}, "parts[1].position: a coordinate is 10000000000 m"},
       {"/parts/1/quaternion", {0, 0, 0, 0}, "parts[1].quaternion: its length is 0, not 1"},
@@ -135,29 +135,30 @@ TEST_F(SceneFileFaults, EveryFieldIsCheckedAndNamed) {
       {"/parts/1/quaternion", {1e200, 0, 0, 0}, "parts[1].quaternion: its length is inf"},
       {"/parts/1/colour", {0, 0, 1.5}, "parts[1].colour[2]: 1.5 is out of range"},
       {"/parts/1/colour", "#ffffff", "parts[1].colour: it is of type string"},
-      {"/parts/1/visible", 1, "parts[1].visible: it is of type number where true or false is wanted"},
-      {"/groups", nullptr, "groups: it is of type null where an array is wanted"},
-      {"/groups/1", 7, "groups[1]: it is of type number where an object is wanted"},
+      {"/parts/1/visible", 1, "parts[1].visible: it is of type number, but true or false is expected"},
+      {"/groups", nullptr, "groups: it is of type null, but an array is expected"},
+      {"/groups/1", 7, "groups[1]: it is of type number, but an object is expected"},
       {"/groups/1/name", "", "groups[1].name: a group's name is empty"},
       {"/groups/1/name", "a\nb", "groups[1].name: a group's name holds control characters"},
       {"/groups/1/name", longName, "groups[1].name: it is longer than 200 bytes"},
       {"/groups/1/locked", 0, "groups[1].locked: it is of type number"},
       // Neither itself nor one behind it, so that none can hold itself.
-      {"/groups/1/group", 1, "groups[1].group: 1 is none of 1 groups; give the number of one before this"},
-      {"/groups/1/group", 2, "groups[1].group: 2 is none of 1 groups"},
-      {"/groups/1/group", -1, "groups[1].group: -1 is none of 1 groups"},
-      {"/groups/2/group", 0.5, "groups[2].group: 0.5 is none of 2 groups"},
+      {"/groups/1/group", 1,
+       "groups[1].group: 1 is not the number of one of the 1 groups; give the number of an earlier group"},
+      {"/groups/1/group", 2, "groups[1].group: 2 is not the number of one of the 1 groups"},
+      {"/groups/1/group", -1, "groups[1].group: -1 is not the number of one of the 1 groups"},
+      {"/groups/2/group", 0.5, "groups[2].group: 0.5 is not the number of one of the 2 groups"},
       {"/groups/2/group", "Spare", "groups[2].group: it is of type string"},
-      {"/parts/1/group", 3, "parts[1].group: 3 is none of 3 groups"},
-      {"/parts/1/group", 1e300, "parts[1].group: 1e+300 is none of 3 groups"},
+      {"/parts/1/group", 3, "parts[1].group: 3 is not the number of one of the 3 groups"},
+      {"/parts/1/group", 1e300, "parts[1].group: 1e+300 is not the number of one of the 3 groups"},
       {"/parts/1/group", false, "parts[1].group: it is of type boolean"},
       {"/parts/1/opacity", 0, "parts[1].opacity: 0 is out of range; give a value from 0.05 to 1"},
       {"/parts/1/opacity", 1.01, "parts[1].opacity: 1.01 is out of range"},
       {"/parts/1/opacity", nullptr, "parts[1].opacity: it is of type null"},
-      {"/parts/1/pivot", {0, 0}, "parts[1].pivot: it has 2 elements where 3 are wanted"},
+      {"/parts/1/pivot", {0, 0}, "parts[1].pivot: it has 2 elements, but 3 are expected"},
       {"/parts/1/pivot", {0, 2e9, 0}, "parts[1].pivot: a coordinate is 2000000000 m; stay within"},
       {"/parts/1/pivot", true, "parts[1].pivot: it is of type boolean"},
-      {"/parts/1/wasVisible", 1, "parts[1].wasVisible: it is of type number where true or false is wanted"},
+      {"/parts/1/wasVisible", 1, "parts[1].wasVisible: it is of type number, but true or false is expected"},
       {"/moving", "Peg 2", "moving: this part is locked"},
       {"/parts/1/locked", "no", "parts[1].locked: it is of type string"},
   };
@@ -191,7 +192,7 @@ TEST_F(SceneFileFaults, EveryKeyIsNeeded) {
 TEST_F(SceneFileFaults, Version1IsCheckedAndNamedAsItSaysThings) {
   json_ = version1();
   EXPECT_THAT(errorWith("/springs/cutoff", 0), HasSubstr("fit.nearfit: springs.cutoff: 0 m is out of range"));
-  EXPECT_THAT(errorWith("/springs/law", "cubic"), HasSubstr("springs.law: this word is not known"));
+  EXPECT_THAT(errorWith("/springs/law", "cubic"), HasSubstr("springs.law: this value is not known"));
   EXPECT_THAT(errorWith("/springs/damping", nullptr), HasSubstr("springs.damping: it is of type null"));
   for (const auto& [key, value] : json_["springs"].items())
     EXPECT_THAT(errorWithout("/springs", key), HasSubstr("springs." + key + ": it is missing"));
@@ -226,7 +227,7 @@ TEST_F(SceneFileFaults, GroupsTooDeepOrTooManyAreRefused) {
     json_["groups"].push_back(group);
     if (i > 0) json_["groups"][i]["group"] = i - 1;
   }
-  EXPECT_THAT(errorOf(json_.dump()), HasSubstr("groups[32].group: groups are more than 32 deep"));
+  EXPECT_THAT(errorOf(json_.dump()), HasSubstr("groups[32].group: groups are nested more than 32 deep"));
   json_["groups"] = Json::array();
   for (std::size_t i = 0; i <= kMaxGroups; ++i)
     json_["groups"].push_back(group);
@@ -234,7 +235,7 @@ TEST_F(SceneFileFaults, GroupsTooDeepOrTooManyAreRefused) {
 }
 
 TEST_F(SceneFileFaults, TooBigAFileIsRefused) {
-  EXPECT_THAT(errorOf(std::string(kMaxSceneFileBytes + 1, ' ')), HasSubstr("bigger than"));
+  EXPECT_THAT(errorOf(std::string(kMaxSceneFileBytes + 1, ' ')), HasSubstr("larger than"));
 }
 
 TEST_F(SceneFileFaults, TooManyPartsAreRefused) {

@@ -73,7 +73,7 @@ TEST(SceneGroups, GroupDoesNotHoldItselfAtAnyDepth) {
   Scene scene;
   const GroupId a = addGroup(scene, "a"), b = addGroup(scene, "b", a), c = addGroup(scene, "c", b);
   for (const GroupId inner : {a, b, c})
-    EXPECT_THAT(refusalOf([&] { moveGroup(scene, a, inner); }), HasSubstr("it would be in itself"));
+    EXPECT_THAT(refusalOf([&] { moveGroup(scene, a, inner); }), HasSubstr("a group cannot contain itself"));
   EXPECT_EQ(scene.findGroup(a)->parent, std::nullopt);
 }
 
@@ -182,7 +182,7 @@ TEST(SceneGroups, GroupOfTheMovingPartIsNotLocked) {
   Scene scene;
   const GroupId outer = addGroup(scene, "outer"), inner = addGroup(scene, "inner", outer);
   scene.setMovingPart(scene.add(named("Peg", inner)));
-  EXPECT_THAT(refusalOf([&] { lock(scene, outer); }), HasSubstr("the moving part \"Peg\" is in it"));
+  EXPECT_THAT(refusalOf([&] { lock(scene, outer); }), HasSubstr("it contains the moving part \"Peg\""));
   scene.setMovingPart(std::nullopt);
   EXPECT_NO_THROW(lock(scene, outer));
 }

@@ -162,16 +162,16 @@ TEST_F(MotionReader, NothingThatAFileSaysIsTrusted) {
                                                                                       {"torque_z", ""}}) {
     EXPECT_THAT(refusal(with(column, value)), HasSubstr("felt.csv:2")) << column << " " << value;
   }
-  EXPECT_THAT(refusal(with("lmds", "1.5")), HasSubstr("\"1.5\" cannot be lmds"));
+  EXPECT_THAT(refusal(with("lmds", "1.5")), HasSubstr("\"1.5\" is not a valid lmds"));
   EXPECT_THAT(refusal("t_s,handle_tx\n0,0\n"), HasSubstr("felt.csv:1: there is no column handle_ty"));
-  EXPECT_THAT(refusal(""), HasSubstr("there is nothing in it"));
+  EXPECT_THAT(refusal(""), HasSubstr("it is empty"));
   const std::string header = std::string(motionHeader()) + "\n";
-  EXPECT_THAT(refusal(header), HasSubstr("there are no rows in it"));
+  EXPECT_THAT(refusal(header), HasSubstr("it has no rows"));
   EXPECT_THAT(refusal(header + "0,1,2\n"), HasSubstr("felt.csv:2: it ends before column"));
   test::RandomValues random(1);
   EXPECT_THAT(refusal(header + formatMotionRow(rowAt(1.0, random)) + "\n" +
                       formatMotionRow(rowAt(0.5, random)) + "\n"),
-              HasSubstr("felt.csv:3: it is earlier than the row before"));
+              HasSubstr("felt.csv:3: its time is earlier than that of the row before"));
   EXPECT_THROW(readMotion(folder_.path() / "missing.csv"), FileError);
 }
 

@@ -63,7 +63,7 @@ TEST_F(SessionGroups, EveryCommandOverSeveralIsOneStepAndSaysWhatItIs) {
   EXPECT_EQ(stepOf([&] { session_.setDensity({a_, b_}, 7850); }), "Change the density of 2 parts");
   EXPECT_EQ(stepOf([&] { session_.moveParts({a_, b_}, a_, {}); }), "Move 2 parts");
   EXPECT_EQ(stepOf([&] { session_.isolate({c_}); }), "Isolate c");
-  EXPECT_EQ(stepOf([&] { session_.endIsolation(); }), "End the isolation");
+  EXPECT_EQ(stepOf([&] { session_.endIsolation(); }), "End isolation");
   GroupId group{}, outer{};
   EXPECT_EQ(stepOf([&] { group = session_.group({{a_, b_}, {}}); }), "Group 2 parts");
   group = session_.scene().groups().back()->id;
@@ -73,7 +73,7 @@ TEST_F(SessionGroups, EveryCommandOverSeveralIsOneStepAndSaysWhatItIs) {
   EXPECT_EQ(stepOf([&] { session_.group({{}, {group}}, "Outer"); }), "Group Pair");
   outer = session_.scene().groups().back()->id;
   EXPECT_EQ(stepOf([&] { session_.regroup({{c_}, {}}, outer); }), "Put c into Outer");
-  EXPECT_EQ(stepOf([&] { session_.regroup({{}, {group}}, std::nullopt); }), "Put Pair at the top");
+  EXPECT_EQ(stepOf([&] { session_.regroup({{}, {group}}, std::nullopt); }), "Move Pair to the top level");
   EXPECT_EQ(stepOf([&] { session_.duplicate({{c_}, {group}}); }), "Duplicate 3 parts");
   EXPECT_EQ(stepOf([&] { session_.ungroup({outer}); }), "Ungroup Outer");
   EXPECT_EQ(stepOf([&] { session_.deleteNodes({{c_}, {group}}); }), "Delete 3 parts");

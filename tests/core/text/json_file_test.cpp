@@ -67,7 +67,7 @@ TEST_F(JsonFile, DeepNestingIsRefused) {
 
 TEST_F(JsonFile, TooManyValuesOrBytesAreRefused) {
   EXPECT_THAT(errorOf("[1,2,3,4,5,6,7,8,9]", {.maxValues = 5}).problem(), HasSubstr("more than 5 values"));
-  EXPECT_THAT(errorOf("[1,2,3,4,5,6,7,8,9]", {.maxBytes = 18}).problem(), HasSubstr("bigger than 18 bytes"));
+  EXPECT_THAT(errorOf("[1,2,3,4,5,6,7,8,9]", {.maxBytes = 18}).problem(), HasSubstr("larger than 18 bytes"));
   EXPECT_NO_THROW(read("[1,2,3,4,5,6,7,8,9]", {.maxBytes = 19}));
 }
 
@@ -96,18 +96,18 @@ TEST_F(JsonFile, FieldsNameTheirPath) {
     return "no error";
   };
   EXPECT_EQ(whatOf([&] { part.at("position").at(1).number(); }),
-            "s.nearfit: parts[1].position[1]: it is of type string where a number is wanted");
+            "s.nearfit: parts[1].position[1]: it is of type string, but a number is expected");
   EXPECT_EQ(whatOf([&] { part.at("quaternion"); }), "s.nearfit: parts[1].quaternion: it is missing");
   EXPECT_EQ(whatOf([&] { part.at("name").text(9); }), "s.nearfit: parts[1].name: it holds a NUL character");
   EXPECT_EQ(whatOf([&] { part.at("name").text(2); }), "s.nearfit: parts[1].name: it is longer than 2 bytes");
   EXPECT_EQ(whatOf([&] { part.at("position").at("x"); }),
-            "s.nearfit: parts[1].position: it is of type array where an object is wanted");
+            "s.nearfit: parts[1].position: it is of type array, but an object is expected");
   EXPECT_EQ(whatOf([&] { part.size(); }),
-            "s.nearfit: parts[1]: it is of type object where an array is wanted");
+            "s.nearfit: parts[1]: it is of type object, but an array is expected");
   EXPECT_EQ(whatOf([&] { part.at("position").at(0).numberWithin(1, 2); }),
             "s.nearfit: parts[1].position[0]: 0 is out of range; give a value from 1 to 2");
   EXPECT_EQ(whatOf([&] { part.at("name").isTrue(); }),
-            "s.nearfit: parts[1].name: it is of type string where true or false is wanted");
+            "s.nearfit: parts[1].name: it is of type string, but true or false is expected");
 }
 
 }  // namespace

@@ -84,17 +84,17 @@ TEST(Quantity, FunctionsTakeWhatTheyAreDefinedFor) {
   EXPECT_DOUBLE_EQ(angleOf("asin(0,5)"), std::asin(0.5));
   EXPECT_DOUBLE_EQ(lengthOf("abs(-2 mm) + min(4 mm; 3 mm; 5 mm)"), 0.005);
   // Degrees or radians? It has to be said.
-  EXPECT_NE(refusalOf("10 mm * sin(30)").problem.find("go together"), std::string::npos);
+  EXPECT_NE(refusalOf("10 mm * sin(30)").problem.find("do not match"), std::string::npos);
 }
 
 TEST(Quantity, DimensionsAreChecked) {
   EXPECT_NE(refusalOf("3 mm * 2 mm").problem.find("an area"), std::string::npos);
-  EXPECT_NE(refusalOf("3 mm * 2 mm").problem.find("a length is wanted"), std::string::npos);
+  EXPECT_NE(refusalOf("3 mm * 2 mm").problem.find("a length is expected"), std::string::npos);
   EXPECT_NE(refusalOf("30 deg").problem.find("an angle"), std::string::npos);
-  EXPECT_NE(refusalOf("1 mm", kDegree).problem.find("an angle is wanted"), std::string::npos);
-  EXPECT_NE(refusalOf("1 mm", kPlain).problem.find("number without unit is wanted"), std::string::npos);
+  EXPECT_NE(refusalOf("1 mm", kDegree).problem.find("an angle is expected"), std::string::npos);
+  EXPECT_NE(refusalOf("1 mm", kPlain).problem.find("number without unit is expected"), std::string::npos);
   for (const char* mixed : {"3 + 5 mm", "3 mm + 2 deg", "1 mm + 1 mm^2", "max(3; 4 mm)", "2^(3 mm)"})
-    EXPECT_NE(refusalOf(mixed).problem.find("go together"), std::string::npos) << mixed;
+    EXPECT_NE(refusalOf(mixed).problem.find("do not match"), std::string::npos) << mixed;
 }
 
 TEST(Quantity, ZerosDoNotHideADimension) {

@@ -125,20 +125,20 @@ TEST_F(FalconUpload, WithoutPowerItSaysThatTheLoaderIsSilent) {
 
 TEST_F(FalconUpload, ALoaderThatTakesNothingIsTold) {
   falcon.refusesBegin = true;
-  EXPECT_THAT(errorOf(image()).problem(), HasSubstr("does not take firmware"));
+  EXPECT_THAT(errorOf(image()).problem(), HasSubstr("does not accept firmware"));
 }
 
 TEST_F(FalconUpload, BlocksThatKeepComingBackWrongAreTold) {
   falcon.wrongEchoes = 1000;
   const DeviceError error = errorOf(image());
-  EXPECT_THAT(error.problem(), HasSubstr("byte 0 of the firmware wrongly (5 attempts)"));
+  EXPECT_THAT(error.problem(), HasSubstr("byte 0 of the firmware incorrectly (5 attempts)"));
   EXPECT_THAT(error.remedy(), HasSubstr("hub"));
   EXPECT_EQ(falcon.uploads(), kUploads);
 }
 
 TEST_F(FalconUpload, AnUploadThatStopsIsToldWithThePlace) {
   falcon.mostBytes = 100;
-  EXPECT_THAT(errorOf(image()).problem(), HasSubstr("stopped taking firmware at byte 100 of 2497"));
+  EXPECT_THAT(errorOf(image()).problem(), HasSubstr("stopped accepting firmware at byte 100 of 2497"));
 }
 
 TEST_F(FalconUpload, AFileOfSomethingElseDoesNotRun) {

@@ -73,7 +73,7 @@ TEST(DevicePlugin, WhatIsNoneIsRefusedWithItsReason) {
   std::ofstream(text) << "not a library";
   fs::permissions(text, fs::perms::owner_all);
   EXPECT_THAT(whyNot(text), HasSubstr("cannot be loaded"));
-  EXPECT_THAT(whyNot(folder.path()), HasSubstr("no file"));
+  EXPECT_THAT(whyNot(folder.path()), HasSubstr("not a file"));
 }
 
 TEST(DevicePlugin, FilesThatOthersMayWriteAreNotLoaded) {
@@ -81,7 +81,7 @@ TEST(DevicePlugin, FilesThatOthersMayWriteAreNotLoaded) {
   const fs::path copy = folder.path() / "copy.so";
   fs::copy_file(NEARFIT_EXAMPLE_PLUGIN, copy);
   fs::permissions(copy, fs::perms::owner_all | fs::perms::others_write);
-  EXPECT_THAT(whyNot(copy), HasSubstr("others may write"));
+  EXPECT_THAT(whyNot(copy), HasSubstr("other users can write"));
   fs::permissions(copy, fs::perms::owner_all);
   EXPECT_EQ(whyNot(copy), "");
 }

@@ -70,9 +70,9 @@ TEST(DeviceRegistry, OpenHapOfAnotherVersionIsKnownAndNotUsable) {
     const auto match = recognise(other);
     ASSERT_TRUE(match);
     EXPECT_FALSE(match->isUsable());
-    EXPECT_EQ(match->needs,
-              "it speaks version " + std::to_string(version) + " of OpenHap, this program version 1");
-    EXPECT_THAT(match->remedy, HasSubstr("newer program or firmware"));
+    EXPECT_EQ(match->needs, "it speaks version " + std::to_string(version) +
+                                " of OpenHap, but this program speaks version 1");
+    EXPECT_THAT(match->remedy, HasSubstr("newer Nearfit or newer firmware"));
     EXPECT_THROW(makeDevice(other, {}), DeviceError);
   }
 }

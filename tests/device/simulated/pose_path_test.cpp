@@ -84,9 +84,9 @@ TEST_F(PosePath, NumbersTooSmallForADoubleAreZero) {
 }
 
 TEST_F(PosePath, AWrongNumberOfColumnsIsCounted) {
-  EXPECT_THAT(refusal("0,0,0,1,0,0\n"), HasSubstr(":1: 6 values where 7 belong"));
-  EXPECT_THAT(refusal("0,0,0,1,0,0,0,0\n"), HasSubstr(":1: 8 values where 7 belong"));
-  EXPECT_THAT(refusal("0 0 0 1 0 0 0\n"), HasSubstr(":1: 1 values where 7 belong"));
+  EXPECT_THAT(refusal("0,0,0,1,0,0\n"), HasSubstr(":1: 6 values instead of 7"));
+  EXPECT_THAT(refusal("0,0,0,1,0,0,0,0\n"), HasSubstr(":1: 8 values instead of 7"));
+  EXPECT_THAT(refusal("0 0 0 1 0 0 0\n"), HasSubstr(":1: 1 values instead of 7"));
 }
 
 TEST_F(PosePath, ASecondHeaderIsNoHeader) {

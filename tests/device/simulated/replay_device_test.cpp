@@ -66,17 +66,17 @@ TEST_F(Replay, AFileThatIsCutWithinARowIsReplayedToItsLastWholeRow) {
 }
 
 TEST_F(Replay, WhatIsNoRecordingIsRefusedWithItsPlace) {
-  EXPECT_THAT(refusal(""), HasSubstr("there is nothing in it"));
+  EXPECT_THAT(refusal(""), HasSubstr("it is empty"));
   EXPECT_THAT(refusal("0,0,0,1,0,0,0\n"), HasSubstr("felt.csv:1: there is no column t_s"));
   const std::string header = "t_s,handle_tx,handle_ty,handle_tz,handle_qw,handle_qx,handle_qy,handle_qz\n";
-  EXPECT_THAT(refusal(header), HasSubstr("there are no poses in it"));
+  EXPECT_THAT(refusal(header), HasSubstr("it has no poses"));
   EXPECT_THAT(refusal(header + "0,0,0,0,1,0,0\n"), HasSubstr("felt.csv:2: it ends before column handle_qz"));
   EXPECT_THAT(refusal(header + "0,0,0,zero,1,0,0,0\n"), HasSubstr("column 4: \"zero\" is not a number"));
   EXPECT_THAT(refusal(header + "0,0,0,0,2,0,0,0\n"), HasSubstr("the quaternion has length 2"));
   EXPECT_THAT(refusal(header + "nan,0,0,0,1,0,0,0\n"), HasSubstr("column 1: \"nan\" is not finite"));
-  EXPECT_THAT(refusal(header + "1e300,0,0,0,1,0,0,0\n"), HasSubstr("is no time of a recording"));
+  EXPECT_THAT(refusal(header + "1e300,0,0,0,1,0,0,0\n"), HasSubstr("is not a valid time"));
   EXPECT_THAT(refusal(header + "1,0,0,0,1,0,0,0\n0.5,0,0,0,1,0,0,0\n"),
-              HasSubstr("felt.csv:3: it is earlier"));
+              HasSubstr("felt.csv:3: its time is earlier"));
   EXPECT_THROW(readHandMotion(folder_.path() / "none.csv"), FileError);
 }
 

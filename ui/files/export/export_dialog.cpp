@@ -164,12 +164,12 @@ QString ExportDialog::placementSummary() const {
               "by rows, all in the world frame.")
         .arg(parts);
   const Part* moving = scene_.movingPart() ? scene_.find(*scene_.movingPart()) : nullptr;
-  const QString poses = tr("Where %1 stand: name, mesh file and SHA-256, position [m], quaternion and 4x4 "
-                           "matrix in the world frame.")
+  const QString poses = tr("The placement of %1: name, mesh file and SHA-256, position [m], quaternion and "
+                           "4x4 matrix in the world frame.")
                             .arg(parts);
-  if (moving == nullptr) return poses + QChar(' ') + tr("No clearances, as no part is in hand.");
+  if (moving == nullptr) return poses + QChar(' ') + tr("No clearances, because no part is in hand.");
   return poses + QChar(' ') +
-         tr("Then every local minimum distance within the cutoff between %1 and each other visible part.")
+         tr("Also every local minimum distance within the cutoff between %1 and each other visible part.")
              .arg(breakable(shortName(moving->name)));
 }
 

@@ -81,7 +81,7 @@ void PictureDialog::setUpFields() {
   for (int i = size_->count() - 1; i > 0; --i) {
     if (shown_.width() * size_->itemData(i).toInt() > largest_.width()) size_->removeItem(i);
   }
-  size_->addItem(tr("Own width"), kOwn);
+  size_->addItem(tr("Custom width"), kOwn);
   width_ = new QSpinBox(this);
   width_->setObjectName(QStringLiteral("pictureWidth"));
   width_->setAccessibleName(tr("Width in pixels"));
@@ -99,8 +99,7 @@ void PictureDialog::setUpFields() {
   axes_->setObjectName(QStringLiteral("pictureAxes"));
   labels_ = new QCheckBox(tr("&Legend and measures"), this);
   labels_->setObjectName(QStringLiteral("pictureLabels"));
-  labels_->setToolTip(
-      tr("What the colours of minima and the arrows mean, with their numbers, and what is measured"));
+  labels_->setToolTip(tr("Legend of the minima and arrows with their values, and measurements"));
 
   auto* pixels = new QHBoxLayout;
   pixels->addWidget(width_);
@@ -124,7 +123,7 @@ void PictureDialog::setUpButtons() {
   buttons->button(QDialogButtonBox::Save)->setText(tr("Save…"));
   QPushButton* copy = buttons->addButton(tr("&Copy"), QDialogButtonBox::ActionRole);
   copy->setObjectName(QStringLiteral("pictureCopy"));
-  copy->setToolTip(tr("Put this picture on the clipboard"));
+  copy->setToolTip(tr("Copy this picture to the clipboard"));
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(copy, &QPushButton::clicked, this, [this] {

@@ -51,7 +51,8 @@ PictureTaker::PictureTaker(const Session& session, ViewPicture& pictures, QWidge
   save_->setToolTip(tr("Save a picture of the view, in any size"));
   copy_->setObjectName(QStringLiteral("copyPicture"));
   copy_->setShortcut(QKeySequence(QStringLiteral("Ctrl+Alt+C")));
-  copy_->setToolTip(tr("Put a picture of the view on the clipboard, as the last one was saved"));
+  copy_->setToolTip(
+      tr("Copy a picture of the view to the clipboard, with the options of the last saved one"));
   connect(save_, &QAction::triggered, this, &PictureTaker::askAndSave);
   connect(copy_, &QAction::triggered, this,
           [this] { putOnClipboard(pictures_.take(PictureDialog::remembered())); });

@@ -19,7 +19,7 @@ Recovery::Recovery(const std::filesystem::path& folder, Session& session, Docume
       window_(window),
       autosave_(new Autosave(session, folder_, std::move(poseInHand), this)) {
   connect(autosave_, &Autosave::failed, this, [this](const QString& cause) {
-    emit noted(tr("Unsaved work cannot be kept for after a crash: %1").arg(cause));
+    emit noted(tr("Unsaved work cannot be protected against a crash: %1").arg(cause));
   });
   connect(qApp, &QCoreApplication::aboutToQuit, autosave_, &Autosave::finish);
 }
@@ -79,7 +79,7 @@ void Recovery::restore(const LostWork& work) {
       once->deleteLater();
     });
     autosave_->writeNow();
-    emit noted(tr("Restored; save it to keep it"));
+    emit noted(tr("Restored; save the scene to keep it"));
   });
 }
 

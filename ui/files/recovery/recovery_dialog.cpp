@@ -31,12 +31,12 @@ QString nameOf(const LostWork& work) {
 }
 
 QString changesText(std::size_t count) {
-  return count == 1 ? QObject::tr("one change not saved")
-                    : QObject::tr("%n changes not saved", nullptr, static_cast<int>(count));
+  return count == 1 ? QObject::tr("1 unsaved change")
+                    : QObject::tr("%n unsaved changes", nullptr, static_cast<int>(count));
 }
 
 QString partsText(std::size_t count) {
-  return count == 1 ? QObject::tr("one part") : QObject::tr("%n parts", nullptr, static_cast<int>(count));
+  return count == 1 ? QObject::tr("1 part") : QObject::tr("%n parts", nullptr, static_cast<int>(count));
 }
 
 QLabel* plainLabel(const QString& text, QWidget* parent) {
@@ -55,9 +55,9 @@ RecoveryDialog::RecoveryDialog(const std::vector<LostWork>& lost, QWidget* paren
   setAttribute(Qt::WA_DeleteOnClose);
   setWindowModality(Qt::WindowModal);
   auto* layout = new QVBoxLayout(this);
-  layout->addWidget(plainLabel(
-      tr("Nearfit ended before this work was saved. What is left for later is offered at the next start."),
-      this));
+  layout->addWidget(plainLabel(tr("Nearfit ended before this work was saved. Work that you leave for later "
+                                  "is offered again at the next start."),
+                               this));
   auto* list = new QWidget(this);
   list->setLayout(rows_);
   rows_->setContentsMargins(0, 0, 0, 0);
@@ -104,12 +104,12 @@ void RecoveryDialog::addRow(const LostWork& work, int number) {
     return button;
   };
   QPushButton* restore = addButton(tr("Restore"), "restore", QDialogButtonBox::ActionRole);
-  restore->setToolTip(tr("Opens it as it was; it still has to be saved"));
+  restore->setToolTip(tr("Open the scene as it was; you still have to save it"));
   restore->setDefault(number == 1);
   QPushButton* discard = addButton(tr("Discard"), "discard", QDialogButtonBox::ActionRole);
-  discard->setToolTip(tr("It is not offered again"));
+  discard->setToolTip(tr("Do not offer this work again"));
   QPushButton* later = addButton(tr("Later"), "later", QDialogButtonBox::ActionRole);
-  later->setToolTip(tr("It is offered again at the next start"));
+  later->setToolTip(tr("Offer this work again at the next start"));
   connect(restore, &QPushButton::clicked, this, [this, work] {
     accept();
     emit restoreRequested(work);

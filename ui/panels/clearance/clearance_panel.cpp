@@ -50,7 +50,7 @@ ClearancePanel::ClearancePanel(Session& session, ClearanceSearch& search, QWidge
   export_->setObjectName(QStringLiteral("exportClearances"));
   connect(export_, &QPushButton::clicked, this, &ClearancePanel::exportTable);
   auto* partLabel = new QLabel(tr("&Part"), this);
-  auto* thresholdLabel = new QLabel(tr("&Too near below"), this);
+  auto* thresholdLabel = new QLabel(tr("&Threshold"), this);
   partLabel->setBuddy(subject_);
   thresholdLabel->setBuddy(threshold_);
   // On high-resolution displays letters are a little wider than Qt expects, and the last one was cut off.
@@ -80,7 +80,7 @@ ClearancePanel::ClearancePanel(Session& session, ClearanceSearch& search, QWidge
 void ClearancePanel::setUpFields() {
   subject_ = new QComboBox(this);
   subject_->setObjectName(QStringLiteral("clearancePart"));
-  subject_->setToolTip(tr("The part whose distances to all other visible ones are listed"));
+  subject_->setToolTip(tr("The part whose clearances to all other visible parts are listed"));
   subject_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   connect(subject_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
     const QVariant id = subject_->currentData();
@@ -92,7 +92,7 @@ void ClearancePanel::setUpFields() {
   threshold_->setLength(kThresholdDecimals);
   threshold_->setQuantityRange(0.0, kMaxThreshold);
   threshold_->setQuantityStep(kThresholdStep);
-  threshold_->setHelp(tr("Pairs that are nearer are marked"));
+  threshold_->setHelp(tr("Pairs nearer than this are marked as too near"));
   threshold_->showQuantity(keptThreshold());
   model_->setThreshold(threshold_->quantity());
   connect(threshold_, &NumberField::quantityEdited, this, [this](double metres) {
@@ -165,12 +165,12 @@ void ClearancePanel::showNote() {
     note = tr("Choose a part, or take one in hand.");
   } else if (!hasRows) {
     note = session_.scene().parts().size() > 1
-               ? tr("No other part is visible, or the search is not done yet.")
+               ? tr("No other part is visible, or the search is not finished yet.")
                : tr("There is no other part.");
   } else if (const std::optional<PartClearance> pair = chosen(); !pair) {
-    note = tr("Choose a row to see where the two are nearest.");
+    note = tr("Select a row to see where the two parts are nearest.");
   } else if (!pair->isOverlapping()) {
-    note = tr("The line in the view joins the points where the two are nearest.");
+    note = tr("The line in the view joins the nearest points of the two parts.");
   }
   note_->setText(note);
 }

@@ -84,7 +84,7 @@ void ClearanceSearch::finish(std::optional<PartId> part, const Scene& scene,
   // Results for a former part, or of a cancelled search: what is due follows.
   if (part != subject() || !isWanted_ || (error && isDue_)) return;
   if (error) {
-    emit failed(describe(tr("The clearances could not be found."), error));
+    emit failed(describe(tr("The clearances could not be computed."), error));
     return;
   }
   searched_ = scene;

@@ -26,7 +26,7 @@ DeviceNotices::DeviceNotices(QWidget* parent)
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   text_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kWarning.name()));
   copy_->setObjectName(QStringLiteral("copyCommand"));
-  copy_->setToolTip(tr("To paste it into a terminal; then plug the device in again"));
+  copy_->setToolTip(tr("Copy the command to paste it into a terminal; then plug the device in again"));
   connect(copy_, &QPushButton::clicked, this, [this] { QApplication::clipboard()->setText(command_); });
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);

@@ -28,15 +28,14 @@ class CutoffPage : public FeelPage {
   explicit CutoffPage(QWidget* parent) : FeelPage(parent) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
-    layout->addWidget(
-        addNumber({"cutoff",
-                   tr("Minima are looked for up to this distance; also the rest length of springs"),
-                   {},
-                   kMinCutoff,
-                   kMaxCutoff,
-                   4,
-                   true},
-                  [](HapticSettings& s) -> double& { return s.springs.cutoff; }));
+    layout->addWidget(addNumber({"cutoff",
+                                 tr("Range of the search for minima; also the rest length of springs"),
+                                 {},
+                                 kMinCutoff,
+                                 kMaxCutoff,
+                                 4,
+                                 true},
+                                [](HapticSettings& s) -> double& { return s.springs.cutoff; }));
   }
 };
 
@@ -57,7 +56,7 @@ FeelDialog::FeelDialog(PresetStore& presets, QWidget* parent)
   contact_->addWidget(springs_);
   auto* tabs = new QTabWidget(this);
   tabs->setObjectName(QStringLiteral("feelTabs"));
-  tabs->setAccessibleName(tr("Settings of the feel"));
+  tabs->setAccessibleName(tr("Feel settings"));
   tabs->addTab(contact_, tr("Contact"));
   tabs->addTab(weight_, tr("Weight"));
   tabs->addTab(workspace_, tr("Workspace"));
@@ -87,7 +86,7 @@ QWidget* FeelDialog::makeButtons() {
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
   revert_ = buttons->addButton(tr("Revert"), QDialogButtonBox::ResetRole);
   revert_->setObjectName(QStringLiteral("revert"));
-  revert_->setToolTip(tr("Back to what was set when this window was opened"));
+  revert_->setToolTip(tr("Restore the settings from when this window was opened"));
   // Return accepts a number; it must not press a button too.
   for (QAbstractButton* button : buttons->buttons())
     qobject_cast<QPushButton*>(button)->setAutoDefault(false);

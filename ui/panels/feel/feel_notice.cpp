@@ -27,7 +27,7 @@ QString namesOf(const ServoSnapshot& snapshot, const Scene& scene) {
 }  // namespace
 
 FeelNotice::FeelNotice(QWidget* parent)
-    : QFrame(parent), text_(new QLabel(this)), restart_(new QPushButton(tr("Start anew"), this)) {
+    : QFrame(parent), text_(new QLabel(this)), restart_(new QPushButton(tr("Start again"), this)) {
   setObjectName(QStringLiteral("feelNotice"));
   setStyleSheet(QStringLiteral("#feelNotice { background: #fdf0e3; border: 1px solid #e8c39b; "
                                "border-radius: 5px; } #feelNotice QLabel { color: %1; }")
@@ -51,7 +51,8 @@ void FeelNotice::clear() {
 
 void FeelNotice::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) {
   QString text = textFor(snapshot, scene);
-  if (hasWaitedLong(snapshot) && text.isEmpty()) text = tr("Waits until it is known what the part overlaps.");
+  if (hasWaitedLong(snapshot) && text.isEmpty())
+    text = tr("Waiting until it is known what the part overlaps.");
   text_->setText(text);
   restart_->setVisible(snapshot.fault != ServoFault::None);
   setVisible(!text.isEmpty());
@@ -78,8 +79,9 @@ QString FeelNotice::textFor(const ServoSnapshot& snapshot, const Scene& scene) c
     return tr("Nothing is felt: %1.").arg(QString::fromUtf8(faultReason(snapshot.fault)));
   if (snapshot.releasedCount == 0) return {};
   const QString names = namesOf(snapshot, scene);
-  return snapshot.releasedCount == 1 ? tr("Overlaps %1: not felt until they are apart.").arg(names)
-                                     : tr("Overlaps %1: not felt until it is apart from them.").arg(names);
+  return snapshot.releasedCount == 1
+             ? tr("Overlaps %1, which is not felt until the two are apart.").arg(names)
+             : tr("Overlaps %1, which are not felt until they are apart from it.").arg(names);
 }
 
 }  // namespace nearfit::ui

@@ -37,11 +37,11 @@ QHBoxLayout* axisRow(const std::array<NumberField*, 3>& fields) {
 
 SpringPage::SpringPage(QWidget* parent) : FeelPage(parent) {
   const auto stiffness = [](HapticSettings& s) -> double& { return s.springs.stiffness; };
-  const QString toolTip = tr("How hard each spring pushes");
+  const QString toolTip = tr("Stiffness of each spring");
   linear_ = addNumber({"stiffness", toolTip, tr(" N/m"), kMinStiffness, kMaxStiffness}, stiffness);
   printed_ =
       addNumber({"printedStiffness", toolTip, tr(" N/m²"), kMinStiffness, kMaxPrintedStiffness}, stiffness);
-  NumberField* damping = addNumber({"damping", tr("Resistance to approach along each minimum; never pulls"),
+  NumberField* damping = addNumber({"damping", tr("Damping of each spring: resists approach, never pulls"),
                                     tr(" N·s/m"), kMinDamping, kMaxDamping},
                                    [](HapticSettings& s) -> double& { return s.springs.damping; });
   linearLabel_ = new QLabel(tr("Stiffness"), this);
@@ -70,9 +70,8 @@ void SpringPage::refresh() {
   for (QWidget* widget : {static_cast<QWidget*>(printed_), static_cast<QWidget*>(printedLabel_)})
     widget->setVisible(!isLinear);
   const DeviceLimits& device = basis_.device;
-  limits_->setText(tr("Enforced on what the device gets: at most %1 N and %2 N·m, changing by at most %3 N/s "
-                      "and %4 N·m/s. "
-                      "Energy that the hand gets beyond what it gave is damped away.")
+  limits_->setText(tr("Enforced limits of the device: at most %1 N and %2 N·m, changing by at most %3 N/s "
+                      "and %4 N·m/s. Energy that the hand receives beyond what it gave is damped away.")
                        .arg(formatNumber(device.maxForce), formatNumber(device.maxTorque),
                             formatNumber(device.forceSlew), formatNumber(device.torqueSlew)));
   showBound();
@@ -87,10 +86,10 @@ void SpringPage::showBound() {
   // The slope of the printed law is at most stiffness times cutoff.
   const double each = most / (std::max(count, 1.0) * (isLinear ? 1.0 : springs.cutoff));
   const QString unit = isLinear ? tr(" N/m") : tr(" N/m²");
-  QString text = tr("Not enforced: a bound on the stiffness of all springs together. What they make along "
-                    "one line is passive "
-                    "in anyone's hand up to %1 N/m, at %2 with the device's damping of %3 N·s/m")
-                     .arg(formatNumber(most), formatDuration(basis_.period), formatNumber(device.damping));
+  QString text =
+      tr("Not enforced: a bound on the stiffness of all springs together. Along one line they are passive "
+         "with any hand up to %1 N/m, at a period of %2 and the device's damping of %3 N·s/m")
+          .arg(formatNumber(most), formatDuration(basis_.period), formatNumber(device.damping));
   const bool isKnown = basis_.springs && *basis_.springs > 0;
   text += isKnown ? tr("; shared by the springs of all minima, now %n: %1%2 each.", nullptr,
                        static_cast<int>(*basis_.springs))
@@ -105,18 +104,18 @@ void SpringPage::showBound() {
 }
 
 WeightPage::WeightPage(QWidget* parent) : FeelPage(parent) {
-  QCheckBox* weight = addSwitch(QStringLiteral("weight"), tr("Weight: the part hangs in the hand"),
-                                tr("What the device cannot hold is left out"),
+  QCheckBox* weight = addSwitch(QStringLiteral("weight"), tr("Weight: the part's weight is felt"),
+                                tr("Weight that the device cannot hold is left out"),
                                 [](HapticSettings& s) -> bool& { return s.weight.hasWeight; });
-  inertia_ = addSwitch(QStringLiteral("inertia"), tr("Inertia: the part resists being accelerated"),
-                       tr("In the proxy mode alone: springs leave the part where the hand is"),
+  inertia_ = addSwitch(QStringLiteral("inertia"), tr("Inertia: the part resists acceleration"),
+                       tr("Only in the proxy mode: with springs the part is where the hand is"),
                        [](HapticSettings& s) -> bool& { return s.weight.hasInertia; });
   std::array<NumberField*, 3> gravity{};
   const char* names[3] = {"gravityX", "gravityY", "gravityZ"};
   for (int axis = 0; axis < 3; ++axis) {
     gravity[static_cast<std::size_t>(axis)] =
         addNumber({names[axis],
-                   tr("Gravity along the world's %1; its length may be up to %2 m/s²")
+                   tr("Gravity along the world's %1; its magnitude may be up to %2 m/s²")
                        .arg(kAxes[axis], formatNumber(kMaxGravity)),
                    {},
                    -kMaxGravity,
@@ -148,13 +147,13 @@ void WeightPage::showMass(const QString& name, double mass) {
 
 WorkspacePage::WorkspacePage(QWidget* parent) : FeelPage(parent) {
   NumberField* scale =
-      addNumber({"scale", tr("Metres in the scene to a metre of the device"), tr(" ×"), kMinScale, kMaxScale},
+      addNumber({"scale", tr("Metres in the scene per metre of the device"), tr(" ×"), kMinScale, kMaxScale},
                 [](HapticSettings& s) -> double& { return s.mapping.scale; });
   makeAngles();
   locks_ = new LocksPage({}, this);
   connect(locks_, &FeelPage::edited, this, &WorkspacePage::change);
   QLabel* note = addNote();
-  note->setText(tr("The manual hand takes numbers of the scene itself: for it only the locks count."));
+  note->setText(tr("The manual hand moves in the scene itself: only the locks apply to it."));
   auto* scaleRow = new QFormLayout;
   scaleRow->addRow(tr("Scale"), scale);
   auto* layout = new QVBoxLayout(this);
@@ -162,7 +161,7 @@ WorkspacePage::WorkspacePage(QWidget* parent) : FeelPage(parent) {
   layout->addWidget(new QLabel(tr("Orientation of the device"), this));
   layout->addLayout(axisRow(angleFields_));
   layout->addSpacing(6);
-  layout->addWidget(new QLabel(tr("Motions that count, by axes of the world"), this));
+  layout->addWidget(new QLabel(tr("Allowed motions along the world's axes"), this));
   layout->addWidget(locks_);
   layout->addSpacing(6);
   layout->addWidget(note);
@@ -177,7 +176,8 @@ void WorkspacePage::makeAngles() {
     field->setTrimmed(true);
     field->setRange(-360.0, 360.0);
     field->setUnit(QString(QChar(0xB0)));
-    field->setToolTip(tr("Turns the device's frame into the world's: about the fixed axes x, y, z in turn"));
+    field->setToolTip(
+        tr("Rotation from the device's frame to the world's: about the fixed axes x, y, z in this order"));
     connect(field, &NumberField::quantityEdited, this, [this, axis](double angle) { turn(axis, angle); });
     angleFields_[static_cast<std::size_t>(axis)] = field;
   }

@@ -70,7 +70,7 @@ FeelPanel::FeelPanel(const Parts& parts, QWidget* parent)
 
 QWidget* FeelPanel::makeChoices(const Parts& parts) {
   mode_->setObjectName(QStringLiteral("panelMode"));
-  mode_->setToolTip(tr("How contact feels; the settings explain it"));
+  mode_->setToolTip(tr("How contact feels; the feel settings explain each mode"));
   addModes(*mode_);
   mode_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   startStop_->setObjectName(QStringLiteral("startStop"));
@@ -93,24 +93,24 @@ QWidget* FeelPanel::makeChoices(const Parts& parts) {
 }
 
 void FeelPanel::setUpReadouts() {
-  reports_ = device_->add(tr("Reports"), "reportRate", tr("Poses that come from the device in a second"));
+  reports_ = device_->add(tr("Reports"), "reportRate", tr("Poses received from the device per second"));
   jitter_ = device_->add(tr("Jitter"), "reportJitter",
-                         tr("How far the time between two of them is off its mean, on average"));
+                         tr("Mean deviation of the time between two reports from its average"));
   lost_ = device_->add(tr("Missing"), "reportsLost",
-                       tr("Reports that were lost or damaged since it was taken in hand"));
+                       tr("Reports lost or damaged since the part was taken in hand"));
   force_ = felt_->add(tr("Force"), "force");
   torque_ = felt_->add(tr("Torque"), "torque");
-  distance_ = felt_->add(tr("Least distance"), "distance");
+  distance_ = felt_->add(tr("Min distance"), "distance");
   minima_ = felt_->add(tr("Local minima"), "minima");
   contacts_ = felt_->add(tr("Contacts"), "contacts", tr("Minima that hold the part"));
-  lead_ = felt_->add(tr("Hand ahead"), "lead", tr("From the part to where the hand wants it"));
+  lead_ = felt_->add(tr("Hand ahead"), "lead", tr("Distance from the part to where the hand wants it"));
   energy_ = felt_->add(tr("Energy to hand"), "energy",
-                       tr("Given to the hand since the start, less what came back"));
+                       tr("Energy given to the hand since the start, less what came back"));
   clamped_ = felt_->addNote("clamped", colours::kForce);
   rate_ = servo_->add(tr("Rate"), "rate");
   lateness_ = servo_->add(tr("Lateness, p99"), "lateness");
   tick_ = servo_->add(tr("Tick, p99"), "tick");
-  subSteps_ = servo_->add(tr("Sub-steps"), "subSteps", tr("Steps of the proxy in a tick"));
+  subSteps_ = servo_->add(tr("Sub-steps"), "subSteps", tr("Steps of the proxy per tick"));
   overruns_ = servo_->add(tr("Overruns"), "overruns");
   scheduling_ = servo_->addNote("scheduling", colours::kMutedText);
 }
@@ -189,7 +189,7 @@ void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) 
   minima_->setText(QString::number(snapshot.lmdCount) +
                    (snapshot.isTruncated ? QStringLiteral("+") : QString()));
   energy_->setText(formatEnergy(snapshot.energyToHand));
-  clamped_->setText(snapshot.isClamped ? tr("Held at the device's limit.") : QString());
+  clamped_->setText(snapshot.isClamped ? tr("Limited to what the device allows.") : QString());
   notice_->showSnapshot(snapshot, scene);
   workspace_->showClutched(snapshot.isClutched);
   showProxy(snapshot);

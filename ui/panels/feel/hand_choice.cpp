@@ -43,31 +43,30 @@ HandChoice::HandChoice(QWidget* parent)
   box_->addItem(icon(QStringLiteral("rename")), tr("Manual hand"), QVariant::fromValue(Hand::Manual));
   box_->addItem(icon(QStringLiteral("start")), tr("Recorded hand"), QVariant::fromValue(Hand::Device));
   box_->setItemData(kManual,
-                    tr("In the view, with Shift: the left button moves it, the right one turns it, the "
-                       "wheel goes to and fro. Keys step; with Shift they turn."),
+                    tr("In the view, hold Shift: a left drag moves the hand, a right drag turns it, the "
+                       "wheel moves it nearer or farther. Keys move it in steps; with Shift they turn it."),
                     kNoteRole);
   box_->setItemData(kRecording, tr("No recording is chosen yet."), kNoteRole);
   box_->setToolTip(
-      tr("Who holds the moving part while the servo runs: a script that presses it against the nearest "
-         "part, you by numbers, keys and mouse, a hand that was recorded, or you by a device that is plugged "
-         "in"));
+      tr("What leads the moving part while the servo runs: a script that presses it against the nearest "
+         "part, numbers, keys and mouse, a recording, or a device that is plugged in"));
   recording_->setObjectName(QStringLiteral("chooseRecording"));
   connect(recording_, &QPushButton::clicked, this, &HandChoice::recordingWanted);
   state_->setObjectName(QStringLiteral("deviceState"));
   state_->setWordWrap(true);
   state_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
   arm_->setObjectName(QStringLiteral("arm"));
-  arm_->setToolTip(
-      tr("Lets the device push, or no more. It is never armed by itself: hold its handle first"));
+  arm_->setToolTip(tr("Arm or disarm the device. Only you can arm it: hold its handle first"));
   for (QWidget* widget :
        {static_cast<QWidget*>(box_), static_cast<QWidget*>(state_), static_cast<QWidget*>(arm_)})
     layout->addWidget(widget);
   calibrate_->setObjectName(QStringLiteral("calibrate"));
   calibrate_->setToolTip(
-      tr("The handle is held in its rest, or left free to find itself: it is taken from there"));
+      tr("Find where the handle is: hold it in its rest, or leave it free if the device finds its position "
+         "itself"));
   layout->addWidget(calibrate_);
   reset_->setObjectName(QStringLiteral("resetDevice"));
-  reset_->setToolTip(tr("Let go of the handle first. It can be armed again then; it is not by itself"));
+  reset_->setToolTip(tr("Clear the fault. Let go of the handle first; then you can arm the device again"));
   layout->addWidget(reset_);
   layout->addWidget(recording_);
   opening_->setObjectName(QStringLiteral("opening"));

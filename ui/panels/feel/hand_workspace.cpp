@@ -23,7 +23,7 @@ HandWorkspace::HandWorkspace(QAction* clutch, QWidget* parent)
   heading->setStyleSheet(QStringLiteral("font-weight: bold; color: #3b4754; padding-top: 8px"));
   heading->setIndent(0);
   NumberField* scale = addNumber(
-      {"panelScale", tr("Metres in the scene to a metre of the device"), tr(" ×"), kMinScale, kMaxScale},
+      {"panelScale", tr("Metres in the scene per metre of the device"), tr(" ×"), kMinScale, kMaxScale},
       [](HapticSettings& s) -> double& { return s.mapping.scale; });
   auto* scaleLabel = new QLabel(tr("Scale"), scaleRow_);
   scaleLabel->setBuddy(scale);
@@ -38,7 +38,7 @@ HandWorkspace::HandWorkspace(QAction* clutch, QWidget* parent)
   clutch_->setFocusPolicy(Qt::StrongFocus);
   note_->setObjectName(QStringLiteral("clutchNote"));
   recorded_->setObjectName(QStringLiteral("recordedNote"));
-  recorded_->setText(tr("A recorded hand goes as it went: its scale and locks are in the recording."));
+  recorded_->setText(tr("A recorded hand repeats its motion: scale and locks come from the recording."));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(6);
@@ -66,7 +66,7 @@ void HandWorkspace::showClutched(bool isClutched) {
 
 void HandWorkspace::showUncalibrated(bool isUncalibrated) {
   note_->setText(isUncalibrated ? tr("The part stays until the device is calibrated: see above.")
-                                : tr("The part stays: bring the device to where it is handy."));
+                                : tr("The part stays: move the device to a comfortable position."));
 }
 
 void HandWorkspace::refresh() {

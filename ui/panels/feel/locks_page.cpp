@@ -15,13 +15,13 @@ namespace nearfit::ui {
 LocksPage::LocksPage(const QString& prefix, QWidget* parent)
     : FeelPage(parent), freedom_(new QComboBox(this)) {
   freedom_->setObjectName(prefix + QStringLiteral("freedom"));
-  freedom_->setAccessibleName(tr("Motions that count"));
-  freedom_->setToolTip(tr("Motions of the hand that the part follows; for the manual hand too"));
+  freedom_->setAccessibleName(tr("Allowed motions"));
+  freedom_->setToolTip(tr("Motions of the hand that the part follows; also applies to the manual hand"));
   freedom_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   // In the order of MotionFreedom.
   freedom_->addItems({tr("Moves and turns freely"), tr("In the plane XY"), tr("In the plane YZ"),
-                      tr("In the plane ZX"), tr("Along X alone"), tr("Along Y alone"), tr("Along Z alone"),
-                      tr("Moves without turning"), tr("Turns in its place"), tr("Other locks")});
+                      tr("In the plane ZX"), tr("Along X only"), tr("Along Y only"), tr("Along Z only"),
+                      tr("Moves without turning"), tr("Turns in place"), tr("Other locks")});
   auto* model = qobject_cast<QStandardItemModel*>(freedom_->model());
   model->item(static_cast<int>(MotionFreedom::Other))->setEnabled(false);
   connect(freedom_, QOverload<int>::of(&QComboBox::activated), this, [this](int row) {
@@ -41,13 +41,13 @@ QGridLayout* LocksPage::makeLocks(const QString& prefix) {
   auto* locks = new QGridLayout;
   locks->setHorizontalSpacing(8);
   locks->setVerticalSpacing(4);
-  locks->addWidget(new QLabel(tr("Stays along"), this), 0, 0);
+  locks->addWidget(new QLabel(tr("No move along"), this), 0, 0);
   locks->addWidget(new QLabel(tr("No turn about"), this), 1, 0);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const QString& name = axes[axis];
     const int column = static_cast<int>(axis) + 1;
     QCheckBox* move = addSwitch(
-        prefix + QStringLiteral("lock") + name, name, tr("The hand stays where it is along %1").arg(name),
+        prefix + QStringLiteral("lock") + name, name, tr("The hand does not move along %1").arg(name),
         [axis](HapticSettings& s) -> bool& { return s.mapping.translationLocks[axis]; });
     QCheckBox* turn = addSwitch(prefix + QStringLiteral("lockR") + name.toLower(), name,
                                 tr("The hand does not turn about %1").arg(name),

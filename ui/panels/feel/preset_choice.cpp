@@ -19,8 +19,7 @@ PresetChoice::PresetChoice(const char* name, PresetStore& presets, QWidget* pare
     : QWidget(parent), presets_(presets), box_(new QComboBox(this)) {
   box_->setObjectName(QLatin1String(name));
   box_->setAccessibleName(tr("Preset"));
-  box_->setToolTip(
-      tr("How hard contact feels. What your device cannot bear is held back, whatever is chosen."));
+  box_->setToolTip(tr("How hard contact feels. Every preset stays within your device's limits."));
   box_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   setFocusProxy(box_);
   auto* layout = new QHBoxLayout(this);
@@ -49,11 +48,11 @@ void PresetChoice::setManaged() {
     connect(action, &QAction::triggered, this, act);
     return action;
   };
-  add("savePreset", tr("&Save as…"), "save-as", tr("Keep how contact feels now under a name, for any scene"),
-      &PresetChoice::saveAs);
+  add("savePreset", tr("&Save as…"), "save-as",
+      tr("Save the present feel under a name, for use in any scene"), &PresetChoice::saveAs);
   rename_ = add("renamePreset", tr("Re&name…"), "rename", tr("Give your preset another name"),
                 &PresetChoice::renameChosen);
-  delete_ = add("deletePreset", tr("&Delete"), "delete", tr("Forget your preset; scenes stay as they are"),
+  delete_ = add("deletePreset", tr("&Delete"), "delete", tr("Delete your preset; scenes stay as they are"),
                 &PresetChoice::deleteChosen);
   menu->setToolTipsVisible(true);
   menuButton_ = new QPushButton(tr("Manage"), this);
@@ -100,7 +99,7 @@ QString PresetChoice::chosenOwn() const {
 }
 
 void PresetChoice::saveAs() {
-  PresetNameDialog dialog(tr("Save the feel"), tr("Save"), this);
+  PresetNameDialog dialog(tr("Save preset"), tr("Save"), this);
   const QString own = chosenOwn();
   const QString name = dialog.ask(own.isEmpty() ? tr("My feel") : own, [this](const QString& wanted) {
     const QString refusal = presets_.refusalOf(wanted);
@@ -112,7 +111,7 @@ void PresetChoice::saveAs() {
 }
 
 void PresetChoice::renameChosen() {
-  PresetNameDialog dialog(tr("Rename the preset"), tr("Rename"), this);
+  PresetNameDialog dialog(tr("Rename preset"), tr("Rename"), this);
   const QString before = chosenOwn();
   const QString name = dialog.ask(before, [this, before](const QString& wanted) {
     const bool isTaken = wanted != before && presets_.isOwn(wanted);
@@ -128,7 +127,7 @@ void PresetChoice::deleteChosen() {
   QMessageBox box(QMessageBox::Question, tr("Delete the preset"), tr("Delete the preset “%1”?").arg(name),
                   QMessageBox::Cancel, this);
   box.setObjectName(QStringLiteral("deletePresetBox"));
-  box.setInformativeText(tr("How this and other scenes feel does not change."));
+  box.setInformativeText(tr("This and other scenes feel as before."));
   auto* confirm = box.addButton(tr("Delete"), QMessageBox::DestructiveRole);
   confirm->setObjectName(QStringLiteral("confirmDeletePreset"));
   box.setDefaultButton(QMessageBox::Cancel);

@@ -21,7 +21,7 @@ namespace {
 void showMost(QLabel& note, double most, double wished, double inForce, const QString& unit,
               bool isAutomatic) {
   const bool isHeld = !isAutomatic && inForce < wished;
-  note.setText(isHeld ? QObject::tr("held to %1%2").arg(formatNumber(inForce), unit)
+  note.setText(isHeld ? QObject::tr("limited to %1%2").arg(formatNumber(inForce), unit)
                       : QObject::tr("at most %1%2").arg(formatNumber(most), unit));
   const QString style =
       QStringLiteral("color: %1").arg((isHeld ? colours::kWarning : colours::kMutedText).name());
@@ -34,20 +34,21 @@ void showMost(QLabel& note, double most, double wished, double inForce, const QS
 ProxyPage::ProxyPage(QWidget* parent) : FeelPage(parent) {
   NumberField* margin =
       addNumber({"margin",
-                 tr("Distance at which contact holds; at most the cutoff. Smaller shows the true gap better; "
-                    "larger lets the part slide faster."),
+                 tr("Gap that the part keeps in contact; at most the cutoff. A smaller margin shows the true "
+                    "gap better; a larger one lets the part slide faster."),
                  {},
                  kMinMargin,
                  kMaxMargin,
                  6,
                  true},
                 [](HapticSettings& s) -> double& { return s.proxy.margin; });
-  NumberField* friction = addNumber({"friction",
-                                     tr("Coulomb's coefficient: 0 is none, dry steel has about 0.15"),
-                                     {},
-                                     kMinFriction,
-                                     kMaxFriction},
-                                    [](HapticSettings& s) -> double& { return s.proxy.friction; });
+  NumberField* friction =
+      addNumber({"friction",
+                 tr("Coefficient of Coulomb friction: 0 is none, dry steel has about 0.15"),
+                 {},
+                 kMinFriction,
+                 kMaxFriction},
+                [](HapticSettings& s) -> double& { return s.proxy.friction; });
   auto* form = new QFormLayout;
   form->addRow(tr("Margin"), margin);
   form->addRow(tr("Friction"), friction);
@@ -89,15 +90,17 @@ QWidget* ProxyPage::makeCoupling() {
 
 void ProxyPage::makeRows() {
   rows_[0] = addRow(
-      {"couplingStiffness", tr("Pull between hand and part"), tr(" N/m"), kMinStiffness, kMaxStiffness, 2},
+      {"couplingStiffness", tr("Stiffness of the coupling between hand and part"), tr(" N/m"), kMinStiffness,
+       kMaxStiffness, 2},
       [](HapticSettings& s) -> double& { return s.coupling.stiffness; },
-      {"couplingDamping", tr("Damping between hand and part"), tr(" N·s/m"), kMinDamping, kMaxDamping, 4},
+      {"couplingDamping", tr("Damping of the coupling between hand and part"), tr(" N·s/m"), kMinDamping,
+       kMaxDamping, 4},
       [](HapticSettings& s) -> double& { return s.coupling.damping; });
   rows_[1] = addRow(
-      {"rotationalStiffness", tr("About the part's axis of most inertia"), tr(" N·m/rad"),
+      {"rotationalStiffness", tr("About the part's axis of max inertia"), tr(" N·m/rad"),
        kMinRotationalStiffness, kMaxRotationalStiffness, 5},
       [](HapticSettings& s) -> double& { return s.coupling.rotationalStiffness; },
-      {"rotationalDamping", tr("About the part's axis of most inertia"), tr(" N·m·s/rad"),
+      {"rotationalDamping", tr("About the part's axis of max inertia"), tr(" N·m·s/rad"),
        kMinRotationalDamping, kMaxRotationalDamping, 8},
       [](HapticSettings& s) -> double& { return s.coupling.rotationalDamping; });
 }
@@ -136,10 +139,10 @@ void ProxyPage::refresh() {
           {state.rotationalStiffness, state.rotationalDamping,
            stiffnessBound(device.rotationalDamping, state.rotationalDamping, basis_.period),
            kMaxDampingShare * device.rotationalDamping, wish.rotationalStiffness, wish.rotationalDamping});
-  reason_->setText(tr("What is passive in anyone's hand at %1 with the device's damping of %2 N·s/m and "
-                      "%3 N·m·s/rad.")
-                       .arg(formatDuration(basis_.period), formatNumber(device.damping),
-                            formatNumber(device.rotationalDamping)));
+  reason_->setText(
+      tr("Limits for passivity at a period of %1 with the device's damping of %2 N·s/m and %3 N·m·s/rad.")
+          .arg(formatDuration(basis_.period), formatNumber(device.damping),
+               formatNumber(device.rotationalDamping)));
 }
 
 void ProxyPage::showRow(const Row& row, const Line& line) {

@@ -23,25 +23,26 @@ const QStringList kMotions = {QStringLiteral("X"),  QStringLiteral("Y"),  QStrin
 SpaceMousePage::SpaceMousePage(QWidget* parent) : QWidget(parent) {
   auto* form = new QFormLayout;
   form->addRow(tr("Dead zone"),
-               addNumber({"rateDeadZone", tr("Part of the way of the cap in which nothing moves"), tr(" %"),
+               addNumber({"rateDeadZone", tr("Share of the cap's travel in which nothing moves"), tr(" %"),
                           0.0, kMaxDeadZone, &RateSettings::deadZone}));
   form->addRow(tr("Curve"), addNumber({"rateCurve",
-                                       tr("1 is straight; more is finer for small pushes"),
+                                       tr("1 is linear; more is finer for small pushes"),
                                        {},
                                        kMinExponent,
                                        kMaxExponent,
                                        &RateSettings::exponent}));
-  form->addRow(tr("Speed"),
-               addNumber({"rateSpeed", tr("With the cap pushed all the way, before the workspace's scale"),
-                          tr(" mm/s"), 0.0, kMaxFullSpeed, &RateSettings::fullSpeed}));
-  form->addRow(tr("Turning"), addNumber({"rateTurn", tr("With the cap turned all the way"), tr(" °/s"), 0.0,
-                                         kMaxFullTurn, &RateSettings::fullTurn}));
-  auto* note = new QLabel(tr("First button: the part stays as long as it is held. Second button: the hand "
-                             "goes back to where the part is. Kept for all scenes."),
+  form->addRow(
+      tr("Speed"),
+      addNumber({"rateSpeed", tr("Speed with the cap pushed all the way, before the workspace scale"),
+                 tr(" mm/s"), 0.0, kMaxFullSpeed, &RateSettings::fullSpeed}));
+  form->addRow(tr("Turning"), addNumber({"rateTurn", tr("Speed of turning with the cap turned all the way"),
+                                         tr(" °/s"), 0.0, kMaxFullTurn, &RateSettings::fullTurn}));
+  auto* note = new QLabel(tr("First button: the part stays while you hold the button. Second button: the "
+                             "hand goes back to the part. These settings apply to all scenes."),
                           this);
   note->setWordWrap(true);
   note->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
-  auto* usual = new QPushButton(tr("Usual settings"), this);
+  auto* usual = new QPushButton(tr("Restore defaults"), this);
   usual->setObjectName(QStringLiteral("rateUsual"));
   usual->setAutoDefault(false);
   connect(usual, &QPushButton::clicked, this, [this] {
@@ -113,11 +114,11 @@ QGridLayout* SpaceMousePage::makeAxes() {
     const QString& axis = kMotions[column];
     const auto i = static_cast<std::size_t>(column);
     grid->addWidget(new QLabel(axis, this), 0, column + 1);
-    grid->addWidget(addSwitch(QStringLiteral("rateOn") + axis,
-                              tr("Whether the cap moves the part along, or about, this axis"),
-                              &RateSettings::isEnabled, i),
-                    1, column + 1);
-    grid->addWidget(addSwitch(QStringLiteral("rateReversed") + axis, tr("The part goes the other way"),
+    grid->addWidget(
+        addSwitch(QStringLiteral("rateOn") + axis, tr("The cap moves the part along or about this axis"),
+                  &RateSettings::isEnabled, i),
+        1, column + 1);
+    grid->addWidget(addSwitch(QStringLiteral("rateReversed") + axis, tr("The part moves the other way"),
                               &RateSettings::isInverted, i),
                     2, column + 1);
   }

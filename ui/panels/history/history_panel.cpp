@@ -14,7 +14,7 @@ HistoryPanel::HistoryPanel(Session& session, QWidget* parent)
   setObjectName(QStringLiteral("historyPanel"));
   view_->setObjectName(QStringLiteral("historyView"));
   view_->setAccessibleName(tr("History"));
-  view_->setAccessibleDescription(tr("Steps that undo and redo go through, oldest first"));
+  view_->setAccessibleDescription(tr("Steps of undo and redo, oldest first"));
   view_->setModel(model_);
   view_->setUniformItemSizes(true);
   view_->setEditTriggers(QAbstractItemView::NoEditTriggers);

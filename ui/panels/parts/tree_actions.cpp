@@ -15,17 +15,17 @@ namespace nearfit::ui {
 TreeActions::TreeActions(Session& session, Selection& selection, Attempt attempt, QObject* parent)
     : QObject(parent), session_(session), selection_(selection), attempt_(std::move(attempt)) {
   group_ = make("group", tr("&Group"), "folder", "Ctrl+G", &TreeActions::groupSelected);
-  group_->setToolTip(tr("Put what is selected into a new group"));
+  group_->setToolTip(tr("Put the selected parts and groups into a new group"));
   ungroup_ = make("ungroup", tr("U&ngroup"), {}, "Ctrl+Shift+G", &TreeActions::ungroupSelected);
-  ungroup_->setToolTip(tr("Put what the selected groups hold in their place"));
+  ungroup_->setToolTip(tr("Dissolve the selected groups; their contents stay"));
   visible_ = make("toggleVisible", tr("&Hide"), "eye", "H", &TreeActions::toggleVisible);
   lock_ = make("toggleLock", tr("Loc&k"), "lock", "Ctrl+L", &TreeActions::toggleLock);
-  visible_->setToolTip(tr("Hide or show what is selected; what is hidden is not felt (H)"));
-  lock_->setToolTip(tr("Keep what is selected where it is, or let it go (Ctrl+L)"));
+  visible_->setToolTip(tr("Hide or show the selected parts; hidden parts are not felt (H)"));
+  lock_->setToolTip(tr("Lock or unlock the selected parts and groups (Ctrl+L)"));
   isolate_ = make("isolate", tr("&Isolate"), "isolate", "I", &TreeActions::isolate);
-  isolate_->setToolTip(tr("Show what is selected and nothing else; what is hidden is not felt"));
+  isolate_->setToolTip(tr("Show only the selected parts; hidden parts are not felt"));
   endIsolation_ = make("endIsolation", tr("&End isolation"), {}, "Shift+I", &TreeActions::endIsolation);
-  endIsolation_->setToolTip(tr("Show exactly what was visible before"));
+  endIsolation_->setToolTip(tr("Show exactly the parts that were visible before"));
   setUpTransparency();
   connect(&selection_, &Selection::changed, this, [this] { update(false); });
 }
@@ -101,7 +101,7 @@ void TreeActions::groupSelected() {
 }
 
 void TreeActions::ungroupSelected() {
-  attempt_(tr("The group could not be taken apart."), [this] { session_.ungroup(selection_.groups()); });
+  attempt_(tr("The group could not be ungrouped."), [this] { session_.ungroup(selection_.groups()); });
 }
 
 void TreeActions::toggleVisible() {

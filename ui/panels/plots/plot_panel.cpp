@@ -61,12 +61,11 @@ void PlotPanel::setUpButtons() {
     button->setToolTip(tip);
     return button;
   };
-  pause_ = make("pausePlots", tr("Pause"), "pause",
-                tr("Hold the plots as they are; nothing that is felt meanwhile is lost"));
+  pause_ = make("pausePlots", tr("Pause"), "pause", tr("Freeze the plots; samples continue to be kept"));
   pause_->setCheckable(true);
   connect(pause_, &QToolButton::toggled, this, &PlotPanel::setPaused);
-  follow_ =
-      make("followPlots", tr("Follow"), "fit", tr("Back from zooming (wheel) and dragging to the newest"));
+  follow_ = make("followPlots", tr("Follow"), "fit",
+                 tr("Show the newest samples again, after zooming (wheel) or dragging"));
   follow_->setEnabled(false);
   connect(follow_, &QToolButton::clicked, this, &PlotPanel::followAgain);
   span_ = new QComboBox(this);
@@ -77,9 +76,9 @@ void PlotPanel::setUpButtons() {
     span_->addItem(span == kAll ? tr("All") : tr("%1 s").arg(span), span);
   span_->setCurrentIndex(kFirstSpan);
   connect(span_, QOverload<int>::of(&QComboBox::activated), this, &PlotPanel::followAgain);
-  table_ = make("exportPlotTable", tr("Table…"), "export", tr("Write the samples of the time shown as CSV"));
+  table_ = make("exportPlotTable", tr("Table…"), "export", tr("Export the samples of the time shown (CSV)"));
   connect(table_, &QToolButton::clicked, this, &PlotPanel::exportTable);
-  picture_ = make("exportPlotPicture", tr("Picture…"), "export", tr("Write the plots as a picture (PNG)"));
+  picture_ = make("exportPlotPicture", tr("Picture…"), "export", tr("Export the plots as a picture (PNG)"));
   connect(picture_, &QToolButton::clicked, this, &PlotPanel::exportPicture);
   note_ = new QLabel(this);
   note_->setObjectName(QStringLiteral("plotNote"));

@@ -69,7 +69,8 @@ void PosePanel::setUpPose(QGridLayout& layout) {
   turnStep_ = makeAngle(QStringLiteral("turnStep"), 90.0);
   turnStep_->setMinimum(1e-3);
   turnStep_->setValue(1.0);
-  turnStep_->setToolTip(tr("How far the same keys turn the part with Shift, about its centre of mass"));
+  turnStep_->setToolTip(
+      tr("How far the arrow and page keys turn the part with Shift, about its centre of mass"));
   layout.addWidget(new QLabel(tr("Key"), this), 4, 0);
   layout.addWidget(step_, 4, 1);
   layout.addWidget(turnStep_, 4, 3);
@@ -87,7 +88,7 @@ void PosePanel::setUpMass(QGridLayout& layout) {
   density_->setTrimmed(true);
   density_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   density_->setToolTip(
-      tr("Of what the part is made: water 1000, aluminium 2700, steel 7850 kg/m³; from %1 to %2")
+      tr("Density of the part's material: water 1000, aluminium 2700, steel 7850 kg/m³; from %1 to %2")
           .arg(formatNumber(kMinDensity), formatNumber(kMaxDensity)));
   mass_ = new QLabel(this);
   mass_->setObjectName(QStringLiteral("mass"));
@@ -192,9 +193,9 @@ void PosePanel::showMass(const std::vector<const Part*>& parts, bool isLocked) {
   }
   mass_->setText(hasGeometry ? formatMass(mass) : QString());
   const bool isOne = parts.size() == 1;
-  mass_->setToolTip(!isOfBox ? (isOne ? tr("Mass") : tr("Mass of all of them together"))
-                    : isOne  ? tr("Of its bounding box, as the mesh encloses no volume")
-                             : tr("Together; of the bounding box where a mesh encloses no volume"));
+  mass_->setToolTip(!isOfBox ? (isOne ? tr("Mass") : tr("Total mass of the selected parts"))
+                    : isOne  ? tr("Mass of its bounding box, because the mesh encloses no volume")
+                             : tr("Total mass; for a mesh that encloses no volume, of its bounding box"));
 }
 
 void PosePanel::showDensity(const std::vector<const Part*>& parts) {

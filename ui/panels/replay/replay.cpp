@@ -73,9 +73,8 @@ void Replay::askAndOpen() {
 void Replay::open(const QString& file) {
   if (task_.isRunning() || !isAllowed_) return;
   if (!session_.scene().movingPart()) {
-    emit failed(
-        {tr("The recording cannot be shown."),
-         tr("No part is in hand, so that there is none to move. Take the one in hand that was recorded.")});
+    emit failed({tr("The recording cannot be shown."),
+                 tr("No part is in hand. Take in hand the part that was recorded.")});
     return;
   }
   close();
@@ -91,7 +90,7 @@ void Replay::open(const QString& file) {
     delete progress_;
     if (!error) {
       if (read->isCut)
-        emit noted(tr("The recording was not written to its end: the last whole row is at %1 s")
+        emit noted(tr("The recording is incomplete: its last whole row is at %1 s")
                        .arg(read->rows.back().time, 0, 'f', 3));
       return begin(file, std::move(read->rows));
     }

@@ -116,12 +116,12 @@ QToolButton* Timeline::make(const char* name, const QString& text, const char* i
 
 void Timeline::setUpButtons() {
   open_ = make("timelineOpen", tr("Open a recording"), "open");
-  back_ = make("timelineBack", tr("One tick back (Left; with Shift a hundred)"), "step-back");
+  back_ = make("timelineBack", tr("Back one tick (Left; with Shift 100)"), "step-back");
   play_ = make("timelinePlay", tr("Play (Space)"), "start");
-  forward_ = make("timelineForward", tr("One tick on (Right; with Shift a hundred)"), "step-forward");
-  loop_ = make("timelineLoop", tr("Begin again at the end"), "loop");
+  forward_ = make("timelineForward", tr("Forward one tick (Right; with Shift 100)"), "step-forward");
+  loop_ = make("timelineLoop", tr("Start again at the end"), "loop");
   loop_->setCheckable(true);
-  close_ = make("timelineClose", tr("Close the recording and put everything back (Esc)"), "close");
+  close_ = make("timelineClose", tr("Close the recording and put all parts back (Esc)"), "close");
   connect(open_, &QToolButton::clicked, this, &Timeline::openWanted);
   connect(back_, &QToolButton::clicked, this, [this] { emit stepped(-1); });
   connect(forward_, &QToolButton::clicked, this, [this] { emit stepped(1); });

@@ -42,17 +42,17 @@ void keep(const MinimaChoice& choice) {
 MinimaMenu::MinimaMenu(QWidget* parent) : QMenu(tr("Minima &drawn"), parent), choice_(kept()) {
   setObjectName(QStringLiteral("minimaMenu"));
   addForm(QStringLiteral("minimaSegments"), tr("&Segments"),
-          tr("Lines between the two points that are nearest to each other"), &MinimaChoice::hasSegments);
-  addForm(QStringLiteral("minimaPoints"), tr("&Points"), tr("Where each minimum is on either part"),
+          tr("Lines between the two points of each minimum"), &MinimaChoice::hasSegments);
+  addForm(QStringLiteral("minimaPoints"), tr("&Points"), tr("The points of each minimum on the two parts"),
           &MinimaChoice::hasPoints);
-  addForm(QStringLiteral("minimaNormals"), tr("&Normals"), tr("The directions in which each minimum pushes"),
+  addForm(QStringLiteral("minimaNormals"), tr("&Normals"), tr("The direction in which each minimum pushes"),
           &MinimaChoice::hasNormals);
   addSeparator();
   QMenu* count = addChoices(tr("&How many"));
   for (const std::size_t most : kCounts) {
     const int number = static_cast<int>(most);
     const QString text = most == 0   ? tr("&All")
-                         : most == 1 ? tr("The nearest alone")
+                         : most == 1 ? tr("Only the nearest")
                                      : tr("The %n nearest", nullptr, number);
     addNumber(*count, QStringLiteral("minimaMost%1").arg(number), text, &MinimaChoice::most, most);
   }

@@ -31,13 +31,13 @@ MeasureBar::MeasureBar(QWidget* view)
   auto *numbers = new QHBoxLayout, *square = new QHBoxLayout;
   for (QHBoxLayout* row : {numbers, square})
     row->setSpacing(6);
-  values_ = {addValue(*numbers, "measureDistance", tr("Distance"), tr("Between the two points")),
+  values_ = {addValue(*numbers, "measureDistance", tr("Distance"), tr("Distance between the two points")),
              addValue(*numbers, "measureX", tr("X"), tr("Along the world's X axis, from the first point")),
              addValue(*numbers, "measureY", tr("Y"), tr("Along the world's Y axis, from the first point")),
              addValue(*numbers, "measureZ", tr("Z"), tr("Along the world's Z axis, from the first point")),
              addValue(*square, "measureApart", tr("Perpendicular"),
-                      tr("Between the faces, axes or points that were clicked, square to them")),
-             addValue(*square, "measureAngle", tr("Angle"), tr("Between the faces or axes"))};
+                      tr("Perpendicular distance between the faces, axes or points that were clicked")),
+             addValue(*square, "measureAngle", tr("Angle"), tr("Angle between the faces or axes"))};
   for (int axis = 0; axis < 3; ++axis) {
     values_[static_cast<std::size_t>(axis) + 1].name->setStyleSheet(
         QStringLiteral("font-weight: bold; color: %1").arg(axisColour(axis).name()));
@@ -48,9 +48,9 @@ MeasureBar::MeasureBar(QWidget* view)
   square->addWidget(copy_);
   square->addWidget(close_);
   copy_->setObjectName(QStringLiteral("measureCopy"));
-  copy_->setToolTip(tr("Puts the numbers on the clipboard, a line each"));
+  copy_->setToolTip(tr("Copy the numbers to the clipboard, one per line"));
   close_->setObjectName(QStringLiteral("measureClose"));
-  close_->setToolTip(tr("Ends measuring (Escape)"));
+  close_->setToolTip(tr("End measuring (Escape)"));
   connect(copy_, &QPushButton::clicked, this, &MeasureBar::copy);
   connect(close_, &QPushButton::clicked, this, &MeasureBar::closed);
   auto* rows = new QVBoxLayout(this);

@@ -50,25 +50,26 @@ void AlignBar::setUpFields() {
   hint_->setMinimumWidth(430);
   hint_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
   filter_->setObjectName(QStringLiteral("alignFilter"));
-  filter_->setAccessibleName(tr("What can be pointed at"));
-  filter_->setToolTip(tr("What can be pointed at; corners and edges are meant within a few pixels"));
+  filter_->setAccessibleName(tr("What can be picked"));
+  filter_->setToolTip(tr("What can be picked; corners and edges within a few pixels of the pointer"));
   filter_->addItem(tr("Anything"), static_cast<int>(FeatureFilter::Any));
   filter_->addItem(tr("Flat faces"), static_cast<int>(FeatureFilter::Faces));
   filter_->addItem(tr("Axes and edges"), static_cast<int>(FeatureFilter::Axes));
   filter_->addItem(tr("Points"), static_cast<int>(FeatureFilter::Points));
   flip_->setObjectName(QStringLiteral("alignFlip"));
-  flip_->setToolTip(tr("Turns the part round: faces look the same way, axes run the other way"));
+  flip_->setToolTip(
+      tr("Turn the part round, so that the faces point the same way or the axes run in opposite directions"));
   offsetLabel_->setBuddy(offset_);
   offset_->setObjectName(QStringLiteral("alignOffset"));
   offset_->setAccessibleName(tr("Distance"));
   offset_->setLength(4);
   offset_->setQuantityRange(-kFarthest, kFarthest);
   offset_->setQuantityStep(1e-3);
-  offset_->setToolTip(tr("Left between the two, outward from the one that stays"));
+  offset_->setToolTip(tr("Distance between the two, outward from the one that stays"));
   apply_->setObjectName(QStringLiteral("alignApply"));
-  apply_->setToolTip(tr("Moves the part there: one step of undo (Return)"));
+  apply_->setToolTip(tr("Move the part there, as one undo step (Return)"));
   cancel_->setObjectName(QStringLiteral("alignCancel"));
-  cancel_->setToolTip(tr("Leaves everything as it was (Escape)"));
+  cancel_->setToolTip(tr("Leave everything as it was (Escape)"));
   connect(filter_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
           [this] { emit filterChosen(filter()); });
   connect(flip_, &QCheckBox::toggled, this, &AlignBar::optionsEdited);

@@ -96,11 +96,12 @@ bool AlignTool::isSound() const {
 
 QString AlignTool::refusalOf(const Part& part) const {
   const QString name = shortName(part.name);
-  if (moving_) return isMoved(part.id) ? tr("%1 is what moves: point at another part").arg(name) : QString();
+  if (moving_)
+    return isMoved(part.id) ? tr("%1 is the part that moves: click another part").arg(name) : QString();
   const QString refusal = guard_.refusalOf(part);
   if (!refusal.isEmpty() || !selection_.contains(part.id)) return refusal;
   const QString ofOthers = guard_.refusalOf(selection_.parts());
-  return ofOthers.isEmpty() ? QString() : tr("Selected with it: %1").arg(ofOthers);
+  return ofOthers.isEmpty() ? QString() : tr("Also selected: %1").arg(ofOthers);
 }
 
 void AlignTool::take(const FeaturePick& pick) {
@@ -153,17 +154,17 @@ void AlignTool::apply() {
 
 QString AlignTool::prompt() const {
   if (!moving_) return tr("Click a face, axis or point of the part to move");
-  if (!fixed_) return tr("Click what it is to be aligned with");
+  if (!fixed_) return tr("Click the face, axis or point to align it with");
   return tr("%1 to %2")
       .arg(describeFeature(moving_->picked.feature), describeFeature(fixed_->picked.feature).toLower());
 }
 
 void AlignTool::tell(const QString& hint) {
-  const QString idle = !moving_  ? tr("Locked parts stay; selected ones go together")
+  const QString idle = !moving_  ? tr("Locked parts stay; selected parts move together")
                        : !fixed_ ? tr("%1 of %2")
                                        .arg(describeFeature(moving_->picked.feature),
                                             shortName(session_.scene().find(moving_->part)->name))
-                                 : tr("Return applies, Escape leaves it; click another to change it");
+                                 : tr("Return applies, Escape cancels; click another to change the target");
   bar_->showPrompt(prompt(), hint.isEmpty() ? idle : hint);
 }
 

@@ -45,7 +45,7 @@ QString overlapText(const QString& name, const QString& against) {
 }
 
 QString freeWayText(const QString& name) {
-  return DropTool::tr("Nothing is in the way of %1 there: it stays where it is.").arg(name);
+  return DropTool::tr("Nothing is in the way of %1 in that direction: it stays where it is.").arg(name);
 }
 
 }  // namespace
@@ -78,8 +78,8 @@ QMenu* DropTool::makeMenu(Kind kind) {
   auto* menu = new QMenu(isDrop ? tr("&Drop to contact") : tr("&Push until held"), window_);
   menu->setIcon(icon(isDrop ? QStringLiteral("drop") : QStringLiteral("push")));
   menu->setToolTipsVisible(true);
-  const QString tip = isDrop ? tr("Straight on, to the first contact")
-                             : tr("To the first contact, and on along what is touched, until held");
+  const QString tip = isDrop ? tr("Move straight to the first contact")
+                             : tr("Move to the first contact, then slide along what is touched until held");
   const auto add = [&](const QString& name, const QString& text) {
     QAction* action = menu->addAction(text);
     action->setObjectName((isDrop ? QStringLiteral("drop") : QStringLiteral("push")) + name);
@@ -110,7 +110,7 @@ void DropTool::askForFace(Kind kind) {
   picker_.start([this](const Part& part) {
     return selection_.contains(part.id) ? tr("Click a flat face of another part") : QString();
   });
-  emit noted(tr("Click the flat face that the part is to go towards; Escape leaves it"));
+  emit noted(tr("Click the flat face to move the part towards; Escape cancels"));
 }
 
 void DropTool::stopAsking() {
@@ -165,7 +165,7 @@ DropTool::Outcome DropTool::dropped(const Scene& scene, const std::vector<PartId
   } else if (result.outcome == DropResult::Outcome::NothingMet) {
     outcome.problem = freeWayText(nameOf(scene, parts.back()));
   } else if (result.travel == 0.0) {
-    outcome.problem = tr("%1 touches %2 already: it stays where it is.").arg(name, outcome.against);
+    outcome.problem = tr("%1 already touches %2: it stays where it is.").arg(name, outcome.against);
   }
   return outcome;
 }
@@ -187,8 +187,9 @@ DropTool::Outcome DropTool::pushed(const Scene& scene, const std::vector<PartId>
       outcome.problem = overlapText(name, outcome.against);
       break;
     case PushResult::Outcome::SlippedPast:
-      outcome.problem = tr("Nothing holds %1 there: it would slide past %2. It stays where it is.")
-                            .arg(name, outcome.against);
+      outcome.problem =
+          tr("Nothing holds %1 in that direction: it would slide past %2. It stays where it is.")
+              .arg(name, outcome.against);
       break;
     case PushResult::Outcome::NothingMet:
       outcome.problem = freeWayText(name);
@@ -196,7 +197,7 @@ DropTool::Outcome DropTool::pushed(const Scene& scene, const std::vector<PartId>
     case PushResult::Outcome::Held:
       // A part that was pushed there before may move by so little again.
       if (outcome.travel <= dropGap(lead.geometry->mesh.bounds().diagonal()))
-        outcome.problem = tr("%1 is held by %2 already: it stays where it is.").arg(name, outcome.against);
+        outcome.problem = tr("%1 is already held by %2: it stays where it is.").arg(name, outcome.against);
       break;
   }
   return outcome;
@@ -218,7 +219,7 @@ void DropTool::finish(Kind kind, const std::vector<PartId>& parts, const Scene& 
     emit failed(describe(tr("The part could not be moved."), std::current_exception()));
     return;
   }
-  emit noted(tr("%1 went %2 and touches %3")
+  emit noted(tr("%1 moved %2 and touches %3")
                  .arg(nameOf(before, parts.back()), formatLength(outcome.travel), outcome.against));
 }
 

@@ -76,9 +76,9 @@ QAction* PlacingActions::makeSwitch(const char* name, const QString& text, const
 
 void PlacingActions::makeModes() {
   noGizmo = makeSwitch("gizmoNone", tr("&No gizmo"), "gizmo-none", Qt::Key_Q,
-                       tr("Only select and look: drags orbit, whatever is under the pointer"));
+                       tr("Only select and look: every left drag orbits"));
   move = makeSwitch("gizmoMove", tr("&Move"), "gizmo-move", Qt::Key_W,
-                    tr("Move the selected parts by arrows and squares, or grab them in the view"));
+                    tr("Move the selected parts by arrows and squares, or drag the parts themselves"));
   turn = makeSwitch("gizmoTurn", tr("&Turn"), "gizmo-turn", Qt::Key_E,
                     tr("Turn the selected parts by rings about the pivot"));
   moveAndTurn = makeSwitch("gizmoMoveAndTurn", tr("Move &and turn"), "gizmo-both", Qt::Key_R,
@@ -90,28 +90,28 @@ void PlacingActions::makeModes() {
 
 void PlacingActions::makeSwitches() {
   localAxes = makeSwitch("localAxes", tr("Along the &part's axes"), "axes-local", Qt::Key_X,
-                         tr("Axes of the part instead of the world's"));
+                         tr("Use the part's axes instead of the world's"));
   snap = makeSwitch("snap", tr("&Snap to steps"), "snap", {},
-                    tr("Drags go in steps; Ctrl while dragging: the other way round"));
+                    tr("Drags go in steps; hold Ctrl during a drag to switch this the other way"));
   solid = makeSwitch("solid", tr("S&olid"), "solid", QKeySequence(QStringLiteral("Shift+S")),
-                     tr("What is moved stops at contact and slides along it, as when it is felt"));
+                     tr("Parts that you move stop at contact and slide along it, as when felt"));
 }
 
 void PlacingActions::makePivotActions() {
   movePivot = makeSwitch("movePivot", tr("Mo&ve the pivot"), "pivot", Qt::Key_P,
-                         tr("Drags move the point that parts are turned about, not the parts"));
+                         tr("Drags move the point that parts turn about, not the parts"));
   pivotAtMass = make("pivotAtMass", tr("Pivot at the centre of &mass"), "pivot", {},
-                     tr("Back to where the parts would balance"));
+                     tr("Put the pivot back to the parts' centre of mass"));
   pivotAtBox = make("pivotAtBox", tr("Pivot at the middle of the &box"), "pivot", {},
-                    tr("To the middle of the box around the parts"));
+                    tr("Put the pivot in the middle of the parts' bounding box"));
 }
 
 void PlacingActions::makeSteps() {
-  lengthStep_ = makeStep("snapLength", tr("Step of shifts"));
+  lengthStep_ = makeStep("snapLength", tr("Step of moves"));
   lengthStep_->setLength(kDecimals);
   lengthStep_->setQuantityRange(kMinLength, kMaxLength);
   lengthStep_->setQuantityStep(kUsualLength);
-  lengthStep_->setHelp(tr("Step of shifts, along the gizmo's axes"));
+  lengthStep_->setHelp(tr("Step of moves, along the gizmo's axes"));
   angleStep_ = makeStep("snapAngle", tr("Step of turns"));
   angleStep_->setUnit(QString(QChar(0xB0)));
   angleStep_->setDecimals(kDecimals);

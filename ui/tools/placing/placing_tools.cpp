@@ -37,7 +37,7 @@ PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& vie
   connect(&mover_, &PartMover::ended, this, &PlacingTools::putMoved);
   connect(&mover_, &PartMover::failed, this, [this](const std::exception_ptr& error) {
     abandon();
-    emit failed(describe(tr("The part could not be moved solidly."), error));
+    emit failed(describe(tr("The part could not be moved in the Solid mode."), error));
   });
   connect(actions_, &PlacingActions::changed, this, &PlacingTools::showActions);
   connect(actions_->pivotAtMass, &QAction::triggered, this, [this] { setPivot(std::nullopt); });
@@ -250,7 +250,7 @@ void PlacingTools::showMoved() {
 
 QString PlacingTools::note() const {
   constexpr int kNamed = 3;
-  if (mover_.isPreparing()) return tr("Contact is being prepared…");
+  if (mover_.isPreparing()) return tr("Preparing contact…");
   QStringList names;
   for (const PartId id : mover_.touching()) {
     const Part* part = session_.scene().find(id);

@@ -84,8 +84,8 @@ void SectionBar::addAxes(QHBoxLayout& row) {
     button->setStyleSheet(QString::fromLatin1(kAxisSheet).arg(look));
     axes_[static_cast<std::size_t>(axis)] = button;
   }
-  axes_[3] = addAxis(row, "sectionSight", tr("View"), tr("Across the direction of sight as it is now"));
-  axes_[4] = addAxis(row, "sectionFace", tr("Face"), tr("Through a flat face, which you then click"));
+  axes_[3] = addAxis(row, "sectionSight", tr("View"), tr("Across the present direction of view"));
+  axes_[4] = addAxis(row, "sectionFace", tr("Face"), tr("Through a flat face that you click next"));
   int next = 0;
   for (QToolButton* button : axes_) {
     connect(button, &QToolButton::clicked, this, [this, axis = static_cast<SectionAxis>(next++)] {
@@ -102,7 +102,7 @@ void SectionBar::setUpFields() {
   slider_->setObjectName(QStringLiteral("sectionSlider"));
   slider_->setAccessibleName(tr("Offset of the section"));
   slider_->setToolTip(
-      tr("Moves the plane through the parts; the arrow in the view does too, its rings tilt it"));
+      tr("Move the plane through the parts, as the arrow in the view does; its rings tilt the plane"));
   slider_->setRange(0, kSliderSteps);
   slider_->setPageStep(kSliderSteps / 20);
   slider_->setMinimumWidth(kSliderWidth);
@@ -112,13 +112,13 @@ void SectionBar::setUpFields() {
   position_->setQuantityRange(-kFarthest, kFarthest);
   position_->setQuantityStep(1e-3);
   position_->setToolTip(
-      tr("Offset of the plane: along an axis from the world's origin, else from where it was laid"));
+      tr("Offset of the plane: along an axis from the world's origin, otherwise from where it was put"));
   flip_->setObjectName(QStringLiteral("sectionFlip"));
-  flip_->setToolTip(tr("Cuts away the other side"));
+  flip_->setToolTip(tr("Cut away the other side"));
   spare_->setObjectName(QStringLiteral("sectionSpare"));
-  spare_->setToolTip(tr("Leaves the moving part uncut, to see it in the others"));
+  spare_->setToolTip(tr("Leave the moving part uncut, to see it inside the others"));
   close_->setObjectName(QStringLiteral("sectionClose"));
-  close_->setToolTip(tr("Shows the parts whole again (Escape)"));
+  close_->setToolTip(tr("Show the parts whole again (Escape)"));
   note_->setObjectName(QStringLiteral("sectionNote"));
   note_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kWarning.name()));
   connect(slider_, &QSlider::valueChanged, this, [this](int value) {

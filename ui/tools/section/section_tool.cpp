@@ -107,7 +107,7 @@ void SectionTool::connectPicker() {
   connect(&picker_, &FeaturePicker::cancelled, this, [this] { pickFace(false); });
   connect(&picker_, &FeaturePicker::told, this, [this](const QString& text) {
     if (!picker_.isActive()) return;
-    asked_ = text.isEmpty() ? tr("Click the flat face that the plane shall go through") : text;
+    asked_ = text.isEmpty() ? tr("Click the flat face that the plane should go through") : text;
     tell();
   });
 }
@@ -173,7 +173,7 @@ void SectionTool::pickFace(bool isWanted) {
   asked_.clear();
   if (isWanted) {
     picker_.start({});
-    asked_ = tr("Click the flat face that the plane shall go through");
+    asked_ = tr("Click the flat face that the plane should go through");
   } else {
     picker_.stop();
   }
@@ -253,9 +253,10 @@ void SectionTool::tell() {
   constexpr int kNamed = 3;
   QStringList notes;
   if (!open.isEmpty())
-    notes << tr("Cut without a cap, as the mesh is open: %1").arg(listOfNames(open, kNamed));
+    notes << tr("Cut without a cap because the mesh is open: %1").arg(listOfNames(open, kNamed));
   if (!intricate.isEmpty())
-    notes << tr("Cut without a cap, as its outline is too intricate: %1").arg(listOfNames(intricate, kNamed));
+    notes
+        << tr("Cut without a cap because the outline is too complex: %1").arg(listOfNames(intricate, kNamed));
   bar_->showNote(notes.join(QChar('\n')));
 }
 

@@ -192,7 +192,7 @@ void FeelDialogTest::wishesBeyondTheBoundAreShownAsHeld() {
   QCOMPARE(note("couplingStiffnessNote"), QStringLiteral("at most 2000 N/m"));
   type("couplingStiffness", "5000");
   QCOMPARE(edited_->coupling.stiffness, 5000.0);
-  QCOMPARE(note("couplingStiffnessNote"), QStringLiteral("held to 2000 N/m"));
+  QCOMPARE(note("couplingStiffnessNote"), QStringLiteral("limited to 2000 N/m"));
   QCOMPARE(note("rotationalStiffnessNote"), QStringLiteral("at most 2 N·m/rad"));
 }
 
@@ -210,7 +210,7 @@ void FeelDialogTest::aPresetBeyondTheBoundIsShownAsHeld() {
   QCOMPARE(presets->currentText(), QStringLiteral("Medium"));
   QVERIFY(chosen && chosen->coupling.stiffness == 600.0);
   // 2 (0.2 - 0.1) / 1 ms.
-  QCOMPARE(note("couplingStiffnessNote"), QStringLiteral("held to 200 N/m"));
+  QCOMPARE(note("couplingStiffnessNote"), QStringLiteral("limited to 200 N/m"));
   QVERIFY(!edited_);
 }
 
@@ -249,7 +249,7 @@ void FeelDialogTest::springsTellWhatIsEnforcedAndWhatIsNot() {
                                        "and 100 N·m/s")));
   // 2 b / T, in all.
   QVERIFY(note("springBound").startsWith(QStringLiteral("Not enforced")));
-  QVERIFY2(note("springBound").contains(QStringLiteral("up to 3000 N/m, at 1.00 ms")),
+  QVERIFY2(note("springBound").contains(QStringLiteral("up to 3000 N/m, at a period of 1.00 ms")),
            qPrintable(note("springBound")));
   QVERIFY(!note("springBound").contains(QStringLiteral("now")));
   // Over a scale of two, half the damping at the handle.
@@ -271,7 +271,7 @@ void FeelDialogTest::springsBeyondWhatIsPassiveAreMarked() {
   snapshot.lmdCount = 3;
   dialog_->showSnapshot(snapshot);
   // 2 (1 - 3 * 0.05) / 2 ms = 850 N/m, for three.
-  QVERIFY2(note("springBound").contains(QStringLiteral("up to 850 N/m, at 2.00 ms")),
+  QVERIFY2(note("springBound").contains(QStringLiteral("up to 850 N/m, at a period of 2.00 ms")),
            qPrintable(note("springBound")));
   QVERIFY(note("springBound").contains(QStringLiteral("now 3: 283.3 N/m each")));
   const QString calm = widget<QLabel>("springBound")->styleSheet();
@@ -341,7 +341,7 @@ void FeelDialogTest::refusedValuesGoBackWithTheReason() {
   const HapticSettings before;
   type("margin", "20");
   QCOMPARE(edited_->proxy.margin, 0.02);
-  dialog_->showRefusal(QStringLiteral("Not taken over"));
+  dialog_->showRefusal(QStringLiteral("Not applied"));
   show(before);
   QCOMPARE(field("margin")->value(), 0.1);
   QVERIFY(!widget<QLabel>("refusal")->isHidden());
