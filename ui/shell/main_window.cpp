@@ -89,8 +89,11 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   connectEditActions();
   connectViewActions();
   connectPanels();
-  session_.onChange([this] { showScene(); });
+  viewChanges_ =
+      session_.onChange(SceneEvents::Stage::View, [this] { viewport_->setScene(session_.scene()); });
+  panelChanges_ = session_.onChange(SceneEvents::Stage::Panels, [this] { showScene(); });
   setDemoScene({});
+  viewport_->setScene(session_.scene());
   showScene();
   manners_->settle();
 }
@@ -170,7 +173,6 @@ void MainWindow::showScene() {
   const QString name = session_.file().empty() ? tr("Untitled") : fromPath(session_.file().filename());
   setWindowTitle(name + QStringLiteral("[*] – Nearfit"));
   showModified();
-  viewport_->setScene(scene);
   partsPanel_->setScene(scene);
   feelDialog_->showScene(scene);
   feelPanel_->showSettings(scene.haptics());

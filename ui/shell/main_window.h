@@ -202,6 +202,7 @@ class MainWindow : public QMainWindow {
   RigidTransform poseInHand_;     ///< worldFromPart of the part in hand.
   glm::dvec3 centreInPart_{0.0};  ///< Centre of mass of the part in hand [m]; the mouse turns about it.
   RigidTransform handPose_;       ///< worldFromPart that the manual hand wants; the part may lag behind.
+  Subscription viewChanges_, panelChanges_;
 };
 
 }  // namespace nearfit::ui

@@ -23,13 +23,6 @@ QString headingOf(const Scene& scene, const Selection& selection) {
   return others > 0 ? MainWindow::tr("%1 and %n more", nullptr, others).arg(name) : name;
 }
 
-/// True if all selected nodes still exist. Other listeners may hear of a scene change
-/// before the selection does.
-bool isUpToDate(const Scene& scene, const SceneNodes& nodes) {
-  return std::ranges::all_of(nodes.parts, [&](PartId part) { return scene.find(part) != nullptr; }) &&
-         std::ranges::all_of(nodes.groups, [&](GroupId group) { return scene.findGroup(group) != nullptr; });
-}
-
 }  // namespace
 
 void MainWindow::connectMoveGuard() {
@@ -46,7 +39,6 @@ void MainWindow::showSelection() {
   const Scene& scene = session_.scene();
   const Part* part = id ? scene.find(*id) : nullptr;
   const std::vector<PartId>& selection = selection_->parts();
-  if (!isUpToDate(scene, selection_->nodes())) return;
   const QString heading = headingOf(scene, *selection_);
   QString help = heading;
   if (selection.size() > 1)

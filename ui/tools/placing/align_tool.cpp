@@ -42,7 +42,7 @@ AlignTool::AlignTool(Session& session, Selection& selection, Viewport& view, con
   const auto look = [this] {
     if (picker_.isActive() && !isSound()) stop();
   };
-  session_.onChange(look);
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, look);
   connect(&guard_, &MoveGuard::changed, this, look);
 }
 

@@ -69,6 +69,7 @@ class AlignTool : public QObject {
   std::optional<FeaturePick> moving_, fixed_;
   std::map<PartId, RigidTransform> start_;  ///< worldFromPart of the moving parts at the first pick.
   RigidTransform motion_;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

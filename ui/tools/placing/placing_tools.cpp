@@ -57,7 +57,7 @@ PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& vie
     if (!isDragSound()) abandon();
     showFrame();
   };
-  session_.onChange(look);
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, look);
   connect(&guard_, &MoveGuard::changed, this, look);
   showActions();
 }

@@ -121,6 +121,7 @@ class PlacingTools : public QObject {
   std::optional<Brought> brought_;
   bool isAside_ = false;
   bool isPutting_ = false;  ///< This is changing the session.
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui
