@@ -218,11 +218,11 @@ void DesktopSolidMovesTest::aRingStopsBetweenTwoPlates() {
   QTRY_VERIFY(b.overlay().picture().has_value());
   const std::size_t steps = b.steps();
   int dragged = 0, met = 0;
-  QObject::connect(&b.window().placing(), &ui::PlacingTools::draggedPosesChanged, &b.view(), [&] {
-    const auto pose = b.window().placing().draggedPose(b.partId("cube"));
-    if (!pose) return;
+  const ui::ShownPoses& poses = b.view().poses();
+  QObject::connect(&poses, &ui::ShownPoses::changed, &b.view(), [&] {
+    if (!poses.isDragged(b.partId("cube"))) return;
     ++dragged;
-    met += b.doPlatesMeet(*pose) ? 1 : 0;
+    met += b.doPlatesMeet(poses.poseOf(b.part("cube"))) ? 1 : 0;
   });
   // 70 degrees round the middle; the ring about y is seen as a circle from the front.
   const QPoint middle = b.seen(glm::dvec3(0.0)), from = b.handle(GizmoGrip::TurnY);
