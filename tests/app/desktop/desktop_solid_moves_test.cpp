@@ -37,6 +37,7 @@ class DesktopSolidMovesTest : public QObject {
   void aRingStopsBetweenTwoPlates();
   void severalTogetherStopWhereOneOfThemDoes_data();
   void severalTogetherStopWhereOneOfThemDoes();
+  void aPartThatLeavesWhileItSettlesIsPutNowhere();
 
  private:
   static void solidOrNot();
@@ -292,6 +293,21 @@ void DesktopSolidMovesTest::severalTogetherStopWhereOneOfThemDoes() {
   }
   QVERIFY(glm::distance(front, behind) < 1e-12);
   QVERIFY(glm::length(b.turnOf("front")) < 1e-12 && glm::length(b.turnOf("behind")) < 1e-12);
+}
+
+/// The selection was the first to tell that the part had left, and the tools put it where it had come to.
+void DesktopSolidMovesTest::aPartThatLeavesWhileItSettlesIsPutNowhere() {
+  SolidDriver b(channel(), true);
+  QStringList failures;
+  b.window().setFailureSink([&](const ui::Failure& failure) { failures << failure.summary; });
+  b.select({"cube"});
+  b.type<ui::NumberField>("nudgeStep", "100");
+  b.press(Qt::Key_Up);
+  const PartId cube = b.partId("cube");
+  b.session().deletePart(cube);
+  QCOMPARE(failures, QStringList());
+  QVERIFY(!b.view().poses().isDragged(cube));
+  QCOMPARE(QString::fromStdString(b.session().undoText()), QStringLiteral("Delete cube"));
 }
 
 NEARFIT_QT_SUITE(DesktopSolidMovesTest, runDesktopTest<DesktopSolidMovesTest>)

@@ -50,6 +50,8 @@ PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& vie
     if (isOn && !session_.scene().parts().empty()) emit hierarchiesWanted();
   });
   connect(&selection_, &Selection::changed, this, [this] {
+    // What has left the scene cannot be put anywhere.
+    if (!isMoveSound()) giveUpParts();
     commit();
     abandon();
     showFrame();
