@@ -40,7 +40,7 @@ ServoController::ServoController(Session& session, DeviceSource& devices)
                                       .arg(QFileInfo(file).fileName()),
                  error);
           });
-  session_.onChange([this] { followSession(); });
+  changes_ = session_.onChange(SceneEvents::Stage::Application, [this] { followSession(); });
 }
 
 ServoController::~ServoController() {

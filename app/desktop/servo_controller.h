@@ -114,8 +114,11 @@ class ServoController : public QObject {
   PartId moving_{};
   std::uint64_t sceneSerial_ = 0;  ///< Serial of the scene that owns `moving_`.
   HapticMode mode_{};              ///< Mode that the hand was made for.
+  /// True while this puts the servo's own pose into the session: followSession() must not give that back to the
+  /// servo as a new scene. No order of listeners makes it unnecessary.
   bool isCommitting_ = false;
   ui::ServoStatus status_;
+  Subscription changes_;
   DeviceWorker worker_;  ///< Destroyed first: its jobs call back into this.
 };
 

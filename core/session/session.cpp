@@ -53,7 +53,7 @@ void Session::commit(Scene scene, Step step) {
   past_.push_back(std::exchange(current_, {std::move(scene), std::move(step), nextSerial_++}));
   if (past_.size() > kMaxUndo) past_.pop_front();
   future_.clear();
-  notify();
+  events_.notify();
 }
 
 PartId Session::addPart(PartGeometryPtr geometry, const std::string& name,
@@ -104,20 +104,20 @@ void Session::begin(Scene scene, const std::filesystem::path& file) {
 void Session::reset(Scene scene, const std::filesystem::path& file) {
   begin(std::move(scene), file);
   savedSerial_ = current_.serial;
-  notify();
+  events_.notify();
 }
 
 void Session::restore(Scene scene, const std::filesystem::path& file) {
   begin(std::move(scene), file);
   savedSerial_ = nextSerial_++;  // Matches no state.
-  notify();
+  events_.notify();
 }
 
 void Session::save(const std::filesystem::path& file) {
   writeSceneFile(scene(), file);
   file_ = file;
   savedSerial_ = current_.serial;
-  notify();
+  events_.notify();
 }
 
 void Session::stepBack() {
@@ -135,13 +135,13 @@ void Session::stepOn() {
 void Session::undo() {
   if (past_.empty()) return;
   stepBack();
-  notify();
+  events_.notify();
 }
 
 void Session::redo() {
   if (future_.empty()) return;
   stepOn();
-  notify();
+  events_.notify();
 }
 
 std::vector<Session::Step> Session::history() const {
@@ -161,7 +161,7 @@ void Session::goTo(std::size_t index) {
     stepBack();
   while (past_.size() < index)
     stepOn();
-  notify();
+  events_.notify();
 }
 
 std::size_t Session::changesSinceSave() const noexcept {
@@ -172,17 +172,6 @@ std::size_t Session::changesSinceSave() const noexcept {
   const auto after = std::find_if(future_.rbegin(), future_.rend(), isSaved);
   if (after != future_.rend()) return static_cast<std::size_t>(after - future_.rbegin()) + 1;
   return past_.size() + 1;
-}
-
-void Session::onChange(std::function<void()> listener) {
-  listeners_.push_back(std::move(listener));
-}
-
-void Session::notify() const {
-  // A copy, since a listener may register another.
-  const std::vector<std::function<void()>> listeners = listeners_;
-  for (const std::function<void()>& listener : listeners)
-    listener();
 }
 
 }  // namespace nearfit

@@ -7,10 +7,12 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scene/scene.h"
 #include "core/scene/scene_tree.h"
+#include "core/session/scene_events.h"
 
 namespace nearfit {
 
@@ -149,9 +151,11 @@ class Session {
   /// undo depth plus one.
   std::size_t changesSinceSave() const noexcept;
 
-  /// Registers a listener, for the session's lifetime. It is called after each change of scene, file or
-  /// modified state, on the thread that made the change.
-  void onChange(std::function<void()> listener);
+  /// Calls `listener` after each change of scene, file or modified state, on the thread that made the change,
+  /// as long as the subscription lives. Order and re-entrancy: see SceneEvents.
+  Subscription onChange(SceneEvents::Stage stage, std::function<void()> listener) {
+    return events_.subscribe(stage, std::move(listener));
+  }
 
  private:
   struct State {
@@ -173,8 +177,6 @@ class Session {
                       const std::function<void(Part&)>& change) {
     changeUnlocked(ids, Step{verb}, change);
   }
-  /// Calls all listeners.
-  void notify() const;
   /// Replaces the scene and clears undo, without notifying.
   void begin(Scene scene, const std::filesystem::path& file);
   /// Move one state back or forward, without notifying.
@@ -186,7 +188,7 @@ class Session {
   std::vector<State> future_;  ///< Last element is the next to redo.
   std::uint64_t savedSerial_ = 0, nextSerial_ = 1, sceneSerial_ = 0;
   std::filesystem::path file_;
-  std::vector<std::function<void()>> listeners_;
+  SceneEvents events_;
 };
 
 }  // namespace nearfit

@@ -14,6 +14,7 @@
 #include "tests/bench/skip_row.h"
 #include "tests/support/part_geometries.h"
 #include "ui/model/selection.h"
+#include "ui/model/shown_poses.h"
 #include "ui/view3d/viewport.h"
 
 /// Times the frames of a view in which nothing changes, and the same drawn all the same; writes the row for
@@ -29,7 +30,10 @@ constexpr std::uint32_t kTeeth = 25;
 /// A view of some gears, with what a servo tells of the first.
 class View {
  public:
-  View() : selection_(session_), viewport_(std::make_shared<ui::PartShapeCache>(), selection_) {
+  View()
+      : selection_(session_),
+        poses_(session_),
+        viewport_(std::make_shared<ui::PartShapeCache>(), selection_, poses_) {
     const PartGeometryPtr gear = test::freshGeometryOf(bench::gearMesh(kTeeth));
     const Scene scene = bench::gridOf({&gear, 1}, kParts);
     snapshot_->moving = *scene.movingPart();
@@ -79,6 +83,7 @@ class View {
 
   Session session_;
   ui::Selection selection_;
+  ui::ShownPoses poses_;
   ui::Viewport viewport_;
   std::unique_ptr<ServoSnapshot> snapshot_ = std::make_unique<ServoSnapshot>();
 };

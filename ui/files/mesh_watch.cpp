@@ -2,7 +2,6 @@
 
 #include <QDateTime>
 #include <QFileInfo>
-#include <QPointer>
 #include <memory>
 
 #include "core/base/error.h"
@@ -18,9 +17,7 @@ MeshWatch::MeshWatch(Session& session, QObject* parent) : QObject(parent), sessi
   connect(&watcher_, &QFileSystemWatcher::fileChanged, this,
           [this](const QString& file) { look(QFileInfo(file).absolutePath()); });
   connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, &MeshWatch::look);
-  session_.onChange([self = QPointer<MeshWatch>(this)] {
-    if (self) self->watchScene();
-  });
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { watchScene(); });
 }
 
 MeshWatch::Stamp MeshWatch::stampOf(const QString& file) {

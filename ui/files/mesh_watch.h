@@ -48,6 +48,7 @@ class MeshWatch : public QObject {
   QMap<QString, Stamp> pending_;  ///< Stamps when a change was last seen.
   QTimer timer_;
   BackgroundTask task_;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

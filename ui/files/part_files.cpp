@@ -4,7 +4,6 @@
 #include <QFileInfo>
 #include <QLocale>
 #include <QMenu>
-#include <QPointer>
 #include <QSettings>
 #include <algorithm>
 #include <functional>
@@ -80,12 +79,10 @@ void PartFiles::addActions(QMenu* menu) {
   };
   connect(&document_, &Document::busyChanged, reload_, update);
   // Parts are added only after loading has ended, but removed without any loading.
-  session_.onChange([self = QPointer<PartFiles>(this), update] {
-    if (!self) return;
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, [this, update] {
     update();
     // It was saved, or is another scene: nothing is left to say.
-    if (!self->session_.isModified() || self->session_.sceneSerial() != self->sceneOfOthers_)
-      self->notices_.withdraw(kOthersNotice);
+    if (!session_.isModified() || session_.sceneSerial() != sceneOfOthers_) notices_.withdraw(kOthersNotice);
   });
   update();
 }

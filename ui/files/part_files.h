@@ -67,6 +67,7 @@ class PartFiles : public QObject {
   QStringList changed_;              ///< Files changed on disk and not reloaded yet.
   std::uint64_t sceneOfOthers_ = 0;  ///< Serial of the scene that was said to have other meshes.
   QStringList waiting_;              ///< Files to reload once nothing else is being loaded.
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

@@ -24,8 +24,6 @@ class MoveGuard : public QObject {
   void setHolder(Holder holder);
   /// Set true while a recording shows the moving part away from its pose.
   void setReplaying(bool isReplaying);
-  /// True if a recording shows this part.
-  bool isReplayed(PartId part) const;
 
   /// Returns why a part cannot be moved, as a sentence without a full stop; empty if it can.
   QString refusalOf(const Part& part) const;
@@ -38,6 +36,8 @@ class MoveGuard : public QObject {
   void changed();
 
  private:
+  /// True if a recording shows this part.
+  bool isReplayed(PartId part) const;
   QString lockOf(const Part& part) const;
 
   const Session& session_;

@@ -5,13 +5,11 @@
 #include <unordered_set>
 #include <utility>
 
-#include "core/session/session.h"
-
 namespace nearfit::ui {
 
 Selection::Selection(Session& session, QObject* parent)
     : QObject(parent), session_(session), sceneSerial_(session.sceneSerial()) {
-  session_.onChange([this] {
+  changes_ = session_.onChange(SceneEvents::Stage::Model, [this] {
     // In another scene the same ids mean other parts.
     const bool isSameScene = std::exchange(sceneSerial_, session_.sceneSerial()) == session_.sceneSerial();
     isSameScene ? set(parts_, groups_) : set({});

@@ -5,11 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scene/scene_tree.h"
-
-namespace nearfit {
-class Session;
-}
+#include "core/session/session.h"
 
 namespace nearfit::ui {
 
@@ -19,8 +15,8 @@ class Selection : public QObject {
   Q_OBJECT
 
  public:
-  /// @param session  Outlives this. Construct this before other listeners of the session, so that they never
-  ///                 find a part here that has left the scene.
+  /// @param session  Outlives this. Its listeners of later stages never find a part here that has left the
+  ///                 scene.
   explicit Selection(Session& session, QObject* parent = nullptr);
 
   /// In order of selection, without duplicates.
@@ -54,6 +50,7 @@ class Selection : public QObject {
   std::uint64_t sceneSerial_;  ///< Serial of the scene that owns the parts.
   std::vector<PartId> parts_;
   std::vector<GroupId> groups_;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

@@ -18,6 +18,7 @@
 #include "ui/model/move_guard.h"
 #include "ui/model/preset_store.h"
 #include "ui/model/selection.h"
+#include "ui/model/shown_poses.h"
 #include "ui/panels/feel/feel_dialog.h"
 #include "ui/panels/feel/feel_panel.h"
 #include "ui/panels/history/history_panel.h"
@@ -58,10 +59,11 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     : QMainWindow(parent),
       session_(session),
       selection_(new Selection(session, this)),
+      poses_(new ShownPoses(session, this)),
       actions_(new Actions(this)),
       guard_(new MoveGuard(session, this)) {
   const auto shapes = std::make_shared<PartShapeCache>();
-  viewport_ = new Viewport(shapes, *selection_, this);
+  viewport_ = new Viewport(shapes, *selection_, *poses_, this);
   document_ = std::make_unique<Document>(session, shapes, this);
   setCentralWidget(viewport_);
   readout_ = new StatusReadout(statusBar());
@@ -89,8 +91,11 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   connectEditActions();
   connectViewActions();
   connectPanels();
-  session_.onChange([this] { showScene(); });
+  viewChanges_ =
+      session_.onChange(SceneEvents::Stage::View, [this] { viewport_->setScene(session_.scene()); });
+  panelChanges_ = session_.onChange(SceneEvents::Stage::Panels, [this] { showScene(); });
   setDemoScene({});
+  viewport_->setScene(session_.scene());
   showScene();
   manners_->settle();
 }
@@ -157,7 +162,7 @@ void MainWindow::protectWork(const std::filesystem::path& recoveryFolder) {
   const auto poseInHand = [this]() -> Autosave::PoseInHand {
     const std::optional<PartId> moving = session_.scene().movingPart();
     if (!servo_.isRunning || !moving) return std::nullopt;
-    return std::pair(*moving, poseInHand_);
+    return std::pair(*moving, poseOfMoving());
   };
   recovery_ = new Recovery(recoveryFolder, session_, *document_, poseInHand, this);
   connect(recovery_, &Recovery::noted, this, &MainWindow::showNote);
@@ -170,7 +175,6 @@ void MainWindow::showScene() {
   const QString name = session_.file().empty() ? tr("Untitled") : fromPath(session_.file().filename());
   setWindowTitle(name + QStringLiteral("[*] – Nearfit"));
   showModified();
-  viewport_->setScene(scene);
   partsPanel_->setScene(scene);
   feelDialog_->showScene(scene);
   feelPanel_->showSettings(scene.haptics());
@@ -181,7 +185,7 @@ void MainWindow::showScene() {
 void MainWindow::showModified() {
   const std::optional<PartId> moving = session_.scene().movingPart();
   const Part* held = servo_.isRunning && moving ? session_.scene().find(*moving) : nullptr;
-  const bool hasMoved = held != nullptr && isElsewhere(poseInHand_, held->worldFromPart);
+  const bool hasMoved = held != nullptr && isElsewhere(poseOfMoving(), held->worldFromPart);
   const bool isModified = session_.isModified() || hasMoved;
   if (isWindowModified() != isModified) setWindowModified(isModified);
 }
@@ -221,8 +225,9 @@ void MainWindow::showServoStatus(const ServoStatus& status) {
   if (!hasChanged) return;
   if (status.isRunning) {
     const Part* part = session_.scene().find(session_.scene().movingPart().value_or(PartId{}));
-    if (part != nullptr) handPose_ = poseInHand_ = part->worldFromPart;
+    if (part != nullptr) handPose_ = part->worldFromPart;
   } else {
+    poses_->show(ShownPoses::Source::Hand, {});
     viewport_->handDrag().setPoint({});
     viewport_->clearSnapshot();
     feelPanel_->clearSnapshot();
@@ -235,7 +240,7 @@ void MainWindow::showServoStatus(const ServoStatus& status) {
 }
 
 void MainWindow::showSnapshot(const ServoSnapshot& snapshot) {
-  poseInHand_ = snapshot.proxy;
+  poses_->show(ShownPoses::Source::Hand, {{snapshot.moving, snapshot.proxy}});
   centreInPart_ = snapshot.proxy.inverse().applyToPoint(snapshot.centre);
   viewport_->handDrag().setPoint(isHandManual() ? std::optional(handPose_.applyToPoint(centreInPart_))
                                                 : std::nullopt);
@@ -248,7 +253,7 @@ void MainWindow::showSnapshot(const ServoSnapshot& snapshot) {
   if (recovery_ != nullptr) recovery_->autosave().noteMotion();
   takingAway_->showSnapshot(snapshot);
   if (!holds(selected())) return;
-  posePanel_->showPose(poseInHand_, servo_.hand == Hand::Manual ? handPose_ : poseInHand_);
+  posePanel_->showPose(snapshot.proxy, servo_.hand == Hand::Manual ? handPose_ : snapshot.proxy);
 }
 
 void MainWindow::showFailure(const Failure& failure) {

@@ -29,6 +29,7 @@ class PosePanel;
 class PresetStore;
 class Recovery;
 class Selection;
+class ShownPoses;
 class StatusReadout;
 class TreeActions;
 class TakingAway;
@@ -49,7 +50,6 @@ class MainWindow : public QMainWindow {
   Document& document() noexcept { return *document_; }
   Viewport& viewport() noexcept { return *viewport_; }
   Selection& selection() noexcept { return *selection_; }
-  PlacingTools& placing() noexcept { return *placing_; }
   TakingAway& takingAway() noexcept { return *takingAway_; }
   /// Sends failures to `sink` instead of a message box, for unattended runs.
   void setFailureSink(std::function<void(const Failure&)> sink);
@@ -143,8 +143,8 @@ class MainWindow : public QMainWindow {
   std::optional<PartId> selected() const;
   /// True if the servo holds that part.
   bool holds(std::optional<PartId> part) const;
-  /// Returns where the part is now, dragged, replayed or in hand included (worldFromPart).
-  RigidTransform poseOf(const Part& part) const;
+  /// Returns where the moving part is now (worldFromPart); the identity if there is none.
+  RigidTransform poseOfMoving() const;
   void requestStart();
   /// Asks for the file of a recorded hand; false if the user cancels.
   bool askForRecording();
@@ -171,6 +171,7 @@ class MainWindow : public QMainWindow {
 
   Session& session_;
   Selection* selection_;
+  ShownPoses* poses_;
   Actions* actions_;
   MoveGuard* guard_;
   TreeActions* treeActions_;
@@ -199,9 +200,9 @@ class MainWindow : public QMainWindow {
   /// Set while a start waits for hierarchies. Keeps the device chosen: if it is unplugged meanwhile, no
   /// other one takes its place.
   std::optional<WantedHand> wanted_;
-  RigidTransform poseInHand_;     ///< worldFromPart of the part in hand.
   glm::dvec3 centreInPart_{0.0};  ///< Centre of mass of the part in hand [m]; the mouse turns about it.
   RigidTransform handPose_;       ///< worldFromPart that the manual hand wants; the part may lag behind.
+  Subscription viewChanges_, panelChanges_;
 };
 
 }  // namespace nearfit::ui

@@ -198,12 +198,7 @@ void MainWindow::recolourSelected() {
 }
 
 void MainWindow::setUpTakingAway() {
-  const auto poseOfMoving = [this] {
-    const std::optional<PartId> moving = session_.scene().movingPart();
-    const Part* part = moving ? session_.scene().find(*moving) : nullptr;
-    return part != nullptr ? poseOf(*part) : RigidTransform{};
-  };
-  takingAway_ = new TakingAway({*this, session_, *selection_, *viewport_, poseOfMoving});
+  takingAway_ = new TakingAway({*this, session_, *selection_, *viewport_, [this] { return poseOfMoving(); }});
   takingAway_->addTo({actions_->fileMenu, actions_->feelMenu, actions_->panelsMenu,
                       findChild<QToolBar*>(QStringLiteral("toolBar")), actions_->exportPlacement});
   connect(takingAway_, &TakingAway::sceneNeeded, posePanel_, &PosePanel::commit);

@@ -39,10 +39,6 @@ void MainWindow::connectHand() {
 }
 
 void MainWindow::connectPlacing() {
-  connect(placing_, &PlacingTools::draggedPosesChanged, this, [this] {
-    const std::optional<PartId> id = selected();
-    if (id && !holds(id)) posePanel_->showPose(poseOf(*session_.scene().find(*id)));
-  });
   connect(placing_, &PlacingTools::handWanted, this, &MainWindow::moveHand);
   connect(placing_, &PlacingTools::failed, this, [this](const Failure& failure) {
     showFailure(failure);
@@ -65,7 +61,7 @@ void MainWindow::showHeld() {
                                                   : Holder::ScriptedHand);
   const std::optional<PartId> part = session_.scene().movingPart();
   if (!servo_.isRunning || !part) return placing_->setHeld({});
-  placing_->setHeld(HeldPart{*part, poseInHand_, handPose_, servo_.hand == Hand::Manual});
+  placing_->setHeld(HeldPart{*part, handPose_, servo_.hand == Hand::Manual});
 }
 
 void MainWindow::moveSelected(const RigidTransform& worldFromPart) {
@@ -115,7 +111,7 @@ void MainWindow::moveHand(const RigidTransform& worldFromPart) {
 
 void MainWindow::letGo() {
   if (!isHandManual()) return;
-  handPose_ = poseInHand_;
+  handPose_ = poseOfMoving();
   emit handMoved(handPose_);
 }
 

@@ -3,11 +3,10 @@
 
 #include "ui/model/move_guard.h"
 #include "ui/model/selection.h"
+#include "ui/model/shown_poses.h"
 #include "ui/panels/pose/pose_panel.h"
 #include "ui/shell/main_window.h"
 #include "ui/shell/taking_away.h"
-#include "ui/tools/placing/placing_tools.h"
-#include "ui/view3d/viewport.h"
 
 namespace nearfit::ui {
 namespace {
@@ -23,21 +22,15 @@ QString headingOf(const Scene& scene, const Selection& selection) {
   return others > 0 ? MainWindow::tr("%1 and %n more", nullptr, others).arg(name) : name;
 }
 
-/// True if all selected nodes still exist. Other listeners may hear of a scene change
-/// before the selection does.
-bool isUpToDate(const Scene& scene, const SceneNodes& nodes) {
-  return std::ranges::all_of(nodes.parts, [&](PartId part) { return scene.find(part) != nullptr; }) &&
-         std::ranges::all_of(nodes.groups, [&](GroupId group) { return scene.findGroup(group) != nullptr; });
-}
-
 }  // namespace
 
 void MainWindow::connectMoveGuard() {
   connect(guard_, &MoveGuard::changed, this, &MainWindow::showSelection);
   connect(takingAway_, &TakingAway::replayingChanged, guard_, &MoveGuard::setReplaying);
-  connect(viewport_, &Viewport::posesChanged, this, [this] {
+  connect(poses_, &ShownPoses::changed, this, [this](const std::vector<PartId>& parts) {
     const std::optional<PartId> id = selected();
-    if (id && guard_->isReplayed(*id)) posePanel_->showPose(poseOf(*session_.scene().find(*id)));
+    if (!id || holds(id) || std::ranges::count(parts, *id) == 0) return;
+    posePanel_->showPose(poses_->poseOf(*session_.scene().find(*id)));
   });
 }
 
@@ -46,7 +39,6 @@ void MainWindow::showSelection() {
   const Scene& scene = session_.scene();
   const Part* part = id ? scene.find(*id) : nullptr;
   const std::vector<PartId>& selection = selection_->parts();
-  if (!isUpToDate(scene, selection_->nodes())) return;
   const QString heading = headingOf(scene, *selection_);
   QString help = heading;
   if (selection.size() > 1)
@@ -57,9 +49,9 @@ void MainWindow::showSelection() {
     parts.push_back(scene.find(each));
   posePanel_->showMass(parts, std::ranges::any_of(parts, [&](const Part* p) { return scene.isLocked(*p); }));
   if (holds(id) && servo_.hand == Hand::Manual) {
-    posePanel_->showPose(poseInHand_, handPose_);
+    posePanel_->showPose(poseOfMoving(), handPose_);
   } else if (part != nullptr) {
-    posePanel_->showPose(poseOf(*part));
+    posePanel_->showPose(poses_->poseOf(*part));
   }
   updateActions();
 }
@@ -72,10 +64,9 @@ bool MainWindow::holds(std::optional<PartId> part) const {
   return servo_.isRunning && part && session_.scene().movingPart() == part;
 }
 
-RigidTransform MainWindow::poseOf(const Part& part) const {
-  if (const std::optional<RigidTransform> dragged = placing_->draggedPose(part.id)) return *dragged;
-  if (guard_->isReplayed(part.id)) return viewport_->shownPose(part.id).value_or(part.worldFromPart);
-  return holds(part.id) ? poseInHand_ : part.worldFromPart;
+RigidTransform MainWindow::poseOfMoving() const {
+  const Part* part = session_.scene().find(session_.scene().movingPart().value_or(PartId{}));
+  return part != nullptr ? poses_->poseOf(*part) : RigidTransform{};
 }
 
 }  // namespace nearfit::ui

@@ -11,6 +11,7 @@
 #include "ui/files/export/exporter.h"
 #include "ui/files/export/picture_taker.h"
 #include "ui/model/selection.h"
+#include "ui/model/shown_poses.h"
 #include "ui/panels/clearance/clearance_panel.h"
 #include "ui/panels/clearance/clearance_search.h"
 #include "ui/panels/plots/plot_panel.h"
@@ -143,10 +144,12 @@ void TakingAway::connectReplay() {
     emit replayingChanged(true);
   });
   connect(replay_, &Replay::rowShown, this, [this](const ServoSnapshot& snapshot) {
+    window_.viewport.poses().show(ShownPoses::Source::Replay, {{snapshot.moving, snapshot.proxy}});
     window_.viewport.showSnapshot(snapshot);
     plots_->setRecordingTime(snapshot.time);
   });
   connect(replay_, &Replay::closed, this, [this] {
+    window_.viewport.poses().show(ShownPoses::Source::Replay, {});
     window_.viewport.clearSnapshot();
     plots_->showLive();
     emit replayingChanged(false);

@@ -15,6 +15,7 @@
 #include <vtkOpenGLState.h>
 
 #include "ui/model/selection.h"
+#include "ui/model/shown_poses.h"
 #include "ui/model/snapshot_look.h"
 #include "ui/view3d/camera/camera_style.h"
 #include "ui/view3d/camera/orientation_marker.h"
@@ -41,11 +42,13 @@ void Viewport::setDefaultSurfaceFormat() {
   QSurfaceFormat::setDefaultFormat(format);
 }
 
-Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection, QWidget* parent)
+Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection, ShownPoses& poses,
+                   QWidget* parent)
     : QVTKOpenGLNativeWidget(parent),
       shapes_(std::move(shapes)),
       selection_(selection),
-      parts_(*renderer_.Get(), shapes_, overlay_.Get()),
+      poses_(poses),
+      parts_(*renderer_.Get(), shapes_, poses, overlay_.Get()),
       detail_(std::make_unique<ViewDetail>(*renderer_.Get(), *overlay_.Get(), parts_)),
       glyphs_(std::make_unique<SnapshotGlyphs>(*renderer_.Get(), *overlay_.Get(), *this)),
       pace_(std::make_unique<PicturePace>(*this)),
@@ -63,6 +66,7 @@ Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection,
           [this] { fitDepths(*renderer_, drawnBounds(), kRoomForMotion); });
   connect(pace_.get(), &PicturePace::pictureDue, this, [this] { window_->Render(); });
   connect(&selection_, &Selection::changed, this, &Viewport::showSelection);
+  connect(&poses_, &ShownPoses::changed, this, &Viewport::placeParts);
 }
 
 Viewport::~Viewport() = default;
@@ -196,25 +200,27 @@ void Viewport::showSelection() {
   requestRender();
 }
 
+void Viewport::placeParts(const std::vector<PartId>& parts) {
+  parts_.place(parts);
+  emit posesChanged();
+  requestRender();
+}
+
 void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
   if (shown_ != nullptr && looksTheSame(*shown_, snapshot)) return;
   if (shown_ == nullptr) shown_ = std::make_unique<ServoSnapshot>();
   *shown_ = snapshot;
   hasNewNumbers_ = true;
-  parts_.setPoseInHand(snapshot.proxy);
   glyphs_->show(snapshot, scene_.haptics().springs.cutoff, scene_.find(snapshot.moving));
   const std::size_t released = std::min<std::size_t>(snapshot.releasedCount, ServoSnapshot::kMaxReleased);
   parts_.setOverlapping(std::span(snapshot.released).first(released));
-  emit posesChanged();
   requestRender();
 }
 
 void Viewport::clearSnapshot() {
   shown_.reset();
-  parts_.setPoseInHand(std::nullopt);
   glyphs_->clear();
   parts_.setOverlapping({});
-  emit posesChanged();
   requestRender();
 }
 
@@ -295,17 +301,6 @@ void Viewport::mouseReleaseEvent(QMouseEvent* event) {
   QVTKOpenGLNativeWidget::mouseReleaseEvent(event);
   const bool isClick = (event->pos() - pressedAt_).manhattanLength() < QApplication::startDragDistance() / 2;
   if (event->button() == Qt::LeftButton && isClick) pickAt(event->pos(), event->modifiers());
-}
-
-void Viewport::setDragged(std::map<PartId, RigidTransform> worldFromPart) {
-  parts_.setDragged(std::move(worldFromPart));
-  emit posesChanged();
-  requestRender();
-}
-
-std::optional<RigidTransform> Viewport::shownPose(PartId part) const {
-  const Part* found = scene_.find(part);
-  return found != nullptr ? std::optional(parts_.shownPose(*found)) : std::nullopt;
 }
 
 ViewProjection Viewport::projection() const {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QPoint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -26,6 +25,7 @@ namespace nearfit::ui {
 class HandDrag;
 class PicturePace;
 class Selection;
+class ShownPoses;
 class SnapshotGlyphs;
 class ViewDetail;
 class ViewPicture;
@@ -38,8 +38,9 @@ class Viewport : public QVTKOpenGLNativeWidget {
   Q_OBJECT
 
  public:
-  /// @param selection  Outlives this.
-  Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection, QWidget* parent = nullptr);
+  /// @param selection, poses  Outlive this.
+  Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection, ShownPoses& poses,
+           QWidget* parent = nullptr);
   ~Viewport() override;
 
   /// Sets the OpenGL surface format of all windows. Call before constructing the QApplication.
@@ -47,16 +48,14 @@ class Viewport : public QVTKOpenGLNativeWidget {
 
   /// Shows a scene; turns to the isometric view if none of its parts has been shown before.
   void setScene(const Scene& scene);
-  /// Shows the part in hand, the hand's ghost, minima, contacts, wrench and overlapping parts. Draws nothing
-  /// if none of these changed.
+  /// Shows the hand's ghost, minima, contacts, wrench and overlapping parts; ShownPoses moves the part in hand.
+  /// Draws nothing if none of these changed.
   void showSnapshot(const ServoSnapshot& snapshot);
   /// Removes the snapshot and shows the scene alone.
   void clearSnapshot();
 
-  /// See SceneRenderer::setDragged().
-  void setDragged(std::map<PartId, RigidTransform> worldFromPart);
-  /// Returns where a part is shown now (worldFromPart); nullopt if it is not in the scene.
-  std::optional<RigidTransform> shownPose(PartId part) const;
+  /// Where the view shows its parts, and where tools put what they move.
+  ShownPoses& poses() const noexcept { return poses_; }
   /// Returns how the view projects the world now, in the widget's device-independent pixels.
   ViewProjection projection() const;
   /// Returns the bounds of all visible parts, uncut, in the world [m]; empty if there are none.
@@ -112,8 +111,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
  signals:
   /// Emitted after each picture, requested here or elsewhere.
   void drawn();
-  /// Emitted when parts came, left or are shown elsewhere. Tools that follow parts update
-  /// before the next picture.
+  /// Emitted once the view has placed its parts after some came, left or are shown elsewhere. For what is
+  /// drawn with them, which updates before the next picture; all else follows ShownPoses::changed().
   void posesChanged();
   /// Emitted when `tool` takes the clicks; see takeClicks().
   void clicksTaken(QObject* tool);
@@ -141,6 +140,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void countPicture();
   void showMovingPart();
   void showSelection();
+  void placeParts(const std::vector<PartId>& parts);
 
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<CachingRenderer> renderer_;
@@ -148,6 +148,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   vtkNew<vtkCameraOrientationWidget> marker_;
   std::shared_ptr<PartShapeCache> shapes_;
   Selection& selection_;
+  ShownPoses& poses_;
   SceneRenderer parts_;
   std::unique_ptr<ViewDetail> detail_;
   std::unique_ptr<SnapshotGlyphs> glyphs_;

@@ -22,6 +22,7 @@ class DesktopAlignTest : public QObject {
   void escapeLeavesEverythingAsItWas();
   void theGizmoStandsAsideMeanwhile();
   void aPartThatLeavesTheSceneEndsIt();
+  void anotherSceneEndsItThoughItsPartsAreTheSame();
   void lockedPartsRefuseToMove();
   void dragsStillOrbitWhileAligning();
   void makingPartsSolidMeanwhileEndsNothing();
@@ -163,6 +164,19 @@ void DesktopAlignTest::aPartThatLeavesTheSceneEndsIt() {
   while (d.session().canUndo())
     d.choose("undo");
   QVERIFY(d.session().scene().parts().empty());
+  QVERIFY(!d.action("align")->isChecked());
+  QVERIFY(!d.widget<QWidget>("alignBar")->isVisible());
+}
+
+/// What was picked in the scene before was aligned in the one that was opened.
+void DesktopAlignTest::anotherSceneEndsItThoughItsPartsAreTheSame() {
+  DesktopDriver d;
+  begin(d);
+  click(d, {0.003, kMovingFront, 0.036});
+  click(d, {-0.01, kFixedFront, 0.005});
+  QVERIFY(d.action("align")->isChecked());
+  const Scene same = d.session().scene();
+  d.session().reset(same);
   QVERIFY(!d.action("align")->isChecked());
   QVERIFY(!d.widget<QWidget>("alignBar")->isVisible());
 }

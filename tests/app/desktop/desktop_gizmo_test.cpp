@@ -8,7 +8,7 @@
 #include "tests/app/desktop/view_driver.h"
 #include "tests/exact/pose_certifier.h"
 #include "ui/model/selection.h"
-#include "ui/tools/placing/placing_tools.h"
+#include "ui/model/shown_poses.h"
 #include "ui/widgets/number_field.h"
 
 using namespace nearfit;
@@ -261,8 +261,7 @@ void DesktopGizmoTest::stepsAreTakenWithTheSwitchAndControlTurnsItRound() {
   b.press(from);
   b.moveTo(from + QPoint(47, 0));
   const auto way = [&] {
-    return (*b.driver.window().placing().draggedPose(b.driver.partId("moving"))).translation.x -
-           before.translation.x;
+    return b.view().poses().poseOf(b.driver.part("moving")).translation.x - before.translation.x;
   };
   const double snapped = way();
   QVERIFY(snapped > 0.002);
@@ -473,11 +472,11 @@ void DesktopGizmoTest::solidPartsStayOutsideByExactPredicates() {
   const RigidTransform worldFromFixed = b.pose("fixed");
   const PartId moving = b.driver.partId("moving");
   int dragged = 0;
-  QObject::connect(&b.driver.window().placing(), &ui::PlacingTools::draggedPosesChanged, &b.view(), [&] {
-    const auto pose = b.driver.window().placing().draggedPose(moving);
-    if (!pose) return;
+  const ui::ShownPoses& poses = b.view().poses();
+  QObject::connect(&poses, &ui::ShownPoses::changed, &b.view(), [&] {
+    if (!poses.isDragged(moving)) return;
     ++dragged;
-    QVERIFY(!certifier.doMeet(worldFromFixed.inverse() * *pose));
+    QVERIFY(!certifier.doMeet(worldFromFixed.inverse() * poses.poseOf(b.driver.part("moving"))));
   });
   // Down into the fixed cube, and across it.
   const QPoint from = b.seen(before.applyToPoint({-0.008, -0.01, 0.027}));
@@ -506,7 +505,7 @@ void DesktopGizmoTest::aSolidDragThatStillSettlesIsUndoneWhole() {
   b.driver.choose("undo");
   QTest::qWait(50);
   QCOMPARE(b.pose().translation, before.translation);
-  QVERIFY(!b.driver.window().placing().draggedPose(b.driver.partId("moving")));
+  QVERIFY(!b.view().poses().isDragged(b.driver.partId("moving")));
 }
 
 void DesktopGizmoTest::numbersStopAtContactTooWhereItIsSolid() {

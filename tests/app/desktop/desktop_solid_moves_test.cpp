@@ -37,6 +37,7 @@ class DesktopSolidMovesTest : public QObject {
   void aRingStopsBetweenTwoPlates();
   void severalTogetherStopWhereOneOfThemDoes_data();
   void severalTogetherStopWhereOneOfThemDoes();
+  void aPartThatLeavesWhileItSettlesIsPutNowhere();
 
  private:
   static void solidOrNot();
@@ -218,11 +219,11 @@ void DesktopSolidMovesTest::aRingStopsBetweenTwoPlates() {
   QTRY_VERIFY(b.overlay().picture().has_value());
   const std::size_t steps = b.steps();
   int dragged = 0, met = 0;
-  QObject::connect(&b.window().placing(), &ui::PlacingTools::draggedPosesChanged, &b.view(), [&] {
-    const auto pose = b.window().placing().draggedPose(b.partId("cube"));
-    if (!pose) return;
+  const ui::ShownPoses& poses = b.view().poses();
+  QObject::connect(&poses, &ui::ShownPoses::changed, &b.view(), [&] {
+    if (!poses.isDragged(b.partId("cube"))) return;
     ++dragged;
-    met += b.doPlatesMeet(*pose) ? 1 : 0;
+    met += b.doPlatesMeet(poses.poseOf(b.part("cube"))) ? 1 : 0;
   });
   // 70 degrees round the middle; the ring about y is seen as a circle from the front.
   const QPoint middle = b.seen(glm::dvec3(0.0)), from = b.handle(GizmoGrip::TurnY);
@@ -292,6 +293,21 @@ void DesktopSolidMovesTest::severalTogetherStopWhereOneOfThemDoes() {
   }
   QVERIFY(glm::distance(front, behind) < 1e-12);
   QVERIFY(glm::length(b.turnOf("front")) < 1e-12 && glm::length(b.turnOf("behind")) < 1e-12);
+}
+
+/// The selection was the first to tell that the part had left, and the tools put it where it had come to.
+void DesktopSolidMovesTest::aPartThatLeavesWhileItSettlesIsPutNowhere() {
+  SolidDriver b(channel(), true);
+  QStringList failures;
+  b.window().setFailureSink([&](const ui::Failure& failure) { failures << failure.summary; });
+  b.select({"cube"});
+  b.type<ui::NumberField>("nudgeStep", "100");
+  b.press(Qt::Key_Up);
+  const PartId cube = b.partId("cube");
+  b.session().deletePart(cube);
+  QCOMPARE(failures, QStringList());
+  QVERIFY(!b.view().poses().isDragged(cube));
+  QCOMPARE(QString::fromStdString(b.session().undoText()), QStringLiteral("Delete cube"));
 }
 
 NEARFIT_QT_SUITE(DesktopSolidMovesTest, runDesktopTest<DesktopSolidMovesTest>)

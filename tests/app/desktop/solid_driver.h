@@ -9,7 +9,7 @@
 #include "tests/app/desktop/view_driver.h"
 #include "tests/exact/pose_certifier.h"
 #include "ui/model/parts_model.h"
-#include "ui/tools/placing/placing_tools.h"
+#include "ui/model/shown_poses.h"
 
 namespace nearfit::test {
 
@@ -60,7 +60,7 @@ struct SolidDriver : DesktopDriver, ViewDriver {
     pressInView(*this, key, keys);
   }
   /// Whatever is under way has come to where it stays.
-  void settle(const char* name) { QTRY_VERIFY(!window().placing().draggedPose(partId(name))); }
+  void settle(const char* name) { QTRY_VERIFY(!view().poses().isDragged(partId(name))); }
   RigidTransform pose(const char* name) { return part(name).worldFromPart; }
   bool doMeet(const char* a, const char* b) { return doMeet(a, b, pose(b)); }
   bool doMeet(const char* a, const char* b, const RigidTransform& worldFromB) {

@@ -9,7 +9,7 @@ namespace {
 TEST(SessionParts, PartsThatComeTogetherAreOneStep) {
   Session session;
   int changes = 0;
-  session.onChange([&] { ++changes; });
+  const Subscription told = session.onChange(SceneEvents::Stage::Model, [&] { ++changes; });
   const std::vector<PartId> added = session.addParts({{{}, "Peg"}, {{}, "Peg"}, {{}, "Hole"}});
   ASSERT_EQ(added.size(), 3U);
   EXPECT_EQ(changes, 1);

@@ -246,7 +246,7 @@ TEST(Session, ModifiedMarkFollowsTheSavedState) {
 TEST(Session, ListenersHearOfEachChangeOnce) {
   Session session;
   int calls = 0;
-  session.onChange([&] { ++calls; });
+  const Subscription changes = session.onChange(SceneEvents::Stage::Model, [&] { ++calls; });
   const PartId peg = session.addPart({}, "Peg");
   EXPECT_EQ(calls, 1);
   session.renamePart(peg, "Peg");
@@ -366,7 +366,7 @@ TEST(Session, GoToIsTheSameAsUndoAndRedoAndTellsOnce) {
     s->deletePart(peg);
   }
   int told = 0;
-  session.onChange([&] { ++told; });
+  const Subscription changes = session.onChange(SceneEvents::Stage::Model, [&] { ++told; });
   for (const std::size_t index : {1U, 4U, 0U, 3U, 2U}) {
     while (other.historyIndex() > index)
       other.undo();

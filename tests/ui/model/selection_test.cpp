@@ -87,8 +87,12 @@ void SelectionTest::partsOfAnotherSceneAreOthersThoughTheirIdsAreTheSame() {
 }
 
 void SelectionTest::whoeverHearsOfTheSceneAfterwardsFindsNoPartThatIsGone() {
+  selection_.reset();
   bool wasThere = true;
-  session_->onChange([&] { wasThere = selection_->contains(ids_[1]); });
+  // The stage decides, not who came first.
+  const Subscription changes =
+      session_->onChange(SceneEvents::Stage::View, [&] { wasThere = selection_->contains(ids_[1]); });
+  selection_ = std::make_unique<ui::Selection>(*session_);
   selection_->set(ids_);
   session_->deletePart(ids_[1]);
   QVERIFY(!wasThere);

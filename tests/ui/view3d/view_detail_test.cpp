@@ -19,6 +19,7 @@
 #include "tests/support/qt/qt_patience.h"
 #include "tests/support/qt/qt_suite.h"
 #include "ui/model/selection.h"
+#include "ui/model/shown_poses.h"
 #include "ui/view3d/viewport.h"
 
 using namespace nearfit;
@@ -64,7 +65,8 @@ struct Row {
   std::vector<PartId> ids;
   Session session;
   ui::Selection selection{session};
-  ui::Viewport view{std::make_shared<ui::PartShapeCache>(), selection};
+  ui::ShownPoses poses{session};
+  ui::Viewport view{std::make_shared<ui::PartShapeCache>(), selection, poses};
 };
 
 }  // namespace
@@ -183,7 +185,7 @@ void ViewDetailTest::aPartThatMovesIsDrawnOverWhatIsKept() {
   std::size_t drawn = 0;
   for (int step = 0; step < 3000 && !isKept; ++step) {
     pose.translation.z = 0.005 * std::sin(0.1 * step);
-    row.view.setDragged({{row.ids[2], pose}});
+    row.poses.show(ui::ShownPoses::Source::Drag, {{row.ids[2], pose}});
     QTest::qWait(10);
     drawn = row.view.detail().detail().triangles;
     isKept = row.view.detail().detail().isKept && drawn > 0;

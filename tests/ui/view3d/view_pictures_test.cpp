@@ -12,6 +12,7 @@
 #include "tests/support/qt/qt_suite.h"
 #include "tests/ui/view3d/picture_comparison.h"
 #include "ui/model/selection.h"
+#include "ui/model/shown_poses.h"
 #include "ui/view3d/gizmo_overlay.h"
 #include "ui/view3d/glyphs/colour_legend.h"
 #include "ui/view3d/viewport.h"
@@ -87,7 +88,8 @@ struct Bench {
 
   Session session;
   ui::Selection selection{session};
-  ui::Viewport view{std::make_shared<ui::PartShapeCache>(), selection};
+  ui::ShownPoses poses{session};
+  ui::Viewport view{std::make_shared<ui::PartShapeCache>(), selection, poses};
   PartId plate{}, peg{}, ball{};
 };
 
@@ -192,6 +194,7 @@ void ViewPicturesTest::overlapsAreMarked() {
   snapshot->proxy.translation = snapshot->handle.translation = {-0.025, 0.01, 0.02};
   snapshot->released[0] = b.ball;
   snapshot->releasedCount = 1;
+  b.poses.show(ui::ShownPoses::Source::Hand, {{b.peg, snapshot->proxy}});
   b.view.showSnapshot(*snapshot);
   check(b.picture(), "overlap", b.texts());
 }

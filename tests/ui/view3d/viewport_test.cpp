@@ -13,6 +13,7 @@
 #include "tests/support/part_geometries.h"
 #include "tests/support/qt/qt_suite.h"
 #include "ui/model/selection.h"
+#include "ui/model/shown_poses.h"
 #include "ui/view3d/glyphs/colour_legend.h"
 
 using namespace nearfit;
@@ -39,15 +40,22 @@ class ViewportTest : public QObject {
     return seen_ - before;
   }
 
+  /// As the window does.
+  void showSnapshot() {
+    poses_.show(ui::ShownPoses::Source::Hand, {{snapshot_->moving, snapshot_->proxy}});
+    viewport_->showSnapshot(*snapshot_);
+  }
+
   Session session_;
   ui::Selection selection_{session_};
+  ui::ShownPoses poses_{session_};
   std::unique_ptr<ui::Viewport> viewport_;
   std::unique_ptr<ServoSnapshot> snapshot_ = std::make_unique<ServoSnapshot>();
   int seen_ = 0;
 };
 
 void ViewportTest::initTestCase() {
-  viewport_ = std::make_unique<ui::Viewport>(std::make_shared<ui::PartShapeCache>(), selection_);
+  viewport_ = std::make_unique<ui::Viewport>(std::make_shared<ui::PartShapeCache>(), selection_, poses_);
   const PartGeometryPtr cube = test::freshGeometryOf(test::boxMesh(glm::dvec3(0.02)));
   Scene scene;
   const PartId moving = scene.add(test::partOf(cube, "in hand"));
@@ -61,14 +69,14 @@ void ViewportTest::initTestCase() {
   viewport_->setScene(scene);
   viewport_->show();
   QVERIFY(QTest::qWaitForWindowExposed(viewport_.get()));
-  viewport_->showSnapshot(*snapshot_);
+  showSnapshot();
   QTest::qWait(300);
   QVERIFY(newPictures() > 0);
 }
 
 void ViewportTest::aViewAtRestDrawsNothing() {
   for (int i = 0; i < 30; ++i) {
-    viewport_->showSnapshot(*snapshot_);
+    showSnapshot();
     QTest::qWait(5);
   }
   QCOMPARE(newPictures(), 0);
@@ -76,16 +84,16 @@ void ViewportTest::aViewAtRestDrawsNothing() {
 
 void ViewportTest::oneChangeIsOnePicture() {
   snapshot_->proxy.translation.x += 0.001;
-  viewport_->showSnapshot(*snapshot_);
+  showSnapshot();
   QCOMPARE(newPictures(), 1);
-  viewport_->showSnapshot(*snapshot_);
+  showSnapshot();
   QCOMPARE(newPictures(), 0);
 }
 
 void ViewportTest::changesBetweenTwoFramesAreOnePicture() {
   for (int i = 0; i < 5; ++i) {
     snapshot_->proxy.translation.y += 0.001;
-    viewport_->showSnapshot(*snapshot_);
+    showSnapshot();
   }
   viewport_->setEdgesVisible(false);
   QCOMPARE(newPictures(), 1);
@@ -130,7 +138,7 @@ void ViewportTest::nothingBehindTheWindowShinesThrough() {
   for (const bool hasForce : {false, true}) {
     snapshot_->wrench.force = {0.0, 0.0, hasForce ? 2.0 : 0.0};
     snapshot_->proxy.translation.z += 0.001;
-    viewport_->showSnapshot(*snapshot_);
+    showSnapshot();
     QVERIFY(newPictures() > 0);
     const QImage picture = viewport_->grabFramebuffer().convertToFormat(QImage::Format_ARGB32);
     int thin = 0;
@@ -149,7 +157,7 @@ void ViewportTest::numbersChangeWithTheGlyphsTheyExplain() {
   const int pictures = viewport_->pictureCount();
   const QImage before = legend->grab().toImage();
   snapshot_->wrench.force = {0.0, 1.5, 0.25};
-  viewport_->showSnapshot(*snapshot_);
+  showSnapshot();
   QCOMPARE(viewport_->pictureCount(), pictures);
   QCOMPARE(legend->grab().toImage(), before);
   QTRY_VERIFY(viewport_->pictureCount() > pictures);

@@ -1,7 +1,5 @@
 #include "ui/files/recovery/autosave.h"
 
-#include <QPointer>
-
 #include "core/base/error.h"
 
 namespace nearfit::ui {
@@ -36,9 +34,7 @@ Autosave::Autosave(Session& session, std::shared_ptr<RecoveryFolder> folder,
   }
   changed_.setInterval(kDelay);
   moved_.setInterval(kMotionInterval);
-  session_.onChange([self = QPointer<Autosave>(this)] {
-    if (self) self->noteChange();
-  });
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { noteChange(); });
 }
 
 void Autosave::noteChange() {

@@ -63,6 +63,7 @@ class Autosave : public QObject {
   std::unique_ptr<BackgroundTask> task_;
   std::optional<Content> content_;  ///< Content of the journal; empty if there is none.
   bool hasFailed_ = false, isDue_ = false;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

@@ -72,7 +72,7 @@ ClearancePanel::ClearancePanel(Session& session, ClearanceSearch& search, QWidge
   column->addLayout(below);
   connect(&search_, &ClearanceSearch::changed, this, &ClearancePanel::showClearances);
   connect(&search_, &ClearanceSearch::failed, this, &ClearancePanel::failed);
-  session_.onChange([this] { showSubjects(); });
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { showSubjects(); });
   showSubjects();
   showClearances();
 }

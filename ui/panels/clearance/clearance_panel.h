@@ -67,6 +67,7 @@ class ClearancePanel : public QWidget {
   NumberField* threshold_;
   QLabel* note_;
   QPushButton* export_;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

@@ -20,7 +20,7 @@ ClearanceSearch::ClearanceSearch(Session& session, PoseOfMoving poseOfMoving, QO
   connect(&timer_, &QTimer::timeout, this, [this] {
     if (isDue_) search();
   });
-  session_.onChange([this] { request(); });
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { request(); });
 }
 
 void ClearanceSearch::setWanted(bool isWanted) {

@@ -60,6 +60,7 @@ class ClearanceSearch : public QObject {
   std::vector<PartClearance> clearances_;
   RigidTransform poseShown_;  ///< Pose of the part in hand at the last tick shown.
   bool isWanted_ = false, isDue_ = false;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

@@ -1,10 +1,8 @@
 #include "ui/panels/history/history_panel.h"
 
 #include <QListView>
-#include <QPointer>
 #include <QVBoxLayout>
 
-#include "core/session/session.h"
 #include "ui/model/history_model.h"
 
 namespace nearfit::ui {
@@ -26,9 +24,7 @@ HistoryPanel::HistoryPanel(Session& session, QWidget* parent)
   layout->addWidget(view_);
   connect(view_, &QListView::clicked, this, [this](const QModelIndex& index) { goTo(index.row()); });
   connect(view_, &QListView::activated, this, [this](const QModelIndex& index) { goTo(index.row()); });
-  session_.onChange([panel = QPointer<HistoryPanel>(this)] {
-    if (panel) panel->showHistory();
-  });
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { showHistory(); });
   showHistory();
 }
 

@@ -2,11 +2,9 @@
 
 #include <QWidget>
 
-class QListView;
+#include "core/session/session.h"
 
-namespace nearfit {
-class Session;
-}
+class QListView;
 
 namespace nearfit::ui {
 
@@ -30,6 +28,7 @@ class HistoryPanel : public QWidget {
   Session& session_;
   HistoryModel* model_;
   QListView* view_;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

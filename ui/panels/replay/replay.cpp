@@ -39,7 +39,7 @@ Replay::Replay(Session& session, Timeline& timeline, QWidget* window)
   timer_.setInterval(kEveryMs);
   connect(&timer_, &QTimer::timeout, this, &Replay::goOn);
   connectTimeline();
-  session_.onChange([this] { followSession(); });
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { followSession(); });
 }
 
 Replay::~Replay() = default;

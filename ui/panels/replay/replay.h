@@ -78,6 +78,7 @@ class Replay : public QObject {
   QTimer timer_;
   QElapsedTimer sinceLast_;
   bool isAllowed_ = true;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QSignalBlocker>
 
+#include "ui/model/shown_poses.h"
 #include "ui/tools/measure/measure_bar.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/names.h"
@@ -79,14 +80,13 @@ void MeasureTool::take(const FeaturePick& pick) {
 
 void MeasureTool::light(FeatureHighlight& highlight, const FeaturePick& pick) {
   const Part& part = *session_.scene().find(pick.part);
-  highlight.show(part.geometry->mesh, pick.picked, view_.shownPose(pick.part).value_or(part.worldFromPart));
+  highlight.show(part.geometry->mesh, pick.picked, view_.poses().shownPoseOf(part));
 }
 
 std::optional<MeasureEnd> MeasureTool::shown(const End& end) const {
   const Part* part = session_.scene().find(end.part);
-  const std::optional<RigidTransform> pose = view_.shownPose(end.part);
-  if (part == nullptr || part->geometry != end.geometry || !pose) return std::nullopt;
-  return placed(end.inPart, *pose);
+  if (part == nullptr || part->geometry != end.geometry) return std::nullopt;
+  return placed(end.inPart, view_.poses().shownPoseOf(*part));
 }
 
 void MeasureTool::refresh() {
@@ -96,9 +96,12 @@ void MeasureTool::refresh() {
   if ((from_ && !from) || (to_ && !to)) forget();
   const LengthUnit unit = Preferences::lengthUnit();
   std::optional<Measurement> measurement;
-  if (from_) fromLight_.setPose(*view_.shownPose(from_->part));
+  const auto pose = [this](const End& end) {
+    return view_.poses().shownPoseOf(*session_.scene().find(end.part));
+  };
+  if (from_) fromLight_.setPose(pose(*from_));
   if (to_) {
-    toLight_.setPose(*view_.shownPose(to_->part));
+    toLight_.setPose(pose(*to_));
     measurement = measure(*from, *to);
     mark_.show(*measurement,
                lengthIn(unit, measurement->distance, measuredDecimals(unit, measurement->distance)));

@@ -7,6 +7,7 @@
 
 #include "ui/model/move_guard.h"
 #include "ui/model/selection.h"
+#include "ui/model/shown_poses.h"
 #include "ui/tools/placing/align_bar.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/names.h"
@@ -42,7 +43,7 @@ AlignTool::AlignTool(Session& session, Selection& selection, Viewport& view, con
   const auto look = [this] {
     if (picker_.isActive() && !isSound()) stop();
   };
-  session_.onChange(look);
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, look);
   connect(&guard_, &MoveGuard::changed, this, look);
 }
 
@@ -71,7 +72,7 @@ void AlignTool::stop() {
   fixed_.reset();
   picker_.stop();
   bar_->hide();
-  view_.setDragged({});
+  view_.poses().show(ShownPoses::Source::Preview, {});
   movingLight_.clear();
   fixedLight_.clear();
   start_.clear();
@@ -85,6 +86,7 @@ bool AlignTool::isMoved(PartId part) const {
 
 /// True if what was picked is still where it was.
 bool AlignTool::isSound() const {
+  if (moving_ && sceneSerial_ != session_.sceneSerial()) return false;
   if (fixed_ && session_.scene().find(fixed_->part) == nullptr) return false;
   return std::all_of(start_.begin(), start_.end(), [this](const auto& entry) {
     const Part* part = session_.scene().find(entry.first);
@@ -112,6 +114,7 @@ void AlignTool::take(const FeaturePick& pick) {
     for (const PartId id : selection_.parts())
       start_[id] = session_.scene().find(id)->worldFromPart;
     moving_ = pick;
+    sceneSerial_ = session_.sceneSerial();
     movingLight_.show(part->geometry->mesh, pick.picked, part->worldFromPart);
     picker_.start([this](const Part& other) { return refusalOf(other); });
   } else {
@@ -132,11 +135,11 @@ void AlignTool::preview() {
   const AlignFeature fixed =
       placed(fixed_->picked.feature, session_.scene().find(fixed_->part)->worldFromPart);
   motion_ = alignMotion(moving, fixed, {bar_->isFlipped(), bar_->offset()});
-  std::map<PartId, RigidTransform> poses;
+  ShownPoses::Poses poses;
   for (const auto& [id, pose] : start_)
     poses[id] = (motion_ * pose).normalized();
   movingLight_.setPose(poses.at(moving_->part));
-  view_.setDragged(std::move(poses));
+  view_.poses().show(ShownPoses::Source::Preview, std::move(poses));
   tell({});
 }
 

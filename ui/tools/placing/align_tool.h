@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <vector>
@@ -68,7 +69,9 @@ class AlignTool : public QObject {
   FeatureHighlight movingLight_, fixedLight_;
   std::optional<FeaturePick> moving_, fixed_;
   std::map<PartId, RigidTransform> start_;  ///< worldFromPart of the moving parts at the first pick.
+  std::uint64_t sceneSerial_ = 0;           ///< Serial of the scene that owns what was picked.
   RigidTransform motion_;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/placing/section_pick.h"
+#include "ui/model/shown_poses.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/names.h"
@@ -46,8 +47,8 @@ FeaturePicker::FeaturePicker(const Session& session, Viewport& view, const QColo
     if (isActive_ && tool != this) emit cancelled();
   });
   connect(&view_, &Viewport::posesChanged, this, [this] {
-    const std::optional<RigidTransform> pose = hovered_ ? view_.shownPose(hovered_->part) : std::nullopt;
-    if (pose) highlight_.setPose(*pose);
+    const Part* part = hovered_ ? session_.scene().find(hovered_->part) : nullptr;
+    if (part != nullptr) highlight_.setPose(view_.poses().shownPoseOf(*part));
   });
 }
 
@@ -150,7 +151,7 @@ void FeaturePicker::hoverAt(const QPoint& position) {
   if (part != nullptr) {
     text = refusal_ ? refusal_(*part) : QString();
     if (text.isEmpty()) {
-      const RigidTransform pose = view_.shownPose(part->id).value_or(part->worldFromPart);
+      const RigidTransform pose = view_.poses().shownPoseOf(*part);
       SurfaceHit hit{seen->triangle, pose.inverse().applyToPoint(seen->point)};
       const double reach = kReach * view_.projection().metresPerPixel(seen->point);
       if (auto found = seen->cut ? pickFeature(*seen->cut, hit.point, reach, filter_)
@@ -173,8 +174,7 @@ void FeaturePicker::forgetHover() {
 void FeaturePicker::showHovered() {
   const Part* part = hovered_ ? session_.scene().find(hovered_->part) : nullptr;
   if (part != nullptr) {
-    highlight_.show(part->geometry->mesh, hovered_->picked,
-                    view_.shownPose(part->id).value_or(part->worldFromPart));
+    highlight_.show(part->geometry->mesh, hovered_->picked, view_.poses().shownPoseOf(*part));
   } else if (highlight_.isShown()) {
     highlight_.clear();
   } else {

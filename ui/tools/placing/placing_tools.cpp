@@ -12,6 +12,7 @@
 
 #include "ui/model/move_guard.h"
 #include "ui/model/selection.h"
+#include "ui/model/shown_poses.h"
 #include "ui/tools/placing/gizmo_control.h"
 #include "ui/tools/placing/placing_actions.h"
 #include "ui/view3d/viewport.h"
@@ -49,6 +50,8 @@ PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& vie
     if (isOn && !session_.scene().parts().empty()) emit hierarchiesWanted();
   });
   connect(&selection_, &Selection::changed, this, [this] {
+    // What has left the scene cannot be put anywhere.
+    if (!isMoveSound()) giveUpParts();
     commit();
     abandon();
     showFrame();
@@ -57,7 +60,7 @@ PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& vie
     if (!isDragSound()) abandon();
     showFrame();
   };
-  session_.onChange(look);
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, look);
   connect(&guard_, &MoveGuard::changed, this, look);
   showActions();
 }
@@ -73,7 +76,7 @@ void PlacingTools::setHeld(const std::optional<HeldPart>& held) {
   held_ = held;
   if (hasChanged || !isDragSound()) abandon();
   showFrame();
-  if (drag_ == Drag::Hand) control_->showReached(held_->worldFromPart * heldAtStart_.inverse(), {});
+  if (drag_ == Drag::Hand) control_->showReached(heldPose() * heldAtStart_.inverse(), {});
 }
 
 void PlacingTools::setAside(bool isAside) {
@@ -81,10 +84,12 @@ void PlacingTools::setAside(bool isAside) {
   showFrame();
 }
 
-/// True if the dragged parts are still where the drag started, in the scene, and may be moved.
 bool PlacingTools::isDragSound() const {
-  if (isPutting_) return true;
-  if (drag_ == Drag::Hand || drag_ == Drag::Pivot) return frame().has_value();
+  return drag_ == Drag::Hand || drag_ == Drag::Pivot ? frame().has_value() : isMoveSound();
+}
+
+/// True if the parts that move are still where they started, in the scene, and may be moved.
+bool PlacingTools::isMoveSound() const {
   return std::ranges::all_of(mover_.start(), [this](const auto& entry) {
     const auto& [id, pose] = entry;
     const Part* part = session_.scene().find(id);
@@ -126,14 +131,9 @@ bool PlacingTools::leadsHand() const {
   return held_ && held_->isManual && selection_.parts() == std::vector{held_->part};
 }
 
-RigidTransform PlacingTools::shownPose(const Part& part) const {
-  if (const std::optional<RigidTransform> dragged = draggedPose(part.id)) return *dragged;
-  return held_ && held_->part == part.id ? held_->worldFromPart : part.worldFromPart;
-}
-
-std::optional<RigidTransform> PlacingTools::draggedPose(PartId part) const {
-  const auto found = mover_.poses().find(part);
-  return found == mover_.poses().end() ? std::nullopt : std::optional(found->second);
+/// Where the servo has the part in hand; only while there is one.
+RigidTransform PlacingTools::heldPose() const {
+  return view_.poses().poseOf(*session_.scene().find(held_->part));
 }
 
 /// Returns the selected parts; empty if one of them may not be moved.
@@ -146,7 +146,7 @@ std::vector<PlacedPart> PlacingTools::placed(const std::vector<PartId>& parts) c
   for (const PartId id : parts) {
     const Part* part = session_.scene().find(id);
     if (part == nullptr || !isMovable(*part)) return {};
-    placed.push_back({part, shownPose(*part)});
+    placed.push_back({part, view_.poses().poseOf(*part)});
   }
   return placed;
 }
@@ -189,7 +189,7 @@ void PlacingTools::begin(GizmoGrip handle) {
   } else if (leadsHand()) {
     drag_ = Drag::Hand;
     handAtStart_ = held_->worldFromHand;
-    heldAtStart_ = held_->worldFromPart;
+    heldAtStart_ = heldPose();
   } else {
     drag_ = Drag::Parts;
     mover_.begin(sceneNow(), selection_.parts(), actions_->solid->isChecked());
@@ -202,7 +202,7 @@ Scene PlacingTools::sceneNow() const {
   const Part* inHand = held_ ? scene.find(held_->part) : nullptr;
   if (inHand != nullptr) {
     Part moved = *inHand;
-    moved.worldFromPart = held_->worldFromPart;
+    moved.worldFromPart = view_.poses().poseOf(*inHand);
     scene.replace(std::move(moved));
   }
   return scene;
@@ -242,10 +242,9 @@ void PlacingTools::follow(const RigidTransform& motion) {
 }
 
 void PlacingTools::showMoved() {
-  view_.setDragged(mover_.poses());
+  view_.poses().show(ShownPoses::Source::Drag, mover_.poses());
   showFrame();
   control_->showReached(mover_.motion(), note());
-  emit draggedPosesChanged();
 }
 
 QString PlacingTools::note() const {
@@ -290,17 +289,19 @@ void PlacingTools::abandon() {
 /// Shows the parts at their poses in the scene again.
 void PlacingTools::giveUpParts() {
   brought_.reset();
-  if (!mover_.isUnderWay()) return;
-  mover_.giveUp();
-  view_.setDragged({});
-  emit draggedPosesChanged();
+  if (mover_.isUnderWay()) mover_.giveUp();
+  view_.poses().show(ShownPoses::Source::Drag, {});
 }
 
 void PlacingTools::putMoved() {
   Brought where = brought_.value_or(Brought{mover_.parts().back(), {}, isRing(handle_) ? "Turn" : "Move"});
   if (!brought_ || !mover_.hasArrived()) where.worldFromLead = mover_.poses().at(where.lead);
   const QString stoppedBy = brought_ && !mover_.hasArrived() ? note() : QString();
-  put(mover_.parts(), where);
+  const std::vector<PartId> parts = mover_.parts();
+  // The move is over before the session tells that the parts are elsewhere, which would end it otherwise. They
+  // are shown as dragged until then.
+  mover_.giveUp();
+  put(parts, where);
   giveUpParts();
   showFrame();
   if (!stoppedBy.isEmpty()) emit noted(stoppedBy);
@@ -308,13 +309,11 @@ void PlacingTools::putMoved() {
 
 /// Moves the parts together so that the lead gets its pose.
 void PlacingTools::put(const std::vector<PartId>& parts, const Brought& where) {
-  isPutting_ = true;
   try {
     session_.moveParts(parts, where.lead, where.worldFromLead, where.verb);
   } catch (...) {
     emit failed(describe(tr("The part could not be moved."), std::current_exception()));
   }
-  isPutting_ = false;
 }
 
 }  // namespace nearfit::ui

@@ -21,10 +21,9 @@ class PlacingActions;
 class Selection;
 class Viewport;
 
-/// The part in hand while the servo runs.
+/// The part in hand while the servo runs. ShownPoses knows where the servo has it.
 struct HeldPart {
   PartId part{};
-  RigidTransform worldFromPart;  ///< Where the servo has it.
   RigidTransform worldFromHand;  ///< Where the hand wants it.
   bool isManual = false;         ///< The hand can be moved by these tools.
 };
@@ -57,12 +56,8 @@ class PlacingTools : public QObject {
              const char* verb);
   /// The same for the selected parts, with the current part as the lead.
   void bring(const RigidTransform& worldFromCurrent);
-  /// Returns where a part is shown while it is dragged; nullopt for all other parts.
-  std::optional<RigidTransform> draggedPose(PartId part) const;
 
  signals:
-  /// Emitted when dragged parts have moved or are back at their poses.
-  void draggedPosesChanged();
   /// Emitted when the manual hand is to want the part there.
   void handWanted(const nearfit::RigidTransform& worldFromPart);
   /// Emitted when solid moves are switched on: hierarchies should be ready before a drag.
@@ -81,8 +76,8 @@ class PlacingTools : public QObject {
 
   std::vector<PlacedPart> placedParts() const;
   std::vector<PlacedPart> placed(const std::vector<PartId>& parts) const;
+  RigidTransform heldPose() const;
   bool isMovable(const Part& part) const;
-  RigidTransform shownPose(const Part& part) const;
   /// True if the selection is exactly the part in the manual hand.
   bool leadsHand() const;
   std::optional<GizmoFrame> frame() const;
@@ -97,6 +92,7 @@ class PlacingTools : public QObject {
   void finish();
   void takeBack();
   bool isDragSound() const;
+  bool isMoveSound() const;
   void abandon();
   void giveUpParts();
   void putMoved();
@@ -120,7 +116,7 @@ class PlacingTools : public QObject {
   std::optional<glm::dvec3> draggedPivot_;  ///< In the world [m].
   std::optional<Brought> brought_;
   bool isAside_ = false;
-  bool isPutting_ = false;  ///< This is changing the session.
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

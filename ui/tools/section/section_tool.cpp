@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "ui/model/shown_poses.h"
 #include "ui/tools/placing/gizmo_control.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/names.h"
@@ -149,10 +150,11 @@ void SectionTool::layAcross(SectionAxis axis) {
 }
 
 void SectionTool::layOn(const FeaturePick& pick) {
-  const std::optional<RigidTransform> pose = view_.shownPose(pick.part);
-  if (!pose || pick.picked.feature.shape != FeatureShape::Plane) return;
-  const glm::dvec3 normal = pose->applyToVector(pick.picked.feature.direction);
-  const GizmoFrame frame{pose->applyToPoint(pick.hit), axesAbout(normal)};
+  const Part* part = session_.scene().find(pick.part);
+  if (part == nullptr || pick.picked.feature.shape != FeatureShape::Plane) return;
+  const RigidTransform pose = view_.poses().shownPoseOf(*part);
+  const glm::dvec3 normal = pose.applyToVector(pick.picked.feature.direction);
+  const GizmoFrame frame{pose.applyToPoint(pick.hit), axesAbout(normal)};
   isFarSideCut_ = false;
   lay(SectionAxis::Face, frame, 2, glm::dot(frame.pivot, normal));
 }

@@ -5,10 +5,13 @@
 
 #include <vtkBoundingBox.h>
 
+#include "ui/model/shown_poses.h"
+
 namespace nearfit::ui {
 
-SceneRenderer::SceneRenderer(vtkRenderer& renderer, std::shared_ptr<PartShapeCache> shapes, vtkRenderer* over)
-    : renderer_(renderer), shapes_(std::move(shapes)), over_(over), cut_(renderer) {}
+SceneRenderer::SceneRenderer(vtkRenderer& renderer, std::shared_ptr<PartShapeCache> shapes,
+                             const ShownPoses& poses, vtkRenderer* over)
+    : renderer_(renderer), shapes_(std::move(shapes)), over_(over), poses_(poses), cut_(renderer) {}
 
 void SceneRenderer::setScene(const Scene& scene) {
   scene_ = scene;
@@ -38,39 +41,21 @@ void SceneRenderer::setEdgesVisible(bool isVisible) {
   applyAll();
 }
 
-void SceneRenderer::setPoseInHand(std::optional<RigidTransform> worldFromMoving) {
-  poseInHand_ = worldFromMoving;
-  if (!scene_.movingPart()) return;
-  const Part* part = scene_.find(*scene_.movingPart());
-  if (part != nullptr) place(*part);
-}
-
-void SceneRenderer::setDragged(std::map<PartId, RigidTransform> worldFromPart) {
-  const std::map<PartId, RigidTransform> before = std::exchange(dragged_, std::move(worldFromPart));
-  const auto placeAgain = [this](PartId id) {
+void SceneRenderer::place(std::span<const PartId> parts) {
+  for (const PartId id : parts) {
     const Part* part = scene_.find(id);
     if (part != nullptr) place(*part);
-  };
-  for (const auto& [id, pose] : before)
-    placeAgain(id);
-  for (const auto& [id, pose] : dragged_)
-    placeAgain(id);
+  }
 }
 
 void SceneRenderer::place(const Part& part) {
-  if (!actorOf(part).setPose(shownPose(part))) return;
+  if (!actorOf(part).setPose(poses_.shownPoseOf(part))) return;
   if (loose_.insert(part.id).second) ++revision_;
 }
 
 void SceneRenderer::settle() {
   if (!loose_.empty()) ++revision_;
   loose_.clear();
-}
-
-RigidTransform SceneRenderer::shownPose(const Part& part) const {
-  const auto dragged = dragged_.find(part.id);
-  if (dragged != dragged_.end()) return dragged->second;
-  return scene_.movingPart() == part.id ? poseInHand_.value_or(part.worldFromPart) : part.worldFromPart;
 }
 
 void SceneRenderer::setCut(const std::optional<ViewCut>& cut) {
@@ -99,7 +84,7 @@ void SceneRenderer::updateCut() {
     PartActor& actor = actorOf(*part);
     const bool isCut = cut_.cuts(scene_.movingPart() == part->id);
     open(actor, isCut);
-    if (isCut && part->isVisible) cut_.close(*part, actor, shownPose(*part));
+    if (isCut && part->isVisible) cut_.close(*part, actor, poses_.shownPoseOf(*part));
   }
   cut_.end();
 }
@@ -117,7 +102,7 @@ PartActor& SceneRenderer::actorOf(const Part& part) {
     letGoOfKept();
     ++revision_;
     actor = std::make_unique<PartActor>(renderer_, mappers_.mappersOf(shape), over_);
-    actor->setPose(shownPose(part));
+    actor->setPose(poses_.shownPoseOf(part));
   }
   return *actor;
 }

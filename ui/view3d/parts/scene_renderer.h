@@ -15,6 +15,8 @@
 
 namespace nearfit::ui {
 
+class ShownPoses;
+
 /// The surface point seen at a pixel of the view.
 struct PickedPoint {
   PartId part{};
@@ -27,24 +29,19 @@ struct PickedPoint {
 /// Keeps one PartActor for each part of the scene. Knows no widget; never renders by itself.
 class SceneRenderer {
  public:
-  /// @param renderer  Outlives this.
-  /// @param over      Drawn over `renderer`; shows selected parts through others. Outlives this; may be null.
-  SceneRenderer(vtkRenderer& renderer, std::shared_ptr<PartShapeCache> shapes, vtkRenderer* over = nullptr);
+  /// @param renderer, poses  Outlive this.
+  /// @param over             Drawn over `renderer`; shows selected parts through others. Outlives this; may be
+  ///                         null.
+  SceneRenderer(vtkRenderer& renderer, std::shared_ptr<PartShapeCache> shapes, const ShownPoses& poses,
+                vtkRenderer* over = nullptr);
 
   void setScene(const Scene& scene);
   void setSelected(std::vector<PartId> parts);
   /// While there is a moving part, makes all others translucent, so that gaps between them can be seen.
   void setSeeThrough(bool isSeeThrough);
   void setEdgesVisible(bool isVisible);
-  /// Shows the moving part at the pose that the servo has, instead of its pose in the
-  /// scene; nullopt ends that.
-  void setPoseInHand(std::optional<RigidTransform> worldFromMoving);
-
-  /// Shows parts at the poses that a drag has, instead of their poses in the scene; empty ends that.
-  void setDragged(std::map<PartId, RigidTransform> worldFromPart);
-
-  /// Returns where a part is shown (worldFromPart): by a drag, else by the servo, else by the scene.
-  RigidTransform shownPose(const Part& part) const;
+  /// Moves parts to where ShownPoses has them now; ignores those that are not in the scene.
+  void place(std::span<const PartId> parts);
 
   /// Cuts the parts open; nullopt: they are whole.
   void setCut(const std::optional<ViewCut>& cut);
@@ -111,12 +108,11 @@ class SceneRenderer {
   vtkRenderer& renderer_;
   std::shared_ptr<PartShapeCache> shapes_;
   vtkRenderer* over_;
+  const ShownPoses& poses_;
   MapperCache mappers_;
   Scene scene_;
   std::map<PartId, std::unique_ptr<PartActor>> actors_;
   std::vector<PartId> selected_;  ///< Sorted.
-  std::optional<RigidTransform> poseInHand_;
-  std::map<PartId, RigidTransform> dragged_;
   std::vector<PartId> overlapping_;
   SceneCut cut_;
   bool isSeeThrough_ = false;

@@ -8,6 +8,7 @@
 #include <vtkCamera.h>
 #include <vtkGenericCell.h>
 
+#include "ui/model/shown_poses.h"
 #include "ui/view3d/parts/scene_renderer.h"
 
 // SceneRenderer: levels of detail, picking and what is seen, which depend on the camera.
@@ -190,7 +191,7 @@ std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y) {
     if (part == nullptr || !actor->isVisible()) continue;
     const auto seen = actor->mappers().isCut() ? behind(whole, planeOf(*cut_.plane())) : std::optional(whole);
     if (!seen) continue;
-    const RigidTransform worldFromPart = shownPose(*part), partFromWorld = worldFromPart.inverse();
+    const RigidTransform worldFromPart = poses_.shownPoseOf(*part), partFromWorld = worldFromPart.inverse();
     const Ray ray{partFromWorld.applyToPoint(seen->begin), partFromWorld.applyToPoint(seen->end), seen->from,
                   seen->to};
     if (hitFirst(actor->shape(), ray, *cell, hit))
@@ -205,14 +206,14 @@ std::vector<PartId> SceneRenderer::seenIn(const ViewProjection& view, const Pixe
     const PartActor* actor = find(part->id);
     if (actor == nullptr || !actor->isVisible()) continue;
     const bool isCut = cut_.cuts(scene_.movingPart() == part->id);
-    shown.push_back({{part.get(), shownPose(*part)}, actor->isOpaque(), isCut});
+    shown.push_back({{part.get(), poses_.shownPoseOf(*part)}, actor->isOpaque(), isCut});
   }
   return partsSeenIn(shown, view, pixels, cut_.cut() ? std::optional(cut_.cut()->plane) : std::nullopt);
 }
 
 std::optional<PickedPoint> SceneRenderer::capAt(const glm::dvec3& point) const {
   for (const auto& [id, cap] : cut_.caps()) {
-    const RigidTransform partFromWorld = shownPose(*scene_.find(id)).inverse();
+    const RigidTransform partFromWorld = poses_.shownPoseOf(*scene_.find(id)).inverse();
     if (isOnCap(*cap->section(), partFromWorld.applyToVector(cut_.cut()->plane.normal),
                 partFromWorld.applyToPoint(point)))
       return PickedPoint{id, point, 0, cap->section()};

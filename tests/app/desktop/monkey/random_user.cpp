@@ -12,7 +12,7 @@
 
 #include "tests/app/desktop/monkey/monkey_hands.h"
 #include "ui/model/selection.h"
-#include "ui/tools/placing/placing_tools.h"
+#include "ui/model/shown_poses.h"
 
 namespace nearfit::test {
 
@@ -88,7 +88,7 @@ bool RandomUser::settle() {
   const auto isAtRest = [this] {
     if (d_.application.servo().status().isTaken()) emit window().servoStopRequested();
     const auto isMoved = [this](const Scene::PartPtr& part) {
-      return window().placing().draggedPose(part->id).has_value();
+      return window().viewport().poses().isDragged(part->id);
     };
     return !DialogAnswers::isSomethingOpen() && !window().document().isBusy() &&
            !d_.application.servo().status().isTaken() &&

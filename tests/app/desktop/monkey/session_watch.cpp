@@ -56,17 +56,10 @@ std::string textOf(const Scene& scene) {
 }
 
 SessionWatch::SessionWatch(DesktopDriver& driver) : d_(driver) {
-  d_.session().onChange([this, isAlive = isAlive_] {
-    if (*isAlive) see();
-  });
-  QObject::connect(d_.action("solid"), &QAction::toggled, &d_.application, [this, isAlive = isAlive_] {
-    if (*isAlive) wasSolid_ = false;
-  });
+  // After all of the application, which is what it looks at.
+  changes_ = d_.session().onChange(SceneEvents::Stage::Application, [this] { see(); });
+  QObject::connect(d_.action("solid"), &QAction::toggled, &context_, [this] { wasSolid_ = false; });
   see();
-}
-
-SessionWatch::~SessionWatch() {
-  *isAlive_ = false;
 }
 
 void SessionWatch::expect(bool isTrue, const QString& fault) {

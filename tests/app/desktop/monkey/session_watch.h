@@ -1,11 +1,11 @@
 #pragma once
 
+#include <QObject>
 #include <QStringList>
 #include <map>
-#include <memory>
 #include <string>
 
-#include "core/scene/scene.h"
+#include "core/session/session.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/exact/pose_certifier.h"
 
@@ -18,7 +18,6 @@ class SessionWatch {
  public:
   /// @param driver  Outlives this.
   explicit SessionWatch(DesktopDriver& driver);
-  ~SessionWatch();
   SessionWatch(const SessionWatch&) = delete;
   SessionWatch& operator=(const SessionWatch&) = delete;
 
@@ -37,7 +36,6 @@ class SessionWatch {
   void expect(bool isTrue, const QString& fault);
 
   DesktopDriver& d_;
-  std::shared_ptr<bool> isAlive_ = std::make_shared<bool>(true);
   std::map<std::uint64_t, std::string> known_;  ///< States by their serials.
   Scene last_;
   std::size_t lastIndex_ = 0;
@@ -49,6 +47,8 @@ class SessionWatch {
   };
   std::map<std::pair<const PartGeometry*, const PartGeometry*>, Pair> pairs_;
   QStringList faults_;
+  QObject context_;  ///< Of the connections to this.
+  Subscription changes_;
 };
 
 /// All of a scene that its user could tell from another.

@@ -8,6 +8,7 @@
 #include "tests/support/part_geometries.h"
 #include "tests/support/qt/qt_patience.h"
 #include "ui/model/selection.h"
+#include "ui/model/shown_poses.h"
 #include "ui/view3d/glyphs/pair_segment.h"
 #include "ui/view3d/viewport.h"
 
@@ -35,11 +36,12 @@ class SegmentView {
  private:
   Session session_;
   ui::Selection selection_{session_};
+  ui::ShownPoses poses_{session_};
 
  public:
   const QColor colour{200, 30, 160};
   const glm::dvec3 from{-0.03, -0.06, 0.0}, to{0.03, -0.06, 0.0};
-  ui::Viewport view{std::make_shared<ui::PartShapeCache>(), selection_};
+  ui::Viewport view{std::make_shared<ui::PartShapeCache>(), selection_, poses_};
 
  private:
   std::unique_ptr<ui::PairSegment> segment_;

@@ -10,6 +10,7 @@
 
 #include "tests/support/mesh_generators.h"
 #include "tests/support/qt/qt_suite.h"
+#include "ui/model/shown_poses.h"
 #include "ui/widgets/theme.h"
 
 using namespace nearfit;
@@ -60,7 +61,9 @@ class SceneRendererTest : public QObject {
   }
 
   vtkNew<vtkRenderer> renderer_;
-  ui::SceneRenderer parts_{*renderer_.Get(), std::make_shared<ui::PartShapeCache>()};
+  Session session_;
+  ui::ShownPoses poses_{session_};
+  ui::SceneRenderer parts_{*renderer_.Get(), std::make_shared<ui::PartShapeCache>(), poses_};
 };
 
 void SceneRendererTest::partsThatOverlapAreTintedAndGetTheirColourBack() {
