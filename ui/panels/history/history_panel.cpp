@@ -6,10 +6,11 @@
 
 #include "core/session/session.h"
 #include "ui/model/history_model.h"
+#include "ui/model/scene_work.h"
 
 namespace nearfit::ui {
 
-HistoryPanel::HistoryPanel(Session& session, QWidget* parent)
+HistoryPanel::HistoryPanel(Session& session, const SceneWork& work, QWidget* parent)
     : QWidget(parent), session_(session), model_(new HistoryModel(this)), view_(new QListView(this)) {
   setObjectName(QStringLiteral("historyPanel"));
   view_->setObjectName(QStringLiteral("historyView"));
@@ -26,6 +27,7 @@ HistoryPanel::HistoryPanel(Session& session, QWidget* parent)
   layout->addWidget(view_);
   connect(view_, &QListView::clicked, this, [this](const QModelIndex& index) { goTo(index.row()); });
   connect(view_, &QListView::activated, this, [this](const QModelIndex& index) { goTo(index.row()); });
+  connect(&work, &SceneWork::busyChanged, this, [this, &work] { setEnabled(!work.isBusy()); });
   session_.onChange([panel = QPointer<HistoryPanel>(this)] {
     if (panel) panel->showHistory();
   });

@@ -11,6 +11,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "ui/model/move_guard.h"
+#include "ui/model/scene_work.h"
 #include "ui/model/selection.h"
 #include "ui/tools/placing/gizmo_control.h"
 #include "ui/tools/placing/placing_actions.h"
@@ -20,7 +21,7 @@
 namespace nearfit::ui {
 
 PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& view, const MoveGuard& guard,
-                           QObject* parent)
+                           SceneWork& work, QObject* parent)
     : QObject(parent),
       session_(session),
       selection_(selection),
@@ -45,9 +46,11 @@ PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& vie
     const std::vector<PlacedPart> parts = placedParts();
     if (!parts.empty()) setPivot(boxCentre(parts));
   });
-  connect(actions_->solid, &QAction::toggled, this, [this](bool isOn) {
-    if (isOn && !session_.scene().parts().empty()) emit hierarchiesWanted();
+  // Solid moves need hierarchies, which should not take time in a drag.
+  connect(actions_->solid, &QAction::toggled, this, [this, &work](bool isOn) {
+    if (isOn && !session_.scene().parts().empty()) work.prepareHierarchies([](bool) {});
   });
+  connect(&work, &SceneWork::sceneNeeded, this, &PlacingTools::commit);
   connect(&selection_, &Selection::changed, this, [this] {
     commit();
     abandon();
@@ -62,10 +65,12 @@ PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& vie
   showActions();
 }
 
-void PlacingTools::addTo(QMainWindow& window, QMenu& menu) {
+QToolBar* PlacingTools::addTo(QMainWindow& window, QMenu& menu) {
   actions_->addTo(menu);
   window.addToolBarBreak();
-  window.addToolBar(actions_->makeToolBar(window));
+  QToolBar* bar = actions_->makeToolBar(window);
+  window.addToolBar(bar);
+  return bar;
 }
 
 void PlacingTools::setHeld(const std::optional<HeldPart>& held) {
