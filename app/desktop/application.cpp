@@ -6,7 +6,11 @@
 
 #include "app/desktop/resource_files.h"
 #include "ui/files/document.h"
-#include "ui/shell/taking_away.h"
+#include "ui/model/hand_state.h"
+#include "ui/panels/feel/feel_control.h"
+#include "ui/panels/plots/plot_panel.h"
+#include "ui/panels/replay/record_action.h"
+#include "ui/tools/placing/hand_control.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/preferences.h"
 #include "ui/widgets/theme.h"
@@ -56,32 +60,44 @@ void Application::show(const QStringList& files, bool isDemo) {
 }
 
 void Application::wire() {
-  connect(&window_, &ui::MainWindow::servoStartRequested, &servo_, &ServoController::start);
-  connect(&window_, &ui::MainWindow::armRequested, &servo_, &ServoController::setArmed);
-  connect(&window_, &ui::MainWindow::calibrateRequested, &servo_, &ServoController::calibrate);
-  connect(&window_, &ui::MainWindow::resetRequested, &servo_, &ServoController::reset);
-  connect(&window_, &ui::MainWindow::clutchRequested, &servo_, &ServoController::setClutched);
-  connect(&window_, &ui::MainWindow::servoStopRequested, &servo_, &ServoController::stop);
-  connect(&window_, &ui::MainWindow::poseInHandRequested, &servo_, &ServoController::commitPose);
+  wireRequests();
+  wireReports();
+}
+
+void Application::wireRequests() {
+  using ui::FeelControl;
+  const FeelControl& feel = window_.feel();
+  connect(&feel, &FeelControl::servoStartRequested, &servo_, &ServoController::start);
+  connect(&feel, &FeelControl::servoStopRequested, &servo_, &ServoController::stop);
+  connect(&feel, &FeelControl::armRequested, &servo_, &ServoController::setArmed);
+  connect(&feel, &FeelControl::calibrateRequested, &servo_, &ServoController::calibrate);
+  connect(&feel, &FeelControl::resetRequested, &servo_, &ServoController::reset);
+  connect(&feel, &FeelControl::clutchRequested, &servo_, &ServoController::setClutched);
+  connect(&feel, &FeelControl::hierarchiesReady, &servo_, &ServoController::followSession);
   servo_.setRate(ui::Preferences::rate());
-  connect(&window_, &ui::MainWindow::rateChanged, &servo_, &ServoController::setRate);
-  connect(&window_, &ui::MainWindow::handMoved, &servo_, &ServoController::moveHand);
-  connect(&watcher_, &DeviceWatcher::devicesChanged, &window_, &ui::MainWindow::showDevices);
+  connect(&feel, &FeelControl::rateChanged, &servo_, &ServoController::setRate);
+  connect(&window_.handControl(), &ui::HandControl::handMoved, &servo_, &ServoController::moveHand);
+  connect(&window_.document(), &ui::Document::sceneNeeded, &servo_, &ServoController::commitPose);
+  connect(&window_.recording(), &ui::RecordAction::recordRequested, &servo_, &ServoController::recordTo);
+}
+
+void Application::wireReports() {
+  connect(&watcher_, &DeviceWatcher::devicesChanged, &window_.feel(), &ui::FeelControl::showDevices);
   connect(&servo_, &ServoController::statusChanged, &watcher_, [this](const ui::ServoStatus& status) {
     if (!status.deviceId.isEmpty()) watcher_.setInHand(status.deviceId);
   });
   connect(&servo_, &ServoController::deviceReleased, &watcher_, &DeviceWatcher::letGo);
-  connect(&servo_, &ServoController::statusChanged, &window_, &ui::MainWindow::showServoStatus);
-  connect(&servo_, &ServoController::snapshotArrived, &window_, &ui::MainWindow::showSnapshot);
-  connect(&servo_, &ServoController::hierarchiesNeeded, &window_, &ui::MainWindow::prepareHierarchies);
-  connect(&window_, &ui::MainWindow::hierarchiesReady, &servo_, &ServoController::followSession);
+  connect(&servo_, &ServoController::statusChanged, &window_.hand(), &ui::HandState::showStatus);
+  connect(&servo_, &ServoController::snapshotArrived, &window_.hand(), &ui::HandState::showSnapshot);
+  connect(&servo_, &ServoController::hierarchiesNeeded, &window_.feel(),
+          &ui::FeelControl::prepareHierarchies);
   connect(&servo_, &ServoController::failed, &window_, &ui::MainWindow::showFailure);
-  ui::TakingAway& takingAway = window_.takingAway();
-  connect(&takingAway, &ui::TakingAway::recordRequested, &servo_, &ServoController::recordTo);
-  connect(&servo_.rows(), &ServoRows::ticked, &takingAway, &ui::TakingAway::showTicks);
-  connect(&servo_.rows(), &ServoRows::recordingChanged, &takingAway, &ui::TakingAway::showRecording);
-  connect(&servo_.rows(), &ServoRows::recorded, &takingAway, &ui::TakingAway::showRecorded);
-  connect(&servo_.rows(), &ServoRows::failed, &takingAway, &ui::TakingAway::showRecordingFailed);
+  using ui::RecordAction;
+  const ServoRows& rows = servo_.rows();
+  connect(&rows, &ServoRows::ticked, &window_.plots(), &ui::PlotPanel::add);
+  connect(&rows, &ServoRows::recordingChanged, &window_.recording(), &RecordAction::showRecording);
+  connect(&rows, &ServoRows::recorded, &window_.recording(), &RecordAction::showRecorded);
+  connect(&rows, &ServoRows::failed, &window_.recording(), &RecordAction::showFailed);
 }
 
 }  // namespace nearfit::desktop

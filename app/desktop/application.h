@@ -37,6 +37,10 @@ class Application : public QObject {
 
  private:
   void wire();
+  /// Connects what the window asks the servo to do.
+  void wireRequests();
+  /// Connects what servo and devices report to the window.
+  void wireReports();
 
   Session session_;
   std::unique_ptr<DeviceSource> devices_;

@@ -8,6 +8,7 @@
 #include "app/desktop/hands.h"
 #include "core/base/error.h"
 #include "ui/files/document.h"
+#include "ui/panels/feel/feel_control.h"
 
 namespace nearfit::desktop {
 namespace {
@@ -43,8 +44,8 @@ void DeviceLedSession::take(bool isComplete) {
     return fail(tr("no part of the scene is in hand; take one in hand and save the scene"));
   try {
     const bool isRecording = recordingOf(options_.device).has_value();
-    application_.window().feelWith(isRecording ? options_.device
-                                               : application_.devices().find(options_.device));
+    application_.window().feel().feelWith(isRecording ? options_.device
+                                                      : application_.devices().find(options_.device));
   } catch (...) {
     application_.window().showFailure(
         ui::describe(tr("The part could not be taken in hand."), std::current_exception()));

@@ -21,7 +21,6 @@
 #include "ui/files/recovery/recovery_dialog.h"
 #include "ui/files/unit_dialog.h"
 #include "ui/model/selection.h"
-#include "ui/shell/actions.h"
 #include "ui/widgets/error_box.h"
 #include "ui/widgets/progress_dialog.h"
 #include "ui/widgets/theme.h"

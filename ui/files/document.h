@@ -1,6 +1,5 @@
 #pragma once
 
-#include <QObject>
 #include <QPointer>
 #include <QStringList>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "core/session/session.h"
+#include "ui/model/scene_work.h"
 #include "ui/view3d/parts/part_shape.h"
 #include "ui/widgets/background_task.h"
 #include "ui/widgets/error_box.h"
@@ -22,7 +22,7 @@ struct DroppedFiles;
 
 /// Opens, saves and extends the session's scene, with the dialogs for that. Loads in another thread; the open
 /// scene stays until the new one is completely loaded. Failures go to failed(). Use from the GUI thread.
-class Document : public QObject {
+class Document : public SceneWork {
   Q_OBJECT
 
  public:
@@ -33,7 +33,7 @@ class Document : public QObject {
   /// The shapes that loading prepares for drawing.
   const std::shared_ptr<PartShapeCache>& shapes() const noexcept { return shapes_; }
   /// True while a job of load() runs.
-  bool isBusy() const noexcept { return task_.isRunning(); }
+  bool isBusy() const noexcept override { return task_.isRunning(); }
   /// Asks whether to save unsaved changes. False if the user cancels, or saving fails.
   bool mayLeaveScene();
 
@@ -67,19 +67,13 @@ class Document : public QObject {
   /// Runs a job in another thread behind a progress dialog. Must not be called while busy.
   /// @param done  Called on the GUI thread with what the job threw, Cancelled included, or null.
   void load(const QString& text, BackgroundTask::Job job, std::function<void(std::exception_ptr)> done);
-  /// Builds the missing hierarchies of all parts in another thread, after any load that is running. Calls
-  /// `done` at once if none is missing; isReady is false if the user cancelled or building failed.
-  void prepareHierarchies(std::function<void(bool isReady)> done);
+  void prepareHierarchies(std::function<void(bool isReady)> done) override;
   /// Saves to the session's file, or asks for one if it has none. False if nothing was written.
   bool save();
   /// Asks for a file and saves to it. False if nothing was written.
   bool askAndSaveAs();
 
  signals:
-  /// Emitted before the scene is saved or left. Whoever holds a part must put its pose into the session now.
-  void sceneNeeded();
-  /// Emitted when isBusy() changes.
-  void busyChanged();
   /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
   /// Emitted with a short note for the status bar.

@@ -2,14 +2,14 @@
 
 #include <utility>
 
+#include "ui/model/hand_state.h"
 #include "ui/widgets/names.h"
 
 namespace nearfit::ui {
 
-MoveGuard::MoveGuard(const Session& session, QObject* parent) : QObject(parent), session_(session) {}
-
-void MoveGuard::setHolder(Holder holder) {
-  if (std::exchange(holder_, holder) != holder) emit changed();
+MoveGuard::MoveGuard(const Session& session, const HandState& hand, QObject* parent)
+    : QObject(parent), session_(session), hand_(hand) {
+  connect(&hand, &HandState::changed, this, &MoveGuard::changed);
 }
 
 void MoveGuard::setReplaying(bool isReplaying) {
@@ -37,9 +37,9 @@ QString MoveGuard::refusalOf(const Part& part) const {
   if (!lock.isEmpty()) return lock;
   if (isReplayed(part.id))
     return tr("A recording moves %1: close the recording to place it").arg(shortName(part.name));
-  if (session_.scene().movingPart() != part.id) return {};
-  if (holder_ == Holder::Device) return tr("The device holds this part");
-  return holder_ == Holder::ScriptedHand ? tr("The scripted hand holds this part") : QString();
+  if (!hand_.holds(part.id)) return {};
+  if (hand_.isHeldBy(Hand::Device)) return tr("The device holds this part");
+  return hand_.isHeldBy(Hand::Scripted) ? tr("The scripted hand holds this part") : QString();
 }
 
 QString MoveGuard::refusalOf(const std::vector<PartId>& parts) const {
@@ -49,7 +49,7 @@ QString MoveGuard::refusalOf(const std::vector<PartId>& parts) const {
     if (part == nullptr) continue;
     const QString refusal = refusalOf(*part);
     if (!refusal.isEmpty()) return refusal;
-    isLed = isLed || (holder_ == Holder::ManualHand && session_.scene().movingPart() == id);
+    isLed = isLed || (hand_.isHeldBy(Hand::Manual) && hand_.holds(id));
   }
   if (!isLed || parts.size() == 1) return {};
   return tr("One of these parts is in hand: stop feeling it, or select only the others");

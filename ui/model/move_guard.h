@@ -8,20 +8,17 @@
 
 namespace nearfit::ui {
 
+class HandState;
+
 /// Decides which parts may be moved now, and says why not. Every way of moving asks it: gizmo, mouse,
 /// numbers, keys, drop and alignment.
 class MoveGuard : public QObject {
   Q_OBJECT
 
  public:
-  /// Who moves the part in hand.
-  enum class Holder { Nobody, ManualHand, ScriptedHand, Device };
+  /// @param session, hand  Outlive this.
+  MoveGuard(const Session& session, const HandState& hand, QObject* parent = nullptr);
 
-  /// @param session  Outlives this.
-  explicit MoveGuard(const Session& session, QObject* parent = nullptr);
-
-  /// Sets who holds the moving part.
-  void setHolder(Holder holder);
   /// Set true while a recording shows the moving part away from its pose.
   void setReplaying(bool isReplaying);
 
@@ -41,7 +38,7 @@ class MoveGuard : public QObject {
   QString lockOf(const Part& part) const;
 
   const Session& session_;
-  Holder holder_ = Holder::Nobody;
+  const HandState& hand_;
   bool isReplaying_ = false;
 };
 

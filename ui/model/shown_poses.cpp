@@ -24,6 +24,11 @@ void ShownPoses::show(Source source, Poses worldFromPart) {
   if (!parts.empty()) emit changed(parts);
 }
 
+RigidTransform ShownPoses::poseOfMoving() const {
+  const Part* part = session_.scene().find(session_.scene().movingPart().value_or(PartId{}));
+  return part != nullptr ? poseOf(*part) : RigidTransform{};
+}
+
 RigidTransform ShownPoses::poseFrom(Source first, const Part& part) const {
   for (auto source = static_cast<std::size_t>(first); source < poses_.size(); ++source) {
     const auto found = poses_[source].find(part.id);

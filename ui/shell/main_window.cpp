@@ -3,150 +3,226 @@
 #include <QAction>
 #include <QCloseEvent>
 #include <QDockWidget>
-#include <QFileInfo>
 #include <QMenu>
 #include <QMimeData>
-#include <QPushButton>
 #include <QStatusBar>
 #include <QTimer>
+#include <optional>
 #include <utility>
 
-#include <glm/geometric.hpp>
-
 #include "ui/files/document.h"
+#include "ui/files/export/exporter.h"
+#include "ui/files/export/picture_taker.h"
+#include "ui/files/file_commands.h"
 #include "ui/files/recovery/recovery.h"
+#include "ui/model/hand_state.h"
 #include "ui/model/move_guard.h"
-#include "ui/model/preset_store.h"
 #include "ui/model/selection.h"
 #include "ui/model/shown_poses.h"
-#include "ui/panels/feel/feel_dialog.h"
+#include "ui/panels/clearance/clearance_panel.h"
+#include "ui/panels/feel/feel_control.h"
 #include "ui/panels/feel/feel_panel.h"
 #include "ui/panels/history/history_panel.h"
+#include "ui/panels/history/undo_actions.h"
+#include "ui/panels/parts/part_commands.h"
 #include "ui/panels/parts/parts_panel.h"
-#include "ui/panels/parts/tree_actions.h"
+#include "ui/panels/plots/plot_panel.h"
 #include "ui/panels/pose/pose_panel.h"
-#include "ui/shell/actions.h"
+#include "ui/panels/pose/selected_pose.h"
+#include "ui/panels/replay/record_action.h"
+#include "ui/panels/replay/replay.h"
+#include "ui/panels/replay/timeline.h"
+#include "ui/panels/view/view_actions.h"
+#include "ui/shell/main_menus.h"
 #include "ui/shell/status_readout.h"
-#include "ui/shell/taking_away.h"
+#include "ui/shell/unit_menu.h"
 #include "ui/shell/welcome_card.h"
 #include "ui/shell/window_layout.h"
 #include "ui/shell/window_shell.h"
+#include "ui/shell/window_title.h"
+#include "ui/tools/measure/measure_tool.h"
+#include "ui/tools/placing/align_tool.h"
+#include "ui/tools/placing/drop_tool.h"
+#include "ui/tools/placing/hand_control.h"
 #include "ui/tools/placing/placing_tools.h"
+#include "ui/tools/section/section_tool.h"
+#include "ui/tools/selecting/box_select.h"
 #include "ui/tools/selecting/view_menu.h"
-#include "ui/view3d/hand_drag.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/error_box.h"
-#include "ui/widgets/paths.h"
-#include "ui/widgets/preferences.h"
-#include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
 namespace {
 
 constexpr int kNoteTime = 8000;  ///< [ms]
 
-/// True if the poses differ by more than rounding.
-bool isElsewhere(const RigidTransform& a, const RigidTransform& b) {
-  constexpr double kSlack = 1e-9;  ///< [m]; for rotations half the angle [rad].
-  const glm::dquat turn = glm::conjugate(a.rotation) * b.rotation;
-  return glm::distance(a.translation, b.translation) > kSlack ||
-         glm::length(glm::dvec3(turn.x, turn.y, turn.z)) > kSlack;
-}
-
 }  // namespace
+
+template <class... Sources>
+void MainWindow::listenTo(const Sources&... sources) {
+  const auto listen = [this]<class Source>(const Source& source) {
+    if constexpr (requires { &Source::failed; })
+      connect(&source, &Source::failed, this, &MainWindow::showFailure);
+    if constexpr (requires { &Source::noted; }) connect(&source, &Source::noted, this, &MainWindow::showNote);
+  };
+  (listen(sources), ...);
+}
 
 MainWindow::MainWindow(Session& session, QWidget* parent)
     : QMainWindow(parent),
       session_(session),
       selection_(new Selection(session, this)),
       poses_(new ShownPoses(session, this)),
-      actions_(new Actions(this)),
-      guard_(new MoveGuard(session, this)) {
+      hand_(new HandState(session, this)),
+      guard_(new MoveGuard(session, *hand_, this)),
+      panelsMenu_(new QMenu(tr("&Panels"), this)),
+      units_(new UnitMenu(this)) {
   const auto shapes = std::make_shared<PartShapeCache>();
   viewport_ = new Viewport(shapes, *selection_, *poses_, this);
-  document_ = std::make_unique<Document>(session, shapes, this);
   setCentralWidget(viewport_);
-  readout_ = new StatusReadout(statusBar());
-  presets_ = new PresetStore(PresetStore::usualFile(), this);
-  feelDialog_ = new FeelDialog(*presets_, this);
-  setUpPanels();
-  actions_->setUpMenus(*this);
-  treeActions_->addTo(*actions_->editMenu);
-  actions_->setUpToolBar(*this);
-  placing_ = new PlacingTools(session_, *selection_, *viewport_, *guard_, this);
-  placing_->addTo(*this, *actions_->placeMenu);
-  setUpAligning();
-  setUpInspecting();
-  setUpTakingAway();
+  // Before the view shows the tick.
+  connect(hand_, &HandState::snapshotShown, poses_, [this](const ServoSnapshot& snapshot) {
+    poses_->show(ShownPoses::Source::Hand, {{snapshot.moving, snapshot.proxy}});
+  });
+  connect(hand_, &HandState::snapshotCleared, poses_, [this] { poses_->show(ShownPoses::Source::Hand, {}); });
+  connect(hand_, &HandState::snapshotShown, viewport_, &Viewport::showSnapshot);
+  connect(hand_, &HandState::snapshotCleared, viewport_, &Viewport::clearSnapshot);
+  document_ = std::make_unique<Document>(session, shapes, this);
+  files_ = new FileCommands({session_, *selection_, *hand_, *document_, *viewport_}, this);
+  new StatusReadout(*hand_, statusBar());
+  new WindowTitle(session_, *hand_, this);
+  makePanels();
+  makeToolsAndMenus();
+  connectCommands();
   setAcceptDrops(true);
   resize(1360, 860);
-  manners_ = new WindowShell(this, actions_->viewMenu, actions_->helpMenu);
-  connect(manners_, &WindowShell::tourRequested, this, &MainWindow::beginTour);
-  welcome_ =
-      new WelcomeCard(actions_->openDemo, manners_->tour(), actions_->addParts, actions_->open, viewport_);
-
-  connectPlacing();
-  connectMoveGuard();
-  connectFileActions();
-  connectEditActions();
-  connectViewActions();
-  connectPanels();
-  viewChanges_ =
-      session_.onChange(SceneEvents::Stage::View, [this] { viewport_->setScene(session_.scene()); });
-  panelChanges_ = session_.onChange(SceneEvents::Stage::Panels, [this] { showScene(); });
-  setDemoScene({});
+  new WelcomeCard(session_, {files_->openDemo, shell_->tour(), files_->addParts, files_->open}, viewport_);
+  changes_ = session_.onChange(SceneEvents::Stage::View, [this] { viewport_->setScene(session_.scene()); });
   viewport_->setScene(session_.scene());
-  showScene();
-  manners_->settle();
+  shell_->settle();
 }
 
 MainWindow::~MainWindow() {
-  // Hiding the dialog commits a number being typed, so delete it while all receivers still exist.
-  delete feelDialog_;
+  // This commits a number being typed, while all listeners of the session still exist.
+  feel_->closeSettings();
+  // Its dock closes it while it goes, when the model is gone.
+  replay_->close();
 }
 
-void MainWindow::setUpPanels() {
-  partsPanel_ = new PartsPanel(*selection_, this);
-  treeActions_ = new TreeActions(
-      session_, *selection_, [this](const QString& what, const auto& command) { attempt(what, command); },
-      this);
-  posePanel_ = new PosePanel(this);
-  auto* settings = new QPushButton(actions_->feelSettings->icon(), tr("Feel settings…"), this);
-  settings->setObjectName(QStringLiteral("settingsButton"));
-  connect(settings, &QPushButton::clicked, actions_->feelSettings, &QAction::trigger);
-  feelPanel_ = new FeelPanel({settings, actions_->clutch, *presets_}, this);
-  QDockWidget* parts = addDock(QStringLiteral("partsDock"), tr("Parts"), partsPanel_, Qt::LeftDockWidgetArea);
-  auto* history = new HistoryPanel(session_, this);
-  tabifyDockWidget(parts,
-                   addDock(QStringLiteral("historyDock"), tr("History"), history, Qt::LeftDockWidgetArea));
-  parts->raise();
-  connect(document_.get(), &Document::busyChanged, history,
-          [this, history] { history->setEnabled(!document_->isBusy()); });
-  QDockWidget* pose =
-      addDock(QStringLiteral("poseDock"), tr("Pose and mass"), posePanel_, Qt::LeftDockWidgetArea);
-  QDockWidget* feel = addDock(QStringLiteral("feelDock"), tr("Feel"), feelPanel_, Qt::RightDockWidgetArea);
-  resizeDocks({pose, feel}, {285, 235}, Qt::Horizontal);
-  resizeDocks({pose}, {240}, Qt::Vertical);
-  auto* separator = new QAction(this);
-  separator->setSeparator(true);
-  const QList<QAction*> menu =
-      QList<QAction*>{actions_->takeInHand, actions_->rename, actions_->recolour, actions_->duplicate} +
-      treeActions_->list() + QList<QAction*>{separator, actions_->remove};
-  for (QAction* action : menu)
-    action->setShortcutVisibleInContextMenu(true);
-  partsPanel_->setMenuActions(menu);
-  new ViewMenu(*selection_, *viewport_, menu, {actions_->selectAll, actions_->fit}, this);
-}
-
-QDockWidget* MainWindow::addDock(const QString& name, const QString& title, QWidget* content,
+QDockWidget* MainWindow::addDock(const char* name, const QString& title, QWidget* content,
                                  Qt::DockWidgetArea area) {
   auto* dock = new QDockWidget(title, this);
-  dock->setObjectName(name);
+  dock->setObjectName(QLatin1String(name));
   dock->setWidget(content);
   dock->setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
   addDockWidget(area, dock);
-  actions_->panelsMenu->addAction(dock->toggleViewAction());
+  panelsMenu_->addAction(dock->toggleViewAction());
   return dock;
+}
+
+void MainWindow::makePanels() {
+  auto* partsPanel = new PartsPanel(session_, *selection_, this);
+  parts_ = new PartCommands({session_, *selection_, *hand_, *document_}, *partsPanel, this);
+  posePanel_ = new PosePanel(this);
+  feel_ = new FeelControl(session_, *hand_, *document_, this);
+  history_ = new HistoryPanel(session_, *document_, this);
+  undo_ = new UndoActions(session_, *document_, this);
+  QDockWidget* parts = addDock("partsDock", tr("Parts"), partsPanel, Qt::LeftDockWidgetArea);
+  tabifyDockWidget(parts, addDock("historyDock", tr("History"), history_, Qt::LeftDockWidgetArea));
+  parts->raise();
+  QDockWidget* pose = addDock("poseDock", tr("Pose and mass"), posePanel_, Qt::LeftDockWidgetArea);
+  QDockWidget* feel = addDock("feelDock", tr("Feel"), &feel_->panel(), Qt::RightDockWidgetArea);
+  resizeDocks({pose, feel}, {285, 235}, Qt::Horizontal);
+  resizeDocks({pose}, {240}, Qt::Vertical);
+  viewActions_ = new ViewActions(session_, *selection_, *viewport_, this);
+  new ViewMenu(*selection_, *viewport_, parts_->menu(), {parts_->selectAll, viewActions_->fit}, this);
+}
+
+void MainWindow::makeReviewPanels() {
+  auto* clearances = new ClearancePanel(
+      {session_, *selection_, *hand_, *viewport_}, [this] { return poses_->poseOfMoving(); }, this);
+  plots_ = new PlotPanel(this);
+  auto* timeline = new Timeline(this);
+  replay_ = new Replay({session_, *hand_, *guard_, *viewport_}, *timeline, this);
+  recording_ = new RecordAction(*hand_, this);
+  listenTo(*clearances, *plots_, *replay_, *recording_);
+  constexpr Qt::DockWidgetArea kBottom = Qt::BottomDockWidgetArea;
+  QDockWidget* clearanceDock = addDock("clearanceDock", tr("Clearances"), clearances, kBottom);
+  QDockWidget* plotsDock = addDock("plotsDock", tr("Plots"), plots_, kBottom);
+  QDockWidget* timelineDock = addDock("timelineDock", tr("Timeline"), timeline, kBottom);
+  for (QDockWidget* dock : {clearanceDock, plotsDock, timelineDock})
+    dock->hide();
+  // The timeline is as wide as the window, below the two others side by side.
+  splitDockWidget(clearanceDock, timelineDock, Qt::Vertical);
+  splitDockWidget(clearanceDock, plotsDock, Qt::Horizontal);
+  shareWidth(*clearanceDock, *plotsDock);
+  connectReplay(*timelineDock);
+}
+
+/// Gives both docks half the width when one of them is shown beside the other. By their size hints, curves
+/// would get a strip beside the table.
+void MainWindow::shareWidth(QDockWidget& left, QDockWidget& right) {
+  const auto share = [this, &left, &right](bool isShown) {
+    if (!isShown || !left.isVisible() || !right.isVisible() || left.y() != right.y()) return;
+    const int both = left.width() + right.width();
+    if (5 * right.width() < 2 * both) resizeDocks({&left, &right}, {both / 2, both / 2}, Qt::Horizontal);
+  };
+  for (const QDockWidget* dock : {&left, &right})
+    connect(dock->toggleViewAction(), &QAction::triggered, this, share, Qt::QueuedConnection);
+}
+
+void MainWindow::connectReplay(QDockWidget& timelineDock) {
+  connect(replay_, &Replay::opened, &timelineDock, [&timelineDock] {
+    timelineDock.show();
+    timelineDock.raise();
+  });
+  connect(replay_, &Replay::opened, plots_, &PlotPanel::showRecording);
+  connect(replay_, &Replay::timeShown, plots_, &PlotPanel::setRecordingTime);
+  connect(replay_, &Replay::closed, plots_, &PlotPanel::showLive);
+  // Whoever closes the timeline wants the scene back.
+  connect(timelineDock.toggleViewAction(), &QAction::toggled, this, [this](bool isShown) {
+    if (!isShown && !isMinimized()) replay_->close();
+  });
+}
+
+void MainWindow::makeToolsAndMenus() {
+  placing_ = new PlacingTools(session_, *selection_, *viewport_, *guard_, *document_, this);
+  handControl_ = new HandControl({session_, *selection_, *guard_, *hand_, *placing_, *viewport_}, this);
+  selectedPose_ = new SelectedPose({session_, *selection_, *poses_, *hand_, *guard_, *document_, *viewport_},
+                                   *posePanel_);
+  auto* align =
+      new AlignTool({session_, *selection_, *viewport_, *guard_, *hand_, *document_, *placing_}, this);
+  auto* drop = new DropTool({session_, *selection_, *viewport_, *guard_, *hand_, *document_}, this);
+  auto* measure = new MeasureTool(session_, *viewport_, this);
+  auto* section = new SectionTool(session_, *viewport_, this);
+  auto* box = new BoxSelect(*selection_, *viewport_, this);
+  auto* exporter =
+      new Exporter(session_, *selection_, *document_, [this] { return poses_->poseOfMoving(); }, this);
+  auto* pictures = new PictureTaker(session_, viewport_->pictures(), this);
+  makeReviewPanels();
+  const auto* menus =
+      new MainMenus(this,
+                    {*files_, *exporter, *pictures, *undo_, *parts_, *box, *viewActions_, *measure, *section,
+                     *placing_, *align, *drop, *feel_, *handControl_, *recording_, *replay_},
+                    panelsMenu_, units_);
+  shell_ = new WindowShell(this, *files_, menus->viewMenu(), menus->helpMenu());
+  listenTo(*placing_, *handControl_, *selectedPose_, *align, *drop, *box, *exporter, *pictures);
+  connect(units_, &UnitMenu::unitChanged, measure, &MeasureTool::refresh);
+  connect(units_, &UnitMenu::unitChanged, history_, &HistoryPanel::refresh);
+  connect(exporter, &Exporter::sceneNeeded, posePanel_, &PosePanel::commit);
+}
+
+void MainWindow::connectCommands() {
+  listenTo(*files_, *parts_, *feel_);
+  feel_->loadPresets();
+  connect(feel_, &FeelControl::sceneNeeded, posePanel_, &PosePanel::commit);
+  connect(undo_, &UndoActions::sceneNeeded, placing_, &PlacingTools::commit);
+  connect(parts_, &PartCommands::servoStopRequested, feel_, &FeelControl::servoStopRequested);
+  connect(parts_, &PartCommands::servoStartRequested, feel_->start, &QAction::trigger);
+  connect(selectedPose_, &SelectedPose::moveRequested, handControl_, &HandControl::place);
+  connect(selectedPose_, &SelectedPose::stepRequested, handControl_, &HandControl::step);
+  // A number that was refused must not stay.
+  connect(placing_, &PlacingTools::failed, selectedPose_, &SelectedPose::refresh);
 }
 
 void MainWindow::setFailureSink(std::function<void(const Failure&)> sink) {
@@ -154,106 +230,25 @@ void MainWindow::setFailureSink(std::function<void(const Failure&)> sink) {
 }
 
 void MainWindow::setDemoScene(const QString& file) {
-  demoScene_ = file;
-  updateActions();
+  files_->setDemoScene(file);
+}
+
+bool MainWindow::openDemo() {
+  return files_->showDemo();
+}
+
+void MainWindow::beginTour() {
+  shell_->beginTour();
+}
+
+void MainWindow::setAboutText(const QString& text) {
+  shell_->setAboutText(text);
 }
 
 void MainWindow::protectWork(const std::filesystem::path& recoveryFolder) {
-  const auto poseInHand = [this]() -> Autosave::PoseInHand {
-    const std::optional<PartId> moving = session_.scene().movingPart();
-    if (!servo_.isRunning || !moving) return std::nullopt;
-    return std::pair(*moving, poseOfMoving());
-  };
-  recovery_ = new Recovery(recoveryFolder, session_, *document_, poseInHand, this);
-  connect(recovery_, &Recovery::noted, this, &MainWindow::showNote);
-  connect(recovery_, &Recovery::failed, this, &MainWindow::showFailure);
-  recovery_->offer();
-}
-
-void MainWindow::showScene() {
-  const Scene& scene = session_.scene();
-  const QString name = session_.file().empty() ? tr("Untitled") : fromPath(session_.file().filename());
-  setWindowTitle(name + QStringLiteral("[*] – Nearfit"));
-  showModified();
-  partsPanel_->setScene(scene);
-  feelDialog_->showScene(scene);
-  feelPanel_->showSettings(scene.haptics());
-  welcome_->setVisible(scene.parts().empty());
-  showSelection();
-}
-
-void MainWindow::showModified() {
-  const std::optional<PartId> moving = session_.scene().movingPart();
-  const Part* held = servo_.isRunning && moving ? session_.scene().find(*moving) : nullptr;
-  const bool hasMoved = held != nullptr && isElsewhere(poseOfMoving(), held->worldFromPart);
-  const bool isModified = session_.isModified() || hasMoved;
-  if (isWindowModified() != isModified) setWindowModified(isModified);
-}
-
-void MainWindow::updateActions() {
-  const Scene& scene = session_.scene();
-  const std::optional<PartId> id = selected();
-  const Part* part = id ? scene.find(*id) : nullptr;
-  Actions::Availability availability;
-  availability.isBusy = document_->isBusy();
-  availability.hasSelection = !selection_->isEmpty();
-  availability.isSelectionLocked = part != nullptr && scene.isLocked(*part);
-  availability.canStart = scene.movingPart().has_value() && scene.parts().size() > 1;
-  availability.isServoRunning = servo_.isTaken();
-  availability.isHandManual = servo_.isRunning && servo_.hand == Hand::Manual;
-  availability.isHandDevice = servo_.isRunning && servo_.hand == Hand::Device;
-  actions_->update(session_, availability);
-  treeActions_->update(document_->isBusy());
-  actions_->openDemo->setEnabled(!document_->isBusy() && !demoScene_.isEmpty());
-  feelPanel_->setStartable(actions_->start->isEnabled());
-  updateAligning();
-}
-
-void MainWindow::showDevices(const QVector<DeviceChoice>& devices) {
-  feelPanel_->showDevices(devices);
-}
-
-void MainWindow::showServoStatus(const ServoStatus& status) {
-  const bool hasChanged = status.isRunning != servo_.isRunning || status.isOpening != servo_.isOpening ||
-                          status.hand != servo_.hand;
-  servo_ = status;
-  feelPanel_->showStatus(status);
-  actions_->clutch->setChecked(status.isClutched);
-  readout_->showStatus(status);
-  feelDialog_->setDevice(status.device);
-  takingAway_->showTaken(status.isTaken());
-  if (!hasChanged) return;
-  if (status.isRunning) {
-    const Part* part = session_.scene().find(session_.scene().movingPart().value_or(PartId{}));
-    if (part != nullptr) handPose_ = part->worldFromPart;
-  } else {
-    poses_->show(ShownPoses::Source::Hand, {});
-    viewport_->handDrag().setPoint({});
-    viewport_->clearSnapshot();
-    feelPanel_->clearSnapshot();
-    feelDialog_->clearSnapshot();
-    readout_->clearSnapshot();
-  }
-  showHeld();
-  showModified();
-  showSelection();
-}
-
-void MainWindow::showSnapshot(const ServoSnapshot& snapshot) {
-  poses_->show(ShownPoses::Source::Hand, {{snapshot.moving, snapshot.proxy}});
-  centreInPart_ = snapshot.proxy.inverse().applyToPoint(snapshot.centre);
-  viewport_->handDrag().setPoint(isHandManual() ? std::optional(handPose_.applyToPoint(centreInPart_))
-                                                : std::nullopt);
-  viewport_->showSnapshot(snapshot);
-  feelPanel_->showSnapshot(snapshot, session_.scene());
-  feelDialog_->showSnapshot(snapshot);
-  readout_->showSnapshot(snapshot);
-  showHeld();
-  showModified();
-  if (recovery_ != nullptr) recovery_->autosave().noteMotion();
-  takingAway_->showSnapshot(snapshot);
-  if (!holds(selected())) return;
-  posePanel_->showPose(snapshot.proxy, servo_.hand == Hand::Manual ? handPose_ : snapshot.proxy);
+  auto* recovery = new Recovery(recoveryFolder, session_, *document_, *hand_, this);
+  listenTo(*recovery);
+  recovery->offer();
 }
 
 void MainWindow::showFailure(const Failure& failure) {
@@ -261,7 +256,7 @@ void MainWindow::showFailure(const Failure& failure) {
     failureSink_(failure);
   } else {
     // The servo must be stoppable whichever window has the focus.
-    ui::showFailure(failure, this, {actions_->stop});
+    ui::showFailure(failure, this, {feel_->stop});
   }
 }
 
@@ -274,8 +269,8 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     event->ignore();
     return;
   }
-  emit servoStopRequested();
-  manners_->layout().remember();
+  emit feel_->servoStopRequested();
+  shell_->layout().remember();
   event->accept();
 }
 

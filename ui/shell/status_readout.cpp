@@ -3,6 +3,7 @@
 #include <QLabel>
 #include <QStatusBar>
 
+#include "ui/model/hand_state.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/theme.h"
 
@@ -25,12 +26,15 @@ QLabel* addLabel(QStatusBar* bar, const QString& objectName, const QString& wide
 
 }  // namespace
 
-StatusReadout::StatusReadout(QStatusBar* bar)
+StatusReadout::StatusReadout(const HandState& hand, QStatusBar* bar)
     : QObject(bar),
       rate_(addLabel(bar, QStringLiteral("statusRate"), tr("Servo 1000 Hz"))),
       lateness_(addLabel(bar, QStringLiteral("statusLateness"), tr("Late 0.00 ms (p99)"))),
       minima_(addLabel(bar, QStringLiteral("statusMinima"), tr("LMDs 0000"))),
       distance_(addLabel(bar, QStringLiteral("statusDistance"), tr("Min distance 0000 mm"))) {
+  connect(&hand, &HandState::statusChanged, this, &StatusReadout::showStatus);
+  connect(&hand, &HandState::snapshotShown, this, &StatusReadout::showSnapshot);
+  connect(&hand, &HandState::snapshotCleared, this, &StatusReadout::clearSnapshot);
   showStatus({});
   clearSnapshot();
 }

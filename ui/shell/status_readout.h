@@ -10,20 +10,23 @@ class QStatusBar;
 
 namespace nearfit::ui {
 
+class HandState;
+
 /// Servo rate, lateness, number of minima and least distance, at the right of the status bar.
 class StatusReadout : public QObject {
   Q_OBJECT
 
  public:
-  /// @param bar  Becomes the parent.
-  explicit StatusReadout(QStatusBar* bar);
+  /// @param hand  What it shows.
+  /// @param bar   Becomes the parent.
+  StatusReadout(const HandState& hand, QStatusBar* bar);
 
+ private:
   void showStatus(const ServoStatus& status);
   void showSnapshot(const ServoSnapshot& snapshot);
   /// Shows dashes instead of minima and distance.
   void clearSnapshot();
 
- private:
   QLabel *rate_, *lateness_, *minima_, *distance_;
 };
 

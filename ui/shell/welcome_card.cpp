@@ -6,12 +6,13 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "core/session/session.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
 
-WelcomeCard::WelcomeCard(QAction* openDemo, QAction* tour, QAction* addParts, QAction* open, QWidget* parent)
-    : QFrame(parent) {
+WelcomeCard::WelcomeCard(Session& session, const QList<QAction*>& ways, QWidget* parent)
+    : QFrame(parent), session_(session) {
   setObjectName(QStringLiteral("welcome"));
   setStyleSheet(QStringLiteral(
       "#welcome { background: rgba(255, 255, 255, 235); border: 1px solid #c9d2db; border-radius: 10px; }"));
@@ -32,13 +33,17 @@ WelcomeCard::WelcomeCard(QAction* openDemo, QAction* tour, QAction* addParts, QA
   layout->addWidget(picture);
   layout->addWidget(title);
   layout->addWidget(hint);
-  addButton(openDemo, true);
-  addButton(tour, false);
-  addButton(addParts, false);
-  addButton(open, false);
+  for (QAction* way : ways)
+    addButton(way, way == ways.constFirst());
   parent->installEventFilter(this);
   adjustSize();
   centre();
+  changes_ = session.onChange(SceneEvents::Stage::Panels, [this] { showIfEmpty(); });
+  showIfEmpty();
+}
+
+void WelcomeCard::showIfEmpty() {
+  setVisible(session_.scene().parts().empty());
 }
 
 void WelcomeCard::addButton(QAction* action, bool isMain) {

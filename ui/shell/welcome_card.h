@@ -1,8 +1,15 @@
 #pragma once
 
 #include <QFrame>
+#include <QList>
+
+#include "core/session/scene_events.h"
 
 class QAction;
+
+namespace nearfit {
+class Session;
+}
 
 namespace nearfit::ui {
 
@@ -11,15 +18,20 @@ class WelcomeCard : public QFrame {
   Q_OBJECT
 
  public:
-  /// @param tour  Starts the tour of the window.
-  WelcomeCard(QAction* openDemo, QAction* tour, QAction* addParts, QAction* open, QWidget* parent);
+  /// @param session  Outlives this.
+  /// @param ways     Actions that begin something, the likeliest first.
+  WelcomeCard(Session& session, const QList<QAction*>& ways, QWidget* parent);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void addButton(QAction* action, bool isMain);
+  void showIfEmpty();
   void centre();
+
+  const Session& session_;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

@@ -5,14 +5,17 @@
 #include <QDockWidget>
 #include <QMainWindow>
 #include <QMenu>
+#include <QMessageBox>
 #include <QToolBar>
 #include <algorithm>
 #include <utility>
 
+#include "ui/files/file_commands.h"
 #include "ui/shell/shortcuts_dialog.h"
 #include "ui/shell/tour.h"
 #include "ui/shell/window_layout.h"
 #include "ui/widgets/field_names.h"
+#include "ui/widgets/make_action.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
@@ -35,17 +38,29 @@ bool areExplained(const QList<QAction*>& actions) {
 
 }  // namespace
 
-WindowShell::WindowShell(QMainWindow* window, QMenu* view, QMenu* help)
-    : QObject(window), window_(window), shortcuts_(new ShortcutsDialog(window)), tour_(new Tour(window)) {
+WindowShell::WindowShell(QMainWindow* window, FileCommands& files, QMenu* view, QMenu* help)
+    : QObject(window),
+      window_(window),
+      files_(files),
+      shortcuts_(new ShortcutsDialog(window)),
+      tour_(new Tour(window)) {
   addThemes(view);
   QAction* reset =
       addAction(view, "resetLayout", tr("Reset la&yout"), tr("Put all panels back in their original places"));
   connect(reset, &QAction::triggered, this, [this] { layout_->reset(); });
+  addHelp(help);
+}
 
+void WindowShell::addHelp(QMenu* help) {
+  QAction* about = makeAction(this, "about", tr("&About Nearfit"), QStringLiteral("about"), {},
+                              tr("Version, method and licence"));
+  connect(about, &QAction::triggered, this,
+          [this] { QMessageBox::about(window_, tr("About Nearfit"), aboutText_); });
+  help->addAction(about);
   tourAction_ =
       addAction(help, "tour", tr("Short &tour"), tr("Explain the panels of this window, one by one"));
   tourAction_->setIcon(icon(QStringLiteral("about")));
-  connect(tourAction_, &QAction::triggered, this, &WindowShell::tourRequested);
+  connect(tourAction_, &QAction::triggered, this, &WindowShell::beginTour);
   QAction* keys = addAction(help, "shortcuts", tr("&Keyboard shortcuts"),
                             tr("List and search all commands and their keys"));
   keys->setShortcuts({QKeySequence(Qt::Key_F1), QKeySequence(QStringLiteral("Ctrl+/"))});
@@ -78,6 +93,11 @@ void WindowShell::addThemes(QMenu* view) {
 }
 
 void WindowShell::beginTour() {
+  // An empty window has little to explain.
+  files_.withParts([this] { showTour(); });
+}
+
+void WindowShell::showTour() {
   const auto find = [this](const char* name) { return window_->findChild<QWidget*>(QLatin1String(name)); };
   tour_->begin({
       {find("partsDock"), tr("Parts"),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <QString>
 
 class QAction;
 class QMainWindow;
@@ -8,18 +9,21 @@ class QMenu;
 
 namespace nearfit::ui {
 
+class FileCommands;
 class ShortcutsDialog;
 class Tour;
 class WindowLayout;
 
-/// Conveniences of a window: the overview of shortcuts, the theme, the layout, the tour.
+/// Conveniences of a window: the overview of shortcuts, the theme, the layout, the tour, and what the program
+/// says about itself.
 class WindowShell : public QObject {
   Q_OBJECT
 
  public:
-  /// @param view  Menu that receives the actions on theme and layout.
-  /// @param help  Menu that receives the actions on tour and shortcuts.
-  WindowShell(QMainWindow* window, QMenu* view, QMenu* help);
+  /// @param files  Opens the demo for the tour; outlives this.
+  /// @param view   Menu that receives the actions on theme and layout.
+  /// @param help   Menu that receives the others.
+  WindowShell(QMainWindow* window, FileCommands& files, QMenu* view, QMenu* help);
 
   /// Call it once the window has all its docks: restores the layout and names unnamed fields.
   void settle();
@@ -28,19 +32,21 @@ class WindowShell : public QObject {
   QAction* tour() const noexcept { return tourAction_; }
   /// Returns the layout; only after settle().
   WindowLayout& layout() noexcept { return *layout_; }
-
- signals:
-  /// Emitted when the user asks for the tour: the scene should have something to show.
-  void tourRequested();
+  /// Sets the text of the About box.
+  void setAboutText(const QString& text) { aboutText_ = text; }
 
  public slots:
-  /// Shows the tour.
+  /// Starts the tour of the window; with an empty scene it opens the demo first.
   void beginTour();
 
  private:
   void addThemes(QMenu* view);
+  void addHelp(QMenu* help);
+  void showTour();
 
   QMainWindow* window_;
+  FileCommands& files_;
+  QString aboutText_;
   WindowLayout* layout_ = nullptr;  ///< Null until settle().
   ShortcutsDialog* shortcuts_;
   Tour* tour_;

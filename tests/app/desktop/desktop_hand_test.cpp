@@ -18,6 +18,7 @@
 #include "device/common/rate_control.h"
 #include "device/thread/monotonic_clock.h"
 #include "tests/app/desktop/desktop_driver.h"
+#include "ui/tools/placing/hand_control.h"
 #include "ui/widgets/preferences.h"
 
 using namespace nearfit;
@@ -30,7 +31,7 @@ struct ByMouse {
   ByMouse() {
     d.addCubes();
     d.choose("viewFront");
-    QObject::connect(&d.window(), &ui::MainWindow::handMoved, &d.window(),
+    QObject::connect(&d.window().handControl(), &ui::HandControl::handMoved, &d.window(),
                      [this](const RigidTransform& pose) { hand = pose; });
   }
   void feel() {

@@ -5,6 +5,7 @@
 #include "core/scene/haptic_limits.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "ui/model/feel_mode.h"
+#include "ui/model/hand_state.h"
 #include "ui/model/parts_model.h"
 
 using namespace nearfit;
@@ -178,7 +179,7 @@ void DesktopProxyTest::faultIsToldAndAStartAnewOffered() {
   QTRY_VERIFY(watch.newest.tick > 300);
   ServoSnapshot faulty = watch.newest;
   faulty.fault = ServoFault::PoseNotFinite;
-  d.window().showSnapshot(faulty);
+  d.window().hand().showSnapshot(faulty);
   QVERIFY(d.text("noticeText").contains(QStringLiteral("check the device")));
   auto* restart = d.widget<QPushButton>("restart");
   QVERIFY(restart->isVisible());

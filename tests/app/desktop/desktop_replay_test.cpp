@@ -3,6 +3,7 @@
 
 #include "core/servo/motion_recording.h"
 #include "tests/app/desktop/desktop_driver.h"
+#include "ui/panels/feel/feel_control.h"
 #include "ui/widgets/error_box.h"
 
 using namespace nearfit;
@@ -92,7 +93,7 @@ void DesktopReplayTest::whatIsNoRecordingIsTold() {
 void DesktopReplayTest::whatIsFeltIsRecorded() {
   ReplayFixture f;
   f.d.application.servo().recordTo(f.file("again.csv"));
-  f.d.window().feelWith(QStringLiteral("replay:") + f.file("felt.csv"));
+  f.d.window().feel().feelWith(QStringLiteral("replay:") + f.file("felt.csv"));
   // The file is there once it is whole.
   QTRY_VERIFY(QFile::exists(f.file("again.csv")));
   QTRY_VERIFY(!f.d.application.servo().status().isTaken());

@@ -1,5 +1,6 @@
 #include "ui/files/export/exporter.h"
 
+#include <QAction>
 #include <QApplication>
 #include <QClipboard>
 #include <QFileInfo>
@@ -8,7 +9,9 @@
 #include "core/base/error.h"
 #include "core/report/placement_table.h"
 #include "ui/files/export/export_dialog.h"
+#include "ui/model/scene_work.h"
 #include "ui/model/selection.h"
+#include "ui/widgets/make_action.h"
 #include "ui/widgets/paths.h"
 #include "ui/widgets/preferences.h"
 #include "ui/widgets/progress_dialog.h"
@@ -25,14 +28,35 @@ QString nameFor(const Session& session, ExportKind kind) {
 
 }  // namespace
 
-Exporter::Exporter(Session& session, Selection& selection, PoseOfMoving poseOfMoving, QWidget* window)
+Exporter::Exporter(Session& session, const Selection& selection, const SceneWork& work,
+                   PoseOfMoving poseOfMoving, QWidget* window)
     : QObject(window),
       session_(session),
       selection_(selection),
+      work_(work),
       poseOfMoving_(std::move(poseOfMoving)),
-      window_(window) {}
+      window_(window),
+      export_(makeAction(this, "exportPlacement", tr("&Export…"), QStringLiteral("export"),
+                         QStringLiteral("Ctrl+E"),
+                         tr("Export the poses of the parts (JSON, CSV) or the parts as one mesh"))),
+      copy_(makeAction(this, "copyPlacement", tr("&Copy placement"), QStringLiteral("copy"),
+                       QStringLiteral("Ctrl+Shift+C"))) {
+  copy_->setToolTip(tr("Copy the selected part's placement as a 4x4 matrix by rows, in metres"));
+  connect(export_, &QAction::triggered, this, [this] {
+    emit sceneNeeded();
+    askAndExport();
+  });
+  connect(copy_, &QAction::triggered, this, &Exporter::copyPlacement);
+  connect(&work_, &SceneWork::busyChanged, this, &Exporter::updateActions);
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { updateActions(); });
+  updateActions();
+}
 
 Exporter::~Exporter() = default;
+
+void Exporter::updateActions() {
+  export_->setEnabled(!work_.isBusy() && !session_.scene().parts().empty());
+}
 
 void Exporter::askAndExport() {
   if (task_.isRunning() || session_.scene().parts().empty()) return;

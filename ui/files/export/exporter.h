@@ -10,11 +10,13 @@
 #include "ui/widgets/background_task.h"
 #include "ui/widgets/error_box.h"
 
+class QAction;
 class QWidget;
 
 namespace nearfit::ui {
 
 class ProgressDialog;
+class SceneWork;
 class Selection;
 
 /// Exports the scene's placements and meshes: asks what and where to, writes it in another thread; copies a
@@ -26,32 +28,42 @@ class Exporter : public QObject {
   /// Returns the moving part's worldFromPart now; anything if there is none.
   using PoseOfMoving = std::function<RigidTransform()>;
 
-  /// @param session    Must outlive this.
-  /// @param selection  Must outlive this.
-  /// @param window     Must outlive this.
-  Exporter(Session& session, Selection& selection, PoseOfMoving poseOfMoving, QWidget* window);
+  /// @param session, selection, work  Outlive this.
+  /// @param window                    The parent, and that of dialogs.
+  Exporter(Session& session, const Selection& selection, const SceneWork& work, PoseOfMoving poseOfMoving,
+           QWidget* window);
   ~Exporter() override;
 
-  /// Asks what to export and writes it; no-op while something is being written.
-  void askAndExport();
-  /// Copies the current part's pose as a matrix (matrixText()); the moving part's if none is selected.
-  void copyPlacement();
+  /// Returns the action that asks what to export and writes it.
+  QAction* exportAction() const noexcept { return export_; }
+  /// Returns the action that copies the current part's pose as a matrix (matrixText()); the moving part's if
+  /// none is selected.
+  QAction* copyAction() const noexcept { return copy_; }
 
  signals:
+  /// Emitted before an export: numbers that are still being typed count now.
+  void sceneNeeded();
   /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
   /// Emitted with a short note for the status bar.
   void noted(const QString& text);
 
  private:
+  void updateActions();
+  /// No-op while something is being written.
+  void askAndExport();
+  void copyPlacement();
   void write(const SceneExport& what, const QString& file);
 
   Session& session_;
-  Selection& selection_;
+  const Selection& selection_;
+  const SceneWork& work_;
   const PoseOfMoving poseOfMoving_;
   QWidget* window_;
+  QAction *export_, *copy_;
   BackgroundTask task_;
   QPointer<ProgressDialog> progress_;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

@@ -7,17 +7,28 @@
 
 #include "ui/files/document.h"
 #include "ui/files/recovery/recovery_dialog.h"
+#include "ui/model/hand_state.h"
 #include "ui/widgets/paths.h"
 
 namespace nearfit::ui {
+namespace {
+
+Autosave::PoseInHand poseIn(const HandState& hand) {
+  const std::optional<PartId> part = hand.part();
+  if (!part) return std::nullopt;
+  return std::pair(*part, hand.partPose());
+}
+
+}  // namespace
 
 Recovery::Recovery(const std::filesystem::path& folder, Session& session, Document& document,
-                   std::function<Autosave::PoseInHand()> poseInHand, QWidget* window)
+                   const HandState& hand, QWidget* window)
     : QObject(window),
       folder_(std::make_shared<RecoveryFolder>(folder)),
       document_(document),
       window_(window),
-      autosave_(new Autosave(session, folder_, std::move(poseInHand), this)) {
+      autosave_(new Autosave(session, folder_, [&hand] { return poseIn(hand); }, this)) {
+  connect(&hand, &HandState::snapshotShown, autosave_, &Autosave::noteMotion);
   connect(autosave_, &Autosave::failed, this, [this](const QString& cause) {
     emit noted(tr("Unsaved work cannot be protected against a crash: %1").arg(cause));
   });

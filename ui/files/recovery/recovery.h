@@ -12,21 +12,19 @@
 namespace nearfit::ui {
 
 class Document;
+class HandState;
 
 /// Protects work from a crash: keeps a journal of this run, and offers what earlier runs left.
 class Recovery : public QObject {
   Q_OBJECT
 
  public:
-  /// @param folder      Folder from userRecoveryFolder(); not empty.
-  /// @param session     Must outlive this.
-  /// @param document    Must outlive this.
-  /// @param poseInHand  See Autosave.
-  /// @param window      Must outlive this.
-  Recovery(const std::filesystem::path& folder, Session& session, Document& document,
-           std::function<Autosave::PoseInHand()> poseInHand, QWidget* window);
+  /// @param folder                   Folder from userRecoveryFolder(); not empty.
+  /// @param session, document, hand  Outlive this.
+  /// @param window                   The parent, and that of dialogs.
+  Recovery(const std::filesystem::path& folder, Session& session, Document& document, const HandState& hand,
+           QWidget* window);
 
-  Autosave& autosave() noexcept { return *autosave_; }
   /// Times by which a process that was ending has ended, even if it held much memory [ms].
   static constexpr int kSecondLookMs = 2500, kThirdLookMs = 10'000;
   /// Searches for lost work in another thread, and offers what it finds. Searches again while other processes

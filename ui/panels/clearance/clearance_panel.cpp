@@ -15,7 +15,9 @@
 
 #include "core/files/atomic_write.h"
 #include "ui/model/clearance_model.h"
-#include "ui/panels/clearance/clearance_search.h"
+#include "ui/model/hand_state.h"
+#include "ui/model/selection.h"
+#include "ui/view3d/viewport.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/paths.h"
 #include "ui/widgets/preferences.h"
@@ -39,8 +41,15 @@ double keptThreshold() {
 
 }  // namespace
 
-ClearancePanel::ClearancePanel(Session& session, ClearanceSearch& search, QWidget* parent)
-    : QWidget(parent), session_(session), search_(search), model_(new ClearanceModel(this)) {
+ClearancePanel::ClearancePanel(const Context& context, ClearanceSearch::PoseOfMoving poseOfMoving,
+                               QWidget* parent)
+    : QWidget(parent),
+      session_(context.session),
+      selection_(context.selection),
+      view_(context.view),
+      search_(context.session, std::move(poseOfMoving)),
+      segment_(context.view.overlay(), colours::kAccent),
+      model_(new ClearanceModel(this)) {
   setUpFields();
   setUpTable();
   note_ = new QLabel(this);
@@ -72,6 +81,7 @@ ClearancePanel::ClearancePanel(Session& session, ClearanceSearch& search, QWidge
   column->addLayout(below);
   connect(&search_, &ClearanceSearch::changed, this, &ClearancePanel::showClearances);
   connect(&search_, &ClearanceSearch::failed, this, &ClearancePanel::failed);
+  connect(&context.hand, &HandState::snapshotShown, &search_, &ClearanceSearch::showSnapshot);
   changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { showSubjects(); });
   showSubjects();
   showClearances();
@@ -155,7 +165,7 @@ void ClearancePanel::showClearances() {
   model_->show(search_.clearances(), search_.scene());
   export_->setEnabled(model_->rowCount() > 0);
   showNote();
-  emit chosenChanged();
+  showPair();
 }
 
 void ClearancePanel::showNote() {
@@ -184,9 +194,23 @@ std::optional<PartClearance> ClearancePanel::chosen() const {
 void ClearancePanel::choose() {
   const std::optional<PartClearance> pair = chosen();
   const std::optional<PartId> part = search_.subject();
-  if (pair && part) emit pairChosen(*part, pair->other);
+  if (pair && part) {
+    selection_.set({pair->other, *part});
+    view_.fitParts({*part, pair->other});
+  }
   showNote();
-  emit chosenChanged();
+  showPair();
+}
+
+void ClearancePanel::showPair() {
+  const std::optional<PartClearance> pair = chosen();
+  if (!pair && !segment_.isShown()) return;
+  if (pair) {
+    segment_.show(pair->partPoint, pair->otherPoint);
+  } else {
+    segment_.clear();
+  }
+  view_.requestRender();
 }
 
 void ClearancePanel::exportTable() {
@@ -212,13 +236,13 @@ void ClearancePanel::exportTable() {
 void ClearancePanel::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
   search_.setWanted(true);
-  emit chosenChanged();
+  showPair();
 }
 
 void ClearancePanel::hideEvent(QHideEvent* event) {
   QWidget::hideEvent(event);
   search_.setWanted(false);
-  emit chosenChanged();
+  showPair();
 }
 
 }  // namespace nearfit::ui

@@ -3,10 +3,11 @@
 #include <QWidget>
 #include <cstdint>
 #include <optional>
-#include <utility>
 
 #include "core/report/clearance.h"
 #include "core/session/session.h"
+#include "ui/panels/clearance/clearance_search.h"
+#include "ui/view3d/glyphs/pair_segment.h"
 #include "ui/widgets/error_box.h"
 
 class QComboBox;
@@ -18,27 +19,28 @@ class QTableView;
 namespace nearfit::ui {
 
 class ClearanceModel;
-class ClearanceSearch;
+class HandState;
 class NumberField;
+class Selection;
+class Viewport;
 
-/// Shows in a table how near a part is to each other one; the chosen row is a pair to look at.
+/// Shows in a table how near a part is to each other one. The view shows where the pair of the chosen row is
+/// nearest; choosing a row selects the two and fits them into the view.
 class ClearancePanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// @param session  Must outlive this.
-  /// @param search   Must outlive this.
-  ClearancePanel(Session& session, ClearanceSearch& search, QWidget* parent = nullptr);
-
-  /// Returns the pair of the chosen row, as it is now; std::nullopt if no row is chosen or
-  /// the panel is hidden.
-  std::optional<PartClearance> chosen() const;
+  /// What it measures and shows it in; all outlive this.
+  struct Context {
+    Session& session;
+    Selection& selection;
+    const HandState& hand;
+    Viewport& view;
+  };
+  ClearancePanel(const Context& context, ClearanceSearch::PoseOfMoving poseOfMoving,
+                 QWidget* parent = nullptr);
 
  signals:
-  /// Emitted when the user chooses a row.
-  void pairChosen(nearfit::PartId part, nearfit::PartId other);
-  /// Emitted when chosen() may return another pair.
-  void chosenChanged();
   /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
   /// Emitted with a short note for the status bar.
@@ -54,11 +56,18 @@ class ClearancePanel : public QWidget {
   void showSubjects();
   void showClearances();
   void showNote();
+  /// Returns the pair of the chosen row, as it is now; nullopt if no row is chosen or the panel is hidden.
+  std::optional<PartClearance> chosen() const;
   void choose();
+  /// Shows in the view where the chosen pair is nearest.
+  void showPair();
   void exportTable();
 
   Session& session_;
-  ClearanceSearch& search_;
+  Selection& selection_;
+  Viewport& view_;
+  ClearanceSearch search_;
+  PairSegment segment_;
   std::uint64_t sceneSerial_ = 0;  ///< Serial of the scene whose parts are offered.
   ClearanceModel* model_;
   QSortFilterProxyModel* sorted_;

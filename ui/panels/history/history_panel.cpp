@@ -4,10 +4,11 @@
 #include <QVBoxLayout>
 
 #include "ui/model/history_model.h"
+#include "ui/model/scene_work.h"
 
 namespace nearfit::ui {
 
-HistoryPanel::HistoryPanel(Session& session, QWidget* parent)
+HistoryPanel::HistoryPanel(Session& session, const SceneWork& work, QWidget* parent)
     : QWidget(parent), session_(session), model_(new HistoryModel(this)), view_(new QListView(this)) {
   setObjectName(QStringLiteral("historyPanel"));
   view_->setObjectName(QStringLiteral("historyView"));
@@ -24,6 +25,7 @@ HistoryPanel::HistoryPanel(Session& session, QWidget* parent)
   layout->addWidget(view_);
   connect(view_, &QListView::clicked, this, [this](const QModelIndex& index) { goTo(index.row()); });
   connect(view_, &QListView::activated, this, [this](const QModelIndex& index) { goTo(index.row()); });
+  connect(&work, &SceneWork::busyChanged, this, [this, &work] { setEnabled(!work.isBusy()); });
   changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { showHistory(); });
   showHistory();
 }

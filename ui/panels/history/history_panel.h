@@ -9,14 +9,15 @@ class QListView;
 namespace nearfit::ui {
 
 class HistoryModel;
+class SceneWork;
 
-/// Lists the steps of undo and redo; a click or Return goes to one.
+/// Lists the steps of undo and redo; a click or Return goes to one, unless the scene is being worked on.
 class HistoryPanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// @param session  Must outlive this.
-  explicit HistoryPanel(Session& session, QWidget* parent = nullptr);
+  /// @param session, work  Outlive this.
+  HistoryPanel(Session& session, const SceneWork& work, QWidget* parent = nullptr);
 
   /// Updates the texts after a change of the unit of length.
   void refresh();

@@ -1,6 +1,7 @@
 #include "ui/panels/parts/parts_panel.h"
 
 #include <QAction>
+#include <QDockWidget>
 #include <QHeaderView>
 #include <QLineEdit>
 #include <QVBoxLayout>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/session/session.h"
 #include "ui/model/parts_model.h"
 #include "ui/model/selection.h"
 #include "ui/panels/parts/name_delegate.h"
@@ -22,8 +24,9 @@ constexpr std::size_t kMany = 12;
 
 }  // namespace
 
-PartsPanel::PartsPanel(Selection& selection, QWidget* parent)
+PartsPanel::PartsPanel(Session& session, Selection& selection, QWidget* parent)
     : QWidget(parent),
+      session_(session),
       selection_(selection),
       model_(new PartsModel(this)),
       view_(new PartsView(this)),
@@ -61,9 +64,12 @@ PartsPanel::PartsPanel(Selection& selection, QWidget* parent)
   connect(model_, &PartsModel::renameRequested, this, &PartsPanel::renameRequested);
   connect(model_, &PartsModel::groupRenameRequested, this, &PartsPanel::groupRenameRequested);
   connect(model_, &PartsModel::regroupRequested, this, &PartsPanel::regroupRequested);
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { refresh(); });
+  refresh();
 }
 
-void PartsPanel::setScene(const Scene& scene) {
+void PartsPanel::refresh() {
+  const Scene& scene = session_.scene();
   const std::vector<GroupId> expanded = expandedGroups();
   const std::unordered_set<GroupId> before(known_.begin(), known_.end());
   scene_ = scene;
@@ -142,6 +148,10 @@ void PartsPanel::setMenuActions(const QList<QAction*>& actions) {
 }
 
 void PartsPanel::editName() {
+  if (auto* dock = qobject_cast<QDockWidget*>(parentWidget())) {
+    dock->show();
+    dock->raise();
+  }
   const QModelIndex row = view_->currentIndex().siblingAtColumn(PartsModel::Name);
   if (row.isValid() && view_->selectionModel()->isSelected(row)) view_->edit(row);
 }

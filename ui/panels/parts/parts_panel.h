@@ -4,9 +4,14 @@
 #include <optional>
 
 #include "core/scene/scene_tree.h"
+#include "core/session/scene_events.h"
 
 class QAction;
 class QLineEdit;
+
+namespace nearfit {
+class Session;
+}
 
 namespace nearfit::ui {
 
@@ -14,19 +19,21 @@ class PartsModel;
 class PartsView;
 class Selection;
 
-/// The tree of groups and parts: selects, renames in place, toggles icons, drags to other groups, filters by
-/// name. Requests changes through signals.
+/// The tree of the scene's groups and parts: selects, renames in place, toggles icons, drags to other groups,
+/// filters by name. Requests changes through signals; PartCommands makes them.
 class PartsPanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// @param selection  Must outlive this.
-  explicit PartsPanel(Selection& selection, QWidget* parent = nullptr);
+  /// @param session, selection  Outlive this.
+  PartsPanel(Session& session, Selection& selection, QWidget* parent = nullptr);
 
-  void setScene(const Scene& scene);
+  /// Shows the scene anew, in place of a change that was refused.
+  void refresh();
   /// Sets the actions of the context menu.
   void setMenuActions(const QList<QAction*>& actions);
-  /// Edits the name in the current row, of a part or a group; no-op unless the row is selected.
+  /// Edits the name in the current row, of a part or a group; no-op unless the row is selected. If the panel
+  /// is in a dock, shows that.
   void editName();
 
  signals:
@@ -53,13 +60,15 @@ class PartsPanel : public QWidget {
   /// Returns the groups whose rows are open.
   std::vector<GroupId> expandedGroups() const;
 
+  Session& session_;
   Selection& selection_;
   PartsModel* model_;
   PartsView* view_;
   QLineEdit* filter_;
-  Scene scene_;
+  Scene scene_;                 ///< As shown.
   std::vector<GroupId> known_;  ///< Groups that were there before; new ones are opened.
   bool isShowing_ = false;      ///< Rows follow the selection, not the user.
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

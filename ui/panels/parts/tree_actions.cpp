@@ -7,13 +7,15 @@
 #include <utility>
 
 #include "core/session/session.h"
+#include "ui/model/scene_work.h"
 #include "ui/model/selection.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
 
-TreeActions::TreeActions(Session& session, Selection& selection, Attempt attempt, QObject* parent)
-    : QObject(parent), session_(session), selection_(selection), attempt_(std::move(attempt)) {
+TreeActions::TreeActions(Session& session, Selection& selection, const SceneWork& work, Attempt attempt,
+                         QObject* parent)
+    : QObject(parent), session_(session), selection_(selection), work_(work), attempt_(std::move(attempt)) {
   group_ = make("group", tr("&Group"), "folder", "Ctrl+G", &TreeActions::groupSelected);
   group_->setToolTip(tr("Put the selected parts and groups into a new group"));
   ungroup_ = make("ungroup", tr("U&ngroup"), {}, "Ctrl+Shift+G", &TreeActions::ungroupSelected);
@@ -27,7 +29,10 @@ TreeActions::TreeActions(Session& session, Selection& selection, Attempt attempt
   endIsolation_ = make("endIsolation", tr("&End isolation"), {}, "Shift+I", &TreeActions::endIsolation);
   endIsolation_->setToolTip(tr("Show exactly the parts that were visible before"));
   setUpTransparency();
-  connect(&selection_, &Selection::changed, this, [this] { update(false); });
+  connect(&selection_, &Selection::changed, this, &TreeActions::update);
+  connect(&work_, &SceneWork::busyChanged, this, &TreeActions::update);
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { update(); });
+  update();
 }
 
 TreeActions::~TreeActions() = default;
@@ -74,8 +79,8 @@ bool TreeActions::areAll(const std::function<bool(const Part&)>& predicate) cons
   });
 }
 
-void TreeActions::update(bool isBusy) {
-  const bool hasParts = !selection_.parts().empty();
+void TreeActions::update() {
+  const bool isBusy = work_.isBusy(), hasParts = !selection_.parts().empty();
   for (QAction* action : {visible_, isolate_, transparency_->menuAction()})
     action->setEnabled(!isBusy && hasParts);
   for (QAction* action : {group_, lock_})
@@ -134,7 +139,7 @@ void TreeActions::setOpacity(double opacity) {
   attempt_(tr("The parts could not be made transparent."),
            [&] { session_.setOpacity(selection_.parts(), opacity); });
   // A click on the checked action unchecks it, even if the opacity stays.
-  update(false);
+  update();
 }
 
 }  // namespace nearfit::ui

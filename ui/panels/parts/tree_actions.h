@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/scene/scene_tree.h"
+#include "core/session/scene_events.h"
 
 class QAction;
 class QMenu;
@@ -18,6 +19,7 @@ class Session;
 
 namespace nearfit::ui {
 
+class SceneWork;
 class Selection;
 
 /// Actions on the selected groups and parts: group and ungroup, hide and show, lock, isolate, make
@@ -29,17 +31,15 @@ class TreeActions : public QObject {
   /// Runs a command; shows its refusal under a heading.
   using Attempt = std::function<void(const QString& heading, const std::function<void()>& command)>;
 
-  /// @param session    Must outlive this.
-  /// @param selection  Must outlive this.
-  TreeActions(Session& session, Selection& selection, Attempt attempt, QObject* parent = nullptr);
+  /// @param session, selection, work  Outlive this.
+  TreeActions(Session& session, Selection& selection, const SceneWork& work, Attempt attempt,
+              QObject* parent = nullptr);
   ~TreeActions() override;
 
   /// Appends the actions to a menu.
   void addTo(QMenu& menu) const;
   /// Returns the actions for a context menu.
   QList<QAction*> list() const;
-  /// Enables the actions that are possible now.
-  void update(bool isBusy);
 
  signals:
   /// Emitted when the user locks or unlocks the selected nodes.
@@ -48,6 +48,8 @@ class TreeActions : public QObject {
  private:
   QAction* make(const char* name, const QString& text, const QString& icon, const QString& keys,
                 void (TreeActions::*run)());
+  /// Enables the actions that are possible now.
+  void update();
   void setUpTransparency();
   void groupSelected();
   void ungroupSelected();
@@ -63,10 +65,12 @@ class TreeActions : public QObject {
 
   Session& session_;
   Selection& selection_;
+  const SceneWork& work_;
   Attempt attempt_;
   QAction *group_, *ungroup_, *visible_, *lock_, *isolate_, *endIsolation_;
   std::unique_ptr<QMenu> transparency_;
   std::vector<QAction*> opacities_;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

@@ -1,5 +1,6 @@
 #include "ui/panels/replay/replay.h"
 
+#include <QAction>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <utility>
@@ -8,8 +9,13 @@
 
 #include "core/base/error.h"
 #include "core/servo/motion_reader.h"
+#include "ui/model/hand_state.h"
+#include "ui/model/move_guard.h"
+#include "ui/model/shown_poses.h"
 #include "ui/panels/replay/timeline.h"
+#include "ui/view3d/viewport.h"
 #include "ui/widgets/format.h"
+#include "ui/widgets/make_action.h"
 #include "ui/widgets/paths.h"
 #include "ui/widgets/preferences.h"
 #include "ui/widgets/progress_dialog.h"
@@ -29,16 +35,24 @@ QString noteOf(const MotionRow& row) {
 
 }  // namespace
 
-Replay::Replay(Session& session, Timeline& timeline, QWidget* window)
+Replay::Replay(const Context& context, Timeline& timeline, QWidget* window)
     : QObject(window),
-      session_(session),
+      session_(context.session),
+      hand_(context.hand),
+      guard_(context.guard),
+      view_(context.view),
       timeline_(timeline),
       window_(window),
+      open_(makeAction(this, "openRecording", tr("&Play a recording…"), QStringLiteral("start"),
+                       QStringLiteral("Shift+F8"))),
       shown_(std::make_unique<ServoSnapshot>()) {
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.setInterval(kEveryMs);
   connect(&timer_, &QTimer::timeout, this, &Replay::goOn);
+  open_->setToolTip(tr("Show a recorded motion on a timeline"));
+  connect(open_, &QAction::triggered, this, &Replay::askAndOpen);
   connectTimeline();
+  connect(&hand_, &HandState::changed, this, &Replay::followHand);
   changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { followSession(); });
 }
 
@@ -71,7 +85,7 @@ void Replay::askAndOpen() {
 }
 
 void Replay::open(const QString& file) {
-  if (task_.isRunning() || !isAllowed_) return;
+  if (task_.isRunning() || hand_.status().isTaken()) return;
   if (!session_.scene().movingPart()) {
     emit failed({tr("The recording cannot be shown."),
                  tr("No part is in hand. Take in hand the part that was recorded.")});
@@ -100,17 +114,21 @@ void Replay::open(const QString& file) {
 
 void Replay::begin(const QString& file, std::vector<MotionRow> rows) {
   // The moving part may be gone, or in hand, meanwhile.
-  if (!isAllowed_ || !session_.scene().movingPart()) return;
+  if (hand_.status().isTaken() || !session_.scene().movingPart()) return;
   moving_ = *session_.scene().movingPart();
   playback_.emplace(std::move(rows));
   timeline_.showRecording(QFileInfo(file).fileName(), playback_->duration());
-  emit opened();
+  emit opened(playback_->rows());
+  timeline_.setFocus();
+  guard_.setReplaying(true);
   show();
 }
 
-void Replay::setAllowed(bool isAllowed) {
-  isAllowed_ = isAllowed;
-  if (!isAllowed) close();
+void Replay::followHand() {
+  const bool isTaken = hand_.status().isTaken();
+  open_->setEnabled(!isTaken);
+  timeline_.setEnabled(!isTaken);
+  if (isTaken) close();
 }
 
 void Replay::close() {
@@ -118,7 +136,10 @@ void Replay::close() {
   timer_.stop();
   playback_.reset();
   timeline_.showRecording({}, 0.0);
+  view_.poses().show(ShownPoses::Source::Replay, {});
+  view_.clearSnapshot();
   emit closed();
+  guard_.setReplaying(false);
 }
 
 void Replay::setPlaying(bool isPlaying) {
@@ -147,7 +168,9 @@ void Replay::show() {
   if (part == nullptr) return;
   takeRow(playback_->row(), *part, *shown_);
   timeline_.showTime(playback_->time(), noteOf(playback_->row()));
-  emit rowShown(*shown_);
+  view_.poses().show(ShownPoses::Source::Replay, {{shown_->moving, shown_->proxy}});
+  view_.showSnapshot(*shown_);
+  emit timeShown(shown_->time);
 }
 
 void Replay::followSession() {

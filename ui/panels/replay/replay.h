@@ -13,44 +13,46 @@
 #include "ui/widgets/background_task.h"
 #include "ui/widgets/error_box.h"
 
+class QAction;
 class QWidget;
 
 namespace nearfit::ui {
 
+class HandState;
+class MoveGuard;
 class ProgressDialog;
 class Timeline;
+class Viewport;
 
-/// Plays a recording: reads it in another thread, lets time pass, and tells what to show. Does not change the
-/// session; when the recording is closed, everything is as it was.
+/// Plays a recording in the view: reads it in another thread, and shows its rows as time passes. Does not
+/// change the session; when the recording is closed, everything is as it was. None is played while a part is
+/// in hand: only one may move the part, and the servo does.
 class Replay : public QObject {
   Q_OBJECT
 
  public:
-  /// @param session   Must outlive this.
-  /// @param timeline  Must outlive this.
-  /// @param window    Must outlive this.
-  Replay(Session& session, Timeline& timeline, QWidget* window);
+  /// What it plays in; all outlive this.
+  struct Context {
+    Session& session;
+    const HandState& hand;
+    MoveGuard& guard;  ///< Told while a recording moves the part.
+    Viewport& view;
+  };
+  /// @param timeline  Outlives this.
+  /// @param window    The parent, and that of dialogs.
+  Replay(const Context& context, Timeline& timeline, QWidget* window);
   ~Replay() override;
 
-  bool isOpen() const noexcept { return playback_.has_value(); }
-  /// Returns the rows of the recording; only while one is open.
-  const std::vector<MotionRow>& rows() const { return playback_->rows(); }
-
-  /// Asks for a file and opens it.
-  void askAndOpen();
-  /// Opens a recording; no-op while another is being read, or while not allowed.
-  void open(const QString& file);
-  /// Allows replay, or closes an open recording and shows nothing: only one may move the part,
-  /// and the servo does.
-  void setAllowed(bool isAllowed);
+  /// Returns the action that asks for a file and opens it.
+  QAction* openAction() const noexcept { return open_; }
   /// Closes the recording and puts everything back; no-op if none is open.
   void close();
 
  signals:
-  /// Emitted when a recording is open.
-  void opened();
-  /// Emitted with the row to show, as a snapshot.
-  void rowShown(const nearfit::ServoSnapshot& snapshot);
+  /// Emitted when a recording is open, with all its rows, and before the first is shown.
+  void opened(const std::vector<nearfit::MotionRow>& rows);
+  /// Emitted with the time [s] of the row that is now shown.
+  void timeShown(double time);
   /// Emitted when the recording was closed.
   void closed();
   /// Emitted when something failed that the user must see.
@@ -60,6 +62,10 @@ class Replay : public QObject {
 
  private:
   void connectTimeline();
+  void askAndOpen();
+  /// Opens a recording; no-op while another is being read, or while a part is in hand.
+  void open(const QString& file);
+  void followHand();
   void begin(const QString& file, std::vector<MotionRow> rows);
   void setPlaying(bool isPlaying);
   void seek(double time);
@@ -68,8 +74,12 @@ class Replay : public QObject {
   void followSession();
 
   Session& session_;
+  const HandState& hand_;
+  MoveGuard& guard_;
+  Viewport& view_;
   Timeline& timeline_;
   QWidget* window_;
+  QAction* open_;
   BackgroundTask task_;
   QPointer<ProgressDialog> progress_;
   std::optional<MotionPlayback> playback_;
@@ -77,7 +87,6 @@ class Replay : public QObject {
   std::unique_ptr<ServoSnapshot> shown_;
   QTimer timer_;
   QElapsedTimer sinceLast_;
-  bool isAllowed_ = true;
   Subscription changes_;
 };
 

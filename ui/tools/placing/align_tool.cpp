@@ -5,28 +5,33 @@
 #include <algorithm>
 #include <utility>
 
+#include "ui/model/hand_state.h"
 #include "ui/model/move_guard.h"
+#include "ui/model/scene_work.h"
 #include "ui/model/selection.h"
 #include "ui/model/shown_poses.h"
 #include "ui/tools/placing/align_bar.h"
+#include "ui/tools/placing/placing_tools.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
 
-AlignTool::AlignTool(Session& session, Selection& selection, Viewport& view, const MoveGuard& guard,
-                     QObject* parent)
+AlignTool::AlignTool(const Context& context, QObject* parent)
     : QObject(parent),
-      session_(session),
-      selection_(selection),
-      view_(view),
-      guard_(guard),
+      session_(context.session),
+      selection_(context.selection),
+      view_(context.view),
+      guard_(context.guard),
+      hand_(context.hand),
+      work_(context.work),
+      placing_(context.placing),
       action_(new QAction(icon(QStringLiteral("align")), tr("&Align…"), this)),
-      bar_(new AlignBar(&view)),
-      picker_(session, view, colours::kAccent, this),
-      movingLight_(view.overlay(), colours::kMoving),
-      fixedLight_(view.overlay(), colours::kHand) {
+      bar_(new AlignBar(&view_)),
+      picker_(session_, view_, colours::kAccent, this),
+      movingLight_(view_.overlay(), colours::kMoving),
+      fixedLight_(view_.overlay(), colours::kHand) {
   action_->setObjectName(QStringLiteral("align"));
   action_->setCheckable(true);
   action_->setShortcut(QKeySequence(Qt::Key_A));
@@ -42,16 +47,23 @@ AlignTool::AlignTool(Session& session, Selection& selection, Viewport& view, con
   connect(bar_, &AlignBar::cancelled, this, &AlignTool::stop);
   const auto look = [this] {
     if (picker_.isActive() && !isSound()) stop();
+    updateAvailability();
   };
   changes_ = session_.onChange(SceneEvents::Stage::Panels, look);
   connect(&guard_, &MoveGuard::changed, this, look);
+  connect(&hand_, &HandState::changed, this, look);
+  connect(&work_, &SceneWork::busyChanged, this, look);
+  updateAvailability();
 }
 
 AlignTool::~AlignTool() = default;
 
-void AlignTool::setAvailable(bool isAvailable, bool isBusy) {
-  if (!isAvailable) stop();
-  action_->setEnabled(isAvailable && (!isBusy || picker_.isActive()));
+void AlignTool::updateAvailability() {
+  // While the servo holds a part, the hand moves it.
+  const bool canAlign = !hand_.status().isTaken() && session_.scene().parts().size() > 1;
+  if (!canAlign) stop();
+  // A tool that has started goes on while something is prepared.
+  action_->setEnabled(canAlign && (!work_.isBusy() || picker_.isActive()));
 }
 
 void AlignTool::start() {
@@ -60,7 +72,7 @@ void AlignTool::start() {
   picker_.start([this](const Part& part) { return refusalOf(part); });
   bar_->show();
   tell({});
-  emit activeChanged(true);
+  placing_.setAside(true);
 }
 
 void AlignTool::stop() {
@@ -77,7 +89,7 @@ void AlignTool::stop() {
   fixedLight_.clear();
   start_.clear();
   view_.requestRender();
-  emit activeChanged(false);
+  placing_.setAside(false);
 }
 
 bool AlignTool::isMoved(PartId part) const {
@@ -152,7 +164,7 @@ void AlignTool::apply() {
   for (const auto& [id, was] : start_)
     moved.push_back(id);
   stop();
-  emit moveWanted(moved, lead, pose);
+  placing_.bring(moved, lead, pose, "Align");
 }
 
 QString AlignTool::prompt() const {

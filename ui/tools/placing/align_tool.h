@@ -15,7 +15,10 @@ class QAction;
 namespace nearfit::ui {
 
 class AlignBar;
+class HandState;
 class MoveGuard;
+class PlacingTools;
+class SceneWork;
 class Selection;
 class Viewport;
 
@@ -26,27 +29,29 @@ class AlignTool : public QObject {
   Q_OBJECT
 
  public:
-  /// @param session, selection, view, guard  Outlive this.
-  AlignTool(Session& session, Selection& selection, Viewport& view, const MoveGuard& guard, QObject* parent);
+  /// What it needs; all outlive this.
+  struct Context {
+    Session& session;
+    Selection& selection;
+    Viewport& view;
+    const MoveGuard& guard;
+    const HandState& hand;
+    const SceneWork& work;
+    PlacingTools& placing;
+  };
+  AlignTool(const Context& context, QObject* parent);
   ~AlignTool() override;
 
   /// Starts and stops the tool.
   QAction* action() const noexcept { return action_; }
-  /// Enables the tool; false also stops it.
-  /// @param isBusy  Something is being loaded or prepared: the tool cannot start, but
-  ///                goes on if it has started.
-  void setAvailable(bool isAvailable, bool isBusy);
 
  signals:
-  /// Emitted on Apply: the parts are to move together so that `lead` gets that pose.
-  void moveWanted(const std::vector<nearfit::PartId>& parts, nearfit::PartId lead,
-                  const nearfit::RigidTransform& worldFromLead);
   /// Emitted with a note for the status bar.
   void noted(const QString& text);
-  /// Emitted when the tool starts or stops.
-  void activeChanged(bool isActive);
 
  private:
+  /// Enables the tool if parts can be aligned now; stops it if they cannot.
+  void updateAvailability();
   void start();
   void stop();
   void take(const FeaturePick& pick);
@@ -63,6 +68,9 @@ class AlignTool : public QObject {
   Selection& selection_;
   Viewport& view_;
   const MoveGuard& guard_;
+  const HandState& hand_;
+  const SceneWork& work_;
+  PlacingTools& placing_;
   QAction* action_;
   AlignBar* bar_;
   FeaturePicker picker_;

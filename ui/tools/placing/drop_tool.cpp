@@ -11,6 +11,9 @@
 #include "core/base/error.h"
 #include "core/placing/drop.h"
 #include "core/placing/push.h"
+#include "ui/model/hand_state.h"
+#include "ui/model/move_guard.h"
+#include "ui/model/scene_work.h"
 #include "ui/model/selection.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/format.h"
@@ -50,20 +53,27 @@ QString freeWayText(const QString& name) {
 
 }  // namespace
 
-DropTool::DropTool(Session& session, Selection& selection, Viewport& view, Prepare prepare, QWidget* window)
+DropTool::DropTool(const Context& context, QWidget* window)
     : QObject(window),
-      session_(session),
-      selection_(selection),
-      view_(view),
-      prepare_(std::move(prepare)),
+      session_(context.session),
+      selection_(context.selection),
+      view_(context.view),
+      guard_(context.guard),
+      hand_(context.hand),
+      work_(context.work),
       window_(window),
-      picker_(session, view, colours::kAccent, this) {
+      picker_(session_, view_, colours::kAccent, this) {
   picker_.setFilter(FeatureFilter::Faces);
   connect(&picker_, &FeaturePicker::picked, this, &DropTool::take);
   connect(&picker_, &FeaturePicker::cancelled, this, &DropTool::stopAsking);
   connect(&picker_, &FeaturePicker::told, this, [this](const QString& text) {
     if (picker_.isActive() && !text.isEmpty()) emit noted(text);
   });
+  connect(&selection_, &Selection::changed, this, &DropTool::updateAvailability);
+  connect(&guard_, &MoveGuard::changed, this, &DropTool::updateAvailability);
+  connect(&hand_, &HandState::changed, this, &DropTool::updateAvailability);
+  connect(&work_, &SceneWork::busyChanged, this, &DropTool::updateAvailability);
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { updateAvailability(); });
 }
 
 DropTool::~DropTool() = default;
@@ -71,6 +81,7 @@ DropTool::~DropTool() = default;
 void DropTool::addTo(QMenu& menu) {
   menu.addMenu(makeMenu(Kind::Drop));
   menu.addMenu(makeMenu(Kind::Push));
+  updateAvailability();
 }
 
 QMenu* DropTool::makeMenu(Kind kind) {
@@ -98,11 +109,14 @@ QMenu* DropTool::makeMenu(Kind kind) {
   return menu;
 }
 
-void DropTool::setAvailable(bool isAvailable) {
-  const bool isUsable = isAvailable && !task_.isRunning();
+void DropTool::updateAvailability() {
+  // While the servo holds a part, the hand moves it.
+  const bool isFree = !hand_.status().isTaken() && !work_.isBusy() && !task_.isRunning();
+  const bool canMove = isFree && session_.scene().parts().size() > 1 && !selection_.isEmpty() &&
+                       guard_.refusalOf(selection_.parts()).isEmpty();
   for (QAction* action : actions_)
-    action->setEnabled(isUsable);
-  if (!isUsable) stopAsking();
+    action->setEnabled(canMove);
+  if (!canMove) stopAsking();
 }
 
 void DropTool::askForFace(Kind kind) {
@@ -126,7 +140,7 @@ void DropTool::take(const FeaturePick& pick) {
 void DropTool::run(Kind kind, const glm::dvec3& direction) {
   const std::vector<PartId> parts = selection_.parts();
   if (parts.empty() || task_.isRunning()) return;
-  prepare_([this, kind, parts, direction](bool isReady) {
+  work_.prepareHierarchies([this, kind, parts, direction](bool isReady) {
     if (isReady && parts == selection_.parts() && !task_.isRunning()) compute(kind, parts, direction);
   });
 }

@@ -2,7 +2,6 @@
 
 #include <QObject>
 #include <QPointer>
-#include <functional>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -18,7 +17,10 @@ class QWidget;
 
 namespace nearfit::ui {
 
+class HandState;
+class MoveGuard;
 class ProgressDialog;
+class SceneWork;
 class Selection;
 class Viewport;
 
@@ -30,16 +32,20 @@ class DropTool : public QObject {
   Q_OBJECT
 
  public:
-  /// Prepares what the computation needs, then calls back; isReady is false if that failed.
-  using Prepare = std::function<void(std::function<void(bool isReady)>)>;
-  /// @param session, selection, view  Outlive this.
-  DropTool(Session& session, Selection& selection, Viewport& view, Prepare prepare, QWidget* window);
+  /// What it needs; all outlive this.
+  struct Context {
+    Session& session;
+    Selection& selection;
+    Viewport& view;
+    const MoveGuard& guard;
+    const HandState& hand;
+    SceneWork& work;
+  };
+  DropTool(const Context& context, QWidget* window);
   ~DropTool() override;
 
   /// Adds a submenu for each of drop and push.
   void addTo(QMenu& menu);
-  /// Enables the actions; false also stops asking for a face. They stay disabled while a move is computed.
-  void setAvailable(bool isAvailable);
 
  signals:
   /// Emitted when a move failed by an exception.
@@ -57,6 +63,8 @@ class DropTool : public QObject {
   };
 
   QMenu* makeMenu(Kind kind);
+  /// Enables the actions if the selected parts can be moved now; else stops asking for a face.
+  void updateAvailability();
   void askForFace(Kind kind);
   void take(const FeaturePick& pick);
   void stopAsking();
@@ -71,13 +79,16 @@ class DropTool : public QObject {
   Session& session_;
   Selection& selection_;
   Viewport& view_;
-  Prepare prepare_;
+  const MoveGuard& guard_;
+  const HandState& hand_;
+  SceneWork& work_;
   QWidget* window_;
   std::vector<QAction*> actions_;
   FeaturePicker picker_;
   Kind wanted_ = Kind::Drop;
   BackgroundTask task_;
   QPointer<ProgressDialog> progress_;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

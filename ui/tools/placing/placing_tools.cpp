@@ -11,6 +11,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "ui/model/move_guard.h"
+#include "ui/model/scene_work.h"
 #include "ui/model/selection.h"
 #include "ui/model/shown_poses.h"
 #include "ui/tools/placing/gizmo_control.h"
@@ -21,7 +22,7 @@
 namespace nearfit::ui {
 
 PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& view, const MoveGuard& guard,
-                           QObject* parent)
+                           SceneWork& work, QObject* parent)
     : QObject(parent),
       session_(session),
       selection_(selection),
@@ -46,9 +47,11 @@ PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& vie
     const std::vector<PlacedPart> parts = placedParts();
     if (!parts.empty()) setPivot(boxCentre(parts));
   });
-  connect(actions_->solid, &QAction::toggled, this, [this](bool isOn) {
-    if (isOn && !session_.scene().parts().empty()) emit hierarchiesWanted();
+  // Solid moves need hierarchies, which should not take time in a drag.
+  connect(actions_->solid, &QAction::toggled, this, [this, &work](bool isOn) {
+    if (isOn && !session_.scene().parts().empty()) work.prepareHierarchies([](bool) {});
   });
+  connect(&work, &SceneWork::sceneNeeded, this, &PlacingTools::commit);
   connect(&selection_, &Selection::changed, this, [this] {
     // What has left the scene cannot be put anywhere.
     if (!isMoveSound()) giveUpParts();
@@ -65,10 +68,12 @@ PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& vie
   showActions();
 }
 
-void PlacingTools::addTo(QMainWindow& window, QMenu& menu) {
+QToolBar* PlacingTools::addTo(QMainWindow& window, QMenu& menu) {
   actions_->addTo(menu);
   window.addToolBarBreak();
-  window.addToolBar(actions_->makeToolBar(window));
+  QToolBar* bar = actions_->makeToolBar(window);
+  window.addToolBar(bar);
+  return bar;
 }
 
 void PlacingTools::setHeld(const std::optional<HeldPart>& held) {

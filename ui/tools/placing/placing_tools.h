@@ -12,12 +12,14 @@
 
 class QMainWindow;
 class QMenu;
+class QToolBar;
 
 namespace nearfit::ui {
 
 class GizmoControl;
 class MoveGuard;
 class PlacingActions;
+class SceneWork;
 class Selection;
 class Viewport;
 
@@ -34,12 +36,12 @@ class PlacingTools : public QObject {
   Q_OBJECT
 
  public:
-  /// @param session, selection, view, guard  Outlive this.
+  /// @param session, selection, view, guard, work  Outlive this.
   PlacingTools(Session& session, Selection& selection, Viewport& view, const MoveGuard& guard,
-               QObject* parent = nullptr);
+               SceneWork& work, QObject* parent = nullptr);
 
-  /// Adds the actions to `menu`, and a toolbar on its own row to `window`.
-  void addTo(QMainWindow& window, QMenu& menu);
+  /// Adds the actions to `menu`, and a toolbar on its own row to `window`. Returns the toolbar. Call once.
+  QToolBar* addTo(QMainWindow& window, QMenu& menu);
 
   /// Sets the part in hand; nullopt: the servo does not run.
   void setHeld(const std::optional<HeldPart>& held);
@@ -60,8 +62,7 @@ class PlacingTools : public QObject {
  signals:
   /// Emitted when the manual hand is to want the part there.
   void handWanted(const nearfit::RigidTransform& worldFromPart);
-  /// Emitted when solid moves are switched on: hierarchies should be ready before a drag.
-  void hierarchiesWanted();
+  /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
   /// Emitted with a note for the status bar.
   void noted(const QString& text);

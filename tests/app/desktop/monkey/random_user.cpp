@@ -13,6 +13,8 @@
 #include "tests/app/desktop/monkey/monkey_hands.h"
 #include "ui/model/selection.h"
 #include "ui/model/shown_poses.h"
+#include "ui/panels/feel/feel_control.h"
+#include "ui/tools/placing/placing_tools.h"
 
 namespace nearfit::test {
 
@@ -79,14 +81,14 @@ void RandomUser::act() {
 void RandomUser::keepSmall() {
   if (d_.session().scene().parts().size() <= kMaxParts) return;
   say(QStringLiteral("too many parts: a new scene"));
-  emit window().servoStopRequested();
+  emit window().feel().servoStopRequested();
   d_.session().reset();
 }
 
 bool RandomUser::settle() {
   say(QStringLiteral("settle"));
   const auto isAtRest = [this] {
-    if (d_.application.servo().status().isTaken()) emit window().servoStopRequested();
+    if (d_.application.servo().status().isTaken()) emit window().feel().servoStopRequested();
     const auto isMoved = [this](const Scene::PartPtr& part) {
       return window().viewport().poses().isDragged(part->id);
     };

@@ -1,0 +1,129 @@
+#include "ui/files/file_commands.h"
+
+#include <QAction>
+#include <QMenu>
+#include <utility>
+
+#include "core/session/session.h"
+#include "ui/files/document.h"
+#include "ui/files/part_files.h"
+#include "ui/files/recent_files.h"
+#include "ui/model/hand_state.h"
+#include "ui/model/selection.h"
+#include "ui/view3d/viewport.h"
+#include "ui/widgets/make_action.h"
+#include "ui/widgets/notice_bar.h"
+
+namespace nearfit::ui {
+
+FileCommands::FileCommands(const Context& context, QWidget* window)
+    : QObject(window),
+      recentMenu(new QMenu(tr("Open &recent"), window)),
+      reloadMenu(new QMenu(tr("Re&load"), window)),
+      context_(context),
+      window_(window) {
+  makeActions();
+  connectActions();
+  connectDocument();
+  setUpRecentFiles();
+  setUpPartFiles();
+  connect(&context_.hand, &HandState::changed, this, &FileCommands::update);
+  changes_ = context_.session.onChange(SceneEvents::Stage::Panels, [this] { update(); });
+  update();
+}
+
+void FileCommands::makeActions() {
+  newScene = makeAction(this, "newScene", tr("&New scene"), QStringLiteral("new"), QKeySequence::New,
+                        tr("Start an empty scene"));
+  open = makeAction(this, "open", tr("&Open scene…"), QStringLiteral("open"), QKeySequence::Open,
+                    tr("Open a scene (*.nearfit) in place of this one"));
+  openDemo = makeAction(this, "openDemo", tr("Open &demo"), QStringLiteral("demo"), {},
+                        tr("Open the demo scene: a piston to fit into its cylinder"));
+  addParts = makeAction(
+      this, "addParts", tr("&Add parts…"), QStringLiteral("add"), QStringLiteral("Ctrl+I"),
+      tr("Add meshes (STL, OBJ, PLY, OFF) to the scene; you can also drop files and folders on the window"));
+  save = makeAction(this, "save", tr("&Save"), QStringLiteral("save"), QKeySequence::Save,
+                    tr("Save the scene and where its parts are"));
+  saveAs = makeAction(this, "saveAs", tr("Save &as…"), QStringLiteral("save-as"),
+                      QStringLiteral("Ctrl+Shift+S"), tr("Save the scene under another name"));
+  quit = makeAction(this, "quit", tr("&Quit"), {}, QStringLiteral("Ctrl+Q"),
+                    tr("Quit Nearfit; asks first if there are unsaved changes"));
+}
+
+void FileCommands::connectActions() {
+  Document& document = context_.document;
+  connect(newScene, &QAction::triggered, &document, &Document::newScene);
+  connect(open, &QAction::triggered, &document, &Document::askAndOpen);
+  connect(openDemo, &QAction::triggered, this, &FileCommands::showDemo);
+  connect(addParts, &QAction::triggered, &document, &Document::askAndAddParts);
+  connect(save, &QAction::triggered, &document, &Document::save);
+  connect(saveAs, &QAction::triggered, &document, &Document::askAndSaveAs);
+  connect(quit, &QAction::triggered, window_, &QWidget::close);
+}
+
+void FileCommands::connectDocument() {
+  const Document& document = context_.document;
+  connect(&document, &Document::failed, this, &FileCommands::failed);
+  connect(&document, &Document::noted, this, &FileCommands::noted);
+  connect(&document, &Document::busyChanged, this, &FileCommands::update);
+  // A failed load leaves the view alone, but some of several files may have been added.
+  connect(&document, &Document::sceneOpened, this, &FileCommands::showWhole);
+  connect(&document, &Document::partsAdded, this, &FileCommands::showWhole);
+  connect(&document, &Document::loaded, this, [this](bool isComplete) {
+    if (isComplete) showWhole();
+  });
+}
+
+void FileCommands::setUpRecentFiles() {
+  auto* recent = new RecentFiles(recentMenu, this);
+  connect(recent, &RecentFiles::openRequested, &context_.document, &Document::openScene);
+  connect(recent, &RecentFiles::missing, this, [this](const QString& file) {
+    emit failed({tr("This scene no longer exists."),
+                 tr("Its file was moved or deleted. It was removed from the list.\n\nWhere: %1").arg(file)});
+  });
+}
+
+void FileCommands::setUpPartFiles() {
+  auto* parts =
+      new PartFiles(context_.session, context_.document, *new NoticeBar(&context_.view), reloadMenu, this);
+  connect(parts, &PartFiles::failed, this, &FileCommands::failed);
+  connect(parts, &PartFiles::noted, this, &FileCommands::noted);
+}
+
+void FileCommands::showWhole() {
+  context_.view.fit();
+  Selection& selection = context_.selection;
+  if (!selection.current()) selection.select(context_.session.scene().movingPart());
+}
+
+void FileCommands::update() {
+  const Session& session = context_.session;
+  const bool isFree = !context_.document.isBusy();
+  for (QAction* action : {newScene, open, addParts})
+    action->setEnabled(isFree);
+  openDemo->setEnabled(isFree && !demoScene_.isEmpty());
+  save->setEnabled(isFree && (session.isModified() || context_.hand.status().isTaken()));
+  saveAs->setEnabled(isFree && !session.scene().parts().empty());
+}
+
+void FileCommands::setDemoScene(const QString& file) {
+  demoScene_ = file;
+  update();
+}
+
+bool FileCommands::showDemo() {
+  return !demoScene_.isEmpty() && context_.document.openExample(demoScene_);
+}
+
+void FileCommands::withParts(std::function<void()> then) {
+  const bool isSomethingThere = !context_.session.scene().parts().empty() || demoScene_.isEmpty();
+  if (isSomethingThere || context_.document.isBusy()) return then();
+  auto* once = new QObject(this);
+  connect(&context_.document, &Document::loaded, once, [once, then = std::move(then)](bool isComplete) {
+    once->deleteLater();
+    if (isComplete) then();
+  });
+  if (!showDemo()) delete once;
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <QObject>
+#include <optional>
+
+#include "core/servo/servo_snapshot.h"
+#include "core/session/session.h"
+#include "ui/model/servo_status.h"
+
+namespace nearfit::ui {
+
+/// Who holds the moving part, and where: the servo as last reported. Panels, tools and the view follow it.
+class HandState : public QObject {
+  Q_OBJECT
+
+ public:
+  /// @param session  Outlives this.
+  explicit HandState(const Session& session, QObject* parent = nullptr);
+
+  const ServoStatus& status() const noexcept { return status_; }
+  /// True while the servo runs with that hand.
+  bool isHeldBy(Hand hand) const noexcept { return status_.isRunning && status_.hand == hand; }
+  /// Returns the part in hand; nullopt unless the servo runs.
+  std::optional<PartId> part() const;
+  bool holds(std::optional<PartId> part) const { return part && this->part() == part; }
+  /// Returns where the servo has the part in hand (worldFromPart); meaningless without one.
+  const RigidTransform& partPose() const noexcept { return partPose_; }
+  /// Returns where the manual hand wants the part (worldFromPart), which may lag behind; for other hands
+  /// partPose().
+  const RigidTransform& handPose() const noexcept { return isHeldBy(Hand::Manual) ? handPose_ : partPose_; }
+  /// Sets where the manual hand wants the part (worldFromPart).
+  void setHandPose(const RigidTransform& worldFromPart) { handPose_ = worldFromPart; }
+
+ public slots:
+  /// Takes in the servo's state.
+  void showStatus(const nearfit::ui::ServoStatus& status);
+  /// Takes in a tick of the part in hand.
+  void showSnapshot(const nearfit::ServoSnapshot& snapshot);
+
+ signals:
+  /// Emitted with each state, several times a second while the servo runs.
+  void statusChanged(const nearfit::ui::ServoStatus& status);
+  /// Emitted after statusChanged() when the servo has started or stopped, opens a device or has another hand.
+  void changed();
+  /// Emitted with each tick that is shown.
+  void snapshotShown(const nearfit::ServoSnapshot& snapshot);
+  /// Emitted, before changed(), when the last snapshot no longer holds.
+  void snapshotCleared();
+
+ private:
+  const Session& session_;
+  ServoStatus status_;
+  RigidTransform partPose_, handPose_;
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <QList>
+#include <QObject>
+#include <functional>
+#include <optional>
+
+#include "core/scene/scene_tree.h"
+#include "core/session/scene_events.h"
+#include "ui/widgets/error_box.h"
+
+class QAction;
+class QWidget;
+
+namespace nearfit {
+class Session;
+}
+
+namespace nearfit::ui {
+
+class HandState;
+class PartsPanel;
+class SceneWork;
+class Selection;
+class TreeActions;
+
+/// Commands on parts and groups, by actions on the selection and in the tree of parts. Each is one undo step
+/// of the session.
+class PartCommands : public QObject {
+  Q_OBJECT
+
+ public:
+  /// What the commands act on, and what they wait for. All outlive this.
+  struct Context {
+    Session& session;
+    Selection& selection;
+    const HandState& hand;
+    const SceneWork& work;
+  };
+  /// @param panel   Its requests become commands; outlives this.
+  /// @param window  The parent, and that of dialogs.
+  PartCommands(const Context& context, PartsPanel& panel, QWidget* window);
+
+  QAction *duplicate, *rename, *recolour, *takeInHand, *remove, *selectAll, *selectNone;
+
+  /// The actions on groups, visibility and locks.
+  const TreeActions& tree() const noexcept { return *tree_; }
+  /// Returns the actions that a context menu offers for what is selected.
+  const QList<QAction*>& menu() const noexcept { return menu_; }
+
+ signals:
+  /// Emitted when the part in hand is deleted or another one is taken. The receiver must stop the servo, and
+  /// so put the part down, before it returns.
+  void servoStopRequested();
+  /// Emitted when the servo ran before another part was taken in hand, and is to go on with that.
+  void servoStartRequested();
+  /// Emitted when something failed that the user must see.
+  void failed(const nearfit::ui::Failure& failure);
+  /// Emitted with a short note for the status bar.
+  void noted(const QString& text);
+
+ private:
+  void makeActions();
+  void makeMenu();
+  void connectActions();
+  void connectPanel(PartsPanel& panel);
+  void update();
+  /// Runs a command of the session. If it throws, shows the failure under `heading`, and the scene anew.
+  void attempt(const QString& heading, const std::function<void()>& command);
+  void take(std::optional<PartId> part);
+  /// Locks or unlocks. Locking the moving part puts it down; refused while it is being felt.
+  void setLocked(const SceneNodes& nodes, bool isLocked);
+  void deleteSelected();
+  void duplicateSelected();
+  void recolourSelected();
+
+  const Context context_;
+  PartsPanel& panel_;
+  QWidget* window_;
+  TreeActions* tree_;
+  QList<QAction*> menu_;
+  Subscription changes_;
+};
+
+}  // namespace nearfit::ui

@@ -1,0 +1,99 @@
+#include "ui/panels/pose/selected_pose.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/session/session.h"
+#include "ui/model/hand_state.h"
+#include "ui/model/move_guard.h"
+#include "ui/model/scene_work.h"
+#include "ui/model/selection.h"
+#include "ui/model/shown_poses.h"
+#include "ui/panels/pose/pose_panel.h"
+#include "ui/view3d/viewport.h"
+
+namespace nearfit::ui {
+namespace {
+
+const glm::dquat kNoTurn(1.0, 0.0, 0.0, 0.0);
+
+/// Returns the part's name, the group's, or "Lid and 2 more".
+QString headingOf(const Scene& scene, const Selection& selection) {
+  if (!selection.current()) return {};
+  const SceneNodes outer = outermost(scene, selection.nodes());
+  if (outer.parts.empty() && outer.groups.size() == 1)
+    return QString::fromStdString(scene.findGroup(outer.groups.front())->name);
+  const QString name = QString::fromStdString(scene.find(*selection.current())->name);
+  const auto others = static_cast<int>(selection.parts().size()) - 1;
+  return others > 0 ? SelectedPose::tr("%1 and %n more", nullptr, others).arg(name) : name;
+}
+
+}  // namespace
+
+SelectedPose::SelectedPose(const Context& context, PosePanel& panel)
+    : QObject(&panel), context_(context), panel_(panel) {
+  connectPanel();
+  connect(&context.selection, &Selection::changed, this, &SelectedPose::refresh);
+  connect(&context.guard, &MoveGuard::changed, this, &SelectedPose::refresh);
+  connect(&context.hand, &HandState::snapshotShown, this, &SelectedPose::showHeldPose);
+  connect(&context.poses, &ShownPoses::changed, this, [this](const std::vector<PartId>& parts) {
+    const Part* part = current();
+    if (part == nullptr || context_.hand.holds(part->id) || std::ranges::count(parts, part->id) == 0) return;
+    panel_.showPose(context_.poses.poseOf(*part));
+  });
+  changes_ = context.session.onChange(SceneEvents::Stage::Panels, [this] { refresh(); });
+  refresh();
+}
+
+void SelectedPose::connectPanel() {
+  connect(&panel_, &PosePanel::poseEdited, this, &SelectedPose::moveRequested);
+  connect(&panel_, &PosePanel::densityEdited, this, &SelectedPose::setDensity);
+  connect(&context_.work, &SceneWork::sceneNeeded, &panel_, &PosePanel::commit);
+  connect(&context_.view, &Viewport::nudged, this,
+          [this](int x, int y, int z) { emit stepRequested(panel_.step() * glm::dvec3(x, y, z), kNoTurn); });
+  connect(&context_.view, &Viewport::turned, this, [this](int x, int y, int z) {
+    emit stepRequested(glm::dvec3(0.0), glm::angleAxis(panel_.turnStep(), glm::dvec3(x, y, z)));
+  });
+}
+
+const Part* SelectedPose::current() const {
+  const std::optional<PartId> id = context_.selection.current();
+  return id ? context_.session.scene().find(*id) : nullptr;
+}
+
+void SelectedPose::refresh() {
+  const Scene& scene = context_.session.scene();
+  const Selection& selection = context_.selection;
+  const Part* part = current();
+  const QString heading = headingOf(scene, selection);
+  QString help = heading;
+  if (selection.parts().size() > 1)
+    help += QChar('\n') + tr("The pose shown is that of %1").arg(QString::fromStdString(part->name));
+  panel_.showPart(heading, context_.guard.refusalOf(selection.parts()), help);
+  std::vector<const Part*> parts;
+  for (const PartId each : selection.parts())
+    parts.push_back(scene.find(each));
+  panel_.showMass(parts, std::ranges::any_of(parts, [&](const Part* p) { return scene.isLocked(*p); }));
+  const HandState& hand = context_.hand;
+  if (hand.isHeldBy(Hand::Manual) && hand.holds(selection.current())) {
+    panel_.showPose(hand.partPose(), hand.handPose());
+  } else if (part != nullptr) {
+    panel_.showPose(context_.poses.poseOf(*part));
+  }
+}
+
+void SelectedPose::showHeldPose() {
+  const HandState& hand = context_.hand;
+  if (hand.holds(context_.selection.current())) panel_.showPose(hand.partPose(), hand.handPose());
+}
+
+void SelectedPose::setDensity(double density) {
+  try {
+    context_.session.setDensity(context_.selection.parts(), density);
+  } catch (...) {
+    emit failed(describe(tr("The density could not be changed."), std::current_exception()));
+    refresh();
+  }
+}
+
+}  // namespace nearfit::ui

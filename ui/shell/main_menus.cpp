@@ -1,0 +1,140 @@
+#include "ui/shell/main_menus.h"
+
+#include <QAction>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QToolBar>
+#include <QToolButton>
+
+#include "ui/files/export/exporter.h"
+#include "ui/files/export/picture_taker.h"
+#include "ui/files/file_commands.h"
+#include "ui/panels/feel/feel_control.h"
+#include "ui/panels/history/undo_actions.h"
+#include "ui/panels/parts/part_commands.h"
+#include "ui/panels/parts/tree_actions.h"
+#include "ui/panels/replay/record_action.h"
+#include "ui/panels/replay/replay.h"
+#include "ui/panels/view/view_actions.h"
+#include "ui/tools/measure/measure_tool.h"
+#include "ui/tools/placing/align_tool.h"
+#include "ui/tools/placing/drop_tool.h"
+#include "ui/tools/placing/hand_control.h"
+#include "ui/tools/placing/placing_tools.h"
+#include "ui/tools/section/section_tool.h"
+#include "ui/tools/selecting/box_select.h"
+#include "ui/widgets/split_button.h"
+
+namespace nearfit::ui {
+
+MainMenus::MainMenus(QMainWindow* window, const Commands& commands, QMenu* panels, QMenu* units)
+    : QObject(window), window_(window), commands_(commands) {
+  setUpToolBar();
+  setUpFileMenu();
+  setUpEditMenu();
+  setUpViewMenu(panels, units);
+  setUpPlacing();
+  setUpFeelMenu();
+  help_ = window_->menuBar()->addMenu(tr("&Help"));
+  // The window's own context menu would offer to hide the tool bars.
+  window_->setContextMenuPolicy(Qt::NoContextMenu);
+}
+
+void MainMenus::setUpFileMenu() {
+  const FileCommands& files = commands_.files;
+  QMenu* menu = window_->menuBar()->addMenu(tr("&File"));
+  menu->addActions({files.newScene, files.open});
+  menu->addMenu(files.recentMenu);
+  menu->addActions({files.openDemo, menu->addSeparator(), files.addParts});
+  menu->addMenu(files.reloadMenu);
+  menu->addActions({menu->addSeparator(), files.save, files.saveAs, commands_.exporter.exportAction(),
+                    commands_.exporter.copyAction(), commands_.pictures.save(), commands_.pictures.copy(),
+                    menu->addSeparator(), files.quit});
+}
+
+void MainMenus::setUpEditMenu() {
+  const PartCommands& parts = commands_.parts;
+  QMenu* menu = window_->menuBar()->addMenu(tr("&Edit"));
+  menu->addActions({commands_.undo.undo, commands_.undo.redo, menu->addSeparator(), parts.takeInHand,
+                    parts.duplicate, parts.rename, parts.recolour, parts.remove, menu->addSeparator(),
+                    parts.selectAll, commands_.boxSelect.action(), parts.selectNone});
+  parts.tree().addTo(*menu);
+}
+
+void MainMenus::setUpViewMenu(QMenu* panels, QMenu* units) {
+  const ViewActions& view = commands_.view;
+  view_ = window_->menuBar()->addMenu(tr("&View"));
+  view_->addActions({view.fit, view.fitSelection});
+  view_->addActions(view.views());
+  view_->addSeparator();
+  view_->addActions(view.switches());
+  view_->addActions(
+      {view_->addSeparator(), commands_.measure.action(), commands_.section.action(), view_->addSeparator()});
+  for (QMenu* menu : {panels, view.minimaMenu(), units})
+    view_->addMenu(menu);
+}
+
+void MainMenus::setUpPlacing() {
+  QMenu* menu = window_->menuBar()->addMenu(tr("&Place"));
+  QToolBar* bar = commands_.placing.addTo(*window_, *menu);
+  menu->addActions({menu->addSeparator(), commands_.align.action()});
+  commands_.drop.addTo(*menu);
+  QAction* first = bar->actions().constFirst();
+  bar->insertAction(first, commands_.boxSelect.action());
+  bar->insertSeparator(first);
+  bar->addAction(commands_.align.action());
+  bar->addSeparator();
+  bar->addActions({commands_.measure.action(), commands_.section.action()});
+}
+
+void MainMenus::setUpFeelMenu() {
+  const FeelControl& feel = commands_.feel;
+  QMenu* menu = window_->menuBar()->addMenu(tr("F&eel"));
+  menu->addActions({feel.start, feel.stop, commands_.hand.letGoAction(), feel.clutch, menu->addSeparator(),
+                    feel.settings, menu->addSeparator(), &commands_.record, commands_.replay.openAction()});
+}
+
+void MainMenus::setUpToolBar() {
+  const FileCommands& files = commands_.files;
+  const PartCommands& parts = commands_.parts;
+  const FeelControl& feel = commands_.feel;
+  QToolBar* bar = window_->addToolBar(tr("Tools"));
+  bar->setObjectName(QStringLiteral("toolBar"));
+  bar->setMovable(false);
+  bar->setIconSize(QSize(24, 24));
+  const auto addGroup = [bar](const QList<QAction*>& group) {
+    if (!bar->actions().isEmpty()) bar->addSeparator();
+    bar->addActions(group);
+  };
+  addGroup({files.newScene, files.open, files.save});
+  addGroup({files.addParts, parts.duplicate, parts.remove});
+  addGroup({commands_.undo.undo, commands_.undo.redo});
+  addGroup({parts.takeInHand, feel.start, feel.stop, feel.settings});
+  addGroup({commands_.view.fit});
+  addViews(*bar);
+  addGroup(commands_.view.switches());
+  addGroup({&commands_.record, commands_.exporter.exportAction()});
+  for (QAction* action : {files.addParts, feel.start}) {
+    auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action));
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  }
+}
+
+/// Adds one button for all views that shows the last one chosen; it saves room in narrow windows.
+void MainMenus::addViews(QToolBar& bar) {
+  const QList<QAction*>& views = commands_.view.views();
+  auto* button = new QToolButton(&bar);
+  button->setObjectName(QStringLiteral("viewsButton"));
+  auto* menu = new QMenu(button);
+  menu->addActions(views);
+  button->setMenu(menu);
+  button->setPopupMode(QToolButton::MenuButtonPopup);
+  button->setDefaultAction(views.constFirst());
+  button->setStyleSheet(QString::fromLatin1(kSplitButton));
+  for (QAction* view : views)
+    connect(view, &QAction::triggered, button, [button, view] { button->setDefaultAction(view); });
+  bar.addWidget(button);
+}
+
+}  // namespace nearfit::ui

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <QObject>
+
+class QAction;
+class QMainWindow;
+class QMenu;
+class QToolBar;
+
+namespace nearfit::ui {
+
+class AlignTool;
+class BoxSelect;
+class DropTool;
+class Exporter;
+class FeelControl;
+class FileCommands;
+class HandControl;
+class MeasureTool;
+class PartCommands;
+class PictureTaker;
+class PlacingTools;
+class RecordAction;
+class Replay;
+class SectionTool;
+class UndoActions;
+class ViewActions;
+
+/// The menu bar and the tool bars: where the actions of panels, tools and files are found. What they do, and
+/// when they can be used, is theirs.
+class MainMenus : public QObject {
+  Q_OBJECT
+
+ public:
+  /// Those whose actions are shown.
+  struct Commands {
+    FileCommands& files;
+    Exporter& exporter;
+    PictureTaker& pictures;
+    UndoActions& undo;
+    PartCommands& parts;
+    BoxSelect& boxSelect;
+    ViewActions& view;
+    MeasureTool& measure;
+    SectionTool& section;
+    PlacingTools& placing;
+    AlignTool& align;
+    DropTool& drop;
+    FeelControl& feel;
+    HandControl& hand;
+    RecordAction& record;
+    Replay& replay;
+  };
+  /// @param panels  Menu of the docks, for the view menu.
+  /// @param units   Menu of units, for the view menu.
+  MainMenus(QMainWindow* window, const Commands& commands, QMenu* panels, QMenu* units);
+
+  /// Menus to which WindowShell adds what it offers.
+  QMenu* viewMenu() const noexcept { return view_; }
+  QMenu* helpMenu() const noexcept { return help_; }
+
+ private:
+  void setUpFileMenu();
+  void setUpEditMenu();
+  void setUpViewMenu(QMenu* panels, QMenu* units);
+  void setUpFeelMenu();
+  void setUpToolBar();
+  void setUpPlacing();
+  void addViews(QToolBar& bar);
+
+  QMainWindow* window_;
+  const Commands commands_;
+  QMenu *view_ = nullptr, *help_ = nullptr;
+};
+
+}  // namespace nearfit::ui

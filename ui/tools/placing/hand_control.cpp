@@ -1,0 +1,107 @@
+#include "ui/tools/placing/hand_control.h"
+
+#include <QAction>
+#include <optional>
+
+#include "core/haptics/workspace_mapper.h"
+#include "core/session/session.h"
+#include "ui/model/hand_state.h"
+#include "ui/model/move_guard.h"
+#include "ui/model/selection.h"
+#include "ui/tools/placing/placing_tools.h"
+#include "ui/view3d/hand_drag.h"
+#include "ui/view3d/viewport.h"
+#include "ui/widgets/make_action.h"
+
+namespace nearfit::ui {
+namespace {
+
+/// Returns the pose shifted, and turned about `centre`, in the world.
+/// @param centre  In the part's frame [m].
+RigidTransform stepped(const RigidTransform& worldFromPart, const glm::dvec3& shift, const glm::dquat& turn,
+                       const glm::dvec3& centre) {
+  const glm::dquat rotation =
+      RigidTransform{turn * worldFromPart.rotation, glm::dvec3(0.0)}.normalized().rotation;
+  return {rotation, worldFromPart.applyToPoint(centre) + shift - rotation * centre};
+}
+
+}  // namespace
+
+HandControl::HandControl(const Context& context, QObject* parent)
+    : QObject(parent),
+      context_(context),
+      letGo_(makeAction(this, "letGo", tr("&Let go"), QStringLiteral("hand-off"), Qt::Key_F7,
+                        tr("The manual hand goes back to where the part is, and presses no more"))) {
+  // It must work from the feel settings too, which stay open beside the window.
+  letGo_->setShortcutContext(Qt::ApplicationShortcut);
+  letGo_->setEnabled(false);
+  connect(letGo_, &QAction::triggered, this, &HandControl::letGo);
+  connect(&context.placing, &PlacingTools::handWanted, this, &HandControl::moveHand);
+  connect(&context.view.handDrag(), &HandDrag::dragged, this, &HandControl::stepHand);
+  connectHand();
+}
+
+void HandControl::connectHand() {
+  connect(&context_.hand, &HandState::changed, this, [this] {
+    letGo_->setEnabled(context_.hand.isHeldBy(Hand::Manual));
+    showHeld();
+  });
+  connect(&context_.hand, &HandState::snapshotShown, this, [this](const ServoSnapshot& snapshot) {
+    const HandState& hand = context_.hand;
+    const glm::dvec3 centreInPart = snapshot.proxy.inverse().applyToPoint(snapshot.centre);
+    context_.view.handDrag().setPoint(hand.isHeldBy(Hand::Manual)
+                                          ? std::optional(hand.handPose().applyToPoint(centreInPart))
+                                          : std::nullopt);
+    showHeld();
+  });
+  connect(&context_.hand, &HandState::snapshotCleared, this,
+          [this] { context_.view.handDrag().setPoint(std::nullopt); });
+}
+
+void HandControl::showHeld() {
+  const HandState& hand = context_.hand;
+  const std::optional<PartId> part = hand.part();
+  if (!part) return context_.placing.setHeld({});
+  context_.placing.setHeld(HeldPart{*part, hand.handPose(), hand.isHeldBy(Hand::Manual)});
+}
+
+void HandControl::place(const RigidTransform& worldFromPart) {
+  const std::optional<PartId> part = context_.selection.current();
+  if (!part) return;
+  const QString refusal = context_.guard.refusalOf(context_.selection.parts());
+  if (!refusal.isEmpty()) return emit noted(refusal);
+  context_.hand.holds(part) ? moveHand(worldFromPart) : context_.placing.bring(worldFromPart);
+}
+
+void HandControl::step(const glm::dvec3& shift, const glm::dquat& turn) {
+  if (context_.hand.isHeldBy(Hand::Manual)) return stepHand(shift, turn);
+  context_.placing.commit();
+  const std::optional<PartId> id = context_.selection.current();
+  const Part* part = id ? context_.session.scene().find(*id) : nullptr;
+  if (part != nullptr) place(stepped(part->worldFromPart, shift, turn, part->geometry->mass.centre));
+}
+
+void HandControl::stepHand(const glm::dvec3& shift, const glm::dquat& turn) {
+  const HandState& hand = context_.hand;
+  if (!hand.isHeldBy(Hand::Manual)) return;
+  const Part* part = context_.session.scene().find(hand.part().value_or(PartId{}));
+  if (part != nullptr) moveHand(stepped(hand.handPose(), shift, turn, part->geometry->mass.centre));
+}
+
+void HandControl::moveHand(const RigidTransform& worldFromPart) {
+  WorkspaceMapping locks;
+  locks.translationLocks = context_.session.scene().haptics().mapping.translationLocks;
+  locks.rotationLocks = context_.session.scene().haptics().mapping.rotationLocks;
+  WorkspaceMapper mapper;
+  mapper.engage(context_.hand.handPose());
+  context_.hand.setHandPose(mapper.map(worldFromPart, false, locks));
+  emit handMoved(context_.hand.handPose());
+}
+
+void HandControl::letGo() {
+  if (!context_.hand.isHeldBy(Hand::Manual)) return;
+  context_.hand.setHandPose(context_.hand.partPose());
+  emit handMoved(context_.hand.handPose());
+}
+
+}  // namespace nearfit::ui
