@@ -179,7 +179,7 @@ void DesktopPresetsTest::aUsualNameIsRefusedWithTheReason() {
         field->selectAll();
         QTest::keyClicks(field, QStringLiteral("soft"));
         QVERIFY(!accept->isEnabled());
-        QVERIFY(note->text().contains(QStringLiteral("usual")));
+        QVERIFY(note->text().contains(QStringLiteral("built-in")));
         keepPictures(*question, QStringLiteral("preset-name"));
         field->clear();
         QVERIFY(!accept->isEnabled());

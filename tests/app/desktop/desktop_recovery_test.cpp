@@ -131,7 +131,7 @@ void DesktopRecoveryTest::unsavedSceneOfAKilledProcessComesBack() {
   for (const QLabel* label : dialog->findChildren<QLabel*>())
     texts += label->text() + QChar('\n');
   QVERIFY2(texts.contains(QStringLiteral("never saved")), qPrintable(texts));
-  QVERIFY2(texts.contains(QStringLiteral("4 change")), qPrintable(texts));
+  QVERIFY2(texts.contains(QStringLiteral("4 unsaved changes")), qPrintable(texts));
   clickIn(dialog, "restore1");
   QTRY_COMPARE_WITH_TIMEOUT(d.session().scene().parts().size(), std::size_t{2}, 30'000);
   QCOMPARE(poses(d.session().scene()), place.expected());
