@@ -72,7 +72,7 @@ TEST_F(SessionGroups, EveryCommandOverSeveralIsOneStepAndSaysWhatItIs) {
   EXPECT_EQ(stepOf([&] { session_.setLocked({{c_}, {group}}, false); }), "Unlock 3 parts");
   EXPECT_EQ(stepOf([&] { session_.group({{}, {group}}, "Outer"); }), "Group Pair");
   outer = session_.scene().groups().back()->id;
-  EXPECT_EQ(stepOf([&] { session_.regroup({{c_}, {}}, outer); }), "Put c into Outer");
+  EXPECT_EQ(stepOf([&] { session_.regroup({{c_}, {}}, outer); }), "Move c into Outer");
   EXPECT_EQ(stepOf([&] { session_.regroup({{}, {group}}, std::nullopt); }), "Move Pair to the top level");
   EXPECT_EQ(stepOf([&] { session_.duplicate({{c_}, {group}}); }), "Duplicate 3 parts");
   EXPECT_EQ(stepOf([&] { session_.ungroup({outer}); }), "Ungroup Outer");
