@@ -31,7 +31,7 @@ HandControl::HandControl(const Context& context, QObject* parent)
     : QObject(parent),
       context_(context),
       letGo_(makeAction(this, "letGo", tr("&Let go"), QStringLiteral("hand-off"), Qt::Key_F7,
-                        tr("The manual hand goes back to where the part is, and presses no more"))) {
+                        tr("Move the manual hand back to the part, so that it no longer presses"))) {
   // It must work from the feel settings too, which stay open beside the window.
   letGo_->setShortcutContext(Qt::ApplicationShortcut);
   letGo_->setEnabled(false);
