@@ -10,7 +10,7 @@ enum class UserFiles : std::uint8_t { Cache, Config, Data, State };
 
 /// Returns Nearfit's folder for files of this kind: `nearfit` in XDG_CACHE_HOME, XDG_CONFIG_HOME,
 /// XDG_DATA_HOME or XDG_STATE_HOME, else in the usual folder below HOME. Relative paths are ignored, as the
-/// specification demands; empty if there is no other. The folder need not exist.
+/// specification demands. Empty if neither variable holds an absolute path. The folder need not exist.
 std::filesystem::path userFolder(UserFiles kind);
 
 }  // namespace nearfit

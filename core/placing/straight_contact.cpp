@@ -55,7 +55,7 @@ struct SweepStretch {
 /// The first contact of two triangles in a straight motion.
 struct SweepHit {
   double travel = 0.0;  ///< Along the direction; infinity if they never touch.
-  /// Of the plane in which they touch, against the direction; unit. Zero if they touch at the start.
+  /// Normal of the plane in which they touch, against the direction; unit. Zero if they touch at the start.
   glm::dvec3 normal{0.0};
 };
 

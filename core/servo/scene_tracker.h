@@ -13,7 +13,7 @@
 
 namespace nearfit {
 
-/// What a search ahead needs from a tick. No field has a default, so that GCC refuses to leave one out:
+/// Facts of a tick that a search ahead uses. No field has a default, so that GCC refuses to leave one out:
 /// a proxy that starves unnoticed stands still for good.
 struct TickObservation {
   RigidTransform worldFromPart;  ///< Pose of the moving part.

@@ -33,8 +33,8 @@ class FullHierarchy {
   NormalConeTree tree_;
 };
 
-/// As findLmds. Tests pairs with idle features too and rejects them afterwards, so that the minima are the
-/// same to the last bit.
+/// Finds the same minima as findLmds(), to the last bit: it also tests pairs with idle features, and rejects
+/// them afterwards.
 LmdResult findLmds(const FullHierarchy& scene, const FullHierarchy& part, const RigidTransform& sceneFromPart,
                    double cutoff, LmdScratch& scratch, std::span<Lmd> out) noexcept;
 

@@ -76,7 +76,7 @@ struct DirectedTriangle {
   TriangleCorners corners;
   SeparatingDirections directions;
 };
-/// As triangleGapLowerBound below, with the directions given.
+/// The same lower bound as the overload below, along the given directions.
 double triangleGapLowerBound(const DirectedTriangle& a, const DirectedTriangle& b, double enough,
                              bool& isSecond) noexcept;
 

@@ -168,7 +168,7 @@ void DesktopAlignTest::aPartThatLeavesTheSceneEndsIt() {
   QVERIFY(!d.widget<QWidget>("alignBar")->isVisible());
 }
 
-/// What was picked in the scene before was aligned in the one that was opened.
+/// A part picked before another scene was opened used to be aligned in the new scene.
 void DesktopAlignTest::anotherSceneEndsItThoughItsPartsAreTheSame() {
   DesktopDriver d;
   begin(d);

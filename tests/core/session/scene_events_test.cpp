@@ -23,7 +23,7 @@ struct Log {
   std::function<void()> add(const char* name) {
     return [this, name] { told += name; };
   }
-  /// What one notification tells.
+  /// Notifies once and returns what the listeners said, in their order.
   std::string of(SceneEvents& events) {
     told.clear();
     events.notify();

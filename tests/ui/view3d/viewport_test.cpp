@@ -40,7 +40,7 @@ class ViewportTest : public QObject {
     return seen_ - before;
   }
 
-  /// As the window does.
+  /// Shows the snapshot in the order that the window keeps: the pose first, then the view.
   void showSnapshot() {
     poses_.show(ui::ShownPoses::Source::Hand, {{snapshot_->moving, snapshot_->proxy}});
     viewport_->showSnapshot(*snapshot_);
