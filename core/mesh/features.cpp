@@ -10,6 +10,7 @@
 #include "core/math/extreme_directions.h"
 #include "core/math/min_norm_point.h"
 #include "core/math/tolerances.h"
+#include "core/mesh/flat_groups.h"
 
 namespace nearfit {
 namespace {
@@ -56,8 +57,13 @@ std::optional<glm::dvec3> squareToEdge(const glm::dvec3& edge, const glm::dvec3&
 
 class FeatureFinder {
  public:
-  FeatureFinder(const TriangleMesh& mesh, const std::function<void(double)>& onProgress)
-      : mesh_(mesh), onProgress_(onProgress), x_(mesh.vertices()), normals_(mesh.triangles().size()) {}
+  FeatureFinder(const TriangleMesh& mesh, const std::function<void(double)>& onProgress,
+                std::span<const std::uint32_t> flatOf)
+      : mesh_(mesh),
+        onProgress_(onProgress),
+        x_(mesh.vertices()),
+        flatOf_(flatOf),
+        normals_(mesh.triangles().size()) {}
 
   MeshFeatures find() {
     forAll(mesh_.triangles().size(), 0.0, kFacesDone, [this](std::uint32_t f) { addFace(f); });
@@ -144,7 +150,14 @@ class FeatureFinder {
            (t[2] == edge.v0 && t[0] == edge.v1);
   }
 
+  bool isInsideFlat(std::uint32_t e) const {
+    if (flatOf_.empty() || !mesh_.isEdgeConsistent(e)) return false;
+    const auto faces = mesh_.facesOfEdge(e);
+    return flatOf_[faces[0]] != kNoFlat && flatOf_[faces[0]] == flatOf_[faces[1]];
+  }
+
   void addEdge(std::uint32_t e) {
+    if (isInsideFlat(e)) return;
     const MeshEdge& edge = mesh_.edges()[e];
     const auto along = unit(x_[edge.v1] - x_[edge.v0]);
     if (!along) return;
@@ -263,6 +276,7 @@ class FeatureFinder {
   const TriangleMesh& mesh_;
   const std::function<void(double)>& onProgress_;
   std::span<const glm::dvec3> x_;
+  std::span<const std::uint32_t> flatOf_;
   std::vector<glm::dvec3> normals_;  ///< Zero for faces without area.
   MeshFeatures out_;
   std::vector<glm::dvec3> directions_;
@@ -271,8 +285,9 @@ class FeatureFinder {
 
 }  // namespace
 
-MeshFeatures findFeatures(const TriangleMesh& mesh, const std::function<void(double)>& onProgress) {
-  return FeatureFinder(mesh, onProgress).find();
+MeshFeatures findFeatures(const TriangleMesh& mesh, const std::function<void(double)>& onProgress,
+                          std::span<const std::uint32_t> flatOf) {
+  return FeatureFinder(mesh, onProgress, flatOf).find();
 }
 
 }  // namespace nearfit

@@ -53,7 +53,10 @@ struct MeshFeatures {
 
 /// Finds the features that can carry a minimum. About O(n); allocates.
 /// @param onProgress  Called now and then with the fraction done; may throw to stop the work. May be empty.
+/// @param flatOf      By triangle: the flat that it is in, or kNoFlat (flat_mesh.h). Edges inside a flat carry
+///                    none. Empty: every edge is judged by its angle.
 MeshFeatures findFeatures(const TriangleMesh& mesh,
-                          const std::function<void(double fraction)>& onProgress = {});
+                          const std::function<void(double fraction)>& onProgress = {},
+                          std::span<const std::uint32_t> flatOf = {});
 
 }  // namespace nearfit

@@ -12,6 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/math/finite.h"
+#include "core/mesh/coordinate_rounding.h"
 #include "core/mesh/flat_triangles.h"
 #include "core/mesh/polygon_triangulation.h"
 #include "core/mesh/shell_orientation.h"
@@ -278,6 +279,7 @@ TriangleMesh buildMesh(const PolygonSoup& soup, const MeshBuildOptions& options,
   checkOptions(options);
   checkSoup(soup);
   report = {};
+  report.coordinateRounding = options.metresPerUnit * coordinateRounding(soup.vertices);
   TriangleMesh mesh = stitched(Builder(soup, options, report, onProgress).build(), report);
   addWarnings(mesh.topology(), report);
   return outsideOut(std::move(mesh), report);

@@ -39,6 +39,8 @@ struct MeshBuildReport {
   std::uint64_t nonFiniteFaces = 0;   ///< Dropped: a vertex is not finite.
   std::uint64_t swappedFaces = 0;     ///< Lines (T-junctions) swapped with a neighbour; see flat_triangles.h.
   std::uint64_t stitchedEdges = 0;    ///< Open edges closed (T-junctions); see t_junctions.h.
+  /// Max rounding error of a coordinate, as the file's own numbers show it [m]; see coordinateRounding().
+  double coordinateRounding = 0.0;
   bool turnedInsideOut = false;  ///< Closed components of negative volume were flipped (cavities were not).
   std::vector<std::string> warnings;  ///< One sentence with counts for each defect that a user should know.
 };

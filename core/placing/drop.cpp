@@ -41,7 +41,7 @@ bool mayMeet(const Pair& pair, const glm::dvec3& shift) {
 bool doMeet(const Pair& pair, const glm::dvec3& shift) {
   if (!mayMeet(pair, shift)) return false;
   const PartGeometry &a = *pair.fixed->geometry, &b = *pair.moving->geometry;
-  return findInterference({a.mesh, a.tree()}, {b.mesh, b.tree()}, fixedFromMoving(pair, shift)).kind !=
+  return findInterference(a.tree(), b.tree(), fixedFromMoving(pair, shift)).kind !=
          InterferenceKind::Disjoint;
 }
 

@@ -40,7 +40,7 @@ double travelBetween(const ServoScene& scene, const RigidTransform& from, const 
   return glm::length(shift) + scene.metric.radius * glm::length(turnBetween(from.rotation, to.rotation));
 }
 
-/// Merges the meshes, in the frame of `worldFromAll`. Where meshes cross, the result has no inside, and
+/// Joins the meshes that are searched, in the frame of `worldFromAll`. Where meshes cross, the result has no inside, and
 /// contact counts from either side.
 PartGeometryPtr joined(std::span<const Part* const> parts, const RigidTransform& worldFromAll) {
   std::vector<glm::dvec3> vertices;
@@ -48,9 +48,10 @@ PartGeometryPtr joined(std::span<const Part* const> parts, const RigidTransform&
   for (const Part* part : parts) {
     const auto first = static_cast<std::uint32_t>(vertices.size());
     const RigidTransform allFromPart = (worldFromAll.inverse() * part->worldFromPart).normalized();
-    for (const glm::dvec3& vertex : part->geometry->mesh.vertices())
+    const TriangleMesh& mesh = part->geometry->tree().mesh();
+    for (const glm::dvec3& vertex : mesh.vertices())
       vertices.push_back(allFromPart.applyToPoint(vertex));
-    for (const Triangle& t : part->geometry->mesh.triangles())
+    for (const Triangle& t : mesh.triangles())
       triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   }
   PartGeometry geometry;

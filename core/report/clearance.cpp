@@ -30,7 +30,7 @@ PartClearance clearanceOf(const Part& part, const Part& other, double cutoff, Wo
   const RigidTransform otherFromPart = (other.worldFromPart.inverse() * part.worldFromPart).normalized();
   PartClearance result;
   result.other = other.id;
-  result.overlap = findInterference({b.mesh, b.tree()}, {a.mesh, a.tree()}, otherFromPart).kind;
+  result.overlap = findInterference(b.tree(), a.tree(), otherFromPart).kind;
   result.isBetweenSolids = a.isSolid() && b.isSolid();
   const SurfaceDistance nearest = leastSurfaceDistance(
       b.tree(), a.tree(), otherFromPart, std::numeric_limits<double>::infinity(), work.scratch, kAnyWork);

@@ -3,12 +3,16 @@
 #include <chrono>
 
 #include "core/base/error.h"
+#include "core/mesh/flat_mesh.h"
 
 namespace nearfit {
 namespace {
 
 /// Max delay before a waiting thread notices its own cancellation.
 constexpr std::chrono::milliseconds kPatience{20};
+
+/// Progress when the flats are merged.
+constexpr double kMerged = 0.15;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -51,6 +55,18 @@ void HierarchyOnDemand::waitForTurn(const ProgressCallback& progress) {
   isMaking_ = !isReady();
 }
 
+void HierarchyOnDemand::build(const TriangleMesh& mesh, const ProgressCallback& progress) {
+  const auto share = [&progress](double from, double to) -> ProgressCallback {
+    if (!progress) return {};
+    return [&progress, from, to](double fraction) { return progress(from + (to - from) * fraction); };
+  };
+  const ProgressCallback merging = share(0.0, kMerged);
+  const auto report = [&merging](double fraction) {
+    if (merging && !merging(fraction)) throw Cancelled();
+  };
+  tree_.emplace(mergeFlats(mesh, coordinateRounding_, report), share(kMerged, 1.0));
+}
+
 void HierarchyOnDemand::findOrBuild(const TriangleMesh& mesh, const ProgressCallback& progress) {
   if (progress && !progress(0.0)) throw Cancelled();
   const auto start = std::chrono::steady_clock::now();
@@ -58,7 +74,7 @@ void HierarchyOnDemand::findOrBuild(const TriangleMesh& mesh, const ProgressCall
   if (found) {
     tree_.emplace(std::move(*found));
   } else {
-    tree_.emplace(mesh, progress);
+    build(mesh, progress);
   }
   origin_ = {found.has_value(), secondsSince(start)};
   ready_.store(&*tree_, std::memory_order_release);

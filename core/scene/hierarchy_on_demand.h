@@ -18,7 +18,7 @@ struct HierarchyOrigin {
   double seconds = 0.0;  ///< Time to build it, or to map and check it; excludes storing it.
 };
 
-/// Hierarchy of one mesh, built or taken from the cache when first needed. Thread-safe: one thread builds,
+/// Hierarchy of one mesh with its flats merged (mergeFlats()), built or taken from the cache when first needed. Thread-safe: one thread builds,
 /// others wait for it.
 class HierarchyOnDemand {
  public:
@@ -27,8 +27,9 @@ class HierarchyOnDemand {
   /// Stores a newly built hierarchy.
   using Keep = std::function<void(const NormalConeTree&)>;
 
-  explicit HierarchyOnDemand(Find find = {}, Keep keep = {})
-      : find_(std::move(find)), keep_(std::move(keep)) {}
+  /// @param coordinateRounding  Of the mesh, as for mergeFlats() [m].
+  explicit HierarchyOnDemand(Find find = {}, Keep keep = {}, double coordinateRounding = 0.0)
+      : find_(std::move(find)), keep_(std::move(keep)), coordinateRounding_(coordinateRounding) {}
   HierarchyOnDemand(const HierarchyOnDemand&) = delete;
   HierarchyOnDemand& operator=(const HierarchyOnDemand&) = delete;
 
@@ -47,10 +48,12 @@ class HierarchyOnDemand {
  private:
   const NormalConeTree& make(const TriangleMesh& mesh, const ProgressCallback& progress);
   void waitForTurn(const ProgressCallback& progress);
+  void build(const TriangleMesh& mesh, const ProgressCallback& progress);
   void findOrBuild(const TriangleMesh& mesh, const ProgressCallback& progress);
 
   Find find_;
   Keep keep_;
+  double coordinateRounding_;
   std::mutex mutex_;
   std::condition_variable ended_;
   bool isMaking_ = false;  ///< Guarded by mutex_. Until ready, only the making thread uses the members below.

@@ -50,21 +50,23 @@ PartGeometryPtr makeGeometry(const MeshSource& source, std::string sha256, Cache
   // Look again when the hierarchy is needed: another process may have stored it by then.
   const TreeCacheKey key{sha256, source.metresPerUnit};
   const auto surface = std::make_shared<SurfaceOnDemand>();
-  const auto find = [key, surface]() -> std::optional<NormalConeTree> {
+  const auto find = [key, surface, mesh = loaded.mesh]() -> std::optional<NormalConeTree> {
     const std::optional<TreeCacheFile> file = TreeCache().find(key);
-    std::optional<CachedTree> kept = file ? file->tree() : std::nullopt;
+    std::optional<CachedTree> kept = file ? file->tree(mesh) : std::nullopt;
     if (!kept) return std::nullopt;
     surface->setSolid(kept->isSolid);
     return std::move(kept->tree);
   };
   // Determine solidity together with the hierarchy: waiting is acceptable here, and the result is cached.
   const auto keep = [key, loaded, surface](const NormalConeTree& tree) {
-    const CachedTree kept{tree, surface->isSolid(loaded.mesh)};
+    const CachedTree kept{tree, surface->isSolid(tree)};
     TreeCache().store(key, loaded, &kept);
   };
-  return std::make_shared<const PartGeometry>(PartGeometry{
-      normalisedPath(source.file), std::move(sha256), source.metresPerUnit, std::move(loaded.mesh),
-      std::move(loaded.report), loaded.mass, std::make_shared<HierarchyOnDemand>(find, keep), surface});
+  const double rounding = loaded.report.coordinateRounding;
+  return std::make_shared<const PartGeometry>(
+      PartGeometry{normalisedPath(source.file), std::move(sha256), source.metresPerUnit,
+                   std::move(loaded.mesh), std::move(loaded.report), loaded.mass,
+                   std::make_shared<HierarchyOnDemand>(find, keep, rounding), surface});
 }
 
 /// Null if the file's SHA-256 is not the required one.

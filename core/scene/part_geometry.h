@@ -27,9 +27,9 @@ void checkMetresPerUnit(double metresPerUnit);
 /// nothing, and parts near them, need the surface. Thread-safe: one thread builds, others wait for it.
 class SurfaceOnDemand {
  public:
-  /// isSolidThroughout() of `mesh`, computed once.
-  bool isSolid(const TriangleMesh& mesh) {
-    std::call_once(solidOnce_, [&] { isSolid_ = isSolidThroughout(mesh); });
+  /// isSolidThroughout() of the hierarchy's mesh, computed once.
+  bool isSolid(const NormalConeTree& tree) {
+    std::call_once(solidOnce_, [&] { isSolid_ = isSolidThroughout(tree.mesh()); });
     return isSolid_;
   }
   /// Supplies the result in advance, such as from the cache; no-op if already known.
@@ -37,9 +37,9 @@ class SurfaceOnDemand {
     std::call_once(solidOnce_, [&] { isSolid_ = isSolid; });
   }
 
-  /// The unsided surface of `mesh`, which must be the same mesh in each call.
-  std::shared_ptr<const UnsidedSurface> get(const TriangleMesh& mesh, const NormalConeTree& tree) {
-    std::call_once(once_, [&] { surface_ = std::make_shared<const UnsidedSurface>(mesh, tree); });
+  /// The unsided surface of the hierarchy's mesh; it must be the same hierarchy in each call.
+  std::shared_ptr<const UnsidedSurface> get(const NormalConeTree& tree) {
+    std::call_once(once_, [&] { surface_ = std::make_shared<const UnsidedSurface>(tree); });
     return surface_;
   }
 
@@ -62,15 +62,16 @@ struct PartGeometry {
   std::shared_ptr<HierarchyOnDemand> hierarchy = std::make_shared<HierarchyOnDemand>();
   std::shared_ptr<SurfaceOnDemand> surfaceOnDemand = std::make_shared<SurfaceOnDemand>();
 
-  /// Hierarchy for queries; built on first use (seconds for millions of triangles; call prepareHierarchies()
-  /// first if the caller must not wait). Thread-safe. Real-time safe once hierarchy->isReady().
+  /// Hierarchy for queries, of the mesh with its flats merged (tree().mesh()); built on first use (seconds for
+  /// millions of triangles; call prepareHierarchies() first if the caller must not wait). Thread-safe. Real-time
+  /// safe once hierarchy->isReady().
   const NormalConeTree& tree() const { return hierarchy->get(mesh); }
 
   /// True if the mesh encloses its material. If not, distances treat both sides of its surface alike.
   /// Determined on first use.
-  bool isSolid() const { return surfaceOnDemand->isSolid(mesh); }
+  bool isSolid() const { return surfaceOnDemand->isSolid(tree()); }
   /// The unsided surface, built on first use. Thread-safe.
-  std::shared_ptr<const UnsidedSurface> surface() const { return surfaceOnDemand->get(mesh, tree()); }
+  std::shared_ptr<const UnsidedSurface> surface() const { return surfaceOnDemand->get(tree()); }
 };
 
 /// Absolute path with symbolic links among its folders resolved, so that paths to one file compare equal.

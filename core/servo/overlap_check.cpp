@@ -24,7 +24,7 @@ Clearance findClearance(const ServoScene& scene, const BroadPhase& bounds,
     // The tick reports invalid poses.
     if (!bodyFromPart.isFinite()) return;
     const Interference found =
-        findInterference({other.mesh, other.tree()}, {part.mesh, part.tree()}, bodyFromPart);
+        findInterference(other.tree(), part.tree(), bodyFromPart);
     if (found.kind != InterferenceKind::Disjoint) {
       overlapping->push_back(index);
       return;

@@ -151,7 +151,7 @@ TEST(MeshDistance, OfABoxIsThatOfItsFormula) {
 TEST(SignedDistanceField, OfABallIsItsDistanceToTheSquareOfACell) {
   const TriangleMesh ball = geodesicSphereMesh(1.0, 32);
   const NormalConeTree tree(ball);
-  const SignedDistanceField field({ball, tree}, 32, 0.5);
+  const SignedDistanceField field(tree, 32, 0.5);
   EXPECT_NEAR(field.cell(), 3.0 / 32.0, 1e-3);
   std::mt19937_64 random(4);
   for (int i = 0; i < 500; ++i) {

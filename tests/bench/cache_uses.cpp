@@ -31,7 +31,7 @@ class CacheOfOne {
   Loaded load() const {
     const std::optional<TreeCacheFile> file = cache_.find(key_);
     std::optional<CachedMesh> mesh = file ? file->mesh() : std::nullopt;
-    std::optional<CachedTree> tree = file ? file->tree() : std::nullopt;
+    std::optional<CachedTree> tree = mesh ? file->tree(mesh->mesh) : std::nullopt;
     if (!mesh || !tree) throw Error("cache", "what was kept is not to be had");
     return {std::move(*mesh), std::move(tree->tree)};
   }

@@ -22,7 +22,7 @@ class PointsInField : public ErrorMethod {
  public:
   PointsInField(const ErrorScene& scene, std::size_t cells)
       : scene_(scene),
-        field_({scene.bodies.meshes.scene, scene.bodies.sceneTree}, cells, scene.bodies.cutoff),
+        field_(scene.bodies.sceneTree, cells, scene.bodies.cutoff),
         samples_(scene.bodies.meshes.part, field_.cell()),
         distance_(samples_.points().size(), kFar) {
     near_.reserve(samples_.points().size());

@@ -12,8 +12,8 @@
 
 namespace nearfit::bench {
 
-SignedDistanceField::SignedDistanceField(const MeshBody& body, std::size_t cells, double reach) {
-  const TriangleMesh& mesh = body.mesh;
+SignedDistanceField::SignedDistanceField(const NormalConeTree& tree, std::size_t cells, double reach) {
+  const TriangleMesh& mesh = tree.mesh();
   const glm::dvec3 size = mesh.bounds().upper - mesh.bounds().lower + 2.0 * reach;
   cell_ = std::max({size.x, size.y, size.z}) / static_cast<double>(cells);
   origin_ = mesh.bounds().lower - reach;
@@ -22,7 +22,7 @@ SignedDistanceField::SignedDistanceField(const MeshBody& body, std::size_t cells
   values_.resize(count_[0] * count_[1] * count_[2]);
 
   const MeshDistance distance(mesh);
-  const PlacedMesh placed(body, nullptr);
+  const PlacedMesh placed(tree, nullptr);
   const MeshComponents pieces = piecesOf(mesh);
   const PlacedSolid solid(placed, pieces);
   parallelFor(count_[2], [&](std::size_t z) {

@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/proximity/overlap/interference.h"
+#include "core/proximity/hierarchy/normal_cone_tree.h"
 
 namespace nearfit::bench {
 
@@ -16,9 +16,9 @@ namespace nearfit::bench {
 /// Distances at the corners are exact to single precision.
 class SignedDistanceField {
  public:
-  /// @param body   A closed mesh with its hierarchy; not kept.
+  /// @param tree   Of a closed mesh; not kept.
   /// @param cells  Along the grid's longest side.   @param reach  The grid goes so far beyond the mesh [m].
-  SignedDistanceField(const MeshBody& body, std::size_t cells, double reach);
+  SignedDistanceField(const NormalConeTree& tree, std::size_t cells, double reach);
 
   /// Distance and its gradient within a cell, which is not of unit length everywhere.
   struct Sample {

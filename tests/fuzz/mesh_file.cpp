@@ -29,7 +29,7 @@ void check(const ImportedMesh& imported) {
   for (int k = 0; k < 3; ++k)
     require(isFinite(mass.inertia[k]), "mass properties are finite");
   const NormalConeTree tree(mesh);
-  const UnsidedSurface surface(mesh, tree);
+  const UnsidedSurface surface(tree);
   require(surface.mesh().triangles().size() == mesh.triangles().size(), "the surface is that of the mesh");
 }
 

@@ -245,7 +245,7 @@ void checkSurfaces(const Case& c, const std::vector<Lmd>& minima) {
 
 /// In exact arithmetic: what has no tolerance has none at any size.
 void checkExactly(const Case& c) {
-  const Interference found = findInterference({c.sceneMesh, c.scene}, {c.partMesh, c.part}, c.pose);
+  const Interference found = findInterference(c.scene, c.part, c.pose);
   const bool doMeet = test::doSurfacesMeetExactly(c.sceneMesh, c.partMesh, c.pose);
   require((found.kind == InterferenceKind::SurfacesMeet) == doMeet, "surfaces meet where they do exactly");
   if (!c.isPromised) return;

@@ -107,9 +107,8 @@ void useMesh(const CachedMesh& cached, const NormalConeTree& tree) {
   static_cast<void>(metric);
   static LmdScratch scratch(512);
   const RigidTransform pose{{0.8, 0.6, 0.0, 0.0}, {0.9, 0.1, 0.2}};
-  const MeshBody body{cached.mesh, tree};
-  findInterference(body, body, pose);
-  const UnsidedSurface surface(cached.mesh, tree);
+  findInterference(tree, tree, pose);
+  const UnsidedSurface surface(tree);
   std::vector<TrianglePair> pairs(1024);
   std::vector<SurfaceContact> contacts(64);
   const NearbyTriangles nearby = findNearbyTriangles(surface, surface, pose, 1.0, scratch, pairs, 1U << 16);
@@ -126,7 +125,7 @@ void use(const std::filesystem::path& path) {
     require(isFinite(v), "vertices are finite");
   require(std::isfinite(mesh->mass.volume) && isFinite(mesh->mass.centre), "mass properties are finite");
   useMesh(*mesh, NormalConeTree(mesh->mesh));
-  if (const auto tree = file->tree()) {
+  if (const auto tree = file->tree(mesh->mesh)) {
     useTree(tree->tree);
     useMesh(*mesh, tree->tree);
   }

@@ -27,7 +27,8 @@ bool areSameArrays(const SharedArray<T>& a, const SharedArray<T>& b) {
 
 CachedMesh cachedMeshOf(TriangleMesh mesh) {
   const MassProperties mass = massProperties(mesh);
-  return {std::move(mesh), {1, 2, 3, 4, 5, 6, true, {"One thing.", "", "Another, with \xC3\xBC."}}, mass};
+  return {
+      std::move(mesh), {1, 2, 3, 4, 5, 6, 7e-9, true, {"One thing.", "", "Another, with \xC3\xBC."}}, mass};
 }
 
 bool areSame(const TriangleMesh& meshA, const TriangleMesh& meshB) {
@@ -41,7 +42,8 @@ bool areSame(const TriangleMesh& meshA, const TriangleMesh& meshB) {
 
 bool areSame(const NormalConeTree& treeA, const NormalConeTree& treeB) {
   const NormalConeTree::Arrays &a = treeA.arrays(), &b = treeB.arrays();
-  return areSameBytes(a.centre, b.centre) && areSameBytes(a.size, b.size) && areSameBytes(a.all, b.all) &&
+  return areSame(a.mesh, b.mesh) && areSameBytes(a.deviation, b.deviation) &&
+         areSameBytes(a.centre, b.centre) && areSameBytes(a.size, b.size) && areSameBytes(a.all, b.all) &&
          areSameArrays(a.nodes, b.nodes) && areSameArrays(a.positions, b.positions) &&
          areSameArrays(a.vertices, b.vertices) && areSameArrays(a.edges, b.edges) &&
          areSameArrays(a.faces, b.faces) && areSameArrays(a.neighbours, b.neighbours);
@@ -52,10 +54,10 @@ bool areSame(const CachedMesh& a, const CachedMesh& b) {
   return areSame(a.mesh, b.mesh) && r.weldedVertices == s.weldedVertices &&
          r.degenerateFaces == s.degenerateFaces && r.duplicateFaces == s.duplicateFaces &&
          r.nonFiniteFaces == s.nonFiniteFaces && r.swappedFaces == s.swappedFaces &&
-         r.stitchedEdges == s.stitchedEdges && r.turnedInsideOut == s.turnedInsideOut &&
-         r.warnings == s.warnings && areSameBytes(a.mass.volume, b.mass.volume) &&
-         areSameBytes(a.mass.centre, b.mass.centre) && areSameBytes(a.mass.inertia, b.mass.inertia) &&
-         a.mass.basis == b.mass.basis;
+         areSameBytes(r.coordinateRounding, s.coordinateRounding) && r.stitchedEdges == s.stitchedEdges &&
+         r.turnedInsideOut == s.turnedInsideOut && r.warnings == s.warnings &&
+         areSameBytes(a.mass.volume, b.mass.volume) && areSameBytes(a.mass.centre, b.mass.centre) &&
+         areSameBytes(a.mass.inertia, b.mass.inertia) && a.mass.basis == b.mass.basis;
 }
 
 std::filesystem::path onlyFileIn(const std::filesystem::path& folder) {

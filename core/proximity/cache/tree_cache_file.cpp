@@ -91,6 +91,7 @@ std::optional<MeshBuildReport> TreeCacheFile::report(const MeshFacts& facts) con
   report.swappedFaces = facts.counts[4];
   report.stitchedEdges = facts.counts[5];
   report.turnedInsideOut = facts.turnedInsideOut != 0;
+  report.coordinateRounding = facts.coordinateRounding;
   const SharedArray<char> warnings = array<char>(Section::Warnings);
   if (!warnings.empty() && warnings[warnings.size() - 1] != '\0') return std::nullopt;
   for (std::size_t i = 0; i < warnings.size(); i += report.warnings.back().size() + 1)
@@ -98,24 +99,38 @@ std::optional<MeshBuildReport> TreeCacheFile::report(const MeshFacts& facts) con
   return report;
 }
 
+TriangleMesh::Arrays TreeCacheFile::meshArrays(Section vertices, const std::array<double, 6>& b,
+                                               const std::array<std::uint32_t, 4>& topology) const {
+  const auto section = [first = index(vertices)](std::size_t i) { return static_cast<Section>(first + i); };
+  return {array<glm::dvec3>(section(0)),
+          array<Triangle>(section(1)),
+          array<MeshEdge>(section(2)),
+          array<std::uint32_t>(section(3)),
+          array<std::array<std::uint32_t, 3>>(section(4)),
+          array<std::uint32_t>(section(5)),
+          array<std::uint32_t>(section(6)),
+          {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}},
+          {topology[0], topology[1], topology[2], topology[3]}};
+}
+
+std::optional<TreeCacheFile::Searched> TreeCacheFile::searched(const TriangleMesh& mesh) const {
+  if (count(Section::SearchedFacts) != 1) return Searched{mesh, 0.0};
+  const SearchedFacts facts = array<SearchedFacts>(Section::SearchedFacts)[0];
+  TriangleMesh::Arrays arrays = meshArrays(Section::SearchedVertices, facts.bounds, facts.topology);
+  if (!(facts.deviation >= 0.0) || !std::isfinite(facts.deviation) || !isSound(arrays)) return std::nullopt;
+  return Searched{TriangleMesh(std::move(arrays)), facts.deviation};
+}
+
 std::optional<CachedMesh> TreeCacheFile::mesh() const {
   if (count(Section::MeshFacts) != 1 || !isIntact(Section::MeshFacts, Section::VertexFirstEdge))
     return std::nullopt;
   const MeshFacts facts = array<MeshFacts>(Section::MeshFacts)[0];
-  const auto& b = facts.bounds;
-  TriangleMesh::Arrays arrays{array<glm::dvec3>(Section::Vertices),
-                              array<Triangle>(Section::Triangles),
-                              array<MeshEdge>(Section::Edges),
-                              array<std::uint32_t>(Section::EdgeFaces),
-                              array<std::array<std::uint32_t, 3>>(Section::TriangleEdges),
-                              array<std::uint32_t>(Section::VertexEdges),
-                              array<std::uint32_t>(Section::VertexFirstEdge),
-                              {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}},
-                              {facts.topology[0], facts.topology[1], facts.topology[2], facts.topology[3]}};
+  TriangleMesh::Arrays arrays = meshArrays(Section::Vertices, facts.bounds, facts.topology);
   std::optional<MeshBuildReport> built = report(facts);
   const bool isMassFinite = std::ranges::all_of(facts.mass, [](double x) { return std::isfinite(x); });
-  if (!built || !isMassFinite || facts.massBasis > static_cast<std::uint32_t>(MassBasis::OrientedBox) ||
-      !isSound(arrays)) {
+  if (!built || !isMassFinite || !(facts.coordinateRounding >= 0.0) ||
+      !std::isfinite(facts.coordinateRounding) ||
+      facts.massBasis > static_cast<std::uint32_t>(MassBasis::OrientedBox) || !isSound(arrays)) {
     return std::nullopt;
   }
   MassProperties mass;
@@ -127,23 +142,27 @@ std::optional<CachedMesh> TreeCacheFile::mesh() const {
   return CachedMesh{TriangleMesh(std::move(arrays)), std::move(*built), mass};
 }
 
-std::optional<CachedTree> TreeCacheFile::tree() const {
-  if (!hasTree() || !isIntact(Section::TreeFacts, Section::Neighbours)) return std::nullopt;
+std::optional<CachedTree> TreeCacheFile::tree(const TriangleMesh& mesh) const {
+  if (!hasTree() || !isIntact(Section::TreeFacts, Section::SearchedVertexFirstEdge)) return std::nullopt;
   const TreeFacts facts = array<TreeFacts>(Section::TreeFacts)[0];
-  const auto& c = facts.centreAndSize;
-  if (facts.all[0] != count(Section::Vertices) || facts.all[1] != count(Section::Edges) ||
-      facts.all[2] != count(Section::Triangles) || facts.isSolid > 1) {
+  std::optional<Searched> of = searched(mesh);
+  if (!of || facts.all[0] != of->mesh.vertices().size() || facts.all[1] != of->mesh.edges().size() ||
+      facts.all[2] != of->mesh.triangles().size() || facts.isSolid > 1) {
     return std::nullopt;
   }
-  NormalConeTree::Arrays arrays{{c[0], c[1], c[2]},
-                                c[3],
-                                {count(Section::Vertices), count(Section::Edges), count(Section::Triangles)},
-                                array<NormalConeTree::Node>(Section::Nodes),
-                                array<glm::dvec3>(Section::Positions),
-                                array<NormalConeTree::VertexLeaf>(Section::VertexLeaves),
-                                array<NormalConeTree::EdgeLeaf>(Section::EdgeLeaves),
-                                array<NormalConeTree::FaceLeaf>(Section::FaceLeaves),
-                                array<std::uint32_t>(Section::Neighbours)};
+  const auto& c = facts.centreAndSize;
+  NormalConeTree::Arrays arrays{
+      {c[0], c[1], c[2]},
+      c[3],
+      {of->mesh.vertices().size(), of->mesh.edges().size(), of->mesh.triangles().size()},
+      array<NormalConeTree::Node>(Section::Nodes),
+      array<glm::dvec3>(Section::Positions),
+      array<NormalConeTree::VertexLeaf>(Section::VertexLeaves),
+      array<NormalConeTree::EdgeLeaf>(Section::EdgeLeaves),
+      array<NormalConeTree::FaceLeaf>(Section::FaceLeaves),
+      array<std::uint32_t>(Section::Neighbours)};
+  arrays.mesh = of->mesh;
+  arrays.deviation = of->deviation;
   if (!isSound(arrays)) return std::nullopt;
   return CachedTree{NormalConeTree(std::move(arrays)), facts.isSolid == 1};
 }

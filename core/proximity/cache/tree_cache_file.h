@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -41,7 +43,8 @@ class TreeCacheFile {
   std::optional<CachedMesh> mesh() const;
   bool hasTree() const noexcept { return header_.counts[index(TreeCacheSection::TreeFacts)] == 1; }
   /// Returns the hierarchy, likewise; no value if it is damaged or there is none.
-  std::optional<CachedTree> tree() const;
+  /// @param mesh  The mesh of the file.
+  std::optional<CachedTree> tree(const TriangleMesh& mesh) const;
 
  private:
   static constexpr std::size_t index(TreeCacheSection section) { return static_cast<std::size_t>(section); }
@@ -55,6 +58,15 @@ class TreeCacheFile {
   }
   template <typename T>
   SharedArray<T> array(TreeCacheSection section) const;
+  /// Arrays of a mesh whose first section is `vertices`, not checked yet.
+  TriangleMesh::Arrays meshArrays(TreeCacheSection vertices, const std::array<double, 6>& bounds,
+                                  const std::array<std::uint32_t, 4>& topology) const;
+  /// Mesh of the hierarchy and its deviation; no value if it is damaged.
+  struct Searched {
+    TriangleMesh mesh;
+    double deviation = 0.0;
+  };
+  std::optional<Searched> searched(const TriangleMesh& mesh) const;
   std::optional<MeshBuildReport> report(const MeshFacts& facts) const;
 
   std::shared_ptr<const MappedFile> file_;

@@ -31,9 +31,24 @@ constexpr std::array<std::uint32_t, kTreeCacheSections> kElementBytes{
     sizeof(NormalConeTree::EdgeLeaf),
     sizeof(NormalConeTree::FaceLeaf),
     sizeof(std::uint32_t),
+    sizeof(SearchedFacts),
+    sizeof(glm::dvec3),
+    sizeof(Triangle),
+    sizeof(MeshEdge),
+    sizeof(std::uint32_t),
+    sizeof(std::array<std::uint32_t, 3>),
+    sizeof(std::uint32_t),
+    sizeof(std::uint32_t),
 };
 
 static_assert(sizeof(kGeometryFingerprint) == 64 + 1);
+
+std::array<double, 6> numbersOf(const Aabb& box) {
+  return {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z};
+}
+std::array<std::uint32_t, 4> numbersOf(const MeshTopology& topology) {
+  return {topology.openEdges, topology.nonManifoldEdges, topology.inconsistentEdges, topology.components};
+}
 
 std::size_t aligned(std::size_t offset) {
   return (offset + kTreeCacheAlignment - 1) / kTreeCacheAlignment * kTreeCacheAlignment;
@@ -81,10 +96,8 @@ std::uint64_t treeCacheChecksum(TreeCacheHeader header, std::span<const std::byt
 }
 
 MeshFacts meshFactsOf(const TriangleMesh& mesh, const MeshBuildReport& report, const MassProperties& mass) {
-  const Aabb& box = mesh.bounds();
-  const MeshTopology& topology = mesh.topology();
   MeshFacts facts{};
-  facts.bounds = {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z};
+  facts.bounds = numbersOf(mesh.bounds());
   facts.mass = {mass.volume, mass.centre.x, mass.centre.y, mass.centre.z};
   for (int k = 0; k < 9; ++k)
     facts.mass[4 + static_cast<std::size_t>(k)] = mass.inertia[k / 3][k % 3];
@@ -92,9 +105,13 @@ MeshFacts meshFactsOf(const TriangleMesh& mesh, const MeshBuildReport& report, c
   facts.counts = {report.weldedVertices, report.degenerateFaces, report.duplicateFaces,
                   report.nonFiniteFaces, report.swappedFaces,    report.stitchedEdges};
   facts.turnedInsideOut = report.turnedInsideOut ? 1 : 0;
-  facts.topology = {topology.openEdges, topology.nonManifoldEdges, topology.inconsistentEdges,
-                    topology.components};
+  facts.topology = numbersOf(mesh.topology());
+  facts.coordinateRounding = report.coordinateRounding;
   return facts;
+}
+
+SearchedFacts searchedFactsOf(const NormalConeTree& tree) {
+  return {numbersOf(tree.mesh().bounds()), numbersOf(tree.mesh().topology()), tree.deviation()};
 }
 
 }  // namespace nearfit

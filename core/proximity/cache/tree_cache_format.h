@@ -20,12 +20,13 @@
 ///     sections in the order of TreeCacheSection, each at a multiple of 64 bytes, zeros between
 ///
 /// Sections are the arrays as they lie in memory, so that a mapped file is used in place. In a file without a
-/// hierarchy, the sections from TreeFacts on are empty.
+/// hierarchy, the sections from TreeFacts on are empty. The sections from SearchedFacts on hold the mesh of the
+/// hierarchy, with its flats merged; they are empty if that is the mesh itself.
 namespace nearfit {
 
 /// Increases by one whenever this layout or the meaning of a field changes. What import and building compute
 /// needs no number: the header carries a fingerprint of their sources (see core/CMakeLists.txt).
-constexpr std::uint32_t kTreeCacheVersion = 3;
+constexpr std::uint32_t kTreeCacheVersion = 4;
 
 /// Bytes of a section that share a checksum: enough work for a thread, and enough blocks in a large file.
 constexpr std::size_t kTreeCacheBlock = std::size_t{2} << 20;
@@ -50,8 +51,16 @@ enum class TreeCacheSection : std::uint8_t {
   EdgeLeaves,
   FaceLeaves,
   Neighbours,
+  SearchedFacts,
+  SearchedVertices,
+  SearchedTriangles,
+  SearchedEdges,
+  SearchedEdgeFaces,
+  SearchedTriangleEdges,
+  SearchedVertexEdges,
+  SearchedVertexFirstEdge,
 };
-constexpr std::size_t kTreeCacheSections = 16;
+constexpr std::size_t kTreeCacheSections = 24;
 
 /// What a mesh has besides its arrays.
 struct MeshFacts {
@@ -60,8 +69,9 @@ struct MeshFacts {
   std::array<std::uint64_t, 6> counts;  ///< Counts of MeshBuildReport, in its order.
   std::array<std::uint32_t, 4> topology;
   std::uint32_t massBasis, turnedInsideOut;
+  double coordinateRounding;  ///< Of MeshBuildReport [m].
 };
-static_assert(sizeof(MeshFacts) == 224);
+static_assert(sizeof(MeshFacts) == 232);
 
 /// What a hierarchy has besides its arrays.
 struct TreeFacts {
@@ -70,6 +80,14 @@ struct TreeFacts {
   std::uint64_t isSolid;             ///< 0 or 1, see isSolidThroughout.
 };
 static_assert(sizeof(TreeFacts) == 64);
+
+/// What the mesh of a hierarchy has besides its arrays.
+struct SearchedFacts {
+  std::array<double, 6> bounds;  ///< Lower, upper.
+  std::array<std::uint32_t, 4> topology;
+  double deviation;  ///< NormalConeTree::deviation() [m].
+};
+static_assert(sizeof(SearchedFacts) == 72);
 
 /// Header of a cache file.
 struct TreeCacheHeader {
@@ -84,7 +102,7 @@ struct TreeCacheHeader {
   std::uint64_t checksum;                                ///< See treeCacheChecksum().
   std::array<char, 32> reserved;
 };
-static_assert(sizeof(TreeCacheHeader) == 384);
+static_assert(sizeof(TreeCacheHeader) == 480);
 
 /// Where each section and its blocks begin, as follows from the numbers of elements.
 struct TreeCacheLayout {
@@ -106,6 +124,9 @@ std::optional<TreeCacheLayout> treeCacheLayout(
 /// Returns the checksum that belongs in the header.
 /// @param blockChecksums  All bytes between the header and the first section.
 std::uint64_t treeCacheChecksum(TreeCacheHeader header, std::span<const std::byte> blockChecksums) noexcept;
+
+/// Collects what the mesh of a hierarchy has besides its arrays.
+SearchedFacts searchedFactsOf(const NormalConeTree& tree);
 
 /// Collects what a mesh has besides its arrays.
 MeshFacts meshFactsOf(const TriangleMesh& mesh, const MeshBuildReport& report, const MassProperties& mass);

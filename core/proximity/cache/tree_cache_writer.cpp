@@ -44,10 +44,7 @@ class Gatherer {
   std::size_t next_ = 0;
 };
 
-void addMesh(Gatherer& out, const MeshFacts& facts, const std::string& warnings, const TriangleMesh& mesh) {
-  const TriangleMesh::Arrays& m = mesh.arrays();
-  out.add(std::span(&facts, 1));
-  out.add(std::span(warnings.data(), warnings.size()));
+void addArrays(Gatherer& out, const TriangleMesh::Arrays& m) {
   out.add(m.vertices);
   out.add(m.triangles);
   out.add(m.edges);
@@ -57,11 +54,10 @@ void addMesh(Gatherer& out, const MeshFacts& facts, const std::string& warnings,
   out.add(m.vertexFirstEdge);
 }
 
-TreeFacts treeFactsOf(const CachedTree& cached) {
-  const NormalConeTree::Arrays& tree = cached.tree.arrays();
-  return {{tree.centre.x, tree.centre.y, tree.centre.z, tree.size},
-          {tree.all.vertices, tree.all.edges, tree.all.faces},
-          cached.isSolid ? 1U : 0U};
+void addMesh(Gatherer& out, const MeshFacts& facts, const std::string& warnings, const TriangleMesh& mesh) {
+  out.add(std::span(&facts, 1));
+  out.add(std::span(warnings.data(), warnings.size()));
+  addArrays(out, mesh.arrays());
 }
 
 void addTree(Gatherer& out, const TreeFacts& facts, const NormalConeTree::Arrays& tree) {
@@ -72,6 +68,17 @@ void addTree(Gatherer& out, const TreeFacts& facts, const NormalConeTree::Arrays
   out.add(tree.edges);
   out.add(tree.faces);
   out.add(tree.neighbours);
+}
+/// True if two meshes share their arrays.
+bool isSame(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.vertices().data() == b.vertices().data() && a.triangles().data() == b.triangles().data();
+}
+
+TreeFacts treeFactsOf(const CachedTree& cached) {
+  const NormalConeTree::Arrays& tree = cached.tree.arrays();
+  return {{tree.centre.x, tree.centre.y, tree.centre.z, tree.size},
+          {tree.all.vertices, tree.all.edges, tree.all.faces},
+          cached.isSolid ? 1U : 0U};
 }
 
 /// Returns the header and checksums.
@@ -113,7 +120,16 @@ std::uint64_t writeTreeCacheFile(const std::filesystem::path& file, const TreeCa
   const TreeFacts treeFacts = tree != nullptr ? treeFactsOf(*tree) : TreeFacts{};
   Gatherer gathered;
   addMesh(gathered, meshFacts, warnings, mesh.mesh);
-  if (tree != nullptr) addTree(gathered, treeFacts, tree->tree.arrays());
+  SearchedFacts searchedFacts{};
+  if (tree != nullptr) {
+    addTree(gathered, treeFacts, tree->tree.arrays());
+    const TriangleMesh& searched = tree->tree.mesh();
+    if (!isSame(searched, mesh.mesh)) {
+      searchedFacts = searchedFactsOf(tree->tree);
+      gathered.add(std::span<const SearchedFacts>(&searchedFacts, 1));
+      addArrays(gathered, searched.arrays());
+    }
+  }
   TreeCacheHeader header = treeCacheHeader(std::span<const char, 64>(key.sha256), key.metresPerUnit);
   header.counts = gathered.counts;
   const std::optional<TreeCacheLayout> layout = treeCacheLayout(header.counts);

@@ -28,6 +28,9 @@ NormalConeTree::NormalConeTree(const TriangleMesh& mesh, const ProgressCallback&
                                AcceptanceRule rule)
     : arrays_(NormalConeTreeBuilder(mesh, progress, rule).build()) {}
 
+NormalConeTree::NormalConeTree(const FlatMesh& merged, const ProgressCallback& progress)
+    : arrays_(NormalConeTreeBuilder(merged, progress).build()) {}
+
 std::size_t NormalConeTree::byteSize() const noexcept {
   return arrays_.nodes.byteSize() + arrays_.positions.byteSize() + arrays_.vertices.byteSize() +
          arrays_.edges.byteSize() + arrays_.faces.byteSize() + arrays_.neighbours.byteSize() +

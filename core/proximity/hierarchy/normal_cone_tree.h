@@ -10,6 +10,7 @@
 
 #include "core/base/progress.h"
 #include "core/base/shared_array.h"
+#include "core/mesh/flat_mesh.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/proximity/lmd.h"
 
@@ -99,12 +100,16 @@ class NormalConeTree {
     SharedArray<std::uint32_t> neighbours;
     AcceptanceRule rule = AcceptanceRule::Exact;
     SharedArray<glm::dvec3> walls{};  ///< Only for AcceptanceRule::NormalSpan: see NormalSpanFeatures.
+    TriangleMesh mesh{};
+    double deviation = 0.0;
   };
 
   /// Builds on all processors (see parallelFor). Throws Cancelled, and Error for 2^29 edges or more.
   /// @param rule  Rule by which queries judge this body's feature of a pair.
   explicit NormalConeTree(const TriangleMesh& mesh, const ProgressCallback& progress = {},
                           AcceptanceRule rule = AcceptanceRule::Exact);
+  /// The same for a mesh with merged flats.
+  explicit NormalConeTree(const FlatMesh& merged, const ProgressCallback& progress = {});
   /// Takes over the arrays of another hierarchy; checks nothing.
   explicit NormalConeTree(Arrays arrays) : arrays_(std::move(arrays)) {}
 
@@ -117,6 +122,12 @@ class NormalConeTree {
     return static_cast<FeatureKind>(child >> 29 & 3U);
   }
   static std::uint32_t leafIndex(std::uint32_t child) noexcept { return child & 0x1FFFFFFFU; }
+
+  /// The mesh whose features these are. Leaves refer to its vertices, edges and triangles.
+  const TriangleMesh& mesh() const noexcept { return arrays_.mesh; }
+  /// No point of mesh() is farther than this from the mesh that it was made from, nor the other way round [m]:
+  /// FlatMesh::deviation.
+  double deviation() const noexcept { return arrays_.deviation; }
 
   /// True if no feature of the mesh can carry a minimum.
   bool isEmpty() const noexcept { return arrays_.nodes.empty(); }
@@ -150,7 +161,7 @@ class NormalConeTree {
   /// Counts of all features of the mesh.
   FeatureCounts allFeatures() const noexcept { return arrays_.all; }
   const Arrays& arrays() const noexcept { return arrays_; }
-  /// Memory that the arrays hold, or map [bytes].
+  /// Memory that the arrays hold, or map, without mesh() [bytes].
   std::size_t byteSize() const noexcept;
 
  private:

@@ -54,7 +54,9 @@ NormalConeTree::Arrays NormalConeTreeBuilder::build() {
           std::move(tree_.faces),
           std::move(features_.neighbours),
           rule_,
-          std::move(walls_)};
+          std::move(walls_),
+          mesh_,
+          deviation_};
 }
 
 void NormalConeTreeBuilder::findFeaturesOfMesh() {
@@ -72,7 +74,7 @@ void NormalConeTreeBuilder::findFeaturesOfMesh() {
     features_ = std::move(found.features);
     walls_ = std::move(found.walls);
   } else {
-    features_ = findFeatures(mesh_, report);
+    features_ = findFeatures(mesh_, report, flatOf_);
   }
 }
 

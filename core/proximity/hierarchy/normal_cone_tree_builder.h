@@ -24,6 +24,9 @@ class NormalConeTreeBuilder {
  public:
   NormalConeTreeBuilder(const TriangleMesh& mesh, const ProgressCallback& progress, AcceptanceRule rule)
       : mesh_(mesh), progress_(progress, 1.0), rule_(rule) {}
+  /// @param merged  Kept by reference.
+  NormalConeTreeBuilder(const FlatMesh& merged, const ProgressCallback& progress)
+      : mesh_(merged.mesh), progress_(progress, 1.0), flatOf_(merged.flatOf), deviation_(merged.deviation) {}
   /// For these features of the mesh in place of those that findFeatures() finds.
   NormalConeTreeBuilder(const TriangleMesh& mesh, const ProgressCallback& progress, MeshFeatures features)
       : mesh_(mesh), progress_(progress, 1.0), features_(std::move(features)), hasFeatures_(true) {}
@@ -73,6 +76,8 @@ class NormalConeTreeBuilder {
   const TriangleMesh& mesh_;
   SharedProgress progress_;
   AcceptanceRule rule_ = AcceptanceRule::Exact;
+  std::span<const std::uint32_t> flatOf_;
+  double deviation_ = 0.0;
   double splitsReported_ = 0.0;
   Growing tree_;
   MeshFeatures features_;

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/proximity/hierarchy/normal_cone_tree.h"
+#include "core/proximity/overlap/interference.h"
 #include "core/proximity/query/segment_kernel.h"
 
 namespace nearfit {

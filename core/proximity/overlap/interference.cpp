@@ -91,13 +91,13 @@ std::optional<std::uint32_t> pieceInside(const PlacedMesh& inner, const MeshComp
 
 }  // namespace
 
-Interference findInterference(const MeshBody& scene, const MeshBody& part,
+Interference findInterference(const NormalConeTree& scene, const NormalConeTree& part,
                               const RigidTransform& sceneFromPart) {
   if (!sceneFromPart.isFinite()) throw UsageError("pose", "it is not finite", "give finite numbers");
   const PlacedMesh placedScene(scene, nullptr), placedPart(part, &sceneFromPart);
   if (const auto meeting = MeetingSearch(placedScene, placedPart).find(sceneFromPart)) return *meeting;
 
-  const MeshComponents scenePieces = piecesOf(scene.mesh), partPieces = piecesOf(part.mesh);
+  const MeshComponents scenePieces = piecesOf(scene.mesh()), partPieces = piecesOf(part.mesh());
   if (const auto triangle = pieceInside(placedPart, partPieces, PlacedSolid(placedScene, scenePieces))) {
     return {InterferenceKind::PartInside, Interference::kNone, *triangle};
   }

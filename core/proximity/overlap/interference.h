@@ -4,17 +4,10 @@
 #include <limits>
 
 #include "core/math/rigid_transform.h"
-#include "core/mesh/triangle_mesh.h"
 
 namespace nearfit {
 
 class NormalConeTree;
-
-/// A mesh and the hierarchy built from it, by reference.
-struct MeshBody {
-  const TriangleMesh& mesh;
-  const NormalConeTree& tree;
-};
 
 /// How two bodies meet.
 enum class InterferenceKind : std::uint8_t {
@@ -42,11 +35,13 @@ struct Interference {
 /// triangles run one way along each edge as the other; one wound the other way inside another is a cavity.
 /// Open and inconsistently oriented components contain nothing.
 ///
-/// @param scene, part    Each with its own hierarchy; an empty mesh meets nothing.
+/// The answer is that of the hierarchies' meshes; their triangles are named.
+///
+/// @param scene, part    An empty mesh meets nothing.
 /// @param sceneFromPart  Unit quaternion. Throws UsageError if it is not finite.
 /// Stops at the first pair of triangles that meet. Allocates, and CGAL's exact numbers are slow where needed:
 /// not for the servo thread. O(log n) per component, besides the search for pairs of triangles.
-Interference findInterference(const MeshBody& scene, const MeshBody& part,
+Interference findInterference(const NormalConeTree& scene, const NormalConeTree& part,
                               const RigidTransform& sceneFromPart);
 
 }  // namespace nearfit

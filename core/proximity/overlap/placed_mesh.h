@@ -6,40 +6,41 @@
 #include "core/exact/triangle_predicates.h"
 #include "core/math/aabb.h"
 #include "core/math/rigid_transform.h"
-#include "core/proximity/overlap/interference.h"
+#include "core/mesh/triangle_mesh.h"
+#include "core/proximity/hierarchy/normal_cone_tree.h"
 
 namespace nearfit {
 
 /// Mesh of a body at a pose in some frame, with its vertices rounded to double precision there.
 class PlacedMesh {
  public:
-  /// @param body           Kept by reference.
+  /// @param tree           Of the mesh; kept by reference.
   /// @param frameFromMesh  Kept by pointer; null for the mesh's own frame, where nothing is rounded.
-  PlacedMesh(const MeshBody& body, const RigidTransform* frameFromMesh)
-      : body_(body), frameFromMesh_(frameFromMesh), loose_(facesNotIn(body)) {}
+  PlacedMesh(const NormalConeTree& tree, const RigidTransform* frameFromMesh)
+      : tree_(tree), frameFromMesh_(frameFromMesh), loose_(facesNotIn(tree)) {}
 
-  const TriangleMesh& mesh() const noexcept { return body_.mesh; }
-  const NormalConeTree& tree() const noexcept { return body_.tree; }
+  const TriangleMesh& mesh() const noexcept { return tree_.mesh(); }
+  const NormalConeTree& tree() const noexcept { return tree_; }
   /// Indices of triangles too thin to have a face in the hierarchy.
   const std::vector<std::uint32_t>& looseTriangles() const noexcept { return loose_; }
 
   /// Position of a mesh vertex in the pose's frame [m].
   glm::dvec3 vertex(std::uint32_t v) const noexcept {
-    const glm::dvec3& p = body_.mesh.vertices()[v];
+    const glm::dvec3& p = mesh().vertices()[v];
     return frameFromMesh_ == nullptr ? p : frameFromMesh_->applyToPoint(p);
   }
   /// Corners of a mesh triangle in the pose's frame [m].
   TriangleCorners corners(std::uint32_t triangle) const noexcept {
-    const Triangle& t = body_.mesh.triangles()[triangle];
+    const Triangle& t = mesh().triangles()[triangle];
     return {vertex(t[0]), vertex(t[1]), vertex(t[2])};
   }
   /// Maps a point from the pose's frame to the hierarchy's centred frame, to rounding.
   glm::dvec3 toTree(const glm::dvec3& point) const noexcept;
 
  private:
-  static std::vector<std::uint32_t> facesNotIn(const MeshBody& body);
+  static std::vector<std::uint32_t> facesNotIn(const NormalConeTree& tree);
 
-  const MeshBody& body_;
+  const NormalConeTree& tree_;
   const RigidTransform* frameFromMesh_;  ///< Null: the mesh's own frame, without rounding.
   std::vector<std::uint32_t> loose_;
 };

@@ -14,8 +14,8 @@ namespace {
 /// Finds the features of a mesh that can be touched, and their owners.
 class Owners {
  public:
-  Owners(const TriangleMesh& mesh, const NormalConeTree& tree)
-      : mesh_(mesh), isInTree_(mesh.triangles().size(), false) {
+  explicit Owners(const NormalConeTree& tree)
+      : mesh_(tree.mesh()), isInTree_(mesh_.triangles().size(), false) {
     for (const NormalConeTree::FaceLeaf& leaf : tree.faces())
       isInTree_[leaf.face] = true;
   }
@@ -88,7 +88,6 @@ class Owners {
 
 }  // namespace
 
-UnsidedSurface::UnsidedSurface(const TriangleMesh& mesh, const NormalConeTree& tree)
-    : mesh_(mesh), tree_(tree), owned_(Owners(mesh, tree).find()) {}
+UnsidedSurface::UnsidedSurface(const NormalConeTree& tree) : tree_(tree), owned_(Owners(tree).find()) {}
 
 }  // namespace nearfit

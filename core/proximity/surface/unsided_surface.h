@@ -14,10 +14,10 @@ namespace nearfit {
 /// copies share the mesh and the hierarchy. Immutable.
 class UnsidedSurface {
  public:
-  /// Copies both, which share their arrays. O(n).
-  UnsidedSurface(const TriangleMesh& mesh, const NormalConeTree& tree);
+  /// Of the hierarchy's mesh. Copies the hierarchy, which shares its arrays. O(n).
+  explicit UnsidedSurface(const NormalConeTree& tree);
 
-  const TriangleMesh& mesh() const noexcept { return mesh_; }
+  const TriangleMesh& mesh() const noexcept { return tree_.mesh(); }
   const NormalConeTree& tree() const noexcept { return tree_; }
   /// True if the triangle owns the vertex at one of its corners (0 to 2).
   bool hasVertex(std::uint32_t triangle, std::size_t corner) const noexcept {
@@ -31,7 +31,6 @@ class UnsidedSurface {
   }
 
  private:
-  TriangleMesh mesh_;
   NormalConeTree tree_;
   std::vector<std::uint8_t> owned_;  ///< By triangle: bits for its corners, then for its sides.
 };

@@ -22,8 +22,7 @@ const glm::dvec3 kDown(0.0, 0.0, -1.0);
 
 bool meets(const Scene& scene, PartId a, PartId b, const RigidTransform& worldFromB) {
   const Part &fixed = *scene.find(a), &moving = *scene.find(b);
-  return findInterference({fixed.geometry->mesh, fixed.geometry->tree()},
-                          {moving.geometry->mesh, moving.geometry->tree()},
+  return findInterference(fixed.geometry->tree(), moving.geometry->tree(),
                           (fixed.worldFromPart.inverse() * worldFromB).normalized())
              .kind != InterferenceKind::Disjoint;
 }

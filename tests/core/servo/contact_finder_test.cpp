@@ -20,10 +20,18 @@ RigidTransform raised(double z) {
   return {{1, 0, 0, 0}, {0.003, 0.002, z}};
 }
 
-/// Two open sheets of thousands of triangles, all of them near.
+/// An open sheet of thousands of triangles in slight waves: no flats, whose triangles are merged.
+TriangleMesh waved(std::uint32_t divisions, double height) {
+  const TriangleMesh flat = test::squareMesh(1.0, divisions);
+  std::vector<glm::dvec3> vertices;
+  for (const glm::dvec3& p : flat.vertices())
+    vertices.emplace_back(p.x, p.y, height * std::sin(20.0 * p.x));
+  return {std::move(vertices), {flat.triangles().begin(), flat.triangles().end()}};
+}
+
+/// Two such sheets, one along the other, all of whose triangles are near.
 test::ProxyWalk sheets() {
-  return test::ProxyWalk({{test::squareMesh(1.0, 100), {}}}, test::squareMesh(1.0, 100), raised(0.1),
-                         {1e-3, 0.0});
+  return test::ProxyWalk({{waved(100, 1e-3), {}}}, waved(100, 1e-3), raised(0.1), {1e-3, 0.0});
 }
 
 TEST(ContactFinder, ATickAmongOpenSheetsEndsWithinItsWork) {
@@ -49,11 +57,7 @@ TEST(ContactFinder, ATickAmongOpenSheetsEndsWithinItsWork) {
 
 /// Waves in phase, one above the other: their boxes overlap down to the leaves.
 TriangleMesh waves() {
-  const TriangleMesh flat = test::squareMesh(1.0, 18);
-  std::vector<glm::dvec3> vertices;
-  for (const glm::dvec3& p : flat.vertices())
-    vertices.emplace_back(p.x, p.y, 0.02 * std::sin(20.0 * p.x));
-  return {std::move(vertices), {flat.triangles().begin(), flat.triangles().end()}};
+  return waved(18, 0.02);
 }
 
 // A search that was left off with its nodes still overlapping says of nothing that it is away. Taken for an

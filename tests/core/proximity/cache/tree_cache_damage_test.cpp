@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/mesh/flat_mesh.h"
 #include "core/proximity/cache/tree_cache.h"
 #include "tests/support/cached_meshes.h"
 #include "tests/support/limited_process.h"
@@ -29,12 +30,18 @@ const TreeCacheKey kKey{std::string(64, 'a'), 0.001};
 
 enum class Taken { Nothing, Mesh, Both };
 
+/// A star, and a box whose faces are cut finely: the hierarchy has a mesh of its own, with fewer triangles.
+TriangleMesh starAndBox() {
+  return test::joined(test::starMesh(3, 1.0, 3, 0.3),
+                      test::subdivided(test::boxMesh({1.0, 1.0, 1.0}, {3.0, 0.0, 0.0}), 2));
+}
+
 /// A cached mesh with its hierarchy, to be damaged again and again.
 class TreeCacheDamage : public testing::Test {
  protected:
   TreeCacheDamage()
-      : mesh_(test::cachedMeshOf(test::starMesh(3, 1.0, 3, 0.3))),
-        tree_{NormalConeTree(mesh_.mesh), true},
+      : mesh_(test::cachedMeshOf(starAndBox())),
+        tree_{NormalConeTree(mergeFlats(mesh_.mesh, 0.0)), true},
         cache_({folder_.path(), std::uint64_t{1} << 40, 0}) {
     cache_.store(kKey, mesh_, &tree_);
     file_ = test::onlyFileIn(folder_.path());
@@ -50,7 +57,7 @@ class TreeCacheDamage : public testing::Test {
     const auto file = cache_.find(kKey);
     const auto mesh = file ? file->mesh() : std::nullopt;
     if (!mesh) return Taken::Nothing;
-    const auto tree = file->tree();
+    const auto tree = file->tree(mesh->mesh);
     if (!tree) return Taken::Mesh;
     return Taken::Both;
   }
@@ -167,10 +174,14 @@ TEST_F(TreeCacheDamage, AbsurdCountsTakeNoMemory) {
 }
 
 TEST_F(TreeCacheDamage, IndicesOutOfRangeAreFoundWhateverTheChecksumsSay) {
-  const auto damaged = {Section::Triangles,     Section::Edges,       Section::EdgeFaces,
-                        Section::TriangleEdges, Section::VertexEdges, Section::VertexFirstEdge,
-                        Section::VertexLeaves,  Section::EdgeLeaves,  Section::FaceLeaves,
-                        Section::Neighbours};
+  const auto damaged = {Section::Triangles,           Section::Edges,
+                        Section::EdgeFaces,           Section::TriangleEdges,
+                        Section::VertexEdges,         Section::VertexFirstEdge,
+                        Section::VertexLeaves,        Section::EdgeLeaves,
+                        Section::FaceLeaves,          Section::Neighbours,
+                        Section::SearchedTriangles,   Section::SearchedEdges,
+                        Section::SearchedEdgeFaces,   Section::SearchedTriangleEdges,
+                        Section::SearchedVertexEdges, Section::SearchedVertexFirstEdge};
   expectTrue([&] {
     std::mt19937_64 random(3);
     for (const Section section : damaged) {
@@ -229,6 +240,14 @@ TEST_F(TreeCacheDamage, NumbersThatAreNoneAreFoundWhateverTheChecksumsSay) {
               Taken::Nothing);
   EXPECT_EQ(takenAfter([&](auto& image) { image.set(Section::Positions, 8 * 17, infinity); }), Taken::Mesh);
   EXPECT_EQ(takenAfter([&](auto& image) { image.set(Section::TreeFacts, 24, nan); }), Taken::Mesh);
+  EXPECT_EQ(takenAfter([&](auto& image) { image.set(Section::SearchedVertices, 8 * 17, nan); }), Taken::Mesh);
+  // Bounds and deviation.
+  for (const std::size_t number : {0U, 5U, 8U})
+    EXPECT_EQ(takenAfter([&](auto& image) { image.set(Section::SearchedFacts, 8 * number, nan); }),
+              Taken::Mesh);
+  EXPECT_EQ(takenAfter([&](auto& image) { image.set(Section::SearchedFacts, 64, -1.0); }), Taken::Mesh);
+  // The rounding of the coordinates.
+  EXPECT_EQ(takenAfter([&](auto& image) { image.set(Section::MeshFacts, 224, nan); }), Taken::Nothing);
   // Solid or not: the last number.
   for (const std::uint64_t solid : {std::uint64_t{2}, ~std::uint64_t{0}})
     EXPECT_EQ(takenAfter([&](auto& image) { image.set(Section::TreeFacts, 56, solid); }), Taken::Mesh);

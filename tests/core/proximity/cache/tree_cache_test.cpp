@@ -46,8 +46,9 @@ TEST(TreeCache, WhatComesOutIsBitForBitWhatWentIn) {
     const auto file = cache.find(key('a'));
     ASSERT_TRUE(file && file->hasTree());
     const auto mapped = file->mesh();
-    const auto mappedTree = file->tree();
-    ASSERT_TRUE(mapped && mappedTree);
+    ASSERT_TRUE(mapped);
+    const auto mappedTree = file->tree(mapped->mesh);
+    ASSERT_TRUE(mappedTree);
     EXPECT_TRUE(test::areSame(*mapped, cached));
     EXPECT_TRUE(test::areSame(mappedTree->tree, tree.tree));
     EXPECT_EQ(mappedTree->isSolid, tree.isSolid);
@@ -61,7 +62,8 @@ TEST(TreeCache, MappedHierarchiesGiveTheSameMinimaAlsoWhenTheFileIsGone) {
   const CachedTree scene{NormalConeTree(pair.scene), true}, part{NormalConeTree(pair.part), true};
   cache.store(key('a'), test::cachedMeshOf(pair.scene), &scene);
   cache.store(key('b'), test::cachedMeshOf(pair.part), &part);
-  const auto mappedScene = cache.find(key('a'))->tree(), mappedPart = cache.find(key('b'))->tree();
+  const auto mappedScene = cache.find(key('a'))->tree(pair.scene),
+             mappedPart = cache.find(key('b'))->tree(pair.part);
   ASSERT_TRUE(mappedScene && mappedPart);
   EXPECT_EQ(cache.clear().files, 2U);
   std::mt19937_64 random(7);
@@ -89,11 +91,11 @@ TEST(TreeCache, MeshAloneIsKeptUntilItsHierarchyComes) {
   const auto meshOnly = cache.find(key('a'));
   ASSERT_TRUE(meshOnly && meshOnly->mesh());
   EXPECT_FALSE(meshOnly->hasTree());
-  EXPECT_FALSE(meshOnly->tree());
+  EXPECT_FALSE(meshOnly->tree(cached.mesh));
   const CachedTree tree{NormalConeTree(cached.mesh), true};
   ASSERT_TRUE(cache.store(key('a'), *meshOnly->mesh(), &tree));
   EXPECT_EQ(cache.usage().files, 1U);
-  ASSERT_TRUE(cache.find(key('a'))->tree());
+  ASSERT_TRUE(cache.find(key('a'))->tree(cached.mesh));
   EXPECT_TRUE(test::areSame(*cache.find(key('a'))->mesh(), cached));
 }
 
@@ -195,7 +197,7 @@ TEST(TreeCache, ThreadsThatWriteReadAndRemoveAtOnceSeeWholeMeshesOnly) {
       const auto file = cache.find(name);
       if (!file) continue;
       const auto mesh = file->mesh();
-      const auto tree = file->tree();
+      const auto tree = mesh ? file->tree(mesh->mesh) : std::nullopt;
       ++found;
       if (!mesh || !tree || !test::areSame(*mesh, meshes[which]) ||
           !test::areSame(tree->tree, trees[which].tree))

@@ -29,7 +29,7 @@ struct Built {
 };
 
 Kind between(const Built& scene, const Built& part, const RigidTransform& pose) {
-  return findInterference({scene.mesh, scene.tree}, {part.mesh, part.tree}, pose).kind;
+  return findInterference(scene.tree, part.tree, pose).kind;
 }
 
 RigidTransform posed(const glm::dvec3& translation, const glm::dvec3& angles) {

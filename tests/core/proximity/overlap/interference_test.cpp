@@ -30,11 +30,10 @@ struct Built {
   explicit Built(TriangleMesh m) : mesh(std::move(m)), tree(mesh) {}
   TriangleMesh mesh;
   NormalConeTree tree;
-  MeshBody body() const { return {mesh, tree}; }
 };
 
 Interference between(const Built& scene, const Built& part, const RigidTransform& pose = {}) {
-  return findInterference(scene.body(), part.body(), pose);
+  return findInterference(scene.tree, part.tree, pose);
 }
 
 /// The witnesses must be what the answer says, by rational arithmetic.

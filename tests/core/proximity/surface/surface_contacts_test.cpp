@@ -24,7 +24,7 @@ using test::BodyPair;
 constexpr std::uint64_t kAnyWork = std::numeric_limits<std::uint64_t>::max();
 
 UnsidedSurface surfaceOf(const TriangleMesh& mesh) {
-  return {mesh, NormalConeTree(mesh)};
+  return UnsidedSurface(NormalConeTree(mesh));
 }
 
 /// Listed at a pose and tested there; the bound holds for either.

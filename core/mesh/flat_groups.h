@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace nearfit {
+
+/// Number of a flat that stands for none.
+constexpr std::uint32_t kNoFlat = std::numeric_limits<std::uint32_t>::max();
+
+/// Plane of a flat: the points p with dot(normal, p - origin) = 0. The normal is unit and points outward.
+struct FlatPlane {
+  glm::dvec3 origin{0.0}, normal{0.0};
+  double height(const glm::dvec3& p) const noexcept {
+    const glm::dvec3 w = p - origin;
+    return normal.x * w.x + normal.y * w.y + normal.z * w.z;
+  }
+};
+
+/// The flats of a mesh: sets of at least two triangles, connected through ordinary edges, whose corners all lie
+/// within a tolerance of one plane and that face the same side of it.
+struct FlatGroups {
+  std::vector<std::uint32_t> flatOf;  ///< By triangle: its flat, or kNoFlat.
+  std::vector<FlatPlane> planes;      ///< By flat.
+};
+
+/// Finds the flats of a mesh, large triangles first. About O(n log n); allocates.
+/// @param tolerance   Max distance of a corner from its flat's plane [m]; > 0.
+/// @param onProgress  Called now and then with the fraction done; may throw to stop the work. May be empty.
+FlatGroups findFlats(const TriangleMesh& mesh, double tolerance,
+                     const std::function<void(double fraction)>& onProgress = {});
+
+}  // namespace nearfit
