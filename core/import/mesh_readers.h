@@ -16,7 +16,8 @@ constexpr std::size_t kStlHeaderBytes = 84, kStlFacetBytes = 50;
 /// Number of facets according to the header of a binary STL file. `bytes` has at least kStlHeaderBytes.
 std::uint32_t stlFacetCount(std::span<const char> bytes);
 
-/// Reads the facets of a binary STL file, each with three vertices of its own; MeshBuilder welds them. Throws FileError, Cancelled.
+/// Reads the facets of a binary STL file, each with three vertices of its own; MeshBuilder welds them. Throws
+/// FileError, Cancelled.
 ReaderResult readStlBinary(const ReaderInput& input);
 
 /// Reads the facets of all solids in an ASCII STL file. Keywords may have any case, `#` starts a comment,
