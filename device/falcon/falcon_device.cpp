@@ -27,7 +27,7 @@ DeviceLimits limits() noexcept {
 }
 
 /// Checks for cancellation before each step of a greeting, since each may wait for a silent device.
-class LinkTransport final : public FtdiTransport {
+class LinkTransport final : public falcon::FtdiTransport {
  public:
   LinkTransport(UsbLink& link, std::uint8_t in, std::uint8_t out, const std::function<bool()>& isWanted)
       : link_(link), in_(in), out_(out), isWanted_(isWanted) {}
@@ -88,7 +88,7 @@ ForceArmDevice::Opened FalconDevice::open(std::optional<UsbLink>& link, const Pr
   const ProgressCallback tell = [&](double done) { return !progress || progress(fraction = done); };
   const std::function<bool()> isWanted = [&] { return tell(fraction); };
   LinkTransport transport(*link, in, out, isWanted);
-  FtdiPort port(transport);
+  falcon::FtdiPort port(transport);
   if (!falcon::isFirmwareRunning(port))
     falcon::uploadFirmware(port, falcon::readFirmware(firmware_, name()), name(), tell);
   port.purge();
@@ -105,7 +105,7 @@ ForceArmDevice::Opened FalconDevice::open(std::optional<UsbLink>& link, const Pr
 void FalconDevice::take(std::span<const std::byte> packet, Nanoseconds arrived) noexcept {
   const std::uint64_t damagedBefore = reader_.damaged();
   // Packets that carry only the chip's status arrive all the time.
-  for (const std::byte byte : FtdiPort::contentOf(packet)) {
+  for (const std::byte byte : falcon::FtdiPort::contentOf(packet)) {
     if (const auto report = reader_.take(byte)) take(*report, arrived);
   }
   for (std::uint64_t i = damagedBefore; i < reader_.damaged(); ++i)
