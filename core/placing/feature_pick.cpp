@@ -11,7 +11,6 @@
 
 #include "core/placing/circle_fit.h"
 #include "core/placing/mesh_region.h"
-#include "core/placing/region_growth.h"
 
 namespace nearfit {
 namespace {
