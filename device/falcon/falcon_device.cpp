@@ -20,7 +20,7 @@ DeviceLimits limits() noexcept {
   DeviceLimits limits;
   limits.maxForce = 9.0;
   limits.maxTorque = 0.0;
-  limitSlewByMost(limits);
+  limitSlewByMax(limits);
   limits.damping = 0.5;
   limits.leastMass = 0.15;
   return limits;

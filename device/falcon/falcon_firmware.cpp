@@ -92,13 +92,13 @@ class Told {
  public:
   explicit Told(const ProgressCallback& progress) : progress_(progress) {}
   void tell(std::size_t done, std::size_t all) {
-    most_ = std::max(most_, static_cast<double>(done) / static_cast<double>(all));
-    if (progress_ && !progress_(most_)) throw Cancelled();
+    max_ = std::max(max_, static_cast<double>(done) / static_cast<double>(all));
+    if (progress_ && !progress_(max_)) throw Cancelled();
   }
 
  private:
   const ProgressCallback& progress_;
-  double most_ = 0.0;
+  double max_ = 0.0;
 };
 
 std::optional<Failure> sendBlocks(FtdiPort& port, std::span<const std::byte> firmware, Told& told) {

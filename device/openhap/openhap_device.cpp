@@ -81,7 +81,7 @@ DeviceInfo OpenHapDevice::info() const {
   DeviceLimits& limits = info.limits;
   limits.maxForce = capabilities_.maxForce;
   limits.maxTorque = capabilities_.rendersTorque ? capabilities_.maxTorque : 0.0;
-  limitSlewByMost(limits);
+  limitSlewByMax(limits);
   limits.damping = capabilities_.damping;
   limits.rotationalDamping = capabilities_.rotationalDamping;
   limits.leastMass = std::max<double>(limits.leastMass, capabilities_.mass);
