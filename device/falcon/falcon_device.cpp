@@ -73,7 +73,7 @@ FalconDevice::FalconDevice(UsbDescription device, std::filesystem::path firmware
     : ForceArmDevice(std::move(device), "Novint Falcon", limits(), safety), firmware_(std::move(firmware)) {}
 
 std::string FalconDevice::stateNote() const {
-  return handle().note("the position of its handle is not known: pull it all the way out, then push it in");
+  return stream().note("the position of its handle is not known: pull it all the way out, then push it in");
 }
 
 ForceArmDevice::Opened FalconDevice::open(std::optional<UsbLink>& link, const ProgressCallback& progress) {
@@ -109,11 +109,11 @@ void FalconDevice::take(std::span<const std::byte> packet, Nanoseconds arrived) 
     if (const auto report = reader_.take(byte)) take(*report, arrived);
   }
   for (std::uint64_t i = damagedBefore; i < reader_.damaged(); ++i)
-    handle().reject();
+    stream().reject();
 }
 
 void FalconDevice::take(const falcon::Report& report, Nanoseconds arrived) noexcept {
-  ArmSample& sample = handle().next();
+  ArmSample& sample = stream().next();
   sample = {};
   sample.pose.translation = last_;
   sample.buttons = report.buttons;
@@ -123,16 +123,16 @@ void FalconDevice::take(const falcon::Report& report, Nanoseconds arrived) noexc
     // A letter damaged in transit looks like this too; more than a few in a row are no accident.
     const auto place =
         falcon::isInRange(sample.joints) ? falcon::forward(sample.joints, last_) : std::nullopt;
-    if (!place) return handle().reject(DeviceFault::OutOfReach);
+    if (!place) return stream().reject(DeviceFault::OutOfReach);
     sample.pose.translation = last_ = *place;
     if (!wasHomed) velocity_.reset();
     sample.velocity = velocity_.update(last_, arrived);
-    handle().supervisor().calibrated();
+    stream().supervisor().calibrated();
   } else if (wasHomed) {
     // The device has forgotten where its handle is.
-    handle().supervisor().stop(DeviceFault::OutOfReach);
+    stream().supervisor().stop(DeviceFault::OutOfReach);
   }
-  handle().publish(arrived);
+  stream().publish(arrived);
 }
 
 std::span<const std::byte> FalconDevice::command(const glm::dvec3& force, const ArmSample& at) noexcept {
