@@ -198,7 +198,7 @@ PlaceResult placeWithDevice(PlaceJob job) {
   const Nanoseconds begin = monotonicNow();
   DeviceArmer armer(device, job.isArming);
   while (servo.loop().isRunning() && !InterruptGuard::isInterrupted() && !isOver(job, begin)) {
-    report.trouble = armer.look();
+    report.trouble = armer.poll();
     if (report.trouble.empty()) report.trouble = deviceTrouble(device);
     if (!report.trouble.empty()) break;
     servo.waitAndTake();
