@@ -39,7 +39,7 @@ void take(const MotionRow& row, PlaceResult& result, MotionWriter* writer) {
   result.maxSubSteps = std::max(result.maxSubSteps, row.subSteps);
   result.shortenedSteps += row.shortenedSteps;
   result.refusedSteps += row.refusedSteps;
-  result.releasedTicks += row.released > 0 ? 1 : 0;
+  result.overlappingTicks += row.overlapping > 0 ? 1 : 0;
   result.proxyTime.record(row.proxyTime);
   if (result.fault == ServoFault::None) result.fault = row.fault;
 }
