@@ -5,7 +5,7 @@
 
 namespace nearfit::cli {
 
-std::string DeviceArmer::look() {
+std::string DeviceArmer::poll() {
   if (!isWanted_ || hasArmed_) return {};
   const DeviceState state = device_.state();
   if (state == DeviceState::Uncalibrated && !hasTold_) {

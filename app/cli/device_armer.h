@@ -15,7 +15,7 @@ class DeviceArmer {
 
   /// Arms the device if it is ready. Prints to stderr, once, what an uncalibrated device waits for. Call it
   /// now and then on the controlling thread. Returns why the device refuses; empty if it does not.
-  std::string look();
+  std::string poll();
   bool hasArmed() const noexcept { return hasArmed_; }
 
  private:

@@ -161,7 +161,7 @@ void monitorDevice(HapticDevice& device, const MonitorOptions& options) {
   Nanoseconds next = begin + every;
   bool isThere = true;
   while (isThere && !InterruptGuard::isInterrupted()) {
-    const std::string refusal = armer.look();
+    const std::string refusal = armer.poll();
     if (!refusal.empty()) throw DeviceError(DeviceProblem::Failed, device.info().name, refusal);
     isThere = ticked.tick(wrench);
     const glm::dvec3 sent = wrench.force;

@@ -20,7 +20,7 @@
 #include "app/cli/output.h"
 #include "app/cli/rate_options.h"
 #include "core/base/error.h"
-#include "device/usb/udev_rules.h"
+#include "device/usb/usb_access.h"
 
 namespace nearfit::cli {
 namespace {

@@ -39,7 +39,7 @@ void take(const MotionRow& row, PlaceResult& result, MotionWriter* writer) {
   result.maxSubSteps = std::max(result.maxSubSteps, row.subSteps);
   result.shortenedSteps += row.shortenedSteps;
   result.refusedSteps += row.refusedSteps;
-  result.releasedTicks += row.released > 0 ? 1 : 0;
+  result.overlappingTicks += row.overlapping > 0 ? 1 : 0;
   result.proxyTime.record(row.proxyTime);
   if (result.fault == ServoFault::None) result.fault = row.fault;
 }
@@ -198,7 +198,7 @@ PlaceResult placeWithDevice(PlaceJob job) {
   const Nanoseconds begin = monotonicNow();
   DeviceArmer armer(device, job.isArming);
   while (servo.loop().isRunning() && !InterruptGuard::isInterrupted() && !isOver(job, begin)) {
-    report.trouble = armer.look();
+    report.trouble = armer.poll();
     if (report.trouble.empty()) report.trouble = deviceTrouble(device);
     if (!report.trouble.empty()) break;
     servo.waitAndTake();

@@ -56,9 +56,9 @@ struct PlaceResult {
   double maxEnergyToHand = 0.0;    ///< Highest energy given to the hand at any time [J].
   std::uint32_t maxSubSteps = 0;
   std::uint64_t shortenedSteps = 0, refusedSteps = 0;
-  std::uint64_t releasedTicks = 0;  ///< With parts that overlap and so are not felt.
-  CouplingState coupling;           ///< In force in the last tick.
-  double period = 0.0;              ///< Measured period that it is based on [s].
+  std::uint64_t overlappingTicks = 0;  ///< With parts that overlap and so are not felt.
+  CouplingState coupling;              ///< In force in the last tick.
+  double period = 0.0;                 ///< Measured period that it is based on [s].
   ServoFault fault = ServoFault::None;
   RigidTransform end;                              ///< worldFromPart after the last tick.
   LatencyHistogram lateness, queryTime, tickTime;  ///< `lateness` is empty unless run in real time.

@@ -96,10 +96,10 @@ std::string proxyText(const PlaceSummary& s) {
                   bounds.linear, bounds.rotational, 1e3 * r.period));
   text += summaryLine("steps", fmt::format("max {} per tick, {} shortened, {} refused", r.maxSubSteps,
                                            r.shortenedSteps, r.refusedSteps));
-  if (r.releasedTicks > 0) {
-    text += summaryLine(
-        "released",
-        fmt::format("{} ticks overlapped a part; it is not felt until the two are apart", r.releasedTicks));
+  if (r.overlappingTicks > 0) {
+    text += summaryLine("released",
+                        fmt::format("{} ticks overlapped a part; it is not felt until the two are apart",
+                                    r.overlappingTicks));
   }
   return text + summaryLine("proxy", timesText(r.proxyTime));
 }
@@ -119,7 +119,7 @@ nlohmann::ordered_json proxyJson(const PlaceSummary& s) {
           {"max_sub_steps", r.maxSubSteps},
           {"shortened_steps", r.shortenedSteps},
           {"refused_steps", r.refusedSteps},
-          {"released_ticks", r.releasedTicks},
+          {"released_ticks", r.overlappingTicks},
           {"proxy_us", timesJson(r.proxyTime)}};
 }
 

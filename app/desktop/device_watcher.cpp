@@ -26,19 +26,19 @@ ui::DeviceChoice noDevice() {
   return notice;
 }
 
-constexpr int kLookMs = 500;  ///< At once for a user; a look costs nothing while nothing changes.
+constexpr int kDevicePollMs = 500;  ///< At once for a user; a poll costs nothing while nothing changes.
 
 }  // namespace
 
 DeviceWatcher::DeviceWatcher(DeviceSource& source) : source_(source) {
-  timer_.setInterval(kLookMs);
+  timer_.setInterval(kDevicePollMs);
   connect(&timer_, &QTimer::timeout, this, [this] {
-    if (source_.hasChanged()) look();
+    if (source_.hasChanged()) poll();
   });
 }
 
 void DeviceWatcher::start() {
-  look();
+  poll();
   timer_.start();
 }
 
@@ -46,19 +46,19 @@ void DeviceWatcher::setInHand(const QString& id) {
   if (inHand_ == id) return;
   inHand_ = id;
   // The system's answer on who can use it changed too.
-  look();
+  poll();
 }
 
 void DeviceWatcher::letGo(const QString& id) {
   if (inHand_ == id) inHand_.clear();
-  look();
+  poll();
 }
 
-void DeviceWatcher::look() {
+void DeviceWatcher::poll() {
   try {
     listed_ = source_.list();
   } catch (const Error&) {
-    // Listing may fail while something is unplugged: the next look will do.
+    // Listing may fail while something is unplugged: the next poll will do.
     return;
   }
   publish();

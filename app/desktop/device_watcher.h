@@ -15,14 +15,14 @@ class DeviceWatcher : public QObject {
   /// @param source  Must outlive this.
   explicit DeviceWatcher(DeviceSource& source);
 
-  /// Looks now, and from now on twice a second.
+  /// Polls now, and from now on twice a second.
   void start();
   /// Lists the device in hand as usable although it is busy: it is ours. Empty: none.
   void setInHand(const QString& id);
   /// Tells that a device was closed and others can have it.
   void letGo(const QString& id);
-  /// Looks now.
-  void look();
+  /// Lists the devices now.
+  void poll();
 
  signals:
   /// Emitted when the list changed. If no device is plugged in, a notice says which can be used.

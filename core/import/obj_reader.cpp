@@ -3,12 +3,11 @@
 // other vertices), removes repeated corners from bridged polygons, accepts indices out of range, and opens
 // any file that `mtllib` names. CGAL 5.5 rejects line continuations and reads index 0 as 2^64 - 1. Neither
 // reports the faulty line.
-#include "core/import/obj_reader.h"
-
 #include <cstdint>
 
 #include <fmt/format.h>
 
+#include "core/import/mesh_readers.h"
 #include "core/import/text_cursor.h"
 
 namespace nearfit {

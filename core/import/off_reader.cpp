@@ -3,13 +3,12 @@
 // off_huge_count and similar two-line files, and silently continues after text that is not a number. CGAL 5.5
 // rejects counts after the keyword, throws bad_alloc on huge counts, and accepts indices out of range.
 // Neither reports the faulty line.
-#include "core/import/off_reader.h"
-
 #include <algorithm>
 #include <cstdint>
 
 #include <fmt/format.h>
 
+#include "core/import/mesh_readers.h"
 #include "core/import/text_cursor.h"
 
 namespace nearfit {

@@ -4,19 +4,21 @@
 // counts. CGAL 5.5 reads valid files correctly, but throws bad_alloc on large or negative list counts,
 // rejects NaN in text, and accepts indices out of range. Neither reports the faulty line or byte, so each
 // list would have to be checked here first, which leaves them nothing to do.
-#include "core/import/ply_reader.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/import/ply_header.h"
+#include "core/import/mesh_readers.h"
 #include "core/import/text_cursor.h"
 
 namespace nearfit {
@@ -26,6 +28,135 @@ static_assert(std::endian::native == std::endian::little,
               "binary values are swapped for a little-endian machine");
 
 constexpr const char* kCutOff = "it is cut off or damaged: export or copy it again";
+constexpr const char* kExportAgain = "export the file again";
+
+enum class PlyFormat { Ascii, LittleEndian, BigEndian };
+enum class PlyType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
+
+/// Size of a value in a binary file [bytes].
+constexpr std::size_t byteCount(PlyType type) {
+  constexpr std::size_t kBytes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+  return kBytes[static_cast<std::size_t>(type)];
+}
+
+/// A property of a PLY element: a value or a list.
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::Float32;  ///< Of the value, or of each value in the list.
+  /// Set for a list: type of the count that precedes its values.
+  std::optional<PlyType> listCountType;
+};
+
+/// A PLY element, such as "vertex": `count` items with the same properties.
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+/// Header of a PLY file.
+struct PlyHeader {
+  PlyFormat format = PlyFormat::Ascii;
+  std::vector<PlyElement> elements;
+  std::size_t dataOffset = 0;  ///< First byte after the header.
+  std::size_t dataLine = 1;    ///< Line of that byte.
+
+  /// The element with that name; null if there is none.
+  const PlyElement* find(std::string_view name) const {
+    const auto found = std::ranges::find(elements, name, &PlyElement::name);
+    return found == elements.end() ? nullptr : &*found;
+  }
+};
+
+PlyType parseType(const TextCursor& cursor, std::string_view word) {
+  if (word.empty()) cursor.fail("expected a type, but the line ends", kExportAgain);
+  // Two names for each type, in the order of PlyType.
+  constexpr std::array<std::string_view, 16> kNames{
+      "char", "int8",  "uchar", "uint8",  "short", "int16",   "ushort", "uint16",
+      "int",  "int32", "uint",  "uint32", "float", "float32", "double", "float64"};
+  const auto* const found = std::ranges::find(kNames, word);
+  if (found == kNames.end())
+    cursor.fail(fmt::format("expected a type, but {} is not one", inQuotes(word)), kExportAgain);
+  return static_cast<PlyType>((found - kNames.begin()) / 2);
+}
+
+PlyFormat parseFormat(const TextCursor& cursor, std::string_view word) {
+  if (word == "ascii") return PlyFormat::Ascii;
+  if (word == "binary_little_endian") return PlyFormat::LittleEndian;
+  if (word == "binary_big_endian") return PlyFormat::BigEndian;
+  cursor.fail(fmt::format("the format {} is unknown", inQuotes(word)),
+              "export it as ascii or binary_little_endian");
+}
+
+PlyElement parseElement(TextCursor& cursor, const PlyHeader& header) {
+  PlyElement element;
+  element.name = cursor.token();
+  const std::string_view count = cursor.token();
+  const std::optional<std::int64_t> value = parseInteger(count);
+  if (element.name.empty() || !value || *value < 0) {
+    cursor.fail("an element needs a name and a count", kExportAgain);
+  }
+  if (header.find(element.name) != nullptr) {
+    cursor.fail(fmt::format("the element {} is declared twice", inQuotes(element.name)), kExportAgain);
+  }
+  element.count = static_cast<std::uint64_t>(*value);
+  return element;
+}
+
+PlyProperty parseProperty(TextCursor& cursor) {
+  PlyProperty property;
+  std::string_view word = cursor.token();
+  if (word == "list") {
+    property.listCountType = parseType(cursor, cursor.token());
+    word = cursor.token();
+  }
+  property.type = parseType(cursor, word);
+  property.name = cursor.token();
+  if (property.name.empty()) cursor.fail("a property has no name", kExportAgain);
+  return property;
+}
+
+/// True if lines end in a lone carriage return; a line feed after it is then data.
+bool hasLoneReturns(std::span<const char> bytes) {
+  const auto lineEnd = std::ranges::find_if(bytes, [](char c) { return c == '\n' || c == '\r'; });
+  return lineEnd != bytes.end() && *lineEnd == '\r' && lineEnd + 1 != bytes.end() && lineEnd[1] != '\n';
+}
+
+std::size_t offsetBehindLineEnd(std::span<const char> bytes, std::size_t offset) {
+  if (offset == bytes.size()) return offset;
+  const bool isPair = bytes[offset] == '\r' && offset + 1 < bytes.size() && bytes[offset + 1] == '\n';
+  return offset + (isPair && !hasLoneReturns(bytes) ? 2 : 1);
+}
+
+/// Reads the header of a PLY file. Line ends may be LF, CRLF or CR. Throws FileError.
+PlyHeader readPlyHeader(const ReaderInput& input) {
+  const ReaderInput silent{input.name, input.bytes, {}};
+  TextCursor cursor(silent, {.comment = '\0'});
+  if (cursor.token() != "ply") cursor.fail("it does not begin with 'ply'", "check that this is a PLY file");
+  PlyHeader header;
+  bool hasFormat = false;
+  while (cursor.nextLine()) {
+    const std::string_view keyword = cursor.token();
+    if (keyword == "format") {
+      header.format = parseFormat(cursor, cursor.token());
+      hasFormat = true;
+    } else if (keyword == "element") {
+      header.elements.push_back(parseElement(cursor, header));
+    } else if (keyword == "property") {
+      if (header.elements.empty()) cursor.fail("a property comes before the first element", kExportAgain);
+      header.elements.back().properties.push_back(parseProperty(cursor));
+    } else if (keyword == "end_header") {
+      if (!hasFormat) cursor.fail("the header names no format", kExportAgain);
+      cursor.skipRest();
+      header.dataOffset = offsetBehindLineEnd(input.bytes, cursor.offset());
+      header.dataLine = cursor.line() + 1;
+      return header;
+    } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+      cursor.fail(fmt::format("{} is not a keyword of a PLY header", inQuotes(keyword)), kExportAgain);
+    }
+  }
+  cursor.failAtEnd("'end_header'");
+}
 
 /// Reads values of a text file.
 class TextValues {
@@ -129,7 +260,7 @@ template <typename Values>
 std::uint64_t readListCount(Values& values, const PlyProperty& list) {
   const double count = values.number(*list.listCountType);
   if (!(count >= 0.0) || count != std::floor(count)) {
-    values.fail(fmt::format("a list has {} values", count), "export the file again");
+    values.fail(fmt::format("a list has {} values", count), kExportAgain);
   }
   const std::uint64_t most = values.bytesLeft() / Values::smallestByteCount(list.type);
   if (count > static_cast<double>(most)) {
@@ -179,7 +310,7 @@ void readCorners(Values& values, const PlyProperty& list, std::uint64_t vertices
     if (!(index >= 0.0) || index >= static_cast<double>(vertices) || index != std::floor(index)) {
       values.fail(fmt::format("a face refers to vertex {}, but vertices go from 0 to {}", index,
                               static_cast<std::int64_t>(vertices) - 1),
-                  "export the file again");
+                  kExportAgain);
     }
     soup.corners.push_back(static_cast<std::uint32_t>(index));
   }
@@ -193,7 +324,7 @@ void readFaces(Values& values, const PlyElement& element, std::uint64_t vertices
   };
   const auto corners = std::ranges::find_if(element.properties, isCornerList);
   if (corners == element.properties.end() && element.count > 0) {
-    values.fail("faces have no list 'vertex_indices'", "export the file again");
+    values.fail("faces have no list 'vertex_indices'", kExportAgain);
   }
   checkRoom(values, element);
   soup.firstCorner.reserve(element.count + 1);

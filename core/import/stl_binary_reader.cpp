@@ -1,13 +1,12 @@
 // Own parser: the layout is fixed, and OpenMesh 9 does not notice the end of a file that is cut off, orders vertices by
 // comparisons that NaN breaks, and drops the facets that it takes for degenerate without a word.
-#include "core/import/stl_binary_reader.h"
-
 #include <array>
 #include <cstring>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/import/mesh_readers.h"
 
 namespace nearfit {
 namespace {

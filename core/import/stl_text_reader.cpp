@@ -2,13 +2,12 @@
 // OpenMesh 9 keeps only single precision, finds "outer" in a solid's name, reads text that is not a number as
 // 0, and takes a file that is cut off or has CR line ends for a shorter or empty one. CGAL 5.5 reads a file
 // that begins with a comment as binary, and returns facets of noise. Neither reports the faulty line.
-#include "core/import/stl_text_reader.h"
-
 #include <algorithm>
 #include <cctype>
 
 #include <fmt/format.h>
 
+#include "core/import/mesh_readers.h"
 #include "core/import/text_cursor.h"
 
 namespace nearfit {

@@ -7,7 +7,6 @@
 
 #include "core/math/symmetric_eigen.h"
 #include "core/placing/mesh_region.h"
-#include "core/placing/region_growth.h"
 
 namespace nearfit {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "core/mesh/triangle_mesh.h"
 #include "core/placing/feature.h"
+#include "core/section/mesh_section.h"
 
 namespace nearfit {
 
@@ -32,6 +33,13 @@ struct SurfaceHit {
 /// @param hit    Its triangle is one of the mesh.
 /// @param reach  Max distance from the point to corners and edges [m]; >= 0.
 std::optional<PickedFeature> pickFeature(const TriangleMesh& mesh, const SurfaceHit& hit, double reach,
+                                         FeatureFilter filter = FeatureFilter::Any);
+
+/// The feature that a user points at on a cap: a nearby segment of the outline, as an edge, otherwise the
+/// point itself. std::nullopt for FeatureFilter::Faces, and for Axes if no segment is near.
+/// @param point  On the cap, in the mesh's frame [m]; set to the nearest point of the segment found.
+/// @param reach  Max distance to the outline [m]; >= 0.
+std::optional<PickedFeature> pickFeature(const MeshSection& section, glm::dvec3& point, double reach,
                                          FeatureFilter filter = FeatureFilter::Any);
 
 }  // namespace nearfit

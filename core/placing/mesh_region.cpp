@@ -5,8 +5,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/placing/region_growth.h"
-
 namespace nearfit {
 namespace {
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <unordered_set>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -21,6 +23,25 @@ glm::dvec3 triangleNormal(const TriangleMesh& mesh, std::uint32_t triangle) noex
 /// True if an edge belongs to the shape: it is open, non-manifold or inconsistently oriented, or its face
 /// normals differ by more than kSharpTurn.
 bool isSharp(const TriangleMesh& mesh, std::uint32_t edge) noexcept;
+
+/// Triangles connected to `first` through edges with two faces, as long as `accepts(triangle)`. `first` is
+/// always included. O(n) in the region.
+/// @param most  Max number of triangles.
+template <class Accept>
+std::vector<std::uint32_t> grownRegion(const TriangleMesh& mesh, std::uint32_t first, Accept&& accepts,
+                                       std::size_t most = TriangleMesh::kMaxTriangles) {
+  std::vector<std::uint32_t> region{first};
+  std::unordered_set<std::uint32_t> seen{first};
+  for (std::size_t next = 0; next < region.size() && region.size() < most; ++next) {
+    for (const std::uint32_t edge : mesh.edgesOfTriangle(region[next])) {
+      const auto faces = mesh.facesOfEdge(edge);
+      if (faces.size() != 2) continue;
+      const std::uint32_t other = faces[0] == region[next] ? faces[1] : faces[0];
+      if (seen.insert(other).second && accepts(other)) region.push_back(other);
+    }
+  }
+  return region;
+}
 
 /// Connected triangles in one plane.
 struct PlaneRegion {

@@ -207,9 +207,9 @@ std::vector<PartId> SolidMove::touching() const {
   return idsOf(bodies);
 }
 
-std::vector<PartId> SolidMove::released() const {
-  const auto& overlapping = tracked_.clearance.overlapping;
-  return overlapping ? idsOf(*overlapping) : std::vector<PartId>{};
+std::vector<PartId> SolidMove::overlapping() const {
+  const auto& bodies = tracked_.clearance.overlapping;
+  return bodies ? idsOf(*bodies) : std::vector<PartId>{};
 }
 
 std::vector<RigidTransform> movedSolidly(const Scene& scene, std::span<const PartId> moved,

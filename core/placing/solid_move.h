@@ -49,7 +49,7 @@ class SolidMove {
   /// The parts that hold them back now, each once.
   std::vector<PartId> touching() const;
   /// The parts that do not block them yet, because they overlapped at the start.
-  std::vector<PartId> released() const;
+  std::vector<PartId> overlapping() const;
 
  private:
   bool tick(const RigidTransform& target, double turnScale);

@@ -72,12 +72,12 @@ std::vector<PartClearance> clearancesOf(const Scene& scene, PartId id, double cu
 
 void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clearances) noexcept {
   const bool isEvery = !snapshot.isTruncated && snapshot.storedLmds == snapshot.lmdCount;
-  const auto released =
-      std::span(snapshot.released)
-          .first(std::min<std::size_t>(snapshot.releasedCount, ServoSnapshot::kMaxReleased));
+  const auto overlapping =
+      std::span(snapshot.overlapping)
+          .first(std::min<std::size_t>(snapshot.overlappingCount, ServoSnapshot::kMaxOverlapping));
   for (PartClearance& each : clearances) {
-    // Released parts have minima too, between surfaces that pass through each other.
-    if (!each.isBetweenSolids || std::ranges::find(released, each.other) != released.end()) continue;
+    // Overlapping parts have minima too, between surfaces that pass through each other.
+    if (!each.isBetweenSolids || std::ranges::find(overlapping, each.other) != overlapping.end()) continue;
     const Lmd* nearest = nullptr;
     std::size_t count = 0;
     for (const SnapshotLmd& minimum : std::span(snapshot.lmds).first(snapshot.storedLmds)) {

@@ -37,8 +37,7 @@ std::vector<PartClearance> clearancesOf(const Scene& scene, PartId part, double 
                                         const ProgressCallback& progress = {});
 
 /// Updates clearances of the moving part from a servo tick, for pairs of solids within its cutoff. Other
-/// pairs stay unchanged, as do parts that the servo has released because they overlap. Fast enough for the
-/// GUI thread.
+/// pairs stay unchanged, as do parts that overlap the moving one. Fast enough for the GUI thread.
 void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clearances) noexcept;
 
 /// "no", "surfaces meet", "inside the other" or "the other inside".

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/haptic_limits.h"
-#include "core/scene/name_check.h"
+#include "core/scene/names.h"
 
 namespace nearfit {
 namespace {

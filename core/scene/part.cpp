@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/scene/name_check.h"
+#include "core/scene/names.h"
 
 namespace nearfit {
 

@@ -7,9 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/scene/free_name.h"
 #include "core/scene/haptic_limits.h"
-#include "core/scene/palette.h"
+#include "core/scene/names.h"
 
 namespace nearfit {
 namespace {

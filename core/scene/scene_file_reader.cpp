@@ -1,16 +1,20 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_file_haptics.h"
-#include "core/scene/scene_file_parts.h"
 #include "core/text/json_file.h"
 #include "core/text/utf8.h"
 
@@ -18,6 +22,26 @@ namespace nearfit {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Max length of a mesh path [bytes]: Linux's limit.
+constexpr std::size_t kMaxPathBytes = 4095;
+
+/// A part as in the file, its mesh not loaded yet.
+struct PartEntry {
+  JsonField field;
+  Part part;                         ///< `group` and `geometry` are not set.
+  std::optional<std::size_t> group;  ///< Index into the groups.
+  std::filesystem::path mesh;
+  std::string sha256;
+  double metresPerUnit;
+};
+
+/// A group as in the file.
+struct GroupEntry {
+  Group group;                        ///< `parent` is not set.
+  std::optional<std::size_t> parent;  ///< Index of an earlier group.
+  bool isLockedAnyhow = false;        ///< True if it or a group that contains it is locked.
+};
 
 int readVersion(const JsonField& root) {
   if (!root.has("nearfit"))
@@ -40,6 +64,155 @@ void checkUnits(const JsonField& units) {
     const JsonField field = units.at(quantity);
     if (field.text(16) != unit) field.fail("this unit is not known", fmt::format("give values in {}", unit));
   }
+}
+
+/// Runs `check` and turns its UsageError into an error of the field.
+template <typename Check>
+auto checked(const JsonField& field, Check check) {
+  try {
+    return check();
+  } catch (const UsageError& e) {
+    field.fail(e.problem(), e.remedy());
+  }
+}
+
+template <std::size_t Count>
+std::array<double, Count> numbers(const JsonField& field) {
+  field.requireSize(Count);
+  std::array<double, Count> values{};
+  for (std::size_t i = 0; i < Count; ++i)
+    values[i] = field.at(i).number();
+  return values;
+}
+
+RigidTransform readPose(const JsonField& field) {
+  const auto [x, y, z] = numbers<3>(field.at("position"));
+  const auto [qw, qx, qy, qz] = numbers<4>(field.at("quaternion"));
+  const RigidTransform translation{{1, 0, 0, 0}, {x, y, z}}, rotation{{qw, qx, qy, qz}, {}};
+  checked(field.at("position"), [&] { return checkedPose(translation); });
+  return {checked(field.at("quaternion"), [&] { return checkedPose(rotation); }).rotation,
+          translation.translation};
+}
+
+Colour readColour(const JsonField& field) {
+  field.requireSize(3);
+  const auto channel = [&](std::size_t i) { return static_cast<float>(field.at(i).numberWithin(0.0, 1.0)); };
+  return {channel(0), channel(1), channel(2)};
+}
+
+std::string readSha256(const JsonField& field) {
+  std::string digits = field.text(64);
+  const bool isHash = digits.size() == 64 && std::all_of(digits.begin(), digits.end(), [](unsigned char c) {
+                        return std::isxdigit(c) != 0;
+                      });
+  if (!isHash) field.fail("it is not a SHA-256", "give 64 hexadecimal digits");
+  std::transform(digits.begin(), digits.end(), digits.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return digits;
+}
+
+/// Index of a group, or std::nullopt for null.
+std::optional<std::size_t> readGroupIndex(const JsonField& field, std::size_t count, const char* remedy) {
+  if (field.isNull()) return std::nullopt;
+  const double index = field.number();
+  if (!(index >= 0.0 && index < static_cast<double>(count) && index == std::floor(index)))
+    field.fail(fmt::format("{} is not the number of one of the {} groups", index, count), remedy);
+  return static_cast<std::size_t>(index);
+}
+
+/// Reads what version 3 adds to version 2.
+void readPlaceAndLook(const JsonField& field, std::size_t groupCount, PartEntry& entry) {
+  entry.part.opacity = field.at("opacity").number();
+  checked(field.at("opacity"), [&] { checkOpacity(entry.part.opacity); });
+  entry.group = readGroupIndex(field.at("group"), groupCount, "give the number of a group, from 0, or null");
+  const JsonField wasVisible = field.at("wasVisible");
+  if (!wasVisible.isNull()) entry.part.wasVisible = wasVisible.isTrue();
+}
+
+/// Reads what version 4 adds to version 3.
+std::optional<glm::dvec3> readPivot(const JsonField& field) {
+  if (field.isNull()) return std::nullopt;
+  const auto [x, y, z] = numbers<3>(field);
+  const glm::dvec3 pivot(x, y, z);
+  checked(field, [&] { checkPosition(pivot); });
+  return pivot;
+}
+
+PartEntry readPart(const JsonField& field, std::size_t groupCount, const fs::path& folder, int version) {
+  PartEntry entry{field, {}, {}, {}, readSha256(field.at("sha256")), field.at("metresPerUnit").number()};
+  checked(field.at("metresPerUnit"), [&] { checkMetresPerUnit(entry.metresPerUnit); });
+  const std::string mesh = field.at("mesh").text(kMaxPathBytes);
+  if (mesh.empty()) field.at("mesh").fail("it is empty", "give the path of the mesh file");
+  entry.mesh = normalisedPath(folder / mesh);
+  entry.part.name = field.at("name").text(kMaxPartNameBytes);
+  checked(field.at("name"), [&] { checkPartName(entry.part.name); });
+  entry.part.worldFromPart = readPose(field);
+  entry.part.colour = readColour(field.at("colour"));
+  if (version >= 2) {
+    entry.part.density = field.at("density").number();
+    checked(field.at("density"), [&] { checkDensity(entry.part.density); });
+  }
+  entry.part.isVisible = field.at("visible").isTrue();
+  entry.part.isLocked = field.at("locked").isTrue();
+  if (version >= 3) readPlaceAndLook(field, groupCount, entry);
+  if (version >= 4) entry.part.pivot = readPivot(field.at("pivot"));
+  return entry;
+}
+
+/// @param field  The array "groups".
+std::vector<GroupEntry> readGroups(const JsonField& field) {
+  const std::size_t count = field.size();
+  if (count > kMaxGroups) field.fail(fmt::format("there are more than {} groups", kMaxGroups));
+  std::vector<GroupEntry> entries(count);
+  std::vector<std::size_t> depths(count, 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const JsonField place = field.at(i).at("group");
+    GroupEntry& entry = entries[i];
+    entry.group.name = field.at(i).at("name").text(kMaxGroupNameBytes);
+    checked(field.at(i).at("name"), [&] { checkGroupName(entry.group.name); });
+    entry.group.isLocked = entry.isLockedAnyhow = field.at(i).at("locked").isTrue();
+    entry.parent = readGroupIndex(place, i, "give the number of an earlier group, from 0, or null");
+    if (!entry.parent) continue;
+    depths[i] = depths[*entry.parent] + 1;
+    if (depths[i] > kMaxGroupDepth)
+      place.fail(fmt::format("groups are nested more than {} deep", kMaxGroupDepth),
+                 "move it to a higher level");
+    entry.isLockedAnyhow = entry.isLockedAnyhow || entries[*entry.parent].isLockedAnyhow;
+  }
+  return entries;
+}
+
+/// @param field   The array "parts".
+/// @param folder  Start of relative mesh paths.
+std::vector<PartEntry> readParts(const JsonField& field, const std::vector<GroupEntry>& groups,
+                                 const fs::path& folder, int version) {
+  const std::size_t count = field.size();
+  if (count > kMaxSceneFileParts) field.fail(fmt::format("there are more than {} parts", kMaxSceneFileParts));
+  std::vector<PartEntry> entries;
+  std::map<std::string, std::size_t> indexOfName;
+  for (std::size_t i = 0; i < count; ++i) {
+    entries.push_back(readPart(field.at(i), groups.size(), folder, version));
+    const auto [known, isNew] = indexOfName.emplace(entries.back().part.name, i);
+    if (!isNew)
+      field.at(i).at("name").fail(fmt::format("parts[{}] has the same name", known->second),
+                                  "give each part its own name");
+  }
+  return entries;
+}
+
+/// Reads the field "moving": index of the moving part in `entries`.
+std::optional<std::size_t> readMovingPart(const JsonField& field, const std::vector<PartEntry>& entries,
+                                          const std::vector<GroupEntry>& groups) {
+  if (field.isNull()) return std::nullopt;
+  const std::string name = field.text(kMaxPartNameBytes);
+  const auto it =
+      std::find_if(entries.begin(), entries.end(), [&](const PartEntry& e) { return e.part.name == name; });
+  if (it == entries.end()) {
+    field.fail(fmt::format("there is no part \"{}\"", printableText(name)), "name a part, or give null");
+  }
+  if (it->part.isLocked || (it->group && groups[*it->group].isLockedAnyhow))
+    field.fail("this part is locked and cannot be the moving part", "unlock it, or give null");
+  return static_cast<std::size_t>(it - entries.begin());
 }
 
 /// Loads meshes, each file and unit once.

@@ -59,7 +59,7 @@ void takeRow(const MotionRow& row, const Part& moving, ServoSnapshot& out) {
   out.refusedSteps = row.refusedSteps;
   out.constraintCount = row.constraints;
   out.contactCount = row.contacts;
-  out.releasedCount = 0;  // A recording does not name the parts.
+  out.overlappingCount = 0;  // A recording does not name the parts.
 }
 
 }  // namespace nearfit

@@ -127,7 +127,7 @@ void takeRest(MotionRow& row, std::span<const double> v, const csv::Place& place
   row.refusedSteps = count(8);
   row.constraints = count(9);
   row.contacts = count(10);
-  row.released = count(11);
+  row.overlapping = count(11);
   row.proxyTime = kMicro * v[12];
   row.isClamped = v[13] != 0.0;
   if (v[14] > static_cast<double>(ServoFault::ParametersInvalid))

@@ -25,7 +25,7 @@ MotionRow motionRow(const ServoSnapshot& s, double lateness) noexcept {
   row.refusedSteps = s.refusedSteps;
   row.constraints = s.constraintCount;
   row.contacts = s.contactCount;
-  row.released = s.releasedCount;
+  row.overlapping = s.overlappingCount;
   row.lateness = lateness;
   return row;
 }
@@ -50,8 +50,8 @@ std::string formatMotionRow(const MotionRow& row) {
                  t.y, t.z, row.lmds, row.distance, row.queryTime * 1e6, row.tickTime * 1e6, row.lateBodies);
   fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{:.3f},{:d},{:d},{:d},{:.3f}",
                  row.energyToHand, row.subSteps, row.shortenedSteps, row.refusedSteps, row.constraints,
-                 row.contacts, row.released, row.proxyTime * 1e6, row.isClamped, static_cast<int>(row.fault),
-                 row.isTruncated, row.lateness * 1e6);
+                 row.contacts, row.overlapping, row.proxyTime * 1e6, row.isClamped,
+                 static_cast<int>(row.fault), row.isTruncated, row.lateness * 1e6);
   return line;
 }
 

@@ -42,7 +42,7 @@ struct SnapshotContact {
 /// Counters that continue from tick to tick, here and beside the servo, have 64 bits and never wrap.
 struct ServoSnapshot {
   static constexpr std::size_t kMaxLmds = 512;
-  static constexpr std::size_t kMaxContacts = 16, kMaxReleased = 8;
+  static constexpr std::size_t kMaxContacts = 16, kMaxOverlapping = 8;
 
   std::uint64_t tick = 0;  ///< Ticks run, including this one; 0 before the first.
   double time = 0.0;       ///< Since the servo started [s].
@@ -79,13 +79,13 @@ struct ServoSnapshot {
   std::uint32_t constraintCount = 0;  ///< Rows of the last step's program.
   std::uint32_t contactCount = 0;     ///< Contacts that hold the part.
   std::uint32_t storedContacts = 0;   ///< Entries of `contacts` in use.
-  /// Parts that overlap the moving one and so are not felt until they separate; `released` holds the first.
-  std::uint32_t releasedCount = 0;
+  /// Parts that overlap the moving one and so are not felt until they separate; `overlapping` holds the first.
+  std::uint32_t overlappingCount = 0;
   /// The proxy waits, for a few ticks, until it is known what it overlaps.
   bool isWaiting = false;
   bool isStarved = false;  ///< Known contacts did not reach where the proxy would go.
   std::array<SnapshotContact, kMaxContacts> contacts{};
-  std::array<PartId, kMaxReleased> released{};
+  std::array<PartId, kMaxOverlapping> overlapping{};
   std::array<SnapshotLmd, kMaxLmds> lmds{};
 };
 

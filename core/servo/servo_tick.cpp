@@ -40,7 +40,7 @@ void clearOutputs(ServoSnapshot& snapshot) noexcept {
   snapshot.work = 0;
   snapshot.lmdCount = snapshot.storedLmds = snapshot.lateBodies = 0;
   snapshot.subSteps = snapshot.shortenedSteps = snapshot.refusedSteps = 0;
-  snapshot.constraintCount = snapshot.contactCount = snapshot.storedContacts = snapshot.releasedCount = 0;
+  snapshot.constraintCount = snapshot.contactCount = snapshot.storedContacts = snapshot.overlappingCount = 0;
   snapshot.isTruncated = snapshot.isClamped = snapshot.isWaiting = snapshot.isStarved = false;
   snapshot.coupling = {};
 }

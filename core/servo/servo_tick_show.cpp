@@ -85,10 +85,10 @@ void ServoTick::describeProxy(const Subject& subject) noexcept {
   }
   const Clearance& clearance = subject.tracked.clearance;
   if (!clearance.overlapping) return;
-  snapshot.releasedCount = static_cast<std::uint32_t>(clearance.overlapping->size());
-  const std::size_t shown = std::min(clearance.overlapping->size(), ServoSnapshot::kMaxReleased);
+  snapshot.overlappingCount = static_cast<std::uint32_t>(clearance.overlapping->size());
+  const std::size_t shown = std::min(clearance.overlapping->size(), ServoSnapshot::kMaxOverlapping);
   for (std::size_t i = 0; i < shown; ++i)
-    snapshot.released[i] = subject.scene.bodies[(*clearance.overlapping)[i]].id;
+    snapshot.overlapping[i] = subject.scene.bodies[(*clearance.overlapping)[i]].id;
 }
 
 }  // namespace nearfit

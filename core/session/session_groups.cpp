@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/scene/free_name.h"
+#include "core/scene/names.h"
 #include "core/session/session.h"
 #include "core/session/session_labels.h"
 

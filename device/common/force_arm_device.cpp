@@ -32,20 +32,20 @@ DeviceInfo ForceArmDevice::info() const {
 
 void ForceArmDevice::start(const RigidTransform&, const ProgressCallback& progress) {
   stop();
-  handle_.supervisor().beginOpening();
+  stream_.supervisor().beginOpening();
   try {
     opened_ = open(link_, progress);
     product_ = link_->strings().product;
-    handle_.begin(opened_.rest);
+    stream_.begin(opened_.rest);
     SafetyLimits limits = safety_;
     limits.keepPace(opened_.reportPeriod);
-    handle_.supervisor().opened(limits, opened_.isCalibrated);
+    stream_.supervisor().opened(limits, opened_.isCalibrated);
     link_->stream(opened_.streams, *this);
     // The device only answers commands: the first one starts it.
     link_->send(command(glm::dvec3(0.0), opened_.rest));
   } catch (...) {
     link_.reset();
-    handle_.supervisor().closed(stateAfterFailure());
+    stream_.supervisor().closed(stateAfterFailure());
     throw;
   }
 }
@@ -56,7 +56,7 @@ void ForceArmDevice::stop() noexcept {
   restMotors();
   const bool isLost = state() == DeviceState::Lost;
   link_.reset();
-  handle_.supervisor().closed(isLost ? DeviceState::Lost : DeviceState::Present);
+  stream_.supervisor().closed(isLost ? DeviceState::Lost : DeviceState::Present);
 }
 
 /// Streaming may end before the last command is sent, and motors keep pushing as last told until the device's
@@ -72,22 +72,22 @@ void ForceArmDevice::restMotors() noexcept {
 }
 
 bool ForceArmDevice::readHandle(HandleInput& handle) noexcept {
-  if (!handle_.update()) return false;
-  const ArmSample& sample = handle_.report();
+  if (!stream_.update()) return false;
+  const ArmSample& sample = stream_.report();
   handle.pose = sample.pose;
-  handle.age = handle_.age();
-  handle.patience = handle_.supervisor().patience();
+  handle.age = stream_.age();
+  handle.patience = stream_.supervisor().patience();
   // An uncalibrated pose means nothing: the part stays.
   handle.isClutched = (sample.buttons & kClutchButton) != 0 || state() == DeviceState::Uncalibrated;
   handle.hasOwnFrame = true;
   handle.buttons = sample.buttons;
-  handle.isArmed = handle_.supervisor().check({handle.age, glm::length(sample.velocity), false});
+  handle.isArmed = stream_.supervisor().check({handle.age, glm::length(sample.velocity), false});
   return true;
 }
 
 void ForceArmDevice::sendWrench(const Wrench& wrench) noexcept {
-  const ArmSample& sample = handle_.report();
-  const Wrench guarded = handle_.supervisor().guarded(wrench, sample.velocity, limits_.maxForce);
+  const ArmSample& sample = stream_.report();
+  const Wrench guarded = stream_.supervisor().guarded(wrench, sample.velocity, limits_.maxForce);
   // The servo sends only finite wrenches; a motor must never see anything else.
   const glm::dvec3 force = isFinite(guarded.force) ? guarded.force : glm::dvec3(0.0);
   link_->send(command(force, sample));

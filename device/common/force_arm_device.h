@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "device/common/streamed_handle.h"
+#include "device/common/report_stream.h"
 #include "device/interface/haptic_device.h"
 #include "device/usb/usb_link.h"
 
@@ -27,17 +27,17 @@ struct ArmSample {
 class ForceArmDevice : public HapticDevice, private UsbPacketSink {
  public:
   DeviceInfo info() const override;
-  DeviceState state() const noexcept override { return handle_.state(); }
+  DeviceState state() const noexcept override { return stream_.state(); }
   void start(const RigidTransform& worldFromPart, const ProgressCallback& progress = {}) override;
   void stop() noexcept override;
-  void arm() override { handle_.supervisor().arm(name()); }
-  void disarm() noexcept override { handle_.supervisor().disarm(); }
-  void reset() override { handle_.supervisor().reset(); }
-  bool waitForHandle(Nanoseconds deadline) noexcept override { return handle_.wait(deadline); }
+  void arm() override { stream_.supervisor().arm(name()); }
+  void disarm() noexcept override { stream_.supervisor().disarm(); }
+  void reset() override { stream_.supervisor().reset(); }
+  bool waitForHandle(Nanoseconds deadline) noexcept override { return stream_.wait(deadline); }
   bool readHandle(HandleInput& handle) noexcept override;
   void sendWrench(const Wrench& wrench) noexcept override;
 
-  ReportCounters counters() const noexcept override { return handle_.counters(); }
+  ReportCounters counters() const noexcept override { return stream_.counters(); }
   /// USB counters of the open link; zeros while closed.
   UsbCounters linkCounters() const noexcept { return link_ ? link_->counters() : UsbCounters{}; }
 
@@ -55,7 +55,7 @@ class ForceArmDevice : public HapticDevice, private UsbPacketSink {
   /// Controlling thread: emplaces `link` and prepares the device for streaming.
   /// Throws DeviceError, Cancelled.
   virtual Opened open(std::optional<UsbLink>& link, const ProgressCallback& progress) = 0;
-  /// Link's thread: decodes a packet; calls publish() or reject() of handle() if it holds a
+  /// Link's thread: decodes a packet; calls publish() or reject() of stream() if it holds a
   /// report. Real-time safe.
   /// @param arrived  Arrival on CLOCK_MONOTONIC [ns].
   virtual void take(std::span<const std::byte> packet, Nanoseconds arrived) noexcept = 0;
@@ -63,8 +63,8 @@ class ForceArmDevice : public HapticDevice, private UsbPacketSink {
   /// the pose `at`; zero rests the motors. Valid until the next call. Real-time safe.
   virtual std::span<const std::byte> command(const glm::dvec3& force, const ArmSample& at) noexcept = 0;
 
-  StreamedHandle<ArmSample>& handle() noexcept { return handle_; }
-  const StreamedHandle<ArmSample>& handle() const noexcept { return handle_; }
+  ReportStream<ArmSample>& stream() noexcept { return stream_; }
+  const ReportStream<ArmSample>& stream() const noexcept { return stream_; }
   const UsbDescription& description() const noexcept { return device_; }
   /// Returns the device's name with its USB ID and node, for messages.
   std::string name() const;
@@ -73,7 +73,7 @@ class ForceArmDevice : public HapticDevice, private UsbPacketSink {
   void onPacket(std::span<const std::byte> packet, std::int64_t arrived) noexcept final {
     take(packet, arrived);
   }
-  void onLost(UsbLoss loss) noexcept final { handle_.lose(loss); }
+  void onLost(UsbLoss loss) noexcept final { stream_.lose(loss); }
   void restMotors() noexcept;
 
   const UsbDescription device_;
@@ -83,7 +83,7 @@ class ForceArmDevice : public HapticDevice, private UsbPacketSink {
   std::optional<UsbLink> link_;
   Opened opened_;
   std::string product_;
-  StreamedHandle<ArmSample> handle_;
+  ReportStream<ArmSample> stream_;
 };
 
 }  // namespace nearfit

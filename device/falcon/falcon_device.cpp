@@ -20,14 +20,14 @@ DeviceLimits limits() noexcept {
   DeviceLimits limits;
   limits.maxForce = 9.0;
   limits.maxTorque = 0.0;
-  limitSlewByMost(limits);
+  limitSlewByMax(limits);
   limits.damping = 0.5;
   limits.leastMass = 0.15;
   return limits;
 }
 
 /// Checks for cancellation before each step of a greeting, since each may wait for a silent device.
-class LinkTransport final : public FtdiTransport {
+class LinkTransport final : public falcon::FtdiTransport {
  public:
   LinkTransport(UsbLink& link, std::uint8_t in, std::uint8_t out, const std::function<bool()>& isWanted)
       : link_(link), in_(in), out_(out), isWanted_(isWanted) {}
@@ -73,7 +73,7 @@ FalconDevice::FalconDevice(UsbDescription device, std::filesystem::path firmware
     : ForceArmDevice(std::move(device), "Novint Falcon", limits(), safety), firmware_(std::move(firmware)) {}
 
 std::string FalconDevice::stateNote() const {
-  return handle().note("the position of its handle is not known: pull it all the way out, then push it in");
+  return stream().note("the position of its handle is not known: pull it all the way out, then push it in");
 }
 
 ForceArmDevice::Opened FalconDevice::open(std::optional<UsbLink>& link, const ProgressCallback& progress) {
@@ -88,7 +88,7 @@ ForceArmDevice::Opened FalconDevice::open(std::optional<UsbLink>& link, const Pr
   const ProgressCallback tell = [&](double done) { return !progress || progress(fraction = done); };
   const std::function<bool()> isWanted = [&] { return tell(fraction); };
   LinkTransport transport(*link, in, out, isWanted);
-  FtdiPort port(transport);
+  falcon::FtdiPort port(transport);
   if (!falcon::isFirmwareRunning(port))
     falcon::uploadFirmware(port, falcon::readFirmware(firmware_, name()), name(), tell);
   port.purge();
@@ -105,15 +105,15 @@ ForceArmDevice::Opened FalconDevice::open(std::optional<UsbLink>& link, const Pr
 void FalconDevice::take(std::span<const std::byte> packet, Nanoseconds arrived) noexcept {
   const std::uint64_t damagedBefore = reader_.damaged();
   // Packets that carry only the chip's status arrive all the time.
-  for (const std::byte byte : FtdiPort::contentOf(packet)) {
+  for (const std::byte byte : falcon::FtdiPort::contentOf(packet)) {
     if (const auto report = reader_.take(byte)) take(*report, arrived);
   }
   for (std::uint64_t i = damagedBefore; i < reader_.damaged(); ++i)
-    handle().reject();
+    stream().reject();
 }
 
 void FalconDevice::take(const falcon::Report& report, Nanoseconds arrived) noexcept {
-  ArmSample& sample = handle().next();
+  ArmSample& sample = stream().next();
   sample = {};
   sample.pose.translation = last_;
   sample.buttons = report.buttons;
@@ -123,16 +123,16 @@ void FalconDevice::take(const falcon::Report& report, Nanoseconds arrived) noexc
     // A letter damaged in transit looks like this too; more than a few in a row are no accident.
     const auto place =
         falcon::isInRange(sample.joints) ? falcon::forward(sample.joints, last_) : std::nullopt;
-    if (!place) return handle().reject(DeviceFault::OutOfReach);
+    if (!place) return stream().reject(DeviceFault::OutOfReach);
     sample.pose.translation = last_ = *place;
     if (!wasHomed) velocity_.reset();
     sample.velocity = velocity_.update(last_, arrived);
-    handle().supervisor().calibrated();
+    stream().supervisor().calibrated();
   } else if (wasHomed) {
     // The device has forgotten where its handle is.
-    handle().supervisor().stop(DeviceFault::OutOfReach);
+    stream().supervisor().stop(DeviceFault::OutOfReach);
   }
-  handle().publish(arrived);
+  stream().publish(arrived);
 }
 
 std::span<const std::byte> FalconDevice::command(const glm::dvec3& force, const ArmSample& at) noexcept {

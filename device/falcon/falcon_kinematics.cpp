@@ -178,9 +178,9 @@ std::array<std::int16_t, 3> unitsFor(const glm::dvec3& force, const glm::dvec3& 
                                      const glm::dvec3& angles) noexcept {
   // Motor units count against the thigh angles.
   glm::dvec3 units = -kUnitsPerNewtonMetre * (glm::transpose(jacobian(position, angles)) * force);
-  const double most = std::max({std::abs(units.x), std::abs(units.y), std::abs(units.z)});
+  const double maxUnit = std::max({std::abs(units.x), std::abs(units.y), std::abs(units.z)});
   if (!std::isfinite(units.x + units.y + units.z)) return {};
-  if (most > kMaxUnits) units *= kMaxUnits / most;
+  if (maxUnit > kMaxUnits) units *= kMaxUnits / maxUnit;
   return {static_cast<std::int16_t>(units.x), static_cast<std::int16_t>(units.y),
           static_cast<std::int16_t>(units.z)};
 }

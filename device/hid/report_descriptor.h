@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "device/usb/usb_description.h"
+
 namespace nearfit {
 
 enum class HidReportKind : std::uint8_t { Input, Output, Feature };
@@ -60,5 +62,10 @@ std::optional<std::int32_t> readField(std::span<const std::byte> report, const H
 
 /// Writes a value into a report, cut to the field's bits. No-op if the report is too short. Real-time safe.
 void writeField(std::span<std::byte> report, const HidField& field, std::int32_t value) noexcept;
+
+/// Returns an interface's HID report descriptor as read by the kernel's own driver; opens nothing and
+/// disturbs nobody. Returns std::nullopt if no such driver is bound. May allocate.
+std::optional<std::vector<std::byte>> systemReportDescriptor(const UsbDescription& device,
+                                                             std::uint8_t interfaceNumber);
 
 }  // namespace nearfit

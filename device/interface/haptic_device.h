@@ -24,7 +24,7 @@ enum class DeviceState : std::uint8_t {
 };
 
 /// Sets the slew limits to full force and full torque in 5 ms, as DeviceLimits describes.
-inline void limitSlewByMost(DeviceLimits& limits) noexcept {
+inline void limitSlewByMax(DeviceLimits& limits) noexcept {
   constexpr double kTimeToFull = 5e-3;
   limits.forceSlew = limits.maxForce / kTimeToFull;
   limits.torqueSlew = limits.maxTorque / kTimeToFull;

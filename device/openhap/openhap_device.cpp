@@ -81,7 +81,7 @@ DeviceInfo OpenHapDevice::info() const {
   DeviceLimits& limits = info.limits;
   limits.maxForce = capabilities_.maxForce;
   limits.maxTorque = capabilities_.rendersTorque ? capabilities_.maxTorque : 0.0;
-  limitSlewByMost(limits);
+  limitSlewByMax(limits);
   limits.damping = capabilities_.damping;
   limits.rotationalDamping = capabilities_.rotationalDamping;
   limits.leastMass = std::max<double>(limits.leastMass, capabilities_.mass);
@@ -90,8 +90,8 @@ DeviceInfo OpenHapDevice::info() const {
 }
 
 std::string OpenHapDevice::stateNote() const {
-  const std::string note = handle_.note("the position of its handle is not known: home it");
-  if (state() != DeviceState::Fault || handle_.supervisor().fault() != DeviceFault::Reported) return note;
+  const std::string note = stream_.note("the position of its handle is not known: home it");
+  if (state() != DeviceState::Fault || stream_.supervisor().fault() != DeviceFault::Reported) return note;
   const std::lock_guard lock(faultMutex_);
   return faultText_.empty() ? note : note + ": " + faultText_;
 }
@@ -109,7 +109,7 @@ void OpenHapDevice::askForFaultText() noexcept {
 
 void OpenHapDevice::start(const RigidTransform&, const ProgressCallback&) {
   stop();
-  handle_.supervisor().beginOpening();
+  stream_.supervisor().beginOpening();
   try {
     const UsbInterface* face = openHapInterface(device_);
     const UsbEndpoint* in = face == nullptr ? nullptr : face->streaming(true);
@@ -125,16 +125,16 @@ void OpenHapDevice::start(const RigidTransform&, const ProgressCallback&) {
     request(openhap::Request::Disarm);
     hasSequence_ = hasPose_ = wasFaulted_ = false;
     setFaultText({});
-    handle_.begin({});
+    stream_.begin({});
     SafetyLimits limits = safety_;
     limits.hasDeadMan = capabilities_.hasDeadMan;
     limits.keepBelow(capabilities_.maxSpeed);
     limits.keepPace(1.0 / capabilities_.rate);
-    handle_.supervisor().opened(limits, !capabilities_.needsHoming);
+    stream_.supervisor().opened(limits, !capabilities_.needsHoming);
     link_->stream({in->address, out->address}, *this);
   } catch (...) {
     link_.reset();
-    handle_.supervisor().closed(stateAfterFailure());
+    stream_.supervisor().closed(stateAfterFailure());
     throw;
   }
 }
@@ -167,21 +167,21 @@ void OpenHapDevice::stop() noexcept {
   disarm();
   const bool isLost = state() == DeviceState::Lost;
   link_.reset();
-  handle_.supervisor().closed(isLost ? DeviceState::Lost : DeviceState::Present);
+  stream_.supervisor().closed(isLost ? DeviceState::Lost : DeviceState::Present);
 }
 
 void OpenHapDevice::arm() {
-  handle_.supervisor().arm(name());
+  stream_.supervisor().arm(name());
   try {
     request(openhap::Request::Arm);
   } catch (...) {
-    handle_.supervisor().disarm();
+    stream_.supervisor().disarm();
     throw;
   }
 }
 
 void OpenHapDevice::calibrate() {
-  handle_.supervisor().requireCalibratable(name());
+  stream_.supervisor().requireCalibratable(name());
   request(openhap::Request::Home);
 }
 
@@ -190,11 +190,11 @@ void OpenHapDevice::reset() {
   // Clears a tripped watchdog in the device.
   request(openhap::Request::Disarm);
   setFaultText({});
-  handle_.supervisor().reset();
+  stream_.supervisor().reset();
 }
 
 void OpenHapDevice::disarm() noexcept {
-  handle_.supervisor().disarm();
+  stream_.supervisor().disarm();
   try {
     if (link_ && state() != DeviceState::Lost) request(openhap::Request::Disarm);
   } catch (const Error&) {
@@ -203,49 +203,49 @@ void OpenHapDevice::disarm() noexcept {
 }
 
 void OpenHapDevice::onPacket(std::span<const std::byte> packet, std::int64_t arrived) noexcept {
-  openhap::PoseReport& report = handle_.next();
-  if (decode(packet, report) != openhap::Reject::None) return handle_.reject();
+  openhap::PoseReport& report = stream_.next();
+  if (decode(packet, report) != openhap::Reject::None) return stream_.reject();
   if (hasSequence_) {
     const auto step = static_cast<std::uint16_t>(report.sequence - lastSequence_);
-    if (step > 1) handle_.countMissing(step - 1U);
+    if (step > 1) stream_.countMissing(step - 1U);
   }
   hasSequence_ = true;
   lastSequence_ = report.sequence;
   const bool isFaulted = (report.status & (PoseStatus::kFaulted | PoseStatus::kWatchdogTripped)) != 0;
-  if (isFaulted) handle_.supervisor().stop(DeviceFault::Reported);
+  if (isFaulted) stream_.supervisor().stop(DeviceFault::Reported);
   if (isFaulted && !wasFaulted_) askForFaultText();
   wasFaulted_ = isFaulted;
-  if ((report.status & PoseStatus::kHomed) != 0) handle_.supervisor().calibrated();
-  handle_.publish(arrived);
+  if ((report.status & PoseStatus::kHomed) != 0) stream_.supervisor().calibrated();
+  stream_.publish(arrived);
 }
 
 void OpenHapDevice::onLost(UsbLoss loss) noexcept {
-  handle_.lose(loss);
+  stream_.lose(loss);
 }
 
 bool OpenHapDevice::readHandle(HandleInput& handle) noexcept {
-  if (!handle_.update()) return false;
-  const openhap::PoseReport& report = handle_.report();
+  if (!stream_.update()) return false;
+  const openhap::PoseReport& report = stream_.report();
   const std::array<float, 4>& q = report.rotation;
   velocity_ = vectorOf(report.velocity);
   handle.pose = RigidTransform{{q[0], q[1], q[2], q[3]}, vectorOf(report.position)}.normalized();
-  handle.age = handle_.age();
-  handle.patience = handle_.supervisor().patience();
+  handle.age = stream_.age();
+  handle.patience = stream_.supervisor().patience();
   // The part must not jump to wherever the handle is at first.
   handle.isClutched = !hasPose_ || (report.buttons & kClutchButton) != 0;
-  hasPose_ = handle_.hasReport();
+  hasPose_ = stream_.hasReport();
   handle.hasOwnFrame = true;
   handle.buttons = report.buttons;
-  handle.isArmed = handle_.supervisor().check(
+  handle.isArmed = stream_.supervisor().check(
       {handle.age, glm::length(velocity_), (report.status & PoseStatus::kDeadManHeld) != 0});
   return true;
 }
 
 void OpenHapDevice::sendWrench(const Wrench& wrench) noexcept {
-  const Wrench guarded = handle_.supervisor().guarded(wrench, velocity_, capabilities_.maxForce);
+  const Wrench guarded = stream_.supervisor().guarded(wrench, velocity_, capabilities_.maxForce);
   openhap::WrenchReport report;
   report.flags = state() == DeviceState::Armed ? openhap::kForcesOn : 0;
-  report.sequence = handle_.report().sequence;
+  report.sequence = stream_.report().sequence;
   report.force = floatsOf(guarded.force);
   report.torque = floatsOf(guarded.torque);
   report.timeToLiveMs = timeToLiveMs(capabilities_.rate);

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <optional>
 
-#include "device/common/streamed_handle.h"
+#include "device/common/report_stream.h"
 #include "device/interface/device_error.h"
 #include "device/interface/haptic_device.h"
 #include "device/openhap/openhap_protocol.h"
@@ -26,7 +26,7 @@ class OpenHapDevice final : public HapticDevice, private UsbPacketSink {
   ~OpenHapDevice() override;
 
   DeviceInfo info() const override;
-  DeviceState state() const noexcept override { return handle_.state(); }
+  DeviceState state() const noexcept override { return stream_.state(); }
   std::string stateNote() const override;
   void start(const RigidTransform& worldFromPart, const ProgressCallback& progress = {}) override;
   void stop() noexcept override;
@@ -34,11 +34,11 @@ class OpenHapDevice final : public HapticDevice, private UsbPacketSink {
   void disarm() noexcept override;
   void calibrate() override;
   void reset() override;
-  bool waitForHandle(Nanoseconds deadline) noexcept override { return handle_.wait(deadline); }
+  bool waitForHandle(Nanoseconds deadline) noexcept override { return stream_.wait(deadline); }
   bool readHandle(HandleInput& handle) noexcept override;
   void sendWrench(const Wrench& wrench) noexcept override;
 
-  ReportCounters counters() const noexcept override { return handle_.counters(); }
+  ReportCounters counters() const noexcept override { return stream_.counters(); }
   /// USB counters of the open link; zeros while closed.
   UsbCounters linkCounters() const noexcept { return link_ ? link_->counters() : UsbCounters{}; }
 
@@ -57,7 +57,7 @@ class OpenHapDevice final : public HapticDevice, private UsbPacketSink {
   std::optional<UsbLink> link_;
   openhap::Capabilities capabilities_;
   std::string product_;
-  StreamedHandle<openhap::PoseReport> handle_;
+  ReportStream<openhap::PoseReport> stream_;
 
   mutable std::mutex faultMutex_;
   std::string faultText_;  ///< The device's own text on the fault that it reports.

@@ -46,7 +46,7 @@ class PluginDevice final : public HapticDevice {
     if (description_.force_axes == 0) return info;
     limits.maxForce = description_.max_force;
     limits.maxTorque = description_.force_axes == 6 ? description_.max_torque : 0.0;
-    limitSlewByMost(limits);
+    limitSlewByMax(limits);
     limits.damping = description_.damping;
     limits.rotationalDamping = description_.rotational_damping;
     limits.leastMass = std::max(limits.leastMass, description_.mass);

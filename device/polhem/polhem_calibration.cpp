@@ -129,7 +129,7 @@ DeviceLimits limitsOf(const Calibration& calibration) noexcept {
   DeviceLimits limits;
   limits.maxForce = calibration.maxForce;
   limits.maxTorque = 0.0;
-  limitSlewByMost(limits);
+  limitSlewByMax(limits);
   limits.damping = calibration.damping;
   limits.rotationalDamping = calibration.rotationalDamping;
   limits.leastMass = std::max(limits.leastMass, calibration.mass);

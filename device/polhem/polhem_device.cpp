@@ -44,11 +44,11 @@ PolhemDevice::PolhemDevice(UsbDescription device, const polhem::Calibration& cal
       kinematics_(calibration) {}
 
 std::string PolhemDevice::stateNote() const {
-  return handle().note("the position of its handle is not known: hold it in its rest and calibrate it");
+  return stream().note("the position of its handle is not known: hold it in its rest and calibrate it");
 }
 
 void PolhemDevice::calibrate() {
-  handle().supervisor().requireCalibratable(name());
+  stream().supervisor().requireCalibratable(name());
   isCalibrationDue_.store(true, std::memory_order_release);
 }
 
@@ -90,26 +90,26 @@ bool PolhemDevice::isRestShown(const polhem::Report& report) noexcept {
 
 void PolhemDevice::take(std::span<const std::byte> packet, Nanoseconds arrived) noexcept {
   const std::optional<polhem::Report> report = polhem::decode(packet);
-  if (!report || packet.size() != packetSize_) return handle().reject();
+  if (!report || packet.size() != packetSize_) return stream().reject();
   if (isRestShown(*report)) {
     rest_ = report->encoders;
     isCalibrated_ = true;
     velocity_.reset();
-    handle().supervisor().calibrated();
+    stream().supervisor().calibrated();
   }
-  ArmSample& sample = handle().next();
+  ArmSample& sample = stream().next();
   sample = restSample();
   if (isCalibrated_) {
     const polhem::Angles angles = kinematics_.anglesOf(report->encoders, rest_);
     if (!kinematics_.isInRange(angles.arm)) {
       isCalibrated_ = false;
-      handle().supervisor().stop(DeviceFault::OutOfReach);
+      stream().supervisor().stop(DeviceFault::OutOfReach);
     }
     sample.joints = angles.arm;
     sample.pose = {kinematics_.orientationOf(angles), kinematics_.positionOf(angles.arm)};
     sample.velocity = velocity_.update(sample.pose.translation, arrived);
   }
-  handle().publish(arrived);
+  stream().publish(arrived);
 }
 
 std::span<const std::byte> PolhemDevice::command(const glm::dvec3& force, const ArmSample& at) noexcept {

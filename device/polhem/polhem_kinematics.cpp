@@ -101,8 +101,8 @@ std::array<int, 3> Kinematics::milliampsFor(const glm::dvec3& force, const glm::
     const DrivenJoint& driven = is_.joints[static_cast<std::size_t>(i)];
     const double gear = driven.joint.isReversed ? -driven.joint.gearRatio : driven.joint.gearRatio;
     current[i] = torque[i] / gear / driven.torqueConstant;
-    const double most = std::min(driven.maxCurrent, 1e-3 * kMaxMilliamps);
-    if (std::abs(current[i]) > most) scale = std::min(scale, most / std::abs(current[i]));
+    const double maxCurrent = std::min(driven.maxCurrent, 1e-3 * kMaxMilliamps);
+    if (std::abs(current[i]) > maxCurrent) scale = std::min(scale, maxCurrent / std::abs(current[i]));
   }
   std::array<int, 3> milliamps{};
   for (int i = 0; i < 3; ++i) {

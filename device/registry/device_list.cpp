@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "device/usb/udev_rules.h"
 #include "device/usb/usb_access.h"
 
 namespace nearfit {

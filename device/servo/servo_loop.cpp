@@ -34,13 +34,13 @@ constexpr std::uint64_t kTicksPerStatistics = 100;
 
 /// Returns the lower of each limit; NaN on either side stays, for the tick to refuse.
 DeviceLimits lower(const DeviceLimits& a, const DeviceLimits& b) noexcept {
-  const auto least = [](double x, double y) { return std::isnan(x) || x < y ? x : y; };
+  const auto minOf = [](double x, double y) { return std::isnan(x) || x < y ? x : y; };
   DeviceLimits result = a;
   for (const auto limit :
        {&DeviceLimits::maxForce, &DeviceLimits::maxTorque, &DeviceLimits::forceSlew,
         &DeviceLimits::torqueSlew, &DeviceLimits::damping, &DeviceLimits::rotationalDamping,
         &DeviceLimits::leastMass, &DeviceLimits::leastInertia}) {
-    result.*limit = least(a.*limit, b.*limit);
+    result.*limit = minOf(a.*limit, b.*limit);
   }
   return result;
 }

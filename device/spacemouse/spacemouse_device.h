@@ -19,9 +19,11 @@ namespace nearfit {
 /// holds the part while pressed; the second takes the handle back to the part.
 class SpaceMouseDevice final : public PassiveDevice, public RateDriven, private UsbPacketSink {
  public:
-  /// True for devices of 3Dconnexion, including those that carry Logitech's name.
+  /// True if 3Dconnexion made it, under its own or Logitech's name, and it sends reports. Not all of these are
+  /// space mice: see refusal().
   static bool speaks(const UsbDescription& device) noexcept;
-  /// Returns a reason for those that are not space mice; else std::nullopt.
+  /// Returns why it is not a space mouse, as far as that shows without opening it;
+  /// std::nullopt if it may be one.
   static std::optional<DeviceRefusal> refusal(const UsbDescription& device);
 
   /// Opens nothing yet.

@@ -21,8 +21,8 @@ HidField axisField(std::uint8_t report, std::uint32_t usage, std::uint32_t byte)
 }
 
 double deflection(std::int32_t value, const HidField& field) noexcept {
-  const std::int32_t most = field.logicalMaximum > 0 ? field.logicalMaximum : kFullScale;
-  return std::clamp(static_cast<double>(value) / most, -1.0, 1.0);
+  const std::int32_t max = field.logicalMaximum > 0 ? field.logicalMaximum : kFullScale;
+  return std::clamp(static_cast<double>(value) / max, -1.0, 1.0);
 }
 
 }  // namespace

@@ -1,13 +1,18 @@
 #include "device/usb/usb_access.h"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <linux/usbdevice_fs.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
+
+#include "core/base/error.h"
 
 namespace nearfit {
 namespace {
@@ -88,6 +93,25 @@ std::string usbProductName(const UsbDescription& device) {
 
 std::string usbMakerName(const UsbDescription& device) {
   return attributeOf(device, "manufacturer");
+}
+
+std::string udevRulesFile() {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  const std::array<fs::path, 2> places = {
+      program.parent_path().parent_path() / "lib/udev/rules.d/70-nearfit.rules",
+      fs::path(NEARFIT_RESOURCE_DIR) / "udev/70-nearfit.rules"};
+  for (const fs::path& file : places) {
+    if (fs::is_regular_file(file, ignored)) return file.string();
+  }
+  throw FileError(places[0].string(), "the file of udev rules is missing", "install Nearfit again");
+}
+
+std::string udevCommand() {
+  return fmt::format(
+      "sudo cp '{}' /etc/udev/rules.d/ && sudo udevadm control --reload && sudo udevadm trigger",
+      udevRulesFile());
 }
 
 }  // namespace nearfit

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <cstring>
 #include <system_error>
 #include <utility>
+
+#include <sys/eventfd.h>
+#include <unistd.h>
 
 #include "device/thread/monotonic_clock.h"
 
@@ -24,6 +28,25 @@ void addOne(std::atomic<std::uint64_t>& counter) noexcept {
 }
 
 }  // namespace
+
+WakeEvent::WakeEvent() : descriptor_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+  if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
+}
+
+WakeEvent::~WakeEvent() {
+  ::close(descriptor_);
+}
+
+void WakeEvent::ring() const noexcept {
+  const std::uint64_t one = 1;
+  // Fails only if 2^64 - 2 rings wait, and then it rings anyway.
+  [[maybe_unused]] const ssize_t ignored = ::write(descriptor_, &one, sizeof one);
+}
+
+bool WakeEvent::take() const noexcept {
+  std::uint64_t rung = 0;
+  return ::read(descriptor_, &rung, sizeof rung) > 0;
+}
 
 Streamer::Streamer(libusb_context* context, libusb_device_handle* handle, const UsbEndpoint& in,
                    const UsbEndpoint* out, UsbPacketSink& sink)

@@ -15,9 +15,28 @@
 #include "device/usb/libusb_handles.h"
 #include "device/usb/usb_link.h"
 #include "device/usb/usb_requests.h"
-#include "device/usb/wake_event.h"
 
 namespace nearfit::usb {
+
+/// Wakes a thread that polls descriptors; an eventfd.
+class WakeEvent {
+ public:
+  /// Throws std::system_error.
+  WakeEvent();
+  ~WakeEvent();
+  WakeEvent(const WakeEvent&) = delete;
+  WakeEvent& operator=(const WakeEvent&) = delete;
+
+  /// Descriptor to poll for input.
+  int descriptor() const noexcept { return descriptor_; }
+  /// Wakes the thread. Any thread; makes one system call.
+  void ring() const noexcept;
+  /// Returns true if it rang since the last call; never waits.
+  bool take() const noexcept;
+
+ private:
+  int descriptor_;
+};
 
 /// Keeps the transfers of one device in flight, on its own thread; UsbLink says what for.
 class Streamer {

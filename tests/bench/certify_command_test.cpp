@@ -52,7 +52,7 @@ class CertifyCommand : public testing::Test {
       MotionRow row;
       row.handle.translation.x = 5.0 - 0.5 * i;
       row.proxy.translation.x = std::max(row.handle.translation.x, stop);
-      row.released = row.proxy.translation.x < releasedBefore ? 1 : 0;
+      row.overlapping = row.proxy.translation.x < releasedBefore ? 1 : 0;
       text += formatMotionRow(row) + "\n";
     }
     folder.write("record.csv", text);

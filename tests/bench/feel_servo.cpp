@@ -39,7 +39,7 @@ const ServoSnapshot& FeelServo::tick(const RigidTransform& hand, double period) 
   wasPreempted_ = preemptions() != before;
   if (snapshot_->fault != ServoFault::None)
     throw Error(fmt::format("tick {}", ticks_), faultReason(snapshot_->fault), "find out how it came about");
-  if (snapshot_->releasedCount > 0)
+  if (snapshot_->overlappingCount > 0)
     throw Error(fmt::format("tick {}", ticks_), "the part overlaps a body", "start where it is free");
   workBeside();
   return *snapshot_;

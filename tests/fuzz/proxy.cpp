@@ -119,8 +119,8 @@ class Guard {
   /// Such as count as overlapping since nothing tells them apart from touching.
   void releaseThoseOf(const ServoSnapshot& s) {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-      for (std::uint32_t k = 0; k < s.releasedCount; ++k) {
-        if (s.released[k] == scene_.bodies[i].id) isClear_[i] = false;
+      for (std::uint32_t k = 0; k < s.overlappingCount; ++k) {
+        if (s.overlapping[k] == scene_.bodies[i].id) isClear_[i] = false;
       }
     }
   }

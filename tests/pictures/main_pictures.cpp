@@ -297,7 +297,7 @@ class Pictures {
         {QStringLiteral("arm"), QStringLiteral("OpenHap at bus 1"), {}, true},
         {QStringLiteral("other"), QStringLiteral("Novint Falcon at bus 2"),
          QStringLiteral("You have no permission to open it: see resources/docs/devices.md."), false}};
-    driver_.application.watcher().look();
+    driver_.application.watcher().poll();
     // Room for all of the panel, and nothing that overlaps.
     for (const char* dock : {"clearanceDock", "plotsDock", "timelineDock"})
       driver_.widget<QDockWidget>(dock)->hide();

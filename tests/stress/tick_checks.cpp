@@ -86,7 +86,7 @@ std::optional<std::string> faultOf(const ServoSnapshot& now, const ServoSnapshot
   if (!areNumbers(now)) return "a number is none";
   if (offUnit(now.proxy.rotation) > kQuaternionError || offUnit(now.handle.rotation) > kQuaternionError)
     return fmt::format("quaternion off by {:.3g}", offUnit(now.proxy.rotation));
-  if (now.releasedCount > 0) return "the part is said to overlap a body";
+  if (now.overlappingCount > 0) return "the part is said to overlap a body";
   const DeviceLimits& limits = parameters.limits;
   if (glm::length(now.wrench.force) > limits.maxForce * (1.0 + kLimitSlack) ||
       glm::length(now.wrench.torque) > limits.maxTorque * (1.0 + kLimitSlack))

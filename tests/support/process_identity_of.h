@@ -5,7 +5,7 @@
 
 #include <sys/types.h>
 
-#include "core/recovery/process_identity.h"
+#include "core/recovery/recovery_folder.h"
 
 namespace nearfit::test {
 

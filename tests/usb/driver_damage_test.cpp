@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "device/common/streamed_handle.h"
+#include "device/common/report_stream.h"
 #include "tests/usb/driver_fixture.h"
 
 namespace nearfit::driver_damage_test {
@@ -26,7 +26,7 @@ class DriverWithBadReports : public test::EachDriver {
     return all.back();
   }
 
-  static constexpr unsigned kMax = StreamedHandle<int>::kMaxRejectedInRow;
+  static constexpr unsigned kMax = ReportStream<int>::kMaxRejectedInRow;
 };
 
 TEST_P(DriverWithBadReports, OfEachSortIsCountedAndNotBelievedAndTheNextGoodOneIs) {

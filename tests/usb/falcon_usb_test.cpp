@@ -155,7 +155,7 @@ TEST_F(FalconOverUsb, ThighsThatCannotBeThereStopIt) {
   device->arm();
   with([](test::FalconFirmware& firmware) { firmware.encoders = {32000, 0, 0}; });
   // Each command brings one such report; none of them is a pose to wait for.
-  for (unsigned i = 0; i < StreamedHandle<ArmSample>::kMaxRejectedInRow + 2; ++i) {
+  for (unsigned i = 0; i < ReportStream<ArmSample>::kMaxRejectedInRow + 2; ++i) {
     const std::uint64_t before =
         emulator.withFirmware([](const auto& firmware) { return firmware.commands(); });
     device->readHandle(handle);

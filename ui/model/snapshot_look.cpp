@@ -14,7 +14,8 @@ bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
 bool looksTheSame(const ServoSnapshot& a, const ServoSnapshot& b) {
   if (a.moving != b.moving || !isSamePose(a.proxy, b.proxy) || a.storedLmds != b.storedLmds) return false;
   if (!isSamePose(a.handle, b.handle) || a.mode != b.mode || a.contactCount != b.contactCount) return false;
-  if (a.storedContacts != b.storedContacts || a.releasedCount != b.releasedCount || a.released != b.released)
+  if (a.storedContacts != b.storedContacts || a.overlappingCount != b.overlappingCount ||
+      a.overlapping != b.overlapping)
     return false;
   const auto isSameContact = [](const SnapshotContact& p, const SnapshotContact& q) {
     return p.point == q.point && p.direction == q.direction && p.force == q.force;

@@ -212,8 +212,9 @@ void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
   *shown_ = snapshot;
   hasNewNumbers_ = true;
   glyphs_->show(snapshot, scene_.haptics().springs.cutoff, scene_.find(snapshot.moving));
-  const std::size_t released = std::min<std::size_t>(snapshot.releasedCount, ServoSnapshot::kMaxReleased);
-  parts_.setOverlapping(std::span(snapshot.released).first(released));
+  const std::size_t overlapping =
+      std::min<std::size_t>(snapshot.overlappingCount, ServoSnapshot::kMaxOverlapping);
+  parts_.setOverlapping(std::span(snapshot.overlapping).first(overlapping));
   requestRender();
 }
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "core/files/mapped_file.h"
+#include "core/files/input_file.h"
 #include "core/proximity/cache/tree_cache_format.h"
 
 namespace nearfit {

@@ -28,7 +28,7 @@ struct DeviceFixture {
   }
   void plug(const QVector<ui::DeviceChoice>& devices) {
     source->devices = devices;
-    d->application.watcher().look();
+    d->application.watcher().poll();
   }
   QStringList names() {
     QStringList names;

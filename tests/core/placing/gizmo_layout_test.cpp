@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "core/placing/gizmo_drag.h"
-#include "core/placing/screen_shapes.h"
 #include "tests/core/placing/projection_oracle.h"
 
 namespace nearfit::gizmo_layout_test {

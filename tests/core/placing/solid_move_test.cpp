@@ -139,9 +139,9 @@ TEST(SolidMove, PartsThatOverlapAreLetGoUntilTheyAreApart) {
   ASSERT_TRUE(b.doMeet(cube, {}, wall));
   SolidMove move(b.scene, {{cube}});
   EXPECT_TRUE(settle(move, at({0.0, 0.01, 0.0})).hasArrived);
-  EXPECT_THAT(move.released(), ElementsAre(wall));
+  EXPECT_THAT(move.overlapping(), ElementsAre(wall));
   EXPECT_TRUE(settle(move, at({-0.05, 0.01, 0.0})).hasArrived);
-  EXPECT_THAT(move.released(), IsEmpty());
+  EXPECT_THAT(move.overlapping(), IsEmpty());
   // Once apart it is solid.
   EXPECT_FALSE(settle(move, at({0.02, 0.01, 0.0})).hasArrived);
   EXPECT_NEAR(b.highestX(cube, move.poses()[0]), 0.005 - b.margin(), 0.05 * b.margin());

@@ -156,8 +156,8 @@ TEST(Clearance, WhatATickKnowsIsTakenOverAndTheRestStays) {
   EXPECT_FALSE(rows[3].isOverlapping()) << "they are apart again";
 
   rows[3] = row(4, true);
-  snapshot->released[0] = PartId{4};
-  snapshot->releasedCount = 1;
+  snapshot->overlapping[0] = PartId{4};
+  snapshot->overlappingCount = 1;
   updateFrom(*snapshot, rows);
   EXPECT_EQ(rows[3].distance, 9.0) << "overlapping: the next search tells";
 }

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/scene/palette.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"
 #include "tests/support/temporary_folder.h"

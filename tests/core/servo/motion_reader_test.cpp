@@ -35,7 +35,7 @@ MotionRow rowAt(double time, test::RandomValues& random) {
   row.refusedSteps = 6;
   row.constraints = 7;
   row.contacts = 8;
-  row.released = 9;
+  row.overlapping = 9;
   row.proxyTime = 1.5e-6;
   row.lateness = 45e-6;
   row.isClamped = true;

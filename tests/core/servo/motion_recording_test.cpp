@@ -47,7 +47,7 @@ MotionRow sampleRow() {
   row.refusedSteps = 6;
   row.constraints = 7;
   row.contacts = 8;
-  row.released = 9;
+  row.overlapping = 9;
   row.proxyTime = 1.2341e-6;
   row.lateness = 45.6781e-6;
   row.isClamped = row.isTruncated = true;
@@ -103,7 +103,7 @@ TEST(MotionRecording, ARowIsTakenFromASnapshot) {
   snapshot->constraintCount = 14;
   snapshot->contactCount = 15;
   snapshot->storedContacts = 1;
-  snapshot->releasedCount = 16;
+  snapshot->overlappingCount = 16;
   snapshot->fault = ServoFault::WrenchNotFinite;
   const MotionRow row = motionRow(*snapshot, 17.5);
   EXPECT_EQ(row.time, 1.5);
@@ -124,7 +124,7 @@ TEST(MotionRecording, ARowIsTakenFromASnapshot) {
   EXPECT_EQ(row.refusedSteps, 13U);
   EXPECT_EQ(row.constraints, 14U);
   EXPECT_EQ(row.contacts, 15U);
-  EXPECT_EQ(row.released, 16U);
+  EXPECT_EQ(row.overlapping, 16U);
   EXPECT_EQ(row.lateness, 17.5);
 }
 

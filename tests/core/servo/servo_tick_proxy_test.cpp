@@ -155,11 +155,11 @@ TEST_F(ServoTickWithProxy, ModesChangeLiveAndAPartThatSpringsLeftInsideIsRelease
   EXPECT_EQ(s.proxy.translation.z, 0.09) << "through the floor, as springs let it";
   parameters_.haptics.mode = HapticMode::Proxy;
   hold(at({0.0, 0.0, 0.09}), 10);
-  EXPECT_EQ(s.releasedCount, 1U);
-  EXPECT_EQ(s.released[0], PartId{2});
+  EXPECT_EQ(s.overlappingCount, 1U);
+  EXPECT_EQ(s.overlapping[0], PartId{2});
   EXPECT_EQ(s.proxy.translation.z, 0.09);
   hold(at({0.0, 0.0, 0.15}), 100);
-  EXPECT_EQ(s.releasedCount, 0U);
+  EXPECT_EQ(s.overlappingCount, 0U);
   hold(at({0.0, 0.0, 0.05}), 100);
   EXPECT_NEAR(s.proxy.translation.z, 0.1 + kMargin, 0.02 * kMargin);
 }

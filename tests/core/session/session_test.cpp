@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/scene/palette.h"
 
 namespace nearfit::session_test {
 namespace {

@@ -192,8 +192,8 @@ void ViewPicturesTest::overlapsAreMarked() {
   Bench b;
   const auto snapshot = b.felt();
   snapshot->proxy.translation = snapshot->handle.translation = {-0.025, 0.01, 0.02};
-  snapshot->released[0] = b.ball;
-  snapshot->releasedCount = 1;
+  snapshot->overlapping[0] = b.ball;
+  snapshot->overlappingCount = 1;
   b.poses.show(ui::ShownPoses::Source::Hand, {{b.peg, snapshot->proxy}});
   b.view.showSnapshot(*snapshot);
   check(b.picture(), "overlap", b.texts());

@@ -69,8 +69,8 @@ void NamesTest::aNoticeOfAPartWithALongNameIsNoWiderThanItsPanel() {
   part.name = std::string(195, 'W');
   const PartId id = scene.add(part);
   const auto snapshot = std::make_unique<ServoSnapshot>();
-  snapshot->released[0] = id;
-  snapshot->releasedCount = 1;
+  snapshot->overlapping[0] = id;
+  snapshot->overlappingCount = 1;
   FeelNotice notice;
   notice.showSnapshot(*snapshot, scene);
   QVERIFY2(notice.minimumSizeHint().width() < 280,

@@ -16,12 +16,12 @@ constexpr double kLongWait = 0.25;  ///< [s]
 /// Returns "Base", "Base and Lid" or "Base, Lid and 3 more".
 QString namesOf(const ServoSnapshot& snapshot, const Scene& scene) {
   QStringList names;
-  const std::size_t stored = std::min<std::size_t>(snapshot.releasedCount, ServoSnapshot::kMaxReleased);
+  const std::size_t stored = std::min<std::size_t>(snapshot.overlappingCount, ServoSnapshot::kMaxOverlapping);
   for (std::size_t i = 0; i < stored; ++i) {
-    if (const Part* part = scene.find(snapshot.released[i])) names << QString::fromStdString(part->name);
+    if (const Part* part = scene.find(snapshot.overlapping[i])) names << QString::fromStdString(part->name);
   }
   constexpr int kNamed = 2;
-  return breakable(listOfNames(names, kNamed, static_cast<int>(snapshot.releasedCount)));
+  return breakable(listOfNames(names, kNamed, static_cast<int>(snapshot.overlappingCount)));
 }
 
 }  // namespace
@@ -77,9 +77,9 @@ bool FeelNotice::hasWaitedLong(const ServoSnapshot& snapshot) {
 QString FeelNotice::textFor(const ServoSnapshot& snapshot, const Scene& scene) const {
   if (snapshot.fault != ServoFault::None)
     return tr("Nothing is felt: %1.").arg(QString::fromUtf8(faultReason(snapshot.fault)));
-  if (snapshot.releasedCount == 0) return {};
+  if (snapshot.overlappingCount == 0) return {};
   const QString names = namesOf(snapshot, scene);
-  return snapshot.releasedCount == 1
+  return snapshot.overlappingCount == 1
              ? tr("Overlaps %1, which is not felt until the two are apart.").arg(names)
              : tr("Overlaps %1, which are not felt until they are apart from it.").arg(names);
 }

@@ -6,7 +6,6 @@
 #include <QTimer>
 #include <utility>
 
-#include "core/placing/section_pick.h"
 #include "ui/model/shown_poses.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/format.h"

@@ -288,7 +288,7 @@ void RandomUser::changeDevices() {
   arm.isUsable = true;
   devices_.devices = random_.flip(0.7) ? QVector<ui::DeviceChoice>{arm} : QVector<ui::DeviceChoice>{};
   say(QStringLiteral("%1 devices").arg(devices_.devices.size()));
-  d_.application.watcher().look();
+  d_.application.watcher().poll();
 }
 
 void RandomUser::changeFile() {

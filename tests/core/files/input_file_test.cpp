@@ -1,4 +1,4 @@
-#include "core/files/mapped_file.h"
+#include "core/files/input_file.h"
 
 #include <cstring>
 #include <string>
@@ -10,7 +10,7 @@
 #include "core/files/checksum.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nearfit::mapped_file_test {
+namespace nearfit::input_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,4 +59,4 @@ TEST(Checksum, IsXxh3AsPublished) {
 }
 
 }  // namespace
-}  // namespace nearfit::mapped_file_test
+}  // namespace nearfit::input_file_test

@@ -12,12 +12,13 @@
 
 namespace nearfit {
 
-/// Shared by drivers whose devices stream poses: passes the newest report from the link's thread to the servo
-/// thread and wakes it. Holds the age of the report, the supervisor, the counters and the reason for a loss.
+/// The reports of a device that streams poses, shared by such drivers: passes the newest from the link's thread
+/// to the servo thread and wakes it. Holds the report's age, the supervisor, the counters and the reason for a
+/// loss.
 ///
 /// @tparam Report  Decoded packet; trivially copyable.
 template <class Report>
-class StreamedHandle {
+class ReportStream {
  public:
   DeviceSupervisor& supervisor() noexcept { return supervisor_; }
   const DeviceSupervisor& supervisor() const noexcept { return supervisor_; }
