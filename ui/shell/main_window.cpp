@@ -71,18 +71,13 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       session_(session),
       selection_(new Selection(session, this)),
       poses_(new ShownPoses(session, this)),
-      hand_(new HandState(session, this)),
+      hand_(new HandState(session, *poses_, this)),
       guard_(new MoveGuard(session, *hand_, this)),
       panelsMenu_(new QMenu(tr("&Panels"), this)),
       units_(new UnitMenu(this)) {
   const auto shapes = std::make_shared<PartShapeCache>();
   viewport_ = new Viewport(shapes, *selection_, *poses_, this);
   setCentralWidget(viewport_);
-  // Before the view shows the tick.
-  connect(hand_, &HandState::snapshotShown, poses_, [this](const ServoSnapshot& snapshot) {
-    poses_->show(ShownPoses::Source::Hand, {{snapshot.moving, snapshot.proxy}});
-  });
-  connect(hand_, &HandState::snapshotCleared, poses_, [this] { poses_->show(ShownPoses::Source::Hand, {}); });
   connect(hand_, &HandState::snapshotShown, viewport_, &Viewport::showSnapshot);
   connect(hand_, &HandState::snapshotCleared, viewport_, &Viewport::clearSnapshot);
   document_ = std::make_unique<Document>(session, shapes, this);
