@@ -7,7 +7,6 @@
 #include "app/desktop/application.h"
 #include "app/desktop/command_line.h"
 #include "app/desktop/device_led_session.h"
-#include "app/desktop/display_check.h"
 #include "app/desktop/screenshot.h"
 #include "core/recovery/recovery_folder.h"
 

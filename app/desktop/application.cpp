@@ -1,10 +1,14 @@
 #include "app/desktop/application.h"
 
 #include <QApplication>
+#include <QDir>
+#include <QFileInfo>
+#include <QOpenGLContext>
 #include <QSettings>
 #include <QTimer>
+#include <QtGlobal>
 
-#include "app/desktop/resource_files.h"
+#include "core/base/error.h"
 #include "ui/files/document.h"
 #include "ui/model/hand_state.h"
 #include "ui/panels/feel/feel_control.h"
@@ -16,6 +20,21 @@
 #include "ui/widgets/theme.h"
 
 namespace nearfit::desktop {
+namespace {
+
+/// Returns the path of a file that comes with the program, named by its path below resources/
+/// ("demo/piston.nearfit"): beside the installed program, or in the source tree that it was built from. Empty
+/// if it is in neither. Needs the QCoreApplication.
+QString resourceFile(const QString& name) {
+  const QString installed = QCoreApplication::applicationDirPath() + QStringLiteral("/../share/nearfit");
+  for (const QString& folder : {installed, QStringLiteral(NEARFIT_RESOURCE_DIR)}) {
+    const QString file = QDir::cleanPath(QDir(folder).filePath(name));
+    if (QFileInfo(file).isFile()) return file;
+  }
+  return {};
+}
+
+}  // namespace
 
 void Application::prepare() {
   ui::Viewport::setDefaultSurfaceFormat();
@@ -98,6 +117,23 @@ void Application::wireReports() {
   connect(&rows, &ServoRows::recordingChanged, &window_.recording(), &RecordAction::showRecording);
   connect(&rows, &ServoRows::recorded, &window_.recording(), &RecordAction::showRecorded);
   connect(&rows, &ServoRows::failed, &window_.recording(), &RecordAction::showFailed);
+}
+
+void requireDisplay() {
+  if (!qEnvironmentVariableIsEmpty("DISPLAY") || !qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY") ||
+      !qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) {
+    return;
+  }
+  throw Error("", "there is no display", "set DISPLAY, or use nearfit-cli, which needs none");
+}
+
+void requireOpenGl() {
+  QOpenGLContext context;
+  const bool isUsable = context.create() && context.format().version() >= qMakePair(3, 2);
+  if (!isUsable) {
+    throw Error("", "this display does not support OpenGL 3.2",
+                "install a graphics driver, or Mesa's software one (libgl1-mesa-dri)");
+  }
 }
 
 }  // namespace nearfit::desktop

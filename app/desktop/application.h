@@ -4,7 +4,7 @@
 #include <QStringList>
 #include <memory>
 
-#include "app/desktop/device_watcher.h"
+#include "app/desktop/device_source.h"
 #include "app/desktop/servo_controller.h"
 #include "core/session/session.h"
 #include "ui/shell/main_window.h"
@@ -48,5 +48,10 @@ class Application : public QObject {
   DeviceWatcher watcher_;
   ui::MainWindow window_;
 };
+
+/// Check for a display and for OpenGL 3.2 before Qt and VTK do, which end the process without them. Throw
+/// Error with the remedy. requireDisplay() needs no QApplication; requireOpenGl() does.
+void requireDisplay();
+void requireOpenGl();
 
 }  // namespace nearfit::desktop

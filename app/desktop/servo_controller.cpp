@@ -4,7 +4,6 @@
 #include <exception>
 #include <utility>
 
-#include "app/desktop/device_text.h"
 #include "app/desktop/hands.h"
 #include "device/common/rate_control.h"
 #include "device/interface/device_error.h"

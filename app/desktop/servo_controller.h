@@ -7,7 +7,7 @@
 
 #include "app/desktop/device_source.h"
 #include "app/desktop/device_worker.h"
-#include "app/desktop/servo_meter.h"
+#include "app/desktop/servo_report.h"
 #include "app/desktop/servo_rows.h"
 #include "core/haptics/rate_settings.h"
 #include "core/session/session.h"

@@ -23,8 +23,7 @@ Clearance findClearance(const ServoScene& scene, const BroadPhase& bounds,
     const RigidTransform bodyFromPart = (body.worldFromPart.inverse() * worldFromPart).normalized();
     // The tick reports invalid poses.
     if (!bodyFromPart.isFinite()) return;
-    const Interference found =
-        findInterference(other.tree(), part.tree(), bodyFromPart);
+    const Interference found = findInterference(other.tree(), part.tree(), bodyFromPart);
     if (found.kind != InterferenceKind::Disjoint) {
       overlapping->push_back(index);
       return;

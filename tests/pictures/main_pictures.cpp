@@ -18,7 +18,7 @@
 #include "core/servo/motion_recording.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "tests/app/desktop/fake_device.h"
-#include "ui/files/recovery/recovery_dialog.h"
+#include "ui/files/recovery/recovery.h"
 #include "ui/files/unit_dialog.h"
 #include "ui/model/selection.h"
 #include "ui/widgets/error_box.h"

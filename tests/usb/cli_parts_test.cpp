@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/cli/monitor_damping.h"
+#include "app/cli/device_monitor.h"
 #include "app/cli/rate_options.h"
 #include "core/base/error.h"
 

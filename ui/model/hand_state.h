@@ -9,13 +9,16 @@
 
 namespace nearfit::ui {
 
+class ShownPoses;
+
 /// Who holds the moving part, and where: the servo as last reported. Panels, tools and the view follow it.
 class HandState : public QObject {
   Q_OBJECT
 
  public:
   /// @param session  Outlives this.
-  explicit HandState(const Session& session, QObject* parent = nullptr);
+  /// @param poses    Learns where the servo has the part in hand; outlives this.
+  HandState(const Session& session, ShownPoses& poses, QObject* parent = nullptr);
 
   const ServoStatus& status() const noexcept { return status_; }
   /// True while the servo runs with that hand.
@@ -23,11 +26,11 @@ class HandState : public QObject {
   /// Returns the part in hand; nullopt unless the servo runs.
   std::optional<PartId> part() const;
   bool holds(std::optional<PartId> part) const { return part && this->part() == part; }
-  /// Returns where the servo has the part in hand (worldFromPart); meaningless without one.
-  const RigidTransform& partPose() const noexcept { return partPose_; }
+  /// Returns where the servo has the part in hand (worldFromPart); the identity without one.
+  RigidTransform partPose() const;
   /// Returns where the manual hand wants the part (worldFromPart), which may lag behind; for other hands
   /// partPose().
-  const RigidTransform& handPose() const noexcept { return isHeldBy(Hand::Manual) ? handPose_ : partPose_; }
+  RigidTransform handPose() const { return isHeldBy(Hand::Manual) ? handPose_ : partPose(); }
   /// Sets where the manual hand wants the part (worldFromPart).
   void setHandPose(const RigidTransform& worldFromPart) { handPose_ = worldFromPart; }
 
@@ -49,8 +52,9 @@ class HandState : public QObject {
 
  private:
   const Session& session_;
+  ShownPoses& poses_;
   ServoStatus status_;
-  RigidTransform partPose_, handPose_;
+  RigidTransform handPose_;  ///< Of the manual hand.
 };
 
 }  // namespace nearfit::ui

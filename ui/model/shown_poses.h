@@ -38,6 +38,8 @@ class ShownPoses : public QObject {
   RigidTransform poseOf(const Part& part) const { return poseFrom(Source::Drag, part); }
   /// Returns where the view shows a part: as previewed, else poseOf().
   RigidTransform shownPoseOf(const Part& part) const { return poseFrom(Source::Preview, part); }
+  /// Returns where the hand has a part, whatever else shows it elsewhere; else `part.worldFromPart`.
+  RigidTransform heldPoseOf(const Part& part) const { return poseFrom(Source::Hand, part); }
   /// Returns where the moving part is; the identity if there is none.
   RigidTransform poseOfMoving() const;
   /// True while a drag has the part.

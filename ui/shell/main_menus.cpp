@@ -1,8 +1,8 @@
 #include "ui/shell/main_menus.h"
 
 #include <QAction>
+#include <QActionGroup>
 #include <QMainWindow>
-#include <QMenu>
 #include <QMenuBar>
 #include <QToolBar>
 #include <QToolButton>
@@ -24,9 +24,36 @@
 #include "ui/tools/placing/placing_tools.h"
 #include "ui/tools/section/section_tool.h"
 #include "ui/tools/selecting/box_select.h"
+#include "ui/widgets/number_field.h"
+#include "ui/widgets/preferences.h"
 #include "ui/widgets/split_button.h"
 
 namespace nearfit::ui {
+
+UnitMenu::UnitMenu(QWidget* window)
+    : QMenu(tr("&Unit of length"), window), window_(window), group_(new QActionGroup(this)) {
+  setObjectName(QStringLiteral("unitMenu"));
+  setShownLengthUnit(Preferences::lengthUnit());
+  for (const LengthUnit unit : kLengthUnits) {
+    QAction* action = addAction(tr("%1 (%2)").arg(nameOf(unit), symbolOf(unit)));
+    action->setObjectName(QStringLiteral("unit-") + symbolOf(unit));
+    action->setCheckable(true);
+    action->setChecked(unit == Preferences::lengthUnit());
+    group_->addAction(action);
+    connect(action, &QAction::triggered, this, [this, unit] { choose(unit); });
+  }
+}
+
+void UnitMenu::choose(LengthUnit unit) {
+  Preferences::setLengthUnit(unit);
+  setShownLengthUnit(unit);
+  for (NumberField* field : window_->findChildren<NumberField*>())
+    field->setLengthUnit(unit);
+  // Painted lengths are formatted while painting.
+  for (QWidget* widget : window_->findChildren<QWidget*>())
+    widget->update();
+  emit unitChanged(unit);
+}
 
 MainMenus::MainMenus(QMainWindow* window, const Commands& commands, QMenu* panels, QMenu* units)
     : QObject(window), window_(window), commands_(commands) {

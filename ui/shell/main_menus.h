@@ -1,10 +1,13 @@
 #pragma once
 
+#include <QMenu>
 #include <QObject>
 
+#include "ui/widgets/length_unit.h"
+
 class QAction;
+class QActionGroup;
 class QMainWindow;
-class QMenu;
 class QToolBar;
 
 namespace nearfit::ui {
@@ -25,6 +28,26 @@ class Replay;
 class SectionTool;
 class UndoActions;
 class ViewActions;
+
+/// The choice of the length unit, kept between runs and passed to every NumberField of the window.
+class UnitMenu : public QMenu {
+  Q_OBJECT
+
+ public:
+  /// Sets shownLengthUnit() to the stored unit.
+  /// @param window  The parent; its number fields follow the choice.
+  explicit UnitMenu(QWidget* window);
+
+ signals:
+  /// Emitted when the user chose a unit, after fields and shownLengthUnit() have changed.
+  void unitChanged(nearfit::ui::LengthUnit unit);
+
+ private:
+  void choose(LengthUnit unit);
+
+  QWidget* window_;
+  QActionGroup* group_;
+};
 
 /// The menu bar and the tool bars: where the actions of panels, tools and files are found. What they do, and
 /// when they can be used, is theirs.

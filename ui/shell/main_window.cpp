@@ -34,12 +34,10 @@
 #include "ui/panels/replay/timeline.h"
 #include "ui/panels/view/view_actions.h"
 #include "ui/shell/main_menus.h"
-#include "ui/shell/status_readout.h"
-#include "ui/shell/unit_menu.h"
+#include "ui/shell/title_and_status.h"
 #include "ui/shell/welcome_card.h"
 #include "ui/shell/window_layout.h"
 #include "ui/shell/window_shell.h"
-#include "ui/shell/window_title.h"
 #include "ui/tools/measure/measure_tool.h"
 #include "ui/tools/placing/align_tool.h"
 #include "ui/tools/placing/drop_tool.h"
@@ -73,18 +71,13 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       session_(session),
       selection_(new Selection(session, this)),
       poses_(new ShownPoses(session, this)),
-      hand_(new HandState(session, this)),
+      hand_(new HandState(session, *poses_, this)),
       guard_(new MoveGuard(session, *hand_, this)),
       panelsMenu_(new QMenu(tr("&Panels"), this)),
       units_(new UnitMenu(this)) {
   const auto shapes = std::make_shared<PartShapeCache>();
   viewport_ = new Viewport(shapes, *selection_, *poses_, this);
   setCentralWidget(viewport_);
-  // Before the view shows the tick.
-  connect(hand_, &HandState::snapshotShown, poses_, [this](const ServoSnapshot& snapshot) {
-    poses_->show(ShownPoses::Source::Hand, {{snapshot.moving, snapshot.proxy}});
-  });
-  connect(hand_, &HandState::snapshotCleared, poses_, [this] { poses_->show(ShownPoses::Source::Hand, {}); });
   connect(hand_, &HandState::snapshotShown, viewport_, &Viewport::showSnapshot);
   connect(hand_, &HandState::snapshotCleared, viewport_, &Viewport::clearSnapshot);
   document_ = std::make_unique<Document>(session, shapes, this);

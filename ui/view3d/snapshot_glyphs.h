@@ -52,4 +52,7 @@ class SnapshotGlyphs {
   ColourLegend* legend_;
 };
 
+/// True if the view looks the same with both snapshots.
+bool looksTheSame(const ServoSnapshot& a, const ServoSnapshot& b);
+
 }  // namespace nearfit::ui

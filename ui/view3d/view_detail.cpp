@@ -1,5 +1,6 @@
 #include "ui/view3d/view_detail.h"
 
+#include <QScreen>
 #include <algorithm>
 #include <chrono>
 
@@ -166,6 +167,18 @@ void ViewDetail::completeAnew() {
   beginKeeping();
   while (isKeeping_)
     keepMore();
+}
+
+void PicturePace::request() {
+  if (hasRequest_) return;
+  hasRequest_ = true;
+  const QScreen* screen = view_.window()->screen();
+  const auto interval = static_cast<qint64>(1000.0 / std::max(30.0, screen->refreshRate()));
+  const qint64 since = sincePicture_.isValid() ? sincePicture_.elapsed() : interval;
+  QTimer::singleShot(static_cast<int>(std::max<qint64>(0, interval - since)), Qt::PreciseTimer, this, [this] {
+    hasRequest_ = false;
+    if (view_.isVisible()) emit pictureDue();
+  });
 }
 
 }  // namespace nearfit::ui

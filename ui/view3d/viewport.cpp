@@ -16,12 +16,8 @@
 
 #include "ui/model/selection.h"
 #include "ui/model/shown_poses.h"
-#include "ui/model/snapshot_look.h"
 #include "ui/view3d/camera/camera_style.h"
 #include "ui/view3d/camera/orientation_marker.h"
-#include "ui/view3d/camera/view_depths.h"
-#include "ui/view3d/camera/view_setting.h"
-#include "ui/view3d/drawing/picture_pace.h"
 #include "ui/view3d/hand_drag.h"
 #include "ui/view3d/snapshot_glyphs.h"
 #include "ui/view3d/view_detail.h"

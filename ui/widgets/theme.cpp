@@ -2,13 +2,19 @@
 
 #include <QApplication>
 #include <QEvent>
+#include <QFile>
+#include <QIconEngine>
+#include <QPainter>
 #include <QPalette>
+#include <QPixmapCache>
 #include <QSettings>
+#include <QStyle>
+#include <QStyleOption>
+#include <QSvgRenderer>
 #include <QWidget>
 #include <algorithm>
 #include <utility>
 
-#include "ui/widgets/themed_icon.h"
 #include "ui/widgets/window_style.h"
 
 // Q_INIT_RESOURCE declares a function, so it must stand outside any namespace.
@@ -180,6 +186,60 @@ void apply(bool isDark) {
 
 bool isWantedDark(ColourScheme scheme) {
   return scheme == ColourScheme::System ? isDesktopDark() : scheme == ColourScheme::Dark;
+}
+
+/// Paints an icon of resources/icons in the colours of the theme at that moment, light or dark.
+class ThemedIcon : public QIconEngine {
+ public:
+  /// @param file  The SVG's resource path.
+  explicit ThemedIcon(const QString& file) : file_(file) {}
+
+  void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State state) override;
+  QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override;
+  QIconEngine* clone() const override { return new ThemedIcon(file_); }
+
+ private:
+  QString file_;
+};
+
+QPixmap draw(const QString& file, const QSize& size, bool isDark) {
+  QFile svg(file);
+  if (!svg.open(QIODevice::ReadOnly)) return {};
+  QString text = QString::fromUtf8(svg.readAll());
+  if (isDark) text = inDarkColours(text);
+  QSvgRenderer renderer(text.toUtf8());
+  QPixmap pixmap(size);
+  pixmap.fill(Qt::transparent);
+  QPainter painter(&pixmap);
+  renderer.render(&painter);
+  return pixmap;
+}
+
+void ThemedIcon::paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State state) {
+  const qreal ratio = painter->device() != nullptr ? painter->device()->devicePixelRatioF() : 1.0;
+  QPixmap shown = pixmap(rect.size() * ratio, mode, state);
+  shown.setDevicePixelRatio(ratio);
+  painter->drawPixmap(rect, shown);
+}
+
+QPixmap ThemedIcon::pixmap(const QSize& size, QIcon::Mode mode, QIcon::State) {
+  const bool isDark = isThemeDark();
+  const QString key = QStringLiteral("nearfit:%1:%2x%3:%4:%5")
+                          .arg(file_)
+                          .arg(size.width())
+                          .arg(size.height())
+                          .arg(static_cast<int>(mode))
+                          .arg(isDark);
+  QPixmap pixmap;
+  if (QPixmapCache::find(key, &pixmap)) return pixmap;
+  pixmap = draw(file_, size, isDark);
+  if (mode == QIcon::Disabled) {
+    QStyleOption option;
+    option.palette = QApplication::palette();
+    pixmap = QApplication::style()->generatedIconPixmap(mode, pixmap, &option);
+  }
+  QPixmapCache::insert(key, pixmap);
+  return pixmap;
 }
 
 }  // namespace

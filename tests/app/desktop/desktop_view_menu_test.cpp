@@ -1,7 +1,7 @@
-#include <QDeadlineTimer>
 #include <QDockWidget>
 #include <QMenu>
 
+#include "tests/app/desktop/menus.h"
 #include "tests/app/desktop/view_pointer.h"
 #include "ui/model/parts_model.h"
 #include "ui/model/selection.h"
@@ -20,15 +20,13 @@ struct Pointer : ViewPointer {
     d.window().selection().select(std::nullopt);
     look("viewFront");
   }
-  /// Opens the menu, and again when it closes at once: without a window manager the window may become active late, which
-  /// closes what has just opened.
+  /// Opens the menu, and again when it closes at once.
   template <class Open>
   static void openMenu(const Open& open) {
-    constexpr int kUntilTheNextTryMs = 1500;
-    const QDeadlineTimer end(kQtPatienceMs);
-    do {
+    openPatiently([&] {
       open();
-    } while (!QTest::qWaitFor([] { return menu() != nullptr; }, kUntilTheNextTryMs) && !end.hasExpired());
+      return QTest::qWaitFor([] { return menu() != nullptr; }, kUntilTheNextTryMs);
+    });
   }
   void rightClick(const glm::dvec3& point) {
     openMenu([&] { QTest::mouseClick(&view(), Qt::RightButton, {}, seen(point)); });
@@ -37,9 +35,7 @@ struct Pointer : ViewPointer {
     auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
     return menu != nullptr && menu->objectName() == QStringLiteral("viewMenu") ? menu : nullptr;
   }
-  static void choose(QAction* action) {
-    QTest::mouseClick(menu(), Qt::LeftButton, {}, menu()->actionGeometry(action).center());
-  }
+  static void choose(QAction* action) { clickEntry(*menu(), action); }
 };
 
 }  // namespace

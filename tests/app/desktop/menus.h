@@ -32,9 +32,23 @@ inline void clickEntry(QMenu& menu, QAction* entry) {
   QTest::mouseClick(&menu, Qt::LeftButton, {}, menu.actionGeometry(entry).center());
 }
 
+/// How long a menu may take before it is opened again.
+inline constexpr int kUntilTheNextTryMs = 1500;
+
+/// Tries to open a menu until it is there; false when it does not come. Without a window manager the focus may arrive
+/// late, of a dialog that has gone or of the window itself, and closes what has just opened.
+/// @param open  Tries once; true when the menu is there.
+template <class Open>
+bool openPatiently(const Open& open) {
+  const QDeadlineTimer end(kQtPatienceMs);
+  bool isOpen = open();
+  while (!isOpen && !end.hasExpired())
+    isOpen = open();
+  return isOpen;
+}
+
 /// Opens menus one out of the other, the first from the window's bar; false when one of them does not come.
 inline bool openMenusOnce(QMainWindow& window, const QList<QMenu*>& path) {
-  constexpr int kUntilTheNextTryMs = 1500;
   QMenuBar* bar = window.menuBar();
   QTest::mouseClick(bar, Qt::LeftButton, {}, bar->actionGeometry(path.first()->menuAction()).center());
   for (int i = 0; i < path.size(); ++i) {
@@ -51,16 +65,16 @@ inline bool openMenusOnce(QMainWindow& window, const QList<QMenu*>& path) {
   return true;
 }
 
-/// The same, and again from the bar where it fails: without a window manager the focus that a dialog leaves behind may
-/// arrive late, and closes what has just opened.
+/// The same, and again from the bar where it fails.
 inline void openMenus(QMainWindow& window, const QList<QMenu*>& path) {
-  const QDeadlineTimer end(kQtPatienceMs);
-  while (!openMenusOnce(window, path)) {
-    if (end.hasExpired()) throw Error("menus", path.last()->title().toStdString() + " does not open");
+  const bool isOpen = openPatiently([&] {
+    if (openMenusOnce(window, path)) return true;
     for (QMenu* menu : std::views::reverse(path))
       menu->hide();
     QApplication::setActiveWindow(&window);
-  }
+    return false;
+  });
+  if (!isOpen) throw Error("menus", path.last()->title().toStdString() + " does not open");
 }
 
 /// @throws Error  What a user could not choose either: it is disabled, hidden or nowhere to be seen.

@@ -9,7 +9,7 @@
 
 #include "core/scene/scene_file.h"
 #include "tests/app/desktop/desktop_driver.h"
-#include "ui/files/recovery/recovery_dialog.h"
+#include "ui/files/recovery/recovery.h"
 
 /// Journals of processes that died, and the dialog that offers them.
 namespace nearfit::test {

@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "app/desktop/display_check.h"
+#include "app/desktop/application.h"
 #include "core/base/error.h"
 #include "core/recovery/recovery_folder.h"
 #include "tests/bench/bench_shapes.h"

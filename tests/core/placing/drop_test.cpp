@@ -55,8 +55,7 @@ struct Pair {
   }
   bool meets(const glm::dvec3& shift) const {
     const PartGeometry &a = *scene.find(fixed)->geometry, &b = *scene.find(moving)->geometry;
-    return findInterference(a.tree(), b.tree(), fixedFromMoving(shift)).kind !=
-           InterferenceKind::Disjoint;
+    return findInterference(a.tree(), b.tree(), fixedFromMoving(shift)).kind != InterferenceKind::Disjoint;
   }
   double distance(const glm::dvec3& shift) {
     return leastSurfaceDistance(scene.find(fixed)->geometry->tree(), scene.find(moving)->geometry->tree(),

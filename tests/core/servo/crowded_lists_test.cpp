@@ -32,8 +32,7 @@ class BallInBowl : public testing::Test {
 
   void expectApart(const RigidTransform& pose) const {
     const PartGeometry &bowl = *walk_.scene().bodies[0].geometry, &ball = *walk_.scene().moving.geometry;
-    EXPECT_EQ(findInterference(bowl.tree(), ball.tree(), pose).kind,
-              InterferenceKind::Disjoint);
+    EXPECT_EQ(findInterference(bowl.tree(), ball.tree(), pose).kind, InterferenceKind::Disjoint);
   }
 
   void lead(const RigidTransform& hand, int ticks) {

@@ -8,6 +8,7 @@
 #include "tests/support/part_geometries.h"
 #include "tests/support/qt/qt_suite.h"
 #include "ui/model/move_guard.h"
+#include "ui/model/shown_poses.h"
 
 using namespace nearfit;
 using ui::Hand;
@@ -27,6 +28,7 @@ class HandStateTest : public QObject {
   void init();
   void theMovingPartIsInHandWhileTheServoRuns();
   void handAndPartBeginWhereThePartIs();
+  void thePartIsShownWhereTheServoHasIt();
   void onlyAManualHandIsAheadOfThePart();
   void aStateThatChangesNothingIsToldAsSuch();
   void theLastSnapshotIsClearedBeforeTheStopIsTold();
@@ -50,14 +52,17 @@ class HandStateTest : public QObject {
   }
 
   std::unique_ptr<Session> session_;
+  std::unique_ptr<ui::ShownPoses> poses_;
   std::unique_ptr<ui::HandState> hand_;
   PartId moving_{}, other_{};
 };
 
 void HandStateTest::init() {
   hand_.reset();
+  poses_.reset();
   session_ = std::make_unique<Session>();
-  hand_ = std::make_unique<ui::HandState>(*session_);
+  poses_ = std::make_unique<ui::ShownPoses>(*session_);
+  hand_ = std::make_unique<ui::HandState>(*session_, *poses_);
   const PartGeometryPtr cube = test::freshGeometryOf(test::boxMesh(glm::dvec3(0.02)));
   moving_ = session_->addPart(cube, "moving", placeAt(1.0));
   other_ = session_->addPart(cube, "other", placeAt(2.0));
@@ -90,6 +95,19 @@ void HandStateTest::handAndPartBeginWhereThePartIs() {
   run(Hand::Manual);
   QCOMPARE(hand_->partPose().translation.x, 3.0);
   QCOMPARE(hand_->handPose().translation.x, 3.0);
+}
+
+void HandStateTest::thePartIsShownWhereTheServoHasIt() {
+  run(Hand::Device);
+  feelAt(1.25);
+  QCOMPARE(poses_->poseOfMoving().translation.x, 1.25);
+  // A drag shows it elsewhere; the servo still has it there.
+  poses_->show(ui::ShownPoses::Source::Drag, {{moving_, placeAt(4.0)}});
+  QCOMPARE(poses_->poseOfMoving().translation.x, 4.0);
+  QCOMPARE(hand_->partPose().translation.x, 1.25);
+  poses_->show(ui::ShownPoses::Source::Drag, {});
+  stop();
+  QCOMPARE(poses_->poseOfMoving().translation.x, 1.0);
 }
 
 void HandStateTest::onlyAManualHandIsAheadOfThePart() {

@@ -12,7 +12,7 @@
 
 #include "tests/support/qt/qt_suite.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/shell/unit_menu.h"
+#include "ui/shell/main_menus.h"
 #include "ui/widgets/preferences.h"
 
 using namespace nearfit;

@@ -1,18 +1,44 @@
 #pragma once
 
+#include <QDialog>
 #include <QObject>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "core/recovery/recovery_folder.h"
 #include "ui/files/recovery/autosave.h"
 #include "ui/widgets/background_task.h"
 #include "ui/widgets/error_box.h"
 
+class QVBoxLayout;
+
 namespace nearfit::ui {
 
 class Document;
 class HandState;
+
+/// Offers to restore each piece of lost work, to discard it, or to leave it for later. Closing the dialog
+/// leaves the rest for later.
+class RecoveryDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  RecoveryDialog(const std::vector<LostWork>& lost, QWidget* parent);
+
+ signals:
+  /// Emitted when the user restores one; the dialog closes, since only one scene is open at a time.
+  void restoreRequested(const nearfit::LostWork& work);
+  /// Emitted when the user discards one.
+  void discardRequested(const nearfit::LostWork& work);
+
+ private:
+  void addRow(const LostWork& work, int number);
+  void removeRow(QWidget* row);
+
+  QVBoxLayout* rows_;
+  int rowCount_ = 0;
+};
 
 /// Protects work from a crash: keeps a journal of this run, and offers what earlier runs left.
 class Recovery : public QObject {

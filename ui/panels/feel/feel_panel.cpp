@@ -1,6 +1,7 @@
 #include "ui/panels/feel/feel_panel.h"
 
 #include <QComboBox>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
@@ -12,13 +13,63 @@
 #include "ui/model/hand_lead.h"
 #include "ui/panels/feel/feel_notice.h"
 #include "ui/panels/feel/hand_choice.h"
-#include "ui/panels/feel/hand_workspace.h"
 #include "ui/panels/feel/preset_choice.h"
-#include "ui/panels/feel/readouts.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
+
+/// A heading with named numbers below it.
+class FeelPanel::Readouts : public QWidget {
+ public:
+  explicit Readouts(const QString& heading, QWidget* parent = nullptr);
+
+  /// Adds a number and returns its label.
+  /// @param objectName  Object name of the label.
+  QLabel* add(const QString& name, const char* objectName, const QString& toolTip = {});
+  /// Adds a text below the numbers, in a colour of the light theme, and returns its label. The text keeps its
+  /// line while empty, so that nothing jumps.
+  QLabel* addNote(const char* objectName, const QColor& colour);
+  /// Text in place of a missing number.
+  static QString nothing() { return QStringLiteral("–"); }
+
+ private:
+  QVBoxLayout* layout_;
+};
+
+FeelPanel::Readouts::Readouts(const QString& heading, QWidget* parent)
+    : QWidget(parent), layout_(new QVBoxLayout(this)) {
+  layout_->setContentsMargins(0, 0, 0, 0);
+  layout_->setSpacing(5);
+  auto* label = new QLabel(heading, this);
+  label->setStyleSheet(QStringLiteral("font-weight: bold; color: #3b4754; padding-top: 8px"));
+  label->setIndent(0);
+  layout_->addWidget(label);
+}
+
+QLabel* FeelPanel::Readouts::add(const QString& name, const char* objectName, const QString& toolTip) {
+  auto* row = new QHBoxLayout;
+  auto* label = new QLabel(name, this);
+  label->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
+  auto* value = new QLabel(nothing(), this);
+  value->setObjectName(QLatin1String(objectName));
+  value->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  label->setToolTip(toolTip);
+  value->setToolTip(toolTip);
+  row->addWidget(label);
+  row->addWidget(value, 1);
+  layout_->addLayout(row);
+  return value;
+}
+
+QLabel* FeelPanel::Readouts::addNote(const char* objectName, const QColor& colour) {
+  auto* note = new QLabel(this);
+  note->setObjectName(QLatin1String(objectName));
+  note->setWordWrap(true);
+  note->setStyleSheet(QStringLiteral("color: %1").arg(colour.name()));
+  layout_->addWidget(note);
+  return note;
+}
 
 FeelPanel::FeelPanel(const Parts& parts, QWidget* parent)
     : QWidget(parent),

@@ -20,7 +20,6 @@ class HandChoice;
 class HandWorkspace;
 class PresetChoice;
 class PresetStore;
-class Readouts;
 
 /// Starts and stops the servo, chooses hand and mode, and shows what is felt: wrench, minima, contact and
 /// timing in numbers.
@@ -67,6 +66,8 @@ class FeelPanel : public QWidget {
   void presetChosen(const nearfit::HapticSettings& settings, const QString& name);
 
  private:
+  class Readouts;
+
   QWidget* makeChoices(const Parts& parts);
   void setUpReadouts();
   void showDevice(const ServoStatus& status);

@@ -1,15 +1,22 @@
 #include "ui/panels/feel/hand_choice.h"
 
+#include <QAction>
+#include <QApplication>
+#include <QClipboard>
 #include <QComboBox>
 #include <QFileInfo>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QStandardItemModel>
+#include <QToolButton>
 #include <QVBoxLayout>
 
-#include "ui/panels/feel/device_notices.h"
+#include "core/scene/haptic_limits.h"
+#include "ui/panels/feel/locks_page.h"
+#include "ui/widgets/number_field.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
@@ -23,6 +30,52 @@ const QString kReplay = QStringLiteral("replay:");
 constexpr int kOpeningSteps = 1000;
 
 }  // namespace
+
+DeviceNotices::DeviceNotices(QWidget* parent)
+    : QWidget(parent),
+      none_(new QLabel(this)),
+      text_(new QLabel(this)),
+      copy_(new QPushButton(tr("Copy the command"), this)) {
+  none_->setObjectName(QStringLiteral("noDevice"));
+  none_->setWordWrap(true);
+  none_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
+  text_->setObjectName(QStringLiteral("deviceNotices"));
+  text_->setWordWrap(true);
+  // A long path has no spaces to break at: the panel must not grow with it.
+  text_->setTextFormat(Qt::PlainText);
+  text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  text_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kWarning.name()));
+  copy_->setObjectName(QStringLiteral("copyCommand"));
+  copy_->setToolTip(tr("Copy the command to paste it into a terminal; then plug the device in again"));
+  connect(copy_, &QPushButton::clicked, this, [this] { QApplication::clipboard()->setText(command_); });
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(none_);
+  layout->addWidget(text_);
+  layout->addWidget(copy_);
+  showDevices({});
+}
+
+void DeviceNotices::showDevices(const QVector<DeviceChoice>& devices) {
+  QStringList notices;
+  command_.clear();
+  none_->clear();
+  for (const DeviceChoice& each : devices) {
+    if (each.id.isEmpty() && !each.isMendable) {
+      none_->setText(each.name);
+      none_->setToolTip(each.note);
+    }
+    if (!each.isMendable) continue;
+    notices << each.name + QStringLiteral(": ") + each.note;
+    if (command_.isEmpty()) command_ = each.command;
+  }
+  text_->setText(notices.join(QChar('\n')));
+  none_->setVisible(!none_->text().isEmpty());
+  text_->setVisible(!notices.isEmpty());
+  copy_->setVisible(!command_.isEmpty());
+  setVisible(!none_->isHidden() || !notices.isEmpty());
+}
 
 HandChoice::HandChoice(QWidget* parent)
     : QWidget(parent),
@@ -160,6 +213,67 @@ void HandChoice::showChosen() {
   for (QPushButton* button : {calibrate_, reset_})
     button->setEnabled(!status_.isBusy);
   arm_->setText(status_.isArmed ? tr("Disarm") : tr("Arm: let it push"));
+}
+
+HandWorkspace::HandWorkspace(QAction* clutch, QWidget* parent)
+    : FeelPage(parent),
+      scaleRow_(new QWidget(this)),
+      clutch_(new QToolButton(this)),
+      note_(addNote()),
+      recorded_(addNote()),
+      locks_(new LocksPage(QStringLiteral("panel-"), this)) {
+  auto* heading = new QLabel(tr("Workspace"), this);
+  heading->setStyleSheet(QStringLiteral("font-weight: bold; color: #3b4754; padding-top: 8px"));
+  heading->setIndent(0);
+  NumberField* scale = addNumber(
+      {"panelScale", tr("Metres in the scene per metre of the device"), tr(" ×"), kMinScale, kMaxScale},
+      [](HapticSettings& s) -> double& { return s.mapping.scale; });
+  auto* scaleLabel = new QLabel(tr("Scale"), scaleRow_);
+  scaleLabel->setBuddy(scale);
+  auto* row = new QHBoxLayout(scaleRow_);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(scaleLabel);
+  row->addWidget(scale, 1);
+  clutch_->setObjectName(QStringLiteral("clutchButton"));
+  clutch_->setDefaultAction(clutch);
+  clutch_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  clutch_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  clutch_->setFocusPolicy(Qt::StrongFocus);
+  note_->setObjectName(QStringLiteral("clutchNote"));
+  recorded_->setObjectName(QStringLiteral("recordedNote"));
+  recorded_->setText(tr("A recorded hand repeats its motion: scale and locks come from the recording."));
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(6);
+  for (QWidget* each :
+       {static_cast<QWidget*>(heading), scaleRow_, static_cast<QWidget*>(clutch_),
+        static_cast<QWidget*>(note_), static_cast<QWidget*>(recorded_), static_cast<QWidget*>(locks_)})
+    layout->addWidget(each);
+  connect(locks_, &FeelPage::edited, this, &HandWorkspace::change);
+  showHand(Hand::Scripted);
+  showUncalibrated(false);
+  showClutched(false);
+}
+
+void HandWorkspace::showHand(Hand hand, bool isRecorded) {
+  scaleRow_->setVisible(hand == Hand::Device && !isRecorded);
+  locks_->setVisible(!isRecorded);
+  recorded_->setVisible(isRecorded);
+  clutch_->setVisible(hand == Hand::Device);
+  setVisible(hand != Hand::Scripted);
+}
+
+void HandWorkspace::showClutched(bool isClutched) {
+  if (note_->isHidden() == isClutched) note_->setVisible(isClutched);
+}
+
+void HandWorkspace::showUncalibrated(bool isUncalibrated) {
+  note_->setText(isUncalibrated ? tr("The part stays until the device is calibrated: see above.")
+                                : tr("The part stays: move the device to a comfortable position."));
+}
+
+void HandWorkspace::refresh() {
+  locks_->showSettings(settings());
 }
 
 }  // namespace nearfit::ui

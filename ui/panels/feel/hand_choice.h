@@ -4,15 +4,34 @@
 
 #include "ui/model/device_choice.h"
 #include "ui/model/servo_status.h"
+#include "ui/panels/feel/feel_page.h"
 
+class QAction;
 class QComboBox;
 class QLabel;
 class QProgressBar;
 class QPushButton;
+class QToolButton;
 
 namespace nearfit::ui {
 
-class DeviceNotices;
+class LocksPage;
+
+/// Says what keeps devices from being used if the user can fix it, and offers the command that does; or says
+/// that there is no device. Hidden if there is nothing to say.
+class DeviceNotices : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit DeviceNotices(QWidget* parent = nullptr);
+
+  void showDevices(const QVector<DeviceChoice>& devices);
+
+ private:
+  QLabel *none_, *text_;
+  QPushButton* copy_;
+  QString command_;
+};
 
 /// Chooses the hand: the script's, the user's by numbers and keys, or a device's. Also shows a device's
 /// state, and buttons to arm, calibrate and reset it.
@@ -53,6 +72,33 @@ class HandChoice : public QWidget {
   QProgressBar* opening_;
   DeviceNotices* notices_;
   ServoStatus status_;
+};
+
+/// Settings of the hand's workspace, within reach while it feels: scale and clutch of a device, and which
+/// motions count. A scripted hand has nothing to set.
+class HandWorkspace : public FeelPage {
+  Q_OBJECT
+
+ public:
+  /// @param clutch  Holds the part while it is on.
+  explicit HandWorkspace(QAction* clutch, QWidget* parent = nullptr);
+
+  /// Shows what this hand can set.
+  /// @param isRecorded  True for a recording, which contains scale and locks already: a note says so.
+  void showHand(Hand hand, bool isRecorded = false);
+  /// Shows whether the part stays, by the clutch here or by the device's own.
+  void showClutched(bool isClutched);
+  /// Says that the part stays until the device is calibrated, whatever the clutch does.
+  void showUncalibrated(bool isUncalibrated);
+
+ protected:
+  void refresh() override;
+
+ private:
+  QWidget* scaleRow_;
+  QToolButton* clutch_;
+  QLabel *note_, *recorded_;
+  LocksPage* locks_;
 };
 
 }  // namespace nearfit::ui

@@ -2,18 +2,92 @@
 
 #include <QAction>
 #include <QComboBox>
+#include <QDialog>
+#include <QDialogButtonBox>
 #include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
 #include <QMenu>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QStandardItemModel>
+#include <QString>
+#include <QVBoxLayout>
+#include <functional>
 
 #include "ui/model/preset_store.h"
-#include "ui/panels/feel/preset_name_dialog.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
+namespace {
+
+/// Asks for a name and says at each keystroke whether it is accepted.
+class PresetNameDialog : public QDialog {
+ public:
+  /// @param title   Title of the dialog.
+  /// @param button  Text of the button that accepts the name.
+  explicit PresetNameDialog(const QString& title, const QString& button, QWidget* parent = nullptr);
+
+  struct Verdict {
+    bool isRefused = false;
+    QString note;  ///< Why, or what will happen; may be empty.
+  };
+  using Judge = std::function<Verdict(const QString& name)>;
+  /// Shows the dialog. Returns the name without surrounding spaces; empty if the user cancels.
+  QString ask(const QString& proposal, const Judge& judge);
+
+ private:
+  void look();
+
+  QLineEdit* name_;
+  QLabel* note_;
+  QPushButton* accept_;
+  Judge judge_;
+};
+
+PresetNameDialog::PresetNameDialog(const QString& title, const QString& button, QWidget* parent)
+    : QDialog(parent), name_(new QLineEdit(this)), note_(new QLabel(this)) {
+  setObjectName(QStringLiteral("presetNameDialog"));
+  setWindowTitle(title);
+  auto* label = new QLabel(tr("&Name of the preset"), this);
+  label->setBuddy(name_);
+  name_->setObjectName(QStringLiteral("presetName"));
+  note_->setObjectName(QStringLiteral("presetNameNote"));
+  note_->setWordWrap(true);
+  note_->setMinimumHeight(2 * note_->fontMetrics().lineSpacing());
+  note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  note_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kWarning.name()));
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
+  accept_ = buttons->button(QDialogButtonBox::Ok);
+  accept_->setText(button);
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  connect(name_, &QLineEdit::textChanged, this, &PresetNameDialog::look);
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(label);
+  layout->addWidget(name_);
+  layout->addWidget(note_);
+  layout->addWidget(buttons);
+  setMinimumWidth(360);
+}
+
+QString PresetNameDialog::ask(const QString& proposal, const Judge& judge) {
+  judge_ = judge;
+  name_->setText(proposal);
+  name_->selectAll();
+  look();
+  return exec() == QDialog::Accepted ? name_->text().trimmed() : QString();
+}
+
+void PresetNameDialog::look() {
+  const QString name = name_->text().trimmed();
+  const Verdict verdict = judge_(name);
+  accept_->setEnabled(!name.isEmpty() && !verdict.isRefused);
+  note_->setText(name.isEmpty() ? QString() : verdict.note);
+}
+
+}  // namespace
 
 PresetChoice::PresetChoice(const char* name, PresetStore& presets, QWidget* parent)
     : QWidget(parent), presets_(presets), box_(new QComboBox(this)) {

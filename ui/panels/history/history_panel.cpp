@@ -1,12 +1,80 @@
 #include "ui/panels/history/history_panel.h"
 
+#include <QApplication>
+#include <QFont>
 #include <QListView>
+#include <QPalette>
 #include <QVBoxLayout>
+#include <utility>
 
-#include "ui/model/history_model.h"
+#include <glm/trigonometric.hpp>
+
 #include "ui/model/scene_work.h"
+#include "ui/widgets/format.h"
+#include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
+namespace {
+
+/// Smaller shifts are left by rounding [m]; smaller angles would show as 0.0° [rad].
+constexpr double kMinShift = 1e-8, kMinAngle = 8.7e-4;
+
+}  // namespace
+
+void HistoryModel::show(std::vector<Session::Step> steps, int current) {
+  if (steps == steps_ && current == current_) return;
+  beginResetModel();
+  steps_ = std::move(steps);
+  current_ = current;
+  endResetModel();
+}
+
+void HistoryModel::refresh() {
+  if (!steps_.empty()) emit dataChanged(index(0), index(rowCount() - 1));
+}
+
+int HistoryModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(steps_.size());
+}
+
+QString HistoryModel::text(int row) const {
+  const Session::Step& step = steps_[static_cast<std::size_t>(row)];
+  if (step.label.empty()) return tr("Beginning");
+  QString text = QString::fromStdString(step.label);
+  if (step.shift >= kMinShift) text += QStringLiteral(", ") + formatLength(step.shift);
+  if (step.angle >= kMinAngle) {
+    const QChar degree(0xB0);
+    text += QStringLiteral(", ") + formatFixed(glm::degrees(step.angle), 1) + degree;
+  }
+  return text;
+}
+
+QVariant HistoryModel::data(const QModelIndex& index, int role) const {
+  if (!index.isValid() || index.row() >= rowCount()) return {};
+  const int row = index.row();
+  switch (role) {
+    case Qt::DisplayRole:
+      return text(row);
+    case Qt::ToolTipRole:
+      if (row == current_) return tr("The present state of the scene");
+      return row < current_ ? tr("Undo back to here") : tr("Redo up to here");
+    case Qt::AccessibleTextRole:
+      if (row == current_) return tr("%1, present state").arg(text(row));
+      return row < current_ ? text(row) : tr("%1, undone").arg(text(row));
+    case Qt::DecorationRole:
+      return row == current_ ? icon(QStringLiteral("history-now")) : icon(QStringLiteral("history-step"));
+    case Qt::FontRole: {
+      QFont font;
+      font.setBold(row == current_);
+      font.setItalic(row > current_);
+      return font;
+    }
+    case Qt::ForegroundRole:
+      return row > current_ ? QVariant(QApplication::palette().color(QPalette::PlaceholderText)) : QVariant();
+    default:
+      return {};
+  }
+}
 
 HistoryPanel::HistoryPanel(Session& session, const SceneWork& work, QWidget* parent)
     : QWidget(parent), session_(session), model_(new HistoryModel(this)), view_(new QListView(this)) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <QAbstractListModel>
 #include <QWidget>
+#include <vector>
 
 #include "core/session/session.h"
 
@@ -8,8 +10,31 @@ class QListView;
 
 namespace nearfit::ui {
 
-class HistoryModel;
 class SceneWork;
+
+/// Steps that undo and redo can go to, oldest first; marks the present state and shows undone steps faintly.
+class HistoryModel : public QAbstractListModel {
+  Q_OBJECT
+
+ public:
+  using QAbstractListModel::QAbstractListModel;
+
+  /// @param steps  Steps from Session::history().
+  /// @param current  Index of the present state.
+  void show(std::vector<Session::Step> steps, int current);
+  /// Updates the texts after a change of the unit of length.
+  void refresh();
+  int current() const noexcept { return current_; }
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  QVariant data(const QModelIndex& index, int role) const override;
+
+ private:
+  QString text(int row) const;
+
+  std::vector<Session::Step> steps_;
+  int current_ = 0;
+};
 
 /// Lists the steps of undo and redo; a click or Return goes to one, unless the scene is being worked on.
 class HistoryPanel : public QWidget {

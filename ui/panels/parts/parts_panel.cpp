@@ -13,7 +13,6 @@
 #include "core/session/session.h"
 #include "ui/model/parts_model.h"
 #include "ui/model/selection.h"
-#include "ui/panels/parts/name_delegate.h"
 #include "ui/panels/parts/parts_view.h"
 
 namespace nearfit::ui {

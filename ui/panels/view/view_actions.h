@@ -1,12 +1,13 @@
 #pragma once
 
 #include <QList>
+#include <QMenu>
 #include <QObject>
 
 #include "core/session/scene_events.h"
+#include "ui/view3d/glyphs/minima_choice.h"
 
 class QAction;
-class QMenu;
 
 namespace nearfit {
 class Session;
@@ -14,9 +15,35 @@ class Session;
 
 namespace nearfit::ui {
 
-class MinimaMenu;
 class Selection;
 class Viewport;
+
+/// Menu of what the view draws of minima: segments, points, normals, how many and how
+/// near. Kept between runs.
+class MinimaMenu : public QMenu {
+  Q_OBJECT
+
+ public:
+  explicit MinimaMenu(QWidget* parent);
+
+  const MinimaChoice& choice() const noexcept { return choice_; }
+
+ signals:
+  /// Emitted when the user has changed the choice.
+  void choiceChanged(const nearfit::ui::MinimaChoice& choice);
+
+ private:
+  void addForm(const QString& name, const QString& text, const QString& toolTip, bool MinimaChoice::* form);
+  QMenu* addChoices(const QString& title);
+  template <class Number>
+  void addNumber(QMenu& menu, const QString& name, const QString& text, Number MinimaChoice::* number,
+                 Number value);
+  template <class Value>
+  void set(Value MinimaChoice::* member, Value value);
+  void choose(const MinimaChoice& choice);
+
+  MinimaChoice choice_;
+};
 
 /// What the user can choose about the view: where it looks from, and what it draws besides the parts.
 class ViewActions : public QObject {

@@ -1,18 +1,54 @@
 #pragma once
 
 #include <QObject>
+#include <array>
 #include <optional>
 
+#include "core/placing/measure.h"
 #include "core/session/session.h"
 #include "ui/tools/placing/feature_picker.h"
 #include "ui/view3d/measure_mark.h"
+#include "ui/widgets/length_unit.h"
+#include "ui/widgets/view_bar.h"
 
 class QAction;
+class QHBoxLayout;
+class QLabel;
+class QPushButton;
 
 namespace nearfit::ui {
 
-class MeasureBar;
 class Viewport;
+
+/// The measuring tool's bar: prompt, values, copy and close.
+class MeasureBar : public ViewBar {
+  Q_OBJECT
+
+ public:
+  explicit MeasureBar(QWidget* view);
+
+  /// Shows what to do next.
+  /// @param hint  The feature under the pointer; may be empty.
+  void showPrompt(const QString& prompt, const QString& hint);
+  /// Shows the values in that unit; nullopt clears them.
+  /// @param measurement  World frame.
+  void showMeasurement(const std::optional<Measurement>& measurement, LengthUnit unit);
+
+ signals:
+  /// Emitted by Close.
+  void closed();
+
+ private:
+  struct Value {
+    QLabel *name, *number;
+  };
+  Value addValue(QHBoxLayout& row, const char* name, const QString& title, const QString& toolTip);
+  void copy() const;
+
+  QLabel *prompt_, *hint_;
+  std::array<Value, 6> values_;  ///< Distance, x, y, z, perpendicular, angle.
+  QPushButton *copy_, *close_;
+};
 
 /// Measures between two clicks in the view, each on a corner, edge, circle or face of the same or two parts.
 /// The measurement follows its parts and disappears when one leaves the scene. A third click starts a new

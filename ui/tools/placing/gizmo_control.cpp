@@ -4,7 +4,6 @@
 #include <QMouseEvent>
 #include <utility>
 
-#include "ui/view3d/drag_readout.h"
 #include "ui/view3d/gizmo_overlay.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/preferences.h"

@@ -8,7 +8,7 @@
 #include "core/session/session.h"
 #include "ui/tools/placing/feature_picker.h"
 #include "ui/tools/section/section_bar.h"
-#include "ui/view3d/parts/plane_sheet.h"
+#include "ui/view3d/parts/scene_cut.h"
 
 class QAction;
 class QWidget;

@@ -7,6 +7,10 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/trigonometric.hpp>
+#include <vtkLightKit.h>
+#include <vtkNew.h>
+
+#include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
 namespace {
@@ -89,6 +93,47 @@ ViewProjection::Camera projectionCamera(vtkCamera& camera) {
   seen.viewAngle = glm::radians(camera.GetViewAngle());
   seen.halfHeight = camera.GetParallelScale();
   return seen;
+}
+
+void fitDepths(vtkRenderer& renderer, vtkBoundingBox box, double room) {
+  if (box.IsValid() == 0) return;
+  box.Inflate(room * box.GetMaxLength());
+  double bounds[6];
+  box.GetBounds(bounds);
+  renderer.ResetCameraClippingRange(bounds);
+}
+
+bool keepDepths(vtkRenderer& renderer, const vtkBoundingBox& box) {
+  vtkCamera& camera = *renderer.GetActiveCamera();
+  double kept[2];
+  camera.GetClippingRange(kept);
+  fitDepths(renderer, box);
+  const double* needed = camera.GetClippingRange();
+  // From inside the scene, VTK puts the near plane at a fraction of the far one; room around the
+  // box moves it no nearer.
+  const bool beginsAtTheEye = kept[0] <= 1.01 * renderer.GetNearClippingPlaneTolerance() * kept[1];
+  if ((needed[0] < kept[0] && !beginsAtTheEye) || needed[1] > kept[1]) return false;
+  camera.SetClippingRange(kept);
+  return true;
+}
+
+void setUpLights(vtkRenderer& renderer) {
+  vtkNew<vtkLightKit> lights;
+  lights->SetKeyLightIntensity(0.92);
+  lights->SetKeyToFillRatio(2.0);
+  lights->SetKeyToHeadRatio(2.2);
+  lights->AddLightsToRenderer(&renderer);
+}
+
+void setUpBackground(vtkRenderer& renderer) {
+  renderer.GradientBackgroundOn();
+  if (isThemeDark()) {
+    renderer.SetBackground(0.27, 0.31, 0.36);
+    renderer.SetBackground2(0.13, 0.15, 0.18);
+  } else {
+    renderer.SetBackground(0.72, 0.78, 0.85);
+    renderer.SetBackground2(0.955, 0.968, 0.98);
+  }
 }
 
 }  // namespace nearfit::ui

@@ -27,4 +27,17 @@ void fitView(vtkRenderer& renderer, std::span<const vtkBoundingBox> boxes);
 /// Returns the camera's pose and projection for core; lengths in [m], angles in [rad].
 ViewProjection::Camera projectionCamera(vtkCamera& camera);
 
+/// Fits the camera's clipping range to a box.
+/// @param box   World [m]; nothing happens if it is empty.
+/// @param room  Margin around the box, as a fraction of its longest side.
+void fitDepths(vtkRenderer& renderer, vtkBoundingBox box, double room = 0.0);
+/// Keeps the clipping range if the box lies within it; else fits it to the box.
+/// @return  True if it was kept.
+bool keepDepths(vtkRenderer& renderer, const vtkBoundingBox& box);
+
+/// Adds lights that move with the camera.
+void setUpLights(vtkRenderer& renderer);
+/// Sets the background, light or dark as the theme is.
+void setUpBackground(vtkRenderer& renderer);
+
 }  // namespace nearfit::ui

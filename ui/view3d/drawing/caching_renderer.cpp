@@ -8,6 +8,15 @@
 
 namespace nearfit::ui {
 
+BlendingRenderer* BlendingRenderer::New() {
+  VTK_STANDARD_NEW_BODY(BlendingRenderer);
+}
+
+void BlendingRenderer::DeviceRenderTranslucentPolygonalGeometry(vtkFrameBufferObjectBase* fbo) {
+  if (isManyColoured_) return Superclass::DeviceRenderTranslucentPolygonalGeometry(fbo);
+  UpdateTranslucentPolygonalGeometry();
+}
+
 CachingRenderer* CachingRenderer::New() {
   VTK_STANDARD_NEW_BODY(CachingRenderer);
 }

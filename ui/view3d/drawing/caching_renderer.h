@@ -5,10 +5,29 @@
 
 #include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
-
-#include "ui/view3d/drawing/blending_renderer.h"
+#include <vtkOpenGLRenderer.h>
 
 namespace nearfit::ui {
+
+/// A renderer that skips VTK's passes for translucent geometry where their order does not matter. In software
+/// OpenGL those cost as much as a hundred thousand triangles.
+class BlendingRenderer : public vtkOpenGLRenderer {
+ public:
+  static BlendingRenderer* New();
+  using Superclass = vtkOpenGLRenderer;
+
+  /// Set true if translucent things of several colours may overlap: then VTK sorts them. Else each is blended
+  /// over what was drawn before, which is right in any order if all have one colour.
+  void setManyColoured(bool is) noexcept { isManyColoured_ = is; }
+
+  void DeviceRenderTranslucentPolygonalGeometry(vtkFrameBufferObjectBase* fbo = nullptr) override;
+
+ protected:
+  BlendingRenderer() = default;
+
+ private:
+  bool isManyColoured_ = false;
+};
 
 /// A renderer that can keep a picture of opaque props with its depth buffer, and draw everything else over
 /// it. The kept picture is drawn a little at a time, so that millions of triangles do not block events.

@@ -5,12 +5,20 @@
 #include <optional>
 #include <vector>
 
+#include <vtkActor.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+#include <vtkWeakPointer.h>
 
 #include "core/scene/scene.h"
+#include "core/section/cut_plane.h"
 #include "ui/view3d/parts/part_actor.h"
 #include "ui/view3d/parts/part_cap.h"
+
+class QColor;
 
 namespace nearfit::ui {
 
@@ -56,6 +64,26 @@ class SceneCut {
   std::map<PartId, std::unique_ptr<PartCap>> caps_;
   std::vector<PartId> closed_, open_;  ///< In the scene's order, which is by id.
   double spacing_ = 1.0;
+};
+
+/// Shows a cutting plane by the outline of a rectangle in it.
+class PlaneSheet {
+ public:
+  /// @param renderer  May be destroyed before this.
+  explicit PlaneSheet(vtkRenderer& renderer);
+  ~PlaneSheet();
+  PlaneSheet(const PlaneSheet&) = delete;
+  PlaneSheet& operator=(const PlaneSheet&) = delete;
+
+  /// Shows the outline, as large as `box` seen along the normal; both in the world. `box` must not be empty.
+  void show(const CutPlane& plane, const Aabb& box, const QColor& colour);
+  void clear();
+
+ private:
+  vtkWeakPointer<vtkRenderer> renderer_;  ///< Weak: the view may be destroyed first.
+  vtkNew<vtkPoints> corners_;
+  vtkNew<vtkPolyData> outline_;
+  vtkNew<vtkActor> actor_;
 };
 
 }  // namespace nearfit::ui

@@ -1,5 +1,3 @@
-#include "ui/view3d/drawing/blending_renderer.h"
-
 #include <QtTest>
 #include <cmath>
 
@@ -13,6 +11,7 @@
 
 #include "tests/support/qt/qt_patience.h"
 #include "tests/support/qt/qt_suite.h"
+#include "ui/view3d/drawing/caching_renderer.h"
 #include "ui/view3d/viewport.h"
 
 using namespace nearfit;

@@ -13,7 +13,7 @@
 #include <vtkProperty.h>
 
 #include "tests/support/qt/qt_suite.h"
-#include "ui/panels/view/minima_menu.h"
+#include "ui/panels/view/view_actions.h"
 
 using namespace nearfit;
 

@@ -8,7 +8,6 @@
 
 #include "tests/support/mesh_generators.h"
 #include "tests/support/qt/qt_suite.h"
-#include "ui/view3d/parts/draft_surface.h"
 #include "ui/view3d/parts/part_shape.h"
 
 using namespace nearfit;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <QElapsedTimer>
+#include <QString>
 
+#include "device/interface/haptic_device.h"
 #include "device/servo/servo_loop.h"
 #include "ui/model/servo_status.h"
 
@@ -27,5 +29,10 @@ class ServoMeter {
   std::uint64_t ticks_ = 0;      ///< Tick from which the rate is measured; 0 before the first.
   double time_ = 0.0;            ///< Time of that tick, by the servo's clock [s].
 };
+
+/// Tells the user in sentences what a device is doing.
+/// @param isPushing  True if it can push.
+/// @param note       HapticDevice::stateNote().
+QString deviceText(DeviceState state, bool isPushing, const QString& note);
 
 }  // namespace nearfit::desktop
