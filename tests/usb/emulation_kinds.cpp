@@ -6,6 +6,7 @@
 #include <functional>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -36,7 +37,8 @@ std::string countsText(const ReportStream::Counts& counts) {
   return fmt::format("{} reports sent, {} waited for a transfer", counts.sent, counts.waited);
 }
 
-/// The device's handle along a circle, or the poses of a file, one a report, again and again.
+/// The device's handle along a circle, or the poses of a file, one a report, again and again. The circle begins with
+/// the first wrench: however long a loaded machine takes to begin, the way that follows is the same.
 std::function<void(OpenHapFirmware&, double)> handOf(const EmulationOptions& options, double rate) {
   std::vector<RigidTransform> path;
   if (!options.path.empty()) path = readPosePath(options.path);
@@ -45,9 +47,13 @@ std::function<void(OpenHapFirmware&, double)> handOf(const EmulationOptions& opt
     const double angle = 2.0 * std::numbers::pi * kTurnsPerSecond * time;
     return {glm::dquat(1.0, 0.0, 0.0, 0.0), {kRadius * std::cos(angle), 0.0, kRadius * std::sin(angle)}};
   };
-  return [poseAt, rate](OpenHapFirmware& firmware, double time) {
+  return [poseAt, rate, waits = path.empty(), began = std::optional<double>()](OpenHapFirmware& firmware,
+                                                                               double sinceStart) mutable {
+    if (!began && (!waits || firmware.accepted() > 0)) began = waits ? sinceStart : 0.0;
+    const double time = began ? sinceStart - *began : 0.0;
     const RigidTransform pose = poseAt(time);
-    const glm::dvec3 velocity = (pose.translation - poseAt(time - 1.0 / rate).translation) * rate;
+    const glm::dvec3 velocity =
+        began ? (pose.translation - poseAt(time - 1.0 / rate).translation) * rate : glm::dvec3(0.0);
     for (int i = 0; i < 3; ++i) {
       firmware.handle.position.at(static_cast<std::size_t>(i)) = static_cast<float>(pose.translation[i]);
       firmware.handle.velocity.at(static_cast<std::size_t>(i)) = static_cast<float>(velocity[i]);
