@@ -47,8 +47,12 @@ std::string topologyText(const MeshTopology& topology, std::size_t edges) {
       topology.openEdges, topology.nonManifoldEdges, topology.inconsistentEdges);
 }
 
-std::string featureText(const NormalConeTree& tree) {
-  const FeatureCounts kept = tree.keptFeatures(), all = tree.allFeatures();
+FeatureCounts featuresOf(const TriangleMesh& mesh) {
+  return {mesh.vertices().size(), mesh.edges().size(), mesh.triangles().size()};
+}
+
+std::string featureText(const TriangleMesh& mesh, const NormalConeTree& tree) {
+  const FeatureCounts kept = tree.keptFeatures(), all = featuresOf(mesh);
   return fmt::format("  features    {} kept of {}: {} of {} vertices, {} of {} edges, {} of {} faces\n",
                      kept.total(), all.total(), kept.vertices, all.vertices, kept.edges, all.edges,
                      kept.faces, all.faces);
@@ -81,12 +85,21 @@ HierarchyOrigin originOf(const PartGeometry& geometry) {
   return *geometry.hierarchy->origin();
 }
 
+/// Memory of the hierarchy, with its mesh unless that is the part's own.
+std::size_t bytesOf(const TriangleMesh& mesh, const NormalConeTree& tree) {
+  const bool isOwn = tree.mesh().triangles().data() == mesh.triangles().data();
+  return tree.byteSize() + (isOwn ? 0 : tree.mesh().byteSize());
+}
+
 std::string infoText(const std::string& name, const PartGeometry& geometry, std::optional<double> density) {
   const TriangleMesh& mesh = geometry.mesh;
   std::string text = fmt::format("{}\n  triangles   {}\n  vertices    {}\n", oneLine(name),
                                  mesh.triangles().size(), mesh.vertices().size());
-  text +=
-      topologyText(mesh.topology(), mesh.edges().size()) + featureText(geometry.tree()) + sizeText(geometry);
+  text += topologyText(mesh.topology(), mesh.edges().size()) + featureText(mesh, geometry.tree()) +
+          sizeText(geometry);
+  const NormalConeTree& tree = geometry.tree();
+  text += fmt::format("  searched    {} triangles, once flats are merged; within {:.3g} m of the mesh\n",
+                      tree.mesh().triangles().size(), tree.deviation());
   if (density) text += massText(geometry.mass, *density);
   const HierarchyOrigin origin = originOf(geometry);
   text += fmt::format(
@@ -94,8 +107,7 @@ std::string infoText(const std::string& name, const PartGeometry& geometry, std:
       "  bytes       {}: {} mesh, {} hierarchy\n"
       "  SHA-256     {}\n",
       origin.isFromCache ? "from the cache" : "built", 1e3 * origin.seconds,
-      mesh.byteSize() + geometry.tree().byteSize(), mesh.byteSize(), geometry.tree().byteSize(),
-      geometry.sha256);
+      mesh.byteSize() + bytesOf(mesh, tree), mesh.byteSize(), bytesOf(mesh, tree), geometry.sha256);
   for (const std::string& warning : geometry.report.warnings)
     text += "  warning     " + oneLine(warning) + "\n";
   return text;
@@ -140,12 +152,14 @@ Json infoJson(const std::string& name, const PartGeometry& geometry, std::option
                    {"inconsistent", topology.inconsistentEdges},
                    {"stitched", geometry.report.stitchedEdges}};
   json["features"] = {{"kept", countsJson(geometry.tree().keptFeatures())},
-                      {"all", countsJson(geometry.tree().allFeatures())}};
+                      {"all", countsJson(featuresOf(mesh))}};
+  json["searched"] = {{"triangles", geometry.tree().mesh().triangles().size()},
+                      {"deviation", geometry.tree().deviation()}};
   json["bounds"] = {{"lower", pointJson(mesh.bounds().lower)}, {"upper", pointJson(mesh.bounds().upper)}};
   json["mass"] = massJson(geometry.mass, density);
   const HierarchyOrigin origin = originOf(geometry);
   json["hierarchy"] = {{"from", origin.isFromCache ? "cache" : "building"}, {"seconds", origin.seconds}};
-  json["bytes"] = {{"mesh", mesh.byteSize()}, {"hierarchy", geometry.tree().byteSize()}};
+  json["bytes"] = {{"mesh", mesh.byteSize()}, {"hierarchy", bytesOf(mesh, geometry.tree())}};
   json["turnedInsideOut"] = geometry.report.turnedInsideOut;
   json["warnings"] = geometry.report.warnings;
   return json;
@@ -189,6 +203,8 @@ void addInfoCommand(CLI::App& program) {
       "components   Sets of faces that are connected through edges.\n"
       "features     Vertices, edges and faces that can carry a local minimum distance, out of all;\n"
       "             the hierarchy leaves the others out.\n"
+      "searched     Triangles once each flat is cut into as few as its outline needs, and how far that\n"
+      "             mesh can be from the file's: some roundings of the file's numbers.\n"
       "mass         By volume integrals if the mesh is closed and oriented, else by its oriented\n"
       "             bounding box.\n"
       "inertia      About the centre, in the mesh's frame, by rows; for the given density.\n"

@@ -11,7 +11,7 @@ namespace nearfit {
 namespace {
 
 /// Number of points looked at. So many coordinates of full precision all look short with no chance.
-constexpr std::size_t kSample = 512;
+constexpr std::size_t kPointsSampled = 512;
 /// A decimal number of more digits may be any double.
 constexpr int kMaxDigits = 15;
 
@@ -31,7 +31,7 @@ double coordinateRounding(std::span<const glm::dvec3> points) {
   double largest = 0.0;
   bool areSingle = true;
   int digits = 0;
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSample);
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kPointsSampled);
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (const double x : {points[i].x, points[i].y, points[i].z}) {
       if (!std::isfinite(x)) continue;

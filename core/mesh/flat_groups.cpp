@@ -16,17 +16,17 @@ namespace {
 
 /// A triangle lower than this many tolerances has no reliable normal: it starts no flat, and joins one whatever
 /// its normal.
-constexpr double kThin = 8.0;
+constexpr double kMinHeight = 8.0;
 
 /// Max times that a flat's plane is fitted anew and the triangles beside it are tried again. A plane known from
 /// a few small triangles reaches about twice as far with each fit.
-constexpr int kMaxRounds = 64;
+constexpr int kMaxFits = 64;
 
 /// Number of triangles between two reports of progress.
-constexpr std::size_t kBetweenReports = 16384;
+constexpr std::size_t kSeedsBetweenReports = 16384;
 
 /// Area, first and second moments of triangles about a point, each triangle as its corners.
-struct Moments {
+struct CornerMoments {
   double weight = 0.0;
   glm::dvec3 first{0.0};
   glm::dmat3 second{0.0};
@@ -52,7 +52,7 @@ class FlatFinder {
   FlatGroups find(const std::function<void(double)>& onProgress) {
     const std::vector<std::uint32_t> seeds = seedsBySize();
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-      if (i % kBetweenReports == 0 && onProgress)
+      if (i % kSeedsBetweenReports == 0 && onProgress)
         onProgress(static_cast<double>(i) / static_cast<double>(seeds.size()));
       if (out_.flatOf[seeds[i]] == kNoFlat) growFrom(seeds[i]);
     }
@@ -71,7 +71,7 @@ class FlatFinder {
     const glm::dvec3 a = x_[c[1]] - x_[c[0]], b = x_[c[2]] - x_[c[1]], d = x_[c[0]] - x_[c[2]];
     return std::sqrt(std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(d, d)}));
   }
-  bool isThin(std::uint32_t t) const { return !(areas_[t] > kThin * tolerance_ * longestSide(t)); }
+  bool isThin(std::uint32_t t) const { return !(areas_[t] > kMinHeight * tolerance_ * longestSide(t)); }
 
   /// Triangles that can start a flat, the largest first: their planes reach farthest.
   std::vector<std::uint32_t> seedsBySize() {
@@ -116,7 +116,7 @@ class FlatFinder {
     moments_ = {};
     addMoments(seed, plane.origin);
     std::size_t nextFit = 2;
-    for (int round = 0; round < kMaxRounds; ++round) {
+    for (int round = 0; round < kMaxFits; ++round) {
       while (next_ < members_.size()) {
         visitNeighbours(members_[next_++], plane, [&](std::uint32_t t) {
           addMoments(t, plane.origin);
@@ -187,7 +187,7 @@ class FlatFinder {
 
   void moveOrigin(FlatPlane& plane, const glm::dvec3& shift) {
     plane.origin += shift;
-    // Moments about the new origin.
+    // CornerMoments about the new origin.
     moments_.second -= glm::outerProduct(shift, moments_.first) + glm::outerProduct(moments_.first, shift) -
                        moments_.weight * glm::outerProduct(shift, shift);
     moments_.first -= moments_.weight * shift;
@@ -244,7 +244,7 @@ class FlatFinder {
   std::vector<std::uint32_t> members_, beside_;
   std::size_t next_ = 0;
   std::uint32_t seed_ = kNoFlat;
-  Moments moments_;
+  CornerMoments moments_;
 };
 
 }  // namespace

@@ -53,6 +53,17 @@ TEST_F(InfoCommand, BoxIsDescribedInJson) {
   EXPECT_EQ(json["turnedInsideOut"], false);
 }
 
+TEST_F(InfoCommand, FinelyCutFlatsAreSearchedAsIfTheyWereNot) {
+  const ProcessResult result =
+      runCli({"info", "--json", write("box.obj", subdivided(boxMesh({1, 2, 3}), 3))});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  EXPECT_EQ(json["triangles"], 12 * 64);
+  EXPECT_EQ(json["searched"]["triangles"], 12);
+  EXPECT_LT(json["searched"]["deviation"].get<double>(), 1e-5);
+  EXPECT_EQ(json["features"]["kept"], Json({{"vertices", 8}, {"edges", 12}, {"faces", 12}, {"total", 32}}));
+}
+
 TEST_F(InfoCommand, TextSaysTheSame) {
   const ProcessResult result = runCli({"info", write("box.obj", boxMesh({1, 1, 1}))});
   ASSERT_EQ(result.exitCode, 0) << result.err;
@@ -60,6 +71,7 @@ TEST_F(InfoCommand, TextSaysTheSame) {
               AllOf(HasSubstr("box.obj\n"), HasSubstr("triangles   12\n"), HasSubstr("closed      yes\n"),
                     HasSubstr("components  1\n"), HasSubstr("18: 0 open, 0 non-manifold, 0 inconsistent\n"),
                     HasSubstr("32 kept of 38: 8 of 8 vertices, 12 of 18 edges, 12 of 12 faces\n"),
+                    HasSubstr("searched    12 triangles, once flats are merged"),
                     HasSubstr("by volume integrals: volume 1 m^3")));
 }
 
