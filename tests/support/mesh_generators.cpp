@@ -234,6 +234,30 @@ TriangleMesh squareMesh(double size, std::uint32_t divisions) {
   return draft.finish();
 }
 
+TriangleMesh cutUnevenly(const TriangleMesh& mesh, std::size_t cuts, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<glm::dvec3> x(mesh.vertices().begin(), mesh.vertices().end());
+  std::vector<Triangle> t(mesh.triangles().begin(), mesh.triangles().end());
+  for (std::size_t i = 0; i < cuts; ++i) {
+    const std::size_t f = random() % t.size(), k = random() % 3;
+    const std::uint32_t a = t[f][k], b = t[f][(k + 1) % 3];
+    const double share = std::uniform_real_distribution(0.05, 0.95)(random);
+    const auto middle = static_cast<std::uint32_t>(x.size());
+    x.push_back(x[a] + share * (x[b] - x[a]));
+    const std::size_t before = t.size();
+    for (std::size_t g = 0; g < before; ++g) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        const std::uint32_t from = t[g][j], to = t[g][(j + 1) % 3], apex = t[g][(j + 2) % 3];
+        if (!((from == a && to == b) || (from == b && to == a))) continue;
+        t[g] = {from, middle, apex};
+        t.push_back({middle, to, apex});
+        break;
+      }
+    }
+  }
+  return {std::move(x), std::move(t)};
+}
+
 TriangleMesh transformed(const TriangleMesh& mesh, double scale, const RigidTransform& motion) {
   std::vector<glm::dvec3> vertices;
   for (const glm::dvec3& p : mesh.vertices())

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -53,6 +54,10 @@ TriangleMesh squareMesh(double size, std::uint32_t divisions);
 
 /// Each triangle split into four by the middles of its sides, `times` over: the same surface.
 TriangleMesh subdivided(const TriangleMesh& mesh, std::uint32_t times);
+
+/// The same surface, its edges cut at random places again and again: small and large triangles side by side, and
+/// slivers. O(cuts * triangles). Same seed, same mesh.
+TriangleMesh cutUnevenly(const TriangleMesh& mesh, std::size_t cuts, std::uint64_t seed);
 
 /// Vertices scaled about the origin (scale > 0), then moved.
 TriangleMesh transformed(const TriangleMesh& mesh, double scale, const RigidTransform& motion = {});

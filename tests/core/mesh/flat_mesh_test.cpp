@@ -80,32 +80,6 @@ TriangleMesh prism(const std::vector<Loop>& loops, double height) {
   return {std::move(vertices), std::move(triangles)};
 }
 
-/// The same surface, its edges cut at random places again and again: small and large triangles side by side,
-/// and slivers.
-TriangleMesh cutUnevenly(const TriangleMesh& mesh, std::size_t cuts, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::vector<glm::dvec3> x(mesh.vertices().begin(), mesh.vertices().end());
-  std::vector<Triangle> t(mesh.triangles().begin(), mesh.triangles().end());
-  for (std::size_t i = 0; i < cuts; ++i) {
-    const std::size_t f = random() % t.size(), k = random() % 3;
-    const std::uint32_t a = t[f][k], b = t[f][(k + 1) % 3];
-    const double share = std::uniform_real_distribution(0.05, 0.95)(random);
-    const auto middle = static_cast<std::uint32_t>(x.size());
-    x.push_back(x[a] + share * (x[b] - x[a]));
-    const std::size_t before = t.size();
-    for (std::size_t g = 0; g < before; ++g) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        const std::uint32_t from = t[g][j], to = t[g][(j + 1) % 3], apex = t[g][(j + 2) % 3];
-        if (!((from == a && to == b) || (from == b && to == a))) continue;
-        t[g] = {from, middle, apex};
-        t.push_back({middle, to, apex});
-        break;
-      }
-    }
-  }
-  return {std::move(x), std::move(t)};
-}
-
 TriangleMesh roundedToSingle(const TriangleMesh& mesh) {
   std::vector<glm::dvec3> x;
   for (const glm::dvec3& p : mesh.vertices())
@@ -195,7 +169,7 @@ TEST(FlatMesh, CutsFlatsIntoAsFewTrianglesAsTheirOutlinesNeed) {
     SCOPED_TRACE(solid.name);
     const FeatureCounts coarse = NormalConeTree(solid.mesh).keptFeatures();
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
-      const TriangleMesh fine = test::transformed(cutUnevenly(solid.mesh, 400, seed), 1.0, kAskew);
+      const TriangleMesh fine = test::transformed(test::cutUnevenly(solid.mesh, 400, seed), 1.0, kAskew);
       const FlatMesh merged = mergeFlats(fine, 0.0);
       EXPECT_EQ(merged.mesh.triangles().size(), solid.mesh.triangles().size());
       const FeatureCounts kept = NormalConeTree(merged).keptFeatures();
@@ -216,7 +190,7 @@ TEST(FlatMesh, WhatSinglePrecisionRoundedIsFlatAgain) {
     // Twenty cuts on a needle of a thousandth are as fine as its coordinates are rounded.
     const bool isThin = std::string(solid.name) == "needle";
     const TriangleMesh fine =
-        roundedToSingle(test::transformed(cutUnevenly(solid.mesh, isThin ? 20 : 400, 4), 1.0, kAskew));
+        roundedToSingle(test::transformed(test::cutUnevenly(solid.mesh, isThin ? 20 : 400, 4), 1.0, kAskew));
     const double rounding = coordinateRounding(fine.vertices());
     EXPECT_NEAR(rounding, 0.5 * std::numeric_limits<float>::epsilon(), rounding) << "that of a float near 1";
     const FlatMesh merged = mergeFlats(fine, rounding);
@@ -236,8 +210,8 @@ TEST(FlatMesh, MinimaDoNotDependOnHowFinelyFlatsAreCut) {
     const Solid &a = all[i], &b = all[(i + 1) % all.size()];
     const test::BodyPair pair{a.name, a.mesh, b.mesh};
     const NormalConeTree coarseA(a.mesh), coarseB(b.mesh);
-    const NormalConeTree fineA(mergeFlats(cutUnevenly(a.mesh, 300, 5), 0.0));
-    const NormalConeTree fineB(mergeFlats(cutUnevenly(b.mesh, 300, 6), 0.0));
+    const NormalConeTree fineA(mergeFlats(test::cutUnevenly(a.mesh, 300, 5), 0.0));
+    const NormalConeTree fineB(mergeFlats(test::cutUnevenly(b.mesh, 300, 6), 0.0));
     for (int k = 0; k < 60; ++k) {
       const RigidTransform pose = k % 2 == 0 ? test::poseNearContact(pair, 0.1, random)
                                              : test::poseWithParallelFaces(pair, 0.1, 0.0, random);
@@ -263,8 +237,8 @@ TEST(FlatMesh, MergedMeshesHaveTheMinimaOfBruteForce) {
   std::size_t minima = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Solid& b = all[(i + 2) % all.size()];
-    const test::BodyPair pair{all[i].name, mergeFlats(cutUnevenly(all[i].mesh, 200, 7), 0.0).mesh,
-                              mergeFlats(cutUnevenly(b.mesh, 200, 8), 0.0).mesh};
+    const test::BodyPair pair{all[i].name, mergeFlats(test::cutUnevenly(all[i].mesh, 200, 7), 0.0).mesh,
+                              mergeFlats(test::cutUnevenly(b.mesh, 200, 8), 0.0).mesh};
     minima += test::compareWithOracle(pair, 40 / test::kPoseShare, 0.1, 11).minima;
   }
   EXPECT_GT(minima, 30U);
@@ -279,7 +253,8 @@ TEST(FlatMesh, CurvedMeshesStayAsTheyAre) {
 }
 
 TEST(FlatMesh, OpenSheetsKeepTheirRims) {
-  const TriangleMesh fine = test::transformed(cutUnevenly(test::squareMesh(1.0, 3), 300, 3), 1.0, kAskew);
+  const TriangleMesh fine =
+      test::transformed(test::cutUnevenly(test::squareMesh(1.0, 3), 300, 3), 1.0, kAskew);
   const FlatMesh merged = mergeFlats(fine, 0.0);
   EXPECT_EQ(merged.mesh.triangles().size(), 2U);
   EXPECT_EQ(merged.mesh.topology().openEdges, 4U);
