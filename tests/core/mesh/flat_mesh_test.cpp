@@ -241,7 +241,7 @@ TEST(FlatMesh, MergedMeshesHaveTheMinimaOfBruteForce) {
                               mergeFlats(test::cutUnevenly(b.mesh, 200, 8), 0.0).mesh};
     minima += test::compareWithOracle(pair, 40 / test::kPoseShare, 0.1, 11).minima;
   }
-  EXPECT_GT(minima, 30U);
+  EXPECT_GT(minima, 30 / test::kPoseShare);
 }
 
 TEST(FlatMesh, CurvedMeshesStayAsTheyAre) {
