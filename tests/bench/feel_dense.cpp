@@ -21,7 +21,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kMargin = 1e-4, kCutoff = 1e-3;  // [m]
+constexpr double kDenseMargin = 1e-4, kDenseCutoff = 1e-3;  // [m]
 /// Random cuts of an uneven mesh, besides the even ones.
 constexpr std::size_t kUnevenCuts = 1000;
 constexpr std::uint64_t kUnevenSeed = 17;
@@ -54,7 +54,7 @@ TriangleMesh chamferedPeg(double radius, double height, double chamfer, std::uin
   return {std::move(vertices), std::move(triangles)};
 }
 
-RigidTransform at(const glm::dvec3& translation, const glm::dquat& rotation = {1.0, 0.0, 0.0, 0.0}) {
+RigidTransform placedAt(const glm::dvec3& translation, const glm::dquat& rotation = {1.0, 0.0, 0.0, 0.0}) {
   return {rotation, translation};
 }
 
@@ -74,7 +74,7 @@ DenseScene blockOnPlate() {
                    test::boxMesh({0.2, 0.2, 0.02}, {0.0, 0.0, -0.01}),
                    test::boxMesh({0.05, 0.04, 0.03}),
                    {}};
-  scene.motion = pressing(at({0.0, 0.0, 0.0155}), {0.8, 0.6, 0.0}, {0.0, 0.0, -1.0}, 2.5e-3);
+  scene.motion = pressing(placedAt({0.0, 0.0, 0.0155}), {0.8, 0.6, 0.0}, {0.0, 0.0, -1.0}, 2.5e-3);
   scene.motion.slide = 0.02;
   scene.motion.turn = 0.01;
   scene.motion.tilt = 0.01;
@@ -88,7 +88,8 @@ DenseScene edgeOnFlat() {
   const glm::dquat aslant = glm::angleAxis(0.25 * pi, glm::dvec3(1.0, 0.0, 0.0));
   // The lower edge is half the diagonal of the block's end below its middle.
   const double height = 0.5 * std::sqrt(0.5) * (0.04 + 0.03);
-  scene.motion = pressing(at({0.0, 0.0, height + 5e-4}, aslant), {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 2.5e-3);
+  scene.motion =
+      pressing(placedAt({0.0, 0.0, height + 5e-4}, aslant), {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 2.5e-3);
   scene.motion.slide = 0.02;
   return scene;
 }
@@ -100,7 +101,7 @@ DenseScene pegInBore() {
                    test::cylinderMesh(0.0195, 0.06, 32),
                    {},
                    16};
-  scene.motion = pressing(at({}), {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}, 2e-3);
+  scene.motion = pressing(placedAt({}), {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}, 2e-3);
   scene.motion.swing = 1.0;
   scene.motion.slide = 5e-3;
   scene.motion.tilt = 0.02;
@@ -115,7 +116,7 @@ DenseScene chamferedPegIntoHole() {
                    {},
                    16};
   // Off by a millimetre: it slips in along its chamfer.
-  scene.motion = pressing(at({1e-3, 0.0, 0.0215}), {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.03);
+  scene.motion = pressing(placedAt({1e-3, 0.0, 0.0215}), {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.03);
   scene.motion.tilt = 0.01;
   return scene;
 }
@@ -146,8 +147,8 @@ DenseRun runDense(const DenseScene& scene, std::uint32_t pieces, bool isUneven, 
   run.bodies = solidScene(fixed, part, scene.motion.start);
   ServoParameters parameters;
   parameters.haptics.mode = HapticMode::Proxy;
-  parameters.haptics.springs.cutoff = kCutoff;
-  parameters.haptics.proxy.margin = kMargin;
+  parameters.haptics.springs.cutoff = kDenseCutoff;
+  parameters.haptics.proxy.margin = kDenseMargin;
   FeelServo servo(run.bodies, parameters, ListArrival::AtOnce, BenchClock::Thread);
   PressingMotion motion = scene.motion;
   motion.centreInPart = run.bodies->centreInPart;
