@@ -1,3 +1,6 @@
+#include <cstdio>
+#include <exception>
+
 #include "tests/bench/command_program.h"
 #include "tests/bench/commands.h"
 
@@ -7,9 +10,7 @@ constexpr const char* kFooter =
     "Times are of one thread. Exit code: 0 when all went well, 1 when it did not or methods disagree (a\n"
     "benchmark of different answers is void), 2 for wrong usage.";
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App program("Measures Nearfit's queries and hierarchies beside those of other libraries.");
   program.name("nearfit-bench");
   program.footer(kFooter);
@@ -22,4 +23,15 @@ int main(int argc, char** argv) {
   nearfit::bench::addErrorCommand(program);
   nearfit::bench::addSkipsCommand(program);
   return nearfit::bench::runCommand(program, argc, argv);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "nearfit-bench: %s\n", e.what());
+    return 1;
+  }
 }
