@@ -1,6 +1,7 @@
 #include <QApplication>
 #include <QSettings>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -72,9 +73,7 @@ void measure(CommandOptions options, int argc, char** argv) {
                                bench::figureCsvHeader() + lines);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   const auto options = std::make_shared<CommandOptions>();
   CLI::App program("Measures the application's window: what a user waits for, and what it costs.");
   program.name("nearfit-bench-window");
@@ -109,4 +108,15 @@ int main(int argc, char** argv) {
       program.add_subcommand("start", "Starts the application, says when it is usable, and ends.");
   start->callback([argc, argv] { (void)bench::startAndLeave(argc, argv); });
   return bench::runCommand(program, argc, argv);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "nearfit-bench-window: %s\n", e.what());
+    return 1;
+  }
 }
