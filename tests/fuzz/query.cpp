@@ -222,7 +222,7 @@ void checkSurfaces(const Case& c, const std::vector<Lmd>& minima) {
             "the nearest points are finite");
     require(distance.lowerBound <= distance.distance, "a lower bound is below");
   }
-  const UnsidedSurface scene(c.sceneMesh, c.scene), part(c.partMesh, c.part);
+  const UnsidedSurface scene(c.scene), part(c.part);
   std::vector<SurfaceContact>& contacts = kept<SurfaceContact>();
   std::vector<TrianglePair>& pairs = kept<TrianglePair, 1U << 14>();
   const NearbyTriangles nearby =
