@@ -47,10 +47,6 @@ std::string topologyText(const MeshTopology& topology, std::size_t edges) {
       topology.openEdges, topology.nonManifoldEdges, topology.inconsistentEdges);
 }
 
-FeatureCounts featuresOf(const TriangleMesh& mesh) {
-  return {mesh.vertices().size(), mesh.edges().size(), mesh.triangles().size()};
-}
-
 std::string featureText(const TriangleMesh& mesh, const NormalConeTree& tree) {
   const FeatureCounts kept = tree.keptFeatures(), all = featuresOf(mesh);
   return fmt::format("  features    {} kept of {}: {} of {} vertices, {} of {} edges, {} of {} faces\n",
@@ -87,8 +83,7 @@ HierarchyOrigin originOf(const PartGeometry& geometry) {
 
 /// Memory of the hierarchy, with its mesh unless that is the part's own.
 std::size_t bytesOf(const TriangleMesh& mesh, const NormalConeTree& tree) {
-  const bool isOwn = tree.mesh().triangles().data() == mesh.triangles().data();
-  return tree.byteSize() + (isOwn ? 0 : tree.mesh().byteSize());
+  return tree.byteSize() + (tree.mesh().sharesArraysOf(mesh) ? 0 : tree.mesh().byteSize());
 }
 
 std::string infoText(const std::string& name, const PartGeometry& geometry, std::optional<double> density) {

@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/math/axes_across.h"
+
 namespace nearfit {
 namespace {
 
@@ -31,12 +33,6 @@ struct Local {
   /// direction of that one. Zero where the contact is blocked.
   glm::dvec2 answer{0.0}, direction{1.0, 0.0};
 };
-
-std::array<glm::dvec3, 2> tangentAxes(const glm::dvec3& u) noexcept {
-  const glm::dvec3 other = std::abs(u.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
-  const glm::dvec3 first = glm::normalize(glm::cross(u, other));
-  return {first, glm::cross(u, first)};
-}
 
 ProgramVector tangentOf(const glm::dvec3& axis, const glm::dvec3& arm, const ArmMetric& metric) noexcept {
   const glm::dvec3 turn = metric.principalFromStep * glm::cross(arm, axis) / metric.gyration;
@@ -161,7 +157,7 @@ bool FrictionContacts::follow(const StepRows& rows, const ActiveRows& active, co
     }
     const StepVector a = rows.row(row);
     contact.row = row;
-    contact.axes = tangentAxes({a[0], a[1], a[2]});
+    contact.axes = axesAcross({a[0], a[1], a[2]});
     contact.push = glm::dvec2(0.0);
     for (std::size_t c = 0; c < 2; ++c)
       contact.tangents[c] = tangentOf(contact.axes[c], arms[row], metric);

@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/math/axes_across.h"
+
 namespace nearfit {
 namespace {
 
@@ -15,8 +17,7 @@ struct Pierced {
 };
 
 std::vector<Pierced> pierce(std::span<const glm::dvec3> directions, const glm::dvec3& axis) {
-  const glm::dvec3 helper = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 u = glm::normalize(glm::cross(axis, helper)), v = glm::cross(axis, u);
+  const auto [u, v] = axesAcross(axis);
   std::vector<Pierced> points;
   points.reserve(directions.size());
   for (std::size_t i = 0; i < directions.size(); ++i) {

@@ -15,6 +15,7 @@
 #include <glm/vec2.hpp>
 
 #include "core/exact/outline_fill.h"
+#include "core/math/axes_across.h"
 #include "core/math/plane_cross.h"
 #include "core/math/symmetric_eigen.h"
 #include "core/mesh/flat_outlines.h"
@@ -43,22 +44,28 @@ constexpr double kInPlane = 16.0 * std::numeric_limits<double>::epsilon();
 /// gains little, and its triangles may be of better shape, as those of a disc about its centre are.
 constexpr std::size_t kManyCorners = 16;
 constexpr double kWorthwhile = 0.25;
-/// A flat that is cut anew keeps its area to this share of its diagonal squared, besides what moves at its rim.
+/// A flat that is cut anew keeps its area to this share of the square of its rim's length, besides what moves at
+/// its rim.
 constexpr double kAreaError = 1e-9;
 /// Max attempts, each with the flats that failed before kept as they are.
 constexpr int kMaxAttempts = 8;
 
-/// Axes of a plane; x, y and the normal are right-handed.
+/// Coordinates in a plane. Seen against its normal, areas that run anticlockwise are positive.
 struct Axes {
-  glm::dvec3 origin, x, y;
-  explicit Axes(const FlatPlane& plane) : origin(plane.origin) {
-    const glm::dvec3 n = plane.normal;
-    const glm::dvec3 helper = std::abs(n.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    x = glm::normalize(glm::cross(helper, n));
-    y = glm::cross(n, x);
+  glm::dvec3 origin;
+  std::array<glm::dvec3, 2> across;
+  explicit Axes(const FlatPlane& plane) : origin(plane.origin), across(axesAcross(plane.normal)) {}
+  glm::dvec2 map(const glm::dvec3& p) const {
+    return {glm::dot(p - origin, across[0]), glm::dot(p - origin, across[1])};
   }
-  glm::dvec2 map(const glm::dvec3& p) const { return {glm::dot(p - origin, x), glm::dot(p - origin, y)}; }
 };
+
+double largestCoordinate(const Aabb& box) {
+  double largest = 0.0;
+  for (const glm::dvec3& p : {box.lower, box.upper})
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return largest;
+}
 
 struct PointHash {
   std::size_t operator()(const glm::dvec2& p) const noexcept {
@@ -73,17 +80,17 @@ class FlatMerger {
       : mesh_(mesh),
         tolerance_(tolerance),
         groups_(std::move(groups)),
-        isPinned_(groups_.planes.size(), false) {
-    const Aabb& box = mesh.bounds();
-    for (const glm::dvec3& p : {box.lower, box.upper})
-      largest_ = std::max({largest_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        isPinned_(groups_.planes.size(), false),
+        inPlane_(kInPlane * largestCoordinate(mesh.bounds())) {
     listTriangles();
   }
 
   std::optional<FlatMesh> merge() {
-    pinUnworthy();
+    outlines_ = findOutlines(mesh_, groups_, tolerance_, isPinned_);
+    bool hasPinned = pinUnworthy();
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
-      outlines_ = findOutlines(mesh_, groups_, tolerance_, isPinned_);
+      if (hasPinned) outlines_ = findOutlines(mesh_, groups_, tolerance_, isPinned_);
+      hasPinned = true;  // By each attempt that fails.
       snapVertices();
       if (!cutAll()) continue;
       FlatMesh merged = assemble();
@@ -111,7 +118,7 @@ class FlatMerger {
         .subspan(firstTriangle_[flat], firstTriangle_[flat + 1] - firstTriangle_[flat]);
   }
 
-  /// Number of corners of a flat, each counted once for each triangle, and of those that are dropped.
+  /// Number of different corners of a flat's triangles, and of those that are dropped.
   struct CornerCount {
     std::size_t all = 0, dropped = 0;
   };
@@ -129,14 +136,17 @@ class FlatMerger {
     return count;
   }
 
-  void pinUnworthy() {
-    outlines_ = findOutlines(mesh_, groups_, tolerance_, isPinned_);
+  /// Pins the flats that are not worth cutting anew; true if there are any.
+  bool pinUnworthy() {
+    bool isAny = false;
     for (std::size_t flat = 0; flat < isPinned_.size(); ++flat) {
       const CornerCount count = countCorners(flat);
       const bool hasManyCorners = count.all - count.dropped >= kManyCorners;
       isPinned_[flat] =
           hasManyCorners && static_cast<double>(count.dropped) < kWorthwhile * static_cast<double>(count.all);
+      isAny = isAny || isPinned_[flat];
     }
+    return isAny;
   }
 
   /// Moves each kept vertex to where the planes of its flats meet, if that is near and certain.
@@ -192,7 +202,7 @@ class FlatMerger {
   }
 
   bool isInPlane(const glm::dvec3& p, std::size_t flat) const {
-    return std::abs(groups_.planes[flat].height(p)) <= kInPlane * largest_;
+    return std::abs(groups_.planes[flat].height(p)) <= inPlane_;
   }
 
   /// Cuts all flats that lose vertices. False if one failed, which is then pinned.
@@ -348,7 +358,7 @@ class FlatMerger {
   double tolerance_;
   FlatGroups groups_;
   std::vector<bool> isPinned_;  ///< By flat: its triangles stay.
-  double largest_ = 0.0;        ///< Largest coordinate [m].
+  double inPlane_;              ///< Max distance of a vertex from a plane that it lies in [m].
   std::vector<std::uint32_t> firstTriangle_, triangles_;
   FlatOutlines outlines_;
   std::vector<glm::dvec3> positions_;
@@ -364,9 +374,7 @@ FlatMesh mergeFlats(const TriangleMesh& mesh, double coordinateRounding,
                     const std::function<void(double fraction)>& onProgress) {
   const auto unchanged = [&] { return FlatMesh{mesh, {}, 0.0}; };
   if (mesh.bounds().isEmpty()) return unchanged();
-  double largest = 0.0;
-  for (const glm::dvec3& p : {mesh.bounds().lower, mesh.bounds().upper})
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const double largest = largestCoordinate(mesh.bounds());
   const double rounding = std::max(coordinateRounding, kMinRounding * largest);
   const double tolerance =
       std::max(std::min(kRoundingsOfPlane * rounding, kMaxTolerance * mesh.bounds().diagonal()),

@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/math/nearest_on_segment.h"
+
 namespace nearfit {
 namespace {
 
@@ -18,10 +20,7 @@ constexpr int kMaxDepth = 64;
 constexpr std::size_t kLeastCorners = 3;
 
 double distanceFromSegment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 way = b - a;
-  const double square = glm::dot(way, way);
-  const double s = square > 0.0 ? std::clamp(glm::dot(p - a, way) / square, 0.0, 1.0) : 0.0;
-  return glm::distance(p, a + s * way);
+  return glm::distance(p, nearestOnSegment(a, b, p));
 }
 
 class OutlineFinder {
@@ -107,8 +106,8 @@ class OutlineFinder {
     }
   }
 
-  /// As flatsAt(); none if too many triangles meet there. Their flats then have gaps in their outlines and stay as
-  /// they are.
+  /// As flatsAt(), or no flats if too many triangles meet at the edge. The outlines of those flats then have a gap,
+  /// and cutting them fails.
   Flats sidesOf(std::uint32_t edge) const {
     return mesh_.facesOfEdge(edge).size() <= OutlineSegment::kMaxTriangles ? flatsAt(edge) : kNone;
   }

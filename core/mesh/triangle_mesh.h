@@ -90,6 +90,10 @@ class TriangleMesh {
   /// Defects and number of components, computed on construction.
   const MeshTopology& topology() const noexcept { return arrays_.topology; }
   const Arrays& arrays() const noexcept { return arrays_; }
+  /// True if this is a copy of the other mesh, or that of this: equal meshes with arrays of their own do not count.
+  bool sharesArraysOf(const TriangleMesh& other) const noexcept {
+    return vertices().data() == other.vertices().data() && triangles().data() == other.triangles().data();
+  }
   /// Memory of the arrays, allocated or mapped [bytes].
   std::size_t byteSize() const noexcept;
 

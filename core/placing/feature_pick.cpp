@@ -20,7 +20,7 @@ struct EdgeChain {
   /// In order; if closed, the first is repeated at the end.
   std::vector<std::uint32_t> vertices;
   bool isRound = false;
-  /// Of a round chain. For a line: centre at its middle, axis along it, radius 0.
+  /// The circle of a round chain. For a line: centre at its middle, axis along it, radius 0.
   Circle circle;
 };
 

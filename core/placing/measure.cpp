@@ -6,15 +6,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/math/nearest_on_segment.h"
+
 namespace nearfit {
 namespace {
-
-glm::dvec3 nearestOnSegment(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& point) noexcept {
-  const glm::dvec3 along = b - a;
-  const double squared = glm::dot(along, along);
-  const double share = squared > 0.0 ? std::clamp(glm::dot(point - a, along) / squared, 0.0, 1.0) : 0.0;
-  return a + share * along;
-}
 
 glm::dvec3 nearestOnEdge(const TriangleMesh& mesh, const PickedFeature& edge, const glm::dvec3& point) {
   const auto vertices = mesh.vertices();

@@ -55,18 +55,6 @@ void HierarchyOnDemand::waitForTurn(const ProgressCallback& progress) {
   isMaking_ = !isReady();
 }
 
-void HierarchyOnDemand::build(const TriangleMesh& mesh, const ProgressCallback& progress) {
-  const auto share = [&progress](double from, double to) -> ProgressCallback {
-    if (!progress) return {};
-    return [&progress, from, to](double fraction) { return progress(from + (to - from) * fraction); };
-  };
-  const ProgressCallback merging = share(0.0, kMerged);
-  const auto report = [&merging](double fraction) {
-    if (merging && !merging(fraction)) throw Cancelled();
-  };
-  tree_.emplace(mergeFlats(mesh, coordinateRounding_, report), share(kMerged, 1.0));
-}
-
 void HierarchyOnDemand::findOrBuild(const TriangleMesh& mesh, const ProgressCallback& progress) {
   if (progress && !progress(0.0)) throw Cancelled();
   const auto start = std::chrono::steady_clock::now();
@@ -74,7 +62,8 @@ void HierarchyOnDemand::findOrBuild(const TriangleMesh& mesh, const ProgressCall
   if (found) {
     tree_.emplace(std::move(*found));
   } else {
-    build(mesh, progress);
+    tree_.emplace(mergeFlats(mesh, coordinateRounding_, stageOf(progress, 0.0, kMerged)),
+                  stageCallback(progress, kMerged, 1.0));
   }
   origin_ = {found.has_value(), secondsSince(start)};
   ready_.store(&*tree_, std::memory_order_release);

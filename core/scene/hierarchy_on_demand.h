@@ -48,7 +48,6 @@ class HierarchyOnDemand {
  private:
   const NormalConeTree& make(const TriangleMesh& mesh, const ProgressCallback& progress);
   void waitForTurn(const ProgressCallback& progress);
-  void build(const TriangleMesh& mesh, const ProgressCallback& progress);
   void findOrBuild(const TriangleMesh& mesh, const ProgressCallback& progress);
 
   Find find_;

@@ -21,13 +21,6 @@ namespace {
 /// Progress after hashing, and after building the mesh; mass properties follow. Roughly the shares of time.
 constexpr double kHashed = 0.05, kImported = 0.95;
 
-/// Maps progress of one stage to the whole; throws Cancelled if the user stops.
-std::function<void(double)> stretch(const ProgressCallback& progress, double from, double to) {
-  return [&progress, from, to](double fraction) {
-    if (progress && !progress(from + (to - from) * fraction)) throw Cancelled();
-  };
-}
-
 /// One task's share of the total progress. Never counts backward.
 class TaskProgress {
  public:
@@ -76,19 +69,14 @@ PartGeometryPtr load(const MeshSource& source, const ProgressCallback& progress)
   const auto isWanted = [&](const std::string& sha256) {
     return source.sha256.empty() || sha256 == source.sha256;
   };
-  std::string sha256 = sha256OfFile(source.file, stretch(progress, 0.0, kHashed));
+  std::string sha256 = sha256OfFile(source.file, stageOf(progress, 0.0, kHashed));
   if (!isWanted(sha256)) return nullptr;
   std::optional<CachedMesh> kept;
   if (const auto file = cache.find({sha256, source.metresPerUnit})) kept = file->mesh();
   if (!kept) {
     MeshBuildOptions options;
     options.metresPerUnit = source.metresPerUnit;
-    const auto report = stretch(progress, kHashed, kImported);
-    const ProgressCallback import = [&](double fraction) {
-      report(fraction);
-      return true;
-    };
-    ImportedMesh imported = importMesh(source.file, options, import);
+    ImportedMesh imported = importMesh(source.file, options, stageCallback(progress, kHashed, kImported));
     // The file may have changed since it was hashed. Its content when it was read counts.
     sha256 = std::move(imported.sha256);
     if (!isWanted(sha256)) return nullptr;
@@ -96,7 +84,7 @@ PartGeometryPtr load(const MeshSource& source, const ProgressCallback& progress)
     kept->mass = massProperties(kept->mesh);
     cache.store({sha256, source.metresPerUnit}, *kept, nullptr);
   }
-  stretch(progress, kImported, 1.0)(1.0);
+  stageOf(progress, kImported, 1.0)(1.0);
   return makeGeometry(source, std::move(sha256), std::move(*kept));
 }
 

@@ -4,8 +4,15 @@
 
 namespace nearfit::bench {
 
+/// What a program of several commands is called and says of itself in its help; the footer may be empty.
+struct CommandProgram {
+  const char *name, *description, *footer;
+  /// Adds the commands; is given what main() was.
+  void (*addCommands)(CLI::App& program, int argc, char** argv);
+};
+
 /// Runs one of a program's commands: what main() returns. 0 when all went well, 2 for wrong usage, 1 for
 /// anything else, with a line on stderr.
-int runCommand(CLI::App& program, int argc, char** argv);
+int runProgram(const CommandProgram& about, int argc, char** argv);
 
 }  // namespace nearfit::bench

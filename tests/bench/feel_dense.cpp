@@ -14,6 +14,7 @@
 #include "tests/bench/feel_certified.h"
 #include "tests/bench/feel_scenes.h"
 #include "tests/bench/feel_servo.h"
+#include "tests/bench/statistics.h"
 #include "tests/support/mesh_generators.h"
 
 namespace nearfit::bench {
@@ -94,13 +95,13 @@ DenseScene edgeOnFlat() {
   return scene;
 }
 
+DenseScene inBore(const char* name, const char* description, const TriangleMesh& part) {
+  return {name, description, test::tubeMesh(0.02, 0.03, 0.04, 32), part, {}, 16};
+}
+
 DenseScene pegInBore() {
-  DenseScene scene{"peg-bore",
-                   "a peg of 32 sides in a bore with 0.5 mm of play",
-                   test::tubeMesh(0.02, 0.03, 0.04, 32),
-                   test::cylinderMesh(0.0195, 0.06, 32),
-                   {},
-                   16};
+  DenseScene scene = inBore("peg-bore", "a peg of 32 sides in a bore with 0.5 mm of play",
+                            test::cylinderMesh(0.0195, 0.06, 32));
   scene.motion = pressing(placedAt({}), {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}, 2e-3);
   scene.motion.swing = 1.0;
   scene.motion.slide = 5e-3;
@@ -109,12 +110,8 @@ DenseScene pegInBore() {
 }
 
 DenseScene chamferedPegIntoHole() {
-  DenseScene scene{"chamfered-peg",
-                   "a chamfered peg of 32 sides led into its hole, 0.5 mm of play",
-                   test::tubeMesh(0.02, 0.03, 0.04, 32),
-                   chamferedPeg(0.0195, 0.06, 2e-3, 32),
-                   {},
-                   16};
+  DenseScene scene = inBore("chamfered-peg", "a chamfered peg of 32 sides led into its hole, 0.5 mm of play",
+                            chamferedPeg(0.0195, 0.06, 2e-3, 32));
   // Off by a millimetre: it slips in along its chamfer.
   scene.motion = pressing(placedAt({1e-3, 0.0, 0.0215}), {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.03);
   scene.motion.tilt = 0.01;
@@ -126,11 +123,8 @@ TriangleMesh cutFinely(const TriangleMesh& mesh, std::uint32_t pieces, bool isUn
   return isUneven ? test::cutUnevenly(even, kUnevenCuts, kUnevenSeed) : even;
 }
 
-double percentile(std::vector<double> samples, double share) {
-  if (samples.empty()) return 0.0;
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(samples.size() - 1));
-  std::nth_element(samples.begin(), samples.begin() + at, samples.end());
-  return samples[static_cast<std::size_t>(at)];
+double p99(const DenseRun& run) {
+  return SampleSummary(run.times).percentile(0.99);
 }
 
 }  // namespace
@@ -167,7 +161,6 @@ DenseRun runDense(const DenseScene& scene, std::uint32_t pieces, bool isUneven, 
 std::vector<FeelRow> denseRows(const DenseScene& scene, std::size_t ticks) {
   std::vector<FeelRow> rows;
   const DenseRun coarse = runDense(scene, 1, false, ticks);
-  const double coarseTime = percentile(coarse.times, 0.99);
   const auto add = [&](const DenseRun& run, const std::string& label) {
     const std::string name = fmt::format("{} ({} triangles)", label, run.triangles);
     const auto row = [&](const char* quantity, const std::vector<double>& samples, double scale = 1.0) {
@@ -182,7 +175,7 @@ std::vector<FeelRow> denseRows(const DenseScene& scene, std::size_t ticks) {
       forceOff.push_back(glm::distance(run.wrenches[i].force, coarse.wrenches[i].force) / strongest);
     }
     row("tick [us]", run.times, 1e6);
-    row("p99 over that of x1", {percentile(run.times, 0.99) / coarseTime});
+    row("p99 over that of x1", {p99(run) / p99(coarse)});
     row("off the pose of x1 [um]", off, 1e6);
     row("off the force of x1, of the strongest [%]", forceOff, 1e2);
     row("in contact", {static_cast<double>(run.held) / static_cast<double>(ticks)});

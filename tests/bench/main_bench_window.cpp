@@ -1,7 +1,6 @@
 #include <QApplication>
 #include <QSettings>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -73,10 +72,8 @@ void measure(CommandOptions options, int argc, char** argv) {
                                bench::figureCsvHeader() + lines);
 }
 
-int run(int argc, char** argv) {
+void addCommands(CLI::App& program, int argc, char** argv) {
   const auto options = std::make_shared<CommandOptions>();
-  CLI::App program("Measures the application's window: what a user waits for, and what it costs.");
-  program.name("nearfit-bench-window");
   CLI::App* figures = program.add_subcommand("figures", "Measures; needs a display, such as xvfb-run's.");
   WindowOptions& window = options->window;
   std::string names = "Which of";
@@ -107,16 +104,13 @@ int run(int argc, char** argv) {
   CLI::App* start =
       program.add_subcommand("start", "Starts the application, says when it is usable, and ends.");
   start->callback([argc, argv] { (void)bench::startAndLeave(argc, argv); });
-  return bench::runCommand(program, argc, argv);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "nearfit-bench-window: %s\n", e.what());
-    return 1;
-  }
+  return bench::runProgram(
+      {"nearfit-bench-window", "Measures the application's window: what a user waits for, and what it costs.",
+       "", addCommands},
+      argc, argv);
 }

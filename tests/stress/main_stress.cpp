@@ -8,17 +8,19 @@ constexpr const char* kFooter =
     "did\n"
     "not, 2 for wrong usage.";
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App program("Looks for what breaks Nearfit, for as long as it is given.");
-  program.name("nearfit-stress");
-  program.footer(kFooter);
+void addCommands(CLI::App& program, int, char**) {
   nearfit::stress::addScenesCommand(program);
   nearfit::stress::addHandCommand(program);
   nearfit::stress::addOracleCommand(program);
   nearfit::stress::addRestCommand(program);
   nearfit::stress::addLimitCommand(program);
   nearfit::stress::addHoursCommand(program);
-  return nearfit::bench::runCommand(program, argc, argv);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return nearfit::bench::runProgram(
+      {"nearfit-stress", "Looks for what breaks Nearfit, for as long as it is given.", kFooter, addCommands},
+      argc, argv);
 }

@@ -43,7 +43,7 @@ bool areSame(const TriangleMesh& meshA, const TriangleMesh& meshB) {
 bool areSame(const NormalConeTree& treeA, const NormalConeTree& treeB) {
   const NormalConeTree::Arrays &a = treeA.arrays(), &b = treeB.arrays();
   return areSame(a.mesh, b.mesh) && areSameBytes(a.deviation, b.deviation) &&
-         areSameBytes(a.centre, b.centre) && areSameBytes(a.size, b.size) && areSameBytes(a.all, b.all) &&
+         areSameBytes(a.centre, b.centre) && areSameBytes(a.size, b.size) &&
          areSameArrays(a.nodes, b.nodes) && areSameArrays(a.positions, b.positions) &&
          areSameArrays(a.vertices, b.vertices) && areSameArrays(a.edges, b.edges) &&
          areSameArrays(a.faces, b.faces) && areSameArrays(a.neighbours, b.neighbours);

@@ -47,9 +47,9 @@ std::function<void(OpenHapFirmware&, double)> handOf(const EmulationOptions& opt
     const double angle = 2.0 * std::numbers::pi * kTurnsPerSecond * time;
     return {glm::dquat(1.0, 0.0, 0.0, 0.0), {kRadius * std::cos(angle), 0.0, kRadius * std::sin(angle)}};
   };
-  return [poseAt, rate, waits = path.empty(), began = std::optional<double>()](OpenHapFirmware& firmware,
-                                                                               double sinceStart) mutable {
-    if (!began && (!waits || firmware.accepted() > 0)) began = waits ? sinceStart : 0.0;
+  return [poseAt, rate, began = path.empty() ? std::nullopt : std::optional(0.0)](OpenHapFirmware& firmware,
+                                                                                  double sinceStart) mutable {
+    if (!began && firmware.accepted() > 0) began = sinceStart;
     const double time = began ? sinceStart - *began : 0.0;
     const RigidTransform pose = poseAt(time);
     const glm::dvec3 velocity =

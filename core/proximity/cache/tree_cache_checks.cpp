@@ -199,11 +199,11 @@ bool areLeavesSound(const Tree::Arrays& t) {
                              (std::uint64_t{leaf.firstNeighbour} + leaf.neighbourCount <= neighbours);
                     }) &&
          isEachFine(t.edges.view(),
-                    [=, edges = t.all.edges](const Tree::EdgeLeaf& leaf) {
+                    [=, edges = t.mesh.edges().size()](const Tree::EdgeLeaf& leaf) {
                       return (leaf.edge < edges) & (leaf.v0 < positions) & (leaf.v1 < positions) &
                              (leaf.opposite[0] < positions) & (leaf.opposite[1] < positions);
                     }) &&
-         isEachFine(t.faces.view(), [=, faces = t.all.faces](const Tree::FaceLeaf& leaf) {
+         isEachFine(t.faces.view(), [=, faces = t.mesh.triangles().size()](const Tree::FaceLeaf& leaf) {
            return (leaf.face < faces) & areBelow(leaf.corners, positions);
          });
 }
@@ -230,7 +230,7 @@ bool isSound(const TriangleMesh::Arrays& m) {
 
 bool isSound(const NormalConeTree::Arrays& t) {
   const bool isCentreNear = areNear({&t.centre, 1}) && t.size >= 0.0 && t.size <= kFarthest;
-  return isCentreNear && t.positions.size() == t.all.vertices && areNear(t.positions) &&
+  return isCentreNear && t.positions.size() == t.mesh.vertices().size() && areNear(t.positions) &&
          areBelow(t.neighbours, t.positions.size()) && areLeavesSound(t) &&
          isEachFine(t.nodes.view(), areBoundsSound) && ShapeCheck(t).run();
 }

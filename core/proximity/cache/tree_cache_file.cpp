@@ -146,21 +146,18 @@ std::optional<CachedTree> TreeCacheFile::tree(const TriangleMesh& mesh) const {
   if (!hasTree() || !isIntact(Section::TreeFacts, Section::SearchedVertexFirstEdge)) return std::nullopt;
   const TreeFacts facts = array<TreeFacts>(Section::TreeFacts)[0];
   std::optional<Searched> of = searched(mesh);
-  if (!of || facts.all[0] != of->mesh.vertices().size() || facts.all[1] != of->mesh.edges().size() ||
-      facts.all[2] != of->mesh.triangles().size() || facts.isSolid > 1) {
-    return std::nullopt;
-  }
+  if (!of || facts.isSolid > 1) return std::nullopt;
+  const FeatureCounts all = featuresOf(of->mesh);
+  if (facts.all != std::array<std::uint64_t, 3>{all.vertices, all.edges, all.faces}) return std::nullopt;
   const auto& c = facts.centreAndSize;
-  NormalConeTree::Arrays arrays{
-      {c[0], c[1], c[2]},
-      c[3],
-      {of->mesh.vertices().size(), of->mesh.edges().size(), of->mesh.triangles().size()},
-      array<NormalConeTree::Node>(Section::Nodes),
-      array<glm::dvec3>(Section::Positions),
-      array<NormalConeTree::VertexLeaf>(Section::VertexLeaves),
-      array<NormalConeTree::EdgeLeaf>(Section::EdgeLeaves),
-      array<NormalConeTree::FaceLeaf>(Section::FaceLeaves),
-      array<std::uint32_t>(Section::Neighbours)};
+  NormalConeTree::Arrays arrays{{c[0], c[1], c[2]},
+                                c[3],
+                                array<NormalConeTree::Node>(Section::Nodes),
+                                array<glm::dvec3>(Section::Positions),
+                                array<NormalConeTree::VertexLeaf>(Section::VertexLeaves),
+                                array<NormalConeTree::EdgeLeaf>(Section::EdgeLeaves),
+                                array<NormalConeTree::FaceLeaf>(Section::FaceLeaves),
+                                array<std::uint32_t>(Section::Neighbours)};
   arrays.mesh = of->mesh;
   arrays.deviation = of->deviation;
   if (!isSound(arrays)) return std::nullopt;

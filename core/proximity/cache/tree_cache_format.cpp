@@ -14,32 +14,34 @@ constexpr std::array<char, 8> kMagic{'N', 'E', 'A', 'R', 'F', 'I', 'T', '\n'};
 /// Reads as another number on a big-endian machine.
 constexpr std::uint32_t kByteOrder = 0x01020304;
 
-constexpr std::array<std::uint32_t, kTreeCacheSections> kElementBytes{
-    sizeof(MeshFacts),
-    sizeof(char),
-    sizeof(glm::dvec3),
-    sizeof(Triangle),
-    sizeof(MeshEdge),
-    sizeof(std::uint32_t),
-    sizeof(std::array<std::uint32_t, 3>),
-    sizeof(std::uint32_t),
-    sizeof(std::uint32_t),
-    sizeof(TreeFacts),
-    sizeof(NormalConeTree::Node),
-    sizeof(glm::dvec3),
-    sizeof(NormalConeTree::VertexLeaf),
-    sizeof(NormalConeTree::EdgeLeaf),
-    sizeof(NormalConeTree::FaceLeaf),
-    sizeof(std::uint32_t),
-    sizeof(SearchedFacts),
-    sizeof(glm::dvec3),
-    sizeof(Triangle),
-    sizeof(MeshEdge),
-    sizeof(std::uint32_t),
-    sizeof(std::array<std::uint32_t, 3>),
-    sizeof(std::uint32_t),
-    sizeof(std::uint32_t),
-};
+using Sizes = std::array<std::uint32_t, kTreeCacheSections>;
+
+/// Adds the sizes of the elements of a mesh's arrays, from its vertices on.
+constexpr std::size_t addMeshSizes(Sizes& sizes, std::size_t next) {
+  for (const std::size_t size :
+       {sizeof(glm::dvec3), sizeof(Triangle), sizeof(MeshEdge), sizeof(std::uint32_t),
+        sizeof(std::array<std::uint32_t, 3>), sizeof(std::uint32_t), sizeof(std::uint32_t)})
+    sizes[next++] = static_cast<std::uint32_t>(size);
+  return next;
+}
+
+constexpr Sizes elementSizes() {
+  Sizes sizes{};
+  std::size_t next = 0;
+  sizes[next++] = sizeof(MeshFacts);
+  sizes[next++] = sizeof(char);
+  next = addMeshSizes(sizes, next);
+  for (const std::size_t size :
+       {sizeof(TreeFacts), sizeof(NormalConeTree::Node), sizeof(glm::dvec3),
+        sizeof(NormalConeTree::VertexLeaf), sizeof(NormalConeTree::EdgeLeaf),
+        sizeof(NormalConeTree::FaceLeaf), sizeof(std::uint32_t), sizeof(SearchedFacts)})
+    sizes[next++] = static_cast<std::uint32_t>(size);
+  addMeshSizes(sizes, next);
+  return sizes;
+}
+
+constexpr Sizes kElementBytes = elementSizes();
+static_assert(kElementBytes.back() == sizeof(std::uint32_t), "every section has a size");
 
 static_assert(sizeof(kGeometryFingerprint) == 64 + 1);
 

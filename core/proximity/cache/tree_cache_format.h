@@ -81,7 +81,7 @@ struct TreeFacts {
 };
 static_assert(sizeof(TreeFacts) == 64);
 
-/// What the mesh of a hierarchy has besides its arrays.
+/// Box, topology and deviation of the mesh of a hierarchy; its arrays are sections.
 struct SearchedFacts {
   std::array<double, 6> bounds;  ///< Lower, upper.
   std::array<std::uint32_t, 4> topology;

@@ -69,15 +69,11 @@ void addTree(Gatherer& out, const TreeFacts& facts, const NormalConeTree::Arrays
   out.add(tree.faces);
   out.add(tree.neighbours);
 }
-/// True if two meshes share their arrays.
-bool isSame(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.vertices().data() == b.vertices().data() && a.triangles().data() == b.triangles().data();
-}
-
 TreeFacts treeFactsOf(const CachedTree& cached) {
   const NormalConeTree::Arrays& tree = cached.tree.arrays();
+  const FeatureCounts all = cached.tree.allFeatures();
   return {{tree.centre.x, tree.centre.y, tree.centre.z, tree.size},
-          {tree.all.vertices, tree.all.edges, tree.all.faces},
+          {all.vertices, all.edges, all.faces},
           cached.isSolid ? 1U : 0U};
 }
 
@@ -124,7 +120,7 @@ std::uint64_t writeTreeCacheFile(const std::filesystem::path& file, const TreeCa
   if (tree != nullptr) {
     addTree(gathered, treeFacts, tree->tree.arrays());
     const TriangleMesh& searched = tree->tree.mesh();
-    if (!isSame(searched, mesh.mesh)) {
+    if (!searched.sharesArraysOf(mesh.mesh)) {
       searchedFacts = searchedFactsOf(tree->tree);
       gathered.add(std::span<const SearchedFacts>(&searchedFacts, 1));
       addArrays(gathered, searched.arrays());

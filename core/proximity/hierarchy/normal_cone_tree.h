@@ -30,6 +30,11 @@ struct FeatureCounts {
   std::size_t total() const noexcept { return vertices + edges + faces; }
 };
 
+/// All features of a mesh, whether they can carry a minimum or not.
+inline FeatureCounts featuresOf(const TriangleMesh& mesh) noexcept {
+  return {mesh.vertices().size(), mesh.edges().size(), mesh.triangles().size()};
+}
+
 /// Spatialized normal cone hierarchy over the features of one mesh that can carry a minimum, each in exactly
 /// one leaf. Built once per mesh, or mapped from a file (tree_cache.h); immutable, so any number of threads
 /// and parts can share it. Copies share the arrays.
@@ -91,7 +96,6 @@ class NormalConeTree {
   struct Arrays {
     glm::dvec3 centre{0.0};
     double size = 0.0;
-    FeatureCounts all;
     SharedArray<Node> nodes;
     SharedArray<glm::dvec3> positions;
     SharedArray<VertexLeaf> vertices;
@@ -159,7 +163,7 @@ class NormalConeTree {
     return {arrays_.vertices.size(), arrays_.edges.size(), arrays_.faces.size()};
   }
   /// Counts of all features of the mesh.
-  FeatureCounts allFeatures() const noexcept { return arrays_.all; }
+  FeatureCounts allFeatures() const noexcept { return featuresOf(mesh()); }
   const Arrays& arrays() const noexcept { return arrays_; }
   /// Memory that the arrays hold, or map, without mesh() [bytes].
   std::size_t byteSize() const noexcept;

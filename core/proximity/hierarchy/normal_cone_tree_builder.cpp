@@ -46,7 +46,6 @@ NormalConeTree::Arrays NormalConeTreeBuilder::build() {
   if (!items.empty()) buildRoot(items);
   return {tree_.centre,
           tree_.size,
-          {mesh_.vertices().size(), mesh_.edges().size(), mesh_.triangles().size()},
           std::move(tree_.nodes),
           std::move(tree_.positions),
           std::move(tree_.vertices),

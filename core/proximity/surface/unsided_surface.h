@@ -14,7 +14,7 @@ namespace nearfit {
 /// copies share the mesh and the hierarchy. Immutable.
 class UnsidedSurface {
  public:
-  /// Of the hierarchy's mesh. Copies the hierarchy, which shares its arrays. O(n).
+  /// Takes the hierarchy's mesh for the surface. Copies the hierarchy, which shares its arrays. O(n).
   explicit UnsidedSurface(const NormalConeTree& tree);
 
   const TriangleMesh& mesh() const noexcept { return tree_.mesh(); }

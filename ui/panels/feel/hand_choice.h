@@ -17,8 +17,8 @@ namespace nearfit::ui {
 
 class LocksPage;
 
-/// Says what keeps devices from being used if the user can fix it, and offers the command that does; or says
-/// that there is no device. Hidden if there is nothing to say.
+/// Says what keeps devices from being used, if the user can fix it, and offers the command that does. Without
+/// devices it says that none is plugged in. Hidden otherwise.
 class DeviceNotices : public QWidget {
   Q_OBJECT
 
