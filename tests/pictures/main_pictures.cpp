@@ -113,7 +113,7 @@ class Pictures {
     }
   }
   void showDemo() {
-    driver_.window().selection().select({*driver_.session().scene().movingPart()});
+    driver_.window().selection().select(driver_.session().scene().movingPart());
     trigger("fitSelection");
     grabWindow("window-demo");
   }
@@ -244,7 +244,7 @@ class Pictures {
     grabDialog(QStringLiteral("preset-delete"), [&] { command("deletePreset"); });
   }
   void feeling() {
-    driver_.window().selection().select({*driver_.session().scene().movingPart()});
+    driver_.window().selection().select(driver_.session().scene().movingPart());
     trigger("gizmoNone");
     trigger("start");
     wait([this] { return tick_ > kFeelFor; }, "the scripted hand");
@@ -257,7 +257,7 @@ class Pictures {
     atWork();
     trigger("stop");
     // A part that overlaps is said to.
-    driver_.window().selection().select({*driver_.session().scene().movingPart()});
+    driver_.window().selection().select(driver_.session().scene().movingPart());
     trigger("duplicate");
     tick_ = 0;
     trigger("start");

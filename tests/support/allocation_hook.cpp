@@ -57,11 +57,13 @@ namespace {
 
 // The C library's own names for them, so that the replacements have something to call.
 extern "C" {
+// NOLINTBEGIN(bugprone-reserved-identifier): glibc exports them under these names.
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
 void __libc_free(void*);
+// NOLINTEND(bugprone-reserved-identifier)
 
 void* malloc(std::size_t size) noexcept {
   nearfit::test::countAllocation();

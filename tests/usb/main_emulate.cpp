@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,8 +12,10 @@
 
 #include "tests/usb/emulation_options.h"
 
-/// nearfit-emulate KIND [options] -- COMMAND...: runs a program, unchanged, as if a device were plugged in.
-int main(int argc, char** argv) {
+namespace {
+
+/// Becomes the command; returns only when that failed, what main() returns.
+int run(int argc, char** argv) {
   nearfit::test::EmulationOptions options;
   options.unplug = "eshutdown";
   std::vector<std::string> command;
@@ -60,4 +63,16 @@ int main(int argc, char** argv) {
   std::fprintf(stderr, "nearfit-emulate: %s: it could not be run: %s; check its name\n", arguments.front(),
                std::strerror(errno));
   return 127;
+}
+
+}  // namespace
+
+/// nearfit-emulate KIND [options] -- COMMAND...: runs a program, unchanged, as if a device were plugged in.
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "nearfit-emulate: %s\n", error.what());
+    return 1;
+  }
 }

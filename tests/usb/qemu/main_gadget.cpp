@@ -180,7 +180,8 @@ class Gadget {
       {
         const std::lock_guard lock(mutex_);
         // To and fro by a centimetre, two seconds each.
-        const auto phase = static_cast<float>(sent_ % (4U * rate_)) / static_cast<float>(2U * rate_);
+        const auto phase =
+            static_cast<float>(sent_ % (std::uint64_t{4} * rate_)) / (2.0F * static_cast<float>(rate_));
         firmware_.handle.position = {0.01F * (phase < 1.0F ? phase : 2.0F - phase), 0.0F, 0.0F};
         report = firmware_.poseReport(now());
       }
