@@ -44,11 +44,6 @@ ContactPair inWorld(const ContactPair& pair, const RigidTransform& worldFromBody
   return {worldFromBody.applyToPoint(pair.point), worldFromBody.applyToVector(pair.direction), pair.distance};
 }
 
-/// How much nearer two bodies may be than the meshes that are searched: their flats are merged [m].
-double deviation(const ServoScene& scene, const ServoScene::Body& other) noexcept {
-  return other.geometry->tree().deviation() + scene.moving.geometry->tree().deviation();
-}
-
 /// Motion of the part between two poses, about its centre of mass.
 MotionBudget motionOf(const ServoScene& scene, const RigidTransform& from,
                       const RigidTransform& to) noexcept {
@@ -244,7 +239,8 @@ void ContactFinder::testPairs(const ServoScene& scene, const HeldBody& held,
                    std::span<const LeafPair>(pairs_).subspan(held.first, held.count), found_,
                    {std::span(edgePairs_).subspan(held.firstBlock, held.blocks), edgePairKernel_});
   spend(result.leafPairs);
-  around.distance = std::min(around.distance, result.distanceBound() - deviation(scene, other));
+  around.distance = std::min(around.distance, result.distanceBound());
+  around.deviation = std::max(around.deviation, scene.deviation(other));
   around.completeTo = std::min(around.completeTo, result.completeTo);
   for (const ContactPair& pair : std::span(found_).first(result.count)) {
     if (!thinning_.add({inWorld(pair, other.worldFromPart), held.body})) around.completeTo = 0.0;
@@ -261,7 +257,8 @@ void ContactFinder::testSurface(const ServoScene& scene, const HeldBody& held,
   const SurfaceContacts result = testTriangles(*other.surface, *scene.moving.surface, bodyFromPart,
                                                pairsReach_, triangles, surfaceFound_, leftForSurfaces());
   spendOnSurface(result.work);
-  around.distance = std::min(around.distance, result.lowerBound - deviation(scene, other));
+  around.distance = std::min(around.distance, result.lowerBound);
+  around.deviation = std::max(around.deviation, scene.deviation(other));
   around.completeTo = std::min(around.completeTo, result.completeTo);
   for (const SurfaceContact& contact : std::span(surfaceFound_).first(result.count)) {
     const ContactPair pair{contact.partPoint, contact.direction, contact.distance};
@@ -306,7 +303,7 @@ Surroundings ContactFinder::look(const TrackedScene& tracked, const RigidTransfo
     isWorkSpent_ = true;
     return {};
   }
-  Surroundings around{0, pairsReach_, pairsReach_, pairsReach_};
+  Surroundings around{0, pairsReach_, pairsReach_, pairsReach_, 0.0};
   // With no body near, nothing is nearer than the distance searched, room for motion included.
   if (bodyCount_ == 0) around.distance += holds_.travel - motionOf(scene, pairsPose_, worldFromPart).travel;
   thinning_.clear();

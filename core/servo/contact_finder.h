@@ -20,13 +20,15 @@ namespace nearfit {
 struct Surroundings {
   std::size_t count = 0;  ///< Contacts found.
   /// Lower bound on the distance to every body that the part does not overlap [m]; 0 if the allowed work
-  /// was too little.
+  /// was too little. Of the meshes that are searched, like the distances of contacts.
   double distance = 0.0;
   /// Every contact nearer than this is included, or one that constrains about the same motion [m]. Less than
   /// asked for if there are thousands of contacts or too little room.
   double completeTo = 0.0;
   /// Distance searched [m]; less than asked for if more pairs are near than fit.
   double reach = 0.0;
+  /// The bodies themselves may be nearer than the meshes that are searched by this much [m].
+  double deviation = 0.0;
 };
 
 /// Finds the contacts of the moving part with all bodies around it.

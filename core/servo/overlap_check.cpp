@@ -30,12 +30,13 @@ Clearance findClearance(const ServoScene& scene, const BroadPhase& bounds,
     }
     const SurfaceDistance distance =
         leastSurfaceDistance(other.tree(), part.tree(), bodyFromPart, within, scratch, kUnbounded);
-    // Too near for rounding to tell from touching.
-    if (!(distance.lowerBound > 0.0)) {
+    const double bound = distance.lowerBound - scene.deviation(body);
+    // Too near for rounding, of the file or of numbers, to tell from touching.
+    if (!(bound > 0.0)) {
       overlapping->push_back(index);
       return;
     }
-    result.distance = std::min(result.distance, distance.lowerBound);
+    result.distance = std::min(result.distance, bound);
   });
   std::sort(overlapping->begin(), overlapping->end());
   result.overlapping = overlapping;

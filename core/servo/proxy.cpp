@@ -234,7 +234,7 @@ StepGoal Proxy::goalOf(const Tick& tick, const Motion& wanted) const noexcept {
                .weight = std::clamp(kMarginWeight * way / margin, kMarginWeight, kMaxMarginWeight),
                .floor = StepJudge::kHalf * held};
   goal.gyration = metric.gyration;
-  goal.reach = std::min({kPlanned * here_.distance, known, wayLeft_});
+  goal.reach = std::min({kPlanned * std::max(0.0, here_.distance - here_.deviation), known, wayLeft_});
   // The lists hold for no larger turn: a part small enough to turn farther within the reach counts as larger.
   // The whole goal is shortened alike, so translation waits for rotation; a separate limit on the turn would
   // make such steps twice as long at most.
@@ -334,8 +334,8 @@ Proxy::Verdict Proxy::take(const Tick& tick, const RigidTransform& pose, double 
   there.distance = std::max(there.distance, here_.distance - travel - rounding);
   // If the search reached less than the margin, the distance there is only a bound and cannot tell gain.
   const double margin = marginHere();
-  const Verdict verdict =
-      judge_.judge({travel, here_.distance, there.distance, margin}, there.reach < margin ? nullptr : trial);
+  const Verdict verdict = judge_.judge({travel, here_.distance, there.distance, margin, here_.deviation},
+                                       there.reach < margin ? nullptr : trial);
   if (verdict != Verdict::Taken) return verdict;
   pose_ = pose;
   here_ = there;

@@ -20,6 +20,10 @@ void ServoScene::prepareSurfaces() {
   }
 }
 
+double ServoScene::deviation(const Body& other) const noexcept {
+  return other.geometry->tree().deviation() + moving.geometry->tree().deviation();
+}
+
 std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene) {
   const Part* moving = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
   if (moving == nullptr || moving->geometry == nullptr) {

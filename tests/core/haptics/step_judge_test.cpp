@@ -46,6 +46,17 @@ TEST(StepJudge, BelowTheFloorOnlyStepsThatLeadAwayAreTaken) {
   EXPECT_EQ(judge.judge({travel, here, 0.0049 * kMargin, kMargin}, nullptr), Verdict::Taken);
 }
 
+TEST(StepJudge, DeviationOfTheSearchedMeshShortensWhatIsProvedAndLeavesTheMargin) {
+  const StepJudge judge;
+  const double deviation = 0.2 * kMargin;
+  EXPECT_EQ(judge.judge({0.79 * kMargin, kMargin, kMargin, kMargin, deviation}, nullptr), Verdict::Taken);
+  EXPECT_EQ(judge.judge({0.81 * kMargin, kMargin, kMargin, kMargin, deviation}, nullptr), Verdict::NotProved);
+  // From within the margin a step may halve the distance, but what is nearer than the deviation may touch.
+  const double here = 0.3 * kMargin, travel = 0.05 * kMargin;
+  EXPECT_EQ(judge.judge({travel, here, 1.01 * deviation, kMargin, deviation}, nullptr), Verdict::Taken);
+  EXPECT_EQ(judge.judge({travel, here, 0.99 * deviation, kMargin, deviation}, nullptr), Verdict::NotProved);
+}
+
 TEST(StepJudge, StepWhoseEndIsTooNearToBeAGainIsBestShorter) {
   // At its end the goal is 2 m off: a cost of 4 m^2, of 9 m^2, and the lack of margin at 100 times its
   // square.
