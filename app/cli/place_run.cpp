@@ -41,6 +41,8 @@ void take(const MotionRow& row, PlaceResult& result, MotionWriter* writer) {
   result.refusedSteps += row.refusedSteps;
   result.overlappingTicks += row.overlapping > 0 ? 1 : 0;
   result.proxyTime.record(row.proxyTime);
+  result.wrenchTime.record(row.wrenchTime);
+  result.behindTicks += row.isBehind ? 1 : 0;
   if (result.fault == ServoFault::None) result.fault = row.fault;
 }
 

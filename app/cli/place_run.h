@@ -46,7 +46,7 @@ struct Peak {
 /// Result of a run.
 struct PlaceResult {
   std::uint64_t ticks = 0;
-  std::uint64_t clampedTicks = 0, truncatedTicks = 0;
+  std::uint64_t clampedTicks = 0, truncatedTicks = 0, behindTicks = 0;
   std::uint64_t lateTicks = 0;  ///< Searched for themselves because the lists were not ready.
   std::uint64_t lostRows = 0;   ///< Missing in the record, and in the figures taken from rows.
   std::uint32_t maxLmds = 0;
@@ -63,6 +63,7 @@ struct PlaceResult {
   RigidTransform end;                              ///< worldFromPart after the last tick.
   LatencyHistogram lateness, queryTime, tickTime;  ///< `lateness` is empty unless run in real time.
   LatencyHistogram proxyTime;                      ///< The proxy without its queries.
+  LatencyHistogram wrenchTime;                     ///< Until the wrench was known.
   LatencyHistogram refreshTime;                    ///< Searches ahead, on the search thread.
   std::uint64_t overruns = 0;
   std::string schedulingNote;  ///< Empty unless run in real time.

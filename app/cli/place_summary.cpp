@@ -101,6 +101,10 @@ std::string proxyText(const PlaceSummary& s) {
                         fmt::format("{} ticks overlapped a part; it is not felt until the two are apart",
                                     r.overlappingTicks));
   }
+  if (r.behindTicks > 0) {
+    text += summaryLine(
+        "behind", fmt::format("{} ticks ended before the part's way; it goes on in the next", r.behindTicks));
+  }
   return text + summaryLine("proxy", timesText(r.proxyTime));
 }
 
@@ -120,6 +124,7 @@ nlohmann::ordered_json proxyJson(const PlaceSummary& s) {
           {"shortened_steps", r.shortenedSteps},
           {"refused_steps", r.refusedSteps},
           {"released_ticks", r.overlappingTicks},
+          {"behind_ticks", r.behindTicks},
           {"proxy_us", timesJson(r.proxyTime)}};
 }
 
@@ -172,6 +177,7 @@ std::string summaryText(const PlaceSummary& s) {
   }
   text += summaryLine("refresh",
                       fmt::format("{} searches ahead, {}", r.refreshTime.count(), timesText(r.refreshTime)));
+  text += summaryLine("wrench", timesText(r.wrenchTime));
   text += summaryLine("query", timesText(r.queryTime));
   text += summaryLine("tick", timesText(r.tickTime));
   if (!r.schedulingNote.empty()) {
@@ -206,6 +212,7 @@ std::string summaryJson(const PlaceSummary& s) {
                               {"late_ticks", r.lateTicks},
                               {"refreshes", r.refreshTime.count()},
                               {"refresh_us", timesJson(r.refreshTime)},
+                              {"wrench_us", timesJson(r.wrenchTime)},
                               {"query_us", timesJson(r.queryTime)},
                               {"tick_us", timesJson(r.tickTime)}};
   if (r.device)

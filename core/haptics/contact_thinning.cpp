@@ -1,8 +1,6 @@
 #include "core/haptics/contact_thinning.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 
 #include "core/haptics/step_rows.h"
@@ -12,6 +10,8 @@ namespace {
 
 /// Cell size of the grid of directions; the length of a direction is about 1.
 constexpr double kCell = 0.08;
+/// Makes cells' numbers positive, so that cutting off the fraction rounds down.
+constexpr double kCellsBelowZero = 1024.0;
 /// One part in this many of the room is reserved for the nearest of those that agree with a nearer one. Of
 /// two contacts equally near, a step perpendicular to one brings the other nearer by as much as they differ.
 /// A proxy that does not know the other gains from no step, and stands until it is pulled off in a leap.
@@ -38,47 +38,68 @@ std::uint64_t mixed(std::uint64_t x) noexcept {
 
 ContactThinning::ContactThinning() : taken_(kMaxTaken), cells_(kMaxTaken), table_(kSlots) {}
 
+void ContactThinning::begin(const glm::dvec3& centre, const glm::dquat& principalFromWorld,
+                            const MassMetric& metric) noexcept {
+  centre_ = centre;
+  principalFromWorld_ = principalFromWorld;
+  metric_ = metric;
+  count_ = distinct_ = 0;
+  // When the number comes round, slots of long ago must not count as filled.
+  if (++selection_ == 0) {
+    std::fill(table_.begin(), table_.end(), Slot{});
+    selection_ = 1;
+  }
+}
+
 bool ContactThinning::add(const BodyContact& contact) noexcept {
   if (count_ == kMaxTaken) return false;
   taken_[count_++] = contact;
+  if (count_ == kMaxKept + 1) {
+    for (std::size_t i = 0; i < count_; ++i)
+      place(i);
+  } else if (count_ > kMaxKept) {
+    place(count_ - 1);
+  }
   return true;
 }
 
-std::uint64_t ContactThinning::cellOf(const ContactPair& pair, const glm::dvec3& centre,
-                                      const glm::dquat& principalFromWorld,
-                                      const MassMetric& metric) const noexcept {
+std::uint64_t ContactThinning::cellOf(const ContactPair& pair) const noexcept {
   std::uint64_t cell = 0;
-  for (const double x : stepRow(pair.direction, pair.point - centre, principalFromWorld, metric)) {
+  for (const double x : stepRow(pair.direction, pair.point - centre_, principalFromWorld_, metric_)) {
     // Ten bits each: rotational components are at most the radius over the min gyration, some twenty.
-    const auto step = static_cast<std::int64_t>(std::floor(x / kCell)) & 0x3FF;
+    const auto step = static_cast<std::int64_t>(x / kCell + kCellsBelowZero) & 0x3FF;
     cell = cell << 10U | static_cast<std::uint64_t>(step);
   }
   return cell;
 }
 
-ContactThinning::Kept ContactThinning::keep(const glm::dvec3& centre, const glm::dquat& principalFromWorld,
-                                            const MassMetric& metric, std::span<BodyContact> out) noexcept {
+void ContactThinning::place(std::size_t i) noexcept {
+  const std::uint64_t cell = cellOf(taken_[i].pair);
+  std::size_t slot = mixed(cell) % kSlots;
+  while (table_[slot].selection == selection_ && cells_[table_[slot].contact] != cell)
+    slot = (slot + 1) % kSlots;
+  if (table_[slot].selection != selection_) {
+    // The first contact of each cell moves to the front.
+    table_[slot] = {selection_, static_cast<std::uint32_t>(distinct_)};
+    cells_[distinct_] = cell;
+    std::swap(taken_[distinct_++], taken_[i]);
+  } else if (isNearerContact(taken_[i], taken_[table_[slot].contact])) {
+    std::swap(taken_[table_[slot].contact], taken_[i]);
+  }
+}
+
+ContactThinning::Kept ContactThinning::keep(std::span<BodyContact> out) noexcept {
   Kept kept{count_, std::numeric_limits<double>::infinity()};
   if (count_ <= std::min(kMaxKept, out.size())) {
     std::copy_n(taken_.begin(), count_, out.begin());
     return kept;
   }
-  std::fill(table_.begin(), table_.end(), 0U);
-  std::size_t distinct = 0;
-  for (std::size_t i = 0; i < count_; ++i) {
-    const std::uint64_t cell = cellOf(taken_[i].pair, centre, principalFromWorld, metric);
-    std::size_t slot = mixed(cell) % kSlots;
-    while (table_[slot] != 0 && cells_[table_[slot] - 1] != cell)
-      slot = (slot + 1) % kSlots;
-    if (table_[slot] == 0) {
-      // The first contact of each cell moves to the front.
-      cells_[distinct] = cell;
-      std::swap(taken_[distinct], taken_[i]);
-      table_[slot] = static_cast<std::uint32_t>(++distinct);
-    } else if (isNearerContact(taken_[i], taken_[table_[slot] - 1])) {
-      std::swap(taken_[table_[slot] - 1], taken_[i]);
-    }
+  // With less room than usual, they are not sorted yet.
+  if (count_ <= kMaxKept) {
+    for (std::size_t i = 0; i < count_; ++i)
+      place(i);
   }
+  const std::size_t distinct = distinct_;
   const std::size_t room = std::min(kMaxKept, out.size());
   const std::size_t forOthers = std::min(count_ - distinct, room / kShareOfOthers);
   const auto begin = taken_.begin(), others = begin + at(distinct);

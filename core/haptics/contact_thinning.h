@@ -31,7 +31,11 @@ class ContactThinning {
 
   ContactThinning();
 
-  void clear() noexcept { count_ = 0; }
+  /// Starts a selection. Real-time safe.
+  /// @param centre              Centre of mass of the part in the world [m].
+  /// @param principalFromWorld  Rotates the world into the part's principal axes.
+  void begin(const glm::dvec3& centre, const glm::dquat& principalFromWorld,
+             const MassMetric& metric) noexcept;
   /// Adds a contact. Returns false if there is no room.
   bool add(const BodyContact& contact) noexcept;
 
@@ -43,22 +47,31 @@ class ContactThinning {
     double completeTo = 0.0;
   };
   /// Writes all contacts if they fit. Otherwise writes the nearest contact of each direction, as many as fit,
-  /// and in a reserved part of the room the nearest of the others. The order is arbitrary. Call clear()
+  /// and in a reserved part of the room the nearest of the others. The order is arbitrary. Call begin()
   /// before the next add().
-  /// @param centre              Centre of mass of the part in the world [m].
-  /// @param principalFromWorld  Rotates the world into the part's principal axes.
-  /// @param out                 At most kMaxKept entries are used.
-  Kept keep(const glm::dvec3& centre, const glm::dquat& principalFromWorld, const MassMetric& metric,
-            std::span<BodyContact> out) noexcept;
+  /// @param out  At most kMaxKept entries are used.
+  Kept keep(std::span<BodyContact> out) noexcept;
 
  private:
-  std::uint64_t cellOf(const ContactPair& pair, const glm::dvec3& centre,
-                       const glm::dquat& principalFromWorld, const MassMetric& metric) const noexcept;
+  std::uint64_t cellOf(const ContactPair& pair) const noexcept;
+  /// Sorts contact `i`, the first that is not sorted yet, by its direction.
+  void place(std::size_t i) noexcept;
 
+  /// Slot of a hash table with open addressing.
+  struct Slot {
+    std::uint32_t selection = 0;  ///< Number of the selection that filled it; of others it is free.
+    std::uint32_t contact = 0;
+  };
+
+  /// The nearest contact of each direction, then the others.
   std::vector<BodyContact> taken_;
-  std::vector<std::uint64_t> cells_;
-  std::vector<std::uint32_t> table_;  ///< Open addressing: index + 1 of a contact; 0 is free.
-  std::size_t count_ = 0;
+  std::vector<std::uint64_t> cells_;  ///< Of the first `distinct_`.
+  std::vector<Slot> table_;
+  std::size_t count_ = 0, distinct_ = 0;
+  std::uint32_t selection_ = 0;
+  glm::dvec3 centre_{0.0};
+  glm::dquat principalFromWorld_{1.0, 0.0, 0.0, 0.0};
+  MassMetric metric_;
 };
 
 }  // namespace nearfit

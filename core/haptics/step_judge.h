@@ -50,6 +50,7 @@ class StepJudge {
     double here = 0.0, there = 0.0;  ///< At its start and at its end.
     double margin = 0.0;
     double deviation = 0.0;  ///< The bodies may be nearer than these distances by this much [m].
+    double onWay = 0.0;      ///< The distance anywhere on the way, as far as that is known [m].
   };
   /// Decides on a way; never Unknown. Real-time safe.
   /// @param trial  Null if the step need not be a gain.

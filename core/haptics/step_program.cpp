@@ -73,9 +73,9 @@ StepSolution standStill(const StepRows& rows) noexcept {
   return out;
 }
 
-StepSolution StepProgram::solve(const StepRows& rows, const StepGoal& goal) noexcept {
+StepSolution StepProgram::solve(const StepRows& rows, const StepGoal& goal, unsigned mostChanges) noexcept {
   if (!isUsable(goal)) return standStill(rows);
-  solver_.begin(rows, goal.cost, kMaxChanges);
+  solver_.begin(rows, goal.cost, mostChanges);
   return searchStep(
       solver_, goal, kMaxSolves,
       [this](const StepVector& wanted, double) noexcept { return solver_.solve(wanted); }, KeepNothing{});

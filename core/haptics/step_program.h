@@ -87,7 +87,8 @@ class StepProgram {
   static constexpr unsigned kMaxSolves = 10;
 
   /// Finds the step for a goal. If the goal is not usable, the part stands still and the result is not exact.
-  StepSolution solve(const StepRows& rows, const StepGoal& goal) noexcept;
+  /// @param mostChanges  Max changes of the active rows; if they are too few, the result is not exact.
+  StepSolution solve(const StepRows& rows, const StepGoal& goal, unsigned mostChanges = kMaxChanges) noexcept;
 
  private:
   DualStepSolver solver_;

@@ -1,9 +1,13 @@
 #include "core/servo/contact_finder.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <utility>
 
 #include <glm/geometric.hpp>
+
+#include "core/proximity/query/pair_passage.h"
 
 namespace nearfit {
 namespace {
@@ -11,8 +15,9 @@ namespace {
 /// Room for motion around a pose for which pairs are gathered, in reaches: a few steps of the proxy; more
 /// for a fast hand.
 constexpr double kMinSlack = 0.5, kMaxSlack = 6.0;
-/// Limits that room to the travel of this many ticks at the speed of the last one.
-constexpr double kTicksAhead = 1.5;
+/// Limits that room to the travel of this many ticks at the speed of the last one, or of this many steps like
+/// the one that is tried: it reaches back to where that comes from.
+constexpr double kTicksAhead = 1.5, kStepsAhead = 2.5;
 /// Limits the room for turning: beyond it, nearly every pair of features is a candidate [rad].
 constexpr double kMaxTurn = 0.1;
 /// Max pairs of triangles held: as many as a search can list within its work.
@@ -20,21 +25,44 @@ constexpr std::size_t kMaxTriangles = ContactFinder::kMaxSearchWork / kWorkOfLis
 /// Part of the remaining search work that one search for triangles may use. An abandoned search tells little,
 /// so one step at full length is worth more than several looks; the rest allows a shorter look.
 constexpr double kShareOfSearch = 0.75;
-/// With more pairs than this, testing those added by the room for motion costs more than gathering again.
-constexpr std::size_t kManyPairs = 2048;
-/// If there are that many pairs even without room for motion, the reach is shortened, down to these many
-/// margins. With two margins, a part in contact takes its steps (shorter than a margin) at full length.
-/// With less, steps are shorter and the margin may shrink, but a part that is close to more than a tick can
-/// test still moves.
-constexpr std::array kShortReaches{2.0, 1.5, 1.1, 0.75, 0.5};
-/// Levels of room: for the way ahead, for some steps, for one pose alone, then one per short reach.
-constexpr std::size_t kLevelOfPose = 2, kLevels = kLevelOfPose + 1 + kShortReaches.size();
+/// Room that pairs are gathered with, and how far.
+struct Level {
+  double reach;            ///< Max distance of contacts [margins].
+  double mostSlack;        ///< Max room for motion [reaches]; kMinSlack for some steps, 0 for one pose alone.
+  std::size_t mostListed;  ///< Max pairs worth taking from lists.
+};
+/// With more pairs than kManyPairs, testing those added by the room for motion costs more than gathering again.
+/// If there are that many even without room, the reach is shortened. With two margins, a part in contact takes
+/// its steps (shorter than a margin) at full length. With less, steps are shorter and the margin may shrink, but
+/// a part that is close to more than a tick can test still moves.
+constexpr std::array kLevels{Level{kContactReach, kMaxSlack, ContactFinder::kManyPairs},
+                             Level{kContactReach, kMinSlack, ContactFinder::kManyPairs},
+                             Level{2.0, kMinSlack, ContactFinder::kManyPairs},
+                             Level{kContactReach, 0.0, ContactFinder::kManyPairs},
+                             Level{2.0, 0.0, ContactFinder::kMaxPairs},
+                             Level{1.5, 0.0, ContactFinder::kMaxPairs},
+                             Level{1.1, 0.0, ContactFinder::kMaxPairs},
+                             Level{0.75, 0.0, ContactFinder::kMaxPairs},
+                             Level{0.5, 0.0, ContactFinder::kMaxPairs}};
+/// Gathering that begins with no more work done counts as having had a whole tick.
+constexpr std::uint64_t kFreshWork = ContactFinder::kUsualWork / 4;
 /// Work that must be left in a tick for another attempt with less room.
-constexpr std::uint64_t kWorkOfAttempt = ContactFinder::kMaxWork / 4;
+constexpr std::uint64_t kWorkOfAttempt = ContactFinder::kMaxWork - 2 * ContactFinder::kUsualWork;
 /// The same for the work on surfaces.
 constexpr std::uint64_t kWorkOfSurfaceAttempt = ContactFinder::kMaxSurfaceWork / 4;
+/// Max work of a search for a step that is longer than a list covers: a shorter step is tried next.
+constexpr std::uint64_t kWorkBesideList = ContactFinder::kMaxSearchWork / 8;
 /// Fixed work for each body queried or held.
 constexpr std::uint64_t kWorkOfBody = 1;
+/// Work of testing a pair that is not packed, and of packing and testing one that is. A contact takes as much
+/// again.
+constexpr std::uint64_t kWorkOfPairTest = 2;
+/// Work of finding how near a pair comes on a way.
+constexpr std::uint64_t kWorkOfPassage = 1;
+/// A pair that stays this far apart on a way is clear, as a share of the reach.
+constexpr double kClearOnWay = 0.1;
+/// Pairs tested before it is asked again whether work is left.
+constexpr std::size_t kChunk = 64;
 /// After a tick in which nothing could be seen, surfaces may use all the work for this many ticks.
 constexpr unsigned kGenerousTicks = 16;
 /// After this many gatherings with less room, more room is tried.
@@ -58,26 +86,31 @@ MotionBudget motionOf(const ServoScene& scene, const RigidTransform& from,
 // The smallest scratch: contacts do not use the room in which minima are merged.
 ContactFinder::ContactFinder()
     : scratch_(1),
-      found_(ContactThinning::kMaxTaken),
+      found_(kChunk),
       surfaceFound_(kMaxContacts),
-      // A tick cannot test more.
-      pairs_(kMaxWork),
+      pairs_(kMaxPairs),
       edgePairs_(kManyPairs / EdgePairs::kLanes),
       edgePairKernel_(edgePairKernel(defaultSimdLevel())),
       triangles_(kMaxTriangles) {}
 
 void ContactFinder::beginTick() noexcept {
-  workLeft_ = kMaxWork;
-  isWorkSpent_ = false;
+  allowed_ = workDone_ = 0;
+  excess_ = Excess::None;
   searchWorkLeft_ = kMaxSearchWork;
   if (isBlind_)
     generousTicks_ = kGenerousTicks;
   else if (generousTicks_ > 0)
     --generousTicks_;
-  surfaceWorkLeft_ = generousTicks_ > 0 ? kMaxWork : kMaxSurfaceWork;
+  surfaceWorkLeft_ = generousTicks_ > 0 ? 2 * kMaxSurfaceWork : kMaxSurfaceWork;
   isBlind_ = false;
   lateBodies_ = 0;
-  isFirstLook_ = true;
+  isFirstLook_ = isFirstGathering_ = true;
+  tickLevel_ = roomLevel_;
+}
+
+void ContactFinder::allow(std::uint64_t work, Excess excess) noexcept {
+  allowed_ += work;
+  excess_ = excess;
 }
 
 bool ContactFinder::holdsFor(const ServoScene& scene, const RigidTransform& worldFromPart,
@@ -86,49 +119,63 @@ bool ContactFinder::holdsFor(const ServoScene& scene, const RigidTransform& worl
          spentShare(motionOf(scene, pairsPose_, worldFromPart), holds_) <= 1.0;
 }
 
-bool ContactFinder::gatherOne(const TrackedScene& tracked, std::uint32_t body,
-                              const TrackedScene::Near* known, const RigidTransform& worldFromPart,
-                              const Gathering& gathering) noexcept {
-  if (tracked.clearance.overlaps(body)) return true;
-  if (bodyCount_ == kMaxBodies || workLeft_ < kWorkOfBody) return false;
+ContactFinder::Gathered ContactFinder::gatherOne(const TrackedScene& tracked, std::uint32_t body,
+                                                 const TrackedScene::Near* known,
+                                                 const RigidTransform& worldFromPart,
+                                                 const Gathering& gathering) noexcept {
+  if (tracked.clearance.overlaps(body)) return Gathered::Held;
+  if (bodyCount_ == kMaxBodies) return Gathered::TooMany;
+  if (leftToGather() < kWorkOfBody) return Gathered::NoWork;
   spend(kWorkOfBody);
   const ServoScene& scene = *tracked.scene;
   const ServoScene::Body& other = scene.bodies[body];
-  if (other.surface) return gatherTriangles(scene, body, worldFromPart, gathering.slack);
-  const NearbyPairs nearby = pairsOf(other, known, scene, worldFromPart, gathering);
-  spend(nearby.work);
-  bodies_[bodyCount_++] = {body, pairCount_, nearby.count};
-  pairCount_ += nearby.count;
-  holds_ = {std::min(holds_.travel, nearby.holds.travel), std::min(holds_.turn, nearby.holds.turn)};
-  return nearby.isComplete;
+  return other.surface ? gatherTriangles(scene, body, worldFromPart, gathering.slack)
+                       : gatherFeatures(other, body, known, scene, worldFromPart, gathering);
 }
 
-NearbyPairs ContactFinder::pairsOf(const ServoScene::Body& other, const TrackedScene::Near* known,
-                                   const ServoScene& scene, const RigidTransform& worldFromPart,
-                                   const Gathering& gathering) noexcept {
+ContactFinder::Gathered ContactFinder::gatherFeatures(const ServoScene::Body& other, std::uint32_t body,
+                                                      const TrackedScene::Near* known,
+                                                      const ServoScene& scene,
+                                                      const RigidTransform& worldFromPart,
+                                                      const Gathering& gathering) noexcept {
   const ContactReach within{pairsReach_, contactTurn(pairsReach_, scene.metric.radius)};
   const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
   const std::span<LeafPair> room = std::span(pairs_).subspan(pairCount_);
+  const auto take = [&](const NearbyPairs& nearby, std::size_t most) {
+    spend(nearby.work);
+    bodies_[bodyCount_++] = {body, pairCount_, nearby.count};
+    pairCount_ += nearby.count;
+    holds_ = {std::min(holds_.travel, nearby.holds.travel), std::min(holds_.turn, nearby.holds.turn)};
+    if (nearby.isComplete) return Gathered::Held;
+    return nearby.count < most ? Gathered::NoWork : Gathered::TooMany;
+  };
+  bool isSearchHopeless = false, mayStepLess = false;
   if (known != nullptr && known->contacts) {
-    // A tick cannot test more.
-    const std::size_t bound = std::min<std::size_t>(gathering.mostListed, workLeft_);
-    const std::size_t most = bound - std::min(bound, pairCount_);
+    const std::size_t most =
+        std::min(room.size(), gathering.mostListed - std::min(gathering.mostListed, pairCount_));
     const std::optional<NearbyPairs> listed = known->contacts->nearbyPairs(
-        bodyFromPart, within, gathering.slack, scratch_, room.first(std::min(room.size(), most)), workLeft_);
-    if (listed) return *listed;
-    isUncovered_ = known->contacts->size() > kMaxSearchWork;
+        bodyFromPart, within, gathering.slack, scratch_, room.first(most), leftToGather());
+    if (listed) return take(*listed, most);
+    isSearchHopeless = known->contacts->size() > kMaxSearchWork;
+    mayStepLess = gathering.isOfStep;
   }
   ++lateBodies_;
-  if (isUncovered_) return {};
+  if (isSearchHopeless) return Gathered::NoList;
   const NearbyPairs found =
       findNearbyPairs({other.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart, pairsReach_},
-                      within, gathering.slack, scratch_, room, std::min(searchWorkLeft_, workLeft_));
+                      within, gathering.slack, scratch_, room,
+                      std::min({searchWorkLeft_, leftToGather(), mayStepLess ? kWorkBesideList : kMaxWork}));
   searchWorkLeft_ -= found.work;
-  return found;
+  const Gathered outcome = take(found, room.size());
+  return outcome == Gathered::NoWork && mayStepLess && found.work >= kWorkBesideList ? Gathered::NoList
+                                                                                     : outcome;
 }
 
-bool ContactFinder::gatherTriangles(const ServoScene& scene, std::uint32_t body,
-                                    const RigidTransform& worldFromPart, const MotionBudget& slack) noexcept {
+ContactFinder::Gathered ContactFinder::gatherTriangles(const ServoScene& scene, std::uint32_t body,
+                                                       const RigidTransform& worldFromPart,
+                                                       const MotionBudget& slack) noexcept {
+  // A search that is left off tells little: it waits for work enough.
+  if (excess_ == Excess::None) return Gathered::NoWork;
   const ServoScene::Body& other = scene.bodies[body];
   const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
   const double within = pairsReach_ + slack.travel;
@@ -143,63 +190,68 @@ bool ContactFinder::gatherTriangles(const ServoScene& scene, std::uint32_t body,
   triangleCount_ += nearby.count;
   isSurfaceNear_ = true;
   // For a single pose an incomplete set serves, if the missing pairs are known to be farther away.
-  return nearby.within == within || (slack.travel == 0.0 && nearby.within > 0.0);
+  const bool isEnough = nearby.within == within || (slack.travel == 0.0 && nearby.within > 0.0);
+  return isEnough ? Gathered::Held : Gathered::TooMany;
 }
 
 bool ContactFinder::hasWorkForAttempt() const noexcept {
-  if (workLeft_ < kWorkOfAttempt) return false;
+  if (leftToGather() < kWorkOfAttempt) return false;
   return !isSurfaceNear_ || std::min(searchWorkLeft_, surfaceWorkLeft_) >= kWorkOfSurfaceAttempt;
 }
 
-bool ContactFinder::gatherPairs(const TrackedScene& tracked, const RigidTransform& worldFromPart,
-                                double reach, double way) noexcept {
+ContactFinder::Gathered ContactFinder::gatherPairs(const TrackedScene& tracked,
+                                                   const RigidTransform& worldFromPart, double reach,
+                                                   double way, double stepTravel) noexcept {
   const double radius = tracked.scene->metric.radius;
   // If no body was near, the whole way may be free.
-  const double wanted = bodyCount_ == 0 ? way : std::min(way, kTicksAhead * tickTravel_);
-  const auto gather = [&](std::size_t level) {
-    const double travel = level == 0             ? std::clamp(wanted, kMinSlack * reach, kMaxSlack * reach)
-                          : level < kLevelOfPose ? kMinSlack * reach
-                                                 : 0.0;
+  const double likely = std::max(kTicksAhead * tickTravel_, kStepsAhead * stepTravel);
+  const double wanted = bodyCount_ == 0 ? way : std::min(way, likely);
+  const auto gather = [&](const Level& level) {
+    const double travel =
+        level.mostSlack > 0.0 ? std::clamp(wanted, kMinSlack * reach, level.mostSlack * reach) : 0.0;
     askedReach_ = reach;
-    pairsReach_ =
-        level <= kLevelOfPose ? reach : kShortReaches[level - kLevelOfPose - 1] / kContactReach * reach;
-    const std::size_t mostListed = level > kLevelOfPose ? pairs_.size() : kManyPairs;
-    return gatherWithin(tracked, worldFromPart, {{travel, std::min(travel / radius, kMaxTurn)}, mostListed});
+    pairsReach_ = level.reach / kContactReach * reach;
+    return gatherWithin(tracked, worldFromPart,
+                        {{travel, std::min(travel / radius, kMaxTurn)}, level.mostListed, stepTravel > 0.0});
   };
   // Where pairs were many, they most likely still are. Now and then more room is tried, and after a success
   // tried again at once.
   const bool isTry = roomLevel_ > 0 && ++gatherings_ % kGatheringsBetweenTries == 0;
   if (isTry) --roomLevel_;
-  // A failure after other poses have used up work says nothing about later ticks.
-  const bool isFirst = workLeft_ == kMaxWork;
-  if (isFirst || isTry) tickLevel_ = roomLevel_;
+  // A failure with little work, or after other poses have used it up, says nothing about later ticks.
+  const bool isFirst = excess_ == Excess::ToGather && std::exchange(isFirstGathering_, false);
+  if (isTry) tickLevel_ = roomLevel_;
   const auto keep = [&](std::size_t level) {
     tickLevel_ = level;
     if (isFirst || isTry) roomLevel_ = level;
   };
-  for (std::size_t level = tickLevel_; level < kLevels; ++level) {
-    if (gather(level)) {
+  const bool isFresh = excess_ == Excess::ToGather && workDone_ <= kFreshWork;
+  for (std::size_t level = tickLevel_; level < kLevels.size(); ++level) {
+    const Gathered outcome = gather(kLevels[level]);
+    if (outcome == Gathered::Held) {
       if (isTry && level == roomLevel_) gatherings_ = kGatheringsBetweenTries - 1;
       keep(level);
-      return true;
     }
-    // A shorter step may help here, but less room does not.
-    if (isUncovered_) return false;
+    // A shorter step may be covered by the list, but less room does not help.
+    if (outcome == Gathered::Held || outcome == Gathered::NoList) return outcome;
+    // What did not fit into the rest of a tick may fit into a whole one.
+    if (outcome == Gathered::NoWork && !isFresh) return Gathered::Postponed;
     if (hasWorkForAttempt()) continue;
-    keep(std::min(std::max(level + 1, kLevelOfPose), kLevels - 1));
-    return false;
+    keep(std::min(level + 1, kLevels.size() - 1));
+    return outcome;
   }
-  keep(kLevels - 1);
-  return false;
+  keep(kLevels.size() - 1);
+  return Gathered::TooMany;
 }
 
-bool ContactFinder::gatherWithin(const TrackedScene& tracked, const RigidTransform& worldFromPart,
-                                 const Gathering& gathering) noexcept {
+ContactFinder::Gathered ContactFinder::gatherWithin(const TrackedScene& tracked,
+                                                    const RigidTransform& worldFromPart,
+                                                    const Gathering& gathering) noexcept {
   bodyCount_ = pairCount_ = triangleCount_ = 0;
-  isUncovered_ = isSurfaceNear_ = false;
+  isSurfaceNear_ = false;
   pairsPose_ = testedPose_ = worldFromPart;
   holds_ = gathering.slack;
-  bool isComplete = true;
+  Gathered outcome = Gathered::Held;
   const double far = pairsReach_ + gathering.slack.travel;
   const double spent = tracked.spent(worldFromPart, far);
   // Bodies not listed as near stay so only within the rest of the budget.
@@ -208,57 +260,77 @@ bool ContactFinder::gatherWithin(const TrackedScene& tracked, const RigidTransfo
     holds_ = {std::min(holds_.travel, left.travel), std::min(holds_.turn, left.turn)};
   }
   tracked.visitNear(worldFromPart, far, [&](std::uint32_t body, const TrackedScene::Near* known) {
-    isComplete = isComplete && gatherOne(tracked, body, known, worldFromPart, gathering);
+    if (outcome == Gathered::Held) outcome = gatherOne(tracked, body, known, worldFromPart, gathering);
   });
-  isHoldingPairs_ = isComplete && pairCount_ + bodyCount_ * kWorkOfBody <= workLeft_;
+  isHoldingPairs_ = outcome == Gathered::Held;
   // Packing does not pay for a single pose.
-  if (isHoldingPairs_ && gathering.slack.travel > 0.0) packPairs(*tracked.scene);
-  return isHoldingPairs_;
+  if (isHoldingPairs_ && gathering.slack.travel > 0.0) sortPairs(*tracked.scene);
+  return outcome;
 }
 
-void ContactFinder::packPairs(const ServoScene& scene) noexcept {
+void ContactFinder::sortPairs(const ServoScene& scene) noexcept {
   std::size_t used = 0;
   for (HeldBody& held : std::span(bodies_).first(bodyCount_)) {
-    const ServoScene::Body& other = scene.bodies[held.body];
-    if (other.surface) continue;
+    if (scene.bodies[held.body].surface) continue;
+    const std::size_t edges = edgePairsToFront(std::span(pairs_).subspan(held.first, held.count));
     held.firstBlock = used;
-    held.blocks =
-        packEdgePairs(other.geometry->tree(), scene.moving.geometry->tree(),
-                      std::span(pairs_).subspan(held.first, held.count), std::span(edgePairs_).subspan(used));
+    held.blocks = std::min(edges / EdgePairs::kLanes, edgePairs_.size() - used);
     used += held.blocks;
   }
 }
 
-void ContactFinder::testPairs(const ServoScene& scene, const HeldBody& held,
-                              const RigidTransform& worldFromPart, Surroundings& around) noexcept {
+void ContactFinder::testPairs(const ServoScene& scene, HeldBody& held, std::size_t first,
+                              std::size_t count) noexcept {
   const ServoScene::Body& other = scene.bodies[held.body];
+  const NormalConeTree &tree = other.geometry->tree(), &part = scene.moving.geometry->tree();
+  const std::span<const LeafPair> pairs = std::span<const LeafPair>(pairs_).subspan(held.first, held.count);
+  // Blocks come first; a chunk is either all blocks or none.
+  PackedEdgePairs packed;
+  if (first < held.blocks * EdgePairs::kLanes) {
+    count = std::min(count, held.blocks * EdgePairs::kLanes - first);
+    const std::size_t block = first / EdgePairs::kLanes, end = block + count / EdgePairs::kLanes;
+    for (; held.packed < end; ++held.packed) {
+      packEdgePairs(tree, part, pairs.subspan(held.packed * EdgePairs::kLanes).first<EdgePairs::kLanes>(),
+                    edgePairs_[held.firstBlock + held.packed]);
+      spend(EdgePairs::kLanes);
+    }
+    packed = {std::span<const EdgePairs>(edgePairs_).subspan(held.firstBlock + block, end - block),
+              edgePairKernel_};
+  }
   const ContactReach within{pairsReach_, contactTurn(pairsReach_, scene.metric.radius)};
-  const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
-  const ContactResult result =
-      testContacts({other.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart, pairsReach_}, within,
-                   std::span<const LeafPair>(pairs_).subspan(held.first, held.count), found_,
-                   {std::span(edgePairs_).subspan(held.firstBlock, held.blocks), edgePairKernel_});
-  spend(result.leafPairs);
+  const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * look_.pose).normalized();
+  const ContactResult result = testContacts({tree, part, bodyFromPart, pairsReach_}, within,
+                                            pairs.subspan(first, count), found_, packed);
+  spend((packed.blocks.empty() ? kWorkOfPairTest : 1) * count + result.count);
+  Surroundings& around = look_.around;
+  if (look_.from && around.onWay > 0.0) {
+    const MotionBudget motion = motionOf(scene, *look_.from, look_.pose);
+    const RigidTransform bodyFromStart = (other.worldFromPart.inverse() * *look_.from).normalized();
+    const PairPassage passage(
+        tree, part, {bodyFromStart, bodyFromPart, motion.travel, bendOf(motion.turn, scene.metric.radius)},
+        kClearOnWay * pairsReach_);
+    around.onWay = std::min(around.onWay, passage.leastOf(pairs.subspan(first, count)));
+    spend(kWorkOfPassage * count);
+  }
   around.distance = std::min(around.distance, result.distanceBound());
-  around.deviation = std::max(around.deviation, scene.deviation(other));
   around.completeTo = std::min(around.completeTo, result.completeTo);
   for (const ContactPair& pair : std::span(found_).first(result.count)) {
     if (!thinning_.add({inWorld(pair, other.worldFromPart), held.body})) around.completeTo = 0.0;
   }
+  look_.pair += count;
 }
 
-void ContactFinder::testSurface(const ServoScene& scene, const HeldBody& held,
-                                const RigidTransform& worldFromPart, Surroundings& around) noexcept {
+void ContactFinder::testSurface(const ServoScene& scene, const HeldBody& held) noexcept {
   const ServoScene::Body& other = scene.bodies[held.body];
-  const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
+  const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * look_.pose).normalized();
   const HeldTriangles triangles{std::span(triangles_).subspan(held.first, held.count), held.within,
-                                motionOf(scene, pairsPose_, worldFromPart).travel,
-                                motionOf(scene, testedPose_, worldFromPart).travel};
+                                motionOf(scene, pairsPose_, look_.pose).travel,
+                                motionOf(scene, testedPose_, look_.pose).travel};
   const SurfaceContacts result = testTriangles(*other.surface, *scene.moving.surface, bodyFromPart,
                                                pairsReach_, triangles, surfaceFound_, leftForSurfaces());
   spendOnSurface(result.work);
+  Surroundings& around = look_.around;
   around.distance = std::min(around.distance, result.lowerBound);
-  around.deviation = std::max(around.deviation, scene.deviation(other));
   around.completeTo = std::min(around.completeTo, result.completeTo);
   for (const SurfaceContact& contact : std::span(surfaceFound_).first(result.count)) {
     const ContactPair pair{contact.partPoint, contact.direction, contact.distance};
@@ -266,54 +338,81 @@ void ContactFinder::testSurface(const ServoScene& scene, const HeldBody& held,
   }
 }
 
-void ContactFinder::testBodies(const ServoScene& scene, const RigidTransform& worldFromPart,
-                               Surroundings& around) noexcept {
-  spend(bodyCount_ * kWorkOfBody);
-  const std::span<const HeldBody> held = std::span(bodies_).first(bodyCount_);
+bool ContactFinder::testBodies(const ServoScene& scene) noexcept {
+  const std::span<HeldBody> held = std::span(bodies_).first(bodyCount_);
+  for (; look_.body < held.size(); ++look_.body, look_.pair = 0) {
+    HeldBody& body = held[look_.body];
+    if (workLeft() == 0) return false;
+    spend(kWorkOfBody);
+    look_.around.deviation = std::max(look_.around.deviation, scene.deviation(scene.bodies[body.body]));
+    if (scene.bodies[body.body].surface) continue;
+    while (look_.pair < body.count) {
+      if (workLeft() == 0) return false;
+      testPairs(scene, body, look_.pair, std::min(kChunk, body.count - look_.pair));
+    }
+  }
   // Surfaces get the work that is left, since testing only their nearest triangles is enough.
+  if (isSurfaceNear_ && (workLeft() == 0 || excess_ == Excess::None)) return false;
+  // Of surfaces only what the part travels is known.
+  if (isSurfaceNear_) look_.around.onWay = 0.0;
   for (const HeldBody& body : held) {
-    if (!scene.bodies[body.body].surface) testPairs(scene, body, worldFromPart, around);
+    if (scene.bodies[body.body].surface) testSurface(scene, body);
   }
-  for (const HeldBody& body : held) {
-    if (scene.bodies[body.body].surface) testSurface(scene, body, worldFromPart, around);
-  }
-  testedPose_ = worldFromPart;
+  testedPose_ = look_.pose;
+  return true;
 }
 
 Surroundings ContactFinder::find(const TrackedScene& tracked, const RigidTransform& worldFromPart,
-                                 double reach, double way, std::span<BodyContact> out) noexcept {
-  const Surroundings around = look(tracked, worldFromPart, reach, way, out);
+                                 double reach, double way, std::span<BodyContact> out,
+                                 const Step* step) noexcept {
+  const Surroundings around = look(tracked, worldFromPart, reach, way, out, step);
+  if (around.isPending) return around;
   isBlind_ = (isBlind_ || isFirstLook_) && !(around.distance > 0.0);
   isFirstLook_ = false;
   return around;
 }
 
 Surroundings ContactFinder::look(const TrackedScene& tracked, const RigidTransform& worldFromPart,
-                                 double reach, double way, std::span<BodyContact> out) noexcept {
+                                 double reach, double way, std::span<BodyContact> out,
+                                 const Step* step) noexcept {
   const ServoScene& scene = *tracked.scene;
-  if (isFirstLook_) {
-    tickTravel_ = motionOf(scene, tickPose_, worldFromPart).travel;
-    tickPose_ = worldFromPart;
+  const glm::dvec3 centre = worldFromPart.applyToPoint(scene.centreInPart);
+  const bool isSame = look_.isPending && isHoldingPairs_ && reach == look_.reach &&
+                      worldFromPart.translation == look_.pose.translation &&
+                      worldFromPart.rotation == look_.pose.rotation;
+  const Surroundings pending{.isPending = true};
+  if (!isSame) {
+    look_.isPending = false;
+    if (workLeft() == 0) return pending;
+    if (isFirstLook_) {
+      tickTravel_ = motionOf(scene, tickPose_, worldFromPart).travel;
+      tickPose_ = worldFromPart;
+    }
+    if (!holdsFor(scene, worldFromPart, reach)) {
+      const double stepTravel = step != nullptr ? motionOf(scene, step->from, worldFromPart).travel : 0.0;
+      const Gathered outcome = gatherPairs(tracked, worldFromPart, reach, way, stepTravel);
+      if (outcome == Gathered::Postponed) return pending;
+      if (outcome != Gathered::Held) return {};
+    }
+    look_ = {.pose = worldFromPart,
+             .reach = reach,
+             .around = {.distance = pairsReach_, .completeTo = pairsReach_, .reach = pairsReach_}};
+    if (step != nullptr && step->isLong &&
+        spentShare(motionOf(scene, pairsPose_, step->from), holds_) <= 1.0) {
+      look_.from = step->from;
+      look_.around.onWay = pairsReach_;
+    }
+    // With no body near, nothing is nearer than the distance searched, room for motion included.
+    if (bodyCount_ == 0)
+      look_.around.distance += holds_.travel - motionOf(scene, pairsPose_, worldFromPart).travel;
+    thinning_.begin(centre, scene.metric.principalFromWorld(worldFromPart), scene.metric);
   }
-  if (!holdsFor(scene, worldFromPart, reach)) {
-    if (!gatherPairs(tracked, worldFromPart, reach, way)) return {};
-  }
-  // Pairs that have served before are kept for the next tick.
-  if (pairCount_ + bodyCount_ * kWorkOfBody > workLeft_) {
-    isWorkSpent_ = true;
-    return {};
-  }
-  Surroundings around{0, pairsReach_, pairsReach_, pairsReach_, 0.0};
-  // With no body near, nothing is nearer than the distance searched, room for motion included.
-  if (bodyCount_ == 0) around.distance += holds_.travel - motionOf(scene, pairsPose_, worldFromPart).travel;
-  thinning_.clear();
-  testBodies(scene, worldFromPart, around);
-  const glm::dquat principalFromWorld = scene.metric.principalFromWorld(worldFromPart);
-  const ContactThinning::Kept kept =
-      thinning_.keep(worldFromPart.applyToPoint(scene.centreInPart), principalFromWorld, scene.metric, out);
-  around.count = kept.count;
-  around.completeTo = std::min(around.completeTo, kept.completeTo);
-  return around;
+  look_.isPending = !testBodies(scene);
+  if (look_.isPending) return pending;
+  const ContactThinning::Kept kept = thinning_.keep(out);
+  look_.around.count = kept.count;
+  look_.around.completeTo = std::min(look_.around.completeTo, kept.completeTo);
+  return look_.around;
 }
 
 }  // namespace nearfit

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,27 +29,35 @@ struct Surroundings {
   double reach = 0.0;
   /// The bodies themselves may be nearer than the meshes that are searched by this much [m].
   double deviation = 0.0;
+  /// Lower bound on the distance of the searched meshes anywhere on the way from another pose [m]; 0 if unknown.
+  double onWay = 0.0;
+  /// The work allowed was spent: nothing is known yet, and looking at the same pose again goes on.
+  bool isPending = false;
 };
 
 /// Finds the contacts of the moving part with all bodies around it.
 ///
 /// Near pairs of features come from the lists of a tracked scene where they cover the pose, else from a
 /// search. The pairs then serve for small motions around that pose, so most poses cost only the exact tests
-/// of some hundred pairs.
+/// of some hundred pairs. Where there are thousands, the tests of one pose go on from tick to tick.
 class ContactFinder {
  public:
   /// Max contacts kept for a pose. Of more, those that constrain about the same motion as a nearer
   /// one are dropped.
   static constexpr std::size_t kMaxContacts = ContactThinning::kMaxKept;
-  /// Max work per tick: nodes opened, pairs listed and pairs tested; some 1.5 ms on a slow core.
-  /// Never exceeded: work that would exceed it is not started or is abandoned, and nothing is then
-  /// known of the pose.
+  /// Max pairs of features held, and of those that are gathered with room for motion around a pose.
+  static constexpr std::size_t kMaxPairs = 1U << 15, kManyPairs = 1U << 13;
+  /// Work that a tick is usually allowed: nodes opened, pairs listed, packed and tested; some 0.15 ms. Tests stop
+  /// when it is spent, and go on in the next tick.
+  static constexpr std::uint64_t kUsualWork = 1U << 12;
+  /// Max work of a tick. Gathering pairs, which cannot be left half done, may exceed what is allowed up to this:
+  /// a pass over the longest list, some 0.5 ms. Never exceeded: pairs are gathered within it or not at all.
   static constexpr std::uint64_t kMaxWork = 1U << 15;
-  /// Part of kMaxWork for new searches, some 0.7 ms. If it is too little, a list will soon be ready.
-  static constexpr std::uint64_t kMaxSearchWork = 1U << 14;
-  /// Part of kMaxWork for unsided surfaces, some 0.3 ms. They have no lists, so a part among them would use
+  /// Max work of a tick for new searches, some 0.3 ms. If it is too little, a list will soon be ready.
+  static constexpr std::uint64_t kMaxSearchWork = 3U << 11;
+  /// Max work of a tick for unsided surfaces, some 0.3 ms. They have no lists, so a part among them would use
   /// all the work in every tick. With this limit it moves past them more slowly, but ticks are on time. If it
-  /// is too little to see anything, the next ticks may use all of kMaxWork.
+  /// is too little to see anything, the next ticks may use twice as much.
   static constexpr std::uint64_t kMaxSurfaceWork = 1U << 13;
   /// Max bodies near the part at a time; with more, the part stands still.
   static constexpr std::size_t kMaxBodies = 1024;
@@ -57,27 +65,50 @@ class ContactFinder {
   /// Allocates all work space.
   ContactFinder();
 
-  /// Starts a tick with the full allowance of work.
+  /// What looks may do once the work allowed is spent.
+  enum class Excess : std::uint8_t {
+    None,     ///< Nothing: what would exceed it waits.
+    ToGather  ///< Pairs may be gathered beyond it, up to kMaxWork in a tick.
+  };
+
+  /// Where a step comes from: straight as to the centre of mass.
+  struct Step {
+    RigidTransform from;  ///< worldFromPart
+    bool isLong = false;  ///< Longer than the distance to the next body: `onWay` is asked for.
+  };
+
+  /// Starts a tick, in which no work is allowed yet.
   void beginTick() noexcept;
-  /// Discards the pairs held. To be called when the scene or the set of overlapping bodies changes.
-  void forget() noexcept { isHoldingPairs_ = false; }
+  /// Allows so much more work in this tick.
+  void allow(std::uint64_t work, Excess excess) noexcept;
+  /// Counts work of the caller's own as done.
+  void spend(std::uint64_t work) noexcept { workDone_ += work; }
+  /// Discards the pairs held, and the look that is pending. To be called when the scene or the set of
+  /// overlapping bodies changes.
+  void forget() noexcept { isHoldingPairs_ = look_.isPending = false; }
 
   /// Finds the contacts at a pose. Bodies that the tracked scene's clearance lists as
-  /// overlapping are ignored.
+  /// overlapping are ignored. If the work allowed is too little, the result says pending; looking again at
+  /// the same pose goes on, in this tick or a later one, and looking at another starts anew.
   /// @param worldFromPart  Pose of the moving part.
   /// @param reach          Max distance of contacts [m]; > 0.
   /// @param way            Expected travel of the part from there in this tick [m].
   /// @param out            Room for kMaxContacts; filled in no order, in world coordinates.
+  /// @param step           If not null, the step that would lead there.
   /// Real-time safe.
   Surroundings find(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
-                    double way, std::span<BodyContact> out) noexcept;
+                    double way, std::span<BodyContact> out, const Step* step = nullptr) noexcept;
 
+  /// Length of a step that the pairs held serve from end to end [m].
+  double room() const noexcept { return isHoldingPairs_ ? holds_.travel : 0.0; }
   /// Number of times since beginTick() that no list covered the pose of a near body.
   std::uint32_t lateBodies() const noexcept { return lateBodies_; }
-  /// True if no work is left for contacts or surfaces, or what was left was too little for something needed.
-  bool isWorkSpent() const noexcept { return isWorkSpent_ || workLeft_ == 0 || surfaceWorkLeft_ == 0; }
+  /// Work left of what was allowed.
+  std::uint64_t workLeft() const noexcept { return allowed_ - std::min(allowed_, workDone_); }
+  /// True if no work is left for contacts or surfaces.
+  bool isWorkSpent() const noexcept { return workLeft() == 0 || surfaceWorkLeft_ == 0; }
   /// Work done since beginTick(); at most kMaxWork.
-  std::uint64_t work() const noexcept { return kMaxWork - workLeft_; }
+  std::uint64_t work() const noexcept { return workDone_; }
 
  private:
   struct HeldBody {
@@ -85,41 +116,61 @@ class ContactFinder {
     std::size_t first = 0, count = 0;        ///< Range in pairs_, or in triangles_ for an unsided surface.
     double within = 0.0;                     ///< Every pair of triangles nearer than this is held [m].
     std::size_t firstBlock = 0, blocks = 0;  ///< Range in edgePairs_, for its first pairs.
+    std::size_t packed = 0;                  ///< Blocks of that range that are filled.
   };
 
   /// Parameters of gathering pairs.
   struct Gathering {
     MotionBudget slack;      ///< Motion for which the pairs must serve.
     std::size_t mostListed;  ///< Max pairs worth taking from lists.
+    bool isOfStep = false;   ///< A shorter step may do where a list does not cover the pose.
+  };
+  /// Outcome of gathering pairs.
+  enum class Gathered : std::uint8_t {
+    Held,
+    TooMany,    ///< There is no room for the pairs.
+    NoWork,     ///< The work left was too little.
+    NoList,     ///< A list too long to be replaced by a search does not cover the pose.
+    Postponed,  ///< The work left was too little, and a whole tick's may do.
+  };
+  /// What a look has found so far.
+  struct Look {
+    RigidTransform pose;
+    std::optional<RigidTransform> from{};  ///< If the pairs held are all that matter on the way from there.
+    double reach = 0.0;
+    Surroundings around;
+    std::size_t body = 0,
+                pair = 0;  ///< Where its tests go on: index in bodies_, and among the pairs of that.
+    bool isPending = false;
   };
 
   Surroundings look(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
-                    double way, std::span<BodyContact> out) noexcept;
+                    double way, std::span<BodyContact> out, const Step* step) noexcept;
   bool holdsFor(const ServoScene& scene, const RigidTransform& worldFromPart, double reach) const noexcept;
   bool hasWorkForAttempt() const noexcept;
-  bool gatherPairs(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
-                   double way) noexcept;
-  bool gatherWithin(const TrackedScene& tracked, const RigidTransform& worldFromPart,
-                    const Gathering& gathering) noexcept;
-  void packPairs(const ServoScene& scene) noexcept;
-  bool gatherOne(const TrackedScene& tracked, std::uint32_t body, const TrackedScene::Near* known,
-                 const RigidTransform& worldFromPart, const Gathering& gathering) noexcept;
-  NearbyPairs pairsOf(const ServoScene::Body& other, const TrackedScene::Near* known, const ServoScene& scene,
-                      const RigidTransform& worldFromPart, const Gathering& gathering) noexcept;
-  bool gatherTriangles(const ServoScene& scene, std::uint32_t body, const RigidTransform& worldFromPart,
-                       const MotionBudget& slack) noexcept;
-  void testPairs(const ServoScene& scene, const HeldBody& held, const RigidTransform& worldFromPart,
-                 Surroundings& around) noexcept;
-  void testSurface(const ServoScene& scene, const HeldBody& held, const RigidTransform& worldFromPart,
-                   Surroundings& around) noexcept;
-  void testBodies(const ServoScene& scene, const RigidTransform& worldFromPart,
-                  Surroundings& around) noexcept;
-  void spend(std::uint64_t work) noexcept {
-    assert(work <= workLeft_);
-    workLeft_ -= work;
+  /// Gathers pairs around a pose, with as much room for motion as there is work for.
+  Gathered gatherPairs(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
+                       double way, double stepTravel) noexcept;
+  Gathered gatherWithin(const TrackedScene& tracked, const RigidTransform& worldFromPart,
+                        const Gathering& gathering) noexcept;
+  /// Moves pairs of edges to the front, where blocks of them can be packed.
+  void sortPairs(const ServoScene& scene) noexcept;
+  Gathered gatherOne(const TrackedScene& tracked, std::uint32_t body, const TrackedScene::Near* known,
+                     const RigidTransform& worldFromPart, const Gathering& gathering) noexcept;
+  Gathered gatherFeatures(const ServoScene::Body& other, std::uint32_t body, const TrackedScene::Near* known,
+                          const ServoScene& scene, const RigidTransform& worldFromPart,
+                          const Gathering& gathering) noexcept;
+  Gathered gatherTriangles(const ServoScene& scene, std::uint32_t body, const RigidTransform& worldFromPart,
+                           const MotionBudget& slack) noexcept;
+  /// Goes on with the pending look; false if the work ran out.
+  bool testBodies(const ServoScene& scene) noexcept;
+  void testPairs(const ServoScene& scene, HeldBody& held, std::size_t first, std::size_t count) noexcept;
+  void testSurface(const ServoScene& scene, const HeldBody& held) noexcept;
+  /// Work left for gathering pairs.
+  std::uint64_t leftToGather() const noexcept {
+    return excess_ == Excess::None ? workLeft() : kMaxWork - std::min(kMaxWork, workDone_);
   }
-
-  std::uint64_t leftForSurfaces() const noexcept { return std::min(workLeft_, surfaceWorkLeft_); }
+  std::uint64_t leftForSurfaces() const noexcept { return std::min(leftToGather(), surfaceWorkLeft_); }
   void spendOnSurface(std::uint64_t work) noexcept {
     spend(work);
     surfaceWorkLeft_ -= std::min(work, surfaceWorkLeft_);
@@ -150,17 +201,18 @@ class ContactFinder {
   std::size_t tickLevel_ = 0;  ///< The same for the rest of this tick, which has less work left.
   unsigned gatherings_ = 0;
   bool isSurfaceNear_ = false;  ///< An unsided surface was searched.
-  bool isUncovered_ = false;    ///< A list too long to be replaced by a search does not cover the pose.
 
   /// Pose of the first look in the last tick, and how far that was from the one before [m].
   RigidTransform tickPose_;
   double tickTravel_ = 0.0;
   bool isFirstLook_ = false;
+  bool isFirstGathering_ = false;  ///< The tick has gathered nothing yet.
 
-  std::uint64_t workLeft_ = kMaxWork, searchWorkLeft_ = 0, surfaceWorkLeft_ = 0;
+  Look look_;
+  std::uint64_t allowed_ = 0, workDone_ = 0, searchWorkLeft_ = 0, surfaceWorkLeft_ = 0;
+  Excess excess_ = Excess::None;
   bool isBlind_ = false;        ///< Nothing is known of any pose of this tick.
   unsigned generousTicks_ = 0;  ///< Ticks left in which surfaces may use all the work.
-  bool isWorkSpent_ = false;    ///< The work left was too little for something needed.
   std::uint32_t lateBodies_ = 0;
 };
 

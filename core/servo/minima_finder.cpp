@@ -79,7 +79,7 @@ LmdResult MinimaFinder::search(const Task& task, const RigidTransform& bodyFromP
 }
 
 void MinimaFinder::spend(const LmdResult& result) noexcept {
-  const std::uint64_t searched = result.nodePairs + result.leafPairs;
+  const std::uint64_t searched = result.nodePairs + kWorkOfLeafTest * result.leafPairs;
   const std::uint64_t merged = mergeWork(result.pieces, result.piecePairs);
   left_.search -= std::min(left_.search, searched);
   left_.merge -= std::min(left_.merge, merged);

@@ -59,7 +59,7 @@ class MinimaFinder {
   static constexpr MinimaAllowance kFelt{1U << 18, mostMergeWork(LmdScratch::kDefaultCapacity)};
   /// For minima that are only shown: on a slow core some 0.4 ms of search and 1.6 ms of merging, enough
   /// for 400 pieces.
-  static constexpr MinimaAllowance kShown{1U << 13, 1U << 15};
+  static constexpr MinimaAllowance kShown{1U << 12, 1U << 13};
 
   struct Result {
     std::uint32_t count = 0;       ///< Minima found, of all bodies.

@@ -54,6 +54,8 @@ void takeRow(const MotionRow& row, const Part& moving, ServoSnapshot& out) {
   out.moving = moving.id;
   out.energyToHand = row.energyToHand;
   out.proxyTime = row.proxyTime;
+  out.wrenchTime = row.wrenchTime;
+  out.isBehind = row.isBehind;
   out.subSteps = row.subSteps;
   out.shortenedSteps = row.shortenedSteps;
   out.refusedSteps = row.refusedSteps;

@@ -33,26 +33,46 @@ struct Column {
 };
 
 /// In the order of motionHeader(), so that an index identifies a column.
-constexpr std::array kColumns = {
-    Column{"t_s", Kind::Time, true},           Column{"handle_tx", Kind::Pose, true},
-    Column{"handle_ty", Kind::Pose, true},     Column{"handle_tz", Kind::Pose, true},
-    Column{"handle_qw", Kind::Pose, true},     Column{"handle_qx", Kind::Pose, true},
-    Column{"handle_qy", Kind::Pose, true},     Column{"handle_qz", Kind::Pose, true},
-    Column{"proxy_tx", Kind::Pose, true},      Column{"proxy_ty", Kind::Pose, true},
-    Column{"proxy_tz", Kind::Pose, true},      Column{"proxy_qw", Kind::Pose, true},
-    Column{"proxy_qx", Kind::Pose, true},      Column{"proxy_qy", Kind::Pose, true},
-    Column{"proxy_qz", Kind::Pose, true},      Column{"force_x", Kind::Number, true},
-    Column{"force_y", Kind::Number, true},     Column{"force_z", Kind::Number, true},
-    Column{"torque_x", Kind::Number, true},    Column{"torque_y", Kind::Number, true},
-    Column{"torque_z", Kind::Number, true},    Column{"lmds", Kind::Count, false},
-    Column{"distance", Kind::Distance, false}, Column{"query_us", Kind::Duration, false},
-    Column{"tick_us", Kind::Duration, false},  Column{"late_bodies", Kind::Count, false},
-    Column{"energy", Kind::Number, false},     Column{"sub_steps", Kind::Count, false},
-    Column{"shortened", Kind::Count, false},   Column{"refused", Kind::Count, false},
-    Column{"constraints", Kind::Count, false}, Column{"contacts", Kind::Count, false},
-    Column{"released", Kind::Count, false},    Column{"proxy_us", Kind::Duration, false},
-    Column{"clamped", Kind::Count, false},     Column{"fault", Kind::Count, false},
-    Column{"truncated", Kind::Count, false},   Column{"late_us", Kind::Duration, false}};
+constexpr std::array kColumns = {Column{"t_s", Kind::Time, true},
+                                 Column{"handle_tx", Kind::Pose, true},
+                                 Column{"handle_ty", Kind::Pose, true},
+                                 Column{"handle_tz", Kind::Pose, true},
+                                 Column{"handle_qw", Kind::Pose, true},
+                                 Column{"handle_qx", Kind::Pose, true},
+                                 Column{"handle_qy", Kind::Pose, true},
+                                 Column{"handle_qz", Kind::Pose, true},
+                                 Column{"proxy_tx", Kind::Pose, true},
+                                 Column{"proxy_ty", Kind::Pose, true},
+                                 Column{"proxy_tz", Kind::Pose, true},
+                                 Column{"proxy_qw", Kind::Pose, true},
+                                 Column{"proxy_qx", Kind::Pose, true},
+                                 Column{"proxy_qy", Kind::Pose, true},
+                                 Column{"proxy_qz", Kind::Pose, true},
+                                 Column{"force_x", Kind::Number, true},
+                                 Column{"force_y", Kind::Number, true},
+                                 Column{"force_z", Kind::Number, true},
+                                 Column{"torque_x", Kind::Number, true},
+                                 Column{"torque_y", Kind::Number, true},
+                                 Column{"torque_z", Kind::Number, true},
+                                 Column{"lmds", Kind::Count, false},
+                                 Column{"distance", Kind::Distance, false},
+                                 Column{"query_us", Kind::Duration, false},
+                                 Column{"tick_us", Kind::Duration, false},
+                                 Column{"late_bodies", Kind::Count, false},
+                                 Column{"energy", Kind::Number, false},
+                                 Column{"sub_steps", Kind::Count, false},
+                                 Column{"shortened", Kind::Count, false},
+                                 Column{"refused", Kind::Count, false},
+                                 Column{"constraints", Kind::Count, false},
+                                 Column{"contacts", Kind::Count, false},
+                                 Column{"released", Kind::Count, false},
+                                 Column{"proxy_us", Kind::Duration, false},
+                                 Column{"clamped", Kind::Count, false},
+                                 Column{"fault", Kind::Count, false},
+                                 Column{"truncated", Kind::Count, false},
+                                 Column{"late_us", Kind::Duration, false},
+                                 Column{"wrench_us", Kind::Duration, false},
+                                 Column{"behind", Kind::Count, false}};
 constexpr std::size_t kFirstHandle = 1, kFirstProxy = 8, kFirstForce = 15, kAfterWrench = 21;
 
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
@@ -135,6 +155,8 @@ void takeRest(MotionRow& row, std::span<const double> v, const csv::Place& place
   row.fault = static_cast<ServoFault>(count(14));
   row.isTruncated = v[15] != 0.0;
   row.lateness = kMicro * v[16];
+  row.wrenchTime = kMicro * v[17];
+  row.isBehind = v[18] != 0.0;
 }
 
 MotionRow parseRow(std::string_view text, const Places& places, const csv::Place& place) {

@@ -26,6 +26,8 @@ MotionRow motionRow(const ServoSnapshot& s, double lateness) noexcept {
   row.constraints = s.constraintCount;
   row.contacts = s.contactCount;
   row.overlapping = s.overlappingCount;
+  row.wrenchTime = s.wrenchTime;
+  row.isBehind = s.isBehind;
   row.lateness = lateness;
   return row;
 }
@@ -37,7 +39,7 @@ std::string_view motionHeader() noexcept {
          "force_x,force_y,force_z,torque_x,torque_y,torque_z,"
          "lmds,distance,query_us,tick_us,late_bodies,"
          "energy,sub_steps,shortened,refused,constraints,contacts,released,proxy_us,clamped,fault,"
-         "truncated,late_us";
+         "truncated,late_us,wrench_us,behind";
 }
 
 std::string formatMotionRow(const MotionRow& row) {
@@ -48,10 +50,11 @@ std::string formatMotionRow(const MotionRow& row) {
   const glm::dvec3& t = row.wrench.torque;
   fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{},{:.3f},{:.3f},{}", f.x, f.y, f.z, t.x,
                  t.y, t.z, row.lmds, row.distance, row.queryTime * 1e6, row.tickTime * 1e6, row.lateBodies);
-  fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{:.3f},{:d},{:d},{:d},{:.3f}",
+  fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{:.3f},{:d},{:d},{:d},{:.3f},{:.3f},{:d}",
                  row.energyToHand, row.subSteps, row.shortenedSteps, row.refusedSteps, row.constraints,
                  row.contacts, row.overlapping, row.proxyTime * 1e6, row.isClamped,
-                 static_cast<int>(row.fault), row.isTruncated, row.lateness * 1e6);
+                 static_cast<int>(row.fault), row.isTruncated, row.lateness * 1e6, row.wrenchTime * 1e6,
+                 row.isBehind);
   return line;
 }
 

@@ -31,6 +31,8 @@ struct MotionRow {
   std::uint32_t subSteps = 0, shortenedSteps = 0, refusedSteps = 0;  ///< Steps of the proxy in this tick.
   std::uint32_t constraints = 0, contacts = 0;                       ///< In the proxy's last step.
   std::uint32_t overlapping = 0;  ///< Parts that the moving part overlaps and cannot feel.
+  double wrenchTime = 0.0;        ///< Time until the wrench was known [s].
+  bool isBehind = false;          ///< The tick's work ended before the proxy's way.
   double lateness = 0.0;  ///< Delay of the tick after its deadline, or after the report that triggers it [s].
 };
 
@@ -43,13 +45,13 @@ using MotionQueue = SpscQueue<MotionRow, 16384>;
 
 /// Header line of a recording: t_s, handle_tx ... handle_qz, proxy_tx ... proxy_qz, force_x ... torque_z,
 /// lmds, distance, query_us, tick_us, late_bodies, energy, sub_steps, shortened, refused, constraints,
-/// contacts, released, proxy_us, clamped, fault, truncated, late_us. Poses are tx ty tz qw qx qy qz.
+/// contacts, released, proxy_us, clamped, fault, truncated, late_us, wrench_us, behind. Poses are tx ty tz qw qx qy qz.
 std::string_view motionHeader() noexcept;
 
 /// Formats a row in the columns of motionHeader(), without line end. Numbers have the fewest digits that read
 /// back to the same double, except durations in microseconds, which are rounded to nanoseconds. `distance` is
-/// `inf` if nothing is within the cutoff; `clamped` and `truncated` (the search may have missed minima within
-/// the cutoff) are 0 or 1; `fault` is the number of the ServoFault.
+/// `inf` if nothing is within the cutoff; `clamped`, `truncated` (the search may have missed minima within
+/// the cutoff) and `behind` are 0 or 1; `fault` is the number of the ServoFault.
 std::string formatMotionRow(const MotionRow& row);
 
 /// Writes a recording as CSV, row by row, to a temporary file beside the target: "felt.unfinished.csv" for

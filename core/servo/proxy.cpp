@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -20,6 +21,8 @@ constexpr double kSight = 1.5;
 constexpr double kFree = 1.7;
 /// Share of the distance that a step is planned to use.
 constexpr double kPlanned = 0.95;
+/// A step of no larger share is proved by its length.
+constexpr double kShort = 0.99;
 /// Max turn of a step, as a share of the turn that contacts are relaxed by: everything that the step can
 /// bring nearer is then among them.
 constexpr double kTurnShare = 0.5;
@@ -39,6 +42,12 @@ constexpr double kSameScale = 1e-3;
 /// Motion below this share of the margin (or of the clearance) counts as rest: 0.1 um of 0.1 mm. The first
 /// step of a tick may be smaller, so that a slow hand does not drag.
 constexpr double kAtRest = 1e-3, kAtRestAtFirst = 1e-6;
+/// Max length of a step whose way is proved pair by pair, in margins. Each step as long as it was planned allows
+/// one twice as long; one that is not taken halves it.
+constexpr double kMaxStride = 16.0;
+constexpr double kStrideOfRoom = 0.9;
+/// A step counts as long as planned from this share on: scales are found only so well (TrustSearch::kMinShare).
+constexpr double kLongStride = 0.8;
 /// After this many steps in a tick, a step shorter than this share of the first is left to the next tick.
 constexpr std::uint32_t kWorthwhileSteps = 3;
 constexpr double kWorthwhile = 0.05;
@@ -46,20 +55,39 @@ constexpr double kWorthwhile = 0.05;
 /// direction pressed.
 constexpr double kMarginWeight = 100.0, kMaxMarginWeight = 1e6;
 
+/// Changes of the active rows allowed for feltPose(): contact problems take some ten, and the hand waits.
+constexpr unsigned kFeltChanges = 24;
+/// Work of a program, in units of ContactFinder::work(): rows filled in that time, and for each change of the
+/// active rows a fixed part and rows scanned.
+constexpr std::uint64_t kRowsFilledOfWork = 2, kWorkOfChange = 6, kRowsScannedOfWork = 64;
+
+std::uint64_t workOfChanges(std::uint64_t changes, std::size_t rows) noexcept {
+  return changes * (kWorkOfChange + rows / kRowsScannedOfWork);
+}
+
+/// Work that a program is expected to take.
+std::uint64_t workOfPlan(std::size_t rows) noexcept {
+  constexpr std::uint64_t kUsualChanges = 16;
+  return 1 + rows / kRowsFilledOfWork + (rows > 0 ? workOfChanges(kUsualChanges, rows) : 0);
+}
+
 }  // namespace
 
-Proxy::Proxy()
-    : around_(ContactFinder::kMaxContacts),
-      next_(ContactFinder::kMaxContacts),
-      rowContact_(ContactFinder::kMaxContacts),
-      rowArm_(ContactFinder::kMaxContacts) {}
+Proxy::Proxy() : around_(ContactFinder::kMaxContacts), next_(ContactFinder::kMaxContacts) {
+  for (ContactRows* rows : {&rows_, &feltRows_}) {
+    rows->contact.resize(ContactFinder::kMaxContacts);
+    rows->arm.resize(ContactFinder::kMaxContacts);
+  }
+}
 
 void Proxy::place(const RigidTransform& worldFromPart) noexcept {
-  pose_ = worldFromPart;
+  pose_ = felt_ = worldFromPart;
   lastTarget_.reset();
   rest_ = {};
   clearedSerial_ = 0;
-  isHereKnown_ = false;
+  stride_ = 0.0;
+  isHereKnown_ = isTrying_ = areFeltRowsFilled_ = false;
+  stage_ = Stage::Done;
   holdingCount_ = 0;
 }
 
@@ -102,49 +130,117 @@ bool Proxy::isCleared(const TrackedScene& tracked) noexcept {
   if (clearance.serial == clearedSerial_) return true;
   if (!(travelBetween(*tracked.scene, pose_, clearance.worldFromPart) < clearance.distance)) return false;
   clearedSerial_ = clearance.serial;
-  isHereKnown_ = false;
+  isHereKnown_ = isTrying_ = false;
   judge_.dropFloor();
   rest_ = {};
   finder_.forget();
   return true;
 }
 
-void Proxy::follow(const TrackedScene& tracked, const RigidTransform& target, const ProxySettings& settings,
-                   double turnScale) noexcept {
+void Proxy::begin(const TrackedScene& tracked, const RigidTransform& target, const ProxySettings& settings,
+                  double turnScale) noexcept {
   account_ = {};
   queryTime_ = 0.0;
   finder_.beginTick();
+  stage_ = Stage::Done;
+  target_ = target;
+  settings_ = settings;
   if (!isCleared(tracked)) {
     account_.isWaiting = true;
     holdingCount_ = 0;
     here_ = {};
+    isTrying_ = areFeltRowsFilled_ = false;
     lastTarget_ = target;
+    felt_ = pose_;
     return;
   }
+  const ServoScene& scene = *tracked.scene;
   // The stiffnesses vary with the measured period; their rounding must not wake a part at rest.
-  if (!(std::abs(turnScale - turnScale_) <= kSameScale * turnScale_)) turnScale_ = turnScale;
-  Tick tick{tracked, target, settings, tracked.scene->metric};
-  tick.metric.gyration *= turnScale_;
-  if (isResting(tick)) return;
+  if (!(std::abs(turnScale - turnScale_) <= kSameScale * turnScale_)) {
+    turnScale_ = turnScale;
+    areFeltRowsFilled_ = false;
+  }
+  metric_ = scene.metric;
+  metric_.gyration *= turnScale_;
+  if (isResting(tick(tracked))) return;
+  rest_.isAtRest = false;
+  const double targetTravel = lastTarget_ ? travelBetween(scene, *lastTarget_, target) : 0.0;
+  lastTarget_ = target;
+  // Where it was felt the pose may go at once.
+  wayLeft_ = travelBetween(scene, pose_, felt_) + targetTravel +
+             std::max(kSnapShare * travelBetween(scene, felt_, target), settings.margin);
   // If the work ran out before, the lists may be ready now.
   if (!isHereKnown_ || margin_ != settings.margin || here_.completeTo == 0.0) {
     margin_ = settings.margin;
-    here_ = lookAround(tick, pose_, around_);
+    isTrying_ = isHereKnown_ = areFeltRowsFilled_ = false;
+    holdingCount_ = 0;
+    stage_ = Stage::LookAround;
+  } else if (isTrying_) {
+    stage_ = Stage::Try;
+  } else {
+    holdingCount_ = 0;
+    stage_ = Stage::Plan;
+  }
+}
+
+void Proxy::follow(const TrackedScene& tracked, const RigidTransform& target, const ProxySettings& settings,
+                   double turnScale) noexcept {
+  begin(tracked, target, settings, turnScale);
+  advance(tracked, ContactFinder::kUsualWork, ContactFinder::Excess::ToGather);
+}
+
+bool Proxy::advance(const TrackedScene& tracked, std::uint64_t work, ContactFinder::Excess excess) noexcept {
+  finder_.allow(work, excess);
+  const Tick now = tick(tracked);
+  while (stage_ != Stage::Done && goOn(now)) {
+  }
+  account_.isBehind = account_.isBehind || stage_ != Stage::Done;
+  return stage_ == Stage::Done;
+}
+
+void Proxy::feel(const TrackedScene& tracked) noexcept {
+  const bool isBehind = stage_ != Stage::Done || account_.isBehind;
+  felt_ = isBehind && isHereKnown_ ? leadPose(tick(tracked)) : pose_;
+}
+
+void Proxy::end(Outcome outcome) noexcept {
+  stage_ = Stage::Done;
+  account_.isBehind = outcome == Outcome::Behind;
+  rest_ = {target_, settings_, turnScale_, outcome == Outcome::AtRest};
+}
+
+bool Proxy::goOn(const Tick& tick) noexcept {
+  if (stage_ == Stage::LookAround) {
+    const Surroundings around = lookAround(tick, pose_, around_, nullptr);
+    if (around.isPending) return false;
+    here_ = around;
     isHereKnown_ = true;
     raiseFloor(tick);
-  }
-  holdingCount_ = 0;
-  if (here_.completeTo == 0.0) {
+    stage_ = Stage::Plan;
+    if (here_.completeTo > 0.0) return true;
     account_.isStarved = true;
-    lastTarget_ = target;
-    return;
+    end(Outcome::Behind);
+    return true;
   }
-  wayLeft_ = targetMotion(tick) + std::max(kSnapShare * wayTo(tick), margin_);
-  Outcome outcome = Outcome::Moved;
-  while (account_.subSteps < kMaxSubSteps && outcome == Outcome::Moved)
-    outcome = step(tick);
-  rest_ = {target, settings, turnScale_, outcome == Outcome::AtRest};
-  lastTarget_ = target;
+  if (stage_ == Stage::Plan) {
+    if (finder_.workLeft() < workOfPlan(here_.count)) return false;
+    const Outcome outcome = account_.subSteps < kMaxSubSteps ? plan(tick) : Outcome::Behind;
+    isTrying_ = outcome == Outcome::Moved;
+    if (isTrying_)
+      stage_ = Stage::Try;
+    else
+      end(outcome);
+    return true;
+  }
+  const std::optional<Verdict> verdict = take(tick);
+  if (!verdict) return false;
+  const Outcome outcome = settle(tick, *verdict);
+  isTrying_ = outcome == Outcome::Moved && *verdict != Verdict::Taken;
+  if (outcome != Outcome::Moved)
+    end(outcome);
+  else if (!isTrying_)
+    stage_ = Stage::Plan;
+  return true;
 }
 
 bool Proxy::isResting(const Tick& tick) const noexcept {
@@ -153,71 +249,99 @@ bool Proxy::isResting(const Tick& tick) const noexcept {
          tick.target.rotation == rest_.target.rotation;
 }
 
-double Proxy::targetMotion(const Tick& tick) const noexcept {
-  return travelBetween(*tick.tracked.scene, lastTarget_.value_or(pose_), tick.target);
-}
-
 /// The margin that is kept. It is smaller where so many pairs are near that a tick cannot look as far as it
 /// should, as for a part that is pressed in: what holds the part must be within sight.
 double Proxy::marginHere() const noexcept {
   return std::min(margin_, here_.reach / kSight);
 }
 
-Proxy::Outcome Proxy::step(const Tick& tick) noexcept {
+Proxy::Outcome Proxy::plan(const Tick& tick) noexcept {
   const Motion wanted = motionBetween(*tick.tracked.scene, pose_, tick.target);
   if (wanted.shift == glm::dvec3(0.0) && wanted.spin == glm::dvec3(0.0)) return Outcome::AtRest;
-  return here_.distance > kFree * marginHere() ? freeStep(tick, wanted) : constrainedStep(tick, wanted);
+  trial_ = {};
+  return here_.distance > kFree * marginHere() ? planFree(tick, wanted) : planConstrained(tick, wanted);
 }
 
-Proxy::Outcome Proxy::freeStep(const Tick& tick, const Motion& wanted) noexcept {
-  const ServoScene& scene = *tick.tracked.scene;
-  const double travel = travelOf(scene, wanted);
-  const double free = std::min(here_.distance - marginHere(), wayLeft_);
+void Proxy::setTrial(const Tick& tick, const Motion& motion, double travel) noexcept {
+  trial_.isTarget = false;
+  trial_.motion = motion;
+  trial_.travel = travel;
+  trial_.pose = moved(*tick.tracked.scene, motion);
+}
+
+void Proxy::setTrialToTarget(const Tick& tick, double travel) noexcept {
+  trial_.isTarget = true;
+  trial_.travel = travel;
+  trial_.pose = tick.target;
+}
+
+Proxy::Outcome Proxy::planFree(const Tick& tick, const Motion& wanted) noexcept {
+  const double travel = travelOf(*tick.tracked.scene, wanted);
+  const double free = std::min(std::max(here_.distance - marginHere(), stride_), wayLeft_);
+  trial_.isFree = true;
+  trial_.goal.reach = free;
+  trial_.motion = wanted;
   // To the target bit for bit: a free part exerts no force.
   if (travel <= free) {
-    const Verdict verdict = take(tick, tick.target, travel);
-    if (verdict == Verdict::Taken) return Outcome::AtRest;
-    if (verdict != Verdict::Unknown) return Outcome::Stuck;
+    setTrialToTarget(tick, travel);
+    return Outcome::Moved;
   }
   if (!(free > kAtRest * marginHere())) return Outcome::Stuck;
-  double share = std::min(travel <= free ? StepJudge::kHalf : 1.0, free / travel);
-  // A shorter step may stay within what the lists cover.
-  for (int shortenings = 0; shortenings <= kMaxShortenings; ++shortenings) {
-    const RigidTransform pose = moved(scene, {share * wanted.shift, share * wanted.spin});
-    const Verdict verdict = take(tick, pose, share * travel);
-    if (verdict == Verdict::Taken) return Outcome::Moved;
-    if (verdict != Verdict::Unknown || finder_.isWorkSpent()) break;
-    share *= StepJudge::kHalf;
-  }
-  return Outcome::Stuck;
+  const double share = free / travel;
+  setTrial(tick, {share * wanted.shift, share * wanted.spin}, free);
+  return Outcome::Moved;
 }
 
-bool Proxy::fillRows(const Tick& tick, double reach) noexcept {
+Proxy::Outcome Proxy::settle(const Tick& tick, Verdict verdict) noexcept {
+  if (verdict == Verdict::Taken) {
+    const bool isLong = trial_.shortenings == 0 && trial_.travel > kLongStride * trial_.goal.reach;
+    // The pairs gathered at a step's end must serve from its start.
+    const double most = std::min(kMaxStride * margin_, kStrideOfRoom * finder_.room());
+    if (isLong) stride_ = std::min(2.0 * trial_.travel, most);
+    return trial_.isTarget ? Outcome::AtRest : Outcome::Moved;
+  }
+  stride_ = StepJudge::kHalf * trial_.travel;
+  if (!trial_.isFree && !trial_.isTarget) return settleProgram(tick, verdict);
+  if (!trial_.isFree && verdict != Verdict::Unknown) return Outcome::Stuck;
+  if (!trial_.isFree || trial_.shortenings == kMaxShortenings)
+    return verdict == Verdict::Unknown ? Outcome::Behind : Outcome::Stuck;
+  shorten(tick, StepJudge::kHalf);
+  return Outcome::Moved;
+}
+
+bool Proxy::fillRows(const Tick& tick, double reach, ContactRows& out) noexcept {
   const ServoScene& scene = *tick.tracked.scene;
   const glm::dvec3 centre = pose_.applyToPoint(scene.centreInPart);
   const glm::dquat principalFromWorld = scene.metric.principalFromWorld(pose_);
-  rows_.clear();
+  out.rows.clear();
   for (std::size_t i = 0; i < here_.count; ++i) {
     const ContactPair& pair = around_[i].pair;
     if (pair.distance > reach) continue;
     const glm::dvec3 arm = pair.point - centre;
-    rowContact_[rows_.size()] = static_cast<std::uint32_t>(i);
-    rowArm_[rows_.size()] = arm;
-    if (!rows_.add(stepRow(pair.direction, arm, principalFromWorld, tick.metric), pair.distance))
+    out.contact[out.rows.size()] = static_cast<std::uint32_t>(i);
+    out.arm[out.rows.size()] = arm;
+    if (!out.rows.add(stepRow(pair.direction, arm, principalFromWorld, tick.metric), pair.distance))
       return false;
   }
   return true;
 }
 
-StepSolution Proxy::solve(const Tick& tick, const StepGoal& goal) noexcept {
-  if (!(tick.settings.friction > 0.0)) return program_.solve(rows_, goal);
+StepSolution Proxy::solve(const Tick& tick, const ContactRows& rows, const StepGoal& goal,
+                          unsigned mostChanges) noexcept {
+  if (!(tick.settings.friction > 0.0)) return program_.solve(rows.rows, goal, mostChanges);
   const glm::dquat principalFromWorld = tick.tracked.scene->metric.principalFromWorld(pose_);
   return frictionProgram_
-      .solve(rows_, {.step = goal,
-                     .coefficient = tick.settings.friction,
-                     .arms = std::span<const glm::dvec3>(rowArm_).first(rows_.size()),
-                     .principalFromStep = glm::mat3_cast(principalFromWorld)})
+      .solve(rows.rows, {.step = goal,
+                         .coefficient = tick.settings.friction,
+                         .arms = std::span<const glm::dvec3>(rows.arm).first(rows.rows.size()),
+                         .principalFromStep = glm::mat3_cast(principalFromWorld)})
       .step;
+}
+
+Proxy::Motion Proxy::motionOf(const Tick& tick, const StepSolution& solution) const noexcept {
+  const glm::dquat worldFromPrincipal = glm::normalize(tick.metric.worldFromPrincipal(pose_));
+  const StepVector& y = solution.y;
+  return {{y[0], y[1], y[2]}, worldFromPrincipal * (glm::dvec3(y[3], y[4], y[5]) / tick.metric.gyration)};
 }
 
 StepGoal Proxy::goalOf(const Tick& tick, const Motion& wanted) const noexcept {
@@ -234,7 +358,8 @@ StepGoal Proxy::goalOf(const Tick& tick, const Motion& wanted) const noexcept {
                .weight = std::clamp(kMarginWeight * way / margin, kMarginWeight, kMaxMarginWeight),
                .floor = StepJudge::kHalf * held};
   goal.gyration = metric.gyration;
-  goal.reach = std::min({kPlanned * std::max(0.0, here_.distance - here_.deviation), known, wayLeft_});
+  const double proved = std::min(kPlanned * std::max(0.0, here_.distance - here_.deviation), known);
+  goal.reach = std::min(std::max(proved, stride_), wayLeft_);
   // The lists hold for no larger turn: a part small enough to turn farther within the reach counts as larger.
   // The whole goal is shortened alike, so translation waits for rotation; a separate limit on the turn would
   // make such steps twice as long at most.
@@ -242,74 +367,111 @@ StepGoal Proxy::goalOf(const Tick& tick, const Motion& wanted) const noexcept {
   return goal;
 }
 
-Proxy::Outcome Proxy::constrainedStep(const Tick& tick, const Motion& wanted) noexcept {
-  const double held = std::min(here_.distance, marginHere());
-  if (!(wayLeft_ > kAtRest * held)) return Outcome::Stuck;
-  StepGoal goal = goalOf(tick, wanted);
-  if (!fillRows(tick, marginHere() + goal.reach)) return Outcome::Stuck;
-  account_.constraintCount = static_cast<std::uint32_t>(rows_.size());
-  const Outcome outcome = programStep(tick, goal);
-  if (outcome != Outcome::AtRest || !(held < kPinched * marginHere())) return outcome;
-  // Pinched, and no worthwhile step leads back to the margin: accept the present clearance, but no less.
-  goal.cost.margin = goal.cost.floor = held;
-  return programStep(tick, goal);
+RigidTransform Proxy::leadPose(const Tick& tick) noexcept {
+  const ServoScene& scene = *tick.tracked.scene;
+  const Motion wanted = motionBetween(scene, pose_, tick.target);
+  const double travel = travelOf(scene, wanted);
+  if (!(travel > 0.0) || !(here_.completeTo > 0.0)) return pose_;
+  if (!(wayLeft_ > 0.0)) return pose_;
+  const double share = std::min(1.0, wayLeft_ / travel);
+  if (!areFeltRowsFilled_ && !fillRows(tick, here_.completeTo, feltRows_)) return pose_;
+  areFeltRowsFilled_ = true;
+  StepGoal goal = goalOf(tick, {share * wanted.shift, share * wanted.spin});
+  // One program: a search for the scale at which the step fits a reach would solve several.
+  goal.reach = std::numeric_limits<double>::infinity();
+  goal.radius = tick.metric.radius;
+  const StepSolution solution = solve(tick, feltRows_, goal, kFeltChanges);
+  keepContacts(feltRows_, solution);
+  if (solution.activeCount == 0 && share == 1.0) return tick.target;
+  return moved(scene, motionOf(tick, solution));
 }
 
-Proxy::Outcome Proxy::programStep(const Tick& tick, const StepGoal& goal) noexcept {
-  const MassMetric& metric = tick.metric;
+Proxy::Outcome Proxy::planConstrained(const Tick& tick, const Motion& wanted) noexcept {
   const double held = std::min(here_.distance, marginHere());
-  const StepSolution solution = solve(tick, goal);
-  keepContacts(solution);
-  if (solution.activeCount == 0 && solution.scale == 1.0 && solution.share == 1.0)
-    return take(tick, tick.target, wayTo(tick)) == Verdict::Taken ? Outcome::AtRest : Outcome::Stuck;
-  const glm::dquat worldFromPrincipal = glm::normalize(metric.worldFromPrincipal(pose_));
-  const Motion motion{
-      {solution.y[0], solution.y[1], solution.y[2]},
-      worldFromPrincipal * (glm::dvec3(solution.y[3], solution.y[4], solution.y[5]) / metric.gyration)};
+  if (!(wayLeft_ > kAtRest * held)) return Outcome::Stuck;
+  const StepGoal goal = goalOf(tick, wanted);
+  if (!fillRows(tick, marginHere() + goal.reach, rows_)) return Outcome::Stuck;
+  account_.constraintCount = static_cast<std::uint32_t>(rows_.rows.size());
+  finder_.spend(rows_.rows.size() / kRowsFilledOfWork);
+  const Outcome outcome = planProgram(tick, goal, false);
+  return outcome == Outcome::AtRest ? planPinched(tick, goal) : outcome;
+}
+
+Proxy::Outcome Proxy::planPinched(const Tick& tick, const StepGoal& goal) noexcept {
+  const double held = std::min(here_.distance, marginHere());
+  if (!(held < kPinched * marginHere())) return Outcome::AtRest;
+  // Pinched, and no worthwhile step leads back to the margin: accept the present clearance, but no less.
+  StepGoal accepting = goal;
+  accepting.cost.margin = accepting.cost.floor = held;
+  return planProgram(tick, accepting, true);
+}
+
+Proxy::Outcome Proxy::planProgram(const Tick& tick, const StepGoal& goal, bool isPinched) noexcept {
+  const double held = std::min(here_.distance, marginHere());
+  const StepSolution solution = solve(tick, rows_, goal, StepProgram::kMaxChanges);
+  finder_.spend(workOfChanges(solution.changes, rows_.rows.size()));
+  keepContacts(rows_, solution);
+  trial_.goal = goal;
+  trial_.isPinched = isPinched;
+  if (solution.activeCount == 0 && solution.scale == 1.0 && solution.share == 1.0) {
+    setTrialToTarget(tick, wayTo(tick));
+    return Outcome::Moved;
+  }
+  const Motion motion = motionOf(tick, solution);
   const double travel = travelOf(*tick.tracked.scene, motion);
   // If the tick's remaining travel makes the step so short, or no gain, the next tick goes on.
   const bool isCutShort = goal.reach >= wayLeft_ && (solution.scale < 1.0 || solution.share < 1.0);
-  const Outcome best = isCutShort ? Outcome::Stuck : Outcome::AtRest;
-  if (!(travel > (account_.subSteps == 0 ? kAtRestAtFirst : kAtRest) * held)) return best;
+  trial_.best = isCutShort ? Outcome::Stuck : Outcome::AtRest;
+  if (!(travel > (account_.subSteps == 0 ? kAtRestAtFirst : kAtRest) * held)) return trial_.best;
   if (account_.subSteps == 0) firstTravel_ = travel;
   if (account_.subSteps >= kWorthwhileSteps && travel < kWorthwhile * firstTravel_) return Outcome::Stuck;
-  const Outcome outcome = takeShortened(tick, StepTrial(goal, solution, here_.distance), motion, travel);
-  return outcome == Outcome::AtRest ? best : outcome;
+  setTrial(tick, motion, travel);
+  trial_.shortenings = 0;
+  trial_.judged.reset();
+  // Friction holds the part back beyond the program's cost, which then says nothing about gain.
+  if (!(tick.settings.friction > 0.0)) trial_.judged.emplace(goal, solution, here_.distance);
+  return Outcome::Moved;
 }
 
-Proxy::Outcome Proxy::takeShortened(const Tick& tick, StepTrial trial, Motion motion,
-                                    double travel) noexcept {
-  Verdict verdict = Verdict::NoGain;
-  for (int shortenings = 0; shortenings <= kMaxShortenings; ++shortenings) {
-    // Friction holds the part back beyond the program's cost, which then says nothing about gain.
-    StepTrial* judged = tick.settings.friction > 0.0 ? nullptr : &trial;
-    verdict = take(tick, moved(*tick.tracked.scene, motion), travel, judged);
-    if (verdict == Verdict::Taken) return Outcome::Moved;
-    // A shorter step may stay within what the lists cover.
-    if (finder_.isWorkSpent()) break;
-    if (verdict == Verdict::NotProved) ++account_.shortenedSteps;
-    const double share = verdict == Verdict::NoGain ? trial.bestShare() : StepJudge::kHalf;
-    motion = {share * motion.shift, share * motion.spin};
-    trial.shorten(share);
-    travel *= share;
+void Proxy::shorten(const Tick& tick, double share) noexcept {
+  ++trial_.shortenings;
+  // A shorter step may stay within what the lists cover; one that its length proves needs nothing else. Where
+  // the way was not known, or at last, it is that.
+  const double proved = kPlanned * std::max(0.0, here_.distance - here_.deviation);
+  const bool isLast = trial_.shortenings == kMaxShortenings;
+  if (trial_.travel > proved && (isLast || isWayUnknown_)) share = std::min(share, proved / trial_.travel);
+  if (trial_.judged) trial_.judged->shorten(share);
+  setTrial(tick, {share * trial_.motion.shift, share * trial_.motion.spin}, share * trial_.travel);
+}
+
+Proxy::Outcome Proxy::settleProgram(const Tick& tick, Verdict verdict) noexcept {
+  if (verdict == Verdict::NotProved) ++account_.shortenedSteps;
+  if (trial_.shortenings < kMaxShortenings) {
+    shorten(tick,
+            verdict == Verdict::NoGain && trial_.judged ? trial_.judged->bestShare() : StepJudge::kHalf);
+    return Outcome::Moved;
   }
-  if (account_.isStarved) return Outcome::Stuck;
-  if (verdict == Verdict::NoGain) return Outcome::AtRest;
+  if (verdict == Verdict::Unknown) return Outcome::Behind;
+  if (verdict == Verdict::NoGain) {
+    if (trial_.best != Outcome::AtRest || trial_.isPinched) return trial_.best;
+    return planPinched(tick, StepGoal(trial_.goal));
+  }
   ++account_.refusedSteps;
   return Outcome::Stuck;
 }
 
-void Proxy::keepContacts(const StepSolution& solution) noexcept {
+void Proxy::keepContacts(const ContactRows& rows, const StepSolution& solution) noexcept {
   holdingCount_ = 0;
   for (const ActivePair& pair : solution.pairs())
-    holding_[holdingCount_++] = {around_[rowContact_[pair.row]], pair.multiplier};
+    holding_[holdingCount_++] = {around_[rows.contact[pair.row]], pair.multiplier};
 }
 
-Surroundings Proxy::lookAround(const Tick& tick, const RigidTransform& pose,
-                               std::span<BodyContact> out) noexcept {
+Surroundings Proxy::lookAround(const Tick& tick, const RigidTransform& pose, std::span<BodyContact> out,
+                               const ContactFinder::Step* step) noexcept {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  const Surroundings around = finder_.find(tick.tracked, pose, kContactReach * margin_, wayTo(tick), out);
+  const Surroundings around =
+      finder_.find(tick.tracked, pose, kContactReach * margin_, wayTo(tick), out, step);
   queryTime_ += std::chrono::duration<double>(Clock::now() - begin).count();
   return around;
 }
@@ -319,29 +481,36 @@ void Proxy::raiseFloor(const Tick& tick) noexcept {
                     tick.tracked.scene->metric.radius + glm::length(pose_.translation));
 }
 
-Proxy::Verdict Proxy::take(const Tick& tick, const RigidTransform& pose, double travel,
-                           StepTrial* trial) noexcept {
+std::optional<Proxy::Verdict> Proxy::take(const Tick& tick) noexcept {
+  // A shorter step is proved by its length.
+  const bool isLong = !(trial_.travel < kShort * (here_.distance - here_.deviation));
+  const ContactFinder::Step step{pose_, isLong};
+  Surroundings there = lookAround(tick, trial_.pose, next_, &step);
+  if (there.isPending) {
+    account_.isStarved = finder_.lateBodies() > 0;
+    return std::nullopt;
+  }
   // Unless a look succeeds: the lists must be renewed around where the part stands.
-  account_.isStarved = true;
-  if (finder_.isWorkSpent()) return Verdict::Unknown;
-  Surroundings there = lookAround(tick, pose, next_);
-  if (there.completeTo == 0.0) return Verdict::Unknown;
-  account_.isStarved = finder_.isWorkSpent();
+  account_.isStarved = there.completeTo == 0.0;
+  isWayUnknown_ = isLong && there.onWay == 0.0;
+  if (account_.isStarved) return Verdict::Unknown;
   // The bound here, less the travel, holds there too. Far from the origin a pose is rounded by more than a
   // small step is long; without that term such steps would add up unnoticed.
   const MassMetric& metric = tick.tracked.scene->metric;
-  const double rounding = kPointRounding * (metric.radius + 2.0 * glm::length(pose.translation));
-  there.distance = std::max(there.distance, here_.distance - travel - rounding);
+  const double rounding = kPointRounding * (metric.radius + 2.0 * glm::length(trial_.pose.translation));
+  there.distance = std::max(there.distance, here_.distance - trial_.travel - rounding);
   // If the search reached less than the margin, the distance there is only a bound and cannot tell gain.
   const double margin = marginHere();
-  const Verdict verdict = judge_.judge({travel, here_.distance, there.distance, margin, here_.deviation},
-                                       there.reach < margin ? nullptr : trial);
+  StepTrial* judged = trial_.judged && !(there.reach < margin) ? &*trial_.judged : nullptr;
+  const Verdict verdict = judge_.judge(
+      {trial_.travel, here_.distance, there.distance, margin, here_.deviation, there.onWay}, judged);
   if (verdict != Verdict::Taken) return verdict;
-  pose_ = pose;
+  pose_ = trial_.pose;
   here_ = there;
-  wayLeft_ -= travel;
+  wayLeft_ -= trial_.travel;
   raiseFloor(tick);
   std::swap(around_, next_);
+  areFeltRowsFilled_ = false;
   ++account_.subSteps;
   return Verdict::Taken;
 }

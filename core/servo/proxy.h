@@ -22,7 +22,8 @@ struct ProxyAccount {
   std::uint32_t refusedSteps = 0;     ///< Steps not taken at all.
   std::uint32_t constraintCount = 0;  ///< Rows of the last step's program.
   bool isWaiting = false;             ///< It stands still until the clearance at its pose is known.
-  bool isStarved = false;             ///< Neither the lists nor the tick's work covered where it would go.
+  bool isStarved = false;             ///< Neither the lists nor a search covered where it would go.
+  bool isBehind = false;              ///< The tick's work ended before its way.
 };
 
 /// A contact that holds the proxy back.
@@ -39,8 +40,14 @@ struct ProxyContact {
 /// weighed against translation as in the coupling. It is taken only if it is proved that nothing is met on
 /// the way: no point of the part moves as far as the nearest body is away. The distance at the step's end
 /// is not part of the proof, since minima give the distance only for bodies that do not overlap. Standing
-/// still is always possible. Source: Ortega, Redon & Coquillart 2007, on local minimum distances;
-/// conservative advancement.
+/// still is always possible.
+///
+/// Where thousands of pairs are near, a step takes longer than a tick: its work, counted and not timed, goes on
+/// in the next. The hand does not wait for it. It feels feltPose(), which is on the target's side of the pose:
+/// as far as the constraints known at the pose allow.
+///
+/// Source: Ortega, Redon & Coquillart 2007, on local minimum distances, and for the two rates; conservative
+/// advancement.
 class Proxy {
  public:
   /// Max steps in a tick.
@@ -58,13 +65,26 @@ class Proxy {
   /// not overlap [m].
   void noteDistance(double distance) noexcept;
 
-  /// Runs one tick. The part stands still while it is unknown which bodies it overlaps (Clearance).
+  /// Starts a tick. The part stands still while it is unknown which bodies it overlaps (Clearance).
   /// @param target     Pose to move towards, worldFromPart; finite, unit quaternion.
   /// @param turnScale  Factor on the radii of gyration that makes steps nearest in the energy of the coupling
   ///                   that pulls (turnScale() in virtual_coupling.h); > 0.
   /// Real-time safe.
+  void begin(const TrackedScene& tracked, const RigidTransform& target, const ProxySettings& settings,
+             double turnScale = 1.0) noexcept;
+  /// Goes on with the tick's way, until it ends or the work is spent. The scene is that of begin().
+  /// @param work  As counted by ContactFinder::work(), besides what was allowed before in this tick.
+  /// Returns true if the way has ended. Real-time safe.
+  bool advance(const TrackedScene& tracked, std::uint64_t work, ContactFinder::Excess excess) noexcept;
+  /// Finds feltPose(). Real-time safe: the time depends on the number of contacts alone, which is bounded.
+  void feel(const TrackedScene& tracked) noexcept;
+  /// Runs a whole tick: begin(), then advance() with ContactFinder::kUsualWork. Real-time safe.
   void follow(const TrackedScene& tracked, const RigidTransform& target, const ProxySettings& settings,
               double turnScale = 1.0) noexcept;
+
+  /// Where the part would be by the constraints known in this tick, which is where the hand feels it. Equal to
+  /// pose() if the tick's way had ended when feel() was called. Not proved free.
+  const RigidTransform& feltPose() const noexcept { return felt_; }
 
   /// Statistics of the last tick.
   const ProxyAccount& account() const noexcept { return account_; }
@@ -89,9 +109,42 @@ class Proxy {
     const TrackedScene& tracked;
     const RigidTransform& target;
     const ProxySettings& settings;
-    MassMetric metric;  ///< With scaled gyration.
+    const MassMetric& metric;  ///< With scaled gyration.
+  };
+  /// Rows of a program, with the contacts that they come from.
+  struct ContactRows {
+    StepRows rows;
+    std::vector<std::uint32_t> contact;  ///< For each row, the index of its contact in `around_`.
+    std::vector<glm::dvec3> arm;         ///< For each row, from the centre of mass to its point [m].
   };
 
+  /// Result of a step.
+  enum class Outcome : std::uint8_t {
+    Moved,
+    AtRest,  ///< It is where it is best.
+    Stuck,   ///< It cannot go on in this tick.
+    Behind,  ///< It could go on, but too little is known, or too many steps were taken.
+  };
+  using Verdict = StepJudge::Verdict;
+  /// What the tick does next.
+  enum class Stage : std::uint8_t { LookAround, Plan, Try, Done };
+
+  /// A pose to step to, while it is looked at.
+  struct Trial {
+    RigidTransform pose;
+    double travel = 0.0;  ///< To that pose [m].
+    Motion motion;        ///< The same, for poses short of the target.
+    int shortenings = 0;
+    bool isTarget = false;  ///< The target itself; the tick ends there.
+    bool isFree = false;    ///< Nothing is near: no program.
+    /// Of a program's step: its goal, its cost if that is judged, and the outcome if it is no gain.
+    StepGoal goal;
+    std::optional<StepTrial> judged;
+    Outcome best = Outcome::AtRest;
+    bool isPinched = false;  ///< The goal accepts the clearance here.
+  };
+
+  Tick tick(const TrackedScene& tracked) const noexcept { return {tracked, target_, settings_, metric_}; }
   bool isCleared(const TrackedScene& tracked) noexcept;
   static Motion motionBetween(const ServoScene& scene, const RigidTransform& from,
                               const RigidTransform& to) noexcept;
@@ -102,47 +155,62 @@ class Proxy {
   /// Upper bound on the travel of any point of the part to the target [m].
   double wayTo(const Tick& tick) const noexcept;
   RigidTransform moved(const ServoScene& scene, const Motion& motion) const noexcept;
-  /// Result of a step.
-  enum class Outcome : std::uint8_t {
-    Moved,
-    AtRest,  ///< It is where it is best.
-    Stuck,   ///< It cannot go on in this tick.
-  };
-  using Verdict = StepJudge::Verdict;
 
   bool isResting(const Tick& tick) const noexcept;
-  double targetMotion(const Tick& tick) const noexcept;
+  void end(Outcome outcome) noexcept;
   double marginHere() const noexcept;
-  Outcome step(const Tick& tick) noexcept;
-  Outcome freeStep(const Tick& tick, const Motion& wanted) noexcept;
-  Outcome constrainedStep(const Tick& tick, const Motion& wanted) noexcept;
-  Outcome programStep(const Tick& tick, const StepGoal& goal) noexcept;
-  Outcome takeShortened(const Tick& tick, StepTrial trial, Motion motion, double travel) noexcept;
+  /// Does the next part of the tick's way; false if the work ran out.
+  bool goOn(const Tick& tick) noexcept;
+  /// Plans a step: sets the trial and returns Moved, or returns how the tick ends.
+  Outcome plan(const Tick& tick) noexcept;
+  Outcome planFree(const Tick& tick, const Motion& wanted) noexcept;
+  Outcome planConstrained(const Tick& tick, const Motion& wanted) noexcept;
+  Outcome planProgram(const Tick& tick, const StepGoal& goal, bool isPinched) noexcept;
+  /// The same for a goal that accepts the present clearance, if the part is pinched.
+  Outcome planPinched(const Tick& tick, const StepGoal& goal) noexcept;
+  /// What follows from the verdict on the trial: Moved if the tick goes on.
+  Outcome settle(const Tick& tick, Verdict verdict) noexcept;
+  Outcome settleProgram(const Tick& tick, Verdict verdict) noexcept;
+  /// Shortens the trial to this share, or to less.
+  void shorten(const Tick& tick, double share) noexcept;
+  void setTrial(const Tick& tick, const Motion& motion, double travel) noexcept;
+  void setTrialToTarget(const Tick& tick, double travel) noexcept;
   StepGoal goalOf(const Tick& tick, const Motion& wanted) const noexcept;
-  bool fillRows(const Tick& tick, double reach) noexcept;
-  StepSolution solve(const Tick& tick, const StepGoal& goal) noexcept;
-  void keepContacts(const StepSolution& solution) noexcept;
-  Surroundings lookAround(const Tick& tick, const RigidTransform& pose, std::span<BodyContact> out) noexcept;
+  bool fillRows(const Tick& tick, double reach, ContactRows& out) noexcept;
+  StepSolution solve(const Tick& tick, const ContactRows& rows, const StepGoal& goal,
+                     unsigned mostChanges) noexcept;
+  Motion motionOf(const Tick& tick, const StepSolution& solution) const noexcept;
+  RigidTransform leadPose(const Tick& tick) noexcept;
+  void keepContacts(const ContactRows& rows, const StepSolution& solution) noexcept;
+  Surroundings lookAround(const Tick& tick, const RigidTransform& pose, std::span<BodyContact> out,
+                          const ContactFinder::Step* step) noexcept;
   void raiseFloor(const Tick& tick) noexcept;
-  Verdict take(const Tick& tick, const RigidTransform& pose, double travel,
-               StepTrial* trial = nullptr) noexcept;
+  /// Looks at the trial's pose, and moves there if that is right; no value if the work ran out.
+  std::optional<Verdict> take(const Tick& tick) noexcept;
 
   ContactFinder finder_;
-  StepRows rows_;
   StepProgram program_;
   FrictionProgram frictionProgram_;
   StepJudge judge_;
   std::vector<BodyContact> around_, next_;  ///< Contacts here, and at a pose being tried.
-  std::vector<std::uint32_t> rowContact_;   ///< For each row, the index of its contact in `around_`.
-  std::vector<glm::dvec3> rowArm_;          ///< For each row, from the centre of mass to its point [m].
+  ContactRows rows_, feltRows_;             ///< For steps, and for feltPose().
+  bool areFeltRowsFilled_ = false;
   std::array<ProxyContact, ActiveRows::kMax> holding_;
   std::size_t holdingCount_ = 0;
 
-  RigidTransform pose_;
+  RigidTransform pose_, felt_;
   Surroundings here_;
   bool isHereKnown_ = false;
-  double wayLeft_ = 0.0;      ///< Travel that is left in this tick [m].
-  double firstTravel_ = 0.0;  ///< Travel of the tick's first step [m].
+  Stage stage_ = Stage::Done;
+  Trial trial_;
+  bool isWayUnknown_ = false;  ///< Nothing was known of the way of a long trial.
+  bool isTrying_ = false;      ///< The trial of an earlier tick goes on.
+  double wayLeft_ = 0.0;       ///< Travel that is left in this tick [m].
+  double firstTravel_ = 0.0;   ///< Travel of the tick's first step [m].
+  double stride_ = 0.0;        ///< Length up to which steps have been taken lately [m].
+  RigidTransform target_;
+  ProxySettings settings_;
+  MassMetric metric_;
   std::optional<RigidTransform> lastTarget_;
   struct Rest {
     RigidTransform target;

@@ -73,6 +73,7 @@ struct ServoSnapshot {
   CouplingState coupling;
   double energyToHand = 0.0;          ///< Net work done on the hand since the start [J].
   double proxyTime = 0.0;             ///< Time of the proxy without its queries [s].
+  double wrenchTime = 0.0;            ///< Time until the wrench was known [s].
   std::uint32_t subSteps = 0;         ///< Steps that the proxy took in this tick.
   std::uint32_t shortenedSteps = 0;   ///< Steps shortened so that nothing is met on the way.
   std::uint32_t refusedSteps = 0;     ///< Steps not taken at all, for the same reason.
@@ -84,6 +85,7 @@ struct ServoSnapshot {
   /// The proxy waits, for a few ticks, until it is known what it overlaps.
   bool isWaiting = false;
   bool isStarved = false;  ///< Known contacts did not reach where the proxy would go.
+  bool isBehind = false;   ///< The tick's work ended before the proxy's way.
   std::array<SnapshotContact, kMaxContacts> contacts{};
   std::array<PartId, kMaxOverlapping> overlapping{};
   std::array<SnapshotLmd, kMaxLmds> lmds{};

@@ -33,15 +33,23 @@ Twist twistBetween(const RigidTransform& from, const RigidTransform& to, const g
           turnBetween(from.rotation, to.rotation) / period};
 }
 
+/// Work that the proxy may do once the wrench is on its way. A device of a higher rate leaves less time for it;
+/// a period measured a little longer or shorter must not change what is done.
+std::uint64_t workOfMovingOn(double period) noexcept {
+  constexpr double kHalfPeriod = 0.6e-3, kQuarterPeriod = 0.35e-3;
+  return ContactFinder::kUsualWork / (period > kHalfPeriod ? 1U : period > kQuarterPeriod ? 2U : 4U);
+}
+
 void clearOutputs(ServoSnapshot& snapshot) noexcept {
   snapshot.wrench = snapshot.unclampedWrench = snapshot.deviceWrench = Wrench{};
   snapshot.distance = std::numeric_limits<double>::infinity();
-  snapshot.queryTime = snapshot.proxyTime = 0.0;
+  snapshot.queryTime = snapshot.proxyTime = snapshot.wrenchTime = 0.0;
   snapshot.work = 0;
   snapshot.lmdCount = snapshot.storedLmds = snapshot.lateBodies = 0;
   snapshot.subSteps = snapshot.shortenedSteps = snapshot.refusedSteps = 0;
   snapshot.constraintCount = snapshot.contactCount = snapshot.storedContacts = snapshot.overlappingCount = 0;
-  snapshot.isTruncated = snapshot.isClamped = snapshot.isWaiting = snapshot.isStarved = false;
+  snapshot.isTruncated = snapshot.isClamped = snapshot.isWaiting = snapshot.isStarved = snapshot.isBehind =
+      false;
   snapshot.coupling = {};
 }
 
@@ -68,9 +76,11 @@ void ServoTick::run(const TrackedScene& tracked, const ServoParameters& paramete
 
 void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& parameters, const HandleInput& input,
                      double period, ServoSnapshot& snapshot) noexcept {
+  const Clock::time_point begin = Clock::now();
   const ServoScene& scene = *tracked.scene;
   const HapticSettings& settings = parameters.haptics;
   clearOutputs(snapshot);
+  period_ = period;
   isToBeShown_ = false;
   snapshot.moving = scene.moving.id;
   snapshot.mode = settings.mode;
@@ -108,11 +118,11 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
     held_ = {};
   }
   snapshot.handle = handle_.pose;
-  snapshot.proxy = part_.pose;
-  snapshot.centre = part_.pose.applyToPoint(scene.centreInPart);
+  writePose(tick);
   snapshot.period = periodMeter_.heldPeriod();
   snapshot.energyToHand = passivity_.energyToHand();
   snapshot.fault = fault_;
+  snapshot.wrenchTime = secondsSince(begin);
 }
 
 void ServoTick::letGo(const RigidTransform& device, const glm::dvec3& centreInPart) noexcept {
@@ -134,10 +144,11 @@ void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcep
   const bool isProxy = tick.settings.mode == HapticMode::Proxy;
   coupling_ =
       boundedCoupling(tick.settings.coupling, tick.limits, tick.scene.metric, periodMeter_.heldPeriod());
-  felt_ = feltBody(tick.settings.weight, tick.scene.mass, tick.limits.maxForce);
+  mass_ = feltBody(tick.settings.weight, tick.scene.mass, tick.limits.maxForce);
   if (!hasPose_) {
     handle_ = {handle, {}};
     part_ = {isProxy ? tick.scene.moving.worldFromPart.normalized() : handle, {}};
+    felt_ = part_;
     partStep_ = {};
     partShift_ = glm::dvec3(0.0);
     proxy_.place(part_.pose);
@@ -153,15 +164,21 @@ void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcep
   mode_ = tick.settings.mode;
 }
 
-void ServoTick::movePart(const Tick& tick, const RigidTransform& pose) noexcept {
-  partStep_ = twistBetween(part_.pose, pose, tick.scene.centreInPart, tick.period);
-  partShift_ = tick.period * partStep_.linear;
-  part_ = smoothed(part_, pose, tick.scene.centreInPart, tick.period);
+void ServoTick::movePart(const Subject& subject, const RigidTransform& pose) noexcept {
+  partStep_ = twistBetween(part_.pose, pose, subject.scene.centreInPart, period_);
+  partShift_ = period_ * partStep_.linear;
+  part_ = smoothed(part_, pose, subject.scene.centreInPart, period_);
+}
+
+void ServoTick::writePose(const Subject& subject) const noexcept {
+  subject.snapshot.proxy = part_.pose;
+  subject.snapshot.centre = part_.pose.applyToPoint(subject.scene.centreInPart);
 }
 
 Wrench ServoTick::feelSprings(const Tick& tick) noexcept {
   movePart(tick, handle_.pose);
-  Wrench sum{felt_.weight, glm::dvec3(0.0)};
+  felt_ = part_;
+  Wrench sum{mass_.weight, glm::dvec3(0.0)};
   findMinima(tick, 1.0, &tick.settings.springs, sum);
   return sum;
 }
@@ -179,24 +196,40 @@ Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
   const ServoScene& scene = tick.scene;
   tick.snapshot.coupling = coupling_;
   isToBeShown_ = true;
-  if (scene.moving.geometry == nullptr) {
-    movePart(tick, handle_.pose);
-  } else {
-    const BodyMotion target = freeStep(felt_, coupling_, scene.metric, scene.centreInPart, handle_,
+  RigidTransform felt = handle_.pose;
+  if (scene.moving.geometry != nullptr) {
+    const BodyMotion target = freeStep(mass_, coupling_, scene.metric, scene.centreInPart, handle_,
                                        {part_.pose, partStep_}, tick.period);
     const Clock::time_point begin = Clock::now();
     // The target is not normalised: a free part must match the hand bit for bit, so that there is no force.
-    if (!areBodiesPlaced(tick))
+    if (!areBodiesPlaced(tick)) {
       fault_ = ServoFault::PoseNotFinite;
-    else if (isPose(target.pose))
-      proxy_.follow(tick.tracked, target.pose, tick.settings.proxy, turnScale(coupling_, scene.metric));
-    else
+    } else if (isPose(target.pose)) {
+      proxy_.begin(tick.tracked, target.pose, tick.settings.proxy, turnScale(coupling_, scene.metric));
+      proxy_.advance(tick.tracked, kWorkOfFeel, ContactFinder::Excess::None);
+      proxy_.feel(tick.tracked);
+    } else {
       fault_ = ServoFault::WrenchNotFinite;
-    tick.snapshot.proxyTime = secondsSince(begin) - proxy_.queryTime();
-    tick.snapshot.queryTime += proxy_.queryTime();
-    movePart(tick, proxy_.pose());
+    }
+    tick.snapshot.proxyTime = secondsSince(begin);
+    felt = proxy_.feltPose();
   }
-  return couplingWrench(coupling_, scene.metric, scene.centreInPart, handle_, part_);
+  felt_ = smoothed(felt_, felt, scene.centreInPart, tick.period);
+  return couplingWrench(coupling_, scene.metric, scene.centreInPart, handle_, felt_);
+}
+
+void ServoTick::moveOn(const Subject& subject) noexcept {
+  if (subject.scene.moving.geometry == nullptr) {
+    movePart(subject, handle_.pose);
+  } else {
+    const Clock::time_point begin = Clock::now();
+    if (fault_ == ServoFault::None)
+      proxy_.advance(subject.tracked, workOfMovingOn(period_), ContactFinder::Excess::ToGather);
+    subject.snapshot.proxyTime += secondsSince(begin) - proxy_.queryTime();
+    subject.snapshot.queryTime += proxy_.queryTime();
+    movePart(subject, proxy_.pose());
+  }
+  writePose(subject);
 }
 
 void ServoTick::account(const Tick& tick, const RigidTransform& handleBefore) noexcept {
@@ -206,12 +239,12 @@ void ServoTick::account(const Tick& tick, const RigidTransform& handleBefore) no
   interval.shift = handle_.pose.applyToPoint(centre) - handleBefore.applyToPoint(centre);
   interval.turn = turnBetween(handleBefore.rotation, handle_.pose.rotation);
   interval.duration = tick.period;
-  interval.weight = felt_.weight;
+  interval.weight = mass_.weight;
   interval.partShift = partShift_;
   double stored = PassivityController::kMaxDebt;
   if (tick.settings.mode == HapticMode::Proxy) {
-    stored = storedEnergy(coupling_, tick.scene.metric, centre, handle_.pose, part_.pose, tick.limits) +
-             kineticEnergy(felt_, tick.scene.metric, {part_.pose, partStep_});
+    stored = storedEnergy(coupling_, tick.scene.metric, centre, handle_.pose, felt_.pose, tick.limits) +
+             kineticEnergy(mass_, tick.scene.metric, {part_.pose, partStep_});
   }
   passivity_.observe(interval, tick.limits, stored);
 }

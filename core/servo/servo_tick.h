@@ -32,8 +32,10 @@ struct ServoParameters {
 /// where the handle is, and the hand feels the sum of the springs. The wrench is kept passive
 /// (PassivityController) and within the device's limits (WrenchConditioner).
 ///
-/// A tick has two halves: feel() computes what the hand waits for, show() what only others look at. In the
-/// proxy mode that is the minima: they are found when the wrench is on its way.
+/// A tick has two halves: feel() computes what the hand waits for, show() the rest, when the wrench is on its way.
+/// In the proxy mode the wrench does not wait for geometry: feel() lets the part follow for as much as
+/// kWorkOfFeel, and takes the wrench from the constraints known by then (Proxy::feltPose()); show() lets it follow
+/// on and finds the minima. What is shown and recorded is the pose that is proved free.
 ///
 /// No tick does more than mostWork() (work_bound.h). In the proxy mode, where no force depends on minima,
 /// their cutoff is shortened while they take more time than there is (a nut on its thread has thousands), and
@@ -49,8 +51,12 @@ class ServoTick {
   /// Forgets velocities, energies, the proxy and the fault, as if it had never run. Real-time safe.
   void reset() noexcept;
 
-  /// Computes the wrench and what it comes from; `deviceWrench` is then final. show() must follow before
-  /// the next feel().
+  /// Work of the proxy that the wrench waits for: some 10 us. A part near some hundred pairs of features ends
+  /// its way within it.
+  static constexpr std::uint64_t kWorkOfFeel = 256;
+
+  /// Computes the wrench and what it comes from; `wrench`, `deviceWrench` and `handle` are then final. show()
+  /// must follow before the next feel().
   ///
   /// Velocities, for damping, are pose differences through a first-order low-pass of `kVelocityTimeConstant`.
   /// NaN, infinity or an invalid parameter anywhere gives a zero wrench, leaves the part where it was and
@@ -64,8 +70,8 @@ class ServoTick {
   void feel(const TrackedScene& tracked, const ServoParameters& parameters, const HandleInput& input,
             double period, ServoSnapshot& snapshot) noexcept;
 
-  /// Completes the snapshot of feel(): minima, min distance, contacts, parts that are not felt. Does nothing
-  /// in the springs mode, where feel() has filled it.
+  /// Moves the part on and completes the snapshot of feel(): pose of the part, minima, min distance, contacts,
+  /// parts that are not felt. Does nothing in the springs mode, where feel() has filled it.
   ///
   /// @param snapshot  As feel() left it. Complete afterwards, except for `tick`, `time` and `tickTime`, which
   ///                  the caller sets.
@@ -95,6 +101,8 @@ class ServoTick {
   bool areBodiesPlaced(const Tick& tick) const noexcept;
   Wrench feelSprings(const Tick& tick) noexcept;
   Wrench feelProxy(const Tick& tick) noexcept;
+  /// The proxy's part of a tick, once the wrench is on its way.
+  void moveOn(const Subject& subject) noexcept;
   /// Finds the minima within `share` of the cutoff and writes them to the snapshot. Adds the wrench of
   /// `springs`, unless null, to `sum`.
   MinimaFinder::Result findMinima(const Subject& subject, double share, const SpringParameters* springs,
@@ -102,7 +110,8 @@ class ServoTick {
   void showMinima(const Subject& subject) noexcept;
   /// Min distance according to the contacts if it is within their reach, else infinity [m].
   double distanceOfContacts(const Subject& subject) const noexcept;
-  void movePart(const Tick& tick, const RigidTransform& pose) noexcept;
+  void movePart(const Subject& subject, const RigidTransform& pose) noexcept;
+  void writePose(const Subject& subject) const noexcept;
   void describeProxy(const Subject& subject) noexcept;
   /// Accounts for what the hand did since the last tick, before the part moves on.
   void account(const Tick& tick, const RigidTransform& handleBefore) noexcept;
@@ -118,10 +127,12 @@ class ServoTick {
   WrenchConditioner conditioner_;
 
   BodyMotion handle_, part_;   ///< Twists are filtered.
+  BodyMotion felt_;            ///< The part as the wrench takes it: at Proxy::feltPose(), or `part_`.
+  double period_ = 0.0;        ///< Of the last feel() [s].
   Twist partStep_;             ///< Unfiltered twist of the part in the last tick.
   glm::dvec3 partShift_{0.0};  ///< Translation of its centre in the last tick [m].
   Wrench held_;                ///< The wrench sent in the last tick.
-  FeltMass felt_;
+  FeltMass mass_;
   CouplingState coupling_;
   ShownReach shownReach_;  ///< Proxy mode only.
   PartId moving_{};

@@ -13,6 +13,7 @@ void ServoTick::show(const TrackedScene& tracked, const ServoParameters& paramet
   if (!isToBeShown_) return;
   isToBeShown_ = false;
   const Subject subject{tracked, *tracked.scene, parameters.haptics, snapshot};
+  moveOn(subject);
   showMinima(subject);
   describeProxy(subject);
   snapshot.fault = fault_;
@@ -71,6 +72,7 @@ void ServoTick::describeProxy(const Subject& subject) noexcept {
   snapshot.constraintCount = account.constraintCount;
   snapshot.isWaiting = account.isWaiting;
   snapshot.isStarved = account.isStarved;
+  snapshot.isBehind = account.isBehind;
   snapshot.lateBodies += proxy_.lateBodies();
   snapshot.work += proxy_.work();
   // Contacts hold indices into the scene that they were found in.

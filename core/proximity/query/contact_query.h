@@ -75,7 +75,7 @@ NearbyPairs findNearbyPairs(const BodyPairQuery& query, const ContactReach& reac
 /// @param query   Its cutoff is not used.
 /// @param pairs   From findNearbyPairs or a candidate list; all near pairs, so that no contact is missed.
 /// @param out     Keeps the nearest if it fills; `completeTo` then says how far it is complete.
-/// @param packed  Blocks that packEdgePairs made of the first pairs; may be empty.
+/// @param packed  Blocks of the first pairs (packEdgePairs()); may be empty.
 /// Contacts are in the frame of the scene's mesh. Real-time safe.
 ContactResult testContacts(const BodyPairQuery& query, const ContactReach& reach,
                            std::span<const LeafPair> pairs, std::span<ContactPair> out,

@@ -176,20 +176,20 @@ EdgePairKernel edgePairKernel(SimdLevel level) noexcept {
   return testPortable;
 }
 
-std::size_t packEdgePairs(const NormalConeTree& scene, const NormalConeTree& part, std::span<LeafPair> pairs,
-                          std::span<EdgePairs> blocks) noexcept {
+std::size_t edgePairsToFront(std::span<LeafPair> pairs) noexcept {
   const auto isEdge = [](std::uint32_t leaf) { return NormalConeTree::leafKind(leaf) == FeatureKind::Edge; };
   const auto rest = std::partition(pairs.begin(), pairs.end(), [&](const LeafPair& pair) {
     return isEdge(pair.scene) && isEdge(pair.part);
   });
-  const auto count = static_cast<std::size_t>(rest - pairs.begin());
-  const std::size_t filled = std::min(blocks.size(), count / kLanes);
-  for (std::size_t i = 0; i < filled * kLanes; ++i) {
-    EdgePairs& block = blocks[i / kLanes];
-    put(scene, pairs[i].scene, block.scene, i % kLanes);
-    put(part, pairs[i].part, block.part, i % kLanes);
+  return static_cast<std::size_t>(rest - pairs.begin());
+}
+
+void packEdgePairs(const NormalConeTree& scene, const NormalConeTree& part,
+                   std::span<const LeafPair, EdgePairs::kLanes> pairs, EdgePairs& block) noexcept {
+  for (std::size_t lane = 0; lane < EdgePairs::kLanes; ++lane) {
+    put(scene, pairs[lane].scene, block.scene, lane);
+    put(part, pairs[lane].part, block.part, lane);
   }
-  return filled;
 }
 
 }  // namespace nearfit

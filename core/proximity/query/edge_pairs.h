@@ -61,10 +61,11 @@ struct PackedEdgePairs {
   EdgePairKernel kernel = nullptr;  ///< Not null if there are blocks.
 };
 
-/// Moves pairs of edges to the front and packs them into blocks while there is room: the first
-/// EdgePairs::kLanes pairs form the first block, and so on. Pairs that do not fill a block are not packed.
-/// @returns Number of blocks filled. Real-time safe.
-std::size_t packEdgePairs(const NormalConeTree& scene, const NormalConeTree& part, std::span<LeafPair> pairs,
-                          std::span<EdgePairs> blocks) noexcept;
+/// Moves pairs of edges to the front. Returns their number. Real-time safe.
+std::size_t edgePairsToFront(std::span<LeafPair> pairs) noexcept;
+
+/// Packs a block of pairs of edges. Real-time safe.
+void packEdgePairs(const NormalConeTree& scene, const NormalConeTree& part,
+                   std::span<const LeafPair, EdgePairs::kLanes> pairs, EdgePairs& block) noexcept;
 
 }  // namespace nearfit

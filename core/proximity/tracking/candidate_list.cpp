@@ -242,7 +242,8 @@ std::optional<LmdResult> CandidateList::query(const RigidTransform& sceneFromPar
   result.nodePairs = blocks;
   MinimaCollector collector(scratch.data(), result);
   CullLimits limits = cullLimits(*scene_, *part_, pose->centred, cutoff);
-  BoundedTests tests({*scene_, *part_, pose->centred, cutoff}, maxWork - blocks, collector, limits);
+  BoundedTests tests({*scene_, *part_, pose->centred, cutoff}, (maxWork - blocks) / kWorkOfLeafTest,
+                     collector, limits);
   visitPairs(pose->centred, pose->count, limits, scratch,
              [&](std::uint32_t sceneLeaf, std::uint32_t partLeaf) {
                tests.test(sceneLeaf, partLeaf);

@@ -18,6 +18,9 @@
 
 namespace nearfit {
 
+/// Work of testing a pair of features for a minimum, in blocks of pairs culled.
+constexpr std::uint64_t kWorkOfLeafTest = 4;
+
 /// List of the pairs of features that can carry a minimum at any pose within a range of motion. Within the
 /// range, testing these alone is exact.
 ///
@@ -56,7 +59,7 @@ class CandidateList {
 
   /// Finds the exact set at a pose, as findLmds does; no value if the list does not cover the pose and
   /// cutoff. Real-time safe.
-  /// @param maxWork  Bound on blocks culled plus pairs tested. If the whole set takes more than half of it,
+  /// @param maxWork  Bound on blocks culled plus kWorkOfLeafTest for each pair tested. If the whole set takes more than half of it,
   ///                 the rest goes to the nearest minimum, as in findNearestLmds.
   std::optional<LmdResult> query(
       const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch, std::span<Lmd> out,

@@ -146,14 +146,22 @@ RigidTransform MotionForecast::poseWhenReady() const noexcept {
 SearchPlan MotionForecast::plan(double cutoff, double share) const noexcept {
   // A held-up part begins where it is, however long the search takes.
   const double begin = isHeldUp_ ? 0.0 : lead_;
-  const double window = share * (lead_ + windowOf(lead_) - begin), half = 0.5 * kMargin * window;
+  const double whole = share * (lead_ + windowOf(lead_) - begin);
+  // Part of the travel comes from turning: the min travel must allow for the min turn.
+  const double leastTravel = kMinTravel * cutoff + kMinTurn * radius_;
+  const double mostTravel = std::max(leastTravel, kMaxTravel * cutoff);
+  // A stretch that would be too long ends earlier, and begins as it would.
+  const auto shareOf = [&](const glm::dvec3& velocity, const glm::dvec3& trend, double most) {
+    const double length = 0.5 * kMargin * whole * glm::length(velocity + (begin + 0.5 * whole) * trend);
+    return length > most ? most / length : 1.0;
+  };
+  const double window = whole * std::min(shareOf(velocity_.shift, trend_.shift, mostTravel),
+                                         shareOf(velocity_.spin, trend_.spin, kMaxTurn));
+  const double half = 0.5 * kMargin * window;
   const double growth = std::pow(begin + window, kErrorGrowth);
   const auto aside = [&](double fastest, double error) {
     return generosity_ * std::min(growth * error, kMaxAside * half * fastest);
   };
-  // Part of the travel comes from turning: the min travel must allow for the min turn.
-  const double leastTravel = kMinTravel * cutoff + kMinTurn * radius_;
-  const double mostTravel = std::max(leastTravel, kMaxTravel * cutoff);
   const double middle = begin + 0.5 * window;
   SearchPlan plan{poseAhead(middle), {}};
   plan.range.stretch = {limited(half * (velocity_.shift + middle * trend_.shift), mostTravel),

@@ -38,6 +38,8 @@ MotionRow rowAt(double time, test::RandomValues& random) {
   row.overlapping = 9;
   row.proxyTime = 1.5e-6;
   row.lateness = 45e-6;
+  row.wrenchTime = 2.5e-6;
+  row.isBehind = true;
   row.isClamped = true;
   row.fault = ServoFault::WrenchNotFinite;
   return row;

@@ -50,7 +50,8 @@ MotionRow sampleRow() {
   row.overlapping = 9;
   row.proxyTime = 1.2341e-6;
   row.lateness = 45.6781e-6;
-  row.isClamped = row.isTruncated = true;
+  row.wrenchTime = 5.4321e-6;
+  row.isClamped = row.isTruncated = row.isBehind = true;
   row.fault = ServoFault::WrenchNotFinite;
   return row;
 }
@@ -62,15 +63,16 @@ TEST(MotionRecording, TheHeaderNamesTheColumnsInOrder) {
       "proxy_qz",  "force_x",   "force_y",     "force_z",   "torque_x",    "torque_y",  "torque_z",
       "lmds",      "distance",  "query_us",    "tick_us",   "late_bodies", "energy",    "sub_steps",
       "shortened", "refused",   "constraints", "contacts",  "released",    "proxy_us",  "clamped",
-      "fault",     "truncated", "late_us"};
+      "fault",     "truncated", "late_us",     "wrench_us", "behind"};
   EXPECT_EQ(split(std::string(motionHeader()), ','), expected);
 }
 
 TEST(MotionRecording, ARowHasItsValuesUnderTheirColumns) {
   const std::vector<std::string> columns = split(formatMotionRow(sampleRow()), ',');
-  const std::vector<double> expected{
-      0.001, 1,  2,  3,         0.1,    0.2, 0.3, 0.4,     4, 5, 6, 0.5, 0.6, 0.7, 0.8,   -1, -2, -3, -4,
-      -5,    -6, 17, 1.0 / 3.0, 12.346, 20,  3,   -2.5e-4, 4, 5, 6, 7,   8,   9,   1.234, 1,  2,  1,  45.678};
+  const std::vector<double> expected{0.001, 1,   2,         3,      0.1, 0.2, 0.3,     0.4,    4,     5,
+                                     6,     0.5, 0.6,       0.7,    0.8, -1,  -2,      -3,     -4,    -5,
+                                     -6,    17,  1.0 / 3.0, 12.346, 20,  3,   -2.5e-4, 4,      5,     6,
+                                     7,     8,   9,         1.234,  1,   2,   1,       45.678, 5.432, 1};
   ASSERT_EQ(columns.size(), expected.size());
   for (std::size_t i = 0; i < columns.size(); ++i)
     EXPECT_EQ(std::stod(columns[i]), expected[i]) << i;
@@ -97,6 +99,8 @@ TEST(MotionRecording, ARowIsTakenFromASnapshot) {
   snapshot->isClamped = true;
   snapshot->energyToHand = 8.5;
   snapshot->proxyTime = 9.5;
+  snapshot->wrenchTime = 10.5;
+  snapshot->isBehind = true;
   snapshot->subSteps = 11;
   snapshot->shortenedSteps = 12;
   snapshot->refusedSteps = 13;
@@ -119,6 +123,8 @@ TEST(MotionRecording, ARowIsTakenFromASnapshot) {
   EXPECT_EQ(row.fault, ServoFault::WrenchNotFinite);
   EXPECT_EQ(row.energyToHand, 8.5);
   EXPECT_EQ(row.proxyTime, 9.5);
+  EXPECT_EQ(row.wrenchTime, 10.5);
+  EXPECT_TRUE(row.isBehind);
   EXPECT_EQ(row.subSteps, 11U);
   EXPECT_EQ(row.shortenedSteps, 12U);
   EXPECT_EQ(row.refusedSteps, 13U);

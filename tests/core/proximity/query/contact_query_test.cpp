@@ -35,7 +35,10 @@ ContactResult findContacts(const BodyPairQuery& query, LmdScratch& scratch, std:
   const ContactReach reach{kReach, turn};
   const NearbyPairs nearby = findNearbyPairs(query, reach, {}, scratch, pairs, maxNodePairs);
   const std::span<LeafPair> found = std::span(pairs).first(nearby.count);
-  const std::size_t filled = packEdgePairs(query.scene, query.part, found, blocks);
+  const std::size_t filled = std::min(edgePairsToFront(found) / EdgePairs::kLanes, blocks.size());
+  for (std::size_t i = 0; i < filled; ++i)
+    packEdgePairs(query.scene, query.part, found.subspan(i * EdgePairs::kLanes).first<EdgePairs::kLanes>(),
+                  blocks[i]);
   ContactResult result = testContacts(query, reach, found, out,
                                       {std::span(blocks).first(filled), edgePairKernel(defaultSimdLevel())});
   if (!nearby.isComplete) result.completeTo = 0.0;

@@ -54,6 +54,13 @@ class Candidates {
     pairs.resize(nearby.count);
   }
 
+  /// Packs the first pairs.
+  void pack(std::span<EdgePairs> blocks) const {
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+      packEdgePairs(scene, part, std::span(pairs).subspan(i * EdgePairs::kLanes).first<EdgePairs::kLanes>(),
+                    blocks[i]);
+  }
+
   std::vector<ContactPair> contacts(const PackedEdgePairs& packed) {
     std::vector<ContactPair> out(pairs.size() + 1);
     const ContactResult result = testContacts({scene, part, pose, reach.distance}, reach, pairs, out, packed);
@@ -101,8 +108,8 @@ TEST(EdgePairs, EachInstructionSetSaysWhatSingleTestsSayToTheLastBit) {
       visitPoses(pair, 0.1 * scale, [&](const RigidTransform& pose) {
         ASSERT_NO_FATAL_FAILURE(candidates.gather(pose, 0.1 * scale));
         const std::vector<ContactPair> expected = candidates.contacts({});
-        std::vector<EdgePairs> blocks(candidates.pairs.size() / EdgePairs::kLanes);
-        blocks.resize(packEdgePairs(candidates.scene, candidates.part, candidates.pairs, blocks));
+        std::vector<EdgePairs> blocks(edgePairsToFront(candidates.pairs) / EdgePairs::kLanes);
+        candidates.pack(blocks);
         for (const SimdLevel level : availableSimdLevels()) {
           const std::vector<ContactPair> found = candidates.contacts({blocks, edgePairKernel(level)});
           ASSERT_EQ(found.size(), expected.size());
@@ -144,19 +151,16 @@ TEST(EdgePairs, EdgesComeFirstAndNothingIsLost) {
       static_cast<std::size_t>(std::count_if(candidates.pairs.begin(), candidates.pairs.end(), isOfEdges));
   ASSERT_GT(edges, 4 * EdgePairs::kLanes);
   ASSERT_LT(edges, candidates.pairs.size());
-  // As many as there is room for, and whole blocks alone.
-  for (const std::size_t room : {std::size_t{0}, std::size_t{2}, before.size()}) {
-    std::vector<EdgePairs> blocks(room);
-    const std::size_t filled = packEdgePairs(candidates.scene, candidates.part, candidates.pairs, blocks);
-    EXPECT_EQ(filled, std::min(room, edges / EdgePairs::kLanes));
-    EXPECT_EQ(numbers(), before);
-    EXPECT_TRUE(std::all_of(candidates.pairs.begin(),
-                            candidates.pairs.begin() + static_cast<std::ptrdiff_t>(edges), isOfEdges));
-    for (std::size_t i = 0; i < filled * EdgePairs::kLanes; ++i) {
-      const std::uint32_t edge = NormalConeTree::leafIndex(candidates.pairs[i].part);
-      const LeafTests::Edge expected = LeafTests::edgeOf(candidates.part, edge);
-      EXPECT_EQ(blocks[i / EdgePairs::kLanes].part.length[i % EdgePairs::kLanes], expected.length);
-    }
+  EXPECT_EQ(edgePairsToFront(candidates.pairs), edges);
+  EXPECT_EQ(numbers(), before);
+  EXPECT_TRUE(std::all_of(candidates.pairs.begin(),
+                          candidates.pairs.begin() + static_cast<std::ptrdiff_t>(edges), isOfEdges));
+  std::vector<EdgePairs> blocks(edges / EdgePairs::kLanes);
+  candidates.pack(blocks);
+  for (std::size_t i = 0; i < blocks.size() * EdgePairs::kLanes; ++i) {
+    const std::uint32_t edge = NormalConeTree::leafIndex(candidates.pairs[i].part);
+    const LeafTests::Edge expected = LeafTests::edgeOf(candidates.part, edge);
+    EXPECT_EQ(blocks[i / EdgePairs::kLanes].part.length[i % EdgePairs::kLanes], expected.length);
   }
 }
 
