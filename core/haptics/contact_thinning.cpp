@@ -41,8 +41,9 @@ ContactThinning::ContactThinning() : taken_(kMaxTaken), cells_(kMaxTaken), table
 void ContactThinning::begin(const glm::dvec3& centre, const glm::dquat& principalFromWorld,
                             const MassMetric& metric) noexcept {
   centre_ = centre;
-  principalFromWorld_ = principalFromWorld;
-  metric_ = metric;
+  const glm::dvec3 inverse = 1.0 / metric.gyration;
+  turnFromWorld_ = glm::dmat3({inverse.x, 0, 0}, {0, inverse.y, 0}, {0, 0, inverse.z}) *
+                   glm::mat3_cast(principalFromWorld);
   count_ = distinct_ = 0;
   // When the number comes round, slots of long ago must not count as filled.
   if (++selection_ == 0) {
@@ -65,9 +66,11 @@ bool ContactThinning::add(const BodyContact& contact) noexcept {
 
 std::uint64_t ContactThinning::cellOf(const ContactPair& pair) const noexcept {
   std::uint64_t cell = 0;
-  for (const double x : stepRow(pair.direction, pair.point - centre_, principalFromWorld_, metric_)) {
+  // The components of stepRow(), to rounding.
+  const glm::dvec3 &d = pair.direction, turn = turnFromWorld_ * glm::cross(pair.point - centre_, d);
+  for (const double x : {d.x, d.y, d.z, turn.x, turn.y, turn.z}) {
     // Ten bits each: rotational components are at most the radius over the min gyration, some twenty.
-    const auto step = static_cast<std::int64_t>(x / kCell + kCellsBelowZero) & 0x3FF;
+    const auto step = static_cast<std::int64_t>(x * (1.0 / kCell) + kCellsBelowZero) & 0x3FF;
     cell = cell << 10U | static_cast<std::uint64_t>(step);
   }
   return cell;

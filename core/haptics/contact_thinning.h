@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
+
 #include "core/haptics/mass_metric.h"
 #include "core/math/rigid_transform.h"
 #include "core/proximity/query/contact_query.h"
@@ -70,8 +72,7 @@ class ContactThinning {
   std::size_t count_ = 0, distinct_ = 0;
   std::uint32_t selection_ = 0;
   glm::dvec3 centre_{0.0};
-  glm::dquat principalFromWorld_{1.0, 0.0, 0.0, 0.0};
-  MassMetric metric_;
+  glm::dmat3 turnFromWorld_{1.0};  ///< Into the principal axes, divided by the gyrations about them [1/m].
 };
 
 }  // namespace nearfit

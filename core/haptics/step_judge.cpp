@@ -55,7 +55,8 @@ void StepTrial::shorten(double share) noexcept {
 StepJudge::Verdict StepJudge::judge(const Way& way, StepTrial* trial) const noexcept {
   const double held = std::min(way.here, way.margin);
   const bool isProved = way.travel < kProved * (way.here - way.deviation) || way.onWay > way.deviation;
-  const bool isAllowed = way.there >= way.here || way.there >= std::max(kHalf * held, floor_ + way.deviation);
+  const double least = (way.travel < way.here ? kHalf : kLongKeeps) * held;
+  const bool isAllowed = way.there >= way.here || way.there >= std::max(least, floor_ + way.deviation);
   if (!isProved || !isAllowed) return Verdict::NotProved;
   return trial != nullptr && !trial->isGain(way.there) ? Verdict::NoGain : Verdict::Taken;
 }

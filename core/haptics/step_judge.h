@@ -35,6 +35,9 @@ class StepJudge {
  public:
   /// A step may reduce the clearance, or the margin if that is less, to this share.
   static constexpr double kHalf = 0.5;
+  /// One that is longer than the distance where it begins keeps this share: what it comes upon is not planned
+  /// for, and shorter steps are.
+  static constexpr double kLongKeeps = 0.9;
 
   /// The decision on a step.
   enum class Verdict : std::uint8_t {

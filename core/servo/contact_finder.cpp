@@ -6,6 +6,8 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
 
 #include "core/proximity/query/pair_passage.h"
 
@@ -38,7 +40,6 @@ struct Level {
 constexpr std::array kLevels{Level{kContactReach, kMaxSlack, ContactFinder::kManyPairs},
                              Level{kContactReach, kMinSlack, ContactFinder::kManyPairs},
                              Level{2.0, kMinSlack, ContactFinder::kManyPairs},
-                             Level{kContactReach, 0.0, ContactFinder::kManyPairs},
                              Level{2.0, 0.0, ContactFinder::kMaxPairs},
                              Level{1.5, 0.0, ContactFinder::kMaxPairs},
                              Level{1.1, 0.0, ContactFinder::kMaxPairs},
@@ -68,9 +69,16 @@ constexpr unsigned kGenerousTicks = 16;
 /// After this many gatherings with less room, more room is tried.
 constexpr unsigned kGatheringsBetweenTries = 16;
 
-ContactPair inWorld(const ContactPair& pair, const RigidTransform& worldFromBody) noexcept {
-  return {worldFromBody.applyToPoint(pair.point), worldFromBody.applyToVector(pair.direction), pair.distance};
-}
+/// A pose of a body as a matrix, for many contacts.
+struct Placement {
+  glm::dmat3 turn;
+  glm::dvec3 shift;
+  explicit Placement(const RigidTransform& pose) noexcept
+      : turn(glm::mat3_cast(pose.rotation)), shift(pose.translation) {}
+  ContactPair inWorld(const ContactPair& pair) const noexcept {
+    return {turn * pair.point + shift, turn * pair.direction, pair.distance};
+  }
+};
 
 /// Motion of the part between two poses, about its centre of mass.
 MotionBudget motionOf(const ServoScene& scene, const RigidTransform& from,
@@ -263,8 +271,7 @@ ContactFinder::Gathered ContactFinder::gatherWithin(const TrackedScene& tracked,
     if (outcome == Gathered::Held) outcome = gatherOne(tracked, body, known, worldFromPart, gathering);
   });
   isHoldingPairs_ = outcome == Gathered::Held;
-  // Packing does not pay for a single pose.
-  if (isHoldingPairs_ && gathering.slack.travel > 0.0) sortPairs(*tracked.scene);
+  if (isHoldingPairs_) sortPairs(*tracked.scene);
   return outcome;
 }
 
@@ -314,8 +321,9 @@ void ContactFinder::testPairs(const ServoScene& scene, HeldBody& held, std::size
   }
   around.distance = std::min(around.distance, result.distanceBound());
   around.completeTo = std::min(around.completeTo, result.completeTo);
+  const Placement placement(other.worldFromPart);
   for (const ContactPair& pair : std::span(found_).first(result.count)) {
-    if (!thinning_.add({inWorld(pair, other.worldFromPart), held.body})) around.completeTo = 0.0;
+    if (!thinning_.add({placement.inWorld(pair), held.body})) around.completeTo = 0.0;
   }
   look_.pair += count;
 }
@@ -332,9 +340,10 @@ void ContactFinder::testSurface(const ServoScene& scene, const HeldBody& held) n
   Surroundings& around = look_.around;
   around.distance = std::min(around.distance, result.lowerBound);
   around.completeTo = std::min(around.completeTo, result.completeTo);
+  const Placement placement(other.worldFromPart);
   for (const SurfaceContact& contact : std::span(surfaceFound_).first(result.count)) {
     const ContactPair pair{contact.partPoint, contact.direction, contact.distance};
-    if (!thinning_.add({inWorld(pair, other.worldFromPart), held.body})) around.completeTo = 0.0;
+    if (!thinning_.add({placement.inWorld(pair), held.body})) around.completeTo = 0.0;
   }
 }
 

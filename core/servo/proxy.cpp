@@ -25,11 +25,9 @@ constexpr double kPlanned = 0.95;
 constexpr double kShort = 0.99;
 /// Max turn of a step, as a share of the turn that contacts are relaxed by: everything that the step can
 /// bring nearer is then among them.
-constexpr double kTurnShare = 0.5;
+constexpr double kTurnShare = 1.0;
 /// Nearer than this share of the margin a part is pinched: pressing alone does not bring it there.
 constexpr double kPinched = 0.97;
-/// A step may always use this share of the distance.
-constexpr double kMinStep = 0.5;
 /// Max shortenings of a step before it is given up. On an edge the program's step is many times too
 /// long, since the margin rounds the edge far more narrowly than the hand is deep; a parabola estimates
 /// the best length.
@@ -177,6 +175,7 @@ void Proxy::begin(const TrackedScene& tracked, const RigidTransform& target, con
     stage_ = Stage::LookAround;
   } else if (isTrying_) {
     stage_ = Stage::Try;
+    isForEarlier_ = isForEarlier_ || targetTravel > 0.0;
   } else {
     holdingCount_ = 0;
     stage_ = Stage::Plan;
@@ -234,8 +233,10 @@ bool Proxy::goOn(const Tick& tick) noexcept {
   }
   const std::optional<Verdict> verdict = take(tick);
   if (!verdict) return false;
-  const Outcome outcome = settle(tick, *verdict);
+  Outcome outcome = settle(tick, *verdict);
   isTrying_ = outcome == Outcome::Moved && *verdict != Verdict::Taken;
+  // A trial for an earlier target says nothing of the end of the way to this one.
+  if (isForEarlier_ && (outcome == Outcome::AtRest || outcome == Outcome::Stuck)) outcome = Outcome::Moved;
   if (outcome != Outcome::Moved)
     end(outcome);
   else if (!isTrying_)
@@ -259,6 +260,7 @@ Proxy::Outcome Proxy::plan(const Tick& tick) noexcept {
   const Motion wanted = motionBetween(*tick.tracked.scene, pose_, tick.target);
   if (wanted.shift == glm::dvec3(0.0) && wanted.spin == glm::dvec3(0.0)) return Outcome::AtRest;
   trial_ = {};
+  isForEarlier_ = false;
   return here_.distance > kFree * marginHere() ? planFree(tick, wanted) : planConstrained(tick, wanted);
 }
 
@@ -297,7 +299,7 @@ Proxy::Outcome Proxy::settle(const Tick& tick, Verdict verdict) noexcept {
     const bool isLong = trial_.shortenings == 0 && trial_.travel > kLongStride * trial_.goal.reach;
     // The pairs gathered at a step's end must serve from its start.
     const double most = std::min(kMaxStride * margin_, kStrideOfRoom * finder_.room());
-    if (isLong) stride_ = std::min(2.0 * trial_.travel, most);
+    if (isLong && !tick.tracked.scene->hasSurfaces()) stride_ = std::min(2.0 * trial_.travel, most);
     return trial_.isTarget ? Outcome::AtRest : Outcome::Moved;
   }
   stride_ = StepJudge::kHalf * trial_.travel;
@@ -347,8 +349,6 @@ Proxy::Motion Proxy::motionOf(const Tick& tick, const StepSolution& solution) co
 StepGoal Proxy::goalOf(const Tick& tick, const Motion& wanted) const noexcept {
   const MassMetric& metric = tick.metric;
   const double margin = marginHere(), held = std::min(here_.distance, margin);
-  // If contacts are missing, what they allow shows only after the step.
-  const double known = std::max(here_.completeTo - held, kMinStep * held);
   const glm::dvec3 turn = metric.gyration * (metric.principalFromWorld(pose_) * wanted.spin);
   const double way = std::sqrt(glm::dot(wanted.shift, wanted.shift) + glm::dot(turn, turn));
   const double mostTurn = kTurnShare * contactTurn(kContactReach * margin_, metric.radius);
@@ -358,7 +358,7 @@ StepGoal Proxy::goalOf(const Tick& tick, const Motion& wanted) const noexcept {
                .weight = std::clamp(kMarginWeight * way / margin, kMarginWeight, kMaxMarginWeight),
                .floor = StepJudge::kHalf * held};
   goal.gyration = metric.gyration;
-  const double proved = std::min(kPlanned * std::max(0.0, here_.distance - here_.deviation), known);
+  const double proved = kPlanned * std::max(0.0, here_.distance - here_.deviation);
   goal.reach = std::min(std::max(proved, stride_), wayLeft_);
   // The lists hold for no larger turn: a part small enough to turn farther within the reach counts as larger.
   // The whole goal is shortened alike, so translation waits for rotation; a separate limit on the turn would

@@ -204,6 +204,7 @@ class Proxy {
   Stage stage_ = Stage::Done;
   Trial trial_;
   bool isWayUnknown_ = false;  ///< Nothing was known of the way of a long trial.
+  bool isForEarlier_ = false;  ///< The trial was planned for an earlier target.
   bool isTrying_ = false;      ///< The trial of an earlier tick goes on.
   double wayLeft_ = 0.0;       ///< Travel that is left in this tick [m].
   double firstTravel_ = 0.0;   ///< Travel of the tick's first step [m].

@@ -34,10 +34,13 @@ Twist twistBetween(const RigidTransform& from, const RigidTransform& to, const g
 }
 
 /// Work that the proxy may do once the wrench is on its way. A device of a higher rate leaves less time for it;
-/// a period measured a little longer or shorter must not change what is done.
-std::uint64_t workOfMovingOn(double period) noexcept {
+/// a period measured a little longer or shorter must not change what is done. A part that has been behind for long
+/// gets twice as much.
+std::uint64_t workOfMovingOn(double period, std::uint32_t ticksBehind) noexcept {
+  constexpr std::uint32_t kLong = 16;
+  const std::uint64_t usual = ContactFinder::kUsualWork * (ticksBehind > kLong ? 2U : 1U);
   constexpr double kHalfPeriod = 0.6e-3, kQuarterPeriod = 0.35e-3;
-  return ContactFinder::kUsualWork / (period > kHalfPeriod ? 1U : period > kQuarterPeriod ? 2U : 4U);
+  return usual / (period > kHalfPeriod ? 1U : period > kQuarterPeriod ? 2U : 4U);
 }
 
 void clearOutputs(ServoSnapshot& snapshot) noexcept {
@@ -224,9 +227,10 @@ void ServoTick::moveOn(const Subject& subject) noexcept {
   } else {
     const Clock::time_point begin = Clock::now();
     if (fault_ == ServoFault::None)
-      proxy_.advance(subject.tracked, workOfMovingOn(period_), ContactFinder::Excess::ToGather);
+      proxy_.advance(subject.tracked, workOfMovingOn(period_, ticksBehind_), ContactFinder::Excess::ToGather);
     subject.snapshot.proxyTime += secondsSince(begin) - proxy_.queryTime();
     subject.snapshot.queryTime += proxy_.queryTime();
+    ticksBehind_ = proxy_.account().isBehind ? ticksBehind_ + 1 : 0;
     movePart(subject, proxy_.pose());
   }
   writePose(subject);

@@ -126,12 +126,13 @@ class ServoTick {
   PassivityController passivity_;
   WrenchConditioner conditioner_;
 
-  BodyMotion handle_, part_;   ///< Twists are filtered.
-  BodyMotion felt_;            ///< The part as the wrench takes it: at Proxy::feltPose(), or `part_`.
-  double period_ = 0.0;        ///< Of the last feel() [s].
-  Twist partStep_;             ///< Unfiltered twist of the part in the last tick.
-  glm::dvec3 partShift_{0.0};  ///< Translation of its centre in the last tick [m].
-  Wrench held_;                ///< The wrench sent in the last tick.
+  BodyMotion handle_, part_;       ///< Twists are filtered.
+  BodyMotion felt_;                ///< The part as the wrench takes it: at Proxy::feltPose(), or `part_`.
+  std::uint32_t ticksBehind_ = 0;  ///< Ticks that ended before the proxy's way, one after the other.
+  double period_ = 0.0;            ///< Of the last feel() [s].
+  Twist partStep_;                 ///< Unfiltered twist of the part in the last tick.
+  glm::dvec3 partShift_{0.0};      ///< Translation of its centre in the last tick [m].
+  Wrench held_;                    ///< The wrench sent in the last tick.
   FeltMass mass_;
   CouplingState coupling_;
   ShownReach shownReach_;  ///< Proxy mode only.

@@ -26,7 +26,10 @@ MinimaFinder::Result ServoTick::findMinima(const Subject& subject, double share,
   const double cutoff = share * subject.settings.springs.cutoff;
   // With springs nothing keeps the part from passing through, so no distance can be relied on.
   const double apart = springs == nullptr ? proxy_.distance() : 0.0;
-  const MinimaAllowance& allowance = springs == nullptr ? MinimaFinder::kShown : MinimaFinder::kFelt;
+  const bool isTickFull = proxy_.work() > ContactFinder::kUsualWork / 2;
+  const MinimaAllowance& allowance = springs != nullptr ? MinimaFinder::kFelt
+                                     : isTickFull       ? MinimaFinder::kShownInFullTick
+                                                        : MinimaFinder::kShown;
   const MinimaFinder::Result result =
       minima_.find(subject.tracked, part_.pose, cutoff, apart, allowance, [&](std::span<const Lmd> lmds) {
         if (springs == nullptr) return;

@@ -46,6 +46,16 @@ TEST(StepJudge, BelowTheFloorOnlyStepsThatLeadAwayAreTaken) {
   EXPECT_EQ(judge.judge({travel, here, 0.0049 * kMargin, kMargin}, nullptr), Verdict::Taken);
 }
 
+TEST(StepJudge, LongStepIsProvedByItsWayAndKeepsMostOfTheMargin) {
+  const StepJudge judge;
+  const auto verdict = [&](double there, double onWay) {
+    return judge.judge({20.0 * kMargin, kMargin, there, kMargin, 0.1 * kMargin, onWay}, nullptr);
+  };
+  EXPECT_EQ(verdict(0.95 * kMargin, 0.2 * kMargin), Verdict::Taken);
+  EXPECT_EQ(verdict(0.95 * kMargin, 0.05 * kMargin), Verdict::NotProved) << "less than the deviation";
+  EXPECT_EQ(verdict(0.8 * kMargin, 0.2 * kMargin), Verdict::NotProved) << "a shorter step may";
+}
+
 TEST(StepJudge, DeviationOfTheSearchedMeshShortensWhatIsProvedAndLeavesTheMargin) {
   const StepJudge judge;
   const double deviation = 0.2 * kMargin;

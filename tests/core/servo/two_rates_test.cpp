@@ -76,6 +76,26 @@ TEST_F(RodInTube, WhatIsFreeDoesNotDragWhileThePartIsBehind) {
   EXPECT_LT(most, 0.02);
 }
 
+// A trial that was planned for where the hand was a tick ago ended the way, and the part rested short of the hand.
+TEST_F(RodInTube, APartThatWasBehindArrivesWhereTheHandStopped) {
+  const auto turnedBy = [](double angle) {
+    return RigidTransform{glm::angleAxis(angle, glm::dvec3(0.0, 0.0, 1.0)), {}};
+  };
+  for (int i = 0; i < 40; ++i)
+    tick({});
+  int behind = 0;
+  for (const double stop : {0.02, 0.013, 0.05, 0.049, 0.03}) {
+    const double start = 2.0 * std::atan2(snapshot_->proxy.rotation.z, snapshot_->proxy.rotation.w);
+    for (int i = 1; i <= 30; ++i)
+      behind += tick(turnedBy(start + (stop - start) * i / 30.0)).isBehind ? 1 : 0;
+    for (int i = 0; i < 400; ++i)
+      tick(turnedBy(stop));
+    EXPECT_FALSE(snapshot_->isBehind);
+    EXPECT_NEAR(2.0 * std::atan2(snapshot_->proxy.rotation.z, snapshot_->proxy.rotation.w), stop, 1e-6);
+  }
+  EXPECT_GT(behind, 0);
+}
+
 TEST_F(RodInTube, WhatTheWrenchWaitsForIsBounded) {
   for (int i = 0; i < 40; ++i)
     tick({});
