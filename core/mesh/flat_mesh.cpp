@@ -4,7 +4,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <exception>
 #include <limits>
+#include <new>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -73,6 +75,18 @@ struct PointHash {
     return static_cast<std::size_t>((x ^ (y << 1U | y >> 63U)) * 0x9E3779B97F4A7C15U >> 7U);
   }
 };
+
+/// None if the arithmetic fails: the flat then stays as it is, and the load goes on.
+std::optional<FilledOutline> filledOutline(std::span<const glm::dvec2> points,
+                                           std::span<const std::array<std::uint32_t, 2>> sides) {
+  try {
+    return fillOutline(points, sides, FillRule::Odd);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
 
 class FlatMerger {
  public:
@@ -258,17 +272,18 @@ class FlatMerger {
         number(v);
     }
     if (points.size() < 3 || vertexAt.size() != points.size()) return false;
-    const FilledOutline filled = fillOutline(points, sides, FillRule::Odd);
+    const std::optional<FilledOutline> filled = filledOutline(points, sides);
+    if (!filled) return false;
     double area = 0.0;
-    for (const auto& t : filled.triangles) {
+    for (const auto& t : filled->triangles) {
       Triangle& triangle = cut_[flat].emplace_back();
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto found = vertexAt.find(filled.points[t[k]]);
+        const auto found = vertexAt.find(filled->points[t[k]]);
         if (found == vertexAt.end()) return false;  // Sides cross.
         triangle[k] = found->second;
       }
-      const glm::dvec2 a = filled.points[t[0]];
-      area += 0.5 * cross(filled.points[t[1]] - a, filled.points[t[2]] - a);
+      const glm::dvec2 a = filled->points[t[0]];
+      area += 0.5 * cross(filled->points[t[1]] - a, filled->points[t[2]] - a);
     }
     return isSameArea(flat, axes, area, points, sides);
   }

@@ -22,8 +22,8 @@ void append(std::vector<Entry>& all, std::vector<Entry> more) {
 
 PreparedScene::PreparedScene(BenchScene bodies, double cutoffFraction)
     : meshes(std::move(bodies)),
-      sceneTree(meshes.scene),
-      partTree(meshes.part),
+      sceneTree(searchedTree(meshes.scene)),
+      partTree(searchedTree(meshes.part)),
       size(meshes.size()),
       cutoff(cutoffFraction * size) {}
 

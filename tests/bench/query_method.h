@@ -17,6 +17,9 @@ constexpr std::size_t kQueryCapacity = 65536;
 /// The cutoff unless something else is asked for, of the larger body's diagonal.
 constexpr double kUsualCutoffFraction = 0.05;
 
+/// Hierarchy of a mesh as Nearfit builds it for a part: with its flats merged.
+NormalConeTree searchedTree(const TriangleMesh& mesh);
+
 /// A scene with Nearfit's hierarchies, and the cutoff [m].
 struct PreparedScene {
   explicit PreparedScene(BenchScene bodies, double cutoffFraction);

@@ -171,6 +171,7 @@ def summary(evidence, recording):
         "ticks_in_contact": int((recording["contacts"] > 0).sum()),
         "ticks_shortened": int((recording["shortened"] > 0).sum()),
         "ticks_refused": int((recording["refused"] > 0).sum()),
+        "ticks_behind": int((recording["behind"] > 0).sum()),
         "ticks_late": int((recording["late_bodies"] > 0).sum()),
         "ticks_released": int((recording["released"] > 0).sum()),
         "most_sub_steps": int(recording["sub_steps"].max()),
@@ -183,8 +184,8 @@ def summary(evidence, recording):
         "rest_noise_Nm": torque_noise,
         "most_energy_J": recording["energy"].max(),
     }
-    for name in ("tick_us", "proxy_us", "query_us"):
-        for percent in (50, 99):
+    for name in ("wrench_us", "tick_us", "proxy_us", "query_us"):
+        for percent in (50, 99, 99.9):
             row[f"{name}_p{percent}"] = np.percentile(recording[name], percent)
-    row["tick_us_max"] = recording["tick_us"].max()
+        row[f"{name}_max"] = recording[name].max()
     return row

@@ -77,7 +77,7 @@ def _distance(axes, r, t, margin):
 
 
 def _cost(axes, r, t):
-    times, steps, tick = _thin(t, r["sub_steps"], r["tick_us"])
+    times, steps, tick, wrench = _thin(t, r["sub_steps"], r["tick_us"], r["wrench_us"])
     axes.plot(times, steps, color=COLOURS[1], lw=0.7, label="sub-steps")
     for name, colour, mark in (("shortened", "#d68910", "v"), ("refused", COLOURS[0], "x")):
         hit = r[name] > 0
@@ -86,8 +86,10 @@ def _cost(axes, r, t):
     axes.set_ylabel("sub-steps a tick")
     twin = axes.twinx()
     twin.semilogy(times, tick, color=GREY, lw=0.6, alpha=0.8)
+    twin.semilogy(times, wrench, color=COLOURS[2], lw=0.6, alpha=0.8)
     axes.plot([], [], color=GREY, lw=0.6, label="tick time (right)")
-    twin.set_ylabel("tick [us]")
+    axes.plot([], [], color=COLOURS[2], lw=0.6, label="time until the wrench (right)")
+    twin.set_ylabel("time [us]")
 
 
 def _released(all_axes, r, t):

@@ -53,12 +53,18 @@ def number(value):
     return "0" if abs(value) < NOTHING else f"{value:.4g}"
 
 
+def times(row, name):
+    """p50, p99, p99.9 and the longest of a column."""
+    return ", ".join(f"{float(row[f'{name}_{part}']):.4g}" for part in ("p50", "p99", "p99.9", "max")
+                     if row[f"{name}_{part}"] != "")
+
+
 def text(result):
     row = result.row
     lines = [f"== {row['scene']}: {row['ticks']} ticks, met {row['poses_met']} of {row['poses_certified']}, "
              f"least {row['least_distance_margins']:.3g} margins, shortened {row['ticks_shortened']}, refused "
-             f"{row['ticks_refused']}, tick p50 {row['tick_us_p50']:.1f} p99 {row['tick_us_p99']:.1f} us, proxy p50 "
-             f"{row['proxy_us_p50']:.1f}, noise at rest {number(row['rest_noise_N'])} N, steps in "
+             f"{row['ticks_refused']}, wrench {times(row, 'wrench_us')} us, tick {times(row, 'tick_us')} us, behind in "
+             f"{row['ticks_behind']} ticks, noise at rest {number(row['rest_noise_N'])} N, steps in "
              f"{row['ticks_at_rest_that_step']} of {row['ticks_at_rest']} ticks at rest"]
     for f in result.findings:
         lines.append(f"   {'ok ' if f.is_met else 'NOT'} {f.goal.text}: {number(f.value)} "
@@ -112,15 +118,16 @@ def markdown(rows, goals, evidence):
              "Written by `tests/evidence/run`, which says how; [../README.md](../README.md) tells what is shown.", "",
              f"Machine: {machine()}. Revision and load (1 min) stand in [evidence.csv](evidence.csv), a row a scene.", "",
              "| scene | ticks | poses that meet | margin [mm] | least distance [margins] | ticks shortened | refused | "
-             "noise at rest [N] | ticks at rest that step | tick p50, p99 [us] | proxy p50, p99 [us] |",
-             "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"]
+             "noise at rest [N] | ticks at rest that step | ticks behind | wrench p50, p99, p99.9, longest [us] | "
+             "tick p50, p99, p99.9, longest [us] |",
+             "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"]
     for row in rows:
         r = collections.defaultdict(str, row)  # An older row may lack a column.
         lines.append(f"| [{r['scene']}]({r['scene']}.png) | {r['ticks']} | {r['poses_met']} of {r['poses_certified']} | "
                      f"{1e3 * float(r['margin_m']):g} | {r['least_distance_margins']} | {r['ticks_shortened']} | "
                      f"{r['ticks_refused']} | {r['rest_noise_N']} | "
-                     f"{r['ticks_at_rest_that_step']} of {r['ticks_at_rest']} | {r['tick_us_p50']}, {r['tick_us_p99']} | "
-                     f"{r['proxy_us_p50']}, {r['proxy_us_p99']} |")
+                     f"{r['ticks_at_rest_that_step']} of {r['ticks_at_rest']} | {r['ticks_behind']} | "
+                     f"{times(r, 'wrench_us')} | {times(r, 'tick_us')} |")
     for r in rows:
         lines += ["", f"## {evidence[r['scene']].title}", ""]
         for goal in goals.get(r["scene"], []):
