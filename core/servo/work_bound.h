@@ -10,12 +10,13 @@ namespace nearfit {
 
 /// Max work of a tick (`ServoSnapshot::work`, in units of some 50 ns on a slow core).
 ///
-/// Proxy mode: 73,856, some 3.7 ms on a slow core. Contacts, on which the part's motion depends, get nearly
-/// half of it. Minima, which are only shown, get the rest and are truncated there. Usual ticks stay below a
-/// twentieth. Every search is told how much work is left, and does not start, or abandons, what would exceed
-/// it; a part of which too little is known stays where it was proved free.
+/// Proxy mode: 65,664, some 2.5 ms on a slow core. Contacts, on which the part's motion depends, get half of it,
+/// for gathering pairs from the longest list; their tests end at ContactFinder::kUsualWork and go on in the next
+/// tick. Minima, which are only shown, get the rest and are truncated there, and less in a tick that contacts fill.
+/// Usual ticks stay below a twentieth. Every search is told how much work is left, and does not start, or abandons,
+/// what would exceed it; a part of which too little is known stays where it was proved free.
 ///
-/// Springs mode: 34 million. The minima decide the force: a missing one makes the force jump, and a late tick
+/// Springs mode: 35 million. The minima decide the force: a missing one makes the force jump, and a late tick
 /// does less harm. All are merged as far as the work space goes: 16,384 pieces a tick (and 4,096 minima a
 /// body). That many, flat on each other, take some 20 ms. The bound covers the worst conceivable case, where
 /// each of their boxes overlaps all others.
