@@ -60,7 +60,7 @@ std::string featuresRemark(const NormalConeTree& tree) {
 SkipRow queryWithoutFeatures(const SceneEntry& entry, const SkipOptions& options) {
   const PreparedScene prepared(entry.make(), kUsualCutoffFraction);
   const std::vector<RigidTransform> path = makePath(prepared, options.path);
-  const test::FullHierarchy scene(prepared.meshes.scene), part(prepared.meshes.part);
+  const test::FullHierarchy scene(prepared.sceneTree.mesh()), part(prepared.partTree.mesh());
   ColdWay with(prepared.sceneTree, prepared.partTree, prepared.cutoff);
   ColdWay without(scene, part, prepared.cutoff);
   SkipRow row{"features", entry.name, "cold query", {}, {}, {}};
