@@ -102,17 +102,16 @@ ContactThinning::Kept ContactThinning::keep(std::span<BodyContact> out) noexcept
     for (std::size_t i = 0; i < count_; ++i)
       place(i);
   }
-  const std::size_t distinct = distinct_;
   const std::size_t room = std::min(kMaxKept, out.size());
-  const std::size_t forOthers = std::min(count_ - distinct, room / kShareOfOthers);
-  const auto begin = taken_.begin(), others = begin + at(distinct);
-  const std::size_t own = std::min(distinct, room - forOthers);
-  if (own < distinct) {
+  const std::size_t forOthers = std::min(count_ - distinct_, room / kShareOfOthers);
+  const auto begin = taken_.begin(), others = begin + at(distinct_);
+  const std::size_t own = std::min(distinct_, room - forOthers);
+  if (own < distinct_) {
     std::nth_element(begin, begin + at(own), others, isNearerContact);
     kept.completeTo = taken_[own].pair.distance;
   }
   const auto rest = std::copy_n(begin, own, out.begin());
-  const std::size_t more = std::min(room - own, count_ - distinct);
+  const std::size_t more = std::min(room - own, count_ - distinct_);
   std::nth_element(others, others + at(more), begin + at(count_), isNearerContact);
   std::copy_n(others, more, rest);
   kept.count = own + more;

@@ -55,8 +55,8 @@ constexpr std::uint64_t kWorkOfSurfaceAttempt = ContactFinder::kMaxSurfaceWork /
 constexpr std::uint64_t kWorkBesideList = ContactFinder::kMaxSearchWork / 8;
 /// Fixed work for each body queried or held.
 constexpr std::uint64_t kWorkOfBody = 1;
-/// Work of testing a pair that is not packed, and of packing and testing one that is. A contact takes as much
-/// again.
+/// Work of testing a pair that is not packed. One that is takes 1, and 1 more to be packed; each contact found takes
+/// 1 more.
 constexpr std::uint64_t kWorkOfPairTest = 2;
 /// Work of finding how near a pair comes on a way.
 constexpr std::uint64_t kWorkOfPassage = 1;

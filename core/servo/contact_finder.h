@@ -65,7 +65,7 @@ class ContactFinder {
   /// Allocates all work space.
   ContactFinder();
 
-  /// What looks may do once the work allowed is spent.
+  /// Work that looks may do beyond what is allowed.
   enum class Excess : std::uint8_t {
     None,     ///< Nothing: what would exceed it waits.
     ToGather  ///< Pairs may be gathered beyond it, up to kMaxWork in a tick.
@@ -133,14 +133,14 @@ class ContactFinder {
     NoList,     ///< A list too long to be replaced by a search does not cover the pose.
     Postponed,  ///< The work left was too little, and a whole tick's may do.
   };
-  /// What a look has found so far.
+  /// State of a look: its pose, what it has found so far, and where its tests go on.
   struct Look {
     RigidTransform pose;
     std::optional<RigidTransform> from{};  ///< If the pairs held are all that matter on the way from there.
     double reach = 0.0;
     Surroundings around;
-    std::size_t body = 0,
-                pair = 0;  ///< Where its tests go on: index in bodies_, and among the pairs of that.
+    std::size_t body = 0;  ///< Index in bodies_ where its tests go on,
+    std::size_t pair = 0;  ///< and index among the pairs of that body.
     bool isPending = false;
   };
 

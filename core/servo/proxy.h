@@ -126,7 +126,7 @@ class Proxy {
     Behind,  ///< It could go on, but too little is known, or too many steps were taken.
   };
   using Verdict = StepJudge::Verdict;
-  /// What the tick does next.
+  /// Next part of the tick.
   enum class Stage : std::uint8_t { LookAround, Plan, Try, Done };
 
   /// A pose to step to, while it is looked at.
@@ -137,7 +137,7 @@ class Proxy {
     int shortenings = 0;
     bool isTarget = false;  ///< The target itself; the tick ends there.
     bool isFree = false;    ///< Nothing is near: no program.
-    /// Of a program's step: its goal, its cost if that is judged, and the outcome if it is no gain.
+    /// For a program's step: its goal, its cost if that is judged, and the outcome if it gains nothing.
     StepGoal goal;
     std::optional<StepTrial> judged;
     Outcome best = Outcome::AtRest;
@@ -168,7 +168,7 @@ class Proxy {
   Outcome planProgram(const Tick& tick, const StepGoal& goal, bool isPinched) noexcept;
   /// The same for a goal that accepts the present clearance, if the part is pinched.
   Outcome planPinched(const Tick& tick, const StepGoal& goal) noexcept;
-  /// What follows from the verdict on the trial: Moved if the tick goes on.
+  /// Acts on the verdict on the trial. Returns Moved if the tick goes on.
   Outcome settle(const Tick& tick, Verdict verdict) noexcept;
   Outcome settleProgram(const Tick& tick, Verdict verdict) noexcept;
   /// Shortens the trial to this share, or to less.

@@ -4,7 +4,7 @@
 
 namespace nearfit::bench {
 
-/// What a program of several commands is called and says of itself in its help; the footer may be empty.
+/// Name and help texts of a program of several commands; the footer may be empty.
 struct CommandProgram {
   const char *name, *description, *footer;
   /// Adds the commands; is given what main() was.
