@@ -178,7 +178,10 @@ ContactResult contactsWith(const Case& c, const ContactReach& reach, const Motio
   isAll = nearby.isComplete;
   const std::span<LeafPair> found = std::span(pairs).first(nearby.count);
   std::vector<EdgePairs>& blocks = kept<EdgePairs, (1U << 14) / EdgePairs::kLanes>();
-  const std::size_t filled = packEdgePairs(c.query().scene, c.query().part, found, blocks);
+  const std::size_t filled = std::min(edgePairsToFront(found) / EdgePairs::kLanes, blocks.size());
+  for (std::size_t i = 0; i < filled; ++i)
+    packEdgePairs(c.query().scene, c.query().part,
+                  found.subspan(i * EdgePairs::kLanes).first<EdgePairs::kLanes>(), blocks[i]);
   const ContactResult result =
       testContacts(c.query(), reach, found, contacts,
                    {std::span(blocks).first(filled), edgePairKernel(defaultSimdLevel())});
