@@ -19,7 +19,7 @@ namespace {
 constexpr double kMinSlack = 0.5, kMaxSlack = 6.0;
 /// Limits that room to the travel of this many ticks at the speed of the last one, or of this many steps like
 /// the one that is tried: it reaches back to where that comes from.
-constexpr double kTicksAhead = 1.5, kStepsAhead = 2.5;
+constexpr double kTicksAhead = 1.5, kStepsAhead = 4.0;
 /// Limits the room for turning: beyond it, nearly every pair of features is a candidate [rad].
 constexpr double kMaxTurn = 0.1;
 /// Max pairs of triangles held: as many as a search can list within its work.
@@ -33,14 +33,15 @@ struct Level {
   double mostSlack;        ///< Max room for motion [reaches]; kMinSlack for some steps, 0 for one pose alone.
   std::size_t mostListed;  ///< Max pairs worth taking from lists.
 };
-/// With more pairs than kManyPairs, testing those added by the room for motion costs more than gathering again.
-/// If there are that many even without room, the reach is shortened. With two margins, a part in contact takes
-/// its steps (shorter than a margin) at full length. With less, steps are shorter and the margin may shrink, but
-/// a part that is close to more than a tick can test still moves.
-constexpr std::array kLevels{Level{kContactReach, kMaxSlack, ContactFinder::kManyPairs},
-                             Level{kContactReach, kMinSlack, ContactFinder::kManyPairs},
-                             Level{2.0, kMinSlack, ContactFinder::kManyPairs},
-                             Level{2.0, 0.0, ContactFinder::kMaxPairs},
+/// Where there are more pairs than kManyPairs / 2, it looks no farther than a part in contact needs for steps of full
+/// length, and where there are more than kManyPairs, room costs more than gathering again. If there are too many even
+/// without room, the reach is shortened further: steps are shorter and the margin may shrink, but a part that is close to
+/// more than a tick can look at still moves.
+constexpr std::array kLevels{Level{kContactReach, kMaxSlack, ContactFinder::kManyPairs / 2},
+                             Level{kContactReach, kMinSlack, ContactFinder::kManyPairs / 2},
+                             Level{1.75, 1.0, ContactFinder::kManyPairs},
+                             Level{1.75, kMinSlack, ContactFinder::kManyPairs},
+                             Level{1.75, 0.0, ContactFinder::kMaxPairs},
                              Level{1.5, 0.0, ContactFinder::kMaxPairs},
                              Level{1.1, 0.0, ContactFinder::kMaxPairs},
                              Level{0.75, 0.0, ContactFinder::kMaxPairs},
@@ -48,7 +49,7 @@ constexpr std::array kLevels{Level{kContactReach, kMaxSlack, ContactFinder::kMan
 /// Gathering that begins with no more work done counts as having had a whole tick.
 constexpr std::uint64_t kFreshWork = ContactFinder::kUsualWork / 4;
 /// Work that must be left in a tick for another attempt with less room.
-constexpr std::uint64_t kWorkOfAttempt = ContactFinder::kMaxWork - 2 * ContactFinder::kUsualWork;
+constexpr std::uint64_t kWorkOfAttempt = ContactFinder::kMaxWork - ContactFinder::kUsualWork / 2;
 /// The same for the work on surfaces.
 constexpr std::uint64_t kWorkOfSurfaceAttempt = ContactFinder::kMaxSurfaceWork / 4;
 /// Max work of a search for a step that is longer than a list covers: a shorter step is tried next.
@@ -60,8 +61,19 @@ constexpr std::uint64_t kWorkOfBody = 1;
 constexpr std::uint64_t kWorkOfPairTest = 2;
 /// Work of finding how near a pair comes on a way.
 constexpr std::uint64_t kWorkOfPassage = 1;
+/// Bend of a way seen from the part, per turn and travel: its second derivative is at most twice their product.
+constexpr double kBendOfShift = 0.25;
 /// A pair that stays this far apart on a way is clear, as a share of the reach.
 constexpr double kClearOnWay = 0.1;
+/// With fewer pairs than this, testing all of them costs less than bounding them.
+constexpr std::size_t kFewPairs = 1024;
+/// Size of the cells that contacts of thousands are grouped by, as a share of the part's least gyration.
+constexpr double kCellOfGyration = 0.12;
+/// Of thousands, contacts beyond this share of the reach are left out: a part that is farther is free (1.7 margins), and
+/// a step seldom meets them.
+constexpr double kNeeded = 1.7 / kContactReach;
+/// Pairs given to ManyPairs in the time of a unit of work.
+constexpr std::uint64_t kHeldOfWork = 2;
 /// Pairs tested before it is asked again whether work is left.
 constexpr std::size_t kChunk = 64;
 /// After a tick in which nothing could be seen, surfaces may use all the work for this many ticks.
@@ -100,6 +112,12 @@ ContactFinder::ContactFinder()
       edgePairs_(kManyPairs / EdgePairs::kLanes),
       edgePairKernel_(edgePairKernel(defaultSimdLevel())),
       triangles_(kMaxTriangles) {}
+
+void ContactFinder::forget() noexcept {
+  isHoldingPairs_ = look_.isPending = false;
+  for (ManyOfBody& many : many_)
+    many.body.reset();
+}
 
 void ContactFinder::beginTick() noexcept {
   allowed_ = workDone_ = 0;
@@ -246,7 +264,8 @@ ContactFinder::Gathered ContactFinder::gatherPairs(const TrackedScene& tracked,
     if (outcome == Gathered::NoWork && !isFresh) return Gathered::Postponed;
     if (hasWorkForAttempt()) continue;
     keep(std::min(level + 1, kLevels.size() - 1));
-    return outcome;
+    // The next tick tries with less room, unless this is the last level.
+    return isSurfaceNear_ || level + 1 == kLevels.size() ? outcome : Gathered::Postponed;
   }
   keep(kLevels.size() - 1);
   return Gathered::TooMany;
@@ -271,17 +290,46 @@ ContactFinder::Gathered ContactFinder::gatherWithin(const TrackedScene& tracked,
     if (outcome == Gathered::Held) outcome = gatherOne(tracked, body, known, worldFromPart, gathering);
   });
   isHoldingPairs_ = outcome == Gathered::Held;
-  if (isHoldingPairs_) sortPairs(*tracked.scene);
+  if (isHoldingPairs_) arrangePairs(*tracked.scene);
   return outcome;
 }
 
-void ContactFinder::sortPairs(const ServoScene& scene) noexcept {
+std::size_t ContactFinder::manyFor(const HeldBody& held) noexcept {
+  if (held.count < kFewPairs) return kMaxMany;
+  std::size_t place = kMaxMany;
+  for (std::size_t i = 0; i < many_.size(); ++i) {
+    if (many_[i].body == held.body) return i;
+    if (!many_[i].isHeld) place = i;
+  }
+  if (place == kMaxMany) return place;
+  many_[place].pairs.forget();
+  many_[place].body = held.body;
+  many_[place].pose = pairsPose_;
+  return place;
+}
+
+void ContactFinder::arrangePairs(const ServoScene& scene) noexcept {
   std::size_t used = 0;
-  for (HeldBody& held : std::span(bodies_).first(bodyCount_)) {
+  const std::span<HeldBody> bodies = std::span(bodies_).first(bodyCount_);
+  for (ManyOfBody& many : many_) {
+    many.isHeld = many.body && std::ranges::any_of(bodies, [&](const HeldBody& held) {
+                    return held.body == *many.body && held.count >= kFewPairs;
+                  });
+  }
+  for (HeldBody& held : bodies) {
     if (scene.bodies[held.body].surface) continue;
-    const std::size_t edges = edgePairsToFront(std::span(pairs_).subspan(held.first, held.count));
+    const std::span<LeafPair> pairs = std::span(pairs_).subspan(held.first, held.count);
+    held.many = manyFor(held);
+    if (held.many < kMaxMany) {
+      ManyOfBody& many = many_[held.many];
+      many.isHeld = true;
+      many.pairs.hold(pairs, motionOf(scene, many.pose, pairsPose_).turn);
+      many.pose = pairsPose_;
+      spend(held.count / kHeldOfWork);
+      continue;
+    }
     held.firstBlock = used;
-    held.blocks = std::min(edges / EdgePairs::kLanes, edgePairs_.size() - used);
+    held.blocks = std::min(edgePairsToFront(pairs) / EdgePairs::kLanes, edgePairs_.size() - used);
     used += held.blocks;
   }
 }
@@ -321,11 +369,57 @@ void ContactFinder::testPairs(const ServoScene& scene, HeldBody& held, std::size
   }
   around.distance = std::min(around.distance, result.distanceBound());
   around.completeTo = std::min(around.completeTo, result.completeTo);
-  const Placement placement(other.worldFromPart);
-  for (const ContactPair& pair : std::span(found_).first(result.count)) {
-    if (!thinning_.add({placement.inWorld(pair), held.body})) around.completeTo = 0.0;
-  }
+  takeContacts(other, held.body, std::span(found_).first(result.count));
   look_.pair += count;
+}
+
+void ContactFinder::takeContacts(const ServoScene::Body& other, std::uint32_t body,
+                                 std::span<const ContactPair> contacts) noexcept {
+  const Placement placement(other.worldFromPart);
+  for (const ContactPair& pair : contacts) {
+    if (!thinning_.add({placement.inWorld(pair), body})) look_.around.completeTo = 0.0;
+  }
+}
+
+bool ContactFinder::testMany(const ServoScene& scene, const HeldBody& held) noexcept {
+  const ServoScene::Body& other = scene.bodies[held.body];
+  ManyPairs& many = many_[held.many].pairs;
+  Surroundings& around = look_.around;
+  if (look_.pair == 0) {
+    ManyPairs::Asked asked{
+        .scene = &other.geometry->tree(),
+        .part = &scene.moving.geometry->tree(),
+        .sceneFromPart = (other.worldFromPart.inverse() * look_.pose).normalized(),
+        .reach = {pairsReach_, contactTurn(pairsReach_, scene.metric.radius)},
+        .need = std::min(kNeeded * askedReach_, pairsReach_),
+        .cell = kCellOfGyration *
+                std::min({scene.metric.gyration.x, scene.metric.gyration.y, scene.metric.gyration.z})};
+    if (look_.from) {
+      const MotionBudget motion = motionOf(scene, *look_.from, look_.pose);
+      const double near = scene.metric.radius + pairsReach_ + 2.0 * holds_.travel;
+      asked.way = PartWay{(other.worldFromPart.inverse() * *look_.from).normalized(), asked.sceneFromPart,
+                          motion.travel, bendOf(motion.turn, scene.metric.radius)};
+      asked.bendFromPart = bendOf(motion.turn, near) + kBendOfShift * motion.turn * motion.travel;
+      asked.enough = kClearOnWay * pairsReach_ + around.deviation;
+    }
+    many.begin(asked);
+    look_.pair = 1;
+  }
+  for (;;) {
+    std::uint64_t left = workLeft();
+    const std::uint64_t before = left;
+    std::size_t count = 0;
+    const std::optional<ManyPairs::Found> found = many.goOn(left, found_, count);
+    spend(before - left);
+    takeContacts(other, held.body, std::span(found_).first(count));
+    if (found) {
+      around.distance = std::min(around.distance, found->least);
+      around.completeTo = std::min(around.completeTo, kNeeded * askedReach_);
+      if (look_.from) around.onWay = std::min(around.onWay, found->leastOnWay);
+      return true;
+    }
+    if (workLeft() == 0) return false;
+  }
 }
 
 void ContactFinder::testSurface(const ServoScene& scene, const HeldBody& held) noexcept {
@@ -355,6 +449,10 @@ bool ContactFinder::testBodies(const ServoScene& scene) noexcept {
     spend(kWorkOfBody);
     look_.around.deviation = std::max(look_.around.deviation, scene.deviation(scene.bodies[body.body]));
     if (scene.bodies[body.body].surface) continue;
+    if (body.many < kMaxMany) {
+      if (!testMany(scene, body)) return false;
+      continue;
+    }
     while (look_.pair < body.count) {
       if (workLeft() == 0) return false;
       testPairs(scene, body, look_.pair, std::min(kChunk, body.count - look_.pair));

@@ -12,6 +12,7 @@
 #include "core/proximity/query/contact_query.h"
 #include "core/proximity/query/lmd_query.h"
 #include "core/proximity/surface/surface_contacts.h"
+#include "core/servo/many_pairs.h"
 #include "core/servo/tracked_scene.h"
 
 namespace nearfit {
@@ -39,14 +40,15 @@ struct Surroundings {
 ///
 /// Near pairs of features come from the lists of a tracked scene where they cover the pose, else from a
 /// search. The pairs then serve for small motions around that pose, so most poses cost only the exact tests
-/// of some hundred pairs. Where there are thousands, the tests of one pose go on from tick to tick.
+/// of some hundred pairs. Where there are thousands, few of them are tested (ManyPairs), and a look at one pose
+/// goes on from tick to tick.
 class ContactFinder {
  public:
   /// Max contacts kept for a pose. Of more, those that constrain about the same motion as a nearer
   /// one are dropped.
   static constexpr std::size_t kMaxContacts = ContactThinning::kMaxKept;
   /// Max pairs of features held, and of those that are gathered with room for motion around a pose.
-  static constexpr std::size_t kMaxPairs = 1U << 15, kManyPairs = 1U << 13;
+  static constexpr std::size_t kMaxPairs = ManyPairs::kMax, kManyPairs = 1U << 14;
   /// Work that a tick is usually allowed: nodes opened, pairs listed, packed and tested; some 0.15 ms. Tests stop
   /// when it is spent, and go on in the next tick.
   static constexpr std::uint64_t kUsualWork = 1U << 12;
@@ -85,7 +87,7 @@ class ContactFinder {
   void spend(std::uint64_t work) noexcept { workDone_ += work; }
   /// Discards the pairs held, and the look that is pending. To be called when the scene or the set of
   /// overlapping bodies changes.
-  void forget() noexcept { isHoldingPairs_ = look_.isPending = false; }
+  void forget() noexcept;
 
   /// Finds the contacts at a pose. Bodies that the tracked scene's clearance lists as
   /// overlapping are ignored. If the work allowed is too little, the result says pending; looking again at
@@ -111,12 +113,22 @@ class ContactFinder {
   std::uint64_t work() const noexcept { return workDone_; }
 
  private:
+  /// Max bodies whose pairs are thousands.
+  static constexpr std::size_t kMaxMany = 2;
+  /// The pairs of a body, if they are thousands; kept while that body is near.
+  struct ManyOfBody {
+    ManyPairs pairs;
+    std::optional<std::uint32_t> body{};  ///< Index in ServoScene::bodies.
+    RigidTransform pose;                  ///< Of the part when it was last gathered around.
+    bool isHeld = false;                  ///< It is one of bodies_.
+  };
   struct HeldBody {
     std::uint32_t body = 0;                  ///< Index in ServoScene::bodies.
     std::size_t first = 0, count = 0;        ///< Range in pairs_, or in triangles_ for an unsided surface.
     double within = 0.0;                     ///< Every pair of triangles nearer than this is held [m].
     std::size_t firstBlock = 0, blocks = 0;  ///< Range in edgePairs_, for its first pairs.
     std::size_t packed = 0;                  ///< Blocks of that range that are filled.
+    std::size_t many = kMaxMany;             ///< Index in many_, if it holds the pairs.
   };
 
   /// Parameters of gathering pairs.
@@ -153,8 +165,11 @@ class ContactFinder {
                        double way, double stepTravel) noexcept;
   Gathered gatherWithin(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                         const Gathering& gathering) noexcept;
-  /// Moves pairs of edges to the front, where blocks of them can be packed.
-  void sortPairs(const ServoScene& scene) noexcept;
+  /// Gives the pairs of each body to ManyPairs, or moves its pairs of edges to the front, where blocks of them can be
+  /// packed.
+  void arrangePairs(const ServoScene& scene) noexcept;
+  /// Index in many_ for a body's pairs; kMaxMany if there are few of them, or no place.
+  std::size_t manyFor(const HeldBody& held) noexcept;
   Gathered gatherOne(const TrackedScene& tracked, std::uint32_t body, const TrackedScene::Near* known,
                      const RigidTransform& worldFromPart, const Gathering& gathering) noexcept;
   Gathered gatherFeatures(const ServoScene::Body& other, std::uint32_t body, const TrackedScene::Near* known,
@@ -165,7 +180,11 @@ class ContactFinder {
   /// Goes on with the pending look; false if the work ran out.
   bool testBodies(const ServoScene& scene) noexcept;
   void testPairs(const ServoScene& scene, HeldBody& held, std::size_t first, std::size_t count) noexcept;
+  /// The same for a body of thousands; false if the work ran out.
+  bool testMany(const ServoScene& scene, const HeldBody& held) noexcept;
   void testSurface(const ServoScene& scene, const HeldBody& held) noexcept;
+  void takeContacts(const ServoScene::Body& other, std::uint32_t body,
+                    std::span<const ContactPair> contacts) noexcept;
   /// Work left for gathering pairs.
   std::uint64_t leftToGather() const noexcept {
     return excess_ == Excess::None ? workLeft() : kMaxWork - std::min(kMaxWork, workDone_);
@@ -190,6 +209,7 @@ class ContactFinder {
   std::vector<TrianglePair> triangles_;
   std::size_t pairCount_ = 0, triangleCount_ = 0;
   std::array<HeldBody, kMaxBodies> bodies_;
+  std::array<ManyOfBody, kMaxMany> many_;
   std::size_t bodyCount_ = 0;
   RigidTransform pairsPose_, testedPose_;
   /// Reach asked for, and reach that the pairs were gathered for [m].

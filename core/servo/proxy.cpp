@@ -211,7 +211,10 @@ void Proxy::end(Outcome outcome) noexcept {
 bool Proxy::goOn(const Tick& tick) noexcept {
   if (stage_ == Stage::LookAround) {
     const Surroundings around = lookAround(tick, pose_, around_, nullptr);
-    if (around.isPending) return false;
+    if (around.isPending) {
+      account_.isStarved = finder_.lateBodies() > 0;
+      return false;
+    }
     here_ = around;
     isHereKnown_ = true;
     raiseFloor(tick);

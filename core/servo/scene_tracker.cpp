@@ -80,7 +80,7 @@ ListPurpose SceneTracker::forContacts(const SearchReach& reach) const noexcept {
   return {.cutoff = reach.contact,
           .planCutoff = reach.widest(),
           .relaxation = turn,
-          .leastRoom = {reach.contact, turn},
+          .leastRoom = {2.0 * reach.contact, 2.0 * turn},
           .whole = {1U << 15, 1U << 16},
           // A tick goes through a whole list several times.
           .part = {1U << 16, 1U << 18},

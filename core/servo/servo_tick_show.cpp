@@ -26,7 +26,7 @@ MinimaFinder::Result ServoTick::findMinima(const Subject& subject, double share,
   const double cutoff = share * subject.settings.springs.cutoff;
   // With springs nothing keeps the part from passing through, so no distance can be relied on.
   const double apart = springs == nullptr ? proxy_.distance() : 0.0;
-  const bool isTickFull = proxy_.work() > ContactFinder::kUsualWork / 2;
+  const bool isTickFull = proxy_.work() > ContactFinder::kUsualWork / 8;
   const MinimaAllowance& allowance = springs != nullptr ? MinimaFinder::kFelt
                                      : isTickFull       ? MinimaFinder::kShownInFullTick
                                                         : MinimaFinder::kShown;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
@@ -45,14 +44,6 @@ class PairPassage {
   double leastOf(std::span<const LeafPair> pairs) const noexcept;
 
  private:
-  /// Corners of a feature; unused ones repeat the last.
-  struct Corners {
-    std::array<glm::dvec3, 3> at;
-    std::size_t count;
-  };
-  static Corners cornersOf(const NormalConeTree& tree, std::uint32_t leaf) noexcept;
-  static Corners placed(const Corners& corners, const glm::dmat3& turn, const glm::dvec3& shift) noexcept;
-
   const NormalConeTree &scene_, &part_;
   glm::dmat3 turnFrom_, turnTo_;  ///< Between the trees' centred frames, like the shifts.
   glm::dvec3 shiftFrom_, shiftTo_;

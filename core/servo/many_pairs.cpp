@@ -1,0 +1,327 @@
+#include "core/servo/many_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "core/math/tolerances.h"
+#include "core/proximity/query/leaf_tests.h"
+#include "core/proximity/query/query_workspace.h"
+
+namespace nearfit {
+namespace {
+
+constexpr double kBeyondAll = std::numeric_limits<double>::infinity();
+/// Slots for pairs separated by the scene, and as many for those separated by the part.
+constexpr std::size_t kSlotsOfKind = ManyPairs::kMax;
+constexpr std::size_t kTableSize = 4 * ManyPairs::kMax, kGroupTableSize = 2 * ManyPairs::kMax;
+/// Cell size of directions; their length is 1.
+constexpr double kDirectionCell = 0.12;
+/// A separation found so large a turn ago is found anew: the part's directions have left their cells [rad].
+constexpr double kMaxTurnOfKey = 0.25 * kDirectionCell;
+/// Makes cells' numbers positive, so that cutting off the fraction rounds down.
+constexpr double kCellsBelowZero = 512.0;
+/// A pair that is nearer than the nearest of its group by no more than this share of what is needed is not tested: the
+/// part may come so much nearer than its margin, and of pairs that lie along each other nearly all would be tested.
+constexpr double kLeastGain = 0.005;
+/// Roundings of a coordinate in a distance along a direction, both poses counted.
+constexpr double kSeparationRoundings = 32.0;
+/// Work of a test, of one with a separation found anew, and of a passage; pairs bounded, and groups passed, in a unit.
+constexpr std::uint64_t kWorkOfExactTest = 2, kWorkOfSeparation = 2, kWorkOfOnePassage = 1;
+constexpr std::uint64_t kBoundedOfWork = 16, kBoundedOnWayOfWork = 8;
+
+/// Spreads the bits of a number (the finaliser of SplitMix64).
+std::uint64_t spread(std::uint64_t x) noexcept {
+  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
+  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
+  return x ^ (x >> 31U);
+}
+
+std::uint64_t hashOf(const LeafPair& pair) noexcept {
+  return spread(static_cast<std::uint64_t>(pair.scene) << 32U | pair.part);
+}
+
+std::size_t kindOf(const LeafPair& pair) noexcept {
+  return isSeparatedByPart(pair) ? 1 : 0;
+}
+
+}  // namespace
+
+ManyPairs::ManyPairs()
+    : slots_(2 * kSlotsOfKind),
+      separations_(2 * kSlotsOfKind / kLanes),
+      table_(kTableSize, kNone),
+      groups_(kMax + 1),
+      groupTable_(kGroupTableSize, kNone),
+      kernel_(separationKernel(defaultSimdLevel())) {
+  for (std::vector<std::uint32_t>& slots : free_)
+    slots.reserve(kSlotsOfKind);
+  new_.reserve(kMax);
+  unknown_.reserve(kMax);
+  forget();
+}
+
+void ManyPairs::forget() noexcept {
+  std::fill(table_.begin(), table_.end(), kNone);
+  used_ = {};
+  for (std::vector<std::uint32_t>& slots : free_)
+    slots.clear();
+  new_.clear();
+  size_ = 0;
+  groupCount_ = 1;
+  turn_ = 0.0;
+  stage_ = Stage::Done;
+}
+
+std::uint32_t ManyPairs::find(const LeafPair& pair) const noexcept {
+  for (std::size_t at = hashOf(pair) % kTableSize;; at = (at + 1) % kTableSize) {
+    const std::uint32_t slot = table_[at];
+    if (slot == kNone) return kNone;
+    const LeafPair& other = slots_[slot].pair;
+    if (other.scene == pair.scene && other.part == pair.part) return slot;
+  }
+}
+
+void ManyPairs::insert(std::uint32_t slot) noexcept {
+  std::size_t at = hashOf(slots_[slot].pair) % kTableSize;
+  while (table_[at] != kNone)
+    at = (at + 1) % kTableSize;
+  table_[at] = slot;
+}
+
+std::uint32_t ManyPairs::add(const LeafPair& pair) noexcept {
+  const std::size_t kind = kindOf(pair);
+  std::uint32_t slot;
+  if (!free_[kind].empty()) {
+    slot = free_[kind].back();
+    free_[kind].pop_back();
+  } else {
+    slot = static_cast<std::uint32_t>(kind * kSlotsOfKind + used_[kind]++);
+  }
+  slots_[slot] = {.pair = pair, .distance = kBeyondAll};
+  insert(slot);
+  return slot;
+}
+
+void ManyPairs::sweep() noexcept {
+  std::fill(table_.begin(), table_.end(), kNone);
+  for (std::size_t kind = 0; kind < 2; ++kind) {
+    free_[kind].clear();
+    for (std::size_t i = 0; i < used_[kind]; ++i) {
+      const auto slot = static_cast<std::uint32_t>(kind * kSlotsOfKind + i);
+      if (slots_[slot].isHeld)
+        insert(slot);
+      else
+        free_[kind].push_back(slot);
+    }
+  }
+}
+
+void ManyPairs::hold(std::span<const LeafPair> pairs, double turn) noexcept {
+  turn_ += turn;
+  stage_ = Stage::Done;
+  for (std::size_t kind = 0; kind < 2; ++kind) {
+    for (std::size_t i = 0; i < used_[kind]; ++i)
+      slots_[kind * kSlotsOfKind + i].isHeld = false;
+  }
+  new_.clear();
+  unknown_.clear();
+  for (const LeafPair& pair : pairs) {
+    const std::uint32_t slot = find(pair);
+    if (slot == kNone)
+      unknown_.push_back(pair);
+    else
+      slots_[slot].isHeld = true;
+  }
+  const std::size_t there = used_[0] + used_[1] - free_[0].size() - free_[1].size();
+  const std::size_t unheld = there - (pairs.size() - unknown_.size());
+  // Pairs that come back find their separations, but too many make every pass longer.
+  if (unheld > pairs.size() / 2 || there + unknown_.size() > kMax) sweep();
+  for (const LeafPair& pair : unknown_)
+    slots_[add(pair)].isHeld = true;
+  size_ = pairs.size();
+  regroup();
+}
+
+void ManyPairs::regroup() noexcept {
+  std::fill(groupTable_.begin(), groupTable_.end(), kNone);
+  groupCount_ = 1;
+  groups_[0] = {.least = kBeyondAll};
+  for (std::size_t kind = 0; kind < 2; ++kind) {
+    for (std::size_t i = 0; i < used_[kind]; ++i) {
+      const auto at = static_cast<std::uint32_t>(kind * kSlotsOfKind + i);
+      Slot& slot = slots_[at];
+      if (!slot.isHeld) continue;
+      if (slot.isKnown && turn_ - slot.turnAt > kMaxTurnOfKey) slot.isKnown = false;
+      if (!slot.isKnown) {
+        new_.push_back(at);
+        continue;
+      }
+      slot.group = groupOf(slot.key);
+      if (slot.group == 0 || slot.distance == kBeyondAll) continue;
+      Group& group = groups_[slot.group];
+      if (group.nearest == kNone || slot.distance < slots_[group.nearest].distance) group.nearest = at;
+    }
+  }
+}
+
+std::uint32_t ManyPairs::groupOf(std::uint64_t key) noexcept {
+  if (key == 0) return 0;
+  std::size_t at = spread(key) % kGroupTableSize;
+  while (groupTable_[at] != kNone) {
+    if (groups_[groupTable_[at]].key == key) return groupTable_[at];
+    at = (at + 1) % kGroupTableSize;
+  }
+  if (groupCount_ == groups_.size()) return 0;
+  groups_[groupCount_] = {.key = key, .least = kBeyondAll};
+  return groupTable_[at] = static_cast<std::uint32_t>(groupCount_++);
+}
+
+std::uint64_t ManyPairs::keyOf(const glm::dvec3& direction, const glm::dvec3& point) const noexcept {
+  if (direction == glm::dvec3(0.0)) return 0;
+  std::uint64_t key = 1;
+  const auto append = [&key](double x, double cell) {
+    // Ten bits each: contacts lie within the part, which is some tens of cells wide, and cells so far apart that their
+    // numbers agree are not near it at once.
+    const auto step = static_cast<std::int64_t>(x / cell + kCellsBelowZero) & 0x3FF;
+    key = key << 10U | static_cast<std::uint64_t>(step);
+  };
+  for (glm::length_t k = 0; k < 3; ++k)
+    append(direction[k], kDirectionCell);
+  for (glm::length_t k = 0; k < 3; ++k)
+    append(point[k], asked_.cell);
+  return key;
+}
+
+void ManyPairs::begin(const Asked& asked) noexcept {
+  asked_ = asked;
+  found_ = {kBeyondAll, asked.enough};
+  stage_ = Stage::New;
+  at_ = 0;
+  // When the number comes round, no slot may count as tested.
+  if (++look_ == 0) {
+    for (Slot& slot : slots_)
+      slot.look = 0;
+    look_ = 1;
+  }
+  for (std::size_t g = 0; g < groupCount_; ++g)
+    groups_[g].least = kBeyondAll;
+}
+
+std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<ContactPair> out,
+                                                std::size_t& count) noexcept {
+  const NormalConeTree &scene = *asked_.scene, &part = *asked_.part;
+  const RigidTransform pose = centredPose(scene, part, asked_.sceneFromPart);
+  const LeafTests tests(scene, part, pose, asked_.reach.distance, asked_.reach.turn);
+  const auto spend = [&work](std::uint64_t done) { work -= std::min(work, done); };
+  Minimum minimum;
+  const auto test = [&](std::uint32_t at) {
+    Slot& slot = slots_[at];
+    slot.look = look_;
+    spend(kWorkOfExactTest);
+    SeparatedPairs& separations = separations_[at / kLanes];
+    const auto separate = [&](const glm::dvec3& direction) {
+      separations.set(at % kLanes, separationAlong(scene, part, slot.pair, pose, direction));
+    };
+    if (!tests.test(slot.pair.scene, slot.pair.part, minimum)) {
+      slot.distance = kBeyondAll;
+      const PairDirections directions = directionsOf(scene, part, slot.pair, pose);
+      spend(kWorkOfSeparation);
+      separate(directions.apart);
+      slot.key = keyOf(directions.ofContact, directions.onPart);
+    } else {
+      const Lmd& lmd = minimum.lmd;
+      slot.distance = std::min(minimum.least, lmd.distance);
+      out[count++] = {lmd.partPoint + scene.centre(), lmd.direction, slot.distance};
+      spend(1);
+      found_.least = std::min(found_.least, slot.distance);
+      separate(lmd.direction);
+      slot.key = keyOf(lmd.direction, lmd.partPoint);
+    }
+    slot.isKnown = true;
+    slot.turnAt = turn_;
+    slot.group = groupOf(slot.key);
+    Group& group = groups_[slot.group];
+    if (slot.group == 0 || !(slot.distance < group.least)) return;
+    group.least = slot.distance;
+    group.nearest = at;
+  };
+  const auto isFull = [&] { return count == out.size(); };
+  if (stage_ == Stage::New) {
+    for (; at_ < new_.size(); ++at_) {
+      if (work == 0 || isFull()) return std::nullopt;
+      if (!slots_[new_[at_]].isKnown) test(new_[at_]);
+    }
+    new_.clear();
+    stage_ = Stage::Nearest;
+    at_ = 0;
+  }
+  if (stage_ == Stage::Nearest) {
+    for (; at_ < groupCount_; ++at_) {
+      if (work == 0 || isFull()) return std::nullopt;
+      const std::uint32_t nearest = groups_[at_].nearest;
+      if (nearest == kNone || slots_[nearest].look == look_ || slots_[nearest].distance > asked_.need)
+        continue;
+      test(nearest);
+      if (slots_[nearest].distance == kBeyondAll && groups_[at_].nearest == nearest)
+        groups_[at_].nearest = kNone;
+    }
+    stage_ = Stage::Rest;
+    at_ = 0;
+  }
+  if (stage_ == Stage::Done) return found_;
+  const std::array poses{separationPose(pose, false), separationPose(pose, true)};
+  std::array<SeparationPose, 2> starts;
+  std::optional<PairPassage> passage;
+  if (asked_.way) {
+    const RigidTransform from = centredPose(scene, part, asked_.way->from);
+    starts = {separationPose(from, false), separationPose(from, true)};
+    passage.emplace(scene, part, *asked_.way, asked_.enough);
+  }
+  const double rounding =
+      kSeparationRoundings * kPointRounding * (scene.size() + part.size() + glm::length(pose.translation));
+  const double gain = kLeastGain * asked_.need, least = asked_.enough + rounding;
+  const std::array lost{least + (asked_.way ? asked_.way->bend : 0.0), least + asked_.bendFromPart};
+  const std::size_t end = 2 * kSlotsOfKind;
+  SeparatedPairs::Numbers apart, before{};
+  std::uint64_t bounded = 0;
+  const auto spendBounded = [&] {
+    spend(bounded / (asked_.way ? kBoundedOnWayOfWork : kBoundedOfWork));
+    bounded = 0;
+  };
+  for (; at_ < end; at_ += kLanes) {
+    const std::size_t kind = at_ / kSlotsOfKind;
+    if (at_ % kSlotsOfKind >= used_[kind]) {
+      at_ = (kind + 1) * kSlotsOfKind - kLanes;
+      continue;
+    }
+    if (bounded >= 64) spendBounded();
+    if (work == 0 || count + kLanes > out.size()) return std::nullopt;
+    bounded += kLanes;
+    const SeparatedPairs& separations = separations_[at_ / kLanes];
+    kernel_(separations, poses[kind], apart);
+    if (asked_.way) kernel_(separations, starts[kind], before);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const auto at = static_cast<std::uint32_t>(at_ + lane);
+      const Slot& slot = slots_[at];
+      if (!slot.isHeld) continue;
+      if (asked_.way && !(std::min(apart[lane], before[lane]) > lost[kind])) {
+        found_.leastOnWay = std::min(found_.leastOnWay, passage->leastOf(slot.pair));
+        spend(kWorkOfOnePassage);
+      }
+      if (slot.look == look_) continue;
+      const double bound = apart[lane] - rounding;
+      if (bound <= std::min(asked_.need, groups_[slot.group].least - gain))
+        test(at);
+      else
+        found_.least = std::min(found_.least, bound);
+    }
+  }
+  spendBounded();
+  stage_ = Stage::Done;
+  return found_;
+}
+
+}  // namespace nearfit

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/proximity/query/contact_query.h"
+#include "core/proximity/query/pair_passage.h"
+#include "core/proximity/query/pair_separations.h"
+
+namespace nearfit {
+
+/// Thousands of pairs of features of two bodies, as between a thread and its nut, of which a look tests few.
+///
+/// Pairs are grouped by the contact that they could form: those of a group say the same of the part's motion, so the
+/// nearest counts (ContactThinning). Each pair has a Separation, which bounds its distance from below wherever the part
+/// goes. A look tests the nearest pair that each group had last, and then those alone that may be nearer. A pair that is
+/// not tested is therefore farther than one that is, and the least distance is exact.
+///
+/// Allocates only in the constructor; real-time safe after it.
+class ManyPairs {
+ public:
+  /// Max pairs held.
+  static constexpr std::size_t kMax = 1U << 15;
+
+  ManyPairs();
+
+  /// Forgets all pairs.
+  void forget() noexcept;
+  /// From now on holds these pairs, at most kMax, which span contacts. What is known of those held before stays.
+  /// @param turn  Angle by which the part has turned since the last call, at most [rad].
+  void hold(std::span<const LeafPair> pairs, double turn) noexcept;
+  /// Number of pairs held.
+  std::size_t size() const noexcept { return size_; }
+
+  /// What a look asks.
+  struct Asked {
+    const NormalConeTree *scene = nullptr, *part = nullptr;
+    RigidTransform sceneFromPart;  ///< The look's pose.
+    ContactReach reach;
+    /// Contacts farther than this need not be found [m]; at most the reach.
+    double need = 0.0;
+    double cell =
+        0.0;  ///< Points nearer to each other than this, and directions alike, make a group [m]; > 0.
+    /// The way that led there, if it is asked how near the pairs come on it; travel and bend apart.
+    std::optional<PartWay> way{};
+    /// No point of the other body strays farther from the straight line between its places at both ends, as seen from
+    /// the part [m].
+    double bendFromPart = 0.0;
+    double enough = 0.0;  ///< A distance on the way beyond this [m] is as good as any.
+  };
+  /// What a look finds, besides contacts.
+  struct Found {
+    /// Lower bound on the distance of any contact [m], by at most a hundredth of `need` less than that of the nearest.
+    /// Infinity if there is none within the reach.
+    double least = 0.0;
+    double leastOnWay =
+        0.0;  ///< Lower bound on the distance on the way, as in PairPassage [m]; at most `enough`.
+  };
+  /// Starts a look; what an earlier one has not finished is left. The hierarchies are the same until forget().
+  void begin(const Asked& asked) noexcept;
+  /// Goes on with a look until it ends or the work is spent.
+  /// @param work  Work allowed, as in ContactFinder; the work done is subtracted, down to 0.
+  /// @param out   Room for contacts, in the frame of the scene's mesh: a look goes on if there is none left.
+  /// @param count Of those filled, before and after.
+  /// Returns the result once the look has ended.
+  std::optional<Found> goOn(std::uint64_t& work, std::span<ContactPair> out, std::size_t& count) noexcept;
+
+ private:
+  static constexpr std::size_t kLanes = SeparatedPairs::kLanes;
+  static constexpr std::uint32_t kNone = ~0U;
+
+  /// A place for a pair: those separated by the scene come before those separated by the part.
+  struct Slot {
+    LeafPair pair;
+    std::uint64_t key = 0;    ///< Cell of its contact; 0 without.
+    std::uint32_t group = 0;  ///< 0 if it has none: it is tested whenever it may be near.
+    std::uint32_t look = 0;   ///< The look that tested it last.
+    double turnAt = 0.0;      ///< Turn of the part, added up, when its separation was found [rad].
+    double distance = 0.0;    ///< Of its last contact [m]; infinity if the last test found none.
+    bool isHeld = false, isKnown = false;  ///< isKnown: it has a separation.
+  };
+  struct Group {
+    std::uint64_t key = 0;
+    std::uint32_t nearest = kNone;  ///< Slot of the pair that was nearest.
+    double least = 0.0;             ///< In this look [m].
+  };
+  enum class Stage : std::uint8_t { New, Nearest, Rest, Done };
+
+  std::uint32_t find(const LeafPair& pair) const noexcept;
+  std::uint32_t add(const LeafPair& pair) noexcept;
+  void insert(std::uint32_t slot) noexcept;
+  /// Frees the slots that are not held.
+  void sweep() noexcept;
+  void regroup() noexcept;
+  std::uint32_t groupOf(std::uint64_t key) noexcept;
+  std::uint64_t keyOf(const glm::dvec3& direction, const glm::dvec3& point) const noexcept;
+
+  std::vector<Slot> slots_;
+  std::vector<SeparatedPairs> separations_;  ///< A lane for each slot.
+  std::vector<std::uint32_t> table_;         ///< Hash table of slots by pair.
+  std::array<std::size_t, 2> used_{};        ///< Slots used so far, of the scene and of the part.
+  std::array<std::vector<std::uint32_t>, 2> free_;
+  std::vector<std::uint32_t> new_;  ///< Held slots without a separation.
+  std::vector<LeafPair> unknown_;   ///< Pairs to hold that have no slot yet.
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> groupTable_;
+  std::size_t size_ = 0, groupCount_ = 0;
+  double turn_ = 0.0;  ///< Turn of the part, added up [rad].
+
+  Asked asked_;
+  Stage stage_ = Stage::Done;
+  std::size_t at_ = 0;  ///< Where the stage goes on.
+  std::uint32_t look_ = 0;
+  Found found_;
+  SeparationKernel kernel_;
+};
+
+}  // namespace nearfit
