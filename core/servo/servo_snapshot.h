@@ -61,9 +61,10 @@ struct ServoSnapshot {
   std::uint32_t storedLmds = 0;  ///< Entries of `lmds` in use, nearest first for each part.
   /// Bodies searched anew in this tick, since what is known of them did not cover the pose.
   std::uint32_t lateBodies = 0;
-  bool isTruncated = false;             ///< Minima within the cutoff may be missing.
-  bool isClamped = false;               ///< The wrench was limited to the device's max.
-  bool isClutched = false;              ///< The hand repositions the device; the part stays.
+  bool isTruncated = false;      ///< Minima within the cutoff may be missing.
+  bool isDistanceBound = false;  ///< `distance` is a lower bound: a missing minimum may be the nearest.
+  bool isClamped = false;        ///< The wrench was limited to the device's max.
+  bool isClutched = false;       ///< The hand repositions the device; the part stays.
   ServoFault fault = ServoFault::None;  ///< Latched: the wrench is zero until the servo is restarted.
   PartId moving{};                      ///< The moving part.
 

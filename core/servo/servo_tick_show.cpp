@@ -54,10 +54,14 @@ void ServoTick::showMinima(const Subject& subject) noexcept {
   const double cutoff = subject.settings.springs.cutoff;
   Wrench none;
   const MinimaFinder::Result result = findMinima(subject, shownReach_.share(), nullptr, none);
-  // The minima found may then reach less far than the contacts.
-  if (result.completeTo < std::min(result.distance, cutoff))
-    subject.snapshot.distance = std::min(subject.snapshot.distance, distanceOfContacts(subject));
-  shownReach_.observe(result.work, subject.snapshot.distance / cutoff);
+  // A minimum that is missing may be nearer than those found, but no nearer than either bound.
+  const double known = std::max(result.completeTo, proxy_.distance());
+  subject.snapshot.isDistanceBound = known < std::min(result.distance, cutoff);
+  if (subject.snapshot.isDistanceBound) subject.snapshot.distance = known;
+  const double nearest = result.completeTo < std::min(result.distance, cutoff)
+                             ? std::min(result.distance, distanceOfContacts(subject))
+                             : result.distance;
+  shownReach_.observe(result.work, nearest / cutoff);
 }
 
 double ServoTick::distanceOfContacts(const Subject& subject) const noexcept {

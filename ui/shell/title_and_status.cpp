@@ -86,7 +86,7 @@ void StatusReadout::showStatus(const ServoStatus& status) {
 
 void StatusReadout::showSnapshot(const ServoSnapshot& snapshot) {
   minima_->setText(tr("LMDs %1").arg(snapshot.lmdCount));
-  distance_->setText(tr("Min distance %1").arg(formatLength(snapshot.distance)));
+  distance_->setText(tr("Min distance %1").arg(formatDistance(snapshot.distance, snapshot.isDistanceBound)));
 }
 
 void StatusReadout::clearSnapshot() {

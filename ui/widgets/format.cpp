@@ -1,5 +1,6 @@
 #include "ui/widgets/format.h"
 
+#include <QCoreApplication>
 #include <QLocale>
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,12 @@ QString formatLength(double metres, LengthUnit unit) {
   }
   const QString text = unit == LengthUnit::Millimetre ? figures(number) : threeFigures(number);
   return text + QChar(' ') + symbolOf(unit);
+}
+
+QString formatDistance(double metres, bool isBound) {
+  const QString length = formatLength(metres);
+  return isBound && std::isfinite(metres) ? QCoreApplication::translate("format", "at least %1").arg(length)
+                                          : length;
 }
 
 QString formatForce(double newtons) {

@@ -16,6 +16,8 @@ QString formatFixed(double value, int decimals);
 /// "850 µin" below 0.001 in. Returns a dash if not finite.
 QString formatLength(double metres);
 QString formatLength(double metres, LengthUnit unit);
+/// Formats a distance of which perhaps only a lower bound is known: "at least 0.26 mm".
+QString formatDistance(double metres, bool isBound);
 /// Formats a force [N]: "3.42 N".
 QString formatForce(double newtons);
 /// Formats a torque [N m]: "12.3 mN·m", "1.20 N·m".

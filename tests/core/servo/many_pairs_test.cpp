@@ -34,8 +34,8 @@ struct Ringed {
     return {rotationOf({0.0, 0.0, 2.0 * t}), {0.012 * std::cos(3.0 * t), 0.012 * std::sin(3.0 * t), 0.2 * t}};
   }
   std::span<const LeafPair> near(const RigidTransform& pose) {
-    const NearbyPairs nearby = findNearbyPairs({scene, part, pose, kReach}, {kReach, kTurn}, {0.01, 0.01}, scratch,
-                                               pairs, kUnbounded);
+    const NearbyPairs nearby = findNearbyPairs({scene, part, pose, kReach}, {kReach, kTurn}, {0.01, 0.01},
+                                               scratch, pairs, kUnbounded);
     EXPECT_TRUE(nearby.isComplete);
     return std::span(pairs).first(nearby.count);
   }
@@ -45,7 +45,11 @@ struct Ringed {
     return contacts;
   }
   ManyPairs::Asked asked(const RigidTransform& pose) const {
-    return {.scene = &scene, .part = &part, .sceneFromPart = pose, .reach = {kReach, kTurn}, .need = kNeed,
+    return {.scene = &scene,
+            .part = &part,
+            .sceneFromPart = pose,
+            .reach = {kReach, kTurn},
+            .need = kNeed,
             .cell = kCell};
   }
 };
@@ -57,7 +61,8 @@ struct Seen {
 };
 
 /// Goes on with a look to its end, with so much work and so much room for contacts at a time.
-Seen look(ManyPairs& many, const ManyPairs::Asked& asked, std::uint64_t work = kUnbounded, std::size_t room = 64) {
+Seen look(ManyPairs& many, const ManyPairs::Asked& asked, std::uint64_t work = kUnbounded,
+          std::size_t room = 64) {
   Seen seen;
   std::vector<ContactPair> out(room);
   many.begin(asked);
@@ -105,15 +110,18 @@ TEST(ManyPairs, FindTheLeastDistanceAndANearerContactForEachThatIsLeftOut) {
     EXPECT_LE(seen.found.least, least + 1e-12) << step;
     EXPECT_GE(seen.found.least, least - 0.01 * kNeed) << step;
     for (const ContactPair& contact : seen.contacts) {
-      EXPECT_TRUE(std::ranges::any_of(all, [&](const ContactPair& other) { return isSame(contact, other); })) << step;
+      EXPECT_TRUE(std::ranges::any_of(all, [&](const ContactPair& other) { return isSame(contact, other); }))
+          << step;
     }
     for (const ContactPair& contact : all) {
       if (contact.distance > kNeed) continue;
-      EXPECT_TRUE(std::ranges::any_of(seen.contacts, [&](const ContactPair& other) {
-        return other.distance <= contact.distance + 0.01 * kNeed &&
-               glm::distance(other.direction, contact.direction) < 0.3 &&
-               glm::distance(other.point, contact.point) < 2.0 * kCell;
-      })) << step << ", distance " << contact.distance;
+      EXPECT_TRUE(std::ranges::any_of(seen.contacts,
+                                      [&](const ContactPair& other) {
+                                        return other.distance <= contact.distance + 0.01 * kNeed &&
+                                               glm::distance(other.direction, contact.direction) < 0.3 &&
+                                               glm::distance(other.point, contact.point) < 2.0 * kCell;
+                                      }))
+          << step << ", distance " << contact.distance;
     }
     found += step > 0 ? seen.contacts.size() : 0;
     there += step > 0 ? all.size() : 0;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include "tests/support/allocation_hook.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
+#include "tests/support/ringed_pair.h"
 
 namespace nearfit::servo_tick_proxy_test {
 namespace {
@@ -249,6 +251,32 @@ TEST_F(ServoTickWithProxy, WhatIsFeltIsThereBeforeWhatIsShownAndDoesNotChangeByI
   EXPECT_NEAR(snapshot_->distance, snapshot_->proxy.translation.z - 0.1, 1e-9)
       << "the cube's gap to the floor";
   EXPECT_GT(snapshot_->contactCount, 0U);
+}
+
+/// Of more minima than a tick can look at, some are missing, and so may be the nearest.
+TEST_F(ServoTickWithProxy, ADistanceThatIsOnlyABoundIsSaidToBeOne) {
+  EXPECT_FALSE(hold(at({0.0, 0.0, 0.103}), 5).isDistanceBound);
+  auto ringed = std::make_shared<ServoScene>();
+  const test::RingedPair pair{.detail = 4};
+  ringed->setMoving({PartId{1}, test::geometryOf(pair.rod()), {}});
+  ringed->bodies.push_back({PartId{2}, test::geometryOf(pair.tube()), {}});
+  setScene(ringed);
+  tick_.reset();
+  LmdScratch scratch;
+  std::vector<Lmd> lmds(1U << 15);
+  int bounds = 0;
+  for (int i = 0; i < 30; ++i) {
+    const ServoSnapshot& s = tick(at({0.0002 * i, 0.0, 0.0}));
+    const LmdResult all = findLmds(ringed->bodies[0].geometry->tree(), ringed->moving.geometry->tree(),
+                                   s.proxy, parameters_.haptics.springs.cutoff, scratch, lmds);
+    ASSERT_GT(all.count, 0U);
+    if (s.isDistanceBound)
+      EXPECT_LE(s.distance, lmds[0].distance + 1e-12) << i;
+    else
+      EXPECT_NEAR(s.distance, lmds[0].distance, 1e-12) << i;
+    bounds += s.isDistanceBound ? 1 : 0;
+  }
+  EXPECT_GT(bounds, 0);
 }
 
 TEST_F(ServoTickWithProxy, TicksThatNobodyIsShownAreFeltAllTheSame) {

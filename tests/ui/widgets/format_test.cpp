@@ -13,6 +13,7 @@ class FormatTest : public QObject {
 
  private slots:
   void lengthsTakeTheUnitOfTheirSize();
+  void distancesSayWhetherTheyAreBounds();
   void lengthsKeepThreeFigures();
   void lengthsAreInTheUnitThatWasChosen();
   void noLengthIsADash();
@@ -28,6 +29,12 @@ void FormatTest::lengthsTakeTheUnitOfTheirSize() {
   QCOMPARE(formatLength(0.0015), QStringLiteral("1.50 mm"));
   QCOMPARE(formatLength(0.0), QStringLiteral("0.00 mm"));
   QCOMPARE(formatLength(2.5e-6), QStringLiteral("2.50 µm"));
+}
+
+void FormatTest::distancesSayWhetherTheyAreBounds() {
+  QCOMPARE(formatDistance(0.00026, true), QStringLiteral("at least 0.26 mm"));
+  QCOMPARE(formatDistance(0.00026, false), QStringLiteral("0.26 mm"));
+  QCOMPARE(formatDistance(std::numeric_limits<double>::infinity(), true), QStringLiteral("–"));
 }
 
 void FormatTest::lengthsKeepThreeFigures() {

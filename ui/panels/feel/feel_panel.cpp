@@ -236,7 +236,7 @@ void FeelPanel::showSettings(const HapticSettings& settings) {
 void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) {
   force_->setText(formatForce(glm::length(snapshot.wrench.force)));
   torque_->setText(formatTorque(glm::length(snapshot.wrench.torque)));
-  distance_->setText(formatLength(snapshot.distance));
+  distance_->setText(formatDistance(snapshot.distance, snapshot.isDistanceBound));
   minima_->setText(QString::number(snapshot.lmdCount) +
                    (snapshot.isTruncated ? QStringLiteral("+") : QString()));
   energy_->setText(formatEnergy(snapshot.energyToHand));

@@ -84,7 +84,8 @@ TEST(PairSeparations, AreLowerBoundsAtEveryPose) {
         const double distance = sampledDistance(scene, part, pairs[k], there, random);
         for (const SimdLevel level : availableSimdLevels()) {
           SeparatedPairs::Numbers apart{};
-          separationKernel(level)(block, separationPose(centredPose(scene, part, there), separation.isOfPart), apart);
+          separationKernel(level)(block, separationPose(centredPose(scene, part, there), separation.isOfPart),
+                                  apart);
           const double bound = apart[k % SeparatedPairs::kLanes];
           ASSERT_LE(bound, distance + 1e-12) << i << ", pair " << k << ", move " << move;
           if (move == 0 && bound > 0.7 * distance) ++tight;
