@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/haptics/step_rows.h"
+#include "core/math/mixed_bits.h"
 
 namespace nearfit {
 namespace {
@@ -25,13 +26,6 @@ bool isNearerContact(const BodyContact& a, const BodyContact& b) noexcept {
 
 std::ptrdiff_t at(std::size_t i) noexcept {
   return static_cast<std::ptrdiff_t>(i);
-}
-
-/// Spreads the bits of a number (the finaliser of SplitMix64).
-std::uint64_t mixed(std::uint64_t x) noexcept {
-  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
-  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
-  return x ^ (x >> 31U);
 }
 
 }  // namespace
@@ -78,7 +72,7 @@ std::uint64_t ContactThinning::cellOf(const ContactPair& pair) const noexcept {
 
 void ContactThinning::place(std::size_t i) noexcept {
   const std::uint64_t cell = cellOf(taken_[i].pair);
-  std::size_t slot = mixed(cell) % kSlots;
+  std::size_t slot = mixedBits(cell) % kSlots;
   while (table_[slot].selection == selection_ && cells_[table_[slot].contact] != cell)
     slot = (slot + 1) % kSlots;
   if (table_[slot].selection != selection_) {

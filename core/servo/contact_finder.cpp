@@ -69,8 +69,8 @@ constexpr double kClearOnWay = 0.1;
 constexpr std::size_t kFewPairs = 1024;
 /// Size of the cells that contacts of thousands are grouped by, as a share of the part's least gyration.
 constexpr double kCellOfGyration = 0.12;
-/// Of thousands, contacts beyond this share of the reach are left out: a part that is farther is free (1.7 margins), and
-/// a step seldom meets them.
+/// Where pairs are thousands, contacts beyond this share of the reach are left out. At 1.7 margins a part is free, and a
+/// step seldom meets them.
 constexpr double kNeeded = 1.7 / kContactReach;
 /// Pairs given to ManyPairs in the time of a unit of work.
 constexpr std::uint64_t kHeldOfWork = 2;
@@ -99,6 +99,15 @@ MotionBudget motionOf(const ServoScene& scene, const RigidTransform& from,
     return RigidTransform{pose.rotation, pose.applyToPoint(scene.centreInPart)};
   };
   return motionBetween(centred(from), centred(to), scene.metric.radius);
+}
+
+/// Way of the part past a body between two poses, worldFromPart.
+PartWay wayOf(const ServoScene& scene, const ServoScene::Body& body, const RigidTransform& from,
+              const RigidTransform& to) noexcept {
+  const MotionBudget motion = motionOf(scene, from, to);
+  const RigidTransform bodyFromWorld = body.worldFromPart.inverse();
+  return {(bodyFromWorld * from).normalized(), (bodyFromWorld * to).normalized(), motion.travel,
+          bendOf(motion.turn, scene.metric.radius)};
 }
 
 }  // namespace
@@ -289,6 +298,9 @@ ContactFinder::Gathered ContactFinder::gatherWithin(const TrackedScene& tracked,
   tracked.visitNear(worldFromPart, far, [&](std::uint32_t body, const TrackedScene::Near* known) {
     if (outcome == Gathered::Held) outcome = gatherOne(tracked, body, known, worldFromPart, gathering);
   });
+  // Taking them in is work too, and no tick may exceed its bound.
+  if (outcome == Gathered::Held && workDone_ + pairCount_ / kHeldOfWork > kMaxWork)
+    outcome = Gathered::NoWork;
   isHoldingPairs_ = outcome == Gathered::Held;
   if (isHoldingPairs_) arrangePairs(*tracked.scene);
   return outcome;
@@ -359,11 +371,8 @@ void ContactFinder::testPairs(const ServoScene& scene, HeldBody& held, std::size
   spend((packed.blocks.empty() ? kWorkOfPairTest : 1) * count + result.count);
   Surroundings& around = look_.around;
   if (look_.from && around.onWay > 0.0) {
-    const MotionBudget motion = motionOf(scene, *look_.from, look_.pose);
-    const RigidTransform bodyFromStart = (other.worldFromPart.inverse() * *look_.from).normalized();
-    const PairPassage passage(
-        tree, part, {bodyFromStart, bodyFromPart, motion.travel, bendOf(motion.turn, scene.metric.radius)},
-        kClearOnWay * pairsReach_);
+    const PairPassage passage(tree, part, wayOf(scene, other, *look_.from, look_.pose),
+                              kClearOnWay * pairsReach_);
     around.onWay = std::min(around.onWay, passage.leastOf(pairs.subspan(first, count)));
     spend(kWorkOfPassage * count);
   }
@@ -397,8 +406,7 @@ bool ContactFinder::testMany(const ServoScene& scene, const HeldBody& held) noex
     if (look_.from) {
       const MotionBudget motion = motionOf(scene, *look_.from, look_.pose);
       const double near = scene.metric.radius + pairsReach_ + 2.0 * holds_.travel;
-      asked.way = PartWay{(other.worldFromPart.inverse() * *look_.from).normalized(), asked.sceneFromPart,
-                          motion.travel, bendOf(motion.turn, scene.metric.radius)};
+      asked.way = wayOf(scene, other, *look_.from, look_.pose);
       asked.bendFromPart = bendOf(motion.turn, near) + kBendOfShift * motion.turn * motion.travel;
       asked.enough = kClearOnWay * pairsReach_ + around.deviation;
     }

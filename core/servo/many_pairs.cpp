@@ -1,12 +1,13 @@
 #include "core/servo/many_pairs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <glm/geometric.hpp>
 
+#include "core/math/mixed_bits.h"
 #include "core/math/tolerances.h"
+#include "core/proximity/query/feature_corners.h"
 #include "core/proximity/query/leaf_tests.h"
 #include "core/proximity/query/query_workspace.h"
 
@@ -26,21 +27,12 @@ constexpr double kCellsBelowZero = 512.0;
 /// A pair that is nearer than the nearest of its group by no more than this share of what is needed is not tested: the
 /// part may come so much nearer than its margin, and of pairs that lie along each other nearly all would be tested.
 constexpr double kLeastGain = 0.005;
-/// Roundings of a coordinate in a distance along a direction, both poses counted.
-constexpr double kSeparationRoundings = 32.0;
-/// Work of a test, of one with a separation found anew, and of a passage; pairs bounded, and groups passed, in a unit.
+/// Work of a test, of finding a separation after it, and of a passage; and pairs bounded in a unit of work.
 constexpr std::uint64_t kWorkOfExactTest = 2, kWorkOfSeparation = 2, kWorkOfOnePassage = 1;
 constexpr std::uint64_t kBoundedOfWork = 16, kBoundedOnWayOfWork = 8;
 
-/// Spreads the bits of a number (the finaliser of SplitMix64).
-std::uint64_t spread(std::uint64_t x) noexcept {
-  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
-  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
-  return x ^ (x >> 31U);
-}
-
 std::uint64_t hashOf(const LeafPair& pair) noexcept {
-  return spread(static_cast<std::uint64_t>(pair.scene) << 32U | pair.part);
+  return mixedBits(static_cast<std::uint64_t>(pair.scene) << 32U | pair.part);
 }
 
 std::size_t kindOf(const LeafPair& pair) noexcept {
@@ -69,7 +61,6 @@ void ManyPairs::forget() noexcept {
   for (std::vector<std::uint32_t>& slots : free_)
     slots.clear();
   new_.clear();
-  size_ = 0;
   groupCount_ = 1;
   turn_ = 0.0;
   stage_ = Stage::Done;
@@ -105,27 +96,30 @@ std::uint32_t ManyPairs::add(const LeafPair& pair) noexcept {
   return slot;
 }
 
+template <class Visit>
+void ManyPairs::visitSlots(Visit&& visit) const noexcept {
+  for (std::size_t kind = 0; kind < used_.size(); ++kind) {
+    for (std::size_t i = 0; i < used_[kind]; ++i)
+      visit(static_cast<std::uint32_t>(kind * kSlotsOfKind + i));
+  }
+}
+
 void ManyPairs::sweep() noexcept {
   std::fill(table_.begin(), table_.end(), kNone);
-  for (std::size_t kind = 0; kind < 2; ++kind) {
-    free_[kind].clear();
-    for (std::size_t i = 0; i < used_[kind]; ++i) {
-      const auto slot = static_cast<std::uint32_t>(kind * kSlotsOfKind + i);
-      if (slots_[slot].isHeld)
-        insert(slot);
-      else
-        free_[kind].push_back(slot);
-    }
-  }
+  for (std::vector<std::uint32_t>& slots : free_)
+    slots.clear();
+  visitSlots([this](std::uint32_t at) {
+    if (slots_[at].isHeld)
+      insert(at);
+    else
+      free_[at / kSlotsOfKind].push_back(at);
+  });
 }
 
 void ManyPairs::hold(std::span<const LeafPair> pairs, double turn) noexcept {
   turn_ += turn;
   stage_ = Stage::Done;
-  for (std::size_t kind = 0; kind < 2; ++kind) {
-    for (std::size_t i = 0; i < used_[kind]; ++i)
-      slots_[kind * kSlotsOfKind + i].isHeld = false;
-  }
+  visitSlots([this](std::uint32_t at) { slots_[at].isHeld = false; });
   new_.clear();
   unknown_.clear();
   for (const LeafPair& pair : pairs) {
@@ -141,7 +135,6 @@ void ManyPairs::hold(std::span<const LeafPair> pairs, double turn) noexcept {
   if (unheld > pairs.size() / 2 || there + unknown_.size() > kMax) sweep();
   for (const LeafPair& pair : unknown_)
     slots_[add(pair)].isHeld = true;
-  size_ = pairs.size();
   regroup();
 }
 
@@ -149,27 +142,24 @@ void ManyPairs::regroup() noexcept {
   std::fill(groupTable_.begin(), groupTable_.end(), kNone);
   groupCount_ = 1;
   groups_[0] = {.least = kBeyondAll};
-  for (std::size_t kind = 0; kind < 2; ++kind) {
-    for (std::size_t i = 0; i < used_[kind]; ++i) {
-      const auto at = static_cast<std::uint32_t>(kind * kSlotsOfKind + i);
-      Slot& slot = slots_[at];
-      if (!slot.isHeld) continue;
-      if (slot.isKnown && turn_ - slot.turnAt > kMaxTurnOfKey) slot.isKnown = false;
-      if (!slot.isKnown) {
-        new_.push_back(at);
-        continue;
-      }
-      slot.group = groupOf(slot.key);
-      if (slot.group == 0 || slot.distance == kBeyondAll) continue;
-      Group& group = groups_[slot.group];
-      if (group.nearest == kNone || slot.distance < slots_[group.nearest].distance) group.nearest = at;
+  visitSlots([this](std::uint32_t at) {
+    Slot& slot = slots_[at];
+    if (!slot.isHeld) return;
+    if (slot.isKnown && turn_ - slot.turnAt > kMaxTurnOfKey) slot.isKnown = false;
+    if (!slot.isKnown) {
+      new_.push_back(at);
+      return;
     }
-  }
+    slot.group = groupOf(slot.key);
+    if (slot.group == 0 || slot.distance == kBeyondAll) return;
+    Group& group = groups_[slot.group];
+    if (group.nearest == kNone || slot.distance < slots_[group.nearest].distance) group.nearest = at;
+  });
 }
 
 std::uint32_t ManyPairs::groupOf(std::uint64_t key) noexcept {
   if (key == 0) return 0;
-  std::size_t at = spread(key) % kGroupTableSize;
+  std::size_t at = mixedBits(key) % kGroupTableSize;
   while (groupTable_[at] != kNone) {
     if (groups_[groupTable_[at]].key == key) return groupTable_[at];
     at = (at + 1) % kGroupTableSize;

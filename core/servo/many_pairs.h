@@ -18,7 +18,7 @@ namespace nearfit {
 /// Pairs are grouped by the contact that they could form: those of a group say the same of the part's motion, so the
 /// nearest counts (ContactThinning). Each pair has a Separation, which bounds its distance from below wherever the part
 /// goes. A look tests the nearest pair that each group had last, and then those alone that may be nearer. A pair that is
-/// not tested is therefore farther than one that is, and the least distance is exact.
+/// not tested is therefore no nearer than one that is, but for a hundredth of the distance that is needed.
 ///
 /// Allocates only in the constructor; real-time safe after it.
 class ManyPairs {
@@ -33,18 +33,15 @@ class ManyPairs {
   /// From now on holds these pairs, at most kMax, which span contacts. What is known of those held before stays.
   /// @param turn  Angle by which the part has turned since the last call, at most [rad].
   void hold(std::span<const LeafPair> pairs, double turn) noexcept;
-  /// Number of pairs held.
-  std::size_t size() const noexcept { return size_; }
 
-  /// What a look asks.
+  /// Parameters of a look.
   struct Asked {
     const NormalConeTree *scene = nullptr, *part = nullptr;
     RigidTransform sceneFromPart;  ///< The look's pose.
     ContactReach reach;
     /// Contacts farther than this need not be found [m]; at most the reach.
     double need = 0.0;
-    double cell =
-        0.0;  ///< Points nearer to each other than this, and directions alike, make a group [m]; > 0.
+    double cell = 0.0;  ///< Size of the cells that points are grouped by [m]; > 0.
     /// The way that led there, if it is asked how near the pairs come on it; travel and bend apart.
     std::optional<PartWay> way{};
     /// No point of the other body strays farther from the straight line between its places at both ends, as seen from
@@ -52,13 +49,13 @@ class ManyPairs {
     double bendFromPart = 0.0;
     double enough = 0.0;  ///< A distance on the way beyond this [m] is as good as any.
   };
-  /// What a look finds, besides contacts.
+  /// Result of a look, besides contacts.
   struct Found {
     /// Lower bound on the distance of any contact [m], by at most a hundredth of `need` less than that of the nearest.
     /// Infinity if there is none within the reach.
     double least = 0.0;
-    double leastOnWay =
-        0.0;  ///< Lower bound on the distance on the way, as in PairPassage [m]; at most `enough`.
+    /// Lower bound on the distance on the way, as in PairPassage [m]; at most `enough`.
+    double leastOnWay = 0.0;
   };
   /// Starts a look; what an earlier one has not finished is left. The hierarchies are the same until forget().
   void begin(const Asked& asked) noexcept;
@@ -93,6 +90,9 @@ class ManyPairs {
   std::uint32_t find(const LeafPair& pair) const noexcept;
   std::uint32_t add(const LeafPair& pair) noexcept;
   void insert(std::uint32_t slot) noexcept;
+  /// Calls visit(slot) for each slot that was used so far.
+  template <class Visit>
+  void visitSlots(Visit&& visit) const noexcept;
   /// Frees the slots that are not held.
   void sweep() noexcept;
   void regroup() noexcept;
@@ -108,7 +108,7 @@ class ManyPairs {
   std::vector<LeafPair> unknown_;   ///< Pairs to hold that have no slot yet.
   std::vector<Group> groups_;
   std::vector<std::uint32_t> groupTable_;
-  std::size_t size_ = 0, groupCount_ = 0;
+  std::size_t groupCount_ = 0;
   double turn_ = 0.0;  ///< Turn of the part, added up [rad].
 
   Asked asked_;

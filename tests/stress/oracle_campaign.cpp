@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/math/mixed_bits.h"
 #include "core/proximity/query/lmd_query.h"
 #include "tests/stress/oracle_poses.h"
 #include "tests/support/region_oracle.h"
@@ -40,10 +41,7 @@ std::uint64_t seedOf(std::uint64_t seed, const std::string& name, std::size_t nu
   std::uint64_t hash = 0xCBF29CE484222325U;
   for (const char c : name)
     hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3U;
-  hash += seed * 0x9E3779B97F4A7C15U + number * 0xD1B54A32D192ED03U;
-  hash = (hash ^ hash >> 30) * 0xBF58476D1CE4E5B9U;
-  hash = (hash ^ hash >> 27) * 0x94D049BB133111EBU;
-  return hash ^ hash >> 31;
+  return mixedBits(hash + seed * 0x9E3779B97F4A7C15U + number * 0xD1B54A32D192ED03U);
 }
 
 }  // namespace

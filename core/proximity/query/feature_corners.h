@@ -12,6 +12,9 @@
 
 namespace nearfit {
 
+/// Roundings of a coordinate in how far two features are apart along a direction, poses and features counted.
+constexpr double kSeparationRoundings = 32.0;
+
 /// Corners of a feature; unused ones repeat the last.
 struct FeatureCorners {
   std::array<glm::dvec3, 3> at;

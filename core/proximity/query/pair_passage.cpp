@@ -12,13 +12,6 @@
 #include "core/proximity/query/query_workspace.h"
 
 namespace nearfit {
-namespace {
-
-/// Roundings of a coordinate in a distance along a direction, each of both poses and features counted.
-constexpr double kRoundings = 32.0;
-
-}  // namespace
-
 PairPassage::PairPassage(const NormalConeTree& scene, const NormalConeTree& part, const PartWay& way,
                          double enough) noexcept
     : scene_(scene), part_(part), travel_(way.travel), enough_(enough) {
@@ -29,7 +22,7 @@ PairPassage::PairPassage(const NormalConeTree& scene, const NormalConeTree& part
   shiftTo_ = to.translation;
   const double lengths =
       scene.size() + part.size() + std::max(glm::length(shiftFrom_), glm::length(shiftTo_));
-  lost_ = way.bend + kRoundings * kPointRounding * lengths;
+  lost_ = way.bend + kSeparationRoundings * kPointRounding * lengths;
 }
 
 double PairPassage::leastOf(const LeafPair& pair) const noexcept {

@@ -253,7 +253,7 @@ TEST_F(ServoTickWithProxy, WhatIsFeltIsThereBeforeWhatIsShownAndDoesNotChangeByI
   EXPECT_GT(snapshot_->contactCount, 0U);
 }
 
-/// Of more minima than a tick can look at, some are missing, and so may be the nearest.
+/// A tick cannot look at all minima of crowded bodies: the nearest may be missing.
 TEST_F(ServoTickWithProxy, ADistanceThatIsOnlyABoundIsSaidToBeOne) {
   EXPECT_FALSE(hold(at({0.0, 0.0, 0.103}), 5).isDistanceBound);
   auto ringed = std::make_shared<ServoScene>();
