@@ -54,7 +54,7 @@ void addClearanceCommand(CLI::App& program) {
       "Columns: part; other; distance [m] (not limited by the cutoff; 0 if they overlap); the nearest\n"
       "points of the two, x y z each [m] in the world frame; minima, their number within the cutoff;\n"
       "every_minimum (0 if there are more than are looked for); overlap, decided exactly (no, surfaces\n"
-      "meet, inside the other, the other inside).");
+      "meet, inside the other, the other inside); distance_bound, 0: the distance is exact.");
   command->callback([options] { runClearance(*options); });
 }
 

@@ -31,6 +31,7 @@ void take(const MotionRow& row, PlaceResult& result, MotionWriter* writer) {
   result.maxLmds = std::max(result.maxLmds, row.lmds);
   if (row.distance < result.leastDistance) {
     result.leastDistance = row.distance;
+    result.isLeastDistanceBound = row.isDistanceBound;
     result.leastDistanceTime = row.time;
   }
   raise(result.force, row.wrench.force, row.time);

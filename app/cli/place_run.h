@@ -50,10 +50,11 @@ struct PlaceResult {
   std::uint64_t lateTicks = 0;  ///< Searched for themselves because the lists were not ready.
   std::uint64_t lostRows = 0;   ///< Missing in the record, and in the figures taken from rows.
   std::uint32_t maxLmds = 0;
-  double leastDistance = 0.0;      ///< [m]; infinity if nothing came within the cutoff.
-  double leastDistanceTime = 0.0;  ///< [s]
-  Peak force, torque;              ///< Peaks of what was sent [N], [N m].
-  double maxEnergyToHand = 0.0;    ///< Highest energy given to the hand at any time [J].
+  double leastDistance = 0.0;         ///< [m]; infinity if nothing came within the cutoff.
+  bool isLeastDistanceBound = false;  ///< `leastDistance` is a lower bound.
+  double leastDistanceTime = 0.0;     ///< [s]
+  Peak force, torque;                 ///< Peaks of what was sent [N], [N m].
+  double maxEnergyToHand = 0.0;       ///< Highest energy given to the hand at any time [J].
   std::uint32_t maxSubSteps = 0;
   std::uint64_t shortenedSteps = 0, refusedSteps = 0;
   std::uint64_t overlappingTicks = 0;  ///< With parts that overlap and so are not felt.

@@ -44,7 +44,8 @@ std::string overrunsText(std::uint64_t overruns) {
 
 std::string distanceText(const PlaceResult& result) {
   if (!std::isfinite(result.leastDistance)) return "nothing came within the cutoff";
-  return fmt::format("min {:.6g} m at {:.3f} s", result.leastDistance, result.leastDistanceTime);
+  return fmt::format("min {}{:.6g} m at {:.3f} s", result.isLeastDistanceBound ? "at least " : "",
+                     result.leastDistance, result.leastDistanceTime);
 }
 
 const char* modeName(const HapticSettings& haptics) {
@@ -220,6 +221,7 @@ std::string summaryJson(const PlaceSummary& s) {
   else
     json["poses"] = s.poses;
   if (std::isfinite(r.leastDistance)) json["least_distance"] = r.leastDistance;
+  json["least_distance_is_bound"] = r.isLeastDistanceBound;
   if (s.parameters.haptics.mode == HapticMode::Proxy) json["proxy"] = proxyJson(s);
   if (!r.schedulingNote.empty()) {
     json["lateness_us"] = timesJson(r.lateness);

@@ -86,7 +86,8 @@ void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clear
       if (nearest == nullptr || minimum.lmd.distance < nearest->distance) nearest = &minimum.lmd;
     }
     if (nearest == nullptr) continue;
-    each.distance = nearest->distance;
+    each.isDistanceBound = snapshot.isDistanceBound && snapshot.distance < nearest->distance;
+    each.distance = each.isDistanceBound ? snapshot.distance : nearest->distance;
     each.partPoint = nearest->partPoint;
     each.otherPoint = nearest->scenePoint;
     each.minima = count;
@@ -115,12 +116,13 @@ std::string clearanceCsv(const Scene& scene, PartId id, const std::vector<PartCl
     return part != nullptr ? csvField(part->name) : std::string();
   };
   std::string text =
-      "part,other,distance,part_x,part_y,part_z,other_x,other_y,other_z,minima,every_minimum,overlap\n";
+      "part,other,distance,part_x,part_y,part_z,other_x,other_y,other_z,minima,every_minimum,overlap,"
+      "distance_bound\n";
   for (const PartClearance& c : clearances) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{:d},{}\n", nameOfPart(id),
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{:d},{},{:d}\n", nameOfPart(id),
                    nameOfPart(c.other), c.distance, c.partPoint.x, c.partPoint.y, c.partPoint.z,
                    c.otherPoint.x, c.otherPoint.y, c.otherPoint.z, c.minima, c.isEveryMinimum,
-                   nameOf(c.overlap));
+                   nameOf(c.overlap), c.isDistanceBound);
   }
   return text;
 }

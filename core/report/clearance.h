@@ -21,6 +21,8 @@ struct PartClearance {
   glm::dvec3 partPoint{0.0}, otherPoint{0.0};
   std::size_t minima = 0;      ///< Number of LMDs within the cutoff; 0 if the parts overlap.
   bool isEveryMinimum = true;  ///< False if there are more minima than the search holds.
+  /// True if `distance` is a lower bound: a minimum nearer than those found may be missing.
+  bool isDistanceBound = false;
   /// Exact (interference.h); its `scene` is the other part.
   InterferenceKind overlap = InterferenceKind::Disjoint;
   /// True if both are solid throughout: then the min LMD equals the min distance.
@@ -44,7 +46,7 @@ void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clear
 const char* nameOf(InterferenceKind overlap) noexcept;
 
 /// The clearances as CSV (UTF-8), one row each: `part`, `other`, `distance` [m], the points `part_x ...
-/// other_z` [m], `minima`, `every_minimum` (0 or 1), `overlap` (nameOf).
+/// other_z` [m], `minima`, `every_minimum` (0 or 1), `overlap` (nameOf), `distance_bound` (0 or 1).
 std::string clearanceCsv(const Scene& scene, PartId part, const std::vector<PartClearance>& clearances);
 
 }  // namespace nearfit

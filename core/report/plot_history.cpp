@@ -58,7 +58,9 @@ PlotSample plotSample(const MotionRow& row) noexcept {
   };
   set(PlotChannel::Force, glm::length(row.wrench.force));
   set(PlotChannel::Torque, glm::length(row.wrench.torque));
-  set(PlotChannel::Clearance, std::isfinite(row.distance) ? row.distance : kNone);
+  const double distance = std::isfinite(row.distance) ? row.distance : kNone;
+  set(PlotChannel::Clearance, row.isDistanceBound ? kNone : distance);
+  set(PlotChannel::AtLeast, row.isDistanceBound ? distance : kNone);
   set(PlotChannel::TickTime, row.tickTime);
   set(PlotChannel::Lateness, row.lateness);
   return sample;
@@ -125,7 +127,7 @@ void PlotHistory::envelope(PlotChannel channel, double from, double to, std::siz
 }
 
 std::string PlotHistory::csv(double from, double to) const {
-  std::string text = "t_s,force_N,torque_Nm,clearance_m,tick_s,lateness_s\n";
+  std::string text = "t_s,force_N,torque_Nm,clearance_m,clearance_at_least_m,tick_s,lateness_s\n";
   const std::size_t size = this->size();
   for (std::size_t i = indexFrom(from); i < size && at(i).time <= to; ++i) {
     const PlotSample& sample = at(i);

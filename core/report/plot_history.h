@@ -14,11 +14,12 @@ namespace nearfit {
 enum class PlotChannel : std::uint8_t {
   Force,      ///< Magnitude [N].
   Torque,     ///< Magnitude [N m].
-  Clearance,  ///< Min distance [m]; NaN if nothing is within the cutoff.
+  Clearance,  ///< Min distance [m]; NaN if nothing is within the cutoff, or only a bound is known.
+  AtLeast,    ///< Lower bound on the min distance where only that is known, else NaN [m].
   TickTime,   ///< [s]
   Lateness,   ///< Delay of the tick after its deadline [s].
 };
-inline constexpr std::size_t kPlotChannels = 5;
+inline constexpr std::size_t kPlotChannels = 6;
 
 /// Values of one tick.
 struct PlotSample {
@@ -79,7 +80,7 @@ class PlotHistory {
                 std::vector<PlotPoint>& out) const;
 
   /// Samples from `from` to `to` [s], inclusive, as CSV:
-  /// `t_s,force_N,torque_Nm,clearance_m,tick_s,lateness_s`. The field is empty if a value is not finite.
+  /// `t_s,force_N,torque_Nm,clearance_m,clearance_at_least_m,tick_s,lateness_s`. The field is empty if a value is not finite.
   std::string csv(double from, double to) const;
 
  private:

@@ -72,7 +72,8 @@ constexpr std::array kColumns = {Column{"t_s", Kind::Time, true},
                                  Column{"truncated", Kind::Count, false},
                                  Column{"late_us", Kind::Duration, false},
                                  Column{"wrench_us", Kind::Duration, false},
-                                 Column{"behind", Kind::Count, false}};
+                                 Column{"behind", Kind::Count, false},
+                                 Column{"distance_bound", Kind::Count, false}};
 constexpr std::size_t kFirstHandle = 1, kFirstProxy = 8, kFirstForce = 15, kAfterWrench = 21;
 
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
@@ -157,6 +158,7 @@ void takeRest(MotionRow& row, std::span<const double> v, const csv::Place& place
   row.lateness = kMicro * v[16];
   row.wrenchTime = kMicro * v[17];
   row.isBehind = v[18] != 0.0;
+  row.isDistanceBound = v[19] != 0.0;
 }
 
 MotionRow parseRow(std::string_view text, const Places& places, const csv::Place& place) {

@@ -16,8 +16,20 @@ void appendPose(std::string& line, const RigidTransform& pose) {
 }  // namespace
 
 MotionRow motionRow(const ServoSnapshot& s, double lateness) noexcept {
-  MotionRow row{s.time,      s.handle,   s.proxy,      s.wrench,      s.lmdCount,  s.distance,
-                s.queryTime, s.tickTime, s.lateBodies, s.isTruncated, s.isClamped, s.fault};
+  MotionRow row;
+  row.time = s.time;
+  row.handle = s.handle;
+  row.proxy = s.proxy;
+  row.wrench = s.wrench;
+  row.lmds = s.lmdCount;
+  row.distance = s.distance;
+  row.isDistanceBound = s.isDistanceBound;
+  row.queryTime = s.queryTime;
+  row.tickTime = s.tickTime;
+  row.lateBodies = s.lateBodies;
+  row.isTruncated = s.isTruncated;
+  row.isClamped = s.isClamped;
+  row.fault = s.fault;
   row.energyToHand = s.energyToHand;
   row.proxyTime = s.proxyTime;
   row.subSteps = s.subSteps;
@@ -39,7 +51,7 @@ std::string_view motionHeader() noexcept {
          "force_x,force_y,force_z,torque_x,torque_y,torque_z,"
          "lmds,distance,query_us,tick_us,late_bodies,"
          "energy,sub_steps,shortened,refused,constraints,contacts,released,proxy_us,clamped,fault,"
-         "truncated,late_us,wrench_us,behind";
+         "truncated,late_us,wrench_us,behind,distance_bound";
 }
 
 std::string formatMotionRow(const MotionRow& row) {
@@ -50,11 +62,11 @@ std::string formatMotionRow(const MotionRow& row) {
   const glm::dvec3& t = row.wrench.torque;
   fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{},{:.3f},{:.3f},{}", f.x, f.y, f.z, t.x,
                  t.y, t.z, row.lmds, row.distance, row.queryTime * 1e6, row.tickTime * 1e6, row.lateBodies);
-  fmt::format_to(std::back_inserter(line), ",{},{},{},{},{},{},{},{:.3f},{:d},{:d},{:d},{:.3f},{:.3f},{:d}",
-                 row.energyToHand, row.subSteps, row.shortenedSteps, row.refusedSteps, row.constraints,
-                 row.contacts, row.overlapping, row.proxyTime * 1e6, row.isClamped,
-                 static_cast<int>(row.fault), row.isTruncated, row.lateness * 1e6, row.wrenchTime * 1e6,
-                 row.isBehind);
+  fmt::format_to(
+      std::back_inserter(line), ",{},{},{},{},{},{},{},{:.3f},{:d},{:d},{:d},{:.3f},{:.3f},{:d},{:d}",
+      row.energyToHand, row.subSteps, row.shortenedSteps, row.refusedSteps, row.constraints, row.contacts,
+      row.overlapping, row.proxyTime * 1e6, row.isClamped, static_cast<int>(row.fault), row.isTruncated,
+      row.lateness * 1e6, row.wrenchTime * 1e6, row.isBehind, row.isDistanceBound);
   return line;
 }
 

@@ -21,6 +21,7 @@ struct MotionRow {
   Wrench wrench;          ///< As sent to the device, about the part's centre of mass.
   std::uint32_t lmds = 0;
   double distance = 0.0;                   ///< Min distance [m]; infinity if nothing is within the cutoff.
+  bool isDistanceBound = false;            ///< See ServoSnapshot::isDistanceBound.
   double queryTime = 0.0, tickTime = 0.0;  ///< [s]
   std::uint32_t lateBodies = 0;            ///< Bodies searched anew in this tick.
   /// Truncated: the search may have missed minima. Clamped: a limit cut the wrench.
@@ -45,13 +46,14 @@ using MotionQueue = SpscQueue<MotionRow, 16384>;
 
 /// Header line of a recording: t_s, handle_tx ... handle_qz, proxy_tx ... proxy_qz, force_x ... torque_z,
 /// lmds, distance, query_us, tick_us, late_bodies, energy, sub_steps, shortened, refused, constraints,
-/// contacts, released, proxy_us, clamped, fault, truncated, late_us, wrench_us, behind. Poses are tx ty tz qw qx qy qz.
+/// contacts, released, proxy_us, clamped, fault, truncated, late_us, wrench_us, behind, distance_bound. Poses are
+/// tx ty tz qw qx qy qz.
 std::string_view motionHeader() noexcept;
 
 /// Formats a row in the columns of motionHeader(), without line end. Numbers have the fewest digits that read
 /// back to the same double, except durations in microseconds, which are rounded to nanoseconds. `distance` is
 /// `inf` if nothing is within the cutoff; `clamped`, `truncated` (the search may have missed minima within
-/// the cutoff) and `behind` are 0 or 1; `fault` is the number of the ServoFault.
+/// the cutoff), `behind` and `distance_bound` are 0 or 1; `fault` is the number of the ServoFault.
 std::string formatMotionRow(const MotionRow& row);
 
 /// Writes a recording as CSV, row by row, to a temporary file beside the target: "felt.unfinished.csv" for

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 #include "ui/widgets/format.h"
 #include "ui/widgets/theme.h"
 
@@ -75,7 +77,7 @@ QString ClearanceModel::textOf(const Row& row, int column) const {
     case Other:
       return row.name;
     case Distance:
-      return formatLength(c.distance);
+      return formatDistance(c.distance, c.isDistanceBound);
     case Minima:
       if (c.isOverlapping()) return QStringLiteral("–");
       return c.isEveryMinimum ? QString::number(c.minima) : tr("%1+").arg(c.minima);
@@ -83,7 +85,10 @@ QString ClearanceModel::textOf(const Row& row, int column) const {
       break;
   }
   if (c.isOverlapping()) return overlapText(c.overlap);
-  return isTooNear(c) ? tr("too near") : tr("clear");
+  if (!isTooNear(c)) return tr("clear");
+  // The points are those of the nearest minimum found.
+  const bool isSure = !c.isDistanceBound || glm::distance(c.partPoint, c.otherPoint) < threshold_;
+  return isSure ? tr("too near") : tr("may be too near");
 }
 
 QVariant ClearanceModel::sortKeyOf(const Row& row, int column) const {

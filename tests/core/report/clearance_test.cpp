@@ -162,6 +162,36 @@ TEST(Clearance, WhatATickKnowsIsTakenOverAndTheRestStays) {
   EXPECT_EQ(rows[3].distance, 9.0) << "overlapping: the next search tells";
 }
 
+TEST(Clearance, WhereATickKnowsOnlyABoundItIsTakenOverAsOne) {
+  std::vector<PartClearance> rows(2);
+  for (PartClearance& each : rows)
+    each.isBetweenSolids = true;
+  rows[0].other = PartId{1};
+  rows[1].other = PartId{2};
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  const auto add = [&](unsigned id, double distance) {
+    SnapshotLmd& minimum = snapshot->lmds[snapshot->storedLmds++];
+    minimum.other = PartId{id};
+    minimum.lmd.distance = distance;
+  };
+  add(1, 0.5);
+  add(2, 0.125);
+  snapshot->lmdCount = 2;
+  snapshot->distance = 0.25;
+  snapshot->isDistanceBound = true;
+  updateFrom(*snapshot, rows);
+  EXPECT_EQ(rows[0].distance, 0.25) << "a minimum nearer than that found may be missing";
+  EXPECT_TRUE(rows[0].isDistanceBound);
+  EXPECT_EQ(rows[1].distance, 0.125) << "none can be nearer than the one found";
+  EXPECT_FALSE(rows[1].isDistanceBound);
+
+  snapshot->isDistanceBound = false;
+  snapshot->distance = 0.125;
+  updateFrom(*snapshot, rows);
+  EXPECT_EQ(rows[0].distance, 0.5);
+  EXPECT_FALSE(rows[0].isDistanceBound);
+}
+
 TEST(Clearance, TheTableSaysNamesUnitsAndOverlaps) {
   Scene scene;
   const PartId part = scene.add(test::partOf(test::geometryOf(test::boxMesh(glm::dvec3(1.0))), "a, b"));
@@ -175,10 +205,12 @@ TEST(Clearance, TheTableSaysNamesUnitsAndOverlaps) {
   PartClearance second = row;
   second.overlap = InterferenceKind::PartInside;
   second.isEveryMinimum = false;
+  row.isDistanceBound = true;
   EXPECT_EQ(clearanceCsv(scene, part, {row, second}),
-            "part,other,distance,part_x,part_y,part_z,other_x,other_y,other_z,minima,every_minimum,overlap\n"
-            "\"a, b\",c,0.125,1,2,3,4,5,6,7,1,no\n"
-            "\"a, b\",c,0.125,1,2,3,4,5,6,7,0,inside the other\n");
+            "part,other,distance,part_x,part_y,part_z,other_x,other_y,other_z,minima,every_minimum,overlap,"
+            "distance_bound\n"
+            "\"a, b\",c,0.125,1,2,3,4,5,6,7,1,no,1\n"
+            "\"a, b\",c,0.125,1,2,3,4,5,6,7,0,inside the other,0\n");
 }
 
 }  // namespace

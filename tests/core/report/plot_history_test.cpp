@@ -148,8 +148,18 @@ TEST(PlotHistory, ASampleIsTheMagnitudesAndTimesOfItsTick) {
   EXPECT_EQ(sample.value(PlotChannel::Force), 5.0F);
   EXPECT_EQ(sample.value(PlotChannel::Torque), 2.0F);
   EXPECT_EQ(sample.value(PlotChannel::Clearance), 0.5F);
+  EXPECT_TRUE(std::isnan(sample.value(PlotChannel::AtLeast)));
   EXPECT_EQ(sample.value(PlotChannel::TickTime), 1e-3F);
   EXPECT_EQ(sample.value(PlotChannel::Lateness), 2e-3F);
+}
+
+TEST(PlotHistory, ABoundOnTheClearanceHasALineOfItsOwn) {
+  MotionRow row;
+  row.distance = 0.5;
+  row.isDistanceBound = true;
+  const PlotSample sample = plotSample(row);
+  EXPECT_TRUE(std::isnan(sample.value(PlotChannel::Clearance)));
+  EXPECT_EQ(sample.value(PlotChannel::AtLeast), 0.5F);
 }
 
 TEST(PlotHistory, ATableHasTheSamplesOfASpan) {
@@ -157,7 +167,8 @@ TEST(PlotHistory, ATableHasTheSamplesOfASpan) {
   for (int i = 0; i < 5; ++i)
     history.add(sampleOf(i, i == 2 ? std::numeric_limits<float>::quiet_NaN() : 0.5F));
   EXPECT_EQ(history.csv(1.0, 2.0),
-            "t_s,force_N,torque_Nm,clearance_m,tick_s,lateness_s\n1,0.5,0.5,0.5,0.5,0.5\n2,,,,,\n");
+            "t_s,force_N,torque_Nm,clearance_m,clearance_at_least_m,tick_s,lateness_s\n1,0.5,0.5,0.5,0.5,0.5,"
+            "0.5\n2,,,,,,\n");
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ MotionRow rowAt(double time, test::RandomValues& random) {
   row.proxyTime = 1.5e-6;
   row.lateness = 45e-6;
   row.wrenchTime = 2.5e-6;
-  row.isBehind = true;
+  row.isBehind = row.isDistanceBound = true;
   row.isClamped = true;
   row.fault = ServoFault::WrenchNotFinite;
   return row;

@@ -51,28 +51,28 @@ MotionRow sampleRow() {
   row.proxyTime = 1.2341e-6;
   row.lateness = 45.6781e-6;
   row.wrenchTime = 5.4321e-6;
-  row.isClamped = row.isTruncated = row.isBehind = true;
+  row.isClamped = row.isTruncated = row.isBehind = row.isDistanceBound = true;
   row.fault = ServoFault::WrenchNotFinite;
   return row;
 }
 
 TEST(MotionRecording, TheHeaderNamesTheColumnsInOrder) {
   const std::vector<std::string> expected{
-      "t_s",       "handle_tx", "handle_ty",   "handle_tz", "handle_qw",   "handle_qx", "handle_qy",
-      "handle_qz", "proxy_tx",  "proxy_ty",    "proxy_tz",  "proxy_qw",    "proxy_qx",  "proxy_qy",
-      "proxy_qz",  "force_x",   "force_y",     "force_z",   "torque_x",    "torque_y",  "torque_z",
-      "lmds",      "distance",  "query_us",    "tick_us",   "late_bodies", "energy",    "sub_steps",
-      "shortened", "refused",   "constraints", "contacts",  "released",    "proxy_us",  "clamped",
-      "fault",     "truncated", "late_us",     "wrench_us", "behind"};
+      "t_s",       "handle_tx", "handle_ty",   "handle_tz", "handle_qw",   "handle_qx",     "handle_qy",
+      "handle_qz", "proxy_tx",  "proxy_ty",    "proxy_tz",  "proxy_qw",    "proxy_qx",      "proxy_qy",
+      "proxy_qz",  "force_x",   "force_y",     "force_z",   "torque_x",    "torque_y",      "torque_z",
+      "lmds",      "distance",  "query_us",    "tick_us",   "late_bodies", "energy",        "sub_steps",
+      "shortened", "refused",   "constraints", "contacts",  "released",    "proxy_us",      "clamped",
+      "fault",     "truncated", "late_us",     "wrench_us", "behind",      "distance_bound"};
   EXPECT_EQ(split(std::string(motionHeader()), ','), expected);
 }
 
 TEST(MotionRecording, ARowHasItsValuesUnderTheirColumns) {
   const std::vector<std::string> columns = split(formatMotionRow(sampleRow()), ',');
-  const std::vector<double> expected{0.001, 1,   2,         3,      0.1, 0.2, 0.3,     0.4,    4,     5,
-                                     6,     0.5, 0.6,       0.7,    0.8, -1,  -2,      -3,     -4,    -5,
-                                     -6,    17,  1.0 / 3.0, 12.346, 20,  3,   -2.5e-4, 4,      5,     6,
-                                     7,     8,   9,         1.234,  1,   2,   1,       45.678, 5.432, 1};
+  const std::vector<double> expected{0.001,     1,      2,   3,   0.1,     0.2,   0.3, 0.4, 4,  5,  6,
+                                     0.5,       0.6,    0.7, 0.8, -1,      -2,    -3,  -4,  -5, -6, 17,
+                                     1.0 / 3.0, 12.346, 20,  3,   -2.5e-4, 4,     5,   6,   7,  8,  9,
+                                     1.234,     1,      2,   1,   45.678,  5.432, 1,   1};
   ASSERT_EQ(columns.size(), expected.size());
   for (std::size_t i = 0; i < columns.size(); ++i)
     EXPECT_EQ(std::stod(columns[i]), expected[i]) << i;
@@ -94,6 +94,7 @@ TEST(MotionRecording, ARowIsTakenFromASnapshot) {
   snapshot->lmdCount = 700;
   snapshot->storedLmds = 512;
   snapshot->distance = 5.5;
+  snapshot->isDistanceBound = true;
   snapshot->queryTime = 6.5;
   snapshot->tickTime = 7.5;
   snapshot->isClamped = true;
@@ -116,6 +117,7 @@ TEST(MotionRecording, ARowIsTakenFromASnapshot) {
   EXPECT_EQ(row.wrench.force.x, 4.5) << "as sent";
   EXPECT_EQ(row.lmds, 700U);
   EXPECT_EQ(row.distance, 5.5);
+  EXPECT_TRUE(row.isDistanceBound);
   EXPECT_EQ(row.queryTime, 6.5);
   EXPECT_EQ(row.tickTime, 7.5);
   EXPECT_TRUE(row.isClamped);

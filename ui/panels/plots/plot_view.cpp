@@ -9,7 +9,10 @@
 namespace nearfit::ui {
 namespace {
 
-const QColor kClearance(0x0b, 0x84, 0x84), kTick(0x1f, 0x73, 0xd0), kLate(0xe2, 0x71, 0x1d);
+const QColor kClearance(0x0b, 0x84, 0x84), kAtLeast(0xb0, 0x5c, 0x10), kTick(0x1f, 0x73, 0xd0),
+    kLate(0xe2, 0x71, 0x1d);
+
+constexpr std::size_t kClearancePane = 2;
 
 /// Returns a range from zero to above the greatest value, with room for the title; never empty.
 QCPRange valueRange(double greatest) {
@@ -31,9 +34,11 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent) {
   plotLayout()->clear();
   addPane(0, 0, tr("Force [N]"), {{PlotChannel::Force, colours::kForce}}, 1.0);
   addPane(0, 1, tr("Torque [mN·m]"), {{PlotChannel::Torque, colours::kTorque}}, 1e3);
-  addPane(1, 0, tr("Clearance [mm]"), {{PlotChannel::Clearance, kClearance}}, 1e3);
+  addPane(1, 0, tr("Clearance [mm]"),
+          {{PlotChannel::Clearance, kClearance}, {PlotChannel::AtLeast, kAtLeast}}, 1e3);
   addPane(1, 1, tr("Servo [µs]"), {{PlotChannel::TickTime, kTick}, {PlotChannel::Lateness, kLate}}, 1e6);
-  setUpLegend();
+  addLegend(panes_[kClearancePane], {tr("exact"), tr("at least")});
+  addLegend(panes_.back(), {tr("tick"), tr("lateness")});
   plotLayout()->setColumnSpacing(4);
   plotLayout()->setRowSpacing(2);
   applyPalette();
@@ -46,7 +51,8 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent) {
 
 void PlotView::addPane(int row, int column, const QString& label,
                        const std::vector<std::pair<PlotChannel, QColor>>& channels, double scale) {
-  Pane pane{new QCPAxisRect(this), nullptr, {}};
+  Pane pane;
+  pane.rect = new QCPAxisRect(this);
   plotLayout()->addElement(row, column, pane.rect);
   QCPAxis* time = pane.rect->axis(QCPAxis::atBottom);
   QCPAxis* value = pane.rect->axis(QCPAxis::atLeft);
@@ -78,20 +84,20 @@ void PlotView::addPane(int row, int column, const QString& label,
   panes_.push_back(std::move(pane));
 }
 
-void PlotView::setUpLegend() {
+void PlotView::addLegend(Pane& pane, const QStringList& lineNames) {
   auto* names = new QCPLegend;
-  Pane& servo = panes_.back();
-  servo.rect->insetLayout()->addElement(names, Qt::AlignTop | Qt::AlignRight);
+  pane.rect->insetLayout()->addElement(names, Qt::AlignTop | Qt::AlignRight);
   names->setLayer(QStringLiteral("legend"));
-  servo.lines[0].graph->setName(tr("tick"));
-  servo.lines[1].graph->setName(tr("lateness"));
-  for (const Line& line : servo.lines)
-    line.graph->addToLegend(names);
+  for (int i = 0; i < lineNames.size(); ++i) {
+    QCPGraph* graph = pane.lines[static_cast<std::size_t>(i)].graph;
+    graph->setName(lineNames[i]);
+    graph->addToLegend(names);
+  }
   names->setFillOrder(QCPLegend::foColumnsFirst);
   names->setBorderPen(Qt::NoPen);
   names->setMargins({4, 1, 4, 1});
   names->setIconSize(14, 8);
-  legend = names;
+  pane.legend = names;
 }
 
 void PlotView::applyPalette() {
@@ -121,9 +127,12 @@ void PlotView::applyPalette() {
   }
   QColor plate = base;
   plate.setAlphaF(0.8);
-  legend->setBrush(plate);
-  legend->setTextColor(text);
-  legend->setFont(small);
+  for (const Pane& pane : panes_) {
+    if (pane.legend == nullptr) continue;
+    pane.legend->setBrush(plate);
+    pane.legend->setTextColor(text);
+    pane.legend->setFont(small);
+  }
 }
 
 void PlotView::setHistory(const PlotHistory* history) {

@@ -52,13 +52,14 @@ class PlotView : public QCustomPlot {
     double scale;  ///< Drawn units per SI unit.
   };
   struct Pane {
-    QCPAxisRect* rect;
-    QCPItemStraightLine* cursor;
+    QCPAxisRect* rect = nullptr;
+    QCPItemStraightLine* cursor = nullptr;
     std::vector<Line> lines;
+    QCPLegend* legend = nullptr;  ///< Null if it has one line.
   };
   void addPane(int row, int column, const QString& label,
                const std::vector<std::pair<PlotChannel, QColor>>& channels, double scale);
-  void setUpLegend();
+  void addLegend(Pane& pane, const QStringList& lineNames);
   void applyPalette();
   void takeUserRange(const QCPRange& range);
   void drawPanes();

@@ -29,7 +29,7 @@ constexpr int kEveryMs = 16;
 QString noteOf(const MotionRow& row) {
   return QObject::tr("Force %1    Torque %2    Clearance %3    Contacts %4")
       .arg(formatForce(glm::length(row.wrench.force)), formatTorque(glm::length(row.wrench.torque)),
-           formatLength(row.distance))
+           formatDistance(row.distance, row.isDistanceBound))
       .arg(row.contacts);
 }
 
