@@ -302,7 +302,7 @@ Proxy::Outcome Proxy::settle(const Tick& tick, Verdict verdict) noexcept {
     const bool isLong = trial_.shortenings == 0 && trial_.travel > kLongStride * trial_.goal.reach;
     // The pairs gathered at a step's end must serve from its start.
     const double most = std::min(kMaxStride * margin_, kStrideOfRoom * finder_.room());
-    if (isLong && !tick.tracked.scene->hasSurfaces()) stride_ = std::min(2.0 * trial_.travel, most);
+    if (isLong) stride_ = std::min(2.0 * trial_.travel, most);
     return trial_.isTarget ? Outcome::AtRest : Outcome::Moved;
   }
   stride_ = StepJudge::kHalf * trial_.travel;
@@ -373,20 +373,22 @@ StepGoal Proxy::goalOf(const Tick& tick, const Motion& wanted) const noexcept {
 RigidTransform Proxy::leadPose(const Tick& tick) noexcept {
   const ServoScene& scene = *tick.tracked.scene;
   const Motion wanted = motionBetween(scene, pose_, tick.target);
-  const double travel = travelOf(scene, wanted);
-  if (!(travel > 0.0) || !(here_.completeTo > 0.0)) return pose_;
-  if (!(wayLeft_ > 0.0)) return pose_;
-  const double share = std::min(1.0, wayLeft_ / travel);
+  if (!(travelOf(scene, wanted) > 0.0) || !(here_.completeTo > 0.0) || !(wayLeft_ > 0.0)) return pose_;
   if (!areFeltRowsFilled_ && !fillRows(tick, here_.completeTo, feltRows_)) return pose_;
   areFeltRowsFilled_ = true;
-  StepGoal goal = goalOf(tick, {share * wanted.shift, share * wanted.spin});
+  StepGoal goal = goalOf(tick, wanted);
   // One program: a search for the scale at which the step fits a reach would solve several.
   goal.reach = std::numeric_limits<double>::infinity();
   goal.radius = tick.metric.radius;
   const StepSolution solution = solve(tick, feltRows_, goal, kFeltChanges);
   keepContacts(feltRows_, solution);
-  if (solution.activeCount == 0 && share == 1.0) return tick.target;
-  return moved(scene, motionOf(tick, solution));
+  const Motion motion = motionOf(tick, solution);
+  const double travel = travelOf(scene, motion);
+  if (solution.activeCount == 0 && travel <= wayLeft_) return tick.target;
+  // What is left of the way limits the motion, not what is wanted: a part that is pressed hard against a wall keeps
+  // up along it.
+  const double share = travel > wayLeft_ ? wayLeft_ / travel : 1.0;
+  return moved(scene, {share * motion.shift, share * motion.spin});
 }
 
 Proxy::Outcome Proxy::planConstrained(const Tick& tick, const Motion& wanted) noexcept {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include "core/servo/proxy.h"
 #include "core/servo/scene_tracker.h"
 #include "core/servo/servo_tick.h"
+#include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 #include "tests/support/ringed_pair.h"
 #include "tests/support/tick_observation.h"
@@ -74,6 +76,32 @@ TEST_F(RodInTube, WhatIsFreeDoesNotDragWhileThePartIsBehind) {
   }
   EXPECT_GT(behind, 200);
   EXPECT_LT(most, 0.02);
+}
+
+// What is left of a tick's way limits where the part goes, not what the hand wants: else a part far behind a hand that
+// presses would go along what is free by the same share, and drag.
+TEST(TwoRates, APartThatIsPressedHardIsFeltAsFarAsItIsFreeToGo) {
+  auto scene = std::make_shared<ServoScene>();
+  scene->setMoving({PartId{1}, test::solidGeometryOf(test::boxMesh(glm::dvec3(1.0))), {}});
+  scene->bodies.push_back(
+      {PartId{2}, test::solidGeometryOf(test::boxMesh({10.0, 10.0, 1.0}, {0.0, 0.0, -1.1})), {}});
+  scene->prepareSurfaces();
+  SceneTracker tracker;
+  tracker.setScene(scene);
+  const ProxySettings settings{.margin = kMargin};
+  TrackedScene tracked;
+  Proxy proxy;
+  proxy.place({});
+  for (int i = 0; i < 60; ++i) {
+    tracker.update({proxy.pose(), std::nullopt, proxy.account().isWaiting, false}, 1.0);
+    tracker.refresh({kMargin, kContactReach * kMargin}, tracked);
+    proxy.follow(tracked, at({0.0, 0.0, -2.0}), settings);
+  }
+  EXPECT_NEAR(proxy.pose().translation.z, kMargin - 0.1, 0.1 * kMargin);
+  constexpr double kSlide = 0.01;
+  proxy.begin(tracked, at({kSlide, 0.0, -2.0}), settings);
+  proxy.feel(tracked);
+  EXPECT_NEAR(proxy.feltPose().translation.x - proxy.pose().translation.x, kSlide, 1e-6 * kSlide);
 }
 
 // A trial that was planned for where the hand was a tick ago ended the way, and the part rested short of the hand.
