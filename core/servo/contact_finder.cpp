@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -22,8 +23,10 @@ constexpr double kMinSlack = 0.5, kMaxSlack = 6.0;
 constexpr double kTicksAhead = 1.5, kStepsAhead = 4.0;
 /// Limits the room for turning: beyond it, nearly every pair of features is a candidate [rad].
 constexpr double kMaxTurn = 0.1;
-/// Max pairs of triangles held: as many as a search can list within its work.
-constexpr std::size_t kMaxTriangles = ContactFinder::kMaxSearchWork / kWorkOfListing;
+/// Max pairs of triangles held: a pass over all of them takes a twentieth of a tick's work on surfaces.
+constexpr std::size_t kMaxTriangles = ContactFinder::kMaxSurfaceWork;
+/// Pairs of triangles taken from a list in the time of a unit of work.
+constexpr std::uint64_t kTakenOfWork = 16;
 /// Part of the remaining search work that one search for triangles may use. An abandoned search tells little,
 /// so one step at full length is worth more than several looks; the rest allows a shorter look.
 constexpr double kShareOfSearch = 0.75;
@@ -123,7 +126,8 @@ ContactFinder::ContactFinder()
       triangles_(kMaxTriangles) {}
 
 void ContactFinder::forget() noexcept {
-  isHoldingPairs_ = look_.isPending = false;
+  isHoldingPairs_ = false;
+  giveUpLook();
   for (ManyOfBody& many : many_)
     many.body.reset();
 }
@@ -164,7 +168,7 @@ ContactFinder::Gathered ContactFinder::gatherOne(const TrackedScene& tracked, st
   spend(kWorkOfBody);
   const ServoScene& scene = *tracked.scene;
   const ServoScene::Body& other = scene.bodies[body];
-  return other.surface ? gatherTriangles(scene, body, worldFromPart, gathering.slack)
+  return other.surface ? gatherTriangles(scene, body, known, worldFromPart, gathering.slack)
                        : gatherFeatures(other, body, known, scene, worldFromPart, gathering);
 }
 
@@ -206,13 +210,42 @@ ContactFinder::Gathered ContactFinder::gatherFeatures(const ServoScene::Body& ot
                                                                                      : outcome;
 }
 
+bool ContactFinder::takeListed(const TriangleList& list, std::uint32_t body,
+                               const RigidTransform& bodyFromPart, const MotionBudget& slack) noexcept {
+  const std::span<TrianglePair> room = std::span(triangles_).subspan(triangleCount_);
+  const TriangleList::Around around = list.around(bodyFromPart, room.size());
+  const double serves = around.within - pairsReach_;
+  if (!(serves >= std::min(slack.travel, kMinSlack * pairsReach_)) ||
+      leftForSurfaces() < around.pairs.size() / kTakenOfWork)
+    return false;
+  spendOnSurface(around.pairs.size() / kTakenOfWork);
+  for (std::size_t i = 0; i < around.pairs.size(); ++i) {
+    TrianglePair& pair = room[i] = around.pairs[i];
+    pair.atLeast = pair.known = std::max(0.0, pair.atLeast - around.travel);
+  }
+  bodies_[bodyCount_++] = {.body = body,
+                           .first = triangleCount_,
+                           .count = around.pairs.size(),
+                           .within = around.within,
+                           .testedPose = pairsPose_};
+  triangleCount_ += around.pairs.size();
+  listedTravel_ = std::min(listedTravel_, serves);
+  isSurfaceNear_ = true;
+  return true;
+}
+
 ContactFinder::Gathered ContactFinder::gatherTriangles(const ServoScene& scene, std::uint32_t body,
+                                                       const TrackedScene::Near* known,
                                                        const RigidTransform& worldFromPart,
                                                        const MotionBudget& slack) noexcept {
-  // A search that is left off tells little: it waits for work enough.
-  if (excess_ == Excess::None) return Gathered::NoWork;
   const ServoScene::Body& other = scene.bodies[body];
   const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
+  if (known != nullptr && known->triangles && takeListed(*known->triangles, body, bodyFromPart, slack))
+    return Gathered::Held;
+  listedTravel_ = 0.0;
+  ++lateBodies_;
+  // A search that is left off tells little: it waits for work enough.
+  if (excess_ == Excess::None) return Gathered::NoWork;
   const double within = pairsReach_ + slack.travel;
   const std::uint64_t left = std::min(searchWorkLeft_, leftForSurfaces());
   const auto maxWork = static_cast<std::uint64_t>(kShareOfSearch * static_cast<double>(left));
@@ -221,7 +254,11 @@ ContactFinder::Gathered ContactFinder::gatherTriangles(const ServoScene& scene, 
                           std::span(triangles_).subspan(triangleCount_), maxWork);
   searchWorkLeft_ -= nearby.work;
   spendOnSurface(nearby.work);
-  bodies_[bodyCount_++] = {body, triangleCount_, nearby.count, nearby.within};
+  bodies_[bodyCount_++] = {.body = body,
+                           .first = triangleCount_,
+                           .count = nearby.count,
+                           .within = nearby.within,
+                           .testedPose = pairsPose_};
   triangleCount_ += nearby.count;
   isSurfaceNear_ = true;
   // For a single pose an incomplete set serves, if the missing pairs are known to be farther away.
@@ -285,19 +322,27 @@ ContactFinder::Gathered ContactFinder::gatherWithin(const TrackedScene& tracked,
                                                     const Gathering& gathering) noexcept {
   bodyCount_ = pairCount_ = triangleCount_ = 0;
   isSurfaceNear_ = false;
-  pairsPose_ = testedPose_ = worldFromPart;
+  pairsPose_ = worldFromPart;
   holds_ = gathering.slack;
   Gathered outcome = Gathered::Held;
   const double far = pairsReach_ + gathering.slack.travel;
   const double spent = tracked.spent(worldFromPart, far);
   // Bodies not listed as near stay so only within the rest of the budget.
+  MotionBudget left = gathering.slack;
   if (spent <= 1.0) {
-    const MotionBudget left = (1.0 - spent) * tracked.clear;
+    left = (1.0 - spent) * tracked.clear;
     holds_ = {std::min(holds_.travel, left.travel), std::min(holds_.turn, left.turn)};
   }
+  listedTravel_ = std::numeric_limits<double>::infinity();
   tracked.visitNear(worldFromPart, far, [&](std::uint32_t body, const TrackedScene::Near* known) {
     if (outcome == Gathered::Held) outcome = gatherOne(tracked, body, known, worldFromPart, gathering);
   });
+  // Lists of triangles are held as far as they serve.
+  if (isSurfaceNear_ && listedTravel_ > 0.0) {
+    const MotionBudget most = pairCount_ == 0 ? left : holds_;
+    holds_.travel = std::min(listedTravel_, most.travel);
+    holds_.turn = std::min(holds_.travel / tracked.scene->metric.radius, most.turn);
+  }
   // Taking them in is work too, and no tick may exceed its bound.
   if (outcome == Gathered::Held && workDone_ + pairCount_ / kHeldOfWork > kMaxWork)
     outcome = Gathered::NoWork;
@@ -430,23 +475,44 @@ bool ContactFinder::testMany(const ServoScene& scene, const HeldBody& held) noex
   }
 }
 
-void ContactFinder::testSurface(const ServoScene& scene, const HeldBody& held) noexcept {
+bool ContactFinder::testSurface(const ServoScene& scene, HeldBody& held) noexcept {
   const ServoScene::Body& other = scene.bodies[held.body];
-  const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * look_.pose).normalized();
-  const HeldTriangles triangles{std::span(triangles_).subspan(held.first, held.count), held.within,
-                                motionOf(scene, pairsPose_, look_.pose).travel,
-                                motionOf(scene, testedPose_, look_.pose).travel};
-  const SurfaceContacts result = testTriangles(*other.surface, *scene.moving.surface, bodyFromPart,
-                                               pairsReach_, triangles, surfaceFound_, leftForSurfaces());
-  spendOnSurface(result.work);
+  if (!look_.isTestingSurface) {
+    TriangleTests::Asked asked{.scene = other.surface.get(),
+                               .part = scene.moving.surface.get(),
+                               .sceneFromPart = (other.worldFromPart.inverse() * look_.pose).normalized(),
+                               .within = pairsReach_,
+                               .held = {std::span(triangles_).subspan(held.first, held.count), held.within,
+                                        motionOf(scene, pairsPose_, look_.pose).travel,
+                                        motionOf(scene, held.testedPose, look_.pose).travel}};
+    if (look_.from) asked.way = wayOf(scene, other, *look_.from, look_.pose);
+    asked.enough = kClearOnWay * pairsReach_;
+    triangleTests_.begin(asked, surfaceFound_);
+    held.testedPose = look_.pose;
+    look_.isTestingSurface = true;
+  }
+  std::uint64_t left = workLeft();
+  const std::uint64_t before = left;
+  const bool isDone = triangleTests_.goOn(left);
+  spend(before - left);
+  if (!isDone) return false;
+  look_.isTestingSurface = false;
+  const SurfaceContacts& result = triangleTests_.result();
   Surroundings& around = look_.around;
   around.distance = std::min(around.distance, result.lowerBound);
   around.completeTo = std::min(around.completeTo, result.completeTo);
+  if (look_.from) around.onWay = std::min(around.onWay, result.leastOnWay);
   const Placement placement(other.worldFromPart);
   for (const SurfaceContact& contact : std::span(surfaceFound_).first(result.count)) {
     const ContactPair pair{contact.partPoint, contact.direction, contact.distance};
     if (!thinning_.add({placement.inWorld(pair), held.body})) around.completeTo = 0.0;
   }
+  return true;
+}
+
+void ContactFinder::giveUpLook() noexcept {
+  if (look_.isTestingSurface) triangleTests_.settle();
+  look_.isTestingSurface = look_.isPending = false;
 }
 
 bool ContactFinder::testBodies(const ServoScene& scene) noexcept {
@@ -466,14 +532,11 @@ bool ContactFinder::testBodies(const ServoScene& scene) noexcept {
       testPairs(scene, body, look_.pair, std::min(kChunk, body.count - look_.pair));
     }
   }
-  // Surfaces get the work that is left, since testing only their nearest triangles is enough.
-  if (isSurfaceNear_ && (workLeft() == 0 || excess_ == Excess::None)) return false;
-  // Of surfaces only what the part travels is known.
-  if (isSurfaceNear_) look_.around.onWay = 0.0;
-  for (const HeldBody& body : held) {
-    if (scene.bodies[body.body].surface) testSurface(scene, body);
+  for (; look_.surface < held.size(); ++look_.surface) {
+    HeldBody& body = held[look_.surface];
+    if (!scene.bodies[body.body].surface) continue;
+    if (workLeft() == 0 || !testSurface(scene, body)) return false;
   }
-  testedPose_ = look_.pose;
   return true;
 }
 
@@ -497,7 +560,7 @@ Surroundings ContactFinder::look(const TrackedScene& tracked, const RigidTransfo
                       worldFromPart.rotation == look_.pose.rotation;
   const Surroundings pending{.isPending = true};
   if (!isSame) {
-    look_.isPending = false;
+    giveUpLook();
     if (workLeft() == 0) return pending;
     if (isFirstLook_) {
       tickTravel_ = motionOf(scene, tickPose_, worldFromPart).travel;

@@ -57,9 +57,9 @@ class ContactFinder {
   static constexpr std::uint64_t kMaxWork = 1U << 15;
   /// Max work of a tick for new searches, some 0.3 ms. If it is too little, a list will soon be ready.
   static constexpr std::uint64_t kMaxSearchWork = 3U << 11;
-  /// Max work of a tick for unsided surfaces, some 0.3 ms. They have no lists, so a part among them would use
-  /// all the work in every tick. With this limit it moves past them more slowly, but ticks are on time. If it
-  /// is too little to see anything, the next ticks may use twice as much.
+  /// Max work of a tick for finding triangles of unsided surfaces, some 0.3 ms, where no list covers the pose. With this
+  /// limit a part moves past them more slowly, but ticks are on time. If it is too little to see anything, the next
+  /// ticks may use twice as much.
   static constexpr std::uint64_t kMaxSurfaceWork = 1U << 13;
   /// Max bodies near the part at a time; with more, the part stands still.
   static constexpr std::size_t kMaxBodies = 1024;
@@ -105,6 +105,10 @@ class ContactFinder {
   double room() const noexcept { return isHoldingPairs_ ? holds_.travel : 0.0; }
   /// Number of times since beginTick() that no list covered the pose of a near body.
   std::uint32_t lateBodies() const noexcept { return lateBodies_; }
+  /// True if thousands of pairs of a body are held.
+  bool isAmongThousands() const noexcept {
+    return std::any_of(many_.begin(), many_.end(), [](const ManyOfBody& many) { return many.isHeld; });
+  }
   /// Work left of what was allowed.
   std::uint64_t workLeft() const noexcept { return allowed_ - std::min(allowed_, workDone_); }
   /// True if no work is left for contacts or surfaces.
@@ -129,6 +133,7 @@ class ContactFinder {
     std::size_t firstBlock = 0, blocks = 0;  ///< Range in edgePairs_, for its first pairs.
     std::size_t packed = 0;                  ///< Blocks of that range that are filled.
     std::size_t many = kMaxMany;             ///< Index in many_, if it holds the pairs.
+    RigidTransform testedPose{};             ///< Of the part, where triangles were tested last.
   };
 
   /// Parameters of gathering pairs.
@@ -151,8 +156,10 @@ class ContactFinder {
     std::optional<RigidTransform> from{};  ///< If the pairs held are all that matter on the way from there.
     double reach = 0.0;
     Surroundings around;
-    std::size_t body = 0;  ///< Index in bodies_ where its tests go on,
-    std::size_t pair = 0;  ///< and index among the pairs of that body.
+    std::size_t body = 0;     ///< Index in bodies_ where its tests go on,
+    std::size_t pair = 0;     ///< and index among the pairs of that body.
+    std::size_t surface = 0;  ///< The same index for unsided surfaces, which come last.
+    bool isTestingSurface = false;
     bool isPending = false;
   };
 
@@ -175,14 +182,20 @@ class ContactFinder {
   Gathered gatherFeatures(const ServoScene::Body& other, std::uint32_t body, const TrackedScene::Near* known,
                           const ServoScene& scene, const RigidTransform& worldFromPart,
                           const Gathering& gathering) noexcept;
-  Gathered gatherTriangles(const ServoScene& scene, std::uint32_t body, const RigidTransform& worldFromPart,
-                           const MotionBudget& slack) noexcept;
+  Gathered gatherTriangles(const ServoScene& scene, std::uint32_t body, const TrackedScene::Near* known,
+                           const RigidTransform& worldFromPart, const MotionBudget& slack) noexcept;
+  /// Takes the pairs of triangles from a list; false if it does not serve the pose.
+  bool takeListed(const TriangleList& list, std::uint32_t body, const RigidTransform& bodyFromPart,
+                  const MotionBudget& slack) noexcept;
   /// Goes on with the pending look; false if the work ran out.
   bool testBodies(const ServoScene& scene) noexcept;
   void testPairs(const ServoScene& scene, HeldBody& held, std::size_t first, std::size_t count) noexcept;
   /// The same for a body of thousands; false if the work ran out.
   bool testMany(const ServoScene& scene, const HeldBody& held) noexcept;
-  void testSurface(const ServoScene& scene, const HeldBody& held) noexcept;
+  /// The same for an unsided surface.
+  bool testSurface(const ServoScene& scene, HeldBody& held) noexcept;
+  /// Leaves a look that is not finished.
+  void giveUpLook() noexcept;
   void takeContacts(const ServoScene::Body& other, std::uint32_t body,
                     std::span<const ContactPair> contacts) noexcept;
   /// Work left for gathering pairs.
@@ -207,11 +220,12 @@ class ContactFinder {
   EdgePairKernel edgePairKernel_;
   /// For unsided surfaces instead: pairs of triangles that come near within `holds_`.
   std::vector<TrianglePair> triangles_;
+  TriangleTests triangleTests_;
   std::size_t pairCount_ = 0, triangleCount_ = 0;
   std::array<HeldBody, kMaxBodies> bodies_;
   std::array<ManyOfBody, kMaxMany> many_;
   std::size_t bodyCount_ = 0;
-  RigidTransform pairsPose_, testedPose_;
+  RigidTransform pairsPose_;
   /// Reach asked for, and reach that the pairs were gathered for [m].
   double askedReach_ = 0.0, pairsReach_ = 0.0;
   MotionBudget holds_;
@@ -221,6 +235,8 @@ class ContactFinder {
   std::size_t tickLevel_ = 0;  ///< The same for the rest of this tick, which has less work left.
   unsigned gatherings_ = 0;
   bool isSurfaceNear_ = false;  ///< An unsided surface was searched.
+  /// Travel for which the pairs taken from lists of triangles serve [m]; 0 if others were taken too.
+  double listedTravel_ = 0.0;
 
   /// Pose of the first look in the last tick, and how far that was from the one before [m].
   RigidTransform tickPose_;

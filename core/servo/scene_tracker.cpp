@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 #include "core/servo/overlap_check.h"
 
 namespace nearfit {
@@ -18,6 +20,24 @@ constexpr double kClearance = 8.0;
 std::uint64_t nextSerial() noexcept {
   static std::atomic<std::uint64_t> last{0};
   return ++last;
+}
+
+/// Max pairs of a list of triangles, and max work to find them, some 1.5 ms.
+constexpr std::size_t kMaxTriangles = std::size_t{1} << 12;
+constexpr std::uint64_t kMaxTriangleWork = std::uint64_t{1} << 14;
+/// Room for motion that a list of triangles has at least, if it can be made, and below which none is made [reaches].
+constexpr double kUsualTriangleRoom = 8.0, kLeastTriangleRoom = 1.0;
+/// Share of that room that must be left at a pose, and for a part that is starved.
+constexpr double kTriangleRoomToKeep = 0.5, kTriangleRoomIfStarved = 0.98;
+
+/// A list of the pool that is not in use, or a new one.
+template <class List>
+std::shared_ptr<List> spareOf(std::vector<std::shared_ptr<List>>& pool) {
+  // Only this thread changes the counts: the servo thread never copies a list.
+  for (const std::shared_ptr<List>& list : pool) {
+    if (list.use_count() == 1) return list;
+  }
+  return pool.emplace_back(std::make_shared<List>());
 }
 
 bool isBefore(const TrackedScene::Near& a, const TrackedScene::Near& b) noexcept {
@@ -41,8 +61,8 @@ void SceneTracker::setScene(std::shared_ptr<const ServoScene> scene) {
       const auto found = std::find_if(next.scene->bodies.begin(), next.scene->bodies.end(),
                                       [&](const ServoScene::Body& b) { return isSame(b, body); });
       if (found == next.scene->bodies.end()) continue;
-      next.near.push_back(
-          {static_cast<std::uint32_t>(found - next.scene->bodies.begin()), entry.list, entry.contacts});
+      next.near.push_back({static_cast<std::uint32_t>(found - next.scene->bodies.begin()), entry.list,
+                           entry.contacts, found->surface ? entry.triangles : nullptr});
     }
     std::sort(next.near.begin(), next.near.end(), isBefore);
   } else if (next.scene->moving.geometry) {
@@ -92,13 +112,28 @@ ListPurpose SceneTracker::forContacts(const SearchReach& reach) const noexcept {
 bool SceneTracker::willServe(const TrackedScene::Near& entry, const SearchReach& reach) const noexcept {
   const TrackedPair pair = pairOf(entry.body);
   if (entry.list && !nearfit::willServe(*entry.list, pair, forecast_, forMinima(reach))) return false;
+  if (entry.triangles) return willServe(*entry.triangles, entry.body, reach);
   if (entry.contacts) return nearfit::willServe(*entry.contacts, pair, forecast_, forContacts(reach));
   // There may have been too many pairs for the motion predicted then.
-  return !(isStarved_ && hasContacts(entry.body, reach));
+  return !(isStarved_ && (hasContacts(entry.body, reach) || hasTriangles(entry.body, reach)));
+}
+
+bool SceneTracker::willServe(const TriangleList& list, std::uint32_t body,
+                             const SearchReach& reach) const noexcept {
+  const double room = list.within() - reach.contact;
+  const double keep = (isStarved_ ? kTriangleRoomIfStarved : kTriangleRoomToKeep) * room;
+  const auto serves = [&](const RigidTransform& pose) {
+    return list.reachAt(pairOf(body).queryAt(pose, reach.contact).sceneFromPart) - reach.contact >= keep;
+  };
+  return room > 0.0 && serves(forecast_.pose()) && serves(forecast_.poseWhenReady());
 }
 
 bool SceneTracker::hasContacts(std::uint32_t body, const SearchReach& reach) const noexcept {
   return reach.contact > 0.0 && !current_.scene->bodies[body].surface;
+}
+
+bool SceneTracker::hasTriangles(std::uint32_t body, const SearchReach& reach) const noexcept {
+  return reach.contact > 0.0 && current_.scene->bodies[body].surface;
 }
 
 bool SceneTracker::isClearanceDue(const SearchReach& reach) const noexcept {
@@ -171,14 +206,15 @@ bool SceneTracker::isAllClear(double cutoff, const std::vector<TrackedScene::Nea
 void SceneTracker::findNear(const SearchReach& reach, const std::vector<TrackedScene::Near>& former) {
   const MovingBounds moving = movingBounds(*current_.scene, current_.worldFromPart);
   const double cutoff = reach.widest();
-  current_.bounds->visitNear(moving.centre, moving.radius + cutoff + current_.clear.travel,
-                             [&](std::uint32_t body) { current_.near.push_back({body, nullptr, nullptr}); });
+  current_.bounds->visitNear(
+      moving.centre, moving.radius + cutoff + current_.clear.travel,
+      [&](std::uint32_t body) { current_.near.push_back({body, nullptr, nullptr, nullptr}); });
   std::sort(current_.near.begin(), current_.near.end(), isBefore);
   std::erase_if(current_.near, [&](TrackedScene::Near& entry) {
     TrackedScene::Near old{};
     const auto found = std::lower_bound(former.begin(), former.end(), entry, isBefore);
     if (found != former.end() && found->body == entry.body) old = *found;
-    const bool wasListed = old.list && willServe({entry.body, old.list, nullptr}, reach);
+    const bool wasListed = old.list && willServe({entry.body, old.list, nullptr, nullptr}, reach);
     if (!wasListed && isClearOf(entry.body, cutoff)) return true;
     // With springs a tick needs all minima: making a list is worth any attempt.
     Memory& memory = memory_[entry.body];
@@ -186,6 +222,8 @@ void SceneTracker::findNear(const SearchReach& reach, const std::vector<TrackedS
     entry.list = renewed(old.list, entry.body, forMinima(reach), memory.minima);
     if (hasContacts(entry.body, reach))
       entry.contacts = renewed(old.contacts, entry.body, forContacts(reach), memory.contacts);
+    if (hasTriangles(entry.body, reach))
+      entry.triangles = renewedTriangles(old.triangles, entry.body, reach, memory.triangles);
     return false;
   });
 }
@@ -194,16 +232,33 @@ std::shared_ptr<const CandidateList> SceneTracker::renewed(const std::shared_ptr
                                                            std::uint32_t body, const ListPurpose& purpose,
                                                            PlanMemory& memory) {
   if (former && nearfit::willServe(*former, pairOf(body), forecast_, purpose)) return former;
-  const std::shared_ptr<CandidateList> list = spareList();
+  const std::shared_ptr<CandidateList> list = spareOf(lists_);
   return buildForPlan(*list, pairOf(body), forecast_, purpose, scratch_, memory) ? list : nullptr;
 }
 
-std::shared_ptr<CandidateList> SceneTracker::spareList() {
-  // Only this thread changes the counts: the servo thread never copies a list.
-  for (const std::shared_ptr<CandidateList>& list : pool_) {
-    if (list.use_count() == 1) return list;
+std::shared_ptr<const TriangleList> SceneTracker::renewedTriangles(
+    const std::shared_ptr<const TriangleList>& former, std::uint32_t body, const SearchReach& reach,
+    double& share) {
+  if (former && willServe(*former, body, reach)) return former;
+  const SearchPlan plan = forecast_.plan(reach.contact);
+  const MotionRange& range = plan.range;
+  const double radius = 0.5 * current_.scene->moving.geometry->mesh.bounds().diagonal();
+  const double way =
+      range.budget.travel + glm::length(range.stretch.shift) + radius * glm::length(range.stretch.spin);
+  const double room = std::max(way, kUsualTriangleRoom * reach.contact);
+  const double least = kLeastTriangleRoom * reach.contact;
+  const std::shared_ptr<TriangleList> list = spareOf(triangleLists_);
+  // What was too much most likely still is; what was enough may leave more room.
+  share = std::min(1.0, 2.0 * share);
+  const ServoScene& scene = *current_.scene;
+  for (;; share *= 0.5) {
+    const double within = reach.contact + std::max(least, share * room);
+    list->build(*scene.bodies[body].surface, *scene.moving.surface,
+                pairOf(body).queryAt(plan.pose, within).sceneFromPart, within, scratch_, kMaxTriangles,
+                kMaxTriangleWork);
+    if (list->within() >= reach.contact + least) return list;
+    if (share * room <= least) return nullptr;
   }
-  return pool_.emplace_back(std::make_shared<CandidateList>());
 }
 
 }  // namespace nearfit

@@ -58,7 +58,9 @@ class SceneTracker {
 
  private:
   bool willServe(const TrackedScene::Near& entry, const SearchReach& reach) const noexcept;
+  bool willServe(const TriangleList& list, std::uint32_t body, const SearchReach& reach) const noexcept;
   bool hasContacts(std::uint32_t body, const SearchReach& reach) const noexcept;
+  bool hasTriangles(std::uint32_t body, const SearchReach& reach) const noexcept;
   ListPurpose forMinima(const SearchReach& reach) const noexcept;
   ListPurpose forContacts(const SearchReach& reach) const noexcept;
   bool isClearanceDue(const SearchReach& reach) const noexcept;
@@ -68,13 +70,16 @@ class SceneTracker {
   std::shared_ptr<const CandidateList> renewed(const std::shared_ptr<const CandidateList>& former,
                                                std::uint32_t body, const ListPurpose& purpose,
                                                PlanMemory& memory);
-  std::shared_ptr<CandidateList> spareList();
+  std::shared_ptr<const TriangleList> renewedTriangles(const std::shared_ptr<const TriangleList>& former,
+                                                       std::uint32_t body, const SearchReach& reach,
+                                                       double& share);
   TrackedPair pairOf(std::uint32_t body) const noexcept;
 
   TrackedScene current_;
   /// For each body of the scene: how much of a plan its recent lists could cover.
   struct Memory {
     PlanMemory minima, contacts;
+    double triangles = 1.0;  ///< Share of a plan's motion that the last list of triangles covers.
   };
   std::vector<Memory> memory_;
   std::uint64_t lastSerial_ = 0;  ///< Of the last clearance.
@@ -82,7 +87,8 @@ class SceneTracker {
   MotionForecast forecast_, hand_;
   LmdScratch scratch_;
   /// Lists return here, with their storage, when the last TrackedScene that uses them is overwritten.
-  std::vector<std::shared_ptr<CandidateList>> pool_;
+  std::vector<std::shared_ptr<CandidateList>> lists_;
+  std::vector<std::shared_ptr<TriangleList>> triangleLists_;
 };
 
 }  // namespace nearfit

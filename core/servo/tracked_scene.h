@@ -8,6 +8,7 @@
 
 #include "core/haptics/haptic_settings.h"
 #include "core/proximity/query/broad_phase.h"
+#include "core/proximity/surface/triangle_list.h"
 #include "core/proximity/tracking/candidate_list.h"
 #include "core/servo/servo_scene.h"
 
@@ -51,6 +52,8 @@ struct TrackedScene {
     std::uint32_t body = 0;  ///< Index in scene->bodies.
     /// For minima, and for contacts; null if there were too many pairs to list, or none are needed.
     std::shared_ptr<const CandidateList> list, contacts;
+    /// For contacts with an unsided surface instead; null if none are needed, or too many pairs are near.
+    std::shared_ptr<const TriangleList> triangles{};
   };
 
   /// Unique ID among all SceneTrackers. Equal serials permit reuse of a tick's results if all else is equal

@@ -22,6 +22,7 @@
 #include "tests/exact/exact_meeting.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/small_mesh.h"
+#include "tests/support/triangle_tests.h"
 
 namespace nearfit::fuzz {
 namespace {
@@ -232,8 +233,8 @@ void checkSurfaces(const Case& c, const std::vector<Lmd>& minima) {
       findNearbyTriangles(scene, part, c.pose, c.cutoff, c.scratch, pairs, kUnbounded);
   require(nearby.count <= pairs.size(), "no more triangles than room");
   const SurfaceContacts result =
-      testTriangles(scene, part, c.pose, c.cutoff,
-                    {std::span(pairs).first(nearby.count), nearby.within, 0.0, 0.0}, contacts, kUnbounded);
+      test::testTriangles(scene, part, c.pose, c.cutoff,
+                          {std::span(pairs).first(nearby.count), nearby.within, 0.0, 0.0}, contacts);
   require(result.count <= contacts.size(), "no more contacts than room");
   require(result.lowerBound >= 0.0 && result.lowerBound <= c.cutoff, "a lower bound is within its limits");
   for (std::size_t i = 0; i < result.count; ++i) {

@@ -20,6 +20,7 @@
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/triangle_tests.h"
 
 namespace nearfit::fuzz {
 namespace {
@@ -113,8 +114,8 @@ void useMesh(const CachedMesh& cached, const NormalConeTree& tree) {
   std::vector<SurfaceContact> contacts(64);
   const NearbyTriangles nearby = findNearbyTriangles(surface, surface, pose, 1.0, scratch, pairs, 1U << 16);
   require(nearby.count <= pairs.size(), "no more triangles than room");
-  testTriangles(surface, surface, pose, 1.0, {std::span(pairs).first(nearby.count), nearby.within, 0.0, 0.0},
-                contacts, 1U << 16);
+  test::testTriangles(surface, surface, pose, 1.0,
+                      {std::span(pairs).first(nearby.count), nearby.within, 0.0, 0.0}, contacts);
 }
 
 void use(const std::filesystem::path& path) {

@@ -174,6 +174,27 @@ double SeparatingDirections::squaredGap(const TriangleCorners& other) const noex
   return std::max(squaredGap(first_, relative), squaredGap(second_, relative));
 }
 
+glm::dvec3 SeparatingDirections::directionOfGap(const TriangleCorners& other) const noexcept {
+  glm::dvec3 best(0.0);
+  double most = 0.0;
+  for (const Pair& pair : {first_, second_}) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const glm::dvec3 d(pair.x[k], pair.y[k], pair.z[k]);
+      const double length = std::sqrt(pair.lengthSquared[k]);
+      if (!(length > 0.0)) continue;
+      const auto at = [&](const glm::dvec3& p) { return glm::dot(d, p - origin_); };
+      const double q0 = at(other[0]), q1 = at(other[1]), q2 = at(other[2]);
+      const double above = (std::min(q0, std::min(q1, q2)) - pair.high[k]) / length,
+                   below = (pair.low[k] - std::max(q0, std::max(q1, q2))) / length;
+      if (std::max(above, below) > most) {
+        most = std::max(above, below);
+        best = (above > below ? d : -d) / length;
+      }
+    }
+  }
+  return best;
+}
+
 double triangleGapLowerBound(const DirectedTriangle& a, const DirectedTriangle& b, double enough,
                              bool& isSecond) noexcept {
   return gapBy([](const DirectedTriangle& own,
@@ -187,6 +208,14 @@ double triangleGapLowerBound(const TriangleCorners& a, const TriangleCorners& b,
   return gapBy([](const TriangleCorners& own,
                   const TriangleCorners& other) { return SeparatingDirections(own).squaredGap(other); },
                a, b, enough, isSecond);
+}
+
+glm::dvec3 directionOfGap(const DirectedTriangle& a, const DirectedTriangle& b, bool isSecond) noexcept {
+  return isSecond ? -b.directions.directionOfGap(a.corners) : a.directions.directionOfGap(b.corners);
+}
+
+glm::dvec3 directionOfGap(const TriangleCorners& a, const TriangleCorners& b, bool isSecond) noexcept {
+  return isSecond ? -SeparatingDirections(b).directionOfGap(a) : SeparatingDirections(a).directionOfGap(b);
 }
 
 }  // namespace nearfit

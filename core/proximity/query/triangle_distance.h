@@ -55,6 +55,8 @@ class SeparatingDirections {
 
   /// Max squared gap to another triangle along one of the directions [m^2]; 0 if none separates them.
   double squaredGap(const TriangleCorners& other) const noexcept;
+  /// The direction of that gap, unit, towards the other; zero if there is none.
+  glm::dvec3 directionOfGap(const TriangleCorners& other) const noexcept;
 
  private:
   /// Two numbers at a time, as every 64-bit machine supports.
@@ -86,6 +88,11 @@ double triangleGapLowerBound(const DirectedTriangle& a, const DirectedTriangle& 
 /// @param isSecond  In: try the directions of the second triangle first. Out: whose directions gave more.
 double triangleGapLowerBound(const TriangleCorners& a, const TriangleCorners& b, double enough,
                              bool& isSecond) noexcept;
+
+/// Direction of that bound, unit, from the first triangle to the second; zero if it is 0.
+/// @param isSecond  As it came out.
+glm::dvec3 directionOfGap(const DirectedTriangle& a, const DirectedTriangle& b, bool isSecond) noexcept;
+glm::dvec3 directionOfGap(const TriangleCorners& a, const TriangleCorners& b, bool isSecond) noexcept;
 
 /// True if two triangles are surely farther apart than `reach` [m], by their gap. `reach` should include some
 /// roundings of the coordinates.

@@ -66,7 +66,9 @@ struct Side {
 /// Keeps the nearest contacts in order of distance, one per place and direction.
 class ContactList {
  public:
-  ContactList(std::span<SurfaceContact> out, double samePlace) noexcept : out_(out), samePlace_(samePlace) {}
+  /// @param count, isFull  Of `out`, before and after.
+  ContactList(std::span<SurfaceContact> out, double samePlace, std::size_t& count, bool& isFull) noexcept
+      : out_(out), samePlace_(samePlace), count_(count), isFull_(isFull) {}
 
   void add(const SurfaceContact& c) noexcept {
     for (std::size_t i = 0; i < count_; ++i) {
@@ -87,9 +89,6 @@ class ContactList {
     out_[i] = c;
   }
 
-  std::size_t count() const noexcept { return count_; }
-  bool isFull() const noexcept { return isFull_; }
-
  private:
   static std::ptrdiff_t at(std::size_t i) noexcept { return static_cast<std::ptrdiff_t>(i); }
   bool isSame(const SurfaceContact& a, const SurfaceContact& b) const noexcept {
@@ -101,8 +100,8 @@ class ContactList {
 
   std::span<SurfaceContact> out_;
   double samePlace_;
-  std::size_t count_ = 0;
-  bool isFull_ = false;
+  std::size_t& count_;
+  bool& isFull_;
 };
 
 /// Tests the pairs of features that belong to a pair of triangles.
@@ -111,8 +110,18 @@ class PairContacts {
   PairContacts(const Side& scene, const Side& part, double within, ContactList& list) noexcept
       : scene_(scene), part_(part), within_(within), list_(list) {}
 
-  void test(const FaceLeaf& s, const TriangleCorners& a, const FaceLeaf& p,
-            const TriangleCorners& b) noexcept {
+  /// Returns the direction of the nearest contact, or zero.
+  glm::dvec3 test(const FaceLeaf& s, const TriangleCorners& a, const FaceLeaf& p,
+                  const TriangleCorners& b) noexcept {
+    nearest_ = kUnbounded;
+    direction_ = glm::dvec3(0.0);
+    testFeatures(s, a, p, b);
+    return direction_;
+  }
+
+ private:
+  void testFeatures(const FaceLeaf& s, const TriangleCorners& a, const FaceLeaf& p,
+                    const TriangleCorners& b) noexcept {
     sceneTriangle_ = s.face;
     partTriangle_ = p.face;
     const bool hasSceneVertex = scene_.surface.hasAnyVertex(s.face),
@@ -130,8 +139,6 @@ class PairContacts {
       }
     }
   }
-
- private:
   /// @param sign  1 if the vertices are the scene's, else -1.
   void verticesOverFace(const Side& side, const FaceLeaf& owner, const TriangleCorners& corners,
                         const TriangleFrame& face, double sign) noexcept {
@@ -231,16 +238,23 @@ class PairContacts {
            double distance) noexcept {
     const glm::dvec3& centre = scene_.surface.tree().centre();
     list_.add({centre + scenePoint, centre + partPoint, direction, distance, sceneTriangle_, partTriangle_});
+    if (distance >= nearest_) return;
+    nearest_ = distance;
+    direction_ = direction;
   }
 
   const Side &scene_, &part_;
   double within_;
   ContactList& list_;
   std::uint32_t sceneTriangle_ = 0, partTriangle_ = 0;
+  double nearest_ = kUnbounded;  ///< Of the contacts of this pair, and its direction.
+  glm::dvec3 direction_{0.0};
 };
 
-double distanceOf(const TriangleCorners& a, const TriangleCorners& b) noexcept {
-  return std::sqrt(closestOfTriangles(a, b).distanceSquared);
+/// How far apart two triangles are along a direction, unit, from the first to the second [m].
+double apartAlong(const glm::dvec3& direction, const TriangleCorners& a, const TriangleCorners& b) noexcept {
+  const auto at = [&](const glm::dvec3& corner) { return glm::dot(direction, corner - a[0]); };
+  return std::min(at(b[0]), std::min(at(b[1]), at(b[2]))) - std::max(0.0, std::max(at(a[1]), at(a[2])));
 }
 
 /// Tests listed pairs at one pose.
@@ -264,19 +278,32 @@ class ListedPairs {
     const DirectedTriangle& a = sceneTriangle_.of(pair.scene, [&] { return placed_.sceneCorners(s); });
     const DirectedTriangle& b = partTriangle_.of(pair.part, [&] { return placed_.partCorners(p); });
     pair.gap = triangleGapLowerBound(a, b, reach, pair.isByPart);
-    if (pair.gap <= reach) contacts_.test(s, a.corners, p, b.corners);
+    pair.direction = glm::dvec3(0.0);
+    if (pair.gap <= reach) pair.direction = contacts_.test(s, a.corners, p, b.corners);
+    if (pair.direction != glm::dvec3(0.0) || !(pair.gap > 0.0)) return;
+    pair.direction = directionOfGap(a, b, pair.isByPart);
   }
-  /// True if planes perpendicular to `direction` keep the two triangles at least `distance` apart [m].
-  bool areBeyondAlong(const glm::dvec3& direction, double distance, const TrianglePair& pair) const noexcept {
-    const TriangleCorners a = placed_.sceneCorners(leafOf(scene_, pair.scene)),
-                          b = placed_.partCorners(leafOf(part_, pair.part));
-    const auto at = [&](const glm::dvec3& corner) { return glm::dot(direction, corner - a[0]); };
-    return std::min(at(b[0]), std::min(at(b[1]), at(b[2]))) - std::max(0.0, std::max(at(a[1]), at(a[2]))) >=
-           distance;
+  /// Finds a direction along which a pair is apart, if there is one among those of its faces.
+  void separate(TrianglePair& pair) noexcept {
+    const DirectedTriangle& a =
+        sceneTriangle_.of(pair.scene, [&] { return placed_.sceneCorners(leafOf(scene_, pair.scene)); });
+    const DirectedTriangle& b =
+        partTriangle_.of(pair.part, [&] { return placed_.partCorners(leafOf(part_, pair.part)); });
+    const double gap = triangleGapLowerBound(a, b, kUnbounded, pair.isByPart);
+    pair.known = std::max(pair.known, gap - rounding());
+    pair.direction = directionOfGap(a, b, pair.isByPart);
   }
-  double distance(const TrianglePair& pair) const noexcept {
-    return distanceOf(placed_.sceneCorners(leafOf(scene_, pair.scene)),
-                      placed_.partCorners(leafOf(part_, pair.part)));
+  /// How far a pair is apart along its direction [m]; less than 0 if it has none.
+  double apart(const TrianglePair& pair) const noexcept {
+    return pair.direction == glm::dvec3(0.0) ? -kUnbounded : apartAlong(pair.direction, pair);
+  }
+  double apartAlong(const glm::dvec3& direction, const TrianglePair& pair) const noexcept {
+    return nearfit::apartAlong(direction, placed_.sceneCorners(leafOf(scene_, pair.scene)),
+                               placed_.partCorners(leafOf(part_, pair.part)));
+  }
+  ClosestPoints closest(const TrianglePair& pair) const noexcept {
+    return closestOfTriangles(placed_.sceneCorners(leafOf(scene_, pair.scene)),
+                              placed_.partCorners(leafOf(part_, pair.part)));
   }
 
  private:
@@ -330,12 +357,15 @@ NearbyTriangles findNearbyTriangles(const UnsidedSurface& scene, const UnsidedSu
   const auto visit = [&](std::uint32_t s, std::uint32_t p) {
     faces.spend(kWorkOfListing);
     bool isByPart = false;
-    const double gap = triangleGapLowerBound(placed.sceneCorners(scene.tree().faces()[s]),
-                                             placed.partCorners(part.tree().faces()[p]), reach, isByPart);
+    const TriangleCorners a = placed.sceneCorners(scene.tree().faces()[s]),
+                          b = placed.partCorners(part.tree().faces()[p]);
+    const double gap = triangleGapLowerBound(a, b, reach, isByPart);
     if (gap > reach) return;
     const double atLeast = std::max(0.0, gap - rounding);
     if (result.count < out.size()) {
-      out[result.count++] = {s, p, atLeast, isByPart, atLeast};
+      TrianglePair& pair = out[result.count++];
+      pair = {s, p, atLeast, isByPart, atLeast};
+      if (gap > 0.0) pair.direction = directionOfGap(a, b, isByPart);
     } else {
       result.within = std::min(result.within, atLeast);
       faces.stop();
@@ -348,47 +378,112 @@ NearbyTriangles findNearbyTriangles(const UnsidedSurface& scene, const UnsidedSu
   return result;
 }
 
-SurfaceContacts testTriangles(const UnsidedSurface& scene, const UnsidedSurface& part,
-                              const RigidTransform& sceneFromPart, double within, const HeldTriangles& held,
-                              std::span<SurfaceContact> out, std::uint64_t maxWork) noexcept {
-  SurfaceContacts result;
-  if (!isPoseValid(sceneFromPart, within)) return result;
-  ContactList list(out, kSamePlace * (scene.tree().size() + part.tree().size()));
-  ListedPairs pairs(scene, part, sceneFromPart, within, list);
-  const double rounding = pairs.rounding();
-  // Lower bound on the distance of pairs that are not tested.
-  double notTested = held.within - held.travel;
-  const auto spend = [&](std::uint64_t work) {
-    const bool hasWork = result.work + work <= maxWork;
-    if (hasWork) result.work += work;
-    return hasWork;
-  };
-  if (!spend(held.pairs.size() / kPassedOver)) return result;
-  for (TrianglePair& pair : held.pairs) {
-    pair.gap = kUnbounded;
-    // A part moves in small steps, so the bound from the last one suffices for most pairs.
+void TriangleTests::begin(const Asked& asked, std::span<SurfaceContact> out) noexcept {
+  asked_ = asked;
+  out_ = out;
+  count_ = at_ = 0;
+  isFull_ = false;
+  result_ = {};
+  stage_ = isPoseValid(asked.sceneFromPart, asked.within) ? Stage::Contacts : Stage::Done;
+  result_.leastOnWay = asked.way && stage_ != Stage::Done ? asked.enough : 0.0;
+}
+
+void TriangleTests::settle() noexcept {
+  const HeldTriangles& held = asked_.held;
+  if (stage_ != Stage::Contacts) return;
+  for (TrianglePair& pair : held.pairs.subspan(at_))
     pair.known = std::max(pair.known - held.travelSinceTest, pair.atLeast - held.travel);
-    if (pair.known > within + rounding) continue;
-    if (!spend(kWorkOfTest)) {
-      notTested = std::min(notTested, pair.known);
-      continue;
+  stage_ = Stage::Done;
+}
+
+bool TriangleTests::goOn(std::uint64_t& work) noexcept {
+  if (stage_ == Stage::Done) return true;
+  const UnsidedSurface &scene = *asked_.scene, &part = *asked_.part;
+  const HeldTriangles& held = asked_.held;
+  const double within = asked_.within;
+  ContactList list(out_, kSamePlace * (scene.tree().size() + part.tree().size()), count_, isFull_);
+  ListedPairs pairs(scene, part, asked_.sceneFromPart, within, list);
+  const double rounding = pairs.rounding();
+  // Work on pairs that are not tested is counted in fractions of a unit.
+  std::size_t passed = 0;
+  const auto spend = [&work](std::uint64_t done) { work -= std::min(work, done); };
+  const auto pass = [&](std::size_t weight) {
+    passed += weight;
+    if (passed < kPassedOver) return;
+    passed -= kPassedOver;
+    spend(1);
+  };
+  constexpr std::size_t kWeightOfBound = kPassedOver / kBounded;
+  if (stage_ == Stage::Contacts) {
+    for (; at_ < held.pairs.size(); ++at_) {
+      if (work == 0) return false;
+      TrianglePair& pair = held.pairs[at_];
+      pass(1);
+      pair.gap = kUnbounded;
+      pair.known = std::max(pair.known - held.travelSinceTest, pair.atLeast - held.travel);
+      if (pair.known > within + rounding) continue;
+      pass(kWeightOfBound);
+      pair.known = std::max(pair.known, pairs.apart(pair) - rounding);
+      if (pair.known > within + rounding) continue;
+      spend(kWorkOfTest);
+      pairs.test(pair);
+      pair.known = std::max(pair.known, pair.gap - rounding);
     }
-    pairs.test(pair);
-    pair.known = std::max(pair.known, pair.gap - rounding);
+    const double notHeld = held.within - held.travel;
+    result_.count = count_;
+    result_.completeTo = std::clamp(notHeld, 0.0, within);
+    if (isFull_) result_.completeTo = std::min(result_.completeTo, out_.empty() ? 0.0 : out_.back().distance);
+    least_ = std::min(within, notHeld);
+    if (count_ > 0) least_ = std::min(least_, out_[0].distance);
+    stage_ = Stage::Distance;
+    at_ = 0;
   }
-  result.count = list.count();
-  result.completeTo = std::clamp(notTested, 0.0, within);
-  if (list.isFull()) result.completeTo = std::min(result.completeTo, out.empty() ? 0.0 : out.back().distance);
-  double least = std::min(within, notTested);
-  if (result.count > 0) least = std::min(least, out[0].distance);
-  // Pairs without a contact count too, as where surfaces pass through each other.
-  for (const TrianglePair& pair : held.pairs) {
-    if (pair.gap >= least - rounding) continue;
-    if (result.count > 0 && pairs.areBeyondAlong(out[0].direction, least - rounding, pair)) continue;
-    least = spend(kWorkOfDistance) ? std::min(least, pairs.distance(pair)) : std::min(least, pair.gap);
+  if (stage_ == Stage::Distance) {
+    // Pairs without a contact count too, as where surfaces pass through each other.
+    for (; at_ < held.pairs.size(); ++at_) {
+      if (work == 0) return false;
+      TrianglePair& pair = held.pairs[at_];
+      pass(1);
+      if (pair.gap >= least_ - rounding) continue;
+      if (count_ > 0 && pairs.apartAlong(out_[0].direction, pair) >= least_ - rounding) {
+        if (!(pair.gap > 0.0)) pair.direction = out_[0].direction;
+        continue;
+      }
+      spend(kWorkOfDistance);
+      const ClosestPoints closest = pairs.closest(pair);
+      const double distance = std::sqrt(closest.distanceSquared);
+      least_ = std::min(least_, distance);
+      if (distance > 0.0) pair.direction = (closest.b - closest.a) / distance;
+    }
+    result_.lowerBound = std::max(0.0, least_ - 2.0 * rounding);
+    stage_ = Stage::Way;
+    at_ = 0;
   }
-  result.lowerBound = std::max(0.0, least - 2.0 * rounding);
-  return result;
+  if (asked_.way) {
+    ListedPairs before(scene, part, asked_.way->from, within, list);
+    const double lost = rounding + asked_.way->bend, clear = asked_.enough + asked_.way->travel;
+    for (; at_ < held.pairs.size(); ++at_) {
+      if (work == 0) return false;
+      TrianglePair& pair = held.pairs[at_];
+      pass(1);
+      // What no point of the part travels as far as stays apart.
+      if (pair.known > clear) continue;
+      const auto least = [&] {
+        pass(2 * kWeightOfBound);
+        const double apart = std::min(pairs.apart(pair), before.apart(pair)) - lost;
+        return std::max(apart, pair.known - asked_.way->travel);
+      };
+      double onWay = least();
+      if (onWay < asked_.enough && pair.gap == kUnbounded) {
+        spend(kWorkOfTest);
+        pairs.separate(pair);
+        onWay = std::max(onWay, least());
+      }
+      result_.leastOnWay = std::min(result_.leastOnWay, onWay);
+    }
+  }
+  stage_ = Stage::Done;
+  return true;
 }
 
 }  // namespace nearfit

@@ -15,6 +15,7 @@
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/triangle_tests.h"
 
 namespace nearfit::surface_contacts_test {
 namespace {
@@ -34,8 +35,8 @@ SurfaceContacts findContacts(const UnsidedSurface& scene, const UnsidedSurface& 
   static LmdScratch scratch;
   static std::vector<TrianglePair> pairs(1U << 20);
   const NearbyTriangles nearby = findNearbyTriangles(scene, part, pose, within, scratch, pairs, work);
-  return testTriangles(scene, part, pose, within,
-                       {std::span(pairs).first(nearby.count), nearby.within, 0.0, 0.0}, out, work);
+  return test::testTriangles(scene, part, pose, within,
+                             {std::span(pairs).first(nearby.count), nearby.within, 0.0, 0.0}, out);
 }
 
 std::vector<SurfaceContact> contactsAt(const UnsidedSurface& scene, const UnsidedSurface& part,
@@ -181,15 +182,23 @@ bool isAmong(const SurfaceContact& c, const std::vector<SurfaceContact>& all) {
   });
 }
 
-/// Pairs held through random motions of up to `slack` must give what a search at each pose gives.
+/// No distance on a way may be less than the bound that the tests gave [m].
+void checkWay(const BodyPair& pair, const RigidTransform& from, const RigidTransform& to, double leastOnWay) {
+  const glm::dvec3 shift = to.translation - from.translation;
+  const RigidTransform middle{glm::slerp(from.rotation, to.rotation, 0.5), from.translation + 0.5 * shift};
+  EXPECT_LE(leastOnWay, test::leastDistanceExactly(pair.scene, pair.part, middle)) << pair.name;
+}
+
+/// Pairs held through random motions of up to `slack` must give what a search at each pose gives, however the work is
+/// doled out and whatever tests were given up before.
 void compareHeld(const BodyPair& pair, double within, double slack, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(seed), portions(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const UnsidedSurface scene = surfaceOf(pair.scene), part = surfaceOf(pair.part);
   const double radius = 0.5 * part.tree().size() + glm::length(part.tree().centre());
   LmdScratch scratch;
   std::vector<TrianglePair> pairs(1U << 18);
-  std::size_t compared = 0;
+  std::size_t compared = 0, provedWays = 0;
   for (std::size_t i = 0; i < std::max<std::size_t>(4, 8 / test::kPoseShare); ++i) {
     const RigidTransform start = test::poseNearContact(pair, within, random);
     const NearbyTriangles nearby =
@@ -212,10 +221,33 @@ void compareHeld(const BodyPair& pair, double within, double slack, std::uint64_
       const double travel = motionBetween(start, pose, radius).travel;
       ASSERT_LE(travel, slack);
       std::vector<SurfaceContact> held(4096);
-      const SurfaceContacts found = testTriangles(scene, part, pose, within,
-                                                  {std::span(pairs).first(nearby.count), nearby.within,
-                                                   travel, motionBetween(before, pose, radius).travel},
-                                                  held, kAnyWork);
+      const TriangleTests::Asked asked{
+          .scene = &scene,
+          .part = &part,
+          .sceneFromPart = pose,
+          .within = within,
+          .held = {std::span(pairs).first(nearby.count), nearby.within, travel,
+                   motionBetween(before, pose, radius).travel},
+          .way = PartWay{before, pose, motionBetween(before, pose, radius).travel,
+                         bendOf(motionBetween(before, pose, radius).turn, radius)},
+          .enough = 0.5 * within};
+      TriangleTests tests;
+      tests.begin(asked, held);
+      if (k % 4 == 1) {
+        std::uint64_t little = 1 + portions() % 50;
+        if (!tests.goOn(little)) {
+          tests.settle();
+          before = pose;
+          continue;
+        }
+        tests.begin(asked, held);
+      }
+      for (std::uint64_t work = 0; !tests.goOn(work);)
+        work = 1 + portions() % 40;
+      const SurfaceContacts found = tests.result();
+      // The exact distance takes long.
+      if (k % 4 == 3) checkWay(pair, before, pose, found.leastOnWay);
+      provedWays += found.leastOnWay > 0.0 ? 1 : 0;
       before = pose;
       held.resize(found.count);
       EXPECT_EQ(found.completeTo, within);
@@ -232,6 +264,7 @@ void compareHeld(const BodyPair& pair, double within, double slack, std::uint64_
     }
   }
   EXPECT_GT(compared, 0U) << pair.name;
+  EXPECT_GT(provedWays, 0U) << pair.name;
 }
 
 TEST(SurfaceContacts, HeldPairsGiveTheContactsOfEveryPoseThatTheyAreHeldFor) {
@@ -255,10 +288,19 @@ TEST(SurfaceContacts, WorkIsBoundedWhereAllTrianglesOfTwoSheetsAreNear) {
     const NearbyTriangles nearby = findNearbyTriangles(sheet, sheet, above, 2.6 * kGap, scratch, pairs, work);
     EXPECT_LE(nearby.work, work + kBatch);
     EXPECT_GE(nearby.work, kWorkOfListing * nearby.count);
-    const SurfaceContacts found =
-        testTriangles(sheet, sheet, above, 2.6 * kGap,
-                      {std::span(pairs).first(nearby.count), nearby.within, 0.0, 0.0}, out, work);
-    EXPECT_LE(found.work, work);
+    TriangleTests tests;
+    tests.begin({.scene = &sheet,
+                 .part = &sheet,
+                 .sceneFromPart = above,
+                 .within = 2.6 * kGap,
+                 .held = {std::span(pairs).first(nearby.count), nearby.within, 0.0, 0.0}},
+                out);
+    // Nothing is known before the end, and no part of it is longer than its work.
+    std::size_t parts = 0;
+    for (std::uint64_t left = 0; !tests.goOn(left); ++parts)
+      left = 100;
+    EXPECT_GE(parts, nearby.count / kPassedOver / 100);
+    const SurfaceContacts& found = tests.result();
     EXPECT_LE(found.lowerBound, kGap);
     EXPECT_LE(found.completeTo, std::max(kGap, nearby.within));
   }
