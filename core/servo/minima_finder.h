@@ -57,9 +57,9 @@ class MinimaFinder {
   static constexpr std::uint64_t kMaxNodePairs = 1U << 15;
   /// For springs, whose force depends on the minima: as much as lists and work space hold.
   static constexpr MinimaAllowance kFelt{1U << 20, mostMergeWork(LmdScratch::kDefaultCapacity)};
-  /// For minima that are only shown: on a slow core some 0.6 ms of search and 0.8 ms of merging, enough for 250
+  /// For minima that are only shown: on a slow core some 0.3 ms of search and 0.3 ms of merging, enough for 130
   /// pieces; and where contacts have taken most of the tick's time.
-  static constexpr MinimaAllowance kShown{1U << 14, 1U << 14}, kShownInFullTick{1U << 10, 1U << 11};
+  static constexpr MinimaAllowance kShown{3U << 11, 3U << 11}, kShownInFullTick{1U << 10, 1U << 11};
 
   struct Result {
     std::uint32_t count = 0;       ///< Minima found, of all bodies.

@@ -7,6 +7,20 @@
 
 /// The part of ServoTick that finds minima, to show them or as springs, and describes the proxy.
 namespace nearfit {
+namespace {
+
+/// Allowance for minima that are shown in a tick in which contacts have taken so much work: they share its time.
+MinimaAllowance shownBeside(std::uint64_t contactWork) noexcept {
+  constexpr std::uint64_t kFull = ContactFinder::kUsualWork;
+  const std::uint64_t left = kFull - std::min(contactWork, kFull);
+  const auto between = [left](std::uint64_t least, std::uint64_t most) {
+    return least + (most - least) * left / kFull;
+  };
+  const MinimaAllowance &least = MinimaFinder::kShownInFullTick, &most = MinimaFinder::kShown;
+  return {between(least.search, most.search), between(least.merge, most.merge)};
+}
+
+}  // namespace
 
 void ServoTick::show(const TrackedScene& tracked, const ServoParameters& parameters,
                      ServoSnapshot& snapshot) noexcept {
@@ -26,10 +40,7 @@ MinimaFinder::Result ServoTick::findMinima(const Subject& subject, double share,
   const double cutoff = share * subject.settings.springs.cutoff;
   // With springs nothing keeps the part from passing through, so no distance can be relied on.
   const double apart = springs == nullptr ? proxy_.distance() : 0.0;
-  const bool isTickFull = proxy_.work() > ContactFinder::kUsualWork / 8;
-  const MinimaAllowance& allowance = springs != nullptr ? MinimaFinder::kFelt
-                                     : isTickFull       ? MinimaFinder::kShownInFullTick
-                                                        : MinimaFinder::kShown;
+  const MinimaAllowance allowance = springs != nullptr ? MinimaFinder::kFelt : shownBeside(proxy_.work());
   const MinimaFinder::Result result =
       minima_.find(subject.tracked, part_.pose, cutoff, apart, allowance, [&](std::span<const Lmd> lmds) {
         if (springs == nullptr) return;

@@ -9,9 +9,9 @@ namespace nearfit {
 /// that it does not hunt. Real-time safe.
 class ShownReach {
  public:
-  /// Work on minima that a tick has time for: 0.3 ms, or 1 ms on a slow core. A piston in its bore, with 70
-  /// minima, takes a third of it.
-  static constexpr std::uint64_t kUsualWork = 3U << 13;
+  /// Work on minima that a tick has time for: 0.2 ms, or 0.4 ms on a slow core. A piston in its bore, with 70
+  /// minima, takes most of it.
+  static constexpr std::uint64_t kUsualWork = 9U << 10;
   /// Ticks before a share that was too much is tried again; doubled each time that it is too much again.
   static constexpr std::uint32_t kFirstWait = 16, kLongestWait = 1024;
 

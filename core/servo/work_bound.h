@@ -10,7 +10,7 @@ namespace nearfit {
 
 /// Max work of a tick (`ServoSnapshot::work`, in units of some 50 ns on a slow core).
 ///
-/// Proxy mode: 65,664, some 2.5 ms on a slow core. Contacts, on which the part's motion depends, get half of it,
+/// Proxy mode: 45,184, some 2 ms on a slow core. Contacts, on which the part's motion depends, get most of it,
 /// for gathering pairs from the longest list; their tests end at ContactFinder::kUsualWork and go on in the next
 /// tick. Minima, which are only shown, get the rest and are truncated there, and less in a tick that contacts fill.
 /// Usual ticks stay below a twentieth. Every search is told how much work is left, and does not start, or abandons,
