@@ -13,6 +13,7 @@
 #include "tests/bench/commands.h"
 #include "tests/bench/feel_certified.h"
 #include "tests/bench/feel_cost.h"
+#include "tests/bench/feel_curved.h"
 #include "tests/bench/feel_dense.h"
 #include "tests/bench/feel_sliding.h"
 #include "tests/bench/feel_smoothness.h"
@@ -25,7 +26,8 @@ namespace {
 
 struct FeelOptions {
   std::filesystem::path shared, csv;
-  std::vector<std::string> groups{"smoothness", "pairs", "conforming", "sliding", "tessellation", "dense"};
+  std::vector<std::string> groups{"smoothness",   "pairs", "conforming", "sliding",
+                                  "tessellation", "dense", "curved"};
   std::vector<std::string> scenes{"all"}, pairs{"all"};
   SmoothnessOptions smoothness;
   SlidingOptions sliding;
@@ -119,6 +121,13 @@ void measureDense(const FeelOptions& options, std::vector<FeelRow>& all) {
   }
 }
 
+void measureCurved(const FeelOptions& options, std::vector<FeelRow>& all) {
+  for (const CurvedScene& scene : curvedScenes()) {
+    fmt::print("\nCurved faces, {}: {}\n", scene.name, scene.description);
+    say(all, curvedRows(scene, options.seeking.ticks));
+  }
+}
+
 std::string settingsComment(const FeelOptions& o) {
   return fmt::format("# smoothness: {} s after the approach, x1 and x{}, margin {} m, cutoff {} m\n",
                      o.smoothness.seconds, o.smoothness.refinement, o.smoothness.margin,
@@ -155,6 +164,7 @@ void runFeel(const FeelOptions& options) {
     }
     if (group == "tessellation") measureTessellation(options, rows);
     if (group == "dense") measureDense(options, rows);
+    if (group == "curved") measureCurved(options, rows);
   }
   std::string lines;
   for (const FeelRow& row : rows)
@@ -170,7 +180,8 @@ void addWhat(CLI::App& command, FeelOptions& o) {
   command.add_option("--shared", o.shared, "Folder of the shared models; without, generated ones alone");
   command.add_option("--groups", o.groups, "What to measure, with commas between")
       ->delimiter(',')
-      ->check(CLI::IsMember({"smoothness", "pairs", "conforming", "sliding", "tessellation", "dense"}))
+      ->check(
+          CLI::IsMember({"smoothness", "pairs", "conforming", "sliding", "tessellation", "dense", "curved"}))
       ->capture_default_str();
   command.add_option("--scenes", o.scenes, "Scenes of conforming contact, with commas between")
       ->delimiter(',')

@@ -10,11 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "device/servo/servo_loop.h"
 #include "tests/bench/feel_certified.h"
-#include "tests/bench/feel_scenes.h"
-#include "tests/bench/feel_servo.h"
-#include "tests/bench/statistics.h"
 #include "tests/support/mesh_generators.h"
 
 namespace nearfit::bench {
@@ -22,7 +18,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kDenseMargin = 1e-4, kDenseCutoff = 1e-3;  // [m]
 /// Random cuts of an uneven mesh, besides the even ones.
 constexpr std::size_t kUnevenCuts = 1000;
 constexpr std::uint64_t kUnevenSeed = 17;
@@ -123,45 +118,23 @@ TriangleMesh cutFinely(const TriangleMesh& mesh, std::uint32_t pieces, bool isUn
   return isUneven ? test::cutUnevenly(even, kUnevenCuts, kUnevenSeed) : even;
 }
 
-double p99(const DenseRun& run) {
-  return SampleSummary(run.times).percentile(0.99);
-}
-
 }  // namespace
 
 std::vector<DenseScene> denseScenes() {
   return {blockOnPlate(), edgeOnFlat(), pegInBore(), chamferedPegIntoHole()};
 }
 
-DenseRun runDense(const DenseScene& scene, std::uint32_t pieces, bool isUneven, std::size_t ticks) {
-  const TriangleMesh fixed = cutFinely(scene.scene, pieces, isUneven);
-  const TriangleMesh part = cutFinely(scene.part, pieces, isUneven);
-  DenseRun run;
-  run.triangles = fixed.triangles().size() + part.triangles().size();
-  run.bodies = solidScene(fixed, part, scene.motion.start);
-  ServoParameters parameters;
-  parameters.haptics.mode = HapticMode::Proxy;
-  parameters.haptics.springs.cutoff = kDenseCutoff;
-  parameters.haptics.proxy.margin = kDenseMargin;
-  FeelServo servo(run.bodies, parameters, ListArrival::AtOnce, BenchClock::Thread);
-  PressingMotion motion = scene.motion;
-  motion.centreInPart = run.bodies->centreInPart;
-  for (std::size_t i = 0; i < ticks; ++i) {
-    const RigidTransform hand = handAt(motion, ServoLoop::kPeriod * static_cast<double>(i));
-    const ServoSnapshot& snapshot = servo.tick(hand, ServoLoop::kPeriod);
-    run.poses.push_back(snapshot.proxy);
-    run.wrenches.push_back(snapshot.unclampedWrench);
-    run.times.push_back(servo.tickTime());
-    run.held += snapshot.contactCount > 0 ? 1 : 0;
-    run.truncated += snapshot.isStarved || snapshot.isTruncated ? 1 : 0;
-  }
-  return run;
+PressedWalk walkDense(const DenseScene& scene, std::uint32_t pieces, bool isUneven, std::size_t ticks) {
+  return walkPressed({.scene = cutFinely(scene.scene, pieces, isUneven),
+                      .part = cutFinely(scene.part, pieces, isUneven),
+                      .motion = scene.motion},
+                     ticks);
 }
 
 std::vector<FeelRow> denseRows(const DenseScene& scene, std::size_t ticks) {
   std::vector<FeelRow> rows;
-  const DenseRun coarse = runDense(scene, 1, false, ticks);
-  const auto add = [&](const DenseRun& run, const std::string& label) {
+  const PressedWalk coarse = walkDense(scene, 1, false, ticks);
+  const auto add = [&](const PressedWalk& run, const std::string& label) {
     const std::string name = fmt::format("{} ({} triangles)", label, run.triangles);
     const auto row = [&](const char* quantity, const std::vector<double>& samples, double scale = 1.0) {
       rows.push_back(feelRow("dense", scene.name, name, quantity, samples, scale));
@@ -184,8 +157,8 @@ std::vector<FeelRow> denseRows(const DenseScene& scene, std::size_t ticks) {
   };
   add(coarse, "x1");
   for (std::uint32_t pieces = 4; pieces <= scene.finest; pieces *= 4)
-    add(runDense(scene, pieces, false, ticks), fmt::format("x{}", pieces));
-  add(runDense(scene, 4, true, ticks), "x4 uneven");
+    add(walkDense(scene, pieces, false, ticks), fmt::format("x{}", pieces));
+  add(walkDense(scene, 4, true, ticks), "x4 uneven");
   return rows;
 }
 

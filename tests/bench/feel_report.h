@@ -8,7 +8,7 @@ namespace nearfit::bench {
 
 /// Samples of one quantity in one run, summed up.
 struct FeelRow {
-  std::string group;  ///< smoothness, cost, sliding, free, tessellation or dense.
+  std::string group;  ///< smoothness, cost, sliding, free, tessellation, dense or curved.
   std::string scene;
   std::string run;       ///< What of the group: mode, refinement, speed.
   std::string quantity;  ///< With its unit.

@@ -5,18 +5,29 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from paths import conjugate, multiply, rotation_vector
+from paths import conjugate, multiply, rotate, rotation_vector
 
 WINDOW = 60    # Ticks for which a part must stand, while the hand moves on, to be looked at.
 STOOD = 1e-6   # What moves less in a window stands [m].
 LED = 2e-3     # What moves more in a window moves on [m].
+SLIDES = 2e-5  # What moves faster in contact slides [m a tick]: 0.02 m/s.
+DRAGS = 0.02   # A larger share of the wrench along the way is drag.
+PRESSES = 0.5  # What pushes harder presses [N].
 SETTLING = 150  # Ticks that noise at rest is given to die.
+
+
+@dataclass
+class Inertia:
+    """Of a part [m]."""
+    radius: float       # Of a sphere that holds it, roughly.
+    centre: np.ndarray  # Of mass, in the part's own coordinates.
+    gyration: float     # Mean radius of gyration.
 
 
 class Recording:
     """Columns of a recording by name, and its poses as shift and turn from home."""
 
-    def __init__(self, file, home, axis):
+    def __init__(self, file, home, axis, inertia):
         with open(file, newline="") as text:
             names = next(csv.reader(text))
         data = np.loadtxt(file, delimiter=",", skiprows=1, ndmin=2)
@@ -31,12 +42,32 @@ class Recording:
         self.lag = np.linalg.norm(self.handle_shift - self.proxy_shift, axis=1)
         self.turn_lag = np.linalg.norm(
             rotation_vector(multiply(self.handle_rotation, conjugate(self.proxy_rotation))), axis=1)
+        self.drag = self._drag(inertia)
 
     def __getitem__(self, name):
         return self._columns[name]
 
     def __len__(self):
         return len(self["t_s"])
+
+    def _drag(self, inertia):
+        """Of each tick in which the part slides under pressure: the share of the wrench that is along the way which the
+        part goes, from 0 to 1; else NaN. Lengths in the metric of mass: a turn counts by the mean radius of gyration.
+
+        What holds a part without friction is square to the way that it is free to go, so that a share beyond rounding
+        is drag, or the part has come free and catches up.
+        """
+        poses, g = self._pose("proxy"), inertia.gyration
+        centre = poses[:, :3] + rotate(poses[:, 3:], inertia.centre)
+        turn = rotation_vector(multiply(poses[1:, 3:], conjugate(poses[:-1, 3:])))
+        way = np.concatenate([np.zeros((1, 6)), np.column_stack([np.diff(centre, axis=0), g * turn])])
+        wrench = np.column_stack([self.force, self.torque / g])
+        going, pressing = np.linalg.norm(way, axis=1), np.linalg.norm(wrench, axis=1)
+        held = self["contacts"] > 0
+        slides = held & np.concatenate([[False], held[:-1]]) & (going > SLIDES) & (pressing > PRESSES)
+        share = np.full(len(held), np.nan)
+        share[slides] = np.abs(np.sum(way * wrench, axis=1)[slides]) / (going * pressing)[slides]
+        return share
 
     def _pose(self, which):
         return np.column_stack([self[f"{which}_{c}"] for c in ("tx", "ty", "tz", "qw", "qx", "qy", "qz")])
@@ -65,7 +96,8 @@ class Finding:
 
 
 def find_goals(evidence, recording):
-    return [Finding(goal, max((_value(goal, recording, first, end) for name, first, end in evidence.hand.phases
+    phases = evidence.hand.phases + [("", 0, len(recording))]
+    return [Finding(goal, max((_value(goal, recording, first, end) for name, first, end in phases
                                if name == goal.phase), key=lambda v: abs(v - _middle(goal))))
             for goal in evidence.goals]
 
@@ -91,9 +123,15 @@ def _value(goal, recording, first, end):
         return float((recording["contacts"][first:end] > 0).mean())
     if goal.kind == "twist":
         return recording.proxy_twist[last]
-    if goal.kind == "lag":
+    if goal.kind in ("lag", "slip"):
         apart = (recording.handle_shift - recording.proxy_shift)[first:end, goal.axis]
+        if goal.kind == "slip":
+            apart = apart - apart[0]
         return apart[np.argmax(np.abs(apart))]
+    if goal.kind == "truncated":
+        return float((recording["truncated"][first:end] > 0).mean())
+    if goal.kind == "drag":
+        return float(np.nan_to_num(recording.drag[first:end]).max())
     if goal.kind == "lead":
         twist = recording.proxy_twist[first:end]
         chosen = np.abs(twist - twist[-1]) < 2 * np.pi
@@ -157,6 +195,11 @@ def _starts(flags):
     return np.flatnonzero(flags[1:] & ~flags[:-1])
 
 
+def _percentile(values, percent):
+    known = values[np.isfinite(values)]
+    return np.percentile(known, percent) if len(known) else float("nan")
+
+
 def summary(evidence, recording):
     """The row of the table."""
     force_noise, torque_noise = rest_noise(recording)
@@ -178,6 +221,10 @@ def summary(evidence, recording):
         "most_constraints": int(recording["constraints"].max()),
         "ticks_at_rest": int(at_rest(recording).sum()),
         "ticks_at_rest_that_step": int((at_rest(recording) & (recording["sub_steps"] > 0)).sum()),
+        "ticks_sliding": int(np.isfinite(recording.drag).sum()),
+        "ticks_dragging": int((np.nan_to_num(recording.drag) > DRAGS).sum()),
+        "drag_p50": _percentile(recording.drag, 50),
+        "drag_p99": _percentile(recording.drag, 99),
         "peak_force_N": np.linalg.norm(recording.force, axis=1).max(),
         "peak_torque_Nm": np.linalg.norm(recording.torque, axis=1).max(),
         "rest_noise_N": force_noise,

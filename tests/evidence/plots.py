@@ -20,7 +20,7 @@ def _thin(t, *series):
     kept = []
     for y in series:
         block = y[:count * step].reshape(count, step)
-        kept.append(np.column_stack([block.min(axis=1), block.max(axis=1)]).ravel())
+        kept.append(np.column_stack([np.fmin.reduce(block, axis=1), np.fmax.reduce(block, axis=1)]).ravel())
     times = t[:count * step].reshape(count, step)
     return (np.column_stack([times[:, 0], times[:, step // 2]]).ravel(),) + tuple(kept)
 
@@ -70,8 +70,10 @@ def _wrench(axes, r, t):
 def _distance(axes, r, t, margin):
     # While something is overlapped the least of all minima says nothing of how near it is.
     distance = np.where(np.isfinite(r["distance"]) & (r["released"] == 0), r["distance"], np.nan)
-    times, distance = _thin(t, 1e3 * distance)
-    axes.semilogy(times, distance, color=COLOURS[2], lw=0.8, label="least distance")
+    is_bound = r["distance_bound"] > 0
+    for chosen, colour, label in ((~is_bound, COLOURS[2], "least distance"), (is_bound, "#d68910", "at least")):
+        times, shown = _thin(t, 1e3 * np.where(chosen, distance, np.nan))
+        axes.semilogy(times, shown, color=colour, lw=0.8, label=label)
     axes.axhline(1e3 * margin, color=COLOURS[0], lw=0.8, ls="--", label=f"margin {1e3 * margin:g} mm")
     axes.set_ylabel("distance [mm]")
 

@@ -59,12 +59,21 @@ def times(row, name):
                      if row[f"{name}_{part}"] != "")
 
 
+def drag(row):
+    """Drag at p50 and p99, and how many of the ticks that slide have more than is allowed."""
+    if not int(row["ticks_sliding"] or 0):
+        return "does not slide"
+    return (f"{100 * float(row['drag_p50']):.2g}, {100 * float(row['drag_p99']):.2g}, "
+            f"{row['ticks_dragging']} of {row['ticks_sliding']}")
+
+
 def text(result):
     row = result.row
     lines = [f"== {row['scene']}: {row['ticks']} ticks, met {row['poses_met']} of {row['poses_certified']}, "
              f"least {row['least_distance_margins']:.3g} margins, shortened {row['ticks_shortened']}, refused "
              f"{row['ticks_refused']}, wrench {times(row, 'wrench_us')} us, tick {times(row, 'tick_us')} us, behind in "
-             f"{row['ticks_behind']} ticks, noise at rest {number(row['rest_noise_N'])} N, steps in "
+             f"{row['ticks_behind']} ticks, drag p50 {number(row['drag_p50'])} p99 {number(row['drag_p99'])}, beyond 2 % in "
+             f"{row['ticks_dragging']} of {row['ticks_sliding']} ticks, noise at rest {number(row['rest_noise_N'])} N, steps in "
              f"{row['ticks_at_rest_that_step']} of {row['ticks_at_rest']} ticks at rest"]
     for f in result.findings:
         lines.append(f"   {'ok ' if f.is_met else 'NOT'} {f.goal.text}: {number(f.value)} "
@@ -118,15 +127,15 @@ def markdown(rows, goals, evidence):
              "Written by `tests/evidence/run`, which says how; [../README.md](../README.md) tells what is shown.", "",
              f"Machine: {machine()}. Revision and load (1 min) stand in [evidence.csv](evidence.csv), a row a scene.", "",
              "| scene | ticks | poses that meet | margin [mm] | least distance [margins] | ticks shortened | refused | "
-             "noise at rest [N] | ticks at rest that step | ticks behind | wrench p50, p99, p99.9, longest [us] | "
+             "noise at rest [N] | ticks at rest that step | ticks behind | drag p50, p99 [%], ticks beyond 2 % | wrench p50, p99, p99.9, longest [us] | "
              "tick p50, p99, p99.9, longest [us] |",
-             "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"]
+             "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"]
     for row in rows:
         r = collections.defaultdict(str, row)  # An older row may lack a column.
         lines.append(f"| [{r['scene']}]({r['scene']}.png) | {r['ticks']} | {r['poses_met']} of {r['poses_certified']} | "
                      f"{1e3 * float(r['margin_m']):g} | {r['least_distance_margins']} | {r['ticks_shortened']} | "
                      f"{r['ticks_refused']} | {r['rest_noise_N']} | "
-                     f"{r['ticks_at_rest_that_step']} of {r['ticks_at_rest']} | {r['ticks_behind']} | "
+                     f"{r['ticks_at_rest_that_step']} of {r['ticks_at_rest']} | {r['ticks_behind']} | {drag(r)} | "
                      f"{times(r, 'wrench_us')} | {times(r, 'tick_us')} |")
     for r in rows:
         lines += ["", f"## {evidence[r['scene']].title}", ""]

@@ -4,9 +4,10 @@ Poses and files are those of the shared models' README; lengths in metres, turns
 """
 
 from dataclasses import dataclass, field
+from typing import Callable, Optional
 
+import dense
 import numpy as np
-
 from paths import Hand, Home, adversary
 
 DEGREE = np.pi / 180
@@ -20,6 +21,7 @@ class Body:
     metres_per_unit: float = 1.0
     position: tuple = (0.0, 0.0, 0.0)
     turn: tuple = NO_TURN
+    make: Optional[Callable] = None  # Of the mesh that goes into the file, where it is none of the shared models.
 
 
 @dataclass
@@ -27,7 +29,7 @@ class Goal:
     """A number that the recording must hold: see measures.py for how each kind is found."""
     text: str
     kind: str
-    phase: str
+    phase: str  # Empty for all of the recording.
     low: float = -np.inf
     high: float = np.inf
     axis: int = 2
@@ -355,6 +357,81 @@ def _pump_drawn():
         (0, 1, 0), (1, 0, 0), (-0.063, -0.086, 0.0), 0.005, 0.04)
 
 
+FOLLOWS = 1e-5  # What is led along what is free must follow within [m].
+DRAG = 0.02     # Most of the wrench that may be along what is free, as a share of all of it.
+
+
+def _cut(name, solid, count, seed):
+    """A body of flat faces that are cut finely and unevenly into so many triangles."""
+    return Body(name, f"dense-{name}-{count}.obj", make=lambda: solid.quartered(4).cut_to(count, seed))
+
+
+def _dense_peg():
+    """Home is the peg through the hole, its lower end level with the tray's lower face. The tray is as thick as the peg's
+    centre of mass is high, where the hand pulls: pushed aside, the peg lies along the wall."""
+    top, deep = 0.026, (0.0008, -0.0005, 0.0)
+    hand = Hand(shift=(0.0008, -0.0005, top + 0.006), turn=(2 * DEGREE, -1.5 * DEGREE, 0.0))
+    hand.move("rim, off and tilted", 0.7, (0.0008, -0.0005, top - 0.001))
+    hand.hold("still on the rim", 0.4)
+    hand.move("aligned", 0.4, turn=NO_TURN)
+    hand.move("in along its chamfer", 0.8, deep)
+    hand.hold("still inside, pushed aside", 0.4)
+    hand.glide("down at 0.1 m/s", 0.11, (deep[0], deep[1], -0.010))
+    hand.hold("still below", 0.2)
+    hand.glide("up at 0.1 m/s", 0.11, deep)
+    hand.wiggle("wiggles", 1.0, (0.001, 0.001, 0.0), (4 * DEGREE, 4 * DEGREE, 0), (3, 4, 3))
+    hand.move("twisted", 0.4, (0.0, 0.0, 0.0), (0, 0, 0.3))
+    hand.hold("still twisted", 0.3)
+    hand.move("back", 0.3, turn=NO_TURN)
+    hand.move("pulled out tilted", 0.8, (0.0005, 0.0, top + 0.006), (2 * DEGREE, 0, 0))
+    hand.hold("still outside", 0.3)
+    goals = [
+        Goal("slips in along its chamfer, off by a millimetre as it is", "end", "still inside, pushed aside",
+             low=-1e-5, high=1e-5),
+        Goal("is kept from turning by the hole [rad]", "twist", "still twisted", high=0.1),
+        Goal("is out again, where the hand is: gap", "gap", "still outside", high=1e-6),
+        Goal("ticks that are truncated, of all", "truncated", "", high=0.0),
+    ]
+    for name in ("down at 0.1 m/s", "up at 0.1 m/s"):
+        goals += [Goal("follows along the hole, without friction: change of hand less part", "slip", name, low=-FOLLOWS, high=FOLLOWS),
+                  Goal("drags along the hole: share of the wrench", "drag", name, high=DRAG)]
+    return Evidence(
+        "dense-peg", "Square peg of 16 mm (25,000 triangles) into a tray (29,000), 0.1 mm of play each side, chamfers",
+        _cut("peg", dense.chamfered_peg(0.016, 0.040, 0.001), 25000, 1),
+        [_cut("tray", dense.tray(0.060, 0.026, 0.0162, 0.001), 29000, 2)], 2e-5, 0.001, hand, pivot=(0, 0, 0.020),
+        goals=goals)
+
+
+def _dense_block():
+    """Home is the block on the plate."""
+    pressed = -0.0025
+    hand = Hand(shift=(-0.03, -0.02, 0.006), turn=(2 * DEGREE, -1.5 * DEGREE, 0.1))
+    hand.move("down, tilted", 0.6, (-0.03, -0.02, pressed))
+    hand.hold("still on an edge or corner", 0.3)
+    hand.move("aligned", 0.3, turn=(0, 0, 0.1))
+    hand.hold("still, pressed flat", 0.3)
+    hand.glide("along at 0.1 m/s", 0.66, (0.03, -0.02, pressed))
+    hand.hold("still, pressed flat", 0.3)
+    hand.glide("across at 0.1 m/s", 0.44, (0.03, 0.02, pressed))
+    hand.hold("still, pressed flat", 0.3)
+    hand.move("turned", 0.4, turn=(0, 0, -0.5))
+    hand.wiggle("rocked", 1.0, (0, 0, 0.001), (4 * DEGREE, 4 * DEGREE, 0), (3, 4, 3))
+    hand.hold("still, pressed flat", 0.3)
+    hand.move("lifted", 0.5, (0.03, 0.02, 0.010))
+    hand.hold("still, lifted", 0.3)
+    goals = [Goal("is out of contact, where the hand is: gap", "gap", "still, lifted", high=1e-6)]
+    goals += [Goal("ticks that are truncated, of all", "truncated", "", high=0.0)]
+    for name, axis in (("along at 0.1 m/s", 0), ("across at 0.1 m/s", 1)):
+        goals += [Goal("follows along the plate, without friction: change of hand less part", "slip", name, low=-FOLLOWS,
+                       high=FOLLOWS, axis=axis),
+                  Goal("drags along the plate: share of the wrench", "drag", name, high=DRAG)]
+    return Evidence(
+        "dense-block", "Block of 50 x 40 x 30 mm on a plate (24,300 triangles each), pressed and slid",
+        _cut("block", dense.box(0.05, 0.04, 0.03), 24300, 3), [Body(
+            "plate", "dense-plate-24300.obj", position=(0.0, 0.0, -0.025),
+            make=lambda: dense.box(0.2, 0.2, 0.02).quartered(4).cut_to(24300, 4))], 1e-4, 0.001, hand, goals=goals)
+
+
 PAIR_SIZE = 0.1  # Diagonal that the benchmark's bodies of diagonal 1 are given [m].
 
 
@@ -408,4 +485,4 @@ def _pairs():
 
 def all_evidence():
     return (_pegs() + [_nut_engaged(), _nut_on(), _gear(), _piston_head(), _piston_cylinder()]
-            + [_ariac(name) for name in ARIAC] + [_battery_drawn(), _pump_drawn()] + _pairs())
+            + [_ariac(name) for name in ARIAC] + [_battery_drawn(), _pump_drawn(), _dense_peg(), _dense_block()] + _pairs())
