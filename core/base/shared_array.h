@@ -8,8 +8,8 @@
 
 namespace nearfit {
 
-/// Immutable array with shared ownership of its memory: a vector taken over, or a file mapped into memory.
-/// Copies share the memory and cost nothing.
+/// Immutable array with shared ownership of its memory: a vector taken over, or a part of a file that was
+/// read. Copies share the memory and cost nothing.
 template <typename T>
 class SharedArray {
  public:

@@ -2,11 +2,16 @@
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <ctime>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,14 +22,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A hidden temporary file is named by this, its process and a number.
+constexpr std::string_view kHiddenPrefix = ".nearfit-";
+
+/// Permissions of a new file before the umask.
+constexpr unsigned kUserOnly = S_IRUSR | S_IWUSR, kUsual = 0666;
+
 [[noreturn]] void fail(const fs::path& file, const std::string& what, int error) {
   const bool isPathFault = error == ENOENT || error == ENOTDIR;
   const bool isRefused = error == EACCES || error == EPERM || error == EROFS;
   const bool isFull = error == ENOSPC || error == EDQUOT;
+  const bool isLimited = error == EFBIG;
   throw FileError(file.string(), what + ": " + std::system_category().message(error),
                   isPathFault ? "check that its folder exists"
                   : isRefused ? "choose a folder that you can write to"
                   : isFull    ? "free some space or choose another disk"
+                  : isLimited ? "raise the limit on the size of files (ulimit -f)"
                               : "check the disk and try again");
 }
 
@@ -49,7 +62,23 @@ fs::path followLinks(const fs::path& file) {
 }
 
 fs::path hiddenName(const fs::path& target, unsigned serial) {
-  return target.parent_path() / (".nearfit-" + std::to_string(::getpid()) + "-" + std::to_string(serial));
+  return target.parent_path() /
+         (std::string(kHiddenPrefix) + std::to_string(::getpid()) + "-" + std::to_string(serial));
+}
+
+/// Process in a name made by hiddenName(); std::nullopt for other names.
+std::optional<int> writerOf(std::string_view name) {
+  if (!name.starts_with(kHiddenPrefix)) return std::nullopt;
+  name.remove_prefix(kHiddenPrefix.size());
+  const char* const end = name.data() + name.size();
+  int process = 0;
+  unsigned serial = 0;
+  const auto [afterProcess, noProcess] = std::from_chars(name.data(), end, process);
+  if (noProcess != std::errc() || process <= 0 || afterProcess == end || *afterProcess != '-')
+    return std::nullopt;
+  const auto [afterSerial, noSerial] = std::from_chars(afterProcess + 1, end, serial);
+  if (noSerial != std::errc() || afterSerial != end) return std::nullopt;
+  return process;
 }
 
 /// Several unfinished files of one target get different numbers.
@@ -60,20 +89,75 @@ fs::path visibleName(const fs::path& target, unsigned number) {
   return target.parent_path() / name;
 }
 
-}  // namespace
+/// True if another process of that number runs. Earlier ones of this process's number do not.
+bool runsBesides(int process) {
+  return process != ::getpid() && (::kill(process, 0) == 0 || errno != ESRCH);
+}
 
-AtomicFile::AtomicFile(const fs::path& file, FileAccess access, Unfinished unfinished) {
+/// True if a temporary file is the user's, was not changed for a minute, and no program has it open as an
+/// AtomicFile, on this machine or another: each holds a lock on its file.
+bool isLeft(const fs::path& file) {
+  constexpr std::time_t kQuiet = 60;
+  struct stat status = {};
+  if (::lstat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != ::geteuid() ||
+      std::time(nullptr) - status.st_mtime < kQuiet) {
+    return false;
+  }
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool isFree = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  ::close(descriptor);
+  return isFree;
+}
+
+/// Removes a visible temporary file that was left before anything was written to it. Others are kept: a user
+/// may want what they hold.
+void removeIfEmpty(const fs::path& file) {
+  struct stat status = {};
+  if (::lstat(file.c_str(), &status) == 0 && status.st_size == 0 && isLeft(file)) ::unlink(file.c_str());
+}
+
+/// What a new file takes over from the one that it replaces.
+struct Permissions {
+  unsigned mode = 0;
+  ::gid_t group = 0;
+};
+
+/// Permissions of the file that a new one is to replace; std::nullopt if there is none. Throws FileError if
+/// that cannot be replaced, or the path has no file name.
+std::optional<Permissions> permissionsOfTarget(const fs::path& file, Links links) {
   if (file.filename().empty())
     throw FileError(file.string(), "the path has no file name", "add a file name to the path");
-  target_ = followLinks(file);
-  open(access == FileAccess::Private ? S_IRUSR | S_IWUSR : 0666, unfinished);
-  if (access == FileAccess::Private) return;
-  try {
-    keepPermissionsOfTarget();
-  } catch (...) {
-    discard();
-    throw;
-  }
+  struct stat status = {};
+  const int result =
+      links == Links::Follow ? ::stat(file.c_str(), &status) : ::lstat(file.c_str(), &status);
+  if (result != 0 || S_ISLNK(status.st_mode)) return std::nullopt;
+  if (S_ISDIR(status.st_mode)) throw FileError(file.string(), "it is a folder", "choose another name");
+  if (!S_ISREG(status.st_mode))
+    throw FileError(file.string(), "it is a device, a pipe or a socket, which no file may replace",
+                    "choose another name");
+  return Permissions{status.st_mode & 07777U, status.st_gid};
+}
+
+/// Sets errno and returns false if it fails.
+bool setPermissions(int descriptor, const Permissions& permissions) {
+  // Where the group cannot be kept, another one must not get what the mode grants to it.
+  const bool isGroupKept = ::fchown(descriptor, static_cast<::uid_t>(-1), permissions.group) == 0;
+  return ::fchmod(descriptor, isGroupKept ? permissions.mode : permissions.mode & ~02070U) == 0;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const fs::path& file, FileAccess access, Unfinished unfinished, Links links) {
+  const std::optional<Permissions> replaced = permissionsOfTarget(file, links);
+  target_ = links == Links::Follow ? followLinks(file) : fs::absolute(file);
+  removeAbandoned(target_.parent_path());
+  // Closed from the start: who could open the temporary file now could read all that comes later.
+  open(access == FileAccess::Private || replaced ? kUserOnly : kUsual, unfinished);
+  if (access == FileAccess::Private || !replaced || setPermissions(descriptor_, *replaced)) return;
+  const int error = errno;
+  discard();
+  fail(target_, "its permissions cannot be preserved", error);
 }
 
 void AtomicFile::open(unsigned mode, Unfinished unfinished) {
@@ -82,12 +166,14 @@ void AtomicFile::open(unsigned mode, Unfinished unfinished) {
   do {
     path_ =
         unfinished == Unfinished::Visible ? visibleName(target_, ++number) : hiddenName(target_, serial++);
+    if (unfinished == Unfinished::Visible) removeIfEmpty(path_);
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     // The target's name may already have the max length.
     if (descriptor_ < 0 && errno == ENAMETOOLONG && unfinished == Unfinished::Visible)
       return open(mode, Unfinished::Hidden);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ < 0) fail(target_, "it cannot be written", errno);
+  ::flock(descriptor_, LOCK_EX | LOCK_NB);  // See isLeft(); some file systems have no locks.
 }
 
 AtomicFile::~AtomicFile() {
@@ -98,14 +184,6 @@ void AtomicFile::discard() noexcept {
   if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
   if (!path_.empty()) ::unlink(path_.c_str());
   path_.clear();
-}
-
-void AtomicFile::keepPermissionsOfTarget() {
-  struct stat status = {};
-  if (::stat(target_.c_str(), &status) != 0) return;
-  if (S_ISDIR(status.st_mode)) throw FileError(target_.string(), "it is a folder", "choose another name");
-  if (::fchmod(descriptor_, status.st_mode & 07777) != 0)
-    fail(target_, "its permissions cannot be preserved", errno);
 }
 
 void AtomicFile::write(std::string_view content) {
@@ -138,6 +216,38 @@ void atomicWrite(const fs::path& file, std::string_view content, FileAccess acce
   AtomicFile replacement(file, access);
   replacement.write(content);
   replacement.commit();
+}
+
+void checkReplaceable(const fs::path& file) {
+  static_cast<void>(permissionsOfTarget(file, Links::Follow));
+}
+
+bool isSameTarget(const fs::path& a, const fs::path& b) {
+  std::error_code missing;
+  if (fs::equivalent(a, b, missing)) return true;
+  const auto resolved = [](const fs::path& file) {
+    const fs::path target = followLinks(file);
+    std::error_code unknown;
+    const fs::path folder = fs::weakly_canonical(target.parent_path(), unknown);
+    return unknown ? target.lexically_normal() : folder / target.filename();
+  };
+  return resolved(a) == resolved(b);
+}
+
+void removeAbandoned(const fs::path& folder) noexcept {
+  constexpr int kMaxEntries = 10'000;
+  try {
+    std::error_code failure;
+    fs::directory_iterator entry(folder, failure);
+    for (int i = 0; !failure && entry != fs::directory_iterator() && i < kMaxEntries; ++i) {
+      const fs::path& file = entry->path();
+      const std::optional<int> writer = writerOf(file.filename().string());
+      if (writer && !runsBesides(*writer) && isLeft(file)) ::unlink(file.c_str());
+      entry.increment(failure);
+    }
+  } catch (...) {
+    // What is left takes room on the disk and does no other harm.
+  }
 }
 
 }  // namespace nearfit

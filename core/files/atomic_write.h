@@ -19,15 +19,23 @@ enum class Unfinished {
   Visible,
 };
 
+/// What happens to a symbolic link that has the target's name.
+enum class Links {
+  Follow,   ///< It stays, and the file that it names is replaced.
+  Replace,  ///< The new file takes its place, and what it names is left alone.
+};
+
 /// Replaces a file atomically: a crash, a full disk or an error leaves either the old file or the new one,
-/// whole. Written in steps to a temporary file beside the target. A symbolic link is followed and stays a
-/// link; an existing file keeps its permissions (unless Private). Every call throws FileError naming the
-/// target. Without a successful commit() the destructor deletes the temporary file. Not thread-safe.
+/// whole. Written in steps to a temporary file beside the target. An existing file keeps its permissions
+/// (unless Private), and who cannot read it can read no temporary file either. Only ordinary files are
+/// replaced: folders, devices, pipes and sockets are refused. Every call throws FileError naming the target.
+/// Without a successful commit() the destructor deletes the temporary file. Not thread-safe.
 class AtomicFile {
  public:
-  /// Creates the temporary file. Throws also if `file` names a folder or no file.
+  /// Creates the temporary file, and removes those of killed programs (removeAbandoned) from its folder.
+  /// Throws also as checkReplaceable() does.
   explicit AtomicFile(const std::filesystem::path& file, FileAccess access = FileAccess::Usual,
-                      Unfinished unfinished = Unfinished::Hidden);
+                      Unfinished unfinished = Unfinished::Hidden, Links links = Links::Follow);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -50,7 +58,6 @@ class AtomicFile {
 
  private:
   void open(unsigned mode, Unfinished unfinished);
-  void keepPermissionsOfTarget();
   void discard() noexcept;
 
   std::filesystem::path target_, path_;
@@ -61,5 +68,18 @@ class AtomicFile {
 /// Replaces the content of `file` as AtomicFile does, and flushes it to disk. Throws FileError.
 void atomicWrite(const std::filesystem::path& file, std::string_view content,
                  FileAccess access = FileAccess::Usual);
+
+/// Throws FileError if `file` names no file, or what AtomicFile does not replace: a folder, device, pipe or
+/// socket. It need not exist.
+void checkReplaceable(const std::filesystem::path& file);
+
+/// True if AtomicFiles for the two paths would replace one file: they are one existing file, by device and
+/// inode, or name the same new one, whatever their spelling and links.
+bool isSameTarget(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// Removes hidden temporary files from a folder that programs left there when they were killed: the user's
+/// own, without a change for a minute, whose process does not run and that no program anywhere holds open.
+/// Looks at the first ten thousand entries.
+void removeAbandoned(const std::filesystem::path& folder) noexcept;
 
 }  // namespace nearfit

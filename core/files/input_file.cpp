@@ -6,11 +6,11 @@
 #include <system_error>
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/files/ownership.h"
 
 namespace nearfit {
 namespace {
@@ -32,22 +32,37 @@ constexpr std::size_t kBlockBytes = std::size_t{4} << 20;
   }
 }
 
+[[noreturn]] void throwReadError(const std::filesystem::path& file, int error) {
+  throw FileError(file.string(), "reading it failed: " + std::system_category().message(error),
+                  "check the disk and try again");
+}
+
+/// Size of an open file. Throws FileError if it is not of the kind and the owner that are asked for.
+std::uint64_t checkedSize(const std::filesystem::path& file, int descriptor, FileOwner owner) {
+  struct stat status = {};
+  const bool isKnown = ::fstat(descriptor, &status) == 0;
+  if (isKnown && S_ISDIR(status.st_mode))
+    throw FileError(file.string(), "it is a folder", "name a file inside it");
+  if (!isKnown || !S_ISREG(status.st_mode))
+    throw FileError(file.string(), "it is not a regular file", "copy its content to a file on disk first");
+  const std::string distrust = owner == FileOwner::User ? distrustOf(status) : std::string();
+  if (!distrust.empty()) throw FileError(file.string(), distrust, "delete it, or take its ownership");
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
 }  // namespace
 
-InputFile::InputFile(const std::filesystem::path& file) : file_(file) {
+InputFile::InputFile(const std::filesystem::path& file, FileOwner owner) : file_(file) {
   // O_NONBLOCK keeps open() from waiting for the writer of a pipe; it has no effect on regular files.
-  descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  const int flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | (owner == FileOwner::User ? O_NOFOLLOW : 0);
+  descriptor_ = ::open(file.c_str(), flags);
   if (descriptor_ < 0) throwOpenError(file, errno);
-  struct stat status = {};
-  const bool known = ::fstat(descriptor_, &status) == 0;
-  if (!known || !S_ISREG(status.st_mode)) {
+  try {
+    size_ = checkedSize(file, descriptor_, owner);
+  } catch (...) {
     ::close(descriptor_);
-    if (known && S_ISDIR(status.st_mode)) {
-      throw FileError(file.string(), "it is a folder", "name a file inside it");
-    }
-    throw FileError(file.string(), "it is not a regular file", "copy its content to a file on disk first");
+    throw;
   }
-  size_ = static_cast<std::uint64_t>(status.st_size);
 }
 
 InputFile::~InputFile() {
@@ -61,12 +76,48 @@ std::size_t InputFile::read(std::span<char> buffer) {
     if (count == 0) break;
     if (count < 0) {
       if (errno == EINTR) continue;
-      throw FileError(file_.string(), "reading it failed: " + std::system_category().message(errno),
-                      "check the disk and try again");
+      throwReadError(file_, errno);
     }
     filled += static_cast<std::size_t>(count);
   }
   return filled;
+}
+
+bool InputFile::readAt(std::uint64_t offset, std::span<std::byte> buffer) const {
+  std::size_t filled = 0;
+  while (filled < buffer.size()) {
+    const ::ssize_t count = ::pread(descriptor_, buffer.data() + filled, buffer.size() - filled,
+                                    static_cast<::off_t>(offset + filled));
+    if (count == 0) return false;
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      throwReadError(file_, errno);
+    }
+    filled += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+std::uint64_t InputFile::writtenBytes() const noexcept {
+  const auto size = static_cast<::off_t>(size_);
+  ::off_t written = 0;
+  for (::off_t end = 0; end < size;) {
+    const ::off_t begin = ::lseek(descriptor_, end, SEEK_DATA);
+    if (begin < 0 && errno == ENXIO) break;  // The rest is a hole.
+    end = begin < 0 ? -1 : ::lseek(descriptor_, begin, SEEK_HOLE);
+    if (end < 0) {
+      written = size;
+      break;
+    }
+    written += end - begin;
+  }
+  ::lseek(descriptor_, 0, SEEK_SET);
+  return static_cast<std::uint64_t>(std::min(written, size));
+}
+
+void InputFile::touch() const noexcept {
+  const ::timespec times[2] = {{0, UTIME_OMIT}, {0, UTIME_NOW}};
+  ::futimens(descriptor_, times);
 }
 
 std::vector<char> readWholeFile(const std::filesystem::path& file,
@@ -87,23 +138,6 @@ std::vector<char> readWholeFile(const std::filesystem::path& file,
                     "try again when no program writes to it");
   }
   return bytes;
-}
-
-MappedFile::MappedFile(const std::filesystem::path& file) {
-  const InputFile input(file);
-  const auto size = static_cast<std::size_t>(input.size());
-  if (size == 0) return;
-  void* address = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, input.descriptor(), 0);
-  if (address == MAP_FAILED) {
-    throw FileError(file.string(),
-                    "it cannot be mapped into memory: " + std::system_category().message(errno),
-                    "close other programs and try again");
-  }
-  bytes_ = {static_cast<const std::byte*>(address), size};
-}
-
-MappedFile::~MappedFile() {
-  if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
 }
 
 }  // namespace nearfit

@@ -9,23 +9,36 @@
 
 namespace nearfit {
 
+/// Whose files are opened.
+enum class FileOwner {
+  Anyone,
+  /// The user's alone: no symbolic link, no file of another user, none that others can write to.
+  User,
+};
+
 /// A regular file open for reading. Throws FileErrors that name path, cause and remedy.
 class InputFile {
  public:
-  /// Throws FileError if the file does not exist, is not readable, or is a folder, pipe or device (which
-  /// would block or never end).
-  explicit InputFile(const std::filesystem::path& file);
+  /// Throws FileError if the file does not exist, is not readable, is not the owner's, or is a folder, pipe
+  /// or device (which would block or never end).
+  explicit InputFile(const std::filesystem::path& file, FileOwner owner = FileOwner::Anyone);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
   /// Size when the file was opened [bytes].
   std::uint64_t size() const noexcept { return size_; }
-  /// File descriptor, for system calls; this object keeps owning it.
-  int descriptor() const noexcept { return descriptor_; }
+  /// Bytes of the file without the holes of a sparse one, which read as zeros and take no room on disk; its
+  /// size if the file system does not tell. To be called before read().
+  std::uint64_t writtenBytes() const noexcept;
   /// Fills `buffer` until it is full or the file ends; returns the bytes read, 0 at the end.
   /// Throws FileError.
   std::size_t read(std::span<char> buffer);
+  /// Fills `buffer` from byte `offset` on; false if the file ends before, as one that was truncated does.
+  /// Independent of read(); thread-safe. Throws FileError.
+  bool readAt(std::uint64_t offset, std::span<std::byte> buffer) const;
+  /// Sets the file's time of last change to now, where that is permitted.
+  void touch() const noexcept;
 
  private:
   std::filesystem::path file_;
@@ -37,23 +50,5 @@ class InputFile {
 /// Throws FileError, also if the file shrinks meanwhile.
 std::vector<char> readWholeFile(const std::filesystem::path& file,
                                 const std::function<void(double fraction)>& onBlock = {});
-
-/// Read-only memory mapping of a file. Only for files that are always replaced as a whole (AtomicFile): the
-/// mapping then keeps the old content, even after the file is deleted. Reading a mapped file that was
-/// truncated in place kills the process.
-class MappedFile {
- public:
-  /// Throws FileError as InputFile does, and if the file cannot be mapped.
-  explicit MappedFile(const std::filesystem::path& file);
-  ~MappedFile();
-  MappedFile(const MappedFile&) = delete;
-  MappedFile& operator=(const MappedFile&) = delete;
-
-  /// The file's bytes, page-aligned, valid as long as this object; empty for an empty file.
-  std::span<const std::byte> bytes() const noexcept { return bytes_; }
-
- private:
-  std::span<const std::byte> bytes_;
-};
 
 }  // namespace nearfit

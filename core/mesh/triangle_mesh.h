@@ -94,7 +94,7 @@ class TriangleMesh {
   bool sharesArraysOf(const TriangleMesh& other) const noexcept {
     return vertices().data() == other.vertices().data() && triangles().data() == other.triangles().data();
   }
-  /// Memory of the arrays, allocated or mapped [bytes].
+  /// Memory of the arrays [bytes].
   std::size_t byteSize() const noexcept;
 
  private:

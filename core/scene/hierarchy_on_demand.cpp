@@ -68,7 +68,7 @@ void HierarchyOnDemand::findOrBuild(const TriangleMesh& mesh, const ProgressCall
   origin_ = {found.has_value(), secondsSince(start)};
   ready_.store(&*tree_, std::memory_order_release);
   if (!found && keep_) keep_(*tree_);
-  // Not called again: release what they hold, such as a mapped file.
+  // Not called again: release what they hold, such as meshes.
   find_ = nullptr;
   keep_ = nullptr;
   if (progress) progress(1.0);

@@ -15,7 +15,7 @@ namespace nearfit {
 /// Where a hierarchy came from and how long it took.
 struct HierarchyOrigin {
   bool isFromCache = false;
-  double seconds = 0.0;  ///< Time to build it, or to map and check it; excludes storing it.
+  double seconds = 0.0;  ///< Time to build it, or to read and check it; excludes storing it.
 };
 
 /// Hierarchy of one mesh with its flats merged (mergeFlats()), built or taken from the cache when first needed. Thread-safe: one thread builds,

@@ -23,7 +23,7 @@ class CacheOfOne {
     return {nullptr, static_cast<std::size_t>(cache_.usage().bytes)};
   }
 
-  /// What is mapped.
+  /// What is read.
   struct Loaded {
     CachedMesh mesh;
     NormalConeTree tree;

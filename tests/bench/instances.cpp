@@ -97,7 +97,7 @@ InstancesRow measureInstancesInMemory(const TriangleMesh& mesh, std::size_t part
 }
 
 InstancesRow measureInstancesFromFile(const TriangleMesh& mesh, std::size_t parts) {
-  // A mapped hierarchy would be neither built nor all in main memory.
+  // A hierarchy from the cache would not be built.
   const test::ScopedVariable noCache("NEARFIT_CACHE", "off");
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "instances.nearfit";

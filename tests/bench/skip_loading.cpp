@@ -198,7 +198,7 @@ std::vector<SkipEntry> loadSkips() {
        }},
       {"laziness", "A hierarchy is built when its part is first felt or asked about, not when it is opened",
        [](const SkipOptions& options) { return std::vector{measureLaziness(options)}; }},
-      {"cache", "A hierarchy that was built before is mapped from a file", [](const SkipOptions& options) {
+      {"cache", "A hierarchy that was built before is read from a file", [](const SkipOptions& options) {
          std::vector<SkipRow> rows;
          for (const MeshEntry& entry : chosen(generatedMeshes(), {"gear-6k", "organic-70k"}, "mesh"))
            rows.push_back(measureCache(entry, options));

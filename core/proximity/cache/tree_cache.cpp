@@ -4,15 +4,15 @@
 #include <bit>
 #include <cctype>
 #include <charconv>
-#include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <system_error>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/files/atomic_write.h"
+#include "core/files/ownership.h"
 #include "core/files/sha256.h"
 #include "core/files/user_folders.h"
 
@@ -23,10 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kEnding = ".nearfit-tree";
 constexpr std::size_t kNameDigits = 64;
-/// Prefix that AtomicFile gives to files not yet in place.
-constexpr std::string_view kUnfinished = ".nearfit-";
-/// An unfinished file this old has been abandoned.
-constexpr std::chrono::hours kAbandoned{1};
+constexpr const char* kTrustRemedy =
+    "make it yours alone (chown, chmod 700), or name another folder in NEARFIT_CACHE";
 
 struct Entry {
   fs::path path;
@@ -41,23 +39,34 @@ bool isOurs(const std::string& name) {
                      [](unsigned char c) { return std::isxdigit(c) != 0; });
 }
 
-/// Lists the cache files in the folder, and unfinished files that were abandoned.
+/// Lists the cache files in the folder; none if it does not exist. Throws FileError if it cannot be read.
 std::vector<Entry> entriesOf(const fs::path& folder) {
   std::vector<Entry> entries;
   std::error_code failure;
+  if (fs::status(folder, failure).type() == fs::file_type::not_found) return entries;
+  failure.clear();
   for (fs::directory_iterator it(folder, failure), end; !failure && it != end; it.increment(failure)) {
     // Another process may remove the file meanwhile, so any of these calls can fail.
     std::error_code unknown;
-    if (!fs::is_regular_file(it->symlink_status(unknown))) continue;
+    if (!isOurs(it->path().filename().string()) || !fs::is_regular_file(it->symlink_status(unknown)))
+      continue;
     const fs::file_time_type used = fs::last_write_time(it->path(), unknown);
     if (unknown) continue;
-    const std::string name = it->path().filename().string();
-    const bool isAbandoned =
-        name.starts_with(kUnfinished) && used < fs::file_time_type::clock::now() - kAbandoned;
     const std::uintmax_t bytes = fs::file_size(it->path(), unknown);
-    if (!unknown && (isOurs(name) || isAbandoned)) entries.push_back({it->path(), bytes, used});
+    if (!unknown) entries.push_back({it->path(), bytes, used});
+  }
+  if (failure) {
+    throw FileError(folder.string(), "the cache cannot be read: " + failure.message(),
+                    "change its permissions, or name another folder in NEARFIT_CACHE");
   }
   return entries;
+}
+
+/// Closes the folder that no user has named or linked to others, as earlier versions did not.
+void closeDefaultFolder(const fs::path& folder) {
+  std::error_code ignored;
+  if (folder == userFolder(UserFiles::Cache) && !fs::is_symlink(folder, ignored))
+    fs::permissions(folder, fs::perms::owner_all, ignored);
 }
 
 std::string variable(const char* name) {
@@ -76,16 +85,28 @@ fs::path folderFromEnvironment() {
 
 std::optional<std::uint64_t> parseByteSize(const std::string& text) {
   constexpr std::string_view kUnits = "KMGT";
-  std::uint64_t number = 0;
-  const char* end = text.data() + text.size();
-  const auto [rest, failure] = std::from_chars(text.data(), end, number);
-  if (failure != std::errc() || end - rest > 1) return std::nullopt;
-  if (rest == end) return number;
-  const std::size_t unit = kUnits.find(*rest);
-  if (unit == std::string_view::npos) return std::nullopt;
-  const int shift = 10 * static_cast<int>(unit + 1);
-  if (number != 0 && std::countl_zero(number) < shift) return std::nullopt;
-  return number << shift;
+  const char* const end = text.data() + text.size();
+  std::uint64_t whole = 0;
+  auto [rest, failure] = std::from_chars(text.data(), end, whole);
+  if (failure != std::errc()) return std::nullopt;
+  double fraction = 0.0;
+  const bool hasFraction = rest != end && *rest == '.';
+  if (hasFraction) {
+    const auto read = std::from_chars(rest, end, fraction, std::chars_format::fixed);
+    if (read.ec != std::errc()) return std::nullopt;
+    rest = read.ptr;
+  }
+  const std::size_t unit = rest != end ? kUnits.find(*rest) : std::string_view::npos;
+  const bool hasUnit = unit != std::string_view::npos;
+  if (hasUnit) ++rest;
+  if (rest != end && *rest == 'B') ++rest;
+  if (rest != end || (hasFraction && !hasUnit)) return std::nullopt;
+  const int shift = hasUnit ? 10 * static_cast<int>(unit + 1) : 0;
+  if (whole != 0 && std::countl_zero(whole) < shift) return std::nullopt;
+  const std::uint64_t one = std::uint64_t{1} << shift;
+  // A fraction of many nines rounds to 1.
+  const auto part = static_cast<std::uint64_t>(fraction * static_cast<double>(one));
+  return (whole << shift) + std::min(part, one - 1);
 }
 
 TreeCacheSettings treeCacheSettings() {
@@ -95,25 +116,52 @@ TreeCacheSettings treeCacheSettings() {
   return settings;
 }
 
+std::vector<std::string> treeCacheWarnings() {
+  std::vector<std::string> warnings;
+  const TreeCache cache;
+  if (!cache.isOn()) return warnings;
+  const std::string size = variable("NEARFIT_CACHE_SIZE");
+  if (!size.empty() && !parseByteSize(size)) {
+    warnings.push_back(fmt::format(
+        "NEARFIT_CACHE_SIZE: \"{}\" is not a size, so the limit is {} bytes; give a size such as 1.5G", size,
+        kDefaultTreeCacheBytes));
+  }
+  if (const std::string why = cache.distrust(); !why.empty()) {
+    warnings.push_back(fmt::format("{}: this cache is not used, since {}; {}",
+                                   cache.settings().folder.string(), why, kTrustRemedy));
+  }
+  return warnings;
+}
+
 fs::path TreeCache::pathOf(const TreeCacheKey& key) const {
   const std::string content = fmt::format(
       "{} {:016x} {}", key.sha256, std::bit_cast<std::uint64_t>(key.metresPerUnit), treeCacheFingerprint());
   return settings_.folder / (sha256OfBytes(content) + std::string(kEnding));
 }
 
+std::string TreeCache::distrust() const {
+  return isOn() ? distrustOfFolder(settings_.folder) : std::string();
+}
+
+void TreeCache::requireTrust() const {
+  const std::string why = distrust();
+  if (!why.empty())
+    throw FileError(settings_.folder.string(), "this cache is not used, since " + why, kTrustRemedy);
+}
+
 std::optional<TreeCacheFile> TreeCache::find(const TreeCacheKey& key) const {
-  if (!isOn()) return std::nullopt;
-  const fs::path path = pathOf(key);
-  std::optional<TreeCacheFile> file = TreeCacheFile::open(path, key);
-  std::error_code notOurs;
-  if (file) fs::last_write_time(path, fs::file_time_type::clock::now(), notOurs);
+  if (!isOn() || !distrust().empty()) return std::nullopt;
+  std::optional<TreeCacheFile> file = TreeCacheFile::open(pathOf(key), key);
+  if (file) file->touch();
   return file;
 }
 
 bool TreeCache::store(const TreeCacheKey& key, const CachedMesh& mesh, const CachedTree* tree) const {
   if (!isOn() || mesh.mesh.triangles().size() < settings_.leastTriangles) return false;
   try {
-    fs::create_directories(settings_.folder);
+    createPrivateFolder(settings_.folder);
+    requireTrust();
+    closeDefaultFolder(settings_.folder);
     const fs::path path = pathOf(key);
     if (writeTreeCacheFile(path, key, mesh, tree, settings_.maxBytes) == 0) return false;
     evict(path);
@@ -138,6 +186,7 @@ void TreeCache::evict(const fs::path& newest) const {
 }
 
 TreeCache::Usage TreeCache::usage() const {
+  requireTrust();
   Usage usage;
   for (const Entry& entry : entriesOf(settings_.folder)) {
     ++usage.files;
@@ -147,6 +196,8 @@ TreeCache::Usage TreeCache::usage() const {
 }
 
 TreeCache::Usage TreeCache::clear() const {
+  requireTrust();
+  removeAbandoned(settings_.folder);
   Usage removed;
   for (const Entry& entry : entriesOf(settings_.folder)) {
     std::error_code failure;

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/proximity/cache/tree_cache_file.h"
 
@@ -24,22 +26,31 @@ struct TreeCacheSettings {
 };
 
 /// Reads the settings from the environment. NEARFIT_CACHE names the folder or is "off"; the default is
-/// `nearfit` in XDG_CACHE_HOME, or in `.cache` of HOME. NEARFIT_CACHE_SIZE is a number of bytes, or one
-/// followed by K, M, G or T (powers of 1024). Invalid values are ignored.
+/// `nearfit` in XDG_CACHE_HOME, or in `.cache` of HOME. NEARFIT_CACHE_SIZE is a size for parseByteSize().
+/// Invalid values are ignored; treeCacheWarnings() tells of them.
 TreeCacheSettings treeCacheSettings();
 
-/// Parses a number of bytes in the format of NEARFIT_CACHE_SIZE; no value if the text is anything else.
+/// Parses a number of bytes, such as "1000", "100M", "1.5G" or "4GB": a whole number, or any number followed
+/// by K, M, G or T (powers of 1024); a B may follow. No value if the text is anything else.
 std::optional<std::uint64_t> parseByteSize(const std::string& text);
+
+/// Why the cache that the environment names is not used as it says, a sentence each: a size that is no size,
+/// a folder that is not the user's alone. Empty if all is well or the cache is off.
+std::vector<std::string> treeCacheWarnings();
 
 /// Folder of meshes with their hierarchies, keyed by the content of the mesh files. Any number of threads and
 /// processes may use one folder at once. The cache can only save time: a damaged file, or one of another
-/// version, counts as absent, and a folder that cannot be written stays as it is.
+/// version, counts as absent, and a folder that cannot be written stays as it is. So does one in which other
+/// users could have written, or that belongs to another: nothing in it is used. A folder that is created, and
+/// all files, are readable by the user only.
 class TreeCache {
  public:
   explicit TreeCache(TreeCacheSettings settings = treeCacheSettings()) : settings_(std::move(settings)) {}
 
   bool isOn() const noexcept { return !settings_.folder.empty(); }
   const TreeCacheSettings& settings() const noexcept { return settings_; }
+  /// Why the folder is not used (see distrustOf); empty if it may be, or does not exist.
+  std::string distrust() const;
 
   /// Opens the file cached for the key, its parts not checked yet, and marks it as just used; no value if
   /// there is none.
@@ -53,14 +64,15 @@ class TreeCache {
     std::size_t files = 0;
     std::uint64_t bytes = 0;
   };
-  /// Number and size of the cached files.
+  /// Number and size of the cached files. Throws FileError if the folder cannot be read or is not used.
   Usage usage() const;
-  /// Removes all cached files and returns what they were. Throws FileError if one cannot be removed.
+  /// Removes all cached files and returns what they were. Throws FileError, also if one cannot be removed.
   Usage clear() const;
 
  private:
   std::filesystem::path pathOf(const TreeCacheKey& key) const;
   void evict(const std::filesystem::path& newest) const;
+  void requireTrust() const;
 
   TreeCacheSettings settings_;
 };

@@ -19,9 +19,9 @@
 ///     checksum of each block of each section, 8 bytes each
 ///     sections in the order of TreeCacheSection, each at a multiple of 64 bytes, zeros between
 ///
-/// Sections are the arrays as they lie in memory, so that a mapped file is used in place. In a file without a
-/// hierarchy, the sections from TreeFacts on are empty. The sections from SearchedFacts on hold the mesh of the
-/// hierarchy, with its flats merged; they are empty if that is the mesh itself.
+/// Sections are the arrays as they lie in memory: what is read is used in place. In a file without a
+/// hierarchy, the sections from TreeFacts on are empty. The sections from SearchedFacts on hold the mesh of
+/// the hierarchy, with its flats merged; they are empty if that is the mesh itself.
 namespace nearfit {
 
 /// Increases by one whenever this layout or the meaning of a field changes. What import and building compute

@@ -131,7 +131,8 @@ std::uint64_t writeTreeCacheFile(const std::filesystem::path& file, const TreeCa
   const std::optional<TreeCacheLayout> layout = treeCacheLayout(header.counts);
   if (!layout || layout->offsets.back() > maxBytes) return 0;
 
-  AtomicFile out(file);
+  // The mesh file may be one that only the user can read.
+  AtomicFile out(file, FileAccess::Private, Unfinished::Hidden, Links::Replace);
   out.write(textOf(beginning(header, *layout, gathered.contents)));
   constexpr std::array<char, kTreeCacheAlignment> kZeros{};
   for (std::size_t i = 0; i < kTreeCacheSections; ++i) {

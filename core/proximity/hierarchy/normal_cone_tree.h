@@ -36,7 +36,7 @@ inline FeatureCounts featuresOf(const TriangleMesh& mesh) noexcept {
 }
 
 /// Spatialized normal cone hierarchy over the features of one mesh that can carry a minimum, each in exactly
-/// one leaf. Built once per mesh, or mapped from a file (tree_cache.h); immutable, so any number of threads
+/// one leaf. Built once per mesh, or read from a file (tree_cache.h); immutable, so any number of threads
 /// and parts can share it. Copies share the arrays.
 ///
 /// Each child has an oriented box around its features and, on the same axes, limits on the directions in

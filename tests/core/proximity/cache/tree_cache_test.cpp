@@ -2,12 +2,16 @@
 
 #include <atomic>
 #include <chrono>
+#include <limits>
 #include <random>
+#include <string>
 #include <thread>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/cached_meshes.h"
+#include "tests/support/ended_process.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/scoped_variable.h"
@@ -45,33 +49,33 @@ TEST(TreeCache, WhatComesOutIsBitForBitWhatWentIn) {
     ASSERT_TRUE(cache.store(key('a'), cached, &tree));
     const auto file = cache.find(key('a'));
     ASSERT_TRUE(file && file->hasTree());
-    const auto mapped = file->mesh();
-    ASSERT_TRUE(mapped);
-    const auto mappedTree = file->tree(mapped->mesh);
-    ASSERT_TRUE(mappedTree);
-    EXPECT_TRUE(test::areSame(*mapped, cached));
-    EXPECT_TRUE(test::areSame(mappedTree->tree, tree.tree));
-    EXPECT_EQ(mappedTree->isSolid, tree.isSolid);
+    const auto read = file->mesh();
+    ASSERT_TRUE(read);
+    const auto readTree = file->tree(read->mesh);
+    ASSERT_TRUE(readTree);
+    EXPECT_TRUE(test::areSame(*read, cached));
+    EXPECT_TRUE(test::areSame(readTree->tree, tree.tree));
+    EXPECT_EQ(readTree->isSolid, tree.isSolid);
   }
 }
 
-TEST(TreeCache, MappedHierarchiesGiveTheSameMinimaAlsoWhenTheFileIsGone) {
+TEST(TreeCache, HierarchiesReadFromItGiveTheSameMinimaAlsoWhenTheFileIsGone) {
   const test::TemporaryFolder folder;
   const TreeCache cache = cacheIn(folder.path());
   const test::BodyPair pair{"stars", test::starMesh(1, 1.0, 4, 0.3), test::starMesh(2, 1.0, 4, 0.3)};
   const CachedTree scene{NormalConeTree(pair.scene), true}, part{NormalConeTree(pair.part), true};
   cache.store(key('a'), test::cachedMeshOf(pair.scene), &scene);
   cache.store(key('b'), test::cachedMeshOf(pair.part), &part);
-  const auto mappedScene = cache.find(key('a'))->tree(pair.scene),
-             mappedPart = cache.find(key('b'))->tree(pair.part);
-  ASSERT_TRUE(mappedScene && mappedPart);
+  const auto readScene = cache.find(key('a'))->tree(pair.scene),
+             readPart = cache.find(key('b'))->tree(pair.part);
+  ASSERT_TRUE(readScene && readPart);
   EXPECT_EQ(cache.clear().files, 2U);
   std::mt19937_64 random(7);
   std::size_t compared = 0;
   for (int i = 0; i < 50; ++i) {
     const RigidTransform pose = test::poseNearContact(pair, 0.1, random);
     const auto expected = test::allLmds(scene.tree, part.tree, pose, 0.1);
-    const auto found = test::allLmds(mappedScene->tree, mappedPart->tree, pose, 0.1);
+    const auto found = test::allLmds(readScene->tree, readPart->tree, pose, 0.1);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t k = 0; k < found.size(); ++k) {
       EXPECT_EQ(found[k].scenePoint, expected[k].scenePoint);
@@ -152,12 +156,16 @@ TEST(TreeCache, WhatIsNotItsOwnIsNeitherCountedNorRemoved) {
   folder.write("letter.txt", "dear");
   folder.write("short.nearfit-tree", "dear");
   fs::create_directory(folder.path() / (std::string(64, 'a') + ".nearfit-tree"));
-  folder.write(".nearfit-1-2", "being written");
-  setUsed(folder.write(".nearfit-1-1", "given up"), std::chrono::hours(2));
+  const std::string killed = ".nearfit-" + std::to_string(test::endedProcess());
+  folder.write(killed + "-2", "being written");
+  const auto leave = [&] { setUsed(folder.write(killed + "-1", "given up"), std::chrono::hours(2)); };
+  leave();
   const TreeCache cache = cacheIn(folder.path(), 100'000);
   cache.store(key('a'), test::cachedMeshOf(test::boxMesh({1, 1, 1})), nullptr);
-  EXPECT_EQ(cache.usage().files, 2U);
-  EXPECT_EQ(cache.clear().files, 2U);
+  EXPECT_FALSE(fs::exists(folder.path() / (killed + "-1")));
+  leave();
+  EXPECT_EQ(cache.usage().files, 1U);
+  EXPECT_EQ(cache.clear().files, 1U);
   EXPECT_EQ(cache.usage().files, 0U);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 4);
 }
@@ -219,7 +227,15 @@ TEST(TreeCacheSettings, SizesHaveUnits) {
   EXPECT_EQ(parseByteSize("3K"), 3072U);
   EXPECT_EQ(parseByteSize("2G"), 2147483648U);
   EXPECT_EQ(parseByteSize("16777215T"), 16777215ULL << 40);
-  for (const char* text : {"", "K", "-1", "1.5G", "2g", "2GB", " 2", "99999999T", "18446744073709551616"})
+  EXPECT_EQ(parseByteSize("1.5G"), 1610612736U);
+  EXPECT_EQ(parseByteSize("4GB"), 4294967296U);
+  EXPECT_EQ(parseByteSize("0.25MB"), 262144U);
+  EXPECT_EQ(parseByteSize("12B"), 12U);
+  EXPECT_EQ(parseByteSize("0.0001K"), 0U);
+  EXPECT_EQ(parseByteSize("1.99999999999999999999K"), 2047U) << "never rounded up";
+  EXPECT_EQ(parseByteSize("18446744073709551615"), std::numeric_limits<std::uint64_t>::max());
+  for (const char* text : {"", "K", "-1", "2g", " 2", "2 G", "99999999T", "18446744073709551616", "1.5",
+                           "1.5B", "1.G", ".5G", "1.5.5G", "1.5e3G", "1,5G", "4GBB", "4BG", "4GiB", "G4"})
     EXPECT_FALSE(parseByteSize(text)) << text;
 }
 
@@ -246,8 +262,14 @@ TEST(TreeCacheSettings, FolderIsWhereXdgSaysUnlessNamedOrOff) {
 TEST(TreeCacheSettings, SizeThatMakesNoSenseCountsAsNotSaid) {
   const test::ScopedVariable size("NEARFIT_CACHE_SIZE", "100M");
   EXPECT_EQ(treeCacheSettings().maxBytes, 100U << 20U);
+  const test::TemporaryFolder folder;
+  const test::ScopedVariable on("NEARFIT_CACHE", folder.path().string());
+  EXPECT_THAT(treeCacheWarnings(), testing::IsEmpty());
   const test::ScopedVariable senseless("NEARFIT_CACHE_SIZE", "much");
   EXPECT_EQ(treeCacheSettings().maxBytes, std::uint64_t{4} << 30);
+  EXPECT_THAT(treeCacheWarnings(), testing::ElementsAre(testing::HasSubstr("\"much\" is not a size")));
+  const test::ScopedVariable off("NEARFIT_CACHE", "off");
+  EXPECT_THAT(treeCacheWarnings(), testing::IsEmpty());
 }
 
 }  // namespace
