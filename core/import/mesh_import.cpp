@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/files/input_file.h"
 #include "core/files/sha256.h"
+#include "core/import/mesh_file_check.h"
 #include "core/import/mesh_readers.h"
 #include "core/import/text_cursor.h"
 
@@ -200,6 +201,7 @@ ImportedMesh importMesh(const std::filesystem::path& file, const MeshBuildOption
                         const ProgressCallback& callback) {
   const Progress progress(callback);
   return naming(file, [&] {
+    checkMeshFile(file);
     std::vector<char> bytes =
         readWholeFile(file, [&](double done) { progress.report(0.0, kReadFraction, done); });
     return importUnguarded(file, std::move(bytes), options, progress);

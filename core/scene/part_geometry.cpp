@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/files/sha256.h"
+#include "core/import/mesh_file_check.h"
 #include "core/parallel/parallel_for.h"
 #include "core/parallel/shared_progress.h"
 #include "core/proximity/cache/tree_cache.h"
@@ -69,6 +70,7 @@ PartGeometryPtr load(const MeshSource& source, const ProgressCallback& progress)
   const auto isWanted = [&](const std::string& sha256) {
     return source.sha256.empty() || sha256 == source.sha256;
   };
+  checkMeshFile(source.file);
   std::string sha256 = sha256OfFile(source.file, stageOf(progress, 0.0, kHashed));
   if (!isWanted(sha256)) return nullptr;
   std::optional<CachedMesh> kept;

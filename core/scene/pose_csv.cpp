@@ -1,9 +1,9 @@
 #include "core/scene/pose_csv.h"
 
-#include <cerrno>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -11,6 +11,15 @@
 #include "core/scene/scene.h"
 
 namespace nearfit::csv {
+namespace {
+
+/// Ten times what seven numbers need, four times a row of a recording, without the line's end. Keeps a binary
+/// file without line ends from filling memory.
+constexpr std::size_t kMaxLineBytes = 4095;
+/// Read at once; more than a line.
+constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
+
+}  // namespace
 
 void Place::fail(const std::string& problem, const std::string& remedy) const {
   throw FileError(fmt::format("{}:{}", file.string(), line), problem, remedy);
@@ -23,33 +32,37 @@ std::string_view trimmed(std::string_view text) noexcept {
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
-Rows::Rows(const std::filesystem::path& file) : in_(file, std::ios::binary), place_{file, 0} {
-  std::error_code ignored;
-  if (!in_ || std::filesystem::is_directory(file, ignored)) {
-    throw FileError(file.string(), fmt::format("it cannot be read ({})", std::strerror(in_ ? EISDIR : errno)),
-                    "check the name and the permissions");
+Rows::Rows(const std::filesystem::path& file) : in_(file), place_{file, 0}, buffer_(kBufferBytes) {}
+
+void Rows::refill() {
+  std::copy(unread_.begin(), unread_.end(), buffer_.begin());
+  const std::size_t count = in_.read(std::span(buffer_).subspan(unread_.size()));
+  unread_ = {buffer_.data(), unread_.size() + count};
+}
+
+std::optional<std::string_view> Rows::nextLine() {
+  if (unread_.size() <= kMaxLineBytes) refill();
+  if (unread_.empty()) return std::nullopt;
+  ++place_.line;
+  const std::size_t end = unread_.substr(0, kMaxLineBytes + 1).find('\n');
+  hasEnd_ = end != std::string_view::npos;
+  if (!hasEnd_ && unread_.size() > kMaxLineBytes) {
+    place_.fail(fmt::format("the line is longer than {} characters", kMaxLineBytes),
+                "check that this is a CSV file of poses");
   }
-  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
-  size_ = ignored ? 0 : size;
+  const std::string_view line = unread_.substr(0, end);
+  const std::size_t count = line.size() + (hasEnd_ ? 1 : 0);
+  unread_.remove_prefix(count);
+  taken_ += count;
+  return line;
 }
 
 std::optional<std::string_view> Rows::next() {
-  while (in_.getline(buffer_.data(), kMaxLineBytes) || in_.gcount() > 0) {
-    ++place_.line;
-    if (in_.fail() && !in_.eof()) {
-      if (in_.bad()) break;
-      place_.fail(fmt::format("the line is longer than {} characters", kMaxLineBytes - 1),
-                  "check that this is a CSV file of poses");
-    }
-    hasEnd_ = !in_.eof();
-    taken_ += static_cast<std::uint64_t>(in_.gcount());
-    // gcount() includes the line end, if there is one.
-    std::string_view row(buffer_.data(), static_cast<std::size_t>(in_.gcount()) - (in_.eof() ? 0 : 1));
-    if (place_.line == 1 && row.starts_with("\xEF\xBB\xBF")) row.remove_prefix(3);
-    row = trimmed(row);
-    if (!row.empty() && row.front() != '#') return row;
+  while (std::optional<std::string_view> row = nextLine()) {
+    if (place_.line == 1 && row->starts_with("\xEF\xBB\xBF")) row->remove_prefix(3);
+    row = trimmed(*row);
+    if (!row->empty() && row->front() != '#') return row;
   }
-  if (in_.bad()) throw FileError(place_.file.string(), "reading stopped before the end", "check the disk");
   return std::nullopt;
 }
 

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/files/input_file.h"
 #include "core/math/rigid_transform.h"
 
 namespace nearfit::csv {
@@ -27,6 +27,7 @@ struct Place {
 /// Reads the rows of a CSV file, trimmed, without blank lines and comments (`#`). Throws FileError.
 class Rows {
  public:
+  /// Throws FileError as InputFile does: pipes and devices are refused. `file` must outlive the rows.
   explicit Rows(const std::filesystem::path& file);
 
   /// The next row; std::nullopt at the end. Valid until the next call.
@@ -44,21 +45,22 @@ class Rows {
     }
   }
   const Place& place() const noexcept { return place_; }
-  /// Size of the file [bytes]; 0 if unknown.
-  std::uint64_t size() const noexcept { return size_; }
+  /// Size of the file when it was opened [bytes].
+  std::uint64_t size() const noexcept { return in_.size(); }
   /// Bytes read so far.
   std::uint64_t taken() const noexcept { return taken_; }
 
  private:
-  /// Ten times what seven numbers need, four times a row of a recording. Keeps a binary file without line
-  /// ends from filling memory.
-  static constexpr std::streamsize kMaxLineBytes = 4096;
+  /// The next line without its end; std::nullopt at the end of the file.
+  std::optional<std::string_view> nextLine();
+  void refill();
 
-  std::ifstream in_;
+  InputFile in_;
   Place place_;
-  std::uint64_t size_ = 0, taken_ = 0;
+  std::uint64_t taken_ = 0;
   bool hasEnd_ = false;  ///< Refers to the last row read.
-  std::array<char, kMaxLineBytes> buffer_;
+  std::vector<char> buffer_;
+  std::string_view unread_;  ///< Part of the buffer.
 };
 
 /// Removes leading and trailing blanks, tabs and carriage returns.

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/files/input_file.h"
+#include "core/import/mesh_file_check.h"
 #include "core/import/mesh_import.h"
 #include "tests/support/limited_process.h"
 #include "tests/support/mesh_files.h"
@@ -234,6 +236,37 @@ TEST(MeshImportHostile, HeavyFilesTakeAFewTimesTheirSize) {
     const test::LimitedOutcome outcome = limitedImport(folder.write(file.name, file.content));
     EXPECT_TRUE(outcome.hasEnded) << file.name << " signal " << outcome.signal;
     EXPECT_EQ(outcome.result, kLoaded) << file.name;
+  }
+}
+
+// A sparse file of no size on the disk took as much memory as it said to have.
+TEST(MeshImportHostile, SparseFilesAreRefusedBeforeTheyAreRead) {
+  const test::TemporaryFolder folder;
+  constexpr std::uint64_t kGiB = std::uint64_t{1} << 30;
+  for (const char* name : {"hole.stl", "hole.obj", "hole.ply", "hole.off"}) {
+    const std::filesystem::path file = folder.write(name, "solid\nply\nOFF\nv 0 0 0\n");
+    std::filesystem::resize_file(file, kGiB);
+    if (InputFile(file).writtenBytes() == kGiB) GTEST_SKIP() << "this file system does not tell of holes";
+    constexpr std::size_t kMemory = std::size_t{64} << 20;
+    const test::LimitedOutcome outcome = test::runLimited([&] { return importOutcome(file); }, kMemory, 20);
+    EXPECT_TRUE(outcome.hasEnded) << name << " signal " << outcome.signal;
+    EXPECT_EQ(outcome.result, kRefused) << name;
+    EXPECT_THROW(checkMeshFile(file), FileError);
+  }
+}
+
+TEST(MeshImportHostile, FilesLargerThanTheMemoryAreRefusedByTheirSize) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("huge.stl", "");
+  std::error_code refused;
+  std::filesystem::resize_file(file, std::uint64_t{1} << 43, refused);
+  if (refused) GTEST_SKIP() << "this file system has no files of that size";
+  try {
+    importMesh(file, {});
+    FAIL() << "no error";
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.where(), file.string());
+    EXPECT_THAT(error.problem(), testing::HasSubstr("more than this machine has memory"));
   }
 }
 

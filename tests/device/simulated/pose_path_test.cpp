@@ -1,9 +1,11 @@
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "core/base/error.h"
 #include "device/simulated/simulated_device.h"
@@ -122,14 +124,42 @@ TEST_F(PosePath, MissingFilesAndFoldersAreNamed) {
     FAIL() << "no error";
   } catch (const FileError& e) {
     EXPECT_THAT(e.what(), HasSubstr(missing.string()));
-    EXPECT_THAT(e.what(), HasSubstr("No such file"));
+    EXPECT_THAT(e.what(), HasSubstr("there is no such file"));
   }
   try {
     readPosePath(folder_.path());
     FAIL() << "no error";
   } catch (const FileError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("Is a directory"));
+    EXPECT_THAT(e.what(), HasSubstr("it is a folder"));
   }
+}
+
+// A pipe without a writer waited for ever.
+TEST_F(PosePath, PipesAndDevicesAreRefused) {
+  const std::filesystem::path pipe = folder_.path() / "pipe.csv";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::filesystem::path& file : {pipe, std::filesystem::path("/dev/zero")}) {
+    try {
+      readPosePath(file);
+      FAIL() << "no error";
+    } catch (const FileError& e) {
+      EXPECT_EQ(e.where(), file.string());
+      EXPECT_THAT(e.problem(), HasSubstr("not a regular file"));
+      EXPECT_FALSE(e.remedy().empty());
+    }
+  }
+}
+
+// Lines that begin in one block of the file and end in the next.
+TEST_F(PosePath, LinesOfAllLengthsAreReadWhole) {
+  std::string text;
+  for (std::size_t i = 0; i < 4000; ++i)
+    text += std::to_string(i) + ",0,0,1,0,0,0" + std::string(i, ' ') + "\n";
+  const std::vector<RigidTransform> path = read(text);
+  ASSERT_EQ(path.size(), 4000U);
+  for (std::size_t i = 0; i < path.size(); ++i)
+    ASSERT_EQ(path[i].translation.x, static_cast<double>(i));
+  EXPECT_EQ(read(text.substr(0, text.size() - 1)).size(), 4000U) << "the last line may lack its end";
 }
 
 TEST_F(PosePath, ALongFileIsReadToItsLastLine) {

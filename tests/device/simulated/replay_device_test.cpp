@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "core/base/error.h"
 #include "core/servo/motion_recording.h"
@@ -63,6 +64,18 @@ TEST_F(Replay, AFileThatIsCutWithinARowIsReplayedToItsLastWholeRow) {
   const std::string text = test::readBytes(file());
   std::filesystem::resize_file(file(), text.rfind('\n') + 5);
   EXPECT_EQ(readHandMotion(file()).size(), 2U);
+}
+
+// A pipe without a writer waited for ever.
+TEST_F(Replay, APipeIsRefused) {
+  ASSERT_EQ(::mkfifo(file().c_str(), 0600), 0);
+  try {
+    readHandMotion(file());
+    FAIL() << "no error";
+  } catch (const FileError& e) {
+    EXPECT_EQ(e.where(), file().string());
+    EXPECT_THAT(e.problem(), HasSubstr("not a regular file"));
+  }
 }
 
 TEST_F(Replay, WhatIsNoRecordingIsRefusedWithItsPlace) {
