@@ -218,15 +218,14 @@ void RecoveryFolder::discard(const LostWork& work) noexcept {
 }
 
 void RecoveryFolder::sweep() noexcept {
+  // Half of a journal, of which the process that died has an earlier one, whole.
+  removeAbandoned(folder_);
   try {
     const fs::file_time_type limit = fs::file_time_type::clock::now() - kKeptAside;
     for (const fs::path& file : filesIn(folder_)) {
       std::error_code failure;
       const bool isAside = std::ranges::find(kAsideEndings, file.extension()) != std::end(kAsideEndings);
-      // Left by a process that died while writing.
-      const bool isHalfWritten = file.filename().string().starts_with(".nearfit-");
-      if ((isAside || isHalfWritten) && fs::last_write_time(file, failure) < limit && !failure)
-        fs::remove(file, failure);
+      if (isAside && fs::last_write_time(file, failure) < limit && !failure) fs::remove(file, failure);
     }
   } catch (...) {
   }

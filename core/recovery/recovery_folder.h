@@ -67,8 +67,8 @@ class RecoveryFolder {
 
   /// Takes over the journals of dead processes and returns the lost work. Each journal goes to one process
   /// only. Removes journals whose content is in their scene file. Sets aside journals that are damaged or
-  /// older than their scene file, and removes what was set aside before kKeptAside. Never throws: an
-  /// unreadable folder counts as empty.
+  /// older than their scene file, and removes what was set aside before kKeptAside, and what dead processes
+  /// left half written. Never throws: an unreadable folder counts as empty.
   FoundWork takeLost();
   /// Removes a journal whose work was restored and is safe elsewhere.
   void forget(const LostWork& work) noexcept;

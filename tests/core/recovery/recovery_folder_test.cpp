@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -153,6 +154,20 @@ TEST_F(RecoveryFolderTest, WhatIsOlderThanTheFileIsNotOfferedButKeptAside) {
   setAge(files().front(), RecoveryFolder::kKeptAside + std::chrono::hours(1));
   RecoveryFolder(state_).takeLost();
   EXPECT_TRUE(files().empty()) << "kept for a while, not for ever";
+}
+
+TEST_F(RecoveryFolderTest, HalfWrittenJournalsOfDeadProcessesAreSweptAndNothingElse) {
+  writeAsDead({file_, 1, 0});
+  const fs::path half = state_ / fmt::format(".nearfit-{}-7", deadProcess().pid);
+  const fs::path discarded = state_ / "some.nearfit.discarded";
+  for (const fs::path& file : {half, discarded}) {
+    std::ofstream(file) << "{";
+    setAge(file, std::chrono::hours(1));
+  }
+  EXPECT_EQ(RecoveryFolder(state_).takeLost().lost.size(), 1U);
+  EXPECT_FALSE(fs::exists(half));
+  EXPECT_TRUE(fs::exists(discarded));
+  EXPECT_EQ(files().size(), 2U) << "the journal is there still";
 }
 
 TEST_F(RecoveryFolderTest, WorkOfAFileThatIsGoneIsOffered) {
