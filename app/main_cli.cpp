@@ -64,8 +64,9 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A closed pipe is an error to report, not a reason to die silently.
+  // A closed pipe and a limit on the size of files are errors to report, not reasons to die silently.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run(argc, argv);
   } catch (const nearfit::cli::ReportedFailure&) {

@@ -1,5 +1,6 @@
 #include <QApplication>
 #include <QFile>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <optional>
@@ -8,7 +9,9 @@
 #include "app/desktop/command_line.h"
 #include "app/desktop/device_led_session.h"
 #include "app/desktop/screenshot.h"
+#include "core/proximity/cache/tree_cache.h"
 #include "core/recovery/recovery_folder.h"
+#include "core/text/utf8.h"
 
 namespace {
 
@@ -25,6 +28,8 @@ int run(int argc, char** argv) {
   const auto parsed = desktop::parseCommandLine(argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const auto& options = std::get<desktop::Options>(parsed);
+  for (const std::string& warning : treeCacheWarnings())
+    std::fprintf(stderr, "nearfit: warning: %s\n", printableText(warning).c_str());
   desktop::requireDisplay();
   desktop::Application::prepare();
   QApplication qt(argc, argv);
@@ -56,6 +61,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A limit on the size of files is an error to report, as a full disk is.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

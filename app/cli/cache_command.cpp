@@ -19,12 +19,12 @@ struct CacheOptions {
   bool isJson = false, isCleared = false;
 };
 
-/// Reports an invalid size here: loading ignores one, so that it never fails because of it.
+/// Reports an invalid size here: loading only warns of one, so that it never fails because of it.
 void checkSize() {
   const char* text = std::getenv("NEARFIT_CACHE_SIZE");
   if (text == nullptr || *text == '\0' || parseByteSize(text)) return;
   throw UsageError("NEARFIT_CACHE_SIZE", fmt::format("\"{}\" is not a size", printableText(text)),
-                   "give a number of bytes, or a number followed by K, M, G or T");
+                   "give a number of bytes, or a number followed by K, M, G or T, such as 1.5G");
 }
 
 std::string cacheText(const TreeCache& cache, const TreeCache::Usage& usage, bool isCleared) {
@@ -68,10 +68,11 @@ void addCacheCommand(CLI::App& program) {
       "The cache holds meshes of {} triangles or more with the data derived from them, by file\n"
       "content and unit, so that the next program that opens a mesh need not read and build it again.\n"
       "Cached data is checked before it is used and rebuilt if anything is wrong: clearing the cache\n"
-      "costs only time. When the limit is reached, the entries unused for longest are deleted.\n"
+      "costs only time. When the limit is reached, the entries unused for longest are deleted. Only you can\n"
+      "read what is kept; a folder that another user owns or can write to is not used.\n"
       "Environment:\n"
       "  NEARFIT_CACHE       Folder, or \"off\"; default: nearfit in XDG_CACHE_HOME or ~/.cache\n"
-      "  NEARFIT_CACHE_SIZE  Limit in bytes, or with K, M, G or T; default: 4G",
+      "  NEARFIT_CACHE_SIZE  Limit in bytes, or with K, M, G or T (1.5G); default: 4G",
       kMinCachedTriangles));
   command->callback([options] { runCache(*options); });
 }

@@ -36,7 +36,9 @@ void runClearance(const ClearanceOptions& options) {
   const Scene scene = readSceneFile(options.scene);
   const PartId part = chosenPart(scene, options.part);
   const double cutoff = options.cutoff.value_or(scene.haptics().springs.cutoff);
-  print(clearanceCsv(scene, part, clearancesOf(scene, part, cutoff)));
+  const std::string rows = clearanceCsv(scene, part, clearancesOf(scene, part, cutoff));
+  printCacheWarnings();
+  print(rows);
 }
 
 }  // namespace

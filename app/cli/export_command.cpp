@@ -58,6 +58,7 @@ void runExport(const ExportOptions& options) {
   what.only = partsNamed(scene, options.parts);
   const Part* moving = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
   exportScene(scene, moving != nullptr ? moving->worldFromPart : RigidTransform{}, what, options.out);
+  printCacheWarnings();
   print(oneLine(fmt::format("wrote {}", options.out)) + "\n");
 }
 

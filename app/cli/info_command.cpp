@@ -163,6 +163,7 @@ Json infoJson(const std::string& name, const PartGeometry& geometry, std::option
 void runInfo(const InfoOptions& options) {
   const double metresPerUnit = parseUnit(options.unit);
   if (options.density) checkDensity(*options.density);
+  printCacheWarnings();
   bool hasFailed = false;
   for (const std::string& name : options.meshes) {
     try {

@@ -123,6 +123,7 @@ void runLmd(const LmdOptions& options) {
   const auto [scene, part] = loadBodies(options, metresPerUnit);
   const Hierarchies trees(options, scene, part);
   // Only once nothing but the output can fail, so that a failure is one line.
+  printCacheWarnings();
   printWarnings(*scene);
   if (part != scene) printWarnings(*part);
   LmdCollector collector(kMaxLmds);

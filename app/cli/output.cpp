@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "core/base/error.h"
+#include "core/proximity/cache/tree_cache.h"
 #include "core/text/utf8.h"
 
 namespace nearfit::cli {
@@ -52,6 +53,11 @@ void printWarnings(const PartGeometry& geometry) {
   for (const std::string& warning : geometry.report.warnings) {
     printError("warning: " + geometry.file.string() + ": " + warning);
   }
+}
+
+void printCacheWarnings() {
+  for (const std::string& warning : treeCacheWarnings())
+    printError("warning: " + warning);
 }
 
 std::string oneLine(std::string_view text) {

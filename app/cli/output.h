@@ -22,6 +22,9 @@ void printError(std::string_view message) noexcept;
 /// Writes a line to stderr for each warning from loading the mesh.
 void printWarnings(const PartGeometry& geometry);
 
+/// Writes a line to stderr for each reason why the cache is not used as the environment says.
+void printCacheWarnings();
+
 /// Throws UsageError if `target` is one of the files that the command reads, by whatever path or link.
 void checkTarget(const std::filesystem::path& target, std::span<const std::filesystem::path> inputs);
 

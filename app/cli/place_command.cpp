@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
@@ -15,6 +16,7 @@
 #include "app/cli/place_summary.h"
 #include "app/cli/rate_options.h"
 #include "core/base/error.h"
+#include "core/files/atomic_write.h"
 #include "core/report/placement_export.h"
 #include "core/scene/scene_file.h"
 #include "device/simulated/replay_device.h"
@@ -37,7 +39,8 @@ until the device moves. The scene file does not change. Feel options replace the
           parts that the moving part overlaps and that are not felt; proxy_us, time of the proxy without its
           queries; clamped, 0 or 1; fault, 0 for none (the summary says which).
 --export  JSON: each part's pose and mesh, and the minima between the led part and each other part.
-A tick that ends late skips periods, not rows: the run then takes longer, and the summary says so.
+A tick that ends late skips periods, not rows: the run then takes longer, and the summary says so. If the disk
+is full, the recording ends there and keeps its rows.
 Examples: nearfit-cli place fit.nearfit --part Peg --path hand.csv --record felt.csv --export placed.json
           nearfit-cli place fit.nearfit --part Peg --device openhap --arm --record felt.csv
           nearfit-cli place fit.nearfit --part Peg --device replay:felt.csv --record again.csv)";
@@ -81,18 +84,18 @@ void takeInHand(Scene& scene, const PlaceOptions& options, const RigidTransform*
 
 /// Throws before the run, not after it, if an output file cannot be written.
 void checkTargets(const PlaceOptions& options) {
-  if (!options.record.empty() && options.record == options.exportFile) {
-    throw UsageError("--record", "it names the same file as --export", "give two files");
-  }
   for (const std::filesystem::path file : {options.record, options.exportFile}) {
+    if (file.empty()) continue;
     std::error_code ignored;
     const std::filesystem::path folder = file.parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
       throw FileError(file.string(), "there is no folder " + folder.string(), "create it, or choose another");
     }
-    if (std::filesystem::is_directory(file, ignored)) {
-      throw FileError(file.string(), "it is a folder", "give a file name");
-    }
+    checkReplaceable(file);
+  }
+  if (!options.record.empty() && !options.exportFile.empty() &&
+      isSameTarget(options.record, options.exportFile)) {
+    throw UsageError("--record", "it names the same file as --export", "give two files");
   }
 }
 
@@ -146,6 +149,33 @@ PlaceResult lead(PlaceJob job, bool isFast) {
   return isFast ? placeFast(std::move(job)) : placeInRealTime(std::move(job));
 }
 
+/// Keeps the rows that were written before the recording failed, and throws the failure with what is kept.
+[[noreturn]] void failKeepingRows(MotionWriter& writer, const FileError& failure) {
+  std::optional<double> last;
+  try {
+    last = writer.keepWritten();
+  } catch (const FileError&) {
+    // Report the first failure only.
+  }
+  if (!last) throw failure;
+  throw FileError(failure.where(), failure.problem(),
+                  fmt::format("{}; the file keeps the rows up to {:.3f} s", failure.remedy(), *last));
+}
+
+/// Leads the part and completes the recording, if there is one. If that cannot be written, it keeps the rows
+/// that were.
+PlaceResult leadAndRecord(PlaceJob job, bool isFast) {
+  MotionWriter* const writer = job.writer;
+  try {
+    PlaceResult result = lead(std::move(job), isFast);
+    if (writer != nullptr) writer->finish();
+    return result;
+  } catch (const FileError& failure) {
+    if (writer != nullptr) failKeepingRows(*writer, failure);
+    throw;
+  }
+}
+
 void runPlace(const PlaceOptions& options) {
   checkTargets(options);
   checkLead(options);
@@ -173,13 +203,13 @@ void runPlace(const PlaceOptions& options) {
   if (!options.record.empty()) job.writer = &writer.emplace(options.record);
 
   const std::size_t poses = job.path.size(), others = job.scene->bodies.size();
-  const PlaceResult result = lead(std::move(job), options.isFast);
+  const PlaceResult result = leadAndRecord(std::move(job), options.isFast);
   if (result.device) parameters.limits = result.device->limits;
-  if (writer) writer->finish();
   if (!options.exportFile.empty()) exportPlacement(scene, result.end, options.exportFile);
 
   const PlaceSummary summary{options.part,      others, poses, parameters, result, options.record,
                              options.exportFile};
+  printCacheWarnings();
   print(options.isJson ? summaryJson(summary) : summaryText(summary));
   throwIfIncomplete(result, poses);
 }

@@ -121,6 +121,7 @@ void runSceneNew(const SceneNewOptions& options) {
   for (const Scene::PartPtr& part : scene.parts())
     checkTarget(options.out, std::span(&part->geometry->file, 1));
   writeSceneFile(scene, options.out);
+  printCacheWarnings();
   std::set<PartGeometryPtr> meshes;
   for (const Scene::PartPtr& part : scene.parts()) {
     if (meshes.insert(part->geometry).second) printWarnings(*part->geometry);

@@ -1,4 +1,7 @@
+#include <cstdint>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -105,7 +108,48 @@ TEST_F(CacheCommand, LimitBoundsItAndOneThatMakesNoSenseIsSaid) {
   const ProcessResult result = runCli({"cache"});
   EXPECT_EQ(result.exitCode, 2);
   EXPECT_THAT(result.err, HasSubstr("NEARFIT_CACHE_SIZE: \"plenty\" is not a size"));
-  EXPECT_EQ(runCli({"info", ball_}).exitCode, 0);
+  const ProcessResult info = runCli({"info", ball_});
+  EXPECT_EQ(info.exitCode, 0);
+  EXPECT_THAT(info.err, HasSubstr("warning: NEARFIT_CACHE_SIZE: \"plenty\" is not a size"));
+}
+
+// Both were ignored without a word.
+TEST_F(CacheCommand, LimitMayHaveAFractionAndAUnit) {
+  const std::vector<std::pair<std::string, std::uint64_t>> sizes{{"1.5G", 1610612736}, {"4GB", 4294967296}};
+  for (const auto& [text, bytes] : sizes) {
+    const ScopedVariable limit("NEARFIT_CACHE_SIZE", text);
+    EXPECT_EQ(jsonOf({"cache", "--json"})["limit"], bytes);
+    EXPECT_EQ(runCli({"info", ball_}).err, "");
+  }
+}
+
+// It was said to hold 0 meshes.
+TEST_F(CacheCommand, FolderThatCannotBeReadIsAnError) {
+  const ScopedVariable file("NEARFIT_CACHE", ball_);
+  for (const std::string option : {"", "--json", "--clear"}) {
+    std::vector<std::string> arguments{"cache"};
+    if (!option.empty()) arguments.push_back(option);
+    const ProcessResult result = runCli(arguments);
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, HasSubstr(ball_ + ": the cache cannot be read"));
+  }
+  EXPECT_EQ(runCli({"info", ball_}).exitCode, 0) << "loading does without it";
+}
+
+TEST_F(CacheCommand, FolderThatOthersCanWriteToIsNotUsedAndThatIsSaid) {
+  const fs::path folder = cache_.path() / "new";
+  runCli({"info", ball_});
+  ASSERT_EQ(fs::status(folder).permissions(), fs::perms::owner_all);
+  fs::permissions(folder, fs::perms::all);
+  const ProcessResult shown = runCli({"cache"});
+  EXPECT_EQ(shown.exitCode, 1);
+  EXPECT_THAT(shown.err, HasSubstr(folder.string() + ": this cache is not used"));
+  const ProcessResult info = runCli({"info", "--json", ball_});
+  EXPECT_EQ(info.exitCode, 0);
+  EXPECT_EQ(Json::parse(info.out)["hierarchy"]["from"], "building");
+  EXPECT_THAT(info.err, HasSubstr("warning: " + folder.string() + ": this cache is not used, since other "));
+  EXPECT_EQ(linesOf(info.err).size(), 1U);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -166,6 +167,75 @@ TEST_F(PlaceCommand, NoInputIsOverwritten) {
       EXPECT_EQ(readBytes(file(input)), before);
     }
   }
+}
+
+// The second silently overwrote the first.
+TEST_F(PlaceCommand, RecordAndExportToOneFileAreRefusedHoweverTheyAreSpelled) {
+  std::filesystem::create_directory(file("sub"));
+  std::filesystem::create_symlink("out", file("link"));
+  const auto expectRefused = [&](const std::string& record, const std::string& placement) {
+    const ProcessResult result = placeCone({"--fast", "--record", record, "--export", placement});
+    EXPECT_EQ(result.exitCode, 2) << record << " " << placement;
+    EXPECT_THAT(result.err, HasSubstr("--record: it names the same file as --export; give two files"));
+  };
+  for (const std::string other : {"./out", "sub/../out", "link"}) {
+    expectRefused("out", other);
+    expectRefused(other, "out");
+  }
+  EXPECT_FALSE(std::filesystem::exists(file("out")));
+  folder_.write("out", "old");
+  std::filesystem::create_hard_link(file("out"), file("same"));
+  for (const std::string other : {"./out", "sub/../out", "link", "same"})
+    expectRefused("out", other);
+  EXPECT_EQ(readBytes(file("out")), "old");
+}
+
+// An administrator's --record /dev/null replaced the device.
+TEST_F(PlaceCommand, OutputsThatAreNoFilesAreRefusedBeforeTheRun) {
+  ASSERT_EQ(::mkfifo(file("pipe").c_str(), 0600), 0);
+  folder_.write("long.csv", pathText(60000));
+  for (const char* option : {"--record", "--export"}) {
+    // In real time this would take a minute.
+    const ProcessResult result = place({"--part", "Cone", "--path", "long.csv", option, "pipe"});
+    EXPECT_EQ(result.exitCode, 1) << option;
+    EXPECT_THAT(result.err, HasSubstr("pipe: it is a device, a pipe or a socket, which no file may replace; "
+                                      "choose another name"));
+    EXPECT_TRUE(std::filesystem::is_fifo(file("pipe")));
+  }
+}
+
+// It waited for ever.
+TEST_F(PlaceCommand, PathThatIsAPipeIsRefused) {
+  ASSERT_EQ(::mkfifo(file("pipe.csv").c_str(), 0600), 0);
+  const ProcessResult result = place({"--part", "Cone", "--path", "pipe.csv", "--fast"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_THAT(result.err, HasSubstr("pipe.csv: it is not a regular file"));
+  const ProcessResult poses = runCli(
+      {"lmd", "floor.obj", "cone.obj", "--cutoff", "0.1", "--poses", "pipe.csv"}, options_);
+  EXPECT_EQ(poses.exitCode, 1);
+  EXPECT_THAT(poses.err, HasSubstr("pipe.csv: it is not a regular file"));
+}
+
+// The whole recording was lost; where a limit on the size of files stopped it, SIGXFSZ ended the program.
+TEST_F(PlaceCommand, RecordingThatCannotGoOnKeepsItsRows) {
+  constexpr int kMany = 2000;
+  folder_.write("path.csv", pathText(kMany));
+  // In units of 512 or 1,024 bytes, as the shell has it.
+  const std::string script = "ulimit -f 256; exec \"$0\" \"$@\"";
+  const ProcessResult result =
+      runProcess({"/bin/sh", "-c", script, NEARFIT_CLI, "place", "fit.nearfit", "--part", "Cone", "--path",
+                  "path.csv", "--fast", "--record", "out.csv"},
+                 options_);
+  EXPECT_EQ(result.exitCode, 1) << result.err;
+  EXPECT_EQ(linesOf(result.err).size(), 1U);
+  EXPECT_THAT(result.err, HasSubstr("out.csv: writing it failed"));
+  EXPECT_THAT(result.err, HasSubstr("ulimit -f"));
+  EXPECT_THAT(result.err, HasSubstr("the file keeps the rows up to "));
+  const Record record(file("out.csv"));
+  EXPECT_GT(record.rows(), 200U);
+  EXPECT_LT(record.rows(), static_cast<std::size_t>(kMany));
+  EXPECT_THAT(result.err, HasSubstr(fmt::format("up to {:.3f} s", record["t_s"].back())));
+  EXPECT_FALSE(std::filesystem::exists(file("out.unfinished.csv")));
 }
 
 TEST_F(PlaceCommand, HelpTellsTheOptions) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "tests/app/cli/place_fixture.h"
 
@@ -57,6 +58,13 @@ TEST_F(PlaceReplay, ARecordingIsNotOverwrittenByItsOwnReplay) {
   const ProcessResult result = replay({"--record", "felt.csv"});
   EXPECT_NE(result.exitCode, 0);
   EXPECT_EQ(readBytes(file("felt.csv")), before);
+}
+
+TEST_F(PlaceReplay, APipeIsRefused) {
+  ASSERT_EQ(::mkfifo(file("pipe.csv").c_str(), 0600), 0);
+  const ProcessResult result = place({"--part", "Cone", "--device", "replay:pipe.csv"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_THAT(result.err, HasSubstr("pipe.csv: it is not a regular file"));
 }
 
 TEST_F(PlaceReplay, WhatIsNoRecordingIsRefusedWithItsPlace) {
