@@ -68,8 +68,8 @@ void addCacheCommand(CLI::App& program) {
       "The cache holds meshes of {} triangles or more with the data derived from them, by file\n"
       "content and unit, so that the next program that opens a mesh need not read and build it again.\n"
       "Cached data is checked before it is used and rebuilt if anything is wrong: clearing the cache\n"
-      "costs only time. When the limit is reached, the entries unused for longest are deleted. Only you can\n"
-      "read what is kept; a folder that another user owns or can write to is not used.\n"
+      "costs only time. When the limit is reached, the entries unused for longest are deleted.\n"
+      "Only you can read what is kept. A folder that another user owns or can write to is not used.\n"
       "Environment:\n"
       "  NEARFIT_CACHE       Folder, or \"off\"; default: nearfit in XDG_CACHE_HOME or ~/.cache\n"
       "  NEARFIT_CACHE_SIZE  Limit in bytes, or with K, M, G or T (1.5G); default: 4G",
