@@ -129,8 +129,7 @@ std::optional<Permissions> permissionsOfTarget(const fs::path& file, Links links
   if (file.filename().empty())
     throw FileError(file.string(), "the path has no file name", "add a file name to the path");
   struct stat status = {};
-  const int result =
-      links == Links::Follow ? ::stat(file.c_str(), &status) : ::lstat(file.c_str(), &status);
+  const int result = links == Links::Follow ? ::stat(file.c_str(), &status) : ::lstat(file.c_str(), &status);
   if (result != 0 || S_ISLNK(status.st_mode)) return std::nullopt;
   if (S_ISDIR(status.st_mode)) throw FileError(file.string(), "it is a folder", "choose another name");
   if (!S_ISREG(status.st_mode))

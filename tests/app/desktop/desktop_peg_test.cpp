@@ -32,7 +32,8 @@ struct Peg {
     const double hole = std::numbers::sqrt2 * (8e-3 + kPegPlay);
     const RigidTransform turned{glm::angleAxis(0.25 * std::numbers::pi, glm::dvec3(0, 0, 1)),
                                 {0.0, 0.0, kTrayTop - 0.5 * kTrayHeight}};
-    d.add({writeOff(d.folder.path() / "tray.off", cutIntoThousands(transformed(tubeMesh(hole, 42e-3, kTrayHeight, 4), 1.0, turned))),
+    d.add({writeOff(d.folder.path() / "tray.off",
+                    cutIntoThousands(transformed(tubeMesh(hole, 42e-3, kTrayHeight, 4), 1.0, turned))),
            writeOff(d.folder.path() / "peg.off",
                     cutIntoThousands(boxMesh({16e-3, 16e-3, 40e-3}, {kPegAside, 0.0, 20e-3})))});
     const auto areBoth = [this] { return d.session().scene().parts().size() == 2; };

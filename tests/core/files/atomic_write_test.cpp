@@ -230,9 +230,9 @@ TEST(AtomicWrite, TemporaryFilesOfKilledProgramsAreSweptAndNoOthers) {
   const std::string ended = nameOf(test::endedProcess());
   const fs::path left = old(ended + "-0"), before = old(nameOf(::getpid()) + "-4000000");
   const fs::path fresh = folder.write(ended + "-1", "just written");
-  const std::vector<fs::path> others{old(nameOf(::getppid()) + "-0"), old(".nearfit-notes"),
-                                     old(".nearfit-12-"),             old(ended + "-0.txt"),
-                                     old("letter"),                   old("felt.unfinished.csv")};
+  const std::vector<fs::path> others{
+      old(nameOf(::getppid()) + "-0"), old(".nearfit-notes"), old(".nearfit-12-"),
+      old(ended + "-0.txt"),           old("letter"),         old("felt.unfinished.csv")};
   fs::create_symlink("letter", folder.path() / (ended + "-2"));
   atomicWrite(folder.path() / "file", "text");
   EXPECT_FALSE(fs::exists(left));
