@@ -55,12 +55,11 @@ class BoxPairs {
     return (x & y & z) != 0;
   }
   std::uint32_t makeNode(std::uint32_t begin, std::uint32_t end) noexcept;
-  std::uint32_t split(std::uint32_t begin, std::uint32_t end) noexcept;
   std::span<const Entry> entriesOf(const Node& node) const noexcept {
     return {entries_.data() + node.begin, node.end - node.begin};
   }
 
-  // Recursive, no deeper than the tree (twice that for two nodes); see kMinShare.
+  // Recursive, no deeper than the tree (twice that for two nodes); see splitBoxes().
 
   template <class Visit>
   void pairsWithin(std::uint32_t at, Visit& visit) const noexcept {
