@@ -17,6 +17,8 @@
 #include "core/base/error.h"
 #include "core/haptics/spring_law.h"
 #include "core/math/finite.h"
+#include "core/proximity/overlap/interference.h"
+#include "core/report/clearance.h"
 #include "core/report/lmd_set.h"
 #include "core/scene/part_geometry.h"
 #include "device/simulated/simulated_device.h"
@@ -55,7 +57,7 @@ std::string lmdText(const Lmd& lmd) {
 }
 
 /// Returns the output line of a pose. Throws Error if minima were left out or the wrench is not finite.
-std::string poseLine(std::size_t pose, const LmdSet& set, const Wrench& wrench) {
+std::string poseLine(std::size_t pose, const LmdSet& set, const Wrench& wrench, InterferenceKind overlap) {
   const std::string where = fmt::format("pose {}", pose);
   if (!set.isComplete) {
     throw Error(where, fmt::format("there are more than {} minima within the cutoff", kMaxLmds),
@@ -67,8 +69,17 @@ std::string poseLine(std::size_t pose, const LmdSet& set, const Wrench& wrench) 
   std::string text = fmt::format(R"({{"pose":{},"lmds":[)", pose);
   for (std::size_t i = 0; i < set.lmds.size(); ++i)
     text += (i == 0 ? "" : ",") + lmdText(set.lmds[i]);
-  return text + fmt::format("],\"force\":{},\"torque\":{},\"query_us\":{}}}\n", vectorText(wrench.force),
-                            vectorText(wrench.torque), numberText(1e6 * set.queryTime));
+  return text + fmt::format("],\"force\":{},\"torque\":{},\"overlap\":\"{}\",\"query_us\":{}}}\n",
+                            vectorText(wrench.force), vectorText(wrench.torque), nameOf(overlap),
+                            numberText(1e6 * set.queryTime));
+}
+
+/// Tells of poses at which the bodies overlap: the set may be empty there.
+std::string overlapNote(const std::vector<std::size_t>& overlapping, std::size_t poses) {
+  const std::string where = poses == 1 ? std::string()
+                                       : fmt::format(" at {} of {} poses, the first of them pose {}",
+                                                     overlapping.size(), poses, overlapping.front());
+  return fmt::format("note: the bodies overlap{}; minima do not tell how far", where);
 }
 
 SpringParameters springsOf(const LmdOptions& options) {
@@ -127,20 +138,25 @@ void runLmd(const LmdOptions& options) {
   printWarnings(*scene);
   if (part != scene) printWarnings(*part);
   LmdCollector collector(kMaxLmds);
+  std::vector<std::size_t> overlapping;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const LmdSet set = options.mode == "tracked"
                            ? collector.collectTracked(trees.scene(), trees.part(), poses[i], springs.cutoff)
                            : collector.collect(trees.scene(), trees.part(), poses[i], springs.cutoff);
     const glm::dvec3 centre = poses[i].applyToPoint(part->mass.centre);
-    print(poseLine(i, set, springWrench(set.lmds, springs, centre, {})));
+    const InterferenceKind overlap = findInterference(trees.scene(), trees.part(), poses[i]).kind;
+    if (overlap != InterferenceKind::Disjoint) overlapping.push_back(i);
+    print(poseLine(i, set, springWrench(set.lmds, springs, centre, {}), overlap));
   }
+  if (!overlapping.empty()) printError(overlapNote(overlapping, poses.size()));
 }
 
 // clang-format off
 constexpr const char* kLmdFooter =
     R"(Prints one JSON object per pose, each on its own line:
   {"pose":0,"lmds":[{"distance":d,"scene":[x,y,z],"part":[x,y,z],"features":["vertex","face"],
-   "region":false,"blocked":false,"marginal":false}],"force":[x,y,z],"torque":[x,y,z],"query_us":t}
+   "region":false,"blocked":false,"marginal":false}],"force":[x,y,z],"torque":[x,y,z],
+   "overlap":"no","query_us":t}
 lmds      All local minimum distances within the cutoff, nearest first. "scene" and "part": the two
           points, both in the scene mesh's frame [m]. "features": what carries them (vertex, edge, face),
           the scene's first. "region": true if the pair stands for a flat set of equal minima (faces or
@@ -155,6 +171,9 @@ lmds      All local minimum distances within the cutoff, nearest first. "scene" 
           rectangle with the same second moments of area.
 force     Sum of the spring forces on the part [N], without those of blocked minima, in the scene mesh's
           frame; torque [N m] about the part's centre of mass. Nothing moves, so damping has no effect.
+overlap   How the bodies overlap, decided exactly: "no", "surfaces meet" (or touch), "inside the other" (the
+          part in the scene mesh), "the other inside". Minima do not tell how far; the set may be empty. A
+          note on stderr says at how many poses they overlap.
 query_us  Time of the query alone [us]; with --mode tracked, without the search ahead, which the servo
           leaves to another thread.
 --rule    normal-span accepts a pair if the segment between its points lies in the span of the surface

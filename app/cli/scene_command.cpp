@@ -79,6 +79,28 @@ HapticSettings newSettings(const HapticOptions& options) {
   return withOptions(settings, options);
 }
 
+/// Loads the parts, in colours that tell them apart. Throws UsageError if two have one name.
+std::vector<Part> loadParts(const std::vector<PartArgument>& arguments, double metresPerUnit) {
+  const std::vector<Colour> colours = Scene().nextColours(arguments.size());
+  std::map<std::filesystem::path, PartGeometryPtr> geometries;
+  std::set<std::string> names;
+  std::vector<Part> parts;
+  for (const PartArgument& argument : arguments) {
+    if (!names.insert(argument.name).second) {
+      throw UsageError("--part", fmt::format("two parts are named \"{}\"", argument.name),
+                       "give each its own name");
+    }
+    PartGeometryPtr& geometry = geometries[normalisedPath(argument.file)];
+    if (!geometry) geometry = loadPartGeometry(argument.file, metresPerUnit);
+    Part& part = parts.emplace_back();
+    part.name = argument.name;
+    part.geometry = geometry;
+    part.worldFromPart = argument.worldFromPart;
+    part.colour = colours[parts.size() - 1];
+  }
+  return parts;
+}
+
 Scene makeScene(const SceneNewOptions& options) {
   const double metresPerUnit = parseUnit(options.unit);
   std::vector<PartArgument> arguments;
@@ -88,21 +110,7 @@ Scene makeScene(const SceneNewOptions& options) {
 
   Scene scene;
   scene.setHaptics(newSettings(options.haptics));
-  std::map<std::filesystem::path, PartGeometryPtr> geometries;
-  for (const PartArgument& argument : arguments) {
-    if (scene.findByName(argument.name) != nullptr) {
-      throw UsageError("--part", fmt::format("two parts are named \"{}\"", argument.name),
-                       "give each its own name");
-    }
-    PartGeometryPtr& geometry = geometries[normalisedPath(argument.file)];
-    if (!geometry) geometry = loadPartGeometry(argument.file, metresPerUnit);
-    Part part;
-    part.name = argument.name;
-    part.geometry = geometry;
-    part.worldFromPart = argument.worldFromPart;
-    part.colour = scene.nextColour();
-    scene.add(part);
-  }
+  scene.addAll(loadParts(arguments, metresPerUnit));
   for (const std::string& text : options.densities)
     setDensity(scene, text);
   if (!options.moving.empty()) {

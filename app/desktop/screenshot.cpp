@@ -24,6 +24,7 @@ Screenshot::Screenshot(Application& application, QString output)
   ui::MainWindow& window = application_.window();
   window.setFailureSink(
       [this](const ui::Failure& failure) { fail(failure.summary + QChar('\n') + failure.details); });
+  connect(&window.document(), &ui::Document::noted, this, [this](const QString& note) { note_ = note; });
   connect(&window.document(), &ui::Document::loaded, this, &Screenshot::arrange);
 }
 
@@ -40,7 +41,7 @@ void Screenshot::take(const QStringList& files) {
 
 void Screenshot::arrange(bool isComplete) {
   if (!isComplete) {
-    fail(tr("the files could not be opened"));
+    fail(note_.isEmpty() ? tr("the files could not be opened") : note_);
     return;
   }
   if (!application_.session().scene().movingPart()) {

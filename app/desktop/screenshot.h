@@ -27,6 +27,7 @@ class Screenshot : public QObject {
 
   Application& application_;
   QString output_;
+  QString note_;  ///< The last that the document made.
   bool hasFailed_ = false, isWriting_ = false;
 };
 

@@ -30,6 +30,10 @@ static_assert(std::endian::native == std::endian::little,
 constexpr const char* kCutOff = "it is cut off or damaged: export or copy it again";
 constexpr const char* kExportAgain = "export the file again";
 
+/// Max number of elements and, of all together, of properties: hundreds of times what meshes and clouds of
+/// splats have. Elements are compared with one another.
+constexpr std::size_t kMaxElements = 1000, kMaxProperties = 10'000;
+
 enum class PlyFormat { Ascii, LittleEndian, BigEndian };
 enum class PlyType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
 
@@ -89,6 +93,8 @@ PlyFormat parseFormat(const TextCursor& cursor, std::string_view word) {
 }
 
 PlyElement parseElement(TextCursor& cursor, const PlyHeader& header) {
+  if (header.elements.size() >= kMaxElements)
+    cursor.fail(fmt::format("the header declares more than {} elements", kMaxElements), kExportAgain);
   PlyElement element;
   element.name = cursor.token();
   const std::string_view count = cursor.token();
@@ -135,6 +141,7 @@ PlyHeader readPlyHeader(const ReaderInput& input) {
   if (cursor.token() != "ply") cursor.fail("it does not begin with 'ply'", "check that this is a PLY file");
   PlyHeader header;
   bool hasFormat = false;
+  std::size_t properties = 0;
   while (cursor.nextLine()) {
     const std::string_view keyword = cursor.token();
     if (keyword == "format") {
@@ -144,6 +151,8 @@ PlyHeader readPlyHeader(const ReaderInput& input) {
       header.elements.push_back(parseElement(cursor, header));
     } else if (keyword == "property") {
       if (header.elements.empty()) cursor.fail("a property comes before the first element", kExportAgain);
+      if (++properties > kMaxProperties)
+        cursor.fail(fmt::format("the header declares more than {} properties", kMaxProperties), kExportAgain);
       header.elements.back().properties.push_back(parseProperty(cursor));
     } else if (keyword == "end_header") {
       if (!hasFormat) cursor.fail("the header names no format", kExportAgain);

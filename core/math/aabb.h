@@ -23,6 +23,12 @@ struct Aabb {
   glm::dvec3 centre() const noexcept { return lower + 0.5 * (upper - lower); }
   /// Length of the diagonal [m]; 0 when empty.
   double diagonal() const noexcept { return isEmpty() ? 0.0 : glm::length(upper - lower); }
+  /// Largest magnitude of a coordinate [m]; 0 when empty.
+  double largestCoordinate() const noexcept {
+    if (isEmpty()) return 0.0;
+    const glm::dvec3 most = glm::max(glm::abs(lower), glm::abs(upper));
+    return glm::max(most.x, glm::max(most.y, most.z));
+  }
 };
 
 }  // namespace nearfit

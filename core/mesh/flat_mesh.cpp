@@ -62,13 +62,6 @@ struct Axes {
   }
 };
 
-double largestCoordinate(const Aabb& box) {
-  double largest = 0.0;
-  for (const glm::dvec3& p : {box.lower, box.upper})
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  return largest;
-}
-
 struct PointHash {
   std::size_t operator()(const glm::dvec2& p) const noexcept {
     const auto x = std::bit_cast<std::uint64_t>(p.x + 0.0), y = std::bit_cast<std::uint64_t>(p.y + 0.0);
@@ -95,7 +88,7 @@ class FlatMerger {
         tolerance_(tolerance),
         groups_(std::move(groups)),
         isPinned_(groups_.planes.size(), false),
-        inPlane_(kInPlane * largestCoordinate(mesh.bounds())) {
+        inPlane_(kInPlane * mesh.bounds().largestCoordinate()) {
     listTriangles();
   }
 
@@ -389,7 +382,7 @@ FlatMesh mergeFlats(const TriangleMesh& mesh, double coordinateRounding,
                     const std::function<void(double fraction)>& onProgress) {
   const auto unchanged = [&] { return FlatMesh{mesh, {}, 0.0}; };
   if (mesh.bounds().isEmpty()) return unchanged();
-  const double largest = largestCoordinate(mesh.bounds());
+  const double largest = mesh.bounds().largestCoordinate();
   const double rounding = std::max(coordinateRounding, kMinRounding * largest);
   const double tolerance =
       std::max(std::min(kRoundingsOfPlane * rounding, kMaxTolerance * mesh.bounds().diagonal()),

@@ -87,6 +87,15 @@ void putAside(const fs::path& journal, const char* ending) noexcept {
   }
 }
 
+/// True if no journal has this name, nor one that was put aside under it.
+bool isFree(const fs::path& journal) {
+  const auto isTaken = [&journal](const char* ending) {
+    std::error_code failure;
+    return fs::exists(fs::symlink_status(fs::path(journal) += ending, failure));
+  };
+  return !isTaken("") && std::ranges::none_of(kAsideEndings, isTaken);
+}
+
 std::vector<fs::path> filesIn(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code failure;
@@ -159,12 +168,12 @@ void RecoveryFolder::clear() noexcept {
   }
 }
 
-bool RecoveryFolder::claim(fs::path& journal) {
+bool RecoveryFolder::claim(fs::path& journal, int& number) {
   // Renames are atomic: if two processes try, one of them fails.
-  for (int number = 1;; ++number) {
+  for (;; ++number) {
     const fs::path mine = folder_ / fmt::format("{}.{}{}", textOf(self_), number, kJournalEnding);
+    if (!isFree(mine)) continue;
     std::error_code failure;
-    if (fs::exists(fs::symlink_status(mine, failure))) continue;
     fs::rename(journal, mine, failure);
     if (failure) return false;
     journal = mine;
@@ -193,12 +202,13 @@ FoundWork RecoveryFolder::takeLost() {
   FoundWork found;
   try {
     sweep();
+    int number = 1;
     for (fs::path journal : filesIn(folder_)) {
       const std::optional<ProcessIdentity> owner = ownerOf(journal);
       if (!owner || *owner == self_) continue;
       if (isRunning(*owner))
         found.areOthersRunning = true;
-      else if (claim(journal))
+      else if (claim(journal, number))
         examine(journal, found);
     }
   } catch (...) {

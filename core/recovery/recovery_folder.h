@@ -49,8 +49,8 @@ struct FoundWork {
 };
 
 /// The user's folder of recovery journals, one per process. A journal's name identifies its process; no
-/// process touches the journal of another that runs. Only the user can read folder and journals. Thread-safe
-/// as long as no two threads use the same journal.
+/// process touches the journal of another that runs. No journal replaces one that was taken over or put aside.
+/// Only the user can read folder and journals. Thread-safe as long as no two threads use the same journal.
 class RecoveryFolder {
  public:
   /// How long files are kept after being set aside.
@@ -79,7 +79,9 @@ class RecoveryFolder {
 
  private:
   std::filesystem::path ownJournal() const;
-  bool claim(std::filesystem::path& journal);
+  /// Gives a journal a name of this process, whose number is the first from `number` on under which none is
+  /// kept, neither as a journal nor put aside. Updates both; false if another process was first.
+  bool claim(std::filesystem::path& journal, int& number);
   void examine(const std::filesystem::path& journal, FoundWork& found);
   void sweep() noexcept;
 

@@ -10,6 +10,7 @@
 #include "core/files/sha256.h"
 #include "core/scene/part_geometry.h"
 #include "core/scene/scene_file.h"
+#include "core/text/json_file.h"
 #include "core/text/json_text.h"
 #include "core/text/utf8.h"
 
@@ -20,10 +21,12 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// Makes the mesh paths of a scene file absolute, so that the scene can be moved.
-void makePathsAbsolute(Json& scene, const fs::path& folder) {
-  for (Json& part : scene.at("parts")) {
-    Json& mesh = part.at("mesh");
-    mesh = normalisedPath(folder / mesh.get<std::string>()).generic_string();
+/// @tparam AnyJson  With keys in order or sorted.
+template <class AnyJson>
+void makePathsAbsolute(AnyJson& scene, const fs::path& folder) {
+  for (AnyJson& part : scene.at("parts")) {
+    AnyJson& mesh = part.at("mesh");
+    mesh = normalisedPath(folder / mesh.template get<std::string>()).generic_string();
   }
 }
 
@@ -84,7 +87,10 @@ JournalHead readJournalHead(const fs::path& journal) {
 bool isSaved(const fs::path& journal, const JournalHead& head) {
   if (head.scene.empty()) return false;
   try {
-    Json kept = readOrdered(journal), saved = readOrdered(head.scene);
+    // Sorted keys: the scene file may come from others, and finding a key among ordered ones takes O(n).
+    JsonLimits limits;
+    limits.maxBytes = kMaxSceneFileBytes;
+    nlohmann::json kept = readJsonFile(journal, limits), saved = readJsonFile(head.scene, limits);
     kept.erase("recovery");
     makePathsAbsolute(kept, meshFolder(journal));
     makePathsAbsolute(saved, meshFolder(head.scene));

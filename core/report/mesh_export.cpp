@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -197,8 +198,9 @@ Scene placedScene(const Scene& scene, const RigidTransform& worldFromMoving) {
 
 std::vector<Scene::PartPtr> chosenParts(const Scene& scene, std::span<const PartId> only) {
   std::vector<Scene::PartPtr> parts;
+  const std::set<PartId> chosen(only.begin(), only.end());
   for (const Scene::PartPtr& part : scene.parts()) {
-    const bool isChosen = only.empty() ? part->isVisible : std::ranges::find(only, part->id) != only.end();
+    const bool isChosen = only.empty() ? part->isVisible : chosen.contains(part->id);
     if (isChosen && part->geometry) parts.push_back(part);
   }
   return parts;

@@ -29,14 +29,18 @@ void checkName(const char* kind, const std::string& name, std::size_t maxBytes) 
   }
 }
 
-std::string freeName(const std::string& wanted, const std::unordered_set<std::string_view>& taken,
-                     std::size_t maxBytes) {
-  if (!taken.contains(wanted)) return wanted;
+std::string TakenNames::takeFree(const std::string& wanted) {
+  if (names_.insert(wanted).second) return wanted;
   const std::string stem = withoutNumber(wanted);
-  for (std::size_t number = 2;; ++number) {
-    const std::string suffix = fmt::format(" {}", number);
-    std::string name = truncatedUtf8(stem, maxBytes - suffix.size()) + suffix;
-    if (!taken.contains(name)) return name;
+  std::size_t first = 2;
+  for (std::size_t digits = 1, end = 10;; ++digits, end *= 10) {
+    const std::string cut = truncatedUtf8(stem, maxBytes_ - digits - 1);
+    std::size_t& next = next_.try_emplace(std::pair(cut, digits), first).first->second;
+    while (next < end) {
+      std::string name = fmt::format("{} {}", cut, next++);
+      if (names_.insert(name).second) return name;
+    }
+    first = end;
   }
 }
 

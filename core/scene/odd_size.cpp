@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <vector>
 
 namespace nearfit {
 namespace {
@@ -32,18 +34,12 @@ double nearestFactor(double metresPerUnit, double wanted) {
   return best;
 }
 
-}  // namespace
+/// Diagonal of the bounding box [m]; 0 without geometry.
+double sizeOf(const Part& part) {
+  return part.geometry != nullptr ? part.geometry->mesh.bounds().diagonal() : 0.0;
+}
 
-std::optional<OddSize> oddSizeOf(const Scene& scene, std::span<const PartId> parts) {
-  Sizes own, others;
-  double metresPerUnit = 1.0;
-  for (const Scene::PartPtr& part : scene.parts()) {
-    const double size = part->geometry != nullptr ? part->geometry->mesh.bounds().diagonal() : 0.0;
-    if (size <= 0.0) continue;
-    const bool isOwn = std::ranges::find(parts, part->id) != parts.end();
-    (isOwn ? own : others).add(size);
-    if (isOwn) metresPerUnit = part->geometry->metresPerUnit;
-  }
+std::optional<OddSize> judged(const Sizes& own, const Sizes& others, double metresPerUnit) {
   if (own.isEmpty() || others.isEmpty()) return std::nullopt;
   const bool isLarge = own.least >= kOddSizeRatio * others.most;
   const bool isSmall = own.most * kOddSizeRatio <= others.least;
@@ -52,6 +48,44 @@ std::optional<OddSize> oddSizeOf(const Scene& scene, std::span<const PartId> par
   const double factor = nearestFactor(metresPerUnit, 1.0 / ratio);
   if (std::abs(std::log(factor * ratio)) >= std::abs(std::log(ratio))) return std::nullopt;
   return OddSize{ratio, factor};
+}
+
+}  // namespace
+
+std::optional<OddSize> oddSizeOf(const Scene& scene, std::span<const PartId> parts) {
+  const std::set<PartId> chosen(parts.begin(), parts.end());
+  Sizes own, others;
+  double metresPerUnit = 1.0;
+  for (const Scene::PartPtr& part : scene.parts()) {
+    const double size = sizeOf(*part);
+    if (size <= 0.0) continue;
+    const bool isOwn = chosen.contains(part->id);
+    (isOwn ? own : others).add(size);
+    if (isOwn) metresPerUnit = part->geometry->metresPerUnit;
+  }
+  return judged(own, others, metresPerUnit);
+}
+
+std::optional<OddPart> firstOddPart(const Scene& scene, std::span<const PartId> parts) {
+  std::vector<double> sizes;
+  for (const Scene::PartPtr& part : scene.parts()) {
+    const double size = sizeOf(*part);
+    if (size > 0.0) sizes.push_back(size);
+  }
+  if (sizes.size() < 2) return std::nullopt;
+  std::ranges::sort(sizes);
+  const double least = sizes.front(), most = sizes.back();
+  for (const PartId id : parts) {
+    const Part* part = scene.find(id);
+    const double size = part != nullptr ? sizeOf(*part) : 0.0;
+    if (size <= 0.0) continue;
+    Sizes own, others;
+    own.add(size);
+    others.add(size == least ? sizes[1] : least);
+    others.add(size == most ? sizes[sizes.size() - 2] : most);
+    if (const auto odd = judged(own, others, part->geometry->metresPerUnit)) return OddPart{id, *odd};
+  }
+  return std::nullopt;
 }
 
 }  // namespace nearfit

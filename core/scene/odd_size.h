@@ -20,7 +20,15 @@ struct OddSize {
 
 /// Checks whether all these parts are out of proportion to all other parts, by the diagonals of their
 /// bounding boxes. Returns std::nullopt if they are not, if there are no others, or if no change of unit
-/// would help. Ignores parts that are not in the scene. O(parts).
+/// would help. Ignores parts that are not in the scene. O(n log n).
 std::optional<OddSize> oddSizeOf(const Scene& scene, std::span<const PartId> parts);
+
+/// A part whose own size is odd.
+struct OddPart {
+  PartId part{};
+  OddSize size;
+};
+/// The first of these parts for which oddSizeOf() it alone returns a value. O(n log n) for all together.
+std::optional<OddPart> firstOddPart(const Scene& scene, std::span<const PartId> parts);
 
 }  // namespace nearfit

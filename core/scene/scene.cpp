@@ -1,14 +1,13 @@
 #include "core/scene/scene.h"
 
 #include <algorithm>
-#include <unordered_set>
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/scene/haptic_limits.h"
-#include "core/scene/names.h"
 
 namespace nearfit {
 namespace {
@@ -19,6 +18,26 @@ void checkValues(const Part& part) {
   checkDensity(part.density);
   checkOpacity(part.opacity);
 }
+
+/// Number of parts that have each colour of the palette.
+class ColourUses {
+ public:
+  explicit ColourUses(const std::vector<Scene::PartPtr>& parts) noexcept {
+    for (const Scene::PartPtr& part : parts) {
+      const auto* const colour = std::ranges::find(kPartPalette, part->colour);
+      if (colour != kPartPalette.end()) ++uses_[static_cast<std::size_t>(colour - kPartPalette.begin())];
+    }
+  }
+  /// The colour that the fewest parts have, which one more then has.
+  Colour takeNext() noexcept {
+    const auto fewest = std::ranges::min_element(uses_);
+    ++*fewest;
+    return kPartPalette[static_cast<std::size_t>(fewest - uses_.begin())];
+  }
+
+ private:
+  std::array<std::size_t, kPartPalette.size()> uses_{};
+};
 
 }  // namespace
 
@@ -46,20 +65,43 @@ std::size_t Scene::indexOf(PartId id) const {
   return static_cast<std::size_t>(it - parts_.begin());
 }
 
-PartId Scene::add(Part part) {
+TakenNames Scene::takenNames() const {
+  TakenNames names(kMaxPartNameBytes);
+  for (const PartPtr& part : parts_)
+    names.add(part->name);
+  return names;
+}
+
+void Scene::makeAddable(Part& part) const {
   checkValues(part);
   requireOpen(part.group);
   part.worldFromPart = checkedPose(part.worldFromPart);
-  // A set of all names costs a hundred times as much as looking for one.
-  if (findByName(part.name) != nullptr) {
-    std::unordered_set<std::string_view> taken;
-    for (const PartPtr& other : parts_)
-      taken.insert(other->name);
-    part.name = freeName(part.name, taken, kMaxPartNameBytes);
-  }
+}
+
+PartId Scene::append(Part part) {
   part.id = PartId{nextId_};
   parts_.push_back(std::make_shared<const Part>(std::move(part)));
   return PartId{nextId_++};
+}
+
+PartId Scene::add(Part part) {
+  makeAddable(part);
+  // A set of all names costs a hundred times as much as looking for one.
+  if (findByName(part.name) != nullptr) part.name = takenNames().takeFree(part.name);
+  return append(std::move(part));
+}
+
+std::vector<PartId> Scene::addAll(std::vector<Part> parts) {
+  for (Part& part : parts)
+    makeAddable(part);
+  TakenNames names = takenNames();
+  std::vector<PartId> ids;
+  ids.reserve(parts.size());
+  for (Part& part : parts) {
+    part.name = names.takeFree(part.name);
+    ids.push_back(append(std::move(part)));
+  }
+  return ids;
 }
 
 void Scene::replace(Part part) {
@@ -111,11 +153,15 @@ std::vector<PartGeometryPtr> Scene::geometries() const {
 }
 
 Colour Scene::nextColour() const noexcept {
-  const auto uses = [this](const Colour& colour) {
-    return std::count_if(parts_.begin(), parts_.end(), [&](const PartPtr& p) { return p->colour == colour; });
-  };
-  return *std::min_element(kPartPalette.begin(), kPartPalette.end(),
-                           [&](const Colour& a, const Colour& b) { return uses(a) < uses(b); });
+  return ColourUses(parts_).takeNext();
+}
+
+std::vector<Colour> Scene::nextColours(std::size_t count) const {
+  ColourUses uses(parts_);
+  std::vector<Colour> colours(count);
+  for (Colour& colour : colours)
+    colour = uses.takeNext();
+  return colours;
 }
 
 void Scene::retireIdsOf(const Scene& other) noexcept {

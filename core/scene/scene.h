@@ -10,6 +10,7 @@
 
 #include "core/haptics/haptic_settings.h"
 #include "core/scene/group.h"
+#include "core/scene/names.h"
 #include "core/scene/part.h"
 
 namespace nearfit {
@@ -36,6 +37,9 @@ class Scene {
   /// normalises the quaternion. Throws UsageError if name, pose (see checkedPose), colour, density or opacity
   /// is invalid, or the group is unknown or locked.
   PartId add(Part part);
+  /// Adds copies of all these parts, in their order, each like add(); of two with one name the later gets the
+  /// number. O((n + m) log(n + m)) for m parts beside n.
+  std::vector<PartId> addAll(std::vector<Part> parts);
   /// Replaces the part with the same ID. Throws UsageError like add(), or if there is no such part, its new
   /// name is taken, it is the moving part and would be locked, or it is locked and more than its look (see
   /// differsOnlyInLookOrLock) or geometry would change.
@@ -81,13 +85,19 @@ class Scene {
   /// Non-null geometries of all parts, in part order; a shared one appears once per part.
   std::vector<PartGeometryPtr> geometries() const;
 
-  /// The palette colour that the fewest parts have.
+  /// The palette colour that the fewest parts have. O(n).
   Colour nextColour() const noexcept;
+  /// The colours of `count` parts that each get nextColour() when added. O(n + count).
+  std::vector<Colour> nextColours(std::size_t count) const;
   /// Retires all IDs that `other` has given out, so that IDs stay unique across undo.
   void retireIdsOf(const Scene& other) noexcept;
 
  private:
   std::size_t indexOf(PartId id) const;
+  /// Throws UsageError if the part cannot be added; normalises its pose.
+  void makeAddable(Part& part) const;
+  PartId append(Part part);
+  TakenNames takenNames() const;
   std::size_t indexOf(GroupId id) const;
   /// Nearest locked group, from `group` upward; null if none.
   const Group* lockAt(std::optional<GroupId> group) const noexcept;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -242,7 +243,7 @@ class GeometryLoader {
     if (loaded.geometry && loaded.geometry->sha256 == entry.sha256) return loaded.geometry;
     // Geometry is null only if the required SHA-256 differs.
     if (changed_ == nullptr || !loaded.geometry) failChanged(entry);
-    if (std::ranges::find(*changed_, entry.mesh) == changed_->end()) changed_->push_back(entry.mesh);
+    if (listed_.insert(entry.mesh).second) changed_->push_back(entry.mesh);
     return loaded.geometry;
   }
 
@@ -267,6 +268,7 @@ class GeometryLoader {
   }
 
   std::vector<fs::path>* changed_;
+  std::set<fs::path> listed_;  ///< In changed_.
   std::map<Key, std::size_t> indices_;
   std::vector<LoadedPart> loaded_;
 };
@@ -314,11 +316,14 @@ Scene readSceneFile(const fs::path& file, const ProgressCallback& progress,
   std::vector<GroupId> ids;
   for (const GroupEntry& entry : groups)
     ids.push_back(scene.addGroup(placed(entry, ids)));
+  std::vector<Part> parts;
+  parts.reserve(entries.size());
   for (PartEntry& entry : entries) {
     entry.part.geometry = loader.geometryOf(entry);
     if (entry.group) entry.part.group = ids[*entry.group];
-    scene.add(std::move(entry.part));
+    parts.push_back(std::move(entry.part));
   }
+  scene.addAll(std::move(parts));
   if (moving) scene.setMovingPart(scene.parts()[*moving]->id);
   lockGroups(scene, groups, ids);
   return scene;

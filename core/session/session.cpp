@@ -37,16 +37,6 @@ const char* labelOfChange(const HapticSettings& from, const HapticSettings& to) 
   return "Change the feel settings";
 }
 
-PartId addTo(Scene& scene, PartGeometryPtr geometry, const std::string& name,
-             const RigidTransform& worldFromPart) {
-  Part part;
-  part.name = name;
-  part.geometry = std::move(geometry);
-  part.worldFromPart = worldFromPart;
-  part.colour = scene.nextColour();
-  return scene.add(std::move(part));
-}
-
 }  // namespace
 
 void Session::commit(Scene scene, Step step) {
@@ -59,18 +49,28 @@ void Session::commit(Scene scene, Step step) {
 PartId Session::addPart(PartGeometryPtr geometry, const std::string& name,
                         const RigidTransform& worldFromPart) {
   Scene next = scene();
-  const PartId id = addTo(next, std::move(geometry), name, worldFromPart);
+  Part part;
+  part.name = name;
+  part.geometry = std::move(geometry);
+  part.worldFromPart = worldFromPart;
+  part.colour = next.nextColour();
+  const PartId id = next.add(std::move(part));
   const std::string label = "Add " + next.find(id)->name;
   commit(std::move(next), label);
   return id;
 }
 
 std::vector<PartId> Session::addParts(const std::vector<NewPart>& parts) {
+  if (parts.empty()) return {};
   Scene next = scene();
-  SceneNodes added;
-  for (const NewPart& each : parts)
-    added.parts.push_back(addTo(next, each.geometry, each.name, {}));
-  if (added.isEmpty()) return {};
+  const std::vector<Colour> colours = next.nextColours(parts.size());
+  std::vector<Part> all(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    all[i].name = parts[i].name;
+    all[i].geometry = parts[i].geometry;
+    all[i].colour = colours[i];
+  }
+  const SceneNodes added{next.addAll(std::move(all)), {}};
   const std::string label = "Add " + nameOf(next, added);
   commit(std::move(next), label);
   return added.parts;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <map>
 #include <ranges>
-#include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,11 +14,11 @@
 namespace nearfit {
 namespace {
 
-std::string freeGroupName(const Scene& scene, const std::string& wanted) {
-  std::unordered_set<std::string_view> taken;
+TakenNames groupNamesOf(const Scene& scene) {
+  TakenNames names(kMaxGroupNameBytes);
   for (const Scene::GroupPtr& group : scene.groups())
-    taken.insert(group->name);
-  return freeName(wanted, taken, kMaxGroupNameBytes);
+    names.add(group->name);
+  return names;
 }
 
 /// The group, or its nearest ancestor that is not locked.
@@ -36,32 +35,38 @@ class Copier {
 
   SceneNodes copy() {
     const Scene before = scene_;
+    TakenNames names = groupNamesOf(before);
     for (const GroupId id : groupsOf(before, outer_)) {
       Group group = *before.findGroup(id);
       const auto parent = group.parent ? copyOf_.find(*group.parent) : copyOf_.end();
       const bool isOuter = parent == copyOf_.end();
-      if (isOuter) group.name = freeGroupName(scene_, group.name);
+      if (isOuter) group.name = names.takeFree(group.name);
       group.parent = isOuter ? openPlace(before, group.parent) : parent->second;
       group.isLocked = false;
       copyOf_[id] = scene_.addGroup(group);
       if (isOuter) copies_.groups.push_back(copyOf_[id]);
     }
-    const std::vector<PartId> parts = partsOf(before, outer_);
-    for (const PartId id : parts)
-      copyPart(*before.find(id), parts.size() == 1);
+    copyParts(partsOf(before, outer_));
     return copies_;
   }
 
  private:
-  void copyPart(Part part, bool isAlone) {
-    const auto group = part.group ? copyOf_.find(*part.group) : copyOf_.end();
-    const bool isOuter = group == copyOf_.end();
-    part.group = isOuter ? openPlace(scene_, part.group) : group->second;
-    part.isLocked = false;
-    part.wasVisible.reset();
-    if (isAlone) part.colour = scene_.nextColour();
-    const PartId copy = scene_.add(std::move(part));
-    if (isOuter) copies_.parts.push_back(copy);
+  void copyParts(const std::vector<PartId>& parts) {
+    std::vector<Part> copies;
+    std::vector<bool> areOuter;
+    for (const PartId id : parts) {
+      Part& part = copies.emplace_back(*scene_.find(id));
+      const auto group = part.group ? copyOf_.find(*part.group) : copyOf_.end();
+      areOuter.push_back(group == copyOf_.end());
+      part.group = areOuter.back() ? openPlace(scene_, part.group) : group->second;
+      part.isLocked = false;
+      part.wasVisible.reset();
+      if (parts.size() == 1) part.colour = scene_.nextColour();
+    }
+    const std::vector<PartId> ids = scene_.addAll(std::move(copies));
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      if (areOuter[i]) copies_.parts.push_back(ids[i]);
+    }
   }
 
   Scene& scene_;
@@ -141,7 +146,7 @@ GroupId Session::group(const SceneNodes& nodes, const std::string& name) {
   const SceneNodes outer = outermost(scene(), nodes);
   Scene next = scene();
   Group group;
-  group.name = freeGroupName(next, name);
+  group.name = groupNamesOf(next).takeFree(name);
   group.parent = commonGroup(next, outer);
   const GroupId id = next.addGroup(std::move(group));
   putInto(next, outer, id);

@@ -1,5 +1,7 @@
 // Commands about parts.
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -38,8 +40,11 @@ std::vector<PartId> partsOf(const std::vector<Session::NewPivot>& pivots) {
   return ids;
 }
 
-PartGeometryPtr geometryFor(const Part& part, const std::vector<Session::NewGeometry>& renewed) {
-  return std::ranges::find(renewed, part.id, &Session::NewGeometry::part)->geometry;
+std::map<PartId, PartGeometryPtr> byPart(const std::vector<Session::NewGeometry>& renewed) {
+  std::map<PartId, PartGeometryPtr> geometries;
+  for (const Session::NewGeometry& each : renewed)
+    geometries.try_emplace(each.part, each.geometry);
+  return geometries;
 }
 
 }  // namespace
@@ -113,21 +118,24 @@ void Session::setDensity(const std::vector<PartId>& ids, double density) {
 void Session::setPivots(const std::vector<NewPivot>& pivots) {
   const bool isReset =
       std::ranges::none_of(pivots, [](const NewPivot& each) { return each.inPart.has_value(); });
+  std::map<PartId, std::optional<glm::dvec3>> places;
   for (const NewPivot& each : pivots) {
     if (each.inPart) checkPosition(*each.inPart);
+    places.try_emplace(each.part, each.inPart);
   }
-  changeUnlocked(partsOf(pivots), isReset ? "Reset the pivot of" : "Move the pivot of", [&](Part& part) {
-    part.pivot = std::ranges::find(pivots, part.id, &NewPivot::part)->inPart;
-  });
+  changeUnlocked(partsOf(pivots), isReset ? "Reset the pivot of" : "Move the pivot of",
+                 [&](Part& part) { part.pivot = places.at(part.id); });
 }
 
 void Session::reloadParts(const std::vector<NewGeometry>& parts) {
-  change(partsOf(parts), "Reload", [&parts](Part& part) { part.geometry = geometryFor(part, parts); });
+  const std::map<PartId, PartGeometryPtr> geometries = byPart(parts);
+  change(partsOf(parts), "Reload", [&](Part& part) { part.geometry = geometries.at(part.id); });
 }
 
 void Session::rescaleParts(const std::vector<NewGeometry>& parts) {
-  changeUnlocked(partsOf(parts), "Rescale", [&parts](Part& part) {
-    PartGeometryPtr rescaled = geometryFor(part, parts);
+  const std::map<PartId, PartGeometryPtr> geometries = byPart(parts);
+  changeUnlocked(partsOf(parts), "Rescale", [&](Part& part) {
+    PartGeometryPtr rescaled = geometries.at(part.id);
     if (part.pivot) {
       *part.pivot *= rescaled->metresPerUnit / part.geometry->metresPerUnit;
       checkPosition(*part.pivot);

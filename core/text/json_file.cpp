@@ -1,8 +1,7 @@
 #include "core/text/json_file.h"
 
-#include <algorithm>
 #include <cmath>
-#include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,37 +15,6 @@ namespace nearfit {
 namespace {
 
 using Json = nlohmann::json;
-
-/// Enforces the limits while parsing: check() is called for each parser event with the nesting depth.
-class ParseGuard {
- public:
-  ParseGuard(const std::filesystem::path& file, const JsonLimits& limits) : file_(file), limits_(limits) {}
-
-  void check(std::size_t depth, Json::parse_event_t event, const Json& parsed) {
-    if (depth > limits_.maxDepth) fail(fmt::format("it is nested deeper than {} levels", limits_.maxDepth));
-    if (event == Json::parse_event_t::key) {
-      checkKey(parsed.get_ref<const std::string&>());
-    } else if (event == Json::parse_event_t::object_start) {
-      keys_.emplace_back();
-    } else if (event == Json::parse_event_t::object_end) {
-      keys_.pop_back();
-    }
-    if (++values_ > limits_.maxValues) fail(fmt::format("it holds more than {} values", limits_.maxValues));
-  }
-
- private:
-  void checkKey(const std::string& key) {
-    if (!keys_.back().insert(key).second) {
-      fail(fmt::format("an object has the key \"{}\" twice", printableText(truncatedUtf8(key, 80))));
-    }
-  }
-  [[noreturn]] void fail(const std::string& problem) const { throw FileError(file_.string(), problem); }
-
-  const std::filesystem::path& file_;
-  const JsonLimits& limits_;
-  std::vector<std::set<std::string>> keys_;  ///< Keys of each open object.
-  std::size_t values_ = 0;
-};
 
 /// Line and column, as "12:7", of a 1-based byte offset; columns count characters.
 std::string lineAndColumn(const std::vector<char>& text, std::size_t byte) {
@@ -70,6 +38,101 @@ std::string detail(const std::string& message, const char* start) {
   return printableText(std::string_view(text).substr(0, kMaxDetail));
 }
 
+constexpr const char* kRestore = "correct the file or restore a copy";
+
+/// Builds the value from the parser's events, within the limits. The library's own builder with a callback looks
+/// through all members of the parent after each object, which takes the square of their number.
+class JsonBuilder final : public nlohmann::json_sax<Json> {
+ public:
+  JsonBuilder(const std::filesystem::path& file, const std::vector<char>& text, const JsonLimits& limits)
+      : file_(file), text_(text), limits_(limits) {}
+
+  /// The whole value, once it has been parsed.
+  Json take() { return std::move(root_); }
+
+  bool null() override { return add(Json()); }
+  bool boolean(bool value) override { return add(Json(value)); }
+  bool number_integer(number_integer_t value) override { return add(Json(value)); }
+  bool number_unsigned(number_unsigned_t value) override { return add(Json(value)); }
+  bool number_float(number_float_t value, const string_t&) override { return add(Json(value)); }
+  bool string(string_t& value) override { return add(Json(std::move(value))); }
+  bool binary(binary_t&) override { return false; }  // Text has none.
+  bool start_object(std::size_t) override { return begin(Json::object()); }
+  bool end_object() override { return end(); }
+  bool start_array(std::size_t) override { return begin(Json::array()); }
+  bool end_array() override { return end(); }
+
+  bool key(string_t& name) override {
+    count();
+    // Leaves the name alone if the object has it already.
+    const auto [member, isNew] = open_.back()->get_ref<Json::object_t&>().try_emplace(std::move(name));
+    if (!isNew) {
+      fail(
+          fmt::format("an object has the key \"{}\" twice", printableText(truncatedUtf8(member->first, 80))));
+    }
+    member_ = &member->second;
+    return true;
+  }
+
+  bool parse_error(std::size_t byte, const std::string&, const nlohmann::detail::exception& error) override {
+    if (dynamic_cast<const Json::parse_error*>(&error) == nullptr) {
+      throw FileError(file_.string(), "it is not valid JSON: " + detail(error.what(), "number overflow"),
+                      kRestore);
+    }
+    throw FileError(file_.string() + ":" + lineAndColumn(text_, byte),
+                    "this is not valid JSON: " + detail(error.what(), "syntax error"), kRestore);
+  }
+
+ private:
+  /// Puts a value where the next one belongs; returns its place, which stays until its parent gets another.
+  Json* place(Json value) {
+    count();
+    if (open_.empty()) {
+      root_ = std::move(value);
+      return &root_;
+    }
+    Json& parent = *open_.back();
+    if (parent.is_array()) {
+      parent.push_back(std::move(value));
+      return &parent.back();
+    }
+    *member_ = std::move(value);
+    return member_;
+  }
+
+  bool add(Json value) {
+    place(std::move(value));
+    return true;
+  }
+
+  bool begin(Json value) {
+    if (open_.size() >= limits_.maxDepth)
+      fail(fmt::format("it is nested deeper than {} levels", limits_.maxDepth));
+    open_.push_back(place(std::move(value)));
+    return true;
+  }
+
+  bool end() {
+    count();
+    open_.pop_back();
+    return true;
+  }
+
+  void count() {
+    if (++values_ > limits_.maxValues) fail(fmt::format("it holds more than {} values", limits_.maxValues));
+  }
+
+  [[noreturn]] void fail(const std::string& problem) const { throw FileError(file_.string(), problem); }
+
+  const std::filesystem::path& file_;
+  const std::vector<char>& text_;
+  const JsonLimits& limits_;
+  Json root_;
+  std::vector<Json*> open_;  ///< Objects and arrays that have not ended, outermost first.
+  Json* member_ = nullptr;   ///< Value of the last key.
+  std::size_t values_ = 0;
+};
+
 }  // namespace
 
 Json readJsonFile(const std::filesystem::path& file, const JsonLimits& limits) {
@@ -78,21 +141,10 @@ Json readJsonFile(const std::filesystem::path& file, const JsonLimits& limits) {
                     "check that it is the right file");
   }
   const std::vector<char> text = readWholeFile(file);
-  ParseGuard guard(file, limits);
-  try {
-    return Json::parse(text.begin(), text.end(),
-                       [&](int depth, Json::parse_event_t event, const Json& parsed) {
-                         guard.check(static_cast<std::size_t>(std::max(depth, 0)), event, parsed);
-                         return true;
-                       });
-  } catch (const Json::parse_error& e) {
-    throw FileError(file.string() + ":" + lineAndColumn(text, e.byte),
-                    "this is not valid JSON: " + detail(e.what(), "syntax error"),
-                    "correct the file or restore a copy");
-  } catch (const Json::exception& e) {
-    throw FileError(file.string(), "it is not valid JSON: " + detail(e.what(), "number overflow"),
-                    "correct the file or restore a copy");
-  }
+  JsonBuilder builder(file, text, limits);
+  // The builder throws on all errors.
+  static_cast<void>(Json::sax_parse(text.begin(), text.end(), &builder));
+  return builder.take();
 }
 
 void JsonField::fail(const std::string& problem, const std::string& remedy) const {

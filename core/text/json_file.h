@@ -16,7 +16,7 @@ struct JsonLimits {
 };
 
 /// Reads a JSON file (RFC 8259). Refuses objects with duplicate keys, since parsers differ in which one they
-/// keep. Throws FileError with line and column for invalid JSON, or naming the limit exceeded.
+/// keep. O(n log n). Throws FileError with line and column for invalid JSON, or naming the limit exceeded.
 nlohmann::json readJsonFile(const std::filesystem::path& file, const JsonLimits& limits = {});
 
 /// A value in a JSON file, with its path there (`parts[3].position`), for readers that trust nothing. Each

@@ -8,8 +8,10 @@
 #include <cstring>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -32,16 +34,75 @@ std::string textOf(const ErrorText& error) {
   throw DeviceError(DeviceProblem::Unsupported, file.string(), std::move(problem), std::move(remedy));
 }
 
-/// The plug-in's code runs as the user, so nobody else may have written it.
-void checkOwner(const fs::path& file) {
+/// A file or folder that is open.
+class Opened {
+ public:
+  explicit Opened(int descriptor) : descriptor_(descriptor) {}
+  ~Opened() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+
+  int descriptor() const noexcept { return descriptor_; }
+  int release() noexcept { return std::exchange(descriptor_, -1); }
+
+ private:
+  int descriptor_;
+};
+
+struct stat statusOf(const Opened& opened, const fs::path& file) {
   struct stat status{};
-  if (::stat(file.c_str(), &status) != 0) refuse(file, std::strerror(errno), "check the path");
-  if (!S_ISREG(status.st_mode)) refuse(file, "it is not a file", "put the plug-in file there");
-  const bool isTrusted = status.st_uid == 0 || status.st_uid == ::geteuid();
-  if (!isTrusted)
-    refuse(file, "it belongs to another user", "have it installed by root, or copy it yourself");
+  if (opened.descriptor() < 0 || ::fstat(opened.descriptor(), &status) != 0)
+    refuse(file, std::strerror(errno), "check the path");
+  return status;
+}
+
+/// The plug-in's code runs as the user, so nobody else may have written it.
+/// @param what   "it", the file, or "its folder".
+/// @param place  Path of either.
+void checkOwner(const struct stat& status, const fs::path& file, const std::string& what,
+                const fs::path& place) {
+  if (status.st_uid != 0 && status.st_uid != ::geteuid())
+    refuse(file, what + " belongs to another user", "have it installed by root, or copy it yourself");
   if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0)
-    refuse(file, "other users can write to it", "run: chmod go-w " + file.string());
+    refuse(file, "other users can write to " + what, "run: chmod go-w " + place.string());
+}
+
+/// Opens a plug-in's file and checks it and its folder through descriptors: names may stand for other files a
+/// moment later. Returns the file's descriptor.
+int openChecked(const fs::path& file) {
+  const fs::path whole = fs::absolute(file);
+  const Opened folder(::open(whole.parent_path().c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  const struct stat folderStatus = statusOf(folder, file);
+  // Without O_NONBLOCK a pipe would wait for its other end.
+  Opened opened(::openat(folder.descriptor(), whole.filename().c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  const struct stat status = statusOf(opened, file);
+  if (!S_ISREG(status.st_mode)) refuse(file, "it is not a file", "put the plug-in file there");
+  checkOwner(status, file, "it", file);
+  checkOwner(folderStatus, file, "its folder", whole.parent_path());
+  return opened.release();
+}
+
+/// Name by which the loader opens, and from then on knows, the file of a descriptor.
+std::string loaderName(int descriptor) {
+  return "/proc/self/fd/" + std::to_string(descriptor);
+}
+
+/// True if the loader still has a library of this name, such as one that must not be unloaded.
+bool isKnownToLoader(int descriptor) {
+  void* library = ::dlopen(loaderName(descriptor).c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD);
+  if (library != nullptr) ::dlclose(library);
+  return library != nullptr;
+}
+
+/// The loader's last message, with the file's own name.
+std::string loaderProblem(const fs::path& file, int descriptor) {
+  const char* const said = ::dlerror();
+  std::string text = said != nullptr ? said : "the loader gives no reason";
+  const std::string name = loaderName(descriptor);
+  if (text.starts_with(name)) text.replace(0, name.size(), file.string());
+  return text;
 }
 
 void checkFunctions(const fs::path& file, const NearfitDevicePlugin* functions) {
@@ -76,12 +137,12 @@ bool isUsable(const NearfitDeviceDescription& device) noexcept {
 }  // namespace
 
 std::shared_ptr<const DevicePlugin> DevicePlugin::load(const fs::path& file) {
-  checkOwner(file);
   std::shared_ptr<DevicePlugin> plugin(new DevicePlugin);
   plugin->file_ = file;
-  plugin->library_ = ::dlopen(fs::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
+  plugin->descriptor_ = openChecked(file);
+  plugin->library_ = ::dlopen(loaderName(plugin->descriptor_).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (plugin->library_ == nullptr)
-    refuse(file, std::string("it cannot be loaded: ") + ::dlerror(),
+    refuse(file, "it cannot be loaded: " + loaderProblem(file, plugin->descriptor_),
            "install the libraries that it needs, or remove it");
   using Entry = const NearfitDevicePlugin* (*)();
   const auto entry = reinterpret_cast<Entry>(::dlsym(plugin->library_, "nearfit_device_plugin"));
@@ -95,6 +156,8 @@ std::shared_ptr<const DevicePlugin> DevicePlugin::load(const fs::path& file) {
 
 DevicePlugin::~DevicePlugin() {
   if (library_ != nullptr) ::dlclose(library_);
+  // For the next file with this descriptor the loader would return a library that it still knows by its name.
+  if (descriptor_ >= 0 && !isKnownToLoader(descriptor_)) ::close(descriptor_);
 }
 
 std::vector<NearfitDeviceDescription> DevicePlugin::devices() const {

@@ -13,9 +13,10 @@ namespace nearfit {
 /// A loaded plug-in; stays loaded until its last device is gone.
 class DevicePlugin {
  public:
-  /// Loads a shared library, whose code then runs with the user's rights. So only files that nobody else can
-  /// write are accepted. Throws DeviceError with the reason: not a library, not a plug-in, another version,
-  /// writable by others.
+  /// Loads a shared library, whose code then runs with the user's rights. So only files that belong to the user
+  /// or root and that nobody else can write are accepted, in such folders. What was checked is loaded, even if
+  /// the name stands for another file by then. Throws DeviceError with the reason: not a library, not a plug-in,
+  /// another version, another user's, writable by others.
   static std::shared_ptr<const DevicePlugin> load(const std::filesystem::path& file);
   ~DevicePlugin();
   DevicePlugin(const DevicePlugin&) = delete;
@@ -34,6 +35,7 @@ class DevicePlugin {
   DevicePlugin() = default;
 
   std::filesystem::path file_;
+  int descriptor_ = -1;  ///< Of the file; open as long as the loader knows the library by it.
   void* library_ = nullptr;
   const NearfitDevicePlugin* functions_ = nullptr;
 };

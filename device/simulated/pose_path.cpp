@@ -14,10 +14,19 @@ namespace {
 constexpr std::size_t kColumns = 7;
 constexpr const char* kRowRemedy = "write each pose as tx,ty,tz,qw,qx,qy,qz (metres, unit quaternion)";
 
-/// True for a header: every column begins like a name, and none is a number by name (nan, inf).
+std::string_view withoutQuotes(std::string_view text) {
+  const char* const around = "\" \t";
+  const std::size_t begin = text.find_first_not_of(around);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(around) - begin + 1);
+}
+
+/// True for a header: every column begins like a name, and none is a number by name (nan, inf). Names may be in
+/// quotes; numbers in quotes are a row that cannot be read.
 bool isHeader(std::string_view row) {
   const std::vector<std::string_view> columns = csv::columnsOf(row);
-  return std::all_of(columns.begin(), columns.end(), [](std::string_view name) {
+  return std::all_of(columns.begin(), columns.end(), [](std::string_view column) {
+    const std::string_view name = withoutQuotes(column);
     return !name.empty() && name.find_first_of("0123456789+-.") != 0 && !csv::parseNumber(name);
   });
 }

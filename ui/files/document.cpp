@@ -311,6 +311,8 @@ void Document::open(const DroppedFiles& files, double metresPerUnit) {
     emit loaded(false);
   } else if (files.scenes.size() == 1) {
     if (!isBusy() && mayLeaveScene()) loadScene(files.scenes.first(), files.meshes, metresPerUnit);
+  } else if (files.meshes.isEmpty()) {
+    emit loaded(false);
   } else {
     addParts(files.meshes, metresPerUnit);
   }

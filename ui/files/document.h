@@ -84,7 +84,8 @@ class Document : public SceneWork {
   void sceneOpened();
   /// Emitted after opening a scene some of whose mesh files have changed since it was saved.
   void meshesHaveChanged(const QStringList& files);
-  /// Emitted when opening or adding ends; `isComplete` is false if anything failed or was cancelled.
+  /// Emitted when opening or adding ends; `isComplete` is false if anything failed or was cancelled, or there
+  /// was nothing to open.
   void loaded(bool isComplete);
 
  private:

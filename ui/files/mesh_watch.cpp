@@ -58,12 +58,14 @@ void MeshWatch::watchScene() {
 }
 
 void MeshWatch::look(const QString& folder) {
+  const QStringList files = watcher_.files();
+  const QSet<QString> watched(files.begin(), files.end());
   for (auto it = known_.cbegin(); it != known_.cend(); ++it) {
     const QString& file = it.key();
     if (QFileInfo(file).absolutePath() != folder) continue;
     const Stamp now = stampOf(file);
     // Replacing a file ends its watch.
-    if (now != Stamp{} && !watcher_.files().contains(file)) watcher_.addPath(file);
+    if (now != Stamp{} && !watched.contains(file)) watcher_.addPath(file);
     if (now == it.value() || now == Stamp{}) continue;
     pending_[file] = now;
     timer_.start();
@@ -108,10 +110,13 @@ void MeshWatch::compare(const QStringList& files) {
   };
   task_.run(job, [this, hashes](const std::exception_ptr&) {
     QStringList different;
+    QSet<QString> listed;
     for (const PartGeometryPtr& geometry : session_.scene().geometries()) {
       const QString file = fromPath(geometry->file);
-      if (hashes->contains(file) && hashes->value(file) != geometry->sha256 && !different.contains(file))
-        different << file;
+      if (!hashes->contains(file) || hashes->value(file) == geometry->sha256 || listed.contains(file))
+        continue;
+      listed << file;
+      different << file;
     }
     if (!different.isEmpty()) emit changed(different);
   });

@@ -4,11 +4,13 @@
 #include <QFileInfo>
 #include <QLocale>
 #include <QMenu>
+#include <QSet>
 #include <QSettings>
 #include <algorithm>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
-#include <span>
 #include <utility>
 
 #include "core/base/error.h"
@@ -106,9 +108,12 @@ void PartFiles::tellOfOthers(const QStringList& files) {
 
 void PartFiles::offerReload() {
   // Files that have left the scene meanwhile are not worth asking about.
+  QSet<QString> ofScene;
+  for (const PartGeometryPtr& geometry : session_.scene().geometries())
+    ofScene << fromPath(geometry->file);
   QStringList there;
   for (const QString& file : changed_) {
-    if (!partsOf({file}).empty()) there << file;
+    if (ofScene.contains(file)) there << file;
   }
   changed_ = there;
   if (changed_.isEmpty()) return notices_.withdraw(kReloadNotice);
@@ -124,10 +129,11 @@ void PartFiles::offerReload() {
 }
 
 std::vector<PartFiles::Wanted> PartFiles::partsOf(const QStringList& files) const {
+  const QSet<QString> chosen(files.begin(), files.end());
   std::vector<Wanted> wanted;
   for (const Scene::PartPtr& part : session_.scene().parts()) {
     if (part->geometry == nullptr) continue;
-    if (files.isEmpty() || files.contains(fromPath(part->geometry->file)))
+    if (files.isEmpty() || chosen.contains(fromPath(part->geometry->file)))
       wanted.push_back({part->id, part->geometry->metresPerUnit});
   }
   return wanted;
@@ -139,9 +145,9 @@ void PartFiles::reload(QStringList files) {
     waiting_ << files;
     return;
   }
-  for (const QString& file : files)
-    changed_.removeAll(file);
-  if (files.isEmpty()) changed_.clear();
+  const QSet<QString> chosen(files.begin(), files.end());
+  const auto isReloaded = [&](const QString& file) { return files.isEmpty() || chosen.contains(file); };
+  changed_.erase(std::remove_if(changed_.begin(), changed_.end(), isReloaded), changed_.end());
   offerReload();
   load(tr("Reloading %1").arg(files.isEmpty() ? tr("all parts") : namesOf(files)), partsOf(files),
        &Session::reloadParts, tr("Some parts could not be reloaded; they stay as they were."));
@@ -151,13 +157,13 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, Com
                      const QString& failure) {
   std::vector<MeshSource> sources;
   std::vector<std::size_t> sourceOf;
+  std::map<std::pair<std::filesystem::path, double>, std::size_t> known;
   for (const Wanted& want : wanted) {
     const PartGeometry& geometry = *session_.scene().find(want.part)->geometry;
-    const auto known = std::ranges::find_if(sources, [&](const MeshSource& source) {
-      return source.file == geometry.file && source.metresPerUnit == want.metresPerUnit;
-    });
-    sourceOf.push_back(static_cast<std::size_t>(known - sources.begin()));
-    if (known == sources.end()) sources.push_back({geometry.file, want.metresPerUnit, {}});
+    const auto [source, isNew] =
+        known.try_emplace(std::pair(geometry.file, want.metresPerUnit), sources.size());
+    sourceOf.push_back(source->second);
+    if (isNew) sources.push_back({geometry.file, want.metresPerUnit, {}});
   }
   if (sources.empty()) return;
   auto loaded = std::make_shared<std::vector<LoadedPart>>();
@@ -204,10 +210,8 @@ void PartFiles::judgeSizes(const std::vector<PartId>& added) {
     offerRescale(added, odd->ratio, odd->factor);
     return;
   }
-  for (const PartId part : added) {
-    if (const std::optional<OddSize> odd = oddSizeOf(session_.scene(), std::span(&part, 1)))
-      return offerRescale({part}, odd->ratio, odd->factor);
-  }
+  if (const std::optional<OddPart> odd = firstOddPart(session_.scene(), added))
+    offerRescale({odd->part}, odd->size.ratio, odd->size.factor);
 }
 
 void PartFiles::offerRescale(const std::vector<PartId>& parts, double ratio, double factor) {

@@ -46,6 +46,16 @@ std::vector<PartsModel::Node> PartsModel::treeOf(const Scene& scene) {
   return nodes;
 }
 
+void PartsModel::setNodes(std::vector<Node> nodes) {
+  nodes_ = std::move(nodes);
+  nodeOfPart_.clear();
+  nodeOfGroup_.clear();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].part) nodeOfPart_[*nodes_[i].part] = static_cast<int>(i);
+    if (nodes_[i].group) nodeOfGroup_[*nodes_[i].group] = static_cast<int>(i);
+  }
+}
+
 bool PartsModel::isGeometrySame(const Scene& scene) const {
   return std::ranges::equal(scene_.parts(), scene.parts(),
                             [](const auto& a, const auto& b) { return a->geometry == b->geometry; });
@@ -56,7 +66,7 @@ void PartsModel::setScene(const Scene& scene) {
   if (nodes != nodes_ || !isGeometrySame(scene)) {
     beginResetModel();
     scene_ = scene;
-    nodes_ = std::move(nodes);
+    setNodes(std::move(nodes));
     endResetModel();
     return;
   }
@@ -88,13 +98,13 @@ std::optional<GroupId> PartsModel::groupAt(const QModelIndex& index) const {
 }
 
 QModelIndex PartsModel::indexOf(PartId part) const {
-  const auto found = std::ranges::find(nodes_, std::optional(part), &Node::part);
-  return found == nodes_.end() ? QModelIndex() : indexOfNode(static_cast<int>(found - nodes_.begin()), Name);
+  const auto found = nodeOfPart_.find(part);
+  return found == nodeOfPart_.end() ? QModelIndex() : indexOfNode(found->second, Name);
 }
 
 QModelIndex PartsModel::indexOf(GroupId group) const {
-  const auto found = std::ranges::find(nodes_, std::optional(group), &Node::group);
-  return found == nodes_.end() ? QModelIndex() : indexOfNode(static_cast<int>(found - nodes_.begin()), Name);
+  const auto found = nodeOfGroup_.find(group);
+  return found == nodeOfGroup_.end() ? QModelIndex() : indexOfNode(found->second, Name);
 }
 
 QModelIndex PartsModel::index(int row, int column, const QModelIndex& parent) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QAbstractItemModel>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -63,6 +64,7 @@ class PartsModel : public QAbstractItemModel {
     bool operator==(const Node&) const = default;
   };
   static std::vector<Node> treeOf(const Scene& scene);
+  void setNodes(std::vector<Node> nodes);
   const Node* nodeAt(const QModelIndex& index) const;
   QModelIndex indexOfNode(int node, int column) const;
   QVariant partData(const Part& part, int column, int role) const;
@@ -70,6 +72,8 @@ class PartsModel : public QAbstractItemModel {
 
   Scene scene_;
   std::vector<Node> nodes_;  ///< The first is the scene, the invisible root.
+  std::map<PartId, int> nodeOfPart_;
+  std::map<GroupId, int> nodeOfGroup_;
   bool isGeometrySame(const Scene& scene) const;
 };
 

@@ -73,26 +73,31 @@ MeshComponents piecesOf(const TriangleMesh& mesh) {
   MeshComponents pieces;
   pieces.pieceOf.assign(mesh.triangles().size(), kNone);
   std::vector<std::uint32_t> waiting;
+  const auto add = [&](std::uint32_t triangle) {
+    if (pieces.pieceOf[triangle] != kNone) return;
+    pieces.pieceOf[triangle] = static_cast<std::uint32_t>(pieces.firstTriangle.size() - 1);
+    waiting.push_back(triangle);
+  };
   for (std::uint32_t first = 0; first < mesh.triangles().size(); ++first) {
     if (pieces.pieceOf[first] != kNone) continue;
-    const auto piece = static_cast<std::uint32_t>(pieces.firstTriangle.size());
     pieces.firstTriangle.push_back(first);
-    bool isClosed = true;
-    pieces.pieceOf[first] = piece;
-    waiting.push_back(first);
+    add(first);
     while (!waiting.empty()) {
       const std::uint32_t f = waiting.back();
       waiting.pop_back();
       for (const std::uint32_t e : mesh.edgesOfTriangle(f)) {
-        isClosed = isClosed && isBalanced(mesh, e);
-        for (const std::uint32_t next : mesh.facesOfEdge(e)) {
-          if (pieces.pieceOf[next] != kNone) continue;
-          pieces.pieceOf[next] = piece;
-          waiting.push_back(next);
-        }
+        // An edge may have very many faces: only the first visits the others.
+        const auto faces = mesh.facesOfEdge(e);
+        add(faces[0]);
+        if (faces[0] != f) continue;
+        for (const std::uint32_t next : faces)
+          add(next);
       }
     }
-    pieces.isClosed.push_back(isClosed);
+  }
+  pieces.isClosed.assign(pieces.firstTriangle.size(), true);
+  for (std::uint32_t e = 0; e < mesh.edges().size(); ++e) {
+    if (!isBalanced(mesh, e)) pieces.isClosed[pieces.pieceOf[mesh.facesOfEdge(e)[0]]] = false;
   }
   return pieces;
 }

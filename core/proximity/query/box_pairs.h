@@ -29,10 +29,11 @@ class BoxPairs {
   void forEachPair(Visit&& visit) const noexcept {
     if (nodeCount_ > 0) pairsWithin(0, visit);
   }
-  /// Calls visit(i) for each box that overlaps or touches `box`.
+  /// Calls visit(i) for each box that overlaps or touches `box`. Returns the number of nodes looked at; each
+  /// takes a bounded time besides its visits.
   template <class Visit>
-  void forEachAt(const Aabb& box, Visit&& visit) const noexcept {
-    if (nodeCount_ > 0) entriesAt(0, box, visit);
+  std::uint64_t forEachAt(const Aabb& box, Visit&& visit) const noexcept {
+    return nodeCount_ > 0 ? entriesAt(0, box, visit) : 0;
   }
 
  private:
@@ -54,12 +55,11 @@ class BoxPairs {
     return (x & y & z) != 0;
   }
   std::uint32_t makeNode(std::uint32_t begin, std::uint32_t end) noexcept;
-  std::uint32_t split(std::uint32_t begin, std::uint32_t end) noexcept;
   std::span<const Entry> entriesOf(const Node& node) const noexcept {
     return {entries_.data() + node.begin, node.end - node.begin};
   }
 
-  // Recursive, no deeper than the tree (twice that for two nodes); see kMinShare.
+  // Recursive, no deeper than the tree (twice that for two nodes); see splitBoxes().
 
   template <class Visit>
   void pairsWithin(std::uint32_t at, Visit& visit) const noexcept {
@@ -99,17 +99,17 @@ class BoxPairs {
   }
 
   template <class Visit>
-  void entriesAt(std::uint32_t at, const Aabb& box, Visit& visit) const noexcept {
+  std::uint64_t entriesAt(std::uint32_t at, const Aabb& box, Visit& visit) const noexcept {
     const Node& node = nodes_[at];
-    if (!overlap(node.box, box)) return;
+    if (!overlap(node.box, box)) return 1;
     if (node.right != 0) {
-      entriesAt(at + 1, box, visit);
-      entriesAt(node.right, box, visit);
-      return;
+      const std::uint64_t left = entriesAt(at + 1, box, visit);
+      return 1 + left + entriesAt(node.right, box, visit);
     }
     for (const Entry& entry : entriesOf(node)) {
       if (overlap(entry.box, box)) visit(entry.index);
     }
+    return 1;
   }
 
   std::vector<Entry> entries_;

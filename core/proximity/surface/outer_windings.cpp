@@ -23,12 +23,14 @@ constexpr int kMaxWindingRays = 16;
 /// Distance of a point from its triangle, as a fraction of the triangle's size: the first is usually near
 /// enough for nothing to lie between, the last is as near as rounding allows.
 constexpr double kOffsets[]{1e-3, 1e-5, 1e-7, 1e-9};
+/// Max number of nodes of the boxes' hierarchy that all rays together look at: some seconds.
+constexpr std::uint64_t kMaxNodes = 20'000'000;
 /// How far rays stray from an axis, as a fraction of their length: clear of edges along it, in a thin box.
 constexpr double kStray = 1e-3;
 
 class OuterWindings {
  public:
-  OuterWindings(const TriangleMesh& mesh, const MeshComponents& pieces, const BoxPairs& boxes,
+  OuterWindings(const TriangleMesh& mesh, const MeshComponents& pieces, const PieceBoxes& boxes,
                 std::span<const CrossingPair> crossings)
       : mesh_(mesh), pieces_(pieces), boxes_(boxes) {
     for (const auto& [a, b] : crossings) {
@@ -93,7 +95,7 @@ class OuterWindings {
   }
 
   /// Winding number of the component just outside a patch.
-  std::optional<int> outside(const std::vector<std::uint32_t>& patch) const {
+  std::optional<int> outside(const std::vector<std::uint32_t>& patch) {
     for (const std::uint32_t triangle : patch) {
       const std::optional<glm::dvec3> point = pointOutside(triangle);
       if (!point) continue;
@@ -103,12 +105,13 @@ class OuterWindings {
   }
 
   /// Returns a point on the triangle's outer side with nothing of the component between the two.
-  std::optional<glm::dvec3> pointOutside(std::uint32_t triangle) const {
+  std::optional<glm::dvec3> pointOutside(std::uint32_t triangle) {
     const TriangleCorners t = cornersOf(mesh_, triangle);
     const glm::dvec3 middle = (t[0] + t[1] + t[2]) / 3.0, across = glm::cross(t[1] - t[0], t[2] - t[0]);
     const double area = glm::length(across);
     if (!(area > 0.0)) return std::nullopt;
     for (const double offset : kOffsets) {
+      if (nodes_ >= kMaxNodes) break;
       const glm::dvec3 step = offset / std::sqrt(area) * across;
       const glm::dvec3 from = middle + step, to = middle - step;
       if (crossingOf(from, to, t) != Crossing::In) continue;
@@ -121,12 +124,13 @@ class OuterWindings {
     return std::nullopt;
   }
 
-  std::optional<int> windingAt(const glm::dvec3& point, std::uint32_t piece) const {
+  /// No value also if all rays have taken too much work.
+  std::optional<int> windingAt(const glm::dvec3& point, std::uint32_t piece) {
     const Aabb& box = mesh_.bounds();
     const double stray = kStray * box.diagonal();
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> some(-stray, stray);
-    for (int i = 0; i < kMaxWindingRays; ++i) {
+    for (int i = 0; i < kMaxWindingRays && nodes_ < kMaxNodes; ++i) {
       const int axis = i % 3;
       glm::dvec3 end = point + glm::dvec3(some(random), some(random), some(random));
       const bool isUp = end[axis] > box.centre()[axis];
@@ -145,13 +149,11 @@ class OuterWindings {
 
   /// Calls visit(triangle) for each triangle of a component that a segment may meet.
   template <class Visit>
-  void visitAt(const glm::dvec3& from, const glm::dvec3& to, std::uint32_t piece, Visit&& visit) const {
+  void visitAt(const glm::dvec3& from, const glm::dvec3& to, std::uint32_t piece, Visit&& visit) {
     Aabb box;
     box.add(from);
     box.add(to);
-    boxes_.forEachAt(box, [&](std::uint32_t triangle) {
-      if (pieces_.pieceOf[triangle] == piece) visit(triangle);
-    });
+    nodes_ += boxes_.forEachAt(piece, box, visit);
   }
 
   /// True if the winding number is nowhere negative just outside a triangle that others cross.
@@ -248,7 +250,8 @@ class OuterWindings {
 
   const TriangleMesh& mesh_;
   const MeshComponents& pieces_;
-  const BoxPairs& boxes_;
+  const PieceBoxes& boxes_;
+  std::uint64_t nodes_ = 0;             ///< Looked at by all rays so far.
   std::vector<CrossingPair> partners_;  ///< Each crossing in both orders, sorted.
   std::vector<std::uint32_t> patchOf_;
   std::vector<std::vector<std::uint32_t>> patches_;  ///< Some triangles of each patch.
@@ -257,7 +260,7 @@ class OuterWindings {
 
 }  // namespace
 
-bool areOuterWindingsPositive(const TriangleMesh& mesh, const MeshComponents& pieces, const BoxPairs& boxes,
+bool areOuterWindingsPositive(const TriangleMesh& mesh, const MeshComponents& pieces, const PieceBoxes& boxes,
                               std::span<const CrossingPair> crossings) {
   return OuterWindings(mesh, pieces, boxes, crossings).arePositive();
 }

@@ -15,12 +15,11 @@ namespace nearfit {
 /// triangle passes through. Starting from an adjacent patch, it is exact if a single line of crossings cuts
 /// the triangle in two; else the number of triangles that can be passed from behind bounds it. True is
 /// certain. False may also mean that the bound does not decide, as for a triangle without an adjacent patch,
-/// or that there are more than a thousand patches.
+/// that there are more than a thousand patches, or that their rays would take more than some seconds.
 ///
 /// @param mesh       Closed and oriented.
-/// @param boxes      From boxesOfTriangles().
 /// @param crossings  All that findSelfCrossings() finds, in its order.
-bool areOuterWindingsPositive(const TriangleMesh& mesh, const MeshComponents& pieces, const BoxPairs& boxes,
+bool areOuterWindingsPositive(const TriangleMesh& mesh, const MeshComponents& pieces, const PieceBoxes& boxes,
                               std::span<const CrossingPair> crossings);
 
 }  // namespace nearfit

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -19,6 +20,9 @@ namespace {
 constexpr std::uint64_t kMaxWork = 100'000'000, kMaxWorkPerTriangle = 100;
 /// Cost of a pair that needs exact numbers, relative to one that is clearly apart.
 constexpr std::uint64_t kExactWork = 32;
+/// Nodes of the boxes' hierarchy that cost as much as a pair that is clearly apart. They count too: long boxes
+/// that cross without meeting have few pairs, but overlap most nodes.
+constexpr std::uint64_t kNodesPerPair = 8;
 /// Little can be said of a mesh that meets itself more often.
 constexpr std::size_t kMaxCrossings = 100'000;
 
@@ -104,7 +108,7 @@ bool areClearlyApart(const TriangleCorners& a, const TriangleCorners& b, std::si
 
 class CrossingSearch {
  public:
-  CrossingSearch(const TriangleMesh& mesh, const MeshComponents& pieces, const BoxPairs& boxes)
+  CrossingSearch(const TriangleMesh& mesh, const MeshComponents& pieces, const PieceBoxes& boxes)
       : mesh_(mesh),
         pieces_(pieces),
         boxes_(boxes),
@@ -123,17 +127,14 @@ class CrossingSearch {
  private:
   void findOf(std::size_t begin, std::size_t end) {
     std::vector<CrossingPair> found;
-    for (std::size_t i = begin; i < end && !isGivenUp_; ++i) {
+    for (const std::uint32_t first : boxes_.triangles().subspan(begin, end - begin)) {
+      if (isGivenUp_) break;
       std::uint64_t work = 0;
-      const auto first = static_cast<std::uint32_t>(i);
-      Aabb box;
-      for (const glm::dvec3& p : cornersOf(mesh_, first))
-        box.add(p);
-      boxes_.forEachAt(box, [&](std::uint32_t second) {
-        if (second <= first || pieces_.pieceOf[first] != pieces_.pieceOf[second]) return;
-        work += workOf(first, second, found);
+      const Aabb box = boxOf(cornersOf(mesh_, first));
+      const std::uint64_t nodes = boxes_.forEachAt(pieces_.pieceOf[first], box, [&](std::uint32_t second) {
+        if (second > first) work += workOf(first, second, found);
       });
-      work_ += work;
+      work_ += work + nodes / kNodesPerPair;
       if (work_ > mostWork_ || found.size() > kMaxCrossings) isGivenUp_ = true;
     }
     if (found.empty()) return;
@@ -154,7 +155,7 @@ class CrossingSearch {
 
   const TriangleMesh& mesh_;
   const MeshComponents& pieces_;
-  const BoxPairs& boxes_;
+  const PieceBoxes& boxes_;
   const std::uint64_t mostWork_;
   std::atomic<std::uint64_t> work_{0};
   std::atomic<bool> isGivenUp_{false};
@@ -168,21 +169,26 @@ TriangleCorners cornersOf(const TriangleMesh& mesh, std::uint32_t triangle) {
   return at(mesh, mesh.triangles()[triangle]);
 }
 
-BoxPairs boxesOfTriangles(const TriangleMesh& mesh) {
-  BoxPairs boxes(mesh.triangles().size());
-  for (const Triangle& t : mesh.triangles()) {
-    Aabb box;
-    for (const glm::dvec3& p : at(mesh, t))
-      box.add(p);
-    boxes.add(box);
+PieceBoxes::PieceBoxes(const TriangleMesh& mesh, const MeshComponents& pieces)
+    : triangles_(pieces.pieceOf.size()), first_(pieces.firstTriangle.size() + 1) {
+  for (const std::uint32_t piece : pieces.pieceOf)
+    ++first_[piece + 1];
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i)
+    triangles_[next[pieces.pieceOf[i]]++] = i;
+  boxes_.reserve(next.size());
+  for (std::size_t piece = 0; piece < next.size(); ++piece) {
+    BoxPairs& boxes = boxes_.emplace_back(first_[piece + 1] - first_[piece]);
+    for (std::size_t i = first_[piece]; i < first_[piece + 1]; ++i)
+      boxes.add(boxOf(cornersOf(mesh, triangles_[i])));
+    boxes.build();
   }
-  boxes.build();
-  return boxes;
 }
 
 std::optional<std::vector<CrossingPair>> findSelfCrossings(const TriangleMesh& mesh,
                                                            const MeshComponents& pieces,
-                                                           const BoxPairs& boxes) {
+                                                           const PieceBoxes& boxes) {
   return CrossingSearch(mesh, pieces, boxes).find();
 }
 

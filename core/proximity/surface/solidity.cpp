@@ -45,7 +45,7 @@ bool isSolidThroughout(const TriangleMesh& mesh) {
   if (!mesh.topology().isClosed() || !mesh.topology().isOriented()) return false;
   const MeshComponents pieces = piecesOf(mesh);
   if (!haveAllPositiveVolume(mesh, pieces)) return false;
-  const BoxPairs boxes = boxesOfTriangles(mesh);
+  const PieceBoxes boxes(mesh, pieces);
   const auto crossings = findSelfCrossings(mesh, pieces, boxes);
   if (!crossings) return false;
   return crossings->empty() || areOuterWindingsPositive(mesh, pieces, boxes, *crossings);

@@ -186,6 +186,30 @@ TEST_F(LmdCommand, NothingWithinTheCutoffIsAnEmptySetWithoutForce) {
   expectPoint(json["torque"], {0, 0, 0});
 }
 
+TEST_F(LmdCommand, BodiesThatOverlapAreToldOfAlsoWhereTheSetIsEmpty) {
+  const auto csv = folder_.write("poses.csv",
+                                 "0,0,1.25,1,0,0,0\n"  // Apart.
+                                 "0,0,0.75,1,0,0,0\n"  // Half in.
+                                 "0,0,1,1,0,0,0\n"     // Touching.
+                                 "0,0,5,1,0,0,0\n");
+  const ProcessResult result = run({"--cutoff", "0.1", "--poses", csv.string()});
+  EXPECT_EQ(result.exitCode, 0);
+  std::vector<std::string> overlaps;
+  for (const std::string& line : linesOf(result.out))
+    overlaps.push_back(Json::parse(line)["overlap"].get<std::string>());
+  EXPECT_EQ(overlaps, (std::vector<std::string>{"no", "surfaces meet", "surfaces meet", "no"}));
+  EXPECT_EQ(result.err,
+            "nearfit-cli: note: the bodies overlap at 2 of 4 poses, the first of them pose 1; minima do not "
+            "tell how far\n");
+
+  cube_ = folder_.write("small.obj", objText(boxMesh({0.1, 0.1, 0.1}))).string();
+  const ProcessResult inside = run({"--cutoff", "0.1", "--pose", "0,0,0,1,0,0,0"});
+  EXPECT_EQ(inside.exitCode, 0);
+  EXPECT_TRUE(Json::parse(inside.out)["lmds"].empty());
+  EXPECT_EQ(Json::parse(inside.out)["overlap"], "inside the other");
+  EXPECT_EQ(inside.err, "nearfit-cli: note: the bodies overlap; minima do not tell how far\n");
+}
+
 TEST_F(LmdCommand, SeveralMinimaComeNearestFirst) {
   // Two cubes in one part, 0.25 and 0.375 above the block.
   cube_ = folder_
@@ -213,7 +237,7 @@ TEST_F(LmdCommand, LineHasExactlyThePromisedForm) {
       "\\{\"pose\":0,\"lmds\":\\[\\{\"distance\":" + n + ",\"scene\":" + v + ",\"part\":" + v +
       ",\"features\":\\[\"(vertex|edge|face)\",\"(vertex|edge|face)\"\\]," +
       "\"region\":true,\"extent\":" + extent + ",\"blocked\":false,\"marginal\":false\\}\\]," +
-      "\"force\":" + v + ",\"torque\":" + v + ",\"query_us\":" + n + "\\}\n";
+      "\"force\":" + v + ",\"torque\":" + v + ",\"overlap\":\"no\",\"query_us\":" + n + "\\}\n";
   EXPECT_THAT(result.out, MatchesRegex(line));
 }
 

@@ -46,6 +46,7 @@ class DesktopCommandLineTest : public QObject {
   void saysThatThereIsNoDisplay();
   void writesAPictureOfTheFilesAndEnds();
   void brokenFileEndsWithAMessage();
+  void folderWithoutFilesEndsWithAMessage();
   void picturePathThatCannotBeWrittenEndsWithAMessage();
 };
 
@@ -99,6 +100,16 @@ void DesktopCommandLineTest::brokenFileEndsWithAMessage() {
   const QString line = outcome.err.mid(outcome.err.indexOf(QStringLiteral("nearfit: ")));
   QVERIFY2(line.contains(QStringLiteral("broken.stl")), qPrintable(outcome.err));
   QCOMPARE(line.count(QLatin1Char('\n')), 1);
+  QVERIFY(!QFile::exists(picture));
+}
+
+void DesktopCommandLineTest::folderWithoutFilesEndsWithAMessage() {
+  const TemporaryFolder folder, empty;
+  const QString picture = QString::fromStdString((folder.path() / "window.png").string());
+  const QString nothing = QString::fromStdString(empty.path().string());
+  const ProgramOutcome outcome = run({nothing, QStringLiteral("--screenshot"), picture});
+  QCOMPARE(outcome.code, 1);
+  QVERIFY2(outcome.err.contains(QStringLiteral("Nothing to open in ") + nothing), qPrintable(outcome.err));
   QVERIFY(!QFile::exists(picture));
 }
 

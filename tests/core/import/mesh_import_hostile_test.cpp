@@ -59,6 +59,26 @@ TEST(MeshImportHostile, EveryPrefixIsLoadedOrRefused) {
   }
 }
 
+// Each element was compared with all before it: two million of them took an hour.
+TEST(MeshImportHostile, PlyHeadersOfTooManyElementsOrPropertiesAreRefused) {
+  const test::TemporaryFolder folder;
+  const auto problemOf = [&](std::size_t count, const std::string& line) {
+    std::string text = "ply\nformat ascii 1.0\nelement vertex 0\n";
+    for (std::size_t i = 0; i < count; ++i)
+      text += line + std::to_string(i) + (line.starts_with("element") ? " 0\n" : "\n");
+    try {
+      importMesh(folder.write("x.ply", text + "end_header\n"), {});
+    } catch (const FileError& error) {
+      return error.problem();
+    }
+    return std::string();
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(problemOf(2'000'000, "element e"), HasSubstr("more than 1000 elements"));
+  EXPECT_THAT(problemOf(1'000'000, "property float p"), HasSubstr("more than 10000 properties"));
+  EXPECT_THAT(problemOf(900, "element e"), testing::Not(HasSubstr("more than")));
+}
+
 TEST(MeshImportHostile, FormatsWithCountsAreRefusedWhereverTheyAreCutOff) {
   const test::TemporaryFolder folder;
   for (const Sample& sample : samples()) {

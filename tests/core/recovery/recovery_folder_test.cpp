@@ -1,6 +1,8 @@
 #include "core/recovery/recovery_folder.h"
 
 #include <fstream>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -221,6 +223,26 @@ TEST_F(RecoveryFolderTest, DamagedJournalsAreToldAndKeptAside) {
   damage([](std::string& text) { text = "[1, 2]"; });
   damage([](std::string& text) { text[text.find("7850.1")] = '6'; });
   damage([](std::string& text) { text.replace(text.find("\"sha256\""), 8, "\"sha255\""); });
+}
+
+// Each that was put aside once took the place of the one before.
+TEST_F(RecoveryFolderTest, EachOfSeveralJournalsPutAsideIsKept) {
+  for (int i = 0; i < 5; ++i)
+    writeAsDead({file_, 1, 0});
+  for (const fs::path& journal : files())
+    std::ofstream(journal) << "what is left of " << journal.filename().string();
+  const FoundWork found = RecoveryFolder(state_).takeLost();
+  EXPECT_EQ(found.damaged.size(), 5U);
+  std::set<std::string> kept;
+  for (const fs::path& journal : found.damaged)
+    kept.insert(test::readBytes(journal));
+  EXPECT_EQ(kept.size(), 5U);
+  RecoveryFolder folder(state_);
+  for (int i = 0; i < 3; ++i) {
+    writeAsDead({file_, 1, 0});
+    folder.discard(folder.takeLost().lost.at(0));
+  }
+  EXPECT_EQ(files().size(), 8U);
 }
 
 TEST_F(RecoveryFolderTest, FolderAndJournalAreTheUsersAlone) {

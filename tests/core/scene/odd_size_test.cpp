@@ -61,6 +61,27 @@ TEST(OddSize, PartsThatCameTogetherAreJudgedTogether) {
   EXPECT_FALSE(odd(scene, {one})) << "beside the other it is not";
 }
 
+TEST(OddSize, TheFirstOddPartIsTheOneThatIsOddByItself) {
+  Scene scene;
+  const PartId plain = addCube(scene, 0.05), other = addCube(scene, 0.06);
+  EXPECT_FALSE(firstOddPart(scene, std::vector{plain, other, PartId{99}}));
+  const PartId tiny = addCube(scene, 0.1e-3), huge = addCube(scene, 90.0, 1.0);
+  for (const std::vector<PartId>& parts :
+       {std::vector{plain, tiny}, std::vector{plain, huge, tiny}, std::vector{tiny}, std::vector{other}}) {
+    std::optional<OddPart> expected;
+    for (const PartId part : parts) {
+      const auto found = odd(scene, {part});
+      if (found && !expected) expected = OddPart{part, *found};
+    }
+    const std::optional<OddPart> first = firstOddPart(scene, parts);
+    ASSERT_EQ(first.has_value(), expected.has_value());
+    if (!first) continue;
+    EXPECT_EQ(first->part, expected->part);
+    EXPECT_EQ(first->size.ratio, expected->size.ratio);
+    EXPECT_EQ(first->size.factor, expected->size.factor);
+  }
+}
+
 TEST(OddSize, PartAloneIsNotOdd) {
   Scene scene;
   EXPECT_FALSE(odd(scene, {addCube(scene, 1e5)}));

@@ -78,6 +78,27 @@ TEST_F(SceneFile, TenThousandPartsOfOneMeshHaveOneGeometry) {
   EXPECT_TRUE(areHierarchiesReady(geometries));
 }
 
+TEST_F(SceneFile, MeshesThatHaveChangedAreListedOnceEach) {
+  constexpr int kMeshes = 100, kParts = 10'000;
+  const std::filesystem::path meshes = folder_.path() / "meshes";
+  for (int i = 0; i < kMeshes; ++i)
+    std::filesystem::create_hard_link(meshes / "peg.obj", meshes / (std::to_string(i) + ".obj"));
+  Json json = json_;
+  Json part = json["parts"][1];
+  json["parts"] = Json::array();
+  json["moving"] = nullptr;
+  part["sha256"] = std::string(64, '0');
+  for (int i = 0; i < kParts; ++i) {
+    part["name"] = "Peg " + std::to_string(i);
+    part["mesh"] = "meshes/" + std::to_string(i % kMeshes) + ".obj";
+    json["parts"].push_back(part);
+  }
+  folder_.write("fit.nearfit", json.dump());
+  std::vector<std::filesystem::path> changed;
+  EXPECT_EQ(readSceneFile(file_, {}, &changed).parts().size(), std::size_t{kParts});
+  EXPECT_EQ(changed.size(), std::size_t{kMeshes});
+}
+
 TEST_F(SceneFile, SceneComesBackAsItWas) {
   expectSameScene(readSceneFile(file_), scene_);
 }

@@ -201,6 +201,28 @@ TEST(Scene, NewPartsGoThroughThePaletteAndReuseWhatIsFreed) {
   EXPECT_EQ(scene.nextColour(), kPartPalette[3]);
 }
 
+TEST(Scene, PartsAddedTogetherAreThoseAddedOneByOne) {
+  Scene one, all;
+  for (Scene* scene : {&one, &all})
+    scene->add(named("Peg 3"));
+  const std::vector<Part> parts{named("Peg"), named("Hole"),   named("Peg"),
+                                named("Peg"), named("Hole 2"), named("Hole")};
+  std::vector<PartId> ids;
+  for (const Part& part : parts)
+    ids.push_back(one.add(part));
+  EXPECT_EQ(all.addAll(parts), ids);
+  for (const PartId id : ids)
+    EXPECT_EQ(all.find(id)->name, one.find(id)->name);
+  EXPECT_EQ(all.nextColours(3), (std::vector<Colour>{kPartPalette[0], kPartPalette[1], kPartPalette[2]}));
+}
+
+TEST(Scene, IfOneOfSeveralPartsCannotBeAddedNoneIs) {
+  Scene scene;
+  EXPECT_THROW(scene.addAll({named("Peg"), named("")}), UsageError);
+  EXPECT_TRUE(scene.parts().empty());
+  EXPECT_TRUE(scene.addAll({}).empty());
+}
+
 TEST(Scene, CopyIsIndependentButSharesItsParts) {
   Scene scene;
   const PartId peg = scene.add(named("Peg"));

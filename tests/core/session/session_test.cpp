@@ -488,5 +488,19 @@ TEST(Session, PivotsAreAStepAndStayWhereTheyAreOnThePart) {
   EXPECT_LT(glm::distance(*pivotOf(peg), {10, 20, 30}), 1e-12) << "refused whole";
 }
 
+// Naming and colouring each once looked at all parts there were.
+TEST(Session, TensOfThousandsOfPartsAreAddedAndDuplicated) {
+  constexpr std::size_t kCount = 30'000;
+  Session session;
+  const std::vector<PartId> added = session.addParts(std::vector<Session::NewPart>(kCount, {nullptr, "Peg"}));
+  ASSERT_EQ(added.size(), kCount);
+  EXPECT_EQ(session.scene().get(added.back()).name, "Peg 30000");
+  EXPECT_EQ(session.scene().get(added.back()).colour, kPartPalette[(kCount - 1) % kPartPalette.size()]);
+  const SceneNodes copies = session.duplicate({added, {}});
+  ASSERT_EQ(copies.parts.size(), kCount);
+  EXPECT_EQ(session.scene().get(copies.parts.back()).name, "Peg 60000");
+  EXPECT_EQ(session.undoText(), "Duplicate 30000 parts");
+}
+
 }  // namespace
 }  // namespace nearfit::session_test

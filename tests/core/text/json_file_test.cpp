@@ -71,6 +71,36 @@ TEST_F(JsonFile, TooManyValuesOrBytesAreRefused) {
   EXPECT_NO_THROW(read("[1,2,3,4,5,6,7,8,9]", {.maxBytes = 19}));
 }
 
+/// An object of `count` members, each with this value.
+std::string objectOf(std::size_t count, const std::string& value) {
+  std::string text = "{";
+  for (std::size_t i = 0; i < count; ++i)
+    text += (i == 0 ? "\"k" : ",\"k") + std::to_string(i) + "\":" + value;
+  return text + "}";
+}
+
+// The end of each object once took a look at all members of its parent: 4.5e10 of them here.
+TEST_F(JsonFile, HundredsOfThousandsOfObjectsInOneAreRead) {
+  constexpr std::size_t kCount = 300'000;
+  const nlohmann::json json = read(objectOf(kCount, "{}"));
+  EXPECT_EQ(json.size(), kCount);
+  EXPECT_EQ(json.at("k299999"), nlohmann::json::object());
+}
+
+TEST_F(JsonFile, MillionsOfKeysAreRefusedByTheirNumber) {
+  EXPECT_THAT(errorOf(objectOf(2'000'000, "1"), {.maxBytes = 64U << 20U}).problem(),
+              HasSubstr("more than 1000000 values"));
+}
+
+TEST_F(JsonFile, EveryKindOfValueIsKeptWithItsType) {
+  const nlohmann::json json = read(R"({"z":[null,true,-1,2,0.5,"s",[],{}],"a":{"b":[[1],[{"c":2}]]}})");
+  EXPECT_EQ(json, nlohmann::json::parse(R"({"a":{"b":[[1],[{"c":2}]]},"z":[null,true,-1,2,0.5,"s",[],{}]})"));
+  EXPECT_TRUE(json["z"][2].is_number_integer());
+  EXPECT_TRUE(json["z"][3].is_number_unsigned());
+  EXPECT_TRUE(json["z"][4].is_number_float());
+  EXPECT_EQ(read("7"), 7);
+}
+
 TEST_F(JsonFile, KeySaidTwiceIsRefusedButNotInTwoObjects) {
   EXPECT_THAT(errorOf(R"({"a": {"b": 1, "c": {"b": 2}, "b": 3}})").problem(), HasSubstr("\"b\" twice"));
   EXPECT_NO_THROW(read(R"([{"b": 1}, {"b": 2, "c": {"b": 3}}])"));

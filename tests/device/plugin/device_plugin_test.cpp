@@ -1,7 +1,11 @@
 #include "device/plugin/device_plugin.h"
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <string>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -84,6 +88,56 @@ TEST(DevicePlugin, FilesThatOthersMayWriteAreNotLoaded) {
   EXPECT_THAT(whyNot(copy), HasSubstr("other users can write"));
   fs::permissions(copy, fs::perms::owner_all);
   EXPECT_EQ(whyNot(copy), "");
+}
+
+TEST(DevicePlugin, FilesInFoldersThatOthersMayWriteAreNotLoaded) {
+  const test::TemporaryFolder folder;
+  const fs::path copy = folder.path() / "copy.so";
+  fs::copy_file(NEARFIT_EXAMPLE_PLUGIN, copy);
+  fs::permissions(copy, fs::perms::owner_all);
+  fs::permissions(folder.path(), fs::perms::owner_all | fs::perms::group_write);
+  EXPECT_THAT(whyNot(copy), HasSubstr("other users can write to its folder"));
+  fs::permissions(folder.path(), fs::perms::owner_all);
+  EXPECT_EQ(whyNot(copy), "");
+}
+
+// The file was once checked by its name and then loaded by its name.
+TEST(DevicePlugin, WhatIsCheckedIsWhatIsLoadedHoweverItsNameChanges) {
+  const test::TemporaryFolder folder;
+  const fs::path trusted = folder.path() / "trusted", foreign = folder.path() / "foreign";
+  const fs::path name = folder.path() / "name.so", next = folder.path() / "next.so";
+  fs::copy_file(NEARFIT_EXAMPLE_PLUGIN, trusted);
+  fs::permissions(trusted, fs::perms::owner_all);
+  std::ofstream(foreign) << "what somebody else wrote: if it were loaded, the loader would complain";
+  fs::permissions(foreign, fs::perms::owner_all | fs::perms::others_write);
+  fs::create_symlink(trusted, name);
+  std::atomic<bool> isOver{false};
+  std::thread attacker([&] {
+    for (bool isForeign = true; !isOver; isForeign = !isForeign) {
+      fs::create_symlink(isForeign ? foreign : trusted, next);
+      fs::rename(next, name);
+    }
+  });
+  std::set<std::string> answers;
+  for (int i = 0; i < 2000; ++i)
+    answers.insert(whyNot(name));
+  isOver = true;
+  attacker.join();
+  for (const std::string& answer : answers)
+    EXPECT_TRUE(answer.empty() || answer.find("other users can write to it") != std::string::npos) << answer;
+}
+
+TEST(DevicePlugin, TwoFilesAreTwoLibrariesWhateverWasLoadedBefore) {
+  const test::TemporaryFolder folder;
+  const fs::path one = folder.path() / "one.so", other = folder.path() / "other.so";
+  for (const fs::path& file : {one, other}) {
+    fs::copy_file(NEARFIT_EXAMPLE_PLUGIN, file);
+    fs::permissions(file, fs::perms::owner_all);
+  }
+  EXPECT_EQ(whyNot(one), "") << "its descriptor is free again";
+  const auto first = DevicePlugin::load(other), second = DevicePlugin::load(one);
+  EXPECT_NE(&first->functions(), &second->functions());
+  EXPECT_EQ(&first->functions(), &DevicePlugin::load(other)->functions());
 }
 
 TEST(DevicePlugin, FoldersAreSearchedAndProblemsAreTold) {

@@ -91,6 +91,13 @@ TEST_F(PosePath, AWrongNumberOfColumnsIsCounted) {
   EXPECT_THAT(refusal("0 0 0 1 0 0 0\n"), HasSubstr(":1: 1 values instead of 7"));
 }
 
+TEST_F(PosePath, NamesInQuotesAreAHeaderAndNumbersInQuotesAreNot) {
+  EXPECT_EQ(read("\"tx\",\"ty\",\"tz\",\"qw\",\"qx\",\"qy\",\"qz\"\n0,0,0,1,0,0,0\n").size(), 1U);
+  EXPECT_THAT(refusal("\"5\",\"0\",\"0\",\"1\",\"0\",\"0\",\"0\"\n0,0,0,1,0,0,0\n"),
+              HasSubstr(":1: column 1: \"\"5\"\" is not a number"));
+  EXPECT_THAT(refusal("\"nan\",a,b,c,d,e,f\n0,0,0,1,0,0,0\n"), HasSubstr(":1: column 1"));
+}
+
 TEST_F(PosePath, ASecondHeaderIsNoHeader) {
   EXPECT_THAT(refusal("tx,ty,tz,qw,qx,qy,qz\ntx,ty,tz,qw,qx,qy,qz\n"), HasSubstr(":2: column 1"));
 }

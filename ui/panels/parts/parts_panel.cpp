@@ -21,6 +21,22 @@ namespace {
 /// With more parts the filter is shown.
 constexpr std::size_t kMany = 12;
 
+/// Adds the rows of these nodes, neighbours as one range: the selection model compares each range with each.
+template <class Id>
+void addRows(const PartsModel& model, const std::vector<Id>& ids, QItemSelection& rows) {
+  QModelIndex first, last;
+  for (const Id id : ids) {
+    const QModelIndex next = model.indexOf(id);
+    if (first.isValid() && next.row() == last.row() + 1 && next.parent() == first.parent()) {
+      last = next;
+      continue;
+    }
+    if (first.isValid()) rows.select(first, last);
+    first = last = next;
+  }
+  if (first.isValid()) rows.select(first, last);
+}
+
 }  // namespace
 
 PartsPanel::PartsPanel(Session& session, Selection& selection, QWidget* parent)
@@ -124,10 +140,8 @@ void PartsPanel::takeSelection() {
 void PartsPanel::showSelection(Reveal reveal) {
   QItemSelection rows;
   const SceneNodes outer = outermost(scene_, selection_.nodes());
-  for (const GroupId group : outer.groups)
-    rows.select(model_->indexOf(group), model_->indexOf(group));
-  for (const PartId part : outer.parts)
-    rows.select(model_->indexOf(part), model_->indexOf(part));
+  addRows(*model_, outer.groups, rows);
+  addRows(*model_, outer.parts, rows);
   const bool wasShowing = std::exchange(isShowing_, true);
   QItemSelectionModel& model = *view_->selectionModel();
   model.select(rows, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);

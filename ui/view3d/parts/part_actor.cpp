@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include <vtkBoundingBox.h>
+#include <vtkPropCollection.h>
 
 #include "ui/view3d/vtk/pixel_sizes.h"
 #include "ui/view3d/vtk/vtk_convert.h"
@@ -28,6 +29,13 @@ void setEdgeColour(vtkProperty& property, const PartLook& look) {
   property.SetColor(colour.redF(), colour.greenF(), colour.blueF());
   property.SetLineWidth(devicePixels(look.isSelected ? 2.4F : kEdgeWidth));
   property.SetOpacity(look.isTranslucent && !look.isSelected ? 0.55 : 1.0);
+}
+
+/// Adds a prop that the renderer does not have yet. AddViewProp() would look through all props for it: for all
+/// parts together, that takes the square of their number.
+void addNew(vtkRenderer& renderer, vtkProp& prop) {
+  renderer.GetViewProps()->AddItem(&prop);
+  prop.AddConsumer(&renderer);
 }
 
 }  // namespace
@@ -86,9 +94,16 @@ std::shared_ptr<ShapeMappers> MapperCache::mappersOf(const std::shared_ptr<const
   if (mappers == nullptr) {
     mappers = std::make_shared<ShapeMappers>(shape, cut);
     entry = mappers;
-    std::erase_if(entries_, [](const auto& other) { return other.second.expired(); });
+    dropUnused();
   }
   return mappers;
+}
+
+void MapperCache::dropUnused() {
+  // Not for each new entry: that would take the square of their number.
+  if (entries_.size() < nextDrop_) return;
+  std::erase_if(entries_, [](const auto& entry) { return entry.second.expired(); });
+  nextDrop_ = 2 * entries_.size() + kFewEntries;
 }
 
 PartActor::PartActor(vtkRenderer& renderer, std::shared_ptr<ShapeMappers> mappers, vtkRenderer* over)
@@ -102,13 +117,13 @@ PartActor::PartActor(vtkRenderer& renderer, std::shared_ptr<ShapeMappers> mapper
     auto piece = vtkSmartPointer<vtkActor>::New();
     piece->SetProperty(look_);
     piece->SetUserMatrix(pose_);
-    renderer_.AddActor(piece);
+    addNew(renderer_, *piece);
     pieces_.push_back(piece);
   }
   edges_->SetUserMatrix(pose_);
   edges_->PickableOff();
   edges_->GetProperty()->LightingOff();
-  renderer_.AddActor(edges_);
+  addNew(renderer_, *edges_.Get());
   showPieces();
 }
 
@@ -236,7 +251,7 @@ void PartActor::setThrough(bool isThrough) {
     property->LightingOff();
     property->SetColor(colours::kAccent.redF(), colours::kAccent.greenF(), colours::kAccent.blueF());
     property->SetOpacity(opacity);
-    over_->AddActor(actor);
+    addNew(*over_, *actor);
     return actor;
   };
   veil_ = make(mappers_->veil(), kVeilOpacity);

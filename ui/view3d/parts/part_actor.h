@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
@@ -59,7 +60,11 @@ class MapperCache {
                                           vtkPlane* cut = nullptr);
 
  private:
+  static constexpr std::size_t kFewEntries = 64;
+  void dropUnused();
+
   std::map<std::pair<const PartShape*, const vtkPlane*>, std::weak_ptr<ShapeMappers>> entries_;
+  std::size_t nextDrop_ = kFewEntries;  ///< Number of entries at which those that nobody holds are dropped.
 };
 
 /// How a part is drawn, apart from its own colour.

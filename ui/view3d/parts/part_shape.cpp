@@ -3,16 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
 
+#include <glm/geometric.hpp>
 #include <vtkCellArray.h>
-#include <vtkFeatureEdges.h>
+#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyDataNormals.h>
 #include <vtkQuadricClustering.h>
 
 #include "core/base/error.h"
+#include "core/math/finite.h"
+#include "core/mesh/shaded_mesh.h"
 
 namespace nearfit::ui {
 namespace {
@@ -22,8 +27,98 @@ constexpr vtkIdType kMinTriangles = 500, kMinOfADraft = 200;
 /// Cells along the longest side. Twice the first number would take VTK five times as long; the last serves
 /// scenes of a thousand parts.
 constexpr std::array kDivisions{96, 28, 8, 4};
-constexpr double kDraftFeatureAngle = 30.0;  ///< As for the surface itself [degrees].
 
+/// Edges sharper than this are drawn as lines and get split normals [rad]. Facets of finely tessellated
+/// cylinders stay below it.
+constexpr double kSharpAngle = std::numbers::pi / 6.0;
+
+vtkSmartPointer<vtkCellArray> cellsOfTriangles(std::span<const Triangle> triangles) {
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->AllocateExact(static_cast<vtkIdType>(triangles.size()),
+                       3 * static_cast<vtkIdType>(triangles.size()));
+  for (const Triangle& t : triangles) {
+    const vtkIdType corners[3] = {t[0], t[1], t[2]};
+    cells->InsertNextCell(3, corners);
+  }
+  return cells;
+}
+
+/// VTK's own filters for normals and sharp edges look at all faces of a vertex or edge for each of these: fans and
+/// books of pages take the square of their number.
+vtkSmartPointer<vtkPolyData> surfaceOf(const TriangleMesh& mesh, const ShadedMesh& shaded) {
+  const auto count = static_cast<vtkIdType>(shaded.vertices.size());
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(count);
+  vtkNew<vtkFloatArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(count);
+  for (vtkIdType i = 0; i < count; ++i) {
+    const auto vertex = static_cast<std::size_t>(i);
+    const glm::dvec3& p = mesh.vertices()[shaded.vertices[vertex]];
+    points->SetPoint(i, p.x, p.y, p.z);
+    normals->SetTypedTuple(i, &shaded.normals[vertex].x);
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->GetPointData()->SetNormals(normals);
+  data->SetPolys(cellsOfTriangles(shaded.triangles));
+  return data;
+}
+
+vtkSmartPointer<vtkPolyData> linesOf(const TriangleMesh& mesh, const ShadedMesh& shaded) {
+  constexpr vtkIdType kUnused = -1;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  std::vector<vtkIdType> pointOf(mesh.vertices().size(), kUnused);
+  const auto pointAt = [&](std::uint32_t vertex) {
+    const glm::dvec3& p = mesh.vertices()[vertex];
+    if (pointOf[vertex] == kUnused) pointOf[vertex] = points->InsertNextPoint(p.x, p.y, p.z);
+    return pointOf[vertex];
+  };
+  vtkNew<vtkCellArray> lines;
+  for (const std::uint32_t edge : shaded.sharpEdges) {
+    const MeshEdge& e = mesh.edges()[edge];
+    const vtkIdType ends[2] = {pointAt(e.v0), pointAt(e.v1)};
+    lines->InsertNextCell(2, ends);
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetLines(lines);
+  return data;
+}
+
+double lengthOf(const TriangleMesh& mesh, std::span<const std::uint32_t> edges) {
+  double length = 0.0;
+  for (const std::uint32_t edge : edges) {
+    const MeshEdge& e = mesh.edges()[edge];
+    length += glm::distance(mesh.vertices()[e.v0], mesh.vertices()[e.v1]);
+  }
+  return length;
+}
+
+/// The triangles of a data set, those that repeat a corner left out. Nullopt if a point is not finite.
+std::optional<TriangleMesh> meshOf(vtkPolyData& data) {
+  std::vector<glm::dvec3> vertices(static_cast<std::size_t>(data.GetNumberOfPoints()));
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    data.GetPoint(static_cast<vtkIdType>(i), &vertices[i].x);
+    if (!isFinite(vertices[i])) return std::nullopt;
+  }
+  std::vector<Triangle> triangles;
+  for (vtkIdType cell = 0; cell < data.GetNumberOfPolys(); ++cell) {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    data.GetPolys()->GetCellAtId(cell, size, corners);
+    if (size != 3 || corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+      continue;
+    triangles.push_back({static_cast<std::uint32_t>(corners[0]), static_cast<std::uint32_t>(corners[1]),
+                         static_cast<std::uint32_t>(corners[2])});
+  }
+  return TriangleMesh(std::move(vertices), std::move(triangles));
+}
+
+/// Returns an empty surface if the arithmetic of clustering fails.
 DraftSurface clustered(vtkPolyData& surface, int divisions) {
   const double* bounds = surface.GetBounds();
   std::array<double, 3> size{};
@@ -41,43 +136,15 @@ DraftSurface clustered(vtkPolyData& surface, int divisions) {
   clustering->SetInputData(bare);
   clustering->AutoAdjustNumberOfDivisionsOff();
   clustering->SetNumberOfDivisions(along(0), along(1), along(2));
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputConnection(clustering->GetOutputPort());
-  normals->SetFeatureAngle(kDraftFeatureAngle);
-  normals->SplittingOn();
-  normals->ConsistencyOff();
-  normals->AutoOrientNormalsOff();
-  normals->Update();
-  return {normals->GetOutput(), cell * std::sqrt(3.0)};
+  clustering->Update();
+  const std::optional<TriangleMesh> mesh = meshOf(*clustering->GetOutput());
+  const auto draft =
+      mesh ? surfaceOf(*mesh, shadedMesh(*mesh, kSharpAngle)) : vtkSmartPointer<vtkPolyData>::New();
+  return {draft, cell * std::sqrt(3.0)};
 }
-
-/// Edges sharper than this are drawn as lines and get split normals [degrees]. Facets of finely tessellated
-/// cylinders stay below it.
-constexpr double kFeatureAngle = 30.0;
 
 /// Progress after each stage.
-constexpr double kNormalsMade = 0.35, kEdgesMade = 0.6, kDraftsMade = 0.85;
-
-vtkSmartPointer<vtkPolyData> trianglesOf(const TriangleMesh& mesh) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.vertices().size()));
-  vtkIdType index = 0;
-  for (const glm::dvec3& p : mesh.vertices())
-    points->SetPoint(index++, p.x, p.y, p.z);
-
-  vtkNew<vtkCellArray> triangles;
-  triangles->AllocateExact(static_cast<vtkIdType>(mesh.triangles().size()),
-                           3 * static_cast<vtkIdType>(mesh.triangles().size()));
-  for (const Triangle& t : mesh.triangles()) {
-    const vtkIdType corners[3] = {t[0], t[1], t[2]};
-    triangles->InsertNextCell(3, corners);
-  }
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(points);
-  data->SetPolys(triangles);
-  return data;
-}
+constexpr double kShaded = 0.35, kConverted = 0.6, kDraftsMade = 0.85;
 
 /// Draws without a noticeable wait, in software OpenGL too.
 constexpr vtkIdType kPieceTriangles = 100'000;
@@ -103,19 +170,6 @@ std::vector<vtkSmartPointer<vtkPolyData>> piecesOf(vtkPolyData& surface) {
     pieces.push_back(piece);
   }
   return pieces;
-}
-
-/// Sums the lengths of two-point lines.
-double lengthOf(vtkPolyData& edges) {
-  double length = 0.0;
-  vtkNew<vtkIdList> ends;
-  for (edges.GetLines()->InitTraversal(); edges.GetLines()->GetNextCell(ends) != 0;) {
-    glm::dvec3 from, to;
-    edges.GetPoint(ends->GetId(0), &from.x);
-    edges.GetPoint(ends->GetId(1), &to.x);
-    length += glm::distance(from, to);
-  }
-  return length;
 }
 
 void addDrafts(PartShape& shape) {
@@ -154,37 +208,17 @@ PartShape makePartShape(const TriangleMesh& mesh, const ProgressCallback& progre
   const auto report = [&progress](double fraction) {
     if (progress && !progress(fraction)) throw Cancelled();
   };
-  const auto triangles = trianglesOf(mesh);
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData(triangles);
-  normals->SetFeatureAngle(kFeatureAngle);
-  normals->SplittingOn();
-  // Trust the mesh's orientation: guessing another would hide a fault in the file.
-  normals->ConsistencyOff();
-  normals->AutoOrientNormalsOff();
-  normals->Update();
-  report(kNormalsMade);
-
-  vtkNew<vtkFeatureEdges> edges;
-  edges->SetInputData(triangles);
-  edges->SetFeatureAngle(kFeatureAngle);
-  edges->FeatureEdgesOn();
-  edges->BoundaryEdgesOn();
-  edges->NonManifoldEdgesOn();
-  edges->ManifoldEdgesOff();
-  edges->ColoringOff();
-  edges->Update();
-  report(kEdgesMade);
+  const ShadedMesh shaded = shadedMesh(mesh, kSharpAngle);
+  report(kShaded);
   PartShape shape;
-  shape.surface = normals->GetOutput();
-  shape.edges = edges->GetOutput();
-  shape.edgeLength = lengthOf(*shape.edges);
+  shape.surface = surfaceOf(mesh, shaded);
+  shape.edges = linesOf(mesh, shaded);
+  shape.edgeLength = lengthOf(mesh, shaded.sharpEdges);
+  report(kConverted);
   shape.pieces = piecesOf(*shape.surface);
   addDrafts(shape);
   report(kDraftsMade);
-  shape.locator = vtkSmartPointer<vtkStaticCellLocator>::New();
-  shape.locator->SetDataSet(shape.surface);
-  shape.locator->BuildLocator();
+  shape.rays = RayTree(mesh);
   report(1.0);
   return shape;
 }
@@ -202,7 +236,8 @@ std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& 
   shape->hidesItsInside =
       geometry->mass.basis == MassBasis::VolumeIntegrals && geometry->mesh.topology().components == 1;
   const std::lock_guard lock(mutex_);
-  dropUnused();
+  // Not for each new entry: that would take the square of their number.
+  if (entries_.size() >= nextDrop_) dropUnused();
   entries_[geometry.get()] = {geometry, shape};
   return shape;
 }
@@ -212,6 +247,10 @@ void PartShapeCache::prepare(std::span<const PartGeometryPtr> geometries, const 
   const auto workOf = [](const PartGeometryPtr& geometry) {
     return 1.0 + static_cast<double>(geometry->mesh.triangles().size());
   };
+  {
+    const std::lock_guard lock(mutex_);
+    dropUnused();
+  }
   double whole = 0.0, done = 0.0;
   for (const PartGeometryPtr& geometry : geometries)
     whole += workOf(geometry);
@@ -228,6 +267,7 @@ void PartShapeCache::prepare(std::span<const PartGeometryPtr> geometries, const 
 
 void PartShapeCache::dropUnused() {
   std::erase_if(entries_, [](const auto& entry) { return entry.second.geometry.expired(); });
+  nextDrop_ = 2 * entries_.size() + kFewShapes;
 }
 
 }  // namespace nearfit::ui

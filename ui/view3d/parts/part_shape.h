@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -8,9 +9,9 @@
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
-#include <vtkStaticCellLocator.h>
 
 #include "core/base/progress.h"
+#include "core/mesh/ray_tree.h"
 #include "core/scene/part_geometry.h"
 #include "ui/view3d/parts/detail_choice.h"
 
@@ -23,7 +24,7 @@ struct DraftSurface {
 };
 
 /// Returns ever coarser stand-ins, each with at most half the triangles of the one before; none for a small
-/// surface. Takes 0.1 s for a million triangles. Any thread.
+/// surface. O(n log n), also where clustering brings most triangles together at a few points. Any thread.
 std::vector<DraftSurface> draftsOf(vtkPolyData& surface);
 
 /// A mesh prepared for drawing and picking, in the part's frame [m]. Immutable once made.
@@ -36,8 +37,7 @@ struct PartShape {
   /// Ever coarser stand-ins with normals, for motion in large scenes; empty for a small mesh.
   std::vector<vtkSmartPointer<vtkPolyData>> drafts;
   std::vector<DetailLevel> levels;  ///< The level of `surface`, then one for each draft.
-  /// Search structure of `surface` for picking. Not thread-safe.
-  vtkSmartPointer<vtkStaticCellLocator> locator;
+  RayTree rays;                     ///< Of the mesh, for picking.
   /// True if no back face is visible from outside.
   bool hidesItsInside = false;
 
@@ -64,10 +64,12 @@ class PartShapeCache {
     std::weak_ptr<const PartGeometry> geometry;
     std::shared_ptr<const PartShape> shape;
   };
+  static constexpr std::size_t kFewShapes = 16;
   void dropUnused();
 
   std::mutex mutex_;
   std::map<const PartGeometry*, Entry> entries_;
+  std::size_t nextDrop_ = kFewShapes;  ///< Number of entries at which unused ones are dropped.
 };
 
 }  // namespace nearfit::ui

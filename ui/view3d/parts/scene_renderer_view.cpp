@@ -3,10 +3,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <vtkBoundingBox.h>
-#include <vtkBox.h>
 #include <vtkCamera.h>
-#include <vtkGenericCell.h>
 
 #include "ui/model/shown_poses.h"
 #include "ui/view3d/parts/scene_renderer.h"
@@ -14,11 +11,6 @@
 // SceneRenderer: levels of detail, picking and what is seen, which depend on the camera.
 namespace nearfit::ui {
 namespace {
-
-/// How far from a triangle or a box a ray still meets it, as a fraction of the part's largest coordinate: the boxes of
-/// triangles that lie across an axis are flat, and rounding alone would let the ray miss them. A hundred times what
-/// rounding needs, and a millionth of a pixel for a part that fills the view.
-constexpr double kRaySlack = 1e-9;
 
 struct Ray {
   glm::dvec3 begin, end;
@@ -65,26 +57,12 @@ struct Hit {
 
 /// Finds the first triangle on a ray in the part's frame. True, with `hit` updated, if
 /// it is nearer than `hit`.
-bool hitFirst(const PartShape& shape, const Ray& ray, vtkGenericCell& cell, Hit& hit) {
-  const double* bounds = shape.surface->GetBounds();
-  vtkBoundingBox box(bounds);
-  const auto size = [](double a, double b) { return std::abs(a) < std::abs(b); };
-  const double slack = kRaySlack * std::abs(*std::max_element(bounds, bounds + 6, size));
-  box.Inflate(slack);
-  double padded[6], direction[3], at[3], t = 0.0;
-  box.GetBounds(padded);
-  for (int axis = 0; axis < 3; ++axis)
-    direction[axis] = ray.end[axis] - ray.begin[axis];
-  if (vtkBox::IntersectBox(padded, &ray.begin.x, direction, at, t) == 0) return false;
-  double point[3], parametric[3];
-  int part = 0;
-  vtkIdType triangle = -1;
-  const int isHit = shape.locator->IntersectWithLine(&ray.begin.x, &ray.end.x, slack, t, point, parametric,
-                                                     part, triangle, &cell);
-  const double fraction = ray.from + t * (ray.to - ray.from);
-  if (isHit == 0 || triangle < 0 || fraction >= hit.fraction) return false;
-  // Making normals splits vertices but keeps the order of triangles, so the index is the mesh's.
-  hit = {fraction, static_cast<std::uint32_t>(triangle), {point[0], point[1], point[2]}};
+bool hitFirst(const PartShape& shape, const Ray& ray, Hit& hit) {
+  const std::optional<RayHit> found = shape.rays.firstHit(ray.begin, ray.end);
+  if (!found) return false;
+  const double fraction = ray.from + found->fraction * (ray.to - ray.from);
+  if (fraction >= hit.fraction) return false;
+  hit = {fraction, found->triangle, found->point};
   return true;
 }
 
@@ -185,7 +163,6 @@ std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y) {
     picked = capAt(whole.at(*through));
     if (picked) hit.fraction = *through;
   }
-  vtkNew<vtkGenericCell> cell;
   for (const auto& [id, actor] : actors_) {
     const Part* part = scene_.find(id);
     if (part == nullptr || !actor->isVisible()) continue;
@@ -194,7 +171,7 @@ std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y) {
     const RigidTransform worldFromPart = poses_.shownPoseOf(*part), partFromWorld = worldFromPart.inverse();
     const Ray ray{partFromWorld.applyToPoint(seen->begin), partFromWorld.applyToPoint(seen->end), seen->from,
                   seen->to};
-    if (hitFirst(actor->shape(), ray, *cell, hit))
+    if (hitFirst(actor->shape(), ray, hit))
       picked = PickedPoint{id, worldFromPart.applyToPoint(hit.point), hit.triangle, nullptr};
   }
   return picked;

@@ -49,7 +49,23 @@ TriangleMesh ballWithOneVertexAt(double factor) {
 }
 
 std::size_t crossingsOf(const TriangleMesh& mesh) {
-  return findSelfCrossings(mesh, piecesOf(mesh), boxesOfTriangles(mesh)).value().size();
+  const MeshComponents pieces = piecesOf(mesh);
+  return findSelfCrossings(mesh, pieces, PieceBoxes(mesh, pieces)).value().size();
+}
+
+/// Cubes of side 1, each moved by a hair from the one before, so that each overlaps all others.
+TriangleMesh overlappingCubes(std::uint32_t count) {
+  const TriangleMesh cube = test::boxMesh(glm::dvec3(1.0));
+  std::vector<glm::dvec3> vertices;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    for (const glm::dvec3& p : cube.vertices())
+      vertices.push_back(p + 1e-7 * i);
+    for (const Triangle& t : cube.triangles())
+      triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  return TriangleMesh(std::move(vertices), std::move(triangles));
 }
 
 TEST(Solidity, ClosedOutwardMeshesAreSolid) {
@@ -143,6 +159,27 @@ TEST(Solidity, AFanOfNeedlesThatAllOverlapEndsSoon) {
     curve.emplace_back(std::cos(angle), std::sin(angle));
   }
   EXPECT_FALSE(isSolidThroughout(test::prismOver(curve)));
+}
+
+// Pairs of triangles of different components were once looked at too, 2.9e10 of them here.
+TEST(Solidity, CubesInOnePlaceTakeNoMoreWorkThanCubesApart) {
+  constexpr std::uint32_t kCubes = 20'000;
+  const TriangleMesh mesh = overlappingCubes(kCubes);
+  const MeshComponents pieces = piecesOf(mesh);
+  ASSERT_EQ(pieces.firstTriangle.size(), kCubes);
+  const PieceBoxes boxes(mesh, pieces);
+  std::uint64_t nodes = 0;
+  std::size_t visits = 0;
+  const Aabb all = mesh.bounds();
+  for (std::uint32_t piece = 0; piece < kCubes; ++piece)
+    nodes += boxes.forEachAt(piece, all, [&](std::uint32_t triangle) {
+      EXPECT_EQ(pieces.pieceOf[triangle], piece);
+      ++visits;
+    });
+  EXPECT_EQ(visits, mesh.triangles().size());
+  EXPECT_LE(nodes, mesh.triangles().size());
+  EXPECT_EQ(crossingsOf(mesh), 0U);
+  EXPECT_TRUE(isSolidThroughout(mesh));
 }
 
 TEST(TrianglePredicates, TrianglesThatShareACornerOrASideMeetBeyondThemWhereTheyDo) {

@@ -7,6 +7,7 @@
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
 
+#include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/qt/qt_suite.h"
 
@@ -28,7 +29,11 @@ class PartShapeTest : public QObject {
   void openSquareShowsItsRim();
   void fineCylinderShowsOnlyItsRims();
   void normalsOfABoxPointOutOfItsFaces();
+  void whatIsClusteredToAFewPointsIsShaded();
+  void fansAndBooksAreShaded();
+  void picksInTinyAndThinMeshesTakeLittleMemory();
   void oneGeometryHasOneShape();
+  void manyShapesAreKeptWhileTheirGeometriesExist();
   void threadsMayAskAtOnce();
 };
 
@@ -62,6 +67,51 @@ void PartShapeTest::normalsOfABoxPointOutOfItsFaces() {
     // On a cube of half side 1 about the origin a face's plane is n.p = 1.
     QVERIFY(std::abs(n[0] * p[0] + n[1] * p[1] + n[2] * p[2] - 1.0) < 1e-6);
   }
+}
+
+// VTK's normals took minutes for these: hundreds of triangles meet at each point of the coarsest draft.
+void PartShapeTest::whatIsClusteredToAFewPointsIsShaded() {
+  const ui::PartShape shape = ui::makePartShape(test::looseTriangles(1, 200'000));
+  QVERIFY(!shape.drafts.empty());
+  for (vtkPolyData* draft : shape.drafts) {
+    QVERIFY(draft->GetNumberOfPolys() > 0);
+    QCOMPARE(draft->GetPointData()->GetNormals()->GetNumberOfTuples(), draft->GetNumberOfPoints());
+  }
+}
+
+void PartShapeTest::fansAndBooksAreShaded() {
+  constexpr std::uint32_t kFaces = 200'000;
+  for (const TriangleMesh& mesh : {test::jaggedFan(2, kFaces, 0.1), test::finsMesh(3, kFaces, 6.0)}) {
+    const ui::PartShape shape = ui::makePartShape(mesh);
+    QCOMPARE(shape.surface->GetNumberOfPolys(), vtkIdType{kFaces});
+    QVERIFY(shape.edges->GetNumberOfLines() >= vtkIdType{kFaces});
+  }
+}
+
+void PartShapeTest::picksInTinyAndThinMeshesTakeLittleMemory() {
+  const TriangleMesh tiny = test::icosphereMesh(8e-5, 6), thin = test::cylinderMesh(0.01, 1.0, 25'000);
+  for (const TriangleMesh& mesh : {tiny, thin}) {
+    const ui::PartShape shape = ui::makePartShape(mesh);
+    QVERIFY(shape.rays.byteSize() <= RayTree::kMaxBytesPerTriangle * mesh.triangles().size());
+    const glm::dvec3 middle = mesh.bounds().centre(), above = middle + glm::dvec3(0.1, 0.2, 3.0);
+    QVERIFY(shape.rays.firstHit(above, middle).has_value());
+  }
+}
+
+void PartShapeTest::manyShapesAreKeptWhileTheirGeometriesExist() {
+  ui::PartShapeCache cache;
+  std::vector<PartGeometryPtr> geometries;
+  std::vector<std::weak_ptr<const ui::PartShape>> shapes;
+  for (int i = 0; i < 100; ++i) {
+    geometries.push_back(geometryOf(test::tetrahedronMesh()));
+    shapes.push_back(cache.shapeOf(geometries.back()));
+  }
+  for (std::size_t i = 0; i < geometries.size(); ++i)
+    QCOMPARE(cache.shapeOf(geometries[i]), shapes[i].lock());
+  geometries.erase(geometries.begin() + 1, geometries.end());
+  cache.prepare(geometries, {});
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    QCOMPARE(shapes[i].expired(), i > 0);
 }
 
 void PartShapeTest::oneGeometryHasOneShape() {
