@@ -4,12 +4,11 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/scene/part_geometry.h"
+#include "core/scene/mesh_unit.h"
 #include "core/scene/scene.h"
 
 namespace nearfit::cli {
@@ -30,18 +29,7 @@ std::optional<double> parseNumber(std::string_view text) {
 }  // namespace
 
 double parseUnit(const std::string& text) {
-  constexpr std::array<std::pair<std::string_view, double>, 6> kUnits{
-      {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"um", 1e-6}, {"in", 0.0254}, {"ft", 0.3048}}};
-  for (const auto& [name, metres] : kUnits) {
-    if (text == name) return metres;
-  }
-  const std::optional<double> metres = parseNumber(text);
-  if (!metres) {
-    throw UsageError("--unit", fmt::format("\"{}\" is not a unit", text),
-                     "give m, cm, mm, um, in, ft, or a number of metres");
-  }
-  checkMetresPerUnit(*metres);
-  return *metres;
+  return parseMeshUnit(text, "--unit");
 }
 
 bool parseNumbersIfAny(std::string_view text, std::span<double> numbers) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 #include "core/import/mesh_file_check.h"
 #include "core/import/mesh_readers.h"
 #include "core/import/text_cursor.h"
+#include "core/math/finite.h"
 
 namespace nearfit {
 namespace {
@@ -156,17 +158,23 @@ void requireFaces(const std::filesystem::path& file, const PolygonSoup& soup) {
                   "export the part as a mesh of triangles");
 }
 
-ImportedMesh importUnguarded(const std::filesystem::path& file, std::vector<char> bytes,
-                             const MeshBuildOptions& options, const Progress& progress) {
-  ImportedMesh imported;
-  imported.sha256 = sha256OfBytes(bytes);
+/// Reads the polygons of a file from its bytes, in the file's units.
+ReaderResult readPolygons(const std::filesystem::path& file, std::vector<char> bytes,
+                          const Progress& progress) {
   bytes = withoutByteOrderMark(std::move(bytes));
   const ReaderInput input{file.string(), bytes,
                           [&](double done) { progress.report(kReadFraction, kParsedFraction, done); }};
   ReaderResult read = readSoup(input, detectMeshFormat(input, lowerCaseExtension(file)));
-  std::vector<char>().swap(bytes);
   requireFaces(file, read.soup);
   progress.report(kReadFraction, kParsedFraction, 1.0);
+  return read;
+}
+
+ImportedMesh importUnguarded(const std::filesystem::path& file, std::vector<char> bytes,
+                             const MeshBuildOptions& options, const Progress& progress) {
+  ImportedMesh imported;
+  imported.sha256 = sha256OfBytes(bytes);
+  const ReaderResult read = readPolygons(file, std::move(bytes), progress);
   imported.mesh = buildMesh(read.soup, options, imported.report,
                             [&](double done) { progress.report(kParsedFraction, 1.0, done); });
   imported.report.warnings.insert(imported.report.warnings.begin(), read.warnings.begin(),
@@ -175,9 +183,18 @@ ImportedMesh importUnguarded(const std::filesystem::path& file, std::vector<char
   return imported;
 }
 
+/// Bounds of the finite corners of all polygons, in the soup's units.
+Aabb boundsOf(const PolygonSoup& soup) {
+  Aabb box;
+  for (const std::uint32_t corner : soup.corners) {
+    if (corner < soup.vertices.size() && isFinite(soup.vertices[corner])) box.add(soup.vertices[corner]);
+  }
+  return box;
+}
+
 /// Runs work on a file; its errors name the file.
 template <class Work>
-ImportedMesh naming(const std::filesystem::path& file, Work work) {
+std::invoke_result_t<Work> naming(const std::filesystem::path& file, Work work) {
   try {
     return work();
   } catch (const FileError&) {
@@ -212,6 +229,15 @@ ImportedMesh importMeshBytes(const std::filesystem::path& file, std::vector<char
                              const MeshBuildOptions& options, const ProgressCallback& callback) {
   const Progress progress(callback);
   return naming(file, [&] { return importUnguarded(file, std::move(bytes), options, progress); });
+}
+
+Aabb readMeshBounds(const std::filesystem::path& file, const ProgressCallback& callback) {
+  const Progress progress(callback);
+  return naming(file, [&] {
+    std::vector<char> bytes =
+        readWholeFile(file, [&](double done) { progress.report(0.0, kReadFraction, done); });
+    return boundsOf(readPolygons(file, std::move(bytes), progress).soup);
+  });
 }
 
 const std::vector<std::string>& importableExtensions() {

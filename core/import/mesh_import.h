@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/math/aabb.h"
 #include "core/mesh/mesh_builder.h"
 
 namespace nearfit {
@@ -27,6 +28,10 @@ ImportedMesh importMesh(const std::filesystem::path& file, const MeshBuildOption
 /// it is not opened.
 ImportedMesh importMeshBytes(const std::filesystem::path& file, std::vector<char> bytes,
                              const MeshBuildOptions& options, const ProgressCallback& progress = {});
+
+/// Bounding box of a mesh file's faces, in the file's units; empty if no corner is finite. Reads the file as
+/// importMesh() does but builds no mesh, which takes most of the time. Throws FileError, Cancelled.
+Aabb readMeshBounds(const std::filesystem::path& file, const ProgressCallback& progress = {});
 
 /// File name extensions that importMesh() can read: lower case, without the dot.
 const std::vector<std::string>& importableExtensions();

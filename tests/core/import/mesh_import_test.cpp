@@ -441,6 +441,29 @@ TEST_F(MeshImport, CancelStopsAtEveryStage) {
   }
 }
 
+TEST_F(MeshImport, BoundsAreThoseOfTheMeshWithoutBuildingIt) {
+  const TriangleMesh mesh = test::boxMesh({1, 2, 3}, {10, -20, 0.5});
+  for (const NamedContent& file : everyFormat(mesh)) {
+    const Aabb box = readMeshBounds(folder_.write(file.name, file.content));
+    EXPECT_LE(glm::distance(box.lower, {9.5, -21, -1}), 1e-6) << file.name;
+    EXPECT_LE(glm::distance(box.upper, {10.5, -19, 2}), 1e-6) << file.name;
+  }
+}
+
+TEST_F(MeshImport, BoundsLeaveOutWhatNoFaceUsesAndWhatIsNotFinite) {
+  const std::string extra = "v 100 0 0\nv nan 0 0\nv 0 -inf 0\nf 1 2 10\nf 11 1 2\n";
+  const Aabb box = readMeshBounds(folder_.write("box.obj", kBoxObj + extra));
+  EXPECT_LE(glm::distance(box.lower, {-0.5, -1, -1.5}), 1e-12);
+  EXPECT_LE(glm::distance(box.upper, {0.5, 1, 1.5}), 1e-12);
+}
+
+TEST_F(MeshImport, BoundsOfABadFileAreRefusedAsTheFileIs) {
+  EXPECT_THROW(readMeshBounds(folder_.path() / "missing.stl"), FileError);
+  EXPECT_THROW(readMeshBounds(folder_.write("empty.stl", "")), FileError);
+  EXPECT_THROW(readMeshBounds(folder_.write("points.obj", "v 0 0 0\nv 1 0 0\n")), FileError);
+  EXPECT_THROW(readMeshBounds(folder_.write("box.obj", kBoxObj), [](double) { return false; }), Cancelled);
+}
+
 TEST_F(MeshImport, ImportableExtensionsAreThoseOfTheFormats) {
   EXPECT_THAT(importableExtensions(), testing::ElementsAre("stl", "obj", "ply", "off"));
 }
