@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <QLocale>
+#include <QStringList>
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr QChar kMicro(0xB5);
 constexpr QChar kDot(0xB7);
+const QString kNoNumber = QStringLiteral("–");
 
 /// Three figures or more from 1 up, two decimals below; no exponent.
 QString figures(double value) {
@@ -26,6 +28,27 @@ QString threeFigures(double value) {
   return formatFixed(value, zeros + 3);
 }
 
+/// A length in a unit that suits its size.
+struct SizedLength {
+  double number;
+  QString symbol;
+  bool isInChosenUnit;
+};
+
+SizedLength sizedLength(double metres, LengthUnit unit) {
+  constexpr double kMicrons = 1e6;
+  const double magnitude = std::abs(metres), number = metres / metresOf(unit);
+  if (unit == LengthUnit::Millimetre && magnitude >= 1.0) return {metres, QStringLiteral("m"), false};
+  const bool isInch = unit == LengthUnit::Inch;
+  // Short: below 0.1 mm, or 0.001 in.
+  const bool isShort = isInch ? std::abs(number) < 1e-3 : magnitude < 1e-4;
+  if (isShort && magnitude > 0.0) {
+    const QString symbol = QString(kMicro) + QLatin1String(isInch ? "in" : "m");
+    return {kMicrons * (isInch ? number : metres), symbol, false};
+  }
+  return {number, symbolOf(unit), true};
+}
+
 }  // namespace
 
 QString formatFixed(double value, int decimals) {
@@ -39,20 +62,27 @@ QString formatLength(double metres) {
 }
 
 QString formatLength(double metres, LengthUnit unit) {
-  constexpr double kMicrons = 1e6;
-  if (!std::isfinite(metres)) return QStringLiteral("–");
-  const double magnitude = std::abs(metres);
-  if (unit == LengthUnit::Millimetre && magnitude >= 1.0) return figures(metres) + QStringLiteral(" m");
-  const double number = metres / metresOf(unit);
-  const bool isInch = unit == LengthUnit::Inch;
-  // Short: below 0.1 mm, or 0.001 in.
-  const bool isShort = isInch ? std::abs(number) < 1e-3 : magnitude < 1e-4;
-  if (isShort && magnitude > 0.0) {
-    return figures(kMicrons * (isInch ? number : metres)) + QChar(' ') + kMicro +
-           QLatin1String(isInch ? "in" : "m");
-  }
-  const QString text = unit == LengthUnit::Millimetre ? figures(number) : threeFigures(number);
-  return text + QChar(' ') + symbolOf(unit);
+  if (!std::isfinite(metres)) return kNoNumber;
+  const SizedLength sized = sizedLength(metres, unit);
+  const bool isFine = sized.isInChosenUnit && unit != LengthUnit::Millimetre;
+  return (isFine ? threeFigures(sized.number) : figures(sized.number)) + QChar(' ') + sized.symbol;
+}
+
+QString formatRoundLength(double metres) {
+  if (!std::isfinite(metres)) return kNoNumber;
+  const SizedLength sized = sizedLength(metres, shownLengthUnit());
+  return formatNumber(sized.number) + QChar(' ') + sized.symbol;
+}
+
+QString formatExtent(const glm::dvec3& metres) {
+  const double largest = std::max({std::abs(metres.x), std::abs(metres.y), std::abs(metres.z)});
+  if (!std::isfinite(metres.x + metres.y + metres.z)) return kNoNumber;
+  const SizedLength sized = sizedLength(largest, shownLengthUnit());
+  const double perMetre = largest > 0.0 ? sized.number / largest : 0.0;
+  QStringList numbers;
+  for (const double length : {metres.x, metres.y, metres.z})
+    numbers << formatNumber(length * perMetre);
+  return numbers.join(QStringLiteral(" × ")) + QChar(' ') + sized.symbol;
 }
 
 QString formatDistance(double metres, bool isBound) {
@@ -85,7 +115,7 @@ QString formatMass(double kilograms) {
 
 QString formatNumber(double value) {
   constexpr int kFigures = 4, kMaxDecimals = 12;
-  if (!std::isfinite(value)) return QStringLiteral("–");
+  if (!std::isfinite(value)) return kNoNumber;
   if (value == 0.0) return QStringLiteral("0");
   const int before = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
   int decimals = std::clamp(kFigures - before, 0, kMaxDecimals);

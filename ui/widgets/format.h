@@ -2,6 +2,8 @@
 
 #include <QString>
 
+#include <glm/vec3.hpp>
+
 #include "ui/widgets/length_unit.h"
 
 namespace nearfit::ui {
@@ -16,6 +18,11 @@ QString formatFixed(double value, int decimals);
 /// "850 µin" below 0.001 in. Returns a dash if not finite.
 QString formatLength(double metres);
 QString formatLength(double metres, LengthUnit unit);
+/// The same without trailing zeros, for lengths that are round: "20 mm", "50 µm".
+QString formatRoundLength(double metres);
+/// Formats the extent of a box along each axis [m], all three in one unit: "53 × 16 × 0.2 mm". At most four
+/// figures each. Returns a dash if not finite.
+QString formatExtent(const glm::dvec3& metres);
 /// Formats a distance of which perhaps only a lower bound is known: "at least 0.26 mm".
 QString formatDistance(double metres, bool isBound);
 /// Formats a force [N]: "3.42 N".

@@ -17,6 +17,8 @@ class FormatTest : public QObject {
   void lengthsKeepThreeFigures();
   void lengthsAreInTheUnitThatWasChosen();
   void noLengthIsADash();
+  void roundLengthsHaveNoZerosBehind();
+  void extentsHaveOneUnitForAllAxes();
   void smallTorquesAreInMillinewtonMetres();
   void massesAndEnergiesTakeTheUnitOfTheirSize();
   void numbersHaveNoZerosBehind();
@@ -60,6 +62,28 @@ void FormatTest::lengthsAreInTheUnitThatWasChosen() {
 
 void FormatTest::noLengthIsADash() {
   QCOMPARE(formatLength(std::numeric_limits<double>::infinity()), QStringLiteral("–"));
+}
+
+void FormatTest::roundLengthsHaveNoZerosBehind() {
+  QCOMPARE(formatRoundLength(0.02), QStringLiteral("20 mm"));
+  QCOMPARE(formatRoundLength(0.0005), QStringLiteral("0.5 mm"));
+  QCOMPARE(formatRoundLength(5e-5), QStringLiteral("50 µm"));
+  QCOMPARE(formatRoundLength(2.0), QStringLiteral("2 m"));
+  setShownLengthUnit(LengthUnit::Inch);
+  QCOMPARE(formatRoundLength(0.0254 / 5.0), QStringLiteral("0.2 in"));
+  setShownLengthUnit(LengthUnit::Millimetre);
+}
+
+void FormatTest::extentsHaveOneUnitForAllAxes() {
+  QCOMPARE(formatExtent({0.053, 0.016, 0.016}), QStringLiteral("53 × 16 × 16 mm"));
+  QCOMPARE(formatExtent({53.0, 16.0, 0.25}), QStringLiteral("53 × 16 × 0.25 m"));
+  QCOMPARE(formatExtent({5.3e-5, 1.6e-5, 0.0}), QStringLiteral("53 × 16 × 0 µm"));
+  QCOMPARE(formatExtent({0.123456, 2e-6, 0.01}), QStringLiteral("123.5 × 0.002 × 10 mm"));
+  QCOMPARE(formatExtent(glm::dvec3(0.0)), QStringLiteral("0 × 0 × 0 mm"));
+  QCOMPARE(formatExtent({std::numeric_limits<double>::infinity(), 1.0, 1.0}), QStringLiteral("–"));
+  setShownLengthUnit(LengthUnit::Inch);
+  QCOMPARE(formatExtent({0.254, 0.0127, 0.0254}), QStringLiteral("10 × 0.5 × 1 in"));
+  setShownLengthUnit(LengthUnit::Millimetre);
 }
 
 void FormatTest::smallTorquesAreInMillinewtonMetres() {
