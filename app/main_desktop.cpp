@@ -41,19 +41,17 @@ int run(int argc, char** argv) {
   std::optional<desktop::Screenshot> screenshot;
   std::optional<desktop::DeviceLedSession> led;
   if (!options.record.empty()) application.servo().recordTo(fileNames({options.record}).first());
-  // A run that nobody watches, or that ends by itself, must not ask questions.
   const std::filesystem::path recovery = userRecoveryFolder();
-  if (options.screenshot.empty() && !options.seconds && !recovery.empty())
-    application.window().protectWork(recovery);
+  if (!options.isUnattended() && !recovery.empty()) application.window().protectWork(recovery);
   if (options.device) {
     led.emplace(application, desktop::LedOptions{QString::fromStdString(*options.device), options.isArming,
                                                  options.seconds});
-    led->begin(files);
+    led->begin(files, options.metresPerUnit);
   } else if (!options.screenshot.empty()) {
     screenshot.emplace(application, fileNames({options.screenshot}).first());
-    screenshot->take(files);
+    screenshot->take(files, options.metresPerUnit);
   } else {
-    application.show(files, options.isDemo);
+    application.show(files, options.isDemo, options.metresPerUnit);
   }
   return QApplication::exec();
 }

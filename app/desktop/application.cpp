@@ -67,11 +67,11 @@ Application::Application(std::unique_ptr<DeviceSource> devices)
 
 Application::~Application() = default;
 
-void Application::show(const QStringList& files, bool isDemo) {
+void Application::show(const QStringList& files, bool isDemo, std::optional<double> metresPerUnit) {
   window_.show();
   const bool isFirst = ui::Preferences::takeFirstRun();
   QTimer::singleShot(0, this, [=, this] {
-    if (!files.isEmpty()) return window_.document().openFiles(files);
+    if (!files.isEmpty()) return window_.document().openFiles(files, metresPerUnit);
     // A question about lost work comes first.
     if (isFirst && QApplication::activeModalWidget() == nullptr) return window_.beginTour();
     if (isDemo) window_.openDemo();

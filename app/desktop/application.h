@@ -3,6 +3,7 @@
 #include <QObject>
 #include <QStringList>
 #include <memory>
+#include <optional>
 
 #include "app/desktop/device_source.h"
 #include "app/desktop/servo_controller.h"
@@ -27,7 +28,8 @@ class Application : public QObject {
 
   /// Shows the window, then opens the files, or the demo scene if `isDemo`. The very first run without files
   /// shows the demo scene with the tour.
-  void show(const QStringList& files, bool isDemo);
+  /// @param metresPerUnit  As for Document::openFiles().
+  void show(const QStringList& files, bool isDemo, std::optional<double> metresPerUnit = std::nullopt);
 
   Session& session() noexcept { return session_; }
   ui::MainWindow& window() noexcept { return window_; }

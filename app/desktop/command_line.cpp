@@ -4,10 +4,19 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/base/error.h"
+#include "core/scene/mesh_unit.h"
+
 namespace nearfit::desktop {
 namespace {
 
 constexpr int kUsage = 2;
+constexpr double kMillimetre = 1e-3;
+
+int failUsage(const char* problem) {
+  std::fprintf(stderr, "nearfit: %s; see nearfit --help\n", problem);
+  return kUsage;
+}
 
 }  // namespace
 
@@ -15,11 +24,17 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
   CLI::App program("Feel one part against the others before any of them exists.", "nearfit");
   program.footer(
       "Without files it starts with an empty scene; the first time, with the demo scene and a short tour. "
-      "Mesh files are read in the unit that was used last (at first mm).");
+      "Without --unit it asks for the unit of mesh files; with --screenshot or --seconds it takes mm.");
   program.set_version_flag("--version", std::string("nearfit ") + NEARFIT_VERSION);
   Options options;
   CLI::Option* files =
       program.add_option("FILE", options.files, "Scene (*.nearfit) or mesh (STL, OBJ, PLY, OFF) to open");
+  std::string unit;
+  CLI::Option* unitOption =
+      program
+          .add_option("--unit", unit,
+                      "Unit of the mesh files' coordinates: m, cm, mm, um, in, ft, or a number of metres")
+          ->needs(files);
   CLI::Option* demo = program
                           .add_flag("--demo", options.isDemo,
                                     "Open a copy of the demo scene; the original is never overwritten")
@@ -53,12 +68,15 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
   try {
     program.parse(argc, argv);
     if (!hand->empty()) options.device = device;
+    if (!unitOption->empty()) options.metresPerUnit = parseMeshUnit(unit, "--unit");
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "nearfit: %s; see nearfit --help\n", error.what());
-    return kUsage;
+    return failUsage(error.what());
+  } catch (const UsageError& error) {
+    return failUsage(error.what());
   }
+  if (options.isUnattended() && !options.metresPerUnit) options.metresPerUnit = kMillimetre;
   return options;
 }
 

@@ -32,9 +32,10 @@ DeviceLedSession::DeviceLedSession(Application& application, LedOptions options)
   connect(&application_.servo(), &ServoController::statusChanged, this, &DeviceLedSession::follow);
 }
 
-void DeviceLedSession::begin(const QStringList& files) {
+void DeviceLedSession::begin(const QStringList& files, std::optional<double> metresPerUnit) {
   application_.window().show();
-  QTimer::singleShot(0, this, [this, files] { application_.window().document().openFiles(files); });
+  QTimer::singleShot(0, this,
+                     [=, this] { application_.window().document().openFiles(files, metresPerUnit); });
 }
 
 void DeviceLedSession::take(bool isComplete) {

@@ -25,7 +25,8 @@ class DeviceLedSession : public QObject {
   DeviceLedSession(Application& application, LedOptions options);
 
   /// Starts. If `seconds` is set, the event loop ends with 0, or with 1 after a message on stderr.
-  void begin(const QStringList& files);
+  /// @param metresPerUnit  As for Document::openFiles().
+  void begin(const QStringList& files, std::optional<double> metresPerUnit);
 
  private:
   void take(bool isComplete);

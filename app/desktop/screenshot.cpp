@@ -28,14 +28,15 @@ Screenshot::Screenshot(Application& application, QString output)
   connect(&window.document(), &ui::Document::loaded, this, &Screenshot::arrange);
 }
 
-void Screenshot::take(const QStringList& files) {
+void Screenshot::take(const QStringList& files, std::optional<double> metresPerUnit) {
   ui::MainWindow& window = application_.window();
   window.resize(1280, 800);
   window.show();
   if (files.isEmpty()) {
     QTimer::singleShot(kSettleMs, this, &Screenshot::write);
   } else {
-    QTimer::singleShot(0, this, [this, files] { application_.window().document().openFiles(files); });
+    QTimer::singleShot(0, this,
+                       [=, this] { application_.window().document().openFiles(files, metresPerUnit); });
   }
 }
 

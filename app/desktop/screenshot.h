@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <QString>
+#include <optional>
 
 #include "app/desktop/application.h"
 
@@ -17,7 +18,8 @@ class Screenshot : public QObject {
   Screenshot(Application& application, QString output);
 
   /// Starts; the event loop then ends with 0, or with 1 after a message on stderr.
-  void take(const QStringList& files);
+  /// @param metresPerUnit  As for Document::openFiles().
+  void take(const QStringList& files, std::optional<double> metresPerUnit);
 
  private:
   void arrange(bool isComplete);

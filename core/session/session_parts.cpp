@@ -134,7 +134,7 @@ void Session::reloadParts(const std::vector<NewGeometry>& parts) {
 
 void Session::rescaleParts(const std::vector<NewGeometry>& parts) {
   const std::map<PartId, PartGeometryPtr> geometries = byPart(parts);
-  changeUnlocked(partsOf(parts), "Rescale", [&](Part& part) {
+  changeUnlocked(partsOf(parts), "Change the unit of", [&](Part& part) {
     PartGeometryPtr rescaled = geometries.at(part.id);
     if (part.pivot) {
       *part.pivot *= rescaled->metresPerUnit / part.geometry->metresPerUnit;

@@ -35,12 +35,6 @@ QString sceneFilter() {
   return QObject::tr("Nearfit scenes (*.%1)").arg(kSceneSuffix);
 }
 
-/// Names the meshes in the question for their unit.
-QString describeMeshes(const QStringList& files) {
-  return files.size() == 1 ? QObject::tr("“%1”").arg(QFileInfo(files.first()).fileName())
-                           : QObject::tr("these %n files", nullptr, files.size());
-}
-
 /// Stands for a file name in a failure that concerns all files.
 QString nameOfAll(const QStringList& files) {
   return files.size() == 1 ? QFileInfo(files.first()).fileName() : QObject::tr("All files");
@@ -210,7 +204,7 @@ void Document::askAndAddParts() {
   const QStringList files =
       QFileDialog::getOpenFileNames(window_, tr("Add parts"), Preferences::lastFolder(), meshFilter());
   if (files.isEmpty()) return;
-  if (const std::optional<double> unit = askForUnit(describeMeshes(files), window_)) addParts(files, *unit);
+  if (const std::optional<double> unit = askForUnit(files, window_)) addParts(files, *unit);
 }
 
 void Document::addParts(const QStringList& files, double metresPerUnit) {
@@ -280,20 +274,19 @@ void Document::finishParts(const QStringList& files, const std::vector<PartGeome
   emit loaded(problems.isEmpty());
 }
 
-void Document::openFiles(const QStringList& files) {
-  open(sortOut(files), Preferences::metresPerUnit());
+void Document::openFiles(const QStringList& filesAndFolders, std::optional<double> metresPerUnit) {
+  const DroppedFiles sorted = sortOut(filesAndFolders);
+  const bool isLoadable = sorted.scenes.size() <= 1 && !sorted.isCutOff;
+  if (!metresPerUnit && isLoadable && !sorted.meshes.isEmpty()) {
+    metresPerUnit = askForUnit(sorted.meshes, window_);
+    if (!metresPerUnit) return emit loaded(false);
+  }
+  open(sorted, metresPerUnit.value_or(Preferences::metresPerUnit()));
 }
 
 void Document::dropFiles(const QStringList& filesAndFolders) {
   if (isBusy()) return emit noted(tr("Files are being loaded; drop these again afterwards."));
-  const DroppedFiles dropped = sortOut(filesAndFolders);
-  double metresPerUnit = Preferences::metresPerUnit();
-  if (!dropped.meshes.isEmpty() && dropped.scenes.size() <= 1) {
-    const std::optional<double> unit = askForUnit(describeMeshes(dropped.meshes), window_);
-    if (!unit) return;
-    metresPerUnit = *unit;
-  }
-  open(dropped, metresPerUnit);
+  openFiles(filesAndFolders);
 }
 
 void Document::open(const DroppedFiles& files, double metresPerUnit) {

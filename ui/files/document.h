@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/session/session.h"
@@ -58,11 +59,10 @@ class Document : public SceneWork {
   /// Loads mesh files as new parts. Does nothing while busy.
   /// @param metresPerUnit  Metres per unit of the numbers in the files.
   void addParts(const QStringList& files, double metresPerUnit);
-  /// Opens any mix of meshes and at most one scene. The scene is opened first; the meshes use the unit chosen
-  /// last (Preferences::metresPerUnit()).
-  void openFiles(const QStringList& files);
-  /// Like openFiles, for files and folders dropped on the window; asks once for the unit of all meshes. While
-  /// busy it only emits noted().
+  /// Opens any mix of meshes, folders of meshes and at most one scene. The scene is opened first.
+  /// @param metresPerUnit  Of all meshes; std::nullopt: asks once, if there are any.
+  void openFiles(const QStringList& filesAndFolders, std::optional<double> metresPerUnit = std::nullopt);
+  /// The same for what is dropped on the window. While busy it only emits noted().
   void dropFiles(const QStringList& filesAndFolders);
   /// Runs a job in another thread behind a progress dialog. Must not be called while busy.
   /// @param done  Called on the GUI thread with what the job threw, Cancelled included, or null.

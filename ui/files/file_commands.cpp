@@ -84,10 +84,16 @@ void FileCommands::setUpRecentFiles() {
 }
 
 void FileCommands::setUpPartFiles() {
-  auto* parts =
-      new PartFiles(context_.session, context_.document, *new NoticeBar(&context_.view), reloadMenu, this);
-  connect(parts, &PartFiles::failed, this, &FileCommands::failed);
-  connect(parts, &PartFiles::noted, this, &FileCommands::noted);
+  auto* notices = new NoticeBar(&context_.view);
+  parts_ = new PartFiles({context_.session, context_.hand, context_.document, *notices}, reloadMenu, window_,
+                         this);
+  connect(parts_, &PartFiles::failed, this, &FileCommands::failed);
+  connect(parts_, &PartFiles::noted, this, &FileCommands::noted);
+  connect(parts_, &PartFiles::rescaled, this, &FileCommands::showWhole);
+}
+
+void FileCommands::changeUnit(const std::vector<PartId>& parts) {
+  parts_->changeUnit(parts);
 }
 
 void FileCommands::showWhole() {

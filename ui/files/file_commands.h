@@ -3,7 +3,9 @@
 #include <QObject>
 #include <QString>
 #include <functional>
+#include <vector>
 
+#include "core/scene/part.h"
 #include "core/session/scene_events.h"
 #include "ui/widgets/error_box.h"
 
@@ -19,6 +21,7 @@ namespace nearfit::ui {
 
 class Document;
 class HandState;
+class PartFiles;
 class Selection;
 class Viewport;
 
@@ -50,6 +53,10 @@ class FileCommands : public QObject {
   /// If the user cancels that, or it fails, `then` is not called.
   void withParts(std::function<void()> then);
 
+ public slots:
+  /// Asks for another unit of parts and reads their files in it.
+  void changeUnit(const std::vector<nearfit::PartId>& parts);
+
  signals:
   /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
@@ -67,6 +74,7 @@ class FileCommands : public QObject {
 
   const Context context_;
   QWidget* window_;
+  PartFiles* parts_ = nullptr;
   QString demoScene_;
   Subscription changes_;
 };

@@ -7,16 +7,24 @@
 #include <QSet>
 #include <QSettings>
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/math/aabb.h"
 #include "core/scene/odd_size.h"
 #include "ui/files/document.h"
 #include "ui/files/mesh_watch.h"
+#include "ui/files/unit_dialog.h"
+#include "ui/model/hand_state.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/notice_bar.h"
 #include "ui/widgets/paths.h"
@@ -38,6 +46,13 @@ QString namesOf(const QStringList& files) {
   return listOfNames(names, kNamed);
 }
 
+/// Returns why a part was not loaded; null if it was.
+std::exception_ptr problemOf(const LoadedPart& loaded, const std::filesystem::path& file) {
+  if (loaded.problem || loaded.geometry) return loaded.problem;
+  return std::make_exception_ptr(
+      FileError(file.string(), "it has changed since it was read", "reload it (Ctrl+R), then try again"));
+}
+
 /// Returns "1000" or "25.4".
 QString times(double factor) {
   return QLocale().toString(factor, 'g', factor >= 100.0 ? 4 : 3);
@@ -45,12 +60,14 @@ QString times(double factor) {
 
 }  // namespace
 
-PartFiles::PartFiles(Session& session, Document& document, NoticeBar& notices, QMenu* menu, QObject* parent)
+PartFiles::PartFiles(const Context& context, QMenu* menu, QWidget* window, QObject* parent)
     : QObject(parent),
-      session_(session),
-      document_(document),
-      notices_(notices),
-      watch_(new MeshWatch(session, this)) {
+      session_(context.session),
+      hand_(context.hand),
+      document_(context.document),
+      notices_(context.notices),
+      window_(window),
+      watch_(new MeshWatch(context.session, this)) {
   addActions(menu);
   connect(watch_, &MeshWatch::changed, this, &PartFiles::seeChange);
   connect(&document_, &Document::partsAdded, this, &PartFiles::judgeSizes);
@@ -149,21 +166,23 @@ void PartFiles::reload(QStringList files) {
   const auto isReloaded = [&](const QString& file) { return files.isEmpty() || chosen.contains(file); };
   changed_.erase(std::remove_if(changed_.begin(), changed_.end(), isReloaded), changed_.end());
   offerReload();
-  load(tr("Reloading %1").arg(files.isEmpty() ? tr("all parts") : namesOf(files)), partsOf(files),
-       &Session::reloadParts, tr("Some parts could not be reloaded; they stay as they were."));
+  load(
+      tr("Reloading %1").arg(files.isEmpty() ? tr("all parts") : namesOf(files)), partsOf(files),
+      [this](const std::vector<Session::NewGeometry>& renewed) { session_.reloadParts(renewed); },
+      tr("Some parts could not be reloaded; they stay as they were."));
 }
 
-void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, Command command,
+void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, const Command& command,
                      const QString& failure) {
   std::vector<MeshSource> sources;
   std::vector<std::size_t> sourceOf;
-  std::map<std::pair<std::filesystem::path, double>, std::size_t> known;
+  std::map<std::tuple<std::filesystem::path, double, std::string>, std::size_t> known;
   for (const Wanted& want : wanted) {
     const PartGeometry& geometry = *session_.scene().find(want.part)->geometry;
     const auto [source, isNew] =
-        known.try_emplace(std::pair(geometry.file, want.metresPerUnit), sources.size());
+        known.try_emplace(std::tuple(geometry.file, want.metresPerUnit, want.sha256), sources.size());
     sourceOf.push_back(source->second);
-    if (isNew) sources.push_back({geometry.file, want.metresPerUnit, {}});
+    if (isNew) sources.push_back({geometry.file, want.metresPerUnit, want.sha256});
   }
   if (sources.empty()) return;
   auto loaded = std::make_shared<std::vector<LoadedPart>>();
@@ -180,8 +199,8 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, Com
     QVector<FailedItem> problems;
     if (error) problems << describeItem({}, error);
     for (std::size_t i = 0; i < loaded->size(); ++i) {
-      const QString name = fromPath(sources[i].file.filename());
-      if ((*loaded)[i].problem) problems << describeItem(name, (*loaded)[i].problem);
+      if (const std::exception_ptr problem = problemOf((*loaded)[i], sources[i].file))
+        problems << describeItem(fromPath(sources[i].file.filename()), problem);
     }
     std::vector<Session::NewGeometry> renewed;
     for (std::size_t i = 0; !error && i < wanted.size(); ++i) {
@@ -193,8 +212,7 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, Com
       if (!isSame) renewed.push_back({part->id, geometry});
     }
     try {
-      // If called with .*, GCC 12's sanitizer reads a `this` that it has not set.
-      std::invoke(command, session_, renewed);
+      command(renewed);
     } catch (...) {
       problems << describeItem({}, std::current_exception());
     }
@@ -228,13 +246,58 @@ void PartFiles::offerRescale(const std::vector<PartId>& parts, double ratio, dou
 }
 
 void PartFiles::rescale(const std::vector<PartId>& parts, double factor) {
-  if (document_.isBusy()) return;
   std::vector<Wanted> wanted;
   for (const PartId id : parts) {
     const Part* part = session_.scene().find(id);
-    if (part != nullptr) wanted.push_back({id, part->geometry->metresPerUnit * factor});
+    if (part != nullptr) wanted.push_back(inUnit(*part, part->geometry->metresPerUnit * factor));
   }
-  load(tr("Rescaling"), wanted, &Session::rescaleParts, tr("The parts could not be rescaled."));
+  loadInUnits(tr("Rescaling"), wanted, tr("The parts could not be rescaled."));
+}
+
+PartFiles::Wanted PartFiles::inUnit(const Part& part, double metresPerUnit) {
+  return {part.id, metresPerUnit, part.geometry->sha256};
+}
+
+void PartFiles::changeUnit(const std::vector<PartId>& parts) {
+  if (document_.isBusy()) return;
+  if (hand_.status().isTaken()) return emit noted(tr("Stop feeling (F6) before you change a unit"));
+  QStringList names;
+  Aabb box;
+  std::optional<double> present;
+  for (const PartId id : parts) {
+    const Part* part = session_.scene().find(id);
+    if (part == nullptr || part->geometry == nullptr) continue;
+    const Aabb& bounds = part->geometry->mesh.bounds();
+    const double metresPerUnit = part->geometry->metresPerUnit;
+    if (bounds.isEmpty()) continue;
+    names << QString::fromStdString(part->name);
+    box.add(bounds.lower / metresPerUnit);
+    box.add(bounds.upper / metresPerUnit);
+    if (!present) present = metresPerUnit;
+  }
+  if (!present) return;
+  const std::optional<double> unit = askForOtherUnit(names, box.upper - box.lower, *present, window_);
+  if (!unit) return;
+  std::vector<Wanted> wanted;
+  for (const PartId id : parts) {
+    const Part* part = session_.scene().find(id);
+    if (part == nullptr || part->geometry == nullptr || part->geometry->metresPerUnit == *unit) continue;
+    wanted.push_back(inUnit(*part, *unit));
+  }
+  loadInUnits(tr("Changing the unit"), wanted, tr("The unit of some parts could not be changed."));
+}
+
+void PartFiles::loadInUnits(const QString& text, const std::vector<Wanted>& wanted, const QString& failure) {
+  if (document_.isBusy()) return emit noted(tr("Files are being loaded; try again afterwards."));
+  const auto apply = [this](const std::vector<Session::NewGeometry>& renewed) {
+    if (renewed.empty()) return;
+    // Feeling may have begun since.
+    if (hand_.status().isTaken())
+      throw UsageError("", "a part is being felt", "stop feeling it (F6), then try again");
+    session_.rescaleParts(renewed);
+    emit rescaled();
+  };
+  load(text, wanted, apply, failure);
 }
 
 }  // namespace nearfit::ui

@@ -2,6 +2,8 @@
 
 #include <QObject>
 #include <QStringList>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "core/session/session.h"
@@ -10,26 +12,39 @@
 
 class QAction;
 class QMenu;
+class QWidget;
 
 namespace nearfit::ui {
 
 class Document;
+class HandState;
 class MeshWatch;
 class NoticeBar;
 
 /// Keeps parts and their files in step: offers to reload files that have changed on disk, and to rescale
-/// parts whose unit seems wrong.
+/// parts whose unit seems wrong; changes units.
 class PartFiles : public QObject {
   Q_OBJECT
 
  public:
-  /// @param session   Must outlive this.
-  /// @param document  Must outlive this.
-  /// @param notices   Must outlive this.
-  /// @param menu      Receives the actions.
-  PartFiles(Session& session, Document& document, NoticeBar& notices, QMenu* menu, QObject* parent);
+  /// What this acts on; all outlive it.
+  struct Context {
+    Session& session;
+    const HandState& hand;
+    Document& document;
+    NoticeBar& notices;
+  };
+  /// @param menu    Receives the actions.
+  /// @param window  The parent of dialogs.
+  PartFiles(const Context& context, QMenu* menu, QWidget* window, QObject* parent);
+
+  /// Asks for another unit of parts, then reads their files in it, as one undo step; poses stay. Refuses while
+  /// a part is being felt: what is felt must not change its size. Does nothing while the document is busy.
+  void changeUnit(const std::vector<PartId>& parts);
 
  signals:
+  /// Emitted when parts have changed their size.
+  void rescaled();
   /// Emitted with a short note for the status bar.
   void noted(const QString& text);
   /// Emitted when something failed that the user must see.
@@ -39,6 +54,7 @@ class PartFiles : public QObject {
   struct Wanted {
     PartId part;
     double metresPerUnit;
+    std::string sha256 = {};  ///< Required content of its file; empty: any.
   };
   void addActions(QMenu* menu);
   void seeChange(const QStringList& files);
@@ -53,15 +69,22 @@ class PartFiles : public QObject {
   void judgeSizes(const std::vector<PartId>& added);
   void offerRescale(const std::vector<PartId>& parts, double ratio, double factor);
   void rescale(const std::vector<PartId>& parts, double factor);
-  using Command = void (Session::*)(const std::vector<Session::NewGeometry>&);
-  /// Reads the files of parts again, and gives the results to the session by a command.
+  /// The same part in another unit, from the content that its file had when it was read.
+  static Wanted inUnit(const Part& part, double metresPerUnit);
+  /// Reads the files of parts in other units, as one undo step.
+  void loadInUnits(const QString& text, const std::vector<Wanted>& wanted, const QString& failure);
+  using Command = std::function<void(const std::vector<Session::NewGeometry>&)>;
+  /// Reads the files of parts again, and gives what is new to a command.
   /// @param text     Shown to the user meanwhile.
   /// @param failure  Shown to the user if it fails.
-  void load(const QString& text, const std::vector<Wanted>& wanted, Command command, const QString& failure);
+  void load(const QString& text, const std::vector<Wanted>& wanted, const Command& command,
+            const QString& failure);
 
   Session& session_;
+  const HandState& hand_;
   Document& document_;
   NoticeBar& notices_;
+  QWidget* window_;
   MeshWatch* watch_;
   QAction *reload_ = nullptr, *reloadAlways_ = nullptr;
   QStringList changed_;              ///< Files changed on disk and not reloaded yet.

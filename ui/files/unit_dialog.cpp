@@ -1,60 +1,206 @@
 #include "ui/files/unit_dialog.h"
 
-#include <QComboBox>
+#include <QButtonGroup>
 #include <QDialog>
 #include <QDialogButtonBox>
+#include <QFileInfo>
+#include <QGridLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QRadioButton>
 #include <QVBoxLayout>
 #include <array>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <vector>
 
+#include "core/scene/mesh_unit.h"
+#include "ui/widgets/background_task.h"
+#include "ui/widgets/format.h"
 #include "ui/widgets/names.h"
+#include "ui/widgets/paths.h"
 #include "ui/widgets/preferences.h"
 
 namespace nearfit::ui {
 namespace {
 
-struct Unit {
+struct MeshUnit {
+  const char* key;  ///< For object names.
   const char* name;
   double metres;
 };
-constexpr std::array<Unit, 6> kUnits = {{{QT_TRANSLATE_NOOP("Unit", "Micrometres"), 1e-6},
-                                         {QT_TRANSLATE_NOOP("Unit", "Tenths of a millimetre"), 1e-4},
-                                         {QT_TRANSLATE_NOOP("Unit", "Millimetres"), 1e-3},
-                                         {QT_TRANSLATE_NOOP("Unit", "Centimetres"), 1e-2},
-                                         {QT_TRANSLATE_NOOP("Unit", "Inches"), 0.0254},
-                                         {QT_TRANSLATE_NOOP("Unit", "Metres"), 1.0}}};
+constexpr std::array<MeshUnit, 7> kMeshUnits = {
+    {{"um", QT_TRANSLATE_NOOP("QObject", "Micrometres"), 1e-6},
+     {"tenth-mm", QT_TRANSLATE_NOOP("QObject", "Tenths of a millimetre"), 1e-4},
+     {"mm", QT_TRANSLATE_NOOP("QObject", "Millimetres"), 1e-3},
+     {"cm", QT_TRANSLATE_NOOP("QObject", "Centimetres"), 1e-2},
+     {"in", QT_TRANSLATE_NOOP("QObject", "Inches"), 0.0254},
+     {"ft", QT_TRANSLATE_NOOP("QObject", "Feet"), 0.3048},
+     {"m", QT_TRANSLATE_NOOP("QObject", "Metres"), 1.0}}};
+
+/// Units, each with the size that it gives. There is no answer before the sizes are shown.
+class UnitDialog : public QDialog {
+ public:
+  /// @param question  Plain text.
+  /// @param accept    Text of the button that accepts.
+  UnitDialog(const QString& question, const QString& accept, QWidget* parent);
+
+  /// Checks a unit; adds a row for one that is not in the list.
+  void check(double metresPerUnit);
+  /// Marks a unit that has a row as the present one.
+  void markPresent(double metresPerUnit);
+  /// Shows the sizes, and takes an answer from now on.
+  /// @param extent  In the files' units.
+  void showSizes(const glm::dvec3& extent);
+  /// Reads files in another thread, then shows their sizes. Accepts if none of them can be read.
+  void measure(const QStringList& files);
+
+  bool hasSizes() const noexcept { return hasSizes_; }
+  double metresPerUnit() const { return rows_[static_cast<std::size_t>(group_->checkedId())].metres; }
+
+ private:
+  struct Row {
+    double metres;
+    QRadioButton* choice;
+    QLabel* size;
+  };
+  void addRow(const char* key, const QString& name, double metres);
+  /// Null if the unit has no row.
+  Row* rowOf(double metres);
+
+  QButtonGroup* group_;
+  QGridLayout* grid_;
+  QLabel* reading_;
+  QPushButton* accept_;
+  std::vector<Row> rows_;
+  bool hasSizes_ = false;
+  BackgroundTask task_;
+};
+
+UnitDialog::UnitDialog(const QString& question, const QString& accept, QWidget* parent)
+    : QDialog(parent), group_(new QButtonGroup(this)), grid_(new QGridLayout), reading_(new QLabel(this)) {
+  setObjectName(QStringLiteral("unitDialog"));
+  setWindowTitle(QObject::tr("Unit of length"));
+  auto* text = new QLabel(breakable(question), this);
+  text->setObjectName(QStringLiteral("unitQuestion"));
+  text->setTextFormat(Qt::PlainText);
+  text->setWordWrap(true);
+  grid_->setColumnStretch(1, 1);
+  for (const MeshUnit& unit : kMeshUnits)
+    addRow(unit.key, QObject::tr(unit.name), unit.metres);
+  reading_->setText(QObject::tr("Reading the size…"));
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
+  accept_ = buttons->button(QDialogButtonBox::Ok);
+  accept_->setText(accept);
+  accept_->setEnabled(false);
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(text);
+  layout->addLayout(grid_);
+  layout->addWidget(reading_);
+  layout->addWidget(buttons);
+  setMinimumWidth(380);
+}
+
+void UnitDialog::addRow(const char* key, const QString& name, double metres) {
+  const int row = static_cast<int>(rows_.size());
+  auto* choice = new QRadioButton(name, this);
+  choice->setObjectName(QStringLiteral("unit-") + QLatin1String(key));
+  auto* size = new QLabel(this);
+  size->setObjectName(QStringLiteral("size-") + QLatin1String(key));
+  size->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  size->setBuddy(choice);
+  group_->addButton(choice, row);
+  grid_->addWidget(choice, row, 0);
+  grid_->addWidget(size, row, 1);
+  rows_.push_back({metres, choice, size});
+}
+
+UnitDialog::Row* UnitDialog::rowOf(double metres) {
+  for (Row& row : rows_) {
+    if (row.metres == metres) return &row;
+  }
+  return nullptr;
+}
+
+void UnitDialog::check(double metresPerUnit) {
+  if (rowOf(metresPerUnit) == nullptr)
+    addRow("other", QObject::tr("%1 metres").arg(formatNumber(metresPerUnit)), metresPerUnit);
+  QRadioButton* choice = rowOf(metresPerUnit)->choice;
+  choice->setChecked(true);
+  choice->setFocus();
+}
+
+void UnitDialog::markPresent(double metresPerUnit) {
+  const Row* row = rowOf(metresPerUnit);
+  if (row != nullptr) row->choice->setText(QObject::tr("%1 (now)").arg(row->choice->text()));
+}
+
+void UnitDialog::showSizes(const glm::dvec3& extent) {
+  for (const Row& row : rows_) {
+    const QString size = formatExtent(row.metres * extent);
+    row.size->setText(size);
+    row.choice->setAccessibleName(QStringLiteral("%1, %2").arg(row.choice->text(), size));
+  }
+  hasSizes_ = true;
+  reading_->hide();
+  accept_->setEnabled(true);
+}
+
+void UnitDialog::measure(const QStringList& files) {
+  std::vector<std::filesystem::path> paths;
+  for (const QString& file : files)
+    paths.push_back(toPath(file));
+  const auto extent = std::make_shared<std::optional<glm::dvec3>>();
+  task_.run(
+      [paths, extent](const ProgressCallback& progress) { *extent = extentOfMeshFiles(paths, progress); },
+      [this, extent](const std::exception_ptr& error) {
+        if (error || !*extent) return QDialog::accept();
+        showSizes(**extent);
+      });
+}
+
+QString questionAbout(const QStringList& files) {
+  if (files.size() == 1) {
+    return QObject::tr("“%1” stores no unit. What unit is it in?")
+        .arg(shortName(QFileInfo(files.first()).fileName()));
+  }
+  return QObject::tr(
+             "These formats store no unit. What unit are these %1 files in? The sizes are those of all "
+             "files together.")
+      .arg(files.size());
+}
+
+QString questionAboutParts(const QStringList& parts) {
+  constexpr int kNamed = 3;
+  if (parts.size() == 1)
+    return QObject::tr("In what unit is the file of “%1”?").arg(shortName(parts.first()));
+  return QObject::tr("In what unit are the files of %1? The sizes are those of all of them together.")
+      .arg(listOfNames(parts, kNamed));
+}
 
 }  // namespace
 
-std::optional<double> askForUnit(const QString& what, QWidget* parent) {
-  QDialog dialog(parent);
-  dialog.setObjectName(QStringLiteral("unitDialog"));
-  dialog.setWindowTitle(QObject::tr("Unit of length"));
-  auto* question = new QLabel(
-      QObject::tr("These formats store no unit. What is the unit of %1?").arg(breakable(shortName(what))),
-      &dialog);
-  question->setWordWrap(true);
-  auto* box = new QComboBox(&dialog);
-  box->setObjectName(QStringLiteral("unit"));
-  box->setAccessibleName(QObject::tr("Unit of length"));
-  for (const Unit& unit : kUnits) {
-    box->addItem(QObject::tr(unit.name), unit.metres);
-    if (unit.metres == Preferences::metresPerUnit()) box->setCurrentIndex(box->count() - 1);
-  }
-  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, &dialog);
-  buttons->button(QDialogButtonBox::Ok)->setText(QObject::tr("Add"));
-  QObject::connect(buttons, &QDialogButtonBox::accepted, &dialog, &QDialog::accept);
-  QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
-  auto* layout = new QVBoxLayout(&dialog);
-  layout->addWidget(question);
-  layout->addWidget(box);
-  layout->addWidget(buttons);
-  dialog.setMinimumWidth(360);
+std::optional<double> askForUnit(const QStringList& files, QWidget* parent) {
+  UnitDialog dialog(questionAbout(files), QObject::tr("Add"), parent);
+  dialog.check(Preferences::metresPerUnit());
+  dialog.measure(files);
   if (dialog.exec() != QDialog::Accepted) return std::nullopt;
-  const double metresPerUnit = box->currentData().toDouble();
-  Preferences::setMetresPerUnit(metresPerUnit);
+  const double metresPerUnit = dialog.metresPerUnit();
+  if (dialog.hasSizes()) Preferences::setMetresPerUnit(metresPerUnit);
   return metresPerUnit;
+}
+
+std::optional<double> askForOtherUnit(const QStringList& parts, const glm::dvec3& extent,
+                                      double metresPerUnit, QWidget* parent) {
+  UnitDialog dialog(questionAboutParts(parts), QObject::tr("Change"), parent);
+  dialog.check(metresPerUnit);
+  dialog.markPresent(metresPerUnit);
+  dialog.showSizes(extent);
+  if (dialog.exec() != QDialog::Accepted) return std::nullopt;
+  return dialog.metresPerUnit();
 }
 
 }  // namespace nearfit::ui

@@ -212,6 +212,7 @@ void MainWindow::connectCommands() {
   connect(undo_, &UndoActions::sceneNeeded, placing_, &PlacingTools::commit);
   connect(parts_, &PartCommands::servoStopRequested, feel_, &FeelControl::servoStopRequested);
   connect(parts_, &PartCommands::servoStartRequested, feel_->start, &QAction::trigger);
+  connect(parts_, &PartCommands::unitChangeRequested, files_, &FileCommands::changeUnit);
   connect(selectedPose_, &SelectedPose::moveRequested, handControl_, &HandControl::place);
   connect(selectedPose_, &SelectedPose::stepRequested, handControl_, &HandControl::step);
   // A number that was refused must not stay.

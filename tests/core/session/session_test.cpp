@@ -448,7 +448,7 @@ TEST(Session, LockedPartIsNotRescaled) {
   const PartId peg = session.addPart(std::make_shared<const PartGeometry>(), "Peg", kAside);
   const auto larger = std::make_shared<const PartGeometry>();
   session.rescaleParts({{peg, larger}});
-  EXPECT_EQ(session.undoText(), "Rescale Peg");
+  EXPECT_EQ(session.undoText(), "Change the unit of Peg");
   EXPECT_EQ(session.scene().find(peg)->geometry, larger);
   session.setLocked(peg, true);
   EXPECT_THROW(session.rescaleParts({{peg, std::make_shared<const PartGeometry>()}}), UsageError);

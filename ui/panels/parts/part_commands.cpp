@@ -54,6 +54,8 @@ void PartCommands::makeActions() {
                       tr("Give the selected part or group another name"));
   recolour = makeAction(this, "recolour", tr("&Colour…"), {}, {},
                         tr("Choose another colour for the selected parts"));
+  changeUnit = makeAction(this, "changeUnit", tr("Change &unit…"), {}, {},
+                          tr("Read the selected parts in another unit; shows the size that each unit gives"));
   takeInHand =
       makeAction(this, "takeInHand", tr("&Take in hand"), QStringLiteral("hand"), QStringLiteral("Ctrl+H"));
   takeInHand->setToolTip(tr("Make the selected part the moving part"));
@@ -68,7 +70,7 @@ void PartCommands::makeActions() {
 void PartCommands::makeMenu() {
   auto* separator = new QAction(this);
   separator->setSeparator(true);
-  menu_ = QList<QAction*>{takeInHand, rename, recolour, duplicate} + tree_->list() +
+  menu_ = QList<QAction*>{takeInHand, rename, recolour, changeUnit, duplicate} + tree_->list() +
           QList<QAction*>{separator, remove};
   for (QAction* action : menu_)
     action->setShortcutVisibleInContextMenu(true);
@@ -79,6 +81,8 @@ void PartCommands::connectActions() {
   connect(duplicate, &QAction::triggered, this, &PartCommands::duplicateSelected);
   connect(rename, &QAction::triggered, &panel_, &PartsPanel::editName);
   connect(recolour, &QAction::triggered, this, &PartCommands::recolourSelected);
+  connect(changeUnit, &QAction::triggered, this,
+          [this] { emit unitChangeRequested(context_.selection.parts()); });
   connect(takeInHand, &QAction::triggered, this, [this] {
     if (context_.selection.current()) take(context_.selection.current());
   });
@@ -126,6 +130,12 @@ void PartCommands::update() {
     action->setEnabled(canAct);
   for (QAction* action : {rename, remove, takeInHand})
     action->setEnabled(canAct && !(part != nullptr && scene.isLocked(*part)));
+  const auto isLocked = [&scene](PartId id) {
+    const Part* selected = scene.find(id);
+    return selected != nullptr && scene.isLocked(*selected);
+  };
+  changeUnit->setEnabled(canAct && part != nullptr &&
+                         std::ranges::none_of(context_.selection.parts(), isLocked));
   selectAll->setEnabled(!scene.parts().empty());
   selectNone->setEnabled(isAnySelected);
 }

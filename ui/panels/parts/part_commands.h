@@ -4,6 +4,7 @@
 #include <QObject>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "core/scene/scene_tree.h"
 #include "core/session/scene_events.h"
@@ -41,7 +42,7 @@ class PartCommands : public QObject {
   /// @param window  The parent, and that of dialogs.
   PartCommands(const Context& context, PartsPanel& panel, QWidget* window);
 
-  QAction *duplicate, *rename, *recolour, *takeInHand, *remove, *selectAll, *selectNone;
+  QAction *duplicate, *rename, *recolour, *changeUnit, *takeInHand, *remove, *selectAll, *selectNone;
 
   /// The actions on groups, visibility and locks.
   const TreeActions& tree() const noexcept { return *tree_; }
@@ -54,6 +55,8 @@ class PartCommands : public QObject {
   void servoStopRequested();
   /// Emitted when the servo ran before another part was taken in hand, and is to go on with that.
   void servoStartRequested();
+  /// Emitted when the user wants to change the unit of parts' files.
+  void unitChangeRequested(const std::vector<nearfit::PartId>& parts);
   /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
   /// Emitted with a short note for the status bar.
