@@ -22,6 +22,7 @@
 #include "ui/files/unit_dialog.h"
 #include "ui/model/selection.h"
 #include "ui/widgets/error_box.h"
+#include "ui/widgets/paths.h"
 #include "ui/widgets/progress_dialog.h"
 #include "ui/widgets/theme.h"
 
@@ -200,7 +201,8 @@ class Pictures {
     grabDialog(QStringLiteral("export"), [this] { trigger("exportPlacement"); });
     grabDialog(QStringLiteral("picture"), [this] { trigger("savePicture"); });
     grabDialog(QStringLiteral("about"), [this] { trigger("about"); });
-    grabDialog(QStringLiteral("unit"), [&] { ui::askForUnit(QStringLiteral("piston.stl"), &window); });
+    const QString mesh = ui::fromPath(driver_.session().scene().parts().front()->geometry->file);
+    grabDialog(QStringLiteral("unit"), [&] { ui::askForUnit({mesh}, &window); });
     failures();
     trigger("duplicate");
     grabDialog(QStringLiteral("unsaved"), [&] { window.close(); });

@@ -207,12 +207,7 @@ void DesktopCancelTest::progressRisesWhileFilesLoad() {
     connect(bar, &QProgressBar::valueChanged, bar, [&](int value) { values.push_back(value); });
   };
   connect(&d.window().document(), &ui::Document::busyChanged, this, watch);
-  whenModal<QDialog>(
-      [](QDialog* dialog) {
-        QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok),
-                          Qt::LeftButton);
-      },
-      QStringLiteral("unitDialog"));
+  whenModal<QDialog>([](QDialog* dialog) { answerUnit(dialog); }, QStringLiteral("unitDialog"));
   drop(d.window(), {nameOf(parts)});
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{kFiles});
   QVERIFY(most > 0);

@@ -10,6 +10,7 @@
 #include <QLineEdit>
 #include <QListView>
 #include <QPushButton>
+#include <QRadioButton>
 #include <QSettings>
 #include <QTimer>
 #include <QTreeView>
@@ -88,6 +89,21 @@ void whenModal(std::function<void(Dialog*)> act, const QString& name = {}) {
     act(dialog);
   });
   timer->start();
+}
+
+/// Answers the question for a unit, once it shows what size each unit gives.
+/// @param unit  "mm", "in", ...; null: the one that is offered.
+inline void answerUnit(QDialog* question, const char* unit = nullptr) {
+  auto* accept = question->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
+  QTRY_VERIFY(accept->isEnabled());
+  if (unit != nullptr) {
+    auto* choice = question->findChild<QRadioButton*>(QStringLiteral("unit-") + QLatin1String(unit));
+    QVERIFY(choice != nullptr);
+    choice->setFocus();
+    QTest::keyClick(choice, Qt::Key_Space);
+    QVERIFY(choice->isChecked());
+  }
+  QTest::mouseClick(accept, Qt::LeftButton);
 }
 
 /// Puts a path into a file dialog and accepts it by its button.

@@ -80,7 +80,9 @@ QStringList namelessFields(const QWidget& dialog) {
 }
 
 int fieldCount(const QWidget& dialog) {
-  return dialog.findChildren<QComboBox*>().size() + dialog.findChildren<QLineEdit*>().size();
+  return static_cast<int>(dialog.findChildren<QComboBox*>().size() +
+                          dialog.findChildren<QLineEdit*>().size() +
+                          dialog.findChildren<QRadioButton*>().size());
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <QClipboard>
-#include <QComboBox>
 #include <QElapsedTimer>
 #include <QMenu>
 #include <QStatusBar>
@@ -30,14 +29,11 @@ QMenu& openRecent(DesktopDriver& d) {
 }
 
 /// Answers the question for the unit, and counts how often it was asked.
-void answerUnit(double metres, int& asked) {
+void answerUnits(const char* unit, int& asked) {
   whenModal<QDialog>(
-      [metres, &asked](QDialog* dialog) {
+      [unit, &asked](QDialog* dialog) {
         ++asked;
-        auto* box = dialog->findChild<QComboBox*>(QStringLiteral("unit"));
-        box->setCurrentIndex(box->findData(metres));
-        QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok),
-                          Qt::LeftButton);
+        answerUnit(dialog, unit);
       },
       QStringLiteral("unitDialog"));
 }
@@ -121,7 +117,7 @@ void DesktopPartFilesTest::droppedFolderIsTakenApartAndTheUnitAskedOnce() {
   writeOff(folder / "inner" / "b.off", boxMesh(glm::dvec3(0.02)));
   std::ofstream(folder / "notes.txt") << "no mesh";
   int asked = 0;
-  answerUnit(0.01, asked);
+  answerUnits("cm", asked);
   drop(d.window(), {nameOf(folder), d.fixedFile});
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
   QCOMPARE(asked, 1);

@@ -66,6 +66,8 @@ struct PictureChoice {
 /// Two cubes in a view that is at rest, and pictures of it by the shortcut.
 struct PictureDesk : DesktopDriver {
   PictureDesk() {
+    // Pictures have it, and the view without its widgets has not.
+    window().viewport().setScaleBarVisible(false);
     addCubes();
     QTRY_VERIFY(window().viewport().pictureCount() > 0);
     (void)picture();

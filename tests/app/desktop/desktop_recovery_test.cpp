@@ -177,7 +177,8 @@ void DesktopRecoveryTest::theProgramItselfIsKilledAndItsSceneComesBack() {
   environment.insert(QStringLiteral("XDG_CONFIG_HOME"), home);
   program.setProcessEnvironment(environment);
   program.start(QStringLiteral(NEARFIT_DESKTOP),
-                {QString::fromStdString(file.string()), home + QStringLiteral("/moving.off")});
+                {QString::fromStdString(file.string()), home + QStringLiteral("/moving.off"),
+                 QStringLiteral("--unit"), QStringLiteral("mm")});
   const fs::path state = place.folder.path() / "nearfit" / "recovery";
   QTRY_VERIFY_WITH_TIMEOUT(journalIn(state).has_value(), 60'000);
   program.kill();

@@ -134,15 +134,7 @@ void Worker::openParts(const QStringList& files) {
   for (const QString& file : files)
     quoted << QChar('"') + file + QChar('"');
   whenModal<QFileDialog>([&](QFileDialog* dialog) {
-    whenModal<QDialog>(
-        [](QDialog* question) {
-          auto* unit = question->findChild<QComboBox*>(QStringLiteral("unit"));
-          unit->setFocus();
-          QTest::keyClick(unit, Qt::Key_End);  // Metres.
-          QTest::mouseClick(question->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok),
-                            Qt::LeftButton);
-        },
-        QStringLiteral("unitDialog"));
+    whenModal<QDialog>([](QDialog* question) { answerUnit(question, "m"); }, QStringLiteral("unitDialog"));
     chooseFile(dialog, quoted.join(QChar(' ')));
   });
   d_.choose("addParts");

@@ -1,0 +1,292 @@
+// The unit of mesh files: asked for with the size that each gives, given on the command line, changed later.
+#include <QRadioButton>
+#include <QStatusBar>
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <variant>
+
+#include "app/desktop/command_line.h"
+#include "core/scene/part_geometry.h"
+#include "tests/app/desktop/file_drop.h"
+#include "ui/model/selection.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+namespace {
+
+/// Waits until a question for a unit shows sizes, and returns that of a unit.
+QString sizeIn(QDialog* question, const char* unit) {
+  auto* accept = question->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
+  [&] { QTRY_VERIFY(accept->isEnabled()); }();
+  return question->findChild<QLabel*>(QStringLiteral("size-") + QLatin1String(unit))->text();
+}
+
+/// Acts on the next question for a unit.
+void whenAsked(const std::function<void(QDialog*)>& act) {
+  whenModal<QDialog>(act, QStringLiteral("unitDialog"));
+}
+
+/// Counts questions for a unit while it exists, and cancels them.
+class Questions {
+ public:
+  Questions() {
+    timer_.setInterval(5);
+    QObject::connect(&timer_, &QTimer::timeout, &timer_, [this] {
+      auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+      if (dialog == nullptr || dialog->objectName() != QStringLiteral("unitDialog")) return;
+      ++count_;
+      dialog->reject();
+    });
+    timer_.start();
+  }
+  int count() const { return count_; }
+
+ private:
+  QTimer timer_;
+  int count_ = 0;
+};
+
+template <std::size_t Count>
+std::variant<desktop::Options, int> parsed(const std::array<const char*, Count>& arguments) {
+  return desktop::parseCommandLine(static_cast<int>(Count), arguments.data());
+}
+
+}  // namespace
+
+class DesktopUnitsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { QSettings().clear(); }
+  void eachUnitShowsTheSizeThatItGives();
+  void severalFilesAreMeasuredTogether();
+  void sizesAreInTheUnitOfLengthShown();
+  void filesThatCannotBeReadAreNotAskedAbout();
+  void theCommandLineTakesTheSpellingOfTheOtherProgram();
+  void anUnattendedRunTakesMillimetres();
+  void filesOfTheCommandLineAreAskedAbout();
+  void filesOfTheCommandLineWithAUnitAreNot();
+  void aCancelledQuestionAddsNothing();
+  void anotherUnitIsAnImportInItAndOneStep();
+  void severalPartsChangeTheirUnitInOneStep();
+  void theUnitStaysWhileAPartIsFelt();
+  void aFileThatHasChangedIsNotReadInAnotherUnit();
+  void lockedPartsKeepTheirUnit();
+};
+
+void DesktopUnitsTest::eachUnitShowsTheSizeThatItGives() {
+  DesktopDriver d;
+  const QString file = writeOff(d.folder.path() / "peg.off", boxMesh({0.053, 0.016, 0.012}, {1.0, 0.0, 0.0}));
+  whenModal<QFileDialog>([&](QFileDialog* dialog) {
+    whenAsked([](QDialog* question) {
+      QCOMPARE(sizeIn(question, "mm"), QStringLiteral("53 × 16 × 12 mm"));
+      QCOMPARE(sizeIn(question, "m"), QStringLiteral("53 × 16 × 12 m"));
+      QCOMPARE(sizeIn(question, "um"), QStringLiteral("53 × 16 × 12 µm"));
+      QCOMPARE(sizeIn(question, "cm"), QStringLiteral("530 × 160 × 120 mm"));
+      QCOMPARE(sizeIn(question, "in"), QStringLiteral("1.346 × 0.4064 × 0.3048 m"));
+      QVERIFY(question->findChild<QLabel*>(QStringLiteral("unitQuestion"))
+                  ->text()
+                  .contains(QStringLiteral("peg.off")));
+      keepPictures(*question, QStringLiteral("unit"));
+      answerUnit(question, "cm");
+    });
+    chooseFile(dialog, file);
+  });
+  d.choose("addParts");
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
+  QVERIFY(isNear(widthOf(d.part("peg")), 0.53, 1e-12));
+}
+
+void DesktopUnitsTest::severalFilesAreMeasuredTogether() {
+  DesktopDriver d;
+  // The cubes: 40 mm from -20 on, and 20 mm up to 45 mm.
+  whenAsked([](QDialog* question) {
+    QCOMPARE(sizeIn(question, "mm"), QStringLiteral("40 × 40 × 65 mm"));
+    answerUnit(question);
+  });
+  drop(d.window(), {d.fixedFile, d.movingFile});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+}
+
+void DesktopUnitsTest::sizesAreInTheUnitOfLengthShown() {
+  DesktopDriver d;
+  d.choose("unit-cm");
+  whenAsked([](QDialog* question) {
+    QCOMPARE(sizeIn(question, "mm"), QStringLiteral("4 × 4 × 4 cm"));
+    QTest::keyClick(question, Qt::Key_Escape);
+  });
+  d.window().document().openFiles({d.fixedFile});
+  d.choose("unit-mm");
+}
+
+void DesktopUnitsTest::filesThatCannotBeReadAreNotAskedAbout() {
+  DesktopDriver d;
+  QStringList told;
+  d.window().setFailureSink([&](const ui::Failure& failure) { told << failure.details; });
+  d.window().document().openFiles({nameOf(d.folder.write("bad.off", "OFF\nnonsense\n"))});
+  QTRY_COMPARE(told.size(), 1);
+  QVERIFY2(told.first().contains(QStringLiteral("bad.off")), qPrintable(told.first()));
+  QVERIFY(d.session().scene().parts().empty());
+}
+
+void DesktopUnitsTest::theCommandLineTakesTheSpellingOfTheOtherProgram() {
+  const auto unitOf = [](const char* text) {
+    return std::get<desktop::Options>(parsed(std::array{"nearfit", "a.stl", "--unit", text})).metresPerUnit;
+  };
+  QCOMPARE(unitOf("cm").value(), 0.01);
+  QCOMPARE(unitOf("um").value(), 1e-6);
+  QCOMPARE(unitOf("ft").value(), 0.3048);
+  QCOMPARE(unitOf("0.0254").value(), 0.0254);
+  QVERIFY(!std::get<desktop::Options>(parsed(std::array{"nearfit", "a.stl"})).metresPerUnit);
+  for (const char* text : {"mile", "0", "nan"})
+    QCOMPARE(std::get<int>(parsed(std::array{"nearfit", "a.stl", "--unit", text})), 2);
+  QCOMPARE(std::get<int>(parsed(std::array{"nearfit", "--unit", "mm"})), 2);
+}
+
+void DesktopUnitsTest::anUnattendedRunTakesMillimetres() {
+  const auto picture = parsed(std::array{"nearfit", "a.stl", "--screenshot", "a.png"});
+  QCOMPARE(std::get<desktop::Options>(picture).metresPerUnit.value(), 1e-3);
+  const auto inMetres = parsed(std::array{"nearfit", "a.stl", "--unit", "m", "--screenshot", "a.png"});
+  QCOMPARE(std::get<desktop::Options>(inMetres).metresPerUnit.value(), 1.0);
+}
+
+void DesktopUnitsTest::filesOfTheCommandLineAreAskedAbout() {
+  DesktopDriver d;
+  whenAsked([](QDialog* question) { answerUnit(question, "in"); });
+  d.application.show({d.fixedFile}, false);
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
+  QCOMPARE(d.part("fixed").geometry->metresPerUnit, 0.0254);
+  // The answer is offered the next time.
+  whenAsked([](QDialog* question) {
+    QVERIFY(question->findChild<QRadioButton*>(QStringLiteral("unit-in"))->isChecked());
+    answerUnit(question);
+  });
+  d.window().document().openFiles({d.movingFile});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QCOMPARE(d.part("moving").geometry->metresPerUnit, 0.0254);
+}
+
+void DesktopUnitsTest::filesOfTheCommandLineWithAUnitAreNot() {
+  DesktopDriver d;
+  Questions questions;
+  d.application.show({d.fixedFile, d.movingFile}, false, 0.01);
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QCOMPARE(questions.count(), 0);
+  QCOMPARE(d.part("fixed").geometry->metresPerUnit, 0.01);
+  QCOMPARE(d.part("moving").geometry->metresPerUnit, 0.01);
+}
+
+void DesktopUnitsTest::aCancelledQuestionAddsNothing() {
+  DesktopDriver d;
+  bool hasEnded = false, isComplete = true;
+  connect(&d.window().document(), &ui::Document::loaded, this, [&](bool is) {
+    hasEnded = true;
+    isComplete = is;
+  });
+  Questions questions;
+  d.window().document().openFiles({d.fixedFile});
+  QVERIFY(hasEnded && !isComplete);
+  QCOMPARE(questions.count(), 1);
+  QVERIFY(!d.window().document().isBusy());
+  QVERIFY(d.session().scene().parts().empty());
+}
+
+void DesktopUnitsTest::anotherUnitIsAnImportInItAndOneStep() {
+  DesktopDriver d;
+  d.addCubes();
+  const RigidTransform pose{{0.5, 0.5, 0.5, 0.5}, {0.1, 0.2, 0.3}};
+  d.session().movePart(d.partId("fixed"), pose);
+  const std::size_t steps = d.session().historyIndex();
+  d.window().selection().select(d.partId("fixed"));
+  whenAsked([](QDialog* question) {
+    QCOMPARE(sizeIn(question, "mm"), QStringLiteral("40 × 40 × 40 mm"));
+    QCOMPARE(sizeIn(question, "in"), QStringLiteral("1.016 × 1.016 × 1.016 m"));
+    const auto* present = question->findChild<QRadioButton*>(QStringLiteral("unit-mm"));
+    QVERIFY(present->isChecked() && present->text().contains(QStringLiteral("now")));
+    answerUnit(question, "in");
+  });
+  d.choose("changeUnit");
+  QTRY_COMPARE(d.part("fixed").geometry->metresPerUnit, 0.0254);
+  QCOMPARE(d.session().historyIndex(), steps + 1);
+  QCOMPARE(d.session().undoText(), std::string("Change the unit of fixed"));
+  QCOMPARE(d.part("fixed").worldFromPart.translation, pose.translation);
+  QCOMPARE(d.part("fixed").worldFromPart.rotation, pose.rotation);
+  QCOMPARE(widthOf(d.part("moving")), 0.02);
+  const PartGeometryPtr imported = loadPartGeometry(d.fixedFile.toStdString(), 0.0254);
+  const auto changed = d.part("fixed").geometry->mesh.vertices(), expected = imported->mesh.vertices();
+  QVERIFY(std::equal(changed.begin(), changed.end(), expected.begin(), expected.end()));
+  QCOMPARE(d.part("fixed").geometry->mass.volume, imported->mass.volume);
+  d.choose("undo");
+  QCOMPARE(widthOf(d.part("fixed")), 0.04);
+  QCOMPARE(d.part("fixed").geometry->metresPerUnit, 1e-3);
+  QCOMPARE(d.part("fixed").worldFromPart.translation, pose.translation);
+  d.choose("redo");
+  QCOMPARE(d.part("fixed").geometry->metresPerUnit, 0.0254);
+}
+
+void DesktopUnitsTest::severalPartsChangeTheirUnitInOneStep() {
+  DesktopDriver d;
+  d.addCubes();
+  const std::size_t steps = d.session().historyIndex();
+  d.window().selection().set({d.partId("fixed"), d.partId("moving")});
+  whenAsked([](QDialog* question) {
+    QCOMPARE(sizeIn(question, "cm"), QStringLiteral("400 × 400 × 650 mm"));
+    answerUnit(question, "cm");
+  });
+  d.choose("changeUnit");
+  QTRY_COMPARE(d.part("moving").geometry->metresPerUnit, 1e-2);
+  QCOMPARE(d.part("fixed").geometry->metresPerUnit, 1e-2);
+  QCOMPARE(d.session().historyIndex(), steps + 1);
+  d.choose("undo");
+  QCOMPARE(widthOf(d.part("fixed")), 0.04);
+  QCOMPARE(widthOf(d.part("moving")), 0.02);
+}
+
+void DesktopUnitsTest::theUnitStaysWhileAPartIsFelt() {
+  DesktopDriver d;
+  d.addCubes();
+  d.startWith(ui::Hand::Manual);
+  d.window().selection().select(d.partId("moving"));
+  Questions questions;
+  QVERIFY(d.action("changeUnit")->isEnabled());
+  // A menu that closes may clear the status bar.
+  d.action("changeUnit")->trigger();
+  QVERIFY2(d.window().statusBar()->currentMessage().contains(QStringLiteral("Stop feeling")),
+           qPrintable(d.window().statusBar()->currentMessage()));
+  QCOMPARE(questions.count(), 0);
+  QVERIFY(d.application.servo().isRunning());
+  QCOMPARE(widthOf(d.part("moving")), 0.02);
+  d.choose("stop");
+}
+
+void DesktopUnitsTest::aFileThatHasChangedIsNotReadInAnotherUnit() {
+  DesktopDriver d;
+  d.addCubes();
+  QStringList told;
+  d.window().setFailureSink([&](const ui::Failure& failure) { told << failure.details; });
+  writeOff(d.fixedFile.toStdString(), boxMesh(glm::dvec3(0.05)));
+  d.window().selection().select(d.partId("fixed"));
+  whenAsked([](QDialog* question) { answerUnit(question, "cm"); });
+  d.choose("changeUnit");
+  QTRY_COMPARE(told.size(), 1);
+  QVERIFY2(told.first().contains(QStringLiteral("changed since it was read")), qPrintable(told.first()));
+  QCOMPARE(widthOf(d.part("fixed")), 0.04);
+}
+
+void DesktopUnitsTest::lockedPartsKeepTheirUnit() {
+  DesktopDriver d;
+  d.addCubes();
+  d.window().selection().set({d.partId("fixed"), d.partId("moving")});
+  QVERIFY(d.action("changeUnit")->isEnabled());
+  d.session().setLocked(d.partId("fixed"), true);
+  QVERIFY(!d.action("changeUnit")->isEnabled());
+  d.window().selection().select(d.partId("moving"));
+  QVERIFY(d.action("changeUnit")->isEnabled());
+  d.window().selection().select(std::nullopt);
+  QVERIFY(!d.action("changeUnit")->isEnabled());
+}
+
+NEARFIT_QT_SUITE(DesktopUnitsTest, runDesktopTest<DesktopUnitsTest>)
+#include "desktop_units_test.moc"
