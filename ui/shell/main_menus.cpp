@@ -94,10 +94,10 @@ void MainMenus::setUpViewMenu(QMenu* panels, QMenu* units) {
   view_ = window_->menuBar()->addMenu(tr("&View"));
   view_->addActions({view.fit, view.fitSelection});
   view_->addActions(view.views());
-  view_->addSeparator();
+  view_->addActions({view.orthographic, view_->addSeparator()});
   view_->addActions(view.switches());
-  view_->addActions(
-      {view_->addSeparator(), commands_.measure.action(), commands_.section.action(), view_->addSeparator()});
+  view_->addActions({view.scaleBar, view_->addSeparator(), commands_.measure.action(),
+                     commands_.section.action(), view_->addSeparator()});
   for (QMenu* menu : {panels, view.minimaMenu(), units})
     view_->addMenu(menu);
 }

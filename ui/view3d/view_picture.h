@@ -20,7 +20,7 @@ struct PictureStyle {
   double scale = 1.0;  ///< Relative to the view's size; lines, dots and text grow with it.
   Ground ground = Ground::View;
   bool hasAxes = true;    ///< The axes in the corner.
-  bool hasLabels = true;  ///< Legend and measurements.
+  bool hasLabels = true;  ///< Legend, measurements and scale bar.
 };
 
 /// Marks a child widget of the view to be painted into exported pictures; handles and tool bars are not.

@@ -19,6 +19,7 @@
 #include "ui/view3d/camera/camera_style.h"
 #include "ui/view3d/camera/orientation_marker.h"
 #include "ui/view3d/hand_drag.h"
+#include "ui/view3d/scale_bar.h"
 #include "ui/view3d/snapshot_glyphs.h"
 #include "ui/view3d/view_detail.h"
 #include "ui/view3d/view_picture.h"
@@ -50,11 +51,13 @@ Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection,
       pace_(std::make_unique<PicturePace>(*this)),
       pictures_(std::make_unique<ViewPicture>(
           ViewPicture::View{*this, *renderer_.Get(), *overlay_.Get(), *marker_.Get(), *detail_})),
-      handDrag_(new HandDrag(*this, *renderer_->GetActiveCamera())) {
+      handDrag_(new HandDrag(*this, *renderer_->GetActiveCamera())),
+      scaleBar_(new ScaleBar(*this)) {
   setObjectName(QStringLiteral("viewport"));
   setAccessibleName(tr("3-D view"));
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(320, 240);
+  setInPictures(*scaleBar_);
   setUpRenderers();
   setUpInteraction();
   connect(detail_.get(), &ViewDetail::pictureWanted, this, &Viewport::requestRender);
@@ -132,7 +135,15 @@ void Viewport::countPicture() {
   ++pictureCount_;
   pace_->noteDrawn();
   detail_->afterPicture();
+  showScale();
   emit drawn();
+}
+
+void Viewport::showScale() {
+  double bounds[6];
+  const double* focus = renderer_->GetActiveCamera()->GetFocalPoint();
+  const double scale = projection().metresPerPixel({focus[0], focus[1], focus[2]});
+  scaleBar_->showScale(parts_.visibleBounds(bounds) ? scale : 0.0);
 }
 
 void Viewport::prepareRender() {
@@ -253,6 +264,11 @@ void Viewport::setView(StandardView view) {
   requestRender();
 }
 
+void Viewport::setOrthographic(bool isOrthographic) {
+  ui::setOrthographic(*renderer_->GetActiveCamera(), isOrthographic);
+  requestRender();
+}
+
 void Viewport::setSeeThrough(bool isSeeThrough) {
   parts_.setSeeThrough(isSeeThrough);
   requestRender();
@@ -287,6 +303,10 @@ void Viewport::setHandVisible(bool isVisible) {
 void Viewport::setWrenchVisible(bool isVisible) {
   glyphs_->arrows().setVisible(isVisible);
   requestRender();
+}
+
+void Viewport::setScaleBarVisible(bool isVisible) {
+  scaleBar_->setWanted(isVisible);
 }
 
 void Viewport::mousePressEvent(QMouseEvent* event) {

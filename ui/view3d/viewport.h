@@ -24,6 +24,7 @@ namespace nearfit::ui {
 
 class HandDrag;
 class PicturePace;
+class ScaleBar;
 class Selection;
 class ShownPoses;
 class SnapshotGlyphs;
@@ -89,6 +90,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void fitParts(const std::vector<PartId>& parts);
   /// Turns to a standard view and fits all visible parts.
   void setView(StandardView view);
+  /// Changes to orthographic projection or back to perspective; what is in the middle keeps its size.
+  void setOrthographic(bool isOrthographic);
   void setSeeThrough(bool isSeeThrough);
   void setEdgesVisible(bool isVisible);
   void setMinimaVisible(bool isVisible);
@@ -96,6 +99,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void setContactsVisible(bool isVisible);
   void setHandVisible(bool isVisible);
   void setWrenchVisible(bool isVisible);
+  /// Shows a bar of a round length, true at the depth of the point that the camera orbits; hidden at first.
+  void setScaleBarVisible(bool isVisible);
 
   /// How much of the parts the last picture shows, and the limits while something moves.
   ViewDetail& detail() noexcept { return *detail_; }
@@ -138,6 +143,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   /// Bounds of everything that the next picture shows, in the world [m].
   vtkBoundingBox drawnBounds();
   void countPicture();
+  void showScale();
   void showMovingPart();
   void showSelection();
   void placeParts(const std::vector<PartId>& parts);
@@ -155,6 +161,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   std::unique_ptr<PicturePace> pace_;
   std::unique_ptr<ViewPicture> pictures_;
   HandDrag* handDrag_;
+  ScaleBar* scaleBar_;
   std::unique_ptr<ServoSnapshot> shown_;
   bool hasNewNumbers_ = false;  ///< shown_ has not been drawn yet.
   Scene scene_;

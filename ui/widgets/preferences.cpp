@@ -90,6 +90,22 @@ void Preferences::setLengthUnit(LengthUnit unit) {
   setValue("view/lengthUnit", symbolOf(unit));
 }
 
+bool Preferences::isOrthographic() {
+  return value("view/orthographic", false).toBool();
+}
+
+void Preferences::setOrthographic(bool isOrthographic) {
+  setValue("view/orthographic", isOrthographic);
+}
+
+bool Preferences::hasScaleBar() {
+  return value("view/scaleBar", true).toBool();
+}
+
+void Preferences::setScaleBar(bool hasScaleBar) {
+  setValue("view/scaleBar", hasScaleBar);
+}
+
 bool Preferences::takeFirstRun() {
   if (value("window/hasRun", false).toBool()) return false;
   setValue("window/hasRun", true);

@@ -29,6 +29,13 @@ class Preferences {
   static LengthUnit lengthUnit();
   static void setLengthUnit(LengthUnit unit);
 
+  /// True if the view is in orthographic projection; false at first.
+  static bool isOrthographic();
+  static void setOrthographic(bool isOrthographic);
+  /// True if the view has a scale bar; true at first.
+  static bool hasScaleBar();
+  static void setScaleBar(bool hasScaleBar);
+
   /// Returns true the first time the program runs for this user, and false from then on.
   static bool takeFirstRun();
 

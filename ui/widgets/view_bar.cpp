@@ -1,5 +1,6 @@
 #include "ui/widgets/view_bar.h"
 
+#include <QCoreApplication>
 #include <QEvent>
 #include <algorithm>
 
@@ -47,6 +48,8 @@ void ViewBar::placeAll() {
     bar->move(std::max(kEdgeGap, (view.width() - bar->width()) / 2), bottom - bar->height());
     bottom -= bar->height() + kBetween;
   }
+  // For overlays that stay clear of the bars.
+  QCoreApplication::postEvent(parentWidget(), new QEvent(QEvent::LayoutRequest));
 }
 
 }  // namespace nearfit::ui

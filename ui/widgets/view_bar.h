@@ -5,7 +5,7 @@
 namespace nearfit::ui {
 
 /// Base of a tool's bar: prompts and inputs in a frame at the lower edge of the view. Bars shown together are
-/// stacked, the oldest lowest.
+/// stacked, the oldest lowest. The view gets a QEvent::LayoutRequest when bars have moved.
 class ViewBar : public QFrame {
   Q_OBJECT
 

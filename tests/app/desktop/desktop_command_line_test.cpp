@@ -43,6 +43,7 @@ class DesktopCommandLineTest : public QObject {
  private slots:
   void helpAndVersionNeedNoDisplay();
   void unknownOptionIsAUsageError();
+  void unknownUnitIsAUsageError();
   void saysThatThereIsNoDisplay();
   void writesAPictureOfTheFilesAndEnds();
   void brokenFileEndsWithAMessage();
@@ -54,6 +55,7 @@ void DesktopCommandLineTest::helpAndVersionNeedNoDisplay() {
   const ProgramOutcome help = run({QStringLiteral("--help")}, withoutDisplay());
   QCOMPARE(help.code, 0);
   QVERIFY(help.out.contains(QStringLiteral("--screenshot")));
+  QVERIFY(help.out.contains(QStringLiteral("--unit")));
   const ProgramOutcome version = run({QStringLiteral("--version")}, withoutDisplay());
   QCOMPARE(version.code, 0);
   QVERIFY(version.out.startsWith(QStringLiteral("nearfit ")));
@@ -64,6 +66,14 @@ void DesktopCommandLineTest::unknownOptionIsAUsageError() {
   QCOMPARE(outcome.code, 2);
   QVERIFY(outcome.err.startsWith(QStringLiteral("nearfit: ")));
   QVERIFY(outcome.err.contains(QStringLiteral("--frobnicate")));
+  QCOMPARE(outcome.err.count(QLatin1Char('\n')), 1);
+}
+
+void DesktopCommandLineTest::unknownUnitIsAUsageError() {
+  const ProgramOutcome outcome =
+      run({QStringLiteral("a.stl"), QStringLiteral("--unit"), QStringLiteral("mile")}, withoutDisplay());
+  QCOMPARE(outcome.code, 2);
+  QVERIFY(outcome.err.startsWith(QStringLiteral("nearfit: --unit: \"mile\"")));
   QCOMPARE(outcome.err.count(QLatin1Char('\n')), 1);
 }
 

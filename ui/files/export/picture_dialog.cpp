@@ -99,7 +99,7 @@ void PictureDialog::setUpFields() {
   axes_->setObjectName(QStringLiteral("pictureAxes"));
   labels_ = new QCheckBox(tr("&Legend and measures"), this);
   labels_->setObjectName(QStringLiteral("pictureLabels"));
-  labels_->setToolTip(tr("Legend of the minima and arrows with their values, and measurements"));
+  labels_->setToolTip(tr("Legend of the minima and arrows with their values, measurements and scale bar"));
 
   auto* pixels = new QHBoxLayout;
   pixels->addWidget(width_);

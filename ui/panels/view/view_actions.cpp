@@ -10,6 +10,7 @@
 #include "ui/model/selection.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/make_action.h"
+#include "ui/widgets/preferences.h"
 
 namespace nearfit::ui {
 namespace {
@@ -119,6 +120,7 @@ ViewActions::ViewActions(Session& session, Selection& selection, Viewport& view,
       minima_(new MinimaMenu(window)) {
   setUpLooking();
   setUpDrawing();
+  setUpKeptSwitches();
   connect(&selection_, &Selection::changed, this, &ViewActions::update);
   changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { update(); });
   update();
@@ -171,6 +173,24 @@ void ViewActions::setUpDrawing() {
   view_.setSeeThrough(true);
   view_.setMinimaChoice(minima_->choice());
   connect(minima_, &MinimaMenu::choiceChanged, &view_, &Viewport::setMinimaChoice);
+}
+
+void ViewActions::setUpKeptSwitches() {
+  orthographic = makeAction(this, "orthographic", tr("Orthographi&c"), {}, Qt::Key_5,
+                            tr("Draw parallel lines parallel, without perspective"));
+  orthographic->setCheckable(true);
+  connect(orthographic, &QAction::toggled, this, [this](bool isOn) {
+    Preferences::setOrthographic(isOn);
+    view_.setOrthographic(isOn);
+  });
+  scaleBar = makeSwitch(this, "scaleBar", tr("Scale &bar"), {}, false,
+                        tr("Show a bar of a round length, true at the point that the camera orbits"));
+  connect(scaleBar, &QAction::toggled, this, [this](bool isOn) {
+    Preferences::setScaleBar(isOn);
+    view_.setScaleBarVisible(isOn);
+  });
+  orthographic->setChecked(Preferences::isOrthographic());
+  scaleBar->setChecked(Preferences::hasScaleBar());
 }
 
 QMenu* ViewActions::minimaMenu() const noexcept {

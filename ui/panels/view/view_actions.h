@@ -55,6 +55,7 @@ class ViewActions : public QObject {
   ViewActions(Session& session, Selection& selection, Viewport& view, QWidget* window);
 
   QAction *fit, *fitSelection;
+  QAction *orthographic, *scaleBar;  ///< Switches that are kept between runs.
 
   /// Returns the actions that turn to a standard view.
   const QList<QAction*>& views() const noexcept { return views_; }
@@ -66,6 +67,7 @@ class ViewActions : public QObject {
  private:
   void setUpLooking();
   void setUpDrawing();
+  void setUpKeptSwitches();
   void update();
 
   Session& session_;

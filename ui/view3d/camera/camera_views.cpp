@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -33,7 +34,51 @@ Direction directionOf(StandardView view) {
   return {{0.62, -0.62, 0.48}, {0, 0, 1}};
 }
 
+/// Half the height that a perspective camera sees at depth 1.
+double slopeOf(vtkCamera& camera) {
+  return std::tan(glm::radians(0.5 * camera.GetViewAngle()));
+}
+
+/// Moves the eye along the direction of sight to this distance from the focal point [m].
+void standAt(vtkCamera& camera, double distance) {
+  const glm::dvec3 focus = glm::make_vec3(camera.GetFocalPoint());
+  const glm::dvec3 eye = focus - distance * glm::make_vec3(camera.GetDirectionOfProjection());
+  camera.SetPosition(eye.x, eye.y, eye.z);
+}
+
+/// Depth of the nearest corner of a box in front of the eye [m]; negative behind it.
+double nearestDepth(vtkCamera& camera, const vtkBoundingBox& box) {
+  const glm::dvec3 eye = glm::make_vec3(camera.GetPosition());
+  const glm::dvec3 away = glm::make_vec3(camera.GetDirectionOfProjection());
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int corner = 0; corner < 8; ++corner) {
+    glm::dvec3 p;
+    box.GetCorner(corner, &p.x);
+    nearest = std::min(nearest, glm::dot(p - eye, away));
+  }
+  return nearest;
+}
+
+/// Moves the eye back until a box is well in front of it, as VTK clips what is near the eye or behind it.
+void standBack(vtkCamera& camera, const vtkBoundingBox& box) {
+  // Min depth of the box, and its depth after moving, as fractions of its diagonal: with room, so that moving
+  // parts rarely move the eye.
+  constexpr double kClear = 0.1, kRoom = 1.0;
+  const double size = box.GetDiagonalLength(), nearest = nearestDepth(camera, box);
+  if (nearest < kClear * size) standAt(camera, camera.GetDistance() + kRoom * size - nearest);
+}
+
 }  // namespace
+
+void setOrthographic(vtkCamera& camera, bool isOrthographic) {
+  if ((camera.GetParallelProjection() != 0) == isOrthographic) return;
+  if (isOrthographic) {
+    camera.SetParallelScale(camera.GetDistance() * slopeOf(camera));
+  } else {
+    standAt(camera, camera.GetParallelScale() / slopeOf(camera));
+  }
+  camera.SetParallelProjection(isOrthographic ? 1 : 0);
+}
 
 void setStandardView(vtkRenderer& renderer, StandardView view, const double bounds[6]) {
   const Direction direction = directionOf(view);
@@ -60,28 +105,30 @@ void fitView(vtkRenderer& renderer, std::span<const vtkBoundingBox> boxes) {
   const glm::dvec3 toEye = -glm::make_vec3(camera->GetDirectionOfProjection());
   const glm::dvec3 right = glm::normalize(glm::cross(glm::make_vec3(camera->GetViewUp()), toEye));
   const glm::dvec3 up = glm::cross(toEye, right);
-  const double tanY = std::tan(glm::radians(0.5 * camera->GetViewAngle()));
-  const double tanX = tanY * renderer.GetTiledAspectRatio();
-  // Move back until every corner is inside the view frustum.
-  double distance = 0.0;
+  const double slope = slopeOf(*camera), aspect = renderer.GetTiledAspectRatio();
+  // Grow and move back until every corner is inside the view.
+  double halfHeight = 0.0, distance = 0.0;
   for (const vtkBoundingBox& box : boxes) {
     for (int corner = 0; corner < 8; ++corner) {
       glm::dvec3 p;
       box.GetCorner(corner, &p.x);
       p -= centre;
-      const double across = std::max(std::abs(glm::dot(p, right)) / tanX, std::abs(glm::dot(p, up)) / tanY);
-      distance = std::max(distance, glm::dot(p, toEye) + kMargin * across);
+      const double across =
+          kMargin * std::max(std::abs(glm::dot(p, right)) / aspect, std::abs(glm::dot(p, up)));
+      halfHeight = std::max(halfHeight, across);
+      distance = std::max(distance, glm::dot(p, toEye) + across / slope);
     }
   }
   // A single point has no size to fit.
+  if (!(halfHeight > 0.0)) halfHeight = slope;
   if (!(distance > 0.0)) distance = 1.0;
-  const glm::dvec3 eye = centre + distance * toEye;
+  const bool isParallel = camera->GetParallelProjection() != 0;
+  if (isParallel) camera->SetParallelScale(halfHeight);
+  const glm::dvec3 eye = centre + (isParallel ? halfHeight / slope : distance) * toEye;
   camera->SetFocalPoint(centre.x, centre.y, centre.z);
   camera->SetPosition(eye.x, eye.y, eye.z);
   camera->OrthogonalizeViewUp();
-  double bounds[6];
-  whole.GetBounds(bounds);
-  renderer.ResetCameraClippingRange(bounds);
+  fitDepths(renderer, whole);
 }
 
 ViewProjection::Camera projectionCamera(vtkCamera& camera) {
@@ -98,6 +145,8 @@ ViewProjection::Camera projectionCamera(vtkCamera& camera) {
 void fitDepths(vtkRenderer& renderer, vtkBoundingBox box, double room) {
   if (box.IsValid() == 0) return;
   box.Inflate(room * box.GetMaxLength());
+  vtkCamera& camera = *renderer.GetActiveCamera();
+  if (camera.GetParallelProjection() != 0) standBack(camera, box);
   double bounds[6];
   box.GetBounds(bounds);
   renderer.ResetCameraClippingRange(bounds);
@@ -107,7 +156,10 @@ bool keepDepths(vtkRenderer& renderer, const vtkBoundingBox& box) {
   vtkCamera& camera = *renderer.GetActiveCamera();
   double kept[2];
   camera.GetClippingRange(kept);
+  const double distance = camera.GetDistance();
   fitDepths(renderer, box);
+  // Depths count from the eye.
+  if (camera.GetDistance() != distance) return false;
   const double* needed = camera.GetClippingRange();
   // From inside the scene, VTK puts the near plane at a fraction of the far one; room around the
   // box moves it no nearer.
