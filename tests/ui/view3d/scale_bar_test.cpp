@@ -23,8 +23,8 @@ using namespace nearfit;
 namespace {
 
 /// A cube in a view with its scale bar.
-struct Bench {
-  Bench() {
+struct CubeView {
+  CubeView() {
     Scene scene;
     cube = scene.add(test::partOf(test::freshGeometryOf(test::boxMesh(glm::dvec3(0.05))), "cube"));
     session.reset(scene);
@@ -78,7 +78,7 @@ class ScaleBarTest : public QObject {
 };
 
 void ScaleBarTest::isAsLongAsTheViewShowsItsLength() {
-  Bench b;
+  CubeView b;
   for (const bool isOrthographic : {false, true}) {
     b.view.setOrthographic(isOrthographic);
     for (const auto view : {ui::StandardView::Isometric, ui::StandardView::Front}) {
@@ -98,7 +98,7 @@ void ScaleBarTest::isAsLongAsTheViewShowsItsLength() {
 }
 
 void ScaleBarTest::isRoundInTheUnitThatIsShown() {
-  Bench b;
+  CubeView b;
   for (const ui::LengthUnit unit : ui::kLengthUnits) {
     ui::setShownLengthUnit(unit);
     QVERIFY2(isRound(b.bar().length() / ui::metresOf(unit)), qPrintable(b.bar().text()));
@@ -108,7 +108,7 @@ void ScaleBarTest::isRoundInTheUnitThatIsShown() {
 }
 
 void ScaleBarTest::isOffUntilItIsWanted() {
-  Bench b;
+  CubeView b;
   b.view.setScaleBarVisible(false);
   b.draw();
   QVERIFY(!b.bar().isVisible());
@@ -117,7 +117,7 @@ void ScaleBarTest::isOffUntilItIsWanted() {
 }
 
 void ScaleBarTest::isHiddenWhereNothingIsToBeSeen() {
-  Bench b;
+  CubeView b;
   b.session.setVisible(b.cube, false);
   b.view.setScene(b.session.scene());
   b.draw();
@@ -129,7 +129,7 @@ void ScaleBarTest::isHiddenWhereNothingIsToBeSeen() {
 }
 
 void ScaleBarTest::staysClearOfToolBars() {
-  Bench b;
+  CubeView b;
   const QRect corner = b.bar().geometry();
   QVERIFY(b.view.rect().contains(corner));
   QVERIFY(corner.right() > b.view.width() - 20 && corner.bottom() > b.view.height() - 20);
