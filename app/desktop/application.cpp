@@ -108,6 +108,7 @@ void Application::wireReports() {
   connect(&servo_, &ServoController::deviceReleased, &watcher_, &DeviceWatcher::letGo);
   connect(&servo_, &ServoController::statusChanged, &window_.hand(), &ui::HandState::showStatus);
   connect(&servo_, &ServoController::snapshotArrived, &window_.hand(), &ui::HandState::showSnapshot);
+  connect(&servo_, &ServoController::handReturned, &window_.hand(), &ui::HandState::setHandPose);
   connect(&servo_, &ServoController::hierarchiesNeeded, &window_.feel(),
           &ui::FeelControl::prepareHierarchies);
   connect(&servo_, &ServoController::failed, &window_, &ui::MainWindow::showFailure);

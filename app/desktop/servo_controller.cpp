@@ -24,6 +24,14 @@ ServoParameters parametersFor(const Scene& scene, const HapticDevice& device) {
   return parameters;
 }
 
+/// Returns the scene for the servo with the moving part elsewhere than in the session.
+std::unique_ptr<const ServoScene> servoSceneWithPartAt(const Scene& scene,
+                                                       const RigidTransform& worldFromPart) {
+  auto moved = std::make_unique<ServoScene>(*makeServoScene(scene));
+  moved->moving.worldFromPart = worldFromPart;
+  return moved;
+}
+
 }  // namespace
 
 ServoController::ServoController(Session& session, DeviceSource& devices)
@@ -126,6 +134,7 @@ void ServoController::runOn(DevicePtr device, std::unique_ptr<const ServoScene> 
   const Scene& scene = session_.scene();
   const ServoParameters parameters = parametersFor(scene, *device);
   moving_ = servoScene->moving.id;
+  startPose_ = servoScene->moving.worldFromPart;
   sceneSerial_ = session_.sceneSerial();
   mode_ = scene.haptics().mode;
   loop_.stop();
@@ -184,10 +193,11 @@ void ServoController::commitPose() {
   if (!isRunning()) return;
   loop_.pollSnapshot();
   const ServoSnapshot& snapshot = loop_.snapshot();
-  if (snapshot.tick == 0 || !snapshot.proxy.isFinite()) return;
+  const RigidTransform pose = snapshot.tick == 0 ? startPose_ : snapshot.proxy;
+  if (!pose.isFinite()) return;
   isCommitting_ = true;
   try {
-    session_.movePart(moving_, snapshot.proxy, "Feel");
+    session_.movePart(moving_, pose, "Feel");
   } catch (...) {
     fail(tr("The part's new pose could not be kept."), std::current_exception());
   }
@@ -280,18 +290,32 @@ void ServoController::followSession() {
     return;
   }
   try {
-    auto servoScene = makeServoScene(scene);
-    // What the scripted hand does in one mode would push through in the other: it begins again.
-    if (status_.hand == ui::Hand::Scripted && scene.haptics().mode != mode_) {
-      DevicePtr hand = startedHand(*servoScene);
-      return runOn(std::move(hand), std::move(servoScene));
-    }
-    loop_.setScene(std::move(servoScene));
-    loop_.setParameters(parametersFor(scene, *device_));
+    takeScene();
   } catch (...) {
     halt();
     fail(tr("The servo was stopped."), std::current_exception());
   }
+}
+
+void ServoController::takeScene() {
+  const Scene& scene = session_.scene();
+  // These hands give poses of the scene, which may be where only the other mode lets the part go. A device gives
+  // its own motion, for which the tick brings the handle back to the part.
+  if (scene.haptics().mode != mode_ && status_.hand != ui::Hand::Device) return restartAtPart();
+  loop_.setScene(makeServoScene(scene));
+  loop_.setParameters(parametersFor(scene, *device_));
+  mode_ = scene.haptics().mode;
+}
+
+void ServoController::restartAtPart() {
+  loop_.stop();
+  loop_.pollSnapshot();
+  const ServoSnapshot& last = loop_.snapshot();
+  const RigidTransform part = last.tick > 0 && last.proxy.isFinite() ? last.proxy : startPose_;
+  auto servoScene = servoSceneWithPartAt(session_.scene(), part);
+  DevicePtr hand = startedHand(*servoScene);
+  runOn(std::move(hand), std::move(servoScene));
+  emit handReturned(part);
 }
 
 void ServoController::poll() {

@@ -18,8 +18,9 @@
 namespace nearfit::desktop {
 
 /// Runs the servo for the session's moving part: makes the device, keeps the servo's scene and parameters as
-/// the session has them, and puts the part's last pose into the session when it is put down. What may wait
-/// for a device (opening, arming, calibrating, resetting, closing) runs on another thread.
+/// the session has them, and puts the part's last pose into the session when it is put down. When the mode
+/// changes, every hand goes on from where the part is. What may wait for a device (opening, arming, calibrating,
+/// resetting, closing) runs on another thread.
 class ServoController : public QObject {
   Q_OBJECT
 
@@ -69,6 +70,8 @@ class ServoController : public QObject {
   void statusChanged(const nearfit::ui::ServoStatus& status);
   /// Emitted with the newest snapshot, up to 60 times a second.
   void snapshotArrived(const nearfit::ServoSnapshot& snapshot);
+  /// Emitted when the manual or the scripted hand was brought back to the part, which is there.
+  void handReturned(const nearfit::RigidTransform& worldFromPart);
   /// Emitted with a failure that the user must see.
   void failed(const nearfit::ui::Failure& failure);
   /// Emitted when parts of the session's scene cannot be felt yet; call followSession() when they can.
@@ -87,6 +90,10 @@ class ServoController : public QObject {
   /// Runs the servo on a device that is open or needs no opening. Throws Error.
   void runOn(DevicePtr device, std::unique_ptr<const ServoScene> scene);
   void showRunning();
+  /// Takes in the session's scene and settings while the servo runs.
+  void takeScene();
+  /// Starts the servo anew in the session's mode, with the hand where the part is.
+  void restartAtPart();
   /// Closes the device on the other thread.
   void release();
   /// Runs `act` on the device, on the other thread.
@@ -113,7 +120,8 @@ class ServoController : public QObject {
   ServoMeter meter_;
   PartId moving_{};
   std::uint64_t sceneSerial_ = 0;  ///< Serial of the scene that owns `moving_`.
-  HapticMode mode_{};              ///< Mode that the hand was made for.
+  HapticMode mode_{};              ///< Mode that the servo runs in.
+  RigidTransform startPose_;       ///< Where the servo started with the part (worldFromPart).
   /// True while this puts the servo's own pose into the session: followSession() must not give that back to the
   /// servo as a new scene. No order of listeners makes it unnecessary.
   bool isCommitting_ = false;

@@ -107,7 +107,9 @@ void ServoTick::feel(const TrackedScene& tracked, const ServoParameters& paramet
     const RigidTransform device = input.pose.normalized();
     if (!hasPose_)
       mapper_.engageAt(device, input.hasOwnFrame ? part_.pose.normalized() : device, scene.centreInPart);
-    if (input.returnsToPart && hasPose_) letGo(device, scene.centreInPart);
+    const bool hasNewMode = hasPose_ && settings.mode != mode_;
+    if (hasNewMode || (input.returnsToPart && hasPose_)) letGo(device, scene.centreInPart);
+    if (hasNewMode && conditioner_.isEngaged()) conditioner_.engage();
     takePose(tick, mapper_.map(device, input.isClutched, settings.mapping));
     const bool isFelt = input.isArmed && !input.isClutched;
     if (isFelt != conditioner_.isEngaged()) isFelt ? conditioner_.engage() : conditioner_.disengage();

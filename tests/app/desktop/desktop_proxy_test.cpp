@@ -39,11 +39,19 @@ class Watch : public QObject {
 void start(DesktopDriver& d, ui::Hand hand) {
   auto* box = d.widget<QComboBox>("hand");
   box->setFocus();
+  QTest::keyClick(box, Qt::Key_Home);
   for (int i = 0; i < box->count() && box->currentData().value<ui::Hand>() != hand; ++i)
     QTest::keyClick(box, Qt::Key_Down);
   d.clickPart(1, ui::PartsModel::Name);
   pressShortcut(d, Qt::Key_F5);
   QTRY_VERIFY(d.application.servo().isRunning());
+}
+
+/// Goes one mode on or back in the panel's list, by the keyboard.
+void changeMode(DesktopDriver& d, Qt::Key key) {
+  auto* mode = d.widget<QComboBox>("panelMode");
+  mode->setFocus();
+  QTest::keyClick(mode, key);
 }
 
 double value(DesktopDriver& d, const char* field) {
@@ -68,6 +76,8 @@ class DesktopProxyTest : public QObject {
   void faultIsToldAndAStartAnewOffered();
   void modeIsChosenInThePanel();
   void scriptedHandBeginsAgainInAnotherMode();
+  void aChangeOfModeBringsTheHandBackToThePart();
+  void aChangeOfHandLeavesThePartWhereItIs();
   void marginBeyondTheCutoffIsExplained();
   void lockedAxesHoldTheManualHand();
 };
@@ -209,14 +219,57 @@ void DesktopProxyTest::scriptedHandBeginsAgainInAnotherMode() {
   start(d, ui::Hand::Scripted);
   // It presses, with the hand beyond contact.
   QTRY_VERIFY(watch.newest.handle.translation.z < -0.0055);
-  auto* mode = d.widget<QComboBox>("panelMode");
-  mode->setFocus();
-  QTest::keyClick(mode, Qt::Key_Down);
+  changeMode(d, Qt::Key_Down);
   QTRY_COMPARE(watch.restarts, 1);
   QCOMPARE(watch.newest.mode, HapticMode::Springs);
   QTRY_VERIFY(watch.newest.tick > 2000);
-  QVERIFY2(watch.newest.distance > 0.0008, "springs are not pushed through");
+  QVERIFY2(watch.least > 0.1 * kMargin, "springs are not pushed through");
+  QVERIFY2(watch.newest.proxy.translation.z < -0.0045, "it begins where the part is");
   QCOMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Change the mode"));
+}
+
+/// The part went through the floor to where the hand was: 17 mm below, and overlapped in the proxy mode.
+void DesktopProxyTest::aChangeOfModeBringsTheHandBackToThePart() {
+  DesktopDriver d;
+  d.addCubes();
+  Watch watch(d);
+  start(d, ui::Hand::Manual);
+  d.type<QDoubleSpinBox>("positionZ", "-8");
+  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+  const double rest = watch.newest.proxy.translation.z;
+  changeMode(d, Qt::Key_Down);
+  QTRY_COMPARE(watch.restarts, 1);
+  QTRY_VERIFY(watch.newest.mode == HapticMode::Springs && watch.newest.tick > 50);
+  QVERIFY(isNear(watch.newest.proxy.translation.z, rest, 1e-9));
+  QVERIFY(isNear(d.window().hand().handPose().translation.z, rest, 1e-9));
+  changeMode(d, Qt::Key_Up);
+  QTRY_COMPARE(watch.restarts, 2);
+  QTRY_VERIFY(watch.newest.mode == HapticMode::Proxy && watch.newest.tick > 50);
+  QVERIFY(isNear(watch.newest.proxy.translation.z, rest, 1e-5));
+  QCOMPARE(watch.newest.overlappingCount, 0U);
+  // The hand moves on from the part, and is stopped as before.
+  d.type<QDoubleSpinBox>("positionZ", "-6");
+  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("1.1")));
+  pressShortcut(d, Qt::Key_F6);
+  QVERIFY(isNear(d.part("moving").worldFromPart.translation.z, rest, 1e-5));
+}
+
+void DesktopProxyTest::aChangeOfHandLeavesThePartWhereItIs() {
+  DesktopDriver d;
+  d.addCubes();
+  Watch watch(d);
+  start(d, ui::Hand::Manual);
+  d.type<QDoubleSpinBox>("positionZ", "-8");
+  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+  const double rest = watch.newest.proxy.translation.z;
+  auto* hands = d.widget<QComboBox>("hand");
+  hands->setFocus();
+  QTest::keyClick(hands, Qt::Key_Up);
+  QCOMPARE(hands->currentData().value<ui::Hand>(), ui::Hand::Scripted);
+  QTRY_COMPARE(watch.restarts, 1);
+  QVERIFY(isNear(d.part("moving").worldFromPart.translation.z, rest, 1e-5));
+  QTRY_VERIFY(watch.newest.tick > 50);
+  QVERIFY2(watch.least > 0.25 * kMargin, "it never met the other part");
 }
 
 void DesktopProxyTest::marginBeyondTheCutoffIsExplained() {

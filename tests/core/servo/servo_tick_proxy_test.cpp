@@ -148,10 +148,39 @@ TEST_F(ServoTickWithProxy, StaleInputFadesToNothingAndComesBack) {
   EXPECT_NEAR(snapshot_->wrench.force.z, full, 1e-6);
 }
 
-TEST_F(ServoTickWithProxy, ModesChangeLiveAndAPartThatSpringsLeftInsideIsReleased) {
+/// The part went 17 mm into the floor when a hand that pressed changed to springs.
+TEST_F(ServoTickWithProxy, AChangeOfModeBringsTheHandleBackToThePart) {
+  // Its bottom is 10 mm in the floor, where the part does not follow.
   hold(at({0.0, 0.0, 0.09}), 300);
-  EXPECT_GT(snapshot_->proxy.translation.z, 0.1);
+  const double rest = snapshot_->proxy.translation.z;
+  ASSERT_GT(rest, 0.1);
+  ASSERT_GT(snapshot_->wrench.force.z, 1.0);
   parameters_.haptics.mode = HapticMode::Springs;
+  const ServoSnapshot& s = hold(at({0.0, 0.0, 0.09}), 5);
+  EXPECT_EQ(s.mode, HapticMode::Springs);
+  EXPECT_NEAR(s.handle.translation.z, rest, 1e-12);
+  EXPECT_NEAR(s.proxy.translation.z, rest, 1e-12);
+  hold(at({0.0, 0.0, 0.092}), 5);
+  EXPECT_NEAR(s.proxy.translation.z, rest + 2e-3, 1e-12) << "it leads on from there";
+  hold(at({0.0, 0.0, 0.09}), 5);
+  parameters_.haptics.mode = HapticMode::Proxy;
+  hold(at({0.0, 0.0, 0.09}), 100);
+  EXPECT_EQ(s.overlappingCount, 0U);
+  EXPECT_NEAR(s.proxy.translation.z, rest, 0.02 * kMargin);
+}
+
+TEST_F(ServoTickWithProxy, AChangeOfModeRampsTheForceUpFromZero) {
+  hold(at({0.0, 0.0, 0.101 + kMargin}), 600);
+  parameters_.haptics.mode = HapticMode::Springs;
+  const double first = glm::length(tick(at({0.0, 0.0, 0.101 + kMargin})).wrench.force);
+  EXPECT_LT(first, 1e-6);
+  EXPECT_GT(glm::length(hold(at({0.0, 0.0, 0.101 + kMargin}), 400).wrench.force), 0.1);
+}
+
+TEST_F(ServoTickWithProxy, ModesChangeLiveAndAPartThatSpringsLeftInsideIsReleased) {
+  tick(at({0.0, 0.0, 0.2}));
+  parameters_.haptics.mode = HapticMode::Springs;
+  tick(at({0.0, 0.0, 0.2}));
   const ServoSnapshot& s = hold(at({0.0, 0.0, 0.09}), 5);
   EXPECT_EQ(s.mode, HapticMode::Springs);
   EXPECT_EQ(s.proxy.translation.z, 0.09) << "through the floor, as springs let it";
