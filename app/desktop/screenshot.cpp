@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ui/files/document.h"
+#include "ui/panels/feel/feel_control.h"
 #include "ui/view3d/viewport.h"
 
 namespace nearfit::desktop {
@@ -53,7 +54,9 @@ void Screenshot::arrange(bool isComplete) {
   connect(&application_.servo(), &ServoController::snapshotArrived, this, &Screenshot::waitForMinima);
   QTimer::singleShot(kPatienceMs, this, &Screenshot::write);
   application_.window().document().prepareHierarchies([this](bool isReady) {
-    if (isReady) application_.servo().start(ui::Hand::Scripted);
+    if (!isReady) return;
+    application_.window().feel().chooseScriptedHand();
+    application_.servo().start(ui::Hand::Scripted);
   });
 }
 

@@ -248,6 +248,7 @@ class Pictures {
   void feeling() {
     driver_.window().selection().select(driver_.session().scene().movingPart());
     trigger("gizmoNone");
+    driver_.chooseHand(ui::Hand::Scripted);
     trigger("start");
     wait([this] { return tick_ > kFeelFor; }, "the scripted hand");
     grabWindow("guide-main-window");

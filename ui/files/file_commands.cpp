@@ -68,7 +68,7 @@ void FileCommands::connectDocument() {
   connect(&document, &Document::busyChanged, this, &FileCommands::update);
   // A failed load leaves the view alone, but some of several files may have been added.
   connect(&document, &Document::sceneOpened, this, &FileCommands::showWhole);
-  connect(&document, &Document::partsAdded, this, &FileCommands::showWhole);
+  connect(&document, &Document::partsAdded, this, &FileCommands::showAdded);
   connect(&document, &Document::loaded, this, [this](bool isComplete) {
     if (isComplete) showWhole();
   });
@@ -100,6 +100,12 @@ void FileCommands::showWhole() {
   context_.view.fit();
   Selection& selection = context_.selection;
   if (!selection.current()) selection.select(context_.session.scene().movingPart());
+}
+
+void FileCommands::showAdded(const std::vector<PartId>& parts) {
+  // The first becomes the current part, which *Take in hand* takes.
+  context_.selection.set({parts.rbegin(), parts.rend()});
+  showWhole();
 }
 
 void FileCommands::update() {

@@ -25,7 +25,8 @@ class PartFiles;
 class Selection;
 class Viewport;
 
-/// Commands on scene files and on the files of parts. Shows all parts once some are loaded.
+/// Commands on scene files and on the files of parts. Shows all parts once some are loaded, and selects those that
+/// were added.
 class FileCommands : public QObject {
   Q_OBJECT
 
@@ -70,6 +71,7 @@ class FileCommands : public QObject {
   void setUpRecentFiles();
   void setUpPartFiles();
   void showWhole();
+  void showAdded(const std::vector<PartId>& parts);
   void update();
 
   const Context context_;

@@ -118,6 +118,7 @@ void MainWindow::makePanels() {
   parts_ = new PartCommands({session_, *selection_, *hand_, *document_}, *partsPanel, this);
   posePanel_ = new PosePanel(this);
   feel_ = new FeelControl(session_, *hand_, *document_, this);
+  feel_->panel().setTakeInHand(*parts_->takeInHand);
   history_ = new HistoryPanel(session_, *document_, this);
   undo_ = new UndoActions(session_, *document_, this);
   QDockWidget* parts = addDock("partsDock", tr("Parts"), partsPanel, Qt::LeftDockWidgetArea);

@@ -78,6 +78,14 @@ void Preferences::setRate(const RateSettings& settings) {
   setValue("spaceMouse/reversed", reversed);
 }
 
+QString Preferences::hand() {
+  return value("feel/hand").toString();
+}
+
+void Preferences::setHand(const QString& hand) {
+  setValue("feel/hand", hand);
+}
+
 LengthUnit Preferences::lengthUnit() {
   const QString kept = value("view/lengthUnit").toString();
   for (const LengthUnit unit : kLengthUnits) {

@@ -25,6 +25,10 @@ class Preferences {
   static RateSettings rate();
   static void setRate(const RateSettings& settings);
 
+  /// The hand chosen last, as HandChoice names it; empty at first.
+  static QString hand();
+  static void setHand(const QString& hand);
+
   /// Unit of the lengths shown; millimetres at first.
   static LengthUnit lengthUnit();
   static void setLengthUnit(LengthUnit unit);

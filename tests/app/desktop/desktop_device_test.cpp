@@ -63,6 +63,8 @@ class DesktopDeviceTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void theManualHandIsTheDefaultUnlessADeviceIsThere();
+  void theChosenHandIsRememberedInLaterRuns();
   void devicesComeAndGoInTheChoice();
   void whatCannotBeUsedSaysWhyAndCannotBeChosen();
   void aDeviceLeadsThePartAndIsNotArmed();
@@ -79,6 +81,30 @@ class DesktopDeviceTest : public QObject {
   void aDeviceThatLeavesBeforeTheStartIsMissedAndNotReplaced();
 };
 
+void DesktopDeviceTest::theManualHandIsTheDefaultUnlessADeviceIsThere() {
+  QSettings().clear();
+  QCOMPARE(DeviceFixture().box()->currentText(), QStringLiteral("Manual hand"));
+  QCOMPARE(DeviceFixture({kForbidden}).box()->currentText(), QStringLiteral("Manual hand"));
+  QCOMPARE(DeviceFixture({kForbidden, kArm}).box()->currentText(), kArm.name);
+  DeviceFixture f;
+  f.plug({kArm});
+  QCOMPARE(f.box()->currentText(), kArm.name);
+}
+
+void DesktopDeviceTest::theChosenHandIsRememberedInLaterRuns() {
+  QSettings().clear();
+  DeviceFixture({kArm}).choose(QStringLiteral("Scripted hand"));
+  QCOMPARE(DeviceFixture({kArm}).box()->currentText(), QStringLiteral("Scripted hand"));
+  DeviceFixture({kArm}).choose(QStringLiteral("Manual hand"));
+  QCOMPARE(DeviceFixture({kArm}).box()->currentText(), QStringLiteral("Manual hand"));
+  DeviceFixture({kArm}).choose(kArm.name);
+  // A recording is chosen anew in each run.
+  DeviceFixture({kArm}).choose(QStringLiteral("Recorded hand"));
+  QCOMPARE(DeviceFixture({kArm}).box()->currentText(), kArm.name);
+  DeviceFixture without;
+  QCOMPARE(without.box()->currentText(), QStringLiteral("Manual hand"));
+}
+
 void DesktopDeviceTest::devicesComeAndGoInTheChoice() {
   DeviceFixture f;
   const QStringList always{QStringLiteral("Scripted hand"), QStringLiteral("Manual hand"),
@@ -92,7 +118,10 @@ void DesktopDeviceTest::devicesComeAndGoInTheChoice() {
   QCOMPARE(f.box()->currentText(), kArm.name);
   f.plug({kForbidden});
   QCOMPARE(f.names(), always + QStringList{kForbidden.name});
-  QCOMPARE(f.box()->currentText(), always[0]);
+  QCOMPARE(f.box()->currentText(), always[1]);
+  // Plugged in again, it is what the user chose.
+  f.plug({kForbidden, kArm});
+  QCOMPARE(f.box()->currentText(), kArm.name);
 }
 
 void DesktopDeviceTest::whatCannotBeUsedSaysWhyAndCannotBeChosen() {
@@ -321,13 +350,13 @@ void DesktopDeviceTest::aFaultStaysUntilItIsResetAndArmsNothing() {
 }
 
 void DesktopDeviceTest::aDeviceThatLeavesBeforeTheStartIsMissedAndNotReplaced() {
-  // The scripted hand, which the choice falls back to, took the part.
+  // The hand that stands in for the device took the part.
   DeviceFixture f({kArm});
   f.choose(kArm.name);
   QTest::mouseClick(f.d->widget<QPushButton>("startStop"), Qt::LeftButton);
   QVERIFY2(!f.d->application.servo().status().isTaken(), "hierarchies are made first");
   f.plug({});
-  QCOMPARE(f.box()->currentText(), QStringLiteral("Scripted hand"));
+  QCOMPARE(f.box()->currentText(), QStringLiteral("Manual hand"));
   QTRY_COMPARE(f.failures.size(), 1);
   QVERIFY(f.failures[0].details.contains(QStringLiteral("It is not plugged in")));
   QVERIFY(!f.d->application.servo().status().isTaken());

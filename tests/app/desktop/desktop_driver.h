@@ -30,6 +30,7 @@
 #include "tests/support/qt/qt_suite.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/files/document.h"
+#include "ui/model/selection.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/theme.h"
 
@@ -171,7 +172,18 @@ class DesktopDriver {
     QTRY_COMPARE(session().scene().parts().size(), std::size_t{2});
     session().setMovingPart(partId("moving"));
   }
-  void add(const QStringList& files) { application.window().document().addParts(files, 1e-3); }
+  /// Adds parts without dialogs, and leaves the selection as it was, or the moving part selected if nothing was:
+  /// most tests select by themselves.
+  void add(const QStringList& files) {
+    auto* once = new QObject(&application);
+    QObject::connect(&window().document(), &ui::Document::loaded, once,
+                     [this, once, before = window().selection().parts()] {
+                       once->deleteLater();
+                       window().selection().set(before);
+                       if (before.empty()) window().selection().select(session().scene().movingPart());
+                     });
+    window().document().addParts(files, 1e-3);
+  }
 
   Session& session() { return application.session(); }
   ui::MainWindow& window() { return application.window(); }
@@ -182,8 +194,8 @@ class DesktopDriver {
   /// Gives a command by the menus, or by its button where it is in none.
   void choose(QAction* action) { chooseCommand(window(), action); }
   void choose(const char* name) { choose(action(name)); }
-  /// Takes the moving part in hand: whose hand by keys in its list, then the command.
-  void startWith(ui::Hand hand) {
+  /// Chooses what leads the moving part, by keys in the list.
+  void chooseHand(ui::Hand hand) {
     auto* hands = widget<QComboBox>("hand");
     hands->setFocus();
     QTest::keyClick(hands, Qt::Key_Home);
@@ -192,6 +204,10 @@ class DesktopDriver {
       QTest::keyClick(hands, Qt::Key_Down);
       if (hands->currentIndex() == before) throw Error("hand", "it cannot be chosen");
     }
+  }
+  /// Takes the moving part in hand: whose hand by keys in its list, then the command.
+  void startWith(ui::Hand hand) {
+    chooseHand(hand);
     choose("start");
     const auto isInHand = [this] {
       return application.servo().isRunning() && QApplication::activeModalWidget() == nullptr;

@@ -21,6 +21,7 @@ constexpr rlim_t kDiskSpace = 200'000;
 struct Full {
   Full() {
     d.addCubes();
+    d.chooseHand(ui::Hand::Scripted);
     QObject::connect(&d.application.servo(), &desktop::ServoController::snapshotArrived, &d.application,
                      [this](const ServoSnapshot&) { ++pictures; });
   }

@@ -1,6 +1,7 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QMessageBox>
+#include <QToolButton>
 
 #include "tests/app/desktop/desktop_driver.h"
 #include "ui/model/parts_model.h"
@@ -14,6 +15,7 @@ namespace {
 void startWith(DesktopDriver& d, ui::Hand hand) {
   auto* box = d.widget<QComboBox>("hand");
   box->setFocus();
+  QTest::keyClick(box, Qt::Key_Home);
   for (int i = 0; i < box->count() && box->currentData().value<ui::Hand>() != hand; ++i) {
     QTest::keyClick(box, Qt::Key_Down);
   }
@@ -40,6 +42,8 @@ class DesktopServoTest : public QObject {
 
  private slots:
   void needsAMovingPart();
+  void aGreyFeelSaysWhyInItsTips();
+  void partsThatWereAddedAreSelectedAndTheFirstIsTakenInHandByOneClick();
   void hierarchiesAreBuiltInTheBackgroundBeforeItStarts();
   void showsTheOneMinimumBetweenTwoFaces();
   void rateCountsTheTicksOfTheServosOwnTime();
@@ -61,6 +65,38 @@ void DesktopServoTest::needsAMovingPart() {
   QVERIFY(!d.widget<QPushButton>("startStop")->isEnabled());
   d.clickPart(1, ui::PartsModel::Name);
   pressShortcut(d, Qt::Key_H, Qt::ControlModifier);
+  QVERIFY(d.widget<QPushButton>("startStop")->isEnabled());
+}
+
+void DesktopServoTest::aGreyFeelSaysWhyInItsTips() {
+  DesktopDriver d;
+  QAction* start = d.action("start");
+  const auto* button = d.widget<QPushButton>("startStop");
+  const auto says = [&](const QString& word) {
+    return !start->isEnabled() && start->toolTip().contains(word) && start->statusTip().contains(word) &&
+           !button->isEnabled() && button->toolTip().contains(word) && button->statusTip().contains(word) &&
+           d.text("whyNotFelt").contains(word);
+  };
+  QVERIFY(says(QStringLiteral("two parts")));
+  QVERIFY(!d.widget<QToolButton>("takeInHandButton")->isVisible());
+  d.addCubes();
+  QVERIFY(start->isEnabled() && start->statusTip().isEmpty() && button->toolTip().isEmpty());
+  QVERIFY(start->toolTip().contains(QStringLiteral("F5")));
+  QVERIFY(!d.widget<QLabel>("whyNotFelt")->isVisible());
+  d.session().setMovingPart(std::nullopt);
+  QVERIFY(says(QStringLiteral("Ctrl+H")));
+}
+
+void DesktopServoTest::partsThatWereAddedAreSelectedAndTheFirstIsTakenInHandByOneClick() {
+  DesktopDriver d;
+  d.window().document().addParts({d.fixedFile, d.movingFile}, 1e-3);
+  QTRY_COMPARE(d.window().selection().parts().size(), std::size_t{2});
+  QCOMPARE(d.window().selection().current(), std::optional(d.partId("fixed")));
+  auto* take = d.widget<QToolButton>("takeInHandButton");
+  QTRY_VERIFY(take->isVisible() && take->isEnabled());
+  QTest::mouseClick(take, Qt::LeftButton);
+  QCOMPARE(d.session().scene().movingPart(), std::optional(d.partId("fixed")));
+  QVERIFY(!take->isVisible());
   QVERIFY(d.widget<QPushButton>("startStop")->isEnabled());
 }
 

@@ -133,6 +133,7 @@ void DesktopWorkspaceTest::whatThereIsToSetDependsOnTheHand() {
   WorkspaceFixture f;
   auto* scale = f.d->widget<ui::NumberField>("panelScale");
   auto* freedom = f.d->widget<QComboBox>("panel-freedom");
+  f.choose("hand", QStringLiteral("Scripted hand"));
   QVERIFY(!scale->isVisible() && !freedom->isVisible());
   f.choose("hand", QStringLiteral("Manual hand"));
   QVERIFY(!scale->isVisible() && freedom->isVisible());

@@ -43,6 +43,7 @@ FeelControl::FeelControl(Session& session, const HandState& hand, SceneWork& wor
 void FeelControl::makeActions() {
   start = makeAction(this, "start", tr("&Feel"), QStringLiteral("start"), Qt::Key_F5,
                      tr("Start the servo: feel the moving part against the others"));
+  startHelp_ = start->toolTip();
   stop = makeAction(this, "stop", tr("S&top"), QStringLiteral("stop"), Qt::Key_F6,
                     tr("Stop the servo and leave the part where it is"));
   clutch = makeAction(this, "clutch", tr("&Clutch"), QStringLiteral("clutch"), Qt::Key_F9,
@@ -119,11 +120,21 @@ void FeelControl::connectHand() {
 void FeelControl::updateActions() {
   const Scene& scene = session_.scene();
   const bool isTaken = hand_.status().isTaken();
-  const bool canStart = scene.movingPart().has_value() && scene.parts().size() > 1;
-  start->setEnabled(!work_.isBusy() && canStart && !isTaken);
+  const QString why = whyNotFelt();
+  start->setEnabled(why.isEmpty() && !isTaken);
+  start->setToolTip(why.isEmpty() || isTaken ? startHelp_ : why);
+  start->setStatusTip(isTaken ? QString() : why);
   stop->setEnabled(isTaken);
   clutch->setEnabled(hand_.isHeldBy(Hand::Device));
-  panel_->setStartable(start->isEnabled());
+  panel_->showReadiness(why, scene.parts().size() > 1 && !scene.movingPart());
+}
+
+QString FeelControl::whyNotFelt() const {
+  const Scene& scene = session_.scene();
+  if (scene.parts().size() < 2) return tr("Add at least two parts to feel one against the other.");
+  if (!scene.movingPart()) return tr("No part is in hand: select one and take it in hand (Ctrl+H).");
+  if (work_.isBusy()) return tr("Wait until the parts are loaded.");
+  return {};
 }
 
 void FeelControl::showSettings() {
@@ -141,6 +152,10 @@ void FeelControl::closeSettings() {
 
 void FeelControl::showDevices(const QVector<DeviceChoice>& devices) {
   panel_->showDevices(devices);
+}
+
+void FeelControl::chooseScriptedHand() {
+  panel_->chooseScriptedHand();
 }
 
 void FeelControl::takeChosenHand() {

@@ -48,6 +48,8 @@ class FeelControl : public QObject {
  public slots:
   /// Lists the devices that can be chosen as the hand.
   void showDevices(const QVector<nearfit::ui::DeviceChoice>& devices);
+  /// Chooses the scripted hand; starts nothing.
+  void chooseScriptedHand();
   /// Chooses a device as the hand and starts the servo with it.
   /// @param device  DeviceChoice::id, or "replay:FILE" for a recording.
   void feelWith(const QString& device);
@@ -91,6 +93,8 @@ class FeelControl : public QObject {
   void connectSettings();
   void connectHand();
   void updateActions();
+  /// Returns why nothing can be felt now, as a sentence for the user; empty if it can.
+  QString whyNotFelt() const;
   void showSettings();
   void requestStart();
   void restart();
@@ -109,6 +113,7 @@ class FeelControl : public QObject {
   PresetStore* presets_;
   FeelDialog* dialog_;
   FeelPanel* panel_ = nullptr;
+  QString startHelp_;  ///< Tooltip of `start` while it can be used.
   /// Set while a start waits for hierarchies. Keeps the device chosen: if it is unplugged meanwhile, no
   /// other one takes its place.
   std::optional<WantedHand> wanted_;

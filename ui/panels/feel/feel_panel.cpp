@@ -1,11 +1,13 @@
 #include "ui/panels/feel/feel_panel.h"
 
+#include <QAction>
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QToolButton>
 #include <QVBoxLayout>
 
 #include <glm/geometric.hpp>
@@ -77,6 +79,8 @@ FeelPanel::FeelPanel(const Parts& parts, QWidget* parent)
       mode_(new QComboBox(this)),
       preset_(new PresetChoice("panelPreset", parts.presets, this)),
       startStop_(new QPushButton(this)),
+      whyNot_(new QLabel(this)),
+      takeInHand_(new QToolButton(this)),
       notice_(new FeelNotice(this)),
       workspace_(new HandWorkspace(parts.clutch, this)),
       device_(new Readouts(tr("Device"), this)),
@@ -127,19 +131,28 @@ QWidget* FeelPanel::makeChoices(const Parts& parts) {
   startStop_->setObjectName(QStringLiteral("startStop"));
   startStop_->setMinimumHeight(34);
   startStop_->setIconSize(QSize(20, 20));
+  whyNot_->setObjectName(QStringLiteral("whyNotFelt"));
+  whyNot_->setWordWrap(true);
+  whyNot_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
+  takeInHand_->setObjectName(QStringLiteral("takeInHandButton"));
+  takeInHand_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  takeInHand_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  takeInHand_->setFocusPolicy(Qt::StrongFocus);
   auto* content = new QWidget(this);
   auto* layout = new QVBoxLayout(content);
   layout->setContentsMargins(12, 10, 12, 12);
   layout->setSpacing(6);
   for (QWidget* each :
        {static_cast<QWidget*>(hand_), static_cast<QWidget*>(mode_), static_cast<QWidget*>(preset_),
-        static_cast<QWidget*>(startStop_), parts.settingsButton, static_cast<QWidget*>(notice_),
+        static_cast<QWidget*>(startStop_), static_cast<QWidget*>(whyNot_),
+        static_cast<QWidget*>(takeInHand_), parts.settingsButton, static_cast<QWidget*>(notice_),
         static_cast<QWidget*>(felt_), static_cast<QWidget*>(device_), static_cast<QWidget*>(workspace_),
         static_cast<QWidget*>(servo_)})
     layout->addWidget(each);
   layout->addStretch(1);
   // Tab order as on screen; the button was created before the others.
-  setTabOrder(startStop_, parts.settingsButton);
+  setTabOrder(startStop_, takeInHand_);
+  setTabOrder(takeInHand_, parts.settingsButton);
   return content;
 }
 
@@ -183,6 +196,11 @@ void FeelPanel::chooseDevice(const QString& device) {
   showHand();
 }
 
+void FeelPanel::chooseScriptedHand() {
+  hand_->chooseScripted();
+  showHand();
+}
+
 void FeelPanel::showDevices(const QVector<DeviceChoice>& devices) {
   hand_->showDevices(devices);
   showHand();
@@ -192,9 +210,23 @@ void FeelPanel::showHand() {
   workspace_->showHand(hand(), hand_->isRecorded());
 }
 
-void FeelPanel::setStartable(bool isStartable) {
-  isStartable_ = isStartable;
-  startStop_->setEnabled(isStartable_ || isTaken_);
+void FeelPanel::setTakeInHand(QAction& takeInHand) {
+  takeInHand_->setDefaultAction(&takeInHand);
+}
+
+void FeelPanel::showReadiness(const QString& whyNot, bool isHandEmpty) {
+  whyNot_->setText(whyNot);
+  isHandEmpty_ = isHandEmpty;
+  updateStart();
+}
+
+void FeelPanel::updateStart() {
+  const QString why = isTaken_ ? QString() : whyNot_->text();
+  startStop_->setEnabled(why.isEmpty());
+  startStop_->setToolTip(why);
+  startStop_->setStatusTip(why);
+  whyNot_->setVisible(!why.isEmpty());
+  takeInHand_->setVisible(isHandEmpty_ && !isTaken_);
 }
 
 void FeelPanel::showStatus(const ServoStatus& status) {
@@ -203,7 +235,7 @@ void FeelPanel::showStatus(const ServoStatus& status) {
   workspace_->showUncalibrated(status.isRunning && status.isUncalibrated);
   startStop_->setText(status.isOpening ? tr("Cancel") : isTaken_ ? tr("Stop") : tr("Feel"));
   startStop_->setIcon(icon(isTaken_ ? QStringLiteral("stop") : QStringLiteral("start")));
-  setStartable(isStartable_);
+  updateStart();
   const bool hasTimes = status.isRunning && status.ticks > 0;
   rate_->setText(hasTimes ? QStringLiteral("%1 Hz").arg(status.rate, 0, 'f', 0) : Readouts::nothing());
   rate_->setStyleSheet(status.isTooSlow() ? QStringLiteral("color: %1").arg(colours::kWarning.name())

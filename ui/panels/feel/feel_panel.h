@@ -11,6 +11,7 @@ class QAction;
 class QComboBox;
 class QLabel;
 class QPushButton;
+class QToolButton;
 class QVBoxLayout;
 
 namespace nearfit::ui {
@@ -42,8 +43,13 @@ class FeelPanel : public QWidget {
   bool isRecordingMissing() const;
   /// Chooses a device; no-op if it is not in the list.
   void chooseDevice(const QString& device);
+  void chooseScriptedHand();
   void showDevices(const QVector<DeviceChoice>& devices);
-  void setStartable(bool isStartable);
+  /// Says what keeps the servo from starting; empty: nothing does.
+  /// @param isHandEmpty  True if no part is in hand: offers the action of setTakeInHand().
+  void showReadiness(const QString& whyNot, bool isHandEmpty);
+  /// Sets the action that takes the selected part in hand.
+  void setTakeInHand(QAction& takeInHand);
   void showStatus(const ServoStatus& status);
   /// Shows the scene's settings.
   void showSettings(const HapticSettings& settings);
@@ -72,19 +78,22 @@ class FeelPanel : public QWidget {
   void setUpReadouts();
   void showDevice(const ServoStatus& status);
   void showHand();
+  void updateStart();
   void showProxy(const ServoSnapshot& snapshot);
 
   HandChoice* hand_;
   QComboBox* mode_;
   PresetChoice* preset_;
   QPushButton* startStop_;
+  QLabel* whyNot_;
+  QToolButton* takeInHand_;
   FeelNotice* notice_;
   HandWorkspace* workspace_;
   Readouts *device_, *felt_, *servo_;
   QLabel *force_, *torque_, *distance_, *minima_, *contacts_, *lead_, *energy_, *clamped_;
   QLabel *reports_, *jitter_, *lost_;
   QLabel *rate_, *lateness_, *tick_, *subSteps_, *overruns_, *scheduling_;
-  bool isTaken_ = false, isStartable_ = false;
+  bool isTaken_ = false, isHandEmpty_ = false;
 };
 
 }  // namespace nearfit::ui

@@ -17,6 +17,7 @@
 #include "core/scene/haptic_limits.h"
 #include "ui/panels/feel/locks_page.h"
 #include "ui/widgets/number_field.h"
+#include "ui/widgets/preferences.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
@@ -24,7 +25,10 @@ namespace {
 
 constexpr int kDeviceRole = Qt::UserRole + 1, kNoteRole = Qt::UserRole + 2;
 /// The scripted hand, the manual hand and the recording are always there.
-constexpr int kManual = 1, kRecording = 2, kFirstDevice = 3;
+constexpr int kScripted = 0, kManual = 1, kRecording = 2, kFirstDevice = 3;
+/// How the choice is remembered; a device by its name, since its id depends on the port.
+const QString kScriptedHand = QStringLiteral("scripted"), kManualHand = QStringLiteral("manual"),
+              kDeviceHand = QStringLiteral("device:");
 /// Prefix of a recording's id.
 const QString kReplay = QStringLiteral("replay:");
 constexpr int kOpeningSteps = 1000;
@@ -96,8 +100,8 @@ HandChoice::HandChoice(QWidget* parent)
   box_->addItem(icon(QStringLiteral("rename")), tr("Manual hand"), QVariant::fromValue(Hand::Manual));
   box_->addItem(icon(QStringLiteral("start")), tr("Recorded hand"), QVariant::fromValue(Hand::Device));
   box_->setItemData(kManual,
-                    tr("In the view, hold Shift: a left drag moves the hand, a right drag turns it, the "
-                       "wheel moves it nearer or farther. Keys move it in steps; with Shift they turn it."),
+                    tr("Shift+left-drag moves, Shift+right-drag rotates, Shift+wheel pushes or pulls. Arrow "
+                       "keys step; Shift+arrows rotate."),
                     kNoteRole);
   box_->setItemData(kRecording, tr("No recording is chosen yet."), kNoteRole);
   box_->setToolTip(
@@ -130,10 +134,13 @@ HandChoice::HandChoice(QWidget* parent)
   connect(reset_, &QPushButton::clicked, this, &HandChoice::resetRequested);
   connect(calibrate_, &QPushButton::clicked, this, &HandChoice::calibrateRequested);
   connect(box_, QOverload<int>::of(&QComboBox::activated), this, [this] {
+    isChosen_ = true;
+    remember();
     showChosen();
     emit handChanged();
   });
   connect(arm_, &QPushButton::clicked, this, [this] { emit armRequested(!status_.isArmed); });
+  box_->setCurrentIndex(rowOfRemembered());
   showChosen();
 }
 
@@ -150,7 +157,16 @@ void HandChoice::choose(const QString& device) {
     box_->setItemData(kRecording, device, kDeviceRole);
     box_->setItemData(kRecording, QFileInfo(device.mid(kReplay.size())).fileName(), kNoteRole);
   }
-  if (const int row = rowOf(device); row >= 0) box_->setCurrentIndex(row);
+  if (const int row = rowOf(device); row >= 0) {
+    box_->setCurrentIndex(row);
+    isChosen_ = true;
+  }
+  showChosen();
+}
+
+void HandChoice::chooseScripted() {
+  box_->setCurrentIndex(kScripted);
+  isChosen_ = true;
   showChosen();
 }
 
@@ -166,12 +182,43 @@ int HandChoice::rowOf(const QString& device) const {
   return device.isEmpty() ? -1 : box_->findData(device, kDeviceRole);
 }
 
+int HandChoice::rowOfRemembered() const {
+  const QString hand = Preferences::hand();
+  if (hand == kScriptedHand) return kScripted;
+  if (hand == kManualHand) return kManual;
+  const auto* model = qobject_cast<const QStandardItemModel*>(box_->model());
+  for (int row = kFirstDevice; row < box_->count(); ++row) {
+    const bool isWanted = hand.isEmpty() || hand == kDeviceHand + box_->itemText(row);
+    if (isWanted && model->item(row)->isEnabled()) return row;
+  }
+  return kManual;
+}
+
+void HandChoice::remember() {
+  const int row = box_->currentIndex();
+  // The file of a recording belongs to this run.
+  if (row == kRecording) return;
+  Preferences::setHand(row == kScripted ? kScriptedHand
+                       : row == kManual ? kManualHand
+                                        : kDeviceHand + box_->currentText());
+}
+
 void HandChoice::showDevices(const QVector<DeviceChoice>& devices) {
   notices_->showDevices(devices);
   const QSignalBlocker quiet(box_);
-  const Hand hand = this->hand();
+  const int before = box_->currentIndex();
   const QString chosen = device();
-  const bool isRecording = isRecorded();
+  const bool isFixed = before < kFirstDevice;
+  listDevices(devices);
+  int row = isFixed ? before : rowOf(chosen);
+  isChosen_ = isChosen_ && row >= 0;
+  // The hand does not change while it holds the part, unless it is gone.
+  if (row < 0 || (!isChosen_ && !status_.isTaken())) row = rowOfRemembered();
+  box_->setCurrentIndex(row);
+  showChosen();
+}
+
+void HandChoice::listDevices(const QVector<DeviceChoice>& devices) {
   while (box_->count() > kFirstDevice)
     box_->removeItem(kFirstDevice);
   auto* model = qobject_cast<QStandardItemModel*>(box_->model());
@@ -184,11 +231,6 @@ void HandChoice::showDevices(const QVector<DeviceChoice>& devices) {
     box_->setItemData(row, each.note, Qt::ToolTipRole);
     model->item(row)->setEnabled(each.isUsable);
   }
-  const int row = isRecording            ? kRecording
-                  : hand == Hand::Device ? rowOf(chosen)
-                                         : box_->findData(QVariant::fromValue(hand));
-  box_->setCurrentIndex(row < 0 ? 0 : row);
-  showChosen();
 }
 
 void HandChoice::showStatus(const ServoStatus& status) {

@@ -35,6 +35,9 @@ class DeviceNotices : public QWidget {
 
 /// Chooses the hand: the script's, the user's by numbers and keys, or a device's. Also shows a device's
 /// state, and buttons to arm, calibrate and reset it.
+///
+/// Remembers between runs what the user chose, except a recording. At first it is a device that is plugged in,
+/// else the manual hand; the manual hand also stands in for a device that is missing.
 class HandChoice : public QWidget {
   Q_OBJECT
 
@@ -46,11 +49,13 @@ class HandChoice : public QWidget {
   QString device() const;
   /// Chooses a device of the list, or a recording ("replay:FILE"); no-op for anything else.
   void choose(const QString& device);
+  /// Chooses the scripted hand.
+  void chooseScripted();
   /// True if the recorded hand is chosen, with or without a recording.
   bool isRecorded() const;
   /// True if the recorded hand is chosen without a recording: there is no device yet.
   bool isRecordingMissing() const;
-  /// Lists the devices. Keeps the choice if it is still there, else chooses the scripted hand.
+  /// Lists the devices. Keeps the user's choice if it is still there, else chooses as at the start.
   void showDevices(const QVector<DeviceChoice>& devices);
   void showStatus(const ServoStatus& status);
 
@@ -64,6 +69,10 @@ class HandChoice : public QWidget {
 
  private:
   int rowOf(const QString& device) const;
+  /// Returns the row of the remembered hand, or of the one that stands in for it.
+  int rowOfRemembered() const;
+  void remember();
+  void listDevices(const QVector<DeviceChoice>& devices);
   void showChosen();
 
   QComboBox* box_;
@@ -72,6 +81,7 @@ class HandChoice : public QWidget {
   QProgressBar* opening_;
   DeviceNotices* notices_;
   ServoStatus status_;
+  bool isChosen_ = false;  ///< In this run, by the user or by choose().
 };
 
 /// Settings of the hand's workspace, within reach while it feels: scale and clutch of a device, and which
