@@ -20,6 +20,7 @@ class DesktopPartsTest : public QObject {
   void renamesInPlace();
   void movesByNumbersAndTakesItBackByKeys();
   void movesByUnitsAndArithmeticInTheChosenUnit();
+  void typedAnglesTurnAboutThePivot();
   void commandKeysWorkInANumberField();
   void numbersLeftAloneStayExact();
   void densityMakesTheMass();
@@ -164,6 +165,30 @@ void DesktopPartsTest::movesByUnitsAndArithmeticInTheChosenUnit() {
   QVERIFY(std::abs(at().x - 0.0254) < 1e-15);
   d.choose("unit-mm");
   QCOMPARE(d.widget<QDoubleSpinBox>("positionX")->text(), QStringLiteral("25.4000 mm"));
+}
+
+/// They turned about the origin of the file, which may be far away: parts jumped.
+void DesktopPartsTest::typedAnglesTurnAboutThePivot() {
+  DesktopDriver d;
+  d.addCubes();
+  d.clickPart(1, ui::PartsModel::Name);
+  const auto at = [&](const glm::dvec3& inPart) { return d.part("moving").worldFromPart.applyToPoint(inPart); };
+  // The middle of the cube, 35 mm above the file's origin.
+  const glm::dvec3 centre(0.0, 0.0, 0.035);
+  d.type<QDoubleSpinBox>("rotationX", "45");
+  QVERIFY(glm::distance(at(centre), centre) < 1e-12);
+  QVERIFY(glm::distance(d.part("moving").worldFromPart.applyToVector({0, 1, 0}),
+                        glm::dvec3(0.0, std::sqrt(0.5), std::sqrt(0.5))) < 1e-12);
+  d.session().undo();
+  const glm::dvec3 corner(0.01, 0.01, 0.045);
+  d.session().setPivots({Session::NewPivot{d.partId("moving"), corner}});
+  d.type<QDoubleSpinBox>("rotationZ", "90");
+  QVERIFY(glm::distance(at(corner), corner) < 1e-12);
+  QVERIFY(glm::distance(at(centre), glm::dvec3(0.02, 0.0, 0.035)) < 1e-12);
+  // Keys turn about it too.
+  d.type<QDoubleSpinBox>("turnStep", "30");
+  pressInView(d, Qt::Key_Right, Qt::ShiftModifier);
+  QVERIFY(glm::distance(at(corner), corner) < 1e-12);
 }
 
 void DesktopPartsTest::commandKeysWorkInANumberField() {

@@ -44,7 +44,7 @@ PosePanel::PosePanel(QWidget* parent) : QWidget(parent), heading_(new ElidedLabe
   setUpMass(*layout);
   layout->setColumnStretch(1, 3);
   layout->setColumnStretch(3, 2);
-  layout->setRowStretch(6, 1);
+  layout->setRowStretch(7, 1);
   showPart({});
   showMass({});
 }
@@ -70,10 +70,13 @@ void PosePanel::setUpPose(QGridLayout& layout) {
   turnStep_->setMinimum(1e-3);
   turnStep_->setValue(1.0);
   turnStep_->setToolTip(
-      tr("How far the arrow and page keys turn the part with Shift, about its centre of mass"));
-  layout.addWidget(new QLabel(tr("Key"), this), 4, 0);
-  layout.addWidget(step_, 4, 1);
-  layout.addWidget(turnStep_, 4, 3);
+      tr("How far the arrow and page keys turn the part with Shift, about its pivot"));
+  auto* stepLabel = new QLabel(tr("Arrow-key step"), this);
+  stepLabel->setBuddy(step_);
+  turnStep_->setAccessibleName(tr("Arrow-key step of rotation"));
+  layout.addWidget(stepLabel, 4, 0, 1, 4);
+  layout.addWidget(step_, 5, 1);
+  layout.addWidget(turnStep_, 5, 3);
   for (int field = 0; field < 6; ++field) {
     connect(fields_[static_cast<std::size_t>(field)], &NumberField::quantityEdited, this,
             [this, field] { edit(field); });
@@ -97,7 +100,7 @@ void PosePanel::setUpMass(QGridLayout& layout) {
   row->addWidget(new QLabel(tr("Density"), this));
   row->addWidget(density_, 1);
   row->addWidget(mass_);
-  layout.addLayout(row, 5, 0, 1, 4);
+  layout.addLayout(row, 6, 0, 1, 4);
   connect(density_, &NumberField::quantityEdited, this, &PosePanel::densityEdited);
 }
 
@@ -226,10 +229,15 @@ void PosePanel::edit(int field) {
   const bool isOn = fields_[i]->isStepping();
   number = isOn ? number + (value - shown_[i]) : value;
   shown_[i] = value;
-  if (field >= 3) hand_.rotation = rotationFromEulerAngles(handAngles_);
+  if (field >= 3) turnTo(rotationFromEulerAngles(handAngles_));
   isEditing_ = true;
   emit poseEdited(hand_);
   isEditing_ = false;
+}
+
+void PosePanel::turnTo(const glm::dquat& rotation) {
+  const glm::dvec3 pivot = pivotInPart_ ? pivotInPart_() : glm::dvec3(0.0);
+  hand_ = {rotation, hand_.applyToPoint(pivot) - rotation * pivot};
 }
 
 void PosePanel::refresh() {

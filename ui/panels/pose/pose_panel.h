@@ -2,8 +2,11 @@
 
 #include <QWidget>
 #include <array>
+#include <functional>
+#include <utility>
 #include <vector>
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/math/rigid_transform.h"
@@ -21,7 +24,8 @@ class ElidedLabel;
 class NumberField;
 
 /// Shows and edits the pose of one part in numbers: position in the user's unit, rotation as angles about the
-/// fixed axes x, y, z; and its density. Numbers that the user leaves alone keep their exact values.
+/// fixed axes x, y, z; and its density. Numbers that the user leaves alone keep their exact values, except that an
+/// angle turns the part about its pivot, which moves the origin of its file.
 class PosePanel : public QWidget {
   Q_OBJECT
 
@@ -44,6 +48,8 @@ class PosePanel : public QWidget {
   void showMass(const std::vector<const Part*>& parts, bool isLocked = false);
   /// Accepts a number that is still being typed, as leaving its field does.
   void commit();
+  /// Sets what returns the pivot, in the part's frame [m]; the part's origin if not set.
+  void setPivot(std::function<glm::dvec3()> pivotInPart) { pivotInPart_ = std::move(pivotInPart); }
   /// Returns how far an arrow key moves a part [m].
   double step() const;
   /// Returns how far an arrow key with Shift turns it [rad].
@@ -65,6 +71,8 @@ class PosePanel : public QWidget {
   NumberField* makeAngle(const QString& name, double limit);
   NumberField* prepared(NumberField* field, const QString& name);
   void edit(int field);
+  /// Turns the hand's pose about the pivot.
+  void turnTo(const glm::dquat& rotation);
   void showDensity(const std::vector<const Part*>& parts);
   void refresh();
 
@@ -72,6 +80,7 @@ class PosePanel : public QWidget {
   std::array<NumberField*, 6> fields_{};
   NumberField *step_ = nullptr, *turnStep_ = nullptr, *density_ = nullptr;
   QLabel* mass_ = nullptr;
+  std::function<glm::dvec3()> pivotInPart_;
   RigidTransform pose_, hand_;
   glm::dvec3 handAngles_{0.0};     ///< Angles of hand_ [rad].
   std::array<double, 6> shown_{};  ///< Numbers in the fields.

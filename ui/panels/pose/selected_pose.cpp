@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/placing/pivot.h"
 #include "core/session/session.h"
 #include "ui/model/hand_state.h"
 #include "ui/model/move_guard.h"
@@ -46,6 +47,7 @@ SelectedPose::SelectedPose(const Context& context, PosePanel& panel)
 }
 
 void SelectedPose::connectPanel() {
+  panel_.setPivot([this] { return pivotInCurrent(); });
   connect(&panel_, &PosePanel::poseEdited, this, &SelectedPose::moveRequested);
   connect(&panel_, &PosePanel::densityEdited, this, &SelectedPose::setDensity);
   connect(&context_.work, &SceneWork::sceneNeeded, &panel_, &PosePanel::commit);
@@ -59,6 +61,19 @@ void SelectedPose::connectPanel() {
 const Part* SelectedPose::current() const {
   const std::optional<PartId> id = context_.selection.current();
   return id ? context_.session.scene().find(*id) : nullptr;
+}
+
+glm::dvec3 SelectedPose::pivotInCurrent() const {
+  const Part* part = current();
+  std::vector<PlacedPart> placed;
+  for (const PartId id : context_.selection.parts()) {
+    const Part* each = context_.session.scene().find(id);
+    if (each != nullptr && each->geometry != nullptr)
+      placed.push_back({each, context_.poses.poseOf(*each)});
+  }
+  if (part == nullptr || placed.empty()) return glm::dvec3(0.0);
+  const glm::dvec3 pivot = sharedPivot(placed).value_or(centreOfMass(placed));
+  return context_.poses.poseOf(*part).inverse().applyToPoint(pivot);
 }
 
 void SelectedPose::refresh() {

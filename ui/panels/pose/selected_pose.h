@@ -51,7 +51,7 @@ class SelectedPose : public QObject {
  signals:
   /// Emitted when the current part, or the hand that holds it, is to have that pose.
   void moveRequested(const nearfit::RigidTransform& worldFromPart);
-  /// Emitted when it is to be shifted [m], and turned about its centre of mass, in the world.
+  /// Emitted when it is to be shifted [m], and turned, in the world.
   void stepRequested(const glm::dvec3& shift, const glm::dquat& turn);
   /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
@@ -60,6 +60,8 @@ class SelectedPose : public QObject {
   void connectPanel();
   /// Returns the current part; null if there is none, or it has just left the scene.
   const Part* current() const;
+  /// Returns the pivot of the selected parts, in the frame of the current one [m].
+  glm::dvec3 pivotInCurrent() const;
   void showHeldPose();
   void setDensity(double density);
 

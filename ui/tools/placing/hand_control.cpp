@@ -78,7 +78,9 @@ void HandControl::step(const glm::dvec3& shift, const glm::dquat& turn) {
   context_.placing.commit();
   const std::optional<PartId> id = context_.selection.current();
   const Part* part = id ? context_.session.scene().find(*id) : nullptr;
-  if (part != nullptr) place(stepped(part->worldFromPart, shift, turn, part->geometry->mass.centre));
+  if (part == nullptr) return;
+  const glm::dvec3 pivot = part->pivot.value_or(part->geometry->mass.centre);
+  place(stepped(part->worldFromPart, shift, turn, pivot));
 }
 
 void HandControl::stepHand(const glm::dvec3& shift, const glm::dquat& turn) {

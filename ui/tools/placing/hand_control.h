@@ -46,7 +46,7 @@ class HandControl : public QObject {
   void place(const nearfit::RigidTransform& worldFromPart);
   /// Moves the manual hand, if it holds a part, else the current part.
   /// @param shift  World [m].
-  /// @param turn   About the part's centre of mass, in the world frame.
+  /// @param turn   In the world frame, about the part's pivot; of the hand, about the part's centre of mass.
   void step(const glm::dvec3& shift, const glm::dquat& turn);
 
  signals:
