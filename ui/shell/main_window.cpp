@@ -127,7 +127,7 @@ void MainWindow::makePanels() {
   QDockWidget* pose = addDock("poseDock", tr("Pose and mass"), posePanel_, Qt::LeftDockWidgetArea);
   QDockWidget* feel = addDock("feelDock", tr("Feel"), &feel_->panel(), Qt::RightDockWidgetArea);
   resizeDocks({pose, feel}, {285, 235}, Qt::Horizontal);
-  resizeDocks({pose}, {240}, Qt::Vertical);
+  resizeDocks({pose}, {264}, Qt::Vertical);
   viewActions_ = new ViewActions(session_, *selection_, *viewport_, this);
   new ViewMenu(*selection_, *viewport_, parts_->menu(), {parts_->selectAll, viewActions_->fit}, this);
 }

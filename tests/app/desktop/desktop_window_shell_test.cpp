@@ -110,6 +110,7 @@ class DesktopWindowShellTest : public QObject {
   void theTourIsLedByReturnToo();
   void theTreeFollowsTheTheme();
   void theTabKeyGoesDownTheFeelPanel();
+  void theTabKeyGoesThroughThePositionBeforeTheAngles();
   void largerLettersAreNotCut();
   void toolbarsFitANarrowWindow();
 };
@@ -330,6 +331,17 @@ void DesktopWindowShellTest::theTabKeyGoesDownTheFeelPanel() {
     QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
   }
   QVERIFY(count >= 4 && count <= 40);
+}
+
+void DesktopWindowShellTest::theTabKeyGoesThroughThePositionBeforeTheAngles() {
+  DesktopDriver d;
+  d.addCubes();
+  d.clickPart(1, 0);
+  d.widget<QDoubleSpinBox>("positionX")->setFocus();
+  for (const char* next : {"positionY", "positionZ", "rotationX", "rotationY", "rotationZ", "nudgeStep"}) {
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
+    QCOMPARE(QApplication::focusWidget()->objectName(), QString::fromLatin1(next));
+  }
 }
 
 void DesktopWindowShellTest::largerLettersAreNotCut() {

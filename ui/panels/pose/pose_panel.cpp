@@ -52,15 +52,19 @@ PosePanel::PosePanel(QWidget* parent) : QWidget(parent), heading_(new ElidedLabe
 void PosePanel::setUpPose(QGridLayout& layout) {
   const QStringList axes = {QStringLiteral("X"), QStringLiteral("Y"), QStringLiteral("Z")};
   for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    fields_[i] = makeLength(QStringLiteral("position") + axes[axis], kFarthest, 4, 1e-3);
-    fields_[i + 3] = makeAngle(QStringLiteral("rotation") + axes[axis], 360.0);
-    fields_[i]->setAccessibleName(tr("Position along %1").arg(axes[axis]));
-    fields_[i + 3]->setAccessibleName(tr("Rotation about %1").arg(axes[axis]));
+    NumberField* field = makeLength(QStringLiteral("position") + axes[axis], kFarthest, 4, 1e-3);
+    field->setAccessibleName(tr("Position along %1").arg(axes[axis]));
+    fields_[static_cast<std::size_t>(axis)] = field;
     layout.addWidget(new QLabel(axes[axis], this), axis + 1, 0);
-    layout.addWidget(fields_[i], axis + 1, 1);
+    layout.addWidget(field, axis + 1, 1);
+  }
+  // Made after all positions: the Tab key goes through the fields in this order.
+  for (int axis = 0; axis < 3; ++axis) {
+    NumberField* field = makeAngle(QStringLiteral("rotation") + axes[axis], 360.0);
+    field->setAccessibleName(tr("Rotation about %1").arg(axes[axis]));
+    fields_[static_cast<std::size_t>(axis + 3)] = field;
     layout.addWidget(new QLabel(QStringLiteral("R") + axes[axis].toLower(), this), axis + 1, 2);
-    layout.addWidget(fields_[i + 3], axis + 1, 3);
+    layout.addWidget(field, axis + 1, 3);
   }
   step_ = makeLength(QStringLiteral("nudgeStep"), 10.0, 3, 1e-4);
   step_->setQuantityRange(1e-6, 10.0);
