@@ -26,15 +26,17 @@ SnapshotGlyphs::SnapshotGlyphs(vtkRenderer& parts, vtkRenderer& overlay, QWidget
   legend_->hide();
 }
 
-void SnapshotGlyphs::show(const ServoSnapshot& snapshot, double cutoff, const Part* moving) {
+void SnapshotGlyphs::show(const ServoSnapshot& snapshot, const HapticSettings& settings, const Part* moving) {
   const double size = moving != nullptr ? moving->geometry->mesh.bounds().diagonal() : 0.0;
-  minima_.show(std::span(snapshot.lmds).first(snapshot.storedLmds), cutoff);
+  minima_.show(std::span(snapshot.lmds).first(snapshot.storedLmds), settings.springs.cutoff,
+               settings.proxy.margin);
   arrows_.show(snapshot.centre, snapshot.wrench, size);
   contacts_.show(std::span(snapshot.contacts).first(snapshot.storedContacts), size);
   hand_.show(snapshot, size);
 }
 
 void SnapshotGlyphs::showNumbers(const ServoSnapshot& snapshot) {
+  legend_->setColourRange(minima_.colourRange());
   legend_->showSnapshot(snapshot);
   placeLegend();
   legend_->show();
@@ -46,10 +48,6 @@ void SnapshotGlyphs::clear() {
   contacts_.clear();
   hand_.clear();
   legend_->hide();
-}
-
-void SnapshotGlyphs::setCutoff(double cutoff) {
-  legend_->setCutoff(cutoff);
 }
 
 void SnapshotGlyphs::placeLegend() {

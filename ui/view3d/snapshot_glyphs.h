@@ -26,15 +26,13 @@ class SnapshotGlyphs {
   SnapshotGlyphs(vtkRenderer& parts, vtkRenderer& overlay, QWidget& view);
 
   /// Shows the glyphs of a snapshot.
-  /// @param cutoff  Distance at the end of the colour scale [m]; > 0.
-  /// @param moving  The part in hand; null if there is none.
-  void show(const ServoSnapshot& snapshot, double cutoff, const Part* moving);
+  /// @param settings  Of the scene.
+  /// @param moving    The part in hand; null if there is none.
+  void show(const ServoSnapshot& snapshot, const HapticSettings& settings, const Part* moving);
   /// Shows the legend with the snapshot's numbers. Call just before the glyphs are drawn, or the numbers
   /// would be ahead of them.
   void showNumbers(const ServoSnapshot& snapshot);
   void clear();
-  /// Sets the legend's cutoff to the scene's [m], before any snapshot.
-  void setCutoff(double cutoff);
   /// Moves the legend into its corner; call after the view was resized.
   void placeLegend();
 

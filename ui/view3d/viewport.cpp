@@ -191,7 +191,6 @@ void Viewport::setScene(const Scene& scene) {
   scene_ = scene;
   parts_.setScene(scene);
   showMovingPart();
-  glyphs_->setCutoff(scene.haptics().springs.cutoff);
   if (isAnotherScene) setView(StandardView::Isometric);
   emit posesChanged();
   requestRender();
@@ -218,7 +217,7 @@ void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
   if (shown_ == nullptr) shown_ = std::make_unique<ServoSnapshot>();
   *shown_ = snapshot;
   hasNewNumbers_ = true;
-  glyphs_->show(snapshot, scene_.haptics().springs.cutoff, scene_.find(snapshot.moving));
+  glyphs_->show(snapshot, scene_.haptics(), scene_.find(snapshot.moving));
   const std::size_t overlapping =
       std::min<std::size_t>(snapshot.overlappingCount, ServoSnapshot::kMaxOverlapping);
   parts_.setOverlapping(std::span(snapshot.overlapping).first(overlapping));
@@ -286,7 +285,8 @@ void Viewport::setMinimaVisible(bool isVisible) {
 
 void Viewport::setMinimaChoice(const MinimaChoice& choice) {
   glyphs_->minima().setChoice(choice);
-  if (shown_ != nullptr) glyphs_->show(*shown_, scene_.haptics().springs.cutoff, scene_.find(shown_->moving));
+  hasNewNumbers_ = shown_ != nullptr;
+  if (shown_ != nullptr) glyphs_->show(*shown_, scene_.haptics(), scene_.find(shown_->moving));
   requestRender();
 }
 

@@ -142,6 +142,7 @@ class DesktopGlyphsTest : public QObject {
   void segmentsPointsAndNormalsAreDrawnAsChosen();
   void asManyOfTheNearestAreDrawnAsChosen();
   void minimaFartherThanChosenAreNotDrawn();
+  void theRangeOfColoursIsChosenInADialog();
 };
 
 void DesktopGlyphsTest::eachSwitchTakesAwayWhatItNamesAndBringsItBack_data() {
@@ -271,6 +272,25 @@ void DesktopGlyphsTest::minimaFartherThanChosenAreNotDrawn() {
   QTRY_COMPARE(g.lines(), QStringLiteral("---"));
   g.d.choose("minimaWithin100");
   QTRY_COMPARE(changedPixels(all, g.d.picture()), 0);
+}
+
+void DesktopGlyphsTest::theRangeOfColoursIsChosenInADialog() {
+  Gaps g;
+  const QImage automatic = g.d.picture();
+  whenModal<QDialog>(
+      [](QDialog* dialog) {
+        auto* field = dialog->findChild<QDoubleSpinBox*>(QStringLiteral("colourRange"));
+        field->setFocus();
+        field->selectAll();
+        QTest::keyClicks(field, QStringLiteral("2"));
+        QTest::keyClick(field, Qt::Key_Return);
+      },
+      QStringLiteral("colourRangeDialog"));
+  g.d.choose("minimaColoursChosen");
+  QVERIFY(g.d.action("minimaColoursChosen")->isChecked());
+  QTRY_VERIFY2(changedPixels(automatic, g.d.picture()) > 20, "the gap of 5 mm is blue now");
+  g.d.choose("minimaColoursAutomatic");
+  QTRY_COMPARE(changedPixels(automatic, g.d.picture()), 0);
 }
 
 NEARFIT_QT_SUITE(DesktopGlyphsTest, runDesktopTest<DesktopGlyphsTest>)

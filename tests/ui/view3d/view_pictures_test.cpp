@@ -59,6 +59,12 @@ struct Bench {
     QTRY_VERIFY(view.pictureCount() > 0);
     view.fit();
   }
+  /// As the baseline has them.
+  void setColourRange() {
+    ui::MinimaChoice choice;
+    choice.colourRange = 0.01;
+    view.setMinimaChoice(choice);
+  }
   QImage picture() {
     QCoreApplication::processEvents();
     view.renderWindow()->Render();
@@ -172,6 +178,7 @@ void ViewPicturesTest::theGizmoStandsAtItsPart() {
 
 void ViewPicturesTest::minimaAreColouredByDistance() {
   Bench b;
+  b.setColourRange();
   b.view.showSnapshot(*b.withMinima());
   check(b.picture(), "minima", b.texts());
 }
@@ -217,6 +224,7 @@ void ViewPicturesTest::whatIsBehindATransparentPartIsSeen() {
 
 void ViewPicturesTest::aGlyphThatIsMissingIsSeen() {
   Bench b;
+  b.setColourRange();
   const auto snapshot = b.withMinima();
   // The shortest of them.
   snapshot->lmds[1] = snapshot->lmds[3];

@@ -5,10 +5,13 @@
 #include <QSettings>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/session/session.h"
 #include "ui/model/selection.h"
+#include "ui/panels/view/colour_range_dialog.h"
 #include "ui/view3d/viewport.h"
+#include "ui/widgets/format.h"
 #include "ui/widgets/make_action.h"
 #include "ui/widgets/preferences.h"
 
@@ -17,7 +20,8 @@ namespace {
 
 const QString kForms[] = {QStringLiteral("minima/segments"), QStringLiteral("minima/points"),
                           QStringLiteral("minima/normals")};
-const QString kMax = QStringLiteral("minima/most"), kNearerThan = QStringLiteral("minima/nearerThanPercent");
+const QString kMax = QStringLiteral("minima/most"), kNearerThan = QStringLiteral("minima/nearerThanPercent"),
+              kColourRange = QStringLiteral("minima/colourRange");
 constexpr std::array<std::size_t, 5> kCounts{0, 100, 30, 10, 1};
 constexpr std::array kPercents{100, 50, 25, 10};
 
@@ -32,6 +36,8 @@ MinimaChoice kept() {
   if (std::ranges::find(kCounts, most) != kCounts.end()) choice.most = most;
   const int percent = settings.value(kNearerThan, 100).toInt();
   if (std::ranges::find(kPercents, percent) != kPercents.end()) choice.nearerThan = 0.01 * percent;
+  const double range = settings.value(kColourRange, 0.0).toDouble();
+  if (std::isfinite(range) && range > 0.0) choice.colourRange = range;
   return choice;
 }
 
@@ -42,11 +48,12 @@ void keep(const MinimaChoice& choice) {
   settings.setValue(kForms[2], choice.hasNormals);
   settings.setValue(kMax, static_cast<qulonglong>(choice.most));
   settings.setValue(kNearerThan, qRound(100.0 * choice.nearerThan));
+  settings.setValue(kColourRange, choice.colourRange);
 }
 
 }  // namespace
 
-MinimaMenu::MinimaMenu(QWidget* parent) : QMenu(tr("Minima &drawn"), parent), choice_(kept()) {
+MinimaMenu::MinimaMenu(QWidget* parent) : QMenu(tr("&Distance glyphs"), parent), choice_(kept()) {
   setObjectName(QStringLiteral("minimaMenu"));
   addForm(QStringLiteral("minimaSegments"), tr("&Segments"),
           tr("Lines between the two points of each minimum"), &MinimaChoice::hasSegments);
@@ -63,12 +70,48 @@ MinimaMenu::MinimaMenu(QWidget* parent) : QMenu(tr("Minima &drawn"), parent), ch
                                      : tr("The %n nearest", nullptr, number);
     addNumber(*count, QStringLiteral("minimaMost%1").arg(number), text, &MinimaChoice::most, most);
   }
-  QMenu* threshold = addChoices(tr("How n&ear"));
+  QMenu* threshold = addChoices(tr("&Range"));
   for (const int percent : kPercents) {
     addNumber(*threshold, QStringLiteral("minimaWithin%1").arg(percent),
               percent == 100 ? tr("&Within the cutoff") : tr("Within %1 % of the cutoff").arg(percent),
               &MinimaChoice::nearerThan, 0.01 * percent);
   }
+  addColours();
+}
+
+void MinimaMenu::addColours() {
+  QMenu* menu = addChoices(tr("&Colour range"));
+  const auto add = [menu](const char* name, const QString& toolTip) {
+    QAction* action = menu->addAction(QString());
+    action->setObjectName(QLatin1String(name));
+    action->setToolTip(toolTip);
+    action->setCheckable(true);
+    menu->findChild<QActionGroup*>()->addAction(action);
+    return action;
+  };
+  automaticColours_ = add("minimaColoursAutomatic", tr("Colours span about twice the median distance drawn"));
+  chosenColours_ = add("minimaColoursChosen", tr("Choose the distance from which on minima are blue"));
+  connect(automaticColours_, &QAction::triggered, this, [this] { set(&MinimaChoice::colourRange, 0.0); });
+  connect(chosenColours_, &QAction::triggered, this, &MinimaMenu::chooseColours);
+  // The unit may have changed.
+  connect(menu, &QMenu::aboutToShow, this, &MinimaMenu::showColours);
+  showColours();
+}
+
+void MinimaMenu::chooseColours() {
+  constexpr double kUsual = 1e-3;  // [m]
+  const double now = choice_.colourRange > 0.0 ? choice_.colourRange : kUsual;
+  if (const std::optional<double> range = askForColourRange(now, parentWidget()))
+    set(&MinimaChoice::colourRange, *range);
+  showColours();
+}
+
+void MinimaMenu::showColours() {
+  const double range = choice_.colourRange;
+  automaticColours_->setText(tr("&Automatic"));
+  automaticColours_->setChecked(!(range > 0.0));
+  chosenColours_->setText(range > 0.0 ? tr("&Blue from %1…").arg(formatLength(range)) : tr("&Blue from…"));
+  chosenColours_->setChecked(range > 0.0);
 }
 
 void MinimaMenu::addForm(const QString& name, const QString& text, const QString& toolTip,

@@ -18,8 +18,8 @@ namespace nearfit::ui {
 class Selection;
 class Viewport;
 
-/// Menu of what the view draws of minima: segments, points, normals, how many and how
-/// near. Kept between runs.
+/// Menu of what the view draws of minima: segments, points, normals, how many, how near, and the range of their
+/// colours. Kept between runs.
 class MinimaMenu : public QMenu {
   Q_OBJECT
 
@@ -35,6 +35,10 @@ class MinimaMenu : public QMenu {
  private:
   void addForm(const QString& name, const QString& text, const QString& toolTip, bool MinimaChoice::* form);
   QMenu* addChoices(const QString& title);
+  void addColours();
+  void chooseColours();
+  /// Shows the chosen range of colours in its menu.
+  void showColours();
   template <class Number>
   void addNumber(QMenu& menu, const QString& name, const QString& text, Number MinimaChoice::* number,
                  Number value);
@@ -43,6 +47,7 @@ class MinimaMenu : public QMenu {
   void choose(const MinimaChoice& choice);
 
   MinimaChoice choice_;
+  QAction *automaticColours_ = nullptr, *chosenColours_ = nullptr;
 };
 
 /// What the user can choose about the view: where it looks from, and what it draws besides the parts.

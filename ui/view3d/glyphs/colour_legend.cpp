@@ -61,9 +61,9 @@ ColourLegend::ColourLegend(QWidget* parent) : QWidget(parent) {
   resize(sizeHint());
 }
 
-void ColourLegend::setCutoff(double cutoff) {
-  if (cutoff == cutoff_) return;
-  cutoff_ = cutoff;
+void ColourLegend::setColourRange(double range) {
+  if (range == range_) return;
+  range_ = range;
   update();
 }
 
@@ -139,8 +139,8 @@ void ColourLegend::paintScale(QPainter& painter) {
   painter.setPen(mutedColour());
   const QRect labels(kInset, kBarTop + kBarHeight + 3, kWidth - 2 * kInset, 18);
   painter.drawText(labels, Qt::AlignLeft, tr("contact"));
-  painter.drawText(labels, Qt::AlignHCenter, formatLength(0.5 * cutoff_));
-  painter.drawText(labels, Qt::AlignRight, formatLength(cutoff_));
+  painter.drawText(labels, Qt::AlignHCenter, formatLength(0.5 * range_));
+  painter.drawText(labels, Qt::AlignRight, formatLength(range_));
 }
 
 void ColourLegend::paintRow(QPainter& painter, int y, const QString& name, const QString& value) {

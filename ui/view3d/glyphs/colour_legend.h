@@ -6,16 +6,16 @@
 
 namespace nearfit::ui {
 
-/// A card over the 3-D view that explains its glyphs: the colour scale of distances from contact to the
-/// cutoff, and force, torque, contacts and hand with their current values. Ignores the mouse.
+/// A card over the 3-D view that explains its glyphs: the colour scale of distances, and force, torque, contacts and
+/// hand with their current values. Ignores the mouse.
 class ColourLegend : public QWidget {
   Q_OBJECT
 
  public:
   explicit ColourLegend(QWidget* parent = nullptr);
 
-  /// @param cutoff  Distance at the end of the colour scale [m].
-  void setCutoff(double cutoff);
+  /// @param range  Distance at the end of the colour scale [m].
+  void setColourRange(double range);
   /// Shows the snapshot's values and resizes to fit. Contacts and hand appear in proxy mode only.
   void showSnapshot(const ServoSnapshot& snapshot);
 
@@ -32,7 +32,7 @@ class ColourLegend : public QWidget {
   void paintScale(QPainter& painter);
   void paintRow(QPainter& painter, int y, const QString& name, const QString& value);
 
-  double cutoff_ = 0.01;
+  double range_ = 0.01;
   QString force_, torque_, contacts_, lead_;
   bool hasProxy_ = true;
 };

@@ -43,13 +43,14 @@ void setUp(vtkActor& actor, vtkPolyData& data, bool isColoured, float lineWidth,
 struct Glyphs {
   Glyphs() { points->SetDataTypeToDouble(); }
 
-  void add(const Lmd& lmd, double cutoff) { addLine(lmd.scenePoint, lmd.partPoint, lmd.distance / cutoff); }
+  /// @param range  Distance at the end of the colour scale [m].
+  void add(const Lmd& lmd, double range) { addLine(lmd.scenePoint, lmd.partPoint, lmd.distance / range); }
 
   /// Adds the normals at both points.
-  void addPins(const Lmd& lmd, double cutoff) {
+  void addPins(const Lmd& lmd, double cutoff, double range) {
     const glm::dvec3 pin = kPinOfCutoff * cutoff * lmd.direction;
-    addLine(lmd.scenePoint, lmd.scenePoint + pin, lmd.distance / cutoff);
-    addLine(lmd.partPoint, lmd.partPoint - pin, lmd.distance / cutoff);
+    addLine(lmd.scenePoint, lmd.scenePoint + pin, lmd.distance / range);
+    addLine(lmd.partPoint, lmd.partPoint - pin, lmd.distance / range);
   }
 
   void addLine(const glm::dvec3& from, const glm::dvec3& to, double fraction) {
@@ -102,23 +103,31 @@ LmdOverlay::LmdOverlay(vtkRenderer& renderer) {
   applyVisibility();
 }
 
-void LmdOverlay::show(std::span<const SnapshotLmd> lmds, double cutoff) {
+void LmdOverlay::show(std::span<const SnapshotLmd> lmds, double cutoff, double margin) {
   Glyphs open, blocked, nearest, pins;
   bool isFirst = true;
-  for (const SnapshotLmd& entry : chosenMinima(lmds, cutoff, choice_)) {
+  const std::vector<SnapshotLmd> chosen = chosenMinima(lmds, cutoff, choice_);
+  colours_.see(chosen, margin);
+  const double range = colours_.end();
+  for (const SnapshotLmd& entry : chosen) {
     if (entry.lmd.isBlocked) {
-      blocked.add(entry.lmd, cutoff);
+      blocked.add(entry.lmd, range);
       continue;
     }
-    open.add(entry.lmd, cutoff);
-    if (choice_.hasNormals) pins.addPins(entry.lmd, cutoff);
-    if (std::exchange(isFirst, false)) nearest.add(entry.lmd, cutoff);
+    open.add(entry.lmd, range);
+    if (choice_.hasNormals) pins.addPins(entry.lmd, cutoff, range);
+    if (std::exchange(isFirst, false)) nearest.add(entry.lmd, range);
   }
   open.fill(*segments_, open.lines, nullptr);
   open.fill(*points_, nullptr, open.vertices);
   pins.fill(*normals_, pins.lines, nullptr);
   blocked.fill(*blocked_, blocked.lines, nullptr);
   nearest.fill(*nearest_, nearest.lines, nullptr);
+}
+
+void LmdOverlay::clear() {
+  show({}, 1.0);
+  colours_.forget();
 }
 
 void LmdOverlay::setVisible(bool isVisible) {
@@ -128,6 +137,7 @@ void LmdOverlay::setVisible(bool isVisible) {
 
 void LmdOverlay::setChoice(const MinimaChoice& choice) {
   choice_ = choice;
+  colours_.choose(choice.colourRange);
   applyVisibility();
 }
 

@@ -10,6 +10,7 @@
 #include <vtkRenderer.h>
 
 #include "core/servo/servo_snapshot.h"
+#include "ui/view3d/glyphs/colour_range.h"
 #include "ui/view3d/glyphs/minima_choice.h"
 
 namespace nearfit::ui {
@@ -23,9 +24,12 @@ class LmdOverlay {
   explicit LmdOverlay(vtkRenderer& renderer);
 
   /// @param lmds    World frame [m].
-  /// @param cutoff  Distance at the end of the colour scale [m]; > 0.
-  void show(std::span<const SnapshotLmd> lmds, double cutoff);
-  void clear() { show({}, 1.0); }
+  /// @param cutoff  Within which they were found [m]; > 0.
+  /// @param margin  Distance in contact [m].
+  void show(std::span<const SnapshotLmd> lmds, double cutoff, double margin = 0.0);
+  void clear();
+  /// Returns the distance at the end of the colour scale [m].
+  double colourRange() const noexcept { return colours_.end(); }
   void setVisible(bool isVisible);
   /// Sets what is drawn; counts from the next show() on.
   void setChoice(const MinimaChoice& choice);
@@ -34,6 +38,7 @@ class LmdOverlay {
   void applyVisibility();
 
   MinimaChoice choice_;
+  ColourRange colours_;
   bool isVisible_ = true;
   vtkNew<vtkPolyData> segments_, points_, normals_, blocked_, nearest_;
   vtkNew<vtkActor> halo_, lines_, dots_, pins_, faint_, nearestHalo_, nearestLine_, nearestDots_;

@@ -5,6 +5,8 @@
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QtTest>
+#include <cmath>
+#include <initializer_list>
 #include <vector>
 
 #include <vtkActorCollection.h>
@@ -70,6 +72,9 @@ class LmdOverlayTest : public QObject {
   void nearestAreChosenByCountAndDistance();
   void formsAreDrawnAsChosen();
   void nearestThatIsNotBlockedIsDrawnLarger();
+  void coloursSpanTheDistancesThatAreDrawn();
+  void coloursDoNotFlickerWhileDistancesChange();
+  void aChosenRangeOfColoursIsKept();
   void menuChoosesAndRemembers();
 
  private:
@@ -142,6 +147,79 @@ void LmdOverlayTest::nearestThatIsNotBlockedIsDrawnLarger() {
     isFound = true;
   }
   QVERIFY(isFound);
+}
+
+namespace {
+
+/// Minima at these distances [m].
+std::vector<SnapshotLmd> minimaAt(std::initializer_list<double> distances) {
+  std::vector<SnapshotLmd> all;
+  for (const double distance : distances) {
+    SnapshotLmd entry;
+    entry.lmd.distance = distance;
+    entry.lmd.direction = {0.0, 0.0, 1.0};
+    entry.lmd.partPoint = {0.0, 0.0, distance};
+    all.push_back(entry);
+  }
+  return all;
+}
+
+bool isAbout(double a, double b) {
+  return std::abs(a - b) < 1e-9 * b;
+}
+
+}  // namespace
+
+/// The range was the cutoff of 10 mm, in which an 8 mm nut is all red.
+void LmdOverlayTest::coloursSpanTheDistancesThatAreDrawn() {
+  vtkNew<vtkRenderer> renderer;
+  ui::LmdOverlay overlay(*renderer.Get());
+  constexpr double kTenMillimetres = 0.01;
+  overlay.show(minimaAt({1e-4, 2e-4, 2e-4, 3e-4, 8e-3}), kTenMillimetres);
+  QVERIFY(isAbout(overlay.colourRange(), 5e-4));
+  overlay.show(minimaAt({1e-4, 2e-4, 2e-4, 3e-4, 8e-3}), 10.0 * kTenMillimetres);
+  QVERIFY2(isAbout(overlay.colourRange(), 5e-4), "the cutoff has nothing to do with it");
+  overlay.clear();
+  overlay.show(minimaAt({2e-3, 5e-3, 8e-3}), kTenMillimetres);
+  QVERIFY(isAbout(overlay.colourRange(), 1e-2));
+  // Contact, at the margin, is red.
+  overlay.clear();
+  overlay.show(minimaAt({1e-4}), kTenMillimetres, 1e-4);
+  QVERIFY(isAbout(overlay.colourRange(), 5e-4));
+}
+
+void LmdOverlayTest::coloursDoNotFlickerWhileDistancesChange() {
+  ui::ColourRange colours;
+  int changes = 0;
+  double last = colours.end();
+  for (int i = 0; i < 1000; ++i) {
+    colours.see(minimaAt({1e-3 * (1.0 + 0.3 * std::sin(0.1 * i))}), 0.0);
+    changes += colours.end() != last ? 1 : 0;
+    last = colours.end();
+  }
+  QVERIFY2(changes <= 2, qPrintable(QString::number(changes)));
+  colours.see({}, 1e-4);
+  QCOMPARE(colours.end(), last);
+}
+
+void LmdOverlayTest::aChosenRangeOfColoursIsKept() {
+  QSettings().setValue(QStringLiteral("minima/colourRange"), 0.002);
+  {
+    ui::MinimaMenu menu(nullptr);
+    QCOMPARE(menu.choice().colourRange, 0.002);
+    QVERIFY(menu.findChild<QAction*>(QStringLiteral("minimaColoursChosen"))->isChecked());
+    vtkNew<vtkRenderer> renderer;
+    ui::LmdOverlay overlay(*renderer.Get());
+    overlay.setChoice(menu.choice());
+    overlay.show(minimaAt({1e-4}), kCutoff);
+    QCOMPARE(overlay.colourRange(), 0.002);
+    menu.findChild<QAction*>(QStringLiteral("minimaColoursAutomatic"))->trigger();
+    QCOMPARE(menu.choice().colourRange, 0.0);
+  }
+  QCOMPARE(ui::MinimaMenu(nullptr).choice().colourRange, 0.0);
+  // A number that makes no sense is ignored.
+  QSettings().setValue(QStringLiteral("minima/colourRange"), QStringLiteral("nan"));
+  QCOMPARE(ui::MinimaMenu(nullptr).choice().colourRange, 0.0);
 }
 
 void LmdOverlayTest::menuChoosesAndRemembers() {
