@@ -4,12 +4,11 @@
 #include <QEvent>
 #include <QFile>
 #include <QIconEngine>
+#include <QImage>
 #include <QPainter>
 #include <QPalette>
 #include <QPixmapCache>
 #include <QSettings>
-#include <QStyle>
-#include <QStyleOption>
 #include <QSvgRenderer>
 #include <QWidget>
 #include <algorithm>
@@ -49,11 +48,11 @@ QTreeView::item { height: 28px; border: none; padding-left: 4px; }
 QTreeView::item:hover { background: #f0f5fa; }
 QTreeView::item:selected { background: #d3e5f8; color: #16202a; }
 QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
-QToolTip { background: #2c3640; color: #ffffff; border: none; padding: 4px; }
+QToolTip { background: #2c3640; color: white; border: none; padding: 4px; }
 )";
 
 /// Colours of the light theme in style sheets and icons, each with its dark counterpart. Text and strokes
-/// keep at least their contrast.
+/// keep at least their contrast. Colours by name, such as white, are the same in both themes.
 constexpr std::pair<const char*, const char*> kDarkColours[] = {
     {"#eef1f4", "#14181c"},
     {"#d5dbe1", "#39434d"},
@@ -215,6 +214,21 @@ QPixmap draw(const QString& file, const QSize& size, bool isDark) {
   return pixmap;
 }
 
+/// Returns the picture of what cannot be used now: grey and faint on any ground. Qt's own is meant for light
+/// grounds; on a dark one it stands out.
+QPixmap faded(const QPixmap& pixmap) {
+  constexpr double kOpacity = 0.35;
+  QImage image = pixmap.toImage().convertToFormat(QImage::Format_ARGB32);
+  for (int y = 0; y < image.height(); ++y) {
+    auto* line = reinterpret_cast<QRgb*>(image.scanLine(y));
+    for (int x = 0; x < image.width(); ++x) {
+      const int grey = qGray(line[x]);
+      line[x] = qRgba(grey, grey, grey, qRound(kOpacity * qAlpha(line[x])));
+    }
+  }
+  return QPixmap::fromImage(image);
+}
+
 void ThemedIcon::paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State state) {
   const qreal ratio = painter->device() != nullptr ? painter->device()->devicePixelRatioF() : 1.0;
   QPixmap shown = pixmap(rect.size() * ratio, mode, state);
@@ -233,11 +247,7 @@ QPixmap ThemedIcon::pixmap(const QSize& size, QIcon::Mode mode, QIcon::State) {
   QPixmap pixmap;
   if (QPixmapCache::find(key, &pixmap)) return pixmap;
   pixmap = draw(file_, size, isDark);
-  if (mode == QIcon::Disabled) {
-    QStyleOption option;
-    option.palette = QApplication::palette();
-    pixmap = QApplication::style()->generatedIconPixmap(mode, pixmap, &option);
-  }
+  if (mode == QIcon::Disabled) pixmap = faded(pixmap);
   QPixmapCache::insert(key, pixmap);
   return pixmap;
 }

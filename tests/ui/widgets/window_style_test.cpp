@@ -2,18 +2,66 @@
 
 #include <QApplication>
 #include <QCheckBox>
+#include <QIcon>
 #include <QImage>
+#include <QPainter>
 #include <QRadioButton>
 #include <QSettings>
 #include <QTemporaryDir>
+#include <QToolTip>
 #include <QtTest>
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "tests/support/qt/qt_suite.h"
 #include "ui/widgets/theme.h"
 
 using namespace nearfit;
+
+namespace {
+
+/// Relative luminance, as WCAG 2.1 defines it.
+double luminance(const QColor& colour) {
+  const auto linear = [](double part) {
+    return part <= 0.03928 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) + 0.0722 * linear(colour.blueF());
+}
+
+/// Contrast ratio of two colours by WCAG 2.1, 1 to 21.
+double contrast(const QColor& a, const QColor& b) {
+  const double x = luminance(a), y = luminance(b);
+  return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
+}
+
+/// Contrast of the pixel that stands out most from a ground.
+double bestContrast(const QImage& picture, const QColor& ground) {
+  double best = 1.0;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x)
+      best = std::max(best, contrast(picture.pixelColor(x, y), ground));
+  }
+  return best;
+}
+
+/// The tooltip that is shown; null if there is none.
+QWidget* shownTooltip() {
+  for (QWidget* widget : QApplication::topLevelWidgets()) {
+    if (widget->inherits("QTipLabel") && widget->isVisible()) return widget;
+  }
+  return nullptr;
+}
+
+QImage drawn(const QIcon& icon, QIcon::Mode mode, const QColor& ground) {
+  QImage image(24, 24, QImage::Format_RGB32);
+  image.fill(ground);
+  QPainter painter(&image);
+  icon.paint(&painter, image.rect(), Qt::AlignCenter, mode);
+  return image;
+}
+
+}  // namespace
 
 class WindowStyleTest : public QObject {
   Q_OBJECT
@@ -22,6 +70,10 @@ class WindowStyleTest : public QObject {
   void initTestCase();
   void boxesToTickStandOutInBothThemes_data();
   void boxesToTickStandOutInBothThemes();
+  void tooltipsAreReadableInBothThemes_data();
+  void tooltipsAreReadableInBothThemes();
+  void disabledIconsAreFaintInBothThemes_data();
+  void disabledIconsAreFaintInBothThemes();
 
  private:
   QTemporaryDir settings_;
@@ -55,6 +107,41 @@ void WindowStyleTest::boxesToTickStandOutInBothThemes() {
     for (int x = 0; x < picture.width(); ++x)
       most = std::max(most, std::abs(qGray(picture.pixel(x, picture.height() / 2)) - around));
     QVERIFY2(most >= 45, qPrintable(QStringLiteral("%1 of 255").arg(most)));
+  }
+}
+
+void WindowStyleTest::tooltipsAreReadableInBothThemes_data() {
+  boxesToTickStandOutInBothThemes_data();
+}
+
+// White on dark was translated as if it were the ground of a light window: #1a1f24 on #39434d.
+void WindowStyleTest::tooltipsAreReadableInBothThemes() {
+  QFETCH(int, scheme);
+  ui::setColourScheme(static_cast<ui::ColourScheme>(scheme));
+  QToolTip::showText(QPoint(40, 40), QStringLiteral("Stop the servo"));
+  QWidget* tip = nullptr;
+  QTRY_VERIFY((tip = shownTooltip()) != nullptr);
+  const QImage picture = tip->grab().toImage();
+  const double best = bestContrast(picture, picture.pixelColor(2, picture.height() / 2));
+  QVERIFY2(best >= 4.5, qPrintable(QString::number(best)));
+  QToolTip::hideText();
+}
+
+void WindowStyleTest::disabledIconsAreFaintInBothThemes_data() {
+  boxesToTickStandOutInBothThemes_data();
+}
+
+void WindowStyleTest::disabledIconsAreFaintInBothThemes() {
+  QFETCH(int, scheme);
+  ui::setColourScheme(static_cast<ui::ColourScheme>(scheme));
+  const QColor ground = QApplication::palette().color(QPalette::Window);
+  for (const char* name : {"hand", "stop", "start"}) {
+    const QIcon icon = ui::icon(QLatin1String(name));
+    const double usable = bestContrast(drawn(icon, QIcon::Normal, ground), ground) - 1.0;
+    const double disabled = bestContrast(drawn(icon, QIcon::Disabled, ground), ground) - 1.0;
+    QVERIFY2(disabled > 0.1, name);
+    QVERIFY2(disabled < 0.5 * usable,
+             qPrintable(QStringLiteral("%1: %2 of %3").arg(QLatin1String(name)).arg(disabled).arg(usable)));
   }
 }
 
