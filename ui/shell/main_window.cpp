@@ -35,6 +35,7 @@
 #include "ui/panels/view/view_actions.h"
 #include "ui/shell/main_menus.h"
 #include "ui/shell/title_and_status.h"
+#include "ui/shell/view_focus_frame.h"
 #include "ui/shell/welcome_card.h"
 #include "ui/shell/window_layout.h"
 #include "ui/shell/window_shell.h"
@@ -89,6 +90,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   connectCommands();
   setAcceptDrops(true);
   resize(1360, 860);
+  new ViewFocusFrame(viewport_);
   new WelcomeCard(session_, {files_->openDemo, shell_->tour(), files_->addParts, files_->open}, viewport_);
   changes_ = session_.onChange(SceneEvents::Stage::View, [this] { viewport_->setScene(session_.scene()); });
   viewport_->setScene(session_.scene());
@@ -210,6 +212,8 @@ void MainWindow::connectCommands() {
   listenTo(*files_, *parts_, *feel_);
   feel_->loadPresets();
   connect(feel_, &FeelControl::sceneNeeded, posePanel_, &PosePanel::commit);
+  // Keys that move the hand go to whatever has the focus.
+  connect(feel_->start, &QAction::triggered, viewport_, [this] { viewport_->setFocus(); });
   connect(undo_, &UndoActions::sceneNeeded, placing_, &PlacingTools::commit);
   connect(parts_, &PartCommands::servoStopRequested, feel_, &FeelControl::servoStopRequested);
   connect(parts_, &PartCommands::servoStartRequested, feel_->start, &QAction::trigger);

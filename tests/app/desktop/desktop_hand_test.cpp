@@ -5,6 +5,7 @@
 #include <QDoubleSpinBox>
 #include <QMouseEvent>
 #include <QTabWidget>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -123,6 +124,7 @@ class DesktopHandTest : public QObject {
  private slots:
   void theCameraHasWhatIsNotTheHands();
   void shiftedKeysTurn();
+  void feelPutsTheKeysIntoTheViewWhichShowsIt();
   void spaceMouseSettingsReachTheDeviceAndAreKept();
   void whatKeepsDevicesFromBeingUsedIsShownWithTheCommand();
 };
@@ -160,6 +162,29 @@ void DesktopHandTest::shiftedKeysTurn() {
   QVERIFY(isNear(m.centre(), middle, 1e-12));
   QTest::keyClick(&m.view(), Qt::Key_Up);
   QVERIFY(isNear(m.centre(), middle + glm::dvec3(0.0, 1e-4, 0.0), 1e-12));
+}
+
+/// They went on to the list of parts, and Page Down selected another part.
+void DesktopHandTest::feelPutsTheKeysIntoTheViewWhichShowsIt() {
+  ByMouse m;
+  m.d.chooseHand(ui::Hand::Manual);
+  m.d.clickPart(0, 0);
+  const auto isFramed = [&] {
+    const auto edges = m.view().findChildren<QWidget*>(QStringLiteral("viewFocusEdge"));
+    return edges.size() == 4 &&
+           std::all_of(edges.begin(), edges.end(), [](const QWidget* edge) { return edge->isVisible(); });
+  };
+  QVERIFY(!isFramed());
+  pressShortcut(m.d, Qt::Key_F5);
+  QTRY_VERIFY(m.d.application.servo().isRunning());
+  QTRY_COMPARE(QApplication::focusWidget(), static_cast<QWidget*>(&m.view()));
+  QVERIFY(isFramed());
+  QTRY_COMPARE(m.d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTest::keyClick(QApplication::focusWidget(), Qt::Key_PageUp);
+  QTRY_VERIFY(m.hand.translation.z > 0.0);
+  QVERIFY(m.d.window().selection().parts() == std::vector{m.d.partId("fixed")});
+  m.d.partsView()->setFocus();
+  QTRY_VERIFY(!isFramed());
 }
 
 void DesktopHandTest::spaceMouseSettingsReachTheDeviceAndAreKept() {
