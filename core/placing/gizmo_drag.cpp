@@ -142,8 +142,11 @@ void GizmoDrag::follow(const ViewProjection& view, const glm::dvec2& pixel) noex
 
 glm::dvec3 GizmoDrag::shift(const SnapSteps& steps) const noexcept {
   if (isRing(handle_)) return glm::dvec3(0.0);
-  if (isArrow(handle_)) return rounded(along_ - alongAtStart_, steps.length) * axis_;
+  if (isArrow(handle_))
+    return (amount_ ? *amount_ : rounded(along_ - alongAtStart_, steps.length)) * axis_;
   const glm::dvec3 way = onPlane_ - onPlaneAtStart_;
+  const double length = glm::length(way);
+  if (amount_) return length > 0.0 ? *amount_ / length * way : glm::dvec3(0.0);
   if (!(steps.length > 0.0)) return way;
   glm::dvec3 snapped(0.0);
   for (int i = 0; i < 3; ++i) {
@@ -155,7 +158,8 @@ glm::dvec3 GizmoDrag::shift(const SnapSteps& steps) const noexcept {
 }
 
 double GizmoDrag::angle(const SnapSteps& steps) const noexcept {
-  return isRing(handle_) ? rounded(turned_, steps.angle) : 0.0;
+  if (!isRing(handle_)) return 0.0;
+  return amount_ ? *amount_ : rounded(turned_, steps.angle);
 }
 
 glm::dvec3 GizmoDrag::shiftIn(const RigidTransform& motion) const noexcept {
@@ -166,7 +170,7 @@ double GizmoDrag::angleIn(const RigidTransform& motion) const noexcept {
   if (!isRing(handle_)) return 0.0;
   constexpr double kRound = 2.0 * std::numbers::pi;
   const double angle = glm::dot(rotationVector(motion.rotation), axis_);
-  return angle + kRound * std::round((turned_ - angle) / kRound);
+  return angle + kRound * std::round((amount_.value_or(turned_) - angle) / kRound);
 }
 
 RigidTransform GizmoDrag::motion(const SnapSteps& steps) const noexcept {

@@ -31,6 +31,10 @@ class GizmoDrag {
   /// number of turns.
   void moveTo(const ViewProjection& view, const glm::dvec2& pixel);
 
+  /// Sets an amount in place of the pointer's: along an arrow [m], about a ring's axis [rad], for other handles along
+  /// the pointer's way [m]. It does not snap. std::nullopt: the pointer decides again.
+  void setAmount(const std::optional<double>& amount) noexcept { amount_ = amount; }
+
   GizmoGrip handle() const noexcept { return handle_; }
   /// The gizmo's pose when the drag began.
   const GizmoFrame& frame() const noexcept { return frame_; }
@@ -46,7 +50,7 @@ class GizmoDrag {
   /// The pivot's translation in `motion`, which may deviate from the drag, such as at contact
   /// [m]; zero for rings.
   glm::dvec3 shiftIn(const RigidTransform& motion) const noexcept;
-  /// The angle of `motion` about turnAxis(), in the turn nearest to the pointer's [rad]; 0 for other handles.
+  /// The angle of `motion` about turnAxis(), in the turn nearest to the wanted one [rad]; 0 for other handles.
   double angleIn(const RigidTransform& motion) const noexcept;
   /// Motion of what is dragged: a world point p moves from its start to motion(p).
   RigidTransform motion(const SnapSteps& steps = {}) const noexcept;
@@ -61,6 +65,7 @@ class GizmoDrag {
 
   GizmoFrame frame_;
   GizmoGrip handle_;
+  std::optional<double> amount_;
   glm::dvec3 axis_;    ///< Along an arrow, normal of a plane, or axis of rotation; unit.
   glm::dvec3 anchor_;  ///< A point on the axis or plane.
   bool isOnEdge_ = false;

@@ -53,6 +53,7 @@ class DesktopGizmoTest : public QObject {
   void besideItAViewIsOrbited();
   void theMiddleButtonWithCtrlOrbitsOverThePart();
   void withoutAGizmoNothingIsDragged();
+  void typedDigitsAreTheAmountOfADrag();
   void escapeRestoresExactly();
   void anotherButtonRestoresToo();
   void aClickOnAHandleIsNoStep();
@@ -187,6 +188,49 @@ void DesktopGizmoTest::withoutAGizmoNothingIsDragged() {
   b.drag(b.seen(before.applyToPoint({0.0, 0.0, 0.035})), {80, 20});
   QCOMPARE(b.pose().translation, before.translation);
   QVERIFY(glm::distance(away, b.view().projection().away()) > 0.05);
+}
+
+/// They switched to a standard view.
+void DesktopGizmoTest::typedDigitsAreTheAmountOfADrag() {
+  Bench b;
+  const glm::dvec3 sight = b.view().projection().away();
+  const std::size_t steps = b.steps();
+  const QPoint from = b.handle(GizmoGrip::MoveX);
+  b.press(from);
+  b.moveTo(from + QPoint(60, 0));
+  for (const Qt::Key key : {Qt::Key_1, Qt::Key_2, Qt::Key_3, Qt::Key_Backspace, Qt::Key_Comma, Qt::Key_5})
+    pressInView(b.driver, key);
+  QVERIFY2(b.readout().startsWith(QStringLiteral("X 12,5")), qPrintable(b.readout()));
+  QVERIFY2(b.readout().contains(QStringLiteral("mm")), qPrintable(b.readout()));
+  QVERIFY(glm::distance(b.view().projection().away(), sight) < 1e-12);
+  // The pointer no longer decides.
+  b.moveTo(from + QPoint(90, 0));
+  pressInView(b.driver, Qt::Key_Return);
+  QVERIFY(!b.driver.widget<QWidget>("dragReadout")->isVisible());
+  QCOMPARE(b.steps(), steps + 1);
+  QVERIFY(glm::distance(b.pose().translation, glm::dvec3(0.0125, 0.0, 0.0)) < 1e-12);
+  b.moveTo(from + QPoint(20, 0));
+  b.release(from + QPoint(20, 0));
+  QCOMPARE(b.steps(), steps + 1);
+  // A minus changes the sign, and the button applies too.
+  const QPoint arrow = b.handle(GizmoGrip::MoveZ);
+  b.press(arrow);
+  b.moveTo(arrow + QPoint(0, -30));
+  for (const Qt::Key key : {Qt::Key_2, Qt::Key_Minus})
+    pressInView(b.driver, key);
+  b.release(arrow + QPoint(0, -30));
+  QVERIFY(glm::distance(b.pose().translation, glm::dvec3(0.0125, 0.0, -0.002)) < 1e-12);
+  // Escape gives the drag up.
+  const QPoint again = b.handle(GizmoGrip::MoveX);
+  b.press(again);
+  b.moveTo(again + QPoint(30, 0));
+  pressInView(b.driver, Qt::Key_7);
+  pressInView(b.driver, Qt::Key_Escape);
+  b.release(again);
+  QCOMPARE(b.steps(), steps + 2);
+  // Without a drag they are what they were.
+  pressShortcut(b.driver, Qt::Key_3);
+  QTRY_VERIFY(glm::distance(b.view().projection().away(), glm::dvec3(0.0, 0.0, -1.0)) < 1e-9);
 }
 
 void DesktopGizmoTest::escapeRestoresExactly() {

@@ -43,6 +43,29 @@ TEST(GizmoDrag, AnArrowFollowsThePointerAlongItsAxis) {
   }
 }
 
+TEST(GizmoDrag, AnAmountReplacesThePointersWayAndDoesNotSnap) {
+  const TestView view = test::aslant();
+  const GizmoFrame frame = turnedFrame();
+  const SnapSteps steps{0.01, 0.25};
+  GizmoDrag arrow(view.projection(), frame, GizmoGrip::MoveY, view.pixelOf(frame.pivot));
+  arrow.moveTo(view.projection(), view.pixelOf(frame.pivot - 0.05 * frame.axes[1]));
+  arrow.setAmount(0.0123);
+  EXPECT_LT(distance(arrow.shift(steps), 0.0123 * frame.axes[1]), 1e-15) << "along the axis, as it points";
+  GizmoDrag ring(view.projection(), frame, GizmoGrip::TurnZ,
+                 view.pixelOf(frame.pivot + 0.05 * frame.axes[0]));
+  ring.setAmount(-7.0);
+  EXPECT_EQ(ring.angle(steps), -7.0);
+  EXPECT_NEAR(ring.angleIn(ring.motion()), -7.0, 1e-12) << "beyond a whole turn";
+  GizmoDrag square(view.projection(), frame, GizmoGrip::PlaneX, view.pixelOf(frame.pivot));
+  square.setAmount(0.02);
+  EXPECT_EQ(square.shift(), glm::dvec3(0.0)) << "no way yet";
+  const glm::dvec3 way = glm::normalize(frame.axes[1] + 0.5 * frame.axes[2]);
+  square.moveTo(view.projection(), view.pixelOf(frame.pivot + 0.05 * way));
+  EXPECT_LT(distance(square.shift(), 0.02 * way), 1e-10);
+  square.setAmount(std::nullopt);
+  EXPECT_LT(distance(square.shift(), 0.05 * way), 1e-10);
+}
+
 TEST(GizmoDrag, WhatThePointerGoesAcrossAnArrowMovesNothing) {
   const TestView view = test::aslant();
   const GizmoFrame frame = turnedFrame();

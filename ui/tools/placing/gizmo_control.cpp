@@ -2,6 +2,8 @@
 
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <numbers>
+#include <optional>
 #include <utility>
 
 #include "ui/view3d/gizmo_overlay.h"
@@ -16,6 +18,13 @@ constexpr int kDragDistance = 4;
 
 glm::dvec2 pixelOf(const QPoint& point) {
   return {point.x(), point.y()};
+}
+
+/// Returns the number typed so far, with a decimal point or comma; nullopt if it is none yet.
+std::optional<double> numberOf(QString typed) {
+  bool isNumber = false;
+  const double number = typed.replace(QChar(','), QChar('.')).toDouble(&isNumber);
+  return isNumber ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace
@@ -140,10 +149,72 @@ bool GizmoControl::key(QEvent& event) {
     event.accept();
     return true;
   }
+  if (isOfAmount(pressed)) {
+    // Accepted before it is a shortcut: digits choose a view.
+    if (event.type() == QEvent::KeyPress) type(pressed);
+    event.accept();
+    return true;
+  }
   if (pressed.key() != Qt::Key_Control || event.type() == QEvent::ShortcutOverride) return false;
   isControlHeld_ = event.type() == QEvent::KeyPress;
   follow();
   return true;
+}
+
+bool GizmoControl::isOfAmount(const QKeyEvent& event) const {
+  if (event.modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier)) return false;
+  switch (event.key()) {
+    case Qt::Key_Backspace:
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      return !typed_.isEmpty();
+    case Qt::Key_Minus:
+    case Qt::Key_Period:
+    case Qt::Key_Comma:
+      return true;
+    default:
+      return event.key() >= Qt::Key_0 && event.key() <= Qt::Key_9;
+  }
+}
+
+void GizmoControl::type(const QKeyEvent& event) {
+  constexpr int kMaxLength = 12;
+  switch (event.key()) {
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      return apply();
+    case Qt::Key_Backspace:
+      typed_.chop(1);
+      break;
+    case Qt::Key_Minus:
+      if (typed_.startsWith(QChar('-')))
+        typed_.remove(0, 1);
+      else
+        typed_.prepend(QChar('-'));
+      break;
+    default:
+      if (typed_.size() < kMaxLength) typed_ += QChar(event.key());
+  }
+  const std::optional<double> number = numberOf(typed_);
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const double unit = isRing(drag_->handle()) ? kDegree : metresOf(Preferences::lengthUnit());
+  drag_->setAmount(number ? std::optional(*number * unit) : std::nullopt);
+  follow();
+  refresh();
+}
+
+void GizmoControl::apply() {
+  isSwallowing_ = true;
+  forgetDrag();
+  emit ended();
+}
+
+QString GizmoControl::typedText() const {
+  const GizmoGrip handle = drag_->handle();
+  const QString axis = isArrow(handle) ? QStringLiteral("XYZ").mid(axisOf(handle), 1) + QChar(' ') : QString();
+  const QString unit =
+      isRing(handle) ? QString(QChar(0xB0)) : QChar(' ') + symbolOf(Preferences::lengthUnit());
+  return axis + typed_ + QChar('_') + unit;
 }
 
 void GizmoControl::begin(const Pressed& pressed) {
@@ -181,6 +252,7 @@ void GizmoControl::abandon() {
 
 void GizmoControl::forgetDrag() {
   drag_.reset();
+  typed_.clear();
   hot_ = GizmoGrip::None;
   readout_->hide();
   refresh();
@@ -207,7 +279,11 @@ void GizmoControl::refresh() {
     const double pixel = view.metresPerPixel(drag_->frame().pivot);
     QString text = text_ ? text_() : QString();
     if (text.isEmpty()) text = dragText(*drag_, shift, angle, pixel, Preferences::lengthUnit());
-    readout_->showAt(pointer_, text, note_);
+    const QString hint = tr("Enter applies, Esc gives up");
+    if (typed_.isEmpty())
+      readout_->showAt(pointer_, text, note_);
+    else
+      readout_->showAt(pointer_, typedText(), note_.isEmpty() ? hint : note_);
   }
   overlay_->showPicture(std::move(picture));
 }

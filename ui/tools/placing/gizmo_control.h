@@ -20,6 +20,9 @@ class Viewport;
 /// Operates a gizmo by mouse: shows it over a view, highlights the handle under the pointer and turns drags
 /// into motions. Knows nothing of parts. Takes only drags of a handle, or of what setDirectDrag() allows; all
 /// other events pass on to the view.
+///
+/// Digits typed during a drag are its amount, in the shown unit of length or in degrees: Return or the release of the
+/// button applies it, Backspace corrects it, a minus changes its sign, Escape cancels the drag.
 class GizmoControl : public QObject {
   Q_OBJECT
 
@@ -66,7 +69,7 @@ class GizmoControl : public QObject {
   void began(nearfit::GizmoGrip handle);
   /// Emitted when a drag moves: what was at a world point p at its start is wanted at motion(p).
   void dragged(const nearfit::RigidTransform& motion);
-  /// Emitted when the button is released.
+  /// Emitted when the button is released, or a typed amount is applied.
   void ended();
   /// Emitted when Escape or another button cancels the drag: everything must be as before.
   void cancelled();
@@ -83,6 +86,12 @@ class GizmoControl : public QObject {
   bool move(const QMouseEvent& event);
   bool release(const QMouseEvent& event);
   bool key(QEvent& event);
+  /// True if a key belongs to an amount that is typed.
+  bool isOfAmount(const QKeyEvent& event) const;
+  void type(const QKeyEvent& event);
+  /// Ends the drag where it is, while the button is still down.
+  void apply();
+  QString typedText() const;
   void begin(const Pressed& pressed);
   void follow();
   void letGo();
@@ -104,6 +113,7 @@ class GizmoControl : public QObject {
 
   std::optional<Pressed> pressed_;
   std::optional<GizmoDrag> drag_;
+  QString typed_;              ///< Amount being typed; empty: the pointer decides.
   bool isSwallowing_ = false;  ///< A drag is over, but its button is still down.
   QPoint pointer_;
   GizmoGrip hot_ = GizmoGrip::None;
