@@ -142,8 +142,7 @@ void GizmoDrag::follow(const ViewProjection& view, const glm::dvec2& pixel) noex
 
 glm::dvec3 GizmoDrag::shift(const SnapSteps& steps) const noexcept {
   if (isRing(handle_)) return glm::dvec3(0.0);
-  if (isArrow(handle_))
-    return (amount_ ? *amount_ : rounded(along_ - alongAtStart_, steps.length)) * axis_;
+  if (isArrow(handle_)) return (amount_ ? *amount_ : rounded(along_ - alongAtStart_, steps.length)) * axis_;
   const glm::dvec3 way = onPlane_ - onPlaneAtStart_;
   const double length = glm::length(way);
   if (amount_) return length > 0.0 ? *amount_ / length * way : glm::dvec3(0.0);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/proximity/overlap/touching_bodies.h"
 #include "core/proximity/surface/surface_distance.h"
 #include "core/report/csv_text.h"
 #include "core/report/lmd_set.h"
@@ -34,10 +35,15 @@ PartClearance clearanceOf(const Part& part, const Part& other, double cutoff, Wo
   result.isBetweenSolids = a.isSolid() && b.isSolid();
   const SurfaceDistance nearest = leastSurfaceDistance(
       b.tree(), a.tree(), otherFromPart, std::numeric_limits<double>::infinity(), work.scratch, kAnyWork);
-  result.distance = result.isOverlapping() ? 0.0 : nearest.distance;
+  result.distance = result.overlap != InterferenceKind::Disjoint ? 0.0 : nearest.distance;
   result.partPoint = other.worldFromPart.applyToPoint(nearest.partPoint);
   result.otherPoint = other.worldFromPart.applyToPoint(nearest.scenePoint);
-  if (result.isOverlapping()) return result;
+  const double tolerance = touchTolerance(part, other);
+  if (result.overlap != InterferenceKind::Disjoint) {
+    result.isTouching = doOnlyTouch(b.tree(), a.tree(), otherFromPart, tolerance);
+    return result;
+  }
+  result.isTouching = result.distance <= tolerance;
   const LmdSet minima = work.collector.collect(b.tree(), a.tree(), otherFromPart, cutoff);
   result.minima = minima.lmds.size();
   result.isEveryMinimum = minima.isComplete;
@@ -93,7 +99,14 @@ void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clear
     each.minima = count;
     each.isEveryMinimum = isEvery;
     each.overlap = InterferenceKind::Disjoint;
+    each.isTouching = false;
   }
+}
+
+double touchTolerance(const Part& a, const Part& b) noexcept {
+  constexpr double kShare = 1e-6, kMax = 1e-6;
+  const double size = std::min(a.geometry->mesh.bounds().diagonal(), b.geometry->mesh.bounds().diagonal());
+  return std::clamp(kShare * size, std::numeric_limits<double>::min(), kMax);
 }
 
 const char* nameOf(InterferenceKind overlap) noexcept {
@@ -110,19 +123,22 @@ const char* nameOf(InterferenceKind overlap) noexcept {
   return "the other inside";
 }
 
-std::string clearanceCsv(const Scene& scene, PartId id, const std::vector<PartClearance>& clearances) {
+std::string clearanceCsv(const Scene& scene, PartId id, const std::vector<PartClearance>& clearances,
+                         CsvHeader header) {
   const auto nameOfPart = [&](PartId which) {
     const Part* part = scene.find(which);
     return part != nullptr ? csvField(part->name) : std::string();
   };
-  std::string text =
-      "part,other,distance,part_x,part_y,part_z,other_x,other_y,other_z,minima,every_minimum,overlap,"
-      "distance_bound\n";
+  const char* unit = header == CsvHeader::NamesWithUnits ? " [m]" : "";
+  std::string text = "part,other";
+  for (const char* name : {"distance", "part_x", "part_y", "part_z", "other_x", "other_y", "other_z"})
+    fmt::format_to(std::back_inserter(text), ",{}{}", name, unit);
+  text += ",minima,every_minimum,overlap,distance_bound\n";
   for (const PartClearance& c : clearances) {
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{:d},{},{:d}\n", nameOfPart(id),
                    nameOfPart(c.other), c.distance, c.partPoint.x, c.partPoint.y, c.partPoint.z,
                    c.otherPoint.x, c.otherPoint.y, c.otherPoint.z, c.minima, c.isEveryMinimum,
-                   nameOf(c.overlap), c.isDistanceBound);
+                   c.isTouching ? "touching" : nameOf(c.overlap), c.isDistanceBound);
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,13 +24,21 @@ struct PartClearance {
   bool isEveryMinimum = true;  ///< False if there are more minima than the search holds.
   /// True if `distance` is a lower bound: a minimum nearer than those found may be missing.
   bool isDistanceBound = false;
-  /// Exact (interference.h); its `scene` is the other part.
+  /// Exact (interference.h); its `scene` is the other part. Parts that touch meet too.
   InterferenceKind overlap = InterferenceKind::Disjoint;
+  /// True if they are apart by at most touchTolerance(), or meet and are separated by a motion of that
+  /// (touching_bodies.h).
+  bool isTouching = false;
   /// True if both are solid throughout: then the min LMD equals the min distance.
   bool isBetweenSolids = false;
 
-  bool isOverlapping() const noexcept { return overlap != InterferenceKind::Disjoint; }
+  /// True if they meet and do not only touch.
+  bool isOverlapping() const noexcept { return overlap != InterferenceKind::Disjoint && !isTouching; }
 };
+
+/// Gap or depth up to which parts count as touching [m]: what rounding in files and poses comes to. A millionth
+/// of the smaller part's diagonal, at most 1 um.
+double touchTolerance(const Part& a, const Part& b) noexcept;
 
 /// Clearances of a part to all other visible parts, in scene order. Empty if the part's mesh is empty.
 /// @param cutoff  For counting minima [m]; finite, > 0.
@@ -45,8 +54,15 @@ void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clear
 /// "no", "surfaces meet", "inside the other" or "the other inside".
 const char* nameOf(InterferenceKind overlap) noexcept;
 
+/// How the columns of lengths are named.
+enum class CsvHeader : std::uint8_t {
+  Names,           ///< "distance"
+  NamesWithUnits,  ///< "distance [m]"
+};
+
 /// The clearances as CSV (UTF-8), one row each: `part`, `other`, `distance` [m], the points `part_x ...
-/// other_z` [m], `minima`, `every_minimum` (0 or 1), `overlap` (nameOf), `distance_bound` (0 or 1).
-std::string clearanceCsv(const Scene& scene, PartId part, const std::vector<PartClearance>& clearances);
+/// other_z` [m], `minima`, `every_minimum` (0 or 1), `overlap` (nameOf, or "touching"), `distance_bound` (0 or 1).
+std::string clearanceCsv(const Scene& scene, PartId part, const std::vector<PartClearance>& clearances,
+                         CsvHeader header = CsvHeader::Names);
 
 }  // namespace nearfit

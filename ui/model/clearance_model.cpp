@@ -27,6 +27,12 @@ QString overlapText(InterferenceKind overlap) {
 
 }  // namespace
 
+QString ClearanceModel::valueOf(const PartClearance& clearance) {
+  if (clearance.isTouching) return tr("touching");
+  return clearance.isOverlapping() ? overlapText(clearance.overlap)
+                                   : formatDistance(clearance.distance, clearance.isDistanceBound);
+}
+
 void ClearanceModel::show(const std::vector<PartClearance>& clearances, const Scene& scene) {
   std::vector<Row> rows;
   for (const PartClearance& each : clearances) {
@@ -68,7 +74,7 @@ int ClearanceModel::columnCount(const QModelIndex& parent) const {
 }
 
 bool ClearanceModel::isTooNear(const PartClearance& clearance) const {
-  return clearance.isOverlapping() || clearance.distance < threshold_;
+  return clearance.isOverlapping() || clearance.isTouching || clearance.distance < threshold_;
 }
 
 QString ClearanceModel::textOf(const Row& row, int column) const {
@@ -79,12 +85,12 @@ QString ClearanceModel::textOf(const Row& row, int column) const {
     case Distance:
       return formatDistance(c.distance, c.isDistanceBound);
     case Minima:
-      if (c.isOverlapping()) return QStringLiteral("–");
+      if (c.isOverlapping() || c.isTouching) return QStringLiteral("–");
       return c.isEveryMinimum ? QString::number(c.minima) : tr("%1+").arg(c.minima);
     default:
       break;
   }
-  if (c.isOverlapping()) return overlapText(c.overlap);
+  if (c.isOverlapping() || c.isTouching) return valueOf(c);
   if (!isTooNear(c)) return tr("clear");
   // The points are those of the nearest minimum found.
   const bool isSure = !c.isDistanceBound || glm::distance(c.partPoint, c.otherPoint) < threshold_;
@@ -103,7 +109,7 @@ QVariant ClearanceModel::sortKeyOf(const Row& row, int column) const {
     default:
       break;
   }
-  return c.isOverlapping() ? 0 : isTooNear(c) ? 1 : 2;
+  return c.isOverlapping() ? 0 : c.isTouching ? 1 : isTooNear(c) ? 2 : 3;
 }
 
 QVariant ClearanceModel::data(const QModelIndex& index, int role) const {

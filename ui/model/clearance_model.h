@@ -26,6 +26,8 @@ class ClearanceModel : public QAbstractTableModel {
   void setThreshold(double metres);
   /// Returns the clearance in a row; `row` must be valid.
   const PartClearance& at(int row) const { return rows_[static_cast<std::size_t>(row)].clearance; }
+  /// Returns the distance as shown, or the word for parts that touch or overlap.
+  static QString valueOf(const PartClearance& clearance);
   /// Returns the row of another part; std::nullopt if there is none.
   std::optional<int> rowOf(PartId other) const;
 

@@ -135,8 +135,9 @@ void MainWindow::makePanels() {
 }
 
 void MainWindow::makeReviewPanels() {
-  auto* clearances = new ClearancePanel(
-      {session_, *selection_, *hand_, *viewport_}, [this] { return poses_->poseOfMoving(); }, this);
+  auto* clearances =
+      new ClearancePanel({session_, *hand_, *viewport_}, [this] { return poses_->poseOfMoving(); }, this);
+  connect(units_, &UnitMenu::unitChanged, clearances, &ClearancePanel::refresh);
   plots_ = new PlotPanel(this);
   auto* timeline = new Timeline(this);
   replay_ = new Replay({session_, *hand_, *guard_, *viewport_}, *timeline, this);

@@ -2,7 +2,6 @@
 
 #include <QString>
 #include <array>
-#include <optional>
 
 #include <vtkActor.h>
 #include <vtkLineSource.h>
@@ -11,10 +10,9 @@
 #include "core/placing/measure.h"
 #include "ui/view3d/glyphs/pair_segment.h"
 
-class QLabel;
-
 namespace nearfit::ui {
 
+class SpotLabel;
 class Viewport;
 
 /// Draws a measured distance over all parts: a line with a label at its middle, and its components along the
@@ -31,12 +29,8 @@ class MeasureMark {
   /// @param text         Of the label.
   void show(const Measurement& measurement, const QString& text);
   void clear();
-  bool isShown() const noexcept { return shown_.has_value(); }
-  /// Moves the label to where the line is seen now; call after each picture.
-  void placeLabel();
 
  private:
-  Viewport& view_;
   vtkWeakPointer<vtkRenderer> overlay_;
   PairSegment segment_;
   struct Leg {
@@ -44,8 +38,7 @@ class MeasureMark {
     vtkNew<vtkActor> actor;
   };
   std::array<Leg, 3> legs_;
-  QLabel* label_;
-  std::optional<Measurement> shown_;
+  SpotLabel* label_;
 };
 
 }  // namespace nearfit::ui

@@ -206,6 +206,11 @@ void Viewport::showSelection() {
   requestRender();
 }
 
+void Viewport::highlight(const std::vector<PartId>& parts) {
+  parts_.setHighlighted(parts);
+  requestRender();
+}
+
 void Viewport::placeParts(const std::vector<PartId>& parts) {
   parts_.place(parts);
   emit posesChanged();

@@ -84,6 +84,9 @@ class Viewport : public QVTKOpenGLNativeWidget {
   /// The mouse as the manual hand.
   HandDrag& handDrag() noexcept { return *handDrag_; }
 
+  /// Shows parts through others without selecting them; empty: none.
+  void highlight(const std::vector<PartId>& parts);
+
   /// Fits all visible parts into the view.
   void fit();
   /// Fits these parts into the view, with some room around them.

@@ -62,7 +62,8 @@ class DesktopClearanceTest : public QObject {
   void theTableSaysHowNearEachOtherPartIs();
   void theThresholdMarksPairsInColourAndInWords();
   void lengthsAreInTheUnitThatIsChosen();
-  void aRowSelectsItsPairAndShowsWhereItIsNearest();
+  void aRowShowsItsPairAndWhereItIsNearestAndSelectsNothing();
+  void touchingIsToldApartFromOverlapping();
   void theTableFollowsMovesAndOverlaps();
   void theTableFollowsThePartInHand();
   void columnsAreSortedByWhatTheyMean();
@@ -109,14 +110,19 @@ void DesktopClearanceTest::lengthsAreInTheUnitThatIsChosen() {
   f.d.type<QDoubleSpinBox>("clearanceThreshold", "1");
 }
 
-void DesktopClearanceTest::aRowSelectsItsPairAndShowsWhereItIsNearest() {
+/// It selected both parts, so that the next number or drag moved both.
+void DesktopClearanceTest::aRowShowsItsPairAndWhereItIsNearestAndSelectsNothing() {
   ClearanceFixture f;
   QTRY_COMPARE(f.table->model()->rowCount(), 2);
   const int before = f.d.window().viewport().pictureCount();
   QCOMPARE(f.cell(1, ClearanceModel::Other), QStringLiteral("beside"));
+  const std::vector<PartId> expected{f.d.partId("fixed")};
+  f.d.window().selection().set(expected);
   f.clickRow(1);
-  const std::vector<PartId> expected{f.d.partId("beside"), f.d.partId("moving")};
   QCOMPARE(f.d.window().selection().parts(), expected);
+  auto* label = f.d.widget<QLabel>("clearanceLabel");
+  QTRY_VERIFY(label->isVisible());
+  QCOMPARE(label->text(), QStringLiteral("30.0 mm"));
   QTRY_VERIFY(f.d.window().viewport().pictureCount() > before);
   const QImage with = f.d.picture();
   // The pair fills more than half of the view, one way or the other.
@@ -136,7 +142,20 @@ void DesktopClearanceTest::aRowSelectsItsPairAndShowsWhereItIsNearest() {
   // The same picture without the pair's segment.
   f.table->clearSelection();
   QCOMPARE(f.d.window().selection().parts(), expected);
+  QVERIFY(!label->isVisible());
   QVERIFY(differentPixels(f.d.picture(), with) > 100);
+}
+
+void DesktopClearanceTest::touchingIsToldApartFromOverlapping() {
+  ClearanceFixture f;
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
+  const auto lift = [&](double height) {
+    f.d.session().movePart(f.d.partId("fixed"), {{1, 0, 0, 0}, {0.0, 0.0, height}});
+  };
+  lift(0.005);
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Verdict), QStringLiteral("touching"));
+  lift(0.006);
+  QTRY_COMPARE(f.of("fixed", ClearanceModel::Verdict), QStringLiteral("overlapping"));
 }
 
 void DesktopClearanceTest::theTableFollowsMovesAndOverlaps() {
@@ -202,6 +221,7 @@ void DesktopClearanceTest::theTableIsExported() {
   QTest::mouseClick(f.d.widget<QPushButton>("exportClearances"), Qt::LeftButton);
   QTRY_VERIFY(std::filesystem::exists(file));
   QVERIFY(readBytes(file).find("\nmoving,fixed,0.005") != std::string::npos);
+  QVERIFY2(readBytes(file).starts_with("part,other,distance [m],part_x [m]"), "lengths have their unit");
 }
 
 void DesktopClearanceTest::plotsBesideTheTableGetHalfOfTheWidth() {

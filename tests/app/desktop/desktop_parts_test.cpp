@@ -172,7 +172,9 @@ void DesktopPartsTest::typedAnglesTurnAboutThePivot() {
   DesktopDriver d;
   d.addCubes();
   d.clickPart(1, ui::PartsModel::Name);
-  const auto at = [&](const glm::dvec3& inPart) { return d.part("moving").worldFromPart.applyToPoint(inPart); };
+  const auto at = [&](const glm::dvec3& inPart) {
+    return d.part("moving").worldFromPart.applyToPoint(inPart);
+  };
   // The middle of the cube, 35 mm above the file's origin.
   const glm::dvec3 centre(0.0, 0.0, 0.035);
   d.type<QDoubleSpinBox>("rotationX", "45");

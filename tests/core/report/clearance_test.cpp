@@ -211,6 +211,31 @@ TEST(Clearance, TheTableSaysNamesUnitsAndOverlaps) {
             "distance_bound\n"
             "\"a, b\",c,0.125,1,2,3,4,5,6,7,1,no,1\n"
             "\"a, b\",c,0.125,1,2,3,4,5,6,7,0,inside the other,0\n");
+  second.overlap = InterferenceKind::SurfacesMeet;
+  second.isTouching = true;
+  const std::string withUnits = clearanceCsv(scene, part, {second}, CsvHeader::NamesWithUnits);
+  EXPECT_TRUE(withUnits.starts_with("part,other,distance [m],part_x [m],"));
+  EXPECT_NE(withUnits.find(",touching,0\n"), std::string::npos);
+}
+
+/// Flush contact was called an overlap.
+TEST(Clearance, PartsThatTouchAreToldApartFromPartsThatOverlap) {
+  Scene scene;
+  const PartGeometryPtr cube = test::geometryOf(test::boxMesh(glm::dvec3(0.02)));
+  const auto add = [&](const char* name, double height) {
+    return scene.add(test::partOf(cube, name, {{1, 0, 0, 0}, {0.001, 0.0, height}}));
+  };
+  const PartId part = add("part", 0.0);
+  add("flush", 0.02);
+  add("deep", -0.019);
+  const std::vector<PartClearance> rows = clearancesOf(scene, part, 0.01);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_TRUE(rows[0].isTouching);
+  EXPECT_FALSE(rows[0].isOverlapping());
+  EXPECT_LT(rows[0].distance, 1e-12);
+  EXPECT_FALSE(rows[1].isTouching);
+  EXPECT_TRUE(rows[1].isOverlapping());
+  EXPECT_EQ(rows[1].distance, 0.0);
 }
 
 }  // namespace

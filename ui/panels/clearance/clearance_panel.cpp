@@ -16,7 +16,7 @@
 #include "core/files/atomic_write.h"
 #include "ui/model/clearance_model.h"
 #include "ui/model/hand_state.h"
-#include "ui/model/selection.h"
+#include "ui/view3d/spot_label.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/paths.h"
@@ -45,10 +45,10 @@ ClearancePanel::ClearancePanel(const Context& context, ClearanceSearch::PoseOfMo
                                QWidget* parent)
     : QWidget(parent),
       session_(context.session),
-      selection_(context.selection),
       view_(context.view),
       search_(context.session, std::move(poseOfMoving)),
       segment_(context.view.overlay(), colours::kAccent),
+      label_(new SpotLabel(context.view, QStringLiteral("clearanceLabel"))),
       model_(new ClearanceModel(this)) {
   setUpFields();
   setUpTable();
@@ -179,6 +179,8 @@ void ClearancePanel::showNote() {
                : tr("There is no other part.");
   } else if (const std::optional<PartClearance> pair = chosen(); !pair) {
     note = tr("Select a row to see where the two parts are nearest.");
+  } else if (pair->isTouching) {
+    note = tr("The two parts touch, to rounding.");
   } else if (!pair->isOverlapping()) {
     note = tr("The line in the view joins the nearest points of the two parts.");
   }
@@ -194,23 +196,29 @@ std::optional<PartClearance> ClearancePanel::chosen() const {
 void ClearancePanel::choose() {
   const std::optional<PartClearance> pair = chosen();
   const std::optional<PartId> part = search_.subject();
-  if (pair && part) {
-    selection_.set({pair->other, *part});
-    view_.fitParts({*part, pair->other});
-  }
+  if (pair && part) view_.fitParts({*part, pair->other});
   showNote();
   showPair();
 }
 
 void ClearancePanel::showPair() {
   const std::optional<PartClearance> pair = chosen();
+  const std::optional<PartId> part = search_.subject();
   if (!pair && !segment_.isShown()) return;
-  if (pair) {
+  if (pair && part) {
     segment_.show(pair->partPoint, pair->otherPoint);
+    label_->showAt(0.5 * (pair->partPoint + pair->otherPoint), ClearanceModel::valueOf(*pair));
+    view_.highlight({*part, pair->other});
   } else {
     segment_.clear();
+    label_->end();
+    view_.highlight({});
   }
   view_.requestRender();
+}
+
+void ClearancePanel::refresh() {
+  showClearances();
 }
 
 void ClearancePanel::exportTable() {
@@ -224,7 +232,8 @@ void ClearancePanel::exportTable() {
                  this);
   if (!file) return;
   try {
-    atomicWrite(toPath(*file), clearanceCsv(search_.scene(), *part, search_.clearances()));
+    atomicWrite(toPath(*file),
+                clearanceCsv(search_.scene(), *part, search_.clearances(), CsvHeader::NamesWithUnits));
   } catch (...) {
     emit failed(describe(tr("The clearances could not be exported."), std::current_exception()));
     return;

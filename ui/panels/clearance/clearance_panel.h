@@ -21,11 +21,12 @@ namespace nearfit::ui {
 class ClearanceModel;
 class HandState;
 class NumberField;
-class Selection;
+class SpotLabel;
 class Viewport;
 
 /// Shows in a table how near a part is to each other one. The view shows where the pair of the chosen row is
-/// nearest; choosing a row selects the two and fits them into the view.
+/// nearest, with the distance; choosing a row highlights the two and fits them into the view. It leaves the selection
+/// alone: the next number or drag is meant for one part.
 class ClearancePanel : public QWidget {
   Q_OBJECT
 
@@ -33,12 +34,15 @@ class ClearancePanel : public QWidget {
   /// What it measures and shows it in; all outlive this.
   struct Context {
     Session& session;
-    Selection& selection;
     const HandState& hand;
     Viewport& view;
   };
   ClearancePanel(const Context& context, ClearanceSearch::PoseOfMoving poseOfMoving,
                  QWidget* parent = nullptr);
+
+ public slots:
+  /// Shows lengths in the unit that has been chosen.
+  void refresh();
 
  signals:
   /// Emitted when something failed that the user must see.
@@ -64,10 +68,10 @@ class ClearancePanel : public QWidget {
   void exportTable();
 
   Session& session_;
-  Selection& selection_;
   Viewport& view_;
   ClearanceSearch search_;
   PairSegment segment_;
+  SpotLabel* label_;
   std::uint64_t sceneSerial_ = 0;  ///< Serial of the scene whose parts are offered.
   ClearanceModel* model_;
   QSortFilterProxyModel* sorted_;

@@ -144,10 +144,9 @@ QWidget* FeelPanel::makeChoices(const Parts& parts) {
   layout->setSpacing(6);
   for (QWidget* each :
        {static_cast<QWidget*>(hand_), static_cast<QWidget*>(mode_), static_cast<QWidget*>(preset_),
-        static_cast<QWidget*>(startStop_), static_cast<QWidget*>(whyNot_),
-        static_cast<QWidget*>(takeInHand_), parts.settingsButton, static_cast<QWidget*>(notice_),
-        static_cast<QWidget*>(felt_), static_cast<QWidget*>(device_), static_cast<QWidget*>(workspace_),
-        static_cast<QWidget*>(servo_)})
+        static_cast<QWidget*>(startStop_), static_cast<QWidget*>(whyNot_), static_cast<QWidget*>(takeInHand_),
+        parts.settingsButton, static_cast<QWidget*>(notice_), static_cast<QWidget*>(felt_),
+        static_cast<QWidget*>(device_), static_cast<QWidget*>(workspace_), static_cast<QWidget*>(servo_)})
     layout->addWidget(each);
   layout->addStretch(1);
   // Tab order as on screen; the button was created before the others.

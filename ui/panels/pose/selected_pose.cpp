@@ -68,8 +68,7 @@ glm::dvec3 SelectedPose::pivotInCurrent() const {
   std::vector<PlacedPart> placed;
   for (const PartId id : context_.selection.parts()) {
     const Part* each = context_.session.scene().find(id);
-    if (each != nullptr && each->geometry != nullptr)
-      placed.push_back({each, context_.poses.poseOf(*each)});
+    if (each != nullptr && each->geometry != nullptr) placed.push_back({each, context_.poses.poseOf(*each)});
   }
   if (part == nullptr || placed.empty()) return glm::dvec3(0.0);
   const glm::dvec3 pivot = sharedPivot(placed).value_or(centreOfMass(placed));

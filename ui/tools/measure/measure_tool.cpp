@@ -144,7 +144,6 @@ MeasureTool::MeasureTool(const Session& session, Viewport& view, QObject* parent
   connect(&picker_, &FeaturePicker::cancelled, this, &MeasureTool::stop);
   connect(bar_, &MeasureBar::closed, this, &MeasureTool::stop);
   connect(&view_, &Viewport::posesChanged, this, &MeasureTool::refresh);
-  connect(&view_, &Viewport::drawn, this, [this] { mark_.placeLabel(); });
 }
 
 MeasureTool::~MeasureTool() = default;

@@ -211,7 +211,8 @@ void GizmoControl::apply() {
 
 QString GizmoControl::typedText() const {
   const GizmoGrip handle = drag_->handle();
-  const QString axis = isArrow(handle) ? QStringLiteral("XYZ").mid(axisOf(handle), 1) + QChar(' ') : QString();
+  const QString axis =
+      isArrow(handle) ? QStringLiteral("XYZ").mid(axisOf(handle), 1) + QChar(' ') : QString();
   const QString unit =
       isRing(handle) ? QString(QChar(0xB0)) : QChar(' ') + symbolOf(Preferences::lengthUnit());
   return axis + typed_ + QChar('_') + unit;

@@ -160,7 +160,7 @@ bool PartActor::setAppearance(const Colour& colour, bool isVisible, const PartLo
   hideBackFaces();
   setEdgeColour(*edges_->GetProperty(), look);
   showPieces();
-  setThrough(isVisible && look.isSelected);
+  setThrough(isVisible && (look.isSelected || look.isHighlighted));
   return true;
 }
 

@@ -71,6 +71,7 @@ class MapperCache {
 struct PartLook {
   bool isMoving = false;
   bool isSelected = false;
+  bool isHighlighted = false;  ///< Shows through others as a selected part does, but is not selected.
   bool isTranslucent = false;
   bool isOverlapping = false;  ///< Overlaps the moving part, which therefore cannot feel it.
   bool hasEdges = true;
@@ -79,7 +80,7 @@ struct PartLook {
 };
 
 /// The actors of one part: surface and edge lines. In the renderer from construction to destruction.
-/// While the part is selected, a faint veil and its edges are also drawn over everything, so that it
+/// While the part is selected or highlighted, a faint veil and its edges are also drawn over everything, so that it
 /// shows behind other parts.
 class PartActor {
  public:
@@ -130,7 +131,7 @@ class PartActor {
   std::vector<vtkSmartPointer<vtkActor>> pieces_;  ///< The first one also draws drafts.
   vtkNew<vtkProperty> look_;
   vtkNew<vtkActor> edges_;
-  /// In over_ while selected; else null.
+  /// In over_ while selected or highlighted; else null.
   vtkSmartPointer<vtkActor> veil_, veilEdges_;
   vtkNew<vtkMatrix4x4> pose_;
   std::optional<RigidTransform> worldFromPart_;

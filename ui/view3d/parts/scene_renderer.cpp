@@ -31,6 +31,13 @@ void SceneRenderer::setSelected(std::vector<PartId> parts) {
   applyAll();
 }
 
+void SceneRenderer::setHighlighted(std::vector<PartId> parts) {
+  std::ranges::sort(parts);
+  if (parts == highlighted_) return;
+  highlighted_ = std::move(parts);
+  applyAll();
+}
+
 void SceneRenderer::setSeeThrough(bool isSeeThrough) {
   isSeeThrough_ = isSeeThrough;
   applyAll();
@@ -111,6 +118,7 @@ void SceneRenderer::applyAppearance(const Part& part) {
   PartLook look;
   look.isMoving = scene_.movingPart() == part.id;
   look.isSelected = std::ranges::binary_search(selected_, part.id);
+  look.isHighlighted = std::ranges::binary_search(highlighted_, part.id);
   look.isTranslucent = isSeeThrough_ && scene_.movingPart().has_value() && !look.isMoving;
   look.isOverlapping = std::find(overlapping_.begin(), overlapping_.end(), part.id) != overlapping_.end();
   look.hasEdges = hasEdges_;

@@ -37,6 +37,8 @@ class SceneRenderer {
 
   void setScene(const Scene& scene);
   void setSelected(std::vector<PartId> parts);
+  /// Shows parts through others without their being selected.
+  void setHighlighted(std::vector<PartId> parts);
   /// While there is a moving part, makes all others translucent, so that gaps between them can be seen.
   void setSeeThrough(bool isSeeThrough);
   void setEdgesVisible(bool isVisible);
@@ -112,7 +114,7 @@ class SceneRenderer {
   MapperCache mappers_;
   Scene scene_;
   std::map<PartId, std::unique_ptr<PartActor>> actors_;
-  std::vector<PartId> selected_;  ///< Sorted.
+  std::vector<PartId> selected_, highlighted_;  ///< Sorted.
   std::vector<PartId> overlapping_;
   SceneCut cut_;
   bool isSeeThrough_ = false;
