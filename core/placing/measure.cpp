@@ -40,6 +40,15 @@ double distanceTo(const AlignFeature& feature, const glm::dvec3& point) noexcept
                           : glm::length(glm::cross(off, feature.direction));
 }
 
+/// Makes a measurement between parallel planes one along their normal.
+void alignWithNormal(const AlignFeature& a, const AlignFeature& b, Measurement& measurement) noexcept {
+  const double ahead = glm::dot(b.point - a.point, a.direction);
+  measurement.pointToPoint = measurement.distance;
+  measurement.to = measurement.from + ahead * a.direction;
+  measurement.distance = std::abs(ahead);
+  if (glm::dot(a.direction, b.direction) < 0.0) measurement.gap = ahead;
+}
+
 }  // namespace
 
 MeasureEnd measureEnd(const TriangleMesh& mesh, const PickedFeature& picked, const glm::dvec3& hit) {
@@ -50,7 +59,10 @@ MeasureEnd measureEnd(const TriangleMesh& mesh, const PickedFeature& picked, con
 }
 
 Measurement measure(const MeasureEnd& from, const MeasureEnd& to) noexcept {
-  Measurement result{from.point, to.point, glm::distance(from.point, to.point), {}, {}};
+  Measurement result;
+  result.from = from.point;
+  result.to = to.point;
+  result.distance = glm::distance(from.point, to.point);
   const AlignFeature &a = from.feature, &b = to.feature;
   if (isPoint(a) && isPoint(b)) return result;
   if (isPoint(a) || isPoint(b)) {
@@ -64,6 +76,7 @@ Measurement measure(const MeasureEnd& from, const MeasureEnd& to) noexcept {
   if (!(isMixed && hasCentre) && *result.angle > kParallelAngle) return result;
   // For a plane and a line, measure from the line to the plane.
   result.apart = isPlane(a) ? distanceTo(a, b.point) : distanceTo(b, a.point);
+  if (isPlane(a) && isPlane(b)) alignWithNormal(a, b, result);
   return result;
 }
 

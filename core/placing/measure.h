@@ -27,8 +27,14 @@ inline MeasureEnd placed(const MeasureEnd& end, const RigidTransform& frameFromE
 
 /// A measurement between two ends.
 struct Measurement {
-  glm::dvec3 from{0.0}, to{0.0};  ///< Points of the ends [m].
-  double distance = 0.0;          ///< Between these points [m].
+  /// Points of the ends [m]; between parallel faces, `to` is the foot of the perpendicular from `from`.
+  glm::dvec3 from{0.0}, to{0.0};
+  double distance = 0.0;  ///< Between these points [m].
+  /// Between parallel faces: distance between the points of the ends [m].
+  std::optional<double> pointToPoint;
+  /// Between parallel faces that point towards each other: how far the second lies in front of the first [m].
+  /// Negative if it lies behind it, as where parts overlap.
+  std::optional<double> gap;
   /// Perpendicular distance between the ends' planes, axes and points; for a circle and a plane, from the
   /// circle's centre [m]. std::nullopt if they are two points, or otherwise not parallel.
   std::optional<double> apart;
@@ -40,6 +46,9 @@ struct Measurement {
 /// Directions that differ by less count as parallel [rad]: a tenth of a degree, since meshes have
 /// rounded normals.
 constexpr double kParallelAngle = 1.745e-3;
+
+/// A smaller gap counts as touching [m]: what rounding comes to.
+constexpr double kTouchingGap = 1e-7;
 
 /// Measures between two ends.
 /// @param from, to  In one frame; unit directions, everything finite.

@@ -82,9 +82,12 @@ void DesktopMeasureTest::parallelFacesSayHowFarTheyAreApart() {
   pointer.click({0.004, -0.01, 0.038});
   QVERIFY(!isShown(d, "measureDistance"));
   pointer.click({-0.011, -0.02, 0.004});
-  QCOMPARE(d.text("measureApart"), QStringLiteral("10.000 mm"));
+  QCOMPARE(d.text("measureDistance"), QStringLiteral("10.000 mm"));
+  QCOMPARE(d.text("measureLabel"), QStringLiteral("10.000 mm"));
+  QVERIFY(!isShown(d, "measureApart"));
   QCOMPARE(d.text("measureAngle"), QStringLiteral("0.000") + QChar(0xB0));
-  QVERIFY(number(d, "measureDistance") > 30.0);
+  QVERIFY(number(d, "measurePoints") > 30.0);
+  QVERIFY(!isShown(d, "measureFaces"));
   keepPicture(d, "measure-light.png");
   d.choose("themeDark");
   d.choose("viewIso");

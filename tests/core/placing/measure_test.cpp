@@ -40,7 +40,21 @@ TEST(Measure, ParallelFacesAreApartSquareToThemWhereverTheyAreClicked) {
                                 plane({-0.2, 0, 0.05}, {0, 0, -1}, {-0.3, -0.4, 0.05}));
   EXPECT_NEAR(m.apart.value(), 0.03, 1e-15);
   EXPECT_NEAR(m.angle.value(), 0.0, 1e-15);
-  EXPECT_NEAR(m.distance, std::sqrt(0.36 + 0.64 + 0.0009), 1e-15);
+  EXPECT_NEAR(m.distance, 0.03, 1e-15) << "the engineer's answer";
+  EXPECT_LT(glm::distance(m.to, glm::dvec3(0.3, 0.4, 0.05)), 1e-15);
+  EXPECT_NEAR(m.pointToPoint.value(), std::sqrt(0.36 + 0.64 + 0.0009), 1e-15);
+}
+
+TEST(Measure, FacesThatPointTowardsEachOtherHaveAGapWithASign) {
+  const MeasureEnd top = plane({}, {0, 0, 1}, {});
+  const auto gapTo = [&](double height, double sense) {
+    return measure(top, plane({0.5, 0, height}, {0, 0, sense}, {0.5, 0.1, height})).gap;
+  };
+  EXPECT_NEAR(gapTo(0.002, -1.0).value(), 0.002, 1e-15);
+  EXPECT_NEAR(gapTo(0.0, -1.0).value(), 0.0, kTouchingGap);
+  EXPECT_NEAR(gapTo(-0.001, -1.0).value(), -0.001, 1e-15);
+  EXPECT_FALSE(gapTo(0.002, 1.0)) << "both look the same way";
+  EXPECT_FALSE(measure(top, point({0, 0, 1})).gap);
 }
 
 TEST(Measure, FacesThatMeetHaveAnAngleOnly) {

@@ -22,6 +22,17 @@ namespace {
 
 constexpr int kAngleDecimals = 3;
 
+/// Decimals of all lengths of a measurement, by the longest.
+int decimalsOf(const Measurement& measurement, LengthUnit unit) {
+  return measuredDecimals(unit, measurement.pointToPoint.value_or(measurement.distance));
+}
+
+/// Says how two faces lie that point towards each other; empty if they are apart.
+QString facesText(const std::optional<double>& gap) {
+  if (!gap || *gap > kTouchingGap) return {};
+  return *gap < -kTouchingGap ? QObject::tr("behind each other") : QObject::tr("touching");
+}
+
 }  // namespace
 
 MeasureBar::MeasureBar(QWidget* view)
@@ -43,7 +54,10 @@ MeasureBar::MeasureBar(QWidget* view)
              addValue(*numbers, "measureZ", tr("Z"), tr("Along the world's Z axis, from the first point")),
              addValue(*square, "measureApart", tr("Perpendicular"),
                       tr("Perpendicular distance between the faces, axes or points that were clicked")),
-             addValue(*square, "measureAngle", tr("Angle"), tr("Angle between the faces or axes"))};
+             addValue(*square, "measurePoints", tr("Point to point"), tr("Distance between the two clicks")),
+             addValue(*square, "measureAngle", tr("Angle"), tr("Angle between the faces or axes")),
+             addValue(*square, "measureFaces", tr("Faces"),
+                      tr("Faces behind each other: the parts overlap there, or one is beyond the other"))};
   for (int axis = 0; axis < 3; ++axis) {
     values_[static_cast<std::size_t>(axis) + 1].name->setStyleSheet(
         QStringLiteral("font-weight: bold; color: %1").arg(axisColour(axis).name()));
@@ -91,15 +105,19 @@ void MeasureBar::showPrompt(const QString& prompt, const QString& hint) {
 void MeasureBar::showMeasurement(const std::optional<Measurement>& measurement, LengthUnit unit) {
   std::array<QString, 6> texts;
   if (measurement) {
-    const int decimals = measuredDecimals(unit, measurement->distance);
+    const int decimals = decimalsOf(*measurement, unit);
     const glm::dvec3 way = measurement->to - measurement->from;
     const auto length = [&](double metres) { return lengthIn(unit, metres, decimals); };
     texts = {length(measurement->distance), length(way.x), length(way.y), length(way.z)};
-    if (measurement->apart) texts[4] = length(*measurement->apart);
+    // Between parallel faces the distance is the perpendicular one already.
+    if (measurement->apart && !measurement->pointToPoint) texts[4] = length(*measurement->apart);
+    if (measurement->pointToPoint) texts[5] = length(*measurement->pointToPoint);
     if (measurement->angle) {
       const double degrees = *measurement->angle * 180.0 / std::numbers::pi;
-      texts[5] = formatFixed(degrees, kAngleDecimals) + QChar(0xB0);
+      texts[6] = formatFixed(degrees, kAngleDecimals) + QChar(0xB0);
     }
+    texts[7] = facesText(measurement->gap);
+    values_[0].name->setText(measurement->pointToPoint ? tr("Perpendicular") : tr("Distance"));
   }
   bool hasChanged = false;
   for (std::size_t i = 0; i < values_.size(); ++i) {
@@ -214,8 +232,9 @@ void MeasureTool::refresh() {
   if (to_) {
     toLight_.setPose(pose(*to_));
     measurement = measure(*from, *to);
-    mark_.show(*measurement,
-               lengthIn(unit, measurement->distance, measuredDecimals(unit, measurement->distance)));
+    // Opposite faces of one part are always behind each other.
+    if (from_->part == to_->part) measurement->gap.reset();
+    mark_.show(*measurement, lengthIn(unit, measurement->distance, decimalsOf(*measurement, unit)));
   }
   bar_->showMeasurement(measurement, unit);
   tell({});

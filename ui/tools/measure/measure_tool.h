@@ -46,7 +46,8 @@ class MeasureBar : public ViewBar {
   void copy() const;
 
   QLabel *prompt_, *hint_;
-  std::array<Value, 6> values_;  ///< Distance, x, y, z, perpendicular, angle.
+  /// Distance, x, y, z, perpendicular, point to point, angle, how faces lie.
+  std::array<Value, 8> values_;
   QPushButton *copy_, *close_;
 };
 
