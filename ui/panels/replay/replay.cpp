@@ -49,7 +49,7 @@ Replay::Replay(const Context& context, Timeline& timeline, QWidget* window)
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.setInterval(kEveryMs);
   connect(&timer_, &QTimer::timeout, this, &Replay::goOn);
-  open_->setToolTip(tr("Show a recorded motion on a timeline"));
+  open_->setToolTip(tr("Play a recorded motion, with a timeline to go back and forth"));
   connect(open_, &QAction::triggered, this, &Replay::askAndOpen);
   connectTimeline();
   connect(&hand_, &HandState::changed, this, &Replay::followHand);
@@ -122,6 +122,7 @@ void Replay::begin(const QString& file, std::vector<MotionRow> rows) {
   timeline_.setFocus();
   guard_.setReplaying(true);
   show();
+  setPlaying(true);
 }
 
 void Replay::followHand() {

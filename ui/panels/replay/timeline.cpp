@@ -119,7 +119,7 @@ void Timeline::setUpButtons() {
   back_ = make("timelineBack", tr("Back one tick (Left; with Shift 100)"), "step-back");
   play_ = make("timelinePlay", tr("Play (Space)"), "start");
   forward_ = make("timelineForward", tr("Forward one tick (Right; with Shift 100)"), "step-forward");
-  loop_ = make("timelineLoop", tr("Start again at the end"), "loop");
+  loop_ = make("timelineLoop", tr("Loop"), "loop");
   loop_->setCheckable(true);
   close_ = make("timelineClose", tr("Close the recording and put all parts back (Esc)"), "close");
   connect(open_, &QToolButton::clicked, this, &Timeline::openWanted);
