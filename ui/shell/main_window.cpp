@@ -7,6 +7,7 @@
 #include <QMimeData>
 #include <QStatusBar>
 #include <QTimer>
+#include <QToolButton>
 #include <optional>
 #include <utility>
 
@@ -149,6 +150,9 @@ void MainWindow::makeReviewPanels() {
   QDockWidget* timelineDock = addDock("timelineDock", tr("Timeline"), timeline, kBottom);
   for (QDockWidget* dock : {clearanceDock, plotsDock, timelineDock})
     dock->hide();
+  addDockButton(*timelineDock, tr("Show or hide the timeline of a recording"));
+  addDockButton(*plotsDock, tr("Show or hide the plots of force, torque, clearance and times"));
+  addDockButton(*clearanceDock, tr("Show or hide the clearances to the other parts"));
   // The timeline is as wide as the window, below the two others side by side.
   splitDockWidget(clearanceDock, timelineDock, Qt::Vertical);
   splitDockWidget(clearanceDock, plotsDock, Qt::Horizontal);
@@ -166,6 +170,16 @@ void MainWindow::shareWidth(QDockWidget& left, QDockWidget& right) {
   };
   for (const QDockWidget* dock : {&left, &right})
     connect(dock->toggleViewAction(), &QAction::triggered, this, share, Qt::QueuedConnection);
+}
+
+void MainWindow::addDockButton(QDockWidget& dock, const QString& toolTip) {
+  dock.toggleViewAction()->setToolTip(toolTip);
+  auto* button = new QToolButton(statusBar());
+  button->setObjectName(dock.objectName() + QStringLiteral("Button"));
+  button->setDefaultAction(dock.toggleViewAction());
+  button->setAutoRaise(true);
+  // Before those that were added earlier, and before the numbers.
+  statusBar()->insertPermanentWidget(0, button);
 }
 
 void MainWindow::connectReplay(QDockWidget& timelineDock) {

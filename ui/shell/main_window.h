@@ -87,6 +87,8 @@ class MainWindow : public QMainWindow {
   void makePanels();
   void makeReviewPanels();
   void shareWidth(QDockWidget& left, QDockWidget& right);
+  /// Adds a button to the status bar that shows and hides a dock.
+  void addDockButton(QDockWidget& dock, const QString& toolTip);
   void makeToolsAndMenus();
   void connectCommands();
   void connectReplay(QDockWidget& timelineDock);

@@ -4,6 +4,7 @@
 #include <QHeaderView>
 #include <QMenu>
 #include <QTableView>
+#include <QToolButton>
 
 #include "tests/app/desktop/desktop_driver.h"
 #include "ui/model/clearance_model.h"
@@ -70,6 +71,7 @@ class DesktopClearanceTest : public QObject {
   void anotherPartThanTheOneInHandIsChosen();
   void theTableIsExported();
   void aHiddenTableSearchesNothing();
+  void eachReviewPanelIsOneClickAway();
   void plotsBesideTheTableGetHalfOfTheWidth();
   void theNoteFollowsWhatIsChosen();
 };
@@ -257,6 +259,20 @@ void DesktopClearanceTest::aHiddenTableSearchesNothing() {
   QCOMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("5.00 mm"));
   f.d.choose(dock->toggleViewAction());
   QTRY_COMPARE(f.of("fixed", ClearanceModel::Distance), QStringLiteral("7.00 mm"));
+}
+
+void DesktopClearanceTest::eachReviewPanelIsOneClickAway() {
+  DesktopDriver d;
+  for (const char* name : {"clearanceDock", "plotsDock", "timelineDock"}) {
+    const auto* dock = d.widget<QDockWidget>(name);
+    auto* button = d.window().findChild<QToolButton*>(QLatin1String(name) + QStringLiteral("Button"));
+    QVERIFY2(button != nullptr && button->isVisible() && !button->text().isEmpty(), name);
+    QVERIFY2(!dock->isVisible(), name);
+    QTest::mouseClick(button, Qt::LeftButton);
+    QTRY_VERIFY2(dock->isVisible(), name);
+    QTest::mouseClick(button, Qt::LeftButton);
+    QTRY_VERIFY2(!dock->isVisible(), name);
+  }
 }
 
 NEARFIT_QT_SUITE(DesktopClearanceTest, runDesktopTest<DesktopClearanceTest>)
