@@ -80,7 +80,7 @@ ShapeMappers::Mapper ShapeMappers::edges(bool isTranslucent) {
 }
 
 ShapeMappers::Mapper ShapeMappers::veil() {
-  return made(veil_, shape_->finestDraft());
+  return made(veil_, shape_->veilSurface());
 }
 
 ShapeMappers::Mapper ShapeMappers::veilEdges() {

@@ -185,6 +185,12 @@ void addDrafts(PartShape& shape) {
 
 }  // namespace
 
+vtkPolyData* PartShape::veilSurface() const {
+  // Some 15 ms in software OpenGL.
+  constexpr vtkIdType kQuick = 50'000;
+  return surface->GetNumberOfPolys() <= kQuick ? surface.Get() : finestDraft();
+}
+
 std::vector<DraftSurface> draftsOf(vtkPolyData& surface) {
   std::vector<DraftSurface> drafts;
   vtkPolyData* last = &surface;

@@ -41,8 +41,11 @@ struct PartShape {
   /// True if no back face is visible from outside.
   bool hidesItsInside = false;
 
-  /// Returns the finest draft, or the surface if there is none; fine enough for a veil.
+  /// Returns the finest draft, or the surface if there is none.
   vtkPolyData* finestDraft() const { return drafts.empty() ? surface.Get() : drafts.front().Get(); }
+  /// Returns the surface for a veil over the part: the mesh itself if that is quick to draw. A draft would reach
+  /// beyond the part's outline, and tint what lies beside it.
+  vtkPolyData* veilSurface() const;
 };
 
 /// Builds the shape of a mesh; seconds for millions of triangles. Throws Cancelled.

@@ -32,6 +32,7 @@ class PartShapeTest : public QObject {
   void whatIsClusteredToAFewPointsIsShaded();
   void fansAndBooksAreShaded();
   void picksInTinyAndThinMeshesTakeLittleMemory();
+  void theVeilOfAPartHasItsOutline();
   void oneGeometryHasOneShape();
   void manyShapesAreKeptWhileTheirGeometriesExist();
   void threadsMayAskAtOnce();
@@ -112,6 +113,16 @@ void PartShapeTest::manyShapesAreKeptWhileTheirGeometriesExist() {
   cache.prepare(geometries, {});
   for (std::size_t i = 0; i < shapes.size(); ++i)
     QCOMPARE(shapes[i].expired(), i > 0);
+}
+
+/// It was a draft, whose points lie up to a cell beside the surface: the tint of a selection spilled over.
+void PartShapeTest::theVeilOfAPartHasItsOutline() {
+  const ui::PartShape usual = ui::makePartShape(test::icosphereMesh(1.0, 4));
+  QVERIFY(!usual.drafts.empty());
+  QCOMPARE(usual.veilSurface(), usual.surface.Get());
+  const ui::PartShape large = ui::makePartShape(test::icosphereMesh(1.0, 6));
+  QVERIFY(large.surface->GetNumberOfPolys() > 80'000);
+  QCOMPARE(large.veilSurface(), large.drafts.front().Get());
 }
 
 void PartShapeTest::oneGeometryHasOneShape() {
