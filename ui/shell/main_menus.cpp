@@ -16,6 +16,7 @@
 #include "ui/panels/parts/tree_actions.h"
 #include "ui/panels/replay/record_action.h"
 #include "ui/panels/replay/replay.h"
+#include "ui/panels/view/feeling_view.h"
 #include "ui/panels/view/view_actions.h"
 #include "ui/tools/measure/measure_tool.h"
 #include "ui/tools/placing/align_tool.h"
@@ -96,9 +97,9 @@ void MainMenus::setUpViewMenu(QMenu* panels, QMenu* units) {
   view_->addActions(view.views());
   view_->addActions({view.orthographic, view_->addSeparator()});
   view_->addActions(view.switches());
-  view_->addActions({view.scaleBar, view_->addSeparator(), commands_.measure.action(),
-                     commands_.section.action(), view_->addSeparator()});
-  for (QMenu* menu : {panels, view.minimaMenu(), units})
+  view_->addActions({view.feeling().legend(), view.scaleBar, view_->addSeparator(),
+                     commands_.measure.action(), commands_.section.action(), view_->addSeparator()});
+  for (QMenu* menu : {panels, view.minimaMenu(), view.feeling().qualityMenu(), units})
     view_->addMenu(menu);
 }
 

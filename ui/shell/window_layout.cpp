@@ -1,7 +1,9 @@
 #include "ui/shell/window_layout.h"
 
 #include <QMainWindow>
+#include <QScreen>
 #include <QSettings>
+#include <algorithm>
 
 #include "ui/widgets/preferences.h"
 
@@ -21,6 +23,18 @@ void WindowLayout::restore() {
   window_->restoreGeometry(Preferences::windowGeometry());
   // Does nothing without a saved layout of this version.
   window_->restoreState(QSettings().value(kKey).toByteArray(), kVersion);
+  fitToScreen();
+}
+
+void WindowLayout::fitToScreen() {
+  constexpr int kTitleBar = 36;  // [pixels]
+  const QScreen* screen = window_->screen();
+  if (screen == nullptr || window_->isMaximized() || window_->isFullScreen()) return;
+  const QRect room = screen->availableGeometry();
+  const QSize most(room.width(), std::max(1, room.height() - kTitleBar));
+  if (window_->width() <= most.width() && window_->height() <= most.height()) return;
+  window_->resize(window_->size().boundedTo(most));
+  window_->move(room.topLeft());
 }
 
 void WindowLayout::remember() const {

@@ -14,7 +14,7 @@ class WindowLayout : public QObject {
  public:
   explicit WindowLayout(QMainWindow* window);
 
-  /// Restores the layout of the last run.
+  /// Restores the layout of the last run. A window that is larger than its screen is fitted to it.
   void restore();
   /// Saves the layout for the next run.
   void remember() const;
@@ -22,6 +22,8 @@ class WindowLayout : public QObject {
   void reset();
 
  private:
+  void fitToScreen();
+
   QMainWindow* window_;
   QByteArray fresh_;
 };

@@ -16,8 +16,7 @@ bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
 }  // namespace
 
 SnapshotGlyphs::SnapshotGlyphs(vtkRenderer& parts, vtkRenderer& overlay, QWidget& view)
-    : view_(view),
-      hand_(parts, overlay),
+    : hand_(parts, overlay),
       minima_(overlay),
       contacts_(overlay),
       arrows_(overlay),
@@ -39,7 +38,8 @@ void SnapshotGlyphs::showNumbers(const ServoSnapshot& snapshot) {
   legend_->setColourRange(minima_.colourRange());
   legend_->showSnapshot(snapshot);
   placeLegend();
-  legend_->show();
+  hasNumbers_ = true;
+  legend_->setVisible(isLegendWanted_);
 }
 
 void SnapshotGlyphs::clear() {
@@ -47,12 +47,17 @@ void SnapshotGlyphs::clear() {
   arrows_.clear();
   contacts_.clear();
   hand_.clear();
+  hasNumbers_ = false;
   legend_->hide();
 }
 
 void SnapshotGlyphs::placeLegend() {
-  constexpr int kMargin = 14;
-  legend_->move(kMargin, view_.height() - legend_->height() - kMargin);
+  legend_->place();
+}
+
+void SnapshotGlyphs::setLegendVisible(bool isVisible) {
+  isLegendWanted_ = isVisible;
+  legend_->setVisible(isVisible && hasNumbers_);
 }
 
 bool looksTheSame(const ServoSnapshot& a, const ServoSnapshot& b) {

@@ -22,7 +22,7 @@ class SnapshotGlyphs {
  public:
   /// @param parts    Draws the ghost's copy of the part; outlives this.
   /// @param overlay  Draws all other glyphs over the parts; outlives this.
-  /// @param view     Gets the legend in its lower left corner; outlives this.
+  /// @param view     Gets the legend, at first in its lower left corner; outlives this.
   SnapshotGlyphs(vtkRenderer& parts, vtkRenderer& overlay, QWidget& view);
 
   /// Shows the glyphs of a snapshot.
@@ -33,8 +33,9 @@ class SnapshotGlyphs {
   /// would be ahead of them.
   void showNumbers(const ServoSnapshot& snapshot);
   void clear();
-  /// Moves the legend into its corner; call after the view was resized.
+  /// Moves the legend to its place; call after the view was resized.
   void placeLegend();
+  void setLegendVisible(bool isVisible);
 
   HandGhost& hand() noexcept { return hand_; }
   LmdOverlay& minima() noexcept { return minima_; }
@@ -42,12 +43,12 @@ class SnapshotGlyphs {
   WrenchArrows& arrows() noexcept { return arrows_; }
 
  private:
-  QWidget& view_;
   HandGhost hand_;
   LmdOverlay minima_;
   ContactGlyphs contacts_;
   WrenchArrows arrows_;
   ColourLegend* legend_;
+  bool isLegendWanted_ = true, hasNumbers_ = false;
 };
 
 /// True if the view looks the same with both snapshots.

@@ -3,6 +3,7 @@
 #include <QScreen>
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include <vtkCamera.h>
 #include <vtkPropCollection.h>
@@ -17,6 +18,8 @@ using namespace std::chrono_literals;
 constexpr std::size_t kSmall = 20'000;
 /// Drawing this much once everything rests may take half a second [triangles].
 constexpr std::size_t kBudgetAtRest = 1'000'000;
+/// Drawn whole while a part is felt in the Balanced quality: some 50 ms in software OpenGL [triangles].
+constexpr std::size_t kBalanced = 150'000;
 constexpr std::size_t kFirstBudget = 120'000, kMinBudget = 30'000, kMaxBudget = 50'000'000;
 /// A picture that takes longer is drawn coarser next time, one that takes less finer [ms]. Software OpenGL
 /// needs another 10 ms to bring it to the screen.
@@ -74,7 +77,8 @@ void ViewDetail::beforePicture() {
   if (keptKey_ && *keptKey_ != now) drop();
   // Translucent parts cannot be kept. The last picture at rest shows more of them, and need not be full.
   const bool isLast = isAtRest_ && renderer_.hasKept() && !parts_.hasLoose();
-  const DetailChoice choice = parts_.applyDetail({isLast ? std::max(budget_, kBudgetAtRest) : budget_});
+  const std::size_t budget = std::max(budget_, budgetOfFeeling());
+  const DetailChoice choice = parts_.applyDetail({isLast ? std::max(budget, kBudgetAtRest) : budget});
   detail_ = {choice.triangles, renderer_.hasKept(), choice.isExact};
   isLimited_ = !choice.isExact;
   // A coarse picture is drawn again at rest, so smoothing waits until then.
@@ -111,8 +115,14 @@ void ViewDetail::afterPicture() {
   if (!still_.isActive() && !holdsDepths()) still_.start();
 }
 
+std::size_t ViewDetail::budgetOfFeeling() const noexcept {
+  if (!isFeeling_ || quality_ == FeelQuality::Fast) return 0;
+  return quality_ == FeelQuality::Full ? std::numeric_limits<std::size_t>::max() : kBalanced;
+}
+
 void ViewDetail::adaptBudget() {
-  if (isBudgetFixed_) return;
+  // What was chosen for feeling says nothing of other motion.
+  if (isBudgetFixed_ || budgetOfFeeling() > budget_) return;
   renderer_.GetRenderWindow()->WaitForCompletion();
   const qint64 took = picture_.elapsed();
   if (took > kSlow && 2 * detail_.triangles > budget_) budget_ = std::max(kMinBudget, budget_ / 4 * 3);

@@ -21,6 +21,13 @@ struct PictureDetail {
   bool isFull = true;         ///< Nothing was left out for speed.
 };
 
+/// How much is drawn while a part is felt.
+enum class FeelQuality : std::uint8_t {
+  Full,      ///< Everything.
+  Balanced,  ///< Everything of scenes that are not large: coarse stand-ins lose holes and outlines.
+  Fast,      ///< As while anything else moves.
+};
+
 /// Keeps pictures fast while something moves, and completes them at rest. Where there is too much to draw,
 /// moving parts are drawn coarsely. Once the camera stands still, all resting opaque parts are drawn in full,
 /// a little at a time between events, into a kept picture (CachingRenderer).
@@ -45,6 +52,10 @@ class ViewDetail : public QObject {
   /// Fixes the max number of triangles while something moves; without this call it adapts
   /// to the machine's speed.
   void setBudget(std::size_t triangles);
+  /// Sets how much is drawn while a part is felt; Balanced without this call.
+  void setFeelQuality(FeelQuality quality) { quality_ = quality; }
+  /// Tells if a part is felt.
+  void setFeeling(bool isFeeling) { isFeeling_ = isFeeling; }
   /// Prepares a full next picture, however long that takes. Does nothing if the last picture was full.
   void complete();
   /// The same, even if the last picture was full.
@@ -71,6 +82,8 @@ class ViewDetail : public QObject {
   /// Nothing has moved for a while.
   void rest();
   void smooth(bool isSmooth);
+  /// Returns the triangles that a picture may have because a part is felt; 0 if none is.
+  std::size_t budgetOfFeeling() const noexcept;
   void adaptBudget();
 
   CachingRenderer& renderer_;
@@ -87,6 +100,8 @@ class ViewDetail : public QObject {
   bool isFinal_ = true;    ///< No fuller picture follows the one being drawn.
   bool isLimited_ = false;
   bool isBudgetFixed_ = false;
+  bool isFeeling_ = false;
+  FeelQuality quality_ = FeelQuality::Balanced;
   std::size_t budget_;
 };
 

@@ -221,6 +221,7 @@ void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
   if (shown_ != nullptr && looksTheSame(*shown_, snapshot)) return;
   if (shown_ == nullptr) shown_ = std::make_unique<ServoSnapshot>();
   *shown_ = snapshot;
+  detail_->setFeeling(true);
   hasNewNumbers_ = true;
   glyphs_->show(snapshot, scene_.haptics(), scene_.find(snapshot.moving));
   const std::size_t overlapping =
@@ -231,6 +232,7 @@ void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
 
 void Viewport::clearSnapshot() {
   shown_.reset();
+  detail_->setFeeling(false);
   glyphs_->clear();
   parts_.setOverlapping({});
   requestRender();
@@ -312,6 +314,10 @@ void Viewport::setWrenchVisible(bool isVisible) {
 
 void Viewport::setScaleBarVisible(bool isVisible) {
   scaleBar_->setWanted(isVisible);
+}
+
+void Viewport::setLegendVisible(bool isVisible) {
+  glyphs_->setLegendVisible(isVisible);
 }
 
 void Viewport::mousePressEvent(QMouseEvent* event) {

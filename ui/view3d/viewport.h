@@ -104,6 +104,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void setWrenchVisible(bool isVisible);
   /// Shows a bar of a round length, true at the depth of the point that the camera orbits; hidden at first.
   void setScaleBarVisible(bool isVisible);
+  void setLegendVisible(bool isVisible);
 
   /// How much of the parts the last picture shows, and the limits while something moves.
   ViewDetail& detail() noexcept { return *detail_; }

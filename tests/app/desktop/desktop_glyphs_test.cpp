@@ -143,6 +143,8 @@ class DesktopGlyphsTest : public QObject {
   void asManyOfTheNearestAreDrawnAsChosen();
   void minimaFartherThanChosenAreNotDrawn();
   void theRangeOfColoursIsChosenInADialog();
+  void theLegendIsDraggedAndHiddenAndThatIsRemembered();
+  void theQualityWhileFeelingIsRemembered();
 };
 
 void DesktopGlyphsTest::eachSwitchTakesAwayWhatItNamesAndBringsItBack_data() {
@@ -291,6 +293,51 @@ void DesktopGlyphsTest::theRangeOfColoursIsChosenInADialog() {
   QTRY_VERIFY2(changedPixels(automatic, g.d.picture()) > 20, "the gap of 5 mm is blue now");
   g.d.choose("minimaColoursAutomatic");
   QTRY_COMPARE(changedPixels(automatic, g.d.picture()), 0);
+}
+
+void DesktopGlyphsTest::theLegendIsDraggedAndHiddenAndThatIsRemembered() {
+  QPoint place;
+  {
+    GlyphsFixture f;
+    f.feel();
+    auto* legend = f.d.widget<QWidget>("colourLegend");
+    QTRY_VERIFY(legend->isVisible());
+    const QPoint before = legend->pos(), way(120, -90);
+    const QPoint from = legend->rect().center();
+    QTest::mousePress(legend, Qt::LeftButton, {}, from);
+    QMouseEvent move(QEvent::MouseMove, from + way, legend->mapToGlobal(from + way), Qt::NoButton,
+                     Qt::LeftButton, {});
+    QApplication::sendEvent(legend, &move);
+    place = before + way;
+    QCOMPARE(legend->pos(), place);
+    QTest::mouseRelease(legend, Qt::LeftButton, {}, from);
+    // It stays there while numbers come.
+    const std::uint64_t tick = f.newest.tick;
+    f.press();
+    QTRY_VERIFY(f.newest.tick > tick + 100);
+    QVERIFY((legend->pos() - place).manhattanLength() <= 2);
+    f.d.choose("legend");
+    QVERIFY(!legend->isVisible());
+    f.d.choose("stop");
+  }
+  GlyphsFixture again;
+  again.feel();
+  auto* legend = again.d.widget<QWidget>("colourLegend");
+  QTRY_COMPARE(again.d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QVERIFY(!legend->isVisible());
+  again.d.choose("legend");
+  QTRY_VERIFY(legend->isVisible());
+  QVERIFY((legend->pos() - place).manhattanLength() <= 2);
+}
+
+void DesktopGlyphsTest::theQualityWhileFeelingIsRemembered() {
+  {
+    DesktopDriver d;
+    QVERIFY(d.action("quality-balanced")->isChecked());
+    d.choose("quality-full");
+  }
+  DesktopDriver d;
+  QVERIFY(d.action("quality-full")->isChecked() && !d.action("quality-balanced")->isChecked());
 }
 
 NEARFIT_QT_SUITE(DesktopGlyphsTest, runDesktopTest<DesktopGlyphsTest>)

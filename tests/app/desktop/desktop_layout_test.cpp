@@ -2,6 +2,8 @@
 #include <QAbstractSpinBox>
 #include <QCheckBox>
 #include <QDockWidget>
+#include <QGuiApplication>
+#include <QScreen>
 
 #include "tests/app/desktop/desktop_driver.h"
 #include "ui/files/export/export_dialog.h"
@@ -94,6 +96,7 @@ class DesktopLayoutTest : public QObject {
   void init() { QSettings().clear(); }
   void cleanup() { ui::setColourScheme(ui::ColourScheme::Light); }
   void theSizeOfTheWindowComesBack();
+  void aWindowLargerThanItsScreenIsFittedToIt();
   void whatIsHiddenAndMovedComesBack();
   void theThemeComesBack();
   void dialogsThatAreMadeOnDemandHaveNoNamelessField_data();
@@ -122,6 +125,19 @@ void DesktopLayoutTest::theSizeOfTheWindowComesBack() {
   Run run;
   QVERIFY(isOfSize(run, usual - QSize(30, 90)));
   run.close();
+}
+
+void DesktopLayoutTest::aWindowLargerThanItsScreenIsFittedToIt() {
+  const QRect room = QGuiApplication::primaryScreen()->availableGeometry();
+  {
+    Run run;
+    run.window().resize(room.size() + QSize(400, 300));
+    QTRY_VERIFY(run.window().width() > room.width());
+    run.close();
+  }
+  Run run;
+  QVERIFY2(run.window().width() <= room.width() && run.window().height() <= room.height(),
+           qPrintable(QStringLiteral("%1 x %2").arg(run.window().width()).arg(run.window().height())));
 }
 
 void DesktopLayoutTest::whatIsHiddenAndMovedComesBack() {

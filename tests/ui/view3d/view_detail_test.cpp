@@ -76,6 +76,7 @@ class ViewDetailTest : public QObject {
 
  private slots:
   void whatMovesStaysWithinTheBudget();
+  void howMuchIsDrawnWhileFeelingIsChosen();
   void aStillViewShowsEveryTriangle();
   void aFullPictureIsThatOfTheMeshesThemselves();
   void nothingIsDrawnOnceItIsFull();
@@ -102,6 +103,32 @@ void ViewDetailTest::whatMovesStaysWithinTheBudget() {
   QTRY_VERIFY(drawn > 0);
   QVERIFY(most > 0);
   QVERIFY2(most <= kBudget, qPrintable(QString::number(most)));
+}
+
+/// Parts became crumpled shells in which bolt holes were lost.
+void ViewDetailTest::howMuchIsDrawnWhileFeelingIsChosen() {
+  Row row;
+  QVERIFY(row.comesToRest());
+  const auto drawnOnceTurned = [&] {
+    std::size_t first = 0;
+    const QMetaObject::Connection watch = connect(&row.view, &ui::Viewport::drawn, &row.view, [&] {
+      if (first == 0) first = row.view.detail().detail().triangles;
+    });
+    row.turn();
+    (void)QTest::qWaitFor([&] { return first > 0; }, test::kQtPatienceMs);
+    disconnect(watch);
+    return first;
+  };
+  constexpr std::size_t kAll = kParts * kTriangles;
+  QVERIFY(drawnOnceTurned() <= kBudget);
+  row.view.detail().setFeeling(true);
+  QCOMPARE(drawnOnceTurned(), kAll);
+  row.view.detail().setFeelQuality(ui::FeelQuality::Fast);
+  QVERIFY(drawnOnceTurned() <= kBudget);
+  row.view.detail().setFeelQuality(ui::FeelQuality::Full);
+  QCOMPARE(drawnOnceTurned(), kAll);
+  row.view.detail().setFeeling(false);
+  QVERIFY(drawnOnceTurned() <= kBudget);
 }
 
 void ViewDetailTest::aStillViewShowsEveryTriangle() {

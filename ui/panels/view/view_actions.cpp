@@ -10,6 +10,7 @@
 #include "core/session/session.h"
 #include "ui/model/selection.h"
 #include "ui/panels/view/colour_range_dialog.h"
+#include "ui/panels/view/feeling_view.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/make_action.h"
@@ -160,7 +161,8 @@ ViewActions::ViewActions(Session& session, Selection& selection, Viewport& view,
       session_(session),
       selection_(selection),
       view_(view),
-      minima_(new MinimaMenu(window)) {
+      minima_(new MinimaMenu(window)),
+      feeling_(new FeelingView(view, window)) {
   setUpLooking();
   setUpDrawing();
   setUpKeptSwitches();

@@ -15,6 +15,7 @@ class Session;
 
 namespace nearfit::ui {
 
+class FeelingView;
 class Selection;
 class Viewport;
 
@@ -68,6 +69,8 @@ class ViewActions : public QObject {
   const QList<QAction*>& switches() const noexcept { return switches_; }
   /// Returns the menu of what is drawn of minima.
   QMenu* minimaMenu() const noexcept;
+  /// Returns what is chosen about pictures while a part is felt.
+  const FeelingView& feeling() const noexcept { return *feeling_; }
 
  private:
   void setUpLooking();
@@ -79,6 +82,7 @@ class ViewActions : public QObject {
   Selection& selection_;
   Viewport& view_;
   MinimaMenu* minima_;
+  FeelingView* feeling_;
   QList<QAction*> views_, switches_;
   Subscription changes_;
 };

@@ -1,7 +1,9 @@
 #include "ui/view3d/glyphs/colour_legend.h"
 
 #include <QFontInfo>
+#include <QMouseEvent>
 #include <QPainter>
+#include <QSettings>
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +17,8 @@
 namespace nearfit::ui {
 namespace {
 
+const QString kPlace = QStringLiteral("view/legendPlace");
+constexpr int kMargin = 14;  ///< To the edges of the parent.
 constexpr int kWidth = 226, kInset = 14;
 constexpr int kBarTop = 34, kBarHeight = 11;
 constexpr int kFirstRow = 86, kRowHeight = 22, kBelowLastRow = 16;  ///< Row positions are baselines.
@@ -56,9 +60,42 @@ QColor mutedColour() {
 }  // namespace
 
 ColourLegend::ColourLegend(QWidget* parent) : QWidget(parent) {
-  setAttribute(Qt::WA_TransparentForMouseEvents);
   setObjectName(QStringLiteral("colourLegend"));
+  setCursor(Qt::SizeAllCursor);
+  const QPointF kept = QSettings().value(kPlace, QPointF(0.0, 1.0)).toPointF();
+  share_ = {std::clamp(kept.x(), 0.0, 1.0), std::clamp(kept.y(), 0.0, 1.0)};
   resize(sizeHint());
+}
+
+QPoint ColourLegend::room() const {
+  const QSize free = parentWidget()->size() - size() - QSize(2 * kMargin, 2 * kMargin);
+  return {std::max(free.width(), 0), std::max(free.height(), 0)};
+}
+
+void ColourLegend::place() {
+  if (grabbed_) return;
+  const QPoint most = room();
+  move(kMargin + qRound(share_.x() * most.x()), kMargin + qRound(share_.y() * most.y()));
+}
+
+void ColourLegend::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return event->ignore();
+  grabbed_ = event->pos();
+}
+
+void ColourLegend::mouseMoveEvent(QMouseEvent* event) {
+  if (!grabbed_) return event->ignore();
+  const QPoint most = room(), wanted = mapToParent(event->pos() - *grabbed_) - QPoint(kMargin, kMargin);
+  const QPoint at(std::clamp(wanted.x(), 0, most.x()), std::clamp(wanted.y(), 0, most.y()));
+  move(at + QPoint(kMargin, kMargin));
+  share_ = {most.x() > 0 ? static_cast<double>(at.x()) / most.x() : 0.0,
+            most.y() > 0 ? static_cast<double>(at.y()) / most.y() : 0.0};
+}
+
+void ColourLegend::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton || !grabbed_) return event->ignore();
+  grabbed_.reset();
+  QSettings().setValue(kPlace, share_);
 }
 
 void ColourLegend::setColourRange(double range) {

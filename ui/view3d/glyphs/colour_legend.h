@@ -1,18 +1,25 @@
 #pragma once
 
+#include <QPoint>
+#include <QPointF>
 #include <QWidget>
+#include <optional>
 
 #include "core/servo/servo_snapshot.h"
 
 namespace nearfit::ui {
 
 /// A card over the 3-D view that explains its glyphs: the colour scale of distances, and force, torque, contacts and
-/// hand with their current values. Ignores the mouse.
+/// hand with their current values. Can be dragged; its place is kept between runs. Ignores the mouse otherwise.
 class ColourLegend : public QWidget {
   Q_OBJECT
 
  public:
-  explicit ColourLegend(QWidget* parent = nullptr);
+  /// @param parent  Whatever it lies over; not null.
+  explicit ColourLegend(QWidget* parent);
+
+  /// Puts the legend where the user left it in its parent: at first in the lower left corner.
+  void place();
 
   /// @param range  Distance at the end of the colour scale [m].
   void setColourRange(double range);
@@ -23,6 +30,9 @@ class ColourLegend : public QWidget {
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
 
  private:
   /// Factor from the layout's constants to the widget's font; at least 1.
@@ -32,6 +42,11 @@ class ColourLegend : public QWidget {
   void paintScale(QPainter& painter);
   void paintRow(QPainter& painter, int y, const QString& name, const QString& value);
 
+  /// Returns how far it can be from the upper left corner of its parent [pixels].
+  QPoint room() const;
+
+  QPointF share_;                  ///< Its place, as shares of room().
+  std::optional<QPoint> grabbed_;  ///< Where it is held while it is dragged [pixels].
   double range_ = 0.01;
   QString force_, torque_, contacts_, lead_;
   bool hasProxy_ = true;
