@@ -76,6 +76,7 @@ class DesktopProxyTest : public QObject {
   void faultIsToldAndAStartAnewOffered();
   void modeIsChosenInThePanel();
   void scriptedHandBeginsAgainInAnotherMode();
+  void whatWasFeltLastStaysInGreyUntilTheSceneChanges();
   void aChangeOfModeBringsTheHandBackToThePart();
   void aChangeOfHandLeavesThePartWhereItIs();
   void marginBeyondTheCutoffIsExplained();
@@ -226,6 +227,27 @@ void DesktopProxyTest::scriptedHandBeginsAgainInAnotherMode() {
   QVERIFY2(watch.least > 0.1 * kMargin, "springs are not pushed through");
   QVERIFY2(watch.newest.proxy.translation.z < -0.0045, "it begins where the part is");
   QCOMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Change the mode"));
+}
+
+/// Stop wiped the numbers that it was pressed for.
+void DesktopProxyTest::whatWasFeltLastStaysInGreyUntilTheSceneChanges() {
+  DesktopDriver d;
+  d.addCubes();
+  start(d, ui::Hand::Manual);
+  d.type<QDoubleSpinBox>("positionZ", "-8");
+  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+  const auto* lead = d.widget<QLabel>("lead");
+  QVERIFY(lead->isEnabled());
+  pressShortcut(d, Qt::Key_F6);
+  QTRY_VERIFY(!d.application.servo().isRunning());
+  QVERIFY(!lead->isEnabled());
+  QVERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+  QVERIFY(d.text("contacts").toInt() >= 1);
+  d.type<QDoubleSpinBox>("positionX", "1");
+  QCOMPARE(d.text("lead"), QStringLiteral("–"));
+  // They are black again once something is felt.
+  start(d, ui::Hand::Manual);
+  QTRY_VERIFY(lead->isEnabled());
 }
 
 /// The part went through the floor to where the hand was: 17 mm below, and overlapped in the proxy mode.

@@ -265,6 +265,7 @@ void FeelPanel::showSettings(const HapticSettings& settings) {
 }
 
 void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) {
+  setFelt(true);
   force_->setText(formatForce(glm::length(snapshot.wrench.force)));
   torque_->setText(formatTorque(glm::length(snapshot.wrench.torque)));
   distance_->setText(formatDistance(snapshot.distance, snapshot.isDistanceBound));
@@ -287,9 +288,19 @@ void FeelPanel::showProxy(const ServoSnapshot& snapshot) {
 void FeelPanel::clearSnapshot() {
   for (QLabel* label : {force_, torque_, distance_, minima_, contacts_, lead_, energy_, subSteps_})
     label->setText(Readouts::nothing());
+  keepSnapshot();
+}
+
+void FeelPanel::keepSnapshot() {
+  setFelt(false);
   clamped_->clear();
   notice_->clear();
   workspace_->showClutched(false);
+}
+
+void FeelPanel::setFelt(bool isFelt) {
+  for (QLabel* label : {force_, torque_, distance_, minima_, contacts_, lead_, energy_, subSteps_})
+    label->setEnabled(isFelt);
 }
 
 }  // namespace nearfit::ui

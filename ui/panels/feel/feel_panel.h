@@ -56,6 +56,8 @@ class FeelPanel : public QWidget {
   /// @param scene  Holds the parts' names.
   void showSnapshot(const ServoSnapshot& snapshot, const Scene& scene);
   void clearSnapshot();
+  /// Shows the numbers of the last snapshot in grey: nothing is felt any more.
+  void keepSnapshot();
 
  signals:
   /// Each is emitted when the user asks for what its name says.
@@ -80,6 +82,8 @@ class FeelPanel : public QWidget {
   void showHand();
   void updateStart();
   void showProxy(const ServoSnapshot& snapshot);
+  /// Numbers that are felt now, or were felt last.
+  void setFelt(bool isFelt);
 
   HandChoice* hand_;
   QComboBox* mode_;
