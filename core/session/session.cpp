@@ -16,25 +16,25 @@ namespace {
 const char* labelOfChange(const HapticSettings& from, const HapticSettings& to) {
   using Take = void (*)(HapticSettings&, const HapticSettings&);
   constexpr std::pair<const char*, Take> kChanges[] = {
-      {"Change the springs", [](auto& a, const auto& b) { a.springs = b.springs; }},
-      {"Change the margin", [](auto& a, const auto& b) { a.proxy.margin = b.proxy.margin; }},
-      {"Change the friction", [](auto& a, const auto& b) { a.proxy.friction = b.proxy.friction; }},
-      {"Change the coupling", [](auto& a, const auto& b) { a.coupling = b.coupling; }},
-      {"Change the weight settings", [](auto& a, const auto& b) { a.weight = b.weight; }},
-      {"Change the workspace scale", [](auto& a, const auto& b) { a.mapping.scale = b.mapping.scale; }},
-      {"Change the locked axes",
+      {"Feel settings: springs", [](auto& a, const auto& b) { a.springs = b.springs; }},
+      {"Feel settings: margin", [](auto& a, const auto& b) { a.proxy.margin = b.proxy.margin; }},
+      {"Feel settings: friction", [](auto& a, const auto& b) { a.proxy.friction = b.proxy.friction; }},
+      {"Feel settings: coupling", [](auto& a, const auto& b) { a.coupling = b.coupling; }},
+      {"Feel settings: weight", [](auto& a, const auto& b) { a.weight = b.weight; }},
+      {"Feel settings: scale", [](auto& a, const auto& b) { a.mapping.scale = b.mapping.scale; }},
+      {"Feel settings: locked axes",
        [](auto& a, const auto& b) {
          a.mapping.translationLocks = b.mapping.translationLocks;
          a.mapping.rotationLocks = b.mapping.rotationLocks;
        }},
   };
-  if (from.mode != to.mode) return "Change the mode";
+  if (from.mode != to.mode) return "Feel settings: mode";
   for (const auto& [label, take] : kChanges) {
     HapticSettings changed = from;
     take(changed, to);
     if (changed == to) return label;
   }
-  return "Change the feel settings";
+  return "Feel settings";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMessageBox>
+#include <QPushButton>
 #include <utility>
 
 #include "core/base/error.h"
@@ -22,17 +23,26 @@ constexpr double kReading = 0.45;  ///< Share of loading spent on reading; the r
 
 const QString kSceneSuffix = QStringLiteral("nearfit");
 
-QString meshFilter() {
+QString meshPatterns() {
   QStringList patterns;
   for (const std::string& extension : importableExtensions()) {
     const QString suffix = QString::fromStdString(extension);
     patterns << QStringLiteral("*.") + suffix << QStringLiteral("*.") + suffix.toUpper();
   }
-  return QObject::tr("Meshes (%1);;All files (*)").arg(patterns.join(' '));
+  return patterns.join(' ');
+}
+
+QString meshFilter() {
+  return QObject::tr("Meshes (%1);;All files (*)").arg(meshPatterns());
 }
 
 QString sceneFilter() {
   return QObject::tr("Nearfit scenes (*.%1)").arg(kSceneSuffix);
+}
+
+QString openFilter() {
+  const QString both = QObject::tr("Scenes and meshes (*.%1 %2)").arg(kSceneSuffix, meshPatterns());
+  return both + QStringLiteral(";;") + sceneFilter() + QStringLiteral(";;") + meshFilter();
 }
 
 /// Stands for a file name in a failure that concerns all files.
@@ -109,6 +119,10 @@ bool Document::mayLeaveScene() {
   box.setObjectName(QStringLiteral("unsavedBox"));
   box.setInformativeText(tr("Save them first?"));
   box.setDefaultButton(QMessageBox::Save);
+  // Qt's own texts have no keys.
+  box.button(QMessageBox::Save)->setText(tr("&Save"));
+  box.button(QMessageBox::Discard)->setText(tr("&Discard"));
+  box.button(QMessageBox::Cancel)->setText(tr("&Cancel"));
   switch (box.exec()) {
     case QMessageBox::Save:
       return save();
@@ -124,9 +138,9 @@ void Document::newScene() {
 }
 
 void Document::askAndOpen() {
-  const QString file =
-      QFileDialog::getOpenFileName(window_, tr("Open scene"), Preferences::lastFolder(), sceneFilter());
-  if (!file.isEmpty()) openScene(file);
+  const QStringList files =
+      QFileDialog::getOpenFileNames(window_, tr("Open"), Preferences::lastFolder(), openFilter());
+  if (!files.isEmpty()) dropFiles(files);
 }
 
 void Document::openScene(const QString& file) {

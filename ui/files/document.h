@@ -40,7 +40,7 @@ class Document : public SceneWork {
 
   /// Starts an empty scene after asking about unsaved changes.
   void newScene();
-  /// Lets the user choose a scene, then calls openScene().
+  /// Lets the user choose a scene or meshes, then opens them as dropFiles() does.
   void askAndOpen();
   /// Opens a scene after asking about unsaved changes. Does nothing while busy.
   void openScene(const QString& file);

@@ -35,8 +35,8 @@ FileCommands::FileCommands(const Context& context, QWidget* window)
 void FileCommands::makeActions() {
   newScene = makeAction(this, "newScene", tr("&New scene"), QStringLiteral("new"), QKeySequence::New,
                         tr("Start an empty scene"));
-  open = makeAction(this, "open", tr("&Open scene…"), QStringLiteral("open"), QKeySequence::Open,
-                    tr("Open a scene (*.nearfit) in place of this one"));
+  open = makeAction(this, "open", tr("&Open…"), QStringLiteral("open"), QKeySequence::Open,
+                    tr("Open a scene (*.nearfit) in place of this one, or add meshes to it"));
   openDemo = makeAction(this, "openDemo", tr("Open &demo"), QStringLiteral("demo"), {},
                         tr("Open the demo scene: a piston to fit into its cylinder"));
   addParts = makeAction(
@@ -75,12 +75,16 @@ void FileCommands::connectDocument() {
 }
 
 void FileCommands::setUpRecentFiles() {
-  auto* recent = new RecentFiles(recentMenu, this);
-  connect(recent, &RecentFiles::openRequested, &context_.document, &Document::openScene);
-  connect(recent, &RecentFiles::missing, this, [this](const QString& file) {
+  recent_ = new RecentFiles(recentMenu, this);
+  connect(recent_, &RecentFiles::openRequested, &context_.document, &Document::openScene);
+  connect(recent_, &RecentFiles::missing, this, [this](const QString& file) {
     emit failed({tr("This scene no longer exists."),
                  tr("Its file was moved or deleted. It was removed from the list.\n\nWhere: %1").arg(file)});
   });
+}
+
+void FileCommands::openRecent(const QString& file) {
+  if (!context_.document.isBusy()) recent_->open(file);
 }
 
 void FileCommands::setUpPartFiles() {

@@ -22,6 +22,7 @@ namespace nearfit::ui {
 class Document;
 class HandState;
 class PartFiles;
+class RecentFiles;
 class Selection;
 class Viewport;
 
@@ -46,6 +47,8 @@ class FileCommands : public QObject {
   QMenu* recentMenu;  ///< Scenes opened or saved last.
   QMenu* reloadMenu;  ///< Reads the files of parts again.
 
+  /// Opens a scene of RecentFiles::list(); no-op while something is loading.
+  void openRecent(const QString& file);
   /// Sets the scene that *Open demo* opens; empty disables the action.
   void setDemoScene(const QString& file);
   /// Opens the demo as an unnamed scene. False if there is none, the user cancels, or something is loading.
@@ -77,6 +80,7 @@ class FileCommands : public QObject {
   const Context context_;
   QWidget* window_;
   PartFiles* parts_ = nullptr;
+  RecentFiles* recent_ = nullptr;
   QString demoScene_;
   Subscription changes_;
 };

@@ -23,6 +23,8 @@ class RecentFiles : public QObject {
   static void remember(const QString& file);
   /// Removes a file from the list.
   static void forget(const QString& file);
+  /// Opens a file of the list: emits openRequested(), or missing().
+  void open(const QString& file);
 
  signals:
   /// Emitted when the user chooses a file that exists.
@@ -32,7 +34,6 @@ class RecentFiles : public QObject {
 
  private:
   void fill();
-  void open(const QString& file);
 
   QMenu* menu_;
 };

@@ -92,7 +92,9 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   setAcceptDrops(true);
   resize(1360, 860);
   new ViewFocusFrame(viewport_);
-  new WelcomeCard(session_, {files_->openDemo, shell_->tour(), files_->addParts, files_->open}, viewport_);
+  const auto* welcome = new WelcomeCard(
+      session_, {files_->openDemo, shell_->tour(), files_->addParts, files_->open}, viewport_);
+  connect(welcome, &WelcomeCard::recentWanted, files_, &FileCommands::openRecent);
   changes_ = session_.onChange(SceneEvents::Stage::View, [this] { viewport_->setScene(session_.scene()); });
   viewport_->setScene(session_.scene());
   shell_->settle();
@@ -224,7 +226,7 @@ void MainWindow::makeToolsAndMenus() {
 }
 
 void MainWindow::connectCommands() {
-  listenTo(*files_, *parts_, *feel_);
+  listenTo(*files_, *parts_, *feel_, *undo_);
   feel_->loadPresets();
   connect(feel_, &FeelControl::sceneNeeded, posePanel_, &PosePanel::commit);
   // Keys that move the hand go to whatever has the focus.

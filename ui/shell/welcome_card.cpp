@@ -1,18 +1,29 @@
 #include "ui/shell/welcome_card.h"
 
 #include <QAction>
+#include <QDir>
 #include <QEvent>
+#include <QFileInfo>
 #include <QLabel>
+#include <QLayoutItem>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <memory>
 
 #include "core/session/session.h"
+#include "ui/files/recent_files.h"
+#include "ui/widgets/names.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
+namespace {
+
+constexpr int kMaxRecent = 4;
+
+}  // namespace
 
 WelcomeCard::WelcomeCard(Session& session, const QList<QAction*>& ways, QWidget* parent)
-    : QFrame(parent), session_(session) {
+    : QFrame(parent), session_(session), recent_(new QWidget(this)), recentRows_(new QVBoxLayout(recent_)) {
   setObjectName(QStringLiteral("welcome"));
   setStyleSheet(QStringLiteral(
       "#welcome { background: rgba(255, 255, 255, 235); border: 1px solid #c9d2db; border-radius: 10px; }"));
@@ -35,15 +46,41 @@ WelcomeCard::WelcomeCard(Session& session, const QList<QAction*>& ways, QWidget*
   layout->addWidget(hint);
   for (QAction* way : ways)
     addButton(way, way == ways.constFirst());
+  recentRows_->setContentsMargins(0, 8, 0, 0);
+  recentRows_->setSpacing(2);
+  layout->addWidget(recent_);
   parent->installEventFilter(this);
-  adjustSize();
-  centre();
   changes_ = session.onChange(SceneEvents::Stage::Panels, [this] { showIfEmpty(); });
   showIfEmpty();
 }
 
 void WelcomeCard::showIfEmpty() {
-  setVisible(session_.scene().parts().empty());
+  const bool isEmpty = session_.scene().parts().empty();
+  if (isEmpty) listRecent();
+  setVisible(isEmpty);
+}
+
+void WelcomeCard::listRecent() {
+  while (std::unique_ptr<QLayoutItem> row{recentRows_->takeAt(0)})
+    delete row->widget();
+  int count = 0;
+  for (const QString& file : RecentFiles::list()) {
+    if (count == kMaxRecent) break;
+    if (!QFileInfo::exists(file)) continue;
+    if (count == 0) recentRows_->addWidget(new QLabel(tr("Recent scenes"), recent_));
+    auto* button = new QPushButton(
+        shortName(QFileInfo(file).fileName()).replace(QChar('&'), QStringLiteral("&&")), recent_);
+    button->setObjectName(QStringLiteral("recent%1").arg(++count));
+    button->setFlat(true);
+    button->setToolTip(QDir::toNativeSeparators(file));
+    // Opening it fills this list anew.
+    connect(
+        button, &QPushButton::clicked, this, [this, file] { emit recentWanted(file); }, Qt::QueuedConnection);
+    recentRows_->addWidget(button);
+  }
+  recent_->setVisible(count > 0);
+  adjustSize();
+  centre();
 }
 
 void WelcomeCard::addButton(QAction* action, bool isMain) {

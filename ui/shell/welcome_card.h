@@ -2,10 +2,12 @@
 
 #include <QFrame>
 #include <QList>
+#include <QString>
 
 #include "core/session/scene_events.h"
 
 class QAction;
+class QVBoxLayout;
 
 namespace nearfit {
 class Session;
@@ -13,7 +15,7 @@ class Session;
 
 namespace nearfit::ui {
 
-/// A card in the middle of its parent that offers ways to begin while the scene is empty.
+/// A card in the middle of its parent that offers ways to begin while the scene is empty, and the scenes opened last.
 class WelcomeCard : public QFrame {
   Q_OBJECT
 
@@ -22,15 +24,22 @@ class WelcomeCard : public QFrame {
   /// @param ways     Actions that begin something, the likeliest first.
   WelcomeCard(Session& session, const QList<QAction*>& ways, QWidget* parent);
 
+ signals:
+  /// Emitted when the user chooses a scene opened before.
+  void recentWanted(const QString& file);
+
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void addButton(QAction* action, bool isMain);
+  void listRecent();
   void showIfEmpty();
   void centre();
 
   const Session& session_;
+  QWidget* recent_;
+  QVBoxLayout* recentRows_;
   Subscription changes_;
 };
 

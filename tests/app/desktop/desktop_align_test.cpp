@@ -296,7 +296,7 @@ void DesktopAlignTest::dropsTowardsAFace() {
   QCOMPARE(d.part("moving").worldFromPart.translation.y, -0.06);
   // The upper face: straight down, and past the cube.
   click(d, {0.0, 0.0, 0.02});
-  QTRY_VERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("Nothing is in the way")));
+  QTRY_VERIFY(d.window().statusBar()->currentMessage().contains(QStringLiteral("Nothing in that direction")));
   d.choose("dropBack");
   QTRY_VERIFY(d.part("moving").worldFromPart.translation.y > -0.0301);
   QVERIFY(d.part("moving").worldFromPart.translation.y < -0.03);
@@ -319,7 +319,7 @@ void DesktopAlignTest::saysWhenNothingIsInTheWayOrPartsOverlap() {
   const std::string undo = d.session().undoText();
   d.choose("dropUp");
   QTRY_VERIFY(
-      d.window().statusBar()->currentMessage().contains(QStringLiteral("Nothing is in the way of moving")));
+      d.window().statusBar()->currentMessage().contains(QStringLiteral("Nothing in that direction; moving")));
   QCOMPARE(d.session().undoText(), undo);
   d.session().movePart(d.partId("moving"), {{1, 0, 0, 0}, {0.0, 0.0, -0.01}});
   d.choose("dropDown");

@@ -16,6 +16,7 @@ void answerUnsaved(QMessageBox::StandardButton answer, bool& wasAsked) {
   wasAsked = false;
   whenModal<QMessageBox>([answer, &wasAsked](QMessageBox* box) {
     QCOMPARE(box->objectName(), QStringLiteral("unsavedBox"));
+    QVERIFY2(box->button(answer)->text().startsWith(QChar('&')), "it has a key");
     wasAsked = true;
     QTest::mouseClick(box->button(answer), Qt::LeftButton);
   });
@@ -28,6 +29,8 @@ class DesktopFilesTest : public QObject {
 
  private slots:
   void emptySceneOffersTheDemo();
+  void emptySceneOffersTheScenesOpenedLast();
+  void openTakesMeshesToo();
   void savesAndOpensTheSameScene();
   void savingKeepsThePoseInHand();
   void savingKeepsANumberThatIsStillBeingTyped();
@@ -46,6 +49,42 @@ void DesktopFilesTest::emptySceneOffersTheDemo() {
   QVERIFY(d.widget<QPushButton>("openDemoButton")->isEnabled());
   d.addCubes();
   QVERIFY(!d.widget<QWidget>("welcome")->isVisible());
+}
+
+void DesktopFilesTest::emptySceneOffersTheScenesOpenedLast() {
+  QSettings().remove(QStringLiteral("files/recent"));
+  DesktopDriver d;
+  QVERIFY(d.widget<QPushButton>("recent1") == nullptr);
+  d.addCubes();
+  const QString file = QString::fromStdString((d.folder.path() / "last.nearfit").string());
+  whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, file); });
+  pressShortcut(d, Qt::Key_S, Qt::ControlModifier);
+  QTRY_VERIFY(QFile::exists(file));
+  d.choose("newScene");
+  auto* recent = d.widget<QPushButton>("recent1");
+  QVERIFY(recent != nullptr && recent->isVisible());
+  QCOMPARE(recent->text(), QStringLiteral("last.nearfit"));
+  QTest::mouseClick(recent, Qt::LeftButton);
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QVERIFY(!d.widget<QWidget>("welcome")->isVisible());
+}
+
+/// It listed scenes alone.
+void DesktopFilesTest::openTakesMeshesToo() {
+  DesktopDriver d;
+  whenModal<QFileDialog>([&](QFileDialog* dialog) {
+    QVERIFY2(dialog->nameFilters().constFirst().contains(QStringLiteral("*.stl")),
+             qPrintable(dialog->nameFilters().constFirst()));
+    whenModal<QDialog>(
+        [](QDialog* question) {
+          QTest::mouseClick(question->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok),
+                            Qt::LeftButton);
+        },
+        QStringLiteral("unitDialog"));
+    chooseFile(dialog, d.fixedFile);
+  });
+  pressShortcut(d, Qt::Key_O, Qt::ControlModifier);
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
 }
 
 void DesktopFilesTest::savesAndOpensTheSameScene() {

@@ -84,7 +84,7 @@ void DesktopPresetsTest::oneIsChosenAsOneStepOfUndoAndShownInBothPlaces() {
   const HapticSettings stiff = f.settings();
   f.choose(f.panel(), QStringLiteral("Medium"));
   QCOMPARE(f.d.session().historyIndex(), before + 1);
-  QCOMPARE(QString::fromStdString(f.d.session().undoText()), QStringLiteral("Use the feel preset Medium"));
+  QCOMPARE(QString::fromStdString(f.d.session().undoText()), QStringLiteral("Feel settings: preset Medium"));
   QVERIFY(f.settings() == withPreset(stiff, usualFeelPresets()[1]));
   f.openDialog();
   QCOMPARE(f.dialog()->currentText(), QStringLiteral("Medium"));

@@ -226,7 +226,7 @@ void DesktopProxyTest::scriptedHandBeginsAgainInAnotherMode() {
   QTRY_VERIFY(watch.newest.tick > 2000);
   QVERIFY2(watch.least > 0.1 * kMargin, "springs are not pushed through");
   QVERIFY2(watch.newest.proxy.translation.z < -0.0045, "it begins where the part is");
-  QCOMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Change the mode"));
+  QCOMPARE(QString::fromStdString(d.session().undoText()), QStringLiteral("Feel settings: mode"));
 }
 
 /// Stop wiped the numbers that it was pressed for.

@@ -233,7 +233,7 @@ void FeelControl::change(const HapticSettings& edited, const QString& label) {
 }
 
 void FeelControl::usePreset(const HapticSettings& preset, const QString& name) {
-  change(preset, tr("Use the feel preset %1").arg(name));
+  change(preset, tr("Feel settings: preset %1").arg(name));
 }
 
 }  // namespace nearfit::ui

@@ -36,11 +36,15 @@ UndoActions::UndoActions(Session& session, const SceneWork& work, QObject* paren
   redo->setShortcuts({QKeySequence(QStringLiteral("Ctrl+Shift+Z")), QKeySequence(QStringLiteral("Ctrl+Y"))});
   connect(undo, &QAction::triggered, this, [this] {
     emit sceneNeeded();
+    const QString step = shortName(session_.undoText());
     session_.undo();
+    if (!step.isEmpty()) emit noted(tr("Undone: %1").arg(step));
   });
   connect(redo, &QAction::triggered, this, [this] {
     emit sceneNeeded();
+    const QString step = shortName(session_.redoText());
     session_.redo();
+    if (!step.isEmpty()) emit noted(tr("Redone: %1").arg(step));
   });
   // They must work from the feel settings too, which stay open beside the window.
   for (QAction* action : {undo, redo})

@@ -25,6 +25,8 @@ class UndoActions : public QObject {
   QAction *undo, *redo;
 
  signals:
+  /// Emitted with a short note for the status bar: what was undone or redone.
+  void noted(const QString& text);
   /// Emitted before a step is taken back or repeated: a move that is still settling becomes a step first.
   void sceneNeeded();
 

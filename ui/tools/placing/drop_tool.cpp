@@ -33,8 +33,8 @@ const Way kWays[] = {{"Down", QT_TRANSLATE_NOOP("DropTool", "&Down (−Z)"), {0,
                      {"Up", QT_TRANSLATE_NOOP("DropTool", "&Up (+Z)"), {0, 0, 1}},
                      {"Left", QT_TRANSLATE_NOOP("DropTool", "&Left (−X)"), {-1, 0, 0}},
                      {"Right", QT_TRANSLATE_NOOP("DropTool", "&Right (+X)"), {1, 0, 0}},
-                     {"Front", QT_TRANSLATE_NOOP("DropTool", "To the &front (−Y)"), {0, -1, 0}},
-                     {"Back", QT_TRANSLATE_NOOP("DropTool", "To the &back (+Y)"), {0, 1, 0}}};
+                     {"Front", QT_TRANSLATE_NOOP("DropTool", "&Front (−Y)"), {0, -1, 0}},
+                     {"Back", QT_TRANSLATE_NOOP("DropTool", "&Back (+Y)"), {0, 1, 0}}};
 
 QString nameOf(const Scene& scene, PartId part) {
   const Part* found = scene.find(part);
@@ -48,7 +48,7 @@ QString overlapText(const QString& name, const QString& against) {
 }
 
 QString freeWayText(const QString& name) {
-  return DropTool::tr("Nothing is in the way of %1 in that direction: it stays where it is.").arg(name);
+  return DropTool::tr("Nothing in that direction; %1 was not moved.").arg(name);
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ QMenu* DropTool::makeMenu(Kind kind) {
   }
   if (isDrop) actions_[0]->setShortcut(QKeySequence(Qt::Key_D));
   menu->addSeparator();
-  connect(add(QStringLiteral("ToFace"), tr("Towards a &face…")), &QAction::triggered, this,
+  connect(add(QStringLiteral("ToFace"), tr("Towards a fa&ce…")), &QAction::triggered, this,
           [this, kind] { askForFace(kind); });
   return menu;
 }
