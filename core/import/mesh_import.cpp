@@ -57,7 +57,7 @@ void refuseForeignFormats(const ReaderInput& input, std::string_view text) {
                 "it is compressed (xz)", "unpack it with unxz first"},
       Signature{"PK\x03\x04", "it is an archive (zip, 3MF), which Nearfit does not read",
                 "unpack it, or export STL, OBJ, PLY or OFF"},
-      Signature{"ISO-10303-21", "it is a STEP file, which Nearfit does not read", kExportMesh},
+      Signature{"ISO-10303-21", "STEP isn't supported", kExportMesh},
       Signature{"glTF", "it is a glTF file, which Nearfit does not read", kExportMesh},
       Signature{"{", "it is a JSON or glTF file, which Nearfit does not read", kExportMesh},
       Signature{"<", "it is an XML file, which Nearfit does not read", kExportMesh},

@@ -7,6 +7,7 @@
 #include <QSet>
 #include <QSettings>
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -56,6 +57,12 @@ std::exception_ptr problemOf(const LoadedPart& loaded, const std::filesystem::pa
 /// Returns "1000" or "25.4".
 QString times(double factor) {
   return QLocale().toString(factor, 'g', factor >= 100.0 ? 4 : 3);
+}
+
+/// Returns "about 14,000".
+QString about(double ratio) {
+  const double power = std::pow(10.0, std::floor(std::log10(ratio)) - 1.0);
+  return PartFiles::tr("about %1").arg(QLocale().toString(power * std::round(ratio / power), 'f', 0));
 }
 
 }  // namespace
@@ -219,7 +226,7 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, con
     if (!problems.isEmpty())
       emit failed(describeItems(failure, problems));
     else
-      emit noted(renewed.empty() ? tr("No file has changed") : tr("Undo reverts this change"));
+      emit noted(renewed.empty() ? tr("No file has changed") : tr("Undo to revert"));
   });
 }
 
@@ -241,7 +248,7 @@ void PartFiles::offerRescale(const std::vector<PartId>& parts, double ratio, dou
                                    : tr("%1 %2 times smaller than the other parts. Is the unit right?");
   const QString offer = factor > 1.0 ? tr("Make %1 times larger").arg(times(factor))
                                      : tr("Make %1 times smaller").arg(times(1.0 / factor));
-  notices_.offer(kRescaleNotice, text.arg(what, times(ratio > 1.0 ? ratio : 1.0 / ratio)),
+  notices_.offer(kRescaleNotice, text.arg(what, about(ratio > 1.0 ? ratio : 1.0 / ratio)),
                  {{offer, [this, parts, factor] { rescale(parts, factor); }}});
 }
 

@@ -13,7 +13,7 @@ QString nameOf(FeelMode mode) {
     case FeelMode::LinearSprings:
       return QObject::tr("Springs, linear");
     case FeelMode::PrintedSprings:
-      return QObject::tr("Springs, as printed");
+      return QObject::tr("Springs, quadratic (paper formula)");
     case FeelMode::Proxy:
       break;
   }

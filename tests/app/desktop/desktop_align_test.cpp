@@ -71,7 +71,7 @@ void DesktopAlignTest::alignsTwoFacesByTwoClicksAsOneStepOfUndo() {
   begin(d);
   const RigidTransform before = d.part("moving").worldFromPart;
   click(d, {0.003, kMovingFront, 0.036});
-  QVERIFY(d.text("alignPrompt").contains(QStringLiteral("align it with")));
+  QVERIFY(d.text("alignPrompt").contains(QStringLiteral("Click the target")));
   click(d, {-0.01, kFixedFront, 0.005});
   QVERIFY(d.widget<QPushButton>("alignApply")->isEnabled());
   keepPictures(d.window(), QStringLiteral("align"));

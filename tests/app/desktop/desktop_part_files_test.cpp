@@ -290,7 +290,8 @@ void DesktopPartFilesTest::aPartThatIsTooLargeIsCalledOutToo() {
   d.add({writeOff(d.folder.path() / "huge.off", boxMesh(glm::dvec3(30.0)))});
   QTRY_VERIFY(choice(d, "notice-rescale", "choice1") != nullptr);
   const auto* text = d.widget<QWidget>("notice-rescale")->findChild<QLabel*>(QStringLiteral("noticeText"));
-  QVERIFY2(text->text().contains(QStringLiteral("times larger than the other parts")),
+  QVERIFY2(text->text().contains(QStringLiteral("about")) &&
+               text->text().contains(QStringLiteral("times larger than the other parts")),
            qPrintable(text->text()));
   QCOMPARE(choice(d, "notice-rescale", "choice1")->text().remove(QChar(',')),
            QStringLiteral("Make 1000 times smaller"));

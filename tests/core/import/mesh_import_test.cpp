@@ -382,7 +382,7 @@ TEST_F(MeshImport, FaultsAreNamedWithTheirPlace) {
       {"x.stl", "", "x.stl", "is empty"},
       {"x.xyz", "hello\n", "x.xyz", "Nearfit does not read"},
       {"x.ply.gz", "\x1f\x8b\x08", "x.ply.gz", "compressed"},
-      {"x.stl", "ISO-10303-21;\n", "x.stl", "STEP file, which Nearfit does not read"},
+      {"x.stl", "ISO-10303-21;\n", "x.stl", "STEP isn't supported"},
       {"x.glb", "glTF\x02", "x.glb", "glTF file, which Nearfit does not read"},
       {"x.gltf", "{}", "x.gltf", "glTF file, which Nearfit does not read"},
       {"x.3mf", "PK\x03\x04", "x.3mf", "Nearfit does not read"},

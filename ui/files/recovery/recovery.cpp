@@ -67,8 +67,8 @@ RecoveryDialog::RecoveryDialog(const std::vector<LostWork>& lost, QWidget* paren
   setAttribute(Qt::WA_DeleteOnClose);
   setWindowModality(Qt::WindowModal);
   auto* layout = new QVBoxLayout(this);
-  layout->addWidget(plainLabel(tr("Nearfit ended before this work was saved. Work that you leave for later "
-                                  "is offered again at the next start."),
+  layout->addWidget(plainLabel(tr("Nearfit ended before this work was saved. Items left for later are "
+                                  "offered at next start."),
                                this));
   auto* list = new QWidget(this);
   list->setLayout(rows_);

@@ -70,7 +70,7 @@ void SpringPage::refresh() {
   for (QWidget* widget : {static_cast<QWidget*>(printed_), static_cast<QWidget*>(printedLabel_)})
     widget->setVisible(!isLinear);
   const DeviceLimits& device = basis_.device;
-  limits_->setText(tr("Enforced limits of the device: at most %1 N and %2 N·m, changing by at most %3 N/s "
+  limits_->setText(tr("Device limits: at most %1 N and %2 N·m, changing by at most %3 N/s "
                       "and %4 N·m/s. Energy that the hand receives beyond what it gave is damped away.")
                        .arg(formatNumber(device.maxForce), formatNumber(device.maxTorque),
                             formatNumber(device.forceSlew), formatNumber(device.torqueSlew)));
@@ -87,8 +87,8 @@ void SpringPage::showBound() {
   const double each = most / (std::max(count, 1.0) * (isLinear ? 1.0 : springs.cutoff));
   const QString unit = isLinear ? tr(" N/m") : tr(" N/m²");
   QString text =
-      tr("Not enforced: a bound on the stiffness of all springs together. Along one line they are passive "
-         "with any hand up to %1 N/m, at a period of %2 and the device's damping of %3 N·s/m")
+      tr("Advisory limit on the stiffness of all springs together: along one line they are stable with any "
+         "hand up to %1 N/m, at a period of %2 and the device's damping of %3 N·s/m")
           .arg(formatNumber(most), formatDuration(basis_.period), formatNumber(device.damping));
   const bool isKnown = basis_.springs && *basis_.springs > 0;
   text += isKnown ? tr("; shared by the springs of all minima, now %n: %1%2 each.", nullptr,
@@ -153,7 +153,7 @@ WorkspacePage::WorkspacePage(QWidget* parent) : FeelPage(parent) {
   locks_ = new LocksPage({}, this);
   connect(locks_, &FeelPage::edited, this, &WorkspacePage::change);
   QLabel* note = addNote();
-  note->setText(tr("The manual hand moves in the scene itself: only the locks apply to it."));
+  note->setText(tr("Scale and orientation don't affect the manual hand; axis locks do."));
   auto* scaleRow = new QFormLayout;
   scaleRow->addRow(tr("Scale"), scale);
   auto* layout = new QVBoxLayout(this);
@@ -161,7 +161,7 @@ WorkspacePage::WorkspacePage(QWidget* parent) : FeelPage(parent) {
   layout->addWidget(new QLabel(tr("Orientation of the device"), this));
   layout->addLayout(axisRow(angleFields_));
   layout->addSpacing(6);
-  layout->addWidget(new QLabel(tr("Allowed motions along the world's axes"), this));
+  layout->addWidget(new QLabel(tr("Allowed motion"), this));
   layout->addWidget(locks_);
   layout->addSpacing(6);
   layout->addWidget(note);

@@ -166,7 +166,7 @@ void FeelPanel::setUpReadouts() {
   distance_ = felt_->add(tr("Min distance"), "distance");
   minima_ = felt_->add(tr("Local minima"), "minima");
   contacts_ = felt_->add(tr("Contacts"), "contacts", tr("Minima that hold the part"));
-  lead_ = felt_->add(tr("Hand ahead"), "lead", tr("Distance from the part to where the hand wants it"));
+  lead_ = felt_->add(tr("Hand offset"), "lead", tr("Distance from the part to where the hand wants it"));
   energy_ = felt_->add(tr("Energy to hand"), "energy",
                        tr("Energy given to the hand since the start, less what came back"));
   clamped_ = felt_->addNote("clamped", colours::kForce);

@@ -15,7 +15,7 @@ namespace nearfit::ui {
 LocksPage::LocksPage(const QString& prefix, QWidget* parent)
     : FeelPage(parent), freedom_(new QComboBox(this)) {
   freedom_->setObjectName(prefix + QStringLiteral("freedom"));
-  freedom_->setAccessibleName(tr("Allowed motions"));
+  freedom_->setAccessibleName(tr("Allowed motion"));
   freedom_->setToolTip(tr("Motions of the hand that the part follows; also applies to the manual hand"));
   freedom_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   // In the order of MotionFreedom.
@@ -41,8 +41,8 @@ QGridLayout* LocksPage::makeLocks(const QString& prefix) {
   auto* locks = new QGridLayout;
   locks->setHorizontalSpacing(8);
   locks->setVerticalSpacing(4);
-  locks->addWidget(new QLabel(tr("No move along"), this), 0, 0);
-  locks->addWidget(new QLabel(tr("No turn about"), this), 1, 0);
+  locks->addWidget(new QLabel(tr("Lock"), this), 0, 0);
+  locks->addWidget(new QLabel(tr("Lock rotation"), this), 1, 0);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const QString& name = axes[axis];
     const int column = static_cast<int>(axis) + 1;

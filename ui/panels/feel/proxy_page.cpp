@@ -139,10 +139,11 @@ void ProxyPage::refresh() {
           {state.rotationalStiffness, state.rotationalDamping,
            stiffnessBound(device.rotationalDamping, state.rotationalDamping, basis_.period),
            kMaxDampingShare * device.rotationalDamping, wish.rotationalStiffness, wish.rotationalDamping});
-  reason_->setText(
-      tr("Limits for passivity at a period of %1 with the device's damping of %2 N·s/m and %3 N·m·s/rad.")
-          .arg(formatDuration(basis_.period), formatNumber(device.damping),
-               formatNumber(device.rotationalDamping)));
+  const QString period = basis_.inForce ? tr("Stability limit at the measured %1 servo period,")
+                                        : tr("Stability limit at a servo period of %1,");
+  reason_->setText((period + QChar(' ') + tr("with the device's damping of %2 N·s/m and %3 N·m·s/rad."))
+                       .arg(formatDuration(basis_.period), formatNumber(device.damping),
+                            formatNumber(device.rotationalDamping)));
 }
 
 void ProxyPage::showRow(const Row& row, const Line& line) {

@@ -211,7 +211,7 @@ void ViewActions::setUpDrawing() {
       tr("Draw each local minimum distance while a part is in hand"));
   add(&Viewport::setContactsVisible, "contacts", tr("C&ontacts"), QStringLiteral("contacts"),
       tr("Mark where the part in hand touches"));
-  add(&Viewport::setHandVisible, "handGhost", tr("&Hand ahead of the part"), QStringLiteral("ghost"),
+  add(&Viewport::setHandVisible, "handGhost", tr("&Hand offset"), QStringLiteral("ghost"),
       tr("Draw where the hand wants a part that is held by contact"));
   add(&Viewport::setWrenchVisible, "wrench", tr("Force and torque &arrows"), QStringLiteral("wrench-arrows"),
       tr("Draw the felt force and torque as arrows"));

@@ -245,7 +245,7 @@ void MeasureTool::tell(const QString& hint) {
   const QString prompt = to_     ? tr("From %1 to %2").arg(from_->name, to_->name)
                          : from_ ? tr("Click what to measure to")
                                  : tr("Click a corner, edge, circle or face to measure from");
-  const QString idle = to_     ? tr("Click to start a new measurement; Escape ends")
+  const QString idle = to_     ? tr("Click to start a new measurement; Esc exits")
                        : from_ ? tr("From %1").arg(from_->name)
                                : tr("Drags still orbit; Escape ends");
   bar_->showPrompt(prompt, hint.isEmpty() ? idle : hint);

@@ -278,13 +278,13 @@ void AlignTool::apply() {
 
 QString AlignTool::prompt() const {
   if (!moving_) return tr("Click a face, axis or point of the part to move");
-  if (!fixed_) return tr("Click the face, axis or point to align it with");
+  if (!fixed_) return tr("Click the target");
   return tr("%1 to %2")
       .arg(describeFeature(moving_->picked.feature), describeFeature(fixed_->picked.feature).toLower());
 }
 
 void AlignTool::tell(const QString& hint) {
-  const QString idle = !moving_  ? tr("Locked parts stay; selected parts move together")
+  const QString idle = !moving_  ? tr("Locked parts don't move; selected parts move together")
                        : !fixed_ ? tr("%1 of %2")
                                        .arg(describeFeature(moving_->picked.feature),
                                             shortName(session_.scene().find(moving_->part)->name))

@@ -30,7 +30,7 @@ RigidTransform stepped(const RigidTransform& worldFromPart, const glm::dvec3& sh
 HandControl::HandControl(const Context& context, QObject* parent)
     : QObject(parent),
       context_(context),
-      letGo_(makeAction(this, "letGo", tr("&Let go"), QStringLiteral("hand-off"), Qt::Key_F7,
+      letGo_(makeAction(this, "letGo", tr("Return &hand to part"), QStringLiteral("hand-off"), Qt::Key_F7,
                         tr("Move the manual hand back to the part, so that it no longer presses"))) {
   // It must work from the feel settings too, which stay open beside the window.
   letGo_->setShortcutContext(Qt::ApplicationShortcut);

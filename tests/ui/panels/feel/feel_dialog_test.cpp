@@ -248,7 +248,7 @@ void FeelDialogTest::springsTellWhatIsEnforcedAndWhatIsNot() {
               .contains(QStringLiteral("at most 8 N and 0.5 N·m, changing by at most 1600 N/s "
                                        "and 100 N·m/s")));
   // 2 b / T, in all.
-  QVERIFY(note("springBound").startsWith(QStringLiteral("Not enforced")));
+  QVERIFY(note("springBound").startsWith(QStringLiteral("Advisory limit")));
   QVERIFY2(note("springBound").contains(QStringLiteral("up to 3000 N/m, at a period of 1.00 ms")),
            qPrintable(note("springBound")));
   QVERIFY(!note("springBound").contains(QStringLiteral("now")));
