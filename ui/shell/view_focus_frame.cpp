@@ -9,7 +9,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr int kWidth = 2;  ///< [pixels]
+constexpr int kEdgeWidth = 2;  ///< [pixels]
 
 }  // namespace
 
@@ -51,10 +51,10 @@ void ViewFocusFrame::setShown(bool isShown) {
 
 void ViewFocusFrame::place() {
   const int width = view_->width(), height = view_->height();
-  edges_[0]->setGeometry(0, 0, width, kWidth);
-  edges_[1]->setGeometry(0, height - kWidth, width, kWidth);
-  edges_[2]->setGeometry(0, 0, kWidth, height);
-  edges_[3]->setGeometry(width - kWidth, 0, kWidth, height);
+  edges_[0]->setGeometry(0, 0, width, kEdgeWidth);
+  edges_[1]->setGeometry(0, height - kEdgeWidth, width, kEdgeWidth);
+  edges_[2]->setGeometry(0, 0, kEdgeWidth, height);
+  edges_[3]->setGeometry(width - kEdgeWidth, 0, kEdgeWidth, height);
 }
 
 }  // namespace nearfit::ui

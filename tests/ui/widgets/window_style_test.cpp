@@ -53,7 +53,7 @@ QWidget* shownTooltip() {
   return nullptr;
 }
 
-QImage drawn(const QIcon& icon, QIcon::Mode mode, const QColor& ground) {
+QImage iconDrawn(const QIcon& icon, QIcon::Mode mode, const QColor& ground) {
   QImage image(24, 24, QImage::Format_RGB32);
   image.fill(ground);
   QPainter painter(&image);
@@ -137,8 +137,8 @@ void WindowStyleTest::disabledIconsAreFaintInBothThemes() {
   const QColor ground = QApplication::palette().color(QPalette::Window);
   for (const char* name : {"hand", "stop", "start"}) {
     const QIcon icon = ui::icon(QLatin1String(name));
-    const double usable = bestContrast(drawn(icon, QIcon::Normal, ground), ground) - 1.0;
-    const double disabled = bestContrast(drawn(icon, QIcon::Disabled, ground), ground) - 1.0;
+    const double usable = bestContrast(iconDrawn(icon, QIcon::Normal, ground), ground) - 1.0;
+    const double disabled = bestContrast(iconDrawn(icon, QIcon::Disabled, ground), ground) - 1.0;
     QVERIFY2(disabled > 0.1, name);
     QVERIFY2(disabled < 0.5 * usable,
              qPrintable(QStringLiteral("%1: %2 of %3").arg(QLatin1String(name)).arg(disabled).arg(usable)));

@@ -34,7 +34,7 @@ FeelingView::FeelingView(Viewport& view, QWidget* window)
 void FeelingView::setUpQualities() {
   quality_->setObjectName(QStringLiteral("qualityMenu"));
   auto* group = new QActionGroup(quality_);
-  const QString kept = QSettings().value(kQuality).toString();
+  const QString stored = QSettings().value(kQuality).toString();
   const auto add = [&](FeelQuality quality, const QString& word, const QString& text,
                        const QString& toolTip) {
     QAction* action = quality_->addAction(text);
@@ -47,7 +47,7 @@ void FeelingView::setUpQualities() {
       view_.detail().setFeelQuality(quality);
       view_.requestRender();
     });
-    if (kept != word && (quality != FeelQuality::Balanced || group->checkedAction() != nullptr)) return;
+    if (stored != word && (quality != FeelQuality::Balanced || group->checkedAction() != nullptr)) return;
     action->setChecked(true);
     view_.detail().setFeelQuality(quality);
   };
