@@ -103,7 +103,7 @@ void MeasureBar::showPrompt(const QString& prompt, const QString& hint) {
 }
 
 void MeasureBar::showMeasurement(const std::optional<Measurement>& measurement, LengthUnit unit) {
-  std::array<QString, 6> texts;
+  std::array<QString, 8> texts;
   if (measurement) {
     const int decimals = decimalsOf(*measurement, unit);
     const glm::dvec3 way = measurement->to - measurement->from;

@@ -68,8 +68,8 @@ ColourLegend::ColourLegend(QWidget* parent) : QWidget(parent) {
 }
 
 QPoint ColourLegend::room() const {
-  const QSize free = parentWidget()->size() - size() - QSize(2 * kMargin, 2 * kMargin);
-  return {std::max(free.width(), 0), std::max(free.height(), 0)};
+  const QSize spare = parentWidget()->size() - size() - QSize(2 * kMargin, 2 * kMargin);
+  return {std::max(spare.width(), 0), std::max(spare.height(), 0)};
 }
 
 void ColourLegend::place() {
