@@ -23,8 +23,8 @@ std::uint64_t nextSerial() noexcept {
 }
 
 /// Max pairs of a list of triangles, and max work to find them, some 1.5 ms.
-constexpr std::size_t kMaxTriangles = std::size_t{1} << 12;
-constexpr std::uint64_t kMaxTriangleWork = std::uint64_t{1} << 14;
+constexpr std::size_t kMaxListedTriangles = std::size_t{1} << 12;
+constexpr std::uint64_t kMaxListingWork = std::uint64_t{1} << 14;
 /// Room for motion that a list of triangles has at least, if it can be made, and below which none is made [reaches].
 constexpr double kUsualTriangleRoom = 8.0, kLeastTriangleRoom = 1.0;
 /// Share of that room that must be left at a pose, and for a part that is starved.
@@ -254,8 +254,8 @@ std::shared_ptr<const TriangleList> SceneTracker::renewedTriangles(
   for (;; share *= 0.5) {
     const double within = reach.contact + std::max(least, share * room);
     list->build(*scene.bodies[body].surface, *scene.moving.surface,
-                pairOf(body).queryAt(plan.pose, within).sceneFromPart, within, scratch_, kMaxTriangles,
-                kMaxTriangleWork);
+                pairOf(body).queryAt(plan.pose, within).sceneFromPart, within, scratch_, kMaxListedTriangles,
+                kMaxListingWork);
     if (list->within() >= reach.contact + least) return list;
     if (share * room <= least) return nullptr;
   }

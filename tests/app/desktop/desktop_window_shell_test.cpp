@@ -317,14 +317,15 @@ void DesktopWindowShellTest::theTreeFollowsTheTheme() {
 void DesktopWindowShellTest::theTabKeyGoesDownTheFeelPanel() {
   DesktopDriver d;
   d.addCubes();
-  auto* panel = d.widget<QWidget>("feelScroll");
+  // The panel scrolls to what has the focus: places are those in what it scrolls.
+  QWidget* panel = d.widget<QScrollArea>("feelScroll")->widget();
   auto* first = panel->findChild<QComboBox*>(QStringLiteral("hand"));
   QVERIFY(first != nullptr);
   first->setFocus();
   int lowest = 0, count = 0;
   while (QApplication::focusWidget() != nullptr && panel->isAncestorOf(QApplication::focusWidget())) {
     const QWidget* here = QApplication::focusWidget();
-    const int top = here->mapTo(&d.window(), QPoint()).y();
+    const int top = here->mapTo(panel, QPoint()).y();
     QVERIFY2(top >= lowest - here->height(), qPrintable(pathOf(here)));
     lowest = std::max(lowest, top);
     if (++count > 40) break;

@@ -42,11 +42,13 @@ TEST(TouchingBodies, EqualBoxesOnEachOtherTouch) {
 }
 
 TEST(TouchingBodies, APartInACornerTouchesBothWalls) {
-  const TriangleMesh corner = test::joined(test::boxMesh({1.0, 1.0, 0.1}, {0.0, 0.0, -0.05}),
-                                           test::boxMesh({0.1, 1.0, 1.0}, {-0.55, 0.0, 0.5}));
-  const NormalConeTree walls(corner), cube(test::boxMesh(glm::dvec3(0.25)));
-  EXPECT_TRUE(doOnlyTouch(walls, cube, at(-0.375, 0.0, 0.125), kTolerance));
-  EXPECT_FALSE(doOnlyTouch(walls, cube, at(-0.376, 0.0, 0.125), kTolerance));
+  constexpr double kHalfHole = 0.5, kEighth = 0.78539816339744831;
+  const TriangleMesh hole = test::transformed(test::tubeMesh(std::sqrt(2.0) * kHalfHole, 1.2, 1.0, 4), 1.0,
+                                              {glm::angleAxis(kEighth, glm::dvec3(0, 0, 1)), {}});
+  const NormalConeTree walls(hole), cube(test::boxMesh(glm::dvec3(0.25)));
+  const double corner = kHalfHole - 0.125 + 0.25 * kTolerance;
+  EXPECT_TRUE(doOnlyTouch(walls, cube, at(corner, corner, 0.0), kTolerance));
+  EXPECT_FALSE(doOnlyTouch(walls, cube, at(corner, corner + 1e-3, 0.0), kTolerance));
 }
 
 TEST(TouchingBodies, ATurnedCubeTouchesWithItsEdge) {
