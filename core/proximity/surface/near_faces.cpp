@@ -9,8 +9,8 @@
 namespace nearfit {
 namespace {
 
-/// Box of a child in some frame.
-struct Box {
+/// PlacedBox of a child in some frame.
+struct PlacedBox {
   glm::dvec3 centre;
   std::array<glm::dvec3, 3> axes;
   std::array<double, 3> half;
@@ -20,7 +20,7 @@ glm::dvec3 toDouble(const std::array<float, 3>& v) noexcept {
   return {v[0], v[1], v[2]};
 }
 
-Box boxOf(const NormalConeTree& tree, std::uint32_t lane, const RigidTransform& pose) noexcept {
+PlacedBox placedBoxOf(const NormalConeTree& tree, std::uint32_t lane, const RigidTransform& pose) noexcept {
   const NormalConeTree::Bound b =
       tree.nodes()[lane / NormalConeTree::kWidth].bound(lane % NormalConeTree::kWidth);
   return {pose.applyToPoint(toDouble(b.centre)),
@@ -30,7 +30,7 @@ Box boxOf(const NormalConeTree& tree, std::uint32_t lane, const RigidTransform& 
 }
 
 /// Lower bound on the distance between two boxes, along the axes of `box` [m].
-double gapAlong(const Box& box, const Box& other) noexcept {
+double gapAlong(const PlacedBox& box, const PlacedBox& other) noexcept {
   double squared = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     double reach = box.half[k];
@@ -49,7 +49,7 @@ double NearFaces::leastNotVisited() const noexcept {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < work.waitingCount; ++i) {
     const EntryPair& pair = work.waiting[i];
-    const Box scene = boxOf(scene_, pair.sceneLane, {}), part = boxOf(part_, pair.partLane, placed_.pose());
+    const PlacedBox scene = placedBoxOf(scene_, pair.sceneLane, {}), part = placedBoxOf(part_, pair.partLane, placed_.pose());
     least = std::min(least, std::max(gapAlong(scene, part), gapAlong(part, scene)));
   }
   // Single-precision axes are unit to within a few roundings.
