@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "core/haptics/spring_law.h"
 #include "core/math/finite.h"
@@ -33,6 +34,8 @@ Twist twistBetween(const RigidTransform& from, const RigidTransform& to, const g
           turnBetween(from.rotation, to.rotation) / period};
 }
 
+/// Halvings by which it is found how far what is felt may come back: to a four-thousandth of the way.
+constexpr int kReturnHalvings = 12;
 /// Ticks after which a part that is still behind is long behind.
 constexpr std::uint32_t kLongBehind = 16;
 
@@ -157,6 +160,7 @@ void ServoTick::takePose(const Tick& tick, const RigidTransform& handle) noexcep
     handle_ = {handle, {}};
     part_ = {isProxy ? tick.scene.moving.worldFromPart.normalized() : handle, {}};
     felt_ = part_;
+    isFeltAhead_ = false;
     partStep_ = {};
     partShift_ = glm::dvec3(0.0);
     proxy_.place(part_.pose);
@@ -222,8 +226,37 @@ Wrench ServoTick::feelProxy(const Tick& tick) noexcept {
     tick.snapshot.proxyTime = secondsSince(begin);
     felt = proxy_.feltPose();
   }
-  felt_ = smoothed(felt_, felt, scene.centreInPart, tick.period);
+  felt_ = smoothed(felt_, withoutLeap(tick, felt), scene.centreInPart, tick.period);
+  const RigidTransform& proved = proxy_.pose();
+  isFeltAhead_ = scene.moving.geometry != nullptr &&
+                 (felt_.pose.translation != proved.translation || felt_.pose.rotation != proved.rotation);
   return couplingWrench(coupling_, scene.metric, scene.centreInPart, handle_, felt_);
+}
+
+RigidTransform ServoTick::withoutLeap(const Tick& tick, const RigidTransform& felt) noexcept {
+  returnEnergy_ = std::min(kMaxReturnEnergy, returnEnergy_ + kReturnPower * tick.period);
+  if (!isFeltAhead_) return felt;
+  const glm::dvec3& centre = tick.scene.centreInPart;
+  const auto energyAt = [&](const RigidTransform& pose) {
+    return storedEnergy(coupling_, tick.scene.metric, centre, handle_.pose, pose, tick.limits);
+  };
+  const glm::dvec3 from = felt_.pose.applyToPoint(centre), to = felt.applyToPoint(centre);
+  const auto at = [&](double share) {
+    const glm::dquat rotation = glm::normalize(glm::slerp(felt_.pose.rotation, felt.rotation, share));
+    return RigidTransform{rotation, from + share * (to - from) - rotation * centre};
+  };
+  const double before = energyAt(felt_.pose);
+  RigidTransform taken = felt;
+  if (energyAt(felt) - before > returnEnergy_) {
+    double low = 0.0, high = 1.0;
+    for (int i = 0; i < kReturnHalvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (energyAt(at(middle)) - before > returnEnergy_ ? high : low) = middle;
+    }
+    taken = at(low);
+  }
+  returnEnergy_ -= std::clamp(energyAt(taken) - before, 0.0, returnEnergy_);
+  return taken;
 }
 
 void ServoTick::moveOn(const Subject& subject) noexcept {

@@ -56,6 +56,10 @@ class ServoTick {
   /// Work of the proxy that the wrench waits for: some 10 us. A part near some hundred pairs of features ends
   /// its way within it.
   static constexpr std::uint64_t kWorkOfFeel = 256;
+  /// Energy that what was felt ahead of the part may give the hand by coming back: at once [J], and with time [W]. A
+  /// part that was far behind finds a wall between itself and the hand, and its full push at once would be energy that
+  /// nobody put in. The first holds 5 mm at 1.6 N/mm.
+  static constexpr double kMaxReturnEnergy = 0.02, kReturnPower = 0.02;
 
   /// Computes the wrench and what it comes from; `wrench`, `deviceWrench` and `handle` are then final. show()
   /// must follow before the next feel().
@@ -103,6 +107,9 @@ class ServoTick {
   bool areBodiesPlaced(const Tick& tick) const noexcept;
   Wrench feelSprings(const Tick& tick) noexcept;
   Wrench feelProxy(const Tick& tick) noexcept;
+  /// Where the hand feels the part, if the proxy's constraints want it there: what was felt ahead of the part may come
+  /// back only as fast as that gives the hand little energy.
+  RigidTransform withoutLeap(const Tick& tick, const RigidTransform& felt) noexcept;
   /// The proxy's part of a tick, once the wrench is on its way.
   void moveOn(const Subject& subject) noexcept;
   /// Finds the minima within `share` of the cutoff and writes them to the snapshot. Adds the wrench of
@@ -128,13 +135,15 @@ class ServoTick {
   PassivityController passivity_;
   WrenchConditioner conditioner_;
 
-  BodyMotion handle_, part_;       ///< Twists are filtered.
-  BodyMotion felt_;                ///< The part as the wrench takes it: at Proxy::feltPose(), or `part_`.
-  std::uint32_t ticksBehind_ = 0;  ///< Ticks that ended before the proxy's way, one after the other.
-  double period_ = 0.0;            ///< Of the last feel() [s].
-  Twist partStep_;                 ///< Unfiltered twist of the part in the last tick.
-  glm::dvec3 partShift_{0.0};      ///< Translation of its centre in the last tick [m].
-  Wrench held_;                    ///< The wrench sent in the last tick.
+  BodyMotion handle_, part_;  ///< Twists are filtered.
+  BodyMotion felt_;           ///< The part as the wrench takes it: at Proxy::feltPose(), or `part_`.
+  bool isFeltAhead_ = false;  ///< `felt_` was not where the part was proved free.
+  double returnEnergy_ = kMaxReturnEnergy;  ///< What it may give the hand by coming back [J].
+  std::uint32_t ticksBehind_ = 0;           ///< Ticks that ended before the proxy's way, one after the other.
+  double period_ = 0.0;                     ///< Of the last feel() [s].
+  Twist partStep_;                          ///< Unfiltered twist of the part in the last tick.
+  glm::dvec3 partShift_{0.0};               ///< Translation of its centre in the last tick [m].
+  Wrench held_;                             ///< The wrench sent in the last tick.
   FeltMass mass_;
   CouplingState coupling_;
   ShownReach shownReach_;  ///< Proxy mode only.

@@ -46,6 +46,15 @@ INSTANTIATE_TEST_SUITE_P(Stress, AdversarialHand,
                            return name;
                          });
 
+// A part that may go a micrometre in a tick is left far behind, and finds a body between itself and the hand: what was
+// felt ahead of it came back at once, and gave the hand 0.2 J.
+TEST(AdversarialHandFarAway, GainsLittleWhereWhatItFeltAheadComesBack) {
+  const StressScene scene = chosenScenes(stressScenes({}), {"far-fine"}).front().make();
+  const HandRunResult result = runHand(scene, {.ticks = 120'000 / kShare, .seed = 1, .certifyEvery = 0});
+  EXPECT_FALSE(result.failure) << *result.failure;
+  EXPECT_LE(result.energyGain, kMaxEnergyGain);
+}
+
 TEST(StressServo, ANumberThatIsNoneLatchesAFaultAndThePartStays) {
   const StressScene scene = linkedRings(0.1, 1e-4);
   StressServo servo(scene.scene, {}, 1);

@@ -49,7 +49,8 @@ double NearFaces::leastNotVisited() const noexcept {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < work.waitingCount; ++i) {
     const EntryPair& pair = work.waiting[i];
-    const PlacedBox scene = placedBoxOf(scene_, pair.sceneLane, {}), part = placedBoxOf(part_, pair.partLane, placed_.pose());
+    const PlacedBox scene = placedBoxOf(scene_, pair.sceneLane, {}),
+                    part = placedBoxOf(part_, pair.partLane, placed_.pose());
     least = std::min(least, std::max(gapAlong(scene, part), gapAlong(part, scene)));
   }
   // Single-precision axes are unit to within a few roundings.
