@@ -70,10 +70,11 @@ fs::path hiddenName(const fs::path& target, unsigned serial) {
 std::optional<int> writerOf(std::string_view name) {
   if (!name.starts_with(kHiddenPrefix)) return std::nullopt;
   name.remove_prefix(kHiddenPrefix.size());
-  const char* const end = name.data() + name.size();
+  const char* const begin = name.data();
+  const char* const end = begin + name.size();
   int process = 0;
   unsigned serial = 0;
-  const auto [afterProcess, noProcess] = std::from_chars(name.data(), end, process);
+  const auto [afterProcess, noProcess] = std::from_chars(begin, end, process);
   if (noProcess != std::errc() || process <= 0 || afterProcess == end || *afterProcess != '-')
     return std::nullopt;
   const auto [afterSerial, noSerial] = std::from_chars(afterProcess + 1, end, serial);

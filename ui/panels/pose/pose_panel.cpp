@@ -62,7 +62,7 @@ void PosePanel::setUpPose(QGridLayout& layout) {
   for (int axis = 0; axis < 3; ++axis) {
     NumberField* field = makeAngle(QStringLiteral("rotation") + axes[axis], 360.0);
     field->setAccessibleName(tr("Rotation about %1").arg(axes[axis]));
-    fields_[static_cast<std::size_t>(axis + 3)] = field;
+    fields_[3 + static_cast<std::size_t>(axis)] = field;
     layout.addWidget(new QLabel(QStringLiteral("R") + axes[axis].toLower(), this), axis + 1, 2);
     layout.addWidget(field, axis + 1, 3);
   }
