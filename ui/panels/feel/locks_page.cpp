@@ -43,19 +43,22 @@ QGridLayout* LocksPage::makeLocks(const QString& prefix) {
   locks->setVerticalSpacing(4);
   locks->addWidget(new QLabel(tr("Lock"), this), 0, 0);
   locks->addWidget(new QLabel(tr("Lock rotation"), this), 1, 0);
+  // Row by row, as the Tab key goes.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const QString& name = axes[axis];
-    const int column = static_cast<int>(axis) + 1;
     QCheckBox* move = addSwitch(
         prefix + QStringLiteral("lock") + name, name, tr("The hand does not move along %1").arg(name),
         [axis](HapticSettings& s) -> bool& { return s.mapping.translationLocks[axis]; });
+    move->setAccessibleName(move->toolTip());
+    locks->addWidget(move, 0, static_cast<int>(axis) + 1);
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const QString& name = axes[axis];
     QCheckBox* turn = addSwitch(prefix + QStringLiteral("lockR") + name.toLower(), name,
                                 tr("The hand does not turn about %1").arg(name),
                                 [axis](HapticSettings& s) -> bool& { return s.mapping.rotationLocks[axis]; });
-    move->setAccessibleName(move->toolTip());
     turn->setAccessibleName(turn->toolTip());
-    locks->addWidget(move, 0, column);
-    locks->addWidget(turn, 1, column);
+    locks->addWidget(turn, 1, static_cast<int>(axis) + 1);
   }
   locks->setColumnStretch(4, 1);
   return locks;
