@@ -118,7 +118,7 @@ void removeIfEmpty(const fs::path& file) {
   if (::lstat(file.c_str(), &status) == 0 && status.st_size == 0 && isLeft(file)) ::unlink(file.c_str());
 }
 
-/// What a new file takes over from the one that it replaces.
+/// Properties that a new file inherits from the one it replaces.
 struct Permissions {
   unsigned mode = 0;
   ::gid_t group = 0;

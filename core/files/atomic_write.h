@@ -19,7 +19,7 @@ enum class Unfinished {
   Visible,
 };
 
-/// What happens to a symbolic link that has the target's name.
+/// Treatment of a symbolic link at the target's path.
 enum class Links {
   Follow,   ///< It stays, and the file that it names is replaced.
   Replace,  ///< The new file takes its place, and what it names is left alone.

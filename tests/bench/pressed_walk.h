@@ -17,7 +17,7 @@ struct PressedParts {
   double margin = 1e-4;  ///< Of the proxy [m].
 };
 
-/// What came of it, tick by tick.
+/// Poses, wrenches and times of the walk, tick by tick.
 struct PressedWalk {
   std::size_t triangles = 0;  ///< Of both meshes.
   std::shared_ptr<const ServoScene> bodies;

@@ -16,7 +16,7 @@ namespace nearfit {
 /// was built for.
 class TriangleList {
  public:
-  /// What the list holds around another pose.
+  /// The listed pairs that matter around another pose.
   struct Around {
     std::span<const TrianglePair> pairs;  ///< With `atLeast` at the list's own pose, ascending.
     double travel = 0.0;  ///< No point of the part moves farther from the list's pose to there [m].

@@ -51,6 +51,12 @@ void start(DesktopDriver& d, ui::Hand hand) {
 }
 
 /// Goes one mode on or back in the panel's list, by the keyboard.
+/// Brings the hand 3.1 mm beyond where contact stops the part.
+void pressDown(DesktopDriver& d) {
+  d.type<QDoubleSpinBox>("positionZ", "-8");
+  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+}
+
 void changeMode(DesktopDriver& d, Qt::Key key) {
   auto* mode = d.widget<QComboBox>("panelMode");
   mode->setFocus();
@@ -110,8 +116,7 @@ void DesktopProxyTest::handThatPressesSlidesThePart() {
   DesktopDriver d;
   d.addCubes();
   start(d, ui::Hand::Manual);
-  d.type<QDoubleSpinBox>("positionZ", "-8");
-  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+  pressDown(d);
   // One number is typed; the hand keeps the others, and so goes on pressing.
   d.type<QDoubleSpinBox>("positionX", "2");
   QTRY_VERIFY(isNear(value(d, "positionX"), 2.0, 1e-3));
@@ -145,8 +150,7 @@ void DesktopProxyTest::lettingGoTakesTheHandBackToThePart() {
   d.addCubes();
   QVERIFY(!d.action("letGo")->isEnabled());
   start(d, ui::Hand::Manual);
-  d.type<QDoubleSpinBox>("positionZ", "-8");
-  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+  pressDown(d);
   QTRY_VERIFY(d.text("force") != QStringLiteral("0.00 N"));
   pressShortcut(d, Qt::Key_F7);
   QTRY_COMPARE(d.text("lead"), QStringLiteral("0.00 mm"));
@@ -236,8 +240,7 @@ void DesktopProxyTest::whatWasFeltLastStaysInGreyUntilTheSceneChanges() {
   DesktopDriver d;
   d.addCubes();
   start(d, ui::Hand::Manual);
-  d.type<QDoubleSpinBox>("positionZ", "-8");
-  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+  pressDown(d);
   const auto* lead = d.widget<QLabel>("lead");
   QVERIFY(lead->isEnabled());
   pressShortcut(d, Qt::Key_F6);
@@ -258,8 +261,7 @@ void DesktopProxyTest::aChangeOfModeBringsTheHandBackToThePart() {
   d.addCubes();
   Watch watch(d);
   start(d, ui::Hand::Manual);
-  d.type<QDoubleSpinBox>("positionZ", "-8");
-  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+  pressDown(d);
   const double rest = watch.newest.proxy.translation.z;
   changeMode(d, Qt::Key_Down);
   QTRY_COMPARE(watch.returns, 1);
@@ -283,8 +285,7 @@ void DesktopProxyTest::aChangeOfHandLeavesThePartWhereItIs() {
   d.addCubes();
   Watch watch(d);
   start(d, ui::Hand::Manual);
-  d.type<QDoubleSpinBox>("positionZ", "-8");
-  QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
+  pressDown(d);
   // What it counts anew must be less, however late its first snapshot is.
   QTRY_VERIFY(watch.newest.tick > 1000);
   const double rest = watch.newest.proxy.translation.z;

@@ -123,7 +123,7 @@ TEST(AtomicWrite, LimitOnTheSizeOfFilesIsNamed) {
   }
 }
 
-/// What writing to a path is refused with; empty if it is not.
+/// Returns the message with which writing to a path is refused; empty if it is allowed.
 std::string refusal(const fs::path& file) {
   try {
     checkReplaceable(file);

@@ -83,7 +83,6 @@ TEST(InputFile, HolesCountAsNothingWritten) {
   fs::resize_file(sparse, kGiB);
   InputFile file(sparse);
   EXPECT_EQ(file.size(), kGiB);
-  if (file.writtenBytes() == kGiB) GTEST_SKIP() << "this file system does not tell of holes";
   EXPECT_LT(file.writtenBytes(), std::uint64_t{1} << 20);
   std::array<char, 3> begin{};
   EXPECT_EQ(file.read(begin), 3U);

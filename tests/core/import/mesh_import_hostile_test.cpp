@@ -266,7 +266,7 @@ TEST(MeshImportHostile, SparseFilesAreRefusedBeforeTheyAreRead) {
   for (const char* name : {"hole.stl", "hole.obj", "hole.ply", "hole.off"}) {
     const std::filesystem::path file = folder.write(name, "solid\nply\nOFF\nv 0 0 0\n");
     std::filesystem::resize_file(file, kGiB);
-    if (InputFile(file).writtenBytes() == kGiB) GTEST_SKIP() << "this file system does not tell of holes";
+    ASSERT_LT(InputFile(file).writtenBytes(), kGiB) << "the folder for temporary files must tell of holes";
     constexpr std::size_t kMemory = std::size_t{64} << 20;
     const test::LimitedOutcome outcome = test::runLimited([&] { return importOutcome(file); }, kMemory, 20);
     EXPECT_TRUE(outcome.hasEnded) << name << " signal " << outcome.signal;
@@ -278,9 +278,7 @@ TEST(MeshImportHostile, SparseFilesAreRefusedBeforeTheyAreRead) {
 TEST(MeshImportHostile, FilesLargerThanTheMemoryAreRefusedByTheirSize) {
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.write("huge.stl", "");
-  std::error_code refused;
-  std::filesystem::resize_file(file, std::uint64_t{1} << 43, refused);
-  if (refused) GTEST_SKIP() << "this file system has no files of that size";
+  std::filesystem::resize_file(file, std::uint64_t{1} << 43);
   try {
     importMesh(file, {});
     FAIL() << "no error";
