@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "core/math/rotation_vector.h"
 #include "core/proximity/query/pair_passage.h"
 
 namespace nearfit {
@@ -21,6 +22,11 @@ constexpr double kMinSlack = 0.5, kMaxSlack = 6.0;
 /// Limits that room to the travel of this many ticks at the speed of the last one, or of this many steps like
 /// the one that is tried: it reaches back to where that comes from.
 constexpr double kTicksAhead = 1.5, kStepsAhead = 4.0;
+/// Where pairs are thousands, they are gathered for the way of a step and, if the lists cover it, for so many more like
+/// it: few more are near along the way, and most near one end are near the other. They serve this far aside of it, in
+/// reaches.
+constexpr std::array kStepsOfStretch{4.0, 2.0, 1.0};
+constexpr double kAside = 0.25;
 /// Limits the room for turning: beyond it, nearly every pair of features is a candidate [rad].
 constexpr double kMaxTurn = 0.1;
 /// Max pairs of triangles held: a pass over all of them takes a twentieth of a tick's work on surfaces.
@@ -37,18 +43,19 @@ struct Level {
   std::size_t mostListed;  ///< Max pairs worth taking from lists.
 };
 /// Where there are more pairs than kManyPairs / 2, it looks no farther than a part in contact needs for steps of full
-/// length, and where there are more than kManyPairs, room costs more than gathering again. If there are too many even
-/// without room, the reach is shortened further: steps are shorter and the margin may shrink, but a part that is close to
-/// more than a tick can look at still moves.
+/// length. If there are too many even without room, the reach is shortened further: steps are shorter and the margin may
+/// shrink, but a part that is close to more than a tick can look at still moves.
 constexpr std::array kLevels{Level{kContactReach, kMaxSlack, ContactFinder::kManyPairs / 2},
                              Level{kContactReach, kMinSlack, ContactFinder::kManyPairs / 2},
-                             Level{1.75, 1.0, ContactFinder::kManyPairs},
-                             Level{1.75, kMinSlack, ContactFinder::kManyPairs},
+                             Level{1.75, 1.0, ContactFinder::kMaxPairs},
+                             Level{1.75, kMinSlack, ContactFinder::kMaxPairs},
                              Level{1.75, 0.0, ContactFinder::kMaxPairs},
                              Level{1.5, 0.0, ContactFinder::kMaxPairs},
                              Level{1.1, 0.0, ContactFinder::kMaxPairs},
                              Level{0.75, 0.0, ContactFinder::kMaxPairs},
                              Level{0.5, 0.0, ContactFinder::kMaxPairs}};
+/// From this level on pairs are thousands.
+constexpr std::size_t kLevelOfThousands = 2;
 /// Gathering that begins with no more work done counts as having had a whole tick.
 constexpr std::uint64_t kFreshWork = ContactFinder::kUsualWork / 4;
 /// Work that must be left in a tick for another attempt with less room.
@@ -75,6 +82,9 @@ constexpr double kCellOfGyration = 0.12;
 /// Where pairs are thousands, contacts beyond this share of the reach are left out. At 1.7 margins a part is free, and a
 /// step seldom meets them.
 constexpr double kNeeded = 1.7 / kContactReach;
+/// There, a look finds all contacts within this share of the reach, those that may be nearer than the margin. Of what is
+/// farther it finds what was nearest before, which is nearly all; the rest it finds once it comes near.
+constexpr double kSure = 0.98 / kContactReach;
 /// Pairs given to ManyPairs in the time of a unit of work.
 constexpr std::uint64_t kHeldOfWork = 2;
 /// Pairs tested before it is asked again whether work is left.
@@ -95,13 +105,30 @@ struct Placement {
   }
 };
 
+/// A pose of the part with the origin at its centre of mass.
+RigidTransform centredAtMass(const ServoScene& scene, const RigidTransform& worldFromPart) noexcept {
+  return {worldFromPart.rotation, worldFromPart.applyToPoint(scene.centreInPart)};
+}
+
 /// Motion of the part between two poses, about its centre of mass.
 MotionBudget motionOf(const ServoScene& scene, const RigidTransform& from,
                       const RigidTransform& to) noexcept {
-  const auto centred = [&](const RigidTransform& pose) {
-    return RigidTransform{pose.rotation, pose.applyToPoint(scene.centreInPart)};
-  };
-  return motionBetween(centred(from), centred(to), scene.metric.radius);
+  return motionBetween(centredAtMass(scene, from), centredAtMass(scene, to), scene.metric.radius);
+}
+
+/// The stretch between two poses of the centre of mass, about their middle.
+MotionStretch stretchBetween(const RigidTransform& from, const RigidTransform& to) noexcept {
+  return {0.5 * (to.translation - from.translation),
+          0.5 * rotationVector(to.rotation * glm::conjugate(from.rotation))};
+}
+
+RigidTransform middleOf(const RigidTransform& from, const MotionStretch& stretch) noexcept {
+  return {glm::normalize(rotationOf(stretch.spin) * from.rotation), from.translation + stretch.shift};
+}
+
+/// Pose of a body whose centre of mass is there.
+RigidTransform poseOfMass(const ServoScene& scene, const RigidTransform& centred) noexcept {
+  return {centred.rotation, centred.translation - centred.rotation * scene.centreInPart};
 }
 
 /// Way of the part past a body between two poses, worldFromPart.
@@ -154,8 +181,14 @@ void ContactFinder::allow(std::uint64_t work, Excess excess) noexcept {
 
 bool ContactFinder::holdsFor(const ServoScene& scene, const RigidTransform& worldFromPart,
                              double reach) const noexcept {
-  return isHoldingPairs_ && reach == askedReach_ &&
-         spentShare(motionOf(scene, pairsPose_, worldFromPart), holds_) <= 1.0;
+  return isHoldingPairs_ && reach == askedReach_ && spentOfHeld(scene, worldFromPart) <= 1.0;
+}
+
+double ContactFinder::spentOfHeld(const ServoScene& scene,
+                                  const RigidTransform& worldFromPart) const noexcept {
+  if (stretchTravel_ == 0.0) return spentShare(motionOf(scene, pairsPose_, worldFromPart), holds_);
+  return spentShare({stretch_, holds_}, centredAtMass(scene, pairsPose_), centredAtMass(scene, worldFromPart),
+                    scene.metric.radius);
 }
 
 ContactFinder::Gathered ContactFinder::gatherOne(const TrackedScene& tracked, std::uint32_t body,
@@ -192,8 +225,15 @@ ContactFinder::Gathered ContactFinder::gatherFeatures(const ServoScene::Body& ot
   if (known != nullptr && known->contacts) {
     const std::size_t most =
         std::min(room.size(), gathering.mostListed - std::min(gathering.mostListed, pairCount_));
-    const std::optional<NearbyPairs> listed = known->contacts->nearbyPairs(
-        bodyFromPart, within, gathering.slack, scratch_, room.first(most), leftToGather());
+    const auto poseAt = [&](const RigidTransform& pose) {
+      return (other.worldFromPart.inverse() * pose).normalized();
+    };
+    const std::optional<NearbyPairs> listed =
+        gathering.stretch ? known->contacts->nearbyPairsAlong(
+                                poseAt(gathering.stretch->from), poseAt(gathering.stretch->to), within,
+                                gathering.slack, scratch_, room.first(most), leftToGather())
+                          : known->contacts->nearbyPairs(bodyFromPart, within, gathering.slack, scratch_,
+                                                         room.first(most), leftToGather());
     if (listed) return take(*listed, most);
     isSearchHopeless = known->contacts->size() > kMaxSearchWork;
     mayStepLess = gathering.isOfStep;
@@ -271,18 +311,63 @@ bool ContactFinder::hasWorkForAttempt() const noexcept {
   return !isSurfaceNear_ || std::min(searchWorkLeft_, surfaceWorkLeft_) >= kWorkOfSurfaceAttempt;
 }
 
+std::optional<ContactFinder::Stretch> ContactFinder::stretchFor(const TrackedScene& tracked,
+                                                                const RigidTransform& worldFromPart,
+                                                                const RigidTransform& from,
+                                                                const ContactReach& reach,
+                                                                const MotionBudget& slack) const noexcept {
+  const ServoScene& scene = *tracked.scene;
+  if (scene.hasSurfaces()) return std::nullopt;
+  const RigidTransform begin = centredAtMass(scene, from);
+  const MotionStretch step = stretchBetween(begin, centredAtMass(scene, worldFromPart));
+  for (const double steps : kStepsOfStretch) {
+    const RigidTransform end = middleOf(begin, {2.0 * steps * step.shift, 2.0 * steps * step.spin});
+    const Stretch stretch{from, poseOfMass(scene, end)};
+    const MotionBudget whole = motionBetween(begin, end, scene.metric.radius);
+    // Bodies that are not listed must stay clear of all of it.
+    const double far = reach.distance + slack.travel + 0.5 * whole.travel;
+    const RigidTransform middle = poseOfMass(scene, middleOf(begin, {steps * step.shift, steps * step.spin}));
+    const double spent = tracked.spent(middle, far);
+    if (!(spent <= 1.0)) continue;
+    const MotionBudget half{0.5 * whole.travel + slack.travel, 0.5 * whole.turn + slack.turn};
+    if (!(spentShare(half, (1.0 - spent) * tracked.clear) <= 1.0)) continue;
+    const bool isCovered = std::ranges::all_of(tracked.near, [&](const TrackedScene::Near& near) {
+      if (tracked.clearance.overlaps(near.body)) return true;
+      if (!near.contacts) return false;
+      const RigidTransform bodyFromWorld = scene.bodies[near.body].worldFromPart.inverse();
+      const std::optional<MotionBudget> room = near.contacts->roomAlong(
+          (bodyFromWorld * stretch.from).normalized(), (bodyFromWorld * stretch.to).normalized(), reach);
+      return room && spentShare(slack, *room) <= 1.0;
+    });
+    if (isCovered) return stretch;
+  }
+  return std::nullopt;
+}
+
 ContactFinder::Gathered ContactFinder::gatherPairs(const TrackedScene& tracked,
                                                    const RigidTransform& worldFromPart, double reach,
-                                                   double way, double stepTravel) noexcept {
-  const double radius = tracked.scene->metric.radius;
+                                                   double way, const Step* step) noexcept {
+  // A pass over a long list begins early in a tick.
+  if (isAmongThousands() && workDone_ > kUsualWork) return Gathered::Postponed;
+  const ServoScene& scene = *tracked.scene;
+  const double radius = scene.metric.radius;
+  const double stepTravel = step != nullptr ? motionOf(scene, step->from, worldFromPart).travel : 0.0;
   // If no body was near, the whole way may be free.
   const double likely = std::max(kTicksAhead * tickTravel_, kStepsAhead * stepTravel);
   const double wanted = bodyCount_ == 0 ? way : std::min(way, likely);
-  const auto gather = [&](const Level& level) {
-    const double travel =
-        level.mostSlack > 0.0 ? std::clamp(wanted, kMinSlack * reach, level.mostSlack * reach) : 0.0;
+  const auto gather = [&](std::size_t at) {
+    const Level& level = kLevels[at];
     askedReach_ = reach;
     pairsReach_ = level.reach / kContactReach * reach;
+    if (stepTravel > 0.0 && (isAmongThousands() || at >= kLevelOfThousands)) {
+      const double aside = kAside * reach;
+      const MotionBudget slack{aside, aside / radius};
+      const std::optional<Stretch> stretch = stretchFor(
+          tracked, worldFromPart, step->from, {pairsReach_, contactTurn(pairsReach_, radius)}, slack);
+      if (stretch) return gatherWithin(tracked, worldFromPart, {slack, level.mostListed, true, stretch});
+    }
+    const double travel =
+        level.mostSlack > 0.0 ? std::clamp(wanted, kMinSlack * reach, level.mostSlack * reach) : 0.0;
     return gatherWithin(tracked, worldFromPart,
                         {{travel, std::min(travel / radius, kMaxTurn)}, level.mostListed, stepTravel > 0.0});
   };
@@ -299,7 +384,7 @@ ContactFinder::Gathered ContactFinder::gatherPairs(const TrackedScene& tracked,
   };
   const bool isFresh = excess_ == Excess::ToGather && workDone_ <= kFreshWork;
   for (std::size_t level = tickLevel_; level < kLevels.size(); ++level) {
-    const Gathered outcome = gather(kLevels[level]);
+    const Gathered outcome = gather(level);
     if (outcome == Gathered::Held) {
       if (isTry && level == roomLevel_) gatherings_ = kGatheringsBetweenTries - 1;
       keep(level);
@@ -322,32 +407,45 @@ ContactFinder::Gathered ContactFinder::gatherWithin(const TrackedScene& tracked,
                                                     const Gathering& gathering) noexcept {
   bodyCount_ = pairCount_ = triangleCount_ = 0;
   isSurfaceNear_ = false;
+  const ServoScene& scene = *tracked.scene;
   pairsPose_ = worldFromPart;
   holds_ = gathering.slack;
+  stretch_ = {};
+  stretchTravel_ = 0.0;
   Gathered outcome = Gathered::Held;
-  const double far = pairsReach_ + gathering.slack.travel;
-  const double spent = tracked.spent(worldFromPart, far);
-  // Bodies not listed as near stay so only within the rest of the budget.
+  double far = pairsReach_ + gathering.slack.travel;
+  if (gathering.stretch) {
+    const RigidTransform from = centredAtMass(scene, gathering.stretch->from);
+    const RigidTransform to = centredAtMass(scene, gathering.stretch->to);
+    stretch_ = stretchBetween(from, to);
+    stretchTravel_ = motionBetween(from, to, scene.metric.radius).travel;
+    pairsPose_ = poseOfMass(scene, middleOf(from, stretch_));
+    far += 0.5 * stretchTravel_;
+  }
+  const double spent = tracked.spent(pairsPose_, far);
+  // Bodies not listed as near stay so only within the rest of the budget, which a stretch was found to keep to.
   MotionBudget left = gathering.slack;
-  if (spent <= 1.0) {
+  if (spent <= 1.0 && !gathering.stretch) {
     left = (1.0 - spent) * tracked.clear;
     holds_ = {std::min(holds_.travel, left.travel), std::min(holds_.turn, left.turn)};
   }
   listedTravel_ = std::numeric_limits<double>::infinity();
-  tracked.visitNear(worldFromPart, far, [&](std::uint32_t body, const TrackedScene::Near* known) {
+  tracked.visitNear(pairsPose_, far, [&](std::uint32_t body, const TrackedScene::Near* known) {
     if (outcome == Gathered::Held) outcome = gatherOne(tracked, body, known, worldFromPart, gathering);
   });
   // Lists of triangles are held as far as they serve.
   if (isSurfaceNear_ && listedTravel_ > 0.0) {
     const MotionBudget most = pairCount_ == 0 ? left : holds_;
     holds_.travel = std::min(listedTravel_, most.travel);
-    holds_.turn = std::min(holds_.travel / tracked.scene->metric.radius, most.turn);
+    holds_.turn = std::min(holds_.travel / scene.metric.radius, most.turn);
   }
-  // Taking them in is work too, and no tick may exceed its bound.
-  if (outcome == Gathered::Held && workDone_ + pairCount_ / kHeldOfWork > kMaxWork)
-    outcome = Gathered::NoWork;
   isHoldingPairs_ = outcome == Gathered::Held;
-  if (isHoldingPairs_) arrangePairs(*tracked.scene);
+  arePairsArranged_ = false;
+  if (gathering.stretch) {
+    // Lists follow the middle of the part's box, and its centre of mass strays from that way as the part turns.
+    const double turn = 2.0 * glm::length(stretch_.spin);
+    holds_.travel = std::max(0.0, holds_.travel - bendOf(turn, scene.metric.radius));
+  }
   return outcome;
 }
 
@@ -446,11 +544,12 @@ bool ContactFinder::testMany(const ServoScene& scene, const HeldBody& held) noex
         .sceneFromPart = (other.worldFromPart.inverse() * look_.pose).normalized(),
         .reach = {pairsReach_, contactTurn(pairsReach_, scene.metric.radius)},
         .need = std::min(kNeeded * askedReach_, pairsReach_),
+        .sure = std::min(kSure * askedReach_, pairsReach_),
         .cell = kCellOfGyration *
                 std::min({scene.metric.gyration.x, scene.metric.gyration.y, scene.metric.gyration.z})};
     if (look_.from) {
       const MotionBudget motion = motionOf(scene, *look_.from, look_.pose);
-      const double near = scene.metric.radius + pairsReach_ + 2.0 * holds_.travel;
+      const double near = scene.metric.radius + pairsReach_ + 2.0 * holds_.travel + stretchTravel_;
       asked.way = wayOf(scene, other, *look_.from, look_.pose);
       asked.bendFromPart = bendOf(motion.turn, near) + kBendOfShift * motion.turn * motion.travel;
       asked.enough = kClearOnWay * pairsReach_ + around.deviation;
@@ -516,6 +615,13 @@ void ContactFinder::giveUpLook() noexcept {
 }
 
 bool ContactFinder::testBodies(const ServoScene& scene) noexcept {
+  if (!arePairsArranged_) {
+    // After gathering thousands it waits for the next tick, which has work for it in any case.
+    const bool isLate = excess_ == Excess::None || workDone_ > kFreshWork;
+    if (isLate && workLeft() < pairCount_ / kHeldOfWork) return false;
+    arrangePairs(scene);
+    arePairsArranged_ = true;
+  }
   const std::span<HeldBody> held = std::span(bodies_).first(bodyCount_);
   for (; look_.body < held.size(); ++look_.body, look_.pair = 0) {
     HeldBody& body = held[look_.body];
@@ -567,16 +673,14 @@ Surroundings ContactFinder::look(const TrackedScene& tracked, const RigidTransfo
       tickPose_ = worldFromPart;
     }
     if (!holdsFor(scene, worldFromPart, reach)) {
-      const double stepTravel = step != nullptr ? motionOf(scene, step->from, worldFromPart).travel : 0.0;
-      const Gathered outcome = gatherPairs(tracked, worldFromPart, reach, way, stepTravel);
+      const Gathered outcome = gatherPairs(tracked, worldFromPart, reach, way, step);
       if (outcome == Gathered::Postponed) return pending;
       if (outcome != Gathered::Held) return {};
     }
     look_ = {.pose = worldFromPart,
              .reach = reach,
              .around = {.distance = pairsReach_, .completeTo = pairsReach_, .reach = pairsReach_}};
-    if (step != nullptr && step->isLong &&
-        spentShare(motionOf(scene, pairsPose_, step->from), holds_) <= 1.0) {
+    if (step != nullptr && step->isLong && spentOfHeld(scene, step->from) <= 1.0) {
       look_.from = step->from;
       look_.around.onWay = pairsReach_;
     }

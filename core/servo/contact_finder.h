@@ -102,7 +102,7 @@ class ContactFinder {
                     double way, std::span<BodyContact> out, const Step* step = nullptr) noexcept;
 
   /// Length of a step that the pairs held serve from end to end [m].
-  double room() const noexcept { return isHoldingPairs_ ? holds_.travel : 0.0; }
+  double room() const noexcept { return isHoldingPairs_ ? holds_.travel + stretchTravel_ : 0.0; }
   /// Number of times since beginTick() that no list covered the pose of a near body.
   std::uint32_t lateBodies() const noexcept { return lateBodies_; }
   /// True if thousands of pairs of a body are held.
@@ -136,11 +136,16 @@ class ContactFinder {
     RigidTransform testedPose{};             ///< Of the part, where triangles were tested last.
   };
 
+  /// A way of the part, straight as to its centre of mass: worldFromPart at both ends.
+  struct Stretch {
+    RigidTransform from, to;
+  };
   /// Parameters of gathering pairs.
   struct Gathering {
-    MotionBudget slack;      ///< Motion for which the pairs must serve.
-    std::size_t mostListed;  ///< Max pairs worth taking from lists.
-    bool isOfStep = false;   ///< A shorter step may do where a list does not cover the pose.
+    MotionBudget slack;                ///< Motion for which the pairs must serve.
+    std::size_t mostListed;            ///< Max pairs worth taking from lists.
+    bool isOfStep = false;             ///< A shorter step may do where a list does not cover the pose.
+    std::optional<Stretch> stretch{};  ///< If set, that motion is from any pose of a stretch.
   };
   /// Outcome of gathering pairs.
   enum class Gathered : std::uint8_t {
@@ -166,10 +171,16 @@ class ContactFinder {
   Surroundings look(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
                     double way, std::span<BodyContact> out, const Step* step) noexcept;
   bool holdsFor(const ServoScene& scene, const RigidTransform& worldFromPart, double reach) const noexcept;
+  /// Share of the motion for which the pairs are held that a pose spends; above 1 they do not serve.
+  double spentOfHeld(const ServoScene& scene, const RigidTransform& worldFromPart) const noexcept;
+  /// The way of a step and on, as far as all lists cover it; no value if they do not cover the step.
+  std::optional<Stretch> stretchFor(const TrackedScene& tracked, const RigidTransform& worldFromPart,
+                                    const RigidTransform& from, const ContactReach& reach,
+                                    const MotionBudget& slack) const noexcept;
   bool hasWorkForAttempt() const noexcept;
   /// Gathers pairs around a pose, with as much room for motion as there is work for.
   Gathered gatherPairs(const TrackedScene& tracked, const RigidTransform& worldFromPart, double reach,
-                       double way, double stepTravel) noexcept;
+                       double way, const Step* step) noexcept;
   Gathered gatherWithin(const TrackedScene& tracked, const RigidTransform& worldFromPart,
                         const Gathering& gathering) noexcept;
   /// Gives the pairs of each body to ManyPairs, or moves its pairs of edges to the front, where blocks of them can be
@@ -213,7 +224,7 @@ class ContactFinder {
   std::vector<ContactPair> found_;            ///< Contacts of one body.
   std::vector<SurfaceContact> surfaceFound_;  ///< Contacts of one unsided surface.
 
-  /// Pairs that can be contacts at poses within `holds_` of `pairsPose_`.
+  /// Pairs that can be contacts at poses within `holds_` of a stretch about `pairsPose_`.
   std::vector<LeafPair> pairs_;
   /// The edge pairs among them, packed for tests of four at a time, as far as there is room.
   std::vector<EdgePairs> edgePairs_;
@@ -229,7 +240,9 @@ class ContactFinder {
   /// Reach asked for, and reach that the pairs were gathered for [m].
   double askedReach_ = 0.0, pairsReach_ = 0.0;
   MotionBudget holds_;
-  bool isHoldingPairs_ = false;
+  MotionStretch stretch_;       ///< As to the centre of mass, in the world's axes.
+  double stretchTravel_ = 0.0;  ///< From end to end [m].
+  bool isHoldingPairs_ = false, arePairsArranged_ = false;
   /// Level of the room for motion that pairs are gathered with; higher levels have less room.
   std::size_t roomLevel_ = 0;
   std::size_t tickLevel_ = 0;  ///< The same for the rest of this tick, which has less work left.

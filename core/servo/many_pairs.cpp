@@ -18,10 +18,14 @@ constexpr double kBeyondAll = std::numeric_limits<double>::infinity();
 /// Slots for pairs separated by the scene, and as many for those separated by the part.
 constexpr std::size_t kSlotsOfKind = ManyPairs::kMax;
 constexpr std::size_t kTableSize = 4 * ManyPairs::kMax, kGroupTableSize = 2 * ManyPairs::kMax;
+/// Groups are found anew when there are so many, most of them of pairs that are no longer held.
+constexpr std::size_t kManyGroups = ManyPairs::kMax / 2;
+/// Places looked at for a pair before the hash table: pairs come in the order of the last time, but for some.
+constexpr std::size_t kPlacesAhead = 4;
 /// Cell size of directions; their length is 1.
 constexpr double kDirectionCell = 0.12;
 /// A separation found so large a turn ago is found anew: the part's directions have left their cells [rad].
-constexpr double kMaxTurnOfKey = 0.25 * kDirectionCell;
+constexpr double kMaxTurnOfKey = 0.5 * kDirectionCell;
 /// Makes cells' numbers positive, so that cutting off the fraction rounds down.
 constexpr double kCellsBelowZero = 512.0;
 /// A pair that is nearer than the nearest of its group by no more than this share of what is needed is not tested: the
@@ -44,12 +48,15 @@ std::size_t kindOf(const LeafPair& pair) noexcept {
 ManyPairs::ManyPairs()
     : slots_(2 * kSlotsOfKind),
       separations_(2 * kSlotsOfKind / kLanes),
+      held_(separations_.size()),
       table_(kTableSize, kNone),
       groups_(kMax + 1),
       groupTable_(kGroupTableSize, kNone),
       kernel_(separationKernel(defaultSimdLevel())) {
   for (std::vector<std::uint32_t>& slots : free_)
     slots.reserve(kSlotsOfKind);
+  order_.reserve(kMax);
+  nextOrder_.reserve(kMax);
   new_.reserve(kMax);
   unknown_.reserve(kMax);
   forget();
@@ -57,11 +64,15 @@ ManyPairs::ManyPairs()
 
 void ManyPairs::forget() noexcept {
   std::fill(table_.begin(), table_.end(), kNone);
+  std::fill(groupTable_.begin(), groupTable_.end(), kNone);
+  std::fill(held_.begin(), held_.end(), std::uint8_t{0});
   used_ = {};
   for (std::vector<std::uint32_t>& slots : free_)
     slots.clear();
+  order_.clear();
   new_.clear();
   groupCount_ = 1;
+  groups_[0] = {.least = kBeyondAll};
   turn_ = 0.0;
   stage_ = Stage::Done;
 }
@@ -73,6 +84,24 @@ std::uint32_t ManyPairs::find(const LeafPair& pair) const noexcept {
     const LeafPair& other = slots_[slot].pair;
     if (other.scene == pair.scene && other.part == pair.part) return slot;
   }
+}
+
+std::uint32_t ManyPairs::findNear(const LeafPair& pair, std::size_t& next) const noexcept {
+  const std::size_t end = std::min(next + kPlacesAhead, order_.size());
+  for (std::size_t i = next; i < end; ++i) {
+    const Placed& placed = order_[i];
+    if (placed.pair.scene != pair.scene || placed.pair.part != pair.part) continue;
+    next = i + 1;
+    return placed.slot;
+  }
+  const std::uint32_t slot = find(pair);
+  if (slot != kNone) next = slots_[slot].place + std::size_t{1};
+  return slot;
+}
+
+void ManyPairs::setHeld(std::uint32_t slot) noexcept {
+  std::uint8_t& lanes = held_[slot / kLanes];
+  lanes = static_cast<std::uint8_t>(lanes | 1U << slot % kLanes);
 }
 
 void ManyPairs::insert(std::uint32_t slot) noexcept {
@@ -106,55 +135,66 @@ void ManyPairs::visitSlots(Visit&& visit) const noexcept {
 
 void ManyPairs::sweep() noexcept {
   std::fill(table_.begin(), table_.end(), kNone);
+  std::fill(groupTable_.begin(), groupTable_.end(), kNone);
+  groupCount_ = 1;
+  groups_[0] = {.least = kBeyondAll};
   for (std::vector<std::uint32_t>& slots : free_)
     slots.clear();
   visitSlots([this](std::uint32_t at) {
-    if (slots_[at].isHeld)
-      insert(at);
-    else
+    if (!isHeld(at)) {
       free_[at / kSlotsOfKind].push_back(at);
+      return;
+    }
+    insert(at);
+    if (slots_[at].isKnown) slots_[at].group = groupOf(slots_[at].key);
   });
+}
+
+void ManyPairs::count(std::uint32_t at) noexcept {
+  Slot& slot = slots_[at];
+  if (slot.isKnown && turn_ - slot.turnAt > kMaxTurnOfKey) slot.isKnown = false;
+  if (!slot.isKnown) {
+    new_.push_back(at);
+    return;
+  }
+  if (slot.group == 0 || slot.distance == kBeyondAll) return;
+  Group& group = groups_[slot.group];
+  if (group.nearest == kNone || slot.distance < slots_[group.nearest].distance) group.nearest = at;
 }
 
 void ManyPairs::hold(std::span<const LeafPair> pairs, double turn) noexcept {
   turn_ += turn;
   stage_ = Stage::Done;
-  visitSlots([this](std::uint32_t at) { slots_[at].isHeld = false; });
+  std::fill(held_.begin(), held_.end(), std::uint8_t{0});
+  nextOrder_.clear();
   new_.clear();
   unknown_.clear();
+  std::size_t next = 0;
   for (const LeafPair& pair : pairs) {
-    const std::uint32_t slot = find(pair);
-    if (slot == kNone)
+    const std::uint32_t slot = findNear(pair, next);
+    if (slot == kNone) {
       unknown_.push_back(pair);
-    else
-      slots_[slot].isHeld = true;
+      continue;
+    }
+    setHeld(slot);
+    nextOrder_.push_back({pair, slot});
   }
   const std::size_t there = used_[0] + used_[1] - free_[0].size() - free_[1].size();
-  const std::size_t unheld = there - (pairs.size() - unknown_.size());
+  const std::size_t unheld = there - nextOrder_.size();
   // Pairs that come back find their separations, but too many make every pass longer.
-  if (unheld > pairs.size() / 2 || there + unknown_.size() > kMax) sweep();
-  for (const LeafPair& pair : unknown_)
-    slots_[add(pair)].isHeld = true;
-  regroup();
-}
-
-void ManyPairs::regroup() noexcept {
-  std::fill(groupTable_.begin(), groupTable_.end(), kNone);
-  groupCount_ = 1;
-  groups_[0] = {.least = kBeyondAll};
-  visitSlots([this](std::uint32_t at) {
-    Slot& slot = slots_[at];
-    if (!slot.isHeld) return;
-    if (slot.isKnown && turn_ - slot.turnAt > kMaxTurnOfKey) slot.isKnown = false;
-    if (!slot.isKnown) {
-      new_.push_back(at);
-      return;
-    }
-    slot.group = groupOf(slot.key);
-    if (slot.group == 0 || slot.distance == kBeyondAll) return;
-    Group& group = groups_[slot.group];
-    if (group.nearest == kNone || slot.distance < slots_[group.nearest].distance) group.nearest = at;
-  });
+  if (unheld > pairs.size() / 2 || there + unknown_.size() > kMax || groupCount_ > kManyGroups) sweep();
+  for (const LeafPair& pair : unknown_) {
+    const std::uint32_t slot = add(pair);
+    setHeld(slot);
+    nextOrder_.push_back({pair, slot});
+  }
+  for (std::size_t g = 0; g < groupCount_; ++g)
+    groups_[g].nearest = kNone;
+  for (std::uint32_t i = 0; i < nextOrder_.size(); ++i) {
+    slots_[nextOrder_[i].slot].place = i;
+    count(nextOrder_[i].slot);
+  }
+  std::swap(order_, nextOrder_);
 }
 
 std::uint32_t ManyPairs::groupOf(std::uint64_t key) noexcept {
@@ -207,32 +247,35 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
   const LeafTests tests(scene, part, pose, asked_.reach.distance, asked_.reach.turn);
   const auto spend = [&work](std::uint64_t done) { work -= std::min(work, done); };
   Minimum minimum;
+  const auto know = [&](std::uint32_t at, const glm::dvec3& apart, std::uint64_t key) {
+    Slot& slot = slots_[at];
+    separations_[at / kLanes].set(at % kLanes, separationAlong(scene, part, slot.pair, pose, apart));
+    slot.key = key;
+    slot.group = groupOf(key);
+    slot.turnAt = turn_;
+    slot.isKnown = true;
+  };
+  const auto separate = [&](std::uint32_t at) {
+    slots_[at].distance = kBeyondAll;
+    const PairDirections directions = directionsOf(scene, part, slots_[at].pair, pose);
+    spend(kWorkOfSeparation);
+    know(at, directions.apart, keyOf(directions.ofContact, directions.onPart));
+  };
   const auto test = [&](std::uint32_t at) {
     Slot& slot = slots_[at];
     slot.look = look_;
+    slot.isTested = true;
     spend(kWorkOfExactTest);
-    SeparatedPairs& separations = separations_[at / kLanes];
-    const auto separate = [&](const glm::dvec3& direction) {
-      separations.set(at % kLanes, separationAlong(scene, part, slot.pair, pose, direction));
-    };
     if (!tests.test(slot.pair.scene, slot.pair.part, minimum)) {
-      slot.distance = kBeyondAll;
-      const PairDirections directions = directionsOf(scene, part, slot.pair, pose);
-      spend(kWorkOfSeparation);
-      separate(directions.apart);
-      slot.key = keyOf(directions.ofContact, directions.onPart);
-    } else {
-      const Lmd& lmd = minimum.lmd;
-      slot.distance = std::min(minimum.least, lmd.distance);
-      out[count++] = {lmd.partPoint + scene.centre(), lmd.direction, slot.distance};
-      spend(1);
-      found_.least = std::min(found_.least, slot.distance);
-      separate(lmd.direction);
-      slot.key = keyOf(lmd.direction, lmd.partPoint);
+      separate(at);
+      return;
     }
-    slot.isKnown = true;
-    slot.turnAt = turn_;
-    slot.group = groupOf(slot.key);
+    const Lmd& lmd = minimum.lmd;
+    slot.distance = std::min(minimum.least, lmd.distance);
+    out[count++] = {lmd.partPoint + scene.centre(), lmd.direction, slot.distance};
+    spend(1);
+    found_.least = std::min(found_.least, slot.distance);
+    know(at, lmd.direction, keyOf(lmd.direction, lmd.partPoint));
     Group& group = groups_[slot.group];
     if (slot.group == 0 || !(slot.distance < group.least)) return;
     group.least = slot.distance;
@@ -241,8 +284,10 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
   const auto isFull = [&] { return count == out.size(); };
   if (stage_ == Stage::New) {
     for (; at_ < new_.size(); ++at_) {
-      if (work == 0 || isFull()) return std::nullopt;
-      if (!slots_[new_[at_]].isKnown) test(new_[at_]);
+      if (work == 0) return std::nullopt;
+      if (slots_[new_[at_]].isKnown) continue;
+      slots_[new_[at_]].isTested = false;
+      separate(new_[at_]);
     }
     new_.clear();
     stage_ = Stage::Nearest;
@@ -272,7 +317,8 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
   }
   const double rounding =
       kSeparationRoundings * kPointRounding * (scene.size() + part.size() + glm::length(pose.translation));
-  const double gain = kLeastGain * asked_.need, least = asked_.enough + rounding;
+  const double gain = kLeastGain * asked_.need, sure = std::min(asked_.sure, asked_.need),
+               least = asked_.enough + rounding;
   const std::array lost{least + (asked_.way ? asked_.way->bend : 0.0), least + asked_.bendFromPart};
   const std::size_t end = 2 * kSlotsOfKind;
   SeparatedPairs::Numbers apart, before{};
@@ -287,23 +333,36 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
       at_ = (kind + 1) * kSlotsOfKind - kLanes;
       continue;
     }
+    const unsigned held = held_[at_ / kLanes];
+    if (held == 0) continue;
     if (bounded >= 64) spendBounded();
     if (work == 0 || count + kLanes > out.size()) return std::nullopt;
     bounded += kLanes;
     const SeparatedPairs& separations = separations_[at_ / kLanes];
     kernel_(separations, poses[kind], apart);
     if (asked_.way) kernel_(separations, starts[kind], before);
+    double lowest = kBeyondAll, lowestOnWay = kBeyondAll;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const bool isHeld = (held >> lane & 1U) != 0;
+      lowest = std::min(lowest, isHeld ? apart[lane] : kBeyondAll);
+      lowestOnWay = std::min(lowestOnWay, isHeld ? std::min(apart[lane], before[lane]) : kBeyondAll);
+    }
+    // Most blocks are far enough from all that matters.
+    if (lowest - rounding > asked_.need && (!asked_.way || lowestOnWay > lost[kind])) {
+      found_.least = std::min(found_.least, lowest - rounding);
+      continue;
+    }
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      if ((held >> lane & 1U) == 0) continue;
       const auto at = static_cast<std::uint32_t>(at_ + lane);
       const Slot& slot = slots_[at];
-      if (!slot.isHeld) continue;
       if (asked_.way && !(std::min(apart[lane], before[lane]) > lost[kind])) {
         found_.leastOnWay = std::min(found_.leastOnWay, passage->leastOf(slot.pair));
         spend(kWorkOfOnePassage);
       }
       if (slot.look == look_) continue;
       const double bound = apart[lane] - rounding;
-      if (bound <= std::min(asked_.need, groups_[slot.group].least - gain))
+      if (bound <= std::min(slot.isTested ? sure : asked_.need, groups_[slot.group].least - gain))
         test(at);
       else
         found_.least = std::min(found_.least, bound);

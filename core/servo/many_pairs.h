@@ -18,7 +18,8 @@ namespace nearfit {
 /// Pairs are grouped by the contact that they could form: those of a group say the same of the part's motion, so the
 /// nearest counts (ContactThinning). Each pair has a Separation, which bounds its distance from below wherever the part
 /// goes. A look tests the nearest pair that each group had last, and then those alone that may be nearer. A pair that is
-/// not tested is therefore no nearer than one that is, but for a hundredth of the distance that is needed.
+/// not tested is therefore no nearer than one that is, but for a hundredth of the distance that is needed, or it is
+/// farther than a distance beyond which a look need not be sure.
 ///
 /// Allocates only in the constructor; real-time safe after it.
 class ManyPairs {
@@ -41,6 +42,8 @@ class ManyPairs {
     ContactReach reach;
     /// Contacts farther than this need not be found [m]; at most the reach.
     double need = 0.0;
+    /// Beyond this, pairs that may be nearer than the nearest of their group are not tested again [m]; at most `need`.
+    double sure = 0.0;
     double cell = 0.0;  ///< Size of the cells that points are grouped by [m]; > 0.
     /// The way that led there, if it is asked how near the pairs come on it; travel and bend apart.
     std::optional<PartWay> way{};
@@ -51,8 +54,8 @@ class ManyPairs {
   };
   /// Result of a look, besides contacts.
   struct Found {
-    /// Lower bound on the distance of any contact [m], by at most a hundredth of `need` less than that of the nearest.
-    /// Infinity if there is none within the reach.
+    /// Lower bound on the distance of any contact [m], by at most a hundredth of `need` less than that of the nearest if
+    /// that is nearer than `sure`. Infinity if there is none within the reach.
     double least = 0.0;
     /// Lower bound on the distance on the way, as in PairPassage [m]; at most `enough`.
     double leastOnWay = 0.0;
@@ -74,11 +77,13 @@ class ManyPairs {
   struct Slot {
     LeafPair pair;
     std::uint64_t key = 0;    ///< Cell of its contact; 0 without.
-    std::uint32_t group = 0;  ///< 0 if it has none: it is tested whenever it may be near.
-    std::uint32_t look = 0;   ///< The look that tested it last.
     double turnAt = 0.0;      ///< Turn of the part, added up, when its separation was found [rad].
     double distance = 0.0;    ///< Of its last contact [m]; infinity if the last test found none.
-    bool isHeld = false, isKnown = false;  ///< isKnown: it has a separation.
+    std::uint32_t group = 0;  ///< 0 if it has none: it is tested whenever it may be near.
+    std::uint32_t look = 0;   ///< The look that tested it last.
+    std::uint32_t place = 0;  ///< Index in order_ when it was held last.
+    bool isKnown = false;     ///< It has a separation.
+    bool isTested = false;    ///< It was tested since it became known.
   };
   struct Group {
     std::uint64_t key = 0;
@@ -88,21 +93,36 @@ class ManyPairs {
   enum class Stage : std::uint8_t { New, Nearest, Rest, Done };
 
   std::uint32_t find(const LeafPair& pair) const noexcept;
+  /// The same, for the pair that comes at place `next` or soon after if the order is that of the last call of hold();
+  /// sets `next` to the place after it.
+  std::uint32_t findNear(const LeafPair& pair, std::size_t& next) const noexcept;
   std::uint32_t add(const LeafPair& pair) noexcept;
   void insert(std::uint32_t slot) noexcept;
+  bool isHeld(std::uint32_t slot) const noexcept {
+    return (held_[slot / kLanes] >> (slot % kLanes) & 1U) != 0;
+  }
+  void setHeld(std::uint32_t slot) noexcept;
+  /// Counts a held pair in its group, or among the new ones.
+  void count(std::uint32_t slot) noexcept;
   /// Calls visit(slot) for each slot that was used so far.
   template <class Visit>
   void visitSlots(Visit&& visit) const noexcept;
-  /// Frees the slots that are not held.
+  /// Frees the slots that are not held, and finds the groups anew.
   void sweep() noexcept;
-  void regroup() noexcept;
   std::uint32_t groupOf(std::uint64_t key) noexcept;
   std::uint64_t keyOf(const glm::dvec3& direction, const glm::dvec3& point) const noexcept;
 
   std::vector<Slot> slots_;
   std::vector<SeparatedPairs> separations_;  ///< A lane for each slot.
-  std::vector<std::uint32_t> table_;         ///< Hash table of slots by pair.
-  std::array<std::size_t, 2> used_{};        ///< Slots used so far, of the scene and of the part.
+  std::vector<std::uint8_t> held_;    ///< For each of separations_, a bit for each lane whose pair is held.
+  std::vector<std::uint32_t> table_;  ///< Hash table of slots by pair.
+  struct Placed {
+    LeafPair pair;
+    std::uint32_t slot = 0;
+  };
+  std::vector<Placed> order_;          ///< Pairs held, in the order of the last call of hold(),
+  std::vector<Placed> nextOrder_;      ///< and of the present one.
+  std::array<std::size_t, 2> used_{};  ///< Slots used so far, of the scene and of the part.
   std::array<std::vector<std::uint32_t>, 2> free_;
   std::vector<std::uint32_t> new_;  ///< Held slots without a separation.
   std::vector<LeafPair> unknown_;   ///< Pairs to hold that have no slot yet.

@@ -4,6 +4,9 @@
 #include <bit>
 #include <limits>
 
+#include <glm/geometric.hpp>
+
+#include "core/math/rotation_vector.h"
 #include "core/proximity/query/leaf_tests.h"
 #include "core/proximity/query/query_workspace.h"
 
@@ -208,14 +211,11 @@ std::optional<CandidateList::CoveredPose> CandidateList::covered(const RigidTran
   return CoveredPose{pose, isValid ? countFor(share) : 0};
 }
 
-template <class Visit>
-std::size_t CandidateList::visitPairs(const RigidTransform& centred, std::size_t count,
-                                      const CullLimits& limits, LmdScratch& scratch,
-                                      Visit&& visit) const noexcept {
-  const SinglePose inSingle(centred);
+template <class Cull, class Visit>
+std::size_t CandidateList::visitPairs(std::size_t count, Cull&& cull, Visit&& visit) const noexcept {
   for (std::size_t base = 0; base < count; base += kNodeWidth) {
     const BoundPairs& block = blocks_[base / kNodeWidth];
-    std::uint32_t lanes = scratch.data().pairCull(block, inSingle, limits);
+    std::uint32_t lanes = cull(block);
     if (count - base < kNodeWidth) lanes &= (1U << (count - base)) - 1U;
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
@@ -244,11 +244,13 @@ std::optional<LmdResult> CandidateList::query(const RigidTransform& sceneFromPar
   CullLimits limits = cullLimits(*scene_, *part_, pose->centred, cutoff);
   BoundedTests tests({*scene_, *part_, pose->centred, cutoff}, (maxWork - blocks) / kWorkOfLeafTest,
                      collector, limits);
-  visitPairs(pose->centred, pose->count, limits, scratch,
-             [&](std::uint32_t sceneLeaf, std::uint32_t partLeaf) {
-               tests.test(sceneLeaf, partLeaf);
-               return true;
-             });
+  const SinglePose inSingle(pose->centred);
+  visitPairs(
+      pose->count, [&](const BoundPairs& block) { return scratch.data().pairCull(block, inSingle, limits); },
+      [&](std::uint32_t sceneLeaf, std::uint32_t partLeaf) {
+        tests.test(sceneLeaf, partLeaf);
+        return true;
+      });
   result.leafPairs = tests.count();
   result.completeTo = tests.completeTo();
   if (result.completeTo < cutoff) result.status = QueryStatus::Truncated;
@@ -256,35 +258,87 @@ std::optional<LmdResult> CandidateList::query(const RigidTransform& sceneFromPar
   return result;
 }
 
-std::optional<NearbyPairs> CandidateList::nearbyPairs(const RigidTransform& sceneFromPart,
-                                                      const ContactReach& reach, const MotionBudget& slack,
-                                                      LmdScratch& scratch, std::span<LeafPair> out,
-                                                      std::uint64_t maxWork) const noexcept {
-  if (!(reach.turn <= relaxation_)) return std::nullopt;
-  const std::optional<CoveredPose> pose = covered(sceneFromPart, reach.distance);
-  if (!pose) return std::nullopt;
+CandidateList::Way CandidateList::wayBetween(const RigidTransform& from,
+                                             const RigidTransform& to) const noexcept {
+  const RigidTransform a = centredPose(*scene_, *part_, from), b = centredPose(*scene_, *part_, to);
+  const bool isOfOnePose = a.translation == b.translation && a.rotation == b.rotation;
+  if (isOfOnePose) return {a, {}, true};
+  const glm::dvec3 spin = 0.5 * rotationVector(b.rotation * glm::conjugate(a.rotation));
+  return {{glm::normalize(rotationOf(spin) * a.rotation), 0.5 * (a.translation + b.translation)},
+          {0.5 * (b.translation - a.translation), spin},
+          false};
+}
+
+std::optional<MotionBudget> CandidateList::roomAlong(const Way& way) const noexcept {
+  if (!(spentAt(way.middle) <= 1.0)) return std::nullopt;
+  MotionBudget aside = asideOf(way.middle), lost;
+  if (!way.isOfOnePose) {
+    for (const double time : {-1.0, 1.0}) {
+      const RigidTransform end = poseOn(way.stretch, way.middle, time);
+      if (!(spentAt(end) <= 1.0)) return std::nullopt;
+      const MotionBudget there = asideOf(end);
+      aside = {std::max(aside.travel, there.travel), std::max(aside.turn, there.turn)};
+    }
+    // Turns about different axes do not add up: between the ends the way may be farther aside by their product.
+    const double spin = glm::length(way.stretch.spin);
+    lost.turn = spin * (spin + glm::length(range_.stretch.spin) + aside.turn);
+    lost.travel = 0.5 * part_->size() * lost.turn;
+  }
+  return MotionBudget{std::max(0.0, range_.budget.travel - aside.travel - lost.travel),
+                      std::max(0.0, range_.budget.turn - aside.turn - lost.turn)};
+}
+
+std::optional<MotionBudget> CandidateList::roomAlong(const RigidTransform& from, const RigidTransform& to,
+                                                     const ContactReach& reach) const noexcept {
+  if (!isUsable_ || !(reach.distance <= cutoff_) || !(reach.turn <= relaxation_) || !from.isFinite() ||
+      !to.isFinite())
+    return std::nullopt;
+  return roomAlong(wayBetween(from, to));
+}
+
+std::optional<NearbyPairs> CandidateList::nearbyPairsAlong(const RigidTransform& from,
+                                                           const RigidTransform& to,
+                                                           const ContactReach& reach,
+                                                           const MotionBudget& slack, LmdScratch& scratch,
+                                                           std::span<LeafPair> out,
+                                                           std::uint64_t maxWork) const noexcept {
+  const std::optional<MotionBudget> room = roomAlong(from, to, reach);
+  if (!room) return std::nullopt;
   NearbyPairs result;
-  // The budget left for deviation does not depend on the place along the stretch.
-  const MotionBudget aside = asideOf(pose->centred);
-  result.holds = {std::clamp(range_.budget.travel - aside.travel, 0.0, slack.travel),
-                  std::clamp(range_.budget.turn - aside.turn, 0.0, slack.turn)};
+  result.holds = {std::min(room->travel, slack.travel), std::min(room->turn, slack.turn)};
   result.isComplete = true;
+  const BodyPairQuery within{*scene_, *part_, from, reach.distance};
+  if (!isQueryValid(*scene_, *part_, from, reach.distance)) return result;
+  const Way way = wayBetween(from, to);
   // Pairs that matter only farther from the middle do not matter at the pose itself.
-  const bool isForPose = !(slack.travel > 0.0) && !(slack.turn > 0.0);
-  const std::size_t count = isForPose ? pose->count : size();
+  const bool isForPose = way.isOfOnePose && !(slack.travel > 0.0) && !(slack.turn > 0.0);
+  const std::size_t count = isForPose ? countFor(spentAt(way.middle)) : size();
   if (count == 0) return result;
   result.isComplete = blocksOf(count) <= maxWork;
   if (!result.isComplete) return result;
-  const std::span<LeafPair> room = out.first(
+  const std::span<LeafPair> places = out.first(
       static_cast<std::size_t>(std::min<std::uint64_t>(out.size(), listable(maxWork - blocksOf(count)))));
-  const BodyPairQuery within{*scene_, *part_, sceneFromPart, reach.distance};
-  result.work =
-      visitPairs(pose->centred, count, contactLimits(within, pose->centred, reach.turn, result.holds),
-                 scratch, [&](std::uint32_t sceneLeaf, std::uint32_t partLeaf) {
-                   result.isComplete = result.count < room.size();
-                   if (result.isComplete) room[result.count++] = {sceneLeaf, partLeaf};
-                   return result.isComplete;
-                 });
+  const auto take = [&](std::uint32_t sceneLeaf, std::uint32_t partLeaf) {
+    result.isComplete = result.count < places.size();
+    if (result.isComplete) places[result.count++] = {sceneLeaf, partLeaf};
+    return result.isComplete;
+  };
+  const LmdScratch::Data& workspace = scratch.data();
+  const SinglePose pose(way.middle);
+  if (way.isOfOnePose) {
+    const CullLimits limits = contactLimits(within, way.middle, reach.turn, result.holds);
+    result.work = visitPairs(
+        count, [&](const BoundPairs& block) { return workspace.pairCull(block, pose, limits); }, take);
+  } else {
+    const MotionRange range = relaxed({way.stretch, result.holds}, reach.distance, reach.turn);
+    const RangeLimits limits = rangeLimits(within, way.middle, range);
+    result.work = visitPairs(
+        count,
+        [&](const BoundPairs& block) {
+          return workspace.sweptPairCull(block, pose, limits.still, limits.inScene);
+        },
+        take);
+  }
   result.work += blocksOf(result.count);
   return result;
 }

@@ -65,12 +65,24 @@ class CandidateList {
       const RigidTransform& sceneFromPart, double cutoff, LmdScratch& scratch, std::span<Lmd> out,
       std::uint64_t maxWork = std::numeric_limits<std::uint64_t>::max()) const noexcept;
 
+  /// Room for deviation that the list leaves all along a way of the part, straight as to the middle of its box; no value
+  /// if it does not cover the way, or was built for a shorter cutoff or less relaxation. Real-time safe.
+  std::optional<MotionBudget> roomAlong(const RigidTransform& from, const RigidTransform& to,
+                                        const ContactReach& reach) const noexcept;
+
   /// As findNearbyPairs, from the list; the result holds for as much of the slack as the list does. No value
   /// if the list does not cover the pose, or was built for a shorter cutoff or less relaxation. Does not
   /// begin if a pass over the list exceeds `maxWork`. Real-time safe.
   std::optional<NearbyPairs> nearbyPairs(
       const RigidTransform& sceneFromPart, const ContactReach& reach, const MotionBudget& slack,
       LmdScratch& scratch, std::span<LeafPair> out,
+      std::uint64_t maxWork = std::numeric_limits<std::uint64_t>::max()) const noexcept {
+    return nearbyPairsAlong(sceneFromPart, sceneFromPart, reach, slack, scratch, out, maxWork);
+  }
+  /// The same for all poses within `slack` of a way, as in roomAlong().
+  std::optional<NearbyPairs> nearbyPairsAlong(
+      const RigidTransform& from, const RigidTransform& to, const ContactReach& reach,
+      const MotionBudget& slack, LmdScratch& scratch, std::span<LeafPair> out,
       std::uint64_t maxWork = std::numeric_limits<std::uint64_t>::max()) const noexcept;
 
   /// Number of pairs.
@@ -97,11 +109,19 @@ class CandidateList {
   std::optional<CoveredPose> covered(const RigidTransform& sceneFromPart, double cutoff) const noexcept;
   /// Calls visit(scene leaf, part leaf) for each of the first `count` pairs that survives the culls, until
   /// visit returns false.
+  /// @param cull  Returns the lanes of a block that survive.
   /// @returns Number of blocks of pairs culled.
-  template <class Visit>
-  std::size_t visitPairs(const RigidTransform& centred, std::size_t count, const CullLimits& limits,
-                         LmdScratch& scratch, Visit&& visit) const noexcept;
+  template <class Cull, class Visit>
+  std::size_t visitPairs(std::size_t count, Cull&& cull, Visit&& visit) const noexcept;
   RangeLimits limitsWithin(double share) const noexcept;
+  /// A way between the centred frames.
+  struct Way {
+    RigidTransform middle;
+    MotionStretch stretch;
+    bool isOfOnePose = true;
+  };
+  Way wayBetween(const RigidTransform& from, const RigidTransform& to) const noexcept;
+  std::optional<MotionBudget> roomAlong(const Way& way) const noexcept;
   double spentAt(const RigidTransform& centred) const noexcept;
   MotionBudget asideOf(const RigidTransform& centred) const noexcept;
   void findLevels(const LmdScratch::Data& workspace) noexcept;

@@ -99,7 +99,7 @@ TEST(ContactFinder, ALookThatTakesManyTicksFindsWhatOneDoes) {
   for (int i = 0; i < 20; ++i)
     walk.lead({});
   const double reach = kContactReach * kMargin;
-  const RigidTransform pose = {{1, 0, 0, 0}, {2e-3, 1e-3, -3e-3}}, from;
+  const RigidTransform pose = {{1, 0, 0, 0}, {6e-3, 3e-3, -3e-3}}, from;
   const ContactFinder::Step step{from, true};
   ContactFinder whole, split;
   std::vector<BodyContact> expected(ContactFinder::kMaxContacts), found(ContactFinder::kMaxContacts);

@@ -50,6 +50,7 @@ struct Ringed {
             .sceneFromPart = pose,
             .reach = {kReach, kTurn},
             .need = kNeed,
+            .sure = kNeed,
             .cell = kCell};
   }
 };

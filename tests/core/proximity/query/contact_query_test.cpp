@@ -220,6 +220,59 @@ TEST(ContactQuery, NearbyPairsHoldTheContactsOfEveryPoseThatTheyAreSaidToHoldFor
   EXPECT_GT(compared, 1000U);
 }
 
+TEST(ContactQuery, PairsListedAlongAWayHoldEveryContactOnItAndBesideIt) {
+  Bodies bodies = stars();
+  std::mt19937_64 random(19);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const MotionBudget slack{0.01, 0.01};
+  const MotionStretch stretch{{0.03, 0.015, -0.01}, {0.01, 0.03, 0.0}};
+  const double radius = 0.5 * bodies.part.size();
+  CandidateList list;
+  std::size_t compared = 0, held = 0;
+  std::vector<LeafPair> pairs(1U << 18);
+  std::vector<ContactPair> found(8192);
+  const auto centred = [&](const RigidTransform& pose) {
+    return RigidTransform{pose.rotation, pose.applyToPoint(bodies.part.centre())};
+  };
+  const auto ofPart = [&](const RigidTransform& pose) {
+    return RigidTransform{pose.rotation, pose.translation - pose.rotation * bodies.part.centre()};
+  };
+  for (int i = 0; i < 40; ++i) {
+    const RigidTransform middle = test::poseNearContact(bodies.pair, kReach, random);
+    list.build({bodies.scene, bodies.part, middle, kReach}, {stretch, {0.03, 0.03}}, bodies.scratch,
+               {1U << 20, 1U << 30}, kTurn);
+    const RigidTransform from = poseOn(stretch, centred(middle), -0.5),
+                         to = poseOn(stretch, centred(middle), 0.6);
+    const auto nearby =
+        list.nearbyPairsAlong(ofPart(from), ofPart(to), {kReach, kTurn}, slack, bodies.scratch, pairs);
+    ASSERT_TRUE(nearby && nearby->isComplete);
+    for (int k = 0; k < 20; ++k) {
+      const RigidTransform on = poseOn(stretch, centred(middle), 0.05 + 0.55 * unit(random));
+      const glm::dvec3 axis = test::randomRotation(random).rotation * glm::dvec3(1, 0, 0);
+      const double share = unit(random);
+      const RigidTransform beside{
+          glm::normalize(glm::angleAxis(0.4 * share * nearby->holds.travel / radius, axis) * on.rotation),
+          on.translation + 0.5 * share * nearby->holds.travel * axis};
+      if (!(spentShare(motionBetween(on, beside, radius), nearby->holds) <= 1.0)) continue;
+      ++held;
+      const RigidTransform pose = ofPart(beside);
+      const ContactResult result = testContacts({bodies.scene, bodies.part, pose, kReach}, {kReach, kTurn},
+                                                std::span(pairs).first(nearby->count), found);
+      const auto expected = sorted(bodies.contacts(pose));
+      const auto listed = sorted({found.begin(), found.begin() + static_cast<std::ptrdiff_t>(result.count)});
+      ASSERT_EQ(listed.size(), expected.size());
+      for (std::size_t n = 0; n < listed.size(); ++n)
+        EXPECT_EQ(listed[n].point, expected[n].point);
+      compared += listed.size();
+    }
+    const RigidTransform beyond = poseOn(stretch, centred(middle), 3.0);
+    EXPECT_FALSE(
+        list.nearbyPairsAlong(ofPart(from), ofPart(beyond), {kReach, kTurn}, slack, bodies.scratch, pairs));
+  }
+  EXPECT_GT(held, 300U);
+  EXPECT_GT(compared, 500U);
+}
+
 TEST(ContactQuery, ListThatWasMadeForLessRelaxationDoesNotAnswer) {
   Bodies bodies = stars();
   CandidateList list;
