@@ -22,9 +22,9 @@ constexpr double kMinSlack = 0.5, kMaxSlack = 6.0;
 /// Limits that room to the travel of this many ticks at the speed of the last one, or of this many steps like
 /// the one that is tried: it reaches back to where that comes from.
 constexpr double kTicksAhead = 1.5, kStepsAhead = 4.0;
-/// Where pairs are thousands, they are gathered for the way of a step and, if the lists cover it, for so many more like
-/// it: few more are near along the way, and most near one end are near the other. They serve this far aside of it, in
-/// reaches.
+/// Where pairs are thousands, they are gathered for the way of so many steps like the one that is tried, as far as the
+/// lists cover it: few more are near along the way, and most near one end are near the other. They serve this far aside
+/// of it, in reaches.
 constexpr std::array kStepsOfStretch{4.0, 2.0, 1.0};
 constexpr double kAside = 0.25;
 /// Limits the room for turning: beyond it, nearly every pair of features is a candidate [rad].
@@ -211,7 +211,9 @@ ContactFinder::Gathered ContactFinder::gatherFeatures(const ServoScene::Body& ot
                                                       const RigidTransform& worldFromPart,
                                                       const Gathering& gathering) noexcept {
   const ContactReach within{pairsReach_, contactTurn(pairsReach_, scene.metric.radius)};
-  const RigidTransform bodyFromPart = (other.worldFromPart.inverse() * worldFromPart).normalized();
+  const auto poseAt = [&](const RigidTransform& pose) {
+    return (other.worldFromPart.inverse() * pose).normalized();
+  };
   const std::span<LeafPair> room = std::span(pairs_).subspan(pairCount_);
   const auto take = [&](const NearbyPairs& nearby, std::size_t most) {
     spend(nearby.work);
@@ -225,25 +227,20 @@ ContactFinder::Gathered ContactFinder::gatherFeatures(const ServoScene::Body& ot
   if (known != nullptr && known->contacts) {
     const std::size_t most =
         std::min(room.size(), gathering.mostListed - std::min(gathering.mostListed, pairCount_));
-    const auto poseAt = [&](const RigidTransform& pose) {
-      return (other.worldFromPart.inverse() * pose).normalized();
-    };
+    const Stretch way = gathering.stretch.value_or(Stretch{worldFromPart, worldFromPart});
     const std::optional<NearbyPairs> listed =
-        gathering.stretch ? known->contacts->nearbyPairsAlong(
-                                poseAt(gathering.stretch->from), poseAt(gathering.stretch->to), within,
-                                gathering.slack, scratch_, room.first(most), leftToGather())
-                          : known->contacts->nearbyPairs(bodyFromPart, within, gathering.slack, scratch_,
-                                                         room.first(most), leftToGather());
+        known->contacts->nearbyPairsAlong(poseAt(way.from), poseAt(way.to), within, gathering.slack, scratch_,
+                                          room.first(most), leftToGather());
     if (listed) return take(*listed, most);
     isSearchHopeless = known->contacts->size() > kMaxSearchWork;
     mayStepLess = gathering.isOfStep;
   }
   ++lateBodies_;
   if (isSearchHopeless) return Gathered::NoList;
-  const NearbyPairs found =
-      findNearbyPairs({other.geometry->tree(), scene.moving.geometry->tree(), bodyFromPart, pairsReach_},
-                      within, gathering.slack, scratch_, room,
-                      std::min({searchWorkLeft_, leftToGather(), mayStepLess ? kWorkBesideList : kMaxWork}));
+  const NearbyPairs found = findNearbyPairs(
+      {other.geometry->tree(), scene.moving.geometry->tree(), poseAt(worldFromPart), pairsReach_}, within,
+      gathering.slack, scratch_, room,
+      std::min({searchWorkLeft_, leftToGather(), mayStepLess ? kWorkBesideList : kMaxWork}));
   searchWorkLeft_ -= found.work;
   const Gathered outcome = take(found, room.size());
   return outcome == Gathered::NoWork && mayStepLess && found.work >= kWorkBesideList ? Gathered::NoList

@@ -288,12 +288,18 @@ std::optional<MotionBudget> CandidateList::roomAlong(const Way& way) const noexc
                       std::max(0.0, range_.budget.turn - aside.turn - lost.turn)};
 }
 
-std::optional<MotionBudget> CandidateList::roomAlong(const RigidTransform& from, const RigidTransform& to,
-                                                     const ContactReach& reach) const noexcept {
+std::optional<CandidateList::Way> CandidateList::wayFor(const RigidTransform& from, const RigidTransform& to,
+                                                        const ContactReach& reach) const noexcept {
   if (!isUsable_ || !(reach.distance <= cutoff_) || !(reach.turn <= relaxation_) || !from.isFinite() ||
       !to.isFinite())
     return std::nullopt;
-  return roomAlong(wayBetween(from, to));
+  return wayBetween(from, to);
+}
+
+std::optional<MotionBudget> CandidateList::roomAlong(const RigidTransform& from, const RigidTransform& to,
+                                                     const ContactReach& reach) const noexcept {
+  const std::optional<Way> way = wayFor(from, to, reach);
+  return way ? roomAlong(*way) : std::nullopt;
 }
 
 std::optional<NearbyPairs> CandidateList::nearbyPairsAlong(const RigidTransform& from,
@@ -302,17 +308,17 @@ std::optional<NearbyPairs> CandidateList::nearbyPairsAlong(const RigidTransform&
                                                            const MotionBudget& slack, LmdScratch& scratch,
                                                            std::span<LeafPair> out,
                                                            std::uint64_t maxWork) const noexcept {
-  const std::optional<MotionBudget> room = roomAlong(from, to, reach);
+  const std::optional<Way> way = wayFor(from, to, reach);
+  const std::optional<MotionBudget> room = way ? roomAlong(*way) : std::nullopt;
   if (!room) return std::nullopt;
   NearbyPairs result;
   result.holds = {std::min(room->travel, slack.travel), std::min(room->turn, slack.turn)};
   result.isComplete = true;
   const BodyPairQuery within{*scene_, *part_, from, reach.distance};
   if (!isQueryValid(*scene_, *part_, from, reach.distance)) return result;
-  const Way way = wayBetween(from, to);
   // Pairs that matter only farther from the middle do not matter at the pose itself.
-  const bool isForPose = way.isOfOnePose && !(slack.travel > 0.0) && !(slack.turn > 0.0);
-  const std::size_t count = isForPose ? countFor(spentAt(way.middle)) : size();
+  const bool isForPose = way->isOfOnePose && !(slack.travel > 0.0) && !(slack.turn > 0.0);
+  const std::size_t count = isForPose ? countFor(spentAt(way->middle)) : size();
   if (count == 0) return result;
   result.isComplete = blocksOf(count) <= maxWork;
   if (!result.isComplete) return result;
@@ -324,21 +330,16 @@ std::optional<NearbyPairs> CandidateList::nearbyPairsAlong(const RigidTransform&
     return result.isComplete;
   };
   const LmdScratch::Data& workspace = scratch.data();
-  const SinglePose pose(way.middle);
-  if (way.isOfOnePose) {
-    const CullLimits limits = contactLimits(within, way.middle, reach.turn, result.holds);
-    result.work = visitPairs(
-        count, [&](const BoundPairs& block) { return workspace.pairCull(block, pose, limits); }, take);
-  } else {
-    const MotionRange range = relaxed({way.stretch, result.holds}, reach.distance, reach.turn);
-    const RangeLimits limits = rangeLimits(within, way.middle, range);
-    result.work = visitPairs(
-        count,
-        [&](const BoundPairs& block) {
-          return workspace.sweptPairCull(block, pose, limits.still, limits.inScene);
-        },
-        take);
-  }
+  const SinglePose pose(way->middle);
+  const RangeLimits limits =
+      rangeLimits(within, way->middle, relaxed({way->stretch, result.holds}, reach.distance, reach.turn));
+  result.work = visitPairs(
+      count,
+      [&](const BoundPairs& block) {
+        return way->isOfOnePose ? workspace.pairCull(block, pose, limits.still)
+                                : workspace.sweptPairCull(block, pose, limits.still, limits.inScene);
+      },
+      take);
   result.work += blocksOf(result.count);
   return result;
 }

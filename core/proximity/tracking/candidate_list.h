@@ -121,6 +121,9 @@ class CandidateList {
     bool isOfOnePose = true;
   };
   Way wayBetween(const RigidTransform& from, const RigidTransform& to) const noexcept;
+  /// The way, if the list can serve it with that reach.
+  std::optional<Way> wayFor(const RigidTransform& from, const RigidTransform& to,
+                            const ContactReach& reach) const noexcept;
   std::optional<MotionBudget> roomAlong(const Way& way) const noexcept;
   double spentAt(const RigidTransform& centred) const noexcept;
   MotionBudget asideOf(const RigidTransform& centred) const noexcept;

@@ -50,13 +50,13 @@ void start(DesktopDriver& d, ui::Hand hand) {
   QTRY_VERIFY(d.application.servo().isRunning());
 }
 
-/// Goes one mode on or back in the panel's list, by the keyboard.
 /// Brings the hand 3.1 mm beyond where contact stops the part.
 void pressDown(DesktopDriver& d) {
   d.type<QDoubleSpinBox>("positionZ", "-8");
   QTRY_VERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
 }
 
+/// Goes one mode on or back in the panel's list, by the keyboard.
 void changeMode(DesktopDriver& d, Qt::Key key) {
   auto* mode = d.widget<QComboBox>("panelMode");
   mode->setFocus();
