@@ -191,7 +191,8 @@ void ServoController::release() {
 
 void ServoController::commitPose() {
   if (!isRunning()) return;
-  loop_.pollSnapshot();
+  // What is shown after a stop is the tick whose pose is kept.
+  showNewest();
   const ServoSnapshot& snapshot = loop_.snapshot();
   const RigidTransform pose = snapshot.tick == 0 ? startPose_ : snapshot.proxy;
   if (!pose.isFinite()) return;
@@ -320,11 +321,7 @@ void ServoController::restartAtPart() {
 
 void ServoController::poll() {
   rows_.take();
-  if (loop_.pollSnapshot()) {
-    const ServoSnapshot& snapshot = loop_.snapshot();
-    meter_.see(snapshot);
-    emit snapshotArrived(snapshot);
-  }
+  showNewest();
   if (!loop_.isRunning()) {
     putDownAfterEnd();
     return;
@@ -335,6 +332,13 @@ void ServoController::poll() {
     rows_.tell();
   }
   if (isNew || isMeasured) emit statusChanged(status_);
+}
+
+void ServoController::showNewest() {
+  if (!loop_.pollSnapshot()) return;
+  const ServoSnapshot& snapshot = loop_.snapshot();
+  meter_.see(snapshot);
+  emit snapshotArrived(snapshot);
 }
 
 void ServoController::putDownAfterEnd() {

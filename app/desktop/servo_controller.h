@@ -103,6 +103,8 @@ class ServoController : public QObject {
   /// Puts the device's own state into the status. Returns true if that is new.
   bool takeDeviceState();
   void poll();
+  /// Tells of the newest snapshot, if that was not told yet.
+  void showNewest();
   /// After the servo ended by itself: puts the part down, and tells the user if a device was lost.
   void putDownAfterEnd();
   void halt();

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <QObject>
+#include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "core/servo/servo_snapshot.h"
@@ -12,13 +14,17 @@ namespace nearfit::ui {
 class ShownPoses;
 
 /// Who holds the moving part, and where: the servo as last reported. Panels, tools and the view follow it.
+///
+/// All that shows what is felt shows one snapshot: the view takes each (snapshotShown), numbers beside it change when
+/// the view has drawn it (snapshotDrawn). When the part is put down, all go on showing the last one, as past
+/// (snapshotKept), until the scene changes (snapshotCleared).
 class HandState : public QObject {
   Q_OBJECT
 
  public:
   /// @param session  Outlives this.
   /// @param poses    Learns where the servo has the part in hand; outlives this.
-  HandState(const Session& session, ShownPoses& poses, QObject* parent = nullptr);
+  HandState(Session& session, ShownPoses& poses, QObject* parent = nullptr);
 
   const ServoStatus& status() const noexcept { return status_; }
   /// True while the servo runs with that hand.
@@ -39,6 +45,10 @@ class HandState : public QObject {
   void showStatus(const nearfit::ui::ServoStatus& status);
   /// Takes in a tick of the part in hand.
   void showSnapshot(const nearfit::ServoSnapshot& snapshot);
+  /// Tells that the view has drawn a snapshot; ignored unless the servo runs, as the view also draws recordings.
+  void noteDrawn(const nearfit::ServoSnapshot& snapshot);
+  /// Ends the show of the snapshot kept since the part was put down; no-op without one.
+  void clearKept();
 
  signals:
   /// Emitted with each state, several times a second while the servo runs.
@@ -47,14 +57,28 @@ class HandState : public QObject {
   void changed();
   /// Emitted with each tick that is shown.
   void snapshotShown(const nearfit::ServoSnapshot& snapshot);
-  /// Emitted, before changed(), when the last snapshot no longer holds.
+  /// Emitted with each tick that the view has drawn.
+  void snapshotDrawn(const nearfit::ServoSnapshot& snapshot);
+  /// Emitted, before changed(), when the part was put down: the last tick, which is past.
+  void snapshotKept(const nearfit::ServoSnapshot& snapshot);
+  /// Emitted, before changed(), when the last snapshot no longer holds, even as past.
   void snapshotCleared();
 
  private:
-  const Session& session_;
+  void keepLast();
+  void clearLast();
+  /// Ends the show of a past snapshot once it is not how things are.
+  void followSession();
+
+  Session& session_;
   ShownPoses& poses_;
   ServoStatus status_;
-  RigidTransform handPose_;  ///< Of the manual hand.
+  RigidTransform handPose_;              ///< Of the manual hand.
+  std::unique_ptr<ServoSnapshot> last_;  ///< The snapshot on show; null if there is none.
+  std::uint64_t sceneSerial_ = 0;        ///< Serial of its scene.
+  /// State of the session when the part was put down, while last_ is past.
+  std::optional<std::uint64_t> keptState_;
+  Subscription changes_;
 };
 
 }  // namespace nearfit::ui

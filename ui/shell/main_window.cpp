@@ -81,6 +81,8 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   viewport_ = new Viewport(shapes, *selection_, *poses_, this);
   setCentralWidget(viewport_);
   connect(hand_, &HandState::snapshotShown, viewport_, &Viewport::showSnapshot);
+  connect(viewport_, &Viewport::snapshotDrawn, hand_, &HandState::noteDrawn);
+  connect(hand_, &HandState::snapshotKept, viewport_, &Viewport::keepSnapshot);
   connect(hand_, &HandState::snapshotCleared, viewport_, &Viewport::clearSnapshot);
   document_ = std::make_unique<Document>(session, shapes, this);
   files_ = new FileCommands({session_, *selection_, *hand_, *document_, *viewport_}, this);
@@ -185,6 +187,8 @@ void MainWindow::addDockButton(QDockWidget& dock, const QString& toolTip) {
 }
 
 void MainWindow::connectReplay(QDockWidget& timelineDock) {
+  // Glyphs and numbers beside them are of one motion: felt, or played.
+  connect(replay_, &Replay::opened, hand_, &HandState::clearKept);
   connect(replay_, &Replay::opened, &timelineDock, [&timelineDock] {
     timelineDock.show();
     timelineDock.raise();

@@ -23,9 +23,17 @@ bool isElsewhere(const RigidTransform& a, const RigidTransform& b) {
          glm::length(glm::dvec3(turn.x, turn.y, turn.z)) > kSlack;
 }
 
+const QString kSheet = QStringLiteral("border-left: 1px solid #d5dbe1; padding-left: 8px");
+
 void setColour(QLabel& label, const QColor& colour) {
-  label.setStyleSheet(
-      QStringLiteral("border-left: 1px solid #d5dbe1; padding-left: 8px; color: %1").arg(colour.name()));
+  label.setStyleSheet(kSheet + QStringLiteral("; color: %1").arg(colour.name()));
+}
+
+/// Shows a number as present, or in the grey of what is disabled: a colour in its sheet would cover that.
+void setPresent(QLabel& label, bool isPresent) {
+  if (label.isEnabled() == isPresent) return;
+  label.setEnabled(isPresent);
+  isPresent ? setColour(label, colours::kMutedText) : label.setStyleSheet(kSheet);
 }
 
 QLabel* addLabel(QStatusBar* bar, const QString& objectName, const QString& widest) {
@@ -68,7 +76,10 @@ StatusReadout::StatusReadout(const HandState& hand, QStatusBar* bar)
       minima_(addLabel(bar, QStringLiteral("statusMinima"), tr("LMDs 0000"))),
       distance_(addLabel(bar, QStringLiteral("statusDistance"), tr("Min distance 0000 mm"))) {
   connect(&hand, &HandState::statusChanged, this, &StatusReadout::showStatus);
-  connect(&hand, &HandState::snapshotShown, this, &StatusReadout::showSnapshot);
+  connect(&hand, &HandState::snapshotDrawn, this,
+          [this](const ServoSnapshot& snapshot) { showSnapshot(snapshot, true); });
+  connect(&hand, &HandState::snapshotKept, this,
+          [this](const ServoSnapshot& snapshot) { showSnapshot(snapshot, false); });
   connect(&hand, &HandState::snapshotCleared, this, &StatusReadout::clearSnapshot);
   showStatus({});
   clearSnapshot();
@@ -84,12 +95,16 @@ void StatusReadout::showStatus(const ServoStatus& status) {
                                       : tr("Late –"));
 }
 
-void StatusReadout::showSnapshot(const ServoSnapshot& snapshot) {
-  minima_->setText(tr("LMDs %1").arg(snapshot.lmdCount));
+void StatusReadout::showSnapshot(const ServoSnapshot& snapshot, bool isFelt) {
+  setPresent(*minima_, isFelt);
+  setPresent(*distance_, isFelt);
+  minima_->setText(tr("LMDs %1").arg(formatMinima(snapshot.lmdCount, snapshot.isTruncated)));
   distance_->setText(tr("Min distance %1").arg(formatDistance(snapshot.distance, snapshot.isDistanceBound)));
 }
 
 void StatusReadout::clearSnapshot() {
+  setPresent(*minima_, true);
+  setPresent(*distance_, true);
   minima_->setText(tr("LMDs –"));
   distance_->setText(tr("Min distance –"));
 }

@@ -39,7 +39,7 @@ class WindowTitle : public QObject {
   Subscription changes_;
 };
 
-/// Servo rate, lateness, number of minima and least distance, at the right of the status bar.
+/// Servo rate, lateness, number of minima and min distance, at the right of the status bar.
 class StatusReadout : public QObject {
   Q_OBJECT
 
@@ -50,7 +50,8 @@ class StatusReadout : public QObject {
 
  private:
   void showStatus(const ServoStatus& status);
-  void showSnapshot(const ServoSnapshot& snapshot);
+  /// @param isFelt  False if the snapshot is past: its numbers are grey.
+  void showSnapshot(const ServoSnapshot& snapshot, bool isFelt);
   /// Shows dashes instead of minima and distance.
   void clearSnapshot();
 

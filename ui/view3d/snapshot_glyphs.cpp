@@ -9,6 +9,9 @@
 namespace nearfit::ui {
 namespace {
 
+/// Opacity of glyphs that are past, against that of present ones: seen through, and still told apart by colour.
+constexpr double kPastOpacity = 0.4;
+
 bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
   return a.rotation == b.rotation && a.translation == b.translation;
 }
@@ -40,6 +43,15 @@ void SnapshotGlyphs::showNumbers(const ServoSnapshot& snapshot) {
   placeLegend();
   hasNumbers_ = true;
   legend_->setVisible(isLegendWanted_);
+}
+
+void SnapshotGlyphs::setPast(bool isPast) {
+  const double share = isPast ? kPastOpacity : 1.0;
+  minima_.setOpacity(share);
+  arrows_.setOpacity(share);
+  contacts_.setOpacity(share);
+  hand_.setOpacity(share);
+  legend_->setPast(isPast);
 }
 
 void SnapshotGlyphs::clear() {

@@ -136,6 +136,7 @@ void Viewport::countPicture() {
   pace_->noteDrawn();
   detail_->afterPicture();
   showScale();
+  if (std::exchange(hasNewNumbers_, false) && shown_ != nullptr) emit snapshotDrawn(*shown_);
   emit drawn();
 }
 
@@ -149,7 +150,7 @@ void Viewport::showScale() {
 void Viewport::prepareRender() {
   // Nothing else tells the marker the window's first size.
   marker_->SquareResize();
-  if (std::exchange(hasNewNumbers_, false) && shown_ != nullptr) glyphs_->showNumbers(*shown_);
+  if (hasNewNumbers_ && shown_ != nullptr) glyphs_->showNumbers(*shown_);
   parts_.updateCut();
   glyphs_->hand().setCut(parts_.cutOfMoving());
   adjustClipping();
@@ -218,9 +219,17 @@ void Viewport::placeParts(const std::vector<PartId>& parts) {
 }
 
 void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
-  if (shown_ != nullptr && looksTheSame(*shown_, snapshot)) return;
+  const bool isSame = shown_ != nullptr && !isPast_ && looksTheSame(*shown_, snapshot);
   if (shown_ == nullptr) shown_ = std::make_unique<ServoSnapshot>();
   *shown_ = snapshot;
+  if (!isSame) draw(snapshot);
+  if (hasNewNumbers_ && isVisible()) return;
+  emit snapshotDrawn(snapshot);
+}
+
+void Viewport::draw(const ServoSnapshot& snapshot) {
+  isPast_ = false;
+  glyphs_->setPast(false);
   detail_->setFeeling(true);
   hasNewNumbers_ = true;
   glyphs_->show(snapshot, scene_.haptics(), scene_.find(snapshot.moving));
@@ -230,8 +239,19 @@ void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
   requestRender();
 }
 
+void Viewport::keepSnapshot() {
+  if (shown_ == nullptr) return;
+  isPast_ = true;
+  detail_->setFeeling(false);
+  glyphs_->setPast(true);
+  glyphs_->showNumbers(*shown_);
+  parts_.setOverlapping({});
+  requestRender();
+}
+
 void Viewport::clearSnapshot() {
   shown_.reset();
+  isPast_ = false;
   detail_->setFeeling(false);
   glyphs_->clear();
   parts_.setOverlapping({});

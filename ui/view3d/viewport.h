@@ -52,6 +52,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
   /// Shows the hand's ghost, minima, contacts, wrench and overlapping parts; ShownPoses moves the part in hand.
   /// Draws nothing if none of these changed.
   void showSnapshot(const ServoSnapshot& snapshot);
+  /// Draws the snapshot paler from now on: it is past, and nothing is felt any more. No-op without one.
+  void keepSnapshot();
   /// Removes the snapshot and shows the scene alone.
   void clearSnapshot();
 
@@ -120,6 +122,9 @@ class Viewport : public QVTKOpenGLNativeWidget {
  signals:
   /// Emitted after each picture, requested here or elsewhere.
   void drawn();
+  /// Emitted with each snapshot shown once the view looks like it; a snapshot that is followed by another before
+  /// the next picture is left out. At once if the view already looks like it, or is hidden.
+  void snapshotDrawn(const nearfit::ServoSnapshot& snapshot);
   /// Emitted once the view has placed its parts after some came, left or are shown elsewhere. For what is
   /// drawn with them, which updates before the next picture; all else follows ShownPoses::changed().
   void posesChanged();
@@ -147,6 +152,8 @@ class Viewport : public QVTKOpenGLNativeWidget {
   /// Bounds of everything that the next picture shows, in the world [m].
   vtkBoundingBox drawnBounds();
   void countPicture();
+  /// Draws what showSnapshot() says, from the next picture on.
+  void draw(const ServoSnapshot& snapshot);
   void showScale();
   void showMovingPart();
   void showSelection();
@@ -168,6 +175,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   ScaleBar* scaleBar_;
   std::unique_ptr<ServoSnapshot> shown_;
   bool hasNewNumbers_ = false;  ///< shown_ has not been drawn yet.
+  bool isPast_ = false;         ///< shown_ is no longer felt.
   Scene scene_;
   std::set<PartId> known_;  ///< Parts shown so far, including ones that have left.
   QPoint pressedAt_;

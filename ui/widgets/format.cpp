@@ -91,6 +91,10 @@ QString formatDistance(double metres, bool isBound) {
                                           : length;
 }
 
+QString formatMinima(std::uint32_t count, bool isTruncated) {
+  return QString::number(count) + (isTruncated ? QStringLiteral("+") : QString());
+}
+
 QString formatForce(double newtons) {
   return figures(newtons) + QStringLiteral(" N");
 }

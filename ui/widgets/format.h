@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QString>
+#include <cstdint>
 
 #include <glm/vec3.hpp>
 
@@ -25,6 +26,8 @@ QString formatRoundLength(double metres);
 QString formatExtent(const glm::dvec3& metres);
 /// Formats a distance of which perhaps only a lower bound is known: "at least 0.26 mm".
 QString formatDistance(double metres, bool isBound);
+/// Formats a number of minima, of which some may be missing: "12", "12+".
+QString formatMinima(std::uint32_t count, bool isTruncated);
 /// Formats a force [N]: "3.42 N".
 QString formatForce(double newtons);
 /// Formats a torque [N m]: "12.3 mN·m", "1.20 N·m".

@@ -248,11 +248,22 @@ void DesktopProxyTest::whatWasFeltLastStaysInGreyUntilTheSceneChanges() {
   QVERIFY(!lead->isEnabled());
   QVERIFY(d.text("lead").startsWith(QStringLiteral("3.1")));
   QVERIFY(d.text("contacts").toInt() >= 1);
+  // The status bar and the view go on showing the same, as past.
+  const auto* distance = d.widget<QLabel>("statusDistance");
+  QVERIFY(!distance->isEnabled());
+  QCOMPARE(distance->text(), QStringLiteral("Min distance ") + d.text("distance"));
+  QCOMPARE(d.text("statusMinima"), QStringLiteral("LMDs ") + d.text("minima"));
+  QVERIFY(d.widget<QWidget>("colourLegend")->isVisible());
   d.type<QDoubleSpinBox>("positionX", "1");
   QCOMPARE(d.text("lead"), QStringLiteral("–"));
+  QCOMPARE(distance->text(), QStringLiteral("Min distance –"));
+  QVERIFY(distance->isEnabled());
+  QVERIFY(!d.widget<QWidget>("colourLegend")->isVisible());
   // They are black again once something is felt.
   start(d, ui::Hand::Manual);
   QTRY_VERIFY(lead->isEnabled());
+  QTRY_VERIFY(d.text("statusDistance") != QStringLiteral("Min distance –"));
+  QVERIFY(distance->isEnabled());
 }
 
 /// The part went through the floor to where the hand was: 17 mm below, and overlapped in the proxy mode.

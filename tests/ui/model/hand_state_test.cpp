@@ -1,6 +1,7 @@
 #include "ui/model/hand_state.h"
 
 #include <QSignalSpy>
+#include <QTemporaryDir>
 #include <QtTest>
 #include <memory>
 
@@ -9,6 +10,7 @@
 #include "tests/support/qt/qt_suite.h"
 #include "ui/model/move_guard.h"
 #include "ui/model/shown_poses.h"
+#include "ui/widgets/paths.h"
 
 using namespace nearfit;
 using ui::Hand;
@@ -32,6 +34,11 @@ class HandStateTest : public QObject {
   void onlyAManualHandIsAheadOfThePart();
   void aStateThatChangesNothingIsToldAsSuch();
   void theLastSnapshotIsClearedBeforeTheStopIsTold();
+  void theLastSnapshotIsKeptAsPastUntilTheSceneChanges();
+  void aPastSnapshotOutlivesASaveButNotANewStart();
+  void aPastSnapshotEndsWhereThePartIsShownElsewhere();
+  void nothingIsKeptOfAPartThatIsGone();
+  void whatTheViewDrawsIsOnlyToldWhileTheServoRuns();
   void partsInOtherHandsMayNotBeMoved();
   void thePartInTheManualHandMovesAlone();
 
@@ -144,6 +151,77 @@ void HandStateTest::theLastSnapshotIsClearedBeforeTheStopIsTold() {
   connect(hand_.get(), &ui::HandState::changed, this, [&] { told += 'c'; });
   stop();
   QCOMPARE(told, QStringLiteral("sxc"));
+}
+
+/// Panel, status bar and view each had a rule of their own for what stays after Stop.
+void HandStateTest::theLastSnapshotIsKeptAsPastUntilTheSceneChanges() {
+  run(Hand::Manual);
+  feelAt(1.25);
+  feelAt(1.5);
+  QString told;
+  double kept = 0.0;
+  connect(hand_.get(), &ui::HandState::snapshotKept, this, [&](const ServoSnapshot& snapshot) {
+    told += 'k';
+    kept = snapshot.proxy.translation.x;
+  });
+  connect(hand_.get(), &ui::HandState::snapshotCleared, this, [&] { told += 'x'; });
+  connect(hand_.get(), &ui::HandState::changed, this, [&] { told += 'c'; });
+  // The pose is put into the session before the servo reports its end.
+  session_->movePart(moving_, placeAt(1.5));
+  stop();
+  QCOMPARE(told, QStringLiteral("kc"));
+  QCOMPARE(kept, 1.5);
+  session_->setVisible(other_, false);
+  QCOMPARE(told, QStringLiteral("kcx"));
+  session_->setVisible(other_, true);
+  QCOMPARE(told, QStringLiteral("kcx"));
+}
+
+void HandStateTest::aPastSnapshotOutlivesASaveButNotANewStart() {
+  QSignalSpy cleared(hand_.get(), &ui::HandState::snapshotCleared);
+  run(Hand::Manual);
+  feelAt(1.25);
+  stop();
+  cleared.clear();
+  const QTemporaryDir folder;
+  session_->save(toPath(folder.filePath(QStringLiteral("scene.nearfit"))));
+  QCOMPARE(cleared.count(), 0);
+  run(Hand::Manual);
+  QCOMPARE(cleared.count(), 1);
+}
+
+void HandStateTest::aPastSnapshotEndsWhereThePartIsShownElsewhere() {
+  QSignalSpy cleared(hand_.get(), &ui::HandState::snapshotCleared);
+  run(Hand::Manual);
+  feelAt(1.25);
+  stop();
+  cleared.clear();
+  poses_->show(ui::ShownPoses::Source::Drag, {{moving_, placeAt(4.0)}});
+  QCOMPARE(cleared.count(), 1);
+}
+
+void HandStateTest::nothingIsKeptOfAPartThatIsGone() {
+  QSignalSpy kept(hand_.get(), &ui::HandState::snapshotKept);
+  run(Hand::Manual);
+  feelAt(1.25);
+  session_->setMovingPart(other_);
+  stop();
+  run(Hand::Manual);
+  feelAt(1.25);
+  session_->reset();
+  stop();
+  QCOMPARE(kept.count(), 0);
+}
+
+/// The view draws recordings too.
+void HandStateTest::whatTheViewDrawsIsOnlyToldWhileTheServoRuns() {
+  QSignalSpy drawn(hand_.get(), &ui::HandState::snapshotDrawn);
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  hand_->noteDrawn(*snapshot);
+  QCOMPARE(drawn.count(), 0);
+  run(Hand::Manual);
+  hand_->noteDrawn(*snapshot);
+  QCOMPARE(drawn.count(), 1);
 }
 
 void HandStateTest::partsInOtherHandsMayNotBeMoved() {

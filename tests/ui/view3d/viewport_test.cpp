@@ -1,7 +1,9 @@
 #include "ui/view3d/viewport.h"
 
 #include <QtTest>
+#include <cstdlib>
 #include <memory>
+#include <vector>
 
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -30,6 +32,8 @@ class ViewportTest : public QObject {
   void whatIsDrawnBesidesPartsIsLittle();
   void nothingBehindTheWindowShinesThrough();
   void numbersChangeWithTheGlyphsTheyExplain();
+  void aSnapshotIsToldAsDrawnWithItsPicture();
+  void aPastSnapshotStaysPaler();
 
  private:
   /// Pictures since the last call, once the view is at rest.
@@ -162,6 +166,69 @@ void ViewportTest::numbersChangeWithTheGlyphsTheyExplain() {
   QCOMPARE(legend->grab().toImage(), before);
   QTRY_VERIFY(viewport_->pictureCount() > pictures);
   QVERIFY(legend->grab().toImage() != before);
+}
+
+/// The panel had the next picture's numbers while the legend had those of the last one: torque 1.17 and 0.00.
+void ViewportTest::aSnapshotIsToldAsDrawnWithItsPicture() {
+  (void)newPictures();
+  std::vector<double> told;
+  const auto connection = connect(
+      viewport_.get(), &ui::Viewport::snapshotDrawn, this,
+      [&told](const ServoSnapshot& snapshot) { told.push_back(snapshot.energyToHand); });
+  for (const double energy : {1.0, 2.0}) {
+    snapshot_->proxy.translation.x += 0.001;
+    snapshot_->energyToHand = energy;
+    showSnapshot();
+  }
+  QVERIFY(told.empty());
+  QCOMPARE(newPictures(), 1);
+  QCOMPARE(told, (std::vector{2.0}));
+  // It changes no glyph, so that no picture follows.
+  snapshot_->energyToHand = 3.0;
+  showSnapshot();
+  QCOMPARE(told, (std::vector{2.0, 3.0}));
+  QCOMPARE(newPictures(), 0);
+  disconnect(connection);
+}
+
+/// Stop wiped the glyphs. Past ones differ from the background less than present ones.
+void ViewportTest::aPastSnapshotStaysPaler() {
+  auto* legend = viewport_->findChild<ui::ColourLegend*>();
+  snapshot_->wrench.force = {0.0, 0.0, 0.0};
+  showSnapshot();
+  (void)newPictures();
+  const QImage without = viewport_->grabFramebuffer();
+  snapshot_->wrench.force = {0.0, 2.0, 0.0};
+  showSnapshot();
+  (void)newPictures();
+  const QImage present = viewport_->grabFramebuffer();
+  const QImage legendPresent = legend->grab().toImage();
+  viewport_->keepSnapshot();
+  QVERIFY(newPictures() > 0);
+  const QImage past = viewport_->grabFramebuffer();
+  const auto strength = [&without](const QImage& picture) {
+    qint64 sum = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        const QRgb a = picture.pixel(x, y), b = without.pixel(x, y);
+        sum += std::abs(qRed(a) - qRed(b)) + std::abs(qGreen(a) - qGreen(b)) + std::abs(qBlue(a) - qBlue(b));
+      }
+    }
+    return sum;
+  };
+  QVERIFY2(strength(past) > 0, "it stays");
+  QVERIFY2(strength(past) < 3 * strength(present) / 4, "it is paler");
+  QVERIFY(legend->isVisible());
+  QVERIFY(legend->grab().toImage() != legendPresent);
+  // The same snapshot felt again is present again.
+  showSnapshot();
+  QVERIFY(newPictures() > 0);
+  QCOMPARE(viewport_->grabFramebuffer(), present);
+  QCOMPARE(legend->grab().toImage(), legendPresent);
+  viewport_->keepSnapshot();
+  viewport_->clearSnapshot();
+  QVERIFY(newPictures() > 0);
+  QVERIFY(!legend->isVisible());
 }
 
 NEARFIT_QT_SUITE(ViewportTest, [](int argc, char** argv) {

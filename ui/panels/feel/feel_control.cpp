@@ -35,8 +35,6 @@ FeelControl::FeelControl(Session& session, const HandState& hand, SceneWork& wor
   changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] {
     showSettings();
     updateActions();
-    // What was felt is no longer how things are.
-    if (!hand_.status().isTaken()) panel_->clearSnapshot();
   });
   showSettings();
   updateActions();
@@ -108,25 +106,19 @@ void FeelControl::connectHand() {
     clutch->setChecked(status.isClutched);
     dialog_->setDevice(status.device);
   });
-  connect(&hand_, &HandState::changed, this, &FeelControl::followHand);
-  connect(&hand_, &HandState::snapshotShown, this, [this](const ServoSnapshot& snapshot) {
-    feltPart_ = snapshot.moving;
-    feltScene_ = session_.sceneSerial();
+  connect(&hand_, &HandState::changed, this, &FeelControl::updateActions);
+  connect(&hand_, &HandState::snapshotDrawn, this, [this](const ServoSnapshot& snapshot) {
     panel_->showSnapshot(snapshot, session_.scene());
     dialog_->showSnapshot(snapshot);
   });
-  connect(&hand_, &HandState::snapshotCleared, this, &FeelControl::keepFelt);
-}
-
-void FeelControl::followHand() {
-  if (hand_.status().isTaken()) panel_->clearSnapshot();
-  updateActions();
-}
-
-void FeelControl::keepFelt() {
-  dialog_->clearSnapshot();
-  const bool isSame = session_.sceneSerial() == feltScene_ && session_.scene().movingPart() == feltPart_;
-  isSame ? panel_->keepSnapshot() : panel_->clearSnapshot();
+  connect(&hand_, &HandState::snapshotKept, this, [this](const ServoSnapshot& snapshot) {
+    panel_->keepSnapshot(snapshot);
+    dialog_->clearSnapshot();
+  });
+  connect(&hand_, &HandState::snapshotCleared, this, [this] {
+    panel_->clearSnapshot();
+    dialog_->clearSnapshot();
+  });
 }
 
 void FeelControl::updateActions() {

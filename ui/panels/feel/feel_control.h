@@ -3,12 +3,10 @@
 #include <QObject>
 #include <QString>
 #include <QVector>
-#include <cstdint>
 #include <optional>
 
 #include "core/haptics/haptic_settings.h"
 #include "core/haptics/rate_settings.h"
-#include "core/scene/part.h"
 #include "core/session/scene_events.h"
 #include "ui/model/device_choice.h"
 #include "ui/model/servo_status.h"
@@ -95,10 +93,6 @@ class FeelControl : public QObject {
   void connectSettings();
   void connectHand();
   void updateActions();
-  /// The servo has started or stopped, or opens a device.
-  void followHand();
-  /// Keeps the numbers felt last on show, unless they are of another part or scene.
-  void keepFelt();
   /// Returns why nothing can be felt now, as a sentence for the user; empty if it can.
   QString whyNotFelt() const;
   void showSettings();
@@ -123,8 +117,6 @@ class FeelControl : public QObject {
   /// Set while a start waits for hierarchies. Keeps the device chosen: if it is unplugged meanwhile, no
   /// other one takes its place.
   std::optional<WantedHand> wanted_;
-  PartId feltPart_{};            ///< The part that was felt last.
-  std::uint64_t feltScene_ = 0;  ///< Serial of its scene.
   Subscription changes_;
 };
 

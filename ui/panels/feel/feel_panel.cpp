@@ -266,15 +266,18 @@ void FeelPanel::showSettings(const HapticSettings& settings) {
 
 void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) {
   setFelt(true);
-  force_->setText(formatForce(glm::length(snapshot.wrench.force)));
-  torque_->setText(formatTorque(glm::length(snapshot.wrench.torque)));
-  distance_->setText(formatDistance(snapshot.distance, snapshot.isDistanceBound));
-  minima_->setText(QString::number(snapshot.lmdCount) +
-                   (snapshot.isTruncated ? QStringLiteral("+") : QString()));
-  energy_->setText(formatEnergy(snapshot.energyToHand));
+  showNumbers(snapshot);
   clamped_->setText(snapshot.isClamped ? tr("Limited to what the device allows.") : QString());
   notice_->showSnapshot(snapshot, scene);
   workspace_->showClutched(snapshot.isClutched);
+}
+
+void FeelPanel::showNumbers(const ServoSnapshot& snapshot) {
+  force_->setText(formatForce(glm::length(snapshot.wrench.force)));
+  torque_->setText(formatTorque(glm::length(snapshot.wrench.torque)));
+  distance_->setText(formatDistance(snapshot.distance, snapshot.isDistanceBound));
+  minima_->setText(formatMinima(snapshot.lmdCount, snapshot.isTruncated));
+  energy_->setText(formatEnergy(snapshot.energyToHand));
   showProxy(snapshot);
 }
 
@@ -288,11 +291,17 @@ void FeelPanel::showProxy(const ServoSnapshot& snapshot) {
 void FeelPanel::clearSnapshot() {
   for (QLabel* label : {force_, torque_, distance_, minima_, contacts_, lead_, energy_, subSteps_})
     label->setText(Readouts::nothing());
-  keepSnapshot();
+  setFelt(false);
+  clearNotices();
 }
 
-void FeelPanel::keepSnapshot() {
+void FeelPanel::keepSnapshot(const ServoSnapshot& snapshot) {
+  showNumbers(snapshot);
   setFelt(false);
+  clearNotices();
+}
+
+void FeelPanel::clearNotices() {
   clamped_->clear();
   notice_->clear();
   workspace_->showClutched(false);

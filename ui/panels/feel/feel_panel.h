@@ -57,7 +57,7 @@ class FeelPanel : public QWidget {
   void showSnapshot(const ServoSnapshot& snapshot, const Scene& scene);
   void clearSnapshot();
   /// Shows the numbers of the last snapshot in grey: nothing is felt any more.
-  void keepSnapshot();
+  void keepSnapshot(const ServoSnapshot& snapshot);
 
  signals:
   /// Each is emitted when the user asks for what its name says.
@@ -81,7 +81,10 @@ class FeelPanel : public QWidget {
   void showDevice(const ServoStatus& status);
   void showHand();
   void updateStart();
+  void showNumbers(const ServoSnapshot& snapshot);
   void showProxy(const ServoSnapshot& snapshot);
+  /// Removes what only holds while the part is felt.
+  void clearNotices();
   /// Numbers that are felt now, or were felt last.
   void setFelt(bool isFelt);
 

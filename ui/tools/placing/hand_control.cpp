@@ -44,6 +44,7 @@ HandControl::HandControl(const Context& context, QObject* parent)
 void HandControl::connectHand() {
   connect(&context_.hand, &HandState::changed, this, [this] {
     letGo_->setEnabled(context_.hand.isHeldBy(Hand::Manual));
+    if (!context_.hand.part()) context_.view.handDrag().setPoint(std::nullopt);
     showHeld();
   });
   connect(&context_.hand, &HandState::snapshotShown, this, [this](const ServoSnapshot& snapshot) {
@@ -54,8 +55,6 @@ void HandControl::connectHand() {
                                           : std::nullopt);
     showHeld();
   });
-  connect(&context_.hand, &HandState::snapshotCleared, this,
-          [this] { context_.view.handDrag().setPoint(std::nullopt); });
 }
 
 void HandControl::showHeld() {

@@ -25,6 +25,8 @@ constexpr int kFirstRow = 86, kRowHeight = 22, kBelowLastRow = 16;  ///< Row pos
 constexpr int kGlyphWidth = 25;
 /// Font height that the sizes above assume [pixels]; a larger font scales them all.
 constexpr double kUsualLetters = 17.0;
+/// Opacity of values that are past: readable, and plainly not of now.
+constexpr double kPastOpacity = 0.5;
 
 void paintArrow(QPainter& painter, int y, const QColor& colour) {
   painter.setPen(QPen(colour, 2.6, Qt::SolidLine, Qt::FlatCap));
@@ -114,6 +116,12 @@ void ColourLegend::showSnapshot(const ServoSnapshot& snapshot) {
   update();
 }
 
+void ColourLegend::setPast(bool isPast) {
+  if (isPast == isPast_) return;
+  isPast_ = isPast;
+  update();
+}
+
 QSize ColourLegend::sizeHint() const {
   const int rows = hasProxy_ ? 4 : 2;
   return scale() * QSize(kWidth, kFirstRow + (rows - 1) * kRowHeight + kBelowLastRow);
@@ -139,6 +147,7 @@ void ColourLegend::paintEvent(QPaintEvent*) {
   painter.drawRoundedRect(QRectF(QPointF(), QSizeF(size()) / scale()).adjusted(0.5, 0.5, -0.5, -0.5), 7.0,
                           7.0);
   paintScale(painter);
+  if (isPast_) painter.setOpacity(kPastOpacity);
   int y = kFirstRow;
   paintArrow(painter, y, colours::kForce);
   paintRow(painter, y, tr("Force"), force_);

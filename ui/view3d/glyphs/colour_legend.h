@@ -25,6 +25,8 @@ class ColourLegend : public QWidget {
   void setColourRange(double range);
   /// Shows the snapshot's values and resizes to fit. Contacts and hand appear in proxy mode only.
   void showSnapshot(const ServoSnapshot& snapshot);
+  /// Paints the values paler: they are past.
+  void setPast(bool isPast);
 
   QSize sizeHint() const override;
 
@@ -49,7 +51,7 @@ class ColourLegend : public QWidget {
   std::optional<QPoint> grabbed_;  ///< Where it is held while it is dragged [pixels].
   double range_ = 0.01;
   QString force_, torque_, contacts_, lead_;
-  bool hasProxy_ = true;
+  bool hasProxy_ = true, isPast_ = false;
 };
 
 }  // namespace nearfit::ui

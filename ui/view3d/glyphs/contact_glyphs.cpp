@@ -106,6 +106,11 @@ void ContactGlyphs::setVisible(bool isVisible) {
   applyVisibility();
 }
 
+void ContactGlyphs::setOpacity(double share) {
+  for (vtkActor* actor : {rims_.Get(), discs_.Get(), arrows_.Get()})
+    actor->GetProperty()->SetOpacity(share);
+}
+
 void ContactGlyphs::applyVisibility() {
   for (vtkActor* actor : {rims_.Get(), discs_.Get(), arrows_.Get()})
     actor->SetVisibility(isVisible_ && hasContacts_);

@@ -23,6 +23,8 @@ class ContactGlyphs {
   void show(std::span<const SnapshotContact> contacts, double size);
   void clear() { show({}, 1.0); }
   void setVisible(bool isVisible);
+  /// @param share  Of the usual opacity, for all that this draws; 0 to 1.
+  void setOpacity(double share);
 
  private:
   void applyVisibility();

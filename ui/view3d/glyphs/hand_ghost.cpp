@@ -17,11 +17,10 @@ constexpr double kOpacity = 0.1, kEdgeOpacity = 0.9;
 /// Below this fraction of the part's size the ghost is hidden: two almost equal outlines would flicker.
 constexpr double kMinLead = 0.003;
 
-void setUp(vtkActor& actor, const QColor& colour, double opacity, float lineWidth) {
+void setUp(vtkActor& actor, const QColor& colour, float lineWidth) {
   actor.PickableOff();
   vtkProperty* property = actor.GetProperty();
   property->SetColor(colour.redF(), colour.greenF(), colour.blueF());
-  property->SetOpacity(opacity);
   property->SetLineWidth(devicePixels(lineWidth));
 }
 
@@ -35,9 +34,10 @@ void setInput(vtkActor& actor, vtkPolyData* data) {
 }  // namespace
 
 HandGhost::HandGhost(vtkRenderer& parts, vtkRenderer& overlay) {
-  setUp(*surface_, colours::kHand, kOpacity, 1.0F);
-  setUp(*edges_, colours::kHand, kEdgeOpacity, 2.2F);
-  setUp(*line_, colours::kHand, 1.0, 3.0F);
+  setUp(*surface_, colours::kHand, 1.0F);
+  setUp(*edges_, colours::kHand, 2.2F);
+  setUp(*line_, colours::kHand, 3.0F);
+  setOpacity(1.0);
   line_->GetProperty()->VertexVisibilityOn();
   line_->GetProperty()->SetVertexColor(colours::kHand.redF(), colours::kHand.greenF(),
                                        colours::kHand.blueF());
@@ -85,6 +85,12 @@ void HandGhost::clear() {
 void HandGhost::setVisible(bool isVisible) {
   isVisible_ = isVisible;
   applyVisibility();
+}
+
+void HandGhost::setOpacity(double share) {
+  surface_->GetProperty()->SetOpacity(kOpacity * share);
+  edges_->GetProperty()->SetOpacity(kEdgeOpacity * share);
+  line_->GetProperty()->SetOpacity(share);
 }
 
 void HandGhost::setCut(vtkPlane* cut) {

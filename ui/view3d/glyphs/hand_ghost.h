@@ -30,6 +30,8 @@ class HandGhost {
   void show(const ServoSnapshot& snapshot, double size);
   void clear();
   void setVisible(bool isVisible);
+  /// @param share  Of the usual opacity, for all that this draws; 0 to 1.
+  void setOpacity(double share);
   /// Clips the copy, as the part is: keeps the side that the plane's normal points to. Null: whole. Holds a
   /// reference to `cut` and so follows it.
   void setCut(vtkPlane* cut);

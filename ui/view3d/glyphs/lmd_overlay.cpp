@@ -96,10 +96,10 @@ LmdOverlay::LmdOverlay(vtkRenderer& renderer) {
     dots->SetDiffuse(0.65);
   }
   setUp(*faint_, *blocked_.Get(), true, 1.5F, 1.0F);
-  faint_->GetProperty()->SetOpacity(kFaint);
   for (vtkActor* actor : {halo_.Get(), lines_.Get(), pins_.Get(), dots_.Get(), faint_.Get(),
                           nearestHalo_.Get(), nearestLine_.Get(), nearestDots_.Get()})
     renderer.AddActor(actor);
+  setOpacity(1.0);
   applyVisibility();
 }
 
@@ -133,6 +133,13 @@ void LmdOverlay::clear() {
 void LmdOverlay::setVisible(bool isVisible) {
   isVisible_ = isVisible;
   applyVisibility();
+}
+
+void LmdOverlay::setOpacity(double share) {
+  for (vtkActor* actor : {halo_.Get(), lines_.Get(), pins_.Get(), dots_.Get(), nearestHalo_.Get(),
+                          nearestLine_.Get(), nearestDots_.Get()})
+    actor->GetProperty()->SetOpacity(share);
+  faint_->GetProperty()->SetOpacity(kFaint * share);
 }
 
 void LmdOverlay::setChoice(const MinimaChoice& choice) {

@@ -31,6 +31,8 @@ class LmdOverlay {
   /// Returns the distance at the end of the colour scale [m].
   double colourRange() const noexcept { return colours_.end(); }
   void setVisible(bool isVisible);
+  /// @param share  Of the usual opacity, for all that this draws; 0 to 1.
+  void setOpacity(double share);
   /// Sets what is drawn; counts from the next show() on.
   void setChoice(const MinimaChoice& choice);
 

@@ -91,6 +91,11 @@ void WrenchArrows::setVisible(bool isVisible) {
   applyVisibility();
 }
 
+void WrenchArrows::setOpacity(double share) {
+  for (vtkActor* actor : {force_.Get(), torque_.Get()})
+    actor->GetProperty()->SetOpacity(share);
+}
+
 void WrenchArrows::showForce(const glm::dvec3& centre, const glm::dvec3& force, double size) {
   const double fraction = glm::length(force) / DeviceLimits{}.maxForce;
   hasForce_ = std::isfinite(fraction) && fraction > kMin && size > 0.0;

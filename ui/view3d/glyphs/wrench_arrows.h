@@ -22,6 +22,8 @@ class WrenchArrows {
   void show(const glm::dvec3& centre, const Wrench& wrench, double size);
   void clear();
   void setVisible(bool isVisible);
+  /// @param share  Of the usual opacity, for all that this draws; 0 to 1.
+  void setOpacity(double share);
 
  private:
   void showForce(const glm::dvec3& centre, const glm::dvec3& force, double size);
