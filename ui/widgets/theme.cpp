@@ -81,6 +81,7 @@ constexpr std::pair<const char*, const char*> kDarkColours[] = {
     {"#0b8484", "#45c4c4"},
     {"#7b2fbe", "#bf8cf0"},
     {"#b0155e", "#f278ad"},
+    {"#b05c10", "#e09a52"},
     {"#e2711d", "#ff9a52"},
     {"rgba(255, 255, 255, 235)", "rgba(32, 38, 44, 240)"},
     {"fill=\"#fff\"", "fill=\"#2e3740\""}};

@@ -9,6 +9,7 @@
 #include "tests/app/desktop/export_driver.h"
 #include "ui/model/parts_model.h"
 #include "ui/panels/plots/plot_view.h"
+#include "ui/panels/replay/timeline_track.h"
 #include "ui/widgets/error_box.h"
 
 using namespace nearfit;
@@ -70,6 +71,7 @@ class DesktopTimelineTest : public QObject {
 
  private slots:
   void aRecordingIsPlayedToItsEndAndClosedWithoutATrace();
+  void theTimelineIsAsHighAsItsContentAndDrawsTheRecording();
   void scrubbingAndSteppingGoToAnyTick();
   void itGoesAtTheChosenSpeedAndLoops();
   void takingAPartInHandEndsTheReplay();
@@ -99,6 +101,34 @@ void DesktopTimelineTest::aRecordingIsPlayedToItsEndAndClosedWithoutATrace() {
   QCOMPARE(f.d.session().undoText(), undo);
   QCOMPARE(f.d.part("moving").worldFromPart.translation.x, 0.0);
   QVERIFY(f.failures.isEmpty());
+}
+
+/// It took 250 pixels of the window, most of them empty, and drew nothing.
+void DesktopTimelineTest::theTimelineIsAsHighAsItsContentAndDrawsTheRecording() {
+  TimelineFixture f;
+  f.openPaused();
+  const auto* dock = f.d.widget<QDockWidget>("timelineDock");
+  auto* track = f.d.widget<ui::TimelineTrack>("timelineTrack");
+  QTRY_VERIFY(track->isVisible() && track->width() > 50);
+  QTRY_COMPARE(dock->widget()->height(), dock->widget()->sizeHint().height());
+  QVERIFY2(dock->widget()->height() < 9 * track->fontMetrics().lineSpacing(),
+           qPrintable(QString::number(dock->widget()->height())));
+  // 5 mm all along, below the ends of the scale.
+  const auto* scale = f.d.widget<QSlider>("timelineScale");
+  QCOMPARE(track->curves().maxDistance, 0.005);
+  QCOMPARE(track->curves().exact.size(), std::size_t{1});
+  QVERIFY(track->curves().atLeast.empty());
+  const QPolygonF line = track->curves().exact.front();
+  const double left = track->x() + line.first().x(), right = track->x() + line.last().x();
+  QVERIFY(left > scale->x() && left < scale->x() + 20);
+  QVERIFY(right < scale->geometry().right() + 1 && right > scale->geometry().right() - 20);
+  // A press goes to that time.
+  const QPoint middle((line.first().x() + line.last().x()) / 2, track->height() / 2);
+  QTest::mouseClick(track, Qt::LeftButton, {}, middle);
+  QVERIFY(std::abs(f.shownTime() - 1.0) < 0.02);
+  const int before = dock->height();
+  f.press("timelineClose");
+  QTRY_VERIFY(dock->height() < before);
 }
 
 void DesktopTimelineTest::scrubbingAndSteppingGoToAnyTick() {

@@ -9,8 +9,7 @@
 namespace nearfit::ui {
 namespace {
 
-const QColor kClearance(0x0b, 0x84, 0x84), kAtLeast(0xb0, 0x5c, 0x10), kTick(0x1f, 0x73, 0xd0),
-    kLate(0xe2, 0x71, 0x1d);
+const QColor kTick(0x1f, 0x73, 0xd0), kLate(0xe2, 0x71, 0x1d);
 
 constexpr std::size_t kClearancePane = 2;
 
@@ -35,7 +34,7 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent) {
   addPane(0, 0, tr("Force [N]"), {{PlotChannel::Force, colours::kForce}}, 1.0);
   addPane(0, 1, tr("Torque [mN·m]"), {{PlotChannel::Torque, colours::kTorque}}, 1e3);
   addPane(1, 0, tr("Clearance [mm]"),
-          {{PlotChannel::Clearance, kClearance}, {PlotChannel::AtLeast, kAtLeast}}, 1e3);
+          {{PlotChannel::Clearance, colours::kClearance}, {PlotChannel::AtLeast, colours::kAtLeast}}, 1e3);
   addPane(1, 1, tr("Servo [µs]"), {{PlotChannel::TickTime, kTick}, {PlotChannel::Lateness, kLate}}, 1e6);
   addLegend(panes_[kClearancePane], {tr("exact"), tr("at least")});
   addLegend(panes_.back(), {tr("tick"), tr("lateness")});

@@ -117,7 +117,7 @@ void Replay::begin(const QString& file, std::vector<MotionRow> rows) {
   if (hand_.status().isTaken() || !session_.scene().movingPart()) return;
   moving_ = *session_.scene().movingPart();
   playback_.emplace(std::move(rows));
-  timeline_.showRecording(QFileInfo(file).fileName(), playback_->duration());
+  timeline_.showRecording(QFileInfo(file).fileName(), playback_->rows());
   emit opened(playback_->rows());
   timeline_.setFocus();
   guard_.setReplaying(true);
@@ -135,8 +135,9 @@ void Replay::followHand() {
 void Replay::close() {
   if (!playback_) return;
   timer_.stop();
+  // It draws the rows of the playback.
+  timeline_.showRecording({}, {});
   playback_.reset();
-  timeline_.showRecording({}, 0.0);
   view_.poses().show(ShownPoses::Source::Replay, {});
   view_.clearSnapshot();
   emit closed();

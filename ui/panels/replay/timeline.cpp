@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/panels/replay/timeline_track.h"
 #include "ui/widgets/elided_label.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/theme.h"
@@ -56,14 +57,7 @@ class Scale : public QSlider {
 
 Timeline::Timeline(QWidget* parent) : QWidget(parent) {
   setUpButtons();
-  scale_ = new Scale(Qt::Horizontal, this);
-  scale_->setObjectName(QStringLiteral("timelineScale"));
-  scale_->setAccessibleName(tr("Time in the recording"));
-  scale_->setRange(0, kScaleSteps);
-  scale_->setPageStep(kScaleSteps / 20);
-  scale_->setSingleStep(kScaleSteps / 200);
-  connect(scale_, &QSlider::valueChanged, this,
-          [this](int value) { emit sought(duration_ * value / kScaleSteps); });
+  setUpScale();
   speed_ = new QComboBox(this);
   speed_->setObjectName(QStringLiteral("timelineSpeed"));
   speed_->setAccessibleName(tr("Speed"));
@@ -99,8 +93,38 @@ Timeline::Timeline(QWidget* parent) : QWidget(parent) {
   column->setContentsMargins(8, 4, 8, 6);
   column->setSpacing(2);
   column->addLayout(row);
+  column->addWidget(track_);
   column->addLayout(words);
-  showRecording({}, 0.0);
+  // A dock would give it a share of the window, most of it empty.
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  showRecording({}, {});
+}
+
+void Timeline::setUpScale() {
+  scale_ = new Scale(Qt::Horizontal, this);
+  scale_->setObjectName(QStringLiteral("timelineScale"));
+  scale_->setAccessibleName(tr("Time in the recording"));
+  scale_->setRange(0, kScaleSteps);
+  scale_->setPageStep(kScaleSteps / 20);
+  scale_->setSingleStep(kScaleSteps / 200);
+  scale_->installEventFilter(this);
+  connect(scale_, &QSlider::valueChanged, this,
+          [this](int value) { emit sought(duration_ * value / kScaleSteps); });
+  track_ = new TimelineTrack(this);
+  connect(track_, &TimelineTrack::sought, this, &Timeline::sought);
+}
+
+bool Timeline::eventFilter(QObject* watched, QEvent* event) {
+  const bool isPlaced = event->type() == QEvent::Resize || event->type() == QEvent::Move;
+  if (watched == scale_ && isPlaced) {
+    // A time is below the middle of the handle that shows it.
+    QStyleOptionSlider option;
+    option.initFrom(scale_);
+    const int half = style()->pixelMetric(QStyle::PM_SliderLength, &option, scale_) / 2;
+    const int left = layout()->contentsMargins().left();
+    track_->setEnds(scale_->x() + half - left, scale_->x() + scale_->width() - half - left);
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 QToolButton* Timeline::make(const char* name, const QString& text, const char* iconName) {
@@ -130,8 +154,10 @@ void Timeline::setUpButtons() {
   connect(close_, &QToolButton::clicked, this, &Timeline::closeWanted);
 }
 
-void Timeline::showRecording(const QString& name, double duration) {
-  duration_ = duration;
+void Timeline::showRecording(const QString& name, std::span<const MotionRow> rows) {
+  duration_ = rows.empty() ? 0.0 : rows.back().time;
+  track_->showRows(rows);
+  track_->setVisible(!name.isEmpty());
   const bool isThere = !name.isEmpty();
   for (QWidget* each :
        {static_cast<QWidget*>(back_), static_cast<QWidget*>(play_), static_cast<QWidget*>(forward_),
@@ -148,6 +174,7 @@ void Timeline::showRecording(const QString& name, double duration) {
 
 void Timeline::showTime(double time, const QString& note) {
   const QSignalBlocker blocker(scale_);
+  track_->setTime(time);
   // A dragged slider stays where the mouse is.
   if (!scale_->isSliderDown())
     scale_->setValue(duration_ > 0.0 ? static_cast<int>(std::lround(kScaleSteps * time / duration_)) : 0);

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <QPolygonF>
+#include <QRectF>
+#include <QWidget>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/servo/motion_recording.h"
+
+class QPainter;
+
+namespace nearfit::ui {
+
+/// What a recording felt over its time, as lines in pixels. Each column of pixels keeps its least and its greatest
+/// value, so that no peak is lost.
+struct TrackCurves {
+  /// Min distance: where it is exact, and where only a lower bound is known. Broken where nothing is within the
+  /// cutoff, and where one becomes the other.
+  std::vector<QPolygonF> exact, atLeast;
+  std::vector<QPolygonF> minima;  ///< Number of minima.
+  double maxDistance = 0.0;       ///< At the top of the plot [m]; 0 if there is no distance.
+  std::uint32_t maxMinima = 0;    ///< At the top of the plot.
+};
+
+/// Returns the lines of a recording.
+/// @param rows  Times begin at 0 and never decrease.
+/// @param plot  Where they are drawn: from the first row at the left to the last at the right, 0 at the bottom.
+TrackCurves trackCurves(std::span<const MotionRow> rows, const QRectF& plot);
+
+/// Draws the curves of a recording below the scale of a timeline, with the time that is shown. A press goes there.
+class TimelineTrack : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit TimelineTrack(QWidget* parent = nullptr);
+
+  /// @param rows  Stay until the next call; empty: there is no recording.
+  void showRows(std::span<const MotionRow> rows);
+  /// @param time  [s]
+  void setTime(double time);
+  /// Sets where the recording begins and ends [pixels]; the axis is to the left, the names are to the right.
+  void setEnds(int left, int right);
+
+  const TrackCurves& curves() const noexcept { return curves_; }
+  /// Returns where the curves are drawn [pixels].
+  QRectF plot() const;
+
+  QSize sizeHint() const override;
+
+ signals:
+  /// Emitted with the time [s] that the user presses or drags to.
+  void sought(double time);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+
+ private:
+  void refresh();
+  void seek(int x);
+  void paintAxis(QPainter& painter) const;
+  void paintNames(QPainter& painter) const;
+  double duration() const noexcept { return rows_.empty() ? 0.0 : rows_.back().time; }
+
+  std::span<const MotionRow> rows_;
+  TrackCurves curves_;
+  double time_ = 0.0;
+  int left_ = 0, right_ = 0;
+};
+
+}  // namespace nearfit::ui
