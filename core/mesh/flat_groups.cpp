@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -14,9 +15,15 @@
 namespace nearfit {
 namespace {
 
-/// A triangle lower than this many tolerances has no reliable normal: it starts no flat, and joins one whatever
-/// its normal.
-constexpr double kMinHeight = 8.0;
+/// Max distance of a corner from the plane of its flat, in roundings of a coordinate: those of a point's three
+/// coordinates, and as much for the plane, which is known from such points.
+constexpr double kRoundingsOfPlane = 4.0;
+/// No coarser rounding counts, as a fraction of the mesh's diagonal: numbers with few digits are round, not
+/// rounded.
+constexpr double kMaxTolerance = 1e-6;
+/// Coordinates are rounded at least this much, as a fraction of the largest: by scaling to metres, welding, and
+/// cutting flats finer again and again.
+constexpr double kMinRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 /// Max times that a flat's plane is fitted anew and the triangles beside it are tried again. A plane known from
 /// a few small triangles reaches about twice as far with each fit.
@@ -71,7 +78,8 @@ class FlatFinder {
     const glm::dvec3 a = x_[c[1]] - x_[c[0]], b = x_[c[2]] - x_[c[1]], d = x_[c[0]] - x_[c[2]];
     return std::sqrt(std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(d, d)}));
   }
-  bool isThin(std::uint32_t t) const { return !(areas_[t] > kMinHeight * tolerance_ * longestSide(t)); }
+  /// True for a triangle without a reliable normal: it starts no flat, and joins one whatever its normal.
+  bool isThin(std::uint32_t t) const { return !(areas_[t] > kReliableHeight * tolerance_ * longestSide(t)); }
 
   /// Triangles that can start a flat, the largest first: their planes reach farthest.
   std::vector<std::uint32_t> seedsBySize() {
@@ -248,6 +256,13 @@ class FlatFinder {
 };
 
 }  // namespace
+
+double flatTolerance(const TriangleMesh& mesh, double coordinateRounding) {
+  if (mesh.bounds().isEmpty()) return 0.0;
+  const double least = kMinRounding * mesh.bounds().largestCoordinate();
+  const double rounding = std::max(coordinateRounding, least);
+  return std::max(std::min(kRoundingsOfPlane * rounding, kMaxTolerance * mesh.bounds().diagonal()), least);
+}
 
 FlatGroups findFlats(const TriangleMesh& mesh, double tolerance,
                      const std::function<void(double fraction)>& onProgress) {

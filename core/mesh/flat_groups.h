@@ -23,6 +23,15 @@ struct FlatPlane {
   }
 };
 
+/// A triangle lower than this many tolerances, over its longest side, has no reliable normal. That of a higher one is
+/// off by less than two tolerances over its height, a quarter of a radian.
+constexpr double kReliableHeight = 8.0;
+
+/// Returns the max distance of a flat's corners from its plane that the rounding of coordinates explains [m]; 0 for a
+/// mesh without points.
+/// @param coordinateRounding  Max rounding error of a coordinate of the mesh [m]; >= 0.
+double flatTolerance(const TriangleMesh& mesh, double coordinateRounding);
+
 /// The flats of a mesh: sets of at least two triangles, connected through ordinary edges, whose corners all lie
 /// within a tolerance of one plane and that face the same side of it.
 struct FlatGroups {

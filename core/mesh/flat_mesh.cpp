@@ -26,15 +26,6 @@
 namespace nearfit {
 namespace {
 
-/// Max distance of a corner from the plane of its flat, in roundings of a coordinate: those of a point's three
-/// coordinates, and as much for the plane, which is known from such points.
-constexpr double kRoundingsOfPlane = 4.0;
-/// No coarser rounding counts, as a fraction of the mesh's diagonal: numbers with few digits are round, not
-/// rounded.
-constexpr double kMaxTolerance = 1e-6;
-/// Coordinates are rounded at least this much, as a fraction of the largest: by scaling to metres, welding, and
-/// cutting flats finer again and again.
-constexpr double kMinRounding = 64.0 * std::numeric_limits<double>::epsilon();
 /// Max way of a vertex to where its planes meet, in tolerances. Where planes meet at a small angle that place
 /// is uncertain, and fewer planes count.
 constexpr double kMaxWay = 4.0;
@@ -382,11 +373,7 @@ FlatMesh mergeFlats(const TriangleMesh& mesh, double coordinateRounding,
                     const std::function<void(double fraction)>& onProgress) {
   const auto unchanged = [&] { return FlatMesh{mesh, {}, 0.0}; };
   if (mesh.bounds().isEmpty()) return unchanged();
-  const double largest = mesh.bounds().largestCoordinate();
-  const double rounding = std::max(coordinateRounding, kMinRounding * largest);
-  const double tolerance =
-      std::max(std::min(kRoundingsOfPlane * rounding, kMaxTolerance * mesh.bounds().diagonal()),
-               kMinRounding * largest);
+  const double tolerance = flatTolerance(mesh, coordinateRounding);
   if (!(tolerance > 0.0)) return unchanged();
   constexpr double kGrouped = 0.6;
   const auto report = [&](double fraction) {

@@ -1,10 +1,15 @@
 #include "core/mesh/shaded_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include <glm/geometric.hpp>
+
+#include "core/mesh/flat_groups.h"
 
 namespace nearfit {
 namespace {
@@ -14,15 +19,84 @@ glm::dvec3 unitOrZero(const glm::dvec3& v) {
   return length > 0.0 ? v / length : glm::dvec3(0.0);
 }
 
-std::vector<glm::dvec3> unitNormalsOf(const TriangleMesh& mesh) {
-  std::vector<glm::dvec3> normals;
-  normals.reserve(mesh.triangles().size());
-  for (const Triangle& t : mesh.triangles()) {
-    const glm::dvec3 &a = mesh.vertices()[t[0]], &b = mesh.vertices()[t[1]], &c = mesh.vertices()[t[2]];
-    normals.push_back(unitOrZero(glm::cross(b - a, c - a)));
+/// Unit normals of the faces. Slivers have none of their own: rounding of their corners turns them anywhere, and
+/// each edge around one would be sharp. They take that of a face beside them.
+class FaceNormals {
+ public:
+  FaceNormals(const TriangleMesh& mesh, double tolerance) : mesh_(mesh), least_(kReliableHeight * tolerance) {
+    normals_.reserve(mesh.triangles().size());
+    for (std::uint32_t t = 0; t < mesh.triangles().size(); ++t)
+      addOwn(t);
+    borrow();
   }
-  return normals;
-}
+
+  std::vector<glm::dvec3> take() { return std::move(normals_); }
+
+ private:
+  void addOwn(std::uint32_t face) {
+    const Triangle& t = mesh_.triangles()[face];
+    const glm::dvec3 &a = mesh_.vertices()[t[0]], &b = mesh_.vertices()[t[1]], &c = mesh_.vertices()[t[2]];
+    const glm::dvec3 doubleArea = glm::cross(b - a, c - a);
+    const double longest = std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
+    normals_.push_back(unitOrZero(doubleArea));
+    if (!(glm::length(doubleArea) > least_ * std::sqrt(longest))) thin_.push_back(face);
+  }
+
+  /// Hands the normals of reliable faces on from sliver to sliver. Those that touch no reliable face, even through
+  /// others, keep their own.
+  void borrow() {
+    if (thin_.empty()) return;
+    std::vector<bool> isOpen(normals_.size(), false);
+    for (const std::uint32_t face : thin_)
+      isOpen[face] = true;
+    std::vector<std::uint32_t> lenders;
+    for (const std::uint32_t face : thin_) {
+      if (const auto lender = reliableBeside(face, isOpen)) {
+        normals_[face] = normals_[*lender];
+        lenders.push_back(face);
+      }
+    }
+    for (const std::uint32_t face : lenders)
+      isOpen[face] = false;
+    for (std::size_t next = 0; next < lenders.size(); ++next) {
+      for (const std::uint32_t edge : mesh_.edgesOfTriangle(lenders[next])) {
+        const auto other = across(edge, lenders[next]);
+        if (!other || !isOpen[*other]) continue;
+        isOpen[*other] = false;
+        normals_[*other] = normals_[lenders[next]];
+        lenders.push_back(*other);
+      }
+    }
+  }
+
+  /// Returns the face beside a sliver that has a normal of its own, across the longest such side: a sliver lies
+  /// along its longest side, so that the face there is the one that it continues.
+  std::optional<std::uint32_t> reliableBeside(std::uint32_t face, const std::vector<bool>& isOpen) const {
+    std::optional<std::uint32_t> found;
+    double longest = -1.0;
+    for (const std::uint32_t edge : mesh_.edgesOfTriangle(face)) {
+      const MeshEdge& e = mesh_.edges()[edge];
+      const glm::dvec3 side = mesh_.vertices()[e.v1] - mesh_.vertices()[e.v0];
+      const auto other = across(edge, face);
+      if (!other || isOpen[*other] || !(glm::dot(side, side) > longest)) continue;
+      found = other;
+      longest = glm::dot(side, side);
+    }
+    return found;
+  }
+
+  /// Returns the face beyond an ordinary edge.
+  std::optional<std::uint32_t> across(std::uint32_t edge, std::uint32_t face) const {
+    if (!mesh_.isEdgeConsistent(edge)) return std::nullopt;
+    const auto faces = mesh_.facesOfEdge(edge);
+    return faces[0] == face ? faces[1] : faces[0];
+  }
+
+  const TriangleMesh& mesh_;
+  double least_;  ///< Height of the lowest face with a normal of its own [m].
+  std::vector<glm::dvec3> normals_;
+  std::vector<std::uint32_t> thin_;
+};
 
 /// Corners of triangles, 3 * triangle + corner, in sets that share a vertex and its normal.
 class CornerSets {
@@ -57,8 +131,8 @@ class CornerSets {
 
 }  // namespace
 
-ShadedMesh shadedMesh(const TriangleMesh& mesh, double sharpAngle) {
-  const std::vector<glm::dvec3> faceNormals = unitNormalsOf(mesh);
+ShadedMesh shadedMesh(const TriangleMesh& mesh, double sharpAngle, double tolerance) {
+  const std::vector<glm::dvec3> faceNormals = FaceNormals(mesh, tolerance).take();
   const double least = std::cos(sharpAngle);
   ShadedMesh shaded;
   CornerSets corners(mesh);

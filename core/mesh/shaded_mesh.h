@@ -21,6 +21,8 @@ struct ShadedMesh {
 
 /// Splits a mesh along its sharp edges. O(n log n), however many faces a vertex or an edge has.
 /// @param sharpAngle  An edge whose faces' normals differ by this or more is sharp [rad].
-ShadedMesh shadedMesh(const TriangleMesh& mesh, double sharpAngle);
+/// @param tolerance   Max distance of corners from their true places [m]; >= 0, see flatTolerance(). Triangles so
+///                    thin that it may turn them (kReliableHeight) face as the reliable ones beside them.
+ShadedMesh shadedMesh(const TriangleMesh& mesh, double sharpAngle, double tolerance = 0.0);
 
 }  // namespace nearfit

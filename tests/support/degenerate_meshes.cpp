@@ -65,6 +65,13 @@ TriangleMesh withNeedles(const TriangleMesh& mesh, double aspect, double lift) {
   return draft.finish();
 }
 
+TriangleMesh inSinglePrecision(const TriangleMesh& mesh) {
+  EditableMesh draft(mesh);
+  for (glm::dvec3& p : draft.vertices)
+    p = glm::dvec3(glm::vec3(p));
+  return draft.finish();
+}
+
 TriangleMesh withDuplicates(const TriangleMesh& mesh) {
   EditableMesh draft(mesh);
   for (std::size_t f = 0; f < mesh.triangles().size(); f += 3) {

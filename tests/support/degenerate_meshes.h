@@ -19,6 +19,9 @@ TriangleMesh withSlivers(const TriangleMesh& mesh, double aspect, double lift);
 /// the three are needles or wedges with a short side.
 TriangleMesh withNeedles(const TriangleMesh& mesh, double aspect, double lift);
 
+/// Its coordinates rounded to single precision, as most files hold them.
+TriangleMesh inSinglePrecision(const TriangleMesh& mesh);
+
 /// Every third face given again, every sixth of them turned round.
 TriangleMesh withDuplicates(const TriangleMesh& mesh);
 

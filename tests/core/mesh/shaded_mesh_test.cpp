@@ -1,12 +1,16 @@
 #include "core/mesh/shaded_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <set>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/mesh/coordinate_rounding.h"
+#include "core/mesh/flat_groups.h"
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
 
@@ -85,6 +89,70 @@ TEST(ShadedMesh, FansAndBooksOfManyFacesAreShadedLikeOthers) {
   expectSameTriangles(book, pages);
   EXPECT_EQ(pages.vertices.size(), 3U * kFaces);
   EXPECT_EQ(pages.sharpEdges.size(), book.edges().size());
+}
+
+/// A mesh with a sliver along a side of each face, turned, and as a file holds it.
+struct Slivered {
+  explicit Slivered(const TriangleMesh& clean)
+      : mesh(test::inSinglePrecision(test::transformed(test::withSlivers(clean, 1e7, 0.0), 1.0, place))),
+        tolerance(flatTolerance(mesh, coordinateRounding(mesh.vertices()))) {}
+
+  /// A vertex in the frame of the clean mesh.
+  glm::dvec3 at(std::uint32_t vertex) const { return place.inverse().applyToPoint(mesh.vertices()[vertex]); }
+  /// Total length of those edges.
+  double lengthOf(const std::vector<std::uint32_t>& edges) const {
+    double length = 0.0;
+    for (const std::uint32_t e : edges)
+      length += glm::distance(mesh.vertices()[mesh.edges()[e].v0], mesh.vertices()[mesh.edges()[e].v1]);
+    return length;
+  }
+
+  RigidTransform place = RigidTransform{{0.7, -0.2, 0.4, 0.55}, {0.1, 0.2, -0.3}}.normalized();
+  TriangleMesh mesh;
+  double tolerance;
+};
+
+// Rounding turns slivers anywhere, so that each side of one was drawn as a sharp edge: diagonals on dense flats.
+TEST(ShadedMesh, SliversInAFlatMakeNoEdges) {
+  constexpr std::uint32_t kDivisions = 20;
+  const Slivered flat(test::squareMesh(1.0, kDivisions));
+  EXPECT_GT(shadedMesh(flat.mesh, kDegrees30).sharpEdges.size(), 10U * kDivisions) << "by their own normals";
+  const ShadedMesh shaded = shadedMesh(flat.mesh, kDegrees30, flat.tolerance);
+  expectSameTriangles(flat.mesh, shaded);
+  for (const std::uint32_t e : shaded.sharpEdges)
+    EXPECT_EQ(flat.mesh.facesOfEdge(e).size(), 1U) << "only its rim";
+  EXPECT_EQ(shaded.sharpEdges.size(), 4U * kDivisions);
+  const glm::dvec3 normal = flat.place.applyToVector({0.0, 0.0, 1.0});
+  for (const glm::vec3& n : shaded.normals)
+    EXPECT_GT(glm::dot(glm::dvec3(n), normal), 0.999);
+}
+
+TEST(ShadedMesh, SliversAlongSharpEdgesKeepThem) {
+  const Slivered box(test::subdivided(test::boxMesh(glm::dvec3(1.0)), 3));
+  EXPECT_GT(box.lengthOf(shadedMesh(box.mesh, kDegrees30).sharpEdges), 20.0) << "by their own normals";
+  const ShadedMesh shaded = shadedMesh(box.mesh, kDegrees30, box.tolerance);
+  for (const std::uint32_t e : shaded.sharpEdges) {
+    int shared = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double a = box.at(box.mesh.edges()[e].v0)[axis], b = box.at(box.mesh.edges()[e].v1)[axis];
+      shared += std::abs(std::abs(a) - 0.5) < 1e-6 && std::abs(a - b) < 1e-6 ? 1 : 0;
+    }
+    EXPECT_GE(shared, 2) << "inside a face";
+  }
+  // Each of the twelve edges once, whichever side of a sliver along it is drawn.
+  EXPECT_NEAR(box.lengthOf(shaded.sharpEdges), 12.0, 1e-3);
+}
+
+TEST(ShadedMesh, SliversInACurvedWallMakeNoEdges) {
+  constexpr std::uint32_t kSegments = 36;
+  const Slivered cylinder(test::cylinderMesh(0.4, 1.0, kSegments));
+  const ShadedMesh shaded = shadedMesh(cylinder.mesh, kDegrees30, cylinder.tolerance);
+  EXPECT_FALSE(shaded.sharpEdges.empty());
+  for (const std::uint32_t e : shaded.sharpEdges) {
+    const glm::dvec3 a = cylinder.at(cylinder.mesh.edges()[e].v0), b = cylinder.at(cylinder.mesh.edges()[e].v1);
+    EXPECT_NEAR(std::abs(a.z), 0.5, 1e-6);
+    EXPECT_NEAR(a.z, b.z, 1e-6) << "along the wall";
+  }
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 
 #include "core/base/error.h"
 #include "core/math/finite.h"
+#include "core/mesh/flat_groups.h"
 #include "core/mesh/shaded_mesh.h"
 
 namespace nearfit::ui {
@@ -210,11 +211,12 @@ std::vector<DraftSurface> draftsOf(vtkPolyData& surface) {
   return drafts;
 }
 
-PartShape makePartShape(const TriangleMesh& mesh, const ProgressCallback& progress) {
+PartShape makePartShape(const TriangleMesh& mesh, double coordinateRounding,
+                        const ProgressCallback& progress) {
   const auto report = [&progress](double fraction) {
     if (progress && !progress(fraction)) throw Cancelled();
   };
-  const ShadedMesh shaded = shadedMesh(mesh, kSharpAngle);
+  const ShadedMesh shaded = shadedMesh(mesh, kSharpAngle, flatTolerance(mesh, coordinateRounding));
   report(kShaded);
   PartShape shape;
   shape.surface = surfaceOf(mesh, shaded);
@@ -237,7 +239,8 @@ std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& 
     if (found != entries_.end() && !found->second.geometry.expired()) return found->second.shape;
   }
   // Not under the lock: preparing a large mesh must not hold up drawing another.
-  const auto shape = std::make_shared<PartShape>(makePartShape(geometry->mesh, progress));
+  const auto shape = std::make_shared<PartShape>(
+      makePartShape(geometry->mesh, geometry->report.coordinateRounding, progress));
   // With several components, each may be inside out.
   shape->hidesItsInside =
       geometry->mass.basis == MassBasis::VolumeIntegrals && geometry->mesh.topology().components == 1;

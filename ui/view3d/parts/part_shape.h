@@ -49,7 +49,9 @@ struct PartShape {
 };
 
 /// Builds the shape of a mesh; seconds for millions of triangles. Throws Cancelled.
-PartShape makePartShape(const TriangleMesh& mesh, const ProgressCallback& progress = {});
+/// @param coordinateRounding  Max rounding error of a coordinate of the mesh [m]; >= 0.
+PartShape makePartShape(const TriangleMesh& mesh, double coordinateRounding = 0.0,
+                        const ProgressCallback& progress = {});
 
 /// Caches one shape for each geometry, as long as that geometry exists. Thread-safe: loading
 /// fills it before drawing.

@@ -1,12 +1,14 @@
 #include "ui/view3d/parts/part_shape.h"
 
 #include <QtTest>
+#include <cmath>
 #include <thread>
 
 #include <glm/geometric.hpp>
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
 
+#include "core/mesh/coordinate_rounding.h"
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/qt/qt_suite.h"
@@ -28,6 +30,7 @@ class PartShapeTest : public QObject {
   void boxShowsItsTwelveEdges();
   void openSquareShowsItsRim();
   void fineCylinderShowsOnlyItsRims();
+  void sliversOfADenseFlatShowNoDiagonals();
   void normalsOfABoxPointOutOfItsFaces();
   void whatIsClusteredToAFewPointsIsShaded();
   void fansAndBooksAreShaded();
@@ -54,6 +57,17 @@ void PartShapeTest::fineCylinderShowsOnlyItsRims() {
   constexpr std::uint32_t kSegments = 36;  // Facets meet at 10 degrees.
   const ui::PartShape shape = ui::makePartShape(test::cylinderMesh(1.0, 2.0, kSegments));
   QCOMPARE(shape.edges->GetNumberOfLines(), vtkIdType{2} * kSegments);
+}
+
+/// A finely cut tray had diagonals all over its flats.
+void PartShapeTest::sliversOfADenseFlatShowNoDiagonals() {
+  constexpr std::uint32_t kDivisions = 30;
+  const RigidTransform turned = RigidTransform{{0.7, -0.2, 0.4, 0.55}, {}}.normalized();
+  const TriangleMesh flat = test::inSinglePrecision(
+      test::transformed(test::withSlivers(test::squareMesh(1.0, kDivisions), 1e7, 0.0), 1.0, turned));
+  const ui::PartShape shape = ui::makePartShape(flat, coordinateRounding(flat.vertices()));
+  QCOMPARE(shape.edges->GetNumberOfLines(), vtkIdType{4} * kDivisions);
+  QVERIFY(std::abs(shape.edgeLength - 4.0) < 1e-5);
 }
 
 void PartShapeTest::normalsOfABoxPointOutOfItsFaces() {
