@@ -1,12 +1,12 @@
 // Finds cylinders among the facets of a mesh; declared in mesh_region.h.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
 
 #include "core/math/symmetric_eigen.h"
 #include "core/placing/mesh_region.h"
+#include "core/placing/round_corners.h"
 
 namespace nearfit {
 namespace {
@@ -15,26 +15,7 @@ namespace {
 constexpr double kLoose = 0.02, kTight = 2e-3;
 /// Max inclination of facets to the axis [sine of the angle]: likewise.
 constexpr double kLooseLean = 0.03, kTightLean = 5e-3;
-/// Corners whose angles about the axis differ by less lie on one line along it [rad].
-constexpr double kSameAngle = 1e-3;
-/// Min facets of a cylinder, and max width of a facet relative to the median one.
 constexpr std::size_t kFewestFacets = 4;
-constexpr double kWidest = 3.0;
-/// Number of triangles that suffice to locate a flat facet.
-constexpr std::size_t kFacetSample = 64;
-
-std::vector<glm::dvec3> cornersOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
-  std::vector<std::uint32_t> indices;
-  for (const std::uint32_t t : triangles)
-    indices.insert(indices.end(), mesh.triangles()[t].begin(), mesh.triangles()[t].end());
-  std::sort(indices.begin(), indices.end());
-  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-  std::vector<glm::dvec3> corners;
-  corners.reserve(indices.size());
-  for (const std::uint32_t v : indices)
-    corners.push_back(mesh.vertices()[v]);
-  return corners;
-}
 
 std::vector<std::uint32_t> onCylinder(const TriangleMesh& mesh, std::uint32_t first, const Circle& cylinder,
                                       double share, double lean) {
@@ -65,40 +46,6 @@ Circle refined(const TriangleMesh& mesh, const std::vector<std::uint32_t>& trian
   return fitCylinder(cornersOf(mesh, triangles), axis).value_or(before);
 }
 
-/// Angles about the axis of the lines that corners lie on, ascending [rad].
-std::vector<double> linesOf(const std::vector<glm::dvec3>& corners, const Circle& cylinder) {
-  const glm::dvec3 u = glm::normalize(
-      glm::cross(cylinder.axis, std::abs(cylinder.axis.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
-  const glm::dvec3 v = glm::cross(cylinder.axis, u);
-  std::vector<double> angles;
-  angles.reserve(corners.size());
-  for (const glm::dvec3& p : corners)
-    angles.push_back(std::atan2(glm::dot(p - cylinder.centre, v), glm::dot(p - cylinder.centre, u)));
-  std::sort(angles.begin(), angles.end());
-  angles.erase(
-      std::unique(angles.begin(), angles.end(), [](double a, double b) { return b - a < kSameAngle; }),
-      angles.end());
-  if (angles.size() > 1 && angles.front() + 2.0 * std::numbers::pi - angles.back() < kSameAngle)
-    angles.pop_back();
-  return angles;
-}
-
-/// True if corners on a circle belong to something round. The corners of a flat face between two roundings
-/// also lie on a circle.
-bool isRound(const std::vector<glm::dvec3>& corners, const Circle& cylinder) {
-  const std::vector<double> lines = linesOf(corners, cylinder);
-  if (lines.size() <= kFewestFacets) return false;
-  std::vector<double> widths;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const double next = i + 1 < lines.size() ? lines[i + 1] : lines.front() + 2.0 * std::numbers::pi;
-    widths.push_back(next - lines[i]);
-  }
-  std::sort(widths.begin(), widths.end());
-  // Ignore the widest: the region may be open there.
-  const double widest = widths[widths.size() - 2];
-  return widest <= kWidest * widths[widths.size() / 2] && widest <= kSharpTurn + kSameAngle;
-}
-
 std::optional<CylinderRegion> grown(const TriangleMesh& mesh, std::uint32_t first, const Circle& guess) {
   std::vector<std::uint32_t> triangles = onCylinder(mesh, first, guess, kLoose, kLooseLean);
   if (triangles.size() < kFewestFacets) return std::nullopt;
@@ -109,7 +56,10 @@ std::optional<CylinderRegion> grown(const TriangleMesh& mesh, std::uint32_t firs
   region.cylinder = refined(mesh, region.triangles, region.cylinder);
   region.triangles = onCylinder(mesh, first, region.cylinder, kTight, kTightLean);
   const std::vector<glm::dvec3> corners = cornersOf(mesh, region.triangles);
-  if (region.triangles.size() < kFewestFacets || !isRound(corners, region.cylinder)) return std::nullopt;
+  if (region.triangles.size() < kFewestFacets) return std::nullopt;
+  const std::vector<double> lines = linesAbout(corners, region.cylinder.centre, region.cylinder.axis);
+  region.isRing = isRing(lines, kRoundRing);
+  if (!region.isRing && !isFineArc(lines)) return std::nullopt;
   double lowest = glm::dot(corners[0] - region.cylinder.centre, region.cylinder.axis), highest = lowest;
   for (const glm::dvec3& p : corners) {
     const double height = glm::dot(p - region.cylinder.centre, region.cylinder.axis);
@@ -118,12 +68,6 @@ std::optional<CylinderRegion> grown(const TriangleMesh& mesh, std::uint32_t firs
   }
   region.cylinder.centre += 0.5 * (lowest + highest) * region.cylinder.axis;
   return region;
-}
-
-std::vector<std::uint32_t> facetOf(const TriangleMesh& mesh, std::uint32_t triangle) {
-  std::vector<std::uint32_t> facet = planeRegion(mesh, triangle).triangles;
-  if (facet.size() > kFacetSample) facet.resize(kFacetSample);
-  return facet;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace nearfit {
 /// Shapes of features that parts can be aligned by.
 enum class FeatureShape : std::uint8_t {
   Plane,   ///< A flat face.
-  Axis,    ///< Of a cylinder or a bore; an edge is an axis of radius 0.
+  Axis,    ///< Of a cylinder, a bore or a cone; an edge is an axis of radius 0.
   Circle,  ///< A round edge: an axis with a centre.
   Point,   ///< A corner, or any point of a surface.
 };
@@ -20,11 +20,13 @@ enum class FeatureShape : std::uint8_t {
 /// A feature by which parts are aligned, in some frame.
 struct AlignFeature {
   FeatureShape shape = FeatureShape::Point;
-  /// Plane: middle of the face. Axis: middle of the cylinder or edge. Circle: centre. Point: the point [m].
+  /// Plane: middle of the face. Axis: middle of the wall or edge. Circle: centre. Point: the point [m].
   glm::dvec3 point{0.0};
   /// Outward normal, or direction along the axis, of either sign; unit. Zero for a point.
   glm::dvec3 direction{0.0};
-  double radius = 0.0;  ///< Of a cylinder or circle [m].
+  double radius = 0.0;  ///< Of a cylinder or circle; of a cone, halfway along its wall [m].
+  double halfAngle = 0.0;   ///< Between the wall of a cone and its axis [rad]; else 0.
+  std::uint32_t flats = 0;  ///< Of a prism whose axis it is; else 0. The radius is then that of its corners.
 };
 
 /// Returns the feature in another frame.

@@ -11,6 +11,7 @@
 
 #include "core/placing/circle_fit.h"
 #include "core/placing/mesh_region.h"
+#include "core/placing/round_corners.h"
 
 namespace nearfit {
 namespace {
@@ -43,8 +44,9 @@ std::vector<std::uint32_t> nextOf(const TriangleMesh& mesh, std::uint32_t at, st
 }
 
 /// Extends a chain at its end while a fitting corner follows. True if that closes it.
+/// @param maxTurn  From an edge to the next [rad].
 template <class Fits>
-bool lengthen(const TriangleMesh& mesh, Chain& chain, Fits&& fits) {
+bool lengthen(const TriangleMesh& mesh, Chain& chain, double maxTurn, Fits&& fits) {
   for (;;) {
     const std::uint32_t at = chain.back(), from = chain[chain.size() - 2];
     const glm::dvec3 along = mesh.vertices()[at] - mesh.vertices()[from];
@@ -52,7 +54,7 @@ bool lengthen(const TriangleMesh& mesh, Chain& chain, Fits&& fits) {
     for (const std::uint32_t next : nextOf(mesh, at, from)) {
       const glm::dvec3 on = mesh.vertices()[next] - mesh.vertices()[at];
       const double turn = std::atan2(glm::length(glm::cross(along, on)), glm::dot(along, on));
-      if (turn > kSharpTurn + 1e-3 || !fits(mesh.vertices()[next])) continue;
+      if (turn > maxTurn + 1e-3 || !fits(mesh.vertices()[next])) continue;
       if (next == chain.front()) return true;
       chain.push_back(next);
       hasGrown = true;
@@ -64,14 +66,14 @@ bool lengthen(const TriangleMesh& mesh, Chain& chain, Fits&& fits) {
 }
 
 template <class Fits>
-Chain chainOf(const TriangleMesh& mesh, const MeshEdge& edge, Fits&& fits) {
+Chain chainOf(const TriangleMesh& mesh, const MeshEdge& edge, double maxTurn, Fits&& fits) {
   Chain chain{edge.v0, edge.v1};
-  if (lengthen(mesh, chain, fits)) {
+  if (lengthen(mesh, chain, maxTurn, fits)) {
     chain.push_back(chain.front());
     return chain;
   }
   std::reverse(chain.begin(), chain.end());
-  lengthen(mesh, chain, fits);
+  lengthen(mesh, chain, maxTurn, fits);
   return chain;
 }
 
@@ -87,8 +89,9 @@ EdgeChain straightChain(const TriangleMesh& mesh, const MeshEdge& edge) {
   const glm::dvec3 point = mesh.vertices()[edge.v0];
   const glm::dvec3 along = glm::normalize(mesh.vertices()[edge.v1] - point);
   const double slack = kOffLine * mesh.bounds().diagonal();
-  const Chain chain = chainOf(
-      mesh, edge, [&](const glm::dvec3& p) { return glm::length(glm::cross(p - point, along)) <= slack; });
+  const Chain chain = chainOf(mesh, edge, kSharpTurn, [&](const glm::dvec3& p) {
+    return glm::length(glm::cross(p - point, along)) <= slack;
+  });
   EdgeChain result;
   result.vertices.assign(chain.begin(), chain.end());
   const glm::dvec3 first = mesh.vertices()[chain.front()], last = mesh.vertices()[chain.back()];
@@ -97,7 +100,8 @@ EdgeChain straightChain(const TriangleMesh& mesh, const MeshEdge& edge) {
 }
 
 /// The round chain through an edge and a corner adjacent to one of its ends.
-std::optional<EdgeChain> roundChain(const TriangleMesh& mesh, const MeshEdge& edge, std::uint32_t beyond) {
+std::optional<EdgeChain> roundChain(const TriangleMesh& mesh, const MeshEdge& edge, std::uint32_t beyond,
+                                    double maxTurn) {
   const glm::dvec3 three[] = {mesh.vertices()[edge.v0], mesh.vertices()[edge.v1], mesh.vertices()[beyond]};
   std::optional<Circle> circle = fitCircle(three);
   if (!circle) return std::nullopt;
@@ -106,7 +110,7 @@ std::optional<EdgeChain> roundChain(const TriangleMesh& mesh, const MeshEdge& ed
   for (int round = 0; round < 2; ++round) {
     const double slack = (round == 0 ? 5.0 : 1.0) * kOffCircle * circle->radius;
     const Chain chain =
-        chainOf(mesh, edge, [&](const glm::dvec3& p) { return circle->distanceFrom(p) <= slack; });
+        chainOf(mesh, edge, maxTurn, [&](const glm::dvec3& p) { return circle->distanceFrom(p) <= slack; });
     if (chain.size() < kFewestCorners) return std::nullopt;
     circle = fitCircle(pointsOf(mesh, chain));
     if (!circle) return std::nullopt;
@@ -120,18 +124,30 @@ std::optional<EdgeChain> roundChain(const TriangleMesh& mesh, const MeshEdge& ed
   return result;
 }
 
-/// The chain that contains a sharp edge: the whole circle or arc if it has at least five corners, else the
-/// straight edge. O(n) in the chain.
-EdgeChain edgeChain(const TriangleMesh& mesh, std::uint32_t sharpEdge) {
-  const MeshEdge& edge = mesh.edges()[sharpEdge];
+/// The longest round chain through an edge.
+std::optional<EdgeChain> roundChain(const TriangleMesh& mesh, const MeshEdge& edge, double maxTurn) {
   std::optional<EdgeChain> best;
   for (const auto& [at, from] : {std::pair(edge.v1, edge.v0), std::pair(edge.v0, edge.v1)}) {
     for (const std::uint32_t beyond : nextOf(mesh, at, from)) {
-      std::optional<EdgeChain> found = roundChain(mesh, edge, beyond);
+      std::optional<EdgeChain> found = roundChain(mesh, edge, beyond, maxTurn);
       if (found && (!best || found->vertices.size() > best->vertices.size())) best = std::move(found);
     }
   }
-  return best ? *best : straightChain(mesh, edge);
+  return best;
+}
+
+/// True if a chain is a whole circle, of as many corners as the ring of a wall has at least.
+bool isCoarseCircle(const EdgeChain& chain) {
+  return chain.vertices.front() == chain.vertices.back() && chain.vertices.size() > kRoundRing.fewestFacets;
+}
+
+/// The chain that contains a sharp edge: the whole circle or arc if it has at least five corners, a coarse circle,
+/// else the straight edge. O(n) in the chain.
+EdgeChain edgeChain(const TriangleMesh& mesh, std::uint32_t sharpEdge) {
+  const MeshEdge& edge = mesh.edges()[sharpEdge];
+  if (auto fine = roundChain(mesh, edge, kSharpTurn)) return *std::move(fine);
+  auto coarse = roundChain(mesh, edge, kRoundRing.widestFacet);
+  return coarse && isCoarseCircle(*coarse) ? *std::move(coarse) : straightChain(mesh, edge);
 }
 
 /// Max number of triangles around the point to search for corners and edges.
@@ -187,7 +203,8 @@ class Pick {
     return PickedFeature{{FeatureShape::Point, mesh_.vertices()[*found]}, {}, {*found}};
   }
 
-  std::optional<PickedFeature> edge() const {
+  /// The sharp edge nearest to the point.
+  std::optional<std::uint32_t> nearestEdge() const {
     double nearest = reach_;
     std::optional<std::uint32_t> found;
     for (const std::uint32_t t : around_) {
@@ -198,18 +215,51 @@ class Pick {
         found = e;
       }
     }
-    if (!found) return std::nullopt;
-    EdgeChain chain = edgeChain(mesh_, *found);
-    const FeatureShape shape = chain.isRound ? FeatureShape::Circle : FeatureShape::Axis;
-    return PickedFeature{
-        {shape, chain.circle.centre, chain.circle.axis, chain.circle.radius}, {}, std::move(chain.vertices)};
+    return found;
   }
 
-  std::optional<PickedFeature> cylinder() const {
-    std::optional<CylinderRegion> region = cylinderRegion(mesh_, hit_.triangle);
+  /// The edge or circle that a sharp edge is of.
+  PickedFeature edgeAt(std::uint32_t sharpEdge) const {
+    EdgeChain chain = edgeChain(mesh_, sharpEdge);
+    const FeatureShape shape = chain.isRound ? FeatureShape::Circle : FeatureShape::Axis;
+    return {{shape, chain.circle.centre, chain.circle.axis, chain.circle.radius}, {}, std::move(chain.vertices)};
+  }
+
+  std::optional<PickedFeature> edge() const {
+    const std::optional<std::uint32_t> found = nearestEdge();
+    return found ? std::optional(edgeAt(*found)) : std::nullopt;
+  }
+
+  /// The nearest edge or circle, or the cylinder or cone around the point: the latter too where an edge only parts
+  /// two facets of it.
+  std::optional<PickedFeature> edgeOrWall() const {
+    const std::optional<std::uint32_t> sharp = nearestEdge();
+    std::optional<PickedFeature> edge = sharp ? std::optional(edgeAt(*sharp)) : std::nullopt;
+    if (edge && edge->feature.shape == FeatureShape::Circle) return edge;
+    std::optional<PickedFeature> found = wall();
+    if (!edge) return found;
+    return found && isInside(*sharp, found->triangles) ? found : edge;
+  }
+
+  std::optional<PickedFeature> wall() const {
+    std::optional<CylinderRegion> cylinder = cylinderRegion(mesh_, hit_.triangle);
+    std::optional<ConeRegion> cone;
+    // An arc may be a piece of a cone that is more than that.
+    if (!cylinder || !cylinder->isRing) cone = coneRegion(mesh_, hit_.triangle);
+    if (cone && (!cylinder || cone->triangles.size() > cylinder->triangles.size())) return wallOf(std::move(*cone));
+    if (!cylinder) return std::nullopt;
+    const Circle& c = cylinder->cylinder;
+    return PickedFeature{{FeatureShape::Axis, c.centre, c.axis, c.radius}, std::move(cylinder->triangles), {}};
+  }
+
+  /// The prism that the point is on a flat of.
+  std::optional<PickedFeature> prism() const {
+    std::optional<ConeRegion> region = coneRegion(mesh_, hit_.triangle, true);
     if (!region) return std::nullopt;
-    const Circle& c = region->cylinder;
-    return PickedFeature{{FeatureShape::Axis, c.centre, c.axis, c.radius}, std::move(region->triangles), {}};
+    const auto flats = static_cast<std::uint32_t>(region->facets);
+    PickedFeature picked = wallOf(std::move(*region));
+    picked.feature.flats = flats;
+    return picked;
   }
 
   std::optional<PickedFeature> face() const {
@@ -221,6 +271,16 @@ class Pick {
   PickedFeature point() const { return {{FeatureShape::Point, hit_.point}, {}, {}}; }
 
  private:
+  static PickedFeature wallOf(ConeRegion&& region) {
+    const Cone& c = region.cone;
+    return {{FeatureShape::Axis, c.centre, c.axis, c.radius, c.halfAngle()}, std::move(region.triangles), {}};
+  }
+  bool isInside(std::uint32_t edge, const std::vector<std::uint32_t>& triangles) const {
+    return std::ranges::all_of(mesh_.facesOfEdge(edge), [&](std::uint32_t face) {
+      return std::ranges::find(triangles, face) != triangles.end();
+    });
+  }
+
   const TriangleMesh& mesh_;
   const SurfaceHit& hit_;
   double reach_;
@@ -246,9 +306,8 @@ std::optional<PickedFeature> pickFeature(const TriangleMesh& mesh, const Surface
   if (filter == FeatureFilter::Any) {
     if (auto corner = pick.corner()) return corner;
   }
-  if (auto edge = pick.edge()) return edge;
-  if (auto cylinder = pick.cylinder()) return cylinder;
-  return filter == FeatureFilter::Any ? pick.face() : std::nullopt;
+  if (auto found = pick.edgeOrWall()) return found;
+  return filter == FeatureFilter::Any ? pick.face() : pick.prism();
 }
 
 std::optional<PickedFeature> pickFeature(const MeshSection& section, glm::dvec3& point, double reach,

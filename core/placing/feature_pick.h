@@ -13,9 +13,9 @@ namespace nearfit {
 
 /// Kinds of features to look for.
 enum class FeatureFilter : std::uint8_t {
-  Any,     ///< The first found of: corner, edge or circle, cylinder, flat face.
+  Any,     ///< The first found of: corner, edge or circle, cylinder or cone, flat face.
   Faces,   ///< Flat faces, including facets of something round.
-  Axes,    ///< Cylinders, circles and edges.
+  Axes,    ///< Cylinders, cones, circles and edges, and prisms of six flats or more.
   Points,  ///< Corners and centres of circles; otherwise the point itself.
 };
 
@@ -27,8 +27,10 @@ struct SurfaceHit {
 
 /// The feature that a user points at; std::nullopt if there is none of that kind.
 ///
-/// A flat face is a set of connected triangles in one plane, a cylinder one on a cylinder (at least four
-/// facets), a circle or edge a chain of sharp edges. Takes some milliseconds for features with tens of
+/// A flat face is a set of connected triangles in one plane, a cylinder or cone one on such a wall (a ring of at least
+/// eight facets, or an arc of at least four fine ones), a circle or edge a chain of sharp edges, which those between
+/// facets of a wall are not. The flats of a prism with four, six or seven are flat faces; its axis is found only where
+/// axes are looked for. Takes some milliseconds for features with tens of
 /// thousands of triangles: for the GUI thread, not the servo thread.
 /// @param hit    Its triangle is one of the mesh.
 /// @param reach  Max distance from the point to corners and edges [m]; >= 0.

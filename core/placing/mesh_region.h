@@ -10,6 +10,7 @@
 
 #include "core/mesh/triangle_mesh.h"
 #include "core/placing/circle_fit.h"
+#include "core/placing/cone_fit.h"
 
 namespace nearfit {
 
@@ -56,11 +57,27 @@ PlaneRegion planeRegion(const TriangleMesh& mesh, std::uint32_t triangle);
 /// Connected triangles whose corners lie on one cylinder.
 struct CylinderRegion {
   std::vector<std::uint32_t> triangles;
-  Circle cylinder;  ///< Its centre is at the middle of the region's length.
+  Circle cylinder;      ///< Its centre is at the middle of the region's length.
+  bool isRing = false;  ///< It goes all round the axis.
 };
 
-/// The cylinder, bore or fillet that a triangle is a facet of; std::nullopt if there is none. It is at least
-/// four facets wide, none much wider than the others. O(n log n) in the region.
+/// The cylinder, bore or fillet that a triangle is a facet of; std::nullopt if there is none. Facets meet at less than
+/// kSharpTurn, and the region is a ring or at least four facets wide, none much wider than the others (isRing(),
+/// isFineArc()). O(n log n) in the region.
 std::optional<CylinderRegion> cylinderRegion(const TriangleMesh& mesh, std::uint32_t triangle);
+
+/// Connected triangles whose corners lie on one cone or cylinder.
+struct ConeRegion {
+  std::vector<std::uint32_t> triangles;
+  Cone cone;               ///< Its centre is at the middle of the region's length. Slope 0: a cylinder.
+  std::size_t facets = 0;  ///< Lines along it that corners lie on.
+};
+
+/// The cone, or coarse cylinder, that a triangle is a facet of; std::nullopt if there is none. Its facets may be of
+/// any width: a ring of at least eight, or an arc as of a cylinder. Half angles up to 60 degrees. Corners are within
+/// 0.2 % of the radius of it, facets within 0.3 degrees of the inclination that it gives them; the axis of a ring in
+/// single precision is good to some 1e-6 of its length. O(n log n) in the region.
+/// @param isPrism  Takes a ring of at least six equal flats instead, as of a nut; never a cone.
+std::optional<ConeRegion> coneRegion(const TriangleMesh& mesh, std::uint32_t triangle, bool isPrism = false);
 
 }  // namespace nearfit

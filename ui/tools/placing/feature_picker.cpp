@@ -4,6 +4,7 @@
 #include <QKeyEvent>
 #include <QShortcut>
 #include <QTimer>
+#include <numbers>
 #include <utility>
 
 #include "ui/model/shown_poses.h"
@@ -17,6 +18,15 @@ namespace {
 /// Max distance of the pointer from a corner or edge to pick it [pixels].
 constexpr double kReach = 8.0;
 
+QString describeAxis(const AlignFeature& axis) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  if (axis.flats > 0) return QObject::tr("Axis of a prism with %1 flats").arg(axis.flats);
+  if (axis.halfAngle > 0.0)
+    return QObject::tr("Axis of a cone, half angle %1°").arg(formatFixed(axis.halfAngle / kDegree, 1));
+  if (axis.radius > 0.0) return QObject::tr("Axis of a cylinder ⌀ %1").arg(formatLength(2.0 * axis.radius));
+  return QObject::tr("Straight edge");
+}
+
 }  // namespace
 
 QString describeFeature(const AlignFeature& feature) {
@@ -26,9 +36,7 @@ QString describeFeature(const AlignFeature& feature) {
     case FeatureShape::Circle:
       return QObject::tr("Circle ⌀ %1").arg(formatLength(2.0 * feature.radius));
     case FeatureShape::Axis:
-      return feature.radius > 0.0
-                 ? QObject::tr("Axis of a cylinder ⌀ %1").arg(formatLength(2.0 * feature.radius))
-                 : QObject::tr("Straight edge");
+      return describeAxis(feature);
     default:
       return QObject::tr("Point");
   }

@@ -1,0 +1,246 @@
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec2.hpp>
+#include <gtest/gtest.h>
+
+#include "core/placing/cone_fit.h"
+#include "core/placing/feature_pick.h"
+#include "tests/support/degenerate_meshes.h"
+#include "tests/support/mesh_generators.h"
+
+namespace nearfit::round_walls_test {
+namespace {
+
+constexpr double kPi = std::numbers::pi, kDegree = kPi / 180.0;
+constexpr double kHeight = 0.05, kInner = 0.012, kOuter = 0.03;
+constexpr double kReach = 1e-5;
+
+/// Angles of the lines along a wall, each facet up to `spread` wider or narrower than the mean one.
+std::vector<double> linesOf(std::uint32_t facets, double spread, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<> width(1.0 - spread, 1.0 + spread);
+  std::vector<double> ends;
+  double sum = 0.0;
+  for (std::uint32_t i = 0; i < facets; ++i)
+    ends.push_back(sum += width(random));
+  for (double& end : ends)
+    end *= 2.0 * kPi / sum;
+  return ends;
+}
+
+/// A tube about z from 0 to kHeight, its walls between lines at those angles, wider towards the top.
+TriangleMesh tubeOf(const std::vector<double>& angles, double slope) {
+  const double grown = slope * kHeight;
+  const glm::dvec2 profile[] = {{kOuter, 0.0}, {kOuter + grown, kHeight}, {kInner + grown, kHeight}, {kInner, 0.0}};
+  std::vector<glm::dvec3> vertices;
+  std::vector<Triangle> triangles;
+  const auto count = static_cast<std::uint32_t>(angles.size());
+  for (const double angle : angles)
+    for (const glm::dvec2& p : profile)
+      vertices.emplace_back(p.x * std::cos(angle), p.x * std::sin(angle), p.y);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t j = (i + 1) % count, next = (k + 1) % 4;
+      const std::uint32_t a = 4 * i + k, b = 4 * j + k, c = 4 * j + next, d = 4 * i + next;
+      triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+    }
+  }
+  return {std::move(vertices), std::move(triangles)};
+}
+
+RigidTransform somePose(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<> in(-1.0, 1.0);
+  return {glm::angleAxis(kPi * in(random), glm::normalize(glm::dvec3{in(random), in(random), 1.0})),
+          glm::dvec3{in(random), in(random), in(random)}};
+}
+
+/// Where a ray hits a mesh first: each triangle by its plane and sides.
+SurfaceHit hitBy(const TriangleMesh& mesh, const glm::dvec3& from, const glm::dvec3& towards) {
+  const glm::dvec3 along = glm::normalize(towards - from);
+  SurfaceHit hit;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) {
+    const Triangle& t = mesh.triangles()[i];
+    const glm::dvec3 a = mesh.vertices()[t[0]], b = mesh.vertices()[t[1]], c = mesh.vertices()[t[2]];
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double distance = glm::dot(a - from, normal) / glm::dot(along, normal);
+    if (!(distance > 0.0) || !(distance < nearest)) continue;
+    const glm::dvec3 p = from + distance * along;
+    if (glm::dot(glm::cross(b - a, p - a), normal) < 0.0 || glm::dot(glm::cross(c - b, p - b), normal) < 0.0 ||
+        glm::dot(glm::cross(a - c, p - c), normal) < 0.0)
+      continue;
+    nearest = distance;
+    hit = {i, p};
+  }
+  EXPECT_TRUE(std::isfinite(nearest)) << "nothing was hit";
+  return hit;
+}
+
+/// A tube as a file holds it, somewhere, and the points on a facet of its walls.
+struct Tube {
+  Tube(const std::vector<double>& angles, double halfAngle, std::uint64_t seed)
+      : pose(somePose(seed)),
+        slope(std::tan(halfAngle)),
+        // Off the middle of the facet, off its diagonal.
+        angle(0.7 * angles[0] + 0.3 * angles[1]),
+        mesh(test::inSinglePrecision(test::transformed(tubeOf(angles, slope), 1.0, pose))) {}
+
+  SurfaceHit on(bool isBore) const {
+    const glm::dvec3 aside(std::cos(angle), std::sin(angle), 0.0), up(0.0, 0.0, 0.55 * kHeight);
+    const glm::dvec3 from = (isBore ? 0.0 : 1.0) * aside + up, towards = (kInner + 0.001) * aside + up;
+    return hitBy(mesh, pose.applyToPoint(from), pose.applyToPoint(towards));
+  }
+  /// Expects the axis, and where it lies, as the drawing has it.
+  void expectAxis(const PickedFeature& picked, bool isBore) const {
+    ASSERT_EQ(picked.feature.shape, FeatureShape::Axis);
+    const glm::dvec3 axis = pose.applyToVector({0.0, 0.0, 1.0});
+    EXPECT_NEAR(glm::length(glm::cross(picked.feature.direction, axis)), 0.0, 2e-5);
+    EXPECT_NEAR(glm::length(picked.feature.direction), 1.0, 1e-12);
+    EXPECT_NEAR(glm::distance(picked.feature.point, pose.applyToPoint({0.0, 0.0, 0.5 * kHeight})), 0.0, 3e-6);
+    EXPECT_NEAR(picked.feature.radius, (isBore ? kInner : kOuter) + 0.5 * kHeight * slope, 2e-6);
+    EXPECT_NEAR(picked.feature.halfAngle, std::atan(slope), 5e-5);
+  }
+
+  RigidTransform pose;
+  double slope, angle;
+  TriangleMesh mesh;
+};
+
+struct Cut {
+  std::uint32_t facets;
+  double spread;
+};
+/// The widest facet of eight uneven ones stays below 50 degrees.
+constexpr Cut kCuts[] = {{8, 0.0}, {8, 0.05}, {12, 0.0}, {12, 0.3}, {16, 0.0}, {16, 0.5}, {64, 0.0}, {64, 0.6}};
+
+// Fine cylinders had an axis; on a coarse or tapered wall there were only flat faces.
+TEST(RoundWalls, CoarseAndTaperedWallsHaveTheirAxis) {
+  std::uint64_t seed = 0;
+  for (const Cut& cut : kCuts) {
+    for (const double degrees : {0.0, 1.0, 5.0, 15.0, 30.0}) {
+      for (int turn = 0; turn < 2; ++turn) {
+        ++seed;
+        const Tube tube(linesOf(cut.facets, cut.spread, seed), degrees * kDegree, seed);
+        for (const bool isBore : {false, true}) {
+          SCOPED_TRACE(testing::Message() << cut.facets << " facets, spread " << cut.spread << ", " << degrees
+                                          << " degrees, seed " << seed << (isBore ? ", bore" : ""));
+          const SurfaceHit hit = tube.on(isBore);
+          for (const FeatureFilter filter : {FeatureFilter::Any, FeatureFilter::Axes}) {
+            const auto picked = pickFeature(tube.mesh, hit, kReach, filter);
+            ASSERT_TRUE(picked);
+            tube.expectAxis(*picked, isBore);
+            EXPECT_EQ(picked->feature.flats, 0U);
+            EXPECT_EQ(picked->triangles.size(), 2U * cut.facets);
+          }
+          const auto face = pickFeature(tube.mesh, hit, kReach, FeatureFilter::Faces);
+          ASSERT_TRUE(face);
+          EXPECT_EQ(face->feature.shape, FeatureShape::Plane);
+          EXPECT_EQ(face->triangles.size(), 2U);
+        }
+      }
+    }
+  }
+}
+
+TEST(RoundWalls, AConeWithATipHasItsAxis) {
+  for (const std::uint32_t facets : {8U, 12U, 48U}) {
+    for (const double degrees : {2.0, 10.0, 30.0}) {
+      SCOPED_TRACE(testing::Message() << facets << " facets, " << degrees << " degrees");
+      const RigidTransform pose = somePose(facets + static_cast<std::uint64_t>(degrees));
+      const double radius = kHeight * std::tan(degrees * kDegree), angle = 2.0 * kPi * 0.3 / facets;
+      const TriangleMesh mesh =
+          test::inSinglePrecision(test::transformed(test::coneMesh(radius, kHeight, facets), 1.0, pose));
+      const glm::dvec3 aside(std::cos(angle), std::sin(angle), 0.0), up(0.0, 0.0, 0.4 * kHeight);
+      const auto picked =
+          pickFeature(mesh, hitBy(mesh, pose.applyToPoint(aside + up), pose.applyToPoint(up)), kReach);
+      ASSERT_TRUE(picked);
+      ASSERT_EQ(picked->feature.shape, FeatureShape::Axis);
+      EXPECT_NEAR(glm::length(glm::cross(picked->feature.direction, pose.applyToVector({0.0, 0.0, 1.0}))), 0.0,
+                  5e-5);
+      EXPECT_NEAR(glm::distance(picked->feature.point, pose.applyToPoint({0.0, 0.0, 0.5 * kHeight})), 0.0, 5e-6);
+      EXPECT_NEAR(picked->feature.halfAngle, degrees * kDegree, 1e-4);
+      EXPECT_EQ(picked->triangles.size(), facets);
+    }
+  }
+}
+
+TEST(RoundWalls, ThePrismOfANutHasFlatFacesAndItsAxisOnRequest) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Tube nut(linesOf(6, 0.0, seed), 0.0, seed);
+    const SurfaceHit side = nut.on(false);
+    const auto face = pickFeature(nut.mesh, side, kReach);
+    ASSERT_TRUE(face);
+    EXPECT_EQ(face->feature.shape, FeatureShape::Plane);
+    EXPECT_EQ(face->triangles.size(), 2U);
+    const auto axis = pickFeature(nut.mesh, side, kReach, FeatureFilter::Axes);
+    ASSERT_TRUE(axis);
+    nut.expectAxis(*axis, false);
+    EXPECT_EQ(axis->feature.flats, 6U);
+  }
+}
+
+TEST(RoundWalls, BarsOfFourFlatsHaveNoAxis) {
+  const TriangleMesh box = test::boxMesh(glm::dvec3(0.1));
+  const SurfaceHit side = hitBy(box, {1.0, 0.01, 0.013}, {0.0, 0.01, 0.013});
+  EXPECT_EQ(pickFeature(box, side, kReach)->feature.shape, FeatureShape::Plane);
+  EXPECT_FALSE(pickFeature(box, side, kReach, FeatureFilter::Axes));
+  // Chamfered: eight corners on one circle.
+  std::vector<double> lines;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    for (const double corner : {12.0, 78.0})
+      lines.push_back((90.0 * quarter + corner) * kDegree);
+  }
+  const Tube bar(lines, 0.0, 3);
+  EXPECT_EQ(pickFeature(bar.mesh, bar.on(false), kReach)->feature.shape, FeatureShape::Plane);
+}
+
+TEST(RoundWalls, EdgesBetweenFacetsAreNoneOfTheShapeButRimsAre) {
+  const Tube tube(linesOf(8, 0.0, 1), 0.0, 4);
+  const double line = 2.0 * kPi / 8.0;
+  const auto hitAt = [&](double angle, double height) {
+    const glm::dvec3 aside(std::cos(angle), std::sin(angle), 0.0), up(0.0, 0.0, height);
+    return hitBy(tube.mesh, tube.pose.applyToPoint(aside + up), tube.pose.applyToPoint(up));
+  };
+  for (const FeatureFilter filter : {FeatureFilter::Any, FeatureFilter::Axes}) {
+    const auto wall = pickFeature(tube.mesh, hitAt(line + 0.02, 0.5 * kHeight), 0.002, filter);
+    ASSERT_TRUE(wall);
+    tube.expectAxis(*wall, false);
+  }
+  const auto rim = pickFeature(tube.mesh, hitAt(line + 0.3, kHeight - 0.001), 0.002, FeatureFilter::Axes);
+  ASSERT_TRUE(rim);
+  ASSERT_EQ(rim->feature.shape, FeatureShape::Circle);
+  EXPECT_NEAR(rim->feature.radius, kOuter, 1e-6);
+  EXPECT_EQ(rim->vertices.size(), 9U);
+}
+
+TEST(ConeFit, PointsOnAConeGiveItFromARoughGuess) {
+  const RigidTransform pose = somePose(7);
+  const double slope = std::tan(12.0 * kDegree);
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 9; ++i) {
+    const double height = 0.3 * (i % 3), angle = 0.5 * i;
+    const double radius = 0.4 + slope * height;
+    points.push_back(pose.applyToPoint({radius * std::cos(angle), radius * std::sin(angle), height}));
+  }
+  const Cone guess{pose.applyToPoint({0.02, -0.03, 0.1}),
+                   pose.applyToVector(glm::normalize(glm::dvec3(0.1, 0.05, 1.0))), 0.35, 0.1};
+  const auto cone = fitCone(points, guess);
+  ASSERT_TRUE(cone);
+  EXPECT_NEAR(glm::length(glm::cross(cone->axis, pose.applyToVector({0.0, 0.0, 1.0}))), 0.0, 1e-9);
+  EXPECT_NEAR(std::abs(cone->slope), slope, 1e-9);
+  EXPECT_NEAR(cone->halfAngle(), 12.0 * kDegree, 1e-9);
+  for (const glm::dvec3& p : points)
+    EXPECT_NEAR(cone->distanceFrom(p), 0.0, 1e-9);
+  const std::vector<glm::dvec3> few(points.begin(), points.begin() + 5);
+  EXPECT_FALSE(fitCone(few, guess));
+}
+
+}  // namespace
+}  // namespace nearfit::round_walls_test
