@@ -15,7 +15,7 @@ namespace nearfit::cli {
 
 /// Help text on what --calibrate does.
 inline constexpr const char* kCalibrateHelp =
-    "Find where the handle is: hold it in its rest, or leave it free if the device finds its position itself";
+    "Find the position of the handle: hold it in its rest, or let go of it if the device calibrates itself";
 
 /// Adds the options for files that some devices need.
 /// @param files  Must outlive the command.

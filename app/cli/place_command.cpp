@@ -26,8 +26,8 @@ namespace nearfit::cli {
 namespace {
 
 constexpr const char* kPlaceFooter =
-    R"(The part starts at the first pose of the path or recording; led by any other device, it stays where it is
-until the device moves. The scene file does not change. Feel options replace the scene's for this run.
+    R"(The part starts at the first pose of the path or recording; moved by any other device, it stays where it
+is until the device moves. The scene file does not change. Feel options replace the scene's for this run.
 --record  CSV with a header and one row per tick, in the world frame: t_s; handle_tx ... handle_qz and
           proxy_tx ... proxy_qz (tx ty tz qw qx qy qz each; the proxy is where the part is); force_x ...
           force_z [N] and torque_x ... torque_z [N m] about the part's centre of mass, as sent to the device
@@ -130,7 +130,7 @@ void throwIfIncomplete(const PlaceResult& result, std::size_t poses) {
 void checkLead(const PlaceOptions& options) {
   if (options.isLedByDevice != options.path.empty()) {
     throw UsageError("place",
-                     options.isLedByDevice ? "--path and --device are both given" : "nothing leads the part",
+                     options.isLedByDevice ? "--path and --device are both given" : "nothing moves the part",
                      "give either --path FILE or --device");
   }
   if (options.isLedByDevice && options.isFast)
@@ -219,9 +219,9 @@ void runPlace(const PlaceOptions& options) {
 void addPlaceCommand(CLI::App& program) {
   const auto options = std::make_shared<PlaceOptions>();
   CLI::App* command = program.add_subcommand(
-      "place", "Leads a part along a path or by a device with the 1 kHz servo, and prints what was felt.");
+      "place", "Moves a part along a path or with a device in the 1 kHz servo, and prints what was felt.");
   command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required();
-  command->add_option("--part", options->part, "Name of the part to lead")->required();
+  command->add_option("--part", options->part, "Name of the part to move")->required();
   command->add_option(
       "--path", options->path,
       "CSV file of poses in the world frame: tx,ty,tz,qw,qx,qy,qz per row, one row per tick of 1 ms");

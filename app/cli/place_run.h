@@ -13,7 +13,7 @@
 
 namespace nearfit::cli {
 
-/// A part to lead along a path, one pose per tick, or by a device.
+/// A part to move along a path, one pose per tick, or by a device.
 struct PlaceJob {
   std::unique_ptr<const ServoScene> scene;
   ServoParameters parameters;

@@ -56,7 +56,7 @@ void addRateOptions(CLI::App& command, RateOptions& options) {
   add("--speed", options.fullSpeed,
       fmt::format("Speed at full deflection [m/s], before the scale; default: {}", usual.fullSpeed), "SPEED");
   add("--turn-speed", options.fullTurn,
-      fmt::format("Speed of turning at full deflection [rad/s]; default: {}", usual.fullTurn), "SPEED");
+      fmt::format("Rotation speed at full deflection [rad/s]; default: {}", usual.fullTurn), "SPEED");
   command
       .add_option(kAxes, options.axes,
                   "Only these axes of x,y,z,rx,ry,rz drive; a minus reverses one: x,y,-rz (if a minus comes "

@@ -41,13 +41,13 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
                           ->excludes(files);
   program.add_option(
       "--screenshot", options.screenshot,
-      "Write a picture (PNG) of the window with the files, then exit; the scripted hand leads a moving part");
+      "Write a picture (PNG) of the window with the files, then exit; a scripted hand moves the moving part");
   std::string device;
   CLI::Option* hand =
       program
           .add_option("--device", device,
-                      "Feel the moving part at once, led by a device that is plugged in (see nearfit-cli "
-                      "devices; default: the first usable one) or by a recorded hand, replay:FILE")
+                      "Feel the moving part at once, with a device that is plugged in (see nearfit-cli "
+                      "devices; default: the first usable one) or a recorded hand, replay:FILE")
           ->type_name("[DEVICE]")
           ->expected(0, 1);
   program.add_flag("--arm", options.isArming, "With --device: let it push as soon as it is ready")

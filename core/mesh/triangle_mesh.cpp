@@ -14,7 +14,7 @@ void validate(const std::vector<glm::dvec3>& vertices, const std::vector<Triangl
   if (triangles.size() > TriangleMesh::kMaxTriangles || vertices.size() > TriangleMesh::kMaxTriangles) {
     throw Error("mesh",
                 "it has more than " + std::to_string(TriangleMesh::kMaxTriangles) + " triangles or vertices",
-                "decimate it first");
+                "reduce the mesh first");
   }
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const glm::dvec3& p = vertices[i];

@@ -299,7 +299,7 @@ void Document::openFiles(const QStringList& filesAndFolders, std::optional<doubl
 }
 
 void Document::dropFiles(const QStringList& filesAndFolders) {
-  if (isBusy()) return emit noted(tr("Files are being loaded; drop these again afterwards."));
+  if (isBusy()) return emit noted(tr("Files are still loading. Drop these again when they are done."));
   openFiles(filesAndFolders);
 }
 

@@ -90,7 +90,7 @@ PartFiles::PartFiles(const Context& context, QMenu* menu, QWidget* window, QObje
 void PartFiles::addActions(QMenu* menu) {
   reload_ = menu->addAction(icon(QStringLiteral("reload")), tr("&Reload parts from disk"));
   reload_->setObjectName(QStringLiteral("reloadParts"));
-  reload_->setToolTip(tr("Read the mesh files of all parts again; poses stay"));
+  reload_->setToolTip(tr("Read the mesh files of all parts again; poses do not change"));
   reload_->setShortcut(QKeySequence(QStringLiteral("Ctrl+R")));
   connect(reload_, &QAction::triggered, this, [this] { reload({}); });
   reloadAlways_ = menu->addAction(tr("Reload changed parts &without asking"));
@@ -267,7 +267,7 @@ PartFiles::Wanted PartFiles::inUnit(const Part& part, double metresPerUnit) {
 
 void PartFiles::changeUnit(const std::vector<PartId>& parts) {
   if (document_.isBusy()) return;
-  if (hand_.status().isTaken()) return emit noted(tr("Stop feeling (F6) before you change a unit"));
+  if (hand_.status().isTaken()) return emit noted(tr("Stop (F6) before you change the unit"));
   QStringList names;
   Aabb box;
   std::optional<double> present;
@@ -295,7 +295,7 @@ void PartFiles::changeUnit(const std::vector<PartId>& parts) {
 }
 
 void PartFiles::loadInUnits(const QString& text, const std::vector<Wanted>& wanted, const QString& failure) {
-  if (document_.isBusy()) return emit noted(tr("Files are being loaded; try again afterwards."));
+  if (document_.isBusy()) return emit noted(tr("Files are still loading. Try again when they are done."));
   const auto apply = [this](const std::vector<Session::NewGeometry>& renewed) {
     if (renewed.empty()) return;
     // Feeling may have begun since.

@@ -176,8 +176,8 @@ QString questionAbout(const QStringList& files) {
 QString questionAboutParts(const QStringList& parts) {
   constexpr int kNamed = 3;
   if (parts.size() == 1)
-    return QObject::tr("In what unit is the file of “%1”?").arg(shortName(parts.first()));
-  return QObject::tr("In what unit are the files of %1? The sizes are those of all of them together.")
+    return QObject::tr("What unit is the file of “%1” in?").arg(shortName(parts.first()));
+  return QObject::tr("What unit are the files of %1 in? The sizes are those of all files together.")
       .arg(listOfNames(parts, kNamed));
 }
 

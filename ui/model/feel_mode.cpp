@@ -39,12 +39,12 @@ QString explanationOf(FeelMode mode) {
   switch (mode) {
     case FeelMode::LinearSprings:
       return QObject::tr(
-          "The part is where the hand is. Each minimum pushes with stiffness × (cutoff − distance), the most "
-          "at contact. A hand that pushes harder goes through.");
+          "The part is where the hand is. Each minimum pushes with stiffness × (cutoff − distance), most "
+          "at contact. A hard push goes through.");
     case FeelMode::PrintedSprings:
       return QObject::tr(
-          "Like linear springs, but each minimum pushes with stiffness × (cutoff − distance) × distance, as "
-          "printed in the paper: zero at contact, the most at half the cutoff.");
+          "Like linear springs, but each minimum pushes with stiffness × (cutoff − distance) × distance, "
+          "as printed in the paper: zero at contact, most at half the cutoff.");
     case FeelMode::Proxy:
       break;
   }

@@ -76,9 +76,10 @@ QIcon PartCell::picture(int column) const {
 QString PartCell::toolTip(int column) const {
   switch (column) {
     case PartsModel::Moving:
-      return scene_.movingPart() == part_.id ? tr("In hand") : tr("Take in hand: make it the moving part");
+      return scene_.movingPart() == part_.id ? tr("In hand") : tr("Click to take it in hand");
     case PartsModel::Visible:
-      return part_.isVisible ? tr("Shown and felt: hide it") : tr("Hidden and not felt: show it");
+      return part_.isVisible ? tr("Shown and felt. Click to hide it.")
+                             : tr("Hidden and not felt. Click to show it.");
     case PartsModel::Locked:
       return lockText();
     default:
@@ -87,8 +88,8 @@ QString PartCell::toolTip(int column) const {
 }
 
 QString PartCell::lockText() const {
-  if (part_.isLocked) return tr("Locked: unlock it");
-  return scene_.isLocked(part_) ? tr("Locked by its group") : tr("Unlocked: lock it");
+  if (part_.isLocked) return tr("Locked. Click to unlock it.");
+  return scene_.isLocked(part_) ? tr("Locked by its group") : tr("Unlocked. Click to lock it.");
 }
 
 QString PartCell::description() const {
@@ -129,12 +130,12 @@ QString GroupCell::toolTip(int column) const {
       return parts == 1 ? tr("%1\n1 part").arg(name) : tr("%1\n%2 parts").arg(name).arg(parts);
     }
     case PartsModel::Visible:
-      return shownOf(scene_, group_) == Shown::All ? tr("All shown and felt: hide them")
-                                                   : tr("Not all shown: show them");
+      return shownOf(scene_, group_) == Shown::All ? tr("All shown and felt. Click to hide them.")
+                                                   : tr("Not all shown. Click to show them.");
     case PartsModel::Locked:
-      return group_.isLocked           ? tr("Locked with all its contents: unlock it")
+      return group_.isLocked           ? tr("Locked with all its contents. Click to unlock it.")
              : scene_.isLocked(group_) ? tr("Locked by its group")
-                                       : tr("Unlocked: lock it with all its contents");
+                                       : tr("Unlocked. Click to lock it with all its contents.");
     default:
       return {};
   }

@@ -76,10 +76,10 @@ void addView(QTreeWidget* list) {
       {QObject::tr("Add to the selection, or remove from it"), QObject::tr("Ctrl+Click")},
       {QObject::tr("Menu of commands for a part"), QObject::tr("Right click, or the Menu key")},
       {QObject::tr("Select the parts seen in a box"), QObject::tr("B, then left drag")},
-      {QObject::tr("Move the part by a step"), QObject::tr("Arrow keys, Page up, Page down")},
-      {QObject::tr("Turn the part by a step"), QObject::tr("Shift+Arrow keys, Shift+Page up or down")},
+      {QObject::tr("Move the part by a step"), QObject::tr("Arrow keys, Page Up, Page Down")},
+      {QObject::tr("Rotate the part by a step"), QObject::tr("Shift+Arrow keys, Shift+Page Up or Page Down")},
       {QObject::tr("Move the manual hand"), QObject::tr("Shift+Left drag, Shift+Wheel")},
-      {QObject::tr("Turn the manual hand"), QObject::tr("Shift+Right drag")}};
+      {QObject::tr("Rotate the manual hand"), QObject::tr("Shift+Right drag")}};
   for (const auto& [what, keys] : entries)
     new QTreeWidgetItem(group, {what, keys});
 }

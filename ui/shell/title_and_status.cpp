@@ -88,8 +88,8 @@ StatusReadout::StatusReadout(const HandState& hand, QStatusBar* bar)
 void StatusReadout::showStatus(const ServoStatus& status) {
   rate_->setText(status.isRunning ? tr("Servo %1 Hz").arg(status.rate, 0, 'f', 0) : tr("Servo off"));
   setColour(*rate_, status.isTooSlow() ? colours::kWarning : colours::kMutedText);
-  rate_->setToolTip(status.isTooSlow() ? tr("Ticks are lost, so contact feels softer than its settings. Use "
-                                            "a smaller cutoff, or hide parts that do not matter.")
+  rate_->setToolTip(status.isTooSlow() ? tr("The servo misses ticks, so contact feels softer than set. "
+                                            "Reduce the cutoff, or hide parts that do not matter.")
                                        : QString());
   lateness_->setText(status.isRunning ? tr("Late %1 (p99)").arg(formatDuration(status.latenessP99))
                                       : tr("Late –"));

@@ -171,8 +171,8 @@ void WindowShell::showTour() {
       {find("poseDock"), tr("Pose and mass"),
        tr("The position, rotation, density and mass of the selected part. You can edit the numbers.")},
       {find("feelDock"), tr("Feel"),
-       tr("Choose what leads the part: a device, a recording, a script, or the manual hand. Press Feel (F5). "
-          "With the manual hand, hold Shift and drag in the view: the part stops at contact.")},
+       tr("Choose what moves the part: a device, a recording, a script or the manual hand. Press Feel "
+          "(F5). With the manual hand, hold Shift and drag in the view: the part stops at contact.")},
       {find("toolBar"), tr("Tools"),
        tr("All these commands are in the menus too. F1 lists all keys; History, beside the parts, takes you "
           "back to any step.")},

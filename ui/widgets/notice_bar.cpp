@@ -22,7 +22,7 @@ constexpr int kMargin = 10, kMarkerWidth = 130, kMaxWidth = 760;
 
 NoticeBar::NoticeBar(QWidget* parent) : QFrame(parent) {
   setObjectName(QStringLiteral("noticeBar"));
-  setAccessibleName(tr("Offers"));
+  setAccessibleName(tr("Notices"));
   setAutoFillBackground(true);
   setFrameShape(QFrame::StyledPanel);
   auto* layout = new QVBoxLayout(this);

@@ -205,7 +205,7 @@ bool NumberField::event(QEvent* event) {
   if (event->type() != QEvent::ToolTip) return QDoubleSpinBox::event(event);
   const QString help =
       tr("Takes units and arithmetic: 12.5 mm, 1/4 in, 2*(3 + 0,5), 90 deg.\n"
-         "+= 5 adds to the present value; -=, *= and /= work likewise.");
+         "+= 5 adds 5 to the current value; -=, *= and /= work the same way.");
   QStringList text;
   if (!toolTip().isEmpty()) text << toolTip();
   // Useless while nothing can be typed.

@@ -32,7 +32,7 @@ std::array<float, 3> toSingle(const glm::dvec3& v) {
 NormalConeTree::Arrays NormalConeTreeBuilder::build() {
   constexpr std::size_t kMaxLeaves = (std::size_t{1} << 29) - 1;
   if (mesh_.edges().size() > kMaxLeaves) {
-    throw Error("mesh", "it has more edges than a hierarchy can hold", "decimate it first");
+    throw Error("mesh", "it has more edges than a hierarchy can hold", "reduce the mesh first");
   }
   tree_.centre = mesh_.bounds().isEmpty() ? glm::dvec3(0.0) : mesh_.bounds().centre();
   tree_.size = mesh_.bounds().diagonal();

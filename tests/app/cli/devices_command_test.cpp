@@ -85,7 +85,7 @@ using PlaceWithDevice = PlaceFixture;
 
 TEST_F(PlaceWithDevice, APathOrADeviceLeadsAndNotBoth) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
-      {{}, "nothing leads the part"},
+      {{}, "nothing moves the part"},
       {{"--path", "path.csv", "--device", kNobodys}, "--path and --device are both given"},
       {{"--device", kNobodys, "--fast"}, "--fast: a device sets its own pace"},
       {{"--path", "path.csv", "--arm"}, "--arm: it is for --device"},

@@ -196,7 +196,7 @@ void DesktopDeviceTest::aDeviceIsArmedOnlyOnceItIsCalibrated() {
   QTRY_VERIFY(!note->isVisible());
   QTest::mouseClick(f.d->widget<QToolButton>("clutchButton"), Qt::LeftButton);
   QTRY_VERIFY(note->isVisible());
-  QVERIFY2(note->text().contains(QStringLiteral("comfortable")), qPrintable(note->text()));
+  QVERIFY2(note->text().contains(QStringLiteral("reposition")), qPrintable(note->text()));
 }
 
 void DesktopDeviceTest::thatNoneIsPluggedInIsSaidWithWhatCanBe() {

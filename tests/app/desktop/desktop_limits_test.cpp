@@ -219,7 +219,7 @@ void DesktopLimitsTest::aForceBeyondTheDeviceIsHeldAndSaidToBe() {
   QTRY_VERIFY(glm::length(f.newest.wrench.force) > 0.05);
   QCOMPARE(f.d->text("clamped"), QString());
   f.handle->moveTo({0.0, 0.0, -0.009});
-  QTRY_COMPARE(f.d->text("clamped"), QStringLiteral("Limited to what the device allows."));
+  QTRY_COMPARE(f.d->text("clamped"), QStringLiteral("Limited to the device's maximum."));
   QVERIFY(f.d->widget<QLabel>("clamped")->isVisible());
   QTRY_COMPARE(f.d->text("force"), QStringLiteral("1.50 N"));
   QTRY_VERIFY(glm::length(f.newest.unclampedWrench.force) > 1.55);

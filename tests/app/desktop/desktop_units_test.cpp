@@ -253,7 +253,7 @@ void DesktopUnitsTest::theUnitStaysWhileAPartIsFelt() {
   QVERIFY(d.action("changeUnit")->isEnabled());
   // A menu that closes may clear the status bar.
   d.action("changeUnit")->trigger();
-  QVERIFY2(d.window().statusBar()->currentMessage().contains(QStringLiteral("Stop feeling")),
+  QVERIFY2(d.window().statusBar()->currentMessage().contains(QStringLiteral("Stop (F6)")),
            qPrintable(d.window().statusBar()->currentMessage()));
   QCOMPARE(questions.count(), 0);
   QVERIFY(d.application.servo().isRunning());

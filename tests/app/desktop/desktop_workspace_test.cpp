@@ -78,7 +78,7 @@ void DesktopWorkspaceTest::inAPlaneTheHandGoesAlongItAlone() {
   QVERIFY(freedom->isVisible());
   freedom->setFocus();
   QTest::keyClick(freedom, Qt::Key_Down);
-  QCOMPARE(freedom->currentText(), QStringLiteral("In the plane XY"));
+  QCOMPARE(freedom->currentText(), QStringLiteral("In the XY plane"));
   QCOMPARE(f.d->session().historyIndex(), before + 1);
   QVERIFY(f.d->widget<QCheckBox>("panel-lockZ")->isChecked());
   QVERIFY(f.d->widget<QCheckBox>("panel-lockRx")->isChecked());

@@ -99,7 +99,7 @@ void Exporter::copyPlacement() {
   const std::optional<PartId> id = current ? current : scene.movingPart();
   const Part* part = id ? scene.find(*id) : nullptr;
   if (part == nullptr) {
-    emit noted(tr("Select the part whose placement to copy."));
+    emit noted(tr("Select the part whose placement you want to copy."));
     return;
   }
   const RigidTransform pose = scene.movingPart() == id ? poseOfMoving_() : part->worldFromPart;

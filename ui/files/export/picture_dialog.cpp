@@ -110,7 +110,7 @@ void PictureDialog::setUpFields() {
   form->addRow(tr("&Width"), pixels);
   qobject_cast<QLabel*>(form->labelForField(pixels))->setBuddy(width_);
   form->addRow(tr("&Background"), ground_);
-  form->addRow(tr("With"), axes_);
+  form->addRow(tr("Include"), axes_);
   form->addRow({}, labels_);
   auto* column = new QVBoxLayout(this);
   column->addWidget(preview_, 0, Qt::AlignHCenter);

@@ -84,7 +84,7 @@ RecoveryDialog::RecoveryDialog(const std::vector<LostWork>& lost, QWidget* paren
   area->setMinimumHeight(std::min(list->sizeHint().height() + 4, kMaxHeight));
   layout->addWidget(area);
   auto* buttons = new QDialogButtonBox(this);
-  QPushButton* later = buttons->addButton(tr("All later"), QDialogButtonBox::RejectRole);
+  QPushButton* later = buttons->addButton(tr("Later for all"), QDialogButtonBox::RejectRole);
   later->setObjectName(QStringLiteral("allLater"));
   later->setAutoDefault(false);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);

@@ -180,7 +180,7 @@ void ClearancePanel::showNote() {
   } else if (const std::optional<PartClearance> pair = chosen(); !pair) {
     note = tr("Select a row to see where the two parts are nearest.");
   } else if (pair->isTouching) {
-    note = tr("The two parts touch, to rounding.");
+    note = tr("The two parts touch, within rounding.");
   } else if (!pair->isOverlapping()) {
     note = tr("The line in the view joins the nearest points of the two parts.");
   }

@@ -47,7 +47,7 @@ void FeelControl::makeActions() {
   stop = makeAction(this, "stop", tr("S&top"), QStringLiteral("stop"), Qt::Key_F6,
                     tr("Stop the servo and leave the part where it is"));
   clutch = makeAction(this, "clutch", tr("&Clutch"), QStringLiteral("clutch"), Qt::Key_F9,
-                      tr("The part stays while you move the device to a comfortable position"));
+                      tr("Hold the part still while you reposition the device"));
   clutch->setCheckable(true);
   settings = makeAction(this, "feelSettings", tr("Feel s&ettings…"), QStringLiteral("springs"), {},
                         tr("Mode, cutoff, margin, stiffness, weight and workspace"));

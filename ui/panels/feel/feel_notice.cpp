@@ -27,7 +27,7 @@ QString namesOf(const ServoSnapshot& snapshot, const Scene& scene) {
 }  // namespace
 
 FeelNotice::FeelNotice(QWidget* parent)
-    : QFrame(parent), text_(new QLabel(this)), restart_(new QPushButton(tr("Start again"), this)) {
+    : QFrame(parent), text_(new QLabel(this)), restart_(new QPushButton(tr("Restart"), this)) {
   setObjectName(QStringLiteral("feelNotice"));
   setStyleSheet(QStringLiteral("#feelNotice { background: #fdf0e3; border: 1px solid #e8c39b; "
                                "border-radius: 5px; } #feelNotice QLabel { color: %1; }")
@@ -52,7 +52,7 @@ void FeelNotice::clear() {
 void FeelNotice::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) {
   QString text = textFor(snapshot, scene);
   if (hasWaitedLong(snapshot) && text.isEmpty())
-    text = tr("Waiting until it is known what the part overlaps.");
+    text = tr("Finding out which parts overlap.");
   text_->setText(text);
   restart_->setVisible(snapshot.fault != ServoFault::None);
   setVisible(!text.isEmpty());

@@ -70,8 +70,8 @@ void SpringPage::refresh() {
   for (QWidget* widget : {static_cast<QWidget*>(printed_), static_cast<QWidget*>(printedLabel_)})
     widget->setVisible(!isLinear);
   const DeviceLimits& device = basis_.device;
-  limits_->setText(tr("Device limits: at most %1 N and %2 N·m, changing by at most %3 N/s "
-                      "and %4 N·m/s. Energy that the hand receives beyond what it gave is damped away.")
+  limits_->setText(tr("Device limits: at most %1 N and %2 N·m, changing by at most %3 N/s and %4 N·m/s. "
+                      "Energy beyond what the hand has put in is damped.")
                        .arg(formatNumber(device.maxForce), formatNumber(device.maxTorque),
                             formatNumber(device.forceSlew), formatNumber(device.torqueSlew)));
   showBound();
@@ -87,8 +87,8 @@ void SpringPage::showBound() {
   const double each = most / (std::max(count, 1.0) * (isLinear ? 1.0 : springs.cutoff));
   const QString unit = isLinear ? tr(" N/m") : tr(" N/m²");
   QString text =
-      tr("Advisory limit on the stiffness of all springs together: along one line they are stable with any "
-         "hand up to %1 N/m, at a period of %2 and the device's damping of %3 N·s/m")
+      tr("Advisory limit on the total stiffness of springs along one line: stable with any hand up to %1 "
+         "N/m, at a servo period of %2 and a device damping of %3 N·s/m")
           .arg(formatNumber(most), formatDuration(basis_.period), formatNumber(device.damping));
   const bool isKnown = basis_.springs && *basis_.springs > 0;
   text += isKnown ? tr("; shared by the springs of all minima, now %n: %1%2 each.", nullptr,
@@ -104,18 +104,18 @@ void SpringPage::showBound() {
 }
 
 WeightPage::WeightPage(QWidget* parent) : FeelPage(parent) {
-  QCheckBox* weight = addSwitch(QStringLiteral("weight"), tr("Weight: the part's weight is felt"),
-                                tr("Weight that the device cannot hold is left out"),
+  QCheckBox* weight = addSwitch(QStringLiteral("weight"), tr("Weight: feel the weight of the part"),
+                                tr("Weight beyond what the device can hold is not felt"),
                                 [](HapticSettings& s) -> bool& { return s.weight.hasWeight; });
   inertia_ = addSwitch(QStringLiteral("inertia"), tr("Inertia: the part resists acceleration"),
-                       tr("Only in the proxy mode: with springs the part is where the hand is"),
+                       tr("Proxy mode only: with springs the part is where the hand is"),
                        [](HapticSettings& s) -> bool& { return s.weight.hasInertia; });
   std::array<NumberField*, 3> gravity{};
   const char* names[3] = {"gravityX", "gravityY", "gravityZ"};
   for (int axis = 0; axis < 3; ++axis) {
     gravity[static_cast<std::size_t>(axis)] =
         addNumber({names[axis],
-                   tr("Gravity along the world's %1; its magnitude may be up to %2 m/s²")
+                   tr("Gravity along the world's %1 axis; magnitude up to %2 m/s²")
                        .arg(kAxes[axis], formatNumber(kMaxGravity)),
                    {},
                    -kMaxGravity,
@@ -141,7 +141,7 @@ void WeightPage::refresh() {
 
 void WeightPage::showMass(const QString& name, double mass) {
   mass_->setText(name.isEmpty() ? tr("No part is in hand.")
-                                : tr("%1 has a mass of %2; its density is set in the pose panel.")
+                                : tr("%1 has a mass of %2. Set its density under Pose and mass.")
                                       .arg(breakable(shortName(name)), formatMass(mass)));
 }
 
@@ -177,7 +177,7 @@ void WorkspacePage::makeAngles() {
     field->setRange(-360.0, 360.0);
     field->setUnit(QString(QChar(0xB0)));
     field->setToolTip(
-        tr("Rotation from the device's frame to the world's: about the fixed axes x, y, z in this order"));
+        tr("Rotation from the device's frame to the world frame, about fixed X, Y, Z in this order"));
     connect(field, &NumberField::quantityEdited, this, [this, axis](double angle) { turn(axis, angle); });
     angleFields_[static_cast<std::size_t>(axis)] = field;
   }

@@ -159,7 +159,7 @@ void FeelPanel::setUpReadouts() {
   reports_ = device_->add(tr("Reports"), "reportRate", tr("Poses received from the device per second"));
   jitter_ = device_->add(tr("Jitter"), "reportJitter",
                          tr("Mean deviation of the time between two reports from its average"));
-  lost_ = device_->add(tr("Missing"), "reportsLost",
+  lost_ = device_->add(tr("Lost"), "reportsLost",
                        tr("Reports lost or damaged since the part was taken in hand"));
   force_ = felt_->add(tr("Force"), "force");
   torque_ = felt_->add(tr("Torque"), "torque");
@@ -168,7 +168,7 @@ void FeelPanel::setUpReadouts() {
   contacts_ = felt_->add(tr("Contacts"), "contacts", tr("Minima that hold the part"));
   lead_ = felt_->add(tr("Hand offset"), "lead", tr("Distance from the part to where the hand wants it"));
   energy_ = felt_->add(tr("Energy to hand"), "energy",
-                       tr("Energy given to the hand since the start, less what came back"));
+                       tr("Net energy given to the hand since the start"));
   clamped_ = felt_->addNote("clamped", colours::kForce);
   rate_ = servo_->add(tr("Rate"), "rate");
   lateness_ = servo_->add(tr("Lateness, p99"), "lateness");
@@ -267,7 +267,7 @@ void FeelPanel::showSettings(const HapticSettings& settings) {
 void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) {
   setFelt(true);
   showNumbers(snapshot);
-  clamped_->setText(snapshot.isClamped ? tr("Limited to what the device allows.") : QString());
+  clamped_->setText(snapshot.isClamped ? tr("Limited to the device's maximum.") : QString());
   notice_->showSnapshot(snapshot, scene);
   workspace_->showClutched(snapshot.isClutched);
 }

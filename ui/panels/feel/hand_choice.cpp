@@ -51,7 +51,7 @@ DeviceNotices::DeviceNotices(QWidget* parent)
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   text_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kWarning.name()));
   copy_->setObjectName(QStringLiteral("copyCommand"));
-  copy_->setToolTip(tr("Copy the command to paste it into a terminal; then plug the device in again"));
+  copy_->setToolTip(tr("Copy the command, run it in a terminal, then plug the device in again"));
   connect(copy_, &QPushButton::clicked, this, [this] { QApplication::clipboard()->setText(command_); });
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -105,25 +105,25 @@ HandChoice::HandChoice(QWidget* parent)
                     kNoteRole);
   box_->setItemData(kRecording, tr("No recording is chosen yet."), kNoteRole);
   box_->setToolTip(
-      tr("What leads the moving part while the servo runs: a script that presses it against the nearest "
-         "part, numbers, keys and mouse, a recording, or a device that is plugged in"));
+      tr("What moves the part while you feel it: a script that presses it against the nearest part, the "
+         "manual hand (numbers, keys and mouse), a recording, or a device"));
   recording_->setObjectName(QStringLiteral("chooseRecording"));
   connect(recording_, &QPushButton::clicked, this, &HandChoice::recordingWanted);
   state_->setObjectName(QStringLiteral("deviceState"));
   state_->setWordWrap(true);
   state_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
   arm_->setObjectName(QStringLiteral("arm"));
-  arm_->setToolTip(tr("Arm or disarm the device. Only you can arm it: hold its handle first"));
+  arm_->setToolTip(tr("Arm or disarm the device. Hold its handle before you arm it."));
   for (QWidget* widget :
        {static_cast<QWidget*>(box_), static_cast<QWidget*>(state_), static_cast<QWidget*>(arm_)})
     layout->addWidget(widget);
   calibrate_->setObjectName(QStringLiteral("calibrate"));
   calibrate_->setToolTip(
-      tr("Find where the handle is: hold it in its rest, or leave it free if the device finds its position "
+      tr("Find the position of the handle: hold it in its rest, or let go of it if the device calibrates "
          "itself"));
   layout->addWidget(calibrate_);
   reset_->setObjectName(QStringLiteral("resetDevice"));
-  reset_->setToolTip(tr("Clear the fault. Let go of the handle first; then you can arm the device again"));
+  reset_->setToolTip(tr("Clear the fault. Let go of the handle first, then arm the device again."));
   layout->addWidget(reset_);
   layout->addWidget(recording_);
   opening_->setObjectName(QStringLiteral("opening"));
@@ -283,7 +283,7 @@ HandWorkspace::HandWorkspace(QAction* clutch, QWidget* parent)
   clutch_->setFocusPolicy(Qt::StrongFocus);
   note_->setObjectName(QStringLiteral("clutchNote"));
   recorded_->setObjectName(QStringLiteral("recordedNote"));
-  recorded_->setText(tr("A recorded hand repeats its motion: scale and locks come from the recording."));
+  recorded_->setText(tr("A recorded hand uses the scale and locks of its recording."));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(6);
@@ -310,8 +310,8 @@ void HandWorkspace::showClutched(bool isClutched) {
 }
 
 void HandWorkspace::showUncalibrated(bool isUncalibrated) {
-  note_->setText(isUncalibrated ? tr("The part stays until the device is calibrated: see above.")
-                                : tr("The part stays: move the device to a comfortable position."));
+  note_->setText(isUncalibrated ? tr("The part does not move until the device is calibrated (see above).")
+                                : tr("Clutch engaged: the part stays while you reposition the device."));
 }
 
 void HandWorkspace::refresh() {

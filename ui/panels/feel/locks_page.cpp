@@ -16,12 +16,12 @@ LocksPage::LocksPage(const QString& prefix, QWidget* parent)
     : FeelPage(parent), freedom_(new QComboBox(this)) {
   freedom_->setObjectName(prefix + QStringLiteral("freedom"));
   freedom_->setAccessibleName(tr("Allowed motion"));
-  freedom_->setToolTip(tr("Motions of the hand that the part follows; also applies to the manual hand"));
+  freedom_->setToolTip(tr("Motions of the hand that the part follows; also for the manual hand"));
   freedom_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   // In the order of MotionFreedom.
-  freedom_->addItems({tr("Moves and turns freely"), tr("In the plane XY"), tr("In the plane YZ"),
-                      tr("In the plane ZX"), tr("Along X only"), tr("Along Y only"), tr("Along Z only"),
-                      tr("Moves without turning"), tr("Turns in place"), tr("Other locks")});
+  freedom_->addItems({tr("Moves and rotates freely"), tr("In the XY plane"), tr("In the YZ plane"),
+                      tr("In the ZX plane"), tr("Along X only"), tr("Along Y only"), tr("Along Z only"),
+                      tr("Moves without rotating"), tr("Rotates in place"), tr("Other locks")});
   auto* model = qobject_cast<QStandardItemModel*>(freedom_->model());
   model->item(static_cast<int>(MotionFreedom::Other))->setEnabled(false);
   connect(freedom_, QOverload<int>::of(&QComboBox::activated), this, [this](int row) {
@@ -55,7 +55,7 @@ QGridLayout* LocksPage::makeLocks(const QString& prefix) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const QString& name = axes[axis];
     QCheckBox* turn = addSwitch(prefix + QStringLiteral("lockR") + name.toLower(), name,
-                                tr("The hand does not turn about %1").arg(name),
+                                tr("The hand does not rotate about %1").arg(name),
                                 [axis](HapticSettings& s) -> bool& { return s.mapping.rotationLocks[axis]; });
     turn->setAccessibleName(turn->toolTip());
     locks->addWidget(turn, 1, static_cast<int>(axis) + 1);

@@ -123,10 +123,10 @@ void PresetChoice::setManaged() {
     return action;
   };
   add("savePreset", tr("&Save as…"), "save-as",
-      tr("Save the present feel under a name, for use in any scene"), &PresetChoice::saveAs);
-  rename_ = add("renamePreset", tr("Re&name…"), "rename", tr("Give your preset another name"),
+      tr("Save the current settings as a preset for any scene"), &PresetChoice::saveAs);
+  rename_ = add("renamePreset", tr("Re&name…"), "rename", tr("Rename your preset"),
                 &PresetChoice::renameChosen);
-  delete_ = add("deletePreset", tr("&Delete"), "delete", tr("Delete your preset; scenes stay as they are"),
+  delete_ = add("deletePreset", tr("&Delete"), "delete", tr("Delete your preset; scenes do not change"),
                 &PresetChoice::deleteChosen);
   menu->setToolTipsVisible(true);
   menuButton_ = new QPushButton(tr("Manage"), this);
@@ -179,7 +179,7 @@ void PresetChoice::saveAs() {
     const QString refusal = presets_.refusalOf(wanted);
     if (!refusal.isEmpty()) return PresetNameDialog::Verdict{true, refusal};
     return PresetNameDialog::Verdict{
-        false, presets_.isOwn(wanted) ? tr("Your preset of this name is replaced.") : QString()};
+        false, presets_.isOwn(wanted) ? tr("This replaces your preset of the same name.") : QString()};
   });
   if (!name.isEmpty()) presets_.keep(name, settings_);
 }
@@ -190,7 +190,7 @@ void PresetChoice::renameChosen() {
   const QString name = dialog.ask(before, [this, before](const QString& wanted) {
     const bool isTaken = wanted != before && presets_.isOwn(wanted);
     const QString refusal =
-        isTaken ? tr("Another preset of yours has this name.") : presets_.refusalOf(wanted);
+        isTaken ? tr("You already have a preset of this name.") : presets_.refusalOf(wanted);
     return PresetNameDialog::Verdict{!refusal.isEmpty(), refusal};
   });
   if (!name.isEmpty()) presets_.rename(before, name);
@@ -201,7 +201,7 @@ void PresetChoice::deleteChosen() {
   QMessageBox box(QMessageBox::Question, tr("Delete the preset"), tr("Delete the preset “%1”?").arg(name),
                   QMessageBox::Cancel, this);
   box.setObjectName(QStringLiteral("deletePresetBox"));
-  box.setInformativeText(tr("This and other scenes feel as before."));
+  box.setInformativeText(tr("Scenes that use it do not change."));
   auto* confirm = box.addButton(tr("Delete"), QMessageBox::DestructiveRole);
   confirm->setObjectName(QStringLiteral("confirmDeletePreset"));
   box.setDefaultButton(QMessageBox::Cancel);

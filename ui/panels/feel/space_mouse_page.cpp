@@ -26,7 +26,7 @@ SpaceMousePage::SpaceMousePage(QWidget* parent) : QWidget(parent) {
                addNumber({"rateDeadZone", tr("Share of the cap's travel in which nothing moves"), tr(" %"),
                           0.0, kMaxDeadZone, &RateSettings::deadZone}));
   form->addRow(tr("Curve"), addNumber({"rateCurve",
-                                       tr("1 is linear; more is finer for small pushes"),
+                                       tr("1 is linear; larger values are finer for small pushes"),
                                        {},
                                        kMinExponent,
                                        kMaxExponent,
@@ -35,10 +35,10 @@ SpaceMousePage::SpaceMousePage(QWidget* parent) : QWidget(parent) {
       tr("Speed"),
       addNumber({"rateSpeed", tr("Speed with the cap pushed all the way, before the workspace scale"),
                  tr(" mm/s"), 0.0, kMaxFullSpeed, &RateSettings::fullSpeed}));
-  form->addRow(tr("Turning"), addNumber({"rateTurn", tr("Speed of turning with the cap turned all the way"),
+  form->addRow(tr("Rotation"), addNumber({"rateTurn", tr("Rotation speed with the cap turned all the way"),
                                          tr(" °/s"), 0.0, kMaxFullTurn, &RateSettings::fullTurn}));
-  auto* note = new QLabel(tr("First button: the part stays while you hold the button. Second button: the "
-                             "hand goes back to the part. These settings apply to all scenes."),
+  auto* note = new QLabel(tr("First button: hold it to keep the part still. Second button: return the hand "
+                             "to the part. These settings apply to all scenes."),
                           this);
   note->setWordWrap(true);
   note->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
@@ -118,7 +118,7 @@ QGridLayout* SpaceMousePage::makeAxes() {
         addSwitch(QStringLiteral("rateOn") + axis, tr("The cap moves the part along or about this axis"),
                   &RateSettings::isEnabled, i),
         1, column + 1);
-    grid->addWidget(addSwitch(QStringLiteral("rateReversed") + axis, tr("The part moves the other way"),
+    grid->addWidget(addSwitch(QStringLiteral("rateReversed") + axis, tr("Reverse the direction"),
                               &RateSettings::isInverted, i),
                     2, column + 1);
   }

@@ -56,10 +56,10 @@ QVariant HistoryModel::data(const QModelIndex& index, int role) const {
     case Qt::DisplayRole:
       return text(row);
     case Qt::ToolTipRole:
-      if (row == current_) return tr("The present state of the scene");
+      if (row == current_) return tr("The current state of the scene");
       return row < current_ ? tr("Undo back to here") : tr("Redo up to here");
     case Qt::AccessibleTextRole:
-      if (row == current_) return tr("%1, present state").arg(text(row));
+      if (row == current_) return tr("%1, current state").arg(text(row));
       return row < current_ ? text(row) : tr("%1, undone").arg(text(row));
     case Qt::DecorationRole:
       return row == current_ ? icon(QStringLiteral("history-now")) : icon(QStringLiteral("history-step"));

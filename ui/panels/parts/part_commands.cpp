@@ -51,11 +51,11 @@ void PartCommands::makeActions() {
       makeAction(this, "duplicate", tr("&Duplicate"), QStringLiteral("duplicate"), QStringLiteral("Ctrl+D"),
                  tr("Add a copy of the selected parts and groups; it shares their meshes"));
   rename = makeAction(this, "rename", tr("Re&name"), QStringLiteral("rename"), Qt::Key_F2,
-                      tr("Give the selected part or group another name"));
+                      tr("Rename the selected part or group"));
   recolour = makeAction(this, "recolour", tr("&Colour…"), {}, {},
-                        tr("Choose another colour for the selected parts"));
+                        tr("Change the colour of the selected parts"));
   changeUnit = makeAction(this, "changeUnit", tr("Change &unit…"), {}, {},
-                          tr("Read the selected parts in another unit; shows the size that each unit gives"));
+                          tr("Change the unit of the selected parts; shows the size in each unit"));
   takeInHand =
       makeAction(this, "takeInHand", tr("&Take in hand"), QStringLiteral("hand"), QStringLiteral("Ctrl+H"));
   takeInHand->setToolTip(tr("Make the selected part the moving part"));
@@ -64,7 +64,7 @@ void PartCommands::makeActions() {
   selectAll = makeAction(this, "selectAll", tr("Select &all"), {}, QKeySequence::SelectAll);
   selectAll->setToolTip(tr("Select all visible parts"));
   selectNone = makeAction(this, "selectNone", tr("Select n&one"), {}, QStringLiteral("Ctrl+Shift+A"),
-                          tr("Select nothing"));
+                          tr("Clear the selection"));
 }
 
 void PartCommands::makeMenu() {

@@ -27,7 +27,7 @@ TreeActions::TreeActions(Session& session, Selection& selection, const SceneWork
   isolate_ = make("isolate", tr("&Isolate"), "isolate", "I", &TreeActions::isolate);
   isolate_->setToolTip(tr("Show only the selected parts; hidden parts are not felt"));
   endIsolation_ = make("endIsolation", tr("&End isolation"), {}, "Shift+I", &TreeActions::endIsolation);
-  endIsolation_->setToolTip(tr("Show exactly the parts that were visible before"));
+  endIsolation_->setToolTip(tr("Show the parts that were visible before"));
   setUpTransparency();
   connect(&selection_, &Selection::changed, this, &TreeActions::update);
   connect(&work_, &SceneWork::busyChanged, this, &TreeActions::update);

@@ -61,7 +61,7 @@ void PlotPanel::setUpButtons() {
     button->setToolTip(tip);
     return button;
   };
-  pause_ = make("pausePlots", tr("Pause"), "pause", tr("Freeze the plots; samples continue to be kept"));
+  pause_ = make("pausePlots", tr("Pause"), "pause", tr("Freeze the plots; samples are still kept"));
   pause_->setCheckable(true);
   connect(pause_, &QToolButton::toggled, this, &PlotPanel::setPaused);
   follow_ = make("followPlots", tr("Follow"), "fit",

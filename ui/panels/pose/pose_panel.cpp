@@ -73,7 +73,7 @@ void PosePanel::setUpPose(QGridLayout& layout) {
   turnStep_ = makeAngle(QStringLiteral("turnStep"), 90.0);
   turnStep_->setMinimum(1e-3);
   turnStep_->setValue(1.0);
-  turnStep_->setToolTip(tr("How far the arrow and page keys turn the part with Shift, about its pivot"));
+  turnStep_->setToolTip(tr("How far the arrow and page keys rotate the part with Shift, about its pivot"));
   auto* stepLabel = new QLabel(tr("Arrow-key step"), this);
   stepLabel->setBuddy(step_);
   turnStep_->setAccessibleName(tr("Arrow-key step of rotation"));

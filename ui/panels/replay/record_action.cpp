@@ -18,7 +18,7 @@ RecordAction::RecordAction(const HandState& hand, QWidget* window)
   setObjectName(QStringLiteral("record"));
   setShortcut(QKeySequence(Qt::Key_F8));
   setCheckable(true);
-  setToolTip(tr("Record what is felt to a file, until you stop feeling the part"));
+  setToolTip(tr("Record every tick to a file until you stop"));
   connect(this, &QAction::triggered, this, [this](bool isOn) {
     if (isOn) {
       askAndStart();

@@ -87,7 +87,7 @@ void Replay::askAndOpen() {
 void Replay::open(const QString& file) {
   if (task_.isRunning() || hand_.status().isTaken()) return;
   if (!session_.scene().movingPart()) {
-    emit failed({tr("The recording cannot be shown."),
+    emit failed({tr("The recording cannot be played."),
                  tr("No part is in hand. Take in hand the part that was recorded.")});
     return;
   }

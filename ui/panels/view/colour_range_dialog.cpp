@@ -19,7 +19,7 @@ std::optional<double> askForColourRange(double now, QWidget* parent) {
   field->setLength(4);
   field->setQuantityRange(kMin, kMax);
   field->showQuantity(now);
-  field->setHelp(QObject::tr("Distance from which on minima are blue; contact is red"));
+  field->setHelp(QObject::tr("Minima at this distance or beyond are blue; contact is red"));
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, &dialog);
   QObject::connect(buttons, &QDialogButtonBox::accepted, &dialog, &QDialog::accept);
   QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);

@@ -54,9 +54,9 @@ void FeelingView::setUpQualities() {
   add(FeelQuality::Full, QStringLiteral("full"), tr("&Full"),
       tr("Draw every triangle, however long that takes"));
   add(FeelQuality::Balanced, QStringLiteral("balanced"), tr("&Balanced"),
-      tr("Draw parts whole as long as the scene is not large; holes and outlines stay"));
+      tr("Draw everything unless the scene is large; holes and outlines stay"));
   add(FeelQuality::Fast, QStringLiteral("fast"), tr("Fa&st"),
-      tr("Draw large parts coarsely, so that pictures follow the hand closely"));
+      tr("Draw large parts coarsely, so that the view keeps up with the hand"));
 }
 
 }  // namespace nearfit::ui

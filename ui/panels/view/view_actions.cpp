@@ -91,7 +91,7 @@ void MinimaMenu::addColours() {
     return action;
   };
   automaticColours_ = add("minimaColoursAutomatic", tr("Colours span about twice the median distance drawn"));
-  chosenColours_ = add("minimaColoursChosen", tr("Choose the distance from which on minima are blue"));
+  chosenColours_ = add("minimaColoursChosen", tr("Choose the distance at which minima become blue"));
   connect(automaticColours_, &QAction::triggered, this, [this] { set(&MinimaChoice::colourRange, 0.0); });
   connect(chosenColours_, &QAction::triggered, this, &MinimaMenu::chooseColours);
   // The unit may have changed.
@@ -212,7 +212,7 @@ void ViewActions::setUpDrawing() {
   add(&Viewport::setContactsVisible, "contacts", tr("C&ontacts"), QStringLiteral("contacts"),
       tr("Mark where the part in hand touches"));
   add(&Viewport::setHandVisible, "handGhost", tr("&Hand offset"), QStringLiteral("ghost"),
-      tr("Draw where the hand wants a part that is held by contact"));
+      tr("Show where the hand is when contact holds the part back"));
   add(&Viewport::setWrenchVisible, "wrench", tr("Force and torque &arrows"), QStringLiteral("wrench-arrows"),
       tr("Draw the felt force and torque as arrows"));
   view_.setSeeThrough(true);
@@ -229,7 +229,7 @@ void ViewActions::setUpKeptSwitches() {
     view_.setOrthographic(isOn);
   });
   scaleBar = makeSwitch(this, "scaleBar", tr("Scale &bar"), {}, false,
-                        tr("Show a bar of a round length, true at the point that the camera orbits"));
+                        tr("Show a scale bar, true at the point that the camera orbits"));
   connect(scaleBar, &QAction::toggled, this, [this](bool isOn) {
     Preferences::setScaleBar(isOn);
     view_.setScaleBarVisible(isOn);

@@ -70,7 +70,7 @@ MeasureBar::MeasureBar(QWidget* view)
   copy_->setObjectName(QStringLiteral("measureCopy"));
   copy_->setToolTip(tr("Copy the numbers to the clipboard, one per line"));
   close_->setObjectName(QStringLiteral("measureClose"));
-  close_->setToolTip(tr("End measuring (Escape)"));
+  close_->setToolTip(tr("Stop measuring (Esc)"));
   connect(copy_, &QPushButton::clicked, this, &MeasureBar::copy);
   connect(close_, &QPushButton::clicked, this, &MeasureBar::closed);
   auto* rows = new QVBoxLayout(this);
@@ -247,7 +247,7 @@ void MeasureTool::tell(const QString& hint) {
                                  : tr("Click a corner, edge, circle or face to measure from");
   const QString idle = to_     ? tr("Click to start a new measurement; Esc exits")
                        : from_ ? tr("From %1").arg(from_->name)
-                               : tr("Drags still orbit; Escape ends");
+                               : tr("Dragging still orbits; Esc exits");
   bar_->showPrompt(prompt, hint.isEmpty() ? idle : hint);
 }
 

@@ -69,18 +69,18 @@ void AlignBar::setUpFields() {
   filter_->addItem(tr("Points"), static_cast<int>(FeatureFilter::Points));
   flip_->setObjectName(QStringLiteral("alignFlip"));
   flip_->setToolTip(
-      tr("Turn the part round, so that the faces point the same way or the axes run in opposite directions"));
+      tr("Turn the part around: faces point the same way, or axes run in opposite directions"));
   offsetLabel_->setBuddy(offset_);
   offset_->setObjectName(QStringLiteral("alignOffset"));
   offset_->setAccessibleName(tr("Distance"));
   offset_->setLength(4);
   offset_->setQuantityRange(-kFarthest, kFarthest);
   offset_->setQuantityStep(1e-3);
-  offset_->setToolTip(tr("Distance between the two, outward from the one that stays"));
+  offset_->setToolTip(tr("Distance between the two, outward from the target"));
   apply_->setObjectName(QStringLiteral("alignApply"));
-  apply_->setToolTip(tr("Move the part there, as one undo step (Return)"));
+  apply_->setToolTip(tr("Move the part there, as one undo step (Enter)"));
   cancel_->setObjectName(QStringLiteral("alignCancel"));
-  cancel_->setToolTip(tr("Leave everything as it was (Escape)"));
+  cancel_->setToolTip(tr("Cancel without moving anything (Esc)"));
   connect(filter_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
           [this] { emit filterChosen(filter()); });
   connect(flip_, &QCheckBox::toggled, this, &AlignBar::optionsEdited);
@@ -288,7 +288,7 @@ void AlignTool::tell(const QString& hint) {
                        : !fixed_ ? tr("%1 of %2")
                                        .arg(describeFeature(moving_->picked.feature),
                                             shortName(session_.scene().find(moving_->part)->name))
-                                 : tr("Return applies, Escape cancels; click another to change the target");
+                                 : tr("Enter applies, Esc cancels; click again to change the target");
   bar_->showPrompt(prompt(), hint.isEmpty() ? idle : hint);
 }
 

@@ -124,7 +124,7 @@ void DropTool::askForFace(Kind kind) {
   picker_.start([this](const Part& part) {
     return selection_.contains(part.id) ? tr("Click a flat face of another part") : QString();
   });
-  emit noted(tr("Click the flat face to move the part towards; Escape cancels"));
+  emit noted(tr("Click the flat face to move the part towards; Esc cancels"));
 }
 
 void DropTool::stopAsking() {
@@ -179,7 +179,7 @@ DropTool::Outcome DropTool::dropped(const Scene& scene, const std::vector<PartId
   } else if (result.outcome == DropResult::Outcome::NothingMet) {
     outcome.problem = freeWayText(nameOf(scene, parts.back()));
   } else if (result.travel == 0.0) {
-    outcome.problem = tr("%1 already touches %2: it stays where it is.").arg(name, outcome.against);
+    outcome.problem = tr("%1 already touches %2 and was not moved.").arg(name, outcome.against);
   }
   return outcome;
 }
@@ -202,7 +202,7 @@ DropTool::Outcome DropTool::pushed(const Scene& scene, const std::vector<PartId>
       break;
     case PushResult::Outcome::SlippedPast:
       outcome.problem =
-          tr("Nothing holds %1 in that direction: it would slide past %2. It stays where it is.")
+          tr("Nothing holds %1 in that direction: it would slide past %2. It was not moved.")
               .arg(name, outcome.against);
       break;
     case PushResult::Outcome::NothingMet:
@@ -211,7 +211,7 @@ DropTool::Outcome DropTool::pushed(const Scene& scene, const std::vector<PartId>
     case PushResult::Outcome::Held:
       // A part that was pushed there before may move by so little again.
       if (outcome.travel <= dropGap(lead.geometry->mesh.bounds().diagonal()))
-        outcome.problem = tr("%1 is already held by %2: it stays where it is.").arg(name, outcome.against);
+        outcome.problem = tr("%1 is already held by %2 and was not moved.").arg(name, outcome.against);
       break;
   }
   return outcome;

@@ -280,7 +280,7 @@ void GizmoControl::refresh() {
     const double pixel = view.metresPerPixel(drag_->frame().pivot);
     QString text = text_ ? text_() : QString();
     if (text.isEmpty()) text = dragText(*drag_, shift, angle, pixel, Preferences::lengthUnit());
-    const QString hint = tr("Enter applies, Esc gives up");
+    const QString hint = tr("Enter applies, Esc cancels");
     if (typed_.isEmpty())
       readout_->showAt(pointer_, text, note_);
     else

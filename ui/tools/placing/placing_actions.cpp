@@ -76,12 +76,12 @@ QAction* PlacingActions::makeSwitch(const char* name, const QString& text, const
 
 void PlacingActions::makeModes() {
   noGizmo = makeSwitch("gizmoNone", tr("&No gizmo"), "gizmo-none", Qt::Key_Q,
-                       tr("Only select and look: every left drag orbits"));
+                       tr("Select and look only: left drags always orbit"));
   move = makeSwitch("gizmoMove", tr("&Move"), "gizmo-move", Qt::Key_W,
-                    tr("Move the selected parts by arrows and squares, or drag the parts themselves"));
-  turn = makeSwitch("gizmoTurn", tr("&Turn"), "gizmo-turn", Qt::Key_E,
-                    tr("Turn the selected parts by rings about the pivot"));
-  moveAndTurn = makeSwitch("gizmoMoveAndTurn", tr("Move &and turn"), "gizmo-both", Qt::Key_R,
+                    tr("Move the selected parts with arrows and squares, or drag the parts themselves"));
+  turn = makeSwitch("gizmoTurn", tr("&Rotate"), "gizmo-turn", Qt::Key_E,
+                    tr("Rotate the selected parts with rings about the pivot"));
+  moveAndTurn = makeSwitch("gizmoMoveAndTurn", tr("Move &and rotate"), "gizmo-both", Qt::Key_R,
                            tr("Arrows, squares and rings at once"));
   auto* group = new QActionGroup(this);
   for (QAction* action : {noGizmo, move, turn, moveAndTurn})
@@ -92,31 +92,31 @@ void PlacingActions::makeSwitches() {
   localAxes = makeSwitch("localAxes", tr("Along the &part's axes"), "axes-local", Qt::Key_X,
                          tr("Use the part's axes instead of the world's"));
   snap = makeSwitch("snap", tr("&Snap to steps"), "snap", {},
-                    tr("Drags go in steps; hold Ctrl during a drag to switch this the other way"));
+                    tr("Drags go in steps; hold Ctrl during a drag to invert this"));
   solid = makeSwitch("solid", tr("S&olid"), "solid", QKeySequence(QStringLiteral("Shift+S")),
                      tr("Parts that you move stop at contact and slide along it, as when felt"));
 }
 
 void PlacingActions::makePivotActions() {
   movePivot = makeSwitch("movePivot", tr("Mo&ve the pivot"), "pivot", Qt::Key_P,
-                         tr("Drags move the point that parts turn about, not the parts"));
+                         tr("Drag the pivot, about which parts rotate, instead of the parts"));
   pivotAtMass = make("pivotAtMass", tr("Pivot at the centre of &mass"), "pivot", {},
-                     tr("Put the pivot back to the parts' centre of mass"));
+                     tr("Move the pivot back to the parts' centre of mass"));
   pivotAtBox = make("pivotAtBox", tr("Pivot at the middle of the &box"), "pivot", {},
-                    tr("Put the pivot in the middle of the parts' bounding box"));
+                    tr("Move the pivot to the middle of the parts' bounding box"));
 }
 
 void PlacingActions::makeSteps() {
-  lengthStep_ = makeStep("snapLength", tr("Step of moves"));
+  lengthStep_ = makeStep("snapLength", tr("Move step"));
   lengthStep_->setLength(kDecimals);
   lengthStep_->setQuantityRange(kMinLength, kMaxLength);
   lengthStep_->setQuantityStep(kUsualLength);
-  lengthStep_->setHelp(tr("Step of moves, along the gizmo's axes"));
-  angleStep_ = makeStep("snapAngle", tr("Step of turns"));
+  lengthStep_->setHelp(tr("Move step, along the gizmo's axes"));
+  angleStep_ = makeStep("snapAngle", tr("Rotation step"));
   angleStep_->setUnit(QString(QChar(0xB0)));
   angleStep_->setDecimals(kDecimals);
   angleStep_->setQuantityRange(kMinAngle, kMaxAngle);
-  angleStep_->setHelp(tr("Step of turns"));
+  angleStep_->setHelp(tr("Rotation step"));
 }
 
 NumberField* PlacingActions::makeStep(const char* name, const QString& label) {

@@ -39,7 +39,7 @@ PlacingTools::PlacingTools(Session& session, Selection& selection, Viewport& vie
   connect(&mover_, &PartMover::ended, this, &PlacingTools::putMoved);
   connect(&mover_, &PartMover::failed, this, [this](const std::exception_ptr& error) {
     abandon();
-    emit failed(describe(tr("The part could not be moved in the Solid mode."), error));
+    emit failed(describe(tr("The part could not be moved in Solid mode."), error));
   });
   connect(actions_, &PlacingActions::changed, this, &PlacingTools::showActions);
   connect(actions_->pivotAtMass, &QAction::triggered, this, [this] { setPivot(std::nullopt); });

@@ -33,7 +33,7 @@ SectionBar::SectionBar(QWidget* view)
       slider_(new QSlider(Qt::Horizontal, this)),
       position_(new NumberField(this)),
       flip_(new QPushButton(tr("&Flip"), this)),
-      spare_(new QCheckBox(tr("&Moving part whole"), this)),
+      spare_(new QCheckBox(tr("&Moving part uncut"), this)),
       close_(new QPushButton(tr("Close"), this)),
       note_(new QLabel(this)) {
   setUpFields();
@@ -78,13 +78,14 @@ void SectionBar::addAxes(QHBoxLayout& row) {
   const char* names[] = {"sectionX", "sectionY", "sectionZ"};
   for (int axis = 0; axis < 3; ++axis) {
     const QString letter(QChar('X' + axis));
-    QToolButton* button = addAxis(row, names[axis], letter, tr("Across the world's %1 axis").arg(letter));
+    QToolButton* button =
+        addAxis(row, names[axis], letter, tr("Perpendicular to the world's %1 axis").arg(letter));
     button->setMinimumWidth(kLetterWidth);
     const QString look = QStringLiteral("font-weight: bold; color: %1;").arg(axisColour(axis).name());
     button->setStyleSheet(QString::fromLatin1(kAxisSheet).arg(look));
     axes_[static_cast<std::size_t>(axis)] = button;
   }
-  axes_[3] = addAxis(row, "sectionSight", tr("View"), tr("Across the present direction of view"));
+  axes_[3] = addAxis(row, "sectionSight", tr("View"), tr("Perpendicular to the direction of view"));
   axes_[4] = addAxis(row, "sectionFace", tr("Face"), tr("Through a flat face that you click next"));
   int next = 0;
   for (QToolButton* button : axes_) {
@@ -102,7 +103,7 @@ void SectionBar::setUpFields() {
   slider_->setObjectName(QStringLiteral("sectionSlider"));
   slider_->setAccessibleName(tr("Offset of the section"));
   slider_->setToolTip(
-      tr("Move the plane through the parts, as the arrow in the view does; its rings tilt the plane"));
+      tr("Move the plane through the parts. The arrow in the view moves it too; the rings tilt it."));
   slider_->setRange(0, kSliderSteps);
   slider_->setPageStep(kSliderSteps / 20);
   slider_->setMinimumWidth(kSliderWidth);
@@ -112,13 +113,13 @@ void SectionBar::setUpFields() {
   position_->setQuantityRange(-kFarthest, kFarthest);
   position_->setQuantityStep(1e-3);
   position_->setToolTip(
-      tr("Offset of the plane: along an axis from the world's origin, otherwise from where it was put"));
+      tr("Offset of the plane: along an axis from the world's origin, otherwise from where it was placed"));
   flip_->setObjectName(QStringLiteral("sectionFlip"));
   flip_->setToolTip(tr("Cut away the other side"));
   spare_->setObjectName(QStringLiteral("sectionSpare"));
   spare_->setToolTip(tr("Leave the moving part uncut, to see it inside the others"));
   close_->setObjectName(QStringLiteral("sectionClose"));
-  close_->setToolTip(tr("Show the parts whole again (Escape)"));
+  close_->setToolTip(tr("Show the parts whole again (Esc)"));
   note_->setObjectName(QStringLiteral("sectionNote"));
   note_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kWarning.name()));
   connect(slider_, &QSlider::valueChanged, this, [this](int value) {

@@ -108,7 +108,7 @@ void SectionTool::connectPicker() {
   connect(&picker_, &FeaturePicker::cancelled, this, [this] { pickFace(false); });
   connect(&picker_, &FeaturePicker::told, this, [this](const QString& text) {
     if (!picker_.isActive()) return;
-    asked_ = text.isEmpty() ? tr("Click the flat face that the plane should go through") : text;
+    asked_ = text.isEmpty() ? tr("Click a flat face for the plane to go through") : text;
     tell();
   });
 }
@@ -175,7 +175,7 @@ void SectionTool::pickFace(bool isWanted) {
   asked_.clear();
   if (isWanted) {
     picker_.start({});
-    asked_ = tr("Click the flat face that the plane should go through");
+    asked_ = tr("Click a flat face for the plane to go through");
   } else {
     picker_.stop();
   }

@@ -23,7 +23,7 @@ BoxSelect::BoxSelect(Selection& selection, Viewport& view, QObject* parent)
   action_->setCheckable(true);
   action_->setShortcut(QKeySequence(Qt::Key_B));
   action_->setToolTip(tr(
-      "The next drag draws a box that selects the parts seen in it; Shift adds, Ctrl adds or removes (B)"));
+      "Drag a box to select the parts seen in it; Shift adds, Ctrl adds or removes (B)"));
   connect(action_, &QAction::toggled, this, [this](bool isOn) { isOn ? begin() : end(); });
 }
 
@@ -33,7 +33,7 @@ void BoxSelect::begin() {
   view_.setFocus();
   view_.setCursor(Qt::CrossCursor);
   state_ = State::Waiting;
-  emit noted(tr("Drag a box around parts: Shift adds, Ctrl adds or removes, Escape cancels"));
+  emit noted(tr("Drag a box around parts; Shift adds, Ctrl adds or removes, Esc cancels"));
 }
 
 void BoxSelect::end() {

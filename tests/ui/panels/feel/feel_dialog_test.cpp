@@ -249,7 +249,7 @@ void FeelDialogTest::springsTellWhatIsEnforcedAndWhatIsNot() {
                                        "and 100 N·m/s")));
   // 2 b / T, in all.
   QVERIFY(note("springBound").startsWith(QStringLiteral("Advisory limit")));
-  QVERIFY2(note("springBound").contains(QStringLiteral("up to 3000 N/m, at a period of 1.00 ms")),
+  QVERIFY2(note("springBound").contains(QStringLiteral("up to 3000 N/m, at a servo period of 1.00 ms")),
            qPrintable(note("springBound")));
   QVERIFY(!note("springBound").contains(QStringLiteral("now")));
   // Over a scale of two, half the damping at the handle.
@@ -271,7 +271,7 @@ void FeelDialogTest::springsBeyondWhatIsPassiveAreMarked() {
   snapshot.lmdCount = 3;
   dialog_->showSnapshot(snapshot);
   // 2 (1 - 3 * 0.05) / 2 ms = 850 N/m, for three.
-  QVERIFY2(note("springBound").contains(QStringLiteral("up to 850 N/m, at a period of 2.00 ms")),
+  QVERIFY2(note("springBound").contains(QStringLiteral("up to 850 N/m, at a servo period of 2.00 ms")),
            qPrintable(note("springBound")));
   QVERIFY(note("springBound").contains(QStringLiteral("now 3: 283.3 N/m each")));
   const QString calm = widget<QLabel>("springBound")->styleSheet();
