@@ -17,6 +17,7 @@
 
 #include "core/scene/mesh_unit.h"
 #include "ui/widgets/background_task.h"
+#include "ui/widgets/font_scale.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/paths.h"
@@ -101,7 +102,7 @@ UnitDialog::UnitDialog(const QString& question, const QString& accept, QWidget* 
   layout->addLayout(grid_);
   layout->addWidget(reading_);
   layout->addWidget(buttons);
-  setMinimumWidth(380);
+  setMinimumWidth(forFont(*this, 380));
 }
 
 void UnitDialog::addRow(const char* key, const QString& name, double metres) {

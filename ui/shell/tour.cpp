@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ui/widgets/font_scale.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
@@ -99,8 +100,9 @@ void Tour::place() {
   const QRect around(where->mapTo(parentWidget(), QPoint(0, 0)), where->size());
   const QRect whole = parentWidget()->rect();
   frame_->setGeometry(around.adjusted(-2, -2, 2, 2).intersected(whole));
-  resize(kWidth, layout()->hasHeightForWidth() ? layout()->totalHeightForWidth(kWidth)
-                                               : layout()->totalSizeHint().height());
+  const int wide = forFont(*this, kWidth);
+  resize(wide, layout()->hasHeightForWidth() ? layout()->totalHeightForWidth(wide)
+                                             : layout()->totalSizeHint().height());
   const int left = around.left(), right = whole.width() - around.right();
   const int top = around.top(), bottom = whole.height() - around.bottom();
   QPoint corner(around.center().x() - width() / 2, around.center().y() - height() / 2);

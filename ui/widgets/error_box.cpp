@@ -17,6 +17,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "ui/widgets/font_scale.h"
 
 namespace nearfit::ui {
 namespace {
@@ -101,7 +102,7 @@ FailureDialog::FailureDialog(QWidget* parent) : QDialog(parent), table_(new QTab
   QFont bold = summary_->font();
   bold.setBold(true);
   summary_->setFont(bold);
-  summary_->setMinimumWidth(kTextWidth);
+  summary_->setMinimumWidth(forFont(*this, kTextWidth));
   details_ = addLabel(*texts, "errorDetails");
   texts->addStretch();
   auto* top = new QHBoxLayout;
@@ -120,9 +121,9 @@ FailureDialog::FailureDialog(QWidget* parent) : QDialog(parent), table_(new QTab
   table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
   table_->horizontalHeader()->setSectionResizeMode(Name, QHeaderView::Interactive);
-  table_->setColumnWidth(Name, kNameWidth);
+  table_->setColumnWidth(Name, forFont(*this, kNameWidth));
   table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-  table_->setMinimumWidth(kTableWidth);
+  table_->setMinimumWidth(forFont(*this, kTableWidth));
 
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok, this);
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
@@ -176,7 +177,7 @@ void FailureDialog::showTable(const QVector<FailedItem>& rows, bool areFiles) {
   table_->setHorizontalHeaderLabels({areFiles ? tr("File") : tr("What failed"), tr("Why"), tr("What to do")});
   const auto all = static_cast<int>(rows.size()), shown = std::min(all, kMaxRows);
   table_->setRowCount(shown + (shown < all ? 1 : 0));
-  table_->setMinimumHeight(std::min(kMaxHeight, kRowHeight * (table_->rowCount() + 1)));
+  table_->setMinimumHeight(forFont(*this, std::min(kMaxHeight, kRowHeight * (table_->rowCount() + 1))));
   for (int row = 0; row < shown; ++row) {
     const QString texts[] = {rows[row].name, rows[row].reason, rows[row].remedy};
     for (int column = Name; column < ColumnCount; ++column) {

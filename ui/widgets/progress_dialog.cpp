@@ -7,6 +7,7 @@
 #include <QTimer>
 #include <QVBoxLayout>
 
+#include "ui/widgets/font_scale.h"
 #include "ui/widgets/names.h"
 
 namespace nearfit::ui {
@@ -23,7 +24,7 @@ ProgressDialog::ProgressDialog(const QString& text, QWidget* parent)
   setObjectName(QStringLiteral("progressDialog"));
   setWindowTitle(tr("Loading"));
   setWindowModality(Qt::WindowModal);
-  setMinimumWidth(380);
+  setMinimumWidth(forFont(*this, 380));
   bar_->setRange(0, kSteps);
   bar_->setAccessibleName(tr("Progress"));
   auto* label = new QLabel(breakable(text), this);

@@ -44,7 +44,7 @@ QDockWidget > QWidget { background: #f7f9fa; }
 QStatusBar { background: #f7f9fa; border-top: 1px solid #d5dbe1; }
 QStatusBar::item { border: none; }
 QTreeView { border: none; background: #ffffff; outline: none; }
-QTreeView::item { height: 28px; border: none; padding-left: 4px; }
+QTreeView::item { min-height: 28px; border: none; padding-left: 4px; }
 QTreeView::item:hover { background: #f0f5fa; }
 QTreeView::item:selected { background: #d3e5f8; color: #16202a; }
 QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }

@@ -14,6 +14,7 @@
 #include <QTabBar>
 #include <QToolBar>
 #include <QToolButton>
+#include <QTreeView>
 #include <QTreeWidget>
 
 #include "tests/app/desktop/desktop_driver.h"
@@ -382,6 +383,13 @@ void DesktopWindowShellTest::largerLettersAreNotCut() {
     const auto* mass = d.widget<QLabel>("mass");
     QVERIFY(mass != nullptr && !mass->text().isEmpty());
     QTRY_VERIFY(mass->width() >= mass->fontMetrics().horizontalAdvance(mass->text()));
+    for (const char* name : {"snapLength", "snapAngle"}) {
+      const auto* field = d.widget<QDoubleSpinBox>(name);
+      const auto* line = field->findChild<QLineEdit*>();
+      QVERIFY2(line->fontMetrics().horizontalAdvance(field->text()) <= line->width(), name);
+    }
+    const auto* tree = d.widget<QTreeView>("partsView");
+    QVERIFY(tree->visualRect(tree->model()->index(0, 0)).height() >= tree->fontMetrics().height());
   }
   QApplication::setFont(before);
 }

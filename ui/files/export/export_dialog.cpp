@@ -13,6 +13,7 @@
 #include <array>
 #include <utility>
 
+#include "ui/widgets/font_scale.h"
 #include "ui/widgets/names.h"
 
 namespace nearfit::ui {
@@ -99,7 +100,7 @@ void ExportDialog::setUpFields() {
   form->addRow(tr("What is written"), summary_);
   auto* column = new QVBoxLayout(this);
   column->addLayout(form);
-  setMinimumWidth(480);
+  setMinimumWidth(forFont(*this, 480));
 }
 
 void ExportDialog::restore() {

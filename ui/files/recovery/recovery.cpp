@@ -15,6 +15,7 @@
 
 #include "ui/files/document.h"
 #include "ui/model/hand_state.h"
+#include "ui/widgets/font_scale.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/paths.h"
 
@@ -81,7 +82,7 @@ RecoveryDialog::RecoveryDialog(const std::vector<LostWork>& lost, QWidget* paren
   area->setWidgetResizable(true);
   area->setFocusPolicy(Qt::NoFocus);
   area->setWidget(list);
-  area->setMinimumHeight(std::min(list->sizeHint().height() + 4, kMaxHeight));
+  area->setMinimumHeight(std::min(list->sizeHint().height() + 4, forFont(*this, kMaxHeight)));
   layout->addWidget(area);
   auto* buttons = new QDialogButtonBox(this);
   QPushButton* later = buttons->addButton(tr("Later for all"), QDialogButtonBox::RejectRole);
@@ -89,7 +90,7 @@ RecoveryDialog::RecoveryDialog(const std::vector<LostWork>& lost, QWidget* paren
   later->setAutoDefault(false);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   layout->addWidget(buttons);
-  setMinimumWidth(kWidth);
+  setMinimumWidth(forFont(*this, kWidth));
 }
 
 void RecoveryDialog::addRow(const LostWork& work, int number) {

@@ -18,6 +18,7 @@
 #include "ui/model/hand_state.h"
 #include "ui/view3d/spot_label.h"
 #include "ui/view3d/viewport.h"
+#include "ui/widgets/font_scale.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/paths.h"
 #include "ui/widgets/preferences.h"
@@ -130,8 +131,8 @@ void ClearancePanel::setUpTable() {
   table_->setShowGrid(false);
   table_->setAlternatingRowColors(true);
   table_->verticalHeader()->hide();
-  table_->verticalHeader()->setDefaultSectionSize(24);
-  table_->setMinimumSize(360, 90);
+  table_->verticalHeader()->setDefaultSectionSize(forFont(*table_, 24));
+  table_->setMinimumSize(forFont(*table_, 360), forFont(*table_, 90));
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(ClearanceModel::Other, QHeaderView::Stretch);
   table_->horizontalHeader()->setHighlightSections(false);

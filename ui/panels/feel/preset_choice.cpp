@@ -17,6 +17,7 @@
 #include <functional>
 
 #include "ui/model/preset_store.h"
+#include "ui/widgets/font_scale.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
@@ -69,7 +70,7 @@ PresetNameDialog::PresetNameDialog(const QString& title, const QString& button, 
   layout->addWidget(name_);
   layout->addWidget(note_);
   layout->addWidget(buttons);
-  setMinimumWidth(360);
+  setMinimumWidth(forFont(*this, 360));
 }
 
 QString PresetNameDialog::ask(const QString& proposal, const Judge& judge) {

@@ -10,6 +10,7 @@
 
 #include "core/haptics/workspace_mapper.h"
 #include "core/scene/haptic_limits.h"
+#include "ui/widgets/font_scale.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/theme.h"
@@ -116,7 +117,7 @@ ProxyPage::Row ProxyPage::addRow(const Number& stiffness, const NumberOf& stiffn
   row.stiffnessNote->setObjectName(QLatin1String(stiffness.name) + QStringLiteral("Note"));
   row.dampingNote->setObjectName(QLatin1String(damping.name) + QStringLiteral("Note"));
   for (NumberField* field : {row.stiffness, row.damping})
-    field->setMinimumWidth(130);
+    field->setMinimumWidth(forFont(*field, 130));
   return row;
 }
 

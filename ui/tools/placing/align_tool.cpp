@@ -17,6 +17,7 @@
 #include "ui/model/shown_poses.h"
 #include "ui/tools/placing/placing_tools.h"
 #include "ui/view3d/viewport.h"
+#include "ui/widgets/font_scale.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/theme.h"
@@ -58,7 +59,7 @@ void AlignBar::setUpFields() {
   prompt_->setObjectName(QStringLiteral("alignPrompt"));
   prompt_->setStyleSheet(QStringLiteral("font-weight: bold"));
   hint_->setObjectName(QStringLiteral("alignHint"));
-  hint_->setMinimumWidth(430);
+  hint_->setMinimumWidth(forFont(*this, 430));
   hint_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
   filter_->setObjectName(QStringLiteral("alignFilter"));
   filter_->setAccessibleName(tr("What can be picked"));

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <utility>
 
+#include "ui/widgets/font_scale.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/split_button.h"
 #include "ui/widgets/theme.h"
@@ -124,7 +125,7 @@ NumberField* PlacingActions::makeStep(const char* name, const QString& label) {
   field->setObjectName(QLatin1String(name));
   field->setAccessibleName(label);
   field->setTrimmed(true);
-  field->setFixedWidth(kFieldWidth);
+  field->setFixedWidth(forFont(*field, kFieldWidth));
   return field;
 }
 

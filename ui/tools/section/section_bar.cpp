@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/widgets/font_scale.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/theme.h"
 
@@ -80,7 +81,7 @@ void SectionBar::addAxes(QHBoxLayout& row) {
     const QString letter(QChar('X' + axis));
     QToolButton* button =
         addAxis(row, names[axis], letter, tr("Perpendicular to the world's %1 axis").arg(letter));
-    button->setMinimumWidth(kLetterWidth);
+    button->setMinimumWidth(forFont(*this, kLetterWidth));
     const QString look = QStringLiteral("font-weight: bold; color: %1;").arg(axisColour(axis).name());
     button->setStyleSheet(QString::fromLatin1(kAxisSheet).arg(look));
     axes_[static_cast<std::size_t>(axis)] = button;

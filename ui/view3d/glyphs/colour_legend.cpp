@@ -11,6 +11,7 @@
 
 #include "ui/model/hand_lead.h"
 #include "ui/widgets/distance_colours.h"
+#include "ui/widgets/font_scale.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/theme.h"
 
@@ -23,8 +24,6 @@ constexpr int kWidth = 226, kInset = 14;
 constexpr int kBarTop = 34, kBarHeight = 11;
 constexpr int kFirstRow = 86, kRowHeight = 22, kBelowLastRow = 16;  ///< Row positions are baselines.
 constexpr int kGlyphWidth = 25;
-/// Font height that the sizes above assume [pixels]; a larger font scales them all.
-constexpr double kUsualLetters = 17.0;
 /// Opacity of values that are past: readable, and plainly not of now.
 constexpr double kPastOpacity = 0.5;
 
@@ -128,7 +127,7 @@ QSize ColourLegend::sizeHint() const {
 }
 
 double ColourLegend::scale() const {
-  return std::max(1.0, fontMetrics().height() / kUsualLetters);
+  return fontScale(*this);
 }
 
 QFont ColourLegend::letters() const {
