@@ -123,7 +123,7 @@ void DesktopTimelineTest::theTimelineIsAsHighAsItsContentAndDrawsTheRecording() 
   QVERIFY(left > scale->x() && left < scale->x() + 20);
   QVERIFY(right < scale->geometry().right() + 1 && right > scale->geometry().right() - 20);
   // A press goes to that time.
-  const QPoint middle((line.first().x() + line.last().x()) / 2, track->height() / 2);
+  const QPoint middle(qRound(0.5 * (line.first().x() + line.last().x())), track->height() / 2);
   QTest::mouseClick(track, Qt::LeftButton, {}, middle);
   QVERIFY(std::abs(f.shownTime() - 1.0) < 0.02);
   const int before = dock->height();

@@ -184,7 +184,7 @@ void HandStateTest::aPastSnapshotOutlivesASaveButNotANewStart() {
   stop();
   cleared.clear();
   const QTemporaryDir folder;
-  session_->save(toPath(folder.filePath(QStringLiteral("scene.nearfit"))));
+  session_->save(ui::toPath(folder.filePath(QStringLiteral("scene.nearfit"))));
   QCOMPARE(cleared.count(), 0);
   run(Hand::Manual);
   QCOMPARE(cleared.count(), 1);

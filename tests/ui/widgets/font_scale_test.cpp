@@ -2,6 +2,7 @@
 
 #include <QLabel>
 #include <QtTest>
+#include <cstdlib>
 
 #include "tests/support/qt/qt_suite.h"
 
