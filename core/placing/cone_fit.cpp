@@ -169,7 +169,8 @@ std::optional<Cone> fitCone(std::span<const glm::dvec3> points, const Cone& gues
   cone = cone.movedTo(cone.heightOf(glm::dvec3(0.0)));
   cone.centre = mean + extent * cone.centre;
   cone.radius *= extent;
-  const bool isSound = isFinite(cone.centre) && isFinite(cone.axis) && std::isfinite(cone.slope) && cone.radius > 0.0;
+  const bool isSound =
+      isFinite(cone.centre) && isFinite(cone.axis) && std::isfinite(cone.slope) && cone.radius > 0.0;
   return isSound ? std::optional(cone) : std::nullopt;
 }
 

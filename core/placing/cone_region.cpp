@@ -87,7 +87,8 @@ std::optional<Cone> wallAbout(std::span<const glm::dvec3> points, const glm::dve
 }
 
 /// The cylinder whose axis is square to three facets' normals, or the cone whose axis they all lean against alike.
-std::optional<Cone> coneByNormals(std::span<const glm::dvec3> points, const std::array<glm::dvec3, 3>& normals) {
+std::optional<Cone> coneByNormals(std::span<const glm::dvec3> points,
+                                  const std::array<glm::dvec3, 3>& normals) {
   // Between directions that differ by the least turn.
   constexpr double kNoArea = 0.1 * kMinTurn * kMinTurn;
   const glm::dvec3 across = glm::cross(normals[1] - normals[0], normals[2] - normals[0]);
@@ -132,7 +133,11 @@ std::optional<Cone> coneByTip(std::span<const glm::dvec3> points, const std::arr
 class ConeGrower {
  public:
   ConeGrower(const TriangleMesh& mesh, std::uint32_t first, const Cone& cone)
-      : mesh_(mesh), first_(first), cone_(cone), across_(axesAcross(cone.axis)), isOutside_(isOutside(first)) {}
+      : mesh_(mesh),
+        first_(first),
+        cone_(cone),
+        across_(axesAcross(cone.axis)),
+        isOutside_(isOutside(first)) {}
 
   /// @param share, lean  See kOnCone, kOnLean.
   std::vector<std::uint32_t> grow(double share, double lean,
@@ -156,7 +161,8 @@ class ConeGrower {
   }
   bool isOutside(std::uint32_t t) const {
     const Triangle& c = mesh_.triangles()[t];
-    const glm::dvec3 middle = (mesh_.vertices()[c[0]] + mesh_.vertices()[c[1]] + mesh_.vertices()[c[2]]) / 3.0;
+    const glm::dvec3 middle =
+        (mesh_.vertices()[c[0]] + mesh_.vertices()[c[1]] + mesh_.vertices()[c[2]]) / 3.0;
     const glm::dvec3 away = middle - cone_.centre - cone_.heightOf(middle) * cone_.axis;
     return glm::dot(triangleNormal(mesh_, t), away) > 0.0;
   }
@@ -183,7 +189,8 @@ class ConeGrower {
 };
 
 /// Fits a cone to corners, or to as many of them as suffice.
-std::optional<Cone> fittedTo(const std::vector<glm::dvec3>& corners, const Cone& guess, bool isCylinder = false) {
+std::optional<Cone> fittedTo(const std::vector<glm::dvec3>& corners, const Cone& guess,
+                             bool isCylinder = false) {
   const std::size_t stride = corners.size() / kFitted + 1;
   if (stride == 1) return fitCone(corners, guess, isCylinder);
   std::vector<glm::dvec3> some;
@@ -205,7 +212,8 @@ std::optional<ConeRegion> grownFrom(const TriangleMesh& mesh, std::uint32_t firs
   std::size_t before = 0;
   for (int round = 0; round < kMaxGrowths; ++round) {
     if (!isSteepEnough(cone)) return std::nullopt;
-    const std::vector<std::uint32_t> near = ConeGrower(mesh, first, cone).grow(kNearCone, kNearLean, kNearTriangles);
+    const std::vector<std::uint32_t> near =
+        ConeGrower(mesh, first, cone).grow(kNearCone, kNearLean, kNearTriangles);
     if (near.size() < kFewestTriangles) return std::nullopt;
     const std::optional<Cone> better = fittedTo(cornersOf(mesh, near), cone);
     if (!better) return std::nullopt;
@@ -260,8 +268,9 @@ std::optional<ConeRegion> coneRegion(const TriangleMesh& mesh, std::uint32_t tri
                                               triangleNormal(mesh, beside[i].front()),
                                               triangleNormal(mesh, beside[j].front())};
       tryFrom(coneByNormals(points, normals), points);
-      tryFrom(coneByTip(points, normals, {pointOn(triangle), pointOn(beside[i].front()), pointOn(beside[j].front())}),
-              points);
+      const std::array<glm::dvec3, 3> on{pointOn(triangle), pointOn(beside[i].front()),
+                                         pointOn(beside[j].front())};
+      tryFrom(coneByTip(points, normals, on), points);
     }
   }
   return best;

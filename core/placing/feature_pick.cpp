@@ -222,7 +222,8 @@ class Pick {
   PickedFeature edgeAt(std::uint32_t sharpEdge) const {
     EdgeChain chain = edgeChain(mesh_, sharpEdge);
     const FeatureShape shape = chain.isRound ? FeatureShape::Circle : FeatureShape::Axis;
-    return {{shape, chain.circle.centre, chain.circle.axis, chain.circle.radius}, {}, std::move(chain.vertices)};
+    return {
+        {shape, chain.circle.centre, chain.circle.axis, chain.circle.radius}, {}, std::move(chain.vertices)};
   }
 
   std::optional<PickedFeature> edge() const {
@@ -246,10 +247,12 @@ class Pick {
     std::optional<ConeRegion> cone;
     // An arc may be a piece of a cone that is more than that.
     if (!cylinder || !cylinder->isRing) cone = coneRegion(mesh_, hit_.triangle);
-    if (cone && (!cylinder || cone->triangles.size() > cylinder->triangles.size())) return wallOf(std::move(*cone));
+    if (cone && (!cylinder || cone->triangles.size() > cylinder->triangles.size()))
+      return wallOf(std::move(*cone));
     if (!cylinder) return std::nullopt;
     const Circle& c = cylinder->cylinder;
-    return PickedFeature{{FeatureShape::Axis, c.centre, c.axis, c.radius}, std::move(cylinder->triangles), {}};
+    return PickedFeature{
+        {FeatureShape::Axis, c.centre, c.axis, c.radius}, std::move(cylinder->triangles), {}};
   }
 
   /// The prism that the point is on a flat of.

@@ -149,7 +149,8 @@ TEST(ShadedMesh, SliversInACurvedWallMakeNoEdges) {
   const ShadedMesh shaded = shadedMesh(cylinder.mesh, kDegrees30, cylinder.tolerance);
   EXPECT_FALSE(shaded.sharpEdges.empty());
   for (const std::uint32_t e : shaded.sharpEdges) {
-    const glm::dvec3 a = cylinder.at(cylinder.mesh.edges()[e].v0), b = cylinder.at(cylinder.mesh.edges()[e].v1);
+    const MeshEdge& edge = cylinder.mesh.edges()[e];
+    const glm::dvec3 a = cylinder.at(edge.v0), b = cylinder.at(edge.v1);
     EXPECT_NEAR(std::abs(a.z), 0.5, 1e-6);
     EXPECT_NEAR(a.z, b.z, 1e-6) << "along the wall";
   }

@@ -37,7 +37,8 @@ std::vector<double> linesOf(std::uint32_t facets, double spread, std::uint64_t s
 /// A tube about z from 0 to kHeight, its walls between lines at those angles, wider towards the top.
 TriangleMesh tubeOf(const std::vector<double>& angles, double slope) {
   const double grown = slope * kHeight;
-  const glm::dvec2 profile[] = {{kOuter, 0.0}, {kOuter + grown, kHeight}, {kInner + grown, kHeight}, {kInner, 0.0}};
+  const glm::dvec2 profile[] = {
+      {kOuter, 0.0}, {kOuter + grown, kHeight}, {kInner + grown, kHeight}, {kInner, 0.0}};
   std::vector<glm::dvec3> vertices;
   std::vector<Triangle> triangles;
   const auto count = static_cast<std::uint32_t>(angles.size());
@@ -73,8 +74,8 @@ SurfaceHit hitBy(const TriangleMesh& mesh, const glm::dvec3& from, const glm::dv
     const double distance = glm::dot(a - from, normal) / glm::dot(along, normal);
     if (!(distance > 0.0) || !(distance < nearest)) continue;
     const glm::dvec3 p = from + distance * along;
-    if (glm::dot(glm::cross(b - a, p - a), normal) < 0.0 || glm::dot(glm::cross(c - b, p - b), normal) < 0.0 ||
-        glm::dot(glm::cross(a - c, p - c), normal) < 0.0)
+    if (glm::dot(glm::cross(b - a, p - a), normal) < 0.0 ||
+        glm::dot(glm::cross(c - b, p - b), normal) < 0.0 || glm::dot(glm::cross(a - c, p - c), normal) < 0.0)
       continue;
     nearest = distance;
     hit = {i, p};
@@ -118,7 +119,8 @@ struct Cut {
   double spread;
 };
 /// The widest facet of eight uneven ones stays below 50 degrees.
-constexpr Cut kCuts[] = {{8, 0.0}, {8, 0.05}, {12, 0.0}, {12, 0.3}, {16, 0.0}, {16, 0.5}, {64, 0.0}, {64, 0.6}};
+constexpr Cut kCuts[] = {{8, 0.0},  {8, 0.05}, {12, 0.0}, {12, 0.3},
+                         {16, 0.0}, {16, 0.5}, {64, 0.0}, {64, 0.6}};
 
 // Fine cylinders had an axis; on a coarse or tapered wall there were only flat faces.
 TEST(RoundWalls, CoarseAndTaperedWallsHaveTheirAxis) {
@@ -162,9 +164,10 @@ TEST(RoundWalls, AConeWithATipHasItsAxis) {
           pickFeature(mesh, hitBy(mesh, pose.applyToPoint(aside + up), pose.applyToPoint(up)), kReach);
       ASSERT_TRUE(picked);
       ASSERT_EQ(picked->feature.shape, FeatureShape::Axis);
-      EXPECT_NEAR(glm::length(glm::cross(picked->feature.direction, pose.applyToVector({0.0, 0.0, 1.0}))), 0.0,
-                  5e-5);
-      EXPECT_NEAR(glm::distance(picked->feature.point, pose.applyToPoint({0.0, 0.0, 0.5 * kHeight})), 0.0, 5e-6);
+      const glm::dvec3 axis = pose.applyToVector({0.0, 0.0, 1.0});
+      EXPECT_NEAR(glm::length(glm::cross(picked->feature.direction, axis)), 0.0, 5e-5);
+      const glm::dvec3 middle = pose.applyToPoint({0.0, 0.0, 0.5 * kHeight});
+      EXPECT_NEAR(glm::distance(picked->feature.point, middle), 0.0, 5e-6);
       EXPECT_NEAR(picked->feature.halfAngle, degrees * kDegree, 1e-4);
       EXPECT_EQ(picked->triangles.size(), facets);
     }
