@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -38,5 +39,18 @@ struct Joint {
   bool isOn = true;            ///< A joint that is off is kept for later and does nothing.
   bool operator==(const Joint&) const = default;
 };
+
+/// Max joints of a part, on or off: three planes hold a part in all directions. Max joints of a scene: more than anyone
+/// picks, and few enough that each undo step can keep a copy.
+constexpr std::size_t kMaxJointsPerPart = 3, kMaxJoints = 1000;
+/// Tolerance on the length of a direction: covers numbers typed or printed with four digits.
+constexpr double kDirectionSlack = 1e-3;
+
+/// Returns the direction normalised. Throws UsageError if it is not finite or off unit length by more than
+/// kDirectionSlack.
+glm::dvec3 checkedDirection(const glm::dvec3& direction);
+/// Returns the joint with its directions normalised, or set to z where they are not used. Throws UsageError if a point
+/// is not within kMaxPosition, or like checkedDirection().
+Joint checkedJoint(const Joint& joint);
 
 }  // namespace nearfit

@@ -131,6 +131,7 @@ void Scene::remove(PartId id) {
   requireUnlocked(*parts_[index]);
   parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(index));
   if (movingPart_ == id) movingPart_.reset();
+  std::erase_if(joints_, [id](const Joint& joint) { return joint.part == id || joint.base == id; });
 }
 
 void Scene::setMovingPart(std::optional<PartId> id) {
@@ -167,6 +168,7 @@ std::vector<Colour> Scene::nextColours(std::size_t count) const {
 void Scene::retireIdsOf(const Scene& other) noexcept {
   nextId_ = std::max(nextId_, other.nextId_);
   nextGroupId_ = std::max(nextGroupId_, other.nextGroupId_);
+  nextJointId_ = std::max(nextJointId_, other.nextJointId_);
 }
 
 }  // namespace nearfit

@@ -10,12 +10,13 @@
 
 #include "core/haptics/haptic_settings.h"
 #include "core/scene/group.h"
+#include "core/scene/joint.h"
 #include "core/scene/names.h"
 #include "core/scene/part.h"
 
 namespace nearfit {
 
-/// Parts, groups and haptic settings, as a value. Copies are cheap because they share parts and groups; undo
+/// Parts, groups, joints and haptic settings, as a value. Copies are cheap because they share parts and groups; undo
 /// and threads keep copies. Each change either succeeds as a whole or throws UsageError and changes nothing.
 class Scene {
  public:
@@ -44,8 +45,8 @@ class Scene {
   /// name is taken, it is the moving part and would be locked, or it is locked and more than its look (see
   /// differsOnlyInLookOrLock) or geometry would change.
   void replace(Part part);
-  /// Removes a part. If it is the moving part, the scene has none afterwards. Throws UsageError if the part
-  /// is unknown or locked.
+  /// Removes a part, with the joints that keep it and those that keep others on it. If it is the moving part, the
+  /// scene has none afterwards. Throws UsageError if the part is unknown or locked.
   void remove(PartId id);
   /// Sets the moving part; std::nullopt for none. Throws UsageError if the part is unknown or locked.
   void setMovingPart(std::optional<PartId> id);
@@ -66,6 +67,25 @@ class Scene {
   void replaceGroup(Group group);
   /// Removes an empty group. Throws UsageError if it is unknown, locked or not empty.
   void removeGroup(GroupId id);
+
+  /// Joints, oldest first.
+  const std::vector<Joint>& joints() const noexcept { return joints_; }
+  /// The joint with this ID; null if there is none. Valid until a joint changes. O(log n).
+  const Joint* findJoint(JointId id) const noexcept;
+  /// The same; throws UsageError if there is none.
+  const Joint& getJoint(JointId id) const;
+  /// Adds a joint with a new ID and returns the ID. Its part stays where it is, on the joint or off it. Throws
+  /// UsageError if part or base is unknown, they are the same, the part is locked, a point or direction is invalid
+  /// (see checkedJoint), or kMaxJointsPerPart or kMaxJoints would be exceeded.
+  JointId addJoint(Joint joint);
+  /// Replaces the joint with the same ID. Throws UsageError like addJoint(), or if there is no such joint or the part
+  /// that it has kept so far is locked.
+  void replaceJoint(Joint joint);
+  /// Removes a joint. Throws UsageError if it is unknown or its part is locked.
+  void removeJoint(JointId id);
+  /// Scales the points that joints have on a part, as its mesh was, also those of locked parts: the mesh decides.
+  /// Throws UsageError if one would not be within kMaxPosition.
+  void scaleJointsOn(PartId part, double factor);
 
   /// True if it, or a group that contains it at any depth, is locked.
   bool isLocked(const Part& part) const noexcept;
@@ -106,12 +126,16 @@ class Scene {
   std::size_t depthOf(std::optional<GroupId> group) const noexcept;
   bool isWithin(std::optional<GroupId> group, GroupId ancestor) const noexcept;
   void checkPlace(const Group& group) const;
+  std::size_t indexOf(JointId id) const;
+  /// Throws UsageError if the scene cannot hold the joint; normalises its directions.
+  Joint checkedForScene(const Joint& joint) const;
 
   std::vector<PartPtr> parts_;
   std::optional<PartId> movingPart_;
   HapticSettings haptics_;
   std::vector<GroupPtr> groups_;
-  std::uint32_t nextId_ = 1, nextGroupId_ = 1;
+  std::vector<Joint> joints_;
+  std::uint32_t nextId_ = 1, nextGroupId_ = 1, nextJointId_ = 1;
 };
 
 }  // namespace nearfit

@@ -9,7 +9,7 @@
 /// The scene file `*.nearfit`, JSON in UTF-8:
 ///
 ///     {
-///       "nearfit": 4,                                        format version
+///       "nearfit": 5,                                        format version
 ///       "units": {"length": "m", "force": "N", "time": "s"}, always these
 ///       "haptics": {
 ///         "mode": "proxy",                                   or "springs": the part is at the handle
@@ -48,6 +48,17 @@
 ///         "group": 0,                                        index of the part's group, or null
 ///         "wasVisible": null                                 during isolation: visibility before it; null
 ///                                                            otherwise, and for parts added since
+///       }],
+///       "joints": [{
+///         "kind": "axis",                                    or "plane", "point"
+///         "part": "Peg",                                     name of the part that is kept
+///         "base": "Hole",                                    name of the part that it is kept on, or null for
+///                                                            the world
+///         "onPart": {"point": [0, 0, 0],                     in the part's frame [m]
+///                    "direction": [0, 0, 1]},                unit; an outward normal for "plane"; not for "point"
+///         "onBase": {"point": [0, 0, 0],                     the same in the base's frame
+///                    "direction": [0, 0, 1]},
+///         "on": true
 ///       }]
 ///     }
 ///
@@ -56,7 +67,8 @@
 /// and haptic_limits.h.
 ///
 /// Older versions can still be read:
-/// - Version 3 has no "pivot": parts turn about their centre of mass.
+/// - Version 4 has no "joints".
+/// - Version 3 also has no "pivot": parts turn about their centre of mass.
 /// - Version 2 also has no "groups", and parts have no "opacity", "group" and "wasVisible": they are opaque
 ///   and at the top level.
 /// - Version 1 also has no "haptics" and no "density"; "springs" is at the top level. Missing settings are
@@ -64,7 +76,7 @@
 namespace nearfit {
 
 /// Version that this program writes, and oldest version that it reads.
-constexpr int kSceneFileVersion = 4, kOldestSceneFileVersion = 1;
+constexpr int kSceneFileVersion = 5, kOldestSceneFileVersion = 1;
 /// Limits on the size of a scene file [bytes] and on its number of parts.
 constexpr std::size_t kMaxSceneFileBytes = 8U << 20U;
 constexpr std::size_t kMaxSceneFileParts = 10'000;

@@ -216,6 +216,77 @@ std::optional<std::size_t> readMovingPart(const JsonField& field, const std::vec
   return static_cast<std::size_t>(it - entries.begin());
 }
 
+JointKind readJointKind(const JsonField& field) {
+  const std::string word = field.text(16);
+  if (word == "axis") return JointKind::OnAxis;
+  if (word == "plane") return JointKind::InPlane;
+  if (word != "point") field.fail("this value is not known", R"(give "axis", "plane" or "point")");
+  return JointKind::ToPoint;
+}
+
+JointFeature readJointFeature(const JsonField& field, JointKind kind) {
+  JointFeature feature;
+  const auto [x, y, z] = numbers<3>(field.at("point"));
+  feature.point = {x, y, z};
+  checked(field.at("point"), [&] { checkPosition(feature.point); });
+  if (kind == JointKind::ToPoint) return feature;
+  const auto [dx, dy, dz] = numbers<3>(field.at("direction"));
+  const glm::dvec3 direction(dx, dy, dz);
+  feature.direction = checked(field.at("direction"), [&] { return checkedDirection(direction); });
+  return feature;
+}
+
+/// A joint as in the file.
+struct JointEntry {
+  JsonField field;
+  Joint joint;  ///< `part` and `base` are not set.
+  std::size_t part;
+  std::optional<std::size_t> base;  ///< Indices of parts.
+};
+
+/// @param field  The array "joints".
+std::vector<JointEntry> readJoints(const JsonField& field, const std::vector<PartEntry>& parts) {
+  const std::size_t count = field.size();
+  if (count > kMaxJoints) field.fail(fmt::format("there are more than {} joints", kMaxJoints));
+  std::map<std::string, std::size_t> indexOfName;
+  for (std::size_t i = 0; count > 0 && i < parts.size(); ++i)
+    indexOfName.emplace(parts[i].part.name, i);
+  const auto indexAt = [&](const JsonField& name, const char* remedy) {
+    const std::string text = name.text(kMaxPartNameBytes);
+    const auto it = indexOfName.find(text);
+    if (it == indexOfName.end()) name.fail(fmt::format("there is no part \"{}\"", printableText(text)), remedy);
+    return it->second;
+  };
+  std::vector<JointEntry> entries;
+  std::map<std::size_t, std::size_t> countOfPart;
+  for (std::size_t i = 0; i < count; ++i) {
+    const JsonField each = field.at(i), base = each.at("base");
+    Joint joint;
+    joint.kind = readJointKind(each.at("kind"));
+    joint.onPart = readJointFeature(each.at("onPart"), joint.kind);
+    joint.onBase = readJointFeature(each.at("onBase"), joint.kind);
+    joint.isOn = each.at("on").isTrue();
+    JointEntry entry{each, joint, indexAt(each.at("part"), "name a part"), {}};
+    if (!base.isNull()) entry.base = indexAt(base, "name a part, or give null for the world");
+    if (entry.base == entry.part) base.fail("a part cannot be kept on itself", "name another part");
+    if (++countOfPart[entry.part] > kMaxJointsPerPart)
+      each.at("part").fail(fmt::format("the part has more than {} joints", kMaxJointsPerPart));
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+/// Parts must not be locked yet.
+void addJoints(Scene& scene, const std::vector<JointEntry>& entries) {
+  const std::vector<Scene::PartPtr> parts = scene.parts();
+  for (const JointEntry& entry : entries) {
+    Joint joint = entry.joint;
+    joint.part = parts[entry.part]->id;
+    if (entry.base) joint.base = parts[*entry.base]->id;
+    checked(entry.field, [&] { scene.addJoint(joint); });
+  }
+}
+
 /// Loads meshes, each file and unit once.
 class GeometryLoader {
  public:
@@ -273,6 +344,23 @@ class GeometryLoader {
   std::vector<LoadedPart> loaded_;
 };
 
+/// Unlocks the parts that have joints, so that these can be added, and returns their indices.
+std::vector<std::size_t> unlockForJoints(std::vector<PartEntry>& parts, const std::vector<JointEntry>& joints) {
+  std::vector<std::size_t> unlocked;
+  for (const JointEntry& entry : joints) {
+    if (std::exchange(parts[entry.part].part.isLocked, false)) unlocked.push_back(entry.part);
+  }
+  return unlocked;
+}
+
+void lockParts(Scene& scene, const std::vector<std::size_t>& indices) {
+  for (const std::size_t index : indices) {
+    Part part = *scene.parts()[index];
+    part.isLocked = true;
+    scene.replace(std::move(part));
+  }
+}
+
 /// Unlocked for now, so that its members can be added.
 Group placed(const GroupEntry& entry, const std::vector<GroupId>& ids) {
   Group group = entry.group;
@@ -312,6 +400,9 @@ Scene readSceneFile(const fs::path& file, const ProgressCallback& progress,
       version >= 3 ? readGroups(root.at("groups")) : std::vector<GroupEntry>();
   std::vector<PartEntry> entries = readParts(root.at("parts"), groups, meshFolder(file), version);
   const std::optional<std::size_t> moving = readMovingPart(root.at("moving"), entries, groups);
+  const std::vector<JointEntry> joints =
+      version >= 5 ? readJoints(root.at("joints"), entries) : std::vector<JointEntry>();
+  const std::vector<std::size_t> lockedLater = unlockForJoints(entries, joints);
   GeometryLoader loader(entries, progress, changedMeshes);
   std::vector<GroupId> ids;
   for (const GroupEntry& entry : groups)
@@ -324,6 +415,8 @@ Scene readSceneFile(const fs::path& file, const ProgressCallback& progress,
     parts.push_back(std::move(entry.part));
   }
   scene.addAll(std::move(parts));
+  addJoints(scene, joints);
+  lockParts(scene, lockedLater);
   if (moving) scene.setMovingPart(scene.parts()[*moving]->id);
   lockGroups(scene, groups, ids);
   return scene;

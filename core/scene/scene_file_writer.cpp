@@ -68,6 +68,36 @@ Json partJson(const Part& part, const GroupIndices& groups, const std::filesyste
   return json;
 }
 
+const char* wordOf(JointKind kind) {
+  switch (kind) {
+    case JointKind::OnAxis:
+      return "axis";
+    case JointKind::InPlane:
+      return "plane";
+    case JointKind::ToPoint:
+      break;
+  }
+  return "point";
+}
+
+Json featureJson(const JointFeature& feature, JointKind kind) {
+  const glm::dvec3 &p = feature.point, &d = feature.direction;
+  Json json = {{"point", {p.x, p.y, p.z}}};
+  if (kind != JointKind::ToPoint) json["direction"] = {d.x, d.y, d.z};
+  return json;
+}
+
+Json jointJson(const Joint& joint, const Scene& scene) {
+  Json json;
+  json["kind"] = wordOf(joint.kind);
+  json["part"] = scene.get(joint.part).name;
+  json["base"] = joint.base ? Json(scene.get(*joint.base).name) : Json();
+  json["onPart"] = featureJson(joint.onPart, joint.kind);
+  json["onBase"] = featureJson(joint.onBase, joint.kind);
+  json["on"] = joint.isOn;
+  return json;
+}
+
 }  // namespace
 
 std::string sceneFileText(const Scene& scene, const std::filesystem::path& file) {
@@ -81,6 +111,9 @@ std::string sceneFileText(const Scene& scene, const std::filesystem::path& file)
   json["parts"] = Json::array();
   for (const Scene::PartPtr& part : scene.parts())
     json["parts"].push_back(partJson(*part, groups, file));
+  json["joints"] = Json::array();
+  for (const Joint& joint : scene.joints())
+    json["joints"].push_back(jointJson(joint, scene));
   return prettyJson(json);
 }
 

@@ -36,12 +36,14 @@ class Session {
   };
   /// Adds several parts in one step, at the identity pose; otherwise like addPart().
   std::vector<PartId> addParts(const std::vector<NewPart>& parts);
-  /// Copies a part in place: unlocked, in the next colour, with a number appended to its name.
+  /// Copies a part in place: unlocked, without joints, in the next colour, with a number appended to its name.
   PartId duplicatePart(PartId id) { return duplicate({{id}, {}}).parts.front(); }
   /// Deletes a part. If it is the moving part, the scene no longer has one.
   void deletePart(PartId id) { deleteNodes({{id}, {}}); }
   /// Renames a part. Throws UsageError if another part has the name.
   void renamePart(PartId id, const std::string& name);
+  /// Moves a part to a pose, on its joints or not: JointSet::nearestPose() finds the pose that is. Parts that are kept
+  /// on it stay behind.
   /// @param verb  First word of the undo label; the part's name follows.
   void movePart(PartId id, const RigidTransform& worldFromPart, const std::string& verb = "Move") {
     moveParts({id}, id, worldFromPart, verb);
@@ -53,15 +55,22 @@ class Session {
     PartId part;
     PartGeometryPtr geometry;
   };
-  /// Replaces the geometry of parts whose files changed, in one step; poses stay. Also works on locked parts,
-  /// since the file decides what it holds.
+  /// Replaces the geometry of parts whose files changed, in one step; poses and joints stay. Also works on locked
+  /// parts, since the file decides what it holds.
   void reloadParts(const std::vector<NewGeometry>& parts);
-  /// Replaces geometry by the same meshes in another unit, in one step. Poses stay; pivots scale
-  /// with the meshes.
+  /// Replaces geometry by the same meshes in another unit, in one step. Poses stay; pivots, and the points of joints on
+  /// the parts, scale with the meshes.
   void rescaleParts(const std::vector<NewGeometry>& parts);
   /// Also works on locked parts: visibility is how a part is shown, not what it is.
   void setVisible(PartId id, bool visible) { setVisible(std::vector{id}, visible); }
   void setLocked(PartId id, bool locked) { setLocked({{id}, {}}, locked); }
+  /// Adds a joint and moves its part to this pose, on the joint, in one step. Throws UsageError like
+  /// Scene::addJoint(), and if the pose is invalid.
+  JointId addJoint(const Joint& joint, const RigidTransform& worldFromPart);
+  /// Removes joints; their parts stay where they are.
+  void removeJoints(const std::vector<JointId>& ids);
+  /// Turns joints on or off; their parts stay where they are.
+  void setJointsOn(const std::vector<JointId>& ids, bool on);
   /// Sets the moving part; std::nullopt for none. Throws UsageError if the part is locked.
   void setMovingPart(std::optional<PartId> id);
   /// @param label  Undo label; if empty, one that names the change.
@@ -96,9 +105,9 @@ class Session {
   void setLocked(const SceneNodes& nodes, bool locked);
   /// Renames a group; groups may share a name.
   void renameGroup(GroupId id, const std::string& name);
-  /// Deletes nodes; groups with all they hold.
+  /// Deletes nodes; groups with all they hold. Joints of these parts, and on them, go too.
   void deleteNodes(const SceneNodes& nodes);
-  /// Copies nodes in place, unlocked. Copies go beside the originals, or outside groups that are locked. A
+  /// Copies nodes in place, unlocked and without joints. Copies go beside the originals, or outside groups that are locked. A
   /// single part gets the next colour. Returns the copies of the `outermost` nodes.
   SceneNodes duplicate(const SceneNodes& nodes);
   /// Moves nodes into a new group, placed in the innermost group that holds them all. Appends a number if
@@ -166,16 +175,20 @@ class Session {
   /// Makes `scene` the current state, one undo step after the last, and notifies.
   void commit(Scene scene, Step step);
   void commit(Scene scene, std::string label) { commit(std::move(scene), Step{std::move(label)}); }
-  /// Applies `change` to a copy of each part. The label is the verb and the names of the parts that changed.
-  void change(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change);
+  /// Applies `change` to a copy of each part, and then `finish`, if there is one, to the scene that has them. The label
+  /// is the verb and the names of the parts that changed.
+  void change(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change,
+              const std::function<void(Scene&)>& finish = {});
   void change(const std::vector<PartId>& ids, const char* verb, const std::function<void(Part&)>& change) {
     this->change(ids, Step{verb}, change);
   }
   /// Like change(). Throws UsageError if a part is locked, even if nothing would change.
-  void changeUnlocked(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change);
+  void changeUnlocked(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change,
+                      const std::function<void(Scene&)>& finish = {});
   void changeUnlocked(const std::vector<PartId>& ids, const char* verb,
-                      const std::function<void(Part&)>& change) {
-    changeUnlocked(ids, Step{verb}, change);
+                      const std::function<void(Part&)>& change,
+                      const std::function<void(Scene&)>& finish = {}) {
+    changeUnlocked(ids, Step{verb}, change, finish);
   }
   /// Replaces the scene and clears undo, without notifying.
   void begin(Scene scene, const std::filesystem::path& file);

@@ -49,7 +49,8 @@ std::map<PartId, PartGeometryPtr> byPart(const std::vector<Session::NewGeometry>
 
 }  // namespace
 
-void Session::change(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change) {
+void Session::change(const std::vector<PartId>& ids, Step verb, const std::function<void(Part&)>& change,
+                     const std::function<void(Scene&)>& finish) {
   Scene next = scene();
   SceneNodes changed;
   for (const PartId id : ids) {
@@ -60,15 +61,17 @@ void Session::change(const std::vector<PartId>& ids, Step verb, const std::funct
     changed.parts.push_back(id);
   }
   if (changed.isEmpty()) return;
+  if (finish) finish(next);
   verb.label += " " + nameOf(scene(), changed);
   commit(std::move(next), std::move(verb));
 }
 
 void Session::changeUnlocked(const std::vector<PartId>& ids, Step verb,
-                             const std::function<void(Part&)>& change) {
+                             const std::function<void(Part&)>& change,
+                             const std::function<void(Scene&)>& finish) {
   for (const PartId id : ids)
     scene().requireUnlocked(scene().get(id));
-  this->change(ids, std::move(verb), change);
+  this->change(ids, std::move(verb), change, finish);
 }
 
 void Session::renamePart(PartId id, const std::string& name) {
@@ -134,14 +137,21 @@ void Session::reloadParts(const std::vector<NewGeometry>& parts) {
 
 void Session::rescaleParts(const std::vector<NewGeometry>& parts) {
   const std::map<PartId, PartGeometryPtr> geometries = byPart(parts);
-  changeUnlocked(partsOf(parts), "Change the unit of", [&](Part& part) {
-    PartGeometryPtr rescaled = geometries.at(part.id);
+  const auto factorOf = [&](const Part& part) {
+    return geometries.at(part.id)->metresPerUnit / part.geometry->metresPerUnit;
+  };
+  const auto rescale = [&](Part& part) {
     if (part.pivot) {
-      *part.pivot *= rescaled->metresPerUnit / part.geometry->metresPerUnit;
+      *part.pivot *= factorOf(part);
       checkPosition(*part.pivot);
     }
-    part.geometry = std::move(rescaled);
-  });
+    part.geometry = geometries.at(part.id);
+  };
+  const auto scaleJoints = [&](Scene& next) {
+    for (const auto& [id, geometry] : geometries)
+      next.scaleJointsOn(id, factorOf(scene().get(id)));
+  };
+  changeUnlocked(partsOf(parts), "Change the unit of", rescale, scaleJoints);
 }
 
 void Session::isolate(const std::vector<PartId>& ids) {
