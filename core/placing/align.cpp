@@ -1,9 +1,9 @@
 #include "core/placing/align.h"
 
-#include <cmath>
-
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+
+#include "core/math/least_turn.h"
 
 namespace nearfit {
 namespace {
@@ -14,28 +14,13 @@ bool hasPlane(FeatureShape shape) noexcept {
   return shape == FeatureShape::Plane || shape == FeatureShape::Circle;
 }
 
-/// The smallest rotation from one direction to another; a half turn is about any perpendicular axis.
-glm::dquat turnOnto(const glm::dvec3& from, const glm::dvec3& to) {
-  // Closer to a half turn, 1 + cos is mostly rounding.
-  constexpr double kNearlyBack = -0.9999;
-  const double cosine = glm::dot(from, to);
-  if (cosine > kNearlyBack) {
-    const glm::dvec3 axis = glm::cross(from, to);
-    return glm::normalize(glm::dquat(1.0 + cosine, axis.x, axis.y, axis.z));
-  }
-  const glm::dvec3 other = std::abs(from.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 square = glm::normalize(glm::cross(from, other));
-  // A half turn, then the small remainder.
-  return glm::normalize(turnOnto(-from, to) * glm::dquat(0.0, square.x, square.y, square.z));
-}
-
 glm::dquat turnOf(const AlignFeature& moving, const AlignFeature& fixed, bool isFlipped) {
   if (!canBeFlipped(moving.shape, fixed.shape)) return kNoTurn;
   glm::dvec3 target = fixed.direction;
   // Planes face each other; axes take the shorter way round.
   const bool areFlat = moving.shape == FeatureShape::Plane && fixed.shape == FeatureShape::Plane;
   if (areFlat || glm::dot(moving.direction, target) < 0.0) target = -target;
-  return turnOnto(moving.direction, isFlipped ? -target : target);
+  return leastTurn(moving.direction, isFlipped ? -target : target);
 }
 
 glm::dvec3 along(const glm::dvec3& v, const glm::dvec3& direction) {
