@@ -36,7 +36,13 @@ struct Local {
 
 ProgramVector tangentOf(const glm::dvec3& axis, const glm::dvec3& arm, const ArmMetric& metric) noexcept {
   const glm::dvec3 turn = metric.principalFromStep * glm::cross(arm, axis) / metric.gyration;
-  return {axis.x, axis.y, axis.z, turn.x, turn.y, turn.z, 0.0, 0.0};
+  ProgramVector tangent{axis.x, axis.y, axis.z, turn.x, turn.y, turn.z, 0.0, 0.0};
+  for (const StepVector& direction : metric.locked) {
+    ProgramVector locked{};
+    std::copy(direction.begin(), direction.end(), locked.begin());
+    tangent = along(tangent, -dot(tangent, locked), locked);
+  }
+  return tangent;
 }
 
 Local localOf(const ActiveRows& active, const FrictionContacts::Contact& contact) noexcept {
@@ -137,7 +143,7 @@ StepVector FrictionContacts::pushed(StepVector y) const noexcept {
 }
 
 bool FrictionContacts::follow(const StepRows& rows, const ActiveRows& active, const glm::dvec3* arms,
-                              const ArmMetric& metric) noexcept {
+                              const glm::dvec3* directions, const ArmMetric& metric) noexcept {
   const std::array<Contact, ActiveRows::kMax> old = contacts_;
   const auto oldEnd = old.begin() + static_cast<std::ptrdiff_t>(size_);
   std::size_t kept = 0;
@@ -157,7 +163,7 @@ bool FrictionContacts::follow(const StepRows& rows, const ActiveRows& active, co
     }
     const StepVector a = rows.row(row);
     contact.row = row;
-    contact.axes = axesAcross({a[0], a[1], a[2]});
+    contact.axes = axesAcross(directions != nullptr ? directions[row] : glm::dvec3(a[0], a[1], a[2]));
     contact.push = glm::dvec2(0.0);
     for (std::size_t c = 0; c < 2; ++c)
       contact.tangents[c] = tangentOf(contact.axes[c], arms[row], metric);

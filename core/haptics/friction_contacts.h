@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -12,10 +13,11 @@
 
 namespace nearfit {
 
-/// Maps torques of pushes into the mass metric.
+/// Maps pushes and their torques into the mass metric.
 struct ArmMetric {
-  glm::dmat3 principalFromStep{1.0};  ///< Rotates the axes of a[0..2] into the principal axes.
-  glm::dvec3 gyration{1.0};           ///< About the principal axes [m].
+  glm::dmat3 principalFromStep{1.0};      ///< Rotates the axes of a[0..2] into the principal axes.
+  glm::dvec3 gyration{1.0};               ///< About the principal axes [m].
+  std::span<const StepVector> locked{};   ///< Orthonormal; pushes move nothing along these.
 };
 
 /// Contacts with friction: one for each active row, with its tangential push. Real-time safe.
@@ -52,11 +54,12 @@ class FrictionContacts {
 
   /// Adapts the contacts to the active rows: rows that are still active keep their pushes, new ones
   /// start at zero.
-  /// @param arms  For each of the rows: from the centre of mass to the part's point, in the axes
-  ///              of a[0..2] [m].
+  /// @param arms        For each of the rows: from the centre of mass to the part's point, in the axes
+  ///                    of a[0..2] [m].
+  /// @param directions  For each of the rows: its direction, if that is not a[0..2]; else null.
   /// @return True if a push that was not zero is gone.
   bool follow(const StepRows& rows, const ActiveRows& active, const glm::dvec3* arms,
-              const ArmMetric& metric) noexcept;
+              const glm::dvec3* directions, const ArmMetric& metric) noexcept;
 
   /// Finds the pushes for fixed active rows, and changes the pushes by a share of the way to them.
   /// @param y            The program's step with the pushes so far [m].

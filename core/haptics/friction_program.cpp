@@ -16,6 +16,7 @@ bool isUsableProgram(const StepRows& rows, const FrictionGoal& goal) noexcept {
   };
   if (!nearfit::isUsable(goal.step) || !(goal.coefficient >= 0.0) || !std::isfinite(goal.coefficient))
     return false;
+  if (!goal.directions.empty() && goal.directions.size() != rows.size()) return false;
   return goal.coefficient == 0.0 ||
          (goal.arms.size() == rows.size() && std::all_of(goal.arms.begin(), goal.arms.end(), isShort));
 }
@@ -32,14 +33,15 @@ double lengthOf(const StepVector& y, double margin) noexcept {
 
 DualStepSolver::Point FrictionProgram::alternate(const StepRows& rows, const FrictionGoal& goal,
                                                  const StepVector& wanted, Attempt& best) noexcept {
-  const ArmMetric metric{goal.principalFromStep, goal.step.gyration};
+  const ArmMetric metric{goal.principalFromStep, goal.step.gyration, goal.locked};
+  const glm::dvec3* const directions = goal.directions.empty() ? nullptr : goal.directions.data();
   const double length = lengthOf(wanted, goal.step.cost.margin);
   best.unsettled = std::numeric_limits<double>::infinity();
   for (unsigned sweep = 1; sweep <= kMaxSweeps; ++sweep) {
     Attempt attempt{contacts_};
     const DualStepSolver::Point point = solver_.solve(contacts_.pushed(wanted));
     ++sweeps_;
-    const bool isOneGone = contacts_.follow(rows, solver_.active(), goal.arms.data(), metric);
+    const bool isOneGone = contacts_.follow(rows, solver_.active(), goal.arms.data(), directions, metric);
     const double share = sweep < kDampedSweep ? 1.0 : 0.5;
     attempt.unsettled = contacts_.relax(solver_.active(), point.y, goal.coefficient, length, share);
     // A push whose row is no longer active counts in full.

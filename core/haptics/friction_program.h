@@ -21,6 +21,10 @@ struct FrictionGoal {
   std::span<const glm::dvec3> arms;
   /// Rotates the axes of a[0..2] into the principal axes of a[3..5]; orthogonal.
   glm::dmat3 principalFromStep{1.0};
+  /// Where rows are without what joints lock of them: those directions, orthonormal, and the directions of the
+  /// contacts in the axes of a[0..2]. Otherwise empty.
+  std::span<const StepVector> locked{};
+  std::span<const glm::dvec3> directions{};
 };
 
 /// Friction at a row.

@@ -53,11 +53,23 @@ constexpr double kWorthwhile = 0.05;
 /// direction pressed.
 constexpr double kMarginWeight = 100.0, kMaxMarginWeight = 1e6;
 
+/// A part this share of the margin off its joints is on them: what is left is taken back at once.
+constexpr double kOnJoints = 1e-3;
+/// Share of a step's reach that the way back to the joints may take: what is left is for where the hand leads.
+constexpr double kReachToJoints = 0.5;
+
 /// Changes of the active rows allowed for feltPose(): contact problems take some ten, and the hand waits.
 constexpr unsigned kFeltChanges = 24;
 /// Work of a program, in units of ContactFinder::work(): rows filled in that time, and for each change of the
 /// active rows a fixed part and rows scanned.
 constexpr std::uint64_t kRowsFilledOfWork = 2, kWorkOfChange = 6, kRowsScannedOfWork = 64;
+
+double product(const StepVector& a, const StepVector& b) noexcept {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    sum += a[k] * b[k];
+  return sum;
+}
 
 std::uint64_t workOfChanges(std::uint64_t changes, std::size_t rows) noexcept {
   return changes * (kWorkOfChange + rows / kRowsScannedOfWork);
@@ -75,6 +87,7 @@ Proxy::Proxy() : around_(ContactFinder::kMaxContacts), next_(ContactFinder::kMax
   for (ContactRows* rows : {&rows_, &feltRows_}) {
     rows->contact.resize(ContactFinder::kMaxContacts);
     rows->arm.resize(ContactFinder::kMaxContacts);
+    rows->direction.resize(ContactFinder::kMaxContacts);
   }
 }
 
@@ -148,7 +161,8 @@ void Proxy::begin(const TrackedScene& tracked, const RigidTransform& target, con
     holdingCount_ = 0;
     here_ = {};
     isTrying_ = areFeltRowsFilled_ = false;
-    lastTarget_ = target;
+    // What it was on is unknown; the way to the joints is not motion of the hand.
+    lastTarget_ = tracked.scene->joints.isEmpty() ? std::optional(target) : std::nullopt;
     felt_ = pose_;
     return;
   }
@@ -160,13 +174,14 @@ void Proxy::begin(const TrackedScene& tracked, const RigidTransform& target, con
   }
   metric_ = scene.metric;
   metric_.gyration *= turnScale_;
+  if (!scene.joints.isEmpty()) target_ = scene.joints.nearestPose(target, scene.centreInPart, metric_);
   if (isResting(tick(tracked))) return;
   rest_.isAtRest = false;
-  const double targetTravel = lastTarget_ ? travelBetween(scene, *lastTarget_, target) : 0.0;
-  lastTarget_ = target;
+  const double targetTravel = lastTarget_ ? travelBetween(scene, *lastTarget_, target_) : 0.0;
+  lastTarget_ = target_;
   // Where it was felt the pose may go at once.
   wayLeft_ = travelBetween(scene, pose_, felt_) + targetTravel +
-             std::max(kSnapShare * travelBetween(scene, felt_, target), settings.margin);
+             std::max(kSnapShare * travelBetween(scene, felt_, target_), settings.margin);
   // If the work ran out before, the lists may be ready now.
   if (!isHereKnown_ || margin_ != settings.margin || here_.completeTo == 0.0) {
     margin_ = settings.margin;
@@ -268,10 +283,17 @@ Proxy::Outcome Proxy::plan(const Tick& tick) noexcept {
 }
 
 void Proxy::setTrial(const Tick& tick, const Motion& motion, double travel) noexcept {
+  const ServoScene& scene = *tick.tracked.scene;
   trial_.isTarget = false;
   trial_.motion = motion;
   trial_.travel = travel;
-  trial_.pose = moved(*tick.tracked.scene, motion);
+  trial_.pose = moved(scene, motion);
+  if (!isOnJoints(tick)) return;
+  // The motion is on the joints to first order.
+  const auto corrected = scene.joints.correctedPose(trial_.pose, scene.centreInPart, tick.metric);
+  if (!corrected) return;
+  trial_.pose = *corrected;
+  trial_.travel = travelBetween(scene, pose_, trial_.pose);
 }
 
 void Proxy::setTrialToTarget(const Tick& tick, double travel) noexcept {
@@ -314,7 +336,50 @@ Proxy::Outcome Proxy::settle(const Tick& tick, Verdict verdict) noexcept {
   return Outcome::Moved;
 }
 
+bool Proxy::isOnJoints(const Tick& tick) const noexcept {
+  const ServoScene& scene = *tick.tracked.scene;
+  if (scene.joints.isEmpty()) return false;
+  const LockedMotions locked = scene.joints.lockedMotions(pose_, scene.centreInPart, tick.metric);
+  return travelOf(scene, motionOf(tick, {.y = locked.correction()})) <= kOnJoints * margin_;
+}
+
+bool Proxy::isTargetInReach(const Tick& tick, const Hold& hold, double reach) const noexcept {
+  if (tick.tracked.scene->joints.isEmpty()) return true;
+  return hold.isWhole && wayTo(tick) <= reach;
+}
+
+Proxy::Hold Proxy::holdFor(const Tick& tick, const StepGoal& goal, double reach) const noexcept {
+  const ServoScene& scene = *tick.tracked.scene;
+  Hold hold;
+  if (scene.joints.isEmpty()) return hold;
+  hold.locked = scene.joints.lockedMotions(pose_, scene.centreInPart, tick.metric);
+  hold.back = hold.locked.correction();
+  const double travel = displacementOf(hold.back, goal);
+  if (travel <= kOnJoints * margin_) return hold;
+  double share = std::min(1.0, kReachToJoints * goal.reach / travel);
+  // No pair comes nearer by it than the nearest one is: contact holds against a joint.
+  const double kept = std::min(here_.distance, marginHere());
+  const glm::dvec3 centre = pose_.applyToPoint(scene.centreInPart);
+  const glm::dquat principalFromWorld = scene.metric.principalFromWorld(pose_);
+  for (std::size_t i = 0; i < here_.count; ++i) {
+    const ContactPair& pair = around_[i].pair;
+    if (pair.distance > reach) continue;
+    const StepVector a = stepRow(pair.direction, pair.point - centre, principalFromWorld, tick.metric);
+    const double nearer = -product(a, hold.back), room = std::max(0.0, pair.distance - kept);
+    if (share * nearer > room) share = room / nearer;
+  }
+  hold.isWhole = share == 1.0;
+  for (double& value : hold.back)
+    value *= share;
+  return hold;
+}
+
 bool Proxy::fillRows(const Tick& tick, double reach, ContactRows& out) noexcept {
+  return out.hold.locked.isEmpty() ? fillRowsOf<false>(tick, reach, out) : fillRowsOf<true>(tick, reach, out);
+}
+
+template <bool kIsHeld>
+bool Proxy::fillRowsOf(const Tick& tick, double reach, ContactRows& out) noexcept {
   const ServoScene& scene = *tick.tracked.scene;
   const glm::dvec3 centre = pose_.applyToPoint(scene.centreInPart);
   const glm::dquat principalFromWorld = scene.metric.principalFromWorld(pose_);
@@ -325,21 +390,46 @@ bool Proxy::fillRows(const Tick& tick, double reach, ContactRows& out) noexcept 
     const glm::dvec3 arm = pair.point - centre;
     out.contact[out.rows.size()] = static_cast<std::uint32_t>(i);
     out.arm[out.rows.size()] = arm;
-    if (!out.rows.add(stepRow(pair.direction, arm, principalFromWorld, tick.metric), pair.distance))
-      return false;
+    StepVector a = stepRow(pair.direction, arm, principalFromWorld, tick.metric);
+    double distance = pair.distance;
+    if constexpr (kIsHeld) {
+      // The program finds the rest of the step, beside the way back.
+      distance += product(a, out.hold.back);
+      a = out.hold.locked.freePart(a);
+      out.direction[out.rows.size()] = pair.direction;
+    }
+    if (!out.rows.add(a, distance)) return false;
   }
   return true;
 }
 
 StepSolution Proxy::solve(const Tick& tick, const ContactRows& rows, const StepGoal& goal,
                           unsigned mostChanges) noexcept {
+  if (rows.hold.locked.isEmpty()) return solveFree(tick, rows, goal, mostChanges);
+  StepGoal rest = goal;
+  for (std::size_t k = 0; k < rest.wanted.size(); ++k)
+    rest.wanted[k] -= rows.hold.back[k];
+  rest.wanted = rows.hold.locked.freePart(rest.wanted);
+  rest.reach = std::max(0.0, goal.reach - displacementOf(rows.hold.back, goal));
+  StepSolution solution = solveFree(tick, rows, rest, mostChanges);
+  for (std::size_t k = 0; k < solution.y.size(); ++k)
+    solution.y[k] += rows.hold.back[k];
+  solution.displacement = displacementOf(solution.y, goal);
+  return solution;
+}
+
+StepSolution Proxy::solveFree(const Tick& tick, const ContactRows& rows, const StepGoal& goal,
+                              unsigned mostChanges) noexcept {
   if (!(tick.settings.friction > 0.0)) return program_.solve(rows.rows, goal, mostChanges);
   const glm::dquat principalFromWorld = tick.tracked.scene->metric.principalFromWorld(pose_);
   return frictionProgram_
       .solve(rows.rows, {.step = goal,
                          .coefficient = tick.settings.friction,
                          .arms = std::span<const glm::dvec3>(rows.arm).first(rows.rows.size()),
-                         .principalFromStep = glm::mat3_cast(principalFromWorld)})
+                         .principalFromStep = glm::mat3_cast(principalFromWorld),
+                         .locked = rows.hold.locked.directions(),
+                         .directions = std::span<const glm::dvec3>(rows.direction)
+                                           .first(rows.hold.locked.isEmpty() ? 0 : rows.rows.size())})
       .step;
 }
 
@@ -374,27 +464,33 @@ RigidTransform Proxy::leadPose(const Tick& tick) noexcept {
   const ServoScene& scene = *tick.tracked.scene;
   const Motion wanted = motionBetween(scene, pose_, tick.target);
   if (!(travelOf(scene, wanted) > 0.0) || !(here_.completeTo > 0.0) || !(wayLeft_ > 0.0)) return pose_;
-  if (!areFeltRowsFilled_ && !fillRows(tick, here_.completeTo, feltRows_)) return pose_;
-  areFeltRowsFilled_ = true;
   StepGoal goal = goalOf(tick, wanted);
   // One program: a search for the scale at which the step fits a reach would solve several.
   goal.reach = std::numeric_limits<double>::infinity();
   goal.radius = tick.metric.radius;
+  feltRows_.hold = holdFor(tick, goal, here_.completeTo);
+  if (!areFeltRowsFilled_ && !fillRows(tick, here_.completeTo, feltRows_)) return pose_;
+  // With joints, rows depend on how much of the way back is taken.
+  areFeltRowsFilled_ = feltRows_.hold.locked.isEmpty();
   const StepSolution solution = solve(tick, feltRows_, goal, kFeltChanges);
   keepContacts(feltRows_, solution);
   const Motion motion = motionOf(tick, solution);
   const double travel = travelOf(scene, motion);
-  if (solution.activeCount == 0 && travel <= wayLeft_) return tick.target;
+  if (solution.activeCount == 0 && travel <= wayLeft_ && isTargetInReach(tick, feltRows_.hold, wayLeft_))
+    return tick.target;
   // What is left of the way limits the motion, not what is wanted: a part that is pressed hard against a wall keeps
   // up along it.
   const double share = travel > wayLeft_ ? wayLeft_ / travel : 1.0;
-  return moved(scene, {share * motion.shift, share * motion.spin});
+  const RigidTransform lead = moved(scene, {share * motion.shift, share * motion.spin});
+  if (!isOnJoints(tick)) return lead;
+  return scene.joints.correctedPose(lead, scene.centreInPart, tick.metric).value_or(lead);
 }
 
 Proxy::Outcome Proxy::planConstrained(const Tick& tick, const Motion& wanted) noexcept {
   const double held = std::min(here_.distance, marginHere());
   if (!(wayLeft_ > kAtRest * held)) return Outcome::Stuck;
   const StepGoal goal = goalOf(tick, wanted);
+  rows_.hold = holdFor(tick, goal, marginHere() + goal.reach);
   if (!fillRows(tick, marginHere() + goal.reach, rows_)) return Outcome::Stuck;
   account_.constraintCount = static_cast<std::uint32_t>(rows_.rows.size());
   finder_.spend(rows_.rows.size() / kRowsFilledOfWork);
@@ -418,7 +514,8 @@ Proxy::Outcome Proxy::planProgram(const Tick& tick, const StepGoal& goal, bool i
   keepContacts(rows_, solution);
   trial_.goal = goal;
   trial_.isPinched = isPinched;
-  if (solution.activeCount == 0 && solution.scale == 1.0 && solution.share == 1.0) {
+  if (solution.activeCount == 0 && solution.scale == 1.0 && solution.share == 1.0 &&
+      isTargetInReach(tick, rows_.hold, goal.reach)) {
     setTrialToTarget(tick, wayTo(tick));
     return Outcome::Moved;
   }

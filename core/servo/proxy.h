@@ -8,6 +8,7 @@
 
 #include "core/haptics/friction_program.h"
 #include "core/haptics/haptic_settings.h"
+#include "core/haptics/locked_motions.h"
 #include "core/haptics/step_judge.h"
 #include "core/haptics/step_program.h"
 #include "core/servo/contact_finder.h"
@@ -46,6 +47,10 @@ struct ProxyContact {
 /// in the next. The hand does not wait for it. It feels feltPose(), which is on the target's side of the pose:
 /// as far as the constraints known at the pose allow.
 ///
+/// Joints of the scene are equalities: the hand's pose is put on them first, and a step has nothing along the motions
+/// that they lock but what leads back to them. So the program stays as it is, and so does each proof. Where a joint would
+/// press the part into another one, the contact wins.
+///
 /// Source: Ortega, Redon & Coquillart 2007, on local minimum distances, and for the two rates; conservative
 /// advancement.
 class Proxy {
@@ -66,7 +71,8 @@ class Proxy {
   void noteDistance(double distance) noexcept;
 
   /// Starts a tick. The part stands still while it is unknown which bodies it overlaps (Clearance).
-  /// @param target     Pose to move towards, worldFromPart; finite, unit quaternion.
+  /// @param target     Pose to move towards, worldFromPart; finite, unit quaternion. With joints, the pose on them
+  ///                   nearest to it, in the coupling's energy, takes its place.
   /// @param turnScale  Factor on the radii of gyration that makes steps nearest in the energy of the coupling
   ///                   that pulls (turnScale() in virtual_coupling.h); > 0.
   /// Real-time safe.
@@ -113,11 +119,19 @@ class Proxy {
     const ProxySettings& settings;
     const MassMetric& metric;  ///< With scaled gyration.
   };
+  /// How joints hold the part at a pose.
+  struct Hold {
+    LockedMotions locked;
+    StepVector back{};    ///< The way back to the joints that a step takes.
+    bool isWhole = true;  ///< It is all of that way.
+  };
   /// Rows of a program, with the contacts that they come from.
   struct ContactRows {
-    StepRows rows;
+    StepRows rows;  ///< With joints: of the rest of the step, beside the way back.
+    Hold hold;
     std::vector<std::uint32_t> contact;  ///< For each row, the index of its contact in `around_`.
     std::vector<glm::dvec3> arm;         ///< For each row, from the centre of mass to its point [m].
+    std::vector<glm::dvec3> direction;   ///< With joints: for each row, its direction.
   };
 
   /// Result of a step.
@@ -178,9 +192,22 @@ class Proxy {
   void setTrial(const Tick& tick, const Motion& motion, double travel) noexcept;
   void setTrialToTarget(const Tick& tick, double travel) noexcept;
   StepGoal goalOf(const Tick& tick, const Motion& wanted) const noexcept;
+  /// True if there are joints and the part is on them.
+  bool isOnJoints(const Tick& tick) const noexcept;
+  /// Returns what the joints lock, and how much of the way back to them a step to this goal takes.
+  /// @param reach  Contacts within it count [m].
+  Hold holdFor(const Tick& tick, const StepGoal& goal, double reach) const noexcept;
+  /// True if a step that no contact holds may end at the target.
+  bool isTargetInReach(const Tick& tick, const Hold& hold, double reach) const noexcept;
+  /// Fills the rows, for the hold that is set.
   bool fillRows(const Tick& tick, double reach, ContactRows& out) noexcept;
+  template <bool kIsHeld>
+  bool fillRowsOf(const Tick& tick, double reach, ContactRows& out) noexcept;
   StepSolution solve(const Tick& tick, const ContactRows& rows, const StepGoal& goal,
                      unsigned mostChanges) noexcept;
+  /// The same for a goal that has nothing along what joints lock.
+  StepSolution solveFree(const Tick& tick, const ContactRows& rows, const StepGoal& goal,
+                         unsigned mostChanges) noexcept;
   Motion motionOf(const Tick& tick, const StepSolution& solution) const noexcept;
   RigidTransform leadPose(const Tick& tick) noexcept;
   void keepContacts(const ContactRows& rows, const StepSolution& solution) noexcept;
@@ -211,7 +238,7 @@ class Proxy {
   double wayLeft_ = 0.0;       ///< Travel that is left in this tick [m].
   double firstTravel_ = 0.0;   ///< Travel of the tick's first step [m].
   double stride_ = 0.0;        ///< Length up to which steps have been taken lately [m].
-  RigidTransform target_;
+  RigidTransform target_;      ///< On the joints.
   ProxySettings settings_;
   MassMetric metric_;
   std::optional<RigidTransform> lastTarget_;

@@ -11,6 +11,11 @@ void ServoScene::setMoving(const Body& body) {
   metric = massMetric(body.geometry->mass, body.geometry->mesh);
 }
 
+void ServoScene::setJoints(const JointSet& set) noexcept {
+  areJointsContradictory = set.isContradictory();
+  joints = areJointsContradictory ? JointSet() : set;
+}
+
 void ServoScene::prepareSurfaces() {
   if (!moving.geometry) return;
   for (Body& body : bodies) {
@@ -32,6 +37,7 @@ std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene) {
   auto result = std::make_unique<ServoScene>();
   result->setMoving({moving->id, moving->geometry, moving->worldFromPart});
   result->mass = massOf(*moving);
+  result->setJoints(jointsOf(scene, moving->id));
   if (!moving->isVisible) return result;
   result->bodies.reserve(scene.parts().size());
   for (const Scene::PartPtr& part : scene.parts()) {

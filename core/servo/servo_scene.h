@@ -6,6 +6,7 @@
 #include "core/haptics/mass_metric.h"
 #include "core/math/rigid_transform.h"
 #include "core/proximity/surface/unsided_surface.h"
+#include "core/scene/joint_set.h"
 #include "core/scene/scene.h"
 
 namespace nearfit {
@@ -27,9 +28,13 @@ struct ServoScene {
   glm::dvec3 centreInPart{0.0};  ///< Centre of mass of the moving part, in its frame [m].
   double mass = 1.0;             ///< Mass of the moving part [kg]; > 0.
   MassMetric metric;             ///< Metric of the moving part.
+  JointSet joints;               ///< Joints that keep the moving part; empty if they contradict each other.
+  bool areJointsContradictory = false;
 
   /// Sets the moving part and everything that belongs to it except its mass.
   void setMoving(const Body& body);
+  /// Sets the joints that keep the moving part.
+  void setJoints(const JointSet& set) noexcept;
   /// Sets the surfaces of bodies that have no inside, and of what meets them. To be called last.
   void prepareSurfaces();
   /// True if some contacts are between unsided surfaces.

@@ -9,6 +9,7 @@
 #include "core/haptics/wrench.h"
 #include "core/math/rigid_transform.h"
 #include "core/proximity/lmd.h"
+#include "core/scene/joint_set.h"
 #include "core/scene/scene.h"
 
 namespace nearfit {
@@ -87,6 +88,10 @@ struct ServoSnapshot {
   bool isWaiting = false;
   bool isStarved = false;  ///< Known contacts did not reach where the proxy would go.
   bool isBehind = false;   ///< The tick's work ended before the proxy's way.
+  /// The part's joints contradict each other, so that none holds it.
+  bool areJointsContradictory = false;
+  std::uint32_t jointCount = 0;  ///< Joints that hold the part.
+  JointResidual offJoints;       ///< How far the part is off them, as a contact may hold it.
   std::array<SnapshotContact, kMaxContacts> contacts{};
   std::array<PartId, kMaxOverlapping> overlapping{};
   std::array<SnapshotLmd, kMaxLmds> lmds{};

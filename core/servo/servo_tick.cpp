@@ -59,6 +59,9 @@ void clearOutputs(ServoSnapshot& snapshot) noexcept {
   snapshot.constraintCount = snapshot.contactCount = snapshot.storedContacts = snapshot.overlappingCount = 0;
   snapshot.isTruncated = snapshot.isClamped = snapshot.isWaiting = snapshot.isStarved = snapshot.isBehind =
       false;
+  snapshot.areJointsContradictory = false;
+  snapshot.jointCount = 0;
+  snapshot.offJoints = {};
   snapshot.coupling = {};
 }
 

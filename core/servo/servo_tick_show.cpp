@@ -93,6 +93,10 @@ void ServoTick::describeProxy(const Subject& subject) noexcept {
   snapshot.isBehind = account.isBehind;
   snapshot.lateBodies += proxy_.lateBodies();
   snapshot.work += proxy_.work();
+  const JointSet& joints = subject.scene.joints;
+  snapshot.areJointsContradictory = subject.scene.areJointsContradictory;
+  snapshot.jointCount = static_cast<std::uint32_t>(joints.size());
+  if (!joints.isEmpty()) snapshot.offJoints = joints.residual(part_.pose);
   // Contacts hold indices into the scene that they were found in.
   if (subject.scene.moving.geometry == nullptr || fault_ != ServoFault::None) return;
   snapshot.contactCount = static_cast<std::uint32_t>(proxy_.contacts().size());
