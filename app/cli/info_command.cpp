@@ -10,11 +10,13 @@
 
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
+#include "app/cli/joints_text.h"
 #include "app/cli/output.h"
 #include "core/base/error.h"
 #include "core/report/lmd_set.h"
 #include "core/scene/part_geometry.h"
 #include "core/scene/scene.h"
+#include "core/scene/scene_file.h"
 #include "core/text/utf8.h"
 
 namespace nearfit::cli {
@@ -160,6 +162,41 @@ Json infoJson(const std::string& name, const PartGeometry& geometry, std::option
   return json;
 }
 
+bool isSceneFile(const std::string& name) {
+  return std::filesystem::path(name).extension() == ".nearfit";
+}
+
+std::string movingName(const Scene& scene) {
+  return scene.movingPart() ? scene.get(*scene.movingPart()).name : std::string("none");
+}
+
+std::string sceneText(const std::string& name, const Scene& scene) {
+  return fmt::format("{}\n  parts       {}\n  groups      {}\n  moving      {}\n  joints      {}\n", oneLine(name),
+                     scene.parts().size(), scene.groups().size(), oneLine(movingName(scene)),
+                     scene.joints().size()) +
+         jointsText(scene);
+}
+
+Json sceneJson(const std::string& name, const Scene& scene) {
+  Json json;
+  json["file"] = isUtf8(name) ? name : printableText(name);
+  json["parts"] = scene.parts().size();
+  json["groups"] = scene.groups().size();
+  json["moving"] = scene.movingPart() ? Json(movingName(scene)) : Json();
+  json["joints"] = jointsJson(scene);
+  return json;
+}
+
+std::string reportOn(const std::string& name, double metresPerUnit, const InfoOptions& options) {
+  if (isSceneFile(name)) {
+    const Scene scene = readSceneFile(name);
+    return options.isJson ? sceneJson(name, scene).dump() + "\n" : sceneText(name, scene);
+  }
+  const PartGeometryPtr geometry = loadPartGeometry(name, metresPerUnit);
+  return options.isJson ? infoJson(name, *geometry, options.density).dump() + "\n"
+                        : infoText(name, *geometry, options.density);
+}
+
 void runInfo(const InfoOptions& options) {
   const double metresPerUnit = parseUnit(options.unit);
   if (options.density) checkDensity(*options.density);
@@ -167,9 +204,7 @@ void runInfo(const InfoOptions& options) {
   bool hasFailed = false;
   for (const std::string& name : options.meshes) {
     try {
-      const PartGeometryPtr geometry = loadPartGeometry(name, metresPerUnit);
-      print(options.isJson ? infoJson(name, *geometry, options.density).dump() + "\n"
-                           : infoText(name, *geometry, options.density));
+      print(reportOn(name, metresPerUnit, options));
     } catch (const FileError& e) {
       // The others are still worth reporting.
       flushOutput();
@@ -185,14 +220,15 @@ void runInfo(const InfoOptions& options) {
 void addInfoCommand(CLI::App& program) {
   const auto options = std::make_shared<InfoOptions>();
   CLI::App* command = program.add_subcommand(
-      "info", "Prints the size, mass and topology of meshes, and where they are open or inconsistent.");
-  command->add_option("mesh", options->meshes, "Mesh files: STL, OBJ, PLY or OFF")
+      "info", "Prints the size, mass and topology of meshes, and where they are open or inconsistent; of scenes, "
+      "their parts and joints.");
+  command->add_option("mesh", options->meshes, "Mesh files: STL, OBJ, PLY or OFF; or scene files (*.nearfit)")
       ->required()
       ->type_name("FILE");
   command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
   command->add_option("--density", options->density, "Also print mass and inertia, for this density [kg/m^3]")
       ->type_name("D");
-  command->add_flag("--json", options->isJson, "Print one JSON object per mesh, each on its own line");
+  command->add_flag("--json", options->isJson, "Print one JSON object per file, each on its own line");
   command->footer(
       "closed       Every edge has two faces; open edges have one, non-manifold ones three or more.\n"
       "oriented     The two faces of each edge agree on which side is outside (else: inconsistent).\n"
@@ -207,7 +243,9 @@ void addInfoCommand(CLI::App& program) {
       "hierarchy    What distance queries search: built now, or read from the cache (see nearfit-cli "
       "cache).\n"
       "bytes        Memory that it takes.\n"
-      "Lengths are in metres. A mesh that cannot be read gets a line on stderr, the others are still "
+      "joint N      Of a scene: what keeps a part, with the number that nearfit-cli scene release takes.\n"
+      "kept         Of a scene: how far a part is off its joints.\n"
+      "Lengths are in metres. A file that cannot be read gets a line on stderr, the others are still "
       "reported,\n"
       "and the exit code is 1.\n"
       "Example: nearfit-cli info --unit mm peg.stl hole.stl");

@@ -197,6 +197,8 @@ void runPlace(const PlaceOptions& options) {
   job.isArming = options.isArming;
   job.isCalibrating = options.isCalibrating;
   job.scene = makeServoScene(scene);
+  if (job.scene->areJointsContradictory)
+    printError(oneLine(options.part + ": its joints contradict each other, so that none holds it"));
   job.parameters.haptics = withOptions(scene.haptics(), options.haptics);
   ServoParameters parameters = job.parameters;
   std::optional<MotionWriter> writer;

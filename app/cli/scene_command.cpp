@@ -15,6 +15,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/haptic_options.h"
 #include "app/cli/output.h"
+#include "app/cli/scene_joints_command.h"
 #include "core/base/error.h"
 #include "core/scene/haptic_limits.h"
 #include "core/scene/scene_file.h"
@@ -177,6 +178,8 @@ void addSceneCommand(CLI::App& program) {
   CLI::App* scene = program.add_subcommand("scene", "Works with scene files.");
   scene->require_subcommand(1);
   addSceneNew(*scene);
+  addSceneKeep(*scene);
+  addSceneRelease(*scene);
 }
 
 }  // namespace nearfit::cli

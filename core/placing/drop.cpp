@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
+#include "core/placing/joint_set.h"
 #include "core/placing/straight_contact.h"
 #include "core/proximity/overlap/interference.h"
 
@@ -64,6 +65,20 @@ std::vector<Pair> pairsOf(const Scene& scene, std::span<const PartId> moved) {
     }
   }
   return pairs;
+}
+
+/// A direction of which joints leave less than this share is held by them.
+constexpr double kLeastFreeShare = 1e-3;
+
+/// The part of a unit direction that the joints of a part moved by itself allow; unit.
+glm::dvec3 allowedDirection(const Scene& scene, std::span<const PartId> moved, const glm::dvec3& direction) {
+  if (moved.size() != 1) return direction;
+  const JointSet joints = jointsOf(scene, moved.front());
+  if (joints.isEmpty()) return direction;
+  const glm::dvec3 allowed = joints.freeShift(direction);
+  if (glm::length(allowed) > kLeastFreeShare) return glm::normalize(allowed);
+  throw UsageError(scene.get(moved.front()).name, "its joints hold it against this direction",
+                   "choose another direction, or turn a joint off");
 }
 
 double gapOf(const DropOptions& options, const std::vector<Pair>& pairs) {
@@ -140,7 +155,7 @@ DropResult dropParts(const Scene& scene, std::span<const PartId> moved, const Dr
   if (!(options.gap >= 0.0) || !std::isfinite(options.gap))
     throw UsageError("gap", "it is negative or not finite", "give 0 or more metres");
   const std::vector<Pair> pairs = pairsOf(scene, moved);
-  const glm::dvec3 direction = options.direction / length;
+  const glm::dvec3 direction = allowedDirection(scene, moved, options.direction / length);
   Steps steps(progress, 2 * pairs.size());
   DropResult result;
   for (const Pair& pair : pairs) {

@@ -47,8 +47,11 @@ double dropGap(double size) noexcept;
 /// rounding is coarser than the gap, more is left. Parts already within the gap do not move, so dropping
 /// again changes nothing.
 ///
+/// A part that is moved by itself goes along what its joints allow of the direction.
+///
 /// @param moved  Parts of the scene, each once; those without geometry are ignored.
-/// Throws UsageError if a part is unknown or locked, or an option is invalid; Cancelled. Builds missing
+/// Throws UsageError if a part is unknown or locked, an option is invalid, or joints hold the part against the
+/// direction; Cancelled. Builds missing
 /// hierarchies. Blocking; not real-time safe.
 DropResult dropParts(const Scene& scene, std::span<const PartId> moved, const DropOptions& options,
                      const ProgressCallback& progress = {});

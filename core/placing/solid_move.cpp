@@ -74,6 +74,7 @@ std::shared_ptr<const ServoScene> makePlacingScene(const Scene& scene, std::span
     if (part.isVisible && part.geometry != nullptr) felt.push_back(&part);
   }
   auto result = std::make_shared<ServoScene>();
+  if (moved.size() == 1) result->setJoints(jointsOf(scene, first.id));
   if (felt.empty()) {
     result->setMoving({first.id, nullptr, first.worldFromPart});
     return result;
@@ -114,16 +115,23 @@ SolidMove::SolidMove(const Scene& scene, std::span<const PartId> moved, const Pr
   proxy_->place(start_);
 }
 
+RigidTransform SolidMove::onJoints(const RigidTransform& target, double turnScale) const noexcept {
+  if (scene_->joints.isEmpty()) return target;
+  MassMetric metric = scene_->metric;
+  metric.gyration *= turnScale;
+  return scene_->joints.nearestPose(target, scene_->centreInPart, metric);
+}
+
 SolidMove::Progress SolidMove::advance(const RigidTransform& motion, int ticks) {
-  const RigidTransform target = motion * start_;
   const double turnScale = turns(motion) ? 1.0 : kTurnBarred;
+  const RigidTransform target = onJoints(motion * start_, turnScale);
   if (scene_->moving.geometry == nullptr) pose_ = target;
   if (marginAtEnd_ == 0.0) findStartDistance();
   if (!isSame(motion, wanted_)) keepMargin(margin_);
   wanted_ = motion;
   settle(target, turnScale, ticks);
   updatePoses();
-  if (isSame(pose_, target)) {
+  if (isSame(pose_, target) && scene_->joints.isEmpty()) {
     // Exactly at the target, for several parts too.
     for (std::size_t i = 0; i < poses_.size(); ++i)
       poses_[i] = motion * startPoses_[i];

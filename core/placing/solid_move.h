@@ -18,6 +18,9 @@ namespace nearfit {
 /// they keep the margin. Parts that they overlap at the start do not block them until they have come apart.
 /// Parts that are held do not move at all: a motion below a fiftieth of the margin is discarded.
 ///
+/// A part that is moved by itself stays on its joints, or goes to them: it moves to the pose on them that is nearest to
+/// the target. Parts that are moved together leave their joints alone.
+///
 /// A pure translation never rotates the parts, whatever they touch; a motion with rotation may also displace
 /// them. There is no friction, so that placed parts slide.
 ///
@@ -36,7 +39,7 @@ class SolidMove {
 
   struct Progress {
     bool isSettled = false;   ///< The parts go no farther toward the last target.
-    bool hasArrived = false;  ///< They are exactly at the target.
+    bool hasArrived = false;  ///< They are exactly at the target, or where joints put it.
   };
   /// Continues for up to `ticks` ticks, or until the parts have settled.
   /// @param motion  Target: a world point p from the start should go to motion(p). Finite, unit quaternion.
@@ -52,6 +55,8 @@ class SolidMove {
   std::vector<PartId> overlapping() const;
 
  private:
+  /// The target on the joints of the part that is moved.
+  RigidTransform onJoints(const RigidTransform& target, double turnScale) const noexcept;
   bool tick(const RigidTransform& target, double turnScale);
   void settle(const RigidTransform& target, double turnScale, int ticks);
   void findStartDistance();
