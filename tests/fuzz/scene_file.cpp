@@ -39,6 +39,13 @@ void checkSame(const Scene& a, const Scene& b) {
   require(a.parts().size() == b.parts().size(), "as many parts are read as were written");
   require(a.movingPart().has_value() == b.movingPart().has_value(), "the moving part is read as written");
   require(a.haptics() == b.haptics(), "settings are read as written");
+  require(a.joints().size() == b.joints().size(), "as many joints are read as were written");
+  for (std::size_t i = 0; i < a.joints().size(); ++i) {
+    const Joint &x = a.joints()[i], &y = b.joints()[i];
+    require(x.kind == y.kind && x.isOn == y.isOn && x.onPart == y.onPart && x.onBase == y.onBase &&
+                a.get(x.part).name == b.get(y.part).name && x.base.has_value() == y.base.has_value(),
+            "joints are read as written");
+  }
   for (std::size_t i = 0; i < a.parts().size(); ++i) {
     const Part &x = *a.parts()[i], &y = *b.parts()[i];
     require(x.name == y.name && x.geometry->sha256 == y.geometry->sha256 && x.colour == y.colour &&

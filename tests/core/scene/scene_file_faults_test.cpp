@@ -162,6 +162,20 @@ TEST_F(SceneFileFaults, EveryFieldIsCheckedAndNamed) {
       {"/parts/1/pivot", true, "parts[1].pivot: it is of type boolean"},
       {"/parts/1/wasVisible", 1, "parts[1].wasVisible: it is of type number, but true or false is expected"},
       {"/moving", "Peg 2", "moving: this part is locked"},
+      {"/joints", nullptr, "joints: it is of type null, but an array is expected"},
+      {"/joints/1", 7, "joints[1]: it is of type number, but an object is expected"},
+      {"/joints/0/kind", "weld",
+       "joints[0].kind: this value is not known; give \"axis\", \"plane\" or \"point\""},
+      {"/joints/0/part", "Pin", "joints[0].part: there is no part \"Pin\"; name a part"},
+      {"/joints/0/part", nullptr, "joints[0].part: it is of type null"},
+      {"/joints/0/base", "Pin", "joints[0].base: there is no part \"Pin\"; name a part, or give null"},
+      {"/joints/0/base", "Peg", "joints[0].base: a part cannot be kept on itself"},
+      {"/joints/0/onPart", {0, 0, 0}, "joints[0].onPart: it is of type array, but an object is expected"},
+      {"/joints/0/onPart/point", {0, 0}, "joints[0].onPart.point: it has 2 elements, but 3 are expected"},
+      {"/joints/2/onBase/point", {0, 2e9, 0}, "joints[2].onBase.point: a coordinate of 2000000000 m is out of"},
+      {"/joints/0/onPart/direction", {0, 0, 0}, "joints[0].onPart.direction: its length is 0, not 1; give a unit"},
+      {"/joints/1/onBase/direction", {1e200, 1e200, 0}, "joints[1].onBase.direction: its length is inf"},
+      {"/joints/0/on", 1, "joints[0].on: it is of type number, but true or false is expected"},
       {"/parts/1/locked", "no", "parts[1].locked: it is of type string"},
   };
   for (const auto& [pointer, value, message] : faults) {
@@ -189,6 +203,13 @@ TEST_F(SceneFileFaults, EveryKeyIsNeeded) {
   for (const auto& [key, value] : json_["groups"][2].items()) {
     EXPECT_THAT(errorWithout("/groups/2", key), HasSubstr("groups[2]." + key + ": it is missing"));
   }
+  for (const auto& [key, value] : json_["joints"][0].items()) {
+    EXPECT_THAT(errorWithout("/joints/0", key), HasSubstr("joints[0]." + key + ": it is missing"));
+  }
+  for (const char* key : {"point", "direction"}) {
+    EXPECT_THAT(errorWithout("/joints/0/onBase", key),
+                HasSubstr(fmt::format("joints[0].onBase.{}: it is missing", key)));
+  }
 }
 
 TEST_F(SceneFileFaults, Version1IsCheckedAndNamedAsItSaysThings) {
@@ -208,6 +229,23 @@ TEST_F(SceneFileFaults, Version2WithTheSpringsOfVersion1SaysWhatIsMissing) {
   json_ = version1();
   json_["nearfit"] = 2;
   EXPECT_THAT(errorOf(json_.dump()), HasSubstr("haptics: it is missing"));
+}
+
+TEST_F(SceneFileFaults, WhatVersion5SaysIsIgnoredInVersion4) {
+  json_ = version4();
+  EXPECT_EQ(errorWith("/joints", "none"), "");
+}
+
+TEST_F(SceneFileFaults, TooManyJointsAreRefusedBeforeAnyMeshIsLoaded) {
+  const Json joint = json_["joints"][2];
+  std::filesystem::remove(folder_.path() / "meshes/peg.obj");
+  json_["joints"] = Json::array();
+  for (std::size_t i = 0; i <= kMaxJointsPerPart; ++i)
+    json_["joints"].push_back(joint);
+  EXPECT_THAT(errorOf(json_.dump()), HasSubstr("joints[3].part: the part has more than 3 joints"));
+  for (std::size_t i = 0; i <= kMaxJoints; ++i)
+    json_["joints"].push_back(joint);
+  EXPECT_THAT(errorOf(json_.dump()), HasSubstr("joints: there are more than 1000 joints"));
 }
 
 TEST_F(SceneFileFaults, WhatVersion4SaysIsIgnoredInVersion3) {

@@ -13,7 +13,7 @@
 
 namespace nearfit::test {
 
-/// A scene of three parts, the last two of one mesh, in groups of which one is locked, written to `file_`;
+/// A scene of three parts, the last two of one mesh, in groups of which one is locked, each with a joint, written to `file_`;
 /// and ways to damage what was written.
 class SceneFileFixture : public ::testing::Test {
  protected:
@@ -24,30 +24,53 @@ class SceneFileFixture : public ::testing::Test {
     Part part;
     part.geometry = loadPartGeometry(hole, 0.001);
     part.name = "Hole \xC3\xA4";
-    part.isLocked = true;
     part.wasVisible = false;
-    scene_.add(part);
+    const PartId holeId = scene_.add(part);
     const GroupId spare = scene_.addGroup({{}, "Spare", {}, false});
     const GroupId frame = scene_.addGroup({{}, "Frame \xC3\xA4", {}, false});
     part.group = scene_.addGroup({{}, "Pegs", frame, false});
     part.geometry = loadPartGeometry(peg, 0.0254);
     part.name = "Peg";
-    part.isLocked = false;
     part.colour = {0.1F, 0.2F, 0.3F};
     part.density = 7850.1;
     part.worldFromPart = {{0.5, -0.5, 0.5, 0.5}, {0.1, -1e-17, 123456.789012345}};
     part.opacity = 0.1 + 0.2;
     part.pivot = {0.1 + 0.2, -1e-17, 1e9};
     part.wasVisible = true;
-    scene_.setMovingPart(scene_.add(part));
+    const PartId pegId = scene_.add(part);
+    scene_.setMovingPart(pegId);
     part.isVisible = false;
     part.wasVisible.reset();
     part.group = spare;
-    scene_.add(part);
+    const PartId sparePegId = scene_.add(part);
+    addJoints(holeId, pegId, sparePegId);
+    Part lockedHole = scene_.get(holeId);
+    lockedHole.isLocked = true;
+    scene_.replace(lockedHole);
     scene_.replaceGroup({spare, "Spare", {}, true});
     scene_.setHaptics(unusualHaptics());
     writeSceneFile(scene_, file_);
     json_ = nlohmann::json::parse(readBytes(file_));
+  }
+
+  /// One of each kind.
+  void addJoints(PartId hole, PartId peg, PartId sparePeg) {
+    Joint joint;
+    joint.kind = JointKind::OnAxis;
+    joint.part = peg;
+    joint.base = hole;
+    joint.onPart = {{0.1 + 0.2, -1e-17, 1e9}, {0.6, 0.0, 0.8}};
+    joint.onBase = {{1.0 / 3.0, 2.0, 3.0}, {0.0, -1.0, 0.0}};
+    scene_.addJoint(joint);
+    joint.kind = JointKind::InPlane;
+    joint.part = hole;
+    joint.base = peg;
+    scene_.addJoint(joint);
+    joint.kind = JointKind::ToPoint;
+    joint.part = sparePeg;
+    joint.base.reset();
+    joint.isOn = false;
+    scene_.addJoint(joint);
   }
 
   /// No value is the default.
@@ -62,9 +85,17 @@ class SceneFileFixture : public ::testing::Test {
     return haptics;
   }
 
+  /// The scene as version 4 of the format says it.
+  nlohmann::json version4() const {
+    nlohmann::json json = json_;
+    json["nearfit"] = 4;
+    json.erase("joints");
+    return json;
+  }
+
   /// The scene as version 3 of the format says it.
   nlohmann::json version3() const {
-    nlohmann::json json = json_;
+    nlohmann::json json = version4();
     json["nearfit"] = 3;
     for (nlohmann::json& part : json["parts"])
       part.erase("pivot");

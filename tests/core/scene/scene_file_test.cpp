@@ -32,6 +32,22 @@ void expectSameGroups(const Scene& a, const Scene& b) {
   EXPECT_EQ(listOf(a), listOf(b));
 }
 
+std::string nameOf(const Scene& scene, std::optional<PartId> id) {
+  return id ? scene.get(*id).name : "the world";
+}
+
+void expectSameJoints(const Scene& a, const Scene& b) {
+  ASSERT_EQ(a.joints().size(), b.joints().size());
+  for (std::size_t i = 0; i < a.joints().size(); ++i) {
+    const Joint &p = a.joints()[i], &q = b.joints()[i];
+    EXPECT_EQ(p.kind, q.kind) << i;
+    EXPECT_EQ(p.isOn, q.isOn) << i;
+    EXPECT_TRUE(p.onPart == q.onPart && p.onBase == q.onBase) << i;
+    EXPECT_EQ(nameOf(a, p.part), nameOf(b, q.part)) << i;
+    EXPECT_EQ(nameOf(a, p.base), nameOf(b, q.base)) << i;
+  }
+}
+
 void expectSameScene(const Scene& a, const Scene& b) {
   ASSERT_EQ(a.parts().size(), b.parts().size());
   for (std::size_t i = 0; i < a.parts().size(); ++i) {
@@ -54,12 +70,13 @@ void expectSameScene(const Scene& a, const Scene& b) {
   }
   EXPECT_TRUE(a.haptics() == b.haptics());
   expectSameGroups(a, b);
+  expectSameJoints(a, b);
 }
 
 TEST_F(SceneFile, TenThousandPartsOfOneMeshHaveOneGeometry) {
   Json json = json_;
   Json part = json["parts"][1];
-  json["parts"] = Json::array();
+  json["parts"] = json["joints"] = Json::array();
   json["moving"] = nullptr;
   for (int i = 0; i < 10'000; ++i) {
     part["name"] = "Peg " + std::to_string(i);
@@ -85,7 +102,7 @@ TEST_F(SceneFile, MeshesThatHaveChangedAreListedOnceEach) {
     std::filesystem::create_hard_link(meshes / "peg.obj", meshes / (std::to_string(i) + ".obj"));
   Json json = json_;
   Json part = json["parts"][1];
-  json["parts"] = Json::array();
+  json["parts"] = json["joints"] = Json::array();
   json["moving"] = nullptr;
   part["sha256"] = std::string(64, '0');
   for (int i = 0; i < kParts; ++i) {
@@ -110,7 +127,7 @@ TEST_F(SceneFile, SavingWhatWasReadGivesTheSameBytes) {
 }
 
 TEST_F(SceneFile, FileSaysVersionUnitsAndRelativePaths) {
-  EXPECT_EQ(json_["nearfit"], 4);
+  EXPECT_EQ(json_["nearfit"], 5);
   EXPECT_EQ(json_["units"]["length"], "m");
   EXPECT_EQ(json_["moving"], "Peg");
   EXPECT_EQ(json_["parts"][0]["mesh"], "meshes/hole.obj");
@@ -161,11 +178,36 @@ TEST_F(SceneFile, FileSaysPivotsInTheirPartsFrames) {
   EXPECT_EQ(json_["parts"][1]["pivot"], Json({0.30000000000000004, -1e-17, 1e9}));
 }
 
+TEST_F(SceneFile, FileSaysJointsByTheNamesOfTheirParts) {
+  const Json expected = Json::parse(R"([
+    {"kind": "axis", "part": "Peg", "base": "Hole \u00e4", "on": true,
+     "onPart": {"point": [0.30000000000000004, -1e-17, 1e9], "direction": [0.6, 0.0, 0.8]},
+     "onBase": {"point": [0.3333333333333333, 2.0, 3.0], "direction": [0.0, -1.0, 0.0]}},
+    {"kind": "plane", "part": "Hole \u00e4", "base": "Peg", "on": true,
+     "onPart": {"point": [0.30000000000000004, -1e-17, 1e9], "direction": [0.6, 0.0, 0.8]},
+     "onBase": {"point": [0.3333333333333333, 2.0, 3.0], "direction": [0.0, -1.0, 0.0]}},
+    {"kind": "point", "part": "Peg 2", "base": null, "on": false,
+     "onPart": {"point": [0.30000000000000004, -1e-17, 1e9]},
+     "onBase": {"point": [0.3333333333333333, 2.0, 3.0]}}
+  ])");
+  EXPECT_EQ(json_["joints"], expected);
+}
+
+TEST_F(SceneFile, Version4KeepsAllThatItSaysAndHasNoJoints) {
+  EXPECT_EQ(errorOf(version4().dump()), "");
+  const Scene scene = readSceneFile(file_);
+  EXPECT_TRUE(scene.joints().empty());
+  json_["joints"] = Json::array();
+  EXPECT_EQ(errorOf(json_.dump()), "");
+  expectSameScene(scene, readSceneFile(file_));
+}
+
 TEST_F(SceneFile, Version3KeepsAllThatItSaysAndTurnsAboutCentresOfMass) {
   EXPECT_EQ(errorOf(version3().dump()), "");
   const Scene scene = readSceneFile(file_);
   for (Json& part : json_["parts"])
     part["pivot"] = nullptr;
+  json_["joints"] = Json::array();
   EXPECT_EQ(errorOf(json_.dump()), "");
   expectSameScene(scene, readSceneFile(file_));
   for (const Scene::PartPtr& part : scene.parts())
@@ -244,7 +286,7 @@ TEST_F(SceneFile, Version1KeepsItsSpringsAndGetsTheRestOfANewScene) {
     EXPECT_EQ(part->density, 1000.0);
   EXPECT_EQ(scene.parts()[1]->worldFromPart.translation, scene_.parts()[1]->worldFromPart.translation);
   writeSceneFile(scene, file_);
-  EXPECT_EQ(Json::parse(test::readBytes(file_))["nearfit"], 4);
+  EXPECT_EQ(Json::parse(test::readBytes(file_))["nearfit"], 5);
   expectSameScene(readSceneFile(file_), scene);
 }
 
