@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -78,11 +79,43 @@ RigidTransform stepped(const RigidTransform& pose, const StepVector& y, double s
   return {rotation, pose.applyToPoint(centreInPart) + shift - rotation * centreInPart};
 }
 
+/// Minus the derivative of half the squared length of stepBetween(from, to) by steps of `from`. For turns it is that of
+/// 1/2 t . K t, with K turning along: K t + t x K t / 2 + bend t x (t x K t).
+StepVector pullBetween(const RigidTransform& from, const RigidTransform& to, const glm::dvec3& centreInPart,
+                       const MassMetric& metric) noexcept {
+  constexpr double kSmall = 1e-4;
+  StepVector pull = stepBetween(from, to, centreInPart, metric);
+  const glm::dvec3 turn = glm::dvec3(pull[3], pull[4], pull[5]) / metric.gyration;
+  const glm::dvec3 load = metric.gyration * glm::dvec3(pull[3], pull[4], pull[5]);
+  const double angle = glm::length(turn);
+  // (1 - x cot x) / angle^2 with x = angle / 2, which tends to 1 / 12.
+  const double bend =
+      angle < kSmall ? 1.0 / 12.0 : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);
+  const glm::dvec3 across = glm::cross(turn, load);
+  const glm::dvec3 torque = (load + 0.5 * across + bend * glm::cross(turn, across)) / metric.gyration;
+  pull[3] = torque.x;
+  pull[4] = torque.y;
+  pull[5] = torque.z;
+  return pull;
+}
+
+double productOfSteps(const StepVector& a, const StepVector& b) noexcept {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    sum += a[k] * b[k];
+  return sum;
+}
+
+/// Share of the next step, from how the pull along the joints has changed with the last one (Barzilai and Borwein 1988);
+/// the whole step if the pull did not fall.
+double nextShare(double share, const StepVector& last, const StepVector& now) noexcept {
+  constexpr double kLeast = 0.1, kMost = 2.0;
+  const double whole = productOfSteps(last, last), fall = whole - productOfSteps(last, now);
+  return fall > 0.0 ? std::clamp(share * whole / fall, kLeast, kMost) : 1.0;
+}
+
 double lengthOfStep(const StepVector& y) noexcept {
-  double squared = 0.0;
-  for (const double value : y)
-    squared += value * value;
-  return std::sqrt(squared);
+  return std::sqrt(productOfSteps(y, y));
 }
 
 double angleBetween(const glm::dvec3& a, const glm::dvec3& b) noexcept {
@@ -131,7 +164,8 @@ bool JointSet::findAnchor(const RigidTransform& start) noexcept {
   const glm::dvec3 centre = joints_[0].onPart.point;
   const MassMetric metric = plainMetric(centre);
   const auto isFound = [&](const RigidTransform& from) {
-    const std::optional<RigidTransform> found = correctedPose(from, centre, metric);
+    int most = kMaxFirstCorrections;
+    const std::optional<RigidTransform> found = corrected(from, centre, metric, most);
     if (found) anchor_ = *found;
     return found.has_value();
   };
@@ -178,58 +212,75 @@ JointResidual JointSet::residual(const RigidTransform& worldFromPart) const noex
   return most;
 }
 
-bool JointSet::isOn(const RigidTransform& pose, const glm::dvec3& centreInPart,
-                    const MassMetric& metric) const noexcept {
+double JointSet::lack(const RigidTransform& pose, const glm::dvec3& centreInPart,
+                      const MassMetric& metric) const noexcept {
   double lengths = glm::length(pose.translation) + glm::length(centreInPart) +
                    std::max({metric.gyration.x, metric.gyration.y, metric.gyration.z});
   for (const Placed& joint : joints())
     lengths += glm::length(joint.place) + glm::length(joint.onPart.point);
-  if (!(lengthOfStep(lockedMotions(pose, centreInPart, metric).correction()) <= kRounding * lengths)) return false;
+  const double share = lengthOfStep(lockedMotions(pose, centreInPart, metric).correction()) / lengths;
+  if (count_ == 1 || !(share <= kConverged)) return share;
   const JointResidual left = residual(pose);
-  return count_ == 1 || (left.distance <= kMaxMisfit && left.angle <= kMaxMisfitAngle);
+  const bool doFit = left.distance <= kMaxMisfit && left.angle <= kMaxMisfitAngle;
+  return doFit ? share : std::numeric_limits<double>::infinity();
+}
+
+std::optional<RigidTransform> JointSet::corrected(const RigidTransform& worldFromPart, const glm::dvec3& centreInPart,
+                                                  const MassMetric& metric, int& most) const noexcept {
+  if (count_ == 0) return worldFromPart;
+  if (isContradictory_) return std::nullopt;
+  if (count_ == 1) return placedOn(joints_[0], worldFromPart, centreInPart);
+  if (isOn(worldFromPart, centreInPart, metric)) return worldFromPart;
+  // Corrections from far off are not first-order: begin on the oldest joint.
+  RigidTransform pose = placedOn(joints_[0], worldFromPart, centreInPart);
+  for (; most > 0; --most) {
+    if (isOn(pose, centreInPart, metric)) return pose;
+    pose = stepped(pose, lockedMotions(pose, centreInPart, metric).correction(), 1.0, centreInPart, metric);
+  }
+  return lack(pose, centreInPart, metric) <= kConverged ? std::optional(pose) : std::nullopt;
 }
 
 std::optional<RigidTransform> JointSet::correctedPose(const RigidTransform& worldFromPart,
                                                       const glm::dvec3& centreInPart,
                                                       const MassMetric& metric) const noexcept {
-  if (count_ == 0) return worldFromPart;
-  if (isContradictory_) return std::nullopt;
-  if (count_ == 1) return placedOn(joints_[0], worldFromPart, centreInPart);
-  RigidTransform pose = worldFromPart;
-  for (int i = 0; i < kMaxCorrections; ++i) {
-    if (isOn(pose, centreInPart, metric)) return pose;
-    // Corrections far off are not first-order: begin on the oldest joint.
-    if (i == 0) pose = placedOn(joints_[0], pose, centreInPart);
-    pose = stepped(pose, lockedMotions(pose, centreInPart, metric).correction(), 1.0, centreInPart, metric);
-  }
-  // Rounding may keep it a little above what counts as on the joints.
-  const JointResidual left = residual(pose);
-  if (!pose.isFinite() || !(left.distance <= kMaxMisfit) || !(left.angle <= kMaxMisfitAngle)) return std::nullopt;
-  return pose;
+  int most = kMaxCorrections;
+  return corrected(worldFromPart, centreInPart, metric, most);
 }
 
 RigidTransform JointSet::nearest(const RigidTransform& wanted, const glm::dvec3& centreInPart,
                                  const MassMetric& metric) const noexcept {
-  RigidTransform pose = correctedPose(wanted, centreInPart, metric).value_or(anchor_);
-  StepVector way = stepBetween(pose, wanted, centreInPart, metric);
-  double length = lengthOfStep(way);
+  int work = kMaxWork;
+  const auto onJoints = [&](const RigidTransform& pose) {
+    int most = std::min(work, kMaxCorrections);
+    work -= most;
+    const std::optional<RigidTransform> found = corrected(pose, centreInPart, metric, most);
+    work += most;
+    return found;
+  };
+  RigidTransform pose = onJoints(wanted).value_or(anchor_);
+  double length = lengthOfStep(stepBetween(pose, wanted, centreInPart, metric));
+  StepVector last{};
+  double share = 1.0;
   for (int i = 0; i < kMaxRefinements; ++i) {
-    const StepVector step = lockedMotions(pose, centreInPart, metric).freePart(way);
+    const LockedMotions locked = lockedMotions(pose, centreInPart, metric);
+    const StepVector step = locked.freePart(pullBetween(pose, wanted, centreInPart, metric));
     if (!(lengthOfStep(step) > kRefined * length)) break;
-    double share = 1.0;
+    if (i > 0) share = nextShare(share, last, step);
     bool isNearer = false;
-    for (int halvings = 0; halvings <= kMaxHalvings && !isNearer; ++halvings, share *= 0.5) {
-      const auto tried =
-          correctedPose(stepped(pose, step, share, centreInPart, metric), centreInPart, metric);
-      if (!tried) continue;
-      const StepVector left = stepBetween(*tried, wanted, centreInPart, metric);
-      isNearer = lengthOfStep(left) < length;
-      if (!isNearer) continue;
-      pose = *tried;
-      way = left;
-      length = lengthOfStep(left);
+    for (int halvings = 0; halvings <= kMaxHalvings && !isNearer; ++halvings) {
+      const auto tried = onJoints(stepped(pose, step, share, centreInPart, metric));
+      const double left =
+          tried ? lengthOfStep(stepBetween(*tried, wanted, centreInPart, metric)) : length;
+      isNearer = left < length;
+      if (isNearer) {
+        pose = *tried;
+        length = left;
+      } else {
+        share *= 0.5;
+      }
     }
     if (!isNearer) break;
+    last = step;
   }
   return pose.isFinite() ? pose : wanted;
 }

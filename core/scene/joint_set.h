@@ -39,7 +39,7 @@ class JointSet {
   /// older exactly; those that do not contradict each other. A tenth of a usual margin [m], and what that is over a
   /// tenth of a metre [rad].
   static constexpr double kMaxMisfit = 1e-5, kMaxMisfitAngle = 1e-4;
-  /// A pose whose correction is at most so many roundings of the lengths involved is on the joints.
+  /// A pose whose correction is at most this share of the lengths involved, some roundings, is on the joints.
   static constexpr double kRounding = 1e-14;
 
   JointSet() = default;
@@ -54,14 +54,14 @@ class JointSet {
 
   /// The pose on the joints that the least motion leads to. For one joint that is the least rotation, about the point of
   /// its axis or plane that is nearest to the centre, and then the least translation, exactly. For several it is the
-  /// least motion with rotations weighed by the farthest feature's distance, found by kMaxRefinements steps. Joints that
+  /// least motion with rotations weighed by the farthest feature's distance, found step by step. Joints that
   /// contradict each other leave the pose as it is, and so do poses on the joints, to the last bit.
   /// @param worldFromPart  Finite, unit quaternion.
   /// @param centreInPart   Centre of mass [m].
   RigidTransform nearestPose(const RigidTransform& worldFromPart,
                              const glm::dvec3& centreInPart) const noexcept;
-  /// The same with the least motion in a metric of mass: nothing that a coupling in that metric does at this pose moves
-  /// the part on along its joints.
+  /// The same with the least motion in a metric of mass: the pose on the joints at which a coupling in that metric holds
+  /// the least energy, so that it does not pull along them. The work is bounded by kMaxWork.
   RigidTransform nearestPose(const RigidTransform& worldFromPart, const glm::dvec3& centreInPart,
                              const MassMetric& metric) const noexcept;
 
@@ -81,16 +81,28 @@ class JointSet {
   glm::dvec3 freeShift(const glm::dvec3& shift) const noexcept;
 
  private:
-  /// Max corrections until a pose is on several joints; a few reach rounding where they fit together.
-  static constexpr int kMaxCorrections = 8;
+  /// Max corrections until a pose is on several joints: a few reach rounding from poses that are near. More for the first
+  /// such pose, which may be far from where the part is.
+  static constexpr int kMaxCorrections = 12, kMaxFirstCorrections = 60;
+  /// Where rounding keeps corrections from ending, this share of the lengths involved will do.
+  static constexpr double kConverged = 1e-10;
   /// Max steps along the joints toward the nearest pose, and max halvings of one that leads away.
-  static constexpr int kMaxRefinements = 6, kMaxHalvings = 2;
-  /// Steps shorter than this share of the way to the joints end the search.
+  static constexpr int kMaxRefinements = 12, kMaxHalvings = 4;
+  /// Max corrections of several joints in a search for the nearest pose, some 1 us each.
+  static constexpr int kMaxWork = 64;
+  /// A pull along the joints below this share of the whole ends the search.
   static constexpr double kRefined = 1e-9;
 
   std::span<const Placed> joints() const noexcept { return {joints_.data(), count_}; }
   MassMetric plainMetric(const glm::dvec3& centreInPart) const noexcept;
-  bool isOn(const RigidTransform& pose, const glm::dvec3& centreInPart, const MassMetric& metric) const noexcept;
+  /// The correction's length as a share of the lengths involved; infinite beyond the misfit allowed.
+  double lack(const RigidTransform& pose, const glm::dvec3& centreInPart, const MassMetric& metric) const noexcept;
+  bool isOn(const RigidTransform& pose, const glm::dvec3& centreInPart, const MassMetric& metric) const noexcept {
+    return lack(pose, centreInPart, metric) <= kRounding;
+  }
+  /// correctedPose() in at most `most` corrections, which are counted down.
+  std::optional<RigidTransform> corrected(const RigidTransform& worldFromPart, const glm::dvec3& centreInPart,
+                                          const MassMetric& metric, int& most) const noexcept;
   RigidTransform nearest(const RigidTransform& wanted, const glm::dvec3& centreInPart,
                          const MassMetric& metric) const noexcept;
   bool findAnchor(const RigidTransform& start) noexcept;
