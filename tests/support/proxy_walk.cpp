@@ -53,4 +53,10 @@ void ProxyWalk::addBody(const Fixed& body) {
   setScene(std::move(scene));
 }
 
+void ProxyWalk::setJoints(const JointSet& joints) {
+  auto scene = std::make_shared<ServoScene>(*scene_);
+  scene->setJoints(joints);
+  setScene(std::move(scene));
+}
+
 }  // namespace nearfit::test

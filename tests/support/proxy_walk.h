@@ -30,6 +30,8 @@ class ProxyWalk {
   /// Puts a body elsewhere, or another one into the scene, as the user does while the servo runs.
   void moveBody(std::size_t index, const RigidTransform& worldFromBody);
   void addBody(const Fixed& body);
+  /// Keeps the part on joints from now on.
+  void setJoints(const JointSet& joints);
 
   const RigidTransform& pose() const { return proxy_.pose(); }
   Proxy& proxy() { return proxy_; }

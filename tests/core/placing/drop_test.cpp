@@ -290,5 +290,17 @@ TEST(Drop, CanBeCancelled) {
   EXPECT_EQ(last, 1.0);
 }
 
+TEST(Drop, APartGoesAlongWhatItsJointsAllowOfTheDirection) {
+  Pair pair(boxMesh({4.0, 4.0, 1.0}, {0.0, 0.0, -0.5}), {}, boxMesh({0.2, 0.2, 0.2}), {{1, 0, 0, 0}, {0.0, 0.0, 1.0}});
+  Joint joint;
+  joint.part = pair.moving;
+  pair.scene.addJoint(joint);
+  const DropResult drop = pair.drop({3.0, 0.0, -1.0});
+  EXPECT_EQ(drop.outcome, DropResult::Outcome::Contact);
+  EXPECT_NEAR(drop.shift.x, 0.0, 1e-12);
+  EXPECT_NEAR(drop.shift.z, -0.9, 1e-5);
+  EXPECT_THROW(pair.drop({1.0, 0.0, 0.0}), UsageError) << "the axis holds it";
+}
+
 }  // namespace
 }  // namespace nearfit::drop_test

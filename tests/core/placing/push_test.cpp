@@ -108,5 +108,24 @@ TEST(Push, StartingOverlappedIsSaid) {
   EXPECT_EQ(result.against, std::vector{floor});
 }
 
+TEST(Push, APartOnAnAxisIsPushedAlongIt) {
+  Scene scene;
+  const PartId floor = scene.add(partOf(solidGeometryOf(boxMesh({0.2, 0.2, 0.02})), "floor"));
+  const PartId box =
+      scene.add(partOf(solidGeometryOf(boxMesh(glm::dvec3(0.02))), "box", {{1, 0, 0, 0}, {0.01, 0.0, 0.1}}));
+  Joint joint;
+  joint.part = box;
+  joint.onBase.point.x = 0.01;
+  scene.addJoint(joint);
+  const PartId moved[] = {box};
+  const PushResult result = pushParts(scene, moved, {2.0, 1.0, -1.0});
+  ASSERT_EQ(result.outcome, PushResult::Outcome::Held);
+  EXPECT_EQ(result.against, std::vector{floor});
+  EXPECT_NEAR(result.poses[0].translation.x, 0.01, 1e-9);
+  EXPECT_NEAR(result.poses[0].translation.y, 0.0, 1e-9);
+  EXPECT_NEAR(result.poses[0].translation.z, 0.02, 1.1 * scene.haptics().proxy.margin);
+  EXPECT_THROW(pushParts(scene, moved, {1.0, 0.0, 0.0}), UsageError);
+}
+
 }  // namespace
 }  // namespace nearfit::push_test

@@ -262,5 +262,40 @@ TEST(SolidMove, AWayThatIsNotWantedAnyMoreIsCancelled) {
                Cancelled);
 }
 
+TEST(SolidMove, APartThatIsMovedByItselfStaysOnItsAxis) {
+  Bench bench;
+  const PartId block = bench.add(test::boxMesh({0.1, 0.1, 0.1}), at(glm::dvec3(0.0)), "block");
+  const PartId wall = bench.add(test::boxMesh({0.1, 1.0, 1.0}), at({0.5, 0.0, 0.0}), "wall");
+  Joint joint;
+  joint.part = block;
+  joint.onPart.direction = joint.onBase.direction = {1.0, 0.0, 0.0};
+  bench.scene.addJoint(joint);
+  const PartId moved[] = {block};
+  // Aside and along: along is left.
+  const RigidTransform free = movedSolidly(bench.scene, moved, at({0.2, 0.3, 0.1})).front();
+  EXPECT_LT(glm::distance(free.translation, {0.2, 0.0, 0.0}), 1e-9);
+  const RigidTransform held = movedSolidly(bench.scene, moved, at({0.9, 0.3, 0.1})).front();
+  EXPECT_LT(glm::length(glm::dvec2(held.translation.y, held.translation.z)), 1e-9);
+  EXPECT_NEAR(bench.highestX(block, held), 0.45 - bench.margin(), 0.05 * bench.margin());
+  EXPECT_FALSE(bench.doMeet(block, held, wall));
+  SolidMove move(bench.scene, moved);
+  SolidMove::Progress progress;
+  for (int i = 0; i < SolidMove::kMaxTicks && !progress.isSettled; ++i)
+    progress = move.advance(at({0.2, 0.3, 0.1}), 1);
+  EXPECT_TRUE(progress.hasArrived) << "where the joint puts it";
+}
+
+TEST(SolidMove, PartsThatAreMovedTogetherLeaveTheirJointsAlone) {
+  Bench bench;
+  const PartId block = bench.add(test::boxMesh({0.1, 0.1, 0.1}), at(glm::dvec3(0.0)), "block");
+  const PartId other = bench.add(test::boxMesh({0.1, 0.1, 0.1}), at({0.3, 0.0, 0.0}), "other");
+  Joint joint;
+  joint.part = block;
+  bench.scene.addJoint(joint);
+  const PartId moved[] = {block, other};
+  const auto poses = movedSolidly(bench.scene, moved, at({0.0, 0.2, 0.0}));
+  EXPECT_EQ(poses[0].translation, glm::dvec3(0.0, 0.2, 0.0));
+}
+
 }  // namespace
 }  // namespace nearfit::solid_move_test

@@ -41,6 +41,39 @@ TEST_F(ServoSceneOfThree, HoldsTheMovingPartAndAllOthersWhereTheyAre) {
   EXPECT_EQ(servo->bodies[1].worldFromPart.translation.x, 3.0);
 }
 
+TEST_F(ServoSceneOfThree, HoldsTheJointsOfTheMovingPartThatAreOn) {
+  scene_.setMovingPart(second_);
+  EXPECT_TRUE(makeServoScene(scene_)->joints.isEmpty());
+  Joint joint;
+  joint.part = second_;
+  joint.base = third_;
+  const JointId kept = scene_.addJoint(joint);
+  joint.part = first_;
+  scene_.addJoint(joint);
+  const auto servo = makeServoScene(scene_);
+  EXPECT_EQ(servo->joints.size(), 1U);
+  EXPECT_FALSE(servo->areJointsContradictory);
+  // The second's origin is a metre off the third's axis.
+  EXPECT_NEAR(servo->joints.residual(servo->moving.worldFromPart).distance, 1.0, 1e-12);
+  joint = scene_.getJoint(kept);
+  joint.isOn = false;
+  scene_.replaceJoint(joint);
+  EXPECT_TRUE(makeServoScene(scene_)->joints.isEmpty());
+}
+
+TEST_F(ServoSceneOfThree, TellsOfJointsThatContradictEachOtherAndHoldsNone) {
+  scene_.setMovingPart(second_);
+  Joint joint;
+  joint.kind = JointKind::ToPoint;
+  joint.part = second_;
+  scene_.addJoint(joint);
+  joint.onBase.point.x = 1.0;
+  scene_.addJoint(joint);
+  const auto servo = makeServoScene(scene_);
+  EXPECT_TRUE(servo->areJointsContradictory);
+  EXPECT_TRUE(servo->joints.isEmpty());
+}
+
 TEST_F(ServoSceneOfThree, MassAndInertiaAreTheMovingPartsOfItsDensity) {
   // A box of 1 x 2 x 3 m: its inertia about x is m (2^2 + 3^2) / 12, and so on.
   const test::TemporaryFolder folder;

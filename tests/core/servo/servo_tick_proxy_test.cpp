@@ -13,6 +13,7 @@
 #include "core/servo/scene_tracker.h"
 #include "core/servo/servo_tick.h"
 #include "tests/support/allocation_hook.h"
+#include "tests/support/joint_sets.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
 #include "tests/support/ringed_pair.h"
@@ -72,6 +73,40 @@ class ServoTickWithProxy : public testing::Test {
   ServoParameters parameters_;
   const std::unique_ptr<ServoSnapshot> snapshot_ = std::make_unique<ServoSnapshot>();
 };
+
+TEST_F(ServoTickWithProxy, AJointIsFeltAsASpringAcrossItAndNotAlongIt) {
+  auto scene = std::make_shared<ServoScene>(*scene_);
+  const RigidTransform start = scene->moving.worldFromPart;
+  scene->setJoints(test::jointSetOf({test::keptAt(JointKind::OnAxis, start, start.translation)}, start));
+  setScene(scene);
+  hold(start, 20);
+  const glm::dvec3 aside(0.003, 0.0, 0.0);
+  const ServoSnapshot& s = hold({glm::angleAxis(0.2, glm::dvec3(0, 0, 1)), start.translation + aside}, 1500);
+  EXPECT_EQ(s.jointCount, 1U);
+  EXPECT_FALSE(s.areJointsContradictory);
+  EXPECT_LT(s.offJoints.distance, 1e-9);
+  EXPECT_LT(s.offJoints.angle, 1e-9);
+  // The part turns with the hand and stays on the axis; the coupling draws the hand back to it.
+  EXPECT_LT(glm::length(glm::dvec2(s.proxy.translation)), 1e-9);
+  EXPECT_NEAR(rotationVector(s.proxy.rotation).z, 0.2, 1e-6);
+  const glm::dvec3 expected = -s.coupling.stiffness * aside;
+  EXPECT_GT(glm::length(expected), 0.0);
+  EXPECT_LT(glm::distance(s.unclampedWrench.force, expected), 1e-6 * glm::length(expected));
+  EXPECT_LT(glm::length(s.unclampedWrench.torque), 1e-9);
+}
+
+TEST_F(ServoTickWithProxy, JointsThatContradictEachOtherAreToldAndNotFelt) {
+  auto scene = std::make_shared<ServoScene>(*scene_);
+  const RigidTransform start = scene->moving.worldFromPart;
+  JointSet::Placed far = test::keptAt(JointKind::ToPoint, start, start.translation);
+  far.place.x = 0.5;
+  scene->setJoints(test::jointSetOf({test::keptAt(JointKind::ToPoint, start, start.translation), far}, start));
+  setScene(scene);
+  const ServoSnapshot& s = hold(start, 20);
+  EXPECT_TRUE(s.areJointsContradictory);
+  EXPECT_EQ(s.jointCount, 0U);
+  EXPECT_EQ(s.unclampedWrench.force, glm::dvec3(0.0));
+}
 
 TEST_F(ServoTickWithProxy, FreeMotionAndRestAreFeltAsExactlyNothing) {
   for (int i = 0; i < 500; ++i) {
