@@ -56,7 +56,8 @@ JointFeature parseJointFeature(const std::string& text, JointKind kind) {
 /// The feature in the frame of something that has this pose.
 JointFeature inFrame(const JointFeature& worldFeature, const RigidTransform& worldFromFrame) {
   const RigidTransform frameFromWorld = worldFromFrame.inverse();
-  return {frameFromWorld.applyToPoint(worldFeature.point), frameFromWorld.applyToVector(worldFeature.direction)};
+  return {frameFromWorld.applyToPoint(worldFeature.point),
+          frameFromWorld.applyToVector(worldFeature.direction)};
 }
 
 void runSceneKeep(const KeepOptions& options) {
@@ -88,7 +89,8 @@ void runSceneRelease(const ReleaseOptions& options) {
   for (const std::size_t number : options.numbers) {
     if (number == 0 || number > scene.joints().size()) {
       throw UsageError("NUMBER", fmt::format("there is no joint {}", number),
-                       fmt::format("give numbers from 1 to {}, as nearfit-cli info lists them", scene.joints().size()));
+                       fmt::format("give numbers from 1 to {}, as nearfit-cli info lists them",
+                                   scene.joints().size()));
     }
     released.push_back(scene.joints()[number - 1].id);
   }
@@ -104,24 +106,31 @@ void runSceneRelease(const ReleaseOptions& options) {
 }
 
 constexpr const char* kKeepFooter =
-    "The part is kept where it stands: FEATURE says, in the world frame, where its feature and that of the base\n"
-    "are now. axis: x,y,z,dx,dy,dz, a point on the axis [m] and its direction; the part slides along it and turns\n"
-    "about it. plane: a point in the plane and the outward normal of the part's face; it slides in the plane and\n"
-    "turns about the normal. point: x,y,z; it turns about the point. The scene file is replaced.\n"
+    "The part is kept where it stands: FEATURE says, in the world frame, where its feature and that of the\n"
+    "base are now.\n"
+    "axis   x,y,z,dx,dy,dz: a point on the axis [m] and its direction. The part slides along it and turns\n"
+    "       about it.\n"
+    "plane  x,y,z,dx,dy,dz: a point in the plane [m] and the outward normal of the part's face. The part\n"
+    "       slides in the plane and turns about the normal.\n"
+    "point  x,y,z [m]. The part turns about it.\n"
+    "The scene file is replaced.\n"
     "Example: nearfit-cli scene keep fit.nearfit Peg axis --at 0,0,0,0,0,1 --base Hole";
 
 }  // namespace
 
 void addSceneKeep(CLI::App& scene) {
   const auto options = std::make_shared<KeepOptions>();
-  CLI::App* command = scene.add_subcommand("keep", "Adds a joint that keeps a part on an axis, in a plane or to a point.");
+  CLI::App* command =
+      scene.add_subcommand("keep", "Adds a joint that keeps a part on an axis, in a plane or to a point.");
   command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required()->type_name("SCENE");
   command->add_option("part", options->part, "Name of the part to keep")->required()->type_name("PART");
   command->add_option("kind", options->kind, "axis, plane or point")->required()->type_name("KIND");
   command->add_option("--at", options->feature, "Where the feature is now, in the world frame; see below")
       ->required()
       ->type_name("FEATURE");
-  command->add_option("--base", options->base, "Name of the part to keep it on; default: the world")->type_name("NAME");
+  command->add_option("--base", options->base,
+                      "Name of the part to keep it on; default: the world")
+      ->type_name("NAME");
   command->footer(kKeepFooter);
   command->callback([options] { runSceneKeep(*options); });
 }

@@ -51,14 +51,20 @@ glm::dvec3 pointNear(const Placed& joint, const glm::dvec3& centreInPart) noexce
   return feature.point;
 }
 
+/// The least rotation that gives the part's direction the one that it should have.
+glm::dquat turnOnto(const Placed& joint, const glm::dquat& worldFromPart) noexcept {
+  return leastTurn(glm::normalize(worldFromPart * joint.onPart.direction), joint.target);
+}
+
 /// The least rotation, then the least translation, that puts the part on one joint.
-RigidTransform placedOn(const Placed& joint, const RigidTransform& pose, const glm::dvec3& centreInPart) noexcept {
+RigidTransform placedOn(const Placed& joint, const RigidTransform& pose,
+                        const glm::dvec3& centreInPart) noexcept {
   const glm::dvec3 inPart = pointNear(joint, centreInPart);
   const glm::dvec3 point = pose.applyToPoint(inPart);
   glm::dquat rotation = pose.rotation;
   // The second turn takes back the rounding of one by nearly half a turn.
   for (int i = 0; joint.kind != JointKind::ToPoint && i < 2; ++i)
-    rotation = glm::normalize(leastTurn(glm::normalize(rotation * joint.onPart.direction), joint.target) * rotation);
+    rotation = glm::normalize(turnOnto(joint, rotation) * rotation);
   return {rotation, point + shiftOnto(joint, point) - rotation * inPart};
 }
 
@@ -70,8 +76,8 @@ StepVector stepBetween(const RigidTransform& from, const RigidTransform& to, con
   return {shift.x, shift.y, shift.z, turn.x, turn.y, turn.z};
 }
 
-RigidTransform stepped(const RigidTransform& pose, const StepVector& y, double share, const glm::dvec3& centreInPart,
-                       const MassMetric& metric) noexcept {
+RigidTransform stepped(const RigidTransform& pose, const StepVector& y, double share,
+                       const glm::dvec3& centreInPart, const MassMetric& metric) noexcept {
   const glm::dvec3 shift = share * glm::dvec3(y[0], y[1], y[2]);
   const glm::dvec3 turn = share * glm::dvec3(y[3], y[4], y[5]) / metric.gyration;
   const glm::dquat rotation =
@@ -128,8 +134,7 @@ void lockJoint(const Placed& joint, const RigidTransform& pose, const glm::dvec3
   const glm::dquat principalFromWorld = metric.principalFromWorld(pose);
   const std::array<glm::dvec3, 2> across = axesAcross(joint.target);
   if (joint.kind != JointKind::ToPoint) {
-    const glm::dvec3 direction = glm::normalize(pose.rotation * joint.onPart.direction);
-    const glm::dvec3 turn = rotationVector(leastTurn(direction, joint.target));
+    const glm::dvec3 turn = rotationVector(turnOnto(joint, pose.rotation));
     for (const glm::dvec3& axis : across) {
       const glm::dvec3 inPrincipal = principalFromWorld * axis / metric.gyration;
       locked.lock({0.0, 0.0, 0.0, inPrincipal.x, inPrincipal.y, inPrincipal.z}, glm::dot(turn, axis));
@@ -207,7 +212,8 @@ JointResidual JointSet::residual(const RigidTransform& worldFromPart) const noex
     const glm::dvec3 point = worldFromPart.applyToPoint(joint.onPart.point);
     most.distance = std::max(most.distance, glm::length(shiftOnto(joint, point)));
     if (joint.kind == JointKind::ToPoint) continue;
-    most.angle = std::max(most.angle, angleBetween(worldFromPart.rotation * joint.onPart.direction, joint.target));
+    const glm::dvec3 direction = worldFromPart.rotation * joint.onPart.direction;
+    most.angle = std::max(most.angle, angleBetween(direction, joint.target));
   }
   return most;
 }
@@ -225,8 +231,9 @@ double JointSet::lack(const RigidTransform& pose, const glm::dvec3& centreInPart
   return doFit ? share : std::numeric_limits<double>::infinity();
 }
 
-std::optional<RigidTransform> JointSet::corrected(const RigidTransform& worldFromPart, const glm::dvec3& centreInPart,
-                                                  const MassMetric& metric, int& most) const noexcept {
+std::optional<RigidTransform> JointSet::corrected(const RigidTransform& worldFromPart,
+                                                  const glm::dvec3& centreInPart, const MassMetric& metric,
+                                                  int& most) const noexcept {
   if (count_ == 0) return worldFromPart;
   if (isContradictory_) return std::nullopt;
   if (count_ == 1) return placedOn(joints_[0], worldFromPart, centreInPart);
@@ -302,7 +309,9 @@ RigidTransform JointSet::nearestPose(const RigidTransform& worldFromPart, const 
 
 glm::dvec3 JointSet::freeShift(const glm::dvec3& shift) const noexcept {
   LockedMotions locked;
-  const auto lock = [&locked](const glm::dvec3& axis) { locked.lock({axis.x, axis.y, axis.z, 0, 0, 0}, 0.0); };
+  const auto lock = [&locked](const glm::dvec3& axis) {
+    locked.lock({axis.x, axis.y, axis.z, 0, 0, 0}, 0.0);
+  };
   for (std::size_t i = 0; !isContradictory_ && i < count_; ++i) {
     const Placed& joint = joints_[i];
     const std::array<glm::dvec3, 2> across = axesAcross(joint.target);

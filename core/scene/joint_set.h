@@ -67,7 +67,8 @@ class JointSet {
 
   /// A pose on the joints near one that is nearly on them: by the correction alone, which for one joint is exact.
   /// std::nullopt if none was found, or the joints contradict each other.
-  std::optional<RigidTransform> correctedPose(const RigidTransform& worldFromPart, const glm::dvec3& centreInPart,
+  std::optional<RigidTransform> correctedPose(const RigidTransform& worldFromPart,
+                                              const glm::dvec3& centreInPart,
                                               const MassMetric& metric) const noexcept;
 
   /// How far the pose is off the joints, also of those that contradict each other.
@@ -96,8 +97,10 @@ class JointSet {
   std::span<const Placed> joints() const noexcept { return {joints_.data(), count_}; }
   MassMetric plainMetric(const glm::dvec3& centreInPart) const noexcept;
   /// The correction's length as a share of the lengths involved; infinite beyond the misfit allowed.
-  double lack(const RigidTransform& pose, const glm::dvec3& centreInPart, const MassMetric& metric) const noexcept;
-  bool isOn(const RigidTransform& pose, const glm::dvec3& centreInPart, const MassMetric& metric) const noexcept {
+  double lack(const RigidTransform& pose, const glm::dvec3& centreInPart,
+              const MassMetric& metric) const noexcept;
+  bool isOn(const RigidTransform& pose, const glm::dvec3& centreInPart,
+            const MassMetric& metric) const noexcept {
     return lack(pose, centreInPart, metric) <= kRounding;
   }
   /// correctedPose() in at most `most` corrections, which are counted down.

@@ -254,7 +254,8 @@ std::vector<JointEntry> readJoints(const JsonField& field, const std::vector<Par
   const auto indexAt = [&](const JsonField& name, const char* remedy) {
     const std::string text = name.text(kMaxPartNameBytes);
     const auto it = indexOfName.find(text);
-    if (it == indexOfName.end()) name.fail(fmt::format("there is no part \"{}\"", printableText(text)), remedy);
+    if (it == indexOfName.end())
+      name.fail(fmt::format("there is no part \"{}\"", printableText(text)), remedy);
     return it->second;
   };
   std::vector<JointEntry> entries;
@@ -345,7 +346,8 @@ class GeometryLoader {
 };
 
 /// Unlocks the parts that have joints, so that these can be added, and returns their indices.
-std::vector<std::size_t> unlockForJoints(std::vector<PartEntry>& parts, const std::vector<JointEntry>& joints) {
+std::vector<std::size_t> unlockForJoints(std::vector<PartEntry>& parts,
+                                         const std::vector<JointEntry>& joints) {
   std::vector<std::size_t> unlocked;
   for (const JointEntry& entry : joints) {
     if (std::exchange(parts[entry.part].part.isLocked, false)) unlocked.push_back(entry.part);

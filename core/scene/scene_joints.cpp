@@ -31,7 +31,8 @@ Joint Scene::checkedForScene(const Joint& joint) const {
   const Part& part = get(joint.part);
   const std::string where = fmt::format("joint of \"{}\"", part.name);
   if (joint.base == joint.part)
-    throw UsageError(where, "a part cannot be kept on itself", "choose a feature of another part as its base");
+    throw UsageError(where, "a part cannot be kept on itself",
+                     "choose a feature of another part as its base");
   if (joint.base) get(*joint.base);
   requireUnlocked(part);
   Joint checked = checkedJoint(joint);

@@ -25,12 +25,14 @@ inline JointSet::Placed keptAt(JointKind kind, const RigidTransform& worldFromPa
           glm::normalize(direction)};
 }
 
-inline JointSet jointSetOf(std::initializer_list<JointSet::Placed> joints, const RigidTransform& worldFromPart) {
+inline JointSet jointSetOf(std::initializer_list<JointSet::Placed> joints,
+                           const RigidTransform& worldFromPart) {
   return {std::vector<JointSet::Placed>(joints), worldFromPart};
 }
 
 /// Half the squared length of a motion in the metric of mass at `pose`, by the definition.
-inline double energyOf(const RigidTransform& pose, const RigidTransform& wanted, const glm::dvec3& centreInPart,
+inline double energyOf(const RigidTransform& pose, const RigidTransform& wanted,
+                       const glm::dvec3& centreInPart,
                        const MassMetric& metric) {
   const glm::dvec3 shift = wanted.applyToPoint(centreInPart) - pose.applyToPoint(centreInPart);
   const glm::dmat3 turn = glm::mat3_cast(wanted.rotation) * glm::transpose(glm::mat3_cast(pose.rotation));

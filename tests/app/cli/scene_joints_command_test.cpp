@@ -39,7 +39,8 @@ class SceneJointsCommand : public ::testing::Test {
 };
 
 TEST_F(SceneJointsCommand, APartIsKeptWhereItStands) {
-  const std::vector<std::vector<std::string>> kept = {{"axis", "-0.3,0,0.5,0,0.6,0.8"}, {"plane", "0.3,0,0.5,0,0,-1"},
+  const std::vector<std::vector<std::string>> kept = {{"axis", "-0.3,0,0.5,0,0.6,0.8"},
+                                                      {"plane", "0.3,0,0.5,0,0,-1"},
                                                       {"point", "0.1,0.2,0.3"}};
   for (const std::vector<std::string>& joint : kept) {
     const ProcessResult result =
@@ -64,7 +65,8 @@ TEST_F(SceneJointsCommand, APartIsKeptWhereItStands) {
   EXPECT_LT(glm::distance(axis, {0.0, 0.6, 0.8}), 1e-15);
   EXPECT_LT(glm::distance(hole.worldFromPart.applyToVector(made.joints()[0].onBase.direction), axis), 1e-15);
   EXPECT_EQ(made.joints()[1].kind, JointKind::InPlane);
-  EXPECT_LT(glm::distance(hole.worldFromPart.applyToVector(made.joints()[1].onBase.direction), {0, 0, 1}), 1e-15)
+  EXPECT_LT(glm::distance(hole.worldFromPart.applyToVector(made.joints()[1].onBase.direction), {0, 0, 1}),
+            1e-15)
       << "faces look at each other";
   EXPECT_EQ(made.joints()[2].kind, JointKind::ToPoint);
   EXPECT_LT(jointsOf(made, peg.id).residual(peg.worldFromPart).distance, 1e-14);
@@ -72,7 +74,8 @@ TEST_F(SceneJointsCommand, APartIsKeptWhereItStands) {
 
 TEST_F(SceneJointsCommand, InfoListsJointsAndReleaseRemovesThemByNumber) {
   ASSERT_EQ(run({"scene", "keep", "fit.nearfit", "Peg", "axis", "--at", "0.3,0,0.5,0,0,1"}).exitCode, 0);
-  ASSERT_EQ(run({"scene", "keep", "fit.nearfit", "Hole", "point", "--at", "1,0,0", "--base", "Peg"}).exitCode, 0);
+  ASSERT_EQ(run({"scene", "keep", "fit.nearfit", "Hole", "point", "--at", "1,0,0", "--base", "Peg"}).exitCode,
+            0);
   const ProcessResult text = run({"info", "fit.nearfit"});
   EXPECT_EQ(text.exitCode, 0) << text.err;
   EXPECT_THAT(text.out, AllOf(HasSubstr("parts       2"), HasSubstr("joints      2"),
@@ -100,8 +103,10 @@ TEST_F(SceneJointsCommand, WrongArgumentsAreToldInOneLineAndChangeNothing) {
       {{"keep", "fit.nearfit", "Peg", "axis", "--at", "0,0,0"}, "--at: \"0,0,0\" is not a valid value"},
       {{"keep", "fit.nearfit", "Peg", "point", "--at", "0,0,0,0,0,1"}, "--at"},
       {{"keep", "fit.nearfit", "Peg", "axis", "--at", "0,0,0,0,0,0"}, "direction: its length is 0"},
-      {{"keep", "fit.nearfit", "Peg", "axis", "--at", "0,0,0,0,0,1", "--base", "Peg"}, "a part cannot be kept on itself"},
-      {{"keep", "fit.nearfit", "Peg", "axis", "--at", "0,0,0,0,0,1", "--base", "Pin"}, "--base: there is no part"},
+      {{"keep", "fit.nearfit", "Peg", "axis", "--at", "0,0,0,0,0,1", "--base", "Peg"},
+       "a part cannot be kept on itself"},
+      {{"keep", "fit.nearfit", "Peg", "axis", "--at", "0,0,0,0,0,1", "--base", "Pin"},
+       "--base: there is no part"},
       {{"keep", "fit.nearfit", "Peg", "point", "--at", "0,0,1e10"}, "position"},
       {{"release", "fit.nearfit", "1"}, "there is no joint 1"},
   };

@@ -291,7 +291,8 @@ TEST(Drop, CanBeCancelled) {
 }
 
 TEST(Drop, APartGoesAlongWhatItsJointsAllowOfTheDirection) {
-  Pair pair(boxMesh({4.0, 4.0, 1.0}, {0.0, 0.0, -0.5}), {}, boxMesh({0.2, 0.2, 0.2}), {{1, 0, 0, 0}, {0.0, 0.0, 1.0}});
+  Pair pair(boxMesh({4.0, 4.0, 1.0}, {0.0, 0.0, -0.5}), {}, boxMesh({0.2, 0.2, 0.2}),
+            {{1, 0, 0, 0}, {0.0, 0.0, 1.0}});
   Joint joint;
   joint.part = pair.moving;
   pair.scene.addJoint(joint);

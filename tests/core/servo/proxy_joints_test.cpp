@@ -174,7 +174,8 @@ TEST(ProxyJoints, AJointThatPressesThePartIntoAWallNeverLetsItThrough) {
 
 TEST(ProxyJoints, APartThatStartsOffItsJointGoesThereWithoutALeap) {
   const RigidTransform aside{glm::angleAxis(0.5, kX), {0.3, 0.2, 0.6}};
-  ProxyWalk off({{test::boxMesh({4.0, 4.0, 1.0}, {0.0, 0.0, -0.5}), {}}}, test::boxMesh({0.2, 0.2, 0.2}), aside,
+  ProxyWalk off({{test::boxMesh({4.0, 4.0, 1.0}, {0.0, 0.0, -0.5}), {}}}, test::boxMesh({0.2, 0.2, 0.2}),
+                aside,
                 {kMargin, 0.0});
   off.setJoints(jointSetOf({keptAt(JointKind::OnAxis, at({0.0, 0.0, 0.6}), glm::dvec3(0.0), kZ)}, aside));
   const double before = offJoints(off);
@@ -187,7 +188,8 @@ TEST(ProxyJoints, APartThatStartsOffItsJointGoesThereWithoutALeap) {
 TEST(ProxyJoints, APartAsideOfItsAxisComesBackToItAlongTheFloorThatItIsPressedAgainst) {
   ProxyWalk walk({{test::boxMesh({4.0, 4.0, 1.0}, {0.0, 0.0, -0.5}), {}}}, test::boxMesh({0.2, 0.2, 0.2}),
                  at({0.05, 0.0, 0.1 + kMargin}), {kMargin, 0.0});
-  walk.setJoints(jointSetOf({keptAt(JointKind::OnAxis, at(glm::dvec3(0.0)), glm::dvec3(0.0), kZ)}, walk.pose()));
+  walk.setJoints(jointSetOf({keptAt(JointKind::OnAxis, at(glm::dvec3(0.0)), glm::dvec3(0.0), kZ)},
+                            walk.pose()));
   for (int i = 0; i < 150; ++i) {
     walk.lead(at({0.05, 0.0, 0.0}));
     ASSERT_GT(lowestCorner(walk), 0.5 * kMargin) << i;
@@ -201,13 +203,15 @@ TEST(ProxyJoints, JointsThatContradictEachOtherHoldNothing) {
   JointSet::Placed far = keptAt(JointKind::ToPoint, at(glm::dvec3(0.0)), {0.1, 0.0, 0.0});
   far.place.x = 0.3;
   const JointSet joints =
-      jointSetOf({keptAt(JointKind::ToPoint, at(glm::dvec3(0.0)), glm::dvec3(0.0)), far}, at(glm::dvec3(0.0)));
+      jointSetOf({keptAt(JointKind::ToPoint, at(glm::dvec3(0.0)), glm::dvec3(0.0)), far},
+                 at(glm::dvec3(0.0)));
   ASSERT_TRUE(joints.isContradictory());
   ProxyWalk walk = cubeOverFloor(0.05), free = cubeOverFloor(0.05);
   walk.setJoints(joints);
   EXPECT_TRUE(walk.scene().areJointsContradictory);
   for (int i = 0; i < 100; ++i) {
-    const RigidTransform hand{glm::angleAxis(0.01 * i, glm::normalize(glm::dvec3(1, 2, 3))), {0.002 * i, 0.0, 0.05}};
+    const RigidTransform hand{glm::angleAxis(0.01 * i, glm::normalize(glm::dvec3(1, 2, 3))),
+                              {0.002 * i, 0.0, 0.05}};
     walk.lead(hand);
     free.lead(hand);
     ASSERT_EQ(walk.pose().translation, free.pose().translation) << i;
@@ -268,7 +272,8 @@ TEST(ProxyJoints, RandomHandsOnRandomJointsNeverMeetJaggedBodies) {
     ASSERT_FALSE(walk.scene().areJointsContradictory) << trial;
     RigidTransform hand;
     for (std::size_t i = 0; i < ticks; ++i) {
-      if (i % 100 == 0) hand = {rotationOf(random.vector(2.0)), glm::dvec3(0.4, 0.3, 0.0) + random.vector(0.5)};
+      const glm::dvec3 middle(0.4, 0.3, 0.0);
+      if (i % 100 == 0) hand = {rotationOf(random.vector(2.0)), middle + random.vector(0.5)};
       walk.lead(hand);
       touched += walk.proxy().contacts().empty() ? 0 : 1;
       poses.push_back(walk.pose());
@@ -290,7 +295,8 @@ TEST(ProxyJoints, RandomHandsOnAJointThatIsOffNeverMeetJaggedBodies) {
   for (int trial = 0; trial < 9; ++trial) {
     ProxyWalk walk({{a, {}}}, part, at({0.0, 1.0, 0.0}), {kMargin, 0.0});
     // Through the middle of the other body: contact and joint contradict each other.
-    JointSet::Placed joint = keptAt(static_cast<JointKind>(trial % 3), at(glm::dvec3(0.0)), random.vector(0.1),
+    JointSet::Placed joint = keptAt(static_cast<JointKind>(trial % 3), at(glm::dvec3(0.0)),
+                                    random.vector(0.1),
                                     random.vector(1.0));
     walk.setJoints(jointSetOf({joint}, walk.pose()));
     RigidTransform hand;
