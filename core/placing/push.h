@@ -27,7 +27,8 @@ struct PushResult {
 
 /// Pushes parts together along a direction until they are held. They go straight to the first contact, like
 /// dropParts(), and then slide along what they touch, like SolidMove: without rotation, a proxy's margin
-/// away, and on the joints of a part that is moved by itself. A drop stops at the first touch; a push slides a ball down a slope into its seat.
+/// away, and on the joints of a part that is moved by itself. A drop stops at the first touch; a push slides a ball
+/// down a slope into its seat.
 ///
 /// @param moved      As for dropParts().
 /// @param direction  In the world frame; any length but 0.

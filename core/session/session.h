@@ -107,8 +107,8 @@ class Session {
   void renameGroup(GroupId id, const std::string& name);
   /// Deletes nodes; groups with all they hold. Joints of these parts, and on them, go too.
   void deleteNodes(const SceneNodes& nodes);
-  /// Copies nodes in place, unlocked and without joints. Copies go beside the originals, or outside groups that are locked. A
-  /// single part gets the next colour. Returns the copies of the `outermost` nodes.
+  /// Copies nodes in place, unlocked and without joints. Copies go beside the originals, or outside groups that are
+  /// locked. A single part gets the next colour. Returns the copies of the `outermost` nodes.
   SceneNodes duplicate(const SceneNodes& nodes);
   /// Moves nodes into a new group, placed in the innermost group that holds them all. Appends a number if
   /// the name is taken.

@@ -13,7 +13,8 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 const std::vector<std::vector<std::string>> kCommands = {{},        {"info"},         {"lmd"},
-                                                         {"scene"}, {"scene", "new"}, {"place"}};
+                                                         {"scene"}, {"scene", "new"}, {"scene", "keep"},
+                                                         {"place"}, {"scene", "release"}};
 
 TEST(CliFrame, EveryCommandHasHelp) {
   for (std::vector<std::string> command : kCommands) {

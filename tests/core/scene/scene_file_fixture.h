@@ -13,8 +13,8 @@
 
 namespace nearfit::test {
 
-/// A scene of three parts, the last two of one mesh, in groups of which one is locked, each with a joint, written to `file_`;
-/// and ways to damage what was written.
+/// A scene of three parts, the last two of one mesh, in groups of which one is locked, each part with a joint,
+/// written to `file_`; and ways to damage what was written.
 class SceneFileFixture : public ::testing::Test {
  protected:
   SceneFileFixture() {
