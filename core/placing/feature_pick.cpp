@@ -242,6 +242,12 @@ class Pick {
     return found && isInside(*sharp, found->triangles) ? found : edge;
   }
 
+  /// The nearest edge if it is round, or the cylinder or cone around the point.
+  std::optional<PickedFeature> circleOrWall() const {
+    std::optional<PickedFeature> nearest = edge();
+    return nearest && nearest->feature.shape == FeatureShape::Circle ? nearest : wall();
+  }
+
   std::optional<PickedFeature> wall() const {
     std::optional<CylinderRegion> cylinder = cylinderRegion(mesh_, hit_.triangle);
     std::optional<ConeRegion> cone;
@@ -309,13 +315,13 @@ std::optional<PickedFeature> pickFeature(const TriangleMesh& mesh, const Surface
   if (filter == FeatureFilter::Any) {
     if (auto corner = pick.corner()) return corner;
   }
-  if (auto found = pick.edgeOrWall()) return found;
-  return filter == FeatureFilter::Any ? pick.face() : pick.prism();
+  if (auto found = filter == FeatureFilter::Rounds ? pick.circleOrWall() : pick.edgeOrWall()) return found;
+  return filter == FeatureFilter::Any ? pick.face() : filter == FeatureFilter::Axes ? pick.prism() : std::nullopt;
 }
 
 std::optional<PickedFeature> pickFeature(const MeshSection& section, glm::dvec3& point, double reach,
                                          FeatureFilter filter) {
-  if (filter == FeatureFilter::Faces) return std::nullopt;
+  if (filter == FeatureFilter::Faces || filter == FeatureFilter::Rounds) return std::nullopt;
   const PickedFeature veryPoint{{FeatureShape::Point, point}, {}, {}};
   if (filter == FeatureFilter::Points) return veryPoint;
   PickedFeature edge;

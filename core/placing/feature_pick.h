@@ -16,6 +16,7 @@ enum class FeatureFilter : std::uint8_t {
   Any,     ///< The first found of: corner, edge or circle, cylinder or cone, flat face.
   Faces,   ///< Flat faces, including facets of something round.
   Axes,    ///< Cylinders, cones, circles and edges, and prisms of six flats or more.
+  Rounds,  ///< Cylinders, cones and circles.
   Points,  ///< Corners and centres of circles; otherwise the point itself.
 };
 
@@ -38,7 +39,7 @@ std::optional<PickedFeature> pickFeature(const TriangleMesh& mesh, const Surface
                                          FeatureFilter filter = FeatureFilter::Any);
 
 /// The feature that a user points at on a cap: a nearby segment of the outline, as an edge, otherwise the
-/// point itself. std::nullopt for FeatureFilter::Faces, and for Axes if no segment is near.
+/// point itself. std::nullopt for FeatureFilter::Faces and Rounds, and for Axes if no segment is near.
 /// @param point  On the cap, in the mesh's frame [m]; set to the nearest point of the segment found.
 /// @param reach  Max distance to the outline [m]; >= 0.
 std::optional<PickedFeature> pickFeature(const MeshSection& section, glm::dvec3& point, double reach,

@@ -202,6 +202,18 @@ TriangleMesh tubeMesh(double innerRadius, double outerRadius, double height, std
   return draft.finish();
 }
 
+TriangleMesh turnedMesh(std::span<const glm::dvec2> profile, std::uint32_t segments) {
+  Draft draft;
+  std::vector<std::uint32_t> rings;
+  for (const glm::dvec2& ring : profile)
+    rings.push_back(addRing(draft, ring.x, ring.y, segments));
+  for (std::size_t i = 1; i < rings.size(); ++i)
+    addBand(draft, rings[i - 1], rings[i], segments);
+  addFan(draft, draft.add({0.0, 0.0, profile.front().y}), rings.front(), segments, true);
+  addFan(draft, draft.add({0.0, 0.0, profile.back().y}), rings.back(), segments, false);
+  return draft.finish();
+}
+
 TriangleMesh coneMesh(double radius, double height, std::uint32_t segments) {
   Draft draft;
   const std::uint32_t ring = addRing(draft, radius, 0.0, segments);

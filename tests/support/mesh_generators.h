@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/math/rigid_transform.h"
@@ -36,6 +38,10 @@ TriangleMesh cylinderMesh(double radius, double height, std::uint32_t segments);
 
 /// A tube (a bore) about z from -height/2 to height/2; 8 * segments faces.
 TriangleMesh tubeMesh(double innerRadius, double outerRadius, double height, std::uint32_t segments);
+
+/// A solid about z with flat ends: rings joined by bands; 2 * segments * rings faces.
+/// @param profile  Radius, > 0, and z of each ring, from the lower end; no two neighbours are the same.
+TriangleMesh turnedMesh(std::span<const glm::dvec2> profile, std::uint32_t segments);
 
 /// A cone about z, its base at z = 0 and its apex at z = height; 2 * segments faces.
 TriangleMesh coneMesh(double radius, double height, std::uint32_t segments);
