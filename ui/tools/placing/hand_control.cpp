@@ -4,8 +4,10 @@
 #include <optional>
 
 #include "core/haptics/workspace_mapper.h"
+#include "core/placing/joint_set.h"
 #include "core/session/session.h"
 #include "ui/model/hand_state.h"
+#include "ui/model/joint_names.h"
 #include "ui/model/move_guard.h"
 #include "ui/model/selection.h"
 #include "ui/tools/placing/placing_tools.h"
@@ -69,7 +71,12 @@ void HandControl::place(const RigidTransform& worldFromPart) {
   if (!part) return;
   const QString refusal = context_.guard.refusalOf(context_.selection.parts());
   if (!refusal.isEmpty()) return emit noted(refusal);
-  context_.hand.holds(part) ? moveHand(worldFromPart) : context_.placing.bring(worldFromPart);
+  if (!context_.hand.holds(part)) return context_.placing.bring(worldFromPart);
+  const JointSet joints = jointsOf(context_.session.scene(), *part);
+  const JointResidual off = joints.residual(worldFromPart);
+  const bool isOff = off.distance > JointSet::kMaxMisfit || off.angle > JointSet::kMaxMisfitAngle;
+  if (isOff && !joints.isContradictory()) emit noted(heldText(context_.session.scene(), {*part}));
+  moveHand(worldFromPart);
 }
 
 void HandControl::step(const glm::dvec3& shift, const glm::dquat& turn) {
@@ -90,12 +97,16 @@ void HandControl::stepHand(const glm::dvec3& shift, const glm::dquat& turn) {
 }
 
 void HandControl::moveHand(const RigidTransform& worldFromPart) {
+  const Scene& scene = context_.session.scene();
+  const Part* part = scene.find(context_.hand.part().value_or(PartId{}));
   WorkspaceMapping locks;
-  locks.translationLocks = context_.session.scene().haptics().mapping.translationLocks;
-  locks.rotationLocks = context_.session.scene().haptics().mapping.rotationLocks;
+  locks.translationLocks = scene.haptics().mapping.translationLocks;
+  locks.rotationLocks = scene.haptics().mapping.rotationLocks;
   WorkspaceMapper mapper;
   mapper.engage(context_.hand.handPose());
-  context_.hand.setHandPose(mapper.map(worldFromPart, false, locks));
+  RigidTransform wanted = mapper.map(worldFromPart, false, locks);
+  if (part != nullptr) wanted = jointsOf(scene, part->id).nearestPose(wanted, part->geometry->mass.centre);
+  context_.hand.setHandPose(wanted);
   emit handMoved(context_.hand.handPose());
 }
 

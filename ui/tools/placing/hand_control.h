@@ -59,7 +59,7 @@ class HandControl : public QObject {
   void connectHand();
   /// Tells the placing tools what the servo holds.
   void showHeld();
-  /// Moves the hand, except along or about axes that the scene locks.
+  /// Moves the hand, except along or about axes that the scene locks, and only where joints let the part be.
   void moveHand(const RigidTransform& worldFromPart);
   /// Moves the hand by a step; does nothing with other hands.
   void stepHand(const glm::dvec3& shift, const glm::dquat& turn);

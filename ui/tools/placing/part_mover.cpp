@@ -17,11 +17,14 @@ void PartMover::begin(const Scene& scene, const std::vector<PartId>& parts, bool
   for (const PartId id : parts)
     start_[id] = scene.find(id)->worldFromPart;
   poses_ = start_;
+  joints_ = JointedMotion(scene, parts);
   if (isSolid) runner_.start(scene, parts);
 }
 
-void PartMover::moveTo(const RigidTransform& motion) {
+void PartMover::moveTo(const RigidTransform& wanted) {
   if (!isUnderWay() || isEnding_) return;
+  const RigidTransform motion = joints_.nearest(wanted);
+  isHeldByJoints_ = joints_.areApart(wanted, motion);
   if (isSolid_) {
     wanted_ = runner_.want(motion);
     // They stand still until the first answer; show that contact is being prepared.
@@ -68,7 +71,8 @@ void PartMover::giveUp() {
   touching_.clear();
   motion_ = {};
   wanted_ = settled_ = 0;
-  isSolid_ = isEnding_ = hasReached_ = hasArrived_ = false;
+  joints_ = {};
+  isSolid_ = isEnding_ = hasReached_ = hasArrived_ = isHeldByJoints_ = false;
 }
 
 }  // namespace nearfit::ui

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/placing/jointed_motion.h"
 #include "core/scene/scene.h"
 #include "ui/tools/placing/solid_runner.h"
 
@@ -14,8 +15,8 @@ namespace nearfit::ui {
 /// Moves parts by a drag until end() makes their poses final or giveUp() discards them. The session does not
 /// change meanwhile, so that giving up restores the exact state.
 ///
-/// Solid parts stop at contact, so they may lag behind the pointer: end() waits until they have settled
-/// for the last moveTo().
+/// Parts stay on their joints. Solid parts stop at contact, so they may lag behind the pointer: end() waits until
+/// they have settled for the last moveTo().
 class PartMover : public QObject {
   Q_OBJECT
 
@@ -31,8 +32,9 @@ class PartMover : public QObject {
   /// True after end() while solid parts still settle.
   bool isEnding() const noexcept { return isEnding_; }
 
-  /// Sets where the parts are wanted: what was at a world point p at the start is wanted at motion(p).
-  void moveTo(const RigidTransform& motion);
+  /// Sets where the parts are wanted: what was at a world point p at the start is wanted at motion(p), or as near as
+  /// their joints allow.
+  void moveTo(const RigidTransform& wanted);
   /// Makes the poses final: emits ended() at once, or when solid parts have settled. moveTo()
   /// is ignored from then on.
   void end();
@@ -52,6 +54,8 @@ class PartMover : public QObject {
   bool hasArrived() const noexcept { return hasArrived_; }
   /// Parts that hold them back.
   const std::vector<PartId>& touching() const noexcept { return touching_; }
+  /// True if joints keep the parts from where they were last wanted.
+  bool isHeldByJoints() const noexcept { return isHeldByJoints_; }
   /// True while solid parts wait for contact to be prepared; they do not move until then.
   bool isPreparing() const noexcept { return isSolid_ && !hasReached_; }
 
@@ -67,6 +71,7 @@ class PartMover : public QObject {
   void showReached(const SolidReached& reached);
 
   SolidRunner runner_;
+  JointedMotion joints_;
   std::vector<PartId> parts_;
   std::map<PartId, RigidTransform> start_, poses_;
   RigidTransform motion_;
@@ -74,6 +79,7 @@ class PartMover : public QObject {
   std::uint64_t wanted_ = 0;   ///< Last want() of the runner.
   std::uint64_t settled_ = 0;  ///< The want() for which they have settled.
   bool isSolid_ = false, isEnding_ = false, hasReached_ = false, hasArrived_ = false;
+  bool isHeldByJoints_ = false;
 };
 
 }  // namespace nearfit::ui

@@ -10,6 +10,8 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/placing/jointed_motion.h"
+#include "ui/model/joint_names.h"
 #include "ui/model/move_guard.h"
 #include "ui/model/scene_work.h"
 #include "ui/model/selection.h"
@@ -201,7 +203,6 @@ void PlacingTools::begin(GizmoGrip handle) {
   }
 }
 
-/// Returns the scene with the part in hand at the servo's pose, where it is in the way.
 Scene PlacingTools::sceneNow() const {
   Scene scene = session_.scene();
   const Part* inHand = held_ ? scene.find(held_->part) : nullptr;
@@ -222,12 +223,19 @@ void PlacingTools::bring(const std::vector<PartId>& parts, PartId lead, const Ri
   commit();
   const QString refusal = guard_.refusalOf(parts);
   if (!refusal.isEmpty()) return emit noted(refusal);
-  const Brought brought{lead, worldFromLead, verb};
+  const Scene scene = sceneNow();
+  const RigidTransform start = scene.get(lead).worldFromPart;
+  const RigidTransform wanted = (worldFromLead * start.inverse()).normalized();
+  const JointedMotion joints(scene, parts);
+  const RigidTransform motion = joints.nearest(wanted);
+  // Without joints the pose is exactly the given one.
+  const Brought brought{lead, joints.isFree() ? worldFromLead : (motion * start).normalized(), verb};
+  if (joints.areApart(wanted, motion)) emit noted(heldText(scene, parts));
   if (placed(parts).empty() || !actions_->solid->isChecked()) return put(parts, brought);
   handle_ = GizmoGrip::None;
   brought_ = brought;
-  mover_.begin(sceneNow(), parts, true);
-  mover_.moveTo((worldFromLead * mover_.start().at(lead).inverse()).normalized());
+  mover_.begin(scene, parts, true);
+  mover_.moveTo(motion);
   mover_.end();
 }
 
@@ -255,6 +263,7 @@ void PlacingTools::showMoved() {
 QString PlacingTools::note() const {
   constexpr int kNamed = 3;
   if (mover_.isPreparing()) return tr("Preparing contact…");
+  if (mover_.isHeldByJoints() && mover_.touching().empty()) return tr("Held by joints");
   QStringList names;
   for (const PartId id : mover_.touching()) {
     const Part* part = session_.scene().find(id);

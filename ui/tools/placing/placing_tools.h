@@ -50,9 +50,11 @@ class PlacingTools : public QObject {
   /// Ends a move that is still settling and puts its present poses into the session; for
   /// those who need the scene.
   void commit();
-  /// Moves parts together so that the lead gets that pose, as one undo step. Solid parts move asynchronously,
-  /// as near to it as contact allows. If one of the parts may not be moved, emits noted() and does nothing.
-  /// Not for a part in hand.
+  /// Returns the scene with the part in hand where the servo has it.
+  Scene sceneNow() const;
+  /// Moves parts together so that the lead gets that pose, as one undo step. Where joints do not allow it they go as
+  /// near as these do, with noted(). Solid parts move asynchronously, as near to it as contact allows. If one of the
+  /// parts may not be moved, emits noted() and does nothing. Not for a part in hand.
   /// @param verb  Name of the undo step, before the part's name; a string literal.
   void bring(const std::vector<PartId>& parts, PartId lead, const RigidTransform& worldFromLead,
              const char* verb);
@@ -84,7 +86,6 @@ class PlacingTools : public QObject {
   std::optional<GizmoFrame> frame() const;
   std::optional<glm::dvec3> grab(const QPoint& position) const;
 
-  Scene sceneNow() const;
   void showActions();
   void showFrame();
   void setPivot(const std::optional<glm::dvec3>& inWorld);
