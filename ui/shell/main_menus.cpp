@@ -106,12 +106,14 @@ void MainMenus::setUpViewMenu(QMenu* panels, QMenu* units) {
 void MainMenus::setUpPlacing() {
   QMenu* menu = window_->menuBar()->addMenu(tr("&Place"));
   QToolBar* bar = commands_.placing.addTo(*window_, *menu);
-  menu->addActions({menu->addSeparator(), commands_.align.action()});
+  menu->addSeparator();
+  menu->addActions(commands_.align.actions());
   commands_.drop.addTo(*menu);
   QAction* first = bar->actions().constFirst();
   bar->insertAction(first, commands_.boxSelect.action());
   bar->insertSeparator(first);
-  bar->addAction(commands_.align.action());
+  // The rest of them, which keep parts, are in the menu.
+  bar->addActions(commands_.align.actions().mid(0, 2));
   bar->addSeparator();
   bar->addActions({commands_.measure.action(), commands_.section.action()});
 }

@@ -1,81 +1,36 @@
 #pragma once
 
+#include <QList>
 #include <QObject>
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <vector>
 
-#include "core/placing/align.h"
-#include "core/placing/feature_pick.h"
+#include "core/placing/keep.h"
 #include "core/session/session.h"
+#include "ui/tools/placing/align_rule.h"
 #include "ui/tools/placing/feature_picker.h"
-#include "ui/widgets/view_bar.h"
+#include "ui/widgets/error_box.h"
 
 class QAction;
-class QCheckBox;
-class QComboBox;
-class QLabel;
-class QPushButton;
 
 namespace nearfit::ui {
 
+class AlignBar;
 class HandState;
 class MoveGuard;
-class NumberField;
 class PlacingTools;
 class SceneWork;
 class Selection;
 class Viewport;
 
-/// The align tool's bar: prompt, filter, flip, distance, apply and cancel.
-class AlignBar : public ViewBar {
-  Q_OBJECT
-
- public:
-  explicit AlignBar(QWidget* view);
-
-  /// Shows what to do next.
-  /// @param hint  The feature under the pointer; may be empty.
-  void showPrompt(const QString& prompt, const QString& hint);
-  /// Shows the options of the picked pair; hides them before there is one.
-  /// @param isPicked   Both features are picked.
-  /// @param canFlip    Flipping makes a difference.
-  /// @param canOffset  A distance can be left between them.
-  void showPair(bool isPicked, bool canFlip, bool canOffset);
-  /// Resets flip and distance and hides the options.
-  void reset();
-
-  FeatureFilter filter() const;
-  /// False while flipping is not possible.
-  bool isFlipped() const;
-  /// Distance between the features [m].
-  double offset() const;
-
- signals:
-  /// Emitted when the user chose which features can be picked.
-  void filterChosen(nearfit::FeatureFilter filter);
-  /// Emitted when flip or distance changed.
-  void optionsEdited();
-  /// Emitted by Apply; not while the distance cannot be read.
-  void applied();
-  /// Emitted by Cancel.
-  void cancelled();
-
- private:
-  void setUpFields();
-
-  QLabel *prompt_, *hint_;
-  QComboBox* filter_;
-  QCheckBox* flip_;
-  QLabel* offsetLabel_;
-  NumberField* offset_;
-  QPushButton *apply_, *cancel_;
-};
-
-/// Aligns a part by two clicks in the view: on a feature of the part, then on the feature of another part
-/// that it is to meet. Previews the result; Apply or Return makes it one undo step, Escape discards it. A
-/// selected part takes the other selected parts along. Locked parts cannot be moved.
+/// Brings a part onto another one by two clicks in the view: on a feature of the part, then on the feature of another
+/// part that it is to meet. Previews the result; Apply or Return makes it one undo step, Escape discards it. Locked
+/// parts cannot be moved.
+///
+/// The rule says what can be picked and where the part goes: it is aligned, inserted, or kept there by a joint. A
+/// selected part takes the other selected parts along, but not to a joint. While the servo holds a part, joints can
+/// still be made, also of that part, which the servo then leads onto them.
 class AlignTool : public QObject {
   Q_OBJECT
 
@@ -93,27 +48,51 @@ class AlignTool : public QObject {
   AlignTool(const Context& context, QObject* parent);
   ~AlignTool() override;
 
-  /// Starts and stops the tool.
-  QAction* action() const noexcept { return action_; }
+  /// Start and stop the tool by each of alignRules(), in their order.
+  const QList<QAction*>& actions() const noexcept { return actions_; }
 
  signals:
+  /// Emitted when something failed that the user must see.
+  void failed(const nearfit::ui::Failure& failure);
   /// Emitted with a note for the status bar.
   void noted(const QString& text);
 
  private:
-  /// Enables the tool if parts can be aligned now; stops it if they cannot.
+  void makeActions();
+  void connectTool();
+  /// Enables the rules that can be used now; stops the tool if its own cannot.
   void updateAvailability();
-  void start();
+  bool canUse(const AlignRule& rule) const;
+  void start(const AlignRule& rule);
   void stop();
   void take(const FeaturePick& pick);
-  void retake();
+  void takeMoving(const FeaturePick& pick, const Part& part);
+  void takeFixed(const FeaturePick& pick, const Part& part);
+  void showOptions();
   void preview();
+  void previewMove(const RigidTransform& wanted);
+  void previewJoint(const RigidTransform& wanted);
+  void showLights();
   void apply();
+  void applyJoint();
   void tell(const QString& hint);
   QString prompt() const;
+  QString idleHint() const;
   QString refusalOf(const Part& part) const;
+  /// Why a part cannot be the first; empty if it can.
+  QString refusalToMove(const Part& part) const;
   bool isMoved(PartId part) const;
   bool isSound() const;
+  /// The joint that Apply makes; nullopt: it only moves.
+  std::optional<JointKind> jointKind() const;
+
+  /// A feature that was picked, as the rule sees it.
+  struct Picked {
+    PartId part{};
+    AlignFeature inPart;
+  };
+  /// The picked feature where its part is now.
+  FeatureAt placedNow(const Picked& picked) const;
 
   Session& session_;
   Selection& selection_;
@@ -122,14 +101,17 @@ class AlignTool : public QObject {
   const HandState& hand_;
   const SceneWork& work_;
   PlacingTools& placing_;
-  QAction* action_;
+  QList<QAction*> actions_;
   AlignBar* bar_;
   FeaturePicker picker_;
   FeatureHighlight movingLight_, fixedLight_;
-  std::optional<FeaturePick> moving_, fixed_;
+  const AlignRule* rule_;  ///< The one that was started last.
+  std::optional<Picked> moving_, fixed_;
   std::map<PartId, RigidTransform> start_;  ///< worldFromPart of the moving parts at the first pick.
   std::uint64_t sceneSerial_ = 0;           ///< Serial of the scene that owns what was picked.
-  RigidTransform motion_;
+  RigidTransform pose_;                     ///< Of the part with the first feature; worldFromPart.
+  std::optional<Joint> joint_;              ///< The joint that Apply makes there.
+  bool isContradicting_ = false;            ///< It contradicts other joints of the part.
   Subscription changes_;
 };
 
