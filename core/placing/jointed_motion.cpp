@@ -27,7 +27,7 @@ JointedMotion::JointedMotion(const Scene& scene, const std::vector<PartId>& part
   for (const Joint& joint : scene.joints()) {
     const bool isInner = joint.base && moved.contains(*joint.base);
     if (joint.isOn && moved.contains(joint.part) && !isInner)
-      placed[joint.part].push_back(placedJoint(scene, joint));
+      placed[joint.part].push_back(placedJoint(joint, worldFromBase(scene, joint)));
   }
   for (const auto& [id, joints] : placed) {
     const Part& part = scene.get(id);
@@ -49,7 +49,8 @@ RigidTransform JointedMotion::nearest(const RigidTransform& wanted) const noexce
     }
     if (isKept || kept_.size() == 1) break;
   }
-  return motion;
+  // Rounding must not make a step of undo of a motion that the joints do not allow.
+  return areApart(wanted, motion) && !areApart(motion, {}) ? RigidTransform{} : motion;
 }
 
 bool JointedMotion::areApart(const RigidTransform& a, const RigidTransform& b) const noexcept {

@@ -23,6 +23,7 @@ class JointedMotion {
   bool isFree() const noexcept { return kept_.empty(); }
   /// The motion near the wanted one that leaves the parts on their joints. With joints on several parts that is found
   /// by turns, and as near to all of them as a few rounds lead.
+  /// Exactly the identity if they allow next to nothing of it.
   /// @param wanted  worldFromWorld, from the start; unit quaternion. Returned as it is if isFree(), or if it leaves the
   ///                parts on their joints.
   RigidTransform nearest(const RigidTransform& wanted) const noexcept;

@@ -41,8 +41,11 @@ Joint jointBetween(JointKind kind, const FeatureAt& kept, const FeatureAt& base,
   return joint;
 }
 
-JointSet::Placed placedJoint(const Scene& scene, const Joint& joint) {
-  const RigidTransform worldFromBase = joint.base ? scene.get(*joint.base).worldFromPart : RigidTransform{};
+RigidTransform worldFromBase(const Scene& scene, const Joint& joint) {
+  return joint.base ? scene.get(*joint.base).worldFromPart : RigidTransform{};
+}
+
+JointSet::Placed placedJoint(const Joint& joint, const RigidTransform& worldFromBase) {
   const glm::dvec3 direction = glm::normalize(worldFromBase.applyToVector(joint.onBase.direction));
   return {joint.kind, joint.onPart, worldFromBase.applyToPoint(joint.onBase.point),
           joint.kind == JointKind::InPlane ? -direction : direction};
@@ -60,9 +63,10 @@ std::optional<RigidTransform> keptPose(const Scene& scene, const Joint& joint, c
   return joints.nearestPose(wanted, centre);
 }
 
-bool isViolated(const Scene& scene, const Joint& joint, const RigidTransform& worldFromPart) {
+bool isViolated(const Joint& joint, const RigidTransform& worldFromBase,
+                const RigidTransform& worldFromPart) {
   if (!joint.isOn) return false;
-  const JointSet::Placed alone = placedJoint(scene, joint);
+  const JointSet::Placed alone = placedJoint(joint, worldFromBase);
   const JointResidual off = JointSet(std::span(&alone, 1), worldFromPart).residual(worldFromPart);
   return off.distance > JointSet::kMaxMisfit || off.angle > JointSet::kMaxMisfitAngle;
 }

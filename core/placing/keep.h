@@ -27,16 +27,20 @@ struct FeatureAt {
 /// @param gap   Distance of planes along the base's direction [m]; only InPlane.
 Joint jointBetween(JointKind kind, const FeatureAt& kept, const FeatureAt& base, double gap = 0.0);
 
-/// A joint of the scene in the world, with its base where the scene has it.
-JointSet::Placed placedJoint(const Scene& scene, const Joint& joint);
+/// Where the scene has the base of a joint; the identity for the world.
+RigidTransform worldFromBase(const Scene& scene, const Joint& joint);
+
+/// A joint in the world, with its base at this pose.
+JointSet::Placed placedJoint(const Joint& joint, const RigidTransform& worldFromBase);
 
 /// The pose nearest to `wanted` on a new joint and all others of its part; std::nullopt if the joints contradict each
 /// other. Throws UsageError if the scene cannot hold the joint.
 /// @param wanted  worldFromPart; it also chooses the sense of axes.
 std::optional<RigidTransform> keptPose(const Scene& scene, const Joint& joint, const RigidTransform& wanted);
 
-/// True if a part at this pose is off a joint by more than joints on picked features fit together
-/// (JointSet::kMaxMisfit). False for a joint that is off.
-bool isViolated(const Scene& scene, const Joint& joint, const RigidTransform& worldFromPart);
+/// True if a part is off a joint by more than joints on picked features fit together (JointSet::kMaxMisfit). False for
+/// a joint that is off.
+bool isViolated(const Joint& joint, const RigidTransform& worldFromBase,
+                const RigidTransform& worldFromPart);
 
 }  // namespace nearfit

@@ -4,8 +4,10 @@
 #include <QPixmap>
 #include <QPixmapCache>
 #include <algorithm>
+#include <vector>
 
 #include "core/scene/scene_tree.h"
+#include "ui/model/joint_names.h"
 #include "ui/model/parts_model.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/theme.h"
@@ -68,6 +70,12 @@ QIcon PartCell::picture(int column) const {
       return listIcon(part_.isVisible ? QStringLiteral("eye") : QStringLiteral("eye-off"));
     case PartsModel::Locked:
       return listIcon(scene_.isLocked(part_) ? QStringLiteral("lock") : QStringLiteral("unlock"));
+    case PartsModel::Joints: {
+      const std::vector<Joint> joints = jointsOfParts(scene_, {part_.id});
+      if (joints.empty()) return {};
+      const bool isOn = std::ranges::any_of(joints, &Joint::isOn);
+      return listIcon(isOn ? QStringLiteral("joint") : QStringLiteral("joint-off"));
+    }
     default:
       return {};
   }
@@ -82,6 +90,8 @@ QString PartCell::toolTip(int column) const {
                              : tr("Hidden and not felt. Click to show it.");
     case PartsModel::Locked:
       return lockText();
+    case PartsModel::Joints:
+      return jointText();
     default:
       return description();
   }
@@ -90,6 +100,13 @@ QString PartCell::toolTip(int column) const {
 QString PartCell::lockText() const {
   if (part_.isLocked) return tr("Locked. Click to unlock it.");
   return scene_.isLocked(part_) ? tr("Locked by its group") : tr("Unlocked. Click to lock it.");
+}
+
+QString PartCell::jointText() const {
+  const std::vector<Joint> joints = jointsOfParts(scene_, {part_.id});
+  if (joints.empty()) return tr("Not kept by joints");
+  const bool isOn = std::ranges::any_of(joints, &Joint::isOn);
+  return jointTexts(scene_, joints) + '\n' + (isOn ? tr("Click to turn off") : tr("Click to turn on"));
 }
 
 QString PartCell::description() const {

@@ -24,6 +24,7 @@ class PartCell {
 
  private:
   QString lockText() const;
+  QString jointText() const;
   QString description() const;
 
   const Scene& scene_;

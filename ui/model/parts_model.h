@@ -15,7 +15,7 @@ class PartsModel : public QAbstractItemModel {
   Q_OBJECT
 
  public:
-  enum Column { Name, Moving, Visible, Locked, ColumnCount };
+  enum Column { Name, Moving, Visible, Locked, Joints, ColumnCount };
 
   explicit PartsModel(QObject* parent = nullptr);
 

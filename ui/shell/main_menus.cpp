@@ -12,6 +12,7 @@
 #include "ui/files/file_commands.h"
 #include "ui/panels/feel/feel_control.h"
 #include "ui/panels/history/undo_actions.h"
+#include "ui/panels/parts/joint_actions.h"
 #include "ui/panels/parts/part_commands.h"
 #include "ui/panels/parts/tree_actions.h"
 #include "ui/panels/replay/record_action.h"
@@ -88,6 +89,7 @@ void MainMenus::setUpEditMenu() {
                     parts.duplicate, parts.rename, parts.recolour, parts.changeUnit, parts.remove,
                     menu->addSeparator(), parts.selectAll, commands_.boxSelect.action(), parts.selectNone});
   parts.tree().addTo(*menu);
+  menu->addMenu(&parts.joints().menu());
 }
 
 void MainMenus::setUpViewMenu(QMenu* panels, QMenu* units) {

@@ -45,6 +45,7 @@
 #include "ui/tools/placing/drop_tool.h"
 #include "ui/tools/placing/hand_control.h"
 #include "ui/tools/placing/placing_tools.h"
+#include "ui/tools/placing/shown_joints.h"
 #include "ui/tools/section/section_tool.h"
 #include "ui/tools/selecting/box_select.h"
 #include "ui/tools/selecting/view_menu.h"
@@ -209,6 +210,7 @@ void MainWindow::makeToolsAndMenus() {
                                    *posePanel_);
   auto* align =
       new AlignTool({session_, *selection_, *viewport_, *guard_, *hand_, *document_, *placing_}, this);
+  new ShownJoints(session_, *selection_, *viewport_, this);
   auto* drop = new DropTool({session_, *selection_, *viewport_, *guard_, *hand_, *document_}, this);
   auto* measure = new MeasureTool(session_, *viewport_, this);
   auto* section = new SectionTool(session_, *viewport_, this);
@@ -241,8 +243,9 @@ void MainWindow::connectCommands() {
   connect(parts_, &PartCommands::unitChangeRequested, files_, &FileCommands::changeUnit);
   connect(selectedPose_, &SelectedPose::moveRequested, handControl_, &HandControl::place);
   connect(selectedPose_, &SelectedPose::stepRequested, handControl_, &HandControl::step);
-  // A number that was refused must not stay.
+  // A number that was refused, or that joints did not allow, must not stay.
   connect(placing_, &PlacingTools::failed, selectedPose_, &SelectedPose::refresh);
+  connect(placing_, &PlacingTools::noted, selectedPose_, &SelectedPose::refresh);
 }
 
 void MainWindow::setFailureSink(std::function<void(const Failure&)> sink) {

@@ -83,6 +83,7 @@ constexpr std::pair<const char*, const char*> kDarkColours[] = {
     {"#b0155e", "#f278ad"},
     {"#b05c10", "#e09a52"},
     {"#e2711d", "#ff9a52"},
+    {"#5a7a00", "#b6d957"},
     {"rgba(255, 255, 255, 235)", "rgba(32, 38, 44, 240)"},
     {"fill=\"#fff\"", "fill=\"#2e3740\""}};
 

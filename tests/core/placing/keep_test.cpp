@@ -108,14 +108,14 @@ TEST(Keep, AJointIsViolatedOffItAndNotWhileItIsTurnedOff) {
   const KeepBench bench;
   Joint joint = bench.joint(JointKind::OnAxis, kAxisX, kAxisZ);
   RigidTransform pose = keptPose(bench.scene, joint, bench.worldFromPart).value();
-  EXPECT_FALSE(isViolated(bench.scene, joint, pose));
+  EXPECT_FALSE(isViolated(joint, bench.worldFromBase, pose));
   const glm::dvec3 across = bench.worldFromBase.applyToVector({1, 0, 0});
   pose.translation += 1e-6 * across;
-  EXPECT_FALSE(isViolated(bench.scene, joint, pose)) << "within the misfit of picked features";
+  EXPECT_FALSE(isViolated(joint, bench.worldFromBase, pose)) << "within the misfit of picked features";
   pose.translation += 1e-4 * across;
-  EXPECT_TRUE(isViolated(bench.scene, joint, pose));
+  EXPECT_TRUE(isViolated(joint, bench.worldFromBase, pose));
   joint.isOn = false;
-  EXPECT_FALSE(isViolated(bench.scene, joint, pose));
+  EXPECT_FALSE(isViolated(joint, bench.worldFromBase, pose));
 }
 
 /// The part with its x axis on the z axis of the base.
@@ -152,6 +152,14 @@ TEST(JointedMotion, AShiftKeepsOnlyWhatIsAlongTheAxis) {
   EXPECT_NEAR(std::abs(reached.rotation.w), 1.0, 1e-12);
   EXPECT_TRUE(motion.areApart(wanted, reached));
   EXPECT_FALSE(motion.areApart(reached, motion.nearest(reached)));
+}
+
+TEST(JointedMotion, AShiftAcrossTheAxisIsNone) {
+  const AxisBench bench;
+  const glm::dvec3 across = bench.worldFromBase.applyToVector({0.6, 0.8, 0});
+  const RigidTransform reached = JointedMotion(bench.scene, {bench.part}).nearest({{1, 0, 0, 0}, 0.05 * across});
+  EXPECT_EQ(reached.rotation, glm::dquat(1, 0, 0, 0));
+  EXPECT_EQ(reached.translation, glm::dvec3(0.0));
 }
 
 TEST(JointedMotion, TheBaseTakesItsPartsAlong) {

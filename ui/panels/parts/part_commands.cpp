@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QColorDialog>
+#include <QMenu>
 #include <QTimer>
 #include <algorithm>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "ui/model/hand_state.h"
 #include "ui/model/scene_work.h"
 #include "ui/model/selection.h"
+#include "ui/panels/parts/joint_actions.h"
 #include "ui/panels/parts/parts_panel.h"
 #include "ui/panels/parts/tree_actions.h"
 #include "ui/widgets/make_action.h"
@@ -32,9 +34,9 @@ Colour partColour(const QColor& colour) {
 
 PartCommands::PartCommands(const Context& context, PartsPanel& panel, QWidget* window)
     : QObject(window), context_(context), panel_(panel), window_(window) {
-  tree_ = new TreeActions(
-      context.session, context.selection, context.work,
-      [this](const QString& heading, const auto& command) { attempt(heading, command); }, this);
+  const auto run = [this](const QString& heading, const auto& command) { attempt(heading, command); };
+  tree_ = new TreeActions(context.session, context.selection, context.work, run, this);
+  joints_ = new JointActions(context.session, context.selection, context.work, run, this);
   makeActions();
   makeMenu();
   connectActions();
@@ -71,7 +73,7 @@ void PartCommands::makeMenu() {
   auto* separator = new QAction(this);
   separator->setSeparator(true);
   menu_ = QList<QAction*>{takeInHand, rename, recolour, changeUnit, duplicate} + tree_->list() +
-          QList<QAction*>{separator, remove};
+          QList<QAction*>{joints_->menu().menuAction(), separator, remove};
   for (QAction* action : menu_)
     action->setShortcutVisibleInContextMenu(true);
 }
@@ -96,6 +98,7 @@ void PartCommands::connectPanel(PartsPanel& panel) {
   Session& session = context_.session;
   connect(&panel, &PartsPanel::movingPartRequested, this, &PartCommands::take);
   connect(&panel, &PartsPanel::lockRequested, this, &PartCommands::setLocked);
+  connect(&panel, &PartsPanel::jointToggleRequested, joints_, &JointActions::toggle);
   connect(&panel, &PartsPanel::renameRefused, this, &PartCommands::noted);
   connect(&panel, &PartsPanel::renameRequested, this, [this, &session](PartId part, const QString& name) {
     attempt(tr("The part could not be renamed."), [&] { session.renamePart(part, name.toStdString()); });

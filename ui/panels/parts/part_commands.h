@@ -20,6 +20,7 @@ class Session;
 namespace nearfit::ui {
 
 class HandState;
+class JointActions;
 class PartsPanel;
 class SceneWork;
 class Selection;
@@ -46,6 +47,8 @@ class PartCommands : public QObject {
 
   /// The actions on groups, visibility and locks.
   const TreeActions& tree() const noexcept { return *tree_; }
+  /// The actions on joints.
+  const JointActions& joints() const noexcept { return *joints_; }
   /// Returns the actions that a context menu offers for what is selected.
   const QList<QAction*>& menu() const noexcept { return menu_; }
 
@@ -81,6 +84,7 @@ class PartCommands : public QObject {
   PartsPanel& panel_;
   QWidget* window_;
   TreeActions* tree_;
+  JointActions* joints_;
   QList<QAction*> menu_;
   Subscription changes_;
 };

@@ -57,7 +57,7 @@ PartsPanel::PartsPanel(Session& session, Selection& selection, QWidget* parent)
   header->setStretchLastSection(false);
   header->setMinimumSectionSize(28);
   header->setSectionResizeMode(PartsModel::Name, QHeaderView::Stretch);
-  for (const int column : {PartsModel::Moving, PartsModel::Visible, PartsModel::Locked}) {
+  for (const int column : {PartsModel::Moving, PartsModel::Visible, PartsModel::Locked, PartsModel::Joints}) {
     header->setSectionResizeMode(column, QHeaderView::Fixed);
     header->resizeSection(column, 30);
   }
@@ -99,6 +99,7 @@ void PartsPanel::refresh() {
     const QModelIndex index = model_->indexOf(group);
     if (index.isValid()) view_->expand(index);
   }
+  view_->setColumnHidden(PartsModel::Joints, scene.joints().empty());
   view_->setRootIsDecorated(!scene.groups().empty());
   const bool areMany = scene.parts().size() > kMany;
   if (!areMany) filter_->clear();
@@ -187,6 +188,9 @@ void PartsPanel::clickCell(const QModelIndex& index) {
       return toggleVisible(index);
     case PartsModel::Locked:
       return toggleLock(index);
+    case PartsModel::Joints:
+      if (const std::optional<PartId> part = model_->partAt(index)) emit jointToggleRequested(*part);
+      break;
     default:
       break;
   }

@@ -43,6 +43,8 @@ class PartsPanel : public QWidget {
   void groupRenameRequested(nearfit::GroupId group, const QString& name);
   void movingPartRequested(std::optional<nearfit::PartId> part);
   void visibilityRequested(const std::vector<nearfit::PartId>& parts, bool isVisible);
+  /// Emitted when the joints of a part are to be turned off, or on if none is.
+  void jointToggleRequested(nearfit::PartId part);
   void lockRequested(const nearfit::SceneNodes& nodes, bool isLocked);
   void regroupRequested(const nearfit::SceneNodes& nodes, std::optional<nearfit::GroupId> target);
 

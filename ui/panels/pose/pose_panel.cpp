@@ -5,6 +5,7 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
+#include <QToolButton>
 #include <algorithm>
 #include <iterator>
 
@@ -42,11 +43,13 @@ PosePanel::PosePanel(QWidget* parent) : QWidget(parent), heading_(new ElidedLabe
   layout->addWidget(heading_, 0, 0, 1, 4);
   setUpPose(*layout);
   setUpMass(*layout);
+  setUpJoints(*layout);
   layout->setColumnStretch(1, 3);
   layout->setColumnStretch(3, 2);
-  layout->setRowStretch(7, 1);
+  layout->setRowStretch(8, 1);
   showPart({});
   showMass({});
+  showJoints({});
 }
 
 void PosePanel::setUpPose(QGridLayout& layout) {
@@ -105,6 +108,25 @@ void PosePanel::setUpMass(QGridLayout& layout) {
   row->addWidget(mass_);
   layout.addLayout(row, 6, 0, 1, 4);
   connect(density_, &NumberField::quantityEdited, this, &PosePanel::densityEdited);
+}
+
+void PosePanel::setUpJoints(QGridLayout& layout) {
+  jointRow_ = new QWidget(this);
+  joints_ = new ElidedLabel(jointRow_);
+  joints_->setObjectName(QStringLiteral("joints"));
+  joints_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kJoint.name()));
+  removeJoints_ = new QToolButton(jointRow_);
+  removeJoints_->setObjectName(QStringLiteral("removeJoints"));
+  removeJoints_->setIcon(icon(QStringLiteral("close")));
+  removeJoints_->setAutoRaise(true);
+  removeJoints_->setToolTip(tr("Remove all joints of the part; it stays where it is"));
+  removeJoints_->setAccessibleName(tr("Remove joints"));
+  auto* row = new QHBoxLayout(jointRow_);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(joints_, 1);
+  row->addWidget(removeJoints_);
+  layout.addWidget(jointRow_, 7, 0, 1, 4);
+  connect(removeJoints_, &QToolButton::clicked, this, &PosePanel::jointRemovalRequested);
 }
 
 NumberField* PosePanel::makeLength(const QString& name, double limit, int decimals, double step) {
@@ -202,6 +224,13 @@ void PosePanel::showMass(const std::vector<const Part*>& parts, bool isLocked) {
   mass_->setToolTip(!isOfBox ? (isOne ? tr("Mass") : tr("Total mass of the selected parts"))
                     : isOne  ? tr("Mass of its bounding box, because the mesh encloses no volume")
                              : tr("Total mass; for a mesh that encloses no volume, of its bounding box"));
+}
+
+void PosePanel::showJoints(const QString& text, const QString& help, bool canRemove) {
+  joints_->setText(text);
+  joints_->setToolTip(help);
+  removeJoints_->setEnabled(canRemove);
+  jointRow_->setVisible(!text.isEmpty());
 }
 
 void PosePanel::showDensity(const std::vector<const Part*>& parts) {

@@ -13,6 +13,7 @@
 
 class QGridLayout;
 class QLabel;
+class QToolButton;
 
 namespace nearfit {
 struct Part;
@@ -46,6 +47,11 @@ class PosePanel : public QWidget {
   /// Shows the density of the parts and their total mass.
   /// @param isLocked  True if one of them, or a group around it, is locked.
   void showMass(const std::vector<const Part*>& parts, bool isLocked = false);
+  /// Shows what joints keep the part on; hidden if there are none.
+  /// @param text       The first joint, in a line; empty: none.
+  /// @param help       All of them.
+  /// @param canRemove  The joints can be removed.
+  void showJoints(const QString& text, const QString& help = {}, bool canRemove = false);
   /// Accepts a number that is still being typed, as leaving its field does.
   void commit();
   /// Sets what returns the pivot, in the part's frame [m]; the part's origin if not set.
@@ -60,6 +66,8 @@ class PosePanel : public QWidget {
   void poseEdited(const nearfit::RigidTransform& worldFromPart);
   /// Emitted with the new density [kg/m^3].
   void densityEdited(double density);
+  /// Emitted when the joints shown are to be removed.
+  void jointRemovalRequested();
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -67,6 +75,7 @@ class PosePanel : public QWidget {
  private:
   void setUpPose(QGridLayout& layout);
   void setUpMass(QGridLayout& layout);
+  void setUpJoints(QGridLayout& layout);
   NumberField* makeLength(const QString& name, double limit, int decimals, double step);
   NumberField* makeAngle(const QString& name, double limit);
   NumberField* prepared(NumberField* field, const QString& name);
@@ -80,6 +89,9 @@ class PosePanel : public QWidget {
   std::array<NumberField*, 6> fields_{};
   NumberField *step_ = nullptr, *turnStep_ = nullptr, *density_ = nullptr;
   QLabel* mass_ = nullptr;
+  QWidget* jointRow_ = nullptr;
+  ElidedLabel* joints_ = nullptr;
+  QToolButton* removeJoints_ = nullptr;
   std::function<glm::dvec3()> pivotInPart_;
   RigidTransform pose_, hand_;
   glm::dvec3 handAngles_{0.0};     ///< Angles of hand_ [rad].

@@ -6,6 +6,7 @@
 #include "core/placing/pivot.h"
 #include "core/session/session.h"
 #include "ui/model/hand_state.h"
+#include "ui/model/joint_names.h"
 #include "ui/model/move_guard.h"
 #include "ui/model/scene_work.h"
 #include "ui/model/selection.h"
@@ -50,6 +51,7 @@ void SelectedPose::connectPanel() {
   panel_.setPivot([this] { return pivotInCurrent(); });
   connect(&panel_, &PosePanel::poseEdited, this, &SelectedPose::moveRequested);
   connect(&panel_, &PosePanel::densityEdited, this, &SelectedPose::setDensity);
+  connect(&panel_, &PosePanel::jointRemovalRequested, this, &SelectedPose::removeJoints);
   connect(&context_.work, &SceneWork::sceneNeeded, &panel_, &PosePanel::commit);
   connect(&context_.view, &Viewport::nudged, this,
           [this](int x, int y, int z) { emit stepRequested(panel_.step() * glm::dvec3(x, y, z), kNoTurn); });
@@ -88,6 +90,7 @@ void SelectedPose::refresh() {
   for (const PartId each : selection.parts())
     parts.push_back(scene.find(each));
   panel_.showMass(parts, std::ranges::any_of(parts, [&](const Part* p) { return scene.isLocked(*p); }));
+  showJoints();
   const HandState& hand = context_.hand;
   if (hand.isHeldBy(Hand::Manual) && hand.holds(selection.current())) {
     panel_.showPose(hand.partPose(), hand.handPose());
@@ -106,6 +109,32 @@ void SelectedPose::setDensity(double density) {
     context_.session.setDensity(context_.selection.parts(), density);
   } catch (...) {
     emit failed(describe(tr("The density could not be changed."), std::current_exception()));
+    refresh();
+  }
+}
+
+/// Shows the joints of the current part, whose pose is shown too.
+void SelectedPose::showJoints() {
+  const Scene& scene = context_.session.scene();
+  const Part* part = current();
+  const std::vector<Joint> joints = part != nullptr ? jointsOfParts(scene, {part->id}) : std::vector<Joint>{};
+  if (joints.empty()) return panel_.showJoints({});
+  const auto others = static_cast<int>(joints.size()) - 1;
+  const QString first = jointTexts(scene, {joints.front()});
+  panel_.showJoints(others > 0 ? tr("%1 and %n more", nullptr, others).arg(first) : first,
+                    jointTexts(scene, joints), !scene.isLocked(*part));
+}
+
+void SelectedPose::removeJoints() {
+  const Part* part = current();
+  if (part == nullptr) return;
+  std::vector<JointId> ids;
+  for (const Joint& joint : jointsOfParts(context_.session.scene(), {part->id}))
+    ids.push_back(joint.id);
+  try {
+    context_.session.removeJoints(ids);
+  } catch (...) {
+    emit failed(describe(tr("The joint could not be removed."), std::current_exception()));
     refresh();
   }
 }

@@ -64,6 +64,8 @@ class SelectedPose : public QObject {
   glm::dvec3 pivotInCurrent() const;
   void showHeldPose();
   void setDensity(double density);
+  void showJoints();
+  void removeJoints();
 
   const Context context_;
   PosePanel& panel_;

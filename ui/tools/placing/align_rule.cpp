@@ -12,7 +12,7 @@ AlignFeature wholeFeature(const TriangleMesh&, const PickedFeature& picked) {
 }
 
 /// An axis may be anywhere along the other one, also that of a circle.
-AlignFeature axisOf(const TriangleMesh&, const PickedFeature& picked) {
+AlignFeature onlyAxis(const TriangleMesh&, const PickedFeature& picked) {
   AlignFeature feature = picked.feature;
   feature.shape = FeatureShape::Axis;
   return feature;
@@ -61,7 +61,7 @@ constexpr AlignRule kKeepOnAxis{
     QT_TRANSLATE_NOOP("AlignTool", "Click the axis to keep it on"),
     FeatureFilter::Axes,
     JointKind::OnAxis,
-    axisOf,
+    onlyAxis,
     alignMotion,
     canBeOffset};
 

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <QColor>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <vtkActor.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include "core/scene/joint.h"
+
+namespace nearfit::ui {
+
+/// How a joint is drawn. All in the world.
+struct JointMark {
+  JointKind kind = JointKind::OnAxis;
+  glm::dvec3 middle{0.0};               ///< Of the line, the square or the cross [m].
+  glm::dvec3 direction{0.0, 0.0, 1.0};  ///< Of the axis, or normal of the plane; unit.
+  double reach = 0.0;                   ///< Half the length of the line, the cross or a side of the square [m].
+  /// Feature of the part, if the part is off the joint [m]: a line leads there, in the colour of warnings.
+  std::optional<glm::dvec3> strayed;
+};
+
+/// Draws joints over all parts: an axis as a dash-dotted line, a plane as a translucent square, a point as a cross with
+/// a dot.
+class JointMarks {
+ public:
+  explicit JointMarks(vtkRenderer& renderer);
+  ~JointMarks();
+  JointMarks(const JointMarks&) = delete;
+  JointMarks& operator=(const JointMarks&) = delete;
+
+  /// Shows these joints, in the colours of the present theme; empty: none.
+  void show(const std::vector<JointMark>& marks);
+
+ private:
+  /// What is drawn in one colour.
+  struct Layer {
+    vtkNew<vtkPolyData> faces, lines, points;
+    vtkNew<vtkActor> face, line, point;
+    std::array<vtkActor*, 3> actors() const { return {face.Get(), line.Get(), point.Get()}; }
+  };
+  void setUp(const Layer& layer);
+  static void fill(Layer& layer, const std::vector<const JointMark*>& marks, const QColor& colour);
+
+  vtkSmartPointer<vtkRenderer> renderer_;  ///< Owned: the view may be destroyed before its tools.
+  Layer kept_, strayed_;
+};
+
+}  // namespace nearfit::ui
