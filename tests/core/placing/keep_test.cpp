@@ -30,7 +30,8 @@ struct KeepBench {
   Scene scene;
   PartId base = scene.add(cubeAt("base", worldFromBase)), part = scene.add(cubeAt("part", worldFromPart));
 
-  Joint joint(JointKind kind, const AlignFeature& onPart, const AlignFeature& onBase, double gap = 0.0) const {
+  Joint joint(JointKind kind, const AlignFeature& onPart, const AlignFeature& onBase,
+              double gap = 0.0) const {
     return jointBetween(kind, {part, onPart, worldFromPart}, {base, onBase, worldFromBase}, gap);
   }
 };
@@ -157,7 +158,8 @@ TEST(JointedMotion, AShiftKeepsOnlyWhatIsAlongTheAxis) {
 TEST(JointedMotion, AShiftAcrossTheAxisIsNone) {
   const AxisBench bench;
   const glm::dvec3 across = bench.worldFromBase.applyToVector({0.6, 0.8, 0});
-  const RigidTransform reached = JointedMotion(bench.scene, {bench.part}).nearest({{1, 0, 0, 0}, 0.05 * across});
+  const JointedMotion motion(bench.scene, {bench.part});
+  const RigidTransform reached = motion.nearest({{1, 0, 0, 0}, 0.05 * across});
   EXPECT_EQ(reached.rotation, glm::dquat(1, 0, 0, 0));
   EXPECT_EQ(reached.translation, glm::dvec3(0.0));
 }

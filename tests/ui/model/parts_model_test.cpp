@@ -31,6 +31,7 @@ class PartsModelTest : public QObject {
   void editingAsksForARenameAndChangesNothing();
   void groupsStandBeforePartsAndHoldTheirs();
   void whatIsDroppedAsksForItsPlaceAndChangesNothing();
+  void jointsAreShownBesideTheirPart();
 };
 
 void PartsModelTest::keepsTheRulesOfItemModels() {
@@ -127,6 +128,30 @@ void PartsModelTest::whatIsDroppedAsksForItsPlaceAndChangesNothing() {
   foreign.setData(model.mimeTypes().front(), {});
   model.dropMimeData(&foreign, Qt::MoveAction, -1, -1, model.indexOf(group));
   QVERIFY(asked.isEmpty());
+}
+
+void PartsModelTest::jointsAreShownBesideTheirPart() {
+  ui::PartsModel model;
+  Scene scene;
+  const PartId base = scene.add(cube("base")), kept = scene.add(cube("kept"));
+  Joint joint;
+  joint.part = kept;
+  joint.base = base;
+  const JointId id = scene.addJoint(joint);
+  model.setScene(scene);
+  const auto cell = [&](PartId part, int role) {
+    return model.indexOf(part).siblingAtColumn(ui::PartsModel::Joints).data(role);
+  };
+  QVERIFY(cell(base, Qt::DecorationRole).value<QIcon>().isNull());
+  QVERIFY(!cell(kept, Qt::DecorationRole).value<QIcon>().isNull());
+  QVERIFY(cell(kept, Qt::ToolTipRole).toString().startsWith(QStringLiteral("Kept on axis of base\n")));
+  joint = *scene.findJoint(id);
+  joint.isOn = false;
+  scene.replaceJoint(joint);
+  const QSignalSpy resets(&model, &QAbstractItemModel::modelReset);
+  model.setScene(scene);
+  QCOMPARE(resets.count(), 0);
+  QVERIFY(cell(kept, Qt::ToolTipRole).toString().startsWith(QStringLiteral("Kept on axis of base (off)\n")));
 }
 
 NEARFIT_QT_SUITE(PartsModelTest, test::runQtTest<PartsModelTest>)
