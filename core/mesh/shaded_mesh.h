@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -8,6 +9,10 @@
 #include "core/mesh/triangle_mesh.h"
 
 namespace nearfit {
+
+/// Edges sharper than this are drawn as lines and get split normals [rad]. Facets of finely tessellated cylinders
+/// stay below it.
+constexpr double kSharpAngle = std::numbers::pi / 6.0;
 
 /// A mesh for drawing, its vertices split along sharp edges so that each has one normal.
 struct ShadedMesh {

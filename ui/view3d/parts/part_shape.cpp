@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -28,10 +27,6 @@ constexpr vtkIdType kMinTriangles = 500, kMinOfADraft = 200;
 /// Cells along the longest side. Twice the first number would take VTK five times as long; the last serves
 /// scenes of a thousand parts.
 constexpr std::array kDivisions{96, 28, 8, 4};
-
-/// Edges sharper than this are drawn as lines and get split normals [rad]. Facets of finely tessellated
-/// cylinders stay below it.
-constexpr double kSharpAngle = std::numbers::pi / 6.0;
 
 vtkSmartPointer<vtkCellArray> cellsOfTriangles(std::span<const Triangle> triangles) {
   auto cells = vtkSmartPointer<vtkCellArray>::New();
