@@ -48,6 +48,7 @@ int run(int argc, char** argv) {
   nearfit::cli::addPlaceCommand(program);
   nearfit::cli::addExportCommand(program);
   nearfit::cli::addClearanceCommand(program);
+  nearfit::cli::addClearanceMapCommand(program);
   nearfit::cli::addDevicesCommand(program);
   nearfit::cli::addCacheCommand(program);
   try {

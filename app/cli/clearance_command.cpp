@@ -3,12 +3,11 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
-#include "core/base/error.h"
+#include "app/cli/scene_part.h"
 #include "core/report/clearance.h"
 #include "core/scene/scene_file.h"
 
@@ -19,17 +18,6 @@ struct ClearanceOptions {
   std::string scene, part;
   std::optional<double> cutoff;
 };
-
-PartId chosenPart(const Scene& scene, const std::string& name) {
-  if (name.empty()) {
-    if (scene.movingPart()) return *scene.movingPart();
-    throw UsageError("--part", "the scene has no moving part", "name one of its parts");
-  }
-  const Part* part = scene.findByName(name);
-  if (part == nullptr)
-    throw UsageError("--part", fmt::format("there is no part \"{}\"", name), "name a part of the scene");
-  return part->id;
-}
 
 void runClearance(const ClearanceOptions& options) {
   if (options.cutoff) checkPositive("--cutoff", *options.cutoff);

@@ -15,6 +15,7 @@ void addSceneCommand(CLI::App& program);
 void addPlaceCommand(CLI::App& program);
 void addExportCommand(CLI::App& program);
 void addClearanceCommand(CLI::App& program);
+void addClearanceMapCommand(CLI::App& program);
 void addCacheCommand(CLI::App& program);
 void addDevicesCommand(CLI::App& program);
 

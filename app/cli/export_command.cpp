@@ -49,7 +49,7 @@ void runExport(const ExportOptions& options) {
                      "use .json, .csv, .stl, .obj or .ply");
   if (!meshKindOf(*kind) && !options.parts.empty())
     throw UsageError("--part", "a placement always has all parts", "leave it out, or write a mesh");
-  SceneExport what{*kind, parseUnit(options.unit), {}};
+  SceneExport what{*kind, parseUnit(options.unit), {}, {}};
   const std::filesystem::path sceneFile = options.scene;
   checkTarget(options.out, std::span(&sceneFile, 1));
   const Scene scene = readSceneFile(options.scene);

@@ -1,9 +1,7 @@
 #include "core/report/mesh_export.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -12,58 +10,15 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/files/atomic_write.h"
+#include "core/report/mesh_file.h"
 
 namespace nearfit {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "binary files are written as memory has them");
 
 constexpr std::size_t kStlHeaderBytes = 80, kStlTriangleBytes = 50;
 constexpr std::size_t kPlyVertexBytes = 3 * sizeof(double) + 3, kPlyFaceBytes = 1 + 3 * sizeof(std::uint32_t);
 /// Approximate length of a line in an OBJ file.
 constexpr std::size_t kObjVertexBytes = 58, kObjFaceBytes = 24;
-
-/// Buffers the file's content and reports progress.
-class MeshFile {
- public:
-  MeshFile(const std::filesystem::path& file, std::uint64_t steps, const ProgressCallback& progress)
-      : file_(file), steps_(steps), progress_(progress) {}
-
-  std::string& text() noexcept { return text_; }
-  template <class T>
-  void append(const T& value) {
-    char bytes[sizeof(T)];
-    std::memcpy(bytes, &value, sizeof(T));
-    text_.append(bytes, sizeof(T));
-  }
-  /// Call after each vertex or face. Writes and checks for cancellation once per several thousand.
-  void step() {
-    constexpr std::size_t kBlock = 1 << 18;
-    ++done_;
-    if (text_.size() < kBlock) return;
-    flush();
-    if (progress_ && !progress_(static_cast<double>(done_) / static_cast<double>(steps_))) throw Cancelled();
-  }
-  std::uint64_t commit() {
-    flush();
-    file_.commit();
-    return written_;
-  }
-
- private:
-  void flush() {
-    file_.write(text_);
-    written_ += text_.size();
-    text_.clear();
-  }
-
-  AtomicFile file_;
-  const std::uint64_t steps_;
-  const ProgressCallback& progress_;
-  std::string text_;
-  std::uint64_t done_ = 0, written_ = 0;
-};
 
 glm::dvec3 placed(const Part& part, const glm::dvec3& vertex, double metresPerUnit) {
   return part.worldFromPart.applyToPoint(vertex) / metresPerUnit;
@@ -126,17 +81,12 @@ void writeObj(MeshFile& out, std::span<const Scene::PartPtr> parts, double metre
   }
 }
 
-std::uint8_t toByte(float channel) {
-  return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(channel, 0.0F, 1.0F)));
-}
-
 void writePlyVertices(MeshFile& out, const Part& part, double metresPerUnit) {
   for (const glm::dvec3& vertex : part.geometry->mesh.vertices()) {
     const glm::dvec3 v = placed(part, vertex, metresPerUnit);
     for (glm::length_t k = 0; k < 3; ++k)
       out.append(v[k]);
-    for (const float channel : {part.colour.r, part.colour.g, part.colour.b})
-      out.append(toByte(channel));
+    out.append(part.colour);
     out.step();
   }
 }

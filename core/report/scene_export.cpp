@@ -4,15 +4,43 @@
 #include <array>
 #include <cctype>
 
+#include "core/base/error.h"
 #include "core/files/atomic_write.h"
+#include "core/report/clearance_histogram.h"
+#include "core/report/clearance_map.h"
+#include "core/report/clearance_map_export.h"
 #include "core/report/placement_export.h"
 #include "core/report/placement_table.h"
 
 namespace nearfit {
 namespace {
 
+/// Kinds that an extension stands for.
 constexpr std::array kKinds = {ExportKind::PlacementJson, ExportKind::PlacementCsv, ExportKind::MeshStl,
                                ExportKind::MeshObj, ExportKind::MeshPly};
+
+/// Progress when a map is computed.
+constexpr double kMapped = 0.8;
+
+bool isMap(ExportKind kind) noexcept {
+  return kind == ExportKind::ClearanceMapPly || kind == ExportKind::ClearanceHistogramCsv;
+}
+
+/// @param placed  Has the moving part where it is now.
+void exportMap(const Scene& placed, const SceneExport& what, const std::filesystem::path& file,
+               const ProgressCallback& progress) {
+  const std::optional<PartId> subject = what.map.subject ? what.map.subject : placed.movingPart();
+  if (!subject) throw UsageError("clearance map", "no part is selected or in hand", "select the part to map");
+  const ClearanceMap map =
+      ClearanceMapper().map(clearanceMapRequest(placed, *subject, what.map.range, what.map.hasNearParts),
+                            stageCallback(progress, 0.0, kMapped));
+  if (what.kind == ExportKind::ClearanceMapPly) {
+    exportClearanceMap(map, placed, what.metresPerUnit, file, stageCallback(progress, kMapped, 1.0));
+  } else {
+    atomicWrite(file,
+                histogramCsv(AreaByClearance(map.surfaces.front()), map.range, CsvHeader::NamesWithUnits));
+  }
+}
 
 }  // namespace
 
@@ -26,6 +54,8 @@ std::optional<MeshFileKind> meshKindOf(ExportKind kind) noexcept {
       return MeshFileKind::Ply;
     case ExportKind::PlacementJson:
     case ExportKind::PlacementCsv:
+    case ExportKind::ClearanceMapPly:
+    case ExportKind::ClearanceHistogramCsv:
       break;
   }
   return std::nullopt;
@@ -33,6 +63,7 @@ std::optional<MeshFileKind> meshKindOf(ExportKind kind) noexcept {
 
 std::string_view extensionOf(ExportKind kind) noexcept {
   if (const auto mesh = meshKindOf(kind)) return extensionOf(*mesh);
+  if (kind == ExportKind::ClearanceMapPly) return "ply";
   return kind == ExportKind::PlacementJson ? "json" : "csv";
 }
 
@@ -52,6 +83,8 @@ void exportScene(const Scene& scene, const RigidTransform& worldFromMoving, cons
   if (const auto mesh = meshKindOf(what.kind)) {
     const Scene placed = placedScene(scene, worldFromMoving);
     exportMesh(chosenParts(placed, what.only), *mesh, what.metresPerUnit, file, progress);
+  } else if (isMap(what.kind)) {
+    exportMap(placedScene(scene, worldFromMoving), what, file, progress);
   } else if (what.kind == ExportKind::PlacementCsv) {
     atomicWrite(file, placementCsv(scene, worldFromMoving));
   } else {

@@ -1,0 +1,80 @@
+#include "core/report/clearance_histogram.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace nearfit {
+
+AreaByClearance::AreaByClearance(const MappedSurface& mapped) {
+  const std::vector<double>& areas = mapped.surface->areas;
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    total_ += areas[i];
+    if (!std::isnan(mapped.distances[i])) order.push_back(i);
+  }
+  // Sums must not depend on how equal ones are ordered.
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return mapped.distances[i]; });
+  distances_.reserve(order.size());
+  summed_.reserve(order.size());
+  double sum = 0.0;
+  for (const std::size_t i : order) {
+    sum += areas[i];
+    moment_ += mapped.distances[i] * areas[i];
+    distances_.push_back(mapped.distances[i]);
+    summed_.push_back(sum);
+  }
+}
+
+double AreaByClearance::nearerThan(double distance) const noexcept {
+  const auto count = std::ranges::lower_bound(distances_, distance) - distances_.begin();
+  return count > 0 ? summed_[static_cast<std::size_t>(count) - 1] : 0.0;
+}
+
+double AreaByClearance::inContact() const noexcept {
+  return nearerThan(std::nextafter(kContactDistance, 1.0)) - overlapping();
+}
+
+std::optional<double> AreaByClearance::least() const noexcept {
+  return distances_.empty() ? std::nullopt : std::optional(distances_.front());
+}
+
+std::optional<double> AreaByClearance::mean() const noexcept {
+  return within() > 0.0 ? std::optional(moment_ / within()) : std::nullopt;
+}
+
+std::vector<ClearanceBin> clearanceHistogram(const AreaByClearance& areas, double range, std::size_t bins) {
+  const double width = range / static_cast<double>(bins), infinity = std::numeric_limits<double>::infinity();
+  const double deepest = std::min(0.0, areas.least().value_or(0.0));
+  const auto below = static_cast<long>(std::min(static_cast<double>(bins), std::ceil(-deepest / width)));
+  std::vector<ClearanceBin> histogram;
+  double before = 0.0;
+  for (long i = -below; i < static_cast<long>(bins); ++i) {
+    const bool isLast = i + 1 == static_cast<long>(bins);
+    const double from = width * static_cast<double>(i),
+                 to = isLast ? range : width * static_cast<double>(i + 1);
+    const double nearer = areas.nearerThan(isLast ? infinity : to);
+    histogram.push_back({from, to, nearer - before});
+    before = nearer;
+  }
+  return histogram;
+}
+
+std::string histogramCsv(const AreaByClearance& areas, double range, CsvHeader header) {
+  std::string text =
+      header == CsvHeader::NamesWithUnits ? "from [m],to [m],area [m^2],share\n" : "from,to,area,share\n";
+  const double total = areas.total();
+  const auto add = [&](double from, double to, double area) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", from, to, area,
+                   total > 0.0 ? area / total : 0.0);
+  };
+  for (const ClearanceBin& bin : clearanceHistogram(areas, range))
+    add(bin.from, bin.to, bin.area);
+  add(range, std::numeric_limits<double>::infinity(), std::max(0.0, total - areas.within()));
+  return text;
+}
+
+}  // namespace nearfit

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/report/clearance.h"
+#include "core/report/clearance_map.h"
+
+namespace nearfit {
+
+/// Area of a mapped surface by its clearance: each sample stands for its share of the surface.
+class AreaByClearance {
+ public:
+  AreaByClearance() = default;
+  /// O(n log n).
+  explicit AreaByClearance(const MappedSurface& mapped);
+
+  double total() const noexcept { return total_; }  ///< Of the whole surface [m^2].
+  /// Area within the range of the map [m^2].
+  double within() const noexcept { return summed_.empty() ? 0.0 : summed_.back(); }
+  /// Area nearer than a distance [m^2]. O(log n).
+  double nearerThan(double distance) const noexcept;
+  /// Area in contact: no farther apart, or deeper, than kContactDistance [m^2].
+  double inContact() const noexcept;
+  /// Area deeper in another part than that [m^2].
+  double overlapping() const noexcept { return nearerThan(-kContactDistance); }
+  /// Least clearance [m]; nullopt if none is within the range.
+  std::optional<double> least() const noexcept;
+  /// Mean over the area within the range [m]; nullopt if there is none.
+  std::optional<double> mean() const noexcept;
+
+ private:
+  std::vector<double> distances_;  ///< Ascending; without those beyond the range [m].
+  std::vector<double> summed_;     ///< Area up to and with each of them [m^2].
+  double total_ = 0.0;
+  double moment_ = 0.0;  ///< Sum of distance times area [m^3].
+};
+
+/// The area whose clearance is at least `from` and less than `to` [m].
+struct ClearanceBin {
+  double from = 0.0, to = 0.0;
+  double area = 0.0;  ///< [m^2]
+};
+
+/// Bins of one width from 0 to the range, and below 0 as many as overlaps need. The lowest of more than `bins` below 0
+/// holds all that is deeper. The last one holds the range itself.
+/// @param range  Of the map [m]; > 0.
+/// @param bins   Number from 0 to the range; > 0.
+std::vector<ClearanceBin> clearanceHistogram(const AreaByClearance& areas, double range,
+                                             std::size_t bins = 40);
+
+/// The histogram as CSV: `from`, `to` [m], `area` [m^2], `share` of the whole surface. A last row from the range to `inf`
+/// has what is beyond.
+std::string histogramCsv(const AreaByClearance& areas, double range, CsvHeader header = CsvHeader::Names);
+
+}  // namespace nearfit

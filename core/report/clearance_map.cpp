@@ -1,0 +1,421 @@
+#include "core/report/clearance_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "core/math/tolerances.h"
+#include "core/parallel/parallel_for.h"
+#include "core/parallel/shared_progress.h"
+#include "core/proximity/overlap/containment.h"
+#include "core/proximity/query/broad_phase.h"
+#include "core/proximity/surface/point_distance.h"
+#include "core/proximity/surface/surface_distance.h"
+
+namespace nearfit {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoDistance = std::numeric_limits<double>::quiet_NaN();
+
+/// Samples whose search uses what the search of the one before found. Fixed, so that results do not depend on threads.
+constexpr std::size_t kChunk = 512;
+/// Share of a bound on a distance that rounding leaves.
+constexpr double kSure = 1.0 - 1e-9;
+
+/// Progress when hierarchies are built, and when surfaces are sampled.
+constexpr double kPrepared = 0.3, kSampled = 0.4;
+
+/// Distance between two boxes [m].
+double gapOf(const Aabb& a, const Aabb& b) noexcept {
+  return glm::length(glm::max(glm::max(a.lower - b.upper, b.lower - a.upper), glm::dvec3(0.0)));
+}
+
+Aabb grown(Aabb box, double by) noexcept {
+  box.lower -= glm::dvec3(by);
+  box.upper += glm::dvec3(by);
+  return box;
+}
+
+bool hasTriangles(const PartGeometryPtr& geometry) {
+  return geometry && !geometry->mesh.triangles().empty();
+}
+
+const PlacedPart& subjectOf(const ClearanceMapRequest& request) {
+  const auto subject = std::ranges::find(request.parts, request.subject, &PlacedPart::id);
+  if (subject == request.parts.end() || !hasTriangles(subject->geometry))
+    throw UsageError("clearance map", "there is no such part with a surface", "choose a part of the scene");
+  return *subject;
+}
+
+void checkRange(double range) {
+  if (!(range >= 0.0) || !std::isfinite(range))
+    throw UsageError("clearance map", fmt::format("{} m is not a valid range", range),
+                     "give a length greater than 0");
+}
+
+RigidTransform relativePose(const PlacedPart& to, const PlacedPart& from) noexcept {
+  return (to.worldFromPart.inverse() * from.worldFromPart).normalized();
+}
+
+/// Box of a part in the frame of another one.
+Aabb boxIn(const PlacedPart& frame, const PlacedPart& part) noexcept {
+  return boundsOf(part.geometry->mesh.bounds(), relativePose(frame, part));
+}
+
+double sizeOf(const PlacedPart& part) noexcept {
+  return part.geometry->mesh.bounds().diagonal();
+}
+
+/// Smallest of 1, 2 and 5 times a power of ten that is not below a length > 0.
+double roundedUpLength(double length) {
+  constexpr double kRounding = 1e-9;
+  const double power = std::pow(10.0, std::floor(std::log10(length)));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (step * power >= length * (1.0 - kRounding)) return step * power;
+  }
+  return 10.0 * power;
+}
+
+}  // namespace
+
+/// A part as others are measured against it, in its own frame.
+class ClearanceMapper::Target {
+ public:
+  explicit Target(const PartGeometryPtr& geometry)
+      : mesh_(geometry->tree(), nullptr),
+        components_(piecesOf(mesh_.mesh())),
+        solid_(mesh_, components_),
+        distance_(mesh_),
+        bounds_(mesh_.mesh().bounds()) {}
+  Target(const Target&) = delete;
+  Target& operator=(const Target&) = delete;
+
+  const PointDistance& distance() const noexcept { return distance_; }
+  /// True if the point, which is not on the surface, is within what closed components enclose.
+  bool contains(const glm::dvec3& point) const { return solid_.contains(point); }
+  const Aabb& bounds() const noexcept { return bounds_; }
+  double size() const noexcept { return mesh_.tree().size(); }
+
+ private:
+  PlacedMesh mesh_;
+  MeshComponents components_;
+  PlacedSolid solid_;
+  PointDistance distance_;
+  Aabb bounds_;
+};
+
+namespace {
+
+/// What is needed of ClearanceMapper::Target; a template, as that class is private.
+template <class Target>
+struct PlacedTarget {
+  PartId id{};
+  std::shared_ptr<const Target> target;
+  RigidTransform targetFromPart, worldFromTarget;
+};
+
+/// The search of one sample after the other against the same targets.
+template <class Target>
+class SampleSearch {
+ public:
+  /// @param targets  Near enough to matter.
+  SampleSearch(std::vector<const PlacedTarget<Target>*> targets, double range)
+      : targets_(std::move(targets)), before_(targets_.size()), range_(range) {}
+
+  struct Result {
+    double distance = kNoDistance;
+    PartId nearest{};
+    glm::dvec3 nearestPoint{0.0};  ///< In the world [m].
+  };
+
+  /// @param point  In the part's frame [m].
+  Result at(const glm::dvec3& point) {
+    Result best;
+    // A distance of just the range counts.
+    double least = std::nextafter(range_, kInfinity);
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+      const PlacedTarget<Target>& placed = *targets_[i];
+      const Found found =
+          signedDistance(placed, before_[i], placed.targetFromPart.applyToPoint(point), least);
+      if (!(found.distance < least)) continue;
+      least = found.distance;
+      best = {least, placed.id, placed.worldFromTarget.applyToPoint(found.point)};
+    }
+    return best;
+  }
+
+ private:
+  /// What is known of the sample before, of one target.
+  struct Before {
+    std::uint32_t triangle = NearestPoint::kNone;
+    glm::dvec3 point{0.0};  ///< The sample, in the target's frame [m].
+    /// The surface is no nearer to it [m]; 0 if it is not known on which side it is.
+    double clear = 0.0;
+    bool isInside = false;
+  };
+  struct Found {
+    double distance = kInfinity;
+    glm::dvec3 point{0.0};
+  };
+
+  /// @param least  Distances that are not below it do not matter; depths do, unless it is a greater depth.
+  Found signedDistance(const PlacedTarget<Target>& placed, Before& before, const glm::dvec3& point,
+                       double least) {
+    const Target& target = *placed.target;
+    const double outside = gapOf(target.bounds(), {point, point});
+    if (outside > 0.0 && outside >= least) {
+      before = {before.triangle, point, outside, false};
+      return {};
+    }
+    const double within = least > 0.0 ? least : std::nextafter(range_, kInfinity);
+    NearestPoint nearest = target.distance().nearest(point, within, before.triangle);
+    const double clear = nearest.isFound() ? nearest.distance : within;
+    // On the surface to rounding: neither side.
+    if (clear <= kDistanceTolerance * (target.size() + glm::length(point))) {
+      before = {nearest.triangle, point, 0.0, false};
+      return {clear, nearest.point};
+    }
+    const bool isInside = outside > 0.0 ? false : isWithin(target, before, point);
+    if (isInside && !nearest.isFound())
+      nearest = target.distance().nearest(point, kInfinity, before.triangle);
+    before = {nearest.isFound() ? nearest.triangle : before.triangle, point, clear, isInside};
+    return {isInside ? -nearest.distance : nearest.distance, nearest.point};
+  }
+
+  /// No surface is between two points that are nearer to each other than to it.
+  static bool isWithin(const Target& target, const Before& before, const glm::dvec3& point) {
+    if (glm::distance(point, before.point) < kSure * before.clear) return before.isInside;
+    return target.contains(point);
+  }
+
+  std::vector<const PlacedTarget<Target>*> targets_;
+  std::vector<Before> before_;
+  const double range_;
+};
+
+/// Fills in the clearances of a chunk of samples, from `begin` to before `end`.
+template <class Target>
+void measureChunk(MappedSurface& mapped, std::span<const PlacedTarget<Target>> targets, double range,
+                  std::size_t begin, std::size_t end) {
+  const std::vector<glm::dvec3>& points = mapped.surface->points;
+  Aabb box;
+  for (std::size_t i = begin; i < end; ++i)
+    box.add(points[i]);
+  const double reach = range + 0.5 * box.diagonal();
+  std::vector<const PlacedTarget<Target>*> near;
+  for (const PlacedTarget<Target>& placed : targets) {
+    const glm::dvec3 centre = placed.targetFromPart.applyToPoint(box.centre());
+    if (kSure * gapOf(placed.target->bounds(), {centre, centre}) <= reach) near.push_back(&placed);
+  }
+  if (near.empty()) return;
+  SampleSearch<Target> search(std::move(near), range);
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto found = search.at(points[i]);
+    mapped.distances[i] = found.distance;
+    mapped.nearest[i] = found.nearest;
+    mapped.nearestPoints[i] = found.nearestPoint;
+  }
+}
+
+template <class Target>
+void measure(MappedSurface& mapped, std::span<const PlacedTarget<Target>> targets, double range,
+             bool isParallel, SharedProgress& progress) {
+  const std::size_t count = mapped.surface->points.size();
+  mapped.distances.assign(count, kNoDistance);
+  mapped.nearest.assign(count, PartId{});
+  mapped.nearestPoints.assign(count, glm::dvec3(0.0));
+  const auto work = [&](std::size_t chunk) {
+    const std::size_t begin = chunk * kChunk, end = std::min(count, begin + kChunk);
+    measureChunk(mapped, targets, range, begin, end);
+    progress.add(static_cast<double>(end - begin));
+  };
+  const std::size_t chunks = (count + kChunk - 1) / kChunk;
+  if (isParallel) return parallelFor(chunks, work);
+  for (std::size_t chunk = 0; chunk < chunks; ++chunk)
+    work(chunk);
+}
+
+/// Least distance of the subject to the others [m], 0 if surfaces meet; infinity if there are none.
+double leastDistanceOf(const ClearanceMapRequest& request, const PlacedPart& subject,
+                       const ProgressCallback& progress) {
+  std::vector<std::pair<double, const PlacedPart*>> others;
+  for (const PlacedPart& part : request.parts) {
+    if (part.id == subject.id) continue;
+    const double gap = gapOf(subject.geometry->mesh.bounds(), boxIn(subject, part));
+    others.emplace_back(gap, &part);
+  }
+  std::ranges::sort(others, {}, [](const auto& other) { return other.first; });
+  LmdScratch scratch(1);
+  double least = kInfinity;
+  for (const auto& [gap, other] : others) {
+    if (kSure * gap >= least) break;
+    prepareHierarchies(std::vector{subject.geometry, other->geometry}, progress);
+    const SurfaceDistance found =
+        leastSurfaceDistance(other->geometry->tree(), subject.geometry->tree(), relativePose(*other, subject),
+                             kInfinity, scratch, std::numeric_limits<std::uint64_t>::max());
+    least = std::min(least, found.distance);
+  }
+  return least;
+}
+
+/// The other parts whose box is within the range of the subject's.
+std::vector<const PlacedPart*> partsNear(const ClearanceMapRequest& request, const PlacedPart& subject,
+                                         double range) {
+  std::vector<const PlacedPart*> near;
+  for (const PlacedPart& part : request.parts) {
+    if (part.id == subject.id) continue;
+    if (kSure * gapOf(subject.geometry->mesh.bounds(), boxIn(subject, part)) <= range) near.push_back(&part);
+  }
+  return near;
+}
+
+}  // namespace
+
+std::size_t ClearanceMap::samples() const noexcept {
+  std::size_t count = 0;
+  for (const MappedSurface& mapped : surfaces)
+    count += mapped.surface->points.size();
+  return count;
+}
+
+const MappedSurface* ClearanceMap::find(PartId part) const noexcept {
+  const auto found = std::ranges::find(surfaces, part, &MappedSurface::part);
+  return found == surfaces.end() ? nullptr : &*found;
+}
+
+ClearanceMapRequest clearanceMapRequest(const Scene& scene, PartId subject, double range, bool hasNearParts) {
+  checkRange(range);
+  ClearanceMapRequest request;
+  request.subject = subject;
+  request.range = range;
+  request.hasNearParts = hasNearParts;
+  for (const Scene::PartPtr& part : scene.parts()) {
+    const bool isMeasured = part->id == subject || part->isVisible;
+    if (isMeasured && hasTriangles(part->geometry))
+      request.parts.push_back({part->id, part->geometry, part->worldFromPart});
+  }
+  subjectOf(request);
+  return request;
+}
+
+ClearanceMap ClearanceMapper::map(const ClearanceMapRequest& request, const ProgressCallback& progress) {
+  const PlacedPart& subject = subjectOf(request);
+  checkRange(request.range);
+  const ProgressCallback waiting = stageCallback(progress, 0.0, 0.0);
+  ClearanceMap map;
+  map.range =
+      request.range > 0.0
+          ? request.range
+          : automaticRange(sizeOf(subject), leastDistanceOf(request, subject, waiting), request.keptRange);
+  const std::vector<const PlacedPart*> near = partsNear(request, subject, map.range);
+  std::vector<PartGeometryPtr> geometries{subject.geometry};
+  for (const PlacedPart* part : near)
+    geometries.push_back(part->geometry);
+  prepareHierarchies(geometries, stageCallback(progress, 0.0, kPrepared));
+
+  const double spacing = sampleSpacing(map.range, sizeOf(subject));
+  const std::size_t each = request.maxSamples / (request.hasNearParts ? near.size() + 1 : 1);
+  const auto add = [&map](const PlacedPart& part, std::shared_ptr<const SampledSurface> surface) {
+    map.isCoarse = map.isCoarse || surface->isCoarse;
+    map.surfaces.push_back({part.id, part.worldFromPart, std::move(surface), {}, {}, {}});
+  };
+  const ProgressCallback sampling = stageCallback(progress, kPrepared, kPrepared);
+  add(subject, subjectSurface(subject.geometry, spacing, each, sampling));
+  for (const PlacedPart* part : near) {
+    if (!request.hasNearParts) break;
+    const Aabb reach = grown(boxIn(*part, subject), map.range);
+    add(*part, std::make_shared<const SampledSurface>(
+                   sampleSurface(part->geometry->mesh, {spacing, each, reach}, sampling)));
+  }
+
+  const auto placedTarget = [this](const PlacedPart& target, const PlacedPart& part) {
+    return PlacedTarget<Target>{target.id, targetOf(target.geometry), relativePose(target, part),
+                                target.worldFromPart};
+  };
+  const ProgressCallback measuring = stageCallback(progress, kSampled, 1.0);
+  SharedProgress done(measuring, std::max<double>(1.0, static_cast<double>(map.samples())));
+  std::vector<PlacedTarget<Target>> others;
+  for (const PlacedPart* part : near)
+    others.push_back(placedTarget(*part, subject));
+  measure<Target>(map.surfaces.front(), others, map.range, request.isParallel, done);
+  for (std::size_t i = 1; i < map.surfaces.size(); ++i) {
+    const PlacedTarget<Target> target = placedTarget(subject, *near[i - 1]);
+    measure<Target>(map.surfaces[i], std::span(&target, 1), map.range, request.isParallel, done);
+  }
+  std::erase_if(map.surfaces, [&](const MappedSurface& mapped) {
+    return mapped.part != subject.id &&
+           std::ranges::all_of(mapped.distances, [](double distance) { return std::isnan(distance); });
+  });
+  return map;
+}
+
+std::shared_ptr<const ClearanceMapper::Target> ClearanceMapper::targetOf(const PartGeometryPtr& geometry) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(targets_, [](const auto& entry) { return entry.second.geometry.expired(); });
+  Kept& kept = targets_[geometry.get()];
+  if (kept.target == nullptr) kept = {geometry, std::make_shared<const Target>(geometry)};
+  return kept.target;
+}
+
+std::shared_ptr<const SampledSurface> ClearanceMapper::subjectSurface(const PartGeometryPtr& geometry,
+                                                                      double spacing, std::size_t maxSamples,
+                                                                      const ProgressCallback& progress) {
+  {
+    const std::lock_guard lock(mutex_);
+    const bool isSame = subject_.geometry.lock() == geometry && subject_.spacing == spacing &&
+                        subject_.maxSamples == maxSamples;
+    if (isSame) return subject_.surface;
+  }
+  auto surface = std::make_shared<const SampledSurface>(
+      sampleSurface(geometry->mesh, {spacing, maxSamples, std::nullopt}, progress));
+  const std::lock_guard lock(mutex_);
+  subject_ = {geometry, spacing, maxSamples, surface};
+  return surface;
+}
+
+double sampleSpacing(double range, double size) noexcept {
+  constexpr double kOfRange = 1.0 / 8.0, kMinOfSize = 1.0 / 200.0, kMaxOfSize = 1.0 / 20.0;
+  const double spacing = std::clamp(kOfRange * range, kMinOfSize * size, kMaxOfSize * size);
+  return std::max(spacing, std::numeric_limits<double>::min());
+}
+
+double automaticRange(double size, double leastDistance, double kept) noexcept {
+  constexpr double kOfSize = 0.05, kOfLeast = 1.5, kSlack = 4.0;
+  const double least = std::isfinite(leastDistance) ? leastDistance : 0.0;
+  const double wanted = std::max({kOfSize * size, kOfLeast * least, std::numeric_limits<double>::min()});
+  const bool isKept = kept > 0.0 && wanted <= kept && kSlack * wanted >= kept;
+  return isKept ? kept : roundedUpLength(wanted);
+}
+
+std::optional<double> clearanceAt(const MappedSurface& mapped, std::uint32_t triangle,
+                                  const glm::dvec3& point) {
+  const SampledSurface& surface = *mapped.surface;
+  if (triangle + 1 >= surface.firstOf.size()) return std::nullopt;
+  double best = -kInfinity;
+  std::optional<double> clearance;
+  for (std::uint32_t i = surface.firstOf[triangle]; i < surface.firstOf[triangle + 1]; ++i) {
+    const Triangle& t = surface.triangles[i];
+    const glm::dvec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+    const glm::dvec3 across = glm::cross(b - a, c - a);
+    const double square = glm::dot(across, across);
+    if (!(square > 0.0)) continue;
+    const double v = glm::dot(glm::cross(point - a, c - a), across) / square;
+    const double w = glm::dot(glm::cross(b - a, point - a), across) / square;
+    const double u = 1.0 - v - w, inside = std::min({u, v, w});
+    // The one that holds the point, or misses it least by rounding.
+    if (!(inside > best)) continue;
+    best = inside;
+    const double value = u * mapped.distances[t[0]] + v * mapped.distances[t[1]] + w * mapped.distances[t[2]];
+    clearance = std::isnan(value) ? std::nullopt : std::optional(value);
+  }
+  return clearance;
+}
+
+}  // namespace nearfit
