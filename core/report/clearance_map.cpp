@@ -47,8 +47,8 @@ bool hasTriangles(const PartGeometryPtr& geometry) {
   return geometry && !geometry->mesh.triangles().empty();
 }
 
-const PlacedPart& subjectOf(const ClearanceMapRequest& request) {
-  const auto subject = std::ranges::find(request.parts, request.subject, &PlacedPart::id);
+const MeasuredPart& subjectOf(const ClearanceMapRequest& request) {
+  const auto subject = std::ranges::find(request.parts, request.subject, &MeasuredPart::id);
   if (subject == request.parts.end() || !hasTriangles(subject->geometry))
     throw UsageError("clearance map", "there is no such part with a surface", "choose a part of the scene");
   return *subject;
@@ -60,16 +60,16 @@ void checkRange(double range) {
                      "give a length greater than 0");
 }
 
-RigidTransform relativePose(const PlacedPart& to, const PlacedPart& from) noexcept {
+RigidTransform relativePose(const MeasuredPart& to, const MeasuredPart& from) noexcept {
   return (to.worldFromPart.inverse() * from.worldFromPart).normalized();
 }
 
 /// Box of a part in the frame of another one.
-Aabb boxIn(const PlacedPart& frame, const PlacedPart& part) noexcept {
+Aabb boxIn(const MeasuredPart& frame, const MeasuredPart& part) noexcept {
   return boundsOf(part.geometry->mesh.bounds(), relativePose(frame, part));
 }
 
-double sizeOf(const PlacedPart& part) noexcept {
+double sizeOf(const MeasuredPart& part) noexcept {
   return part.geometry->mesh.bounds().diagonal();
 }
 
@@ -243,10 +243,10 @@ void measure(MappedSurface& mapped, std::span<const PlacedTarget<Target>> target
 }
 
 /// Least distance of the subject to the others [m], 0 if surfaces meet; infinity if there are none.
-double leastDistanceOf(const ClearanceMapRequest& request, const PlacedPart& subject,
+double leastDistanceOf(const ClearanceMapRequest& request, const MeasuredPart& subject,
                        const ProgressCallback& progress) {
-  std::vector<std::pair<double, const PlacedPart*>> others;
-  for (const PlacedPart& part : request.parts) {
+  std::vector<std::pair<double, const MeasuredPart*>> others;
+  for (const MeasuredPart& part : request.parts) {
     if (part.id == subject.id) continue;
     const double gap = gapOf(subject.geometry->mesh.bounds(), boxIn(subject, part));
     others.emplace_back(gap, &part);
@@ -266,10 +266,10 @@ double leastDistanceOf(const ClearanceMapRequest& request, const PlacedPart& sub
 }
 
 /// The other parts whose box is within the range of the subject's.
-std::vector<const PlacedPart*> partsNear(const ClearanceMapRequest& request, const PlacedPart& subject,
-                                         double range) {
-  std::vector<const PlacedPart*> near;
-  for (const PlacedPart& part : request.parts) {
+std::vector<const MeasuredPart*> partsNear(const ClearanceMapRequest& request, const MeasuredPart& subject,
+                                           double range) {
+  std::vector<const MeasuredPart*> near;
+  for (const MeasuredPart& part : request.parts) {
     if (part.id == subject.id) continue;
     if (kSure * gapOf(subject.geometry->mesh.bounds(), boxIn(subject, part)) <= range) near.push_back(&part);
   }
@@ -306,7 +306,7 @@ ClearanceMapRequest clearanceMapRequest(const Scene& scene, PartId subject, doub
 }
 
 ClearanceMap ClearanceMapper::map(const ClearanceMapRequest& request, const ProgressCallback& progress) {
-  const PlacedPart& subject = subjectOf(request);
+  const MeasuredPart& subject = subjectOf(request);
   checkRange(request.range);
   const ProgressCallback waiting = stageCallback(progress, 0.0, 0.0);
   ClearanceMap map;
@@ -314,35 +314,35 @@ ClearanceMap ClearanceMapper::map(const ClearanceMapRequest& request, const Prog
       request.range > 0.0
           ? request.range
           : automaticRange(sizeOf(subject), leastDistanceOf(request, subject, waiting), request.keptRange);
-  const std::vector<const PlacedPart*> near = partsNear(request, subject, map.range);
+  const std::vector<const MeasuredPart*> near = partsNear(request, subject, map.range);
   std::vector<PartGeometryPtr> geometries{subject.geometry};
-  for (const PlacedPart* part : near)
+  for (const MeasuredPart* part : near)
     geometries.push_back(part->geometry);
   prepareHierarchies(geometries, stageCallback(progress, 0.0, kPrepared));
 
   const double spacing = sampleSpacing(map.range, sizeOf(subject));
   const std::size_t each = request.maxSamples / (request.hasNearParts ? near.size() + 1 : 1);
-  const auto add = [&map](const PlacedPart& part, std::shared_ptr<const SampledSurface> surface) {
+  const auto add = [&map](const MeasuredPart& part, std::shared_ptr<const SampledSurface> surface) {
     map.isCoarse = map.isCoarse || surface->isCoarse;
     map.surfaces.push_back({part.id, part.worldFromPart, std::move(surface), {}, {}, {}});
   };
   const ProgressCallback sampling = stageCallback(progress, kPrepared, kPrepared);
   add(subject, subjectSurface(subject.geometry, spacing, each, sampling));
-  for (const PlacedPart* part : near) {
+  for (const MeasuredPart* part : near) {
     if (!request.hasNearParts) break;
     const Aabb reach = grown(boxIn(*part, subject), map.range);
     add(*part, std::make_shared<const SampledSurface>(
                    sampleSurface(part->geometry->mesh, {spacing, each, reach}, sampling)));
   }
 
-  const auto placedTarget = [this](const PlacedPart& target, const PlacedPart& part) {
+  const auto placedTarget = [this](const MeasuredPart& target, const MeasuredPart& part) {
     return PlacedTarget<Target>{target.id, targetOf(target.geometry), relativePose(target, part),
                                 target.worldFromPart};
   };
   const ProgressCallback measuring = stageCallback(progress, kSampled, 1.0);
   SharedProgress done(measuring, std::max<double>(1.0, static_cast<double>(map.samples())));
   std::vector<PlacedTarget<Target>> others;
-  for (const PlacedPart* part : near)
+  for (const MeasuredPart* part : near)
     others.push_back(placedTarget(*part, subject));
   measure<Target>(map.surfaces.front(), others, map.range, request.isParallel, done);
   for (std::size_t i = 1; i < map.surfaces.size(); ++i) {

@@ -22,7 +22,7 @@ constexpr std::size_t kMaxMapSamples = 2'000'000;
 constexpr double kContactDistance = 1e-6;
 
 /// A part where it is measured.
-struct PlacedPart {
+struct MeasuredPart {
   PartId id{};
   PartGeometryPtr geometry;  ///< Not null.
   RigidTransform worldFromPart;
@@ -30,12 +30,12 @@ struct PlacedPart {
 
 /// What to map.
 struct ClearanceMapRequest {
-  PartId subject{};               ///< One of `parts`.
-  std::vector<PlacedPart> parts;  ///< The subject, and those that it is measured against.
-  double range = 0.0;             ///< Max distance [m]; 0: found by automaticRange().
-  double keptRange = 0.0;         ///< Last automatic range [m], kept while it still suits; 0: none.
-  bool hasNearParts = false;      ///< Map the surfaces of near parts too.
-  bool isParallel = true;         ///< Use all processors; false: only the calling thread.
+  PartId subject{};                 ///< One of `parts`.
+  std::vector<MeasuredPart> parts;  ///< The subject, and those that it is measured against.
+  double range = 0.0;               ///< Max distance [m]; 0: found by automaticRange().
+  double keptRange = 0.0;           ///< Last automatic range [m], kept while it still suits; 0: none.
+  bool hasNearParts = false;        ///< Map the surfaces of near parts too.
+  bool isParallel = true;           ///< Use all processors; false: only the calling thread.
   std::size_t maxSamples = kMaxMapSamples;
 };
 

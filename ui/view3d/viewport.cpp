@@ -212,6 +212,11 @@ void Viewport::highlight(const std::vector<PartId>& parts) {
   requestRender();
 }
 
+void Viewport::setColours(const SceneRenderer::Colours& colours, bool isStale) {
+  parts_.setColours(colours, isStale);
+  requestRender();
+}
+
 void Viewport::placeParts(const std::vector<PartId>& parts) {
   parts_.place(parts);
   emit posesChanged();

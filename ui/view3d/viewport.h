@@ -89,6 +89,9 @@ class Viewport : public QVTKOpenGLNativeWidget {
   /// Shows parts through others without selecting them; empty: none.
   void highlight(const std::vector<PartId>& parts);
 
+  /// Draws these parts in the colours of their clearances; see SceneRenderer::setColours().
+  void setColours(const SceneRenderer::Colours& colours, bool isStale);
+
   /// Fits all visible parts into the view.
   void fit();
   /// Fits these parts into the view, with some room around them.

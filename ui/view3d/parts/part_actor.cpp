@@ -107,19 +107,14 @@ void MapperCache::dropUnused() {
 }
 
 PartActor::PartActor(vtkRenderer& renderer, std::shared_ptr<ShapeMappers> mappers, vtkRenderer* over)
-    : renderer_(renderer), mappers_(std::move(mappers)), over_(over) {
+    : renderer_(renderer), mappers_(std::move(mappers)), over_(over), levels_(shape().levels) {
   look_->SetInterpolationToPhong();
   look_->SetAmbient(0.12);
   look_->SetDiffuse(0.82);
   look_->SetSpecular(0.22);
   look_->SetSpecularPower(28.0);
-  for (std::size_t i = 0; i < shape().pieces.size(); ++i) {
-    auto piece = vtkSmartPointer<vtkActor>::New();
-    piece->SetProperty(look_);
-    piece->SetUserMatrix(pose_);
-    addNew(renderer_, *piece);
-    pieces_.push_back(piece);
-  }
+  for (std::size_t i = 0; i < shape().pieces.size(); ++i)
+    addPiece();
   edges_->SetUserMatrix(pose_);
   edges_->PickableOff();
   edges_->GetProperty()->LightingOff();
@@ -132,6 +127,14 @@ PartActor::~PartActor() {
   for (vtkActor* piece : pieces_)
     renderer_.RemoveActor(piece);
   renderer_.RemoveActor(edges_);
+}
+
+void PartActor::addPiece() {
+  auto piece = vtkSmartPointer<vtkActor>::New();
+  piece->SetProperty(look_);
+  piece->SetUserMatrix(pose_);
+  addNew(renderer_, *piece);
+  pieces_.push_back(piece);
 }
 
 bool PartActor::setPose(const RigidTransform& worldFromPart) {
@@ -148,6 +151,7 @@ bool PartActor::setAppearance(const Colour& colour, bool isVisible, const PartLo
   shownLook_ = look;
   isVisible_ = isVisible;
   colour_ = colour;
+  applyColours();
   if (look.isOverlapping) {
     look_->SetColor(colours::kOverlap.redF(), colours::kOverlap.greenF(), colours::kOverlap.blueF());
   } else {
@@ -169,8 +173,56 @@ void PartActor::hideBackFaces() {
   look_->SetBackfaceCulling(shape().hidesItsInside && isOpaque() && !mappers_->isCut());
 }
 
+bool PartActor::setColours(std::shared_ptr<const ColouredSurface> colours, bool isStale) {
+  if (colours_ == colours && (areColoursStale_ == isStale || colours == nullptr)) return false;
+  areColoursStale_ = isStale;
+  if (colours_ != colours) {
+    colours_ = std::move(colours);
+    colourMappers_ = {};
+    levels_ = shape().levels;
+    const auto lines = static_cast<std::size_t>(shape().edges->GetNumberOfLines());
+    if (colours_ != nullptr) levels_.front().triangles = colours_->triangles + lines;
+  }
+  applyColours();
+  showPieces();
+  if (colours_ == nullptr) dropExtraPieces();
+  // A tint over the colours would falsify them.
+  if (veil_ != nullptr) veil_->SetVisibility(colours_ == nullptr);
+  return true;
+}
+
+void PartActor::dropExtraPieces() {
+  while (pieces_.size() > shape().pieces.size()) {
+    renderer_.RemoveActor(pieces_.back());
+    pieces_.pop_back();
+  }
+}
+
+void PartActor::applyColours() {
+  if (colours_ != nullptr) setClearanceColours(*table_.Get(), colours_->range, colour_, areColoursStale_);
+}
+
+const std::vector<ShapeMappers::Mapper>& PartActor::surfaceMappers() {
+  if (colours_ == nullptr || level_ > 0) return mappers_->surface(level_, !isOpaque());
+  std::vector<ShapeMappers::Mapper>& mappers = colourMappers_[isOpaque() ? 0 : 1];
+  if (!mappers.empty()) return mappers;
+  for (vtkPolyData* piece : colours_->pieces) {
+    ShapeMappers::Mapper mapper = mappers_->surfaceMapperOf(piece);
+    mapper->ScalarVisibilityOn();
+    mapper->SetScalarModeToUsePointData();
+    mapper->SetLookupTable(table_);
+    mapper->UseLookupTableScalarRangeOn();
+    // Clearances are interpolated, not colours: lines of one colour are straight across a triangle.
+    mapper->InterpolateScalarsBeforeMappingOn();
+    mappers.push_back(std::move(mapper));
+  }
+  return mappers;
+}
+
 void PartActor::setMappers(std::shared_ptr<ShapeMappers> mappers) {
   mappers_ = std::move(mappers);
+  // They are clipped otherwise.
+  colourMappers_ = {};
   hideBackFaces();
   showPieces();
   if (veil_ == nullptr) return;
@@ -207,7 +259,9 @@ void PartActor::setKept(bool isKept) {
 
 void PartActor::showPieces() {
   const bool isDrawn = isVisible_ && !isKept_;
-  const std::vector<ShapeMappers::Mapper>& mappers = mappers_->surface(level_, !isOpaque());
+  const std::vector<ShapeMappers::Mapper>& mappers = surfaceMappers();
+  while (pieces_.size() < mappers.size())
+    addPiece();
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     if (i < mappers.size()) pieces_[i]->SetMapper(mappers[i]);
     pieces_[i]->SetVisibility(isDrawn && i < mappers.size());
@@ -257,6 +311,7 @@ void PartActor::setThrough(bool isThrough) {
   veil_ = make(mappers_->veil(), kVeilOpacity);
   // One layer of a closed surface, not two.
   veil_->GetProperty()->BackfaceCullingOn();
+  veil_->SetVisibility(colours_ == nullptr);
   veilEdges_ = make(mappers_->veilEdges(), kVeilEdgeOpacity);
   veilEdges_->GetProperty()->SetLineWidth(devicePixels(1.6F));
   veilEdges_->SetVisibility(areEdgesApart_);

@@ -5,10 +5,12 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <vtkActor.h>
+#include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
 #include <vtkPolyDataMapper.h>
@@ -17,6 +19,7 @@
 #include <vtkSmartPointer.h>
 
 #include "core/scene/scene.h"
+#include "ui/view3d/parts/coloured_surface.h"
 #include "ui/view3d/parts/part_shape.h"
 
 namespace nearfit::ui {
@@ -40,10 +43,11 @@ class ShapeMappers {
 
   const std::shared_ptr<const PartShape>& shape() const noexcept { return shape_; }
   bool isCut() const noexcept { return cut_ != nullptr; }
+  /// Makes a mapper for a surface, clipped as the shape's own are.
+  Mapper surfaceMapperOf(vtkPolyData* data) const;
 
  private:
   Mapper mapperOf(vtkPolyData* data) const;
-  Mapper surfaceMapperOf(vtkPolyData* data) const;
   Mapper& made(Mapper& mapper, vtkPolyData* data) const;
 
   std::shared_ptr<const PartShape> shape_;
@@ -101,6 +105,10 @@ class PartActor {
   void setLevel(std::size_t level);
   /// Exchanges the mappers: cut open or whole, of the same shape.
   void setMappers(std::shared_ptr<ShapeMappers> mappers);
+  /// Draws the mesh in the colours of its clearances; null: in the part's own. Drafts stay in the part's own.
+  /// @param isStale  See setClearanceColours().
+  /// @return  True if that changed anything.
+  bool setColours(std::shared_ptr<const ColouredSurface> colours, bool isStale);
   /// Hides the part while a kept picture shows it (CachingRenderer).
   void setKept(bool isKept);
 
@@ -109,6 +117,10 @@ class PartActor {
   bool isVisible() const noexcept { return isVisible_; }
   bool isOpaque() const noexcept;
   std::size_t level() const noexcept { return level_; }
+  /// Levels of detail as they are drawn.
+  std::span<const DetailLevel> levels() const noexcept { return levels_; }
+  /// Null if it is drawn in its own colour.
+  const std::shared_ptr<const ColouredSurface>& colours() const noexcept { return colours_; }
   bool isKept() const noexcept { return isKept_; }
   /// Gets the bounds of the mesh itself in the world, VTK's order [m].
   void bounds(double bounds[6]) const;
@@ -121,7 +133,12 @@ class PartActor {
   vtkProperty& edgeLook() const noexcept { return *edges_->GetProperty(); }
 
  private:
+  void addPiece();
+  /// Removes actors that only a coloured surface needs.
+  void dropExtraPieces();
   void showPieces();
+  const std::vector<ShapeMappers::Mapper>& surfaceMappers();
+  void applyColours();
   void hideBackFaces();
   void setThrough(bool isThrough);
 
@@ -137,6 +154,11 @@ class PartActor {
   std::optional<RigidTransform> worldFromPart_;
   std::optional<PartLook> shownLook_;
   Colour colour_;
+  std::shared_ptr<const ColouredSurface> colours_;
+  vtkNew<vtkLookupTable> table_;                                    ///< Colours of clearances.
+  std::array<std::vector<ShapeMappers::Mapper>, 2> colourMappers_;  ///< Opaque, translucent.
+  std::vector<DetailLevel> levels_;
+  bool areColoursStale_ = false;
   std::size_t level_ = 0;
   bool isVisible_ = true, isKept_ = false;
   bool areEdgesApart_ = true;  ///< At the present scale edge lines do not cover the part.

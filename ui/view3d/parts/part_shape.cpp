@@ -28,17 +28,6 @@ constexpr vtkIdType kMinTriangles = 500, kMinOfADraft = 200;
 /// scenes of a thousand parts.
 constexpr std::array kDivisions{96, 28, 8, 4};
 
-vtkSmartPointer<vtkCellArray> cellsOfTriangles(std::span<const Triangle> triangles) {
-  auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->AllocateExact(static_cast<vtkIdType>(triangles.size()),
-                       3 * static_cast<vtkIdType>(triangles.size()));
-  for (const Triangle& t : triangles) {
-    const vtkIdType corners[3] = {t[0], t[1], t[2]};
-    cells->InsertNextCell(3, corners);
-  }
-  return cells;
-}
-
 /// VTK's own filters for normals and sharp edges look at all faces of a vertex or edge for each of these: fans and
 /// books of pages take the square of their number.
 vtkSmartPointer<vtkPolyData> surfaceOf(const TriangleMesh& mesh, const ShadedMesh& shaded) {
@@ -145,7 +134,31 @@ constexpr double kShaded = 0.35, kConverted = 0.6, kDraftsMade = 0.85;
 /// Draws without a noticeable wait, in software OpenGL too.
 constexpr vtkIdType kPieceTriangles = 100'000;
 
-std::vector<vtkSmartPointer<vtkPolyData>> piecesOf(vtkPolyData& surface) {
+void addDrafts(PartShape& shape) {
+  const auto sizeOf = [](vtkPolyData& data) {
+    return static_cast<std::size_t>(data.GetNumberOfPolys() + data.GetNumberOfLines());
+  };
+  shape.levels = {{sizeOf(*shape.surface) + sizeOf(*shape.edges), 0.0}};
+  for (DraftSurface& draft : draftsOf(*shape.surface)) {
+    shape.levels.push_back({sizeOf(*draft.surface), draft.cell});
+    shape.drafts.push_back(draft.surface);
+  }
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkCellArray> cellsOfTriangles(std::span<const Triangle> triangles) {
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->AllocateExact(static_cast<vtkIdType>(triangles.size()),
+                       3 * static_cast<vtkIdType>(triangles.size()));
+  for (const Triangle& t : triangles) {
+    const vtkIdType corners[3] = {t[0], t[1], t[2]};
+    cells->InsertNextCell(3, corners);
+  }
+  return cells;
+}
+
+std::vector<vtkSmartPointer<vtkPolyData>> quickPiecesOf(vtkPolyData& surface) {
   const vtkIdType count = surface.GetNumberOfPolys();
   if (count <= kPieceTriangles) return {&surface};
   std::vector<vtkSmartPointer<vtkPolyData>> pieces;
@@ -162,24 +175,12 @@ std::vector<vtkSmartPointer<vtkPolyData>> piecesOf(vtkPolyData& surface) {
     auto piece = vtkSmartPointer<vtkPolyData>::New();
     piece->SetPoints(surface.GetPoints());
     piece->GetPointData()->SetNormals(surface.GetPointData()->GetNormals());
+    piece->GetPointData()->SetScalars(surface.GetPointData()->GetScalars());
     piece->SetPolys(triangles);
     pieces.push_back(piece);
   }
   return pieces;
 }
-
-void addDrafts(PartShape& shape) {
-  const auto sizeOf = [](vtkPolyData& data) {
-    return static_cast<std::size_t>(data.GetNumberOfPolys() + data.GetNumberOfLines());
-  };
-  shape.levels = {{sizeOf(*shape.surface) + sizeOf(*shape.edges), 0.0}};
-  for (DraftSurface& draft : draftsOf(*shape.surface)) {
-    shape.levels.push_back({sizeOf(*draft.surface), draft.cell});
-    shape.drafts.push_back(draft.surface);
-  }
-}
-
-}  // namespace
 
 vtkPolyData* PartShape::veilSurface() const {
   // Some 15 ms in software OpenGL.
@@ -218,7 +219,7 @@ PartShape makePartShape(const TriangleMesh& mesh, double coordinateRounding,
   shape.edges = linesOf(mesh, shaded);
   shape.edgeLength = lengthOf(mesh, shaded.sharpEdges);
   report(kConverted);
-  shape.pieces = piecesOf(*shape.surface);
+  shape.pieces = quickPiecesOf(*shape.surface);
   addDrafts(shape);
   report(kDraftsMade);
   shape.rays = RayTree(mesh);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <vtkCellArray.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
@@ -47,6 +48,12 @@ struct PartShape {
   /// beyond the part's outline, and tint what lies beside it.
   vtkPolyData* veilSurface() const;
 };
+
+/// Returns triangles as cells of a data set.
+vtkSmartPointer<vtkCellArray> cellsOfTriangles(std::span<const Triangle> triangles);
+/// Cuts a surface into pieces that each draw quickly, in software OpenGL too; a small one is its own piece. They share
+/// its points with their normals and scalars.
+std::vector<vtkSmartPointer<vtkPolyData>> quickPiecesOf(vtkPolyData& surface);
 
 /// Builds the shape of a mesh; seconds for millions of triangles. Throws Cancelled.
 /// @param coordinateRounding  Max rounding error of a coordinate of the mesh [m]; >= 0.

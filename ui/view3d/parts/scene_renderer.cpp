@@ -96,6 +96,13 @@ void SceneRenderer::updateCut() {
   cut_.end();
 }
 
+void SceneRenderer::setColours(const Colours& colours, bool isStale) {
+  for (const auto& [id, actor] : actors_) {
+    const auto found = colours.find(id);
+    if (actor->setColours(found == colours.end() ? nullptr : found->second, isStale)) ++revision_;
+  }
+}
+
 void SceneRenderer::setOverlapping(std::span<const PartId> parts) {
   if (std::equal(parts.begin(), parts.end(), overlapping_.begin(), overlapping_.end())) return;
   overlapping_.assign(parts.begin(), parts.end());

@@ -54,6 +54,13 @@ class SceneRenderer {
   /// Parts that are cut but cannot be closed, as of the last picture.
   const std::vector<PartId>& openlyCut() const noexcept { return cut_.open(); }
 
+  /// Surfaces to be drawn in the colours of their clearances, by part.
+  using Colours = std::map<PartId, std::shared_ptr<const ColouredSurface>>;
+  /// Draws these parts in the colours of their clearances, and all others in their own. A part whose mesh is exchanged
+  /// later loses its colours.
+  /// @param isStale  See setClearanceColours().
+  void setColours(const Colours& colours, bool isStale);
+
   /// Tints the parts that the moving part overlaps.
   void setOverlapping(std::span<const PartId> parts);
 

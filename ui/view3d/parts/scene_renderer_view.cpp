@@ -113,7 +113,7 @@ DetailChoice SceneRenderer::applyDetail(const DetailLimits& limits) {
     const double radius = 0.5 * glm::distance(lower, upper);
     const double scale = view.pixelsPerMetre(centre, radius);
     actor->setScale(scale);
-    candidates.push_back({actor->shape().levels, scale, view.sees(centre, radius)});
+    candidates.push_back({actor->levels(), scale, view.sees(centre, radius)});
     drawn.push_back(actor.get());
   }
   DetailChoice choice = chooseDetail(candidates, limits);
