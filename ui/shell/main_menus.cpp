@@ -10,6 +10,7 @@
 #include "ui/files/export/exporter.h"
 #include "ui/files/export/picture_taker.h"
 #include "ui/files/file_commands.h"
+#include "ui/panels/clearance/map_panel.h"
 #include "ui/panels/feel/feel_control.h"
 #include "ui/panels/history/undo_actions.h"
 #include "ui/panels/parts/joint_actions.h"
@@ -99,8 +100,9 @@ void MainMenus::setUpViewMenu(QMenu* panels, QMenu* units) {
   view_->addActions(view.views());
   view_->addActions({view.orthographic, view_->addSeparator()});
   view_->addActions(view.switches());
-  view_->addActions({view.feeling().legend(), view.scaleBar, view_->addSeparator(),
-                     commands_.measure.action(), commands_.section.action(), view_->addSeparator()});
+  view_->addActions({commands_.clearanceMap.colour(), view.feeling().legend(), view.scaleBar,
+                     view_->addSeparator(), commands_.measure.action(), commands_.section.action(),
+                     view_->addSeparator()});
   for (QMenu* menu : {panels, view.minimaMenu(), view.feeling().qualityMenu(), units})
     view_->addMenu(menu);
 }

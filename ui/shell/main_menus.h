@@ -14,6 +14,7 @@ namespace nearfit::ui {
 
 class AlignTool;
 class BoxSelect;
+class ClearanceMapPanel;
 class DropTool;
 class Exporter;
 class FeelControl;
@@ -73,6 +74,7 @@ class MainMenus : public QObject {
     HandControl& hand;
     RecordAction& record;
     Replay& replay;
+    ClearanceMapPanel& clearanceMap;
   };
   /// @param panels  Menu of the docks, for the view menu.
   /// @param units   Menu of units, for the view menu.

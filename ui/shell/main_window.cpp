@@ -21,6 +21,7 @@
 #include "ui/model/selection.h"
 #include "ui/model/shown_poses.h"
 #include "ui/panels/clearance/clearance_panel.h"
+#include "ui/panels/clearance/map_panel.h"
 #include "ui/panels/feel/feel_control.h"
 #include "ui/panels/feel/feel_panel.h"
 #include "ui/panels/history/history_panel.h"
@@ -144,25 +145,34 @@ void MainWindow::makeReviewPanels() {
   auto* clearances =
       new ClearancePanel({session_, *hand_, *viewport_}, [this] { return poses_->poseOfMoving(); }, this);
   connect(units_, &UnitMenu::unitChanged, clearances, &ClearancePanel::refresh);
+  clearanceMap_ = new ClearanceMapPanel({session_, *selection_, *hand_, *viewport_}, this);
+  connect(units_, &UnitMenu::unitChanged, clearanceMap_, &ClearanceMapPanel::refresh);
   plots_ = new PlotPanel(this);
   auto* timeline = new Timeline(this);
   replay_ = new Replay({session_, *hand_, *guard_, *viewport_}, *timeline, this);
   recording_ = new RecordAction(*hand_, this);
-  listenTo(*clearances, *plots_, *replay_, *recording_);
+  listenTo(*clearances, *clearanceMap_, *plots_, *replay_, *recording_);
   constexpr Qt::DockWidgetArea kBottom = Qt::BottomDockWidgetArea;
   QDockWidget* clearanceDock = addDock("clearanceDock", tr("Clearances"), clearances, kBottom);
+  QDockWidget* mapDock = addDock("clearanceMapDock", tr("Clearance map"), clearanceMap_, kBottom);
   QDockWidget* plotsDock = addDock("plotsDock", tr("Plots"), plots_, kBottom);
   QDockWidget* timelineDock = addDock("timelineDock", tr("Timeline"), timeline, kBottom);
-  for (QDockWidget* dock : {clearanceDock, plotsDock, timelineDock})
+  for (QDockWidget* dock : {clearanceDock, mapDock, plotsDock, timelineDock})
     dock->hide();
   addDockButton(*timelineDock, tr("Show or hide the timeline of a recording"));
   addDockButton(*plotsDock, tr("Show or hide the plots of force, torque, clearance and times"));
+  addDockButton(*mapDock, tr("Show or hide how much of a part's surface is how near to others"));
   addDockButton(*clearanceDock, tr("Show or hide the clearances to the other parts"));
   // The timeline is as wide as the window, below the two others side by side.
   splitDockWidget(clearanceDock, timelineDock, Qt::Vertical);
-  splitDockWidget(clearanceDock, plotsDock, Qt::Horizontal);
+  splitDockWidget(clearanceDock, mapDock, Qt::Horizontal);
+  splitDockWidget(mapDock, plotsDock, Qt::Horizontal);
   shareWidth(*clearanceDock, *plotsDock);
   connectReplay(*timelineDock);
+  // Whoever turns the colours on wants the numbers too.
+  connect(clearanceMap_->colour(), &QAction::triggered, mapDock, [mapDock](bool isOn) {
+    if (isOn) mapDock->show();
+  });
 }
 
 /// Gives both docks half the width when one of them is shown beside the other. By their size hints, curves
@@ -222,13 +232,14 @@ void MainWindow::makeToolsAndMenus() {
   const auto* menus =
       new MainMenus(this,
                     {*files_, *exporter, *pictures, *undo_, *parts_, *box, *viewActions_, *measure, *section,
-                     *placing_, *align, *drop, *feel_, *handControl_, *recording_, *replay_},
+                     *placing_, *align, *drop, *feel_, *handControl_, *recording_, *replay_, *clearanceMap_},
                     panelsMenu_, units_);
   shell_ = new WindowShell(this, *files_, menus->viewMenu(), menus->helpMenu());
   listenTo(*placing_, *handControl_, *selectedPose_, *align, *drop, *box, *exporter, *pictures);
   connect(units_, &UnitMenu::unitChanged, measure, &MeasureTool::refresh);
   connect(units_, &UnitMenu::unitChanged, history_, &HistoryPanel::refresh);
   connect(exporter, &Exporter::sceneNeeded, posePanel_, &PosePanel::commit);
+  connect(clearanceMap_, &ClearanceMapPanel::exportWanted, exporter, &Exporter::exportMap);
 }
 
 void MainWindow::connectCommands() {

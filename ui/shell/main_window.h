@@ -12,6 +12,7 @@ class QMenu;
 
 namespace nearfit::ui {
 
+class ClearanceMapPanel;
 class Document;
 class FeelControl;
 class FileCommands;
@@ -49,6 +50,7 @@ class MainWindow : public QMainWindow {
   explicit MainWindow(Session& session, QWidget* parent = nullptr);
   ~MainWindow() override;
 
+  ClearanceMapPanel& clearanceMap() noexcept { return *clearanceMap_; }
   Document& document() noexcept { return *document_; }
   FeelControl& feel() noexcept { return *feel_; }
   HandControl& handControl() noexcept { return *handControl_; }
@@ -113,6 +115,7 @@ class MainWindow : public QMainWindow {
   HistoryPanel* history_ = nullptr;
   UndoActions* undo_ = nullptr;
   ViewActions* viewActions_ = nullptr;
+  ClearanceMapPanel* clearanceMap_ = nullptr;
   PlotPanel* plots_ = nullptr;
   Replay* replay_ = nullptr;
   RecordAction* recording_ = nullptr;

@@ -213,8 +213,7 @@ void Viewport::highlight(const std::vector<PartId>& parts) {
 }
 
 void Viewport::setColours(const SceneRenderer::Colours& colours, bool isStale) {
-  parts_.setColours(colours, isStale);
-  requestRender();
+  if (parts_.setColours(colours, isStale)) requestRender();
 }
 
 void Viewport::placeParts(const std::vector<PartId>& parts) {

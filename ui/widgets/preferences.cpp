@@ -4,6 +4,7 @@
 #include <QFileInfo>
 #include <QSettings>
 #include <QStandardPaths>
+#include <cmath>
 
 #include "core/base/error.h"
 
@@ -96,6 +97,23 @@ LengthUnit Preferences::lengthUnit() {
 
 void Preferences::setLengthUnit(LengthUnit unit) {
   setValue("view/lengthUnit", symbolOf(unit));
+}
+
+double Preferences::clearanceRange() {
+  const double range = value("clearanceMap/range", 0.0).toDouble();
+  return std::isfinite(range) && range > 0.0 ? range : 0.0;
+}
+
+void Preferences::setClearanceRange(double range) {
+  setValue("clearanceMap/range", range);
+}
+
+bool Preferences::hasNearClearances() {
+  return value("clearanceMap/nearParts", false).toBool();
+}
+
+void Preferences::setNearClearances(bool hasNearParts) {
+  setValue("clearanceMap/nearParts", hasNearParts);
 }
 
 bool Preferences::isOrthographic() {

@@ -33,6 +33,13 @@ class Preferences {
   static LengthUnit lengthUnit();
   static void setLengthUnit(LengthUnit unit);
 
+  /// Range of maps of clearance [m]; 0, at first or if the stored one is no length: automatic.
+  static double clearanceRange();
+  static void setClearanceRange(double range);
+  /// True if maps of clearance show near parts too; false at first.
+  static bool hasNearClearances();
+  static void setNearClearances(bool hasNearParts);
+
   /// True if the view is in orthographic projection; false at first.
   static bool isOrthographic();
   static void setOrthographic(bool isOrthographic);

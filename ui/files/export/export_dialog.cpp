@@ -14,7 +14,9 @@
 #include <utility>
 
 #include "ui/widgets/font_scale.h"
+#include "ui/widgets/format.h"
 #include "ui/widgets/names.h"
+#include "ui/widgets/preferences.h"
 
 namespace nearfit::ui {
 namespace {
@@ -41,7 +43,8 @@ QString sizeText(std::uint64_t bytes) {
 
 }  // namespace
 
-ExportDialog::ExportDialog(Scene scene, std::vector<PartId> selected, QWidget* parent)
+ExportDialog::ExportDialog(Scene scene, std::vector<PartId> selected, QWidget* parent,
+                           std::optional<ExportKind> kind)
     : QDialog(parent), scene_(std::move(scene)), selected_(std::move(selected)) {
   setObjectName(QStringLiteral("exportDialog"));
   setWindowTitle(tr("Export"));
@@ -55,6 +58,7 @@ ExportDialog::ExportDialog(Scene scene, std::vector<PartId> selected, QWidget* p
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   layout()->addWidget(buttons);
   restore();
+  if (kind) kind_->setCurrentIndex(kind_->findData(static_cast<int>(*kind)));
   for (QComboBox* box : {kind_, unit_})
     connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &ExportDialog::showSummary);
   connect(chosen_, &QRadioButton::toggled, this, &ExportDialog::showSummary);
@@ -72,6 +76,8 @@ void ExportDialog::setUpFields() {
   add(tr("Merged mesh (binary STL)"), ExportKind::MeshStl);
   add(tr("Merged mesh (OBJ, with names)"), ExportKind::MeshObj);
   add(tr("Merged mesh (PLY, with colours)"), ExportKind::MeshPly);
+  add(tr("Clearance map (PLY, with distances)"), ExportKind::ClearanceMapPly);
+  add(tr("Clearance histogram (CSV)"), ExportKind::ClearanceHistogramCsv);
   visible_ = new QRadioButton(tr("All &visible"), this);
   chosen_ = new QRadioButton(tr("&Selected (%1)").arg(selected_.size()), this);
   visible_->setObjectName(QStringLiteral("exportVisible"));
@@ -119,21 +125,26 @@ void ExportDialog::remember() const {
 
 SceneExport ExportDialog::choice() const {
   SceneExport what{
-      static_cast<ExportKind>(kind_->currentData().toInt()), unit_->currentData().toDouble(), {}};
+      static_cast<ExportKind>(kind_->currentData().toInt()), unit_->currentData().toDouble(), {}, {}};
   if (chosen_->isChecked()) what.only = selected_;
+  if (const Part* subject = mapSubject())
+    what.map = {subject->id, Preferences::clearanceRange(), Preferences::hasNearClearances()};
   return what;
 }
 
 void ExportDialog::showSummary() {
-  const auto mesh = meshKindOf(choice().kind);
-  for (QWidget* field : {static_cast<QWidget*>(unit_), static_cast<QWidget*>(unitLabel_),
-                         static_cast<QWidget*>(partsLabel_), static_cast<QWidget*>(visible_)})
+  const ExportKind kind = choice().kind;
+  const auto mesh = meshKindOf(kind);
+  const bool isMap = kind == ExportKind::ClearanceMapPly || kind == ExportKind::ClearanceHistogramCsv;
+  for (QWidget* field : {static_cast<QWidget*>(unit_), static_cast<QWidget*>(unitLabel_)})
+    field->setEnabled(mesh.has_value() || kind == ExportKind::ClearanceMapPly);
+  for (QWidget* field : {static_cast<QWidget*>(partsLabel_), static_cast<QWidget*>(visible_)})
     field->setEnabled(mesh.has_value());
   chosen_->setEnabled(mesh.has_value() && !selected_.empty());
-  summary_->setText(mesh ? meshSummary(*mesh) : placementSummary());
-  findChild<QDialogButtonBox*>()
-      ->button(QDialogButtonBox::Save)
-      ->setEnabled(!mesh || !chosenParts(scene_, choice().only).empty());
+  summary_->setText(mesh ? meshSummary(*mesh) : isMap ? mapSummary() : placementSummary());
+  const bool hasContent =
+      isMap ? mapSubject() != nullptr : !mesh || !chosenParts(scene_, choice().only).empty();
+  findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save)->setEnabled(hasContent);
 }
 
 QString ExportDialog::meshSummary(MeshFileKind kind) const {
@@ -155,6 +166,31 @@ QString ExportDialog::meshSummary(MeshFileKind kind) const {
       break;
   }
   return text + QChar(' ') + tr("Double precision; each part in its colour.");
+}
+
+const Part* ExportDialog::mapSubject() const {
+  const std::optional<PartId> id = selected_.empty() ? scene_.movingPart() : std::optional(selected_.back());
+  return id ? scene_.find(*id) : nullptr;
+}
+
+QString ExportDialog::mapSummary() const {
+  const Part* subject = mapSubject();
+  if (subject == nullptr) return tr("Nothing: select the part to map, or take one in hand.");
+  const QString name = breakable(shortName(subject->name));
+  const double range = Preferences::clearanceRange();
+  const QString within = range > 0.0 ? formatLength(range) : tr("an automatic range");
+  if (choice().kind == ExportKind::ClearanceHistogramCsv)
+    return tr("The surface area of %1 by its distance to other visible parts, within %2: from, to [m], area "
+              "[m^2] and share of the surface.")
+        .arg(name, within);
+  const QString unit = QLatin1String(kUnits[static_cast<std::size_t>(unit_->currentIndex())].sign);
+  const QString others =
+      Preferences::hasNearClearances() ? tr(" Near parts too, with their distance to it.") : QString();
+  return tr("The surface of %1 in the world frame, in %2, with colours and, at each vertex, the distance [m] "
+            "to "
+            "the nearest other visible part within %3.")
+             .arg(name, unit, within) +
+         others;
 }
 
 QString ExportDialog::placementSummary() const {

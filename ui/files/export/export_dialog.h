@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QDialog>
+#include <optional>
 
 #include "core/report/scene_export.h"
 
@@ -18,7 +19,9 @@ class ExportDialog : public QDialog {
  public:
   /// @param scene     Holds the moving part where it is now.
   /// @param selected  Selected parts; may be empty.
-  ExportDialog(Scene scene, std::vector<PartId> selected, QWidget* parent);
+  /// @param kind      Offered at first; nullopt: the one exported last.
+  ExportDialog(Scene scene, std::vector<PartId> selected, QWidget* parent,
+               std::optional<ExportKind> kind = std::nullopt);
 
   /// Returns what the user chose.
   SceneExport choice() const;
@@ -30,6 +33,9 @@ class ExportDialog : public QDialog {
   void showSummary();
   QString meshSummary(MeshFileKind kind) const;
   QString placementSummary() const;
+  /// The part whose map of clearance is exported: the one selected last, else the moving part.
+  const Part* mapSubject() const;
+  QString mapSummary() const;
 
   const Scene scene_;
   const std::vector<PartId> selected_;

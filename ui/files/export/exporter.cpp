@@ -20,8 +20,10 @@
 namespace nearfit::ui {
 namespace {
 
-/// Returns "placement" or, for meshes, the scene's name or "parts".
+/// Returns "placement", "clearance-map", "clearance-histogram" or, for meshes, the scene's name or "parts".
 QString nameFor(const Session& session, ExportKind kind) {
+  if (kind == ExportKind::ClearanceMapPly) return QStringLiteral("clearance-map");
+  if (kind == ExportKind::ClearanceHistogramCsv) return QStringLiteral("clearance-histogram");
   if (!meshKindOf(kind)) return QStringLiteral("placement");
   return session.file().empty() ? QStringLiteral("parts") : fromPath(session.file().stem());
 }
@@ -36,9 +38,9 @@ Exporter::Exporter(Session& session, const Selection& selection, const SceneWork
       work_(work),
       poseOfMoving_(std::move(poseOfMoving)),
       window_(window),
-      export_(makeAction(this, "exportPlacement", tr("&Export…"), QStringLiteral("export"),
-                         QStringLiteral("Ctrl+E"),
-                         tr("Export the poses of the parts (JSON, CSV) or the parts as one mesh"))),
+      export_(makeAction(
+          this, "exportPlacement", tr("&Export…"), QStringLiteral("export"), QStringLiteral("Ctrl+E"),
+          tr("Export the poses of the parts (JSON, CSV), the parts as one mesh, or a map of clearance"))),
       copy_(makeAction(this, "copyPlacement", tr("&Copy placement"), QStringLiteral("copy"),
                        QStringLiteral("Ctrl+Shift+C"))) {
   copy_->setToolTip(tr("Copy the selected part's placement as a 4x4 matrix by rows, in metres"));
@@ -58,9 +60,15 @@ void Exporter::updateActions() {
   export_->setEnabled(!work_.isBusy() && !session_.scene().parts().empty());
 }
 
-void Exporter::askAndExport() {
+void Exporter::exportMap() {
+  if (!export_->isEnabled()) return;
+  emit sceneNeeded();
+  askAndExport(ExportKind::ClearanceMapPly);
+}
+
+void Exporter::askAndExport(std::optional<ExportKind> kind) {
   if (task_.isRunning() || session_.scene().parts().empty()) return;
-  ExportDialog dialog(placedScene(session_.scene(), poseOfMoving_()), selection_.parts(), window_);
+  ExportDialog dialog(placedScene(session_.scene(), poseOfMoving_()), selection_.parts(), window_, kind);
   if (dialog.exec() != QDialog::Accepted) return;
   const SceneExport what = dialog.choice();
   const QString suffix =

@@ -4,6 +4,7 @@
 #include <QPointer>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "core/report/scene_export.h"
 #include "core/session/session.h"
@@ -36,6 +37,8 @@ class Exporter : public QObject {
 
   /// Returns the action that asks what to export and writes it.
   QAction* exportAction() const noexcept { return export_; }
+  /// Asks the same, and offers a map of clearance.
+  void exportMap();
   /// Returns the action that copies the current part's pose as a matrix (matrixText()); the moving part's if
   /// none is selected.
   QAction* copyAction() const noexcept { return copy_; }
@@ -51,7 +54,8 @@ class Exporter : public QObject {
  private:
   void updateActions();
   /// No-op while something is being written.
-  void askAndExport();
+  /// @param kind  Offered at first; nullopt: the one exported last.
+  void askAndExport(std::optional<ExportKind> kind = std::nullopt);
   void copyPlacement();
   void write(const SceneExport& what, const QString& file);
 

@@ -96,11 +96,13 @@ void SceneRenderer::updateCut() {
   cut_.end();
 }
 
-void SceneRenderer::setColours(const Colours& colours, bool isStale) {
+bool SceneRenderer::setColours(const Colours& colours, bool isStale) {
+  const std::uint64_t before = revision_;
   for (const auto& [id, actor] : actors_) {
     const auto found = colours.find(id);
     if (actor->setColours(found == colours.end() ? nullptr : found->second, isStale)) ++revision_;
   }
+  return revision_ != before;
 }
 
 void SceneRenderer::setOverlapping(std::span<const PartId> parts) {

@@ -59,7 +59,8 @@ class SceneRenderer {
   /// Draws these parts in the colours of their clearances, and all others in their own. A part whose mesh is exchanged
   /// later loses its colours.
   /// @param isStale  See setClearanceColours().
-  void setColours(const Colours& colours, bool isStale);
+  /// @return  True if that changed anything.
+  bool setColours(const Colours& colours, bool isStale);
 
   /// Tints the parts that the moving part overlaps.
   void setOverlapping(std::span<const PartId> parts);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <QColor>
+#include <QWidget>
+
+namespace nearfit::ui {
+
+/// A card over the 3-D view, at the middle of its left edge, that explains the colours of clearances: the scale with
+/// lengths, overlaps, and what is beyond the range. Ignores the mouse.
+class ClearanceLegend : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// @param view  Whatever it lies over; not null.
+  explicit ClearanceLegend(QWidget* view);
+
+  /// What it explains.
+  struct Scale {
+    double range = 0.0;  ///< [m]
+    QColor beyond;       ///< Colour of the part.
+    bool hasOverlap = false;
+    bool isStale = false;  ///< Colours are of a former pose.
+  };
+  void showScale(const Scale& scale);
+
+  QSize sizeHint() const override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void place();
+  /// Names of the swatches below and above the scale, and the title, in the order in which they are painted.
+  QStringList texts() const;
+  void paintSwatch(QPainter& painter, const QRect& at, const QColor& colour, const QString& text) const;
+
+  Scale scale_;
+};
+
+}  // namespace nearfit::ui
