@@ -64,7 +64,7 @@ ClearanceMapPanel::ClearanceMapPanel(const Context& context, QWidget* parent)
       legend_(new ClearanceLegend(&context.view)),
       probe_(new MapProbe(context.view, context.session)),
       colour_(makeAction(
-          this, "colourByClearance", tr("Colour by cl&earance"), QStringLiteral("clearance-map"), Qt::Key_K,
+          this, "colourByClearance", tr("Colour by clearance"), QStringLiteral("clearance-map"), Qt::Key_K,
           tr("Colour the selected part, or the one in hand, by its distance to other parts"))) {
   setInPictures(*legend_);
   colour_->setCheckable(true);
@@ -129,7 +129,6 @@ void ClearanceMapPanel::setUpLayout() {
   histogram_ = new HistogramView(this);
   areas_ = new QLabel(this);
   areas_->setObjectName(QStringLiteral("clearanceMapAreas"));
-  areas_->setAccessibleName(tr("Areas by clearance"));
   areas_->setWordWrap(true);
   areas_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   progress_ = new QProgressBar(this);

@@ -1,0 +1,113 @@
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/mesh_generators.h"
+#include "tests/support/mesh_text.h"
+#include "tests/support/ply_values.h"
+#include "tests/support/run_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit::test::clearance_map_command_test {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A plate and, 1 m above it, a cube that is the moving part, in metres.
+class ClearanceMapCommand : public ::testing::Test {
+ protected:
+  ClearanceMapCommand() {
+    const std::string plate = folder_.write("plate.obj", objText(boxMesh({4, 4, 1}))).string();
+    const std::string cube = folder_.write("cube.obj", objText(boxMesh({1, 1, 1}))).string();
+    const auto made = runCli({"scene", "new", scene_, "--part", "Plate=" + plate, "--part",
+                              "Cube=" + cube + "@0,0,2,1,0,0,0", "--moving", "Cube"});
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+  }
+  std::string path(const char* name) { return (folder_.path() / name).string(); }
+  /// Numbers of the summary by their names.
+  static std::map<std::string, double> numbersOf(const std::string& text) {
+    std::map<std::string, double> numbers;
+    for (const std::string& line : linesOf(text)) {
+      std::istringstream words(line);
+      std::string name, value;
+      words >> name >> value;
+      numbers[name] = std::stod(value);
+    }
+    return numbers;
+  }
+
+  TemporaryFolder folder_;
+  std::string scene_ = path("fit.nearfit");
+};
+
+TEST_F(ClearanceMapCommand, MapHistogramAndSummaryAgree) {
+  const auto result = runCli({"clearance-map", scene_, "--range", "1.5", "-o", path("map.ply"), "--histogram",
+                              path("h.csv"), "--threshold", "1.25", "--unit", "m"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto numbers = numbersOf(result.out);
+  EXPECT_EQ(numbers.at("range"), 1.5);
+  EXPECT_NEAR(numbers.at("area"), 6.0, 1e-9);
+  EXPECT_NEAR(numbers.at("min"), 1.0, 1e-12);
+  EXPECT_EQ(numbers.at("area_contact"), 0.0);
+  EXPECT_EQ(numbers.at("area_overlap"), 0.0);
+  // The lower face and a quarter of each side, to a row of samples.
+  EXPECT_NEAR(numbers.at("area_below"), 1.0 + 4.0 * 0.25, 4.0 * 1.5 / 8.0);
+  const PlyValues map = readPlyValues(path("map.ply"));
+  EXPECT_EQ(static_cast<double>(map.vertex.at("distance").size()), numbers.at("samples"));
+  for (std::size_t i = 0; i < map.vertex.at("distance").size(); ++i) {
+    const double height = map.vertex.at("z")[i] - 0.5, distance = map.vertex.at("distance")[i];
+    EXPECT_TRUE(height > 1.5 ? std::isnan(distance) : std::abs(distance - height) < 1e-12);
+  }
+  double total = 0.0;
+  const std::vector<std::string> lines = linesOf(readBytes(path("h.csv")));
+  EXPECT_EQ(lines.at(0), "from,to,area,share");
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    std::istringstream cells(lines[i]);
+    std::string from, to, area;
+    std::getline(cells, from, ',');
+    std::getline(cells, to, ',');
+    std::getline(cells, area, ',');
+    total += std::stod(area);
+  }
+  EXPECT_NEAR(total, 6.0, 1e-9);
+}
+
+TEST_F(ClearanceMapCommand, APartIsNamedAndNearPartsAreAdded) {
+  const auto result =
+      runCli({"clearance-map", scene_, "--part", "Plate", "--range", "1.5", "--near", "-o", path("map.ply")});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const PlyValues map = readPlyValues(path("map.ply"));
+  ASSERT_GE(map.comments.size(), 3U);
+  EXPECT_EQ(map.comments[1], "part Plate");
+  EXPECT_EQ(map.comments[2], "part Cube");
+  EXPECT_THAT(map.vertex.at("z"), ::testing::Contains(::testing::DoubleNear(2500.0, 1e-9)))
+      << "in millimetres";
+}
+
+TEST_F(ClearanceMapCommand, WithoutARangeItFindsOne) {
+  const auto result = runCli({"clearance-map", scene_, "--histogram", path("h.csv")});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(numbersOf(result.out).at("range"), 2.0) << "one and a half times 1 m, rounded up";
+}
+
+TEST_F(ClearanceMapCommand, WhatMakesNoSenseIsWrongUsageAndWritesNothing) {
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {"clearance-map", scene_},
+           {"clearance-map", scene_, "-o", path("x.ply"), "--part", "Peg"},
+           {"clearance-map", scene_, "-o", path("x.ply"), "--range", "0"},
+           {"clearance-map", scene_, "-o", path("x.ply"), "--range", "nan"},
+           {"clearance-map", scene_, "-o", path("x.ply"), "--unit", "parsec"},
+           {"clearance-map", scene_, "-o", path("x.ply"), "--histogram", path("x.ply")},
+           {"clearance-map", scene_, "-o", path("cube.obj")}}) {
+    const auto result = runCli(arguments);
+    EXPECT_EQ(result.exitCode, 2) << arguments.back() << result.err;
+    EXPECT_FALSE(std::filesystem::exists(path("x.ply")));
+  }
+  EXPECT_THAT(readBytes(path("cube.obj")), HasSubstr("f ")) << "it is not overwritten";
+}
+
+}  // namespace
+}  // namespace nearfit::test::clearance_map_command_test
