@@ -263,7 +263,7 @@ void DesktopClearanceTest::aHiddenTableSearchesNothing() {
 
 void DesktopClearanceTest::eachReviewPanelIsOneClickAway() {
   DesktopDriver d;
-  for (const char* name : {"clearanceDock", "plotsDock", "timelineDock"}) {
+  for (const char* name : {"clearanceDock", "clearanceMapDock", "plotsDock", "timelineDock"}) {
     const auto* dock = d.widget<QDockWidget>(name);
     auto* button = d.window().findChild<QToolButton*>(QLatin1String(name) + QStringLiteral("Button"));
     QVERIFY2(button != nullptr && button->isVisible() && !button->text().isEmpty(), name);

@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QCheckBox>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
@@ -150,30 +151,31 @@ void ClearanceMapPanel::setUpLayout() {
   rangeLabel->setBuddy(range_);
   auto* thresholdLabel = new QLabel(tr("&Threshold"), this);
   thresholdLabel->setBuddy(threshold_);
-  auto* top = new QHBoxLayout;
-  top->addWidget(toggle);
-  top->addWidget(nearParts_);
-  top->addStretch();
-  auto* ranges = new QHBoxLayout;
-  for (QWidget* each :
-       {static_cast<QWidget*>(rangeLabel), static_cast<QWidget*>(range_), static_cast<QWidget*>(automatic_),
-        static_cast<QWidget*>(thresholdLabel), static_cast<QWidget*>(threshold_)})
-    ranges->addWidget(each);
-  ranges->addStretch();
+  auto* ranges = new QGridLayout;
+  ranges->addWidget(rangeLabel, 0, 0);
+  ranges->addWidget(range_, 0, 1);
+  ranges->addWidget(automatic_, 0, 2);
+  ranges->addWidget(thresholdLabel, 1, 0);
+  ranges->addWidget(threshold_, 1, 1);
+  ranges->addWidget(nearParts_, 2, 0, 1, 3);
   auto* work = new QHBoxLayout;
   work->addWidget(progress_, 1);
   work->addWidget(cancel_);
-  work->addStretch();
-  work->addWidget(export_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(8, 6, 8, 6);
-  column->setSpacing(4);
-  column->addLayout(top);
-  column->addLayout(ranges);
-  column->addWidget(subject_);
-  column->addWidget(histogram_, 1);
-  column->addWidget(areas_);
-  column->addLayout(work);
+  auto* fields = new QVBoxLayout;
+  fields->addWidget(toggle);
+  fields->addLayout(ranges);
+  fields->addWidget(export_);
+  fields->addStretch();
+  auto* results = new QVBoxLayout;
+  results->addWidget(subject_);
+  results->addWidget(histogram_, 1);
+  results->addWidget(areas_);
+  results->addLayout(work);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(8, 6, 8, 6);
+  row->setSpacing(10);
+  row->addLayout(fields);
+  row->addLayout(results, 1);
 }
 
 void ClearanceMapPanel::setColoured(bool isColoured) {
