@@ -52,6 +52,7 @@
 #include "ui/tools/selecting/view_menu.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/error_box.h"
+#include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
 namespace {
@@ -161,6 +162,8 @@ void MainWindow::makeReviewPanels() {
     dock->hide();
   addDockButton(*timelineDock, tr("Show or hide the timeline of a recording"));
   addDockButton(*plotsDock, tr("Show or hide the plots of force, torque, clearance and times"));
+  // A symbol, as the status bar has little room.
+  mapDock->toggleViewAction()->setIcon(icon(QStringLiteral("clearance-map")));
   addDockButton(*mapDock, tr("Show or hide how much of a part's surface is how near to others"));
   addDockButton(*clearanceDock, tr("Show or hide the clearances to the other parts"));
   // The timeline is as wide as the window, below the two others side by side.
