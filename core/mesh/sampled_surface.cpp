@@ -25,7 +25,7 @@ constexpr double kMinPerArea = 0.5;
 /// Factor to the next length that is tried if there are too many samples.
 const double kCoarser = std::sqrt(2.0);
 /// Triangles between checks for cancelling.
-constexpr std::size_t kBetweenReports = 4096;
+constexpr std::size_t kBetweenSteps = 4096;
 
 double gapBetween(const Aabb& box, const glm::dvec3& point) noexcept {
   return glm::length(glm::max(glm::max(box.lower - point, point - box.upper), glm::dvec3(0.0)));
@@ -58,7 +58,7 @@ class SurfaceCutter {
       add(shaded_.triangles[i], 0);
       if (surface_.points.size() > maxPoints_) return std::nullopt;
       const double done = static_cast<double>(i) / static_cast<double>(shaded_.triangles.size());
-      if (i % kBetweenReports == 0 && progress && !progress(done)) throw Cancelled();
+      if (i % kBetweenSteps == 0 && progress && !progress(done)) throw Cancelled();
     }
     surface_.firstOf.push_back(static_cast<std::uint32_t>(surface_.triangles.size()));
     finish();
