@@ -37,12 +37,12 @@ ClearanceMapSearch::ClearanceMapSearch(const Context& context, QObject* parent)
   connect(&late_, &QTimer::timeout, this, [this] { setStale(true); });
   connect(&task_, &BackgroundTask::progressed, this, &ClearanceMapSearch::progressed);
   connect(&context_.selection, &Selection::changed, this, &ClearanceMapSearch::followSubject);
-  connect(&context_.poses, &ShownPoses::changed, this, &ClearanceMapSearch::request);
+  connect(&context_.poses, &ShownPoses::changed, this, &ClearanceMapSearch::followParts);
   changes_ = context_.session.onChange(SceneEvents::Stage::Panels, [this] {
     // In another scene the same id means another part.
     if (std::exchange(sceneSerial_, context_.session.sceneSerial()) != context_.session.sceneSerial()) drop();
     followSubject();
-    request();
+    followParts();
   });
 }
 
@@ -95,7 +95,29 @@ void ClearanceMapSearch::refresh() {
 }
 
 bool ClearanceMapSearch::isLive() const {
-  return shown_ != nullptr && shown_->map.samples() <= kMaxLiveSamples;
+  if (shown_ != nullptr) return shown_->map.samples() <= kMaxLiveSamples;
+  // The first map tells; it has its vertices at least.
+  const Part* part = subject_ ? context_.session.scene().find(*subject_) : nullptr;
+  return part != nullptr && part->geometry->mesh.vertices().size() <= kMaxLiveSamples;
+}
+
+ClearanceMapRequest ClearanceMapSearch::present() const {
+  const Scene& scene = context_.session.scene();
+  ClearanceMapRequest request = clearanceMapRequest(scene, *subject_, range_, hasNearParts_);
+  for (MeasuredPart& part : request.parts)
+    part.worldFromPart = context_.poses.poseOf(scene.get(part.id));
+  return request;
+}
+
+void ClearanceMapSearch::followParts() {
+  // Names, colours and settings do not matter, nor does where a move is only proposed.
+  const auto isSame = [](const MeasuredPart& a, const MeasuredPart& b) {
+    return a.id == b.id && a.geometry == b.geometry && a.worldFromPart.rotation == b.worldFromPart.rotation &&
+           a.worldFromPart.translation == b.worldFromPart.translation;
+  };
+  // Poses may be told of before the subject that has left is.
+  if (!isWanted_ || !subject_ || context_.session.scene().find(*subject_) == nullptr) return;
+  if (!std::ranges::equal(present().parts, begun_, isSame)) request();
 }
 
 void ClearanceMapSearch::followSubject() {
@@ -108,6 +130,7 @@ void ClearanceMapSearch::followSubject() {
 void ClearanceMapSearch::drop() {
   late_.stop();
   automaticRange_ = 0.0;
+  begun_.clear();
   if (shown_ == nullptr && !isStale_) return;
   shown_ = nullptr;
   isStale_ = false;
@@ -115,7 +138,6 @@ void ClearanceMapSearch::drop() {
 }
 
 void ClearanceMapSearch::request() {
-  if (!isWanted_) return;
   isDue_ = true;
   isCancelled_ = false;
   if (isLive()) {
@@ -138,10 +160,8 @@ void ClearanceMapSearch::start() {
   isDue_ = false;
   rest_.stop();
   if (!subject_) return drop();
-  const Scene& scene = context_.session.scene();
-  ClearanceMapRequest request = clearanceMapRequest(scene, *subject_, range_, hasNearParts_);
-  for (MeasuredPart& part : request.parts)
-    part.worldFromPart = context_.poses.poseOf(scene.get(part.id));
+  ClearanceMapRequest request = present();
+  begun_ = request.parts;
   request.keptRange = automaticRange_;
   // The servo and its search ahead keep a processor.
   request.isParallel = !context_.hand.part();
@@ -171,7 +191,7 @@ void ClearanceMapSearch::finish(const std::shared_ptr<const ShownMap>& found,
     // During motion it is always of a pose that is a little old.
     late_.stop();
     if (isDue_) late_.start();
-    isStale_ = false;
+    isStale_ = isCancelled_ = false;
     emit changed();
   } else if (error && !nearfit::isCancelled(error)) {
     setStale(shown_ != nullptr);

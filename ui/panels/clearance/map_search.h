@@ -5,6 +5,7 @@
 #include <QTimer>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/report/clearance_histogram.h"
 #include "core/report/clearance_map.h"
@@ -82,7 +83,10 @@ class ClearanceMapSearch : public QObject {
   /// True if the next map is probably small enough to follow motion.
   bool isLive() const;
   void followSubject();
-  /// Something has changed: computes a map, now or once it rests.
+  /// What is to be mapped now, with all parts where they are. There is a subject.
+  ClearanceMapRequest present() const;
+  /// Computes a map, now or once it rests, if parts have moved, come or gone since the last one was begun.
+  void followParts();
   void request();
   void startIfDue();
   void start();
@@ -97,6 +101,7 @@ class ClearanceMapSearch : public QObject {
   QElapsedTimer running_;
   std::shared_ptr<const ShownMap> shown_;
   std::optional<PartId> subject_;
+  std::vector<MeasuredPart> begun_;            ///< Parts of the map begun last.
   std::uint64_t sceneSerial_ = 0;              ///< Serial of the scene that owns the subject.
   double range_ = 0.0, automaticRange_ = 0.0;  ///< As chosen; the last one found, 0 if none [m].
   bool hasNearParts_ = false;
