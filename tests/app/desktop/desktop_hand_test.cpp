@@ -71,11 +71,11 @@ struct ByMouse {
   RigidTransform hand;
 };
 
-bool isNear(const glm::dvec3& a, const glm::dvec3& b, double slack) {
+bool isNearPoint(const glm::dvec3& a, const glm::dvec3& b, double slack) {
   return glm::length(a - b) <= slack;
 }
 
-/// What a fake space mouse was told.
+/// Rate settings that the device got last.
 struct Told {
   RateSettings rate;
 };
@@ -134,18 +134,18 @@ void DesktopHandTest::theCameraHasWhatIsNotTheHands() {
   glm::dvec3 eye = m.eye();
   const auto place = m.d.part("moving").worldFromPart.translation;
   m.drag({60, 30}, Qt::ShiftModifier);
-  QVERIFY2(!isNear(m.eye(), eye, 1e-6), "nothing is in hand: Shift and dragging pan");
-  QVERIFY(isNear(m.d.part("moving").worldFromPart.translation, place, 0.0));
+  QVERIFY2(!isNearPoint(m.eye(), eye, 1e-6), "nothing is in hand: Shift and dragging pan");
+  QVERIFY(isNearPoint(m.d.part("moving").worldFromPart.translation, place, 0.0));
   m.feel();
   eye = m.eye();
   const RigidTransform before = m.hand;
   m.drag({60, 30}, Qt::ShiftModifier);
-  QVERIFY(isNear(m.eye(), eye, 0.0));
-  QVERIFY(!isNear(m.hand.translation, before.translation, 1e-6));
+  QVERIFY(isNearPoint(m.eye(), eye, 0.0));
+  QVERIFY(!isNearPoint(m.hand.translation, before.translation, 1e-6));
   const RigidTransform moved = m.hand;
   m.drag({60, 30}, Qt::NoModifier);
-  QVERIFY2(!isNear(m.eye(), eye, 1e-6), "orbiting stays possible");
-  QVERIFY(isNear(m.hand.translation, moved.translation, 0.0));
+  QVERIFY2(!isNearPoint(m.eye(), eye, 1e-6), "orbiting stays possible");
+  QVERIFY(isNearPoint(m.hand.translation, moved.translation, 0.0));
 }
 
 void DesktopHandTest::shiftedKeysTurn() {
@@ -155,13 +155,13 @@ void DesktopHandTest::shiftedKeysTurn() {
   m.d.type<QDoubleSpinBox>("turnStep", "2.5");
   m.view().setFocus();
   QTest::keyClick(&m.view(), Qt::Key_PageUp, Qt::ShiftModifier);
-  QVERIFY(isNear(rotationVector(m.hand.rotation), {0.0, 0.0, 2.5 * kDegree}, 1e-12));
+  QVERIFY(isNearPoint(rotationVector(m.hand.rotation), {0.0, 0.0, 2.5 * kDegree}, 1e-12));
   QTest::keyClick(&m.view(), Qt::Key_PageDown, Qt::ShiftModifier);
   QTest::keyClick(&m.view(), Qt::Key_Left, Qt::ShiftModifier);
-  QVERIFY(isNear(rotationVector(m.hand.rotation), {-2.5 * kDegree, 0.0, 0.0}, 1e-12));
-  QVERIFY(isNear(m.centre(), middle, 1e-12));
+  QVERIFY(isNearPoint(rotationVector(m.hand.rotation), {-2.5 * kDegree, 0.0, 0.0}, 1e-12));
+  QVERIFY(isNearPoint(m.centre(), middle, 1e-12));
   QTest::keyClick(&m.view(), Qt::Key_Up);
-  QVERIFY(isNear(m.centre(), middle + glm::dvec3(0.0, 1e-4, 0.0), 1e-12));
+  QVERIFY(isNearPoint(m.centre(), middle + glm::dvec3(0.0, 1e-4, 0.0), 1e-12));
 }
 
 /// They went on to the list of parts, and Page Down selected another part.
