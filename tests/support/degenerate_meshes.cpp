@@ -65,10 +65,19 @@ TriangleMesh withNeedles(const TriangleMesh& mesh, double aspect, double lift) {
   return draft.finish();
 }
 
+glm::dvec3 inSinglePrecision(const glm::dvec3& point) {
+  // GCC 12 takes narrowing and widening of two coordinates at a time for nothing, unless each is stored.
+  const auto rounded = [](double x) {
+    volatile float single = static_cast<float>(x);
+    return static_cast<double>(single);
+  };
+  return {rounded(point.x), rounded(point.y), rounded(point.z)};
+}
+
 TriangleMesh inSinglePrecision(const TriangleMesh& mesh) {
   EditableMesh draft(mesh);
   for (glm::dvec3& p : draft.vertices)
-    p = glm::dvec3(glm::vec3(p));
+    p = inSinglePrecision(p);
   return draft.finish();
 }
 

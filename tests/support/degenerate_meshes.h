@@ -19,6 +19,9 @@ TriangleMesh withSlivers(const TriangleMesh& mesh, double aspect, double lift);
 /// the three are needles or wedges with a short side.
 TriangleMesh withNeedles(const TriangleMesh& mesh, double aspect, double lift);
 
+/// A point with each coordinate rounded to single precision.
+glm::dvec3 inSinglePrecision(const glm::dvec3& point);
+
 /// Its coordinates rounded to single precision, as most files hold them.
 TriangleMesh inSinglePrecision(const TriangleMesh& mesh);
 

@@ -10,6 +10,7 @@
 #include "core/import/mesh_import.h"
 #include "core/mesh/mass_properties.h"
 #include "core/mesh/mesh_builder.h"
+#include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/temporary_folder.h"
@@ -70,7 +71,7 @@ TEST(TJunctions, TurnedAndRoundedToSinglePrecisionItIsClosedToo) {
         glm::normalize(glm::dquat{normal(random), normal(random), normal(random), normal(random)});
     PolygonSoup soup = boxWithAGrid(5, {1, 0.2, 3});
     for (glm::dvec3& p : soup.vertices)
-      p = glm::dvec3(glm::vec3(turn * p + glm::dvec3(1, 2, 3)));
+      p = test::inSinglePrecision(turn * p + glm::dvec3(1, 2, 3));
     MeshBuildReport report;
     const TriangleMesh mesh = buildMesh(soup, {}, report);
     EXPECT_TRUE(mesh.topology().isClosed() && mesh.topology().isOriented());

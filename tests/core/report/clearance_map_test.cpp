@@ -203,7 +203,8 @@ TEST(ClearanceMap, ACavityIsOutsideAndAnOpenMeshHasNoInside) {
       test::joined(test::boxMesh(glm::dvec3(4.0)), test::turned(test::boxMesh(glm::dvec3(2.0))));
   scene.add(test::partOf(test::geometryOf(hollow), "hollow"));
   const PartId core = scene.add(test::partOf(test::geometryOf(test::boxMesh(glm::dvec3(1.0))), "core"));
-  for (const double distance : mapOf(scene, core, 1.0).surfaces.at(0).distances)
+  const ClearanceMap inCavity = mapOf(scene, core, 1.0);
+  for (const double distance : inCavity.surfaces.at(0).distances)
     EXPECT_NEAR(distance, 0.5, 1e-12);
   Scene open;
   TriangleMesh lidless = test::boxMesh(glm::dvec3(2.0));
@@ -211,7 +212,8 @@ TEST(ClearanceMap, ACavityIsOutsideAndAnOpenMeshHasNoInside) {
                          {lidless.triangles().begin(), lidless.triangles().end() - 1});
   open.add(test::partOf(test::geometryOf(lidless), "lidless"));
   const PartId inner = open.add(test::partOf(test::geometryOf(test::boxMesh(glm::dvec3(1.0))), "inner"));
-  for (const double distance : mapOf(open, inner, 2.0).surfaces.at(0).distances)
+  const ClearanceMap inOpenMesh = mapOf(open, inner, 2.0);
+  for (const double distance : inOpenMesh.surfaces.at(0).distances)
     EXPECT_GT(distance, 0.0);
 }
 

@@ -24,9 +24,9 @@ TEST_F(SceneFileFaults, MissingFileIsToldByName) {
 }
 
 TEST_F(SceneFileFaults, UnknownVersionSaysWhichOneThisProgramReads) {
-  EXPECT_THAT(errorWith("/nearfit", 5),
-              AllOf(HasSubstr("fit.nearfit: nearfit: "), HasSubstr("version 5"),
-                    HasSubstr("reads versions 1 to 4"), HasSubstr("newer Nearfit")));
+  EXPECT_THAT(errorWith("/nearfit", 6),
+              AllOf(HasSubstr("fit.nearfit: nearfit: "), HasSubstr("version 6"),
+                    HasSubstr("reads versions 1 to 5"), HasSubstr("newer Nearfit")));
   EXPECT_THAT(errorWith("/nearfit", 0), HasSubstr("with the Nearfit that made it"));
   EXPECT_THAT(errorWith("/nearfit", 1.5), HasSubstr("this is version 1.5"));
   EXPECT_THAT(errorWith("/nearfit", "1"), HasSubstr("nearfit: it is of type string"));

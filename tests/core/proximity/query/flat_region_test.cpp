@@ -13,6 +13,7 @@
 #include "core/proximity/hierarchy/normal_cone_tree.h"
 #include "core/proximity/tracking/candidate_list.h"
 #include "core/report/lmd_set.h"
+#include "tests/support/degenerate_meshes.h"
 #include "tests/support/lmd_comparison.h"
 #include "tests/support/mesh_generators.h"
 
@@ -292,7 +293,7 @@ TEST(FlatRegion, FacesOfASinglePrecisionMeshThatAreOnePlaneButForRoundingAreOneR
   const TriangleMesh exact = test::squareMesh(2.0, 6);
   std::vector<glm::dvec3> rounded;
   for (const glm::dvec3& p : exact.vertices())
-    rounded.push_back(glm::dvec3(glm::vec3(tilted.applyToPoint(p))));
+    rounded.push_back(test::inSinglePrecision(tilted.applyToPoint(p)));
   const TriangleMesh plate(rounded,
                            std::vector<Triangle>(exact.triangles().begin(), exact.triangles().end()));
   const TriangleMesh foot = test::boxMesh({1, 0.5, 0.25}, {0, 0, 0.125});
