@@ -64,9 +64,10 @@ ClearanceMapPanel::ClearanceMapPanel(const Context& context, QWidget* parent)
       search_({context.session, context.selection, context.view.poses(), context.hand}),
       legend_(new ClearanceLegend(&context.view)),
       probe_(new MapProbe(context.view, context.session)),
-      colour_(makeAction(
-          this, "colourByClearance", tr("Colour by clearance"), QStringLiteral("clearance-map"), Qt::Key_K,
-          tr("Colour the selected part, or the one in hand, by its distance to other parts"))) {
+      colour_(
+          makeAction(this, "colourByClearance", tr("Colour by clearance"), QStringLiteral("clearance-map"),
+                     QStringLiteral("Shift+C"),
+                     tr("Colour the selected part, or the one in hand, by its distance to other parts"))) {
   setInPictures(*legend_);
   colour_->setCheckable(true);
   connect(colour_, &QAction::toggled, this, &ClearanceMapPanel::setColoured);
