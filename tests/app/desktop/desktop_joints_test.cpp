@@ -107,6 +107,7 @@ class DesktopJointsTest : public QObject {
   void lockedPartsAndPartsWithThreeJointsAreRefused();
   void jointsThatContradictEachOtherAreNotMade();
   void aPartInHandIsKeptWhileItIsFelt();
+  void thePanelSaysThatJointsContradictEachOther();
 };
 
 void DesktopJointsTest::insertsABoltInItsBoreByTwoClicksAsOneStepOfUndo() {
@@ -390,6 +391,34 @@ void DesktopJointsTest::aPartInHandIsKeptWhileItIsFelt() {
                qPrintable(QString::number(d.felt->translation.y)));
   d.choose("stop");
   QTRY_VERIFY(std::abs(d.part("moving").worldFromPart.translation.y + 0.01) < 1e-5);
+}
+
+/// A base that is moved can pull two joints apart; nothing said that none holds any more.
+void DesktopJointsTest::thePanelSaysThatJointsContradictEachOther() {
+  DesktopDriver d;
+  d.addCubes();
+  Joint toFixed;
+  toFixed.kind = JointKind::ToPoint;
+  toFixed.part = d.partId("moving");
+  toFixed.base = d.partId("fixed");
+  toFixed.onBase.point = d.part("fixed").worldFromPart.inverse().applyToPoint({0.0, 0.0, 0.0});
+  Joint toWorld = toFixed;
+  toWorld.base = std::nullopt;
+  toWorld.onBase.point = {0.0, 0.0, 0.0};
+  toFixed.onPart.point = toWorld.onPart.point =
+      d.part("moving").worldFromPart.inverse().applyToPoint({0.0, 0.0, 0.0});
+  d.session().addJoint(toFixed, d.part("moving").worldFromPart);
+  d.session().addJoint(toWorld, d.part("moving").worldFromPart);
+  const RigidTransform before = d.part("fixed").worldFromPart;
+  RigidTransform away = before;
+  away.translation.x += 0.02;
+  d.session().movePart(d.partId("fixed"), away);
+  d.startWith(ui::Hand::Manual);
+  QTRY_VERIFY2(d.text("noticeText").contains(QStringLiteral("contradict each other")),
+               qPrintable(d.text("noticeText")));
+  d.session().movePart(d.partId("fixed"), before);
+  QTRY_VERIFY2(!d.text("noticeText").contains(QStringLiteral("contradict")),
+               qPrintable(d.text("noticeText")));
 }
 
 NEARFIT_QT_SUITE(DesktopJointsTest, runDesktopTest<DesktopJointsTest>)

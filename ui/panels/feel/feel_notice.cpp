@@ -51,8 +51,7 @@ void FeelNotice::clear() {
 
 void FeelNotice::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) {
   QString text = textFor(snapshot, scene);
-  if (hasWaitedLong(snapshot) && text.isEmpty())
-    text = tr("Finding out which parts overlap.");
+  if (hasWaitedLong(snapshot) && text.isEmpty()) text = tr("Finding out which parts overlap.");
   text_->setText(text);
   restart_->setVisible(snapshot.fault != ServoFault::None);
   setVisible(!text.isEmpty());
@@ -77,7 +76,14 @@ bool FeelNotice::hasWaitedLong(const ServoSnapshot& snapshot) {
 QString FeelNotice::textFor(const ServoSnapshot& snapshot, const Scene& scene) const {
   if (snapshot.fault != ServoFault::None)
     return tr("Nothing is felt: %1.").arg(QString::fromUtf8(faultReason(snapshot.fault)));
-  if (snapshot.overlappingCount == 0) return {};
+  QStringList lines;
+  if (snapshot.areJointsContradictory)
+    lines << tr("Its joints contradict each other, so that none holds it. Turn one of them off.");
+  if (snapshot.overlappingCount > 0) lines << overlapText(snapshot, scene);
+  return lines.join(QChar('\n'));
+}
+
+QString FeelNotice::overlapText(const ServoSnapshot& snapshot, const Scene& scene) {
   const QString names = namesOf(snapshot, scene);
   return snapshot.overlappingCount == 1
              ? tr("Overlaps %1, which is not felt until the two are apart.").arg(names)

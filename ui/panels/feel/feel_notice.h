@@ -32,6 +32,7 @@ class FeelNotice : public QFrame {
   /// Keeps wrapped lines from being cut off in a panel that is short of room.
   void keepTextWhole();
   QString textFor(const ServoSnapshot& snapshot, const Scene& scene) const;
+  static QString overlapText(const ServoSnapshot& snapshot, const Scene& scene);
   /// True if the proxy has waited long enough to say so; a few ticks pass unnoticed.
   bool hasWaitedLong(const ServoSnapshot& snapshot);
 
