@@ -195,6 +195,7 @@ void MainWindow::addDockButton(QDockWidget& dock, const QString& toolTip) {
   auto* button = new QToolButton(statusBar());
   button->setObjectName(dock.objectName() + QStringLiteral("Button"));
   button->setDefaultAction(dock.toggleViewAction());
+  button->setToolButtonStyle(Qt::ToolButtonTextOnly);
   button->setAutoRaise(true);
   // Before those that were added earlier, and before the numbers.
   statusBar()->insertPermanentWidget(0, button);

@@ -111,6 +111,7 @@ void DesktopClearanceMapTest::theSwitchColoursThePartByItsDistance() {
   auto* legend = f.d.widget<QWidget>("clearanceLegend");
   QVERIFY(legend->isVisible() && legend->property("inPictures").toBool());
   QVERIFY(f.d.widget<QDockWidget>("clearanceMapDock")->isVisible());
+  keepPictures(f.d.window(), QStringLiteral("clearance-map"));
   const QImage coloured = f.d.picture();
   f.d.choose("colourByClearance");
   QVERIFY(f.colours("moving") == nullptr);

@@ -15,7 +15,7 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr int kTop = 8, kSide = 12, kTickLength = 4;  ///< [pixels]
+constexpr int kTop = 8, kSide = 12, kTickLength = 4, kTextGap = 8;  ///< [pixels]
 constexpr double kStaleOpacity = 0.4;
 constexpr int kTickIntervals = 4;
 
@@ -52,6 +52,7 @@ HistogramView::HistogramView(QWidget* parent) : QWidget(parent) {
   setObjectName(QStringLiteral("clearanceHistogram"));
   setAccessibleName(tr("Area by clearance"));
   setMinimumSize(220, 90);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
 }
 
 void HistogramView::showBins(std::vector<ClearanceBin> bins, double range, double total) {
@@ -105,12 +106,17 @@ void HistogramView::paintEvent(QPaintEvent*) {
   }
   painter.setOpacity(1.0);
   painter.setPen(ink);
+  double free = 0.0;  // Where the next text may begin.
   for (int i = 0; i <= kTickIntervals; ++i) {
     const double distance = range_ * i / kTickIntervals, x = pixelOf(distance);
     painter.drawLine(QPointF(x, within.bottom()), QPointF(x, within.bottom() + kTickLength));
     const QString text = i == 0 ? QStringLiteral("0") : formatLength(distance);
     const int wide = fontMetrics().horizontalAdvance(text);
     const double left = std::clamp(x - 0.5 * wide, 0.0, std::max(0.0, static_cast<double>(width() - wide)));
+    // The last tick always has its text, and those before it only where they leave room for that.
+    const int last = fontMetrics().horizontalAdvance(formatLength(range_));
+    if (left < free || (i < kTickIntervals && left + wide + kTextGap > width() - last)) continue;
+    free = left + wide + kTextGap;
     painter.drawText(QPointF(left, within.bottom() + kTickLength + fontMetrics().ascent() + 1), text);
   }
   if (!(threshold_ > bins_.front().from && threshold_ < bins_.back().to)) return;

@@ -162,7 +162,11 @@ void ClearanceMapPanel::setUpLayout() {
   auto* work = new QHBoxLayout;
   work->addWidget(progress_, 1);
   work->addWidget(cancel_);
-  auto* fields = new QVBoxLayout;
+  // As wide as it needs: the width that is left is the histogram's.
+  auto* controls = new QWidget(this);
+  controls->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Preferred);
+  auto* fields = new QVBoxLayout(controls);
+  fields->setContentsMargins({});
   fields->addWidget(toggle);
   fields->addLayout(ranges);
   fields->addWidget(export_);
@@ -175,7 +179,7 @@ void ClearanceMapPanel::setUpLayout() {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 6, 8, 6);
   row->setSpacing(10);
-  row->addLayout(fields);
+  row->addWidget(controls);
   row->addLayout(results, 1);
 }
 
