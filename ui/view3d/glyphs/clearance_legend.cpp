@@ -78,7 +78,7 @@ void ClearanceLegend::changeEvent(QEvent* event) {
 
 void ClearanceLegend::place() {
   resize(sizeHint());
-  move(kLegendMargin, std::max(kLegendMargin, (parentWidget()->height() - height()) / 2));
+  move(kLegendMargin, kLegendMargin);
 }
 
 void ClearanceLegend::paintSwatch(QPainter& painter, const QRect& at, const QColor& colour,

@@ -5,8 +5,8 @@
 
 namespace nearfit::ui {
 
-/// A card over the 3-D view, at the middle of its left edge, that explains the colours of clearances: the scale with
-/// lengths, overlaps, and what is beyond the range. Ignores the mouse.
+/// A card over the 3-D view, at its upper left, that explains the colours of clearances: the scale with lengths,
+/// overlaps, and what is beyond the range. Ignores the mouse.
 class ClearanceLegend : public QWidget {
   Q_OBJECT
 
@@ -14,7 +14,7 @@ class ClearanceLegend : public QWidget {
   /// @param view  Whatever it lies over; not null.
   explicit ClearanceLegend(QWidget* view);
 
-  /// What it explains.
+  /// Contents of the card.
   struct Scale {
     double range = 0.0;  ///< [m]
     QColor beyond;       ///< Colour of the part.
