@@ -5,6 +5,7 @@
 #include <QDockWidget>
 #include <QMenu>
 #include <QMimeData>
+#include <QScrollArea>
 #include <QStatusBar>
 #include <QTimer>
 #include <QToolButton>
@@ -52,6 +53,7 @@
 #include "ui/tools/selecting/view_menu.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/error_box.h"
+#include "ui/widgets/scroll_column.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
@@ -134,7 +136,8 @@ void MainWindow::makePanels() {
   QDockWidget* parts = addDock("partsDock", tr("Parts"), partsPanel, Qt::LeftDockWidgetArea);
   tabifyDockWidget(parts, addDock("historyDock", tr("History"), history_, Qt::LeftDockWidgetArea));
   parts->raise();
-  QDockWidget* pose = addDock("poseDock", tr("Pose and mass"), posePanel_, Qt::LeftDockWidgetArea);
+  QDockWidget* pose = addDock("poseDock", tr("Pose and mass"), makeScrollColumn(posePanel_, "poseScroll"),
+                              Qt::LeftDockWidgetArea);
   QDockWidget* feel = addDock("feelDock", tr("Feel"), &feel_->panel(), Qt::RightDockWidgetArea);
   resizeDocks({pose, feel}, {285, 235}, Qt::Horizontal);
   resizeDocks({pose}, {264}, Qt::Vertical);
@@ -162,8 +165,6 @@ void MainWindow::makeReviewPanels() {
     dock->hide();
   addDockButton(*timelineDock, tr("Show or hide the timeline of a recording"));
   addDockButton(*plotsDock, tr("Show or hide the plots of force, torque, clearance and times"));
-  // A symbol, as the status bar has little room.
-  mapDock->toggleViewAction()->setIcon(icon(QStringLiteral("clearance-map")));
   addDockButton(*mapDock, tr("Show or hide how much of a part's surface is how near to others"));
   addDockButton(*clearanceDock, tr("Show or hide the clearances to the other parts"));
   // The timeline is as wide as the window, below the two others side by side.
@@ -195,7 +196,6 @@ void MainWindow::addDockButton(QDockWidget& dock, const QString& toolTip) {
   auto* button = new QToolButton(statusBar());
   button->setObjectName(dock.objectName() + QStringLiteral("Button"));
   button->setDefaultAction(dock.toggleViewAction());
-  button->setToolButtonStyle(Qt::ToolButtonTextOnly);
   button->setAutoRaise(true);
   // Before those that were added earlier, and before the numbers.
   statusBar()->insertPermanentWidget(0, button);

@@ -1,8 +1,11 @@
 #include "ui/shell/title_and_status.h"
 
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QMainWindow>
 #include <QStatusBar>
+#include <algorithm>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -36,14 +39,51 @@ void setPresent(QLabel& label, bool isPresent) {
   isPresent ? setColour(label, colours::kMutedText) : label.setStyleSheet(kSheet);
 }
 
-QLabel* addLabel(QStatusBar* bar, const QString& objectName, const QString& widest) {
-  auto* label = new QLabel(bar);
-  label->setObjectName(objectName);
-  label->setMinimumWidth(label->fontMetrics().horizontalAdvance(widest) + 14);
-  setColour(*label, colours::kMutedText);
-  bar->addPermanentWidget(label);
-  return label;
-}
+/// Labels side by side. Where there is no room for all of them, the first ones are left out, so that the window can be
+/// narrow.
+class ReadoutRow : public QWidget {
+ public:
+  explicit ReadoutRow(QWidget* parent) : QWidget(parent) {
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins({});
+    row->setSizeConstraint(QLayout::SetNoConstraint);
+    setMinimumWidth(1);
+  }
+
+  QLabel* addLabel(const QString& objectName, const QString& widest) {
+    auto* label = new QLabel(this);
+    label->setObjectName(objectName);
+    label->setMinimumWidth(label->fontMetrics().horizontalAdvance(widest) + 14);
+    setColour(*label, colours::kMutedText);
+    layout()->addWidget(label);
+    labels_.push_back(label);
+    return label;
+  }
+
+  QSize sizeHint() const override {
+    int wide = 0;
+    for (const QLabel* label : labels_)
+      wide += widthOf(*label);
+    return {wide, QWidget::sizeHint().height()};
+  }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QWidget::resizeEvent(event);
+    int room = width();
+    for (auto label = labels_.rbegin(); label != labels_.rend(); ++label) {
+      room -= widthOf(**label);
+      (*label)->setVisible(room >= 0);
+    }
+  }
+
+ private:
+  int widthOf(const QLabel& label) const {
+    return std::max(label.minimumWidth(), label.sizeHint().width()) + layout()->spacing();
+  }
+
+  std::vector<QLabel*> labels_;
+};
 
 }  // namespace
 
@@ -69,12 +109,13 @@ void WindowTitle::showModified() {
   if (window_->isWindowModified() != isModified) window_->setWindowModified(isModified);
 }
 
-StatusReadout::StatusReadout(const HandState& hand, QStatusBar* bar)
-    : QObject(bar),
-      rate_(addLabel(bar, QStringLiteral("statusRate"), tr("Servo 1000 Hz"))),
-      lateness_(addLabel(bar, QStringLiteral("statusLateness"), tr("Late 0.00 ms (p99)"))),
-      minima_(addLabel(bar, QStringLiteral("statusMinima"), tr("LMDs 0000"))),
-      distance_(addLabel(bar, QStringLiteral("statusDistance"), tr("Min distance 0000 mm"))) {
+StatusReadout::StatusReadout(const HandState& hand, QStatusBar* bar) : QObject(bar) {
+  auto* row = new ReadoutRow(bar);
+  rate_ = row->addLabel(QStringLiteral("statusRate"), tr("Servo 1000 Hz"));
+  lateness_ = row->addLabel(QStringLiteral("statusLateness"), tr("Late 0.00 ms (p99)"));
+  minima_ = row->addLabel(QStringLiteral("statusMinima"), tr("LMDs 0000"));
+  distance_ = row->addLabel(QStringLiteral("statusDistance"), tr("Min distance 0000 mm"));
+  bar->addPermanentWidget(row);
   connect(&hand, &HandState::statusChanged, this, &StatusReadout::showStatus);
   connect(&hand, &HandState::snapshotDrawn, this,
           [this](const ServoSnapshot& snapshot) { showSnapshot(snapshot, true); });

@@ -55,7 +55,7 @@ class StatusReadout : public QObject {
   /// Shows dashes instead of minima and distance.
   void clearSnapshot();
 
-  QLabel *rate_, *lateness_, *minima_, *distance_;
+  QLabel *rate_ = nullptr, *lateness_ = nullptr, *minima_ = nullptr, *distance_ = nullptr;
 };
 
 }  // namespace nearfit::ui

@@ -11,6 +11,8 @@ namespace {
 
 /// Opacity of glyphs that are past, against that of present ones: seen through, and still told apart by colour.
 constexpr double kPastOpacity = 0.4;
+/// Width of the view, over that of the legend, below which the legend would cover what is felt; the panel has its numbers.
+constexpr double kLeastRoom = 1.5;
 
 bool isSamePose(const RigidTransform& a, const RigidTransform& b) {
   return a.rotation == b.rotation && a.translation == b.translation;
@@ -40,9 +42,8 @@ void SnapshotGlyphs::show(const ServoSnapshot& snapshot, const HapticSettings& s
 void SnapshotGlyphs::showNumbers(const ServoSnapshot& snapshot) {
   legend_->setColourRange(minima_.colourRange());
   legend_->showSnapshot(snapshot);
-  placeLegend();
   hasNumbers_ = true;
-  legend_->setVisible(isLegendWanted_);
+  placeLegend();
 }
 
 void SnapshotGlyphs::setPast(bool isPast) {
@@ -65,11 +66,13 @@ void SnapshotGlyphs::clear() {
 
 void SnapshotGlyphs::placeLegend() {
   legend_->place();
+  const bool hasRoom = legend_->parentWidget()->width() >= kLeastRoom * legend_->width();
+  legend_->setVisible(isLegendWanted_ && hasNumbers_ && hasRoom);
 }
 
 void SnapshotGlyphs::setLegendVisible(bool isVisible) {
   isLegendWanted_ = isVisible;
-  legend_->setVisible(isVisible && hasNumbers_);
+  placeLegend();
 }
 
 bool looksTheSame(const ServoSnapshot& a, const ServoSnapshot& b) {

@@ -27,6 +27,8 @@
 namespace nearfit::ui {
 namespace {
 
+/// Beside it the panels still fit a screen of 800 x 500 [pixels].
+constexpr int kLeastWidth = 220, kLeastHeight = 180;
 /// Room for moving parts around everything, as a fraction of its size, when the clipping range is kept.
 /// Beyond it the kept picture must be redrawn.
 constexpr double kRoomForMotion = 0.3;
@@ -56,7 +58,7 @@ Viewport::Viewport(std::shared_ptr<PartShapeCache> shapes, Selection& selection,
   setObjectName(QStringLiteral("viewport"));
   setAccessibleName(tr("3-D view"));
   setFocusPolicy(Qt::StrongFocus);
-  setMinimumSize(320, 240);
+  setMinimumSize(kLeastWidth, kLeastHeight);
   setInPictures(*scaleBar_);
   setUpRenderers();
   setUpInteraction();

@@ -97,6 +97,7 @@ class DesktopLayoutTest : public QObject {
   void cleanup() { ui::setColourScheme(ui::ColourScheme::Light); }
   void theSizeOfTheWindowComesBack();
   void aWindowLargerThanItsScreenIsFittedToIt();
+  void aScreenOf1600By1000IsEnoughAtScaleTwo();
   void whatIsHiddenAndMovedComesBack();
   void theThemeComesBack();
   void dialogsThatAreMadeOnDemandHaveNoNamelessField_data();
@@ -138,6 +139,23 @@ void DesktopLayoutTest::aWindowLargerThanItsScreenIsFittedToIt() {
   Run run;
   QVERIFY2(run.window().width() <= room.width() && run.window().height() <= room.height(),
            qPrintable(QStringLiteral("%1 x %2").arg(run.window().width()).arg(run.window().height())));
+}
+
+/// The panels' least sizes made the window larger than that.
+void DesktopLayoutTest::aScreenOf1600By1000IsEnoughAtScaleTwo() {
+  constexpr QSize kRoom(800, 464);  ///< Without the title bar.
+  Run run;
+  run.window().resize(kRoom);
+  QTRY_COMPARE(run.window().size(), kRoom);
+  // Of the numbers in the status bar, the last is the one to keep.
+  auto* distance = run.window().findChild<QWidget*>(QStringLiteral("statusDistance"));
+  QTRY_VERIFY(!run.window().findChild<QWidget*>(QStringLiteral("statusRate"))->isVisible());
+  QVERIFY(distance->isVisible());
+  const auto shown = [&] { return QRect(distance->mapTo(&run.window(), QPoint()), distance->size()); };
+  QTRY_VERIFY2(run.window().rect().contains(shown()), qPrintable(QString::number(shown().right())));
+  run.window().resize(1360, 860);
+  QTRY_VERIFY(run.window().findChild<QWidget*>(QStringLiteral("statusRate"))->isVisible());
+  run.close();
 }
 
 void DesktopLayoutTest::whatIsHiddenAndMovedComesBack() {

@@ -6,7 +6,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
-#include <QScrollBar>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -17,6 +16,7 @@
 #include "ui/panels/feel/hand_choice.h"
 #include "ui/panels/feel/preset_choice.h"
 #include "ui/widgets/format.h"
+#include "ui/widgets/scroll_column.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
@@ -87,18 +87,10 @@ FeelPanel::FeelPanel(const Parts& parts, QWidget* parent)
       felt_(new Readouts(tr("Felt"), this)),
       servo_(new Readouts(tr("Servo"), this)) {
   setUpReadouts();
-  // A small window has not enough room for all of it.
-  auto* scroll = new QScrollArea(this);
-  scroll->setObjectName(QStringLiteral("feelScroll"));
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setFocusPolicy(Qt::NoFocus);
-  scroll->setWidgetResizable(true);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setWidget(makeChoices(parts));
-  // As wide as its widest content, which may come later, and the scroll bar: nothing is cut off.
+  // As wide as its widest content, which may come later.
+  QWidget* choices = makeChoices(parts);
   workspace_->showHand(Hand::Device);
-  scroll->setMinimumWidth(scroll->widget()->minimumSizeHint().width() +
-                          scroll->verticalScrollBar()->sizeHint().width());
+  QScrollArea* scroll = makeScrollColumn(choices, "feelScroll");
   showHand();
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -159,16 +151,15 @@ void FeelPanel::setUpReadouts() {
   reports_ = device_->add(tr("Reports"), "reportRate", tr("Poses received from the device per second"));
   jitter_ = device_->add(tr("Jitter"), "reportJitter",
                          tr("Mean deviation of the time between two reports from its average"));
-  lost_ = device_->add(tr("Lost"), "reportsLost",
-                       tr("Reports lost or damaged since the part was taken in hand"));
+  lost_ =
+      device_->add(tr("Lost"), "reportsLost", tr("Reports lost or damaged since the part was taken in hand"));
   force_ = felt_->add(tr("Force"), "force");
   torque_ = felt_->add(tr("Torque"), "torque");
   distance_ = felt_->add(tr("Min distance"), "distance");
   minima_ = felt_->add(tr("Local minima"), "minima");
   contacts_ = felt_->add(tr("Contacts"), "contacts", tr("Minima that hold the part"));
   lead_ = felt_->add(tr("Hand offset"), "lead", tr("Distance from the part to where the hand wants it"));
-  energy_ = felt_->add(tr("Energy to hand"), "energy",
-                       tr("Net energy given to the hand since the start"));
+  energy_ = felt_->add(tr("Energy to hand"), "energy", tr("Net energy given to the hand since the start"));
   clamped_ = felt_->addNote("clamped", colours::kForce);
   rate_ = servo_->add(tr("Rate"), "rate");
   lateness_ = servo_->add(tr("Lateness, p99"), "lateness");

@@ -1,0 +1,21 @@
+#include "ui/widgets/scroll_column.h"
+
+#include <QScrollArea>
+#include <QScrollBar>
+
+namespace nearfit::ui {
+
+QScrollArea* makeScrollColumn(QWidget* content, const char* name) {
+  auto* scroll = new QScrollArea;
+  scroll->setObjectName(QLatin1String(name));
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(content);
+  scroll->setMinimumWidth(content->minimumSizeHint().width() +
+                          scroll->verticalScrollBar()->sizeHint().width());
+  return scroll;
+}
+
+}  // namespace nearfit::ui
