@@ -25,6 +25,8 @@ namespace {
 constexpr double kNearCone = 0.03, kOnCone = 2e-3;
 /// Max deviation of a facet from the inclination that its width and the cone give it [sine of the angle]: likewise.
 constexpr double kNearLean = 0.1, kOnLean = 5e-3;
+/// On the way from the former to the latter: what blends into a wall is left behind bit by bit, and the fit with it.
+constexpr std::array<std::pair<double, double>, 3> kTightening{{{0.012, 0.05}, {5e-3, 0.02}, {2.5e-3, 0.01}}};
 /// Max angle between wall and axis [rad], 60 degrees. Beyond it a flat end would be within kNearLean of the wall.
 constexpr double kMaxHalfAngle = std::numbers::pi / 3.0;
 /// Max turn from a facet to the next around the axis [rad]: that of six equal flats.
@@ -39,6 +41,10 @@ constexpr int kMaxGrowths = 4;
 /// Triangles that suffice to know a cone nearly, and corners to fit it to: more would only take time.
 constexpr std::size_t kNearTriangles = 20'000, kFitted = 2'000;
 constexpr std::size_t kFewestTriangles = 4;
+/// Triangles that a wall of slivers is guessed from, and the least component of their normals along that of the picked
+/// one: 60 degrees.
+constexpr std::array<std::size_t, 2> kSlivers{16, 64};
+constexpr double kAlike = 0.5;
 
 /// Returns the flat facets beside one, across edges that may run along a round wall.
 std::vector<std::vector<std::uint32_t>> facetsBeside(const TriangleMesh& mesh,
@@ -68,9 +74,7 @@ std::optional<Cone> wallAbout(std::span<const glm::dvec3> points, const glm::dve
   Cone cone{centre, axis, 0.0, 0.0};
   double height = 0.0, away = 0.0, square = 0.0, product = 0.0;
   const auto count = static_cast<double>(points.size());
-  const auto awayOf = [&](const glm::dvec3& p) {
-    return glm::length(p - centre - cone.heightOf(p) * axis);
-  };
+  const auto awayOf = [&](const glm::dvec3& p) { return glm::length(p - centre - cone.heightOf(p) * axis); };
   for (const glm::dvec3& p : points) {
     height += cone.heightOf(p) / count;
     away += awayOf(p) / count;
@@ -127,6 +131,28 @@ std::optional<Cone> coneByTip(std::span<const glm::dvec3> points, const std::arr
     spread += glm::outerProduct(d - mean, d - mean);
   // All lines along the wall make one angle with the axis: their directions end in a plane across it.
   return wallAbout(points, tip, symmetricEigen(spread).vectors[0]);
+}
+
+/// The cylinder, or steep cone, along the longest edge of a triangle. A wall that ends in a curve, as where two pipes
+/// meet, is cut into slivers from end to end: two or three of them are as wide as rounding and say nothing of the axis,
+/// but their long edges run along it, off by a sliver's width.
+std::optional<Cone> coneAlongEdge(const TriangleMesh& mesh, std::uint32_t first, std::size_t most) {
+  glm::dvec3 along(0.0);
+  const Triangle& c = mesh.triangles()[first];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::dvec3 edge = mesh.vertices()[c[(k + 1) % 3]] - mesh.vertices()[c[k]];
+    if (glm::length(edge) > glm::length(along)) along = edge;
+  }
+  along = glm::normalize(along);
+  const glm::dvec3 normal = triangleNormal(mesh, first);
+  const auto isBeside = [&](std::uint32_t t) {
+    const glm::dvec3 other = triangleNormal(mesh, t);
+    return glm::dot(other, normal) > kAlike && std::abs(glm::dot(other, along)) <= kNearLean;
+  };
+  const std::vector<glm::dvec3> points = cornersOf(mesh, grownRegion(mesh, first, isBeside, most));
+  const std::optional<Circle> circle = fitCylinder(points, along);
+  if (!circle) return std::nullopt;
+  return fitCone(points, Cone{circle->centre, circle->axis, circle->radius, 0.0}, true);
 }
 
 /// Triangles on a cone, connected to the first.
@@ -220,6 +246,10 @@ std::optional<ConeRegion> grownFrom(const TriangleMesh& mesh, std::uint32_t firs
     cone = *better;
     if (near.size() == std::exchange(before, near.size())) break;
   }
+  for (const auto& [share, lean] : kTightening) {
+    const std::vector<std::uint32_t> nearer = ConeGrower(mesh, first, cone).grow(share, lean, kNearTriangles);
+    if (nearer.size() >= kFewestTriangles) cone = fittedTo(cornersOf(mesh, nearer), cone).value_or(cone);
+  }
   ConeRegion region{{}, cone, 0};
   if (isSteepEnough(cone)) region.triangles = ConeGrower(mesh, first, cone).grow(kOnCone, kOnLean);
   if (region.triangles.size() < kFewestTriangles) return std::nullopt;
@@ -235,8 +265,8 @@ std::optional<ConeRegion> grownFrom(const TriangleMesh& mesh, std::uint32_t firs
   const std::vector<double> lines = linesAbout(corners, region.cone.centre, region.cone.axis);
   if (!isRoundWall(lines, isPrism)) return std::nullopt;
   region.facets = lines.size();
-  const auto [lowest, highest] = std::ranges::minmax(
-      corners, {}, [&](const glm::dvec3& p) { return region.cone.heightOf(p); });
+  const auto [lowest, highest] =
+      std::ranges::minmax(corners, {}, [&](const glm::dvec3& p) { return region.cone.heightOf(p); });
   region.cone = region.cone.movedTo(0.5 * (region.cone.heightOf(lowest) + region.cone.heightOf(highest)));
   return region;
 }
@@ -248,14 +278,16 @@ std::optional<ConeRegion> coneRegion(const TriangleMesh& mesh, std::uint32_t tri
   if (facet.empty()) return std::nullopt;
   const std::vector<std::vector<std::uint32_t>> beside = facetsBeside(mesh, facet);
   std::optional<ConeRegion> best;
+  const auto take = [&](std::optional<ConeRegion> found) {
+    if (found && (!best || found->triangles.size() > best->triangles.size())) best = std::move(found);
+  };
   const auto tryFrom = [&](const std::optional<Cone>& guess, std::span<const glm::dvec3> points) {
     if (!guess || !isSteepEnough(*guess)) return;
     const Cone cone = fitCone(points, *guess).value_or(*guess);
     const bool isNear = std::ranges::all_of(
         points, [&](const glm::dvec3& p) { return cone.distanceFrom(p) <= kNearCone * cone.radius; });
     if (!isNear) return;
-    std::optional<ConeRegion> found = grownFrom(mesh, triangle, cone, isPrism);
-    if (found && (!best || found->triangles.size() > best->triangles.size())) best = std::move(found);
+    take(grownFrom(mesh, triangle, cone, isPrism));
   };
   const auto pointOn = [&](std::uint32_t t) { return mesh.vertices()[mesh.triangles()[t][0]]; };
   for (std::size_t i = 0; i < beside.size(); ++i) {
@@ -272,6 +304,12 @@ std::optional<ConeRegion> coneRegion(const TriangleMesh& mesh, std::uint32_t tri
                                          pointOn(beside[j].front())};
       tryFrom(coneByTip(points, normals, on), points);
     }
+  }
+  for (const std::size_t most : kSlivers) {
+    // Three facets may also be a small piece of something else.
+    if (best && best->triangles.size() > most) break;
+    if (const std::optional<Cone> guess = coneAlongEdge(mesh, triangle, most))
+      take(grownFrom(mesh, triangle, *guess, isPrism));
   }
   return best;
 }

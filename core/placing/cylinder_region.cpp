@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/math/symmetric_eigen.h"
+#include "core/placing/cone_fit.h"
 #include "core/placing/mesh_region.h"
 #include "core/placing/round_corners.h"
 
@@ -60,6 +61,12 @@ std::optional<CylinderRegion> grown(const TriangleMesh& mesh, std::uint32_t firs
   const std::vector<double> lines = linesAbout(corners, region.cylinder.centre, region.cylinder.axis);
   region.isRing = isRing(lines, kRoundRing);
   if (!region.isRing && !isFineArc(lines)) return std::nullopt;
+  if (region.isRing) {
+    // Corners are on the cylinder, and facets are not along it where they are slivers between unlike corners.
+    const Circle& c = region.cylinder;
+    const std::optional<Cone> fitted = fitCone(corners, Cone{c.centre, c.axis, c.radius, 0.0}, true);
+    if (fitted) region.cylinder = {fitted->centre, fitted->axis, fitted->radius};
+  }
   double lowest = glm::dot(corners[0] - region.cylinder.centre, region.cylinder.axis), highest = lowest;
   for (const glm::dvec3& p : corners) {
     const double height = glm::dot(p - region.cylinder.centre, region.cylinder.axis);

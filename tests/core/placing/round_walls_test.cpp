@@ -245,5 +245,76 @@ TEST(ConeFit, PointsOnAConeGiveItFromARoughGuess) {
   EXPECT_FALSE(fitCone(few, guess));
 }
 
+/// The end of a pipe that blends into another one: its wall is cut into slivers between the rim and a wavy curve of
+/// other angles, below which a fillet goes on smoothly.
+struct BlendedPipe {
+  static constexpr std::uint32_t kAtRim = 28, kAtCurve = 97;
+
+  BlendedPipe() {
+    const auto corner = [](double angle, double radius, double height) {
+      return glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), height);
+    };
+    const auto rimAngle = [](std::uint32_t i) { return 2.0 * kPi * (i + 0.3) / kAtRim; };
+    const auto curveAngle = [](std::uint32_t i) { return 2.0 * kPi * i / kAtCurve; };
+    const auto curveHeight = [](double angle) {
+      return kHeight * (0.3 + 0.25 * std::pow(std::sin(angle), 2));
+    };
+    std::vector<glm::dvec3> vertices;
+    std::vector<Triangle> triangles;
+    for (std::uint32_t i = 0; i < kAtRim; ++i)
+      vertices.push_back(corner(rimAngle(i), kRadius, kHeight));
+    for (std::uint32_t row = 0; row <= kBlendRows; ++row) {
+      const double turn = 0.5 * kPi * row / kBlendRows;
+      for (std::uint32_t i = 0; i < kAtCurve; ++i) {
+        const double angle = curveAngle(i);
+        vertices.push_back(corner(angle, kRadius + kFillet * (1.0 - std::cos(turn)),
+                                  curveHeight(angle) - kFillet * std::sin(turn)));
+      }
+    }
+    const auto onCurve = [](std::uint32_t row, std::uint32_t i) {
+      return kAtRim + row * kAtCurve + i % kAtCurve;
+    };
+    for (std::uint32_t r = 0, c = 0; r < kAtRim || c < kAtCurve;) {
+      if (c == kAtCurve || (r < kAtRim && rimAngle(r) + kPi / kAtRim < curveAngle(c))) {
+        triangles.push_back({r % kAtRim, onCurve(0, c), (r + 1) % kAtRim});
+        ++r;
+      } else {
+        triangles.push_back({r % kAtRim, onCurve(0, c), onCurve(0, c + 1)});
+        ++c;
+      }
+    }
+    for (std::uint32_t row = 0; row < kBlendRows; ++row) {
+      for (std::uint32_t i = 0; i < kAtCurve; ++i) {
+        triangles.push_back({onCurve(row, i), onCurve(row + 1, i), onCurve(row + 1, i + 1)});
+        triangles.push_back({onCurve(row, i), onCurve(row + 1, i + 1), onCurve(row, i + 1)});
+      }
+    }
+    mesh = test::inSinglePrecision(
+        test::transformed(TriangleMesh(std::move(vertices), std::move(triangles)), 1.0, pose));
+  }
+
+  static constexpr std::uint32_t kBlendRows = 6;
+  static constexpr double kRadius = 0.012, kFillet = 0.002;
+  RigidTransform pose = somePose(31);
+  TriangleMesh mesh;
+};
+
+// The wall of a real pump's pipe was found in three of ten places alone.
+TEST(RoundWalls, AWallOfSliversThatBlendsIntoAnotherHasItsAxisEverywhere) {
+  const BlendedPipe pipe;
+  const glm::dvec3 axis = pipe.pose.applyToVector({0.0, 0.0, 1.0});
+  for (std::uint32_t t = 0; t < BlendedPipe::kAtRim + BlendedPipe::kAtCurve; ++t) {
+    const Triangle& c = pipe.mesh.triangles()[t];
+    const glm::dvec3 middle =
+        (pipe.mesh.vertices()[c[0]] + pipe.mesh.vertices()[c[1]] + pipe.mesh.vertices()[c[2]]) / 3.0;
+    const auto picked = pickFeature(pipe.mesh, {t, middle}, kReach, FeatureFilter::Axes);
+    ASSERT_TRUE(picked && picked->feature.shape == FeatureShape::Axis) << t;
+    EXPECT_NEAR(glm::length(glm::cross(picked->feature.direction, axis)), 0.0, 1e-4) << t;
+    EXPECT_NEAR(picked->feature.radius, BlendedPipe::kRadius, 1e-3 * BlendedPipe::kRadius) << t;
+    const glm::dvec3 off = picked->feature.point - pipe.pose.translation;
+    EXPECT_NEAR(glm::length(off - glm::dot(off, axis) * axis), 0.0, 1e-3 * BlendedPipe::kRadius) << t;
+  }
+}
+
 }  // namespace
 }  // namespace nearfit::round_walls_test
