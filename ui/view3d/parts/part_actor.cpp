@@ -80,7 +80,7 @@ ShapeMappers::Mapper ShapeMappers::edges(bool isTranslucent) {
 }
 
 ShapeMappers::Mapper ShapeMappers::veil() {
-  return made(veil_, shape_->veilSurface());
+  return made(veil_, shape_->veil);
 }
 
 ShapeMappers::Mapper ShapeMappers::veilEdges() {

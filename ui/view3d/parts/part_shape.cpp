@@ -121,6 +121,8 @@ DraftSurface clustered(vtkPolyData& surface, int divisions) {
   clustering->SetInputData(bare);
   clustering->AutoAdjustNumberOfDivisionsOff();
   clustering->SetNumberOfDivisions(along(0), along(1), along(2));
+  // Points of its own would lie beside the surface, and a veil would tint what lies beside the part.
+  clustering->UseInputPointsOn();
   clustering->Update();
   const std::optional<TriangleMesh> mesh = meshOf(*clustering->GetOutput());
   const auto draft =
@@ -134,15 +136,26 @@ constexpr double kShaded = 0.35, kConverted = 0.6, kDraftsMade = 0.85;
 /// Draws without a noticeable wait, in software OpenGL too.
 constexpr vtkIdType kPieceTriangles = 100'000;
 
+/// @param finest  Finest stand-in of the shape, or null.
+vtkSmartPointer<vtkPolyData> veilOf(const PartShape& shape, const vtkSmartPointer<vtkPolyData>& finest) {
+  // Some 15 ms in software OpenGL, and 30 ms.
+  constexpr vtkIdType kQuick = 50'000, kMost = 100'000;
+  if (shape.surface->GetNumberOfPolys() <= kQuick) return shape.surface;
+  const vtkIdType count = finest != nullptr ? finest->GetNumberOfPolys() : 0;
+  return count > 0 && count <= kMost ? finest.Get() : shape.finestDraft();
+}
+
 void addDrafts(PartShape& shape) {
   const auto sizeOf = [](vtkPolyData& data) {
     return static_cast<std::size_t>(data.GetNumberOfPolys() + data.GetNumberOfLines());
   };
   shape.levels = {{sizeOf(*shape.surface) + sizeOf(*shape.edges), 0.0}};
-  for (DraftSurface& draft : draftsOf(*shape.surface)) {
+  vtkSmartPointer<vtkPolyData> finest;
+  for (DraftSurface& draft : draftsOf(*shape.surface, finest)) {
     shape.levels.push_back({sizeOf(*draft.surface), draft.cell});
     shape.drafts.push_back(draft.surface);
   }
+  shape.veil = veilOf(shape, finest);
 }
 
 }  // namespace
@@ -182,19 +195,14 @@ std::vector<vtkSmartPointer<vtkPolyData>> quickPiecesOf(vtkPolyData& surface) {
   return pieces;
 }
 
-vtkPolyData* PartShape::veilSurface() const {
-  // Some 15 ms in software OpenGL.
-  constexpr vtkIdType kQuick = 50'000;
-  return surface->GetNumberOfPolys() <= kQuick ? surface.Get() : finestDraft();
-}
-
-std::vector<DraftSurface> draftsOf(vtkPolyData& surface) {
+std::vector<DraftSurface> draftsOf(vtkPolyData& surface, vtkSmartPointer<vtkPolyData>& finest) {
   std::vector<DraftSurface> drafts;
   vtkPolyData* last = &surface;
   double off = 0.0;
   for (const int divisions : kDivisions) {
     if (last->GetNumberOfPolys() < (drafts.empty() ? kMinTriangles : kMinOfADraft)) break;
     DraftSurface draft = clustered(*last, divisions);
+    if (finest == nullptr) finest = draft.surface;
     // Each draft is made from the one before, which is faster but adds up their deviations.
     draft.cell += off;
     if (draft.surface->GetNumberOfPolys() == 0 ||

@@ -18,7 +18,7 @@
 
 namespace nearfit::ui {
 
-/// A coarse stand-in for a surface, with point normals.
+/// A coarse stand-in for a surface, with point normals. Its points are points of the surface, in single precision.
 struct DraftSurface {
   vtkSmartPointer<vtkPolyData> surface;
   double cell = 0.0;  ///< Max distance of its points from the surface, in the surface's unit.
@@ -26,7 +26,9 @@ struct DraftSurface {
 
 /// Returns ever coarser stand-ins, each with at most half the triangles of the one before; none for a small
 /// surface. O(n log n), also where clustering brings most triangles together at a few points. Any thread.
-std::vector<DraftSurface> draftsOf(vtkPolyData& surface);
+/// @param finest  Gets the finest stand-in, even if it has too many triangles to be among them; null for a small
+///                surface.
+std::vector<DraftSurface> draftsOf(vtkPolyData& surface, vtkSmartPointer<vtkPolyData>& finest);
 
 /// A mesh prepared for drawing and picking, in the part's frame [m]. Immutable once made.
 struct PartShape {
@@ -38,15 +40,15 @@ struct PartShape {
   /// Ever coarser stand-ins with normals, for motion in large scenes; empty for a small mesh.
   std::vector<vtkSmartPointer<vtkPolyData>> drafts;
   std::vector<DetailLevel> levels;  ///< The level of `surface`, then one for each draft.
-  RayTree rays;                     ///< Of the mesh, for picking.
+  /// For a veil over the part: the surface if that is quick to draw, else a fine stand-in. Does not reach beyond the
+  /// outline of a convex part; may close gaps of less than a hundredth of the size of a large one.
+  vtkSmartPointer<vtkPolyData> veil;
+  RayTree rays;  ///< Of the mesh, for picking.
   /// True if no back face is visible from outside.
   bool hidesItsInside = false;
 
   /// Returns the finest draft, or the surface if there is none.
   vtkPolyData* finestDraft() const { return drafts.empty() ? surface.Get() : drafts.front().Get(); }
-  /// Returns the surface for a veil over the part: the mesh itself if that is quick to draw. A draft would reach
-  /// beyond the part's outline, and tint what lies beside it.
-  vtkPolyData* veilSurface() const;
 };
 
 /// Returns triangles as cells of a data set.

@@ -36,6 +36,7 @@ class PartShapeTest : public QObject {
   void fansAndBooksAreShaded();
   void picksInTinyAndThinMeshesTakeLittleMemory();
   void theVeilOfAPartHasItsOutline();
+  void theVeilOfALargePartKeepsToItsOutline();
   void oneGeometryHasOneShape();
   void manyShapesAreKeptWhileTheirGeometriesExist();
   void threadsMayAskAtOnce();
@@ -92,6 +93,10 @@ void PartShapeTest::whatIsClusteredToAFewPointsIsShaded() {
     QVERIFY(draft->GetNumberOfPolys() > 0);
     QCOMPARE(draft->GetPointData()->GetNormals()->GetNumberOfTuples(), draft->GetNumberOfPoints());
   }
+  // The finest stand-in has as many triangles as the mesh.
+  QVERIFY(shape.veil->GetNumberOfPolys() > 0);
+  QVERIFY2(shape.veil->GetNumberOfPolys() <= 100'000,
+           qPrintable(QString::number(shape.veil->GetNumberOfPolys())));
 }
 
 void PartShapeTest::fansAndBooksAreShaded() {
@@ -133,10 +138,37 @@ void PartShapeTest::manyShapesAreKeptWhileTheirGeometriesExist() {
 void PartShapeTest::theVeilOfAPartHasItsOutline() {
   const ui::PartShape usual = ui::makePartShape(test::icosphereMesh(1.0, 4));
   QVERIFY(!usual.drafts.empty());
-  QCOMPARE(usual.veilSurface(), usual.surface.Get());
+  QCOMPARE(usual.veil.Get(), usual.surface.Get());
+}
+
+/// A draft of half the triangles has cells of a 28th of such a part. Its own mesh would take too long.
+void PartShapeTest::theVeilOfALargePartKeepsToItsOutline() {
   const ui::PartShape large = ui::makePartShape(test::icosphereMesh(1.0, 6));
+  vtkPolyData* veil = large.veil;
   QVERIFY(large.surface->GetNumberOfPolys() > 80'000);
-  QCOMPARE(large.veilSurface(), large.drafts.front().Get());
+  QVERIFY(veil->GetNumberOfPolys() < large.surface->GetNumberOfPolys());
+  QVERIFY(veil->GetNumberOfPolys() > 10'000);
+  // Points of a ball span triangles within it. Clustering rounds points to single precision.
+  constexpr double kRounding = 1e-6;
+  for (vtkIdType i = 0; i < veil->GetNumberOfPoints(); ++i) {
+    const double* p = veil->GetPoint(i);
+    QVERIFY2(std::abs(std::hypot(p[0], p[1], p[2]) - 1.0) < kRounding, qPrintable(QString::number(i)));
+  }
+  // A facet of edge 0.021 at most joins cells of a 96th of the size, which have a diagonal of 0.036. A chord of that
+  // length is this deep in the ball.
+  constexpr double kMaxEdge = 0.021 + 2.0 * 0.037, kMaxDepth = kMaxEdge * kMaxEdge / 8.0;
+  for (vtkIdType cell = 0; cell < veil->GetNumberOfPolys(); ++cell) {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    veil->GetPolys()->GetCellAtId(cell, size, corners);
+    for (int k = 0; k < 3; ++k) {
+      double a[3], b[3];
+      veil->GetPoint(corners[k], a);
+      veil->GetPoint(corners[(k + 1) % 3], b);
+      const double middle = 0.5 * std::hypot(a[0] + b[0], a[1] + b[1], a[2] + b[2]);
+      QVERIFY2(1.0 - middle < 1.1 * kMaxDepth, qPrintable(QString::number(1.0 - middle)));
+    }
+  }
 }
 
 void PartShapeTest::oneGeometryHasOneShape() {

@@ -5,6 +5,8 @@
 
 #include <vtkActorCollection.h>
 #include <vtkCamera.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 
@@ -22,6 +24,7 @@ class SceneRendererTest : public QObject {
   void partsThatOverlapAreTintedAndGetTheirColourBack();
   void boundsOfAPartAreThoseInTheWorld();
   void edgesThatWouldCoverAPartAreLeftOut();
+  void aSelectedPartIsTintedByTheVeilOfItsShape();
 
  private:
   static PartGeometryPtr cube() {
@@ -109,6 +112,36 @@ void SceneRendererTest::edgesThatWouldCoverAPartAreLeftOut() {
     QCOMPARE(visibleLines(), lines);
   }
   window->RemoveRenderer(renderer_);
+}
+
+/// It was tinted by a draft, which is coarser.
+void SceneRendererTest::aSelectedPartIsTintedByTheVeilOfItsShape() {
+  auto geometry = std::make_shared<PartGeometry>();
+  geometry->mesh = test::icosphereMesh(0.02, 4);
+  Part ball = partOf("ball");
+  ball.geometry = geometry;
+  Scene scene;
+  const PartId id = scene.add(ball);
+  const auto shapes = std::make_shared<ui::PartShapeCache>();
+  vtkNew<vtkRenderer> under, over;
+  ui::SceneRenderer parts(*under.Get(), shapes, poses_, over.Get());
+  parts.setScene(scene);
+  QCOMPARE(over->GetActors()->GetNumberOfItems(), 0);
+  parts.setSelected({id});
+  const auto shape = shapes->shapeOf(geometry);
+  QVERIFY(shape->veil.Get() != shape->finestDraft());
+  int veils = 0;
+  vtkActorCollection* actors = over->GetActors();
+  actors->InitTraversal();
+  while (vtkActor* actor = actors->GetNextActor()) {
+    const vtkPolyData* drawn = vtkPolyDataMapper::SafeDownCast(actor->GetMapper())->GetInput();
+    if (drawn == shape->edges.Get()) continue;
+    QCOMPARE(drawn, static_cast<const vtkPolyData*>(shape->veil.Get()));
+    veils += actor->GetVisibility() != 0 ? 1 : 0;
+  }
+  QCOMPARE(veils, 1);
+  parts.setSelected({});
+  QCOMPARE(over->GetActors()->GetNumberOfItems(), 0);
 }
 
 NEARFIT_QT_SUITE(SceneRendererTest, test::runQtTest<SceneRendererTest>)
