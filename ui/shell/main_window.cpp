@@ -139,6 +139,9 @@ void MainWindow::makePanels() {
   QDockWidget* pose = addDock("poseDock", tr("Pose and mass"), makeScrollColumn(posePanel_, "poseScroll"),
                               Qt::LeftDockWidgetArea);
   QDockWidget* feel = addDock("feelDock", tr("Feel"), &feel_->panel(), Qt::RightDockWidgetArea);
+  // Whoever has clicked in a list goes on with keys in the view.
+  setTabOrder(partsPanel->list(), history_->list());
+  setTabOrder(history_->list(), viewport_);
   resizeDocks({pose, feel}, {285, 235}, Qt::Horizontal);
   resizeDocks({pose}, {264}, Qt::Vertical);
   viewActions_ = new ViewActions(session_, *selection_, *viewport_, this);

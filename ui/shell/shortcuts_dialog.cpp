@@ -76,6 +76,7 @@ void addView(QTreeWidget* list) {
       {QObject::tr("Add to the selection, or remove from it"), QObject::tr("Ctrl+Click")},
       {QObject::tr("Menu of commands for a part"), QObject::tr("Right click, or the Menu key")},
       {QObject::tr("Select the parts seen in a box"), QObject::tr("B, then left drag")},
+      {QObject::tr("Go from Parts or History to the view, then to the pose"), QObject::tr("Tab")},
       {QObject::tr("Move the part by a step"), QObject::tr("Arrow keys, Page Up, Page Down")},
       {QObject::tr("Rotate the part by a step"), QObject::tr("Shift+Arrow keys, Shift+Page Up or Page Down")},
       {QObject::tr("Move the manual hand"), QObject::tr("Shift+Left drag, Shift+Wheel")},

@@ -112,6 +112,7 @@ class DesktopWindowShellTest : public QObject {
   void theTreeFollowsTheTheme();
   void theTabKeyGoesDownTheFeelPanel();
   void theTabKeyGoesThroughThePositionBeforeTheAngles();
+  void theTabKeyGoesFromTheListsToTheViewAndOnToTheNumbers();
   void largerLettersAreNotCut();
   void toolbarsFitANarrowWindow();
 };
@@ -344,6 +345,31 @@ void DesktopWindowShellTest::theTabKeyGoesThroughThePositionBeforeTheAngles() {
     QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
     QCOMPARE(QApplication::focusWidget()->objectName(), QString::fromLatin1(next));
   }
+}
+
+/// Arrow keys went on through the parts, and it took 14 presses to bring them to the view.
+void DesktopWindowShellTest::theTabKeyGoesFromTheListsToTheViewAndOnToTheNumbers() {
+  DesktopDriver d;
+  d.addCubes();
+  const auto press = [](Qt::Key key) { QTest::keyClick(QApplication::focusWidget(), key); };
+  QWidget* view = &d.window().viewport();
+  d.clickPart(1, 0);
+  QTRY_COMPARE(QApplication::focusWidget(), static_cast<QWidget*>(d.partsView()));
+  press(Qt::Key_Tab);
+  QCOMPARE(QApplication::focusWidget(), view);
+  press(Qt::Key_Tab);
+  const QWidget* next = QApplication::focusWidget();
+  QVERIFY2(d.widget<QDockWidget>("poseDock")->isAncestorOf(next), qPrintable(pathOf(next)));
+  press(Qt::Key_Backtab);
+  QCOMPARE(QApplication::focusWidget(), view);
+  press(Qt::Key_Backtab);
+  QCOMPARE(QApplication::focusWidget(), static_cast<QWidget*>(d.partsView()));
+  auto* history = d.widget<QListView>("historyView");
+  d.widget<QDockWidget>("historyDock")->raise();
+  QTRY_VERIFY(history->isVisible());
+  history->setFocus();
+  press(Qt::Key_Tab);
+  QCOMPARE(QApplication::focusWidget(), view);
 }
 
 void DesktopWindowShellTest::largerLettersAreNotCut() {

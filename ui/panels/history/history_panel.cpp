@@ -107,6 +107,10 @@ void HistoryPanel::showHistory() {
   view_->scrollTo(index);
 }
 
+QWidget* HistoryPanel::list() const noexcept {
+  return view_;
+}
+
 void HistoryPanel::refresh() {
   model_->refresh();
 }

@@ -46,6 +46,8 @@ class HistoryPanel : public QWidget {
 
   /// Updates the texts after a change of the unit of length.
   void refresh();
+  /// Returns the list, for the order of the Tab key.
+  QWidget* list() const noexcept;
 
  private:
   void showHistory();

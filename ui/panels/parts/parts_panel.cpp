@@ -71,6 +71,7 @@ PartsPanel::PartsPanel(Session& session, Selection& selection, QWidget* parent)
   layout->setSpacing(0);
   layout->addWidget(filter_);
   layout->addWidget(view_);
+  setTabOrder(filter_, view_);
 
   connect(filter_, &QLineEdit::textChanged, view_, &PartsView::setFilter);
   connect(view_, &QTreeView::clicked, this, &PartsPanel::clickCell);
@@ -81,6 +82,10 @@ PartsPanel::PartsPanel(Session& session, Selection& selection, QWidget* parent)
   connect(model_, &PartsModel::regroupRequested, this, &PartsPanel::regroupRequested);
   changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { refresh(); });
   refresh();
+}
+
+QWidget* PartsPanel::list() const noexcept {
+  return view_;
 }
 
 void PartsPanel::refresh() {

@@ -30,6 +30,8 @@ class PartsPanel : public QWidget {
 
   /// Shows the scene anew, in place of a change that was refused.
   void refresh();
+  /// Returns the tree, for the order of the Tab key.
+  QWidget* list() const noexcept;
   /// Sets the actions of the context menu.
   void setMenuActions(const QList<QAction*>& actions);
   /// Edits the name in the current row, of a part or a group; no-op unless the row is selected. If the panel
