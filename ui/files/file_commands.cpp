@@ -40,7 +40,7 @@ void FileCommands::makeActions() {
   openDemo = makeAction(this, "openDemo", tr("Open &demo"), QStringLiteral("demo"), {},
                         tr("Open the demo scene: a piston to fit into its cylinder"));
   addParts = makeAction(
-      this, "addParts", tr("&Add parts…"), QStringLiteral("add"), QStringLiteral("Ctrl+I"),
+      this, "addParts", tr("Add &parts…"), QStringLiteral("add"), QStringLiteral("Ctrl+I"),
       tr("Add meshes (STL, OBJ, PLY, OFF) to the scene; you can also drop files and folders on the window"));
   save = makeAction(this, "save", tr("&Save"), QStringLiteral("save"), QKeySequence::Save,
                     tr("Save the scene and where its parts are"));

@@ -124,7 +124,7 @@ void MainMenus::setUpPlacing() {
 
 void MainMenus::setUpFeelMenu() {
   const FeelControl& feel = commands_.feel;
-  QMenu* menu = window_->menuBar()->addMenu(tr("F&eel"));
+  QMenu* menu = window_->menuBar()->addMenu(tr("Fee&l"));
   menu->addActions({feel.start, feel.stop, commands_.hand.letGoAction(), feel.clutch, menu->addSeparator(),
                     feel.settings, menu->addSeparator(), &commands_.record, commands_.replay.openAction()});
 }

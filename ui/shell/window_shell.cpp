@@ -139,11 +139,11 @@ void WindowShell::settle() {
 }
 
 void WindowShell::addThemes(QMenu* view) {
-  QMenu* menu = view->addMenu(tr("T&heme"));
+  QMenu* menu = view->addMenu(tr("&Theme"));
   auto* group = new QActionGroup(this);
   const std::pair<ColourScheme, QAction*> schemes[] = {
       {ColourScheme::System,
-       addAction(menu, "themeSystem", tr("Same as &desktop"), tr("Light or dark, following the desktop"))},
+       addAction(menu, "themeSystem", tr("&Same as desktop"), tr("Light or dark, following the desktop"))},
       {ColourScheme::Light, addAction(menu, "themeLight", tr("&Light"), tr("Dark text on light panels"))},
       {ColourScheme::Dark, addAction(menu, "themeDark", tr("&Dark"), tr("Light text on dark panels"))}};
   for (const auto& [scheme, action] : schemes) {

@@ -74,6 +74,19 @@ QList<QAction*> allActions(QMainWindow& window) {
   return wanted;
 }
 
+/// Adds what is wrong with these entries and those of their submenus: pairs that share the key of an underlined
+/// letter.
+void listSharedMnemonics(const QString& menu, const QList<QAction*>& entries, QStringList& shared) {
+  QMap<QString, QString> owners;
+  for (const QAction* entry : entries) {
+    const QString keys = QKeySequence::mnemonic(entry->text()).toString();
+    if (!keys.isEmpty() && owners.contains(keys))
+      shared << menu + QStringLiteral(": ") + owners[keys] + QStringLiteral(" and ") + entry->text();
+    if (!keys.isEmpty()) owners[keys] = entry->text();
+    if (entry->menu() != nullptr) listSharedMnemonics(entry->text(), entry->menu()->actions(), shared);
+  }
+}
+
 int lightnessAt(QWidget& widget, const QPoint& point) {
   return QColor(widget.grab().toImage().pixel(point)).lightness();
 }
@@ -102,6 +115,7 @@ class DesktopWindowShellTest : public QObject {
   void cleanup() { ui::setColourScheme(ui::ColourScheme::Light); }
   void everyWidgetThatTakesTheFocusHasAName();
   void everyActionHasATooltipAndNoTwoShareAShortcut();
+  void noTwoEntriesOfAMenuShareAnAltKey();
   void shortcutsAreListedAndSearched();
   void themeIsSwitchedAtOnceAndKept();
   void themeIsSwitchedAfterDialogsHaveCome();
@@ -157,6 +171,24 @@ void DesktopWindowShellTest::everyActionHasATooltipAndNoTwoShareAShortcut() {
     };
     QVERIFY2(std::any_of(where.begin(), where.end(), isSaid), name);
   }
+}
+
+/// Two entries of Drop had an f: the key only went from one to the other.
+void DesktopWindowShellTest::noTwoEntriesOfAMenuShareAnAltKey() {
+  QStringList shared;
+  listSharedMnemonics(
+      QStringLiteral("two"),
+      {new QAction(QStringLiteral("&Front"), this), new QAction(QStringLiteral("Towards a &face"), this)},
+      shared);
+  QVERIFY2(shared.size() == 1, "what is shared is found");
+  shared.clear();
+  DesktopDriver d;
+  d.addCubes();
+  d.choose("selectAll");
+  const QList<QAction*> bar = d.window().menuBar()->actions();
+  QVERIFY(bar.size() >= 6);
+  listSharedMnemonics(QStringLiteral("menu bar"), bar, shared);
+  QVERIFY2(shared.isEmpty(), qPrintable(QChar('\n') + shared.join('\n')));
 }
 
 void DesktopWindowShellTest::shortcutsAreListedAndSearched() {

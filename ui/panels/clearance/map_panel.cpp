@@ -65,7 +65,7 @@ ClearanceMapPanel::ClearanceMapPanel(const Context& context, QWidget* parent)
       legend_(new ClearanceLegend(&context.view)),
       probe_(new MapProbe(context.view, context.session)),
       colour_(
-          makeAction(this, "colourByClearance", tr("Colour by clearance"), QStringLiteral("clearance-map"),
+          makeAction(this, "colourByClearance", tr("Colou&r by clearance"), QStringLiteral("clearance-map"),
                      QStringLiteral("Shift+C"),
                      tr("Colour the selected part, or the one in hand, by its distance to other parts"))) {
   setInPictures(*legend_);

@@ -54,9 +54,9 @@ void PartCommands::makeActions() {
                  tr("Add a copy of the selected parts and groups; it shares their meshes"));
   rename = makeAction(this, "rename", tr("Re&name"), QStringLiteral("rename"), Qt::Key_F2,
                       tr("Rename the selected part or group"));
-  recolour = makeAction(this, "recolour", tr("&Colour…"), {}, {},
-                        tr("Change the colour of the selected parts"));
-  changeUnit = makeAction(this, "changeUnit", tr("Change &unit…"), {}, {},
+  recolour =
+      makeAction(this, "recolour", tr("&Colour…"), {}, {}, tr("Change the colour of the selected parts"));
+  changeUnit = makeAction(this, "changeUnit", tr("Chang&e unit…"), {}, {},
                           tr("Change the unit of the selected parts; shows the size in each unit"));
   takeInHand =
       makeAction(this, "takeInHand", tr("&Take in hand"), QStringLiteral("hand"), QStringLiteral("Ctrl+H"));

@@ -18,7 +18,7 @@ TreeActions::TreeActions(Session& session, Selection& selection, const SceneWork
     : QObject(parent), session_(session), selection_(selection), work_(work), attempt_(std::move(attempt)) {
   group_ = make("group", tr("&Group"), "folder", "Ctrl+G", &TreeActions::groupSelected);
   group_->setToolTip(tr("Put the selected parts and groups into a new group"));
-  ungroup_ = make("ungroup", tr("U&ngroup"), {}, "Ctrl+Shift+G", &TreeActions::ungroupSelected);
+  ungroup_ = make("ungroup", tr("Ungrou&p"), {}, "Ctrl+Shift+G", &TreeActions::ungroupSelected);
   ungroup_->setToolTip(tr("Dissolve the selected groups; their contents stay"));
   visible_ = make("toggleVisible", tr("&Hide"), "eye", "H", &TreeActions::toggleVisible);
   lock_ = make("toggleLock", tr("Loc&k"), "lock", "Ctrl+L", &TreeActions::toggleLock);
@@ -26,7 +26,7 @@ TreeActions::TreeActions(Session& session, Selection& selection, const SceneWork
   lock_->setToolTip(tr("Lock or unlock the selected parts and groups (Ctrl+L)"));
   isolate_ = make("isolate", tr("&Isolate"), "isolate", "I", &TreeActions::isolate);
   isolate_->setToolTip(tr("Show only the selected parts; hidden parts are not felt"));
-  endIsolation_ = make("endIsolation", tr("&End isolation"), {}, "Shift+I", &TreeActions::endIsolation);
+  endIsolation_ = make("endIsolation", tr("End i&solation"), {}, "Shift+I", &TreeActions::endIsolation);
   endIsolation_->setToolTip(tr("Show the parts that were visible before"));
   setUpTransparency();
   connect(&selection_, &Selection::changed, this, &TreeActions::update);
@@ -48,7 +48,7 @@ QAction* TreeActions::make(const char* name, const QString& text, const QString&
 }
 
 void TreeActions::setUpTransparency() {
-  transparency_ = std::make_unique<QMenu>(tr("&Transparency"));
+  transparency_ = std::make_unique<QMenu>(tr("Transparenc&y"));
   transparency_->setObjectName(QStringLiteral("transparencyMenu"));
   for (const int percent : {0, 25, 50, 75, 90}) {
     QAction* action = transparency_->addAction(percent == 0 ? tr("Opaque") : tr("%1 %").arg(percent));

@@ -186,13 +186,14 @@ void ViewActions::setUpLooking() {
     connect(action, &QAction::triggered, this, [this, view] { view_.setView(view); });
     views_ << action;
   };
-  add(StandardView::Isometric, "viewIso", tr("&Isometric"), QStringLiteral("view-iso"), Qt::Key_0,
+  // Their keys are digits: the menu has more entries than letters for them.
+  add(StandardView::Isometric, "viewIso", tr("Isometric"), QStringLiteral("view-iso"), Qt::Key_0,
       tr("Look from the corner between front, right and top"));
-  add(StandardView::Front, "viewFront", tr("F&ront"), QStringLiteral("view-front"), Qt::Key_1,
+  add(StandardView::Front, "viewFront", tr("Front"), QStringLiteral("view-front"), Qt::Key_1,
       tr("Look from the front, along Y"));
-  add(StandardView::Right, "viewRight", tr("Ri&ght"), QStringLiteral("view-right"), Qt::Key_2,
+  add(StandardView::Right, "viewRight", tr("Right"), QStringLiteral("view-right"), Qt::Key_2,
       tr("Look from the right, along X"));
-  add(StandardView::Top, "viewTop", tr("&Top"), QStringLiteral("view-top"), Qt::Key_3,
+  add(StandardView::Top, "viewTop", tr("Top"), QStringLiteral("view-top"), Qt::Key_3,
       tr("Look from above, along Z"));
 }
 
@@ -207,7 +208,7 @@ void ViewActions::setUpDrawing() {
       tr("Make the other parts translucent, to see the moving part through them"));
   add(&Viewport::setEdgesVisible, "edges", tr("&Edges"), QStringLiteral("edges"),
       tr("Draw the sharp edges of parts as lines"));
-  add(&Viewport::setMinimaVisible, "minima", tr("&Minima"), QStringLiteral("minima"),
+  add(&Viewport::setMinimaVisible, "minima", tr("M&inima"), QStringLiteral("minima"),
       tr("Draw each local minimum distance while a part is in hand"));
   add(&Viewport::setContactsVisible, "contacts", tr("C&ontacts"), QStringLiteral("contacts"),
       tr("Mark where the part in hand touches"));
@@ -221,7 +222,7 @@ void ViewActions::setUpDrawing() {
 }
 
 void ViewActions::setUpKeptSwitches() {
-  orthographic = makeAction(this, "orthographic", tr("Orthographi&c"), {}, Qt::Key_5,
+  orthographic = makeAction(this, "orthographic", tr("Orthographic"), {}, Qt::Key_5,
                             tr("Draw parallel lines parallel, without perspective"));
   orthographic->setCheckable(true);
   connect(orthographic, &QAction::toggled, this, [this](bool isOn) {

@@ -82,7 +82,7 @@ void PlacingActions::makeModes() {
                     tr("Move the selected parts with arrows and squares, or drag the parts themselves"));
   turn = makeSwitch("gizmoTurn", tr("&Rotate"), "gizmo-turn", Qt::Key_E,
                     tr("Rotate the selected parts with rings about the pivot"));
-  moveAndTurn = makeSwitch("gizmoMoveAndTurn", tr("Move &and rotate"), "gizmo-both", Qt::Key_R,
+  moveAndTurn = makeSwitch("gizmoMoveAndTurn", tr("Mov&e and rotate"), "gizmo-both", Qt::Key_R,
                            tr("Arrows, squares and rings at once"));
   auto* group = new QActionGroup(this);
   for (QAction* action : {noGizmo, move, turn, moveAndTurn})
@@ -90,7 +90,7 @@ void PlacingActions::makeModes() {
 }
 
 void PlacingActions::makeSwitches() {
-  localAxes = makeSwitch("localAxes", tr("Along the &part's axes"), "axes-local", Qt::Key_X,
+  localAxes = makeSwitch("localAxes", tr("Along the part's a&xes"), "axes-local", Qt::Key_X,
                          tr("Use the part's axes instead of the world's"));
   snap = makeSwitch("snap", tr("&Snap to steps"), "snap", {},
                     tr("Drags go in steps; hold Ctrl during a drag to invert this"));
@@ -101,7 +101,7 @@ void PlacingActions::makeSwitches() {
 void PlacingActions::makePivotActions() {
   movePivot = makeSwitch("movePivot", tr("Mo&ve the pivot"), "pivot", Qt::Key_P,
                          tr("Drag the pivot, about which parts rotate, instead of the parts"));
-  pivotAtMass = make("pivotAtMass", tr("Pivot at the centre of &mass"), "pivot", {},
+  pivotAtMass = make("pivotAtMass", tr("Pivot at the &centre of mass"), "pivot", {},
                      tr("Move the pivot back to the parts' centre of mass"));
   pivotAtBox = make("pivotAtBox", tr("Pivot at the middle of the &box"), "pivot", {},
                     tr("Move the pivot to the middle of the parts' bounding box"));
