@@ -1,6 +1,7 @@
 #include <QDockWidget>
 #include <QListView>
 #include <QMenu>
+#include <QStatusBar>
 
 #include "tests/app/desktop/desktop_driver.h"
 
@@ -38,6 +39,7 @@ class DesktopHistoryTest : public QObject {
   void clickGoesThere();
   void keysGoThereToo();
   void menuNamesTheStep();
+  void theStatusBarSaysWhatWasUndoneAndRedone();
   void whatComesBackIsSeenFromWhereItWas();
 };
 
@@ -98,6 +100,26 @@ void DesktopHistoryTest::menuNamesTheStep() {
   QCOMPARE(d.action("undo")->text(), QStringLiteral("&Undo Move Nut && bolt"));
   d.choose("undo");
   QCOMPARE(d.action("redo")->text(), QStringLiteral("&Redo Move Nut && bolt"));
+}
+
+/// Undo of a feel setting is not seen in the view.
+void DesktopHistoryTest::theStatusBarSaysWhatWasUndoneAndRedone() {
+  DesktopDriver d;
+  d.addCubes();
+  const QStatusBar* bar = d.window().statusBar();
+  d.session().renamePart(d.partId("fixed"), "Nut & bolt");
+  d.session().movePart(d.partId("Nut & bolt"), kAside);
+  HapticSettings settings = d.session().scene().haptics();
+  settings.proxy.friction = 0.25;
+  d.session().setHaptics(settings);
+  pressShortcut(d, Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(bar->currentMessage(), QStringLiteral("Undone: Feel settings: friction"));
+  pressShortcut(d, Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(bar->currentMessage(), QStringLiteral("Undone: Move Nut & bolt"));
+  pressShortcut(d, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  QCOMPARE(bar->currentMessage(), QStringLiteral("Redone: Move Nut & bolt"));
+  pressShortcut(d, Qt::Key_Y, Qt::ControlModifier);
+  QCOMPARE(bar->currentMessage(), QStringLiteral("Redone: Feel settings: friction"));
 }
 
 void DesktopHistoryTest::whatComesBackIsSeenFromWhereItWas() {

@@ -142,6 +142,21 @@ void leave(Work& w, const QString& way) {
   }
 }
 
+/// Starts a new scene, and answers the question by an Alt key; false if that is no answer.
+bool leaveByAltKey(Work& w, Qt::Key key) {
+  bool isAnswered = false;
+  whenModal<QMessageBox>(
+      [&](QMessageBox* box) {
+        QApplication::setActiveWindow(box);
+        QTest::keyClick(box, key, Qt::AltModifier);
+        isAnswered = QTest::qWaitFor([&] { return !box->isVisible(); }, kQtPatienceMs);
+        if (!isAnswered) box->reject();
+      },
+      QStringLiteral("unsavedBox"));
+  w.d.choose("newScene");
+  return isAnswered;
+}
+
 void verifyIsLeft(Work& w, const QString& way) {
   if (way == QStringLiteral("quit") || way == QStringLiteral("close")) {
     QTRY_VERIFY(!w.d.window().isVisible());
@@ -166,6 +181,7 @@ class DesktopUnsavedTest : public QObject {
   void discardLeavesAndTheFileStaysAsItWas();
   void saveWritesTheChangeAndLeaves_data() { addWays(); }
   void saveWritesTheChangeAndLeaves();
+  void altKeysAnswerTheQuestion();
   void sceneWithoutAFileAsksWhereToAndCancelKeepsIt();
   void sceneWithoutAFileIsSavedWhereItIsSaidBeforeTheProgramEnds();
   void saveThatFailsIsToldAndTheSceneStays_data() { addWays(); }
@@ -202,6 +218,22 @@ void DesktopUnsavedTest::saveWritesTheChangeAndLeaves() {
   leave(w, way);
   QTRY_COMPARE(save.asked, 1);
   verifyIsLeft(w, way);
+  QCOMPARE(Work::savedX(w.file), 0.0025);
+}
+
+/// Qt's own texts of the three buttons have no keys.
+void DesktopUnsavedTest::altKeysAnswerTheQuestion() {
+  {
+    Work w;
+    QVERIFY(leaveByAltKey(w, Qt::Key_C));
+    w.verifyAllIsKept();
+    QVERIFY(leaveByAltKey(w, Qt::Key_D));
+    verifyIsLeft(w, QStringLiteral("newScene"));
+    QVERIFY(readBytes(w.file) == w.saved);
+  }
+  Work w;
+  QVERIFY(leaveByAltKey(w, Qt::Key_S));
+  verifyIsLeft(w, QStringLiteral("newScene"));
   QCOMPARE(Work::savedX(w.file), 0.0025);
 }
 
