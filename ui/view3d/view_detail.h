@@ -54,6 +54,7 @@ class ViewDetail : public QObject {
   void setBudget(std::size_t triangles);
   /// Sets how much is drawn while a part is felt; Balanced without this call.
   void setFeelQuality(FeelQuality quality) { quality_ = quality; }
+  FeelQuality feelQuality() const noexcept { return quality_; }
   /// Tells if a part is felt.
   void setFeeling(bool isFeeling) { isFeeling_ = isFeeling; }
   /// Prepares a full next picture, however long that takes. Does nothing if the last picture was full.

@@ -1,4 +1,6 @@
 // The whole window on a screen with two pixels for each of the window's: the mouse counts the latter.
+#include <QGuiApplication>
+#include <QScreen>
 #include <QSpinBox>
 #include <QStatusBar>
 
@@ -62,11 +64,27 @@ class DesktopFineScreenTest : public QObject {
 
  private slots:
   void init() { QSettings().clear(); }
+  void theFirstWindowFitsIt();
   void aClickPicksThePartUnderTheMouse();
   void anArrowMovesThePartAsFarAsTheMouse();
   void aBoxTakesWhatIsInIt();
   void aPictureHasTheSizeThatIsAskedFor();
 };
+
+/// With no size kept from an earlier run the window opened larger than the screen.
+void DesktopFineScreenTest::theFirstWindowFitsIt() {
+  desktop::Application application(std::make_unique<NoDevices>());
+  QWidget& window = application.window();
+  window.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&window));
+  const QSize room = QGuiApplication::primaryScreen()->availableSize();
+  constexpr int kUsualWidth = 1360, kUsualHeight = 860;
+  QVERIFY2(room.width() < kUsualWidth && room.height() < kUsualHeight, "the usual window does not fit");
+  const QSize most = room.expandedTo(window.minimumSizeHint());
+  QVERIFY2(most.width() < kUsualWidth && most.height() < kUsualHeight, "a smaller one does");
+  QVERIFY2(window.width() <= most.width() && window.height() <= most.height(),
+           qPrintable(QStringLiteral("%1 x %2").arg(window.width()).arg(window.height())));
+}
 
 void DesktopFineScreenTest::aClickPicksThePartUnderTheMouse() {
   FineScreen b;

@@ -10,6 +10,7 @@
 
 #include "tests/app/desktop/view_driver.h"
 #include "ui/model/parts_model.h"
+#include "ui/view3d/view_detail.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -331,13 +332,19 @@ void DesktopGlyphsTest::theLegendIsDraggedAndHiddenAndThatIsRemembered() {
 }
 
 void DesktopGlyphsTest::theQualityWhileFeelingIsRemembered() {
+  const auto ofView = [](DesktopDriver& d) { return d.window().viewport().detail().feelQuality(); };
   {
     DesktopDriver d;
     QVERIFY(d.action("quality-balanced")->isChecked());
+    QVERIFY(ofView(d) == ui::FeelQuality::Balanced);
+    d.choose("quality-fast");
+    QVERIFY(ofView(d) == ui::FeelQuality::Fast);
     d.choose("quality-full");
+    QVERIFY(ofView(d) == ui::FeelQuality::Full);
   }
   DesktopDriver d;
   QVERIFY(d.action("quality-full")->isChecked() && !d.action("quality-balanced")->isChecked());
+  QVERIFY(ofView(d) == ui::FeelQuality::Full);
 }
 
 NEARFIT_QT_SUITE(DesktopGlyphsTest, runDesktopTest<DesktopGlyphsTest>)

@@ -95,6 +95,7 @@ class DesktopLayoutTest : public QObject {
  private slots:
   void init() { QSettings().clear(); }
   void cleanup() { ui::setColourScheme(ui::ColourScheme::Light); }
+  void theFirstWindowIsOfItsUsualSizeWhereThereIsRoom();
   void theSizeOfTheWindowComesBack();
   void aWindowLargerThanItsScreenIsFittedToIt();
   void aScreenOf1600By1000IsEnoughAtScaleTwo();
@@ -103,6 +104,14 @@ class DesktopLayoutTest : public QObject {
   void dialogsThatAreMadeOnDemandHaveNoNamelessField_data();
   void dialogsThatAreMadeOnDemandHaveNoNamelessField();
 };
+
+void DesktopLayoutTest::theFirstWindowIsOfItsUsualSizeWhereThereIsRoom() {
+  const QSize usual(1360, 860), room = QGuiApplication::primaryScreen()->availableSize();
+  QVERIFY(room.width() >= usual.width() && room.height() >= usual.height() + 40);
+  Run run;
+  QCOMPARE(run.window().size(), usual);
+  run.close();
+}
 
 void DesktopLayoutTest::theSizeOfTheWindowComesBack() {
   QSize usual;

@@ -1,12 +1,14 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFrame>
+#include <utility>
 
 #include "core/scene/haptic_limits.h"
 #include "tests/app/desktop/desktop_driver.h"
 #include "ui/model/feel_mode.h"
 #include "ui/model/hand_state.h"
 #include "ui/model/parts_model.h"
+#include "ui/view3d/glyphs/colour_legend.h"
 
 using namespace nearfit;
 using namespace nearfit::test;
@@ -85,6 +87,7 @@ class DesktopProxyTest : public QObject {
   void faultIsToldAndAStartAnewOffered();
   void modeIsChosenInThePanel();
   void scriptedHandBeginsAgainInAnotherMode();
+  void numbersChangeWithThePictureThatShowsThem();
   void whatWasFeltLastStaysInGreyUntilTheSceneChanges();
   void aChangeOfModeBringsTheHandBackToThePart();
   void aChangeOfHandLeavesThePartWhereItIs();
@@ -236,6 +239,36 @@ void DesktopProxyTest::scriptedHandBeginsAgainInAnotherMode() {
 }
 
 /// Stop wiped the numbers that it was pressed for.
+/// Panel and status bar had the next tick's numbers while the legend and the arrows had those of the last one.
+void DesktopProxyTest::numbersChangeWithThePictureThatShowsThem() {
+  DesktopDriver d;
+  d.addCubes();
+  const auto* legend = d.widget<ui::ColourLegend>("colourLegend");
+  const auto ofLegend = [&] {
+    return QStringList{d.text("force"), d.text("torque"), d.text("contacts"), d.text("lead")};
+  };
+  const auto numbers = [&] {
+    return ofLegend() + QStringList{d.text("distance"), d.text("statusDistance"), d.text("statusMinima")};
+  };
+  QStringList drawn = numbers();
+  int changes = 0, early = 0, apart = 0;
+  QObject watch;
+  // Both come after all that the window itself has connected.
+  connect(&d.window().hand(), &ui::HandState::snapshotDrawn, &watch, [&] {
+    const QStringList before = std::exchange(drawn, numbers());
+    changes += drawn != before ? 1 : 0;
+    apart += ofLegend() != legend->values() ? 1 : 0;
+  });
+  connect(&d.window().hand(), &ui::HandState::snapshotShown, &watch,
+          [&] { early += numbers() != drawn ? 1 : 0; });
+  start(d, ui::Hand::Manual);
+  pressDown(d);
+  QTRY_COMPARE(d.text("statusDistance"), QStringLiteral("Min distance ") + d.text("distance"));
+  QVERIFY2(changes >= 2, qPrintable(QString::number(changes)));
+  QCOMPARE(early, 0);
+  QCOMPARE(apart, 0);
+}
+
 void DesktopProxyTest::whatWasFeltLastStaysInGreyUntilTheSceneChanges() {
   DesktopDriver d;
   d.addCubes();

@@ -49,6 +49,17 @@ struct Row {
     view.camera()->Azimuth(5.0);
     view.requestRender();
   }
+  /// Triangles of the first picture after a turn.
+  std::size_t drawnOnceTurned() {
+    std::size_t first = 0;
+    const QMetaObject::Connection watch = QObject::connect(&view, &ui::Viewport::drawn, &view, [&] {
+      if (first == 0) first = view.detail().detail().triangles;
+    });
+    turn();
+    (void)QTest::qWaitFor([&] { return first > 0; }, test::kQtPatienceMs);
+    QObject::disconnect(watch);
+    return first;
+  }
   bool isFull() { return view.detail().detail().isFull; }
   /// Also when the window system asks for a picture late.
   bool comesToRest() {
@@ -77,6 +88,7 @@ class ViewDetailTest : public QObject {
  private slots:
   void whatMovesStaysWithinTheBudget();
   void howMuchIsDrawnWhileFeelingIsChosen();
+  void aSnapshotMeansFeelingUntilItIsPast();
   void aStillViewShowsEveryTriangle();
   void aFullPictureIsThatOfTheMeshesThemselves();
   void nothingIsDrawnOnceItIsFull();
@@ -109,16 +121,7 @@ void ViewDetailTest::whatMovesStaysWithinTheBudget() {
 void ViewDetailTest::howMuchIsDrawnWhileFeelingIsChosen() {
   Row row;
   QVERIFY(row.comesToRest());
-  const auto drawnOnceTurned = [&] {
-    std::size_t first = 0;
-    const QMetaObject::Connection watch = connect(&row.view, &ui::Viewport::drawn, &row.view, [&] {
-      if (first == 0) first = row.view.detail().detail().triangles;
-    });
-    row.turn();
-    (void)QTest::qWaitFor([&] { return first > 0; }, test::kQtPatienceMs);
-    disconnect(watch);
-    return first;
-  };
+  const auto drawnOnceTurned = [&] { return row.drawnOnceTurned(); };
   constexpr std::size_t kAll = kParts * kTriangles;
   QVERIFY(drawnOnceTurned() <= kBudget);
   row.view.detail().setFeeling(true);
@@ -129,6 +132,25 @@ void ViewDetailTest::howMuchIsDrawnWhileFeelingIsChosen() {
   QCOMPARE(drawnOnceTurned(), kAll);
   row.view.detail().setFeeling(false);
   QVERIFY(drawnOnceTurned() <= kBudget);
+}
+
+/// The view tells its pictures by the snapshots that it is given.
+void ViewDetailTest::aSnapshotMeansFeelingUntilItIsPast() {
+  Row row;
+  QVERIFY(row.comesToRest());
+  constexpr std::size_t kAll = kParts * kTriangles;
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  snapshot->moving = row.ids.front();
+  snapshot->proxy = snapshot->handle = row.scene.find(row.ids.front())->worldFromPart;
+  QVERIFY(row.drawnOnceTurned() <= kBudget);
+  row.view.showSnapshot(*snapshot);
+  QCOMPARE(row.drawnOnceTurned(), kAll);
+  row.view.keepSnapshot();
+  QVERIFY(row.drawnOnceTurned() <= kBudget);
+  row.view.showSnapshot(*snapshot);
+  QCOMPARE(row.drawnOnceTurned(), kAll);
+  row.view.clearSnapshot();
+  QVERIFY(row.drawnOnceTurned() <= kBudget);
 }
 
 void ViewDetailTest::aStillViewShowsEveryTriangle() {

@@ -2,6 +2,7 @@
 
 #include <QPoint>
 #include <QPointF>
+#include <QStringList>
 #include <QWidget>
 #include <optional>
 
@@ -25,6 +26,8 @@ class ColourLegend : public QWidget {
   void setColourRange(double range);
   /// Shows the snapshot's values and resizes to fit. Contacts and hand appear in proxy mode only.
   void showSnapshot(const ServoSnapshot& snapshot);
+  /// Returns the values that it shows: force, torque, contacts and hand offset.
+  QStringList values() const { return {force_, torque_, contacts_, lead_}; }
   /// Paints the values paler: they are past.
   void setPast(bool isPast);
 

@@ -73,6 +73,7 @@ class LmdOverlayTest : public QObject {
   void formsAreDrawnAsChosen();
   void nearestThatIsNotBlockedIsDrawnLarger();
   void coloursSpanTheDistancesThatAreDrawn();
+  void coloursSpanOnlyWhatIsChosenToBeDrawn();
   void coloursDoNotFlickerWhileDistancesChange();
   void aChosenRangeOfColoursIsKept();
   void menuChoosesAndRemembers();
@@ -186,6 +187,24 @@ void LmdOverlayTest::coloursSpanTheDistancesThatAreDrawn() {
   overlay.clear();
   overlay.show(minimaAt({1e-4}), kTenMillimetres, 1e-4);
   QVERIFY(isAbout(overlay.colourRange(), 5e-4));
+}
+
+/// The near tenth of the minima stayed as red as all of them.
+void LmdOverlayTest::coloursSpanOnlyWhatIsChosenToBeDrawn() {
+  vtkNew<vtkRenderer> renderer;
+  ui::LmdOverlay overlay(*renderer.Get());
+  constexpr double kTenMillimetres = 0.01;
+  const auto all = minimaAt({1e-4, 2e-4, 3e-4, 6e-3, 8e-3, 9e-3, 9.5e-3});
+  const auto rangeOf = [&](const ui::MinimaChoice& choice) {
+    overlay.setChoice(choice);
+    overlay.show(all, kTenMillimetres);
+    return overlay.colourRange();
+  };
+  // Twice the median of 6 mm, rounded up, and of 0.2 mm.
+  QVERIFY(isAbout(rangeOf({}), 2e-2));
+  QVERIFY(isAbout(rangeOf({.nearerThan = 0.1}), 5e-4));
+  QVERIFY(isAbout(rangeOf({}), 2e-2));
+  QVERIFY(isAbout(rangeOf({.most = 3}), 5e-4));
 }
 
 void LmdOverlayTest::coloursDoNotFlickerWhileDistancesChange() {
