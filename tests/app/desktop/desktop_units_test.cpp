@@ -86,9 +86,8 @@ void DesktopUnitsTest::eachUnitShowsTheSizeThatItGives() {
       QCOMPARE(sizeIn(question, "um"), QStringLiteral("53 × 16 × 12 µm"));
       QCOMPARE(sizeIn(question, "cm"), QStringLiteral("530 × 160 × 120 mm"));
       QCOMPARE(sizeIn(question, "in"), QStringLiteral("1.346 × 0.4064 × 0.3048 m"));
-      QVERIFY(question->findChild<QLabel*>(QStringLiteral("unitQuestion"))
-                  ->text()
-                  .contains(QStringLiteral("peg.off")));
+      QCOMPARE(question->findChild<QLabel*>(QStringLiteral("unitQuestion"))->text(),
+               QStringLiteral("“peg.off” stores no unit. What unit is it in?"));
       keepPictures(*question, QStringLiteral("unit"));
       answerUnit(question, "cm");
     });
@@ -104,6 +103,10 @@ void DesktopUnitsTest::severalFilesAreMeasuredTogether() {
   // The cubes: 40 mm from -20 on, and 20 mm up to 45 mm.
   whenAsked([](QDialog* question) {
     QCOMPARE(sizeIn(question, "mm"), QStringLiteral("40 × 40 × 65 mm"));
+    QCOMPARE(
+        question->findChild<QLabel*>(QStringLiteral("unitQuestion"))->text(),
+        QStringLiteral("These formats store no unit. What unit are these 2 files in? The sizes are those "
+                       "of all files together."));
     answerUnit(question);
   });
   drop(d.window(), {d.fixedFile, d.movingFile});

@@ -87,6 +87,20 @@ void listSharedMnemonics(const QString& menu, const QList<QAction*>& entries, QS
   }
 }
 
+/// All texts in a window and its dialogs, those that show at other times too; without the marks of underlined
+/// letters.
+QStringList textsIn(const QWidget& window) {
+  QStringList texts;
+  for (const QObject* object : window.findChildren<QObject*>()) {
+    for (const char* name : {"text", "title", "toolTip", "placeholderText"})
+      texts << object->property(name).toString();
+    const auto* list = qobject_cast<const QComboBox*>(object);
+    for (int i = 0; list != nullptr && i < list->count(); ++i)
+      texts << list->itemText(i);
+  }
+  return texts.replaceInStrings(QStringLiteral("&"), QString());
+}
+
 int lightnessAt(QWidget& widget, const QPoint& point) {
   return QColor(widget.grab().toImage().pixel(point)).lightness();
 }
@@ -116,6 +130,7 @@ class DesktopWindowShellTest : public QObject {
   void everyWidgetThatTakesTheFocusHasAName();
   void everyActionHasATooltipAndNoTwoShareAShortcut();
   void noTwoEntriesOfAMenuShareAnAltKey();
+  void textsAreThoseThatEngineersKnow();
   void shortcutsAreListedAndSearched();
   void themeIsSwitchedAtOnceAndKept();
   void themeIsSwitchedAfterDialogsHaveCome();
@@ -189,6 +204,50 @@ void DesktopWindowShellTest::noTwoEntriesOfAMenuShareAnAltKey() {
   QVERIFY(bar.size() >= 6);
   listSharedMnemonics(QStringLiteral("menu bar"), bar, shared);
   QVERIFY2(shared.isEmpty(), qPrintable(QChar('\n') + shared.join('\n')));
+}
+
+/// A first-time user could not tell what the former texts meant.
+void DesktopWindowShellTest::textsAreThoseThatEngineersKnow() {
+  // A text that ends with a space goes on; former texts are beginnings too.
+  const std::pair<const char*, const char*> texts[] = {
+      {"Springs, quadratic (paper formula)", "Springs, as printed"},
+      {"Shift+left-drag moves, Shift+right-drag rotates, Shift+wheel pushes or pulls. Arrow keys step; "
+       "Shift+arrows rotate.",
+       "In the view, with Shift:"},
+      {"Stability limit at ", "What is passive in anyone's hand"},
+      {"Device limits: ", "Enforced on what the device gets"},
+      {"Advisory limit on ", "Not enforced"},
+      {"Scale and orientation don't affect the manual hand; axis locks do.",
+       "The manual hand takes numbers of the scene itself"},
+      {"Allowed motion", "Motions that count"},
+      {"Lock", "Stays along"},
+      {"Lock rotation", "No turn about"},
+      {"Hand offset", "Hand ahead"},
+      {"Return hand to part", "Let go"},
+      {"Loop", "Begin again at the end"},
+      {"Restore defaults", "Usual settings"},
+      {"Arrow-key step", "Key"},
+      {"Distance glyphs", "Minima drawn"},
+      {"Range", "How near"},
+      {"Front (−Y)", "To the front (−Y)"}};
+  DesktopDriver d;
+  d.addCubes();
+  d.chooseHand(ui::Hand::Manual);
+  d.choose("feelSettings");
+  const QStringList seen = textsIn(d.window());
+  QStringList wrong;
+  for (const auto& [now, former] : texts) {
+    const QString begin = QString::fromUtf8(now), old = QString::fromUtf8(former);
+    const auto isNow = [&](const QString& text) {
+      return begin.endsWith(QChar(' ')) ? text.startsWith(begin) : text == begin;
+    };
+    const auto isFormer = [&](const QString& text) {
+      return text == old || text.startsWith(old + QChar(' '));
+    };
+    if (std::none_of(seen.begin(), seen.end(), isNow)) wrong << QStringLiteral("missing: ") + begin;
+    if (std::any_of(seen.begin(), seen.end(), isFormer)) wrong << QStringLiteral("still there: ") + old;
+  }
+  QVERIFY2(wrong.isEmpty(), qPrintable(QChar('\n') + wrong.join('\n')));
 }
 
 void DesktopWindowShellTest::shortcutsAreListedAndSearched() {
