@@ -134,7 +134,12 @@ void MainWindow::makePanels() {
   history_ = new HistoryPanel(session_, *document_, this);
   undo_ = new UndoActions(session_, *document_, this);
   QDockWidget* parts = addDock("partsDock", tr("Parts"), partsPanel, Qt::LeftDockWidgetArea);
-  tabifyDockWidget(parts, addDock("historyDock", tr("History"), history_, Qt::LeftDockWidgetArea));
+  QDockWidget* history = addDock("historyDock", tr("History"), history_, Qt::LeftDockWidgetArea);
+  tabifyDockWidget(parts, history);
+  // Behind another tab a list is not hidden, only not seen, and would take the keys.
+  connect(history, &QDockWidget::visibilityChanged, history_->list(), [list = history_->list()](bool isSeen) {
+    list->setFocusPolicy(isSeen ? Qt::StrongFocus : Qt::NoFocus);
+  });
   parts->raise();
   QDockWidget* pose = addDock("poseDock", tr("Pose and mass"), makeScrollColumn(posePanel_, "poseScroll"),
                               Qt::LeftDockWidgetArea);

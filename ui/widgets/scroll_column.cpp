@@ -6,7 +6,8 @@
 namespace nearfit::ui {
 
 QScrollArea* makeScrollColumn(QWidget* content, const char* name) {
-  auto* scroll = new QScrollArea;
+  // In the content's window, so that the content keeps its place in the order of the Tab key.
+  auto* scroll = new QScrollArea(content->parentWidget());
   scroll->setObjectName(QLatin1String(name));
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setFocusPolicy(Qt::NoFocus);

@@ -447,7 +447,7 @@ void DesktopWindowShellTest::theTabKeyGoesFromTheListsToTheViewAndOnToTheNumbers
   d.clickPart(1, 0);
   QTRY_COMPARE(QApplication::focusWidget(), static_cast<QWidget*>(d.partsView()));
   press(Qt::Key_Tab);
-  QCOMPARE(QApplication::focusWidget(), view);
+  QVERIFY2(QApplication::focusWidget() == view, qPrintable(pathOf(QApplication::focusWidget())));
   press(Qt::Key_Tab);
   const QWidget* next = QApplication::focusWidget();
   QVERIFY2(d.widget<QDockWidget>("poseDock")->isAncestorOf(next), qPrintable(pathOf(next)));
