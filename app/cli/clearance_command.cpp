@@ -41,10 +41,11 @@ void addClearanceCommand(CLI::App& program) {
   command->add_option("--cutoff", options->cutoff,
                       "Count minima within this distance [m]; default: the scene's cutoff");
   command->footer(
-      "Columns: part; other; distance [m] (not limited by the cutoff; 0 if they overlap); the nearest\n"
-      "points of the two, x y z each [m] in the world frame; minima, their number within the cutoff;\n"
-      "every_minimum (0 if there are more than are looked for); overlap, decided exactly (no, surfaces\n"
-      "meet, inside the other, the other inside); distance_bound, 0: the distance is exact.");
+      "Columns, whose header names the unit of lengths: part; other; distance [m] (not limited by the\n"
+      "cutoff; 0 if they overlap); the nearest points of the two, x y z each [m] in the world frame;\n"
+      "minima, their number within the cutoff; every_minimum (0 if there are more than are looked for);\n"
+      "overlap, decided exactly (no, surfaces meet, inside the other, the other inside); distance_bound,\n"
+      "0: the distance is exact.");
   command->callback([options] { runClearance(*options); });
 }
 

@@ -33,7 +33,7 @@ constexpr const char* kClearanceMapFooter =
     "minus\n"
     "the depth. MAP.ply (binary) has vertices with x y z in the unit, nx ny nz, red green blue, distance in "
     "m (nan\n"
-    "beyond the range) and part. The histogram has the columns from, to [m], area [m^2] and share of the "
+    "beyond the range) and part. The histogram has the columns from [m], to [m], area [m^2] and share of the "
     "surface.\n"
     "On stdout, a line each: range [m], samples, area [m^2], area within the range, min and mean distance "
     "within it\n"

@@ -123,16 +123,14 @@ const char* nameOf(InterferenceKind overlap) noexcept {
   return "the other inside";
 }
 
-std::string clearanceCsv(const Scene& scene, PartId id, const std::vector<PartClearance>& clearances,
-                         CsvHeader header) {
+std::string clearanceCsv(const Scene& scene, PartId id, const std::vector<PartClearance>& clearances) {
   const auto nameOfPart = [&](PartId which) {
     const Part* part = scene.find(which);
     return part != nullptr ? csvField(part->name) : std::string();
   };
-  const char* unit = header == CsvHeader::NamesWithUnits ? " [m]" : "";
   std::string text = "part,other";
   for (const char* name : {"distance", "part_x", "part_y", "part_z", "other_x", "other_y", "other_z"})
-    fmt::format_to(std::back_inserter(text), ",{}{}", name, unit);
+    fmt::format_to(std::back_inserter(text), ",{} [m]", name);
   text += ",minima,every_minimum,overlap,distance_bound\n";
   for (const PartClearance& c : clearances) {
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{:d},{},{:d}\n", nameOfPart(id),

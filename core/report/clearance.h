@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -54,15 +53,8 @@ void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clear
 /// "no", "surfaces meet", "inside the other" or "the other inside".
 const char* nameOf(InterferenceKind overlap) noexcept;
 
-/// How the columns of lengths are named.
-enum class CsvHeader : std::uint8_t {
-  Names,           ///< "distance"
-  NamesWithUnits,  ///< "distance [m]"
-};
-
-/// The clearances as CSV (UTF-8), one row each: `part`, `other`, `distance` [m], the points `part_x ...
-/// other_z` [m], `minima`, `every_minimum` (0 or 1), `overlap` (nameOf, or "touching"), `distance_bound` (0 or 1).
-std::string clearanceCsv(const Scene& scene, PartId part, const std::vector<PartClearance>& clearances,
-                         CsvHeader header = CsvHeader::Names);
+/// The clearances as CSV (UTF-8), one row each: `part`, `other`, `distance [m]`, the points `part_x [m]` ...
+/// `other_z [m]`, `minima`, `every_minimum` (0 or 1), `overlap` (nameOf, or "touching"), `distance_bound` (0 or 1).
+std::string clearanceCsv(const Scene& scene, PartId part, const std::vector<PartClearance>& clearances);
 
 }  // namespace nearfit

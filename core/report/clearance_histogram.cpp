@@ -63,9 +63,8 @@ std::vector<ClearanceBin> clearanceHistogram(const AreaByClearance& areas, doubl
   return histogram;
 }
 
-std::string histogramCsv(const AreaByClearance& areas, double range, CsvHeader header) {
-  std::string text =
-      header == CsvHeader::NamesWithUnits ? "from [m],to [m],area [m^2],share\n" : "from,to,area,share\n";
+std::string histogramCsv(const AreaByClearance& areas, double range) {
+  std::string text = "from [m],to [m],area [m^2],share\n";
   const double total = areas.total();
   const auto add = [&](double from, double to, double area) {
     fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", from, to, area,

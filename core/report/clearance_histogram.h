@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/report/clearance.h"
 #include "core/report/clearance_map.h"
 
 namespace nearfit {
@@ -51,8 +50,8 @@ struct ClearanceBin {
 std::vector<ClearanceBin> clearanceHistogram(const AreaByClearance& areas, double range,
                                              std::size_t bins = 40);
 
-/// The histogram as CSV: `from`, `to` [m], `area` [m^2], `share` of the whole surface. A last row from the range to `inf`
+/// The histogram as CSV: `from [m]`, `to [m]`, `area [m^2]`, `share` of the whole surface. A last row from the range to `inf`
 /// has what is beyond.
-std::string histogramCsv(const AreaByClearance& areas, double range, CsvHeader header = CsvHeader::Names);
+std::string histogramCsv(const AreaByClearance& areas, double range);
 
 }  // namespace nearfit

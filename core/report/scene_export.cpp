@@ -37,8 +37,7 @@ void exportMap(const Scene& placed, const SceneExport& what, const std::filesyst
   if (what.kind == ExportKind::ClearanceMapPly) {
     exportClearanceMap(map, placed, what.metresPerUnit, file, stageCallback(progress, kMapped, 1.0));
   } else {
-    atomicWrite(file,
-                histogramCsv(AreaByClearance(map.surfaces.front()), map.range, CsvHeader::NamesWithUnits));
+    atomicWrite(file, histogramCsv(AreaByClearance(map.surfaces.front()), map.range));
   }
 }
 

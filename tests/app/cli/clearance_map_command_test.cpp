@@ -63,7 +63,7 @@ TEST_F(ClearanceMapCommand, MapHistogramAndSummaryAgree) {
   }
   double total = 0.0;
   const std::vector<std::string> lines = linesOf(readBytes(path("h.csv")));
-  EXPECT_EQ(lines.at(0), "from,to,area,share");
+  EXPECT_EQ(lines.at(0), "from [m],to [m],area [m^2],share");
   for (std::size_t i = 1; i < lines.size(); ++i) {
     std::istringstream cells(lines[i]);
     std::string from, to, area;

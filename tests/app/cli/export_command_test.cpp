@@ -71,6 +71,7 @@ TEST_F(ExportCommand, WhatMakesNoSenseIsWrongUsageAndWritesNothing) {
 TEST_F(ExportCommand, ClearancesAreATable) {
   const auto result = runCli({"clearance", scene_, "--cutoff", "1.5"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith("part,other,distance [m],part_x [m],")) << "lengths have their unit";
   EXPECT_THAT(result.out, HasSubstr("\nCube,Plate,1,"));
   EXPECT_THAT(result.out, HasSubstr(",1,1,no,0\n")) << "one minimum, the region between the faces";
 }

@@ -233,8 +233,7 @@ void ClearancePanel::exportTable() {
                  this);
   if (!file) return;
   try {
-    atomicWrite(toPath(*file),
-                clearanceCsv(search_.scene(), *part, search_.clearances(), CsvHeader::NamesWithUnits));
+    atomicWrite(toPath(*file), clearanceCsv(search_.scene(), *part, search_.clearances()));
   } catch (...) {
     emit failed(describe(tr("The clearances could not be exported."), std::current_exception()));
     return;
