@@ -18,9 +18,8 @@ class PlaceSummaryOfAProxy : public ::testing::Test {
     result_.coupling = {.stiffness = 640.0, .damping = 0.2, .rotationalStiffness = 0.5};
   }
   std::string text() const { return summaryText(summary()); }
-  nlohmann::json coupling() const {
-    return nlohmann::json::parse(summaryJson(summary()))["proxy"]["coupling"];
-  }
+  nlohmann::json json() const { return nlohmann::json::parse(summaryJson(summary())); }
+  nlohmann::json coupling() const { return json()["proxy"]["coupling"]; }
 
   ServoParameters parameters_;
   PlaceResult result_;
@@ -48,6 +47,16 @@ TEST_F(PlaceSummaryOfAProxy, TellsTheBoundAtTheHandleOverAScale) {
   result_.period = 1e-3;
   EXPECT_DOUBLE_EQ(coupling()["stiffness_bound"].get<double>(), 2.0 * (0.5 - 0.2) / 1e-3);
   EXPECT_DOUBLE_EQ(coupling()["rotational_stiffness_bound"].get<double>(), 2.0 * 2e-3 / 1e-3);
+}
+
+TEST_F(PlaceSummaryOfAProxy, TellsOfAMinDistanceThatIsOnlyABound) {
+  result_.leastDistance = 0.00026;
+  result_.leastDistanceTime = 1.5;
+  EXPECT_THAT(text(), HasSubstr("min 0.00026 m at 1.500 s"));
+  EXPECT_EQ(json()["least_distance_is_bound"], false);
+  result_.isLeastDistanceBound = true;
+  EXPECT_THAT(text(), HasSubstr("min at least 0.00026 m at 1.500 s"));
+  EXPECT_EQ(json()["least_distance_is_bound"], true);
 }
 
 }  // namespace

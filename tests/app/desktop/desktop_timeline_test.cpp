@@ -73,6 +73,7 @@ class DesktopTimelineTest : public QObject {
   void aRecordingIsPlayedToItsEndAndClosedWithoutATrace();
   void theTimelineIsAsHighAsItsContentAndDrawsTheRecording();
   void scrubbingAndSteppingGoToAnyTick();
+  void aMinDistanceThatIsOnlyABoundIsSaidToBeOne();
   void itGoesAtTheChosenSpeedAndLoops();
   void takingAPartInHandEndsTheReplay();
   void whatIsNoRecordingIsToldWithItsLine();
@@ -149,6 +150,28 @@ void DesktopTimelineTest::scrubbingAndSteppingGoToAnyTick() {
   play->setFocus();
   QTest::keyClick(play->parentWidget(), Qt::Key_Right, Qt::ShiftModifier);
   QCOMPARE(f.shownTime(), 0.101);
+}
+
+void DesktopTimelineTest::aMinDistanceThatIsOnlyABoundIsSaidToBeOne() {
+  TimelineFixture f;
+  MotionWriter writer(f.d.folder.path() / "felt.csv");
+  for (int i = 0; i < 10; ++i) {
+    MotionRow row;
+    row.time = 1e-3 * i;
+    row.distance = 0.00026;
+    row.isDistanceBound = i == 9;
+    writer.write(row);
+  }
+  writer.finish();
+  // It plays to its last row, the only one with a bound.
+  f.openByMenu();
+  QTRY_VERIFY2(f.d.text("timelineNote").contains(QStringLiteral("Clearance at least 0.26 mm")),
+               qPrintable(f.d.text("timelineNote")));
+  auto* scale = f.d.widget<QSlider>("timelineScale");
+  scale->setFocus();
+  QTest::keyClick(scale, Qt::Key_Home);
+  QTRY_VERIFY2(f.d.text("timelineNote").contains(QStringLiteral("Clearance 0.26 mm")),
+               qPrintable(f.d.text("timelineNote")));
 }
 
 void DesktopTimelineTest::itGoesAtTheChosenSpeedAndLoops() {
