@@ -147,6 +147,16 @@ TEST_F(RecoveryFolderTest, WhatTheFileHoldsTooIsNotOfferedAndIsRemoved) {
   EXPECT_TRUE(files().empty());
 }
 
+// Keys were kept in the file's order, which takes the square of their number: a sorted file is found equal only by
+// sorted keys.
+TEST_F(RecoveryFolderTest, TheOrderOfKeysInTheFileMakesNoDifference) {
+  ASSERT_NE(json_.dump(), nlohmann::ordered_json::parse(test::readBytes(file_)).dump())
+      << "a file as written has its keys in another order";
+  folder_.write(file_.filename(), json_.dump());
+  writeAsDead({file_, 1, 0}, scene_);
+  EXPECT_TRUE(RecoveryFolder(state_).takeLost().lost.empty());
+}
+
 TEST_F(RecoveryFolderTest, WhatIsOlderThanTheFileIsNotOfferedButKeptAside) {
   writeAsDead({file_, 1, 0});
   setAge(files().front(), std::chrono::hours(1));
