@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "tests/support/allocation_hook.h"
 
 namespace nearfit::session_test {
 namespace {
@@ -488,15 +489,20 @@ TEST(Session, PivotsAreAStepAndStayWhereTheyAreOnThePart) {
   EXPECT_LT(glm::distance(*pivotOf(peg), {10, 20, 30}), 1e-12) << "refused whole";
 }
 
-// Naming and colouring each once looked at all parts there were.
-TEST(Session, TensOfThousandsOfPartsAreAddedAndDuplicated) {
+// A set of the names of all parts there were was once made for each.
+TEST(Session, TensOfThousandsOfPartsAreAddedAndDuplicatedWithFewAllocationsEach) {
   constexpr std::size_t kCount = 30'000;
+  constexpr std::uint64_t kMaxAllocations = 200;  // For a part and its copy; those sets take 100,000.
   Session session;
+  test::resetAllocationCount();
+  test::startCountingAllocations();
   const std::vector<PartId> added = session.addParts(std::vector<Session::NewPart>(kCount, {nullptr, "Peg"}));
   ASSERT_EQ(added.size(), kCount);
   EXPECT_EQ(session.scene().get(added.back()).name, "Peg 30000");
   EXPECT_EQ(session.scene().get(added.back()).colour, kPartPalette[(kCount - 1) % kPartPalette.size()]);
   const SceneNodes copies = session.duplicate({added, {}});
+  test::stopCountingAllocations();
+  EXPECT_LE(test::countedAllocations() / kCount, kMaxAllocations);
   ASSERT_EQ(copies.parts.size(), kCount);
   EXPECT_EQ(session.scene().get(copies.parts.back()).name, "Peg 60000");
   EXPECT_EQ(session.undoText(), "Duplicate 30000 parts");
