@@ -1,6 +1,7 @@
 #include "ui/view3d/parts/part_shape.h"
 
 #include <QtTest>
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -39,6 +40,7 @@ class PartShapeTest : public QObject {
   void theVeilOfALargePartKeepsToItsOutline();
   void oneGeometryHasOneShape();
   void manyShapesAreKeptWhileTheirGeometriesExist();
+  void unusedShapesAreNotLookedForAtEachNewOne();
   void threadsMayAskAtOnce();
 };
 
@@ -180,6 +182,25 @@ void PartShapeTest::oneGeometryHasOneShape() {
   QCOMPARE(cache.shapeOf(geometry).get(), first.get());
   const PartGeometryPtr other = geometryOf(test::boxMesh(glm::dvec3(2.0)));
   QVERIFY(cache.shapeOf(other).get() != first.get());
+}
+
+/// At each new shape all others were looked through, which takes the square of their number.
+void PartShapeTest::unusedShapesAreNotLookedForAtEachNewOne() {
+  constexpr int kCount = 1000, kMaxDrops = kCount / 10;
+  ui::PartShapeCache cache;
+  std::vector<std::weak_ptr<const ui::PartShape>> shapes;
+  std::ptrdiff_t before = 0;
+  int drops = 0;
+  for (int i = 0; i < kCount; ++i) {
+    // Unused from here on: a look through all would drop it.
+    shapes.push_back(cache.shapeOf(geometryOf(test::tetrahedronMesh())));
+    const std::ptrdiff_t kept =
+        std::ranges::count_if(shapes, [](const auto& shape) { return !shape.expired(); });
+    if (kept <= before) ++drops;
+    before = kept;
+  }
+  QVERIFY2(drops > 0, "they are dropped some time");
+  QVERIFY2(drops <= kMaxDrops, qPrintable(QString::number(drops)));
 }
 
 void PartShapeTest::threadsMayAskAtOnce() {

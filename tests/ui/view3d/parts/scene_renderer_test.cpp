@@ -5,6 +5,7 @@
 
 #include <vtkActorCollection.h>
 #include <vtkCamera.h>
+#include <vtkCollection.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -25,6 +26,7 @@ class SceneRendererTest : public QObject {
   void boundsOfAPartAreThoseInTheWorld();
   void edgesThatWouldCoverAPartAreLeftOut();
   void aSelectedPartIsTintedByTheVeilOfItsShape();
+  void aPartIsAddedWithoutASearchThroughAllOthers();
 
  private:
   static PartGeometryPtr cube() {
@@ -94,6 +96,26 @@ void SceneRendererTest::boundsOfAPartAreThoseInTheWorld() {
   QVERIFY(parts_.boundsOf(a, bounds));
   QVERIFY(std::abs(bounds[0] - 0.09) < 1e-9 && std::abs(bounds[1] - 0.11) < 1e-9);
   QVERIFY(!parts_.boundsOf(PartId{99}, bounds));
+}
+
+/// AddViewProp() looks for a prop among all others first: for all parts together that takes the square of their number.
+void SceneRendererTest::aPartIsAddedWithoutASearchThroughAllOthers() {
+  /// Grants the first element of a collection.
+  struct Collection : vtkCollection {
+    static vtkCollectionElement* firstOf(vtkCollection& collection) { return collection.*(&Collection::Top); }
+  };
+  const auto shape = std::make_shared<const ui::PartShape>(ui::makePartShape(cube()->mesh));
+  const auto mappers = std::make_shared<ui::ShapeMappers>(shape);
+  const ui::PartActor first(*renderer_.Get(), mappers);
+  const int props = renderer_->GetViewProps()->GetNumberOfItems();
+  QVERIFY(props >= 2);
+  vtkCollectionElement* top = Collection::firstOf(*renderer_->GetViewProps());
+  vtkCollectionElement* const next = top->Next;
+  // The list turns in a circle: a search for what is not there does not end, and adding at the end is not hindered.
+  top->Next = top;
+  const ui::PartActor second(*renderer_.Get(), mappers);
+  top->Next = next;
+  QCOMPARE(renderer_->GetViewProps()->GetNumberOfItems(), 2 * props);
 }
 
 void SceneRendererTest::edgesThatWouldCoverAPartAreLeftOut() {
