@@ -31,7 +31,14 @@ const ProxyAccount& ProxyWalk::lead(const RigidTransform& hand) {
   const SearchReach reach{20.0 * settings_.margin, kContactReach * settings_.margin};
   const ProxyAccount& last = proxy_.account();
   tracker_.update({proxy_.pose(), std::nullopt, last.isWaiting, last.isStarved}, 1.0);
-  if (tracker_.isDue(reach)) tracker_.refresh(reach, tracked_);
+  if (tracker_.isDue(reach)) tracker_.refresh(reach, searchTicks_ == 0 ? tracked_ : found_);
+  if (searchTicks_ > 0) {
+    arriving_.push_back(found_.scene ? found_ : tracked_);
+    if (arriving_.size() > searchTicks_) {
+      tracked_ = std::move(arriving_.front());
+      arriving_.pop_front();
+    }
+  }
   proxy_.follow(tracked_, hand, settings_);
   return proxy_.account();
 }

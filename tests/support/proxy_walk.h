@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <deque>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -27,6 +29,9 @@ class ProxyWalk {
   /// So many ticks with the hand at one place.
   void hold(const RigidTransform& hand, int ticks);
 
+  /// Lets what the search ahead finds arrive so many ticks late from now on; 0: before the next tick.
+  void setSearchTicks(std::size_t ticks) { searchTicks_ = ticks; }
+
   /// Puts a body elsewhere, or another one into the scene, as the user does while the servo runs.
   void moveBody(std::size_t index, const RigidTransform& worldFromBody);
   void addBody(const Fixed& body);
@@ -46,7 +51,9 @@ class ProxyWalk {
   ProxySettings settings_;
   std::shared_ptr<const ServoScene> scene_;
   SceneTracker tracker_;
-  TrackedScene tracked_;
+  TrackedScene tracked_, found_;
+  std::size_t searchTicks_ = 0;
+  std::deque<TrackedScene> arriving_;  ///< What was found in the last ticks, if that takes some.
   Proxy proxy_;
   std::uint32_t nextId_ = 2;
 };

@@ -248,6 +248,37 @@ TEST(Proxy, APartThatStartsInAnotherIsNotHeldUntilTheyAreApart) {
   EXPECT_NEAR(lowestCorner(walk), kMargin, kSag) << "and is held from then on";
 }
 
+// They met again for a tick or two while the part was still released: the search ahead had yet to tell that they were
+// apart. It tells of the tick before it began.
+TEST(Proxy, PartsThatWereApartForLongerThanTheSearchTakesDoNotMeetAgain) {
+  std::mt19937_64 random(20);
+  std::uniform_real_distribution<double> paces(0.1, 2.5);
+  for (const int searchTicks : {0, 1, 2, 5}) {
+    int meetings = 0, held = 0;
+    for (int i = 0; i < 30; ++i) {
+      const double pace = paces(random);  // [rad] per tick.
+      const auto hand = [pace](int tick) { return at({0.0, 0.0, 0.1 - 0.03 * std::cos(pace * tick)}); };
+      ProxyWalk walk = cubeOverFloor(-0.03);
+      walk.lead(hand(0));
+      walk.setSearchTicks(static_cast<std::size_t>(searchTicks));
+      int apart = 0;
+      for (int tick = 1; tick < 80; ++tick) {
+        walk.lead(hand(tick));
+        if (lowestCorner(walk) > 0.0) {
+          ++apart;
+          continue;
+        }
+        if (apart > 0) ++meetings;
+        ASSERT_LE(apart, searchTicks) << "pace " << pace << ", tick " << tick;
+        apart = 0;
+      }
+      if (apart > searchTicks) ++held;
+    }
+    EXPECT_EQ(meetings > 0, searchTicks > 0) << "the hand is fast enough to lead it back in time";
+    EXPECT_GT(held, 0) << "and slow enough not to";
+  }
+}
+
 TEST(Proxy, ABodyThatIsMovedIntoItLetsGoAndHoldsAgainOnceItIsAway) {
   ProxyWalk walk = cubeOverFloor(0.05);
   walk.hold(at({0.0, 0.0, 0.05}), 30);
