@@ -164,7 +164,8 @@ lmds      All local minimum distances within the cutoff, nearest first. "scene" 
           may lie outside it, as that of a ring does. "blocked": true if the segment between the points
           passes through either surface. "marginal": true if rounding decides a condition or the cutoff,
           so that double precision cannot tell whether the pair is a minimum, or whether a neighbouring
-          feature carries it.
+          feature carries it; and for a region more than 10,000 sizes from the origin, whose extent may
+          be wrong.
           A region also has "extent":{"dimension":2,"measure":m,"axis":[x,y,z],"half":[a,b]}. A region
           between faces has dimension 2 and its area [m^2]; one of an edge with an edge or face has
           dimension 1 and its length [m]. "half": half lengths [m], along the axis and across it, of the

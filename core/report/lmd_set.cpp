@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include <glm/geometric.hpp>
+
 #include "core/proximity/query/blocked_minima.h"
 
 namespace nearfit {
@@ -11,7 +13,19 @@ namespace {
 /// Work space relative to the limit on minima: a flat region is found in several pieces.
 constexpr std::size_t kHeadroom = 4;
 
+/// Largest distance from the origin of a mesh in its own frame, or of the pose between them [m].
+double fromOriginOf(const BodyPairQuery& query) noexcept {
+  return std::max({glm::length(query.scene.centre()), glm::length(query.part.centre()),
+                   glm::length(query.sceneFromPart.translation)});
+}
+
 }  // namespace
+
+void markFarRegions(std::vector<Lmd>& lmds, double fromOrigin, double size) noexcept {
+  if (!(fromOrigin > kMaxExtentOrigin * size)) return;
+  for (Lmd& lmd : lmds)
+    lmd.isMarginal = lmd.isMarginal || lmd.isRegion;
+}
 
 template <class Find>
 LmdSet LmdCollector::grow(const BodyPairQuery& query, Find&& find) {
@@ -26,6 +40,7 @@ LmdSet LmdCollector::grow(const BodyPairQuery& query, Find&& find) {
       set.lmds.resize(result.count);
       // The bodies may interpenetrate, so there is no lower bound on the min distance.
       markBlocked(query.scene, query.part, query.sceneFromPart, set.lmds, 0.0, scratch_);
+      markFarRegions(set.lmds, fromOriginOf(query), query.scene.size() + query.part.size());
       return set;
     }
     capacity_ *= 4;

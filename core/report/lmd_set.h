@@ -11,6 +11,15 @@
 
 namespace nearfit {
 
+/// Beyond this many sizes of both bodies together from the origin, double precision does not carry how far faces
+/// overlap: `extent` had the wrong dimension and measure at 140,000. A tenth of that, to be safe.
+constexpr double kMaxExtentOrigin = 1e4;
+
+/// Marks all regions as marginal if `fromOrigin`, the largest distance from the origin of a body or pose [m], is
+/// beyond that many sizes.
+/// @param size  Sum of the bodies' diagonals [m].
+void markFarRegions(std::vector<Lmd>& lmds, double fromOrigin, double size) noexcept;
+
 /// All minima of one query.
 struct LmdSet {
   std::vector<Lmd> lmds;   ///< Nearest first, in the scene mesh's frame; blocked ones are marked.
@@ -26,7 +35,7 @@ class LmdCollector {
   explicit LmdCollector(std::size_t limit, std::size_t capacity = LmdScratch::kDefaultCapacity)
       : limit_(limit), capacity_(capacity), scratch_(capacity) {}
 
-  /// Runs findLmds() and marks blocked minima. Grows the storage and repeats the query if it was too small.
+  /// Runs findLmds() and marks blocked minima, and regions far from the origin of either mesh. Grows the storage and repeats the query if it was too small.
   LmdSet collect(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
                  double cutoff);
 

@@ -5,6 +5,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/files/atomic_write.h"
@@ -79,8 +80,13 @@ Json leastDistance(const LmdSet& set) {
 
 Json clearanceTo(const Part& other, const Part& moving, double cutoff, LmdCollector& collector) {
   const RigidTransform otherFromMoving = other.worldFromPart.inverse() * moving.worldFromPart;
-  const LmdSet set = collector.collect(other.geometry->tree(), moving.geometry->tree(),
-                                       otherFromMoving.normalized(), cutoff);
+  const NormalConeTree &scene = other.geometry->tree(), &part = moving.geometry->tree();
+  LmdSet set = collector.collect(scene, part, otherFromMoving.normalized(), cutoff);
+  // The pose between the two does not tell how far from the world's origin both are.
+  markFarRegions(
+      set.lmds,
+      std::max(glm::length(other.worldFromPart.translation), glm::length(moving.worldFromPart.translation)),
+      scene.size() + part.size());
   Json json;
   json["part"] = other.name;
   json["distance"] = leastDistance(set);

@@ -65,6 +65,23 @@ TEST_F(LmdCommand, CubeAboveBlockIsOneRegionAndPushesUp) {
   EXPECT_GT(json["query_us"].get<double>(), 0.0);
 }
 
+// A region 140,000 sizes from the origin had the wrong dimension and measure, and nothing told of it.
+TEST_F(LmdCommand, RegionsBeyondTenThousandSizesFromTheOriginAreMarked) {
+  // The diagonals of block and cube are 3 and 1.73: 10,000 sizes are 47,321. Powers of two keep every coordinate.
+  for (const auto& [away, isFar] : {std::pair{32'768.0, false}, std::pair{65'536.0, true}}) {
+    const std::string block = folder_.write("away.obj", objText(boxMesh({2, 2, 1}, {away, 0, 0}))).string();
+    for (const char* mode : {"cold", "tracked"}) {
+      const ProcessResult result = runCli({"lmd", block, cube_, "--mode", mode, "--cutoff", "0.5", "--pose",
+                                           fmt::format("{},0,1.25,1,0,0,0", away)});
+      ASSERT_EQ(result.exitCode, 0) << result.err;
+      const Json json = Json::parse(result.out);
+      ASSERT_EQ(json["lmds"].size(), 1U) << away;
+      EXPECT_EQ(json["lmds"][0]["region"], true) << away;
+      EXPECT_EQ(json["lmds"][0]["marginal"], isFar) << away << ' ' << mode;
+    }
+  }
+}
+
 TEST_F(LmdCommand, OverhangingCubeIsTurnedAboutItsCentreOfMass) {
   // The faces overlap in x from 0.5 to 1, so that the region's centroid is 0.25 behind the centre at x = 1.
   const Json json = only({"--cutoff", "0.5", "--stiffness", "1000", "--pose", "1,0,1.25,1,0,0,0"});

@@ -130,6 +130,21 @@ TEST_F(PlacementExport, ClearanceToEachVisiblePartIsInTheWorldFrame) {
   EXPECT_TRUE(far["lmds"].empty());
 }
 
+// A region 140,000 sizes from the origin had the wrong dimension and measure, and nothing told of it.
+TEST_F(PlacementExport, ARegionFarFromTheOriginOfTheWorldIsMarked) {
+  // The diagonals of block and cube are 3 and 1.73: 10,000 sizes are 47,321.
+  for (const auto& [away, isFar] : {std::pair{32'768.0, false}, std::pair{65'536.0, true}}) {
+    Part block = *scene_.parts()[0];
+    block.worldFromPart.translation.x = away;
+    scene_.replace(block);
+    const Json json = Json::parse(placementJson(scene_, at(away + 1.25)));
+    const Json& lmds = json["clearance"]["to"][0]["lmds"];
+    ASSERT_EQ(lmds.size(), 1U) << away;
+    EXPECT_EQ(lmds[0]["region"], true) << away;
+    EXPECT_EQ(lmds[0]["marginal"], isFar) << away;
+  }
+}
+
 TEST_F(PlacementExport, FeaturesAreTheMovingPartsFirst) {
   // The cube stands on a corner: its diagonal lies along x.
   const double diagonal = std::sqrt(3.0), angle = std::acos(1.0 / diagonal);
