@@ -35,7 +35,8 @@ class LmdCollector {
   explicit LmdCollector(std::size_t limit, std::size_t capacity = LmdScratch::kDefaultCapacity)
       : limit_(limit), capacity_(capacity), scratch_(capacity) {}
 
-  /// Runs findLmds() and marks blocked minima, and regions far from the origin of either mesh. Grows the storage and repeats the query if it was too small.
+  /// Runs findLmds() and marks blocked minima, and regions far from the origin of either mesh. Grows the storage
+  /// and repeats the query if it was too small.
   LmdSet collect(const NormalConeTree& scene, const NormalConeTree& part, const RigidTransform& sceneFromPart,
                  double cutoff);
 

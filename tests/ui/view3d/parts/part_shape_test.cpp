@@ -88,8 +88,8 @@ void PartShapeTest::normalsOfABoxPointOutOfItsFaces() {
 }
 
 // VTK's normals took minutes for these: hundreds of triangles meet at each point of the coarsest draft.
-/// The normals of a draft once took the square of its triangles: 22 s for 20,000. With 300,000 that is more than an hour,
-/// and Qt Test gives a function five minutes.
+/// The normals of a draft once took the square of its triangles: 22 s for 20,000. With 300,000 that is more
+/// than an hour, and Qt Test gives a function five minutes.
 void PartShapeTest::whatIsClusteredToAFewPointsIsShaded() {
   const ui::PartShape shape = ui::makePartShape(test::looseTriangles(1, 300'000));
   QVERIFY(!shape.drafts.empty());
