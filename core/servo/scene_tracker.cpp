@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/servo/contact_finder.h"
 #include "core/servo/overlap_check.h"
 
 namespace nearfit {
@@ -25,6 +26,9 @@ std::uint64_t nextSerial() noexcept {
 /// Max pairs of a list of triangles, and max work to find them, some 1.5 ms.
 constexpr std::size_t kMaxListedTriangles = std::size_t{1} << 12;
 constexpr std::uint64_t kMaxListingWork = std::uint64_t{1} << 14;
+/// The same for a part that is starved, which a tick cannot search for by itself: some 20 ms, beside the servo.
+constexpr std::size_t kMaxListedIfStarved = ContactFinder::kMaxSurfaceWork;
+constexpr std::uint64_t kMaxListingWorkIfStarved = std::uint64_t{1} << 18;
 /// Room for motion that a list of triangles has at least, if it can be made, and below which none is made [reaches].
 constexpr double kUsualTriangleRoom = 8.0, kLeastTriangleRoom = 1.0;
 /// Share of that room that must be left at a pose, and for a part that is starved.
@@ -254,8 +258,9 @@ std::shared_ptr<const TriangleList> SceneTracker::renewedTriangles(
   for (;; share *= 0.5) {
     const double within = reach.contact + std::max(least, share * room);
     list->build(*scene.bodies[body].surface, *scene.moving.surface,
-                pairOf(body).queryAt(plan.pose, within).sceneFromPart, within, scratch_, kMaxListedTriangles,
-                kMaxListingWork);
+                pairOf(body).queryAt(plan.pose, within).sceneFromPart, within, scratch_,
+                isStarved_ ? kMaxListedIfStarved : kMaxListedTriangles,
+                isStarved_ ? kMaxListingWorkIfStarved : kMaxListingWork);
     if (list->within() >= reach.contact + least) return list;
     if (share * room <= least) return nullptr;
   }

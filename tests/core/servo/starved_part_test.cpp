@@ -135,5 +135,45 @@ TEST_F(StarvedRod, ListsOfOneThatWaitsHoldTheWayThatItsHandGoes) {
   }
 }
 
+/// A mesh without one of its triangles, which bounds nothing.
+TriangleMesh opened(const TriangleMesh& mesh) {
+  return {{mesh.vertices().begin(), mesh.vertices().end()},
+          {mesh.triangles().begin(), mesh.triangles().end() - 1}};
+}
+
+// The upper half of a real pump stood still among the open sheets of its bearing, without a force, and could not be
+// pulled off: neither a tick nor the search ahead was allowed the work of finding what is near.
+TEST(StarvedOpenRod, GetsAListWhateverThatTakesAndGoesOn) {
+  const test::RingedPair pair{.detail = 4};
+  auto scene = std::make_shared<ServoScene>();
+  scene->setMoving({PartId{1}, test::geometryOf(opened(pair.rod())), {}});
+  scene->bodies.push_back({PartId{2}, test::geometryOf(opened(pair.tube())), {}});
+  scene->prepareSurfaces();
+  ASSERT_TRUE(scene->bodies[0].surface);
+  // No pair is within twice that, and to find that out takes 18,000 pairs of nodes.
+  constexpr double kSmallReach = 0.008, kSmallMargin = kSmallReach / kContactReach;
+  const SearchReach reach{kSmallReach, kSmallReach};
+  SceneTracker tracker;
+  tracker.setScene(scene);
+  TrackedScene tracked;
+  tracker.update({{}, std::nullopt, false, false}, 1.0);
+  tracker.refresh(reach, tracked);
+  ASSERT_EQ(tracked.near.size(), 1U);
+  ASSERT_FALSE(tracked.near[0].triangles) << "too much for each refresh";
+  Proxy proxy;
+  proxy.place({});
+  const ProxySettings settings{kSmallMargin, 0.0};
+  for (int i = 0; i < 400; ++i) {
+    tracker.update({proxy.pose(), turnedBy(0.5), false, proxy.account().isStarved}, 1.0);
+    if (tracker.isDue(reach)) {
+      TrackedScene renewed;
+      tracker.refresh(reach, renewed);
+      tracked = renewed;
+    }
+    proxy.follow(tracked, turnedBy(0.5), settings);
+  }
+  EXPECT_NEAR(angleOf(proxy.pose()), 0.5, 1e-3);
+}
+
 }  // namespace
 }  // namespace nearfit::starved_part_test
