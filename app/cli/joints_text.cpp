@@ -66,7 +66,7 @@ Json jointsJson(const Scene& scene) {
     json["part"] = part.name;
     json["base"] = joint.base ? Json(scene.get(*joint.base).name) : Json();
     json["on"] = joint.isOn;
-    // Of all joints of the part that are on.
+    // Distance and angle over all joints of the part that are on.
     json["off"] = {{"distance", off.distance}, {"angle", off.angle}};
     json["contradictory"] = joints.isContradictory();
     all.push_back(std::move(json));

@@ -191,7 +191,7 @@ void ServoController::release() {
 
 void ServoController::commitPose() {
   if (!isRunning()) return;
-  // What is shown after a stop is the tick whose pose is kept.
+  // After a stop, the tick whose pose is kept is shown.
   showNewest();
   const ServoSnapshot& snapshot = loop_.snapshot();
   const RigidTransform pose = snapshot.tick == 0 ? startPose_ : snapshot.proxy;

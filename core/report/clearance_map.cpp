@@ -113,7 +113,7 @@ class ClearanceMapper::Target {
 
 namespace {
 
-/// What is needed of ClearanceMapper::Target; a template, as that class is private.
+/// The parts of ClearanceMapper::Target that are needed here; a template, as that class is private.
 template <class Target>
 struct PlacedTarget {
   PartId id{};
@@ -152,7 +152,7 @@ class SampleSearch {
   }
 
  private:
-  /// What is known of the sample before, of one target.
+  /// Distance of the sample before to one target.
   struct Before {
     std::uint32_t triangle = NearestPoint::kNone;
     glm::dvec3 point{0.0};  ///< The sample, in the target's frame [m].

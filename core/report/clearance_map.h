@@ -28,7 +28,7 @@ struct MeasuredPart {
   RigidTransform worldFromPart;
 };
 
-/// What to map.
+/// Subject, scene and range of a map.
 struct ClearanceMapRequest {
   PartId subject{};                 ///< One of `parts`.
   std::vector<MeasuredPart> parts;  ///< The subject, and those that it is measured against.

@@ -161,7 +161,7 @@ void Proxy::begin(const TrackedScene& tracked, const RigidTransform& target, con
     holdingCount_ = 0;
     here_ = {};
     isTrying_ = areFeltRowsFilled_ = false;
-    // What it was on is unknown; the way to the joints is not motion of the hand.
+    // Its former target is unknown; the way to the joints is not motion of the hand.
     lastTarget_ = tracked.scene->joints.isEmpty() ? std::optional(target) : std::nullopt;
     felt_ = pose_;
     return;

@@ -39,7 +39,7 @@ class JointMarks {
   void show(const std::vector<JointMark>& marks);
 
  private:
-  /// What is drawn in one colour.
+  /// Marks of one colour.
   struct Layer {
     vtkNew<vtkPolyData> faces, lines, points;
     vtkNew<vtkActor> face, line, point;

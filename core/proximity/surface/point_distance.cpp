@@ -167,7 +167,7 @@ NearestPoint PointDistance::nearest(const glm::dvec3& point, double within,
     take(triangle);
   const NormalConeTree& tree = mesh_.tree();
   if (!tree.isEmpty()) {
-    // What was found so far only bounds the search; it is left if nothing in the hierarchy is nearer.
+    // The point found so far only bounds the search; it stays if nothing in the hierarchy is nearer.
     NearestPoint inTree;
     inTree.distance = best.distance;
     PointSearch(tree, point - tree.centre(), inTree).run();

@@ -103,7 +103,7 @@ void DesktopClearanceMapTest::theSwitchColoursThePartByItsDistance() {
     }
   }
   QVERIFY(below > 100 && beyond > 100);
-  // What is drawn is that surface.
+  // That surface is the one drawn.
   const auto& pieces = f.d.window().viewport().parts().find(f.d.partId("moving"))->pieces();
   QVERIFY(pieces.front()->GetMapper()->GetScalarVisibility() != 0);
   QCOMPARE(pieces.front()->GetMapper()->GetInputDataObject(0, 0),

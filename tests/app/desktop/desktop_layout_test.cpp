@@ -156,7 +156,7 @@ void DesktopLayoutTest::aScreenOf1600By1000IsEnoughAtScaleTwo() {
   Run run;
   run.window().resize(kRoom);
   QTRY_COMPARE(run.window().size(), kRoom);
-  // Of the numbers in the status bar, the last is the one to keep.
+  // The last number in the status bar is the one to keep.
   auto* distance = run.window().findChild<QWidget*>(QStringLiteral("statusDistance"));
   QTRY_VERIFY(!run.window().findChild<QWidget*>(QStringLiteral("statusRate"))->isVisible());
   QVERIFY(distance->isVisible());

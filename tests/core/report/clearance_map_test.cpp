@@ -292,7 +292,7 @@ TEST(ClearanceMap, DoesNotDependOnThreads) {
 
 TEST(ClearanceMap, CancellingStopsItAnywhereAndProgressOnlyRises) {
   ClearanceMapRequest request = roughPair();
-  // Of several threads, one may skip its report while another one reports.
+  // One of several threads may skip its report while another one reports.
   request.isParallel = false;
   int calls = 0;
   double last = 0.0;

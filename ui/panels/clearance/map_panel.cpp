@@ -32,7 +32,7 @@ namespace nearfit::ui {
 namespace {
 
 const QString kMapThreshold = QStringLiteral("clearanceMap/threshold");
-/// Of ranges and thresholds [m].
+/// Limits and first values of range and threshold [m].
 constexpr double kMinRange = 1e-6, kMaxRange = 10.0, kFirstRange = 1e-3, kFirstThreshold = 2e-4,
                  kMapStep = 1e-4;
 constexpr int kMapDecimals = 4;
@@ -228,7 +228,7 @@ void ClearanceMapPanel::showLegend() {
 
 void ClearanceMapPanel::showWork() {
   const bool isRunning = search_.isRunning() && search_.isWanted();
-  // What follows motion comes several times a second: a bar would flicker.
+  // Maps that follow motion come several times a second: a bar would flicker.
   const bool isLong = isRunning && (search_.shown() == nullptr || search_.isStale());
   const bool isCancelled = search_.isWanted() && search_.isCancelled() && !search_.isRunning();
   if (!progress_->isVisible()) progress_->setValue(0);

@@ -30,7 +30,7 @@ class ClearanceMapPanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// What it maps and shows it in; all outlive this.
+  /// The scene to map and the view to show it in; all outlive this.
   struct Context {
     Session& session;
     const Selection& selection;

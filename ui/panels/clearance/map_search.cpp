@@ -88,7 +88,7 @@ void ClearanceMapSearch::refresh() {
   isDue_ = true;
   isCancelled_ = false;
   late_.start();
-  // What is being computed is not wanted any more.
+  // The map being computed is not wanted any more.
   if (task_.isRunning()) return task_.cancel();
   rest_.stop();
   startIfDue();

@@ -83,7 +83,7 @@ class ClearanceMapSearch : public QObject {
   /// True if the next map is probably small enough to follow motion.
   bool isLive() const;
   void followSubject();
-  /// What is to be mapped now, with all parts where they are. There is a subject.
+  /// Request for the map of the present poses. There is a subject.
   ClearanceMapRequest present() const;
   /// Computes a map, now or once it rests, if parts have moved, come or gone since the last one was begun.
   void followParts();

@@ -13,7 +13,7 @@ class QPainter;
 
 namespace nearfit::ui {
 
-/// What a recording felt over its time, as lines in pixels. Each column of pixels keeps its least and its greatest
+/// Curves of a recording over its time, as lines in pixels. Each column of pixels keeps its least and its greatest
 /// value, so that no peak is lost.
 struct TrackCurves {
   /// Min distance: where it is exact, and where only a lower bound is known. Broken where nothing is within the

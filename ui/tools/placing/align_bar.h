@@ -24,7 +24,7 @@ class AlignBar : public ViewBar {
   /// Shows what to do next.
   /// @param hint  The feature under the pointer; may be empty.
   void showPrompt(const QString& prompt, const QString& hint);
-  /// What can be chosen for a picked pair.
+  /// Choices offered for a picked pair.
   struct Options {
     bool canFlip = false;    ///< Flipping makes a difference.
     bool canOffset = false;  ///< A distance can be left between them.

@@ -16,7 +16,7 @@ struct AlignRule {
   const char *text, *help, *icon, *keys;
   const char* verb;  ///< Of the undo step, before the part's name; not for a joint.
   const char *movingPrompt, *fixedPrompt;
-  /// What can be picked; nullopt: the user chooses.
+  /// Kinds of features that can be picked; nullopt: the user chooses.
   std::optional<FeatureFilter> filter;
   /// The joint that it makes; nullopt: it only moves the part.
   std::optional<JointKind> joint;

@@ -69,7 +69,7 @@ void AlignTool::connectTool() {
   };
   changes_ = session_.onChange(SceneEvents::Stage::Panels, look);
   connect(&guard_, &MoveGuard::changed, this, look);
-  // What was picked may be in hand now, or no more.
+  // The picked part may be in hand now, or no more.
   connect(&hand_, &HandState::changed, this, [this, look] {
     stop();
     look();

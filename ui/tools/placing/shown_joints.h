@@ -21,7 +21,7 @@ class ShownJoints : public QObject {
   ShownJoints(const Session& session, const Selection& selection, Viewport& view, QObject* parent);
   ~ShownJoints() override;
 
-  /// What is drawn now.
+  /// Marks drawn now.
   const std::vector<JointMark>& marks() const noexcept { return marks_; }
 
   bool eventFilter(QObject* watched, QEvent* event) override;
