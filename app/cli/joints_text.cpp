@@ -11,18 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* kindOf(const Joint& joint) {
-  switch (joint.kind) {
-    case JointKind::OnAxis:
-      return "axis";
-    case JointKind::InPlane:
-      return "plane";
-    case JointKind::ToPoint:
-      break;
-  }
-  return "point";
-}
-
 std::string baseOf(const Scene& scene, const Joint& joint) {
   return joint.base ? scene.get(*joint.base).name : "the world";
 }
@@ -43,7 +31,7 @@ std::string jointText(const Scene& scene, const Joint& joint) {
                              joint.kind == JointKind::OnAxis    ? "on"
                              : joint.kind == JointKind::InPlane ? "in"
                                                                 : "to",
-                             kindOf(joint), baseOf(scene, joint), joint.isOn ? "on" : "off"));
+                             wordOf(joint.kind), baseOf(scene, joint), joint.isOn ? "on" : "off"));
 }
 
 std::string jointsText(const Scene& scene) {
@@ -62,7 +50,7 @@ Json jointsJson(const Scene& scene) {
     const JointSet joints = jointsOf(scene, part.id);
     const JointResidual off = joints.residual(part.worldFromPart);
     Json json;
-    json["kind"] = kindOf(joint);
+    json["kind"] = wordOf(joint.kind);
     json["part"] = part.name;
     json["base"] = joint.base ? Json(scene.get(*joint.base).name) : Json();
     json["on"] = joint.isOn;

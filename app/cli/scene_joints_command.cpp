@@ -34,10 +34,10 @@ const Part& namedPart(const Scene& scene, const char* where, const std::string& 
 }
 
 JointKind parseJointKind(const std::string& word) {
-  if (word == "axis") return JointKind::OnAxis;
-  if (word == "plane") return JointKind::InPlane;
-  if (word == "point") return JointKind::ToPoint;
-  throw UsageError("KIND", fmt::format("\"{}\" is not a kind of joint", word), "give axis, plane or point");
+  const std::optional<JointKind> kind = jointKindOf(word);
+  if (!kind)
+    throw UsageError("KIND", fmt::format("\"{}\" is not a kind of joint", word), "give axis, plane or point");
+  return *kind;
 }
 
 JointFeature parseJointFeature(const std::string& text, JointKind kind) {
@@ -88,9 +88,9 @@ void runSceneRelease(const ReleaseOptions& options) {
   std::vector<JointId> released;
   for (const std::size_t number : options.numbers) {
     if (number == 0 || number > scene.joints().size()) {
-      throw UsageError("NUMBER", fmt::format("there is no joint {}", number),
-                       fmt::format("give numbers from 1 to {}, as nearfit-cli info lists them",
-                                   scene.joints().size()));
+      throw UsageError(
+          "NUMBER", fmt::format("there is no joint {}", number),
+          fmt::format("give numbers from 1 to {}, as nearfit-cli info lists them", scene.joints().size()));
     }
     released.push_back(scene.joints()[number - 1].id);
   }
@@ -128,8 +128,7 @@ void addSceneKeep(CLI::App& scene) {
   command->add_option("--at", options->feature, "Where the feature is now, in the world frame; see below")
       ->required()
       ->type_name("FEATURE");
-  command->add_option("--base", options->base,
-                      "Name of the part to keep it on; default: the world")
+  command->add_option("--base", options->base, "Name of the part to keep it on; default: the world")
       ->type_name("NAME");
   command->footer(kKeepFooter);
   command->callback([options] { runSceneKeep(*options); });

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
+#include "core/math/round_number.h"
 #include "core/math/tolerances.h"
 #include "core/parallel/parallel_for.h"
 #include "core/parallel/shared_progress.h"
@@ -71,16 +72,6 @@ Aabb boxIn(const MeasuredPart& frame, const MeasuredPart& part) noexcept {
 
 double sizeOf(const MeasuredPart& part) noexcept {
   return part.geometry->mesh.bounds().diagonal();
-}
-
-/// Smallest of 1, 2 and 5 times a power of ten that is not below a length > 0.
-double roundedUpLength(double length) {
-  constexpr double kRounding = 1e-9;
-  const double power = std::pow(10.0, std::floor(std::log10(length)));
-  for (const double step : {1.0, 2.0, 5.0}) {
-    if (step * power >= length * (1.0 - kRounding)) return step * power;
-  }
-  return 10.0 * power;
 }
 
 }  // namespace
@@ -391,7 +382,7 @@ double automaticRange(double size, double leastDistance, double kept) noexcept {
   const double least = std::isfinite(leastDistance) ? leastDistance : 0.0;
   const double wanted = std::max({kOfSize * size, kOfLeast * least, std::numeric_limits<double>::min()});
   const bool isKept = kept > 0.0 && wanted <= kept && kSlack * wanted >= kept;
-  return isKept ? kept : roundedUpLength(wanted);
+  return isKept ? kept : roundedUp(wanted);
 }
 
 std::optional<double> clearanceAt(const MappedSurface& mapped, std::uint32_t triangle,

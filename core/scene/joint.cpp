@@ -9,6 +9,25 @@
 
 namespace nearfit {
 
+const char* wordOf(JointKind kind) noexcept {
+  switch (kind) {
+    case JointKind::OnAxis:
+      return "axis";
+    case JointKind::InPlane:
+      return "plane";
+    case JointKind::ToPoint:
+      break;
+  }
+  return "point";
+}
+
+std::optional<JointKind> jointKindOf(std::string_view word) noexcept {
+  for (const JointKind kind : {JointKind::OnAxis, JointKind::InPlane, JointKind::ToPoint}) {
+    if (word == wordOf(kind)) return kind;
+  }
+  return std::nullopt;
+}
+
 glm::dvec3 checkedDirection(const glm::dvec3& direction) {
   const double length = glm::length(direction);
   if (!(std::abs(length - 1.0) <= kDirectionSlack))
@@ -21,8 +40,8 @@ Joint checkedJoint(const Joint& joint) {
   Joint checked = joint;
   for (JointFeature* feature : {&checked.onPart, &checked.onBase}) {
     checkPosition(feature->point);
-    feature->direction = joint.kind == JointKind::ToPoint ? JointFeature().direction
-                                                          : checkedDirection(feature->direction);
+    feature->direction =
+        joint.kind == JointKind::ToPoint ? JointFeature().direction : checkedDirection(feature->direction);
   }
   return checked;
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include <glm/vec3.hpp>
 
@@ -16,15 +17,21 @@ enum class JointId : std::uint32_t {};
 
 /// The way a part is kept.
 enum class JointKind : std::uint8_t {
-  OnAxis,   ///< An axis of the part stays on an axis of the base: it slides along it and turns about it.
+  OnAxis,  ///< An axis of the part stays on an axis of the base: it slides along it and turns about it.
   InPlane,  ///< A flat face of the part stays in a plane, face to face: it slides in it and turns about its normal.
   ToPoint,  ///< A point of the part stays at a point of the base: it turns about it.
 };
 
+/// "axis", "plane" or "point": the kind's word in scene files and on the command line.
+const char* wordOf(JointKind kind) noexcept;
+/// The kind of a word; std::nullopt if it is none of these.
+std::optional<JointKind> jointKindOf(std::string_view word) noexcept;
+
 /// Point and direction of a feature that a joint keeps.
 struct JointFeature {
-  glm::dvec3 point{0.0};           ///< On the axis or in the plane [m].
-  glm::dvec3 direction{0.0, 0.0, 1.0};  ///< Of the axis, or outward normal of the face; unit. Not used ToPoint.
+  glm::dvec3 point{0.0};  ///< On the axis or in the plane [m].
+  glm::dvec3 direction{0.0, 0.0,
+                       1.0};  ///< Of the axis, or outward normal of the face; unit. Not used ToPoint.
   bool operator==(const JointFeature&) const = default;
 };
 

@@ -217,11 +217,9 @@ std::optional<std::size_t> readMovingPart(const JsonField& field, const std::vec
 }
 
 JointKind readJointKind(const JsonField& field) {
-  const std::string word = field.text(16);
-  if (word == "axis") return JointKind::OnAxis;
-  if (word == "plane") return JointKind::InPlane;
-  if (word != "point") field.fail("this value is not known", R"(give "axis", "plane" or "point")");
-  return JointKind::ToPoint;
+  const std::optional<JointKind> kind = jointKindOf(field.text(16));
+  if (!kind) field.fail("this value is not known", R"(give "axis", "plane" or "point")");
+  return *kind;
 }
 
 JointFeature readJointFeature(const JsonField& field, JointKind kind) {

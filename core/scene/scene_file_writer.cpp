@@ -68,18 +68,6 @@ Json partJson(const Part& part, const GroupIndices& groups, const std::filesyste
   return json;
 }
 
-const char* wordOf(JointKind kind) {
-  switch (kind) {
-    case JointKind::OnAxis:
-      return "axis";
-    case JointKind::InPlane:
-      return "plane";
-    case JointKind::ToPoint:
-      break;
-  }
-  return "point";
-}
-
 Json featureJson(const JointFeature& feature, JointKind kind) {
   const glm::dvec3 &p = feature.point, &d = feature.direction;
   Json json = {{"point", {p.x, p.y, p.z}}};

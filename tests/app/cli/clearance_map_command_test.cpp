@@ -5,28 +5,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/mesh_generators.h"
-#include "tests/support/mesh_text.h"
+#include "tests/app/cli/plate_and_cube.h"
 #include "tests/support/ply_values.h"
-#include "tests/support/run_process.h"
-#include "tests/support/temporary_folder.h"
 
 namespace nearfit::test::clearance_map_command_test {
 namespace {
 
 using ::testing::HasSubstr;
 
-/// A plate and, 1 m above it, a cube that is the moving part, in metres.
-class ClearanceMapCommand : public ::testing::Test {
+class ClearanceMapCommand : public PlateAndCube {
  protected:
-  ClearanceMapCommand() {
-    const std::string plate = folder_.write("plate.obj", objText(boxMesh({4, 4, 1}))).string();
-    const std::string cube = folder_.write("cube.obj", objText(boxMesh({1, 1, 1}))).string();
-    const auto made = runCli({"scene", "new", scene_, "--part", "Plate=" + plate, "--part",
-                              "Cube=" + cube + "@0,0,2,1,0,0,0", "--moving", "Cube"});
-    EXPECT_EQ(made.exitCode, 0) << made.err;
-  }
-  std::string path(const char* name) { return (folder_.path() / name).string(); }
   /// Numbers of the summary by their names.
   static std::map<std::string, double> numbersOf(const std::string& text) {
     std::map<std::string, double> numbers;
@@ -38,9 +26,6 @@ class ClearanceMapCommand : public ::testing::Test {
     }
     return numbers;
   }
-
-  TemporaryFolder folder_;
-  std::string scene_ = path("fit.nearfit");
 };
 
 TEST_F(ClearanceMapCommand, MapHistogramAndSummaryAgree) {

@@ -142,7 +142,7 @@ void leave(Work& w, const QString& way) {
   }
 }
 
-/// Starts a new scene, and answers the question by an Alt key; false if that is no answer.
+/// Starts a new scene and answers the question by an Alt key; false if the question stays open.
 bool leaveByAltKey(Work& w, Qt::Key key) {
   bool isAnswered = false;
   whenModal<QMessageBox>(

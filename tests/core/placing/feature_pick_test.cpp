@@ -9,44 +9,14 @@
 #include <gtest/gtest.h>
 
 #include "core/placing/circle_fit.h"
+#include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/surface_hits.h"
 
 namespace nearfit::feature_pick_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-/// Where a ray hits a mesh first: each triangle by its plane and sides.
-SurfaceHit hitBy(const TriangleMesh& mesh, const glm::dvec3& from, const glm::dvec3& towards) {
-  const glm::dvec3 along = glm::normalize(towards - from);
-  SurfaceHit hit;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) {
-    const Triangle& t = mesh.triangles()[i];
-    const glm::dvec3 a = mesh.vertices()[t[0]], b = mesh.vertices()[t[1]], c = mesh.vertices()[t[2]];
-    const glm::dvec3 normal = glm::cross(b - a, c - a);
-    const double distance = glm::dot(a - from, normal) / glm::dot(along, normal);
-    if (!(distance > 0.0) || !(distance < nearest)) continue;
-    const glm::dvec3 p = from + distance * along;
-    const double inside = -1e-9 * glm::dot(normal, normal);
-    if (glm::dot(glm::cross(b - a, p - a), normal) < inside ||
-        glm::dot(glm::cross(c - b, p - b), normal) < inside ||
-        glm::dot(glm::cross(a - c, p - c), normal) < inside)
-      continue;
-    nearest = distance;
-    hit = {i, p};
-  }
-  EXPECT_TRUE(std::isfinite(nearest)) << "nothing was hit";
-  return hit;
-}
-
-/// As a file in single precision has it.
-TriangleMesh rounded(const TriangleMesh& mesh) {
-  std::vector<glm::dvec3> vertices;
-  for (const glm::dvec3& p : mesh.vertices())
-    vertices.emplace_back(glm::vec3(p));
-  return {std::move(vertices), {mesh.triangles().begin(), mesh.triangles().end()}};
-}
 
 RigidTransform somePose(std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -89,7 +59,7 @@ TriangleMesh roundedBlock(double half, double radius, double height, int facets)
 
 TEST(FeaturePick, TheFlatFaceIsAllTrianglesInItsPlane) {
   const TriangleMesh mesh = test::subdivided(test::boxMesh({0.2, 0.1, 0.05}), 3);
-  const auto picked = pickFeature(mesh, hitBy(mesh, {0.03, 0.01, 1.0}, {0.03, 0.01, 0.0}), 0.001);
+  const auto picked = pickFeature(mesh, test::hitBy(mesh, {0.03, 0.01, 1.0}, {0.03, 0.01, 0.0}), 0.001);
   ASSERT_TRUE(picked);
   EXPECT_EQ(picked->feature.shape, FeatureShape::Plane);
   EXPECT_NEAR(glm::distance(picked->feature.direction, glm::dvec3(0, 0, 1)), 0.0, 1e-12);
@@ -100,7 +70,7 @@ TEST(FeaturePick, TheFlatFaceIsAllTrianglesInItsPlane) {
 TEST(FeaturePick, CornersAndEdgesAreMeantWithinReach) {
   const TriangleMesh mesh = test::subdivided(test::boxMesh(glm::dvec3(0.1)), 2);
   const auto at = [&](double x, double y) {
-    return pickFeature(mesh, hitBy(mesh, {x, y, 1.0}, {x, y, 0.0}), 0.003);
+    return pickFeature(mesh, test::hitBy(mesh, {x, y, 1.0}, {x, y, 0.0}), 0.003);
   };
   const auto corner = at(0.0485, 0.0485);
   ASSERT_TRUE(corner);
@@ -122,7 +92,7 @@ TEST(FeaturePick, CylindersAndBoresHaveTheirAxisAtAnyPoseInSinglePrecision) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       const RigidTransform pose = somePose(seed);
       const TriangleMesh plain = test::transformed(test::tubeMesh(0.02, 0.04, 0.1, segments), 1.0, pose);
-      const TriangleMesh mesh = rounded(plain);
+      const TriangleMesh mesh = test::inSinglePrecision(plain);
       // Off the middle of a facet, off its diagonal.
       const double angle = 2.0 * kPi * 0.3 / segments;
       const glm::dvec3 aside(std::cos(angle), std::sin(angle), 0.0);
@@ -130,7 +100,7 @@ TEST(FeaturePick, CylindersAndBoresHaveTheirAxisAtAnyPoseInSinglePrecision) {
         const glm::dvec3 from =
             pose.applyToPoint((radius == 0.04 ? 1.0 : 0.0) * aside + glm::dvec3(0, 0, 0.013));
         const glm::dvec3 towards = pose.applyToPoint(0.03 * aside + glm::dvec3(0, 0, 0.013));
-        const auto picked = pickFeature(mesh, hitBy(mesh, from, towards), 1e-5);
+        const auto picked = pickFeature(mesh, test::hitBy(mesh, from, towards), 1e-5);
         ASSERT_TRUE(picked);
         ASSERT_EQ(picked->feature.shape, FeatureShape::Axis) << segments << ' ' << seed << ' ' << radius;
         EXPECT_EQ(picked->triangles.size(), 2U * segments) << radius;
@@ -144,10 +114,11 @@ TEST(FeaturePick, CylindersAndBoresHaveTheirAxisAtAnyPoseInSinglePrecision) {
 
 TEST(FeaturePick, RoundEdgesAreCircles) {
   const RigidTransform pose = somePose(9);
-  const TriangleMesh mesh = rounded(test::transformed(test::cylinderMesh(0.03, 0.08, 48), 1.0, pose));
+  const TriangleMesh mesh =
+      test::inSinglePrecision(test::transformed(test::cylinderMesh(0.03, 0.08, 48), 1.0, pose));
   const glm::dvec3 above = pose.applyToPoint({0.029, 0.001, 0.2}),
                    below = pose.applyToPoint({0.029, 0.001, 0.0});
-  const SurfaceHit hit = hitBy(mesh, above, below);
+  const SurfaceHit hit = test::hitBy(mesh, above, below);
   const auto picked = pickFeature(mesh, hit, 0.002, FeatureFilter::Axes);
   ASSERT_TRUE(picked);
   ASSERT_EQ(picked->feature.shape, FeatureShape::Circle);
@@ -165,18 +136,18 @@ TEST(FeaturePick, RoundEdgesAreCircles) {
 
 TEST(FeaturePick, FacesBetweenRoundingsAreFlatAndRoundingsAreRound) {
   const TriangleMesh mesh = roundedBlock(0.05, 0.01, 0.04, 8);
-  const auto side = pickFeature(mesh, hitBy(mesh, {1.0, 0.005, 0.02}, {0.0, 0.005, 0.02}), 1e-5);
+  const auto side = pickFeature(mesh, test::hitBy(mesh, {1.0, 0.005, 0.02}, {0.0, 0.005, 0.02}), 1e-5);
   ASSERT_TRUE(side);
   EXPECT_EQ(side->feature.shape, FeatureShape::Plane);
   EXPECT_EQ(side->triangles.size(), 2U);
-  const auto fillet = pickFeature(mesh, hitBy(mesh, {1.0, 0.99, 0.015}, {0.0, 0.0, 0.015}), 1e-5);
+  const auto fillet = pickFeature(mesh, test::hitBy(mesh, {1.0, 0.99, 0.015}, {0.0, 0.0, 0.015}), 1e-5);
   ASSERT_TRUE(fillet);
   ASSERT_EQ(fillet->feature.shape, FeatureShape::Axis);
   EXPECT_NEAR(fillet->feature.radius, 0.01, 1e-9);
   EXPECT_EQ(fillet->triangles.size(), 16U);
   EXPECT_NEAR(glm::distance(fillet->feature.point, glm::dvec3(0.04, 0.04, 0.02)), 0.0, 1e-9);
   // The arc of its edge is one too.
-  const auto arc = pickFeature(mesh, hitBy(mesh, {0.0465, 0.0465, 1.0}, {0.0465, 0.0465, 0.0}), 0.001);
+  const auto arc = pickFeature(mesh, test::hitBy(mesh, {0.0465, 0.0465, 1.0}, {0.0465, 0.0465, 0.0}), 0.001);
   ASSERT_TRUE(arc);
   EXPECT_EQ(arc->feature.shape, FeatureShape::Circle);
   EXPECT_NEAR(arc->feature.radius, 0.01, 1e-9);
@@ -184,7 +155,7 @@ TEST(FeaturePick, FacesBetweenRoundingsAreFlatAndRoundingsAreRound) {
 
 TEST(FeaturePick, AHexagonHasSixFacesAndNoAxis) {
   const TriangleMesh mesh = test::cylinderMesh(0.03, 0.08, 6);
-  const auto picked = pickFeature(mesh, hitBy(mesh, {1.0, 0.2, 0.001}, {0.0, 0.0, 0.0}), 1e-4);
+  const auto picked = pickFeature(mesh, test::hitBy(mesh, {1.0, 0.2, 0.001}, {0.0, 0.0, 0.0}), 1e-4);
   ASSERT_TRUE(picked);
   EXPECT_EQ(picked->feature.shape, FeatureShape::Plane);
   EXPECT_EQ(picked->triangles.size(), 2U);
@@ -192,19 +163,19 @@ TEST(FeaturePick, AHexagonHasSixFacesAndNoAxis) {
 
 TEST(FeaturePick, FiltersGiveWhatTheySay) {
   const TriangleMesh mesh = test::cylinderMesh(0.03, 0.08, 48);
-  const SurfaceHit side = hitBy(mesh, {1.0, 0.01, 0.001}, {0.0, 0.0, 0.0});
+  const SurfaceHit side = test::hitBy(mesh, {1.0, 0.01, 0.001}, {0.0, 0.0, 0.0});
   EXPECT_EQ(pickFeature(mesh, side, 1e-4, FeatureFilter::Faces)->feature.shape, FeatureShape::Plane);
   EXPECT_EQ(pickFeature(mesh, side, 1e-4, FeatureFilter::Axes)->feature.shape, FeatureShape::Axis);
   const auto point = pickFeature(mesh, side, 1e-4, FeatureFilter::Points);
   EXPECT_EQ(point->feature.shape, FeatureShape::Point);
   EXPECT_EQ(point->feature.point, side.point);
-  const SurfaceHit cap = hitBy(mesh, {0.01, 0.003, 1.0}, {0.01, 0.003, 0.0});
+  const SurfaceHit cap = test::hitBy(mesh, {0.01, 0.003, 1.0}, {0.01, 0.003, 0.0});
   EXPECT_FALSE(pickFeature(mesh, cap, 1e-4, FeatureFilter::Axes));
 }
 
 TEST(FeaturePick, ABallHasNoCylinder) {
   const TriangleMesh mesh = test::icosphereMesh(0.05, 3);
-  const auto picked = pickFeature(mesh, hitBy(mesh, {1.0, 0.12, 0.33}, {0.0, 0.0, 0.0}), 1e-4);
+  const auto picked = pickFeature(mesh, test::hitBy(mesh, {1.0, 0.12, 0.33}, {0.0, 0.0, 0.0}), 1e-4);
   ASSERT_TRUE(picked);
   EXPECT_EQ(picked->feature.shape, FeatureShape::Plane);
 }

@@ -13,6 +13,7 @@
 #include "core/placing/feature_pick.h"
 #include "tests/support/degenerate_meshes.h"
 #include "tests/support/mesh_generators.h"
+#include "tests/support/surface_hits.h"
 
 namespace nearfit::round_walls_test {
 namespace {
@@ -62,28 +63,6 @@ RigidTransform somePose(std::uint64_t seed) {
           glm::dvec3{in(random), in(random), in(random)}};
 }
 
-/// Where a ray hits a mesh first: each triangle by its plane and sides.
-SurfaceHit hitBy(const TriangleMesh& mesh, const glm::dvec3& from, const glm::dvec3& towards) {
-  const glm::dvec3 along = glm::normalize(towards - from);
-  SurfaceHit hit;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) {
-    const Triangle& t = mesh.triangles()[i];
-    const glm::dvec3 a = mesh.vertices()[t[0]], b = mesh.vertices()[t[1]], c = mesh.vertices()[t[2]];
-    const glm::dvec3 normal = glm::cross(b - a, c - a);
-    const double distance = glm::dot(a - from, normal) / glm::dot(along, normal);
-    if (!(distance > 0.0) || !(distance < nearest)) continue;
-    const glm::dvec3 p = from + distance * along;
-    if (glm::dot(glm::cross(b - a, p - a), normal) < 0.0 ||
-        glm::dot(glm::cross(c - b, p - b), normal) < 0.0 || glm::dot(glm::cross(a - c, p - c), normal) < 0.0)
-      continue;
-    nearest = distance;
-    hit = {i, p};
-  }
-  EXPECT_TRUE(std::isfinite(nearest)) << "nothing was hit";
-  return hit;
-}
-
 /// A tube as a file holds it, somewhere, and the points on a facet of its walls.
 struct Tube {
   Tube(const std::vector<double>& angles, double halfAngle, std::uint64_t seed)
@@ -96,7 +75,7 @@ struct Tube {
   SurfaceHit on(bool isBore) const {
     const glm::dvec3 aside(std::cos(angle), std::sin(angle), 0.0), up(0.0, 0.0, 0.55 * kHeight);
     const glm::dvec3 from = (isBore ? 0.0 : 1.0) * aside + up, towards = (kInner + 0.001) * aside + up;
-    return hitBy(mesh, pose.applyToPoint(from), pose.applyToPoint(towards));
+    return test::hitBy(mesh, pose.applyToPoint(from), pose.applyToPoint(towards));
   }
   /// Expects the axis, and where it lies, as the drawing has it.
   void expectAxis(const PickedFeature& picked, bool isBore) const {
@@ -161,7 +140,7 @@ TEST(RoundWalls, AConeWithATipHasItsAxis) {
           test::inSinglePrecision(test::transformed(test::coneMesh(radius, kHeight, facets), 1.0, pose));
       const glm::dvec3 aside(std::cos(angle), std::sin(angle), 0.0), up(0.0, 0.0, 0.4 * kHeight);
       const auto picked =
-          pickFeature(mesh, hitBy(mesh, pose.applyToPoint(aside + up), pose.applyToPoint(up)), kReach);
+          pickFeature(mesh, test::hitBy(mesh, pose.applyToPoint(aside + up), pose.applyToPoint(up)), kReach);
       ASSERT_TRUE(picked);
       ASSERT_EQ(picked->feature.shape, FeatureShape::Axis);
       const glm::dvec3 axis = pose.applyToVector({0.0, 0.0, 1.0});
@@ -191,7 +170,7 @@ TEST(RoundWalls, ThePrismOfANutHasFlatFacesAndItsAxisOnRequest) {
 
 TEST(RoundWalls, BarsOfFourFlatsHaveNoAxis) {
   const TriangleMesh box = test::boxMesh(glm::dvec3(0.1));
-  const SurfaceHit side = hitBy(box, {1.0, 0.01, 0.013}, {0.0, 0.01, 0.013});
+  const SurfaceHit side = test::hitBy(box, {1.0, 0.01, 0.013}, {0.0, 0.01, 0.013});
   EXPECT_EQ(pickFeature(box, side, kReach)->feature.shape, FeatureShape::Plane);
   EXPECT_FALSE(pickFeature(box, side, kReach, FeatureFilter::Axes));
   // Chamfered: eight corners on one circle.
@@ -209,7 +188,7 @@ TEST(RoundWalls, EdgesBetweenFacetsAreNoneOfTheShapeButRimsAre) {
   const double line = 2.0 * kPi / 8.0;
   const auto hitAt = [&](double angle, double height) {
     const glm::dvec3 aside(std::cos(angle), std::sin(angle), 0.0), up(0.0, 0.0, height);
-    return hitBy(tube.mesh, tube.pose.applyToPoint(aside + up), tube.pose.applyToPoint(up));
+    return test::hitBy(tube.mesh, tube.pose.applyToPoint(aside + up), tube.pose.applyToPoint(up));
   };
   for (const FeatureFilter filter : {FeatureFilter::Any, FeatureFilter::Axes}) {
     const auto wall = pickFeature(tube.mesh, hitAt(line + 0.02, 0.5 * kHeight), 0.002, filter);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/math/round_number.h"
+
 namespace nearfit::ui {
 namespace {
 
@@ -20,17 +22,6 @@ double medianDistance(std::span<const SnapshotLmd> minima) {
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::ranges::nth_element(distances, middle);
   return *middle;
-}
-
-/// Returns the smallest of 1, 2 and 5 times a power of ten that is not below a length.
-/// @param length  > 0.
-double roundedUp(double length) {
-  constexpr double kRounding = 1e-9;
-  const double power = std::pow(10.0, std::floor(std::log10(length)));
-  for (const double step : {1.0, 2.0, 5.0}) {
-    if (step * power >= length * (1.0 - kRounding)) return step * power;
-  }
-  return 10.0 * power;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "core/report/clearance_colours.h"
 #include "ui/view3d/parts/part_shape.h"
+#include "ui/view3d/parts/shaded_surface.h"
 
 namespace nearfit::ui {
 namespace {
@@ -37,29 +38,15 @@ Colour paled(const Colour& colour) noexcept {
 
 std::shared_ptr<const ColouredSurface> colouredSurface(const MappedSurface& mapped, double range) {
   const SampledSurface& surface = *mapped.surface;
-  const auto count = static_cast<vtkIdType>(surface.points.size());
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(count);
-  vtkNew<vtkFloatArray> normals;
-  normals->SetName("Normals");
-  normals->SetNumberOfComponents(3);
-  normals->SetNumberOfTuples(count);
+  const auto data = shadedSurface(
+      surface.points.size(), [&](std::size_t i) -> const glm::dvec3& { return surface.points[i]; },
+      [&](std::size_t i) -> const glm::vec3& { return surface.normals[i]; }, surface.triangles);
   vtkNew<vtkDoubleArray> clearances;
   clearances->SetName("Clearance");
-  clearances->SetNumberOfTuples(count);
-  for (vtkIdType i = 0; i < count; ++i) {
-    const auto sample = static_cast<std::size_t>(i);
-    const glm::dvec3& p = surface.points[sample];
-    points->SetPoint(i, p.x, p.y, p.z);
-    normals->SetTypedTuple(i, &surface.normals[sample].x);
-    clearances->SetValue(i, scalarOf(mapped.distances[sample], range));
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->GetPointData()->SetNormals(normals);
+  clearances->SetNumberOfTuples(data->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+    clearances->SetValue(i, scalarOf(mapped.distances[static_cast<std::size_t>(i)], range));
   data->GetPointData()->SetScalars(clearances);
-  data->SetPolys(cellsOfTriangles(surface.triangles));
   auto coloured = std::make_shared<ColouredSurface>();
   coloured->pieces = quickPiecesOf(*data);
   coloured->triangles = surface.triangles.size();

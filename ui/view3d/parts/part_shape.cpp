@@ -18,6 +18,7 @@
 #include "core/math/finite.h"
 #include "core/mesh/flat_groups.h"
 #include "core/mesh/shaded_mesh.h"
+#include "ui/view3d/parts/shaded_surface.h"
 
 namespace nearfit::ui {
 namespace {
@@ -31,25 +32,10 @@ constexpr std::array kDivisions{96, 28, 8, 4};
 /// VTK's own filters for normals and sharp edges look at all faces of a vertex or edge for each of these: fans and
 /// books of pages take the square of their number.
 vtkSmartPointer<vtkPolyData> surfaceOf(const TriangleMesh& mesh, const ShadedMesh& shaded) {
-  const auto count = static_cast<vtkIdType>(shaded.vertices.size());
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(count);
-  vtkNew<vtkFloatArray> normals;
-  normals->SetName("Normals");
-  normals->SetNumberOfComponents(3);
-  normals->SetNumberOfTuples(count);
-  for (vtkIdType i = 0; i < count; ++i) {
-    const auto vertex = static_cast<std::size_t>(i);
-    const glm::dvec3& p = mesh.vertices()[shaded.vertices[vertex]];
-    points->SetPoint(i, p.x, p.y, p.z);
-    normals->SetTypedTuple(i, &shaded.normals[vertex].x);
-  }
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(points);
-  data->GetPointData()->SetNormals(normals);
-  data->SetPolys(cellsOfTriangles(shaded.triangles));
-  return data;
+  return shadedSurface(
+      shaded.vertices.size(),
+      [&](std::size_t i) -> const glm::dvec3& { return mesh.vertices()[shaded.vertices[i]]; },
+      [&](std::size_t i) -> const glm::vec3& { return shaded.normals[i]; }, shaded.triangles);
 }
 
 vtkSmartPointer<vtkPolyData> linesOf(const TriangleMesh& mesh, const ShadedMesh& shaded) {
