@@ -172,8 +172,7 @@ std::string movingName(const Scene& scene) {
 
 std::string sceneText(const std::string& name, const Scene& scene) {
   return fmt::format("{}\n  parts       {}\n  groups      {}\n  moving      {}\n  joints      {}\n",
-                     oneLine(name),
-                     scene.parts().size(), scene.groups().size(), oneLine(movingName(scene)),
+                     oneLine(name), scene.parts().size(), scene.groups().size(), oneLine(movingName(scene)),
                      scene.joints().size()) +
          jointsText(scene);
 }
@@ -220,10 +219,10 @@ void runInfo(const InfoOptions& options) {
 
 void addInfoCommand(CLI::App& program) {
   const auto options = std::make_shared<InfoOptions>();
-  CLI::App* command = program.add_subcommand(
-      "info",
-      "Prints the size, mass and topology of meshes, and where they are open or inconsistent; of scenes, their "
-      "parts and joints.");
+  CLI::App* command = program.add_subcommand("info",
+                                             "Prints the size, mass and topology of meshes, and where they "
+                                             "are open or inconsistent; of scenes, their "
+                                             "parts and joints.");
   command->add_option("mesh", options->meshes, "Mesh files: STL, OBJ, PLY or OFF; or scene files (*.nearfit)")
       ->required()
       ->type_name("FILE");

@@ -15,9 +15,9 @@ namespace nearfit {
 
 /// Maps pushes and their torques into the mass metric.
 struct ArmMetric {
-  glm::dmat3 principalFromStep{1.0};      ///< Rotates the axes of a[0..2] into the principal axes.
-  glm::dvec3 gyration{1.0};               ///< About the principal axes [m].
-  std::span<const StepVector> locked{};   ///< Orthonormal; pushes move nothing along these.
+  glm::dmat3 principalFromStep{1.0};     ///< Rotates the axes of a[0..2] into the principal axes.
+  glm::dvec3 gyration{1.0};              ///< About the principal axes [m].
+  std::span<const StepVector> locked{};  ///< Orthonormal; pushes move nothing along these.
 };
 
 /// Contacts with friction: one for each active row, with its tangential push. Real-time safe.

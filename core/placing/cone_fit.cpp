@@ -117,8 +117,8 @@ Cone fitted(std::span<const glm::dvec3> points, Cone cone, bool isCylinder) {
     ConeEquations better = equationsOf(points, next, isCylinder);
     const bool isBetter = better.cost <= equations.cost;
     damping = isBetter ? 0.2 * damping : 8.0 * damping;
-    const double longest = std::abs(*std::ranges::max_element(
-        *step, {}, [](double parameter) { return std::abs(parameter); }));
+    const double longest =
+        std::abs(*std::ranges::max_element(*step, {}, [](double parameter) { return std::abs(parameter); }));
     if (isBetter) {
       cone = next;
       equations = better;

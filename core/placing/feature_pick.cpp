@@ -316,7 +316,9 @@ std::optional<PickedFeature> pickFeature(const TriangleMesh& mesh, const Surface
     if (auto corner = pick.corner()) return corner;
   }
   if (auto found = filter == FeatureFilter::Rounds ? pick.circleOrWall() : pick.edgeOrWall()) return found;
-  return filter == FeatureFilter::Any ? pick.face() : filter == FeatureFilter::Axes ? pick.prism() : std::nullopt;
+  return filter == FeatureFilter::Any    ? pick.face()
+         : filter == FeatureFilter::Axes ? pick.prism()
+                                         : std::nullopt;
 }
 
 std::optional<PickedFeature> pickFeature(const MeshSection& section, glm::dvec3& point, double reach,

@@ -40,7 +40,6 @@ std::optional<RigidTransform> keptPose(const Scene& scene, const Joint& joint, c
 
 /// True if a part is off a joint by more than joints on picked features fit together (JointSet::kMaxMisfit). False for
 /// a joint that is off.
-bool isViolated(const Joint& joint, const RigidTransform& worldFromBase,
-                const RigidTransform& worldFromPart);
+bool isViolated(const Joint& joint, const RigidTransform& worldFromBase, const RigidTransform& worldFromPart);
 
 }  // namespace nearfit

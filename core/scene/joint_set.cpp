@@ -158,8 +158,7 @@ JointSet::JointSet(std::span<const Placed> joints, const RigidTransform& worldFr
     : count_(std::min(joints.size(), kMaxJointsPerPart)) {
   std::copy_n(joints.begin(), count_, joints_.begin());
   for (Placed& joint : joints_) {
-    const bool isTurned =
-        glm::dot(worldFromPart.rotation * joint.onPart.direction, joint.target) < 0.0;
+    const bool isTurned = glm::dot(worldFromPart.rotation * joint.onPart.direction, joint.target) < 0.0;
     if (joint.kind == JointKind::OnAxis && isTurned) joint.target = -joint.target;
   }
   isContradictory_ = count_ > 1 && !findAnchor(worldFromPart);
@@ -276,8 +275,7 @@ RigidTransform JointSet::nearest(const RigidTransform& wanted, const glm::dvec3&
     bool isNearer = false;
     for (int halvings = 0; halvings <= kMaxHalvings && !isNearer; ++halvings) {
       const auto tried = onJoints(stepped(pose, step, share, centreInPart, metric));
-      const double left =
-          tried ? lengthOfStep(stepBetween(*tried, wanted, centreInPart, metric)) : length;
+      const double left = tried ? lengthOfStep(stepBetween(*tried, wanted, centreInPart, metric)) : length;
       isNearer = left < length;
       if (isNearer) {
         pose = *tried;

@@ -32,8 +32,7 @@ inline JointSet jointSetOf(std::initializer_list<JointSet::Placed> joints,
 
 /// Half the squared length of a motion in the metric of mass at `pose`, by the definition.
 inline double energyOf(const RigidTransform& pose, const RigidTransform& wanted,
-                       const glm::dvec3& centreInPart,
-                       const MassMetric& metric) {
+                       const glm::dvec3& centreInPart, const MassMetric& metric) {
   const glm::dvec3 shift = wanted.applyToPoint(centreInPart) - pose.applyToPoint(centreInPart);
   const glm::dmat3 turn = glm::mat3_cast(wanted.rotation) * glm::transpose(glm::mat3_cast(pose.rotation));
   const double cosine = std::clamp(0.5 * (turn[0][0] + turn[1][1] + turn[2][2] - 1.0), -1.0, 1.0);

@@ -5,6 +5,7 @@
 #include <QMainWindow>
 #include <QStatusBar>
 #include <algorithm>
+#include <ranges>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -71,9 +72,9 @@ class ReadoutRow : public QWidget {
   void resizeEvent(QResizeEvent* event) override {
     QWidget::resizeEvent(event);
     int room = width();
-    for (auto label = labels_.rbegin(); label != labels_.rend(); ++label) {
-      room -= widthOf(**label);
-      (*label)->setVisible(room >= 0);
+    for (QLabel* label : std::views::reverse(labels_)) {
+      room -= widthOf(*label);
+      label->setVisible(room >= 0);
     }
   }
 

@@ -21,7 +21,7 @@ struct JointMark {
   JointKind kind = JointKind::OnAxis;
   glm::dvec3 middle{0.0};               ///< Of the line, the square or the cross [m].
   glm::dvec3 direction{0.0, 0.0, 1.0};  ///< Of the axis, or normal of the plane; unit.
-  double reach = 0.0;                   ///< Half the length of the line, the cross or a side of the square [m].
+  double reach = 0.0;  ///< Half the length of the line, the cross or a side of the square [m].
   /// Feature of the part, if the part is off the joint [m]: a line leads there, in the colour of warnings.
   std::optional<glm::dvec3> strayed;
 };

@@ -39,9 +39,8 @@ class SceneJointsCommand : public ::testing::Test {
 };
 
 TEST_F(SceneJointsCommand, APartIsKeptWhereItStands) {
-  const std::vector<std::vector<std::string>> kept = {{"axis", "-0.3,0,0.5,0,0.6,0.8"},
-                                                      {"plane", "0.3,0,0.5,0,0,-1"},
-                                                      {"point", "0.1,0.2,0.3"}};
+  const std::vector<std::vector<std::string>> kept = {
+      {"axis", "-0.3,0,0.5,0,0.6,0.8"}, {"plane", "0.3,0,0.5,0,0,-1"}, {"point", "0.1,0.2,0.3"}};
   for (const std::vector<std::string>& joint : kept) {
     const ProcessResult result =
         run({"scene", "keep", "fit.nearfit", "Peg", joint[0], "--at", joint[1], "--base", "Hole"});
@@ -127,8 +126,8 @@ TEST_F(SceneJointsCommand, PlaceKeepsThePartOnItsJoint) {
   for (int i = 0; i < 300; ++i)
     path += fmt::format("{},{},{},0.5,-0.5,0.5,0.5\n", 0.3 + 1e-4 * i, 2e-4 * i, 0.5 + 1e-4 * i);
   folder_.write("path.csv", path);
-  const ProcessResult result = run({"place", "fit.nearfit", "--part", "Peg", "--path", "path.csv", "--fast",
-                                    "--export", "end.json"});
+  const ProcessResult result =
+      run({"place", "fit.nearfit", "--part", "Peg", "--path", "path.csv", "--fast", "--export", "end.json"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const Json end = Json::parse(readBytes(folder_.path() / "end.json"));
   ASSERT_EQ(end["parts"].size(), 2U);

@@ -18,8 +18,8 @@ Part cubeAt(const std::string& name, const RigidTransform& worldFromPart) {
   Part part;
   part.name = name;
   part.worldFromPart = worldFromPart;
-  part.geometry = std::make_shared<PartGeometry>(
-      PartGeometry{"", "", 1.0, test::boxMesh(glm::dvec3(0.02)), {}, {}});
+  part.geometry =
+      std::make_shared<PartGeometry>(PartGeometry{"", "", 1.0, test::boxMesh(glm::dvec3(0.02)), {}, {}});
   return part;
 }
 

@@ -66,8 +66,8 @@ TEST(JointSet, AnAxisKeepsTheSenseThatThePartHasNow) {
 
 TEST(JointSet, InPlanePutsTheFaceFlushWithTheLeastTurn) {
   // The part's bottom, 0.1 under its centre, lies on the floor.
-  const JointSet joints = jointSetOf({keptAt(JointKind::InPlane, turned(0.0, kX, {0, 0, 0.1}),
-                                             glm::dvec3(0.0), -kZ)}, {});
+  const JointSet joints =
+      jointSetOf({keptAt(JointKind::InPlane, turned(0.0, kX, {0, 0, 0.1}), glm::dvec3(0.0), -kZ)}, {});
   const RigidTransform pose = turned(0.2, kY, {1.0, 2.0, 0.5});
   // The point under the centre stays over its place.
   expectNear(joints.nearestPose(pose, glm::dvec3(0.0)), {{1, 0, 0, 0}, {1.0 - 0.1 * std::sin(0.2), 2.0, 0.1}},
@@ -97,8 +97,8 @@ TEST(JointSet, APoseOnTheJointsStaysToTheLastBit) {
     const glm::dvec3 centre = random.vector(0.1);
     const MassMetric metric{{1, 0, 0, 0}, {0.05, 0.08, 0.1}, 0.2};
     const auto kind = static_cast<JointKind>(i % 3);
-    const JointSet joints = jointSetOf({keptAt(kind, start, random.vector(0.3), kX + random.vector(0.5))},
-                                       start);
+    const JointSet joints =
+        jointSetOf({keptAt(kind, start, random.vector(0.3), kX + random.vector(0.5))}, start);
     const RigidTransform plain = joints.nearestPose(random.pose(), centre);
     EXPECT_EQ(joints.nearestPose(plain, centre).translation, plain.translation);
     EXPECT_EQ(joints.nearestPose(plain, centre).rotation, plain.rotation);
@@ -173,9 +173,9 @@ TEST(JointSet, TheNearestPoseHasTheLeastEnergyOfAllOnTheJoint) {
 TEST(JointSet, SeveralJointsHoldTogetherWhereverThePartIs) {
   RandomValues random(11);
   using enum JointKind;
-  const std::vector<std::vector<JointKind>> sets = {{OnAxis, InPlane}, {InPlane, InPlane}, {OnAxis, OnAxis},
-                                                    {ToPoint, ToPoint}, {InPlane, InPlane, InPlane},
-                                                    {ToPoint, ToPoint, ToPoint}, {OnAxis, ToPoint, InPlane}};
+  const std::vector<std::vector<JointKind>> sets = {
+      {OnAxis, InPlane},           {InPlane, InPlane},          {OnAxis, OnAxis},          {ToPoint, ToPoint},
+      {InPlane, InPlane, InPlane}, {ToPoint, ToPoint, ToPoint}, {OnAxis, ToPoint, InPlane}};
   int told = 0, loose = 0, all = 0;
   for (const std::vector<JointKind>& kinds : sets) {
     for (int i = 0; i < 40; ++i, ++all) {
@@ -238,8 +238,8 @@ TEST(JointSet, FeaturesThatFitToAMicrometreDoNotContradictEachOther) {
   second.onPart.direction = glm::normalize(glm::dvec3(1e-6, 0.0, 1.0));
   const JointSet joints = jointSetOf({keptAt(JointKind::OnAxis, {}, glm::dvec3(0.0), kZ), second}, {});
   ASSERT_FALSE(joints.isContradictory());
-  const RigidTransform nearest = joints.nearestPose(turned(0.1, {1, 2, 3}, {0.01, 0.02, 0.03}),
-                                                    {0.05, 0.0, 0.0});
+  const RigidTransform nearest =
+      joints.nearestPose(turned(0.1, {1, 2, 3}, {0.01, 0.02, 0.03}), {0.05, 0.0, 0.0});
   // The older one holds exactly.
   EXPECT_LT(glm::length(glm::dvec2(nearest.translation)), 1e-9);
   EXPECT_LT(glm::length((nearest.rotation * kZ) - kZ), 1e-9);

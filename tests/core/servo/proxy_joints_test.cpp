@@ -175,8 +175,7 @@ TEST(ProxyJoints, AJointThatPressesThePartIntoAWallNeverLetsItThrough) {
 TEST(ProxyJoints, APartThatStartsOffItsJointGoesThereWithoutALeap) {
   const RigidTransform aside{glm::angleAxis(0.5, kX), {0.3, 0.2, 0.6}};
   ProxyWalk off({{test::boxMesh({4.0, 4.0, 1.0}, {0.0, 0.0, -0.5}), {}}}, test::boxMesh({0.2, 0.2, 0.2}),
-                aside,
-                {kMargin, 0.0});
+                aside, {kMargin, 0.0});
   off.setJoints(jointSetOf({keptAt(JointKind::OnAxis, at({0.0, 0.0, 0.6}), glm::dvec3(0.0), kZ)}, aside));
   const double before = offJoints(off);
   off.lead(aside);
@@ -188,8 +187,8 @@ TEST(ProxyJoints, APartThatStartsOffItsJointGoesThereWithoutALeap) {
 TEST(ProxyJoints, APartAsideOfItsAxisComesBackToItAlongTheFloorThatItIsPressedAgainst) {
   ProxyWalk walk({{test::boxMesh({4.0, 4.0, 1.0}, {0.0, 0.0, -0.5}), {}}}, test::boxMesh({0.2, 0.2, 0.2}),
                  at({0.05, 0.0, 0.1 + kMargin}), {kMargin, 0.0});
-  walk.setJoints(jointSetOf({keptAt(JointKind::OnAxis, at(glm::dvec3(0.0)), glm::dvec3(0.0), kZ)},
-                            walk.pose()));
+  walk.setJoints(
+      jointSetOf({keptAt(JointKind::OnAxis, at(glm::dvec3(0.0)), glm::dvec3(0.0), kZ)}, walk.pose()));
   for (int i = 0; i < 150; ++i) {
     walk.lead(at({0.05, 0.0, 0.0}));
     ASSERT_GT(lowestCorner(walk), 0.5 * kMargin) << i;
@@ -202,9 +201,8 @@ TEST(ProxyJoints, APartAsideOfItsAxisComesBackToItAlongTheFloorThatItIsPressedAg
 TEST(ProxyJoints, JointsThatContradictEachOtherHoldNothing) {
   JointSet::Placed far = keptAt(JointKind::ToPoint, at(glm::dvec3(0.0)), {0.1, 0.0, 0.0});
   far.place.x = 0.3;
-  const JointSet joints =
-      jointSetOf({keptAt(JointKind::ToPoint, at(glm::dvec3(0.0)), glm::dvec3(0.0)), far},
-                 at(glm::dvec3(0.0)));
+  const JointSet joints = jointSetOf({keptAt(JointKind::ToPoint, at(glm::dvec3(0.0)), glm::dvec3(0.0)), far},
+                                     at(glm::dvec3(0.0)));
   ASSERT_TRUE(joints.isContradictory());
   ProxyWalk walk = cubeOverFloor(0.05), free = cubeOverFloor(0.05);
   walk.setJoints(joints);
@@ -296,8 +294,7 @@ TEST(ProxyJoints, RandomHandsOnAJointThatIsOffNeverMeetJaggedBodies) {
     ProxyWalk walk({{a, {}}}, part, at({0.0, 1.0, 0.0}), {kMargin, 0.0});
     // Through the middle of the other body: contact and joint contradict each other.
     JointSet::Placed joint = keptAt(static_cast<JointKind>(trial % 3), at(glm::dvec3(0.0)),
-                                    random.vector(0.1),
-                                    random.vector(1.0));
+                                    random.vector(0.1), random.vector(1.0));
     walk.setJoints(jointSetOf({joint}, walk.pose()));
     RigidTransform hand;
     for (std::size_t i = 0; i < 200 / test::kPoseShare; ++i) {

@@ -100,8 +100,8 @@ TEST_F(ServoTickWithProxy, JointsThatContradictEachOtherAreToldAndNotFelt) {
   const RigidTransform start = scene->moving.worldFromPart;
   JointSet::Placed far = test::keptAt(JointKind::ToPoint, start, start.translation);
   far.place.x = 0.5;
-  scene->setJoints(test::jointSetOf({test::keptAt(JointKind::ToPoint, start, start.translation), far},
-                                    start));
+  scene->setJoints(
+      test::jointSetOf({test::keptAt(JointKind::ToPoint, start, start.translation), far}, start));
   setScene(scene);
   const ServoSnapshot& s = hold(start, 20);
   EXPECT_TRUE(s.areJointsContradictory);

@@ -123,10 +123,10 @@ void PresetChoice::setManaged() {
     connect(action, &QAction::triggered, this, act);
     return action;
   };
-  add("savePreset", tr("&Save as…"), "save-as",
-      tr("Save the current settings as a preset for any scene"), &PresetChoice::saveAs);
-  rename_ = add("renamePreset", tr("Re&name…"), "rename", tr("Rename your preset"),
-                &PresetChoice::renameChosen);
+  add("savePreset", tr("&Save as…"), "save-as", tr("Save the current settings as a preset for any scene"),
+      &PresetChoice::saveAs);
+  rename_ =
+      add("renamePreset", tr("Re&name…"), "rename", tr("Rename your preset"), &PresetChoice::renameChosen);
   delete_ = add("deletePreset", tr("&Delete"), "delete", tr("Delete your preset; scenes do not change"),
                 &PresetChoice::deleteChosen);
   menu->setToolTipsVisible(true);

@@ -36,7 +36,7 @@ SpaceMousePage::SpaceMousePage(QWidget* parent) : QWidget(parent) {
       addNumber({"rateSpeed", tr("Speed with the cap pushed all the way, before the workspace scale"),
                  tr(" mm/s"), 0.0, kMaxFullSpeed, &RateSettings::fullSpeed}));
   form->addRow(tr("Rotation"), addNumber({"rateTurn", tr("Rotation speed with the cap turned all the way"),
-                                         tr(" °/s"), 0.0, kMaxFullTurn, &RateSettings::fullTurn}));
+                                          tr(" °/s"), 0.0, kMaxFullTurn, &RateSettings::fullTurn}));
   auto* note = new QLabel(tr("First button: hold it to keep the part still. Second button: return the hand "
                              "to the part. These settings apply to all scenes."),
                           this);

@@ -42,9 +42,8 @@ class ColumnLines {
  private:
   void flush() {
     if (!hasPoints_) return;
-    const auto [first, last] = std::minmax(low_, high_, [](const QPointF& a, const QPointF& b) {
-      return a.x() < b.x();
-    });
+    const auto [first, last] =
+        std::minmax(low_, high_, [](const QPointF& a, const QPointF& b) { return a.x() < b.x(); });
     line_ << first;
     if (last != first) line_ << last;
     hasPoints_ = false;

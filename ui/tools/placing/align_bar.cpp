@@ -61,8 +61,7 @@ void AlignBar::setUpFields() {
   filter_->addItem(tr("Axes and edges"), static_cast<int>(FeatureFilter::Axes));
   filter_->addItem(tr("Points"), static_cast<int>(FeatureFilter::Points));
   flip_->setObjectName(QStringLiteral("alignFlip"));
-  flip_->setToolTip(
-      tr("Turn the part around: faces point the same way, or axes run in opposite directions"));
+  flip_->setToolTip(tr("Turn the part around: faces point the same way, or axes run in opposite directions"));
   offsetLabel_->setBuddy(offset_);
   offset_->setObjectName(QStringLiteral("alignOffset"));
   offset_->setAccessibleName(tr("Distance"));

@@ -306,8 +306,8 @@ QString AlignTool::idleHint() const {
                         : tr("Locked parts don't move; selected parts move together");
   }
   if (!fixed_) {
-    return tr("%1 of %2").arg(describeFeature(moving_->inPart),
-                              shortName(session_.scene().find(moving_->part)->name));
+    return tr("%1 of %2")
+        .arg(describeFeature(moving_->inPart), shortName(session_.scene().find(moving_->part)->name));
   }
   if (isContradicting_) {
     return tr("Contradicts other joints of %1: turn one of them off, or click another")

@@ -201,9 +201,8 @@ DropTool::Outcome DropTool::pushed(const Scene& scene, const std::vector<PartId>
       outcome.problem = overlapText(name, outcome.against);
       break;
     case PushResult::Outcome::SlippedPast:
-      outcome.problem =
-          tr("Nothing holds %1 in that direction: it would slide past %2. It was not moved.")
-              .arg(name, outcome.against);
+      outcome.problem = tr("Nothing holds %1 in that direction: it would slide past %2. It was not moved.")
+                            .arg(name, outcome.against);
       break;
     case PushResult::Outcome::NothingMet:
       outcome.problem = freeWayText(name);

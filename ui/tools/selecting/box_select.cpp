@@ -22,8 +22,7 @@ BoxSelect::BoxSelect(Selection& selection, Viewport& view, QObject* parent)
   action_->setObjectName(QStringLiteral("boxSelect"));
   action_->setCheckable(true);
   action_->setShortcut(QKeySequence(Qt::Key_B));
-  action_->setToolTip(tr(
-      "Drag a box to select the parts seen in it; Shift adds, Ctrl adds or removes (B)"));
+  action_->setToolTip(tr("Drag a box to select the parts seen in it; Shift adds, Ctrl adds or removes (B)"));
   connect(action_, &QAction::toggled, this, [this](bool isOn) { isOn ? begin() : end(); });
 }
 

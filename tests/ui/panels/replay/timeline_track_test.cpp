@@ -67,8 +67,8 @@ void TimelineTrackTest::eachRowOfAShortRecordingIsAPoint() {
 }
 
 void TimelineTrackTest::boundsAreLinesOfTheirOwn() {
-  const std::vector rows{rowAt(0.0, 0.004), rowAt(1.0, 0.004), rowAt(2.0, 0.001, 1, true),
-                         rowAt(3.0, 0.002), rowAt(4.0, 0.002)};
+  const std::vector rows{rowAt(0.0, 0.004), rowAt(1.0, 0.004), rowAt(2.0, 0.001, 1, true), rowAt(3.0, 0.002),
+                         rowAt(4.0, 0.002)};
   const TrackCurves curves = ui::trackCurves(rows, kPlot);
   QCOMPARE(curves.exact.size(), std::size_t{2});
   QCOMPARE(curves.exact[0].size(), 2);
