@@ -4,6 +4,7 @@
 #include <QHelpEvent>
 #include <QKeyEvent>
 #include <QLineEdit>
+#include <QMouseEvent>
 #include <QSignalBlocker>
 #include <QToolTip>
 #include <algorithm>
@@ -31,6 +32,7 @@ NumberField::NumberField(QWidget* parent) : QDoubleSpinBox(parent) {
   connect(this, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
           [this] { emit quantityEdited(quantity()); });
   connect(lineEdit(), &QLineEdit::textEdited, this, &NumberField::clearFault);
+  lineEdit()->installEventFilter(this);
 }
 
 void NumberField::setUnit(const QString& unit) {
@@ -212,6 +214,15 @@ bool NumberField::event(QEvent* event) {
   if (isEnabled()) text << help;
   QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(),
                      isFaulty() ? fault_ : text.join(QChar('\n')), this);
+  return true;
+}
+
+bool NumberField::eventFilter(QObject* watched, QEvent* event) {
+  const bool isDoubleClick = watched == lineEdit() && event->type() == QEvent::MouseButtonDblClick;
+  if (!isDoubleClick || static_cast<QMouseEvent*>(event)->button() != Qt::LeftButton)
+    return QDoubleSpinBox::eventFilter(watched, event);
+  // A line editor would select a word, which ends at the decimal point.
+  selectAll();
   return true;
 }
 

@@ -10,7 +10,7 @@ namespace nearfit::ui {
 /// A field for a number with a unit. Takes units and arithmetic as core/text/quantity.h does: "1/4 in",
 /// "2*(3 mm + 0.5 cm)", "+= 5" to add to the present value. Commits on Return, loss of focus or a step, not
 /// on each key. Text that cannot be read stays as typed, marked and with the mistake explained, until it
-/// is corrected or reverted by Escape; the value does not change meanwhile.
+/// is corrected or reverted by Escape; the value does not change meanwhile. A double click selects all.
 ///
 /// value() and other members of QDoubleSpinBox use the shown unit; quantity() and its like use SI.
 class NumberField : public QDoubleSpinBox {
@@ -65,6 +65,7 @@ class NumberField : public QDoubleSpinBox {
   double valueFromText(const QString& text) const override;
   QValidator::State validate(QString& text, int& position) const override;
   void stepBy(int steps) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  signals:
   /// Emitted when the user has changed the number; `value` in SI.

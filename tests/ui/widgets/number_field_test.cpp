@@ -35,6 +35,7 @@ class NumberFieldTest : public QObject {
   void unitMenuChangesEveryLengthAndIsRemembered();
   void typedNumbersKeepMoreThanIsShown();
   void compoundUnitsConvert();
+  void aDoubleClickSelectsTheWholeNumber();
   void toolTipTellsWhatCanBeTyped();
 
  private:
@@ -227,6 +228,16 @@ void NumberFieldTest::compoundUnitsConvert() {
   enter(stiffness_, QStringLiteral("2 N/mm"));
   QVERIFY(isNear(stiffness_->quantity(), 2000.0));
   QCOMPARE(stiffness_->text(), QStringLiteral("2000.00 N/m"));
+}
+
+void NumberFieldTest::aDoubleClickSelectsTheWholeNumber() {
+  length_->showQuantity(0.0);
+  const int inDecimals = edit()->fontMetrics().horizontalAdvance(QStringLiteral("0.00"));
+  QTest::mouseDClick(edit(), Qt::LeftButton, {}, QPoint(inDecimals, edit()->height() / 2));
+  QCOMPARE(edit()->selectedText(), QStringLiteral("0.0000 mm"));
+  QTest::keyClicks(length_, QStringLiteral("12"));
+  QTest::keyClick(length_, Qt::Key_Return);
+  QVERIFY(isNear(length_->quantity(), 0.012));
 }
 
 void NumberFieldTest::toolTipTellsWhatCanBeTyped() {
