@@ -103,10 +103,13 @@ bool NumberField::isMixed() const {
 void NumberField::showQuantity(double value) {
   if (isUnsettled()) return;
   const QSignalBlocker blocker(this);
+  const bool isAllSelected = lineEdit()->hasSelectedText() && lineEdit()->selectedText() == text();
   setSpecialValueText({});
   // Adding zero turns "-0" into "0".
   setValue(value / unit_.inSi + 0.0);
   exact_ = value;
+  // Qt keeps the length of the selection and its cursor, which is less than all of a longer text.
+  if (isAllSelected) selectAll();
 }
 
 double NumberField::quantity() const {

@@ -33,7 +33,7 @@ class NumberField : public QDoubleSpinBox {
   /// Sets the step of arrows and wheel [SI], rounded to 1, 2 or 5 times a power of ten of the shown unit.
   void setQuantityStep(double step);
   /// Shows a quantity [SI] without emitting a signal. Ignored while the user is typing or
-  /// the text cannot be read.
+  /// the text cannot be read. If all was selected, all stays selected.
   void showQuantity(double value);
   /// Shows a word instead of a number, for several values that differ. Until a number is typed or shown,
   /// quantity() is the lower limit and steps do nothing.

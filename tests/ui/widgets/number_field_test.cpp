@@ -36,6 +36,7 @@ class NumberFieldTest : public QObject {
   void typedNumbersKeepMoreThanIsShown();
   void compoundUnitsConvert();
   void aDoubleClickSelectsTheWholeNumber();
+  void aNumberThatChangesAfterReturnStaysSelected();
   void toolTipTellsWhatCanBeTyped();
 
  private:
@@ -238,6 +239,17 @@ void NumberFieldTest::aDoubleClickSelectsTheWholeNumber() {
   QTest::keyClicks(length_, QStringLiteral("12"));
   QTest::keyClick(length_, Qt::Key_Return);
   QVERIFY(isNear(length_->quantity(), 0.012));
+}
+
+void NumberFieldTest::aNumberThatChangesAfterReturnStaysSelected() {
+  enter(length_, QStringLiteral("1"));
+  for (const double shown : {-0.00015, 0.0125, -0.125, 0.003}) {
+    length_->showQuantity(shown);
+    QCOMPARE(edit()->selectedText(), length_->text());
+  }
+  QTest::keyClicks(length_, QStringLiteral("4"));
+  QTest::keyClick(length_, Qt::Key_Return);
+  QVERIFY(isNear(length_->quantity(), 0.004));
 }
 
 void NumberFieldTest::toolTipTellsWhatCanBeTyped() {
