@@ -87,6 +87,8 @@ UnitDialog::UnitDialog(const QString& question, const QString& accept, QWidget* 
   text->setObjectName(QStringLiteral("unitQuestion"));
   text->setTextFormat(Qt::PlainText);
   text->setWordWrap(true);
+  // Not of the dialog: then it would not grow with sizes that arrive later.
+  text->setMinimumWidth(forFont(*this, 360));
   grid_->setColumnStretch(1, 1);
   for (const MeshUnit& unit : kMeshUnits)
     addRow(unit.key, QObject::tr(unit.name), unit.metres);
@@ -102,7 +104,6 @@ UnitDialog::UnitDialog(const QString& question, const QString& accept, QWidget* 
   layout->addLayout(grid_);
   layout->addWidget(reading_);
   layout->addWidget(buttons);
-  setMinimumWidth(forFont(*this, 380));
 }
 
 void UnitDialog::addRow(const char* key, const QString& name, double metres) {

@@ -1,5 +1,6 @@
 // The unit of mesh files: asked for with the size that each gives, given on the command line, changed later.
 #include <QRadioButton>
+#include <QRegularExpression>
 #include <QStatusBar>
 #include <algorithm>
 #include <array>
@@ -61,6 +62,7 @@ class DesktopUnitsTest : public QObject {
  private slots:
   void init() { QSettings().clear(); }
   void eachUnitShowsTheSizeThatItGives();
+  void longSizesAreNotClipped();
   void severalFilesAreMeasuredTogether();
   void sizesAreInTheUnitOfLengthShown();
   void filesThatCannotBeReadAreNotAskedAbout();
@@ -96,6 +98,19 @@ void DesktopUnitsTest::eachUnitShowsTheSizeThatItGives() {
   d.choose("addParts");
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
   QVERIFY(isNear(widthOf(d.part("peg")), 0.53, 1e-12));
+}
+
+/// Sizes that arrived in the open dialog lost their first digit.
+void DesktopUnitsTest::longSizesAreNotClipped() {
+  DesktopDriver d;
+  const QString file = writeOff(d.folder.path() / "housing.off", boxMesh({0.1124, 0.2251, 0.1396}));
+  whenAsked([](QDialog* question) {
+    sizeIn(question, "mm");
+    for (const QLabel* label : question->findChildren<QLabel*>(QRegularExpression(QStringLiteral("^size-"))))
+      QTRY_VERIFY2(label->width() >= label->sizeHint().width(), qPrintable(label->text()));
+    QTest::keyClick(question, Qt::Key_Escape);
+  });
+  d.window().document().openFiles({file});
 }
 
 void DesktopUnitsTest::severalFilesAreMeasuredTogether() {
