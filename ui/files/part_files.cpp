@@ -109,6 +109,7 @@ void PartFiles::addActions(QMenu* menu) {
     update();
     // It was saved, or is another scene: nothing is left to say.
     if (!session_.isModified() || session_.sceneSerial() != sceneOfOthers_) notices_.withdraw(kOthersNotice);
+    followGeometries();
   });
   update();
 }
@@ -230,13 +231,32 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, con
   });
 }
 
+void PartFiles::followGeometries() {
+  std::map<PartId, PartGeometryPtr> now;
+  for (const Scene::PartPtr& part : session_.scene().parts())
+    now.emplace(part->id, part->geometry);
+  if (std::exchange(sceneFollowed_, session_.sceneSerial()) != session_.sceneSerial()) doubted_.clear();
+  if (now == geometries_) return;
+  geometries_ = std::move(now);
+  // Its ratio and factor were those of the sizes before.
+  if (!offerRescaleOf(doubted_)) notices_.withdraw(kRescaleNotice);
+}
+
 void PartFiles::judgeSizes(const std::vector<PartId>& added) {
-  if (const std::optional<OddSize> odd = oddSizeOf(session_.scene(), added)) {
-    offerRescale(added, odd->ratio, odd->factor);
-    return;
+  if (offerRescaleOf(added)) doubted_ = added;
+}
+
+bool PartFiles::offerRescaleOf(std::vector<PartId> parts) {
+  const Scene& scene = session_.scene();
+  std::erase_if(parts, [&](PartId id) { return scene.find(id) == nullptr; });
+  if (parts.empty()) return false;
+  if (const std::optional<OddSize> odd = oddSizeOf(scene, parts)) {
+    offerRescale(parts, odd->ratio, odd->factor);
+    return true;
   }
-  if (const std::optional<OddPart> odd = firstOddPart(session_.scene(), added))
-    offerRescale({odd->part}, odd->size.ratio, odd->size.factor);
+  const std::optional<OddPart> odd = firstOddPart(scene, parts);
+  if (odd) offerRescale({odd->part}, odd->size.ratio, odd->size.factor);
+  return odd.has_value();
 }
 
 void PartFiles::offerRescale(const std::vector<PartId>& parts, double ratio, double factor) {
@@ -249,7 +269,7 @@ void PartFiles::offerRescale(const std::vector<PartId>& parts, double ratio, dou
   const QString offer = factor > 1.0 ? tr("Make %1 times larger").arg(times(factor))
                                      : tr("Make %1 times smaller").arg(times(1.0 / factor));
   notices_.offer(kRescaleNotice, text.arg(what, about(ratio > 1.0 ? ratio : 1.0 / ratio)),
-                 {{offer, [this, parts, factor] { rescale(parts, factor); }}});
+                 {{offer, [this, parts, factor] { rescale(parts, factor); }}}, [this] { doubted_.clear(); });
 }
 
 void PartFiles::rescale(const std::vector<PartId>& parts, double factor) {

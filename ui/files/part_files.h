@@ -2,7 +2,9 @@
 
 #include <QObject>
 #include <QStringList>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -66,7 +68,12 @@ class PartFiles : public QObject {
   void reload(QStringList files);
   /// Returns the parts that were read from these files; from any file if the list is empty.
   std::vector<Wanted> partsOf(const QStringList& files) const;
+  /// Judges the sizes of doubted parts anew when a geometry is another, and ends the doubt with their scene.
+  void followGeometries();
   void judgeSizes(const std::vector<PartId>& added);
+  /// Offers to rescale those of these parts whose size is odd; ignores parts that are not in the scene. False if
+  /// none is.
+  bool offerRescaleOf(std::vector<PartId> parts);
   void offerRescale(const std::vector<PartId>& parts, double ratio, double factor);
   void rescale(const std::vector<PartId>& parts, double factor);
   /// The same part in another unit, from the content that its file had when it was read.
@@ -89,6 +96,9 @@ class PartFiles : public QObject {
   QAction *reload_ = nullptr, *reloadAlways_ = nullptr;
   QStringList changed_;              ///< Files changed on disk and not reloaded yet.
   std::uint64_t sceneOfOthers_ = 0;  ///< Serial of the scene that was said to have other meshes.
+  std::vector<PartId> doubted_;      ///< Parts added with a unit that seemed wrong; empty once dismissed.
+  std::map<PartId, PartGeometryPtr> geometries_;  ///< Of all parts, as last judged.
+  std::uint64_t sceneFollowed_ = 0;  ///< Serial of their scene.
   QStringList waiting_;              ///< Files to reload once nothing else is being loaded.
   Subscription changes_;
 };

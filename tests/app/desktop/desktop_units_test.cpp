@@ -2,6 +2,7 @@
 #include <QRadioButton>
 #include <QRegularExpression>
 #include <QStatusBar>
+#include <QToolButton>
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -72,6 +73,7 @@ class DesktopUnitsTest : public QObject {
   void filesOfTheCommandLineWithAUnitAreNot();
   void aCancelledQuestionAddsNothing();
   void anotherUnitIsAnImportInItAndOneStep();
+  void theNoticeOfAnOddSizeFollowsTheUnit();
   void severalPartsChangeTheirUnitInOneStep();
   void theUnitStaysWhileAPartIsFelt();
   void aFileThatHasChangedIsNotReadInAnotherUnit();
@@ -242,6 +244,32 @@ void DesktopUnitsTest::anotherUnitIsAnImportInItAndOneStep() {
   QCOMPARE(d.part("fixed").worldFromPart.translation, pose.translation);
   d.choose("redo");
   QCOMPARE(d.part("fixed").geometry->metresPerUnit, 0.0254);
+}
+
+/// It stayed, and its button made the right part a thousand times smaller.
+void DesktopUnitsTest::theNoticeOfAnOddSizeFollowsTheUnit() {
+  DesktopDriver d;
+  d.addCubes();
+  d.add({writeOff(d.folder.path() / "huge.off", boxMesh(glm::dvec3(30.0)))});
+  const auto offer = [&] {
+    auto* notice = d.widget<QWidget>("notice-rescale");
+    if (notice == nullptr || !notice->isVisible()) return QString();
+    return notice->findChild<QPushButton*>(QStringLiteral("choice1"))->text().remove(QChar(','));
+  };
+  QTRY_COMPARE(offer(), QStringLiteral("Make 1000 times smaller"));
+  d.window().selection().select(d.partId("huge"));
+  whenAsked([](QDialog* question) { answerUnit(question, "um"); });
+  d.choose("changeUnit");
+  QTRY_COMPARE(d.part("huge").geometry->metresPerUnit, 1e-6);
+  QTRY_COMPARE(offer(), QString());
+  d.choose("undo");
+  QTRY_COMPARE(offer(), QStringLiteral("Make 1000 times smaller"));
+  QTest::mouseClick(d.widget<QWidget>("notice-rescale")->findChild<QToolButton*>(QStringLiteral("dismiss")),
+                    Qt::LeftButton);
+  QTRY_COMPARE(offer(), QString());
+  d.choose("redo");
+  d.choose("undo");
+  QCOMPARE(offer(), QString());
 }
 
 void DesktopUnitsTest::severalPartsChangeTheirUnitInOneStep() {
