@@ -54,6 +54,16 @@ std::exception_ptr problemOf(const LoadedPart& loaded, const std::filesystem::pa
       FileError(file.string(), "it has changed since it was read", "reload it (Ctrl+R), then try again"));
 }
 
+/// True if a part is in both, in different units.
+bool haveOtherUnits(const std::map<PartId, PartGeometryPtr>& before,
+                    const std::map<PartId, PartGeometryPtr>& after) {
+  return std::ranges::any_of(after, [&](const auto& entry) {
+    const auto was = before.find(entry.first);
+    return was != before.end() && was->second != nullptr && entry.second != nullptr &&
+           was->second->metresPerUnit != entry.second->metresPerUnit;
+  });
+}
+
 /// Returns "1000" or "25.4".
 QString times(double factor) {
   return QLocale().toString(factor, 'g', factor >= 100.0 ? 4 : 3);
@@ -227,7 +237,8 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, con
     if (!problems.isEmpty())
       emit failed(describeItems(failure, problems));
     else
-      emit noted(renewed.empty() ? tr("No file has changed") : tr("Undo to revert"));
+      emit noted(renewed.empty() ? tr("No file has changed")
+                                 : tr("Done: %1. Undo to revert.").arg(shortName(session_.undoText())));
   });
 }
 
@@ -235,11 +246,14 @@ void PartFiles::followGeometries() {
   std::map<PartId, PartGeometryPtr> now;
   for (const Scene::PartPtr& part : session_.scene().parts())
     now.emplace(part->id, part->geometry);
-  if (std::exchange(sceneFollowed_, session_.sceneSerial()) != session_.sceneSerial()) doubted_.clear();
+  const bool isSameScene = std::exchange(sceneFollowed_, session_.sceneSerial()) == session_.sceneSerial();
+  if (!isSameScene) doubted_.clear();
   if (now == geometries_) return;
-  geometries_ = std::move(now);
+  const std::map<PartId, PartGeometryPtr> before = std::exchange(geometries_, std::move(now));
   // Its ratio and factor were those of the sizes before.
   if (!offerRescaleOf(doubted_)) notices_.withdraw(kRescaleNotice);
+  // Undo and redo change units too.
+  if (isSameScene && haveOtherUnits(before, geometries_)) emit rescaled();
 }
 
 void PartFiles::judgeSizes(const std::vector<PartId>& added) {
@@ -322,7 +336,6 @@ void PartFiles::loadInUnits(const QString& text, const std::vector<Wanted>& want
     if (hand_.status().isTaken())
       throw UsageError("", "a part is being felt", "stop feeling it (F6), then try again");
     session_.rescaleParts(renewed);
-    emit rescaled();
   };
   load(text, wanted, apply, failure);
 }

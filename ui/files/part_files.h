@@ -45,7 +45,7 @@ class PartFiles : public QObject {
   void changeUnit(const std::vector<PartId>& parts);
 
  signals:
-  /// Emitted when parts have changed their size.
+  /// Emitted when parts have changed their unit, by undo and redo too.
   void rescaled();
   /// Emitted with a short note for the status bar.
   void noted(const QString& text);

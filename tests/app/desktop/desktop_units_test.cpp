@@ -5,6 +5,7 @@
 #include <QToolButton>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <variant>
 
@@ -73,6 +74,7 @@ class DesktopUnitsTest : public QObject {
   void filesOfTheCommandLineWithAUnitAreNot();
   void aCancelledQuestionAddsNothing();
   void anotherUnitIsAnImportInItAndOneStep();
+  void theViewAndTheStatusBarFollowTheUnit();
   void theNoticeOfAnOddSizeFollowsTheUnit();
   void severalPartsChangeTheirUnitInOneStep();
   void theUnitStaysWhileAPartIsFelt();
@@ -244,6 +246,24 @@ void DesktopUnitsTest::anotherUnitIsAnImportInItAndOneStep() {
   QCOMPARE(d.part("fixed").worldFromPart.translation, pose.translation);
   d.choose("redo");
   QCOMPARE(d.part("fixed").geometry->metresPerUnit, 0.0254);
+}
+
+/// After Undo the view stayed where the parts were a thousand times larger.
+void DesktopUnitsTest::theViewAndTheStatusBarFollowTheUnit() {
+  DesktopDriver d;
+  d.addCubes();
+  const auto pixel = [&] { return d.window().viewport().projection().metresPerPixel(glm::dvec3(0.0)); };
+  d.choose("fit");
+  const double before = pixel();
+  d.window().selection().select(d.partId("fixed"));
+  whenAsked([](QDialog* question) { answerUnit(question, "m"); });
+  d.choose("changeUnit");
+  QTRY_COMPARE(widthOf(d.part("fixed")), 40.0);
+  QTRY_VERIFY(pixel() > 100.0 * before);
+  const QString told = d.window().statusBar()->currentMessage();
+  QVERIFY2(told.contains(QStringLiteral("Change the unit of fixed")), qPrintable(told));
+  d.choose("undo");
+  QTRY_VERIFY(std::abs(pixel() / before - 1.0) < 0.01);
 }
 
 /// It stayed, and its button made the right part a thousand times smaller.
