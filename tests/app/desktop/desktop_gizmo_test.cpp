@@ -68,6 +68,7 @@ class DesktopGizmoTest : public QObject {
   void aSceneThatChangesUnderADragEndsIt();
   void whatIsChosenIsRemembered();
   void theManualHandIsLedByTheGizmo();
+  void aShiftedDragFromAHandleLeadsTheHandToo();
   void aPartThatAnotherHandHoldsHasNoGizmo();
   void solidPartsStayOutsideByExactPredicates();
   void aSolidDragThatStillSettlesIsUndoneWhole();
@@ -494,6 +495,22 @@ void DesktopGizmoTest::theManualHandIsLedByTheGizmo() {
   QTRY_VERIFY(b.pose().translation.z < before.translation.z - 4e-3);
   QCOMPARE(b.steps(), steps + 1);
   QTRY_VERIFY(b.overlay().isVisible());
+}
+
+/// The handle lit up by the pointer took the moves, and the hand stayed.
+void DesktopGizmoTest::aShiftedDragFromAHandleLeadsTheHandToo() {
+  Bench b;
+  b.driver.startWith(ui::Hand::Manual);
+  QTRY_VERIFY(b.driver.action("stop")->isEnabled());
+  QTRY_VERIFY(b.overlay().picture().has_value());
+  const QPoint from = b.handle(GizmoGrip::MoveZ);
+  b.moveTo(from);
+  QCOMPARE(b.overlay().picture()->hot, GizmoGrip::MoveZ);
+  // To the right: the arrow under the pointer would go up or down only.
+  b.drag(from, {60, 0}, Qt::ShiftModifier);
+  auto* x = b.driver.widget<ui::NumberField>("positionX");
+  QTRY_VERIFY2(x->value() > 1.0, qPrintable(QString::number(x->value())));
+  b.driver.choose("stop");
 }
 
 void DesktopGizmoTest::aPartThatAnotherHandHoldsHasNoGizmo() {

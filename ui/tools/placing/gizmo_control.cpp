@@ -112,8 +112,12 @@ bool GizmoControl::move(const QMouseEvent& event) {
   }
   if (isDragging()) follow();
   if (isDragging() || pressed_ || isSwallowing_) return true;
-  // With a button down the pointer orbits; it highlights nothing.
-  if (event.buttons() == Qt::NoButton) hover(event.pos());
+  // With a button down the pointer orbits or leads the hand, also from a handle; it highlights nothing.
+  if (event.buttons() != Qt::NoButton) {
+    if (std::exchange(hot_, GizmoGrip::None) != GizmoGrip::None) refresh();
+    return false;
+  }
+  hover(event.pos());
   // A handle hides what lies under it.
   return hot_ != GizmoGrip::None;
 }
