@@ -44,6 +44,8 @@ class ShownPoses : public QObject {
   RigidTransform poseOfMoving() const;
   /// True while a drag has the part.
   bool isDragged(PartId part) const { return posesOf(Source::Drag).contains(part); }
+  /// True while a recording has the part.
+  bool isReplayed(PartId part) const { return posesOf(Source::Replay).contains(part); }
 
  signals:
   /// Emitted when a source has come to show these parts elsewhere, or does so no more. Not for changes of the

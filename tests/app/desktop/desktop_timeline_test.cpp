@@ -2,11 +2,13 @@
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QSlider>
+#include <QTableView>
 #include <QToolButton>
 #include <QWheelEvent>
 
 #include "core/servo/motion_reader.h"
 #include "tests/app/desktop/export_driver.h"
+#include "ui/model/clearance_model.h"
 #include "ui/model/parts_model.h"
 #include "ui/panels/plots/plot_view.h"
 #include "ui/panels/replay/timeline_track.h"
@@ -75,6 +77,7 @@ class DesktopTimelineTest : public QObject {
   void scrubbingAndSteppingGoToAnyTick();
   void aMinDistanceThatIsOnlyABoundIsSaidToBeOne();
   void itGoesAtTheChosenSpeedAndLoops();
+  void clearancesAreOfThePoseShown();
   void takingAPartInHandEndsTheReplay();
   void whatIsNoRecordingIsToldWithItsLine();
   void withoutAPartInHandThereIsNothingToMove();
@@ -196,6 +199,30 @@ void DesktopTimelineTest::itGoesAtTheChosenSpeedAndLoops() {
   const double paused = f.shownTime();
   QTest::qWait(60);
   QCOMPARE(f.shownTime(), paused);
+}
+
+/// The table, and the line in the view, kept the pose from before.
+void DesktopTimelineTest::clearancesAreOfThePoseShown() {
+  TimelineFixture f;
+  f.d.add({writeOff(f.d.folder.path() / "beside.off", boxMesh(glm::dvec3(0.02), {0.05, 0.0, 0.035}))});
+  QTRY_COMPARE(f.d.session().scene().parts().size(), std::size_t{3});
+  f.d.choose(f.d.widget<QDockWidget>("clearanceDock")->toggleViewAction());
+  auto* table = f.d.widget<QTableView>("clearanceTable");
+  const auto cell = [&](int row, int column) { return table->model()->index(row, column).data().toString(); };
+  QTRY_COMPARE(cell(1, ui::ClearanceModel::Distance), QStringLiteral("30.0 mm"));
+  table->selectRow(1);
+  const auto* label = f.d.widget<QLabel>("clearanceLabel");
+  QTRY_VERIFY(label->isVisible());
+  f.openPaused();
+  auto* scale = f.d.widget<QSlider>("timelineScale");
+  // The part goes 20 mm towards the one beside it.
+  QTest::keyClick(scale, Qt::Key_End);
+  QVERIFY2(!label->isVisible(), "the line is not of the pose shown");
+  QTRY_COMPARE(cell(1, ui::ClearanceModel::Distance), QStringLiteral("10.0 mm"));
+  QTRY_VERIFY(label->isVisible());
+  QCOMPARE(label->text(), QStringLiteral("10.0 mm"));
+  f.press("timelineClose");
+  QTRY_COMPARE(cell(1, ui::ClearanceModel::Distance), QStringLiteral("30.0 mm"));
 }
 
 void DesktopTimelineTest::takingAPartInHandEndsTheReplay() {

@@ -16,6 +16,7 @@
 #include "core/files/atomic_write.h"
 #include "ui/model/clearance_model.h"
 #include "ui/model/hand_state.h"
+#include "ui/model/shown_poses.h"
 #include "ui/view3d/spot_label.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/font_scale.h"
@@ -83,6 +84,7 @@ ClearancePanel::ClearancePanel(const Context& context, ClearanceSearch::PoseOfMo
   connect(&search_, &ClearanceSearch::changed, this, &ClearancePanel::showClearances);
   connect(&search_, &ClearanceSearch::failed, this, &ClearancePanel::failed);
   connect(&context.hand, &HandState::snapshotShown, &search_, &ClearanceSearch::showSnapshot);
+  connect(&view_.poses(), &ShownPoses::changed, this, &ClearancePanel::followMoving);
   changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] { showSubjects(); });
   showSubjects();
   showClearances();
@@ -205,17 +207,31 @@ void ClearancePanel::choose() {
 void ClearancePanel::showPair() {
   const std::optional<PartClearance> pair = chosen();
   const std::optional<PartId> part = search_.subject();
-  if (!pair && !segment_.isShown()) return;
-  if (pair && part) {
+  const bool isToShow = pair && part;
+  if (!isToShow && !isPairShown_) return;
+  isPairShown_ = isToShow;
+  if (isToShow && !isBehindReplay()) {
     segment_.show(pair->partPoint, pair->otherPoint);
     label_->showAt(0.5 * (pair->partPoint + pair->otherPoint), ClearanceModel::valueOf(*pair));
-    view_.highlight({*part, pair->other});
   } else {
     segment_.clear();
     label_->end();
-    view_.highlight({});
   }
+  view_.highlight(isToShow ? std::vector{*part, pair->other} : std::vector<PartId>{});
   view_.requestRender();
+}
+
+bool ClearancePanel::isBehindReplay() const {
+  const std::optional<PartId> moving = session_.scene().movingPart();
+  return moving && view_.poses().isReplayed(*moving) && !search_.isOfPresentPose();
+}
+
+void ClearancePanel::followMoving() {
+  const std::optional<PartId> moving = session_.scene().movingPart();
+  // Other parts may be dragged with it, and only the session knows where they come to.
+  if (!moving || view_.poses().isDragged(*moving)) return;
+  search_.followMoving();
+  if (segment_.isShown() && isBehindReplay()) showPair();
 }
 
 void ClearancePanel::refresh() {

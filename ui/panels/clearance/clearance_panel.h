@@ -65,12 +65,17 @@ class ClearancePanel : public QWidget {
   void choose();
   /// Shows in the view where the chosen pair is nearest.
   void showPair();
+  /// True while a recording shows the moving part where it was not searched yet.
+  bool isBehindReplay() const;
+  /// Follows the moving part where the servo does not: in a recording.
+  void followMoving();
   void exportTable();
 
   Session& session_;
   Viewport& view_;
   ClearanceSearch search_;
   PairSegment segment_;
+  bool isPairShown_ = false;  ///< The pair is highlighted.
   SpotLabel* label_;
   std::uint64_t sceneSerial_ = 0;  ///< Serial of the scene whose parts are offered.
   ClearanceModel* model_;

@@ -11,6 +11,10 @@ namespace {
 /// Shortest time between the starts of two searches, which leaves processors for a drag or the servo.
 constexpr int kEveryMs = 250;
 
+bool areAtOnePose(const RigidTransform& a, const RigidTransform& b) {
+  return a.translation == b.translation && a.rotation == b.rotation;
+}
+
 }  // namespace
 
 ClearanceSearch::ClearanceSearch(Session& session, PoseOfMoving poseOfMoving, QObject* parent)
@@ -48,10 +52,16 @@ void ClearanceSearch::showSnapshot(const ServoSnapshot& snapshot) {
     emit changed();
   }
   // The part in hand affects other parts' clearances too, and the servo knows nothing beyond its cutoff.
-  const bool hasMoved =
-      snapshot.proxy.translation != poseShown_.translation || snapshot.proxy.rotation != poseShown_.rotation;
-  poseShown_ = snapshot.proxy;
-  if (hasMoved) request();
+  followMoving();
+}
+
+void ClearanceSearch::followMoving() {
+  const RigidTransform pose = poseOfMoving_();
+  if (!areAtOnePose(std::exchange(poseShown_, pose), pose)) request();
+}
+
+bool ClearanceSearch::isOfPresentPose() const {
+  return areAtOnePose(poseSearched_, poseOfMoving_());
 }
 
 void ClearanceSearch::request() {
@@ -66,20 +76,21 @@ void ClearanceSearch::search() {
   isDue_ = false;
   timer_.start();
   const std::optional<PartId> part = subject();
-  auto scene = std::make_shared<const Scene>(placedScene(session_.scene(), poseOfMoving_()));
-  if (!part) return finish(part, *scene, {}, nullptr);
+  const RigidTransform pose = poseOfMoving_();
+  auto scene = std::make_shared<const Scene>(placedScene(session_.scene(), pose));
+  if (!part) return finish(part, *scene, pose, {}, nullptr);
   auto found = std::make_shared<std::vector<PartClearance>>();
   const double cutoff = scene->haptics().springs.cutoff;
   const auto job = [scene, found, part, cutoff](const ProgressCallback& progress) {
     *found = clearancesOf(*scene, *part, cutoff, progress);
   };
-  task_.run(job, [this, scene, found, part](const std::exception_ptr& error) {
-    finish(part, *scene, *found, error);
+  task_.run(job, [this, scene, pose, found, part](const std::exception_ptr& error) {
+    finish(part, *scene, pose, *found, error);
     if (isDue_ && !timer_.isActive()) search();
   });
 }
 
-void ClearanceSearch::finish(std::optional<PartId> part, const Scene& scene,
+void ClearanceSearch::finish(std::optional<PartId> part, const Scene& scene, const RigidTransform& pose,
                              const std::vector<PartClearance>& found, const std::exception_ptr& error) {
   // Results for a former part, or of a cancelled search: what is due follows.
   if (part != subject() || !isWanted_ || (error && isDue_)) return;
@@ -88,6 +99,7 @@ void ClearanceSearch::finish(std::optional<PartId> part, const Scene& scene,
     return;
   }
   searched_ = scene;
+  poseSearched_ = pose;
   clearances_ = found;
   emit changed();
 }

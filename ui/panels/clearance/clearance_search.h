@@ -38,6 +38,10 @@ class ClearanceSearch : public QObject {
   const Scene& scene() const noexcept { return searched_; }
   /// Takes in a tick of the part in hand.
   void showSnapshot(const ServoSnapshot& snapshot);
+  /// Searches again if the moving part has another pose than when this was called last.
+  void followMoving();
+  /// True if the last search was of the pose that the moving part has now.
+  bool isOfPresentPose() const;
 
  signals:
   /// Emitted when clearances() changed.
@@ -48,8 +52,9 @@ class ClearanceSearch : public QObject {
  private:
   void request();
   void search();
-  void finish(std::optional<PartId> part, const Scene& scene, const std::vector<PartClearance>& found,
-              const std::exception_ptr& error);
+  /// @param pose  Of the moving part in `scene`.
+  void finish(std::optional<PartId> part, const Scene& scene, const RigidTransform& pose,
+              const std::vector<PartClearance>& found, const std::exception_ptr& error);
 
   Session& session_;
   const PoseOfMoving poseOfMoving_;
@@ -58,7 +63,8 @@ class ClearanceSearch : public QObject {
   std::optional<PartId> chosen_;
   Scene searched_;
   std::vector<PartClearance> clearances_;
-  RigidTransform poseShown_;  ///< Pose of the part in hand at the last tick shown.
+  RigidTransform poseSearched_;  ///< Pose of the moving part in searched_.
+  RigidTransform poseShown_;     ///< Pose of the moving part when it was followed last.
   bool isWanted_ = false, isDue_ = false;
   Subscription changes_;
 };
