@@ -19,6 +19,7 @@
 #include "device/common/rate_control.h"
 #include "device/thread/monotonic_clock.h"
 #include "tests/app/desktop/desktop_driver.h"
+#include "ui/model/selection.h"
 #include "ui/tools/placing/hand_control.h"
 #include "ui/widgets/preferences.h"
 
@@ -124,6 +125,7 @@ class DesktopHandTest : public QObject {
  private slots:
   void theCameraHasWhatIsNotTheHands();
   void shiftedKeysTurn();
+  void withoutASelectionTheNumbersAreThoseOfThePartInHand();
   void feelPutsTheKeysIntoTheViewWhichShowsIt();
   void spaceMouseSettingsReachTheDeviceAndAreKept();
   void whatKeepsDevicesFromBeingUsedIsShownWithTheCommand();
@@ -162,6 +164,25 @@ void DesktopHandTest::shiftedKeysTurn() {
   QVERIFY(isNearPoint(m.centre(), middle, 1e-12));
   QTest::keyClick(&m.view(), Qt::Key_Up);
   QVERIFY(isNearPoint(m.centre(), middle + glm::dvec3(0.0, 1e-4, 0.0), 1e-12));
+}
+
+/// They were empty and grey while the part moved.
+void DesktopHandTest::withoutASelectionTheNumbersAreThoseOfThePartInHand() {
+  ByMouse m;
+  m.feel();
+  m.d.window().selection().select(std::nullopt);
+  QCOMPARE(m.d.text("poseHeading"), QStringLiteral("moving"));
+  auto* z = m.d.widget<QDoubleSpinBox>("positionZ");
+  QVERIFY(z->isEnabled());
+  m.d.type<QDoubleSpinBox>("positionZ", "2");
+  QVERIFY(isNearPoint(m.hand.translation, {0.0, 0.0, 0.002}, 1e-12));
+  QTRY_VERIFY(m.d.felt && std::abs(m.d.felt->translation.z - 0.002) < 1e-6);
+  m.view().setFocus();
+  QTest::keyClick(&m.view(), Qt::Key_PageUp);
+  QTRY_VERIFY(std::abs(z->value() - 2.1) < 1e-3);
+  m.d.choose("stop");
+  QTRY_COMPARE(m.d.text("poseHeading"), QStringLiteral("No part selected"));
+  QVERIFY(!z->isEnabled());
 }
 
 /// They went on to the list of parts, and Page Down selected another part.

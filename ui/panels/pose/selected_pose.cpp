@@ -19,9 +19,9 @@ namespace {
 
 const glm::dquat kNoTurn(1.0, 0.0, 0.0, 0.0);
 
-/// Returns the part's name, the group's, or "Lid and 2 more".
-QString headingOf(const Scene& scene, const Selection& selection) {
-  if (!selection.current()) return {};
+/// Returns the part's name, the group's, or "Lid and 2 more"; without a selection the name of `part`, if any.
+QString headingOf(const Scene& scene, const Selection& selection, const Part* part) {
+  if (!selection.current()) return part != nullptr ? QString::fromStdString(part->name) : QString();
   const SceneNodes outer = outermost(scene, selection.nodes());
   if (outer.parts.empty() && outer.groups.size() == 1)
     return QString::fromStdString(scene.findGroup(outer.groups.front())->name);
@@ -37,6 +37,7 @@ SelectedPose::SelectedPose(const Context& context, PosePanel& panel)
   connectPanel();
   connect(&context.selection, &Selection::changed, this, &SelectedPose::refresh);
   connect(&context.guard, &MoveGuard::changed, this, &SelectedPose::refresh);
+  connect(&context.hand, &HandState::changed, this, &SelectedPose::refresh);
   connect(&context.hand, &HandState::snapshotShown, this, &SelectedPose::showHeldPose);
   connect(&context.poses, &ShownPoses::changed, this, [this](const std::vector<PartId>& parts) {
     const Part* part = current();
@@ -60,15 +61,20 @@ void SelectedPose::connectPanel() {
   });
 }
 
+std::vector<PartId> SelectedPose::subjects() const {
+  const std::optional<PartId> held = context_.hand.part();
+  return context_.selection.current() || !held ? context_.selection.parts() : std::vector{*held};
+}
+
 const Part* SelectedPose::current() const {
-  const std::optional<PartId> id = context_.selection.current();
-  return id ? context_.session.scene().find(*id) : nullptr;
+  const std::vector<PartId> parts = subjects();
+  return parts.empty() ? nullptr : context_.session.scene().find(parts.back());
 }
 
 glm::dvec3 SelectedPose::pivotInCurrent() const {
   const Part* part = current();
   std::vector<PlacedPart> placed;
-  for (const PartId id : context_.selection.parts()) {
+  for (const PartId id : subjects()) {
     const Part* each = context_.session.scene().find(id);
     if (each != nullptr && each->geometry != nullptr) placed.push_back({each, context_.poses.poseOf(*each)});
   }
@@ -81,18 +87,18 @@ void SelectedPose::refresh() {
   const Scene& scene = context_.session.scene();
   const Selection& selection = context_.selection;
   const Part* part = current();
-  const QString heading = headingOf(scene, selection);
+  const QString heading = headingOf(scene, selection, part);
   QString help = heading;
   if (selection.parts().size() > 1)
     help += QChar('\n') + tr("The pose shown is that of %1").arg(QString::fromStdString(part->name));
-  panel_.showPart(heading, context_.guard.refusalOf(selection.parts()), help);
+  panel_.showPart(heading, context_.guard.refusalOf(subjects()), help);
   std::vector<const Part*> parts;
-  for (const PartId each : selection.parts())
+  for (const PartId each : subjects())
     parts.push_back(scene.find(each));
   panel_.showMass(parts, std::ranges::any_of(parts, [&](const Part* p) { return scene.isLocked(*p); }));
   showJoints();
   const HandState& hand = context_.hand;
-  if (hand.isHeldBy(Hand::Manual) && hand.holds(selection.current())) {
+  if (part != nullptr && hand.isHeldBy(Hand::Manual) && hand.holds(part->id)) {
     panel_.showPose(hand.partPose(), hand.handPose());
   } else if (part != nullptr) {
     panel_.showPose(context_.poses.poseOf(*part));
@@ -101,12 +107,13 @@ void SelectedPose::refresh() {
 
 void SelectedPose::showHeldPose() {
   const HandState& hand = context_.hand;
-  if (hand.holds(context_.selection.current())) panel_.showPose(hand.partPose(), hand.handPose());
+  const Part* part = current();
+  if (part != nullptr && hand.holds(part->id)) panel_.showPose(hand.partPose(), hand.handPose());
 }
 
 void SelectedPose::setDensity(double density) {
   try {
-    context_.session.setDensity(context_.selection.parts(), density);
+    context_.session.setDensity(subjects(), density);
   } catch (...) {
     emit failed(describe(tr("The density could not be changed."), std::current_exception()));
     refresh();

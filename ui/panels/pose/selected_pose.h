@@ -1,7 +1,7 @@
 #pragma once
 
 #include <QObject>
-#include <optional>
+#include <vector>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -24,7 +24,8 @@ class Selection;
 class ShownPoses;
 class Viewport;
 
-/// Shows the selected parts in the pose panel, wherever they are moved from. Requests moves by the panel's
+/// Shows the selected parts, or the part in hand while none is selected, in the pose panel, wherever they are
+/// moved from. Requests moves by the panel's
 /// numbers, and by the arrow keys of the view, whose steps the panel holds.
 class SelectedPose : public QObject {
   Q_OBJECT
@@ -58,9 +59,11 @@ class SelectedPose : public QObject {
 
  private:
   void connectPanel();
-  /// Returns the current part; null if there is none, or it has just left the scene.
+  /// Returns the parts shown: those selected, else the one in hand.
+  std::vector<PartId> subjects() const;
+  /// Returns the part whose pose is shown; null if there is none, or it has just left the scene.
   const Part* current() const;
-  /// Returns the pivot of the selected parts, in the frame of the current one [m].
+  /// Returns the pivot of the parts shown, in the frame of the current one [m].
   glm::dvec3 pivotInCurrent() const;
   void showHeldPose();
   void setDensity(double density);

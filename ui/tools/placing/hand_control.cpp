@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <optional>
+#include <vector>
 
 #include "core/haptics/workspace_mapper.h"
 #include "core/placing/joint_set.h"
@@ -67,9 +68,11 @@ void HandControl::showHeld() {
 }
 
 void HandControl::place(const RigidTransform& worldFromPart) {
-  const std::optional<PartId> part = context_.selection.current();
+  const bool isSelected = context_.selection.current().has_value();
+  const std::optional<PartId> part = isSelected ? context_.selection.current() : context_.hand.part();
   if (!part) return;
-  const QString refusal = context_.guard.refusalOf(context_.selection.parts());
+  const QString refusal =
+      context_.guard.refusalOf(isSelected ? context_.selection.parts() : std::vector{*part});
   if (!refusal.isEmpty()) return emit noted(refusal);
   if (!context_.hand.holds(part)) return context_.placing.bring(worldFromPart);
   const JointSet joints = jointsOf(context_.session.scene(), *part);

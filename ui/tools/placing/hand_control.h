@@ -42,7 +42,8 @@ class HandControl : public QObject {
   QAction* letGoAction() const noexcept { return letGo_; }
 
  public slots:
-  /// Moves the current part or, if it is in the manual hand, that hand.
+  /// Moves the current part, or the part in hand while none is selected. What is in the manual hand is moved
+  /// by that hand.
   void place(const nearfit::RigidTransform& worldFromPart);
   /// Moves the manual hand, if it holds a part, else the current part.
   /// @param shift  World [m].
