@@ -57,11 +57,6 @@
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
-namespace {
-
-constexpr int kNoteTime = 8000;  ///< [ms]
-
-}  // namespace
 
 template <class... Sources>
 void MainWindow::listenTo(const Sources&... sources) {
@@ -80,6 +75,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       poses_(new ShownPoses(session, this)),
       hand_(new HandState(session, *poses_, this)),
       guard_(new MoveGuard(session, *hand_, this)),
+      notes_(new NoteBar(session, this)),
       panelsMenu_(new QMenu(tr("&Panels"), this)),
       units_(new UnitMenu(this)) {
   const auto shapes = std::make_shared<PartShapeCache>();
@@ -91,7 +87,8 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
   connect(hand_, &HandState::snapshotCleared, viewport_, &Viewport::clearSnapshot);
   document_ = std::make_unique<Document>(session, shapes, this);
   files_ = new FileCommands({session_, *selection_, *hand_, *document_, *viewport_}, this);
-  new StatusReadout(*hand_, statusBar());
+  setStatusBar(notes_);
+  new StatusReadout(*hand_, notes_);
   new WindowTitle(session_, *hand_, this);
   makePanels();
   makeToolsAndMenus();
@@ -307,7 +304,7 @@ void MainWindow::showFailure(const Failure& failure) {
 }
 
 void MainWindow::showNote(const QString& text) {
-  statusBar()->showMessage(text, kNoteTime);
+  notes_->note(text);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -20,6 +20,7 @@ class HandControl;
 class HandState;
 class HistoryPanel;
 class MoveGuard;
+class NoteBar;
 class PartCommands;
 class PlacingTools;
 class PlotPanel;
@@ -77,7 +78,7 @@ class MainWindow : public QMainWindow {
  public slots:
   /// Shows a failure without blocking, or passes it to the failure sink.
   void showFailure(const nearfit::ui::Failure& failure);
-  /// Shows a note in the status bar for a few seconds.
+  /// Shows a note in the status bar, as NoteBar does.
   void showNote(const QString& text);
 
  protected:
@@ -104,6 +105,7 @@ class MainWindow : public QMainWindow {
   ShownPoses* poses_;
   HandState* hand_;
   MoveGuard* guard_;
+  NoteBar* notes_;
   Viewport* viewport_;
   std::unique_ptr<Document> document_;
 

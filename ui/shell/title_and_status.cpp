@@ -1,9 +1,13 @@
 #include "ui/shell/title_and_status.h"
 
 #include <QHBoxLayout>
+#include <QHelpEvent>
 #include <QLabel>
 #include <QMainWindow>
-#include <QStatusBar>
+#include <QStyleOption>
+#include <QStylePainter>
+#include <QTimer>
+#include <QToolTip>
 #include <algorithm>
 #include <ranges>
 #include <vector>
@@ -18,6 +22,8 @@
 
 namespace nearfit::ui {
 namespace {
+
+constexpr int kNoteTime = 8000;  ///< [ms]
 
 /// True if the poses differ by more than rounding.
 bool isElsewhere(const RigidTransform& a, const RigidTransform& b) {
@@ -108,6 +114,52 @@ void WindowTitle::showModified() {
   const bool hasMoved = held != nullptr && isElsewhere(hand_.partPose(), held->worldFromPart);
   const bool isModified = session_.isModified() || hasMoved;
   if (window_->isWindowModified() != isModified) window_->setWindowModified(isModified);
+}
+
+NoteBar::NoteBar(Session& session, QWidget* parent) : QStatusBar(parent), session_(session) {
+  changes_ = session_.onChange(SceneEvents::Stage::Panels, [this] {
+    if (state_ && *state_ != session_.stateSerial()) clearMessage();
+  });
+}
+
+void NoteBar::note(const QString& text) {
+  showMessage(text, kNoteTime);
+  state_.reset();
+  QTimer::singleShot(0, this, [this] { state_ = session_.stateSerial(); });
+}
+
+QRect NoteBar::room() const {
+  constexpr int kMargin = 6;
+  int right = width() - 2 * kMargin;
+  for (const QObject* child : children()) {
+    const auto* widget = qobject_cast<const QWidget*>(child);
+    if (widget != nullptr && widget->isVisible()) right = std::min(right, widget->x() - kMargin);
+  }
+  return {kMargin, 0, std::max(right - kMargin, 0), height()};
+}
+
+QString NoteBar::shownText() const {
+  return fontMetrics().elidedText(currentMessage(), Qt::ElideRight, room().width());
+}
+
+bool NoteBar::event(QEvent* event) {
+  if (event->type() != QEvent::ToolTip || shownText() == currentMessage()) return QStatusBar::event(event);
+  const auto* help = static_cast<const QHelpEvent*>(event);
+  if (!room().contains(help->pos())) return QStatusBar::event(event);
+  QToolTip::showText(help->globalPos(), currentMessage(), this);
+  return true;
+}
+
+void NoteBar::paintEvent(QPaintEvent* event) {
+  const QString text = shownText();
+  if (text == currentMessage()) return QStatusBar::paintEvent(event);
+  // Qt would cut it off in the middle of a letter.
+  QStylePainter painter(this);
+  QStyleOption option;
+  option.initFrom(this);
+  painter.drawPrimitive(QStyle::PE_PanelStatusBar, option);
+  painter.setPen(palette().windowText().color());
+  painter.drawText(room(), static_cast<int>(Qt::AlignLeading | Qt::AlignVCenter) | Qt::TextSingleLine, text);
 }
 
 StatusReadout::StatusReadout(const HandState& hand, QStatusBar* bar) : QObject(bar) {

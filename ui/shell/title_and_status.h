@@ -1,6 +1,9 @@
 #pragma once
 
 #include <QObject>
+#include <QStatusBar>
+#include <cstdint>
+#include <optional>
 
 #include "core/servo/servo_tick.h"
 #include "core/session/scene_events.h"
@@ -8,7 +11,6 @@
 
 class QLabel;
 class QMainWindow;
-class QStatusBar;
 
 namespace nearfit {
 class Session;
@@ -36,6 +38,33 @@ class WindowTitle : public QObject {
   Session& session_;
   const HandState& hand_;
   QMainWindow* window_;
+  Subscription changes_;
+};
+
+/// The status bar. A note stays for a few seconds, and no longer than the state of the session that it is
+/// about. One that is too long is elided, and its tooltip is the whole text.
+class NoteBar : public QStatusBar {
+  Q_OBJECT
+
+ public:
+  /// @param session  Outlives this.
+  explicit NoteBar(Session& session, QWidget* parent = nullptr);
+
+  /// Shows a note instead of the one before. What changes until the event loop is back belongs to it.
+  void note(const QString& text);
+  /// Returns the note as painted; empty if there is none.
+  QString shownText() const;
+
+ protected:
+  bool event(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  /// Returns the room left of the permanent widgets.
+  QRect room() const;
+
+  Session& session_;
+  std::optional<std::uint64_t> state_;  ///< Serial of the state that the note is about.
   Subscription changes_;
 };
 

@@ -1,7 +1,10 @@
 #include "ui/shell/title_and_status.h"
 
+#include <QApplication>
+#include <QHelpEvent>
 #include <QLabel>
 #include <QStatusBar>
+#include <QToolTip>
 #include <QtTest>
 #include <memory>
 
@@ -17,6 +20,8 @@ class TitleAndStatusTest : public QObject {
 
  private slots:
   void aMinDistanceThatIsOnlyABoundIsSaidToBeOne();
+  void aNoteEndsWithTheStateThatItIsAbout();
+  void aNoteThatIsTooLongIsElidedAndItsToolTipIsAll();
 };
 
 void TitleAndStatusTest::aMinDistanceThatIsOnlyABoundIsSaidToBeOne() {
@@ -34,6 +39,40 @@ void TitleAndStatusTest::aMinDistanceThatIsOnlyABoundIsSaidToBeOne() {
   snapshot->isDistanceBound = true;
   emit hand.snapshotDrawn(*snapshot);
   QCOMPARE(distance->text(), QStringLiteral("Min distance at least 0.26 mm"));
+}
+
+/// "Saved test.nearfit" stayed after New.
+void TitleAndStatusTest::aNoteEndsWithTheStateThatItIsAbout() {
+  Session session;
+  ui::NoteBar bar(session);
+  bar.note(QStringLiteral("Saved test.nearfit"));
+  // A command may note before it changes the scene.
+  session.reset();
+  QCOMPARE(bar.currentMessage(), QStringLiteral("Saved test.nearfit"));
+  QTest::qWait(20);
+  QCOMPARE(bar.currentMessage(), QStringLiteral("Saved test.nearfit"));
+  session.reset();
+  QCOMPARE(bar.currentMessage(), QString());
+}
+
+void TitleAndStatusTest::aNoteThatIsTooLongIsElidedAndItsToolTipIsAll() {
+  Session session;
+  ui::NoteBar bar(session);
+  bar.addPermanentWidget(new QLabel(QStringLiteral("Servo off"), &bar));
+  bar.resize(300, 24);
+  bar.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&bar));
+  const QString text = QStringLiteral("bolt is kept on axis of plate, ").repeated(4);
+  bar.note(text);
+  const QString shown = bar.shownText();
+  QVERIFY2(shown.endsWith(QChar(0x2026)) && text.startsWith(shown.left(4)), qPrintable(shown));
+  QVERIFY(bar.fontMetrics().horizontalAdvance(shown) < 300);
+  QHelpEvent event(QEvent::ToolTip, QPoint(20, 12), bar.mapToGlobal(QPoint(20, 12)));
+  QApplication::sendEvent(&bar, &event);
+  QTRY_VERIFY(QToolTip::isVisible());
+  QCOMPARE(QToolTip::text(), text);
+  bar.note(QStringLiteral("Short"));
+  QCOMPARE(bar.shownText(), QStringLiteral("Short"));
 }
 
 NEARFIT_QT_SUITE(TitleAndStatusTest, test::runQtTest<TitleAndStatusTest>)

@@ -229,8 +229,9 @@ void PlacingTools::bring(const std::vector<PartId>& parts, PartId lead, const Ri
   const JointedMotion joints(scene, parts);
   const RigidTransform motion = joints.nearest(wanted);
   // Without joints the pose is exactly the given one.
-  const Brought brought{lead, joints.isFree() ? worldFromLead : (motion * start).normalized(), verb};
-  if (joints.areApart(wanted, motion)) emit noted(heldText(scene, parts));
+  Brought brought{lead, joints.isFree() ? worldFromLead : (motion * start).normalized(), verb};
+  if (joints.areApart(wanted, motion)) brought.note = heldText(scene, parts);
+  if (!brought.note.isEmpty()) emit noted(brought.note);
   if (placed(parts).empty() || !actions_->solid->isChecked()) return put(parts, brought);
   handle_ = GizmoGrip::None;
   brought_ = brought;
@@ -310,7 +311,8 @@ void PlacingTools::giveUpParts() {
 void PlacingTools::putMoved() {
   Brought where = brought_.value_or(Brought{mover_.parts().back(), {}, isRing(handle_) ? "Turn" : "Move"});
   if (!brought_ || !mover_.hasArrived()) where.worldFromLead = mover_.poses().at(where.lead);
-  const QString stoppedBy = brought_ && !mover_.hasArrived() ? note() : QString();
+  // What was noted before ended with the state of the scene.
+  const QString told = brought_ && !mover_.hasArrived() ? note() : where.note;
   const std::vector<PartId> parts = mover_.parts();
   // The move is over before the session tells that the parts are elsewhere, which would end it otherwise. They
   // are shown as dragged until then.
@@ -318,7 +320,7 @@ void PlacingTools::putMoved() {
   put(parts, where);
   giveUpParts();
   showFrame();
-  if (!stoppedBy.isEmpty()) emit noted(stoppedBy);
+  if (!told.isEmpty()) emit noted(told);
 }
 
 /// Moves the parts together so that the lead gets its pose.

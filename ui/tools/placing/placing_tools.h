@@ -75,6 +75,7 @@ class PlacingTools : public QObject {
     PartId lead{};
     RigidTransform worldFromLead;
     const char* verb;
+    QString note = {};  ///< Told when they are there.
   };
 
   std::vector<PlacedPart> placedParts() const;
