@@ -67,7 +67,8 @@ std::string mapSummary(const ClearanceMap& map, const AreaByClearance& areas,
   add("samples", map.samples());
   add("area", areas.total());
   add("area_within", areas.within());
-  add("min", areas.least().value_or(std::nan("")));
+  const auto least = leastClearanceOf(map, areas);
+  add("min", least ? least->distance : std::nan(""));
   add("mean", areas.mean().value_or(std::nan("")));
   add("area_contact", areas.inContact());
   add("area_overlap", areas.overlapping());

@@ -46,6 +46,15 @@ std::optional<double> AreaByClearance::mean() const noexcept {
   return within() > 0.0 ? std::optional(moment_ / within()) : std::nullopt;
 }
 
+std::optional<LeastClearance> leastClearanceOf(const ClearanceMap& map,
+                                               const AreaByClearance& areas) noexcept {
+  const double sampled = areas.least().value_or(std::numeric_limits<double>::infinity());
+  if (sampled < -kContactDistance) return LeastClearance{sampled, false};
+  // Rounding may leave a sample at the nearest point a little nearer.
+  const double least = std::min(std::max(sampled, 0.0), map.leastDistance);
+  return std::isfinite(least) ? std::optional(LeastClearance{least, true}) : std::nullopt;
+}
+
 std::vector<ClearanceBin> clearanceHistogram(const AreaByClearance& areas, double range, std::size_t bins) {
   const double width = range / static_cast<double>(bins), infinity = std::numeric_limits<double>::infinity();
   const double deepest = std::min(0.0, areas.least().value_or(0.0));

@@ -37,6 +37,17 @@ class AreaByClearance {
   double moment_ = 0.0;  ///< Sum of distance times area [m^3].
 };
 
+/// Least clearance of the subject [m].
+struct LeastClearance {
+  double distance = 0.0;
+  /// False for the depth of the deepest sample inside another part, which may be less than the greatest depth.
+  bool isExact = true;
+};
+
+/// Least clearance of a map's subject; nullopt if nothing is within the range.
+/// @param areas  Of the subject.
+std::optional<LeastClearance> leastClearanceOf(const ClearanceMap& map, const AreaByClearance& areas) noexcept;
+
 /// The area whose clearance is at least `from` and less than `to` [m].
 struct ClearanceBin {
   double from = 0.0, to = 0.0;

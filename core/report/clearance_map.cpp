@@ -233,8 +233,8 @@ void measure(MappedSurface& mapped, std::span<const PlacedTarget<Target>> target
     work(chunk);
 }
 
-/// Least distance of the subject to the others [m], 0 if surfaces meet; infinity if there are none.
-double leastDistanceOf(const ClearanceMapRequest& request, const MeasuredPart& subject,
+/// Least distance of the subject to the others [m], 0 if surfaces meet; infinity if none is below `within`.
+double leastDistanceOf(const ClearanceMapRequest& request, const MeasuredPart& subject, double within,
                        const ProgressCallback& progress) {
   std::vector<std::pair<double, const MeasuredPart*>> others;
   for (const MeasuredPart& part : request.parts) {
@@ -246,11 +246,11 @@ double leastDistanceOf(const ClearanceMapRequest& request, const MeasuredPart& s
   LmdScratch scratch(1);
   double least = kInfinity;
   for (const auto& [gap, other] : others) {
-    if (kSure * gap >= least) break;
+    if (kSure * gap >= std::min(least, within)) break;
     prepareHierarchies(std::vector{subject.geometry, other->geometry}, progress);
     const SurfaceDistance found =
         leastSurfaceDistance(other->geometry->tree(), subject.geometry->tree(), relativePose(*other, subject),
-                             kInfinity, scratch, std::numeric_limits<std::uint64_t>::max());
+                             std::min(least, within), scratch, std::numeric_limits<std::uint64_t>::max());
     least = std::min(least, found.distance);
   }
   return least;
@@ -301,10 +301,11 @@ ClearanceMap ClearanceMapper::map(const ClearanceMapRequest& request, const Prog
   checkRange(request.range);
   const ProgressCallback waiting = stageCallback(progress, 0.0, 0.0);
   ClearanceMap map;
+  const bool isAutomatic = request.range == 0.0;
+  const double within = isAutomatic ? kInfinity : std::nextafter(request.range, kInfinity);
+  map.leastDistance = leastDistanceOf(request, subject, within, waiting);
   map.range =
-      request.range > 0.0
-          ? request.range
-          : automaticRange(sizeOf(subject), leastDistanceOf(request, subject, waiting), request.keptRange);
+      isAutomatic ? automaticRange(sizeOf(subject), map.leastDistance, request.keptRange) : request.range;
   const std::vector<const MeasuredPart*> near = partsNear(request, subject, map.range);
   std::vector<PartGeometryPtr> geometries{subject.geometry};
   for (const MeasuredPart* part : near)

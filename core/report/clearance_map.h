@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -57,7 +58,10 @@ struct MappedSurface {
 
 /// Clearance over the surface of a part, and of what is near.
 struct ClearanceMap {
-  double range = 0.0;                   ///< [m]
+  double range = 0.0;  ///< [m]
+  /// Exact distance between the surfaces of the subject and the nearest other part [m]: 0 if they meet, infinity if none
+  /// is within the range. Samples alone may miss it.
+  double leastDistance = std::numeric_limits<double>::infinity();
   std::vector<MappedSurface> surfaces;  ///< The subject first, then near parts in the order of the request.
   bool isCoarse = false;                ///< Sampled more coarsely than wanted, by the max number of samples.
 

@@ -140,6 +140,7 @@ void DesktopClearanceMapTest::thePanelHasTheHistogramAndAreas() {
   f.d.session().movePart(f.d.partId("moving"), {{1, 0, 0, 0}, {0, 0, -0.006}});
   QTRY_VERIFY(f.isLeast(-0.001));
   QVERIFY(f.d.text("clearanceMapAreas").contains(QStringLiteral("inside other parts")));
+  QVERIFY(f.d.text("clearanceMapAreas").contains(QStringLiteral("Min about -1.00 mm")));
 }
 
 void DesktopClearanceMapTest::theMapFollowsMovesAndDrags() {

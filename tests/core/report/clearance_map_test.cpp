@@ -351,6 +351,40 @@ TEST(ClearanceMap, TheAutomaticRangeFollowsSizeAndDistanceAndIsKeptAsLongAsItSui
   EXPECT_DOUBLE_EQ(mapOf(scene, subject, 0.0).range, 0.05) << "one and a half times 20 mm, rounded up";
 }
 
+TEST(ClearanceMap, TheLeastDistanceIsExactWhereNoSampleIs) {
+  // Two cubes on edges that cross at right angles, 10 um apart, 1.3 mm off the middle of the upper one's edge: not at
+  // an equal part of it that is as long as the spacing.
+  const double cos45 = std::sqrt(0.5), gap = 1e-5, halfDiagonal = 0.01 * std::sqrt(2.0);
+  const double c = std::sqrt(0.5 * (1.0 + cos45)), s = std::sqrt(0.5 * (1.0 - cos45));
+  const auto cube = test::geometryOf(test::boxMesh(glm::dvec3(0.02)));
+  Scene scene;
+  const PartId upper =
+      scene.add(test::partOf(cube, "upper", {{c, s, 0.0, 0.0}, {0.0, 0.0, 2.0 * halfDiagonal + gap}}));
+  scene.add(test::partOf(cube, "lower", {{c, 0.0, s, 0.0}, {0.0013, 0.0, 0.0}}));
+  for (const double range : {0.0, 0.005}) {
+    const ClearanceMap map = mapOf(scene, upper, range);
+    const AreaByClearance areas(map.surfaces.front());
+    EXPECT_GT(areas.least().value(), gap + 1e-8) << "else the samples happen to be right";
+    const auto least = leastClearanceOf(map, areas);
+    ASSERT_TRUE(least && least->isExact);
+    EXPECT_NEAR(least->distance, gap, 1e-12);
+  }
+  const ClearanceMap none = mapOf(scene, upper, 5e-6);
+  EXPECT_FALSE(leastClearanceOf(none, AreaByClearance(none.surfaces.front())).has_value());
+}
+
+TEST(ClearanceMap, ADepthIsThatOfTheDeepestSample) {
+  Scene scene;
+  const auto cube = test::geometryOf(test::boxMesh(glm::dvec3(0.02)));
+  const PartId upper = scene.add(test::partOf(cube, "upper", at(0.0, 0.0, 0.019)));
+  scene.add(test::partOf(test::geometryOf(test::boxMesh({0.1, 0.1, 0.02})), "lower"));
+  const ClearanceMap map = mapOf(scene, upper, 0.005);
+  const auto least = leastClearanceOf(map, AreaByClearance(map.surfaces.front()));
+  ASSERT_TRUE(least.has_value());
+  EXPECT_FALSE(least->isExact);
+  EXPECT_NEAR(least->distance, -0.001, 1e-12);
+}
+
 TEST(ClearanceMap, BetweenSamplesItIsInterpolated) {
   Scene scene;
   scene.add(test::partOf(test::geometryOf(test::boxMesh({1.0, 1.0, 0.1})), "below"));

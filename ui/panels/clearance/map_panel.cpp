@@ -246,7 +246,7 @@ QString ClearanceMapPanel::subjectText() const {
   const std::shared_ptr<const ShownMap>& shown = search_.shown();
   if (shown == nullptr)
     return search_.isCancelled() ? tr("%1: cancelled.").arg(name) : tr("%1: computing…").arg(name);
-  QString text = shown->areas.within() > 0.0
+  QString text = leastClearanceOf(shown->map, shown->areas)
                      ? name
                      : tr("%1: no other part is within %2.").arg(name, formatLength(shown->map.range));
   if (shown->map.isCoarse) text += tr(" (sampled coarsely: the surfaces are large)");
@@ -265,9 +265,13 @@ QString ClearanceMapPanel::areasText() const {
   const double threshold = threshold_->quantity();
   QStringList lines{
       tr("%1 nearer than %2").arg(withShare(areas.nearerThan(threshold)), formatLength(threshold))};
-  if (areas.least() && areas.mean())
-    lines << tr("Min %1, mean %2 over the %3 within the range")
-                 .arg(formatLength(*areas.least()), formatLength(*areas.mean()), withShare(areas.within()));
+  if (const auto least = leastClearanceOf(shown->map, areas)) {
+    const QString min =
+        least->isExact ? formatLength(least->distance) : tr("about %1").arg(formatLength(least->distance));
+    lines << (areas.mean() ? tr("Min %1, mean %2 over the %3 within the range")
+                                 .arg(min, formatLength(*areas.mean()), withShare(areas.within()))
+                           : tr("Min %1, between samples").arg(min));
+  }
   if (areas.inContact() > 0.0) lines << tr("%1 in contact").arg(withShare(areas.inContact()));
   if (areas.overlapping() > 0.0) lines << tr("%1 inside other parts").arg(withShare(areas.overlapping()));
   return lines.join('\n');
