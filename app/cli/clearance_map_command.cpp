@@ -105,7 +105,7 @@ void addClearanceMapCommand(CLI::App& program) {
   command->add_option("--part", options->part, "Name of the part; default: the moving part")
       ->type_name("NAME");
   command->add_option("--range", options->range,
-                      "Largest distance to map [m]; default: by the part's size and nearest distance");
+                      "Largest distance to map [m]; default: by the distances found");
   command->add_flag("--near", options->hasNearParts,
                     "Also write the surfaces of parts within the range, with their distance to the part");
   command->add_option("-o,--out", options->out, "Map to write")->type_name("MAP.ply");

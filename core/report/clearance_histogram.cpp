@@ -46,6 +46,14 @@ std::optional<double> AreaByClearance::mean() const noexcept {
   return within() > 0.0 ? std::optional(moment_ / within()) : std::nullopt;
 }
 
+std::optional<double> AreaByClearance::median(double from, double to) const noexcept {
+  const double before = nearerThan(from),
+               upTo = nearerThan(std::nextafter(to, std::numeric_limits<double>::infinity()));
+  if (!(upTo > before)) return std::nullopt;
+  const auto half = std::ranges::lower_bound(summed_, 0.5 * (before + upTo)) - summed_.begin();
+  return distances_[static_cast<std::size_t>(half)];
+}
+
 std::optional<LeastClearance> leastClearanceOf(const ClearanceMap& map,
                                                const AreaByClearance& areas) noexcept {
   const double sampled = areas.least().value_or(std::numeric_limits<double>::infinity());

@@ -29,6 +29,9 @@ class AreaByClearance {
   std::optional<double> least() const noexcept;
   /// Mean over the area within the range [m]; nullopt if there is none.
   std::optional<double> mean() const noexcept;
+  /// Distance that half of the area from `from` to `to`, both included, is nearer than [m]; nullopt if there is none.
+  /// O(log n).
+  std::optional<double> median(double from, double to) const noexcept;
 
  private:
   std::vector<double> distances_;  ///< Ascending; without those beyond the range [m].

@@ -18,6 +18,7 @@
 #include "core/proximity/query/broad_phase.h"
 #include "core/proximity/surface/point_distance.h"
 #include "core/proximity/surface/surface_distance.h"
+#include "core/report/clearance_histogram.h"
 
 namespace nearfit {
 namespace {
@@ -72,6 +73,23 @@ Aabb boxIn(const MeasuredPart& frame, const MeasuredPart& part) noexcept {
 
 double sizeOf(const MeasuredPart& part) noexcept {
   return part.geometry->mesh.bounds().diagonal();
+}
+
+/// A range over the distance that it is chosen by: half as much again, so that colours beyond it show too.
+constexpr double kRangeOfDistance = 1.5;
+
+/// The range that is searched for an automatic one, before rounding [m].
+double searchedRange(double size, double leastDistance) noexcept {
+  constexpr double kOfSize = 0.05;
+  const double least = std::isfinite(leastDistance) ? leastDistance : 0.0;
+  return std::max({kOfSize * size, kRangeOfDistance * least, std::numeric_limits<double>::min()});
+}
+
+/// A range that was found before, if it is not much more than the wanted one, else that, rounded up.
+double keptOrRounded(double wanted, double kept) noexcept {
+  constexpr double kSlack = 4.0;
+  const bool isKept = kept > 0.0 && wanted <= kept && kSlack * wanted >= kept;
+  return isKept ? kept : roundedUp(wanted);
 }
 
 }  // namespace
@@ -267,6 +285,32 @@ std::vector<const MeasuredPart*> partsNear(const ClearanceMapRequest& request, c
   return near;
 }
 
+/// The range of a map whose range is automaticRange(), by the distances found: see ClearanceMapRequest::range.
+double narrowedRange(const ClearanceMap& map, double size, double kept) {
+  // Where all that is near is within a hundredth, rounding in meshes is part of it.
+  constexpr double kMinOfSearched = 0.01;
+  const double searched = searchedRange(size, map.leastDistance);
+  const std::optional<double> median =
+      AreaByClearance(map.surfaces.front()).median(std::nextafter(kContactDistance, kInfinity), searched);
+  if (!median) return map.range;
+  const double least = std::max(kMinOfSearched * searched, kRangeOfDistance * map.leastDistance);
+  const double wanted = std::clamp(kRangeOfDistance * *median, std::min(least, searched), searched);
+  return std::min(map.range, keptOrRounded(wanted, kept));
+}
+
+/// Leaves out what is beyond a range.
+void narrow(ClearanceMap& map, double range) {
+  map.range = range;
+  for (MappedSurface& mapped : map.surfaces) {
+    for (std::size_t i = 0; i < mapped.distances.size(); ++i) {
+      if (!(mapped.distances[i] > range)) continue;
+      mapped.distances[i] = kNoDistance;
+      mapped.nearest[i] = PartId{};
+      mapped.nearestPoints[i] = glm::dvec3(0.0);
+    }
+  }
+}
+
 }  // namespace
 
 std::size_t ClearanceMap::samples() const noexcept {
@@ -341,6 +385,7 @@ ClearanceMap ClearanceMapper::map(const ClearanceMapRequest& request, const Prog
     const PlacedTarget<Target> target = placedTarget(subject, *near[i - 1]);
     measure<Target>(map.surfaces[i], std::span(&target, 1), map.range, request.isParallel, done);
   }
+  if (isAutomatic) narrow(map, narrowedRange(map, sizeOf(subject), request.keptRange));
   std::erase_if(map.surfaces, [&](const MappedSurface& mapped) {
     return mapped.part != subject.id &&
            std::ranges::all_of(mapped.distances, [](double distance) { return std::isnan(distance); });
@@ -379,11 +424,7 @@ double sampleSpacing(double range, double size) noexcept {
 }
 
 double automaticRange(double size, double leastDistance, double kept) noexcept {
-  constexpr double kOfSize = 0.05, kOfLeast = 1.5, kSlack = 4.0;
-  const double least = std::isfinite(leastDistance) ? leastDistance : 0.0;
-  const double wanted = std::max({kOfSize * size, kOfLeast * least, std::numeric_limits<double>::min()});
-  const bool isKept = kept > 0.0 && wanted <= kept && kSlack * wanted >= kept;
-  return isKept ? kept : roundedUp(wanted);
+  return keptOrRounded(searchedRange(size, leastDistance), kept);
 }
 
 std::optional<double> clearanceAt(const MappedSurface& mapped, std::uint32_t triangle,

@@ -33,7 +33,9 @@ struct MeasuredPart {
 struct ClearanceMapRequest {
   PartId subject{};                 ///< One of `parts`.
   std::vector<MeasuredPart> parts;  ///< The subject, and those that it is measured against.
-  double range = 0.0;               ///< Max distance [m]; 0: found by automaticRange().
+  /// Max distance [m]; 0: one and a half times the median distance of the surface that is within automaticRange() and not
+  /// in contact, no less than a hundredth of it or one and a half times the least distance, and rounded up like it.
+  double range = 0.0;
   double keptRange = 0.0;           ///< Last automatic range [m], kept while it still suits; 0: none.
   bool hasNearParts = false;        ///< Map the surfaces of near parts too.
   bool isParallel = true;           ///< Use all processors; false: only the calling thread.
@@ -111,7 +113,7 @@ class ClearanceMapper {
 /// no more than a 20th of the part.
 double sampleSpacing(double range, double size) noexcept;
 
-/// Range for a subject at its least distance to other parts [m]: a 20th of its diagonal or one and a half times that
+/// Range in which the distances of an automatic map are searched, for a subject at its least distance to other parts [m]: a 20th of its diagonal or one and a half times that
 /// distance, whichever is more, rounded up to 1, 2 or 5 times a power of ten.
 /// @param kept  Returned instead if it is neither less nor more than four times as much; 0: none.
 double automaticRange(double size, double leastDistance, double kept = 0.0) noexcept;

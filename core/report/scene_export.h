@@ -33,7 +33,7 @@ std::optional<MeshFileKind> meshKindOf(ExportKind kind) noexcept;
 /// The map of clearance to export.
 struct MapExport {
   std::optional<PartId> subject;  ///< nullopt: the moving part.
-  double range = 0.0;             ///< [m]; 0: found by automaticRange().
+  double range = 0.0;             ///< [m]; 0: automatic.
   bool hasNearParts = false;      ///< Surfaces of near parts too.
 };
 

@@ -375,9 +375,9 @@ void Viewport::setCut(const std::optional<ViewCut>& cut) {
   requestRender();
 }
 
-std::optional<PickedPoint> Viewport::pointAt(const QPoint& position) {
+std::optional<PickedPoint> Viewport::pointAt(const QPoint& position, bool isColoured) {
   const double scale = devicePixelRatioF();
-  return parts_.pickPoint(position.x() * scale, (height() - 1 - position.y()) * scale);
+  return parts_.pickPoint(position.x() * scale, (height() - 1 - position.y()) * scale, isColoured);
 }
 
 std::vector<PartId> Viewport::partsIn(const QRect& place) const {

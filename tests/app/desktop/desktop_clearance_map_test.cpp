@@ -227,6 +227,17 @@ void DesktopClearanceMapTest::theValueUnderThePointerIsSaid() {
   QTRY_COMPARE(probe->text(), QStringLiteral("beyond 10.0 mm"));
   view.moveTo({3, 3});
   QTRY_VERIFY(!probe->isVisible());
+  // From above, the upper cube is before the lower one's face.
+  f.d.window().selection().select(f.d.partId("fixed"));
+  QTRY_VERIFY(f.colours("fixed") != nullptr);
+  view.look("viewTop");
+  view.moveTo(view.seen({0.002, 0.003, 0.02}));
+  QTest::qWait(50);
+  QVERIFY2(!probe->isVisible(), "an opaque part hides the colours");
+  f.d.session().setOpacity({f.d.partId("moving")}, 0.5);
+  view.moveTo(view.seen({0.003, 0.003, 0.02}));
+  QTRY_VERIFY(probe->isVisible());
+  QCOMPARE(probe->text(), QStringLiteral("5.00 mm"));
 }
 
 void DesktopClearanceMapTest::theLegendAndTheMapAreOfTheChosenUnit() {

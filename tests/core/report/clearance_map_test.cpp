@@ -385,6 +385,25 @@ TEST(ClearanceMap, ADepthIsThatOfTheDeepestSample) {
   EXPECT_NEAR(least->distance, -0.001, 1e-12);
 }
 
+TEST(ClearanceMap, TheAutomaticRangeTellsNarrowGapsApart) {
+  // A 20th of the upper plate is 7.1 mm. More area is 0.3 mm over the lower plate than is up to there along the sides.
+  Scene scene;
+  const PartId upper =
+      scene.add(test::partOf(test::geometryOf(test::boxMesh({0.1, 0.1, 0.01})), "upper", at(0.0, 0.0, 0.0103)));
+  scene.add(test::partOf(test::geometryOf(test::boxMesh({0.3, 0.3, 0.01})), "lower"));
+  EXPECT_DOUBLE_EQ(mapOf(scene, upper, 0.0).range, 5e-4) << "one and a half times 0.3 mm, rounded up";
+  const ClearanceMap map = mapOf(scene, upper, 0.0);
+  for (std::size_t i = 0; i < map.samples(); ++i) {
+    const double distance = map.surfaces.front().distances[i];
+    EXPECT_TRUE(std::isnan(distance) ? map.surfaces.front().nearest[i] == PartId{} : distance <= map.range);
+  }
+  // In contact over its whole face, only its sides have colours: from 0 to 7.1 mm alike.
+  Part lowered = scene.get(upper);
+  lowered.worldFromPart = at(0.0, 0.0, 0.01);
+  scene.replace(lowered);
+  EXPECT_DOUBLE_EQ(mapOf(scene, upper, 0.0).range, 0.01);
+}
+
 TEST(ClearanceMap, BetweenSamplesItIsInterpolated) {
   Scene scene;
   scene.add(test::partOf(test::geometryOf(test::boxMesh({1.0, 1.0, 0.1})), "below"));

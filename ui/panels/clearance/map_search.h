@@ -23,7 +23,7 @@ class ShownPoses;
 /// A map of clearance with all that is shown of it. Immutable once made.
 struct ShownMap {
   PartId subject{};
-  bool isAutomatic = false;  ///< The range was found by automaticRange().
+  bool isAutomatic = false;  ///< The range was chosen by the distances.
   ClearanceMap map;
   AreaByClearance areas;           ///< Of the subject.
   SceneRenderer::Colours colours;  ///< What the view draws.

@@ -100,7 +100,8 @@ class SceneRenderer {
     return picked ? std::optional(picked->part) : std::nullopt;
   }
   /// Like pick(), with the point of its surface.
-  std::optional<PickedPoint> pickPoint(double x, double y);
+  /// @param isColoured  Looks through translucent parts that have no colours.
+  std::optional<PickedPoint> pickPoint(double x, double y, bool isColoured = false);
   /// Returns the parts seen at some pixel of a box, in the scene's order. Translucent parts hide nothing.
   std::vector<PartId> seenIn(const ViewProjection& view, const PixelBox& pixels) const;
 

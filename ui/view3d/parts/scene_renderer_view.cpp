@@ -154,7 +154,7 @@ void SceneRenderer::letGoOfKept() {
   beingKept_.clear();
 }
 
-std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y) {
+std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y, bool isColoured) {
   updateCut();
   const Ray whole{worldOf(renderer_, x, y, 0.0), worldOf(renderer_, x, y, 1.0)};
   std::optional<PickedPoint> picked;
@@ -166,6 +166,7 @@ std::optional<PickedPoint> SceneRenderer::pickPoint(double x, double y) {
   for (const auto& [id, actor] : actors_) {
     const Part* part = scene_.find(id);
     if (part == nullptr || !actor->isVisible()) continue;
+    if (isColoured && !actor->isOpaque() && actor->colours() == nullptr) continue;
     const auto seen = actor->mappers().isCut() ? behind(whole, planeOf(*cut_.plane())) : std::optional(whole);
     if (!seen) continue;
     const RigidTransform worldFromPart = poses_.shownPoseOf(*part), partFromWorld = worldFromPart.inverse();
