@@ -113,8 +113,9 @@ class ClearanceMapper {
 /// no more than a 20th of the part.
 double sampleSpacing(double range, double size) noexcept;
 
-/// Range in which the distances of an automatic map are searched, for a subject at its least distance to other parts [m]: a 20th of its diagonal or one and a half times that
-/// distance, whichever is more, rounded up to 1, 2 or 5 times a power of ten.
+/// Range in which the distances of an automatic map are searched, for a subject at its least distance to other parts
+/// [m]: a 20th of its diagonal or one and a half times that distance, whichever is more, rounded up to 1, 2 or 5 times a
+/// power of ten.
 /// @param kept  Returned instead if it is neither less nor more than four times as much; 0: none.
 double automaticRange(double size, double leastDistance, double kept = 0.0) noexcept;
 

@@ -8,7 +8,8 @@
 namespace nearfit {
 
 /// Writes a map as PLY, atomically: binary, little endian, its surfaces as one mesh in the world frame where they were
-/// measured. Returns the size of the file [bytes].
+/// measured. Only triangles with a corner within the range are written: the rest of a large part may be most of it.
+/// Returns the size of the file [bytes].
 ///
 /// A vertex has `x y z` (double, in the unit given), `nx ny nz` (float), `red green blue` (uchar, as in the view; beyond
 /// the range the colour of its part), `distance` (double, in metres whatever the unit; `nan` beyond the range) and
@@ -16,8 +17,8 @@ namespace nearfit {
 /// vertices for either side.
 /// @param scene          Gives names and colours.
 /// @param metresPerUnit  Unit of coordinates [m].
-/// Throws FileError; UsageError (invalid unit, more vertices than the format can count); Cancelled, which keeps the old
-/// file. Blocking.
+/// Throws FileError; UsageError (invalid unit, nothing within the range, more vertices than the format can count);
+/// Cancelled, which keeps the old file. Blocking.
 std::uint64_t exportClearanceMap(const ClearanceMap& map, const Scene& scene, double metresPerUnit,
                                  const std::filesystem::path& file, const ProgressCallback& progress = {});
 
