@@ -1,11 +1,11 @@
 // Parts that are inserted, and kept on others by joints: made by clicks, held in drags and by numbers, shown, removed.
-// and removed.
 #include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QStatusBar>
 #include <QToolButton>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -25,8 +25,12 @@ constexpr double kShank = 0.004, kBore = 0.0042, kPlateTop = 0.005;  ///< Radii 
 
 /// A plate with a bore along z, and a bolt beside it that stands on its head, a little askew.
 struct BoltBench {
-  BoltBench() {
-    const glm::dvec2 profile[] = {{kShank, -0.03}, {kShank, 0.0}, {0.007, 0.0}, {0.007, 0.005}};
+  /// @param chamfer  Of the shank's end [m]; 0: none.
+  explicit BoltBench(double chamfer = 0.0) {
+    std::vector<glm::dvec2> profile{{kShank - chamfer, -0.03}};
+    if (chamfer > 0.0) profile.emplace_back(kShank, -0.03 + chamfer);
+    for (const glm::dvec2& corner : {glm::dvec2(kShank, 0.0), glm::dvec2(0.007, 0.0), glm::dvec2(0.007, 0.005)})
+      profile.push_back(corner);
     d.add({writeOff(d.folder.path() / "plate.off", tubeMesh(kBore, 0.02, 2.0 * kPlateTop, 48)),
            writeOff(d.folder.path() / "bolt.off", turnedMesh(profile, 48))});
     [this] { QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2}); }();
@@ -94,6 +98,7 @@ class DesktopJointsTest : public QObject {
   void init() { QSettings().clear(); }
   void insertsABoltInItsBoreByTwoClicksAsOneStepOfUndo();
   void anInsertedBoltIsKeptOnTheAxisIfThatIsChosen();
+  void insertSaysThatAChamferHasNoFace();
   void escapeInsertsNothing();
   void aDragAcrossTheAxisMovesNothingAndOneAlongItDoes();
   void undoTakesJointAndMoveBackTogether();
@@ -151,6 +156,23 @@ void DesktopJointsTest::anInsertedBoltIsKeptOnTheAxisIfThatIsChosen() {
   // The choice is for one time.
   pressShortcut(b.d, Qt::Key_A, Qt::ShiftModifier);
   QVERIFY(!b.d.widget<QCheckBox>("alignKeep")->isChecked());
+}
+
+void DesktopJointsTest::insertSaysThatAChamferHasNoFace() {
+  BoltBench b(0.001);
+  pressShortcut(b.d, Qt::Key_A, Qt::ShiftModifier);
+  // The edge between chamfer and shank.
+  b.mouse.click(b.onShank(-0.029 + kInside));
+  QVERIFY2(b.d.text("alignHint").startsWith(QStringLiteral("No flat face at this edge of bolt")),
+           qPrintable(b.d.text("alignHint")));
+  b.mouse.click(b.besideBore());
+  QVERIFY2(b.d.text("alignHint").startsWith(QStringLiteral("No flat face at this edge: only the axes")),
+           qPrintable(b.d.text("alignHint")));
+  pressInView(b.d, Qt::Key_Escape);
+  pressShortcut(b.d, Qt::Key_A, Qt::ShiftModifier);
+  b.mouse.click(b.underHead());
+  b.mouse.click(b.besideBore());
+  QVERIFY2(!b.d.text("alignHint").contains(QStringLiteral("No flat face")), qPrintable(b.d.text("alignHint")));
 }
 
 void DesktopJointsTest::escapeInsertsNothing() {

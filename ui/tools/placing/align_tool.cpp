@@ -172,19 +172,27 @@ void AlignTool::take(const FeaturePick& pick) {
   view_.requestRender();
 }
 
+AlignTool::Picked AlignTool::pickedBy(const FeaturePick& pick, const Part& part) const {
+  const AlignFeature feature = rule_->featureOf(part.geometry->mesh, pick.picked);
+  const bool isAxisOfCircle =
+      pick.picked.feature.shape == FeatureShape::Circle && feature.shape == FeatureShape::Axis;
+  // A joint on an axis never looks for a face.
+  return {pick.part, feature, isAxisOfCircle && !rule_->joint};
+}
+
 void AlignTool::takeMoving(const FeaturePick& pick, const Part& part) {
   if (!selection_.contains(pick.part)) selection_.select(pick.part);
   const std::vector<PartId> moved = rule_->joint ? std::vector{pick.part} : selection_.parts();
   for (const PartId id : moved)
     start_[id] = session_.scene().find(id)->worldFromPart;
-  moving_ = {pick.part, rule_->featureOf(part.geometry->mesh, pick.picked)};
+  moving_ = pickedBy(pick, part);
   sceneSerial_ = session_.sceneSerial();
   movingLight_.show(part.geometry->mesh, pick.picked, view_.poses().shownPoseOf(part));
   picker_.start([this](const Part& other) { return refusalOf(other); });
 }
 
 void AlignTool::takeFixed(const FeaturePick& pick, const Part& part) {
-  fixed_ = {pick.part, rule_->featureOf(part.geometry->mesh, pick.picked)};
+  fixed_ = pickedBy(pick, part);
   fixedLight_.show(part.geometry->mesh, pick.picked, view_.poses().shownPoseOf(part));
   showOptions();
   preview();
@@ -306,13 +314,19 @@ QString AlignTool::idleHint() const {
                         : tr("Locked parts don't move; selected parts move together");
   }
   if (!fixed_) {
-    return tr("%1 of %2")
-        .arg(describeFeature(moving_->inPart), shortName(session_.scene().find(moving_->part)->name));
+    if (moving_->isUnseated) {
+      return tr("No flat face at this edge of %1: only its axis counts")
+          .arg(shortName(session_.scene().find(moving_->part)->name));
+    }
+    return tr("%1 of %2").arg(describeFeature(moving_->inPart),
+                              shortName(session_.scene().find(moving_->part)->name));
   }
   if (isContradicting_) {
     return tr("Contradicts other joints of %1: turn one of them off, or click another")
         .arg(shortName(session_.scene().find(moving_->part)->name));
   }
+  if (moving_->isUnseated || fixed_->isUnseated)
+    return tr("No flat face at this edge: only the axes become one. Enter applies, Esc cancels");
   return tr("Enter applies, Esc cancels; click again to change the target");
 }
 
