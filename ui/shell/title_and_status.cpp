@@ -16,6 +16,7 @@
 
 #include "core/session/session.h"
 #include "ui/model/hand_state.h"
+#include "ui/model/min_distance.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/paths.h"
 #include "ui/widgets/theme.h"
@@ -193,7 +194,7 @@ void StatusReadout::showSnapshot(const ServoSnapshot& snapshot, bool isFelt) {
   setPresent(*minima_, isFelt);
   setPresent(*distance_, isFelt);
   minima_->setText(tr("LMDs %1").arg(formatMinima(snapshot.lmdCount, snapshot.isTruncated)));
-  distance_->setText(tr("Min distance %1").arg(formatDistance(snapshot.distance, snapshot.isDistanceBound)));
+  distance_->setText(tr("Min distance %1").arg(formatMinDistance(minDistanceOf(snapshot))));
 }
 
 void StatusReadout::clearSnapshot() {

@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "ui/model/hand_lead.h"
+#include "ui/model/min_distance.h"
 #include "ui/panels/feel/feel_notice.h"
 #include "ui/panels/feel/hand_choice.h"
 #include "ui/panels/feel/preset_choice.h"
@@ -155,7 +156,8 @@ void FeelPanel::setUpReadouts() {
       device_->add(tr("Lost"), "reportsLost", tr("Reports lost or damaged since the part was taken in hand"));
   force_ = felt_->add(tr("Force"), "force");
   torque_ = felt_->add(tr("Torque"), "torque");
-  distance_ = felt_->add(tr("Min distance"), "distance");
+  distance_ = felt_->add(tr("Min distance"), "distance",
+                         tr("To the nearest part within the cutoff; parts that it overlaps are left out"));
   minima_ = felt_->add(tr("Local minima"), "minima");
   contacts_ = felt_->add(tr("Contacts"), "contacts", tr("Minima that hold the part"));
   lead_ = felt_->add(tr("Hand offset"), "lead", tr("Distance from the part to where the hand wants it"));
@@ -266,7 +268,7 @@ void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) 
 void FeelPanel::showNumbers(const ServoSnapshot& snapshot) {
   force_->setText(formatForce(glm::length(snapshot.wrench.force)));
   torque_->setText(formatTorque(glm::length(snapshot.wrench.torque)));
-  distance_->setText(formatDistance(snapshot.distance, snapshot.isDistanceBound));
+  distance_->setText(formatMinDistance(minDistanceOf(snapshot)));
   minima_->setText(formatMinima(snapshot.lmdCount, snapshot.isTruncated));
   energy_->setText(formatEnergy(snapshot.energyToHand));
   showProxy(snapshot);

@@ -1,0 +1,34 @@
+#include "ui/model/min_distance.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "ui/widgets/format.h"
+
+namespace nearfit::ui {
+
+MinDistance minDistanceOf(const ServoSnapshot& snapshot) noexcept {
+  if (snapshot.overlappingCount == 0) return {snapshot.distance, snapshot.isDistanceBound, false};
+  if (snapshot.overlappingCount > ServoSnapshot::kMaxOverlapping)
+    return {std::numeric_limits<double>::quiet_NaN(), false, true};
+  const auto overlapping = std::span(snapshot.overlapping).first(snapshot.overlappingCount);
+  double rest = std::numeric_limits<double>::infinity();
+  for (const SnapshotLmd& shown : std::span(snapshot.lmds).first(snapshot.storedLmds)) {
+    if (std::ranges::find(overlapping, shown.other) == overlapping.end())
+      rest = std::min(rest, shown.lmd.distance);
+  }
+  // A minimum that is missing is no nearer than the snapshot's distance.
+  const bool isMissing =
+      snapshot.isTruncated || snapshot.isDistanceBound || snapshot.storedLmds < snapshot.lmdCount;
+  const bool isBound = isMissing && snapshot.distance < rest;
+  return {isBound ? snapshot.distance : rest, isBound, true};
+}
+
+QString formatMinDistance(const MinDistance& shown) {
+  const QString distance = formatDistance(shown.distance, shown.isBound);
+  return shown.isOfRest ? QCoreApplication::translate("format", "%1 to others").arg(distance) : distance;
+}
+
+}  // namespace nearfit::ui
