@@ -114,7 +114,9 @@ QString formatEnergy(double joules) {
 QString formatMass(double kilograms) {
   if (kilograms >= 1.0) return figures(kilograms) + QStringLiteral(" kg");
   if (kilograms >= 1e-3) return figures(kilograms * 1e3) + QStringLiteral(" g");
-  return figures(kilograms * 1e6) + QStringLiteral(" mg");
+  if (kilograms >= 1e-7 || kilograms <= 0.0) return figures(kilograms * 1e6) + QStringLiteral(" mg");
+  if (kilograms >= 1e-10) return figures(kilograms * 1e9) + QChar(' ') + kMicro + QChar('g');
+  return figures(kilograms * 1e12) + QStringLiteral(" ng");
 }
 
 QString formatNumber(double value) {

@@ -12,6 +12,7 @@
 
 #include "tests/app/desktop/view_pointer.h"
 #include "ui/model/parts_model.h"
+#include "ui/tools/placing/align_bar.h"
 #include "ui/tools/placing/shown_joints.h"
 
 using namespace nearfit;
@@ -100,6 +101,7 @@ class DesktopJointsTest : public QObject {
   void anInsertedBoltIsKeptOnTheAxisIfThatIsChosen();
   void insertSaysThatAChamferHasNoFace();
   void escapeInsertsNothing();
+  void eachJointHasItsOwnIconAndAPointIsNotFlipped();
   void aDragAcrossTheAxisMovesNothingAndOneAlongItDoes();
   void undoTakesJointAndMoveBackTogether();
   void aNumberThatTheJointDoesNotAllowIsSaidAndTakenBack();
@@ -185,6 +187,24 @@ void DesktopJointsTest::escapeInsertsNothing() {
   QVERIFY(!b.d.action("insert")->isChecked());
   QCOMPARE(b.d.session().historyIndex(), steps);
   QCOMPARE(b.bolt().translation, b.aside.translation);
+}
+
+void DesktopJointsTest::eachJointHasItsOwnIconAndAPointIsNotFlipped() {
+  DesktopDriver d;
+  d.addCubes();
+  const auto pictureOf = [&](const char* name) { return d.action(name)->icon().pixmap(24).toImage(); };
+  const QImage axis = pictureOf("keepOnAxis"), plane = pictureOf("keepInPlane"),
+               point = pictureOf("keepToPoint");
+  QVERIFY(axis != plane && plane != point && point != axis);
+  for (const QImage& picture : {axis, plane, point})
+    QVERIFY(!picture.isNull());
+  ui::AlignBar bar(&d.window().viewport());
+  bar.show();
+  const auto* flip = bar.findChild<QCheckBox*>(QStringLiteral("alignFlip"));
+  bar.showPair(ui::AlignBar::Options{false, false, false});
+  QVERIFY(flip->isHidden());
+  bar.showPair(ui::AlignBar::Options{true, false, false});
+  QVERIFY(!flip->isHidden());
 }
 
 void DesktopJointsTest::aDragAcrossTheAxisMovesNothingAndOneAlongItDoes() {

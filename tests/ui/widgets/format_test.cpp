@@ -95,6 +95,9 @@ void FormatTest::massesAndEnergiesTakeTheUnitOfTheirSize() {
   QCOMPARE(formatMass(12.3), QStringLiteral("12.3 kg"));
   QCOMPARE(formatMass(0.0628), QStringLiteral("62.8 g"));
   QCOMPARE(formatMass(5e-7), QStringLiteral("0.50 mg"));
+  QCOMPARE(formatMass(4.4e-9), QStringLiteral("4.40 µg"));
+  QCOMPARE(formatMass(2e-12), QStringLiteral("2.00 ng"));
+  QCOMPARE(formatMass(0.0), QStringLiteral("0.00 mg"));
   QCOMPARE(formatEnergy(-0.0368), QStringLiteral("-36.8 mJ"));
   QCOMPARE(formatEnergy(0.0), QStringLiteral("0.00 mJ"));
   QCOMPARE(formatEnergy(4e-6), QStringLiteral("4.00 µJ"));

@@ -223,6 +223,8 @@ void FeelPanel::updateStart() {
 
 void FeelPanel::showStatus(const ServoStatus& status) {
   isTaken_ = status.isTaken();
+  hasDevice_ = status.hand == Hand::Device;
+  limits_ = status.device;
   hand_->showStatus(status);
   workspace_->showUncalibrated(status.isRunning && status.isUncalibrated);
   startStop_->setText(status.isOpening ? tr("Cancel") : isTaken_ ? tr("Stop") : tr("Feel"));
@@ -260,9 +262,16 @@ void FeelPanel::showSettings(const HapticSettings& settings) {
 void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) {
   setFelt(true);
   showNumbers(snapshot);
-  clamped_->setText(snapshot.isClamped ? tr("Limited to the device's maximum.") : QString());
+  clamped_->setText(snapshot.isClamped ? limitText(snapshot) : QString());
   notice_->showSnapshot(snapshot, scene);
   workspace_->showClutched(snapshot.isClutched);
+}
+
+QString FeelPanel::limitText(const ServoSnapshot& snapshot) const {
+  if (hasDevice_) return tr("Limited to the device's maximum.");
+  const bool isForce = glm::length(snapshot.unclampedWrench.force) > limits_.maxForce;
+  return isForce ? tr("Limited to %1 N.").arg(formatNumber(limits_.maxForce))
+                 : tr("Limited to %1 N·m.").arg(formatNumber(limits_.maxTorque));
 }
 
 void FeelPanel::showNumbers(const ServoSnapshot& snapshot) {

@@ -83,6 +83,8 @@ class FeelPanel : public QWidget {
   void updateStart();
   void showNumbers(const ServoSnapshot& snapshot);
   void showProxy(const ServoSnapshot& snapshot);
+  /// Says what limits the wrench.
+  QString limitText(const ServoSnapshot& snapshot) const;
   /// Removes what only holds while the part is felt.
   void clearNotices();
   /// Numbers that are felt now, or were felt last.
@@ -100,7 +102,8 @@ class FeelPanel : public QWidget {
   QLabel *force_, *torque_, *distance_, *minima_, *contacts_, *lead_, *energy_, *clamped_;
   QLabel *reports_, *jitter_, *lost_;
   QLabel *rate_, *lateness_, *tick_, *subSteps_, *overruns_, *scheduling_;
-  bool isTaken_ = false, isHandEmpty_ = false;
+  bool isTaken_ = false, isHandEmpty_ = false, hasDevice_ = false;
+  DeviceLimits limits_;  ///< Of the device, or of the hand in its place.
 };
 
 }  // namespace nearfit::ui

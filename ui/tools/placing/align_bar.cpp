@@ -95,8 +95,7 @@ void AlignBar::showPrompt(const QString& prompt, const QString& hint) {
 
 void AlignBar::showPair(const std::optional<Options>& options) {
   const Options shown = options.value_or(Options{});
-  flip_->setVisible(options.has_value());
-  flip_->setEnabled(shown.canFlip);
+  flip_->setVisible(shown.canFlip);
   offsetLabel_->setVisible(shown.canOffset);
   offset_->setVisible(shown.canOffset);
   keep_->setVisible(shown.canKeep);
@@ -124,7 +123,7 @@ FeatureFilter AlignBar::filter() const {
 }
 
 bool AlignBar::isFlipped() const {
-  return flip_->isChecked() && flip_->isEnabled();
+  return flip_->isChecked() && !flip_->isHidden();
 }
 
 bool AlignBar::isKept() const {

@@ -18,6 +18,7 @@ class FeelPanelTest : public QObject {
 
  private slots:
   void aMinDistanceThatIsOnlyABoundIsSaidToBeOne();
+  void aLimitIsTheDevicesOnlyIfThereIsOne();
 };
 
 void FeelPanelTest::aMinDistanceThatIsOnlyABoundIsSaidToBeOne() {
@@ -38,6 +39,32 @@ void FeelPanelTest::aMinDistanceThatIsOnlyABoundIsSaidToBeOne() {
   panel.clearSnapshot();
   panel.keepSnapshot(*snapshot);
   QCOMPARE(distance->text(), QStringLiteral("at least 0.26 mm"));
+}
+
+void FeelPanelTest::aLimitIsTheDevicesOnlyIfThereIsOne() {
+  const test::TemporaryFolder folder;
+  ui::PresetStore presets(folder.path() / "presets.json");
+  QAction clutch;
+  ui::FeelPanel panel({new QToolButton, &clutch, presets});
+  const auto* clamped = panel.findChild<QLabel*>(QStringLiteral("clamped"));
+  ui::ServoStatus status;
+  status.isRunning = true;
+  status.hand = ui::Hand::Manual;
+  status.device.maxForce = 10.0;
+  status.device.maxTorque = 0.5;
+  panel.showStatus(status);
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  snapshot->isClamped = true;
+  snapshot->unclampedWrench.force = {0.0, 0.0, 12.0};
+  panel.showSnapshot(*snapshot, Scene());
+  QCOMPARE(clamped->text(), QStringLiteral("Limited to 10 N."));
+  snapshot->unclampedWrench = {{0.0, 0.0, 1.0}, {0.7, 0.0, 0.0}};
+  panel.showSnapshot(*snapshot, Scene());
+  QCOMPARE(clamped->text(), QStringLiteral("Limited to 0.5 N·m."));
+  status.hand = ui::Hand::Device;
+  panel.showStatus(status);
+  panel.showSnapshot(*snapshot, Scene());
+  QCOMPARE(clamped->text(), QStringLiteral("Limited to the device's maximum."));
 }
 
 NEARFIT_QT_SUITE(FeelPanelTest, test::runQtTest<FeelPanelTest>)
