@@ -9,6 +9,7 @@
 
 #include "ui/view3d/vtk/pixel_sizes.h"
 #include "ui/view3d/vtk/vtk_convert.h"
+#include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
 namespace {
@@ -84,10 +85,11 @@ void fillPoint(vtkPolyData& data, const TriangleMesh& mesh, const PickedFeature&
 
 }  // namespace
 
-FeatureHighlight::FeatureHighlight(vtkRenderer& renderer, const QColor& colour) : renderer_(&renderer) {
-  style(*face_.Get(), *faces_.Get(), colour);
-  style(*line_.Get(), *lines_.Get(), colour.darker(125));
-  style(*point_.Get(), *points_.Get(), colour.darker(125));
+FeatureHighlight::FeatureHighlight(vtkRenderer& renderer, const QColor& colour)
+    : renderer_(&renderer), colour_(colour) {
+  setUp(*face_.Get(), *faces_.Get());
+  setUp(*line_.Get(), *lines_.Get());
+  setUp(*point_.Get(), *points_.Get());
   face_->GetProperty()->SetOpacity(0.5);
   // Push the face back by more than its depth changes across lines and dots in it, so that
   // these show in full width.
@@ -105,7 +107,7 @@ FeatureHighlight::~FeatureHighlight() {
     renderer_->RemoveActor(actor);
 }
 
-void FeatureHighlight::style(vtkActor& actor, vtkPolyData& data, const QColor& colour) const {
+void FeatureHighlight::setUp(vtkActor& actor, vtkPolyData& data) const {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(&data);
   mapper->ScalarVisibilityOff();
@@ -114,12 +116,24 @@ void FeatureHighlight::style(vtkActor& actor, vtkPolyData& data, const QColor& c
   actor.PickableOff();
   actor.VisibilityOff();
   actor.GetProperty()->LightingOff();
-  actor.GetProperty()->SetColor(colour.redF(), colour.greenF(), colour.blueF());
   renderer_->AddActor(&actor);
+}
+
+void FeatureHighlight::applyColours() {
+  const QColor face = themed(colour_);
+  // Lines stand out from the face and, where there is none, from the ground.
+  const QColor line = isThemeDark() ? face.lighter(125) : face.darker(125);
+  const auto colour = [](vtkActor& actor, const QColor& shown) {
+    actor.GetProperty()->SetColor(shown.redF(), shown.greenF(), shown.blueF());
+  };
+  colour(*face_.Get(), face);
+  colour(*line_.Get(), line);
+  colour(*point_.Get(), line);
 }
 
 void FeatureHighlight::show(const TriangleMesh& mesh, const PickedFeature& picked,
                             const RigidTransform& worldFromPart) {
+  applyColours();
   fillFaces(*faces_.Get(), mesh, picked);
   fillLines(*lines_.Get(), mesh, picked);
   fillPoint(*points_.Get(), mesh, picked);

@@ -17,6 +17,7 @@ namespace nearfit::ui {
 /// Highlights a feature in the view: its face, edge, axis or point.
 class FeatureHighlight {
  public:
+  /// @param colour  In the light theme.
   FeatureHighlight(vtkRenderer& renderer, const QColor& colour);
   ~FeatureHighlight();
   FeatureHighlight(const FeatureHighlight&) = delete;
@@ -30,12 +31,14 @@ class FeatureHighlight {
   bool isShown() const;
 
  private:
-  void style(vtkActor& actor, vtkPolyData& data, const QColor& colour) const;
+  void setUp(vtkActor& actor, vtkPolyData& data) const;
+  void applyColours();
 
   vtkSmartPointer<vtkRenderer> renderer_;  ///< Owned: the view may be destroyed before its tools.
   vtkNew<vtkPolyData> faces_, lines_, points_;
   vtkNew<vtkActor> face_, line_, point_;
   vtkNew<vtkMatrix4x4> pose_;
+  const QColor colour_;
 };
 
 }  // namespace nearfit::ui

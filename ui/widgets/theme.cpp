@@ -84,6 +84,7 @@ constexpr std::pair<const char*, const char*> kDarkColours[] = {
     {"#b05c10", "#e09a52"},
     {"#e2711d", "#ff9a52"},
     {"#5a7a00", "#b6d957"},
+    {"#445c00", "#b6d957"},
     {"rgba(255, 255, 255, 235)", "rgba(32, 38, 44, 240)"},
     {"fill=\"#fff\"", "fill=\"#2e3740\""}};
 
@@ -123,7 +124,7 @@ QPalette paletteOf(bool isDark) {
   }
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText}) {
     palette.setColor(role, colour("#1c252e"));
-    palette.setColor(QPalette::Disabled, role, isDark ? QColor(0x6d, 0x78, 0x83) : QColor(0x9a, 0xa4, 0xae));
+    palette.setColor(QPalette::Disabled, role, isDark ? QColor(0x8a, 0x95, 0xa0) : QColor(0x9a, 0xa4, 0xae));
   }
   palette.setColor(QPalette::PlaceholderText, colour("#5d6874"));
   return palette;

@@ -20,6 +20,7 @@ inline const QColor kMoving(0xe2, 0x71, 0x1d);
 inline const QColor kClearance(0x0b, 0x84, 0x84);
 inline const QColor kAtLeast(0xb0, 0x5c, 0x10);  ///< Lower bounds on a clearance.
 inline const QColor kJoint(0x5a, 0x7a, 0x00);
+inline const QColor kJointText(0x44, 0x5c, 0x00);  ///< Of joints; kJoint is too light for letters.
 inline const QColor kMutedText(0x5d, 0x68, 0x74);
 inline const QColor kWarning(0xb3, 0x4a, 0x00);
 }  // namespace colours

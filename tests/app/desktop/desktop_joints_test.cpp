@@ -404,6 +404,7 @@ void DesktopJointsTest::jointsThatContradictEachOtherAreNotMade() {
   // 0.51 m from that point; the other is 0.52 m away.
   mouse.click({0.003, -0.01, 0.036});
   mouse.click({-0.01, -0.02, 0.005});
+  QVERIFY(d.widget<QLabel>("alignHint")->styleSheet().contains(ui::colours::kWarning.name()));
   QVERIFY2(d.text("alignHint").contains(QStringLiteral("Contradicts other joints of moving")),
            qPrintable(d.text("alignHint")));
   QVERIFY(!d.widget<QPushButton>("alignApply")->isEnabled());

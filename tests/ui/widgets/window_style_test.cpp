@@ -72,6 +72,7 @@ class WindowStyleTest : public QObject {
   void boxesToTickStandOutInBothThemes();
   void tooltipsAreReadableInBothThemes_data();
   void tooltipsAreReadableInBothThemes();
+  void textOfThePastAndOfJointsIsReadable();
   void disabledIconsAreFaintInBothThemes_data();
   void disabledIconsAreFaintInBothThemes();
 
@@ -125,6 +126,17 @@ void WindowStyleTest::tooltipsAreReadableInBothThemes() {
   const double best = bestContrast(picture, picture.pixelColor(2, picture.height() / 2));
   QVERIFY2(best >= 4.5, qPrintable(QString::number(best)));
   QToolTip::hideText();
+}
+
+void WindowStyleTest::textOfThePastAndOfJointsIsReadable() {
+  ui::setColourScheme(ui::ColourScheme::Light);
+  QVERIFY(contrast(ui::themed(ui::colours::kJointText), QColor(0xe4, 0xe9, 0xee)) >= 4.5);
+  ui::setColourScheme(ui::ColourScheme::Dark);
+  const QPalette palette = QApplication::palette();
+  QVERIFY(contrast(palette.color(QPalette::Disabled, QPalette::WindowText),
+                   palette.color(QPalette::Window)) >= 4.5);
+  QVERIFY(contrast(ui::themed(ui::colours::kJointText), palette.color(QPalette::Window)) >= 4.5);
+  ui::setColourScheme(ui::ColourScheme::Light);
 }
 
 void WindowStyleTest::disabledIconsAreFaintInBothThemes_data() {

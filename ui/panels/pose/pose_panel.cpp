@@ -114,7 +114,7 @@ void PosePanel::setUpJoints(QGridLayout& layout) {
   jointRow_ = new QWidget(this);
   joints_ = new ElidedLabel(jointRow_);
   joints_->setObjectName(QStringLiteral("joints"));
-  joints_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kJoint.name()));
+  joints_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kJointText.name()));
   removeJoints_ = new QToolButton(jointRow_);
   removeJoints_->setObjectName(QStringLiteral("removeJoints"));
   removeJoints_->setIcon(icon(QStringLiteral("close")));

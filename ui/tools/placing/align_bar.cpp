@@ -52,7 +52,7 @@ void AlignBar::setUpFields() {
   prompt_->setStyleSheet(QStringLiteral("font-weight: bold"));
   hint_->setObjectName(QStringLiteral("alignHint"));
   hint_->setMinimumWidth(forFont(*this, 430));
-  hint_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kMutedText.name()));
+  colourHint(colours::kMutedText);
   filter_->setObjectName(QStringLiteral("alignFilter"));
   filter_->setAccessibleName(tr("What can be picked"));
   filter_->setToolTip(tr("What can be picked; corners and edges within a few pixels of the pointer"));
@@ -93,6 +93,10 @@ void AlignBar::showPrompt(const QString& prompt, const QString& hint) {
   place();
 }
 
+void AlignBar::colourHint(const QColor& colour) {
+  hint_->setStyleSheet(QStringLiteral("color: %1").arg(colour.name()));
+}
+
 void AlignBar::showPair(const std::optional<Options>& options) {
   const Options shown = options.value_or(Options{});
   flip_->setVisible(shown.canFlip);
@@ -100,10 +104,13 @@ void AlignBar::showPair(const std::optional<Options>& options) {
   offset_->setVisible(shown.canOffset);
   keep_->setVisible(shown.canKeep);
   apply_->setEnabled(options.has_value());
+  colourHint(colours::kMutedText);
   place();
 }
 
 void AlignBar::setApplicable(bool isApplicable) {
+  // The hint says why not.
+  colourHint(isApplicable ? colours::kMutedText : colours::kWarning);
   apply_->setEnabled(isApplicable);
 }
 

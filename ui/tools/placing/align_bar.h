@@ -58,6 +58,7 @@ class AlignBar : public ViewBar {
 
  private:
   void setUpFields();
+  void colourHint(const QColor& colour);
 
   QLabel *prompt_, *hint_;
   QComboBox* filter_;

@@ -85,7 +85,8 @@ void ClearanceLegend::paintSwatch(QPainter& painter, const QRect& at, const QCol
                                   const QString& text) const {
   const int line = fontMetrics().lineSpacing();
   const QRectF swatch(at.left(), at.top() + 0.1 * line, kBarWidth * line, 0.8 * line);
-  painter.setPen(Qt::NoPen);
+  // The nearly black of overlaps would vanish on a dark card.
+  painter.setPen(QPen(themed(colours::kMutedText), 1.0));
   painter.setBrush(colour);
   painter.drawRoundedRect(swatch, 2.0, 2.0);
   painter.setPen(themed(QColor(0x1c, 0x25, 0x2e)));

@@ -24,8 +24,8 @@ constexpr int kWidth = 226, kInset = 14;
 constexpr int kBarTop = 34, kBarHeight = 11;
 constexpr int kFirstRow = 86, kRowHeight = 22, kBelowLastRow = 16;  ///< Row positions are baselines.
 constexpr int kGlyphWidth = 25;
-/// Opacity of values that are past: readable, and plainly not of now.
-constexpr double kPastOpacity = 0.5;
+/// Opacity of values that are past: readable, and plainly not of now. On a dark card colours lose more.
+constexpr double kPastOpacity = 0.5, kPastOpacityOnDark = 0.75;
 
 void paintArrow(QPainter& painter, int y, const QColor& colour) {
   painter.setPen(QPen(colour, 2.6, Qt::SolidLine, Qt::FlatCap));
@@ -146,7 +146,7 @@ void ColourLegend::paintEvent(QPaintEvent*) {
   painter.drawRoundedRect(QRectF(QPointF(), QSizeF(size()) / scale()).adjusted(0.5, 0.5, -0.5, -0.5), 7.0,
                           7.0);
   paintScale(painter);
-  if (isPast_) painter.setOpacity(kPastOpacity);
+  if (isPast_) painter.setOpacity(isThemeDark() ? kPastOpacityOnDark : kPastOpacity);
   int y = kFirstRow;
   paintArrow(painter, y, colours::kForce);
   paintRow(painter, y, tr("Force"), force_);
