@@ -11,8 +11,9 @@ namespace {
 
 /// The end of the scale is at least this many medians, and margins, away.
 constexpr double kMedians = 2.0, kMargins = 5.0;
-/// The range shrinks once the wanted one is smaller by this factor.
-constexpr double kSlack = 4.0;
+/// The range shrinks once a smaller step holds this much more than the wanted one: less slack makes colours flicker,
+/// and with more, all minima are red.
+constexpr double kSlack = 1.5;
 
 double medianDistance(std::span<const SnapshotLmd> minima) {
   std::vector<double> distances;
@@ -30,7 +31,7 @@ void ColourRange::see(std::span<const SnapshotLmd> minima, double margin) {
   if (minima.empty()) return;
   const double wanted = std::max(kMedians * medianDistance(minima), kMargins * margin);
   if (!(wanted > 0.0) || !std::isfinite(wanted)) return;
-  const bool isKept = hasFound_ && wanted <= found_ && kSlack * wanted >= found_;
+  const bool isKept = hasFound_ && wanted <= found_ && roundedUp(kSlack * wanted) >= found_;
   if (!isKept) found_ = roundedUp(wanted);
   hasFound_ = true;
 }

@@ -75,6 +75,7 @@ class LmdOverlayTest : public QObject {
   void coloursSpanTheDistancesThatAreDrawn();
   void coloursSpanOnlyWhatIsChosenToBeDrawn();
   void coloursDoNotFlickerWhileDistancesChange();
+  void coloursFollowDistancesThatFallToAQuarter();
   void aChosenRangeOfColoursIsKept();
   void menuChoosesAndRemembers();
 
@@ -219,6 +220,18 @@ void LmdOverlayTest::coloursDoNotFlickerWhileDistancesChange() {
   QVERIFY2(changes <= 2, qPrintable(QString::number(changes)));
   colours.see({}, 1e-4);
   QCOMPARE(colours.end(), last);
+}
+
+/// The range stayed at 2 mm, so that all minima were red.
+void LmdOverlayTest::coloursFollowDistancesThatFallToAQuarter() {
+  ui::ColourRange colours;
+  colours.see(minimaAt({0.98e-3}), 0.0);
+  QVERIFY(isAbout(colours.end(), 2e-3));
+  colours.see(minimaAt({0.26e-3}), 0.0);
+  QVERIFY(isAbout(colours.end(), 1e-3));
+  // 0.6 mm, half as much again as is wanted now, needs this step.
+  colours.see(minimaAt({0.2e-3}), 0.0);
+  QVERIFY(isAbout(colours.end(), 1e-3));
 }
 
 void LmdOverlayTest::aChosenRangeOfColoursIsKept() {
