@@ -183,6 +183,7 @@ class DesktopPlotsTest : public QObject {
   void eachLineHasItsOwnColumnOfTheRecordingInItsUnit();
   void theTableHasAllColumnsInSiUnits();
   void theTableHasTheTimeThatIsShown();
+  void legendsAreLeftOutWhereTheyWouldLieOverTitles();
   void theSpanIsChosenByKeys();
   void theSpanIsChosenByTheMouse();
   void theSpanFollowsTheNewestThatIsFelt();
@@ -247,6 +248,19 @@ void DesktopPlotsTest::theTableHasTheTimeThatIsShown() {
   QCOMPARE(rows.front()[0], 58.0);
   QCOMPARE(rows.back()[0], 60.0);
   QVERIFY(isNearlyEqual(rows.back()[1], 5.0));
+}
+
+void DesktopPlotsTest::legendsAreLeftOutWhereTheyWouldLieOverTitles() {
+  ui::PlotView view;
+  view.setMinimumSize(1, 1);
+  const auto legends = view.findChildren<QCPLegend*>();
+  QCOMPARE(legends.size(), 2);
+  for (const int width : {1200, 180, 1200}) {
+    view.resize(width, 240);
+    view.replot();
+    for (const QCPLegend* legend : legends)
+      QCOMPARE(legend->visible(), width > 1000);
+  }
 }
 
 void DesktopPlotsTest::theSpanIsChosenByKeys() {

@@ -41,6 +41,7 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent) {
   plotLayout()->setColumnSpacing(4);
   plotLayout()->setRowSpacing(2);
   applyPalette();
+  connect(this, &QCustomPlot::afterLayout, this, &PlotView::fitLegends);
   timer_.setSingleShot(true);
   timer_.setInterval(kMinRedrawMs);
   connect(&timer_, &QTimer::timeout, this, [this] {
@@ -97,6 +98,17 @@ void PlotView::addLegend(Pane& pane, const QStringList& lineNames) {
   names->setMargins({4, 1, 4, 1});
   names->setIconSize(14, 8);
   pane.legend = names;
+}
+
+/// A legend that would lie over its pane's title is left out.
+void PlotView::fitLegends() {
+  const auto widthOf = [](const QCPLayoutElement& element) { return element.minimumOuterSizeHint().width(); };
+  for (std::size_t i = 0; i < panes_.size(); ++i) {
+    const Pane& pane = panes_[i];
+    if (pane.legend == nullptr) continue;
+    const int wide = widthOf(*titles_[i]) + widthOf(*pane.legend);
+    pane.legend->setVisible(wide <= pane.rect->width());
+  }
 }
 
 void PlotView::applyPalette() {

@@ -60,6 +60,7 @@ class PlotView : public QCustomPlot {
   void addPane(int row, int column, const QString& label,
                const std::vector<std::pair<PlotChannel, QColor>>& channels, double scale);
   void addLegend(Pane& pane, const QStringList& lineNames);
+  void fitLegends();
   void applyPalette();
   void takeUserRange(const QCPRange& range);
   void drawPanes();
