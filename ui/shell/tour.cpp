@@ -1,5 +1,6 @@
 #include "ui/shell/tour.h"
 
+#include <QApplication>
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QKeyEvent>
@@ -72,6 +73,8 @@ void Tour::show(std::size_t stop) {
   text_->setText(stops_[stop].text);
   count_->setText(tr("%1 of %2").arg(stop + 1).arg(stops_.size()));
   next_->setText(stop + 1 < stops_.size() ? tr("Next") : tr("Done"));
+  // Installing it again does not make two of it.
+  qApp->installEventFilter(this);
   frame_->show();
   frame_->raise();
   QFrame::show();
@@ -88,6 +91,8 @@ void Tour::next() {
 }
 
 void Tour::end() {
+  if (isHidden()) return;
+  qApp->removeEventFilter(this);
   hide();
   frame_->hide();
   emit ended();
@@ -116,8 +121,29 @@ void Tour::place() {
 }
 
 bool Tour::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize && isVisible()) place();
+  if (event->type() == QEvent::Resize && watched == parentWidget() && isVisible()) place();
+  if (event->type() == QEvent::KeyPress && isVisible()) {
+    const auto* receiver = qobject_cast<QWidget*>(watched);
+    if (receiver != nullptr && takeKey(*receiver, static_cast<QKeyEvent*>(event)->key())) return true;
+  }
   return QFrame::eventFilter(watched, event);
+}
+
+bool Tour::takeKey(const QWidget& receiver, int key) {
+  // Dialogs keep their keys, and the callout has its own.
+  if (receiver.window() != window() || &receiver == this || isAncestorOf(&receiver)) return false;
+  const bool isField = receiver.inherits("QLineEdit") || receiver.inherits("QAbstractSpinBox") ||
+                       receiver.inherits("QComboBox");
+  if (key == Qt::Key_Escape && !isField) {
+    end();
+    return true;
+  }
+  // In lists Return opens or edits.
+  const bool isExplained =
+      std::ranges::any_of(stops_, [&](const Stop& stop) { return stop.where == &receiver; });
+  if (!isExplained || (key != Qt::Key_Return && key != Qt::Key_Enter)) return false;
+  next();
+  return true;
 }
 
 void Tour::keyPressEvent(QKeyEvent* event) {

@@ -9,7 +9,8 @@ class QPushButton;
 
 namespace nearfit::ui {
 
-/// Callouts that explain the parts of a window one by one. The user can pass over each, or leave the tour.
+/// Callouts that explain the parts of a window one by one. The user can pass over each, or leave the tour: by Return and
+/// Escape, also after a click into the view.
 class Tour : public QFrame {
   Q_OBJECT
 
@@ -23,6 +24,8 @@ class Tour : public QFrame {
 
   /// Starts at the first visible stop; no-op if there is none.
   void begin(std::vector<Stop> stops);
+  /// Ends the tour; no-op if there is none.
+  void end();
 
  signals:
   /// Emitted when the tour ends, completed or not.
@@ -35,7 +38,8 @@ class Tour : public QFrame {
  private:
   void show(std::size_t stop);
   void next();
-  void end();
+  /// Ends the tour or goes on by a key for another widget of the window; false if the key is not for the tour.
+  bool takeKey(const QWidget& receiver, int key);
   void place();
 
   std::vector<Stop> stops_;

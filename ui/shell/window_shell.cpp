@@ -159,6 +159,10 @@ void WindowShell::beginTour() {
   files_.withParts([this] { showTour(); });
 }
 
+void WindowShell::endTour() {
+  tour_->end();
+}
+
 void WindowShell::showTour() {
   const auto find = [this](const char* name) { return window_->findChild<QWidget*>(QLatin1String(name)); };
   tour_->begin({

@@ -38,6 +38,8 @@ class WindowShell : public QObject {
  public slots:
   /// Starts the tour of the window; with an empty scene it opens the demo first.
   void beginTour();
+  /// Ends the tour, as when its scene is gone.
+  void endTour();
 
  private:
   void addThemes(QMenu* view);

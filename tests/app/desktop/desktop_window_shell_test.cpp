@@ -137,6 +137,7 @@ class DesktopWindowShellTest : public QObject {
   void iconsAreLegibleInBothThemes();
   void layoutIsRememberedAndReset();
   void tourExplainsTheDemoAndCanBeLeft();
+  void theTourHearsKeysAfterAClickIntoTheViewAndEndsWithItsScene();
   void theTourIsLedByReturnToo();
   void theTreeFollowsTheTheme();
   void theTabKeyGoesDownTheFeelPanel();
@@ -373,6 +374,27 @@ void DesktopWindowShellTest::tourExplainsTheDemoAndCanBeLeft() {
   QTRY_VERIFY(tour->isVisible());
   QTest::keyClick(next, Qt::Key_Escape);
   QVERIFY(!tour->isVisible());
+}
+
+void DesktopWindowShellTest::theTourHearsKeysAfterAClickIntoTheViewAndEndsWithItsScene() {
+  DesktopDriver d;
+  QTest::mouseClick(d.widget<QPushButton>("tourButton"), Qt::LeftButton);
+  auto* tour = d.widget<QFrame>("tour");
+  QTRY_VERIFY(tour->isVisible());
+  const QString first = d.text("tourTitle");
+  auto& view = d.window().viewport();
+  view.setFocus();
+  QTest::keyClick(&view, Qt::Key_Return);
+  QVERIFY(tour->isVisible());
+  QVERIFY(d.text("tourTitle") != first);
+  view.setFocus();
+  QTest::keyClick(&view, Qt::Key_Escape);
+  QVERIFY(!tour->isVisible());
+  d.choose("tour");
+  QTRY_VERIFY(tour->isVisible());
+  d.session().reset();
+  QVERIFY(!tour->isVisible());
+  QVERIFY(!d.widget<QFrame>("tourFrame")->isVisible());
 }
 
 void DesktopWindowShellTest::theTourIsLedByReturnToo() {
