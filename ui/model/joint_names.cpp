@@ -37,6 +37,10 @@ QString jointText(const Scene& scene, const Joint& joint) {
   }
 }
 
+int startOfJointText(const Scene& scene, const Joint& joint) {
+  return std::max(0, jointText(scene, joint).lastIndexOf(nameOfBase(scene, joint)));
+}
+
 QString jointTexts(const Scene& scene, const std::vector<Joint>& joints) {
   QStringList lines;
   for (const Joint& joint : joints) {

@@ -12,6 +12,8 @@ std::vector<Joint> jointsOfParts(const Scene& scene, const std::vector<PartId>& 
 
 /// Returns what a joint does: "Kept on axis of Base".
 QString jointText(const Scene& scene, const Joint& joint);
+/// Number of letters of jointText() before the name of the base.
+int startOfJointText(const Scene& scene, const Joint& joint);
 
 /// Returns the same for all these joints, one per line, those that are off marked; empty if there are none.
 QString jointTexts(const Scene& scene, const std::vector<Joint>& joints);

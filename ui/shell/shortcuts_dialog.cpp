@@ -18,11 +18,13 @@
 namespace nearfit::ui {
 namespace {
 
-/// Returns a menu's text without mnemonics and ellipsis; "&&" is an ampersand.
+/// Returns a menu's text without mnemonics and the ellipsis at its end; "&&" is an ampersand. One inside is of a name
+/// that was shortened.
 QString plainText(const QString& text) {
   QString plain = text;
   plain.replace(QStringLiteral("&&"), QStringLiteral("\x01")).remove(QChar('&')).replace('\x01', '&');
-  return plain.remove(QChar(0x2026));
+  if (plain.endsWith(QChar(0x2026))) plain.chop(1);
+  return plain;
 }
 
 QString keysOf(const QAction& action) {

@@ -12,10 +12,19 @@ class ElidedLabel : public QLabel {
  public:
   explicit ElidedLabel(QWidget* parent = nullptr);
 
+  /// Keeps the first letters of the text whole where there is room for more than these: what follows is elided in its
+  /// own middle.
+  void setWholeStart(int letters);
+  /// Returns the text as it is shown in its width.
+  QString shownText() const;
+
   QSize minimumSizeHint() const override;
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+
+ private:
+  int wholeStart_ = 0;
 };
 
 }  // namespace nearfit::ui

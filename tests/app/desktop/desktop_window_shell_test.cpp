@@ -274,6 +274,13 @@ void DesktopWindowShellTest::shortcutsAreListedAndSearched() {
   QCOMPARE(shown(), QStringList{QStringLiteral("Undo|Ctrl+Z")});
   QTest::keyClick(dialog, Qt::Key_Escape);
   QVERIFY(!dialog->isVisible());
+  // A name that was shortened keeps its ellipsis; that of a command goes.
+  d.action("undo")->setText(QStringLiteral("&Undo Move a\u2026z"));
+  d.action("open")->setText(QStringLiteral("&Open\u2026"));
+  pressShortcut(d, Qt::Key_F1);
+  QTRY_VERIFY(dialog->isVisible());
+  QVERIFY(shown().contains(QStringLiteral("Undo Move a\u2026z|Ctrl+Z")));
+  QVERIFY(shown().contains(QStringLiteral("Open|Ctrl+O")));
 }
 
 void DesktopWindowShellTest::themeIsSwitchedAtOnceAndKept() {

@@ -226,8 +226,9 @@ void PosePanel::showMass(const std::vector<const Part*>& parts, bool isLocked) {
                              : tr("Total mass; for a mesh that encloses no volume, of its bounding box"));
 }
 
-void PosePanel::showJoints(const QString& text, const QString& help, bool canRemove) {
+void PosePanel::showJoints(const QString& text, const QString& help, bool canRemove, int wholeStart) {
   joints_->setText(text);
+  joints_->setWholeStart(wholeStart);
   joints_->setToolTip(help);
   removeJoints_->setEnabled(canRemove);
   jointRow_->setVisible(!text.isEmpty());

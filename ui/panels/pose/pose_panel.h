@@ -51,7 +51,7 @@ class PosePanel : public QWidget {
   /// @param text       The first joint, in a line; empty: none.
   /// @param help       All of them.
   /// @param canRemove  The joints can be removed.
-  void showJoints(const QString& text, const QString& help = {}, bool canRemove = false);
+  void showJoints(const QString& text, const QString& help = {}, bool canRemove = false, int wholeStart = 0);
   /// Accepts a number that is still being typed, as leaving its field does.
   void commit();
   /// Sets what returns the pivot, in the part's frame [m]; the part's origin if not set.
