@@ -49,7 +49,8 @@ struct LeastClearance {
 
 /// Least clearance of a map's subject; nullopt if nothing is within the range.
 /// @param areas  Of the subject.
-std::optional<LeastClearance> leastClearanceOf(const ClearanceMap& map, const AreaByClearance& areas) noexcept;
+std::optional<LeastClearance> leastClearanceOf(const ClearanceMap& map,
+                                               const AreaByClearance& areas) noexcept;
 
 /// The area whose clearance is at least `from` and less than `to` [m].
 struct ClearanceBin {

@@ -36,9 +36,9 @@ struct ClearanceMapRequest {
   /// Max distance [m]; 0: one and a half times the median distance of the surface that is within automaticRange() and not
   /// in contact, no less than a hundredth of it or one and a half times the least distance, and rounded up like it.
   double range = 0.0;
-  double keptRange = 0.0;           ///< Last automatic range [m], kept while it still suits; 0: none.
-  bool hasNearParts = false;        ///< Map the surfaces of near parts too.
-  bool isParallel = true;           ///< Use all processors; false: only the calling thread.
+  double keptRange = 0.0;     ///< Last automatic range [m], kept while it still suits; 0: none.
+  bool hasNearParts = false;  ///< Map the surfaces of near parts too.
+  bool isParallel = true;     ///< Use all processors; false: only the calling thread.
   std::size_t maxSamples = kMaxMapSamples;
 };
 

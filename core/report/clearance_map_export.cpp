@@ -58,12 +58,12 @@ MapFileSize mapFileSize(const ClearanceMap& map, std::span<const std::vector<boo
 void writeMapHeader(MeshFile& out, const ClearanceMap& map, const Scene& scene, const MapFileSize& size,
                     double metresPerUnit) {
   auto text = std::back_inserter(out.text());
-  fmt::format_to(
-      text,
-      "ply\nformat binary_little_endian 1.0\n"
-      "comment Nearfit clearance map; world frame; {} m to the unit; distance in m, nan beyond {} m; only triangles "
-      "with a corner within it\n",
-      metresPerUnit, map.range);
+  fmt::format_to(text,
+                 "ply\nformat binary_little_endian 1.0\n"
+                 "comment Nearfit clearance map; world frame; {} m to the unit; distance in m, nan beyond {} "
+                 "m; only triangles "
+                 "with a corner within it\n",
+                 metresPerUnit, map.range);
   for (const MappedSurface& mapped : map.surfaces)
     fmt::format_to(text, "comment part {}\n", scene.get(mapped.part).name);
   fmt::format_to(text,

@@ -30,7 +30,8 @@ struct BoltBench {
   explicit BoltBench(double chamfer = 0.0) {
     std::vector<glm::dvec2> profile{{kShank - chamfer, -0.03}};
     if (chamfer > 0.0) profile.emplace_back(kShank, -0.03 + chamfer);
-    for (const glm::dvec2& corner : {glm::dvec2(kShank, 0.0), glm::dvec2(0.007, 0.0), glm::dvec2(0.007, 0.005)})
+    for (const glm::dvec2& corner :
+         {glm::dvec2(kShank, 0.0), glm::dvec2(0.007, 0.0), glm::dvec2(0.007, 0.005)})
       profile.push_back(corner);
     d.add({writeOff(d.folder.path() / "plate.off", tubeMesh(kBore, 0.02, 2.0 * kPlateTop, 48)),
            writeOff(d.folder.path() / "bolt.off", turnedMesh(profile, 48))});
@@ -174,7 +175,8 @@ void DesktopJointsTest::insertSaysThatAChamferHasNoFace() {
   pressShortcut(b.d, Qt::Key_A, Qt::ShiftModifier);
   b.mouse.click(b.underHead());
   b.mouse.click(b.besideBore());
-  QVERIFY2(!b.d.text("alignHint").contains(QStringLiteral("No flat face")), qPrintable(b.d.text("alignHint")));
+  QVERIFY2(!b.d.text("alignHint").contains(QStringLiteral("No flat face")),
+           qPrintable(b.d.text("alignHint")));
 }
 
 void DesktopJointsTest::escapeInsertsNothing() {

@@ -388,8 +388,8 @@ TEST(ClearanceMap, ADepthIsThatOfTheDeepestSample) {
 TEST(ClearanceMap, TheAutomaticRangeTellsNarrowGapsApart) {
   // A 20th of the upper plate is 7.1 mm. More area is 0.3 mm over the lower plate than is up to there along the sides.
   Scene scene;
-  const PartId upper =
-      scene.add(test::partOf(test::geometryOf(test::boxMesh({0.1, 0.1, 0.01})), "upper", at(0.0, 0.0, 0.0103)));
+  const PartId upper = scene.add(
+      test::partOf(test::geometryOf(test::boxMesh({0.1, 0.1, 0.01})), "upper", at(0.0, 0.0, 0.0103)));
   scene.add(test::partOf(test::geometryOf(test::boxMesh({0.3, 0.3, 0.01})), "lower"));
   EXPECT_DOUBLE_EQ(mapOf(scene, upper, 0.0).range, 5e-4) << "one and a half times 0.3 mm, rounded up";
   const ClearanceMap map = mapOf(scene, upper, 0.0);

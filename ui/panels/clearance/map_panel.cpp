@@ -88,7 +88,8 @@ ClearanceMapPanel::ClearanceMapPanel(const Context& context, QWidget* parent)
 void ClearanceMapPanel::setUpFields() {
   automatic_ = new QCheckBox(tr("&Automatic"), this);
   automatic_->setObjectName(QStringLiteral("clearanceMapAutomatic"));
-  automatic_->setToolTip(tr("Choose the range by the distances: 1.5 times the median of what is within a 20th of the part"));
+  automatic_->setToolTip(
+      tr("Choose the range by the distances: 1.5 times the median of what is within a 20th of the part"));
   range_ =
       lengthField(this, "clearanceMapRange", tr("Distance from which on a surface keeps its own colour"));
   range_->setAccessibleName(tr("Range"));

@@ -129,7 +129,8 @@ void SelectedPose::showJoints() {
   const auto others = static_cast<int>(joints.size()) - 1;
   const QString first = jointTexts(scene, {joints.front()});
   panel_.showJoints(others > 0 ? tr("%1 and %n more", nullptr, others).arg(first) : first,
-                    jointTexts(scene, joints), !scene.isLocked(*part), startOfJointText(scene, joints.front()));
+                    jointTexts(scene, joints), !scene.isLocked(*part),
+                    startOfJointText(scene, joints.front()));
 }
 
 void SelectedPose::removeJoints() {

@@ -318,8 +318,8 @@ QString AlignTool::idleHint() const {
       return tr("No flat face at this edge of %1: only its axis counts")
           .arg(shortName(session_.scene().find(moving_->part)->name));
     }
-    return tr("%1 of %2").arg(describeFeature(moving_->inPart),
-                              shortName(session_.scene().find(moving_->part)->name));
+    return tr("%1 of %2")
+        .arg(describeFeature(moving_->inPart), shortName(session_.scene().find(moving_->part)->name));
   }
   if (isContradicting_) {
     return tr("Contradicts other joints of %1: turn one of them off, or click another")

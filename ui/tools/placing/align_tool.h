@@ -90,7 +90,8 @@ class AlignTool : public QObject {
   struct Picked {
     PartId part{};
     AlignFeature inPart;
-    bool isUnseated = false;  ///< A round edge without a flat face in its plane, of which only the axis counts.
+    bool isUnseated =
+        false;  ///< A round edge without a flat face in its plane, of which only the axis counts.
   };
   Picked pickedBy(const FeaturePick& pick, const Part& part) const;
   /// The picked feature where its part is now.
