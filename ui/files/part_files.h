@@ -98,8 +98,8 @@ class PartFiles : public QObject {
   std::uint64_t sceneOfOthers_ = 0;  ///< Serial of the scene that was said to have other meshes.
   std::vector<PartId> doubted_;      ///< Parts added with a unit that seemed wrong; empty once dismissed.
   std::map<PartId, PartGeometryPtr> geometries_;  ///< Of all parts, as last judged.
-  std::uint64_t sceneFollowed_ = 0;  ///< Serial of their scene.
-  QStringList waiting_;              ///< Files to reload once nothing else is being loaded.
+  std::uint64_t sceneFollowed_ = 0;               ///< Serial of their scene.
+  QStringList waiting_;                           ///< Files to reload once nothing else is being loaded.
   Subscription changes_;
 };
 
