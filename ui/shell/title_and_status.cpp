@@ -134,7 +134,9 @@ QRect NoteBar::room() const {
   int right = width() - 2 * kMargin;
   for (const QObject* child : children()) {
     const auto* widget = qobject_cast<const QWidget*>(child);
-    if (widget != nullptr && widget->isVisible()) right = std::min(right, widget->x() - kMargin);
+    // A tool tip is a child too, and a window.
+    if (widget != nullptr && widget->isVisible() && !widget->isWindow())
+      right = std::min(right, widget->x() - kMargin);
   }
   return {kMargin, 0, std::max(right - kMargin, 0), height()};
 }

@@ -69,8 +69,8 @@ TEST_F(ClearanceMapCommand, APartIsNamedAndNearPartsAreAdded) {
   ASSERT_GE(map.comments.size(), 3U);
   EXPECT_EQ(map.comments[1], "part Plate");
   EXPECT_EQ(map.comments[2], "part Cube");
-  EXPECT_THAT(map.vertex.at("z"), ::testing::Contains(::testing::DoubleNear(2500.0, 1e-9)))
-      << "in millimetres";
+  EXPECT_THAT(map.vertex.at("z"), ::testing::Contains(::testing::DoubleNear(1500.0, 1e-9)))
+      << "the lower face of the cube, in millimetres";
 }
 
 TEST_F(ClearanceMapCommand, WithoutARangeItFindsOne) {

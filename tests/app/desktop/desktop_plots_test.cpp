@@ -253,6 +253,8 @@ void DesktopPlotsTest::theTableHasTheTimeThatIsShown() {
 void DesktopPlotsTest::legendsAreLeftOutWhereTheyWouldLieOverTitles() {
   ui::PlotView view;
   view.setMinimumSize(1, 1);
+  view.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&view));
   const auto legends = view.findChildren<QCPLegend*>();
   QCOMPARE(legends.size(), 2);
   for (const int width : {1200, 180, 1200}) {
