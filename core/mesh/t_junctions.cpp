@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -30,7 +31,7 @@ struct OpenSide {
 
 class Stitcher {
  public:
-  explicit Stitcher(const TriangleMesh& mesh) : mesh_(mesh), reach_(kOnEdge * mesh.bounds().diagonal()) {}
+  Stitcher(const TriangleMesh& mesh, double reach) : mesh_(mesh), reach_(reach) {}
 
   std::vector<Triangle> stitch() {
     gatherSides();
@@ -39,6 +40,17 @@ class Stitcher {
       if (splitAll()) return std::move(triangles_);
     }
     return {};
+  }
+
+  /// The triangle of the mesh that each triangle of the result is a fragment of.
+  std::vector<std::uint32_t> originsOf(std::size_t triangles) const {
+    std::vector<std::uint32_t> origins(triangles);
+    std::iota(origins.begin(), origins.end(), 0U);
+    for (const auto& [triangle, pieces] : piecesOf_) {
+      for (const std::uint32_t piece : pieces)
+        origins[piece] = triangle;
+    }
+    return origins;
   }
 
  private:
@@ -214,7 +226,17 @@ class Stitcher {
 
 std::vector<Triangle> stitchTJunctions(const TriangleMesh& mesh) {
   if (mesh.topology().openEdges == 0) return {};
-  return Stitcher(mesh).stitch();
+  return Stitcher(mesh, kOnEdge * mesh.bounds().diagonal()).stitch();
+}
+
+std::vector<Triangle> stitchTJunctions(const TriangleMesh& mesh, double reach,
+                                       std::vector<std::uint32_t>& originOf) {
+  originOf.clear();
+  if (mesh.topology().openEdges == 0) return {};
+  Stitcher stitcher(mesh, reach);
+  std::vector<Triangle> triangles = stitcher.stitch();
+  originOf = stitcher.originsOf(triangles.size());
+  return triangles;
 }
 
 }  // namespace nearfit

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
@@ -19,5 +20,11 @@ constexpr double kOnEdge = 1e-6;
 /// @return Triangles over the same vertices. Triangle i is triangle i of the mesh or a fragment of it;
 /// further fragments follow. Empty if there is nothing to close. About O(n log n) in open edges.
 std::vector<Triangle> stitchTJunctions(const TriangleMesh& mesh);
+
+/// The same for wider cracks.
+/// @param reach     Max distance of a vertex from an edge it is taken to lie on [m]; finite, >= 0.
+/// @param originOf  Receives the triangle of the mesh that each triangle is a fragment of.
+std::vector<Triangle> stitchTJunctions(const TriangleMesh& mesh, double reach,
+                                       std::vector<std::uint32_t>& originOf);
 
 }  // namespace nearfit

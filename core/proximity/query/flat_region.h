@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <span>
 
+#include "core/math/box_pairs.h"
 #include "core/proximity/minimum.h"
-#include "core/proximity/query/box_pairs.h"
 
 namespace nearfit {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/math/box_pairs.h"
 #include "core/proximity/minimum.h"
-#include "core/proximity/query/box_pairs.h"
 #include "core/proximity/query/touching.h"
 
 namespace nearfit {

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 #include <mutex>
 #include <numeric>
 #include <utility>
 
-#include <glm/geometric.hpp>
-
 #include "core/exact/triangle_predicates.h"
+#include "core/math/clearly_apart.h"
 #include "core/parallel/parallel_for.h"
 
 namespace nearfit {
@@ -29,81 +27,8 @@ constexpr std::size_t kMaxCrossings = 100'000;
 /// Triangles per task of a thread: some milliseconds.
 constexpr std::size_t kTrianglesAtOnce = 4096;
 
-/// Puts the corners that two triangles share first in both, in the same order; returns their number.
-std::size_t alignShared(Triangle& a, Triangle& b) {
-  std::size_t shared = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto same = std::find(b.begin() + static_cast<std::ptrdiff_t>(shared), b.end(), a[i]);
-    if (same == b.end()) continue;
-    std::iter_swap(same, b.begin() + static_cast<std::ptrdiff_t>(shared));
-    std::swap(a[i], a[shared]);
-    ++shared;
-  }
-  return shared;
-}
-
 TriangleCorners at(const TriangleMesh& mesh, const Triangle& t) {
   return {mesh.vertices()[t[0]], mesh.vertices()[t[1]], mesh.vertices()[t[2]]};
-}
-
-/// Rounding of the dot product of two vectors, each off by some roundings, over the product of their lengths.
-constexpr double kRounding = 1e-14;
-
-bool isClearlyPositive(const glm::dvec3& axis, const glm::dvec3& v) {
-  return glm::dot(axis, v) > kRounding * glm::length(axis) * glm::length(v);
-}
-
-bool areApartAlong(const glm::dvec3& axis, const TriangleCorners& a, const TriangleCorners& b) {
-  const auto isBeyond = [&axis](const TriangleCorners& low, const TriangleCorners& high) {
-    return std::ranges::all_of(low, [&](const glm::dvec3& p) {
-      return std::ranges::all_of(high, [&](const glm::dvec3& q) { return isClearlyPositive(axis, q - p); });
-    });
-  };
-  return isBeyond(a, b) || isBeyond(b, a);
-}
-
-/// True if the plane of a, or a plane through one of its sides and perpendicular to it, separates the two.
-bool areApartBeside(const TriangleCorners& a, const TriangleCorners& b) {
-  const glm::dvec3 normal = glm::cross(a[1] - a[0], a[2] - a[0]);
-  if (areApartAlong(normal, a, b)) return true;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (areApartAlong(glm::cross(a[(k + 1) % 3] - a[k], normal), a, b)) return true;
-  }
-  return false;
-}
-
-glm::dvec3 unit(const glm::dvec3& v) {
-  return v / std::max(glm::length(v), std::numeric_limits<double>::min());
-}
-
-/// True if a plane through their common corner has one on either side.
-bool areApartAtCorner(const TriangleCorners& a, const TriangleCorners& b) {
-  const glm::dvec3 a1 = a[1] - a[0], a2 = a[2] - a[0], b1 = b[1] - a[0], b2 = b[2] - a[0];
-  const glm::dvec3 axis = unit(a1) + unit(a2) - unit(b1) - unit(b2);
-  return isClearlyPositive(axis, a1) && isClearlyPositive(axis, a2) && isClearlyPositive(axis, -b1) &&
-         isClearlyPositive(axis, -b2);
-}
-
-/// True if they lie on either side of their common side, so that they are not folded onto each other.
-bool areApartAtSide(const TriangleCorners& a, const TriangleCorners& b) {
-  const glm::dvec3 side = a[1] - a[0], normalA = glm::cross(side, a[2] - a[0]),
-                   normalB = glm::cross(b[2] - b[0], side);
-  const double scale = glm::dot(side, side) * glm::length(a[2] - a[0]) * glm::length(b[2] - b[0]);
-  return glm::dot(normalA, normalB) > kRounding * scale;
-}
-
-/// True if double precision shows that they are apart, as it does for most pairs.
-bool areClearlyApart(const TriangleCorners& a, const TriangleCorners& b, std::size_t shared) {
-  switch (shared) {
-    case 0:
-      return areApartBeside(a, b) || areApartBeside(b, a);
-    case 1:
-      return areApartAtCorner(a, b);
-    case 2:
-      return areApartAtSide(a, b);
-    default:
-      return false;
-  }
 }
 
 class CrossingSearch {
@@ -146,7 +71,7 @@ class CrossingSearch {
   /// Adds the pair if it meets; returns the work it took.
   std::uint64_t workOf(std::uint32_t first, std::uint32_t second, std::vector<CrossingPair>& found) const {
     Triangle a = mesh_.triangles()[first], b = mesh_.triangles()[second];
-    const std::size_t shared = alignShared(a, b);
+    const std::size_t shared = alignSharedCorners(a, b);
     const TriangleCorners cornersA = at(mesh_, a), cornersB = at(mesh_, b);
     if (areClearlyApart(cornersA, cornersB, shared)) return 1;
     if (doTrianglesMeetBeyond(cornersA, cornersB, shared)) found.push_back({first, second});

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "core/math/box_pairs.h"
 #include "core/math/triangle_corners.h"
 #include "core/proximity/overlap/containment.h"
-#include "core/proximity/query/box_pairs.h"
 
 namespace nearfit {
 

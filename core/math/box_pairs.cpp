@@ -1,4 +1,4 @@
-#include "core/proximity/query/box_pairs.h"
+#include "core/math/box_pairs.h"
 
 #include <algorithm>
 
