@@ -43,6 +43,7 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(kFooter);
   nearfit::cli::addInfoCommand(program);
+  nearfit::cli::addCheckCommand(program);
   nearfit::cli::addLmdCommand(program);
   nearfit::cli::addSceneCommand(program);
   nearfit::cli::addPlaceCommand(program);

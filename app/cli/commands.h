@@ -10,6 +10,7 @@ class App;
 namespace nearfit::cli {
 
 void addInfoCommand(CLI::App& program);
+void addCheckCommand(CLI::App& program);
 void addLmdCommand(CLI::App& program);
 void addSceneCommand(CLI::App& program);
 void addPlaceCommand(CLI::App& program);

@@ -231,6 +231,17 @@ ImportedMesh importMeshBytes(const std::filesystem::path& file, std::vector<char
   return naming(file, [&] { return importUnguarded(file, std::move(bytes), options, progress); });
 }
 
+ImportedPolygons importPolygons(const std::filesystem::path& file, const ProgressCallback& callback) {
+  const Progress progress(callback);
+  return naming(file, [&] {
+    checkMeshFile(file);
+    std::vector<char> bytes =
+        readWholeFile(file, [&](double done) { progress.report(0.0, kReadFraction, done); });
+    std::string sha256 = sha256OfBytes(bytes);
+    return ImportedPolygons{readPolygons(file, std::move(bytes), progress).soup, std::move(sha256)};
+  });
+}
+
 Aabb readMeshBounds(const std::filesystem::path& file, const ProgressCallback& callback) {
   const Progress progress(callback);
   return naming(file, [&] {

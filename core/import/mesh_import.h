@@ -29,6 +29,15 @@ ImportedMesh importMesh(const std::filesystem::path& file, const MeshBuildOption
 ImportedMesh importMeshBytes(const std::filesystem::path& file, std::vector<char> bytes,
                              const MeshBuildOptions& options, const ProgressCallback& progress = {});
 
+/// The polygons of a mesh file as it has them.
+struct ImportedPolygons {
+  PolygonSoup soup;
+  std::string sha256;  ///< Of the file's bytes, 64 lower-case hexadecimal digits.
+};
+
+/// Reads the polygons of a mesh file as importMesh() does, but builds no mesh. Throws FileError, Cancelled.
+ImportedPolygons importPolygons(const std::filesystem::path& file, const ProgressCallback& progress = {});
+
 /// Bounding box of a mesh file's faces, in the file's units; empty if no corner is finite. Reads the file as
 /// importMesh() does but builds no mesh, which takes most of the time. Throws FileError, Cancelled.
 Aabb readMeshBounds(const std::filesystem::path& file, const ProgressCallback& progress = {});

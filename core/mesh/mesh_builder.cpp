@@ -221,7 +221,7 @@ std::string counted(std::uint64_t count, std::string_view noun, std::string_view
   return fmt::format("{} {}{} {}", count, noun, count == 1 ? "" : "s", count == 1 ? singular : plural);
 }
 
-void addWarnings(const MeshTopology& topology, MeshBuildReport& report) {
+void addWarnings(MeshBuildReport& report) {
   const auto warn = [&](std::uint64_t count, std::string_view noun, std::string_view singular,
                         std::string_view plural) {
     if (count > 0) report.warnings.push_back(counted(count, noun, singular, plural));
@@ -234,13 +234,6 @@ void addWarnings(const MeshTopology& topology, MeshBuildReport& report) {
   warn(report.stitchedEdges, "edge",
        "was cracked (vertices of one face on the edge of another) and was stitched.",
        "were cracked (vertices of one face on the edge of another) and were stitched.");
-  warn(topology.openEdges, "edge", "is open (one face only).", "are open (one face only).");
-  warn(topology.nonManifoldEdges, "edge", "is non-manifold (three faces or more).",
-       "are non-manifold (three faces or more).");
-  warn(topology.inconsistentEdges, "edge", "is inconsistent (its two faces have opposite senses).",
-       "are inconsistent (their two faces have opposite senses).");
-  if (report.turnedInsideOut)
-    report.warnings.emplace_back("The mesh was inside out; all its faces were flipped.");
 }
 
 /// Closes cracks. Most meshes have none and are not rebuilt.
@@ -274,6 +267,19 @@ void PolygonSoup::closePolygon() {
   firstCorner.push_back(static_cast<std::uint32_t>(corners.size()));
 }
 
+std::vector<std::string> topologyWarnings(const MeshTopology& topology) {
+  std::vector<std::string> warnings;
+  const auto warn = [&](std::uint64_t count, std::string_view singular, std::string_view plural) {
+    if (count > 0) warnings.push_back(counted(count, "edge", singular, plural));
+  };
+  warn(topology.openEdges, "is open (one face only).", "are open (one face only).");
+  warn(topology.nonManifoldEdges, "is non-manifold (three faces or more).",
+       "are non-manifold (three faces or more).");
+  warn(topology.inconsistentEdges, "is inconsistent (its two faces have opposite senses).",
+       "are inconsistent (their two faces have opposite senses).");
+  return warnings;
+}
+
 TriangleMesh buildMesh(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report,
                        const std::function<void(double)>& onProgress) {
   checkOptions(options);
@@ -281,7 +287,9 @@ TriangleMesh buildMesh(const PolygonSoup& soup, const MeshBuildOptions& options,
   report = {};
   report.coordinateRounding = options.metresPerUnit * coordinateRounding(soup.vertices);
   TriangleMesh mesh = stitched(Builder(soup, options, report, onProgress).build(), report);
-  addWarnings(mesh.topology(), report);
+  addWarnings(report);
+  const std::vector<std::string> defects = topologyWarnings(mesh.topology());
+  report.warnings.insert(report.warnings.end(), defects.begin(), defects.end());
   return outsideOut(std::move(mesh), report);
 }
 

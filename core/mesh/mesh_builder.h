@@ -45,6 +45,9 @@ struct MeshBuildReport {
   std::vector<std::string> warnings;  ///< One sentence with counts for each defect that a user should know.
 };
 
+/// A sentence for each kind of defect of a mesh, as in MeshBuildReport::warnings.
+std::vector<std::string> topologyWarnings(const MeshTopology& topology);
+
 /// Builds a mesh from a soup: scales it to metres, welds vertices, triangulates polygons (concave ones too),
 /// drops invalid faces, closes cracks of zero width, and flips what is inside out.
 ///

@@ -21,6 +21,10 @@ namespace {
 
 /// Progress after hashing, and after building the mesh; mass properties follow. Roughly the shares of time.
 constexpr double kHashed = 0.05, kImported = 0.95;
+/// Progress after building a mesh that is to be repaired.
+constexpr double kImportedToRepair = 0.5;
+/// Share of repairGeometry() that goes into the repairs; the rest measures what they changed.
+constexpr double kRepaired = 0.6, kCompared = 0.95;
 
 /// One task's share of the total progress. Never counts backward.
 class TaskProgress {
@@ -40,9 +44,15 @@ class TaskProgress {
   double done_ = 0.0;
 };
 
+/// A repaired mesh is cached like that of another file.
+TreeCacheKey cacheKeyOf(const std::string& sha256, double metresPerUnit, const MeshRepairs& repairs) {
+  if (repairs.empty()) return {sha256, metresPerUnit};
+  return {sha256OfBytes(sha256 + ' ' + textOf(repairs)), metresPerUnit};
+}
+
 PartGeometryPtr makeGeometry(const MeshSource& source, std::string sha256, CachedMesh&& loaded) {
   // Look again when the hierarchy is needed: another process may have stored it by then.
-  const TreeCacheKey key{sha256, source.metresPerUnit};
+  const TreeCacheKey key = cacheKeyOf(sha256, source.metresPerUnit, source.repairs);
   const auto surface = std::make_shared<SurfaceOnDemand>();
   const auto find = [key, surface, mesh = loaded.mesh]() -> std::optional<NormalConeTree> {
     const std::optional<TreeCacheFile> file = TreeCache().find(key);
@@ -60,12 +70,34 @@ PartGeometryPtr makeGeometry(const MeshSource& source, std::string sha256, Cache
   return std::make_shared<const PartGeometry>(
       PartGeometry{normalisedPath(source.file), std::move(sha256), source.metresPerUnit,
                    std::move(loaded.mesh), std::move(loaded.report), loaded.mass,
-                   std::make_shared<HierarchyOnDemand>(find, keep, rounding), surface});
+                   std::make_shared<HierarchyOnDemand>(find, keep, rounding), surface, source.repairs});
+}
+
+/// Replaces what the report says of defects that the mesh may no longer have.
+void renewWarnings(const MeshTopology& before, const MeshTopology& after, MeshBuildReport& report) {
+  const std::vector<std::string> old = topologyWarnings(before), now = topologyWarnings(after);
+  std::erase_if(report.warnings, [&](const std::string& w) { return std::ranges::count(old, w) > 0; });
+  report.warnings.insert(report.warnings.end(), now.begin(), now.end());
+}
+
+/// Runs repairs of a file's mesh; its errors name the file.
+RepairedMesh repaired(const std::filesystem::path& file, const TriangleMesh& mesh, const MeshRepairs& repairs,
+                      const ProgressCallback& progress) {
+  try {
+    return repairMesh(mesh, repairs, progress);
+  } catch (const UsageError&) {
+    throw;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    throw FileError(file.string(), error.problem(), error.remedy());
+  }
 }
 
 /// Null if the file's SHA-256 is not the required one.
 PartGeometryPtr load(const MeshSource& source, const ProgressCallback& progress) {
   checkMetresPerUnit(source.metresPerUnit);
+  checkRepairs(source.repairs);
   const TreeCache cache;
   const auto isWanted = [&](const std::string& sha256) {
     return source.sha256.empty() || sha256 == source.sha256;
@@ -74,17 +106,24 @@ PartGeometryPtr load(const MeshSource& source, const ProgressCallback& progress)
   std::string sha256 = sha256OfFile(source.file, stageOf(progress, 0.0, kHashed));
   if (!isWanted(sha256)) return nullptr;
   std::optional<CachedMesh> kept;
-  if (const auto file = cache.find({sha256, source.metresPerUnit})) kept = file->mesh();
+  if (const auto file = cache.find(cacheKeyOf(sha256, source.metresPerUnit, source.repairs))) kept = file->mesh();
   if (!kept) {
     MeshBuildOptions options;
     options.metresPerUnit = source.metresPerUnit;
-    ImportedMesh imported = importMesh(source.file, options, stageCallback(progress, kHashed, kImported));
+    const double imports = source.repairs.empty() ? kImported : kImportedToRepair;
+    ImportedMesh imported = importMesh(source.file, options, stageCallback(progress, kHashed, imports));
     // The file may have changed since it was hashed. Its content when it was read counts.
     sha256 = std::move(imported.sha256);
     if (!isWanted(sha256)) return nullptr;
     kept = CachedMesh{std::move(imported.mesh), std::move(imported.report), {}};
+    if (!source.repairs.empty()) {
+      const ProgressCallback stage = stageCallback(progress, kImportedToRepair, kImported);
+      RepairedMesh result = repaired(source.file, kept->mesh, source.repairs, stage);
+      renewWarnings(kept->mesh.topology(), result.mesh.topology(), kept->report);
+      kept->mesh = std::move(result.mesh);
+    }
     kept->mass = massProperties(kept->mesh);
-    cache.store({sha256, source.metresPerUnit}, *kept, nullptr);
+    cache.store(cacheKeyOf(sha256, source.metresPerUnit, source.repairs), *kept, nullptr);
   }
   stageOf(progress, kImported, 1.0)(1.0);
   return makeGeometry(source, std::move(sha256), std::move(*kept));
@@ -116,6 +155,25 @@ void checkMetresPerUnit(double metresPerUnit) {
 PartGeometryPtr loadPartGeometry(const std::filesystem::path& file, double metresPerUnit,
                                  const ProgressCallback& progress) {
   return load({file, metresPerUnit, {}}, progress);
+}
+
+GeometryRepair repairGeometry(const PartGeometry& original, const MeshRepairs& repairs,
+                              const ProgressCallback& progress) {
+  MeshSource source{original.file, original.metresPerUnit, original.sha256, original.repairs};
+  source.repairs.insert(source.repairs.end(), repairs.begin(), repairs.end());
+  checkRepairs(source.repairs);
+  const ProgressCallback repairing = stageCallback(progress, 0.0, kRepaired),
+                         comparing = stageCallback(progress, kRepaired, kCompared);
+  RepairedMesh result = repaired(original.file, original.mesh, repairs, repairing);
+  GeometryRepair repair{nullptr, std::move(result.steps), changeBetween(original.mesh, result.mesh, comparing)};
+  if (result.mesh.sharesArraysOf(original.mesh)) return repair;
+  CachedMesh made{std::move(result.mesh), original.report, {}};
+  renewWarnings(original.mesh.topology(), made.mesh.topology(), made.report);
+  made.mass = massProperties(made.mesh);
+  TreeCache().store(cacheKeyOf(original.sha256, source.metresPerUnit, source.repairs), made, nullptr);
+  repair.geometry = makeGeometry(source, original.sha256, std::move(made));
+  stageOf(progress, 0.0, 1.0)(1.0);
+  return repair;
 }
 
 std::vector<LoadedPart> loadPartGeometries(std::span<const MeshSource> sources,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/import/mesh_import.h"
+#include "core/mesh/check/mesh_repair.h"
 #include "core/mesh/mass_properties.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/proximity/hierarchy/normal_cone_tree.h"
@@ -50,7 +51,7 @@ class SurfaceOnDemand {
 };
 
 /// A mesh file and what is derived from it: mass properties on loading, hierarchy and unsided surface on
-/// demand. Otherwise immutable. Shared by all parts with the same file and unit.
+/// demand. Otherwise immutable. Shared by all parts with the same file, unit and repairs.
 struct PartGeometry {
   std::filesystem::path file;  ///< As normalisedPath() returns it.
   std::string sha256;          ///< Of the file's bytes, hexadecimal.
@@ -61,6 +62,8 @@ struct PartGeometry {
   MassProperties mass;
   std::shared_ptr<HierarchyOnDemand> hierarchy = std::make_shared<HierarchyOnDemand>();
   std::shared_ptr<SurfaceOnDemand> surfaceOnDemand = std::make_shared<SurfaceOnDemand>();
+  /// Made to the mesh after it was read; the file stays as it is.
+  MeshRepairs repairs = {};
 
   /// Hierarchy for queries, of the mesh with its flats merged (tree().mesh()); built on first use (seconds for
   /// millions of triangles; call prepareHierarchies() first if the caller must not wait). Thread-safe. Real-time
@@ -88,8 +91,22 @@ PartGeometryPtr loadPartGeometry(const std::filesystem::path& file, double metre
 struct MeshSource {
   std::filesystem::path file;
   double metresPerUnit = 1.0;
-  std::string sha256;  ///< Required SHA-256; empty: any.
+  std::string sha256;        ///< Required SHA-256; empty: any.
+  MeshRepairs repairs = {};  ///< To be made to the mesh; see PartGeometry::repairs.
 };
+
+/// A geometry after repairs.
+struct GeometryRepair {
+  PartGeometryPtr geometry;  ///< Null if there was nothing to repair.
+  std::vector<RepairStep> steps;
+  MeshChange change;
+};
+
+/// Makes repairs to a geometry besides those that it has. The result is what loading the file with all of them gives.
+/// Blocking, like loadPartGeometry(). Throws UsageError (checkRepairs), FileError naming the file if no face would be
+/// left, Cancelled.
+GeometryRepair repairGeometry(const PartGeometry& original, const MeshRepairs& repairs,
+                              const ProgressCallback& progress = {});
 
 /// Result of loading a MeshSource.
 struct LoadedPart {

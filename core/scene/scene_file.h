@@ -9,7 +9,7 @@
 /// The scene file `*.nearfit`, JSON in UTF-8:
 ///
 ///     {
-///       "nearfit": 5,                                        format version
+///       "nearfit": 6,                                        format version
 ///       "units": {"length": "m", "force": "N", "time": "s"}, always these
 ///       "haptics": {
 ///         "mode": "proxy",                                   or "springs": the part is at the handle
@@ -36,6 +36,11 @@
 ///         "mesh": "meshes/peg.stl",                          absolute, or from the scene file's folder
 ///         "sha256": "9f86d0...",                             of the mesh file's bytes
 ///         "metresPerUnit": 0.001,                            of the mesh file's coordinates
+///         "repairs": [{                                      made to the mesh after it is read, in this order
+///           "kind": "weld",                                  or "stitch", "clean", "orient", "fillHoles",
+///                                                            "dropShells": see mesh_repair.h
+///           "size": 1e-5                                     [m]; 0 for "clean" and "orient"
+///         }],
 ///         "position": [0, 0, 0.05],                          worldFromPart [m]
 ///         "quaternion": [1, 0, 0, 0],                        worldFromPart, w x y z, unit
 ///         "colour": [0.62, 0.69, 0.76],                      sRGB, each 0 to 1
@@ -67,7 +72,8 @@
 /// and haptic_limits.h.
 ///
 /// Older versions can still be read:
-/// - Version 4 has no "joints".
+/// - Version 5 has no "repairs".
+/// - Version 4 also has no "joints".
 /// - Version 3 also has no "pivot": parts turn about their centre of mass.
 /// - Version 2 also has no "groups", and parts have no "opacity", "group" and "wasVisible": they are opaque
 ///   and at the top level.
@@ -76,7 +82,7 @@
 namespace nearfit {
 
 /// Version that this program writes, and oldest version that it reads.
-constexpr int kSceneFileVersion = 5, kOldestSceneFileVersion = 1;
+constexpr int kSceneFileVersion = 6, kOldestSceneFileVersion = 1;
 /// Limits on the size of a scene file [bytes] and on its number of parts.
 constexpr std::size_t kMaxSceneFileBytes = 8U << 20U;
 constexpr std::size_t kMaxSceneFileParts = 10'000;

@@ -6,8 +6,10 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -35,6 +37,7 @@ struct PartEntry {
   std::filesystem::path mesh;
   std::string sha256;
   double metresPerUnit;
+  MeshRepairs repairs = {};
 };
 
 /// A group as in the file.
@@ -139,6 +142,24 @@ std::optional<glm::dvec3> readPivot(const JsonField& field) {
   return pivot;
 }
 
+/// Reads what version 6 adds to version 5.
+MeshRepairs readRepairs(const JsonField& field) {
+  if (field.size() > kMaxRepairs) field.fail(fmt::format("there are more than {} repairs", kMaxRepairs));
+  MeshRepairs repairs;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    const JsonField each = field.at(i), size = each.at("size");
+    const std::optional<RepairKind> kind = repairNamed(each.at("kind").text(16));
+    if (!kind) {
+      each.at("kind").fail(
+          "this repair is not known",
+          R"(give "weld", "stitch", "clean", "orient", "fillHoles" or "dropShells", or open it with a newer Nearfit)");
+    }
+    repairs.push_back({*kind, hasSize(*kind) ? size.number() : 0.0});
+    checked(size, [&] { checkRepairs(std::span(&repairs.back(), 1)); });
+  }
+  return repairs;
+}
+
 PartEntry readPart(const JsonField& field, std::size_t groupCount, const fs::path& folder, int version) {
   PartEntry entry{field, {}, {}, {}, readSha256(field.at("sha256")), field.at("metresPerUnit").number()};
   checked(field.at("metresPerUnit"), [&] { checkMetresPerUnit(entry.metresPerUnit); });
@@ -157,6 +178,7 @@ PartEntry readPart(const JsonField& field, std::size_t groupCount, const fs::pat
   entry.part.isLocked = field.at("locked").isTrue();
   if (version >= 3) readPlaceAndLook(field, groupCount, entry);
   if (version >= 4) entry.part.pivot = readPivot(field.at("pivot"));
+  if (version >= 6) entry.repairs = readRepairs(field.at("repairs"));
   return entry;
 }
 
@@ -286,7 +308,7 @@ void addJoints(Scene& scene, const std::vector<JointEntry>& entries) {
   }
 }
 
-/// Loads meshes, each file and unit once.
+/// Loads meshes, each file and unit once for the same repairs.
 class GeometryLoader {
  public:
   /// @param changed  Receives the files whose SHA-256 differs from the scene's; if null, such files fail.
@@ -298,7 +320,8 @@ class GeometryLoader {
     for (const PartEntry& entry : entries) {
       if (!indices_.emplace(keyOf(entry), sources.size()).second) continue;
       checkExists(entry);
-      sources.push_back({entry.mesh, entry.metresPerUnit, changed != nullptr ? std::string() : entry.sha256});
+      sources.push_back({entry.mesh, entry.metresPerUnit, changed != nullptr ? std::string() : entry.sha256,
+                         entry.repairs});
     }
     loaded_ = loadPartGeometries(sources, progress);
   }
@@ -318,8 +341,10 @@ class GeometryLoader {
   }
 
  private:
-  using Key = std::pair<fs::path, double>;
-  static Key keyOf(const PartEntry& entry) { return {entry.mesh, entry.metresPerUnit}; }
+  using Key = std::tuple<fs::path, double, std::string>;
+  static Key keyOf(const PartEntry& entry) {
+    return {entry.mesh, entry.metresPerUnit, textOf(entry.repairs)};
+  }
 
   static void checkExists(const PartEntry& entry) {
     std::error_code failure;

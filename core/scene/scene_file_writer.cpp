@@ -46,6 +46,13 @@ Json groupsJson(const Scene& scene, GroupIndices& indices) {
   return json;
 }
 
+Json repairsJson(const MeshRepairs& repairs) {
+  Json json = Json::array();
+  for (const MeshRepair& repair : repairs)
+    json.push_back({{"kind", wordOf(repair.kind)}, {"size", repair.size}});
+  return json;
+}
+
 Json partJson(const Part& part, const GroupIndices& groups, const std::filesystem::path& sceneFile) {
   const glm::dvec3& t = part.worldFromPart.translation;
   const glm::dquat& q = part.worldFromPart.rotation;
@@ -54,6 +61,7 @@ Json partJson(const Part& part, const GroupIndices& groups, const std::filesyste
   json["mesh"] = meshPath(part.geometry->file, sceneFile);
   json["sha256"] = part.geometry->sha256;
   json["metresPerUnit"] = part.geometry->metresPerUnit;
+  json["repairs"] = repairsJson(part.geometry->repairs);
   json["position"] = {t.x, t.y, t.z};
   json["quaternion"] = {q.w, q.x, q.y, q.z};
   json["colour"] = {shortestDouble(part.colour.r), shortestDouble(part.colour.g),

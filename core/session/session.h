@@ -58,6 +58,8 @@ class Session {
   /// Replaces the geometry of parts whose files changed, in one step; poses and joints stay. Also works on locked
   /// parts, since the file decides what it holds.
   void reloadParts(const std::vector<NewGeometry>& parts);
+  /// Replaces geometry by repaired copies, in one step; poses, pivots and joints stay.
+  void repairParts(const std::vector<NewGeometry>& parts);
   /// Replaces geometry by the same meshes in another unit, in one step. Poses stay; pivots, and the points of joints on
   /// the parts, scale with the meshes.
   void rescaleParts(const std::vector<NewGeometry>& parts);

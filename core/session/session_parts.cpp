@@ -135,6 +135,11 @@ void Session::reloadParts(const std::vector<NewGeometry>& parts) {
   change(partsOf(parts), "Reload", [&](Part& part) { part.geometry = geometries.at(part.id); });
 }
 
+void Session::repairParts(const std::vector<NewGeometry>& parts) {
+  const std::map<PartId, PartGeometryPtr> geometries = byPart(parts);
+  changeUnlocked(partsOf(parts), "Repair", [&](Part& part) { part.geometry = geometries.at(part.id); });
+}
+
 void Session::rescaleParts(const std::vector<NewGeometry>& parts) {
   const std::map<PartId, PartGeometryPtr> geometries = byPart(parts);
   const auto factorOf = [&](const Part& part) {

@@ -57,6 +57,22 @@ void dropUnusedVertices(MeshInRepair& mesh) {
 
 }  // namespace
 
+MeshRepairs repairsOf(const RepairChoice& choice) {
+  MeshRepairs repairs;
+  const auto add = [&repairs](RepairKind kind, const std::optional<double>& size) {
+    if (size) repairs.push_back({kind, *size});
+  };
+  add(RepairKind::Weld, choice.weld);
+  add(RepairKind::Stitch, choice.stitch);
+  if (choice.clean) repairs.push_back({RepairKind::Clean});
+  add(RepairKind::DropShells, choice.drop);
+  if (choice.orient) repairs.push_back({RepairKind::Orient});
+  add(RepairKind::FillHoles, choice.fill);
+  // Only what is closed has an outside.
+  if (choice.orient && choice.fill) repairs.push_back({RepairKind::Orient});
+  return repairs;
+}
+
 bool hasSize(RepairKind kind) noexcept {
   return kind != RepairKind::Clean && kind != RepairKind::Orient;
 }

@@ -34,6 +34,15 @@ struct MeshRepair {
 
 /// Repairs in the order in which they are made.
 using MeshRepairs = std::vector<MeshRepair>;
+/// Repairs that a user chooses, each by itself; sizes in [m].
+struct RepairChoice {
+  std::optional<double> weld, stitch, drop, fill;
+  bool clean = false, orient = false;
+};
+/// The chosen repairs in the order in which each finds what it needs: faces agree before holes are filled, and are
+/// turned outward once they are.
+MeshRepairs repairsOf(const RepairChoice& choice);
+
 /// Max number of repairs of one mesh.
 constexpr std::size_t kMaxRepairs = 100;
 /// Limits of MeshRepair::size [m].
