@@ -94,10 +94,15 @@ void FileCommands::setUpPartFiles() {
   connect(parts_, &PartFiles::failed, this, &FileCommands::failed);
   connect(parts_, &PartFiles::noted, this, &FileCommands::noted);
   connect(parts_, &PartFiles::rescaled, this, &FileCommands::showWhole);
+  connect(parts_, &PartFiles::repaired, this, &FileCommands::repaired);
 }
 
 void FileCommands::changeUnit(const std::vector<PartId>& parts) {
   parts_->changeUnit(parts);
+}
+
+void FileCommands::repair(const std::vector<PartId>& parts, const MeshRepairs& repairs) {
+  parts_->repair(parts, repairs);
 }
 
 void FileCommands::showWhole() {

@@ -60,8 +60,12 @@ class FileCommands : public QObject {
  public slots:
   /// Asks for another unit of parts and reads their files in it.
   void changeUnit(const std::vector<nearfit::PartId>& parts);
+  /// Repairs the meshes of parts, as one undo step.
+  void repair(const std::vector<nearfit::PartId>& parts, const nearfit::MeshRepairs& repairs);
 
  signals:
+  /// Emitted with what repairs did.
+  void repaired(const nearfit::GeometryRepair& repair);
   /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
   /// Emitted with a short note for the status bar.

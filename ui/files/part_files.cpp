@@ -169,7 +169,7 @@ std::vector<PartFiles::Wanted> PartFiles::partsOf(const QStringList& files) cons
   for (const Scene::PartPtr& part : session_.scene().parts()) {
     if (part->geometry == nullptr) continue;
     if (files.isEmpty() || chosen.contains(fromPath(part->geometry->file)))
-      wanted.push_back({part->id, part->geometry->metresPerUnit});
+      wanted.push_back({part->id, part->geometry->metresPerUnit, {}, part->geometry->repairs});
   }
   return wanted;
 }
@@ -194,13 +194,14 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, con
                      const QString& failure) {
   std::vector<MeshSource> sources;
   std::vector<std::size_t> sourceOf;
-  std::map<std::tuple<std::filesystem::path, double, std::string>, std::size_t> known;
+  std::map<std::tuple<std::filesystem::path, double, std::string, std::string>, std::size_t> known;
   for (const Wanted& want : wanted) {
     const PartGeometry& geometry = *session_.scene().find(want.part)->geometry;
     const auto [source, isNew] =
-        known.try_emplace(std::tuple(geometry.file, want.metresPerUnit, want.sha256), sources.size());
+        known.try_emplace(std::tuple(geometry.file, want.metresPerUnit, want.sha256, textOf(want.repairs)),
+                          sources.size());
     sourceOf.push_back(source->second);
-    if (isNew) sources.push_back({geometry.file, want.metresPerUnit, want.sha256});
+    if (isNew) sources.push_back({geometry.file, want.metresPerUnit, want.sha256, want.repairs});
   }
   if (sources.empty()) return;
   auto loaded = std::make_shared<std::vector<LoadedPart>>();
@@ -226,7 +227,8 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, con
       const Part* part = session_.scene().find(wanted[i].part);
       if (part == nullptr || !geometry) continue;
       const bool isSame = part->geometry->sha256 == geometry->sha256 &&
-                          part->geometry->metresPerUnit == geometry->metresPerUnit;
+                          part->geometry->metresPerUnit == geometry->metresPerUnit &&
+                          part->geometry->repairs == geometry->repairs;
       if (!isSame) renewed.push_back({part->id, geometry});
     }
     try {
@@ -296,7 +298,62 @@ void PartFiles::rescale(const std::vector<PartId>& parts, double factor) {
 }
 
 PartFiles::Wanted PartFiles::inUnit(const Part& part, double metresPerUnit) {
-  return {part.id, metresPerUnit, part.geometry->sha256};
+  // Tolerances grow with the mesh, so that they do the same to it.
+  const double factor = metresPerUnit / part.geometry->metresPerUnit;
+  return {part.id, metresPerUnit, part.geometry->sha256, scaledRepairs(part.geometry->repairs, factor)};
+}
+
+void PartFiles::repair(const std::vector<PartId>& parts, const MeshRepairs& repairs) {
+  if (document_.isBusy()) return;
+  if (hand_.status().isTaken()) return emit noted(tr("Stop (F6) before you repair a part"));
+  auto repaired = std::make_shared<Repaired>();
+  QStringList names;
+  for (const PartId id : parts) {
+    const Part* part = session_.scene().find(id);
+    if (part == nullptr || part->geometry == nullptr) continue;
+    names << QString::fromStdString(part->name);
+    if (std::ranges::count(*repaired, part->geometry, &Repaired::value_type::first) == 0)
+      repaired->emplace_back(part->geometry, GeometryRepair());
+  }
+  if (repaired->empty()) return;
+  const auto job = [repaired, repairs, shapes = document_.shapes()](const ProgressCallback& progress) {
+    std::vector<PartGeometryPtr> made;
+    for (std::size_t i = 0; i < repaired->size(); ++i) {
+      const auto count = static_cast<double>(repaired->size());
+      const ProgressCallback reading = progressOfReading(progress);
+      const ProgressCallback own = stageCallback(reading, static_cast<double>(i) / count,
+                                                 static_cast<double>(i + 1) / count);
+      (*repaired)[i].second = repairGeometry(*(*repaired)[i].first, repairs, own);
+      if ((*repaired)[i].second.geometry) made.push_back((*repaired)[i].second.geometry);
+    }
+    shapes->prepare(made, progressOfShapes(progress));
+  };
+  constexpr int kNamed = 3;
+  document_.load(tr("Repairing %1").arg(listOfNames(names, kNamed)), job, [=, this](const std::exception_ptr& error) {
+    if (isCancelled(error)) return;
+    try {
+      if (error) std::rethrow_exception(error);
+      takeRepaired(parts, *repaired);
+    } catch (...) {
+      emit failed(describe(tr("The part could not be repaired."), std::current_exception()));
+    }
+  });
+}
+
+void PartFiles::takeRepaired(const std::vector<PartId>& parts, const Repaired& repaired) {
+  // Feeling may have begun since.
+  if (hand_.status().isTaken())
+    throw UsageError("", "a part is being felt", "stop feeling it (F6), then try again");
+  std::vector<Session::NewGeometry> renewed;
+  for (const PartId id : parts) {
+    const Part* part = session_.scene().find(id);
+    if (part == nullptr) continue;
+    const auto own = std::ranges::find(repaired, part->geometry, &Repaired::value_type::first);
+    if (own != repaired.end() && own->second.geometry) renewed.push_back({id, own->second.geometry});
+  }
+  session_.repairParts(renewed);
+  emit this->repaired(repaired.front().second);
+  emit noted(renewed.empty() ? tr("There was nothing to repair") : tr("Repaired; undo to revert"));
 }
 
 void PartFiles::changeUnit(const std::vector<PartId>& parts) {

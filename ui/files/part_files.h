@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/session/session.h"
@@ -43,8 +44,13 @@ class PartFiles : public QObject {
   /// Asks for another unit of parts, then reads their files in it, as one undo step; poses stay. Refuses while
   /// a part is being felt: what is felt must not change its size. Does nothing while the document is busy.
   void changeUnit(const std::vector<PartId>& parts);
+  /// Repairs the meshes of parts in another thread, as one undo step; their files stay. Refuses while a part is being
+  /// felt. Does nothing while the document is busy.
+  void repair(const std::vector<PartId>& parts, const MeshRepairs& repairs);
 
  signals:
+  /// Emitted with what repairs did, of several meshes with the first.
+  void repaired(const nearfit::GeometryRepair& repair);
   /// Emitted when parts have changed their unit, by undo and redo too.
   void rescaled();
   /// Emitted with a short note for the status bar.
@@ -57,6 +63,7 @@ class PartFiles : public QObject {
     PartId part;
     double metresPerUnit;
     std::string sha256 = {};  ///< Required content of its file; empty: any.
+    MeshRepairs repairs = {};
   };
   void addActions(QMenu* menu);
   void seeChange(const QStringList& files);
@@ -76,6 +83,9 @@ class PartFiles : public QObject {
   bool offerRescaleOf(std::vector<PartId> parts);
   void offerRescale(const std::vector<PartId>& parts, double ratio, double factor);
   void rescale(const std::vector<PartId>& parts, double factor);
+  using Repaired = std::vector<std::pair<PartGeometryPtr, GeometryRepair>>;
+  /// Puts repaired geometries, each with the one that it replaces, into the scene.
+  void takeRepaired(const std::vector<PartId>& parts, const Repaired& repaired);
   /// The same part in another unit, from the content that its file had when it was read.
   static Wanted inUnit(const Part& part, double metresPerUnit);
   /// Reads the files of parts in other units, as one undo step.

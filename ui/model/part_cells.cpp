@@ -76,6 +76,10 @@ QIcon PartCell::picture(int column) const {
       const bool isOn = std::ranges::any_of(joints, &Joint::isOn);
       return listIcon(isOn ? QStringLiteral("joint") : QStringLiteral("joint-off"));
     }
+    case PartsModel::Findings:
+      if (badge_ == nullptr) return {};
+      return listIcon(badge_->worst == FindingSeverity::Note ? QStringLiteral("findings-note")
+                                                             : QStringLiteral("findings"));
     default:
       return {};
   }
@@ -92,6 +96,8 @@ QString PartCell::toolTip(int column) const {
       return lockText();
     case PartsModel::Joints:
       return jointText();
+    case PartsModel::Findings:
+      return badge_ != nullptr ? tr("%1\nClick to see where, and to repair it").arg(badge_->text) : QString();
     default:
       return description();
   }
@@ -119,6 +125,8 @@ QString PartCell::description() const {
           .arg(formatLength(size.x), formatLength(size.y), formatLength(size.z));
   for (const std::string& warning : part_.geometry->report.warnings)
     text += '\n' + QString::fromStdString(warning);
+  if (!part_.geometry->repairs.empty())
+    text += '\n' + tr("Repaired in this scene; its file is as it was");
   return text;
 }
 

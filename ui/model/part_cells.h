@@ -5,6 +5,7 @@
 #include <QString>
 
 #include "core/scene/scene.h"
+#include "ui/model/part_checks.h"
 
 namespace nearfit::ui {
 
@@ -15,7 +16,9 @@ class PartCell {
  public:
   /// @param scene  Must outlive this.
   /// @param part   Must outlive this.
-  PartCell(const Scene& scene, const Part& part) : scene_(scene), part_(part) {}
+  /// @param badge  Its findings; null if it has none. Must outlive this.
+  PartCell(const Scene& scene, const Part& part, const FindingsBadge* badge = nullptr)
+      : scene_(scene), part_(part), badge_(badge) {}
 
   /// Returns a cell's icon; null if it has none.
   QIcon picture(int column) const;
@@ -29,6 +32,7 @@ class PartCell {
 
   const Scene& scene_;
   const Part& part_;
+  const FindingsBadge* badge_;
 };
 
 /// Contents of the cells in a group's row.

@@ -71,10 +71,20 @@ void PartsModel::setScene(const Scene& scene) {
     return;
   }
   scene_ = scene;
+  tellChanged(0, ColumnCount - 1);
+}
+
+void PartsModel::setFindings(std::map<PartId, FindingsBadge> findings) {
+  if (findings == findings_) return;
+  findings_ = std::move(findings);
+  tellChanged(Findings, Findings);
+}
+
+void PartsModel::tellChanged(int firstColumn, int lastColumn) {
   for (std::size_t node = 0; node < nodes_.size(); ++node) {
     const QModelIndex above = indexOfNode(static_cast<int>(node), Name);
     const int rows = rowCount(above);
-    if (rows > 0) emit dataChanged(index(0, 0, above), index(rows - 1, ColumnCount - 1, above));
+    if (rows > 0) emit dataChanged(index(0, firstColumn, above), index(rows - 1, lastColumn, above));
   }
 }
 
@@ -136,7 +146,8 @@ QVariant PartsModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant PartsModel::partData(const Part& part, int column, int role) const {
-  const PartCell cell(scene_, part);
+  const auto found = findings_.find(part.id);
+  const PartCell cell(scene_, part, found != findings_.end() ? &found->second : nullptr);
   switch (role) {
     case Qt::DisplayRole:
     case Qt::EditRole:

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/scene/scene_tree.h"
+#include "ui/model/part_checks.h"
 
 namespace nearfit::ui {
 
@@ -15,13 +16,15 @@ class PartsModel : public QAbstractItemModel {
   Q_OBJECT
 
  public:
-  enum Column { Name, Moving, Visible, Locked, Joints, ColumnCount };
+  enum Column { Name, Moving, Visible, Locked, Joints, Findings, ColumnCount };
 
   explicit PartsModel(QObject* parent = nullptr);
 
   /// Shows `scene`. Keeps the rows, and so what is expanded, if the tree and all meshes are the same;
   /// else resets the model.
   void setScene(const Scene& scene);
+  /// Shows the findings of parts; those that are not listed have none.
+  void setFindings(std::map<PartId, FindingsBadge> findings);
   /// Nullopt if the index is invalid or a group's.
   std::optional<PartId> partAt(const QModelIndex& index) const;
   /// Nullopt if the index is invalid or a part's.
@@ -70,7 +73,11 @@ class PartsModel : public QAbstractItemModel {
   QVariant partData(const Part& part, int column, int role) const;
   QVariant groupData(const Group& group, int column, int role) const;
 
+  /// Tells that cells of these columns look different, in all rows.
+  void tellChanged(int firstColumn, int lastColumn);
+
   Scene scene_;
+  std::map<PartId, FindingsBadge> findings_;
   std::vector<Node> nodes_;  ///< The first is the scene, the invisible root.
   std::map<PartId, int> nodeOfPart_;
   std::map<GroupId, int> nodeOfGroup_;

@@ -19,8 +19,10 @@
 #include "ui/files/recovery/recovery.h"
 #include "ui/model/hand_state.h"
 #include "ui/model/move_guard.h"
+#include "ui/model/part_checks.h"
 #include "ui/model/selection.h"
 #include "ui/model/shown_poses.h"
+#include "ui/panels/check/check_panel.h"
 #include "ui/panels/clearance/clearance_panel.h"
 #include "ui/panels/clearance/map_panel.h"
 #include "ui/panels/feel/feel_control.h"
@@ -128,6 +130,9 @@ QDockWidget* MainWindow::addDock(const char* name, const QString& title, QWidget
 void MainWindow::makePanels() {
   auto* partsPanel = new PartsPanel(session_, *selection_, this);
   parts_ = new PartCommands({session_, *selection_, *hand_, *document_}, *partsPanel, this);
+  checks_ = new PartChecks(session_, *document_, *hand_, this);
+  connect(checks_, &PartChecks::changed, partsPanel,
+          [this, partsPanel] { partsPanel->showFindings(checks_->badges()); });
   posePanel_ = new PosePanel(this);
   feel_ = new FeelControl(session_, *hand_, *document_, this);
   feel_->panel().setTakeInHand(*parts_->takeInHand);
@@ -180,10 +185,26 @@ void MainWindow::makeReviewPanels() {
   splitDockWidget(clearanceDock, mapDock, Qt::Horizontal);
   splitDockWidget(mapDock, plotsDock, Qt::Horizontal);
   shareWidth(*clearanceDock, *plotsDock);
+  // After the splits: one beside a tab would become a tab itself.
+  makeCheckPanel(*clearanceDock);
   connectReplay(*timelineDock);
   // Whoever turns the colours on wants the numbers too.
   connect(clearanceMap_->colour(), &QAction::triggered, mapDock, [mapDock](bool isOn) {
     if (isOn) mapDock->show();
+  });
+}
+
+void MainWindow::makeCheckPanel(QDockWidget& neighbour) {
+  auto* panel = new CheckPanel({session_, *selection_, *hand_, *document_, *checks_, *viewport_}, this);
+  QDockWidget* dock = addDock("checkDock", tr("Check"), panel, Qt::BottomDockWidgetArea);
+  tabifyDockWidget(&neighbour, dock);
+  dock->hide();
+  connect(units_, &UnitMenu::unitChanged, panel, &CheckPanel::refresh);
+  connect(panel, &CheckPanel::repairRequested, files_, &FileCommands::repair);
+  connect(files_, &FileCommands::repaired, panel, &CheckPanel::showRepair);
+  connect(parts_, &PartCommands::checkRequested, dock, [dock] {
+    dock->show();
+    dock->raise();
   });
 }
 

@@ -21,6 +21,7 @@ class HandState;
 class HistoryPanel;
 class MoveGuard;
 class NoteBar;
+class PartChecks;
 class PartCommands;
 class PlacingTools;
 class PlotPanel;
@@ -89,6 +90,8 @@ class MainWindow : public QMainWindow {
  private:
   void makePanels();
   void makeReviewPanels();
+  /// Makes the panel of what is wrong with meshes, in a tab beside `neighbour`.
+  void makeCheckPanel(QDockWidget& neighbour);
   void shareWidth(QDockWidget& left, QDockWidget& right);
   /// Adds a button to the status bar that shows and hides a dock.
   void addDockButton(QDockWidget& dock, const QString& toolTip);
@@ -111,6 +114,7 @@ class MainWindow : public QMainWindow {
 
   FileCommands* files_;
   PartCommands* parts_ = nullptr;
+  PartChecks* checks_ = nullptr;
   PosePanel* posePanel_ = nullptr;
   SelectedPose* selectedPose_ = nullptr;
   FeelControl* feel_ = nullptr;

@@ -289,6 +289,13 @@ void Viewport::fitParts(const std::vector<PartId>& parts) {
   requestRender();
 }
 
+void Viewport::fitBox(const Aabb& box) {
+  if (box.isEmpty()) return;
+  const double bounds[6] = {box.lower.x, box.upper.x, box.lower.y, box.upper.y, box.lower.z, box.upper.z};
+  fitView(*renderer_, bounds);
+  requestRender();
+}
+
 void Viewport::setView(StandardView view) {
   double bounds[6];
   if (!parts_.visibleBounds(bounds)) return;

@@ -97,6 +97,9 @@ class Viewport : public QVTKOpenGLNativeWidget {
   void fit();
   /// Fits these parts into the view, with some room around them.
   void fitParts(const std::vector<PartId>& parts);
+  /// Fits a place into the view, seen from where the camera looks now.
+  /// @param box  World [m]; nothing happens if it is empty.
+  void fitBox(const Aabb& box);
   /// Turns to a standard view and fits all visible parts.
   void setView(StandardView view);
   /// Changes to orthographic projection or back to perspective; what is in the middle keeps its size.

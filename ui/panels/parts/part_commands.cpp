@@ -58,6 +58,8 @@ void PartCommands::makeActions() {
       makeAction(this, "recolour", tr("&Colour…"), {}, {}, tr("Change the colour of the selected parts"));
   changeUnit = makeAction(this, "changeUnit", tr("Chang&e unit…"), {}, {},
                           tr("Change the unit of the selected parts; shows the size in each unit"));
+  check = makeAction(this, "check", tr("C&heck…"), QStringLiteral("findings"), QStringLiteral("Ctrl+K"),
+                     tr("Show what is wrong with the mesh of the selected part and where, and repair it"));
   takeInHand =
       makeAction(this, "takeInHand", tr("&Take in hand"), QStringLiteral("hand"), QStringLiteral("Ctrl+H"));
   takeInHand->setToolTip(tr("Make the selected part the moving part"));
@@ -72,7 +74,7 @@ void PartCommands::makeActions() {
 void PartCommands::makeMenu() {
   auto* separator = new QAction(this);
   separator->setSeparator(true);
-  menu_ = QList<QAction*>{takeInHand, rename, recolour, changeUnit, duplicate} + tree_->list() +
+  menu_ = QList<QAction*>{takeInHand, rename, recolour, changeUnit, check, duplicate} + tree_->list() +
           QList<QAction*>{joints_->menu().menuAction(), separator, remove};
   for (QAction* action : menu_)
     action->setShortcutVisibleInContextMenu(true);
@@ -85,6 +87,7 @@ void PartCommands::connectActions() {
   connect(recolour, &QAction::triggered, this, &PartCommands::recolourSelected);
   connect(changeUnit, &QAction::triggered, this,
           [this] { emit unitChangeRequested(context_.selection.parts()); });
+  connect(check, &QAction::triggered, this, &PartCommands::checkRequested);
   connect(takeInHand, &QAction::triggered, this, [this] {
     if (context_.selection.current()) take(context_.selection.current());
   });
@@ -99,6 +102,11 @@ void PartCommands::connectPanel(PartsPanel& panel) {
   connect(&panel, &PartsPanel::movingPartRequested, this, &PartCommands::take);
   connect(&panel, &PartsPanel::lockRequested, this, &PartCommands::setLocked);
   connect(&panel, &PartsPanel::jointToggleRequested, joints_, &JointActions::toggle);
+  connect(&panel, &PartsPanel::findingsRequested, this, [this](PartId part) {
+    // Of several selected parts, the one whose badge was clicked is shown.
+    if (context_.selection.current() != part) context_.selection.select(part);
+    emit checkRequested();
+  });
   connect(&panel, &PartsPanel::renameRefused, this, &PartCommands::noted);
   connect(&panel, &PartsPanel::renameRequested, this, [this, &session](PartId part, const QString& name) {
     attempt(tr("The part could not be renamed."), [&] { session.renamePart(part, name.toStdString()); });
@@ -139,6 +147,8 @@ void PartCommands::update() {
   };
   changeUnit->setEnabled(canAct && part != nullptr &&
                          std::ranges::none_of(context_.selection.parts(), isLocked));
+  // Looking is possible at any time.
+  check->setEnabled(part != nullptr);
   selectAll->setEnabled(!scene.parts().empty());
   selectNone->setEnabled(isAnySelected);
 }

@@ -57,10 +57,12 @@ PartsPanel::PartsPanel(Session& session, Selection& selection, QWidget* parent)
   header->setStretchLastSection(false);
   header->setMinimumSectionSize(28);
   header->setSectionResizeMode(PartsModel::Name, QHeaderView::Stretch);
-  for (const int column : {PartsModel::Moving, PartsModel::Visible, PartsModel::Locked, PartsModel::Joints}) {
+  for (const int column : {PartsModel::Moving, PartsModel::Visible, PartsModel::Locked, PartsModel::Joints,
+                           PartsModel::Findings}) {
     header->setSectionResizeMode(column, QHeaderView::Fixed);
     header->resizeSection(column, 30);
   }
+  view_->setColumnHidden(PartsModel::Findings, true);
   filter_->setObjectName(QStringLiteral("partsFilter"));
   filter_->setPlaceholderText(tr("Find a part or group"));
   filter_->setAccessibleName(filter_->placeholderText());
@@ -162,6 +164,11 @@ void PartsPanel::showSelection(Reveal reveal) {
   isShowing_ = wasShowing;
 }
 
+void PartsPanel::showFindings(std::map<PartId, FindingsBadge> findings) {
+  view_->setColumnHidden(PartsModel::Findings, findings.empty());
+  model_->setFindings(std::move(findings));
+}
+
 void PartsPanel::setMenuActions(const QList<QAction*>& actions) {
   view_->addActions(actions);
 }
@@ -195,6 +202,9 @@ void PartsPanel::clickCell(const QModelIndex& index) {
       return toggleLock(index);
     case PartsModel::Joints:
       if (const std::optional<PartId> part = model_->partAt(index)) emit jointToggleRequested(*part);
+      break;
+    case PartsModel::Findings:
+      if (const std::optional<PartId> part = model_->partAt(index)) emit findingsRequested(*part);
       break;
     default:
       break;

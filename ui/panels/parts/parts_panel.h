@@ -1,10 +1,12 @@
 #pragma once
 
 #include <QWidget>
+#include <map>
 #include <optional>
 
 #include "core/scene/scene_tree.h"
 #include "core/session/scene_events.h"
+#include "ui/model/part_checks.h"
 
 class QAction;
 class QLineEdit;
@@ -32,6 +34,8 @@ class PartsPanel : public QWidget {
   void refresh();
   /// Returns the tree, for the order of the Tab key.
   QWidget* list() const noexcept;
+  /// Shows a badge in the rows of parts with findings; a click asks for findingsRequested().
+  void showFindings(std::map<PartId, FindingsBadge> findings);
   /// Sets the actions of the context menu.
   void setMenuActions(const QList<QAction*>& actions);
   /// Edits the name in the current row, of a part or a group; no-op unless the row is selected. If the panel
@@ -47,6 +51,8 @@ class PartsPanel : public QWidget {
   void visibilityRequested(const std::vector<nearfit::PartId>& parts, bool isVisible);
   /// Emitted when the joints of a part are to be turned off, or on if none is.
   void jointToggleRequested(nearfit::PartId part);
+  /// Emitted when the user wants to see what is wrong with a part.
+  void findingsRequested(nearfit::PartId part);
   void lockRequested(const nearfit::SceneNodes& nodes, bool isLocked);
   void regroupRequested(const nearfit::SceneNodes& nodes, std::optional<nearfit::GroupId> target);
 
