@@ -44,7 +44,7 @@ constexpr const char* kCheckFooter =
     "                     loading left out are mended: the part does not have them.\n"
     "Severity: serious: contact may be wrong there; warning: it is slower, or felt from both sides; note: it is\n"
     "as it should be.\n"
-    "Repairs are made to a copy in this order: weld, stitch, clean, drop, orient, fill. --repair writes it in\n"
+    "Repairs are made to a copy in this order: weld, clean, stitch, drop, orient, fill. --repair writes it in\n"
     "the unit of the file; OUT is .stl, .obj or .ply. Lengths are in metres, or have a unit: --weld 0.01mm.\n"
     "The exit code does not depend on what is found.\n"
     "Example: nearfit-cli check --unit mm lid.stl --repair lid-closed.stl --stitch 0.05mm --fill 2mm --orient";

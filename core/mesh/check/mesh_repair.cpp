@@ -63,8 +63,9 @@ MeshRepairs repairsOf(const RepairChoice& choice) {
     if (size) repairs.push_back({kind, *size});
   };
   add(RepairKind::Weld, choice.weld);
-  add(RepairKind::Stitch, choice.stitch);
+  // A doubled face hides that its border is open.
   if (choice.clean) repairs.push_back({RepairKind::Clean});
+  add(RepairKind::Stitch, choice.stitch);
   add(RepairKind::DropShells, choice.drop);
   if (choice.orient) repairs.push_back({RepairKind::Orient});
   add(RepairKind::FillHoles, choice.fill);

@@ -20,6 +20,8 @@ constexpr std::uint32_t kNoShell = std::numeric_limits<std::uint32_t>::max();
 constexpr double kLeastShellVolume = 1e-14;
 /// Max triangles looked at to find which shells lie within others, and pairs of shells: about a second.
 constexpr std::uint64_t kMaxRayWork = 300'000'000;
+/// Max triangles of a shell that are looked at to find whether it lies within another.
+constexpr std::size_t kMaxSamplesOfShell = 8;
 /// How far behind the mesh's box rays end, in its diagonals.
 constexpr double kRayReach = 2.0;
 
@@ -103,7 +105,7 @@ class ShellNesting {
       for (std::size_t other = 0; other < k; ++other) {
         const MeshShell& outer = result_.shells[solid_[other]];
         if (++work_ > kMaxRayWork) return leaveFrom(k);
-        if (holds(outer.box, inner.box) && isWithin(inner, solid_[other])) ++inner.depth;
+        if (holds(outer.box, inner.box) && areSamplesWithin(solid_[k], solid_[other])) ++inner.depth;
       }
     }
   }
@@ -133,8 +135,18 @@ class ShellNesting {
     return {mesh_.vertices()[t[0]], mesh_.vertices()[t[1]], mesh_.vertices()[t[2]]};
   }
 
-  bool isWithin(const MeshShell& inner, std::uint32_t outer) {
-    const TriangleCorners corners = cornersAt(inner.firstTriangle);
+  /// Some triangles spread over a shell stand for it: of shells that cross, some are outside.
+  bool areSamplesWithin(std::uint32_t inner, std::uint32_t outer) {
+    const std::size_t count = first_[inner + 1] - first_[inner];
+    const std::size_t stride = 1 + (count - 1) / kMaxSamplesOfShell;
+    for (std::size_t i = 0; i < count; i += stride) {
+      if (!isWithin(order_[first_[inner] + i], outer)) return false;
+    }
+    return true;
+  }
+
+  bool isWithin(std::uint32_t triangle, std::uint32_t outer) {
+    const TriangleCorners corners = cornersAt(triangle);
     const glm::dvec3 from = (corners[0] + corners[1] + corners[2]) / 3.0;
     const double reach = kRayReach * mesh_.bounds().diagonal();
     for (int axis = 0; axis < 3; ++axis) {

@@ -32,8 +32,8 @@ struct MeshShells {
   bool isDepthExact = true;
 };
 
-/// Finds the shells of a mesh, and which lie within which: by the triangles that a ray from one of its points crosses,
-/// decided exactly. Shells should not cross. O(n) for few shells within the boxes of others; at most a second beyond
+/// Finds the shells of a mesh, and which lie within which: by the triangles that rays from some of its points cross,
+/// decided exactly. Of shells that cross, none counts as within the other unless all these points are. O(n) for few shells within the boxes of others; at most a second beyond
 /// that.
 MeshShells shellsOf(const TriangleMesh& mesh);
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
@@ -123,6 +124,48 @@ TEST(PartGeometry, StoppedPreparationLeavesWhatIsMissingForLater) {
     EXPECT_TRUE(test::areSame(geometry->tree(), NormalConeTree(geometry->mesh)));
 }
 
+/// A ball without its first face.
+TriangleMesh openBall(std::uint32_t subdivisions) {
+  const TriangleMesh ball = test::icosphereMesh(1.0, subdivisions);
+  return {{ball.vertices().begin(), ball.vertices().end()}, {ball.triangles().begin() + 1, ball.triangles().end()}};
+}
+
+TEST(PartGeometry, RepairsMadeLaterGiveWhatLoadingWithThemGives) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("open.obj", test::objText(openBall(2)));
+  const PartGeometryPtr open = loadPartGeometry(file, 1.0);
+  EXPECT_THAT(open->report.warnings, testing::Contains("3 edges are open (one face only)."));
+  const MeshRepairs first{{RepairKind::FillHoles, 1.0}}, second{{RepairKind::Orient}, {RepairKind::Weld, 1e-9}};
+  const GeometryRepair filled = repairGeometry(*open, first);
+  ASSERT_NE(filled.geometry, nullptr);
+  EXPECT_EQ(filled.geometry->repairs, first);
+  EXPECT_TRUE(filled.geometry->mesh.topology().isClosed());
+  EXPECT_THAT(filled.geometry->report.warnings, testing::IsEmpty()) << "it is no longer open";
+  EXPECT_EQ(filled.geometry->mass.basis, MassBasis::VolumeIntegrals);
+  EXPECT_EQ(filled.steps.size(), 1U);
+  EXPECT_TRUE(filled.change.after.volume);
+  EXPECT_EQ(open->mesh.topology().openEdges, 3U) << "the original stays";
+  EXPECT_EQ(repairGeometry(*filled.geometry, second).geometry, nullptr) << "there is nothing left to do";
+  MeshSource source{file, 1.0, {}, first};
+  const PartGeometryPtr loaded = loadPartGeometries(std::span(&source, 1)).front().geometry;
+  ASSERT_NE(loaded, nullptr);
+  EXPECT_TRUE(test::areSame(loaded->mesh, filled.geometry->mesh));
+  EXPECT_EQ(loaded->sha256, open->sha256) << "that of the file";
+}
+
+TEST(PartGeometry, RepairsThatLeaveNothingFailWithTheNameOfTheFile) {
+  const test::TemporaryFolder folder;
+  MeshSource source{folder.write("ball.obj", test::objText(test::icosphereMesh(1.0, 1))), 1.0, {}};
+  source.repairs = {{RepairKind::DropShells, 10.0}};
+  const LoadedPart loaded = loadPartGeometries(std::span(&source, 1)).front();
+  ASSERT_TRUE(loaded.problem);
+  try {
+    std::rethrow_exception(loaded.problem);
+  } catch (const FileError& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("ball.obj"), testing::HasSubstr("leaves no face")));
+  }
+}
+
 /// A mesh file large enough to be kept, and a cache of its own.
 class CachedPartGeometry : public testing::Test {
  protected:
@@ -153,6 +196,21 @@ TEST_F(CachedPartGeometry, SecondLoadReadsNoMeshAndBuildsNoHierarchy) {
   expectSame(*second, *first);
   EXPECT_TRUE(second->hierarchy->origin()->isFromCache);
   EXPECT_EQ(loadPartGeometry(file_, 1.0)->mesh.bounds().upper, 1000.0 * first->mesh.bounds().upper);
+}
+
+TEST_F(CachedPartGeometry, RepairedMeshesAreKeptApartFromTheOthers) {
+  const auto file = folder_.write("open.stl", test::stlBinary(openBall(4)));
+  const MeshSource plain{file, 1.0, {}}, filled{file, 1.0, {}, {{RepairKind::FillHoles, 1.0}}},
+      dropped{file, 1.0, {}, {{RepairKind::FillHoles, 1e-6}}};
+  const std::vector<MeshSource> sources{plain, filled, dropped};
+  for (int round = 0; round < 2; ++round) {
+    const std::vector<LoadedPart> loaded = loadPartGeometries(sources);
+    EXPECT_EQ(loaded[0].geometry->mesh.topology().openEdges, 3U) << round;
+    EXPECT_EQ(loaded[1].geometry->mesh.topology().openEdges, 0U) << round;
+    EXPECT_EQ(loaded[2].geometry->mesh.topology().openEdges, 3U) << round;
+    loaded[1].geometry->tree();
+  }
+  EXPECT_EQ(TreeCache().usage().files, 3U);
 }
 
 TEST_F(CachedPartGeometry, HierarchyThatAnotherKeptMeanwhileIsTaken) {

@@ -24,14 +24,25 @@ TEST_F(SceneFileFaults, MissingFileIsToldByName) {
 }
 
 TEST_F(SceneFileFaults, UnknownVersionSaysWhichOneThisProgramReads) {
-  EXPECT_THAT(errorWith("/nearfit", 6),
-              AllOf(HasSubstr("fit.nearfit: nearfit: "), HasSubstr("version 6"),
-                    HasSubstr("reads versions 1 to 5"), HasSubstr("newer Nearfit")));
+  EXPECT_THAT(errorWith("/nearfit", 7),
+              AllOf(HasSubstr("fit.nearfit: nearfit: "), HasSubstr("version 7"),
+                    HasSubstr("reads versions 1 to 6"), HasSubstr("newer Nearfit")));
   EXPECT_THAT(errorWith("/nearfit", 0), HasSubstr("with the Nearfit that made it"));
   EXPECT_THAT(errorWith("/nearfit", 1.5), HasSubstr("this is version 1.5"));
   EXPECT_THAT(errorWith("/nearfit", "1"), HasSubstr("nearfit: it is of type string"));
   EXPECT_THAT(errorOf(R"({"asset": {"version": "2.0"}})"), HasSubstr("not a Nearfit scene"));
   EXPECT_THAT(errorOf("[]"), HasSubstr("it is of type array, but an object is expected"));
+}
+
+TEST_F(SceneFileFaults, InvalidRepairSaysWhich) {
+  EXPECT_THAT(errorWithout("/parts/0", "repairs"), HasSubstr("parts[0]"));
+  EXPECT_THAT(errorWith("/parts/0/repairs/0/kind", "melt"),
+              AllOf(HasSubstr("parts[0].repairs[0].kind"), HasSubstr("\"fillHoles\"")));
+  for (const Json& size : {Json(0), Json(-1.0), Json(1e9), Json("1e-5"), Json()})
+    EXPECT_THAT(errorWith("/parts/0/repairs/0/size", size), HasSubstr("parts[0].repairs[0].size")) << size;
+  EXPECT_THAT(errorWith("/parts/0/repairs", Json::array_t(101, {{"kind", "orient"}, {"size", 0}})),
+              HasSubstr("more than 100 repairs"));
+  EXPECT_THAT(errorWith("/parts/0/repairs/0/size", 1e5), HasSubstr("leaves no face")) << "all becomes one vertex";
 }
 
 TEST_F(SceneFileFaults, MissingMeshSaysWhichFileAndPart) {

@@ -22,7 +22,7 @@ class SceneFileFixture : public ::testing::Test {
     const auto hole = folder_.write("meshes/hole.obj", objText(boxMesh({2, 2, 1})));
     const auto peg = folder_.write("meshes/peg.obj", objText(tetrahedronMesh(1)));
     Part part;
-    part.geometry = loadPartGeometry(hole, 0.001);
+    part.geometry = loadPartGeometries(std::vector{MeshSource{hole, 0.001, {}, unusualRepairs()}}).front().geometry;
     part.name = "Hole \xC3\xA4";
     part.wasVisible = false;
     const PartId holeId = scene_.add(part);
@@ -73,6 +73,11 @@ class SceneFileFixture : public ::testing::Test {
     scene_.addJoint(joint);
   }
 
+  /// One with a size of many digits, and one without.
+  static MeshRepairs unusualRepairs() {
+    return {{RepairKind::Weld, 1e-5 / 3.0}, {RepairKind::Orient}};
+  }
+
   /// No value is the default.
   static HapticSettings unusualHaptics() {
     HapticSettings haptics;
@@ -85,9 +90,18 @@ class SceneFileFixture : public ::testing::Test {
     return haptics;
   }
 
+  /// The scene as version 5 of the format says it.
+  nlohmann::json version5() const {
+    nlohmann::json json = json_;
+    json["nearfit"] = 5;
+    for (nlohmann::json& part : json["parts"])
+      part.erase("repairs");
+    return json;
+  }
+
   /// The scene as version 4 of the format says it.
   nlohmann::json version4() const {
-    nlohmann::json json = json_;
+    nlohmann::json json = version5();
     json["nearfit"] = 4;
     json.erase("joints");
     return json;
@@ -123,6 +137,12 @@ class SceneFileFixture : public ::testing::Test {
     for (nlohmann::json& part : json["parts"])
       part.erase("density");
     return json;
+  }
+
+  /// Takes the repairs out of the scene as the file says it, as older versions have none.
+  void dropRepairs() {
+    for (nlohmann::json& part : json_["parts"])
+      part["repairs"] = nlohmann::json::array();
   }
 
   /// What reading the file gives when it holds this; "" when it is a scene.

@@ -66,6 +66,7 @@ void expectSameScene(const Scene& a, const Scene& b) {
     EXPECT_EQ(p.geometry->file, q.geometry->file);
     EXPECT_EQ(p.geometry->sha256, q.geometry->sha256);
     EXPECT_EQ(p.geometry->metresPerUnit, q.geometry->metresPerUnit);
+    EXPECT_TRUE(p.geometry->repairs == q.geometry->repairs) << p.name;
     EXPECT_EQ(a.movingPart() == p.id, b.movingPart() == q.id);
   }
   EXPECT_TRUE(a.haptics() == b.haptics());
@@ -127,7 +128,7 @@ TEST_F(SceneFile, SavingWhatWasReadGivesTheSameBytes) {
 }
 
 TEST_F(SceneFile, FileSaysVersionUnitsAndRelativePaths) {
-  EXPECT_EQ(json_["nearfit"], 5);
+  EXPECT_EQ(json_["nearfit"], 6);
   EXPECT_EQ(json_["units"]["length"], "m");
   EXPECT_EQ(json_["moving"], "Peg");
   EXPECT_EQ(json_["parts"][0]["mesh"], "meshes/hole.obj");
@@ -193,10 +194,53 @@ TEST_F(SceneFile, FileSaysJointsByTheNamesOfTheirParts) {
   EXPECT_EQ(json_["joints"], expected);
 }
 
+TEST_F(SceneFile, FileSaysTheRepairsOfEachPart) {
+  Json expected = Json::parse(R"([{"kind": "weld"}, {"kind": "orient", "size": 0.0}])");
+  expected[0]["size"] = 1e-5 / 3.0;
+  EXPECT_EQ(json_["parts"][0]["repairs"], expected);
+  EXPECT_EQ(json_["parts"][1]["repairs"], Json::array());
+}
+
+TEST_F(SceneFile, RepairsAreMadeToWhatIsReadAndTheFileStays) {
+  // A tetrahedron without one of its faces.
+  const TriangleMesh whole = test::tetrahedronMesh(1);
+  const std::string text = test::objText({{whole.vertices().begin(), whole.vertices().end()},
+                                          {whole.triangles().begin(), whole.triangles().end() - 1}});
+  const std::filesystem::path mesh = folder_.write("meshes/open.obj", text);
+  const GeometryRepair repair =
+      repairGeometry(*loadPartGeometry(mesh, 1.0), {{RepairKind::FillHoles, 10.0}});
+  ASSERT_NE(repair.geometry, nullptr);
+  Scene scene;
+  Part part;
+  part.name = "Closed";
+  part.geometry = repair.geometry;
+  scene.add(part);
+  part.name = "Open";
+  part.geometry = loadPartGeometry(mesh, 1.0);
+  scene.add(part);
+  writeSceneFile(scene, file_);
+  const Scene read = readSceneFile(file_);
+  expectSameScene(read, scene);
+  EXPECT_TRUE(read.findByName("Closed")->geometry->mesh.topology().isClosed());
+  EXPECT_EQ(read.findByName("Open")->geometry->mesh.topology().openEdges, 3U);
+  EXPECT_TRUE(std::ranges::equal(read.findByName("Closed")->geometry->mesh.triangles(),
+                                 repair.geometry->mesh.triangles()));
+  EXPECT_EQ(test::readBytes(mesh), text);
+}
+
+TEST_F(SceneFile, Version5KeepsAllThatItSaysAndHasNoRepairs) {
+  EXPECT_EQ(errorOf(version5().dump()), "");
+  const Scene scene = readSceneFile(file_);
+  dropRepairs();
+  EXPECT_EQ(errorOf(json_.dump()), "");
+  expectSameScene(scene, readSceneFile(file_));
+}
+
 TEST_F(SceneFile, Version4KeepsAllThatItSaysAndHasNoJoints) {
   EXPECT_EQ(errorOf(version4().dump()), "");
   const Scene scene = readSceneFile(file_);
   EXPECT_TRUE(scene.joints().empty());
+  dropRepairs();
   json_["joints"] = Json::array();
   EXPECT_EQ(errorOf(json_.dump()), "");
   expectSameScene(scene, readSceneFile(file_));
@@ -207,6 +251,7 @@ TEST_F(SceneFile, Version3KeepsAllThatItSaysAndTurnsAboutCentresOfMass) {
   const Scene scene = readSceneFile(file_);
   for (Json& part : json_["parts"])
     part["pivot"] = nullptr;
+  dropRepairs();
   json_["joints"] = Json::array();
   EXPECT_EQ(errorOf(json_.dump()), "");
   expectSameScene(scene, readSceneFile(file_));

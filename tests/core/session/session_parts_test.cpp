@@ -2,6 +2,8 @@
 
 #include "core/base/error.h"
 #include "core/session/session.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/part_geometries.h"
 
 namespace nearfit::session_parts_test {
 namespace {
@@ -47,6 +49,22 @@ TEST(SessionParts, AnotherSceneHasAnotherSerialAndEditsHaveNot) {
   EXPECT_NE(second, first);
   session.restore({}, {});
   EXPECT_NE(session.sceneSerial(), second);
+}
+
+TEST(SessionParts, ARepairIsOneStepThatKeepsPosesAndIsRefusedForLockedParts) {
+  const PartGeometryPtr open = test::freshGeometryOf(test::squareMesh(1.0, 1)),
+                        closed = test::freshGeometryOf(test::boxMesh({1, 1, 1}));
+  Session session;
+  const PartId peg = session.addPart(open, "Peg", {{1, 0, 0, 0}, {1, 2, 3}}), other = session.addPart(open, "Other");
+  session.repairParts({{peg, closed}});
+  EXPECT_EQ(session.undoText(), "Repair Peg");
+  EXPECT_EQ(session.scene().get(peg).geometry, closed);
+  EXPECT_EQ(session.scene().get(peg).worldFromPart.translation, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(session.scene().get(other).geometry, open);
+  session.undo();
+  EXPECT_EQ(session.scene().get(peg).geometry, open);
+  session.setLocked(peg, true);
+  EXPECT_THROW(session.repairParts({{peg, closed}}), UsageError);
 }
 
 }  // namespace

@@ -34,11 +34,11 @@ RepairFields::RepairFields(QWidget* parent) : QWidget(parent) {
   grid->setVerticalSpacing(2);
   weld_ = addRow(*grid, "Weld", tr("&Weld vertices within"), tr("Merge vertices that are nearer than this"),
                  tr("Vertices nearer than this become one"));
+  clean_ = addRow(*grid, "Clean", tr("&Remove faulty faces"),
+                  tr("Remove faces without area, and faces that repeat others"), {});
   stitch_ = addRow(*grid, "Stitch", tr("&Stitch borders within"),
                    tr("Close cracks: join open borders that are nearer than this"),
                    tr("Borders nearer than this are joined"));
-  clean_ = addRow(*grid, "Clean", tr("&Remove faulty faces"),
-                  tr("Remove faces without area, and faces that repeat others"), {});
   drop_ = addRow(*grid, "Drop", tr("&Drop pieces up to"),
                  tr("Remove components whose bounding box has a diagonal of at most this"),
                  tr("Diagonal of the largest piece to remove"));
