@@ -148,6 +148,8 @@ void CheckPanel::setUpLayout() {
     label->setWordWrap(true);
     label->setTextFormat(Qt::PlainText);
   }
+  // Else the view would change its size with each row that is chosen.
+  note_->setMinimumHeight(note_->fontMetrics().lineSpacing());
   result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   result_->hide();
   repair_->setObjectName(QStringLiteral("repairPart"));
@@ -218,7 +220,6 @@ void CheckPanel::showState() {
   title_->setText(part != nullptr ? tr("Mesh of %1").arg(shortName(part->name))
                                   : tr("Select a part to see what is wrong with its mesh."));
   note_->setText(noteText());
-  note_->setVisible(!note_->text().isEmpty());
   const bool isLocked = part != nullptr && context_.session.scene().isLocked(*part);
   const bool isAnyChosen = fields_->isAnyChosen();
   fields_->setEnabled(part != nullptr);
@@ -240,7 +241,6 @@ void CheckPanel::showPlace(bool isNew) {
     marks_.clear();
   }
   note_->setText(noteText());
-  note_->setVisible(!note_->text().isEmpty());
   if (hasRow || wasShown) context_.view.requestRender();
 }
 

@@ -10,9 +10,13 @@
 namespace nearfit::ui {
 namespace {
 
-/// Sizes offered, as fractions of a part's diagonal: welding below all that is meant, components that are crumbs, holes
-/// as large as a missing face.
-constexpr double kWeldShare = 1e-6, kDropShare = 0.01, kFillShare = 0.25;
+/// Sizes offered, as fractions of a part's diagonal: welding below all that is meant, components that are crumbs, small
+/// holes.
+constexpr double kWeldShare = 1e-6, kDropShare = 0.01, kFillShare = 0.05;
+/// A border with a larger share of the diagonal is rather the outline of a sheet than a hole.
+constexpr double kMaxHoleShare = 0.85;
+/// Room above a size that is found, for its rounding to two figures.
+constexpr double kRoom = 1.05;
 constexpr int kRepairDecimals = 7;
 
 bool hasAny(const MeshCheck& check, FindingKind kind) {
@@ -24,6 +28,17 @@ bool hasAny(const MeshCheck& check, FindingKind kind) {
 /// Two figures are enough for what is a choice anyway.
 double rounded(double length) {
   return length > 0.0 ? QString::number(length, 'g', 2).toDouble() : 0.0;
+}
+
+/// Large enough for all that looks like a hole [m].
+double fillSizeFor(const MeshCheck& check, double diagonal) {
+  double largest = 0.0;
+  for (const MeshFinding& finding : check.findings) {
+    if (finding.kind != FindingKind::OpenEdges) continue;
+    const double size = finding.box.diagonal();
+    if (size <= kMaxHoleShare * diagonal) largest = std::max(largest, size);
+  }
+  return largest > 0.0 ? kRoom * largest : kFillShare * diagonal;
 }
 
 }  // namespace
@@ -89,7 +104,7 @@ void RepairFields::suggest(const MeshCheck& check, double diagonal) {
         0.0);
   // Stitching comes first: what it closes is no hole.
   offer(fill_, hasAny(check, FindingKind::OpenEdges) && !hasAny(check, FindingKind::HairlineCracks),
-        kFillShare * diagonal);
+        fillSizeFor(check, diagonal));
 }
 
 std::optional<double> RepairFields::sizeOf(const Row& row) {
