@@ -42,12 +42,15 @@ constexpr const char* kCheckFooter =
     "inconsistentEdges    Edges whose two faces disagree on which side is outside.\n"
     "degenerateFaces, duplicateFaces  Faces without area; faces that repeat others. Those of the file that\n"
     "                     loading left out are mended: the part does not have them.\n"
-    "Severity: serious: contact may be wrong there; warning: it is slower, or felt from both sides; note: it is\n"
+    "Severity: serious: contact may be wrong there; warning: it is slower, or felt from both sides; note: it "
+    "is\n"
     "as it should be.\n"
-    "Repairs are made to a copy in this order: weld, clean, stitch, drop, orient, fill. --repair writes it in\n"
+    "Repairs are made to a copy in this order: weld, clean, stitch, drop, orient, fill. --repair writes it "
+    "in\n"
     "the unit of the file; OUT is .stl, .obj or .ply. Lengths are in metres, or have a unit: --weld 0.01mm.\n"
     "The exit code does not depend on what is found.\n"
-    "Example: nearfit-cli check --unit mm lid.stl --repair lid-closed.stl --stitch 0.05mm --fill 2mm --orient";
+    "Example: nearfit-cli check --unit mm lid.stl --repair lid-closed.stl --stitch 0.05mm --fill 2mm "
+    "--orient";
 
 /// Nullopt for an empty text.
 std::optional<double> lengthOf(const std::string& option, const std::string& text) {
@@ -75,7 +78,8 @@ MeshRepairs chosenRepairs(const CheckOptions& options) {
 MeshFileKind repairedKind(const std::string& out) {
   const std::optional<ExportKind> kind = exportKindOf(out);
   const std::optional<MeshFileKind> mesh = kind ? meshKindOf(*kind) : std::nullopt;
-  if (!mesh) throw UsageError(out, "its suffix is not that of a mesh that can be written", "use .stl, .obj or .ply");
+  if (!mesh)
+    throw UsageError(out, "its suffix is not that of a mesh that can be written", "use .stl, .obj or .ply");
   return *mesh;
 }
 
@@ -84,7 +88,8 @@ std::string findingText(const MeshFinding& finding) {
       fmt::format("  {:<20} {:<8} {}", wordOf(finding.kind), wordOf(finding.severity), finding.count);
   if (finding.length > 0.0) fmt::format_to(std::back_inserter(text), ", length {:.6g} m", finding.length);
   const glm::dvec3& p = finding.point;
-  if (finding.hasPlace) fmt::format_to(std::back_inserter(text), ", at ({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+  if (finding.hasPlace)
+    fmt::format_to(std::back_inserter(text), ", at ({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
   return text + (finding.isMended ? ", mended on loading\n" : "\n");
 }
 
@@ -96,9 +101,11 @@ std::string findingsText(const MeshCheck& check) {
     const FindingTotal& total = check.totals[i];
     const std::string_view kind = wordOf(static_cast<FindingKind>(i));
     if (total.places > MeshCheck::kMaxPlaces)
-      fmt::format_to(std::back_inserter(text), "  {} has {} places, {} in all\n", kind, total.places, total.count);
+      fmt::format_to(std::back_inserter(text), "  {} has {} places, {} in all\n", kind, total.places,
+                     total.count);
     if (total.isCut)
-      fmt::format_to(std::back_inserter(text), "  {}: the search ended at a limit; there may be more\n", kind);
+      fmt::format_to(std::back_inserter(text), "  {}: the search ended at a limit; there may be more\n",
+                     kind);
   }
   return text;
 }
@@ -270,7 +277,8 @@ void addCheckCommand(CLI::App& program) {
   const auto addLength = [command](const char* name, std::string& value, const char* help) {
     command->add_option(name, value, help)->type_name("LENGTH");
   };
-  addLength("--crack", options->crack, "Max width of a hairline crack; default: a ten thousandth of the diagonal");
+  addLength("--crack", options->crack,
+            "Max width of a hairline crack; default: a ten thousandth of the diagonal");
   command->add_option("--repair", options->out, "Write the repaired mesh")->type_name("OUT");
   addLength("--weld", options->weld, "Merge vertices nearer than this");
   addLength("--stitch", options->stitch, "Close cracks: join open borders nearer than this");

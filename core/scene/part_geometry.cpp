@@ -106,7 +106,8 @@ PartGeometryPtr load(const MeshSource& source, const ProgressCallback& progress)
   std::string sha256 = sha256OfFile(source.file, stageOf(progress, 0.0, kHashed));
   if (!isWanted(sha256)) return nullptr;
   std::optional<CachedMesh> kept;
-  if (const auto file = cache.find(cacheKeyOf(sha256, source.metresPerUnit, source.repairs))) kept = file->mesh();
+  if (const auto file = cache.find(cacheKeyOf(sha256, source.metresPerUnit, source.repairs)))
+    kept = file->mesh();
   if (!kept) {
     MeshBuildOptions options;
     options.metresPerUnit = source.metresPerUnit;
@@ -165,7 +166,8 @@ GeometryRepair repairGeometry(const PartGeometry& original, const MeshRepairs& r
   const ProgressCallback repairing = stageCallback(progress, 0.0, kRepaired),
                          comparing = stageCallback(progress, kRepaired, kCompared);
   RepairedMesh result = repaired(original.file, original.mesh, repairs, repairing);
-  GeometryRepair repair{nullptr, std::move(result.steps), changeBetween(original.mesh, result.mesh, comparing)};
+  GeometryRepair repair{nullptr, std::move(result.steps),
+                        changeBetween(original.mesh, result.mesh, comparing)};
   if (result.mesh.sharesArraysOf(original.mesh)) return repair;
   CachedMesh made{std::move(result.mesh), original.report, {}};
   renewWarnings(original.mesh.topology(), made.mesh.topology(), made.report);

@@ -197,9 +197,8 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, con
   std::map<std::tuple<std::filesystem::path, double, std::string, std::string>, std::size_t> known;
   for (const Wanted& want : wanted) {
     const PartGeometry& geometry = *session_.scene().find(want.part)->geometry;
-    const auto [source, isNew] =
-        known.try_emplace(std::tuple(geometry.file, want.metresPerUnit, want.sha256, textOf(want.repairs)),
-                          sources.size());
+    const auto [source, isNew] = known.try_emplace(
+        std::tuple(geometry.file, want.metresPerUnit, want.sha256, textOf(want.repairs)), sources.size());
     sourceOf.push_back(source->second);
     if (isNew) sources.push_back({geometry.file, want.metresPerUnit, want.sha256, want.repairs});
   }
@@ -321,23 +320,24 @@ void PartFiles::repair(const std::vector<PartId>& parts, const MeshRepairs& repa
     for (std::size_t i = 0; i < repaired->size(); ++i) {
       const auto count = static_cast<double>(repaired->size());
       const ProgressCallback reading = progressOfReading(progress);
-      const ProgressCallback own = stageCallback(reading, static_cast<double>(i) / count,
-                                                 static_cast<double>(i + 1) / count);
+      const ProgressCallback own =
+          stageCallback(reading, static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
       (*repaired)[i].second = repairGeometry(*(*repaired)[i].first, repairs, own);
       if ((*repaired)[i].second.geometry) made.push_back((*repaired)[i].second.geometry);
     }
     shapes->prepare(made, progressOfShapes(progress));
   };
   constexpr int kNamed = 3;
-  document_.load(tr("Repairing %1").arg(listOfNames(names, kNamed)), job, [=, this](const std::exception_ptr& error) {
-    if (isCancelled(error)) return;
-    try {
-      if (error) std::rethrow_exception(error);
-      takeRepaired(parts, *repaired);
-    } catch (...) {
-      emit failed(describe(tr("The part could not be repaired."), std::current_exception()));
-    }
-  });
+  document_.load(tr("Repairing %1").arg(listOfNames(names, kNamed)), job,
+                 [=, this](const std::exception_ptr& error) {
+                   if (isCancelled(error)) return;
+                   try {
+                     if (error) std::rethrow_exception(error);
+                     takeRepaired(parts, *repaired);
+                   } catch (...) {
+                     emit failed(describe(tr("The part could not be repaired."), std::current_exception()));
+                   }
+                 });
 }
 
 void PartFiles::takeRepaired(const std::vector<PartId>& parts, const Repaired& repaired) {

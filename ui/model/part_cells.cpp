@@ -125,8 +125,7 @@ QString PartCell::description() const {
           .arg(formatLength(size.x), formatLength(size.y), formatLength(size.z));
   for (const std::string& warning : part_.geometry->report.warnings)
     text += '\n' + QString::fromStdString(warning);
-  if (!part_.geometry->repairs.empty())
-    text += '\n' + tr("Repaired in this scene; its file is as it was");
+  if (!part_.geometry->repairs.empty()) text += '\n' + tr("Repaired in this scene; its file is as it was");
   return text;
 }
 

@@ -25,7 +25,8 @@ bool runsUpward(const Triangle& t) {
 }
 
 /// Number of neighbours, other than copies, that run along its edges the other way.
-int agreementOf(const TriangleMesh& mesh, std::uint32_t face, const std::unordered_set<std::uint32_t>& copies) {
+int agreementOf(const TriangleMesh& mesh, std::uint32_t face,
+                const std::unordered_set<std::uint32_t>& copies) {
   int agreeing = 0;
   for (std::uint32_t k = 0; k < 3; ++k) {
     const std::uint32_t edge = mesh.edgesOfTriangle(face)[k];
@@ -109,7 +110,8 @@ void chooseSurplus(const TriangleMesh& mesh, FaceCopies& group, bool isWall) {
     drop(group.faces, 1);
   } else {
     const std::unordered_set<std::uint32_t> copies(group.faces.begin(), group.faces.end());
-    const int upward = agreementOf(mesh, up.front(), copies), downward = agreementOf(mesh, down.front(), copies);
+    const int upward = agreementOf(mesh, up.front(), copies),
+              downward = agreementOf(mesh, down.front(), copies);
     const bool isUpKept = upward != downward ? upward > downward : !isWall;
     const bool isDownKept = upward < downward;
     drop(up, isUpKept ? 1 : 0);

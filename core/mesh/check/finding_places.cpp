@@ -98,7 +98,8 @@ void FindingPlaces::grow(MeshFinding& finding, const Kept& defect) const {
     const MeshEdge& e = mesh_.edges()[edges_[defect.firstEdge + k]];
     finding.edges.push_back({at(e.v0), at(e.v1)});
   }
-  for (std::uint32_t k = 0; k < defect.triangleCount && finding.triangles.size() < MeshFinding::kMaxShown; ++k) {
+  for (std::uint32_t k = 0; k < defect.triangleCount && finding.triangles.size() < MeshFinding::kMaxShown;
+       ++k) {
     const Triangle& t = mesh_.triangles()[triangles_[defect.firstTriangle + k]];
     finding.triangles.push_back({at(t[0]), at(t[1]), at(t[2])});
   }

@@ -94,7 +94,8 @@ class CrackFinder {
 
   void judge(const Side& side, std::uint32_t vertex, HairlineCracks& result) const {
     if (vertex == side.from || vertex == side.to) return;
-    const double distance = glm::distance(at(vertex), nearestOnSegment(at(side.from), at(side.to), at(vertex)));
+    const double distance =
+        glm::distance(at(vertex), nearestOnSegment(at(side.from), at(side.to), at(vertex)));
     if (distance > tolerance_) return;
     // A border of short edges that goes on past the end of this one is no other border. The two sides of a crack run
     // against each other.

@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t kSamplesPerReport = 1024;
 
 MeshChange::Side sideOf(const TriangleMesh& mesh) {
-  MeshChange::Side side{mesh.triangles().size(), mesh.topology().openEdges, mesh.topology().components, 0.0, {}};
+  MeshChange::Side side{
+      mesh.triangles().size(), mesh.topology().openEdges, mesh.topology().components, 0.0, {}};
   const glm::dvec3 centre = mesh.bounds().centre();
   double volume = 0.0;
   for (const Triangle& t : mesh.triangles()) {
@@ -52,7 +53,8 @@ std::vector<std::uint64_t> sortedHashes(const TriangleMesh& mesh) {
 }
 
 /// Triangles of a mesh that another one does not have.
-std::vector<std::uint32_t> trianglesMissingIn(const std::vector<std::uint64_t>& other, const TriangleMesh& mesh) {
+std::vector<std::uint32_t> trianglesMissingIn(const std::vector<std::uint64_t>& other,
+                                              const TriangleMesh& mesh) {
   std::vector<std::uint32_t> missing;
   for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) {
     if (!std::ranges::binary_search(other, hashOfTriangle(mesh, mesh.triangles()[i]))) missing.push_back(i);
@@ -71,8 +73,8 @@ class DistanceMeter {
   explicit DistanceMeter(const std::function<void(double)>& report) : report_(report) {}
 
   /// Measures from triangles of a mesh to another mesh.
-  void measure(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, const TriangleMesh& other,
-               MeshChange& change) const {
+  void measure(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles,
+               const TriangleMesh& other, MeshChange& change) const {
     if (triangles.empty()) return;
     const NearestSurface surface(other);
     constexpr std::size_t kMaxTriangles = MeshChange::kMaxSamples / (2 * 7);
@@ -92,7 +94,8 @@ class DistanceMeter {
 
 }  // namespace
 
-MeshChange changeBetween(const TriangleMesh& before, const TriangleMesh& after, const ProgressCallback& progress) {
+MeshChange changeBetween(const TriangleMesh& before, const TriangleMesh& after,
+                         const ProgressCallback& progress) {
   MeshChange change;
   change.before = sideOf(before);
   change.after = sideOf(after);

@@ -19,7 +19,8 @@ namespace nearfit {
 namespace {
 
 /// Progress after each step; roughly the shares of time, most of which goes into the search for intersections.
-constexpr double kFacesDone = 0.05, kEdgesDone = 0.1, kVerticesDone = 0.2, kShellsDone = 0.3, kCracksDone = 0.4;
+constexpr double kFacesDone = 0.05, kEdgesDone = 0.1, kVerticesDone = 0.2, kShellsDone = 0.3,
+                 kCracksDone = 0.4;
 
 void requireTolerance(double tolerance) {
   if (std::isfinite(tolerance) && tolerance >= 0.0) return;
@@ -257,7 +258,8 @@ std::uint64_t MeshCheck::places() const noexcept {
   return sum - static_cast<std::uint64_t>(mended);
 }
 
-MeshCheck checkMesh(const TriangleMesh& mesh, const MeshCheckOptions& options, const ProgressCallback& progress) {
+MeshCheck checkMesh(const TriangleMesh& mesh, const MeshCheckOptions& options,
+                    const ProgressCallback& progress) {
   requireTolerance(options.crackTolerance);
   MeshCheck check = Checker(mesh, options, progress).check();
   stageOf(progress, 0.0, 1.0)(1.0);
@@ -287,7 +289,7 @@ void addMended(MeshCheck& check, FindingKind kind, std::uint64_t count, std::vec
 
 std::string_view wordOf(FindingKind kind) noexcept {
   constexpr std::array<std::string_view, kFindingKinds> kWords{
-      "openEdges",      "hairlineCracks",  "nonManifoldEdges", "nonManifoldVertices", "selfIntersections",
+      "openEdges",      "hairlineCracks",    "nonManifoldEdges", "nonManifoldVertices", "selfIntersections",
       "invertedShells", "inconsistentEdges", "degenerateFaces",  "duplicateFaces"};
   return kWords[static_cast<std::size_t>(kind)];
 }

@@ -18,15 +18,15 @@ namespace nearfit {
 
 /// Kinds of defects of a mesh.
 enum class FindingKind : std::uint8_t {
-  OpenEdges,           ///< A loop of edges with one face.
-  HairlineCracks,      ///< Open borders nearer to each other than the tolerance.
-  NonManifoldEdges,    ///< Edges with three faces or more.
-  NonManifoldVertices, ///< Vertices in which sheets of the surface touch.
-  SelfIntersections,   ///< Pairs of triangles that cross or touch elsewhere than where they are joined.
-  InvertedShells,      ///< Closed components that face the wrong way.
-  InconsistentEdges,   ///< Edges whose two faces disagree on which side is outside.
-  DegenerateFaces,     ///< Faces without area.
-  DuplicateFaces,      ///< Faces with the corners of another one.
+  OpenEdges,            ///< A loop of edges with one face.
+  HairlineCracks,       ///< Open borders nearer to each other than the tolerance.
+  NonManifoldEdges,     ///< Edges with three faces or more.
+  NonManifoldVertices,  ///< Vertices in which sheets of the surface touch.
+  SelfIntersections,    ///< Pairs of triangles that cross or touch elsewhere than where they are joined.
+  InvertedShells,       ///< Closed components that face the wrong way.
+  InconsistentEdges,    ///< Edges whose two faces disagree on which side is outside.
+  DegenerateFaces,      ///< Faces without area.
+  DuplicateFaces,       ///< Faces with the corners of another one.
 };
 constexpr std::size_t kFindingKinds = 9;
 

@@ -80,7 +80,8 @@ bool hasSize(RepairKind kind) noexcept {
 
 void checkRepairs(std::span<const MeshRepair> repairs) {
   if (repairs.size() > kMaxRepairs)
-    throw UsageError("repairs", fmt::format("there are more than {}", kMaxRepairs), "export the repaired mesh, and go on with that");
+    throw UsageError("repairs", fmt::format("there are more than {}", kMaxRepairs),
+                     "export the repaired mesh, and go on with that");
   for (const MeshRepair& repair : repairs) {
     if (!hasSize(repair.kind) || (repair.size >= kMinRepairSize && repair.size <= kMaxRepairSize)) continue;
     throw UsageError(std::string(wordOf(repair.kind)), fmt::format("{} m is out of range", repair.size),

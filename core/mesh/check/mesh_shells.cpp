@@ -76,7 +76,8 @@ void measureShells(const TriangleMesh& mesh, MeshShells& result) {
   }
   for (MeshShell& shell : result.shells) {
     const double diagonal = shell.box.diagonal();
-    shell.isSolid = shell.isSolid && std::abs(shell.volume) > kLeastShellVolume * diagonal * diagonal * diagonal;
+    shell.isSolid =
+        shell.isSolid && std::abs(shell.volume) > kLeastShellVolume * diagonal * diagonal * diagonal;
     if (!shell.isSolid) shell.volume = 0.0;
   }
 }
@@ -161,7 +162,8 @@ class ShellNesting {
   }
 
   /// Nullopt if the ray runs through an edge or corner.
-  std::optional<bool> isOddAlong(const glm::dvec3& from, const glm::dvec3& to, int axis, std::uint32_t outer) {
+  std::optional<bool> isOddAlong(const glm::dvec3& from, const glm::dvec3& to, int axis,
+                                 std::uint32_t outer) {
     bool isOdd = false;
     for (std::size_t i = first_[outer]; i < first_[outer + 1]; ++i) {
       ++work_;

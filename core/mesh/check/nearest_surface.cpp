@@ -99,7 +99,8 @@ void NearestSurface::search(std::uint32_t at, const glm::dvec3& point, double& s
     return;
   }
   std::uint32_t nearer = at + 1, farther = node.right;
-  double toNearer = squaredToBox(nodes_[nearer].box, point), toFarther = squaredToBox(nodes_[farther].box, point);
+  double toNearer = squaredToBox(nodes_[nearer].box, point),
+         toFarther = squaredToBox(nodes_[farther].box, point);
   if (toFarther < toNearer) {
     std::swap(nearer, farther);
     std::swap(toNearer, toFarther);

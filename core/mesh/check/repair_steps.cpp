@@ -121,7 +121,8 @@ class PatchOrienter {
 
  private:
   /// Reaches the neighbours of a face; returns how many of them it turns.
-  std::size_t reachFrom(std::uint32_t triangle, std::vector<std::uint32_t>& patch, std::vector<bool>& isReached) {
+  std::size_t reachFrom(std::uint32_t triangle, std::vector<std::uint32_t>& patch,
+                        std::vector<bool>& isReached) {
     std::size_t turned = 0;
     for (const std::uint32_t edge : mesh_.edgesOfTriangle(triangle)) {
       const auto faces = mesh_.facesOfEdge(edge);
@@ -177,7 +178,8 @@ std::uint64_t MeshInRepair::remove(const std::vector<bool>& isRemoved) {
   return removed;
 }
 
-void MeshInRepair::replaceByFragments(std::vector<Triangle> fragments, const std::vector<std::uint32_t>& origins) {
+void MeshInRepair::replaceByFragments(std::vector<Triangle> fragments,
+                                      const std::vector<std::uint32_t>& origins) {
   std::vector<std::uint32_t> fromStart;
   fromStart.reserve(origins.size());
   for (const std::uint32_t origin : origins)
@@ -207,8 +209,7 @@ RepairStep cleanFaces(MeshInRepair& mesh) {
   RepairStep step;
   step.removedFaces = removeCopies(mesh);
   const TriangleMesh present = mesh.built();
-  step.changed =
-      swapFlatTriangles(mesh.vertices, mesh.triangles, kNoHeight * present.bounds().diagonal());
+  step.changed = swapFlatTriangles(mesh.vertices, mesh.triangles, kNoHeight * present.bounds().diagonal());
   std::vector<bool> isRemoved(mesh.triangles.size(), false);
   for (const std::uint32_t face : facesWithoutArea(mesh.built()))
     isRemoved[face] = true;

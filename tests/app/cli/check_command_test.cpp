@@ -22,7 +22,8 @@ using Json = nlohmann::json;
 /// A box in millimetres without one of its twelve triangles, 3 x 4 x 5.
 std::string openBoxText() {
   const TriangleMesh box = boxMesh({3, 4, 5});
-  return objText({{box.vertices().begin(), box.vertices().end()}, {box.triangles().begin(), box.triangles().end() - 1}});
+  return objText(
+      {{box.vertices().begin(), box.vertices().end()}, {box.triangles().begin(), box.triangles().end() - 1}});
 }
 
 class CheckCommand : public ::testing::Test {
@@ -60,7 +61,8 @@ TEST_F(CheckCommand, JsonSaysWhatIsWhereInMetres) {
 
 TEST_F(CheckCommand, FacesThatLoadingLeftOutHaveTheirPlace) {
   // A face that repeats the first one, and one without area.
-  const std::string file = folder_.write("faulty.obj", objText(boxMesh({3, 4, 5})) + "f 1 3 4\nf 1 2 2\n").string();
+  const std::string file =
+      folder_.write("faulty.obj", objText(boxMesh({3, 4, 5})) + "f 1 3 4\nf 1 2 2\n").string();
   const Json json = Json::parse(runCli({"check", "--json", file}).out);
   ASSERT_EQ(json["check"]["findings"].size(), 2U) << json.dump(1);
   for (const Json& finding : json["check"]["findings"]) {
@@ -96,12 +98,13 @@ TEST_F(CheckCommand, ARepairedCopyIsWrittenAndTheChangeIsStated) {
 TEST_F(CheckCommand, TextSaysWhatTheRepairDid) {
   const ProcessResult result = runCli({"check", open_, "--fill", "10"});
   EXPECT_EQ(result.exitCode, 0) << result.err;
-  EXPECT_THAT(result.out, AllOf(HasSubstr("fillHoles   1 changed, 1 faces added"), HasSubstr("volume      none to 60 m^3"),
-                                HasSubstr("no findings")));
+  EXPECT_THAT(result.out, AllOf(HasSubstr("fillHoles   1 changed, 1 faces added"),
+                                HasSubstr("volume      none to 60 m^3"), HasSubstr("no findings")));
 }
 
 TEST_F(CheckCommand, TheToleranceForCracksIsChosen) {
-  const TriangleMesh sheets = joined(squareMesh(1.0, 1), transformed(squareMesh(1.0, 1), 1.0, {{1, 0, 0, 0}, {1.01, 0, 0}}));
+  const TriangleMesh sheets =
+      joined(squareMesh(1.0, 1), transformed(squareMesh(1.0, 1), 1.0, {{1, 0, 0, 0}, {1.01, 0, 0}}));
   const std::string file = folder_.write("sheets.obj", objText(sheets)).string();
   const auto cracksWithin = [&](const char* width) {
     const Json json = Json::parse(runCli({"check", "--json", file, "--crack", width}).out);
@@ -119,9 +122,11 @@ TEST_F(CheckCommand, WrongUseIsExplainedWithExitCode2) {
     return result.err;
   };
   EXPECT_THAT(failureOf({"check", open_, "--repair", path("out.stl")}), HasSubstr("no repair is chosen"));
-  EXPECT_THAT(failureOf({"check", open_, "--repair", path("out.step"), "--orient"}), HasSubstr("use .stl, .obj or .ply"));
+  EXPECT_THAT(failureOf({"check", open_, "--repair", path("out.step"), "--orient"}),
+              HasSubstr("use .stl, .obj or .ply"));
   EXPECT_THAT(failureOf({"check", open_, "--repair", open_, "--orient"}), HasSubstr("is an input"));
-  EXPECT_THAT(failureOf({"check", open_, box_, "--repair", path("out.stl"), "--orient"}), HasSubstr("one file at a time"));
+  EXPECT_THAT(failureOf({"check", open_, box_, "--repair", path("out.stl"), "--orient"}),
+              HasSubstr("one file at a time"));
   EXPECT_THAT(failureOf({"check", open_, "--weld", "-1"}), HasSubstr("weld"));
   EXPECT_THAT(failureOf({"check", open_, "--fill", "1 kg"}), HasSubstr("--fill"));
   EXPECT_THAT(failureOf({"check"}), HasSubstr("mesh"));

@@ -132,7 +132,8 @@ void DesktopCheckTest::aRowShowsThePlaceInTheView() {
   const auto isInTheMiddle = [&] {
     const std::optional<glm::dvec2> seen = f.d.window().viewport().projection().pixelOf(middle);
     const QSize size = f.d.window().viewport().size();
-    return seen && std::abs(seen->x / size.width() - 0.5) < 0.25 && std::abs(seen->y / size.height() - 0.5) < 0.25;
+    return seen && std::abs(seen->x / size.width() - 0.5) < 0.25 &&
+           std::abs(seen->y / size.height() - 0.5) < 0.25;
   };
   QTRY_VERIFY(isInTheMiddle());
   const QImage with = f.d.picture();

@@ -127,7 +127,8 @@ TEST(PartGeometry, StoppedPreparationLeavesWhatIsMissingForLater) {
 /// A ball without its first face.
 TriangleMesh openBall(std::uint32_t subdivisions) {
   const TriangleMesh ball = test::icosphereMesh(1.0, subdivisions);
-  return {{ball.vertices().begin(), ball.vertices().end()}, {ball.triangles().begin() + 1, ball.triangles().end()}};
+  return {{ball.vertices().begin(), ball.vertices().end()},
+          {ball.triangles().begin() + 1, ball.triangles().end()}};
 }
 
 TEST(PartGeometry, RepairsMadeLaterGiveWhatLoadingWithThemGives) {
@@ -135,7 +136,8 @@ TEST(PartGeometry, RepairsMadeLaterGiveWhatLoadingWithThemGives) {
   const auto file = folder.write("open.obj", test::objText(openBall(2)));
   const PartGeometryPtr open = loadPartGeometry(file, 1.0);
   EXPECT_THAT(open->report.warnings, testing::Contains("3 edges are open (one face only)."));
-  const MeshRepairs first{{RepairKind::FillHoles, 1.0}}, second{{RepairKind::Orient}, {RepairKind::Weld, 1e-9}};
+  const MeshRepairs first{{RepairKind::FillHoles, 1.0}},
+      second{{RepairKind::Orient}, {RepairKind::Weld, 1e-9}};
   const GeometryRepair filled = repairGeometry(*open, first);
   ASSERT_NE(filled.geometry, nullptr);
   EXPECT_EQ(filled.geometry->repairs, first);
@@ -162,7 +164,8 @@ TEST(PartGeometry, RepairsThatLeaveNothingFailWithTheNameOfTheFile) {
   try {
     std::rethrow_exception(loaded.problem);
   } catch (const FileError& error) {
-    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("ball.obj"), testing::HasSubstr("leaves no face")));
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr("ball.obj"), testing::HasSubstr("leaves no face")));
   }
 }
 

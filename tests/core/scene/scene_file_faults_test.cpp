@@ -42,7 +42,8 @@ TEST_F(SceneFileFaults, InvalidRepairSaysWhich) {
     EXPECT_THAT(errorWith("/parts/0/repairs/0/size", size), HasSubstr("parts[0].repairs[0].size")) << size;
   EXPECT_THAT(errorWith("/parts/0/repairs", Json::array_t(101, {{"kind", "orient"}, {"size", 0}})),
               HasSubstr("more than 100 repairs"));
-  EXPECT_THAT(errorWith("/parts/0/repairs/0/size", 1e5), HasSubstr("leaves no face")) << "all becomes one vertex";
+  EXPECT_THAT(errorWith("/parts/0/repairs/0/size", 1e5), HasSubstr("leaves no face"))
+      << "all becomes one vertex";
 }
 
 TEST_F(SceneFileFaults, MissingMeshSaysWhichFileAndPart) {

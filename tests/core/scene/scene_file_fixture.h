@@ -22,7 +22,8 @@ class SceneFileFixture : public ::testing::Test {
     const auto hole = folder_.write("meshes/hole.obj", objText(boxMesh({2, 2, 1})));
     const auto peg = folder_.write("meshes/peg.obj", objText(tetrahedronMesh(1)));
     Part part;
-    part.geometry = loadPartGeometries(std::vector{MeshSource{hole, 0.001, {}, unusualRepairs()}}).front().geometry;
+    part.geometry =
+        loadPartGeometries(std::vector{MeshSource{hole, 0.001, {}, unusualRepairs()}}).front().geometry;
     part.name = "Hole \xC3\xA4";
     part.wasVisible = false;
     const PartId holeId = scene_.add(part);
@@ -74,9 +75,7 @@ class SceneFileFixture : public ::testing::Test {
   }
 
   /// One with a size of many digits, and one without.
-  static MeshRepairs unusualRepairs() {
-    return {{RepairKind::Weld, 1e-5 / 3.0}, {RepairKind::Orient}};
-  }
+  static MeshRepairs unusualRepairs() { return {{RepairKind::Weld, 1e-5 / 3.0}, {RepairKind::Orient}}; }
 
   /// No value is the default.
   static HapticSettings unusualHaptics() {

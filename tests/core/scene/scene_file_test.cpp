@@ -207,8 +207,7 @@ TEST_F(SceneFile, RepairsAreMadeToWhatIsReadAndTheFileStays) {
   const std::string text = test::objText({{whole.vertices().begin(), whole.vertices().end()},
                                           {whole.triangles().begin(), whole.triangles().end() - 1}});
   const std::filesystem::path mesh = folder_.write("meshes/open.obj", text);
-  const GeometryRepair repair =
-      repairGeometry(*loadPartGeometry(mesh, 1.0), {{RepairKind::FillHoles, 10.0}});
+  const GeometryRepair repair = repairGeometry(*loadPartGeometry(mesh, 1.0), {{RepairKind::FillHoles, 10.0}});
   ASSERT_NE(repair.geometry, nullptr);
   Scene scene;
   Part part;

@@ -55,7 +55,8 @@ TEST(SessionParts, ARepairIsOneStepThatKeepsPosesAndIsRefusedForLockedParts) {
   const PartGeometryPtr open = test::freshGeometryOf(test::squareMesh(1.0, 1)),
                         closed = test::freshGeometryOf(test::boxMesh({1, 1, 1}));
   Session session;
-  const PartId peg = session.addPart(open, "Peg", {{1, 0, 0, 0}, {1, 2, 3}}), other = session.addPart(open, "Other");
+  const PartId peg = session.addPart(open, "Peg", {{1, 0, 0, 0}, {1, 2, 3}}),
+               other = session.addPart(open, "Other");
   session.repairParts({{peg, closed}});
   EXPECT_EQ(session.undoText(), "Repair Peg");
   EXPECT_EQ(session.scene().get(peg).geometry, closed);

@@ -51,7 +51,8 @@ QString stepText(const RepairStep& step) {
       return CheckPanel::tr("border vertices joined: %1, faces split: %2")
           .arg(number(step.changed), number(step.addedFaces));
     case RepairKind::Clean:
-      return CheckPanel::tr("faces removed: %1, swapped: %2").arg(number(step.removedFaces), number(step.changed));
+      return CheckPanel::tr("faces removed: %1, swapped: %2")
+          .arg(number(step.removedFaces), number(step.changed));
     case RepairKind::Orient:
       return CheckPanel::tr("faces turned: %1").arg(number(step.changed));
     case RepairKind::FillHoles:
@@ -62,7 +63,8 @@ QString stepText(const RepairStep& step) {
     case RepairKind::DropShells:
       break;
   }
-  return CheckPanel::tr("pieces removed: %1 of %2 faces").arg(number(step.changed), number(step.removedFaces));
+  return CheckPanel::tr("pieces removed: %1 of %2 faces")
+      .arg(number(step.changed), number(step.removedFaces));
 }
 
 /// "+1.2 %", by which something changed.
@@ -137,7 +139,8 @@ void CheckPanel::setUpTable() {
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(FindingsModel::Effect, QHeaderView::Stretch);
   table_->horizontalHeader()->setHighlightSections(false);
-  connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] { showPlace(true); });
+  connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this,
+          [this] { showPlace(true); });
 }
 
 void CheckPanel::setUpLayout() {
@@ -153,7 +156,8 @@ void CheckPanel::setUpLayout() {
   result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   result_->hide();
   repair_->setObjectName(QStringLiteral("repairPart"));
-  repair_->setToolTip(tr("Repair the part's mesh in this scene, as one step to undo; its file stays as it is"));
+  repair_->setToolTip(
+      tr("Repair the part's mesh in this scene, as one step to undo; its file stays as it is"));
   auto* findings = new QVBoxLayout;
   findings->addWidget(title_);
   findings->addWidget(table_, 1);
@@ -196,7 +200,8 @@ void CheckPanel::follow() {
 
 QString CheckPanel::noteText() const {
   if (!geometry_) return {};
-  if (context_.checks.hasFailed(geometry_)) return tr("The part could not be checked: there was not enough memory.");
+  if (context_.checks.hasFailed(geometry_))
+    return tr("The part could not be checked: there was not enough memory.");
   if (!check_) {
     if (context_.hand.status().isTaken()) return tr("It is checked once no part is felt.");
     return tr("It is being checked…");

@@ -77,8 +77,8 @@ class CheckPanel : public QWidget {
   QLabel *title_, *note_, *result_;
   RepairFields* fields_;
   QPushButton* repair_;
-  PartGeometryPtr geometry_;                     ///< Of the part shown.
-  std::shared_ptr<const MeshCheck> check_;       ///< Of it; null: not yet.
+  PartGeometryPtr geometry_;                    ///< Of the part shown.
+  std::shared_ptr<const MeshCheck> check_;      ///< Of it; null: not yet.
   std::weak_ptr<const PartGeometry> repaired_;  ///< Whose repair result_ describes.
   Subscription changes_;
 };

@@ -98,7 +98,8 @@ void RepairFields::offer(const Row& row, bool isOn, double size) {
 void RepairFields::suggest(const MeshCheck& check, double diagonal) {
   offer(weld_, false, kWeldShare * diagonal);
   offer(stitch_, hasAny(check, FindingKind::HairlineCracks), check.crackTolerance);
-  offer(clean_, hasAny(check, FindingKind::DegenerateFaces) || hasAny(check, FindingKind::DuplicateFaces), 0.0);
+  offer(clean_, hasAny(check, FindingKind::DegenerateFaces) || hasAny(check, FindingKind::DuplicateFaces),
+        0.0);
   offer(drop_, false, kDropShare * diagonal);
   offer(orient_, hasAny(check, FindingKind::InvertedShells) || hasAny(check, FindingKind::InconsistentEdges),
         0.0);
@@ -115,8 +116,8 @@ std::optional<double> RepairFields::sizeOf(const Row& row) {
 
 bool RepairFields::isAnyChosen() const {
   const auto isChosen = [](const Row* row) { return row->check->isChecked(); };
-  return std::ranges::any_of(std::initializer_list<const Row*>{&weld_, &stitch_, &clean_, &drop_, &orient_, &fill_},
-                             isChosen);
+  return std::ranges::any_of(
+      std::initializer_list<const Row*>{&weld_, &stitch_, &clean_, &drop_, &orient_, &fill_}, isChosen);
 }
 
 MeshRepairs RepairFields::repairs() {

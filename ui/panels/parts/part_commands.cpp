@@ -58,7 +58,7 @@ void PartCommands::makeActions() {
       makeAction(this, "recolour", tr("&Colour…"), {}, {}, tr("Change the colour of the selected parts"));
   changeUnit = makeAction(this, "changeUnit", tr("Chang&e unit…"), {}, {},
                           tr("Change the unit of the selected parts; shows the size in each unit"));
-  check = makeAction(this, "check", tr("C&heck…"), QStringLiteral("findings"), QStringLiteral("Ctrl+K"),
+  check = makeAction(this, "check", tr("C&heck…"), QStringLiteral("findings"), QStringLiteral("Ctrl+M"),
                      tr("Show what is wrong with the mesh of the selected part and where, and repair it"));
   takeInHand =
       makeAction(this, "takeInHand", tr("&Take in hand"), QStringLiteral("hand"), QStringLiteral("Ctrl+H"));

@@ -74,8 +74,7 @@ inline TriangleMesh boxWithALooseLid(double gap) {
 /// Two triangles above an edge from (0, 0, 0) to (2, 0, 0), which meet in a vertex at (1, rise, 0), and one below it,
 /// which does not have that vertex.
 inline TriangleMesh tJoint(double rise) {
-  return {{{0, 0, 0}, {2, 0, 0}, {1, rise, 0}, {1, 1, 0}, {1, -1, 0}},
-          {{0, 2, 3}, {2, 1, 3}, {1, 0, 4}}};
+  return {{{0, 0, 0}, {2, 0, 0}, {1, rise, 0}, {1, 1, 0}, {1, -1, 0}}, {{0, 2, 3}, {2, 1, 3}, {1, 0, 4}}};
 }
 
 /// Numbers of faces at the edges of a mesh, by pairs of corners, counted anew.

@@ -107,7 +107,8 @@ TEST(MeshCheck, ARepeatedFaceIsADuplicateInEitherSense) {
 }
 
 TEST(MeshCheck, ShellsThatFaceTheWrongWayAreFound) {
-  const TriangleMesh outer = boxMesh({3, 4, 5}), inner = boxMesh({1, 1, 1}), beside = boxMesh({1, 1, 1}, {9, 0, 0});
+  const TriangleMesh outer = boxMesh({3, 4, 5}), inner = boxMesh({1, 1, 1}),
+                     beside = boxMesh({1, 1, 1}, {9, 0, 0});
   EXPECT_TRUE(checkMesh(joined(outer, turned(inner))).findings.empty()) << "a cavity";
   EXPECT_TRUE(checkMesh(joined(joined(outer, turned(inner)), boxMesh({0.5, 0.5, 0.5}))).findings.empty())
       << "a solid in a cavity";
@@ -131,7 +132,8 @@ TEST(MeshCheck, ATurnedFaceMakesItsEdgesInconsistent) {
   const TriangleMesh box = boxMesh({3, 4, 5});
   std::vector<Triangle> triangles = test::trianglesOf(box);
   std::swap(triangles[4][0], triangles[4][1]);
-  const MeshFinding finding = onlyFinding(test::withTriangles(box, triangles), FindingKind::InconsistentEdges);
+  const MeshFinding finding =
+      onlyFinding(test::withTriangles(box, triangles), FindingKind::InconsistentEdges);
   EXPECT_EQ(finding.count, 3U);
   EXPECT_EQ(finding.severity, FindingSeverity::Serious);
 }
@@ -147,8 +149,9 @@ TEST(MeshCheck, EdgesOfThreeFacesAreNonManifold) {
 
 TEST(MeshCheck, AVertexInWhichTwoSolidsTouchIsNonManifold) {
   // Two tetrahedra with one vertex in common.
-  const TriangleMesh one({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
-                         {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}});
+  const TriangleMesh one(
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+      {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}});
   ASSERT_TRUE(one.topology().isClosed() && one.topology().isOriented());
   const MeshCheck check = checkMesh(one);
   const std::vector<MeshFinding> pinches = findingsOf(check, FindingKind::NonManifoldVertices);
@@ -265,7 +268,8 @@ TriangleMesh crossedNeedles(std::uint32_t count) {
       const auto first = static_cast<std::uint32_t>(vertices.size());
       for (const glm::dvec2 p : {glm::dvec2(0, at), glm::dvec2(1, at), glm::dvec2(0, at + width)})
         vertices.emplace_back(isAlongX ? glm::dvec3(p.x, p.y, 0) : glm::dvec3(p.y, p.x, 0));
-      triangles.push_back(isAlongX ? Triangle{first, first + 1, first + 2} : Triangle{first, first + 2, first + 1});
+      triangles.push_back(isAlongX ? Triangle{first, first + 1, first + 2}
+                                   : Triangle{first, first + 2, first + 1});
     }
   }
   return {std::move(vertices), std::move(triangles)};
@@ -301,9 +305,10 @@ TEST(MeshCheck, OfManyPlacesTheLargestAreListedAndAllAreCounted) {
 
 TEST(MeshCheck, OpenEdgesOfFilesAreThoseCountedAnew) {
   const std::filesystem::path models = std::filesystem::path(NEARFIT_SHARED_DIR) / "models";
-  for (const char* name : {"nasty/obj_nonmanifold_vierbein.obj", "nasty/obj_moebius.obj", "nasty/obj_wallhole.obj",
-                           "nasty/stl_motor_nonmanifold.stl", "nasty/stl_spider_degenerate.stl",
-                           "public/teapot_6320.obj", "public/peghole/factory_rectangular_hole_12mm_subdiv_3x.obj"}) {
+  for (const char* name :
+       {"nasty/obj_nonmanifold_vierbein.obj", "nasty/obj_moebius.obj", "nasty/obj_wallhole.obj",
+        "nasty/stl_motor_nonmanifold.stl", "nasty/stl_spider_degenerate.stl", "public/teapot_6320.obj",
+        "public/peghole/factory_rectangular_hole_12mm_subdiv_3x.obj"}) {
     if (!std::filesystem::exists(models / name)) continue;
     MeshBuildOptions options;
     const TriangleMesh mesh = importMesh(models / name, options).mesh;

@@ -116,9 +116,8 @@ TEST(MeshRepair, ADoubledFaceIsRemovedAndTheOneThatFitsStays) {
 
 TEST(MeshRepair, AWallBetweenTwoSolidsGoes) {
   // Two boxes side by side that share the corners of a face, each with its own.
-  const TriangleMesh both = repaired(joined(boxMesh({1, 1, 1}), boxMesh({1, 1, 1}, {1, 0, 0})),
-                                     {{RepairKind::Weld, 1e-9}})
-                                .mesh;
+  const TriangleMesh both =
+      repaired(joined(boxMesh({1, 1, 1}), boxMesh({1, 1, 1}, {1, 0, 0})), {{RepairKind::Weld, 1e-9}}).mesh;
   ASSERT_GT(checkMesh(both).total(FindingKind::DuplicateFaces).count, 0U);
   const RepairedMesh result = repaired(both, {kClean});
   expectSound(result.mesh);
