@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -10,13 +11,24 @@
 #include <glm/geometric.hpp>
 
 #include "core/placing/circle_fit.h"
+#include "core/placing/exact_faces.h"
 #include "core/placing/mesh_region.h"
 #include "core/placing/round_corners.h"
 
 namespace nearfit {
 namespace {
 
-/// Consecutive sharp edges (isSharp) on one circle or line.
+/// The edges of a shape: sharp ones, or those that its exact surfaces say.
+struct ShapeEdges {
+  const TriangleMesh& mesh;
+  const ExactFaces* exact;  ///< Null if no surfaces are known.
+
+  bool contain(std::uint32_t edge) const {
+    return exact != nullptr ? exact->isEdge(edge) : isSharp(mesh, edge);
+  }
+};
+
+/// Consecutive edges of the shape on one circle or line.
 struct EdgeChain {
   /// In order; if closed, the first is repeated at the end.
   std::vector<std::uint32_t> vertices;
@@ -32,13 +44,13 @@ constexpr std::size_t kFewestCorners = 5;
 
 using Chain = std::deque<std::uint32_t>;
 
-/// Far ends of the sharp edges that continue a chain at `at`, coming from `from`.
-std::vector<std::uint32_t> nextOf(const TriangleMesh& mesh, std::uint32_t at, std::uint32_t from) {
+/// Far ends of the edges that continue a chain at `at`, coming from `from`.
+std::vector<std::uint32_t> nextOf(const ShapeEdges& edges, std::uint32_t at, std::uint32_t from) {
   std::vector<std::uint32_t> next;
-  for (const std::uint32_t edge : mesh.edgesOfVertex(at)) {
-    const MeshEdge& e = mesh.edges()[edge];
+  for (const std::uint32_t edge : edges.mesh.edgesOfVertex(at)) {
+    const MeshEdge& e = edges.mesh.edges()[edge];
     const std::uint32_t other = e.v0 == at ? e.v1 : e.v0;
-    if (other != from && isSharp(mesh, edge)) next.push_back(other);
+    if (other != from && edges.contain(edge)) next.push_back(other);
   }
   return next;
 }
@@ -46,12 +58,13 @@ std::vector<std::uint32_t> nextOf(const TriangleMesh& mesh, std::uint32_t at, st
 /// Extends a chain at its end while a fitting corner follows. True if that closes it.
 /// @param maxTurn  From an edge to the next [rad].
 template <class Fits>
-bool lengthen(const TriangleMesh& mesh, Chain& chain, double maxTurn, Fits&& fits) {
+bool lengthen(const ShapeEdges& edges, Chain& chain, double maxTurn, Fits&& fits) {
+  const TriangleMesh& mesh = edges.mesh;
   for (;;) {
     const std::uint32_t at = chain.back(), from = chain[chain.size() - 2];
     const glm::dvec3 along = mesh.vertices()[at] - mesh.vertices()[from];
     bool hasGrown = false;
-    for (const std::uint32_t next : nextOf(mesh, at, from)) {
+    for (const std::uint32_t next : nextOf(edges, at, from)) {
       const glm::dvec3 on = mesh.vertices()[next] - mesh.vertices()[at];
       const double turn = std::atan2(glm::length(glm::cross(along, on)), glm::dot(along, on));
       if (turn > maxTurn + 1e-3 || !fits(mesh.vertices()[next])) continue;
@@ -66,14 +79,14 @@ bool lengthen(const TriangleMesh& mesh, Chain& chain, double maxTurn, Fits&& fit
 }
 
 template <class Fits>
-Chain chainOf(const TriangleMesh& mesh, const MeshEdge& edge, double maxTurn, Fits&& fits) {
+Chain chainOf(const ShapeEdges& edges, const MeshEdge& edge, double maxTurn, Fits&& fits) {
   Chain chain{edge.v0, edge.v1};
-  if (lengthen(mesh, chain, maxTurn, fits)) {
+  if (lengthen(edges, chain, maxTurn, fits)) {
     chain.push_back(chain.front());
     return chain;
   }
   std::reverse(chain.begin(), chain.end());
-  lengthen(mesh, chain, maxTurn, fits);
+  lengthen(edges, chain, maxTurn, fits);
   return chain;
 }
 
@@ -85,11 +98,12 @@ std::vector<glm::dvec3> pointsOf(const TriangleMesh& mesh, const Chain& chain) {
   return points;
 }
 
-EdgeChain straightChain(const TriangleMesh& mesh, const MeshEdge& edge) {
+EdgeChain straightChain(const ShapeEdges& edges, const MeshEdge& edge) {
+  const TriangleMesh& mesh = edges.mesh;
   const glm::dvec3 point = mesh.vertices()[edge.v0];
   const glm::dvec3 along = glm::normalize(mesh.vertices()[edge.v1] - point);
   const double slack = kOffLine * mesh.bounds().diagonal();
-  const Chain chain = chainOf(mesh, edge, kSharpTurn, [&](const glm::dvec3& p) {
+  const Chain chain = chainOf(edges, edge, kSharpTurn, [&](const glm::dvec3& p) {
     return glm::length(glm::cross(p - point, along)) <= slack;
   });
   EdgeChain result;
@@ -100,8 +114,9 @@ EdgeChain straightChain(const TriangleMesh& mesh, const MeshEdge& edge) {
 }
 
 /// The round chain through an edge and a corner adjacent to one of its ends.
-std::optional<EdgeChain> roundChain(const TriangleMesh& mesh, const MeshEdge& edge, std::uint32_t beyond,
+std::optional<EdgeChain> roundChain(const ShapeEdges& edges, const MeshEdge& edge, std::uint32_t beyond,
                                     double maxTurn) {
+  const TriangleMesh& mesh = edges.mesh;
   const glm::dvec3 three[] = {mesh.vertices()[edge.v0], mesh.vertices()[edge.v1], mesh.vertices()[beyond]};
   std::optional<Circle> circle = fitCircle(three);
   if (!circle) return std::nullopt;
@@ -110,7 +125,7 @@ std::optional<EdgeChain> roundChain(const TriangleMesh& mesh, const MeshEdge& ed
   for (int round = 0; round < 2; ++round) {
     const double slack = (round == 0 ? 5.0 : 1.0) * kOffCircle * circle->radius;
     const Chain chain =
-        chainOf(mesh, edge, maxTurn, [&](const glm::dvec3& p) { return circle->distanceFrom(p) <= slack; });
+        chainOf(edges, edge, maxTurn, [&](const glm::dvec3& p) { return circle->distanceFrom(p) <= slack; });
     if (chain.size() < kFewestCorners) return std::nullopt;
     circle = fitCircle(pointsOf(mesh, chain));
     if (!circle) return std::nullopt;
@@ -125,11 +140,11 @@ std::optional<EdgeChain> roundChain(const TriangleMesh& mesh, const MeshEdge& ed
 }
 
 /// The longest round chain through an edge.
-std::optional<EdgeChain> roundChain(const TriangleMesh& mesh, const MeshEdge& edge, double maxTurn) {
+std::optional<EdgeChain> roundChain(const ShapeEdges& edges, const MeshEdge& edge, double maxTurn) {
   std::optional<EdgeChain> best;
   for (const auto& [at, from] : {std::pair(edge.v1, edge.v0), std::pair(edge.v0, edge.v1)}) {
-    for (const std::uint32_t beyond : nextOf(mesh, at, from)) {
-      std::optional<EdgeChain> found = roundChain(mesh, edge, beyond, maxTurn);
+    for (const std::uint32_t beyond : nextOf(edges, at, from)) {
+      std::optional<EdgeChain> found = roundChain(edges, edge, beyond, maxTurn);
       if (found && (!best || found->vertices.size() > best->vertices.size())) best = std::move(found);
     }
   }
@@ -141,13 +156,13 @@ bool isCoarseCircle(const EdgeChain& chain) {
   return chain.vertices.front() == chain.vertices.back() && chain.vertices.size() > kRoundRing.fewestFacets;
 }
 
-/// The chain that contains a sharp edge: the whole circle or arc if it has at least five corners, a coarse circle,
+/// The chain that contains an edge of the shape: the whole circle or arc if it has at least five corners, a coarse circle,
 /// else the straight edge. O(n) in the chain.
-EdgeChain edgeChain(const TriangleMesh& mesh, std::uint32_t sharpEdge) {
-  const MeshEdge& edge = mesh.edges()[sharpEdge];
-  if (auto fine = roundChain(mesh, edge, kSharpTurn)) return *std::move(fine);
-  auto coarse = roundChain(mesh, edge, kRoundRing.widestFacet);
-  return coarse && isCoarseCircle(*coarse) ? *std::move(coarse) : straightChain(mesh, edge);
+EdgeChain edgeChain(const ShapeEdges& edges, std::uint32_t ofShape) {
+  const MeshEdge& edge = edges.mesh.edges()[ofShape];
+  if (auto fine = roundChain(edges, edge, kSharpTurn)) return *std::move(fine);
+  auto coarse = roundChain(edges, edge, kRoundRing.widestFacet);
+  return coarse && isCoarseCircle(*coarse) ? *std::move(coarse) : straightChain(edges, edge);
 }
 
 /// Max number of triangles around the point to search for corners and edges.
@@ -171,22 +186,31 @@ std::vector<std::uint32_t> trianglesAround(const TriangleMesh& mesh, const Surfa
 }
 
 /// True for a corner of the shape, not just of the triangulation.
-bool isCorner(const TriangleMesh& mesh, std::uint32_t vertex) {
-  std::vector<glm::dvec3> sharp;
-  for (const std::uint32_t edge : mesh.edgesOfVertex(vertex)) {
-    if (!isSharp(mesh, edge)) continue;
+bool isCorner(const ShapeEdges& edges, std::uint32_t vertex) {
+  const TriangleMesh& mesh = edges.mesh;
+  std::vector<std::uint32_t> ofShape;
+  std::ranges::copy_if(mesh.edgesOfVertex(vertex), std::back_inserter(ofShape),
+                       [&](std::uint32_t edge) { return edges.contain(edge); });
+  if (edges.exact != nullptr) return edges.exact->isCorner(vertex, ofShape);
+  if (ofShape.size() != 2) return !ofShape.empty();
+  const auto wayAlong = [&](std::uint32_t edge) {
     const MeshEdge& e = mesh.edges()[edge];
     const std::uint32_t other = e.v0 == vertex ? e.v1 : e.v0;
-    sharp.push_back(glm::normalize(mesh.vertices()[other] - mesh.vertices()[vertex]));
-  }
-  if (sharp.size() != 2) return !sharp.empty();
-  return glm::dot(sharp[0], -sharp[1]) < std::cos(kSharpTurn);
+    return glm::normalize(mesh.vertices()[other] - mesh.vertices()[vertex]);
+  };
+  return glm::dot(wayAlong(ofShape[0]), -wayAlong(ofShape[1])) < std::cos(kSharpTurn);
 }
 
 class Pick {
  public:
-  Pick(const TriangleMesh& mesh, const SurfaceHit& hit, double reach)
-      : mesh_(mesh), hit_(hit), reach_(reach), around_(trianglesAround(mesh, hit, reach)) {}
+  /// @param exact  Null if no surfaces are known.
+  Pick(const TriangleMesh& mesh, const SurfaceHit& hit, double reach, const ExactFaces* exact)
+      : mesh_(mesh),
+        hit_(hit),
+        reach_(reach),
+        exact_(exact),
+        edges_{mesh, exact},
+        around_(trianglesAround(mesh, hit, reach)) {}
 
   std::optional<PickedFeature> corner() const {
     double nearest = reach_;
@@ -194,7 +218,7 @@ class Pick {
     for (const std::uint32_t t : around_) {
       for (const std::uint32_t v : mesh_.triangles()[t]) {
         const double distance = glm::distance(mesh_.vertices()[v], hit_.point);
-        if (!(distance <= nearest) || !isCorner(mesh_, v)) continue;
+        if (!(distance <= nearest) || !isCorner(edges_, v)) continue;
         nearest = distance;
         found = v;
       }
@@ -203,14 +227,14 @@ class Pick {
     return PickedFeature{{FeatureShape::Point, mesh_.vertices()[*found]}, {}, {*found}};
   }
 
-  /// The sharp edge nearest to the point.
+  /// The edge of the shape nearest to the point.
   std::optional<std::uint32_t> nearestEdge() const {
     double nearest = reach_;
     std::optional<std::uint32_t> found;
     for (const std::uint32_t t : around_) {
       for (const std::uint32_t e : mesh_.edgesOfTriangle(t)) {
         const double distance = distanceToEdge(mesh_, e, hit_.point);
-        if (!(distance <= nearest) || !isSharp(mesh_, e)) continue;
+        if (!(distance <= nearest) || !edges_.contain(e)) continue;
         nearest = distance;
         found = e;
       }
@@ -218,9 +242,12 @@ class Pick {
     return found;
   }
 
-  /// The edge or circle that a sharp edge is of.
-  PickedFeature edgeAt(std::uint32_t sharpEdge) const {
-    EdgeChain chain = edgeChain(mesh_, sharpEdge);
+  /// The edge or circle that an edge of the shape is of.
+  PickedFeature edgeAt(std::uint32_t ofShape) const {
+    if (exact_ != nullptr) {
+      if (auto found = exact_->edgeAt(ofShape)) return *std::move(found);
+    }
+    EdgeChain chain = edgeChain(edges_, ofShape);
     const FeatureShape shape = chain.isRound ? FeatureShape::Circle : FeatureShape::Axis;
     return {
         {shape, chain.circle.centre, chain.circle.axis, chain.circle.radius}, {}, std::move(chain.vertices)};
@@ -234,12 +261,12 @@ class Pick {
   /// The nearest edge or circle, or the cylinder or cone around the point: the latter too where an edge only parts
   /// two facets of it.
   std::optional<PickedFeature> edgeOrWall() const {
-    const std::optional<std::uint32_t> sharp = nearestEdge();
-    std::optional<PickedFeature> edge = sharp ? std::optional(edgeAt(*sharp)) : std::nullopt;
+    const std::optional<std::uint32_t> nearest = nearestEdge();
+    std::optional<PickedFeature> edge = nearest ? std::optional(edgeAt(*nearest)) : std::nullopt;
     if (edge && edge->feature.shape == FeatureShape::Circle) return edge;
     std::optional<PickedFeature> found = wall();
     if (!edge) return found;
-    return found && isInside(*sharp, found->triangles) ? found : edge;
+    return found && isInside(*nearest, found->triangles) ? found : edge;
   }
 
   /// The nearest edge if it is round, or the cylinder or cone around the point.
@@ -249,6 +276,7 @@ class Pick {
   }
 
   std::optional<PickedFeature> wall() const {
+    if (isKnown()) return exact_->wall(hit_.triangle);
     std::optional<CylinderRegion> cylinder = cylinderRegion(mesh_, hit_.triangle);
     std::optional<ConeRegion> cone;
     // An arc may be a piece of a cone that is more than that.
@@ -261,8 +289,14 @@ class Pick {
         {FeatureShape::Axis, c.centre, c.axis, c.radius}, std::move(cylinder->triangles), {}};
   }
 
+  /// The centre of the sphere that the point is on.
+  std::optional<PickedFeature> sphere() const {
+    return isKnown() ? exact_->sphere(hit_.triangle) : std::nullopt;
+  }
+
   /// The prism that the point is on a flat of.
   std::optional<PickedFeature> prism() const {
+    if (isKnown() && !exact_->plane(hit_.triangle)) return std::nullopt;
     std::optional<ConeRegion> region = coneRegion(mesh_, hit_.triangle, true);
     if (!region) return std::nullopt;
     const auto flats = static_cast<std::uint32_t>(region->facets);
@@ -272,6 +306,7 @@ class Pick {
   }
 
   std::optional<PickedFeature> face() const {
+    if (isKnown()) return exact_->plane(hit_.triangle);
     PlaneRegion region = planeRegion(mesh_, hit_.triangle);
     if (region.triangles.empty()) return std::nullopt;
     return PickedFeature{{FeatureShape::Plane, region.point, region.normal}, std::move(region.triangles), {}};
@@ -280,6 +315,10 @@ class Pick {
   PickedFeature point() const { return {{FeatureShape::Point, hit_.point}, {}, {}}; }
 
  private:
+  /// True if the exact surface under the point is known.
+  bool isKnown() const {
+    return exact_ != nullptr && exact_->surfaceOf(hit_.triangle).kind != SurfaceKind::Other;
+  }
   static PickedFeature wallOf(ConeRegion&& region) {
     const Cone& c = region.cone;
     return {{FeatureShape::Axis, c.centre, c.axis, c.radius, c.halfAngle()}, std::move(region.triangles), {}};
@@ -293,13 +332,18 @@ class Pick {
   const TriangleMesh& mesh_;
   const SurfaceHit& hit_;
   double reach_;
+  const ExactFaces* exact_;
+  ShapeEdges edges_;
   std::vector<std::uint32_t> around_;
 };
 
 std::optional<PickedFeature> pickPoint(const Pick& pick) {
   if (auto corner = pick.corner()) return corner;
   std::optional<PickedFeature> edge = pick.edge();
-  if (!edge || edge->feature.shape != FeatureShape::Circle) return pick.point();
+  if (!edge || edge->feature.shape != FeatureShape::Circle) {
+    std::optional<PickedFeature> centre = pick.sphere();
+    return centre ? centre : pick.point();
+  }
   edge->feature.shape = FeatureShape::Point;
   edge->feature.direction = glm::dvec3(0.0);
   return edge;
@@ -308,17 +352,21 @@ std::optional<PickedFeature> pickPoint(const Pick& pick) {
 }  // namespace
 
 std::optional<PickedFeature> pickFeature(const TriangleMesh& mesh, const SurfaceHit& hit, double reach,
-                                         FeatureFilter filter) {
-  const Pick pick(mesh, hit, reach);
+                                         FeatureFilter filter, const SurfaceFaces* surfaces) {
+  std::optional<ExactFaces> exact;
+  if (surfaces != nullptr && !surfaces->faces.empty()) exact.emplace(mesh, *surfaces);
+  const Pick pick(mesh, hit, reach, exact ? &*exact : nullptr);
   if (filter == FeatureFilter::Points) return pickPoint(pick);
   if (filter == FeatureFilter::Faces) return pick.face();
-  if (filter == FeatureFilter::Any) {
+  const bool isAny = filter == FeatureFilter::Any;
+  if (isAny) {
     if (auto corner = pick.corner()) return corner;
   }
   if (auto found = filter == FeatureFilter::Rounds ? pick.circleOrWall() : pick.edgeOrWall()) return found;
-  return filter == FeatureFilter::Any    ? pick.face()
-         : filter == FeatureFilter::Axes ? pick.prism()
-                                         : std::nullopt;
+  if (filter == FeatureFilter::Axes) return pick.prism();
+  if (!isAny) return std::nullopt;
+  std::optional<PickedFeature> ball = pick.sphere();
+  return ball ? ball : pick.face();
 }
 
 std::optional<PickedFeature> pickFeature(const MeshSection& section, glm::dvec3& point, double reach,

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/math/nearest_on_segment.h"
+#include "core/placing/surface_pairs.h"
 
 namespace nearfit {
 namespace {
@@ -51,11 +52,17 @@ void alignWithNormal(const AlignFeature& a, const AlignFeature& b, Measurement& 
 
 }  // namespace
 
-MeasureEnd measureEnd(const TriangleMesh& mesh, const PickedFeature& picked, const glm::dvec3& hit) {
+MeasureEnd measureEnd(const TriangleMesh& mesh, const PickedFeature& picked, const glm::dvec3& hit,
+                      const SurfaceFaces* surfaces) {
   const FeatureShape shape = picked.feature.shape;
   if (shape == FeatureShape::Point || shape == FeatureShape::Circle)
     return {picked.feature.point, picked.feature};
-  return {picked.vertices.empty() ? hit : nearestOnEdge(mesh, picked, hit), picked.feature};
+  if (!picked.vertices.empty()) return {nearestOnEdge(mesh, picked, hit), picked.feature};
+  const bool isOnFace = surfaces != nullptr && picked.feature.isExact && !picked.triangles.empty();
+  if (!isOnFace) return {hit, picked.feature};
+  // The faces that are picked together are on one surface.
+  const std::uint32_t face = surfaces->faceOfTriangle[picked.triangles.front()];
+  return {nearestOnSurface(surfaces->faces[face], hit), picked.feature};
 }
 
 Measurement measure(const MeasureEnd& from, const MeasureEnd& to) noexcept {

@@ -4,6 +4,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/mesh/exact_surface.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/placing/feature.h"
 
@@ -15,10 +16,13 @@ struct MeasureEnd {
   AlignFeature feature;   ///< The feature pointed at: for angles and perpendicular distances.
 };
 
-/// The end of a measurement at a picked feature, in the mesh's frame: a corner, the centre of a circle, the
-/// nearest point of an edge, otherwise the point of the face itself.
-/// @param hit  Point of the surface pointed at [m].
-MeasureEnd measureEnd(const TriangleMesh& mesh, const PickedFeature& picked, const glm::dvec3& hit);
+/// The end of a measurement at a picked feature, in the mesh's frame: a corner, the centre of a circle or sphere, the
+/// nearest point of an edge, otherwise the point of the face itself. On an exact face it is the nearest point of its
+/// surface, not of a facet.
+/// @param hit  Point of the mesh's surface pointed at [m].
+/// @param surfaces  As given to pickFeature().
+MeasureEnd measureEnd(const TriangleMesh& mesh, const PickedFeature& picked, const glm::dvec3& hit,
+                      const SurfaceFaces* surfaces = nullptr);
 
 /// Returns the end in another frame.
 inline MeasureEnd placed(const MeasureEnd& end, const RigidTransform& frameFromEnd) noexcept {

@@ -49,6 +49,18 @@ glm::dvec3 triangleNormal(const TriangleMesh& mesh, std::uint32_t triangle) noex
   return length > 0.0 ? area / length : glm::dvec3(0.0);
 }
 
+glm::dvec3 centroidOf(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) noexcept {
+  glm::dvec3 moment(0.0);
+  double total = 0.0;
+  for (const std::uint32_t t : triangles) {
+    const double area = glm::length(doubleArea(mesh, t));
+    const Triangle& c = mesh.triangles()[t];
+    moment += area / 3.0 * (mesh.vertices()[c[0]] + mesh.vertices()[c[1]] + mesh.vertices()[c[2]]);
+    total += area;
+  }
+  return total > 0.0 ? moment / total : mesh.vertices()[mesh.triangles()[triangles.front()][0]];
+}
+
 bool isSharp(const TriangleMesh& mesh, std::uint32_t edge) noexcept {
   const auto faces = mesh.facesOfEdge(edge);
   if (faces.size() != 2 || !mesh.isEdgeConsistent(edge)) return true;
@@ -62,17 +74,11 @@ PlaneRegion planeRegion(const TriangleMesh& mesh, std::uint32_t triangle) {
   // A large triangle determines the plane better than a small one.
   const std::uint32_t largest = largestOf(mesh, inPlaneOf(mesh, triangle, triangle));
   region.triangles = inPlaneOf(mesh, largest, triangle);
-  glm::dvec3 area(0.0), moment(0.0);
-  double total = 0.0;
-  for (const std::uint32_t t : region.triangles) {
-    const glm::dvec3 of = doubleArea(mesh, t);
-    const Triangle& c = mesh.triangles()[t];
-    area += of;
-    moment += glm::length(of) / 3.0 * (mesh.vertices()[c[0]] + mesh.vertices()[c[1]] + mesh.vertices()[c[2]]);
-    total += glm::length(of);
-  }
+  glm::dvec3 area(0.0);
+  for (const std::uint32_t t : region.triangles)
+    area += doubleArea(mesh, t);
   region.normal = glm::normalize(area);
-  region.point = moment / total;
+  region.point = centroidOf(mesh, region.triangles);
   return region;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <unordered_set>
 #include <vector>
 
@@ -20,6 +21,10 @@ constexpr double kSharpTurn = 0.5238;
 
 /// Unit normal of a triangle; zero if it has no area.
 glm::dvec3 triangleNormal(const TriangleMesh& mesh, std::uint32_t triangle) noexcept;
+
+/// Centre of the area of triangles; the first one's corner if none has an area [m].
+/// @param triangles  At least one.
+glm::dvec3 centroidOf(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) noexcept;
 
 /// True if an edge belongs to the shape: it is open, non-manifold or inconsistently oriented, or its face
 /// normals differ by more than kSharpTurn.

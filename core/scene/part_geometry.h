@@ -10,6 +10,7 @@
 
 #include "core/import/mesh_import.h"
 #include "core/mesh/check/mesh_repair.h"
+#include "core/mesh/exact_surface.h"
 #include "core/mesh/mass_properties.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/proximity/hierarchy/normal_cone_tree.h"
@@ -64,6 +65,8 @@ struct PartGeometry {
   std::shared_ptr<SurfaceOnDemand> surfaceOnDemand = std::make_shared<SurfaceOnDemand>();
   /// Made to the mesh after it was read; the file stays as it is.
   MeshRepairs repairs = {};
+  /// Faces of a CAD model with their exact surfaces, in the part's frame; null if none are known.
+  std::shared_ptr<const SurfaceFaces> surfaces = nullptr;
 
   /// Hierarchy for queries, of the mesh with its flats merged (tree().mesh()); built on first use (seconds for
   /// millions of triangles; call prepareHierarchies() first if the caller must not wait). Thread-safe. Real-time

@@ -193,7 +193,9 @@ void MeasureTool::forget() {
 void MeasureTool::take(const FeaturePick& pick) {
   const Part* part = session_.scene().find(pick.part);
   if (part == nullptr) return;
-  const End end{pick.part, part->geometry, measureEnd(part->geometry->mesh, pick.picked, pick.hit),
+  const PartGeometry& geometry = *part->geometry;
+  const End end{pick.part, part->geometry,
+                measureEnd(geometry.mesh, pick.picked, pick.hit, geometry.surfaces.get()),
                 tr("%1 of %2").arg(describeFeature(pick.picked.feature), shortName(part->name))};
   if (!from_ || to_) {
     forget();

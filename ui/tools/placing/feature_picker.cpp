@@ -18,6 +18,11 @@ namespace {
 /// Max distance of the pointer from a corner or edge to pick it [pixels].
 constexpr double kReach = 8.0;
 
+QString describeTorus(const AlignFeature& torus) {
+  return QObject::tr("Torus ⌀ %1, tube ⌀ %2")
+      .arg(formatLength(2.0 * torus.radius), formatLength(2.0 * torus.minorRadius));
+}
+
 QString describeAxis(const AlignFeature& axis) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   if (axis.flats > 0) return QObject::tr("Axis of a prism with %1 flats").arg(axis.flats);
@@ -27,19 +32,28 @@ QString describeAxis(const AlignFeature& axis) {
   return QObject::tr("Straight edge");
 }
 
-}  // namespace
-
-QString describeFeature(const AlignFeature& feature) {
+QString describeShape(const AlignFeature& feature) {
   switch (feature.shape) {
     case FeatureShape::Plane:
       return QObject::tr("Flat face");
     case FeatureShape::Circle:
-      return QObject::tr("Circle ⌀ %1").arg(formatLength(2.0 * feature.radius));
+      return feature.surface == SurfaceKind::Torus
+                 ? describeTorus(feature)
+                 : QObject::tr("Circle ⌀ %1").arg(formatLength(2.0 * feature.radius));
     case FeatureShape::Axis:
       return describeAxis(feature);
     default:
-      return QObject::tr("Point");
+      return feature.surface == SurfaceKind::Sphere
+                 ? QObject::tr("Centre of a sphere ⌀ %1").arg(formatLength(2.0 * feature.radius))
+                 : QObject::tr("Point");
   }
+}
+
+}  // namespace
+
+QString describeFeature(const AlignFeature& feature) {
+  const QString shape = describeShape(feature);
+  return feature.isExact ? QObject::tr("%1, exact").arg(shape) : shape;
 }
 
 FeaturePicker::FeaturePicker(const Session& session, Viewport& view, const QColor& colour, QObject* parent)
@@ -162,7 +176,8 @@ void FeaturePicker::hoverAt(const QPoint& position) {
       SurfaceHit hit{seen->triangle, pose.inverse().applyToPoint(seen->point)};
       const double reach = kReach * view_.projection().metresPerPixel(seen->point);
       if (auto found = seen->cut ? pickFeature(*seen->cut, hit.point, reach, filter_)
-                                 : pickFeature(part->geometry->mesh, hit, reach, filter_)) {
+                                 : pickFeature(part->geometry->mesh, hit, reach, filter_,
+                                               part->geometry->surfaces.get())) {
         text = tr("%1 of %2").arg(describeFeature(found->feature), shortName(part->name));
         hovered_ = {seen->part, std::move(*found), hit.point};
       }

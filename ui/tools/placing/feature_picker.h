@@ -23,7 +23,8 @@ struct FeaturePick {
   glm::dvec3 hit{0.0};   ///< The surface point under the pointer, in the part's frame [m].
 };
 
-/// Returns the name of a feature: "Flat face", "Circle ⌀ 12.0 mm".
+/// Returns the name of a feature: "Flat face", "Circle ⌀ 12.0 mm", and of one by exact surfaces "Circle ⌀ 12.0 mm,
+/// exact".
 QString describeFeature(const AlignFeature& feature);
 
 /// Lets the user pick features in the view: highlights the one under the pointer and reports
