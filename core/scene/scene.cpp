@@ -75,6 +75,10 @@ TakenNames Scene::takenNames() const {
 void Scene::makeAddable(Part& part) const {
   checkValues(part);
   requireOpen(part.group);
+  if (part.isLocked && movingGroup_ && isWithin(part.group, *movingGroup_)) {
+    throw UsageError(fmt::format("part \"{}\"", part.name), "a locked part cannot be in the moving group",
+                     "unlock it first");
+  }
   part.worldFromPart = checkedPose(part.worldFromPart);
 }
 
@@ -119,11 +123,15 @@ void Scene::replace(Part part) {
     throw UsageError(fmt::format("part \"{}\"", before.name),
                      fmt::format("\"{}\" is the name of another part", part.name), "choose another name");
   }
-  if (part.isLocked && movingPart_ == part.id) {
-    throw UsageError(fmt::format("part \"{}\"", part.name), "it is the moving part and cannot be locked",
+  const bool willMove = movingGroup_ ? isWithin(part.group, *movingGroup_) : movingPart_ == part.id;
+  if (part.isLocked && willMove) {
+    throw UsageError(fmt::format("part \"{}\"", part.name),
+                     movingGroup_ ? "it is in the moving group and cannot be locked"
+                                  : "it is the moving part and cannot be locked",
                      "choose another moving part, or none, first");
   }
   parts_[index] = std::make_shared<const Part>(std::move(part));
+  keepLead();
 }
 
 void Scene::remove(PartId id) {
@@ -131,12 +139,29 @@ void Scene::remove(PartId id) {
   requireUnlocked(*parts_[index]);
   parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(index));
   if (movingPart_ == id) movingPart_.reset();
+  keepLead();
   std::erase_if(joints_, [id](const Joint& joint) { return joint.part == id || joint.base == id; });
 }
 
 void Scene::setMovingPart(std::optional<PartId> id) {
   if (id) requireUnlocked(*parts_[indexOf(*id)]);
   movingPart_ = id;
+  movingGroup_.reset();
+}
+
+bool Scene::isMoving(PartId id) const noexcept {
+  if (!movingGroup_) return movingPart_ == id;
+  const Part* part = find(id);
+  return part != nullptr && isWithin(part->group, *movingGroup_);
+}
+
+std::vector<PartId> Scene::movingParts() const {
+  if (!movingGroup_) return movingPart_ ? std::vector{*movingPart_} : std::vector<PartId>();
+  std::vector<PartId> parts;
+  for (const PartPtr& part : parts_) {
+    if (isWithin(part->group, *movingGroup_)) parts.push_back(part->id);
+  }
+  return parts;
 }
 
 void Scene::setHaptics(const HapticSettings& haptics) {

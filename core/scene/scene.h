@@ -31,7 +31,14 @@ class Scene {
   const Part& get(PartId id) const;
   /// The part with this name; null if there is none. Valid until the part changes. O(n).
   const Part* findByName(std::string_view name) const noexcept;
+  /// The part that can be taken in hand; of a moving group the part that leads, in whose frame its pose is given.
   std::optional<PartId> movingPart() const noexcept { return movingPart_; }
+  /// The group whose parts the hand moves as one; std::nullopt if it moves one part, or none.
+  std::optional<GroupId> movingGroup() const noexcept { return movingGroup_; }
+  /// True if the hand moves the part: it is the moving part, or in the moving group at any depth.
+  bool isMoving(PartId id) const noexcept;
+  /// All parts that the hand moves, in scene order; empty if nothing is in hand. O(n).
+  std::vector<PartId> movingParts() const;
   const HapticSettings& haptics() const noexcept { return haptics_; }
 
   /// Adds a copy of `part` with a new ID and returns the ID. Appends a number to a name already taken;
@@ -42,14 +49,18 @@ class Scene {
   /// number. O((n + m) log(n + m)) for m parts beside n.
   std::vector<PartId> addAll(std::vector<Part> parts);
   /// Replaces the part with the same ID. Throws UsageError like add(), or if there is no such part, its new
-  /// name is taken, it is the moving part and would be locked, or it is locked and more than its look (see
+  /// name is taken, the hand moves it and it would be locked, or it is locked and more than its look (see
   /// differsOnlyInLookOrLock) or geometry would change.
   void replace(Part part);
   /// Removes a part, with the joints that keep it and those that keep others on it. If it is the moving part, the
-  /// scene has none afterwards. Throws UsageError if the part is unknown or locked.
+  /// scene has none afterwards; if it leads a moving group, another member leads. Throws UsageError if the part is
+  /// unknown or locked.
   void remove(PartId id);
   /// Sets the moving part; std::nullopt for none. Throws UsageError if the part is unknown or locked.
   void setMovingPart(std::optional<PartId> id);
+  /// Makes all parts in a group move as one. Its first part with a geometry leads. The group ends to be in hand when its
+  /// last part leaves it. Throws UsageError if the group is unknown, has no part, or it or something in it is locked.
+  void setMovingGroup(GroupId id);
   /// Sets the haptic settings, the orientation normalised. Throws UsageError like checkHaptics()
   /// (haptic_limits.h).
   void setHaptics(const HapticSettings& haptics);
@@ -63,7 +74,7 @@ class Scene {
   GroupId addGroup(Group group);
   /// Replaces the group with the same ID. Throws UsageError like addGroup(), or if there is no such
   /// group, it would contain itself, it is locked and more than its own lock would change, or it would
-  /// lock the moving part.
+  /// lock a part that the hand moves.
   void replaceGroup(Group group);
   /// Removes an empty group. Throws UsageError if it is unknown, locked or not empty.
   void removeGroup(GroupId id);
@@ -125,6 +136,10 @@ class Scene {
   /// Number of groups from `group` upward, itself included.
   std::size_t depthOf(std::optional<GroupId> group) const noexcept;
   bool isWithin(std::optional<GroupId> group, GroupId ancestor) const noexcept;
+  /// Throws UsageError if the group holds what the hand moves, or is in the moving group.
+  void requireNotMoving(const Group& group) const;
+  /// Lets another member of the moving group lead if the one that did has left.
+  void keepLead() noexcept;
   void checkPlace(const Group& group) const;
   std::size_t indexOf(JointId id) const;
   /// Throws UsageError if the scene cannot hold the joint; normalises its directions.
@@ -132,6 +147,7 @@ class Scene {
 
   std::vector<PartPtr> parts_;
   std::optional<PartId> movingPart_;
+  std::optional<GroupId> movingGroup_;
   HapticSettings haptics_;
   std::vector<GroupPtr> groups_;
   std::vector<Joint> joints_;

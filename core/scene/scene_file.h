@@ -26,6 +26,7 @@
 ///                     "rotationLocks": [false, false, false]}      about the world's x, y, z
 ///       },
 ///       "moving": "Peg",                                     name of the moving part, or null
+///       "movingGroup": null,                                 index of the moving group; "moving" is null then
 ///       "groups": [{
 ///         "name": "Frame",                                   not empty
 ///         "group": null,                                     parent: index of an earlier group, or null
@@ -72,7 +73,7 @@
 /// and haptic_limits.h.
 ///
 /// Older versions can still be read:
-/// - Version 5 has no "repairs".
+/// - Version 5 has no "repairs" and no "movingGroup": a part is in hand, or none.
 /// - Version 4 also has no "joints".
 /// - Version 3 also has no "pivot": parts turn about their centre of mass.
 /// - Version 2 also has no "groups", and parts have no "opacity", "group" and "wasVisible": they are opaque

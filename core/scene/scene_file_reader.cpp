@@ -238,6 +238,35 @@ std::optional<std::size_t> readMovingPart(const JsonField& field, const std::vec
   return static_cast<std::size_t>(it - entries.begin());
 }
 
+/// True if a group is another one, or in it at any depth.
+bool isWithin(std::optional<std::size_t> group, std::size_t ancestor, const std::vector<GroupEntry>& groups) {
+  while (group && *group != ancestor)
+    group = groups[*group].parent;
+  return group.has_value();
+}
+
+/// Reads the field "movingGroup": index of the moving group.
+/// @param hasMovingPart  The file names a moving part too.
+std::optional<std::size_t> readMovingGroup(const JsonField& field, const std::vector<PartEntry>& entries,
+                                           const std::vector<GroupEntry>& groups, bool hasMovingPart) {
+  const std::optional<std::size_t> index =
+      readGroupIndex(field, groups.size(), "give the number of a group, from 0, or null");
+  if (!index) return index;
+  if (hasMovingPart) field.fail("a part is in hand too", "give null here, or for \"moving\"");
+  bool isEmpty = true, isLocked = groups[*index].isLockedAnyhow;
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    isLocked = isLocked || (groups[i].group.isLocked && isWithin(i, *index, groups));
+  for (const PartEntry& entry : entries) {
+    if (!isWithin(entry.group, *index, groups)) continue;
+    isEmpty = false;
+    isLocked = isLocked || entry.part.isLocked;
+  }
+  if (isEmpty) field.fail("this group has no parts that could be moved", "give another group, or null");
+  if (isLocked)
+    field.fail("this group, or something in it, is locked and cannot be moved", "unlock it, or give null");
+  return index;
+}
+
 JointKind readJointKind(const JsonField& field) {
   const std::optional<JointKind> kind = jointKindOf(field.text(16));
   if (!kind) field.fail("this value is not known", R"(give "axis", "plane" or "point")");
@@ -425,6 +454,9 @@ Scene readSceneFile(const fs::path& file, const ProgressCallback& progress,
       version >= 3 ? readGroups(root.at("groups")) : std::vector<GroupEntry>();
   std::vector<PartEntry> entries = readParts(root.at("parts"), groups, meshFolder(file), version);
   const std::optional<std::size_t> moving = readMovingPart(root.at("moving"), entries, groups);
+  std::optional<std::size_t> movingGroup;
+  if (version >= 6)
+    movingGroup = readMovingGroup(root.at("movingGroup"), entries, groups, moving.has_value());
   const std::vector<JointEntry> joints =
       version >= 5 ? readJoints(root.at("joints"), entries) : std::vector<JointEntry>();
   const std::vector<std::size_t> lockedLater = unlockForJoints(entries, joints);
@@ -443,6 +475,7 @@ Scene readSceneFile(const fs::path& file, const ProgressCallback& progress,
   addJoints(scene, joints);
   lockParts(scene, lockedLater);
   if (moving) scene.setMovingPart(scene.parts()[*moving]->id);
+  if (movingGroup) scene.setMovingGroup(ids[*movingGroup]);
   lockGroups(scene, groups, ids);
   return scene;
 }

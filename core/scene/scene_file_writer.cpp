@@ -1,4 +1,5 @@
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -101,9 +102,12 @@ std::string sceneFileText(const Scene& scene, const std::filesystem::path& file)
   json["nearfit"] = kSceneFileVersion;
   json["units"] = {{"length", "m"}, {"force", "N"}, {"time", "s"}};
   json["haptics"] = hapticsJson(scene.haptics());
-  json["moving"] = scene.movingPart() ? Json(scene.find(*scene.movingPart())->name) : Json();
+  const bool isPartInHand = scene.movingPart() && !scene.movingGroup();
+  json["moving"] = isPartInHand ? Json(scene.find(*scene.movingPart())->name) : Json();
   GroupIndices groups;
-  json["groups"] = groupsJson(scene, groups);
+  Json listed = groupsJson(scene, groups);
+  json["movingGroup"] = indexJson(scene.movingGroup(), groups);
+  json["groups"] = std::move(listed);
   json["parts"] = Json::array();
   for (const Scene::PartPtr& part : scene.parts())
     json["parts"].push_back(partJson(*part, groups, file));

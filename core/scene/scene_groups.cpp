@@ -98,13 +98,9 @@ void Scene::replaceGroup(Group group) {
       throw UsageError(quoted(before), "a group cannot contain itself", "put it into another group");
     checkPlace(group);
   }
-  const Part* moving = movingPart_ ? find(*movingPart_) : nullptr;
-  if (group.isLocked && moving != nullptr && isWithin(moving->group, group.id)) {
-    throw UsageError(quoted(before),
-                     fmt::format("it contains the moving part \"{}\", which cannot be locked", moving->name),
-                     "choose another moving part, or none, first");
-  }
+  if (group.isLocked) requireNotMoving(group);
   groups_[index] = std::make_shared<const Group>(std::move(group));
+  keepLead();
 }
 
 void Scene::removeGroup(GroupId id) {
@@ -114,6 +110,52 @@ void Scene::removeGroup(GroupId id) {
                        std::ranges::none_of(parts_, [id](const auto& p) { return p->group == id; });
   if (!isEmpty) throw UsageError(quoted(*groups_[index]), "it is not empty", "empty it first");
   groups_.erase(groups_.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
+void Scene::requireNotMoving(const Group& group) const {
+  constexpr const char* kRemedy = "choose another moving part, or none, first";
+  if (movingGroup_) {
+    const bool isInside = group.id == *movingGroup_ || isWithin(group.parent, *movingGroup_);
+    if (!isInside && !isWithin(*movingGroup_, group.id)) return;
+    throw UsageError(quoted(group),
+                     fmt::format("{} is in hand and cannot be locked", quoted(*findGroup(*movingGroup_))),
+                     kRemedy);
+  }
+  const Part* moving = movingPart_ ? find(*movingPart_) : nullptr;
+  if (moving == nullptr || !isWithin(moving->group, group.id)) return;
+  throw UsageError(quoted(group),
+                   fmt::format("it contains the moving part \"{}\", which cannot be locked", moving->name),
+                   kRemedy);
+}
+
+void Scene::setMovingGroup(GroupId id) {
+  requireUnlocked(*groups_[indexOf(id)]);
+  for (const GroupPtr& group : groups_) {
+    if (isWithin(group->id, id)) requireUnlocked(*group);
+  }
+  const Part* lead = nullptr;
+  for (const PartPtr& part : parts_) {
+    if (!isWithin(part->group, id)) continue;
+    requireUnlocked(*part);
+    if (lead == nullptr || (lead->geometry == nullptr && part->geometry != nullptr)) lead = part.get();
+  }
+  if (lead == nullptr)
+    throw UsageError(quoted(*findGroup(id)), "it has no parts that could be moved", "put parts into it first");
+  movingPart_ = lead->id;
+  movingGroup_ = id;
+}
+
+void Scene::keepLead() noexcept {
+  if (!movingGroup_) return;
+  const Part* lead = movingPart_ ? find(*movingPart_) : nullptr;
+  if (lead != nullptr && isWithin(lead->group, *movingGroup_)) return;
+  movingPart_.reset();
+  for (const PartPtr& part : parts_) {
+    if (!isWithin(part->group, *movingGroup_)) continue;
+    movingPart_ = part->id;
+    return;
+  }
+  movingGroup_.reset();
 }
 
 bool Scene::isLocked(const Part& part) const noexcept {

@@ -247,6 +247,30 @@ TEST_F(SceneFileFaults, Version2WithTheSpringsOfVersion1SaysWhatIsMissing) {
   EXPECT_THAT(errorOf(json_.dump()), HasSubstr("haptics: it is missing"));
 }
 
+TEST_F(SceneFileFaults, WhatVersion6SaysIsIgnoredInVersion5) {
+  json_ = version5();
+  EXPECT_EQ(errorWith("/movingGroup", "none"), "");
+}
+
+TEST_F(SceneFileFaults, AMovingGroupThatCannotMoveIsRefused) {
+  EXPECT_THAT(errorWith("/movingGroup", 2), HasSubstr("movingGroup: a part is in hand too"));
+  json_["moving"] = nullptr;
+  EXPECT_EQ(errorWith("/movingGroup", 2), "");
+  EXPECT_EQ(errorWith("/movingGroup", 1), "");
+  EXPECT_THAT(errorWith("/movingGroup", 0), HasSubstr("is locked and cannot be moved"));
+  EXPECT_THAT(errorWith("/movingGroup", 3), HasSubstr("3 is not the number of one of the 3 groups"));
+  EXPECT_THAT(errorWith("/movingGroup", "Pegs"), HasSubstr("movingGroup: it is of type string"));
+  json_["parts"][2]["group"] = 0;
+  json_["parts"][1]["group"] = nullptr;
+  EXPECT_THAT(errorWith("/movingGroup", 2), HasSubstr("this group has no parts"));
+  json_["parts"][1]["group"] = 2;
+  json_["parts"][1]["locked"] = true;
+  EXPECT_THAT(errorWith("/movingGroup", 1), HasSubstr("is locked and cannot be moved"));
+  json_["parts"][1]["locked"] = false;
+  json_["groups"][2]["locked"] = true;
+  EXPECT_THAT(errorWith("/movingGroup", 1), HasSubstr("is locked and cannot be moved"));
+}
+
 TEST_F(SceneFileFaults, WhatVersion5SaysIsIgnoredInVersion4) {
   json_ = version4();
   EXPECT_EQ(errorWith("/joints", "none"), "");

@@ -95,6 +95,7 @@ class SceneFileFixture : public ::testing::Test {
     json["nearfit"] = 5;
     for (nlohmann::json& part : json["parts"])
       part.erase("repairs");
+    json.erase("movingGroup");
     return json;
   }
 

@@ -131,6 +131,7 @@ TEST_F(SceneFile, FileSaysVersionUnitsAndRelativePaths) {
   EXPECT_EQ(json_["nearfit"], 6);
   EXPECT_EQ(json_["units"]["length"], "m");
   EXPECT_EQ(json_["moving"], "Peg");
+  EXPECT_EQ(json_["movingGroup"], nullptr);
   EXPECT_EQ(json_["parts"][0]["mesh"], "meshes/hole.obj");
   EXPECT_EQ(json_["parts"][0]["metresPerUnit"], 0.001);
   EXPECT_EQ(json_["parts"][1]["position"], Json({0.1, -1e-17, 123456.789012345}));
@@ -194,6 +195,20 @@ TEST_F(SceneFile, FileSaysJointsByTheNamesOfTheirParts) {
   EXPECT_EQ(json_["joints"], expected);
 }
 
+TEST_F(SceneFile, AMovingGroupIsSavedByItsNumberAndComesBack) {
+  const GroupId pegs = *scene_.parts()[1]->group;
+  scene_.setMovingGroup(*scene_.findGroup(pegs)->parent);
+  writeSceneFile(scene_, file_);
+  const Json json = Json::parse(test::readBytes(file_));
+  EXPECT_EQ(json["moving"], nullptr);
+  EXPECT_EQ(json["movingGroup"], 1);
+  const Scene scene = readSceneFile(file_);
+  expectSameScene(scene, scene_);
+  ASSERT_TRUE(scene.movingGroup());
+  EXPECT_EQ(scene.findGroup(*scene.movingGroup())->name, "Frame \xC3\xA4");
+  EXPECT_EQ(scene.get(*scene.movingPart()).name, "Peg");
+}
+
 TEST_F(SceneFile, FileSaysTheRepairsOfEachPart) {
   Json expected = Json::parse(R"([{"kind": "weld"}, {"kind": "orient", "size": 0.0}])");
   expected[0]["size"] = 1e-5 / 3.0;
@@ -227,12 +242,13 @@ TEST_F(SceneFile, RepairsAreMadeToWhatIsReadAndTheFileStays) {
   EXPECT_EQ(test::readBytes(mesh), text);
 }
 
-TEST_F(SceneFile, Version5KeepsAllThatItSaysAndHasNoRepairs) {
+TEST_F(SceneFile, Version5KeepsAllThatItSaysAndHasNeitherRepairsNorMovingGroup) {
   EXPECT_EQ(errorOf(version5().dump()), "");
   const Scene scene = readSceneFile(file_);
   dropRepairs();
   EXPECT_EQ(errorOf(json_.dump()), "");
   expectSameScene(scene, readSceneFile(file_));
+  EXPECT_FALSE(scene.movingGroup());
 }
 
 TEST_F(SceneFile, Version4KeepsAllThatItSaysAndHasNoJoints) {
@@ -330,7 +346,7 @@ TEST_F(SceneFile, Version1KeepsItsSpringsAndGetsTheRestOfANewScene) {
     EXPECT_EQ(part->density, 1000.0);
   EXPECT_EQ(scene.parts()[1]->worldFromPart.translation, scene_.parts()[1]->worldFromPart.translation);
   writeSceneFile(scene, file_);
-  EXPECT_EQ(Json::parse(test::readBytes(file_))["nearfit"], 5);
+  EXPECT_EQ(Json::parse(test::readBytes(file_))["nearfit"], 6);
   expectSameScene(readSceneFile(file_), scene);
 }
 
