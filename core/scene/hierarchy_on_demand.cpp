@@ -61,6 +61,8 @@ void HierarchyOnDemand::findOrBuild(const TriangleMesh& mesh, const ProgressCall
   std::optional<NormalConeTree> found = find_ ? find_() : std::nullopt;
   if (found) {
     tree_.emplace(std::move(*found));
+  } else if (build_) {
+    tree_.emplace(build_(progress));
   } else {
     tree_.emplace(mergeFlats(mesh, coordinateRounding_, stageOf(progress, 0.0, kMerged)),
                   stageCallback(progress, kMerged, 1.0));
@@ -71,6 +73,7 @@ void HierarchyOnDemand::findOrBuild(const TriangleMesh& mesh, const ProgressCall
   // Not called again: release what they hold, such as meshes.
   find_ = nullptr;
   keep_ = nullptr;
+  build_ = nullptr;
   if (progress) progress(1.0);
 }
 

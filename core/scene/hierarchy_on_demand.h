@@ -26,10 +26,15 @@ class HierarchyOnDemand {
   using Find = std::function<std::optional<NormalConeTree>()>;
   /// Stores a newly built hierarchy.
   using Keep = std::function<void(const NormalConeTree&)>;
+  /// Builds a hierarchy of a mesh whose flats are known already. May throw Cancelled.
+  using Build = std::function<NormalConeTree(const ProgressCallback&)>;
 
   /// @param coordinateRounding  Of the mesh, as for mergeFlats() [m].
   explicit HierarchyOnDemand(Find find = {}, Keep keep = {}, double coordinateRounding = 0.0)
       : find_(std::move(find)), keep_(std::move(keep)), coordinateRounding_(coordinateRounding) {}
+  /// @param build  Takes the place of mergeFlats() and what follows.
+  HierarchyOnDemand(Find find, Keep keep, Build build)
+      : find_(std::move(find)), keep_(std::move(keep)), build_(std::move(build)) {}
   HierarchyOnDemand(const HierarchyOnDemand&) = delete;
   HierarchyOnDemand& operator=(const HierarchyOnDemand&) = delete;
 
@@ -52,7 +57,8 @@ class HierarchyOnDemand {
 
   Find find_;
   Keep keep_;
-  double coordinateRounding_;
+  Build build_;
+  double coordinateRounding_ = 0.0;
   std::mutex mutex_;
   std::condition_variable ended_;
   bool isMaking_ = false;  ///< Guarded by mutex_. Until ready, only the making thread uses the members below.

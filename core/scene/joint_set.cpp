@@ -323,17 +323,21 @@ glm::dvec3 JointSet::freeShift(const glm::dvec3& shift) const noexcept {
   return {free[0], free[1], free[2]};
 }
 
+JointSet::Placed placedInWorld(const Scene& scene, const Joint& joint) {
+  const RigidTransform worldFromBase = joint.base ? scene.get(*joint.base).worldFromPart : RigidTransform{};
+  const glm::dvec3 direction = worldFromBase.applyToVector(joint.onBase.direction);
+  // Planes are kept face to face.
+  return {joint.kind, joint.onPart, worldFromBase.applyToPoint(joint.onBase.point),
+          glm::normalize(joint.kind == JointKind::InPlane ? -direction : direction)};
+}
+
 JointSet jointsOf(const Scene& scene, PartId part) {
   std::array<JointSet::Placed, kMaxJointsPerPart> placed;
   std::size_t count = 0;
   const RigidTransform& worldFromPart = scene.get(part).worldFromPart;
   for (const Joint& joint : scene.joints()) {
     if (joint.part != part || !joint.isOn || count == placed.size()) continue;
-    const RigidTransform worldFromBase = joint.base ? scene.get(*joint.base).worldFromPart : RigidTransform{};
-    const glm::dvec3 direction = worldFromBase.applyToVector(joint.onBase.direction);
-    // Planes are kept face to face.
-    placed[count++] = {joint.kind, joint.onPart, worldFromBase.applyToPoint(joint.onBase.point),
-                       glm::normalize(joint.kind == JointKind::InPlane ? -direction : direction)};
+    placed[count++] = placedInWorld(scene, joint);
   }
   return {std::span(placed).first(count), worldFromPart};
 }

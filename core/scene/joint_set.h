@@ -116,6 +116,8 @@ class JointSet {
   RigidTransform anchor_;  ///< A pose on several joints.
 };
 
+/// A joint with its base where the scene has it.
+JointSet::Placed placedInWorld(const Scene& scene, const Joint& joint);
 /// The joints of a part that are on, with their bases where the scene has them. Throws UsageError if there is no such
 /// part.
 JointSet jointsOf(const Scene& scene, PartId part);

@@ -16,6 +16,8 @@
 
 namespace nearfit {
 
+class GroupBodies;
+
 /// Parts, groups, joints and haptic settings, as a value. Copies are cheap because they share parts and groups; undo
 /// and threads keep copies. Each change either succeeds as a whole or throws UsageError and changes nothing.
 class Scene {
@@ -39,6 +41,8 @@ class Scene {
   bool isMoving(PartId id) const noexcept;
   /// All parts that the hand moves, in scene order; empty if nothing is in hand. O(n).
   std::vector<PartId> movingParts() const;
+  /// Geometries made of the moving group (moving_body.h), shared with copies; null if a group was never in hand.
+  const std::shared_ptr<GroupBodies>& groupBodies() const noexcept { return groupBodies_; }
   const HapticSettings& haptics() const noexcept { return haptics_; }
 
   /// Adds a copy of `part` with a new ID and returns the ID. Appends a number to a name already taken;
@@ -148,6 +152,7 @@ class Scene {
   std::vector<PartPtr> parts_;
   std::optional<PartId> movingPart_;
   std::optional<GroupId> movingGroup_;
+  std::shared_ptr<GroupBodies> groupBodies_;
   HapticSettings haptics_;
   std::vector<GroupPtr> groups_;
   std::vector<Joint> joints_;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/scene/moving_body.h"
 #include "core/scene/scene.h"
 
 namespace nearfit {
@@ -143,6 +144,7 @@ void Scene::setMovingGroup(GroupId id) {
     throw UsageError(quoted(*findGroup(id)), "it has no parts that could be moved", "put parts into it first");
   movingPart_ = lead->id;
   movingGroup_ = id;
+  if (groupBodies_ == nullptr) groupBodies_ = std::make_shared<GroupBodies>();
 }
 
 void Scene::keepLead() noexcept {

@@ -114,14 +114,16 @@ std::span<const Lmd> MinimaFinder::findOne(const Task& task, const RigidTransfor
   result_.count += static_cast<std::uint32_t>(result.count);
   result_.completeTo = std::min(result_.completeTo, result.completeTo);
   if (result.status == QueryStatus::Truncated) result_.isTruncated = true;
-  keepForDisplay(body.id, found);
+  keepForDisplay(task, found);
   return found;
 }
 
-void MinimaFinder::keepForDisplay(PartId other, std::span<const Lmd> found) noexcept {
+void MinimaFinder::keepForDisplay(const Task& task, std::span<const Lmd> found) noexcept {
+  const PartId other = task.scene.bodies[task.body].id;
   const std::size_t added = std::min(found.size(), ServoSnapshot::kMaxLmds);
   for (std::size_t i = 0; i < added; ++i)
-    display_[displayCount_ + i] = {found[i], other};
+    display_[displayCount_ + i] = {found[i], other,
+                                   task.scene.memberAt(found[i].partFeature, found[i].partIndex)};
   displayCount_ += added;
   if (displayCount_ <= ServoSnapshot::kMaxLmds) return;
   const auto begin = display_.begin();

@@ -141,7 +141,7 @@ class MinimaFinder {
   std::span<const Lmd> findOne(const Task& task, const RigidTransform& worldFromPart, double cutoff) noexcept;
   LmdResult search(const Task& task, const RigidTransform& bodyFromPart, double cutoff,
                    std::span<Lmd> out) noexcept;
-  void keepForDisplay(PartId other, std::span<const Lmd> found) noexcept;
+  void keepForDisplay(const Task& task, std::span<const Lmd> found) noexcept;
 
   LmdScratch scratch_;
   std::vector<Lmd> lmds_;                   ///< Minima of one body after another, while there is room.

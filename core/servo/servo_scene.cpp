@@ -1,6 +1,7 @@
 #include "core/servo/servo_scene.h"
 
-#include "core/base/error.h"
+#include <algorithm>
+#include <utility>
 
 namespace nearfit {
 
@@ -25,27 +26,33 @@ void ServoScene::prepareSurfaces() {
   }
 }
 
+PartId ServoScene::memberAt(FeatureKind kind, std::uint32_t index) const noexcept {
+  if (members.empty()) return moving.id;
+  if (kind == FeatureKind::Edge) index = moving.geometry->tree().mesh().edges()[index].v0;
+  const auto end = kind == FeatureKind::Face ? &BodyMember::triangleEnd : &BodyMember::vertexEnd;
+  const auto member = std::ranges::upper_bound(members, index, {}, end);
+  return member != members.end() ? member->id : moving.id;
+}
+
 double ServoScene::deviation(const Body& other) const noexcept {
   return other.geometry->tree().deviation() + moving.geometry->tree().deviation();
 }
 
 std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene) {
-  const Part* moving = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
-  if (moving == nullptr || moving->geometry == nullptr) {
-    throw UsageError("scene", "no part is in hand", "choose the moving part first");
-  }
+  MovingBody moving = movingBody(scene);
   auto result = std::make_unique<ServoScene>();
-  result->setMoving({moving->id, moving->geometry, moving->worldFromPart});
-  result->mass = massOf(*moving);
-  result->setJoints(jointsOf(scene, moving->id));
-  if (!moving->isVisible) return result;
+  result->setMoving({moving.id, moving.geometry, moving.worldFromBody});
+  result->members = std::move(moving.members);
+  result->mass = moving.mass;
+  result->setJoints(jointsOfMoving(scene));
+  if (!moving.isVisible) return result;
   result->bodies.reserve(scene.parts().size());
   for (const Scene::PartPtr& part : scene.parts()) {
-    if (part->id == moving->id || !part->isVisible || part->geometry == nullptr) continue;
+    if (scene.isMoving(part->id) || !part->isVisible || part->geometry == nullptr) continue;
     result->bodies.push_back({part->id, part->geometry, part->worldFromPart});
   }
   // Waiting is allowed here, but not in a tick.
-  std::vector<PartGeometryPtr> geometries{moving->geometry};
+  std::vector<PartGeometryPtr> geometries{result->moving.geometry};
   for (const ServoScene::Body& body : result->bodies)
     geometries.push_back(body.geometry);
   prepareHierarchies(geometries);

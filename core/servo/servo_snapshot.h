@@ -25,10 +25,11 @@ enum class ServoFault : std::uint8_t {
 /// Cause and remedy, as a sentence without a full stop; empty for None. Never null.
 const char* faultReason(ServoFault fault) noexcept;
 
-/// A minimum, in world coordinates, and the part that it is with.
+/// A minimum, in world coordinates, and the parts that it is between.
 struct SnapshotLmd {
   Lmd lmd;
   PartId other{};
+  PartId part{};  ///< The moving part, or the part of the moving group whose feature it is.
 };
 
 /// A contact where the proxy presses on another part; world coordinates.
@@ -37,6 +38,8 @@ struct SnapshotContact {
   glm::dvec3 direction{0.0};  ///< From the other part to the moving one; unit.
   double force = 0.0;         ///< Its share of the force on the hand, along `direction` [N].
   PartId other{};
+  /// The moving part, or the part of the moving group that has the nearest minimum with the other one that is shown.
+  PartId part{};
 };
 
 /// One tick as others see it; trivially copyable. Everything is in the world frame unless stated otherwise.
@@ -67,7 +70,7 @@ struct ServoSnapshot {
   bool isClamped = false;        ///< The wrench was limited to the device's max.
   bool isClutched = false;       ///< The hand repositions the device; the part stays.
   ServoFault fault = ServoFault::None;  ///< Latched: the wrench is zero until the servo is restarted.
-  PartId moving{};                      ///< The moving part.
+  PartId moving{};                      ///< The moving part; of a group the part that leads.
 
   HapticMode mode = HapticMode::Proxy;
   double period = 0.0;  ///< Measured period that the coupling is computed with [s].

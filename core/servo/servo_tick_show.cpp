@@ -2,6 +2,8 @@
 #include <chrono>
 #include <limits>
 
+#include <glm/geometric.hpp>
+
 #include "core/haptics/spring_law.h"
 #include "core/servo/servo_tick.h"
 
@@ -18,6 +20,23 @@ MinimaAllowance shownBeside(std::uint64_t contactWork) noexcept {
   };
   const MinimaAllowance &least = MinimaFinder::kShownInFullTick, &most = MinimaFinder::kShown;
   return {between(least.search, most.search), between(least.merge, most.merge)};
+}
+
+/// The part of a moving group that a contact is of, by the minimum with the same other part that is nearest to it: the
+/// contacts are known by their points alone. O(minima).
+PartId memberAtContact(const ServoSnapshot& snapshot, const SnapshotContact& contact) noexcept {
+  PartId part = snapshot.moving;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = 0; i < snapshot.storedLmds; ++i) {
+    const SnapshotLmd& minimum = snapshot.lmds[i];
+    if (minimum.other != contact.other) continue;
+    const glm::dvec3 way = minimum.lmd.partPoint - contact.point;
+    const double squared = glm::dot(way, way);
+    if (!(squared < nearest)) continue;
+    nearest = squared;
+    part = minimum.part;
+  }
+  return part;
 }
 
 }  // namespace
@@ -103,9 +122,10 @@ void ServoTick::describeProxy(const Subject& subject) noexcept {
   for (const ProxyContact& holding : proxy_.contacts()) {
     if (snapshot.storedContacts == ServoSnapshot::kMaxContacts) break;
     const ContactPair& pair = holding.contact.pair;
-    snapshot.contacts[snapshot.storedContacts++] = {pair.point, pair.direction,
-                                                    coupling_.stiffness * holding.push,
-                                                    subject.scene.bodies[holding.contact.body].id};
+    SnapshotContact& contact = snapshot.contacts[snapshot.storedContacts++];
+    contact = {pair.point, pair.direction, coupling_.stiffness * holding.push,
+               subject.scene.bodies[holding.contact.body].id, snapshot.moving};
+    if (!subject.scene.members.empty()) contact.part = memberAtContact(snapshot, contact);
   }
   const Clearance& clearance = subject.tracked.clearance;
   if (!clearance.overlapping) return;
