@@ -77,12 +77,24 @@ std::vector<PartId> Session::addParts(const std::vector<NewPart>& parts) {
 }
 
 void Session::setMovingPart(std::optional<PartId> id) {
-  if (scene().movingPart() == id) return;
+  if (scene().movingPart() == id && !scene().movingGroup()) return;
   Scene next = scene();
   next.setMovingPart(id);
   const std::string label =
       id ? fmt::format("Make {} the moving part", next.find(*id)->name) : "Clear the moving part";
   commit(std::move(next), label);
+}
+
+void Session::setMovingGroup(GroupId id) {
+  if (scene().movingGroup() == id) return;
+  Scene next = scene();
+  next.setMovingGroup(id);
+  const std::string label = fmt::format("Make {} the moving group", next.findGroup(id)->name);
+  commit(std::move(next), label);
+}
+
+void Session::moveMoving(const RigidTransform& worldFromPart, const std::string& verb) {
+  if (scene().movingPart()) moveParts(scene().movingParts(), *scene().movingPart(), worldFromPart, verb);
 }
 
 void Session::setHaptics(const HapticSettings& haptics, const std::string& label) {

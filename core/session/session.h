@@ -75,6 +75,11 @@ class Session {
   void setJointsOn(const std::vector<JointId>& ids, bool on);
   /// Sets the moving part; std::nullopt for none. Throws UsageError if the part is locked.
   void setMovingPart(std::optional<PartId> id);
+  /// Makes all parts in a group move as one. Throws UsageError like Scene::setMovingGroup().
+  void setMovingGroup(GroupId id);
+  /// Puts what is in hand where the moving part gets exactly this pose; the parts of a moving group move rigidly along.
+  /// No-op if nothing is in hand.
+  void moveMoving(const RigidTransform& worldFromPart, const std::string& verb = "Move");
   /// @param label  Undo label; if empty, one that names the change.
   void setHaptics(const HapticSettings& haptics, const std::string& label = {});
 
@@ -102,8 +107,8 @@ class Session {
   /// Restores the visibility from before isolate(); no-op if not isolated.
   void endIsolation();
 
-  /// Sets the nodes' own locks; members of a group keep theirs. If this locks the moving part, the scene
-  /// no longer has one.
+  /// Sets the nodes' own locks; members of a group keep theirs. If this locks what the hand moves, or something in the
+  /// moving group, nothing is in hand any more.
   void setLocked(const SceneNodes& nodes, bool locked);
   /// Renames a group; groups may share a name.
   void renameGroup(GroupId id, const std::string& name);

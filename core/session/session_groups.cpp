@@ -86,6 +86,13 @@ void putInto(Scene& scene, const SceneNodes& outer, std::optional<GroupId> targe
   }
 }
 
+/// True if a group is the moving one, or in it; one without parts cannot be locked there either.
+bool isInMovingGroup(const Scene& scene, std::optional<GroupId> group) {
+  while (group && group != scene.movingGroup())
+    group = scene.findGroup(*group)->parent;
+  return group.has_value();
+}
+
 }  // namespace
 
 void Session::setLocked(const SceneNodes& nodes, bool locked) {
@@ -93,7 +100,10 @@ void Session::setLocked(const SceneNodes& nodes, bool locked) {
   SceneNodes changed;
   // Throws if a node does not exist.
   const std::vector<PartId> parts = partsOf(scene(), nodes);
-  const bool isMoving = next.movingPart() && std::ranges::count(parts, *next.movingPart()) > 0;
+  const std::vector<GroupId> groups = groupsOf(scene(), nodes);
+  const bool isMoving =
+      std::ranges::any_of(parts, [&](PartId part) { return next.isMoving(part); }) ||
+      std::ranges::any_of(groups, [&](GroupId group) { return isInMovingGroup(next, group); });
   if (locked && isMoving) next.setMovingPart(std::nullopt);
   for (const GroupId id : nodes.groups) {
     Group group = *next.findGroup(id);

@@ -1,7 +1,10 @@
 // Commands about several parts and about groups: each one step of undo, whole or refused, stopped by every
 // lock.
+#include <optional>
 #include <random>
+#include <utility>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
@@ -48,6 +51,24 @@ class SessionGroups : public ::testing::Test {
     EXPECT_EQ(describe(session_.scene()), before) << label;
     session_.redo();
     EXPECT_EQ(describe(session_.scene()), after) << label;
+    return label;
+  }
+
+  /// The same for a command that changes only what is in hand.
+  template <typename Command>
+  std::string stepOfHand(Command command) {
+    const auto inHand = [this] {
+      return std::pair(session_.scene().movingPart(), session_.scene().movingGroup());
+    };
+    const auto before = inHand();
+    command();
+    const auto after = inHand();
+    EXPECT_NE(after, before);
+    const std::string label = session_.undoText();
+    session_.undo();
+    EXPECT_EQ(inHand(), before) << label;
+    session_.redo();
+    EXPECT_EQ(inHand(), after) << label;
     return label;
   }
 
@@ -335,6 +356,45 @@ TEST_F(SessionGroups, RandomCommandsKeepTheTreeAndUndoneInFullGiveBackTheBeginni
     ASSERT_EQ(describe(session_.scene()), states.back());
   }
   EXPECT_FALSE(session_.canUndo());
+}
+
+TEST_F(SessionGroups, AGroupIsTakenInHandAndMovedAsOneStep) {
+  const GroupId pair = session_.group({{a_, b_}, {}}, "Pair");
+  session_.setMovingPart(a_);
+  EXPECT_EQ(stepOfHand([&] { session_.setMovingGroup(pair); }), "Make Pair the moving group");
+  EXPECT_EQ(session_.scene().movingGroup(), pair);
+  session_.setMovingGroup(pair);
+  EXPECT_EQ(session_.undoText(), "Make Pair the moving group") << "once more is no step";
+  const RigidTransform aFromB = part(a_).worldFromPart.inverse() * part(b_).worldFromPart;
+  const RigidTransform pose{glm::dquat(0.6, 0.0, 0.8, 0.0), {1.0, 2.0, 3.0}};
+  EXPECT_EQ(stepOf([&] { session_.moveMoving(pose, "Feel"); }), "Feel 2 parts");
+  EXPECT_EQ(part(a_).worldFromPart.translation, pose.translation);
+  const RigidTransform expected = pose * aFromB;
+  EXPECT_LT(glm::distance(part(b_).worldFromPart.translation, expected.translation), 1e-13);
+  EXPECT_EQ(part(c_).worldFromPart.translation.z, -0.3);
+  session_.setMovingPart(a_);
+  EXPECT_EQ(session_.scene().movingGroup(), std::nullopt);
+}
+
+TEST_F(SessionGroups, LockingAnythingOfTheMovingGroupPutsItDown) {
+  const GroupId inner = session_.group({{b_}, {}}, "Inner"), outer = session_.group({{a_}, {inner}}, "Outer");
+  for (const SceneNodes& nodes : {SceneNodes{{b_}, {}}, SceneNodes{{}, {inner}}, SceneNodes{{}, {outer}}}) {
+    session_.setMovingGroup(outer);
+    session_.setLocked(nodes, true);
+    EXPECT_EQ(session_.scene().movingPart(), std::nullopt);
+    EXPECT_EQ(session_.scene().movingGroup(), std::nullopt);
+    EXPECT_THROW(session_.setMovingGroup(outer), UsageError);
+    session_.undo();
+    EXPECT_EQ(session_.scene().movingGroup(), outer);
+    session_.setMovingPart(std::nullopt);
+  }
+  session_.setMovingGroup(outer);
+  session_.setLocked({{c_}, {}}, true);
+  EXPECT_EQ(session_.scene().movingGroup(), outer) << "it is not of the group";
+  session_.deleteNodes({{}, {outer}});
+  EXPECT_EQ(session_.scene().movingGroup(), std::nullopt);
+  session_.undo();
+  EXPECT_EQ(session_.scene().movingGroup(), outer);
 }
 
 }  // namespace
