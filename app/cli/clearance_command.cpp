@@ -1,6 +1,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -22,9 +23,11 @@ struct ClearanceOptions {
 void runClearance(const ClearanceOptions& options) {
   if (options.cutoff) checkPositive("--cutoff", *options.cutoff);
   const Scene scene = readSceneFile(options.scene);
-  const PartId part = chosenPart(scene, options.part);
+  const bool isGroup = options.part.empty() && scene.movingGroup();
+  const std::vector<PartId> body =
+      isGroup ? scene.movingParts() : std::vector{chosenPart(scene, options.part)};
   const double cutoff = options.cutoff.value_or(scene.haptics().springs.cutoff);
-  const std::string rows = clearanceCsv(scene, part, clearancesOf(scene, part, cutoff));
+  const std::string rows = clearanceCsv(scene, clearancesOf(scene, body, cutoff));
   printCacheWarnings();
   print(rows);
 }
@@ -36,16 +39,16 @@ void addClearanceCommand(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "clearance", "Prints the clearance between a part and each other visible part, as CSV.");
   command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required()->type_name("SCENE");
-  command->add_option("--part", options->part, "Name of the part; default: the moving part")
+  command->add_option("--part", options->part, "Name of the part; default: the moving part or group")
       ->type_name("NAME");
   command->add_option("--cutoff", options->cutoff,
                       "Count minima within this distance [m]; default: the scene's cutoff");
   command->footer(
-      "Columns, whose header names the unit of lengths: part; other; distance [m] (not limited by the\n"
-      "cutoff; 0 if they overlap); the nearest points of the two, x y z each [m] in the world frame;\n"
-      "minima, their number within the cutoff; every_minimum (0 if there are more than are looked for);\n"
-      "overlap, decided exactly (no, surfaces meet, inside the other, the other inside); distance_bound,\n"
-      "0: the distance is exact.");
+      "Columns, whose header names the unit of lengths: part, of a group the nearest one; other; distance\n"
+      "[m] (not limited by the cutoff; 0 if they overlap); the nearest points of the two, x y z each [m] in\n"
+      "the world frame; minima, their number within the cutoff; every_minimum (0 if there are more than are\n"
+      "looked for); overlap, decided exactly (no, surfaces meet, inside the other, the other inside);\n"
+      "distance_bound, 0: the distance is exact.");
   command->callback([options] { runClearance(*options); });
 }
 

@@ -167,6 +167,9 @@ bool isSceneFile(const std::string& name) {
 }
 
 std::string movingName(const Scene& scene) {
+  if (scene.movingGroup())
+    return fmt::format("group {}, led by {}", scene.findGroup(*scene.movingGroup())->name,
+                       scene.get(*scene.movingPart()).name);
   return scene.movingPart() ? scene.get(*scene.movingPart()).name : std::string("none");
 }
 
@@ -182,7 +185,8 @@ Json sceneJson(const std::string& name, const Scene& scene) {
   json["file"] = isUtf8(name) ? name : printableText(name);
   json["parts"] = scene.parts().size();
   json["groups"] = scene.groups().size();
-  json["moving"] = scene.movingPart() ? Json(movingName(scene)) : Json();
+  json["moving"] = scene.movingPart() ? Json(scene.get(*scene.movingPart()).name) : Json();
+  json["movingGroup"] = scene.movingGroup() ? Json(scene.findGroup(*scene.movingGroup())->name) : Json();
   json["joints"] = jointsJson(scene);
   return json;
 }

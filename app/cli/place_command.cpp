@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "app/cli/rate_options.h"
 #include "core/base/error.h"
 #include "core/files/atomic_write.h"
+#include "core/report/mesh_export.h"
 #include "core/report/placement_export.h"
 #include "core/scene/scene_file.h"
 #include "device/simulated/replay_device.h"
@@ -26,8 +28,9 @@ namespace nearfit::cli {
 namespace {
 
 constexpr const char* kPlaceFooter =
-    R"(The part starts at the first pose of the path or recording; moved by any other device, it stays where it
-is until the device moves. The scene file does not change. Feel options replace the scene's for this run.
+    R"(The part starts at the first pose of the path or recording, a group with its first part there; moved by
+any other device, it stays where it is until the device moves. The scene file does not change. Feel options
+replace the scene's for this run.
 --record  CSV with a header and one row per tick, in the world frame: t_s; handle_tx ... handle_qz and
           proxy_tx ... proxy_qz (tx ty tz qw qx qy qz each; the proxy is where the part is); force_x ...
           force_z [N] and torque_x ... torque_z [N m] about the part's centre of mass, as sent to the device
@@ -46,7 +49,7 @@ Examples: nearfit-cli place fit.nearfit --part Peg --path hand.csv --record felt
           nearfit-cli place fit.nearfit --part Peg --device replay:felt.csv --record again.csv)";
 
 struct PlaceOptions {
-  std::string scene, part, path, device, record, exportFile;
+  std::string scene, part, group, path, device, record, exportFile;
   HapticOptions haptics;
   DeviceFiles deviceFiles;
   RateOptions rate;
@@ -61,9 +64,46 @@ std::string knownNames(const Scene& scene) {
   return names.empty() ? "the scene has no parts" : "its parts are " + names;
 }
 
-/// Makes the named part the moving part.
-/// @param start  First pose of a path or recording; null: the part stays where it is.
+/// The group with the name given by --group. Throws UsageError unless there is exactly one.
+GroupId namedGroup(const Scene& scene, const PlaceOptions& options) {
+  const auto hasName = [&](const Scene::GroupPtr& group) { return group->name == options.group; };
+  const auto count = std::ranges::count_if(scene.groups(), hasName);
+  if (count == 1) return (*std::ranges::find_if(scene.groups(), hasName))->id;
+  if (count == 0) {
+    throw UsageError(options.scene, "there is no group \"" + options.group + "\"",
+                     "name a group of the scene (nearfit shows them)");
+  }
+  throw UsageError(options.scene, fmt::format("{} groups are named \"{}\"", count, options.group),
+                   "rename the one that is meant");
+}
+
+/// Makes the named group move as one; the path is that of the part that leads it.
+void takeGroupInHand(Scene& scene, const PlaceOptions& options, const RigidTransform* start) {
+  scene.setMovingGroup(namedGroup(scene, options));
+  const std::vector<PartId> parts = scene.movingParts();
+  if (std::ranges::none_of(parts, [&](PartId id) { return scene.get(id).isVisible; })) {
+    throw UsageError(options.scene,
+                     "all of group \"" + options.group + "\" is hidden, so it would feel nothing",
+                     "show it, or choose another");
+  }
+  if (start != nullptr) scene = placedScene(scene, *start);
+}
+
+/// Names of the parts that move as one, the one that leads first; none for a part alone.
+std::vector<std::string> membersOf(const Scene& scene) {
+  std::vector<std::string> names;
+  if (!scene.movingGroup()) return names;
+  names.push_back(scene.get(*scene.movingPart()).name);
+  for (const PartId id : scene.movingParts()) {
+    if (id != *scene.movingPart()) names.push_back(scene.get(id).name);
+  }
+  return names;
+}
+
+/// Makes the named part, or group, what the hand moves.
+/// @param start  First pose of a path or recording; null: it stays where it is.
 void takeInHand(Scene& scene, const PlaceOptions& options, const RigidTransform* start) {
+  if (!options.group.empty()) return takeGroupInHand(scene, options, start);
   const Part* part = scene.findByName(options.part);
   if (part == nullptr) {
     throw UsageError(options.scene, "there is no part \"" + options.part + "\"", knownNames(scene));
@@ -128,6 +168,8 @@ void throwIfIncomplete(const PlaceResult& result, std::size_t poses) {
 }
 
 void checkLead(const PlaceOptions& options) {
+  if (options.part.empty() && options.group.empty())
+    throw UsageError("place", "it does not say what moves", "give --part NAME or --group NAME");
   if (options.isLedByDevice != options.path.empty()) {
     throw UsageError("place",
                      options.isLedByDevice ? "--path and --device are both given" : "nothing moves the part",
@@ -197,8 +239,9 @@ void runPlace(const PlaceOptions& options) {
   job.isArming = options.isArming;
   job.isCalibrating = options.isCalibrating;
   job.scene = makeServoScene(scene);
+  const std::string& name = options.group.empty() ? options.part : options.group;
   if (job.scene->areJointsContradictory)
-    printError(oneLine(options.part + ": its joints contradict each other, so that none holds it"));
+    printError(oneLine(name + ": its joints contradict each other, so that none holds it"));
   job.parameters.haptics = withOptions(scene.haptics(), options.haptics);
   ServoParameters parameters = job.parameters;
   std::optional<MotionWriter> writer;
@@ -209,8 +252,8 @@ void runPlace(const PlaceOptions& options) {
   if (result.device) parameters.limits = result.device->limits;
   if (!options.exportFile.empty()) exportPlacement(scene, result.end, options.exportFile);
 
-  const PlaceSummary summary{options.part,      others, poses, parameters, result, options.record,
-                             options.exportFile};
+  const PlaceSummary summary{name,   others,         poses,              parameters,
+                             result, options.record, options.exportFile, membersOf(scene)};
   printCacheWarnings();
   print(options.isJson ? summaryJson(summary) : summaryText(summary));
   throwIfIncomplete(result, poses);
@@ -223,7 +266,12 @@ void addPlaceCommand(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "place", "Moves a part along a path or with a device in the 1 kHz servo, and prints what was felt.");
   command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required();
-  command->add_option("--part", options->part, "Name of the part to move")->required();
+  CLI::Option* part = command->add_option("--part", options->part, "Name of the part to move");
+  command
+      ->add_option("--group", options->group,
+                   "Instead of a part: name of the group whose parts move as one; the path is that of its "
+                   "first part")
+      ->excludes(part);
   command->add_option(
       "--path", options->path,
       "CSV file of poses in the world frame: tx,ty,tz,qw,qx,qy,qz per row, one row per tick of 1 ms");

@@ -154,8 +154,11 @@ nlohmann::ordered_json deviceJson(const DeviceReport& d) {
 
 std::string summaryText(const PlaceSummary& s) {
   const PlaceResult& r = s.result;
-  std::string text = summaryLine(
-      "part", fmt::format("{} against {} other{}", oneLine(s.part), s.others, s.others == 1 ? "" : "s"));
+  std::string text =
+      summaryLine(s.members.empty() ? "part" : "group",
+                  fmt::format("{} against {} other{}", oneLine(s.part), s.others, s.others == 1 ? "" : "s"));
+  if (!s.members.empty())
+    text += summaryLine("members", oneLine(fmt::format("{}", fmt::join(s.members, ", "))));
   const std::string all = r.device ? "" : fmt::format(" of {}", s.poses);
   text += summaryLine("ticks", fmt::format("{}{}{}", r.ticks, all, paceText(r)));
   if (r.device) text += deviceText(*r.device);
@@ -196,7 +199,8 @@ std::string summaryText(const PlaceSummary& s) {
 
 std::string summaryJson(const PlaceSummary& s) {
   const PlaceResult& r = s.result;
-  nlohmann::ordered_json json{{"part", s.part},
+  const bool isGroup = !s.members.empty();
+  nlohmann::ordered_json json{{"part", isGroup ? s.members.front() : s.part},
                               {"others", s.others},
                               {"poses", nullptr},
                               {"device", nullptr},
@@ -216,6 +220,7 @@ std::string summaryJson(const PlaceSummary& s) {
                               {"wrench_us", timesJson(r.wrenchTime)},
                               {"query_us", timesJson(r.queryTime)},
                               {"tick_us", timesJson(r.tickTime)}};
+  if (isGroup) json["group"] = {{"name", s.part}, {"parts", s.members}};
   if (r.device)
     json["device"] = deviceJson(*r.device);
   else

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "app/cli/place_run.h"
 
@@ -16,6 +17,8 @@ struct PlaceSummary {
   const PlaceResult& result;
   const std::string& record;      ///< Empty if none was written.
   const std::string& exportFile;  ///< Empty if none was written.
+  /// Names of the parts of the group `part` that move as one, the one that leads first; empty for a part alone.
+  std::vector<std::string> members{};
 };
 
 /// Returns lines for a reader; each ends in a line break.

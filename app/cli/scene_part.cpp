@@ -8,6 +8,8 @@ namespace nearfit::cli {
 
 PartId chosenPart(const Scene& scene, const std::string& name) {
   if (name.empty()) {
+    if (scene.movingGroup())
+      throw UsageError("--part", "a group is in hand, not a part", "name one of the scene's parts");
     if (scene.movingPart()) return *scene.movingPart();
     throw UsageError("--part", "the scene has no moving part", "name one of its parts");
   }

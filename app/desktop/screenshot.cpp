@@ -50,7 +50,7 @@ void Screenshot::arrange(bool isComplete) {
     QTimer::singleShot(kSettleMs, this, &Screenshot::write);
     return;
   }
-  application_.window().viewport().fitParts({*application_.session().scene().movingPart()});
+  application_.window().viewport().fitParts(application_.session().scene().movingParts());
   connect(&application_.servo(), &ServoController::snapshotArrived, this, &Screenshot::waitForMinima);
   QTimer::singleShot(kPatienceMs, this, &Screenshot::write);
   application_.window().document().prepareHierarchies([this](bool isReady) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/desktop/hands.h"
+#include "core/scene/moving_body.h"
 #include "device/common/rate_control.h"
 #include "device/interface/device_error.h"
 #include "device/simulated/replay_device.h"
@@ -115,7 +116,7 @@ void ServoController::open(const QString& id) {
 
 void ServoController::takeOpened() {
   const Scene& scene = session_.scene();
-  if (!areHierarchiesReady(scene.geometries())) {
+  if (!isReadyToFeel(scene)) {
     emit hierarchiesNeeded();
     return;
   }
@@ -134,6 +135,7 @@ void ServoController::runOn(DevicePtr device, std::unique_ptr<const ServoScene> 
   const Scene& scene = session_.scene();
   const ServoParameters parameters = parametersFor(scene, *device);
   moving_ = servoScene->moving.id;
+  movingGroup_ = scene.movingGroup();
   startPose_ = servoScene->moving.worldFromPart;
   sceneSerial_ = session_.sceneSerial();
   mode_ = scene.haptics().mode;
@@ -198,7 +200,7 @@ void ServoController::commitPose() {
   if (!pose.isFinite()) return;
   isCommitting_ = true;
   try {
-    session_.movePart(moving_, pose, "Feel");
+    session_.moveMoving(pose, "Feel");
   } catch (...) {
     fail(tr("The part's new pose could not be kept."), std::current_exception());
   }
@@ -280,13 +282,13 @@ void ServoController::followSession() {
   if (isOpened_) return takeOpened();
   if (!isRunning()) return;
   const Scene& scene = session_.scene();
-  const Part* part = scene.find(moving_);
-  // The part in hand is gone or is no longer the moving part: there is no pose to keep.
-  if (part == nullptr || scene.movingPart() != moving_ || session_.sceneSerial() != sceneSerial_) {
+  // What was in hand is gone or is no longer to be moved: there is no pose to keep.
+  const bool isSame = scene.movingPart() == moving_ && scene.movingGroup() == movingGroup_;
+  if (!isSame || session_.sceneSerial() != sceneSerial_) {
     halt();
     return;
   }
-  if (!areHierarchiesReady(scene.geometries())) {
+  if (!isReadyToFeel(scene)) {
     emit hierarchiesNeeded();
     return;
   }

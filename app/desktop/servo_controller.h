@@ -4,6 +4,7 @@
 #include <QTimer>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "app/desktop/device_source.h"
 #include "app/desktop/device_worker.h"
@@ -121,6 +122,7 @@ class ServoController : public QObject {
   QTimer timer_;
   ServoMeter meter_;
   PartId moving_{};
+  std::optional<GroupId> movingGroup_;  ///< Set if `moving_` leads a group.
   std::uint64_t sceneSerial_ = 0;  ///< Serial of the scene that owns `moving_`.
   HapticMode mode_{};              ///< Mode that the servo runs in.
   RigidTransform startPose_;       ///< Where the servo started with the part (worldFromPart).

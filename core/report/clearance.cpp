@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
+#include <set>
 #include <span>
 
 #include <fmt/format.h>
@@ -30,6 +32,7 @@ PartClearance clearanceOf(const Part& part, const Part& other, double cutoff, Wo
   const PartGeometry &a = *part.geometry, &b = *other.geometry;
   const RigidTransform otherFromPart = (other.worldFromPart.inverse() * part.worldFromPart).normalized();
   PartClearance result;
+  result.part = part.id;
   result.other = other.id;
   result.overlap = findInterference(b.tree(), a.tree(), otherFromPart).kind;
   result.isBetweenSolids = a.isSolid() && b.isSolid();
@@ -54,24 +57,60 @@ bool hasSurface(const Part& part) {
   return part.geometry && !part.geometry->mesh.triangles().empty();
 }
 
+/// Puts a further part of a body into its clearance to another one.
+void include(const PartClearance& added, PartClearance& all) {
+  const auto rank = [](const PartClearance& c) { return c.isOverlapping() ? 0 : c.isTouching ? 1 : 2; };
+  const bool isNearer =
+      rank(added) != rank(all) ? rank(added) < rank(all) : added.distance < all.distance;
+  const PartClearance before = all;
+  if (isNearer) all = added;
+  all.minima = before.minima + added.minima;
+  all.isEveryMinimum = before.isEveryMinimum && added.isEveryMinimum;
+  all.isDistanceBound = before.isDistanceBound || added.isDistanceBound;
+  all.isBetweenSolids = before.isBetweenSolids && added.isBetweenSolids;
+}
+
+/// The parts whose surfaces count: of one that is asked for alone, hidden or not.
+std::vector<const Part*> surfacesOf(const Scene& scene, const std::vector<PartId>& body) {
+  std::vector<const Part*> parts;
+  for (const PartId id : body) {
+    const Part* part = scene.find(id);
+    if (part == nullptr)
+      throw UsageError("clearance", "there is no such part", "choose a part of the scene");
+    if (hasSurface(*part) && (part->isVisible || body.size() == 1)) parts.push_back(part);
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::vector<PartClearance> clearancesOf(const Scene& scene, PartId id, double cutoff,
                                         const ProgressCallback& progress) {
-  const Part* part = scene.find(id);
-  if (part == nullptr) throw UsageError("clearance", "there is no such part", "choose a part of the scene");
+  return clearancesOf(scene, std::vector{id}, cutoff, progress);
+}
+
+std::vector<PartClearance> clearancesOf(const Scene& scene, const std::vector<PartId>& body, double cutoff,
+                                        const ProgressCallback& progress) {
+  const std::vector<const Part*> parts = surfacesOf(scene, body);
   if (!(cutoff > 0.0) || !std::isfinite(cutoff))
     throw UsageError("clearance", fmt::format("{} m is not a valid cutoff", cutoff),
                      "give a length greater than 0");
   std::vector<PartClearance> result;
-  if (!hasSurface(*part)) return result;
+  if (parts.empty()) return result;
+  const std::set<PartId> own(body.begin(), body.end());
   Workspace work;
-  std::size_t done = 0;
+  double done = 0.0;
+  const double all = static_cast<double>(scene.parts().size()) * static_cast<double>(parts.size());
   for (const Scene::PartPtr& other : scene.parts()) {
-    const double fraction = static_cast<double>(done++) / static_cast<double>(scene.parts().size());
-    if (progress && !progress(fraction)) throw Cancelled();
-    if (other->id != id && other->isVisible && hasSurface(*other))
-      result.push_back(clearanceOf(*part, *other, cutoff, work));
+    const bool isAsked = !own.contains(other->id) && other->isVisible && hasSurface(*other);
+    std::optional<PartClearance> sum;
+    for (const Part* part : parts) {
+      if (progress && !progress(done++ / all)) throw Cancelled();
+      if (!isAsked) continue;
+      const PartClearance one = clearanceOf(*part, *other, cutoff, work);
+      sum ? include(one, *sum) : void(sum = one);
+    }
+    if (sum) result.push_back(*sum);
   }
   return result;
 }
@@ -84,18 +123,20 @@ void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clear
   for (PartClearance& each : clearances) {
     // Overlapping parts have minima too, between surfaces that pass through each other.
     if (!each.isBetweenSolids || std::ranges::find(overlapping, each.other) != overlapping.end()) continue;
-    const Lmd* nearest = nullptr;
+    const SnapshotLmd* nearest = nullptr;
     std::size_t count = 0;
     for (const SnapshotLmd& minimum : std::span(snapshot.lmds).first(snapshot.storedLmds)) {
       if (minimum.other != each.other) continue;
       ++count;
-      if (nearest == nullptr || minimum.lmd.distance < nearest->distance) nearest = &minimum.lmd;
+      if (nearest == nullptr || minimum.lmd.distance < nearest->lmd.distance) nearest = &minimum;
     }
     if (nearest == nullptr) continue;
-    each.isDistanceBound = snapshot.isDistanceBound && snapshot.distance < nearest->distance;
-    each.distance = each.isDistanceBound ? snapshot.distance : nearest->distance;
-    each.partPoint = nearest->partPoint;
-    each.otherPoint = nearest->scenePoint;
+    const Lmd& lmd = nearest->lmd;
+    each.isDistanceBound = snapshot.isDistanceBound && snapshot.distance < lmd.distance;
+    each.distance = each.isDistanceBound ? snapshot.distance : lmd.distance;
+    each.part = nearest->part;
+    each.partPoint = lmd.partPoint;
+    each.otherPoint = lmd.scenePoint;
     each.minima = count;
     each.isEveryMinimum = isEvery;
     each.overlap = InterferenceKind::Disjoint;
@@ -123,7 +164,7 @@ const char* nameOf(InterferenceKind overlap) noexcept {
   return "the other inside";
 }
 
-std::string clearanceCsv(const Scene& scene, PartId id, const std::vector<PartClearance>& clearances) {
+std::string clearanceCsv(const Scene& scene, const std::vector<PartClearance>& clearances) {
   const auto nameOfPart = [&](PartId which) {
     const Part* part = scene.find(which);
     return part != nullptr ? csvField(part->name) : std::string();
@@ -133,7 +174,7 @@ std::string clearanceCsv(const Scene& scene, PartId id, const std::vector<PartCl
     fmt::format_to(std::back_inserter(text), ",{} [m]", name);
   text += ",minima,every_minimum,overlap,distance_bound\n";
   for (const PartClearance& c : clearances) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{:d},{},{:d}\n", nameOfPart(id),
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{:d},{},{:d}\n", nameOfPart(c.part),
                    nameOfPart(c.other), c.distance, c.partPoint.x, c.partPoint.y, c.partPoint.z,
                    c.otherPoint.x, c.otherPoint.y, c.otherPoint.z, c.minima, c.isEveryMinimum,
                    c.isTouching ? "touching" : nameOf(c.overlap), c.isDistanceBound);

@@ -11,8 +11,9 @@
 
 namespace nearfit {
 
-/// Clearance between one part and another. World frame.
+/// Clearance between one part, or a group that moves as one, and another. World frame.
 struct PartClearance {
+  PartId part{};  ///< The queried part; of a group the one that is nearest to the other.
   PartId other{};
   /// Min distance between the surfaces, regardless of the cutoff [m]; 0 if the parts overlap or touch.
   double distance = 0.0;
@@ -46,15 +47,21 @@ double touchTolerance(const Part& a, const Part& b) noexcept;
 std::vector<PartClearance> clearancesOf(const Scene& scene, PartId part, double cutoff,
                                         const ProgressCallback& progress = {});
 
-/// Updates clearances of the moving part from a servo tick, for pairs of solids within its cutoff. Other
+/// Clearances of parts that move as one to all visible parts that are not among them: for each the nearest of the
+/// visible ones, with the minima of all. Otherwise the same.
+std::vector<PartClearance> clearancesOf(const Scene& scene, const std::vector<PartId>& body, double cutoff,
+                                        const ProgressCallback& progress = {});
+
+/// Updates clearances of the moving part, or of the moving group, from a servo tick, for pairs of solids within its cutoff. Other
 /// pairs stay unchanged, as do parts that overlap the moving one. Fast enough for the GUI thread.
 void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clearances) noexcept;
 
 /// "no", "surfaces meet", "inside the other" or "the other inside".
 const char* nameOf(InterferenceKind overlap) noexcept;
 
-/// The clearances as CSV (UTF-8), one row each: `part`, `other`, `distance [m]`, the points `part_x [m]` ...
-/// `other_z [m]`, `minima`, `every_minimum` (0 or 1), `overlap` (nameOf, or "touching"), `distance_bound` (0 or 1).
-std::string clearanceCsv(const Scene& scene, PartId part, const std::vector<PartClearance>& clearances);
+/// The clearances as CSV (UTF-8), one row each: `part` (of a group the nearest one), `other`, `distance [m]`, the points
+/// `part_x [m]` ... `other_z [m]`, `minima`, `every_minimum` (0 or 1), `overlap` (nameOf, or "touching"),
+/// `distance_bound` (0 or 1).
+std::string clearanceCsv(const Scene& scene, const std::vector<PartClearance>& clearances);
 
 }  // namespace nearfit

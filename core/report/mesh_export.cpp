@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/report/mesh_file.h"
+#include "core/scene/moving_body.h"
 
 namespace nearfit {
 namespace {
@@ -138,11 +139,12 @@ std::string_view extensionOf(MeshFileKind kind) noexcept {
 
 Scene placedScene(const Scene& scene, const RigidTransform& worldFromMoving) {
   Scene placed = scene;
-  const Part* held = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
-  if (held == nullptr) return placed;
-  Part moved = *held;
-  moved.worldFromPart = checkedPose(worldFromMoving);
-  placed.replace(std::move(moved));
+  if (!scene.movingPart()) return placed;
+  for (const auto& [id, pose] : movedPoses(scene, checkedPose(worldFromMoving))) {
+    Part moved = scene.get(id);
+    moved.worldFromPart = pose;
+    placed.replace(std::move(moved));
+  }
   return placed;
 }
 

@@ -27,7 +27,7 @@ struct MeshExportSize {
   std::uint64_t bytes = 0;
 };
 
-/// Returns the scene with its moving part at its present pose.
+/// Returns the scene with its moving part at its present pose; the parts of a moving group move rigidly along.
 /// @param worldFromMoving  Unused if there is no moving part. Throws UsageError if the pose is
 ///                         invalid (checkedPose).
 Scene placedScene(const Scene& scene, const RigidTransform& worldFromMoving);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <ctime>
+#include <utility>
+#include <vector>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -10,6 +12,8 @@
 
 #include "core/files/atomic_write.h"
 #include "core/report/lmd_set.h"
+#include "core/report/mesh_export.h"
+#include "core/scene/moving_body.h"
 #include "core/text/json_text.h"
 #include "core/text/utf8.h"
 
@@ -49,11 +53,12 @@ Json partJson(const Part& part) {
   return json;
 }
 
-Json massJson(const Part& part) {
-  const MassProperties& mass = part.geometry->mass;
+Json massJson(const Scene& scene) {
+  const MassProperties mass = massOfMoving(scene).properties;
+  const RigidTransform& worldFromMoving = scene.get(*scene.movingPart()).worldFromPart;
   return {{"basis", nameOf(mass.basis)},
           {"volume", mass.volume},
-          {"centre", pointJson(part.worldFromPart.applyToPoint(mass.centre))}};
+          {"centre", pointJson(worldFromMoving.applyToPoint(mass.centre))}};
 }
 
 Json lmdJson(const Lmd& lmd, const RigidTransform& worldFromOther) {
@@ -74,64 +79,84 @@ Json lmdJson(const Lmd& lmd, const RigidTransform& worldFromOther) {
   return json;
 }
 
-Json leastDistance(const LmdSet& set) {
-  return set.lmds.empty() ? Json() : Json(set.lmds.front().distance);
+/// The parts of a moving group whose minima count: the visible ones. Of a part alone that part, seen or not.
+std::vector<const Part*> movingParts(const Scene& scene) {
+  std::vector<const Part*> parts;
+  for (const PartId id : scene.movingParts()) {
+    const Part& part = scene.get(id);
+    if (part.isVisible || !scene.movingGroup()) parts.push_back(&part);
+  }
+  return parts;
 }
 
-Json clearanceTo(const Part& other, const Part& moving, double cutoff, LmdCollector& collector) {
-  const RigidTransform otherFromMoving = other.worldFromPart.inverse() * moving.worldFromPart;
-  const NormalConeTree &scene = other.geometry->tree(), &part = moving.geometry->tree();
-  LmdSet set = collector.collect(scene, part, otherFromMoving.normalized(), cutoff);
-  // The pose between the two does not tell how far from the world's origin both are.
-  markFarRegions(
-      set.lmds,
-      std::max(glm::length(other.worldFromPart.translation), glm::length(moving.worldFromPart.translation)),
-      scene.size() + part.size());
+Json clearanceTo(const Part& other, const std::vector<const Part*>& moving, bool isGroup, double cutoff,
+                 LmdCollector& collector) {
   Json json;
+  std::vector<std::pair<Lmd, const Part*>> found;
+  bool isComplete = true;
+  for (const Part* part : moving) {
+    const RigidTransform otherFromPart = other.worldFromPart.inverse() * part->worldFromPart;
+    const NormalConeTree &otherTree = other.geometry->tree(), &partTree = part->geometry->tree();
+    LmdSet set = collector.collect(otherTree, partTree, otherFromPart.normalized(), cutoff);
+    // The pose between the two does not tell how far from the world's origin both are.
+    markFarRegions(
+        set.lmds,
+        std::max(glm::length(other.worldFromPart.translation), glm::length(part->worldFromPart.translation)),
+        otherTree.size() + partTree.size());
+    isComplete = isComplete && set.isComplete;
+    for (const Lmd& lmd : set.lmds)
+      found.emplace_back(lmd, part);
+  }
+  std::ranges::stable_sort(found, {}, [](const auto& entry) { return entry.first.distance; });
   json["part"] = other.name;
-  json["distance"] = leastDistance(set);
-  json["complete"] = set.isComplete;
+  json["distance"] = found.empty() ? Json() : Json(found.front().first.distance);
+  json["complete"] = isComplete;
   json["lmds"] = Json::array();
-  for (const Lmd& lmd : set.lmds)
+  for (const auto& [lmd, part] : found) {
     json["lmds"].push_back(lmdJson(lmd, other.worldFromPart));
+    if (isGroup) json["lmds"].back()["part"] = part->name;
+  }
   return json;
 }
 
-Json clearanceJson(const Scene& scene, const Part& moving) {
+Json clearanceJson(const Scene& scene) {
   const double cutoff = scene.haptics().springs.cutoff;
+  const std::vector<const Part*> moving = movingParts(scene);
   LmdCollector collector(kMaxLmds);
   Json least, others = Json::array();
   for (const Scene::PartPtr& other : scene.parts()) {
-    if (other->id == moving.id || !other->isVisible) continue;
-    others.push_back(clearanceTo(*other, moving, cutoff, collector));
+    if (scene.isMoving(other->id) || !other->isVisible) continue;
+    others.push_back(clearanceTo(*other, moving, scene.movingGroup().has_value(), cutoff, collector));
     const Json& distance = others.back()["distance"];
     if (!distance.is_null() && (least.is_null() || distance < least)) least = distance;
   }
-  return {{"cutoff", cutoff}, {"distance", least}, {"mass", massJson(moving)}, {"to", others}};
+  return {{"cutoff", cutoff}, {"distance", least}, {"mass", massJson(scene)}, {"to", others}};
 }
 
-/// The moving part at its present pose.
-Part movedPart(const Part& part, const RigidTransform& worldFromMoving) {
-  Part moved = part;
-  moved.worldFromPart = checkedPose(worldFromMoving);
-  return moved;
+Json groupJson(const Scene& scene) {
+  if (!scene.movingGroup()) return {};
+  Json names = Json::array();
+  for (const PartId id : scene.movingParts())
+    names.push_back(scene.get(id).name);
+  return {{"name", scene.findGroup(*scene.movingGroup())->name}, {"parts", names}};
 }
 
 }  // namespace
 
 std::string placementJson(const Scene& scene, const RigidTransform& worldFromMoving) {
-  const Part* held = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
+  const Scene placed = placedScene(scene, worldFromMoving);
+  const Part* held = placed.movingPart() ? placed.find(*placed.movingPart()) : nullptr;
   Json json;
   json["placement"] = kPlacementVersion;
   json["program"] = "Nearfit " NEARFIT_VERSION;
   json["date"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   json["units"] = {{"length", "m"}, {"volume", "m^3"}};
   json["moving"] = held != nullptr ? Json(held->name) : Json();
+  json["movingGroup"] = groupJson(placed);
   json["parts"] = Json::array();
-  for (const Scene::PartPtr& part : scene.parts()) {
-    json["parts"].push_back(partJson(part.get() == held ? movedPart(*held, worldFromMoving) : *part));
-  }
-  json["clearance"] = held != nullptr ? clearanceJson(scene, movedPart(*held, worldFromMoving)) : Json();
+  for (const Scene::PartPtr& part : placed.parts())
+    json["parts"].push_back(partJson(*part));
+  json["clearance"] = held != nullptr ? clearanceJson(placed) : Json();
   return prettyJson(json);
 }
 

@@ -13,7 +13,9 @@
 ///       "program": "Nearfit 0.1.0",
 ///       "date": "2026-01-31T12:00:00Z",                    UTC, ISO 8601
 ///       "units": {"length": "m", "volume": "m^3"},
-///       "moving": "Peg",                                   name of the moving part, or null
+///       "moving": "Peg",                                   name of the moving part, or null; of a moving group that
+///                                                          of the part that leads
+///       "movingGroup": {"name": "Gripper", "parts": ["Peg", "Jaw"]},   or null if no group is in hand
 ///       "parts": [{
 ///         "name": "Peg",
 ///         "mesh": "/home/me/peg.stl",                      absolute
@@ -29,11 +31,12 @@
 ///         "distance": 0.002,                               min of all below; null if all exceed the cutoff
 ///         "mass": {"basis": "volume integrals",            or "oriented box"
 ///                  "volume": 1e-6, "centre": [0, 0, 0.05]},
-///         "to": [{                                         each other visible part
+///         "to": [{                                         each other visible part, not of the moving group
 ///           "part": "Hole",
 ///           "distance": 0.002,                             null if nothing is within the cutoff
 ///           "complete": true,                              false if the search could not hold all minima
 ///           "lmds": [{"distance": 0.002, "moving": [x, y, z], "other": [x, y, z],
+///                     "part": "Peg",                       of the moving group; missing for a part alone
 ///                     "features": ["face", "face"], "region": true, "blocked": false, "marginal": false,
 ///                     "extent": {"dimension": 2, "measure": 4e-4, "axis": [x, y, z],
 ///                                "half": [0.02, 0.005]}}]

@@ -47,7 +47,7 @@ std::string placementCsv(const Scene& scene, const RigidTransform& worldFromMovi
   const Scene placed = placedScene(scene, worldFromMoving);
   std::string text = kHeader;
   for (const Scene::PartPtr& part : placed.parts())
-    appendRow(text, *part, placed.movingPart() == part->id);
+    appendRow(text, *part, placed.isMoving(part->id));
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/scene/moving_body.h"
 #include "core/scene/scene_file.h"
 #include "ui/files/dropped_files.h"
 #include "ui/files/recent_files.h"
@@ -97,14 +98,12 @@ void Document::prepareNext() {
     for (const auto& done : std::exchange(waiting_, {}))
       done(isReady);
   };
-  const std::vector<PartGeometryPtr> geometries = session_.scene().geometries();
-  if (areHierarchiesReady(geometries)) {
+  const Scene scene = session_.scene();
+  if (isReadyToFeel(scene)) {
     answer(true);
     return;
   }
-  const auto job = [geometries](const ProgressCallback& progress) {
-    nearfit::prepareHierarchies(geometries, progress);
-  };
+  const auto job = [scene](const ProgressCallback& progress) { prepareToFeel(scene, progress); };
   load(tr("Preparing the parts"), job, [this, answer](const std::exception_ptr& error) {
     if (error && !isCancelled(error)) emit failed(describe(tr("The parts could not be prepared."), error));
     answer(!error);

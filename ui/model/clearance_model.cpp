@@ -25,6 +25,13 @@ QString overlapText(InterferenceKind overlap) {
   return QObject::tr("overlapping");
 }
 
+/// The other part's name; beside a group in hand also which of its parts is nearest.
+QString nameOf(const Part& other, const PartClearance& clearance, const Scene& scene) {
+  const QString name = QString::fromStdString(other.name);
+  if (!scene.movingGroup() || !scene.isMoving(clearance.part)) return name;
+  return QObject::tr("%1, from %2").arg(name, QString::fromStdString(scene.get(clearance.part).name));
+}
+
 }  // namespace
 
 QString ClearanceModel::valueOf(const PartClearance& clearance) {
@@ -36,8 +43,8 @@ QString ClearanceModel::valueOf(const PartClearance& clearance) {
 void ClearanceModel::show(const std::vector<PartClearance>& clearances, const Scene& scene) {
   std::vector<Row> rows;
   for (const PartClearance& each : clearances) {
-    const Part* part = scene.find(each.other);
-    if (part != nullptr) rows.push_back({each, QString::fromStdString(part->name)});
+    const Part* other = scene.find(each.other);
+    if (other != nullptr) rows.push_back({each, nameOf(*other, each, scene)});
   }
   const bool isSame = rows.size() == rows_.size() &&
                       std::equal(rows.begin(), rows.end(), rows_.begin(), [](const Row& a, const Row& b) {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/scene/moving_body.h"
 #include "ui/model/shown_poses.h"
 
 namespace nearfit::ui {
@@ -15,6 +16,14 @@ HandState::HandState(Session& session, ShownPoses& poses, QObject* parent)
 
 std::optional<PartId> HandState::part() const {
   return status_.isRunning ? session_.scene().movingPart() : std::nullopt;
+}
+
+bool HandState::holds(std::optional<PartId> part) const {
+  return part && status_.isRunning && session_.scene().isMoving(*part);
+}
+
+bool HandState::holdsGroup() const {
+  return status_.isRunning && session_.scene().movingGroup().has_value();
 }
 
 RigidTransform HandState::partPose() const {
@@ -65,7 +74,9 @@ void HandState::followSession() {
 
 void HandState::showSnapshot(const ServoSnapshot& snapshot) {
   // Before the view shows the tick.
-  poses_.show(ShownPoses::Source::Hand, {{snapshot.moving, snapshot.proxy}});
+  const bool isThere = snapshot.moving == session_.scene().movingPart();
+  poses_.show(ShownPoses::Source::Hand, isThere ? movedPoses(session_.scene(), snapshot.proxy)
+                                                : ShownPoses::Poses{{snapshot.moving, snapshot.proxy}});
   if (last_ == nullptr) last_ = std::make_unique<ServoSnapshot>();
   *last_ = snapshot;
   sceneSerial_ = session_.sceneSerial();

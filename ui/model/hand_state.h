@@ -29,9 +29,12 @@ class HandState : public QObject {
   const ServoStatus& status() const noexcept { return status_; }
   /// True while the servo runs with that hand.
   bool isHeldBy(Hand hand) const noexcept { return status_.isRunning && status_.hand == hand; }
-  /// Returns the part in hand; nullopt unless the servo runs.
+  /// Returns the part in hand, of a group the part that leads; nullopt unless the servo runs.
   std::optional<PartId> part() const;
-  bool holds(std::optional<PartId> part) const { return part && this->part() == part; }
+  /// True if the servo moves the part, by itself or in a group.
+  bool holds(std::optional<PartId> part) const;
+  /// True if what is in hand is a group, and the servo runs.
+  bool holdsGroup() const;
   /// Returns where the servo has the part in hand (worldFromPart); the identity without one.
   RigidTransform partPose() const;
   /// Returns where the manual hand wants the part (worldFromPart), which may lag behind; for other hands

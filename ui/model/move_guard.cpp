@@ -17,7 +17,7 @@ void MoveGuard::setReplaying(bool isReplaying) {
 }
 
 bool MoveGuard::isReplayed(PartId part) const {
-  return isReplaying_ && session_.scene().movingPart() == part;
+  return isReplaying_ && session_.scene().isMoving(part);
 }
 
 QString MoveGuard::lockOf(const Part& part) const {
@@ -38,6 +38,8 @@ QString MoveGuard::refusalOf(const Part& part) const {
   if (isReplayed(part.id))
     return tr("A recording moves %1: close the recording to place it").arg(shortName(part.name));
   if (!hand_.holds(part.id)) return {};
+  if (hand_.holdsGroup())
+    return tr("%1 is in the group in hand: stop feeling it to place it").arg(shortName(part.name));
   if (hand_.isHeldBy(Hand::Device)) return tr("The device holds this part");
   return hand_.isHeldBy(Hand::Scripted) ? tr("The scripted hand holds this part") : QString();
 }

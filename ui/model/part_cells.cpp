@@ -65,7 +65,7 @@ QIcon PartCell::picture(int column) const {
     case PartsModel::Name:
       return swatch(part_.colour, part_.opacity);
     case PartsModel::Moving:
-      return listIcon(scene_.movingPart() == part_.id ? QStringLiteral("hand") : QStringLiteral("hand-off"));
+      return listIcon(scene_.isMoving(part_.id) ? QStringLiteral("hand") : QStringLiteral("hand-off"));
     case PartsModel::Visible:
       return listIcon(part_.isVisible ? QStringLiteral("eye") : QStringLiteral("eye-off"));
     case PartsModel::Locked:
@@ -88,7 +88,7 @@ QIcon PartCell::picture(int column) const {
 QString PartCell::toolTip(int column) const {
   switch (column) {
     case PartsModel::Moving:
-      return scene_.movingPart() == part_.id ? tr("In hand") : tr("Click to take it in hand");
+      return handText();
     case PartsModel::Visible:
       return part_.isVisible ? tr("Shown and felt. Click to hide it.")
                              : tr("Hidden and not felt. Click to show it.");
@@ -101,6 +101,13 @@ QString PartCell::toolTip(int column) const {
     default:
       return description();
   }
+}
+
+QString PartCell::handText() const {
+  if (!scene_.isMoving(part_.id)) return tr("Click to take it in hand");
+  if (!scene_.movingGroup()) return tr("In hand");
+  return tr("In hand with its group %1")
+      .arg(QString::fromStdString(scene_.findGroup(*scene_.movingGroup())->name));
 }
 
 QString PartCell::lockText() const {
@@ -133,6 +140,8 @@ QIcon GroupCell::picture(int column) const {
   switch (column) {
     case PartsModel::Name:
       return listIcon(QStringLiteral("folder"));
+    case PartsModel::Moving:
+      return listIcon(scene_.movingGroup() == group_.id ? QStringLiteral("hand") : QStringLiteral("hand-off"));
     case PartsModel::Visible: {
       const Shown shown = shownOf(scene_, group_);
       return listIcon(shown == Shown::All    ? QStringLiteral("eye")
@@ -153,6 +162,9 @@ QString GroupCell::toolTip(int column) const {
       const QString name = QString::fromStdString(group_.name);
       return parts == 1 ? tr("%1\n1 part").arg(name) : tr("%1\n%2 parts").arg(name).arg(parts);
     }
+    case PartsModel::Moving:
+      return scene_.movingGroup() == group_.id ? tr("In hand: its parts move as one")
+                                               : tr("Click to take it in hand: its parts then move as one");
     case PartsModel::Visible:
       return shownOf(scene_, group_) == Shown::All ? tr("All shown and felt. Click to hide them.")
                                                    : tr("Not all shown. Click to show them.");

@@ -26,6 +26,7 @@ class PartCell {
   QString toolTip(int column) const;
 
  private:
+  QString handText() const;
   QString lockText() const;
   QString jointText() const;
   QString description() const;

@@ -162,7 +162,7 @@ QVariant PartsModel::partData(const Part& part, int column, int role) const {
       return part.isVisible ? QVariant() : QVariant(themed(colours::kMutedText));
     case Qt::FontRole: {
       QFont font;
-      font.setBold(scene_.movingPart() == part.id);
+      font.setBold(scene_.isMoving(part.id));
       return font;
     }
     default:
@@ -180,6 +180,11 @@ QVariant PartsModel::groupData(const Group& group, int column, int role) const {
       return cell.picture(column);
     case Qt::ToolTipRole:
       return cell.toolTip(column);
+    case Qt::FontRole: {
+      QFont font;
+      font.setBold(scene_.movingGroup() == group.id);
+      return font;
+    }
     case Qt::AccessibleTextRole:
       return column == Name ? tr("Group %1").arg(QString::fromStdString(group.name)) : cell.toolTip(column);
     default:

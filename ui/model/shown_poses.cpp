@@ -1,5 +1,6 @@
 #include "ui/model/shown_poses.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace nearfit::ui {
@@ -44,8 +45,8 @@ void ShownPoses::followSession() {
       show(source, {});
   }
   for (const Source source : {Source::Replay, Source::Hand}) {
-    const Poses& poses = posesOf(source);
-    if (!poses.empty() && poses.begin()->first != session_.scene().movingPart()) show(source, {});
+    const auto isLeft = [this](const auto& entry) { return !session_.scene().isMoving(entry.first); };
+    if (std::ranges::any_of(posesOf(source), isLeft)) show(source, {});
   }
 }
 

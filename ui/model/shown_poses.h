@@ -21,13 +21,13 @@ class ShownPoses : public QObject {
   enum class Source : std::uint8_t {
     Preview,  ///< A move that is proposed. The part is only shown there; it is not there yet.
     Drag,     ///< A move under way, which the user may take back.
-    Replay,   ///< The row of a recording; of the moving part alone.
-    Hand,     ///< The servo; of the moving part alone.
+    Replay,   ///< The row of a recording; of what the hand moves alone.
+    Hand,     ///< The servo; of what it moves alone.
   };
   using Poses = std::map<PartId, RigidTransform>;
 
-  /// Forgets all poses when another scene opens, and those of replay and hand when their part is no longer the
-  /// moving one. Both before the view hears of the change.
+  /// Forgets all poses when another scene opens, and those of replay and hand when one of their parts is no longer to be
+  /// moved. Both before the view hears of the change.
   /// @param session  Outlives this.
   explicit ShownPoses(Session& session, QObject* parent = nullptr);
 

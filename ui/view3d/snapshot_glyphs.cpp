@@ -30,8 +30,7 @@ SnapshotGlyphs::SnapshotGlyphs(vtkRenderer& parts, vtkRenderer& overlay, QWidget
   legend_->hide();
 }
 
-void SnapshotGlyphs::show(const ServoSnapshot& snapshot, const HapticSettings& settings, const Part* moving) {
-  const double size = moving != nullptr ? moving->geometry->mesh.bounds().diagonal() : 0.0;
+void SnapshotGlyphs::show(const ServoSnapshot& snapshot, const HapticSettings& settings, double size) {
   minima_.show(std::span(snapshot.lmds).first(snapshot.storedLmds), settings.springs.cutoff,
                settings.proxy.margin);
   arrows_.show(snapshot.centre, snapshot.wrench, size);

@@ -27,8 +27,8 @@ class SnapshotGlyphs {
 
   /// Shows the glyphs of a snapshot.
   /// @param settings  Of the scene.
-  /// @param moving    The part in hand; null if there is none.
-  void show(const ServoSnapshot& snapshot, const HapticSettings& settings, const Part* moving);
+  /// @param size      Diagonal of what is in hand [m]; 0 if nothing is.
+  void show(const ServoSnapshot& snapshot, const HapticSettings& settings, double size);
   /// Shows the legend with the snapshot's numbers. Call just before the glyphs are drawn, or the numbers
   /// would be ahead of them.
   void showNumbers(const ServoSnapshot& snapshot);

@@ -14,6 +14,7 @@
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLState.h>
 
+#include "core/scene/moving_body.h"
 #include "ui/model/selection.h"
 #include "ui/model/shown_poses.h"
 #include "ui/view3d/camera/camera_style.h"
@@ -200,8 +201,18 @@ void Viewport::setScene(const Scene& scene) {
 }
 
 void Viewport::showMovingPart() {
-  const Part* part = scene_.movingPart() ? scene_.find(*scene_.movingPart()) : nullptr;
-  glyphs_->hand().setShape(part != nullptr ? shapes_->shapeOf(part->geometry) : nullptr);
+  movingSize_ = sizeOfMoving(scene_);
+  std::vector<HandGhost::Piece> pieces;
+  const Part* lead = scene_.movingPart() ? scene_.find(*scene_.movingPart()) : nullptr;
+  for (const PartId id : scene_.movingParts()) {
+    const Part& part = scene_.get(id);
+    const bool isDrawn = part.isVisible || !scene_.movingGroup();
+    if (!isDrawn || part.geometry == nullptr) continue;
+    pieces.push_back({shapes_->shapeOf(part.geometry),
+                      id == lead->id ? RigidTransform{}
+                                     : (lead->worldFromPart.inverse() * part.worldFromPart).normalized()});
+  }
+  glyphs_->hand().setPieces(std::move(pieces));
 }
 
 void Viewport::showSelection() {
@@ -238,7 +249,7 @@ void Viewport::draw(const ServoSnapshot& snapshot) {
   glyphs_->setPast(false);
   detail_->setFeeling(true);
   hasNewNumbers_ = true;
-  glyphs_->show(snapshot, scene_.haptics(), scene_.find(snapshot.moving));
+  glyphs_->show(snapshot, scene_.haptics(), movingSize_);
   const std::size_t overlapping =
       std::min<std::size_t>(snapshot.overlappingCount, ServoSnapshot::kMaxOverlapping);
   parts_.setOverlapping(std::span(snapshot.overlapping).first(overlapping));
@@ -326,7 +337,7 @@ void Viewport::setMinimaVisible(bool isVisible) {
 void Viewport::setMinimaChoice(const MinimaChoice& choice) {
   glyphs_->minima().setChoice(choice);
   hasNewNumbers_ = shown_ != nullptr;
-  if (shown_ != nullptr) glyphs_->show(*shown_, scene_.haptics(), scene_.find(shown_->moving));
+  if (shown_ != nullptr) glyphs_->show(*shown_, scene_.haptics(), movingSize_);
   requestRender();
 }
 

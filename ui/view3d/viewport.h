@@ -182,6 +182,7 @@ class Viewport : public QVTKOpenGLNativeWidget {
   ScaleBar* scaleBar_;
   std::unique_ptr<ServoSnapshot> shown_;
   bool hasNewNumbers_ = false;  ///< shown_ has not been drawn yet.
+  double movingSize_ = 0.0;     ///< Diagonal of what the hand moves [m].
   bool isPast_ = false;         ///< shown_ is no longer felt.
   Scene scene_;
   std::set<PartId> known_;  ///< Parts shown so far, including ones that have left.

@@ -330,5 +330,60 @@ TEST_F(PlaceCommand, ARoundPegGoesDownItsHoleWithTheGapItWasMadeWith) {
   }
 }
 
+/// A second cone 0.4 m beside the first and a millimetre higher, both in a group.
+void addPair(const std::filesystem::path& file) {
+  Scene scene = readSceneFile(file);
+  const GroupId pair = scene.addGroup({{}, "Pair", {}, false});
+  Part cone = *scene.findByName("Cone");
+  cone.group = pair;
+  scene.replace(cone);
+  cone.worldFromPart.translation += glm::dvec3(0.4, 0.0, 0.001);
+  scene.add(cone);
+  writeSceneFile(scene, file);
+}
+
+TEST_F(PlaceCommand, AGroupMovesAsOneAndItsPartsAreNamed) {
+  addPair(file("fit.nearfit"));
+  const ProcessResult result = place({"--group", "Pair", "--path", "path.csv", "--fast", "--json", "--record",
+                                      "out.csv", "--export", "out.json"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto summary = nlohmann::json::parse(result.out);
+  EXPECT_EQ(summary["part"], "Cone");
+  EXPECT_EQ(summary["group"]["name"], "Pair");
+  EXPECT_EQ(summary["group"]["parts"], nlohmann::json({"Cone", "Cone 2"}));
+  EXPECT_EQ(summary["others"], 1);
+  const Record record(file("out.csv"));
+  const double last = heightAt(kTicks - 1);
+  EXPECT_EQ(record["proxy_tz"].back(), last) << "the pose is that of the part that leads";
+  EXPECT_EQ(record["lmds"].back(), 2.0) << "each tip has one";
+  const auto placed = nlohmann::json::parse(readBytes(file("out.json")));
+  EXPECT_EQ(placed["moving"], "Cone");
+  EXPECT_EQ(placed["movingGroup"]["parts"], nlohmann::json({"Cone", "Cone 2"}));
+  EXPECT_NEAR(placed["parts"][2]["position"][0].get<double>(), 0.7, 1e-12);
+  EXPECT_NEAR(placed["parts"][2]["position"][2].get<double>(), last + 0.001, 1e-12);
+  const auto& to = placed["clearance"]["to"];
+  ASSERT_EQ(to.size(), 1U) << "parts of the group are not compared with each other";
+  ASSERT_EQ(to[0]["lmds"].size(), 2U);
+  EXPECT_EQ(to[0]["lmds"][0]["part"], "Cone");
+  EXPECT_EQ(to[0]["lmds"][1]["part"], "Cone 2");
+  EXPECT_NEAR(to[0]["lmds"][1]["distance"].get<double>(), last + 0.001, 1e-12);
+}
+
+TEST_F(PlaceCommand, AGroupThatCannotBeMovedIsRefusedWithAWord) {
+  addPair(file("fit.nearfit"));
+  const auto refusal = [this](const std::vector<std::string>& options) {
+    std::vector<std::string> all = {"--path", "path.csv", "--fast"};
+    all.insert(all.begin(), options.begin(), options.end());
+    const ProcessResult result = place(all);
+    EXPECT_NE(result.exitCode, 0);
+    return result.err;
+  };
+  EXPECT_THAT(refusal({"--group", "Trio"}), HasSubstr("there is no group \"Trio\""));
+  EXPECT_THAT(refusal({}), HasSubstr("give --part NAME or --group NAME"));
+  EXPECT_THAT(refusal({"--part", "Cone", "--group", "Pair"}), HasSubstr("--group"));
+  changePart("Cone 2", [](Part& part) { part.isLocked = true; });
+  EXPECT_THAT(refusal({"--group", "Pair"}), HasSubstr("part \"Cone 2\": it is locked"));
+}
+
 }  // namespace
 }  // namespace nearfit::test::place_command_test

@@ -197,6 +197,7 @@ TEST(Clearance, TheTableSaysNamesUnitsAndOverlaps) {
   const PartId part = scene.add(test::partOf(test::geometryOf(test::boxMesh(glm::dvec3(1.0))), "a, b"));
   const PartId other = scene.add(test::partOf(test::geometryOf(test::boxMesh(glm::dvec3(1.0))), "c"));
   PartClearance row;
+  row.part = part;
   row.other = other;
   row.distance = 0.125;
   row.partPoint = {1, 2, 3};
@@ -206,14 +207,14 @@ TEST(Clearance, TheTableSaysNamesUnitsAndOverlaps) {
   second.overlap = InterferenceKind::PartInside;
   second.isEveryMinimum = false;
   row.isDistanceBound = true;
-  EXPECT_EQ(clearanceCsv(scene, part, {row, second}),
+  EXPECT_EQ(clearanceCsv(scene, {row, second}),
             "part,other,distance [m],part_x [m],part_y [m],part_z [m],other_x [m],other_y [m],other_z [m],"
             "minima,every_minimum,overlap,distance_bound\n"
             "\"a, b\",c,0.125,1,2,3,4,5,6,7,1,no,1\n"
             "\"a, b\",c,0.125,1,2,3,4,5,6,7,0,inside the other,0\n");
   second.overlap = InterferenceKind::SurfacesMeet;
   second.isTouching = true;
-  EXPECT_TRUE(clearanceCsv(scene, part, {second}).ends_with(",touching,0\n"));
+  EXPECT_TRUE(clearanceCsv(scene, {second}).ends_with(",touching,0\n"));
 }
 
 /// Flush contact was called an overlap.

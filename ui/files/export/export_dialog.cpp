@@ -207,7 +207,8 @@ QString ExportDialog::placementSummary() const {
   if (moving == nullptr) return poses + QChar(' ') + tr("No clearances, because no part is in hand.");
   return poses + QChar(' ') +
          tr("Also every local minimum distance within the cutoff between %1 and each other visible part.")
-             .arg(breakable(shortName(moving->name)));
+             .arg(breakable(shortName(scene_.movingGroup() ? scene_.findGroup(*scene_.movingGroup())->name
+                                                           : moving->name)));
 }
 
 }  // namespace nearfit::ui

@@ -110,7 +110,8 @@ void Exporter::copyPlacement() {
     emit noted(tr("Select the part whose placement you want to copy."));
     return;
   }
-  const RigidTransform pose = scene.movingPart() == id ? poseOfMoving_() : part->worldFromPart;
+  const RigidTransform pose =
+      scene.isMoving(*id) ? placedScene(scene, poseOfMoving_()).get(*id).worldFromPart : part->worldFromPart;
   QApplication::clipboard()->setText(QString::fromStdString(matrixText(pose)));
   emit noted(tr("Copied the placement of %1: a 4x4 matrix by rows, in metres")
                  .arg(QString::fromStdString(part->name)));

@@ -1,6 +1,7 @@
 #include "ui/files/recovery/autosave.h"
 
 #include "core/base/error.h"
+#include "core/scene/moving_body.h"
 
 namespace nearfit::ui {
 namespace {
@@ -73,10 +74,13 @@ void Autosave::write() {
   if (content_ && isSame(*content_, content)) return;
   const auto job = [folder = folder_, scene = session_.scene(), content, changes](const ProgressCallback&) {
     Scene kept = scene;
-    if (content.pose) {
-      Part part = *kept.find(content.pose->first);
-      part.worldFromPart = content.pose->second;
-      kept.replace(std::move(part));
+    // The parts of a group in hand move along.
+    if (content.pose && kept.movingPart() == content.pose->first) {
+      for (const auto& [id, pose] : movedPoses(kept, content.pose->second)) {
+        Part part = kept.get(id);
+        part.worldFromPart = pose;
+        kept.replace(std::move(part));
+      }
     }
     folder->write(kept, {content.file, changes, kept.parts().size()});
   };

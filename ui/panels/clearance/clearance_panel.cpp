@@ -147,8 +147,10 @@ void ClearancePanel::showSubjects() {
   const QVariant before = isSameScene ? subject_->currentData() : QVariant();
   QStringList names, shown;
   const Part* moving = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
-  names << (moving != nullptr ? tr("In hand: %1").arg(QString::fromStdString(moving->name))
-                              : tr("In hand (none)"));
+  const Group* group = scene.movingGroup() ? scene.findGroup(*scene.movingGroup()) : nullptr;
+  names << (group != nullptr    ? tr("In hand: group %1").arg(QString::fromStdString(group->name))
+            : moving != nullptr ? tr("In hand: %1").arg(QString::fromStdString(moving->name))
+                                : tr("In hand (none)"));
   for (const Scene::PartPtr& part : scene.parts())
     names << QString::fromStdString(part->name);
   for (int i = 0; i < subject_->count(); ++i)
@@ -198,26 +200,23 @@ std::optional<PartClearance> ClearancePanel::chosen() const {
 
 void ClearancePanel::choose() {
   const std::optional<PartClearance> pair = chosen();
-  const std::optional<PartId> part = search_.subject();
-  if (pair && part) view_.fitParts({*part, pair->other});
+  if (pair) view_.fitParts({pair->part, pair->other});
   showNote();
   showPair();
 }
 
 void ClearancePanel::showPair() {
   const std::optional<PartClearance> pair = chosen();
-  const std::optional<PartId> part = search_.subject();
-  const bool isToShow = pair && part;
-  if (!isToShow && !isPairShown_) return;
-  isPairShown_ = isToShow;
-  if (isToShow && !isBehindReplay()) {
+  if (!pair && !isPairShown_) return;
+  isPairShown_ = pair.has_value();
+  if (pair && !isBehindReplay()) {
     segment_.show(pair->partPoint, pair->otherPoint);
     label_->showAt(0.5 * (pair->partPoint + pair->otherPoint), ClearanceModel::valueOf(*pair));
   } else {
     segment_.clear();
     label_->end();
   }
-  view_.highlight(isToShow ? std::vector{*part, pair->other} : std::vector<PartId>{});
+  view_.highlight(pair ? std::vector{pair->part, pair->other} : std::vector<PartId>{});
   view_.requestRender();
 }
 
@@ -239,8 +238,7 @@ void ClearancePanel::refresh() {
 }
 
 void ClearancePanel::exportTable() {
-  const std::optional<PartId> part = search_.subject();
-  if (!part) return;
+  if (!search_.subject()) return;
   const std::optional<QString> file =
       askForSave({tr("Export clearances"),
                   Preferences::lastFolder() + QStringLiteral("/clearances.csv"),
@@ -249,7 +247,7 @@ void ClearancePanel::exportTable() {
                  this);
   if (!file) return;
   try {
-    atomicWrite(toPath(*file), clearanceCsv(search_.scene(), *part, search_.clearances()));
+    atomicWrite(toPath(*file), clearanceCsv(search_.scene(), search_.clearances()));
   } catch (...) {
     emit failed(describe(tr("The clearances could not be exported."), std::current_exception()));
     return;

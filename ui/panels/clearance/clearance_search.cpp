@@ -40,14 +40,18 @@ void ClearanceSearch::setSubject(std::optional<PartId> part) {
 }
 
 std::optional<PartId> ClearanceSearch::subject() const {
-  const Scene& scene = session_.scene();
-  if (chosen_ && scene.find(*chosen_) != nullptr) return chosen_;
-  return scene.movingPart();
+  return isChosen() ? chosen_ : session_.scene().movingPart();
+}
+
+std::vector<PartId> ClearanceSearch::body() const {
+  return isChosen() ? std::vector{*chosen_} : session_.scene().movingParts();
 }
 
 void ClearanceSearch::showSnapshot(const ServoSnapshot& snapshot) {
   if (!isWanted_) return;
-  if (subject() == snapshot.moving) {
+  // A tick knows the minima of a group as a whole.
+  const bool isInHand = !isChosen() || !session_.scene().movingGroup();
+  if (isInHand && subject() == snapshot.moving) {
     updateFrom(snapshot, clearances_);
     emit changed();
   }
@@ -75,25 +79,25 @@ void ClearanceSearch::search() {
   if (task_.isRunning() || !isWanted_) return;
   isDue_ = false;
   timer_.start();
-  const std::optional<PartId> part = subject();
+  const std::vector<PartId> parts = body();
   const RigidTransform pose = poseOfMoving_();
   auto scene = std::make_shared<const Scene>(placedScene(session_.scene(), pose));
-  if (!part) return finish(part, *scene, pose, {}, nullptr);
+  if (parts.empty()) return finish(parts, *scene, pose, {}, nullptr);
   auto found = std::make_shared<std::vector<PartClearance>>();
   const double cutoff = scene->haptics().springs.cutoff;
-  const auto job = [scene, found, part, cutoff](const ProgressCallback& progress) {
-    *found = clearancesOf(*scene, *part, cutoff, progress);
+  const auto job = [scene, found, parts, cutoff](const ProgressCallback& progress) {
+    *found = clearancesOf(*scene, parts, cutoff, progress);
   };
-  task_.run(job, [this, scene, pose, found, part](const std::exception_ptr& error) {
-    finish(part, *scene, pose, *found, error);
+  task_.run(job, [this, scene, pose, found, parts](const std::exception_ptr& error) {
+    finish(parts, *scene, pose, *found, error);
     if (isDue_ && !timer_.isActive()) search();
   });
 }
 
-void ClearanceSearch::finish(std::optional<PartId> part, const Scene& scene, const RigidTransform& pose,
+void ClearanceSearch::finish(const std::vector<PartId>& parts, const Scene& scene, const RigidTransform& pose,
                              const std::vector<PartClearance>& found, const std::exception_ptr& error) {
   // Results for a former part, or of a cancelled search: what is due follows.
-  if (part != subject() || !isWanted_ || (error && isDue_)) return;
+  if (parts != body() || !isWanted_ || (error && isDue_)) return;
   if (error) {
     emit failed(describe(tr("The clearances could not be computed."), error));
     return;

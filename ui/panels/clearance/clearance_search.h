@@ -13,7 +13,7 @@
 
 namespace nearfit::ui {
 
-/// Keeps the clearances of one part up to date while they are wanted. Searches in another thread
+/// Keeps the clearances of one part, or of the moving group, up to date while they are wanted. Searches in another thread
 /// after a change, at most a few times a second; for the moving part in hand, also takes them from
 /// each tick that is shown.
 class ClearanceSearch : public QObject {
@@ -30,8 +30,10 @@ class ClearanceSearch : public QObject {
   void setWanted(bool isWanted);
   /// Chooses the part; std::nullopt: the moving part, whichever that is.
   void setSubject(std::optional<PartId> part);
-  /// Returns the part whose clearances are kept; std::nullopt if there is none.
+  /// Returns the part whose clearances are kept, of a moving group the part that leads; std::nullopt if there is none.
   std::optional<PartId> subject() const;
+  /// Returns the parts whose clearances are kept: those that move as one if a group is in hand and no part was chosen.
+  std::vector<PartId> body() const;
   /// Returns the clearances found last.
   const std::vector<PartClearance>& clearances() const noexcept { return clearances_; }
   /// Returns the scene in which they were found, with its names and poses.
@@ -52,8 +54,9 @@ class ClearanceSearch : public QObject {
  private:
   void request();
   void search();
+  bool isChosen() const { return chosen_ && session_.scene().find(*chosen_) != nullptr; }
   /// @param pose  Of the moving part in `scene`.
-  void finish(std::optional<PartId> part, const Scene& scene, const RigidTransform& pose,
+  void finish(const std::vector<PartId>& parts, const Scene& scene, const RigidTransform& pose,
               const std::vector<PartClearance>& found, const std::exception_ptr& error);
 
   Session& session_;

@@ -12,6 +12,7 @@
 #include <algorithm>
 
 #include "core/scene/haptic_limits.h"
+#include "core/scene/moving_body.h"
 #include "ui/model/feel_mode.h"
 #include "ui/panels/feel/feel_pages.h"
 #include "ui/panels/feel/preset_choice.h"
@@ -156,9 +157,12 @@ void FeelDialog::refresh() {
 
 void FeelDialog::showMovingPart(const Scene& scene) {
   const Part* part = scene.movingPart() ? scene.find(*scene.movingPart()) : nullptr;
-  weight_->showMass(part != nullptr ? QString::fromStdString(part->name) : QString(),
-                    part != nullptr ? massOf(*part) : 0.0);
-  const PartGeometryPtr geometry = part != nullptr ? part->geometry : nullptr;
+  const Group* group = scene.movingGroup() ? scene.findGroup(*scene.movingGroup()) : nullptr;
+  const std::string name = group != nullptr ? group->name : part != nullptr ? part->name : std::string();
+  weight_->showMass(QString::fromStdString(name), massOfMoving(scene).mass);
+  PartGeometryPtr geometry = part != nullptr ? part->geometry : nullptr;
+  // Joining the meshes of a group may take long; until that is done, the part that leads stands for it.
+  if (group != nullptr && isReadyToFeel(scene)) geometry = movingBody(scene).geometry;
   if (geometry == moving_) return;
   moving_ = geometry;
   basis_.metric = geometry != nullptr ? massMetric(geometry->mass, geometry->mesh) : MassMetric{};

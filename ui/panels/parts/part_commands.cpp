@@ -62,7 +62,7 @@ void PartCommands::makeActions() {
                      tr("Show what is wrong with the mesh of the selected part and where, and repair it"));
   takeInHand =
       makeAction(this, "takeInHand", tr("&Take in hand"), QStringLiteral("hand"), QStringLiteral("Ctrl+H"));
-  takeInHand->setToolTip(tr("Make the selected part the moving part"));
+  takeInHand->setToolTip(tr("Make the selected part the moving part, or the selected group move as one"));
   remove = makeAction(this, "remove", tr("De&lete"), QStringLiteral("delete"), QKeySequence::Delete,
                       tr("Delete the selected parts and groups from the scene; their files stay"));
   selectAll = makeAction(this, "selectAll", tr("Select &all"), {}, QKeySequence::SelectAll);
@@ -88,9 +88,7 @@ void PartCommands::connectActions() {
   connect(changeUnit, &QAction::triggered, this,
           [this] { emit unitChangeRequested(context_.selection.parts()); });
   connect(check, &QAction::triggered, this, &PartCommands::checkRequested);
-  connect(takeInHand, &QAction::triggered, this, [this] {
-    if (context_.selection.current()) take(context_.selection.current());
-  });
+  connect(takeInHand, &QAction::triggered, this, &PartCommands::takeSelected);
   connect(remove, &QAction::triggered, this, &PartCommands::deleteSelected);
   connect(selectAll, &QAction::triggered, &selection, &Selection::selectAllVisible);
   connect(selectNone, &QAction::triggered, &selection, [&selection] { selection.select({}); });
@@ -100,6 +98,7 @@ void PartCommands::connectActions() {
 void PartCommands::connectPanel(PartsPanel& panel) {
   Session& session = context_.session;
   connect(&panel, &PartsPanel::movingPartRequested, this, &PartCommands::take);
+  connect(&panel, &PartsPanel::movingGroupRequested, this, &PartCommands::takeGroup);
   connect(&panel, &PartsPanel::lockRequested, this, &PartCommands::setLocked);
   connect(&panel, &PartsPanel::jointToggleRequested, joints_, &JointActions::toggle);
   connect(&panel, &PartsPanel::findingsRequested, this, [this](PartId part) {
@@ -163,19 +162,39 @@ void PartCommands::attempt(const QString& heading, const std::function<void()>& 
 }
 
 void PartCommands::take(std::optional<PartId> part) {
-  if (context_.session.scene().movingPart() == part) return;
-  // Stopping puts the part in hand down where it is; without it the pose felt would be lost.
+  const Scene& scene = context_.session.scene();
+  if (scene.movingPart() == part && !scene.movingGroup()) return;
+  takeAnother(tr("The part could not be taken in hand."), [&] { context_.session.setMovingPart(part); });
+}
+
+void PartCommands::takeGroup(GroupId group) {
+  if (context_.session.scene().movingGroup() == group) return;
+  takeAnother(tr("The group could not be taken in hand."), [&] { context_.session.setMovingGroup(group); });
+}
+
+void PartCommands::takeSelected() {
+  if (const std::optional<GroupId> group = selectedGroup()) return takeGroup(*group);
+  if (context_.selection.current()) take(context_.selection.current());
+}
+
+std::optional<GroupId> PartCommands::selectedGroup() const {
+  const SceneNodes outer = outermost(context_.session.scene(), context_.selection.nodes());
+  return outer.groups.size() == 1 && outer.parts.empty() ? std::optional(outer.groups.front()) : std::nullopt;
+}
+
+void PartCommands::takeAnother(const QString& heading, const std::function<void()>& command) {
+  // Stopping puts what is in hand down where it is; without it the pose felt would be lost.
   const bool wasRunning = context_.hand.status().isTaken();
   emit servoStopRequested();
-  attempt(tr("The part could not be taken in hand."), [&] { context_.session.setMovingPart(part); });
+  attempt(heading, command);
   if (wasRunning) emit servoStartRequested();
 }
 
 void PartCommands::setLocked(const SceneNodes& nodes, bool isLocked) {
   const Scene& scene = context_.session.scene();
   const std::vector<PartId> parts = partsOf(scene, nodes);
-  const std::optional<PartId> moving = scene.movingPart();
-  const bool isMoving = isLocked && moving && std::ranges::count(parts, *moving) > 0;
+  const auto moving = std::ranges::find_if(parts, [&](PartId part) { return scene.isMoving(part); });
+  const bool isMoving = isLocked && moving != parts.end();
   const QString name = isMoving ? shortName(scene.find(*moving)->name) : QString();
   if (isMoving && context_.hand.status().isTaken())
     return emit noted(tr("%1 is being felt: stop (F6) before you lock it").arg(name));

@@ -76,6 +76,13 @@ class PartCommands : public QObject {
   /// Runs a command of the session. If it throws, shows the failure under `heading`, and the scene anew.
   void attempt(const QString& heading, const std::function<void()>& command);
   void take(std::optional<PartId> part);
+  void takeGroup(GroupId group);
+  /// Takes the selected group in hand if one is selected by itself, else the current part.
+  void takeSelected();
+  /// Returns that group.
+  std::optional<GroupId> selectedGroup() const;
+  /// Puts down what is in hand, runs a command that takes something else, and goes on if it was felt.
+  void takeAnother(const QString& heading, const std::function<void()>& command);
   /// Locks or unlocks. Locking the moving part puts it down; refused while it is being felt.
   void setLocked(const SceneNodes& nodes, bool isLocked);
   void deleteSelected();

@@ -194,7 +194,13 @@ void PartsPanel::clickCell(const QModelIndex& index) {
   switch (index.column()) {
     case PartsModel::Moving:
       if (const std::optional<PartId> part = model_->partAt(index))
-        emit movingPartRequested(scene_.movingPart() == part ? std::nullopt : part);
+        emit movingPartRequested(scene_.isMoving(*part) ? std::nullopt : part);
+      if (const std::optional<GroupId> group = model_->groupAt(index)) {
+        if (scene_.movingGroup() == group)
+          emit movingPartRequested(std::nullopt);
+        else
+          emit movingGroupRequested(*group);
+      }
       break;
     case PartsModel::Visible:
       return toggleVisible(index);

@@ -48,6 +48,7 @@ class PartsPanel : public QWidget {
   void renameRefused(const QString& reason);
   void groupRenameRequested(nearfit::GroupId group, const QString& name);
   void movingPartRequested(std::optional<nearfit::PartId> part);
+  void movingGroupRequested(nearfit::GroupId group);
   void visibilityRequested(const std::vector<nearfit::PartId>& parts, bool isVisible);
   /// Emitted when the joints of a part are to be turned off, or on if none is.
   void jointToggleRequested(nearfit::PartId part);

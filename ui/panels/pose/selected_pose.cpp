@@ -41,7 +41,7 @@ SelectedPose::SelectedPose(const Context& context, PosePanel& panel)
   connect(&context.hand, &HandState::snapshotShown, this, &SelectedPose::showHeldPose);
   connect(&context.poses, &ShownPoses::changed, this, [this](const std::vector<PartId>& parts) {
     const Part* part = current();
-    if (part == nullptr || context_.hand.holds(part->id) || std::ranges::count(parts, part->id) == 0) return;
+    if (part == nullptr || context_.hand.part() == part->id || std::ranges::count(parts, part->id) == 0) return;
     panel_.showPose(context_.poses.poseOf(*part));
   });
   changes_ = context.session.onChange(SceneEvents::Stage::Panels, [this] { refresh(); });
@@ -98,7 +98,7 @@ void SelectedPose::refresh() {
   panel_.showMass(parts, std::ranges::any_of(parts, [&](const Part* p) { return scene.isLocked(*p); }));
   showJoints();
   const HandState& hand = context_.hand;
-  if (part != nullptr && hand.isHeldBy(Hand::Manual) && hand.holds(part->id)) {
+  if (part != nullptr && hand.isHeldBy(Hand::Manual) && hand.part() == part->id) {
     panel_.showPose(hand.partPose(), hand.handPose());
   } else if (part != nullptr) {
     panel_.showPose(context_.poses.poseOf(*part));
@@ -108,7 +108,7 @@ void SelectedPose::refresh() {
 void SelectedPose::showHeldPose() {
   const HandState& hand = context_.hand;
   const Part* part = current();
-  if (part != nullptr && hand.holds(part->id)) panel_.showPose(hand.partPose(), hand.handPose());
+  if (part != nullptr && hand.part() == part->id) panel_.showPose(hand.partPose(), hand.handPose());
 }
 
 void SelectedPose::setDensity(double density) {

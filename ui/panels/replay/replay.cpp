@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
+#include "core/scene/moving_body.h"
 #include "core/servo/motion_reader.h"
 #include "ui/model/hand_state.h"
 #include "ui/model/move_guard.h"
@@ -116,6 +117,7 @@ void Replay::begin(const QString& file, std::vector<MotionRow> rows) {
   // The moving part may be gone, or in hand, meanwhile.
   if (hand_.status().isTaken() || !session_.scene().movingPart()) return;
   moving_ = *session_.scene().movingPart();
+  movingGroup_ = session_.scene().movingGroup();
   playback_.emplace(std::move(rows));
   timeline_.showRecording(QFileInfo(file).fileName(), playback_->rows());
   emit opened(playback_->rows());
@@ -170,13 +172,16 @@ void Replay::show() {
   if (part == nullptr) return;
   takeRow(playback_->row(), *part, *shown_);
   timeline_.showTime(playback_->time(), noteOf(playback_->row()));
-  view_.poses().show(ShownPoses::Source::Replay, {{shown_->moving, shown_->proxy}});
+  const Scene& scene = session_.scene();
+  shown_->centre = shown_->proxy.applyToPoint(massOfMoving(scene).properties.centre);
+  view_.poses().show(ShownPoses::Source::Replay, movedPoses(scene, shown_->proxy));
   view_.showSnapshot(*shown_);
   emit timeShown(shown_->time);
 }
 
 void Replay::followSession() {
-  if (playback_ && session_.scene().movingPart() != moving_) close();
+  const Scene& scene = session_.scene();
+  if (playback_ && (scene.movingPart() != moving_ || scene.movingGroup() != movingGroup_)) close();
 }
 
 }  // namespace nearfit::ui

@@ -83,7 +83,8 @@ class Replay : public QObject {
   BackgroundTask task_;
   QPointer<ProgressDialog> progress_;
   std::optional<MotionPlayback> playback_;
-  PartId moving_{};  ///< Part that the recording moves.
+  PartId moving_{};                     ///< Part that the recording moves.
+  std::optional<GroupId> movingGroup_;  ///< Set if that part leads a group.
   std::unique_ptr<ServoSnapshot> shown_;
   QTimer timer_;
   QElapsedTimer sinceLast_;

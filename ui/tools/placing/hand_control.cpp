@@ -6,6 +6,7 @@
 
 #include "core/haptics/workspace_mapper.h"
 #include "core/placing/joint_set.h"
+#include "core/scene/moving_body.h"
 #include "core/session/session.h"
 #include "ui/model/hand_state.h"
 #include "ui/model/joint_names.h"
@@ -96,7 +97,9 @@ void HandControl::stepHand(const glm::dvec3& shift, const glm::dquat& turn) {
   const HandState& hand = context_.hand;
   if (!hand.isHeldBy(Hand::Manual)) return;
   const Part* part = context_.session.scene().find(hand.part().value_or(PartId{}));
-  if (part != nullptr) moveHand(stepped(hand.handPose(), shift, turn, part->geometry->mass.centre));
+  if (part == nullptr) return;
+  const glm::dvec3 centre = massOfMoving(context_.session.scene()).properties.centre;
+  moveHand(stepped(hand.handPose(), shift, turn, centre));
 }
 
 void HandControl::moveHand(const RigidTransform& worldFromPart) {
@@ -108,7 +111,8 @@ void HandControl::moveHand(const RigidTransform& worldFromPart) {
   WorkspaceMapper mapper;
   mapper.engage(context_.hand.handPose());
   RigidTransform wanted = mapper.map(worldFromPart, false, locks);
-  if (part != nullptr) wanted = jointsOf(scene, part->id).nearestPose(wanted, part->geometry->mass.centre);
+  if (part != nullptr)
+    wanted = jointsOfMoving(scene).nearestPose(wanted, massOfMoving(scene).properties.centre);
   context_.hand.setHandPose(wanted);
   emit handMoved(context_.hand.handPose());
 }

@@ -56,7 +56,8 @@ bool ShownJoints::eventFilter(QObject* watched, QEvent* event) {
 void ShownJoints::refresh() {
   const Scene& scene = session_.scene();
   std::vector<PartId> parts = selection_.parts();
-  if (scene.movingPart()) parts.push_back(*scene.movingPart());
+  const std::vector<PartId> moving = scene.movingParts();
+  parts.insert(parts.end(), moving.begin(), moving.end());
   std::vector<JointMark> marks;
   for (const Joint& joint : scene.joints().empty() ? std::vector<Joint>{} : jointsOfParts(scene, parts)) {
     const Part& part = scene.get(joint.part);

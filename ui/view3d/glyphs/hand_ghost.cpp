@@ -1,7 +1,9 @@
 #include "ui/view3d/glyphs/hand_ghost.h"
 
+#include <algorithm>
 #include <utility>
 
+#include <vtkBoundingBox.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 
@@ -33,34 +35,50 @@ void setInput(vtkActor& actor, vtkPolyData* data) {
 
 }  // namespace
 
-HandGhost::HandGhost(vtkRenderer& parts, vtkRenderer& overlay) {
-  setUp(*surface_, colours::kHand, 1.0F);
-  setUp(*edges_, colours::kHand, 2.2F);
+HandGhost::HandGhost(vtkRenderer& parts, vtkRenderer& overlay) : parts_(parts) {
   setUp(*line_, colours::kHand, 3.0F);
-  setOpacity(1.0);
   line_->GetProperty()->VertexVisibilityOn();
   line_->GetProperty()->SetVertexColor(colours::kHand.redF(), colours::kHand.greenF(),
                                        colours::kHand.blueF());
   line_->GetProperty()->SetPointSize(devicePixels(9.0F));
-  for (vtkActor* actor : {edges_.Get(), line_.Get()})
-    actor->GetProperty()->LightingOff();
-  for (vtkActor* actor : {surface_.Get(), edges_.Get()}) {
-    actor->SetUserMatrix(pose_);
-    parts.AddActor(actor);
-  }
+  line_->GetProperty()->LightingOff();
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(lead_->GetOutputPort());
   line_->SetMapper(mapper);
   overlay.AddActor(line_);
+  addCopy();
+  setOpacity(1.0);
   applyVisibility();
 }
 
+void HandGhost::addCopy() {
+  Copy& copy = *copies_.emplace_back(std::make_unique<Copy>());
+  setUp(*copy.surface, colours::kHand, 1.0F);
+  setUp(*copy.edges, colours::kHand, 2.2F);
+  copy.edges->GetProperty()->LightingOff();
+  for (vtkActor* actor : {copy.surface.Get(), copy.edges.Get()}) {
+    actor->SetUserMatrix(copy.pose);
+    parts_.AddActor(actor);
+  }
+}
+
 void HandGhost::setShape(std::shared_ptr<const PartShape> shape) {
-  if (shape == shape_) return;
-  shape_ = std::move(shape);
-  if (shape_ != nullptr) {
-    setInput(*surface_, shape_->finestDraft());
-    setInput(*edges_, shape_->edges);
+  std::vector<Piece> pieces;
+  if (shape != nullptr) pieces.push_back({std::move(shape), {}});
+  setPieces(std::move(pieces));
+}
+
+void HandGhost::setPieces(std::vector<Piece> pieces) {
+  const bool isSame = std::ranges::equal(pieces, pieces_, {}, &Piece::shape, &Piece::shape);
+  pieces_ = std::move(pieces);
+  if (!isSame) {
+    while (copies_.size() < pieces_.size())
+      addCopy();
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      setInput(*copies_[i]->surface, pieces_[i].shape->finestDraft());
+      setInput(*copies_[i]->edges, pieces_[i].shape->edges);
+    }
+    applyOpacity();
     applyCut();
   }
   applyVisibility();
@@ -70,7 +88,8 @@ void HandGhost::show(const ServoSnapshot& snapshot, double size) {
   const HandLead lead = handLeadOf(snapshot);
   isAhead_ = lead.distance + 0.5 * size * lead.angle > kMinLead * size;
   if (isAhead_) {
-    setMatrix(*pose_, snapshot.handle);
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+      setMatrix(*copies_[i]->pose, snapshot.handle * pieces_[i].movingFromPart);
     lead_->SetPoint1(lead.handCentre.x, lead.handCentre.y, lead.handCentre.z);
     lead_->SetPoint2(snapshot.centre.x, snapshot.centre.y, snapshot.centre.z);
   }
@@ -88,9 +107,16 @@ void HandGhost::setVisible(bool isVisible) {
 }
 
 void HandGhost::setOpacity(double share) {
-  surface_->GetProperty()->SetOpacity(kOpacity * share);
-  edges_->GetProperty()->SetOpacity(kEdgeOpacity * share);
-  line_->GetProperty()->SetOpacity(share);
+  opacity_ = share;
+  applyOpacity();
+}
+
+void HandGhost::applyOpacity() {
+  for (const std::unique_ptr<Copy>& copy : copies_) {
+    copy->surface->GetProperty()->SetOpacity(kOpacity * opacity_);
+    copy->edges->GetProperty()->SetOpacity(kEdgeOpacity * opacity_);
+  }
+  line_->GetProperty()->SetOpacity(opacity_);
 }
 
 void HandGhost::setCut(vtkPlane* cut) {
@@ -100,23 +126,33 @@ void HandGhost::setCut(vtkPlane* cut) {
 }
 
 void HandGhost::applyCut() {
-  for (vtkActor* actor : {surface_.Get(), edges_.Get()}) {
-    vtkMapper* mapper = actor->GetMapper();
-    if (mapper == nullptr) continue;
-    mapper->RemoveAllClippingPlanes();
-    if (cut_ != nullptr) mapper->AddClippingPlane(cut_);
+  for (const std::unique_ptr<Copy>& copy : copies_) {
+    for (vtkActor* actor : {copy->surface.Get(), copy->edges.Get()}) {
+      vtkMapper* mapper = actor->GetMapper();
+      if (mapper == nullptr) continue;
+      mapper->RemoveAllClippingPlanes();
+      if (cut_ != nullptr) mapper->AddClippingPlane(cut_);
+    }
   }
 }
 
 bool HandGhost::visibleBounds(double bounds[6]) const {
-  if (surface_->GetVisibility() == 0) return false;
-  surface_->GetBounds(bounds);
+  vtkBoundingBox box;
+  for (const std::unique_ptr<Copy>& copy : copies_) {
+    if (copy->surface->GetVisibility() != 0) box.AddBounds(copy->surface->GetBounds());
+  }
+  if (box.IsValid() == 0) return false;
+  box.GetBounds(bounds);
   return true;
 }
 
 void HandGhost::applyVisibility() {
-  for (vtkActor* actor : {surface_.Get(), edges_.Get(), line_.Get()})
-    actor->SetVisibility(isVisible_ && isAhead_ && shape_ != nullptr);
+  const bool isShown = isVisible_ && isAhead_ && !pieces_.empty();
+  for (std::size_t i = 0; i < copies_.size(); ++i) {
+    for (vtkActor* actor : {copies_[i]->surface.Get(), copies_[i]->edges.Get()})
+      actor->SetVisibility(isShown && i < pieces_.size());
+  }
+  line_->SetVisibility(isShown);
 }
 
 }  // namespace nearfit::ui

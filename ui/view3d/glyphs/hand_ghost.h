@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include <vtkActor.h>
 #include <vtkLineSource.h>
@@ -10,23 +11,31 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
+#include "core/math/rigid_transform.h"
 #include "core/servo/servo_snapshot.h"
 #include "ui/view3d/parts/part_shape.h"
 
 namespace nearfit::ui {
 
-/// Draws the ghost: where the hand wants the moving part while the part stays behind. A translucent copy of
-/// the part, and a line from the copy's centre of mass to the part's.
+/// Draws the ghost: where the hand wants the moving part, or group, while it stays behind. A translucent copy, and a line
+/// from the copy's centre of mass to that of what is copied.
 class HandGhost {
  public:
   /// @param parts    Draws the copy; outlives this.
   /// @param overlay  Draws the line, which parts would hide; outlives this.
   HandGhost(vtkRenderer& parts, vtkRenderer& overlay);
 
-  /// Sets the moving part's shape; null if there is none.
+  /// A part of what the hand moves, in the frame of the moving part.
+  struct Piece {
+    std::shared_ptr<const PartShape> shape;
+    RigidTransform movingFromPart;
+  };
+  /// Sets the shapes of all that the hand moves; empty if there is nothing.
+  void setPieces(std::vector<Piece> pieces);
+  /// Sets the shape of a moving part alone; null if there is none.
   void setShape(std::shared_ptr<const PartShape> shape);
   /// Shows the ghost, unless the hand is too close to the part to tell them apart.
-  /// @param size  Diagonal of the part [m].
+  /// @param size  Diagonal of what the hand moves [m].
   void show(const ServoSnapshot& snapshot, double size);
   void clear();
   void setVisible(bool isVisible);
@@ -40,14 +49,23 @@ class HandGhost {
   bool visibleBounds(double bounds[6]) const;
 
  private:
+  /// What draws a piece.
+  struct Copy {
+    vtkNew<vtkActor> surface, edges;
+    vtkNew<vtkMatrix4x4> pose;
+  };
+  void addCopy();
+  void applyOpacity();
   void applyVisibility();
   void applyCut();
 
-  std::shared_ptr<const PartShape> shape_;
-  vtkNew<vtkActor> surface_, edges_, line_;
-  vtkNew<vtkMatrix4x4> pose_;
+  vtkRenderer& parts_;
+  std::vector<Piece> pieces_;
+  std::vector<std::unique_ptr<Copy>> copies_;  ///< One for each piece; more from before are hidden.
+  vtkNew<vtkActor> line_;
   vtkNew<vtkLineSource> lead_;
   vtkSmartPointer<vtkPlane> cut_;
+  double opacity_ = 1.0;
   bool isVisible_ = true, isAhead_ = false;
 };
 

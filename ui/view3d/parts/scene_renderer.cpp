@@ -89,7 +89,7 @@ void SceneRenderer::updateCut() {
   cut_.begin(visibleBounds(bounds) ? vtkBoundingBox(bounds).GetDiagonalLength() : 0.0);
   for (const Scene::PartPtr& part : scene_.parts()) {
     PartActor& actor = actorOf(*part);
-    const bool isCut = cut_.cuts(scene_.movingPart() == part->id);
+    const bool isCut = cut_.cuts(scene_.isMoving(part->id));
     open(actor, isCut);
     if (isCut && part->isVisible) cut_.close(*part, actor, poses_.shownPoseOf(*part));
   }
@@ -125,7 +125,7 @@ PartActor& SceneRenderer::actorOf(const Part& part) {
 
 void SceneRenderer::applyAppearance(const Part& part) {
   PartLook look;
-  look.isMoving = scene_.movingPart() == part.id;
+  look.isMoving = scene_.isMoving(part.id);
   look.isSelected = std::ranges::binary_search(selected_, part.id);
   look.isHighlighted = std::ranges::binary_search(highlighted_, part.id);
   look.isTranslucent = isSeeThrough_ && scene_.movingPart().has_value() && !look.isMoving;

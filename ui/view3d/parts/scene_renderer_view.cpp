@@ -183,7 +183,7 @@ std::vector<PartId> SceneRenderer::seenIn(const ViewProjection& view, const Pixe
   for (const Scene::PartPtr& part : scene_.parts()) {
     const PartActor* actor = find(part->id);
     if (actor == nullptr || !actor->isVisible()) continue;
-    const bool isCut = cut_.cuts(scene_.movingPart() == part->id);
+    const bool isCut = cut_.cuts(scene_.isMoving(part->id));
     shown.push_back({{part.get(), poses_.shownPoseOf(*part)}, actor->isOpaque(), isCut});
   }
   return partsSeenIn(shown, view, pixels, cut_.cut() ? std::optional(cut_.cut()->plane) : std::nullopt);
