@@ -197,7 +197,7 @@ void ServoController::commitPose() {
   showNewest();
   const ServoSnapshot& snapshot = loop_.snapshot();
   const RigidTransform pose = snapshot.tick == 0 ? startPose_ : snapshot.proxy;
-  if (!pose.isFinite()) return;
+  if (!pose.isFinite() || session_.scene().movingPart() != moving_) return;
   isCommitting_ = true;
   try {
     session_.moveMoving(pose, "Feel");

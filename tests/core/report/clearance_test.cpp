@@ -123,6 +123,37 @@ TEST(Clearance, WhatMakesNoSenseIsRefusedAndLongWorkEndsWhenAsked) {
   EXPECT_THROW(clearancesOf(scene, part, 1.0, [](double) { return false; }), Cancelled);
 }
 
+TEST(Clearance, OfPartsThatMoveAsOneTheNearestCounts) {
+  Scene scene;
+  const PartGeometryPtr cube = test::geometryOf(test::boxMesh(glm::dvec3(1.0)));
+  const auto add = [&](const char* name, double x) {
+    return scene.add(test::partOf(cube, name, {{1, 0, 0, 0}, {x, 0, 0}}));
+  };
+  const PartId left = add("Left", 0.0), right = add("Right", 1.5);
+  const PartId nearRight = add("Near right", 2.75), nearLeft = add("Near left", -1.125);
+  const auto rows = clearancesOf(scene, {left, right}, 1.0);
+  ASSERT_EQ(rows.size(), 2U) << "not to each other";
+  EXPECT_EQ(rows[0].other, nearRight);
+  EXPECT_EQ(rows[0].part, right);
+  EXPECT_NEAR(rows[0].distance, 0.25, 1e-12);
+  EXPECT_EQ(rows[1].other, nearLeft);
+  EXPECT_EQ(rows[1].part, left);
+  EXPECT_NEAR(rows[1].distance, 0.125, 1e-12);
+  EXPECT_EQ(rows[0].minima, 1U) << "the left one has none within the cutoff";
+  // A part that overlaps counts before one that is near.
+  Part moved = scene.get(nearRight);
+  moved.worldFromPart.translation.x = 0.75;
+  scene.replace(moved);
+  const PartClearance both = clearancesOf(scene, {left, right}, 1.0).at(0);
+  EXPECT_TRUE(both.isOverlapping());
+  EXPECT_EQ(both.distance, 0.0);
+  // Hidden parts of the body do not count.
+  Part hidden = scene.get(left);
+  hidden.isVisible = false;
+  scene.replace(hidden);
+  EXPECT_EQ(clearancesOf(scene, {left, right}, 1.0).at(1).part, right);
+}
+
 TEST(Clearance, WhatATickKnowsIsTakenOverAndTheRestStays) {
   const auto row = [](unsigned id, bool isSolid) {
     PartClearance each;

@@ -1,0 +1,144 @@
+#include <QDoubleSpinBox>
+
+#include "tests/app/desktop/desktop_driver.h"
+#include "ui/model/parts_model.h"
+#include "ui/model/selection.h"
+#include "ui/model/shown_poses.h"
+
+using namespace nearfit;
+using namespace nearfit::test;
+
+/// The fixed cube, the moving one over it, and a second such cube 30 mm aside, in a group with the first.
+class PairInHand : public DesktopDriver {
+ public:
+  PairInHand() {
+    addCubes();
+    add({movingFile});
+    (void)QTest::qWaitFor([this] { return session().scene().parts().size() == 3; });
+    lead = partId("moving");
+    other = session().scene().parts().back()->id;
+    session().movePart(other, {{1, 0, 0, 0}, {0.03, 0.0, 0.0}});
+    group = session().group({{lead, other}, {}}, "Pair");
+    session().setMovingPart(std::nullopt);
+    window().setFailureSink([this](const ui::Failure& failure) { failures << failure.summary; });
+  }
+  void click(GroupId id, int column) {
+    QTreeView* view = partsView();
+    auto& model = *qobject_cast<ui::PartsModel*>(view->model());
+    const QModelIndex index = model.indexOf(id).siblingAtColumn(column);
+    view->scrollTo(index);
+    QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, view->visualRect(index).center());
+  }
+  double shownX(PartId id) {
+    return window().viewport().poses().poseOf(session().scene().get(id)).translation.x;
+  }
+  double x(PartId id) { return session().scene().get(id).worldFromPart.translation.x; }
+
+  PartId lead{}, other{};
+  GroupId group{};
+  QStringList failures;
+};
+
+class DesktopGroupInHandTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void aGroupIsTakenInHandByKeyAndByItsHandAndPutDown();
+  void itsPartsMoveAsOneAndAreKeptAsOneStep();
+  void itsPartsAreNotPlacedWhileItIsFelt();
+  void anotherThingInHandEndsTheGroup();
+  void aLockedPartIsRefusedWithAWord();
+  void itIsSavedAndOpenedAgain();
+};
+
+void DesktopGroupInHandTest::aGroupIsTakenInHandByKeyAndByItsHandAndPutDown() {
+  PairInHand d;
+  d.click(d.group, ui::PartsModel::Name);
+  QCOMPARE(d.window().selection().groups(), std::vector{d.group});
+  pressShortcut(d, Qt::Key_H, Qt::ControlModifier);
+  QVERIFY(d.session().scene().movingGroup() == d.group);
+  QVERIFY(d.widget<QPushButton>("startStop")->isEnabled());
+  d.click(d.group, ui::PartsModel::Moving);
+  QVERIFY(!d.session().scene().movingPart());
+  d.click(d.group, ui::PartsModel::Moving);
+  QVERIFY(d.session().scene().movingGroup() == d.group);
+  QCOMPARE(d.session().undoText(), std::string("Make Pair the moving group"));
+  QVERIFY(d.failures.isEmpty());
+}
+
+void DesktopGroupInHandTest::itsPartsMoveAsOneAndAreKeptAsOneStep() {
+  PairInHand d;
+  d.session().setMovingGroup(d.group);
+  const std::size_t before = d.session().historyIndex();
+  d.startWith(ui::Hand::Manual);
+  QTRY_VERIFY(d.isFeltAtX(0.0));
+  d.application.servo().moveHand({{1, 0, 0, 0}, {0.004, 0.0, 0.001}});
+  QTRY_VERIFY(d.isFeltAtX(0.004));
+  QTRY_VERIFY(isNear(d.shownX(d.other), 0.034, 1e-9));
+  QCOMPARE(d.x(d.other), 0.03);
+  keepPictures(d.window(), QStringLiteral("group-in-hand"));
+  d.choose("stop");
+  QVERIFY(isNear(d.x(d.lead), 0.004, 1e-9));
+  QVERIFY(isNear(d.x(d.other), 0.034, 1e-9));
+  QCOMPARE(d.session().historyIndex(), before + 1);
+  d.session().undo();
+  QCOMPARE(d.x(d.lead), 0.0);
+  QCOMPARE(d.x(d.other), 0.03);
+  QVERIFY(d.session().scene().movingGroup() == d.group);
+  QVERIFY(d.failures.isEmpty());
+}
+
+void DesktopGroupInHandTest::itsPartsAreNotPlacedWhileItIsFelt() {
+  PairInHand d;
+  d.session().setMovingGroup(d.group);
+  d.startWith(ui::Hand::Manual);
+  QTRY_VERIFY(d.isFeltAtX(0.0));
+  for (const PartId id : {d.lead, d.other}) {
+    d.window().selection().select(id);
+    QVERIFY(!d.widget<QDoubleSpinBox>("positionX")->isEnabled());
+  }
+  d.choose("stop");
+  d.window().selection().select(d.other);
+  QVERIFY(d.widget<QDoubleSpinBox>("positionX")->isEnabled());
+}
+
+void DesktopGroupInHandTest::anotherThingInHandEndsTheGroup() {
+  PairInHand d;
+  d.session().setMovingGroup(d.group);
+  d.startWith(ui::Hand::Manual);
+  QTRY_VERIFY(d.isFeltAtX(0.0));
+  // The same part leads, but it is another body.
+  d.session().setMovingPart(d.lead);
+  QVERIFY(!d.application.servo().isRunning());
+  d.session().setMovingGroup(d.group);
+  d.startWith(ui::Hand::Manual);
+  QTRY_VERIFY(d.isFeltAtX(0.0));
+  d.session().deleteNodes({{}, {d.group}});
+  QVERIFY(!d.application.servo().isRunning());
+  QVERIFY(d.failures.isEmpty());
+}
+
+void DesktopGroupInHandTest::aLockedPartIsRefusedWithAWord() {
+  PairInHand d;
+  d.session().setLocked(d.other, true);
+  d.click(d.group, ui::PartsModel::Moving);
+  QVERIFY(!d.session().scene().movingPart());
+  QCOMPARE(d.failures, QStringList{QStringLiteral("The group could not be taken in hand.")});
+}
+
+void DesktopGroupInHandTest::itIsSavedAndOpenedAgain() {
+  PairInHand d;
+  d.session().setMovingGroup(d.group);
+  const auto file = d.folder.path() / "pair.nearfit";
+  d.session().save(file);
+  d.session().reset();
+  d.window().document().openFiles({QString::fromStdString(file.string())}, std::nullopt);
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
+  const Scene& scene = d.session().scene();
+  QVERIFY(scene.movingGroup().has_value());
+  QCOMPARE(scene.findGroup(*scene.movingGroup())->name, std::string("Pair"));
+  QCOMPARE(scene.movingParts().size(), std::size_t{2});
+}
+
+NEARFIT_QT_SUITE(DesktopGroupInHandTest, runDesktopTest<DesktopGroupInHandTest>)
+#include "desktop_group_in_hand_test.moc"
