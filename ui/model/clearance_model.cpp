@@ -26,7 +26,7 @@ QString overlapText(InterferenceKind overlap) {
 }
 
 /// The other part's name; beside a group in hand also which of its parts is nearest.
-QString nameOf(const Part& other, const PartClearance& clearance, const Scene& scene) {
+QString rowNameOf(const Part& other, const PartClearance& clearance, const Scene& scene) {
   const QString name = QString::fromStdString(other.name);
   if (!scene.movingGroup() || !scene.isMoving(clearance.part)) return name;
   return QObject::tr("%1, from %2").arg(name, QString::fromStdString(scene.get(clearance.part).name));
@@ -44,7 +44,7 @@ void ClearanceModel::show(const std::vector<PartClearance>& clearances, const Sc
   std::vector<Row> rows;
   for (const PartClearance& each : clearances) {
     const Part* other = scene.find(each.other);
-    if (other != nullptr) rows.push_back({each, nameOf(*other, each, scene)});
+    if (other != nullptr) rows.push_back({each, rowNameOf(*other, each, scene)});
   }
   const bool isSame = rows.size() == rows_.size() &&
                       std::equal(rows.begin(), rows.end(), rows_.begin(), [](const Row& a, const Row& b) {
