@@ -252,8 +252,8 @@ void runPlace(const PlaceOptions& options) {
   if (result.device) parameters.limits = result.device->limits;
   if (!options.exportFile.empty()) exportPlacement(scene, result.end, options.exportFile);
 
-  const PlaceSummary summary{name,   others,         poses,              parameters,
-                             result, options.record, options.exportFile, membersOf(scene)};
+  const PlaceSummary summary{
+      name, others, poses, parameters, result, options.record, options.exportFile, membersOf(scene)};
   printCacheWarnings();
   print(options.isJson ? summaryJson(summary) : summaryText(summary));
   throwIfIncomplete(result, poses);

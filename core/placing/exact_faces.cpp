@@ -80,8 +80,8 @@ bool ExactFaces::isEdge(std::uint32_t edge) const noexcept {
   const auto faces = mesh_.facesOfEdge(edge);
   if (faces.size() != 2) return true;
   if (areSameFace(faces[0], faces[1], mesh_.vertices()[mesh_.edges()[edge].v0])) return false;
-  const bool areKnown = surfaceOf(faces[0]).kind != SurfaceKind::Other &&
-                        surfaceOf(faces[1]).kind != SurfaceKind::Other;
+  const bool areKnown =
+      surfaceOf(faces[0]).kind != SurfaceKind::Other && surfaceOf(faces[1]).kind != SurfaceKind::Other;
   return areKnown || isSharp(mesh_, edge);
 }
 

@@ -25,9 +25,9 @@ struct AlignFeature {
   glm::dvec3 point{0.0};
   /// Outward normal, or direction along the axis, of either sign; unit. Zero for a point.
   glm::dvec3 direction{0.0};
-  double radius = 0.0;  ///< Of a cylinder, sphere or circle; of a cone, halfway along its wall [m].
-  double halfAngle = 0.0;   ///< Between the wall of a cone and its axis [rad]; else 0.
-  std::uint32_t flats = 0;  ///< Of a prism whose axis it is; else 0. The radius is then that of its corners.
+  double radius = 0.0;       ///< Of a cylinder, sphere or circle; of a cone, halfway along its wall [m].
+  double halfAngle = 0.0;    ///< Between the wall of a cone and its axis [rad]; else 0.
+  std::uint32_t flats = 0;   ///< Of a prism whose axis it is; else 0. The radius is then that of its corners.
   double minorRadius = 0.0;  ///< Of the tube of a torus [m]; else 0.
   /// Kind of the exact surface whose feature it is; Other for edges, corners and features estimated from facets.
   SurfaceKind surface = SurfaceKind::Other;

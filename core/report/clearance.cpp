@@ -60,8 +60,7 @@ bool hasSurface(const Part& part) {
 /// Puts a further part of a body into its clearance to another one.
 void include(const PartClearance& added, PartClearance& all) {
   const auto rank = [](const PartClearance& c) { return c.isOverlapping() ? 0 : c.isTouching ? 1 : 2; };
-  const bool isNearer =
-      rank(added) != rank(all) ? rank(added) < rank(all) : added.distance < all.distance;
+  const bool isNearer = rank(added) != rank(all) ? rank(added) < rank(all) : added.distance < all.distance;
   const PartClearance before = all;
   if (isNearer) all = added;
   all.minima = before.minima + added.minima;
@@ -75,8 +74,7 @@ std::vector<const Part*> surfacesOf(const Scene& scene, const std::vector<PartId
   std::vector<const Part*> parts;
   for (const PartId id : body) {
     const Part* part = scene.find(id);
-    if (part == nullptr)
-      throw UsageError("clearance", "there is no such part", "choose a part of the scene");
+    if (part == nullptr) throw UsageError("clearance", "there is no such part", "choose a part of the scene");
     if (hasSurface(*part) && (part->isVisible || body.size() == 1)) parts.push_back(part);
   }
   return parts;
@@ -174,9 +172,9 @@ std::string clearanceCsv(const Scene& scene, const std::vector<PartClearance>& c
     fmt::format_to(std::back_inserter(text), ",{} [m]", name);
   text += ",minima,every_minimum,overlap,distance_bound\n";
   for (const PartClearance& c : clearances) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{:d},{},{:d}\n", nameOfPart(c.part),
-                   nameOfPart(c.other), c.distance, c.partPoint.x, c.partPoint.y, c.partPoint.z,
-                   c.otherPoint.x, c.otherPoint.y, c.otherPoint.z, c.minima, c.isEveryMinimum,
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{:d},{},{:d}\n",
+                   nameOfPart(c.part), nameOfPart(c.other), c.distance, c.partPoint.x, c.partPoint.y,
+                   c.partPoint.z, c.otherPoint.x, c.otherPoint.y, c.otherPoint.z, c.minima, c.isEveryMinimum,
                    c.isTouching ? "touching" : nameOf(c.overlap), c.isDistanceBound);
   }
   return text;

@@ -339,10 +339,11 @@ JointSet jointsOfMoving(const Scene& scene) {
     placed.back().onPart.direction = place.applyToVector(joint.onPart.direction);
   }
   if (placed.size() > kMaxJointsPerPart) {
-    throw UsageError(fmt::format("group \"{}\"", scene.findGroup(*scene.movingGroup())->name),
-                     fmt::format("{} joints keep its parts on others, and at most {} can hold what is in hand",
-                                 placed.size(), kMaxJointsPerPart),
-                     "turn some of them off");
+    throw UsageError(
+        fmt::format("group \"{}\"", scene.findGroup(*scene.movingGroup())->name),
+        fmt::format("{} joints keep its parts on others, and at most {} can hold what is in hand",
+                    placed.size(), kMaxJointsPerPart),
+        "turn some of them off");
   }
   return {placed, scene.get(*scene.movingPart()).worldFromPart};
 }

@@ -68,11 +68,11 @@ class GroupBodies {
 
 /// What the hand moves, as one rigid body: the moving part, or the visible parts of the moving group.
 struct MovingBody {
-  PartId id{};                ///< The moving part; of a group the part that leads.
-  PartGeometryPtr geometry;   ///< In that part's frame; its mass is that of the whole body.
+  PartId id{};               ///< The moving part; of a group the part that leads.
+  PartGeometryPtr geometry;  ///< In that part's frame; its mass is that of the whole body.
   RigidTransform worldFromBody;
-  double mass = 0.0;          ///< [kg]
-  bool isVisible = false;     ///< What is not visible cannot be felt.
+  double mass = 0.0;       ///< [kg]
+  bool isVisible = false;  ///< What is not visible cannot be felt.
   /// The parts of a group that can be felt, in the order of their features; empty for a part alone. Known once the
   /// hierarchy is ready.
   std::vector<BodyMember> members;

@@ -141,7 +141,8 @@ void Scene::setMovingGroup(GroupId id) {
     if (lead == nullptr || (lead->geometry == nullptr && part->geometry != nullptr)) lead = part.get();
   }
   if (lead == nullptr)
-    throw UsageError(quoted(*findGroup(id)), "it has no parts that could be moved", "put parts into it first");
+    throw UsageError(quoted(*findGroup(id)), "it has no parts that could be moved",
+                     "put parts into it first");
   movingPart_ = lead->id;
   movingGroup_ = id;
   if (groupBodies_ == nullptr) groupBodies_ = std::make_shared<GroupBodies>();

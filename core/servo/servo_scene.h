@@ -32,9 +32,9 @@ struct ServoScene {
   /// Parts that the moving one is made of, if a group is in hand; empty for a part alone. `moving` then has the ID and
   /// the frame of the part that leads, and the geometry of all.
   std::vector<BodyMember> members;
-  double mass = 1.0;             ///< Mass of the moving part [kg]; > 0.
-  MassMetric metric;             ///< Metric of the moving part.
-  JointSet joints;               ///< Joints that keep the moving part; empty if they contradict each other.
+  double mass = 1.0;  ///< Mass of the moving part [kg]; > 0.
+  MassMetric metric;  ///< Metric of the moving part.
+  JointSet joints;    ///< Joints that keep the moving part; empty if they contradict each other.
   bool areJointsContradictory = false;
 
   /// Sets the moving part and everything that belongs to it except its mass.

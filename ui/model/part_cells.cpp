@@ -141,7 +141,8 @@ QIcon GroupCell::picture(int column) const {
     case PartsModel::Name:
       return listIcon(QStringLiteral("folder"));
     case PartsModel::Moving:
-      return listIcon(scene_.movingGroup() == group_.id ? QStringLiteral("hand") : QStringLiteral("hand-off"));
+      return listIcon(scene_.movingGroup() == group_.id ? QStringLiteral("hand")
+                                                        : QStringLiteral("hand-off"));
     case PartsModel::Visible: {
       const Shown shown = shownOf(scene_, group_);
       return listIcon(shown == Shown::All    ? QStringLiteral("eye")

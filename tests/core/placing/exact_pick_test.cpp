@@ -106,8 +106,7 @@ TEST(ExactPick, TwoHalvesOfACylinderArePickedAsOne) {
   test::ExactSolid solid = sixSided();
   // The second half as another file entry has it: its axis the other way, its point elsewhere, digits rounded.
   const auto half = static_cast<std::uint32_t>(solid.surfaces.faces.size());
-  solid.surfaces.faces.push_back(
-      {SurfaceKind::Cylinder, {1e-11, 0.0, 0.7}, {0.0, 0.0, -1.0}, 0.01 + 1e-11});
+  solid.surfaces.faces.push_back({SurfaceKind::Cylinder, {1e-11, 0.0, 0.7}, {0.0, 0.0, -1.0}, 0.01 + 1e-11});
   for (std::uint32_t t = kSegments; t < 2 * kSegments; ++t)
     solid.surfaces.faceOfTriangle[t] = half;
   const auto picked = pickAt(solid, middleOf(solid.mesh, 0));
@@ -247,8 +246,8 @@ TEST(ExactPick, SmoothAndBluntTransitionsAreEdgesToo) {
   const glm::dvec2 profile[] = {{wide, 0.0}, {wide, 0.03}, {0.01, 0.05}};
   const std::uint32_t faces[] = {0, 1};
   const RigidTransform pose = somePose(13);
-  const test::ExactSolid solid = test::moved(
-      test::turnedSolid(profile, {test::cylinderAboutZ(wide), cone}, faces, 24), pose);
+  const test::ExactSolid solid =
+      test::moved(test::turnedSolid(profile, {test::cylinderAboutZ(wide), cone}, faces, 24), pose);
   const auto blunt = pickAt(solid, besideFirstSide(solid.mesh, 48));
   ASSERT_TRUE(blunt);
   EXPECT_EQ(blunt->feature.shape, FeatureShape::Circle);
@@ -360,8 +359,9 @@ glm::dvec3 pointOf(const ExactSurface& surface, double u, double v) {
 }
 
 std::vector<ExactSurface> surfacesAboutZ() {
-  return {test::cylinderAboutZ(0.7),       test::coneAboutZ(-0.4, 0.5),  test::coneAboutZ(1.1, -0.9),
-          test::sphereAboutZ(0.1, 0.9),    test::sphereAboutZ(0.5, 0.8), test::torusAboutZ(0.2, 0.8, 0.3),
+  return {test::cylinderAboutZ(0.7),        test::coneAboutZ(-0.4, 0.5),
+          test::coneAboutZ(1.1, -0.9),      test::sphereAboutZ(0.1, 0.9),
+          test::sphereAboutZ(0.5, 0.8),     test::torusAboutZ(0.2, 0.8, 0.3),
           test::torusAboutZ(0.0, 0.6, 0.4), {SurfaceKind::Plane, {0.3, 0.2, 0.15}, {0.0, 0.0, 1.0}}};
 }
 

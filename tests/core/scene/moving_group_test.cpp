@@ -119,7 +119,8 @@ TEST(MovingGroup, AGroupWithSomethingLockedOrWithoutPartsIsRefused) {
   Part right = g.scene.get(g.right);
   right.isLocked = true;
   g.scene.replace(right);
-  EXPECT_THAT(refusalOf([&] { g.scene.setMovingGroup(g.gripper); }), HasSubstr("\"Right jaw\": it is locked"));
+  EXPECT_THAT(refusalOf([&] { g.scene.setMovingGroup(g.gripper); }),
+              HasSubstr("\"Right jaw\": it is locked"));
   right.isLocked = false;
   g.scene.replace(right);
   Group jaws = *g.scene.findGroup(g.jaws);

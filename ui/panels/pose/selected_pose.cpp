@@ -41,7 +41,8 @@ SelectedPose::SelectedPose(const Context& context, PosePanel& panel)
   connect(&context.hand, &HandState::snapshotShown, this, &SelectedPose::showHeldPose);
   connect(&context.poses, &ShownPoses::changed, this, [this](const std::vector<PartId>& parts) {
     const Part* part = current();
-    if (part == nullptr || context_.hand.part() == part->id || std::ranges::count(parts, part->id) == 0) return;
+    if (part == nullptr || context_.hand.part() == part->id || std::ranges::count(parts, part->id) == 0)
+      return;
     panel_.showPose(context_.poses.poseOf(*part));
   });
   changes_ = context.session.onChange(SceneEvents::Stage::Panels, [this] { refresh(); });
