@@ -175,8 +175,9 @@ TEST(DocumentFile, FlippedBytesGiveASoundDocumentOrAnError) {
     for (const unsigned flip : {0x01U, 0x80U, 0xFFU}) {
       std::vector<std::byte> damaged = bytes;
       damaged[i] ^= static_cast<std::byte>(flip);
+      // Any other exception, or a crash, fails the test.
       try {
-        EXPECT_NO_THROW(checkDocument(readDocument(damaged, "a test")));
+        checkDocument(readDocument(damaged, "a test"));
       } catch (const FileError&) {
         ++refused;
       }
