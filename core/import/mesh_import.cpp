@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/files/gunzip.h"
 #include "core/files/input_file.h"
 #include "core/files/sha256.h"
 #include "core/import/mesh_file_check.h"
@@ -22,6 +23,10 @@
 
 namespace nearfit {
 namespace {
+
+/// Max size of a mesh file that was compressed by gzip, unpacked [bytes]: a file of a megabyte can stand for a gigabyte.
+/// Text of that size holds some 15 million triangles.
+constexpr std::uint64_t kMaxUnpackedMesh = std::uint64_t{2} << 30;
 
 /// Progress at the end of each stage.
 constexpr double kReadFraction = 0.2, kParsedFraction = 0.6;
@@ -50,17 +55,19 @@ void refuseForeignFormats(const ReaderInput& input, std::string_view text) {
     const char* remedy;
   };
   constexpr std::array kSignatures{
-      Signature{"\x1f\x8b", "it is compressed (gzip)", "unpack it with gunzip first"},
+      Signature{"\x1f\x8b", "it is compressed twice (gzip)", "unpack it with gunzip first"},
       Signature{"BZh", "it is compressed (bzip2)", "unpack it with bunzip2 first"},
       Signature{"\xfd"
                 "7zXZ",
                 "it is compressed (xz)", "unpack it with unxz first"},
-      Signature{"PK\x03\x04", "it is an archive (zip, 3MF), which Nearfit does not read",
-                "unpack it, or export STL, OBJ, PLY or OFF"},
-      Signature{"ISO-10303-21", "STEP isn't supported", kExportMesh},
-      Signature{"glTF", "it is a glTF file, which Nearfit does not read", kExportMesh},
-      Signature{"{", "it is a JSON or glTF file, which Nearfit does not read", kExportMesh},
-      Signature{"<", "it is an XML file, which Nearfit does not read", kExportMesh},
+      Signature{"PK\x03\x04", "it is an archive (zip, 3MF)",
+                "rename it to .3mf if it is one, else unpack it"},
+      Signature{"ISO-10303-21", "it is a STEP file by another name", "rename it to .step"},
+      Signature{"glTF", "it is a binary glTF file by another name", "rename it to .glb"},
+      Signature{"{", "it is a JSON or glTF file",
+                "rename it to .gltf if it is one, else export STL, OBJ, PLY or OFF"},
+      Signature{"<", "it is an XML file",
+                "rename it to .urdf if it is one, else export STL, OBJ, PLY or OFF"},
   };
   for (const Signature& s : kSignatures) {
     if (text.starts_with(s.start)) throw FileError(input.name, s.problem, s.remedy);
@@ -99,6 +106,9 @@ std::optional<MeshFormat> formatByContent(const ReaderInput& input) {
 MeshFormat detectMeshFormat(const ReaderInput& input, const std::string& extension) {
   if (input.bytes.empty()) throw FileError(input.name, "it is empty", "export or copy it again");
   if (const std::optional<MeshFormat> format = formatByContent(input)) return *format;
+  if (extension == "xacro")
+    throw FileError(input.name, "it is a template of a URDF file",
+                    "expand it first: xacro in.xacro > out.urdf");
   refuseForeignFormats(input, {input.bytes.data(), input.bytes.size()});
   if (extension == "stl") return looksLikeText(input.bytes) ? MeshFormat::StlText : MeshFormat::StlBinary;
   if (extension == "obj") return MeshFormat::Obj;
@@ -125,8 +135,10 @@ std::vector<char> withoutByteOrderMark(std::vector<char> bytes) {
   return bytes;
 }
 
+/// Without that of a compression.
 std::string lowerCaseExtension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
+  if (extension == ".gz") extension = file.stem().extension().string();
   if (!extension.empty()) extension.erase(0, 1);
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -161,6 +173,10 @@ void requireFaces(const std::filesystem::path& file, const PolygonSoup& soup) {
 /// Reads the polygons of a file from its bytes, in the file's units.
 ReaderResult readPolygons(const std::filesystem::path& file, std::vector<char> bytes,
                           const Progress& progress) {
+  if (isGzip(bytes)) {
+    bytes = gunzip(bytes, file.string(), kMaxUnpackedMesh,
+                   [&](double) { progress.report(kReadFraction, kParsedFraction, 0.0); });
+  }
   bytes = withoutByteOrderMark(std::move(bytes));
   const ReaderInput input{file.string(), bytes,
                           [&](double done) { progress.report(kReadFraction, kParsedFraction, done); }};

@@ -17,7 +17,7 @@ struct ImportedMesh {
   std::string sha256;  ///< Of the file's bytes, 64 lower-case hexadecimal digits.
 };
 
-/// Reads STL (ASCII or binary), OBJ, PLY or OFF. Detects the format by content if possible, else by the file
+/// Reads STL (ASCII or binary), OBJ, PLY or OFF, also compressed by gzip. Detects the format by content if possible, else by the file
 /// name. Robust against malformed and malicious files; memory stays within a few times the file's size.
 /// Throws FileError naming the file, the line or byte, and the remedy; UsageError if an option is
 /// invalid; Cancelled.

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/progress.h"
+
+namespace nearfit {
+
+/// The importer: nearfit-import in the folder of the running program, or the file that the environment variable
+/// NEARFIT_IMPORT names, which has to be the user's or the system's and writable by nobody else. Throws FileError.
+std::filesystem::path importProgram();
+
+/// Limits of a run of the importer.
+struct ImportLimits {
+  double silence = 20.0;  ///< Max time without a sign of progress [s].
+};
+
+/// Runs the importer on a file and returns what it wrote as its result. Kills it, and whatever it started, when
+/// `progress` returns false and when it makes no progress for too long.
+/// @param arguments  Besides the file.
+/// Throws FileError, also with the importer's own message, and Cancelled.
+std::vector<std::byte> runImporter(const std::filesystem::path& program, const std::filesystem::path& file,
+                                   const std::vector<std::string>& arguments, const ImportLimits& limits,
+                                   const ProgressCallback& progress);
+
+}  // namespace nearfit

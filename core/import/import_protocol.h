@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string_view>
+
+/// What nearfit-import and the program that starts it agree on.
+namespace nearfit::import_protocol {
+
+/// Name of the program, which lies in the folder of the others.
+constexpr const char* kProgram = "nearfit-import";
+
+/// File descriptors that the importer gets: one to write its result to, and one for messages.
+constexpr int kResultDescriptor = 3, kMessageDescriptor = 4;
+
+/// Messages are lines of fields with a tab between them: kProgress and the fraction done, or kFailure and where, what
+/// is wrong and what to do.
+constexpr std::string_view kProgress = "progress", kFailure = "failure";
+/// Longest field that is shown [bytes], and longest line that is read: a broken importer may write anything.
+constexpr std::size_t kMaxFieldBytes = 1000, kMaxLineBytes = 16'384;
+
+/// Exit codes: the result is whole; a kFailure says why there is none; memory ran out.
+constexpr int kDone = 0, kFailed = 1, kOutOfMemory = 3;
+
+}  // namespace nearfit::import_protocol
