@@ -1,0 +1,142 @@
+// STEP, IGES, BREP and glTF by OpenCASCADE.
+#include <cmath>
+#include <streambuf>
+
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <IFSelect_ReturnStatus.hxx>
+#include <IGESCAFControl_Reader.hxx>
+#include <Interface_Static.hxx>
+#include <Message_ProgressRange.hxx>
+#include <RWGltf_CafReader.hxx>
+#include <RWMesh_CoordinateSystem.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <STEPControl_Reader.hxx>
+#include <TCollection_AsciiString.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopoDS_Shape.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+
+#include "app/import/gltf_scan.h"
+#include "app/import/import_job.h"
+#include "app/import/memory_file.h"
+#include "app/import/occ_progress.h"
+#include "app/import/step_scan.h"
+#include "app/import/xcaf_document.h"
+#include "core/base/error.h"
+
+namespace nearfit::importer {
+namespace {
+
+/// OpenCASCADE's tolerances suit millimetres, which it converts lengths of STEP and IGES to by default.
+constexpr double kMetresPerMillimetre = 1e-3;
+
+/// Bytes in memory as an input stream, without a copy.
+class BytesBuffer : public std::streambuf {
+ public:
+  explicit BytesBuffer(const std::vector<char>& bytes) {
+    char* begin = const_cast<char*>(bytes.data());
+    setg(begin, begin, begin + bytes.size());
+  }
+};
+
+Handle(TDocStd_Document) newDocument() {
+  return new TDocStd_Document("BinXCAF");
+}
+
+[[noreturn]] void failUnreadable(const ImportJob& job, const char* format) {
+  throw FileError(job.file.string(), std::string("OpenCASCADE cannot read it as ") + format,
+                  "it may be damaged: export it again, or in another format");
+}
+
+}  // namespace
+
+CadDocument readStep(const ImportJob& job) {
+  scanStep(job.bytes, job.file.string());
+  job.endStage("scan");
+  OccProgress progress(job);
+  STEPCAFControl_Reader reader;
+  reader.SetColorMode(Standard_True);
+  reader.SetNameMode(Standard_True);
+  reader.SetLayerMode(Standard_False);
+  reader.SetPropsMode(Standard_False);
+  reader.SetGDTMode(Standard_False);
+  reader.SetMatMode(Standard_False);
+  reader.SetViewMode(Standard_False);
+  BytesBuffer buffer(job.bytes);
+  std::istream stream(&buffer);
+  if (reader.ChangeReader().ReadStream(job.file.filename().c_str(), stream) != IFSelect_RetDone)
+    failUnreadable(job, "STEP");
+  job.progress(kReadEnd);
+  job.endStage("read");
+  progress.stageTo(kReadEnd);
+  const Handle(TDocStd_Document) document = newDocument();
+  Handle(TDocStd_Document) target = document;
+  if (!reader.Transfer(target, progress.stageTo(kTransferredEnd))) failUnreadable(job, "STEP");
+  job.endStage("transfer");
+  return readXcaf(*document, {kMetresPerMillimetre}, job, progress);
+}
+
+CadDocument readIges(const ImportJob& job) {
+  OccProgress progress(job);
+  IGESCAFControl_Reader reader;
+  reader.SetColorMode(Standard_True);
+  reader.SetNameMode(Standard_True);
+  reader.SetLayerMode(Standard_False);
+  const MemoryFile file(job.bytes);
+  if (reader.ReadFile(file.path().c_str()) != IFSelect_RetDone) failUnreadable(job, "IGES");
+  job.progress(kReadEnd);
+  job.endStage("read");
+  progress.stageTo(kReadEnd);
+  Handle(TDocStd_Document) document = newDocument();
+  if (!reader.Transfer(document, progress.stageTo(kTransferredEnd))) failUnreadable(job, "IGES");
+  job.endStage("transfer");
+  XcafOptions options{kMetresPerMillimetre};
+  options.sewsFaces = true;
+  return readXcaf(*document, options, job, progress);
+}
+
+CadDocument readBrep(const ImportJob& job) {
+  OccProgress progress(job);
+  BytesBuffer buffer(job.bytes);
+  std::istream stream(&buffer);
+  TopoDS_Shape shape;
+  const BRep_Builder builder;
+  BRepTools::Read(shape, stream, builder, progress.stageTo(kTransferredEnd));
+  if (shape.IsNull()) failUnreadable(job, "BREP");
+  job.endStage("read");
+  const Handle(TDocStd_Document) document = newDocument();
+  const TDF_Label label = XCAFDoc_DocumentTool::ShapeTool(document->Main())->AddShape(shape, Standard_False);
+  TDataStd_Name::Set(label, TCollection_ExtendedString(job.stem.c_str(), Standard_True));
+  XcafOptions options{1.0};
+  options.hasUnit = false;
+  return readXcaf(*document, options, job, progress);
+}
+
+CadDocument readGltf(const ImportJob& job) {
+  scanGltf(job);
+  job.endStage("scan");
+  OccProgress progress(job);
+  RWGltf_CafReader reader;
+  const Handle(TDocStd_Document) document = newDocument();
+  reader.SetDocument(document);
+  // Up is z here and y there.
+  reader.SetSystemLengthUnit(1.0);
+  reader.SetSystemCoordinateSystem(RWMesh_CoordinateSystem_Zup);
+  reader.SetParallel(true);
+  reader.SetDoublePrecision(true);
+  reader.SetSkipEmptyNodes(true);
+  reader.SetMeshNameAsFallback(true);
+  // Its buffers are found beside it, so that it is read from where it lies.
+  const MemoryFile unpacked(job.bytes);
+  const std::string path = job.wasPacked ? unpacked.path() : job.file.string();
+  if (!reader.Perform(path.c_str(), progress.stageTo(kTransferredEnd))) failUnreadable(job, "glTF");
+  job.endStage("read");
+  XcafOptions options{1.0};
+  options.areTriangles = true;
+  return readXcaf(*document, options, job, progress);
+}
+
+}  // namespace nearfit::importer

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace nearfit::importer {
+
+/// Limits memory, processor time, size and number of files, and ends this process with the one that started it.
+/// @param fileBytes  Size of the file to read, unpacked; larger files get more.
+void limitProcess(std::uint64_t fileBytes);
+
+/// Gives up what a reader of CAD files does not need, for good: new privileges, the network, other programs and
+/// processes, all files except `readable` and what is open. As far as the kernel can.
+/// @param readable  Folders and files that may still be opened, for reading.
+void enterSandbox(const std::vector<std::filesystem::path>& readable);
+
+/// What enterSandbox() would use here, for people: "seccomp, Landlock 3".
+std::string sandboxText();
+
+}  // namespace nearfit::importer

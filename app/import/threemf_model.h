@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+
+#include "app/import/import_job.h"
+
+namespace nearfit::importer {
+
+/// An object placed in another one, or in the scene of a 3MF file.
+struct ThreeMfPlacement {
+  std::uint32_t object = 0;
+  glm::dmat3 map{1.0};
+  glm::dvec3 translation{0.0};
+};
+
+/// An object of a 3MF file: a mesh, or placements of others.
+struct ThreeMfObject {
+  std::string name;
+  std::vector<glm::dvec3> vertices;
+  std::vector<Triangle> triangles;
+  std::vector<ThreeMfPlacement> components;
+};
+
+/// A 3MF file as lib3mf reads it. Its two versions differ in all names, so that each has a source file of its own.
+struct ThreeMfModel {
+  double metresPerUnit = 1e-3;
+  std::map<std::uint32_t, ThreeMfObject> objects;
+  std::vector<ThreeMfPlacement> items;
+};
+
+/// Throws FileError.
+ThreeMfModel loadThreeMf(const ImportJob& job);
+
+/// Metres of the units of 3MF in the order of both versions of lib3mf; no value for others.
+std::optional<double> threeMfUnit(std::uint32_t unit);
+
+}  // namespace nearfit::importer

@@ -1,0 +1,98 @@
+// lib3mf 2.
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <lib3mf_implicit.hpp>
+
+#include "app/import/threemf_model.h"
+#include "core/base/error.h"
+#include "core/text/utf8.h"
+
+namespace nearfit::importer {
+namespace {
+
+class Library {
+ public:
+  explicit Library(const ImportJob& job) : job_(job) {}
+
+  ThreeMfModel load() {
+    const Lib3MF::PWrapper wrapper = Lib3MF::CWrapper::loadLibrary();
+    model_ = wrapper->CreateModel();
+    const Lib3MF::PReader reader = model_->QueryReader("3mf");
+    const auto* bytes = reinterpret_cast<const Lib3MF_uint8*>(job_.bytes.data());
+    reader->ReadFromBuffer(Lib3MF::CInputVector<Lib3MF_uint8>(bytes, job_.bytes.size()));
+    if (const std::optional<double> metres = threeMfUnit(static_cast<std::uint32_t>(model_->GetUnit())))
+      result_.metresPerUnit = *metres;
+    for (const Lib3MF::PBuildItemIterator items = model_->GetBuildItems(); items->MoveNext();) {
+      const Lib3MF::PBuildItem item = items->GetCurrent();
+      ThreeMfPlacement placement;
+      if (item->HasObjectTransform()) placement = placed(item->GetObjectTransform());
+      placement.object = takeObject(item->GetObjectResource());
+      result_.items.push_back(placement);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// The format multiplies rows: its fourth one is the translation.
+  static ThreeMfPlacement placed(const Lib3MF::sTransform& transform) {
+    ThreeMfPlacement placement;
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k)
+        placement.map[i][k] = static_cast<double>(transform.m_Fields[i][k]);
+      placement.translation[i] = static_cast<double>(transform.m_Fields[3][i]);
+    }
+    return placement;
+  }
+
+  std::uint32_t takeObject(const Lib3MF::PObject& object) {
+    const std::uint32_t id = object->GetUniqueResourceID();
+    const auto [at, isNew] = result_.objects.try_emplace(id);
+    if (!isNew) return id;
+    // References into a map stay where they are when others are added.
+    ThreeMfObject& taken = at->second;
+    taken.name = object->GetName();
+    if (object->IsMeshObject()) takeMesh(*model_->GetMeshObjectByID(id), taken);
+    if (object->IsComponentsObject()) takeComponents(*model_->GetComponentsObjectByID(id), taken);
+    return id;
+  }
+
+  static void takeMesh(Lib3MF::CMeshObject& mesh, ThreeMfObject& taken) {
+    std::vector<Lib3MF::sPosition> points;
+    std::vector<Lib3MF::sTriangle> corners;
+    mesh.GetVertices(points);
+    mesh.GetTriangleIndices(corners);
+    for (const Lib3MF::sPosition& p : points)
+      taken.vertices.emplace_back(p.m_Coordinates[0], p.m_Coordinates[1], p.m_Coordinates[2]);
+    for (const Lib3MF::sTriangle& t : corners)
+      taken.triangles.push_back({t.m_Indices[0], t.m_Indices[1], t.m_Indices[2]});
+  }
+
+  void takeComponents(Lib3MF::CComponentsObject& components, ThreeMfObject& taken) {
+    for (Lib3MF_uint32 i = 0; i < components.GetComponentCount(); ++i) {
+      const Lib3MF::PComponent component = components.GetComponent(i);
+      ThreeMfPlacement placement;
+      if (component->HasTransform()) placement = placed(component->GetTransform());
+      placement.object = takeObject(component->GetObjectResource());
+      taken.components.push_back(placement);
+    }
+  }
+
+  const ImportJob& job_;
+  Lib3MF::PModel model_;
+  ThreeMfModel result_;
+};
+
+}  // namespace
+
+ThreeMfModel loadThreeMf(const ImportJob& job) {
+  try {
+    return Library(job).load();
+  } catch (const Lib3MF::ELib3MFException& error) {
+    throw FileError(job.file.string(), fmt::format("lib3mf cannot read it ({})", printableText(error.what())),
+                    "it may be damaged: export it again, or in another format");
+  }
+}
+
+}  // namespace nearfit::importer

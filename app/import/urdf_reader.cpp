@@ -1,0 +1,288 @@
+// URDF by urdfdom: links where they are when all joints are at zero.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <Message_ProgressRange.hxx>
+#include <TopoDS_Shape.hxx>
+#include <TopoDS_Solid.hxx>
+#include <console_bridge/console.h>
+#include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
+#include <gp_Ax2.hxx>
+#include <gp_Dir.hxx>
+#include <gp_Pnt.hxx>
+#include <urdf_model/link.h>
+#include <urdf_model/model.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include "app/import/document_builder.h"
+#include "app/import/import_job.h"
+#include "app/import/placed_mesh.h"
+#include "app/import/shape_mesher.h"
+#include "app/import/solid_bodies.h"
+#include "app/import/urdf_files.h"
+#include "core/base/error.h"
+#include "core/import/document_file.h"
+#include "core/import/mesh_import.h"
+#include "core/text/utf8.h"
+
+namespace nearfit::importer {
+namespace {
+
+/// OpenCASCADE's units of a metre: its tolerances suit millimetres.
+constexpr double kMillimetres = 1000.0;
+/// Elements within each other: a robot has five. A parser of XML recurses into them.
+constexpr int kMaxXmlDepth = 200;
+
+/// Keeps the last error that the parser tells.
+class LastError : public console_bridge::OutputHandler {
+ public:
+  void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/,
+           int /*line*/) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) text_ = text;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+void checkXmlDepth(const ImportJob& job) {
+  int depth = 0;
+  for (std::size_t i = 0; i + 1 < job.bytes.size(); ++i) {
+    if (job.bytes[i] == '/' && job.bytes[i + 1] == '>') --depth;
+    if (job.bytes[i] != '<') continue;
+    const char next = job.bytes[i + 1];
+    if (next == '/') {
+      --depth;
+    } else if (next != '!' && next != '?' && ++depth > kMaxXmlDepth) {
+      throw FileError(job.file.string(),
+                      fmt::format("its elements are nested more than {} deep", kMaxXmlDepth),
+                      "it is damaged");
+    }
+  }
+}
+
+RigidTransform transformOf(const urdf::Pose& pose) {
+  const glm::dquat rotation(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z);
+  const RigidTransform transform{rotation, {pose.position.x, pose.position.y, pose.position.z}};
+  return transform.isFinite() ? transform.normalized() : RigidTransform{};
+}
+
+/// Geometry of a link, with its place in it.
+struct LinkGeometry {
+  urdf::GeometrySharedPtr geometry;
+  RigidTransform linkFromGeometry;
+  std::optional<CadColour> colour;
+};
+
+std::optional<CadColour> colourOf(const urdf::MaterialSharedPtr& material) {
+  if (!material) return std::nullopt;
+  CadColour colour{material->color.r, material->color.g, material->color.b};
+  for (float& c : colour)
+    c = std::isfinite(c) ? std::clamp(c, 0.0F, 1.0F) : 0.0F;
+  return colour;
+}
+
+std::vector<LinkGeometry> visualsOf(const urdf::Link& link) {
+  std::vector<LinkGeometry> all;
+  for (const urdf::VisualSharedPtr& visual : link.visual_array)
+    if (visual && visual->geometry)
+      all.push_back({visual->geometry, transformOf(visual->origin), colourOf(visual->material)});
+  return all;
+}
+
+std::vector<LinkGeometry> collisionsOf(const urdf::Link& link) {
+  std::vector<LinkGeometry> all;
+  for (const urdf::CollisionSharedPtr& collision : link.collision_array)
+    if (collision && collision->geometry)
+      all.push_back({collision->geometry, transformOf(collision->origin), std::nullopt});
+  return all;
+}
+
+std::string lowerExtension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension.empty() ? extension : extension.substr(1);
+}
+
+class UrdfReader {
+ public:
+  explicit UrdfReader(const ImportJob& job) : job_(job), files_(job), builder_(job) {}
+
+  CadDocument read() {
+    checkXmlDepth(job_);
+    const urdf::ModelInterfaceSharedPtr model = parse();
+    CadNode robot;
+    robot.name = cleanName(model->getName());
+    const std::int32_t top = builder_.addNode(robot);
+    // On a list of its own: a chain of links may be of any length.
+    std::vector<std::pair<urdf::LinkConstSharedPtr, RigidTransform>> links{
+        {model->getRoot(), RigidTransform{}}};
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const auto [link, robotFromLink] = links[i];
+      if (i >= kMaxDocumentNodes)
+        throw FileError(job_.file.string(), "its links form a loop, or are too many", "check its joints");
+      addLink(*link, robotFromLink, top);
+      for (const urdf::JointSharedPtr& joint : link->child_joints) {
+        const urdf::LinkConstSharedPtr child = joint ? model->getLink(joint->child_link_name) : nullptr;
+        if (child)
+          links.emplace_back(
+              child, (robotFromLink * transformOf(joint->parent_to_joint_origin_transform)).normalized());
+      }
+      job_.progress(static_cast<double>(i + 1) / static_cast<double>(links.size()));
+    }
+    return builder_.take();
+  }
+
+ private:
+  urdf::ModelInterfaceSharedPtr parse() const {
+    LastError error;
+    console_bridge::useOutputHandler(&error);
+    const urdf::ModelInterfaceSharedPtr model =
+        urdf::parseURDF(std::string(job_.bytes.begin(), job_.bytes.end()));
+    console_bridge::restorePreviousOutputHandler();
+    job_.endStage("read");
+    if (model && model->getRoot()) return model;
+    throw FileError(job_.file.string(),
+                    "it is no URDF file" +
+                        (error.text().empty() ? std::string() : " (" + printableText(error.text()) + ")"),
+                    "check it by check_urdf; expand templates by xacro first");
+  }
+
+  void addLink(const urdf::Link& link, const RigidTransform& robotFromLink, std::int32_t top) {
+    const std::string name = cleanName(link.name);
+    std::vector<std::pair<LinkGeometry, std::int32_t>> shapes = shapesOf(visualsOf(link), name);
+    if (shapes.empty()) shapes = shapesOf(collisionsOf(link), name);
+    if (shapes.empty()) return;
+    CadNode node;
+    node.parent = top;
+    node.name = name;
+    node.parentFromNode = robotFromLink;
+    if (shapes.size() == 1) {
+      node.parentFromNode = (robotFromLink * shapes[0].first.linkFromGeometry).normalized();
+      node.shape = shapes[0].second;
+      node.colour = shapes[0].first.colour;
+      builder_.addNode(node);
+      return;
+    }
+    const std::int32_t group = builder_.addNode(node);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      CadNode child;
+      child.parent = group;
+      child.name = cleanName(fmt::format("{} {}", name, i + 1));
+      child.parentFromNode = shapes[i].first.linkFromGeometry;
+      child.shape = shapes[i].second;
+      child.colour = shapes[i].first.colour;
+      builder_.addNode(child);
+    }
+  }
+
+  std::vector<std::pair<LinkGeometry, std::int32_t>> shapesOf(const std::vector<LinkGeometry>& all,
+                                                              const std::string& link) {
+    std::vector<std::pair<LinkGeometry, std::int32_t>> shapes;
+    for (const LinkGeometry& geometry : all)
+      if (const std::int32_t shape = shapeOf(*geometry.geometry, link); shape >= 0)
+        shapes.emplace_back(geometry, shape);
+    return shapes;
+  }
+
+  std::int32_t shapeOf(const urdf::Geometry& geometry, const std::string& link) {
+    switch (geometry.type) {
+      case urdf::Geometry::MESH:
+        return meshShape(static_cast<const urdf::Mesh&>(geometry), link);
+      case urdf::Geometry::BOX: {
+        const urdf::Vector3& size = static_cast<const urdf::Box&>(geometry).dim;
+        const glm::dvec3 mm = glm::dvec3(size.x, size.y, size.z) * kMillimetres;
+        if (!(mm.x > 0.0 && mm.y > 0.0 && mm.z > 0.0)) return refused(link, "a box");
+        return solidShape(
+            BRepPrimAPI_MakeBox(gp_Pnt(-mm.x / 2, -mm.y / 2, -mm.z / 2), mm.x, mm.y, mm.z).Shape(),
+            link + " box");
+      }
+      case urdf::Geometry::CYLINDER: {
+        const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
+        const double radius = cylinder.radius * kMillimetres, length = cylinder.length * kMillimetres;
+        if (!(radius > 0.0 && length > 0.0)) return refused(link, "a cylinder");
+        const gp_Ax2 axis(gp_Pnt(0.0, 0.0, -length / 2), gp_Dir(0.0, 0.0, 1.0));
+        return solidShape(BRepPrimAPI_MakeCylinder(axis, radius, length).Shape(), link + " cylinder");
+      }
+      case urdf::Geometry::SPHERE: {
+        const double radius = static_cast<const urdf::Sphere&>(geometry).radius * kMillimetres;
+        if (!(radius > 0.0)) return refused(link, "a sphere");
+        return solidShape(BRepPrimAPI_MakeSphere(radius).Shape(), link + " sphere");
+      }
+    }
+    return -1;
+  }
+
+  std::int32_t refused(const std::string& link, const char* what) {
+    builder_.warn(fmt::format("Link \"{}\": {} of impossible size is left out.", link, what));
+    return -1;
+  }
+
+  std::int32_t solidShape(const TopoDS_Shape& solid, const std::string& key) {
+    const std::int32_t shape = builder_.addShape(key);
+    if (!builder_.isWanted(shape)) return shape;
+    MeshRequest request;
+    request.body = bodiesOf(solid).front();
+    request.isSolid = true;
+    request.map = glm::dmat3(1.0 / kMillimetres);
+    request.wanted = job_.tessellation;
+    builder_.setShape(shape, meshBody(request, Message_ProgressRange()));
+    return shape;
+  }
+
+  std::int32_t meshShape(const urdf::Mesh& mesh, const std::string& link) {
+    const auto [at, isNew] =
+        meshes_.try_emplace({mesh.filename, mesh.scale.x, mesh.scale.y, mesh.scale.z}, -1);
+    if (!isNew) return at->second;
+    const auto leftOut = [&](const std::string& problem) {
+      builder_.warn(fmt::format("Link \"{}\": the mesh {} is left out: {}.", link, mesh.filename, problem));
+      return -1;
+    };
+    const UrdfFiles::Found found = files_.find(mesh.filename);
+    if (!found.problem.empty()) return leftOut(found.problem);
+    const std::string extension = lowerExtension(found.path);
+    const std::vector<std::string>& readable = importableExtensions();
+    if (std::ranges::find(readable, extension) == readable.end())
+      return leftOut(extension + " is not read in a URDF file; convert it to STL or OBJ");
+    const glm::dmat3 scale(mesh.scale.x, 0.0, 0.0, 0.0, mesh.scale.y, 0.0, 0.0, 0.0, mesh.scale.z);
+    if (!splitMap(scale)) return leftOut("its scale is zero or not finite");
+    at->second = builder_.addShape(mesh.filename);
+    if (!builder_.isWanted(at->second)) return at->second;
+    try {
+      const ImportedMesh imported = importMesh(found.path, MeshBuildOptions{});
+      CadShape shape = triangleShape(imported.mesh.vertices(), imported.mesh.triangles(), scale);
+      for (const std::string& warning : imported.report.warnings)
+        addWarning(shape.warnings, warning);
+      builder_.setShape(at->second, std::move(shape));
+    } catch (const FileError& error) {
+      return leftOut(error.problem());
+    }
+    return at->second;
+  }
+
+  const ImportJob& job_;
+  UrdfFiles files_;
+  DocumentBuilder builder_;
+  std::map<std::tuple<std::string, double, double, double>, std::int32_t> meshes_;
+};
+
+}  // namespace
+
+CadDocument readUrdf(const ImportJob& job) {
+  return UrdfReader(job).read();
+}
+
+}  // namespace nearfit::importer

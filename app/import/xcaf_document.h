@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+
+#include "app/import/document_builder.h"
+#include "app/import/import_job.h"
+
+class Message_ProgressRange;
+class TDocStd_Document;
+class TopoDS_Shape;
+
+namespace nearfit::importer {
+
+class OccProgress;
+
+/// How the shapes of an OpenCASCADE document are to be taken.
+struct XcafOptions {
+  double metresPerUnit = 1e-3;  ///< Of the document's coordinates; 1 and hasUnit false if they have none.
+  bool hasUnit = true;
+  bool areTriangles = false;  ///< Its shapes hold triangles alone.
+  bool sewsFaces = false;     ///< Faces come one by one, and are to be joined where they meet.
+};
+
+/// Turns an OpenCASCADE document into ours: products are meshed once, however often they are placed. Throws FileError.
+CadDocument readXcaf(TDocStd_Document& document, const XcafOptions& options, const ImportJob& job,
+                     OccProgress& progress);
+
+}  // namespace nearfit::importer

@@ -1,0 +1,137 @@
+// Reads a CAD document in a process of its own, for core/import/document_import.cpp: what a file does to its reader, it
+// does here.
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "app/import/import_job.h"
+#include "app/import/message_pipe.h"
+#include "app/import/read_document.h"
+#include "app/import/sandbox.h"
+#include "core/base/error.h"
+#include "core/import/document_file.h"
+#include "core/import/import_protocol.h"
+
+namespace {
+
+namespace importer = nearfit::importer;
+namespace protocol = nearfit::import_protocol;
+
+/// Result bytes gathered before a write.
+constexpr std::size_t kWrittenAtOnce = std::size_t{1} << 20;
+
+/// Writes to a descriptor, in large pieces.
+class ResultWriter {
+ public:
+  explicit ResultWriter(int descriptor) : descriptor_(descriptor) {}
+
+  void add(std::span<const std::byte> bytes) {
+    pending_.insert(pending_.end(), bytes.begin(), bytes.end());
+    if (pending_.size() >= kWrittenAtOnce) flush();
+  }
+  void flush() {
+    for (std::span<const std::byte> left = pending_; !left.empty();) {
+      const ::ssize_t count = ::write(descriptor_, left.data(), left.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0)
+        throw nearfit::Error("", "its triangles are too many, or memory has run out",
+                             "choose a coarser tessellation");
+      left = left.subspan(static_cast<std::size_t>(count));
+    }
+    pending_.clear();
+  }
+
+ private:
+  int descriptor_;
+  std::vector<std::byte> pending_;
+};
+
+/// Tells on stderr what each stage took.
+class StageTimes {
+ public:
+  explicit StageTimes(bool isShown) : isShown_(isShown) {}
+  void end(const char* stage) {
+    const auto now = std::chrono::steady_clock::now();
+    if (isShown_)
+      fmt::print(stderr, "{:9s} {:7.3f} s\n", stage, std::chrono::duration<double>(now - begin_).count());
+    begin_ = now;
+  }
+
+ private:
+  bool isShown_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+int importFile(const importer::ImportOptions& options, importer::MessagePipe& messages) {
+  StageTimes times(options.showsTimes);
+  importer::ImportJob job = importer::openJob(options);
+  importer::limitProcess(job.bytes.size());
+  importer::enterSandbox(importer::readablePaths(job));
+  job.progress = [&](double fraction) { messages.progress(fraction); };
+  job.endStage = [&](const char* stage) { times.end(stage); };
+  times.end("open");
+  const nearfit::CadDocument document = importer::readDocumentOf(job);
+  times.end("mesh");
+  if (options.showsTimes) importer::printSummary(document);
+  if (options.result >= 0) {
+    ResultWriter result(options.result);
+    nearfit::writeDocument(document, [&](std::span<const std::byte> bytes) { result.add(bytes); });
+    result.flush();
+    times.end("write");
+  }
+  messages.progress(1.0);
+  return protocol::kDone;
+}
+
+int fail(const importer::MessagePipe& messages, const std::string& where, const std::string& problem,
+         const std::string& remedy) {
+  messages.failure(where, problem, remedy);
+  fmt::print(stderr, "nearfit-import: {}{}{}{}{}\n", where, where.empty() ? "" : ": ", problem,
+             remedy.empty() ? "" : "; ", remedy);
+  return protocol::kFailed;
+}
+
+int run(const importer::ImportOptions& options, importer::MessagePipe& messages) {
+  try {
+    return importFile(options, messages);
+  } catch (const nearfit::Error& error) {
+    return fail(messages, error.where(), error.problem(), error.remedy());
+  } catch (const std::bad_alloc&) {
+    return protocol::kOutOfMemory;
+  } catch (const std::exception& error) {
+    return fail(messages, "", fmt::format("it cannot be read: {}", error.what()),
+                "export it again, or in another format");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A reader who has gone, and a result beyond its limit, are errors to report.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  importer::ImportOptions options;
+  try {
+    options = importer::parseImportOptions(argc, argv);
+  } catch (const nearfit::Error& error) {
+    fmt::print(stderr, "nearfit-import: {}\n", error.what());
+    return protocol::kFailed;
+  }
+  if (options.isVersionAsked) {
+    fmt::print("nearfit-import {}\nOpenCASCADE {}\nsandbox: {}\n", NEARFIT_VERSION, importer::occVersion(),
+               importer::sandboxText());
+    return 0;
+  }
+  importer::MessagePipe messages(options.messages);
+  const int code = run(options, messages);
+  // Libraries have nothing to save, and may take long to free what they hold.
+  std::fflush(nullptr);
+  ::_exit(code);
+}
