@@ -127,10 +127,13 @@ void DocumentBuilder::dropEmpty() {
 CadDocument DocumentBuilder::take() {
   dropEmpty();
   if (document_.shapes.empty()) {
-    throw FileError(job_.file.string(),
-                    job_.onlyShapes.empty() ? "it holds no solids, shells or meshes"
-                                            : "it does not hold the shapes that were asked for any more",
-                    job_.onlyShapes.empty() ? "export the parts as solids" : "import the file again");
+    if (!job_.onlyShapes.empty()) {
+      throw FileError(job_.file.string(), "it does not hold the shapes that were asked for any more",
+                      "import the whole file again");
+    }
+    const std::string reason = document_.warnings.empty() ? std::string() : " (" + document_.warnings.front() + ")";
+    throw FileError(job_.file.string(), "it holds no solids, shells or meshes that can be read" + reason,
+                    "export the parts as solids");
   }
   return std::move(document_);
 }

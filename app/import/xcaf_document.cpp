@@ -504,6 +504,7 @@ class XcafReader {
       problem = failure.GetMessageString();
       shape = {};
     }
+    if (shape.triangles.empty() && !shape.warnings.empty()) problem = shape.warnings.front();
     if (shape.triangles.empty())
       builder_.warn(fmt::format("\"{}\" is left out: {}.", builder_.keyOf(pending.shape), problem));
     if (!isWithinLimits(shape)) {
