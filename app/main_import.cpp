@@ -129,6 +129,10 @@ int main(int argc, char** argv) {
                importer::sandboxText());
     return 0;
   }
+  if (options.triesSandbox) {
+    fmt::print("{}", importer::trySandbox());
+    return 0;
+  }
   importer::MessagePipe messages(options.messages);
   const int code = run(options, messages);
   // Libraries have nothing to save, and may take long to free what they hold.

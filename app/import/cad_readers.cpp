@@ -26,6 +26,7 @@
 #include "app/import/step_scan.h"
 #include "app/import/xcaf_document.h"
 #include "core/base/error.h"
+#include "core/text/utf8.h"
 
 namespace nearfit::importer {
 namespace {
@@ -43,6 +44,8 @@ class BytesBuffer : public std::streambuf {
 };
 
 Handle(TDocStd_Document) newDocument() {
+  // Without names such as "COMPOUND" for what has none.
+  XCAFDoc_ShapeTool::SetAutoNaming(Standard_False);
   return new TDocStd_Document("BinXCAF");
 }
 
@@ -65,6 +68,8 @@ CadDocument readStep(const ImportJob& job) {
   reader.SetGDTMode(Standard_False);
   reader.SetMatMode(Standard_False);
   reader.SetViewMode(Standard_False);
+  // Texts that are no UTF-8 would end at the first character that is none.
+  if (!isUtf8({job.bytes.data(), job.bytes.size()})) Interface_Static::SetCVal("read.step.codepage", "ISO8859-1");
   BytesBuffer buffer(job.bytes);
   std::istream stream(&buffer);
   if (reader.ChangeReader().ReadStream(job.file.filename().c_str(), stream) != IFSelect_RetDone)

@@ -131,7 +131,8 @@ CadDocument DocumentBuilder::take() {
       throw FileError(job_.file.string(), "it does not hold the shapes that were asked for any more",
                       "import the whole file again");
     }
-    const std::string reason = document_.warnings.empty() ? std::string() : " (" + document_.warnings.front() + ")";
+    const std::string reason =
+        document_.warnings.empty() ? std::string() : " (" + document_.warnings.front() + ")";
     throw FileError(job_.file.string(), "it holds no solids, shells or meshes that can be read" + reason,
                     "export the parts as solids");
   }

@@ -65,6 +65,8 @@ void takeOption(const std::string& option, Arguments& arguments, ImportOptions& 
     options.messages = descriptor();
   } else if (option == "--version") {
     options.isVersionAsked = true;
+  } else if (option == "--try-sandbox") {
+    options.triesSandbox = true;
   } else if (option == "--times") {
     options.showsTimes = true;
   } else if (option == "--") {
@@ -103,7 +105,7 @@ ImportOptions parseImportOptions(int argc, char** argv) {
   const auto isTolerance = [](double x) { return std::isfinite(x) && x >= 0.0; };
   if (!isTolerance(options.tessellation.chord) || !isTolerance(options.tessellation.angle))
     throw UsageError("--chord, --angle", "a tolerance is negative or not finite", "give 0 for the default");
-  if (!options.isVersionAsked && options.file.empty())
+  if (!options.isVersionAsked && !options.triesSandbox && options.file.empty())
     throw UsageError("nearfit-import", "no file is given", "nearfit starts this program by itself");
   return options;
 }

@@ -17,7 +17,8 @@ struct ImportOptions {
   int result = -1;                      ///< Descriptor to write the result to.
   int messages = -1;                    ///< Descriptor for messages; -1: none are written.
   bool isVersionAsked = false;
-  bool showsTimes = false;  ///< Writes to stderr what each stage took.
+  bool triesSandbox = false;  ///< Only tells what the sandbox refuses.
+  bool showsTimes = false;    ///< Writes to stderr what each stage took.
 };
 
 /// Reads the command line. Throws UsageError.

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <csignal>
 #include <system_error>
+#include <thread>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,7 +13,9 @@
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #ifdef NEARFIT_HAS_SECCOMP
 #include <seccomp.h>
@@ -36,7 +39,7 @@ constexpr bool kConfines = true;
 constexpr std::uint64_t kBaseMemory = std::uint64_t{2} << 30, kMemoryPerByte = 100,
                         kMaxMemory = std::uint64_t{16} << 30;
 /// Processor time for a small file, and for each megabyte [s]: some hundred times what files tried here take.
-constexpr std::uint64_t kBaseSeconds = 120, kSecondsPerMegabyte = 30, kMaxSeconds = 24 * 3600;
+constexpr std::uint64_t kBaseSeconds = 120, kSecondsPerMegabyte = 30, kMaxSeconds = 86'400;
 /// Files open at once: the result, messages, and a few to read.
 constexpr std::uint64_t kMaxOpenFiles = 64;
 
@@ -281,6 +284,37 @@ std::string sandboxText() {
 #endif
   return calls +
          (version >= 1 ? fmt::format(", Landlock {}", version) : std::string(", no Landlock in this kernel"));
+}
+
+std::string trySandbox() {
+  enterSandbox({});
+  std::string text;
+  const auto tell = [&](const char* what, bool isRefused) {
+    text += fmt::format("{}: {}\n", what, isRefused ? "refused" : "allowed");
+  };
+  const auto isRefused = [](int descriptor) {
+    if (descriptor >= 0) ::close(descriptor);
+    return descriptor < 0;
+  };
+  tell("network", isRefused(::socket(AF_INET, SOCK_STREAM, 0)));
+  tell("local sockets", isRefused(::socket(AF_UNIX, SOCK_STREAM, 0)));
+  tell("reading other files", isRefused(::open("/etc/passwd", O_RDONLY | O_CLOEXEC)));
+  // Without a name: nothing is left if it is allowed.
+  tell("writing files", isRefused(::open("/tmp", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600)));
+  tell("signals to others", ::kill(::getppid(), 0) != 0);
+  const ::pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  if (child > 0) ::waitpid(child, nullptr, 0);
+  tell("processes", child < 0);
+  bool hasRun = false;
+  std::thread([&] { hasRun = true; }).join();
+  tell("threads", !hasRun);
+  char program[] = "/bin/true";
+  char* const arguments[] = {program, nullptr};
+  // If it is allowed, this process ends here without a word.
+  ::execv(program, arguments);
+  tell("programs", true);
+  return text;
 }
 
 }  // namespace nearfit::importer

@@ -257,10 +257,9 @@ class FaceJoiner {
     TopExp::Vertices(TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)), first, last);
     std::vector<std::uint32_t> ids;
     for (int i = 0; i < count; ++i) {
-      const bool isFirst = i == 0, isLast = i == count - 1;
-      if (BRep_Tool::Degenerated(edge) && !first.IsNull()) {
-        ids.push_back(vertexId(first, position(i)));
-      } else if (isFirst && !first.IsNull()) {
+      // All of a degenerated edge, as at the tip of a cone, is its vertex.
+      const bool isFirst = i == 0 || BRep_Tool::Degenerated(edge), isLast = i == count - 1;
+      if (isFirst && !first.IsNull()) {
         ids.push_back(vertexId(first, position(i)));
       } else if (isLast && !last.IsNull()) {
         ids.push_back(vertexId(last, position(i)));

@@ -110,8 +110,8 @@ class Library {
   std::string nameOf(NMR::PLib3MFBase* object) const {
     std::vector<char> buffer(kMaxThreeMfName);
     ULONG needed = 0;
-    if (NMR::lib3mf_object_getnameutf8(object, buffer.data(), static_cast<ULONG>(buffer.size()),
-                                       &needed) != 0)
+    if (NMR::lib3mf_object_getnameutf8(object, buffer.data(), static_cast<ULONG>(buffer.size()), &needed) !=
+        0)
       return {};
     buffer.back() = '\0';
     return buffer.data();
