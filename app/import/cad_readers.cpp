@@ -69,7 +69,9 @@ CadDocument readStep(const ImportJob& job) {
   reader.SetMatMode(Standard_False);
   reader.SetViewMode(Standard_False);
   // Texts that are no UTF-8 would end at the first character that is none.
-  if (!isUtf8({job.bytes.data(), job.bytes.size()})) Interface_Static::SetCVal("read.step.codepage", "ISO8859-1");
+  if (!isUtf8({job.bytes.data(), job.bytes.size()}) &&
+      !Interface_Static::SetCVal("read.step.codepage", "iso8859-1"))
+    Interface_Static::SetCVal("read.step.codepage", "ISO8859-1");
   BytesBuffer buffer(job.bytes);
   std::istream stream(&buffer);
   if (reader.ChangeReader().ReadStream(job.file.filename().c_str(), stream) != IFSelect_RetDone)

@@ -22,8 +22,8 @@
 namespace nearfit::importer {
 namespace {
 
-/// Max size of a compressed file, unpacked [bytes].
-constexpr std::uint64_t kMaxUnpackedDocument = std::uint64_t{2} << 30;
+/// Max size of a file, and of a compressed one, unpacked [bytes]: readers take some twenty times as much memory.
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30, kMaxUnpackedBytes = std::uint64_t{1} << 30;
 
 template <class T>
 T numberOf(const std::string& option, const std::string& text) {
@@ -120,10 +120,12 @@ ImportJob openJob(const ImportOptions& options) {
   job.tessellation = options.tessellation;
   job.onlyShapes = options.onlyShapes;
   std::filesystem::path name = options.file.filename();
+  if (InputFile(options.file).size() > kMaxFileBytes)
+    throw FileError(options.file.string(), "it is larger than 4 GiB", "export a part of the assembly");
   job.bytes = readWholeFile(options.file);
   job.sha256 = sha256OfBytes(job.bytes);
   if (isGzip(job.bytes)) {
-    job.bytes = gunzip(job.bytes, options.file.string(), kMaxUnpackedDocument);
+    job.bytes = gunzip(job.bytes, options.file.string(), kMaxUnpackedBytes);
     job.wasPacked = true;
     if (lowerCase(name.extension().string()) == ".gz") name = name.stem();
   }

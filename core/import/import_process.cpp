@@ -363,7 +363,8 @@ std::vector<std::byte> runImporter(const std::filesystem::path& program, const s
   const OwnedDescriptor pipe(ends[0]);
   OwnedDescriptor pipeOfChild(movedAside(ends[1]));
   if (pipeOfChild.get() < 0) throwSystemError(file.string(), "its import cannot be started", errno);
-  std::vector<std::string> all{program.string()};
+  std::vector<std::string> all{program.string(), "--result", fmt::format("{}", protocol::kResultDescriptor),
+                               "--messages", fmt::format("{}", protocol::kMessageDescriptor)};
   all.insert(all.end(), arguments.begin(), arguments.end());
   all.insert(all.end(), {"--", file.string()});
   ImportMessages messages;

@@ -381,12 +381,12 @@ TEST_F(MeshImport, FaultsAreNamedWithTheirPlace) {
       {"x.ply", "hello\n", ":1", "does not begin with 'ply'"},
       {"x.stl", "", "x.stl", "is empty"},
       {"x.xyz", "hello\n", "x.xyz", "Nearfit does not read"},
-      {"x.ply.gz", "\x1f\x8b\x08", "x.ply.gz", "compressed"},
+      {"x.ply.gz", "\x1f\x8b\x08", "x.ply.gz", "compression is damaged"},
       {"x.stl", "ISO-10303-21;\n", "x.stl", "STEP file by another name"},
       {"x.glb", "glTF\x02", "x.glb", "glTF file by another name"},
       {"x.gltf", "{}", "x.gltf", "JSON or glTF file"},
       {"x.xacro", "<robot/>", "x.xacro", "template of a URDF file"},
-      {"x.3mf", "PK\x03\x04", "x.3mf", "Nearfit does not read"},
+      {"x.3mf", "PK\x03\x04", "x.3mf", "archive (zip, 3MF)"},
   };
   for (const Case& c : cases) {
     const FileError error = refusal(c.name, c.content);

@@ -1,0 +1,237 @@
+// IGES, BREP, glTF, 3MF and URDF, and files compressed by gzip.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/import/mesh_import.h"
+#include "tests/app/import/import_fixture.h"
+#include "tests/support/mesh_files.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/run_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit::import_formats_test {
+namespace {
+
+namespace fs = std::filesystem;
+using test::boxOf;
+using test::imported;
+using test::importModel;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+void expectBox(const Aabb& box, const glm::dvec3& lower, const glm::dvec3& upper, double tolerance = 1e-9) {
+  EXPECT_LE(glm::distance(box.lower, lower), tolerance)
+      << box.lower.x << " " << box.lower.y << " " << box.lower.z;
+  EXPECT_LE(glm::distance(box.upper, upper), tolerance)
+      << box.upper.x << " " << box.upper.y << " " << box.upper.z;
+}
+
+FileError refusal(const fs::path& file) {
+  try {
+    imported(file);
+  } catch (const FileError& error) {
+    return error;
+  }
+  ADD_FAILURE() << file << " was imported";
+  return {"", "", ""};
+}
+
+TEST(ImportFormats, FacesOfIgesAreSewnToASolid) {
+  const CadDocument document = imported(importModel("box.igs"));
+  ASSERT_EQ(document.shapes.size(), 1U);
+  EXPECT_TRUE(document.hasUnit);
+  expectBox(boxOf(document), {0, 0, 0}, {0.04, 0.02, 0.01});
+  EXPECT_NEAR(document.shapes[0].exactVolume, 8e-6, 1e-12);
+  EXPECT_EQ(test::unmatchedEdges(document.shapes[0]), 0U);
+  EXPECT_GT(test::volumeOf(document.shapes[0]), 0.0);
+  EXPECT_EQ(document.nodes[0].name, "box 1");
+}
+
+TEST(ImportFormats, BrepHasNoUnit) {
+  const CadDocument document = imported(importModel("box.brep"));
+  EXPECT_FALSE(document.hasUnit);
+  expectBox(boxOf(document), {0, 0, 0}, {4, 2, 1});
+  EXPECT_NEAR(document.shapes.at(0).exactVolume, 8.0, 1e-9);
+  EXPECT_TRUE(document.shapes[0].isExact);
+}
+
+TEST(ImportFormats, GltfIsInMetresAndStandsUp) {
+  const CadDocument document = imported(importModel("tetrahedra.glb"));
+  EXPECT_TRUE(document.hasUnit);
+  ASSERT_EQ(document.nodes.size(), 4U);
+  EXPECT_EQ(document.nodes[0].name, "rack");
+  EXPECT_EQ(document.nodes[1].name, "one");
+  EXPECT_EQ(document.nodes[1].shape, document.nodes[2].shape);
+  EXPECT_EQ(document.nodes[1].colour, (CadColour{0.0F, 1.0F, 0.0F}));
+  // The file's y, up to 3 + 2, is z here, and its z, up to 2, is -y.
+  expectBox(boxOf(document), {0, -2, 0}, {3, 0, 5});
+}
+
+TEST(ImportFormats, GltfIsWeldedAndAScaleIsBakedIntoTheShape) {
+  const CadDocument document = imported(importModel("tetrahedra.glb"));
+  ASSERT_EQ(document.shapes.size(), 2U);
+  for (const CadShape& shape : document.shapes) {
+    EXPECT_EQ(shape.vertices.size(), 4U);
+    EXPECT_EQ(test::unmatchedEdges(shape), 0U);
+    EXPECT_TRUE(shape.surfaces.faces.empty());
+    EXPECT_FALSE(shape.isExact);
+  }
+  const CadShape& scaled = document.shapes[static_cast<std::size_t>(document.nodes[3].shape)];
+  EXPECT_NEAR(test::volumeOf(scaled), 8.0 / 6.0, 1e-12);
+}
+
+TEST(ImportFormats, ThreeMfBringsItsUnitComponentsAndNames) {
+  const CadDocument document = imported(importModel("set.3mf"));
+  constexpr double kInch = 0.0254;
+  ASSERT_EQ(document.nodes.size(), 3U);
+  EXPECT_EQ(document.nodes[0].name, "set");
+  EXPECT_EQ(document.nodes[1].name, "H\xC3\xBClse");
+  EXPECT_EQ(document.shapes.size(), 1U);
+  // One at (10, 0, 0); the other turned by 90 degrees about z: its x becomes y, and its y -x.
+  expectBox(boxOf(document), glm::dvec3(10, 0, 0) * kInch, glm::dvec3(15, 7, 8) * kInch, 1e-7);
+  expectBox(boxOf(document.shapes[0], test::worldFromNode(document, 2)), glm::dvec3(14, 6, 7) * kInch,
+            glm::dvec3(15, 7, 8) * kInch, 1e-7);
+  EXPECT_NEAR(test::volumeOf(document.shapes[0]), std::pow(kInch, 3) / 6.0, 1e-12);
+}
+
+/// A robot of a base with a mesh and an arm of primitives.
+std::string robot(const std::string& mesh) {
+  return R"(<robot name="arm"><link name="base"><visual><origin xyz="0 0 1"/><geometry><mesh filename=")" +
+         mesh +
+         R"(" scale="2 2 2"/></geometry><material name="m"><color rgba="1 0.5 0 1"/></material></visual></link>
+<link name="tip"><collision><geometry><box size="0.2 0.4 0.6"/></geometry></collision></link>
+<joint name="j" type="revolute"><parent link="base"/><child link="tip"/><origin xyz="1 2 3" rpy="0 0 1.5707963267948966"/>
+<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>)";
+}
+
+/// A folder of a package with the robot in urdf/ and a cube of 1 m in meshes/.
+class Package {
+ public:
+  explicit Package(const std::string& mesh) {
+    fs::create_directories(root() / "urdf");
+    fs::create_directories(root() / "meshes");
+    folder_.write("arm_description/meshes/cube.stl",
+                  test::stlBinary(test::boxMesh(glm::dvec3(1.0), glm::dvec3(0.5))));
+    folder_.write("outside.stl", test::stlBinary(test::boxMesh(glm::dvec3(1.0), glm::dvec3(0.5))));
+    file_ = folder_.write("arm_description/urdf/arm.urdf", robot(mesh));
+  }
+  fs::path root() const { return folder_.path() / "arm_description"; }
+  const fs::path& file() const { return file_; }
+
+ private:
+  TemporaryFolder folder_;
+  fs::path file_;
+};
+
+TEST(ImportFormats, UrdfPlacesLinksByTheirJointsAtZero) {
+  const Package package("package://arm_description/meshes/cube.stl");
+  const CadDocument document = imported(package.file());
+  ASSERT_EQ(document.nodes.size(), 3U);
+  EXPECT_EQ(document.nodes[0].name, "arm");
+  EXPECT_EQ(document.nodes[1].name, "base");
+  EXPECT_EQ(document.nodes[1].colour, (CadColour{1.0F, 0.5F, 0.0F}));
+  EXPECT_EQ(document.nodes[2].name, "tip");
+  expectBox(boxOf(document.shapes[static_cast<std::size_t>(document.nodes[1].shape)],
+                  test::worldFromNode(document, 1)),
+            {0, 0, 1}, {2, 2, 3});
+  // A quarter turn: the box is 0.4 long along x.
+  expectBox(boxOf(document.shapes[static_cast<std::size_t>(document.nodes[2].shape)],
+                  test::worldFromNode(document, 2)),
+            {0.8, 1.9, 2.7}, {1.2, 2.1, 3.3});
+}
+
+TEST(ImportFormats, UrdfFindsMeshesWithinItsPackage) {
+  for (const std::string mesh : {"../meshes/cube.stl", "package://arm_description/meshes/cube.stl",
+                                 "package://renamed/meshes/cube.stl"})
+    EXPECT_EQ(imported(Package(mesh).file()).shapes.size(), 2U) << mesh;
+}
+
+TEST(ImportFormats, UrdfReadsNothingOutsideOfItsPackage) {
+  const Package elsewhere("x");
+  for (const std::string mesh :
+       {std::string("../../outside.stl"), std::string("package://arm_description/../outside.stl"),
+        "file://" + (elsewhere.root() / "meshes/cube.stl").string(),
+        (elsewhere.root() / "meshes/cube.stl").string()}) {
+    const CadDocument document = imported(Package(mesh).file());
+    EXPECT_EQ(document.shapes.size(), 1U) << mesh;
+    ASSERT_EQ(document.warnings.size(), 1U) << mesh;
+    EXPECT_THAT(document.warnings[0], HasSubstr("is left out")) << mesh;
+  }
+}
+
+TEST(ImportFormats, UrdfSaysThatColladaIsNotRead) {
+  const Package package("../meshes/arm.dae");
+  {
+    std::ofstream(package.root() / "meshes/arm.dae") << "<COLLADA/>";
+  }
+  const CadDocument document = imported(package.file());
+  ASSERT_EQ(document.warnings.size(), 1U);
+  EXPECT_THAT(document.warnings[0], HasSubstr("dae is not read"));
+}
+
+TEST(ImportFormats, TheRobotBesideTheRepositoryOpensWithAllLinks) {
+  const fs::path file = test::sharedModel("public/unitree_dex1/dex1_1.urdf");
+  if (!fs::exists(file)) return;
+  const CadDocument document = imported(file);
+  EXPECT_EQ(document.shapes.size(), 7U);
+  EXPECT_EQ(document.nodes.size(), 8U);
+}
+
+TEST(ImportFormats, GzipIsUnpackedWithinABound) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"bracket.step", "box.igs", "box.brep"}) {
+    const fs::path copy = folder.write(name, test::readBytes(importModel(name)));
+    ASSERT_EQ(test::runProcess({"gzip", copy.string()}).exitCode, 0);
+    const fs::path packed = copy.string() + ".gz";
+    EXPECT_TRUE(isDocumentFile(packed));
+    const CadDocument plain = imported(importModel(name)), unpacked = imported(packed);
+    EXPECT_EQ(unpacked.shapes.at(0).triangles, plain.shapes.at(0).triangles) << name;
+    EXPECT_NE(unpacked.sha256, plain.sha256) << name;
+  }
+}
+
+TEST(ImportFormats, FilesOfAnotherFormatThanTheirNameSaysAreRefused) {
+  const TemporaryFolder folder;
+  for (const char* name : {"x.step", "x.igs", "x.brep", "x.gltf", "x.glb", "x.3mf", "x.urdf"}) {
+    for (const std::string content :
+         {std::string("solid x\nendsolid x\n"), std::string(1000, '\0'), std::string()}) {
+      const FileError error = refusal(folder.write(name, content));
+      EXPECT_THAT(error.where(), HasSubstr(name));
+      EXPECT_FALSE(error.remedy().empty()) << name;
+    }
+  }
+}
+
+TEST(ImportFormats, EachPrefixOfASmallFileIsReadOrRefused) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"box.brep", "set.3mf", "tetrahedra.glb", "box.igs", "two_solids.step"}) {
+    const std::string bytes = test::readBytes(importModel(name));
+    for (std::size_t k = 1; k < 12; ++k) {
+      try {
+        imported(folder.write(name, bytes.substr(0, bytes.size() * k / 12)));
+      } catch (const FileError& error) {
+        EXPECT_THAT(error.where(), HasSubstr(name));
+      }
+    }
+  }
+}
+
+TEST(ImportFormats, ExtensionsTellDocumentsFromMeshes) {
+  for (const char* name : {"a.step", "a.STP", "a.iges", "a.igs", "a.brep", "a.gltf", "a.GLB", "a.3mf",
+                           "a.urdf", "a.step.gz", "a.URDF.GZ"})
+    EXPECT_TRUE(isDocumentFile(name)) << name;
+  for (const char* name :
+       {"a.stl", "a.stl.gz", "a.3mf.gz", "a.glb.gz", "a.gz", "a", "step", "a.xacro", "a.dae"})
+    EXPECT_FALSE(isDocumentFile(name)) << name;
+  EXPECT_THAT(documentExtensions(), testing::Contains("step"));
+}
+
+}  // namespace
+}  // namespace nearfit::import_formats_test

@@ -1,0 +1,307 @@
+// STEP files made to take all memory, to overflow a stack or never to end; other formats likewise; and the sandbox.
+// Each is refused with a message, by the importer or because its process ended.
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "tests/app/import/import_fixture.h"
+#include "tests/support/run_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit::import_hostile_test {
+namespace {
+
+namespace fs = std::filesystem;
+using test::imported;
+using test::importModel;
+using test::sharedModel;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+/// Frame of a STEP file, with a unit and a placement (#12).
+std::string step(const std::string& entities) {
+  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('a','2026-01-01T00:00:00',(''),(''"
+         "),'','','');\n"
+         "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n"
+         "#1=APPLICATION_CONTEXT('x');\n#2=PRODUCT_CONTEXT('',#1,'mechanical');\n"
+         "#3=PRODUCT_DEFINITION_CONTEXT('',#1,'design');\n#4=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,."
+         "METRE.));\n"
+         "#5=(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.));\n#6=(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)"
+         "SOLID_ANGLE_UNIT());\n"
+         "#7=UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-6),#4,'','');\n"
+         "#8=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#7))"
+         "GLOBAL_UNIT_ASSIGNED_CONTEXT((#4,#5,#6))REPRESENTATION_CONTEXT('',''));\n"
+         "#9=CARTESIAN_POINT('',(0.,0.,0.));\n#10=DIRECTION('',(0.,0.,1.));\n#11=DIRECTION('',(1.,0.,0.));\n"
+         "#12=AXIS2_PLACEMENT_3D('',#9,#10,#11);\n" +
+         entities + "ENDSEC;\nEND-ISO-10303-21;\n";
+}
+
+/// Product `i` with a representation of these items, #1004 + 100 i.
+std::string product(int i, const std::string& items = "#12",
+                    const std::string& kind = "SHAPE_REPRESENTATION") {
+  const int b = 1000 + 100 * i;
+  return fmt::format(
+      "#{}=PRODUCT('p{}','p{}','',(#2));\n#{}=PRODUCT_DEFINITION_FORMATION('','',#{});\n#{}=PRODUCT_"
+      "DEFINITION('','',#{},#3);\n"
+      "#{}=PRODUCT_DEFINITION_SHAPE('','',#{});\n#{}={}('',({}),#8);\n#{}=SHAPE_DEFINITION_REPRESENTATION(#{}"
+      ",#{});\n",
+      b, i, i, b + 1, b, b + 2, b + 1, b + 3, b + 2, b + 4, kind, items, b + 5, b + 3, b + 4);
+}
+
+/// Places product `child` in product `parent`, for the `k`-th time.
+std::string placed(int parent, int child, int k) {
+  const int b = 1010 + 100 * parent + 10 * k, p = 1000 + 100 * parent, c = 1000 + 100 * child;
+  return fmt::format(
+      "#{}=NEXT_ASSEMBLY_USAGE_OCCURRENCE('','','',#{},#{},$);\n#{}=PRODUCT_DEFINITION_SHAPE('','',#{});\n"
+      "#{}=ITEM_DEFINED_TRANSFORMATION('','',#12,#12);\n#{}=(REPRESENTATION_RELATIONSHIP('','',#{},#{})"
+      "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#{})SHAPE_REPRESENTATION_RELATIONSHIP());\n"
+      "#{}=CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#{},#{});\n",
+      b, p + 2, c + 2, b + 1, b, b + 2, b + 3, c + 4, p + 4, b + 2, b + 4, b + 3, b + 1);
+}
+
+std::string repeated(int from, int to, const std::function<std::string(int)>& text) {
+  std::string all;
+  for (int i = from; i < to; ++i)
+    all += text(i);
+  return all;
+}
+
+class ImportHostile : public testing::Test {
+ protected:
+  /// The error for a file of these bytes. It names the file and says what to do.
+  FileError refusal(const std::string& name, const std::string& content) const {
+    const fs::path file = folder_.write(name, content);
+    try {
+      imported(file);
+      ADD_FAILURE() << name << " was imported";
+    } catch (const FileError& error) {
+      EXPECT_THAT(error.where(), HasSubstr(name));
+      EXPECT_FALSE(error.remedy().empty());
+      return error;
+    }
+    return {"", "", ""};
+  }
+  std::string problem(const std::string& entities) const {
+    return refusal("x.step", step(entities)).problem();
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ImportHostile, ParenthesesNestedAMillionDeepAreRefused) {
+  constexpr int kMillion = 1'000'000;
+  EXPECT_THAT(problem("#20=A(" + std::string(kMillion, '(') + std::string(kMillion, ')') + ");\n"),
+              HasSubstr("nested"));
+  std::string types;
+  for (int i = 0; i < kMillion; ++i)
+    types += "B(";
+  EXPECT_THAT(problem("#20=A(" + types + std::string(kMillion, ')') + ");\n"), HasSubstr("nested"));
+}
+
+TEST_F(ImportHostile, EntitiesChainedAMillionDeepAreRefused) {
+  constexpr int kFirst = 100'000, kLast = 1'100'000;
+  const std::string chain = repeated(kFirst, kLast, [](int i) {
+    return fmt::format("#{}=OFFSET_CURVE_3D('',#{},1.,.F.,#10);\n", i, i + 1);
+  });
+  problem(chain + fmt::format("#{}=LINE('',#9,#10);\n", kLast) + product(0, fmt::format("#{}", kFirst)));
+}
+
+TEST_F(ImportHostile, AnAssemblyThatContainsItselfIsRefused) {
+  EXPECT_THAT(problem(product(0) + product(1) + placed(0, 1, 0) + placed(1, 0, 0)),
+              HasSubstr("contains itself"));
+  EXPECT_THAT(problem(product(0) + placed(0, 0, 0)), HasSubstr("contains itself"));
+  EXPECT_THAT(problem("#500=REPRESENTATION_MAP(#12,#1004);\n#501=MAPPED_ITEM('',#500,#12);\n" +
+                      product(0, "#12,#501")),
+              HasSubstr("contains itself"));
+}
+
+TEST_F(ImportHostile, CurvesThatAreBasedOnEachOtherAreRefused) {
+  problem(
+      "#900=TRIMMED_CURVE('',#901,(PARAMETER_VALUE(0.)),(PARAMETER_VALUE(1.)),.T.,.PARAMETER.);\n"
+      "#901=TRIMMED_CURVE('',#900,(PARAMETER_VALUE(0.)),(PARAMETER_VALUE(1.)),.T.,.PARAMETER.);\n"
+      "#902=GEOMETRIC_CURVE_SET('',(#900));\n" +
+      product(0, "#902", "GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION"));
+}
+
+TEST_F(ImportHostile, ABillionInstancesByNestingAreRefused) {
+  std::string assembly;
+  for (int i = 0; i < 30; ++i)
+    assembly += product(i) + placed(i, i + 1, 0) + placed(i, i + 1, 1);
+  EXPECT_THAT(problem(assembly + product(30)), HasSubstr("more than 100000 instances"));
+}
+
+TEST_F(ImportHostile, ABillionMappedItemsAreRefused) {
+  const std::string maps = repeated(0, 31, [](int i) {
+    return fmt::format(
+        "#{0}=REPRESENTATION_MAP(#12,#{1});\n#{2}=MAPPED_ITEM('',#{0},#12);\n#{3}=SHAPE_REPRESENTATION('',(#"
+        "12,#{2},#{2}),#8);\n",
+        500 + 3 * i, 5000 + i + 1, 501 + 3 * i, 5000 + i);
+  });
+  EXPECT_THAT(problem(maps + "#5031=SHAPE_REPRESENTATION('',(#12),#8);\n" + product(0, "#12,#501")),
+              HasSubstr("instances"));
+}
+
+TEST_F(ImportHostile, AssembliesNestedTooDeepAreRefused) {
+  EXPECT_THAT(
+      problem(repeated(0, 300, [](int i) { return product(i) + placed(i, i + 1, 0); }) + product(300)),
+      HasSubstr("nested"));
+}
+
+TEST_F(ImportHostile, NumbersBeyondRangeAreRefusedWithTheirLine) {
+  EXPECT_THAT(problem("#20=CARTESIAN_POINT('',(0.,1.E400,0.));\n"), HasSubstr("beyond range"));
+  EXPECT_THAT(problem("#20=CARTESIAN_POINT('',(0.," + std::string(400, '9') + ".,0.));\n"),
+              HasSubstr("beyond range"));
+  EXPECT_THAT(problem("#20=A(99999999999);\n"), HasSubstr("beyond range"));
+  EXPECT_THAT(problem("#99999999999=A(1);\n"), HasSubstr("beyond range"));
+  EXPECT_THAT(refusal("line.step", "ISO-10303-21;\nDATA;\n\n#1=A(1.E999);\n").where(),
+              HasSubstr("line.step:4"));
+}
+
+TEST_F(ImportHostile, ARealBelowRangeIsNoReasonToRefuse) {
+  std::string bracket = test::readBytes(importModel("bracket.step"));
+  bracket.replace(bracket.find("ENDSEC;\nEND-ISO"), 0, "#900000=CARTESIAN_POINT('',(1.E-400,2.E+300,0.));\n");
+  EXPECT_EQ(imported(folder_.write("tiny.step", bracket)).shapes.size(), 1U);
+}
+
+TEST_F(ImportHostile, SplinesOfImpossibleCountsAreRefused) {
+  const auto spline = [](const std::string& degree, const std::string& multiplicities) {
+    return "#900=B_SPLINE_CURVE_WITH_KNOTS(''," + degree + ",(#9,#9,#9,#9),.UNSPECIFIED.,.F.,.F.,(" +
+           multiplicities + "),(0.,1.),.UNSPECIFIED.);\n#901=GEOMETRIC_CURVE_SET('',(#900));\n" +
+           product(0, "#901", "GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION");
+  };
+  problem(spline("3", "2000000000,2000000000"));
+  problem(spline("2000000000", "4,4"));
+  problem(spline("-1", "0,0"));
+}
+
+TEST_F(ImportHostile, WhatIsCutOffIsSaidToBe) {
+  const std::string bracket = test::readBytes(importModel("bracket.step"));
+  for (std::size_t k = 1; k < 8; ++k)
+    refusal("cut.step", bracket.substr(0, bracket.size() * k / 8));
+}
+
+TEST_F(ImportHostile, ACommentOrATextWithoutEndIsRefused) {
+  EXPECT_THAT(problem("#20=A('no end);\n"), HasSubstr("no end"));
+  EXPECT_THAT(problem("/* no end\n"), HasSubstr("no end"));
+}
+
+TEST_F(ImportHostile, FlippedBytesOfAFileNeverReachTheProgram) {
+  const std::string bracket = test::readBytes(importModel("two_solids.step"));
+  for (std::size_t k = 0; k < 24; ++k) {
+    std::string damaged = bracket;
+    for (std::size_t at = 1200 + 37 * k; at < damaged.size(); at += 1999)
+      damaged[at] = static_cast<char>('0' + (at + k) % 10);
+    try {
+      imported(folder_.write("damaged.step", damaged));
+    } catch (const FileError&) {
+    }
+  }
+}
+
+TEST_F(ImportHostile, GltfNodesInACycleOrByTheBillionAreRefused) {
+  const auto gltf = [](const std::string& nodes) {
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + nodes + "]}";
+  };
+  EXPECT_THAT(refusal("x.gltf", gltf(R"({"children":[1]},{"children":[0]})")).problem(),
+              HasSubstr("contains itself"));
+  std::string doubling;
+  for (int i = 0; i < 40; ++i)
+    doubling += fmt::format(R"({{"children":[{0},{0}]}},)", i + 1);
+  EXPECT_THAT(refusal("x.gltf", gltf(doubling + "{}")).problem(), HasSubstr("instances"));
+  EXPECT_THAT(refusal("x.gltf", gltf(R"({"children":[7]})")).problem(), HasSubstr("does not exist"));
+}
+
+TEST_F(ImportHostile, GltfNestedDeepOrNamingOtherFilesIsRefused) {
+  EXPECT_THAT(refusal("x.gltf", R"({"a":)" + std::string(1'000'000, '[') + std::string(1'000'000, ']') + "}")
+                  .problem(),
+              HasSubstr("nested"));
+  for (const char* uri : {"../secret.bin", "/etc/passwd", "file:///etc/passwd"})
+    EXPECT_THAT(
+        refusal(
+            "x.gltf",
+            fmt::format(R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":4,"uri":"{}"}}]}})", uri))
+            .problem(),
+        HasSubstr("outside of its folder"));
+}
+
+TEST_F(ImportHostile, UrdfNestedDeepOrWithoutARootIsRefused) {
+  std::string nested = "<robot name='r'>";
+  for (int i = 0; i < 200'000; ++i)
+    nested += "<a>";
+  EXPECT_THAT(refusal("x.urdf", nested).problem(), HasSubstr("nested"));
+  refusal("x.urdf",
+          "<robot name='r'><link name='a'/><link name='b'/>"
+          "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>"
+          "<joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>");
+}
+
+TEST_F(ImportHostile, AFileThatUnpacksToMoreThanAGigabyteIsRefused) {
+  const fs::path big = folder_.path() / "x.step";
+  // A hole of the file system: gzip makes some megabytes of it.
+  {
+    std::ofstream(big).put('I');
+  }
+  fs::resize_file(big, (std::uintmax_t{1} << 30) + (std::uintmax_t{64} << 20));
+  ASSERT_EQ(test::runProcess({"gzip", "-1", big.string()}).exitCode, 0);
+  try {
+    imported(big.string() + ".gz");
+    ADD_FAILURE() << "was imported";
+  } catch (const FileError& error) {
+    EXPECT_THAT(error.problem(), HasSubstr("too large when unpacked"));
+  }
+}
+
+TEST_F(ImportHostile, NastyFilesBesideTheRepositoryAreReadOrRefused) {
+  for (const char* name : {"step_csg_invalid.stp", "step_nonmanifold_edge.stp", "gltf_infinities.glb",
+                           "gltf_recursive_nodes.gltf"}) {
+    const fs::path file = sharedModel(std::string("nasty/") + name);
+    if (!fs::exists(file)) continue;
+    try {
+      EXPECT_FALSE(imported(file).shapes.empty()) << name;
+    } catch (const FileError& error) {
+      EXPECT_THAT(error.where(), HasSubstr(name));
+      EXPECT_FALSE(error.remedy().empty());
+    }
+  }
+}
+
+TEST_F(ImportHostile, CancelEndsTheImport) {
+  int calls = 0;
+  EXPECT_THROW(imported(importModel("bracket.step"), {}, [&](double) { return ++calls < 2; }), Cancelled);
+}
+
+TEST_F(ImportHostile, ProgressGrowsToItsEnd) {
+  double last = 0.0;
+  imported(importModel("bracket.step"), {}, [&](double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+    return true;
+  });
+  EXPECT_EQ(last, 1.0);
+}
+
+TEST(ImportSandbox, NothingButReadingIsAllowedWhereTheKernelCanForbidIt) {
+  const std::string version = test::runProcess({NEARFIT_IMPORT_PROGRAM, "--version"}).out;
+  const std::string tried = test::runProcess({NEARFIT_IMPORT_PROGRAM, "--try-sandbox"}).out;
+  EXPECT_THAT(version, HasSubstr("sandbox:"));
+  if (version.find("sanitizers") != std::string::npos) return;
+  const bool hasSeccomp =
+      version.find(" seccomp") != std::string::npos && version.find("no seccomp") == std::string::npos;
+  if (hasSeccomp) {
+    for (const char* what :
+         {"network", "local sockets", "writing files", "signals to others", "processes", "programs"})
+      EXPECT_THAT(tried, HasSubstr(std::string(what) + ": refused"));
+    EXPECT_THAT(tried, HasSubstr("threads: allowed"));
+  }
+  if (version.find("Landlock") != std::string::npos && version.find("no Landlock") == std::string::npos)
+    EXPECT_THAT(tried, HasSubstr("reading other files: refused"));
+}
+
+}  // namespace
+}  // namespace nearfit::import_hostile_test
