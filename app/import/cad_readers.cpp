@@ -1,6 +1,7 @@
 // STEP, IGES, BREP and glTF by OpenCASCADE.
-#include <cmath>
+#include <istream>
 #include <streambuf>
+#include <string>
 
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -111,7 +112,13 @@ CadDocument readBrep(const ImportJob& job) {
   std::istream stream(&buffer);
   TopoDS_Shape shape;
   const BRep_Builder builder;
-  BRepTools::Read(shape, stream, builder, progress.stageTo(kTransferredEnd));
+  // The reader would try to read on behind the end of a file that is cut off, over and over.
+  stream.exceptions(std::ios::failbit | std::ios::badbit);
+  try {
+    BRepTools::Read(shape, stream, builder, progress.stageTo(kTransferredEnd));
+  } catch (const std::ios_base::failure&) {
+    throw FileError(job.file.string(), "it is cut off or damaged", "export or copy it again");
+  }
   if (shape.IsNull()) failUnreadable(job, "BREP");
   job.endStage("read");
   const Handle(TDocStd_Document) document = newDocument();

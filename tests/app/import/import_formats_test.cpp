@@ -148,14 +148,14 @@ TEST(ImportFormats, UrdfPlacesLinksByTheirJointsAtZero) {
 }
 
 TEST(ImportFormats, UrdfFindsMeshesWithinItsPackage) {
-  for (const std::string mesh : {"../meshes/cube.stl", "package://arm_description/meshes/cube.stl",
-                                 "package://renamed/meshes/cube.stl"})
+  for (const char* mesh : {"../meshes/cube.stl", "package://arm_description/meshes/cube.stl",
+                           "package://renamed/meshes/cube.stl"})
     EXPECT_EQ(imported(Package(mesh).file()).shapes.size(), 2U) << mesh;
 }
 
 TEST(ImportFormats, UrdfReadsNothingOutsideOfItsPackage) {
   const Package elsewhere("x");
-  for (const std::string mesh :
+  for (const std::string& mesh :
        {std::string("../../outside.stl"), std::string("package://arm_description/../outside.stl"),
         "file://" + (elsewhere.root() / "meshes/cube.stl").string(),
         (elsewhere.root() / "meshes/cube.stl").string()}) {
@@ -186,7 +186,7 @@ TEST(ImportFormats, TheRobotBesideTheRepositoryOpensWithAllLinks) {
 
 TEST(ImportFormats, GzipIsUnpackedWithinABound) {
   const TemporaryFolder folder;
-  for (const std::string name : {"bracket.step", "box.igs", "box.brep"}) {
+  for (const char* name : {"bracket.step", "box.igs", "box.brep"}) {
     const fs::path copy = folder.write(name, test::readBytes(importModel(name)));
     ASSERT_EQ(test::runProcess({"gzip", copy.string()}).exitCode, 0);
     const fs::path packed = copy.string() + ".gz";
@@ -200,7 +200,7 @@ TEST(ImportFormats, GzipIsUnpackedWithinABound) {
 TEST(ImportFormats, FilesOfAnotherFormatThanTheirNameSaysAreRefused) {
   const TemporaryFolder folder;
   for (const char* name : {"x.step", "x.igs", "x.brep", "x.gltf", "x.glb", "x.3mf", "x.urdf"}) {
-    for (const std::string content :
+    for (const std::string& content :
          {std::string("solid x\nendsolid x\n"), std::string(1000, '\0'), std::string()}) {
       const FileError error = refusal(folder.write(name, content));
       EXPECT_THAT(error.where(), HasSubstr(name));
@@ -211,7 +211,7 @@ TEST(ImportFormats, FilesOfAnotherFormatThanTheirNameSaysAreRefused) {
 
 TEST(ImportFormats, EachPrefixOfASmallFileIsReadOrRefused) {
   const TemporaryFolder folder;
-  for (const std::string name : {"box.brep", "set.3mf", "tetrahedra.glb", "box.igs", "two_solids.step"}) {
+  for (const char* name : {"box.brep", "set.3mf", "tetrahedra.glb", "box.igs", "two_solids.step"}) {
     const std::string bytes = test::readBytes(importModel(name));
     for (std::size_t k = 1; k < 12; ++k) {
       try {

@@ -299,8 +299,8 @@ TEST(ImportSandbox, NothingButReadingIsAllowedWhereTheKernelCanForbidIt) {
       EXPECT_THAT(tried, HasSubstr(std::string(what) + ": refused"));
     EXPECT_THAT(tried, HasSubstr("threads: allowed"));
   }
-  if (version.find("Landlock") != std::string::npos && version.find("no Landlock") == std::string::npos)
-    EXPECT_THAT(tried, HasSubstr("reading other files: refused"));
+  if (version.find("no Landlock") != std::string::npos) return;
+  EXPECT_THAT(tried, HasSubstr("reading other files: refused"));
 }
 
 }  // namespace
