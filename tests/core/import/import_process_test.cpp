@@ -61,7 +61,8 @@ TEST_F(ImportProcess, TheResultIsWhatItWroteToItsThirdDescriptor) {
 TEST_F(ImportProcess, ItGetsTheFileAndTheOptionsAndNoOtherDescriptors) {
   run("echo \"$@\" > '" + (folder_.path() / "arguments").string() + "'; ls /proc/self/fd | tr '\\n' ' ' > '" +
       (folder_.path() / "open").string() + "'");
-  EXPECT_EQ(test::readBytes(folder_.path() / "arguments"), "--result 3 --messages 4 --chord 0 -- " + document_.string() + "\n");
+  EXPECT_EQ(test::readBytes(folder_.path() / "arguments"),
+            "--result 3 --messages 4 --chord 0 -- " + document_.string() + "\n");
   // Those of the shell, and the folder that ls reads.
   EXPECT_EQ(test::readBytes(folder_.path() / "open"), "0 1 2 3 4 5 ");
 }
