@@ -26,8 +26,9 @@ glm::dvec3 doubleArea(std::span<const glm::dvec3> vertices, const Triangle& t) {
 
 class Swapper {
  public:
-  Swapper(std::span<const glm::dvec3> vertices, std::vector<Triangle>& triangles, double tolerance)
-      : vertices_(vertices), triangles_(triangles), tolerance_(tolerance) {
+  Swapper(std::span<const glm::dvec3> vertices, std::vector<Triangle>& triangles, double tolerance,
+          std::vector<std::uint32_t>* sources)
+      : vertices_(vertices), triangles_(triangles), tolerance_(tolerance), sources_(sources) {
     matchSides();
   }
 
@@ -158,6 +159,7 @@ class Swapper {
     if (std::ranges::any_of(outer, isInner)) return kNoSide;
     triangles_[triangle] = {a, b, d};
     triangles_[other] = {b, c, d};
+    if (sources_ != nullptr) (*sources_)[triangle] = (*sources_)[other];
     join(3 * triangle, outer[0]);
     join(3 * triangle + 1, 3 * other + 2);
     join(3 * triangle + 2, outer[3]);
@@ -169,6 +171,7 @@ class Swapper {
   std::span<const glm::dvec3> vertices_;
   std::vector<Triangle>& triangles_;
   double tolerance_;
+  std::vector<std::uint32_t>* sources_;  ///< By triangle; may be null.
   std::vector<Side> twin_;  ///< By side: the opposite side of its edge, or kNoSide.
 };
 
@@ -181,12 +184,12 @@ double leastHeight(std::span<const glm::dvec3> vertices, const Triangle& t) {
 }
 
 std::uint64_t swapFlatTriangles(std::span<const glm::dvec3> vertices, std::vector<Triangle>& triangles,
-                                double tolerance) {
+                                double tolerance, std::vector<std::uint32_t>* sources) {
   std::vector<std::uint32_t> flat;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     if (leastHeight(vertices, triangles[t]) <= tolerance) flat.push_back(t);
   }
-  return flat.empty() ? 0 : Swapper(vertices, triangles, tolerance).run(std::move(flat));
+  return flat.empty() ? 0 : Swapper(vertices, triangles, tolerance, sources).run(std::move(flat));
 }
 
 }  // namespace nearfit

@@ -19,8 +19,10 @@ double leastHeight(std::span<const glm::dvec3> vertices, const Triangle& triangl
 /// that face. No vertex moves; the surface moves by at most `tolerance`. Lines stay if they have no such
 /// face, or if a swap would make nothing fatter, fold the surface or duplicate an edge.
 /// @param tolerance  Max height of a line [unit of the points]; 0: only triangles without area.
+/// @param sources    What each triangle came from; both triangles of a swap get that of the face that they cover.
+///                   May be null.
 /// @return Number of swaps. O(n log n) if there are lines, else O(n).
 std::uint64_t swapFlatTriangles(std::span<const glm::dvec3> vertices, std::vector<Triangle>& triangles,
-                                double tolerance);
+                                double tolerance, std::vector<std::uint32_t>* sources = nullptr);
 
 }  // namespace nearfit

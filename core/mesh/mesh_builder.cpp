@@ -64,8 +64,10 @@ void checkSoup(const PolygonSoup& soup) {
 class Builder {
  public:
   Builder(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report,
-          const std::function<void(double)>& onProgress)
-      : soup_(soup), options_(options), report_(report), onProgress_(onProgress) {}
+          const std::function<void(double)>& onProgress, std::vector<std::uint32_t>* polygonOf)
+      : soup_(soup), options_(options), report_(report), onProgress_(onProgress), polygonOf_(polygonOf) {
+    if (polygonOf_ != nullptr) polygonOf_->clear();
+  }
 
   TriangleMesh build() {
     gatherVertices();
@@ -76,7 +78,7 @@ class Builder {
     report(0.4);
     dropDuplicates();
     report(0.5);
-    report_.swappedFaces = swapFlatTriangles(vertices_, triangles_, tolerance_);
+    report_.swappedFaces = swapFlatTriangles(vertices_, triangles_, tolerance_, polygonOf_);
     dropTrianglesWithoutArea();
     if (triangles_.empty()) throw Error("", "none of its faces has an area", "export the part again");
     dropUnusedVertices();
@@ -148,33 +150,48 @@ class Builder {
       const bool isUsable =
           corners.size() >= 3 && triangulator.triangulate(vertices_, corners, triangles_) > 0;
       report_.degenerateFaces += isUsable ? 0 : 1;
+      if (polygonOf_ != nullptr) polygonOf_->resize(triangles_.size(), static_cast<std::uint32_t>(i));
     }
     newIndex_ = {};
   }
 
   void dropTrianglesWithoutArea() {
     const std::size_t before = triangles_.size();
-    std::erase_if(triangles_, [&](const Triangle& t) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < before; ++i) {
+      const Triangle t = triangles_[i];
       const glm::dvec3 a = vertices_[t[0]], b = vertices_[t[1]], c = vertices_[t[2]];
-      return glm::cross(b - a, c - a) == glm::dvec3(0.0);
-    });
-    report_.degenerateFaces += before - triangles_.size();
+      if (glm::cross(b - a, c - a) != glm::dvec3(0.0)) keep(i, kept++);
+    }
+    cutTo(kept);
+    report_.degenerateFaces += before - kept;
   }
 
   void dropDuplicates() {
     std::vector<std::uint32_t> slots(std::bit_ceil(2 * triangles_.size() + 1), kNoVertex);
+    const std::size_t before = triangles_.size();
     std::size_t kept = 0;
-    for (const Triangle t : triangles_) {
+    for (std::size_t i = 0; i < before; ++i) {
+      const Triangle t = triangles_[i];
       std::size_t slot = slotOf(t) & (slots.size() - 1);
       while (slots[slot] != kNoVertex && startingAtLowest(triangles_[slots[slot]]) != startingAtLowest(t)) {
         slot = (slot + 1) & (slots.size() - 1);
       }
       if (slots[slot] != kNoVertex) continue;
       slots[slot] = static_cast<std::uint32_t>(kept);
-      triangles_[kept++] = t;
+      keep(i, kept++);
     }
-    report_.duplicateFaces = triangles_.size() - kept;
-    triangles_.resize(kept);
+    report_.duplicateFaces = before - kept;
+    cutTo(kept);
+  }
+  /// Moves triangle `from` to place `to`, at or before its own.
+  void keep(std::size_t from, std::size_t to) {
+    triangles_[to] = triangles_[from];
+    if (polygonOf_ != nullptr) (*polygonOf_)[to] = (*polygonOf_)[from];
+  }
+  void cutTo(std::size_t count) {
+    triangles_.resize(count);
+    if (polygonOf_ != nullptr) polygonOf_->resize(count);
   }
   static Triangle startingAtLowest(Triangle t) {
     std::ranges::rotate(t, std::ranges::min_element(t));
@@ -209,6 +226,7 @@ class Builder {
   const MeshBuildOptions& options_;
   MeshBuildReport& report_;
   const std::function<void(double)>& onProgress_;
+  std::vector<std::uint32_t>* polygonOf_;  ///< By triangle; may be null.
   double tolerance_ = 0.0;            ///< [m]
   std::vector<glm::dvec3> vertices_;  ///< [m]
   std::vector<Triangle> triangles_;
@@ -237,9 +255,15 @@ void addWarnings(MeshBuildReport& report) {
 }
 
 /// Closes cracks. Most meshes have none and are not rebuilt.
-TriangleMesh stitched(TriangleMesh mesh, MeshBuildReport& report) {
-  std::vector<Triangle> triangles = stitchTJunctions(mesh);
+TriangleMesh stitched(TriangleMesh mesh, MeshBuildReport& report, std::vector<std::uint32_t>* polygonOf) {
+  std::vector<std::uint32_t> origins;
+  std::vector<Triangle> triangles = stitchTJunctions(mesh, polygonOf != nullptr ? &origins : nullptr);
   if (triangles.empty()) return mesh;
+  if (polygonOf != nullptr) {
+    for (std::uint32_t& origin : origins)
+      origin = (*polygonOf)[origin];
+    *polygonOf = std::move(origins);
+  }
   const std::uint32_t before = mesh.topology().openEdges;
   mesh = {{mesh.vertices().begin(), mesh.vertices().end()}, std::move(triangles)};
   report.stitchedEdges = before - mesh.topology().openEdges;
@@ -281,12 +305,14 @@ std::vector<std::string> topologyWarnings(const MeshTopology& topology) {
 }
 
 TriangleMesh buildMesh(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report,
-                       const std::function<void(double)>& onProgress) {
+                       const std::function<void(double)>& onProgress,
+                       std::vector<std::uint32_t>* polygonOfTriangle) {
   checkOptions(options);
   checkSoup(soup);
   report = {};
   report.coordinateRounding = options.metresPerUnit * coordinateRounding(soup.vertices);
-  TriangleMesh mesh = stitched(Builder(soup, options, report, onProgress).build(), report);
+  TriangleMesh mesh = stitched(Builder(soup, options, report, onProgress, polygonOfTriangle).build(), report,
+                               polygonOfTriangle);
   addWarnings(report);
   const std::vector<std::string> defects = topologyWarnings(mesh.topology());
   report.warnings.insert(report.warnings.end(), defects.begin(), defects.end());

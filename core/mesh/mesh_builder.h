@@ -55,9 +55,12 @@ std::vector<std::string> topologyWarnings(const MeshTopology& topology);
 /// of the merged vertices keeps its position. Deterministic.
 /// @param report      Overwritten.
 /// @param onProgress  Called now and then with the fraction done; may throw to stop the work. May be empty.
+/// @param polygonOfTriangle  Receives the polygon of the soup that each triangle of the mesh came from, whatever was
+///                           dropped, swapped and cut. May be null.
 /// Throws Error if nothing is left, an index is out of range or a limit is exceeded; UsageError if an
 /// option is invalid.
 TriangleMesh buildMesh(const PolygonSoup& soup, const MeshBuildOptions& options, MeshBuildReport& report,
-                       const std::function<void(double fraction)>& onProgress = {});
+                       const std::function<void(double fraction)>& onProgress = {},
+                       std::vector<std::uint32_t>* polygonOfTriangle = nullptr);
 
 }  // namespace nearfit

@@ -33,24 +33,16 @@ class Stitcher {
  public:
   Stitcher(const TriangleMesh& mesh, double reach) : mesh_(mesh), reach_(reach) {}
 
-  std::vector<Triangle> stitch() {
+  /// @param origins  May be null.
+  std::vector<Triangle> stitch(std::vector<std::uint32_t>* origins) {
     gatherSides();
     if (!findPoints()) return {};
     for (int round = 0; round < kMaxRounds && dropWhatStaysOpen(); ++round) {
-      if (splitAll()) return std::move(triangles_);
+      if (!splitAll()) continue;
+      if (origins != nullptr) *origins = std::move(origins_);
+      return std::move(triangles_);
     }
     return {};
-  }
-
-  /// The triangle of the mesh that each triangle of the result is a fragment of.
-  std::vector<std::uint32_t> originsOf(std::size_t triangles) const {
-    std::vector<std::uint32_t> origins(triangles);
-    std::iota(origins.begin(), origins.end(), 0U);
-    for (const auto& [triangle, pieces] : piecesOf_) {
-      for (const std::uint32_t piece : pieces)
-        origins[piece] = triangle;
-    }
-    return origins;
   }
 
  private:
@@ -169,6 +161,8 @@ class Stitcher {
   /// Splits all triangles. Returns false if a side had to stay whole, which may leave others open.
   bool splitAll() {
     triangles_.assign(mesh_.triangles().begin(), mesh_.triangles().end());
+    origins_.resize(triangles_.size());
+    std::iota(origins_.begin(), origins_.end(), 0U);
     piecesOf_.clear();
     newEdges_.clear();
     bool isWhole = false;
@@ -201,6 +195,7 @@ class Stitcher {
       }
       pieces.push_back(static_cast<std::uint32_t>(triangles_.size()));
       triangles_.push_back(part);
+      origins_.push_back(side.triangle);
     });
     return true;
   }
@@ -220,23 +215,21 @@ class Stitcher {
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> piecesOf_;
   std::unordered_set<std::uint64_t> newEdges_;
   std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> origins_;  ///< By triangle of triangles_.
 };
 
 }  // namespace
 
-std::vector<Triangle> stitchTJunctions(const TriangleMesh& mesh) {
+std::vector<Triangle> stitchTJunctions(const TriangleMesh& mesh, std::vector<std::uint32_t>* origins) {
   if (mesh.topology().openEdges == 0) return {};
-  return Stitcher(mesh, kOnEdge * mesh.bounds().diagonal()).stitch();
+  return Stitcher(mesh, kOnEdge * mesh.bounds().diagonal()).stitch(origins);
 }
 
 std::vector<Triangle> stitchTJunctions(const TriangleMesh& mesh, double reach,
                                        std::vector<std::uint32_t>& originOf) {
   originOf.clear();
   if (mesh.topology().openEdges == 0) return {};
-  Stitcher stitcher(mesh, reach);
-  std::vector<Triangle> triangles = stitcher.stitch();
-  originOf = stitcher.originsOf(triangles.size());
-  return triangles;
+  return Stitcher(mesh, reach).stitch(&originOf);
 }
 
 }  // namespace nearfit

@@ -6,12 +6,15 @@
 #include <charconv>
 #include <cstdlib>
 #include <exception>
+#include <span>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/files/atomic_write.h"
+#include "core/files/checksum.h"
+#include "core/files/input_file.h"
 #include "core/files/ownership.h"
 #include "core/files/sha256.h"
 #include "core/files/user_folders.h"
@@ -21,7 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kEnding = ".nearfit-tree";
+constexpr std::string_view kTreeEnding = ".nearfit-tree", kTextEnding = ".nearfit-text";
+/// A checksum, in hexadecimal digits, and a line break before a text.
+constexpr std::size_t kChecksumBytes = 17;
 constexpr std::size_t kNameDigits = 64;
 constexpr const char* kTrustRemedy =
     "make it yours alone (chown, chmod 700), or name another folder in NEARFIT_CACHE";
@@ -34,9 +39,16 @@ struct Entry {
 
 /// True for the name of a cache file. Other things in the folder are never counted or removed.
 bool isOurs(const std::string& name) {
-  return name.size() == kNameDigits + kEnding.size() && name.ends_with(kEnding) &&
+  const auto endsIn = [&](std::string_view ending) {
+    return name.size() == kNameDigits + ending.size() && name.ends_with(ending);
+  };
+  return (endsIn(kTreeEnding) || endsIn(kTextEnding)) &&
          std::all_of(name.begin(), name.begin() + kNameDigits,
                      [](unsigned char c) { return std::isxdigit(c) != 0; });
+}
+
+bool isTree(const fs::path& file) {
+  return file.extension() == kTreeEnding;
 }
 
 /// Lists the cache files in the folder; none if it does not exist. Throws FileError if it cannot be read.
@@ -67,6 +79,10 @@ void closeDefaultFolder(const fs::path& folder) {
   std::error_code ignored;
   if (folder == userFolder(UserFiles::Cache) && !fs::is_symlink(folder, ignored))
     fs::permissions(folder, fs::perms::owner_all, ignored);
+}
+
+std::string checksumLine(std::string_view text) {
+  return fmt::format("{:016x}\n", checksumOf(std::as_bytes(std::span(text))));
 }
 
 std::string variable(const char* name) {
@@ -133,10 +149,10 @@ std::vector<std::string> treeCacheWarnings() {
   return warnings;
 }
 
-fs::path TreeCache::pathOf(const TreeCacheKey& key) const {
+fs::path TreeCache::pathOf(const TreeCacheKey& key, std::string_view ending) const {
   const std::string content = fmt::format(
       "{} {:016x} {}", key.sha256, std::bit_cast<std::uint64_t>(key.metresPerUnit), treeCacheFingerprint());
-  return settings_.folder / (sha256OfBytes(content) + std::string(kEnding));
+  return settings_.folder / (sha256OfBytes(content) + std::string(ending));
 }
 
 std::string TreeCache::distrust() const {
@@ -151,20 +167,56 @@ void TreeCache::requireTrust() const {
 
 std::optional<TreeCacheFile> TreeCache::find(const TreeCacheKey& key) const {
   if (!isOn() || !distrust().empty()) return std::nullopt;
-  std::optional<TreeCacheFile> file = TreeCacheFile::open(pathOf(key), key);
+  std::optional<TreeCacheFile> file = TreeCacheFile::open(pathOf(key, kTreeEnding), key);
   if (file) file->touch();
   return file;
 }
 
 bool TreeCache::store(const TreeCacheKey& key, const CachedMesh& mesh, const CachedTree* tree) const {
   if (!isOn() || mesh.mesh.triangles().size() < settings_.leastTriangles) return false;
+  const fs::path path = pathOf(key, kTreeEnding);
+  return keep(path, [&] { return writeTreeCacheFile(path, key, mesh, tree, settings_.maxBytes) > 0; });
+}
+
+std::optional<std::string> TreeCache::findText(const TreeCacheKey& key) const {
+  if (!isOn() || !distrust().empty()) return std::nullopt;
+  try {
+    const InputFile file(pathOf(key, kTextEnding), FileOwner::User);
+    if (file.size() < kChecksumBytes || file.size() > kChecksumBytes + kMaxCachedTextBytes)
+      return std::nullopt;
+    std::string text(static_cast<std::size_t>(file.size()), '\0');
+    if (!file.readAt(0, std::as_writable_bytes(std::span(text)))) return std::nullopt;
+    const std::string checksum = text.substr(0, kChecksumBytes);
+    text.erase(0, kChecksumBytes);
+    if (checksum != checksumLine(text)) return std::nullopt;
+    file.touch();
+    return text;
+  } catch (const FileError&) {
+    return std::nullopt;
+  }
+}
+
+bool TreeCache::storeText(const TreeCacheKey& key, std::string_view text) const {
+  if (!isOn() || text.size() > kMaxCachedTextBytes || kChecksumBytes + text.size() > settings_.maxBytes)
+    return false;
+  const fs::path path = pathOf(key, kTextEnding);
+  return keep(path, [&] {
+    // As a mesh: the file may be one that only the user can read.
+    AtomicFile out(path, FileAccess::Private, Unfinished::Hidden, Links::Replace);
+    out.write(checksumLine(text));
+    out.write(text);
+    out.commit(AtomicFile::Flush::Later);
+    return true;
+  });
+}
+
+bool TreeCache::keep(const fs::path& file, const std::function<bool()>& write) const {
   try {
     createPrivateFolder(settings_.folder);
     requireTrust();
     closeDefaultFolder(settings_.folder);
-    const fs::path path = pathOf(key);
-    if (writeTreeCacheFile(path, key, mesh, tree, settings_.maxBytes) == 0) return false;
-    evict(path);
+    if (!write()) return false;
+    evict(file);
     return true;
   } catch (const std::exception&) {
     return false;  // Disk full, folder not writable, no memory: the next time takes as long as this time.
@@ -189,7 +241,7 @@ TreeCache::Usage TreeCache::usage() const {
   requireTrust();
   Usage usage;
   for (const Entry& entry : entriesOf(settings_.folder)) {
-    ++usage.files;
+    usage.files += isTree(entry.path) ? 1 : 0;
     usage.bytes += entry.bytes;
   }
   return usage;
@@ -206,7 +258,7 @@ TreeCache::Usage TreeCache::clear() const {
       throw FileError(entry.path.string(), "it cannot be removed: " + failure.message(),
                       "check the permissions of its folder");
     }
-    ++removed.files;
+    removed.files += isTree(entry.path) ? 1 : 0;
     removed.bytes += entry.bytes;
   }
   return removed;

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,12 +13,15 @@
 
 namespace nearfit {
 
-/// Meshes of fewer triangles are not cached: reading the file and building the hierarchy takes some
+/// Mesh files of fewer triangles are not cached: reading the file and building the hierarchy takes some
 /// milliseconds, and thousands of small files would push out the few large ones that take seconds.
 constexpr std::size_t kMinCachedTriangles = 2000;
 
 /// Max size of the cache unless NEARFIT_CACHE_SIZE sets another [bytes].
 constexpr std::uint64_t kDefaultTreeCacheBytes = std::uint64_t{4} << 30;
+
+/// Max size of a text that is kept [bytes]: the tree of an assembly of tens of thousands of instances.
+constexpr std::size_t kMaxCachedTextBytes = std::size_t{16} << 20;
 
 /// Settings of the cache; see treeCacheSettings().
 struct TreeCacheSettings {
@@ -38,7 +43,8 @@ std::optional<std::uint64_t> parseByteSize(const std::string& text);
 /// a folder that is not the user's alone. Empty if all is well or the cache is off.
 std::vector<std::string> treeCacheWarnings();
 
-/// Folder of meshes with their hierarchies, keyed by the content of the mesh files. Any number of threads and
+/// Folder of meshes with their hierarchies, keyed by the content of the files that they come from, and of texts about
+/// those files. Any number of threads and
 /// processes may use one folder at once. The cache can only save time: a damaged file, or one of another
 /// version, counts as absent, and a folder that cannot be written stays as it is. So does one in which other
 /// users could have written, or that belongs to another: nothing in it is used. A folder that is created, and
@@ -60,8 +66,14 @@ class TreeCache {
   /// for whatever reason.
   bool store(const TreeCacheKey& key, const CachedMesh& mesh, const CachedTree* tree) const;
 
+  /// Text cached for the key, as it was stored, and marks it as just used; no value if there is none.
+  std::optional<std::string> findText(const TreeCacheKey& key) const;
+  /// Caches a text, such as the tree of a document, likewise. False if nothing was cached, also if the text has more
+  /// than kMaxCachedTextBytes.
+  bool storeText(const TreeCacheKey& key, std::string_view text) const;
+
   struct Usage {
-    std::size_t files = 0;
+    std::size_t files = 0;  ///< Of meshes; texts count by their bytes.
     std::uint64_t bytes = 0;
   };
   /// Number and size of the cached files. Throws FileError if the folder cannot be read or is not used.
@@ -70,7 +82,9 @@ class TreeCache {
   Usage clear() const;
 
  private:
-  std::filesystem::path pathOf(const TreeCacheKey& key) const;
+  std::filesystem::path pathOf(const TreeCacheKey& key, std::string_view ending) const;
+  /// Has `write` write the file, which returns false if it has not, and makes room for it.
+  bool keep(const std::filesystem::path& file, const std::function<bool()>& write) const;
   void evict(const std::filesystem::path& newest) const;
   void requireTrust() const;
 

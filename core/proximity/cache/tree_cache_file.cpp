@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/files/checksum.h"
+#include "core/math/finite.h"
 #include "core/parallel/parallel_for.h"
 #include "core/proximity/cache/tree_cache_checks.h"
 
@@ -23,6 +24,23 @@ bool isSameFile(const TreeCacheHeader& a, const TreeCacheHeader& b) {
 }
 
 constexpr std::align_val_t kAlignment{kTreeCacheAlignment};
+
+/// The surface; no value if a number of it is not finite or its kind is unknown.
+std::optional<ExactSurface> surfaceOf(const ShapeFace& face) {
+  ExactSurface surface;
+  surface.point = {face.point[0], face.point[1], face.point[2]};
+  surface.direction = {face.direction[0], face.direction[1], face.direction[2]};
+  surface.radius = face.radius;
+  surface.minorRadius = face.minorRadius;
+  surface.halfAngle = face.halfAngle;
+  surface.isHollow = face.isHollow == 1;
+  surface.kind = static_cast<SurfaceKind>(face.kind);
+  const bool isKnown = face.kind <= static_cast<std::uint32_t>(SurfaceKind::Torus) && face.isHollow <= 1;
+  const bool areFinite = isFinite(surface.point) && isFinite(surface.direction) &&
+                         std::isfinite(face.radius) && std::isfinite(face.minorRadius) &&
+                         std::isfinite(face.halfAngle);
+  return isKnown && areFinite ? std::optional(surface) : std::nullopt;
+}
 
 /// Memory for sections, not initialised. Throws std::bad_alloc.
 std::shared_ptr<std::byte> alignedMemory(std::size_t size) {
@@ -141,7 +159,7 @@ std::optional<TreeCacheFile::Searched> TreeCacheFile::searched(const Sections& f
 
 std::optional<CachedMesh> TreeCacheFile::mesh() const {
   if (count(Section::MeshFacts) != 1) return std::nullopt;
-  const std::optional<Sections> sections = read(Section::MeshFacts, Section::VertexFirstEdge);
+  const std::optional<Sections> sections = read(Section::MeshFacts, Section::FaceOfTriangle);
   if (!sections) return std::nullopt;
   const MeshFacts facts = array<MeshFacts>(*sections, Section::MeshFacts)[0];
   TriangleMesh::Arrays arrays = meshArrays(*sections, Section::Vertices, facts.bounds, facts.topology);
@@ -158,7 +176,49 @@ std::optional<CachedMesh> TreeCacheFile::mesh() const {
   for (int k = 0; k < 9; ++k)
     mass.inertia[k / 3][k % 3] = facts.mass[4 + static_cast<std::size_t>(k)];
   mass.basis = static_cast<MassBasis>(facts.massBasis);
-  return CachedMesh{TriangleMesh(std::move(arrays)), std::move(*built), mass};
+  CachedMesh cached{TriangleMesh(std::move(arrays)), std::move(*built), mass};
+  if (!readShape(*sections, cached.mesh.triangles().size(), cached.shape)) return std::nullopt;
+  return cached;
+}
+
+bool TreeCacheFile::readShape(const Sections& from, std::size_t triangles,
+                              std::optional<CachedShape>& shape) const {
+  const std::size_t faces = count(Section::ShapeFaces), colours = count(Section::FaceColours);
+  const bool hasFaces = count(Section::FaceOfTriangle) > 0;
+  if (count(Section::ShapeFacts) == 0) return faces == 0 && colours == 0 && !hasFaces;
+  if (count(Section::ShapeFacts) != 1 || hasFaces != (faces > 0) || (colours != 0 && colours != faces) ||
+      (hasFaces && count(Section::FaceOfTriangle) != triangles))
+    return false;
+  const ShapeFacts facts = array<ShapeFacts>(from, Section::ShapeFacts)[0];
+  for (const double value : {facts.chord, facts.angle, facts.exactVolume}) {
+    if (!(value >= 0.0) || !std::isfinite(value)) return false;
+  }
+  if (facts.isExact > 1) return false;
+  CachedShape read;
+  read.chord = facts.chord;
+  read.angle = facts.angle;
+  read.exactVolume = facts.exactVolume;
+  read.isExact = facts.isExact == 1;
+  if (hasFaces) {
+    const SharedArray<std::uint32_t> faceOf = array<std::uint32_t>(from, Section::FaceOfTriangle);
+    SurfaceFaces surfaces;
+    surfaces.faceOfTriangle.assign(faceOf.view().begin(), faceOf.view().end());
+    if (std::ranges::any_of(surfaces.faceOfTriangle, [faces](std::uint32_t face) { return face >= faces; }))
+      return false;
+    for (const ShapeFace& face : array<ShapeFace>(from, Section::ShapeFaces).view()) {
+      const std::optional<ExactSurface> surface = surfaceOf(face);
+      if (!surface) return false;
+      surfaces.faces.push_back(*surface);
+    }
+    read.surfaces = std::make_shared<const SurfaceFaces>(std::move(surfaces));
+  }
+  for (const ShapeColour& colour : array<ShapeColour>(from, Section::FaceColours).view()) {
+    if (colour.isSet > 1 || !std::ranges::all_of(colour.rgb, [](float c) { return c >= 0.0F && c <= 1.0F; }))
+      return false;
+    read.faceColours.push_back(colour.isSet == 1 ? std::optional(colour.rgb) : std::nullopt);
+  }
+  shape = std::move(read);
+  return true;
 }
 
 std::optional<CachedTree> TreeCacheFile::tree(const TriangleMesh& mesh) const {

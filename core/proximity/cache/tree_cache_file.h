@@ -10,21 +10,34 @@
 #include <vector>
 
 #include "core/files/input_file.h"
+#include "core/mesh/exact_surface.h"
 #include "core/proximity/cache/tree_cache_format.h"
 
 namespace nearfit {
 
 /// Key of a cached mesh.
 struct TreeCacheKey {
-  std::string sha256;          ///< Of the mesh file's bytes, 64 hexadecimal digits.
+  /// Of the mesh file's bytes, or of what names or makes up a shape of a CAD document; 64 hexadecimal digits.
+  std::string sha256;
   double metresPerUnit = 1.0;  ///< Unit of the mesh file [m].
 };
 
-/// Mesh of a mesh file, and what loading found out about it.
+/// What a shape of a CAD document has besides its mesh.
+struct CachedShape {
+  /// In metres, with a face for each triangle of the mesh; null if the shape has no faces of its own.
+  std::shared_ptr<const SurfaceFaces> surfaces;
+  std::vector<std::optional<std::array<float, 3>>> faceColours;  ///< sRGB, for each face; or empty.
+  double chord = 0.0, angle = 0.0;  ///< Tessellation in effect [m, rad].
+  double exactVolume = 0.0;         ///< Of the exact solid [m^3]; 0 if unknown.
+  bool isExact = false;             ///< Came from exact surfaces.
+};
+
+/// Mesh of a mesh file or of a shape of a CAD document, and what loading found out about it.
 struct CachedMesh {
   TriangleMesh mesh;
   MeshBuildReport report;
   MassProperties mass;
+  std::optional<CachedShape> shape = std::nullopt;  ///< No value for a mesh file.
 };
 
 /// Hierarchy of a mesh, and what is found out along with it. Copies share the arrays.
@@ -92,6 +105,8 @@ class TreeCacheFile {
   };
   std::optional<Searched> searched(const Sections& from, const TriangleMesh& mesh) const;
   std::optional<MeshBuildReport> report(const Sections& from, const MeshFacts& facts) const;
+  /// False if the sections of a shape are damaged. No shape if there is none.
+  bool readShape(const Sections& from, std::size_t triangles, std::optional<CachedShape>& shape) const;
 
   std::shared_ptr<const InputFile> file_;
   TreeCacheHeader header_;

@@ -32,9 +32,10 @@ constexpr Sizes elementSizes() {
   sizes[next++] = sizeof(char);
   next = addMeshSizes(sizes, next);
   for (const std::size_t size :
-       {sizeof(TreeFacts), sizeof(NormalConeTree::Node), sizeof(glm::dvec3),
-        sizeof(NormalConeTree::VertexLeaf), sizeof(NormalConeTree::EdgeLeaf),
-        sizeof(NormalConeTree::FaceLeaf), sizeof(std::uint32_t), sizeof(SearchedFacts)})
+       {sizeof(ShapeFacts), sizeof(ShapeFace), sizeof(ShapeColour), sizeof(std::uint32_t), sizeof(TreeFacts),
+        sizeof(NormalConeTree::Node), sizeof(glm::dvec3), sizeof(NormalConeTree::VertexLeaf),
+        sizeof(NormalConeTree::EdgeLeaf), sizeof(NormalConeTree::FaceLeaf), sizeof(std::uint32_t),
+        sizeof(SearchedFacts)})
     sizes[next++] = static_cast<std::uint32_t>(size);
   addMeshSizes(sizes, next);
   return sizes;

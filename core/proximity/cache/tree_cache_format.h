@@ -19,14 +19,15 @@
 ///     checksum of each block of each section, 8 bytes each
 ///     sections in the order of TreeCacheSection, each at a multiple of 64 bytes, zeros between
 ///
-/// Sections are the arrays as they lie in memory: what is read is used in place. In a file without a
-/// hierarchy, the sections from TreeFacts on are empty. The sections from SearchedFacts on hold the mesh of
+/// Sections are the arrays as they lie in memory: what is read is used in place. The sections from ShapeFacts to
+/// FaceOfTriangle are empty but for a shape of a CAD document, and the last three if it has no faces of its own. In a
+/// file without a hierarchy, the sections from TreeFacts on are empty. The sections from SearchedFacts on hold the mesh of
 /// the hierarchy, with its flats merged; they are empty if that is the mesh itself.
 namespace nearfit {
 
 /// Increases by one whenever this layout or the meaning of a field changes. What import and building compute
 /// needs no number: the header carries a fingerprint of their sources (see core/CMakeLists.txt).
-constexpr std::uint32_t kTreeCacheVersion = 4;
+constexpr std::uint32_t kTreeCacheVersion = 5;
 
 /// Bytes of a section that share a checksum: enough work for a thread, and enough blocks in a large file.
 constexpr std::size_t kTreeCacheBlock = std::size_t{2} << 20;
@@ -44,6 +45,10 @@ enum class TreeCacheSection : std::uint8_t {
   TriangleEdges,
   VertexEdges,
   VertexFirstEdge,
+  ShapeFacts,
+  ShapeFaces,
+  FaceColours,  ///< One for each face, or none.
+  FaceOfTriangle,
   TreeFacts,
   Nodes,
   Positions,
@@ -60,7 +65,7 @@ enum class TreeCacheSection : std::uint8_t {
   SearchedVertexEdges,
   SearchedVertexFirstEdge,
 };
-constexpr std::size_t kTreeCacheSections = 24;
+constexpr std::size_t kTreeCacheSections = 28;
 
 /// What a mesh has besides its arrays.
 struct MeshFacts {
@@ -72,6 +77,28 @@ struct MeshFacts {
   double coordinateRounding;  ///< Of MeshBuildReport [m].
 };
 static_assert(sizeof(MeshFacts) == 232);
+
+/// What a shape of a CAD document has besides its mesh and faces.
+struct ShapeFacts {
+  double chord, angle, exactVolume;  ///< See CachedShape.
+  std::uint64_t isExact;             ///< 0 or 1.
+};
+static_assert(sizeof(ShapeFacts) == 32);
+
+/// An ExactSurface, without gaps between its numbers.
+struct ShapeFace {
+  std::array<double, 3> point, direction;
+  double radius, minorRadius, halfAngle;
+  std::uint32_t kind, isHollow;
+};
+static_assert(sizeof(ShapeFace) == 80);
+
+/// Colour of a face; `isSet` is 0 for a face in the part's own colour, else 1.
+struct ShapeColour {
+  std::array<float, 3> rgb;
+  std::uint32_t isSet;
+};
+static_assert(sizeof(ShapeColour) == 16);
 
 /// What a hierarchy has besides its arrays.
 struct TreeFacts {
@@ -96,13 +123,13 @@ struct TreeCacheHeader {
   std::uint32_t version;
   std::array<std::uint32_t, kTreeCacheSections> elementBytes;
   std::array<char, 64> fingerprint;  ///< Fingerprint of the sources that compute the contents.
-  std::array<char, 64> sha256;       ///< Of the mesh file, hexadecimal.
+  std::array<char, 64> sha256;       ///< Of the key, hexadecimal.
   double metresPerUnit;
   std::array<std::uint64_t, kTreeCacheSections> counts;  ///< Number of elements, by section.
   std::uint64_t checksum;                                ///< See treeCacheChecksum().
   std::array<char, 32> reserved;
 };
-static_assert(sizeof(TreeCacheHeader) == 480);
+static_assert(sizeof(TreeCacheHeader) == 528);
 
 /// Where each section and its blocks begin, as follows from the numbers of elements.
 struct TreeCacheLayout {

@@ -32,6 +32,8 @@ class Gatherer {
     contents[next_] = std::as_bytes(values);
     counts[next_++] = values.size();
   }
+  /// Leaves sections empty.
+  void skip(std::size_t count) { next_ += count; }
   template <typename T>
   void add(const SharedArray<T>& values) {
     add(values.view());
@@ -58,6 +60,46 @@ void addMesh(Gatherer& out, const MeshFacts& facts, const std::string& warnings,
   out.add(std::span(&facts, 1));
   out.add(std::span(warnings.data(), warnings.size()));
   addArrays(out, mesh.arrays());
+}
+
+/// Sections of a shape of a CAD document, which must live until they are written.
+struct ShapeSections {
+  ShapeFacts facts{};
+  std::vector<ShapeFace> faces;
+  std::vector<ShapeColour> colours;
+};
+constexpr std::size_t kShapeSections = 4;
+
+ShapeFace faceOf(const ExactSurface& surface) {
+  return {{surface.point.x, surface.point.y, surface.point.z},
+          {surface.direction.x, surface.direction.y, surface.direction.z},
+          surface.radius,
+          surface.minorRadius,
+          surface.halfAngle,
+          static_cast<std::uint32_t>(surface.kind),
+          surface.isHollow ? 1U : 0U};
+}
+
+ShapeSections sectionsOf(const CachedShape& shape) {
+  ShapeSections sections;
+  sections.facts = {shape.chord, shape.angle, shape.exactVolume, shape.isExact ? 1U : 0U};
+  if (shape.surfaces != nullptr) {
+    for (const ExactSurface& surface : shape.surfaces->faces)
+      sections.faces.push_back(faceOf(surface));
+  }
+  for (const auto& colour : shape.faceColours)
+    sections.colours.push_back({colour.value_or(std::array<float, 3>{}), colour ? 1U : 0U});
+  return sections;
+}
+
+void addShape(Gatherer& out, const ShapeSections& sections, const CachedShape& shape) {
+  out.add(std::span(&sections.facts, 1));
+  out.add(std::span<const ShapeFace>(sections.faces));
+  out.add(std::span<const ShapeColour>(sections.colours));
+  if (shape.surfaces != nullptr)
+    out.add(std::span<const std::uint32_t>(shape.surfaces->faceOfTriangle));
+  else
+    out.skip(1);
 }
 
 void addTree(Gatherer& out, const TreeFacts& facts, const NormalConeTree::Arrays& tree) {
@@ -116,6 +158,11 @@ std::uint64_t writeTreeCacheFile(const std::filesystem::path& file, const TreeCa
   const TreeFacts treeFacts = tree != nullptr ? treeFactsOf(*tree) : TreeFacts{};
   Gatherer gathered;
   addMesh(gathered, meshFacts, warnings, mesh.mesh);
+  const ShapeSections shape = mesh.shape ? sectionsOf(*mesh.shape) : ShapeSections{};
+  if (mesh.shape)
+    addShape(gathered, shape, *mesh.shape);
+  else
+    gathered.skip(kShapeSections);
   SearchedFacts searchedFacts{};
   if (tree != nullptr) {
     addTree(gathered, treeFacts, tree->tree.arrays());
