@@ -66,7 +66,8 @@ void addCacheCommand(CLI::App& program) {
   command->add_flag("--json", options->isJson, "Print one JSON object");
   command->footer(fmt::format(
       "The cache holds mesh files of {} triangles or more and all shapes of CAD documents, with the data\n"
-      "derived from them, by file content, unit and fineness, so that the next program that opens a mesh need not read and build it again.\n"
+      "derived from them, by file content, unit and fineness, so that the next program that opens one need\n"
+      "not read and build it again.\n"
       "Cached data is checked before it is used and rebuilt if anything is wrong: clearing the cache\n"
       "costs only time. When the limit is reached, the entries unused for longest are deleted.\n"
       "Only you can read what is kept. A folder that another user owns or can write to is not used.\n"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -30,5 +31,9 @@ struct SurfaceFaces {
   /// Index into `faces` for each triangle of the mesh.
   std::vector<std::uint32_t> faceOfTriangle;
 };
+
+/// Turns faces inside out where a mesh has had most of their triangles turned round.
+/// @param agreement  For each face: sum over its triangles of the product of new and old normal; below 0: turned.
+void turnFaces(std::span<ExactSurface> faces, std::span<const double> agreement) noexcept;
 
 }  // namespace nearfit

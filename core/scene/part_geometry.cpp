@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +17,8 @@
 #include "core/parallel/parallel_for.h"
 #include "core/parallel/shared_progress.h"
 #include "core/proximity/cache/tree_cache.h"
+#include "core/scene/cached_geometry.h"
+#include "core/scene/document_load.h"
 
 namespace nearfit {
 namespace {
@@ -23,6 +27,8 @@ namespace {
 constexpr double kHashed = 0.05, kImported = 0.95;
 /// Progress after building a mesh that is to be repaired.
 constexpr double kImportedToRepair = 0.5;
+/// Progress of loading shapes after which their repairs follow.
+constexpr double kShapesLoaded = 0.7;
 /// Share of repairGeometry() that goes into the repairs; the rest measures what they changed.
 constexpr double kRepaired = 0.6, kCompared = 0.95;
 
@@ -44,97 +50,144 @@ class TaskProgress {
   double done_ = 0.0;
 };
 
-/// A repaired mesh is cached like that of another file.
-TreeCacheKey cacheKeyOf(const std::string& sha256, double metresPerUnit, const MeshRepairs& repairs) {
-  if (repairs.empty()) return {sha256, metresPerUnit};
-  return {sha256OfBytes(sha256 + ' ' + textOf(repairs)), metresPerUnit};
-}
-
-PartGeometryPtr makeGeometry(const MeshSource& source, std::string sha256, CachedMesh&& loaded) {
-  // Look again when the hierarchy is needed: another process may have stored it by then.
-  const TreeCacheKey key = cacheKeyOf(sha256, source.metresPerUnit, source.repairs);
-  const auto surface = std::make_shared<SurfaceOnDemand>();
-  const auto find = [key, surface, mesh = loaded.mesh]() -> std::optional<NormalConeTree> {
-    const std::optional<TreeCacheFile> file = TreeCache().find(key);
-    std::optional<CachedTree> kept = file ? file->tree(mesh) : std::nullopt;
-    if (!kept) return std::nullopt;
-    surface->setSolid(kept->isSolid);
-    return std::move(kept->tree);
-  };
-  // Determine solidity together with the hierarchy: waiting is acceptable here, and the result is cached.
-  const auto keep = [key, loaded, surface](const NormalConeTree& tree) {
-    const CachedTree kept{tree, surface->isSolid(tree)};
-    TreeCache().store(key, loaded, &kept);
-  };
-  const double rounding = loaded.report.coordinateRounding;
-  return std::make_shared<const PartGeometry>(
-      PartGeometry{normalisedPath(source.file), std::move(sha256), source.metresPerUnit,
-                   std::move(loaded.mesh), std::move(loaded.report), loaded.mass,
-                   std::make_shared<HierarchyOnDemand>(find, keep, rounding), surface, source.repairs});
-}
-
-/// Replaces what the report says of defects that the mesh may no longer have.
-void renewWarnings(const MeshTopology& before, const MeshTopology& after, MeshBuildReport& report) {
-  const std::vector<std::string> old = topologyWarnings(before), now = topologyWarnings(after);
-  std::erase_if(report.warnings, [&](const std::string& w) { return std::ranges::count(old, w) > 0; });
-  report.warnings.insert(report.warnings.end(), now.begin(), now.end());
-}
-
-/// Runs repairs of a file's mesh; its errors name the file.
-RepairedMesh repaired(const std::filesystem::path& file, const TriangleMesh& mesh, const MeshRepairs& repairs,
-                      const ProgressCallback& progress) {
-  try {
-    return repairMesh(mesh, repairs, progress);
-  } catch (const UsageError&) {
-    throw;
-  } catch (const Cancelled&) {
-    throw;
-  } catch (const Error& error) {
-    throw FileError(file.string(), error.problem(), error.remedy());
-  }
-}
-
 /// Null if the file's SHA-256 is not the required one.
 PartGeometryPtr load(const MeshSource& source, const ProgressCallback& progress) {
   checkMetresPerUnit(source.metresPerUnit);
   checkRepairs(source.repairs);
-  const TreeCache cache;
+  if (!source.shape.empty()) {
+    throw UsageError(source.file.string(),
+                     fmt::format("it has no shape \"{}\": only CAD documents have shapes", source.shape),
+                     "name the file alone");
+  }
   const auto isWanted = [&](const std::string& sha256) {
     return source.sha256.empty() || sha256 == source.sha256;
   };
   checkMeshFile(source.file);
   std::string sha256 = sha256OfFile(source.file, stageOf(progress, 0.0, kHashed));
   if (!isWanted(sha256)) return nullptr;
-  std::optional<CachedMesh> kept;
-  if (const auto file = cache.find(cacheKeyOf(sha256, source.metresPerUnit, source.repairs)))
-    kept = file->mesh();
+  PartGeometry geometry;
+  geometry.file = normalisedPath(source.file);
+  geometry.sha256 = geometry.cacheName = std::move(sha256);
+  geometry.metresPerUnit = source.metresPerUnit;
+  geometry.repairs = source.repairs;
+  std::optional<CachedMesh> kept = cachedMeshOf(geometry);
   if (!kept) {
     MeshBuildOptions options;
     options.metresPerUnit = source.metresPerUnit;
     const double imports = source.repairs.empty() ? kImported : kImportedToRepair;
     ImportedMesh imported = importMesh(source.file, options, stageCallback(progress, kHashed, imports));
     // The file may have changed since it was hashed. Its content when it was read counts.
-    sha256 = std::move(imported.sha256);
-    if (!isWanted(sha256)) return nullptr;
+    geometry.sha256 = geometry.cacheName = std::move(imported.sha256);
+    if (!isWanted(geometry.sha256)) return nullptr;
     kept = CachedMesh{std::move(imported.mesh), std::move(imported.report), {}};
-    if (!source.repairs.empty()) {
-      const ProgressCallback stage = stageCallback(progress, kImportedToRepair, kImported);
-      RepairedMesh result = repaired(source.file, kept->mesh, source.repairs, stage);
-      renewWarnings(kept->mesh.topology(), result.mesh.topology(), kept->report);
-      kept->mesh = std::move(result.mesh);
-    }
-    kept->mass = massProperties(kept->mesh);
-    cache.store(cacheKeyOf(sha256, source.metresPerUnit, source.repairs), *kept, nullptr);
+    if (source.repairs.empty())
+      kept->mass = massProperties(kept->mesh);
+    else
+      repairCached(source.file, source.repairs, stageCallback(progress, kImportedToRepair, kImported), *kept);
+    storeMesh(geometry, *kept);
   }
   stageOf(progress, kImported, 1.0)(1.0);
-  return makeGeometry(source, std::move(sha256), std::move(*kept));
+  return cachedGeometry(std::move(geometry), std::move(*kept));
 }
+
+/// Time that exact surfaces take for each byte, against a mesh file's. Roughly.
+constexpr double kDocumentCost = 20.0;
 
 /// Rough cost of loading the file.
 double weightOf(const std::filesystem::path& file) {
   std::error_code failure;
   const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
-  return failure ? 1.0 : 1.0 + static_cast<double>(bytes);
+  const double cost = isDocumentFile(file) ? kDocumentCost : 1.0;
+  return failure ? 1.0 : 1.0 + cost * static_cast<double>(bytes);
+}
+
+/// Sources that are loaded as one: a mesh file, or shapes of one document.
+struct LoadGroup {
+  std::vector<std::size_t> sources;  ///< Indices.
+  bool isDocument;
+};
+
+std::vector<LoadGroup> groupsOf(std::span<const MeshSource> sources) {
+  using Key = std::tuple<std::filesystem::path, double, std::string, double, double>;
+  std::vector<LoadGroup> groups;
+  std::map<Key, std::size_t> known;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const MeshSource& source = sources[i];
+    const bool isDocument = isDocumentFile(source.file);
+    std::size_t group = groups.size();
+    if (isDocument) {
+      group = known
+                  .try_emplace({normalisedPath(source.file), source.metresPerUnit, source.sha256,
+                                source.tessellation.chord, source.tessellation.angle},
+                               group)
+                  .first->second;
+    }
+    if (group == groups.size()) groups.push_back({{}, isDocument});
+    groups[group].sources.push_back(i);
+  }
+  return groups;
+}
+
+/// The geometry with repairs besides, from the cache if it is there.
+PartGeometryPtr withRepairs(const PartGeometry& original, const MeshRepairs& repairs,
+                            const ProgressCallback& progress) {
+  checkRepairs(repairs);
+  PartGeometry geometry = namedAs(original, repairs);
+  std::optional<CachedMesh> kept = cachedMeshOf(geometry);
+  if (!kept) {
+    kept = toCache(original);
+    repairCached(original.file, repairs, progress, *kept);
+    storeMesh(geometry, *kept);
+  }
+  return cachedGeometry(std::move(geometry), std::move(*kept));
+}
+
+/// Loads shapes of one document, and makes their repairs. Equal sources share a geometry.
+std::vector<LoadedPart> loadDocumentShapes(std::span<const MeshSource> shapes,
+                                           const ProgressCallback& progress) {
+  const bool areRepaired =
+      std::ranges::any_of(shapes, [](const MeshSource& s) { return !s.repairs.empty(); });
+  std::vector<LoadedPart> parts =
+      loadShapes(shapes, stageCallback(progress, 0.0, areRepaired ? kShapesLoaded : 1.0));
+  std::map<std::pair<std::string, std::string>, LoadedPart> known;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const MeshSource& source = shapes[i];
+    if (source.repairs.empty() || parts[i].geometry == nullptr) continue;
+    const auto [it, isNew] = known.try_emplace({source.shape, textOf(source.repairs)});
+    if (isNew) {
+      try {
+        it->second.geometry =
+            withRepairs(*parts[i].geometry, source.repairs, stageCallback(progress, kShapesLoaded, 1.0));
+      } catch (const Cancelled&) {
+        throw;
+      } catch (...) {
+        it->second.problem = std::current_exception();
+      }
+    }
+    parts[i] = it->second;
+  }
+  return parts;
+}
+
+void loadGroup(const LoadGroup& group, std::span<const MeshSource> sources, const ProgressCallback& progress,
+               std::vector<LoadedPart>& loaded) {
+  if (group.isDocument) {
+    std::vector<MeshSource> shapes;
+    for (const std::size_t i : group.sources)
+      shapes.push_back(sources[i]);
+    std::vector<LoadedPart> parts = loadDocumentShapes(shapes, progress);
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      loaded[group.sources[k]] = std::move(parts[k]);
+    return;
+  }
+  const std::size_t i = group.sources.front();
+  try {
+    loaded[i].geometry = load(sources[i], progress);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (...) {
+    loaded[i].problem = std::current_exception();
+  }
 }
 
 }  // namespace
@@ -155,45 +208,41 @@ void checkMetresPerUnit(double metresPerUnit) {
 
 PartGeometryPtr loadPartGeometry(const std::filesystem::path& file, double metresPerUnit,
                                  const ProgressCallback& progress) {
-  return load({file, metresPerUnit, {}}, progress);
+  const MeshSource source{file, metresPerUnit};
+  if (!isDocumentFile(file)) return load(source, progress);
+  const LoadedPart loaded = loadShapes({&source, 1}, progress).front();
+  if (loaded.problem) std::rethrow_exception(loaded.problem);
+  return loaded.geometry;
 }
 
 GeometryRepair repairGeometry(const PartGeometry& original, const MeshRepairs& repairs,
                               const ProgressCallback& progress) {
-  MeshSource source{original.file, original.metresPerUnit, original.sha256, original.repairs};
-  source.repairs.insert(source.repairs.end(), repairs.begin(), repairs.end());
-  checkRepairs(source.repairs);
-  const ProgressCallback repairing = stageCallback(progress, 0.0, kRepaired),
-                         comparing = stageCallback(progress, kRepaired, kCompared);
-  RepairedMesh result = repaired(original.file, original.mesh, repairs, repairing);
-  GeometryRepair repair{nullptr, std::move(result.steps),
-                        changeBetween(original.mesh, result.mesh, comparing)};
-  if (result.mesh.sharesArraysOf(original.mesh)) return repair;
-  CachedMesh made{std::move(result.mesh), original.report, {}};
-  renewWarnings(original.mesh.topology(), made.mesh.topology(), made.report);
-  made.mass = massProperties(made.mesh);
-  TreeCache().store(cacheKeyOf(original.sha256, source.metresPerUnit, source.repairs), made, nullptr);
-  repair.geometry = makeGeometry(source, original.sha256, std::move(made));
+  MeshRepairs all = original.repairs;
+  all.insert(all.end(), repairs.begin(), repairs.end());
+  checkRepairs(all);
+  CachedMesh made = toCache(original);
+  GeometryRepair repair;
+  repair.steps = repairCached(original.file, repairs, stageCallback(progress, 0.0, kRepaired), made);
+  repair.change = changeBetween(original.mesh, made.mesh, stageCallback(progress, kRepaired, kCompared));
+  if (made.mesh.sharesArraysOf(original.mesh)) return repair;
+  PartGeometry geometry = namedAs(original, all);
+  storeMesh(geometry, made);
+  repair.geometry = cachedGeometry(std::move(geometry), std::move(made));
   stageOf(progress, 0.0, 1.0)(1.0);
   return repair;
 }
 
 std::vector<LoadedPart> loadPartGeometries(std::span<const MeshSource> sources,
                                            const ProgressCallback& progress) {
+  const std::vector<LoadGroup> groups = groupsOf(sources);
   std::vector<double> weights;
-  for (const MeshSource& source : sources)
-    weights.push_back(weightOf(source.file));
+  for (const LoadGroup& group : groups)
+    weights.push_back(weightOf(sources[group.sources.front()].file));
   SharedProgress all(progress, std::max(1.0, std::accumulate(weights.begin(), weights.end(), 0.0)));
   std::vector<LoadedPart> loaded(sources.size());
-  parallelFor(sources.size(), [&](std::size_t i) {
+  parallelFor(groups.size(), [&](std::size_t i) {
     TaskProgress own(all, weights[i]);
-    try {
-      loaded[i].geometry = load(sources[i], own.callback());
-    } catch (const Cancelled&) {
-      throw;
-    } catch (...) {
-      loaded[i].problem = std::current_exception();
-    }
+    loadGroup(groups[i], sources, own.callback(), loaded);
     own.callback()(1.0);
   });
   return loaded;

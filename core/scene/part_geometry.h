@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/import/cad_document.h"
 #include "core/import/mesh_import.h"
 #include "core/mesh/check/mesh_repair.h"
 #include "core/mesh/exact_surface.h"
@@ -51,8 +53,9 @@ class SurfaceOnDemand {
   std::shared_ptr<const UnsidedSurface> surface_;
 };
 
-/// A mesh file and what is derived from it: mass properties on loading, hierarchy and unsided surface on
-/// demand. Otherwise immutable. Shared by all parts with the same file, unit and repairs.
+/// A mesh file, or a shape of a CAD document, and what is derived from it: mass properties on loading, hierarchy and
+/// unsided surface on demand. Otherwise immutable. Shared by all parts with the same file, unit, shape, tessellation and
+/// repairs.
 struct PartGeometry {
   std::filesystem::path file;  ///< As normalisedPath() returns it.
   std::string sha256;          ///< Of the file's bytes, hexadecimal.
@@ -65,8 +68,21 @@ struct PartGeometry {
   std::shared_ptr<SurfaceOnDemand> surfaceOnDemand = std::make_shared<SurfaceOnDemand>();
   /// Made to the mesh after it was read; the file stays as it is.
   MeshRepairs repairs = {};
-  /// Faces of a CAD model with their exact surfaces, in the part's frame; null if none are known.
-  std::shared_ptr<const SurfaceFaces> surfaces = nullptr;
+  /// Names the mesh without repairs in the cache, together with its unit.
+  std::string cacheName = {};
+
+  std::string shapeKey = {};  ///< CadShape::key; empty for a mesh file.
+  /// As asked for: what the shape is loaded by. Zeros: chosen from its size.
+  Tessellation tessellation = {};
+  /// In effect; zeros for a mesh file.
+  Tessellation effectiveTessellation = {};
+  /// Exact surfaces [m, part's frame] and the face of each triangle of the mesh; null if there are none.
+  std::shared_ptr<const SurfaceFaces> surfaces = {};
+  /// For each of the faces, or empty: std::nullopt for a face in the part's colour.
+  std::vector<std::optional<CadColour>> faceColours = {};
+  bool isExact = false;      ///< Came from exact surfaces, so that it can be refined.
+  bool hasOwnUnit = false;   ///< The file stores its unit: metresPerUnit is 1 and cannot be changed.
+  double exactVolume = 0.0;  ///< Of the exact solid [m^3]; 0 if unknown.
 
   /// Hierarchy for queries, of the mesh with its flats merged (tree().mesh()); built on first use (seconds for
   /// millions of triangles; call prepareHierarchies() first if the caller must not wait). Thread-safe. Real-time
@@ -85,16 +101,20 @@ std::filesystem::path normalisedPath(const std::filesystem::path& file);
 
 using PartGeometryPtr = std::shared_ptr<const PartGeometry>;
 
-/// Imports a mesh and computes its mass properties, or takes both from the cache (tree_cache.h). Blocking:
-/// not for the GUI or servo thread. Throws FileError, UsageError (invalid unit), Cancelled.
+/// Imports a mesh and computes its mass properties, or takes both from the cache (tree_cache.h). Of a CAD document, it
+/// loads the only shape. Blocking: not for the GUI or servo thread. Throws FileError, UsageError (invalid unit, or a
+/// document of several shapes: names them), Cancelled.
 PartGeometryPtr loadPartGeometry(const std::filesystem::path& file, double metresPerUnit,
                                  const ProgressCallback& progress = {});
 
-/// A mesh file to load.
+/// A mesh file, or a shape of a CAD document, to load.
 struct MeshSource {
   std::filesystem::path file;
-  double metresPerUnit = 1.0;
-  std::string sha256;        ///< Required SHA-256; empty: any.
+  double metresPerUnit = 1.0;  ///< Ignored for a document that stores its unit.
+  std::string sha256 = {};     ///< Required SHA-256; empty: any.
+  /// Key of the document's shape; empty: its only one. Must be empty for a mesh file.
+  std::string shape = {};
+  Tessellation tessellation = {};
   MeshRepairs repairs = {};  ///< To be made to the mesh; see PartGeometry::repairs.
 };
 
@@ -117,8 +137,9 @@ struct LoadedPart {
   std::exception_ptr problem;  ///< What loadPartGeometry() throws.
 };
 
-/// Loads sources in parallel, each like loadPartGeometry(). Results are in the order of `sources`.
-/// Throws only Cancelled.
+/// Loads sources in parallel, each like loadPartGeometry(). Imports a document once for each tessellation, whatever
+/// the number of its shapes, and not at all if the cache has them. Results are in the order of `sources`; equal sources
+/// of a document share a geometry. Throws only Cancelled.
 std::vector<LoadedPart> loadPartGeometries(std::span<const MeshSource> sources,
                                            const ProgressCallback& progress = {});
 

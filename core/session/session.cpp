@@ -76,6 +76,15 @@ std::vector<PartId> Session::addParts(const std::vector<NewPart>& parts) {
   return added.parts;
 }
 
+SceneNodes Session::addNodes(const NewNodes& nodes) {
+  if (nodes.parts.empty() && nodes.groups.empty()) return {};
+  Scene next = scene();
+  const SceneNodes added = addTo(next, nodes);
+  const std::string label = "Add " + nameOf(next, added);
+  commit(std::move(next), label);
+  return added;
+}
+
 void Session::setMovingPart(std::optional<PartId> id) {
   if (scene().movingPart() == id && !scene().movingGroup()) return;
   Scene next = scene();

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/scene/new_nodes.h"
 #include "core/scene/scene.h"
 #include "core/scene/scene_tree.h"
 #include "core/session/scene_events.h"
@@ -36,6 +37,9 @@ class Session {
   };
   /// Adds several parts in one step, at the identity pose; otherwise like addPart().
   std::vector<PartId> addParts(const std::vector<NewPart>& parts);
+  /// Adds parts and groups, such as the instances and assemblies of documents, in one step; see addTo(). Returns those
+  /// at the top level.
+  SceneNodes addNodes(const NewNodes& nodes);
   /// Copies a part in place: unlocked, without joints, in the next colour, with a number appended to its name.
   PartId duplicatePart(PartId id) { return duplicate({{id}, {}}).parts.front(); }
   /// Deletes a part. If it is the moving part, the scene no longer has one.
@@ -63,6 +67,8 @@ class Session {
   /// Replaces geometry by the same meshes in another unit, in one step. Poses stay; pivots, and the points of joints on
   /// the parts, scale with the meshes.
   void rescaleParts(const std::vector<NewGeometry>& parts);
+  /// Replaces geometry by the same shapes in another tessellation, in one step. Poses, pivots and joints stay.
+  void refineParts(const std::vector<NewGeometry>& parts);
   /// Also works on locked parts: visibility is how a part is shown, not what it is.
   void setVisible(PartId id, bool visible) { setVisible(std::vector{id}, visible); }
   void setLocked(PartId id, bool locked) { setLocked({{id}, {}}, locked); }

@@ -159,6 +159,11 @@ void Session::rescaleParts(const std::vector<NewGeometry>& parts) {
   changeUnlocked(partsOf(parts), "Change the unit of", rescale, scaleJoints);
 }
 
+void Session::refineParts(const std::vector<NewGeometry>& parts) {
+  const std::map<PartId, PartGeometryPtr> geometries = byPart(parts);
+  changeUnlocked(partsOf(parts), "Refine", [&](Part& part) { part.geometry = geometries.at(part.id); });
+}
+
 void Session::isolate(const std::vector<PartId>& ids) {
   Scene next = scene();
   next.isolate(ids);

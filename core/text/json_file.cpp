@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// Line and column, as "12:7", of a 1-based byte offset; columns count characters.
-std::string lineAndColumn(const std::vector<char>& text, std::size_t byte) {
+std::string lineAndColumn(std::string_view text, std::size_t byte) {
   std::size_t line = 1, column = 1;
   for (std::size_t i = 0; i + 1 < byte && i < text.size(); ++i) {
     if (text[i] == '\n') {
@@ -44,7 +44,7 @@ constexpr const char* kRestore = "correct the file or restore a copy";
 /// through all members of the parent after each object, which takes the square of their number.
 class JsonBuilder final : public nlohmann::json_sax<Json> {
  public:
-  JsonBuilder(const std::filesystem::path& file, const std::vector<char>& text, const JsonLimits& limits)
+  JsonBuilder(const std::filesystem::path& file, std::string_view text, const JsonLimits& limits)
       : file_(file), text_(text), limits_(limits) {}
 
   /// The whole value, once it has been parsed.
@@ -125,7 +125,7 @@ class JsonBuilder final : public nlohmann::json_sax<Json> {
   [[noreturn]] void fail(const std::string& problem) const { throw FileError(file_.string(), problem); }
 
   const std::filesystem::path& file_;
-  const std::vector<char>& text_;
+  std::string_view text_;
   const JsonLimits& limits_;
   Json root_;
   std::vector<Json*> open_;  ///< Objects and arrays that have not ended, outermost first.
@@ -141,6 +141,12 @@ Json readJsonFile(const std::filesystem::path& file, const JsonLimits& limits) {
                     "check that it is the right file");
   }
   const std::vector<char> text = readWholeFile(file);
+  return readJsonText({text.data(), text.size()}, file, limits);
+}
+
+Json readJsonText(std::string_view text, const std::filesystem::path& file, const JsonLimits& limits) {
+  if (text.size() > limits.maxBytes)
+    throw FileError(file.string(), fmt::format("it is larger than {} bytes", limits.maxBytes));
   JsonBuilder builder(file, text, limits);
   // The builder throws on all errors.
   static_cast<void>(Json::sax_parse(text.begin(), text.end(), &builder));

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -18,6 +19,10 @@ struct JsonLimits {
 /// Reads a JSON file (RFC 8259). Refuses objects with duplicate keys, since parsers differ in which one they
 /// keep. O(n log n). Throws FileError with line and column for invalid JSON, or naming the limit exceeded.
 nlohmann::json readJsonFile(const std::filesystem::path& file, const JsonLimits& limits = {});
+
+/// Reads JSON from memory, as readJsonFile() does from a file; `file` only appears in messages.
+nlohmann::json readJsonText(std::string_view text, const std::filesystem::path& file,
+                            const JsonLimits& limits = {});
 
 /// A value in a JSON file, with its path there (`parts[3].position`), for readers that trust nothing. Each
 /// call checks the type it returns and throws FileError naming file and path. The JSON value and the file's
