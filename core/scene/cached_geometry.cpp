@@ -27,10 +27,11 @@ std::size_t leastCachedOf(const PartGeometry& named) {
   return named.shapeKey.empty() ? kMinCachedTriangles : 0;
 }
 
-/// A repaired mesh is cached like that of another file.
-TreeCacheKey cacheKeyOf(const PartGeometry& named) {
-  if (named.repairs.empty()) return {named.cacheName, named.metresPerUnit};
-  return {sha256OfBytes(named.cacheName + ' ' + textOf(named.repairs)), named.metresPerUnit};
+/// A repaired mesh is cached like that of another file; a mesh that came from no file is not.
+std::optional<TreeCacheKey> cacheKeyOf(const PartGeometry& named) {
+  if (named.cacheName.empty()) return std::nullopt;
+  if (named.repairs.empty()) return TreeCacheKey{named.cacheName, named.metresPerUnit};
+  return TreeCacheKey{sha256OfBytes(named.cacheName + ' ' + textOf(named.repairs)), named.metresPerUnit};
 }
 
 /// Replaces what the report says of defects that the mesh may no longer have.
@@ -89,22 +90,24 @@ PartGeometry namedAs(const PartGeometry& geometry, MeshRepairs repairs) {
 }
 
 std::optional<CachedMesh> cachedMeshOf(const PartGeometry& named) {
-  const std::optional<TreeCacheFile> file = TreeCache().find(cacheKeyOf(named));
+  const std::optional<TreeCacheKey> key = cacheKeyOf(named);
+  const std::optional<TreeCacheFile> file = key ? TreeCache().find(*key) : std::nullopt;
   std::optional<CachedMesh> kept = file ? file->mesh() : std::nullopt;
   if (kept && kept->shape.has_value() == named.shapeKey.empty()) return std::nullopt;
   return kept;
 }
 
 void storeMesh(const PartGeometry& named, const CachedMesh& mesh) {
-  cacheFor(leastCachedOf(named)).store(cacheKeyOf(named), mesh, nullptr);
+  if (const std::optional<TreeCacheKey> key = cacheKeyOf(named))
+    cacheFor(leastCachedOf(named)).store(*key, mesh, nullptr);
 }
 
 PartGeometryPtr cachedGeometry(PartGeometry named, CachedMesh loaded) {
   // Look again when the hierarchy is needed: another process may have stored it by then.
-  const TreeCacheKey key = cacheKeyOf(named);
+  const std::optional<TreeCacheKey> key = cacheKeyOf(named);
   const auto surface = std::make_shared<SurfaceOnDemand>();
   const auto find = [key, surface, mesh = loaded.mesh]() -> std::optional<NormalConeTree> {
-    const std::optional<TreeCacheFile> file = TreeCache().find(key);
+    const std::optional<TreeCacheFile> file = key ? TreeCache().find(*key) : std::nullopt;
     std::optional<CachedTree> kept = file ? file->tree(mesh) : std::nullopt;
     if (!kept) return std::nullopt;
     surface->setSolid(kept->isSolid);
@@ -113,7 +116,7 @@ PartGeometryPtr cachedGeometry(PartGeometry named, CachedMesh loaded) {
   // Determine solidity together with the hierarchy: waiting is acceptable here, and the result is cached.
   const auto keep = [key, least = leastCachedOf(named), loaded, surface](const NormalConeTree& tree) {
     const CachedTree kept{tree, surface->isSolid(tree)};
-    cacheFor(least).store(key, loaded, &kept);
+    if (key) cacheFor(least).store(*key, loaded, &kept);
   };
   named.hierarchy = std::make_shared<HierarchyOnDemand>(find, keep, loaded.report.coordinateRounding);
   named.surfaceOnDemand = surface;

@@ -36,7 +36,11 @@
 ///         "name": "Peg",                                     unique, not empty
 ///         "mesh": "meshes/peg.stl",                          absolute, or from the scene file's folder
 ///         "sha256": "9f86d0...",                             of the mesh file's bytes
-///         "metresPerUnit": 0.001,                            of the mesh file's coordinates
+///         "metresPerUnit": 0.001,                            of the mesh file's coordinates; 1 for a CAD document that
+///                                                            stores its unit
+///         "shape": {"key": "0:1:1:2",                        of a CAD document: which of its shapes, and the
+///                   "chord": 0, "angle": 0},                 tessellation that was asked for [m, rad], 0 if it is
+///                                                            chosen from the shape's size; null for a mesh file
 ///         "repairs": [{                                      made to the mesh after it is read, in this order
 ///           "kind": "weld",                                  or "stitch", "clean", "orient", "fillHoles",
 ///                                                            "dropShells": see mesh_repair.h
@@ -73,7 +77,7 @@
 /// and haptic_limits.h.
 ///
 /// Older versions can still be read:
-/// - Version 5 has no "repairs" and no "movingGroup": a part is in hand, or none.
+/// - Version 5 has no "shape" (all files are mesh files), no "repairs" and no "movingGroup": a part is in hand, or none.
 /// - Version 4 also has no "joints".
 /// - Version 3 also has no "pivot": parts turn about their centre of mass.
 /// - Version 2 also has no "groups", and parts have no "opacity", "group" and "wasVisible": they are opaque
@@ -84,14 +88,14 @@ namespace nearfit {
 
 /// Version that this program writes, and oldest version that it reads.
 constexpr int kSceneFileVersion = 6, kOldestSceneFileVersion = 1;
-/// Limits on the size of a scene file [bytes] and on its number of parts.
-constexpr std::size_t kMaxSceneFileBytes = 8U << 20U;
+/// Limits on the size of a scene file [bytes], which leaves room for the largest number of parts, and on that number.
+constexpr std::size_t kMaxSceneFileBytes = 16U << 20U;
 constexpr std::size_t kMaxSceneFileParts = 10'000;
 
 /// Folder that relative mesh paths start from: the scene file's own, with symbolic links resolved.
 std::filesystem::path meshFolder(const std::filesystem::path& sceneFile);
 
-/// Reads a scene file and loads its meshes, each file and unit once. Checks every field before loading any
+/// Reads a scene file and loads its meshes, each file, unit, shape and tessellation once. Checks every field before loading any
 /// mesh; error messages name the field (`parts[3].position`) or the line and column.
 /// @param changedMeshes  If not null, mesh files whose SHA-256 differs from the scene's are loaded as they
 ///                       are now and listed here. If null, such a file is an error.

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/scene/document_load.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_file_haptics.h"
 #include "core/text/json_file.h"
@@ -37,6 +38,8 @@ struct PartEntry {
   std::filesystem::path mesh;
   std::string sha256;
   double metresPerUnit;
+  std::string shape = {};  ///< Of a CAD document; else empty.
+  Tessellation tessellation = {};
   MeshRepairs repairs = {};
 };
 
@@ -160,6 +163,19 @@ MeshRepairs readRepairs(const JsonField& field) {
   return repairs;
 }
 
+void readShape(const JsonField& field, PartEntry& entry) {
+  const bool isDocument = isDocumentFile(entry.mesh);
+  if (field.isNull()) {
+    if (isDocument) field.fail("the part's file is a CAD document", "name one of its shapes");
+    return;
+  }
+  if (!isDocument) field.fail("the part's file is not a CAD document", "give null");
+  entry.shape = field.at("key").text(kMaxShapeKeyBytes);
+  if (entry.shape.empty()) field.at("key").fail("it is empty", "name a shape of the document");
+  entry.tessellation = {field.at("chord").number(), field.at("angle").number()};
+  checked(field, [&] { checkTessellation(entry.tessellation); });
+}
+
 PartEntry readPart(const JsonField& field, std::size_t groupCount, const fs::path& folder, int version) {
   PartEntry entry{field, {}, {}, {}, readSha256(field.at("sha256")), field.at("metresPerUnit").number()};
   checked(field.at("metresPerUnit"), [&] { checkMetresPerUnit(entry.metresPerUnit); });
@@ -178,7 +194,10 @@ PartEntry readPart(const JsonField& field, std::size_t groupCount, const fs::pat
   entry.part.isLocked = field.at("locked").isTrue();
   if (version >= 3) readPlaceAndLook(field, groupCount, entry);
   if (version >= 4) entry.part.pivot = readPivot(field.at("pivot"));
-  if (version >= 6) entry.repairs = readRepairs(field.at("repairs"));
+  if (version >= 6) {
+    readShape(field.at("shape"), entry);
+    entry.repairs = readRepairs(field.at("repairs"));
+  }
   return entry;
 }
 
@@ -337,7 +356,7 @@ void addJoints(Scene& scene, const std::vector<JointEntry>& entries) {
   }
 }
 
-/// Loads meshes, each file and unit once for the same repairs.
+/// Loads meshes, each file, unit, shape and tessellation once for the same repairs.
 class GeometryLoader {
  public:
   /// @param changed  Receives the files whose SHA-256 differs from the scene's; if null, such files fail.
@@ -350,7 +369,7 @@ class GeometryLoader {
       if (!indices_.emplace(keyOf(entry), sources.size()).second) continue;
       checkExists(entry);
       sources.push_back({entry.mesh, entry.metresPerUnit, changed != nullptr ? std::string() : entry.sha256,
-                         entry.repairs});
+                         entry.shape, entry.tessellation, entry.repairs});
     }
     loaded_ = loadPartGeometries(sources, progress);
   }
@@ -370,9 +389,14 @@ class GeometryLoader {
   }
 
  private:
-  using Key = std::tuple<fs::path, double, std::string>;
+  using Key = std::tuple<fs::path, double, std::string, double, double, std::string>;
   static Key keyOf(const PartEntry& entry) {
-    return {entry.mesh, entry.metresPerUnit, textOf(entry.repairs)};
+    return {entry.mesh,
+            entry.metresPerUnit,
+            entry.shape,
+            entry.tessellation.chord,
+            entry.tessellation.angle,
+            textOf(entry.repairs)};
   }
 
   static void checkExists(const PartEntry& entry) {

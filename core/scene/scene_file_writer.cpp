@@ -54,6 +54,14 @@ Json repairsJson(const MeshRepairs& repairs) {
   return json;
 }
 
+/// Null for a mesh file.
+Json shapeJson(const PartGeometry& geometry) {
+  if (geometry.shapeKey.empty()) return {};
+  return {{"key", geometry.shapeKey},
+          {"chord", geometry.tessellation.chord},
+          {"angle", geometry.tessellation.angle}};
+}
+
 Json partJson(const Part& part, const GroupIndices& groups, const std::filesystem::path& sceneFile) {
   const glm::dvec3& t = part.worldFromPart.translation;
   const glm::dquat& q = part.worldFromPart.rotation;
@@ -62,6 +70,7 @@ Json partJson(const Part& part, const GroupIndices& groups, const std::filesyste
   json["mesh"] = meshPath(part.geometry->file, sceneFile);
   json["sha256"] = part.geometry->sha256;
   json["metresPerUnit"] = part.geometry->metresPerUnit;
+  json["shape"] = shapeJson(*part.geometry);
   json["repairs"] = repairsJson(part.geometry->repairs);
   json["position"] = {t.x, t.y, t.z};
   json["quaternion"] = {q.w, q.x, q.y, q.z};

@@ -61,6 +61,53 @@ TEST(MeshBuilder, ShatteredBoxIsWeldedToEightVertices) {
   EXPECT_THAT(report.warnings, SizeIs(0));
 }
 
+TEST(MeshBuilder, EachTriangleKnowsThePolygonThatItCameFrom) {
+  // A face without area, a square, a face that is not finite, a triangle whose edge is cracked by the square, so that it
+  // is cut in two, one that repeats it, and another one.
+  const double nan = std::nan("");
+  const PolygonSoup soup = soupOf({{0, 0, 0},
+                                   {1, 0, 0},
+                                   {1, 1, 0},
+                                   {0, 1, 0},
+                                   {nan, 0, 0},
+                                   {2, 0, 0},
+                                   {0, -1, 0}},
+                                  {{0, 0, 1}, {0, 1, 2, 3}, {0, 1, 4}, {5, 0, 6}, {0, 6, 5}, {1, 5, 2}});
+  MeshBuildReport report;
+  std::vector<std::uint32_t> polygonOf;
+  const TriangleMesh mesh = buildMesh(soup, {}, report, {}, &polygonOf);
+  ASSERT_EQ(polygonOf.size(), mesh.triangles().size());
+  EXPECT_EQ(report.stitchedEdges, 3U);
+  // By where its middle is: the square, the triangle below the axis and the one to the right.
+  std::vector<int> counts(6, 0);
+  for (std::size_t i = 0; i < polygonOf.size(); ++i) {
+    const Triangle& t = mesh.triangles()[i];
+    const glm::dvec3 middle = (mesh.vertices()[t[0]] + mesh.vertices()[t[1]] + mesh.vertices()[t[2]]) / 3.0;
+    const std::uint32_t expected = middle.y < 0.0 ? 3U : middle.x < 1.0 ? 1U : 5U;
+    EXPECT_EQ(polygonOf[i], expected) << i;
+    ++counts[polygonOf[i]];
+  }
+  EXPECT_EQ(counts[1], 2);
+  EXPECT_EQ(counts[3], 2);
+  EXPECT_EQ(counts[5], 1);
+}
+
+TEST(MeshBuilder, TrianglesOfASwapCountToTheFaceThatTheyCover) {
+  // A line along the diagonal of a square, between its two halves.
+  const PolygonSoup soup = soupOf({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
+                                  {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}});
+  MeshBuildReport report;
+  std::vector<std::uint32_t> polygonOf;
+  const TriangleMesh mesh = buildMesh(soup, {}, report, {}, &polygonOf);
+  EXPECT_EQ(report.swappedFaces, 1U);
+  ASSERT_EQ(mesh.triangles().size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Triangle& t = mesh.triangles()[i];
+    const glm::dvec3 middle = (mesh.vertices()[t[0]] + mesh.vertices()[t[1]] + mesh.vertices()[t[2]]) / 3.0;
+    EXPECT_EQ(polygonOf[i] == 0U, middle.x > middle.y) << i;
+  }
+}
+
 TEST(MeshBuilder, UnitScalesToMetres) {
   const TriangleMesh mesh = build(test::soupOf(test::boxMesh({10, 20, 30})), {.metresPerUnit = 1e-3});
   EXPECT_NEAR(mesh.bounds().upper.z, 0.015, 1e-17);

@@ -250,6 +250,7 @@ TEST_F(SceneFileFaults, Version2WithTheSpringsOfVersion1SaysWhatIsMissing) {
 TEST_F(SceneFileFaults, WhatVersion6SaysIsIgnoredInVersion5) {
   json_ = version5();
   EXPECT_EQ(errorWith("/movingGroup", "none"), "");
+  EXPECT_EQ(errorWith("/parts/0/shape", "none"), "");
 }
 
 TEST_F(SceneFileFaults, AMovingGroupThatCannotMoveIsRefused) {
@@ -269,6 +270,20 @@ TEST_F(SceneFileFaults, AMovingGroupThatCannotMoveIsRefused) {
   json_["parts"][1]["locked"] = false;
   json_["groups"][2]["locked"] = true;
   EXPECT_THAT(errorWith("/movingGroup", 1), HasSubstr("is locked and cannot be moved"));
+}
+
+TEST_F(SceneFileFaults, ShapesAndKindsOfFilesMustFit) {
+  const Json shape = {{"key", "1"}, {"chord", 0}, {"angle", 0}};
+  EXPECT_THAT(errorWithout("/parts/1", "shape"), HasSubstr("parts[1].shape: it is missing"));
+  EXPECT_THAT(errorWith("/parts/1/shape", shape), HasSubstr("parts[1].shape: the part's file is not a CAD document"));
+  json_["parts"][1]["mesh"] = "meshes/peg.step";
+  EXPECT_THAT(errorOf(json_.dump()), HasSubstr("parts[1].shape: the part's file is a CAD document"));
+  json_["parts"][1]["shape"] = shape;
+  EXPECT_THAT(errorWith("/parts/1/shape/key", ""), HasSubstr("parts[1].shape.key: it is empty"));
+  EXPECT_THAT(errorWith("/parts/1/shape/key", std::string(1001, 'k')), HasSubstr("longer than 1000 bytes"));
+  EXPECT_THAT(errorWith("/parts/1/shape/chord", -1), HasSubstr("parts[1].shape: -1 m is out of range"));
+  EXPECT_THAT(errorWith("/parts/1/shape/angle", 2), HasSubstr("parts[1].shape: 2 rad is out of range"));
+  EXPECT_THAT(errorOf(json_.dump()), HasSubstr("peg.step is missing"));
 }
 
 TEST_F(SceneFileFaults, WhatVersion5SaysIsIgnoredInVersion4) {

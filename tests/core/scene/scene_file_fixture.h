@@ -23,7 +23,7 @@ class SceneFileFixture : public ::testing::Test {
     const auto peg = folder_.write("meshes/peg.obj", objText(tetrahedronMesh(1)));
     Part part;
     part.geometry =
-        loadPartGeometries(std::vector{MeshSource{hole, 0.001, {}, unusualRepairs()}}).front().geometry;
+        loadPartGeometries(std::vector{MeshSource{.file = hole, .metresPerUnit = 0.001, .repairs = unusualRepairs()}}).front().geometry;
     part.name = "Hole \xC3\xA4";
     part.wasVisible = false;
     const PartId holeId = scene_.add(part);
@@ -93,8 +93,10 @@ class SceneFileFixture : public ::testing::Test {
   nlohmann::json version5() const {
     nlohmann::json json = json_;
     json["nearfit"] = 5;
-    for (nlohmann::json& part : json["parts"])
+    for (nlohmann::json& part : json["parts"]) {
       part.erase("repairs");
+      part.erase("shape");
+    }
     json.erase("movingGroup");
     return json;
   }

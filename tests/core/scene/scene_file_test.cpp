@@ -67,6 +67,8 @@ void expectSameScene(const Scene& a, const Scene& b) {
     EXPECT_EQ(p.geometry->sha256, q.geometry->sha256);
     EXPECT_EQ(p.geometry->metresPerUnit, q.geometry->metresPerUnit);
     EXPECT_TRUE(p.geometry->repairs == q.geometry->repairs) << p.name;
+    EXPECT_EQ(p.geometry->shapeKey, q.geometry->shapeKey);
+    EXPECT_EQ(p.geometry->tessellation, q.geometry->tessellation);
     EXPECT_EQ(a.movingPart() == p.id, b.movingPart() == q.id);
   }
   EXPECT_TRUE(a.haptics() == b.haptics());
@@ -242,7 +244,7 @@ TEST_F(SceneFile, RepairsAreMadeToWhatIsReadAndTheFileStays) {
   EXPECT_EQ(test::readBytes(mesh), text);
 }
 
-TEST_F(SceneFile, Version5KeepsAllThatItSaysAndHasNeitherRepairsNorMovingGroup) {
+TEST_F(SceneFile, Version5KeepsAllThatItSaysAndHasNoShapesRepairsOrMovingGroup) {
   EXPECT_EQ(errorOf(version5().dump()), "");
   const Scene scene = readSceneFile(file_);
   dropRepairs();

@@ -357,6 +357,55 @@ TEST(Session, HistorySaysHowFarAPartWent) {
   EXPECT_EQ(steps[4], (Session::Step{"Hide Peg", 0.0, 0.0}));
 }
 
+TEST(Session, AssemblyIsAddedInOneStep) {
+  Session session;
+  NewNodes nodes;
+  nodes.groups = {{"vise", {}}, {"jaws", 0}};
+  nodes.parts = {{nullptr, "body", {}, {}, 0}, {nullptr, "jaw", {}, {}, 1}, {nullptr, "jaw", {}, {}, 1}};
+  const SceneNodes added = session.addNodes(nodes);
+  ASSERT_EQ(added.groups.size(), 1U);
+  EXPECT_TRUE(added.parts.empty());
+  EXPECT_EQ(session.undoText(), "Add vise");
+  EXPECT_EQ(session.scene().parts().size(), 3U);
+  EXPECT_EQ(session.scene().parts()[2]->name, "jaw 2");
+  EXPECT_EQ(session.scene().groups().size(), 2U);
+  session.undo();
+  EXPECT_FALSE(session.canUndo());
+  EXPECT_TRUE(session.scene().parts().empty() && session.scene().groups().empty());
+  session.addNodes({});
+  EXPECT_FALSE(session.canUndo());
+}
+
+TEST(Session, NodesThatCannotAllBeAddedChangeNothing) {
+  Session session;
+  NewNodes nodes;
+  nodes.groups = {{"vise", {}}};
+  nodes.parts = {{nullptr, "", {}, {}, 0}};
+  EXPECT_THROW(session.addNodes(nodes), UsageError);
+  EXPECT_TRUE(session.scene().groups().empty());
+  EXPECT_FALSE(session.canUndo());
+}
+
+TEST(Session, RefiningKeepsPosesAndPivotsAndIsOneStep) {
+  Session session;
+  const PartGeometryPtr coarse = std::make_shared<const PartGeometry>(),
+                        fine = std::make_shared<const PartGeometry>();
+  const PartId a = session.addPart(coarse, "Pin", {{1, 0, 0, 0}, {0.1, 0.0, 0.0}});
+  const PartId b = session.addPart(coarse, "Pin");
+  session.setPivots({{a, glm::dvec3(0.01, 0.0, 0.0)}});
+  session.refineParts({{a, fine}, {b, fine}});
+  EXPECT_EQ(session.undoText(), "Refine 2 parts");
+  EXPECT_EQ(session.scene().get(a).geometry, fine);
+  EXPECT_EQ(session.scene().get(b).geometry, fine);
+  EXPECT_EQ(session.scene().get(a).worldFromPart.translation.x, 0.1);
+  EXPECT_EQ(session.scene().get(a).pivot, glm::dvec3(0.01, 0.0, 0.0));
+  session.undo();
+  EXPECT_EQ(session.scene().get(a).geometry, coarse);
+  session.setLocked(b, true);
+  EXPECT_THROW(session.refineParts({{a, fine}, {b, fine}}), UsageError);
+  EXPECT_EQ(session.scene().get(a).geometry, coarse);
+}
+
 TEST(Session, GoToIsTheSameAsUndoAndRedoAndTellsOnce) {
   Session session, other;
   for (Session* s : {&session, &other}) {

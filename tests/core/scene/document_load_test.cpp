@@ -1,0 +1,382 @@
+#include "core/scene/document_load.h"
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/files/sha256.h"
+#include "tests/support/cached_meshes.h"
+#include "tests/support/documents.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/scoped_variable.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nearfit::document_load_test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
+
+/// A document in a file of its own, an importer that makes it, and a cache of its own.
+class DocumentLoad : public testing::Test {
+ protected:
+  test::TemporaryFolder folder_, cache_;
+  const test::ScopedVariable variable_{"NEARFIT_CACHE", cache_.path().string()};
+  const std::filesystem::path file_ = folder_.write("vise.step", "the vise");
+};
+
+std::string messageOf(const std::exception_ptr& problem) {
+  try {
+    if (problem) std::rethrow_exception(problem);
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+  return "";
+}
+
+/// Max distance of the triangles' corners from the exact surface of their face [m].
+double offSurface(const PartGeometry& geometry) {
+  double off = 0.0;
+  for (std::size_t i = 0; i < geometry.mesh.triangles().size(); ++i) {
+    const ExactSurface& surface = geometry.surfaces->faces[geometry.surfaces->faceOfTriangle[i]];
+    for (const std::uint32_t v : geometry.mesh.triangles()[i]) {
+      const glm::dvec3 d = geometry.mesh.vertices()[v] - surface.point;
+      const double along = glm::dot(d, surface.direction);
+      off = std::max(off, surface.kind == SurfaceKind::Plane
+                              ? std::abs(along)
+                              : std::abs(glm::length(d - along * surface.direction) - surface.radius));
+    }
+  }
+  return off;
+}
+
+TEST_F(DocumentLoad, DocumentComesWithItsTreeAndEachShapeOnce) {
+  const test::FakeImporter importer;
+  const LoadedDocument document = loadDocument(file_, 1.0);
+  EXPECT_EQ(document.file, std::filesystem::canonical(file_));
+  EXPECT_FALSE(document.isFromCache);
+  ASSERT_EQ(document.nodes.size(), 6U);
+  EXPECT_EQ(document.nodes[2].name, "jaws");
+  EXPECT_EQ(document.nodes[3].shape, 1);
+  ASSERT_EQ(document.shapes.size(), 2U);
+  const PartGeometry &body = *document.shapes[0], &pin = *document.shapes[1];
+  EXPECT_EQ(body.shapeKey, "body");
+  EXPECT_EQ(body.sha256, sha256OfFile(file_));
+  EXPECT_EQ(body.metresPerUnit, 1.0);
+  EXPECT_TRUE(body.hasOwnUnit && body.isExact);
+  EXPECT_NEAR(body.mass.volume, 0.1 * 0.06 * 0.04, 1e-15);
+  EXPECT_NEAR(pin.exactVolume, std::numbers::pi * 0.005 * 0.005 * 0.03, 1e-15);
+  EXPECT_EQ(pin.tessellation, Tessellation{});
+  EXPECT_NEAR(pin.effectiveTessellation.chord, 1e-4, 1e-12);
+  ASSERT_EQ(body.faceColours.size(), 6U);
+  EXPECT_EQ(body.faceColours.back(), (CadColour{1.0F, 0.0F, 0.0F}));
+}
+
+TEST_F(DocumentLoad, TrianglesLieOnTheExactSurfacesOfTheirFaces) {
+  const test::FakeImporter importer;
+  for (const PartGeometryPtr& shape : loadDocument(file_, 1.0).shapes) {
+    ASSERT_NE(shape->surfaces, nullptr);
+    ASSERT_EQ(shape->surfaces->faceOfTriangle.size(), shape->mesh.triangles().size());
+    EXPECT_LT(offSurface(*shape), 1e-12) << shape->shapeKey;
+  }
+}
+
+TEST_F(DocumentLoad, FacesOfAShapeThatWasInsideOutAreTurnedWithItsTriangles) {
+  const test::FakeImporter importer([](const Tessellation& tessellation) {
+    CadDocument document;
+    document.shapes = {test::cylinderShape("pin", 0.005, 0.03, tessellation)};
+    document.nodes = {test::instanceNode("pin", -1, 0)};
+    for (Triangle& t : document.shapes[0].triangles)
+      std::swap(t[0], t[1]);
+    for (ExactSurface& surface : document.shapes[0].surfaces.faces) {
+      surface.isHollow = surface.kind == SurfaceKind::Cylinder;
+      if (surface.kind == SurfaceKind::Plane) surface.direction = -surface.direction;
+    }
+    return document;
+  });
+  const LoadedDocument document = loadDocument(file_, 1.0);
+  const PartGeometry& pin = *document.shapes[0];
+  EXPECT_TRUE(pin.report.turnedInsideOut);
+  EXPECT_FALSE(pin.surfaces->faces[0].isHollow);
+  EXPECT_EQ(pin.surfaces->faces[1].direction, glm::dvec3(0.0, 0.0, 1.0));
+  EXPECT_EQ(pin.surfaces->faces[2].direction, glm::dvec3(0.0, 0.0, -1.0));
+}
+
+TEST_F(DocumentLoad, SecondOpeningNeedsNoImporterAndIsTheSame) {
+  const test::FakeImporter importer;
+  const LoadedDocument first = loadDocument(file_, 1.0), second = loadDocument(file_, 1.0);
+  EXPECT_EQ(importer.runs(), 1);
+  EXPECT_TRUE(second.isFromCache);
+  ASSERT_EQ(second.nodes.size(), first.nodes.size());
+  for (std::size_t i = 0; i < first.nodes.size(); ++i) {
+    EXPECT_EQ(second.nodes[i].name, first.nodes[i].name);
+    EXPECT_EQ(second.nodes[i].parent, first.nodes[i].parent);
+    EXPECT_EQ(second.nodes[i].shape, first.nodes[i].shape);
+    EXPECT_EQ(second.nodes[i].colour, first.nodes[i].colour);
+    EXPECT_EQ(second.nodes[i].parentFromNode.translation, first.nodes[i].parentFromNode.translation);
+    EXPECT_EQ(second.nodes[i].parentFromNode.rotation, first.nodes[i].parentFromNode.rotation);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    const PartGeometry &a = *first.shapes[i], &b = *second.shapes[i];
+    EXPECT_TRUE(test::areSame(CachedMesh{a.mesh, a.report, a.mass}, CachedMesh{b.mesh, b.report, b.mass}));
+    EXPECT_EQ(a.shapeKey, b.shapeKey);
+    EXPECT_EQ(a.sha256, b.sha256);
+    EXPECT_EQ(a.effectiveTessellation, b.effectiveTessellation);
+    EXPECT_EQ(a.faceColours, b.faceColours);
+    EXPECT_EQ(a.exactVolume, b.exactVolume);
+    EXPECT_EQ(a.isExact, b.isExact);
+    EXPECT_EQ(a.surfaces->faceOfTriangle, b.surfaces->faceOfTriangle);
+    ASSERT_EQ(a.surfaces->faces.size(), b.surfaces->faces.size());
+    for (std::size_t face = 0; face < a.surfaces->faces.size(); ++face) {
+      EXPECT_EQ(a.surfaces->faces[face].kind, b.surfaces->faces[face].kind);
+      EXPECT_EQ(a.surfaces->faces[face].point, b.surfaces->faces[face].point);
+      EXPECT_EQ(a.surfaces->faces[face].direction, b.surfaces->faces[face].direction);
+      EXPECT_EQ(a.surfaces->faces[face].radius, b.surfaces->faces[face].radius);
+      EXPECT_EQ(a.surfaces->faces[face].isHollow, b.surfaces->faces[face].isHollow);
+    }
+  }
+}
+
+TEST_F(DocumentLoad, HierarchyOfASmallShapeIsKeptToo) {
+  const test::FakeImporter importer;
+  loadDocument(file_, 1.0).shapes[0]->tree();
+  const LoadedDocument again = loadDocument(file_, 1.0);
+  again.shapes[0]->tree();
+  EXPECT_TRUE(again.shapes[0]->hierarchy->origin()->isFromCache);
+}
+
+TEST_F(DocumentLoad, OtherContentAndOtherTessellationAreImportedAnew) {
+  const test::FakeImporter importer;
+  const std::size_t coarse = loadDocument(file_, 1.0, {1e-3, 0.0}).shapes[1]->mesh.triangles().size();
+  EXPECT_GT(loadDocument(file_, 1.0, {1e-5, 0.0}).shapes[1]->mesh.triangles().size(), 4 * coarse);
+  EXPECT_EQ(importer.runs(), 2);
+  folder_.write("vise.step", "the vise, changed");
+  EXPECT_FALSE(loadDocument(file_, 1.0, {1e-3, 0.0}).isFromCache);
+}
+
+TEST_F(DocumentLoad, DamagedCacheCostsTimeOnly) {
+  const test::FakeImporter importer;
+  loadDocument(file_, 1.0);
+  std::vector<std::filesystem::path> names;
+  for (const auto& entry : std::filesystem::directory_iterator(cache_.path()))
+    names.push_back(entry.path().filename());
+  ASSERT_EQ(names.size(), 3U) << "two shapes and the tree";
+  for (const std::filesystem::path& name : names) {
+    const std::string bytes = test::readBytes(cache_.path() / name);
+    for (const std::size_t place : {std::size_t{3}, bytes.size() / 2}) {
+      std::string damaged = bytes;
+      damaged[place] = static_cast<char>(damaged[place] ^ 0x10);
+      cache_.write(name, damaged);
+      const int before = importer.runs();
+      const LoadedDocument document = loadDocument(file_, 1.0);
+      EXPECT_EQ(importer.runs(), before + 1) << name << " " << place;
+      EXPECT_EQ(document.nodes.size(), 6U);
+      EXPECT_NEAR(document.shapes[0]->mass.volume, 0.1 * 0.06 * 0.04, 1e-15);
+    }
+  }
+}
+
+TEST_F(DocumentLoad, DocumentOfSeveralFilesIsImportedEachTimeAndKeepsItsHierarchies) {
+  // Its own SHA-256 does not say what the files beside it hold.
+  const test::FakeImporter importer;
+  const std::filesystem::path gltf = folder_.write("vise.gltf", "{}");
+  const LoadedDocument first = loadDocument(gltf, 1.0);
+  first.shapes[1]->tree();
+  const LoadedDocument second = loadDocument(gltf, 1.0);
+  EXPECT_EQ(importer.runs(), 2);
+  second.shapes[1]->tree();
+  EXPECT_TRUE(second.shapes[1]->hierarchy->origin()->isFromCache);
+}
+
+TEST_F(DocumentLoad, AllShapesOfADocumentComeFromOneRun) {
+  const test::FakeImporter importer;
+  const std::vector<MeshSource> sources{{file_, 1.0, {}, "pin"},
+                                        {file_, 1.0, {}, "body"},
+                                        {file_, 1.0, {}, "pin"},
+                                        {file_, 1.0, {}, "nut"},
+                                        {file_, 1.0, {}, "pin", {1e-5, 0.0}}};
+  const std::vector<LoadedPart> loaded = loadPartGeometries(sources);
+  // One for each tessellation.
+  EXPECT_EQ(importer.runs(), 2);
+  ASSERT_TRUE(loaded[0].geometry && loaded[1].geometry && loaded[4].geometry);
+  EXPECT_EQ(loaded[0].geometry, loaded[2].geometry);
+  EXPECT_EQ(loaded[1].geometry->shapeKey, "body");
+  EXPECT_GT(loaded[4].geometry->mesh.triangles().size(), loaded[0].geometry->mesh.triangles().size());
+  EXPECT_THAT(messageOf(loaded[3].problem), HasSubstr("it holds no shape \"nut\""));
+}
+
+TEST_F(DocumentLoad, OnlyWhatTheCacheLacksIsImported) {
+  const test::FakeImporter importer;
+  loadPartGeometries(std::vector<MeshSource>{{file_, 1.0, {}, "pin"}});
+  const auto loaded = loadPartGeometries(std::vector<MeshSource>{{file_, 1.0, {}, "pin"}, {file_, 1.0, {}, "body"}});
+  EXPECT_TRUE(loaded[0].geometry && loaded[1].geometry);
+  ASSERT_EQ(importer.asked().size(), 2U);
+  EXPECT_THAT(importer.asked()[0].onlyShapes, UnorderedElementsAre("pin"));
+  EXPECT_THAT(importer.asked()[1].onlyShapes, UnorderedElementsAre("body"));
+  loadPartGeometries(std::vector<MeshSource>{{file_, 1.0, {}, "body"}});
+  EXPECT_EQ(importer.runs(), 2);
+}
+
+TEST_F(DocumentLoad, RequiredContentThatIsNotThereGivesNothing) {
+  const test::FakeImporter importer;
+  const auto loaded = loadPartGeometries(std::vector<MeshSource>{{file_, 1.0, std::string(64, '0'), "pin"}});
+  EXPECT_TRUE(loaded[0].geometry == nullptr && loaded[0].problem == nullptr);
+  EXPECT_EQ(importer.runs(), 0);
+}
+
+TEST_F(DocumentLoad, FileAloneNamesTheOnlyShape) {
+  {
+    const test::FakeImporter importer([](const Tessellation&) {
+      CadDocument document;
+      document.shapes = {test::boxShape("block", {0.1, 0.2, 0.3})};
+      document.nodes = {test::instanceNode("block", -1, 0)};
+      return document;
+    });
+    EXPECT_EQ(loadPartGeometry(file_, 0.001)->shapeKey, "block");
+    EXPECT_NEAR(loadPartGeometry(file_, 0.001)->mass.volume, 0.006, 1e-12) << "the file stores its unit";
+    EXPECT_EQ(importer.runs(), 1);
+  }
+  const std::filesystem::path other = folder_.write("other.step", "of two shapes");
+  const test::FakeImporter importer;
+  try {
+    loadPartGeometry(other, 1.0);
+    FAIL();
+  } catch (const UsageError& e) {
+    EXPECT_THAT(e.what(), AllOf(HasSubstr("2 shapes"), HasSubstr("\"body\""), HasSubstr("\"pin\"")));
+  }
+}
+
+TEST_F(DocumentLoad, FormatWithoutAUnitIsReadInTheUnitThatIsGiven) {
+  const test::FakeImporter importer([](const Tessellation& tessellation) {
+    CadDocument document;
+    document.hasUnit = false;
+    document.shapes = {test::cylinderShape("pin", 5.0, 30.0, tessellation)};
+    document.nodes = {test::instanceNode("pin", -1, 0, {{1, 0, 0, 0}, {100.0, 0.0, 0.0}})};
+    return document;
+  });
+  const std::filesystem::path brep = folder_.write("pin.brep", "a pin");
+  const LoadedDocument document = loadDocument(brep, 0.001, {1e-5, 0.0});
+  const PartGeometry& pin = *document.shapes[0];
+  EXPECT_FALSE(pin.hasOwnUnit);
+  EXPECT_NEAR(document.nodes[0].parentFromNode.translation.x, 0.1, 1e-15);
+  EXPECT_NEAR(pin.mesh.bounds().upper.z, 0.015, 1e-15);
+  EXPECT_NEAR(pin.surfaces->faces[0].radius, 0.005, 1e-15);
+  EXPECT_LT(offSurface(pin), 1e-12);
+  EXPECT_NEAR(pin.exactVolume, std::numbers::pi * 0.005 * 0.005 * 0.03, 1e-18);
+  EXPECT_NEAR(pin.effectiveTessellation.chord, 1e-5, 1e-15);
+  ASSERT_EQ(importer.asked().size(), 1U);
+  EXPECT_NEAR(importer.asked()[0].tessellation.chord, 0.01, 1e-12) << "in the file's units";
+}
+
+TEST_F(DocumentLoad, ShapeWithoutAnAreaIsLeftOutWithAWarning) {
+  const test::FakeImporter importer([](const Tessellation&) {
+    CadDocument document = test::viseDocument();
+    document.shapes[0].vertices.assign(document.shapes[0].vertices.size(), glm::dvec3(0.0));
+    return document;
+  });
+  for (const bool isFromCache : {false, true}) {
+    const LoadedDocument document = loadDocument(file_, 1.0);
+    EXPECT_EQ(document.isFromCache, isFromCache);
+    EXPECT_EQ(document.shapes[0], nullptr);
+    EXPECT_NE(document.shapes[1], nullptr);
+    ASSERT_EQ(document.warnings.size(), 1U);
+    EXPECT_THAT(document.warnings[0], AllOf(HasSubstr("\"body\""), HasSubstr("left out")));
+  }
+}
+
+/// What loading a document says that `damage` was done to.
+std::string errorAfter(const std::filesystem::path& file, const std::function<void(CadDocument&)>& damage) {
+  const test::FakeImporter importer([&damage](const Tessellation&) {
+    CadDocument document = test::viseDocument();
+    damage(document);
+    return document;
+  });
+  try {
+    loadDocument(file, 1.0);
+  } catch (const FileError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST_F(DocumentLoad, DocumentsThatMakeNoSenseAreRefused) {
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[1].parent = 1; }), HasSubstr("in none that comes before"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[0].parent = -2; }), HasSubstr("in none that comes before"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[1].shape = 2; }), HasSubstr("shape that does not exist"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[1].parentFromNode.translation.x = NAN; }),
+              HasSubstr("out of range"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[1].parentFromNode.rotation = {0, 0, 0, 0}; }),
+              HasSubstr("its length is 0"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[4].colour = CadColour{2.0F, 0.0F, 0.0F}; }),
+              HasSubstr("colour that is none"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.shapes[1].key = "body"; }), HasSubstr("no name of its own"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.shapes[1].key = ""; }), HasSubstr("no name of its own"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.hasUnit = false; }), HasSubstr("unit of length"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.shapes.clear(), d.nodes.clear(); }),
+              HasSubstr("it holds no shape"));
+  const auto spoilAll = [](const std::function<void(CadShape&)>& spoil) {
+    return [spoil](CadDocument& d) { std::ranges::for_each(d.shapes, spoil); };
+  };
+  EXPECT_THAT(errorAfter(file_, spoilAll([](CadShape& s) { s.surfaces.faceOfTriangle[0] = 100; })),
+              HasSubstr("do not fit its triangles"));
+  EXPECT_THAT(errorAfter(file_, spoilAll([](CadShape& s) { s.surfaces.faceOfTriangle.pop_back(); })),
+              HasSubstr("do not fit its triangles"));
+  EXPECT_THAT(errorAfter(file_, spoilAll([](CadShape& s) { s.faceColours.resize(1); })),
+              HasSubstr("do not fit its triangles"));
+  EXPECT_THAT(errorAfter(file_, spoilAll([](CadShape& s) { s.triangles[0][0] = 1'000'000; })),
+              HasSubstr("refers to vertex 1000000"));
+}
+
+TEST_F(DocumentLoad, NamesThatAreNotTextAreShownAsBytes) {
+  const test::FakeImporter importer([](const Tessellation&) {
+    CadDocument document = test::viseDocument();
+    document.nodes[0].name = "v\xFFise\n";
+    document.nodes[1].name = std::string(500, 'x');
+    return document;
+  });
+  for (int i = 0; i < 2; ++i) {
+    const LoadedDocument document = loadDocument(file_, 1.0);
+    EXPECT_EQ(document.nodes[0].name, "v\\xffise\\x0a");
+    EXPECT_EQ(document.nodes[1].name.size(), 200U);
+  }
+}
+
+TEST_F(DocumentLoad, TessellationsOutOfRangeAreRefused) {
+  const test::FakeImporter importer;
+  for (const Tessellation wrong : {Tessellation{-1.0, 0.0}, {1e-9, 0.0}, {1e9, 0.0}, {std::nan(""), 0.0},
+                                   {0.0, -0.1}, {0.0, 1e-4}, {0.0, 3.0}, {0.0, std::nan("")}}) {
+    EXPECT_THROW(loadDocument(file_, 1.0, wrong), UsageError) << wrong.chord << " " << wrong.angle;
+  }
+  EXPECT_EQ(importer.runs(), 0);
+}
+
+TEST_F(DocumentLoad, ProgressRisesToOneAndCanStopTheWork) {
+  const test::FakeImporter importer;
+  double last = 0.0;
+  loadDocument(file_, 1.0, {}, [&](double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+    return true;
+  });
+  EXPECT_EQ(last, 1.0);
+  EXPECT_THROW(loadDocument(file_, 1.0, {1e-3, 0.0}, [](double fraction) { return fraction < 0.3; }), Cancelled);
+  EXPECT_THROW(loadPartGeometries(std::vector<MeshSource>{{file_, 1.0, {}, "pin", {1e-4, 0.0}}},
+                                  [](double fraction) { return fraction < 0.3; }),
+               Cancelled);
+}
+
+TEST(DocumentFormats, AllButBrepAndMeshesStoreTheirUnit) {
+  for (const char* file : {"a.step", "a.STP", "a.iges", "a.gltf", "a.glb", "a.3mf", "a.urdf", "a.step.gz"})
+    EXPECT_TRUE(storesUnit(file)) << file;
+  for (const char* file : {"a.brep", "a.brep.gz", "a.stl", "a.obj", "a"})
+    EXPECT_FALSE(storesUnit(file)) << file;
+}
+
+}  // namespace
+}  // namespace nearfit::document_load_test
