@@ -11,9 +11,6 @@
 
 namespace nearfit::cli {
 
-/// Help text on the values of --unit.
-inline constexpr const char* kUnitHelp =
-    "Unit of the mesh files' coordinates: m, cm, mm, um, in, ft, or a number of metres";
 /// Help text on the form of a pose.
 inline constexpr const char* kPoseHelp = "tx,ty,tz,qw,qx,qy,qz: translation [m] and unit quaternion";
 

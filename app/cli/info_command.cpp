@@ -1,3 +1,4 @@
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,10 +11,13 @@
 
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
+#include "app/cli/document_info.h"
+#include "app/cli/document_options.h"
 #include "app/cli/joints_text.h"
 #include "app/cli/output.h"
 #include "core/base/error.h"
 #include "core/report/lmd_set.h"
+#include "core/scene/document_load.h"
 #include "core/scene/part_geometry.h"
 #include "core/scene/scene.h"
 #include "core/scene/scene_file.h"
@@ -26,7 +30,8 @@ using Json = nlohmann::ordered_json;
 
 struct InfoOptions {
   std::vector<std::string> meshes;
-  std::string unit = "m";
+  std::string unit;
+  TessellationOptions tessellation;
   std::optional<double> density;  ///< [kg/m^3]
   bool isJson = false;
 };
@@ -191,18 +196,36 @@ Json sceneJson(const std::string& name, const Scene& scene) {
   return json;
 }
 
+PartGeometryPtr geometryOf(const MeshSource& source) {
+  const LoadedPart loaded = loadPartGeometries({&source, 1}).front();
+  if (loaded.problem) std::rethrow_exception(loaded.problem);
+  return loaded.geometry;
+}
+
 std::string reportOn(const std::string& name, double metresPerUnit, const InfoOptions& options) {
   if (isSceneFile(name)) {
     const Scene scene = readSceneFile(name);
     return options.isJson ? sceneJson(name, scene).dump() + "\n" : sceneText(name, scene);
   }
-  const PartGeometryPtr geometry = loadPartGeometry(name, metresPerUnit);
+  const FileArgument argument = fileArgumentOf(name);
+  if (isDocumentFile(argument.file) && argument.shape.empty()) {
+    const LoadedDocument document = loadDocument(argument.file, metresPerUnit, tessellationOf(options.tessellation));
+    return options.isJson ? documentJson(name, document, options.density).dump() + "\n"
+                          : documentText(name, document, options.density);
+  }
+  const PartGeometryPtr geometry = geometryOf(
+      {argument.file, metresPerUnit, {}, argument.shape, tessellationOf(options.tessellation)});
   return options.isJson ? infoJson(name, *geometry, options.density).dump() + "\n"
                         : infoText(name, *geometry, options.density);
 }
 
 void runInfo(const InfoOptions& options) {
-  const double metresPerUnit = parseUnit(options.unit);
+  tessellationOf(options.tessellation);
+  std::vector<std::string> files;
+  for (const std::string& name : options.meshes) {
+    if (!isSceneFile(name)) files.push_back(fileArgumentOf(name).file);
+  }
+  const double metresPerUnit = unitOfFiles(options.unit, files);
   if (options.density) checkDensity(*options.density);
   printCacheWarnings();
   bool hasFailed = false;
@@ -223,14 +246,18 @@ void runInfo(const InfoOptions& options) {
 
 void addInfoCommand(CLI::App& program) {
   const auto options = std::make_shared<InfoOptions>();
-  CLI::App* command = program.add_subcommand("info",
-                                             "Prints the size, mass and topology of meshes, and where they "
-                                             "are open or inconsistent; of scenes, their "
-                                             "parts and joints.");
-  command->add_option("mesh", options->meshes, "Mesh files: STL, OBJ, PLY or OFF; or scene files (*.nearfit)")
+  CLI::App* command = program.add_subcommand(
+      "info",
+      "Prints the size, mass and topology of meshes, and where they are open or inconsistent; of CAD documents, their "
+      "shapes and tree; of scenes, their parts and joints.");
+  command
+      ->add_option("mesh", options->meshes,
+                   "Mesh files (STL, OBJ, PLY, OFF), CAD documents (STEP, IGES, BREP, glTF, 3MF, URDF) or scene files "
+                   "(*.nearfit)")
       ->required()
       ->type_name("FILE");
-  command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
+  command->add_option("--unit", options->unit, kFileUnitHelp);
+  addTessellationOptions(*command, options->tessellation);
   command->add_option("--density", options->density, "Also print mass and inertia, for this density [kg/m^3]")
       ->type_name("D");
   command->add_flag("--json", options->isJson, "Print one JSON object per file, each on its own line");
@@ -248,12 +275,16 @@ void addInfoCommand(CLI::App& program) {
       "hierarchy    What distance queries search: built now, or read from the cache (see nearfit-cli "
       "cache).\n"
       "bytes        Memory that it takes.\n"
+      "shape        Of a CAD document: key, instances, triangles, tessellation in effect, and volume of its mesh\n"
+      "             (and of the exact solid). FILE#KEY reports on the mesh of one shape in full.\n"
+      "tree         Of a CAD document: assemblies, and instances with the keys of their shapes.\n"
       "joint N      Of a scene: what keeps a part, with the number that nearfit-cli scene release takes.\n"
       "kept         Of a scene: how far a part is off its joints.\n"
       "Lengths are in metres. A file that cannot be read gets a line on stderr, the others are still "
       "reported,\n"
       "and the exit code is 1.\n"
-      "Example: nearfit-cli info --unit mm peg.stl hole.stl");
+      "Example: nearfit-cli info --unit mm peg.stl hole.stl\n"
+      "         nearfit-cli info vise.step");
   command->callback([options] { runInfo(*options); });
 }
 

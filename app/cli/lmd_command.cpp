@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -13,6 +14,7 @@
 
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
+#include "app/cli/document_options.h"
 #include "app/cli/output.h"
 #include "core/base/error.h"
 #include "core/haptics/spring_law.h"
@@ -30,8 +32,9 @@ namespace {
 constexpr std::size_t kMaxLmds = 4'000'000;
 
 struct LmdOptions {
-  std::string sceneMesh, partMesh, pose, poses, law = "linear", mode = "cold", rule = "exact", unit = "m";
+  std::string sceneMesh, partMesh, pose, poses, law = "linear", mode = "cold", rule = "exact", unit;
   SpringParameters springs;
+  TessellationOptions tessellation;
 };
 
 std::string numberText(double value) {
@@ -91,10 +94,13 @@ SpringParameters springsOf(const LmdOptions& options) {
 }
 
 /// Loads scene and part with their hierarchies; both are the same one if the files are.
-std::pair<PartGeometryPtr, PartGeometryPtr> loadBodies(const LmdOptions& options, double metresPerUnit) {
-  std::vector<MeshSource> sources{{options.sceneMesh, metresPerUnit, {}}};
-  if (normalisedPath(options.partMesh) != normalisedPath(options.sceneMesh))
-    sources.push_back({options.partMesh, metresPerUnit, {}});
+std::pair<PartGeometryPtr, PartGeometryPtr> loadBodies(const LmdOptions& options) {
+  const FileArgument scene = fileArgumentOf(options.sceneMesh), part = fileArgumentOf(options.partMesh);
+  const double metresPerUnit = unitOfFiles(options.unit, std::array{scene.file, part.file});
+  const Tessellation tessellation = tessellationOf(options.tessellation);
+  std::vector<MeshSource> sources{{scene.file, metresPerUnit, {}, scene.shape, tessellation}};
+  if (normalisedPath(part.file) != normalisedPath(scene.file) || part.shape != scene.shape)
+    sources.push_back({part.file, metresPerUnit, {}, part.shape, tessellation});
   std::vector<PartGeometryPtr> bodies;
   for (const LoadedPart& loaded : loadPartGeometries(sources)) {
     if (loaded.problem) std::rethrow_exception(loaded.problem);
@@ -128,10 +134,9 @@ class Hierarchies {
 
 void runLmd(const LmdOptions& options) {
   const SpringParameters springs = springsOf(options);
-  const double metresPerUnit = parseUnit(options.unit);
   const std::vector<RigidTransform> poses =
       options.poses.empty() ? std::vector{parsePose("--pose", options.pose)} : readPosePath(options.poses);
-  const auto [scene, part] = loadBodies(options, metresPerUnit);
+  const auto [scene, part] = loadBodies(options);
   const Hierarchies trees(options, scene, part);
   // Only once nothing but the output can fail, so that a failure is one line.
   printCacheWarnings();
@@ -183,7 +188,8 @@ query_us  Time of the query alone [us]; with --mode tracked, without the search 
           is nearer. On closed meshes it misses none; on open ones it misses minima at rims. Its
           hierarchies are built again in each run.
 A pose maps from the part's frame to the scene's: p_scene = R(q) p_part + t. The cutoff and translations
-are in metres, whatever the unit of the meshes. Quaternions are normalised; one whose length is off by
+are in metres, whatever the unit of the meshes. A shape of a CAD document is in its own frame, wherever
+the document places it. Quaternions are normalised; one whose length is off by
 more than 0.001 is refused.
 Example: nearfit-cli lmd --unit mm hole.stl peg.stl --cutoff 0.002 --pose 0,0,0.01,1,0,0,0)";
 // clang-format on
@@ -194,7 +200,7 @@ void addLmdCommand(CLI::App& program) {
   const auto options = std::make_shared<LmdOptions>();
   CLI::App* command = program.add_subcommand(
       "lmd", "Finds all local minimum distances between two meshes at one or more poses, and their force.");
-  command->add_option("scene_mesh", options->sceneMesh, "Mesh at rest: STL, OBJ, PLY or OFF")
+  command->add_option("scene_mesh", options->sceneMesh, "Mesh at rest: STL, OBJ, PLY, OFF, or a CAD document; FILE#KEY names one of several shapes of that")
       ->required()
       ->type_name("FILE");
   command->add_option("part_mesh", options->partMesh, "Mesh of the part that is put at each pose")
@@ -234,7 +240,8 @@ void addLmdCommand(CLI::App& program) {
                    "paper, approximate, for comparison (see below)")
       ->check(CLI::IsMember({"exact", "normal-span"}))
       ->capture_default_str();
-  command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
+  command->add_option("--unit", options->unit, kFileUnitHelp);
+  addTessellationOptions(*command, options->tessellation);
   command->footer(kLmdFooter);
   command->callback([options] { runLmd(*options); });
 }

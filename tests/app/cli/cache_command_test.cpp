@@ -33,7 +33,7 @@ class CacheCommand : public ::testing::Test {
   }
   /// What is found of the two, without the time that it took.
   Json minima() const {
-    Json json = jsonOf({"lmd", ball_, bump_, "--cutoff", "0.5", "--pose", "2.3,0,0,1,0,0,0"});
+    Json json = jsonOf({"lmd", "--unit", "m", ball_, bump_, "--cutoff", "0.5", "--pose", "2.3,0,0,1,0,0,0"});
     json.erase("query_us");
     return json;
   }
@@ -46,7 +46,7 @@ class CacheCommand : public ::testing::Test {
 
 TEST_F(CacheCommand, SaysWhatIsKeptAndRemovesIt) {
   EXPECT_EQ(jsonOf({"cache", "--json"})["holds"]["meshes"], 0);
-  EXPECT_EQ(jsonOf({"info", "--json", ball_})["hierarchy"]["from"], "building");
+  EXPECT_EQ(jsonOf({"info", "--unit", "m", "--json", ball_})["hierarchy"]["from"], "building");
   const fs::path kept = onlyFileIn(cache_.path() / "new");
   const Json usage = jsonOf({"cache", "--json"});
   EXPECT_EQ(usage["on"], true);
@@ -54,12 +54,12 @@ TEST_F(CacheCommand, SaysWhatIsKeptAndRemovesIt) {
   EXPECT_EQ(usage["holds"]["meshes"], 1);
   EXPECT_EQ(usage["holds"]["bytes"], fs::file_size(kept));
   EXPECT_EQ(usage["limit"], std::uint64_t{4} << 30);
-  EXPECT_EQ(jsonOf({"info", "--json", ball_})["hierarchy"]["from"], "cache");
-  EXPECT_THAT(runCli({"info", ball_}).out, HasSubstr("hierarchy   from the cache in "));
+  EXPECT_EQ(jsonOf({"info", "--unit", "m", "--json", ball_})["hierarchy"]["from"], "cache");
+  EXPECT_THAT(runCli({"info", "--unit", "m", ball_}).out, HasSubstr("hierarchy   from the cache in "));
   EXPECT_THAT(runCli({"cache"}).out, HasSubstr("1 mesh, "));
   EXPECT_EQ(jsonOf({"cache", "--clear", "--json"})["removed"]["meshes"], 1);
   EXPECT_FALSE(fs::exists(kept));
-  EXPECT_EQ(jsonOf({"info", "--json", ball_})["hierarchy"]["from"], "building");
+  EXPECT_EQ(jsonOf({"info", "--unit", "m", "--json", ball_})["hierarchy"]["from"], "building");
 }
 
 TEST_F(CacheCommand, MinimaFromTheCacheAreThoseOfBuilding) {
@@ -99,7 +99,7 @@ TEST_F(CacheCommand, FolderThatCannotBeWrittenIsNoError) {
 }
 
 TEST_F(CacheCommand, LimitBoundsItAndOneThatMakesNoSenseIsSaid) {
-  runCli({"info", ball_});
+  runCli({"info", "--unit", "m", ball_});
   const std::uint64_t each = jsonOf({"cache", "--json"})["holds"]["bytes"];
   const ScopedVariable limit("NEARFIT_CACHE_SIZE", std::to_string(each + each / 2));
   minima();
@@ -108,7 +108,7 @@ TEST_F(CacheCommand, LimitBoundsItAndOneThatMakesNoSenseIsSaid) {
   const ProcessResult result = runCli({"cache"});
   EXPECT_EQ(result.exitCode, 2);
   EXPECT_THAT(result.err, HasSubstr("NEARFIT_CACHE_SIZE: \"plenty\" is not a size"));
-  const ProcessResult info = runCli({"info", ball_});
+  const ProcessResult info = runCli({"info", "--unit", "m", ball_});
   EXPECT_EQ(info.exitCode, 0);
   EXPECT_THAT(info.err, HasSubstr("warning: NEARFIT_CACHE_SIZE: \"plenty\" is not a size"));
 }
@@ -119,7 +119,7 @@ TEST_F(CacheCommand, LimitMayHaveAFractionAndAUnit) {
   for (const auto& [text, bytes] : sizes) {
     const ScopedVariable limit("NEARFIT_CACHE_SIZE", text);
     EXPECT_EQ(jsonOf({"cache", "--json"})["limit"], bytes);
-    EXPECT_EQ(runCli({"info", ball_}).err, "");
+    EXPECT_EQ(runCli({"info", "--unit", "m", ball_}).err, "");
   }
 }
 
@@ -134,18 +134,18 @@ TEST_F(CacheCommand, FolderThatCannotBeReadIsAnError) {
     EXPECT_EQ(result.out, "");
     EXPECT_THAT(result.err, HasSubstr(ball_ + ": the cache cannot be read"));
   }
-  EXPECT_EQ(runCli({"info", ball_}).exitCode, 0) << "loading does without it";
+  EXPECT_EQ(runCli({"info", "--unit", "m", ball_}).exitCode, 0) << "loading does without it";
 }
 
 TEST_F(CacheCommand, FolderThatOthersCanWriteToIsNotUsedAndThatIsSaid) {
   const fs::path folder = cache_.path() / "new";
-  runCli({"info", ball_});
+  runCli({"info", "--unit", "m", ball_});
   ASSERT_EQ(fs::status(folder).permissions(), fs::perms::owner_all);
   fs::permissions(folder, fs::perms::all);
   const ProcessResult shown = runCli({"cache"});
   EXPECT_EQ(shown.exitCode, 1);
   EXPECT_THAT(shown.err, HasSubstr(folder.string() + ": this cache is not used"));
-  const ProcessResult info = runCli({"info", "--json", ball_});
+  const ProcessResult info = runCli({"info", "--unit", "m", "--json", ball_});
   EXPECT_EQ(info.exitCode, 0);
   EXPECT_EQ(Json::parse(info.out)["hierarchy"]["from"], "building");
   EXPECT_THAT(info.err, HasSubstr("warning: " + folder.string() + ": this cache is not used, since other "));

@@ -55,7 +55,7 @@ TEST_F(InfoCommand, BoxIsDescribedInJson) {
 
 TEST_F(InfoCommand, FinelyCutFlatsAreSearchedAsIfTheyWereNot) {
   const ProcessResult result =
-      runCli({"info", "--json", write("box.obj", subdivided(boxMesh({1, 2, 3}), 3))});
+      runCli({"info", "--unit", "m", "--json", write("box.obj", subdivided(boxMesh({1, 2, 3}), 3))});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const Json json = Json::parse(result.out);
   EXPECT_EQ(json["triangles"], 12 * 64);
@@ -65,7 +65,7 @@ TEST_F(InfoCommand, FinelyCutFlatsAreSearchedAsIfTheyWereNot) {
 }
 
 TEST_F(InfoCommand, TextSaysTheSame) {
-  const ProcessResult result = runCli({"info", write("box.obj", boxMesh({1, 1, 1}))});
+  const ProcessResult result = runCli({"info", "--unit", "m", write("box.obj", boxMesh({1, 1, 1}))});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_THAT(result.out,
               AllOf(HasSubstr("box.obj\n"), HasSubstr("triangles   12\n"), HasSubstr("closed      yes\n"),
@@ -90,11 +90,11 @@ TEST_F(InfoCommand, DensityGivesMassAndInertiaAboutTheCentre) {
     for (std::size_t j = 0; j < 3; ++j)
       EXPECT_NEAR(mass["inertia"][i][j].get<double>(), i == j ? expected[i] : 0.0, 1e-15);
   }
-  EXPECT_FALSE(Json::parse(runCli({"info", "--json", file}).out)["mass"].contains("mass"));
+  EXPECT_FALSE(Json::parse(runCli({"info", "--unit", "m", "--json", file}).out)["mass"].contains("mass"));
   EXPECT_THAT(runCli({"info", "--unit", "mm", "--density", "1000", file}).out,
               AllOf(HasSubstr("weighs      0.024 kg at 1000 kg/m^3\n"), HasSubstr("inertia     (5e-06, ")));
   for (const char* density : {"0", "-1", "nan", "1e9", "steel"}) {
-    const ProcessResult refused = runCli({"info", "--density=" + std::string(density), file});
+    const ProcessResult refused = runCli({"info", "--unit", "m", "--density=" + std::string(density), file});
     EXPECT_EQ(refused.exitCode, 2) << density;
     EXPECT_THAT(refused.err, HasSubstr("density"));
   }
@@ -102,7 +102,7 @@ TEST_F(InfoCommand, DensityGivesMassAndInertiaAboutTheCentre) {
 
 TEST_F(InfoCommand, OpenMeshSaysItsEdgesAndItsMassBasis) {
   // A square of two triangles: four open edges and the diagonal.
-  const ProcessResult result = runCli({"info", "--json", write("square.obj", squareMesh(1, 1))});
+  const ProcessResult result = runCli({"info", "--unit", "m", "--json", write("square.obj", squareMesh(1, 1))});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const Json json = Json::parse(result.out);
   EXPECT_EQ(json["closed"], false);
@@ -114,7 +114,7 @@ TEST_F(InfoCommand, OpenMeshSaysItsEdgesAndItsMassBasis) {
 
 TEST_F(InfoCommand, TwoBodiesInOneMeshAreTwoComponents) {
   const TriangleMesh mesh = joined(boxMesh({1, 1, 1}), boxMesh({1, 1, 1}, {5, 0, 0}));
-  EXPECT_EQ(Json::parse(runCli({"info", "--json", write("two.obj", mesh)}).out)["components"], 2);
+  EXPECT_EQ(Json::parse(runCli({"info", "--unit", "m", "--json", write("two.obj", mesh)}).out)["components"], 2);
 }
 
 TEST_F(InfoCommand, UnitsScaleToMetres) {
@@ -140,7 +140,7 @@ TEST_F(InfoCommand, MeshThatFailsLeavesTheOthersReported) {
                     last = write("last.obj", tetrahedronMesh(1));
   const std::string bad = folder_.write("bad.obj", "no mesh").string(),
                     none = (folder_.path() / "none.stl").string();
-  const ProcessResult result = runCli({"info", "--json", first, bad, none, last});
+  const ProcessResult result = runCli({"info", "--unit", "m", "--json", first, bad, none, last});
   EXPECT_EQ(result.exitCode, 1);
   const std::vector<std::string> lines = linesOf(result.out), errors = linesOf(result.err);
   ASSERT_EQ(lines.size(), 2U);
@@ -154,7 +154,7 @@ TEST_F(InfoCommand, MeshThatFailsLeavesTheOthersReported) {
 TEST_F(InfoCommand, FullDiskIsAnError) {
   ProcessOptions full;
   full.stdoutPath = "/dev/full";
-  const ProcessResult result = runCli({"info", write("box.obj", boxMesh({1, 1, 1}))}, full);
+  const ProcessResult result = runCli({"info", "--unit", "m", write("box.obj", boxMesh({1, 1, 1}))}, full);
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_EQ(linesOf(result.err).size(), 1U) << result.err;
 }

@@ -30,6 +30,8 @@ void expectPoint(const Json& json, const glm::dvec3& expected, double tolerance 
 class LmdCommand : public ::testing::Test {
  protected:
   ProcessResult run(std::vector<std::string> options) const {
+    if (std::ranges::find(options, "--unit") == options.end())
+      options.insert(options.begin(), {"--unit", "m"});
     options.insert(options.begin(), {"lmd", block_, cube_});
     return runCli(options);
   }
@@ -110,7 +112,7 @@ TEST_F(LmdCommand, NormalSpanRuleAddsWhatAJaggedVertexDoesNotCarry) {
   const auto countOf = [&](const std::string& rule) {
     // Turned by -30 degrees about x, at 0.1 (0, sin 30, cos 30).
     const ProcessResult result =
-        runCli({"lmd", fan, tip, "--cutoff", "0.11", "--rule", rule, "--pose",
+        runCli({"lmd", "--unit", "m", fan, tip, "--cutoff", "0.11", "--rule", rule, "--pose",
                 "0,0.05,0.08660254037844387,0.9659258262890683,-0.25881904510252074,0,0"});
     EXPECT_EQ(result.exitCode, 0) << result.err;
     const Json lmds = Json::parse(result.out)["lmds"];

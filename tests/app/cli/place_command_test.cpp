@@ -211,7 +211,7 @@ TEST_F(PlaceCommand, PathThatIsAPipeIsRefused) {
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_THAT(result.err, HasSubstr("pipe.csv: it is not a regular file"));
   const ProcessResult poses =
-      runCli({"lmd", "floor.obj", "cone.obj", "--cutoff", "0.1", "--poses", "pipe.csv"}, options_);
+      runCli({"lmd", "--unit", "m", "floor.obj", "cone.obj", "--cutoff", "0.1", "--poses", "pipe.csv"}, options_);
   EXPECT_EQ(poses.exitCode, 1);
   EXPECT_THAT(poses.err, HasSubstr("pipe.csv: it is not a regular file"));
 }
@@ -306,7 +306,7 @@ TEST_F(PlaceCommand, ARoundPegGoesDownItsHoleWithTheGapItWasMadeWith) {
                .string();
     peg = folder_.write("peg.obj", objText(transformed(cylinderMesh(8e-3, 0.05, 64), 1.0, pegUp))).string();
   }
-  ASSERT_EQ(runCli({"scene", "new", "fit.nearfit", "--part", "Hole=" + hole, "--part",
+  ASSERT_EQ(runCli({"scene", "new", "fit.nearfit", "--unit", "m", "--part", "Hole=" + hole, "--part",
                     "Peg=" + peg + "@0,0,0.02,1,0,0,0", "--cutoff", "0.001", "--mode", "spring"},
                    options_)
                 .exitCode,

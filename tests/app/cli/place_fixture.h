@@ -67,7 +67,7 @@ class PlaceFixture : public ::testing::Test {
     folder_.write("floor.obj", objText(boxMesh({2.0, 2.0, 1.0}, {0.0, 0.0, -0.5})));
     options_.workingFolder = folder_.path();
     const ProcessResult made = runCli(
-        {"scene", "new", "fit.nearfit", "--part", "Floor=floor.obj", "--part",
+        {"scene", "new", "fit.nearfit", "--unit", "m", "--part", "Floor=floor.obj", "--part",
          "Cone=cone.obj@0.3,0.1,0.5,1,0,0,0", "--cutoff", "0.1", "--stiffness", "50", "--mode", "spring"},
         options_);
     EXPECT_EQ(made.exitCode, 0) << made.err;

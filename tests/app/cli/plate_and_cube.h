@@ -17,7 +17,7 @@ class PlateAndCube : public ::testing::Test {
   PlateAndCube() {
     const std::string plate = folder_.write("plate.obj", objText(boxMesh({4, 4, 1}))).string();
     const std::string cube = folder_.write("cube.obj", objText(boxMesh({1, 1, 1}))).string();
-    const auto made = runCli({"scene", "new", scene_, "--part", "Plate=" + plate, "--part",
+    const auto made = runCli({"scene", "new", scene_, "--unit", "m", "--part", "Plate=" + plate, "--part",
                               "Cube=" + cube + "@0,0,2,1,0,0,0", "--moving", "Cube"});
     EXPECT_EQ(made.exitCode, 0) << made.err;
   }

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -24,6 +26,8 @@ class SceneNewCommand : public ::testing::Test {
     options_.workingFolder = folder_.path();
   }
   ProcessResult run(std::vector<std::string> arguments) const {
+    if (std::ranges::find(arguments, "--unit") == arguments.end())
+      arguments.insert(arguments.begin(), {"--unit", "m"});
     arguments.insert(arguments.begin(), {"scene", "new"});
     return runCli(arguments, options_);
   }

@@ -1,0 +1,63 @@
+#include "app/cli/document_options.h"
+
+#include <filesystem>
+#include <numbers>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/arguments.h"
+#include "core/base/error.h"
+#include "core/scene/document_load.h"
+
+namespace nearfit::cli {
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+
+}  // namespace
+
+void addTessellationOptions(CLI::App& command, TessellationOptions& options) {
+  command
+      .add_option("--chord", options.chord,
+                  "Max distance between the exact surfaces of a CAD document and their triangles [m]; default: chosen "
+                  "from each shape's size")
+      ->type_name("METRES");
+  command
+      .add_option("--angle", options.angleDegrees,
+                  "Max angle between neighbouring facets of such a surface [degrees]; default: the importer's")
+      ->type_name("DEGREES");
+}
+
+Tessellation tessellationOf(const TessellationOptions& options) {
+  const Tessellation tessellation{options.chord, kRadiansPerDegree * options.angleDegrees};
+  try {
+    checkTessellation(tessellation);
+  } catch (const UsageError& error) {
+    throw UsageError("--" + error.where(), error.problem(), error.remedy());
+  }
+  return tessellation;
+}
+
+FileArgument fileArgumentOf(const std::string& text) {
+  std::error_code failure;
+  const std::size_t mark = text.rfind('#');
+  if (mark == std::string::npos || mark == 0 || std::filesystem::exists(text, failure)) return {text, {}};
+  const std::string file = text.substr(0, mark);
+  if (!isDocumentFile(file)) return {text, {}};
+  return {file, text.substr(mark + 1)};
+}
+
+double unitOfFiles(const std::string& unit, std::span<const std::string> files) {
+  if (!unit.empty()) return parseUnit(unit);
+  for (const std::string& file : files) {
+    if (!storesUnit(file)) {
+      throw UsageError("--unit", fmt::format("{} stores no unit of length", file),
+                       "give the one that its numbers are in, such as --unit mm");
+    }
+  }
+  return 1.0;
+}
+
+}  // namespace nearfit::cli

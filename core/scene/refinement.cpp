@@ -1,0 +1,51 @@
+#include "core/scene/refinement.h"
+
+#include <map>
+#include <string>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/scene/document_load.h"
+
+namespace nearfit {
+namespace {
+
+/// Tells shapes of a scene's documents apart.
+using ShapeName = std::tuple<std::filesystem::path, std::string, std::string, double>;
+
+ShapeName shapeNameOf(const PartGeometry& geometry) {
+  return {geometry.file, geometry.sha256, geometry.shapeKey, geometry.metresPerUnit};
+}
+
+}  // namespace
+
+bool isRefinable(const Part& part) noexcept {
+  return part.geometry != nullptr && part.geometry->isExact && !part.geometry->shapeKey.empty();
+}
+
+Refinement refinementOf(const Scene& scene, std::span<const PartId> parts, const Tessellation& tessellation) {
+  checkTessellation(tessellation);
+  Refinement refinement;
+  std::map<ShapeName, std::size_t> known;
+  for (const PartId id : parts) {
+    const Part& part = scene.get(id);
+    if (!isRefinable(part)) {
+      throw UsageError(fmt::format("part \"{}\"", part.name), "its file holds triangles, no exact surfaces",
+                       "choose a part of a STEP, IGES or BREP file");
+    }
+    const PartGeometry& geometry = *part.geometry;
+    if (!known.emplace(shapeNameOf(geometry), refinement.sources.size()).second) continue;
+    refinement.sources.push_back(
+        {geometry.file, geometry.metresPerUnit, geometry.sha256, geometry.shapeKey, tessellation});
+  }
+  for (const Scene::PartPtr& part : scene.parts()) {
+    if (!isRefinable(*part)) continue;
+    const auto shape = known.find(shapeNameOf(*part->geometry));
+    if (shape != known.end()) refinement.members.push_back({part->id, shape->second});
+  }
+  return refinement;
+}
+
+}  // namespace nearfit
