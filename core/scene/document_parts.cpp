@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -161,6 +162,21 @@ class Placer {
 
 NewNodes partsOfDocument(const LoadedDocument& document, const Scene& scene) {
   return Placer(document, scene).place();
+}
+
+Aabb boundsOfDocument(const LoadedDocument& document) {
+  Aabb box;
+  std::vector<RigidTransform> worldFromNode(document.nodes.size());
+  for (std::size_t i = 0; i < document.nodes.size(); ++i) {
+    const CadNode& node = document.nodes[i];
+    worldFromNode[i] = node.parent < 0 ? node.parentFromNode
+                                       : worldFromNode[static_cast<std::size_t>(node.parent)] * node.parentFromNode;
+    const PartGeometryPtr shape = node.shape >= 0 ? document.shapes[static_cast<std::size_t>(node.shape)] : nullptr;
+    if (shape == nullptr) continue;
+    for (const glm::dvec3& vertex : shape->mesh.vertices())
+      box.add(worldFromNode[i].applyToPoint(vertex));
+  }
+  return box;
 }
 
 }  // namespace nearfit

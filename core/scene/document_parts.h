@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/math/aabb.h"
 #include "core/scene/document_load.h"
 #include "core/scene/new_nodes.h"
 
@@ -12,5 +13,8 @@ namespace nearfit {
 /// parts go to the nearest group that is there, with both names.
 /// Throws FileError if the document places more parts than a scene file can hold, or one farther than kMaxPosition.
 NewNodes partsOfDocument(const LoadedDocument& document, const Scene& scene);
+
+/// Box around all instances, where the document places them [m]; empty if there are none.
+Aabb boundsOfDocument(const LoadedDocument& document);
 
 }  // namespace nearfit

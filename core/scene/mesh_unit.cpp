@@ -14,6 +14,7 @@
 #include "core/math/aabb.h"
 #include "core/parallel/parallel_for.h"
 #include "core/parallel/shared_progress.h"
+#include "core/scene/document_parts.h"
 #include "core/scene/part_geometry.h"
 #include "core/scene/pose_csv.h"
 
@@ -49,7 +50,9 @@ std::optional<glm::dvec3> extentOfMeshFiles(std::span<const std::filesystem::pat
       return true;
     };
     try {
-      boxes[i] = readMeshBounds(files[i], isWanted);
+      // In the file's units: as if those were metres.
+      boxes[i] = isDocumentFile(files[i]) ? boundsOfDocument(loadDocument(files[i], 1.0, {}, isWanted))
+                                          : readMeshBounds(files[i], isWanted);
     } catch (const Cancelled&) {
       throw;
     } catch (const std::exception&) {

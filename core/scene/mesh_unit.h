@@ -17,7 +17,7 @@ namespace nearfit {
 /// @param where  Option or field that holds the text, for the error.
 double parseMeshUnit(std::string_view text, const std::string& where);
 
-/// Returns the extent of mesh files along each axis, in their units: of the box around all of them, each at
+/// Returns the extent of mesh files, and of CAD documents without units, along each axis, in their units: of the box around all of them, each at
 /// its own coordinates. Leaves out files that cannot be read; std::nullopt if none can. Reads files in
 /// parallel. Blocking: not for the GUI thread. Throws Cancelled.
 std::optional<glm::dvec3> extentOfMeshFiles(std::span<const std::filesystem::path> files,

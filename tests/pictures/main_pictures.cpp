@@ -202,7 +202,7 @@ class Pictures {
     grabDialog(QStringLiteral("picture"), [this] { trigger("savePicture"); });
     grabDialog(QStringLiteral("about"), [this] { trigger("about"); });
     const QString mesh = ui::fromPath(driver_.session().scene().parts().front()->geometry->file);
-    grabDialog(QStringLiteral("unit"), [&] { ui::askForUnit({mesh}, &window); });
+    grabDialog(QStringLiteral("unit"), [&] { ui::askForUnit({mesh}, {}, &window); });
     failures();
     trigger("duplicate");
     grabDialog(QStringLiteral("unsaved"), [&] { window.close(); });

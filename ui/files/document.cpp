@@ -4,11 +4,16 @@
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QPushButton>
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/math/aabb.h"
+#include "core/scene/document_parts.h"
 #include "core/scene/moving_body.h"
 #include "core/scene/scene_file.h"
+#include "core/scene/scene_tree.h"
 #include "ui/files/dropped_files.h"
 #include "ui/files/recent_files.h"
 #include "ui/files/unit_dialog.h"
@@ -24,17 +29,9 @@ constexpr double kReading = 0.45;  ///< Share of loading spent on reading; the r
 
 const QString kSceneSuffix = QStringLiteral("nearfit");
 
-QString meshPatterns() {
-  QStringList patterns;
-  for (const std::string& extension : importableExtensions()) {
-    const QString suffix = QString::fromStdString(extension);
-    patterns << QStringLiteral("*.") + suffix << QStringLiteral("*.") + suffix.toUpper();
-  }
-  return patterns.join(' ');
-}
-
-QString meshFilter() {
-  return QObject::tr("Meshes (%1);;All files (*)").arg(meshPatterns());
+QString partFilter() {
+  const QString meshes = meshPatterns().join(' '), documents = documentPatterns().join(' ');
+  return QObject::tr("Parts (%1 %2);;Meshes (%1);;CAD documents (%2);;All files (*)").arg(meshes, documents);
 }
 
 QString sceneFilter() {
@@ -42,8 +39,39 @@ QString sceneFilter() {
 }
 
 QString openFilter() {
-  const QString both = QObject::tr("Scenes and meshes (*.%1 %2)").arg(kSceneSuffix, meshPatterns());
-  return both + QStringLiteral(";;") + sceneFilter() + QStringLiteral(";;") + meshFilter();
+  const QString all = QObject::tr("Scenes and parts (*.%1 %2 %3)")
+                          .arg(kSceneSuffix, meshPatterns().join(' '), documentPatterns().join(' '));
+  return all + QStringLiteral(";;") + sceneFilter() + QStringLiteral(";;") + partFilter();
+}
+
+/// The files that store no unit.
+QStringList withoutUnit(const QStringList& files) {
+  QStringList without;
+  for (const QString& file : files) {
+    if (!storesUnit(toPath(file))) without << file;
+  }
+  return without;
+}
+
+/// Box around all parts of a scene that have a mesh, in the world.
+Aabb boxOf(const Scene& scene) {
+  Aabb box;
+  for (const Scene::PartPtr& part : scene.parts()) {
+    if (part->geometry == nullptr) continue;
+    const Aabb& own = part->geometry->mesh.bounds();
+    for (int corner = 0; !own.isEmpty() && corner < 8; ++corner) {
+      const glm::dvec3 p((corner & 1) != 0 ? own.upper.x : own.lower.x,
+                         (corner & 2) != 0 ? own.upper.y : own.lower.y,
+                         (corner & 4) != 0 ? own.upper.z : own.lower.z);
+      box.add(part->worldFromPart.applyToPoint(p));
+    }
+  }
+  return box;
+}
+
+std::optional<glm::dvec3> extentOf(const Scene& scene) {
+  const Aabb box = boxOf(scene);
+  return box.isEmpty() ? std::nullopt : std::optional(box.upper - box.lower);
 }
 
 /// Stands for a file name in a failure that concerns all files.
@@ -215,33 +243,75 @@ void Document::openRecovered(const QString& journal, const std::filesystem::path
 
 void Document::askAndAddParts() {
   const QStringList files =
-      QFileDialog::getOpenFileNames(window_, tr("Add parts"), Preferences::lastFolder(), meshFilter());
+      QFileDialog::getOpenFileNames(window_, tr("Add parts"), Preferences::lastFolder(), partFilter());
   if (files.isEmpty()) return;
-  if (const std::optional<double> unit = askForUnit(files, window_)) addParts(files, *unit);
+  if (const std::optional<double> unit = unitOf(files)) addParts(files, *unit);
+}
+
+std::optional<double> Document::unitOf(const QStringList& files) {
+  const QStringList asked = withoutUnit(files);
+  if (asked.isEmpty()) return Preferences::metresPerUnit();
+  return askForUnit(asked, extentOf(session_.scene()), window_);
+}
+
+/// Files of parts, loaded.
+struct Document::LoadedFiles {
+  std::vector<PartGeometryPtr> meshes;
+  std::vector<LoadedDocument> documents;
+  QVector<FailedItem> problems;
+  /// All that is to be drawn.
+  std::vector<PartGeometryPtr> geometries() const;
+};
+
+std::vector<PartGeometryPtr> Document::LoadedFiles::geometries() const {
+  std::vector<PartGeometryPtr> all = meshes;
+  for (const LoadedDocument& document : documents)
+    std::ranges::copy_if(document.shapes, std::back_inserter(all), [](const auto& shape) { return shape != nullptr; });
+  return all;
+}
+
+Document::LoadedFiles Document::loadFiles(const QStringList& files, double metresPerUnit,
+                                          const ProgressCallback& progress) {
+  LoadedFiles outcome;
+  std::vector<MeshSource> meshes;
+  std::vector<std::filesystem::path> documents;
+  for (const QString& file : files) {
+    const std::filesystem::path path = toPath(file);
+    if (isDocumentFile(path))
+      documents.push_back(path);
+    else
+      meshes.push_back({path, metresPerUnit});
+  }
+  const double whole = static_cast<double>(files.size());
+  double done = static_cast<double>(meshes.size());
+  const std::vector<LoadedPart> loaded = loadPartGeometries(meshes, stageCallback(progress, 0.0, done / whole));
+  for (std::size_t i = 0; i < loaded.size(); ++i) {
+    if (loaded[i].problem)
+      outcome.problems << describeItem(fromPath(meshes[i].file.filename()), loaded[i].problem);
+    else
+      outcome.meshes.push_back(loaded[i].geometry);
+  }
+  for (const std::filesystem::path& file : documents) {
+    try {
+      outcome.documents.push_back(
+          loadDocument(file, metresPerUnit, {}, stageCallback(progress, done / whole, (done + 1.0) / whole)));
+    } catch (const Cancelled&) {
+      throw;
+    } catch (...) {
+      outcome.problems << describeItem(fromPath(file.filename()), std::current_exception());
+    }
+    done += 1.0;
+  }
+  return outcome;
 }
 
 void Document::addParts(const QStringList& files, double metresPerUnit) {
   if (isBusy() || files.isEmpty()) return;
   Preferences::rememberFolderOf(files.first());
-  struct Outcome {
-    std::vector<PartGeometryPtr> geometries;
-    QVector<FailedItem> problems;
-  };
-  auto outcome = std::make_shared<Outcome>();
+  auto outcome = std::make_shared<LoadedFiles>();
   const auto job = [outcome, files, metresPerUnit, shapes = shapes_](const ProgressCallback& progress) {
-    std::vector<MeshSource> sources;
-    for (const QString& file : files)
-      sources.push_back({toPath(file), metresPerUnit, {}});
-    const std::vector<LoadedPart> parts = loadPartGeometries(sources, progressOfReading(progress));
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const LoadedPart& loaded = parts[i];
-      if (loaded.problem) {
-        outcome->problems << describeItem(fromPath(sources[i].file.filename()), loaded.problem);
-      } else {
-        outcome->geometries.push_back(loaded.geometry);
-      }
-    }
-    shapes->prepare(outcome->geometries, progressOfShapes(progress));
+    *outcome = loadFiles(files, metresPerUnit, progressOfReading(progress));
+    shapes->prepare(outcome->geometries(), progressOfShapes(progress));
   };
   const QString text = files.size() == 1 ? tr("Loading %1").arg(QFileInfo(files.first()).fileName())
                                          : tr("Loading %n files", nullptr, files.size());
@@ -251,37 +321,58 @@ void Document::addParts(const QStringList& files, double metresPerUnit) {
       return;
     }
     if (error) outcome->problems << describeItem(nameOfAll(files), error);
-    finishParts(files, outcome->geometries, outcome->problems);
+    finishParts(files, *outcome);
   });
 }
 
-void Document::finishParts(const QStringList& files, const std::vector<PartGeometryPtr>& geometries,
-                           const QVector<FailedItem>& loadProblems) {
+void Document::tellWarnings(const LoadedFiles& files) {
   QStringList warnings;
   int warned = 0;
-  std::vector<Session::NewPart> parts;
-  for (const PartGeometryPtr& geometry : geometries) {
-    parts.push_back({geometry, fromPath(geometry->file.stem()).toStdString()});
-    if (!geometry->report.warnings.empty()) ++warned;
-    for (const std::string& warning : geometry->report.warnings) {
-      warnings << fromPath(geometry->file.filename()) + QStringLiteral(": ") +
-                      QString::fromStdString(warning);
-    }
-  }
-  std::vector<PartId> added;
-  QVector<FailedItem> problems = loadProblems;
-  try {
-    added = session_.addParts(parts);
-  } catch (...) {
-    problems << describeItem(nameOfAll(files), std::current_exception());
-  }
+  const auto add = [&](const QString& name, const std::vector<std::string>& texts) {
+    warned += texts.empty() ? 0 : 1;
+    for (const std::string& text : texts)
+      warnings << name + QStringLiteral(": ") + QString::fromStdString(text);
+  };
+  for (const PartGeometryPtr& geometry : files.geometries())
+    add(fromPath(geometry->file.filename()), geometry->report.warnings);
   // The status bar would cut several off and soon clear them; the part list keeps them.
-  if (warnings.size() == 1) emit noted(warnings.first());
   if (warnings.size() > 1)
     emit noted(
         (warned == 1
              ? tr("A mesh is open or degenerate: see its tooltip in the list of parts")
              : tr("%1 meshes are open or degenerate: see their tooltips in the list of parts").arg(warned)));
+  else if (warnings.size() == 1)
+    emit noted(warnings.first());
+  QVector<FailedItem> said;
+  for (const LoadedDocument& document : files.documents) {
+    for (const std::string& text : document.warnings)
+      said << FailedItem{fromPath(document.file.filename()), QString::fromStdString(text), {}, {}};
+  }
+  // Something of a document is missing: nobody may overlook that.
+  if (!said.isEmpty()) emit failed(describeItems(tr("The document was added, but not all of it."), said));
+}
+
+void Document::finishParts(const QStringList& files, const LoadedFiles& loadedFiles) {
+  const Scene& scene = session_.scene();
+  QVector<FailedItem> problems = loadedFiles.problems;
+  NewNodes nodes;
+  for (const PartGeometryPtr& geometry : loadedFiles.meshes)
+    nodes.parts.push_back({geometry, fromPath(geometry->file.stem()).toStdString()});
+  for (const LoadedDocument& document : loadedFiles.documents) {
+    try {
+      nodes.append(partsOfDocument(document, scene));
+    } catch (...) {
+      problems << describeItem(fromPath(document.file.filename()), std::current_exception());
+    }
+  }
+  std::vector<PartId> added;
+  try {
+    const SceneNodes top = session_.addNodes(nodes);
+    added = partsOf(session_.scene(), top);
+  } catch (...) {
+    problems << describeItem(nameOfAll(files), std::current_exception());
+  }
+  tellWarnings(loadedFiles);
   if (!problems.isEmpty()) emit failed(describeItems(notAdded(files, problems), problems));
   if (!added.empty()) emit partsAdded(added);
   emit loaded(problems.isEmpty());
@@ -291,7 +382,7 @@ void Document::openFiles(const QStringList& filesAndFolders, std::optional<doubl
   const DroppedFiles sorted = sortOut(filesAndFolders);
   const bool isLoadable = sorted.scenes.size() <= 1 && !sorted.isCutOff;
   if (!metresPerUnit && isLoadable && !sorted.meshes.isEmpty()) {
-    metresPerUnit = askForUnit(sorted.meshes, window_);
+    metresPerUnit = unitOf(sorted.meshes);
     if (!metresPerUnit) return emit loaded(false);
   }
   open(sorted, metresPerUnit.value_or(Preferences::metresPerUnit()));

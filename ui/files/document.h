@@ -40,7 +40,7 @@ class Document : public SceneWork {
 
   /// Starts an empty scene after asking about unsaved changes.
   void newScene();
-  /// Lets the user choose a scene or meshes, then opens them as dropFiles() does.
+  /// Lets the user choose a scene, meshes or CAD documents, then opens them as dropFiles() does.
   void askAndOpen();
   /// Opens a scene after asking about unsaved changes. Does nothing while busy.
   void openScene(const QString& file);
@@ -54,13 +54,13 @@ class Document : public SceneWork {
   /// @param restored   Called once the scene is open; not if that fails.
   void openRecovered(const QString& journal, const std::filesystem::path& sceneFile,
                      std::function<void()> restored);
-  /// Lets the user choose mesh files and their unit, then calls addParts().
+  /// Lets the user choose mesh files and CAD documents, and the unit of those that store none, then calls addParts().
   void askAndAddParts();
-  /// Loads mesh files as new parts. Does nothing while busy.
-  /// @param metresPerUnit  Metres per unit of the numbers in the files.
+  /// Loads mesh files as new parts, and CAD documents as parts and groups, in one step of undo. Does nothing while busy.
+  /// @param metresPerUnit  Metres per unit of the numbers in files that store no unit.
   void addParts(const QStringList& files, double metresPerUnit);
-  /// Opens any mix of meshes, folders of meshes and at most one scene. The scene is opened first.
-  /// @param metresPerUnit  Of all meshes; std::nullopt: asks once, if there are any.
+  /// Opens any mix of meshes, CAD documents, folders of these and at most one scene. The scene is opened first.
+  /// @param metresPerUnit  Of all files that store no unit; std::nullopt: asks once, if there are any.
   void openFiles(const QStringList& filesAndFolders, std::optional<double> metresPerUnit = std::nullopt);
   /// The same for what is dropped on the window. While busy it only emits noted().
   void dropFiles(const QStringList& filesAndFolders);
@@ -100,8 +100,12 @@ class Document : public SceneWork {
                  const std::function<void(Scene, const QStringList& changed)>& opened);
   void open(const DroppedFiles& files, double metresPerUnit);
   bool saveTo(const QString& file);
-  void finishParts(const QStringList& files, const std::vector<PartGeometryPtr>& geometries,
-                   const QVector<FailedItem>& problems);
+  struct LoadedFiles;
+  /// Unit for the files that store none, which the user is asked for if there are any; std::nullopt: cancelled.
+  std::optional<double> unitOf(const QStringList& files);
+  static LoadedFiles loadFiles(const QStringList& files, double metresPerUnit, const ProgressCallback& progress);
+  void tellWarnings(const LoadedFiles& files);
+  void finishParts(const QStringList& files, const LoadedFiles& loadedFiles);
 
   Session& session_;
   std::shared_ptr<PartShapeCache> shapes_;

@@ -3,8 +3,13 @@
 #include <QDirIterator>
 #include <QFileInfo>
 #include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
 
+#include "core/import/document_import.h"
 #include "core/import/mesh_import.h"
+#include "ui/widgets/paths.h"
 
 namespace nearfit::ui {
 namespace {
@@ -13,9 +18,25 @@ bool isScene(const QString& file) {
   return QFileInfo(file).suffix().toLower() == QLatin1String("nearfit");
 }
 
+const QString kPacked = QStringLiteral(".gz");
+
 bool isMesh(const QString& file) {
+  const std::filesystem::path path = toPath(file);
+  if (isDocumentFile(path)) return true;
   const std::vector<std::string>& known = importableExtensions();
-  return std::ranges::find(known, QFileInfo(file).suffix().toLower().toStdString()) != known.end();
+  const QString lowered = file.toLower();
+  const QString plain = lowered.endsWith(kPacked) ? lowered.chopped(kPacked.size()) : lowered;
+  return std::ranges::find(known, QFileInfo(plain).suffix().toStdString()) != known.end();
+}
+
+QStringList patternsOf(const std::vector<std::string>& extensions) {
+  QStringList patterns;
+  for (const std::string& extension : extensions) {
+    const QString suffix = QString::fromStdString(extension);
+    patterns << QStringLiteral("*.") + suffix << QStringLiteral("*.") + suffix.toUpper()
+             << QStringLiteral("*.") + suffix + kPacked;
+  }
+  return patterns;
 }
 
 void addFolder(const QString& folder, DroppedFiles& dropped) {
@@ -35,6 +56,14 @@ void addFolder(const QString& folder, DroppedFiles& dropped) {
 }
 
 }  // namespace
+
+QStringList meshPatterns() {
+  return patternsOf(importableExtensions());
+}
+
+QStringList documentPatterns() {
+  return patternsOf(documentExtensions());
+}
 
 DroppedFiles sortOut(const QStringList& filesAndFolders) {
   DroppedFiles dropped;

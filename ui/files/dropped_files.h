@@ -6,10 +6,15 @@ namespace nearfit::ui {
 
 /// Files and folders from the user, sorted.
 struct DroppedFiles {
-  QStringList scenes, meshes;
+  QStringList scenes;
+  QStringList meshes;        ///< Mesh files and CAD documents.
   QStringList emptyFolders;  ///< They hold nothing that can be opened.
   bool isCutOff = false;     ///< There were more files than kMaxInFolders.
 };
+
+/// File name patterns of mesh files and of CAD documents: "*.stl", "*.stl.gz" and so on.
+QStringList meshPatterns();
+QStringList documentPatterns();
 
 /// Limit of files taken from folders: with more, somebody has dropped a disk.
 constexpr int kMaxInFolders = 2000;

@@ -62,6 +62,8 @@ class FileCommands : public QObject {
   void changeUnit(const std::vector<nearfit::PartId>& parts);
   /// Repairs the meshes of parts, as one undo step.
   void repair(const std::vector<nearfit::PartId>& parts, const nearfit::MeshRepairs& repairs);
+  /// Asks for another tessellation of parts and reads their shapes in it.
+  void refine(const std::vector<nearfit::PartId>& parts);
 
  signals:
   /// Emitted with what repairs did.

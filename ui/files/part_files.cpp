@@ -11,6 +11,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,8 +23,10 @@
 #include "core/base/error.h"
 #include "core/math/aabb.h"
 #include "core/scene/odd_size.h"
+#include "core/scene/refinement.h"
 #include "ui/files/document.h"
 #include "ui/files/mesh_watch.h"
+#include "ui/files/refine_dialog.h"
 #include "ui/files/unit_dialog.h"
 #include "ui/model/hand_state.h"
 #include "ui/widgets/names.h"
@@ -169,7 +172,8 @@ std::vector<PartFiles::Wanted> PartFiles::partsOf(const QStringList& files) cons
   for (const Scene::PartPtr& part : session_.scene().parts()) {
     if (part->geometry == nullptr) continue;
     if (files.isEmpty() || chosen.contains(fromPath(part->geometry->file)))
-      wanted.push_back({part->id, part->geometry->metresPerUnit, {}, part->geometry->repairs});
+      wanted.push_back({part->id, part->geometry->metresPerUnit, {}, part->geometry->tessellation,
+                        part->geometry->repairs});
   }
   return wanted;
 }
@@ -194,13 +198,19 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, con
                      const QString& failure) {
   std::vector<MeshSource> sources;
   std::vector<std::size_t> sourceOf;
-  std::map<std::tuple<std::filesystem::path, double, std::string, std::string>, std::size_t> known;
+  using Key = std::tuple<std::filesystem::path, double, std::string, std::string, double, double, std::string>;
+  std::map<Key, std::size_t> known;
   for (const Wanted& want : wanted) {
     const PartGeometry& geometry = *session_.scene().find(want.part)->geometry;
-    const auto [source, isNew] = known.try_emplace(
-        std::tuple(geometry.file, want.metresPerUnit, want.sha256, textOf(want.repairs)), sources.size());
+    const auto [source, isNew] =
+        known.try_emplace(Key(geometry.file, want.metresPerUnit, want.sha256, geometry.shapeKey,
+                              want.tessellation.chord, want.tessellation.angle, textOf(want.repairs)),
+                          sources.size());
     sourceOf.push_back(source->second);
-    if (isNew) sources.push_back({geometry.file, want.metresPerUnit, want.sha256, want.repairs});
+    if (isNew) {
+      sources.push_back({geometry.file, want.metresPerUnit, want.sha256, geometry.shapeKey, want.tessellation,
+                         want.repairs});
+    }
   }
   if (sources.empty()) return;
   auto loaded = std::make_shared<std::vector<LoadedPart>>();
@@ -227,6 +237,7 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, con
       if (part == nullptr || !geometry) continue;
       const bool isSame = part->geometry->sha256 == geometry->sha256 &&
                           part->geometry->metresPerUnit == geometry->metresPerUnit &&
+                          part->geometry->tessellation == geometry->tessellation &&
                           part->geometry->repairs == geometry->repairs;
       if (!isSame) renewed.push_back({part->id, geometry});
     }
@@ -263,7 +274,11 @@ void PartFiles::judgeSizes(const std::vector<PartId>& added) {
 
 bool PartFiles::offerRescaleOf(std::vector<PartId> parts) {
   const Scene& scene = session_.scene();
-  std::erase_if(parts, [&](PartId id) { return scene.find(id) == nullptr; });
+  // A unit that the file stores is right.
+  std::erase_if(parts, [&](PartId id) {
+    const Part* part = scene.find(id);
+    return part == nullptr || part->geometry == nullptr || part->geometry->hasOwnUnit;
+  });
   if (parts.empty()) return false;
   if (const std::optional<OddSize> odd = oddSizeOf(scene, parts)) {
     offerRescale(parts, odd->ratio, odd->factor);
@@ -299,7 +314,8 @@ void PartFiles::rescale(const std::vector<PartId>& parts, double factor) {
 PartFiles::Wanted PartFiles::inUnit(const Part& part, double metresPerUnit) {
   // Tolerances grow with the mesh, so that they do the same to it.
   const double factor = metresPerUnit / part.geometry->metresPerUnit;
-  return {part.id, metresPerUnit, part.geometry->sha256, scaledRepairs(part.geometry->repairs, factor)};
+  return {part.id, metresPerUnit, part.geometry->sha256, part.geometry->tessellation,
+          scaledRepairs(part.geometry->repairs, factor)};
 }
 
 void PartFiles::repair(const std::vector<PartId>& parts, const MeshRepairs& repairs) {
@@ -365,6 +381,13 @@ void PartFiles::changeUnit(const std::vector<PartId>& parts) {
   for (const PartId id : parts) {
     const Part* part = session_.scene().find(id);
     if (part == nullptr || part->geometry == nullptr) continue;
+    if (part->geometry->hasOwnUnit) {
+      const QString file = fromPath(part->geometry->file.filename());
+      return emit failed({tr("The unit of “%1” cannot be changed.").arg(QString::fromStdString(part->name)),
+                          tr("%1 stores its unit, and its sizes are right in that. To scale it, export it from the "
+                             "CAD system in another size.")
+                              .arg(file)});
+    }
     const Aabb& bounds = part->geometry->mesh.bounds();
     const double metresPerUnit = part->geometry->metresPerUnit;
     if (bounds.isEmpty()) continue;
@@ -383,6 +406,34 @@ void PartFiles::changeUnit(const std::vector<PartId>& parts) {
     wanted.push_back(inUnit(*part, *unit));
   }
   loadInUnits(tr("Changing the unit"), wanted, tr("The unit of some parts could not be changed."));
+}
+
+void PartFiles::refine(const std::vector<PartId>& parts) {
+  if (document_.isBusy()) return;
+  if (hand_.status().isTaken()) return emit noted(tr("Stop (F6) before you refine parts"));
+  const QString failure = tr("The parts could not be refined.");
+  try {
+    // Refuses, before it asks, what cannot be refined.
+    const Refinement present = refinementOf(session_.scene(), parts, {});
+    if (present.members.empty()) return;
+    const std::optional<Tessellation> wanted = askForTessellation(session_.scene(), present, window_);
+    if (!wanted) return;
+    std::vector<Wanted> all;
+    for (const Refinement::Member& member : present.members) {
+      const PartGeometry& geometry = *session_.scene().get(member.part).geometry;
+      all.push_back({member.part, geometry.metresPerUnit, geometry.sha256, *wanted, geometry.repairs});
+    }
+    const auto apply = [this](const std::vector<Session::NewGeometry>& renewed) {
+      if (renewed.empty()) return;
+      // Feeling may have begun since.
+      if (hand_.status().isTaken())
+        throw UsageError("", "a part is being felt", "stop feeling it (F6), then try again");
+      session_.refineParts(renewed);
+    };
+    load(tr("Refining"), all, apply, failure);
+  } catch (const UsageError&) {
+    emit failed(describe(failure, std::current_exception()));
+  }
 }
 
 void PartFiles::loadInUnits(const QString& text, const std::vector<Wanted>& wanted, const QString& failure) {

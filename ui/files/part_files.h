@@ -47,6 +47,9 @@ class PartFiles : public QObject {
   /// Repairs the meshes of parts in another thread, as one undo step; their files stay. Refuses while a part is being
   /// felt. Does nothing while the document is busy.
   void repair(const std::vector<PartId>& parts, const MeshRepairs& repairs);
+  /// Asks for another tessellation of parts, then reads their shapes in it, as one undo step; all instances follow, and
+  /// poses stay. Refuses while a part is being felt. Does nothing while the document is busy.
+  void refine(const std::vector<PartId>& parts);
 
  signals:
   /// Emitted with what repairs did, of several meshes with the first.
@@ -63,6 +66,7 @@ class PartFiles : public QObject {
     PartId part;
     double metresPerUnit;
     std::string sha256 = {};  ///< Required content of its file; empty: any.
+    Tessellation tessellation = {};
     MeshRepairs repairs = {};
   };
   void addActions(QMenu* menu);

@@ -40,6 +40,9 @@ constexpr std::array<MeshUnit, 7> kMeshUnits = {
      {"ft", QT_TRANSLATE_NOOP("QObject", "Feet"), 0.3048},
      {"m", QT_TRANSLATE_NOOP("QObject", "Metres"), 1.0}}};
 
+/// Length of a grown person's hand, wrist to fingertip: between the medians of women and men. Source: DIN 33402-2 [m].
+constexpr double kHandLength = 0.19;
+
 /// Units, each with the size that it gives. There is no answer before the sizes are shown.
 class UnitDialog : public QDialog {
  public:
@@ -51,6 +54,8 @@ class UnitDialog : public QDialog {
   void check(double metresPerUnit);
   /// Marks a unit that has a row as the present one.
   void markPresent(double metresPerUnit);
+  /// Shows known sizes to compare with, below the units: of the scene, if there is anything in it, and of a hand.
+  void showKnownSizes(const std::optional<glm::dvec3>& scene);
   /// Shows the sizes, and takes an answer from now on.
   /// @param extent  In the files' units.
   void showSizes(const glm::dvec3& extent);
@@ -73,6 +78,7 @@ class UnitDialog : public QDialog {
   QButtonGroup* group_;
   QGridLayout* grid_;
   QLabel* reading_;
+  QLabel* known_;
   QPushButton* accept_;
   std::vector<Row> rows_;
   bool hasSizes_ = false;
@@ -80,7 +86,7 @@ class UnitDialog : public QDialog {
 };
 
 UnitDialog::UnitDialog(const QString& question, const QString& accept, QWidget* parent)
-    : QDialog(parent), group_(new QButtonGroup(this)), grid_(new QGridLayout), reading_(new QLabel(this)) {
+    : QDialog(parent), group_(new QButtonGroup(this)), grid_(new QGridLayout), reading_(new QLabel(this)), known_(new QLabel(this)) {
   setObjectName(QStringLiteral("unitDialog"));
   setWindowTitle(QObject::tr("Unit of length"));
   auto* text = new QLabel(breakable(question), this);
@@ -93,6 +99,9 @@ UnitDialog::UnitDialog(const QString& question, const QString& accept, QWidget* 
   for (const MeshUnit& unit : kMeshUnits)
     addRow(unit.key, QObject::tr(unit.name), unit.metres);
   reading_->setText(QObject::tr("Reading the size…"));
+  known_->setObjectName(QStringLiteral("knownSizes"));
+  known_->setTextFormat(Qt::PlainText);
+  known_->setWordWrap(true);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
   accept_ = buttons->button(QDialogButtonBox::Ok);
   accept_->setText(accept);
@@ -103,6 +112,7 @@ UnitDialog::UnitDialog(const QString& question, const QString& accept, QWidget* 
   layout->addWidget(text);
   layout->addLayout(grid_);
   layout->addWidget(reading_);
+  layout->addWidget(known_);
   layout->addWidget(buttons);
 }
 
@@ -138,6 +148,12 @@ void UnitDialog::check(double metresPerUnit) {
 void UnitDialog::markPresent(double metresPerUnit) {
   const Row* row = rowOf(metresPerUnit);
   if (row != nullptr) row->choice->setText(QObject::tr("%1 (now)").arg(row->choice->text()));
+}
+
+void UnitDialog::showKnownSizes(const std::optional<glm::dvec3>& scene) {
+  QString text = QObject::tr("For comparison: a hand is about %1 long").arg(formatLength(kHandLength));
+  if (scene) text += QObject::tr("; what is in the scene, %1").arg(formatExtent(*scene));
+  known_->setText(text + '.');
 }
 
 void UnitDialog::showSizes(const glm::dvec3& extent) {
@@ -185,8 +201,9 @@ QString questionAboutParts(const QStringList& parts) {
 
 }  // namespace
 
-std::optional<double> askForUnit(const QStringList& files, QWidget* parent) {
+std::optional<double> askForUnit(const QStringList& files, const std::optional<glm::dvec3>& others, QWidget* parent) {
   UnitDialog dialog(questionAbout(files), QObject::tr("Add"), parent);
+  dialog.showKnownSizes(others);
   dialog.check(Preferences::metresPerUnit());
   dialog.measure(files);
   if (dialog.exec() != QDialog::Accepted) return std::nullopt;
@@ -200,6 +217,7 @@ std::optional<double> askForOtherUnit(const QStringList& parts, const glm::dvec3
   UnitDialog dialog(questionAboutParts(parts), QObject::tr("Change"), parent);
   dialog.check(metresPerUnit);
   dialog.markPresent(metresPerUnit);
+  dialog.showKnownSizes({});
   dialog.showSizes(extent);
   if (dialog.exec() != QDialog::Accepted) return std::nullopt;
   return dialog.metresPerUnit();

@@ -130,6 +130,10 @@ QString PartCell::description() const {
           .arg(QString::fromStdString(part_.name), QString::fromStdString(part_.geometry->file.string()))
           .arg(mesh.triangles().size())
           .arg(formatLength(size.x), formatLength(size.y), formatLength(size.z));
+  if (part_.geometry->isExact) {
+    text += '\n' + tr("Of exact surfaces, triangles within %1 of them")
+                       .arg(formatLength(part_.geometry->effectiveTessellation.chord));
+  }
   for (const std::string& warning : part_.geometry->report.warnings)
     text += '\n' + QString::fromStdString(warning);
   if (!part_.geometry->repairs.empty()) text += '\n' + tr("Repaired in this scene; its file is as it was");

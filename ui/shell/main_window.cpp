@@ -285,6 +285,7 @@ void MainWindow::connectCommands() {
   connect(parts_, &PartCommands::servoStopRequested, feel_, &FeelControl::servoStopRequested);
   connect(parts_, &PartCommands::servoStartRequested, feel_->start, &QAction::trigger);
   connect(parts_, &PartCommands::unitChangeRequested, files_, &FileCommands::changeUnit);
+  connect(parts_, &PartCommands::refineRequested, files_, &FileCommands::refine);
   connect(selectedPose_, &SelectedPose::moveRequested, handControl_, &HandControl::place);
   connect(selectedPose_, &SelectedPose::stepRequested, handControl_, &HandControl::step);
   // A number that was refused, or that joints did not allow, must not stay.

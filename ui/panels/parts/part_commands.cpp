@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/scene/refinement.h"
 #include "core/session/session.h"
 #include "ui/model/hand_state.h"
 #include "ui/model/scene_work.h"
@@ -60,6 +61,8 @@ void PartCommands::makeActions() {
                           tr("Change the unit of the selected parts; shows the size in each unit"));
   check = makeAction(this, "check", tr("C&heck…"), QStringLiteral("findings"), QStringLiteral("Ctrl+M"),
                      tr("Show what is wrong with the mesh of the selected part and where, and repair it"));
+  refine = makeAction(this, "refine", tr("Re&fine…"), {}, {},
+                      tr("Make the triangles of the selected parts finer or coarser, if their file holds exact surfaces"));
   takeInHand =
       makeAction(this, "takeInHand", tr("&Take in hand"), QStringLiteral("hand"), QStringLiteral("Ctrl+H"));
   takeInHand->setToolTip(tr("Make the selected part the moving part, or the selected group move as one"));
@@ -74,7 +77,7 @@ void PartCommands::makeActions() {
 void PartCommands::makeMenu() {
   auto* separator = new QAction(this);
   separator->setSeparator(true);
-  menu_ = QList<QAction*>{takeInHand, rename, recolour, changeUnit, check, duplicate} + tree_->list() +
+  menu_ = QList<QAction*>{takeInHand, rename, recolour, changeUnit, refine, check, duplicate} + tree_->list() +
           QList<QAction*>{joints_->menu().menuAction(), separator, remove};
   for (QAction* action : menu_)
     action->setShortcutVisibleInContextMenu(true);
@@ -87,6 +90,8 @@ void PartCommands::connectActions() {
   connect(recolour, &QAction::triggered, this, &PartCommands::recolourSelected);
   connect(changeUnit, &QAction::triggered, this,
           [this] { emit unitChangeRequested(context_.selection.parts()); });
+  connect(refine, &QAction::triggered, this,
+          [this] { emit refineRequested(context_.selection.parts()); });
   connect(check, &QAction::triggered, this, &PartCommands::checkRequested);
   connect(takeInHand, &QAction::triggered, this, &PartCommands::takeSelected);
   connect(remove, &QAction::triggered, this, &PartCommands::deleteSelected);
@@ -144,8 +149,14 @@ void PartCommands::update() {
     const Part* selected = scene.find(id);
     return selected != nullptr && scene.isLocked(*selected);
   };
-  changeUnit->setEnabled(canAct && part != nullptr &&
-                         std::ranges::none_of(context_.selection.parts(), isLocked));
+  const std::vector<PartId> selected = context_.selection.parts();
+  const auto canRefine = [&scene](PartId id) {
+    const Part* each = scene.find(id);
+    return each != nullptr && isRefinable(*each);
+  };
+  const bool areFree = canAct && part != nullptr && std::ranges::none_of(selected, isLocked);
+  changeUnit->setEnabled(areFree);
+  refine->setEnabled(areFree && std::ranges::all_of(selected, canRefine));
   // Looking is possible at any time.
   check->setEnabled(part != nullptr);
   selectAll->setEnabled(!scene.parts().empty());

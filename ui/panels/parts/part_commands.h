@@ -43,7 +43,7 @@ class PartCommands : public QObject {
   /// @param window  The parent, and that of dialogs.
   PartCommands(const Context& context, PartsPanel& panel, QWidget* window);
 
-  QAction *duplicate, *rename, *recolour, *changeUnit, *check, *takeInHand, *remove, *selectAll, *selectNone;
+  QAction *duplicate, *rename, *recolour, *changeUnit, *refine, *check, *takeInHand, *remove, *selectAll, *selectNone;
 
   /// The actions on groups, visibility and locks.
   const TreeActions& tree() const noexcept { return *tree_; }
@@ -62,6 +62,8 @@ class PartCommands : public QObject {
   void unitChangeRequested(const std::vector<nearfit::PartId>& parts);
   /// Emitted when the user wants to see what is wrong with the mesh of the selected part.
   void checkRequested();
+  /// Emitted when the user wants to change the tessellation of parts.
+  void refineRequested(const std::vector<nearfit::PartId>& parts);
   /// Emitted when something failed that the user must see.
   void failed(const nearfit::ui::Failure& failure);
   /// Emitted with a short note for the status bar.

@@ -12,6 +12,9 @@
 namespace nearfit::ui {
 namespace {
 
+/// Colours of parts that share a shape and for which mappers are kept: more are shown at once in no assembly.
+constexpr std::size_t kMaxOwnColours = 8;
+
 constexpr double kTranslucentOpacity = 0.28, kWarningOpacity = 0.45;
 /// Faint enough to leave the shape and colour of parts in front visible.
 constexpr double kVeilOpacity = 0.13, kVeilEdgeOpacity = 0.55;
@@ -71,6 +74,38 @@ const std::vector<ShapeMappers::Mapper>& ShapeMappers::surface(std::size_t level
   } else {
     for (vtkPolyData* piece : shape_->pieces)
       mappers.push_back(surfaceMapperOf(piece));
+  }
+  return mappers;
+}
+
+std::vector<ShapeMappers::Mapper> ShapeMappers::faces(bool isTranslucent, const Colour& own) {
+  auto& byColour = faces_[isTranslucent ? 1 : 0];
+  const std::array<float, 3> key =
+      shape_->hasOwnColour ? std::array{own.r, own.g, own.b} : std::array<float, 3>{};
+  if (const auto known = byColour.find(key); known != byColour.end()) return known->second;
+  // Parts hold those that they draw by.
+  if (byColour.size() >= kMaxOwnColours) byColour.clear();
+  vtkNew<vtkLookupTable> table;
+  const auto count = static_cast<vtkIdType>(shape_->faceColours.size()) + 1;
+  table->SetNumberOfTableValues(count);
+  // A bin around each number.
+  table->SetTableRange(-0.5, static_cast<double>(count) - 0.5);
+  const auto set = [&table](vtkIdType i, float r, float g, float b) {
+    table->SetTableValue(i, static_cast<double>(r), static_cast<double>(g), static_cast<double>(b), 1.0);
+  };
+  set(0, own.r, own.g, own.b);
+  for (vtkIdType i = 1; i < count; ++i) {
+    const CadColour& colour = shape_->faceColours[static_cast<std::size_t>(i) - 1];
+    set(i, colour[0], colour[1], colour[2]);
+  }
+  std::vector<Mapper>& mappers = byColour[key];
+  for (vtkPolyData* piece : shape_->colouredPieces) {
+    Mapper mapper = surfaceMapperOf(piece);
+    mapper->ScalarVisibilityOn();
+    mapper->SetScalarModeToUseCellData();
+    mapper->SetLookupTable(table);
+    mapper->UseLookupTableScalarRangeOn();
+    mappers.push_back(std::move(mapper));
   }
   return mappers;
 }
@@ -203,7 +238,16 @@ void PartActor::applyColours() {
 }
 
 const std::vector<ShapeMappers::Mapper>& PartActor::surfaceMappers() {
-  if (colours_ == nullptr || level_ > 0) return mappers_->surface(level_, !isOpaque());
+  if (level_ > 0) return mappers_->surface(level_, !isOpaque());
+  if (colours_ != nullptr) return clearanceMappers();
+  // What the colour of an overlapping part warns of comes before its faces'.
+  const bool isInOwnColour = shape().colouredPieces.empty() || (shownLook_ && shownLook_->isOverlapping);
+  if (isInOwnColour) return mappers_->surface(level_, !isOpaque());
+  faceMappers_ = mappers_->faces(!isOpaque(), colour_);
+  return faceMappers_;
+}
+
+const std::vector<ShapeMappers::Mapper>& PartActor::clearanceMappers() {
   std::vector<ShapeMappers::Mapper>& mappers = colourMappers_[isOpaque() ? 0 : 1];
   if (!mappers.empty()) return mappers;
   for (vtkPolyData* piece : colours_->pieces) {

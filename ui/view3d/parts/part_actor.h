@@ -36,6 +36,9 @@ class ShapeMappers {
   /// Returns the mappers of one level: the surface's pieces, or the one draft. Opaque and translucent drawing
   /// use separate mappers, as VTK rebuilds a mapper that alternates between them.
   const std::vector<Mapper>& surface(std::size_t level, bool isTranslucent);
+  /// Returns mappers of the mesh in the colours of its faces; only for a shape that has such colours.
+  /// @param own  Of faces that have no colour.
+  std::vector<Mapper> faces(bool isTranslucent, const Colour& own);
   Mapper edges(bool isTranslucent);
   /// For drawing the veil without lighting, over everything else.
   Mapper veil();
@@ -53,6 +56,8 @@ class ShapeMappers {
   std::shared_ptr<const PartShape> shape_;
   vtkSmartPointer<vtkPlane> cut_;
   std::array<std::vector<std::vector<Mapper>>, 2> surfaces_;  ///< Opaque, translucent; by level.
+  /// Opaque, translucent; by the part's own colour.
+  std::array<std::map<std::array<float, 3>, std::vector<Mapper>>, 2> faces_;
   std::array<Mapper, 2> edges_;
   Mapper veil_, veilEdges_;
 };
@@ -138,6 +143,7 @@ class PartActor {
   void dropExtraPieces();
   void showPieces();
   const std::vector<ShapeMappers::Mapper>& surfaceMappers();
+  const std::vector<ShapeMappers::Mapper>& clearanceMappers();
   void applyColours();
   void hideBackFaces();
   void setThrough(bool isThrough);
@@ -157,6 +163,7 @@ class PartActor {
   std::shared_ptr<const ColouredSurface> colours_;
   vtkNew<vtkLookupTable> table_;                                    ///< Colours of clearances.
   std::array<std::vector<ShapeMappers::Mapper>, 2> colourMappers_;  ///< Opaque, translucent.
+  std::vector<ShapeMappers::Mapper> faceMappers_;                   ///< In use.
   std::vector<DetailLevel> levels_;
   bool areColoursStale_ = false;
   std::size_t level_ = 0;

@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include <glm/geometric.hpp>
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkQuadricClustering.h>
+#include <vtkUnsignedShortArray.h>
 
 #include "core/base/error.h"
 #include "core/math/finite.h"
@@ -221,6 +225,43 @@ PartShape makePartShape(const TriangleMesh& mesh, double coordinateRounding,
   return shape;
 }
 
+void addFaceColours(PartShape& shape, const PartGeometry& geometry) {
+  const bool isAny = std::ranges::any_of(geometry.faceColours, [](const auto& colour) { return colour.has_value(); });
+  const auto triangles = static_cast<std::size_t>(shape.surface->GetNumberOfPolys());
+  if (!isAny || geometry.surfaces == nullptr || geometry.surfaces->faceOfTriangle.size() != triangles) return;
+  std::map<CadColour, unsigned short> numbers;
+  // One number stays for the part's own colour.
+  constexpr std::size_t kMaxColours = std::numeric_limits<unsigned short>::max();
+  std::vector<unsigned short> numberOfFace(geometry.faceColours.size(), 0);
+  for (std::size_t face = 0; face < numberOfFace.size(); ++face) {
+    const std::optional<CadColour>& colour = geometry.faceColours[face];
+    if (!colour || (numbers.size() == kMaxColours && !numbers.contains(*colour))) continue;
+    const auto [number, isNew] =
+        numbers.try_emplace(*colour, static_cast<unsigned short>(shape.faceColours.size() + 1));
+    if (isNew) shape.faceColours.push_back(*colour);
+    numberOfFace[face] = number->second;
+  }
+  shape.hasOwnColour = false;
+  std::size_t triangle = 0;
+  for (vtkPolyData* piece : shape.pieces) {
+    vtkNew<vtkUnsignedShortArray> scalars;
+    scalars->SetName("Face colours");
+    scalars->SetNumberOfTuples(piece->GetNumberOfPolys());
+    for (vtkIdType cell = 0; cell < piece->GetNumberOfPolys(); ++cell) {
+      const std::uint32_t face = geometry.surfaces->faceOfTriangle[triangle++];
+      const unsigned short number = face < numberOfFace.size() ? numberOfFace[face] : 0;
+      scalars->SetValue(cell, number);
+      shape.hasOwnColour = shape.hasOwnColour || number == 0;
+    }
+    auto coloured = vtkSmartPointer<vtkPolyData>::New();
+    coloured->SetPoints(piece->GetPoints());
+    coloured->GetPointData()->SetNormals(piece->GetPointData()->GetNormals());
+    coloured->SetPolys(piece->GetPolys());
+    coloured->GetCellData()->SetScalars(scalars);
+    shape.colouredPieces.push_back(coloured);
+  }
+}
+
 std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& geometry,
                                                          const ProgressCallback& progress) {
   {
@@ -231,6 +272,7 @@ std::shared_ptr<const PartShape> PartShapeCache::shapeOf(const PartGeometryPtr& 
   // Not under the lock: preparing a large mesh must not hold up drawing another.
   const auto shape = std::make_shared<PartShape>(
       makePartShape(geometry->mesh, geometry->report.coordinateRounding, progress));
+  addFaceColours(*shape, *geometry);
   // With several components, each may be inside out.
   shape->hidesItsInside =
       geometry->mass.basis == MassBasis::VolumeIntegrals && geometry->mesh.topology().components == 1;

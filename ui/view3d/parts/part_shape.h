@@ -44,6 +44,11 @@ struct PartShape {
   /// outline of a convex part; may close gaps of less than a hundredth of the size of a large one.
   vtkSmartPointer<vtkPolyData> veil;
   RayTree rays;  ///< Of the mesh, for picking.
+  /// `pieces`, each triangle with the number of its face's colour as cell scalar: 0 for the part's own, i + 1 for
+  /// faceColours[i]. Empty if no face has a colour.
+  std::vector<vtkSmartPointer<vtkPolyData>> colouredPieces;
+  std::vector<CadColour> faceColours;  ///< Those that differ.
+  bool hasOwnColour = true;            ///< False if every triangle has a face's colour.
   /// True if no back face is visible from outside.
   bool hidesItsInside = false;
 
@@ -61,6 +66,10 @@ std::vector<vtkSmartPointer<vtkPolyData>> quickPiecesOf(vtkPolyData& surface);
 /// @param coordinateRounding  Max rounding error of a coordinate of the mesh [m]; >= 0.
 PartShape makePartShape(const TriangleMesh& mesh, double coordinateRounding = 0.0,
                         const ProgressCallback& progress = {});
+
+/// Makes the coloured pieces of a shape, one for each of its pieces. Faces in one colour share its number; a geometry
+/// without colours of faces costs nothing.
+void addFaceColours(PartShape& shape, const PartGeometry& geometry);
 
 /// Caches one shape for each geometry, as long as that geometry exists. Thread-safe: loading
 /// fills it before drawing.

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include <glm/geometric.hpp>
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
 
@@ -38,6 +39,8 @@ class PartShapeTest : public QObject {
   void picksInTinyAndThinMeshesTakeLittleMemory();
   void theVeilOfAPartHasItsOutline();
   void theVeilOfALargePartKeepsToItsOutline();
+  void facesThatHaveColoursAreDrawnInThem();
+  void whatHasNoColoursOfFacesCostsNothingMore();
   void oneGeometryHasOneShape();
   void manyShapesAreKeptWhileTheirGeometriesExist();
   void unusedShapesAreNotLookedForAtEachNewOne();
@@ -173,6 +176,40 @@ void PartShapeTest::theVeilOfALargePartKeepsToItsOutline() {
       QVERIFY2(1.0 - middle < 1.1 * kMaxDepth, qPrintable(QString::number(1.0 - middle)));
     }
   }
+}
+
+void PartShapeTest::facesThatHaveColoursAreDrawnInThem() {
+  const CadColour red{1.0F, 0.0F, 0.0F}, blue{0.0F, 0.0F, 1.0F};
+  auto geometry = std::make_shared<PartGeometry>(*geometryOf(test::boxMesh(glm::dvec3(1.0))));
+  SurfaceFaces surfaces;
+  surfaces.faces.resize(6);
+  for (std::uint32_t i = 0; i < 12; ++i)
+    surfaces.faceOfTriangle.push_back(i / 2);
+  geometry->surfaces = std::make_shared<const SurfaceFaces>(surfaces);
+  geometry->faceColours = {red, std::nullopt, blue, red, std::nullopt, blue};
+  ui::PartShapeCache cache;
+  const auto shape = cache.shapeOf(geometry);
+  QCOMPARE(shape->faceColours.size(), std::size_t{2});
+  QVERIFY(shape->hasOwnColour);
+  QCOMPARE(shape->colouredPieces.size(), shape->pieces.size());
+  vtkDataArray* scalars = shape->colouredPieces[0]->GetCellData()->GetScalars();
+  QCOMPARE(scalars->GetNumberOfTuples(), vtkIdType{12});
+  for (vtkIdType i = 0; i < 12; ++i) {
+    const std::optional<CadColour>& expected = geometry->faceColours[static_cast<std::size_t>(i) / 2];
+    const auto number = static_cast<std::size_t>(scalars->GetTuple1(i));
+    QCOMPARE(number > 0, expected.has_value());
+    if (expected) QCOMPARE(shape->faceColours[number - 1], *expected);
+  }
+  QVERIFY(shape->surface->GetCellData()->GetScalars() == nullptr);
+}
+
+void PartShapeTest::whatHasNoColoursOfFacesCostsNothingMore() {
+  auto geometry = std::make_shared<PartGeometry>(*geometryOf(test::boxMesh(glm::dvec3(1.0))));
+  geometry->faceColours.resize(6);
+  ui::PartShapeCache cache;
+  const auto shape = cache.shapeOf(geometry);
+  QVERIFY(shape->colouredPieces.empty());
+  QVERIFY(shape->faceColours.empty());
 }
 
 void PartShapeTest::oneGeometryHasOneShape() {

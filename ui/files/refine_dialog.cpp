@@ -1,0 +1,168 @@
+#include "ui/files/refine_dialog.h"
+
+#include <QCheckBox>
+#include <QDialog>
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLocale>
+#include <QPushButton>
+#include <QStringList>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cstddef>
+#include <set>
+
+#include "core/scene/document_load.h"
+#include "ui/widgets/font_scale.h"
+#include "ui/widgets/names.h"
+#include "ui/widgets/number_field.h"
+
+namespace nearfit::ui {
+namespace {
+
+/// Factor of the buttons *Finer* and *Coarser* on the chord, and with its root on the angle: a chord is as the square
+/// of the angle, so that both tolerances keep their part.
+constexpr double kChordStep = 4.0, kAngleStep = 2.0;
+/// Shown where the importer does not say what is in effect: a tenth of a millimetre, and twenty degrees [m, rad].
+constexpr Tessellation kUnknown{1e-4, 0.35};
+
+/// What is known of the shapes before they are refined.
+struct Present {
+  Tessellation asked;      ///< Of the first shape.
+  Tessellation effective;  ///< The finest.
+  std::size_t shapes = 0, triangles = 0, parts = 0;
+  QStringList names;
+};
+
+Present presentOf(const Scene& scene, const Refinement& refinement) {
+  Present present;
+  std::set<const PartGeometry*> seen;
+  for (const Refinement::Member& member : refinement.members) {
+    const Part& part = scene.get(member.part);
+    present.names << QString::fromStdString(part.name);
+    ++present.parts;
+    if (!seen.insert(part.geometry.get()).second) continue;
+    const auto finer = [](double a, double b) { return a == 0.0 || b == 0.0 ? std::max(a, b) : std::min(a, b); };
+    if (present.shapes == 0) present.asked = part.geometry->tessellation;
+    present.effective.chord = finer(present.effective.chord, part.geometry->effectiveTessellation.chord);
+    present.effective.angle = finer(present.effective.angle, part.geometry->effectiveTessellation.angle);
+    present.triangles += part.geometry->mesh.triangles().size();
+    ++present.shapes;
+  }
+  return present;
+}
+
+QString textOf(const Present& present) {
+  constexpr int kNamed = 3;
+  const QString triangles = QLocale().toString(static_cast<qulonglong>(present.triangles));
+  if (present.parts == 1)
+    return QObject::tr("“%1” has %2 triangles. How many it will have is known once it is read again.")
+        .arg(shortName(present.names.first()), triangles);
+  return QObject::tr("%1 share %2 triangles and change together. How many they will have is known once they are read "
+                     "again.")
+      .arg(listOfNames(present.names, kNamed), triangles);
+}
+
+/// Chord and angle, or those that suit the size.
+class RefineDialog : public QDialog {
+ public:
+  RefineDialog(const Present& present, QWidget* parent);
+  Tessellation tessellation() const;
+
+ private:
+  void scale(double chordFactor, double angleFactor);
+
+  QCheckBox* automatic_;
+  NumberField *chord_, *angle_;
+};
+
+RefineDialog::RefineDialog(const Present& present, QWidget* parent)
+    : QDialog(parent),
+      automatic_(new QCheckBox(QObject::tr("&Suited to the size of each shape"), this)),
+      chord_(new NumberField(this)),
+      angle_(new NumberField(this)) {
+  setObjectName(QStringLiteral("refineDialog"));
+  setWindowTitle(QObject::tr("Refine"));
+  auto* text = new QLabel(breakable(textOf(present)), this);
+  text->setObjectName(QStringLiteral("refineText"));
+  text->setTextFormat(Qt::PlainText);
+  text->setWordWrap(true);
+  automatic_->setObjectName(QStringLiteral("refineAutomatic"));
+  automatic_->setToolTip(QObject::tr("Let the importer choose both from the size, as when the file was opened"));
+  chord_->setObjectName(QStringLiteral("refineChord"));
+  chord_->setLength(4);
+  chord_->setTrimmed(true);
+  chord_->setQuantityRange(kMinChord, kMaxChord);
+  chord_->setQuantityStep(1e-5);
+  chord_->setHelp(QObject::tr("Max distance between an exact surface and its triangles. Smaller is finer"));
+  angle_->setObjectName(QStringLiteral("refineAngle"));
+  angle_->setUnit(QStringLiteral("°"));
+  angle_->setDecimals(1);
+  angle_->setQuantityRange(kMinFacetAngle, kMaxFacetAngle);
+  angle_->setQuantityStep(0.0175);
+  angle_->setHelp(QObject::tr("Max angle between neighbouring facets of a surface. Smaller is finer"));
+  const Tessellation& effective = present.effective;
+  chord_->showQuantity(effective.chord > 0.0 ? effective.chord : kUnknown.chord);
+  angle_->showQuantity(effective.angle > 0.0 ? effective.angle : kUnknown.angle);
+  const auto setAutomatic = [this](bool isOn) {
+    chord_->setEnabled(!isOn);
+    angle_->setEnabled(!isOn);
+  };
+  connect(automatic_, &QCheckBox::toggled, this, setAutomatic);
+  auto* finer = new QPushButton(QObject::tr("&Finer"), this);
+  auto* coarser = new QPushButton(QObject::tr("&Coarser"), this);
+  finer->setObjectName(QStringLiteral("refineFiner"));
+  coarser->setObjectName(QStringLiteral("refineCoarser"));
+  finer->setToolTip(QObject::tr("A quarter of the chord, half the angle: about twice the facets round a cylinder"));
+  coarser->setToolTip(QObject::tr("Four times the chord, twice the angle: about half the facets round a cylinder"));
+  finer->setAutoDefault(false);
+  coarser->setAutoDefault(false);
+  connect(finer, &QPushButton::clicked, this, [this] { scale(1.0 / kChordStep, 1.0 / kAngleStep); });
+  connect(coarser, &QPushButton::clicked, this, [this] { scale(kChordStep, kAngleStep); });
+  auto* steps = new QHBoxLayout;
+  steps->addWidget(finer);
+  steps->addWidget(coarser);
+  steps->addStretch();
+  auto* form = new QFormLayout;
+  form->addRow(QObject::tr("C&hord"), chord_);
+  form->addRow(QObject::tr("&Angle"), angle_);
+  form->addRow(QString(), steps);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
+  buttons->button(QDialogButtonBox::Ok)->setText(QObject::tr("Refine"));
+  connect(buttons, &QDialogButtonBox::accepted, this, [this] {
+    chord_->settle();
+    angle_->settle();
+    // What cannot be read stays to be corrected.
+    if (automatic_->isChecked() || (!chord_->isFaulty() && !angle_->isFaulty())) accept();
+  });
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(text);
+  layout->addWidget(automatic_);
+  layout->addLayout(form);
+  layout->addWidget(buttons);
+  setMinimumWidth(forFont(*this, 380));
+  automatic_->setChecked(present.asked == Tessellation{});
+  setAutomatic(automatic_->isChecked());
+}
+
+void RefineDialog::scale(double chordFactor, double angleFactor) {
+  automatic_->setChecked(false);
+  chord_->showQuantity(std::clamp(chord_->quantity() * chordFactor, kMinChord, kMaxChord));
+  angle_->showQuantity(std::clamp(angle_->quantity() * angleFactor, kMinFacetAngle, kMaxFacetAngle));
+}
+
+Tessellation RefineDialog::tessellation() const {
+  return automatic_->isChecked() ? Tessellation{} : Tessellation{chord_->quantity(), angle_->quantity()};
+}
+
+}  // namespace
+
+std::optional<Tessellation> askForTessellation(const Scene& scene, const Refinement& refinement, QWidget* parent) {
+  RefineDialog dialog(presentOf(scene, refinement), parent);
+  return dialog.exec() == QDialog::Accepted ? std::optional(dialog.tessellation()) : std::nullopt;
+}
+
+}  // namespace nearfit::ui
