@@ -1,8 +1,10 @@
 #include "core/scene/refinement.h"
 
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,23 +29,27 @@ bool isRefinable(const Part& part) noexcept {
 
 Refinement refinementOf(const Scene& scene, std::span<const PartId> parts, const Tessellation& tessellation) {
   checkTessellation(tessellation);
-  Refinement refinement;
-  std::map<ShapeName, std::size_t> known;
+  std::set<ShapeName> chosen;
   for (const PartId id : parts) {
     const Part& part = scene.get(id);
     if (!isRefinable(part)) {
       throw UsageError(fmt::format("part \"{}\"", part.name), "its file holds triangles, no exact surfaces",
                        "choose a part of a STEP, IGES or BREP file");
     }
-    const PartGeometry& geometry = *part.geometry;
-    if (!known.emplace(shapeNameOf(geometry), refinement.sources.size()).second) continue;
-    refinement.sources.push_back(
-        {geometry.file, geometry.metresPerUnit, geometry.sha256, geometry.shapeKey, tessellation});
+    chosen.insert(shapeNameOf(*part.geometry));
   }
+  Refinement refinement;
+  std::map<std::pair<ShapeName, std::string>, std::size_t> known;
   for (const Scene::PartPtr& part : scene.parts()) {
-    if (!isRefinable(*part)) continue;
-    const auto shape = known.find(shapeNameOf(*part->geometry));
-    if (shape != known.end()) refinement.members.push_back({part->id, shape->second});
+    if (!isRefinable(*part) || !chosen.contains(shapeNameOf(*part->geometry))) continue;
+    const PartGeometry& geometry = *part->geometry;
+    const auto [source, isNew] =
+        known.try_emplace({shapeNameOf(geometry), textOf(geometry.repairs)}, refinement.sources.size());
+    if (isNew) {
+      refinement.sources.push_back({geometry.file, geometry.metresPerUnit, geometry.sha256, geometry.shapeKey,
+                                    tessellation, geometry.repairs});
+    }
+    refinement.members.push_back({part->id, source->second});
   }
   return refinement;
 }
