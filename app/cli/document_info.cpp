@@ -53,9 +53,10 @@ const PartGeometry& anyShapeOf(const LoadedDocument& document) {
 
 std::string shapeText(const PartGeometry& shape, std::size_t uses, std::optional<double> density) {
   const glm::dvec3 size = shape.mesh.bounds().upper - shape.mesh.bounds().lower;
-  std::string text = fmt::format("  shape       {}: placed {} time{}, {} triangles, {}, {:.6g} x {:.6g} x {:.6g} m",
-                                 oneLine(shape.shapeKey), uses, uses == 1 ? "" : "s", shape.mesh.triangles().size(),
-                                 shape.mesh.topology().isClosed() ? "closed" : "open", size.x, size.y, size.z);
+  std::string text =
+      fmt::format("  shape       {}: placed {} time{}, {} triangles, {}, {:.6g} x {:.6g} x {:.6g} m",
+                  oneLine(shape.shapeKey), uses, uses == 1 ? "" : "s", shape.mesh.triangles().size(),
+                  shape.mesh.topology().isClosed() ? "closed" : "open", size.x, size.y, size.z);
   if (shape.surfaces != nullptr) text += fmt::format(", {} faces", shape.surfaces->faces.size());
   if (shape.isExact) {
     text += fmt::format(", chord {:.3g} m, angle {:.3g} degrees", shape.effectiveTessellation.chord,
@@ -84,8 +85,9 @@ std::string treeText(const LoadedDocument& document) {
     const std::size_t i = open.back();
     open.pop_back();
     const CadNode& node = document.nodes[i];
-    text += fmt::format("  {}{}{}", text.empty() ? "tree        " : "            ", std::string(2 * depths[i], ' '),
-                        node.name.empty() ? "(unnamed)" : oneLine(node.name));
+    text +=
+        fmt::format("  {}{}{}", text.empty() ? "tree        " : "            ",
+                    std::string(2 * depths[i], ' '), node.name.empty() ? "(unnamed)" : oneLine(node.name));
     if (node.shape >= 0) {
       const PartGeometryPtr& shape = document.shapes[static_cast<std::size_t>(node.shape)];
       text += shape != nullptr ? "  = " + oneLine(shape->shapeKey) : std::string("  (left out)");
@@ -116,7 +118,8 @@ Json shapeJson(const PartGeometry& shape, std::size_t uses, std::optional<double
   json["exact"] = shape.isExact;
   json["chord"] = shape.effectiveTessellation.chord;
   json["angle"] = shape.effectiveTessellation.angle;
-  json["bounds"] = {{"lower", pointOf(shape.mesh.bounds().lower)}, {"upper", pointOf(shape.mesh.bounds().upper)}};
+  json["bounds"] = {{"lower", pointOf(shape.mesh.bounds().lower)},
+                    {"upper", pointOf(shape.mesh.bounds().upper)}};
   json["volume"] = shape.mass.volume;
   json["exactVolume"] = shape.exactVolume > 0.0 ? Json(shape.exactVolume) : Json();
   json["centre"] = pointOf(shape.mass.centre);
@@ -130,7 +133,8 @@ Json nodeJson(const CadNode& node, const LoadedDocument& document) {
   Json json;
   json["name"] = node.name;
   json["parent"] = node.parent >= 0 ? Json(node.parent) : Json();
-  const PartGeometryPtr shape = node.shape >= 0 ? document.shapes[static_cast<std::size_t>(node.shape)] : nullptr;
+  const PartGeometryPtr shape =
+      node.shape >= 0 ? document.shapes[static_cast<std::size_t>(node.shape)] : nullptr;
   json["shape"] = shape != nullptr ? Json(shape->shapeKey) : Json();
   json["position"] = pointOf(node.parentFromNode.translation);
   json["quaternion"] = {q.w, q.x, q.y, q.z};
@@ -140,7 +144,8 @@ Json nodeJson(const CadNode& node, const LoadedDocument& document) {
 
 }  // namespace
 
-std::string documentText(const std::string& name, const LoadedDocument& document, std::optional<double> density) {
+std::string documentText(const std::string& name, const LoadedDocument& document,
+                         std::optional<double> density) {
   const PartGeometry& any = anyShapeOf(document);
   const Totals totals = totalsOf(document);
   std::string text = fmt::format(
@@ -175,7 +180,8 @@ Json documentJson(const std::string& name, const LoadedDocument& document, std::
   json["shapes"] = Json::array();
   const std::vector<std::size_t> uses = usesOf(document);
   for (std::size_t i = 0; i < uses.size(); ++i) {
-    if (document.shapes[i] != nullptr) json["shapes"].push_back(shapeJson(*document.shapes[i], uses[i], density));
+    if (document.shapes[i] != nullptr)
+      json["shapes"].push_back(shapeJson(*document.shapes[i], uses[i], density));
   }
   json["nodes"] = Json::array();
   for (const CadNode& node : document.nodes)

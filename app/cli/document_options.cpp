@@ -21,12 +21,14 @@ constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 void addTessellationOptions(CLI::App& command, TessellationOptions& options) {
   command
       .add_option("--chord", options.chord,
-                  "Max distance between the exact surfaces of a CAD document and their triangles [m]; default: chosen "
+                  "Max distance between the exact surfaces of a CAD document and their triangles [m]; "
+                  "default: chosen "
                   "from each shape's size")
       ->type_name("METRES");
   command
-      .add_option("--angle", options.angleDegrees,
-                  "Max angle between neighbouring facets of such a surface [degrees]; default: the importer's")
+      .add_option(
+          "--angle", options.angleDegrees,
+          "Max angle between neighbouring facets of such a surface [degrees]; default: the importer's")
       ->type_name("DEGREES");
 }
 

@@ -14,7 +14,8 @@ namespace nearfit::cli {
 
 /// Help text on the values of --unit where files are read that may store none.
 inline constexpr const char* kFileUnitHelp =
-    "Unit of the coordinates of mesh and BREP files, which store none: m, cm, mm, um, in, ft, or a number of metres";
+    "Unit of the coordinates of mesh and BREP files, which store none: m, cm, mm, um, in, ft, or a number of "
+    "metres";
 
 /// Options --chord and --angle.
 struct TessellationOptions {

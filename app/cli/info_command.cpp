@@ -209,12 +209,13 @@ std::string reportOn(const std::string& name, double metresPerUnit, const InfoOp
   }
   const FileArgument argument = fileArgumentOf(name);
   if (isDocumentFile(argument.file) && argument.shape.empty()) {
-    const LoadedDocument document = loadDocument(argument.file, metresPerUnit, tessellationOf(options.tessellation));
+    const LoadedDocument document =
+        loadDocument(argument.file, metresPerUnit, tessellationOf(options.tessellation));
     return options.isJson ? documentJson(name, document, options.density).dump() + "\n"
                           : documentText(name, document, options.density);
   }
-  const PartGeometryPtr geometry = geometryOf(
-      {argument.file, metresPerUnit, {}, argument.shape, tessellationOf(options.tessellation)});
+  const PartGeometryPtr geometry =
+      geometryOf({argument.file, metresPerUnit, {}, argument.shape, tessellationOf(options.tessellation)});
   return options.isJson ? infoJson(name, *geometry, options.density).dump() + "\n"
                         : infoText(name, *geometry, options.density);
 }
@@ -246,14 +247,15 @@ void runInfo(const InfoOptions& options) {
 
 void addInfoCommand(CLI::App& program) {
   const auto options = std::make_shared<InfoOptions>();
-  CLI::App* command = program.add_subcommand(
-      "info",
-      "Prints the size, mass and topology of meshes, and where they are open or inconsistent; of CAD documents, their "
-      "shapes and tree; of scenes, their parts and joints.");
+  CLI::App* command = program.add_subcommand("info",
+                                             "Prints the size, mass and topology of meshes, and where they "
+                                             "are open or inconsistent; of CAD documents, their "
+                                             "shapes and tree; of scenes, their parts and joints.");
   command
-      ->add_option("mesh", options->meshes,
-                   "Mesh files (STL, OBJ, PLY, OFF), CAD documents (STEP, IGES, BREP, glTF, 3MF, URDF) or scene files "
-                   "(*.nearfit)")
+      ->add_option(
+          "mesh", options->meshes,
+          "Mesh files (STL, OBJ, PLY, OFF), CAD documents (STEP, IGES, BREP, glTF, 3MF, URDF) or scene files "
+          "(*.nearfit)")
       ->required()
       ->type_name("FILE");
   command->add_option("--unit", options->unit, kFileUnitHelp);
@@ -275,7 +277,8 @@ void addInfoCommand(CLI::App& program) {
       "hierarchy    What distance queries search: built now, or read from the cache (see nearfit-cli "
       "cache).\n"
       "bytes        Memory that it takes.\n"
-      "shape        Of a CAD document: key, instances, triangles, tessellation in effect, and volume of its mesh\n"
+      "shape        Of a CAD document: key, instances, triangles, tessellation in effect, and volume of its "
+      "mesh\n"
       "             (and of the exact solid). FILE#KEY reports on the mesh of one shape in full.\n"
       "tree         Of a CAD document: assemblies, and instances with the keys of their shapes.\n"
       "joint N      Of a scene: what keeps a part, with the number that nearfit-cli scene release takes.\n"

@@ -200,7 +200,10 @@ void addLmdCommand(CLI::App& program) {
   const auto options = std::make_shared<LmdOptions>();
   CLI::App* command = program.add_subcommand(
       "lmd", "Finds all local minimum distances between two meshes at one or more poses, and their force.");
-  command->add_option("scene_mesh", options->sceneMesh, "Mesh at rest: STL, OBJ, PLY, OFF, or a CAD document; FILE#KEY names one of several shapes of that")
+  command
+      ->add_option(
+          "scene_mesh", options->sceneMesh,
+          "Mesh at rest: STL, OBJ, PLY, OFF, or a CAD document; FILE#KEY names one of several shapes of that")
       ->required()
       ->type_name("FILE");
   command->add_option("part_mesh", options->partMesh, "Mesh of the part that is put at each pose")

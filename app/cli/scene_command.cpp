@@ -86,8 +86,8 @@ HapticSettings newSettings(const HapticOptions& options) {
 }
 
 /// What a scene is made of, loaded: each document once.
-NewNodes loadNodes(const std::vector<PartArgument>& arguments, const SceneNewOptions& options, double metresPerUnit,
-                   std::vector<std::string>& warnings) {
+NewNodes loadNodes(const std::vector<PartArgument>& arguments, const SceneNewOptions& options,
+                   double metresPerUnit, std::vector<std::string>& warnings) {
   const Tessellation tessellation = tessellationOf(options.tessellation);
   std::set<std::string> names;
   NewNodes nodes;
@@ -187,9 +187,11 @@ void runSceneNew(const SceneNewOptions& options) {
 constexpr const char* kSceneFooter =
     "A part is NAME=FILE[@POSE]: its name (without =), its mesh file, and its pose in the world,\n"
     "tx,ty,tz,qw,qx,qy,qz: translation [m] and unit quaternion; default: at the origin.\n"
-    "A file name may contain @ if what follows the last one is not a pose. Of a CAD document, FILE#KEY names one\n"
+    "A file name may contain @ if what follows the last one is not a pose. Of a CAD document, FILE#KEY names "
+    "one\n"
     "of several shapes, which nearfit-cli info lists; the part is that shape in its own frame.\n"
-    "--import keeps a document as it is: its assemblies become groups, its instances parts, where it places them.\n"
+    "--import keeps a document as it is: its assemblies become groups, its instances parts, where it places "
+    "them.\n"
     "The scene file refers to each mesh by its path from the scene file's folder and by its SHA-256.\n"
     "An existing OUT is replaced.\n"
     "Example: nearfit-cli scene new fit.nearfit --unit mm --part Hole=hole.stl\n"

@@ -36,7 +36,8 @@ std::vector<PartId> partsToRefine(const Scene& scene, const std::vector<std::str
     if (names.empty() && isRefinable(*part)) parts.push_back(part->id);
   }
   if (parts.empty())
-    throw UsageError("PART", "the scene has no part of exact surfaces", "add parts of a STEP, IGES or BREP file");
+    throw UsageError("PART", "the scene has no part of exact surfaces",
+                     "add parts of a STEP, IGES or BREP file");
   return parts;
 }
 
@@ -61,8 +62,8 @@ void runSceneRefine(const RefineOptions& options) {
   for (const LoadedPart& each : loaded)
     triangles += each.geometry->mesh.triangles().size();
   print(oneLine(fmt::format("wrote {}: {} part{} of {} shape{} with {} triangles", options.scene,
-                            refinement.members.size(), refinement.members.size() == 1 ? "" : "s", loaded.size(),
-                            loaded.size() == 1 ? "" : "s", triangles)) +
+                            refinement.members.size(), refinement.members.size() == 1 ? "" : "s",
+                            loaded.size(), loaded.size() == 1 ? "" : "s", triangles)) +
         "\n");
 }
 
@@ -73,7 +74,8 @@ void addSceneRefine(CLI::App& scene) {
   CLI::App* command =
       scene.add_subcommand("refine", "Gives parts of CAD documents a finer or coarser tessellation.");
   command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required()->type_name("SCENE");
-  command->add_option("part", options->parts, "Names of the parts; default: all of exact surfaces")->type_name("PART");
+  command->add_option("part", options->parts, "Names of the parts; default: all of exact surfaces")
+      ->type_name("PART");
   addTessellationOptions(*command, options->tessellation);
   command->footer(
       "All instances of the parts' shapes follow; poses stay. Without --chord and --angle they get back the\n"

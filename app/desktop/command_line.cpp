@@ -24,17 +24,19 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
   CLI::App program("Feel one part against the others before any of them exists.", "nearfit");
   program.footer(
       "Without files it starts with an empty scene; the first time, with the demo scene and a short tour. "
-      "Without --unit it asks for the unit of mesh and BREP files, which store none; with --screenshot or --seconds it takes mm.");
+      "Without --unit it asks for the unit of mesh and BREP files, which store none; with --screenshot or "
+      "--seconds it takes mm.");
   program.set_version_flag("--version", std::string("nearfit ") + NEARFIT_VERSION);
   Options options;
-  CLI::Option* files =
-      program.add_option("FILE", options.files, "Scene (*.nearfit), mesh (STL, OBJ, PLY, OFF) or CAD document (STEP, IGES, BREP, glTF, 3MF, URDF) to open");
+  CLI::Option* files = program.add_option("FILE", options.files,
+                                          "Scene (*.nearfit), mesh (STL, OBJ, PLY, OFF) or CAD document "
+                                          "(STEP, IGES, BREP, glTF, 3MF, URDF) to open");
   std::string unit;
-  CLI::Option* unitOption =
-      program
-          .add_option("--unit", unit,
-                      "Unit of the coordinates of files that store none: m, cm, mm, um, in, ft, or a number of metres")
-          ->needs(files);
+  CLI::Option* unitOption = program
+                                .add_option("--unit", unit,
+                                            "Unit of the coordinates of files that store none: m, cm, mm, "
+                                            "um, in, ft, or a number of metres")
+                                ->needs(files);
   CLI::Option* demo = program
                           .add_flag("--demo", options.isDemo,
                                     "Open a copy of the demo scene; the original is never overwritten")

@@ -172,7 +172,7 @@ class Swapper {
   std::vector<Triangle>& triangles_;
   double tolerance_;
   std::vector<std::uint32_t>* sources_;  ///< By triangle; may be null.
-  std::vector<Side> twin_;  ///< By side: the opposite side of its edge, or kNoSide.
+  std::vector<Side> twin_;               ///< By side: the opposite side of its edge, or kNoSide.
 };
 
 }  // namespace

@@ -227,8 +227,8 @@ class Builder {
   MeshBuildReport& report_;
   const std::function<void(double)>& onProgress_;
   std::vector<std::uint32_t>* polygonOf_;  ///< By triangle; may be null.
-  double tolerance_ = 0.0;            ///< [m]
-  std::vector<glm::dvec3> vertices_;  ///< [m]
+  double tolerance_ = 0.0;                 ///< [m]
+  std::vector<glm::dvec3> vertices_;       ///< [m]
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> newIndex_;  ///< By vertex of the soup.
 };

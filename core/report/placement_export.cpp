@@ -45,6 +45,7 @@ Json partJson(const Part& part) {
   json["name"] = part.name;
   json["mesh"] = isUtf8(mesh) ? mesh : printableText(mesh);
   json["sha256"] = part.geometry->sha256;
+  if (!part.geometry->shapeKey.empty()) json["shape"] = part.geometry->shapeKey;
   json["metresPerUnit"] = part.geometry->metresPerUnit;
   json["visible"] = part.isVisible;
   json["matrix"] = matrixJson(part.worldFromPart);

@@ -20,6 +20,7 @@
 ///         "name": "Peg",
 ///         "mesh": "/home/me/peg.stl",                      absolute
 ///         "sha256": "9f86d0...",                           of the mesh file's bytes
+///         "shape": "0:1:1:2",                              of a CAD document only: key of the shape
 ///         "metresPerUnit": 0.001,                          of the mesh file's coordinates
 ///         "visible": true,
 ///         "matrix": [[...], [...], [...], [0, 0, 0, 1]],   worldFromPart by rows; last column: translation

@@ -24,6 +24,7 @@
 #include "core/parallel/shared_progress.h"
 #include "core/scene/cached_geometry.h"
 #include "core/scene/document_outline.h"
+#include "core/text/utf8.h"
 
 namespace nearfit {
 namespace {
@@ -210,9 +211,9 @@ CachedMesh built(CadShape& shape, double metresPerUnit, const std::function<void
   const bool hasFaces = !shape.surfaces.faces.empty();
   mesh.mesh = buildMesh(soup, options, mesh.report, onProgress, hasFaces ? &polygonOf : nullptr);
   mesh.report.warnings.insert(mesh.report.warnings.begin(), shape.warnings.begin(), shape.warnings.end());
-  // The cache separates warnings by zeros.
-  std::erase_if(mesh.report.warnings,
-                [](const std::string& warning) { return warning.find('\0') != std::string::npos; });
+  for (std::string& warning : mesh.report.warnings) {
+    if (!isPrintableUtf8(warning)) warning = printableText(warning);
+  }
   mesh.mass = massProperties(mesh.mesh);
   mesh.shape.emplace();
   if (hasFaces) {
@@ -338,7 +339,7 @@ LoadedDocument documentOf(CadDocument imported, const Source& source, const Prog
     document.shapes.push_back(loaded[i].geometry);
     if (!loaded[i].problem) continue;
     problem = loaded[i].problem;
-    outline.shapes[i].problem = messageOf(problem);
+    outline.shapes[i].problem = printableText(messageOf(problem));
     outline.warnings.push_back(
         fmt::format("Shape \"{}\" was left out: {}.", outline.shapes[i].key, outline.shapes[i].problem));
   }

@@ -169,9 +169,11 @@ Aabb boundsOfDocument(const LoadedDocument& document) {
   std::vector<RigidTransform> worldFromNode(document.nodes.size());
   for (std::size_t i = 0; i < document.nodes.size(); ++i) {
     const CadNode& node = document.nodes[i];
-    worldFromNode[i] = node.parent < 0 ? node.parentFromNode
-                                       : worldFromNode[static_cast<std::size_t>(node.parent)] * node.parentFromNode;
-    const PartGeometryPtr shape = node.shape >= 0 ? document.shapes[static_cast<std::size_t>(node.shape)] : nullptr;
+    worldFromNode[i] = node.parent < 0
+                           ? node.parentFromNode
+                           : worldFromNode[static_cast<std::size_t>(node.parent)] * node.parentFromNode;
+    const PartGeometryPtr shape =
+        node.shape >= 0 ? document.shapes[static_cast<std::size_t>(node.shape)] : nullptr;
     if (shape == nullptr) continue;
     for (const glm::dvec3& vertex : shape->mesh.vertices())
       box.add(worldFromNode[i].applyToPoint(vertex));

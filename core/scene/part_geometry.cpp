@@ -107,7 +107,7 @@ struct LoadGroup {
   bool isDocument;
 };
 
-std::vector<LoadGroup> groupsOf(std::span<const MeshSource> sources) {
+std::vector<LoadGroup> loadGroupsOf(std::span<const MeshSource> sources) {
   using Key = std::tuple<std::filesystem::path, double, std::string, double, double>;
   std::vector<LoadGroup> groups;
   std::map<Key, std::size_t> known;
@@ -234,7 +234,7 @@ GeometryRepair repairGeometry(const PartGeometry& original, const MeshRepairs& r
 
 std::vector<LoadedPart> loadPartGeometries(std::span<const MeshSource> sources,
                                            const ProgressCallback& progress) {
-  const std::vector<LoadGroup> groups = groupsOf(sources);
+  const std::vector<LoadGroup> groups = loadGroupsOf(sources);
   std::vector<double> weights;
   for (const LoadGroup& group : groups)
     weights.push_back(weightOf(sources[group.sources.front()].file));

@@ -26,7 +26,8 @@ std::uint32_t sideOf(const TriangleMesh& box, const Triangle& t) {
 
 DocumentImporter importerOf(FakeImporter::Make make, std::shared_ptr<std::atomic<int>> runs,
                             std::function<void(const DocumentOptions&)> note) {
-  return [=](const std::filesystem::path& file, const DocumentOptions& options, const ProgressCallback& progress) {
+  return [=](const std::filesystem::path& file, const DocumentOptions& options,
+             const ProgressCallback& progress) {
     ++*runs;
     note(options);
     if (progress && !progress(0.5)) throw Cancelled();
@@ -76,7 +77,8 @@ CadShape boxShape(const std::string& key, const glm::dvec3& size) {
   return shape;
 }
 
-CadShape cylinderShape(const std::string& key, double radius, double height, const Tessellation& tessellation) {
+CadShape cylinderShape(const std::string& key, double radius, double height,
+                       const Tessellation& tessellation) {
   const double chord = tessellation.chord > 0.0 ? tessellation.chord : kDefaultChord * radius;
   const double half = std::acos(std::max(0.0, 1.0 - chord / radius));
   const auto segments = static_cast<std::uint32_t>(std::max(3.0, std::ceil(std::numbers::pi / half)));

@@ -21,7 +21,8 @@ CadShape shapeOf(const std::string& key, const TriangleMesh& mesh);
 CadShape boxShape(const std::string& key, const glm::dvec3& size);
 
 /// A closed cylinder about z, [m]: one cylinder and two planes. The chord of its tessellation decides its segments.
-CadShape cylinderShape(const std::string& key, double radius, double height, const Tessellation& tessellation);
+CadShape cylinderShape(const std::string& key, double radius, double height,
+                       const Tessellation& tessellation);
 
 CadNode assemblyNode(const std::string& name, std::int32_t parent, const RigidTransform& parentFromNode = {});
 CadNode instanceNode(const std::string& name, std::int32_t parent, std::int32_t shape,

@@ -266,7 +266,8 @@ struct Document::LoadedFiles {
 std::vector<PartGeometryPtr> Document::LoadedFiles::geometries() const {
   std::vector<PartGeometryPtr> all = meshes;
   for (const LoadedDocument& document : documents)
-    std::ranges::copy_if(document.shapes, std::back_inserter(all), [](const auto& shape) { return shape != nullptr; });
+    std::ranges::copy_if(document.shapes, std::back_inserter(all),
+                         [](const auto& shape) { return shape != nullptr; });
   return all;
 }
 
@@ -284,7 +285,8 @@ Document::LoadedFiles Document::loadFiles(const QStringList& files, double metre
   }
   const double whole = static_cast<double>(files.size());
   double done = static_cast<double>(meshes.size());
-  const std::vector<LoadedPart> loaded = loadPartGeometries(meshes, stageCallback(progress, 0.0, done / whole));
+  const std::vector<LoadedPart> loaded =
+      loadPartGeometries(meshes, stageCallback(progress, 0.0, done / whole));
   for (std::size_t i = 0; i < loaded.size(); ++i) {
     if (loaded[i].problem)
       outcome.problems << describeItem(fromPath(meshes[i].file.filename()), loaded[i].problem);

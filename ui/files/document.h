@@ -103,7 +103,8 @@ class Document : public SceneWork {
   struct LoadedFiles;
   /// Unit for the files that store none, which the user is asked for if there are any; std::nullopt: cancelled.
   std::optional<double> unitOf(const QStringList& files);
-  static LoadedFiles loadFiles(const QStringList& files, double metresPerUnit, const ProgressCallback& progress);
+  static LoadedFiles loadFiles(const QStringList& files, double metresPerUnit,
+                               const ProgressCallback& progress);
   void tellWarnings(const LoadedFiles& files);
   void finishParts(const QStringList& files, const LoadedFiles& loadedFiles);
 

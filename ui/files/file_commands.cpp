@@ -35,14 +35,15 @@ FileCommands::FileCommands(const Context& context, QWidget* window)
 void FileCommands::makeActions() {
   newScene = makeAction(this, "newScene", tr("&New scene"), QStringLiteral("new"), QKeySequence::New,
                         tr("Start an empty scene"));
-  open = makeAction(this, "open", tr("&Open…"), QStringLiteral("open"), QKeySequence::Open,
-                    tr("Open a scene (*.nearfit) in place of this one, or add meshes and CAD documents to it"));
+  open =
+      makeAction(this, "open", tr("&Open…"), QStringLiteral("open"), QKeySequence::Open,
+                 tr("Open a scene (*.nearfit) in place of this one, or add meshes and CAD documents to it"));
   openDemo = makeAction(this, "openDemo", tr("Open &demo"), QStringLiteral("demo"), {},
                         tr("Open the demo scene: a piston to fit into its cylinder"));
-  addParts = makeAction(
-      this, "addParts", tr("Add &parts…"), QStringLiteral("add"), QStringLiteral("Ctrl+I"),
-      tr("Add meshes (STL, OBJ, PLY, OFF) and CAD documents (STEP, IGES, BREP, glTF, 3MF, URDF) to the scene; you "
-         "can also drop files and folders on the window"));
+  addParts = makeAction(this, "addParts", tr("Add &parts…"), QStringLiteral("add"), QStringLiteral("Ctrl+I"),
+                        tr("Add meshes (STL, OBJ, PLY, OFF) and CAD documents (STEP, IGES, BREP, glTF, 3MF, "
+                           "URDF) to the scene; you "
+                           "can also drop files and folders on the window"));
   save = makeAction(this, "save", tr("&Save"), QStringLiteral("save"), QKeySequence::Save,
                     tr("Save the scene and where its parts are"));
   saveAs = makeAction(this, "saveAs", tr("Save &as…"), QStringLiteral("save-as"),

@@ -172,7 +172,10 @@ std::vector<PartFiles::Wanted> PartFiles::partsOf(const QStringList& files) cons
   for (const Scene::PartPtr& part : session_.scene().parts()) {
     if (part->geometry == nullptr) continue;
     if (files.isEmpty() || chosen.contains(fromPath(part->geometry->file)))
-      wanted.push_back({part->id, part->geometry->metresPerUnit, {}, part->geometry->tessellation,
+      wanted.push_back({part->id,
+                        part->geometry->metresPerUnit,
+                        {},
+                        part->geometry->tessellation,
                         part->geometry->repairs});
   }
   return wanted;
@@ -198,7 +201,8 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, con
                      const QString& failure) {
   std::vector<MeshSource> sources;
   std::vector<std::size_t> sourceOf;
-  using Key = std::tuple<std::filesystem::path, double, std::string, std::string, double, double, std::string>;
+  using Key =
+      std::tuple<std::filesystem::path, double, std::string, std::string, double, double, std::string>;
   std::map<Key, std::size_t> known;
   for (const Wanted& want : wanted) {
     const PartGeometry& geometry = *session_.scene().find(want.part)->geometry;
@@ -383,10 +387,11 @@ void PartFiles::changeUnit(const std::vector<PartId>& parts) {
     if (part == nullptr || part->geometry == nullptr) continue;
     if (part->geometry->hasOwnUnit) {
       const QString file = fromPath(part->geometry->file.filename());
-      return emit failed({tr("The unit of “%1” cannot be changed.").arg(QString::fromStdString(part->name)),
-                          tr("%1 stores its unit, and its sizes are right in that. To scale it, export it from the "
-                             "CAD system in another size.")
-                              .arg(file)});
+      return emit failed(
+          {tr("The unit of “%1” cannot be changed.").arg(QString::fromStdString(part->name)),
+           tr("%1 stores its unit, and its sizes are right in that. To scale it, export it from the "
+              "CAD system in another size.")
+               .arg(file)});
     }
     const Aabb& bounds = part->geometry->mesh.bounds();
     const double metresPerUnit = part->geometry->metresPerUnit;

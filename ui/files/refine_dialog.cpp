@@ -44,7 +44,9 @@ Present presentOf(const Scene& scene, const Refinement& refinement) {
     present.names << QString::fromStdString(part.name);
     ++present.parts;
     if (!seen.insert(part.geometry.get()).second) continue;
-    const auto finer = [](double a, double b) { return a == 0.0 || b == 0.0 ? std::max(a, b) : std::min(a, b); };
+    const auto finer = [](double a, double b) {
+      return a == 0.0 || b == 0.0 ? std::max(a, b) : std::min(a, b);
+    };
     if (present.shapes == 0) present.asked = part.geometry->tessellation;
     present.effective.chord = finer(present.effective.chord, part.geometry->effectiveTessellation.chord);
     present.effective.angle = finer(present.effective.angle, part.geometry->effectiveTessellation.angle);
@@ -60,8 +62,9 @@ QString textOf(const Present& present) {
   if (present.parts == 1)
     return QObject::tr("“%1” has %2 triangles. How many it will have is known once it is read again.")
         .arg(shortName(present.names.first()), triangles);
-  return QObject::tr("%1 share %2 triangles and change together. How many they will have is known once they are read "
-                     "again.")
+  return QObject::tr(
+             "%1 share %2 triangles and change together. How many they will have is known once they are read "
+             "again.")
       .arg(listOfNames(present.names, kNamed), triangles);
 }
 
@@ -90,7 +93,8 @@ RefineDialog::RefineDialog(const Present& present, QWidget* parent)
   text->setTextFormat(Qt::PlainText);
   text->setWordWrap(true);
   automatic_->setObjectName(QStringLiteral("refineAutomatic"));
-  automatic_->setToolTip(QObject::tr("Let the importer choose both from the size, as when the file was opened"));
+  automatic_->setToolTip(
+      QObject::tr("Let the importer choose both from the size, as when the file was opened"));
   chord_->setObjectName(QStringLiteral("refineChord"));
   chord_->setLength(4);
   chord_->setTrimmed(true);
@@ -115,8 +119,10 @@ RefineDialog::RefineDialog(const Present& present, QWidget* parent)
   auto* coarser = new QPushButton(QObject::tr("&Coarser"), this);
   finer->setObjectName(QStringLiteral("refineFiner"));
   coarser->setObjectName(QStringLiteral("refineCoarser"));
-  finer->setToolTip(QObject::tr("A quarter of the chord, half the angle: about twice the facets round a cylinder"));
-  coarser->setToolTip(QObject::tr("Four times the chord, twice the angle: about half the facets round a cylinder"));
+  finer->setToolTip(
+      QObject::tr("A quarter of the chord, half the angle: about twice the facets round a cylinder"));
+  coarser->setToolTip(
+      QObject::tr("Four times the chord, twice the angle: about half the facets round a cylinder"));
   finer->setAutoDefault(false);
   coarser->setAutoDefault(false);
   connect(finer, &QPushButton::clicked, this, [this] { scale(1.0 / kChordStep, 1.0 / kAngleStep); });
@@ -160,7 +166,8 @@ Tessellation RefineDialog::tessellation() const {
 
 }  // namespace
 
-std::optional<Tessellation> askForTessellation(const Scene& scene, const Refinement& refinement, QWidget* parent) {
+std::optional<Tessellation> askForTessellation(const Scene& scene, const Refinement& refinement,
+                                               QWidget* parent) {
   RefineDialog dialog(presentOf(scene, refinement), parent);
   return dialog.exec() == QDialog::Accepted ? std::optional(dialog.tessellation()) : std::nullopt;
 }

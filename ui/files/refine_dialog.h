@@ -11,6 +11,7 @@ namespace nearfit::ui {
 /// Asks for another tessellation of shapes. Shows the present one, its triangles, and how many parts will follow.
 /// @param refinement  Names the parts, all of which are in the scene; at least one.
 /// @return std::nullopt if the user cancels.
-std::optional<Tessellation> askForTessellation(const Scene& scene, const Refinement& refinement, QWidget* parent);
+std::optional<Tessellation> askForTessellation(const Scene& scene, const Refinement& refinement,
+                                               QWidget* parent);
 
 }  // namespace nearfit::ui

@@ -86,7 +86,11 @@ class UnitDialog : public QDialog {
 };
 
 UnitDialog::UnitDialog(const QString& question, const QString& accept, QWidget* parent)
-    : QDialog(parent), group_(new QButtonGroup(this)), grid_(new QGridLayout), reading_(new QLabel(this)), known_(new QLabel(this)) {
+    : QDialog(parent),
+      group_(new QButtonGroup(this)),
+      grid_(new QGridLayout),
+      reading_(new QLabel(this)),
+      known_(new QLabel(this)) {
   setObjectName(QStringLiteral("unitDialog"));
   setWindowTitle(QObject::tr("Unit of length"));
   auto* text = new QLabel(breakable(question), this);
@@ -201,7 +205,8 @@ QString questionAboutParts(const QStringList& parts) {
 
 }  // namespace
 
-std::optional<double> askForUnit(const QStringList& files, const std::optional<glm::dvec3>& others, QWidget* parent) {
+std::optional<double> askForUnit(const QStringList& files, const std::optional<glm::dvec3>& others,
+                                 QWidget* parent) {
   UnitDialog dialog(questionAbout(files), QObject::tr("Add"), parent);
   dialog.showKnownSizes(others);
   dialog.check(Preferences::metresPerUnit());

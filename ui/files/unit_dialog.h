@@ -17,7 +17,8 @@ namespace nearfit::ui {
 ///                last, and loading the files says what is wrong with them.
 /// @param others  Extent of what is in the scene [m], shown for comparison beside a hand's; std::nullopt: nothing.
 /// @return Metres per unit; std::nullopt if the user cancels.
-std::optional<double> askForUnit(const QStringList& files, const std::optional<glm::dvec3>& others, QWidget* parent);
+std::optional<double> askForUnit(const QStringList& files, const std::optional<glm::dvec3>& others,
+                                 QWidget* parent);
 
 /// Asks for another unit of parts that are in the scene. Shows the size that each unit gives them.
 /// @param parts          Their names, for the question.

@@ -27,9 +27,9 @@ struct CachedShape {
   /// In metres, with a face for each triangle of the mesh; null if the shape has no faces of its own.
   std::shared_ptr<const SurfaceFaces> surfaces;
   std::vector<std::optional<std::array<float, 3>>> faceColours;  ///< sRGB, for each face; or empty.
-  double chord = 0.0, angle = 0.0;  ///< Tessellation in effect [m, rad].
-  double exactVolume = 0.0;         ///< Of the exact solid [m^3]; 0 if unknown.
-  bool isExact = false;             ///< Came from exact surfaces.
+  double chord = 0.0, angle = 0.0;                               ///< Tessellation in effect [m, rad].
+  double exactVolume = 0.0;                                      ///< Of the exact solid [m^3]; 0 if unknown.
+  bool isExact = false;                                          ///< Came from exact surfaces.
 };
 
 /// Mesh of a mesh file or of a shape of a CAD document, and what loading found out about it.

@@ -63,10 +63,12 @@ class DocumentsCommand : public ::testing::Test {
 
 TEST_F(DocumentsCommand, InfoShowsShapesTreeAndInstances) {
   const std::string text = output({"info", vise_});
-  EXPECT_THAT(text, AllOf(HasSubstr("unit        the file's own"), HasSubstr("parts       3 of 2 shapes"),
-                          HasSubstr("shape       body: placed 1 time, 12 triangles, closed, 0.1 x 0.06 x 0.04 m, 6 faces"),
-                          HasSubstr("shape       pin: placed 2 times"), HasSubstr("chord 0.0001 m"),
-                          HasSubstr("volume 0.00024 m^3 (exact 0.00024)")));
+  EXPECT_THAT(
+      text,
+      AllOf(HasSubstr("unit        the file's own"), HasSubstr("parts       3 of 2 shapes"),
+            HasSubstr("shape       body: placed 1 time, 12 triangles, closed, 0.1 x 0.06 x 0.04 m, 6 faces"),
+            HasSubstr("shape       pin: placed 2 times"), HasSubstr("chord 0.0001 m"),
+            HasSubstr("volume 0.00024 m^3 (exact 0.00024)")));
   EXPECT_THAT(text, HasSubstr("  tree        vise\n"
                               "                body  = body\n"
                               "                jaws\n"
@@ -105,8 +107,9 @@ TEST_F(DocumentsCommand, InfoOnOneShapeIsThatOfItsMesh) {
 }
 
 TEST_F(DocumentsCommand, ImportKeepsTreePlacementsAndColours) {
-  EXPECT_THAT(output({"scene", "new", scene_, "--import", vise_, "--moving", "pin 2", "--density", "body=7850"}),
-              HasSubstr("3 parts, moving: pin 2"));
+  EXPECT_THAT(
+      output({"scene", "new", scene_, "--import", vise_, "--moving", "pin 2", "--density", "body=7850"}),
+      HasSubstr("3 parts, moving: pin 2"));
   const Scene scene = readSceneFile(scene_);
   ASSERT_EQ(scene.parts().size(), 3U);
   EXPECT_EQ(scene.groups().size(), 2U);
@@ -140,14 +143,15 @@ TEST_F(DocumentsCommand, MissingUnitIsAnErrorThatNamesTheOption) {
 }
 
 TEST_F(DocumentsCommand, SeveralShapesAreNamedWhereOneIsNeeded) {
-  const std::string error = errorOf({"lmd", vise_, vise_ + "#pin", "--cutoff", "0.1", "--pose", "0,0,1,1,0,0,0"});
+  const std::string error =
+      errorOf({"lmd", vise_, vise_ + "#pin", "--cutoff", "0.1", "--pose", "0,0,1,1,0,0,0"});
   EXPECT_THAT(error, AllOf(HasSubstr("2 shapes"), HasSubstr("\"body\""), HasSubstr("\"pin\"")));
 }
 
 TEST_F(DocumentsCommand, MinimaOfShapesAreFound) {
   // The pin, 30 mm high, stands 10 mm above the body, whose top is at 20 mm.
-  const Json json = Json::parse(output(
-      {"lmd", vise_ + "#body", vise_ + "#pin", "--cutoff", "0.015", "--pose", "0,0,0.045,1,0,0,0"}));
+  const Json json = Json::parse(
+      output({"lmd", vise_ + "#body", vise_ + "#pin", "--cutoff", "0.015", "--pose", "0,0,0.045,1,0,0,0"}));
   ASSERT_FALSE(json["lmds"].empty());
   EXPECT_NEAR(json["lmds"][0]["distance"].get<double>(), 0.01, 1e-12);
   EXPECT_EQ(importer_.runs(), 1);
@@ -166,7 +170,8 @@ TEST_F(DocumentsCommand, RefiningOnePartTakesAllItsInstancesAlong) {
     EXPECT_EQ(fine.geometry->tessellation.chord, 1e-6);
   }
   EXPECT_EQ(after.findByName("body")->geometry->tessellation, Tessellation{});
-  EXPECT_THAT(errorOf({"scene", "refine", scene_, "pin", "--chord", "1e-9"}), HasSubstr("--chord: 1e-09 m is out of range"));
+  EXPECT_THAT(errorOf({"scene", "refine", scene_, "pin", "--chord", "1e-9"}),
+              HasSubstr("--chord: 1e-09 m is out of range"));
   EXPECT_THAT(errorOf({"scene", "refine", scene_, "nut"}), HasSubstr("there is no part \"nut\""));
   output({"scene", "new", scene_, "--unit", "mm", "--import", block_});
   EXPECT_THAT(errorOf({"scene", "refine", scene_, "block"}), HasSubstr("no exact surfaces"));

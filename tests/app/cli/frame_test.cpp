@@ -12,9 +12,15 @@ using ::testing::MatchesRegex;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-const std::vector<std::vector<std::string>> kCommands = {{},        {"info"},         {"lmd"},
-                                                         {"scene"}, {"scene", "new"}, {"scene", "keep"},
-                                                         {"place"}, {"scene", "release"}, {"scene", "refine"}};
+const std::vector<std::vector<std::string>> kCommands = {{},
+                                                         {"info"},
+                                                         {"lmd"},
+                                                         {"scene"},
+                                                         {"scene", "new"},
+                                                         {"scene", "keep"},
+                                                         {"place"},
+                                                         {"scene", "release"},
+                                                         {"scene", "refine"}};
 
 TEST(CliFrame, EveryCommandHasHelp) {
   for (std::vector<std::string> command : kCommands) {

@@ -102,7 +102,8 @@ TEST_F(InfoCommand, DensityGivesMassAndInertiaAboutTheCentre) {
 
 TEST_F(InfoCommand, OpenMeshSaysItsEdgesAndItsMassBasis) {
   // A square of two triangles: four open edges and the diagonal.
-  const ProcessResult result = runCli({"info", "--unit", "m", "--json", write("square.obj", squareMesh(1, 1))});
+  const ProcessResult result =
+      runCli({"info", "--unit", "m", "--json", write("square.obj", squareMesh(1, 1))});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const Json json = Json::parse(result.out);
   EXPECT_EQ(json["closed"], false);
@@ -114,7 +115,8 @@ TEST_F(InfoCommand, OpenMeshSaysItsEdgesAndItsMassBasis) {
 
 TEST_F(InfoCommand, TwoBodiesInOneMeshAreTwoComponents) {
   const TriangleMesh mesh = joined(boxMesh({1, 1, 1}), boxMesh({1, 1, 1}, {5, 0, 0}));
-  EXPECT_EQ(Json::parse(runCli({"info", "--unit", "m", "--json", write("two.obj", mesh)}).out)["components"], 2);
+  EXPECT_EQ(Json::parse(runCli({"info", "--unit", "m", "--json", write("two.obj", mesh)}).out)["components"],
+            2);
 }
 
 TEST_F(InfoCommand, UnitsScaleToMetres) {

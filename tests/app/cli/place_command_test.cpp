@@ -210,8 +210,8 @@ TEST_F(PlaceCommand, PathThatIsAPipeIsRefused) {
   const ProcessResult result = place({"--part", "Cone", "--path", "pipe.csv", "--fast"});
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_THAT(result.err, HasSubstr("pipe.csv: it is not a regular file"));
-  const ProcessResult poses =
-      runCli({"lmd", "--unit", "m", "floor.obj", "cone.obj", "--cutoff", "0.1", "--poses", "pipe.csv"}, options_);
+  const ProcessResult poses = runCli(
+      {"lmd", "--unit", "m", "floor.obj", "cone.obj", "--cutoff", "0.1", "--poses", "pipe.csv"}, options_);
   EXPECT_EQ(poses.exitCode, 1);
   EXPECT_THAT(poses.err, HasSubstr("pipe.csv: it is not a regular file"));
 }

@@ -26,8 +26,8 @@ class SceneJointsCommand : public ::testing::Test {
     folder_.write("peg.obj", objText(boxMesh({0.1, 0.1, 0.1})));
     options_.workingFolder = folder_.path();
     const ProcessResult made =
-        run({"scene", "new", "fit.nearfit", "--unit", "m", "--part", "Hole=hole.obj@1,0,0,0.5,0.5,0.5,0.5", "--part",
-             "Peg=peg.obj@0.3,0,0.5,0.5,-0.5,0.5,0.5"});
+        run({"scene", "new", "fit.nearfit", "--unit", "m", "--part", "Hole=hole.obj@1,0,0,0.5,0.5,0.5,0.5",
+             "--part", "Peg=peg.obj@0.3,0,0.5,0.5,-0.5,0.5,0.5"});
     EXPECT_EQ(made.exitCode, 0) << made.err;
   }
   ProcessResult run(const std::vector<std::string>& arguments) const { return runCli(arguments, options_); }

@@ -100,7 +100,8 @@ void DesktopDocumentsTest::itsUnitCannotBeChangedAndTheReasonIsTold() {
   d.window().selection().select(d.partId("body"));
   d.choose("changeUnit");
   QCOMPARE(told.size(), 1);
-  QVERIFY2(told[0].contains(QStringLiteral("body")) && told[0].contains(QStringLiteral("vise.step stores its unit")),
+  QVERIFY2(told[0].contains(QStringLiteral("body")) &&
+               told[0].contains(QStringLiteral("vise.step stores its unit")),
            qPrintable(told[0]));
 }
 
@@ -125,7 +126,8 @@ void DesktopDocumentsTest::refiningAPartTakesItsInstancesAlongAndIsOneStep() {
         chord->selectAll();
         QTest::keyClicks(chord, QStringLiteral("0.001"));
         keepPictures(*dialog, QStringLiteral("refine"));
-        QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
+        QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok),
+                          Qt::LeftButton);
       },
       QStringLiteral("refineDialog"));
   d.choose("refine");

@@ -65,14 +65,9 @@ TEST(MeshBuilder, EachTriangleKnowsThePolygonThatItCameFrom) {
   // A face without area, a square, a face that is not finite, a triangle whose edge is cracked by the square, so that it
   // is cut in two, one that repeats it, and another one.
   const double nan = std::nan("");
-  const PolygonSoup soup = soupOf({{0, 0, 0},
-                                   {1, 0, 0},
-                                   {1, 1, 0},
-                                   {0, 1, 0},
-                                   {nan, 0, 0},
-                                   {2, 0, 0},
-                                   {0, -1, 0}},
-                                  {{0, 0, 1}, {0, 1, 2, 3}, {0, 1, 4}, {5, 0, 6}, {0, 6, 5}, {1, 5, 2}});
+  const PolygonSoup soup =
+      soupOf({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {nan, 0, 0}, {2, 0, 0}, {0, -1, 0}},
+             {{0, 0, 1}, {0, 1, 2, 3}, {0, 1, 4}, {5, 0, 6}, {0, 6, 5}, {1, 5, 2}});
   MeshBuildReport report;
   std::vector<std::uint32_t> polygonOf;
   const TriangleMesh mesh = buildMesh(soup, {}, report, {}, &polygonOf);

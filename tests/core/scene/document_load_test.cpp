@@ -214,7 +214,8 @@ TEST_F(DocumentLoad, AllShapesOfADocumentComeFromOneRun) {
 TEST_F(DocumentLoad, OnlyWhatTheCacheLacksIsImported) {
   const test::FakeImporter importer;
   loadPartGeometries(std::vector<MeshSource>{{file_, 1.0, {}, "pin"}});
-  const auto loaded = loadPartGeometries(std::vector<MeshSource>{{file_, 1.0, {}, "pin"}, {file_, 1.0, {}, "body"}});
+  const auto loaded =
+      loadPartGeometries(std::vector<MeshSource>{{file_, 1.0, {}, "pin"}, {file_, 1.0, {}, "body"}});
   EXPECT_TRUE(loaded[0].geometry && loaded[1].geometry);
   ASSERT_EQ(importer.asked().size(), 2U);
   EXPECT_THAT(importer.asked()[0].onlyShapes, UnorderedElementsAre("pin"));
@@ -306,17 +307,22 @@ std::string errorAfter(const std::filesystem::path& file, const std::function<vo
 }
 
 TEST_F(DocumentLoad, DocumentsThatMakeNoSenseAreRefused) {
-  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[1].parent = 1; }), HasSubstr("in none that comes before"));
-  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[0].parent = -2; }), HasSubstr("in none that comes before"));
-  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[1].shape = 2; }), HasSubstr("shape that does not exist"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[1].parent = 1; }),
+              HasSubstr("in none that comes before"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[0].parent = -2; }),
+              HasSubstr("in none that comes before"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[1].shape = 2; }),
+              HasSubstr("shape that does not exist"));
   EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[1].parentFromNode.translation.x = NAN; }),
               HasSubstr("out of range"));
   EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[1].parentFromNode.rotation = {0, 0, 0, 0}; }),
               HasSubstr("its length is 0"));
   EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.nodes[4].colour = CadColour{2.0F, 0.0F, 0.0F}; }),
               HasSubstr("colour that is none"));
-  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.shapes[1].key = "body"; }), HasSubstr("no name of its own"));
-  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.shapes[1].key = ""; }), HasSubstr("no name of its own"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.shapes[1].key = "body"; }),
+              HasSubstr("no name of its own"));
+  EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.shapes[1].key = ""; }),
+              HasSubstr("no name of its own"));
   EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.hasUnit = false; }), HasSubstr("unit of length"));
   EXPECT_THAT(errorAfter(file_, [](CadDocument& d) { d.shapes.clear(), d.nodes.clear(); }),
               HasSubstr("it holds no shape"));
@@ -349,8 +355,14 @@ TEST_F(DocumentLoad, NamesThatAreNotTextAreShownAsBytes) {
 
 TEST_F(DocumentLoad, TessellationsOutOfRangeAreRefused) {
   const test::FakeImporter importer;
-  for (const Tessellation wrong : {Tessellation{-1.0, 0.0}, {1e-9, 0.0}, {1e9, 0.0}, {std::nan(""), 0.0},
-                                   {0.0, -0.1}, {0.0, 1e-4}, {0.0, 3.0}, {0.0, std::nan("")}}) {
+  for (const Tessellation wrong : {Tessellation{-1.0, 0.0},
+                                   {1e-9, 0.0},
+                                   {1e9, 0.0},
+                                   {std::nan(""), 0.0},
+                                   {0.0, -0.1},
+                                   {0.0, 1e-4},
+                                   {0.0, 3.0},
+                                   {0.0, std::nan("")}}) {
     EXPECT_THROW(loadDocument(file_, 1.0, wrong), UsageError) << wrong.chord << " " << wrong.angle;
   }
   EXPECT_EQ(importer.runs(), 0);
@@ -365,7 +377,8 @@ TEST_F(DocumentLoad, ProgressRisesToOneAndCanStopTheWork) {
     return true;
   });
   EXPECT_EQ(last, 1.0);
-  EXPECT_THROW(loadDocument(file_, 1.0, {1e-3, 0.0}, [](double fraction) { return fraction < 0.3; }), Cancelled);
+  EXPECT_THROW(loadDocument(file_, 1.0, {1e-3, 0.0}, [](double fraction) { return fraction < 0.3; }),
+               Cancelled);
   EXPECT_THROW(loadPartGeometries(std::vector<MeshSource>{{file_, 1.0, {}, "pin", {1e-4, 0.0}}},
                                   [](double fraction) { return fraction < 0.3; }),
                Cancelled);

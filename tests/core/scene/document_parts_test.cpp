@@ -20,7 +20,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 /// A document of shapes that are all there.
-LoadedDocument documentOf(std::vector<CadNode> nodes, std::size_t shapes = 1, const char* file = "/cad/vise.step") {
+LoadedDocument documentOf(std::vector<CadNode> nodes, std::size_t shapes = 1,
+                          const char* file = "/cad/vise.step") {
   LoadedDocument document;
   document.file = file;
   document.nodes = std::move(nodes);
@@ -64,9 +65,10 @@ TEST(DocumentParts, AssembliesAreGroupsAndInstancesShareTheirGeometry) {
 TEST(DocumentParts, PlacementsAddUpFromTheTop) {
   const double half = std::sqrt(0.5);
   // A quarter turn about z takes x to y.
-  const Scene scene = sceneOf(documentOf({test::assemblyNode("outer", -1, {{half, 0, 0, half}, {1.0, 0.0, 0.0}}),
-                                          test::assemblyNode("inner", 0, {{half, 0, 0, half}, {0.5, 0.0, 0.0}}),
-                                          test::instanceNode("part", 1, 0, {{1, 0, 0, 0}, {0.25, 0.0, 0.0}})}));
+  const Scene scene =
+      sceneOf(documentOf({test::assemblyNode("outer", -1, {{half, 0, 0, half}, {1.0, 0.0, 0.0}}),
+                          test::assemblyNode("inner", 0, {{half, 0, 0, half}, {0.5, 0.0, 0.0}}),
+                          test::instanceNode("part", 1, 0, {{1, 0, 0, 0}, {0.25, 0.0, 0.0}})}));
   const RigidTransform& pose = scene.parts()[0]->worldFromPart;
   EXPECT_NEAR(pose.translation.x, 1.0 - 0.25, 1e-15);
   EXPECT_NEAR(pose.translation.y, 0.5, 1e-15);
@@ -74,7 +76,7 @@ TEST(DocumentParts, PlacementsAddUpFromTheTop) {
 }
 
 TEST(DocumentParts, ColourIsItsOwnOrThatOfTheNearestAssemblyOrOneForEachShape) {
-  std::vector<CadNode> nodes{test::assemblyNode("a", -1), test::instanceNode("b", 0, 0),
+  std::vector<CadNode> nodes{test::assemblyNode("a", -1),   test::instanceNode("b", 0, 0),
                              test::instanceNode("c", 0, 0), test::assemblyNode("d", -1),
                              test::instanceNode("e", 3, 0), test::instanceNode("f", 3, 1)};
   nodes[0].colour = CadColour{1.0F, 0.5F, 0.0F};
@@ -96,21 +98,22 @@ TEST(DocumentParts, SeveralItemsAtTheTopGetAGroupWithTheFilesName) {
 }
 
 TEST(DocumentParts, UnnamedItemsGetTheFilesNameAndANumber) {
-  EXPECT_THAT(pathsIn(sceneOf(documentOf({test::assemblyNode("", -1), test::instanceNode("", 0, 0),
-                                          test::instanceNode("", 0, 0)},
-                                         1, "/cad/vise.step.gz"))),
+  EXPECT_THAT(pathsIn(sceneOf(documentOf(
+                  {test::assemblyNode("", -1), test::instanceNode("", 0, 0), test::instanceNode("", 0, 0)}, 1,
+                  "/cad/vise.step.gz"))),
               ElementsAre("vise 1|vise 2", "vise 1|vise 3"));
   EXPECT_THAT(pathsIn(sceneOf(documentOf({test::instanceNode("", -1, 0)}))), ElementsAre("vise"));
 }
 
 TEST(DocumentParts, ItemThatIsBothAShapeAndAnAssemblyIsInItsOwnGroup) {
-  EXPECT_THAT(pathsIn(sceneOf(documentOf({test::instanceNode("frame", -1, 0), test::instanceNode("bolt", 0, 0)}))),
-              ElementsAre("frame|frame", "frame|bolt"));
+  EXPECT_THAT(
+      pathsIn(sceneOf(documentOf({test::instanceNode("frame", -1, 0), test::instanceNode("bolt", 0, 0)}))),
+      ElementsAre("frame|frame", "frame|bolt"));
 }
 
 TEST(DocumentParts, ShapeThatIsNotThereLeavesItsInstancesOut) {
-  LoadedDocument document = documentOf({test::assemblyNode("a", -1), test::instanceNode("b", 0, 0),
-                                        test::instanceNode("c", 0, 1)}, 2);
+  LoadedDocument document = documentOf(
+      {test::assemblyNode("a", -1), test::instanceNode("b", 0, 0), test::instanceNode("c", 0, 1)}, 2);
   document.shapes[0] = nullptr;
   EXPECT_THAT(pathsIn(sceneOf(document)), ElementsAre("a|c"));
 }
@@ -161,7 +164,8 @@ TEST(DocumentParts, MorePartsThanASceneFileCanHoldAreRefused) {
 
 TEST(DocumentParts, PlacementsThatAddUpBeyondReachAreRefused) {
   const RigidTransform far{{1, 0, 0, 0}, {0.9e9, 0.0, 0.0}};
-  const LoadedDocument document = documentOf({test::assemblyNode("a", -1, far), test::instanceNode("b", 0, 0, far)});
+  const LoadedDocument document =
+      documentOf({test::assemblyNode("a", -1, far), test::instanceNode("b", 0, 0, far)});
   EXPECT_THROW(partsOfDocument(document, {}), FileError);
 }
 

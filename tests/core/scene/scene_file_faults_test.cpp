@@ -275,7 +275,8 @@ TEST_F(SceneFileFaults, AMovingGroupThatCannotMoveIsRefused) {
 TEST_F(SceneFileFaults, ShapesAndKindsOfFilesMustFit) {
   const Json shape = {{"key", "1"}, {"chord", 0}, {"angle", 0}};
   EXPECT_THAT(errorWithout("/parts/1", "shape"), HasSubstr("parts[1].shape: it is missing"));
-  EXPECT_THAT(errorWith("/parts/1/shape", shape), HasSubstr("parts[1].shape: the part's file is not a CAD document"));
+  EXPECT_THAT(errorWith("/parts/1/shape", shape),
+              HasSubstr("parts[1].shape: the part's file is not a CAD document"));
   json_["parts"][1]["mesh"] = "meshes/peg.step";
   EXPECT_THAT(errorOf(json_.dump()), HasSubstr("parts[1].shape: the part's file is a CAD document"));
   json_["parts"][1]["shape"] = shape;

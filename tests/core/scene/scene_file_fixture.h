@@ -23,7 +23,10 @@ class SceneFileFixture : public ::testing::Test {
     const auto peg = folder_.write("meshes/peg.obj", objText(tetrahedronMesh(1)));
     Part part;
     part.geometry =
-        loadPartGeometries(std::vector{MeshSource{.file = hole, .metresPerUnit = 0.001, .repairs = unusualRepairs()}}).front().geometry;
+        loadPartGeometries(
+            std::vector{MeshSource{.file = hole, .metresPerUnit = 0.001, .repairs = unusualRepairs()}})
+            .front()
+            .geometry;
     part.name = "Hole \xC3\xA4";
     part.wasVisible = false;
     const PartId holeId = scene_.add(part);

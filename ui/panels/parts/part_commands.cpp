@@ -61,8 +61,9 @@ void PartCommands::makeActions() {
                           tr("Change the unit of the selected parts; shows the size in each unit"));
   check = makeAction(this, "check", tr("C&heck…"), QStringLiteral("findings"), QStringLiteral("Ctrl+M"),
                      tr("Show what is wrong with the mesh of the selected part and where, and repair it"));
-  refine = makeAction(this, "refine", tr("Re&fine…"), {}, {},
-                      tr("Make the triangles of the selected parts finer or coarser, if their file holds exact surfaces"));
+  refine = makeAction(
+      this, "refine", tr("Re&fine…"), {}, {},
+      tr("Make the triangles of the selected parts finer or coarser, if their file holds exact surfaces"));
   takeInHand =
       makeAction(this, "takeInHand", tr("&Take in hand"), QStringLiteral("hand"), QStringLiteral("Ctrl+H"));
   takeInHand->setToolTip(tr("Make the selected part the moving part, or the selected group move as one"));
@@ -77,8 +78,8 @@ void PartCommands::makeActions() {
 void PartCommands::makeMenu() {
   auto* separator = new QAction(this);
   separator->setSeparator(true);
-  menu_ = QList<QAction*>{takeInHand, rename, recolour, changeUnit, refine, check, duplicate} + tree_->list() +
-          QList<QAction*>{joints_->menu().menuAction(), separator, remove};
+  menu_ = QList<QAction*>{takeInHand, rename, recolour, changeUnit, refine, check, duplicate} +
+          tree_->list() + QList<QAction*>{joints_->menu().menuAction(), separator, remove};
   for (QAction* action : menu_)
     action->setShortcutVisibleInContextMenu(true);
 }
@@ -90,8 +91,7 @@ void PartCommands::connectActions() {
   connect(recolour, &QAction::triggered, this, &PartCommands::recolourSelected);
   connect(changeUnit, &QAction::triggered, this,
           [this] { emit unitChangeRequested(context_.selection.parts()); });
-  connect(refine, &QAction::triggered, this,
-          [this] { emit refineRequested(context_.selection.parts()); });
+  connect(refine, &QAction::triggered, this, [this] { emit refineRequested(context_.selection.parts()); });
   connect(check, &QAction::triggered, this, &PartCommands::checkRequested);
   connect(takeInHand, &QAction::triggered, this, &PartCommands::takeSelected);
   connect(remove, &QAction::triggered, this, &PartCommands::deleteSelected);

@@ -43,7 +43,8 @@ class PartCommands : public QObject {
   /// @param window  The parent, and that of dialogs.
   PartCommands(const Context& context, PartsPanel& panel, QWidget* window);
 
-  QAction *duplicate, *rename, *recolour, *changeUnit, *refine, *check, *takeInHand, *remove, *selectAll, *selectNone;
+  QAction *duplicate, *rename, *recolour, *changeUnit, *refine, *check, *takeInHand, *remove, *selectAll,
+      *selectNone;
 
   /// The actions on groups, visibility and locks.
   const TreeActions& tree() const noexcept { return *tree_; }

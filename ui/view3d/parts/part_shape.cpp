@@ -226,7 +226,8 @@ PartShape makePartShape(const TriangleMesh& mesh, double coordinateRounding,
 }
 
 void addFaceColours(PartShape& shape, const PartGeometry& geometry) {
-  const bool isAny = std::ranges::any_of(geometry.faceColours, [](const auto& colour) { return colour.has_value(); });
+  const bool isAny =
+      std::ranges::any_of(geometry.faceColours, [](const auto& colour) { return colour.has_value(); });
   const auto triangles = static_cast<std::size_t>(shape.surface->GetNumberOfPolys());
   if (!isAny || geometry.surfaces == nullptr || geometry.surfaces->faceOfTriangle.size() != triangles) return;
   std::map<CadColour, unsigned short> numbers;

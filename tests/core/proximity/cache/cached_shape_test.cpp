@@ -107,12 +107,15 @@ TEST_F(CachedShapes, NumbersThatAreNoneAreFoundWhateverTheChecksumsSay) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(isTakenAfter([](test::CacheImage&) {}));
   for (std::size_t number = 0; number < 3; ++number) {
-    EXPECT_FALSE(isTakenAfter([&](auto& image) { image.set(Section::ShapeFacts, 8 * number, nan); })) << number;
-    EXPECT_FALSE(isTakenAfter([&](auto& image) { image.set(Section::ShapeFacts, 8 * number, -1.0); })) << number;
+    EXPECT_FALSE(isTakenAfter([&](auto& image) { image.set(Section::ShapeFacts, 8 * number, nan); }))
+        << number;
+    EXPECT_FALSE(isTakenAfter([&](auto& image) { image.set(Section::ShapeFacts, 8 * number, -1.0); }))
+        << number;
   }
   EXPECT_FALSE(isTakenAfter([](auto& image) { image.set(Section::ShapeFacts, 24, std::uint64_t{2}); }));
   for (std::size_t number = 0; number < 9; ++number)
-    EXPECT_FALSE(isTakenAfter([&](auto& image) { image.set(Section::ShapeFaces, 80 + 8 * number, nan); })) << number;
+    EXPECT_FALSE(isTakenAfter([&](auto& image) { image.set(Section::ShapeFaces, 80 + 8 * number, nan); }))
+        << number;
   EXPECT_FALSE(isTakenAfter([](auto& image) { image.set(Section::ShapeFaces, 72, std::uint32_t{6}); }));
   EXPECT_FALSE(isTakenAfter([](auto& image) { image.set(Section::ShapeFaces, 76, std::uint32_t{2}); }));
   EXPECT_FALSE(isTakenAfter([](auto& image) { image.set(Section::FaceColours, 0, 1.5F); }));
