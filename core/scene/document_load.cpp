@@ -32,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Progress after hashing and after importing; building the meshes follows. Roughly the shares of time.
-constexpr double kHashed = 0.02, kImported = 0.7;
+constexpr double kDocumentHashed = 0.02, kDocumentImported = 0.7;
 /// Shapes named in an error.
 constexpr std::size_t kNamedShapes = 20;
 
@@ -93,7 +93,8 @@ CadDocument importAll(const Source& source, std::vector<std::string> onlyShapes,
   DocumentOptions options{source.tessellation, std::move(onlyShapes)};
   // The file's own units, where it stores none.
   options.tessellation.chord /= source.metresPerUnit;
-  CadDocument document = runImporter(source.file, options, stageCallback(progress, kHashed, kImported));
+  CadDocument document =
+      runImporter(source.file, options, stageCallback(progress, kDocumentHashed, kDocumentImported));
   if (!document.hasUnit && storesUnit(source.file))
     throw FileError(source.file.string(), "it does not say its unit of length", kExportDocument);
   return document;
@@ -268,7 +269,7 @@ std::vector<LoadedPart> geometriesOf(CadDocument& document, std::span<const std:
   double total = 1.0;
   for (const std::size_t shape : shapes)
     total += static_cast<double>(document.shapes[shape].triangles.size());
-  const ProgressCallback stage = stageCallback(progress, kImported, 1.0);
+  const ProgressCallback stage = stageCallback(progress, kDocumentImported, 1.0);
   SharedProgress all(stage, total);
   parallelFor(shapes.size(), [&](std::size_t i) {
     CadShape& shape = document.shapes[shapes[i]];
@@ -466,7 +467,7 @@ std::vector<LoadedPart> loadShapesUnguarded(std::span<const MeshSource> sources,
   const MeshSource& first = sources.front();
   const Source source = sourceOf(first.file, first.metresPerUnit, first.tessellation);
   checkMeshFile(first.file);
-  const std::string sha256 = sha256OfFile(first.file, stageOf(progress, 0.0, kHashed));
+  const std::string sha256 = sha256OfFile(first.file, stageOf(progress, 0.0, kDocumentHashed));
   if (!first.sha256.empty() && first.sha256 != sha256) return std::vector<LoadedPart>(sources.size());
   const bool areAllNamed = std::ranges::none_of(sources, [](const MeshSource& s) { return s.shape.empty(); });
   if (areAllNamed) return ShapeLoad(sources, source, sha256).run(progress);
@@ -512,16 +513,16 @@ LoadedDocument loadDocument(const fs::path& file, double metresPerUnit, const Te
                             const ProgressCallback& progress) {
   const Source source = sourceOf(file, metresPerUnit, tessellation);
   checkMeshFile(file);
-  const std::string sha256 = sha256OfFile(file, stageOf(progress, 0.0, kHashed));
+  const std::string sha256 = sha256OfFile(file, stageOf(progress, 0.0, kDocumentHashed));
   LoadedDocument document = loadWhole(source, sha256, progress);
-  stageOf(progress, kImported, 1.0)(1.0);
+  stageOf(progress, kDocumentImported, 1.0)(1.0);
   return document;
 }
 
 std::vector<LoadedPart> loadShapes(std::span<const MeshSource> sources, const ProgressCallback& progress) {
   try {
     std::vector<LoadedPart> loaded = loadShapesUnguarded(sources, progress);
-    stageOf(progress, kImported, 1.0)(1.0);
+    stageOf(progress, kDocumentImported, 1.0)(1.0);
     return loaded;
   } catch (const Cancelled&) {
     throw;

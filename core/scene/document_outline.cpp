@@ -19,7 +19,7 @@
 namespace nearfit {
 namespace {
 
-using Json = nlohmann::json;
+using OutlineJson = nlohmann::json;
 
 constexpr const char* kExportTree = "export it again from the CAD system";
 /// Max length of a warning or problem that is read back [bytes].
@@ -56,16 +56,16 @@ void checkNode(const CadNode& node, std::size_t index, std::size_t shapes,
     fail("has a colour that is none");
 }
 
-Json arrayOf(const CadNode& node) {
+OutlineJson arrayOf(const CadNode& node) {
   const glm::dquat& q = node.parentFromNode.rotation;
   const glm::dvec3& t = node.parentFromNode.translation;
-  Json colour;
+  OutlineJson colour;
   if (node.colour) {
     for (const float channel : *node.colour)
       colour.push_back(static_cast<double>(channel));
   }
-  return Json::array({node.parent, node.name, Json::array({q.w, q.x, q.y, q.z}), Json::array({t.x, t.y, t.z}),
-                      node.shape, colour});
+  return OutlineJson::array({node.parent, node.name, OutlineJson::array({q.w, q.x, q.y, q.z}),
+                             OutlineJson::array({t.x, t.y, t.z}), node.shape, colour});
 }
 
 std::int32_t indexIn(const JsonField& field) {
@@ -116,12 +116,13 @@ DocumentOutline checkedOutline(DocumentOutline outline, const std::filesystem::p
 }
 
 std::string outlineText(const DocumentOutline& outline) {
-  Json nodes = Json::array(), shapes = Json::array();
+  OutlineJson nodes = OutlineJson::array(), shapes = OutlineJson::array();
   for (const CadNode& node : outline.nodes)
     nodes.push_back(arrayOf(node));
   for (const DocumentOutline::Shape& shape : outline.shapes)
-    shapes.push_back(Json::array({shape.key, shape.problem}));
-  return Json({{"nodes", std::move(nodes)}, {"shapes", std::move(shapes)}, {"warnings", outline.warnings}})
+    shapes.push_back(OutlineJson::array({shape.key, shape.problem}));
+  return OutlineJson(
+             {{"nodes", std::move(nodes)}, {"shapes", std::move(shapes)}, {"warnings", outline.warnings}})
       .dump();
 }
 
@@ -131,7 +132,7 @@ std::optional<DocumentOutline> readOutline(std::string_view text, const std::fil
     limits.maxBytes = kMaxCachedTextBytes;
     // Twenty for each node.
     limits.maxValues = 4'000'000;
-    const Json json = readJsonText(text, file, limits);
+    const OutlineJson json = readJsonText(text, file, limits);
     const JsonField root(json, file);
     const JsonField nodes = root.at("nodes"), shapes = root.at("shapes"), warnings = root.at("warnings");
     DocumentOutline outline;

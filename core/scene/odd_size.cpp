@@ -12,7 +12,7 @@ namespace {
 
 /// By far the most common units of mesh files [m]: micrometre, millimetre, centimetre, inch, metre. Adding
 /// rarer ones would cause wrong guesses.
-constexpr std::array<double, 5> kUnits{1e-6, 1e-3, 1e-2, 0.0254, 1.0};
+constexpr std::array<double, 5> kCadUnits{1e-6, 1e-3, 1e-2, 0.0254, 1.0};
 
 /// Range of bounding box diagonals [m].
 struct Sizes {
@@ -27,7 +27,7 @@ struct Sizes {
 /// Factor to a common unit that comes nearest to `wanted`.
 double nearestFactor(double metresPerUnit, double wanted) {
   double best = 1.0;
-  for (const double unit : kUnits) {
+  for (const double unit : kCadUnits) {
     const double factor = unit / metresPerUnit;
     if (std::abs(std::log(factor / wanted)) < std::abs(std::log(best / wanted))) best = factor;
   }
