@@ -46,6 +46,7 @@ class DesktopGroupInHandTest : public QObject {
   void aGroupIsTakenInHandByKeyAndByItsHandAndPutDown();
   void itsPartsMoveAsOneAndAreKeptAsOneStep();
   void itsPartsAreNotPlacedWhileItIsFelt();
+  void withoutASelectionTheNumbersAreThoseOfTheGroup();
   void anotherThingInHandEndsTheGroup();
   void aLockedPartIsRefusedWithAWord();
   void itIsSavedAndOpenedAgain();
@@ -100,6 +101,21 @@ void DesktopGroupInHandTest::itsPartsAreNotPlacedWhileItIsFelt() {
   d.choose("stop");
   d.window().selection().select(d.other);
   QVERIFY(d.widget<QDoubleSpinBox>("positionX")->isEnabled());
+}
+
+void DesktopGroupInHandTest::withoutASelectionTheNumbersAreThoseOfTheGroup() {
+  PairInHand d;
+  // The other part is 30 mm aside: its numbers would differ.
+  d.session().setMovingGroup(d.group);
+  d.startWith(ui::Hand::Manual);
+  QTRY_VERIFY(d.isFeltAtX(0.0));
+  d.window().selection().select(std::nullopt);
+  QCOMPARE(d.text("poseHeading"), QStringLiteral("Pair"));
+  d.application.servo().moveHand({{1, 0, 0, 0}, {0.004, 0.0, 0.001}});
+  QTRY_VERIFY(isNear(d.widget<QDoubleSpinBox>("positionX")->value(), 4.0, 1e-3));
+  QVERIFY(!d.widget<QDoubleSpinBox>("positionX")->isEnabled());
+  d.choose("stop");
+  QTRY_COMPARE(d.text("poseHeading"), QStringLiteral("No part selected"));
 }
 
 void DesktopGroupInHandTest::anotherThingInHandEndsTheGroup() {

@@ -221,7 +221,7 @@ void PosePanel::showMass(const std::vector<const Part*>& parts, bool isLocked) {
   }
   mass_->setText(hasGeometry ? formatMass(mass) : QString());
   const bool isOne = parts.size() == 1;
-  mass_->setToolTip(!isOfBox ? (isOne ? tr("Mass") : tr("Total mass of the selected parts"))
+  mass_->setToolTip(!isOfBox ? (isOne ? tr("Mass") : tr("Total mass of these parts"))
                     : isOne  ? tr("Mass of its bounding box, because the mesh encloses no volume")
                              : tr("Total mass; for a mesh that encloses no volume, of its bounding box"));
 }

@@ -19,9 +19,13 @@ namespace {
 
 const glm::dquat kNoTurn(1.0, 0.0, 0.0, 0.0);
 
-/// Returns the part's name, the group's, or "Lid and 2 more"; without a selection the name of `part`, if any.
+/// Returns the part's name, the group's, or "Lid and 2 more"; without a selection the name of what is in hand, if
+/// `part` is.
 QString headingOf(const Scene& scene, const Selection& selection, const Part* part) {
-  if (!selection.current()) return part != nullptr ? QString::fromStdString(part->name) : QString();
+  if (!selection.current() && part == nullptr) return {};
+  if (!selection.current())
+    return QString::fromStdString(scene.movingGroup() ? scene.findGroup(*scene.movingGroup())->name
+                                                      : part->name);
   const SceneNodes outer = outermost(scene, selection.nodes());
   if (outer.parts.empty() && outer.groups.size() == 1)
     return QString::fromStdString(scene.findGroup(outer.groups.front())->name);
@@ -64,7 +68,12 @@ void SelectedPose::connectPanel() {
 
 std::vector<PartId> SelectedPose::subjects() const {
   const std::optional<PartId> held = context_.hand.part();
-  return context_.selection.current() || !held ? context_.selection.parts() : std::vector{*held};
+  if (context_.selection.current() || !held) return context_.selection.parts();
+  std::vector<PartId> parts = context_.session.scene().movingParts();
+  // The pose of a group is that of the part that leads.
+  std::erase(parts, *held);
+  parts.push_back(*held);
+  return parts;
 }
 
 const Part* SelectedPose::current() const {
@@ -90,7 +99,7 @@ void SelectedPose::refresh() {
   const Part* part = current();
   const QString heading = headingOf(scene, selection, part);
   QString help = heading;
-  if (selection.parts().size() > 1)
+  if (subjects().size() > 1)
     help += QChar('\n') + tr("The pose shown is that of %1").arg(QString::fromStdString(part->name));
   panel_.showPart(heading, context_.guard.refusalOf(subjects()), help);
   std::vector<const Part*> parts;

@@ -24,9 +24,9 @@ class Selection;
 class ShownPoses;
 class Viewport;
 
-/// Shows the selected parts, or the part in hand while none is selected, in the pose panel, wherever they are
-/// moved from. Requests moves by the panel's
-/// numbers, and by the arrow keys of the view, whose steps the panel holds.
+/// Shows the selected parts, or the part or group in hand while none is selected, in the pose panel, wherever they
+/// are moved from. Requests moves by the panel's numbers, and by the arrow keys of the view, whose steps the panel
+/// holds.
 class SelectedPose : public QObject {
   Q_OBJECT
 
@@ -59,7 +59,7 @@ class SelectedPose : public QObject {
 
  private:
   void connectPanel();
-  /// Returns the parts shown: those selected, else the one in hand.
+  /// Returns the parts shown: those selected, else those in hand. The last is current().
   std::vector<PartId> subjects() const;
   /// Returns the part whose pose is shown; null if there is none, or it has just left the scene.
   const Part* current() const;
