@@ -282,7 +282,7 @@ void ServoController::followSession() {
   if (isOpened_) return takeOpened();
   if (!isRunning()) return;
   const Scene& scene = session_.scene();
-  // What was in hand is gone or is no longer to be moved: there is no pose to keep.
+  // The part or group in hand is gone or is no longer to be moved: there is no pose to keep.
   const bool isSame = scene.movingPart() == moving_ && scene.movingGroup() == movingGroup_;
   if (!isSame || session_.sceneSerial() != sceneSerial_) {
     halt();

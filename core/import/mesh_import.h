@@ -32,7 +32,7 @@ ImportedMesh importMeshBytes(const std::filesystem::path& file, std::vector<char
 /// The polygons of a mesh file as it has them.
 struct ImportedPolygons {
   PolygonSoup soup;
-  std::string sha256;  ///< Of the file's bytes, 64 lower-case hexadecimal digits.
+  std::string sha256;  ///< The file's bytes hashed, 64 lower-case hexadecimal digits.
 };
 
 /// Reads the polygons of a mesh file as importMesh() does, but builds no mesh. Throws FileError, Cancelled.

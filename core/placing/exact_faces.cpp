@@ -18,8 +18,8 @@ namespace {
 /// Max distance between surfaces that are one, as a fraction of the mesh: files round numbers to some eight digits, and
 /// modelling kernels close their faces to 1e-7 of a part or better.
 constexpr double kSameSurface = 1e-7;
-/// Max distance of a chain's corners from the circle or line that its surfaces determine, as a fraction of the radius or
-/// of the mesh. Beyond it the triangles are not of these surfaces, and their corners count.
+/// Max distance of a chain's corners from the circle or line that its surfaces determine, as a fraction of the radius
+/// or of the mesh. Beyond it the triangles are not of these surfaces, and their corners count.
 constexpr double kOffExactCircle = 2e-3, kOffExactLine = 1e-5;
 
 std::uint32_t farEnd(const MeshEdge& edge, std::uint32_t vertex) noexcept {

@@ -31,8 +31,8 @@ class ExactFaces {
   /// not determine one. O(n) in it.
   std::optional<PickedFeature> edgeAt(std::uint32_t edge) const;
 
-  /// The flat face that a triangle is of; std::nullopt if it is not of one. Like the others, it covers neighbouring faces
-  /// on the same surface. O(n) in the mesh.
+  /// The flat face that a triangle is of; std::nullopt if it is not of one. Like the others, it covers neighbouring
+  /// faces on the same surface. O(n) in the mesh.
   std::optional<PickedFeature> plane(std::uint32_t triangle) const;
   /// The axis of the cylinder or cone, or the middle circle of the torus, that a triangle is of.
   std::optional<PickedFeature> wall(std::uint32_t triangle) const;

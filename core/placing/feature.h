@@ -25,10 +25,10 @@ struct AlignFeature {
   glm::dvec3 point{0.0};
   /// Outward normal, or direction along the axis, of either sign; unit. Zero for a point.
   glm::dvec3 direction{0.0};
-  double radius = 0.0;       ///< Of a cylinder, sphere or circle; of a cone, halfway along its wall [m].
+  double radius = 0.0;       ///< For a cylinder, sphere or circle; of a cone halfway along its wall [m].
   double halfAngle = 0.0;    ///< Between the wall of a cone and its axis [rad]; else 0.
-  std::uint32_t flats = 0;   ///< Of a prism whose axis it is; else 0. The radius is then that of its corners.
-  double minorRadius = 0.0;  ///< Of the tube of a torus [m]; else 0.
+  std::uint32_t flats = 0;   ///< For the axis of a prism, else 0. The radius is then that of its corners.
+  double minorRadius = 0.0;  ///< Radius of the tube of a torus [m]; else 0.
   /// Kind of the exact surface whose feature it is; Other for edges, corners and features estimated from facets.
   SurfaceKind surface = SurfaceKind::Other;
   bool isExact = false;  ///< Comes from exact surfaces, whatever the facets.
@@ -45,7 +45,7 @@ inline AlignFeature placed(const AlignFeature& feature, const RigidTransform& fr
 /// A feature of a mesh, in the mesh's frame, and the triangles or vertices that show it.
 struct PickedFeature {
   AlignFeature feature;
-  std::vector<std::uint32_t> triangles;  ///< Of a face or wall.
+  std::vector<std::uint32_t> triangles;  ///< Triangles of a face or wall.
   /// Along an edge or circle, in order; if closed, the first is repeated at the end.
   std::vector<std::uint32_t> vertices;
 };

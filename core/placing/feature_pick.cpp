@@ -156,8 +156,8 @@ bool isCoarseCircle(const EdgeChain& chain) {
   return chain.vertices.front() == chain.vertices.back() && chain.vertices.size() > kRoundRing.fewestFacets;
 }
 
-/// The chain that contains an edge of the shape: the whole circle or arc if it has at least five corners, a coarse circle,
-/// else the straight edge. O(n) in the chain.
+/// The chain that contains an edge of the shape: the whole circle or arc if it has at least five corners, a coarse
+/// circle, else the straight edge. O(n) in the chain.
 EdgeChain edgeChain(const ShapeEdges& edges, std::uint32_t ofShape) {
   const MeshEdge& edge = edges.mesh.edges()[ofShape];
   if (auto fine = roundChain(edges, edge, kSharpTurn)) return *std::move(fine);

@@ -60,9 +60,9 @@ std::optional<AxisLine> commonAxis(const ExactSurface& a, const ExactSurface& b,
 
 /// The line or arc that a surface of revolution has in the half plane of distance from the axis and height along it.
 struct Meridian {
-  glm::dvec2 point;           ///< Of a line; centre of an arc [m].
-  glm::dvec2 direction{0.0};  ///< Of a line, unit; zero for an arc.
-  double radius = 0.0;        ///< Of an arc [m].
+  glm::dvec2 point;           ///< On the line; centre of an arc [m].
+  glm::dvec2 direction{0.0};  ///< Along the line, unit; zero for an arc.
+  double radius = 0.0;        ///< For an arc; else 0 [m].
 
   bool isArc() const noexcept { return radius > 0.0; }
 };

@@ -52,15 +52,15 @@ std::vector<PartClearance> clearancesOf(const Scene& scene, PartId part, double 
 std::vector<PartClearance> clearancesOf(const Scene& scene, const std::vector<PartId>& body, double cutoff,
                                         const ProgressCallback& progress = {});
 
-/// Updates clearances of the moving part, or of the moving group, from a servo tick, for pairs of solids within its cutoff. Other
-/// pairs stay unchanged, as do parts that overlap the moving one. Fast enough for the GUI thread.
+/// Updates clearances of the moving part, or of the moving group, from a servo tick, for pairs of solids within its
+/// cutoff. Other pairs stay unchanged, as do parts that overlap the moving one. Fast enough for the GUI thread.
 void updateFrom(const ServoSnapshot& snapshot, std::vector<PartClearance>& clearances) noexcept;
 
 /// "no", "surfaces meet", "inside the other" or "the other inside".
 const char* nameOf(InterferenceKind overlap) noexcept;
 
-/// The clearances as CSV (UTF-8), one row each: `part` (of a group the nearest one), `other`, `distance [m]`, the points
-/// `part_x [m]` ... `other_z [m]`, `minima`, `every_minimum` (0 or 1), `overlap` (nameOf, or "touching"),
+/// The clearances as CSV (UTF-8), one row each: `part` (of a group the nearest one), `other`, `distance [m]`, the
+/// points `part_x [m]` ... `other_z [m]`, `minima`, `every_minimum` (0 or 1), `overlap` (nameOf, or "touching"),
 /// `distance_bound` (0 or 1).
 std::string clearanceCsv(const Scene& scene, const std::vector<PartClearance>& clearances);
 

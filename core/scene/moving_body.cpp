@@ -20,8 +20,8 @@ namespace {
 
 using Piece = GroupBodies::Piece;
 
-/// Steps that places within a group are rounded to [m], [1]: parts that were moved together are off their arrangement by
-/// less, and must not make another body each time.
+/// Steps that places within a group are rounded to [m], [1]: parts that were moved together are off their arrangement
+/// by less, and must not make another body each time.
 constexpr double kPlaceStep = 1e-12, kTurnStep = 1e-13;
 /// Progress when the flats of all parts are merged; as for a hierarchy of one part.
 constexpr double kFlatsMerged = 0.15;
@@ -32,7 +32,7 @@ double rounded(double value, double step) noexcept {
 
 RigidTransform roundedPlace(const RigidTransform& place) noexcept {
   const glm::dvec3& t = place.translation;
-  // Of the two quaternions of one rotation, take one sense.
+  // Two quaternions stand for one rotation: take one sense.
   const glm::dquat q = place.rotation.w < 0.0 ? -place.rotation : place.rotation;
   RigidTransform result;
   result.translation = {rounded(t.x, kPlaceStep), rounded(t.y, kPlaceStep), rounded(t.z, kPlaceStep)};
@@ -103,7 +103,7 @@ TreeCacheKey keyOf(const TriangleMesh& mesh, const std::vector<Piece>& pieces) {
     const auto bytes = std::as_bytes(values);
     return sha256OfBytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   };
-  // What the flats depend on counts too. Change the first word when bodies are joined in another way.
+  // The flats depend on the rounding of coordinates too. Change the first word when bodies are joined in another way.
   std::string text = "group 1 " + bytesOf(mesh.vertices()) + bytesOf(mesh.triangles());
   for (const Piece& piece : pieces) {
     text += fmt::format(" {} {}", piece.geometry->mesh.triangles().size(),

@@ -55,7 +55,7 @@ class GroupBodies {
   std::optional<GroupBody> find(const std::vector<Piece>& pieces);
 
  private:
-  /// That of now and of before the last change: a step of undo and back.
+  /// One for now and one for before the last change: a step of undo and back.
   static constexpr std::size_t kMaxKept = 2;
   struct Kept {
     std::vector<Piece> pieces;
@@ -66,21 +66,22 @@ class GroupBodies {
   std::deque<Kept> kept_;  ///< Used last first.
 };
 
-/// What the hand moves, as one rigid body: the moving part, or the visible parts of the moving group.
+/// The one rigid body that the hand moves: the moving part, or the visible parts of the moving group.
 struct MovingBody {
   PartId id{};               ///< The moving part; of a group the part that leads.
   PartGeometryPtr geometry;  ///< In that part's frame; its mass is that of the whole body.
   RigidTransform worldFromBody;
   double mass = 0.0;       ///< [kg]
-  bool isVisible = false;  ///< What is not visible cannot be felt.
+  bool isVisible = false;  ///< A body that is not visible cannot be felt.
   /// The parts of a group that can be felt, in the order of their features; empty for a part alone. Known once the
   /// hierarchy is ready.
   std::vector<BodyMember> members;
 };
 
-/// What the hand moves. Of a group with one visible part that leads it, this is that part; of one without visible parts
-/// it is the part that leads. Builds the hierarchies of a group, which takes seconds for millions of triangles;
-/// prepareToFeel() does so beforehand. Throws UsageError if nothing is in hand, Error if the group is too large.
+/// Returns what the hand moves. Of a group with one visible part that leads it, this is that part; of one without
+/// visible parts it is the part that leads. Builds the hierarchies of a group, which takes seconds for millions of
+/// triangles; prepareToFeel() does so beforehand. Throws UsageError if nothing is in hand, Error if the group is too
+/// large.
 MovingBody movingBody(const Scene& scene);
 
 /// Builds all hierarchies that the servo needs: of each part, and of the moving group. Blocking, like

@@ -62,8 +62,9 @@ class Scene {
   void remove(PartId id);
   /// Sets the moving part; std::nullopt for none. Throws UsageError if the part is unknown or locked.
   void setMovingPart(std::optional<PartId> id);
-  /// Makes all parts in a group move as one. Its first part with a geometry leads. The group ends to be in hand when its
-  /// last part leaves it. Throws UsageError if the group is unknown, has no part, or it or something in it is locked.
+  /// Makes all parts in a group move as one. Its first part with a geometry leads. The group is no longer in hand once
+  /// its last part leaves it. Throws UsageError if the group is unknown, has no part, or it or something in it is
+  /// locked.
   void setMovingGroup(GroupId id);
   /// Sets the haptic settings, the orientation normalised. Throws UsageError like checkHaptics()
   /// (haptic_limits.h).

@@ -55,8 +55,8 @@ struct ServoScene {
 
 /// The scene for the servo. It has no bodies while the moving part is invisible, so nothing is felt. Builds
 /// missing hierarchies, which takes seconds for millions of triangles; prepareHierarchies() does so
-/// beforehand, with progress (prepareToFeel() with those of a group in hand). Throws UsageError if the scene has no moving
-/// part, or too many joints hold the moving group.
+/// beforehand, with progress (prepareToFeel() with those of a group in hand). Throws UsageError if the scene has no
+/// moving part, or too many joints hold the moving group.
 std::unique_ptr<const ServoScene> makeServoScene(const Scene& scene);
 
 }  // namespace nearfit

@@ -19,9 +19,9 @@ struct ExactSolid {
   SurfaceFaces surfaces;
 };
 
-/// A solid about z: rings of corners at radius and z of each point of the profile, from below, joined by bands, and flat
-/// ends. Band i, between rings i and i + 1, has triangles 2 * (i * segments + s) and the next for each segment s; then
-/// come those of the lower and of the upper end, a fan each.
+/// A solid about z: rings of corners at radius and z of each point of the profile, from below, joined by bands, and
+/// flat ends. Band i, between rings i and i + 1, has triangles 2 * (i * segments + s) and the next for each segment s;
+/// then come those of the lower and of the upper end, a fan each.
 /// @param faceOfBand  Index into `surfaces` for each band. The ends are two further faces, planes.
 /// @param segments  Around the axis; >= 3.
 ExactSolid turnedSolid(std::span<const glm::dvec2> profile, std::vector<ExactSurface> surfaces,

@@ -23,8 +23,8 @@ struct FindingsBadge {
   bool operator==(const FindingsBadge&) const = default;
 };
 
-/// Keeps the defects of all parts' meshes. Checks each geometry once, in a thread of low priority, while nothing is being
-/// loaded and no part is felt. Results stay as long as their geometry, undo included.
+/// Keeps the defects of all parts' meshes. Checks each geometry once, in a thread of low priority, while nothing is
+/// being loaded and no part is felt. Results stay as long as their geometry, undo included.
 class PartChecks : public QObject {
   Q_OBJECT
 

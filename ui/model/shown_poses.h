@@ -26,8 +26,8 @@ class ShownPoses : public QObject {
   };
   using Poses = std::map<PartId, RigidTransform>;
 
-  /// Forgets all poses when another scene opens, and those of replay and hand when one of their parts is no longer to be
-  /// moved. Both before the view hears of the change.
+  /// Forgets all poses when another scene opens, and those of replay and hand when one of their parts is no longer to
+  /// be moved. Both before the view hears of the change.
   /// @param session  Outlives this.
   explicit ShownPoses(Session& session, QObject* parent = nullptr);
 

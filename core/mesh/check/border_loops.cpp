@@ -100,7 +100,7 @@ class LoopTracer {
   /// Cuts a way into loops that pass each vertex once, and what is left.
   void cut(const std::vector<std::uint32_t>& chain) {
     std::vector<std::uint32_t> open;                         // Vertices of the way so far.
-    std::unordered_map<std::uint32_t, std::size_t> placeOf;  // Of each in it.
+    std::unordered_map<std::uint32_t, std::size_t> placeOf;  // Its place, for each of them.
     const auto visit = [&](std::uint32_t vertex) {
       const auto [place, isNew] = placeOf.try_emplace(vertex, open.size());
       if (isNew) {

@@ -50,8 +50,8 @@ bool areOpposite(const TriangleMesh& mesh, const std::vector<std::uint32_t>& cop
   });
 }
 
-/// Tells walls between two solids from sheets of two sides: which of the sets of connected opposite copies are joined to
-/// faces that have no copy.
+/// Tells walls between two solids from sheets of two sides: which of the sets of connected opposite copies are
+/// joined to faces that have no copy.
 class OppositeSheets {
  public:
   OppositeSheets(const TriangleMesh& mesh, const std::vector<FaceCopies>& groups)

@@ -17,8 +17,9 @@ std::vector<std::uint32_t> facesWithoutArea(const TriangleMesh& mesh);
 /// Faces that have the same three corners.
 struct FaceCopies {
   std::vector<std::uint32_t> faces;  ///< Two or more, ascending.
-  /// Of `faces`, those to remove so that one surface is left: all of one sense that are too many, and of two of opposite
-  /// senses the one that disagrees with its neighbours, or both if each agrees with others, as a wall within a solid.
+  /// The ones of `faces` to remove so that one surface is left: all of one sense that are too many, and of two of
+  /// opposite senses the one that disagrees with its neighbours, or both if each agrees with others, as a wall within
+  /// a solid.
   std::vector<std::uint32_t> surplus;
   bool areOpposite = false;  ///< They face both ways.
 };

@@ -40,7 +40,7 @@ class FindingPlaces {
   void grow(MeshFinding& finding, const Kept& defect) const;
 
   const TriangleMesh& mesh_;
-  std::vector<std::uint32_t> vertices_, edges_, triangles_;  ///< Of the defects, one after the other.
+  std::vector<std::uint32_t> vertices_, edges_, triangles_;  ///< Places of the defects, one after the other.
   std::vector<Kept> defects_;
 };
 

@@ -12,7 +12,7 @@ namespace nearfit {
 /// An open edge, and a vertex of another border near it.
 struct NearBorder {
   std::uint32_t edge, vertex;
-  double distance;  ///< Of the vertex from the edge [m].
+  double distance;  ///< From the edge to the vertex [m].
 };
 
 /// Open borders that run close to each other.
@@ -25,7 +25,8 @@ struct HairlineCracks {
 /// borders that go on from these in the same direction, as round a hole. Neighbours that were cut apart are found too:
 /// their borders lie on each other, at a distance of 0.
 /// @param tolerance  Max distance [m]; finite, >= 0.
-/// O(n log n) in open edges for ordinary meshes; a bound on the work, some seconds, ends it for others. Throws Cancelled.
+/// O(n log n) in open edges for ordinary meshes; a bound on the work, some seconds, ends it for others.
+/// Throws Cancelled.
 HairlineCracks findHairlineCracks(const TriangleMesh& mesh, double tolerance,
                                   const ProgressCallback& progress = {});
 

@@ -81,15 +81,15 @@ struct MeshCheck {
   std::uint64_t places() const noexcept;
 };
 
-/// What to look for.
+/// Defects to look for, and limits of the search.
 struct MeshCheckOptions {
   /// Max width of a hairline crack [m]; finite, >= 0. 0: kCrackShare of the mesh's diagonal.
   double crackTolerance = 0.0;
   /// Max number of pairs of triangles that are listed as crossing.
   std::size_t maxIntersections = 10'000;
 };
-/// Default width of hairline cracks, as a fraction of the diagonal: well above the rounding of files in single precision
-/// (1e-7) and below any slot that is meant.
+/// Default width of hairline cracks, as a fraction of the diagonal: well above the rounding of files in single
+/// precision (1e-7) and below any slot that is meant.
 constexpr double kCrackShare = 1e-4;
 
 /// Checks a mesh for defects. Time and memory grow with its size, O(n log n), whatever it holds: limits end the search

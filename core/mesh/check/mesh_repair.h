@@ -14,7 +14,7 @@
 
 namespace nearfit {
 
-/// What a repair does.
+/// Kinds of repair.
 enum class RepairKind : std::uint8_t {
   Weld,        ///< Merges vertices nearer than the size.
   Stitch,      ///< Closes cracks: merges and splits along open borders nearer than the size.
@@ -60,7 +60,7 @@ std::string textOf(std::span<const MeshRepair> repairs);
 std::string_view wordOf(RepairKind kind) noexcept;
 std::optional<RepairKind> repairNamed(std::string_view word) noexcept;
 
-/// What one repair did.
+/// Changes that one repair made.
 struct RepairStep {
   MeshRepair repair;
   /// Weld, Stitch: vertices merged. Clean: flat faces swapped with a neighbour. Orient: faces turned. FillHoles: holes
@@ -100,8 +100,8 @@ struct MeshChange {
     std::optional<double> volume;  ///< Signed [m^3]; nullopt if the mesh is not closed and oriented.
   };
   Side before, after;
-  /// Max distance between the surfaces [m]: from corners, middles of sides and centres of the triangles that only one of
-  /// them has to the other surface. A fill is so far from the old surface as its middle is from the rim.
+  /// Max distance between the surfaces [m]: from corners, middles of sides and centres of the triangles that only
+  /// one of them has to the other surface. A fill is so far from the old surface as its middle is from the rim.
   double maxDistance = 0.0;
   bool isSampled = false;  ///< There were more points than kMaxSamples: only some were measured, evenly.
 };

@@ -33,8 +33,8 @@ struct MeshShells {
 };
 
 /// Finds the shells of a mesh, and which lie within which: by the triangles that rays from some of its points cross,
-/// decided exactly. Of shells that cross, none counts as within the other unless all these points are. O(n) for few shells within the boxes of others; at most a second beyond
-/// that.
+/// decided exactly. A shell that crosses another counts as within it only if all these points are. O(n) for few shells
+/// within the boxes of others; at most a second beyond that.
 MeshShells shellsOf(const TriangleMesh& mesh);
 
 }  // namespace nearfit

@@ -94,7 +94,7 @@ class SoupInspector {
   const PolygonSoup& soup_;
   std::vector<glm::dvec3> vertices_;  ///< [m]
   std::vector<std::uint32_t> representative_, corners_;
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> hashes_;  ///< Of polygons with an area.
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> hashes_;  ///< Hash and index of polygons with an area.
   SoupFaults faults_;
 };
 

@@ -13,8 +13,8 @@ struct SoupFaults {
   std::vector<TriangleCorners> degenerate, duplicate;
 };
 
-/// Finds faces of a file that have no area, or repeat another in the same sense. Of a polygon, three of its corners. Lists
-/// of corners that refer to no vertex are left out. O(n log n). Throws Cancelled.
+/// Finds faces of a file that have no area, or repeat another in the same sense. A polygon is given by three of its
+/// corners. Lists of corners that refer to no vertex are left out. O(n log n). Throws Cancelled.
 SoupFaults findSoupFaults(const PolygonSoup& soup, const MeshBuildOptions& options,
                           const ProgressCallback& progress = {});
 

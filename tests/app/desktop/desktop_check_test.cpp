@@ -230,7 +230,7 @@ void DesktopCheckTest::withoutRepairsOrForALockedPartThereIsNothingToPress() {
   f.d.session().setLocked(f.d.partId("open"), true);
   QVERIFY(!repair->isEnabled());
   f.d.session().setLocked(f.d.partId("open"), false);
-  // What would change nothing is no step.
+  // No-ops record no undo step.
   f.d.type<QDoubleSpinBox>("repairFillSize", "1 mm");
   const std::string before = f.d.session().undoText();
   QTest::mouseClick(repair, Qt::LeftButton);

@@ -29,7 +29,7 @@ RigidTransform at(const glm::dvec3& translation) {
   return {{1, 0, 0, 0}, translation};
 }
 
-/// Of powers of two, so that sums of masses are exact in any order.
+/// Its sides are powers of two, so that sums of masses are exact in any order.
 TriangleMesh block() {
   return test::boxMesh({0.125, 0.125, 0.0625});
 }

@@ -30,7 +30,7 @@ class CheckPanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// What it shows, and shows it in; all outlive this.
+  /// Sources of what it shows, and the view to mark places in; all outlive this.
   struct Context {
     Session& session;
     const Selection& selection;
@@ -77,8 +77,8 @@ class CheckPanel : public QWidget {
   QLabel *title_, *note_, *result_;
   RepairFields* fields_;
   QPushButton* repair_;
-  PartGeometryPtr geometry_;                    ///< Of the part shown.
-  std::shared_ptr<const MeshCheck> check_;      ///< Of it; null: not yet.
+  PartGeometryPtr geometry_;                    ///< Geometry of the part shown.
+  std::shared_ptr<const MeshCheck> check_;      ///< Its findings; null: not yet checked.
   std::weak_ptr<const PartGeometry> repaired_;  ///< Whose repair result_ describes.
   Subscription changes_;
 };

@@ -13,9 +13,9 @@
 
 namespace nearfit::ui {
 
-/// Keeps the clearances of one part, or of the moving group, up to date while they are wanted. Searches in another thread
-/// after a change, at most a few times a second; for the moving part in hand, also takes them from
-/// each tick that is shown.
+/// Keeps the clearances of one part, or of the moving group, up to date while they are wanted. Searches in another
+/// thread after a change, at most a few times a second; for what is in hand, also takes them from each tick that is
+/// shown.
 class ClearanceSearch : public QObject {
   Q_OBJECT
 

@@ -107,7 +107,7 @@ void PartCommands::connectPanel(PartsPanel& panel) {
   connect(&panel, &PartsPanel::lockRequested, this, &PartCommands::setLocked);
   connect(&panel, &PartsPanel::jointToggleRequested, joints_, &JointActions::toggle);
   connect(&panel, &PartsPanel::findingsRequested, this, [this](PartId part) {
-    // Of several selected parts, the one whose badge was clicked is shown.
+    // Several parts may be selected: the one whose badge was clicked is shown.
     if (context_.selection.current() != part) context_.selection.select(part);
     emit checkRequested();
   });

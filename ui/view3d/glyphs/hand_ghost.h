@@ -17,8 +17,8 @@
 
 namespace nearfit::ui {
 
-/// Draws the ghost: where the hand wants the moving part, or group, while it stays behind. A translucent copy, and a line
-/// from the copy's centre of mass to that of what is copied.
+/// Draws the ghost: where the hand wants the moving part, or group, while it stays behind. A translucent copy, and a
+/// line from the copy's centre of mass to that of what is copied.
 class HandGhost {
  public:
   /// @param parts    Draws the copy; outlives this.
@@ -49,7 +49,7 @@ class HandGhost {
   bool visibleBounds(double bounds[6]) const;
 
  private:
-  /// What draws a piece.
+  /// Actors that draw a piece.
   struct Copy {
     vtkNew<vtkActor> surface, edges;
     vtkNew<vtkMatrix4x4> pose;
