@@ -1,3 +1,4 @@
+#include <exception>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -12,9 +13,11 @@
 
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
+#include "app/cli/document_options.h"
 #include "app/cli/output.h"
 #include "core/base/error.h"
 #include "core/report/scene_export.h"
+#include "core/scene/document_load.h"
 #include "core/scene/part_check.h"
 #include "core/text/quantity.h"
 #include "core/text/utf8.h"
@@ -26,7 +29,7 @@ using CheckJson = nlohmann::ordered_json;
 
 struct CheckOptions {
   std::vector<std::string> meshes;
-  std::string unit = "m", out;
+  std::string unit, out;
   std::string crack, weld, stitch, drop, fill;
   bool clean = false, orient = false, isJson = false;
 };
@@ -47,7 +50,8 @@ constexpr const char* kCheckFooter =
     "as it should be.\n"
     "Repairs are made to a copy in this order: weld, clean, stitch, drop, orient, fill. --repair writes it "
     "in\n"
-    "the unit of the file; OUT is .stl, .obj or .ply. Lengths are in metres, or have a unit: --weld 0.01mm.\n"
+    "the unit of the file, of a document in metres; OUT is .stl, .obj or .ply. Lengths are in metres, or "
+    "have a unit: --weld 0.01mm.\n"
     "The exit code does not depend on what is found.\n"
     "Example: nearfit-cli check --unit mm lid.stl --repair lid-closed.stl --stitch 0.05mm --fill 2mm "
     "--orient";
@@ -206,10 +210,9 @@ void writeRepaired(const PartGeometryPtr& geometry, const std::string& out) {
   exportMesh(parts, repairedKind(out), geometry->metresPerUnit, out);
 }
 
-void reportCheck(const std::string& name, double metresPerUnit, const MeshRepairs& repairs,
+void reportCheck(const std::string& name, const PartGeometryPtr& geometry, const MeshRepairs& repairs,
                  const CheckOptions& options) {
   const MeshCheckOptions checking{lengthOf("--crack", options.crack).value_or(0.0)};
-  const PartGeometryPtr geometry = loadPartGeometry(name, metresPerUnit);
   const MeshCheck before = checkPart(*geometry, checking);
   CheckJson json;
   json["file"] = isUtf8(name) ? name : printableText(name);
@@ -234,6 +237,29 @@ void reportCheck(const std::string& name, double metresPerUnit, const MeshRepair
   print(options.isJson ? json.dump() + "\n" : text);
 }
 
+/// Checks a mesh file, a shape of a document, or each shape of one.
+void checkFile(const std::string& name, double metresPerUnit, const MeshRepairs& repairs,
+               const CheckOptions& options) {
+  const FileArgument argument = fileArgumentOf(name);
+  if (!isDocumentFile(argument.file) || !argument.shape.empty()) {
+    const MeshSource source{argument.file, metresPerUnit, {}, argument.shape};
+    const LoadedPart loaded = loadPartGeometries({&source, 1}).front();
+    if (loaded.problem) std::rethrow_exception(loaded.problem);
+    return reportCheck(name, loaded.geometry, repairs, options);
+  }
+  const LoadedDocument document = loadDocument(argument.file, metresPerUnit);
+  for (const std::string& warning : document.warnings)
+    printError(oneLine(warning));
+  if (!options.out.empty() && document.shapes.size() > 1)
+    throw UsageError("--repair", fmt::format("{} holds {} shapes", oneLine(name), document.shapes.size()),
+                     "name one of them behind the file: FILE#KEY");
+  for (const PartGeometryPtr& shape : document.shapes) {
+    if (shape == nullptr) continue;
+    const bool isOne = document.shapes.size() == 1;
+    reportCheck(isOne ? name : fmt::format("{}#{}", name, shape->shapeKey), shape, repairs, options);
+  }
+}
+
 void checkCheckOptions(const CheckOptions& options, const MeshRepairs& repairs) {
   if (options.out.empty()) return;
   if (repairs.empty())
@@ -247,14 +273,17 @@ void checkCheckOptions(const CheckOptions& options, const MeshRepairs& repairs) 
 }
 
 void runCheck(const CheckOptions& options) {
-  const double metresPerUnit = parseUnit(options.unit);
+  std::vector<std::string> files;
+  for (const std::string& name : options.meshes)
+    files.push_back(fileArgumentOf(name).file);
+  const double metresPerUnit = unitOfFiles(options.unit, files);
   const MeshRepairs repairs = chosenRepairs(options);
   checkCheckOptions(options, repairs);
   printCacheWarnings();
   bool hasFailed = false;
   for (const std::string& name : options.meshes) {
     try {
-      reportCheck(name, metresPerUnit, repairs, options);
+      checkFile(name, metresPerUnit, repairs, options);
     } catch (const FileError& e) {
       // The others are still worth checking.
       flushOutput();
@@ -271,8 +300,10 @@ void addCheckCommand(CLI::App& program) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* command = program.add_subcommand(
       "check", "Finds what is wrong with meshes, and where; repairs a copy, and says what that changed.");
-  command->add_option("mesh", options->meshes, "Mesh files")->required()->type_name("FILE");
-  command->add_option("--unit", options->unit, kUnitHelp)->capture_default_str();
+  command->add_option("mesh", options->meshes, "Mesh files, CAD documents, or shapes of these (FILE#KEY)")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--unit", options->unit, kFileUnitHelp);
   command->add_flag("--json", options->isJson, "Print one JSON object per file, each on its own line");
   const auto addLength = [command](const char* name, std::string& value, const char* help) {
     command->add_option(name, value, help)->type_name("LENGTH");

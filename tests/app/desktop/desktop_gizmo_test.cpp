@@ -618,5 +618,5 @@ void DesktopGizmoTest::aLockedPartAmongThemKeepsAllWhereTheyAre() {
   QCOMPARE(b.pose().translation, glm::dvec3(0.0));
 }
 
-NEARFIT_QT_SUITE(DesktopGizmoTest, runDesktopTest<DesktopGizmoTest>)
+NEARFIT_QT_SUITE(DesktopGizmoTest, test::runDesktopTest<DesktopGizmoTest>)
 #include "desktop_gizmo_test.moc"

@@ -148,7 +148,7 @@ TEST(PartGeometry, RepairsMadeLaterGiveWhatLoadingWithThemGives) {
   EXPECT_TRUE(filled.change.after.volume);
   EXPECT_EQ(open->mesh.topology().openEdges, 3U) << "the original stays";
   EXPECT_EQ(repairGeometry(*filled.geometry, second).geometry, nullptr) << "there is nothing left to do";
-  MeshSource source{file, 1.0, {}, first};
+  MeshSource source{.file = file, .repairs = first};
   const PartGeometryPtr loaded = loadPartGeometries(std::span(&source, 1)).front().geometry;
   ASSERT_NE(loaded, nullptr);
   EXPECT_TRUE(test::areSame(loaded->mesh, filled.geometry->mesh));
@@ -203,8 +203,8 @@ TEST_F(CachedPartGeometry, SecondLoadReadsNoMeshAndBuildsNoHierarchy) {
 
 TEST_F(CachedPartGeometry, RepairedMeshesAreKeptApartFromTheOthers) {
   const auto file = folder_.write("open.stl", test::stlBinary(openBall(4)));
-  const MeshSource plain{file, 1.0, {}}, filled{file, 1.0, {}, {{RepairKind::FillHoles, 1.0}}},
-      dropped{file, 1.0, {}, {{RepairKind::FillHoles, 1e-6}}};
+  const MeshSource plain{file}, filled{.file = file, .repairs = {{RepairKind::FillHoles, 1.0}}},
+      dropped{.file = file, .repairs = {{RepairKind::FillHoles, 1e-6}}};
   const std::vector<MeshSource> sources{plain, filled, dropped};
   for (int round = 0; round < 2; ++round) {
     const std::vector<LoadedPart> loaded = loadPartGeometries(sources);

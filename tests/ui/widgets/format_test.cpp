@@ -141,5 +141,5 @@ void FormatTest::decimalsAreThoseOfNumberFields() {
   QLocale::setDefault(before);
 }
 
-NEARFIT_QT_SUITE(FormatTest, test::runQtTest<FormatTest>)
+NEARFIT_QT_SUITE(FormatTest, nearfit::test::runQtTest<FormatTest>)
 #include "format_test.moc"
