@@ -1,4 +1,3 @@
-#include <exception>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -30,6 +29,7 @@ using CheckJson = nlohmann::ordered_json;
 struct CheckOptions {
   std::vector<std::string> meshes;
   std::string unit, out;
+  TessellationOptions tessellation;
   std::string crack, weld, stitch, drop, fill;
   bool clean = false, orient = false, isJson = false;
 };
@@ -50,8 +50,10 @@ constexpr const char* kCheckFooter =
     "as it should be.\n"
     "Repairs are made to a copy in this order: weld, clean, stitch, drop, orient, fill. --repair writes it "
     "in\n"
-    "the unit of the file, of a document in metres; OUT is .stl, .obj or .ply. Lengths are in metres, or "
-    "have a unit: --weld 0.01mm.\n"
+    "the unit of the file, or of --unit (else in metres) for a CAD document; OUT is .stl, .obj or .ply.\n"
+    "Lengths are in metres, or have a unit: --weld 0.01mm. Of a CAD document each shape is checked, or that "
+    "of\n"
+    "FILE#KEY; the mesh is then that of its tessellation.\n"
     "The exit code does not depend on what is found.\n"
     "Example: nearfit-cli check --unit mm lid.stl --repair lid-closed.stl --stitch 0.05mm --fill 2mm "
     "--orient";
@@ -202,16 +204,17 @@ CheckJson repairJson(const GeometryRepair& repair) {
   return json;
 }
 
-void writeRepaired(const PartGeometryPtr& geometry, const std::string& out) {
+void writeRepaired(const PartGeometryPtr& geometry, double metresPerUnit, const std::string& out) {
   Part part;
   part.name = "Repaired";
   part.geometry = geometry;
   const std::vector<Scene::PartPtr> parts{std::make_shared<const Part>(std::move(part))};
-  exportMesh(parts, repairedKind(out), geometry->metresPerUnit, out);
+  exportMesh(parts, repairedKind(out), metresPerUnit, out);
 }
 
-void reportCheck(const std::string& name, const PartGeometryPtr& geometry, const MeshRepairs& repairs,
-                 const CheckOptions& options) {
+/// @param name  That of the file, with the key of a shape of a document.
+void reportCheck(const std::string& name, const PartGeometryPtr& geometry, double metresPerUnit,
+                 const MeshRepairs& repairs, const CheckOptions& options) {
   const MeshCheckOptions checking{lengthOf("--crack", options.crack).value_or(0.0)};
   const MeshCheck before = checkPart(*geometry, checking);
   CheckJson json;
@@ -227,7 +230,7 @@ void reportCheck(const std::string& name, const PartGeometryPtr& geometry, const
   if (!repairs.empty()) {
     const GeometryRepair repair = repairGeometry(*geometry, repairs);
     const PartGeometryPtr& after = repair.geometry ? repair.geometry : geometry;
-    if (!options.out.empty()) writeRepaired(after, options.out);
+    if (!options.out.empty()) writeRepaired(after, metresPerUnit, options.out);
     const MeshCheck left = checkMesh(after->mesh, checking);
     json["repair"] = repairJson(repair);
     json["checkAfter"] = checkJson(left);
@@ -241,26 +244,25 @@ void reportCheck(const std::string& name, const PartGeometryPtr& geometry, const
 void checkFile(const std::string& name, double metresPerUnit, const MeshRepairs& repairs,
                const CheckOptions& options) {
   const FileArgument argument = fileArgumentOf(name);
-  if (!isDocumentFile(argument.file) || !argument.shape.empty()) {
-    const MeshSource source{argument.file, metresPerUnit, {}, argument.shape};
-    const LoadedPart loaded = loadPartGeometries({&source, 1}).front();
-    if (loaded.problem) std::rethrow_exception(loaded.problem);
-    return reportCheck(name, loaded.geometry, repairs, options);
+  const Tessellation tessellation = tessellationOf(options.tessellation);
+  // A repaired mesh needs a file of its own: several shapes are refused then.
+  if (!isDocumentFile(argument.file) || !argument.shape.empty() || !options.out.empty()) {
+    reportCheck(name, loadArgument(argument, metresPerUnit, tessellation), metresPerUnit, repairs, options);
+    return;
   }
-  const LoadedDocument document = loadDocument(argument.file, metresPerUnit);
+  const LoadedDocument document = loadDocument(argument.file, metresPerUnit, tessellation);
   for (const std::string& warning : document.warnings)
-    printError(oneLine(warning));
-  if (!options.out.empty() && document.shapes.size() > 1)
-    throw UsageError("--repair", fmt::format("{} holds {} shapes", oneLine(name), document.shapes.size()),
-                     "name one of them behind the file: FILE#KEY");
+    printError(fmt::format("warning: {}: {}", name, warning));
   for (const PartGeometryPtr& shape : document.shapes) {
     if (shape == nullptr) continue;
     const bool isOne = document.shapes.size() == 1;
-    reportCheck(isOne ? name : fmt::format("{}#{}", name, shape->shapeKey), shape, repairs, options);
+    reportCheck(isOne ? name : fmt::format("{}#{}", name, shape->shapeKey), shape, metresPerUnit, repairs,
+                options);
   }
 }
 
 void checkCheckOptions(const CheckOptions& options, const MeshRepairs& repairs) {
+  tessellationOf(options.tessellation);
   if (options.out.empty()) return;
   if (repairs.empty())
     throw UsageError("--repair", "no repair is chosen",
@@ -268,7 +270,7 @@ void checkCheckOptions(const CheckOptions& options, const MeshRepairs& repairs) 
   if (options.meshes.size() > 1)
     throw UsageError("--repair", "there is more than one file to repair", "repair one file at a time");
   repairedKind(options.out);
-  const std::filesystem::path mesh = options.meshes.front();
+  const std::filesystem::path mesh = fileArgumentOf(options.meshes.front()).file;
   checkTarget(options.out, std::span(&mesh, 1));
 }
 
@@ -300,10 +302,15 @@ void addCheckCommand(CLI::App& program) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* command = program.add_subcommand(
       "check", "Finds what is wrong with meshes, and where; repairs a copy, and says what that changed.");
-  command->add_option("mesh", options->meshes, "Mesh files, CAD documents, or shapes of these (FILE#KEY)")
+  command
+      ->add_option(
+          "mesh", options->meshes,
+          "Mesh files (STL, OBJ, PLY, OFF), CAD documents (STEP, IGES, BREP, glTF, 3MF, URDF), or shapes of "
+          "these (FILE#KEY)")
       ->required()
       ->type_name("FILE");
   command->add_option("--unit", options->unit, kFileUnitHelp);
+  addTessellationOptions(*command, options->tessellation);
   command->add_flag("--json", options->isJson, "Print one JSON object per file, each on its own line");
   const auto addLength = [command](const char* name, std::string& value, const char* help) {
     command->add_option(name, value, help)->type_name("LENGTH");

@@ -1,5 +1,6 @@
 #include "app/cli/document_options.h"
 
+#include <exception>
 #include <filesystem>
 #include <numbers>
 #include <system_error>
@@ -49,6 +50,14 @@ FileArgument fileArgumentOf(const std::string& text) {
   const std::string file = text.substr(0, mark);
   if (!isDocumentFile(file)) return {text, {}};
   return {file, text.substr(mark + 1)};
+}
+
+PartGeometryPtr loadArgument(const FileArgument& argument, double metresPerUnit,
+                             const Tessellation& tessellation) {
+  const MeshSource source{argument.file, metresPerUnit, {}, argument.shape, tessellation};
+  const LoadedPart loaded = loadPartGeometries({&source, 1}).front();
+  if (loaded.problem) std::rethrow_exception(loaded.problem);
+  return loaded.geometry;
 }
 
 double unitOfFiles(const std::string& unit, std::span<const std::string> files) {

@@ -32,6 +32,10 @@ struct FileArgument {
 };
 FileArgument fileArgumentOf(const std::string& text);
 
+/// Loads the mesh file, or the shape of a document. Throws what loadPartGeometry() throws.
+PartGeometryPtr loadArgument(const FileArgument& argument, double metresPerUnit,
+                             const Tessellation& tessellation);
+
 /// Metres per unit for --unit. If it is empty, 1 for files that all store their unit; throws UsageError, naming --unit,
 /// if one does not.
 double unitOfFiles(const std::string& unit, std::span<const std::string> files);

@@ -1,4 +1,3 @@
-#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -196,12 +195,6 @@ Json sceneJson(const std::string& name, const Scene& scene) {
   return json;
 }
 
-PartGeometryPtr geometryOf(const MeshSource& source) {
-  const LoadedPart loaded = loadPartGeometries({&source, 1}).front();
-  if (loaded.problem) std::rethrow_exception(loaded.problem);
-  return loaded.geometry;
-}
-
 std::string reportOn(const std::string& name, double metresPerUnit, const InfoOptions& options) {
   if (isSceneFile(name)) {
     const Scene scene = readSceneFile(name);
@@ -215,7 +208,7 @@ std::string reportOn(const std::string& name, double metresPerUnit, const InfoOp
                           : documentText(name, document, options.density);
   }
   const PartGeometryPtr geometry =
-      geometryOf({argument.file, metresPerUnit, {}, argument.shape, tessellationOf(options.tessellation)});
+      loadArgument(argument, metresPerUnit, tessellationOf(options.tessellation));
   return options.isJson ? infoJson(name, *geometry, options.density).dump() + "\n"
                         : infoText(name, *geometry, options.density);
 }

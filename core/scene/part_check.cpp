@@ -12,8 +12,10 @@ namespace {
 /// Share of the work that the mesh takes; reading the file again takes the rest.
 constexpr double kMeshChecked = 0.7;
 
-/// None if the file cannot be read any more, or is another one.
+/// None if the file cannot be read any more, or is another one. None for a document either: only its importer knows the
+/// triangles as they were.
 SoupFaults faultsOfFile(const PartGeometry& geometry, const ProgressCallback& progress) {
+  if (!geometry.shapeKey.empty()) return {};
   try {
     const ImportedPolygons read = importPolygons(geometry.file, progress);
     if (read.sha256 != geometry.sha256) return {};

@@ -63,7 +63,7 @@ TEST_F(CheckCommand, FacesThatLoadingLeftOutHaveTheirPlace) {
   // A face that repeats the first one, and one without area.
   const std::string file =
       folder_.write("faulty.obj", objText(boxMesh({3, 4, 5})) + "f 1 3 4\nf 1 2 2\n").string();
-  const Json json = Json::parse(runCli({"check", "--json", file}).out);
+  const Json json = Json::parse(runCli({"check", "--unit", "m", "--json", file}).out);
   ASSERT_EQ(json["check"]["findings"].size(), 2U) << json.dump(1);
   for (const Json& finding : json["check"]["findings"]) {
     EXPECT_EQ(finding["mended"], true);
@@ -96,7 +96,7 @@ TEST_F(CheckCommand, ARepairedCopyIsWrittenAndTheChangeIsStated) {
 }
 
 TEST_F(CheckCommand, TextSaysWhatTheRepairDid) {
-  const ProcessResult result = runCli({"check", open_, "--fill", "10"});
+  const ProcessResult result = runCli({"check", "--unit", "m", open_, "--fill", "10"});
   EXPECT_EQ(result.exitCode, 0) << result.err;
   EXPECT_THAT(result.out, AllOf(HasSubstr("fillHoles   1 changed, 1 faces added"),
                                 HasSubstr("volume      none to 60 m^3"), HasSubstr("no findings")));
@@ -107,7 +107,7 @@ TEST_F(CheckCommand, TheToleranceForCracksIsChosen) {
       joined(squareMesh(1.0, 1), transformed(squareMesh(1.0, 1), 1.0, {{1, 0, 0, 0}, {1.01, 0, 0}}));
   const std::string file = folder_.write("sheets.obj", objText(sheets)).string();
   const auto cracksWithin = [&](const char* width) {
-    const Json json = Json::parse(runCli({"check", "--json", file, "--crack", width}).out);
+    const Json json = Json::parse(runCli({"check", "--unit", "m", "--json", file, "--crack", width}).out);
     return json["check"]["totals"]["hairlineCracks"]["places"].get<int>();
   };
   EXPECT_EQ(cracksWithin("20 mm"), 1);
@@ -115,7 +115,8 @@ TEST_F(CheckCommand, TheToleranceForCracksIsChosen) {
 }
 
 TEST_F(CheckCommand, WrongUseIsExplainedWithExitCode2) {
-  const auto failureOf = [](const std::vector<std::string>& arguments) {
+  const auto failureOf = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin() + 1, {"--unit", "m"});
     const ProcessResult result = runCli(arguments);
     EXPECT_EQ(result.exitCode, 2) << result.err;
     EXPECT_EQ(result.out, "");
@@ -134,11 +135,11 @@ TEST_F(CheckCommand, WrongUseIsExplainedWithExitCode2) {
 
 TEST_F(CheckCommand, AFileThatCannotBeReadIsExitCode1AndTheOthersAreChecked) {
   const std::string broken = folder_.write("broken.stl", "").string();
-  const ProcessResult result = runCli({"check", broken, box_});
+  const ProcessResult result = runCli({"check", "--unit", "m", broken, box_});
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_THAT(result.err, HasSubstr("broken.stl"));
   EXPECT_THAT(result.out, HasSubstr("no findings"));
-  EXPECT_EQ(runCli({"check", box_, "--drop", "100"}).exitCode, 1) << "nothing would be left";
+  EXPECT_EQ(runCli({"check", "--unit", "m", box_, "--drop", "100"}).exitCode, 1) << "nothing would be left";
 }
 
 }  // namespace

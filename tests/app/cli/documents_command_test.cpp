@@ -10,6 +10,7 @@
 
 #include "app/cli/commands.h"
 #include "core/base/error.h"
+#include "core/import/mesh_import.h"
 #include "core/scene/scene_file.h"
 #include "tests/support/documents.h"
 #include "tests/support/mesh_generators.h"
@@ -31,6 +32,7 @@ class DocumentsCommand : public ::testing::Test {
   static std::string output(std::vector<std::string> arguments) {
     CLI::App program;
     cli::addInfoCommand(program);
+    cli::addCheckCommand(program);
     cli::addLmdCommand(program);
     cli::addSceneCommand(program);
     program.require_subcommand(1);
@@ -135,6 +137,7 @@ TEST_F(DocumentsCommand, DocumentsAndMeshesGoTogether) {
 TEST_F(DocumentsCommand, MissingUnitIsAnErrorThatNamesTheOption) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"info", block_},
+        {"check", block_},
         {"lmd", vise_ + "#pin", block_, "--cutoff", "0.1", "--pose", "0,0,1,1,0,0,0"},
         {"scene", "new", scene_, "--import", vise_, "--part", "Block=" + block_}})
     EXPECT_THAT(errorOf(arguments), AllOf(HasSubstr("--unit: "), HasSubstr("block.obj stores no unit")));
@@ -176,6 +179,27 @@ TEST_F(DocumentsCommand, RefiningOnePartTakesAllItsInstancesAlong) {
   output({"scene", "new", scene_, "--unit", "mm", "--import", block_});
   EXPECT_THAT(errorOf({"scene", "refine", scene_, "block"}), HasSubstr("no exact surfaces"));
   EXPECT_THAT(errorOf({"scene", "refine", scene_}), HasSubstr("no part of exact surfaces"));
+}
+
+TEST_F(DocumentsCommand, EachShapeIsCheckedOrTheOneThatIsNamed) {
+  const std::string all = output({"check", vise_});
+  EXPECT_THAT(all, AllOf(HasSubstr("vise.step#body\n  triangles            12\n  no findings\n"),
+                         HasSubstr("vise.step#pin\n")));
+  const Json pin = Json::parse(output({"check", "--json", "--chord", "1e-6", vise_ + "#pin"}));
+  EXPECT_THAT(pin["file"].get<std::string>(), HasSubstr("vise.step#pin"));
+  EXPECT_GT(pin["triangles"].get<int>(), 300)
+      << "facets of a chord of 1 um on a radius of 5 mm turn by 40 mrad at most";
+  EXPECT_TRUE(pin["check"]["findings"].empty());
+}
+
+TEST_F(DocumentsCommand, AShapeIsRepairedIntoAMeshFileInTheUnitThatIsNamed) {
+  const std::string out = path("body.obj");
+  EXPECT_THAT(errorOf({"check", vise_, "--orient", "--repair", out}), HasSubstr("2 shapes"));
+  EXPECT_THAT(errorOf({"check", vise_ + "#body", "--orient", "--repair", vise_}), HasSubstr("vise.step"));
+  output({"check", "--unit", "mm", vise_ + "#body", "--orient", "--repair", out});
+  MeshBuildOptions options;
+  options.metresPerUnit = 0.001;
+  EXPECT_NEAR(importMesh(out, options).mesh.bounds().upper.x, 0.05, 1e-9);
 }
 
 }  // namespace
