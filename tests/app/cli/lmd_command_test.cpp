@@ -73,8 +73,8 @@ TEST_F(LmdCommand, RegionsBeyondTenThousandSizesFromTheOriginAreMarked) {
   for (const auto& [away, isFar] : {std::pair{32'768.0, false}, std::pair{65'536.0, true}}) {
     const std::string block = folder_.write("away.obj", objText(boxMesh({2, 2, 1}, {away, 0, 0}))).string();
     for (const char* mode : {"cold", "tracked"}) {
-      const ProcessResult result = runCli({"lmd", block, cube_, "--mode", mode, "--cutoff", "0.5", "--pose",
-                                           fmt::format("{},0,1.25,1,0,0,0", away)});
+      const ProcessResult result = runCli({"lmd", "--unit", "m", block, cube_, "--mode", mode, "--cutoff",
+                                           "0.5", "--pose", fmt::format("{},0,1.25,1,0,0,0", away)});
       ASSERT_EQ(result.exitCode, 0) << result.err;
       const Json json = Json::parse(result.out);
       ASSERT_EQ(json["lmds"].size(), 1U) << away;
