@@ -1,5 +1,6 @@
 #include "core/scene/refinement.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -25,6 +26,11 @@ ShapeName shapeNameOf(const PartGeometry& geometry) {
 
 bool isRefinable(const Part& part) noexcept {
   return part.geometry != nullptr && part.geometry->isExact && !part.geometry->shapeKey.empty();
+}
+
+Tessellation scaledTessellation(const Tessellation& tessellation, double factor) {
+  if (tessellation.chord == 0.0) return tessellation;
+  return {std::clamp(factor * tessellation.chord, kMinChord, kMaxChord), tessellation.angle};
 }
 
 Refinement refinementOf(const Scene& scene, std::span<const PartId> parts, const Tessellation& tessellation) {

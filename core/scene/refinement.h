@@ -23,6 +23,9 @@ struct Refinement {
 /// mesh file or from a shape that is not of exact surfaces, or checkTessellation() refuses the tessellation.
 Refinement refinementOf(const Scene& scene, std::span<const PartId> parts, const Tessellation& tessellation);
 
+/// The same tessellation for a shape scaled by a factor; its chord stays within its limits.
+Tessellation scaledTessellation(const Tessellation& tessellation, double factor);
+
 /// True if the part can be refined.
 bool isRefinable(const Part& part) noexcept;
 

@@ -318,7 +318,8 @@ void PartFiles::rescale(const std::vector<PartId>& parts, double factor) {
 PartFiles::Wanted PartFiles::inUnit(const Part& part, double metresPerUnit) {
   // Tolerances grow with the mesh, so that they do the same to it.
   const double factor = metresPerUnit / part.geometry->metresPerUnit;
-  return {part.id, metresPerUnit, part.geometry->sha256, part.geometry->tessellation,
+  return {part.id, metresPerUnit, part.geometry->sha256,
+          scaledTessellation(part.geometry->tessellation, factor),
           scaledRepairs(part.geometry->repairs, factor)};
 }
 
