@@ -95,8 +95,8 @@ constexpr std::size_t kMaxSceneFileParts = 10'000;
 /// Folder that relative mesh paths start from: the scene file's own, with symbolic links resolved.
 std::filesystem::path meshFolder(const std::filesystem::path& sceneFile);
 
-/// Reads a scene file and loads its meshes, each file, unit, shape and tessellation once. Checks every field before loading any
-/// mesh; error messages name the field (`parts[3].position`) or the line and column.
+/// Reads a scene file and loads its meshes, each file, unit, shape and tessellation once for the same repairs. Checks
+/// every field before loading any mesh; error messages name the field (`parts[3].position`) or the line and column.
 /// @param changedMeshes  If not null, mesh files whose SHA-256 differs from the scene's are loaded as they
 ///                       are now and listed here. If null, such a file is an error.
 /// Throws FileError (malformed, unknown version, missing or changed mesh), Cancelled.

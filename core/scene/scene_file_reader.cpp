@@ -145,7 +145,6 @@ std::optional<glm::dvec3> readPivot(const JsonField& field) {
   return pivot;
 }
 
-/// Reads what version 6 adds to version 5.
 MeshRepairs readRepairs(const JsonField& field) {
   if (field.size() > kMaxRepairs) field.fail(fmt::format("there are more than {} repairs", kMaxRepairs));
   MeshRepairs repairs;

@@ -1,6 +1,9 @@
 #include "core/scene/document_load.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <numbers>
 #include <vector>
@@ -209,6 +212,78 @@ TEST_F(DocumentLoad, AllShapesOfADocumentComeFromOneRun) {
   EXPECT_EQ(loaded[1].geometry->shapeKey, "body");
   EXPECT_GT(loaded[4].geometry->mesh.triangles().size(), loaded[0].geometry->mesh.triangles().size());
   EXPECT_THAT(messageOf(loaded[3].problem), HasSubstr("it holds no shape \"nut\""));
+}
+
+/// A vise whose body lacks one of the two triangles of each of its sides at -x and +x; no. 0 and 1 of its faces.
+CadDocument viseWithHoles() {
+  CadDocument document = test::viseDocument();
+  CadShape& body = document.shapes[0];
+  for (const std::uint32_t face : {0U, 1U}) {
+    const auto it = std::ranges::find(body.surfaces.faceOfTriangle, face);
+    const auto i = it - body.surfaces.faceOfTriangle.begin();
+    body.surfaces.faceOfTriangle.erase(it);
+    body.triangles.erase(body.triangles.begin() + i);
+  }
+  return document;
+}
+
+/// How many triangles are of a face.
+std::ptrdiff_t trianglesOf(const PartGeometry& geometry, std::uint32_t face) {
+  return std::ranges::count(geometry.surfaces->faceOfTriangle, face);
+}
+
+TEST_F(DocumentLoad, TrianglesThatRepairsAddAreOfAFaceOfTheirOwnAndTheOthersKeepTheirs) {
+  const test::FakeImporter importer([](const Tessellation&) { return viseWithHoles(); });
+  const MeshSource whole{.file = file_, .shape = "body"};
+  MeshSource filled = whole;
+  filled.repairs = {{RepairKind::FillHoles, 1.0}};
+  for (int round = 0; round < 2; ++round) {
+    const auto loaded = loadPartGeometries(std::vector{whole, filled, filled});
+    ASSERT_TRUE(loaded[0].geometry && loaded[1].geometry) << messageOf(loaded[1].problem);
+    EXPECT_EQ(loaded[1].geometry, loaded[2].geometry);
+    const PartGeometry &open = *loaded[0].geometry, &closed = *loaded[1].geometry;
+    EXPECT_EQ(open.mesh.triangles().size(), 10U);
+    EXPECT_EQ(open.surfaces->faces.size(), 6U);
+    EXPECT_TRUE(closed.mesh.topology().isClosed());
+    EXPECT_NEAR(closed.mass.volume, 0.1 * 0.06 * 0.04, 1e-15);
+    EXPECT_EQ(closed.shapeKey, "body");
+    EXPECT_EQ(closed.repairs, filled.repairs);
+    ASSERT_EQ(closed.surfaces->faces.size(), 7U);
+    EXPECT_EQ(closed.surfaces->faces[6].kind, SurfaceKind::Other);
+    EXPECT_EQ(trianglesOf(closed, 6), 2);
+    for (std::uint32_t face = 0; face < 6; ++face)
+      EXPECT_EQ(trianglesOf(closed, face), face < 2 ? 1 : 2) << face;
+    ASSERT_EQ(closed.faceColours.size(), 7U);
+    EXPECT_EQ(closed.faceColours[5], (CadColour{1.0F, 0.0F, 0.0F}));
+    EXPECT_FALSE(closed.faceColours[6]);
+  }
+  EXPECT_EQ(importer.runs(), 1) << "the second round comes from the cache";
+}
+
+TEST_F(DocumentLoad, FacesThatARepairTurnsRoundFaceTheOtherWay) {
+  // The side at +x faces inward, its neighbours outward.
+  const test::FakeImporter importer([](const Tessellation&) {
+    CadDocument document;
+    document.shapes = {test::boxShape("box", {0.1, 0.2, 0.3})};
+    document.nodes = {test::instanceNode("box", -1, 0)};
+    CadShape& box = document.shapes[0];
+    box.surfaces.faces[1].direction = -box.surfaces.faces[1].direction;
+    for (std::size_t i = 0; i < box.triangles.size(); ++i)
+      if (box.surfaces.faceOfTriangle[i] == 1) std::swap(box.triangles[i][0], box.triangles[i][1]);
+    return document;
+  });
+  const PartGeometryPtr before = loadPartGeometry(file_, 1.0);
+  ASSERT_EQ(before->mesh.topology().inconsistentEdges, 4U);
+  ASSERT_EQ(before->surfaces->faces[1].direction, glm::dvec3(-1.0, 0.0, 0.0));
+  const GeometryRepair repair = repairGeometry(*before, {{RepairKind::Orient}});
+  ASSERT_NE(repair.geometry, nullptr);
+  EXPECT_TRUE(repair.geometry->mesh.topology().isOriented());
+  EXPECT_NEAR(repair.geometry->mass.volume, 0.006, 1e-12);
+  const std::vector<ExactSurface>& faces = repair.geometry->surfaces->faces;
+  ASSERT_EQ(faces.size(), 6U);
+  EXPECT_EQ(faces[0].direction, glm::dvec3(-1.0, 0.0, 0.0)) << "this one was right";
+  EXPECT_EQ(faces[1].direction, glm::dvec3(1.0, 0.0, 0.0));
+  EXPECT_EQ(before->surfaces->faces[1].direction, glm::dvec3(-1.0, 0.0, 0.0)) << "the original stays";
 }
 
 TEST_F(DocumentLoad, OnlyWhatTheCacheLacksIsImported) {

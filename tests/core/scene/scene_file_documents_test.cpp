@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/scene/document_parts.h"
 #include "core/scene/scene_file.h"
+#include "tests/support/cached_meshes.h"
 #include "tests/support/documents.h"
 #include "tests/support/temporary_folder.h"
 
@@ -64,6 +65,27 @@ TEST_F(SceneFileDocuments, SceneComesBackWithOneRunForEachTessellation) {
     EXPECT_EQ(a.surfaces->faces.size(), b.surfaces->faces.size());
     EXPECT_EQ(read.parts()[i]->colour, scene_.parts()[i]->colour);
   }
+}
+
+TEST_F(SceneFileDocuments, RepairedShapesComeBackWithTheirTessellationAndFaces) {
+  // The 50 facets of the fine pin are 0.63 mm wide: every other corner is merged with its neighbour.
+  const MeshSource source{
+      .file = document_, .shape = "pin", .tessellation = kFine, .repairs = {{RepairKind::Weld, 7e-4}}};
+  Part part = *scene_.parts()[2];
+  const std::size_t whole = part.geometry->mesh.triangles().size();
+  part.geometry = loadPartGeometries(std::vector{source}).front().geometry;
+  ASSERT_NE(part.geometry, nullptr);
+  ASSERT_LT(part.geometry->mesh.triangles().size(), whole);
+  scene_.replace(part);
+  writeSceneFile(scene_, file_);
+  const Scene read = readSceneFile(file_);
+  const PartGeometry &saved = *part.geometry, &back = *read.parts()[2]->geometry;
+  EXPECT_EQ(back.repairs, source.repairs);
+  EXPECT_EQ(back.tessellation, kFine);
+  EXPECT_TRUE(test::areSame(back.mesh, saved.mesh));
+  ASSERT_EQ(back.surfaces->faceOfTriangle.size(), back.mesh.triangles().size());
+  EXPECT_EQ(back.surfaces->faceOfTriangle, saved.surfaces->faceOfTriangle);
+  EXPECT_EQ(read.parts()[1]->geometry->mesh.triangles().size(), whole) << "the other pin was not repaired";
 }
 
 TEST_F(SceneFileDocuments, ChangedDocumentIsTakenAndListedOnceWhereThatIsAskedFor) {
