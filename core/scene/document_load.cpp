@@ -121,7 +121,16 @@ std::string contentNameOf(const Source& source, const CadShape& shape) {
     const auto bytes = std::as_bytes(std::span(values));
     return sha256OfBytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   };
-  return cacheNameOf(source, hashOf(shape.vertices) + hashOf(shape.triangles), "content");
+  std::vector<float> colours;
+  for (const std::optional<CadColour>& colour : shape.faceColours) {
+    const CadColour none{-1.0F, -1.0F, -1.0F};
+    const CadColour& own = colour ? *colour : none;
+    colours.insert(colours.end(), own.begin(), own.end());
+  }
+  return cacheNameOf(source,
+                     hashOf(shape.vertices) + hashOf(shape.triangles) +
+                         hashOf(shape.surfaces.faceOfTriangle) + hashOf(colours),
+                     "content");
 }
 
 PartGeometry namedGeometry(const Source& source, const std::string& sha256, const std::string& shape) {
@@ -246,7 +255,12 @@ PartGeometryPtr geometryOf(CadShape& shape, const Source& source, const CadDocum
     own.metresPerUnit = unitOf(document, source);
     PartGeometry geometry = namedGeometry(own, document.sha256, shape.key);
     geometry.hasOwnUnit = document.hasUnit;
-    if (!isOneFile(source.file)) geometry.cacheName = contentNameOf(own, shape);
+    if (!isOneFile(source.file)) {
+      geometry.cacheName = contentNameOf(own, shape);
+      // Storing it again would drop its hierarchy.
+      if (std::optional<CachedMesh> kept = cachedMeshOf(geometry))
+        return cachedGeometry(std::move(geometry), std::move(*kept));
+    }
     CachedMesh mesh = built(shape, own.metresPerUnit, onProgress);
     storeMesh(geometry, mesh);
     return cachedGeometry(std::move(geometry), std::move(mesh));

@@ -14,6 +14,7 @@
 #include "core/files/sha256.h"
 #include "core/mesh/flat_mesh.h"
 #include "core/proximity/cache/tree_cache.h"
+#include "core/proximity/query/broad_phase.h"
 
 namespace nearfit {
 namespace {
@@ -250,7 +251,8 @@ MovingBody movingBody(const Scene& scene) {
   geometry.mass = mass.properties;
   body.geometry = std::make_shared<const PartGeometry>(std::move(geometry));
   for (std::size_t i = 0; i < felt.size(); ++i)
-    body.members.push_back({felt[i]->id, joined.ends->vertices[i], joined.ends->triangles[i]});
+    body.members.push_back({felt[i]->id, joined.ends->vertices[i], joined.ends->triangles[i],
+                            boundsOf(pieces[i].geometry->mesh.bounds(), pieces[i].bodyFromPart)});
   return body;
 }
 

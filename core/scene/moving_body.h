@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/math/aabb.h"
 #include "core/math/rigid_transform.h"
 #include "core/mesh/mass_properties.h"
 #include "core/scene/joint_set.h"
@@ -22,6 +23,7 @@ namespace nearfit {
 struct BodyMember {
   PartId id{};
   std::uint32_t vertexEnd = 0, triangleEnd = 0;  ///< One past its last vertex and triangle.
+  Aabb bounds;                                   ///< In the frame of the group's geometry [m].
 };
 
 /// Joined geometry of parts that move as one.

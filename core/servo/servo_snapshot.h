@@ -38,7 +38,8 @@ struct SnapshotContact {
   glm::dvec3 direction{0.0};  ///< From the other part to the moving one; unit.
   double force = 0.0;         ///< Its share of the force on the hand, along `direction` [N].
   PartId other{};
-  /// The moving part, or the part of the moving group that has the nearest minimum with the other one that is shown.
+  /// The moving part, or the part of the moving group that the point is on; of parts whose boxes overlap there, the one
+  /// with the nearest minimum that is shown.
   PartId part{};
 };
 

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <span>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/haptics/spring_law.h"
@@ -22,17 +24,36 @@ MinimaAllowance shownBeside(std::uint64_t contactWork) noexcept {
   return {between(least.search, most.search), between(least.merge, most.merge)};
 }
 
-/// The part of a moving group that a contact is of, by the minimum with the same other part that is nearest to it: the
-/// contacts are known by their points alone. O(minima).
-PartId memberAtContact(const ServoSnapshot& snapshot, const SnapshotContact& contact) noexcept {
+/// Square of the distance of a point to a box [m^2]; 0 within it.
+double squaredDistance(const Aabb& box, const glm::dvec3& point) noexcept {
+  const glm::dvec3 way = point - glm::clamp(point, box.lower, box.upper);
+  return glm::dot(way, way);
+}
+
+/// The part of a moving group that a contact is of: contacts are known by their points alone. It is the one whose box the
+/// point is in; of several such parts, that of the nearest minimum with the same other part. O(members + minima).
+PartId memberAtContact(const ServoSnapshot& snapshot, std::span<const BodyMember> members,
+                       const RigidTransform& worldFromMoving, const SnapshotContact& contact) noexcept {
+  const glm::dvec3 point = worldFromMoving.inverse().applyToPoint(contact.point);
   PartId part = snapshot.moving;
+  double nearestBox = std::numeric_limits<double>::infinity();
+  for (const BodyMember& member : members) {
+    const double squared = squaredDistance(member.bounds, point);
+    if (!(squared < nearestBox)) continue;
+    nearestBox = squared;
+    part = member.id;
+  }
+  const auto isIn = [&](PartId id) {
+    const auto member = std::ranges::find(members, id, &BodyMember::id);
+    return member != members.end() && squaredDistance(member->bounds, point) <= nearestBox;
+  };
   double nearest = std::numeric_limits<double>::infinity();
   for (std::uint32_t i = 0; i < snapshot.storedLmds; ++i) {
     const SnapshotLmd& minimum = snapshot.lmds[i];
     if (minimum.other != contact.other) continue;
     const glm::dvec3 way = minimum.lmd.partPoint - contact.point;
     const double squared = glm::dot(way, way);
-    if (!(squared < nearest)) continue;
+    if (!(squared < nearest) || !isIn(minimum.part)) continue;
     nearest = squared;
     part = minimum.part;
   }
@@ -125,7 +146,9 @@ void ServoTick::describeProxy(const Subject& subject) noexcept {
     SnapshotContact& contact = snapshot.contacts[snapshot.storedContacts++];
     contact = {pair.point, pair.direction, coupling_.stiffness * holding.push,
                subject.scene.bodies[holding.contact.body].id, snapshot.moving};
-    if (!subject.scene.members.empty()) contact.part = memberAtContact(snapshot, contact);
+    if (!subject.scene.members.empty()) {
+      contact.part = memberAtContact(snapshot, subject.scene.members, part_.pose, contact);
+    }
   }
   const Clearance& clearance = subject.tracked.clearance;
   if (!clearance.overlapping) return;

@@ -44,7 +44,7 @@ std::string unpacked(const std::vector<char>& bytes, std::uint64_t maxBytes = kE
 
 TEST_F(Gunzip, UnpacksWhatGzipPacked) {
   std::string text;
-  for (int i = 0; i < 400'000; ++i)
+  for (std::uint32_t i = 0; i < 400'000; ++i)
     text += std::to_string(i * 7919 % 1000) + " ";
   const std::vector<char> bytes = packedBytes(text);
   EXPECT_TRUE(isGzip(bytes));

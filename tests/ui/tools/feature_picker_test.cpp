@@ -38,7 +38,7 @@ void FeaturePickerTest::featuresOfExactSurfacesSaySo() {
   feature.shape = FeatureShape::Circle;
   feature.surface = SurfaceKind::Torus;
   feature.minorRadius = 0.001;
-  QCOMPARE(ui::describeFeature(feature), QStringLiteral("Torus ⌀ 12.0 mm, tube ⌀ 2.0 mm, exact"));
+  QCOMPARE(ui::describeFeature(feature), QStringLiteral("Torus ⌀ 12.0 mm, tube ⌀ 2.00 mm, exact"));
   feature.surface = SurfaceKind::Other;
   QCOMPARE(ui::describeFeature(feature), QStringLiteral("Circle ⌀ 12.0 mm, exact"));
 }

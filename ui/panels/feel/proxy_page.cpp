@@ -18,11 +18,11 @@
 namespace nearfit::ui {
 namespace {
 
-/// Shows the limit of a number, or in the warning colour what is in force if that is less than the wish.
-void showMost(QLabel& note, double most, double wished, double inForce, const QString& unit,
+/// Shows the limit of a number, or in the warning colour what a wish is limited to.
+void showMost(QLabel& note, double most, double wished, double limited, const QString& unit,
               bool isAutomatic) {
-  const bool isHeld = !isAutomatic && inForce < wished;
-  note.setText(isHeld ? QObject::tr("limited to %1%2").arg(formatNumber(inForce), unit)
+  const bool isHeld = !isAutomatic && limited < wished;
+  note.setText(isHeld ? QObject::tr("limited to %1%2").arg(formatNumber(limited), unit)
                       : QObject::tr("at most %1%2").arg(formatNumber(most), unit));
   const QString style =
       QStringLiteral("color: %1").arg((isHeld ? colours::kWarning : colours::kMutedText).name());
@@ -130,7 +130,8 @@ void ProxyPage::showBasis(const CouplingBasis& basis) {
 void ProxyPage::refresh() {
   const CouplingSettings& wish = settings().coupling;
   const DeviceLimits device = limitsAtHandle(basis_.device, settings().mapping.scale);
-  const CouplingState state = basis_.inForce && wishedThen_ == wish
+  // The tick shown may be older than the wish; then its stiffness is no limit.
+  const CouplingState state = wish.isAutomatic && basis_.inForce && wishedThen_ == wish
                                   ? *basis_.inForce
                                   : boundedCoupling(wish, device, basis_.metric, basis_.period);
   showRow(rows_[0],

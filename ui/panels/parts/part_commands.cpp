@@ -59,7 +59,7 @@ void PartCommands::makeActions() {
       makeAction(this, "recolour", tr("&Colour…"), {}, {}, tr("Change the colour of the selected parts"));
   changeUnit = makeAction(this, "changeUnit", tr("Chang&e unit…"), {}, {},
                           tr("Change the unit of the selected parts; shows the size in each unit"));
-  check = makeAction(this, "check", tr("C&heck…"), QStringLiteral("findings"), QStringLiteral("Ctrl+M"),
+  check = makeAction(this, "check", tr("Check &mesh…"), QStringLiteral("findings"), QStringLiteral("Ctrl+M"),
                      tr("Show what is wrong with the mesh of the selected part and where, and repair it"));
   refine = makeAction(
       this, "refine", tr("Re&fine…"), {}, {},

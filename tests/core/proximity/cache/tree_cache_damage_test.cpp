@@ -162,6 +162,8 @@ TEST_F(TreeCacheDamage, AbsurdCountsTakeNoMemory) {
                                         std::uint64_t{1} << 58, ~std::uint64_t{0}}) {
         test::CacheImage image = *image_;
         TreeCacheHeader header = image.header();
+        // A mesh file has no faces.
+        if (header.counts[section] == count) continue;
         header.counts[section] = count;
         image.setHeader(header);
         // Its place in memory is that of the old counts, its checksum is right for the new.

@@ -32,6 +32,7 @@ class FeelDialogTest : public QObject {
   void changingTheLawKeepsTheGreatestPush();
   void tellsTheBoundOfTheDevice();
   void wishesBeyondTheBoundAreShownAsHeld();
+  void aTickOfBeforeAWishIsNotItsLimit();
   void aPresetBeyondTheBoundIsShownAsHeld();
   void automaticCouplingShowsWhatIsInForce();
   void springsTellWhatIsEnforcedAndWhatIsNot();
@@ -194,6 +195,19 @@ void FeelDialogTest::wishesBeyondTheBoundAreShownAsHeld() {
   QCOMPARE(edited_->coupling.stiffness, 5000.0);
   QCOMPARE(note("couplingStiffnessNote"), QStringLiteral("limited to 2000 N/m"));
   QCOMPARE(note("rotationalStiffnessNote"), QStringLiteral("at most 2 N·m/rad"));
+}
+
+/// "limited to 250 N/m" flashed up after 400 was typed: a tick of before was still to be drawn.
+void FeelDialogTest::aTickOfBeforeAWishIsNotItsLimit() {
+  HapticSettings settings;
+  settings.coupling = {false, 400.0, 0.0, 0.5, 0.0};
+  show(settings);
+  dialog_->show();
+  ServoSnapshot snapshot;
+  snapshot.period = 1e-3;
+  snapshot.coupling = {250.0, 0.0, 0.5, 0.0, false};
+  dialog_->showSnapshot(snapshot);
+  QCOMPARE(note("couplingStiffnessNote"), QStringLiteral("at most 2000 N/m"));
 }
 
 void FeelDialogTest::aPresetBeyondTheBoundIsShownAsHeld() {
