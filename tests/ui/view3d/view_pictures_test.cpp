@@ -1,10 +1,15 @@
 // What the view shows, compared with pictures in tests/ui/baseline. How to renew them: README.md there.
 #include <QDir>
 #include <QtTest>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <memory>
+#include <vector>
 
 #include <vtkVersion.h>
 
+#include "core/report/clearance_map.h"
 #include "core/session/session.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/part_geometries.h"
@@ -15,6 +20,7 @@
 #include "ui/model/shown_poses.h"
 #include "ui/view3d/gizmo_overlay.h"
 #include "ui/view3d/glyphs/colour_legend.h"
+#include "ui/view3d/parts/coloured_surface.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/theme.h"
 
@@ -138,6 +144,7 @@ class ViewPicturesTest : public QObject {
   void overlapsAreMarked();
   void cutFacesAreClosedAndHatched();
   void whatIsBehindATransparentPartIsSeen();
+  void aTransparentPartLeavesTheColoursOfAMapAsTheyAre();
   void aGlyphThatIsMissingIsSeen();
   void anArrowThatIsMissingIsSeen();
   void smoothedEdgesAndLettersAreNotSeen();
@@ -220,6 +227,52 @@ void ViewPicturesTest::whatIsBehindATransparentPartIsSeen() {
   b.view.setScene(b.session.scene());
   b.view.setView(ui::StandardView::Top);
   check(b.picture(), "transparent");
+}
+
+/// The colours of a bore were mixed with those of the part before it, and could not be read.
+void ViewPicturesTest::aTransparentPartLeavesTheColoursOfAMapAsTheyAre() {
+  constexpr int kFewPercent = 15;  // Of 255.
+  Bench b;
+  b.session.movePart(b.peg, {{1, 0, 0, 0}, {0.004, 0.0, -0.032}});
+  b.view.setScene(b.session.scene());
+  b.view.setSeeThrough(true);
+  b.view.setOrthographic(true);
+  b.view.setView(ui::StandardView::Top);
+  // On the peg's upper face, beyond the rim of the plate's hole: 7 mm under the plate.
+  const glm::dvec2 pixel = b.view.projection().pixelOf({0.0105, 0.0, -0.012}).value();
+  const QPoint at(static_cast<int>(std::lround(pixel.x)), static_cast<int>(std::lround(pixel.y)));
+  const auto differenceWithPlate = [&] {
+    QColor colours[2];
+    for (const bool isThere : {false, true}) {
+      b.session.setVisible(b.plate, isThere);
+      b.view.setScene(b.session.scene());
+      colours[isThere ? 1 : 0] = b.picture().pixelColor(at);
+    }
+    return std::max({std::abs(colours[0].red() - colours[1].red()),
+                     std::abs(colours[0].green() - colours[1].green()),
+                     std::abs(colours[0].blue() - colours[1].blue())});
+  };
+  const int tint = differenceWithPlate();
+  QVERIFY2(tint > kFewPercent, qPrintable(QString::number(tint)));
+  const ClearanceMap map = ClearanceMapper().map(clearanceMapRequest(b.session.scene(), b.peg, 0.01, false));
+  const auto coloured = ui::colouredSurface(map.surfaces.front(), map.range);
+  const QColor own = b.picture().pixelColor(at);
+  b.view.setColours({{b.peg, coloured}}, false);
+  QVERIFY2(b.picture().pixelColor(at) != own, "it is coloured there");
+  const int mapped = differenceWithPlate();
+  QVERIFY2(mapped <= kFewPercent, qPrintable(QString::number(mapped)));
+  // Its outline stays, without which it would be lost, until there are no colours.
+  b.view.setEdgesVisible(false);
+  const auto hasOutline = [&] {
+    const ui::PartActor* plate = b.view.parts().find(b.plate);
+    std::vector<vtkProp*> drawn;
+    plate->addTo(drawn);
+    return drawn.size() > plate->pieces().size();
+  };
+  QVERIFY(hasOutline());
+  b.view.setColours({}, false);
+  QVERIFY(!hasOutline());
+  QVERIFY(differenceWithPlate() > kFewPercent);
 }
 
 void ViewPicturesTest::aGlyphThatIsMissingIsSeen() {

@@ -1,5 +1,6 @@
 #include "ui/view3d/parts/part_actor.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include <vtkBoundingBox.h>
@@ -16,6 +17,8 @@ namespace {
 constexpr std::size_t kMaxOwnColours = 8;
 
 constexpr double kTranslucentOpacity = 0.28, kWarningOpacity = 0.45;
+/// Beside colours that are read by a legend: a wall, which is two surfaces, changes a channel by 6 % at most.
+constexpr double kOutlinedOpacity = 0.03;
 /// Faint enough to leave the shape and colour of parts in front visible.
 constexpr double kVeilOpacity = 0.13, kVeilEdgeOpacity = 0.55;
 constexpr float kEdgeWidth = 1.3F;
@@ -193,14 +196,29 @@ bool PartActor::setAppearance(const Colour& colour, bool isVisible, const PartLo
     look_->SetColor(static_cast<double>(colour.r), static_cast<double>(colour.g),
                     static_cast<double>(colour.b));
   }
-  look_->SetOpacity(look.opacity * (!look.isTranslucent  ? 1.0
-                                    : look.isOverlapping ? kWarningOpacity
-                                                         : kTranslucentOpacity));
+  look_->SetOpacity(opacity());
   hideBackFaces();
   setEdgeColour(*edges_->GetProperty(), look);
   showPieces();
   setThrough(isVisible && (look.isSelected || look.isHighlighted));
+  showVeil();
   return true;
+}
+
+bool PartActor::isOutlined() const noexcept {
+  return shownLook_ && shownLook_->isBesideColours &&
+         (shownLook_->isTranslucent || shownLook_->opacity < 1.0);
+}
+
+bool PartActor::hasEdges() const noexcept {
+  return shownLook_ && (shownLook_->hasEdges || isOutlined()) && areEdgesApart_;
+}
+
+double PartActor::opacity() const noexcept {
+  const PartLook& look = *shownLook_;
+  if (isOutlined()) return std::min(look.opacity, kOutlinedOpacity);
+  if (!look.isTranslucent) return look.opacity;
+  return look.opacity * (look.isOverlapping ? kWarningOpacity : kTranslucentOpacity);
 }
 
 void PartActor::hideBackFaces() {
@@ -221,8 +239,7 @@ bool PartActor::setColours(std::shared_ptr<const ColouredSurface> colours, bool 
   applyColours();
   showPieces();
   if (colours_ == nullptr) dropExtraPieces();
-  // A tint over the colours would falsify them.
-  if (veil_ != nullptr) veil_->SetVisibility(colours_ == nullptr);
+  showVeil();
   return true;
 }
 
@@ -311,7 +328,7 @@ void PartActor::showPieces() {
     pieces_[i]->SetVisibility(isDrawn && i < mappers.size());
   }
   edges_->SetMapper(mappers_->edges(edges_->GetProperty()->GetOpacity() < 1.0));
-  edges_->SetVisibility(isDrawn && level_ == 0 && areEdgesApart_ && shownLook_ && shownLook_->hasEdges);
+  edges_->SetVisibility(isDrawn && level_ == 0 && hasEdges());
 }
 
 void PartActor::bounds(double bounds[6]) const {
@@ -329,7 +346,7 @@ void PartActor::bounds(double bounds[6]) const {
 
 void PartActor::addTo(std::vector<vtkProp*>& props) const {
   props.insert(props.end(), pieces_.begin(), pieces_.end());
-  if (shownLook_ && shownLook_->hasEdges && areEdgesApart_) props.push_back(edges_);
+  if (hasEdges()) props.push_back(edges_);
 }
 
 void PartActor::setThrough(bool isThrough) {
@@ -355,10 +372,15 @@ void PartActor::setThrough(bool isThrough) {
   veil_ = make(mappers_->veil(), kVeilOpacity);
   // One layer of a closed surface, not two.
   veil_->GetProperty()->BackfaceCullingOn();
-  veil_->SetVisibility(colours_ == nullptr);
   veilEdges_ = make(mappers_->veilEdges(), kVeilEdgeOpacity);
   veilEdges_->GetProperty()->SetLineWidth(devicePixels(1.6F));
   veilEdges_->SetVisibility(areEdgesApart_);
+}
+
+void PartActor::showVeil() {
+  // A tint over the colours would falsify them.
+  const bool isTint = colours_ != nullptr || (shownLook_ && shownLook_->isBesideColours);
+  if (veil_ != nullptr) veil_->SetVisibility(!isTint);
 }
 
 }  // namespace nearfit::ui

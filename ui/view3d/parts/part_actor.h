@@ -84,13 +84,16 @@ struct PartLook {
   bool isTranslucent = false;
   bool isOverlapping = false;  ///< Overlaps the moving part, which therefore cannot feel it.
   bool hasEdges = true;
+  /// Others are drawn in the colours of their clearances, this one is not: it must not tint them.
+  bool isBesideColours = false;
   double opacity = 1.0;  ///< The part's own opacity, 0 to 1.
   bool operator==(const PartLook&) const = default;
 };
 
 /// The actors of one part: surface and edge lines. In the renderer from construction to destruction.
 /// While the part is selected or highlighted, a faint veil and its edges are also drawn over everything, so that it
-/// shows behind other parts.
+/// shows behind other parts. Beside parts in the colours of their clearances, a translucent part is little more than its
+/// edges, and there is no veil.
 class PartActor {
  public:
   /// @param renderer  Outlives this.
@@ -145,8 +148,13 @@ class PartActor {
   const std::vector<ShapeMappers::Mapper>& surfaceMappers();
   const std::vector<ShapeMappers::Mapper>& clearanceMappers();
   void applyColours();
+  /// True if it would tint what is behind it, and must not.
+  bool isOutlined() const noexcept;
+  bool hasEdges() const noexcept;
+  double opacity() const noexcept;
   void hideBackFaces();
   void setThrough(bool isThrough);
+  void showVeil();
 
   vtkRenderer& renderer_;
   std::shared_ptr<ShapeMappers> mappers_;

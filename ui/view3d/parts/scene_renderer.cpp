@@ -98,10 +98,18 @@ void SceneRenderer::updateCut() {
 
 bool SceneRenderer::setColours(const Colours& colours, bool isStale) {
   const std::uint64_t before = revision_;
+  const bool hadColours = std::exchange(hasColours_, false);
+  bool areOthers = false;
   for (const auto& [id, actor] : actors_) {
     const auto found = colours.find(id);
+    const bool wasColoured = actor->colours() != nullptr;
     if (actor->setColours(found == colours.end() ? nullptr : found->second, isStale)) ++revision_;
+    const bool isColoured = actor->colours() != nullptr;
+    hasColours_ = hasColours_ || isColoured;
+    areOthers = areOthers || wasColoured != isColoured;
   }
+  // Maps of one part come several times a second.
+  if (areOthers || hadColours != hasColours_) applyAll();
   return revision_ != before;
 }
 
@@ -133,6 +141,7 @@ void SceneRenderer::applyAppearance(const Part& part) {
   look.hasEdges = hasEdges_;
   look.opacity = part.opacity;
   PartActor& actor = actorOf(part);
+  look.isBesideColours = hasColours_ && actor.colours() == nullptr;
   if (actor.setAppearance(part.colour, part.isVisible, look)) ++revision_;
   place(part);
 }

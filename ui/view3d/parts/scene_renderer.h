@@ -56,8 +56,8 @@ class SceneRenderer {
 
   /// Surfaces to be drawn in the colours of their clearances, by part.
   using Colours = std::map<PartId, std::shared_ptr<const ColouredSurface>>;
-  /// Draws these parts in the colours of their clearances, and all others in their own. A part whose mesh is exchanged
-  /// later loses its colours.
+  /// Draws these parts in the colours of their clearances, and all others in their own: these do not tint the colours,
+  /// see PartActor. A part whose mesh is exchanged later loses its colours.
   /// @param isStale  See setClearanceColours().
   /// @return  True if that changed anything.
   bool setColours(const Colours& colours, bool isStale);
@@ -127,6 +127,7 @@ class SceneRenderer {
   std::vector<PartId> overlapping_;
   SceneCut cut_;
   bool isSeeThrough_ = false;
+  bool hasColours_ = false;  ///< Some parts are drawn in the colours of their clearances.
   bool hasEdges_ = true;
   std::set<PartId> loose_;
   std::vector<PartActor*> beingKept_;
