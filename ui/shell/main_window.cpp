@@ -57,6 +57,7 @@
 #include "ui/widgets/error_box.h"
 #include "ui/widgets/scroll_column.h"
 #include "ui/widgets/theme.h"
+#include "ui/widgets/view_bar.h"
 
 namespace nearfit::ui {
 
@@ -82,7 +83,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       units_(new UnitMenu(this)) {
   const auto shapes = std::make_shared<PartShapeCache>();
   viewport_ = new Viewport(shapes, *selection_, *poses_, this);
-  setCentralWidget(viewport_);
+  setCentralWidget(new ViewArea(viewport_, this));
   connect(hand_, &HandState::snapshotShown, viewport_, &Viewport::showSnapshot);
   connect(viewport_, &Viewport::snapshotDrawn, hand_, &HandState::noteDrawn);
   connect(hand_, &HandState::snapshotKept, viewport_, &Viewport::keepSnapshot);

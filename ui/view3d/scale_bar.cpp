@@ -11,7 +11,6 @@
 #include "ui/widgets/format.h"
 #include "ui/widgets/length_unit.h"
 #include "ui/widgets/theme.h"
-#include "ui/widgets/view_bar.h"
 
 namespace nearfit::ui {
 namespace {
@@ -22,11 +21,6 @@ constexpr int kMargin = 14, kGap = 8, kInset = 9;
 constexpr int kMarks = 6, kBelowText = 3;
 /// Max width of the bar, in heights of a letter.
 constexpr int kLetters = 8;
-
-bool isObstacle(const QWidget& overlay) {
-  return qobject_cast<const ViewBar*>(&overlay) != nullptr ||
-         qobject_cast<const ColourLegend*>(&overlay) != nullptr;
-}
 
 }  // namespace
 
@@ -64,8 +58,7 @@ QString ScaleBar::text() const {
 }
 
 bool ScaleBar::eventFilter(QObject* watched, QEvent* event) {
-  // Tool bars of the view tell it when they come, go or move.
-  if (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest) place();
+  if (event->type() == QEvent::Resize) place();
   return QWidget::eventFilter(watched, event);
 }
 
@@ -83,7 +76,8 @@ void ScaleBar::place() {
   at.moveBottomRight(view.rect().bottomRight() - QPoint(kMargin, kMargin));
   const QList<QWidget*> overlays = view.findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
   const auto isInTheWay = [&at](const QWidget* overlay) {
-    return !overlay->isHidden() && isObstacle(*overlay) && overlay->geometry().intersects(at);
+    return !overlay->isHidden() && qobject_cast<const ColourLegend*>(overlay) != nullptr &&
+           overlay->geometry().intersects(at);
   };
   // Each step goes up, to above what was in the way.
   for (auto found = std::find_if(overlays.begin(), overlays.end(), isInTheWay); found != overlays.end();

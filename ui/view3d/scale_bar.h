@@ -6,7 +6,7 @@
 namespace nearfit::ui {
 
 /// A bar of a round length with its label, in the lower right corner of a view: how large is what is seen.
-/// Stays clear of tool bars and legend. Ignores the mouse. Off at first.
+/// Stays clear of the legend. Ignores the mouse. Off at first.
 class ScaleBar : public QWidget {
   Q_OBJECT
 

@@ -1,55 +1,56 @@
 #include "ui/widgets/view_bar.h"
 
 #include <QCoreApplication>
-#include <QEvent>
-#include <algorithm>
+#include <QKeyEvent>
+#include <QVBoxLayout>
+#include <cassert>
 
 namespace nearfit::ui {
 namespace {
 
-constexpr int kEdgeGap = 12, kBetween = 8;
+/// Height that bars leave of a view where there is no room for both; software OpenGL needs some [pixels].
+constexpr int kLeastOfView = 60;
 
 }  // namespace
 
-ViewBar::ViewBar(QWidget* view, const QString& name) : QFrame(view) {
+ViewArea::ViewArea(QWidget* view, QWidget* parent) : QWidget(parent) {
+  setObjectName(QStringLiteral("viewArea"));
+  // The window does not grow for a bar.
+  setMinimumSize(view->minimumSize());
+  view->setMinimumHeight(kLeastOfView);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins({});
+  column->setSpacing(0);
+  column->addWidget(view, 1);
+}
+
+void ViewArea::add(QWidget* bar) {
+  constexpr int kBelowView = 1;
+  static_cast<QVBoxLayout*>(layout())->insertWidget(kBelowView, bar);
+}
+
+ViewBar::ViewBar(QWidget* view, const QString& name) : QFrame(view->parentWidget()), view_(view) {
   setObjectName(name);
-  setStyleSheet(QStringLiteral("#%1 { background: palette(window); border: 1px solid palette(mid); "
-                               "border-radius: 8px; }")
-                    .arg(name));
-  view->installEventFilter(this);
+  setStyleSheet(
+      QStringLiteral("#%1 { background: palette(window); border-top: 1px solid palette(mid); }").arg(name));
+  // A long prompt does not widen the window.
+  setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   hide();
+  auto* area = qobject_cast<ViewArea*>(parentWidget());
+  assert(area != nullptr);
+  area->add(this);
 }
 
-bool ViewBar::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == parentWidget() && event->type() == QEvent::Resize) placeAll();
-  return QFrame::eventFilter(watched, event);
-}
-
-void ViewBar::showEvent(QShowEvent* event) {
-  QFrame::showEvent(event);
-  place();
-}
-
-void ViewBar::hideEvent(QHideEvent* event) {
-  QFrame::hideEvent(event);
-  placeAll();
+void ViewBar::keyPressEvent(QKeyEvent* event) {
+  QCoreApplication::sendEvent(view_, event);
+  // The view passed on what it did not want.
+  event->accept();
 }
 
 void ViewBar::place() {
-  adjustSize();
-  placeAll();
-}
-
-void ViewBar::placeAll() {
-  const QWidget& view = *parentWidget();
-  int bottom = view.height() - kEdgeGap;
-  for (ViewBar* bar : view.findChildren<ViewBar*>(QString(), Qt::FindDirectChildrenOnly)) {
-    if (bar->isHidden()) continue;
-    bar->move(std::max(kEdgeGap, (view.width() - bar->width()) / 2), bottom - bar->height());
-    bottom -= bar->height() + kBetween;
-  }
-  // For overlays that stay clear of the bars.
-  QCoreApplication::postEvent(parentWidget(), new QEvent(QEvent::LayoutRequest));
+  if (!isVisible()) return;
+  layout()->activate();
+  parentWidget()->layout()->activate();
 }
 
 }  // namespace nearfit::ui

@@ -1,29 +1,38 @@
 #pragma once
 
 #include <QFrame>
+#include <QWidget>
 
 namespace nearfit::ui {
 
-/// Base of a tool's bar: prompts and inputs in a frame at the lower edge of the view. Bars shown together are
-/// stacked, the oldest lowest. The view gets a QEvent::LayoutRequest when bars have moved.
+/// A view and, in a strip of their own below it, the bars of its tools, which cover nothing of it.
+class ViewArea : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// Takes the view as its child. With bars the view may become lower than its min height.
+  ViewArea(QWidget* view, QWidget* parent);
+
+  /// Adds a bar between the view and the bars that were added earlier.
+  void add(QWidget* bar);
+};
+
+/// Base of a tool's bar: prompts and inputs in a strip below the view. Keys that the bar has no use for go to the view.
 class ViewBar : public QFrame {
   Q_OBJECT
 
  public:
-  /// @param view  The parent.
+  /// @param view  In a ViewArea, which becomes the parent.
   /// @param name  The object name; the style sheet goes by it.
   ViewBar(QWidget* view, const QString& name);
 
-  bool eventFilter(QObject* watched, QEvent* event) override;
-
  protected:
-  void showEvent(QShowEvent* event) override;
-  void hideEvent(QHideEvent* event) override;
-  /// Resizes the bar to changed content and moves it into place.
+  void keyPressEvent(QKeyEvent* event) override;
+  /// Gives the bar the height of its new content at once, so that the view does not change later, between two clicks.
   void place();
 
  private:
-  void placeAll();
+  QWidget* view_;
 };
 
 }  // namespace nearfit::ui

@@ -17,7 +17,7 @@
 #include <QTreeView>
 #include <QTreeWidget>
 
-#include "tests/app/desktop/desktop_driver.h"
+#include "tests/app/desktop/view_pointer.h"
 #include "ui/widgets/theme.h"
 
 using namespace nearfit;
@@ -144,6 +144,7 @@ class DesktopWindowShellTest : public QObject {
   void theTabKeyGoesThroughThePositionBeforeTheAngles();
   void theTabKeyGoesFromTheListsToTheViewAndOnToTheNumbers();
   void largerLettersAreNotCut();
+  void barsOfToolsCoverNothingOfTheView();
   void toolbarsFitANarrowWindow();
 };
 
@@ -538,6 +539,42 @@ void DesktopWindowShellTest::largerLettersAreNotCut() {
     QVERIFY(tree->visualRect(tree->model()->index(0, 0)).height() >= tree->fontMetrics().height());
   }
   QApplication::setFont(before);
+}
+
+/// The bar of a tool hid what was low in the view.
+void DesktopWindowShellTest::barsOfToolsCoverNothingOfTheView() {
+  DesktopDriver d;
+  d.addCubes();
+  d.choose("viewFront");
+  ViewPointer pointer(d);
+  const ui::Viewport& view = pointer.view();
+  const int whole = view.height();
+  const QSize window = d.window().size();
+  const auto placeOf = [&d](const QWidget& widget) {
+    return QRect(widget.mapTo(&d.window(), QPoint()), widget.size());
+  };
+  const auto isLowestSeen = [&] { return view.rect().contains(pointer.seen({0.0, -0.02, -0.02})); };
+  d.choose("measure");
+  const auto& measure = *d.widget<QWidget>("measureBar");
+  QVERIFY(measure.isVisible() && measure.height() > 20);
+  QVERIFY(!placeOf(measure).intersects(placeOf(view)));
+  QVERIFY(isLowestSeen());
+  // Nor does the view change its size between clicks.
+  const int beside = view.height();
+  QVERIFY(beside < whole);
+  pointer.click({0.003, -0.01, 0.036});
+  pointer.click({0.003, -0.02, 0.003});
+  QTRY_VERIFY(!d.text("measureDistance").isEmpty());
+  QCOMPARE(view.height(), beside);
+  d.choose("section");
+  const auto& section = *d.widget<QWidget>("sectionBar");
+  QVERIFY(section.isVisible());
+  QVERIFY(!placeOf(section).intersects(placeOf(view)) && !placeOf(section).intersects(placeOf(measure)));
+  QVERIFY(isLowestSeen());
+  QCOMPARE(d.window().size(), window);
+  d.choose("section");
+  d.choose("measure");
+  QTRY_COMPARE(view.height(), whole);
 }
 
 void DesktopWindowShellTest::toolbarsFitANarrowWindow() {

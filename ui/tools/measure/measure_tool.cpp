@@ -12,6 +12,7 @@
 
 #include "ui/model/shown_poses.h"
 #include "ui/view3d/viewport.h"
+#include "ui/widgets/elided_label.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/names.h"
 #include "ui/widgets/preferences.h"
@@ -37,8 +38,8 @@ QString facesText(const std::optional<double>& gap) {
 
 MeasureBar::MeasureBar(QWidget* view)
     : ViewBar(view, QStringLiteral("measureBar")),
-      prompt_(new QLabel(this)),
-      hint_(new QLabel(this)),
+      prompt_(new ElidedLabel(this)),
+      hint_(new ElidedLabel(this)),
       copy_(new QPushButton(icon(QStringLiteral("copy")), tr("&Copy"), this)),
       close_(new QPushButton(tr("Close"), this)) {
   prompt_->setObjectName(QStringLiteral("measurePrompt"));
@@ -62,6 +63,12 @@ MeasureBar::MeasureBar(QWidget* view)
     values_[static_cast<std::size_t>(axis) + 1].name->setStyleSheet(
         QStringLiteral("font-weight: bold; color: %1").arg(axisColour(axis).name()));
   }
+  // Keep the height of the row before there is a measurement.
+  for (QWidget* widget : {values_[0].name, values_[0].number}) {
+    QSizePolicy policy = widget->sizePolicy();
+    policy.setRetainSizeWhenHidden(true);
+    widget->setSizePolicy(policy);
+  }
   numbers->addStretch();
   square->addStretch();
   square->addSpacing(10);
@@ -74,7 +81,7 @@ MeasureBar::MeasureBar(QWidget* view)
   connect(copy_, &QPushButton::clicked, this, &MeasureBar::copy);
   connect(close_, &QPushButton::clicked, this, &MeasureBar::closed);
   auto* rows = new QVBoxLayout(this);
-  rows->setContentsMargins(14, 8, 12, 10);
+  rows->setContentsMargins(14, 6, 12, 6);
   rows->setSpacing(3);
   rows->addWidget(prompt_);
   rows->addWidget(hint_);
@@ -98,7 +105,9 @@ MeasureBar::Value MeasureBar::addValue(QHBoxLayout& row, const char* name, const
 
 void MeasureBar::showPrompt(const QString& prompt, const QString& hint) {
   prompt_->setText(prompt);
+  prompt_->setToolTip(prompt);
   hint_->setText(hint.isEmpty() ? QStringLiteral(" ") : hint);
+  hint_->setToolTip(hint);
   place();
 }
 

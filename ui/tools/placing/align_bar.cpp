@@ -7,7 +7,7 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 
-#include "ui/widgets/font_scale.h"
+#include "ui/widgets/elided_label.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/theme.h"
 
@@ -20,8 +20,8 @@ constexpr double kFarthest = 1e3;  ///< [m]
 
 AlignBar::AlignBar(QWidget* view)
     : ViewBar(view, QStringLiteral("alignBar")),
-      prompt_(new QLabel(this)),
-      hint_(new QLabel(this)),
+      prompt_(new ElidedLabel(this)),
+      hint_(new ElidedLabel(this)),
       filter_(new QComboBox(this)),
       flip_(new QCheckBox(tr("&Flip"), this)),
       offsetLabel_(new QLabel(tr("Distance"), this)),
@@ -34,13 +34,16 @@ AlignBar::AlignBar(QWidget* view)
   fields->setSpacing(8);
   for (QWidget* widget :
        {static_cast<QWidget*>(filter_), static_cast<QWidget*>(flip_), static_cast<QWidget*>(offsetLabel_),
-        static_cast<QWidget*>(offset_), static_cast<QWidget*>(keep_)})
+        static_cast<QWidget*>(offset_), static_cast<QWidget*>(keep_)}) {
     fields->addWidget(widget);
+    // Of one height, whichever of them are shown.
+    fields->addStrut(widget->sizeHint().height());
+  }
   fields->addStretch();
   for (QPushButton* button : {apply_, cancel_})
     fields->addWidget(button);
   auto* rows = new QVBoxLayout(this);
-  rows->setContentsMargins(14, 8, 12, 10);
+  rows->setContentsMargins(14, 6, 12, 6);
   rows->setSpacing(3);
   rows->addWidget(prompt_);
   rows->addWidget(hint_);
@@ -51,7 +54,6 @@ void AlignBar::setUpFields() {
   prompt_->setObjectName(QStringLiteral("alignPrompt"));
   prompt_->setStyleSheet(QStringLiteral("font-weight: bold"));
   hint_->setObjectName(QStringLiteral("alignHint"));
-  hint_->setMinimumWidth(forFont(*this, 430));
   colourHint(colours::kMutedText);
   filter_->setObjectName(QStringLiteral("alignFilter"));
   filter_->setAccessibleName(tr("What can be picked"));
@@ -89,7 +91,9 @@ void AlignBar::setUpFields() {
 
 void AlignBar::showPrompt(const QString& prompt, const QString& hint) {
   prompt_->setText(prompt);
+  prompt_->setToolTip(prompt);
   hint_->setText(hint.isEmpty() ? QStringLiteral(" ") : hint);
+  hint_->setToolTip(hint);
   place();
 }
 

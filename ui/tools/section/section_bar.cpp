@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/widgets/elided_label.h"
 #include "ui/widgets/font_scale.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/theme.h"
@@ -36,7 +37,7 @@ SectionBar::SectionBar(QWidget* view)
       flip_(new QPushButton(tr("&Flip"), this)),
       spare_(new QCheckBox(tr("&Moving part uncut"), this)),
       close_(new QPushButton(tr("Close"), this)),
-      note_(new QLabel(this)) {
+      note_(new ElidedLabel(this)) {
   setUpFields();
   auto* title = new QLabel(tr("Section across"), this);
   title->setStyleSheet(QStringLiteral("font-weight: bold"));
@@ -52,8 +53,8 @@ SectionBar::SectionBar(QWidget* view)
   across->setSpacing(4);
   where->setSpacing(8);
   auto* rows = new QVBoxLayout(this);
-  rows->setContentsMargins(14, 8, 12, 8);
-  rows->setSpacing(6);
+  rows->setContentsMargins(14, 6, 12, 4);
+  rows->setSpacing(4);
   rows->addLayout(across);
   rows->addLayout(where);
   rows->addWidget(note_);
@@ -123,6 +124,11 @@ void SectionBar::setUpFields() {
   close_->setToolTip(tr("Show the parts whole again (Esc)"));
   note_->setObjectName(QStringLiteral("sectionNote"));
   note_->setStyleSheet(QStringLiteral("color: %1").arg(colours::kWarning.name()));
+  // It comes and goes with pictures: the view must not change its size while one is drawn.
+  QSizePolicy policy = note_->sizePolicy();
+  policy.setRetainSizeWhenHidden(true);
+  note_->setSizePolicy(policy);
+  note_->setFixedHeight(note_->fontMetrics().height());
   connect(slider_, &QSlider::valueChanged, this, [this](int value) {
     emit positionEdited(reach_.first + (reach_.second - reach_.first) * value / kSliderSteps);
   });
@@ -166,8 +172,8 @@ void SectionBar::spareMoving(bool isSpared) {
 void SectionBar::showNote(const QString& note) {
   if (note_->text() == note) return;
   note_->setText(note);
+  note_->setToolTip(note);
   note_->setVisible(!note.isEmpty());
-  place();
 }
 
 }  // namespace nearfit::ui

@@ -259,7 +259,7 @@ void SectionTool::tell() {
   if (!intricate.isEmpty())
     notes
         << tr("Cut without a cap because the outline is too complex: %1").arg(listOfNames(intricate, kNamed));
-  bar_->showNote(notes.join(QChar('\n')));
+  bar_->showNote(notes.join(QStringLiteral("; ")));
 }
 
 }  // namespace nearfit::ui
