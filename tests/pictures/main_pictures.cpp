@@ -252,9 +252,11 @@ class Pictures {
     trigger("start");
     wait([this] { return tick_ > kFeelFor; }, "the scripted hand");
     grabWindow("guide-main-window");
-    for (const char* dock : {"clearanceDock", "plotsDock"}) {
-      if (auto* wanted = driver_.window().findChild<QDockWidget*>(QLatin1String(dock))) wanted->show();
-    }
+    // Side by side, as by a drag of the title.
+    auto* plots = driver_.widget<QDockWidget>("plotsDock");
+    driver_.window().addDockWidget(Qt::BottomDockWidgetArea, plots, Qt::Horizontal);
+    for (QDockWidget* dock : {driver_.widget<QDockWidget>("clearanceDock"), plots})
+      dock->show();
     wait([this] { return tick_ > 2 * kFeelFor; }, "its next turn");
     grabWindow("guide-clearances");
     atWork();

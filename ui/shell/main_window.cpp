@@ -60,6 +60,19 @@
 #include "ui/widgets/view_bar.h"
 
 namespace nearfit::ui {
+namespace {
+
+/// Brings a dock that was just shown before the other tabs of its place.
+void bringToFront(QDockWidget& dock) {
+  // Its tab comes with the layout.
+  QTimer::singleShot(0, &dock, [&dock] {
+    // A dock that was raised last may be behind another tab, and raising it again alone does nothing.
+    dock.lower();
+    dock.raise();
+  });
+}
+
+}  // namespace
 
 template <class... Sources>
 void MainWindow::listenTo(const Sources&... sources) {
@@ -129,6 +142,9 @@ QDockWidget* MainWindow::addDock(const char* name, const QString& title, QWidget
 }
 
 void MainWindow::makePanels() {
+  // Panels at the bottom do not take height from those at the sides.
+  setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
   auto* partsPanel = new PartsPanel(session_, *selection_, this);
   parts_ = new PartCommands({session_, *selection_, *hand_, *document_}, *partsPanel, this);
   checks_ = new PartChecks(session_, *document_, *hand_, this);
@@ -181,17 +197,22 @@ void MainWindow::makeReviewPanels() {
   addDockButton(*plotsDock, tr("Show or hide the plots of force, torque, clearance and times"));
   addDockButton(*mapDock, tr("Show or hide how much of a part's surface is how near to others"));
   addDockButton(*clearanceDock, tr("Show or hide the clearances to the other parts"));
-  // The timeline is as wide as the window, below the two others side by side.
+  // The timeline is a low strip below the others, which share one place until the user drags them apart.
   splitDockWidget(clearanceDock, timelineDock, Qt::Vertical);
-  splitDockWidget(clearanceDock, mapDock, Qt::Horizontal);
-  splitDockWidget(mapDock, plotsDock, Qt::Horizontal);
-  shareWidth(*clearanceDock, *plotsDock);
-  // After the splits: one beside a tab would become a tab itself.
-  makeCheckPanel(*clearanceDock);
+  tabifyDockWidget(clearanceDock, mapDock);
+  tabifyDockWidget(mapDock, plotsDock);
+  for (QDockWidget* dock : {clearanceDock, mapDock, plotsDock}) {
+    connect(dock->toggleViewAction(), &QAction::triggered, dock, [dock](bool isShown) {
+      if (isShown) bringToFront(*dock);
+    });
+  }
+  makeCheckPanel(*plotsDock);
   connectReplay(*timelineDock);
   // Whoever turns the colours on wants the numbers too.
   connect(clearanceMap_->colour(), &QAction::triggered, mapDock, [mapDock](bool isOn) {
-    if (isOn) mapDock->show();
+    if (!isOn) return;
+    mapDock->show();
+    bringToFront(*mapDock);
   });
 }
 
@@ -203,22 +224,7 @@ void MainWindow::makeCheckPanel(QDockWidget& neighbour) {
   connect(units_, &UnitMenu::unitChanged, panel, &CheckPanel::refresh);
   connect(panel, &CheckPanel::repairRequested, files_, &FileCommands::repair);
   connect(files_, &FileCommands::repaired, panel, &CheckPanel::showRepair);
-  connect(parts_, &PartCommands::checkRequested, dock, [dock] {
-    dock->show();
-    dock->raise();
-  });
-}
-
-/// Gives both docks half the width when one of them is shown beside the other. By their size hints, curves
-/// would get a strip beside the table.
-void MainWindow::shareWidth(QDockWidget& left, QDockWidget& right) {
-  const auto share = [this, &left, &right](bool isShown) {
-    if (!isShown || !left.isVisible() || !right.isVisible() || left.y() != right.y()) return;
-    const int both = left.width() + right.width();
-    if (5 * right.width() < 2 * both) resizeDocks({&left, &right}, {both / 2, both / 2}, Qt::Horizontal);
-  };
-  for (const QDockWidget* dock : {&left, &right})
-    connect(dock->toggleViewAction(), &QAction::triggered, this, share, Qt::QueuedConnection);
+  connect(parts_, &PartCommands::checkRequested, dock, [dock] { bringToFront(*dock); });
 }
 
 void MainWindow::addDockButton(QDockWidget& dock, const QString& toolTip) {

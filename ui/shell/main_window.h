@@ -92,7 +92,6 @@ class MainWindow : public QMainWindow {
   void makeReviewPanels();
   /// Makes the panel of what is wrong with meshes, in a tab beside `neighbour`.
   void makeCheckPanel(QDockWidget& neighbour);
-  void shareWidth(QDockWidget& left, QDockWidget& right);
   /// Adds a button to the status bar that shows and hides a dock.
   void addDockButton(QDockWidget& dock, const QString& toolTip);
   void makeToolsAndMenus();

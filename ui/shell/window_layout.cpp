@@ -11,7 +11,7 @@ namespace nearfit::ui {
 namespace {
 
 /// Raise it when docks change so that a saved layout no longer fits.
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 const QString kKey = QStringLiteral("window/layout");
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <QMenu>
 #include <QTableView>
 #include <QToolButton>
+#include <QVector>
+#include <vector>
 
 #include "tests/app/desktop/desktop_driver.h"
 #include "ui/model/clearance_model.h"
@@ -72,7 +74,7 @@ class DesktopClearanceTest : public QObject {
   void theTableIsExported();
   void aHiddenTableSearchesNothing();
   void eachReviewPanelIsOneClickAway();
-  void plotsBesideTheTableGetHalfOfTheWidth();
+  void reviewPanelsShareOnePlaceAndLeaveTheSidesTheirHeight();
   void theNoteFollowsWhatIsChosen();
 };
 
@@ -226,13 +228,48 @@ void DesktopClearanceTest::theTableIsExported() {
   QVERIFY2(readBytes(file).starts_with("part,other,distance [m],part_x [m]"), "lengths have their unit");
 }
 
-void DesktopClearanceTest::plotsBesideTheTableGetHalfOfTheWidth() {
-  ClearanceFixture f;
-  auto* plots = f.d.widget<QDockWidget>("plotsDock");
-  f.d.choose(plots->toggleViewAction());
-  const int both = f.d.window().width();
-  QTRY_VERIFY2(plots->isVisible() && plots->width() > 2 * both / 5 && plots->width() < 3 * both / 5,
-               qPrintable(QString::number(plots->width())));
+/// They made a row of narrow panels, and the side panels stayed low once these were closed.
+void DesktopClearanceTest::reviewPanelsShareOnePlaceAndLeaveTheSidesTheirHeight() {
+  DesktopDriver d;
+  d.addCubes();
+  const auto heights = [&d] {
+    QVector<int> all;
+    for (const char* name : {"partsDock", "poseDock", "feelDock"})
+      all << d.widget<QDockWidget>(name)->height();
+    return all;
+  };
+  const QVector<int> before = heights();
+  const std::vector<const char*> names{"clearanceDock", "clearanceMapDock", "plotsDock", "timelineDock"};
+  const auto press = [&d](const char* name) {
+    auto* button = d.window().findChild<QToolButton*>(QLatin1String(name) + QStringLiteral("Button"));
+    QTest::mouseClick(button, Qt::LeftButton);
+  };
+  const auto isInFront = [&d](const char* name) {
+    const auto* dock = d.widget<QDockWidget>(name);
+    return dock->isVisible() && !dock->visibleRegion().isEmpty();
+  };
+  for (const char* name : names) {
+    press(name);
+    QTRY_VERIFY2(isInFront(name), name);
+  }
+  QVERIFY(isInFront("plotsDock") && !isInFront("clearanceDock") && !isInFront("clearanceMapDock"));
+  auto *clearances = d.widget<QDockWidget>("clearanceDock"), *plots = d.widget<QDockWidget>("plotsDock");
+  QCOMPARE(d.window().tabifiedDockWidgets(clearances).size(), 2);
+  QCOMPARE(plots->width(), d.window().centralWidget()->width());
+  // Also one that was in front last.
+  press("plotsDock");
+  QTRY_VERIFY(!plots->isVisible());
+  press("plotsDock");
+  QTRY_VERIFY(isInFront("plotsDock"));
+  for (const char* name : names)
+    press(name);
+  QTRY_VERIFY(!plots->isVisible() && !clearances->isVisible());
+  QTRY_VERIFY2(heights() == before, qPrintable(QString::number(heights().at(1))));
+  // Where it was put beside another, it comes back.
+  d.window().addDockWidget(Qt::BottomDockWidgetArea, plots, Qt::Horizontal);
+  press("clearanceDock");
+  press("plotsDock");
+  QTRY_VERIFY(isInFront("clearanceDock") && isInFront("plotsDock"));
 }
 
 void DesktopClearanceTest::theNoteFollowsWhatIsChosen() {
