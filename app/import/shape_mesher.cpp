@@ -42,17 +42,13 @@
 #include <gp_Sphere.hxx>
 #include <gp_Torus.hxx>
 
+#include "app/import/default_tessellation.h"
 #include "app/import/document_builder.h"
 #include "app/import/placed_mesh.h"
 
 namespace nearfit::importer {
 namespace {
 
-/// Default chord: this fraction of the diagonal of a part that fills a screen of 2,000 pixels is one of them. Not finer
-/// than a micrometre, below what is machined, and not coarser than a millimetre, which a hand feels as an edge [m].
-constexpr double kChordFraction = 1.0 / 2000.0, kMinDefaultChord = 1e-6, kMaxDefaultChord = 1e-3;
-/// Default angle: 30 facets around a bore, however small it is against its part [rad].
-constexpr double kDefaultAngle = 12.0 * std::numbers::pi / 180.0;
 /// Finest chord, as a fraction of the diagonal: doubles and meshing have no digits for more.
 constexpr double kMinChordFraction = 1e-6;
 
@@ -433,10 +429,7 @@ struct OccTessellation {
 OccTessellation tessellationFor(const MeshRequest& request, double diagonal) {
   const double scale = std::abs(request.map[0][0]);
   double chord = request.wanted.chord / scale;
-  if (!(chord > 0.0)) {
-    chord = diagonal * kChordFraction;
-    if (request.hasUnit) chord = std::clamp(chord, kMinDefaultChord / scale, kMaxDefaultChord / scale);
-  }
+  if (!(chord > 0.0)) chord = defaultChord(diagonal, scale, request.hasUnit);
   return {std::max(chord, diagonal * kMinChordFraction),
           request.wanted.angle > 0.0 ? request.wanted.angle : kDefaultAngle};
 }
