@@ -14,5 +14,6 @@ void addCertifyCommand(CLI::App& program);
 void addFeelCommand(CLI::App& program);
 void addErrorCommand(CLI::App& program);
 void addSkipsCommand(CLI::App& program);
+void addImportCommand(CLI::App& program);
 
 }  // namespace nearfit::bench

@@ -16,6 +16,7 @@ void addCommands(CLI::App& program, int, char**) {
   nearfit::bench::addFeelCommand(program);
   nearfit::bench::addErrorCommand(program);
   nearfit::bench::addSkipsCommand(program);
+  nearfit::bench::addImportCommand(program);
 }
 
 }  // namespace
