@@ -35,6 +35,8 @@ std::vector<Entry> entries() {
           {"glyphs", "What minima add to a picture", bench::measureGlyphs},
           {"picks", "What is under the mouse, of a large mesh", bench::measurePicks},
           {"open", "Whether the window answers while a large mesh is opened", bench::measureOpening},
+          {"documents", "The same while CAD documents are opened, and how long until they can be felt",
+           bench::measureDocuments},
           {"cancel", "How soon the window is free once that is cancelled", bench::measureCancels},
           {"large", "Many parts with many triangles", bench::measureLarge}};
 }
@@ -92,13 +94,23 @@ void addCommands(CLI::App& program, int argc, char** argv) {
   figures->add_option("--triangles", window.triangles, "Of the scene that is turned")
       ->check(CLI::Range(1000, 100'000'000))
       ->capture_default_str();
-  figures->add_option("--million", window.million, "Triangles of the mesh that is opened and picked")
+  figures
+      ->add_option("--million", window.million,
+                   "Triangles of the mesh that is opened and picked, and of the assembly")
       ->check(CLI::Range(10'000, 100'000'000))
       ->capture_default_str();
   figures->add_option("--parts", window.parts, "Of the large scene")
       ->check(CLI::Range(8, 100'000))
       ->capture_default_str();
   figures->add_option("--picks", window.picks, "")->check(CLI::Range(20, 10'000'000))->capture_default_str();
+  figures
+      ->add_option("--shared", window.shared, "Folder of the shared models: adds the vise to the documents")
+      ->check(CLI::ExistingDirectory);
+  figures
+      ->add_option("--instances", window.instances,
+                   "Of the assembly that is opened, which has as many triangles as the mesh")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
   figures->add_option("--csv", options->csv, "File for the table");
   figures->callback([options, argc, argv] { measure(*options, argc, argv); });
   CLI::App* start =

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,7 +39,9 @@ struct WindowOptions {
   std::size_t million = 1'000'000;  ///< Of the mesh that is opened and picked.
   std::size_t parts = 1000;         ///< Of the large scene; each with a hundredth of `million` triangles.
   std::size_t picks = 1000;
-  std::string program;  ///< This one, for starts.
+  std::size_t instances = 300;   ///< Of the assembly that is opened; with `million` triangles in all.
+  std::filesystem::path shared;  ///< Folder of the shared models; empty: without.
+  std::string program;           ///< This one, for starts.
 };
 
 }  // namespace nearfit::bench

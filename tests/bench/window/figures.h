@@ -21,6 +21,10 @@ std::vector<Figure> measureGlyphs(const WindowOptions& options);
 std::vector<Figure> measurePicks(const WindowOptions& options);
 /// How long events wait while a large mesh is opened.
 std::vector<Figure> measureOpening(const WindowOptions& options);
+/// How long events wait while CAD documents are opened, from their files and from the cache, and how long it is from
+/// the drop until they can be felt. Documents are those of the shared models, and an assembly that nearfit-bench-occ
+/// makes; without both there are no figures.
+std::vector<Figure> measureDocuments(const WindowOptions& options);
 /// How long the window takes to be free again once the opening of a large mesh is cancelled.
 std::vector<Figure> measureCancels(const WindowOptions& options);
 /// Many parts with many triangles.
