@@ -4,8 +4,8 @@
 namespace {
 
 constexpr const char* kFooter =
-    "Times are of one thread. Exit code: 0 when all went well, 1 when it did not or methods disagree (a\n"
-    "benchmark of different answers is void), 2 for wrong usage.";
+    "Times of queries and ticks are of one thread. Exit code: 0 when all went well, 1 when it did not or\n"
+    "methods disagree (a benchmark of different answers is void), 2 for wrong usage.";
 
 void addCommands(CLI::App& program, int, char**) {
   nearfit::bench::addQueryCommand(program);
