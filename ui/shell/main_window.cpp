@@ -224,7 +224,10 @@ void MainWindow::makeCheckPanel(QDockWidget& neighbour) {
   connect(units_, &UnitMenu::unitChanged, panel, &CheckPanel::refresh);
   connect(panel, &CheckPanel::repairRequested, files_, &FileCommands::repair);
   connect(files_, &FileCommands::repaired, panel, &CheckPanel::showRepair);
-  connect(parts_, &PartCommands::checkRequested, dock, [dock] { bringToFront(*dock); });
+  connect(parts_, &PartCommands::checkRequested, dock, [dock] {
+    dock->show();
+    bringToFront(*dock);
+  });
 }
 
 void MainWindow::addDockButton(QDockWidget& dock, const QString& toolTip) {
