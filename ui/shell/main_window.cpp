@@ -236,8 +236,9 @@ void MainWindow::addDockButton(QDockWidget& dock, const QString& toolTip) {
   button->setObjectName(dock.objectName() + QStringLiteral("Button"));
   button->setDefaultAction(dock.toggleViewAction());
   button->setAutoRaise(true);
-  // Before those that were added earlier, and before the numbers.
-  statusBar()->insertPermanentWidget(0, button);
+  // Before those that were added earlier, and after the numbers, whose widths change.
+  constexpr int kAfterNumbers = 1;
+  statusBar()->insertPermanentWidget(kAfterNumbers, button);
 }
 
 void MainWindow::connectReplay(QDockWidget& timelineDock) {

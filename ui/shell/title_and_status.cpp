@@ -47,6 +47,13 @@ void setPresent(QLabel& label, bool isPresent) {
   isPresent ? setColour(label, colours::kMutedText) : label.setStyleSheet(kSheet);
 }
 
+/// Shows a text. The label does not get narrower again, so that numbers beside it stay where they are.
+void showText(QLabel& label, const QString& text) {
+  if (label.text() == text) return;
+  label.setText(text);
+  label.setMinimumWidth(std::max(label.minimumWidth(), label.sizeHint().width()));
+}
+
 /// Labels side by side. Where there is no room for all of them, the first ones are left out, so that the window can be
 /// narrow.
 class ReadoutRow : public QWidget {
@@ -78,14 +85,23 @@ class ReadoutRow : public QWidget {
  protected:
   void resizeEvent(QResizeEvent* event) override {
     QWidget::resizeEvent(event);
+    leaveOut();
+  }
+  bool event(QEvent* event) override {
+    const bool isHandled = QWidget::event(event);
+    // A label may have become wider where the row could not.
+    if (event->type() == QEvent::LayoutRequest) leaveOut();
+    return isHandled;
+  }
+
+ private:
+  void leaveOut() {
     int room = width();
     for (QLabel* label : std::views::reverse(labels_)) {
       room -= widthOf(*label);
       label->setVisible(room >= 0);
     }
   }
-
- private:
   int widthOf(const QLabel& label) const {
     return std::max(label.minimumWidth(), label.sizeHint().width()) + layout()->spacing();
   }
@@ -183,27 +199,27 @@ StatusReadout::StatusReadout(const HandState& hand, QStatusBar* bar) : QObject(b
 }
 
 void StatusReadout::showStatus(const ServoStatus& status) {
-  rate_->setText(status.isRunning ? tr("Servo %1 Hz").arg(status.rate, 0, 'f', 0) : tr("Servo off"));
+  showText(*rate_, status.isRunning ? tr("Servo %1 Hz").arg(status.rate, 0, 'f', 0) : tr("Servo off"));
   setColour(*rate_, status.isTooSlow() ? colours::kWarning : colours::kMutedText);
   rate_->setToolTip(status.isTooSlow() ? tr("The servo misses ticks, so contact feels softer than set. "
                                             "Reduce the cutoff, or hide parts that do not matter.")
                                        : QString());
-  lateness_->setText(status.isRunning ? tr("Late %1 (p99)").arg(formatDuration(status.latenessP99))
-                                      : tr("Late –"));
+  showText(*lateness_,
+           status.isRunning ? tr("Late %1 (p99)").arg(formatDuration(status.latenessP99)) : tr("Late –"));
 }
 
 void StatusReadout::showSnapshot(const ServoSnapshot& snapshot, bool isFelt) {
   setPresent(*minima_, isFelt);
   setPresent(*distance_, isFelt);
-  minima_->setText(tr("LMDs %1").arg(formatMinima(snapshot.lmdCount, snapshot.isTruncated)));
-  distance_->setText(tr("Min distance %1").arg(formatMinDistance(minDistanceOf(snapshot))));
+  showText(*minima_, tr("LMDs %1").arg(formatMinima(snapshot.lmdCount, snapshot.isTruncated)));
+  showText(*distance_, tr("Min distance %1").arg(formatMinDistance(minDistanceOf(snapshot))));
 }
 
 void StatusReadout::clearSnapshot() {
   setPresent(*minima_, true);
   setPresent(*distance_, true);
-  minima_->setText(tr("LMDs –"));
-  distance_->setText(tr("Min distance –"));
+  showText(*minima_, tr("LMDs –"));
+  showText(*distance_, tr("Min distance –"));
 }
 
 }  // namespace nearfit::ui

@@ -16,6 +16,8 @@
 #include <QToolButton>
 #include <QTreeView>
 #include <QTreeWidget>
+#include <QVector>
+#include <algorithm>
 
 #include "tests/app/desktop/view_pointer.h"
 #include "ui/widgets/theme.h"
@@ -145,6 +147,7 @@ class DesktopWindowShellTest : public QObject {
   void theTabKeyGoesFromTheListsToTheViewAndOnToTheNumbers();
   void largerLettersAreNotCut();
   void barsOfToolsCoverNothingOfTheView();
+  void buttonsOfTheStatusBarStayWhereTheyAre();
   void toolbarsFitANarrowWindow();
 };
 
@@ -575,6 +578,30 @@ void DesktopWindowShellTest::barsOfToolsCoverNothingOfTheView() {
   d.choose("section");
   d.choose("measure");
   QTRY_COMPARE(view.height(), whole);
+}
+
+/// They went to the left as the numbers beside them grew.
+void DesktopWindowShellTest::buttonsOfTheStatusBarStayWhereTheyAre() {
+  DesktopDriver d;
+  d.addCubes();
+  const auto places = [&d] {
+    QVector<QPoint> all;
+    for (const char* name : {"clearanceDock", "clearanceMapDock", "plotsDock", "timelineDock"})
+      all << d.widget<QToolButton>(qPrintable(QLatin1String(name) + QStringLiteral("Button")))
+                 ->mapTo(&d.window(), QPoint());
+    return all;
+  };
+  const QVector<QPoint> before = places();
+  const auto isInOrder = [](const QPoint& left, const QPoint& right) { return left.x() < right.x(); };
+  QVERIFY(std::is_sorted(before.begin(), before.end(), isInOrder));
+  const auto* numbers = d.widget<QLabel>("statusDistance");
+  QVERIFY(numbers->mapTo(&d.window(), QPoint()).x() < before.first().x());
+  d.startWith(ui::Hand::Manual);
+  QTRY_COMPARE(d.text("statusMinima"), QStringLiteral("LMDs 1"));
+  QTRY_VERIFY(d.text("statusRate").endsWith(QStringLiteral(" Hz")));
+  QTest::qWait(50);
+  QCOMPARE(places(), before);
+  d.choose("stop");
 }
 
 void DesktopWindowShellTest::toolbarsFitANarrowWindow() {

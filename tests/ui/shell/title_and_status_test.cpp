@@ -7,6 +7,7 @@
 #include <QToolTip>
 #include <QtTest>
 #include <memory>
+#include <utility>
 
 #include "core/session/session.h"
 #include "tests/support/qt/qt_suite.h"
@@ -20,6 +21,7 @@ class TitleAndStatusTest : public QObject {
 
  private slots:
   void aMinDistanceThatIsOnlyABoundIsSaidToBeOne();
+  void numbersStayWhereTheyAre();
   void aNoteEndsWithTheStateThatItIsAbout();
   void aNoteThatIsTooLongIsElidedAndItsToolTipIsAll();
 };
@@ -39,6 +41,35 @@ void TitleAndStatusTest::aMinDistanceThatIsOnlyABoundIsSaidToBeOne() {
   snapshot->isDistanceBound = true;
   emit hand.snapshotDrawn(*snapshot);
   QCOMPARE(distance->text(), QStringLiteral("Min distance at least 0.26 mm"));
+}
+
+void TitleAndStatusTest::numbersStayWhereTheyAre() {
+  Session session;
+  ui::ShownPoses poses(session);
+  ui::HandState hand(session, poses);
+  QStatusBar bar;
+  const ui::StatusReadout readout(hand, &bar);
+  bar.resize(1200, 24);
+  bar.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&bar));
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  const auto* minima = bar.findChild<QLabel*>(QStringLiteral("statusMinima"));
+  const auto placeOfMinima = [&](double distance, std::uint32_t count, bool isBound) {
+    snapshot->distance = distance;
+    snapshot->lmdCount = count;
+    snapshot->isDistanceBound = isBound;
+    emit hand.snapshotDrawn(*snapshot);
+    QTest::qWait(10);
+    return minima->mapTo(&bar, QPoint());
+  };
+  const QPoint before = placeOfMinima(0.005, 1, false);
+  QVERIFY(minima->isVisible());
+  for (const auto& [distance, count] : {std::pair{2.6e-4, 7U}, {0.0123, 4321U}, {0.75, 12U}, {9.87e-5, 1U}})
+    QCOMPARE(placeOfMinima(distance, count, false), before);
+  // A longer text makes room for itself once.
+  const QPoint after = placeOfMinima(0.005, 1, true);
+  QVERIFY(after.x() < before.x());
+  QCOMPARE(placeOfMinima(0.005, 1, false), after);
 }
 
 /// "Saved test.nearfit" stayed after New.
