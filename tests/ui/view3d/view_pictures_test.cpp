@@ -231,7 +231,7 @@ void ViewPicturesTest::whatIsBehindATransparentPartIsSeen() {
 
 /// The colours of a bore were mixed with those of the part before it, and could not be read.
 void ViewPicturesTest::aTransparentPartLeavesTheColoursOfAMapAsTheyAre() {
-  constexpr int kFewPercent = 15;  // Of 255.
+  constexpr int kFewPercent = 15;  // 255 is white.
   Bench b;
   b.session.movePart(b.peg, {{1, 0, 0, 0}, {0.004, 0.0, -0.032}});
   b.view.setScene(b.session.scene());

@@ -36,7 +36,7 @@ AlignBar::AlignBar(QWidget* view)
        {static_cast<QWidget*>(filter_), static_cast<QWidget*>(flip_), static_cast<QWidget*>(offsetLabel_),
         static_cast<QWidget*>(offset_), static_cast<QWidget*>(keep_)}) {
     fields->addWidget(widget);
-    // Of one height, whichever of them are shown.
+    // The row keeps one height, whichever of them are shown.
     fields->addStrut(widget->sizeHint().height());
   }
   fields->addStretch();
