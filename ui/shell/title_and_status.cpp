@@ -185,7 +185,7 @@ StatusReadout::StatusReadout(const HandState& hand, QStatusBar* bar) : QObject(b
   auto* row = new ReadoutRow(bar);
   rate_ = row->addLabel(QStringLiteral("statusRate"), tr("Servo 1000 Hz"));
   lateness_ = row->addLabel(QStringLiteral("statusLateness"), tr("Late 0.00 ms (p99)"));
-  minima_ = row->addLabel(QStringLiteral("statusMinima"), tr("LMDs 0000"));
+  minima_ = row->addLabel(QStringLiteral("statusMinima"), tr("LMDs 0,000"));
   distance_ = row->addLabel(QStringLiteral("statusDistance"), tr("Min distance 0000 mm"));
   bar->addPermanentWidget(row);
   connect(&hand, &HandState::statusChanged, this, &StatusReadout::showStatus);

@@ -254,7 +254,8 @@ void DesktopClearanceTest::reviewPanelsShareOnePlaceAndLeaveTheSidesTheirHeight(
   }
   QVERIFY(isInFront("plotsDock") && !isInFront("clearanceDock") && !isInFront("clearanceMapDock"));
   auto *clearances = d.widget<QDockWidget>("clearanceDock"), *plots = d.widget<QDockWidget>("plotsDock");
-  QCOMPARE(d.window().tabifiedDockWidgets(clearances).size(), 2);
+  // The panel of checks too.
+  QCOMPARE(d.window().tabifiedDockWidgets(clearances).size(), 3);
   QCOMPARE(plots->width(), d.window().centralWidget()->width());
   // Also one that was in front last.
   press("plotsDock");
