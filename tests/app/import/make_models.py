@@ -137,6 +137,27 @@ def make_step_files():
     write_step(document, "two_solids.step")
 
 
+def make_peg_and_bore():
+    """A plate with a bore of radius 8 from its upper face, z = 0, down, and a peg of radius 7.8 with a chamfer at its
+    lower end, 5 above the bore; all of it tilted, so that no axis of a bore is one of the file's."""
+    plate = BRepAlgoAPI_Cut(box(-25, -20, -15, 25, 20, 0), BRepPrimAPI_MakeCylinder(axis(6.5, -4.25, -16), 8, 18).Shape())
+    peg = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCone(axis(0, 0, 0), 6.8, 7.8, 1).Shape(),
+                           BRepPrimAPI_MakeCylinder(axis(0, 0, 1), 7.8, 29).Shape())
+    tilt, shift = gp_Trsf(), gp_Trsf()
+    tilt.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 2, 3)), 40 * 3.14159265358979323846 / 180)
+    shift.SetTranslation(gp_Vec(31, -12, 7))
+    shift.Multiply(tilt)
+    document, shapes, _ = new_document()
+    labels_of = {"plate": shapes.AddShape(plate.Shape(), False), "peg": shapes.AddShape(peg.Shape(), False)}
+    fit = shapes.NewShape()
+    set_name(fit, "fit")
+    for name, place in (("plate", TopLoc_Location(shift)), ("peg", TopLoc_Location(shift).Multiplied(moved(6.5, -4.25, 5)))):
+        set_name(labels_of[name], name)
+        set_name(shapes.AddComponent(fit, labels_of[name], place), name)
+    shapes.UpdateAssemblies()
+    write_step(document, "peg_and_bore.step")
+
+
 def make_other_files():
     writer = IGESControl_Writer("MM", 0)
     writer.AddShape(box(0, 0, 0, 40, 20, 10))
@@ -266,6 +287,7 @@ def examine(file):
 def main():
     MODELS.mkdir(exist_ok=True)
     make_step_files()
+    make_peg_and_bore()
     make_other_files()
     files = sorted(MODELS.glob("*.step")) + sorted(f for f in SHARED.iterdir() if f.suffix.lower() in (".stp", ".step"))
     result = {file.name: examine(file) for file in files}
