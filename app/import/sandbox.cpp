@@ -52,6 +52,11 @@ void limit(__rlimit_resource resource, std::uint64_t value, std::uint64_t grace 
   ::setrlimit(resource, &wanted);
 }
 
+std::uint64_t limitOf(__rlimit_resource resource) {
+  ::rlimit current{};
+  return ::getrlimit(resource, &current) == 0 ? current.rlim_cur : RLIM_INFINITY;
+}
+
 std::uint64_t machineBytes() {
   const long pages = ::sysconf(_SC_PHYS_PAGES), bytes = ::sysconf(_SC_PAGESIZE);
   return pages <= 0 || bytes <= 0 ? kMaxMemory
@@ -287,8 +292,11 @@ std::string sandboxText() {
 }
 
 std::string trySandbox() {
+  limitProcess(0);
+  // In the sandbox nobody may ask for them.
+  std::string text = fmt::format("memory: at most {} MiB\nprocessor time: at most {} s\n",
+                                 limitOf(RLIMIT_DATA) >> 20, limitOf(RLIMIT_CPU));
   enterSandbox({});
-  std::string text;
   const auto tell = [&](const char* what, bool isRefused) {
     text += fmt::format("{}: {}\n", what, isRefused ? "refused" : "allowed");
   };

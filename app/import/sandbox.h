@@ -19,7 +19,8 @@ void enterSandbox(const std::vector<std::filesystem::path>& readable);
 /// What enterSandbox() would use here, for people: "seccomp, Landlock 3".
 std::string sandboxText();
 
-/// Enters the sandbox and tries what it is to prevent. A line for each, for people and tests: "network: refused".
+/// Takes the limits for a small file, enters the sandbox and tries what it is to prevent. A line for each, for people and
+/// tests: "memory: at most 2048 MiB", "network: refused".
 std::string trySandbox();
 
 }  // namespace nearfit::importer

@@ -22,6 +22,9 @@ namespace {
 constexpr int kMaxParentheses = 64;
 /// Assemblies, or representations mapped, within each other: readers recurse into them.
 constexpr std::size_t kMaxStepNesting = 200;
+/// Entities in a chain of references, which readers follow by recursion: files of assemblies have some twenty, a solid
+/// that is cut again and again a few more for each cut.
+constexpr std::size_t kMaxReferenceDepth = 10'000;
 /// Digits of an integer: readers keep them in 32 bits.
 constexpr std::int64_t kMaxInteger = std::numeric_limits<std::int32_t>::max();
 /// Decimal exponent of a real; beyond it a double is infinite.
@@ -97,6 +100,76 @@ class PlacementGraph {
   std::unordered_map<Id, Below> below_;
 };
 
+/// References between all entities.
+class ReferenceChains {
+ public:
+  /// The references that follow are those of this entity.
+  void begin(Id entity) {
+    isSorted_ = isSorted_ && (entities_.empty() || entities_.back().id < entity);
+    entities_.push_back({entity, targets_.size(), targets_.size()});
+  }
+  void add(Id target) {
+    targets_.push_back(static_cast<std::int32_t>(target));
+    ++entities_.back().end;
+  }
+
+  /// True if a chain is longer than kMaxReferenceDepth. Where it comes back to one of its entities, it ends.
+  bool areTooLong() {
+    if (!isSorted_) std::ranges::stable_sort(entities_, {}, &Entity::id);
+    depth_.assign(entities_.size(), kNew);
+    for (std::size_t i = 0; i < entities_.size(); ++i)
+      if (depth_[i] == kNew && isTooLongFrom(i)) return true;
+    return false;
+  }
+
+ private:
+  struct Entity {
+    Id id;
+    std::size_t begin, end;  ///< Of its targets.
+  };
+  struct Link {
+    std::size_t entity, next;
+    std::uint32_t below = 0;  ///< Longest chain of those looked at.
+  };
+  static constexpr std::uint32_t kNew = 0, kOpen = ~std::uint32_t{0};
+
+  /// Depth first, on a stack of its own.
+  bool isTooLongFrom(std::size_t root) {
+    std::vector<Link> chain{{root, entities_[root].begin}};
+    depth_[root] = kOpen;
+    while (!chain.empty()) {
+      Link& link = chain.back();
+      if (chain.size() + link.below > kMaxReferenceDepth) return true;
+      if (link.next == entities_[link.entity].end) {
+        const std::uint32_t depth = depth_[link.entity] = link.below + 1;
+        chain.pop_back();
+        if (!chain.empty()) chain.back().below = std::max(chain.back().below, depth);
+        continue;
+      }
+      const std::optional<std::size_t> target = find(targets_[link.next++]);
+      if (!target || depth_[*target] == kOpen) continue;
+      if (depth_[*target] != kNew) {
+        link.below = std::max(link.below, depth_[*target]);
+        continue;
+      }
+      depth_[*target] = kOpen;
+      chain.push_back({*target, entities_[*target].begin});
+    }
+    return false;
+  }
+
+  std::optional<std::size_t> find(Id id) const {
+    const auto at = std::ranges::lower_bound(entities_, id, {}, &Entity::id);
+    if (at == entities_.end() || at->id != id) return std::nullopt;
+    return static_cast<std::size_t>(at - entities_.begin());
+  }
+
+  std::vector<Entity> entities_;
+  std::vector<std::int32_t> targets_;
+  std::vector<std::uint32_t> depth_;
+  bool isSorted_ = true;
+};
+
 class StepScanner {
  public:
   StepScanner(std::span<const char> text, const std::string& name)
@@ -110,6 +183,7 @@ class StepScanner {
       step();
     if (depth_ != 0 || isOpen_) fail("it is cut off", "copy or export it again");
     checkPlacements();
+    checkChains();
   }
 
  private:
@@ -183,8 +257,10 @@ class StepScanner {
     if (!isOpen_) {
       isOpen_ = true;
       id_ = id;
-    } else if (references_.size() < kMaxReferences) {
-      references_.push_back({word_, argument_, id});
+      chains_.begin(id);
+    } else {
+      chains_.add(id);
+      if (references_.size() < kMaxReferences) references_.push_back({word_, argument_, id});
     }
     at_ = end;
   }
@@ -305,6 +381,14 @@ class StepScanner {
     }
   }
 
+  void checkChains() {
+    if (!chains_.areTooLong()) return;
+    throw FileError(
+        name_,
+        fmt::format("its entities are nested more than {} deep by their references", kMaxReferenceDepth),
+        "it is damaged: export it again");
+  }
+
   struct Reference {
     Word word;
     int argument;
@@ -325,6 +409,7 @@ class StepScanner {
   int argument_ = 0;         ///< Of the keyword, from 0.
   std::vector<Reference> references_;
   PlacementGraph graph_;
+  ReferenceChains chains_;
 };
 
 }  // namespace

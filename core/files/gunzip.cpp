@@ -33,6 +33,12 @@ class Inflater {
   throw FileError(name, "its gzip compression is damaged or cut off", "copy or compress it again");
 }
 
+/// Room to make besides that for a block [bytes]: as much as is there, as vectors grow. From a quarter of what may be
+/// unpacked on, all of it at once: the last doublings would take three times as much for a moment.
+std::size_t growthAfter(std::size_t done, std::uint64_t maxBytes) {
+  return static_cast<std::size_t>(done > maxBytes / 4 ? maxBytes - done : done);
+}
+
 /// Unpacks one member to the end of `to`, and returns the bytes of `from` that it takes.
 std::size_t unpackMember(std::span<const char> from, const std::string& name, std::uint64_t maxBytes,
                          std::vector<char>& to, const std::function<void(std::size_t taken)>& onBlock) {
@@ -45,6 +51,8 @@ std::size_t unpackMember(std::span<const char> from, const std::string& name, st
     z.next_in = reinterpret_cast<::Bytef*>(const_cast<char*>(from.data() + taken));
     z.avail_in = static_cast<::uInt>(given);
     const std::size_t done = to.size();
+    if (to.capacity() < done + kUnpackedAtOnce)
+      to.reserve(done + kUnpackedAtOnce + growthAfter(done, maxBytes));
     to.resize(done + kUnpackedAtOnce);
     z.next_out = reinterpret_cast<::Bytef*>(to.data() + done);
     z.avail_out = static_cast<::uInt>(kUnpackedAtOnce);
