@@ -9,6 +9,7 @@
 #include "app/desktop/command_line.h"
 #include "app/desktop/device_led_session.h"
 #include "app/desktop/screenshot.h"
+#include "core/base/error.h"
 #include "core/proximity/cache/tree_cache.h"
 #include "core/recovery/recovery_folder.h"
 #include "core/text/utf8.h"
@@ -34,10 +35,11 @@ int run(int argc, char** argv) {
   desktop::Application::prepare();
   QApplication qt(argc, argv);
   desktop::Application::configure();
+  const QStringList files = fileNames(options.files);
+  desktop::requireUnit(options, files);
   desktop::requireOpenGl();
 
   desktop::Application application;
-  const QStringList files = fileNames(options.files);
   std::optional<desktop::Screenshot> screenshot;
   std::optional<desktop::DeviceLedSession> led;
   if (!options.record.empty()) application.servo().recordTo(fileNames({options.record}).first());
@@ -63,6 +65,9 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run(argc, argv);
+  } catch (const nearfit::UsageError& error) {
+    std::fprintf(stderr, "nearfit: %s\n", error.what());
+    return nearfit::desktop::kUsageExitCode;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "nearfit: %s\n", error.what());
   } catch (...) {

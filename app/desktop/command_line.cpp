@@ -5,17 +5,17 @@
 #include <CLI/CLI.hpp>
 
 #include "core/base/error.h"
+#include "core/scene/document_load.h"
 #include "core/scene/mesh_unit.h"
+#include "ui/files/dropped_files.h"
+#include "ui/widgets/paths.h"
 
 namespace nearfit::desktop {
 namespace {
 
-constexpr int kUsage = 2;
-constexpr double kMillimetre = 1e-3;
-
 int failUsage(const char* problem) {
   std::fprintf(stderr, "nearfit: %s; see nearfit --help\n", problem);
-  return kUsage;
+  return kUsageExitCode;
 }
 
 }  // namespace
@@ -25,7 +25,7 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
   program.footer(
       "Without files it starts with an empty scene; the first time, with the demo scene and a short tour. "
       "Without --unit it asks for the unit of mesh and BREP files, which store none; with --screenshot or "
-      "--seconds it takes mm.");
+      "--seconds nobody is asked, and --unit must be given.");
   program.set_version_flag("--version", std::string("nearfit ") + NEARFIT_VERSION);
   Options options;
   CLI::Option* files = program.add_option("FILE", options.files,
@@ -78,8 +78,16 @@ std::variant<Options, int> parseCommandLine(int argc, const char* const* argv) {
   } catch (const UsageError& error) {
     return failUsage(error.what());
   }
-  if (options.isUnattended() && !options.metresPerUnit) options.metresPerUnit = kMillimetre;
   return options;
+}
+
+void requireUnit(const Options& options, const QStringList& files) {
+  if (!options.isUnattended() || options.metresPerUnit) return;
+  for (const QString& file : ui::sortOut(files).meshes) {
+    if (storesUnit(ui::toPath(file))) continue;
+    throw UsageError("--unit", ui::toPath(file).string() + " stores no unit of length",
+                     "give the one that its numbers are in, such as --unit mm");
+  }
 }
 
 }  // namespace nearfit::desktop

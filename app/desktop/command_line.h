@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QStringList>
 #include <optional>
 #include <string>
 #include <variant>
@@ -9,8 +10,8 @@ namespace nearfit::desktop {
 
 /// Options of the command line.
 struct Options {
-  std::vector<std::string> files;       ///< Meshes, and at most one scene.
-  std::optional<double> metresPerUnit;  ///< Of the meshes; std::nullopt: the window asks.
+  std::vector<std::string> files;       ///< Meshes, documents, folders, and at most one scene.
+  std::optional<double> metresPerUnit;  ///< Of files that store none; std::nullopt: the window asks.
   bool isDemo = false;                  ///< Opens the demo scene.
   std::string screenshot;               ///< File for a picture of the window; empty: a normal run.
   std::optional<std::string> device;    ///< Takes the part in hand at once; empty text: the first usable one.
@@ -22,8 +23,15 @@ struct Options {
   bool isUnattended() const noexcept { return !screenshot.empty() || seconds.has_value(); }
 };
 
+/// Exit code of wrong usage.
+constexpr int kUsageExitCode = 2;
+
 /// Returns the options, or the exit code if nothing is left to do (help, version, wrong
-/// usage: already printed). An unattended run has a unit: millimetres if none is given.
+/// usage: already printed).
 std::variant<Options, int> parseCommandLine(int argc, const char* const* argv);
+
+/// Throws UsageError if an unattended run has files that store no unit, and none is given.
+/// @param files  The options' files, decoded; files in folders among them count. Needs the QCoreApplication.
+void requireUnit(const Options& options, const QStringList& files);
 
 }  // namespace nearfit::desktop

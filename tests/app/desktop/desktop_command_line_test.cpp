@@ -35,6 +35,8 @@ QProcessEnvironment withoutDisplay() {
   return environment;
 }
 
+const QString kUnit = QStringLiteral("--unit"), kMm = QStringLiteral("mm");
+
 }  // namespace
 
 class DesktopCommandLineTest : public QObject {
@@ -46,6 +48,7 @@ class DesktopCommandLineTest : public QObject {
   void unknownUnitIsAUsageError();
   void saysThatThereIsNoDisplay();
   void writesAPictureOfTheFilesAndEnds();
+  void aMissingUnitIsAUsageErrorThatNamesTheOption();
   void brokenFileEndsWithAMessage();
   void folderWithoutFilesEndsWithAMessage();
   void picturePathThatCannotBeWrittenEndsWithAMessage();
@@ -87,7 +90,7 @@ void DesktopCommandLineTest::writesAPictureOfTheFilesAndEnds() {
   const TemporaryFolder folder;
   const QString box = writeOff(folder.path() / "box.off", boxMesh(glm::dvec3(0.04)));
   const QString picture = QString::fromStdString((folder.path() / "window.png").string());
-  const ProgramOutcome outcome = run({box, QStringLiteral("--screenshot"), picture});
+  const ProgramOutcome outcome = run({box, kUnit, kMm, QStringLiteral("--screenshot"), picture});
   QVERIFY2(outcome.code == 0, qPrintable(outcome.err));
   const QImage image(picture);
   QCOMPARE(image.size(), QSize(1280, 800));
@@ -100,12 +103,23 @@ void DesktopCommandLineTest::writesAPictureOfTheFilesAndEnds() {
   QVERIFY2(tones.size() > 40, qPrintable(QString::number(tones.size())));
 }
 
+// It read millimetres, whatever the file was in.
+void DesktopCommandLineTest::aMissingUnitIsAUsageErrorThatNamesTheOption() {
+  const TemporaryFolder folder;
+  const QString box = writeOff(folder.path() / "box.off", boxMesh(glm::dvec3(0.04)));
+  const QString picture = QString::fromStdString((folder.path() / "window.png").string());
+  const ProgramOutcome outcome = run({box, QStringLiteral("--screenshot"), picture});
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(outcome.err.contains(QStringLiteral("nearfit: --unit: ") + box), qPrintable(outcome.err));
+  QVERIFY(!QFile::exists(picture));
+}
+
 void DesktopCommandLineTest::brokenFileEndsWithAMessage() {
   const TemporaryFolder folder;
   const auto broken = folder.write("broken.stl", "this is no mesh");
   const QString picture = QString::fromStdString((folder.path() / "window.png").string());
   const ProgramOutcome outcome =
-      run({QString::fromStdString(broken.string()), QStringLiteral("--screenshot"), picture});
+      run({QString::fromStdString(broken.string()), kUnit, kMm, QStringLiteral("--screenshot"), picture});
   QCOMPARE(outcome.code, 1);
   const QString line = outcome.err.mid(outcome.err.indexOf(QStringLiteral("nearfit: ")));
   QVERIFY2(line.contains(QStringLiteral("broken.stl")), qPrintable(outcome.err));
@@ -127,7 +141,7 @@ void DesktopCommandLineTest::picturePathThatCannotBeWrittenEndsWithAMessage() {
   const TemporaryFolder folder;
   const QString box = writeOff(folder.path() / "box.off", boxMesh(glm::dvec3(0.04)));
   const ProgramOutcome outcome =
-      run({box, QStringLiteral("--screenshot"), QStringLiteral("/no/such/folder/window.png")});
+      run({box, kUnit, kMm, QStringLiteral("--screenshot"), QStringLiteral("/no/such/folder/window.png")});
   QCOMPARE(outcome.code, 1);
   QVERIFY(outcome.err.contains(QStringLiteral("/no/such/folder/window.png")));
 }

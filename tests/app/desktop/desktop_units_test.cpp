@@ -69,7 +69,7 @@ class DesktopUnitsTest : public QObject {
   void sizesAreInTheUnitOfLengthShown();
   void filesThatCannotBeReadAreNotAskedAbout();
   void theCommandLineTakesTheSpellingOfTheOtherProgram();
-  void anUnattendedRunTakesMillimetres();
+  void anUnattendedRunRefusesToGuessAUnit();
   void filesOfTheCommandLineAreAskedAbout();
   void filesOfTheCommandLineWithAUnitAreNot();
   void aCancelledQuestionAddsNothing();
@@ -167,11 +167,32 @@ void DesktopUnitsTest::theCommandLineTakesTheSpellingOfTheOtherProgram() {
   QCOMPARE(std::get<int>(parsed(std::array{"nearfit", "--unit", "mm"})), 2);
 }
 
-void DesktopUnitsTest::anUnattendedRunTakesMillimetres() {
-  const auto picture = parsed(std::array{"nearfit", "a.stl", "--screenshot", "a.png"});
-  QCOMPARE(std::get<desktop::Options>(picture).metresPerUnit.value(), 1e-3);
-  const auto inMetres = parsed(std::array{"nearfit", "a.stl", "--unit", "m", "--screenshot", "a.png"});
-  QCOMPARE(std::get<desktop::Options>(inMetres).metresPerUnit.value(), 1.0);
+void DesktopUnitsTest::anUnattendedRunRefusesToGuessAUnit() {
+  const auto errorFor = [](const auto& arguments, const QStringList& files) {
+    try {
+      desktop::requireUnit(std::get<desktop::Options>(parsed(arguments)), files);
+    } catch (const UsageError& error) {
+      return QString::fromStdString(error.what());
+    }
+    return QString();
+  };
+  const std::array picture{"nearfit", "a.stl", "--screenshot", "a.png"};
+  const std::array timed{"nearfit", "a.stl", "--device", "replay:a.csv", "--seconds", "1"};
+  QVERIFY(!std::get<desktop::Options>(parsed(picture)).metresPerUnit);
+  for (const QString& error : {errorFor(picture, {QStringLiteral("a.stl")}),
+                               errorFor(timed, {QStringLiteral("b.step"), QStringLiteral("a.stl")})})
+    QVERIFY2(error.startsWith(QStringLiteral("--unit: a.stl stores no unit")), qPrintable(error));
+  QVERIFY(errorFor(picture, {QStringLiteral("a.brep")}).contains(QStringLiteral("a.brep")));
+  const TemporaryFolder folder;
+  folder.write("inner.off", "OFF");
+  const QString inFolder = errorFor(picture, {nameOf(folder.path())});
+  QVERIFY2(inFolder.contains(QStringLiteral("inner.off")), qPrintable(inFolder));
+  // Files that store their unit, scenes, a unit that is given, and a window in which somebody can answer.
+  QCOMPARE(errorFor(picture, {QStringLiteral("a.step"), QStringLiteral("a.nearfit")}), QString());
+  const std::array given{"nearfit", "a.stl", "--unit", "m", "--screenshot", "a.png"};
+  QCOMPARE(errorFor(given, {QStringLiteral("a.stl")}), QString());
+  QCOMPARE(std::get<desktop::Options>(parsed(given)).metresPerUnit.value(), 1.0);
+  QCOMPARE(errorFor(std::array{"nearfit", "a.stl"}, {QStringLiteral("a.stl")}), QString());
 }
 
 void DesktopUnitsTest::filesOfTheCommandLineAreAskedAbout() {
