@@ -13,6 +13,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <optional>
 
 #include "core/recovery/recovery_folder.h"
 #include "core/servo/motion_recording.h"
@@ -62,6 +64,7 @@ class Pictures {
     feeling();
     recording();
     device();
+    documents();
     return failures_ == 0;
   }
 
@@ -341,6 +344,45 @@ class Pictures {
     grab(*dock, QStringLiteral("panel-feel-fault"));
     trigger("stop");
     driver_.window().resize(before);
+  }
+
+  /// Opens a file of the models beside the repository in a scene of its own.
+  bool openModel(const char* name) {
+    const std::filesystem::path file = std::filesystem::path(NEARFIT_SHARED_DIR) / "models" / "public" / name;
+    if (!std::filesystem::exists(file)) {
+      std::fprintf(stderr, "nearfit-pictures: %s is missing\n", file.c_str());
+      ++failures_;
+      return false;
+    }
+    driver_.session().reset();
+    driver_.window().document().openFiles({ui::fromPath(file)});
+    wait([&] { return !driver_.session().scene().parts().empty(); }, name);
+    driver_.partsView()->expandAll();
+    driver_.window().selection().select(std::nullopt);
+    trigger("fit");
+    settle();
+    return true;
+  }
+  /// STEP files: the tree that they bring, and a part of it in hand.
+  void documents() {
+    if (openModel("trimesh_box_assembly.STEP")) {
+      grabWindow("guide-assembly");
+      // The lid, lifted by a few millimetres and led down on the walls.
+      const Part lid = driver_.part("box_top");
+      RigidTransform pose = lid.worldFromPart;
+      pose.translation.z += 8e-3;
+      driver_.session().movePart(lid.id, pose);
+      driver_.session().setMovingPart(lid.id);
+      driver_.window().selection().select(lid.id);
+      tick_ = 0;
+      driver_.startWith(ui::Hand::Manual);
+      pose.translation.z -= 4e-3;
+      driver_.application.servo().moveHand(pose);
+      wait([this] { return tick_ > 500; }, "the lid in hand");
+      grabWindow("guide-assembly-felt");
+      trigger("stop");
+    }
+    if (openModel("steptools_vise.stp")) grabWindow("guide-vise");
   }
 
   QString folder_;
