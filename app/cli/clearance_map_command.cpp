@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -83,10 +84,12 @@ void runClearanceMap(const ClearanceMapOptions& options) {
   const double unit = parseUnit(options.unit);
   const Scene scene = readSceneFile(options.scene);
   checkMapOutputs(options, scene);
-  const PartId subject = chosenPart(scene, options.part);
+  const bool isGroup = options.part.empty() && scene.movingGroup();
+  const std::vector<PartId> subject =
+      isGroup ? scene.movingParts() : std::vector{chosenPart(scene, options.part)};
   const ClearanceMap map = ClearanceMapper().map(
       clearanceMapRequest(scene, subject, options.range.value_or(0.0), options.hasNearParts));
-  const AreaByClearance areas(map.surfaces.front());
+  const AreaByClearance areas(map.subject());
   if (!options.out.empty()) exportClearanceMap(map, scene, unit, options.out);
   if (!options.histogram.empty()) atomicWrite(options.histogram, histogramCsv(areas, map.range));
   printCacheWarnings();
@@ -103,7 +106,7 @@ void addClearanceMapCommand(CLI::App& program) {
       "clearance-map",
       "Writes the clearance over a part's surface as coloured PLY, and its histogram as CSV.");
   command->add_option("scene", options->scene, "Scene file (*.nearfit)")->required()->type_name("SCENE");
-  command->add_option("--part", options->part, "Name of the part; default: the moving part")
+  command->add_option("--part", options->part, "Name of the part; default: the moving part or group")
       ->type_name("NAME");
   command->add_option("--range", options->range,
                       "Largest distance to map [m]; default: by the distances found");

@@ -9,22 +9,27 @@
 
 namespace nearfit {
 
-AreaByClearance::AreaByClearance(const MappedSurface& mapped) {
-  const std::vector<double>& areas = mapped.surface->areas;
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    total_ += areas[i];
-    if (!std::isnan(mapped.distances[i])) order.push_back(i);
+AreaByClearance::AreaByClearance(std::span<const MappedSurface> mapped) {
+  struct Sample {
+    double distance, area;
+  };
+  std::vector<Sample> samples;
+  for (const MappedSurface& each : mapped) {
+    const std::vector<double>& areas = each.surface->areas;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+      total_ += areas[i];
+      if (!std::isnan(each.distances[i])) samples.push_back({each.distances[i], areas[i]});
+    }
   }
   // Sums must not depend on how equal ones are ordered.
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return mapped.distances[i]; });
-  distances_.reserve(order.size());
-  summed_.reserve(order.size());
+  std::ranges::stable_sort(samples, {}, &Sample::distance);
+  distances_.reserve(samples.size());
+  summed_.reserve(samples.size());
   double sum = 0.0;
-  for (const std::size_t i : order) {
-    sum += areas[i];
-    moment_ += mapped.distances[i] * areas[i];
-    distances_.push_back(mapped.distances[i]);
+  for (const Sample& sample : samples) {
+    sum += sample.area;
+    moment_ += sample.distance * sample.area;
+    distances_.push_back(sample.distance);
     summed_.push_back(sum);
   }
 }

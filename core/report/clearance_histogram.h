@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,14 +10,15 @@
 
 namespace nearfit {
 
-/// Area of a mapped surface by its clearance: each sample stands for its share of the surface.
+/// Area of mapped surfaces by their clearance: each sample stands for its share of a surface.
 class AreaByClearance {
  public:
   AreaByClearance() = default;
   /// O(n log n).
-  explicit AreaByClearance(const MappedSurface& mapped);
+  explicit AreaByClearance(std::span<const MappedSurface> mapped);
+  explicit AreaByClearance(const MappedSurface& mapped) : AreaByClearance(std::span(&mapped, 1)) {}
 
-  double total() const noexcept { return total_; }  ///< Of the whole surface [m^2].
+  double total() const noexcept { return total_; }  ///< Of all of the surfaces [m^2].
   /// Area within the range of the map [m^2].
   double within() const noexcept { return summed_.empty() ? 0.0 : summed_.back(); }
   /// Area nearer than a distance [m^2]. O(log n).

@@ -49,11 +49,26 @@ bool hasTriangles(const PartGeometryPtr& geometry) {
   return geometry && !geometry->mesh.triangles().empty();
 }
 
-const MeasuredPart& subjectOf(const ClearanceMapRequest& request) {
-  const auto subject = std::ranges::find(request.parts, request.subject, &MeasuredPart::id);
-  if (subject == request.parts.end() || !hasTriangles(subject->geometry))
+/// Parts that are measured as one, the leading one first.
+using Subject = std::vector<const MeasuredPart*>;
+
+Subject subjectOf(const ClearanceMapRequest& request) {
+  Subject subject;
+  for (const PartId id : request.subject) {
+    const auto part = std::ranges::find(request.parts, id, &MeasuredPart::id);
+    if (part == request.parts.end() || !hasTriangles(part->geometry)) {
+      subject.clear();
+      break;
+    }
+    subject.push_back(&*part);
+  }
+  if (subject.empty())
     throw UsageError("clearance map", "there is no such part with a surface", "choose a part of the scene");
-  return *subject;
+  return subject;
+}
+
+bool isOf(const Subject& subject, const MeasuredPart& part) {
+  return std::ranges::find(subject, &part) != subject.end();
 }
 
 void checkRange(double range) {
@@ -73,6 +88,21 @@ Aabb boxIn(const MeasuredPart& frame, const MeasuredPart& part) noexcept {
 
 double sizeOf(const MeasuredPart& part) noexcept {
   return part.geometry->mesh.bounds().diagonal();
+}
+
+/// Box of the subject in the frame of a part [m].
+Aabb boxIn(const MeasuredPart& frame, const Subject& subject) noexcept {
+  Aabb box;
+  for (const MeasuredPart* part : subject) {
+    const Aabb one = part == &frame ? part->geometry->mesh.bounds() : boxIn(frame, *part);
+    box.add(one.lower);
+    box.add(one.upper);
+  }
+  return box;
+}
+
+double sizeOf(const Subject& subject) noexcept {
+  return boxIn(*subject.front(), subject).diagonal();
 }
 
 /// A range over the distance that it is chosen by: half as much again, so that colours beyond it show too.
@@ -252,35 +282,42 @@ void measure(MappedSurface& mapped, std::span<const PlacedTarget<Target>> target
 }
 
 /// Least distance of the subject to the others [m], 0 if surfaces meet; infinity if none is below `within`.
-double leastDistanceOf(const ClearanceMapRequest& request, const MeasuredPart& subject, double within,
+double leastDistanceOf(const ClearanceMapRequest& request, const Subject& subject, double within,
                        const ProgressCallback& progress) {
-  std::vector<std::pair<double, const MeasuredPart*>> others;
-  for (const MeasuredPart& part : request.parts) {
-    if (part.id == subject.id) continue;
-    const double gap = gapOf(subject.geometry->mesh.bounds(), boxIn(subject, part));
-    others.emplace_back(gap, &part);
+  struct Pair {
+    double gap;
+    const MeasuredPart *part, *other;
+  };
+  std::vector<Pair> pairs;
+  for (const MeasuredPart* part : subject) {
+    for (const MeasuredPart& other : request.parts) {
+      if (isOf(subject, other)) continue;
+      pairs.push_back({gapOf(part->geometry->mesh.bounds(), boxIn(*part, other)), part, &other});
+    }
   }
-  std::ranges::sort(others, {}, [](const auto& other) { return other.first; });
+  std::ranges::stable_sort(pairs, {}, &Pair::gap);
   LmdScratch scratch(1);
   double least = kInfinity;
-  for (const auto& [gap, other] : others) {
+  for (const auto& [gap, part, other] : pairs) {
     if (kSure * gap >= std::min(least, within)) break;
-    prepareHierarchies(std::vector{subject.geometry, other->geometry}, progress);
+    prepareHierarchies(std::vector{part->geometry, other->geometry}, progress);
     const SurfaceDistance found =
-        leastSurfaceDistance(other->geometry->tree(), subject.geometry->tree(), relativePose(*other, subject),
+        leastSurfaceDistance(other->geometry->tree(), part->geometry->tree(), relativePose(*other, *part),
                              std::min(least, within), scratch, std::numeric_limits<std::uint64_t>::max());
     least = std::min(least, found.distance);
   }
   return least;
 }
 
-/// The other parts whose box is within the range of the subject's.
-std::vector<const MeasuredPart*> partsNear(const ClearanceMapRequest& request, const MeasuredPart& subject,
+/// The other parts whose box is within the range of that of a part of the subject.
+std::vector<const MeasuredPart*> partsNear(const ClearanceMapRequest& request, const Subject& subject,
                                            double range) {
   std::vector<const MeasuredPart*> near;
-  for (const MeasuredPart& part : request.parts) {
-    if (part.id == subject.id) continue;
-    if (kSure * gapOf(subject.geometry->mesh.bounds(), boxIn(subject, part)) <= range) near.push_back(&part);
+  for (const MeasuredPart& other : request.parts) {
+    const auto isNear = [&](const MeasuredPart* part) {
+      return kSure * gapOf(part->geometry->mesh.bounds(), boxIn(*part, other)) <= range;
+    };
+    if (!isOf(subject, other) && std::ranges::any_of(subject, isNear)) near.push_back(&other);
   }
   return near;
 }
@@ -291,7 +328,7 @@ double narrowedRange(const ClearanceMap& map, double size, double kept) {
   constexpr double kMinOfSearched = 0.01;
   const double searched = searchedRange(size, map.leastDistance);
   const std::optional<double> median =
-      AreaByClearance(map.surfaces.front()).median(std::nextafter(kContactDistance, kInfinity), searched);
+      AreaByClearance(map.subject()).median(std::nextafter(kContactDistance, kInfinity), searched);
   if (!median) return map.range;
   const double least = std::max(kMinOfSearched * searched, kRangeOfDistance * map.leastDistance);
   const double wanted = std::clamp(kRangeOfDistance * *median, std::min(least, searched), searched);
@@ -325,23 +362,46 @@ const MappedSurface* ClearanceMap::find(PartId part) const noexcept {
   return found == surfaces.end() ? nullptr : &*found;
 }
 
+std::vector<PartId> mapSubject(const Scene& scene, const std::vector<PartId>& selected) {
+  const std::vector<PartId> inHand = scene.movingParts();
+  const bool isInHand =
+      selected.empty() || (selected.size() == inHand.size() && std::ranges::all_of(selected, [&](PartId id) {
+                             return std::ranges::find(inHand, id) != inHand.end();
+                           }));
+  std::vector<PartId> subject = isInHand ? inHand : std::vector{selected.back()};
+  const bool isAlone = subject.size() == 1;
+  std::erase_if(subject, [&](PartId id) {
+    const Part* part = scene.find(id);
+    return part == nullptr || !hasTriangles(part->geometry) || (!isAlone && !part->isVisible);
+  });
+  return subject;
+}
+
 ClearanceMapRequest clearanceMapRequest(const Scene& scene, PartId subject, double range, bool hasNearParts) {
+  return clearanceMapRequest(scene, std::vector{subject}, range, hasNearParts);
+}
+
+ClearanceMapRequest clearanceMapRequest(const Scene& scene, const std::vector<PartId>& subject, double range,
+                                        bool hasNearParts) {
   checkRange(range);
   ClearanceMapRequest request;
-  request.subject = subject;
   request.range = range;
   request.hasNearParts = hasNearParts;
+  const auto isAlone = [&](PartId id) { return subject.size() == 1 && subject.front() == id; };
   for (const Scene::PartPtr& part : scene.parts()) {
-    const bool isMeasured = part->id == subject || part->isVisible;
-    if (isMeasured && hasTriangles(part->geometry))
+    if ((isAlone(part->id) || part->isVisible) && hasTriangles(part->geometry))
       request.parts.push_back({part->id, part->geometry, part->worldFromPart});
+  }
+  for (const PartId id : subject) {
+    if (std::ranges::find(request.parts, id, &MeasuredPart::id) != request.parts.end())
+      request.subject.push_back(id);
   }
   subjectOf(request);
   return request;
 }
 
 ClearanceMap ClearanceMapper::map(const ClearanceMapRequest& request, const ProgressCallback& progress) {
-  const MeasuredPart& subject = subjectOf(request);
+  const Subject subject = subjectOf(request);
   checkRange(request.range);
   const ProgressCallback waiting = stageCallback(progress, 0.0, 0.0);
   ClearanceMap map;
@@ -351,19 +411,24 @@ ClearanceMap ClearanceMapper::map(const ClearanceMapRequest& request, const Prog
   map.range =
       isAutomatic ? automaticRange(sizeOf(subject), map.leastDistance, request.keptRange) : request.range;
   const std::vector<const MeasuredPart*> near = partsNear(request, subject, map.range);
-  std::vector<PartGeometryPtr> geometries{subject.geometry};
-  for (const MeasuredPart* part : near)
-    geometries.push_back(part->geometry);
+  std::vector<PartGeometryPtr> geometries;
+  for (const Subject& parts : {subject, near})
+    for (const MeasuredPart* part : parts)
+      geometries.push_back(part->geometry);
   prepareHierarchies(geometries, stageCallback(progress, 0.0, kPrepared));
 
   const double spacing = sampleSpacing(map.range, sizeOf(subject));
-  const std::size_t each = request.maxSamples / (request.hasNearParts ? near.size() + 1 : 1);
+  const std::size_t each = request.maxSamples / (subject.size() + (request.hasNearParts ? near.size() : 0));
   const auto add = [&map](const MeasuredPart& part, std::shared_ptr<const SampledSurface> surface) {
     map.isCoarse = map.isCoarse || surface->isCoarse;
     map.surfaces.push_back({part.id, part.worldFromPart, std::move(surface), {}, {}, {}});
   };
   const ProgressCallback sampling = stageCallback(progress, kPrepared, kPrepared);
-  add(subject, subjectSurface(subject.geometry, spacing, each, sampling));
+  keepSamples(subject);
+  map.subjectCount = subject.size();
+  // Small parts of a large body are sampled as finely as alone.
+  for (const MeasuredPart* part : subject)
+    add(*part, subjectSurface(part->geometry, sampleSpacing(map.range, sizeOf(*part)), each, sampling));
   for (const MeasuredPart* part : near) {
     if (!request.hasNearParts) break;
     const Aabb reach = grown(boxIn(*part, subject), map.range);
@@ -377,19 +442,20 @@ ClearanceMap ClearanceMapper::map(const ClearanceMapRequest& request, const Prog
   };
   const ProgressCallback measuring = stageCallback(progress, kSampled, 1.0);
   SharedProgress done(measuring, std::max<double>(1.0, static_cast<double>(map.samples())));
-  std::vector<PlacedTarget<Target>> others;
-  for (const MeasuredPart* part : near)
-    others.push_back(placedTarget(*part, subject));
-  measure<Target>(map.surfaces.front(), others, map.range, request.isParallel, done);
-  for (std::size_t i = 1; i < map.surfaces.size(); ++i) {
-    const PlacedTarget<Target> target = placedTarget(subject, *near[i - 1]);
-    measure<Target>(map.surfaces[i], std::span(&target, 1), map.range, request.isParallel, done);
+  for (std::size_t i = 0; i < map.surfaces.size(); ++i) {
+    const bool isSubject = i < map.subjectCount;
+    const MeasuredPart& part = isSubject ? *subject[i] : *near[i - map.subjectCount];
+    std::vector<PlacedTarget<Target>> others;
+    for (const MeasuredPart* other : isSubject ? near : subject)
+      others.push_back(placedTarget(*other, part));
+    measure<Target>(map.surfaces[i], others, map.range, request.isParallel, done);
   }
   if (isAutomatic) narrow(map, narrowedRange(map, sizeOf(subject), request.keptRange));
-  std::erase_if(map.surfaces, [&](const MappedSurface& mapped) {
-    return mapped.part != subject.id &&
-           std::ranges::all_of(mapped.distances, [](double distance) { return std::isnan(distance); });
-  });
+  const auto isBeyond = [](const MappedSurface& mapped) {
+    return std::ranges::all_of(mapped.distances, [](double distance) { return std::isnan(distance); });
+  };
+  const auto firstNear = map.surfaces.begin() + static_cast<std::ptrdiff_t>(map.subjectCount);
+  map.surfaces.erase(std::remove_if(firstNear, map.surfaces.end(), isBeyond), map.surfaces.end());
   return map;
 }
 
@@ -406,15 +472,24 @@ std::shared_ptr<const SampledSurface> ClearanceMapper::subjectSurface(const Part
                                                                       const ProgressCallback& progress) {
   {
     const std::lock_guard lock(mutex_);
-    const bool isSame = subject_.geometry.lock() == geometry && subject_.spacing == spacing &&
-                        subject_.maxSamples == maxSamples;
-    if (isSame) return subject_.surface;
+    const auto at = sampled_.find(geometry.get());
+    const bool isSame = at != sampled_.end() && at->second.geometry.lock() == geometry &&
+                        at->second.spacing == spacing && at->second.maxSamples == maxSamples;
+    if (isSame) return at->second.surface;
   }
   auto surface = std::make_shared<const SampledSurface>(
       sampleSurface(geometry->mesh, {spacing, maxSamples, std::nullopt}, progress));
   const std::lock_guard lock(mutex_);
-  subject_ = {geometry, spacing, maxSamples, surface};
+  sampled_[geometry.get()] = {geometry, spacing, maxSamples, surface};
   return surface;
+}
+
+void ClearanceMapper::keepSamples(std::span<const MeasuredPart* const> subject) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(sampled_, [&](const auto& entry) {
+    return std::ranges::none_of(
+        subject, [&](const MeasuredPart* part) { return part->geometry.get() == entry.first; });
+  });
 }
 
 double sampleSpacing(double range, double size) noexcept {

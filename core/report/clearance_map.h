@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/progress.h"
@@ -31,7 +32,8 @@ struct MeasuredPart {
 
 /// Subject, scene and range of a map.
 struct ClearanceMapRequest {
-  PartId subject{};                 ///< One of `parts`.
+  /// Among `parts`: one part, or several that move as one and are not measured against each other.
+  std::vector<PartId> subject;
   std::vector<MeasuredPart> parts;  ///< The subject, and those that it is measured against.
   /// Max distance [m]; 0: one and a half times the median distance of the surface that is within automaticRange() and not
   /// in contact, no less than a hundredth of it or one and a half times the least distance, and rounded up like it.
@@ -42,9 +44,16 @@ struct ClearanceMapRequest {
   std::size_t maxSamples = kMaxMapSamples;
 };
 
+/// Parts to map for a selection: what is in hand if nothing is selected, or all of it and nothing else; otherwise the part
+/// selected last. Only parts with a surface, and of several the visible ones; empty if there are none.
+std::vector<PartId> mapSubject(const Scene& scene, const std::vector<PartId>& selected);
+
 /// The visible parts of a scene that have a surface, and the subject, visible or not.
 /// Throws UsageError if there is no such part, it has no surface, or the range is not finite or below 0.
 ClearanceMapRequest clearanceMapRequest(const Scene& scene, PartId subject, double range, bool hasNearParts);
+/// The same for parts that move as one, of which the visible ones count.
+ClearanceMapRequest clearanceMapRequest(const Scene& scene, const std::vector<PartId>& subject, double range,
+                                        bool hasNearParts);
 
 /// A surface with the clearance at each of its samples. In the part's frame.
 struct MappedSurface {
@@ -64,10 +73,13 @@ struct ClearanceMap {
   /// Exact distance between the surfaces of the subject and the nearest other part [m]: 0 if they meet, infinity if none
   /// is within the range. Samples alone may miss it.
   double leastDistance = std::numeric_limits<double>::infinity();
-  std::vector<MappedSurface> surfaces;  ///< The subject first, then near parts in the order of the request.
-  bool isCoarse = false;                ///< Sampled more coarsely than wanted, by the max number of samples.
+  /// Those of the subject first, then near parts in the order of the request.
+  std::vector<MappedSurface> surfaces;
+  std::size_t subjectCount = 1;  ///< Number of surfaces that are the subject's.
+  bool isCoarse = false;         ///< Sampled more coarsely than wanted, by the max number of samples.
 
   std::size_t samples() const noexcept;
+  std::span<const MappedSurface> subject() const noexcept { return std::span(surfaces).first(subjectCount); }
   /// The surface of a part; null if it is not in the map.
   const MappedSurface* find(PartId part) const noexcept;
 };
@@ -76,8 +88,8 @@ struct ClearanceMap {
 /// Thread-safe.
 class ClearanceMapper {
  public:
-  /// Computes the distance at each sample of the subject to the nearest other part, and at each sample of a near part to
-  /// the subject: these show where the subject comes near, not how they touch each other.
+  /// Computes the distance at each sample of the subject to the nearest part that is not of it, and at each sample of a
+  /// near part to the subject: these show where the subject comes near, not how they touch each other.
   ///
   /// Distances are those of the hierarchies' meshes, to some roundings of the coordinates. Inside is what the closed
   /// components of a part enclose, decided exactly; depths are not limited by the range. A near part with no sample
@@ -103,10 +115,13 @@ class ClearanceMapper {
   std::shared_ptr<const SampledSurface> subjectSurface(const PartGeometryPtr& geometry, double spacing,
                                                        std::size_t maxSamples,
                                                        const ProgressCallback& progress);
+  /// Forgets the sampling of all but these.
+  void keepSamples(std::span<const MeasuredPart* const> subject);
 
   std::mutex mutex_;
   std::map<const PartGeometry*, Kept> targets_;
-  Sampled subject_;  ///< Sampling of the last subject, which does not depend on poses.
+  /// Sampling of the last subject, by its meshes: it does not depend on poses.
+  std::map<const PartGeometry*, Sampled> sampled_;
 };
 
 /// Spacing of samples for a range and the subject's diagonal [m]: an eighth of the range, but no less than a 200th and

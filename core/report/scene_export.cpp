@@ -29,15 +29,16 @@ bool isMap(ExportKind kind) noexcept {
 /// @param placed  Has the moving part where it is now.
 void exportMap(const Scene& placed, const SceneExport& what, const std::filesystem::path& file,
                const ProgressCallback& progress) {
-  const std::optional<PartId> subject = what.map.subject ? what.map.subject : placed.movingPart();
-  if (!subject) throw UsageError("clearance map", "no part is selected or in hand", "select the part to map");
+  const std::vector<PartId> subject = what.map.subject.empty() ? placed.movingParts() : what.map.subject;
+  if (subject.empty())
+    throw UsageError("clearance map", "no part is selected or in hand", "select the part to map");
   const ClearanceMap map =
-      ClearanceMapper().map(clearanceMapRequest(placed, *subject, what.map.range, what.map.hasNearParts),
+      ClearanceMapper().map(clearanceMapRequest(placed, subject, what.map.range, what.map.hasNearParts),
                             stageCallback(progress, 0.0, kMapped));
   if (what.kind == ExportKind::ClearanceMapPly) {
     exportClearanceMap(map, placed, what.metresPerUnit, file, stageCallback(progress, kMapped, 1.0));
   } else {
-    atomicWrite(file, histogramCsv(AreaByClearance(map.surfaces.front()), map.range));
+    atomicWrite(file, histogramCsv(AreaByClearance(map.subject()), map.range));
   }
 }
 

@@ -32,9 +32,9 @@ std::optional<MeshFileKind> meshKindOf(ExportKind kind) noexcept;
 
 /// The map of clearance to export.
 struct MapExport {
-  std::optional<PartId> subject;  ///< nullopt: the moving part.
-  double range = 0.0;             ///< [m]; 0: automatic.
-  bool hasNearParts = false;      ///< Surfaces of near parts too.
+  std::vector<PartId> subject;  ///< Parts that are mapped as one; empty: what is in hand.
+  double range = 0.0;           ///< [m]; 0: automatic.
+  bool hasNearParts = false;    ///< Surfaces of near parts too.
 };
 
 /// What to export.

@@ -73,6 +73,7 @@ class DesktopClearanceMapTest : public QObject {
   void theMapFollowsMovesAndDrags();
   void theMapFollowsThePartThatIsFelt();
   void theSelectedPartIsMapped();
+  void aGroupInHandIsMappedAsOne();
   void nearPartsAreColouredToo();
   void theRangeIsChosen();
   void theValueUnderThePointerIsSaid();
@@ -181,6 +182,32 @@ void DesktopClearanceMapTest::theSelectedPartIsMapped() {
   QVERIFY(f.colours("moving") == nullptr);
   f.d.window().selection().select(std::nullopt);
   QTRY_VERIFY(f.colours("moving") != nullptr);
+}
+
+void DesktopClearanceMapTest::aGroupInHandIsMappedAsOne() {
+  MapFixture f;
+  f.d.add({f.d.movingFile});
+  QTRY_COMPARE(f.d.session().scene().parts().size(), std::size_t{3});
+  // 2 mm higher than the first of the group, and half of it inside that.
+  const PartId lead = f.d.partId("moving"), other = f.d.session().scene().parts().back()->id;
+  f.d.session().movePart(other, {{1, 0, 0, 0}, {0.01, 0.0, 0.002}});
+  const GroupId group = f.d.session().group({{lead, other}, {}}, "Pair");
+  f.d.session().setMovingGroup(group);
+  f.d.window().selection().set({});
+  const auto isSubject = [&f](std::size_t parts) {
+    return f.search().shown() != nullptr && f.search().shown()->subject.size() == parts;
+  };
+  QTRY_VERIFY(isSubject(2) && f.isLeast(0.005));
+  QCOMPARE(f.search().shown()->areas.overlapping(), 0.0);
+  QVERIFY(f.d.text("clearanceMapSubject").contains(QStringLiteral("Pair")));
+  for (const PartId part : {lead, other})
+    QVERIFY(f.d.window().viewport().parts().find(part)->colours() != nullptr);
+  QVERIFY(f.colours("fixed") == nullptr);
+  keepPictures(f.d.window(), QStringLiteral("clearance-map-group"));
+  // One of them alone is measured to the other one too.
+  f.d.window().selection().select(other);
+  QTRY_VERIFY(isSubject(1));
+  QTRY_VERIFY(f.search().shown() != nullptr && f.search().shown()->areas.overlapping() > 0.0);
 }
 
 void DesktopClearanceMapTest::nearPartsAreColouredToo() {

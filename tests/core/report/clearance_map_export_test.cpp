@@ -150,7 +150,7 @@ TEST_F(ClearanceMapExport, TheExportOfScenesWritesMapAndHistogramWhereTheMovingP
   Scene none = scene_;
   none.setMovingPart(std::nullopt);
   EXPECT_THROW(exportScene(none, {}, what, file_), UsageError) << "of which part?";
-  what.map.subject = lower_;
+  what.map.subject = {lower_};
   exportScene(none, {}, what, file_);
 }
 

@@ -133,6 +133,53 @@ TEST(ClearanceMap, ParallelPlatesHaveOneGap) {
   EXPECT_NEAR(areas.least().value_or(-1.0), kGap, 1e-15);
 }
 
+TEST(ClearanceMap, PartsThatMoveAsOneAreMappedToTheOthersAndNotToEachOther) {
+  Scene scene;
+  const PartId below = scene.add(test::partOf(test::geometryOf(test::boxMesh({0.1, 0.1, 0.01})), "below"));
+  // 3 mm and 5 mm above it, and a quarter of the one inside the other.
+  const auto cube = test::geometryOf(test::boxMesh(glm::dvec3(0.02)));
+  const PartId first = scene.add(test::partOf(cube, "first", at(0.0, 0.0, 0.018)));
+  const PartId second = scene.add(test::partOf(cube, "second", at(0.015, 0.0, 0.020)));
+  const std::vector<PartId> body{first, second};
+  const ClearanceMap map = ClearanceMapper().map(clearanceMapRequest(scene, body, 0.01, true));
+  ASSERT_EQ(map.subjectCount, 2U);
+  ASSERT_EQ(map.surfaces.size(), 3U);
+  EXPECT_EQ(map.surfaces[2].part, below);
+  for (std::size_t i = 0; i < 3; ++i)
+    expectAsBruteForce(scene, map, map.surfaces[i], i < 2 ? std::vector{below} : body, 1);
+  EXPECT_NEAR(map.leastDistance, 0.003, 1e-15);
+  const AreaByClearance areas(map.subject());
+  EXPECT_NEAR(areas.total(), 2 * 6 * 0.02 * 0.02, 1e-15);
+  EXPECT_NEAR(areas.least().value_or(-1.0), 0.003, 1e-15);
+  EXPECT_EQ(areas.overlapping(), 0.0);
+  // A part of it that is hidden counts neither way.
+  Part hidden = scene.get(second);
+  hidden.isVisible = false;
+  scene.replace(hidden);
+  const ClearanceMapRequest request = clearanceMapRequest(scene, body, 0.01, true);
+  EXPECT_EQ(request.subject, std::vector{first});
+  EXPECT_EQ(request.parts.size(), 2U);
+}
+
+TEST(ClearanceMap, TheSubjectIsWhatIsInHandUnlessSomethingElseIsSelected) {
+  Scene scene;
+  const auto cube = test::geometryOf(test::boxMesh(glm::dvec3(0.02)));
+  const GroupId group = scene.addGroup({{}, "pair", {}, false});
+  std::vector<PartId> ids;
+  for (const char* name : {"first", "second", "third"}) {
+    Part part = test::partOf(cube, name);
+    if (ids.size() < 2) part.group = group;
+    ids.push_back(scene.add(part));
+  }
+  EXPECT_TRUE(mapSubject(scene, {}).empty());
+  scene.setMovingGroup(group);
+  const std::vector<PartId> pair{ids[0], ids[1]};
+  EXPECT_EQ(mapSubject(scene, {}), pair);
+  EXPECT_EQ(mapSubject(scene, {ids[1], ids[0]}), pair);
+  EXPECT_EQ(mapSubject(scene, {ids[0]}), std::vector{ids[0]});
+  EXPECT_EQ(mapSubject(scene, {ids[0], ids[2]}), std::vector{ids[2]});
+}
+
 TEST(ClearanceMap, CylinderInItsBoreHasTheGapAllAround) {
   // Facets of both are at the same angles: they are parallel, and the gap is that of the radii to their middles. A corner
   // of the pin has its foot on the facets beside it, not in the edge of the bore.

@@ -13,6 +13,7 @@
 #include <array>
 #include <utility>
 
+#include "core/report/clearance_map.h"
 #include "ui/widgets/font_scale.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/names.h"
@@ -127,8 +128,7 @@ SceneExport ExportDialog::choice() const {
   SceneExport what{
       static_cast<ExportKind>(kind_->currentData().toInt()), unit_->currentData().toDouble(), {}, {}};
   if (chosen_->isChecked()) what.only = selected_;
-  if (const Part* subject = mapSubject())
-    what.map = {subject->id, Preferences::clearanceRange(), Preferences::hasNearClearances()};
+  what.map = {mapSubject(scene_, selected_), Preferences::clearanceRange(), Preferences::hasNearClearances()};
   return what;
 }
 
@@ -143,7 +143,7 @@ void ExportDialog::showSummary() {
   chosen_->setEnabled(mesh.has_value() && !selected_.empty());
   summary_->setText(mesh ? meshSummary(*mesh) : isMap ? mapSummary() : placementSummary());
   const bool hasContent =
-      isMap ? mapSubject() != nullptr : !mesh || !chosenParts(scene_, choice().only).empty();
+      isMap ? !choice().map.subject.empty() : !mesh || !chosenParts(scene_, choice().only).empty();
   findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save)->setEnabled(hasContent);
 }
 
@@ -168,15 +168,12 @@ QString ExportDialog::meshSummary(MeshFileKind kind) const {
   return text + QChar(' ') + tr("Double precision; each part in its colour.");
 }
 
-const Part* ExportDialog::mapSubject() const {
-  const std::optional<PartId> id = selected_.empty() ? scene_.movingPart() : std::optional(selected_.back());
-  return id ? scene_.find(*id) : nullptr;
-}
-
 QString ExportDialog::mapSummary() const {
-  const Part* subject = mapSubject();
-  if (subject == nullptr) return tr("Nothing: select the part to map, or take one in hand.");
-  const QString name = breakable(shortName(subject->name));
+  const std::vector<PartId> subject = choice().map.subject;
+  if (subject.empty()) return tr("Nothing: select the part to map, or take one in hand.");
+  const bool isGroup = subject.size() > 1 && scene_.movingGroup();
+  const QString name = breakable(
+      shortName(isGroup ? scene_.findGroup(*scene_.movingGroup())->name : scene_.get(subject.front()).name));
   const double range = Preferences::clearanceRange();
   const QString within = range > 0.0 ? formatLength(range) : tr("an automatic range");
   if (choice().kind == ExportKind::ClearanceHistogramCsv)

@@ -33,8 +33,6 @@ class ExportDialog : public QDialog {
   void showSummary();
   QString meshSummary(MeshFileKind kind) const;
   QString placementSummary() const;
-  /// The part whose map of clearance is exported: the one selected last, else the moving part.
-  const Part* mapSubject() const;
   QString mapSummary() const;
 
   const Scene scene_;

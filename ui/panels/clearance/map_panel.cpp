@@ -67,7 +67,7 @@ ClearanceMapPanel::ClearanceMapPanel(const Context& context, QWidget* parent)
       colour_(
           makeAction(this, "colourByClearance", tr("Colou&r by clearance"), QStringLiteral("clearance-map"),
                      QStringLiteral("Shift+C"),
-                     tr("Colour the selected part, or the one in hand, by its distance to other parts"))) {
+                     tr("Colour the selected part, or what is in hand, by its distance to other parts"))) {
   setInPictures(*legend_);
   colour_->setCheckable(true);
   connect(colour_, &QAction::toggled, this, &ClearanceMapPanel::setColoured);
@@ -212,13 +212,13 @@ void ClearanceMapPanel::showMap() {
   } else {
     histogram_->showBins({}, 0.0, 0.0);
   }
-  export_->setEnabled(search_.subject().has_value() && session_.scene().parts().size() > 1);
+  export_->setEnabled(!search_.subject().empty() && session_.scene().parts().size() > 1);
   showLegend();
 }
 
 void ClearanceMapPanel::showLegend() {
   const std::shared_ptr<const ShownMap>& shown = search_.shown();
-  const Part* part = shown != nullptr ? session_.scene().find(shown->subject) : nullptr;
+  const Part* part = shown != nullptr ? session_.scene().find(shown->subject.front()) : nullptr;
   if (part == nullptr) return legend_->hide();
   const auto channel = [](float value) { return static_cast<double>(value); };
   const QColor own =
@@ -238,11 +238,18 @@ void ClearanceMapPanel::showWork() {
   cancel_->setText(isCancelled ? tr("Compute again") : tr("Cancel"));
 }
 
+QString ClearanceMapPanel::subjectName() const {
+  const Scene& scene = session_.scene();
+  const std::vector<PartId> subject = search_.subject();
+  if (subject.empty()) return {};
+  const bool isGroup = subject.size() > 1 && scene.movingGroup();
+  return breakable(
+      shortName(isGroup ? scene.findGroup(*scene.movingGroup())->name : scene.get(subject.front()).name));
+}
+
 QString ClearanceMapPanel::subjectText() const {
-  const std::optional<PartId> subject = search_.subject();
-  const Part* part = subject ? session_.scene().find(*subject) : nullptr;
-  if (part == nullptr) return tr("Select a part, or take one in hand.");
-  const QString name = breakable(shortName(part->name));
+  const QString name = subjectName();
+  if (name.isEmpty()) return tr("Select a part, or take one in hand.");
   if (!search_.isWanted()) return tr("%1 is not coloured.").arg(name);
   const std::shared_ptr<const ShownMap>& shown = search_.shown();
   if (shown == nullptr)

@@ -24,7 +24,7 @@ class NumberField;
 class Selection;
 class Viewport;
 
-/// Colours the selected part, else the one in hand, by its clearance to the others, and shows how much of its surface
+/// Colours the selected part, else the part or group in hand, by its clearance to the others, and shows how much of its surface
 /// is how near. The colours stay while the panel is hidden.
 class ClearanceMapPanel : public QWidget {
   Q_OBJECT
@@ -60,6 +60,8 @@ class ClearanceMapPanel : public QWidget {
   void applyRange();
   void showMap();
   void showWork();
+  /// Name of the part or group that is mapped; empty if there is none.
+  QString subjectName() const;
   QString subjectText() const;
   /// How much of the surface is how near.
   QString areasText() const;

@@ -46,13 +46,8 @@ ClearanceMapSearch::ClearanceMapSearch(const Context& context, QObject* parent)
   });
 }
 
-std::optional<PartId> ClearanceMapSearch::subject() const {
-  const Scene& scene = context_.session.scene();
-  const std::optional<PartId> selected = context_.selection.current();
-  const std::optional<PartId> id = selected ? selected : scene.movingPart();
-  const Part* part = id ? scene.find(*id) : nullptr;
-  const bool hasSurface = part != nullptr && part->geometry && !part->geometry->mesh.triangles().empty();
-  return hasSurface ? id : std::nullopt;
+std::vector<PartId> ClearanceMapSearch::subject() const {
+  return mapSubject(context_.session.scene(), context_.selection.parts());
 }
 
 void ClearanceMapSearch::setWanted(bool isWanted) {
@@ -97,13 +92,18 @@ void ClearanceMapSearch::refresh() {
 bool ClearanceMapSearch::isLive() const {
   if (shown_ != nullptr) return shown_->map.samples() <= kMaxLiveSamples;
   // The first map tells; it has its vertices at least.
-  const Part* part = subject_ ? context_.session.scene().find(*subject_) : nullptr;
-  return part != nullptr && part->geometry->mesh.vertices().size() <= kMaxLiveSamples;
+  std::size_t vertices = 0;
+  for (const PartId id : subject_) {
+    const Part* part = context_.session.scene().find(id);
+    if (part == nullptr) return false;
+    vertices += part->geometry->mesh.vertices().size();
+  }
+  return !subject_.empty() && vertices <= kMaxLiveSamples;
 }
 
 ClearanceMapRequest ClearanceMapSearch::present() const {
   const Scene& scene = context_.session.scene();
-  ClearanceMapRequest request = clearanceMapRequest(scene, *subject_, range_, hasNearParts_);
+  ClearanceMapRequest request = clearanceMapRequest(scene, subject_, range_, hasNearParts_);
   for (MeasuredPart& part : request.parts)
     part.worldFromPart = context_.poses.poseOf(scene.get(part.id));
   return request;
@@ -115,13 +115,13 @@ void ClearanceMapSearch::followParts() {
     return a.id == b.id && a.geometry == b.geometry && a.worldFromPart.rotation == b.worldFromPart.rotation &&
            a.worldFromPart.translation == b.worldFromPart.translation;
   };
-  // Poses may be told of before the subject that has left is.
-  if (!isWanted_ || !subject_ || context_.session.scene().find(*subject_) == nullptr) return;
+  // Poses may be told of before a subject that has left or changed is.
+  if (!isWanted_ || subject_.empty() || subject_ != subject()) return;
   if (!std::ranges::equal(present().parts, begun_, isSame)) request();
 }
 
 void ClearanceMapSearch::followSubject() {
-  const std::optional<PartId> before = std::exchange(subject_, subject());
+  const std::vector<PartId> before = std::exchange(subject_, subject());
   if (!isWanted_ || subject_ == before) return;
   drop();
   refresh();
@@ -159,7 +159,7 @@ void ClearanceMapSearch::startIfDue() {
 void ClearanceMapSearch::start() {
   isDue_ = false;
   rest_.stop();
-  if (!subject_) return drop();
+  if (subject_.empty()) return drop();
   ClearanceMapRequest request = present();
   begun_ = request.parts;
   request.keptRange = automaticRange_;
@@ -170,7 +170,7 @@ void ClearanceMapSearch::start() {
     found->subject = request.subject;
     found->isAutomatic = request.range == 0.0;
     found->map = mapper->map(request, stageCallback(progress, 0.0, kMeasured));
-    found->areas = AreaByClearance(found->map.surfaces.front());
+    found->areas = AreaByClearance(found->map.subject());
     for (const MappedSurface& mapped : found->map.surfaces)
       found->colours[mapped.part] = colouredSurface(mapped, found->map.range);
   };

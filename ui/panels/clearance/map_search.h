@@ -22,14 +22,14 @@ class ShownPoses;
 
 /// A map of clearance with all that is shown of it. Immutable once made.
 struct ShownMap {
-  PartId subject{};
+  std::vector<PartId> subject;
   bool isAutomatic = false;  ///< The range was chosen by the distances.
   ClearanceMap map;
   AreaByClearance areas;           ///< Of the subject.
   SceneRenderer::Colours colours;  ///< What the view draws.
 };
 
-/// Keeps the map of clearance of the selected part, else of the one in hand, up to date while it is wanted. Computes in
+/// Keeps the map of clearance of the selected part, else of the part or group in hand, up to date while it is wanted. Computes in
 /// another thread, one map at a time and always of the newest poses. Small maps follow a part that moves, several times
 /// a second; large ones are computed once it rests. While a part is felt, one processor is used, at most half the time.
 class ClearanceMapSearch : public QObject {
@@ -59,8 +59,8 @@ class ClearanceMapSearch : public QObject {
   /// Computes the map anew.
   void refresh();
 
-  /// The selected part, else the one in hand; nullopt if there is neither, or it has no surface.
-  std::optional<PartId> subject() const;
+  /// What is mapped: see mapSubject(). Empty if there is nothing.
+  std::vector<PartId> subject() const;
   /// The last map; null if there is none of the subject.
   const std::shared_ptr<const ShownMap>& shown() const noexcept { return shown_; }
   /// True if a change that is some tenths of a second old is not in the map yet.
@@ -100,7 +100,7 @@ class ClearanceMapSearch : public QObject {
   QTimer pace_, rest_, late_;
   QElapsedTimer running_;
   std::shared_ptr<const ShownMap> shown_;
-  std::optional<PartId> subject_;
+  std::vector<PartId> subject_;
   std::vector<MeasuredPart> begun_;            ///< Parts of the map begun last.
   std::uint64_t sceneSerial_ = 0;              ///< Serial of the scene that owns the subject.
   double range_ = 0.0, automaticRange_ = 0.0;  ///< As chosen; the last one found, 0 if none [m].
