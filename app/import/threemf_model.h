@@ -25,6 +25,8 @@ struct ThreeMfObject {
   std::vector<glm::dvec3> vertices;
   std::vector<Triangle> triangles;
   std::vector<ThreeMfPlacement> components;
+  /// Of its material or its own; std::nullopt where its triangles have colours, or nothing has.
+  std::optional<CadColour> colour;
 };
 
 /// A 3MF file as lib3mf reads it. Its two versions differ in all names, so that each has a source file of its own.
@@ -36,6 +38,12 @@ struct ThreeMfModel {
 
 /// Throws FileError.
 ThreeMfModel loadThreeMf(const ImportJob& job);
+
+/// A colour from bytes of sRGB.
+inline CadColour threeMfColour(std::uint8_t red, std::uint8_t green, std::uint8_t blue) noexcept {
+  constexpr float kMax = 255.0F;
+  return {static_cast<float>(red) / kMax, static_cast<float>(green) / kMax, static_cast<float>(blue) / kMax};
+}
 
 /// Metres of the units of 3MF in the order of both versions of lib3mf; no value for others.
 std::optional<double> threeMfUnit(std::uint32_t unit);

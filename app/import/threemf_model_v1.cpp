@@ -1,6 +1,7 @@
 // lib3mf 1, whose interface is one of C: objects are pointers to be released, and each call returns an error code.
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,7 @@ class Library {
     NMR::PLib3MFBase* model = nullptr;
     check(NMR::lib3mf_createmodel(&model));
     const Owned ownedModel(model);
+    model_ = model;
     NMR::PLib3MFBase* reader = nullptr;
     check(NMR::lib3mf_model_queryreader(model, "3mf", &reader), model);
     const Owned ownedReader(reader);
@@ -99,6 +101,7 @@ class Library {
     // References into a map stay where they are when others are added.
     ThreeMfObject& taken = at->second;
     taken.name = nameOf(object);
+    taken.colour = colourOf(object);
     BOOL isMesh = 0, isComponents = 0;
     check(NMR::lib3mf_object_ismeshobject(object, &isMesh), object);
     check(NMR::lib3mf_object_iscomponentsobject(object, &isComponents), object);
@@ -115,6 +118,34 @@ class Library {
       return {};
     buffer.back() = '\0';
     return buffer.data();
+  }
+
+  /// A colour is no reason to refuse a file: one that cannot be read is none.
+  std::optional<CadColour> colourOf(NMR::PLib3MFBase* object) const {
+    NMR::PLib3MFBase* properties = nullptr;
+    if (NMR::lib3mf_object_createdefaultpropertyhandler(object, &properties) != 0) return std::nullopt;
+    const Owned ownedProperties(properties);
+    NMR::eModelPropertyType type = NMR::MODELPROPERTYTYPE_NONE;
+    if (NMR::lib3mf_defaultpropertyhandler_getpropertytype(properties, &type) != 0) return std::nullopt;
+    if (type == NMR::MODELPROPERTYTYPE_BASEMATERIALS) return colourOfMaterial(properties);
+    NMR::MODELMESHCOLOR_SRGB colour{};
+    if (type != NMR::MODELPROPERTYTYPE_COLOR ||
+        NMR::lib3mf_defaultpropertyhandler_getcolor(properties, 0, &colour) != 0)
+      return std::nullopt;
+    return threeMfColour(colour.m_Red, colour.m_Green, colour.m_Blue);
+  }
+
+  std::optional<CadColour> colourOfMaterial(NMR::PLib3MFBase* properties) const {
+    DWORD group = 0, index = 0;
+    if (NMR::lib3mf_defaultpropertyhandler_getbasematerial(properties, &group, &index) != 0)
+      return std::nullopt;
+    NMR::PLib3MFBase* materials = nullptr;
+    if (NMR::lib3mf_model_getbasematerialbyid(model_, group, &materials) != 0) return std::nullopt;
+    const Owned ownedMaterials(materials);
+    BYTE red = 0, green = 0, blue = 0, alpha = 0;
+    if (NMR::lib3mf_basematerial_getdisplaycolor(materials, index, &red, &green, &blue, &alpha) != 0)
+      return std::nullopt;
+    return threeMfColour(red, green, blue);
   }
 
   void takeMesh(NMR::PLib3MFBase* object, ThreeMfObject& taken) const {
@@ -149,6 +180,7 @@ class Library {
   }
 
   const ImportJob& job_;
+  NMR::PLib3MFBase* model_ = nullptr;  ///< Owned by load().
   ThreeMfModel result_;
 };
 

@@ -1,4 +1,5 @@
 // lib3mf 2.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,9 +54,32 @@ class Library {
     // References into a map stay where they are when others are added.
     ThreeMfObject& taken = at->second;
     taken.name = object->GetName();
-    if (object->IsMeshObject()) takeMesh(*model_->GetMeshObjectByID(id), taken);
+    if (object->IsMeshObject()) {
+      const Lib3MF::PMeshObject mesh = model_->GetMeshObjectByID(id);
+      takeMesh(*mesh, taken);
+      taken.colour = colourOf(*mesh);
+    }
     if (object->IsComponentsObject()) takeComponents(*model_->GetComponentsObjectByID(id), taken);
     return id;
+  }
+
+  std::optional<CadColour> colourOf(Lib3MF::CMeshObject& mesh) const {
+    Lib3MF_uint32 group = 0, property = 0;
+    if (!mesh.GetObjectLevelProperty(group, property)) return std::nullopt;
+    const auto taken = [](const Lib3MF::sColor& colour) {
+      return threeMfColour(colour.m_Red, colour.m_Green, colour.m_Blue);
+    };
+    // A group of another kind is an error to the library. A colour is no reason to refuse a file: one that cannot be
+    // read is none.
+    try {
+      return taken(model_->GetBaseMaterialGroupByID(group)->GetDisplayColor(property));
+    } catch (const Lib3MF::ELib3MFException&) {
+    }
+    try {
+      return taken(model_->GetColorGroupByID(group)->GetColor(property));
+    } catch (const Lib3MF::ELib3MFException&) {
+      return std::nullopt;
+    }
   }
 
   static void takeMesh(Lib3MF::CMeshObject& mesh, ThreeMfObject& taken) {

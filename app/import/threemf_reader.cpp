@@ -44,6 +44,7 @@ class ThreeMfReader {
     CadNode node;
     node.parent = parent;
     node.name = cleanName(object.name);
+    node.colour = object.colour;
     if (!split) {
       builder_.warn(fmt::format("\"{}\" is left out: its placement is flat or not finite.", node.name));
       return;

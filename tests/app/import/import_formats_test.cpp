@@ -101,6 +101,18 @@ TEST(ImportFormats, ThreeMfBringsItsUnitComponentsAndNames) {
   EXPECT_NEAR(test::volumeOf(document.shapes[0]), std::pow(kInch, 3) / 6.0, 1e-12);
 }
 
+TEST(ImportFormats, ThreeMfBringsTheColourOfAnObjectsMaterial) {
+  const CadDocument document = imported(importModel("set.3mf"));
+  ASSERT_EQ(document.nodes.size(), 3U);
+  EXPECT_FALSE(document.nodes[0].colour.has_value());
+  for (const std::size_t i : {1U, 2U}) {
+    ASSERT_TRUE(document.nodes[i].colour.has_value());
+    const CadColour wanted{0.0F, 128.0F / 255.0F, 64.0F / 255.0F};
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR((*document.nodes[i].colour)[k], wanted[k], 1e-6);
+  }
+}
+
 /// A robot of a base with a mesh and an arm of primitives.
 std::string robot(const std::string& mesh) {
   return R"(<robot name="arm"><link name="base"><visual><origin xyz="0 0 1"/><geometry><mesh filename=")" +

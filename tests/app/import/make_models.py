@@ -190,11 +190,17 @@ def make_other_files():
         struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(data)) + struct.pack("<I4s", len(text), b"JSON") + text +
         struct.pack("<I4s", len(data), b"BIN\0") + data)
 
+    make_threemf(points, corners)
+
+
+def make_threemf(points, corners):
+    """Two instances of a tetrahedron, in inches, the second turned about z; its material is the second of a group."""
     vertices = "".join(f'<vertex x="{x}" y="{y}" z="{z}"/>' for x, y, z in points)
     triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in corners)
     model = ('<?xml version="1.0" encoding="UTF-8"?><model unit="inch" xml:lang="en-US" '
              'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources>'
-             f'<object id="1" name="H\u00fclse" type="model"><mesh><vertices>{vertices}</vertices><triangles>{triangles}</triangles></mesh></object>'
+             '<basematerials id="5"><base name="red" displaycolor="#FF0000"/><base name="teal" displaycolor="#008040"/></basematerials>'
+             f'<object id="1" name="H\u00fclse" type="model" pid="5" pindex="1"><mesh><vertices>{vertices}</vertices><triangles>{triangles}</triangles></mesh></object>'
              '<object id="2" name="set" type="model"><components><component objectid="1"/>'
              '<component objectid="1" transform="0 1 0 -1 0 0 0 0 1 5 6 7"/></components></object></resources>'
              '<build><item objectid="2" transform="1 0 0 0 1 0 0 0 1 10 0 0"/></build></model>')
