@@ -25,7 +25,7 @@ struct ThreeMfObject {
   std::vector<glm::dvec3> vertices;
   std::vector<Triangle> triangles;
   std::vector<ThreeMfPlacement> components;
-  /// Of its material or its own; std::nullopt where its triangles have colours, or nothing has.
+  /// Its material's, or its own; std::nullopt where triangles have colours, or nothing has.
   std::optional<CadColour> colour;
 };
 

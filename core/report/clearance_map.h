@@ -73,7 +73,7 @@ struct ClearanceMap {
   /// Exact distance between the surfaces of the subject and the nearest other part [m]: 0 if they meet, infinity if none
   /// is within the range. Samples alone may miss it.
   double leastDistance = std::numeric_limits<double>::infinity();
-  /// Those of the subject first, then near parts in the order of the request.
+  /// The subject's first, then near parts in the order of the request.
   std::vector<MappedSurface> surfaces;
   std::size_t subjectCount = 1;  ///< Number of surfaces that are the subject's.
   bool isCoarse = false;         ///< Sampled more coarsely than wanted, by the max number of samples.

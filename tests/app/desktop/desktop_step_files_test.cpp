@@ -37,7 +37,7 @@ StepFile sharedOr(const char* shared, const char* part, const StepFile& own) {
   return std::filesystem::exists(file) ? StepFile{nameOf(file), QLatin1String(part)} : own;
 }
 
-/// What another reader says that a file holds; see make_models.py.
+/// Content of a file as another reader finds it; see make_models.py.
 const nlohmann::json& instancesOf(const QString& file) {
   static const nlohmann::json oracle = [] {
     std::ifstream stream(kImportTests / "oracle.json");

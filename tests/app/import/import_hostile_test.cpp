@@ -51,14 +51,13 @@ constexpr std::uintmax_t kLargeFile = 1'000'000;
 struct LimitedImport {
   bool isRefused = false;
   std::string where, problem, remedy;
-  Aabb box;                ///< Of what was imported.
-  std::size_t shapes = 0;  ///< Of what was imported.
-  std::size_t faces = 0;
-  long maxResidentKiB = 0;  ///< Of the importer.
+  Aabb box;  ///< Around all that was imported.
+  std::size_t shapes = 0, faces = 0;
+  long maxResidentKiB = 0;  ///< Memory of the importer.
 };
 
 void limitThisProcess(__rlimit_resource resource, ::rlim_t value) {
-  // What it starts cannot raise them: the importer lowers its limits to those that it finds.
+  // Programs that it starts cannot raise them: the importer lowers its limits to those that it finds.
   const ::rlimit both{value, value};
   if (::setrlimit(resource, &both) != 0) ::_exit(1);
 }
@@ -191,7 +190,7 @@ std::string repeated(int from, int to, const std::function<std::string(int)>& te
 
 class ImportHostile : public testing::Test {
  protected:
-  /// What is said of a file of these bytes, which is refused within limits.
+  /// The refusal of a file of these bytes, within limits.
   LimitedImport refusal(const std::string& name, const std::string& content) const {
     LimitedImport result = checkedImport(folder_.write(name, content));
     EXPECT_TRUE(result.isRefused) << name << " was imported";

@@ -59,7 +59,7 @@ class ClearanceMapSearch : public QObject {
   /// Computes the map anew.
   void refresh();
 
-  /// What is mapped: see mapSubject(). Empty if there is nothing.
+  /// Parts that are mapped: see mapSubject(). Empty if there are none.
   std::vector<PartId> subject() const;
   /// The last map; null if there is none of the subject.
   const std::shared_ptr<const ShownMap>& shown() const noexcept { return shown_; }
