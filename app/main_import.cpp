@@ -69,6 +69,23 @@ class StageTimes {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
+/// Throws FileError if the document exceeds a limit: what its file says is too large, too far away or not finite.
+void writeResult(const nearfit::CadDocument& document, const importer::ImportOptions& options) {
+  try {
+    ResultWriter result(options.result);
+    nearfit::writeDocument(document, [&](std::span<const std::byte> bytes) { result.add(bytes); });
+    result.flush();
+  } catch (const nearfit::Error& error) {
+    // Its place is one in the document, which nobody sees.
+    const bool isPlaced = !error.where().empty();
+    throw nearfit::FileError(
+        options.file.string(),
+        isPlaced ? fmt::format("what it holds is out of range ({}: {})", error.where(), error.problem())
+                 : error.problem(),
+        isPlaced ? "check its units and sizes, and export it again" : error.remedy());
+  }
+}
+
 int importFile(const importer::ImportOptions& options, importer::MessagePipe& messages) {
   StageTimes times(options.showsTimes);
   importer::ImportJob job = importer::openJob(options);
@@ -81,9 +98,7 @@ int importFile(const importer::ImportOptions& options, importer::MessagePipe& me
   times.end("mesh");
   if (options.showsTimes) importer::printSummary(document);
   if (options.result >= 0) {
-    ResultWriter result(options.result);
-    nearfit::writeDocument(document, [&](std::span<const std::byte> bytes) { result.add(bytes); });
-    result.flush();
+    writeResult(document, options);
     times.end("write");
   }
   messages.progress(1.0);

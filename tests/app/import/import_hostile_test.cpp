@@ -382,6 +382,16 @@ TEST_F(ImportHostile, UrdfNestedDeepOrWithoutARootIsRefused) {
           "<joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>");
 }
 
+// The message named a node of a document that nobody sees, and no file. Found when the fuzzer of imports was written.
+TEST_F(ImportHostile, APlaceBeyondRangeIsRefusedWithTheFile) {
+  EXPECT_THAT(refusal("x.urdf",
+                      "<robot name='r'><link name='a'/><link name='b'><visual><geometry><box size='1 1 1'/>"
+                      "</geometry></visual></link><joint name='j' type='fixed'><origin xyz='1e13 0 0'/>"
+                      "<parent link='a'/><child link='b'/></joint></robot>")
+                  .problem(),
+              HasSubstr("out of range (node 1: its place is out of range)"));
+}
+
 TEST_F(ImportHostile, AFileThatUnpacksToMoreThanAGigabyteIsRefused) {
   const fs::path big = folder_.path() / "x.step";
   // A hole of the file system: gzip makes some megabytes of it.
