@@ -1,5 +1,5 @@
-// Scene files, beside two meshes that they may name. One that is read is written and read again as the same
-// scene.
+// Scene files, beside two meshes and a CAD document that they may name. One that is read is written and read again as
+// the same scene.
 #include "core/scene/scene_file.h"
 
 #include <string>
@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/files/sha256.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/documents.h"
 #include "tests/support/mesh_generators.h"
 #include "tests/support/mesh_text.h"
 #include "tests/support/temporary_folder.h"
@@ -19,8 +20,13 @@ struct Folder {
     std::filesystem::create_directory(folder.path() / "meshes");
     folder.write("meshes/hole.obj", test::objText(test::boxMesh({2, 2, 1})));
     folder.write("meshes/peg.obj", test::objText(test::tetrahedronMesh(1)));
+    folder.write("meshes/vise.step", "the vise");
   }
+  std::string hashOf(const char* name) const { return sha256OfFile(folder.path() / "meshes" / name); }
+
   test::TemporaryFolder folder;
+  /// Makes test::viseDocument() of any document: its shapes are "body" and "pin".
+  test::FakeImporter importer;
 };
 
 /// Names and locks of the groups from there upwards.
@@ -38,6 +44,10 @@ void checkSame(const Scene& a, const Scene& b) {
   require(a.groups().size() == b.groups().size(), "as many groups are read as were written");
   require(a.parts().size() == b.parts().size(), "as many parts are read as were written");
   require(a.movingPart().has_value() == b.movingPart().has_value(), "the moving part is read as written");
+  require(a.movingGroup().has_value() == b.movingGroup().has_value() &&
+              pathOf(a, a.movingGroup()) == pathOf(b, b.movingGroup()) &&
+              a.movingParts().size() == b.movingParts().size(),
+          "the moving group is read as written");
   require(a.haptics() == b.haptics(), "settings are read as written");
   require(a.joints().size() == b.joints().size(), "as many joints are read as were written");
   for (std::size_t i = 0; i < a.joints().size(); ++i) {
@@ -52,6 +62,11 @@ void checkSame(const Scene& a, const Scene& b) {
                 x.density == y.density && x.isVisible == y.isVisible && x.isLocked == y.isLocked &&
                 x.opacity == y.opacity && x.wasVisible == y.wasVisible,
             "parts are read as written");
+    require(x.geometry->shapeKey == y.geometry->shapeKey &&
+                x.geometry->tessellation == y.geometry->tessellation &&
+                x.geometry->repairs == y.geometry->repairs &&
+                x.geometry->mesh.triangles().size() == y.geometry->mesh.triangles().size(),
+            "shapes and repairs are read as written");
     require(pathOf(a, x.group) == pathOf(b, y.group), "parts stand in the groups that were written");
     require(isPose(x.worldFromPart) && x.worldFromPart.translation == y.worldFromPart.translation,
             "poses are read as written");
@@ -63,13 +78,14 @@ void replaceAll(std::string& text, std::string_view what, const std::string& wit
     text.replace(at, what.size(), with);
 }
 
-/// "<hole>" and "<peg>" stand for the hashes of the meshes, which no fuzzer guesses.
+/// "<hole>", "<peg>" and "<vise>" stand for the hashes of the files, which no fuzzer guesses.
 void run(std::string text) {
   static const Folder folder;
-  static const std::string kHole = sha256OfFile(folder.folder.path() / "meshes/hole.obj"),
-                           kPeg = sha256OfFile(folder.folder.path() / "meshes/peg.obj");
+  static const std::string kHole = folder.hashOf("hole.obj"), kPeg = folder.hashOf("peg.obj"),
+                           kVise = folder.hashOf("vise.step");
   replaceAll(text, "<hole>", kHole);
   replaceAll(text, "<peg>", kPeg);
+  replaceAll(text, "<vise>", kVise);
   const auto file = folder.folder.write("fit.nearfit", text);
   requireReadOrRefused<FileError>([&] {
     const Scene scene = readSceneFile(file);
