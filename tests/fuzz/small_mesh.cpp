@@ -114,7 +114,7 @@ double shortestEdge(const TriangleMesh& mesh) {
 
 }  // namespace
 
-std::optional<TriangleMesh> smallMesh(ByteSource& bytes) {
+PolygonSoup smallSoup(ByteSource& bytes) {
   std::vector<glm::dvec3> vertices;
   Faces faces;
   if (const std::size_t kind = bytes.below(10); kind != 0) {
@@ -123,11 +123,11 @@ std::optional<TriangleMesh> smallMesh(ByteSource& bytes) {
     faces.assign(solid.triangles().begin(), solid.triangles().end());
   }
   changeVertices(bytes, vertices);
-  if (vertices.empty()) return std::nullopt;
+  PolygonSoup soup;
+  if (vertices.empty()) return soup;
   changeFaces(bytes, faces, vertices.size());
   const int exponent = bytes.raw<std::int8_t>() / 4;
   const glm::dvec3 shift = bytes.flag() ? bytes.vector() : glm::dvec3(0.0);
-  PolygonSoup soup;
   for (const glm::dvec3& v : vertices)
     soup.vertices.push_back(
         glm::dvec3(std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)) + shift);
@@ -135,6 +135,12 @@ std::optional<TriangleMesh> smallMesh(ByteSource& bytes) {
     soup.corners.insert(soup.corners.end(), t.begin(), t.end());
     soup.closePolygon();
   }
+  return soup;
+}
+
+std::optional<TriangleMesh> smallMesh(ByteSource& bytes) {
+  const PolygonSoup soup = smallSoup(bytes);
+  if (soup.vertices.empty()) return std::nullopt;
   try {
     MeshBuildReport report;
     return buildMesh(soup, {}, report);
