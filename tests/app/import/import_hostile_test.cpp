@@ -388,7 +388,7 @@ TEST_F(ImportHostile, APlaceBeyondRangeIsRefusedWithTheFile) {
                       "<robot name='r'><link name='a'/><link name='b'><visual><geometry><box size='1 1 1'/>"
                       "</geometry></visual></link><joint name='j' type='fixed'><origin xyz='1e13 0 0'/>"
                       "<parent link='a'/><child link='b'/></joint></robot>")
-                  .problem(),
+                  .problem,
               HasSubstr("out of range (node 1: its place is out of range)"));
 }
 
