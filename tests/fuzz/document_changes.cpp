@@ -173,10 +173,10 @@ void change(DocumentBytes& document, Random& random) {
   }
 }
 
-/// Numbers of a zip file, whose first byte is the lowest.
+/// Numbers of a zip file, whose first byte is the lowest; several fields of zeros at once.
 void append(std::string& to, std::uint64_t value, int bytes) {
-  for (int i = 0; i < bytes; ++i)
-    to += static_cast<char>((value >> (8 * i)) & 0xFFU);
+  for (int i = 0; i < bytes; ++i, value >>= 8)
+    to += static_cast<char>(value & 0xFFU);
 }
 
 /// A zip file, nothing in it compressed.
