@@ -209,7 +209,8 @@ RepairStep cleanFaces(MeshInRepair& mesh) {
   RepairStep step;
   step.removedFaces = removeCopies(mesh);
   const TriangleMesh present = mesh.built();
-  step.changed = swapFlatTriangles(mesh.vertices, mesh.triangles, kNoHeight * present.bounds().diagonal());
+  step.changed = swapFlatTriangles(mesh.vertices, mesh.triangles, kNoHeight * present.bounds().diagonal(),
+                                   &mesh.originOf);
   std::vector<bool> isRemoved(mesh.triangles.size(), false);
   for (const std::uint32_t face : facesWithoutArea(mesh.built()))
     isRemoved[face] = true;

@@ -131,6 +131,9 @@ TEST(MeshRepair, ALineInATJointIsSwapped) {
   const RepairedMesh result = repaired(mesh, {kClean});
   expectSound(result.mesh);
   EXPECT_EQ(result.steps[0].changed, 1U);
+  // Two triangles cover the face behind the line.
+  EXPECT_EQ(std::ranges::count(result.originOf, 0U), 2);
+  EXPECT_EQ(std::ranges::count(result.originOf, 3U), 0);
   EXPECT_NEAR(changeBetween(mesh, result.mesh).after.volume.value(), 8.0 / 6.0, 1e-12);
 }
 
