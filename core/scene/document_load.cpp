@@ -415,7 +415,7 @@ class ShapeLoad {
       if (loaded_[i].geometry == nullptr && std::ranges::find(missing, sources_[i].shape) == missing.end())
         missing.push_back(sources_[i].shape);
     }
-    if (!missing.empty()) importMissing(std::move(missing), progress);
+    if (!missing.empty()) importMissing(missing, progress);
     return std::move(loaded_);
   }
 
@@ -436,7 +436,7 @@ class ShapeLoad {
     }
   }
 
-  void importMissing(std::vector<std::string> missing, const ProgressCallback& progress) {
+  void importMissing(const std::vector<std::string>& missing, const ProgressCallback& progress) {
     CadDocument imported = importAll(source_, missing, progress);
     if (imported.sha256.empty()) imported.sha256 = sha256_;
     if (imported.sha256 != sha256_)

@@ -117,7 +117,7 @@ void Scene::requireNotMoving(const Group& group) const {
   constexpr const char* kRemedy = "choose another moving part, or none, first";
   if (movingGroup_) {
     const bool isInside = group.id == *movingGroup_ || isWithin(group.parent, *movingGroup_);
-    if (!isInside && !isWithin(*movingGroup_, group.id)) return;
+    if (!isInside && !isWithin(movingGroup_, group.id)) return;
     throw UsageError(quoted(group),
                      fmt::format("{} is in hand and cannot be locked", quoted(*findGroup(*movingGroup_))),
                      kRemedy);

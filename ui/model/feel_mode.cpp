@@ -8,7 +8,7 @@
 namespace nearfit::ui {
 namespace {
 
-QString nameOf(FeelMode mode) {
+QString titleOf(FeelMode mode) {
   switch (mode) {
     case FeelMode::LinearSprings:
       return QObject::tr("Springs, linear");
@@ -55,7 +55,7 @@ QString explanationOf(FeelMode mode) {
 
 void addModes(QComboBox& box) {
   for (const FeelMode mode : {FeelMode::Proxy, FeelMode::LinearSprings, FeelMode::PrintedSprings}) {
-    box.addItem(nameOf(mode), QVariant::fromValue(mode));
+    box.addItem(titleOf(mode), QVariant::fromValue(mode));
     box.setItemData(box.count() - 1, explanationOf(mode), Qt::ToolTipRole);
   }
 }
