@@ -47,9 +47,11 @@ double megabytes(std::uint64_t bytes) {
   return static_cast<double>(bytes) / kMegabyte;
 }
 
-/// Peaks of both processes, which do not come at one time: more than there ever was in all.
+/// Most that both processes together had at any time, or more: the import beside all that Nearfit had until then, or what
+/// Nearfit had after it.
 double bytesPerTriangle(const ImportRun& run) {
-  return static_cast<double>(run.ownPeakBytes + run.importPeakBytes) /
+  const std::uint64_t most = std::max(run.ownPeakBytes, run.besideImportBytes + run.importPeakBytes);
+  return static_cast<double>(most) /
          static_cast<double>(std::max<std::size_t>(run.counts.placedTriangles, 1));
 }
 

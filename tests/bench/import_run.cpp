@@ -11,7 +11,7 @@ namespace nearfit::bench {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DocumentCounts, shapes, instances, triangles, placedTriangles)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImportRun, seconds, loadSeconds, isFromCache, counts, ownPeakBytes,
-                                   importPeakBytes)
+                                   importPeakBytes, besideImportBytes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OccRun, version, readSeconds, transferSeconds, meshSeconds, counts,
                                    peakBytes)
 

@@ -24,6 +24,8 @@ struct ImportRun {
   DocumentCounts counts;
   std::uint64_t ownPeakBytes = 0;     ///< Max resident memory of that process.
   std::uint64_t importPeakBytes = 0;  ///< The same of nearfit-import; 0 if it did not run.
+  /// Max resident memory of that process until nearfit-import had ended; 0 if it did not run.
+  std::uint64_t besideImportBytes = 0;
 };
 
 /// A document that OpenCASCADE alone has read and meshed, in a process of its own.
