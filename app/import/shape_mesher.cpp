@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepGProp_Domain.hxx>
@@ -36,8 +38,11 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <gp_Ax2.hxx>
+#include <gp_Circ.hxx>
 #include <gp_Cone.hxx>
 #include <gp_Cylinder.hxx>
+#include <gp_Elips.hxx>
 #include <gp_Pln.hxx>
 #include <gp_Sphere.hxx>
 #include <gp_Torus.hxx>
@@ -434,9 +439,53 @@ OccTessellation tessellationFor(const MeshRequest& request, double diagonal) {
           request.wanted.angle > 0.0 ? request.wanted.angle : kDefaultAngle};
 }
 
+/// Twice the vector area that an edge sweeps about a point, along the parameter; no value for curves without a formula.
+std::optional<gp_XYZ> sweptBy(const BRepAdaptor_Curve& curve, const gp_XYZ& about) {
+  const double first = curve.FirstParameter(), last = curve.LastParameter();
+  const gp_XYZ a = curve.Value(first).XYZ(), b = curve.Value(last).XYZ();
+  // Of the chord as seen from a centre, and of the sector between the two.
+  const auto ofConic = [&](const gp_Ax2& place, double product) {
+    return (place.Location().XYZ() - about).Crossed(b - a) +
+           place.Direction().XYZ() * (product * (last - first));
+  };
+  switch (curve.GetType()) {
+    case GeomAbs_Line:
+      return (a - about).Crossed(b - about);
+    case GeomAbs_Circle: {
+      const gp_Circ circle = curve.Circle();
+      return ofConic(circle.Position(), circle.Radius() * circle.Radius());
+    }
+    case GeomAbs_Ellipse: {
+      const gp_Elips ellipse = curve.Ellipse();
+      return ofConic(ellipse.Position(), ellipse.MajorRadius() * ellipse.MinorRadius());
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
+/// volumeBelow() of a plane face that lines, circles and ellipses bound, by Stokes: adaptive integrals take a tenth of the
+/// time of an import where plates have many holes. No value for other faces.
+std::optional<double> volumeBelowPlane(const TopoDS_Face& face, const gp_Pnt& origin) {
+  const BRepAdaptor_Surface surface(face, Standard_False);
+  if (surface.GetType() != GeomAbs_Plane) return std::nullopt;
+  const gp_XYZ about = surface.Plane().Location().XYZ();
+  gp_XYZ twiceArea(0.0, 0.0, 0.0);
+  for (TopExp_Explorer each(face, TopAbs_EDGE); each.More(); each.Next()) {
+    const TopoDS_Edge& edge = TopoDS::Edge(each.Current());
+    if (!isBoundary(edge)) continue;
+    if (BRep_Tool::Degenerated(edge) || !BRep_Tool::IsGeometric(edge)) return std::nullopt;
+    const std::optional<gp_XYZ> swept = sweptBy(BRepAdaptor_Curve(edge), about);
+    if (!swept) return std::nullopt;
+    twiceArea += *swept * (edge.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0);
+  }
+  return (about - origin.XYZ()).Dot(twiceArea) / 6.0;
+}
+
 /// Volume between a face and a point, negative if the face looks towards it: those of a closed shell add up to the
 /// volume within. BRepGProp computes the same, but chooses a point of its own for each shape.
 double volumeBelow(const TopoDS_Face& face, const gp_Pnt& origin) {
+  if (const std::optional<double> plane = volumeBelowPlane(face, origin)) return *plane;
   BRepGProp_Face surface;
   surface.Load(face);
   BRepGProp_Vinert volume;

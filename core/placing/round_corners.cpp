@@ -57,8 +57,8 @@ std::vector<std::uint32_t> facetOf(const TriangleMesh& mesh, std::uint32_t trian
 std::vector<double> linesAbout(std::span<const glm::dvec3> corners, const glm::dvec3& centre,
                                const glm::dvec3& axis) {
   const auto [u, v] = axesAcross(axis);
-  const auto awayOf = [&, u = u, v = v](const glm::dvec3& p) {
-    return std::hypot(glm::dot(p - centre, u), glm::dot(p - centre, v));
+  const auto awayOf = [&centre, across = u, aside = v](const glm::dvec3& p) {
+    return std::hypot(glm::dot(p - centre, across), glm::dot(p - centre, aside));
   };
   double farthest = 0.0;
   for (const glm::dvec3& p : corners)

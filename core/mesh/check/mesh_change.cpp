@@ -77,7 +77,7 @@ class DistanceMeter {
                const TriangleMesh& other, MeshChange& change) const {
     if (triangles.empty()) return;
     const NearestSurface surface(other);
-    constexpr std::size_t kMaxTriangles = MeshChange::kMaxSamples / std::size_t{2 * 7};
+    constexpr std::size_t kMaxTriangles = MeshChange::kMaxSamples / 2 / 7;
     const std::size_t stride = 1 + (triangles.size() - 1) / kMaxTriangles;
     change.isSampled = change.isSampled || stride > 1;
     for (std::size_t i = 0; i < triangles.size(); i += stride) {
