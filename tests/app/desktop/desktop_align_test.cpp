@@ -253,7 +253,7 @@ void DesktopAlignTest::alignsTheAxesOfTwoCylinders() {
   // In the middle of each, on the side of the viewer.
   const glm::dvec3 onPin = aside.applyToPoint({0.0, -0.005, 0.002});
   hover(d, onPin);
-  QTRY_VERIFY2(d.text("alignHint").startsWith(QStringLiteral("Axis of a cylinder ⌀ 10.0 mm")),
+  QTRY_VERIFY2(d.text("alignHint").startsWith(QStringLiteral("Axis of a cylinder ⌀ 10.000")),
                qPrintable(d.text("alignHint")));
   click(d, onPin);
   click(d, {0.0, -0.02, 0.002});

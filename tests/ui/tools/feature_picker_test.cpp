@@ -13,13 +13,14 @@ class FeaturePickerTest : public QObject {
  private slots:
   void eachKindOfAxisIsNamed();
   void featuresOfExactSurfacesSaySo();
+  void diametersHaveTheFiguresOfMeasuredDistances();
 };
 
 void FeaturePickerTest::eachKindOfAxisIsNamed() {
   AlignFeature axis{FeatureShape::Axis, {}, {0.0, 0.0, 1.0}};
   QCOMPARE(ui::describeFeature(axis), QStringLiteral("Straight edge"));
   axis.radius = 0.006;
-  QCOMPARE(ui::describeFeature(axis), QStringLiteral("Axis of a cylinder ⌀ 12.0 mm"));
+  QCOMPARE(ui::describeFeature(axis), QStringLiteral("Axis of a cylinder ⌀ 12.000 mm"));
   axis.halfAngle = 5.0 * std::numbers::pi / 180.0;
   QCOMPARE(ui::describeFeature(axis), QStringLiteral("Axis of a cone, half angle 5.0°"));
   axis.halfAngle = 0.0;
@@ -31,16 +32,25 @@ void FeaturePickerTest::featuresOfExactSurfacesSaySo() {
   AlignFeature feature{FeatureShape::Axis, {}, {0.0, 0.0, 1.0}, 0.006};
   feature.surface = SurfaceKind::Cylinder;
   feature.isExact = true;
-  QCOMPARE(ui::describeFeature(feature), QStringLiteral("Axis of a cylinder ⌀ 12.0 mm, exact"));
+  QCOMPARE(ui::describeFeature(feature), QStringLiteral("Exact axis of a cylinder ⌀ 12.000 mm"));
   feature.shape = FeatureShape::Point;
   feature.surface = SurfaceKind::Sphere;
-  QCOMPARE(ui::describeFeature(feature), QStringLiteral("Centre of a sphere ⌀ 12.0 mm, exact"));
+  QCOMPARE(ui::describeFeature(feature), QStringLiteral("Exact centre of a sphere ⌀ 12.000 mm"));
   feature.shape = FeatureShape::Circle;
   feature.surface = SurfaceKind::Torus;
   feature.minorRadius = 0.001;
-  QCOMPARE(ui::describeFeature(feature), QStringLiteral("Torus ⌀ 12.0 mm, tube ⌀ 2.00 mm, exact"));
+  QCOMPARE(ui::describeFeature(feature), QStringLiteral("Exact torus ⌀ 12.000 mm, tube ⌀ 2.0000 mm"));
   feature.surface = SurfaceKind::Other;
-  QCOMPARE(ui::describeFeature(feature), QStringLiteral("Circle ⌀ 12.0 mm, exact"));
+  QCOMPARE(ui::describeFeature(feature), QStringLiteral("Exact circle ⌀ 12.000 mm"));
+}
+
+void FeaturePickerTest::diametersHaveTheFiguresOfMeasuredDistances() {
+  AlignFeature circle{FeatureShape::Circle, {}, {0.0, 0.0, 1.0}, 0.006172};
+  QCOMPARE(ui::describeFeature(circle), QStringLiteral("Circle ⌀ 12.344 mm"));
+  circle.isExact = true;
+  QCOMPARE(ui::describeFeature(circle), QStringLiteral("Exact circle ⌀ 12.344 mm"));
+  circle.radius = 0.1234565;
+  QCOMPARE(ui::describeFeature(circle), QStringLiteral("Exact circle ⌀ 246.913 mm"));
 }
 
 NEARFIT_QT_SUITE(FeaturePickerTest, test::runQtTest<FeaturePickerTest>)

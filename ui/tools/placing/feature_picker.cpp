@@ -10,6 +10,7 @@
 #include "ui/model/shown_poses.h"
 #include "ui/view3d/viewport.h"
 #include "ui/widgets/format.h"
+#include "ui/widgets/length_unit.h"
 #include "ui/widgets/names.h"
 
 namespace nearfit::ui {
@@ -18,9 +19,15 @@ namespace {
 /// Max distance of the pointer from a corner or edge to pick it [pixels].
 constexpr double kReach = 8.0;
 
+/// A diameter in as many figures as measured distances have.
+QString diameterText(double radius) {
+  const LengthUnit unit = shownLengthUnit();
+  return lengthIn(unit, 2.0 * radius, measuredDecimals(unit, 2.0 * radius));
+}
+
 QString describeTorus(const AlignFeature& torus) {
   return QObject::tr("Torus ⌀ %1, tube ⌀ %2")
-      .arg(formatLength(2.0 * torus.radius), formatLength(2.0 * torus.minorRadius));
+      .arg(diameterText(torus.radius), diameterText(torus.minorRadius));
 }
 
 QString describeAxis(const AlignFeature& axis) {
@@ -28,7 +35,7 @@ QString describeAxis(const AlignFeature& axis) {
   if (axis.flats > 0) return QObject::tr("Axis of a prism with %1 flats").arg(axis.flats);
   if (axis.halfAngle > 0.0)
     return QObject::tr("Axis of a cone, half angle %1°").arg(formatFixed(axis.halfAngle / kDegree, 1));
-  if (axis.radius > 0.0) return QObject::tr("Axis of a cylinder ⌀ %1").arg(formatLength(2.0 * axis.radius));
+  if (axis.radius > 0.0) return QObject::tr("Axis of a cylinder ⌀ %1").arg(diameterText(axis.radius));
   return QObject::tr("Straight edge");
 }
 
@@ -39,12 +46,12 @@ QString describeShape(const AlignFeature& feature) {
     case FeatureShape::Circle:
       return feature.surface == SurfaceKind::Torus
                  ? describeTorus(feature)
-                 : QObject::tr("Circle ⌀ %1").arg(formatLength(2.0 * feature.radius));
+                 : QObject::tr("Circle ⌀ %1").arg(diameterText(feature.radius));
     case FeatureShape::Axis:
       return describeAxis(feature);
     default:
       return feature.surface == SurfaceKind::Sphere
-                 ? QObject::tr("Centre of a sphere ⌀ %1").arg(formatLength(2.0 * feature.radius))
+                 ? QObject::tr("Centre of a sphere ⌀ %1").arg(diameterText(feature.radius))
                  : QObject::tr("Point");
   }
 }
@@ -53,7 +60,7 @@ QString describeShape(const AlignFeature& feature) {
 
 QString describeFeature(const AlignFeature& feature) {
   const QString shape = describeShape(feature);
-  return feature.isExact ? QObject::tr("%1, exact").arg(shape) : shape;
+  return feature.isExact ? QObject::tr("Exact %1").arg(shape.left(1).toLower() + shape.mid(1)) : shape;
 }
 
 FeaturePicker::FeaturePicker(const Session& session, Viewport& view, const QColor& colour, QObject* parent)

@@ -23,8 +23,8 @@ struct FeaturePick {
   glm::dvec3 hit{0.0};   ///< The surface point under the pointer, in the part's frame [m].
 };
 
-/// Returns the name of a feature: "Flat face", "Circle ⌀ 12.0 mm", and of one by exact surfaces "Circle ⌀ 12.0 mm,
-/// exact".
+/// Returns the name of a feature: "Flat face", "Circle ⌀ 12.344 mm", and of one by exact surfaces "Exact circle
+/// ⌀ 12.344 mm". Diameters have the figures of measured distances.
 QString describeFeature(const AlignFeature& feature);
 
 /// Lets the user pick features in the view: highlights the one under the pointer and reports
