@@ -50,6 +50,31 @@ void alignWithNormal(const AlignFeature& a, const AlignFeature& b, Measurement& 
   if (glm::dot(a.direction, b.direction) < 0.0) measurement.gap = ahead;
 }
 
+glm::dvec3 footOnLine(const AlignFeature& line, const glm::dvec3& point) noexcept {
+  return line.point + glm::dot(point - line.point, line.direction) * line.direction;
+}
+glm::dvec3 footOnPlane(const AlignFeature& plane, const glm::dvec3& point) noexcept {
+  return point - glm::dot(point - plane.point, plane.direction) * plane.direction;
+}
+
+/// Makes a measurement between an axis and a parallel axis or plane one along their common perpendicular, where the
+/// first axis was clicked.
+void alignWithPerpendicular(const MeasureEnd& from, const MeasureEnd& to, Measurement& measurement) noexcept {
+  const AlignFeature &a = from.feature, &b = to.feature;
+  measurement.pointToPoint = measurement.distance;
+  // A click on the wall of a bore is not on its axis.
+  if (isPlane(a)) {
+    measurement.to = footOnLine(b, to.point);
+    measurement.from = footOnPlane(a, measurement.to);
+  } else {
+    measurement.from = footOnLine(a, from.point);
+    measurement.to = isPlane(b) ? footOnPlane(b, measurement.from) : footOnLine(b, measurement.from);
+  }
+  measurement.distance = glm::distance(measurement.from, measurement.to);
+  // Almost parallel ones are not as far apart everywhere.
+  measurement.apart = measurement.distance;
+}
+
 }  // namespace
 
 MeasureEnd measureEnd(const TriangleMesh& mesh, const PickedFeature& picked, const glm::dvec3& hit,
@@ -84,6 +109,8 @@ Measurement measure(const MeasureEnd& from, const MeasureEnd& to) noexcept {
   // For a plane and a line, measure from the line to the plane.
   result.apart = isPlane(a) ? distanceTo(a, b.point) : distanceTo(b, a.point);
   if (isPlane(a) && isPlane(b)) alignWithNormal(a, b, result);
+  // Centres of circles stay what they are: two on one axis are a depth apart.
+  if (!hasCentre && !(isPlane(a) && isPlane(b))) alignWithPerpendicular(from, to, result);
   return result;
 }
 

@@ -31,10 +31,11 @@ inline MeasureEnd placed(const MeasureEnd& end, const RigidTransform& frameFromE
 
 /// A measurement between two ends.
 struct Measurement {
-  /// Points of the ends [m]; between parallel faces, `to` is the foot of the perpendicular from `from`.
+  /// Points of the ends [m]; between parallel faces, and between an axis or edge and a parallel one or face, the ends of
+  /// a perpendicular.
   glm::dvec3 from{0.0}, to{0.0};
   double distance = 0.0;  ///< Between these points [m].
-  /// Between parallel faces: distance between the points of the ends [m].
+  /// Where `distance` is the perpendicular one: distance between the points of the ends [m].
   std::optional<double> pointToPoint;
   /// Between parallel faces that point towards each other: how far the second lies in front of the first [m].
   /// Negative if it lies behind it, as where parts overlap.

@@ -101,7 +101,7 @@ void DesktopSectionTest::theEdgeOfTheCutIsMeasured() {
   cut.pointer.click({0.004, 0.005, 0.025 + kInside});
   cut.pointer.click({0.006, 0.005, 0.02 - kInside});
   // Between the two cut faces' edges: the gap of 5 mm.
-  QCOMPARE(cut.d.text("measureApart"), QStringLiteral("5.0000 mm"));
+  QCOMPARE(cut.d.text("measureDistance"), QStringLiteral("5.0000 mm"));
   QCOMPARE(cut.d.text("measureZ"), QStringLiteral("-5.0000 mm"));
   QCOMPARE(cut.d.text("measureY"), QStringLiteral("0.0000 mm"));
 }

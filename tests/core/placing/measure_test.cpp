@@ -81,6 +81,42 @@ TEST(Measure, AnAxisThatRunsAlongAFaceIsApartFromIt) {
   EXPECT_FALSE(square.apart);
 }
 
+TEST(Measure, ParallelAxesAreMeasuredBetweenTheirCentresWhereverTheirWallsAreClicked) {
+  // Clicked on the walls of bores of 5 mm radius, 4 mm along from each other.
+  const Measurement m = measure(axis({0, 0, 0.1}, {0, 0, 1}, {0.005, 0, 0.02}),
+                                axis({0.06, 0, -3}, {0, 0, -1}, {0.06, 0.005, 0.024}));
+  EXPECT_NEAR(m.distance, 0.06, 1e-15);
+  EXPECT_NEAR(m.apart.value(), 0.06, 1e-15);
+  EXPECT_LT(glm::distance(m.from, glm::dvec3(0, 0, 0.02)), 1e-15);
+  EXPECT_LT(glm::distance(m.to, glm::dvec3(0.06, 0, 0.02)), 1e-15);
+  EXPECT_NEAR(m.pointToPoint.value(), std::sqrt(0.055 * 0.055 + 0.005 * 0.005 + 0.004 * 0.004), 1e-15);
+}
+
+TEST(Measure, AnEdgeAlongAFaceIsMeasuredSquareToIt) {
+  const MeasureEnd face = plane({0, 0, 0.1}, {0, 0, 1}, {3, 4, 0.1}),
+                   edge = axis({1, 1, 0.3}, {1, 0, 0}, {2, 1, 0.3});
+  const glm::dvec3 onEdge(2, 1, 0.3), below(2, 1, 0.1);
+  const Measurement down = measure(edge, face), up = measure(face, edge);
+  for (const Measurement& m : {down, up}) {
+    EXPECT_NEAR(m.distance, 0.2, 1e-15);
+    EXPECT_NEAR(m.pointToPoint.value(), std::sqrt(1.0 + 9.0 + 0.04), 1e-14);
+  }
+  EXPECT_LT(glm::distance(down.from, onEdge) + glm::distance(down.to, below), 1e-15);
+  EXPECT_LT(glm::distance(up.from, below) + glm::distance(up.to, onEdge), 1e-15);
+  EXPECT_NEAR(measure(axis({0, 0, 0.1}, {1, 1, 0}, {5, 5, 0.1}), face).distance, 0.0, 1e-15) << "in the face";
+}
+
+TEST(Measure, ACentreAndAnAxisAcrossAreMeasuredBetweenTheirPoints) {
+  const Measurement skew =
+      measure(axis({}, {1, 0, 0}, {0.3, 0, 0}), axis({0, 0, 0.4}, {0, 1, 0}, {0, 0, 0.4}));
+  EXPECT_NEAR(skew.distance, 0.5, 1e-15);
+  EXPECT_FALSE(skew.pointToPoint);
+  const MeasureEnd low{{}, {FeatureShape::Circle, {}, {0, 0, 1}, 0.01}},
+      high{{0, 0, 0.3}, {FeatureShape::Circle, {0, 0, 0.3}, {0, 0, 1}, 0.01}};
+  EXPECT_NEAR(measure(low, high).distance, 0.3, 1e-15);
+  EXPECT_FALSE(measure(low, high).pointToPoint);
+}
+
 TEST(Measure, ACircleIsAsFarFromAFaceAsItsCentre) {
   const MeasureEnd circle{{0, 0, 0.3}, {FeatureShape::Circle, {0, 0, 0.3}, {0, 0, 1}, 0.01}};
   const Measurement m = measure(circle, plane({1, 1, 0.1}, {0, 0, 1}, {1, 1, 0.1}));
