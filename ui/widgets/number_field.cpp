@@ -17,6 +17,9 @@
 namespace nearfit::ui {
 namespace {
 
+/// Digits that a field has room for before its unit. A unit that is cut is another one: "m" of "mm".
+constexpr int kMaxDigits = 8;
+
 /// Rounds a step to 1, 2 or 5 times a power of ten.
 double roundStep(double step) {
   const double power = std::pow(10.0, std::floor(std::log10(step)));
@@ -154,6 +157,10 @@ void NumberField::takeBack() {
 
 QString NumberField::textFromValue(double value) const {
   QString text = QDoubleSpinBox::textFromValue(value);
+  const int signs = text.startsWith(locale().negativeSign()) ? 1 : 0;
+  const int whole = text.indexOf(locale().decimalPoint()) - signs;
+  if (!isTrimmed_ && whole + decimals() > kMaxDigits && whole > 1)
+    text = formatFixed(value, std::clamp(kMaxDigits - whole, 1, decimals()));
   if (isTrimmed_ && text.contains(locale().decimalPoint())) {
     while (text.endsWith(locale().zeroDigit()))
       text.chop(1);
@@ -187,6 +194,8 @@ NumberField::Reading NumberField::read(const QString& text) const {
 }
 
 double NumberField::valueFromText(const QString& text) const {
+  // Return on an untouched number does not round it to what is shown.
+  if (text == textFromValue(value())) return value();
   const Reading reading = read(text);
   if (!reading.fault.isEmpty()) return value();
   exact_ = reading.quantity;

@@ -34,6 +34,7 @@ class NumberFieldTest : public QObject {
   void stepsGoOnFromWhatWasTyped();
   void unitMenuChangesEveryLengthAndIsRemembered();
   void typedNumbersKeepMoreThanIsShown();
+  void largeNumbersLeaveRoomForTheirUnit();
   void compoundUnitsConvert();
   void aDoubleClickSelectsTheWholeNumber();
   void aNumberThatChangesAfterReturnStaysSelected();
@@ -223,6 +224,22 @@ void NumberFieldTest::typedNumbersKeepMoreThanIsShown() {
   enter(length_, QStringLiteral("1/3 in"));
   QCOMPARE(length_->text(), QStringLiteral("8.4667 mm"));
   QVERIFY(isNear(length_->quantity(), 0.0254 / 3.0));
+}
+
+void NumberFieldTest::largeNumbersLeaveRoomForTheirUnit() {
+  length_->setQuantityRange(-1e4, 1e4);
+  length_->showQuantity(135.690994);
+  QCOMPARE(length_->text(), QStringLiteral("135690.99 mm"));
+  // The number itself is not rounded, by Return or a step either.
+  length_->setFocus();
+  QTest::keyClick(length_, Qt::Key_Return);
+  QVERIFY(isNear(length_->quantity(), 135.690994));
+  QTest::keyClick(length_, Qt::Key_Up);
+  QVERIFY(isNear(length_->quantity(), 135.691994));
+  length_->showQuantity(-1e4);
+  QCOMPARE(length_->text(), QStringLiteral("-10000000.0 mm"));
+  length_->showQuantity(1.0);
+  QCOMPARE(length_->text(), QStringLiteral("1000.0000 mm"));
 }
 
 void NumberFieldTest::compoundUnitsConvert() {

@@ -90,7 +90,7 @@ void PosePanel::setUpPose(QGridLayout& layout) {
 }
 
 void PosePanel::setUpMass(QGridLayout& layout) {
-  density_ = prepared(new NumberField(this), QStringLiteral("density"));
+  density_ = prepared(new NumberField(this), QStringLiteral("density"), QStringLiteral("00000.0 kg/m³"));
   density_->setUnit(tr(" kg/m³"));
   density_->setDecimals(3);
   density_->setQuantityRange(kMinDensity, kMaxDensity);
@@ -130,7 +130,8 @@ void PosePanel::setUpJoints(QGridLayout& layout) {
 }
 
 NumberField* PosePanel::makeLength(const QString& name, double limit, int decimals, double step) {
-  NumberField* field = prepared(new NumberField(this), name);
+  // Lengths below a kilometre have up to eight digits.
+  NumberField* field = prepared(new NumberField(this), name, QStringLiteral("-000000.00 mm"));
   field->setLength(decimals);
   field->setQuantityRange(-limit, limit);
   field->setQuantityStep(step);
@@ -138,18 +139,18 @@ NumberField* PosePanel::makeLength(const QString& name, double limit, int decima
 }
 
 NumberField* PosePanel::makeAngle(const QString& name, double limit) {
-  NumberField* field = prepared(new NumberField(this), name);
+  NumberField* field = prepared(new NumberField(this), name, QStringLiteral("-000.000°"));
   field->setUnit(QString(QChar(0xB0)));
   field->setDecimals(3);
   field->setRange(-limit, limit);
   return field;
 }
 
-NumberField* PosePanel::prepared(NumberField* field, const QString& name) {
+NumberField* PosePanel::prepared(NumberField* field, const QString& name, const QString& widest) {
   field->setObjectName(name);
-  // Wide enough for most numbers beside the arrows, in any font size.
+  // Wide enough beside the arrows, in any font size.
   constexpr int kArrows = 26;
-  field->setMinimumWidth(field->fontMetrics().horizontalAdvance(QStringLiteral("-00.0000 mm")) + kArrows);
+  field->setMinimumWidth(field->fontMetrics().horizontalAdvance(widest) + kArrows);
   field->findChild<QLineEdit*>()->installEventFilter(this);
   field->installEventFilter(this);
   return field;

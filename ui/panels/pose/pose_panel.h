@@ -78,7 +78,8 @@ class PosePanel : public QWidget {
   void setUpJoints(QGridLayout& layout);
   NumberField* makeLength(const QString& name, double limit, int decimals, double step);
   NumberField* makeAngle(const QString& name, double limit);
-  NumberField* prepared(NumberField* field, const QString& name);
+  /// @param widest  A text that the field must have room for.
+  NumberField* prepared(NumberField* field, const QString& name, const QString& widest);
   void edit(int field);
   /// Turns the hand's pose about the pivot.
   void turnTo(const glm::dquat& rotation);
