@@ -85,8 +85,10 @@ QString FeelNotice::textFor(const ServoSnapshot& snapshot, const Scene& scene) c
 
 QString FeelNotice::overlapText(const ServoSnapshot& snapshot, const Scene& scene) {
   const QString names = namesOf(snapshot, scene);
-  return snapshot.overlappingCount == 1
-             ? tr("Overlaps %1, which is not felt until the two are apart.").arg(names)
+  if (snapshot.overlappingCount == 1)
+    return tr("Overlaps %1, which is not felt until the two are apart.").arg(names);
+  return scene.movingGroup()
+             ? tr("Overlaps %1, which are not felt until they are apart from the group.").arg(names)
              : tr("Overlaps %1, which are not felt until they are apart from it.").arg(names);
 }
 

@@ -57,6 +57,8 @@ QLabel* FeelPanel::Readouts::add(const QString& name, const char* objectName, co
   auto* value = new QLabel(nothing(), this);
   value->setObjectName(QLatin1String(objectName));
   value->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  // Long texts take a second line instead of widening the panel beyond its dock.
+  value->setWordWrap(true);
   label->setToolTip(toolTip);
   value->setToolTip(toolTip);
   row->addWidget(label);

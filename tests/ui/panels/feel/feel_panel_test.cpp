@@ -2,11 +2,15 @@
 
 #include <QAction>
 #include <QLabel>
+#include <QScrollArea>
 #include <QToolButton>
 #include <QtTest>
 #include <memory>
 
+#include "core/scene/group.h"
 #include "core/scene/scene.h"
+#include "tests/support/mesh_generators.h"
+#include "tests/support/part_geometries.h"
 #include "tests/support/qt/qt_suite.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/model/preset_store.h"
@@ -19,6 +23,8 @@ class FeelPanelTest : public QObject {
  private slots:
   void aMinDistanceThatIsOnlyABoundIsSaidToBeOne();
   void aLimitIsTheDevicesOnlyIfThereIsOne();
+  void longTextsDoNotWidenThePanelBeyondItsDock();
+  void overlapsOfAGroupAreOfTheGroup();
 };
 
 void FeelPanelTest::aMinDistanceThatIsOnlyABoundIsSaidToBeOne() {
@@ -65,6 +71,57 @@ void FeelPanelTest::aLimitIsTheDevicesOnlyIfThereIsOne() {
   panel.showStatus(status);
   panel.showSnapshot(*snapshot, Scene());
   QCOMPARE(clamped->text(), QStringLiteral("Limited to the device's maximum."));
+}
+
+void FeelPanelTest::longTextsDoNotWidenThePanelBeyondItsDock() {
+  const test::TemporaryFolder folder;
+  ui::PresetStore presets(folder.path() / "presets.json");
+  QAction clutch;
+  ui::FeelPanel panel({new QToolButton, &clutch, presets});
+  const auto* scroll = panel.findChild<QScrollArea*>(QStringLiteral("feelScroll"));
+  QVERIFY(scroll != nullptr);
+  panel.resize(panel.minimumSizeHint().width(), 900);
+  panel.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&panel));
+  Scene scene;
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  snapshot->distance = 1e-9;
+  snapshot->isDistanceBound = true;
+  // One minimum is missing, so that the distance to the others is a bound.
+  snapshot->lmdCount = 1;
+  snapshot->overlappingCount = 2;
+  panel.showSnapshot(*snapshot, scene);
+  const auto* distance = panel.findChild<QLabel*>(QStringLiteral("distance"));
+  QVERIFY2(distance->text().startsWith(QStringLiteral("at least")) &&
+               distance->text().endsWith(QStringLiteral("to others")),
+           qPrintable(distance->text()));
+  QTRY_VERIFY(distance->height() >= distance->heightForWidth(distance->width()));
+  QTRY_VERIFY2(
+      scroll->widget()->width() <= scroll->viewport()->width(),
+      qPrintable(QStringLiteral("%1 in %2").arg(scroll->widget()->width()).arg(scroll->viewport()->width())));
+  QVERIFY(distance->mapTo(scroll->viewport(), QPoint(distance->width(), 0)).x() <=
+          scroll->viewport()->width());
+}
+
+void FeelPanelTest::overlapsOfAGroupAreOfTheGroup() {
+  const test::TemporaryFolder folder;
+  ui::PresetStore presets(folder.path() / "presets.json");
+  QAction clutch;
+  ui::FeelPanel panel({new QToolButton, &clutch, presets});
+  const auto* notice = panel.findChild<QLabel*>(QStringLiteral("noticeText"));
+  QVERIFY(notice != nullptr);
+  Scene scene;
+  const auto snapshot = std::make_unique<ServoSnapshot>();
+  snapshot->overlappingCount = 2;
+  panel.showSnapshot(*snapshot, scene);
+  QVERIFY2(notice->text().endsWith(QStringLiteral("apart from it.")), qPrintable(notice->text()));
+  const GroupId group = scene.addGroup({{}, "Pair", {}, false});
+  Part part = test::partOf(test::geometryOf(test::boxMesh({0.01, 0.01, 0.01})), "pin");
+  part.group = group;
+  scene.add(part);
+  scene.setMovingGroup(group);
+  panel.showSnapshot(*snapshot, scene);
+  QVERIFY2(notice->text().endsWith(QStringLiteral("apart from the group.")), qPrintable(notice->text()));
 }
 
 NEARFIT_QT_SUITE(FeelPanelTest, test::runQtTest<FeelPanelTest>)
