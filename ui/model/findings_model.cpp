@@ -45,6 +45,12 @@ QString FindingsModel::textOf(const MeshFinding& finding, int column) {
   }
 }
 
+QString FindingsModel::toolTipOf(const MeshFinding& finding, int column) {
+  if (column != Size) return textOf(finding, column);
+  if (finding.kind == FindingKind::OpenEdges) return tr("Length of the loop");
+  return finding.length > 0.0 ? tr("Max width") : QString();
+}
+
 QVariant FindingsModel::sortKeyOf(const MeshFinding& finding, int column) {
   switch (column) {
     case Kind:
@@ -67,9 +73,7 @@ QVariant FindingsModel::data(const QModelIndex& index, int role) const {
     case Qt::DisplayRole:
       return textOf(finding, index.column());
     case Qt::ToolTipRole:
-      return index.column() == Size && finding.kind == FindingKind::OpenEdges
-                 ? tr("Length of the loop")
-                 : (index.column() == Size && finding.length > 0.0 ? tr("Max width") : QString());
+      return toolTipOf(finding, index.column());
     case Qt::ForegroundRole:
       return finding.severity == FindingSeverity::Serious && index.column() == Effect
                  ? QVariant(themed(colours::kOverlap))

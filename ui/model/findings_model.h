@@ -32,6 +32,8 @@ class FindingsModel : public QAbstractTableModel {
 
  private:
   static QString textOf(const MeshFinding& finding, int column);
+  /// The whole text of a cell that may be elided, or the meaning of its number.
+  static QString toolTipOf(const MeshFinding& finding, int column);
   static QVariant sortKeyOf(const MeshFinding& finding, int column);
 
   std::shared_ptr<const MeshCheck> check_;

@@ -187,9 +187,11 @@ void MainWindow::makeReviewPanels() {
   recording_ = new RecordAction(*hand_, this);
   listenTo(*clearances, *clearanceMap_, *plots_, *replay_, *recording_);
   constexpr Qt::DockWidgetArea kBottom = Qt::BottomDockWidgetArea;
-  QDockWidget* clearanceDock = addDock("clearanceDock", tr("Clearances"), clearances, kBottom);
-  QDockWidget* mapDock = addDock("clearanceMapDock", tr("Clearance map"), clearanceMap_, kBottom);
-  QDockWidget* plotsDock = addDock("plotsDock", tr("Plots"), plots_, kBottom);
+  QDockWidget* clearanceDock =
+      addDock("clearanceDock", tr("Clearances"), makeScrollPane(clearances, "clearanceScroll"), kBottom);
+  QDockWidget* mapDock = addDock("clearanceMapDock", tr("Clearance map"),
+                                 makeScrollPane(clearanceMap_, "clearanceMapScroll"), kBottom);
+  QDockWidget* plotsDock = addDock("plotsDock", tr("Plots"), makeScrollPane(plots_, "plotsScroll"), kBottom);
   QDockWidget* timelineDock = addDock("timelineDock", tr("Timeline"), timeline, kBottom);
   for (QDockWidget* dock : {clearanceDock, mapDock, plotsDock, timelineDock})
     dock->hide();
@@ -218,7 +220,8 @@ void MainWindow::makeReviewPanels() {
 
 void MainWindow::makeCheckPanel(QDockWidget& neighbour) {
   auto* panel = new CheckPanel({session_, *selection_, *hand_, *document_, *checks_, *viewport_}, this);
-  QDockWidget* dock = addDock("checkDock", tr("Check"), panel, Qt::BottomDockWidgetArea);
+  QDockWidget* dock =
+      addDock("checkDock", tr("Check"), makeScrollPane(panel, "checkScroll"), Qt::BottomDockWidgetArea);
   tabifyDockWidget(&neighbour, dock);
   dock->hide();
   connect(units_, &UnitMenu::unitChanged, panel, &CheckPanel::refresh);

@@ -72,6 +72,7 @@ class DesktopCheckTest : public QObject {
   void aBadgeMarksThePartWithFindings();
   void aClickOnTheBadgeShowsItsFindings();
   void theTableSaysWhatIsWrongAndFollowsTheSelection();
+  void theEffectOfAFindingIsWholeInTheTable();
   void aRowShowsThePlaceInTheView();
   void aRepairIsOneStepAndSaysWhatItChanged();
   void aRepairedPartIsSavedAndOpenedAsSuch();
@@ -119,6 +120,23 @@ void DesktopCheckTest::theTableSaysWhatIsWrongAndFollowsTheSelection() {
   QCOMPARE(f.table->model()->rowCount(), 0);
   f.d.window().selection().select({});
   QVERIFY(f.d.text("checkTitle").startsWith(QStringLiteral("Select a part")));
+}
+
+/// It was elided, beside a count with room to spare.
+void DesktopCheckTest::theEffectOfAFindingIsWholeInTheTable() {
+  CheckFixture f;
+  f.showPanel("open");
+  QTRY_COMPARE(f.table->model()->rowCount(), 1);
+  const QString effect = f.cell(0, FindingsModel::Effect);
+  const int needed = f.table->fontMetrics().horizontalAdvance(effect);
+  QTRY_VERIFY2(f.table->columnWidth(FindingsModel::Effect) > needed, qPrintable(effect));
+  QVERIFY(f.table->columnWidth(FindingsModel::Count) < f.table->columnWidth(FindingsModel::Effect));
+  const auto tip = [&](int column) {
+    return f.table->model()->index(0, column).data(Qt::ToolTipRole).toString();
+  };
+  QCOMPARE(tip(FindingsModel::Effect), effect);
+  QCOMPARE(tip(FindingsModel::Count), QStringLiteral("3 edges"));
+  QCOMPARE(tip(FindingsModel::Place), f.cell(0, FindingsModel::Place));
 }
 
 void DesktopCheckTest::aRowShowsThePlaceInTheView() {

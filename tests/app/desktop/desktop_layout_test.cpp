@@ -4,6 +4,7 @@
 #include <QDockWidget>
 #include <QGuiApplication>
 #include <QScreen>
+#include <QScrollArea>
 
 #include "tests/app/desktop/desktop_driver.h"
 #include "ui/files/export/export_dialog.h"
@@ -99,6 +100,7 @@ class DesktopLayoutTest : public QObject {
   void theSizeOfTheWindowComesBack();
   void aWindowLargerThanItsScreenIsFittedToIt();
   void aScreenOf1600By1000IsEnoughAtScaleTwo();
+  void panelsAtTheBottomScrollInASmallWindow();
   void whatIsHiddenAndMovedComesBack();
   void theThemeComesBack();
   void dialogsThatAreMadeOnDemandHaveNoNamelessField_data();
@@ -164,6 +166,36 @@ void DesktopLayoutTest::aScreenOf1600By1000IsEnoughAtScaleTwo() {
   QTRY_VERIFY2(run.window().rect().contains(shown()), qPrintable(QString::number(shown().right())));
   run.window().resize(1360, 860);
   QTRY_VERIFY(run.window().findChild<QWidget*>(QStringLiteral("statusRate"))->isVisible());
+  run.close();
+}
+
+/// They made the window larger than the screen, and *Repair* was out of reach.
+void DesktopLayoutTest::panelsAtTheBottomScrollInASmallWindow() {
+  constexpr QSize kRoom(800, 464);  ///< Without the title bar.
+  Run run;
+  run.window().resize(kRoom);
+  QTRY_COMPARE(run.window().size(), kRoom);
+  const struct {
+    const char *dock, *pane, *content;
+  } panels[] = {{"checkDock", "checkScroll", "repairPart"},
+                {"clearanceMapDock", "clearanceMapScroll", "exportClearanceMap"},
+                {"clearanceDock", "clearanceScroll", "clearanceTable"},
+                {"plotsDock", "plotsScroll", "plotView"}};
+  for (const auto& panel : panels) {
+    QDockWidget* dock = run.dock(panel.dock);
+    chooseCommand(run.window(), dock->toggleViewAction());
+    QTRY_VERIFY(dock->isVisible());
+    // The window would grow once the panel is laid out.
+    QTest::qWait(100);
+    QVERIFY2(run.window().size() == kRoom, panel.dock);
+    auto* scroll = dock->findChild<QScrollArea*>(QLatin1String(panel.pane));
+    auto* content = dock->findChild<QWidget*>(QLatin1String(panel.content));
+    QVERIFY2(scroll != nullptr && content != nullptr, panel.dock);
+    scroll->ensureWidgetVisible(content);
+    QVERIFY2(!content->visibleRegion().isEmpty(), panel.content);
+    dock->close();
+    QTRY_VERIFY(!dock->isVisible());
+  }
   run.close();
 }
 

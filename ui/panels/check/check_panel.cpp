@@ -42,6 +42,13 @@ Aabb seenBox(const MeshFinding& finding, const TriangleMesh& mesh, const RigidTr
   return box;
 }
 
+/// As high as it must be: it has the rest of a large panel, and a small panel scrolls no further than needed.
+class FindingsTable : public QTableView {
+ public:
+  using QTableView::QTableView;
+  QSize sizeHint() const override { return minimumSize(); }
+};
+
 QString stepText(const RepairStep& step) {
   const auto number = [](std::uint64_t count) { return QLocale().toString(static_cast<qulonglong>(count)); };
   switch (step.repair.kind) {
@@ -100,7 +107,7 @@ CheckPanel::CheckPanel(const Context& context, QWidget* parent)
       marks_(context.view.overlay()),
       model_(new FindingsModel(this)),
       sorted_(new QSortFilterProxyModel(this)),
-      table_(new QTableView(this)),
+      table_(new FindingsTable(this)),
       title_(new QLabel(this)),
       note_(new QLabel(this)),
       result_(new QLabel(this)),
@@ -135,10 +142,16 @@ void CheckPanel::setUpTable() {
   table_->setAlternatingRowColors(true);
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(forFont(*table_, 24));
-  table_->setMinimumSize(forFont(*table_, 320), forFont(*table_, 90));
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table_->horizontalHeader()->setSectionResizeMode(FindingsModel::Effect, QHeaderView::Stretch);
-  table_->horizontalHeader()->setHighlightSections(false);
+  // The panel scrolls where it is narrower.
+  table_->setMinimumSize(forFont(*table_, 480), forFont(*table_, 90));
+  QHeaderView* header = table_->horizontalHeader();
+  header->setSectionResizeMode(FindingsModel::Kind, QHeaderView::ResizeToContents);
+  header->setSectionResizeMode(FindingsModel::Size, QHeaderView::ResizeToContents);
+  // Counts and places, whose tool tips have all of them, leave the width to the effect, which matters most.
+  header->resizeSection(FindingsModel::Count, forFont(*table_, 60));
+  header->resizeSection(FindingsModel::Place, forFont(*table_, 72));
+  header->setSectionResizeMode(FindingsModel::Effect, QHeaderView::Stretch);
+  header->setHighlightSections(false);
   connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this,
           [this] { showPlace(true); });
 }
