@@ -44,6 +44,7 @@ void takeRow(const MotionRow& row, const Part& moving, ServoSnapshot& out) {
   out.wrench = row.wrench;
   out.centre = row.proxy.applyToPoint(moving.geometry ? moving.geometry->mass.centre : glm::dvec3(0.0));
   out.distance = row.distance;
+  out.isDistanceBound = row.isDistanceBound;
   out.queryTime = row.queryTime;
   out.tickTime = row.tickTime;
   out.lmdCount = row.lmds;

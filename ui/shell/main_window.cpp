@@ -254,6 +254,8 @@ void MainWindow::connectReplay(QDockWidget& timelineDock) {
   connect(replay_, &Replay::opened, plots_, &PlotPanel::showRecording);
   connect(replay_, &Replay::timeShown, plots_, &PlotPanel::setRecordingTime);
   connect(replay_, &Replay::closed, plots_, &PlotPanel::showLive);
+  connect(replay_, &Replay::rowShown, &feel_->panel(), &FeelPanel::showRecorded);
+  connect(replay_, &Replay::closed, &feel_->panel(), &FeelPanel::clearSnapshot);
   // Whoever closes the timeline wants the scene back.
   connect(timelineDock.toggleViewAction(), &QAction::toggled, this, [this](bool isShown) {
     if (!isShown && !isMinimized()) replay_->close();

@@ -74,6 +74,7 @@ class DesktopTimelineTest : public QObject {
  private slots:
   void aRecordingIsPlayedToItsEndAndClosedWithoutATrace();
   void theTimelineIsAsHighAsItsContentAndDrawsTheRecording();
+  void theFeelPanelHasTheNumbersOfTheRecordingAndSaysSo();
   void scrubbingAndSteppingGoToAnyTick();
   void aMinDistanceThatIsOnlyABoundIsSaidToBeOne();
   void itGoesAtTheChosenSpeedAndLoops();
@@ -133,6 +134,27 @@ void DesktopTimelineTest::theTimelineIsAsHighAsItsContentAndDrawsTheRecording() 
   const int before = dock->height();
   f.press("timelineClose");
   QTRY_VERIFY(dock->height() < before);
+}
+
+/// It had none, while the legend and the timeline had them.
+void DesktopTimelineTest::theFeelPanelHasTheNumbersOfTheRecordingAndSaysSo() {
+  TimelineFixture f;
+  const auto heading = [&] {
+    return f.d.widget<QWidget>("feltNumbers")
+        ->findChild<QLabel*>(QString(), Qt::FindDirectChildrenOnly)
+        ->text();
+  };
+  QCOMPARE(heading(), QStringLiteral("Felt"));
+  f.openByMenu();
+  QTRY_COMPARE(f.shownTime(), 2.0);
+  QCOMPARE(heading(), QStringLiteral("Felt in the recording"));
+  QCOMPARE(f.d.text("force"), QStringLiteral("2.00 N"));
+  QVERIFY2(f.d.text("distance").startsWith(QStringLiteral("5.0")), qPrintable(f.d.text("distance")));
+  // The hand went 10 mm further than the part.
+  QVERIFY2(f.d.text("lead").contains(QStringLiteral("10")), qPrintable(f.d.text("lead")));
+  f.press("timelineClose");
+  QCOMPARE(heading(), QStringLiteral("Felt"));
+  QCOMPARE(f.d.text("force"), QStringLiteral("–"));
 }
 
 void DesktopTimelineTest::scrubbingAndSteppingGoToAnyTick() {

@@ -33,21 +33,22 @@ class FeelPanel::Readouts : public QWidget {
   /// Adds a text below the numbers, in a colour of the light theme, and returns its label. The text keeps its
   /// line while empty, so that nothing jumps.
   QLabel* addNote(const char* objectName, const QColor& colour);
+  void setHeading(const QString& heading) { heading_->setText(heading); }
   /// Text in place of a missing number.
   static QString nothing() { return QStringLiteral("–"); }
 
  private:
   QVBoxLayout* layout_;
+  QLabel* heading_;
 };
 
 FeelPanel::Readouts::Readouts(const QString& heading, QWidget* parent)
-    : QWidget(parent), layout_(new QVBoxLayout(this)) {
+    : QWidget(parent), layout_(new QVBoxLayout(this)), heading_(new QLabel(heading, this)) {
   layout_->setContentsMargins(0, 0, 0, 0);
   layout_->setSpacing(5);
-  auto* label = new QLabel(heading, this);
-  label->setStyleSheet(QStringLiteral("font-weight: bold; color: #3b4754; padding-top: 8px"));
-  label->setIndent(0);
-  layout_->addWidget(label);
+  heading_->setStyleSheet(QStringLiteral("font-weight: bold; color: #3b4754; padding-top: 8px"));
+  heading_->setIndent(0);
+  layout_->addWidget(heading_);
 }
 
 QLabel* FeelPanel::Readouts::add(const QString& name, const char* objectName, const QString& toolTip) {
@@ -156,6 +157,7 @@ void FeelPanel::setUpReadouts() {
                          tr("Mean deviation of the time between two reports from its average"));
   lost_ =
       device_->add(tr("Lost"), "reportsLost", tr("Reports lost or damaged since the part was taken in hand"));
+  felt_->setObjectName(QStringLiteral("feltNumbers"));
   force_ = felt_->add(tr("Force"), "force");
   torque_ = felt_->add(tr("Torque"), "torque");
   distance_ = felt_->add(tr("Min distance"), "distance",
@@ -262,6 +264,7 @@ void FeelPanel::showSettings(const HapticSettings& settings) {
 }
 
 void FeelPanel::showSnapshot(const ServoSnapshot& snapshot, const Scene& scene) {
+  felt_->setHeading(tr("Felt"));
   setFelt(true);
   showNumbers(snapshot);
   clamped_->setText(snapshot.isClamped ? limitText(snapshot) : QString());
@@ -292,9 +295,22 @@ void FeelPanel::showProxy(const ServoSnapshot& snapshot) {
   subSteps_->setText(isProxy ? QString::number(snapshot.subSteps) : Readouts::nothing());
 }
 
+void FeelPanel::showRecorded(const ServoSnapshot& row) {
+  showNumbers(row);
+  // A recording does not say in which mode it was made.
+  contacts_->setText(QString::number(row.contactCount));
+  lead_->setText(formatLead(handLeadOf(row)));
+  // They stand below the servo, which is at rest.
+  subSteps_->setText(Readouts::nothing());
+  setFelt(true);
+  clearNotices();
+  felt_->setHeading(tr("Felt in the recording"));
+}
+
 void FeelPanel::clearSnapshot() {
   for (QLabel* label : {force_, torque_, distance_, minima_, contacts_, lead_, energy_, subSteps_})
     label->setText(Readouts::nothing());
+  felt_->setHeading(tr("Felt"));
   setFelt(false);
   clearNotices();
 }

@@ -58,6 +58,9 @@ class FeelPanel : public QWidget {
   void clearSnapshot();
   /// Shows the numbers of the last snapshot in grey: nothing is felt any more.
   void keepSnapshot(const ServoSnapshot& snapshot);
+  /// Shows the numbers of a row of a recording that is played, and says that they are not felt now; until
+  /// clearSnapshot().
+  void showRecorded(const ServoSnapshot& row);
 
  signals:
   /// Each is emitted when the user asks for what its name says.

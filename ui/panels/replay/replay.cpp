@@ -177,6 +177,7 @@ void Replay::show() {
   view_.poses().show(ShownPoses::Source::Replay, movedPoses(scene, shown_->proxy));
   view_.showSnapshot(*shown_);
   emit timeShown(shown_->time);
+  emit rowShown(*shown_);
 }
 
 void Replay::followSession() {

@@ -53,6 +53,8 @@ class Replay : public QObject {
   void opened(const std::vector<nearfit::MotionRow>& rows);
   /// Emitted with the time [s] of the row that is now shown.
   void timeShown(double time);
+  /// Emitted with the row that is now shown, as a tick: its numbers.
+  void rowShown(const nearfit::ServoSnapshot& snapshot);
   /// Emitted when the recording was closed.
   void closed();
   /// Emitted when something failed that the user must see.
