@@ -32,7 +32,7 @@ SnapshotGlyphs::SnapshotGlyphs(vtkRenderer& parts, vtkRenderer& overlay, QWidget
 
 void SnapshotGlyphs::show(const ServoSnapshot& snapshot, const HapticSettings& settings, double size) {
   minima_.show(std::span(snapshot.lmds).first(snapshot.storedLmds), settings.springs.cutoff,
-               settings.proxy.margin);
+               settings.proxy.margin, snapshot.time);
   arrows_.show(snapshot.centre, snapshot.wrench, size);
   contacts_.show(std::span(snapshot.contacts).first(snapshot.storedContacts), size);
   hand_.show(snapshot, size);

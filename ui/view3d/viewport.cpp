@@ -236,7 +236,8 @@ void Viewport::placeParts(const std::vector<PartId>& parts) {
 }
 
 void Viewport::showSnapshot(const ServoSnapshot& snapshot) {
-  const bool isSame = shown_ != nullptr && !isPast_ && looksTheSame(*shown_, snapshot);
+  const bool isSame = shown_ != nullptr && !isPast_ && looksTheSame(*shown_, snapshot) &&
+                      !glyphs_->minima().isDue(snapshot.time);
   if (shown_ == nullptr) shown_ = std::make_unique<ServoSnapshot>();
   *shown_ = snapshot;
   if (!isSame) draw(snapshot);

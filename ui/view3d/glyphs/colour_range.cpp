@@ -14,6 +14,9 @@ constexpr double kMedians = 2.0, kMargins = 5.0;
 /// The range shrinks once a smaller step holds this much more than the wanted one: less slack makes colours flicker,
 /// and with more, all minima are red.
 constexpr double kSlack = 1.5;
+/// A hand rests while the wanted range keeps to this share of itself for so long [s]: less than a tremor, and longer
+/// than a hand that turns back.
+constexpr double kStillShare = 0.05, kRestTime = 0.5;
 
 double medianDistance(std::span<const SnapshotLmd> minima) {
   std::vector<double> distances;
@@ -27,13 +30,35 @@ double medianDistance(std::span<const SnapshotLmd> minima) {
 
 }  // namespace
 
-void ColourRange::see(std::span<const SnapshotLmd> minima, double margin) {
-  if (minima.empty()) return;
-  const double wanted = std::max(kMedians * medianDistance(minima), kMargins * margin);
-  if (!(wanted > 0.0) || !std::isfinite(wanted)) return;
-  const bool isKept = hasFound_ && wanted <= found_ && roundedUp(kSlack * wanted) >= found_;
+void ColourRange::see(std::span<const SnapshotLmd> minima, double margin, double time) {
+  const double wanted = minima.empty() ? 0.0 : std::max(kMedians * medianDistance(minima), kMargins * margin);
+  if (!(wanted > 0.0) || !std::isfinite(wanted)) {
+    isRestSeen_ = true;
+    restWanted_ = 0.0;
+    return;
+  }
+  const bool isStill =
+      hasFound_ && time >= restFrom_ && std::abs(wanted - restWanted_) <= kStillShare * restWanted_;
+  if (!isStill) {
+    restWanted_ = wanted;
+    restFrom_ = time;
+    isRestSeen_ = false;
+  }
+  wanted_ = wanted;
+  // Once in each rest: a range at the edge of a step would come and go.
+  const bool isRestNew = hasRested(time);
+  const bool isKept = hasFound_ && !isRestNew && wanted <= found_ && roundedUp(kSlack * wanted) >= found_;
   if (!isKept) found_ = roundedUp(wanted);
+  isRestSeen_ = isRestSeen_ || isRestNew;
   hasFound_ = true;
+}
+
+bool ColourRange::hasRested(double time) const noexcept {
+  return hasFound_ && !isRestSeen_ && time - restFrom_ >= kRestTime;
+}
+
+bool ColourRange::isDue(double time) const noexcept {
+  return hasRested(time) && roundedUp(wanted_) < found_;
 }
 
 }  // namespace nearfit::ui

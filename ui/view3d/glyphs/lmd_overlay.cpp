@@ -103,11 +103,11 @@ LmdOverlay::LmdOverlay(vtkRenderer& renderer) {
   applyVisibility();
 }
 
-void LmdOverlay::show(std::span<const SnapshotLmd> lmds, double cutoff, double margin) {
+void LmdOverlay::show(std::span<const SnapshotLmd> lmds, double cutoff, double margin, double time) {
   Glyphs open, blocked, nearest, pins;
   bool isFirst = true;
   const std::vector<SnapshotLmd> chosen = chosenMinima(lmds, cutoff, choice_);
-  colours_.see(chosen, margin);
+  colours_.see(chosen, margin, time);
   const double range = colours_.end();
   for (const SnapshotLmd& entry : chosen) {
     if (entry.lmd.isBlocked) {

@@ -26,7 +26,10 @@ class LmdOverlay {
   /// @param lmds    World frame [m].
   /// @param cutoff  Within which they were found [m]; > 0.
   /// @param margin  Distance in contact [m].
-  void show(std::span<const SnapshotLmd> lmds, double cutoff, double margin = 0.0);
+  /// @param time    Of the minima [s].
+  void show(std::span<const SnapshotLmd> lmds, double cutoff, double margin = 0.0, double time = 0.0);
+  /// True if the same minima, shown again, have other colours: their hand has rested until a time [s].
+  bool isDue(double time) const noexcept { return colours_.isDue(time); }
   void clear();
   /// Returns the distance at the end of the colour scale [m].
   double colourRange() const noexcept { return colours_.end(); }

@@ -76,6 +76,8 @@ class LmdOverlayTest : public QObject {
   void coloursSpanOnlyWhatIsChosenToBeDrawn();
   void coloursDoNotFlickerWhileDistancesChange();
   void coloursFollowDistancesThatFallToAQuarter();
+  void atRestColoursAreThoseOfAFreshStart();
+  void aRangeAtTheEdgeOfAStepDoesNotComeAndGoAtRest();
   void aChosenRangeOfColoursIsKept();
   void menuChoosesAndRemembers();
 
@@ -232,6 +234,41 @@ void LmdOverlayTest::coloursFollowDistancesThatFallToAQuarter() {
   // 0.6 mm, half as much again as is wanted now, needs this step.
   colours.see(minimaAt({0.2e-3}), 0.0);
   QVERIFY(isAbout(colours.end(), 1e-3));
+}
+
+/// At 0.75 mm it stayed at the 5 mm of before, so that all minima were red.
+void LmdOverlayTest::atRestColoursAreThoseOfAFreshStart() {
+  ui::ColourRange colours, fresh;
+  constexpr double kTick = 0.02;
+  double time = 0.0;
+  const auto see = [&](double distance, int ticks) {
+    for (int i = 0; i < ticks; ++i, time += kTick)
+      colours.see(minimaAt({distance}), 0.0, time);
+  };
+  see(2.2e-3, 10);
+  QVERIFY(isAbout(colours.end(), 5e-3));
+  see(0.75e-3, 10);
+  QVERIFY2(isAbout(colours.end(), 5e-3), "the hand may turn back");
+  see(0.75e-3, 30);
+  fresh.see(minimaAt({0.75e-3}), 0.0);
+  QVERIFY(isAbout(fresh.end(), 2e-3));
+  QCOMPARE(colours.end(), fresh.end());
+  // Minima that come nearer at once are not waited for.
+  see(2.2e-3, 1);
+  QVERIFY(isAbout(colours.end(), 5e-3));
+}
+
+void LmdOverlayTest::aRangeAtTheEdgeOfAStepDoesNotComeAndGoAtRest() {
+  ui::ColourRange colours;
+  int changes = 0;
+  double last = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    // Twice the distance is 1 % about 2 mm.
+    colours.see(minimaAt({1e-3 * (1.0 + 0.01 * std::sin(0.05 * i))}), 0.0, 0.02 * i);
+    changes += colours.end() != last ? 1 : 0;
+    last = colours.end();
+  }
+  QVERIFY2(changes <= 3, qPrintable(QString::number(changes)));
 }
 
 void LmdOverlayTest::aChosenRangeOfColoursIsKept() {
