@@ -54,7 +54,8 @@ FileArgument fileArgumentOf(const std::string& text) {
 
 PartGeometryPtr loadArgument(const FileArgument& argument, double metresPerUnit,
                              const Tessellation& tessellation) {
-  const MeshSource source{argument.file, metresPerUnit, {}, argument.shape, tessellation};
+  const MeshSource source{
+      argument.file, unitToOpen(argument.file, metresPerUnit), {}, argument.shape, tessellation};
   const LoadedPart loaded = loadPartGeometries({&source, 1}).front();
   if (loaded.problem) std::rethrow_exception(loaded.problem);
   return loaded.geometry;

@@ -22,6 +22,7 @@
 #include "core/proximity/overlap/interference.h"
 #include "core/report/clearance.h"
 #include "core/report/lmd_set.h"
+#include "core/scene/document_load.h"
 #include "core/scene/part_geometry.h"
 #include "device/simulated/simulated_device.h"
 
@@ -98,9 +99,10 @@ std::pair<PartGeometryPtr, PartGeometryPtr> loadBodies(const LmdOptions& options
   const FileArgument scene = fileArgumentOf(options.sceneMesh), part = fileArgumentOf(options.partMesh);
   const double metresPerUnit = unitOfFiles(options.unit, std::array{scene.file, part.file});
   const Tessellation tessellation = tessellationOf(options.tessellation);
-  std::vector<MeshSource> sources{{scene.file, metresPerUnit, {}, scene.shape, tessellation}};
+  std::vector<MeshSource> sources{
+      {scene.file, unitToOpen(scene.file, metresPerUnit), {}, scene.shape, tessellation}};
   if (normalisedPath(part.file) != normalisedPath(scene.file) || part.shape != scene.shape)
-    sources.push_back({part.file, metresPerUnit, {}, part.shape, tessellation});
+    sources.push_back({part.file, unitToOpen(part.file, metresPerUnit), {}, part.shape, tessellation});
   std::vector<PartGeometryPtr> bodies;
   for (const LoadedPart& loaded : loadPartGeometries(sources)) {
     if (loaded.problem) std::rethrow_exception(loaded.problem);

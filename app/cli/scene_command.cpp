@@ -20,6 +20,7 @@
 #include "app/cli/scene_joints_command.h"
 #include "app/cli/scene_refine_command.h"
 #include "core/base/error.h"
+#include "core/scene/document_load.h"
 #include "core/scene/document_parts.h"
 #include "core/scene/haptic_limits.h"
 #include "core/scene/scene_file.h"
@@ -97,7 +98,8 @@ NewNodes loadNodes(const std::vector<PartArgument>& arguments, const SceneNewOpt
   const auto addFile = [&](const std::string& text, const std::string& name, const RigidTransform& pose) {
     const FileArgument file = fileArgumentOf(text);
     const auto [source, isNew] = known.try_emplace({normalisedPath(file.file), file.shape}, sources.size());
-    if (isNew) sources.push_back({file.file, metresPerUnit, {}, file.shape, tessellation});
+    if (isNew)
+      sources.push_back({file.file, unitToOpen(file.file, metresPerUnit), {}, file.shape, tessellation});
     sourceOf.push_back(source->second);
     nodes.parts.push_back({nullptr, name, pose, {}, {}});
   };

@@ -78,14 +78,14 @@ bool isOneFile(const fs::path& file) {
 /// Where and how a document is read.
 struct Source {
   fs::path file;
-  double metresPerUnit;  ///< 1 if the document stores its unit.
+  double metresPerUnit;  ///< 1 if the document stores its unit for certain.
   Tessellation tessellation;
 };
 
 Source sourceOf(const fs::path& file, double metresPerUnit, const Tessellation& tessellation) {
   checkMetresPerUnit(metresPerUnit);
   checkTessellation(tessellation);
-  return {file, storesUnit(file) ? 1.0 : metresPerUnit, tessellation};
+  return {file, mayBeInWrongUnit(file) ? metresPerUnit : unitToOpen(file, metresPerUnit), tessellation};
 }
 
 CadDocument importAll(const Source& source, std::vector<std::string> onlyShapes,
@@ -243,7 +243,7 @@ CachedMesh built(CadShape& shape, double metresPerUnit, const std::function<void
 
 /// Unit in which an imported document's lengths are.
 double unitOf(const CadDocument& document, const Source& source) {
-  return document.hasUnit ? 1.0 : source.metresPerUnit;
+  return document.hasUnit && !mayBeInWrongUnit(source.file) ? 1.0 : source.metresPerUnit;
 }
 
 /// Builds the geometry of an imported shape and caches it. Throws FileError that names the shape.
@@ -523,9 +523,23 @@ bool storesUnit(const fs::path& file) {
   return isDocumentFile(file) && formatOf(file) != "brep";
 }
 
+bool mayBeInWrongUnit(const fs::path& file) {
+  constexpr std::array<std::string_view, 3> kInMetres{"gltf", "glb", "urdf"};
+  return std::ranges::find(kInMetres, formatOf(file)) != kInMetres.end();
+}
+
+bool canChangeUnit(const PartGeometry& geometry) {
+  return !geometry.hasOwnUnit || mayBeInWrongUnit(geometry.file);
+}
+
+double unitToOpen(const fs::path& file, double given) {
+  return storesUnit(file) ? 1.0 : given;
+}
+
 LoadedDocument loadDocument(const fs::path& file, double metresPerUnit, const Tessellation& tessellation,
                             const ProgressCallback& progress) {
-  const Source source = sourceOf(file, metresPerUnit, tessellation);
+  checkMetresPerUnit(metresPerUnit);
+  const Source source = sourceOf(file, unitToOpen(file, metresPerUnit), tessellation);
   checkMeshFile(file);
   const std::string sha256 = sha256OfFile(file, stageOf(progress, 0.0, kDocumentHashed));
   LoadedDocument document = loadWhole(source, sha256, progress);

@@ -25,6 +25,13 @@ constexpr std::size_t kMaxShapeKeyBytes = 1000;
 
 /// True if files of this name store their unit: all CAD documents except BREP. Mesh files do not.
 bool storesUnit(const std::filesystem::path& file);
+/// True if files of this name are in metres by their format, but are often written in another unit: glTF and URDF. Their
+/// unit is not asked for, yet it can be changed afterwards: metresPerUnit is then that of the numbers in the file.
+bool mayBeInWrongUnit(const std::filesystem::path& file);
+/// True if the geometry can be read in another unit.
+bool canChangeUnit(const PartGeometry& geometry);
+/// Unit in which a file is opened: 1 if it stores one, else the one that is given.
+double unitToOpen(const std::filesystem::path& file, double given);
 
 /// A CAD document as scenes use it: its tree, and the geometry of each of its shapes.
 struct LoadedDocument {

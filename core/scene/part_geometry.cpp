@@ -208,7 +208,8 @@ void checkMetresPerUnit(double metresPerUnit) {
 
 PartGeometryPtr loadPartGeometry(const std::filesystem::path& file, double metresPerUnit,
                                  const ProgressCallback& progress) {
-  const MeshSource source{file, metresPerUnit};
+  checkMetresPerUnit(metresPerUnit);
+  const MeshSource source{file, unitToOpen(file, metresPerUnit)};
   if (!isDocumentFile(file)) return load(source, progress);
   const LoadedPart loaded = loadShapes({&source, 1}, progress).front();
   if (loaded.problem) std::rethrow_exception(loaded.problem);

@@ -81,7 +81,7 @@ struct PartGeometry {
   /// For each of the faces, or empty: std::nullopt for a face in the part's colour.
   std::vector<std::optional<CadColour>> faceColours = {};
   bool isExact = false;      ///< Came from exact surfaces, so that it can be refined.
-  bool hasOwnUnit = false;   ///< The file stores its unit: metresPerUnit is 1 and cannot be changed.
+  bool hasOwnUnit = false;   ///< The file stores its unit: metresPerUnit is 1 unless it is corrected.
   double exactVolume = 0.0;  ///< Of the exact solid [m^3]; 0 if unknown.
 
   /// Hierarchy for queries, of the mesh with its flats merged (tree().mesh()); built on first use (seconds for

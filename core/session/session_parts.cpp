@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/math/rotation_vector.h"
+#include "core/scene/document_load.h"
 #include "core/session/session.h"
 #include "core/session/session_labels.h"
 
@@ -149,6 +150,11 @@ void Session::rescaleParts(const std::vector<NewGeometry>& parts) {
     if (part.pivot) {
       *part.pivot *= factorOf(part);
       checkPosition(*part.pivot);
+    }
+    // The document places its parts in its unit too. Anything else would tear an assembly apart.
+    if (mayBeInWrongUnit(part.geometry->file)) {
+      part.worldFromPart.translation *= factorOf(part);
+      part.worldFromPart = checkedPose(part.worldFromPart);
     }
     part.geometry = geometries.at(part.id);
   };

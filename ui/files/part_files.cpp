@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <tuple>
@@ -22,6 +23,7 @@
 
 #include "core/base/error.h"
 #include "core/math/aabb.h"
+#include "core/scene/document_load.h"
 #include "core/scene/odd_size.h"
 #include "core/scene/refinement.h"
 #include "ui/files/document.h"
@@ -36,6 +38,10 @@
 
 namespace nearfit::ui {
 namespace {
+
+/// Diagonal from which a document in metres was probably written in millimetres: few assemblies that are fitted by hand
+/// fill a hall, while 50 mm read as metres reach it [m].
+constexpr double kHugeDocument = 50.0;
 
 const QString kReloadAlways = QStringLiteral("files/reloadAlways");
 const QString kReloadNotice = QStringLiteral("reload"), kRescaleNotice = QStringLiteral("rescale"),
@@ -278,19 +284,60 @@ void PartFiles::judgeSizes(const std::vector<PartId>& added) {
 
 bool PartFiles::offerRescaleOf(std::vector<PartId> parts) {
   const Scene& scene = session_.scene();
-  // A unit that the file stores is right.
+  // A unit that the file stores is right, except where formats fix one that programs ignore.
   std::erase_if(parts, [&](PartId id) {
     const Part* part = scene.find(id);
-    return part == nullptr || part->geometry == nullptr || part->geometry->hasOwnUnit;
+    return part == nullptr || part->geometry == nullptr || !canChangeUnit(*part->geometry);
   });
   if (parts.empty()) return false;
   if (const std::optional<OddSize> odd = oddSizeOf(scene, parts)) {
     offerRescale(parts, odd->ratio, odd->factor);
     return true;
   }
-  const std::optional<OddPart> odd = firstOddPart(scene, parts);
-  if (odd) offerRescale({odd->part}, odd->size.ratio, odd->size.factor);
-  return odd.has_value();
+  // Within a document, sizes are right relative to each other: it is doubted as a whole only.
+  std::vector<PartId> ofDocuments;
+  std::erase_if(parts, [&](PartId id) {
+    const bool isOfDocument = mayBeInWrongUnit(scene.get(id).geometry->file);
+    if (isOfDocument) ofDocuments.push_back(id);
+    return isOfDocument;
+  });
+  if (const std::optional<OddPart> odd = firstOddPart(scene, parts)) {
+    offerRescale({odd->part}, odd->size.ratio, odd->size.factor);
+    return true;
+  }
+  if (const std::optional<OddSize> odd = oddSizeOf(scene, ofDocuments)) {
+    offerRescale(ofDocuments, odd->ratio, odd->factor);
+    return true;
+  }
+  return offerRescaleOfHuge(ofDocuments);
+}
+
+bool PartFiles::offerRescaleOfHuge(const std::vector<PartId>& parts) {
+  if (parts.empty()) return false;
+  const Scene& scene = session_.scene();
+  const std::filesystem::path& file = scene.get(parts.front()).geometry->file;
+  Aabb box;
+  for (const PartId id : parts) {
+    const Part& part = scene.get(id);
+    const Aabb& own = part.geometry->mesh.bounds();
+    // A unit other than the format's has been chosen by the user.
+    if (part.geometry->file != file || own.isEmpty() || part.geometry->metresPerUnit != 1.0) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 p((corner & 1) != 0 ? own.upper.x : own.lower.x,
+                         (corner & 2) != 0 ? own.upper.y : own.lower.y,
+                         (corner & 4) != 0 ? own.upper.z : own.lower.z);
+      box.add(part.worldFromPart.applyToPoint(p));
+    }
+  }
+  if (box.isEmpty() || box.diagonal() < kHugeDocument) return false;
+  constexpr double kMillimetre = 1e-3;
+  notices_.offer(
+      kRescaleNotice,
+      tr("“%1” is %2 m large. Is the unit right?").arg(fromPath(file.filename()), about(box.diagonal())),
+      {{tr("Make %1 times smaller").arg(times(1.0 / kMillimetre)),
+        [this, parts] { rescale(parts, kMillimetre); }}},
+      [this] { doubted_.clear(); });
+  return true;
 }
 
 void PartFiles::offerRescale(const std::vector<PartId>& parts, double ratio, double factor) {
@@ -308,11 +355,28 @@ void PartFiles::offerRescale(const std::vector<PartId>& parts, double ratio, dou
 
 void PartFiles::rescale(const std::vector<PartId>& parts, double factor) {
   std::vector<Wanted> wanted;
-  for (const PartId id : parts) {
+  for (const PartId id : withWholeDocuments(parts)) {
     const Part* part = session_.scene().find(id);
     if (part != nullptr) wanted.push_back(inUnit(*part, part->geometry->metresPerUnit * factor));
   }
   loadInUnits(tr("Rescaling"), wanted, tr("The parts could not be rescaled."));
+}
+
+std::vector<PartId> PartFiles::withWholeDocuments(const std::vector<PartId>& parts) const {
+  const Scene& scene = session_.scene();
+  std::set<std::filesystem::path> documents;
+  for (const PartId id : parts) {
+    const Part* part = scene.find(id);
+    if (part != nullptr && part->geometry != nullptr && mayBeInWrongUnit(part->geometry->file))
+      documents.insert(part->geometry->file);
+  }
+  std::vector<PartId> all = parts;
+  for (const Scene::PartPtr& part : scene.parts()) {
+    if (part->geometry != nullptr && documents.contains(part->geometry->file) &&
+        std::ranges::find(parts, part->id) == parts.end())
+      all.push_back(part->id);
+  }
+  return all;
 }
 
 PartFiles::Wanted PartFiles::inUnit(const Part& part, double metresPerUnit) {
@@ -386,7 +450,7 @@ void PartFiles::changeUnit(const std::vector<PartId>& parts) {
   for (const PartId id : parts) {
     const Part* part = session_.scene().find(id);
     if (part == nullptr || part->geometry == nullptr) continue;
-    if (part->geometry->hasOwnUnit) {
+    if (!canChangeUnit(*part->geometry)) {
       const QString file = fromPath(part->geometry->file.filename());
       return emit failed(
           {tr("The unit of “%1” cannot be changed.").arg(QString::fromStdString(part->name)),
@@ -406,7 +470,7 @@ void PartFiles::changeUnit(const std::vector<PartId>& parts) {
   const std::optional<double> unit = askForOtherUnit(names, box.upper - box.lower, *present, window_);
   if (!unit) return;
   std::vector<Wanted> wanted;
-  for (const PartId id : parts) {
+  for (const PartId id : withWholeDocuments(parts)) {
     const Part* part = session_.scene().find(id);
     if (part == nullptr || part->geometry == nullptr || part->geometry->metresPerUnit == *unit) continue;
     wanted.push_back(inUnit(*part, *unit));

@@ -41,8 +41,9 @@ class PartFiles : public QObject {
   /// @param window  The parent of dialogs.
   PartFiles(const Context& context, QMenu* menu, QWidget* window, QObject* parent);
 
-  /// Asks for another unit of parts, then reads their files in it, as one undo step; poses stay. Refuses while
-  /// a part is being felt: what is felt must not change its size. Does nothing while the document is busy.
+  /// Asks for another unit of parts, then reads their files in it, as one undo step; poses stay. All parts of
+  /// a glTF or URDF document change together, their positions too. Refuses parts whose file stores its unit, and while a
+  /// part is being felt: what is felt must not change its size. Does nothing while the document is busy.
   void changeUnit(const std::vector<PartId>& parts);
   /// Repairs the meshes of parts in another thread, as one undo step; their files stay. Refuses while a part is being
   /// felt. Does nothing while the document is busy.
@@ -86,7 +87,11 @@ class PartFiles : public QObject {
   /// none is.
   bool offerRescaleOf(std::vector<PartId> parts);
   void offerRescale(const std::vector<PartId>& parts, double ratio, double factor);
+  /// Doubts the unit of a document, in metres by its format, whose parts together are too large for one.
+  bool offerRescaleOfHuge(const std::vector<PartId>& parts);
   void rescale(const std::vector<PartId>& parts, double factor);
+  /// These parts, and all others of their documents that change their unit as a whole.
+  std::vector<PartId> withWholeDocuments(const std::vector<PartId>& parts) const;
   using Repaired = std::vector<std::pair<PartGeometryPtr, GeometryRepair>>;
   /// Puts repaired geometries, each with the one that it replaces, into the scene.
   void takeRepaired(const std::vector<PartId>& parts, const Repaired& repaired);

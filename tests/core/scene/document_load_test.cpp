@@ -459,6 +459,33 @@ TEST_F(DocumentLoad, ProgressRisesToOneAndCanStopTheWork) {
                Cancelled);
 }
 
+TEST_F(DocumentLoad, GltfOpensInMetresAndIsReadAgainInAnotherUnit) {
+  const test::FakeImporter importer;
+  const std::filesystem::path glb = folder_.write("vise.glb", "the vise");
+  const LoadedDocument opened = loadDocument(glb, 0.001);
+  const PartGeometry& body = *opened.shapes[0];
+  EXPECT_EQ(body.metresPerUnit, 1.0) << "the format says metres";
+  EXPECT_TRUE(canChangeUnit(body));
+  EXPECT_FALSE(canChangeUnit(*loadDocument(file_, 1.0).shapes[0]));
+  const std::vector<LoadedPart> smaller =
+      loadPartGeometries(std::vector<MeshSource>{{glb, 0.001, body.sha256, body.shapeKey}});
+  ASSERT_NE(smaller[0].geometry, nullptr);
+  EXPECT_EQ(smaller[0].geometry->metresPerUnit, 0.001);
+  EXPECT_NEAR(smaller[0].geometry->mesh.bounds().upper.x, 0.001 * body.mesh.bounds().upper.x, 1e-15);
+  const std::vector<LoadedPart> step =
+      loadPartGeometries(std::vector<MeshSource>{{file_, 0.001, {}, "body"}});
+  EXPECT_EQ(step[0].geometry->metresPerUnit, 1.0) << "a STEP file is right";
+}
+
+TEST(DocumentFormats, OnlyGltfAndUrdfMayBeInAnotherUnitThanTheyStore) {
+  for (const char* file : {"a.gltf", "a.GLB", "a.urdf", "a.gltf.gz"})
+    EXPECT_TRUE(mayBeInWrongUnit(file)) << file;
+  for (const char* file : {"a.step", "a.iges", "a.3mf", "a.brep", "a.stl", "a"})
+    EXPECT_FALSE(mayBeInWrongUnit(file)) << file;
+  EXPECT_EQ(unitToOpen("a.glb", 0.001), 1.0);
+  EXPECT_EQ(unitToOpen("a.stl", 0.001), 0.001);
+}
+
 TEST(DocumentFormats, AllButBrepAndMeshesStoreTheirUnit) {
   for (const char* file : {"a.step", "a.STP", "a.iges", "a.gltf", "a.glb", "a.3mf", "a.urdf", "a.step.gz"})
     EXPECT_TRUE(storesUnit(file)) << file;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/scene/document_load.h"
 #include "core/scene/refinement.h"
 #include "core/session/session.h"
 #include "ui/model/hand_state.h"
@@ -29,6 +30,10 @@ QColor shown(const Colour& colour) {
 Colour partColour(const QColor& colour) {
   return {static_cast<float>(colour.redF()), static_cast<float>(colour.greenF()),
           static_cast<float>(colour.blueF())};
+}
+
+QString unitHelp() {
+  return PartCommands::tr("Change the unit of the selected parts; shows the size in each unit");
 }
 
 }  // namespace
@@ -57,8 +62,7 @@ void PartCommands::makeActions() {
                       tr("Rename the selected part or group"));
   recolour =
       makeAction(this, "recolour", tr("&Colour…"), {}, {}, tr("Change the colour of the selected parts"));
-  changeUnit = makeAction(this, "changeUnit", tr("Chang&e unit…"), {}, {},
-                          tr("Change the unit of the selected parts; shows the size in each unit"));
+  changeUnit = makeAction(this, "changeUnit", tr("Chang&e unit…"), {}, {}, unitHelp());
   check = makeAction(this, "check", tr("Check &mesh…"), QStringLiteral("findings"), QStringLiteral("Ctrl+M"),
                      tr("Show what is wrong with the mesh of the selected part and where, and repair it"));
   refine = makeAction(
@@ -155,7 +159,16 @@ void PartCommands::update() {
     return each != nullptr && isRefinable(*each);
   };
   const bool areFree = canAct && part != nullptr && std::ranges::none_of(selected, isLocked);
-  changeUnit->setEnabled(areFree);
+  const auto hasFixedUnit = [&scene](PartId id) {
+    const Part* each = scene.find(id);
+    return each != nullptr && each->geometry != nullptr && !canChangeUnit(*each->geometry);
+  };
+  const bool isUnitFixed = std::ranges::any_of(selected, hasFixedUnit);
+  changeUnit->setEnabled(areFree && !isUnitFixed);
+  changeUnit->setToolTip(isUnitFixed
+                             ? tr("The file of a selected part stores its unit, and sizes are right in "
+                                  "that: export it from the CAD system in another size")
+                             : unitHelp());
   refine->setEnabled(areFree && std::ranges::all_of(selected, canRefine));
   // Looking is possible at any time.
   check->setEnabled(part != nullptr);
