@@ -49,6 +49,7 @@ class DesktopGroupInHandTest : public QObject {
   void withoutASelectionTheNumbersAreThoseOfTheGroup();
   void anotherThingInHandEndsTheGroup();
   void aLockedPartIsRefusedWithAWord();
+  void aGroupOfAllPartsHasNothingToFeel();
   void itIsSavedAndOpenedAgain();
 };
 
@@ -140,6 +141,24 @@ void DesktopGroupInHandTest::aLockedPartIsRefusedWithAWord() {
   d.click(d.group, ui::PartsModel::Moving);
   QVERIFY(!d.session().scene().movingPart());
   QCOMPARE(d.failures, QStringList{QStringLiteral("The group could not be taken in hand.")});
+}
+
+/// It was started, with nothing to be felt against.
+void DesktopGroupInHandTest::aGroupOfAllPartsHasNothingToFeel() {
+  PairInHand d;
+  d.session().setMovingGroup(d.group);
+  const auto* button = d.widget<QPushButton>("startStop");
+  const QString why = QStringLiteral("No other part is visible: nothing can be felt.");
+  QVERIFY(button->isEnabled());
+  const PartId fixed = d.partId("fixed");
+  d.session().setVisible({fixed}, false);
+  QVERIFY(!button->isEnabled());
+  QCOMPARE(d.text("whyNotFelt"), why);
+  d.session().setVisible({fixed}, true);
+  QVERIFY(button->isEnabled());
+  d.session().deletePart(fixed);
+  QVERIFY(!button->isEnabled());
+  QCOMPARE(d.text("whyNotFelt"), why);
 }
 
 void DesktopGroupInHandTest::itIsSavedAndOpenedAgain() {

@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QFileDialog>
 #include <QPushButton>
+#include <algorithm>
 #include <utility>
 
 #include "core/base/error.h"
@@ -17,6 +18,16 @@
 #include "ui/widgets/preferences.h"
 
 namespace nearfit::ui {
+namespace {
+
+/// True if there is something to feel what is in hand against.
+bool isOtherPartVisible(const Scene& scene) {
+  return std::ranges::any_of(scene.parts(), [&scene](const Scene::PartPtr& part) {
+    return part->isVisible && !scene.isMoving(part->id);
+  });
+}
+
+}  // namespace
 
 FeelControl::FeelControl(Session& session, const HandState& hand, SceneWork& work, QWidget* window)
     : QObject(window),
@@ -137,6 +148,7 @@ QString FeelControl::whyNotFelt() const {
   const Scene& scene = session_.scene();
   if (scene.parts().size() < 2) return tr("Add at least two parts to feel one against the other.");
   if (!scene.movingPart()) return tr("No part is in hand: select one and take it in hand (Ctrl+H).");
+  if (!isOtherPartVisible(scene)) return tr("No other part is visible: nothing can be felt.");
   if (work_.isBusy()) return tr("Wait until the parts are loaded.");
   return {};
 }
