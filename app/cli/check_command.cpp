@@ -125,6 +125,9 @@ std::string repairText(const GeometryRepair& repair) {
   for (const RepairStep& step : repair.steps) {
     fmt::format_to(std::back_inserter(text), "  {:<11} {} changed, {} faces added, {} removed, {} left\n",
                    wordOf(step.repair.kind), step.changed, step.addedFaces, step.removedFaces, step.left);
+    if (step.wallFaces > 0)
+      fmt::format_to(std::back_inserter(text), "              {} of the removed faces were walls inside\n",
+                     step.wallFaces);
   }
   const MeshChange& change = repair.change;
   fmt::format_to(std::back_inserter(text),
@@ -196,6 +199,7 @@ CheckJson repairJson(const GeometryRepair& repair) {
                              {"changed", step.changed},
                              {"addedFaces", step.addedFaces},
                              {"removedFaces", step.removedFaces},
+                             {"wallFaces", step.wallFaces},
                              {"left", step.left}});
   }
   json["maxDistance"] = repair.change.maxDistance;

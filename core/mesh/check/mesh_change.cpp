@@ -6,8 +6,10 @@
 #include <glm/geometric.hpp>
 
 #include "core/math/mixed_bits.h"
+#include "core/mesh/check/face_faults.h"
 #include "core/mesh/check/mesh_repair.h"
 #include "core/mesh/check/nearest_surface.h"
+#include "core/mesh/flat_triangles.h"
 
 namespace nearfit {
 namespace {
@@ -52,12 +54,16 @@ std::vector<std::uint64_t> sortedHashes(const TriangleMesh& mesh) {
   return hashes;
 }
 
-/// Triangles of a mesh that another one does not have.
+/// Triangles with an area of a mesh that another one does not have.
 std::vector<std::uint32_t> trianglesMissingIn(const std::vector<std::uint64_t>& other,
                                               const TriangleMesh& mesh) {
+  // A line that sticks out was no surface that moved.
+  const double noHeight = kNoHeight * mesh.bounds().diagonal();
   std::vector<std::uint32_t> missing;
   for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) {
-    if (!std::ranges::binary_search(other, hashOfTriangle(mesh, mesh.triangles()[i]))) missing.push_back(i);
+    const Triangle& t = mesh.triangles()[i];
+    if (std::ranges::binary_search(other, hashOfTriangle(mesh, t))) continue;
+    if (leastHeight(mesh.vertices(), t) > noHeight) missing.push_back(i);
   }
   return missing;
 }
@@ -104,7 +110,9 @@ MeshChange changeBetween(const TriangleMesh& before, const TriangleMesh& after,
                                    added = trianglesMissingIn(sortedHashes(before), after);
   const std::function<void(double)> first = stageOf(progress, 0.0, 0.5), second = stageOf(progress, 0.5, 1.0);
   DistanceMeter(first).measure(before, gone, after, change);
+  const double ofRemoved = change.maxDistance;
   DistanceMeter(second).measure(after, added, before, change);
+  change.isOfRemoved = ofRemoved > 0.0 && ofRemoved >= change.maxDistance;
   second(1.0);
   return change;
 }

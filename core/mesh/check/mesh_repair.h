@@ -69,6 +69,9 @@ struct RepairStep {
   std::uint64_t addedFaces = 0, removedFaces = 0;
   /// Could not be done: edges that still disagree (Orient), holes small enough but not filled (FillHoles).
   std::uint64_t left = 0;
+  /// Clean: the removed faces of walls, which separate two parts of a solid and face both ways. Where they were, no
+  /// surface is left.
+  std::uint64_t wallFaces = 0;
 
   bool isNothing() const noexcept { return changed == 0 && addedFaces == 0 && removedFaces == 0; }
 };
@@ -101,9 +104,10 @@ struct MeshChange {
   };
   Side before, after;
   /// Max distance between the surfaces [m]: from corners, middles of sides and centres of the triangles that only
-  /// one of them has to the other surface. A fill is so far from the old surface as its middle is from the rim.
+  /// one of them has to the other surface; faces without area are no surface. A fill is so far from the old surface as its middle is from the rim.
   double maxDistance = 0.0;
-  bool isSampled = false;  ///< There were more points than kMaxSamples: only some were measured, evenly.
+  bool isOfRemoved = false;  ///< The max is from a face that is gone to the surface that is left.
+  bool isSampled = false;    ///< There were more points than kMaxSamples: only some were measured, evenly.
 };
 
 /// Compares a mesh with its repaired copy. O(n log n). Throws Cancelled.

@@ -76,14 +76,18 @@ std::uint64_t mergedIn(const std::vector<std::uint32_t>& by) {
   return merged;
 }
 
-std::uint64_t removeCopies(MeshInRepair& mesh) {
+RepairStep removeCopies(MeshInRepair& mesh) {
+  RepairStep step;
   const std::vector<FaceCopies> groups = copiesOfFaces(mesh.built());
   std::vector<bool> isRemoved(mesh.triangles.size(), false);
   for (const FaceCopies& copies : groups) {
     for (const std::uint32_t face : copies.surplus)
       isRemoved[face] = true;
+    if (copies.areOpposite && copies.surplus.size() == copies.faces.size())
+      step.wallFaces += copies.surplus.size();
   }
-  return mesh.remove(isRemoved);
+  step.removedFaces = mesh.remove(isRemoved);
+  return step;
 }
 
 /// Closes T-junctions up to a width; returns the number of faces added.
@@ -206,8 +210,7 @@ RepairStep stitchBorders(MeshInRepair& mesh, double tolerance) {
 }
 
 RepairStep cleanFaces(MeshInRepair& mesh) {
-  RepairStep step;
-  step.removedFaces = removeCopies(mesh);
+  RepairStep step = removeCopies(mesh);
   const TriangleMesh present = mesh.built();
   step.changed = swapFlatTriangles(mesh.vertices, mesh.triangles, kNoHeight * present.bounds().diagonal(),
                                    &mesh.originOf);

@@ -8,6 +8,7 @@
 #include <QSortFilterProxyModel>
 #include <QTableView>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "ui/model/findings_model.h"
@@ -58,6 +59,9 @@ QString stepText(const RepairStep& step) {
       return CheckPanel::tr("border vertices joined: %1, faces split: %2")
           .arg(number(step.changed), number(step.addedFaces));
     case RepairKind::Clean:
+      if (step.wallFaces > 0)
+        return CheckPanel::tr("faces removed: %1, of them walls inside: %2, swapped: %3")
+            .arg(number(step.removedFaces), number(step.wallFaces), number(step.changed));
       return CheckPanel::tr("faces removed: %1, swapped: %2")
           .arg(number(step.removedFaces), number(step.changed));
     case RepairKind::Orient:
@@ -84,6 +88,23 @@ QString shareText(double before, double after) {
          QStringLiteral(" %");
 }
 
+/// Says where the surface moved the most, if nothing came in the place of what was there.
+QString placeText(const GeometryRepair& repair) {
+  const auto has = [&repair](auto isIn) { return std::ranges::any_of(repair.steps, isIn); };
+  const bool isRemoval = repair.change.isOfRemoved && has([](const RepairStep& step) {
+                           const bool canRemove = step.repair.kind == RepairKind::Clean ||
+                                                  step.repair.kind == RepairKind::DropShells;
+                           return canRemove && step.removedFaces > 0;
+                         });
+  if (!isRemoval) return {};
+  const bool isOfWalls =
+      has([](const RepairStep& step) { return step.wallFaces > 0; }) && !has([](const RepairStep& step) {
+        return step.repair.kind == RepairKind::DropShells && step.removedFaces > 0;
+      });
+  return isOfWalls ? CheckPanel::tr(", where walls were removed")
+                   : CheckPanel::tr(", where faces were removed");
+}
+
 QString repairText(const GeometryRepair& repair) {
   QStringList steps;
   for (const RepairStep& step : repair.steps) {
@@ -91,9 +112,10 @@ QString repairText(const GeometryRepair& repair) {
   }
   if (!repair.geometry) return CheckPanel::tr("There was nothing to repair in this way.");
   const MeshChange& change = repair.change;
-  QString text = CheckPanel::tr("Repaired: %1. The surface moved by at most %2; area %3")
-                     .arg(steps.join(QStringLiteral("; ")), formatLength(change.maxDistance),
-                          shareText(change.before.area, change.after.area));
+  const QString moved = formatLength(change.maxDistance) + placeText(repair);
+  QString text =
+      CheckPanel::tr("Repaired: %1. The surface moved by at most %2; area %3")
+          .arg(steps.join(QStringLiteral("; ")), moved, shareText(change.before.area, change.after.area));
   if (change.before.volume && change.after.volume)
     text += CheckPanel::tr(", volume %1").arg(shareText(*change.before.volume, *change.after.volume));
   else if (change.after.volume)

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -121,7 +122,31 @@ TEST(MeshRepair, AWallBetweenTwoSolidsGoes) {
   ASSERT_GT(checkMesh(both).total(FindingKind::DuplicateFaces).count, 0U);
   const RepairedMesh result = repaired(both, {kClean});
   expectSound(result.mesh);
-  EXPECT_NEAR(changeBetween(both, result.mesh).after.volume.value(), 2.0, 1e-12);
+  const MeshChange change = changeBetween(both, result.mesh);
+  EXPECT_NEAR(change.after.volume.value(), 2.0, 1e-12);
+  // Two triangles from each side; what is farthest from the surface is the middle of the wall.
+  EXPECT_EQ(result.steps[0].wallFaces, 4U);
+  EXPECT_NEAR(change.maxDistance, 0.5, 1e-12);
+  EXPECT_TRUE(change.isOfRemoved);
+}
+
+TEST(MeshRepair, ALineThatSticksOutAndACopyAreNoSurfaceThatMoved) {
+  const TriangleMesh box = boxMesh({3, 4, 5});
+  std::vector<glm::dvec3> vertices(box.vertices().begin(), box.vertices().end());
+  const glm::dvec3 corner = vertices[0];
+  const auto first = static_cast<std::uint32_t>(vertices.size());
+  vertices.push_back(corner + glm::sign(corner));
+  vertices.push_back(corner + 2.0 * glm::sign(corner));
+  std::vector<Triangle> triangles = test::trianglesOf(box);
+  triangles.push_back({0, first, first + 1});
+  triangles.push_back(triangles[3]);
+  const TriangleMesh faulty(vertices, triangles);
+  const RepairedMesh result = repaired(faulty, {kClean});
+  EXPECT_EQ(result.steps[0].removedFaces, 2U);
+  EXPECT_EQ(result.steps[0].wallFaces, 0U);
+  const MeshChange change = changeBetween(faulty, result.mesh);
+  EXPECT_EQ(change.maxDistance, 0.0);
+  EXPECT_FALSE(change.isOfRemoved);
 }
 
 TEST(MeshRepair, ALineInATJointIsSwapped) {
