@@ -1,6 +1,7 @@
 #include "core/scene/document_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string_view>
 #include <utility>
@@ -34,6 +35,17 @@ std::string stemOf(const std::filesystem::path& file) {
   // Leaves room for a number.
   text = truncatedUtf8(text, kMaxGroupNameBytes - 20);
   return text.empty() ? "part" : text;
+}
+
+/// True for a name that programs give to what has none: a number, or a word for any product.
+bool saysNothing(std::string_view name) {
+  constexpr std::array<std::string_view, 6> kWords{"document", "part", "shape", "solid", "unnamed", "none"};
+  const bool isNumber = std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
+  return isNumber || std::ranges::any_of(kWords, [name](std::string_view word) {
+           return std::ranges::equal(name, word, [](char a, char b) {
+             return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+           });
+         });
 }
 
 class Placer {
@@ -103,7 +115,9 @@ class Placer {
   }
 
   std::string nameOf(const CadNode& node) {
-    if (!node.name.empty()) return node.name;
+    // Several parts are told apart by their numbers; the only one is better known by its file.
+    const bool hasName = all_ == 1 && hasPart(node) ? !saysNothing(node.name) : !node.name.empty();
+    if (hasName) return node.name;
     return all_ == 1 ? stem_ : fmt::format("{} {}", stem_, ++unnamed_);
   }
 

@@ -102,12 +102,8 @@ void DesktopFilesTest::openReplacesTheSceneByThatOfAMesh() {
       whenModal<QMessageBox>(
           [answer](QMessageBox* box) {
             if (answer == QMessageBox::Discard) {
-              whenModal<QDialog>(
-                  [](QDialog* question) {
-                    QTest::mouseClick(question->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok),
-                                      Qt::LeftButton);
-                  },
-                  QStringLiteral("unitDialog"));
+              whenModal<QDialog>([](QDialog* question) { answerUnit(question); },
+                                 QStringLiteral("unitDialog"));
             }
             QTest::mouseClick(box->button(answer), Qt::LeftButton);
           },

@@ -105,6 +105,19 @@ TEST(DocumentParts, UnnamedItemsGetTheFilesNameAndANumber) {
   EXPECT_THAT(pathsIn(sceneOf(documentOf({test::instanceNode("", -1, 0)}))), ElementsAre("vise"));
 }
 
+TEST(DocumentParts, TheOnlyPartGetsTheFilesNameIfItsOwnSaysNothing) {
+  for (const char* name : {"Document", "1", "042", "Part", "SHAPE", "Solid", "Unnamed", "NONE"}) {
+    EXPECT_THAT(pathsIn(sceneOf(documentOf({test::instanceNode(name, -1, 0)}))), ElementsAre("vise")) << name;
+  }
+  for (const char* name : {"Document 1", "1a", "Parts"})
+    EXPECT_THAT(pathsIn(sceneOf(documentOf({test::instanceNode(name, -1, 0)}))), ElementsAre(name));
+  EXPECT_THAT(pathsIn(sceneOf(documentOf({test::assemblyNode("jaws", -1), test::instanceNode("1", 0, 0)}))),
+              ElementsAre("jaws|vise"));
+  EXPECT_THAT(pathsIn(sceneOf(documentOf({test::instanceNode("1", -1, 0), test::instanceNode("2", -1, 0)}))),
+              ElementsAre("vise|1", "vise|2"))
+      << "numbers tell several parts apart";
+}
+
 TEST(DocumentParts, ItemThatIsBothAShapeAndAnAssemblyIsInItsOwnGroup) {
   EXPECT_THAT(
       pathsIn(sceneOf(documentOf({test::instanceNode("frame", -1, 0), test::instanceNode("bolt", 0, 0)}))),
