@@ -48,6 +48,11 @@ std::string cleanName(std::string_view text) {
   return trimmed(truncatedUtf8(trimmed(name), kMaxNodeNameBytes));
 }
 
+std::string withoutFullStop(std::string sentence) {
+  if (sentence.ends_with('.')) sentence.pop_back();
+  return sentence;
+}
+
 void addWarning(std::vector<std::string>& warnings, const std::string& text) {
   if (warnings.size() + 1 == kMaxWarnings)
     warnings.emplace_back("There are more warnings, which are left out.");
@@ -132,9 +137,10 @@ CadDocument DocumentBuilder::take() {
                       "import the whole file again");
     }
     const std::string reason =
-        document_.warnings.empty() ? std::string() : " (" + document_.warnings.front() + ")";
+        document_.warnings.empty() ? std::string() : " (" + withoutFullStop(document_.warnings.front()) + ")";
     throw FileError(job_.file.string(), "it holds no solids, shells or meshes that can be read" + reason,
-                    "export the parts as solids");
+                    hasTrianglesOnly_ ? "export it again, with meshes whose coordinates are all finite"
+                                      : "export the parts as solids");
   }
   return std::move(document_);
 }

@@ -35,6 +35,8 @@ class DocumentBuilder {
   /// Sets the shape of a place; the key stays. Without triangles it is left out, with its nodes.
   void setShape(std::int32_t shape, CadShape content);
   void setHasUnit(bool hasUnit) { document_.hasUnit = hasUnit; }
+  /// The document holds triangles instead of exact surfaces, which decides what can be done about an empty one.
+  void setHasTrianglesOnly() { hasTrianglesOnly_ = true; }
   /// A warning, as a sentence.
   void warn(const std::string& text);
 
@@ -49,9 +51,13 @@ class DocumentBuilder {
   CadDocument document_;
   std::vector<std::size_t> levels_;  ///< Of each node; 1 at the top.
   std::size_t unnamed_ = 0;
+  bool hasTrianglesOnly_ = false;
   std::unordered_set<std::string> keys_;
   std::unordered_map<std::string, std::size_t> nextNumber_;  ///< For keys that repeat.
 };
+
+/// A sentence as a part of another one: without its full stop.
+std::string withoutFullStop(std::string sentence);
 
 /// Adds a warning to a list that may be full, cut to its limit.
 void addWarning(std::vector<std::string>& warnings, const std::string& text);

@@ -18,7 +18,7 @@ namespace {
 
 class ThreeMfReader {
  public:
-  explicit ThreeMfReader(const ImportJob& job) : job_(job), builder_(job) {}
+  explicit ThreeMfReader(const ImportJob& job) : job_(job), builder_(job) { builder_.setHasTrianglesOnly(); }
 
   CadDocument read() {
     model_ = loadThreeMf(job_);

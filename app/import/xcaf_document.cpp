@@ -251,6 +251,7 @@ class XcafReader {
 
   CadDocument read() {
     builder_.setHasUnit(options_.hasUnit);
+    if (options_.areTriangles) builder_.setHasTrianglesOnly();
     TDF_LabelSequence top;
     shapes_->GetFreeShapes(top);
     checkInstances(top);
@@ -504,7 +505,7 @@ class XcafReader {
       problem = failure.GetMessageString();
       shape = {};
     }
-    if (shape.triangles.empty() && !shape.warnings.empty()) problem = shape.warnings.front();
+    if (shape.triangles.empty() && !shape.warnings.empty()) problem = withoutFullStop(shape.warnings.front());
     if (shape.triangles.empty())
       builder_.warn(fmt::format("\"{}\" is left out: {}.", builder_.keyOf(pending.shape), problem));
     if (!isWithinLimits(shape)) {

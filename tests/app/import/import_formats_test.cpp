@@ -87,6 +87,25 @@ TEST(ImportFormats, GltfIsWeldedAndAScaleIsBakedIntoTheShape) {
   EXPECT_NEAR(test::volumeOf(scaled), 8.0 / 6.0, 1e-12);
 }
 
+TEST(ImportFormats, GltfOfInfinitiesIsRefusedInOneSentenceWithARemedyThatHelps) {
+  // Nine times infinity as a 32-bit float, then the indices 0, 1, 2 in 16 bits.
+  const std::string data = "AACAfwAAgH8AAIB/AACAfwAAgH8AAIB/AACAfwAAgH8AAIB/AAABAAIA";
+  const TemporaryFolder folder;
+  const fs::path file = folder.write(
+      "far.gltf",
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"far","mesh":0}],
+"meshes":[{"name":"far","primitives":[{"attributes":{"POSITION":0},"indices":1,"mode":4}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,1]},
+{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
+"buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,)" +
+          data + R"("}]})");
+  const FileError error = refusal(file);
+  EXPECT_THAT(error.problem(), testing::AllOf(HasSubstr("no solids, shells or meshes"),
+                                              testing::Not(HasSubstr(".)")), testing::Not(HasSubstr(".."))));
+  EXPECT_THAT(error.remedy(), testing::AllOf(HasSubstr("finite"), testing::Not(HasSubstr("solids"))));
+}
+
 TEST(ImportFormats, ThreeMfBringsItsUnitComponentsAndNames) {
   const CadDocument document = imported(importModel("set.3mf"));
   constexpr double kInch = 0.0254;
