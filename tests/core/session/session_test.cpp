@@ -504,6 +504,26 @@ TEST(Session, LockedPartIsNotRescaled) {
   EXPECT_THROW(session.rescaleParts({{peg, std::make_shared<const PartGeometry>()}}), UsageError);
 }
 
+TEST(Session, PositionsInAGltfScaleWithItsUnitAndThoseOfMeshesStay) {
+  const auto geometryIn = [](const char* file, double metresPerUnit) {
+    PartGeometry geometry;
+    geometry.file = file;
+    geometry.metresPerUnit = metresPerUnit;
+    return std::make_shared<const PartGeometry>(std::move(geometry));
+  };
+  Session session;
+  const RigidTransform aside{glm::angleAxis(0.5, glm::dvec3(0, 0, 1)), {1.0, -2.0, 4.0}};
+  const PartId ofGltf = session.addPart(geometryIn("/cad/a.glb", 1.0), "Bolt", aside);
+  const PartId ofMesh = session.addPart(geometryIn("/cad/a.stl", 1.0), "Nut", aside);
+  session.rescaleParts({{ofGltf, geometryIn("/cad/a.glb", 0.5)}, {ofMesh, geometryIn("/cad/a.stl", 0.5)}});
+  EXPECT_EQ(session.scene().find(ofGltf)->worldFromPart.translation, glm::dvec3(0.5, -1.0, 2.0));
+  EXPECT_EQ(session.scene().find(ofGltf)->worldFromPart.rotation,
+            session.scene().find(ofMesh)->worldFromPart.rotation);
+  EXPECT_EQ(session.scene().find(ofMesh)->worldFromPart.translation, aside.translation);
+  session.undo();
+  EXPECT_EQ(session.scene().find(ofGltf)->worldFromPart.translation, aside.translation);
+}
+
 TEST(Session, PivotsAreAStepAndStayWhereTheyAreOnThePart) {
   const auto geometryIn = [](double metresPerUnit) {
     PartGeometry geometry;
