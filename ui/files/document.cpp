@@ -167,7 +167,7 @@ void Document::newScene() {
 void Document::askAndOpen() {
   const QStringList files =
       QFileDialog::getOpenFileNames(window_, tr("Open"), Preferences::lastFolder(), openFilter());
-  if (!files.isEmpty()) openInPlace(files);
+  if (!files.isEmpty()) dropFiles(files);
 }
 
 void Document::openScene(const QString& file) {
@@ -245,14 +245,13 @@ void Document::askAndAddParts() {
   const QStringList files =
       QFileDialog::getOpenFileNames(window_, tr("Add parts"), Preferences::lastFolder(), partFilter());
   if (files.isEmpty()) return;
-  if (const std::optional<double> unit = unitOf(files, extentOf(session_.scene()))) addParts(files, *unit);
+  if (const std::optional<double> unit = unitOf(files)) addParts(files, *unit);
 }
 
-std::optional<double> Document::unitOf(const QStringList& files,
-                                       const std::optional<glm::dvec3>& sceneExtent) {
+std::optional<double> Document::unitOf(const QStringList& files) {
   const QStringList asked = withoutUnit(files);
   if (asked.isEmpty()) return Preferences::metresPerUnit();
-  return askForUnit(asked, sceneExtent, window_);
+  return askForUnit(asked, extentOf(session_.scene()), window_);
 }
 
 /// Files of parts, loaded.
@@ -309,10 +308,6 @@ Document::LoadedFiles Document::loadFiles(const QStringList& files, double metre
 }
 
 void Document::addParts(const QStringList& files, double metresPerUnit) {
-  loadParts(files, metresPerUnit, Target::OpenScene);
-}
-
-void Document::loadParts(const QStringList& files, double metresPerUnit, Target target) {
   if (isBusy() || files.isEmpty()) return;
   Preferences::rememberFolderOf(files.first());
   auto outcome = std::make_shared<LoadedFiles>();
@@ -322,13 +317,13 @@ void Document::loadParts(const QStringList& files, double metresPerUnit, Target 
   };
   const QString text = files.size() == 1 ? tr("Loading %1").arg(QFileInfo(files.first()).fileName())
                                          : tr("Loading %n files", nullptr, files.size());
-  load(text, job, [this, outcome, files, target](const std::exception_ptr& error) {
+  load(text, job, [this, outcome, files](const std::exception_ptr& error) {
     if (isCancelled(error)) {
       emit loaded(false);
       return;
     }
     if (error) outcome->problems << describeItem(nameOfAll(files), error);
-    finishParts(files, *outcome, target);
+    finishParts(files, *outcome);
   });
 }
 
@@ -359,9 +354,8 @@ void Document::tellWarnings(const LoadedFiles& files) {
   if (!said.isEmpty()) emit failed(describeItems(tr("The document was added, but not all of it."), said));
 }
 
-void Document::finishParts(const QStringList& files, const LoadedFiles& loadedFiles, Target target) {
-  const Scene empty;
-  const Scene& scene = target == Target::NewScene ? empty : session_.scene();
+void Document::finishParts(const QStringList& files, const LoadedFiles& loadedFiles) {
+  const Scene& scene = session_.scene();
   QVector<FailedItem> problems = loadedFiles.problems;
   NewNodes nodes;
   for (const PartGeometryPtr& geometry : loadedFiles.meshes)
@@ -375,8 +369,6 @@ void Document::finishParts(const QStringList& files, const LoadedFiles& loadedFi
   }
   std::vector<PartId> added;
   try {
-    // Files of which nothing can be read leave the open scene alone.
-    if (target == Target::NewScene && !nodes.parts.empty()) session_.reset();
     const SceneNodes top = session_.addNodes(nodes);
     added = partsOf(session_.scene(), top);
   } catch (...) {
@@ -392,23 +384,10 @@ void Document::openFiles(const QStringList& filesAndFolders, std::optional<doubl
   const DroppedFiles sorted = sortOut(filesAndFolders);
   const bool isLoadable = sorted.scenes.size() <= 1 && !sorted.isCutOff;
   if (!metresPerUnit && isLoadable && !sorted.meshes.isEmpty()) {
-    metresPerUnit = unitOf(sorted.meshes, extentOf(session_.scene()));
+    metresPerUnit = unitOf(sorted.meshes);
     if (!metresPerUnit) return emit loaded(false);
   }
   open(sorted, metresPerUnit.value_or(Preferences::metresPerUnit()));
-}
-
-void Document::openInPlace(const QStringList& filesAndFolders) {
-  if (isBusy()) return;
-  const DroppedFiles sorted = sortOut(filesAndFolders);
-  if (sorted.isCutOff || !sorted.scenes.isEmpty() || sorted.meshes.isEmpty()) {
-    openFiles(filesAndFolders);
-    return;
-  }
-  if (!mayLeaveScene()) return;
-  const std::optional<double> unit = unitOf(sorted.meshes, std::nullopt);
-  if (!unit) return emit loaded(false);
-  loadParts(sorted.meshes, *unit, Target::NewScene);
 }
 
 void Document::dropFiles(const QStringList& filesAndFolders) {

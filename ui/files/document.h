@@ -8,8 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include "core/session/session.h"
 #include "ui/model/scene_work.h"
 #include "ui/view3d/parts/part_shape.h"
@@ -42,7 +40,7 @@ class Document : public SceneWork {
 
   /// Starts an empty scene after asking about unsaved changes.
   void newScene();
-  /// Lets the user choose a scene, meshes or CAD documents, then calls openInPlace().
+  /// Lets the user choose a scene, meshes or CAD documents, then opens them as dropFiles() does.
   void askAndOpen();
   /// Opens a scene after asking about unsaved changes. Does nothing while busy.
   void openScene(const QString& file);
@@ -64,10 +62,7 @@ class Document : public SceneWork {
   /// Opens any mix of meshes, CAD documents, folders of these and at most one scene. The scene is opened first.
   /// @param metresPerUnit  Of all files that store no unit; std::nullopt: asks once, if there are any.
   void openFiles(const QStringList& filesAndFolders, std::optional<double> metresPerUnit = std::nullopt);
-  /// The same in place of the open scene, after asking about unsaved changes: without a scene among the files, their
-  /// parts make up a new, unnamed one. The open scene stays if none of them can be read. Does nothing while busy.
-  void openInPlace(const QStringList& filesAndFolders);
-  /// As openFiles(), for what is dropped on the window. While busy it only emits noted().
+  /// The same for what is dropped on the window. While busy it only emits noted().
   void dropFiles(const QStringList& filesAndFolders);
   /// Runs a job in another thread behind a progress dialog. Must not be called while busy.
   /// @param done  Called on the GUI thread with what the job threw, Cancelled included, or null.
@@ -107,14 +102,11 @@ class Document : public SceneWork {
   bool saveTo(const QString& file);
   struct LoadedFiles;
   /// Unit for the files that store none, which the user is asked for if there are any; std::nullopt: cancelled.
-  /// @param sceneExtent  Size of the scene that they go into; std::nullopt: it is empty.
-  std::optional<double> unitOf(const QStringList& files, const std::optional<glm::dvec3>& sceneExtent);
-  enum class Target { OpenScene, NewScene };
-  void loadParts(const QStringList& files, double metresPerUnit, Target target);
+  std::optional<double> unitOf(const QStringList& files);
   static LoadedFiles loadFiles(const QStringList& files, double metresPerUnit,
                                const ProgressCallback& progress);
   void tellWarnings(const LoadedFiles& files);
-  void finishParts(const QStringList& files, const LoadedFiles& loadedFiles, Target target);
+  void finishParts(const QStringList& files, const LoadedFiles& loadedFiles);
 
   Session& session_;
   std::shared_ptr<PartShapeCache> shapes_;

@@ -7,7 +7,6 @@
 
 #include "core/scene/part_geometry.h"
 #include "tests/app/desktop/desktop_driver.h"
-#include "tests/support/mesh_generators.h"
 #include "ui/model/findings_model.h"
 #include "ui/model/parts_model.h"
 #include "ui/model/selection.h"
@@ -76,7 +75,6 @@ class DesktopCheckTest : public QObject {
   void theEffectOfAFindingIsWholeInTheTable();
   void aRowShowsThePlaceInTheView();
   void aRepairIsOneStepAndSaysWhatItChanged();
-  void aChangeThatIsOnlyRoundingIsShownAsNone();
   void aRepairedPartIsSavedAndOpenedAsSuch();
   void aRepairedPartStaysSoWhenItsUnitChangesOrItsFileIsReloaded();
   void withoutRepairsOrForALockedPartThereIsNothingToPress();
@@ -194,27 +192,6 @@ void DesktopCheckTest::aRepairIsOneStepAndSaysWhatItChanged() {
   f.d.session().redo();
   QVERIFY(!f.isOpen("open"));
   QVERIFY2(readBytes(f.openFile.toStdString()).find("OFF\n8 11 0") == 0, "the file stays");
-}
-
-/// It said "area -6.91e-05 %".
-void DesktopCheckTest::aChangeThatIsOnlyRoundingIsShownAsNone() {
-  CheckFixture f;
-  // A grain of 10 um has 6e-8 of the area of a cube of 40 mm.
-  const TriangleMesh cube = boxMesh(glm::dvec3(0.04), glm::dvec3(0.2, 0.0, 0.0)),
-                     grain = boxMesh(glm::dvec3(1e-5), glm::dvec3(0.25, 0.0, 0.0));
-  f.d.add({writeOff(f.d.folder.path() / "grain.off", joined(cube, grain))});
-  QTRY_COMPARE(f.d.session().scene().parts().size(), std::size_t{3});
-  f.showPanel("grain");
-  // The check suggests repairs once it is done.
-  QTRY_COMPARE(f.d.text("checkNote"), QStringLiteral("Nothing is wrong with its mesh."));
-  auto* drop = f.d.widget<QCheckBox>("repairDrop");
-  if (!drop->isChecked()) QTest::mouseClick(drop, Qt::LeftButton, {}, QPoint(8, drop->height() / 2));
-  QVERIFY(drop->isChecked());
-  f.d.type<QDoubleSpinBox>("repairDropSize", "1 mm");
-  QTest::mouseClick(f.d.widget<QPushButton>("repairPart"), Qt::LeftButton);
-  QTRY_COMPARE(f.d.part("grain").geometry->mesh.triangles().size(), std::size_t{12});
-  const QString result = f.d.text("repairResult");
-  QVERIFY2(result.contains(QStringLiteral("area 0 %")), qPrintable(result));
 }
 
 void DesktopCheckTest::aRepairedPartIsSavedAndOpenedAsSuch() {

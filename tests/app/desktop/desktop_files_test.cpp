@@ -31,7 +31,6 @@ class DesktopFilesTest : public QObject {
   void emptySceneOffersTheDemo();
   void emptySceneOffersTheScenesOpenedLast();
   void openTakesMeshesToo();
-  void openReplacesTheSceneByThatOfAMesh();
   void savesAndOpensTheSameScene();
   void savingKeepsThePoseInHand();
   void savingKeepsANumberThatIsStillBeingTyped();
@@ -86,40 +85,6 @@ void DesktopFilesTest::openTakesMeshesToo() {
   });
   pressShortcut(d, Qt::Key_O, Qt::ControlModifier);
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
-}
-
-/// It added to the open scene, whose title stayed.
-void DesktopFilesTest::openReplacesTheSceneByThatOfAMesh() {
-  DesktopDriver d;
-  d.addCubes();
-  const QString file = QString::fromStdString((d.folder.path() / "pair.nearfit").string());
-  whenModal<QFileDialog>([&](QFileDialog* dialog) { chooseFile(dialog, file); });
-  pressShortcut(d, Qt::Key_S, Qt::ControlModifier);
-  QTRY_VERIFY(QFile::exists(file));
-  d.session().deletePart(d.partId("moving"));
-  const auto pressOpen = [&](QMessageBox::StandardButton answer) {
-    whenModal<QFileDialog>([&, answer](QFileDialog* dialog) {
-      whenModal<QMessageBox>(
-          [answer](QMessageBox* box) {
-            if (answer == QMessageBox::Discard) {
-              whenModal<QDialog>([](QDialog* question) { answerUnit(question); },
-                                 QStringLiteral("unitDialog"));
-            }
-            QTest::mouseClick(box->button(answer), Qt::LeftButton);
-          },
-          QStringLiteral("unsavedBox"));
-      chooseFile(dialog, d.fixedFile);
-    });
-    pressShortcut(d, Qt::Key_O, Qt::ControlModifier);
-  };
-  pressOpen(QMessageBox::Cancel);
-  QVERIFY(!d.session().file().empty());
-  pressOpen(QMessageBox::Discard);
-  QTRY_VERIFY(d.session().file().empty());
-  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
-  QCOMPARE(d.part("fixed").name, std::string("fixed"));
-  QVERIFY(!d.window().windowTitle().contains(QStringLiteral("pair.nearfit")));
-  QVERIFY2(d.session().isModified(), "the new scene has no file");
 }
 
 void DesktopFilesTest::savesAndOpensTheSameScene() {

@@ -81,9 +81,7 @@ QString stepText(const RepairStep& step) {
 /// "+1.2 %", by which something changed.
 QString shareText(double before, double after) {
   if (!(before != 0.0)) return QStringLiteral("–");
-  constexpr double kNone = 1e-3;  // Less is rounding, which looks like a finding.
-  const double change = 100.0 * (after - before) / std::abs(before);
-  const double percent = std::abs(change) < kNone ? 0.0 : change;
+  const double percent = 100.0 * (after - before) / std::abs(before);
   return (percent > 0.0 ? QStringLiteral("+") : QString()) + QLocale().toString(percent, 'g', 3) +
          QStringLiteral(" %");
 }
