@@ -310,18 +310,24 @@ std::string trySandbox() {
   // Without a name: nothing is left if it is allowed.
   tell("writing files", isRefused(::open("/tmp", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600)));
   tell("signals to others", ::kill(::getppid(), 0) != 0);
+  char program[] = "/bin/true";
+  char* const arguments[] = {program, nullptr};
+  // A program takes the place of the process that starts it: of a child, if there may be one.
   const ::pid_t child = ::fork();
-  if (child == 0) ::_exit(0);
-  if (child > 0) ::waitpid(child, nullptr, 0);
+  if (child == 0) {
+    ::execv(program, arguments);
+    ::_exit(1);
+  }
+  int status = 1;
+  if (child > 0)
+    ::waitpid(child, &status, 0);
+  else
+    ::execv(program, arguments);
   tell("processes", child < 0);
+  tell("programs", status != 0);
   bool hasRun = false;
   std::thread([&] { hasRun = true; }).join();
   tell("threads", !hasRun);
-  char program[] = "/bin/true";
-  char* const arguments[] = {program, nullptr};
-  // If it is allowed, this process ends here without a word.
-  ::execv(program, arguments);
-  tell("programs", true);
   return text;
 }
 
