@@ -286,18 +286,8 @@ void runCheck(const CheckOptions& options) {
   const MeshRepairs repairs = chosenRepairs(options);
   checkCheckOptions(options, repairs);
   printCacheWarnings();
-  bool hasFailed = false;
-  for (const std::string& name : options.meshes) {
-    try {
-      checkFile(name, metresPerUnit, repairs, options);
-    } catch (const FileError& e) {
-      // The others are still worth checking.
-      flushOutput();
-      printError(e.what());
-      hasFailed = true;
-    }
-  }
-  if (hasFailed) throw ReportedFailure();
+  reportEach(options.meshes,
+             [&](const std::string& name) { checkFile(name, metresPerUnit, repairs, options); });
 }
 
 }  // namespace

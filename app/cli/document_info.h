@@ -9,7 +9,7 @@
 
 namespace nearfit::cli {
 
-/// What nearfit-cli info says of a CAD document: unit, shapes with their triangles, and the tree.
+/// Text of nearfit-cli info about a CAD document: unit, shapes with their triangles, and the tree.
 /// @param name     Of the file, as it was given.
 /// @param density  [kg/m^3]; std::nullopt: no masses.
 std::string documentText(const std::string& name, const LoadedDocument& document,

@@ -222,18 +222,7 @@ void runInfo(const InfoOptions& options) {
   const double metresPerUnit = unitOfFiles(options.unit, files);
   if (options.density) checkDensity(*options.density);
   printCacheWarnings();
-  bool hasFailed = false;
-  for (const std::string& name : options.meshes) {
-    try {
-      print(reportOn(name, metresPerUnit, options));
-    } catch (const FileError& e) {
-      // The others are still worth reporting.
-      flushOutput();
-      printError(e.what());
-      hasFailed = true;
-    }
-  }
-  if (hasFailed) throw ReportedFailure();
+  reportEach(options.meshes, [&](const std::string& name) { print(reportOn(name, metresPerUnit, options)); });
 }
 
 }  // namespace

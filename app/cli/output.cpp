@@ -60,6 +60,21 @@ void printCacheWarnings() {
     printError("warning: " + warning);
 }
 
+void reportEach(std::span<const std::string> files,
+                const std::function<void(const std::string& file)>& report) {
+  bool hasFailed = false;
+  for (const std::string& file : files) {
+    try {
+      report(file);
+    } catch (const FileError& e) {
+      flushOutput();
+      printError(e.what());
+      hasFailed = true;
+    }
+  }
+  if (hasFailed) throw ReportedFailure();
+}
+
 std::string oneLine(std::string_view text) {
   std::string line;
   for (const char c : text) {

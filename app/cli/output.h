@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,6 +34,11 @@ class ReportedFailure : public std::exception {
  public:
   const char* what() const noexcept override { return "the command failed"; }
 };
+
+/// Calls `report` for each file. One that cannot be read is told on stderr, and the others still follow. Throws
+/// ReportedFailure at the end if there was one.
+void reportEach(std::span<const std::string> files,
+                const std::function<void(const std::string& file)>& report);
 
 /// Returns text on one line: each run of line breaks becomes a space; other control characters and bytes that
 /// are not UTF-8 become `\xNN`, so that no file name can control the terminal.

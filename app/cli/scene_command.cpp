@@ -86,7 +86,7 @@ HapticSettings newSettings(const HapticOptions& options) {
   return withOptions(settings, options);
 }
 
-/// What a scene is made of, loaded: each document once.
+/// Loads the parts and groups of a new scene; each document once.
 NewNodes loadNodes(const std::vector<PartArgument>& arguments, const SceneNewOptions& options,
                    double metresPerUnit, std::vector<std::string>& warnings) {
   const Tessellation tessellation = tessellationOf(options.tessellation);

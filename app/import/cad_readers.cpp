@@ -69,7 +69,7 @@ CadDocument readStep(const ImportJob& job) {
   reader.SetGDTMode(Standard_False);
   reader.SetMatMode(Standard_False);
   reader.SetViewMode(Standard_False);
-  // Texts that are no UTF-8 would end at the first character that is none.
+  // OpenCASCADE cuts a text off at the first byte that is not UTF-8.
   if (!isUtf8({job.bytes.data(), job.bytes.size()}) &&
       !Interface_Static::SetCVal("read.step.codepage", "iso8859-1"))
     Interface_Static::SetCVal("read.step.codepage", "ISO8859-1");

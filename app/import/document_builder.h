@@ -31,7 +31,6 @@ class DocumentBuilder {
     return document_.shapes[static_cast<std::size_t>(shape)].key;
   }
   bool isWanted(std::int32_t shape) const { return job_.wants(keyOf(shape)); }
-  std::size_t shapeCount() const noexcept { return document_.shapes.size(); }
   /// Sets the shape of a place; the key stays. Without triangles it is left out, with its nodes.
   void setShape(std::int32_t shape, CadShape content);
   void setHasUnit(bool hasUnit) { document_.hasUnit = hasUnit; }

@@ -9,7 +9,7 @@
 
 namespace nearfit::importer {
 
-/// What the importer is asked to do.
+/// Arguments of the importer.
 struct ImportOptions {
   std::filesystem::path file;
   Tessellation tessellation;

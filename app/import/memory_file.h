@@ -8,7 +8,7 @@ namespace nearfit::importer {
 /// Bytes as a file in memory, for readers that take a path.
 class MemoryFile {
  public:
-  /// Throws Error if there is no memory.
+  /// Throws Error if memory has run out.
   explicit MemoryFile(std::span<const char> bytes);
   ~MemoryFile();
   MemoryFile(const MemoryFile&) = delete;

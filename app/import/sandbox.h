@@ -16,7 +16,7 @@ void limitProcess(std::uint64_t fileBytes);
 /// @param readable  Folders and files that may still be opened, for reading.
 void enterSandbox(const std::vector<std::filesystem::path>& readable);
 
-/// What enterSandbox() would use here, for people: "seccomp, Landlock 3".
+/// Names the means that enterSandbox() finds on this machine, for people: "seccomp, Landlock 3".
 std::string sandboxText();
 
 /// Takes the limits for a small file, enters the sandbox and tries what it is to prevent. A line for each, for people and

@@ -17,7 +17,6 @@
 #include <BRepGProp_Vinert.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <IMeshTools_Parameters.hxx>
@@ -50,6 +49,7 @@
 #include "app/import/default_tessellation.h"
 #include "app/import/document_builder.h"
 #include "app/import/placed_mesh.h"
+#include "app/import/solid_bodies.h"
 
 namespace nearfit::importer {
 namespace {
@@ -65,15 +65,6 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 glm::dvec3 vectorOf(const gp_XYZ& p) {
   return {p.X(), p.Y(), p.Z()};
-}
-
-TopoDS_Compound compoundOf(const std::vector<TopoDS_Shape>& shapes) {
-  BRep_Builder builder;
-  TopoDS_Compound compound;
-  builder.MakeCompound(compound);
-  for (const TopoDS_Shape& shape : shapes)
-    builder.Add(compound, shape);
-  return compound;
 }
 
 /// A face that bounds something: not one that only lies within a solid.
@@ -426,7 +417,7 @@ bool isSoundSurface(const ExactSurface& s) {
   }
 }
 
-/// What meshing, in OpenCASCADE's units, is to keep to.
+/// Tolerances of meshing, in OpenCASCADE's units.
 struct OccTessellation {
   double chord = 0.0, angle = 0.0;
 };

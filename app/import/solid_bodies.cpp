@@ -11,6 +11,7 @@
 #include <Precision.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Iterator.hxx>
 #include <TopoDS_Solid.hxx>
 #include <gp_Pnt.hxx>
@@ -87,6 +88,15 @@ std::vector<Body> bodiesOf(const TopoDS_Shape& solid) {
         bodies[bodyOf[outer]].shells.push_back(shells[i]);
   }
   return bodies;
+}
+
+TopoDS_Compound compoundOf(const std::vector<TopoDS_Shape>& shapes) {
+  BRep_Builder builder;
+  TopoDS_Compound compound;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Shape& shape : shapes)
+    builder.Add(compound, shape);
+  return compound;
 }
 
 }  // namespace nearfit::importer

@@ -394,7 +394,7 @@ class StepScanner {
     int argument;
     Id id;
   };
-  /// Of those statements that place something, only representations have many: those of their items.
+  /// Bound on references of statements that place something. Only representations have many: their items.
   static constexpr std::size_t kMaxReferences = 10'000'000;
 
   std::string_view text_;

@@ -14,7 +14,6 @@
 
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Message_ProgressRange.hxx>
@@ -207,18 +206,9 @@ class PieceFinder {
   std::size_t visits_ = 0;
 };
 
-TopoDS_Compound compoundOfAll(const std::vector<TopoDS_Shape>& shapes) {
-  BRep_Builder builder;
-  TopoDS_Compound compound;
-  builder.MakeCompound(compound);
-  for (const TopoDS_Shape& shape : shapes)
-    builder.Add(compound, shape);
-  return compound;
-}
-
 /// Joins faces along edges that lie on each other.
 TopoDS_Shape sewn(const std::vector<TopoDS_Shape>& shapes) {
-  const TopoDS_Compound all = compoundOfAll(shapes);
+  const TopoDS_Compound all = compoundOf(shapes);
   Bnd_Box box;
   BRepBndLib::Add(all, box, Standard_False);
   if (box.IsVoid() || box.IsOpen()) return all;

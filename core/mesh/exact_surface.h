@@ -23,6 +23,8 @@ struct ExactSurface {
   double minorRadius = 0.0;  ///< Torus: of its tube [m].
   double halfAngle = 0.0;    ///< Cone: between axis and surface, above 0 and below pi/2 [rad].
   bool isHollow = false;     ///< The material is on the outer side, as around a bore.
+
+  bool operator==(const ExactSurface&) const = default;
 };
 
 /// Faces of a CAD model, each on one surface, and the triangles that stand for them.

@@ -145,8 +145,10 @@ PartGeometry namedGeometry(const Source& source, const std::string& sha256, cons
   return geometry;
 }
 
-PartGeometryPtr fromCache(const Source& source, const std::string& sha256, const std::string& shape) {
+PartGeometryPtr fromCache(const Source& source, const std::string& sha256, const std::string& shape,
+                          const MeshRepairs& repairs = {}) {
   PartGeometry geometry = namedGeometry(source, sha256, shape);
+  geometry.repairs = repairs;
   std::optional<CachedMesh> kept = cachedMeshOf(geometry);
   return kept ? cachedGeometry(std::move(geometry), std::move(*kept)) : nullptr;
 }
@@ -422,18 +424,25 @@ class ShapeLoad {
  private:
   void takeCached() {
     if (!isOneFile(source_.file)) return;
-    std::map<std::string, std::vector<std::size_t>> wanted;
-    for (std::size_t i = 0; i < sources_.size(); ++i)
-      wanted[sources_[i].shape].push_back(i);
-    std::vector<std::pair<std::string, PartGeometryPtr>> shapes;
-    for (const auto& [shape, places] : wanted)
-      shapes.emplace_back(shape, nullptr);
-    parallelFor(shapes.size(),
-                [&](std::size_t i) { shapes[i].second = fromCache(source_, sha256_, shapes[i].first); });
-    for (const auto& [shape, geometry] : shapes) {
-      for (const std::size_t i : wanted[shape])
-        loaded_[i].geometry = geometry;
+    // Equal sources are looked for once.
+    std::map<std::pair<std::string, std::string>, std::size_t> firstOf;
+    std::vector<std::size_t> distinct;
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      if (firstOf.try_emplace(keyOf(sources_[i]), i).second) distinct.push_back(i);
     }
+    parallelFor(distinct.size(), [&](std::size_t i) {
+      const MeshSource& wanted = sources_[distinct[i]];
+      PartGeometryPtr& geometry = loaded_[distinct[i]].geometry;
+      geometry = fromCache(source_, sha256_, wanted.shape, wanted.repairs);
+      if (geometry == nullptr && !wanted.repairs.empty())
+        geometry = fromCache(source_, sha256_, wanted.shape);
+    });
+    for (std::size_t i = 0; i < sources_.size(); ++i)
+      loaded_[i] = loaded_[firstOf.at(keyOf(sources_[i]))];
+  }
+
+  static std::pair<std::string, std::string> keyOf(const MeshSource& source) {
+    return {source.shape, textOf(source.repairs)};
   }
 
   void importMissing(const std::vector<std::string>& missing, const ProgressCallback& progress) {

@@ -50,8 +50,9 @@ struct LoadedDocument {
 LoadedDocument loadDocument(const std::filesystem::path& file, double metresPerUnit,
                             const Tessellation& tessellation = {}, const ProgressCallback& progress = {});
 
-/// Loads shapes of one document for loadPartGeometries(), in the order of `sources`.
-/// @param sources  Not empty; they differ in their shapes only.
+/// Loads shapes of one document for loadPartGeometries(), in the order of `sources`. Repairs are not made: a shape is
+/// repaired as wanted if the cache has it so, else as it was read.
+/// @param sources  Not empty; they differ in their shapes and repairs only.
 /// Throws only Cancelled.
 std::vector<LoadedPart> loadShapes(std::span<const MeshSource> sources,
                                    const ProgressCallback& progress = {});

@@ -152,7 +152,7 @@ std::vector<LoadedPart> loadDocumentShapes(std::span<const MeshSource> shapes,
   std::map<std::pair<std::string, std::string>, LoadedPart> known;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const MeshSource& source = shapes[i];
-    if (source.repairs.empty() || parts[i].geometry == nullptr) continue;
+    if (parts[i].geometry == nullptr || parts[i].geometry->repairs == source.repairs) continue;
     const auto [it, isNew] = known.try_emplace({source.shape, textOf(source.repairs)});
     if (isNew) {
       try {

@@ -3,12 +3,11 @@
 #include <unordered_map>
 
 #include <vtkCellArray.h>
+#include <vtkMapper.h>
 #include <vtkPoints.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
+#include <vtkPolyData.h>
 
 #include "ui/view3d/vtk/pixel_sizes.h"
-#include "ui/view3d/vtk/vtk_convert.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
@@ -86,74 +85,26 @@ void fillPoint(vtkPolyData& data, const TriangleMesh& mesh, const PickedFeature&
 }  // namespace
 
 FeatureHighlight::FeatureHighlight(vtkRenderer& renderer, const QColor& colour)
-    : renderer_(&renderer), colour_(colour) {
-  setUp(*face_.Get(), *faces_.Get());
-  setUp(*line_.Get(), *lines_.Get());
-  setUp(*point_.Get(), *points_.Get());
-  face_->GetProperty()->SetOpacity(0.5);
+    : actors_(renderer, {.faceOpacity = 0.5, .lineWidth = 3.5F, .pointSize = 11.0F}), colour_(colour) {
   // Push the face back by more than its depth changes across lines and dots in it, so that
   // these show in full width.
   constexpr double kBehindLines = 8.0, kDeeper = 100.0;
-  face_->GetMapper()->SetResolveCoincidentTopologyToPolygonOffset();
-  face_->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(
+  vtkMapper& face = *actors_.face().GetMapper();
+  face.SetResolveCoincidentTopologyToPolygonOffset();
+  face.SetRelativeCoincidentTopologyPolygonOffsetParameters(
       kBehindLines * static_cast<double>(devicePixels(1.0F)), kDeeper);
-  line_->GetProperty()->SetLineWidth(devicePixels(3.5F));
-  point_->GetProperty()->SetPointSize(devicePixels(11.0F));
-  point_->GetProperty()->RenderPointsAsSpheresOn();
-}
-
-FeatureHighlight::~FeatureHighlight() {
-  for (vtkActor* actor : {face_.Get(), line_.Get(), point_.Get()})
-    renderer_->RemoveActor(actor);
-}
-
-void FeatureHighlight::setUp(vtkActor& actor, vtkPolyData& data) const {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(&data);
-  mapper->ScalarVisibilityOff();
-  actor.SetMapper(mapper);
-  actor.SetUserMatrix(pose_);
-  actor.PickableOff();
-  actor.VisibilityOff();
-  actor.GetProperty()->LightingOff();
-  renderer_->AddActor(&actor);
-}
-
-void FeatureHighlight::applyColours() {
-  const QColor face = themed(colour_);
-  // Lines stand out from the face and, where there is none, from the ground.
-  const QColor line = isThemeDark() ? face.lighter(125) : face.darker(125);
-  const auto colour = [](vtkActor& actor, const QColor& shown) {
-    actor.GetProperty()->SetColor(shown.redF(), shown.greenF(), shown.blueF());
-  };
-  colour(*face_.Get(), face);
-  colour(*line_.Get(), line);
-  colour(*point_.Get(), line);
 }
 
 void FeatureHighlight::show(const TriangleMesh& mesh, const PickedFeature& picked,
                             const RigidTransform& worldFromPart) {
-  applyColours();
-  fillFaces(*faces_.Get(), mesh, picked);
-  fillLines(*lines_.Get(), mesh, picked);
-  fillPoint(*points_.Get(), mesh, picked);
-  face_->SetVisibility(faces_->GetNumberOfCells() > 0);
-  line_->SetVisibility(lines_->GetNumberOfCells() > 0);
-  point_->SetVisibility(points_->GetNumberOfCells() > 0);
-  setPose(worldFromPart);
-}
-
-void FeatureHighlight::setPose(const RigidTransform& worldFromPart) {
-  setMatrix(*pose_.Get(), worldFromPart);
-}
-
-void FeatureHighlight::clear() {
-  for (vtkActor* actor : {face_.Get(), line_.Get(), point_.Get()})
-    actor->VisibilityOff();
-}
-
-bool FeatureHighlight::isShown() const {
-  return face_->GetVisibility() != 0 || line_->GetVisibility() != 0 || point_->GetVisibility() != 0;
+  const QColor face = themed(colour_);
+  // Lines stand out from the face and, where there is none, from the ground.
+  actors_.setColours(face, isThemeDark() ? face.lighter(125) : face.darker(125));
+  fillFaces(actors_.faces(), mesh, picked);
+  fillLines(actors_.lines(), mesh, picked);
+  fillPoint(actors_.points(), mesh, picked);
+  actors_.showFilled();
+  actors_.setPose(worldFromPart);
 }
 
 }  // namespace nearfit::ui

@@ -2,15 +2,12 @@
 
 #include <QColor>
 
-#include <vtkActor.h>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
 #include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
 
 #include "core/math/rigid_transform.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/placing/feature.h"
+#include "ui/view3d/mark_actors.h"
 
 namespace nearfit::ui {
 
@@ -19,25 +16,16 @@ class FeatureHighlight {
  public:
   /// @param colour  In the light theme.
   FeatureHighlight(vtkRenderer& renderer, const QColor& colour);
-  ~FeatureHighlight();
-  FeatureHighlight(const FeatureHighlight&) = delete;
-  FeatureHighlight& operator=(const FeatureHighlight&) = delete;
 
   /// Shows a feature of a mesh.
   /// @param picked  In the part's frame.
   void show(const TriangleMesh& mesh, const PickedFeature& picked, const RigidTransform& worldFromPart);
-  void setPose(const RigidTransform& worldFromPart);
-  void clear();
-  bool isShown() const;
+  void setPose(const RigidTransform& worldFromPart) { actors_.setPose(worldFromPart); }
+  void clear() { actors_.clear(); }
+  bool isShown() const { return actors_.isShown(); }
 
  private:
-  void setUp(vtkActor& actor, vtkPolyData& data) const;
-  void applyColours();
-
-  vtkSmartPointer<vtkRenderer> renderer_;  ///< Owned: the view may be destroyed before its tools.
-  vtkNew<vtkPolyData> faces_, lines_, points_;
-  vtkNew<vtkActor> face_, line_, point_;
-  vtkNew<vtkMatrix4x4> pose_;
+  MarkActors actors_;
   const QColor colour_;
 };
 

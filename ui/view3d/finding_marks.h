@@ -1,14 +1,10 @@
 #pragma once
 
-#include <vtkActor.h>
-#include <vtkMatrix4x4.h>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
 #include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
 
 #include "core/math/rigid_transform.h"
 #include "core/mesh/check/mesh_check.h"
+#include "ui/view3d/mark_actors.h"
 
 namespace nearfit::ui {
 
@@ -16,23 +12,15 @@ namespace nearfit::ui {
 class FindingMarks {
  public:
   explicit FindingMarks(vtkRenderer& overlay);
-  ~FindingMarks();
-  FindingMarks(const FindingMarks&) = delete;
-  FindingMarks& operator=(const FindingMarks&) = delete;
 
   /// Shows the place of a finding of a part, in the colours of the present theme; nothing if it has none.
   void show(const MeshFinding& finding, const RigidTransform& worldFromPart);
-  void setPose(const RigidTransform& worldFromPart);
-  void clear();
-  bool isShown() const;
+  void setPose(const RigidTransform& worldFromPart) { actors_.setPose(worldFromPart); }
+  void clear() { actors_.clear(); }
+  bool isShown() const { return actors_.isShown(); }
 
  private:
-  void setUp(vtkActor& actor, vtkPolyData& data);
-
-  vtkSmartPointer<vtkRenderer> overlay_;  ///< Owned: the view may be destroyed before its panels.
-  vtkNew<vtkPolyData> faces_, lines_, points_;
-  vtkNew<vtkActor> face_, line_, point_;
-  vtkNew<vtkMatrix4x4> pose_;
+  MarkActors actors_;
 };
 
 }  // namespace nearfit::ui

@@ -1,15 +1,10 @@
 #include "ui/view3d/joint_marks.h"
 
-#include <initializer_list>
+#include <array>
 
 #include <glm/geometric.hpp>
-#include <vtkCellArray.h>
-#include <vtkPoints.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 
 #include "core/math/axes_across.h"
-#include "ui/view3d/vtk/pixel_sizes.h"
 #include "ui/widgets/theme.h"
 
 namespace nearfit::ui {
@@ -18,25 +13,7 @@ namespace {
 /// Periods of a dash-dotted line, and where in each the dash and the dot begin and end.
 constexpr int kPeriods = 14;
 constexpr double kDashBegin = 0.0, kDashEnd = 0.6, kDotBegin = 0.75, kDotEnd = 0.85;
-constexpr double kFaceOpacity = 0.2;
-
-/// Collects cells of a mark with points of their own.
-class MarkCells {
- public:
-  MarkCells() { points_->SetDataTypeToDouble(); }
-
-  void add(std::initializer_list<glm::dvec3> corners) {
-    cells_->InsertNextCell(static_cast<int>(corners.size()));
-    for (const glm::dvec3& p : corners)
-      cells_->InsertCellPoint(points_->InsertNextPoint(p.x, p.y, p.z));
-  }
-  vtkPoints* points() { return points_; }
-  vtkCellArray* cells() { return cells_; }
-
- private:
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> cells_;
-};
+constexpr MarkActors::Look kLook{.faceOpacity = 0.2, .lineWidth = 2.0F, .pointSize = 9.0F};
 
 void addDashDotted(MarkCells& lines, const glm::dvec3& from, const glm::dvec3& to) {
   // The last period ends with its dash, so that the line looks the same from both ends.
@@ -86,36 +63,7 @@ void addMark(MarkCells& faces, MarkCells& lines, MarkCells& points, const JointM
 
 }  // namespace
 
-JointMarks::JointMarks(vtkRenderer& renderer) : renderer_(&renderer) {
-  setUp(kept_);
-  setUp(strayed_);
-}
-
-JointMarks::~JointMarks() {
-  for (const Layer* layer : {&kept_, &strayed_}) {
-    for (vtkActor* actor : layer->actors())
-      renderer_->RemoveActor(actor);
-  }
-}
-
-void JointMarks::setUp(const Layer& layer) {
-  const std::array<vtkPolyData*, 3> data{layer.faces.Get(), layer.lines.Get(), layer.points.Get()};
-  for (std::size_t i = 0; i < data.size(); ++i) {
-    vtkActor& actor = *layer.actors()[i];
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(data[i]);
-    mapper->ScalarVisibilityOff();
-    actor.SetMapper(mapper);
-    actor.PickableOff();
-    actor.VisibilityOff();
-    actor.GetProperty()->LightingOff();
-    renderer_->AddActor(&actor);
-  }
-  layer.face->GetProperty()->SetOpacity(kFaceOpacity);
-  layer.line->GetProperty()->SetLineWidth(devicePixels(2.0F));
-  layer.point->GetProperty()->SetPointSize(devicePixels(9.0F));
-  layer.point->GetProperty()->RenderPointsAsSpheresOn();
-}
+JointMarks::JointMarks(vtkRenderer& renderer) : kept_(renderer, kLook), strayed_(renderer, kLook) {}
 
 void JointMarks::show(const std::vector<JointMark>& marks) {
   std::vector<const JointMark*> kept, strayed;
@@ -125,23 +73,12 @@ void JointMarks::show(const std::vector<JointMark>& marks) {
   fill(strayed_, strayed, themed(colours::kWarning));
 }
 
-void JointMarks::fill(Layer& layer, const std::vector<const JointMark*>& marks, const QColor& colour) {
+void JointMarks::fill(MarkActors& actors, const std::vector<const JointMark*>& marks, const QColor& colour) {
   MarkCells faces, lines, points;
   for (const JointMark* mark : marks)
     addMark(faces, lines, points, *mark);
-  for (vtkPolyData* data : {layer.faces.Get(), layer.lines.Get(), layer.points.Get()})
-    data->Initialize();
-  layer.faces->SetPoints(faces.points());
-  layer.faces->SetPolys(faces.cells());
-  layer.lines->SetPoints(lines.points());
-  layer.lines->SetLines(lines.cells());
-  layer.points->SetPoints(points.points());
-  layer.points->SetVerts(points.cells());
-  layer.face->SetVisibility(layer.faces->GetNumberOfCells() > 0);
-  layer.line->SetVisibility(layer.lines->GetNumberOfCells() > 0);
-  layer.point->SetVisibility(layer.points->GetNumberOfCells() > 0);
-  for (vtkActor* actor : layer.actors())
-    actor->GetProperty()->SetColor(colour.redF(), colour.greenF(), colour.blueF());
+  actors.setColours(colour, colour);
+  actors.show(faces, lines, points);
 }
 
 }  // namespace nearfit::ui

@@ -1,18 +1,14 @@
 #pragma once
 
 #include <QColor>
-#include <array>
 #include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
-#include <vtkActor.h>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
 #include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
 
 #include "core/scene/joint.h"
+#include "ui/view3d/mark_actors.h"
 
 namespace nearfit::ui {
 
@@ -31,25 +27,14 @@ struct JointMark {
 class JointMarks {
  public:
   explicit JointMarks(vtkRenderer& renderer);
-  ~JointMarks();
-  JointMarks(const JointMarks&) = delete;
-  JointMarks& operator=(const JointMarks&) = delete;
 
   /// Shows these joints, in the colours of the present theme; empty: none.
   void show(const std::vector<JointMark>& marks);
 
  private:
-  /// Marks of one colour.
-  struct Layer {
-    vtkNew<vtkPolyData> faces, lines, points;
-    vtkNew<vtkActor> face, line, point;
-    std::array<vtkActor*, 3> actors() const { return {face.Get(), line.Get(), point.Get()}; }
-  };
-  void setUp(const Layer& layer);
-  static void fill(Layer& layer, const std::vector<const JointMark*>& marks, const QColor& colour);
+  static void fill(MarkActors& actors, const std::vector<const JointMark*>& marks, const QColor& colour);
 
-  vtkSmartPointer<vtkRenderer> renderer_;  ///< Owned: the view may be destroyed before its tools.
-  Layer kept_, strayed_;
+  MarkActors kept_, strayed_;
 };
 
 }  // namespace nearfit::ui

@@ -33,6 +33,14 @@ struct CheckFixture {
     d.window().selection().select(d.partId(part));
     d.choose("check");
   }
+  /// Closes the open cube by a repair.
+  void fillHole() {
+    showPanel("open");
+    QTRY_COMPARE(table->model()->rowCount(), 1);
+    d.type<QDoubleSpinBox>("repairFillSize", "60 mm");
+    QTest::mouseClick(d.widget<QPushButton>("repairPart"), Qt::LeftButton);
+    QTRY_VERIFY(!isOpen("open"));
+  }
   QString cell(int row, int column) const { return table->model()->index(row, column).data().toString(); }
   void clickRow(int row) {
     QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
@@ -53,15 +61,6 @@ struct CheckFixture {
   QString openFile;
   QTableView* table = nullptr;
 };
-
-int differentPixelsOf(const QImage& a, const QImage& b) {
-  int count = 0;
-  for (int y = 0; y < a.height(); ++y) {
-    for (int x = 0; x < a.width(); ++x)
-      count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
-  }
-  return count;
-}
 
 }  // namespace
 
@@ -156,12 +155,12 @@ void DesktopCheckTest::aRowShowsThePlaceInTheView() {
   QTRY_VERIFY(isInTheMiddle());
   const QImage with = f.d.picture();
   f.table->clearSelection();
-  QVERIFY(differentPixelsOf(f.d.picture(), with) > 100);
+  QVERIFY(differentPixels(f.d.picture(), with) > 100);
   f.clickRow(0);
-  QVERIFY(differentPixelsOf(f.d.picture(), with) < 100);
+  QVERIFY(differentPixels(f.d.picture(), with) < 100);
   // Another part is selected: nothing of this one is shown.
   f.d.window().selection().select(f.d.partId("fixed"));
-  QVERIFY(differentPixelsOf(f.d.picture(), with) > 100);
+  QVERIFY(differentPixels(f.d.picture(), with) > 100);
 }
 
 void DesktopCheckTest::aRepairIsOneStepAndSaysWhatItChanged() {
@@ -196,11 +195,7 @@ void DesktopCheckTest::aRepairIsOneStepAndSaysWhatItChanged() {
 
 void DesktopCheckTest::aRepairedPartIsSavedAndOpenedAsSuch() {
   CheckFixture f;
-  f.showPanel("open");
-  QTRY_COMPARE(f.table->model()->rowCount(), 1);
-  f.d.type<QDoubleSpinBox>("repairFillSize", "60 mm");
-  QTest::mouseClick(f.d.widget<QPushButton>("repairPart"), Qt::LeftButton);
-  QTRY_VERIFY(!f.isOpen("open"));
+  f.fillHole();
   const std::filesystem::path file = f.d.folder.path() / "repaired.nearfit";
   f.d.session().save(file);
   f.d.session().reset();
@@ -213,11 +208,7 @@ void DesktopCheckTest::aRepairedPartIsSavedAndOpenedAsSuch() {
 
 void DesktopCheckTest::aRepairedPartStaysSoWhenItsUnitChangesOrItsFileIsReloaded() {
   CheckFixture f;
-  f.showPanel("open");
-  QTRY_COMPARE(f.table->model()->rowCount(), 1);
-  f.d.type<QDoubleSpinBox>("repairFillSize", "60 mm");
-  QTest::mouseClick(f.d.widget<QPushButton>("repairPart"), Qt::LeftButton);
-  QTRY_VERIFY(!f.isOpen("open"));
+  f.fillHole();
   whenModal<QDialog>([](QDialog* question) { answerUnit(question, "in"); });
   f.d.choose("changeUnit");
   QTRY_VERIFY(isNear(widthOf(f.d.part("open")), 0.04 * 25.4, 1e-9));

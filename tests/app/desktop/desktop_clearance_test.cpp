@@ -47,15 +47,6 @@ struct ClearanceFixture {
   QTableView* table = nullptr;
 };
 
-int differentPixels(const QImage& a, const QImage& b) {
-  int count = 0;
-  for (int y = 0; y < a.height(); ++y) {
-    for (int x = 0; x < a.width(); ++x)
-      count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
-  }
-  return count;
-}
-
 }  // namespace
 
 class DesktopClearanceTest : public QObject {

@@ -118,6 +118,16 @@ inline void chooseFile(QFileDialog* dialog, const QString& file) {
   QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(accept), Qt::LeftButton);
 }
 
+/// Number of pixels in which two pictures of one size differ.
+inline int differentPixels(const QImage& a, const QImage& b) {
+  int count = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x)
+      count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
+  }
+  return count;
+}
+
 /// Keeps pictures of a widget in both themes in the folder that NEARFIT_PICTURES names, to be looked at;
 /// without one nothing happens.
 inline void keepPictures(QWidget& widget, const QString& name) {

@@ -49,6 +49,20 @@ class ImportProcess : public testing::Test {
     return {"", "", ""};
   }
 
+  /// Waits until the process whose number is in a file has ended.
+  static void expectEnd(const fs::path& file) {
+    ::pid_t child = 0;
+    std::ifstream(file) >> child;
+    ASSERT_GT(child, 0);
+    // It is no child of this process: its end is seen when the system has cleared it away, or left it without a group.
+    const auto hasEnded = [&] {
+      std::ifstream status("/proc/" + std::to_string(child) + "/stat");
+      std::string number, name, state;
+      return !(status >> number >> name >> state) || state == "Z";
+    };
+    EXPECT_TRUE(test::eventually(hasEnded));
+  }
+
   test::TemporaryFolder folder_;
   fs::path document_ = folder_.write("part.step", "ISO-10303-21;");
 };
@@ -133,30 +147,13 @@ TEST_F(ImportProcess, CancelKillsItAndWhatItStarted) {
   const fs::path file = folder_.path() / "child";
   const std::string lines = "sleep 1000 & echo $! > '" + file.string() + "'; wait";
   EXPECT_THROW(run(lines, [&](double) { return !fs::exists(file) || fs::file_size(file) == 0; }), Cancelled);
-  ::pid_t child = 0;
-  std::ifstream(file) >> child;
-  ASSERT_GT(child, 0);
-  // It is no child of this process: its end is seen when the system has cleared it away, or left it without a group.
-  const auto hasEnded = [&] {
-    std::ifstream status("/proc/" + std::to_string(child) + "/stat");
-    std::string number, name, state;
-    return !(status >> number >> name >> state) || state == "Z";
-  };
-  EXPECT_TRUE(test::eventually(hasEnded));
+  expectEnd(file);
 }
 
 TEST_F(ImportProcess, WhatItLeavesRunningIsEnded) {
   const fs::path file = folder_.path() / "child";
   run("sleep 1000 & echo $! > '" + file.string() + "'");
-  ::pid_t child = 0;
-  std::ifstream(file) >> child;
-  ASSERT_GT(child, 0);
-  const auto hasEnded = [&] {
-    std::ifstream status("/proc/" + std::to_string(child) + "/stat");
-    std::string number, name, state;
-    return !(status >> number >> name >> state) || state == "Z";
-  };
-  EXPECT_TRUE(test::eventually(hasEnded));
+  expectEnd(file);
 }
 
 TEST_F(ImportProcess, AResultThatIsNoDocumentIsRefused) {

@@ -135,14 +135,7 @@ TEST_F(DocumentLoad, SecondOpeningNeedsNoImporterAndIsTheSame) {
     EXPECT_EQ(a.exactVolume, b.exactVolume);
     EXPECT_EQ(a.isExact, b.isExact);
     EXPECT_EQ(a.surfaces->faceOfTriangle, b.surfaces->faceOfTriangle);
-    ASSERT_EQ(a.surfaces->faces.size(), b.surfaces->faces.size());
-    for (std::size_t face = 0; face < a.surfaces->faces.size(); ++face) {
-      EXPECT_EQ(a.surfaces->faces[face].kind, b.surfaces->faces[face].kind);
-      EXPECT_EQ(a.surfaces->faces[face].point, b.surfaces->faces[face].point);
-      EXPECT_EQ(a.surfaces->faces[face].direction, b.surfaces->faces[face].direction);
-      EXPECT_EQ(a.surfaces->faces[face].radius, b.surfaces->faces[face].radius);
-      EXPECT_EQ(a.surfaces->faces[face].isHollow, b.surfaces->faces[face].isHollow);
-    }
+    EXPECT_EQ(a.surfaces->faces, b.surfaces->faces);
   }
 }
 

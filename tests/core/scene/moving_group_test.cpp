@@ -3,10 +3,12 @@
 
 #include "core/base/error.h"
 #include "core/scene/scene.h"
+#include "tests/support/refusal_of.h"
 
 namespace nearfit::moving_group_test {
 namespace {
 
+using test::refusalOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -16,16 +18,6 @@ Part named(const std::string& name, std::optional<GroupId> group = {}) {
   part.name = name;
   part.group = group;
   return part;
-}
-
-template <typename Call>
-std::string refusalOf(Call call) {
-  try {
-    call();
-  } catch (const UsageError& e) {
-    return e.what();
-  }
-  return "";
 }
 
 /// A gripper of a base and two jaws in a group of their own, and a workpiece beside it.

@@ -3,10 +3,12 @@
 
 #include "core/base/error.h"
 #include "core/scene/scene.h"
+#include "tests/support/refusal_of.h"
 
 namespace nearfit::scene_groups_test {
 namespace {
 
+using test::refusalOf;
 using ::testing::HasSubstr;
 
 Part named(const std::string& name, std::optional<GroupId> group = {}) {
@@ -30,16 +32,6 @@ void moveGroup(Scene& scene, GroupId id, std::optional<GroupId> parent) {
   Group group = *scene.findGroup(id);
   group.parent = parent;
   scene.replaceGroup(group);
-}
-
-template <typename Call>
-std::string refusalOf(Call call) {
-  try {
-    call();
-  } catch (const UsageError& e) {
-    return e.what();
-  }
-  return "";
 }
 
 TEST(SceneGroups, GroupsHoldPartsAndGroups) {

@@ -22,6 +22,7 @@
 #include "ui/widgets/font_scale.h"
 #include "ui/widgets/format.h"
 #include "ui/widgets/names.h"
+#include "ui/widgets/row_table.h"
 
 namespace nearfit::ui {
 namespace {
@@ -154,16 +155,8 @@ void CheckPanel::setUpTable() {
   table_->setObjectName(QStringLiteral("findingsTable"));
   table_->setAccessibleName(tr("Findings"));
   table_->setModel(sorted_);
-  table_->setSortingEnabled(true);
+  setUpRowTable(*table_);
   table_->sortByColumn(FindingsModel::Effect, Qt::DescendingOrder);
-  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table_->setSelectionMode(QAbstractItemView::SingleSelection);
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setTabKeyNavigation(false);
-  table_->setShowGrid(false);
-  table_->setAlternatingRowColors(true);
-  table_->verticalHeader()->hide();
-  table_->verticalHeader()->setDefaultSectionSize(forFont(*table_, 24));
   // The panel scrolls where it is narrower.
   table_->setMinimumSize(forFont(*table_, 480), forFont(*table_, 90));
   QHeaderView* header = table_->horizontalHeader();

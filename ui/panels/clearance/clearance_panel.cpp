@@ -23,6 +23,7 @@
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/paths.h"
 #include "ui/widgets/preferences.h"
+#include "ui/widgets/row_table.h"
 #include "ui/widgets/save_file.h"
 #include "ui/widgets/theme.h"
 
@@ -124,16 +125,8 @@ void ClearancePanel::setUpTable() {
   table_->setObjectName(QStringLiteral("clearanceTable"));
   table_->setAccessibleName(tr("Clearances"));
   table_->setModel(sorted_);
-  table_->setSortingEnabled(true);
+  setUpRowTable(*table_);
   table_->sortByColumn(ClearanceModel::Distance, Qt::AscendingOrder);
-  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table_->setSelectionMode(QAbstractItemView::SingleSelection);
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setTabKeyNavigation(false);
-  table_->setShowGrid(false);
-  table_->setAlternatingRowColors(true);
-  table_->verticalHeader()->hide();
-  table_->verticalHeader()->setDefaultSectionSize(forFont(*table_, 24));
   table_->setMinimumSize(forFont(*table_, 360), forFont(*table_, 90));
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(ClearanceModel::Other, QHeaderView::Stretch);

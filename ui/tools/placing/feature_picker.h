@@ -47,8 +47,6 @@ class FeaturePicker : public QObject {
   bool isActive() const noexcept { return isActive_; }
   /// Sets which features can be picked.
   void setFilter(FeatureFilter filter);
-  /// The feature under the pointer; nullopt if there is none.
-  const std::optional<FeaturePick>& hovered() const noexcept { return hovered_; }
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
