@@ -22,6 +22,8 @@ constexpr std::size_t kTableSize = 4 * ManyPairs::kMax, kGroupTableSize = 2 * Ma
 constexpr std::size_t kManyGroups = ManyPairs::kMax / 2;
 /// Places looked at for a pair before the hash table: pairs come in the order of the last time, but for some.
 constexpr std::size_t kPlacesAhead = 4;
+/// Pairs ahead whose place in the hash table, and then whose slot, is fetched: both are larger than the nearest caches.
+constexpr std::size_t kFetchedPlaces = 16, kFetchedSlots = 8;
 /// Cell size of directions; their length is 1.
 constexpr double kDirectionCell = 0.12;
 /// A separation found so large a turn ago is found anew: the part's directions have left their cells [rad].
@@ -75,6 +77,14 @@ void ManyPairs::forget() noexcept {
   groups_[0] = {.least = kBeyondAll};
   turn_ = 0.0;
   stage_ = Stage::Done;
+}
+
+void ManyPairs::fetchAhead(std::span<const LeafPair> pairs, std::size_t at) const noexcept {
+  if (at + kFetchedPlaces < pairs.size())
+    __builtin_prefetch(&table_[hashOf(pairs[at + kFetchedPlaces]) % kTableSize]);
+  if (at + kFetchedSlots >= pairs.size()) return;
+  const std::uint32_t slot = table_[hashOf(pairs[at + kFetchedSlots]) % kTableSize];
+  if (slot != kNone) __builtin_prefetch(&slots_[slot]);
 }
 
 std::uint32_t ManyPairs::find(const LeafPair& pair) const noexcept {
@@ -170,7 +180,9 @@ void ManyPairs::hold(std::span<const LeafPair> pairs, double turn) noexcept {
   new_.clear();
   unknown_.clear();
   std::size_t next = 0;
-  for (const LeafPair& pair : pairs) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const LeafPair& pair = pairs[i];
+    fetchAhead(pairs, i);
     const std::uint32_t slot = findNear(pair, next);
     if (slot == kNone) {
       unknown_.push_back(pair);
@@ -233,7 +245,7 @@ void ManyPairs::begin(const Asked& asked) noexcept {
   // When the number comes round, no slot may count as tested.
   if (++look_ == 0) {
     for (Slot& slot : slots_)
-      slot.look = 0;
+      slot.look = slot.separated = 0;
     look_ = 1;
   }
   for (std::size_t g = 0; g < groupCount_; ++g)
@@ -257,6 +269,9 @@ std::optional<ManyPairs::Found> ManyPairs::goOn(std::uint64_t& work, std::span<C
   };
   const auto separate = [&](std::uint32_t at) {
     slots_[at].distance = kBeyondAll;
+    // A pair that is new in this look has just been separated at this very pose.
+    if (slots_[at].separated == look_) return;
+    slots_[at].separated = look_;
     const PairDirections directions = directionsOf(scene, part, slots_[at].pair, pose);
     spend(kWorkOfSeparation);
     know(at, directions.apart, keyOf(directions.ofContact, directions.onPart));

@@ -76,14 +76,15 @@ class ManyPairs {
   /// A place for a pair: those separated by the scene come before those separated by the part.
   struct Slot {
     LeafPair pair;
-    std::uint64_t key = 0;    ///< Cell of its contact; 0 without.
-    double turnAt = 0.0;      ///< Turn of the part, added up, when its separation was found [rad].
-    double distance = 0.0;    ///< Of its last contact [m]; infinity if the last test found none.
-    std::uint32_t group = 0;  ///< 0 if it has none: it is tested whenever it may be near.
-    std::uint32_t look = 0;   ///< The look that tested it last.
-    std::uint32_t place = 0;  ///< Index in order_ when it was held last.
-    bool isKnown = false;     ///< It has a separation.
-    bool isTested = false;    ///< It was tested since it became known.
+    std::uint64_t key = 0;        ///< Cell of its contact; 0 without.
+    double turnAt = 0.0;          ///< Turn of the part, added up, when its separation was found [rad].
+    double distance = 0.0;        ///< Of its last contact [m]; infinity if the last test found none.
+    std::uint32_t group = 0;      ///< 0 if it has none: it is tested whenever it may be near.
+    std::uint32_t look = 0;       ///< The look that tested it last.
+    std::uint32_t separated = 0;  ///< The look that separated it last without a contact.
+    std::uint32_t place = 0;      ///< Index in order_ when it was held last.
+    bool isKnown = false;         ///< It has a separation.
+    bool isTested = false;        ///< It was tested since it became known.
   };
   struct Group {
     std::uint64_t key = 0;
@@ -92,6 +93,8 @@ class ManyPairs {
   };
   enum class Stage : std::uint8_t { New, Nearest, Rest, Done };
 
+  /// Fetches into the caches what finding the pairs a little after `at` needs.
+  void fetchAhead(std::span<const LeafPair> pairs, std::size_t at) const noexcept;
   std::uint32_t find(const LeafPair& pair) const noexcept;
   /// The same, for the pair that comes at place `next` or soon after if the order is that of the last call of hold();
   /// sets `next` to the place after it.
