@@ -134,7 +134,8 @@ class Session {
 
   /// Replaces the scene and clears undo. `file` is empty for a new, unnamed scene.
   void reset(Scene scene = {}, const std::filesystem::path& file = {});
-  /// Like reset(), for a scene that was lost before it was saved: it stays modified until save().
+  /// Like reset(), for a scene that is in no file as it is, such as one that was lost before it was saved: it stays
+  /// modified until save().
   void restore(Scene scene, const std::filesystem::path& file);
   /// Writes the scene and makes `file` the session's file. Throws FileError.
   void save(const std::filesystem::path& file);

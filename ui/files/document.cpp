@@ -167,7 +167,7 @@ void Document::newScene() {
 void Document::askAndOpen() {
   const QStringList files =
       QFileDialog::getOpenFileNames(window_, tr("Open"), Preferences::lastFolder(), openFilter());
-  if (!files.isEmpty()) dropFiles(files);
+  if (!files.isEmpty()) openInPlace(files);
 }
 
 void Document::openScene(const QString& file) {
@@ -245,13 +245,14 @@ void Document::askAndAddParts() {
   const QStringList files =
       QFileDialog::getOpenFileNames(window_, tr("Add parts"), Preferences::lastFolder(), partFilter());
   if (files.isEmpty()) return;
-  if (const std::optional<double> unit = unitOf(files)) addParts(files, *unit);
+  if (const std::optional<double> unit = unitOf(files, extentOf(session_.scene()))) addParts(files, *unit);
 }
 
-std::optional<double> Document::unitOf(const QStringList& files) {
+std::optional<double> Document::unitOf(const QStringList& files,
+                                       const std::optional<glm::dvec3>& sceneExtent) {
   const QStringList asked = withoutUnit(files);
   if (asked.isEmpty()) return Preferences::metresPerUnit();
-  return askForUnit(asked, extentOf(session_.scene()), window_);
+  return askForUnit(asked, sceneExtent, window_);
 }
 
 /// Files of parts, loaded.
@@ -308,6 +309,10 @@ Document::LoadedFiles Document::loadFiles(const QStringList& files, double metre
 }
 
 void Document::addParts(const QStringList& files, double metresPerUnit) {
+  loadParts(files, metresPerUnit, Target::OpenScene);
+}
+
+void Document::loadParts(const QStringList& files, double metresPerUnit, Target target) {
   if (isBusy() || files.isEmpty()) return;
   Preferences::rememberFolderOf(files.first());
   auto outcome = std::make_shared<LoadedFiles>();
@@ -317,13 +322,13 @@ void Document::addParts(const QStringList& files, double metresPerUnit) {
   };
   const QString text = files.size() == 1 ? tr("Loading %1").arg(QFileInfo(files.first()).fileName())
                                          : tr("Loading %n files", nullptr, files.size());
-  load(text, job, [this, outcome, files](const std::exception_ptr& error) {
+  load(text, job, [this, outcome, files, target](const std::exception_ptr& error) {
     if (isCancelled(error)) {
       emit loaded(false);
       return;
     }
     if (error) outcome->problems << describeItem(nameOfAll(files), error);
-    finishParts(files, *outcome);
+    finishParts(files, *outcome, target);
   });
 }
 
@@ -354,8 +359,23 @@ void Document::tellWarnings(const LoadedFiles& files) {
   if (!said.isEmpty()) emit failed(describeItems(tr("The document was added, but not all of it."), said));
 }
 
-void Document::finishParts(const QStringList& files, const LoadedFiles& loadedFiles) {
-  const Scene& scene = session_.scene();
+std::vector<PartId> Document::place(const NewNodes& nodes, Target target) {
+  if (target == Target::OpenScene) {
+    const SceneNodes top = session_.addNodes(nodes);
+    return partsOf(session_.scene(), top);
+  }
+  // Files of which nothing can be read leave the open scene alone.
+  if (nodes.parts.empty()) return {};
+  Scene scene;
+  const SceneNodes top = addTo(scene, nodes);
+  // It has no file yet.
+  session_.restore(std::move(scene), {});
+  return partsOf(session_.scene(), top);
+}
+
+void Document::finishParts(const QStringList& files, const LoadedFiles& loadedFiles, Target target) {
+  const Scene empty;
+  const Scene& scene = target == Target::NewScene ? empty : session_.scene();
   QVector<FailedItem> problems = loadedFiles.problems;
   NewNodes nodes;
   for (const PartGeometryPtr& geometry : loadedFiles.meshes)
@@ -369,8 +389,7 @@ void Document::finishParts(const QStringList& files, const LoadedFiles& loadedFi
   }
   std::vector<PartId> added;
   try {
-    const SceneNodes top = session_.addNodes(nodes);
-    added = partsOf(session_.scene(), top);
+    added = place(nodes, target);
   } catch (...) {
     problems << describeItem(nameOfAll(files), std::current_exception());
   }
@@ -384,10 +403,22 @@ void Document::openFiles(const QStringList& filesAndFolders, std::optional<doubl
   const DroppedFiles sorted = sortOut(filesAndFolders);
   const bool isLoadable = sorted.scenes.size() <= 1 && !sorted.isCutOff;
   if (!metresPerUnit && isLoadable && !sorted.meshes.isEmpty()) {
-    metresPerUnit = unitOf(sorted.meshes);
+    metresPerUnit = unitOf(sorted.meshes, extentOf(session_.scene()));
     if (!metresPerUnit) return emit loaded(false);
   }
   open(sorted, metresPerUnit.value_or(Preferences::metresPerUnit()));
+}
+
+void Document::openInPlace(const QStringList& filesAndFolders) {
+  if (isBusy()) return;
+  const DroppedFiles sorted = sortOut(filesAndFolders);
+  // With a scene among them, the others are added to that one.
+  if (sorted.isCutOff || !sorted.scenes.isEmpty() || sorted.meshes.isEmpty())
+    return openFiles(filesAndFolders);
+  if (!mayLeaveScene()) return;
+  const std::optional<double> unit = unitOf(sorted.meshes, std::nullopt);
+  if (!unit) return emit loaded(false);
+  loadParts(sorted.meshes, *unit, Target::NewScene);
 }
 
 void Document::dropFiles(const QStringList& filesAndFolders) {

@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "core/session/session.h"
 #include "ui/model/scene_work.h"
 #include "ui/view3d/parts/part_shape.h"
@@ -40,7 +42,7 @@ class Document : public SceneWork {
 
   /// Starts an empty scene after asking about unsaved changes.
   void newScene();
-  /// Lets the user choose a scene, meshes or CAD documents, then opens them as dropFiles() does.
+  /// Lets the user choose a scene, meshes or CAD documents, then calls openInPlace().
   void askAndOpen();
   /// Opens a scene after asking about unsaved changes. Does nothing while busy.
   void openScene(const QString& file);
@@ -62,7 +64,11 @@ class Document : public SceneWork {
   /// Opens any mix of meshes, CAD documents, folders of these and at most one scene. The scene is opened first.
   /// @param metresPerUnit  Of all files that store no unit; std::nullopt: asks once, if there are any.
   void openFiles(const QStringList& filesAndFolders, std::optional<double> metresPerUnit = std::nullopt);
-  /// The same for what is dropped on the window. While busy it only emits noted().
+  /// The same in place of the open scene, after asking about unsaved changes: without a scene among the files, those that
+  /// can be read make up a new scene without a file. The open scene stays if none can, or if loading is cancelled. Does
+  /// nothing while busy.
+  void openInPlace(const QStringList& filesAndFolders);
+  /// As openFiles(), for what is dropped on the window. While busy it only emits noted().
   void dropFiles(const QStringList& filesAndFolders);
   /// Runs a job in another thread behind a progress dialog. Must not be called while busy.
   /// @param done  Called on the GUI thread with what the job threw, Cancelled included, or null.
@@ -102,11 +108,16 @@ class Document : public SceneWork {
   bool saveTo(const QString& file);
   struct LoadedFiles;
   /// Unit for the files that store none, which the user is asked for if there are any; std::nullopt: cancelled.
-  std::optional<double> unitOf(const QStringList& files);
+  /// @param sceneExtent  Size of the scene that they go into; std::nullopt: it is empty.
+  std::optional<double> unitOf(const QStringList& files, const std::optional<glm::dvec3>& sceneExtent);
+  enum class Target { OpenScene, NewScene };
+  void loadParts(const QStringList& files, double metresPerUnit, Target target);
   static LoadedFiles loadFiles(const QStringList& files, double metresPerUnit,
                                const ProgressCallback& progress);
   void tellWarnings(const LoadedFiles& files);
-  void finishParts(const QStringList& files, const LoadedFiles& loadedFiles);
+  void finishParts(const QStringList& files, const LoadedFiles& loadedFiles, Target target);
+  /// Adds the nodes to the open scene, or puts a new scene of them in its place. Returns all parts of them.
+  std::vector<PartId> place(const NewNodes& nodes, Target target);
 
   Session& session_;
   std::shared_ptr<PartShapeCache> shapes_;

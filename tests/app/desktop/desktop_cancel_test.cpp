@@ -9,6 +9,7 @@
 
 #include "core/files/sha256.h"
 #include "core/scene/scene_file.h"
+#include "tests/app/desktop/dialog_answers.h"
 #include "tests/app/desktop/file_drop.h"
 #include "tests/support/mesh_files.h"
 #include "ui/model/parts_model.h"
@@ -96,6 +97,7 @@ class DesktopCancelTest : public QObject {
   void cancelWhileASceneOpensKeepsTheOneThatIsThere_data();
   void cancelWhileASceneOpensKeepsTheOneThatIsThere();
   void whatWasToBeDiscardedStaysWhenTheOtherSceneDoesNotCome();
+  void cancelWhileAMeshOpensKeepsTheSceneThatIsThere();
   void progressRisesWhileFilesLoad();
   void reloadTakesTheNewShapeAndUndoBringsTheOldOneBack();
   void reloadOfAFileThatIsGoneIsToldAndReloadsTheOthers();
@@ -186,6 +188,25 @@ void DesktopCancelTest::whatWasToBeDiscardedStaysWhenTheOtherSceneDoesNotCome() 
   pressShortcut(p.d, Qt::Key_Z, Qt::ControlModifier);
   p.verifyIsThere(0.0);
   QVERIFY(!p.d.window().isWindowModified());
+}
+
+void DesktopCancelTest::cancelWhileAMeshOpensKeepsTheSceneThatIsThere() {
+  Pair p;
+  p.change();
+  DialogAnswers answers;
+  answers.expectFile(nameOf(large_[0]))
+      .expectButton(QStringLiteral("unsavedBox"), QDialogButtonBox::Discard)
+      .expectButton(QStringLiteral("unitDialog"), QDialogButtonBox::Ok)
+      .expectButton(QStringLiteral("progressDialog"), QDialogButtonBox::Cancel);
+  pressShortcut(p.d, Qt::Key_O, Qt::ControlModifier);
+  QVERIFY(p.d.window().document().isBusy());
+  QTRY_VERIFY(!p.d.window().document().isBusy());
+  QCOMPARE(answers.faults(), QStringList());
+  p.verifyIsThere(0.0025);
+  QVERIFY(p.d.window().isWindowModified());
+  QVERIFY2(p.told.isEmpty(), qPrintable(p.told.join('\n')));
+  pressShortcut(p.d, Qt::Key_Z, Qt::ControlModifier);
+  p.verifyIsThere(0.0);
 }
 
 void DesktopCancelTest::progressRisesWhileFilesLoad() {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/scene/scene_tree.h"
+#include "tests/app/desktop/dialog_answers.h"
 #include "tests/app/desktop/file_drop.h"
 #include "tests/support/documents.h"
 #include "ui/model/selection.h"
@@ -49,6 +50,7 @@ class DesktopDocumentsTest : public QObject {
   void aSavedSceneComesBack();
   void aChangedDocumentIsReloadedInPlace();
   void aDocumentThatFailsIsToldAndTheOthersAreAdded();
+  void openReplacesTheSceneByThatOfADocumentUnlessItCannotBeRead();
 };
 
 void DesktopDocumentsTest::aDroppedDocumentKeepsItsTreeAndIsOneStep() {
@@ -264,6 +266,34 @@ void DesktopDocumentsTest::aDocumentThatFailsIsToldAndTheOthersAreAdded() {
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
   QTRY_COMPARE(told.size(), 1);
   QVERIFY2(told[0].contains(QStringLiteral("ends within an entity")), qPrintable(told[0]));
+}
+
+void DesktopDocumentsTest::openReplacesTheSceneByThatOfADocumentUnlessItCannotBeRead() {
+  DocumentDesk d;
+  QStringList told;
+  d.window().setFailureSink([&](const ui::Failure& failure) { told << failure.summary; });
+  d.addCubes();
+  d.session().save(d.folder.path() / "pair.nearfit");
+  const QString bad = nameOf(d.folder.write("bad.step", "no vise"));
+  DialogAnswers answers;
+  {
+    const FakeImporter importer([](const Tessellation&) -> CadDocument {
+      throw FileError("bad.step", "it ends within an entity", "export it again");
+    });
+    pressOpen(d, answers, bad);
+    QTRY_COMPARE(told.size(), 1);
+    QTRY_VERIFY(!d.window().document().isBusy());
+  }
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QCOMPARE(d.session().file(), d.folder.path() / "pair.nearfit");
+  QVERIFY(!d.session().isModified());
+  pressOpen(d, answers, d.vise);
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
+  QCOMPARE(answers.faults(), QStringList());
+  QCOMPARE(d.part("pin 2").worldFromPart.translation, glm::dvec3(0.1, 0.02, 0.0));
+  QCOMPARE(d.session().scene().groups().size(), std::size_t{2});
+  QVERIFY(d.session().file().empty() && d.session().isModified());
+  QCOMPARE(told.size(), 1);
 }
 
 NEARFIT_QT_SUITE(DesktopDocumentsTest, runDesktopTest<DesktopDocumentsTest>)
