@@ -17,6 +17,7 @@
 #include "ui/files/dropped_files.h"
 #include "ui/files/recent_files.h"
 #include "ui/files/unit_dialog.h"
+#include "ui/widgets/names.h"
 #include "ui/widgets/paths.h"
 #include "ui/widgets/preferences.h"
 #include "ui/widgets/progress_dialog.h"
@@ -206,7 +207,10 @@ void Document::readScene(const QString& file, const QString& name,
       if (!changed.isEmpty()) emit meshesHaveChanged(changed);
       return;
     }
-    if (!isCancelled(error)) emit failed(describe(tr("The scene could not be opened."), error));
+    if (isCancelled(error))
+      emit noted(tr("Opening of %1 cancelled. The open scene stays.").arg(shortName(name)));
+    else
+      emit failed(describe(tr("The scene could not be opened."), error));
     emit loaded(false);
   });
 }
@@ -320,10 +324,13 @@ void Document::loadParts(const QStringList& files, double metresPerUnit, Target 
     *outcome = loadFiles(files, metresPerUnit, progressOfReading(progress));
     shapes->prepare(outcome->geometries(), progressOfShapes(progress));
   };
-  const QString text = files.size() == 1 ? tr("Loading %1").arg(QFileInfo(files.first()).fileName())
-                                         : tr("Loading %n files", nullptr, files.size());
-  load(text, job, [this, outcome, files, target](const std::exception_ptr& error) {
+  const QString what =
+      files.size() == 1 ? QFileInfo(files.first()).fileName() : tr("%n files", nullptr, files.size());
+  load(tr("Loading %1").arg(what), job, [=, this](const std::exception_ptr& error) {
     if (isCancelled(error)) {
+      const QString note = target == Target::NewScene ? tr("Opening of %1 cancelled. The open scene stays.")
+                                                      : tr("Loading of %1 cancelled. Nothing was added.");
+      emit noted(note.arg(shortName(what)));
       emit loaded(false);
       return;
     }

@@ -233,7 +233,7 @@ void PartFiles::load(const QString& text, const std::vector<Wanted>& wanted, con
     shapes->prepare(geometries, progressOfShapes(progress));
   };
   document_.load(text, job, [=, this](const std::exception_ptr& error) {
-    if (isCancelled(error)) return;
+    if (isCancelled(error)) return emit noted(tr("Cancelled. No part was changed."));
     QVector<FailedItem> problems;
     if (error) problems << describeItem({}, error);
     for (std::size_t i = 0; i < loaded->size(); ++i) {
@@ -415,7 +415,7 @@ void PartFiles::repair(const std::vector<PartId>& parts, const MeshRepairs& repa
   constexpr int kNamed = 3;
   document_.load(tr("Repairing %1").arg(listOfNames(names, kNamed)), job,
                  [=, this](const std::exception_ptr& error) {
-                   if (isCancelled(error)) return;
+                   if (isCancelled(error)) return emit noted(tr("Cancelled. No part was changed."));
                    try {
                      if (error) std::rethrow_exception(error);
                      takeRepaired(parts, *repaired);
