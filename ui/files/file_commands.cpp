@@ -118,8 +118,8 @@ void FileCommands::showWhole() {
 }
 
 void FileCommands::showAdded(const std::vector<PartId>& parts) {
-  // The first becomes the current part, which *Take in hand* takes.
-  context_.selection.set({parts.rbegin(), parts.rend()});
+  // Several would all be drawn as selected, which hides the colours of their file.
+  context_.selection.select(parts.size() == 1 ? std::optional(parts.front()) : std::nullopt);
   showWhole();
 }
 

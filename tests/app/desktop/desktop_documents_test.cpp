@@ -40,6 +40,7 @@ class DesktopDocumentsTest : public QObject {
  private slots:
   void init() { QSettings().clear(); }
   void aDroppedDocumentKeepsItsTreeAndIsOneStep();
+  void partsThatCameTogetherShowTheirOwnColours();
   void itsUnitIsNotAskedFor();
   void filesWithoutAUnitBesideItAreAskedAboutWithKnownSizes();
   void itsUnitCannotBeChangedAndTheToolTipTellsTheReason();
@@ -66,6 +67,23 @@ void DesktopDocumentsTest::aDroppedDocumentKeepsItsTreeAndIsOneStep() {
   QCOMPARE(d.part("pin").geometry, d.part("pin 2").geometry);
   d.choose("undo");
   QVERIFY(d.session().scene().parts().empty() && d.session().scene().groups().empty());
+}
+
+/// All were selected, and drawn in the blue of a selection.
+void DesktopDocumentsTest::partsThatCameTogetherShowTheirOwnColours() {
+  DocumentDesk d;
+  d.add({d.fixedFile});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{1});
+  d.window().selection().select(d.partId("fixed"));
+  drop(d.window(), {d.vise});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{4});
+  QTRY_VERIFY(!d.window().document().isBusy());
+  QVERIFY(d.window().selection().isEmpty());
+  // The selection is no part of the step.
+  d.choose("undo");
+  d.choose("redo");
+  QVERIFY(d.window().selection().isEmpty());
+  QCOMPARE(d.session().scene().parts().size(), std::size_t{4});
 }
 
 void DesktopDocumentsTest::itsUnitIsNotAskedFor() {
