@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "core/base/error.h"
@@ -27,6 +28,9 @@ namespace nearfit::ui {
 namespace {
 
 constexpr double kReading = 0.45;  ///< Share of loading spent on reading; the rest builds shapes.
+
+/// Where no file is without a unit, it is not used [m].
+constexpr double kAnyUnit = 1e-3;
 
 const QString kSceneSuffix = QStringLiteral("nearfit");
 
@@ -70,9 +74,45 @@ Aabb boxOf(const Scene& scene) {
   return box;
 }
 
-std::optional<glm::dvec3> extentOf(const Scene& scene) {
+/// What a scene tells about the unit of files that are added to it.
+UnitHints hintsOf(const Scene& scene) {
+  UnitHints hints;
   const Aabb box = boxOf(scene);
-  return box.isEmpty() ? std::nullopt : std::optional(box.upper - box.lower);
+  if (box.isEmpty()) return hints;
+  hints.scene = box.upper - box.lower;
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const Scene::PartPtr& part : scene.parts()) {
+    const double size = part->geometry != nullptr ? part->geometry->mesh.bounds().diagonal() : 0.0;
+    if (!(size > 0.0)) continue;
+    least = std::min(least, size);
+    most = std::max(most, size);
+  }
+  if (most > 0.0) {
+    hints.leastSize = least;
+    hints.mostSize = most;
+  }
+  return hints;
+}
+
+QStringList foldersOf(const QStringList& files) {
+  QStringList folders;
+  for (const QString& file : files)
+    folders << QFileInfo(file).absolutePath();
+  folders.removeDuplicates();
+  return folders;
+}
+
+/// Extensions, as in ".stl".
+QStringList typesOf(const QStringList& files) {
+  const QString packed = QStringLiteral(".gz");
+  QStringList types;
+  for (const QString& file : files) {
+    const QString lowered = file.toLower();
+    const QString plain = lowered.endsWith(packed) ? lowered.chopped(packed.size()) : lowered;
+    types << QStringLiteral(".") + QFileInfo(plain).suffix();
+  }
+  types.removeDuplicates();
+  return types;
 }
 
 /// Stands for a file name in a failure that concerns all files.
@@ -173,7 +213,7 @@ void Document::askAndOpen() {
 
 void Document::openScene(const QString& file) {
   if (isBusy() || !mayLeaveScene()) return;
-  loadScene(file, {}, Preferences::metresPerUnit());
+  loadScene(file, {}, kAnyUnit);
 }
 
 bool Document::openExample(const QString& file) {
@@ -249,14 +289,22 @@ void Document::askAndAddParts() {
   const QStringList files =
       QFileDialog::getOpenFileNames(window_, tr("Add parts"), Preferences::lastFolder(), partFilter());
   if (files.isEmpty()) return;
-  if (const std::optional<double> unit = unitOf(files, extentOf(session_.scene()))) addParts(files, *unit);
+  if (const std::optional<double> unit = unitOf(files, Target::OpenScene)) addParts(files, *unit);
 }
 
-std::optional<double> Document::unitOf(const QStringList& files,
-                                       const std::optional<glm::dvec3>& sceneExtent) {
+std::optional<double> Document::unitOf(const QStringList& files, Target target) {
   const QStringList asked = withoutUnit(files);
-  if (asked.isEmpty()) return Preferences::metresPerUnit();
-  return askForUnit(asked, sceneExtent, window_);
+  if (asked.isEmpty()) return kAnyUnit;
+  UnitHints hints = target == Target::OpenScene ? hintsOf(session_.scene()) : UnitHints();
+  const QStringList kinds = foldersOf(asked) + typesOf(asked);
+  for (const QString& kind : kinds) {
+    const auto chosen = chosenUnits_.find(kind);
+    if (!hints.chosen && chosen != chosenUnits_.end()) hints.chosen = chosen->second;
+  }
+  const std::optional<double> unit = askForUnit(asked, hints, window_);
+  for (const QString& kind : kinds)
+    if (unit) chosenUnits_[kind] = *unit;
+  return unit;
 }
 
 /// Files of parts, loaded.
@@ -410,10 +458,10 @@ void Document::openFiles(const QStringList& filesAndFolders, std::optional<doubl
   const DroppedFiles sorted = sortOut(filesAndFolders);
   const bool isLoadable = sorted.scenes.size() <= 1 && !sorted.isCutOff;
   if (!metresPerUnit && isLoadable && !sorted.meshes.isEmpty()) {
-    metresPerUnit = unitOf(sorted.meshes, extentOf(session_.scene()));
+    metresPerUnit = unitOf(sorted.meshes, sorted.scenes.isEmpty() ? Target::OpenScene : Target::NewScene);
     if (!metresPerUnit) return emit loaded(false);
   }
-  open(sorted, metresPerUnit.value_or(Preferences::metresPerUnit()));
+  open(sorted, metresPerUnit.value_or(kAnyUnit));
 }
 
 void Document::openInPlace(const QStringList& filesAndFolders) {
@@ -423,7 +471,7 @@ void Document::openInPlace(const QStringList& filesAndFolders) {
   if (sorted.isCutOff || !sorted.scenes.isEmpty() || sorted.meshes.isEmpty())
     return openFiles(filesAndFolders);
   if (!mayLeaveScene()) return;
-  const std::optional<double> unit = unitOf(sorted.meshes, std::nullopt);
+  const std::optional<double> unit = unitOf(sorted.meshes, Target::NewScene);
   if (!unit) return emit loaded(false);
   loadParts(sorted.meshes, *unit, Target::NewScene);
 }

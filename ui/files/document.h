@@ -4,11 +4,10 @@
 #include <QStringList>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/session/session.h"
 #include "ui/model/scene_work.h"
@@ -107,10 +106,10 @@ class Document : public SceneWork {
   void open(const DroppedFiles& files, double metresPerUnit);
   bool saveTo(const QString& file);
   struct LoadedFiles;
-  /// Unit for the files that store none, which the user is asked for if there are any; std::nullopt: cancelled.
-  /// @param sceneExtent  Size of the scene that they go into; std::nullopt: it is empty.
-  std::optional<double> unitOf(const QStringList& files, const std::optional<glm::dvec3>& sceneExtent);
   enum class Target { OpenScene, NewScene };
+  /// Unit for the files that store none, which the user is asked for if there are any; std::nullopt: cancelled. Offers
+  /// the one that was chosen last for their folder or else for their type, if there is any.
+  std::optional<double> unitOf(const QStringList& files, Target target);
   void loadParts(const QStringList& files, double metresPerUnit, Target target);
   static LoadedFiles loadFiles(const QStringList& files, double metresPerUnit,
                                const ProgressCallback& progress);
@@ -124,6 +123,7 @@ class Document : public SceneWork {
   QWidget* window_;
   BackgroundTask task_;
   QPointer<ProgressDialog> progress_;
+  std::map<QString, double> chosenUnits_;  ///< In this run, by folder and by ".type" [m].
   std::vector<std::function<void(bool isReady)>> waiting_;  ///< Unanswered prepareHierarchies() calls.
 };
 
