@@ -3,6 +3,7 @@
 #include <QPushButton>
 #include <QStatusBar>
 #include <atomic>
+#include <cmath>
 #include <memory>
 
 #include "core/scene/scene_tree.h"
@@ -203,8 +204,8 @@ void DesktopDocumentsTest::finerAndCoarserScaleTheTolerances() {
         auto* angle = dialog->findChild<ui::NumberField*>(QStringLiteral("refineAngle"));
         const double before = chord->quantity(), turn = angle->quantity();
         QTest::mouseClick(dialog->findChild<QPushButton*>(QStringLiteral("refineFiner")), Qt::LeftButton);
-        QVERIFY(isNear(chord->quantity(), before / 4.0, 1e-12));
-        QVERIFY(isNear(angle->quantity(), turn / 2.0, 1e-9));
+        QVERIFY(isNear(chord->quantity(), before / 2.0, 1e-12));
+        QVERIFY(isNear(angle->quantity(), turn / std::sqrt(2.0), 1e-9));
         QVERIFY(chord->isEnabled());
         QTest::mouseClick(dialog->findChild<QPushButton*>(QStringLiteral("refineCoarser")), Qt::LeftButton);
         QVERIFY(isNear(chord->quantity(), before, 1e-12));
