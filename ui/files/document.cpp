@@ -120,11 +120,29 @@ QString nameOfAll(const QStringList& files) {
   return files.size() == 1 ? QFileInfo(files.first()).fileName() : QObject::tr("All files");
 }
 
-QString notAdded(const QStringList& files, const QVector<FailedItem>& problems) {
-  if (files.size() == 1) return QObject::tr("“%1” was not added.").arg(nameOfAll(files));
-  if (problems.size() == 1)
-    return QObject::tr("“%1”, one of %2 files, was not added.").arg(problems.first().name).arg(files.size());
-  return QObject::tr("%1 of %2 files were not added.").arg(problems.size()).arg(files.size());
+/// Says which files could not be loaded, and what became of the scene.
+/// @param isAny  Parts of others have come.
+/// @param isNew  Of a new scene, else of the open one.
+Failure notLoaded(const QStringList& files, QVector<FailedItem> problems, bool isAny, bool isNew) {
+  for (FailedItem& problem : problems) {
+    if (problem.remedy.isEmpty())
+      problem.remedy = QObject::tr("Try to open it in the program that wrote it, and export it again.");
+  }
+  QString others = isNew ? QObject::tr("The open scene stays.") : QObject::tr("Nothing was added.");
+  if (isAny)
+    others = isNew ? QObject::tr("The others make up the new scene.") : QObject::tr("The others were added.");
+  QString which;
+  if (files.size() == 1)
+    which = QObject::tr("“%1” could not be loaded.").arg(nameOfAll(files));
+  else if (!isAny)
+    which = QObject::tr("None of %1 files could be loaded.").arg(files.size());
+  else if (problems.size() == 1)
+    which = QObject::tr("“%1”, one of %2 files, could not be loaded.")
+                .arg(problems.first().name)
+                .arg(files.size());
+  else
+    which = QObject::tr("%1 of %2 files could not be loaded.").arg(problems.size()).arg(files.size());
+  return describeItems(which + ' ' + others, problems);
 }
 
 }  // namespace
@@ -449,7 +467,8 @@ void Document::finishParts(const QStringList& files, const LoadedFiles& loadedFi
     problems << describeItem(nameOfAll(files), std::current_exception());
   }
   tellWarnings(loadedFiles);
-  if (!problems.isEmpty()) emit failed(describeItems(notAdded(files, problems), problems));
+  if (!problems.isEmpty())
+    emit failed(notLoaded(files, problems, !added.empty(), target == Target::NewScene));
   if (!added.empty()) emit partsAdded(added);
   emit loaded(problems.isEmpty());
 }

@@ -279,12 +279,18 @@ void DesktopDocumentsTest::aDocumentThatFailsIsToldAndTheOthersAreAdded() {
     return viseDocument(tessellation);
   });
   QStringList told;
-  d.window().setFailureSink([&](const ui::Failure& failure) { told << failure.details; });
+  d.window().setFailureSink(
+      [&](const ui::Failure& failure) { told << failure.summary + QChar('\n') + failure.details; });
   const QString bad = nameOf(d.folder.write("bad.step", "no vise"));
   drop(d.window(), {bad, d.vise});
   QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{3});
   QTRY_COMPARE(told.size(), 1);
+  // What, what became of the others, why and what to do.
+  QVERIFY2(told[0].startsWith(QStringLiteral(
+               "“bad.step”, one of 2 files, could not be loaded. The others were added.\n")),
+           qPrintable(told[0]));
   QVERIFY2(told[0].contains(QStringLiteral("ends within an entity")), qPrintable(told[0]));
+  QVERIFY2(told[0].contains(QStringLiteral("xport it again")), qPrintable(told[0]));
 }
 
 void DesktopDocumentsTest::openReplacesTheSceneByThatOfADocumentUnlessItCannotBeRead() {
@@ -303,6 +309,7 @@ void DesktopDocumentsTest::openReplacesTheSceneByThatOfADocumentUnlessItCannotBe
     QTRY_COMPARE(told.size(), 1);
     QTRY_VERIFY(!d.window().document().isBusy());
   }
+  QCOMPARE(told.first(), QStringLiteral("“bad.step” could not be loaded. The open scene stays."));
   QCOMPARE(d.session().scene().parts().size(), std::size_t{2});
   QCOMPARE(d.session().file(), d.folder.path() / "pair.nearfit");
   QVERIFY(!d.session().isModified());

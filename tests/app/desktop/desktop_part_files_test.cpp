@@ -145,7 +145,7 @@ void DesktopPartFilesTest::fiftyBadFilesGiveOneBoxWithDetailsToCopy() {
   QTRY_VERIFY(box->isVisible());
   QCOMPARE(d.window().findChildren<QDialog*>(QStringLiteral("errorBox")).size(), 1);
   QCOMPARE(box->findChild<QLabel*>(QStringLiteral("errorSummary"))->text(),
-           QStringLiteral("50 of 51 files were not added."));
+           QStringLiteral("50 of 51 files could not be loaded. The others were added."));
   QVERIFY(box->height() < 700);
   const auto* table = box->findChild<QTableWidget*>(QStringLiteral("errorTable"));
   QCOMPARE(table->rowCount(), 50);

@@ -221,10 +221,12 @@ void DesktopUnitsTest::theUnitChosenBeforeForTheFolderOrTheTypeIsOffered() {
 void DesktopUnitsTest::filesThatCannotBeReadAreNotAskedAbout() {
   DesktopDriver d;
   QStringList told;
-  d.window().setFailureSink([&](const ui::Failure& failure) { told << failure.details; });
+  d.window().setFailureSink(
+      [&](const ui::Failure& failure) { told << failure.summary + QChar('\n') + failure.details; });
   d.window().document().openFiles({nameOf(d.folder.write("bad.off", "OFF\nnonsense\n"))});
   QTRY_COMPARE(told.size(), 1);
-  QVERIFY2(told.first().contains(QStringLiteral("bad.off")), qPrintable(told.first()));
+  QVERIFY2(told.first().startsWith(QStringLiteral("“bad.off” could not be loaded. Nothing was added.\n")),
+           qPrintable(told.first()));
   QVERIFY(d.session().scene().parts().empty());
 }
 
