@@ -210,7 +210,8 @@ class Pictures {
     trigger("duplicate");
     grabDialog(QStringLiteral("unsaved"), [&] { window.close(); });
     trigger("undo");
-    auto* progress = new ui::ProgressDialog(QStringLiteral("Loading bracket.stl…"), &window);
+    auto* progress =
+        new ui::ProgressDialog(QStringLiteral("Loading"), QStringLiteral("Loading bracket.stl…"), &window);
     progress->show();
     progress->setFraction(0.4);
     grab(*progress, QStringLiteral("dialog-progress"));

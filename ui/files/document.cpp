@@ -27,7 +27,12 @@
 namespace nearfit::ui {
 namespace {
 
-constexpr double kReading = 0.45;  ///< Share of loading spent on reading; the rest builds shapes.
+/// Share of loading spent on reading; the rest builds shapes.
+constexpr double kReadingMeshes = 0.45, kReadingDocuments = 0.85;
+
+constexpr double shareOf(Reading what) {
+  return what == Reading::Documents ? kReadingDocuments : kReadingMeshes;
+}
 
 /// Where no file is without a unit, it is not used [m].
 constexpr double kAnyUnit = 1e-3;
@@ -147,12 +152,14 @@ Failure notLoaded(const QStringList& files, QVector<FailedItem> problems, bool i
 
 }  // namespace
 
-ProgressCallback progressOfReading(const ProgressCallback& whole) {
-  return [whole](double fraction) { return !whole || whole(kReading * fraction); };
+ProgressCallback progressOfReading(const ProgressCallback& whole, Reading what) {
+  const double share = shareOf(what);
+  return [whole, share](double fraction) { return !whole || whole(share * fraction); };
 }
 
-ProgressCallback progressOfShapes(const ProgressCallback& whole) {
-  return [whole](double fraction) { return !whole || whole(kReading + (1.0 - kReading) * fraction); };
+ProgressCallback progressOfShapes(const ProgressCallback& whole, Reading what) {
+  const double share = shareOf(what);
+  return [whole, share](double fraction) { return !whole || whole(share + (1.0 - share) * fraction); };
 }
 
 Document::Document(Session& session, std::shared_ptr<PartShapeCache> shapes, QWidget* window)
@@ -160,9 +167,9 @@ Document::Document(Session& session, std::shared_ptr<PartShapeCache> shapes, QWi
 
 Document::~Document() = default;
 
-void Document::load(const QString& text, BackgroundTask::Job job,
+void Document::load(const QString& title, const QString& text, BackgroundTask::Job job,
                     std::function<void(std::exception_ptr)> done) {
-  progress_ = new ProgressDialog(text, window_);
+  progress_ = new ProgressDialog(title, text, window_);
   connect(&task_, &BackgroundTask::progressed, progress_, &ProgressDialog::setFraction);
   connect(progress_, &ProgressDialog::cancelled, &task_, &BackgroundTask::cancel);
   task_.run(std::move(job), [this, done = std::move(done)](const std::exception_ptr& error) {
@@ -191,7 +198,7 @@ void Document::prepareNext() {
     return;
   }
   const auto job = [scene](const ProgressCallback& progress) { prepareToFeel(scene, progress); };
-  load(tr("Preparing the parts"), job, [this, answer](const std::exception_ptr& error) {
+  load(tr("Preparing"), tr("Preparing the parts"), job, [this, answer](const std::exception_ptr& error) {
     if (error && !isCancelled(error)) emit failed(describe(tr("The parts could not be prepared."), error));
     answer(!error);
   });
@@ -256,7 +263,7 @@ void Document::readScene(const QString& file, const QString& name,
     read->scene = readSceneFile(path, progressOfReading(progress), &read->changed);
     shapes->prepare(read->scene.geometries(), progressOfShapes(progress));
   };
-  load(tr("Opening %1").arg(name), job, [=, this](const std::exception_ptr& error) {
+  load(tr("Opening"), tr("Opening %1").arg(name), job, [=, this](const std::exception_ptr& error) {
     if (!error) {
       QStringList changed;
       for (const std::filesystem::path& mesh : read->changed)
@@ -386,17 +393,20 @@ void Document::loadParts(const QStringList& files, double metresPerUnit, Target 
   if (isBusy() || files.isEmpty()) return;
   Preferences::rememberFolderOf(files.first());
   auto outcome = std::make_shared<LoadedFiles>();
-  const auto job = [outcome, files, metresPerUnit, shapes = shapes_](const ProgressCallback& progress) {
-    *outcome = loadFiles(files, metresPerUnit, progressOfReading(progress));
-    shapes->prepare(outcome->geometries(), progressOfShapes(progress));
+  const bool isAnyDocument =
+      std::ranges::any_of(files, [](const QString& file) { return isDocumentFile(toPath(file)); });
+  const Reading what = isAnyDocument ? Reading::Documents : Reading::Meshes;
+  const auto job = [outcome, files, metresPerUnit, what, shapes = shapes_](const ProgressCallback& progress) {
+    *outcome = loadFiles(files, metresPerUnit, progressOfReading(progress, what));
+    shapes->prepare(outcome->geometries(), progressOfShapes(progress, what));
   };
-  const QString what =
+  const QString name =
       files.size() == 1 ? QFileInfo(files.first()).fileName() : tr("%n files", nullptr, files.size());
-  load(tr("Loading %1").arg(what), job, [=, this](const std::exception_ptr& error) {
+  load(tr("Loading"), tr("Loading %1").arg(name), job, [=, this](const std::exception_ptr& error) {
     if (isCancelled(error)) {
       const QString note = target == Target::NewScene ? tr("Opening of %1 cancelled. The open scene stays.")
                                                       : tr("Loading of %1 cancelled. Nothing was added.");
-      emit noted(note.arg(shortName(what)));
+      emit noted(note.arg(shortName(name)));
       emit loaded(false);
       return;
     }

@@ -70,8 +70,10 @@ class Document : public SceneWork {
   /// As openFiles(), for what is dropped on the window. While busy it only emits noted().
   void dropFiles(const QStringList& filesAndFolders);
   /// Runs a job in another thread behind a progress dialog. Must not be called while busy.
+  /// @param title, text  Of the dialog: "Loading", "Loading bracket.stl".
   /// @param done  Called on the GUI thread with what the job threw, Cancelled included, or null.
-  void load(const QString& text, BackgroundTask::Job job, std::function<void(std::exception_ptr)> done);
+  void load(const QString& title, const QString& text, BackgroundTask::Job job,
+            std::function<void(std::exception_ptr)> done);
   void prepareHierarchies(std::function<void(bool isReady)> done) override;
   /// Saves to the session's file, or asks for one if it has none. False if nothing was written.
   bool save();
@@ -127,8 +129,11 @@ class Document : public SceneWork {
   std::vector<std::function<void(bool isReady)>> waiting_;  ///< Unanswered prepareHierarchies() calls.
 };
 
-/// Map the progress of reading meshes, and of building their shapes, to shares of `whole`, about half each.
-ProgressCallback progressOfReading(const ProgressCallback& whole);
-ProgressCallback progressOfShapes(const ProgressCallback& whole);
+/// What is read before shapes are built of it, which decides how long it takes.
+enum class Reading { Meshes, Documents };
+/// Map the progress of reading, and of building shapes, to shares of `whole`: about half each for meshes. Documents are
+/// imported and meshed first, which takes most of the time.
+ProgressCallback progressOfReading(const ProgressCallback& whole, Reading what = Reading::Meshes);
+ProgressCallback progressOfShapes(const ProgressCallback& whole, Reading what = Reading::Meshes);
 
 }  // namespace nearfit::ui

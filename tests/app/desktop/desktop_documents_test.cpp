@@ -3,8 +3,10 @@
 #include <QPushButton>
 #include <QStatusBar>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <memory>
+#include <thread>
 
 #include "core/scene/scene_tree.h"
 #include "tests/app/desktop/dialog_answers.h"
@@ -47,6 +49,7 @@ class DesktopDocumentsTest : public QObject {
   void itsUnitCannotBeChangedAndTheToolTipTellsTheReason();
   void aGltfInMillimetresIsPointedOutAndCorrectedAsAWhole();
   void refiningAPartTakesItsInstancesAlongAndIsOneStep();
+  void refiningSaysSoWithTheNameOfThePart();
   void finerAndCoarserScaleTheTolerances();
   void meshesCannotBeRefined();
   void aSavedSceneComesBack();
@@ -192,6 +195,36 @@ void DesktopDocumentsTest::refiningAPartTakesItsInstancesAlongAndIsOneStep() {
   QCOMPARE(d.trianglesOf("pin"), coarse);
   d.choose("redo");
   QVERIFY(d.trianglesOf("pin") > 4 * coarse);
+}
+
+/// Its dialog was called "Loading".
+void DesktopDocumentsTest::refiningSaysSoWithTheNameOfThePart() {
+  DocumentDesk d;
+  d.open();
+  std::atomic<bool> mayEnd{false};
+  const FakeImporter importer([&mayEnd](const Tessellation& tessellation) {
+    while (!mayEnd)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return viseDocument(tessellation);
+  });
+  d.window().selection().select(d.partId("pin"));
+  DialogAnswers answers;
+  answers.expect(QStringLiteral("refineDialog"), [](QDialog& dialog) {
+    QTest::mouseClick(dialog.findChild<QPushButton*>(QStringLiteral("refineFiner")), Qt::LeftButton);
+    QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
+    return !dialog.isVisible();
+  });
+  d.choose("refine");
+  const auto* progress = d.widget<QDialog>("progressDialog");
+  const QString title = progress != nullptr ? progress->windowTitle() : QString();
+  QStringList texts;
+  for (const QLabel* label : progress != nullptr ? progress->findChildren<QLabel*>() : QList<QLabel*>())
+    texts << label->text();
+  mayEnd = true;
+  QTRY_VERIFY(!d.window().document().isBusy());
+  QCOMPARE(answers.faults(), QStringList());
+  QCOMPARE(title, QStringLiteral("Refining"));
+  QVERIFY2(texts.contains(QStringLiteral("Refining pin and pin 2")), qPrintable(texts.join('\n')));
 }
 
 void DesktopDocumentsTest::finerAndCoarserScaleTheTolerances() {
