@@ -333,8 +333,10 @@ bool PartFiles::offerRescaleOfHuge(const std::vector<PartId>& parts) {
   for (const PartId id : parts) {
     const Part& part = scene.get(id);
     const Aabb& own = part.geometry->mesh.bounds();
-    // A unit other than the format's has been chosen by the user.
-    if (part.geometry->file != file || own.isEmpty() || part.geometry->metresPerUnit != 1.0) continue;
+    // A unit other than the format's has been chosen by the user, or is stated.
+    if (part.geometry->file != file || own.isEmpty() || part.geometry->metresPerUnit != 1.0 ||
+        part.geometry->statedUnit != 1.0)
+      continue;
     for (int corner = 0; corner < 8; ++corner) {
       const glm::dvec3 p((corner & 1) != 0 ? own.upper.x : own.lower.x,
                          (corner & 2) != 0 ? own.upper.y : own.lower.y,
@@ -473,12 +475,12 @@ void PartFiles::changeUnit(const std::vector<PartId>& parts) {
                .arg(file)});
     }
     const Aabb& bounds = part->geometry->mesh.bounds();
-    const double metresPerUnit = part->geometry->metresPerUnit;
+    const double unit = part->geometry->unitOfNumbers();
     if (bounds.isEmpty()) continue;
     names << QString::fromStdString(part->name);
-    box.add(bounds.lower / metresPerUnit);
-    box.add(bounds.upper / metresPerUnit);
-    if (!present) present = metresPerUnit;
+    box.add(bounds.lower / unit);
+    box.add(bounds.upper / unit);
+    if (!present) present = unit;
   }
   if (!present) return;
   const std::optional<double> unit = askForOtherUnit(names, box.upper - box.lower, *present, window_);
@@ -486,8 +488,9 @@ void PartFiles::changeUnit(const std::vector<PartId>& parts) {
   std::vector<Wanted> wanted;
   for (const PartId id : withWholeDocuments(parts)) {
     const Part* part = session_.scene().find(id);
-    if (part == nullptr || part->geometry == nullptr || part->geometry->metresPerUnit == *unit) continue;
-    wanted.push_back(inUnit(*part, *unit));
+    if (part == nullptr || part->geometry == nullptr) continue;
+    const double metresPerUnit = *unit / part->geometry->statedUnit;
+    if (metresPerUnit != part->geometry->metresPerUnit) wanted.push_back(inUnit(*part, metresPerUnit));
   }
   loadInUnits(textAbout(wanted, tr("Changing the unit"), tr("Changing the unit of %1")), wanted,
               tr("The unit of some parts could not be changed."));

@@ -42,7 +42,7 @@ class PartFiles : public QObject {
   PartFiles(const Context& context, QMenu* menu, QWidget* window, QObject* parent);
 
   /// Asks for another unit of parts, then reads their files in it, as one undo step; poses stay. All parts of
-  /// a glTF or URDF document change together, their positions too. Refuses parts whose file stores its unit, and while a
+  /// a glTF, URDF or 3MF document change together, their positions too. Refuses parts whose file stores its unit, and while a
   /// part is being felt: what is felt must not change its size. Does nothing while the document is busy.
   void changeUnit(const std::vector<PartId>& parts);
   /// Repairs the meshes of parts in another thread, as one undo step; their files stay. Refuses while a part is being

@@ -10,6 +10,7 @@
 #include <QRadioButton>
 #include <QVBoxLayout>
 #include <array>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -134,8 +135,10 @@ void UnitDialog::addRow(const char* key, const QString& name, double metres) {
 }
 
 UnitDialog::Row* UnitDialog::rowOf(double metres) {
+  // A unit that comes from a correction is off by roundings.
+  constexpr double kRounding = 1e-12;
   for (Row& row : rows_) {
-    if (row.metres == metres) return &row;
+    if (std::abs(row.metres - metres) <= kRounding * metres) return &row;
   }
   return nullptr;
 }

@@ -48,6 +48,7 @@ class DesktopDocumentsTest : public QObject {
   void filesWithoutAUnitBesideItAreAskedAboutWithKnownSizes();
   void itsUnitCannotBeChangedAndTheToolTipTellsTheReason();
   void aGltfInMillimetresIsPointedOutAndCorrectedAsAWhole();
+  void a3mfThatStatesAWrongUnitIsCorrectedAsAWhole();
   void refiningAPartTakesItsInstancesAlongAndIsOneStep();
   void refiningSaysSoWithTheNameOfThePart();
   void finerAndCoarserScaleTheTolerances();
@@ -157,6 +158,64 @@ void DesktopDocumentsTest::aGltfInMillimetresIsPointedOutAndCorrectedAsAWhole() 
   d.choose("undo");
   QCOMPARE(d.part("far").worldFromPart.translation.x, 200.0);
   QCOMPARE(widthOf(d.part("near")), 100.0);
+}
+
+/// Its unit could not be changed.
+void DesktopDocumentsTest::a3mfThatStatesAWrongUnitIsCorrectedAsAWhole() {
+  DesktopDriver d;
+  // It states millimetres, and its numbers are in inches: 4 x 2 x 1 of them.
+  const FakeImporter importer([](const Tessellation&) {
+    CadDocument document;
+    document.statedUnit = 1e-3;
+    document.shapes = {boxShape("block", {4e-3, 2e-3, 1e-3})};
+    document.nodes = {instanceNode("near", -1, 0), instanceNode("far", -1, 0, {{1, 0, 0, 0}, {0.01, 0, 0}})};
+    return document;
+  });
+  drop(d.window(), {nameOf(d.folder.write("blocks.3mf", "in inches"))});
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QVERIFY(isNear(widthOf(d.part("near")), 4e-3, 1e-15));
+  const std::size_t steps = d.session().historyIndex();
+  d.window().selection().select(d.partId("far"));
+  QVERIFY(d.action("changeUnit")->isEnabled());
+  QString present, inMillimetres, inInches;
+  DialogAnswers answers;
+  answers.expect(QStringLiteral("unitDialog"), [&](QDialog& question) {
+    for (const QRadioButton* choice : question.findChildren<QRadioButton*>()) {
+      if (choice->isChecked()) present = choice->objectName();
+    }
+    inMillimetres = question.findChild<QLabel*>(QStringLiteral("size-mm"))->text();
+    inInches = question.findChild<QLabel*>(QStringLiteral("size-in"))->text();
+    answerUnit(&question, "in");
+    return true;
+  });
+  d.choose("changeUnit");
+  QTRY_VERIFY(isNear(widthOf(d.part("far")), 0.1016, 1e-12));
+  QCOMPARE(answers.faults(), QStringList());
+  QCOMPARE(present, QStringLiteral("unit-mm"));
+  QCOMPARE(inMillimetres, QStringLiteral("4 × 2 × 1 mm"));
+  QCOMPARE(inInches, QStringLiteral("101.6 × 50.8 × 25.4 mm"));
+  QVERIFY2(isNear(widthOf(d.part("near")), 0.1016, 1e-12), "it changes as a whole");
+  QVERIFY(isNear(d.part("far").worldFromPart.translation.x, 0.254, 1e-12));
+  QCOMPARE(d.session().historyIndex(), steps + 1);
+  // It is offered as the present one, and the scene keeps it.
+  answers.expect(QStringLiteral("unitDialog"), [&](QDialog& question) {
+    const auto* inch = question.findChild<QRadioButton*>(QStringLiteral("unit-in"));
+    present = inch->isChecked() ? inch->text() : QString();
+    question.reject();
+    return true;
+  });
+  d.choose("changeUnit");
+  QVERIFY2(present.contains(QStringLiteral("now")), qPrintable(present));
+  const std::filesystem::path file = d.folder.path() / "blocks.nearfit";
+  d.session().save(file);
+  d.choose("undo");
+  QVERIFY(isNear(widthOf(d.part("near")), 4e-3, 1e-15));
+  QVERIFY(isNear(d.part("far").worldFromPart.translation.x, 0.01, 1e-15));
+  d.session().reset();
+  d.window().document().openScene(nameOf(file));
+  QTRY_COMPARE(d.session().scene().parts().size(), std::size_t{2});
+  QVERIFY(isNear(widthOf(d.part("near")), 0.1016, 1e-12));
+  QVERIFY(isNear(d.part("near").geometry->unitOfNumbers(), 0.0254, 1e-15));
 }
 
 void DesktopDocumentsTest::refiningAPartTakesItsInstancesAlongAndIsOneStep() {

@@ -167,6 +167,7 @@ TEST(ImportFormats, GltfOfInfinitiesIsRefusedInOneSentenceWithARemedyThatHelps) 
 TEST(ImportFormats, ThreeMfBringsItsUnitComponentsAndNames) {
   const CadDocument document = imported(importModel("set.3mf"));
   constexpr double kInch = 0.0254;
+  EXPECT_EQ(document.statedUnit, kInch);
   ASSERT_EQ(document.nodes.size(), 3U);
   EXPECT_EQ(document.nodes[0].name, "set");
   EXPECT_EQ(document.nodes[1].name, "H\xC3\xBClse");
